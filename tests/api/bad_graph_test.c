@@ -206,6 +206,7 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   NEEDS("levels", NO_INDEX, hf_surface_space_levels(graph, &scalars, HF_LEVELS_VALUE, 2, levels));
   NEEDS("iso-lines", NO_INDEX, hf_surface_trace_isolines(graph, &scalars, 1, &level, &lines));
   NEEDS("critical points", NO_INDEX, hf_surface_find_critical_points(graph, &scalars, 0, NULL, &critical));
+  NEEDS("proposed handles", NO_INDEX, hf_propose_handles(graph, NULL, 0, NULL, &number));
   NEEDS("extremities", NO_INDEX, hf_surface_find_extremities(graph, NULL, 0, NULL, &number));
   NEEDS("a pose", NO_INDEX, hf_pose_create(graph, NULL, &pose));
   NEEDS("a region", NO_INDEX, hf_region_create(graph, NULL, &region));

@@ -36,9 +36,9 @@ using Structs =
                      hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_pose_desc, hf_pose_info,
                      hf_handles_desc, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_direction_desc,
                      hf_direction_statistics, hf_scalars, hf_isolines, hf_critical_info, hf_geodesics_desc,
-                     hf_extremities_desc, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info,
-                     hf_morph_desc, hf_detail_desc, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines,
-                     hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame>;
+                     hf_extremities_desc, hf_propose_desc, hf_region_desc, hf_curve_desc, hf_region_edit_desc,
+                     hf_region_info, hf_morph_desc, hf_detail_desc, hf_quads_desc, hf_quads_info, hf_quads_mesh,
+                     hf_flow_lines, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame>;
 
 // All bytes a caller owns: the struct in front, its own memory behind.
 constexpr std::size_t room = 1024;
