@@ -13,7 +13,7 @@
 
 namespace samples {
 
-// What the checked document held besides what tinygltf is given, by number of the element.
+// The parts of the checked document that tinygltf is not given, by number of the element.
 struct CarriedDocument {
   Carried top;
   std::string asset;
@@ -28,7 +28,7 @@ struct CarriedDocument {
 // Takes extras and extensions out of an object. `dropped` gets the names of extensions that cannot be kept.
 Carried take_carried(nlohmann::json& object, std::vector<std::string>& dropped);
 
-// Adds them to an object that is written. What the object has already stays.
+// Adds them to an object that is written. Members of the object stay.
 void put_carried(const Carried& carried, nlohmann::json& object);
 
 // Names of the extensions used anywhere in a document, extras left out.

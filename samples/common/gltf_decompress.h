@@ -18,7 +18,7 @@ namespace samples {
 // A sentence that names the package, where this build cannot decode the extension; empty where it can.
 std::string missing_decoder(const std::string& extension);
 
-// What the reader offers to decompress().
+// The buffers of the reader, as decompress() uses them.
 struct BufferStore {
   // Bytes of a buffer of the document, already loaded.
   std::function<const std::vector<uint8_t>&(size_t)> bytes_of;

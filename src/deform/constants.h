@@ -191,21 +191,21 @@ constexpr std::int32_t samples_per_cluster = 40;
 
 // A flatter surface has no feet.
 constexpr double least_tall = 0.05;
-// Of the height: feet are at most this far above the lowest vertex. Double finds a foot too many, half loses the ankles
-// of a body whose shoes are pieces of their own.
+// Feet are at most this share of the height above the lowest vertex. Double finds a foot too many, half loses the
+// ankles of a body whose shoes are pieces of their own.
 constexpr double ground_share = 0.1;
-// Of the height: the surface rises by this from a foot on the way to another, so that toes are no feet.
+// The surface rises by this share of the height from a foot on the way to another, so that toes are no feet.
 constexpr double leg_share = 0.1;
-// Of the height: least height of a component that is a foot by itself, a shoe for example.
+// The least height of a component that is a foot by itself, a shoe for example, as a share of the height.
 constexpr double shoe_share = 0.03;
-// Of the height: how deep a sole is, whose middle is the place. Double moves 7 of 70 places more than 3 % of the box
-// away from the ends of joints.
+// The depth of a sole, as a share of the height. The middle of the sole is the place. Double moves 7 of 70 places more
+// than 3 % of the box away from the ends of joints.
 constexpr double sole_share = 0.02;
-// Of the size of its sole: the radius of a foot, so that the region goes beyond the sole.
+// The radius of a foot, as a share of the size of its sole: the region goes beyond the sole.
 constexpr double sole_margin = 1.2;
 // Radii: of every proposal at least, of a foot and a tip at most. With tips twice as large one tip less fits.
 constexpr double least_radius = 0.01, most_sole_radius = 0.06, most_tip_radius = 0.05;
-// Of its length: the radius of a tip.
+// The radius of a tip, as a share of its length.
 constexpr double tip_share = 0.25;
 // A low tip this near to a foot is the foot. Half proposes five toes more.
 constexpr double foot_reach = 0.1;
@@ -214,7 +214,7 @@ constexpr double least_piece = 0.1;
 // An end joint this near to a proposal belongs to it; farther away from the surface it is a helper. Not counted above:
 // the lists there are made without skeletons.
 constexpr double joint_reach = 0.1;
-// Of the distance from a joint to the surface: its radius, so that the region goes around the limb.
+// The radius of a joint, as a share of its distance from the surface: the region goes around the limb.
 constexpr double around_joint = 1.3;
 // Vertices: a smaller region of a coarse mesh grows, because one vertex holds no rotation. Double drops one tip.
 constexpr std::size_t least_region = 6;
