@@ -128,7 +128,7 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
-      {"solvers", make_solvers}, {"poses", make_poses},           {"transfers", make_transfers, true},
+      {"solvers", make_solvers}, {"poses", make_poses},           {"transfers", make_transfers},
       {"regions", make_regions}, {"directions", make_directions}, {"analysis", make_analysis},
       {"quads", make_quads}};
   return all;
