@@ -98,6 +98,7 @@ void count(hf_result result, Tally& tally) {
     ++tally.cancelled;
   else
     ++tally.invalid;
+  tally.internal += result == HF_ERROR_INTERNAL;
 }
 
 class Player {
