@@ -114,7 +114,7 @@ void Refinement::apply(const RefineInput& input, Vec3* positions) {
   for (const Handle& handle : input.handles) {
     for (const std::int32_t v : handle.region->sites) {
       const double* y = z.data() + 3 * static_cast<std::size_t>(position[v]);
-      for (int c = 0; c < 3; ++c) value[c] = -y[c];
+      for (int c = 0; c < 3; ++c) *value++ = -y[c];
     }
   }
   input.sites.solve(values_.data(), 3, field_.data(), nullptr);
