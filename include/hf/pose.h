@@ -99,7 +99,8 @@ HF_API hf_result hf_pose_add_handle_at(hf_pose pose, const double* point, double
 
 /* Removes handles by number: uint32_t[handle_count]. A handle on a higher layer takes its edit with it: the surface is
  * then, bit for bit, as if the handle had never been added. On layer 0 this holds when you remove the handles that were
- * added last. Errors: HF_ERROR_NO_SUCH_HANDLE. Thread safety: changes `pose`. Since 0.1. */
+ * added last, and for frames with `restart`. Errors: HF_ERROR_NO_SUCH_HANDLE. Thread safety: changes `pose`. Since 0.1.
+ */
 HF_API hf_result hf_pose_remove_handles(hf_pose pose, uint32_t handle_count, const uint32_t* handles);
 
 /* A rigid motion of a handle from its rest place. It takes a point p to rotation (p - centroid) + centroid +
@@ -182,7 +183,9 @@ typedef struct hf_deform_desc {
   float* normals;           /* [vertex_count][3] unit normals of the posed surface, shared across seams, or NULL */
   uint32_t normal_stride;   /* bytes between normals; 0 = packed */
   uint32_t iteration_count; /* 1 to 1000; 0 = the pose's */
-  int32_t restart;          /* 1: forget the last pose and start from the fields */
+  int32_t restart;          /* 1: forget the last pose and start from the fields. The frame then has the bits of a fresh
+                               pose with the same handles, added in the same order, and the same transforms. Without
+                               restart a frame continues from the last one, so it also depends on that */
   int32_t refine; /* 1: adds one as-rigid-as-possible step of the whole surface, with the same factor. Costs three
                      sweeps, about 0.5 us a vertex more */
   uint32_t

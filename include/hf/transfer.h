@@ -127,6 +127,9 @@ typedef struct hf_transfer_frame {
 /* Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest directions differ
  * much on the two surfaces (hf_pair_info), it instead takes the direction of the source's limb.
  *
+ * The bits of a frame depend on the pairs, in the order of their numbers, and on this desc alone. Removed pairs and
+ * earlier frames have no effect.
+ *
  * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region follows the
  * path of the source's region). While a foot of the source stands on the ground, the target's foot follows its scaled
  * path exactly. No part of the target sinks deeper into the ground than the same part of the source, scaled. The ground

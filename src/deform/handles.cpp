@@ -172,6 +172,31 @@ Reach::Reach(const Mesh& mesh, const Handles& handles, Memory& memory)
   }
 }
 
+void set_handle_sites(const Core& core, SiteSolver& solver, const Handles& before, const Handles& handles,
+                      Memory& memory) {
+  std::size_t same = 0;
+  std::int32_t first = 0;
+  for (; same < std::min(before.size(), handles.size()) && before[same].region == handles[same].region; ++same)
+    first += static_cast<std::int32_t>(handles[same].region->sites.size());
+  Vector<std::int32_t> remove(&memory), add(&memory);
+  Vector<Site> sites(&memory);
+  for (std::size_t i = same; i < before.size(); ++i) {
+    for (std::size_t k = 0; k < before[i].region->sites.size(); ++k)
+      remove.push_back(first + static_cast<std::int32_t>(remove.size()));
+  }
+  for (std::size_t i = same; i < handles.size(); ++i) {
+    for (const std::int32_t v : handles[i].region->sites) {
+      add.push_back(first + static_cast<std::int32_t>(add.size()));
+      sites.push_back(Site::at_vertex(core.mesh, v));
+      sites.back().part = static_cast<std::int32_t>(i);
+    }
+  }
+  if (remove.empty() && add.empty()) return;
+  SiteEdit edit;
+  edit.remove = remove, edit.add = add, edit.sites = sites, edit.history_free = true;
+  solver.edit(edit);
+}
+
 HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach,
                                  Memory& memory) {
   const std::int32_t n = core.size(), handle_count = static_cast<std::int32_t>(handles.size());
@@ -183,9 +208,10 @@ HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Han
   Workspace solved(core.workspaces, width * static_cast<std::size_t>(n));
   if (any_site) {
     Vector<double> values(width * static_cast<std::size_t>(solver.slot_count()), 0.0, &memory);
+    std::size_t slot = 0;
     for (std::int32_t i = 0; i < channels; ++i) {
-      for (const std::int32_t slot : handles[i].region->slots)
-        values[width * static_cast<std::size_t>(slot) + static_cast<std::size_t>(i)] = 1;
+      for (std::size_t k = 0; k < handles[i].region->sites.size(); ++k, ++slot)
+        values[width * slot + static_cast<std::size_t>(i)] = 1;
     }
     solver.solve(values.data(), channels, solved.data(), nullptr);
   } else {

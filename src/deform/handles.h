@@ -22,10 +22,9 @@ void check_region_count(std::size_t there, std::size_t added, const char* noun);
 
 // The part of a handle that never changes.
 struct HandleRegion {
-  explicit HandleRegion(Memory& memory) : vertices(&memory), sites(&memory), slots(&memory) {}
+  explicit HandleRegion(Memory& memory) : vertices(&memory), sites(&memory) {}
   Vector<std::int32_t> vertices;  // inner, ascending
   Vector<std::int32_t> sites;     // ring vertices that are sites, ascending; none when the region fills its components
-  Vector<std::int32_t> slots;     // numbers of these sites in the pose's SiteSolver
   Vec3 centroid;                  // mean of the vertices, in the unit of the scaled mesh
   std::int32_t component = 0;     // component of the first vertex
 };
@@ -39,8 +38,7 @@ struct Handle {
 using Handles = Vector<Handle>;
 
 // Makes the region of a handle. vertices: inner vertices without Mesh::none; repeated ones count once.
-// samples_per_ring: number of boundary ring vertices used as sites, 0 for the whole ring. HandleRegion::slots remains
-// empty.
+// samples_per_ring: number of boundary ring vertices used as sites, 0 for the whole ring.
 std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
                                           std::uint32_t samples_per_ring, Memory& memory);
 
@@ -84,7 +82,13 @@ struct HandleFields {
   Vector<double> leak;    // largest error of the field on the regions, per handle
 };
 
-// Solves the fields of all handles at once. solver: has the sites of every handle, numbered by HandleRegion::slots.
+// Gives the solver the sites of `handles`. before: the handles whose sites it has. Slots count the sites of all
+// handles, one handle after the other. The solver then gives the bits of one that never had other sites. Cost: the
+// elimination paths of the first handle that differs and of all later ones.
+void set_handle_sites(const Core& core, SiteSolver& solver, const Handles& before, const Handles& handles,
+                      Memory& memory);
+
+// Solves the fields of all handles at once. solver: has the sites of these handles (set_handle_sites).
 HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach,
                                  Memory& memory);
 

@@ -124,29 +124,16 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
   Handles handles(&memory());
   if (layout_) handles.assign(layout_->handles.begin(), layout_->handles.end());
   const std::size_t first = handles.size();
-  std::shared_ptr<SiteSolver> sites = layout_ ? layout_->sites->clone() : SiteSolver::make(EngineKind::green, core_, 0);
-  NumberPool numbers, slot_numbers;
-  Vector<std::uint8_t> slot_taken(static_cast<std::size_t>(sites->slot_count()), 0, &memory());
-  for (const Handle& handle : handles) {
-    for (const std::int32_t s : handle.region->slots) slot_taken[s] = 1;
-  }
-  Vector<std::int32_t> slots(&memory());
-  Vector<Site> added(&memory());
+  NumberPool numbers;
   for (std::size_t r = 0; r + 1 < start.size(); ++r) {
     std::shared_ptr<HandleRegion> region =
         make_region(*core_, vertices.subspan(start[r], start[r + 1] - start[r]), options_.samples_per_ring, memory());
-    for (const std::int32_t v : region->sites) {
-      const std::uint32_t slot =
-          slot_numbers.take([&](std::uint32_t s) { return s < slot_taken.size() && slot_taken[s]; });
-      slots.push_back(static_cast<std::int32_t>(slot)), region->slots.push_back(slots.back());
-      added.push_back(Site::at_vertex(core_->mesh, v));
-    }
     const std::uint32_t number = numbers.take([&](std::uint32_t candidate) {
       return std::any_of(handles.begin(), handles.end(), [&](const Handle& h) { return h.number == candidate; });
     });
     handles.push_back({number, std::move(region)});
   }
-  std::shared_ptr<const Layout> layout = make_layout(handles, std::move(sites), {{}, slots, added});
+  std::shared_ptr<const Layout> layout = make_layout(handles);
   std::shared_ptr<State> state = carry_over(*layout);
   previous_layout_ = layout_, previous_state_ = state_;
   install(std::move(layout), std::move(state));
@@ -161,14 +148,8 @@ void Pose::remove_handles(Span<const std::uint32_t> numbers) {
     leaving[i] = 1;
   }
   Handles remaining(&memory());
-  Vector<std::int32_t> slots(&memory());
   for (std::size_t i = 0; i < leaving.size(); ++i) {
-    const Handle& handle = layout_->handles[i];
-    if (!leaving[i]) {
-      remaining.push_back(handle);
-    } else {
-      slots.insert(slots.end(), handle.region->slots.begin(), handle.region->slots.end());
-    }
+    if (!leaving[i]) remaining.push_back(layout_->handles[i]);
   }
   if (remaining.empty()) {
     previous_layout_.reset(), previous_state_.reset();
@@ -176,8 +157,7 @@ void Pose::remove_handles(Span<const std::uint32_t> numbers) {
     return;
   }
   if (restore_previous(remaining)) return;
-  std::shared_ptr<SiteSolver> sites = layout_->sites->clone();
-  std::shared_ptr<const Layout> layout = make_layout(remaining, std::move(sites), {slots, {}, {}});
+  std::shared_ptr<const Layout> layout = make_layout(remaining);
   std::shared_ptr<State> state = carry_over(*layout);
   previous_layout_.reset(), previous_state_.reset();
   install(std::move(layout), std::move(state));
@@ -223,11 +203,13 @@ std::shared_ptr<const Groups> Pose::meet(const Layout& layout) const {
   return Groups::with(groups_, *core_, *rest_, shared, static_cast<std::int32_t>(options_.group_count), memory());
 }
 
-std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites,
-                                                      const SiteEdit& edit) const {
-  auto layout = make_shared_in<Layout>(memory(), handles, std::move(sites), *core_, memory());
+std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) const {
+  auto layout = make_shared_in<Layout>(
+      memory(), handles, layout_ ? layout_->sites->clone() : SiteSolver::make(EngineKind::green, core_, 0), *core_,
+      memory());
+  const Handles none(&memory());
   const auto solve = [&] {
-    if (!edit.remove.empty() || !edit.add.empty()) layout->sites->edit(edit);
+    set_handle_sites(*core_, *layout->sites, layout_ ? layout_->handles : none, layout->handles, memory());
     layout->fields = solve_handle_fields(*core_, *layout->sites, layout->handles, layout->reach, memory());
   };
   if (options_.mode != DeformMode::smooth) {

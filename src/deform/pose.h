@@ -169,8 +169,7 @@ class Pose {
   std::int32_t require(std::uint32_t number, std::uint32_t position) const;
   void check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const;
   std::shared_ptr<const Groups> meet(const Layout& layout) const;
-  std::shared_ptr<const Layout> make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites,
-                                            const SiteEdit& edit) const;
+  std::shared_ptr<const Layout> make_layout(const Handles& handles) const;
   // Returns a state for `layout` (handles and the clusters they make). Handles and clusters of the present state keep
   // their motions, so the surface does not jump.
   std::shared_ptr<State> carry_over(const Layout& layout) const;

@@ -110,12 +110,11 @@ void Refinement::apply(const RefineInput& input, Vec3* positions) {
   // the step made there.
   const Span<const std::int32_t> position = core.factor->position();
   std::fill(values_.begin(), values_.end(), 0.0);
+  double* value = values_.data();
   for (const Handle& handle : input.handles) {
-    for (std::size_t k = 0; k < handle.region->sites.size(); ++k) {
-      const std::int32_t v = handle.region->sites[k];
+    for (const std::int32_t v : handle.region->sites) {
       const double* y = z.data() + 3 * static_cast<std::size_t>(position[v]);
-      double* value = values_.data() + 3 * static_cast<std::size_t>(handle.region->slots[k]);
-      for (int c = 0; c < 3; ++c) value[c] = -y[c];
+      for (int c = 0; c < 3; ++c) *value++ = -y[c];
     }
   }
   input.sites.solve(values_.data(), 3, field_.data(), nullptr);

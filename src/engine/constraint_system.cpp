@@ -114,7 +114,10 @@ ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
   decision.eliminate = hard > 0 && rebase < plain;
   decision.dense_ms = std::min(going_on, plain) / 1e6, decision.rebase_ms = hard > 0 ? rebase / 1e6 : 0;
   const double expected = going_on + (expected_repeats - 1) * again;
-  if (!(expected > restart_margin * (decision.eliminate ? rebase : plain))) {
+  if (edit.history_free) {  // the sites alone decide, as if they were all new
+    decision.eliminate = hard > 0 && plain > restart_margin * rebase;
+    decision.route = decision.eliminate ? EditRoute::rebase : state_.base ? EditRoute::fresh : EditRoute::dense;
+  } else if (!(expected > restart_margin * (decision.eliminate ? rebase : plain))) {
     decision.route = EditRoute::dense;
   } else {
     decision.route = decision.eliminate ? EditRoute::rebase : EditRoute::fresh;

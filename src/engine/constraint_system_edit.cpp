@@ -209,32 +209,56 @@ void ConstraintEdit::repack() {
   drop_empty_groups();
 }
 
-// Solves the elimination paths of these dense rows and puts them into new groups at the end.
+// Rows whose elimination paths are solved together, and these paths.
+struct ConstraintEdit::Part {
+  explicit Part(Memory& memory) : groups(&memory), group(&memory), column(&memory) {}
+  Span<const Index> rows;
+  Vector<std::shared_ptr<const PathGroup>> groups;
+  Vector<Index> group, column;  // by row
+};
+
+// Solves the elimination paths of these dense rows and puts them into new groups at the end. Sites of one part (site.h)
+// get groups of their own.
 void ConstraintEdit::add_paths(Span<const Index> rows) {
+  const auto part_of = [&](Index row) { return row >= 0 ? state_.entries[at(row)].site.part : -1; };
+  Vector<Part> parts(&memory());
+  for (std::size_t first = 0, last = 0; first < rows.size(); first = last) {
+    while (last < rows.size() && part_of(rows[last]) == part_of(rows[first])) ++last;
+    parts.emplace_back(memory());
+    parts.back().rows = rows.subspan(first, last - first);
+  }
+  jobs_.for_each(static_cast<std::uint32_t>(parts.size()), [&](std::uint32_t p) { solve_part(parts[p]); });
+  for (Part& part : parts) take_part(part);
+  path_solves_ += static_cast<std::uint32_t>(rows.size());
+}
+
+void ConstraintEdit::solve_part(Part& part) const {
   SiteColumns columns(memory());
-  for (const Index row : rows) {
+  for (const Index row : part.rows) {
     if (row >= 0) {
       columns.append(state_.entries[at(row)].site, state_.base.get());
     } else {
       columns.append_free(state_.base->vertex[at(ConstraintState::base_index(row))], *operator_.matrix, *state_.base);
     }
   }
-  Vector<std::shared_ptr<const PathGroup>> groups(&memory());
-  Vector<Index> group(rows.size(), &memory()), column(rows.size(), &memory());
-  factor().solve_paths(columns.view(), memory(), jobs_, groups, group, column);
+  part.group.resize(part.rows.size()), part.column.resize(part.rows.size());
+  factor().solve_paths(columns.view(), memory(), jobs_, part.groups, part.group, part.column);
+}
+
+void ConstraintEdit::take_part(Part& part) {
   const Index first = static_cast<Index>(state_.groups.size());
-  for (auto& paths : groups) {
+  for (auto& paths : part.groups) {
     ConstraintState::Group fresh;
     fresh.paths = std::move(paths);
     std::fill(std::begin(fresh.row), std::end(fresh.row), no_row);
     state_.groups.push_back(std::move(fresh));
   }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    state_.path_of(rows[i]) = {first + group[i], column[i]};
-    auto& owner = state_.groups[at(first + group[i])];
-    owner.row[column[i]] = rows[i], ++owner.used;
+  for (std::size_t i = 0; i < part.rows.size(); ++i) {
+    const Index row = part.rows[i], group = first + part.group[i], column = part.column[i];
+    state_.path_of(row) = {group, column};
+    auto& owner = state_.groups[at(group)];
+    owner.row[column] = row, ++owner.used;
   }
-  path_solves_ += static_cast<std::uint32_t>(rows.size());
 }
 
 void ConstraintEdit::add_rows(Span<const Row> rows) {

@@ -27,12 +27,15 @@ class ConstraintEdit {
     Index component;
   };
   struct Batch;
+  struct Part;
   void remove_sites(Vector<Row>& coming);
   void place_sites(Vector<Row>& coming);
   void check_bases() const;
   void remove_rows(Span<const Row> rows);
   void add_rows(Span<const Row> rows);
   void add_paths(Span<const Index> rows);
+  void solve_part(Part& part) const;
+  void take_part(Part& part);
   void project_pins(std::size_t first_group);
   void take_gram(std::size_t first_group, Batch& batch) const;
   void take_couplings(Batch& batch) const;

@@ -15,6 +15,7 @@ struct Site {
   double weight[3] = {0, 0, 0};
   double compliance = 0;  // 1 / alpha; 0 = hard
   Index component = -1;
+  Index part = -1;  // a site's elimination path is stored with those of the same part only; -1: of any
   bool is_vertex() const noexcept { return vertex[1] < 0; }
   bool is_hard_vertex() const noexcept { return is_vertex() && compliance == 0; }
   static Site at_unknown(Index unknown, Index component, double compliance = 0) noexcept {
@@ -34,6 +35,9 @@ struct SiteEdit {
   Span<const Index> remove;
   Span<const Index> add;
   Span<const Site> sites;  // for `add`, in its order
+  // The state after the edit, and so every bit of a field, depends on the sites by slot alone, not on earlier edits.
+  // The caller's part: `add` is ascending, and an edit that changes a slot adds every later site again.
+  bool history_free = false;
 };
 
 // The route says how the last edit of sites was carried out.

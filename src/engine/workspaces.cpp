@@ -20,6 +20,9 @@ Buffer<double> WorkspacePool::take(std::size_t size) {
 }
 
 void WorkspacePool::give(Buffer<double>&& buffer) noexcept {
+  // Under a memory limit the pool keeps nothing. Otherwise a refused call could leave a buffer that makes a later call
+  // meet the limit.
+  if (memory_.room() != UINT64_MAX) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (free_.size() < most) {
     free_.push_back(std::move(buffer));

@@ -3,7 +3,6 @@
 
 #include "base/error.h"
 #include "base/index.h"
-#include "base/number_pool.h"
 
 namespace hf_inner {
 namespace {
@@ -14,15 +13,13 @@ PairFields::PairFields(std::shared_ptr<const Core> core)
     : core_(std::move(core)),
       solver_(SiteSolver::make(EngineKind::green, core_, 0)),
       owner_(at(core_->size()), none, core_->memory.get()),
-      regions_(core_->memory.get()),
-      slot_used_(core_->memory.get()) {}
+      regions_(core_->memory.get()) {}
 
 PairFields::PairFields(const PairFields& other)
     : core_(other.core_),
       solver_(other.solver_->clone()),
       owner_(other.owner_, core_->memory.get()),
-      regions_(other.regions_, core_->memory.get()),
-      slot_used_(other.slot_used_, core_->memory.get()) {}
+      regions_(other.regions_, core_->memory.get()) {}
 
 void PairFields::add(Span<const std::uint32_t> numbers, Span<const Span<const std::int32_t>> regions,
                      const char* side) {
@@ -51,40 +48,29 @@ void PairFields::add(Span<const std::uint32_t> numbers, Span<const Span<const st
   }
 
   owner_.swap(claimed);
-  Vector<std::int32_t> slots(&memory);
-  Vector<Site> sites(&memory);
-  NumberPool pool;
+  const Handles before = listed();
   for (std::size_t i = 0; i < regions.size(); ++i) {
-    std::shared_ptr<HandleRegion> region = make_region(*core_, regions[i], 0, memory);
-    for (const std::int32_t v : region->sites) {
-      const std::uint32_t slot = pool.take([&](std::uint32_t s) { return s < slot_used_.size() && slot_used_[s]; });
-      if (slot == slot_used_.size()) slot_used_.push_back(0);
-      slot_used_[slot] = 1;
-      region->slots.push_back(static_cast<std::int32_t>(slot));
-      slots.push_back(static_cast<std::int32_t>(slot));
-      sites.push_back(Site::at_vertex(core_->mesh, v));
-    }
     if (regions_.size() <= numbers[i]) regions_.resize(numbers[i] + 1);
-    regions_[numbers[i]] = std::move(region);
+    regions_[numbers[i]] = make_region(*core_, regions[i], 0, memory);
   }
-  SiteEdit edit;
-  edit.add = slots;
-  edit.sites = sites;
-  solver_->edit(edit);
+  set_handle_sites(*core_, *solver_, before, listed(), memory);
 }
 
 void PairFields::remove(Span<const std::uint32_t> numbers) {
-  Vector<std::int32_t> slots(core_->memory.get());
+  const Handles before = listed();
   for (const std::uint32_t number : numbers) {
-    const HandleRegion& region = *regions_[number];
-    slots.insert(slots.end(), region.slots.begin(), region.slots.end());
-    for (const std::int32_t v : region.vertices) owner_[at(v)] = none;
+    for (const std::int32_t v : regions_[number]->vertices) owner_[at(v)] = none;
     regions_[number].reset();
   }
-  for (const std::int32_t slot : slots) slot_used_[at(slot)] = 0;
-  SiteEdit edit;
-  edit.remove = slots;
-  solver_->edit(edit);
+  set_handle_sites(*core_, *solver_, before, listed(), *core_->memory);
+}
+
+Handles PairFields::listed() const {
+  Handles handles(core_->memory.get());
+  for (std::size_t number = 0; number < regions_.size(); ++number) {
+    if (regions_[number]) handles.push_back({static_cast<std::uint32_t>(number), regions_[number]});
+  }
+  return handles;
 }
 
 void PairFields::solve(Span<const std::uint32_t> numbers, double* field, double* leaks) const {

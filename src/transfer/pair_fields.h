@@ -43,11 +43,12 @@ class PairFields {
   EngineCounters counters() const noexcept { return solver_->counters(); }
 
  private:
+  Handles listed() const;  // the regions by ascending number: the order of their sites
+
   std::shared_ptr<const Core> core_;
   std::shared_ptr<SiteSolver> solver_;
   Vector<std::int32_t> owner_;                           // per inner vertex: its pair, or -1
   Vector<std::shared_ptr<const HandleRegion>> regions_;  // by pair number; null: number not in use
-  Vector<std::uint8_t> slot_used_;
 };
 
 // Fills the field values of vertices in components without a region (an eye, a strap). reached: by component, 1 if it

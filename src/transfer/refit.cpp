@@ -42,7 +42,8 @@ void Refit::prepare(const Mesh& target, Span<const double> area, const Clusters&
       spread_[c] += weight_[i] * dot(x, x);
     }
     const double* centre = clusters.centre.data() + c * width;
-    if (*std::max_element(centre, centre + width) > handle_share) spread_[c] = 0;
+    const bool is_point = !(spread_[c] > least_overlap_extent * total);
+    if (is_point || *std::max_element(centre, centre + width) > handle_share) spread_[c] = 0;
   }
 }
 

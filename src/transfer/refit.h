@@ -10,8 +10,8 @@
 // (keep_rotation) limits how far a cluster turns.
 //
 // Translations are solved again afterwards. This is the shape matching of Xu et al. 2009, Section 5.2, started at the
-// transferred rotations. Clusters of handles keep their rotations. A rigid motion stays unchanged. A round costs
-// O(overlaps) and allocates nothing.
+// transferred rotations. Clusters of handles keep their rotations, and so do clusters that overlap no other. A rigid
+// motion stays unchanged. A round costs O(overlaps) and allocates nothing.
 #pragma once
 #include <cstdint>
 

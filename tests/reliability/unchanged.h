@@ -127,7 +127,7 @@ class Subject {
 struct Kind {
   const char* name;
   std::unique_ptr<Subject> (*make)(World& world, Random& random);
-  bool counts_unlike = false;  // a fresh object that differs is counted, not a failure
+  double share;  // of all calls; less where a call takes longer
 };
 const std::vector<Kind>& kinds();
 std::unique_ptr<Subject> make_solvers(World& world, Random& random);
@@ -139,7 +139,7 @@ std::unique_ptr<Subject> make_analysis(World& world, Random& random);
 std::unique_ptr<Subject> make_quads(World& world, Random& random);
 
 struct Tally {
-  std::uint64_t calls = 0, done = 0, invalid = 0, memory = 0, cancelled = 0, fresh = 0, unlike = 0, failures = 0;
+  std::uint64_t calls = 0, done = 0, invalid = 0, memory = 0, cancelled = 0, internal = 0, fresh = 0, failures = 0;
 };
 
 // Plays sequence `number` of a kind, only the steps that are set (empty: all). Returns what went wrong, or nothing.

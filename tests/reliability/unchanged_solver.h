@@ -48,11 +48,14 @@ struct Lists {
 class Solvers final : public Subject {
  public:
   Solvers(World& given, Random& random) : Subject(given) {
-    desc_.field_kind = random.pick({0, 0, 0, 1, 2}), desc_.engine = random.pick({0, 0, 0, 0, 0, 0, 2});
+    desc_.field_kind = random.pick({0, 0, 0, 1, 2}), desc_.engine = random.pick({0, 0, 0, 0, 0, 1, 2});
     desc_.channel_count = random.pick({1u, 1u, 3u, 2u}), desc_.site_limit = random.pick({0u, 0u, 12u});
     branches_.resize(1);
     channels_ = desc_.channel_count;
-    if (hf_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
+    hf_result result = hf_create(world.surface, &desc_, &branches_[0].handle);
+    if (result == HF_ERROR_UNSUPPORTED && desc_.engine == HF_ENGINE_UPDOWN)  // a build without GPL code
+      desc_.engine = HF_ENGINE_GREEN, result = hf_create(world.surface, &desc_, &branches_[0].handle);
+    if (result != HF_OK) branches_.clear();
   }
   ~Solvers() override {
     for (SolverBranch& b : branches_) hf_solver_destroy(b.handle);

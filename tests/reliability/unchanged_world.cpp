@@ -128,9 +128,9 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
-      {"solvers", make_solvers}, {"poses", make_poses},           {"transfers", make_transfers, true},
-      {"regions", make_regions}, {"directions", make_directions}, {"analysis", make_analysis},
-      {"quads", make_quads}};
+      {"solvers", make_solvers, 0.24}, {"poses", make_poses, 0.12},           {"transfers", make_transfers, 0.16},
+      {"regions", make_regions, 0.16}, {"directions", make_directions, 0.16}, {"analysis", make_analysis, 0.12},
+      {"quads", make_quads, 0.04}};
   return all;
 }
 

@@ -24,6 +24,17 @@ std::vector<double> field_of(const hf_inner::SiteSolver& solver, Index vertices)
   return field;
 }
 
+// A buffer that a refused call left behind made a later frame meet the limit (reliability_unchanged, poses 1913).
+TEST(Workspaces, keep_no_buffer_under_a_memory_limit) {
+  for (const std::uint64_t limit : {std::uint64_t{0}, std::uint64_t{1} << 20}) {
+    hf_inner::Memory memory({}, limit);
+    hf_inner::WorkspacePool pool(memory);
+    const std::uint64_t before = memory.live_bytes();
+    { hf_inner::Workspace(pool, 1000).data()[999] = 1; }
+    EXPECT_EQ(memory.live_bytes() - before, limit ? 0u : 8000u);
+  }
+}
+
 // Many hard vertices in one batch go into the factor; a point that they decide cannot stand beside them.
 TEST(ConstraintSystem, names_a_point_that_depends_on_the_vertices_eliminated_with_it) {
   const auto core = hf_test::make_core(hf_test::torus(40, 30, 0.2));

@@ -56,7 +56,7 @@ TEST(TransferPairs, AddingAndRemovingPairsFactorisesNothingAndEqualsATransferMad
     std::vector<hf_inner::PairInput> now;
     for (const auto& entry : ordered) now.push_back(entry.second);
     add(fresh, now);
-    EXPECT_LT(largest_distance(out, frame_of(fresh, posed)), 1e-7) << "step " << step;
+    EXPECT_EQ(largest_distance(out, frame_of(fresh, posed)), 0) << "step " << step;
   }
   EXPECT_EQ(edited.source_counters().factorisations, source_before);
   EXPECT_EQ(edited.target_counters().factorisations, target_before);

@@ -43,7 +43,8 @@ TEST(TransferRules, ARigidMotionOfTheSourceIsTheSameRigidMotionWithScaledTransla
       for (const Vec3& p : rest) posed.push_back(hf_inner::rotate(rotation, p) + shift);
       const Vec3 moved = hf_inner::rotate(rotation, source_centroid) + shift - source_centroid;
       for (const Vec3& p : target_rest)
-        expected.push_back(hf_inner::rotate(rotation, p - target_centroid) + target_centroid + transfer.scale() * moved);
+        expected.push_back(hf_inner::rotate(rotation, p - target_centroid) + target_centroid +
+                           transfer.scale() * moved);
       EXPECT_LT(largest_distance(frame_of(transfer, posed), expected), 1e-6 * a.box)
           << "mode " << mode << " turn " << turn.x << " " << turn.y << " " << turn.z;
     }
@@ -194,6 +195,32 @@ TEST(TransferRules, WeightsOfAVertexAreRoundedToAnExactSum) {
       ASSERT_GE(joint[i], 0);
       ASSERT_LT(joint[i], count);
     }
+  }
+}
+
+// The overlap of such a cluster with itself is one point. Rounding gave it an extent, whose rotation was random.
+TEST(TransferRules, AClusterThatOverlapsNoOtherKeepsTheRotationOfItsSource) {
+  hf_inner::Memory memory;
+  for (int trial = 1; trial <= 200; ++trial) {
+    hf_inner::Mesh mesh(memory);
+    hf_inner::Clusters clusters(memory);
+    std::vector<double> area;
+    clusters.count = 1, clusters.field_count = 1;
+    clusters.centre.assign(1, 0.5);
+    for (int v = 0; v < 3; ++v) {
+      const double x = std::fmod(0.137 * trial * (v + 1), 1.0);
+      mesh.positions.push_back({x, x * x - 0.3, std::sin(7 * x)}), area.push_back(0.1 + 0.2 * x);
+      for (int k = 0; k < hf_inner::blend_count; ++k)
+        clusters.joint.push_back(0), clusters.weight.push_back(k == 0 ? 1.0f : 0.0f);
+    }
+    hf_inner::Refit refit(memory);
+    refit.prepare(mesh, {area.data(), area.size()}, clusters, memory);
+    const hf_inner::Quaternion given = hf_inner::exponential({0.3, -0.2, 0.01 * trial});
+    const hf_inner::Mat3 matrix = given.toRotationMatrix();
+    const Vec3 shift{0.1, 0.2, -0.3};
+    hf_inner::Quaternion turned = given;
+    refit.turn(&given, &shift, &turned, &matrix);
+    ASSERT_LT(turned.angularDistance(given), 1e-12) << "trial " << trial;
   }
 }
 
