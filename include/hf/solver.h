@@ -41,7 +41,8 @@ typedef struct hf_solver_desc {
 
 /* Creates a solver without sites. desc: NULL for defaults. Sets *out_solver to NULL first. Cost: none, unless the
  * surface has no factor of that field kind and makes one. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED
- * (engine not in this build), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE. Thread safety: reads `surface`. Since
+ * (engine not in this build, or not HF_ENGINE_GREEN for a bi-harmonic field on a surface with a vertex of more than
+ * 1,000 neighbours), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE. Thread safety: reads `surface`. Since
  * 0.1. */
 HF_API hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_solver* out_solver);
 
