@@ -7,9 +7,15 @@
 
 namespace hf_inner {
 
+// If the dense system of the sites has a pivot below this share of its diagonal, its solution may have fewer than ten
+// correct digits. The field then takes one refinement step with the true operator, which costs two sweeps more. A
+// larger number would add steps that do not change the field.
+constexpr double crowded_share = 1e-4;
+
 class GreenSolver final : public SiteSolver {
  public:
-  explicit GreenSolver(std::shared_ptr<const Core> core);
+  // crowded: a field is refined if the dense system of its sites has a pivot below this share of its diagonal.
+  explicit GreenSolver(std::shared_ptr<const Core> core, double crowded = crowded_share);
   GreenSolver(const GreenSolver& other);
 
   void edit(const SiteEdit& edit) override { system_.edit(edit); }
@@ -68,6 +74,7 @@ class GreenSolver final : public SiteSolver {
 
   std::shared_ptr<const Core> core_;  // before the system, which reads it
   ConstraintSystem system_;
+  double crowded_;
   ConstraintCounts cloned_at_;  // counts of the engine this one was cloned from, at that time
 };
 

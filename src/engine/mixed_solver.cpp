@@ -12,12 +12,17 @@ namespace {
 constexpr std::size_t rows_piece = 16384;  // vertices of one thread's job, as in green.cpp
 // Conjugate gradients end when the residual has fallen by this factor, and a correction of the field does the rest.
 // PLACEHOLDER
-constexpr double gradient_share = 1e-7;
+constexpr double gradient_share = 1e-8;
+// The crowded share of the inner engine. Corrections of the whole field make up for the digits it loses, so it is below
+// that of other fields.
+constexpr double inner_crowded_share = 1e-8;
 // Steps of conjugate gradients. No set of sites seen needs a fifth of them; a damaged factor uses them all.
 constexpr int most_gradient_steps = 300;
 // Lumped masses of the preconditioner count as at least this, the least mass of a vertex. Obtuse triangles can make
 // them smaller, even negative.
 constexpr double least_lumped = 1e-4;
+// A correction can be this much larger than the ratio of the two before it says. PLACEHOLDER
+constexpr double unlike_shrink = 10;
 // Share of the range that the last correction may still change, and most corrections, as in green_refine.cpp.
 constexpr double small_correction = 1e-12;
 constexpr int most_corrections = 6;
@@ -40,7 +45,7 @@ struct MixedSolver::Block {
 };
 
 MixedSolver::MixedSolver(std::shared_ptr<const Core> core)
-    : core_(std::move(core)), inner_(core_->root), sites_(core_->memory.get()) {}
+    : core_(std::move(core)), inner_(core_->root, inner_crowded_share), sites_(core_->memory.get()) {}
 
 MixedSolver::MixedSolver(const MixedSolver& other)
     : core_(other.core_), inner_(other.inner_), sites_(other.sites_, other.core_->memory.get()) {}
@@ -215,7 +220,7 @@ void MixedSolver::solve(const double* values, Index channels, double* field, dou
       });
     };
     solve_block(block, nullptr, own.data(), u.data(), lambda), hold();
-    double last = HUGE_VAL;
+    double last = 1;  // the first solve changes the field by its whole range
     for (int i = 0; i < most_corrections; ++i) {
       find_residual(block, own.data(), u.data(), lambda, right.data(), gap);
       solve_block(block, right.data(), gap.data(), du.data(), change);
@@ -228,7 +233,9 @@ void MixedSolver::solve(const double* values, Index channels, double* field, dou
       }
       for (std::size_t k = 0; k < block.size; ++k) lambda[k] += change[k];
       hold();
-      if (largest <= small_correction || !(largest <= 0.5 * last)) break;
+      // Corrections shrink alike, since each ends at the same share of its residual; one more would be this large.
+      const double expected = unlike_shrink * largest * (largest / last);
+      if (expected <= small_correction || !(largest <= 0.5 * last)) break;
       last = largest;
     }
     for (std::size_t v = 0; field && v < n; ++v) std::copy_n(u.data() + v * m, m, field + v * stride + at(first));
