@@ -199,6 +199,45 @@ TEST_P(MixedSolver, has_soft_sites_of_any_stiffness_and_points_that_depend) {
   EXPECT_EQ(field, again);
 }
 
+TEST_P(MixedSolver, stays_exact_on_hard_meshes) {
+  PlainMesh mesh = hf_test::slab_with_holes(2, 2);
+  append(mesh, hf_test::dirty(), 100);
+  const auto core = hf_test::make_core(mesh, 1, unformed(GetParam()));
+  EditScript script(core, {hf_inner::EngineKind::green}, 1, 13, 1e2);
+  for (int round = 0; round < 12; ++round) {
+    script.step(20, 10);
+    SCOPED_TRACE(round);
+    expect_dense_oracle(script, 1e-8);
+    if (HasFailure()) return;
+  }
+}
+
+// Their distance is a thousandth of the triangle, so the harmonic system of the sites is nearly singular.
+TEST_P(MixedSolver, holds_crowded_points) {
+  const auto core = hf_test::make_core(hf_test::torus(14, 9), 1, unformed(GetParam()));
+  std::vector<hf_inner::Site> sites;
+  std::vector<std::int32_t> slots;
+  for (int i = 0; i < 6; ++i) {
+    hf_inner::Site site = hf_inner::Site::at_vertex(core->mesh, 10 * i);
+    if (i < 3) {
+      const double weight[3] = {0.3 + 1e-3 * i, 0.4 - 5e-4 * i * i, 0.3 - 1e-3 * i + 5e-4 * i * i};
+      for (int k = 0; k < 3; ++k) site.vertex[k] = core->mesh.triangle(120)[k], site.weight[k] = weight[k];
+    }
+    slots.push_back(i), sites.push_back(site);
+  }
+  Eigen::MatrixXd values(6, 1);
+  values << 0, 1e-3, 3e-3, 1, -1, 0.5;
+  hf_inner::MixedSolver solver(core);
+  hf_inner::SiteEdit edit;
+  edit.add = slots, edit.sites = sites;
+  solver.edit(edit);
+  std::vector<double> field(at(core->size()));
+  solver.solve(values.data(), 1, field.data(), nullptr);
+  const Eigen::MatrixXd exact = hf_test::dense_field(*core, sites, values);
+  for (int v = 0; v < core->size(); ++v) EXPECT_NEAR(field[at(v)], exact(v), 1e-8 * exact.cwiseAbs().maxCoeff());
+  EXPECT_LE(solver.counters().sweeps, 200u);
+}
+
 TEST_P(MixedSolver, gives_the_same_bits_for_threads_and_a_loaded_factor) {
   const PlainMesh mesh = two_bodies();
   std::vector<double> fields[3];
@@ -287,6 +326,32 @@ TEST_P(HighValence, fields_are_those_of_long_double_and_certified) {
                     static_cast<double>(core->memory->peak_bytes()) / 1e6);
     }
   }
+}
+
+// A disc around a vertex of the rim holds about 90 vertices beside one another.
+TEST(HighValenceDisc, holds_its_value) {
+  const std::uint32_t n = 3000;
+  hf_inner::CoreOptions options;
+  options.field_kind = FieldKind::biharmonic;
+  const auto core = hf_test::make_core(closed_fan(n), 1, options);
+  hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 10000);
+  const std::uint32_t vertices[] = {1, 1 + n / 2, 1 + n / 3};
+  const double values[] = {1, -1, 0}, radii[] = {0.1, 0, 0};
+  hf_inner::FieldEdit edit;
+  edit.add.count = 3, edit.add.vertices = vertices, edit.add.radii = radii, edit.add_values = values;
+  std::uint32_t numbers[3];
+  field.edit(edit, numbers);
+  std::vector<double> u(at(core->size())), held;
+  field.solve(u.data());
+  std::vector<int> places;
+  for (std::size_t slot = 0; slot < field.sites().slots().size(); ++slot) {
+    const hf_inner::SiteSet::Slot& site = field.sites().slots()[slot];
+    if (site.used()) places.push_back(site.site.vertex[0]), held.push_back(field.sites().values()[slot]);
+  }
+  EXPECT_GT(places.size(), 80u);
+  const auto exact = hf_test::MixedReference(core->root->laplacian, core->inverse_mass, places).field(held);
+  for (std::size_t v = 0; v < u.size(); ++v) EXPECT_NEAR(u[v], static_cast<double>(exact[v]), 1e-9);
+  EXPECT_LE(hf_inner::certify(field).error, 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, HighValence,
