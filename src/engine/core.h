@@ -82,7 +82,8 @@ struct Core {
   Ordering ordering = Ordering::nested_dissection;
   double flop_limit = 0;  // as in CoreOptions
   std::int32_t formed_valence = most_formed_valence;
-  // Of K, or the root's operator, with raised diagonals at the pinned vertices; null if need_factor is false.
+  // The factor of K, or of the root's operator, with raised diagonals at the pinned vertices; null if need_factor is
+  // false.
   std::shared_ptr<const Factor> factor;
   CoreTimes times;
   mutable PreviewCache preview;  // the factor in single precision

@@ -5,18 +5,18 @@
 //
 //     L v = W lambda,   L u = M v,   W'u + D lambda = s
 //
-// W are the weights of the sites, lambda their fluxes and s their values; D_i = 1 / alpha_i, 0 for hard sites. Both
-// equations are those of a harmonic field. So the inner engine is a GreenSolver on L with the same sites. Its sites are
-// hard, or soft with E_i = sqrt(D_i), because soft sites can depend on each other. With values c at its sites,
-// its field is v = H c and its fluxes are lambda = T c. The load M v with the values s - D lambda gives it the field u
-// and the fluxes T (s - D T c) - H'M H c. These must be 0:
+// W are the weights of the sites, lambda their fluxes and s their values. D_i is 1 / alpha_i, or 0 for hard sites. Both
+// equations are those of a harmonic field, so the inner engine is a GreenSolver on L with the same sites. Its soft
+// sites have E_i = sqrt(D_i), because soft sites can depend on each other. With values c at its sites, its field is v =
+// H c and its fluxes are lambda = T c. The load M v with the values s - D lambda gives it the field u. It also gives
+// the fluxes T (s - D T c) - H'M H c, which must be 0:
 //
 //     (H'M H + T D T) c = T s
 //
 // The matrix is symmetric and positive definite. It is the mass matrix of the harmonic fields of the sites, so its
-// condition number is small. Conjugate gradients take 5 to 100 steps to eight digits. A step
-// costs one field and the fluxes of one load on the inner engine: two sweeps. The preconditioner is the lumped mass
-// matrix H'M 1. A field takes corrections with the true K, applied as two products with L, until the last one is small.
+// condition number is small. Conjugate gradients take 5 to 100 steps to eight digits. A step costs one field and the
+// fluxes of one load on the inner engine: two sweeps. The preconditioner is the lumped mass matrix H'M 1. A field takes
+// corrections with the true K, applied as two products with L, until the last one is small.
 //
 // Edits cost what they cost for a harmonic field. Memory is that of the harmonic factor and a few fields.
 #pragma once
