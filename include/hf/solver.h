@@ -41,7 +41,8 @@ typedef struct hf_solver_desc {
 
 /* Creates a solver without sites. desc: NULL for defaults. Sets *out_solver to NULL first. Cost: none, unless the
  * surface has no factor of that field kind and makes one. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED
- * (engine not in this build), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE. Thread safety: reads `surface`. Since
+ * (engine not in this build, or not HF_ENGINE_GREEN for a bi-harmonic field on a surface with a vertex of more than
+ * 1,000 neighbours), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE. Thread safety: reads `surface`. Since
  * 0.1. */
 HF_API hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_solver* out_solver);
 
@@ -171,7 +172,8 @@ typedef struct hf_solve_info {
 /* Solves for the field at every vertex of your mesh. out_values: float[vertex_count] rows of channel_count values,
  * value_stride bytes apart (0 = packed). The field is 0 on components without a site; out_info counts them, or is NULL.
  * Hard sites hold their values exactly. Cost: one backward sweep through the factor, or three sweeps for bi-harmonic
- * fields. Errors: HF_ERROR_NO_SITES. Thread safety: reads `solver`. Since 0.1. */
+ * fields; 30 to 700 sweeps for these, by the number of sites, where a vertex has more than 1,000 neighbours. Errors:
+ * HF_ERROR_NO_SITES. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
 /* Does the same as hf_solve, in double. Thread safety: reads `solver`. Since 0.1. */

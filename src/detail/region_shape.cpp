@@ -15,6 +15,13 @@ void for_neighbours(const Topology& topology, Index v, Use&& use) {
     use(topology.neighbour[at(i)]);
 }
 
+// Calls use(u) for every entry of column v that is not 0.
+template <class Use>
+void for_entries(const SymmetricMatrix& k, Index v, Use&& use) {
+  for (Index i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i)
+    if (k.value[at(i)] != 0) use(k.row[at(i)]);
+}
+
 void check_held(const Core& core, Span<const Index> inside, Memory& memory) {
   Vector<Index> free(core.mesh.report.component_count, 0, &memory);
   for (const Index c : core.mesh.component) ++free[at(c)];
@@ -43,12 +50,18 @@ RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memor
   };
   for (const Index v : inside) for_neighbours(core.topology, v, [&](Index u) { take(u, rim); });
   sites.assign(rim.begin(), rim.end());
-  if (core.refinements > 0) {
-    const SymmetricMatrix& k = core.laplacian;
+  if (core.root) {
+    // K couples the vertices within two edges of L. Each vertex next to the region is read once.
+    const SymmetricMatrix& l = core.root->laplacian;
+    Vector<std::uint8_t> is_next(at(core.size()), 0, &memory);
     for (const Index v : inside) {
-      for (Index i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i)
-        if (k.value[at(i)] != 0) take(k.row[at(i)], sites);
+      for_entries(l, v, [&](Index u) { is_next[at(u)] = 1; });
     }
+    for (Index u = 0; u < core.size(); ++u) {
+      if (is_next[at(u)]) for_entries(l, u, [&](Index w) { take(w, sites); });
+    }
+  } else if (core.refinements > 0) {
+    for (const Index v : inside) for_entries(core.laplacian, v, [&](Index u) { take(u, sites); });
   }
   for (const Index v : sites) local[at(v)] = -1;
   std::sort(rim.begin(), rim.end()), std::sort(sites.begin(), sites.end());

@@ -23,6 +23,7 @@ Core::Core(std::shared_ptr<const Geometry> shape)
       areas(geometry->areas),
       weights(geometry->weights),
       laplacian(*memory),
+      inverse_mass(memory.get()),
       ground(memory.get()),
       mean_diagonal(memory.get()),
       workspaces(geometry->workspaces),
@@ -36,11 +37,11 @@ void find_grounds(Core& core) {
   core.ground.assign(components, Mesh::none);
   core.mean_diagonal.assign(components, 0.0);
   Vector<double> count(components, 0.0, core.memory.get());
-  const SymmetricMatrix& k = core.laplacian;
+  const Vector<double> diagonal = operator_diagonal(core);
   for (std::int32_t v = 0; v < core.size(); ++v) {
     const std::size_t c = static_cast<std::size_t>(core.mesh.component[static_cast<std::size_t>(v)]);
     if (core.ground[c] == Mesh::none) core.ground[c] = v;
-    core.mean_diagonal[c] += std::fabs(k.value[k.diagonal(v)]);
+    core.mean_diagonal[c] += std::fabs(diagonal[at(v)]);
     count[c] += 1;
   }
   for (std::size_t c = 0; c < components; ++c) {
@@ -134,10 +135,28 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
       if (confined[static_cast<std::size_t>(core.mesh.component[v])])
         areas[v] = std::min(std::max(areas[v], 1 / spread), spread);
     }
-    core.laplacian = biharmonic(core.laplacian, areas, pool, core.jobs.get());
-    core.refinements = 1;
+    if (exceeds_valence(core.laplacian, options.formed_valence)) {
+      core.inverse_mass.swap(areas);
+    } else {
+      core.laplacian = biharmonic(core.laplacian, areas, pool, core.jobs.get());
+      core.refinements = 1;
+    }
   }
   find_grounds(core);
+}
+
+// Makes the core of a bi-harmonic operator that is not formed, on the finished core of its Laplacian.
+std::shared_ptr<const Core> on_root(std::shared_ptr<Core> root) {
+  const std::shared_ptr<Core> core = make_owner_in<Core>(root->memory, root->geometry);
+  core->field_kind = root->field_kind, core->ordering = root->ordering, core->times = root->times;
+  core->flop_limit = root->flop_limit, core->formed_valence = root->formed_valence;
+  core->changed_count = root->changed_count, core->first_changed = root->first_changed;
+  core->factor = root->factor, core->refinements = 1;
+  core->inverse_mass.swap(root->inverse_mass);
+  root->field_kind = FieldKind::harmonic, root->is_long = false;  // the corrections of the whole field are enough
+  core->root = std::move(root);
+  find_grounds(*core);
+  return core;
 }
 
 // Raises the diagonal of K at the pinned vertices during the lifetime of this object. A copy of K would cost as much as
@@ -177,10 +196,10 @@ bool has_negative_weights(const Core& core) noexcept {
       vertex);
 }
 
-FactorOptions factor_options(const CoreOptions& options) noexcept {
+FactorOptions factor_options(const Core& core, const CoreOptions& options) noexcept {
   FactorOptions out;
   out.ordering = options.ordering, out.flop_limit = options.flop_limit;
-  if (options.field_kind == FieldKind::harmonic) out.lost_share = harmonic_lost_share;
+  if (core.refinements == 0) out.lost_share = harmonic_lost_share;
   return out;
 }
 
@@ -196,7 +215,7 @@ void make_factor(Core& core, const CoreOptions& options) {
   } else if (options.need_factor) {
     const Vector<float> coordinates = ordering_coordinates(core.mesh, pool);
     const InPlaceGrounds grounds(core);
-    core.factor = Factor::make(core.laplacian, coordinates, factor_options(options), pool, *core.jobs);
+    core.factor = Factor::make(core.laplacian, coordinates, factor_options(core, options), pool, *core.jobs);
   }
   if (!core.factor) return;
   const double commute = core.factor->commute_time(core.mesh.component, core.mean_diagonal);
@@ -221,6 +240,7 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
   Vector<std::uint8_t> confined(&pool);
   make_operator(*core, options, 0, confined);
   core->ordering = options.ordering, core->flop_limit = options.flop_limit;
+  core->formed_valence = options.formed_valence;
   core->times.operator_ms = shape->weights_ms + operator_timer.milliseconds();
   report(progress_operator);
   for (int cap = 0;;) {
@@ -242,27 +262,47 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
       }
     }
     if (core->confined_hash != 0)
-      confined = lost_components(*core, factor_options(options));
+      confined = lost_components(*core, factor_options(*core, options));
     else
       ++cap;
     make_operator(*core, options, cap, confined);
   }
   report(1.0f);
+  if (options.field_kind != FieldKind::harmonic && core->refinements == 0) return on_root(std::move(core));
   return core;
 }
 
 std::uint64_t grounded_hash(const Core& core) {
+  if (core.root) return grounded_hash(*core.root);
   if (core.confined_hash != 0) return core.confined_hash;
   return hash_matrix(core.laplacian, core.ground, core.mean_diagonal, *core.memory, *core.jobs);
 }
 
 SymmetricMatrix grounded(const Core& core) {
+  if (core.root) return grounded(*core.root);
   SymmetricMatrix a(*core.memory);
   a.column_start.assign(core.laplacian.column_start.begin(), core.laplacian.column_start.end());
   a.row.assign(core.laplacian.row.begin(), core.laplacian.row.end());
   a.value.assign(core.laplacian.value.begin(), core.laplacian.value.end());
   for (std::size_t c = 0; c < core.ground.size(); ++c) a.value[a.diagonal(core.ground[c])] += core.mean_diagonal[c];
   return a;
+}
+
+Vector<double> operator_diagonal(const Core& core) {
+  if (core.root) return biharmonic_diagonal(core.root->laplacian, core.inverse_mass, *core.memory);
+  const SymmetricMatrix& k = core.laplacian;
+  Vector<double> diagonal(at(k.size()), core.memory.get());
+  for (Index v = 0; v < k.size(); ++v) diagonal[at(v)] = k.value[k.diagonal(v)];
+  return diagonal;
+}
+
+void apply_operator(const Core& core, const double* u, Index channels, double* out) {
+  const Vector<double> ones(core.memory.get());
+  if (!core.root) return apply_laplacian(core.laplacian, ones, u, channels, out, *core.jobs);
+  const SymmetricMatrix& l = core.root->laplacian;
+  Workspace w(core.workspaces, at(core.size()) * at(channels));
+  apply_laplacian(l, core.inverse_mass, u, channels, w.data(), *core.jobs);
+  apply_laplacian(l, ones, w.data(), channels, out, *core.jobs);
 }
 
 Vector<float> ordering_coordinates(const Mesh& mesh, Memory& memory) {

@@ -12,6 +12,11 @@
 
 namespace hf_inner {
 
+// K of a mesh with a vertex of more neighbours is not formed (mixed_solver.h). Formed, such a vertex costs about 33
+// bytes times the square of its neighbours. A fan of 500 triangles is off by 4e-13, one of 1,000 by 1e-11, one of 2,000
+// by 4e-9. Below the limit, fields of many sites take fewer sweeps with a formed K.
+constexpr std::int32_t most_formed_valence = 1000;
+
 struct CoreOptions {
   OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
   FieldKind field_kind = FieldKind::harmonic;
@@ -20,6 +25,7 @@ struct CoreOptions {
   Span<const std::uint8_t> saved_factor;  // not empty: the factor is loaded from these bytes instead of made
   bool borrow_factor = false;             // reads the numbers of saved_factor in place; they must outlive the core
   double flop_limit = 0;                  // refuses every factorisation on the core that takes more; 0 = no limit
+  std::int32_t formed_valence = most_formed_valence;  // tests lower it
 };
 
 struct CoreTimes {
@@ -51,7 +57,12 @@ struct Core {
   const Vector<double>& areas;
   const Vector<double>& weights;
   FieldKind field_kind = FieldKind::harmonic;
-  SymmetricMatrix laplacian;     // the operator K: the Laplacian, or a bi-harmonic operator
+  // The operator K: the Laplacian, or a bi-harmonic operator; empty where a root stands for it.
+  SymmetricMatrix laplacian;
+  // Not null: K = L diag(inverse_mass) L is not formed, because a vertex has too many neighbours. The root has L as its
+  // operator, and the factor. The pinned vertices are its own.
+  std::shared_ptr<const Core> root;
+  Vector<double> inverse_mass;   // by vertex; empty: ones
   Vector<std::int32_t> ground;   // pinned vertex (raised diagonal) per component
   Vector<double> mean_diagonal;  // per component
   // Correction steps with the true operator after the sweep of a field: 0 for second-order operators, 1 for bi-harmonic
@@ -70,7 +81,9 @@ struct Core {
   std::int32_t first_changed = -1;
   Ordering ordering = Ordering::nested_dissection;
   double flop_limit = 0;  // as in CoreOptions
-  // Of K with raised diagonals at the pinned vertices; null if need_factor is false.
+  std::int32_t formed_valence = most_formed_valence;
+  // The factor of K, or of the root's operator, with raised diagonals at the pinned vertices; null if need_factor is
+  // false.
   std::shared_ptr<const Factor> factor;
   CoreTimes times;
   mutable PreviewCache preview;  // the factor in single precision
@@ -83,6 +96,10 @@ SymmetricMatrix grounded(const Core& core);
 // Returns the hash of the factorised matrix A, by which a saved factor recognises its mesh. It covers the pattern and
 // the numbers of K, and the pinned vertices with their weights.
 std::uint64_t grounded_hash(const Core& core);
+// Returns the diagonal of K by vertex.
+Vector<double> operator_diagonal(const Core& core);
+// Writes out = K u with `channels` numbers per vertex, by differences of u. out must not be u.
+void apply_operator(const Core& core, const double* u, std::int32_t channels, double* out);
 // Returns the coordinates of the welded vertices in the format that the ordering needs; none for a graph.
 Vector<float> ordering_coordinates(const Mesh& mesh, Memory& memory);
 

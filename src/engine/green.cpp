@@ -9,11 +9,6 @@ namespace {
 // Number of matrix rows that one thread's job takes. Half this number costs more calls than it gains. Twice this number
 // leaves threads idle on meshes of 50,000 vertices.
 constexpr std::size_t piece = 16384;
-// If the dense system of the sites has a pivot below this share of its diagonal, its solution may have fewer than ten
-// correct digits. The field then takes one refinement step with the true operator, which costs two sweeps more. A
-// larger number would add steps that do not change the field.
-constexpr double crowded_share = 1e-4;
-
 PinnedOperator operator_of(const Core& core) {
   PinnedOperator a;
   a.matrix = &core.laplacian, a.factor = core.factor.get();
@@ -24,10 +19,11 @@ PinnedOperator operator_of(const Core& core) {
 
 }  // namespace
 
-GreenSolver::GreenSolver(std::shared_ptr<const Core> core) : core_(std::move(core)), system_(operator_of(*core_)) {}
+GreenSolver::GreenSolver(std::shared_ptr<const Core> core, double crowded)
+    : core_(std::move(core)), system_(operator_of(*core_)), crowded_(crowded) {}
 
 GreenSolver::GreenSolver(const GreenSolver& other)
-    : core_(other.core_), system_(other.system_), cloned_at_(other.system_.counts()) {}
+    : core_(other.core_), system_(other.system_), crowded_(other.crowded_), cloned_at_(other.system_.counts()) {}
 
 EngineCounters GreenSolver::counters() const noexcept {
   const ConstraintCounts counts = system_.counts();
@@ -53,7 +49,7 @@ void GreenSolver::succeed(const SiteSolver& predecessor) noexcept {
 Index GreenSolver::refinements() const noexcept {
   if (core_->refinements > 0) return core_->refinements;
   for (const auto& block : state().blocks) {
-    if (block && block->least_pivot() < crowded_share) return 1;
+    if (block && block->least_pivot() < crowded_) return 1;
   }
   return 0;
 }

@@ -7,9 +7,15 @@
 
 namespace hf_inner {
 
+// If the dense system of the sites has a pivot below this share of its diagonal, its solution may have fewer than ten
+// correct digits. The field then takes one refinement step with the true operator, which costs two sweeps more. A
+// larger number would add steps that do not change the field.
+constexpr double crowded_share = 1e-4;
+
 class GreenSolver final : public SiteSolver {
  public:
-  explicit GreenSolver(std::shared_ptr<const Core> core);
+  // crowded: a field is refined if the dense system of its sites has a pivot below this share of its diagonal.
+  explicit GreenSolver(std::shared_ptr<const Core> core, double crowded = crowded_share);
   GreenSolver(const GreenSolver& other);
 
   void edit(const SiteEdit& edit) override { system_.edit(edit); }
@@ -22,6 +28,13 @@ class GreenSolver final : public SiteSolver {
   bool correct(const double* values, std::int32_t channels, const double* field, const double* flux, double* change,
                double* flux_change) const override;
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<GreenSolver>(core_->memory, *this); }
+  // Solves K u = load + W lambda with W'u + D lambda = values, as the changes of refine are solved: two sweeps, no
+  // corrections. load: by vertex. values: by slot, 0 at hard vertex sites; null: all 0. channels: at most
+  // ConstraintSystem::channel_block. field: must not be load; null: only the flux is wanted, for one sweep.
+  void respond(const double* load, const double* values, std::int32_t channels, double* field, double* flux) const;
+  // Smallest and largest site value by component and channel; low above high where there is none.
+  void value_extent(const double* values, Index channels, Index first, Index count, Vector<double>& low,
+                    Vector<double>& high) const;
   void rebase(JobRunner& jobs) override { system_.rebase(jobs); }
   void succeed(const SiteSolver& predecessor) noexcept override;
   EngineKind kind() const noexcept override { return EngineKind::green; }
@@ -51,9 +64,8 @@ class GreenSolver final : public SiteSolver {
               Step& step) const;
   void refine_until_small(const double* values, Index channels, Index first, Index count, double* z, Answer& answer,
                           double* field) const;
-  // Smallest and largest site value by component and channel; low above high where there is none.
-  void value_extent(const double* values, Index channels, Index first, Index count, Vector<double>& low,
-                    Vector<double>& high) const;
+  void clear_answer(Index count, Answer& next) const;
+  void solve_right(double* z, Index count, Answer& next, const Step& step, bool dense_only) const;
   // in green_preview.cpp
   double value_range(const double* values, Index channels, Index first, Index count) const;
 
@@ -62,6 +74,7 @@ class GreenSolver final : public SiteSolver {
 
   std::shared_ptr<const Core> core_;  // before the system, which reads it
   ConstraintSystem system_;
+  double crowded_;
   ConstraintCounts cloned_at_;  // counts of the engine this one was cloned from, at that time
 };
 

@@ -30,6 +30,49 @@ constexpr int most_steps = 6;
 
 }  // namespace
 
+void GreenSolver::clear_answer(Index count, Answer& next) const {
+  const std::size_t m = at(count);
+  next.slot.assign(state().entries.size() * m, 0.0), next.freed.assign(state().freed.size() * m, 0.0);
+  next.constant.assign(state().sites_of.size() * m, 0.0), next.total.assign(state().sites_of.size() * m, 0.0);
+}
+
+// Replaces the right-hand side z of the field, in the order of the factor, and that of the sites in `next` by their
+// solution. The field still lacks the constant of each component. dense_only: leaves z useless, for half of the cost.
+void GreenSolver::solve_right(double* z, Index count, Answer& next, const Step& step, bool dense_only) const {
+  const std::size_t n = at(core_->size()), m = at(count);
+  const Span<const Index> position = system_.factor().position();
+  const auto r = [&](Index v) { return z + at(position[at(v)]) * m; };
+  // Vertices of eliminated sites are not in the factor. If the site still constrains the field, its vertex has no
+  // equation. If the site was removed, the equation is a row of the dense system.
+  for (std::size_t b = 0; b < state().freed.size(); ++b) {
+    double* own = r(state().base->vertex[b]);
+    if (state().freed[b].is_row()) {
+      for (std::size_t q = 0; q < m; ++q) next.freed[b * m + q] = -own[q];
+    }
+    std::fill_n(own, m, 0.0);
+  }
+  for (std::size_t v = 0; v < n; ++v) {
+    for (std::size_t q = 0; q < m; ++q) next.total[at(core_->mesh.component[v]) * m + q] += r(static_cast<Index>(v))[q];
+  }
+
+  if (step.single) {
+    step.single->forward(z, count, step.scratch, *core_->jobs);
+  } else {
+    system_.factor().forward(z, count, *core_->jobs);
+  }
+  system_.subtract_projections(z, count, next);
+  system_.solve_rows(count, next);
+  system_.count_sweeps(1);
+  if (dense_only) return;
+  system_.combine(next, count, z);
+  if (step.single) {
+    step.single->backward(z, count, step.scratch, *core_->jobs);
+  } else {
+    system_.factor().backward(z, count, *core_->jobs);
+  }
+  system_.count_sweeps(1);
+}
+
 void GreenSolver::refine(const double* values, Index channels, Index first, Index count, double* z, Answer& answer,
                          double* field, Step& step) const {
   const std::size_t n = at(core_->size()), m = at(count), stride = at(channels), offset = at(first);
@@ -56,8 +99,7 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
   // Adds the fluxes W lambda of the sites to the residual r of the field, and writes the residual g of the sites'
   // values into `next`.
   Answer next(memory());
-  next.slot.assign(state().entries.size() * m, 0.0), next.freed.assign(state().freed.size() * m, 0.0);
-  next.constant.assign(state().sites_of.size() * m, 0.0), next.total.assign(state().sites_of.size() * m, 0.0);
+  clear_answer(count, next);
   for (std::size_t slot = 0; slot < state().entries.size(); ++slot) {
     const auto& entry = state().entries[slot];
     if (!entry.used() || entry.eliminated >= 0) continue;
@@ -72,33 +114,7 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
       }
     }
   }
-  // Vertices of eliminated sites are not in the factor. If the site still constrains the field, its vertex has no
-  // equation. If the site was removed, the equation is a row of the dense system.
-  for (std::size_t b = 0; b < state().freed.size(); ++b) {
-    double* own = r(base->vertex[b]);
-    if (state().freed[b].is_row()) {
-      for (std::size_t q = 0; q < m; ++q) next.freed[b * m + q] = -own[q];
-    }
-    std::fill_n(own, m, 0.0);
-  }
-  for (std::size_t v = 0; v < n; ++v) {
-    for (std::size_t q = 0; q < m; ++q) next.total[at(core_->mesh.component[v]) * m + q] += r(static_cast<Index>(v))[q];
-  }
-
-  if (step.single) {
-    step.single->forward(z, count, step.scratch, *core_->jobs);
-  } else {
-    system_.factor().forward(z, count, *core_->jobs);
-  }
-  system_.subtract_projections(z, count, next);
-  system_.solve_rows(count, next);
-  system_.combine(next, count, z);
-  if (step.single) {
-    step.single->backward(z, count, step.scratch, *core_->jobs);
-  } else {
-    system_.factor().backward(z, count, *core_->jobs);
-  }
-  system_.count_sweeps(2);
+  solve_right(z, count, next, step, false);
 
   // into the field and the answer, or out
   double* const target = step.change ? step.change : field;
@@ -151,6 +167,47 @@ void GreenSolver::refine_until_small(const double* values, Index channels, Index
     refine(values, channels, first, count, z, answer, field, step);
     if (step.largest <= small_change || !(step.largest <= 0.5 * last)) break;
     last = step.largest;
+  }
+}
+
+void GreenSolver::respond(const double* load, const double* values, Index channels, double* field, double* flux) const {
+  const std::size_t n = at(core_->size()), m = at(channels);
+  const Span<const Index> position = system_.factor().position();
+  const EliminatedBase* base = state().base.get();
+  // The flux of a site that the factor eliminates comes from the field.
+  const bool needs_field = !field && base;
+  Workspace z(core_->workspaces, n * m), own(core_->workspaces, needs_field ? n * m : 0);
+  if (needs_field) field = own.data();
+  Answer next(memory());
+  clear_answer(channels, next);
+  for (std::size_t v = 0; v < n; ++v) {
+    const bool in_reach = reached(at(core_->mesh.component[v]));
+    for (std::size_t q = 0; q < m; ++q) z[at(position[v]) * m + q] = in_reach ? load[v * m + q] : 0.0;
+  }
+  for (std::size_t slot = 0; values && slot < state().entries.size(); ++slot) {
+    if (state().entries[slot].used() && state().entries[slot].eliminated < 0)
+      std::copy_n(values + slot * m, m, &next.slot[slot * m]);
+  }
+  solve_right(z.data(), channels, next, Step(), !field);
+  std::copy(next.slot.begin(), next.slot.end(), flux);
+  if (!field) return;
+  for_ranges(*core_->jobs, n, piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const std::size_t c = at(core_->mesh.component[v]);
+      const bool is_free = reached(c) && !(base && base->eliminated(static_cast<Index>(v)));
+      for (std::size_t q = 0; q < m; ++q)
+        field[v * m + q] = is_free ? z[at(position[v]) * m + q] + next.constant[c * m + q] : 0.0;
+    }
+  });
+  for (std::size_t b = 0; b < state().freed.size(); ++b) {
+    if (state().freed[b].is_row()) std::copy_n(&next.freed[b * m], m, field + at(base->vertex[b]) * m);
+  }
+  if (!base) return;
+  base_flux(channels, field, flux);
+  for (std::size_t slot = 0; slot < state().entries.size(); ++slot) {
+    const auto& entry = state().entries[slot];
+    if (!entry.used() || entry.eliminated < 0) continue;
+    for (std::size_t q = 0; q < m; ++q) flux[slot * m + q] -= load[at(entry.site.vertex[0]) * m + q];
   }
 }
 

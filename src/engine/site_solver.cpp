@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "engine/green.h"
+#include "engine/mixed_solver.h"
 #include "engine/refactor.h"
 #include "engine/updown.h"
 
@@ -14,6 +15,13 @@ void SiteSolver::rebase(JobRunner&) {
 
 std::shared_ptr<SiteSolver> SiteSolver::make(EngineKind kind, std::shared_ptr<const Core> core, double penalty) {
   const std::shared_ptr<Memory> memory = core->memory;
+  if (core->root) {
+    if (kind != EngineKind::green)
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+           "a vertex has more than %d neighbours; only HF_ENGINE_GREEN solves bi-harmonic fields there",
+           core->formed_valence);
+    return make_owner_in<MixedSolver>(memory, std::move(core));
+  }
   switch (kind) {
     case EngineKind::updown:
       return make_updown_solver(std::move(core), penalty);

@@ -31,7 +31,7 @@ std::shared_ptr<const Core> Surface::core(FieldKind kind) const {
   }
   CoreOptions options;
   options.operator_kind = geometry_->operator_kind, options.field_kind = kind, options.ordering = own_->ordering;
-  options.flop_limit = own_->flop_limit;
+  options.flop_limit = own_->flop_limit, options.formed_valence = own_->formed_valence;
   const std::shared_ptr<const Core> core = Core::make(geometry_, options);
   const std::shared_ptr<const Core> counted(core.get(), Forget{core, made_, slot},
                                             OwningAllocator<Core>(geometry_->memory));

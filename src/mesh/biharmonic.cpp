@@ -152,4 +152,39 @@ SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double
   return matrix;
 }
 
+bool exceeds_valence(const SymmetricMatrix& laplacian, Index most) noexcept {
+  for (std::size_t v = 0; v < at(laplacian.size()); ++v) {
+    if (laplacian.column_start[v + 1] - laplacian.column_start[v] - 1 > most) return true;
+  }
+  return false;
+}
+
+void apply_laplacian(const SymmetricMatrix& laplacian, const Vector<double>& scale, const double* u, Index channels,
+                     double* out, JobRunner& jobs) {
+  const std::size_t m = at(channels);
+  for_ranges(jobs, at(laplacian.size()), columns_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      double* own = out + v * m;
+      std::fill_n(own, m, 0.0);
+      for (Index i = laplacian.column_start[v]; i < laplacian.column_start[v + 1]; ++i) {
+        const double* there = u + at(laplacian.row[at(i)]) * m;
+        for (std::size_t q = 0; q < m; ++q) own[q] += laplacian.value[at(i)] * (there[q] - u[v * m + q]);
+      }
+      for (std::size_t q = 0; !scale.empty() && q < m; ++q) own[q] *= scale[v];
+    }
+  });
+}
+
+Vector<double> biharmonic_diagonal(const SymmetricMatrix& laplacian, const Vector<double>& inverse_mass,
+                                   Memory& memory) {
+  Vector<double> diagonal(at(laplacian.size()), 0.0, &memory);
+  for (std::size_t v = 0; v < diagonal.size(); ++v) {
+    for (Index i = laplacian.column_start[v]; i < laplacian.column_start[v + 1]; ++i) {
+      const double weight = inverse_mass.empty() ? 1.0 : inverse_mass[at(laplacian.row[at(i)])];
+      diagonal[v] += weight * (laplacian.value[at(i)] * laplacian.value[at(i)]);
+    }
+  }
+  return diagonal;
+}
+
 }  // namespace hf_inner

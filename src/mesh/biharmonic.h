@@ -9,6 +9,9 @@
 // K connects every vertex with the vertices within two edges, so it has about 3.4 times the entries of L. Compute its
 // fill-reducing ordering on this graph. Each diagonal entry is minus the sum of the other entries of its column, so K
 // times a constant is zero up to rounding. K is symmetric bit for bit. Cost: O(sum of squared valences), in parallel.
+//
+// A vertex with d neighbours gives K a dense block of d x d entries. So K is not formed where a vertex has very many of
+// them. It is then applied as two products with L, and engine/mixed_solver.h solves with L alone.
 #pragma once
 #include "base/symmetric_matrix.h"
 #include "mesh/mesh.h"
@@ -31,5 +34,17 @@ std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memor
 // thread.
 SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double>& inverse_mass, Memory& memory,
                            JobRunner* jobs = nullptr);
+
+// Returns whether a vertex has more than `most` neighbours in L.
+bool exceeds_valence(const SymmetricMatrix& laplacian, std::int32_t most) noexcept;
+
+// Writes out_v = scale_v sum_j L_vj (u_j - u_v), with `channels` numbers per vertex. The differences keep the digits
+// that a large constant in u would cost. An empty scale stands for ones. out must not be u.
+void apply_laplacian(const SymmetricMatrix& laplacian, const Vector<double>& scale, const double* u,
+                     std::int32_t channels, double* out, JobRunner& jobs);
+
+// Returns the diagonal of L diag(inverse_mass) L, which need not be formed.
+Vector<double> biharmonic_diagonal(const SymmetricMatrix& laplacian, const Vector<double>& inverse_mass,
+                                   Memory& memory);
 
 }  // namespace hf_inner

@@ -59,6 +59,19 @@ Surface surface_tube(uint32_t around, uint32_t rings) {
   return s;
 }
 
+Surface surface_fan(uint32_t triangles) {
+  Surface s = surface_make(triangles + 1, triangles);
+  memset(s.positions, 0, 3 * sizeof *s.positions);
+  for (uint32_t i = 0; i < triangles; ++i) {
+    const float angle = 6.2831853f * (float)i / (float)triangles;
+    float* p = s.positions + 3 * (size_t)(i + 1);
+    p[0] = cosf(angle), p[1] = sinf(angle), p[2] = 0;
+    const uint32_t corners[3] = {0, 1 + i, 1 + (i + 1) % triangles};
+    memcpy(s.triangles + 3 * (size_t)i, corners, sizeof corners);
+  }
+  return s;
+}
+
 Surface surface_cut(void) {
   Surface s = surface_make(CUT_VERTICES, CUT_TRIANGLES);
   uint32_t t = put_sheet(&s, 0, 0, 4, 4, 0.0f);

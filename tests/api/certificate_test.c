@@ -211,6 +211,44 @@ static void a_long_chain_is_right_to_rounding(void** state) {
   free(positions), free(triangles);
 }
 
+/* A bi-harmonic operator is not formed around a vertex of more than 1,000 neighbours. */
+static void biharmonic_fans_are_right_and_cost_what_the_mesh_costs(void** state) {
+  (void)state;
+  enum { FAN = 3000 };
+  Surface fan = surface_fan(FAN);
+  Options desc = options_of(&fan);
+  for (int32_t kind = HF_FIELD_BIHARMONIC; kind <= HF_FIELD_BIHARMONIC_GRAPH; ++kind) {
+    desc.surface.field_kind = kind, desc.surface.saved_factor = NULL, desc.solver.engine = HF_ENGINE_GREEN;
+    hf_surface surface = NULL;
+    hf_solver solver = NULL, loaded = NULL;
+    assert_ok(make(&desc, &surface, &solver));
+    hf_surface_statistics statistics = HF_INIT(hf_surface_statistics);
+    assert_ok(hf_surface_get_statistics(surface, &statistics));
+    assert_true(statistics.peak_memory_bytes < 5e6);
+    add_site(solver, 1, 1), add_site(solver, 1 + FAN / 3, 1e3), add_site(solver, 1 + FAN / 2, -2);
+    double* field = field_of(solver, FAN + 1);
+    hf_certificate found = HF_INIT(hf_certificate);
+    assert_ok(hf_solver_certify(solver, &found));
+    assert_true(found.error_estimate < 1e-12 && found.site_error == 0);
+
+    size_t size = 0;
+    unsigned char* bytes = saved_bytes(surface, kind, &size);
+    hf_factor_desc factor = HF_INIT(hf_factor_desc);
+    factor.bytes = bytes, factor.byte_count = size;
+    desc.surface.saved_factor = &factor;
+    assert_ok(make(&desc, NULL, &loaded));
+    add_site(loaded, 1, 1), add_site(loaded, 1 + FAN / 3, 1e3), add_site(loaded, 1 + FAN / 2, -2);
+    double* again = field_of(loaded, FAN + 1);
+    assert_memory_equal(field, again, (FAN + 1) * sizeof *field);
+    hf_solver_destroy(loaded);
+
+    desc.solver.engine = HF_ENGINE_REFACTOR, desc.surface.saved_factor = NULL;
+    assert_code(HF_ERROR_UNSUPPORTED, make(&desc, NULL, &loaded));
+    free(field), free(again), free(bytes), hf_solver_destroy(solver), hf_surface_destroy(surface);
+  }
+  surface_free(&fan);
+}
+
 /* Soft sites pull with what they miss: the engine refactor lost it to rounding and refused its own field. */
 static void very_soft_sites_pass(void** state) {
   (void)state;
@@ -312,6 +350,7 @@ int main(void) {
       cmocka_unit_test(a_factor_that_changed_behind_the_library_is_found_out),
       cmocka_unit_test(the_largest_values_stay_finite_on_needles),
       cmocka_unit_test(a_long_chain_is_right_to_rounding),
+      cmocka_unit_test(biharmonic_fans_are_right_and_cost_what_the_mesh_costs),
       cmocka_unit_test(very_soft_sites_pass),
       cmocka_unit_test(weights_that_a_rule_set_are_counted),
       cmocka_unit_test(nothing_is_changed),

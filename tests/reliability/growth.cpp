@@ -213,6 +213,12 @@ int main(int count, char** arguments) {
       if (structure.name.find(only) != std::string::npos) judge(structure, full);
     }
   }
+  if (std::string("biharmonic_fan").find(only) != std::string::npos) {
+    const HighValence found = high_valence_fan();
+    std::printf("# biharmonic_fan 100000: %.2f s\n", found.seconds);
+    report_at_most("growth_biharmonic_fan_error", found.error, 1e-8);
+    report_at_most("growth_biharmonic_fan_megabytes", found.megabytes, 1000);
+  }
   if (!programs.empty()) {
     std::string folder = (std::filesystem::temp_directory_path() / "hf_growth_XXXXXX").string();
     if (!mkdtemp(folder.data())) return 1;

@@ -33,6 +33,12 @@ std::vector<Structure> weld_structures(bool full);
 std::vector<Structure> library_structures(bool full);
 std::vector<Structure> file_structures(bool full);
 
+// The bi-harmonic field of a fan of 100,000 triangles, certified: its error over the range of the sites, and its cost.
+struct HighValence {
+  double error = 0, megabytes = 0, seconds = 0;
+};
+HighValence high_valence_fan();
+
 // The text of a file with so many elements of a kind; the kinds are those of file_kinds(). It is glTF, or OFF where it
 // does not begin with a brace.
 std::vector<std::string> file_kinds();

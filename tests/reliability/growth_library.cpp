@@ -1,10 +1,12 @@
 // Surfaces, solvers and handles of the library at growing sizes, through its public functions.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <new>
 
+#include "exact_shapes.h"
 #include "growth.h"
 #include "hf/hf.h"
 
@@ -61,8 +63,9 @@ MeshArrays lone_triangles(std::size_t triangles) {
   return mesh;
 }
 
-hf_surface surface_of(const MeshArrays& mesh) {
+hf_surface surface_of(const MeshArrays& mesh, std::int32_t field_kind = HF_FIELD_HARMONIC) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
+  desc.field_kind = field_kind;
   desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size() / 3), desc.positions_f64 = mesh.positions.data();
   desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3), desc.triangles = mesh.triangles.data();
   desc.allocator.allocate = [](void*, std::size_t bytes, std::size_t alignment) {
@@ -76,9 +79,11 @@ hf_surface surface_of(const MeshArrays& mesh) {
   return surface;
 }
 
-hf_solver solver_of(hf_surface surface) {
+hf_solver solver_of(hf_surface surface, std::int32_t field_kind = HF_FIELD_HARMONIC) {
   hf_solver solver = nullptr;
-  check(hf_create(surface, nullptr, &solver), "hf_create");
+  hf_solver_desc desc = HF_INIT(hf_solver_desc);
+  desc.field_kind = field_kind;
+  check(hf_create(surface, &desc, &solver), "hf_create");
   return solver;
 }
 
@@ -127,6 +132,29 @@ Run edits(MeshArrays (*make)(std::size_t)) {
       }
     };
   };
+}
+
+// A bi-harmonic field around a vertex in all triangles, from the arrays on. Returns it.
+std::vector<double> biharmonic_field(const MeshArrays& mesh, const std::vector<std::uint32_t>& vertices,
+                                     const std::vector<double>& values) {
+  Scene scene;
+  scene.surface = surface_of(mesh, HF_FIELD_BIHARMONIC);
+  scene.solver = solver_of(scene.surface, HF_FIELD_BIHARMONIC);
+  hf_sites_desc desc = HF_INIT(hf_sites_desc);
+  desc.site_count = static_cast<std::uint32_t>(vertices.size());
+  desc.vertices = vertices.data(), desc.values = values.data();
+  check(hf_add_sites(scene.solver, &desc, nullptr), "hf_add_sites");
+  std::vector<double> field(mesh.positions.size() / 3);
+  check(hf_solver_solve_f64(scene.solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
+  hf_certificate certificate = HF_INIT(hf_certificate);
+  check(hf_solver_certify(scene.solver, &certificate), "hf_solver_certify");
+  return field;
+}
+
+std::function<void()> biharmonic_degree(std::size_t size) {
+  const auto mesh = std::make_shared<MeshArrays>(fan(size));
+  const auto n = static_cast<std::uint32_t>(size);
+  return [=] { biharmonic_field(*mesh, {0, 1, 1 + n / 3, 1 + n / 2}, {0, 1, 0.5, -1}); };
 }
 
 // Sites one at a time on one mesh, and out again in another order.
@@ -217,6 +245,7 @@ std::vector<Structure> library_structures(bool full) {
       {"create_degree", doubled(20000 * large), 1.25, create(fan)},
       {"create_components", doubled(8000 * large), 1.25, create(lone_triangles)},
       {"edit_degree", doubled(20000 * large), 1.25, edits(fan)},
+      {"biharmonic_degree", doubled(full ? 12500 : 2500), 1.25, biharmonic_degree},
       {"edit_components", doubled(8000 * large), 1.25, edits(lone_triangles)},
       // every edit adds a row to the dense block of k sites, k^2 numbers; one edit alone never pays for a rebase
       {"sites", doubled(full ? 250 : 125), 3, sites},
@@ -227,6 +256,21 @@ std::vector<Structure> library_structures(bool full) {
       {"handle_find", many, 1.25, find_handles},
       {"handle_replace", many, 1.25, replace_handles},
   };
+}
+
+HighValence high_valence_fan() {
+  const reliability::ExactShape shape = reliability::exact_fan(100000, HF_FIELD_BIHARMONIC);
+  const MeshArrays mesh = {shape.positions, shape.triangles};
+  HighValence found;
+  const std::size_t before = held_bytes();
+  reset_most_bytes();
+  const double begin = thread_seconds();
+  const std::vector<double> field = biharmonic_field(mesh, shape.sites, shape.values);
+  found.seconds = thread_seconds() - begin;
+  found.megabytes = static_cast<double>(most_bytes() - before) / 1e6;
+  for (std::size_t v = 0; v < field.size(); ++v)
+    found.error = std::max(found.error, std::fabs(field[v] - shape.exact[v]) / 2);  // values are 1 to -1
+  return found;
 }
 
 }  // namespace growth

@@ -18,6 +18,20 @@ inline std::vector<hf_inner::EngineKind> engines() {
 #endif
 }
 
+// K as a dense matrix; a product of dense matrices where the core does not form it.
+inline Eigen::MatrixXd dense_operator(const hf_inner::Core& core) {
+  const hf_inner::SymmetricMatrix& m = core.root ? core.root->laplacian : core.laplacian;
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(core.size(), core.size());
+  for (int v = 0; v < core.size(); ++v) {
+    for (int i = m.column_start[static_cast<std::size_t>(v)]; i < m.column_start[static_cast<std::size_t>(v) + 1]; ++i)
+      k(v, m.row[static_cast<std::size_t>(i)]) = m.value[static_cast<std::size_t>(i)];
+  }
+  if (!core.root) return k;
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(core.size());
+  for (std::size_t v = 0; v < core.inverse_mass.size(); ++v) scale[static_cast<int>(v)] = core.inverse_mass[v];
+  return k * scale.asDiagonal() * k;
+}
+
 // sites in use only; values one row per site. Returns n x m (components without a site: zero rows). lambda: one row per
 // site.
 inline Eigen::MatrixXd dense_field(const hf_inner::Core& core, const std::vector<hf_inner::Site>& sites,
@@ -25,16 +39,14 @@ inline Eigen::MatrixXd dense_field(const hf_inner::Core& core, const std::vector
   const int n = core.size(), k = static_cast<int>(sites.size());
   std::vector<int> reached(static_cast<std::size_t>(core.mesh.component_count()), 0);
   for (const hf_inner::Site& site : sites) reached[static_cast<std::size_t>(site.component)] = 1;
+  const Eigen::MatrixXd operation = dense_operator(core);
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + k, n + k);
   for (int v = 0; v < n; ++v) {
     if (!reached[static_cast<std::size_t>(core.mesh.component[static_cast<std::size_t>(v)])]) {
       a(v, v) = 1;
       continue;
     }
-    for (int i = core.laplacian.column_start[static_cast<std::size_t>(v)];
-         i < core.laplacian.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
-      a(v, core.laplacian.row[static_cast<std::size_t>(i)]) = core.laplacian.value[static_cast<std::size_t>(i)];
-    }
+    a.row(v).head(n) = operation.row(v);
   }
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(n + k, values.cols());
   for (int i = 0; i < k; ++i) {
