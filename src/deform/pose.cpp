@@ -47,10 +47,6 @@ Pose::Pose(std::shared_ptr<const Core> core, const PoseOptions& options, std::sh
       start_(memory()) {}
 
 std::shared_ptr<Pose> Pose::make(std::shared_ptr<const Core> core, const PoseOptions& options) {
-  if (!core->factor) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "poses need a solver made with HF_ENGINE_GREEN");
-  if (core->refinements > 0)
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-         "poses need fields that keep to the range of their sites; make a solver with HF_FIELD_HARMONIC for them");
   const PoseOptions filled = checked(options);
   Memory& memory = *core->memory;
   return make_owner_in<Pose>(core->memory, core, filled, make_shared_in<Rest>(memory, *core, memory));
@@ -312,10 +308,6 @@ const ClusterWeights* Pose::weights() const noexcept { return layout_ ? &layout_
 
 Span<const Affine> Pose::cluster_transforms() const noexcept {
   return state_ ? Span<const Affine>(state_->transforms) : Span<const Affine>();
-}
-
-std::int32_t Pose::group_count() const noexcept {
-  return layout_ && layout_->smooth ? static_cast<std::int32_t>(layout_->smooth->subspace.group.size()) : 0;
 }
 
 }  // namespace hf_inner

@@ -71,7 +71,7 @@ struct DeformReport {
 
 class Pose {
  public:
-  // Throws HF_ERROR_UNSUPPORTED when the core has no factor, and HF_ERROR_INVALID_ARGUMENT for options out of range.
+  // core: harmonic, with its factor. Throws HF_ERROR_INVALID_ARGUMENT for options out of range.
   static std::shared_ptr<Pose> make(std::shared_ptr<const Core> core, const PoseOptions& options);
   std::shared_ptr<Pose> clone() const;
 
@@ -98,9 +98,6 @@ class Pose {
   const ClusterWeights* weights() const noexcept;
   Span<const Affine> cluster_transforms() const noexcept;
   bool posed() const noexcept { return posed_; }  // transforms() holds a pose
-  // For statistics and tests: the groups of vertices that share a rotation, and the unknowns that the reduced system
-  // found to be dependent.
-  std::int32_t group_count() const noexcept;
 
   // ---- for layers of handles (pose_stack.h), whose poses must depend only on the arguments of these calls ----
 

@@ -98,8 +98,6 @@ void Pose::prepare(const DeformRequest& request) {
   if (request.normals && normal_sums_.size() < n) sums.allocate(memory(), n);
   if (own_normals && normals_.size() < n) normals.allocate(memory(), n);
   if (request.refine) {
-    if (core_->refinements > 0)
-      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the refinement step needs a solver of the harmonic equation");
     // one that is too small is replaced, so that it can be put back
     const std::int32_t slots = layout_->sites->slot_count();
     const std::shared_ptr<Refinement> refinement = refinement_ && refinement_->has_room(slots)

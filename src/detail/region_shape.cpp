@@ -97,7 +97,6 @@ Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, st
   }
   if (!joins)
     for (const Index v : front) in[at(v)] = 0;
-  if (rings == 0) front.clear();
   const std::int64_t steps = rings > 0 ? rings : -std::int64_t{rings};
   for (std::int64_t step = 1; step < steps && !front.empty(); ++step) {
     next.clear();

@@ -172,7 +172,6 @@ void propose(const Core& core, const Vector<double>& total, double least_length,
 }  // namespace
 
 Extremities poisson_extremities(const Core& core, double least_length) {
-  require_laplacian(core);
   constexpr float summed = 0.1f, solved = 0.8f;  // reported progress, by the usual share of time
   Extremities found(*core.memory);
   found.field.resize(at(core.size()));

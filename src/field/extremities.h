@@ -35,8 +35,8 @@ struct Extremities {
   Vector<double> field;  // by inner vertex; the points are its maxima
 };
 
-// Find the tips by the Poisson field, or by mean geodesic distances. All throw HF_ERROR_UNSUPPORTED if the core does
-// not have the factor of a Laplacian.
+// Find the tips by the Poisson field, or by mean geodesic distances. The core is harmonic and
+// has its factor.
 Extremities poisson_extremities(const Core& core, double least_length);
 Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length);
 // The same, but makes the geodesics itself, with that smoothing.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "base/index.h"
 #include "field/spread.h"
 
@@ -33,17 +32,9 @@ double mean_edge(const Core& core) noexcept {
 
 }  // namespace
 
-void require_laplacian(const Core& core) {
-  if (!core.factor || core.refinements != 0) {
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-         "distances and extremities need the factor of a Laplacian; make a harmonic solver of this mesh for them");
-  }
-}
-
 Geodesics::Geodesics(std::shared_ptr<const Core> core, double smoothing)
     : core_(std::move(core)), frames_(core_->memory.get()) {
   const Core& c = *core_;
-  require_laplacian(c);
   const double h = mean_edge(c), least = least_step;
   const double step = std::max(smoothing * h * h, least * least);
   SymmetricMatrix matrix = grounded(c);

@@ -20,12 +20,9 @@
 
 namespace hf_inner {
 
-// Throws HF_ERROR_UNSUPPORTED if the core does not hold the factor of a Laplacian. Bi-harmonic cores do not.
-void require_laplacian(const Core& core);
-
 class Geodesics {
  public:
-  // Costs one numeric factorisation. Throws as require_laplacian does.
+  // core: harmonic, with its factor. Costs one numeric factorisation.
   Geodesics(std::shared_ptr<const Core> core, double smoothing);
 
   // Computes the distance to the nearest source. The sources are at least one welded vertex. The unit is the box

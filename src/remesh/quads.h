@@ -28,8 +28,8 @@ struct QuadResult {
   double imbalance = 0;  // the largest imbalance of flux at a vertex that is no site
 };
 
-// Throws HF_ERROR_UNSUPPORTED for surfaces that are not manifold or cannot be oriented. Also throws the errors of
-// require_laplacian, HF_ERROR_CANCELLED and std::bad_alloc.
+// Throws HF_ERROR_UNSUPPORTED for surfaces that are not manifold or cannot be oriented. Also throws HF_ERROR_CANCELLED
+// and std::bad_alloc.
 QuadResult make_quads(const QuadOptions& options);
 
 }  // namespace hf_inner

@@ -268,6 +268,8 @@ static void bad_input_is_named(void** state) {
   g.smoothing = -1;
   BAD("smoothing -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
   assert_null(made);
+  g.smoothing = 20000;
+  BAD("smoothing 20000", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
   g.smoothing = (float)NAN;
   BAD("smoothing NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
   BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_create(s, NULL, NULL));
@@ -289,6 +291,7 @@ static void bad_input_is_named(void** state) {
   EXTREMITIES("kind 2", HF_ERROR_INVALID_ARGUMENT, e.kind = 2);
   EXTREMITIES("least_length NaN", HF_ERROR_INVALID_ARGUMENT, e.least_length = (float)NAN);
   EXTREMITIES("least_length -1", HF_ERROR_INVALID_ARGUMENT, e.least_length = -1);
+  EXTREMITIES("least_length 11", HF_ERROR_INVALID_ARGUMENT, e.least_length = 11);
   EXTREMITIES("1001 sources", HF_ERROR_INVALID_ARGUMENT, e.source_count = 1001);
   EXTREMITIES("geodesics of another mesh", HF_ERROR_INVALID_ARGUMENT, (e.kind = 1, e.geodesics = of_other));
   BAD("no output", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_find_extremities(s, NULL, 0, NULL, NULL));

@@ -53,6 +53,13 @@ TEST(Memory, refuses_beyond_its_limit_and_stays_usable) {
   EXPECT_THROW(hf_inner::Buffer<double>(memory, SIZE_MAX / 4), std::bad_alloc);
 }
 
+TEST(Memory, refuses_a_block_whose_rounded_size_overflows) {
+  hf_inner::Memory memory;
+  const volatile std::size_t bytes = SIZE_MAX - 8;
+  EXPECT_THROW(static_cast<void>(memory.allocate(bytes, 64)), std::bad_alloc);
+  EXPECT_EQ(memory.live_bytes(), 0u);
+}
+
 TEST(Memory, an_owner_may_be_the_last_to_know_it) {
   struct Owner {
     explicit Owner(std::shared_ptr<hf_inner::Memory> m) : memory(std::move(m)) {}
