@@ -192,6 +192,13 @@ class hf_surface_desc(Structure):
     job_runner: object
     progress: int
     saved_factor: int
+    face_count: int
+    corner_count: int
+    face_starts: int
+    face_sizes: int
+    corners: int
+    face_stride: int
+    corner_stride: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -217,6 +224,13 @@ class hf_surface_desc(Structure):
         ("job_runner", hf_job_runner),
         ("progress", c_void_p),
         ("saved_factor", c_void_p),
+        ("face_count", c_uint32),
+        ("corner_count", c_uint32),
+        ("face_starts", c_void_p),
+        ("face_sizes", c_void_p),
+        ("corners", c_void_p),
+        ("face_stride", c_uint32),
+        ("corner_stride", c_uint32),
     ]
 
 
@@ -281,6 +295,8 @@ class hf_surface_info(Structure):
     work_limit_gflop: int
     edge_count: int
     edge_limit: int
+    face_count: int
+    corner_count: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -297,6 +313,8 @@ class hf_surface_info(Structure):
         ("work_limit_gflop", c_uint32),
         ("edge_count", c_uint32),
         ("edge_limit", c_uint32),
+        ("face_count", c_uint32),
+        ("corner_count", c_uint32),
     ]
 
 
@@ -319,6 +337,10 @@ class hf_surface_report(Structure):
     bounding_box_diagonal: float
     changed_vertex_count: int
     first_changed_vertex: int
+    face_count: int
+    polygon_count: int
+    non_planar_count: int
+    largest_face: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -337,6 +359,10 @@ class hf_surface_report(Structure):
         ("bounding_box_diagonal", c_double),
         ("changed_vertex_count", c_uint32),
         ("first_changed_vertex", c_uint32),
+        ("face_count", c_uint32),
+        ("polygon_count", c_uint32),
+        ("non_planar_count", c_uint32),
+        ("largest_face", c_uint32),
     ]
 
 
@@ -403,6 +429,8 @@ class hf_hit(Structure):
     barycentrics: object
     position: object
     distance: float
+    corners: object
+    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("found", c_int32),
@@ -411,6 +439,8 @@ class hf_hit(Structure):
         ("barycentrics", c_double * 3),
         ("position", c_double * 3),
         ("distance", c_double),
+        ("corners", c_uint32 * 3),
+        ("reserved", c_uint32),
     ]
 
 
@@ -470,6 +500,7 @@ class hf_sites_desc(Structure):
     values: int
     stiffness: int
     radii: int
+    corners: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("site_count", c_uint32),
@@ -479,6 +510,7 @@ class hf_sites_desc(Structure):
         ("values", c_void_p),
         ("stiffness", c_void_p),
         ("radii", c_void_p),
+        ("corners", c_void_p),
     ]
 
 
@@ -775,7 +807,7 @@ class hf_direction_desc(Structure):
 
 
 class hf_singularity(Structure):
-    """A singularity is a triangle around which the field makes extra turns."""
+    """A singularity is a triangle, or a face, around which the field makes extra turns."""
     triangle: int
     vertex: int
     index: int
@@ -1078,6 +1110,7 @@ class hf_quads_mesh(Structure):
     face_corners: int
     site_vertices: int
     site_lines: int
+    corners: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_capacity", c_uint32),
@@ -1096,6 +1129,7 @@ class hf_quads_mesh(Structure):
         ("face_corners", c_void_p),
         ("site_vertices", c_void_p),
         ("site_lines", c_void_p),
+        ("corners", c_void_p),
     ]
 
 
@@ -1158,6 +1192,7 @@ class hf_curve_desc(Structure):
     barycentrics: int
     side: int
     seed_vertex: int
+    corners: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("point_count", c_uint32),
@@ -1166,6 +1201,7 @@ class hf_curve_desc(Structure):
         ("barycentrics", c_void_p),
         ("side", c_int32),
         ("seed_vertex", c_uint32),
+        ("corners", c_void_p),
     ]
 
 
