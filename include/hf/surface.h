@@ -187,8 +187,8 @@ typedef struct hf_surface_info {
   uint32_t triangle_limit;  /* 0: eight per vertex of the vertex limit */
   uint32_t memory_limit_mb; /* 0: none */
   uint32_t work_limit_gflop;
-  uint32_t edge_count; /* as given to hf_surface_create_graph; 0 for a mesh */
-  uint32_t edge_limit; /* of a graph, 0: sixteen per vertex of the vertex limit */
+  uint32_t edge_count;   /* as given to hf_surface_create_graph; 0 for a mesh */
+  uint32_t edge_limit;   /* of a graph, 0: sixteen per vertex of the vertex limit */
   uint32_t face_count;   /* as given; 0 where triangles were given */
   uint32_t corner_count; /* as given */
 } hf_surface_info;

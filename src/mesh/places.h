@@ -20,8 +20,8 @@ struct SurfacePlace {
 };
 
 // The point of a triangle as given, or of a face of three corners. Throws as require_triangles,
-// HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (collapsed, or a face of more corners), and as the weights of its corners ask:
-// HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (below 0, or of another sum than 1).
+// HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (collapsed, or a face of more corners), and as the weights of its
+// corners ask: HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (below 0, or of another sum than 1).
 SurfacePlace place_in_triangle(const Mesh& mesh, std::uint32_t triangle, const double* weights, std::size_t position);
 
 // The point between three vertices as given. Throws as usable_vertex and place_in_triangle do, and
