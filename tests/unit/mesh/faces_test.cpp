@@ -315,6 +315,26 @@ TEST(FaceCorrection, of_a_flat_mesh_keeps_linear_functions_and_lowers_weights_wh
   }
 }
 
+// Rectangles of ratio r allow 4 / (1 + r^2) of the correction. Taking more, and cutting weights off, would change the
+// second moments of the weights, which are twice the area.
+TEST(FaceCorrection, of_long_rectangles_takes_what_the_weights_allow) {
+  for (const double ratio : {1.0, 2.0, 3.0, 5.0}) {
+    hf_inner::Memory memory;
+    Sheet sheet(6, 6, ratio, 0.0);
+    for (std::size_t v = 0; v < 49; ++v) sheet.positions[3 * v] = ratio * static_cast<double>(v % 7);  // no skew
+    const Dense k = operator_of(sheet.make(memory), memory);
+    double across = 0, along = 0;
+    for (std::size_t v = 0; v < 49; ++v) {
+      const double x = sheet.positions[3 * v] - 3 * ratio, y = sheet.positions[3 * v + 1] - 3;
+      along -= k[24][v] * x * x, across -= k[24][v] * y * y;
+    }
+    EXPECT_NEAR(along, 2 * ratio, 1e-10 * ratio) << ratio;
+    EXPECT_NEAR(across, 2 * ratio, 1e-10 * ratio) << ratio;
+    const double part = std::min(2.0 / 3, 4 / (1 + ratio * ratio));
+    EXPECT_NEAR(k[24][25], -(1 - part * (1 + ratio * ratio) / 4) / ratio, 1e-12) << ratio;
+  }
+}
+
 // The weights of one quad alone: flat, they are those of its Delaunay cut, whichever diagonal it was cut along.
 TEST(FaceCorrection, a_flat_quad_has_the_weights_of_its_delaunay_cut) {
   for (unsigned seed = 0; seed < 100; ++seed) {
