@@ -106,10 +106,10 @@ function Quads:mesh()
     triangles = ffi.new('uint32_t[?]', v),
     barycentrics = ffi.new('double[?]', 3 * v), face_starts = ffi.new('uint32_t[?]', f + 1),
     face_corners = ffi.new('uint32_t[?]', c), site_vertices = ffi.new('uint32_t[?]', s + 1),
-      site_lines = ffi.new('int32_t[?]', s + 1) }
+      site_lines = ffi.new('int32_t[?]', s + 1), corners = ffi.new('uint32_t[?]', 3 * v) }
   local out = make('hf_quads_mesh', { vertex_capacity = v, face_capacity = f, corner_capacity = c, site_capacity = s })
   for _, name in ipairs({ 'positions', 'triangles', 'barycentrics', 'face_starts', 'face_corners', 'site_vertices',
-    'site_lines' }) do
+    'site_lines', 'corners' }) do
     out[name] = mesh[name]
   end
   check(C.hf_quads_get_mesh(self.raw, out))

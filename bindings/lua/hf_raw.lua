@@ -60,6 +60,13 @@ typedef struct hf_surface_desc {
   hf_job_runner job_runner;
   hf_progress progress;
   const hf_factor_desc* saved_factor;
+  uint32_t face_count;
+  uint32_t corner_count;
+  const uint32_t* face_starts;
+  const uint32_t* face_sizes;
+  const uint32_t* corners;
+  uint32_t face_stride;
+  uint32_t corner_stride;
 } hf_surface_desc;
 typedef struct hf_graph_desc {
   uint32_t struct_size;
@@ -98,6 +105,8 @@ typedef struct hf_surface_info {
   uint32_t work_limit_gflop;
   uint32_t edge_count;
   uint32_t edge_limit;
+  uint32_t face_count;
+  uint32_t corner_count;
 } hf_surface_info;
 typedef struct hf_surface_report {
   uint32_t struct_size;
@@ -117,6 +126,10 @@ typedef struct hf_surface_report {
   double bounding_box_diagonal;
   uint32_t changed_vertex_count;
   uint32_t first_changed_vertex;
+  uint32_t face_count;
+  uint32_t polygon_count;
+  uint32_t non_planar_count;
+  uint32_t largest_face;
 } hf_surface_report;
 typedef struct hf_surface_statistics {
   uint32_t struct_size;
@@ -151,6 +164,8 @@ typedef struct hf_hit {
   double barycentrics[3];
   double position[3];
   double distance;
+  uint32_t corners[3];
+  uint32_t reserved;
 } hf_hit;
 typedef struct hf_solver_desc {
   uint32_t struct_size;
@@ -182,6 +197,7 @@ typedef struct hf_sites_desc {
   const double* values;
   const double* stiffness;
   const double* radii;
+  const uint32_t* corners;
 } hf_sites_desc;
 typedef struct hf_edit_desc {
   uint32_t struct_size;
@@ -487,6 +503,7 @@ typedef struct hf_quads_mesh {
   uint32_t* face_corners;
   uint32_t* site_vertices;
   int32_t* site_lines;
+  uint32_t* corners;
 } hf_quads_mesh;
 typedef struct hf_flow_lines {
   uint32_t struct_size;
@@ -520,6 +537,7 @@ typedef struct hf_curve_desc {
   const double* barycentrics;
   int32_t side;
   uint32_t seed_vertex;
+  const uint32_t* corners;
 } hf_curve_desc;
 typedef struct hf_region_edit_desc {
   uint32_t struct_size;

@@ -27,11 +27,17 @@ local function places(self, vertices, values, more)
   local at, count = integers(vertices, 'vertices')
   local inside
   if vertices == nil and more.triangles then inside, count = integers(more.triangles, 'triangles') end
+  local between, corner_count
+  if more.corners then
+    between, corner_count = integers(more.corners, 'corners')
+    if vertices == nil and not inside then count = corner_count / 3 end
+    if corner_count ~= 3 * count then fail('corners must hold three vertices for each site') end
+  end
   local held = { at, inside, doubles(more.barycentrics, 'barycentrics', 3 * count),
     doubles(values, 'values', count * self.channel_count),
-    doubles(more.stiffness, 'stiffness', count), doubles(more.radii, 'radii', count) }
+    doubles(more.stiffness, 'stiffness', count), doubles(more.radii, 'radii', count), between }
   local desc = make('hf_sites_desc', { site_count = count, vertices = held[1], triangles = held[2],
-    barycentrics = held[3], values = held[4], stiffness = held[5], radii = held[6] })
+    barycentrics = held[3], values = held[4], stiffness = held[5], radii = held[6], corners = held[7] })
   return desc, count, held
 end
 function Solver:add_sites(vertices, values, more)

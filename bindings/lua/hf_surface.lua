@@ -15,7 +15,7 @@ local graph_options = set('allow_negative field_kind ordering thread_count verte
 local function finish(desc, options, allowed, make_surface)
   local plain = {}
   for key, value in pairs(options) do
-    if key ~= 'saved_factor' and key ~= 'masses' then plain[key] = value end
+    if key ~= 'saved_factor' and key ~= 'masses' and key ~= 'faces' then plain[key] = value end
   end
   options_into(desc, plain, allowed)
   local factor
@@ -26,6 +26,17 @@ local function finish(desc, options, allowed, make_surface)
     desc.saved_factor = factor
   end
   return create(Surface, 'hf_surface', { vertex_count = desc.vertex_count }, make_surface, desc)
+end
+
+-- Sets the faces of a desc: { starts =, sizes =, corners = }; starts without sizes are offsets, one more than faces.
+local function faces_into(desc, faces)
+  local starts, start_count = array(faces.starts, 'uint32_t', 'faces.starts')
+  local sizes, size_count = array(faces.sizes, 'uint32_t', 'faces.sizes')
+  local corners, corner_count = array(faces.corners, 'uint32_t', 'faces.corners')
+  if starts and sizes and start_count ~= size_count then fail('faces.starts and faces.sizes must be of one length') end
+  desc.face_count = sizes and size_count or math.max(0, start_count - 1)
+  desc.corner_count, desc.face_starts, desc.face_sizes, desc.corners = corner_count, starts, sizes, corners
+  return { starts, sizes, corners }
 end
 
 -- triangles: a list, or cdata uint32_t[?] or uint16_t[?]; triangle_count: for cdata with a stride
@@ -43,7 +54,10 @@ local function new(positions, triangles, options)
     triangle_count = corners and corner_count / row or 0 })
   desc[single and 'positions' or 'positions_f64'] = xyz
   if corner_count > 0 then desc[half and 'triangles_u16' or 'triangles'] = corners end
-  return finish(desc, options, create_options, C.hf_surface_create)
+  local held = options.faces and faces_into(desc, options.faces)
+  local surface = finish(desc, options, create_options, C.hf_surface_create)
+  held = nil -- the library has copied the faces
+  return surface
 end
 
 -- A surface of a graph: two vertices for each edge, and its weight. options.masses: a list, for bi-harmonic fields.

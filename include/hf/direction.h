@@ -100,10 +100,10 @@ HF_API hf_result hf_direction_solve(hf_direction direction, float* out_vectors, 
 HF_API hf_result hf_direction_solve_f64(hf_direction direction, double* out_vectors, uint32_t vector_stride,
                                         hf_solve_info* out_info);
 
-/* A singularity is a triangle around which the field makes extra turns. They are counted in parts of 1 / degree of a
- * full turn. */
+/* A singularity is a triangle, or a face, around which the field makes extra turns. They are counted in parts of 1 /
+ * degree of a full turn. */
 typedef struct hf_singularity {
-  uint32_t triangle; /* as given */
+  uint32_t triangle; /* or face, as given */
   uint32_t vertex;   /* its corner where the field is shortest, as given; of welded copies the first */
   int32_t index;     /* in parts of 1 / degree: +1 a source or vortex of a vector field, -1 a saddle */
 } hf_singularity;

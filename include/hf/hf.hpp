@@ -120,6 +120,11 @@ class Surface {
   // Makes a surface. positions: x, y, z of each vertex. triangles: three vertices each.
   Surface(const std::vector<float>& positions, const std::vector<uint32_t>& triangles)
       : Surface(mesh(positions, triangles)) {}
+  // Makes a surface of faces with any number of corners. offsets: the corners of face f are corners[offsets[f]] to
+  // corners[offsets[f + 1] - 1].
+  Surface(const std::vector<float>& positions, const std::vector<uint32_t>& offsets,
+          const std::vector<uint32_t>& corners)
+      : Surface(mesh(positions, offsets, corners)) {}
 
   hf_surface get() const noexcept { return handle_.get(); }
   uint32_t vertex_count() const noexcept { return vertices_; }
@@ -171,6 +176,17 @@ class Surface {
     desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
     desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
     desc.positions = positions.data(), desc.triangles = triangles.data();
+    return desc;
+  }
+  static hf_surface_desc mesh(const std::vector<float>& positions, const std::vector<uint32_t>& offsets,
+                              const std::vector<uint32_t>& corners) {
+    auto desc = make<hf_surface_desc>();
+    if (positions.size() % 3 != 0) throw std::invalid_argument("positions hold three numbers each");
+    if (offsets.empty()) throw std::invalid_argument("offsets hold one number more than there are faces");
+    desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
+    desc.face_count = static_cast<uint32_t>(offsets.size() - 1);
+    desc.corner_count = static_cast<uint32_t>(corners.size());
+    desc.positions = positions.data(), desc.face_starts = offsets.data(), desc.corners = corners.data();
     return desc;
   }
   Handle<hf_surface, hf_surface_destroy> handle_;
@@ -456,6 +472,7 @@ struct QuadMesh {
   std::vector<uint32_t> site_vertices;
   std::vector<int32_t> site_lines;
   hf_quads_info info;
+  std::vector<uint32_t> corners;  // three per quad vertex: the vertices of the given mesh that barycentrics belong to
 };
 inline QuadMesh make_quads(const Surface& surface, const hf_quads_desc* desc = nullptr) {
   hf_quads raw = nullptr;
@@ -475,6 +492,7 @@ inline QuadMesh make_quads(const Surface& surface, const hf_quads_desc* desc = n
   out.barycentrics = mesh.barycentrics.data(), out.face_starts = mesh.face_starts.data();
   out.face_corners = mesh.face_corners.data(), out.site_vertices = mesh.site_vertices.data();
   out.site_lines = mesh.site_lines.data();
+  mesh.corners.resize(mesh.positions.size()), out.corners = mesh.corners.data();
   check(hf_quads_get_mesh(raw, &out));
   return mesh;
 }

@@ -93,12 +93,15 @@ typedef struct hf_quads_mesh {
   uint32_t vertex_count, face_count, corner_count, site_count;             /* out */
   uint32_t reserved;                                                       /* 0 */
   double* positions;       /* [vertex_capacity][3] in the unit and frame of the mesh as given */
-  uint32_t* triangles;     /* [vertex_capacity] triangle as given that the vertex lies in */
-  double* barycentrics;    /* [vertex_capacity][3] weights of that triangle's corners, in its own order, of sum 1 */
+  uint32_t* triangles;     /* [vertex_capacity] triangle or face as given that the vertex lies in */
+  double* barycentrics;    /* [vertex_capacity][3] weights of that triangle's corners, in its own order, of sum 1; in a
+                              face of more corners the weights of `corners` */
   uint32_t* face_starts;   /* [face_capacity + 1] face i has the corners face_starts[i] .. face_starts[i + 1] - 1 */
   uint32_t* face_corners;  /* [corner_capacity] vertices, counter-clockwise */
   uint32_t* site_vertices; /* [site_capacity] as given; HF_NO_INDEX for a border */
   int32_t* site_lines;     /* [site_capacity] lines that end (> 0) or start (< 0) there in kind pure */
+  uint32_t* corners;       /* [vertex_capacity][3] vertices as given, of welded copies the first, that barycentrics
+                              belong to */
 } hf_quads_mesh;
 
 /* Writes every array that is not NULL. Thread safety: reads `quads`. Since 0.1. */

@@ -55,11 +55,12 @@ typedef struct hf_curve_desc {
   uint32_t struct_size;
   uint32_t point_count;
   const uint32_t* vertices;   /* [point_count] vertices as given, or NULL */
-  const uint32_t* triangles;  /* [point_count] triangles as given, or NULL */
-  const double* barycentrics; /* [point_count][3] with triangles: weights of the corners, >= 0, of sum 1 within 1e-6;
-                                 the curve passes through the corner of largest weight */
+  const uint32_t* triangles;  /* [point_count] triangles (or faces of three corners) as given, or NULL */
+  const double* barycentrics; /* [point_count][3] with triangles or corners: weights of the corners, >= 0, of sum 1
+                                 within 1e-6; the curve passes through the corner of largest weight */
   int32_t side;               /* HF_SIDE_* */
   uint32_t seed_vertex;       /* with HF_SIDE_SEED */
+  const uint32_t* corners;    /* [point_count][3] three vertices of one face, as hf_hit has them, or NULL */
 } hf_curve_desc;
 
 /* A change of a region. The parts are applied in the order curve, rings, remove, add. A part that is 0 or NULL is

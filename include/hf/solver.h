@@ -73,20 +73,23 @@ HF_API hf_result hf_solver_get_info(hf_solver solver, hf_solver_info* out_info);
 
 /* ---- sites ---- */
 
-/* Places and values of sites. Set vertices, or triangles with barycentrics. The finer the mesh, the less influence a
- * point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the
- * mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the
- * boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do. */
+/* Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the less
+ * influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A
+ * radius below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic
+ * fields the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do. */
 typedef struct hf_sites_desc {
   uint32_t struct_size;
   uint32_t site_count;        /* >= 1 */
   const uint32_t* vertices;   /* [site_count] vertices as given, or NULL */
-  const uint32_t* triangles;  /* [site_count] triangles as given, or NULL */
-  const double* barycentrics; /* [site_count][3] with triangles: weights of the corners, >= 0, of sum 1 within 1e-6 */
+  const uint32_t* triangles;  /* [site_count] triangles (or faces of three corners) as given, or NULL */
+  const double* barycentrics; /* [site_count][3] with triangles or corners: weights of the corners, >= 0, of sum 1
+                                 within 1e-6 */
   const double* values;       /* [site_count][channel_count], up to 1e200 in size; NULL = 0 */
   const double* stiffness;    /* [site_count] >= 0, relative to the mean diagonal of K; 0 = hard (exact); NULL = all
                                  hard; clamped to 1e-12 .. 1e12 */
   const double* radii;        /* [site_count] >= 0, geodesic, in the unit of the mesh; 0 = a point; NULL = all points */
+  const uint32_t* corners;    /* [site_count][3] three vertices as given, of one face, or NULL: hf_hit has them. In a
+                                 face of more corners this places a site in a triangle of them */
 } hf_sites_desc;
 
 /* Adds sites. out_sites: NULL, or receives their numbers in uint32_t[site_count]. A site keeps its number until it is

@@ -62,8 +62,17 @@ typedef struct hf_factor_desc {
 } hf_factor_desc;
 enum { HF_FACTOR_ALIGNMENT = 64 };
 
-/* The mesh and the options of a surface. Set positions or positions_f64, and triangles or triangles_u16. Strides are in
- * bytes; 0 means packed. */
+/* The mesh and the options of a surface. Set positions or positions_f64, and triangles, triangles_u16 or faces. Strides
+ * are in bytes; 0 means packed.
+ *
+ * Faces have any number of corners. Set face_count, corner_count, corners, and what your host stores: face_sizes (Maya,
+ * USD), face_starts and face_sizes (Blender's loops), or face_starts as offsets (newer Blender). No field depends on
+ * how you would cut a face into triangles. HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both cuts of a bent quad,
+ * and moves it towards the polygon Laplacian of Bunge and others 2020 until a weight would become negative.
+ * docs/studies/polygons.md compares errors. HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED take that polygon Laplacian,
+ * HF_OPERATOR_UNIFORM the sides of the faces. Directions, distances, iso-lines, flow lines and quads work on a cut of
+ * the library. It does not depend on the order of the corners. Where this interface names a triangle, it names the face
+ * then. Normals of poses are sums of the area vectors of faces. */
 typedef struct hf_surface_desc {
   uint32_t struct_size;
   uint32_t vertex_count;         /* >= 1 */
@@ -81,7 +90,8 @@ typedef struct hf_surface_desc {
   int32_t ordering;              /* HF_ORDERING_* */
   uint32_t thread_count;         /* threads the library may use, yours included, 1 to 256; 0 = 1 */
   uint32_t vertex_limit;         /* refuse larger meshes before allocating; 0 = 20,000,000 */
-  uint32_t triangle_limit;       /* refuse more triangles; 0 = eight per vertex of the vertex limit */
+  uint32_t triangle_limit;       /* refuse more triangles, or faces that would be cut into more; 0 = eight per vertex
+                                    of the vertex limit */
   uint32_t memory_limit_mb;      /* refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit */
   uint32_t work_limit_gflop;     /* refuse a factorisation of more than this many 10^9 operations. They are counted
                                     before it begins; 0 = 100,000, about an hour of one core */
@@ -90,6 +100,14 @@ typedef struct hf_surface_desc {
   hf_job_runner job_runner;      /* zero = threads of the library's own */
   hf_progress progress;          /* NULL, or an object to poll and cancel through */
   const hf_factor_desc* saved_factor; /* NULL, or the saved factor of this mesh; ordering is then 0 or the factor's */
+  uint32_t face_count;                /* faces instead of triangles; 0 = triangles are set */
+  uint32_t corner_count;              /* entries of corners */
+  const uint32_t* face_starts; /* [face_count] first corner of each face. NULL: the faces follow one another. Without
+                                  face_sizes [face_count + 1]: the corners of face f end where those of f + 1 start */
+  const uint32_t* face_sizes;  /* [face_count] corners of each face, 3 to 65,535. NULL: face_starts is enough */
+  const uint32_t* corners;     /* [corner_count] vertices, counter-clockwise seen from outside */
+  uint32_t face_stride;        /* bytes between entries of face_starts and between those of face_sizes */
+  uint32_t corner_stride;      /* bytes between entries of corners */
 } hf_surface_desc;
 
 /* Makes a surface: welds and checks the mesh, builds the operator, orders and factorises it. The call copies the mesh.
@@ -99,11 +117,12 @@ typedef struct hf_surface_desc {
  *
  * out_surface: receives NULL at the start of the call and the new handle on success. Cost: about 2 us a vertex for
  * 300,000 vertices, one thread. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY (no vertex or no triangle),
- * HF_ERROR_OUT_OF_RANGE (index = triangle), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (a limit),
- * HF_ERROR_UNSUPPORTED (ordering not in this build), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE. With
- * saved_factor also HF_ERROR_INVALID_ARGUMENT (damaged bytes, or bytes of another mesh, operator or field_kind;
- * borrowed bytes that are not aligned) and HF_ERROR_UNSUPPORTED (another format version or byte order). Thread safety:
- * any thread. Since 0.1. */
+ * HF_ERROR_OUT_OF_RANGE (index = triangle or face; a face of fewer than three corners is
+ * HF_ERROR_INVALID_ARGUMENT, one of too many HF_ERROR_TOO_LARGE), HF_ERROR_NON_FINITE (index = vertex),
+ * HF_ERROR_TOO_LARGE (a limit), HF_ERROR_UNSUPPORTED (ordering not in this build), HF_ERROR_CANCELLED,
+ * HF_ERROR_NOT_POSITIVE_DEFINITE. With saved_factor also HF_ERROR_INVALID_ARGUMENT (damaged bytes, or bytes of another
+ * mesh, operator or field_kind; borrowed bytes that are not aligned) and HF_ERROR_UNSUPPORTED (another format version
+ * or byte order). Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface);
 
 /* A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
@@ -157,7 +176,7 @@ HF_API void hf_surface_destroy(hf_surface surface);
 typedef struct hf_surface_info {
   uint32_t struct_size;
   uint32_t vertex_count;   /* as given */
-  uint32_t triangle_count; /* as given */
+  uint32_t triangle_count; /* as given; of faces, the triangles of their cut */
   int32_t weld;
   float weld_tolerance;
   int32_t operator_kind;
@@ -168,18 +187,22 @@ typedef struct hf_surface_info {
   uint32_t triangle_limit;  /* 0: eight per vertex of the vertex limit */
   uint32_t memory_limit_mb; /* 0: none */
   uint32_t work_limit_gflop;
-  uint32_t edge_count; /* as given to hf_surface_create_graph; 0 for a mesh */
-  uint32_t edge_limit; /* of a graph, 0: sixteen per vertex of the vertex limit */
+  uint32_t edge_count;   /* as given to hf_surface_create_graph; 0 for a mesh */
+  uint32_t edge_limit;   /* of a graph, 0: sixteen per vertex of the vertex limit */
+  uint32_t face_count;   /* as given; 0 where triangles were given */
+  uint32_t corner_count; /* as given */
 } hf_surface_info;
 
 /* Writes the options of a surface. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
 
-/* Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are 0. */
+/* Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are 0. Where
+ * faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces. Degenerate triangles,
+ * negative edges and the smallest angle are of the cut. */
 typedef struct hf_surface_report {
   uint32_t struct_size;
   uint32_t vertex_count;              /* as given */
-  uint32_t triangle_count;            /* as given */
+  uint32_t triangle_count;            /* as given; of faces, the triangles of their cut */
   uint32_t welded_vertex_count;       /* after welding */
   uint32_t component_count;           /* connected components with at least one triangle (or edge), after welding */
   uint32_t isolated_vertex_count;     /* given vertices in no usable triangle (or edge); fields are 0 there */
@@ -196,6 +219,10 @@ typedef struct hf_surface_report {
                                     of triangles too thin for it, or cut to the digits that there are. A certificate
                                     holds for the weights used; near such vertices the field may be another's */
   uint32_t first_changed_vertex; /* the first of them, as given; HF_NO_INDEX without one */
+  uint32_t face_count;           /* as given; 0 where triangles were given */
+  uint32_t polygon_count;        /* faces of more than three corners */
+  uint32_t non_planar_count;     /* polygons with a corner farther than 1 % of their diameter from their mean plane */
+  uint32_t largest_face;         /* corners of the largest face */
 } hf_surface_report;
 
 /* Writes the report of the mesh. Thread safety: reads `surface`. Since 0.1. */
@@ -257,19 +284,22 @@ typedef struct hf_pick_desc {
 typedef struct hf_hit {
   uint32_t struct_size;
   int32_t found;          /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
-  uint32_t triangle;      /* as given */
+  uint32_t triangle;      /* or face, as given */
   uint32_t vertex;        /* its corner nearest to the hit, as given, of welded copies the first */
-  double barycentrics[3]; /* weights of the corners, of sum 1: a site for hf_add_sites */
+  double barycentrics[3]; /* weights of `corners`, of sum 1: a site for hf_add_sites */
   double position[3];     /* in the unit of the positions */
   double distance;        /* from the origin, in lengths of `direction` */
+  uint32_t corners[3];    /* the triangle's vertices, as given, of welded copies the first. In a face of more corners
+                             three of them: the triangle of the face's cut that the ray hits */
+  uint32_t reserved;      /* 0 */
 } hf_hit;
 
 /* Finds what a mouse click hits: the first triangle on a ray. origin, direction: double[3] in the frame of the
  * positions; the direction can have any length above 0. desc: NULL for the rest positions. A ray through an edge or a
- * vertex never slips between the triangles there. If several triangles are at the same distance, the one with the
- * lowest index counts. Cost: a pass over the triangles, about 10 ns each on one thread. Errors: HF_ERROR_NON_FINITE
- * (origin, direction, a position: index = vertex), HF_ERROR_INVALID_ARGUMENT (direction 0). Thread safety: reads
- * `surface`. Since 0.1. */
+ * vertex never slips between the triangles there. A face of more than three corners is hit as its cut. If several
+ * triangles are at the same distance, the one with the lowest index counts. Cost: a pass over the triangles, about 10
+ * ns each on one thread. Errors: HF_ERROR_NON_FINITE (origin, direction, a position: index = vertex),
+ * HF_ERROR_INVALID_ARGUMENT (direction 0). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const double* direction,
                                      const hf_pick_desc* desc, hf_hit* out_hit);
 

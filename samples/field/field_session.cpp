@@ -10,9 +10,9 @@
 namespace samples {
 namespace {
 
-// Places of a list, as the library takes them.
+// Places of a list, as the library takes them. triangles: corners of the file's triangles where the surface has faces.
 struct Batch {
-  explicit Batch(const std::vector<SiteArgument>& sites, bool with_values) {
+  Batch(const std::vector<SiteArgument>& sites, bool with_values, const std::vector<uint32_t>& triangles) {
     desc.site_count = static_cast<uint32_t>(sites.size());
     const bool points = !sites.empty() && !sites[0].place.is_vertex();
     bool soft = false;
@@ -20,12 +20,19 @@ struct Batch {
       if (site.place.is_vertex() == points)
         throw std::runtime_error("vertices and points in triangles are mixed in one edit; write two");
       vertices.push_back(points ? site.place.triangle : site.place.vertex);
+      if (points && !triangles.empty()) {
+        if (site.place.triangle >= triangles.size() / 3)
+          throw std::runtime_error("there is no triangle " + std::to_string(site.place.triangle));
+        const uint32_t* corner = &triangles[3 * size_t(site.place.triangle)];
+        corners.insert(corners.end(), corner, corner + 3);
+      }
       barycentrics.insert(barycentrics.end(), site.place.weights.begin(), site.place.weights.end());
       values.insert(values.end(), site.values.begin(), site.values.end());
       stiffness.push_back(site.stiffness);
       soft = soft || site.stiffness > 0;
     }
     (points ? desc.triangles : desc.vertices) = vertices.data();
+    if (!corners.empty()) desc.triangles = nullptr, desc.corners = corners.data();
     if (points) desc.barycentrics = barycentrics.data();
     if (with_values) desc.values = values.data();
     if (with_values && soft) desc.stiffness = stiffness.data();
@@ -33,7 +40,7 @@ struct Batch {
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
   hf_sites_desc desc = HF_INIT(hf_sites_desc);
-  std::vector<uint32_t> vertices;
+  std::vector<uint32_t> vertices, corners;
   std::vector<double> barycentrics, values, stiffness;
 };
 
@@ -74,7 +81,8 @@ void check(hf_result result) {
   if (result == HF_OK) return;
   hf_error_detail detail;
   hf_error_get_detail(&detail);
-  throw std::runtime_error(std::string(detail.function) + ": " + detail.message + " (" + hf_result_get_name(result) + ")");
+  throw std::runtime_error(std::string(detail.function) + ": " + detail.message + " (" + hf_result_get_name(result) +
+                           ")");
 }
 
 Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
@@ -82,9 +90,15 @@ Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
       components_(options.kind == FieldType::vector || options.kind == FieldType::direction ? 3 : 1) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = vertex_count_;
-  desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   desc.positions_f64 = mesh.positions.empty() ? nullptr : &mesh.positions[0].x;
-  desc.triangles = mesh.triangles.data();
+  if (mesh.face_sizes.empty()) {
+    desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
+    desc.triangles = mesh.triangles.data();
+  } else {
+    desc.face_count = static_cast<uint32_t>(mesh.face_sizes.size()), desc.face_sizes = mesh.face_sizes.data();
+    desc.corner_count = static_cast<uint32_t>(mesh.face_vertices.size()), desc.corners = mesh.face_vertices.data();
+    triangles_ = mesh.triangles;
+  }
   desc.operator_kind = options.operator_kind, desc.weld = options.weld;
   desc.thread_count = options.threads;
   hf_solver_desc sites = HF_INIT(hf_solver_desc);
@@ -156,7 +170,8 @@ void Session::apply(const Edit& edit) {
   try {
     direction_ ? change_directions(edit) : change(edit);
   } catch (...) {
-    direction_ ? hf_direction_undo(direction_) : hf_solver_undo(solver_);  // forgets the record; the failed edit has changed nothing
+    direction_ ? hf_direction_undo(direction_)
+               : hf_solver_undo(solver_);  // forgets the record; the failed edit has changed nothing
     throw;
   }
   undone_from_.push_back(before);
@@ -206,7 +221,7 @@ void Session::change(const Edit& edit) {
   std::vector<uint32_t> numbers;
   switch (edit.kind) {
     case Edit::Kind::add: {
-      const Batch batch(edit.sites, true);
+      const Batch batch(edit.sites, true, triangles_);
       numbers.resize(edit.sites.size());
       check(hf_add_sites(solver_, &batch.desc, numbers.data()));
       for (size_t i = 0; i < numbers.size(); ++i) sites_[edit.sites[i].place] = numbers[i];
@@ -221,7 +236,7 @@ void Session::change(const Edit& edit) {
       std::vector<SiteArgument> to;
       for (size_t i = 0; i < edit.sites.size(); i += 2)
         numbers.push_back(number(edit.sites[i].place)), to.push_back(edit.sites[i + 1]);
-      const Batch batch(to, false);
+      const Batch batch(to, false, triangles_);
       check(hf_solver_move_sites(solver_, static_cast<uint32_t>(numbers.size()), numbers.data(), &batch.desc));
       for (size_t i = 0; i < edit.sites.size(); i += 2) sites_.erase(edit.sites[i].place);
       for (size_t i = 0; i < to.size(); ++i) sites_[to[i].place] = numbers[i];
@@ -315,7 +330,8 @@ std::vector<hf_critical_point> Session::critical_points(const std::vector<double
 
 std::vector<SiteArgument> propose_sites(const SurfaceMesh& mesh, const Session& session, int extremities) {
   std::vector<uint32_t> vertices, component(mesh.positions.size());
-  check(hf_surface_get_components(session.surface(), static_cast<uint32_t>(component.size()), component.data(), nullptr));
+  check(
+      hf_surface_get_components(session.surface(), static_cast<uint32_t>(component.size()), component.data(), nullptr));
   std::map<uint32_t, int> count{{HF_NO_INDEX, 2}};
   for (const hf_extremity& tip : session.extremities(extremities)) {
     vertices.push_back(tip.vertex);

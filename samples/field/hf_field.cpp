@@ -32,6 +32,8 @@ void describe(hf_surface surface, double create_ms) {
   check(hf_surface_get_statistics(surface, &statistics));
   std::printf("mesh        %u vertices (%u welded), %u triangles, %u components\n", report.vertex_count,
               report.welded_vertex_count, report.triangle_count, report.component_count);
+  if (report.face_count)
+    std::printf("            %u faces, %u of more than three corners\n", report.face_count, report.polygon_count);
   const struct {
     uint32_t count;
     const char* name;
@@ -42,7 +44,8 @@ void describe(hf_surface surface, double create_ms) {
               {report.non_manifold_edge_count, "non-manifold edges"},
               {report.flipped_edge_count, "flipped edges"},
               {report.boundary_edge_count, "boundary edges"},
-              {report.negative_edge_count, "edges of negative weight"}};
+              {report.negative_edge_count, "edges of negative weight"},
+              {report.non_planar_count, "faces that are not planar"}};
   for (const auto& entry : dirt) {
     if (entry.count) std::printf("            %u %s\n", entry.count, entry.name);
   }

@@ -162,6 +162,14 @@ inline Rows rows_of(float* f32, double* f64, std::size_t width, std::uint32_t st
   return {};
 }
 
+// Refuses places that are named in two ways.
+inline void check_one_place(const void* vertices, const void* triangles, const void* corners) {
+  const char* const first = vertices ? "vertices" : "triangles";
+  const char* const second = vertices && triangles ? "triangles" : "corners";
+  if ((vertices != nullptr) + (triangles != nullptr) + (corners != nullptr) > 1)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s and %s are both set; set one", first, second);
+}
+
 // Where hf_deform_desc and hf_morph_desc want positions and normals.
 struct PointsOut {
   Rows positions, normals;

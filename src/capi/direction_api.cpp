@@ -70,6 +70,23 @@ void solve(hf_direction handle, float* f32, double* f64, std::uint32_t stride, h
     write_struct(out_info, unreached_by(*core.geometry, [&](std::int32_t c) { return solver.constraint_count(c); }));
 }
 
+// Adds up the singularities of the triangles that one face is cut into. Those of a surface of triangles stay.
+Vector<Singularity> by_face(const Mesh& mesh, Vector<Singularity> found) {
+  if (mesh.faces.empty()) return found;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const bool same =
+        count > 0 && mesh.given_of_triangle(found[count - 1].triangle) == mesh.given_of_triangle(found[i].triangle);
+    if (same)
+      found[count - 1].index += found[i].index;
+    else
+      found[count++] = found[i];
+    if (found[count - 1].index == 0) --count;
+  }
+  found.resize(count);
+  return found;
+}
+
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -184,7 +201,7 @@ hf_result hf_direction_get_singularities(hf_direction handle, uint32_t capacity,
     require_either(out_singularities, out_count, "out_singularities and out_count");
     const Reading reading(*direction);
     const Mesh& mesh = direction->field.solver().core().mesh;
-    const Vector<Singularity> found = direction->field.singularities();
+    const Vector<Singularity> found = by_face(mesh, direction->field.singularities());
     write_count(out_count, found.size());
     check_capacity(out_singularities, capacity, found.size(), "capacity");
     if (!out_singularities) return;

@@ -117,13 +117,15 @@ inline std::uint32_t given_vertex(const Mesh& mesh, std::int32_t inner) noexcept
                              : static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(inner)]);
 }
 
-// The triangle as given of every inner one.
+// The triangle or face as given of every inner triangle.
 inline Vector<std::uint32_t> given_triangles(const Mesh& mesh, Memory& memory) {
   Vector<std::uint32_t> given(static_cast<std::size_t>(mesh.triangle_count()), HF_NO_INDEX, &memory);
-  for (std::size_t t = 0; t < mesh.triangle_of_given.size(); ++t) {
+  for (std::size_t t = 0; mesh.faces.empty() && t < mesh.triangle_of_given.size(); ++t) {
     if (mesh.triangle_of_given[t] != Mesh::none)
       given[static_cast<std::size_t>(mesh.triangle_of_given[t])] = static_cast<std::uint32_t>(t);
   }
+  for (std::size_t t = 0; !mesh.faces.empty() && t < given.size(); ++t)
+    given[t] = mesh.given_of_triangle(static_cast<std::int32_t>(t));
   return given;
 }
 

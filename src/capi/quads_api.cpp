@@ -158,8 +158,8 @@ hf_result hf_quads_get_mesh(hf_quads handle, hf_quads_mesh* inout_mesh) {
     out.vertex_count = info.vertex_count, out.face_count = info.face_count, out.corner_count = info.corner_count;
     out.site_count = info.site_count;
     write_struct(inout_mesh, out);
-    check_capacity(out.positions || out.triangles || out.barycentrics, out.vertex_capacity, out.vertex_count,
-                   "vertex_capacity");
+    check_capacity(out.positions || out.triangles || out.barycentrics || out.corners, out.vertex_capacity,
+                   out.vertex_count, "vertex_capacity");
     check_capacity(out.face_starts, out.face_capacity, out.face_count, "face_capacity");
     check_capacity(out.face_corners, out.corner_capacity, out.corner_count, "corner_capacity");
     check_capacity(out.site_vertices || out.site_lines, out.site_capacity, out.site_count, "site_capacity");

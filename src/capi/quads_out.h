@@ -21,6 +21,8 @@ inline void write_mesh(const Core& core, const QuadResult& result, const hf_quad
     const std::size_t i = static_cast<std::size_t>(v);
     if (out.positions) put(mesh.to_given(result.mesh.position[v]), out.positions + 3 * i);
     if (out.triangles) out.triangles[i] = triangle[static_cast<std::size_t>(point.triangle)];
+    for (std::size_t k = 0; out.corners && k < 3; ++k)
+      out.corners[3 * i + k] = given_vertex(mesh, mesh.triangle(point.triangle)[k]);
     if (out.barycentrics) std::copy(point.weight, point.weight + 3, out.barycentrics + 3 * i);
   }
   if (out.face_starts) std::copy(result.mesh.face_start.begin(), result.mesh.face_start.end(), out.face_starts);

@@ -4,6 +4,7 @@
 
 #include "capi/morph_out.h"
 #include "capi/region_object.h"
+#include "mesh/places.h"
 
 namespace hf_inner::capi {
 namespace {
@@ -11,18 +12,27 @@ namespace {
 // points: what edit.curve refers to.
 void read_curve(const Mesh& mesh, const hf_curve_desc& curve, Vector<std::int32_t>& points, RegionEdit& edit) {
   check_choice(curve.side, 3, "side");
-  if (curve.vertices && (curve.triangles || curve.barycentrics))
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
-  if (!curve.vertices) require(curve.triangles, "vertices and triangles"), require(curve.barycentrics, "barycentrics");
+  check_one_place(curve.vertices, curve.triangles, curve.corners);
+  if (curve.vertices && curve.barycentrics)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and barycentrics are both set; set one");
+  if (!curve.vertices && !curve.triangles && !curve.corners)
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "vertices, triangles and corners are all NULL; set one");
+  if (!curve.vertices) require(curve.barycentrics, "barycentrics");
   constexpr std::uint32_t least = 3;
   if (curve.point_count < least)
     fail(HF_ERROR_EMPTY, curve.point_count, "a closed curve takes %u points or more; %u are given", least,
          curve.point_count);
   check_vertex_count(mesh, curve.point_count, "point_count");
-  for (std::uint32_t i = 0; i < curve.point_count; ++i)
-    points.push_back(curve.vertices
-                         ? usable_vertex(mesh, curve.vertices[i], i, "vertices")
-                         : nearest_corner(mesh, curve.triangles[i], curve.barycentrics + 3 * std::size_t{i}, i));
+  for (std::uint32_t i = 0; i < curve.point_count; ++i) {
+    if (curve.vertices) {
+      points.push_back(usable_vertex(mesh, curve.vertices[i], i, "vertices"));
+      continue;
+    }
+    const std::size_t first = std::size_t{3} * i;
+    const double* const weights = curve.barycentrics + first;
+    points.push_back(nearest_corner(curve.triangles ? place_in_triangle(mesh, curve.triangles[i], weights, i)
+                                                    : place_between(mesh, curve.corners + first, weights, i)));
+  }
   require_one_component(mesh, points);
   edit.curve = points, edit.side = static_cast<CurveSide>(curve.side);
   if (edit.side == CurveSide::seed)

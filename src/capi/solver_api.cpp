@@ -19,13 +19,14 @@ constexpr double largest_penalty = 1e10;  // with more, rounding hides the other
 
 Places read_places(const hf_sites_desc& desc) {
   if (desc.site_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
-  if (desc.vertices && desc.triangles)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
-  require_either(desc.vertices, desc.triangles, "vertices and triangles");
-  if (desc.triangles && !desc.barycentrics)
+  check_one_place(desc.vertices, desc.triangles, desc.corners);
+  if (!desc.vertices && !desc.triangles && !desc.corners)
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "vertices, triangles and corners are all NULL; set one");
+  if (!desc.vertices && !desc.barycentrics)
     fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "barycentrics is NULL, but the sites are in triangles");
   Places places;
   places.count = desc.site_count, places.vertices = desc.vertices, places.triangles = desc.triangles;
+  places.corners = desc.corners;
   places.barycentrics = desc.barycentrics, places.radii = desc.radii;
   return places;
 }

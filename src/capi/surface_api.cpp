@@ -9,6 +9,7 @@
 #include "factor/factor_bytes.h"
 #include "factor/ordering.h"
 #include "hf/surface.h"
+#include "mesh/face_intake.h"
 #include "mesh/picking.h"
 
 namespace hf_inner::capi {
@@ -39,13 +40,33 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
   info.vertex_limit = desc.vertex_limit ? desc.vertex_limit : default_vertex_limit;
   info.triangle_limit = desc.triangle_limit, info.memory_limit_mb = desc.memory_limit_mb;
   info.work_limit_gflop = desc.work_limit_gflop ? desc.work_limit_gflop : default_work_limit_gflop;
+  info.face_count = desc.face_count, info.corner_count = desc.corner_count;
   require_zero(desc.reserved);
   return info;
 }
 
 namespace {
 
-MeshInput read_mesh(const hf_surface_desc& desc) {
+// The faces, or none where triangles are set.
+FaceRows read_faces(const hf_surface_desc& desc) {
+  FaceRows faces;
+  if (desc.face_count == 0) {
+    if (desc.face_starts || desc.face_sizes || desc.corners || desc.corner_count)
+      fail(HF_ERROR_EMPTY, HF_NO_INDEX, "face_count is 0, but face_starts, face_sizes, corners or corner_count is set");
+    return faces;
+  }
+  if (desc.triangles || desc.triangles_u16 || desc.triangle_count)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "triangles and faces are both set; set one");
+  require_either(desc.face_starts, desc.face_sizes, "face_starts and face_sizes");
+  require(desc.corners, "corners");
+  faces.face_count = desc.face_count, faces.corner_count = desc.corner_count;
+  faces.starts = desc.face_starts, faces.sizes = desc.face_sizes, faces.corners = desc.corners;
+  faces.face_stride = stride_of(desc.face_stride, sizeof(std::uint32_t), "face_stride");
+  faces.corner_stride = stride_of(desc.corner_stride, sizeof(std::uint32_t), "corner_stride");
+  return faces;
+}
+
+MeshInput read_mesh(const hf_surface_desc& desc, const FaceRows& faces) {
   check_one(desc.positions, desc.positions_f64, "positions");
   // An empty mesh is refused as such, by Mesh::make.
   if (desc.vertex_count > 0) require_either(desc.positions, desc.positions_f64, "positions and positions_f64");
@@ -53,6 +74,7 @@ MeshInput read_mesh(const hf_surface_desc& desc) {
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "triangles and triangles_u16 are both set; set one");
   if (desc.triangle_count > 0) require_either(desc.triangles, desc.triangles_u16, "triangles and triangles_u16");
   MeshInput input;
+  input.faces = faces;
   input.vertex_count = desc.vertex_count, input.triangle_count = desc.triangle_count;
   input.positions = rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
   if (desc.triangles)
@@ -84,6 +106,12 @@ void read_saved_factor(const hf_surface_desc& desc, CoreOptions& options) {
 
 namespace {
 
+// The size of the cut, for the limits. Larger ones are refused as that, whatever the limit.
+std::uint32_t triangles_of(const FaceRows& faces) {
+  const std::uint64_t count = count_cut_triangles(faces);
+  return count < HF_NO_INDEX ? static_cast<std::uint32_t>(count) : HF_NO_INDEX;
+}
+
 // ---- picking ----
 
 Vec3 read_point(const double* p, const char* name) {
@@ -113,7 +141,9 @@ extern "C" {
 hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surface) {
   return create("hf_surface_create", out_surface, "out_surface", [&] {
     const hf_surface_desc desc = read_struct(given, "desc");
-    const hf_surface_info info = read_info(desc);
+    hf_surface_info info = read_info(desc);
+    const FaceRows faces = read_faces(desc);
+    if (faces.face_count > 0) info.triangle_count = triangles_of(faces);
     if (info.vertex_count > info.vertex_limit)
       fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; the vertex_limit is %u", info.vertex_count,
            info.vertex_limit);
@@ -124,7 +154,7 @@ hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surfac
       fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
            "%u triangles; without a triangle_limit at most eight per vertex of the vertex_limit %u are taken",
            info.triangle_count, info.vertex_limit);
-    const MeshInput input = read_mesh(desc);
+    const MeshInput input = read_mesh(desc, faces);
     return make_surface(desc, info, [&](const std::shared_ptr<Memory>& memory, std::shared_ptr<JobRunner> jobs) {
       return Geometry::make(input, static_cast<OperatorKind>(info.operator_kind), memory, std::move(jobs));
     });
@@ -164,6 +194,10 @@ hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_repor
     const Core& core = object->surface.own();
     report.changed_vertex_count = core.changed_count;
     report.first_changed_vertex = given_vertex(core.mesh, core.first_changed);
+    const Faces& faces = core.mesh.faces;
+    report.face_count = static_cast<std::uint32_t>(faces.given_size.size());
+    report.polygon_count = faces.polygon_count, report.non_planar_count = faces.non_planar_count;
+    report.largest_face = faces.largest_size;
     write_struct(out_report, report);
   });
 }
@@ -238,6 +272,7 @@ hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const do
     hit.found = found.triangle != HF_NO_INDEX;
     hit.triangle = found.triangle, hit.vertex = given_vertex(shape.mesh, found.vertex);
     std::copy_n(found.weight, 3, hit.barycentrics);
+    for (int k = 0; k < 3; ++k) hit.corners[k] = given_vertex(shape.mesh, found.corner[k]);
     if (hit.found) put(found.position, hit.position);
     hit.distance = found.distance;
     write_struct(out_hit, hit);

@@ -34,6 +34,29 @@ void add_inner_normals(const NormalRows& rows, const std::int32_t* corners, std:
   add_border_normals(rows, corners, count, 0, std::numeric_limits<std::int32_t>::max());
 }
 
+// Adds to the vertices [first, last) twice the area vectors of the faces around them.
+void add_face_normals(const NormalRows& rows, const Faces& faces, const Rest& rest, std::int32_t first,
+                      std::int32_t last) noexcept {
+  for (std::int32_t v = first; v < last; ++v) {
+    float* const sum = rows.sums + 4 * static_cast<std::size_t>(v);
+    for (std::int32_t i = rest.face_start[v]; i < rest.face_start[v + 1]; ++i) {
+      const Span<const std::int32_t> corner = faces.corners_of(rest.face[i]);
+      const auto side = [&](std::size_t k) {
+        const double *p = rows.positions + 3 * static_cast<std::size_t>(corner[k]),
+                     *q = rows.positions + 3 * static_cast<std::size_t>(corner[0]);
+        return Vec3{rows.unit * (p[0] - q[0]), rows.unit * (p[1] - q[1]), rows.unit * (p[2] - q[2])};
+      };
+      Vec3 normal, before = side(1);
+      for (std::size_t k = 2; k < corner.size(); ++k) {
+        const Vec3 next = side(k);
+        normal = normal + cross(before, next), before = next;
+      }
+      sum[0] += static_cast<float>(normal.x), sum[1] += static_cast<float>(normal.y);
+      sum[2] += static_cast<float>(normal.z);
+    }
+  }
+}
+
 void normalise(const NormalRows& rows, std::int32_t first, std::int32_t last) noexcept {
   for (std::int32_t v = first; v < last; ++v) {
     const float* sum = rows.sums + 4 * static_cast<std::size_t>(v);
@@ -70,6 +93,11 @@ void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, N
                        end = rest.piece_start[piece + 1];
     const std::int32_t* corners = rest.piece_corner.data();
     std::memset(static_cast<void*>(sums + first), 0, static_cast<std::size_t>(last - first) * sizeof(NormalSum));
+    if (!mesh.faces.empty()) {
+      add_face_normals(rows, mesh.faces, rest, first, last);
+      normalise(rows, first, last);
+      return;
+    }
     add_inner(rows, corners + 3 * static_cast<std::size_t>(begin), border - begin);
     add_border(rows, corners + 3 * static_cast<std::size_t>(border), end - border, first, last);
     normalise(rows, first, last);

@@ -2,6 +2,7 @@
 //
 // p, q and r are the corners of a triangle. The vertices are cut into pieces. Each piece goes through its triangles
 // once, so that its sums stay in the cache. A triangle with corners in several pieces is computed for each of them.
+// Where faces were given, the sum runs over them: the area vector of a face (Newell) does not depend on its cut.
 // Cost: a cross product per triangle, about 10 ns per vertex. The limit is the memory: 70 bytes per vertex are read and
 // written. Allocates nothing. Gives the same bits on every machine and number of threads.
 #pragma once

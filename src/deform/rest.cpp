@@ -46,6 +46,19 @@ void list_triangles_by_piece(const Mesh& mesh, Rest& rest) {
   }
 }
 
+void list_faces(const Mesh& mesh, Rest& rest) {
+  if (mesh.faces.empty()) return;
+  const std::size_t n = mesh.positions.size();
+  rest.face_start.assign(n + 1, 0);
+  for (const std::int32_t v : mesh.faces.corner) ++rest.face_start[static_cast<std::size_t>(v) + 1];
+  for (std::size_t v = 0; v < n; ++v) rest.face_start[v + 1] += rest.face_start[v];
+  rest.face.resize(mesh.faces.corner.size());
+  Vector<std::int32_t> next(rest.face_start, rest.face_start.get_allocator());
+  for (std::int32_t f = 0; f < mesh.faces.count(); ++f) {
+    for (const std::int32_t v : mesh.faces.corners_of(f)) rest.face[next[v]++] = f;
+  }
+}
+
 }  // namespace
 
 Rest::Rest(const Core& core, Memory& memory)
@@ -57,10 +70,13 @@ Rest::Rest(const Core& core, Memory& memory)
       piece_start(&memory),
       piece_border(&memory),
       piece_corner(&memory),
+      face_start(&memory),
+      face(&memory),
       stiffness(core.weights.begin(), core.weights.end(), &memory) {
   core.jobs->for_each(2, [&](std::uint32_t half) {
     if (half == 0) {
       list_triangles_by_piece(core.mesh, *this);
+      list_faces(core.mesh, *this);
     } else {
       sort_components(core.mesh, *this);
       for (double& w : stiffness) w = std::clamp(w, least_edge_weight, largest_edge_weight);

@@ -23,6 +23,8 @@ struct Rest {
   // piece_border[k]. A triangle with corners in several pieces is in the list of each of them.
   Vector<std::int32_t> piece_start, piece_border;
   Vector<std::int32_t> piece_corner;
+  // The faces at vertex v are face[face_start[v] .. face_start[v + 1]), ascending. Empty where triangles were given.
+  Vector<std::int32_t> face_start, face;
   // Edge weights of the elastic energy: the operator's, clamped to [least_edge_weight, largest_edge_weight]. Negative
   // weights would reward collapse, and huge ones come from triangles without area.
   Vector<double> stiffness;

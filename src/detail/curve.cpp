@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "base/index.h"
-#include "mesh/places.h"
 
 namespace hf_inner {
 namespace {
@@ -118,8 +117,11 @@ bool along_borders(const Core& core, Span<const Index> curve, const Pieces& piec
 
 std::int32_t nearest_corner(const Mesh& mesh, std::uint32_t triangle, const double* barycentrics,
                             std::uint32_t position) {
-  const Index t = usable_triangle(mesh, triangle, barycentrics, position);
-  return mesh.triangle(t)[std::max_element(barycentrics, barycentrics + 3) - barycentrics];
+  return nearest_corner(place_in_triangle(mesh, triangle, barycentrics, position));
+}
+
+std::int32_t nearest_corner(const SurfacePlace& place) noexcept {
+  return place.vertex[std::max_element(place.weight, place.weight + 3) - place.weight];
 }
 
 void require_one_component(const Mesh& mesh, Span<const std::int32_t> points) {

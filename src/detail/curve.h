@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "engine/core.h"
+#include "mesh/places.h"
 
 namespace hf_inner {
 
@@ -17,6 +18,7 @@ enum class CurveSide : std::int32_t { smaller = 0, larger = 1, seed = 2 };
 // triangle, a negative weight or a sum other than 1, and HF_ERROR_NON_FINITE. The error's index is `position`.
 std::int32_t nearest_corner(const Mesh& mesh, std::uint32_t triangle, const double* barycentrics,
                             std::uint32_t position);
+std::int32_t nearest_corner(const SurfacePlace& place) noexcept;
 
 // Throws HF_ERROR_INVALID_ARGUMENT if a point lies in another component than the first point; index: its position.
 void require_one_component(const Mesh& mesh, Span<const std::int32_t> points);

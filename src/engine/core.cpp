@@ -11,6 +11,7 @@
 #include "factor/factor_bytes.h"
 #include "mesh/biharmonic.h"
 #include "mesh/delaunay_patches.h"
+#include "mesh/face_operator.h"
 
 namespace hf_inner {
 
@@ -100,18 +101,24 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
   Memory& pool = *core.memory;
   Vector<double> areas(&pool);
   Vector<std::uint8_t> changed(&pool);
-  if (options.operator_kind == OperatorKind::intrinsic_delaunay) {
-    DelaunayOperator made = delaunay_operator(core.mesh, core.topology, core.weights,
-                                              options.field_kind == FieldKind::biharmonic, pool, core.jobs.get());
+  const bool with_areas = options.field_kind == FieldKind::biharmonic;
+  if (options.operator_kind == OperatorKind::intrinsic_delaunay && core.mesh.faces.empty()) {
+    DelaunayOperator made =
+        delaunay_operator(core.mesh, core.topology, core.weights, with_areas, pool, core.jobs.get());
     core.laplacian = std::move(made.laplacian), areas = std::move(made.areas), changed = std::move(made.changed);
-  } else {
+  } else if (core.mesh.faces.empty()) {
     if (options.operator_kind == OperatorKind::graph)
       changed.assign(core.geometry->limited.begin(), core.geometry->limited.end());
     else if (options.operator_kind != OperatorKind::uniform)
       changed = widened_vertices(core.mesh, pool);
     core.laplacian = hf_inner::laplacian(core.topology, core.weights, pool, core.jobs.get());
-    if (options.field_kind == FieldKind::biharmonic) areas.assign(core.areas.begin(), core.areas.end());
+  } else {
+    DelaunayOperator made =
+        face_operator(core.mesh, core.topology, core.weights, options.operator_kind, with_areas, pool, core.jobs.get());
+    core.laplacian = std::move(made.laplacian), areas = std::move(made.areas);
+    changed = std::move(made.changed);
   }
+  if (with_areas && areas.empty()) areas.assign(core.areas.begin(), core.areas.end());
   const bool harmonic = options.field_kind == FieldKind::harmonic;
   const double spread = harmonic ? confined_spread : confined_biharmonic_spread;
   changed.resize(at(core.size()), 0);

@@ -2,6 +2,7 @@
 
 #include "base/index.h"
 #include "base/timer.h"
+#include "mesh/face_intake.h"
 
 namespace hf_inner {
 
@@ -53,7 +54,10 @@ std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorK
   found.negative_edge_count = count_negative(shape->weights);
   if (operator_kind == OperatorKind::clamped || operator_kind == OperatorKind::uniform)
     shape->weights = edge_weights(shape->mesh, shape->topology, operator_kind, pool, runner);
-  count_edges(shape->mesh, shape->topology, found);
+  if (shape->mesh.faces.empty())
+    count_edges(shape->mesh, shape->topology, found);
+  else
+    count_face_sides(shape->mesh.faces, shape->topology, found, pool);
   count_given(*shape);
   shape->weights_ms = weights_timer.milliseconds();
   report(weighted);

@@ -47,11 +47,12 @@ void SiteSet::check_site(std::uint32_t position, std::uint32_t site) const {
 Site SiteSet::locate(const Mesh& mesh, const Places& places, std::uint32_t i) const {
   if (places.vertices) return Site::at_vertex(mesh, usable_vertex(mesh, places.vertices[i], i));
   const double* weight = places.barycentrics + std::size_t{3} * i;
-  const std::int32_t triangle = usable_triangle(mesh, places.triangles[i], weight, i);
+  const SurfacePlace place = places.triangles ? place_in_triangle(mesh, places.triangles[i], weight, i)
+                                              : place_between(mesh, places.corners + std::size_t{3} * i, weight, i);
   const double sum = weight[0] + weight[1] + weight[2];
   Site site;
   for (int k = 0; k < 3; ++k) {
-    site.vertex[k] = mesh.triangle(triangle)[k], site.weight[k] = weight[k] / sum;
+    site.vertex[k] = place.vertex[k], site.weight[k] = weight[k] / sum;
     if (site.weight[k] > 1 - corner_share) return Site::at_vertex(mesh, site.vertex[k]);  // a corner is a vertex site
   }
   site.component = mesh.component[at(site.vertex[0])];

@@ -15,11 +15,13 @@
 
 namespace hf_inner {
 
-// The places of a batch of sites in the caller's mesh: vertices, or triangles with barycentric weights.
+// The places of a batch of sites in the caller's mesh: vertices, triangles with barycentric weights, or three vertices
+// with such weights.
 struct Places {
   std::uint32_t count = 0;
   const std::uint32_t* vertices = nullptr;
   const std::uint32_t* triangles = nullptr;
+  const std::uint32_t* corners = nullptr;  // three per place
   const double* barycentrics = nullptr;
   const double* radii = nullptr;  // geodesic, in the unit of the mesh; null or 0: points
 };

@@ -186,12 +186,7 @@ class Patches {
     return sum;
   }
 
-  Index edge_between(Index a, Index b) const noexcept {
-    const auto begin = topology_.neighbour.begin() + topology_.neighbour_start[at(a)],
-               end = topology_.neighbour.begin() + topology_.neighbour_start[at(a) + 1];
-    return topology_
-        .neighbour_edge[static_cast<std::size_t>(std::lower_bound(begin, end, b) - topology_.neighbour.begin())];
-  }
+  Index edge_between(Index a, Index b) const noexcept { return topology_.edge_between(a, b); }
 
   void take_edge(Index e) {
     for (Index i = topology_.edge_triangle_start[at(e)]; i < topology_.edge_triangle_start[at(e) + 1]; ++i) {

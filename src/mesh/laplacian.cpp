@@ -81,6 +81,10 @@ bool is_widened(const Mesh& mesh, Index t) noexcept {
 void corner_cotangents(const Mesh& mesh, Index t, double cotangent[3]) noexcept {
   const Index* v = mesh.triangle(t);
   const Vec3 p[3] = {mesh.positions[at(v[0])], mesh.positions[at(v[1])], mesh.positions[at(v[2])]};
+  corner_cotangents(p, cotangent);
+}
+
+void corner_cotangents(const Vec3 p[3], double cotangent[3]) noexcept {
   const Vec3 e[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};  // opposite to corner k
   const double squared[3] = {dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])};
   const double area2 = norm(cross(e[0], e[1]));
@@ -114,17 +118,21 @@ Vector<double> cotangent_weights(const Mesh& mesh, const Topology& topology, Mem
 
 }  // namespace
 
+// The median is used because needle triangles would dominate the mean.
+double clamped_floor(const Vector<double>& weights, Memory& memory) {
+  Vector<double> magnitude(weights.size(), &memory);
+  std::transform(weights.begin(), weights.end(), magnitude.begin(), [](double w) { return std::fabs(w); });
+  const auto middle = magnitude.begin() + static_cast<std::ptrdiff_t>(magnitude.size() / 2);
+  std::nth_element(magnitude.begin(), middle, magnitude.end());
+  return *middle > 0 ? least_weight * *middle : least_weight;
+}
+
 Vector<double> edge_weights(const Mesh& mesh, const Topology& topology, OperatorKind kind, Memory& memory,
                             JobRunner* jobs) {
   if (kind == OperatorKind::uniform) return Vector<double>(at(topology.edge_count()), 1.0, &memory);
   Vector<double> weights = cotangent_weights(mesh, topology, memory, jobs);
   if (kind == OperatorKind::clamped) {
-    // The median is used because needle triangles would dominate the mean.
-    Vector<double> magnitude(weights.size(), &memory);
-    std::transform(weights.begin(), weights.end(), magnitude.begin(), [](double w) { return std::fabs(w); });
-    const auto middle = magnitude.begin() + static_cast<std::ptrdiff_t>(magnitude.size() / 2);
-    std::nth_element(magnitude.begin(), middle, magnitude.end());
-    const double floor = *middle > 0 ? least_weight * *middle : least_weight;
+    const double floor = clamped_floor(weights, memory);
     for (double& w : weights) w = std::max(w, floor);
   }
   return weights;

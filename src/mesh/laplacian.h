@@ -22,6 +22,8 @@ enum class FieldKind : std::int32_t { harmonic = 0, biharmonic = 1, biharmonic_g
 bool is_widened(const Mesh& mesh, std::int32_t t) noexcept;
 // Computes the cotangents at the three corners of triangle t.
 void corner_cotangents(const Mesh& mesh, std::int32_t t, double cotangent[3]) noexcept;
+// The same for a triangle with these corners.
+void corner_cotangents(const Vec3 p[3], double cotangent[3]) noexcept;
 // Returns four times the area of a triangle with these edge lengths. Lengths that violate the triangle inequality count
 // as a very thin triangle.
 double quadruple_area(const double length[3]) noexcept;
@@ -37,6 +39,9 @@ Vector<double> edge_weights(const Mesh& mesh, const Topology& topology, Operator
 
 // Returns the number of edges whose cotangent weight is negative.
 std::uint32_t count_negative(const Vector<double>& weights) noexcept;
+
+// Returns the least weight of the clamped operator: 1e-3 of the median absolute weight.
+double clamped_floor(const Vector<double>& weights, Memory& memory);
 
 // Returns the lumped (barycentric) vertex areas: one third of the area of the triangles around each vertex.
 Vector<double> vertex_areas(const Mesh& mesh, Memory& memory, JobRunner* jobs = nullptr);

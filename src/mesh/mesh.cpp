@@ -10,6 +10,7 @@
 #include "base/hypotenuse.h"
 #include "base/index.h"
 #include "base/progress.h"
+#include "mesh/face_intake.h"
 #include "mesh/weld.h"
 
 namespace hf_inner {
@@ -29,16 +30,23 @@ constexpr double zero_area = 1e-12;
 // noise of the measurement (two threads). No result depends on this number.
 constexpr std::size_t report_piece = 65536;
 
-void check_sizes(const MeshInput& input) {
+// Returns the number of triangles, of faces those of their cut.
+std::uint32_t check_sizes(const MeshInput& input) {
   if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
-  if (input.triangle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "triangle_count is 0");
+  if (input.triangle_count == 0 && input.faces.face_count == 0)
+    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "triangle_count is 0");
   if (input.vertex_count > size_limit)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count, size_limit);
-  if (input.triangle_count > size_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; at most %u are supported", input.triangle_count, size_limit);
+  const std::uint64_t triangles =
+      input.faces.face_count > 0 ? count_cut_triangles(input.faces) : std::uint64_t{input.triangle_count};
+  if (triangles > size_limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%llu triangles; at most %u are supported",
+         static_cast<unsigned long long>(triangles), size_limit);
+  return static_cast<std::uint32_t>(triangles);
 }
 
 void check_triangles(const MeshInput& input) {
+  check_face_corners(input.faces, input.vertex_count);
   for (std::uint32_t t = 0; t < input.triangle_count; ++t) {
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = input.triangles.get(t, static_cast<std::size_t>(k));
@@ -159,25 +167,9 @@ void measure_triangles(Mesh& mesh, JobRunner* jobs, Memory& memory) {
   mesh.report.degenerate_triangle_count += all.degenerate;
 }
 
-}  // namespace
-
-Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
-  check_sizes(input);
-  check_triangles(input);
-  Mesh mesh(memory);
-  mesh.report.vertex_count = input.vertex_count, mesh.report.triangle_count = input.triangle_count;
-  poll();
-  find_frame(input, mesh);
-  poll();
-
-  // representative[v] is the first vertex of the caller that vertex v is welded with
-  Vector<Index> representative = weld(input, memory);
-  for (std::uint32_t v = 0; v < input.vertex_count; ++v)
-    mesh.report.welded_vertex_count += representative[v] == static_cast<Index>(v);
-
-  poll();
-  // A usable triangle has three different corners after welding.
-  mesh.triangle_of_given.assign(input.triangle_count, none);
+// A usable triangle has three different corners after welding.
+void take_triangles(const MeshInput& input, const Vector<Index>& representative, Mesh& mesh) {
+  mesh.triangle_of_given.assign(input.triangle_count, Mesh::none);
   mesh.corners.reserve(std::size_t{3} * input.triangle_count);
   for (std::uint32_t t = 0; t < input.triangle_count; ++t) {
     Index v[3];
@@ -189,9 +181,42 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
     mesh.triangle_of_given[t] = mesh.triangle_count();
     mesh.corners.insert(mesh.corners.end(), v, v + 3);
   }
+}
+
+}  // namespace
+
+std::uint32_t Mesh::given_of_triangle(Index t) const noexcept {
+  if (!faces.empty()) {
+    const auto next = std::upper_bound(faces.triangle_start.begin(), faces.triangle_start.end(), t);
+    return static_cast<std::uint32_t>(faces.given[static_cast<std::size_t>(next - faces.triangle_start.begin()) - 1]);
+  }
+  std::size_t given = at(t);  // triangles left out only move it up
+  while (triangle_of_given[given] != t) ++given;
+  return static_cast<std::uint32_t>(given);
+}
+
+Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
+  const std::uint32_t triangles = check_sizes(input);
+  check_triangles(input);
+  Mesh mesh(memory);
+  mesh.report.vertex_count = input.vertex_count, mesh.report.triangle_count = triangles;
+  poll();
+  find_frame(input, mesh);
+  poll();
+
+  // representative[v] is the first vertex of the caller that vertex v is welded with
+  Vector<Index> representative = weld(input, memory);
+  for (std::uint32_t v = 0; v < input.vertex_count; ++v)
+    mesh.report.welded_vertex_count += representative[v] == static_cast<Index>(v);
+
+  poll();
+  if (input.faces.face_count > 0)
+    take_faces(input, representative, mesh, memory);
+  else
+    take_triangles(input, representative, mesh);
   if (mesh.corners.empty())
-    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "every triangle has equal corners%s; nothing is left of the mesh",
-         input.weld == Weld::none ? "" : " after welding");
+    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "every %s has equal corners%s; nothing is left of the mesh",
+         input.faces.face_count > 0 ? "face" : "triangle", input.weld == Weld::none ? "" : " after welding");
 
   poll();
   // The inner vertices are the welded vertices of usable triangles, numbered in the caller's order.
@@ -211,6 +236,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
         {static_cast<Index>(v), {input.positions.get(v, 0), input.positions.get(v, 1), input.positions.get(v, 2)}});
   }
   for (Index& corner : mesh.corners) corner = inner[at(corner)];
+  for (Index& corner : mesh.faces.corner) corner = inner[at(corner)];
 
   const std::size_t count = mesh.given_of_inner.size();
   mesh.positions.resize(count);
@@ -234,7 +260,10 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   }
 
   poll();
-  count_duplicates(mesh, memory);
+  if (mesh.faces.empty())
+    count_duplicates(mesh, memory);
+  else
+    mesh.report.duplicate_triangle_count = count_duplicate_faces(mesh.faces, memory);
   measure_triangles(mesh, jobs, memory);
   return mesh;
 }

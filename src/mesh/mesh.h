@@ -1,11 +1,11 @@
 // The mesh that all of src works on: vertices are welded, centred and scaled, triangles are usable, components are
 // known.
 //
-// Mesh::make checks the input, welds vertices, drops triangles with two equal corners, numbers the components and
-// counts faults of the mesh. An inner vertex is a welded vertex of at least one usable triangle. Maps lead from inner
-// vertices back to the vertices of the caller. An inner position is p' = (p - centre) / scale, with the diagonal of the
-// bounding box as scale. So no result depends on the unit or the offset of the input. Cost: O(n log n) for the weld,
-// O(n) for the rest. After a failure no memory stays allocated.
+// Mesh::make checks the input, welds vertices, cuts faces, drops triangles with two equal corners, numbers the
+// components and counts faults of the mesh. An inner vertex is a welded vertex of at least one usable triangle. Maps
+// lead from inner vertices back to the vertices of the caller. An inner position is p' = (p - centre) / scale, with the
+// diagonal of the bounding box as scale. So no result depends on the unit or the offset of the input. Cost: O(n log n)
+// for the weld, O(n) for the rest. After a failure no memory stays allocated.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include "base/jobs.h"
 #include "base/memory.h"
 #include "base/span.h"
+#include "mesh/faces.h"
 
 namespace hf_inner {
 
@@ -65,6 +66,7 @@ struct MeshInput {
   std::uint32_t triangle_count = 0;
   ConstRows positions;   // vertex_count x 3
   CornerRows triangles;  // triangle_count x 3
+  FaceRows faces;        // instead of triangles, if it has any; triangle_count is then 0
   Weld weld = Weld::exact;
   double weld_tolerance = 0;
 };
@@ -86,10 +88,11 @@ struct Mesh {
         inner_of_given(&memory),
         given_of_inner(&memory),
         triangle_of_given(&memory),
+        faces(memory),
         component(&memory),
         isolated(&memory) {}
 
-  // Throws HF_ERROR_EMPTY, HF_ERROR_OUT_OF_RANGE (index = triangle), HF_ERROR_NON_FINITE (index = vertex),
+  // Throws HF_ERROR_EMPTY, HF_ERROR_OUT_OF_RANGE (index = triangle or face), HF_ERROR_NON_FINITE (index = vertex),
   // HF_ERROR_INVALID_ARGUMENT, or std::bad_alloc. jobs: threads to use; null = the calling thread, with the same
   // result.
   static Mesh make(const MeshInput& input, Memory& memory, JobRunner* jobs = nullptr);
@@ -97,6 +100,8 @@ struct Mesh {
   std::int32_t vertex_count() const noexcept { return static_cast<std::int32_t>(positions.size()); }
   std::int32_t triangle_count() const noexcept { return static_cast<std::int32_t>(corners.size() / 3); }
   std::int32_t component_count() const noexcept { return static_cast<std::int32_t>(report.component_count); }
+  // The triangle or face as given that usable triangle t belongs to.
+  std::uint32_t given_of_triangle(std::int32_t t) const noexcept;
   const std::int32_t* triangle(std::int32_t t) const noexcept {
     return corners.data() + std::size_t{3} * static_cast<std::size_t>(t);
   }
@@ -110,7 +115,8 @@ struct Mesh {
   Vector<std::int32_t> corners;            // inner vertices, 3 per usable triangle
   Vector<std::int32_t> inner_of_given;     // per given vertex; none for isolated ones
   Vector<std::int32_t> given_of_inner;     // the first of the caller's vertices that were welded to it
-  Vector<std::int32_t> triangle_of_given;  // per given triangle its usable triangle, or none
+  Vector<std::int32_t> triangle_of_given;  // per given triangle its usable triangle, or none; of a face the first one
+  Faces faces;                             // empty where triangles were given
   Vector<std::int32_t> component;          // number of the component, per inner vertex
   struct Isolated {
     std::int32_t given;

@@ -60,7 +60,7 @@ struct Shear {
 };
 
 struct Candidate {
-  std::uint32_t triangle = HF_NO_INDEX;
+  std::uint32_t triangle = HF_NO_INDEX;  // inner
   double distance = infinity;
   double weight[3] = {0, 0, 0};
 };
@@ -85,12 +85,11 @@ RayHit cast_ray(const PickTarget& target, Vec3 origin, Vec3 direction, JobRunner
   const Mesh& mesh = target.mesh;
   const Places places(target);
   const Shear shear(places.point_in(origin), places.direction_in(direction));
-  const std::size_t triangles = mesh.triangle_of_given.size();
+  const std::size_t triangles = at(mesh.triangle_count());
   Vector<Candidate> found(pieces_of(triangles), &memory);
   jobs.for_each(pieces_of(triangles), [&](std::uint32_t p) {
     for (std::size_t t = p * piece; t < std::min(triangles, (p + std::size_t{1}) * piece); ++t) {
-      if (mesh.triangle_of_given[t] == Mesh::none) continue;
-      const Index* v = mesh.triangle(mesh.triangle_of_given[t]);
+      const Index* v = mesh.triangle(static_cast<Index>(t));
       Vec3 corner[3];
       for (int k = 0; k < 3; ++k) {
         const Vec3 place = places.of(v[k]);
@@ -106,9 +105,10 @@ RayHit cast_ray(const PickTarget& target, Vec3 origin, Vec3 direction, JobRunner
   }
   RayHit hit;
   if (best.triangle == HF_NO_INDEX) return hit;
-  hit.triangle = best.triangle, hit.distance = best.distance;
+  hit.triangle = mesh.given_of_triangle(static_cast<Index>(best.triangle)), hit.distance = best.distance;
   std::copy_n(best.weight, 3, hit.weight);
-  const Index* v = mesh.triangle(mesh.triangle_of_given[best.triangle]);
+  const Index* v = mesh.triangle(static_cast<Index>(best.triangle));
+  std::copy_n(v, 3, hit.corner);
   Vec3 p;
   for (int k = 0; k < 3; ++k) p = p + best.weight[k] * places.of(v[k]);
   hit.position = places.point_out(p);

@@ -13,8 +13,9 @@ struct PickTarget {
 };
 
 struct RayHit {
-  std::uint32_t triangle = HF_NO_INDEX;  // as given
-  std::int32_t vertex = Mesh::none;      // its corner nearest to the hit, inner
+  std::uint32_t triangle = HF_NO_INDEX;                           // or face, as given
+  std::int32_t corner[3] = {Mesh::none, Mesh::none, Mesh::none};  // inner: what `weight` belongs to
+  std::int32_t vertex = Mesh::none;                               // its corner nearest to the hit, inner
   double weight[3] = {0, 0, 0};
   Vec3 position;  // in the caller's unit
   double distance = 0;

@@ -28,16 +28,10 @@ std::int32_t usable_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t p
   return inner;
 }
 
-std::int32_t usable_triangle(const Mesh& mesh, std::uint32_t triangle, const double* weights, std::size_t position) {
+namespace {
+
+void check_weights(const double* weights, std::size_t position) {
   const std::uint32_t index = static_cast<std::uint32_t>(position);
-  require_triangles(mesh, "a point in a triangle", index);
-  if (triangle >= mesh.report.triangle_count)
-    fail(HF_ERROR_OUT_OF_RANGE, index, "entry %zu of the list: triangle %u, but there are %u triangles", position,
-         triangle, mesh.report.triangle_count);
-  const std::int32_t inner = mesh.triangle_of_given[triangle];
-  if (inner == Mesh::none)
-    fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of the list: triangle %u has equal corners; choose another",
-         position, triangle);
   double sum = 0;
   for (int k = 0; k < 3; ++k) {
     if (!std::isfinite(weights[k]))
@@ -51,7 +45,48 @@ std::int32_t usable_triangle(const Mesh& mesh, std::uint32_t triangle, const dou
   if (!(std::fabs(sum - 1) <= weight_sum_error))
     fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of the list: barycentric weights sum to %.9g; they must sum to 1",
          position, sum);
-  return inner;
+}
+
+}  // namespace
+
+SurfacePlace place_in_triangle(const Mesh& mesh, std::uint32_t triangle, const double* weights, std::size_t position) {
+  const std::uint32_t index = static_cast<std::uint32_t>(position);
+  require_triangles(mesh, "a point in a triangle", index);
+  const char* const noun = mesh.faces.empty() ? "triangle" : "face";
+  if (triangle >= mesh.triangle_of_given.size())
+    fail(HF_ERROR_OUT_OF_RANGE, index, "entry %zu of the list: %s %u, but there are %zu %ss", position, noun, triangle,
+         mesh.triangle_of_given.size(), noun);
+  if (!mesh.faces.empty() && mesh.faces.given_size[triangle] != 3)
+    fail(HF_ERROR_INVALID_ARGUMENT, index,
+         "entry %zu of the list: face %u has %u corners; name three of them in `corners`", position, triangle,
+         mesh.faces.given_size[triangle]);
+  const std::int32_t inner = mesh.triangle_of_given[triangle];
+  if (inner == Mesh::none)
+    fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of the list: %s %u has equal corners; choose another", position,
+         noun, triangle);
+  check_weights(weights, position);
+  const std::int32_t* v = mesh.triangle(inner);
+  return {{v[0], v[1], v[2]}, weights};
+}
+
+SurfacePlace place_between(const Mesh& mesh, const std::uint32_t* vertices, const double* weights,
+                           std::size_t position) {
+  const std::uint32_t index = static_cast<std::uint32_t>(position);
+  SurfacePlace place{{}, weights};
+  for (int k = 0; k < 3; ++k) place.vertex[k] = usable_vertex(mesh, vertices[k], position, "corners");
+  for (int k = 0; k < 3; ++k) {
+    const std::int32_t a = place.vertex[k], b = place.vertex[(k + 1) % 3];
+    if (a == b)
+      fail(HF_ERROR_INVALID_ARGUMENT, index,
+           "entry %zu of corners: vertices %u and %u are one; name three different ones", position, vertices[k],
+           vertices[(k + 1) % 3]);
+    if (mesh.component[static_cast<std::size_t>(a)] != mesh.component[static_cast<std::size_t>(b)])
+      fail(HF_ERROR_INVALID_ARGUMENT, index,
+           "entry %zu of corners: vertices %u and %u are in different components; name corners of one face", position,
+           vertices[k], vertices[(k + 1) % 3]);
+  }
+  check_weights(weights, position);
+  return place;
 }
 
 void require_triangles(const Mesh& mesh, const char* purpose, std::uint32_t index) {

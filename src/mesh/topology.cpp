@@ -83,6 +83,14 @@ void Topology::fill_neighbours(std::size_t vertex_count, Memory& memory) {
   for (std::int32_t e = 0; e < edge_count(); ++e) add(first(e), second(e), e);
 }
 
+std::int32_t Topology::edge_between(std::int32_t a, std::int32_t b) const noexcept {
+  const std::size_t v = static_cast<std::size_t>(a);
+  const auto begin = neighbour.begin() + neighbour_start[v], end = neighbour.begin() + neighbour_start[v + 1];
+  const auto found = std::lower_bound(begin, end, b);
+  if (found == end || *found != b) return Mesh::none;
+  return neighbour_edge[static_cast<std::size_t>(found - neighbour.begin())];
+}
+
 void count_edges(const Mesh& mesh, const Topology& topology, MeshReport& report) noexcept {
   const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
   report.boundary_edge_count = report.non_manifold_edge_count = report.flipped_edge_count = 0;

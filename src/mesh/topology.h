@@ -23,6 +23,9 @@ struct Topology {
   std::int32_t first(std::int32_t e) const noexcept { return edges[std::size_t{2} * static_cast<std::size_t>(e)]; }
   std::int32_t second(std::int32_t e) const noexcept { return edges[std::size_t{2} * static_cast<std::size_t>(e) + 1]; }
 
+  // The edge between two vertices, or Mesh::none.
+  std::int32_t edge_between(std::int32_t a, std::int32_t b) const noexcept;
+
   Vector<std::int32_t> edges;                // 2 per edge
   Vector<std::int32_t> edge_triangle_start;  // triangles of edge e: edge_triangle[start[e] .. start[e+1])
   Vector<std::int32_t> edge_triangle;

@@ -11,6 +11,7 @@ static float positions[3 * CUT_VERTICES];
 static double positions_f64[3 * CUT_VERTICES];
 static uint32_t triangles[3 * CUT_TRIANGLES];
 static uint16_t triangles_u16[3 * CUT_TRIANGLES];
+static uint32_t face_starts[CUT_TRIANGLES + 1], face_sizes[CUT_TRIANGLES];
 static hf_surface out;
 static hf_solver out_solver;
 
@@ -22,6 +23,8 @@ static void good_input(void) {
   desc.positions = positions, desc.triangles = triangles;
   desc.allocator = counting_hooks(&counter);
   for (size_t i = 0; i < 3 * CUT_TRIANGLES; ++i) triangles_u16[i] = (uint16_t)triangles[i];
+  for (uint32_t i = 0; i <= CUT_TRIANGLES; ++i) face_starts[i] = 3 * i;
+  for (size_t i = 0; i < CUT_TRIANGLES; ++i) face_sizes[i] = 3;
   out = scene.sheet, out_solver = scene.solver; /* must become NULL */
 }
 static int nothing_exists(void) {
@@ -36,6 +39,53 @@ static void no_position_array(void) { desc.positions = NULL; }
 static void in_double(void) { desc.positions = NULL, desc.positions_f64 = positions_f64; }
 
 static void in_16_bits(void) { desc.triangles = NULL, desc.triangles_u16 = triangles_u16; }
+
+static void in_sizes(void) {
+  desc.triangles = NULL, desc.triangle_count = 0;
+  desc.face_count = CUT_TRIANGLES, desc.corner_count = 3 * CUT_TRIANGLES;
+  desc.face_sizes = face_sizes, desc.corners = triangles;
+}
+static void in_offsets(void) { in_sizes(), desc.face_sizes = NULL, desc.face_starts = face_starts; }
+static void in_loops(void) { in_sizes(), desc.face_starts = face_starts; }
+
+static void hf_surface_create_refuses_bad_faces(void** state) {
+  (void)state;
+  scene_create(&scene);
+  good_input(), in_offsets();
+  assert_ok(hf_surface_create(&desc, &out)); /* the good faces are good */
+  hf_surface_destroy(out), out = NULL;
+  assert_true(nothing_exists());
+
+  CREATE("faces and triangles", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_sizes(), desc.triangles = triangles));
+  CREATE("faces and 16-bit triangles", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+         (in_sizes(), desc.triangles_u16 = triangles_u16));
+  CREATE("faces and a triangle count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_sizes(), desc.triangle_count = 1));
+  CREATE("triangles and face sizes", HF_ERROR_EMPTY, NO_INDEX, desc.face_sizes = face_sizes);
+  CREATE("triangles and face starts", HF_ERROR_EMPTY, NO_INDEX, desc.face_starts = face_starts);
+  CREATE("triangles and corners", HF_ERROR_EMPTY, NO_INDEX, desc.corners = triangles);
+  CREATE("triangles and a corner count", HF_ERROR_EMPTY, NO_INDEX, desc.corner_count = 3);
+  CREATE("no starts and no sizes", HF_ERROR_NULL_POINTER, NO_INDEX, (in_sizes(), desc.face_sizes = NULL));
+  CREATE("no corners", HF_ERROR_NULL_POINTER, NO_INDEX, (in_sizes(), desc.corners = NULL));
+  CREATE("face stride below an entry", HF_ERROR_TOO_SMALL, NO_INDEX, (in_sizes(), desc.face_stride = 3));
+  CREATE("corner stride below an entry", HF_ERROR_TOO_SMALL, NO_INDEX, (in_sizes(), desc.corner_stride = 1));
+  CREATE("a face of two corners", HF_ERROR_INVALID_ARGUMENT, 5, (in_sizes(), face_sizes[5] = 2));
+  CREATE("a face of no corner", HF_ERROR_INVALID_ARGUMENT, 72, (in_loops(), face_sizes[72] = 0));
+  CREATE("offsets that stay", HF_ERROR_INVALID_ARGUMENT, 7, (in_offsets(), face_starts[8] = face_starts[7]));
+  CREATE("offsets that go back", HF_ERROR_INVALID_ARGUMENT, 9, (in_offsets(), face_starts[10] = 0));
+  CREATE("a face of too many corners", HF_ERROR_TOO_LARGE, 3, (in_sizes(), face_sizes[3] = 65536));
+  CREATE("a face of 2^32 - 1 corners", HF_ERROR_TOO_LARGE, 0, (in_loops(), face_sizes[0] = UINT32_MAX));
+  CREATE("an offset of 2^32 - 1", HF_ERROR_TOO_LARGE, 72, (in_offsets(), face_starts[CUT_TRIANGLES] = UINT32_MAX));
+  CREATE("a corner beyond corner_count", HF_ERROR_OUT_OF_RANGE, 72, (in_sizes(), desc.corner_count -= 1));
+  CREATE("a start beyond corner_count", HF_ERROR_OUT_OF_RANGE, 4, (in_loops(), face_starts[4] = UINT32_MAX));
+  CREATE("corner_count 0", HF_ERROR_OUT_OF_RANGE, 0, (in_sizes(), desc.corner_count = 0));
+  CREATE("corner = vertex_count", HF_ERROR_OUT_OF_RANGE, 24, (in_sizes(), triangles[3 * 24] = CUT_VERTICES));
+  CREATE("corner UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 7, (in_loops(), triangles[3 * 7 + 2] = UINT32_MAX));
+  CREATE("every face collapses", HF_ERROR_EMPTY, NO_INDEX, (in_sizes(), memset(triangles, 0, sizeof triangles)));
+  CREATE("faces of a limit of 1", HF_ERROR_TOO_LARGE, NO_INDEX, (in_sizes(), desc.triangle_limit = 1));
+
+  scene_destroy(&scene);
+  finish_rows("faces");
+}
 
 static void hf_surface_create_refuses_bad_meshes(void** state) {
   (void)state;
@@ -315,6 +365,7 @@ int main(void) {
   if (!clean) return printf("before the first failure the detail must be all zero\n"), 1;
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(hf_surface_create_refuses_bad_meshes),
+      cmocka_unit_test(hf_surface_create_refuses_bad_faces),
       cmocka_unit_test(hf_surface_create_refuses_bad_options),
       cmocka_unit_test(hf_create_refuses_bad_options),
       cmocka_unit_test(a_memory_limit_is_kept),

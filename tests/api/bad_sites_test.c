@@ -4,7 +4,7 @@
 static Scene scene;
 
 /* The good input of every call; a row spoils one thing. */
-static uint32_t places[3], corners[3], out_sites[3], numbers[4];
+static uint32_t places[3], corners[3], between[9], out_sites[3], numbers[4];
 static double weights[9], values[9], stiffness[3];
 static hf_sites_desc sites, to;
 static hf_edit_desc edit;
@@ -17,6 +17,7 @@ static double doubles[CUT_VERTICES];
 static void good_input(void) {
   const uint32_t free_vertices[3] = {6, 7, 8}, free_triangles[3] = {10, 11, 12};
   memcpy(places, free_vertices, sizeof places), memcpy(corners, free_triangles, sizeof corners);
+  for (int i = 0; i < 9; ++i) between[i] = scene.cut.triangles[3 * free_triangles[0] + i];
   for (int i = 0; i < 9; ++i) weights[i] = i % 3 == 0 ? 0.5 : 0.25, values[i] = i + 10.0;
   for (int i = 0; i < 3; ++i) stiffness[i] = i, out_sites[i] = 777, numbers[i] = scene.sites[i];
   numbers[3] = 0;
@@ -49,6 +50,8 @@ static int as_before(void) {
 
 static void in_triangles(hf_sites_desc* d) { d->vertices = NULL, d->triangles = corners, d->barycentrics = weights; }
 
+static void in_corners(hf_sites_desc* d) { d->vertices = NULL, d->corners = between, d->barycentrics = weights; }
+
 static void adding_bad_sites_is_refused(void** state) {
   (void)state;
   scene_create(&scene);
@@ -70,6 +73,20 @@ static void adding_bad_sites_is_refused(void** state) {
   ADD("weights sum to 1.001", HF_ERROR_INVALID_ARGUMENT, 1, (in_triangles(&sites), weights[3] = 0.501));
   ADD("weights are all 0", HF_ERROR_INVALID_ARGUMENT, 0,
       (in_triangles(&sites), weights[0] = weights[1] = weights[2] = 0));
+  ADD("both vertices and corners", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, sites.corners = between);
+  ADD("both triangles and corners", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+      (in_triangles(&sites), sites.corners = between));
+  ADD("corners without weights", HF_ERROR_NULL_POINTER, NO_INDEX, (in_corners(&sites), sites.barycentrics = NULL));
+  ADD("corner = vertex_count", HF_ERROR_OUT_OF_RANGE, 1, (in_corners(&sites), between[5] = CUT_VERTICES));
+  ADD("corner UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 2, (in_corners(&sites), between[6] = UINT32_MAX));
+  ADD("isolated corner", HF_ERROR_INVALID_ARGUMENT, 0, (in_corners(&sites), between[1] = CUT_ISOLATED));
+  ADD("the same corner twice", HF_ERROR_INVALID_ARGUMENT, 1, (in_corners(&sites), between[4] = between[3]));
+  ADD("copies of one corner", HF_ERROR_INVALID_ARGUMENT, 0,
+      (in_corners(&sites), between[0] = CUT_SEAM_LEFT, between[2] = CUT_SEAM_RIGHT));
+  ADD("corners of two components", HF_ERROR_INVALID_ARGUMENT, 2, (in_corners(&sites), between[8] = CUT_ISLAND));
+  ADD("corners with a negative weight", HF_ERROR_INVALID_ARGUMENT, 0,
+      (in_corners(&sites), weights[0] = 1.25, weights[1] = -0.5));
+  ADD("corners with a weight that is NaN", HF_ERROR_NON_FINITE, 1, (in_corners(&sites), weights[4] = (double)NAN));
   ADD("value NaN", HF_ERROR_NON_FINITE, 1, values[1] = (double)NAN);
   ADD("value infinite", HF_ERROR_NON_FINITE, 0, values[0] = -HUGE_VAL);
   ADD("value beyond 1e200", HF_ERROR_TOO_LARGE, 1, values[1] = 1.01e200);

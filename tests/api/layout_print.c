@@ -47,13 +47,14 @@ static void print_surface(void) {
   F(struct_size), F(vertex_count), F(triangle_count), F(position_stride), F(positions), F(positions_f64), F(triangles),
       F(triangles_u16), F(triangle_stride), F(weld), F(weld_tolerance), F(operator_kind), F(field_kind), F(ordering),
       F(thread_count), F(vertex_limit), F(triangle_limit), F(memory_limit_mb), F(work_limit_gflop), F(reserved),
-      F(allocator), F(job_runner), F(progress), F(saved_factor);
+      F(allocator), F(job_runner), F(progress), F(saved_factor), F(face_count), F(corner_count), F(face_starts),
+      F(face_sizes), F(corners), F(face_stride), F(corner_stride);
 #undef T
 #define T hf_surface_info
   STRUCT(hf_surface_info);
   F(struct_size), F(vertex_count), F(triangle_count), F(weld), F(weld_tolerance), F(operator_kind), F(field_kind),
       F(ordering), F(thread_count), F(vertex_limit), F(triangle_limit), F(memory_limit_mb), F(work_limit_gflop),
-      F(edge_count), F(edge_limit);
+      F(edge_count), F(edge_limit), F(face_count), F(corner_count);
 #undef T
 #define T hf_graph_desc
   STRUCT(hf_graph_desc);
@@ -66,7 +67,8 @@ static void print_surface(void) {
   F(struct_size), F(vertex_count), F(triangle_count), F(welded_vertex_count), F(component_count),
       F(isolated_vertex_count), F(degenerate_triangle_count), F(collapsed_triangle_count), F(duplicate_triangle_count),
       F(non_manifold_edge_count), F(flipped_edge_count), F(boundary_edge_count), F(negative_edge_count),
-      F(smallest_angle), F(bounding_box_diagonal), F(changed_vertex_count), F(first_changed_vertex);
+      F(smallest_angle), F(bounding_box_diagonal), F(changed_vertex_count), F(first_changed_vertex), F(face_count),
+      F(polygon_count), F(non_planar_count), F(largest_face);
 #undef T
 #define T hf_surface_statistics
   STRUCT(hf_surface_statistics);
@@ -80,7 +82,7 @@ static void print_surface(void) {
 #undef T
 #define T hf_hit
   STRUCT(hf_hit);
-  F(struct_size), F(found), F(triangle), F(vertex), F(barycentrics), F(position), F(distance);
+  F(struct_size), F(found), F(triangle), F(vertex), F(barycentrics), F(position), F(distance), F(corners), F(reserved);
 #undef T
   CONSTANT(HF_WELD_EXACT), CONSTANT(HF_WELD_NONE), CONSTANT(HF_WELD_TOLERANCE),
       CONSTANT(HF_OPERATOR_INTRINSIC_DELAUNAY), CONSTANT(HF_OPERATOR_CLAMPED), CONSTANT(HF_OPERATOR_UNIFORM),
@@ -101,7 +103,8 @@ static void print_solver(void) {
 #undef T
 #define T hf_sites_desc
   STRUCT(hf_sites_desc);
-  F(struct_size), F(site_count), F(vertices), F(triangles), F(barycentrics), F(values), F(stiffness), F(radii);
+  F(struct_size), F(site_count), F(vertices), F(triangles), F(barycentrics), F(values), F(stiffness), F(radii),
+      F(corners);
 #undef T
 #define T hf_edit_desc
   STRUCT(hf_edit_desc);
@@ -249,7 +252,7 @@ static void print_region(void) {
 #undef T
 #define T hf_curve_desc
   STRUCT(hf_curve_desc);
-  F(struct_size), F(point_count), F(vertices), F(triangles), F(barycentrics), F(side), F(seed_vertex);
+  F(struct_size), F(point_count), F(vertices), F(triangles), F(barycentrics), F(side), F(seed_vertex), F(corners);
 #undef T
 #define T hf_region_edit_desc
   STRUCT(hf_region_edit_desc);
@@ -289,7 +292,7 @@ static void print_quads(void) {
   STRUCT(hf_quads_mesh);
   F(struct_size), F(vertex_capacity), F(face_capacity), F(corner_capacity), F(site_capacity), F(vertex_count),
       F(face_count), F(corner_count), F(site_count), F(reserved), F(positions), F(triangles), F(barycentrics),
-      F(face_starts), F(face_corners), F(site_vertices), F(site_lines);
+      F(face_starts), F(face_corners), F(site_vertices), F(site_lines), F(corners);
 #undef T
 #define T hf_flow_lines
   STRUCT(hf_flow_lines);

@@ -43,6 +43,7 @@ static void assert_missed(hf_surface surface, const double* origin, const double
   const hf_hit hit = cast(surface, origin, direction, desc);
   hf_hit none = HF_INIT(hf_hit);
   none.triangle = none.vertex = NO_INDEX;
+  for (int k = 0; k < 3; ++k) none.corners[k] = NO_INDEX;
   assert_true(same_bits(&hit, &none, sizeof hit));
 }
 
@@ -54,6 +55,7 @@ static void assert_consistent(const hf_hit* hit, const float* positions, const u
   double sum = 0, least = HUGE_VAL, to_vertex = HUGE_VAL;
   for (int k = 0; k < 3; ++k) {
     double place = 0;
+    assert_int_equal(hit->corners[k], v[k]);
     for (int c = 0; c < 3; ++c) place += hit->barycentrics[c] * (double)positions[3 * (size_t)v[c] + (size_t)k];
     assert_true(fabs(place - hit->position[k]) <= tolerance);
     assert_true(fabs(origin[k] + hit->distance * direction[k] - hit->position[k]) <= tolerance);

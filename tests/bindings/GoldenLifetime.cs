@@ -24,7 +24,18 @@ static class Lifetime
         int calls = 0;
         for (int round = 0; round < count; ++round)
         {
-            var surface = new Surface(positions, triangles);
+            using (var quad = Surface.OfFaces(new float[] { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }, new uint[] { 0, 4 },
+            new uint[] { 0, 1, 2, 3 }))
+        using (var held = new Solver(quad))
+        {
+            Hit hit = quad.CastRay(new[] { 0.3, 0.6, 1.0 }, new[] { 0.0, 0.0, -1.0 });
+            held.AddSites(null, new[] { 2.0 }, corners: hit.Corners, barycentrics: hit.Barycentrics);
+            var field = new float[4];
+            held.Solve(field);
+            if (hit.Triangle != 0 || quad.Report.polygon_count != 1 || Math.Abs(field[3] - 2) > 1e-6)
+                throw new Exception("a hit in a quad is no site");
+        }
+        var surface = new Surface(positions, triangles);
             var solver = new Solver(surface);
             var pose = new Pose(surface);
             pose.AddHandles(new[] { new uint[] { 0, 1, 2 }, new uint[] { 280, 281 } });

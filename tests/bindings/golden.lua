@@ -338,6 +338,17 @@ work(30)
 local before = resident()
 work(150)
 assert(resident() - before < 16e6, 'memory does not come back')
+-- faces: a quad by offsets and by sizes; a hit in it is a site
+for _, faces in ipairs({ { starts = { 0, 4 } }, { sizes = { 4 } }, { starts = { 0 }, sizes = { 4 } } }) do
+  faces.corners = { 0, 1, 2, 3 }
+  local quad = hf.Surface({ 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }, nil, { faces = faces })
+  assert(quad:report().polygon_count == 1)
+  local hit = quad:cast_ray({ 0.3, 0.6, 1 }, { 0, 0, -1 })
+  local solver = hf.Solver(quad)
+  solver:add_sites(nil, { 2 }, { corners = { hit.corners[0], hit.corners[1], hit.corners[2] },
+    barycentrics = { hit.barycentrics[0], hit.barycentrics[1], hit.barycentrics[2] } })
+  assert(hit.triangle == 0 and math.abs(solver:solve()[3] - 2) < 1e-6)
+end
 for number, wrong in ipairs({ function() hf.Surface('text', {}) end, function() hf.Surface({ 0, 1 }, { 0, 1, 2 }) end,
   function() hf.Surface({ 'a', 1, 2 }, { 0, 1, 2 }) end, function() hf.Pose(nil) end,
   function() hf.Pose(3) end,

@@ -95,6 +95,19 @@ const wrong = [
 ];
 for (const [i, call] of wrong.entries()) assert.throws(call, hf.HfError, `case ${i}`);
 
+// ---- faces: a quad by offsets and by sizes; a hit in it is a site
+const square = new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
+for (const rest of [{ starts: [0, 4] }, { sizes: [4] }, { starts: [0], sizes: [4] }]) {
+  const quad = new hf.Surface(square, null, { faces: { corners: [0, 1, 2, 3], ...rest } });
+  assert.equal(quad.report.polygonCount, 1);
+  const hit = quad.castRay([0.3, 0.6, 1], [0, 0, -1]);
+  assert.equal(hit.triangle, 0);
+  const held = new hf.Solver(quad);
+  held.addSites(null, [2], { corners: hit.corners, barycentrics: hit.barycentrics });
+  assert.ok(held.solve().every((value) => Math.abs(value - 2) < 1e-6));
+}
+assert.throws(() => new hf.Surface(square, null, { faces: { corners: [0, 1, 2, 3] } }), hf.HfError);
+
 // ---- fields of a desc that an array already answers are no options: they would read or write beyond it
 const posed = new hf.Pose(surface);
 posed.addHandleAt([0, 0, 0], 1);

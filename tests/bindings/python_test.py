@@ -89,6 +89,35 @@ class Arrays(unittest.TestCase):
             fields.append(solver.solve(dtype=np.float64))
             np.testing.assert_array_equal(fields[0], fields[-1])
 
+    def test_faces_as_hosts_store_them(self):
+        points, _ = mesh("torus")
+        around = next(k for k in range(3, len(points)) if len(points) % k == 0 and k * k >= len(points))
+        rings = len(points) // around
+        i, j = np.meshgrid(np.arange(around), np.arange(rings))
+        at = lambda a, b: (b % rings) * around + a % around
+        quads = np.stack([at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)], -1).reshape(-1, 4)
+        offsets = np.arange(0, 4 * len(quads) + 1, 4)
+        fields = []
+        for faces in (quads, quads.astype(np.uint32), (offsets, quads), (None, np.full(len(quads), 4), quads.ravel()),
+                      (offsets[:-1].astype(np.int32), np.full(len(quads), 4, np.int32), quads)):
+            with hf.Surface(points, faces=faces) as surface, hf.Solver(surface) as solver:
+                self.assertEqual((surface.report.face_count, surface.report.polygon_count), (len(quads), len(quads)))
+                solver.add_sites([0, 100], [0.0, 1.0])
+                fields.append(solver.solve(dtype=np.float64))
+                np.testing.assert_array_equal(fields[0], fields[-1])
+                hit = surface.cast_ray(points[quads[7]].mean(0) * 3, -points[quads[7]].mean(0))
+                corners, weights = list(hit.corners), list(hit.barycentrics)
+                self.assertTrue(set(corners) <= set(quads[hit.triangle]))
+                np.testing.assert_allclose(np.dot(weights, points[corners]), hit.position, atol=1e-6)
+                solver.add_sites(corners=[corners], barycentrics=[weights], values=[2.0])
+                np.testing.assert_allclose(np.dot(weights, solver.solve(dtype=np.float64)[corners]), 2, atol=1e-12)
+        for wrong in (quads[:, :2], (offsets,), (None, quads), "text", (offsets, offsets, quads), quads + len(points),
+                      (np.zeros(3, int), quads), (None, None, quads), (None, [4, 4], None)):
+            with self.assertRaises(hf.HfError):
+                hf.Surface(points, faces=wrong)
+        with self.assertRaises(hf.InvalidArgumentError):
+            hf.Surface(points, [[0, 1, 2]], faces=quads)
+
     def test_wrong_arrays_are_refused(self):
         points, triangles = mesh("torus")
         surface = hf.Surface(points, triangles)

@@ -1,4 +1,4 @@
-"""Between a Blender mesh and arrays: positions, triangles, vertex groups, colours."""
+"""Between a Blender mesh and arrays: positions, faces, vertex groups, colours."""
 
 import bpy
 import numpy as np
@@ -34,10 +34,10 @@ def column(collection, name, count=1):
     return out
 
 
-def triangles_of(mesh):
-    """(m, 3) uint32: the triangles Blender cuts the mesh into as it stands."""
-    mesh.calc_loop_triangles()
-    return column(mesh.loop_triangles, "vertices", 3).reshape(-1, 3)
+def faces_of(mesh):
+    """The faces as Blender stores them: first loop and number of loops of each polygon, vertex of each loop."""
+    return (column(mesh.polygons, "loop_start"), column(mesh.polygons, "loop_total"),
+            column(mesh.loops, "vertex_index"))
 
 
 def groups_vertices(obj, names, least=0.5):

@@ -5,7 +5,7 @@ import numpy as np
 
 import hf
 
-from .mesh_data import group_vertices, positions_of, rest_of, triangles_of
+from .mesh_data import faces_of, group_vertices, positions_of, rest_of
 from .session import make_surface, session_of
 
 
@@ -59,7 +59,7 @@ def transfer_animation(source, target, frames, prefix="hf ", window_manager=None
         raise hf.InvalidArgumentError(f"{source.name} and {target.name} need two vertex groups or more of the same names, "
                                       f"starting with '{prefix}'")
     rest, source_rest = session_of(target).rest, rest_of(source.data)
-    with make_surface(source_rest, triangles_of(source.data), window_manager) as source_surface:
+    with make_surface(source_rest, faces_of(source.data), window_manager) as source_surface:
         with hf.Transfer(source_surface, session_of(target).surface, scale=scale) as transfer:
             transfer.add_pairs([group_vertices(source, n) for n in names], [group_vertices(target, n) for n in names])
             armature, scene = None, bpy.context.scene

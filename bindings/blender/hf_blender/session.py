@@ -15,7 +15,7 @@ from mathutils import Vector
 import hf
 
 from . import carriers, mesh_data
-from .mesh_data import group_vertices, rest_of, triangles_of
+from .mesh_data import faces_of, group_vertices, rest_of
 
 # The quickest to bind: on meshes of this size minimum degree is ordered in a fifth of the time that nested dissection
 # takes, and the factorisation loses less than that (50,000 vertices: 18 and 104 ms; 200,000: 86 and 461 ms).
@@ -31,7 +31,7 @@ sessions = {}
 figures = {"bind_ms": 0.0, "update_ms": 0.0, "sync_ms": 0.0}
 
 
-def make_surface(positions, triangles, window_manager=None, meanwhile=None, **options):
+def make_surface(positions, faces, window_manager=None, meanwhile=None, **options):
     """A surface made on a thread of its own, so that Blender's progress bar moves; options as hf.Surface. `meanwhile`
     is called on this thread."""
     progress, made = hf.Progress(), {}
@@ -39,7 +39,7 @@ def make_surface(positions, triangles, window_manager=None, meanwhile=None, **op
     def work():
         try:
             order = ORDERING if len(positions) <= ORDERING_LIMIT else hf.constants.HF_ORDERING_NESTED_DISSECTION
-            made["surface"] = hf.Surface(positions, triangles, progress=progress, thread_count=2, ordering=order,
+            made["surface"] = hf.Surface(positions, faces=faces, progress=progress, thread_count=2, ordering=order,
                 **options)
         except BaseException as error:  # noqa: BLE001 - raised again below
             made["error"] = error
@@ -66,7 +66,7 @@ class Session:
         mesh = obj.data
         begin = time.perf_counter()
         self.rest = rest_of(mesh)
-        self.surface = make_surface(self.rest, triangles_of(mesh), window_manager, meanwhile)
+        self.surface = make_surface(self.rest, faces_of(mesh), window_manager, meanwhile)
         self.pose = hf.Pose(self.surface)
         self.numbers = {}  # hf_id -> handle
         self.placed = {}  # hf_id -> matrix of the last update

@@ -21,7 +21,7 @@ namespace Hf
     public sealed class QuadMesh
     {
         public double[] Positions, Barycentrics;
-        public uint[] Triangles, FaceStarts, FaceCorners, SiteVertices;
+        public uint[] Triangles, FaceStarts, FaceCorners, SiteVertices, Corners;
         public int[] SiteLines;
     }
 
@@ -57,7 +57,7 @@ namespace Hf
             {
                 Positions = new double[3 * v], Barycentrics = new double[3 * v], Triangles = new uint[v],
                 FaceStarts = new uint[info.face_count + 1], FaceCorners = new uint[info.corner_count],
-                SiteVertices = new uint[s], SiteLines = new int[s],
+                SiteVertices = new uint[s], SiteLines = new int[s], Corners = new uint[3 * v],
             };
             using (var pins = new Pins())
             {
@@ -73,6 +73,7 @@ namespace Hf
                 place.face_corners = pins.Add(mesh.FaceCorners);
                 place.site_vertices = pins.Add(mesh.SiteVertices);
                 place.site_lines = pins.Add(mesh.SiteLines);
+                place.corners = pins.Add(mesh.Corners);
                 Check(Functions.hf_quads_get_mesh(Handle, &place));
             }
             return mesh;

@@ -155,6 +155,13 @@ namespace Hf.Native
         public hf_job_runner job_runner;
         public IntPtr progress;
         public IntPtr saved_factor;
+        public uint face_count;
+        public uint corner_count;
+        public IntPtr face_starts;
+        public IntPtr face_sizes;
+        public IntPtr corners;
+        public uint face_stride;
+        public uint corner_stride;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -199,6 +206,8 @@ namespace Hf.Native
         public uint work_limit_gflop;
         public uint edge_count;
         public uint edge_limit;
+        public uint face_count;
+        public uint corner_count;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -221,6 +230,10 @@ namespace Hf.Native
         public double bounding_box_diagonal;
         public uint changed_vertex_count;
         public uint first_changed_vertex;
+        public uint face_count;
+        public uint polygon_count;
+        public uint non_planar_count;
+        public uint largest_face;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -264,6 +277,8 @@ namespace Hf.Native
         public fixed double barycentrics[3];
         public fixed double position[3];
         public double distance;
+        public fixed uint corners[3];
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -304,6 +319,7 @@ namespace Hf.Native
         public IntPtr values;
         public IntPtr stiffness;
         public IntPtr radii;
+        public IntPtr corners;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -696,6 +712,7 @@ namespace Hf.Native
         public IntPtr face_corners;
         public IntPtr site_vertices;
         public IntPtr site_lines;
+        public IntPtr corners;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -738,6 +755,7 @@ namespace Hf.Native
         public IntPtr barycentrics;
         public int side;
         public uint seed_vertex;
+        public IntPtr corners;
     }
 
     [StructLayout(LayoutKind.Sequential)]

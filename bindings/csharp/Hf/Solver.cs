@@ -52,13 +52,17 @@ namespace Hf
         public hf_solver_statistics Statistics { get { return Read<hf_solver_statistics>(Functions.hf_solver_get_statistics); } }
 
         hf_sites_desc Places(Pins pins, uint[] vertices, double[] values, double[] stiffness = null,
-            double[] radii = null, uint[] triangles = null, double[] barycentrics = null)
+            double[] radii = null, uint[] triangles = null, double[] barycentrics = null, uint[] corners = null)
         {
-            int count = Pins.Count(vertices ?? triangles);
+            if (corners != null && corners.Length % 3 != 0)
+                throw new HfException("corners must hold three vertices each, not " + corners.Length);
+            bool between = corners != null && vertices == null && triangles == null;
+            int count = between ? corners.Length / 3 : Pins.Count(vertices ?? triangles);
             var desc = new hf_sites_desc { struct_size = (uint)sizeof(hf_sites_desc) };
             desc.site_count = (uint)count;
             desc.vertices = pins.Add(vertices);
             desc.triangles = pins.Add(triangles);
+            desc.corners = pins.Add(corners, 3 * count, "corners");
             desc.barycentrics = pins.Add(barycentrics, 3 * count, "barycentrics");
             desc.values = pins.Add(values, count * ChannelCount, "values");
             desc.stiffness = pins.Add(stiffness, count, "stiffness");
@@ -66,13 +70,14 @@ namespace Hf
             return desc;
         }
 
-        /// <summary>Adds sites at vertices or inside triangles; all or nothing. Returns their numbers.</summary>
+        /// <summary>Adds sites at vertices, inside triangles, or between three corners of a face; all or nothing.
+        /// Returns their numbers.</summary>
         public uint[] AddSites(uint[] vertices, double[] values, double[] stiffness = null, double[] radii = null,
-            uint[] triangles = null, double[] barycentrics = null)
+            uint[] triangles = null, double[] barycentrics = null, uint[] corners = null)
         {
             using (var pins = new Pins())
             {
-                hf_sites_desc desc = Places(pins, vertices, values, stiffness, radii, triangles, barycentrics);
+                hf_sites_desc desc = Places(pins, vertices, values, stiffness, radii, triangles, barycentrics, corners);
                 var numbers = new uint[desc.site_count];
                 Check(Functions.hf_add_sites(Handle, &desc, (void*)pins.Add(numbers)));
                 return numbers;

@@ -46,11 +46,12 @@ namespace Hf
         public int[] LineClosed;
     }
 
-    /// <summary>The first triangle on a ray; Barycentrics are the weights of its corners, Vertex the corner nearest to
-    /// the hit.</summary>
+    /// <summary>The first triangle or face on a ray; Barycentrics are the weights of Corners, Vertex the corner nearest
+    /// to the hit.</summary>
     public sealed class Hit
     {
         public uint Triangle, Vertex;
+        public uint[] Corners;
         public double[] Barycentrics, Position;
         public double Distance;
     }
@@ -129,7 +130,19 @@ namespace Hf
             return surface;
         }
 
-        void Create(Array positions, Array triangles, SurfaceOptions options)
+        /// <summary>A surface of faces with any number of corners: those of face f are corners[offsets[f]] to
+        /// corners[offsets[f + 1] - 1].</summary>
+        public static Surface OfFaces(Array positions, uint[] offsets, uint[] corners, SurfaceOptions options = null)
+        {
+            if (!(positions is float[] || positions is double[]))
+                throw new HfException("positions must be float[] or double[]", Constants.HF_ERROR_NULL_POINTER);
+            var surface = new Surface();
+            surface.Create(positions, null, options, offsets, corners);
+            return surface;
+        }
+
+        void Create(Array positions, Array triangles, SurfaceOptions options, uint[] offsets = null,
+            uint[] corners = null)
         {
             if (positions == null) throw new HfException("positions is null", Constants.HF_ERROR_NULL_POINTER);
             if (positions.Length % 3 != 0) throw new HfException("positions must hold three numbers a vertex, not "
@@ -146,6 +159,10 @@ namespace Hf
                 else desc.positions = pins.Add(positions);
                 if (triangles is ushort[]) desc.triangles_u16 = pins.Add(triangles);
                 else desc.triangles = pins.Add(triangles);
+                desc.face_count = offsets == null || offsets.Length == 0 ? 0 : (uint)(offsets.Length - 1);
+                desc.corner_count = corners == null ? 0 : (uint)corners.Length;
+                desc.face_starts = pins.Add(offsets);
+                desc.corners = pins.Add(corners);
                 desc.weld = options.Weld;
                 desc.weld_tolerance = options.WeldTolerance;
                 desc.operator_kind = options.OperatorKind;
@@ -217,6 +234,7 @@ namespace Hf
                     (void*)pins.Add(direction, 3, "direction"), &desc, &hit));
                 if (hit.found == 0) return null;
                 return new Hit { Triangle = hit.triangle, Vertex = hit.vertex, Distance = hit.distance,
+                    Corners = new[] { hit.corners[0], hit.corners[1], hit.corners[2] },
                     Barycentrics = new[] { hit.barycentrics[0], hit.barycentrics[1], hit.barycentrics[2] },
                     Position = new[] { hit.position[0], hit.position[1], hit.position[2] } };
             }

@@ -33,6 +33,8 @@ export interface SurfaceOptions {
   vertexLimit?: number;
   triangleLimit?: number;
   memoryLimitMb?: number;
+  /** Faces instead of triangles. Starts without sizes are offsets, one more than there are faces. */
+  faces?: { starts?: Numbers | null; sizes?: Numbers | null; corners: Numbers } | null;
   savedFactor?: Uint8Array | null;
   progress?: Progress | null;
 }
@@ -57,10 +59,11 @@ export interface SolverOptions {
   penalty?: number;
   progress?: Progress | null;
 }
-/** The first triangle on a ray: its weights are a site, its vertex the corner nearest to the hit. */
+/** The first triangle or face on a ray: corners and weights are a site, the vertex is the corner nearest to the hit. */
 export interface Hit {
   triangle: number;
   vertex: number;
+  corners: [number, number, number];
   barycentrics: [number, number, number];
   position: [number, number, number];
   distance: number;
@@ -70,6 +73,8 @@ export interface SiteOptions {
   radii?: Numbers | null;
   triangles?: Numbers | null;
   barycentrics?: Rows | null;
+  /** Three vertices of one face for each site, as a Hit has them. */
+  corners?: Numbers | null;
 }
 export interface Edit {
   remove?: Numbers;
@@ -198,6 +203,8 @@ export interface QuadMesh {
   faceCorners: Uint32Array;
   siteVertices: Uint32Array;
   siteLines: Int32Array;
+  /** Three vertices for each vertex of the quad mesh: those that barycentrics belong to. */
+  corners: Uint32Array;
 }
 export interface FlowLines {
   positions: Float64Array;
@@ -325,7 +332,7 @@ export interface Transfer extends Handle {
 export interface Hf {
   /** `triangles` as Uint16Array or Uint32Array are read in place. */
   readonly Surface: {
-    new (positions: Floats | Numbers, triangles: Numbers, options?: SurfaceOptions): Surface;
+    new (positions: Floats | Numbers, triangles: Numbers | null, options?: SurfaceOptions): Surface;
     /** A surface of a graph: two vertices for each edge, and its weight. */
     fromGraph(vertexCount: number, edges: Numbers, weights: Floats | Numbers, options?: GraphOptions): Surface;
   };

@@ -48,6 +48,7 @@ export function quadClasses(tools) {
         faceCorners: new Uint32Array(c),
         siteVertices: new Uint32Array(s),
         siteLines: new Int32Array(s),
+        corners: new Uint32Array(3 * v),
       };
       call(
         'hf_quads_get_mesh',
@@ -64,6 +65,7 @@ export function quadClasses(tools) {
           face_corners: written(mesh.faceCorners),
           site_vertices: written(mesh.siteVertices),
           site_lines: written(mesh.siteLines),
+          corners: written(mesh.corners),
         }),
       );
       return mesh;

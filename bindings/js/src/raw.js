@@ -114,7 +114,7 @@ export const layouts = {
     bytes: ['ptr', [8, 8], 0],
     byte_count: ['size', [12, 16], 0],
   } },
-  hf_surface_desc: { size: [108, 152], fields: {
+  hf_surface_desc: { size: [136, 192], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_count: ['u32', [4, 4], 0],
     triangle_count: ['u32', [8, 8], 0],
@@ -139,6 +139,13 @@ export const layouts = {
     job_runner: ['hf_job_runner', [92, 120], 0],
     progress: ['ptr', [100, 136], 0],
     saved_factor: ['ptr', [104, 144], 0],
+    face_count: ['u32', [108, 152], 0],
+    corner_count: ['u32', [112, 156], 0],
+    face_starts: ['ptr', [116, 160], 0],
+    face_sizes: ['ptr', [120, 168], 0],
+    corners: ['ptr', [124, 176], 0],
+    face_stride: ['u32', [128, 184], 0],
+    corner_stride: ['u32', [132, 188], 0],
   } },
   hf_graph_desc: { size: [88, 128], fields: {
     struct_size: ['u32', [0, 0], 0],
@@ -161,7 +168,7 @@ export const layouts = {
     progress: ['ptr', [80, 112], 0],
     saved_factor: ['ptr', [84, 120], 0],
   } },
-  hf_surface_info: { size: [60, 60], fields: {
+  hf_surface_info: { size: [68, 68], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_count: ['u32', [4, 4], 0],
     triangle_count: ['u32', [8, 8], 0],
@@ -177,8 +184,10 @@ export const layouts = {
     work_limit_gflop: ['u32', [48, 48], 0],
     edge_count: ['u32', [52, 52], 0],
     edge_limit: ['u32', [56, 56], 0],
+    face_count: ['u32', [60, 60], 0],
+    corner_count: ['u32', [64, 64], 0],
   } },
-  hf_surface_report: { size: [72, 72], fields: {
+  hf_surface_report: { size: [88, 88], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_count: ['u32', [4, 4], 0],
     triangle_count: ['u32', [8, 8], 0],
@@ -196,6 +205,10 @@ export const layouts = {
     bounding_box_diagonal: ['f64', [56, 56], 0],
     changed_vertex_count: ['u32', [64, 64], 0],
     first_changed_vertex: ['u32', [68, 68], 0],
+    face_count: ['u32', [72, 72], 0],
+    polygon_count: ['u32', [76, 76], 0],
+    non_planar_count: ['u32', [80, 80], 0],
+    largest_face: ['u32', [84, 84], 0],
   } },
   hf_surface_statistics: { size: [104, 104], fields: {
     struct_size: ['u32', [0, 0], 0],
@@ -222,7 +235,7 @@ export const layouts = {
     front_only: ['i32', [16, 24], 0],
     reserved: ['u32', [20, 28], 0],
   } },
-  hf_hit: { size: [72, 72], fields: {
+  hf_hit: { size: [88, 88], fields: {
     struct_size: ['u32', [0, 0], 0],
     found: ['i32', [4, 4], 0],
     triangle: ['u32', [8, 8], 0],
@@ -230,6 +243,8 @@ export const layouts = {
     barycentrics: ['f64', [16, 16], 3],
     position: ['f64', [40, 40], 3],
     distance: ['f64', [64, 64], 0],
+    corners: ['u32', [72, 72], 3],
+    reserved: ['u32', [84, 84], 0],
   } },
   hf_solver_desc: { size: [40, 40], fields: {
     struct_size: ['u32', [0, 0], 0],
@@ -252,7 +267,7 @@ export const layouts = {
     vertex_count: ['u32', [32, 32], 0],
     reserved: ['u32', [36, 36], 0],
   } },
-  hf_sites_desc: { size: [32, 56], fields: {
+  hf_sites_desc: { size: [36, 64], fields: {
     struct_size: ['u32', [0, 0], 0],
     site_count: ['u32', [4, 4], 0],
     vertices: ['ptr', [8, 8], 0],
@@ -261,6 +276,7 @@ export const layouts = {
     values: ['ptr', [20, 32], 0],
     stiffness: ['ptr', [24, 40], 0],
     radii: ['ptr', [28, 48], 0],
+    corners: ['ptr', [32, 56], 0],
   } },
   hf_edit_desc: { size: [40, 64], fields: {
     struct_size: ['u32', [0, 0], 0],
@@ -548,7 +564,7 @@ export const layouts = {
     edge_length: ['f32', [40, 40], 0],
     reserved: ['u32', [44, 44], 0],
   } },
-  hf_quads_mesh: { size: [68, 96], fields: {
+  hf_quads_mesh: { size: [72, 104], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_capacity: ['u32', [4, 4], 0],
     face_capacity: ['u32', [8, 8], 0],
@@ -566,6 +582,7 @@ export const layouts = {
     face_corners: ['ptr', [56, 72], 0],
     site_vertices: ['ptr', [60, 80], 0],
     site_lines: ['ptr', [64, 88], 0],
+    corners: ['ptr', [68, 96], 0],
   } },
   hf_flow_lines: { size: [52, 72], fields: {
     struct_size: ['u32', [0, 0], 0],
@@ -591,7 +608,7 @@ export const layouts = {
     reserved: ['u32', [20, 28], 0],
     progress: ['ptr', [24, 32], 0],
   } },
-  hf_curve_desc: { size: [28, 40], fields: {
+  hf_curve_desc: { size: [32, 48], fields: {
     struct_size: ['u32', [0, 0], 0],
     point_count: ['u32', [4, 4], 0],
     vertices: ['ptr', [8, 8], 0],
@@ -599,6 +616,7 @@ export const layouts = {
     barycentrics: ['ptr', [16, 24], 0],
     side: ['i32', [20, 32], 0],
     seed_vertex: ['u32', [24, 36], 0],
+    corners: ['ptr', [28, 40], 0],
   } },
   hf_region_edit_desc: { size: [32, 48], fields: {
     struct_size: ['u32', [0, 0], 0],

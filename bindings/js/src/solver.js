@@ -39,13 +39,17 @@ export function solverClasses(tools) {
       return query('hf_solver_statistics', 'hf_solver_get_statistics', this._handle);
     }
 
-    #places(vertices, values, { stiffness, radii, triangles, barycentrics } = {}) {
+    #places(vertices, values, { stiffness, radii, triangles, barycentrics, corners } = {}) {
       const at = integers(vertices, 'vertices');
       const inside = integers(triangles, 'triangles');
-      const count = counted(at ?? inside);
+      const between = integers(corners, 'corners');
+      if (between && between.length % 3) fail(`corners must hold three vertices each, not ${between.length}`);
+      const count = at || inside || !between ? counted(at ?? inside) : between.length / 3;
       if (at && inside && at.length !== inside.length) fail('vertices and triangles are given both');
+      if (between && between.length !== 3 * count) fail('corners are given beside vertices or triangles');
       const desc = make('hf_sites_desc', { site_count: count });
       desc.set('vertices', at && read(at)).set('triangles', inside && read(inside));
+      desc.set('corners', between && read(between));
       const numbers = {
         barycentrics: [barycentrics, 3 * count],
         values: [values, count * this.channelCount],

@@ -46,20 +46,33 @@ export function surfaceClasses(tools) {
     return desc.set(given instanceof Float32Array ? 'positions' : 'positions_f64', read(given));
   };
 
+  /** Sets the faces of a desc: { starts, sizes, corners }; starts without sizes are offsets, one more than faces. */
+  const facesInto = (desc, faces) => {
+    const starts = integers(faces.starts, 'faces.starts');
+    const sizes = integers(faces.sizes, 'faces.sizes');
+    const corners = integers(faces.corners, 'faces.corners');
+    if (starts && sizes && starts.length !== sizes.length) fail('faces.starts and faces.sizes must be of one length');
+    const count = sizes ? sizes.length : Math.max(0, (starts?.length ?? 0) - 1);
+    desc.set('face_count', count).set('corner_count', corners?.length ?? 0);
+    desc.set('face_starts', starts && read(starts)).set('face_sizes', sizes && read(sizes));
+    desc.set('corners', corners && read(corners));
+  };
+
   /** Make one per mesh; solvers, poses and the rest are made on it. */
   class Surface extends Handle {
     static prefix = 'hf_surface';
-    constructor(positions, triangles, { savedFactor = null, progress = null, ...options } = {}) {
+    constructor(positions, triangles, { savedFactor = null, progress = null, faces = null, ...options } = {}) {
       super();
       if (positions === bare) return;
       const xyz = points(positions, 'positions');
       const short = triangles instanceof Uint16Array;
       const corners = short ? triangles : integers(triangles, 'triangles');
       if (corners && corners.length % 3) fail(`triangles must hold three numbers each, not ${corners.length}`);
-      const desc = make('hf_surface_desc').options(options, ['vertex_count', 'triangle_count']);
+      const desc = make('hf_surface_desc').options(options, ['vertex_count', 'triangle_count', 'face_count', 'corner_count']);
       desc.set('vertex_count', xyz.length / 3).set('triangle_count', corners ? corners.length / 3 : 0);
       desc.set(xyz instanceof Float32Array ? 'positions' : 'positions_f64', read(xyz));
       desc.set(short ? 'triangles_u16' : 'triangles', corners && read(corners));
+      if (faces) facesInto(desc, faces);
       this._finish('create', desc, savedFactor, progress);
     }
     /** A surface of a graph: two vertices for each edge, and its weight. What needs triangles throws. */

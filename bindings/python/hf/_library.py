@@ -166,7 +166,8 @@ def make(struct: type, **fields: Any) -> Any:
 
 
 # what the package fills in itself
-_OWN = ("struct_size", "reserved", "vertex_count", "triangle_count", "edge_count", "site_count")
+_OWN = ("struct_size", "reserved", "vertex_count", "triangle_count", "face_count", "corner_count", "edge_count",
+        "site_count")
 
 
 def options_into(desc: Any, options: dict) -> None:
@@ -233,6 +234,29 @@ def corners(values: Optional[ArrayLike], name: str) -> tuple:
     if not in_place or not 3 * array.itemsize <= array.strides[0] < 1 << 31:
         array = (np.ascontiguousarray(array) if array.dtype == np.uint16 else integers(array, name)).reshape(-1, 3)
     return array, array.strides[0] if len(array) > 1 else 0
+
+
+def faces_into(desc: Any, faces: Any) -> list:
+    """Sets the faces of a desc: (m, k) corners, (offsets, corners) or (starts, sizes, corners). Returns what to keep."""
+    if isinstance(faces, tuple):
+        if len(faces) not in (2, 3):
+            raise InvalidArgumentError("faces must be (offsets, corners) or (starts, sizes, corners)")
+        starts, sizes = integers(faces[0], "faces[0]"), integers(faces[1], "faces[1]") if len(faces) == 3 else None
+        around = integers(faces[-1], f"faces[{len(faces) - 1}]")
+        if around is None or (starts is None and sizes is None):
+            raise NullPointerError("faces holds no corners, or neither starts nor sizes")
+        if starts is not None and sizes is not None and starts.size != sizes.size:
+            raise InvalidArgumentError(f"faces holds {starts.size} starts, but {sizes.size} sizes")
+        count = max(starts.size - 1, 0) if sizes is None else sizes.size
+    else:
+        around = integers(faces, "faces")
+        if around.ndim != 2 or around.shape[1] < 3:
+            raise InvalidArgumentError(f"faces must have the shape (m, 3) or wider, not {around.shape}")
+        count, starts = len(around), None
+        sizes = np.full(count, around.shape[1], np.uint32)
+    desc.face_count, desc.corner_count = count, around.size
+    desc.face_starts, desc.face_sizes, desc.corners = address(starts), address(sizes), address(around)
+    return [starts, sizes, around]
 
 
 def index(value: Any, name: str) -> int:

@@ -197,6 +197,13 @@ class hf_surface_desc(Structure):
     job_runner: object
     progress: int
     saved_factor: int
+    face_count: int
+    corner_count: int
+    face_starts: int
+    face_sizes: int
+    corners: int
+    face_stride: int
+    corner_stride: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -222,6 +229,13 @@ class hf_surface_desc(Structure):
         ("job_runner", hf_job_runner),
         ("progress", c_void_p),
         ("saved_factor", c_void_p),
+        ("face_count", c_uint32),
+        ("corner_count", c_uint32),
+        ("face_starts", c_void_p),
+        ("face_sizes", c_void_p),
+        ("corners", c_void_p),
+        ("face_stride", c_uint32),
+        ("corner_stride", c_uint32),
     ]
 
 
@@ -286,6 +300,8 @@ class hf_surface_info(Structure):
     work_limit_gflop: int
     edge_count: int
     edge_limit: int
+    face_count: int
+    corner_count: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -302,6 +318,8 @@ class hf_surface_info(Structure):
         ("work_limit_gflop", c_uint32),
         ("edge_count", c_uint32),
         ("edge_limit", c_uint32),
+        ("face_count", c_uint32),
+        ("corner_count", c_uint32),
     ]
 
 
@@ -324,6 +342,10 @@ class hf_surface_report(Structure):
     bounding_box_diagonal: float
     changed_vertex_count: int
     first_changed_vertex: int
+    face_count: int
+    polygon_count: int
+    non_planar_count: int
+    largest_face: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -342,6 +364,10 @@ class hf_surface_report(Structure):
         ("bounding_box_diagonal", c_double),
         ("changed_vertex_count", c_uint32),
         ("first_changed_vertex", c_uint32),
+        ("face_count", c_uint32),
+        ("polygon_count", c_uint32),
+        ("non_planar_count", c_uint32),
+        ("largest_face", c_uint32),
     ]
 
 
@@ -408,6 +434,8 @@ class hf_hit(Structure):
     barycentrics: object
     position: object
     distance: float
+    corners: object
+    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("found", c_int32),
@@ -416,6 +444,8 @@ class hf_hit(Structure):
         ("barycentrics", c_double * 3),
         ("position", c_double * 3),
         ("distance", c_double),
+        ("corners", c_uint32 * 3),
+        ("reserved", c_uint32),
     ]
 
 
@@ -475,6 +505,7 @@ class hf_sites_desc(Structure):
     values: int
     stiffness: int
     radii: int
+    corners: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("site_count", c_uint32),
@@ -484,6 +515,7 @@ class hf_sites_desc(Structure):
         ("values", c_void_p),
         ("stiffness", c_void_p),
         ("radii", c_void_p),
+        ("corners", c_void_p),
     ]
 
 
@@ -780,7 +812,7 @@ class hf_direction_desc(Structure):
 
 
 class hf_singularity(Structure):
-    """A singularity is a triangle around which the field makes extra turns."""
+    """A singularity is a triangle, or a face, around which the field makes extra turns."""
     triangle: int
     vertex: int
     index: int
@@ -1129,6 +1161,7 @@ class hf_quads_mesh(Structure):
     face_corners: int
     site_vertices: int
     site_lines: int
+    corners: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_capacity", c_uint32),
@@ -1147,6 +1180,7 @@ class hf_quads_mesh(Structure):
         ("face_corners", c_void_p),
         ("site_vertices", c_void_p),
         ("site_lines", c_void_p),
+        ("corners", c_void_p),
     ]
 
 
@@ -1209,6 +1243,7 @@ class hf_curve_desc(Structure):
     barycentrics: int
     side: int
     seed_vertex: int
+    corners: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("point_count", c_uint32),
@@ -1217,6 +1252,7 @@ class hf_curve_desc(Structure):
         ("barycentrics", c_void_p),
         ("side", c_int32),
         ("seed_vertex", c_uint32),
+        ("corners", c_void_p),
     ]
 
 

@@ -22,12 +22,13 @@ class QuadMesh(NamedTuple):
     """Face i has the corners face_corners[face_starts[i]] to face_corners[face_starts[i + 1] - 1], counter-clockwise."""
 
     positions: np.ndarray  # (vertices, 3) float64
-    triangles: np.ndarray  # (vertices,) uint32: of the mesh as given, that the vertex lies in
+    triangles: np.ndarray  # (vertices,) uint32: or faces, of the mesh as given, that the vertex lies in
     barycentrics: np.ndarray  # (vertices, 3) float64
     face_starts: np.ndarray  # (faces + 1,) uint32
     face_corners: np.ndarray  # (corners,) uint32
     site_vertices: np.ndarray  # (sites,) uint32, NO_INDEX for a border
     site_lines: np.ndarray  # (sites,) int32
+    corners: np.ndarray  # (vertices, 3) uint32: the vertices that barycentrics belong to
 
     def faces(self) -> List[np.ndarray]:
         """Each face's corners."""
@@ -66,7 +67,7 @@ class Quads(Object):
         info = self.info
         v, f, c, s = info.vertex_count, info.face_count, info.corner_count, info.site_count
         mesh = QuadMesh(np.empty((v, 3)), np.empty(v, np.uint32), np.empty((v, 3)), np.empty(f + 1, np.uint32),
-                        np.empty(c, np.uint32), np.empty(s, np.uint32), np.empty(s, np.int32))
+                        np.empty(c, np.uint32), np.empty(s, np.uint32), np.empty(s, np.int32), np.empty((v, 3), np.uint32))
         out = make(_raw.hf_quads_mesh, vertex_capacity=v, face_capacity=f, corner_capacity=c, site_capacity=s,
                    **{name: address(getattr(mesh, name)) for name in QuadMesh._fields})
         call("hf_quads_get_mesh", self._raw_handle, ctypes.byref(out))

@@ -58,25 +58,31 @@ class Solver(Object):
     # ---- sites ----
 
     def _sites(self, vertices: Any = None, values: Any = None, stiffness: Any = None, radii: Any = None,
-               triangles: Any = None, barycentrics: Any = None) -> tuple:
-        at, inside = integers(vertices, "vertices"), integers(triangles, "triangles")
-        count = inside.size if at is None and inside is not None else count_of(at)  # of none, the library says so
-        if inside is not None and inside.size != count:
-            raise InvalidArgumentError("vertices and triangles are given both")
+               triangles: Any = None, barycentrics: Any = None, corners: Any = None) -> tuple:
+        at, inside, between = (integers(vertices, "vertices"), integers(triangles, "triangles"),
+                               integers(corners, "corners"))
+        if between is not None and between.size % 3:
+            raise InvalidArgumentError(f"corners must have the shape (k, 3), not {between.shape}")
+        counts = [a.size for a in (at, inside) if a is not None] + ([] if between is None else [between.size // 3])
+        count = counts[0] if counts else count_of(at)  # of none, the library says so
+        if any(c != count for c in counts):
+            raise InvalidArgumentError("vertices, triangles and corners: give one")
         held = [at, inside, doubles(barycentrics, "barycentrics", 3 * count),
             doubles(values, "values", count * self.channel_count),
-                doubles(stiffness, "stiffness", count), doubles(radii, "radii", count)]
+                doubles(stiffness, "stiffness", count), doubles(radii, "radii", count), between]
         desc = make(_raw.hf_sites_desc, site_count=count)
-        for name, array in zip(("vertices", "triangles", "barycentrics", "values", "stiffness", "radii"), held):
+        for name, array in zip(("vertices", "triangles", "barycentrics", "values", "stiffness", "radii", "corners"),
+                               held):
             setattr(desc, name, address(array))
         return desc, count, held
 
     def add_sites(self, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *,
         stiffness: Optional[ArrayLike] = None,
                   radii: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None,
-                  barycentrics: Optional[ArrayLike] = None) -> np.ndarray:
-        """Adds sites at vertices, or inside triangles; all or nothing. Returns their numbers, (k,) uint32."""
-        desc, count, _held = self._sites(vertices, values, stiffness, radii, triangles, barycentrics)
+                  barycentrics: Optional[ArrayLike] = None, corners: Optional[ArrayLike] = None) -> np.ndarray:
+        """Adds sites at vertices, inside triangles, or between three corners of a face ((k, 3), as a Hit has them); all
+        or nothing. Returns their numbers, (k,) uint32."""
+        desc, count, _held = self._sites(vertices, values, stiffness, radii, triangles, barycentrics, corners)
         out = np.empty(count, np.uint32)
         call("hf_add_sites", self._raw_handle, ctypes.byref(desc), address(out))
         return out
@@ -98,10 +104,10 @@ class Solver(Object):
 
     def move_sites(self, sites: ArrayLike, vertices: Optional[ArrayLike] = None, *,
         triangles: Optional[ArrayLike] = None,
-                   barycentrics: Optional[ArrayLike] = None) -> None:
+                   barycentrics: Optional[ArrayLike] = None, corners: Optional[ArrayLike] = None) -> None:
         """Moves sites, keeping their numbers and values."""
         numbers = integers(sites, "sites")
-        desc, _, _held = self._sites(vertices, None, None, None, triangles, barycentrics)
+        desc, _, _held = self._sites(vertices, None, None, None, triangles, barycentrics, corners)
         call("hf_solver_move_sites", self._raw_handle, count_of(numbers), address(numbers), ctypes.byref(desc))
 
     def set_values(self, sites: ArrayLike, values: ArrayLike) -> None:

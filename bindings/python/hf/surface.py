@@ -9,8 +9,8 @@ from typing import Any, List, NamedTuple, Optional, Tuple
 import numpy as np
 
 from . import _raw
-from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, corners, count_of, doubles, handle_of,
-                       integers, make, options_into, output, points, scalars, whole)
+from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, corners, count_of, doubles,
+                       faces_into, handle_of, integers, make, options_into, output, points, scalars, whole)
 
 
 class Weld(IntEnum):
@@ -75,14 +75,16 @@ class Surface(Object):
     """A mesh, welded, checked and factorised once. Everything else is made on it, and may outlive it.
 
     positions: (n, 3) float32 or float64; triangles: (m, 3) uint32 or uint16. Both may have any stride between rows and
-    are borrowed for the call. Options are the fields of hf_surface_desc: operator_kind, field_kind, weld,
-    weld_tolerance, ordering, thread_count, vertex_limit, ... progress: a Progress. saved_factor: bytes of save().
+    are borrowed for the call. faces instead of triangles: (m, k) corners; (offsets, corners), m + 1 offsets; or
+    (starts, sizes, corners) as Blender's loops, with None for starts where faces follow one another. Options are the
+    fields of hf_surface_desc: operator_kind, field_kind, weld, weld_tolerance, ordering, thread_count, vertex_limit, ...
+    progress: a Progress. saved_factor: bytes of save().
     """
 
     _destroy = "hf_surface_destroy"
 
-    def __init__(self, positions: ArrayLike, triangles: ArrayLike, *, progress: Optional[Progress] = None,
-                 saved_factor: Optional[bytes] = None, **options: Any) -> None:
+    def __init__(self, positions: ArrayLike, triangles: Optional[ArrayLike] = None, *, faces: Any = None,
+                 progress: Optional[Progress] = None, saved_factor: Optional[bytes] = None, **options: Any) -> None:
         xyz, stride = points(positions, "positions")
         mesh, triangle_stride = corners(triangles, "triangles")
         desc = make(_raw.hf_surface_desc)
@@ -92,6 +94,7 @@ class Surface(Object):
         if mesh is not None:
             desc.triangle_count, desc.triangle_stride = len(mesh), triangle_stride
             setattr(desc, "triangles" if mesh.dtype == np.uint32 else "triangles_u16", address(mesh))
+        _held = None if faces is None else faces_into(desc, faces)
         self._create("hf_surface_create", desc, progress, saved_factor)
 
     def _create(self, function: str, desc: Any, progress: Optional[Progress], saved_factor: Optional[bytes]) -> None:
@@ -174,7 +177,7 @@ class Surface(Object):
 
     def cast_ray(self, origin: ArrayLike, direction: ArrayLike, *, positions: Optional[ArrayLike] = None,
                  front_only: bool = False) -> Optional[_raw.hf_hit]:
-        """What a click hits: the first triangle on a ray, or None.
+        """What a click hits: the first triangle or face on a ray, or None. Its corners and barycentrics are a site.
 
         positions: where the surface stands, (n, 3); None: at rest. front_only: pass triangles seen from behind.
         """

@@ -1,0 +1,172 @@
+#include "mesh/face_cut.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/index.h"
+
+namespace hf_inner {
+namespace {
+
+constexpr double no_ear = std::numeric_limits<double>::infinity();
+// Costs of cuts that differ by less than this share are equal, and the vertex numbers decide. Rounding changes costs by
+// 1e-15 to 1e-12; a larger share would take a worse diagonal.
+constexpr double equal_costs = 1e-9;
+// A triangle of the cut must have at least this share of its face's area, on the face's side. It keeps rounding from
+// choosing triangles without area; at 0 a corner on a straight side may become one.
+constexpr double least_share = 1e-9;
+// A quad whose diagonals pass at more than this distance, in its diameters, is not planar: both cuts count. The weights
+// of the two cuts differ by the square of it.
+constexpr double planar_bend = 1e-6;
+// Divides by lengths of points at one place.
+constexpr double least_cross = 1e-300;
+
+// The sum of the cotangents of a triangle: smallest for an equilateral one.
+double roundness_cost(Vec3 a, Vec3 b, Vec3 c) noexcept {
+  const Vec3 x = b - a, y = c - b, z = a - c;
+  const double area2 = norm(cross(x, y)), squares = dot(x, x) + dot(y, y) + dot(z, z);
+  return area2 > 0 ? squares / (2 * area2) : no_ear;
+}
+
+double cotangent_at(Vec3 corner, Vec3 a, Vec3 b) noexcept {
+  const Vec3 x = a - corner, y = b - corner;
+  return dot(x, y) / std::max(norm(cross(x, y)), least_cross);
+}
+
+}  // namespace
+
+void FaceCutter::cut(Span<const Index> vertices, Span<const Vec3> positions) {
+  triangles.clear(), second_cut = false, bend = 0;
+  if (vertices.size() == 3) {
+    for (Index k = 0; k < 3; ++k) triangles.push_back(k);
+    return;
+  }
+  put_in_order(vertices, positions);
+  measure();
+  if (vertices.size() == 4)
+    cut_quad();
+  else
+    cut_ears();
+}
+
+// The same corners with another start or the other orientation, or mirrored, go through the same arithmetic from here.
+void FaceCutter::put_in_order(Span<const Index> vertices, Span<const Vec3> positions) {
+  const std::size_t n = vertices.size();
+  std::size_t first = 0;
+  const auto before = [&](std::size_t i) { return vertices[(i + n - 1) % n]; };
+  const auto after = [&](std::size_t i) { return vertices[(i + 1) % n]; };
+  const auto lower = [&](std::size_t i) { return std::min(before(i), after(i)); };
+  for (std::size_t i = 1; i < n; ++i) {
+    if (vertices[i] < vertices[first] || (vertices[i] == vertices[first] && lower(i) < lower(first))) first = i;
+  }
+  reversed_ = before(first) < after(first);
+  order_.resize(n), point_.resize(n), key_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t corner = reversed_ ? (first + n - i) % n : (first + i) % n;
+    order_[i] = static_cast<Index>(corner), point_[i] = positions[corner], key_[i] = vertices[corner];
+  }
+}
+
+// Newell's normal, and the bend of the face about its mean plane.
+void FaceCutter::measure() {
+  const std::size_t n = point_.size();
+  normal_ = Vec3();
+  Vec3 sum;
+  for (std::size_t i = 1; i + 1 < n; ++i) normal_ = normal_ + cross(point_[i] - point_[0], point_[i + 1] - point_[0]);
+  for (const Vec3& p : point_) sum = sum + (p - point_[0]);
+  square_ = dot(normal_, normal_);
+  const Vec3 centre = point_[0] + (1.0 / static_cast<double>(n)) * sum;
+  double height = 0, radius = 0;
+  for (const Vec3& p : point_) {
+    height = std::max(height, std::fabs(dot(p - centre, normal_)));
+    radius = std::max(radius, dot(p - centre, p - centre));
+  }
+  if (square_ > 0 && radius > 0) bend = height / (2 * std::sqrt(square_ * radius));
+}
+
+// Twice the area of a triangle of corners as the face's normal sees it, times the length of the normal.
+double FaceCutter::side(Index a, Index b, Index c) const noexcept {
+  return dot(normal_, cross(point_[at(b)] - point_[at(a)], point_[at(c)] - point_[at(a)]));
+}
+
+void FaceCutter::add(Index a, Index b, Index c) {
+  if (reversed_) std::swap(a, c);
+  for (const Index i : {a, b, c}) triangles.push_back(order_[at(i)]);
+}
+
+// The canonical order puts the lowest number at corner 0, so that the diagonal 0-2 wins a tie.
+void FaceCutter::cut_quad() {
+  const double least = least_share * square_;
+  const bool first_valid = std::min(side(0, 1, 2), side(0, 2, 3)) > least;
+  const bool other_valid = std::min(side(1, 2, 3), side(1, 3, 0)) > least;
+  const double first = cotangent_at(point_[1], point_[0], point_[2]) + cotangent_at(point_[3], point_[2], point_[0]);
+  const double other = cotangent_at(point_[0], point_[3], point_[1]) + cotangent_at(point_[2], point_[1], point_[3]);
+  const double tie = equal_costs * (1 + std::fabs(first) + std::fabs(other));
+  const bool take_other = other_valid && (!first_valid || other > first + tie);
+  second_cut = first_valid && other_valid && bend > planar_bend;
+  if (take_other)
+    add(1, 2, 3), add(3, 0, 1);
+  else
+    add(0, 1, 2), add(2, 3, 0);
+}
+
+// Returns a reflex corner inside the triangle a b c, or -1. Copies of its corners do not count: the two sides of a
+// bridge to a hole meet there.
+Index FaceCutter::reflex_inside(Index a, Index b, Index c) const noexcept {
+  const Index keys[3] = {key_[at(a)], key_[at(b)], key_[at(c)]};
+  for (Index q = 0; q < static_cast<Index>(point_.size()); ++q) {
+    if (!reflex_[at(q)] || std::find(keys, keys + 3, key_[at(q)]) != keys + 3) continue;
+    if (side(a, b, q) >= 0 && side(b, c, q) >= 0 && side(c, a, q) >= 0) return q;
+  }
+  return -1;
+}
+
+void FaceCutter::find_ear(Index corner) noexcept {
+  Ear& ear = ears_[at(corner)];
+  const Index a = ear.before, c = ear.after;
+  const double area = side(a, corner, c);
+  const bool was_reflex = reflex_[at(corner)] != 0;
+  reflex_[at(corner)] = !(area > 0);
+  ear.cost = no_ear, ear.blocker = -1;
+  if (key_[at(a)] != key_[at(c)] && area > least_share * square_) {
+    ear.blocker = reflex_inside(a, corner, c);
+    if (ear.blocker < 0) ear.cost = roundness_cost(point_[at(a)], point_[at(corner)], point_[at(c)]);
+  }
+  if (was_reflex && !reflex_[at(corner)]) free_from(corner);
+}
+
+// Tests the ears again that a corner blocked, which is reflex no longer.
+void FaceCutter::free_from(Index blocker) noexcept {
+  for (Index i = 0; i < static_cast<Index>(ears_.size()); ++i) {
+    if (ears_[at(i)].blocker == blocker) find_ear(i);
+  }
+}
+
+void FaceCutter::cut_ears() {
+  const Index n = static_cast<Index>(point_.size());
+  ears_.resize(at(n)), reflex_.resize(at(n));
+  for (Index i = 0; i < n; ++i) {
+    ears_[at(i)] = {(i + n - 1) % n, (i + 1) % n, no_ear, -1};
+    reflex_[at(i)] = !(side(ears_[at(i)].before, i, ears_[at(i)].after) > 0);
+  }
+  for (Index i = 0; i < n; ++i) find_ear(i);
+  Index first = 0;
+  for (Index left = n; left > 3; --left) {
+    Index best = first;
+    for (Index i = ears_[at(first)].after; i != first; i = ears_[at(i)].after) {
+      if (ears_[at(i)].cost < (1 - equal_costs) * ears_[at(best)].cost) best = i;
+    }
+    const Ear ear = ears_[at(best)];
+    add(ear.before, best, ear.after);
+    ears_[at(ear.before)].after = ear.after, ears_[at(ear.after)].before = ear.before;
+    ears_[at(best)].blocker = -1;
+    const bool blocked = reflex_[at(best)] != 0;
+    reflex_[at(best)] = 0;  // no longer a corner
+    if (first == best) first = ear.after;
+    find_ear(ear.before), find_ear(ear.after);
+    if (blocked) free_from(best);
+  }
+  add(ears_[at(first)].before, first, ears_[at(first)].after);
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,76 @@
+// Faces of any number of corners, as the caller stores them and as a Mesh keeps them beside the triangles of its cut.
+//
+// A face of n corners is cut into n - 2 triangles (face_cut.h). Everything that needs triangles works on the cut. The
+// operators of mesh/face_operator.h do not depend on it. Cost: O(corners).
+#pragma once
+#include <cstdint>
+#include <cstring>
+
+#include "base/memory.h"
+#include "base/span.h"
+
+namespace hf_inner {
+
+// The caller's faces. Face f has `size` corners from corner `start` on. Starts and sizes come from one array of sizes
+// (the faces follow one another), from one of starts (n + 1 offsets), or from one of each.
+class FaceRows {
+ public:
+  const std::uint32_t* starts = nullptr;
+  const std::uint32_t* sizes = nullptr;
+  const std::uint32_t* corners = nullptr;
+  std::size_t face_stride = sizeof(std::uint32_t), corner_stride = sizeof(std::uint32_t);
+  std::uint32_t face_count = 0, corner_count = 0;
+
+  // Calls visit(face, start, size) for every face, in order. Sizes of descending offsets are below 0.
+  template <class Visit>
+  void each(Visit&& visit) const {
+    std::int64_t next = 0;
+    for (std::uint32_t f = 0; f < face_count; ++f) {
+      const std::int64_t start = starts ? entry(starts, f, face_stride) : next;
+      const std::int64_t size =
+          sizes ? std::int64_t{entry(sizes, f, face_stride)} : entry(starts, f + std::size_t{1}, face_stride) - start;
+      visit(f, start, size);
+      next = start + size;
+    }
+  }
+  std::uint32_t corner(std::int64_t c) const noexcept {
+    return entry(corners, static_cast<std::size_t>(c), corner_stride);
+  }
+
+ private:
+  static std::uint32_t entry(const std::uint32_t* list, std::size_t row, std::size_t stride) noexcept {
+    std::uint32_t v;
+    std::memcpy(&v, reinterpret_cast<const char*>(list) + row * stride, sizeof v);
+    return v;
+  }
+};
+
+// The usable faces of a mesh. Empty where the caller gave triangles.
+struct Faces {
+  explicit Faces(Memory& memory)
+      : corner_start(&memory),
+        corner(&memory),
+        triangle_start(&memory),
+        given(&memory),
+        second_cut(&memory),
+        given_size(&memory) {}
+  bool empty() const noexcept { return corner_start.empty(); }
+  std::int32_t count() const noexcept { return empty() ? 0 : static_cast<std::int32_t>(given.size()); }
+  Span<const std::int32_t> corners_of(std::int32_t face) const noexcept {
+    const std::size_t f = static_cast<std::size_t>(face);
+    const std::size_t first = static_cast<std::size_t>(corner_start[f]);
+    return {corner.data() + first, static_cast<std::size_t>(corner_start[f + 1]) - first};
+  }
+
+  Vector<std::int32_t> corner_start;    // corners of face f: corner[corner_start[f] .. corner_start[f + 1])
+  Vector<std::int32_t> corner;          // inner vertices; no two neighbours are equal
+  Vector<std::int32_t> triangle_start;  // triangles of face f: triangle_start[f] .. triangle_start[f + 1]
+  Vector<std::int32_t> given;           // the number of the face as given
+  Vector<std::uint8_t> second_cut;      // 1: a quad that is not planar, and that its other diagonal cuts as well
+  Vector<std::uint32_t> given_size;     // per face as given: its number of corners
+  std::uint32_t polygon_count = 0;      // faces as given of four corners and more
+  std::uint32_t non_planar_count = 0;   // usable faces with a corner far from their mean plane
+  std::uint32_t largest_size = 0;       // corners of the largest face as given
+};
+
+}  // namespace hf_inner
