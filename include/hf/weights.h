@@ -1,9 +1,9 @@
 /* hf/weights.h - compute skin weights of a surface from a skeleton.
  *
- * Every vertex gets 4 or 8 bones with weights of sum 1. Each vertex that sees its nearest bone asks for that bone, the
- * more strongly the nearer it is; a smooth field gives the weights of all bones between (Baran and Popovic 2007). Pins
- * are places whose weights you give; they change the weights around them. No vertex stays without weights: where the
- * skeleton gives no information, weights come from the nearest vertices, and the info counts them. */
+ * Every vertex gets 4 or 8 bones with weights of sum 1. A vertex asks for its nearest bone if it sees that bone, the
+ * more strongly the nearer it is. A smooth field gives the weights between (Baran and Popovic 2007). Pins are places
+ * whose weights you give; they change the weights around them. No vertex stays without weights. Where the skeleton
+ * gives no information, weights come from the nearest vertices, and the info counts them. */
 #ifndef HF_WEIGHTS_H
 #define HF_WEIGHTS_H
 
@@ -35,7 +35,7 @@ typedef struct hf_bones_desc {
  * has none, it is made now. Sets *out_weights to NULL first. Cost: a numeric factorisation and two sweeps for every 8
  * bones. Errors: HF_ERROR_EMPTY (no bone, or none deforms), HF_ERROR_NON_FINITE (index = bone), HF_ERROR_OUT_OF_RANGE
  * (a parent; index = bone), HF_ERROR_INVALID_ARGUMENT (weight_count; deforms, parents in a circle: index = bone),
- * HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+ * HF_ERROR_UNSUPPORTED (a surface made of a graph), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_weights_create(hf_surface surface, const hf_bones_desc* bones, uint32_t weight_count,
                                    hf_weights* out_weights);
 

@@ -1,7 +1,7 @@
 // Solves screened fields (K + A H) u = A H p + W lambda, for constraints that fade with distance.
 //
-// H is a number per vertex in 1 / length^2, at least 0, and A holds the lumped areas. p is the wish of every vertex: u
-// follows p where H is large and is harmonic where H is 0. The operator is factorised with the ordering and the
+// H is a number per vertex in 1 / length^2, at least 0. A holds the lumped areas. p has a value per vertex: u follows p
+// where H is large, and u is harmonic where H is 0. The operator is factorised with the ordering and the
 // symbolic analysis of the harmonic core, because the diagonal adds no entry. So a new H costs one numeric
 // factorisation. A component with some H > 0 is definite by itself. Other components are pinned at one vertex, as in
 // the harmonic core.

@@ -13,9 +13,9 @@ namespace {
 constexpr float progress_solved = 0.8f, progress_pinned = 0.9f;
 
 // Reads the smooth weights of vertices: the solution's, or those that pins changed.
-class Rows {
+class SmoothRows {
  public:
-  Rows(const Solution& solution, const PinnedField* pinned, Memory& memory) : bones(&memory), from_(&memory) {
+  SmoothRows(const Solution& solution, const PinnedField* pinned, Memory& memory) : bones(&memory), from_(&memory) {
     const std::size_t count = solution.column_of.size();
     for (std::size_t b = 0; b < count; ++b) {
       const Index pin = pinned ? pinned->column_of[b] : -1, plain = solution.column_of[b];
@@ -157,7 +157,7 @@ class Computation {
   Memory& memory_;
   WeightState& state_;
   const std::int32_t influences_;
-  const Rows rows_;
+  const SmoothRows rows_;
   Vector<Index> pin_of_;         // by vertex, or -1
   Vector<std::uint8_t> locked_;  // by bone
   Vector<std::uint8_t> solved_;  // by island
