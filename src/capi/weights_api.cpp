@@ -22,7 +22,7 @@ struct WeightsObject final : Object {
 constexpr std::uint32_t most_bones = 1u << 20;  // bounds the memory of a runaway host; rigs have some hundred
 constexpr std::uint32_t u16_bones = 1u << 16;   // numbers that 16 bits hold
 
-Vec3 read_point(const double* points, std::uint32_t i, const char* name) {
+Vec3 read_bone_point(const double* points, std::uint32_t i, const char* name) {
   const double* p = points + 3 * std::size_t{i};
   if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
     fail(HF_ERROR_NON_FINITE, i, "%s: the point of bone %u is not finite", name, i);
@@ -57,9 +57,9 @@ void read_bones(const hf_bones_desc& desc, Bones& bones, Memory& memory) {
   if (desc.tails && desc.axes) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "tails and axes are both set; set one");
   bones.has_tails = desc.tails != nullptr;
   for (std::uint32_t b = 0; b < desc.bone_count; ++b) {
-    bones.head.push_back(read_point(desc.heads, b, "heads"));
-    if (desc.tails) bones.tail.push_back(read_point(desc.tails, b, "tails"));
-    if (desc.axes) bones.axis.push_back(direction_of(read_point(desc.axes, b, "axes")));
+    bones.head.push_back(read_bone_point(desc.heads, b, "heads"));
+    if (desc.tails) bones.tail.push_back(read_bone_point(desc.tails, b, "tails"));
+    if (desc.axes) bones.axis.push_back(direction_of(read_bone_point(desc.axes, b, "axes")));
     const std::uint32_t parent = desc.parents ? desc.parents[b] : HF_NO_INDEX;
     if (parent != HF_NO_INDEX && parent >= desc.bone_count)
       fail(HF_ERROR_OUT_OF_RANGE, b, "the parent of bone %u is %u, but there are %u bones", b, parent, desc.bone_count);
