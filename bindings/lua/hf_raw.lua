@@ -14,6 +14,7 @@ typedef struct hf_flow_object* hf_flow;
 typedef struct hf_region_object* hf_region;
 typedef struct hf_detail_object* hf_detail;
 typedef struct hf_transfer_object* hf_transfer;
+typedef struct hf_weights_object* hf_weights;
 typedef struct hf_error_detail {
   hf_result code;
   uint32_t index;
@@ -639,6 +640,64 @@ typedef struct hf_transfer_frame {
   const uint32_t* hold_pairs;
   const double* hold_positions;
 } hf_transfer_frame;
+typedef struct hf_bones_desc {
+  uint32_t struct_size;
+  uint32_t bone_count;
+  const double* heads;
+  const double* tails;
+  const double* axes;
+  const uint32_t* parents;
+  const int32_t* deforms;
+  const uint32_t* sources;
+  hf_progress progress;
+} hf_bones_desc;
+typedef struct hf_pins_desc {
+  uint32_t struct_size;
+  uint32_t pin_count;
+  const uint32_t* vertices;
+  const uint32_t* triangles;
+  const double* barycentrics;
+  const double* radii;
+  uint32_t joint_count;
+  uint32_t reserved;
+  const uint32_t* joints;
+  const float* weights;
+  hf_progress progress;
+} hf_pins_desc;
+typedef struct hf_weights_out {
+  uint32_t struct_size;
+  uint32_t vertex_capacity;
+  uint32_t vertex_count;
+  uint32_t weight_count;
+  uint32_t* joints;
+  uint16_t* joints_u16;
+  float* weights;
+  uint8_t* origins;
+} hf_weights_out;
+typedef struct hf_weights_info {
+  uint32_t struct_size;
+  uint32_t vertex_count;
+  uint32_t bone_count;
+  uint32_t pin_count;
+  uint32_t lock_count;
+  uint32_t informed_count;
+  uint32_t solved_count;
+  uint32_t pinned_count;
+  uint32_t carried_count;
+  uint32_t rigid_count;
+  uint32_t isolated_count;
+  uint32_t carried_island_count;
+  uint32_t rigid_island_count;
+  int32_t blind;
+  uint32_t no_length_count;
+  uint32_t coincident_count;
+  uint32_t informs_none_count;
+  uint32_t outside_count;
+  uint32_t helper_count;
+  uint32_t factorisation_count;
+  uint32_t path_solve_count;
+  uint32_t reserved;
+} hf_weights_info;
 hf_result hf_error_get_detail(hf_error_detail* out_detail);
 const char* hf_result_get_name(hf_result result);
 uint32_t hf_version_get(void);
@@ -754,6 +813,18 @@ hf_result hf_transfer_get_pair(hf_transfer transfer, uint32_t pair, hf_pair_info
 hf_result hf_transfer_get_info(hf_transfer transfer, hf_transfer_info* out_info);
 hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* inout_skin);
+hf_result hf_weights_create(hf_surface surface, const hf_bones_desc* bones, uint32_t weight_count, hf_weights* out_weights);
+hf_result hf_weights_clone(hf_weights weights, hf_weights* out_weights);
+void hf_weights_destroy(hf_weights weights);
+hf_result hf_weights_set_bones(hf_weights weights, const hf_bones_desc* bones);
+hf_result hf_weights_set_pins(hf_weights weights, const hf_pins_desc* pins);
+hf_result hf_weights_set_locks(hf_weights weights, uint32_t lock_count, const uint32_t* bones, const float* values);
+hf_result hf_weights_get(hf_weights weights, hf_weights_out* inout_weights);
+hf_result hf_weights_get_bones(hf_weights weights, uint32_t capacity, uint32_t* out_flags, uint32_t* out_vertex_counts, uint32_t* out_count);
+hf_result hf_weights_get_info(hf_weights weights, hf_weights_info* out_info);
+hf_result hf_weights_record(hf_weights weights);
+hf_result hf_weights_undo(hf_weights weights);
+hf_result hf_weights_redo(hf_weights weights);
 ]]
 
 local constants = { header_version = '0.1.0',
@@ -843,6 +914,17 @@ local constants = { header_version = '0.1.0',
   HF_PAIR_NO_ALIGNMENT = 8,
   HF_PAIR_CONTACT = 16,
   HF_PAIR_LIMIT = 256,
+  HF_WEIGHTS_INFORMED = 0,
+  HF_WEIGHTS_SOLVED = 1,
+  HF_WEIGHTS_PINNED = 2,
+  HF_WEIGHTS_CARRIED = 3,
+  HF_WEIGHTS_RIGID = 4,
+  HF_WEIGHTS_ISOLATED = 5,
+  HF_BONE_NO_LENGTH = 1,
+  HF_BONE_COINCIDENT = 2,
+  HF_BONE_INFORMS_NONE = 4,
+  HF_BONE_OUTSIDE = 8,
+  HF_BONE_HELPER = 16,
 }
 
 return constants

@@ -11,5 +11,6 @@
 #include "hf/solver.h"
 #include "hf/surface.h"
 #include "hf/transfer.h"
+#include "hf/weights.h"
 
 #endif

@@ -759,6 +759,104 @@ class Transfer {
   uint32_t source_vertices_ = 0, target_vertices_ = 0;
 };
 
+// The bones of a skeleton, in the unit and frame of the mesh.
+struct Bones {
+  std::vector<double> heads;       // three numbers per bone
+  std::vector<double> tails;       // the same, or empty: heads are joints
+  std::vector<double> axes;        // without tails: where each bone points, or empty
+  std::vector<uint32_t> parents;   // HF_NO_INDEX for a root; empty: all are roots
+  std::vector<int32_t> deforms;    // empty: all deform
+  std::vector<uint32_t> sources;   // set_bones: the number before, or empty
+  size_t count() const noexcept { return heads.size() / 3; }
+};
+
+// Weights of all vertices: weight_count bones each, descending.
+struct VertexWeights {
+  uint32_t weight_count = 0;
+  std::vector<uint32_t> joints;
+  std::vector<float> weights;
+  std::vector<uint8_t> origins;  // HF_WEIGHTS_* by vertex
+};
+
+// Skin weights of a surface from a skeleton.
+class Weights {
+ public:
+  // weight_count: 4 or 8 bones per vertex.
+  Weights(const Surface& surface, const Bones& bones, uint32_t weight_count = 4) {
+    const hf_bones_desc desc = describe(bones);
+    hf_weights raw = nullptr;
+    check(hf_weights_create(surface.get(), &desc, weight_count, &raw));
+    handle_ = Handle<hf_weights, hf_weights_destroy>(raw);
+  }
+  hf_weights get() const noexcept { return handle_.get(); }
+  Weights clone() const {
+    hf_weights raw = nullptr;
+    check(hf_weights_clone(get(), &raw));
+    return Weights(raw);
+  }
+  void set_bones(const Bones& bones) {
+    const hf_bones_desc desc = describe(bones);
+    check(hf_weights_set_bones(get(), &desc));
+  }
+  void set_pins(const hf_pins_desc& pins) { check(hf_weights_set_pins(get(), &pins)); }
+  // values: bones.size() numbers per vertex, or empty for the present weights.
+  void set_locks(const std::vector<uint32_t>& bones, const std::vector<float>& values = {}) {
+    if (!values.empty() && values.size() != size_t{info().vertex_count} * bones.size())
+      throw std::invalid_argument("values: one number per vertex and bone is needed");
+    check(hf_weights_set_locks(get(), static_cast<uint32_t>(bones.size()), bones.data(),
+                               values.empty() ? nullptr : values.data()));
+  }
+  VertexWeights weights() const {
+    auto out = make<hf_weights_out>();
+    check(hf_weights_get(get(), &out));
+    VertexWeights found;
+    found.weight_count = out.weight_count;
+    const size_t vertices = out.vertex_count, entries = vertices * out.weight_count;
+    found.joints.resize(entries), found.weights.resize(entries), found.origins.resize(vertices);
+    out.vertex_capacity = out.vertex_count;
+    out.joints = found.joints.data(), out.weights = found.weights.data(), out.origins = found.origins.data();
+    check(hf_weights_get(get(), &out));
+    return found;
+  }
+  // Flags of HF_BONE_* by bone. vertex_counts: null, or receives how many vertices ask for each bone.
+  std::vector<uint32_t> bones(std::vector<uint32_t>* vertex_counts = nullptr) const {
+    uint32_t count = 0;
+    check(hf_weights_get_bones(get(), 0, nullptr, nullptr, &count));
+    std::vector<uint32_t> flags(count);
+    if (vertex_counts) vertex_counts->resize(count);
+    check(hf_weights_get_bones(get(), count, flags.data(), vertex_counts ? vertex_counts->data() : nullptr, &count));
+    return flags;
+  }
+  hf_weights_info info() const {
+    auto info = make<hf_weights_info>();
+    check(hf_weights_get_info(get(), &info));
+    return info;
+  }
+  void record() { check(hf_weights_record(get())); }
+  void undo() { check(hf_weights_undo(get())); }
+  void redo() { check(hf_weights_redo(get())); }
+
+ private:
+  explicit Weights(hf_weights raw) : handle_(raw) {}
+  static hf_bones_desc describe(const Bones& bones) {
+    const size_t count = bones.count();
+    const auto fits = [&](size_t size, size_t width) { return size == 0 || size == count * width; };
+    if (bones.heads.size() % 3 != 0 || !fits(bones.tails.size(), 3) || !fits(bones.axes.size(), 3) ||
+        !fits(bones.parents.size(), 1) || !fits(bones.deforms.size(), 1) ||
+        !fits(bones.sources.size(), 1))
+      throw std::invalid_argument("bones: all lists need as many bones as heads");
+    auto desc = make<hf_bones_desc>();
+    desc.bone_count = static_cast<uint32_t>(count), desc.heads = bones.heads.data();
+    if (!bones.tails.empty()) desc.tails = bones.tails.data();
+    if (!bones.axes.empty()) desc.axes = bones.axes.data();
+    if (!bones.parents.empty()) desc.parents = bones.parents.data();
+    if (!bones.deforms.empty()) desc.deforms = bones.deforms.data();
+    if (!bones.sources.empty()) desc.sources = bones.sources.data();
+    return desc;
+  }
+  Handle<hf_weights, hf_weights_destroy> handle_;
+};
+
 }  // namespace hf
 
 #endif

@@ -24,7 +24,8 @@ enum class Kind : std::uint32_t {
   flow = 8,
   region = 9,
   detail = 10,
-  surface = 11
+  surface = 11,
+  weights = 12
 };
 
 // The object that a handle stands for. Several calls may read it at once; a call that changes it must be alone. No call

@@ -19,8 +19,10 @@ std::shared_ptr<const EliminatedBase> EliminatedBase::make(const PinnedOperator&
   pinned.row.assign(a.matrix->row.begin(), a.matrix->row.end());
   pinned.value.assign(a.matrix->value.begin(), a.matrix->value.end());
   for (std::size_t c = 0; c < a.component_count(); ++c) {
-    for (std::size_t p = 0; base->floating[c] && p < a.border(); ++p)
-      pinned.value[pinned.diagonal(a.pins[c * a.border() + p])] += a.pin_weight[c];
+    for (std::size_t p = 0; base->floating[c] && p < a.border(); ++p) {
+      const Index pin = a.pins[c * a.border() + p];
+      if (pin >= 0) pinned.value[pinned.diagonal(pin)] += a.pin_weight[c];
+    }
   }
   base->factor = a.factor->refactor(pinned, eliminated, memory, jobs);
   return base;

@@ -34,7 +34,9 @@ struct PinnedOperator {
 
   const SymmetricMatrix* matrix = nullptr;  // K
   const Factor* factor = nullptr;           // of K with raised diagonals at the pins
-  Span<const Index> pins;                   // unknowns with raised diagonals, border() per component
+  // Unknowns with raised diagonals, border() per component. A component that is definite by itself has -1 there, no
+  // path, and a corner below 0 (screened.h).
+  Span<const Index> pins;
   // By component: how much the diagonals are raised; the unit of stiffness too.
   Span<const double> pin_weight;
   const PinPaths* paths = nullptr;  // elimination paths of the pins; null: K maps constants to zero

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/index.h"
+#include "base/unit_weights.h"
 
 namespace hf_inner {
 namespace {
@@ -298,13 +299,12 @@ void write_weights(Candidate* candidates, std::int32_t count, std::int32_t* join
   if (!(sum > 0)) {  // the four nearest centres are as far away as the fifth
     for (std::int32_t i = 0; i < count; ++i) candidates[i].weight = 1, sum += 1;
   }
-  double rest = weight_units;
-  for (std::int32_t i = blend_count - 1; i >= 0; --i) {
-    const double units = i == 0 ? rest : i < count ? std::floor(weight_units * candidates[i].weight / sum) : 0.0;
-    rest -= units;
-    joint[i] = units > 0 ? candidates[i].cluster : count > 0 ? candidates[0].cluster : 0;
-    weight[i] = static_cast<float>(units / weight_units);
-  }
+  split_units(
+      blend_count, weight_units, sum, [&](std::int32_t i) { return i < count ? candidates[i].weight : 0.0; },
+      [&](std::int32_t i, double units) {
+        joint[i] = units > 0 ? candidates[i].cluster : count > 0 ? candidates[0].cluster : 0;
+        weight[i] = static_cast<float>(units / weight_units);
+      });
 }
 
 Vector<double> area_shares(const Mesh& mesh, Memory& memory) {

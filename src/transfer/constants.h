@@ -119,8 +119,6 @@ constexpr double broad_bands = 3;
 // Weight in paper mode of vertices with field 0 in a cluster's broad kernel. Halving or doubling it moves vertices by
 // at most 2e-6 boxes.
 constexpr double broad_band_floor = 1e-6;
-// 2^24, the significand of a float: weights that are multiples of its inverse sum to 1 exactly.
-constexpr double weight_units = 16777216.0;
 // A vertex's area counts as at least this share of the mean, so that every vertex has some weight. Halving or doubling
 // it changes no vertex of any frame.
 constexpr double least_area_share = 1e-6;

@@ -277,6 +277,22 @@ static hf_result detail_create(void* d) {
   return result;
 }
 
+static void fill_bones(void* d) { *(hf_bones_desc*)d = scene_bones(); }
+static hf_result weights_create(void* d) {
+  hf_weights weights = (hf_weights)(void*)&scene;
+  const hf_result result = hf_weights_create(scene.body, d, 4, &weights);
+  if (result != HF_OK && weights != NULL) return HF_ERROR_INTERNAL;
+  hf_weights_destroy(weights);
+  return result;
+}
+static hf_result weights_set_bones(void* d) { return hf_weights_set_bones(scene.weights, d); }
+static void fill_pins(void* d) { *(hf_pins_desc*)d = HF_INIT(hf_pins_desc); }
+static hf_result weights_set_pins(void* d) { return hf_weights_set_pins(scene.weights, d); }
+static void fill_weights_out(void* d) { *(hf_weights_out*)d = HF_INIT(hf_weights_out); }
+static hf_result weights_get(void* d) { return hf_weights_get(scene.weights, d); }
+static void fill_weights_info(void* d) { *(hf_weights_info*)d = HF_INIT(hf_weights_info); }
+static hf_result weights_info(void* d) { return hf_weights_get_info(scene.weights, d); }
+
 static const struct {
   const char* what; /* function and argument */
   size_t size;
@@ -342,6 +358,11 @@ static const struct {
     {"hf_region_morph: desc", sizeof(hf_morph_desc), fill_morph, region_morph, 0},
     {"hf_detail_create: desc", sizeof(hf_detail_desc), fill_detail, detail_create, 1},
     {"hf_transfer_get_skin: info", sizeof(hf_skin_info), fill_skin, transfer_get_skin, 0},
+    {"hf_weights_create: bones", sizeof(hf_bones_desc), fill_bones, weights_create, 0},
+    {"hf_weights_set_bones: bones", sizeof(hf_bones_desc), fill_bones, weights_set_bones, 0},
+    {"hf_weights_set_pins: pins", sizeof(hf_pins_desc), fill_pins, weights_set_pins, 0},
+    {"hf_weights_get: inout_weights", sizeof(hf_weights_out), fill_weights_out, weights_get, 0},
+    {"hf_weights_get_info: out_info", sizeof(hf_weights_info), fill_weights_info, weights_info, 0},
 };
 
 enum { SPACE = 5000 };
@@ -376,7 +397,8 @@ static void every_struct_is_checked_before_anything_is_done(void** state) {
       check_row(__LINE__, "an unknown byte is set", what, structs[s].call(longer), HF_ERROR_INVALID_DESC, NO_INDEX);
     }
     row_holds(__LINE__, what, "the state is unchanged",
-              solver_unchanged(&scene) && pose_unchanged(&scene) && transfer_unchanged(&scene));
+              solver_unchanged(&scene) && pose_unchanged(&scene) && transfer_unchanged(&scene) &&
+                  weights_unchanged(&scene));
   }
   finish_rows("structs");
   scene_destroy(&scene);

@@ -197,6 +197,10 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   hf_direction direction = NULL;
   hf_geodesics geodesics = NULL;
   hf_quads quads = NULL;
+  hf_weights weights = NULL;
+  const double head[3] = {0, 0, 0};
+  hf_bones_desc bones = HF_INIT(hf_bones_desc);
+  bones.bone_count = 1, bones.heads = head;
   hf_flow flow = NULL;
   hf_transfer transfer = NULL;
   scalars.values_f64 = before;
@@ -213,10 +217,11 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   NEEDS("a direction field", NO_INDEX, hf_direction_create(graph, NULL, &direction));
   NEEDS("distances", NO_INDEX, hf_geodesics_create(graph, NULL, &geodesics));
   NEEDS("quads", NO_INDEX, hf_quads_create(graph, NULL, &quads));
+  NEEDS("skin weights", NO_INDEX, hf_weights_create(graph, &bones, 4, &weights));
   NEEDS("flow lines", NO_INDEX, hf_flow_create(graph, &flow));
   NEEDS("a transfer from a graph", 0, hf_transfer_create(graph, scene.body, NULL, &transfer));
   NEEDS("a transfer to a graph", 1, hf_transfer_create(scene.body, graph, NULL, &transfer));
-  assert_true(!pose && !region && !direction && !geodesics && !quads && !flow && !transfer);
+  assert_true(!pose && !region && !direction && !geodesics && !quads && !flow && !transfer && !weights);
 
   const uint32_t triangle = 0, vertex[2] = {5, 1}, site = 0;
   const double weight[3] = {0.5, 0.25, 0.25}, radii[2] = {0, 0.5}, angle = 1;

@@ -285,13 +285,44 @@ static hf_result transfer_get_skin(void* h) {
   return hf_transfer_get_skin(h, &i);
 }
 
+static hf_result weights_create(void* h) {
+  const hf_bones_desc bones = scene_bones();
+  hf_weights out;
+  return hf_weights_create(h, &bones, 0, &out);
+}
+static hf_result weights_clone(void* h) {
+  hf_weights out;
+  return hf_weights_clone(h, &out);
+}
+static hf_result weights_set_bones(void* h) {
+  const hf_bones_desc bones = scene_bones();
+  return hf_weights_set_bones(h, &bones);
+}
+static hf_result weights_set_pins(void* h) {
+  const hf_pins_desc pins = HF_INIT(hf_pins_desc);
+  return hf_weights_set_pins(h, &pins);
+}
+static hf_result weights_set_locks(void* h) { return hf_weights_set_locks(h, 0, NULL, NULL); }
+static hf_result weights_get(void* h) {
+  hf_weights_out out = HF_INIT(hf_weights_out);
+  return hf_weights_get(h, &out);
+}
+static hf_result weights_get_bones(void* h) { return hf_weights_get_bones(h, 0, NULL, NULL, numbers); }
+static hf_result weights_get_info(void* h) {
+  hf_weights_info info = HF_INIT(hf_weights_info);
+  return hf_weights_get_info(h, &info);
+}
+static hf_result weights_record(void* h) { return hf_weights_record(h); }
+static hf_result weights_undo(void* h) { return hf_weights_undo(h); }
+static hf_result weights_redo(void* h) { return hf_weights_redo(h); }
+
 static hf_result progress_get(void* h) {
   float f;
   return hf_progress_get_fraction(h, &f);
 }
 static hf_result progress_cancel(void* h) { return hf_progress_cancel(h); }
 
-enum Kind { SURFACE, SOLVER, POSE, TRANSFER, PROGRESS, GEODESICS, DIRECTION, KIND_COUNT };
+enum Kind { SURFACE, SOLVER, POSE, TRANSFER, PROGRESS, GEODESICS, DIRECTION, WEIGHTS, KIND_COUNT };
 
 static const struct {
   const char* function;
@@ -381,9 +412,21 @@ static const struct {
     {"hf_direction_get_statistics", DIRECTION, direction_get_statistics, NO_INDEX},
     {"hf_progress_get_fraction", PROGRESS, progress_get, NO_INDEX},
     {"hf_progress_cancel", PROGRESS, progress_cancel, NO_INDEX},
+    {"hf_weights_create", SURFACE, weights_create, NO_INDEX},
+    {"hf_weights_clone", WEIGHTS, weights_clone, NO_INDEX},
+    {"hf_weights_set_bones", WEIGHTS, weights_set_bones, NO_INDEX},
+    {"hf_weights_set_pins", WEIGHTS, weights_set_pins, NO_INDEX},
+    {"hf_weights_set_locks", WEIGHTS, weights_set_locks, NO_INDEX},
+    {"hf_weights_get", WEIGHTS, weights_get, NO_INDEX},
+    {"hf_weights_get_bones", WEIGHTS, weights_get_bones, NO_INDEX},
+    {"hf_weights_get_info", WEIGHTS, weights_get_info, NO_INDEX},
+    {"hf_weights_record", WEIGHTS, weights_record, NO_INDEX},
+    {"hf_weights_undo", WEIGHTS, weights_undo, NO_INDEX},
+    {"hf_weights_redo", WEIGHTS, weights_redo, NO_INDEX},
 };
 
 static int unchanged(enum Kind kind) {
+  if (kind == WEIGHTS) return weights_unchanged(&scene);
   return solver_unchanged(&scene) &&
          (kind == SURFACE || kind == SOLVER || kind == PROGRESS || kind == GEODESICS || kind == DIRECTION ||
           (kind == POSE ? pose_unchanged(&scene) : transfer_unchanged(&scene)));
@@ -394,10 +437,10 @@ static void every_function_refuses_every_handle_that_is_not_its_own(void** state
   scene_create(&scene);
   int on_the_stack = 0;
   void* const live[KIND_COUNT] = {scene.sheet,    scene.solver,    scene.pose,     scene.transfer,
-                                  scene.progress, scene.geodesics, scene.direction};
+                                  scene.progress, scene.geodesics, scene.direction, scene.weights};
   void* const stale[KIND_COUNT] = {scene.stale_surface,  scene.stale_solver,   scene.stale_pose,
                                    scene.stale_transfer, scene.stale_progress, scene.stale_geodesics,
-                                   scene.stale_direction};
+                                   scene.stale_direction, scene.stale_weights};
   for (size_t f = 0; f < COUNT_OF(functions); ++f) {
     const enum Kind kind = functions[f].kind;
     struct {
@@ -436,13 +479,15 @@ static void destroying_what_is_no_handle_does_nothing(void** state) {
                        scene.stale_transfer,
                        scene.stale_progress,
                        scene.stale_geodesics,
-                       scene.stale_direction};
+                       scene.stale_direction,
+                       scene.stale_weights};
   for (size_t b = 0; b < COUNT_OF(bad); ++b) {
     hf_solver_destroy(bad[b]), hf_pose_destroy(bad[b]), hf_transfer_destroy(bad[b]), hf_progress_destroy(bad[b]);
     hf_geodesics_destroy(bad[b]), hf_direction_destroy(bad[b]), hf_surface_destroy(bad[b]);
+    hf_weights_destroy(bad[b]);
   }
   void* const live[KIND_COUNT] = {scene.sheet,    scene.solver,    scene.pose,     scene.transfer,
-                                  scene.progress, scene.geodesics, scene.direction};
+                                  scene.progress, scene.geodesics, scene.direction, scene.weights};
   for (int k = 0; k < KIND_COUNT; ++k) {
     if (k != SURFACE) hf_surface_destroy(live[k]);
     if (k != SOLVER) hf_solver_destroy(live[k]);
@@ -451,11 +496,13 @@ static void destroying_what_is_no_handle_does_nothing(void** state) {
     if (k != PROGRESS) hf_progress_destroy(live[k]);
     if (k != GEODESICS) hf_geodesics_destroy(live[k]);
     if (k != DIRECTION) hf_direction_destroy(live[k]);
+    if (k != WEIGHTS) hf_weights_destroy(live[k]);
   }
   float fraction;
   assert_ok(geodesics_distance(scene.geodesics));
   assert_ok(surface_get_info(scene.sheet));
   assert_true(solver_unchanged(&scene) && pose_unchanged(&scene) && transfer_unchanged(&scene));
+  assert_true(weights_unchanged(&scene));
   assert_ok(hf_progress_get_fraction(scene.progress, &fraction));
   scene_destroy(&scene);
   assert_code(HF_ERROR_INVALID_HANDLE, hf_solver_record(scene.solver));

@@ -40,6 +40,30 @@ static void create_transfer(Scene* s) {
   assert_ok(transfer_now(s, s->transferred));
 }
 
+hf_bones_desc scene_bones(void) {
+  static const double heads[9] = {0, 0.5, 0, 0, 5, 0, 0, 9, 0}, tails[9] = {0, 5, 0, 0, 9, 0, 0, 12.5, 0};
+  static const uint32_t parents[3] = {HF_NO_INDEX, 0, 1};
+  hf_bones_desc desc = HF_INIT(hf_bones_desc);
+  desc.bone_count = 3, desc.heads = heads, desc.tails = tails, desc.parents = parents;
+  return desc;
+}
+
+static hf_result weights_now(const Scene* s, float* weights) {
+  hf_weights_out out = HF_INIT(hf_weights_out);
+  out.vertex_capacity = TUBE_VERTICES, out.weights = weights;
+  return hf_weights_get(s->weights, &out);
+}
+
+static void create_weights(Scene* s) {
+  const hf_bones_desc bones = scene_bones();
+  assert_ok(hf_weights_create(s->body, &bones, 0, &s->weights));
+  assert_ok(hf_weights_clone(s->weights, &s->stale_weights));
+  hf_weights_destroy(s->stale_weights);
+  assert_ok(hf_weights_record(s->weights));
+  s->skin = copy_of(sizeof(float) * 4 * TUBE_VERTICES);
+  assert_ok(weights_now(s, s->skin));
+}
+
 void scene_create(Scene* s) {
   memset(s, 0, sizeof *s);
   s->cut = surface_cut(), s->tube = surface_tube(TUBE_AROUND, TUBE_RINGS);
@@ -56,6 +80,7 @@ void scene_create(Scene* s) {
   assert_ok(hf_create(s->sheet, &desc, &s->three));
   create_pose(s);
   create_transfer(s);
+  create_weights(s);
   assert_ok(hf_progress_create(&s->progress));
   assert_ok(hf_geodesics_create(s->body, NULL, &s->geodesics));
 
@@ -87,6 +112,7 @@ void scene_create(Scene* s) {
 void scene_destroy(Scene* s) {
   hf_solver_destroy(s->solver), hf_solver_destroy(s->three);
   hf_surface_destroy(s->sheet), hf_surface_destroy(s->body), hf_region_destroy(s->region);
+  hf_weights_destroy(s->weights), free(s->skin);
   hf_pose_destroy(s->pose), hf_transfer_destroy(s->transfer), hf_progress_destroy(s->progress);
   hf_geodesics_destroy(s->geodesics), hf_direction_destroy(s->direction);
   surface_free(&s->cut), surface_free(&s->tube);
@@ -113,4 +139,12 @@ int pose_unchanged(const Scene* s) {
 int transfer_unchanged(const Scene* s) {
   float positions[3 * TUBE_VERTICES];
   return transfer_now(s, positions) == HF_OK && same_bits(positions, s->transferred, sizeof positions);
+}
+
+int weights_unchanged(const Scene* s) {
+  float weights[4 * TUBE_VERTICES];
+  hf_weights_info info = HF_INIT(hf_weights_info);
+  if (hf_weights_get_info(s->weights, &info) != HF_OK || info.bone_count != 3 || info.pin_count + info.lock_count != 0)
+    return 0;
+  return weights_now(s, weights) == HF_OK && same_bits(weights, s->skin, sizeof weights);
 }

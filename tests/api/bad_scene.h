@@ -20,6 +20,7 @@ typedef struct Scene {
   hf_geodesics geodesics;   /* of the tube */
   hf_direction direction;   /* on the cut sheet, constraint 0 at CUT_LEFT and 1 at CUT_RIGHT */
   hf_region region;         /* on the tube, two vertices of its middle */
+  hf_weights weights;       /* on the tube, three bones one after the other in it; undo record */
   hf_surface stale_surface; /* destroyed */
   hf_solver stale_solver;
   hf_pose stale_pose;
@@ -28,11 +29,13 @@ typedef struct Scene {
   hf_geodesics stale_geodesics;
   hf_direction stale_direction;
   hf_region stale_region;
+  hf_weights stale_weights;
   uint32_t sites[3], handles[2], pairs[2];
   uint32_t* ends; /* the regions of both handles */
   float* posed;   /* a posed tube, the source of the transfer */
   double* field;  /* expected: field, pose and transfer */
   float *deformed, *transferred;
+  float* skin; /* expected: the weights of scene.weights */
 } Scene;
 
 void scene_create(Scene* scene);
@@ -41,6 +44,9 @@ void scene_destroy(Scene* scene);
 int solver_unchanged(const Scene* scene);
 int pose_unchanged(const Scene* scene);
 int transfer_unchanged(const Scene* scene);
+int weights_unchanged(const Scene* scene);
+/* The bones of scene.weights; the lists are static. */
+hf_bones_desc scene_bones(void);
 
 /* ROW(what is wrong, expected code, expected index, the change to the good input, the call): the variables of the good
  * input are refreshed by the function GOOD() of the including file, and UNCHANGED() is what must hold afterwards. */

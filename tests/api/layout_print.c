@@ -332,6 +332,34 @@ static void print_transfer(void) {
       CONSTANT(HF_PAIR_TRUNK), CONSTANT(HF_PAIR_NO_ALIGNMENT), CONSTANT(HF_PAIR_CONTACT), CONSTANT(HF_PAIR_LIMIT);
 }
 
+static void print_weights(void) {
+#define T hf_bones_desc
+  STRUCT(hf_bones_desc);
+  F(struct_size), F(bone_count), F(heads), F(tails), F(axes), F(parents), F(deforms), F(sources), F(progress);
+#undef T
+#define T hf_pins_desc
+  STRUCT(hf_pins_desc);
+  F(struct_size), F(pin_count), F(vertices), F(triangles), F(barycentrics), F(radii), F(joint_count), F(reserved),
+      F(joints), F(weights), F(progress);
+#undef T
+#define T hf_weights_out
+  STRUCT(hf_weights_out);
+  F(struct_size), F(vertex_capacity), F(vertex_count), F(weight_count), F(joints), F(joints_u16), F(weights),
+      F(origins);
+#undef T
+#define T hf_weights_info
+  STRUCT(hf_weights_info);
+  F(struct_size), F(vertex_count), F(bone_count), F(pin_count), F(lock_count), F(informed_count), F(solved_count),
+      F(pinned_count), F(carried_count), F(rigid_count), F(isolated_count), F(carried_island_count),
+      F(rigid_island_count), F(blind), F(no_length_count), F(coincident_count), F(informs_none_count),
+      F(outside_count), F(helper_count), F(factorisation_count), F(path_solve_count), F(reserved);
+#undef T
+  CONSTANT(HF_WEIGHTS_INFORMED), CONSTANT(HF_WEIGHTS_SOLVED), CONSTANT(HF_WEIGHTS_PINNED),
+      CONSTANT(HF_WEIGHTS_CARRIED), CONSTANT(HF_WEIGHTS_RIGID), CONSTANT(HF_WEIGHTS_ISOLATED),
+      CONSTANT(HF_BONE_NO_LENGTH), CONSTANT(HF_BONE_COINCIDENT), CONSTANT(HF_BONE_INFORMS_NONE),
+      CONSTANT(HF_BONE_OUTSIDE), CONSTANT(HF_BONE_HELPER);
+}
+
 int main(void) {
   print_base();
   print_surface();
@@ -342,5 +370,6 @@ int main(void) {
   print_region();
   print_quads();
   print_transfer();
+  print_weights();
   return 0;
 }

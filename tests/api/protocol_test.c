@@ -120,6 +120,21 @@ static hf_result region_get_vertices(Call* c) {
   c->count[0] = count;
   return r;
 }
+static hf_result weights_get(Call* c) {
+  hf_weights_out out = HF_INIT(hf_weights_out);
+  out.vertex_capacity = (uint32_t)c->capacity[0];
+  out.joints = c->array[0], out.joints_u16 = c->array[1], out.weights = c->array[2], out.origins = c->array[3];
+  const hf_result r = hf_weights_get(scene.weights, &out);
+  c->count[0] = out.vertex_count;
+  return r;
+}
+static hf_result weights_get_bones(Call* c) {
+  uint32_t count = 777;
+  const hf_result r =
+      hf_weights_get_bones(scene.weights, (uint32_t)c->capacity[0], c->array[0], c->array[1], &count);
+  c->count[0] = count;
+  return r;
+}
 static void to_skin(const Call* c, hf_skin_info* skin) {
   skin->joint_capacity = (uint32_t)c->capacity[0], skin->vertex_capacity = (uint32_t)c->capacity[1];
   skin->pivots = c->array[0], skin->rotations = c->array[1], skin->translations = c->array[2];
@@ -168,6 +183,8 @@ static const struct {
     {"hf_direction_get_sites", direction_get_sites, {{0, 4, 0}, {0, 4, 0}, {0, 24, 0}}, 0},
     {"hf_direction_get_singularities", get_singularities, {{0, sizeof(hf_singularity), 0}}, 0},
     {"hf_region_get_vertices", region_get_vertices, {{0, 4, 0}}, 0},
+    {"hf_weights_get", weights_get, {{0, 16, 0}, {0, 8, 0}, {0, 16, 0}, {0, 1, 0}}, 0},
+    {"hf_weights_get_bones", weights_get_bones, {{0, 4, 0}, {0, 4, 0}}, 0},
     {"hf_pose_get_skin",
      pose_get_skin,
      {{0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {1, 16, 0}, {1, 16, 0}},

@@ -27,6 +27,7 @@ class Run {
   void quads_and_flow();
   void regions();
   void graph();
+  void skin_weights();
   void errors();
 
  private:

@@ -1,4 +1,4 @@
-// Poses, transfers, quads, flow lines, regions and their detail.
+// Poses, transfers, quads, flow lines, regions and their detail, skin weights.
 #include "whole_api_run.h"
 
 namespace reliability {
@@ -140,6 +140,43 @@ void Run::regions() {
   hf_region_destroy(source), hf_region_destroy(target);
   call(hf_detail_morph(detail, &morph), "hf_detail_morph"), take_doubles();
   hf_detail_destroy(detail);
+}
+
+// Two bones from the first vertex over the middle to the last.
+void Run::skin_weights() {
+  const hf_surface surface = make(surface_desc());
+  Numbers heads;
+  for (const std::uint32_t v : {0u, n / 2, n - 1}) {
+    for (std::uint32_t k = 0; k < 3; ++k) heads.push_back(static_cast<double>(s.positions[3 * v + k]));
+  }
+  const std::uint32_t parents[3] = {HF_NO_INDEX, 0, 1}, lock = 1, pinned = n / 3;
+  hf_bones_desc bones = desc<hf_bones_desc>();
+  bones.bone_count = 3, bones.heads = heads.data(), bones.parents = parents;
+  hf_weights weights = nullptr, copy = nullptr;
+  call(hf_weights_create(surface, &bones, 4, &weights), "hf_weights_create");
+  hf_surface_destroy(surface);
+  call(hf_weights_clone(weights, &copy), "hf_weights_clone");
+  hf_weights_destroy(copy);
+  call(hf_weights_record(weights), "hf_weights_record");
+  const float share = 1;
+  hf_pins_desc pins = desc<hf_pins_desc>();
+  pins.pin_count = pins.joint_count = 1, pins.vertices = &pinned, pins.joints = &lock, pins.weights = &share;
+  call(hf_weights_set_pins(weights, &pins), "hf_weights_set_pins");
+  call(hf_weights_set_locks(weights, 1, &lock, nullptr), "hf_weights_set_locks");
+  heads[1] += 0.25;
+  call(hf_weights_set_bones(weights, &bones), "hf_weights_set_bones");
+  call(hf_weights_undo(weights), "hf_weights_undo"), call(hf_weights_redo(weights), "hf_weights_redo");
+  std::vector<std::uint32_t> joints(4 * std::size_t{n}), flags(3);
+  std::vector<float> shares(joints.size());
+  hf_weights_out out = desc<hf_weights_out>();
+  out.vertex_capacity = n, out.joints = joints.data(), out.weights = shares.data();
+  call(hf_weights_get(weights, &out), "hf_weights_get");
+  take(joints.data(), joints.size()), take(shares.data(), shares.size());
+  call(hf_weights_get_bones(weights, 3, flags.data(), nullptr, nullptr), "hf_weights_get_bones");
+  take(flags.data(), flags.size());
+  hf_weights_info info = desc<hf_weights_info>();
+  call(hf_weights_get_info(weights, &info), "hf_weights_get_info"), take(&info, 1);
+  hf_weights_destroy(weights);
 }
 
 }  // namespace reliability

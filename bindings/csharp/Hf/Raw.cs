@@ -93,6 +93,17 @@ namespace Hf.Native
         public const int HF_PAIR_NO_ALIGNMENT = 8;
         public const int HF_PAIR_CONTACT = 16;
         public const int HF_PAIR_LIMIT = 256;
+        public const int HF_WEIGHTS_INFORMED = 0;
+        public const int HF_WEIGHTS_SOLVED = 1;
+        public const int HF_WEIGHTS_PINNED = 2;
+        public const int HF_WEIGHTS_CARRIED = 3;
+        public const int HF_WEIGHTS_RIGID = 4;
+        public const int HF_WEIGHTS_ISOLATED = 5;
+        public const int HF_BONE_NO_LENGTH = 1;
+        public const int HF_BONE_COINCIDENT = 2;
+        public const int HF_BONE_INFORMS_NONE = 4;
+        public const int HF_BONE_OUTSIDE = 8;
+        public const int HF_BONE_HELPER = 16;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -885,6 +896,76 @@ namespace Hf.Native
         public IntPtr hold_positions;
     }
 
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_bones_desc
+    {
+        public uint struct_size;
+        public uint bone_count;
+        public IntPtr heads;
+        public IntPtr tails;
+        public IntPtr axes;
+        public IntPtr parents;
+        public IntPtr deforms;
+        public IntPtr sources;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_pins_desc
+    {
+        public uint struct_size;
+        public uint pin_count;
+        public IntPtr vertices;
+        public IntPtr triangles;
+        public IntPtr barycentrics;
+        public IntPtr radii;
+        public uint joint_count;
+        public uint reserved;
+        public IntPtr joints;
+        public IntPtr weights;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_weights_out
+    {
+        public uint struct_size;
+        public uint vertex_capacity;
+        public uint vertex_count;
+        public uint weight_count;
+        public IntPtr joints;
+        public IntPtr joints_u16;
+        public IntPtr weights;
+        public IntPtr origins;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_weights_info
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public uint bone_count;
+        public uint pin_count;
+        public uint lock_count;
+        public uint informed_count;
+        public uint solved_count;
+        public uint pinned_count;
+        public uint carried_count;
+        public uint rigid_count;
+        public uint isolated_count;
+        public uint carried_island_count;
+        public uint rigid_island_count;
+        public int blind;
+        public uint no_length_count;
+        public uint coincident_count;
+        public uint informs_none_count;
+        public uint outside_count;
+        public uint helper_count;
+        public uint factorisation_count;
+        public uint path_solve_count;
+        public uint reserved;
+    }
+
     public static unsafe class Functions
     {
 #if UNITY_IOS && !UNITY_EDITOR
@@ -1008,5 +1089,17 @@ namespace Hf.Native
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_info(IntPtr transfer, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_apply(IntPtr transfer, void* frame);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_skin(IntPtr transfer, void* inout_skin);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_create(IntPtr surface, void* bones, uint weight_count, void* out_weights);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_clone(IntPtr weights, void* out_weights);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_weights_destroy(IntPtr weights);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_set_bones(IntPtr weights, void* bones);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_set_pins(IntPtr weights, void* pins);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_set_locks(IntPtr weights, uint lock_count, void* bones, void* values);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get(IntPtr weights, void* inout_weights);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_bones(IntPtr weights, uint capacity, void* out_flags, void* out_vertex_counts, void* out_count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_info(IntPtr weights, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_record(IntPtr weights);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_undo(IntPtr weights);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_redo(IntPtr weights);
     }
 }

@@ -22,13 +22,15 @@ from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as Dire
                    hf_quads_info as QuadsInfo, hf_region_info as RegionInfo, hf_solve_info as SolveInfo,
                    hf_solver_info as SolverInfo, hf_solver_statistics as SolverStatistics,
                    hf_surface_info as SurfaceInfo, hf_surface_report as SurfaceReport,
-                   hf_surface_statistics as SurfaceStatistics, hf_transfer_info as TransferInfo)
+                   hf_surface_statistics as SurfaceStatistics, hf_transfer_info as TransferInfo,
+                   hf_weights_info as WeightsInfo)
 from .direction import Direction
 from .pose import DeformMode, Pair, Pose, Skin, Transfer, TransferMode
 from .quads import Flow, FlowLines, QuadKind, QuadMesh, Quads
 from .region import Detail, Region, RegionList, Side
 from .solver import Engine, Solver
 from .surface import Extremities, FieldKind, Geodesics, Isolines, Levels, Operator, Progress, Surface, Weld
+from .weights import BoneFlag, Origin, VertexWeights, Weights
 
 __version__ = constants.HEADER_VERSION
 

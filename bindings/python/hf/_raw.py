@@ -90,6 +90,17 @@ HF_PAIR_TRUNK = 4
 HF_PAIR_NO_ALIGNMENT = 8
 HF_PAIR_CONTACT = 16
 HF_PAIR_LIMIT = 256
+HF_WEIGHTS_INFORMED = 0
+HF_WEIGHTS_SOLVED = 1
+HF_WEIGHTS_PINNED = 2
+HF_WEIGHTS_CARRIED = 3
+HF_WEIGHTS_RIGID = 4
+HF_WEIGHTS_ISOLATED = 5
+HF_BONE_NO_LENGTH = 1
+HF_BONE_COINCIDENT = 2
+HF_BONE_INFORMS_NONE = 4
+HF_BONE_OUTSIDE = 8
+HF_BONE_HELPER = 16
 
 RESULT_NAMES = {
     0: "HF_OK",
@@ -1472,7 +1483,131 @@ class hf_transfer_frame(Structure):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_propose_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
+class hf_bones_desc(Structure):
+    """The bones of a skeleton, in the unit and frame of the mesh."""
+    struct_size: int
+    bone_count: int
+    heads: int
+    tails: int
+    axes: int
+    parents: int
+    deforms: int
+    sources: int
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("bone_count", c_uint32),
+        ("heads", c_void_p),
+        ("tails", c_void_p),
+        ("axes", c_void_p),
+        ("parents", c_void_p),
+        ("deforms", c_void_p),
+        ("sources", c_void_p),
+        ("progress", c_void_p),
+    ]
+
+
+class hf_pins_desc(Structure):
+    """Places with given weights."""
+    struct_size: int
+    pin_count: int
+    vertices: int
+    triangles: int
+    barycentrics: int
+    radii: int
+    joint_count: int
+    reserved: int
+    joints: int
+    weights: int
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("pin_count", c_uint32),
+        ("vertices", c_void_p),
+        ("triangles", c_void_p),
+        ("barycentrics", c_void_p),
+        ("radii", c_void_p),
+        ("joint_count", c_uint32),
+        ("reserved", c_uint32),
+        ("joints", c_void_p),
+        ("weights", c_void_p),
+        ("progress", c_void_p),
+    ]
+
+
+class hf_weights_out(Structure):
+    """Receives the weights."""
+    struct_size: int
+    vertex_capacity: int
+    vertex_count: int
+    weight_count: int
+    joints: int
+    joints_u16: int
+    weights: int
+    origins: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertex_capacity", c_uint32),
+        ("vertex_count", c_uint32),
+        ("weight_count", c_uint32),
+        ("joints", c_void_p),
+        ("joints_u16", c_void_p),
+        ("weights", c_void_p),
+        ("origins", c_void_p),
+    ]
+
+
+class hf_weights_info(Structure):
+    """Counts of the weights."""
+    struct_size: int
+    vertex_count: int
+    bone_count: int
+    pin_count: int
+    lock_count: int
+    informed_count: int
+    solved_count: int
+    pinned_count: int
+    carried_count: int
+    rigid_count: int
+    isolated_count: int
+    carried_island_count: int
+    rigid_island_count: int
+    blind: int
+    no_length_count: int
+    coincident_count: int
+    informs_none_count: int
+    outside_count: int
+    helper_count: int
+    factorisation_count: int
+    path_solve_count: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertex_count", c_uint32),
+        ("bone_count", c_uint32),
+        ("pin_count", c_uint32),
+        ("lock_count", c_uint32),
+        ("informed_count", c_uint32),
+        ("solved_count", c_uint32),
+        ("pinned_count", c_uint32),
+        ("carried_count", c_uint32),
+        ("rigid_count", c_uint32),
+        ("isolated_count", c_uint32),
+        ("carried_island_count", c_uint32),
+        ("rigid_island_count", c_uint32),
+        ("blind", c_int32),
+        ("no_length_count", c_uint32),
+        ("coincident_count", c_uint32),
+        ("informs_none_count", c_uint32),
+        ("outside_count", c_uint32),
+        ("helper_count", c_uint32),
+        ("factorisation_count", c_uint32),
+        ("path_solve_count", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_propose_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame, hf_bones_desc, hf_pins_desc, hf_weights_out, hf_weights_info]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -1591,6 +1726,18 @@ PROTOTYPES = {
     "hf_transfer_get_info": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_apply": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_get_skin": (c_int32, [c_void_p, c_void_p]),
+    "hf_weights_create": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
+    "hf_weights_clone": (c_int32, [c_void_p, c_void_p]),
+    "hf_weights_destroy": (None, [c_void_p]),
+    "hf_weights_set_bones": (c_int32, [c_void_p, c_void_p]),
+    "hf_weights_set_pins": (c_int32, [c_void_p, c_void_p]),
+    "hf_weights_set_locks": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_weights_get": (c_int32, [c_void_p, c_void_p]),
+    "hf_weights_get_bones": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p]),
+    "hf_weights_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_weights_record": (c_int32, [c_void_p]),
+    "hf_weights_undo": (c_int32, [c_void_p]),
+    "hf_weights_redo": (c_int32, [c_void_p]),
 }
 
 

@@ -1,0 +1,155 @@
+"""Skin weights of a surface from a skeleton (hf/weights.h)."""
+
+from __future__ import annotations
+
+import ctypes
+from enum import IntEnum, IntFlag
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+
+from . import _raw
+from ._library import ArrayLike, InvalidArgumentError, Object, address, call, handle_of, integers, make
+from .surface import Progress, Surface
+
+
+class Origin(IntEnum):
+    """How the weights of a vertex were found."""
+    INFORMED, SOLVED, PINNED = _raw.HF_WEIGHTS_INFORMED, _raw.HF_WEIGHTS_SOLVED, _raw.HF_WEIGHTS_PINNED
+    CARRIED, RIGID, ISOLATED = _raw.HF_WEIGHTS_CARRIED, _raw.HF_WEIGHTS_RIGID, _raw.HF_WEIGHTS_ISOLATED
+
+
+class BoneFlag(IntFlag):
+    """Why a bone deserves a look."""
+    NO_LENGTH, COINCIDENT = _raw.HF_BONE_NO_LENGTH, _raw.HF_BONE_COINCIDENT
+    INFORMS_NONE, OUTSIDE, HELPER = _raw.HF_BONE_INFORMS_NONE, _raw.HF_BONE_OUTSIDE, _raw.HF_BONE_HELPER
+
+
+class VertexWeights(NamedTuple):
+    joints: np.ndarray  # (vertices, 4 or 8) uint32
+    weights: np.ndarray  # the same shape, float32; rows descend and sum to 1
+    origins: np.ndarray  # (vertices,) uint8, Origin
+
+
+def _rows(values: ArrayLike, count: Optional[int], name: str) -> np.ndarray:
+    rows = np.ascontiguousarray(values, dtype=np.float64)
+    if rows.ndim != 2 or rows.shape[1] != 3 or (count is not None and len(rows) != count):
+        raise InvalidArgumentError(f"{name} must have the shape ({'n' if count is None else count}, 3), not {rows.shape}")
+    return rows
+
+
+def _list(values: Optional[ArrayLike], dtype: Any, size: int, name: str) -> Optional[np.ndarray]:
+    if values is None:
+        return None
+    array = np.ascontiguousarray(values, dtype=dtype).reshape(-1)
+    if array.size != size:
+        raise InvalidArgumentError(f"{name} must have {size} entries, not {array.size}")
+    return array
+
+
+class Weights(Object):
+    """Skin weights of a surface. heads, tails, axes: (bones, 3); parents: -1 for a root; deforms: 0 or 1 by bone."""
+
+    _destroy = "hf_weights_destroy"
+
+    def __init__(self, surface: Surface, heads: ArrayLike, *, tails: Optional[ArrayLike] = None,
+                 axes: Optional[ArrayLike] = None, parents: Optional[ArrayLike] = None,
+                 deforms: Optional[ArrayLike] = None, weight_count: int = 4,
+                 progress: Optional[Progress] = None) -> None:
+        parent, handle = handle_of(surface, Surface, "surface"), ctypes.c_void_p()
+        desc, _keep = self._bones(heads, tails, axes, parents, deforms, None, progress)
+        call("hf_weights_create", parent, ctypes.byref(desc), weight_count, ctypes.byref(handle))
+        self._own(handle)
+        self.vertex_count = surface.vertex_count
+
+    @staticmethod
+    def _bones(heads: ArrayLike, tails: Any, axes: Any, parents: Any, deforms: Any, sources: Any,
+               progress: Optional[Progress]) -> Any:
+        h = _rows(heads, None, "heads")
+        desc = make(_raw.hf_bones_desc, bone_count=len(h), heads=address(h),
+                    progress=handle_of(progress, Progress, "progress"))
+        keep = [h]
+        for name, values in (("tails", tails), ("axes", axes)):
+            if values is not None:
+                keep.append(_rows(values, len(h), name))
+                setattr(desc, name, address(keep[-1]))
+        for name, values, dtype in (("parents", parents, np.int64), ("deforms", deforms, np.int32),
+                                    ("sources", sources, np.int64)):
+            array = _list(values, dtype, len(h), name)
+            if array is not None:
+                keep.append(array if dtype == np.int32 else (array & 0xFFFFFFFF).astype(np.uint32))
+                setattr(desc, name, address(keep[-1]))
+        return desc, keep
+
+    def clone(self) -> "Weights":
+        handle = ctypes.c_void_p()
+        call("hf_weights_clone", self._raw_handle, ctypes.byref(handle))
+        copy = Weights.__new__(Weights)
+        copy._own(handle)
+        copy.vertex_count = self.vertex_count
+        return copy
+
+    def set_bones(self, heads: ArrayLike, *, tails: Optional[ArrayLike] = None, axes: Optional[ArrayLike] = None,
+                  parents: Optional[ArrayLike] = None, deforms: Optional[ArrayLike] = None,
+                  sources: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> None:
+        """Replaces all bones. sources: the number each bone had before, -1 for a new one; None: the same numbers."""
+        desc, _keep = self._bones(heads, tails, axes, parents, deforms, sources, progress)
+        call("hf_weights_set_bones", self._raw_handle, ctypes.byref(desc))
+
+    def set_pins(self, vertices: ArrayLike, joints: ArrayLike, weights: ArrayLike, *,
+                 radii: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> None:
+        """Replaces all pins: vertices whose weights are given. joints, weights: (pins, 1 to 8). No vertices: no pins."""
+        places = integers(vertices, "vertices")
+        count = 0 if places is None else places.size
+        desc = make(_raw.hf_pins_desc, pin_count=count, progress=handle_of(progress, Progress, "progress"))
+        if count:
+            bones = np.ascontiguousarray(joints, dtype=np.uint32).reshape(count, -1)
+            shares = np.ascontiguousarray(weights, dtype=np.float32).reshape(count, -1)
+            if bones.shape != shares.shape:
+                raise InvalidArgumentError(f"joints and weights have the shapes {bones.shape} and {shares.shape}")
+            sizes = _list(radii, np.float64, count, "radii")
+            desc.vertices, desc.joint_count = address(places), bones.shape[1]
+            desc.joints, desc.weights = address(bones), address(shares)
+            if sizes is not None:
+                desc.radii = address(sizes)
+        call("hf_weights_set_pins", self._raw_handle, ctypes.byref(desc))
+
+    def set_locks(self, bones: ArrayLike, values: Optional[ArrayLike] = None) -> None:
+        """Locks bones: their weights stay. values: (vertices, bones); None: the present weights. Replaces all locks."""
+        locked = np.ascontiguousarray(bones, dtype=np.uint32).reshape(-1)
+        kept = _list(values, np.float32, self.vertex_count * locked.size, "values")
+        call("hf_weights_set_locks", self._raw_handle, locked.size, address(locked) if locked.size else None,
+             None if kept is None else address(kept))
+
+    def weights(self) -> VertexWeights:
+        out = make(_raw.hf_weights_out)
+        call("hf_weights_get", self._raw_handle, ctypes.byref(out))
+        shape = (out.vertex_count, out.weight_count)
+        found = VertexWeights(np.empty(shape, np.uint32), np.empty(shape, np.float32), np.empty(shape[0], np.uint8))
+        out.vertex_capacity = out.vertex_count
+        out.joints, out.weights, out.origins = (address(array) for array in found)
+        call("hf_weights_get", self._raw_handle, ctypes.byref(out))
+        return found
+
+    def bones(self) -> Any:
+        """Flags (BoneFlag) of every bone, and how many vertices ask for it."""
+        count = ctypes.c_uint32()
+        call("hf_weights_get_bones", self._raw_handle, 0, None, None, ctypes.byref(count))
+        flags, counts = np.empty(count.value, np.uint32), np.empty(count.value, np.uint32)
+        call("hf_weights_get_bones", self._raw_handle, count.value, address(flags), address(counts), None)
+        return flags, counts
+
+    def info(self) -> _raw.hf_weights_info:
+        info = make(_raw.hf_weights_info)
+        call("hf_weights_get_info", self._raw_handle, ctypes.byref(info))
+        return info
+
+    def record(self) -> None:
+        """Keeps bones, pins and locks for undo()."""
+        call("hf_weights_record", self._raw_handle)
+
+    def undo(self) -> None:
+        call("hf_weights_undo", self._raw_handle)
+
+    def redo(self) -> None:
+        call("hf_weights_redo", self._raw_handle)

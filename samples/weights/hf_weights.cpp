@@ -1,0 +1,294 @@
+// hf_weights: computes the skin weights of a model anew and compares them with those it had. See README.md beside this
+// file, or --help.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+#include "common/gltf_read.h"
+#include "common/gltf_write.h"
+#include "common/json_file.h"
+#include "common/program.h"
+#include "weights/compare.h"
+
+namespace samples {
+namespace {
+
+const char* const usage =
+    "usage: hf_weights MODEL.glb [-o OUT.glb] [--bones FILE] [--pins FILE] [--keep JOINTS] [--weights 4|8]\n"
+    "                  [--all] [--guide N] [--sheet FILE.png] [--report FILE.json] [--table]\n"
+    "  Computes the weights of a skinned model from its joints, and compares them with the weights of the file.\n"
+    "  -o, --output FILE  the model with the new weights\n"
+    "  --bones FILE       bones in place of joints: {\"bones\": [{\"joint\": \"arm\", \"head\": [x, y, z],\n"
+    "                     \"tail\": [x, y, z], \"deforms\": true}, ...]}; joints that are not named stay\n"
+    "  --pins FILE        {\"pins\": [{\"vertex\": 12, \"radius\": 0.1, \"weights\": {\"arm\": 1}}, ...]}; without\n"
+    "                     weights, those of the file\n"
+    "  --keep JOINTS      joints, separated by commas, that keep the weights of the file\n"
+    "  --weights N        joints per vertex, 4 or 8 (4)\n"
+    "  --guide N          sets N pins, each with the weights of the file where the pose is farthest from the file's\n"
+    "  --all              all joints deform; else those that have weights in the file\n"
+    "  --sheet FILE       a picture: weights given, computed, their difference\n"
+    "  --report FILE      counts, distances and times as JSON\n"
+    "  --table            prints one line\n";
+
+struct Command {
+  std::filesystem::path mesh, out, bones, pins, sheet, report;
+  std::string keep;
+  uint32_t weights = 4, guide = 0;
+  bool all = false, table = false, help = false;
+};
+
+Command parse(Words words) {
+  Command out;
+  while (words.next()) {
+    if (words.is("--help", "-h")) {
+      out.help = true;
+    } else if (words.is("-o", "--output")) {
+      out.out = words.value();
+    } else if (words.is("--bones")) {
+      out.bones = words.value();
+    } else if (words.is("--pins")) {
+      out.pins = words.value();
+    } else if (words.is("--keep")) {
+      out.keep = words.value();
+    } else if (words.is("--weights")) {
+      out.weights = words.whole(4, 8);
+    } else if (words.is("--guide")) {
+      out.guide = words.whole(1, 1000);
+    } else if (words.is("--all")) {
+      out.all = true;
+    } else if (words.is("--sheet")) {
+      out.sheet = words.value();
+    } else if (words.is("--report")) {
+      out.report = words.value();
+    } else if (words.is("--table")) {
+      out.table = true;
+    } else {
+      words.take_mesh(out.mesh);
+    }
+  }
+  if (!out.help && out.mesh.empty()) throw std::runtime_error("no model is named; see --help");
+  return out;
+}
+
+uint32_t joint_named(const Rig& rig, const std::string& name) {
+  const auto there = std::find(rig.names.begin(), rig.names.end(), name);
+  if (there == rig.names.end()) throw std::runtime_error("the model has no joint \"" + name + "\"");
+  return static_cast<uint32_t>(there - rig.names.begin());
+}
+
+void read_bones(const std::filesystem::path& file, Rig& rig) {
+  const JsonFile json(file);
+  const JsonReader list = json.root().at("bones");
+  for (size_t i = 0; i < list.size(); ++i) {
+    const JsonReader entry = list.at(i);
+    entry.expect_only({"joint", "head", "tail", "deforms"});
+    const uint32_t joint = joint_named(rig, entry.at("joint").string());
+    const auto place = [&](const char* key, std::vector<double>& points) {
+      if (!entry.has(key)) return;
+      if (points.empty()) points = rig.bones.heads;
+      const std::vector<double> p = entry.at(key).numbers(3);
+      std::copy(p.begin(), p.end(), points.begin() + static_cast<std::ptrdiff_t>(3 * joint));
+    };
+    place("head", rig.bones.heads), place("tail", rig.bones.tails);
+    if (!rig.bones.tails.empty()) rig.bones.axes.clear();
+    rig.bones.deforms[joint] = entry.boolean_or("deforms", rig.bones.deforms[joint] != 0);
+  }
+}
+
+// Pins with weights for every joint that any of them names.
+struct PinFile {
+  std::vector<uint32_t> vertices, joints;
+  std::vector<double> radii;
+  std::vector<float> weights;
+};
+
+// Appends a pin with the weights of the file.
+void add_given(const Rig& rig, size_t vertex, PinFile& out) {
+  out.vertices.push_back(static_cast<uint32_t>(vertex)), out.radii.push_back(0);
+  for (size_t k = 0; k < rig.given.per_vertex; ++k) {
+    out.joints.push_back(rig.given.joints[vertex * rig.given.per_vertex + k]);
+    out.weights.push_back(rig.given.weights[vertex * rig.given.per_vertex + k]);
+  }
+}
+
+PinFile read_pins(const std::filesystem::path& file, const Rig& rig) {
+  constexpr size_t width = 8;
+  const JsonFile json(file);
+  const JsonReader list = json.root().at("pins");
+  PinFile out;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const JsonReader entry = list.at(i);
+    entry.expect_only({"vertex", "radius", "weights"});
+    const auto vertex =
+        static_cast<size_t>(entry.at("vertex").integer(0, static_cast<int64_t>(rig.positions.size()) - 1));
+    out.vertices.push_back(static_cast<uint32_t>(vertex));
+    out.radii.push_back(entry.number_or("radius", 0));
+    std::vector<std::pair<uint32_t, float>> own;
+    if (entry.has("weights")) {
+      for (const auto& [name, value] : entry.at("weights").value().items()) {
+        if (!value.is_number()) entry.fail("weights." + name + " is no number");
+        own.push_back({joint_named(rig, name), value.get<float>()});
+      }
+    } else {
+      for (size_t k = 0; k < rig.given.per_vertex; ++k)
+        own.push_back({rig.given.joints[vertex * width + k], rig.given.weights[vertex * width + k]});
+    }
+    if (own.size() > width) entry.fail("more than 8 weights");
+    own.resize(width, {own.empty() ? 0u : own[0].first, 0.0f});
+    for (const auto& [joint, weight] : own) out.joints.push_back(joint), out.weights.push_back(weight);
+  }
+  return out;
+}
+
+void set_pins(hf::Weights& weights, const PinFile& pins) {
+  auto desc = hf::make<hf_pins_desc>();
+  desc.pin_count = static_cast<uint32_t>(pins.vertices.size());
+  desc.vertices = pins.vertices.data(), desc.radii = pins.radii.data();
+  desc.joint_count = 8, desc.joints = pins.joints.data(), desc.weights = pins.weights.data();
+  weights.set_pins(desc);
+}
+
+void set_locks(hf::Weights& weights, const std::string& names, const Rig& rig) {
+  std::vector<uint32_t> joints;
+  for (size_t begin = 0; begin <= names.size();) {
+    const size_t end = std::min(names.find(',', begin), names.size());
+    joints.push_back(joint_named(rig, names.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  std::vector<float> values(rig.positions.size() * joints.size(), 0.0f);
+  for (size_t i = 0; i < rig.given.joints.size(); ++i) {
+    const size_t v = i / rig.given.per_vertex;
+    for (size_t j = 0; j < joints.size(); ++j) {
+      if (rig.given.joints[i] != joints[j]) continue;
+      float& value = values[v * joints.size() + j];
+      value = std::min(1.0f, value + rig.given.weights[i]);
+    }
+  }
+  weights.set_locks(joints, values);
+}
+
+RigWeights weights_of(const hf::Weights& weights) {
+  hf::VertexWeights computed = weights.weights();
+  return {computed.weight_count, std::move(computed.joints), std::move(computed.weights)};
+}
+
+// Sets pins one after the other where the mean distance is largest. Copies of a pinned vertex do not get a second one.
+void guide(const Model& model, const Rig& rig, const std::vector<Pose>& poses, uint32_t count, PinFile pins,
+           hf::Weights& weights) {
+  for (uint32_t i = 0; i < count; ++i) {
+    std::vector<double> distance = compare(model, rig, poses, weights_of(weights)).of_vertex;
+    for (const uint32_t v : pins.vertices) {
+      for (size_t w = 0; w < distance.size(); ++w) {
+        if (rig.positions[w] == rig.positions[v]) distance[w] = 0;
+      }
+    }
+    const auto worst = std::max_element(distance.begin(), distance.end());
+    add_given(rig, static_cast<size_t>(worst - distance.begin()), pins);
+    set_pins(weights, pins);
+  }
+}
+
+double milliseconds(const std::chrono::steady_clock::time_point& begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weights& weights, const Comparison& found,
+                         double surface_ms, double weights_ms) {
+  // A moved bone and a pin, each with the new weights out.
+  hf::Weights edited = weights.clone();
+  hf::Bones moved = rig.bones;
+  moved.heads[0] += 0.01 * rig.diagonal;
+  const auto begin = std::chrono::steady_clock::now();
+  edited.set_bones(moved), edited.weights();
+  const double bone_ms = milliseconds(begin);
+  PinFile pin;
+  add_given(rig, rig.positions.size() / 2, pin);
+  const auto middle = std::chrono::steady_clock::now();
+  set_pins(edited, pin), edited.weights();
+  const double pin_ms = milliseconds(middle);
+  const hf_weights_info info = weights.info();
+  nlohmann::json out;
+  out["model"] = options.mesh.filename().string();
+  out["vertices"] = info.vertex_count, out["joints"] = info.bone_count;
+  out["distance"] = {{"mean", found.mean}, {"high", found.high}, {"worst", found.worst}};
+  out["stretch"] = found.stretch, out["bare"] = found.bare;
+  out["milliseconds"] = {{"surface", surface_ms}, {"weights", weights_ms}, {"bone", bone_ms}, {"pin", pin_ms}};
+  out["found"] = {
+      {"informed", info.informed_count},      {"solved", info.solved_count}, {"pinned", info.pinned_count},
+      {"carried", info.carried_count},        {"rigid", info.rigid_count},   {"isolated", info.isolated_count},
+      {"islands", info.carried_island_count}, {"blind", info.blind}};
+  std::vector<uint32_t> counts;
+  const std::vector<uint32_t> flags = weights.bones(&counts);
+  out["bones"] = nlohmann::json::array();
+  for (size_t j = 0; j < flags.size(); ++j)
+    out["bones"].push_back(
+        {{"joint", rig.names[j]}, {"deforms", rig.bones.deforms[j]}, {"flags", flags[j]}, {"vertices", counts[j]}});
+  return out;
+}
+
+void run(const Command& options) {
+  Model model = read_gltf(options.mesh);
+  Rig rig = read_rig(model);
+  if (options.all) std::fill(rig.bones.deforms.begin(), rig.bones.deforms.end(), 1);
+  if (!options.bones.empty()) read_bones(options.bones, rig);
+  const std::vector<double> positions = double_positions(rig.positions);
+  auto desc = hf::make<hf_surface_desc>();
+  desc.vertex_count = static_cast<uint32_t>(rig.positions.size());
+  desc.triangle_count = static_cast<uint32_t>(rig.triangles.size() / 3);
+  desc.positions_f64 = positions.data(), desc.triangles = rig.triangles.data();
+  const auto begin = std::chrono::steady_clock::now();
+  const hf::Surface surface(desc);
+  const double surface_ms = milliseconds(begin);
+  const auto middle = std::chrono::steady_clock::now();
+  hf::Weights weights(surface, rig.bones, options.weights);
+  const double weights_ms = milliseconds(middle);
+  if (!options.keep.empty()) set_locks(weights, options.keep, rig);
+  if (!options.pins.empty()) set_pins(weights, read_pins(options.pins, rig));
+  const std::vector<Pose> poses = clip_poses(model, rig);
+  if (options.guide > 0)
+    guide(model, rig, poses, options.guide, options.pins.empty() ? PinFile{} : read_pins(options.pins, rig), weights);
+  const RigWeights own = weights_of(weights);
+  const Comparison found = compare(model, rig, poses, own);
+  const hf_weights_info info = weights.info();
+  const std::string name = options.mesh.stem().string();
+  if (options.table) {
+    std::printf("%-26s %6u %4u %7.3f %7.3f %6.3f %4u %5u %5u %7.1f %7.1f\n", name.c_str(), info.vertex_count,
+                info.bone_count, found.mean, found.high, found.stretch, found.bare,
+                info.carried_count + info.rigid_count, info.isolated_count, surface_ms, weights_ms);
+  } else {
+    std::printf("%s: %u vertices, %u joints, %zu poses\n", name.c_str(), info.vertex_count, info.bone_count,
+                poses.size());
+    std::printf(
+        "distance     mean %.3f %%, 95 %% below %.3f %%, worst %.2f %% of the box; stretch %.3f of the file's\n",
+        found.mean, found.high, found.worst, found.stretch);
+    std::printf(
+        "vertices     %u informed, %u solved, %u pinned; guessed: %u carried, %u rigid, %u isolated; bare: %u\n",
+        info.informed_count, info.solved_count, info.pinned_count, info.carried_count, info.rigid_count,
+        info.isolated_count, found.bare);
+    std::printf("bones        %u without length, %u coincident, %u inform none, %u outside, %u look like helpers\n",
+                info.no_length_count, info.coincident_count, info.informs_none_count, info.outside_count,
+                info.helper_count);
+    std::printf("time         surface %.1f ms, weights %.1f ms\n", surface_ms, weights_ms);
+  }
+  if (!options.report.empty())
+    write_json(options.report, report_of(options, rig, weights, found, surface_ms, weights_ms));
+  if (!options.sheet.empty()) {
+    char title[200];
+    std::snprintf(title, sizeof title, "%s: mean %.2f %%, 95 %% below %.2f %% of the box", name.c_str(), found.mean,
+                  found.high);
+    write_weight_sheet(options.sheet.string(), model, rig, poses, own, found, title);
+  }
+  if (!options.out.empty()) {
+    write_weights(model, rig, own);
+    write_gltf(model, options.out);
+  }
+}
+
+}  // namespace
+}  // namespace samples
+
+int main(int count, char** arguments) {
+  return samples::run_program("hf_weights", samples::usage, count, arguments, samples::parse, samples::run);
+}

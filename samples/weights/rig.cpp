@@ -1,0 +1,194 @@
+#include "weights/rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace samples {
+namespace {
+
+// The joints of all skins, with their inverse bind matrices in the space of the first skin. to_first[s] takes the space
+// of skin s there.
+std::vector<glm::dmat4> collect_joints(const Model& model, const std::vector<int>& skins, Rig& rig,
+                                       std::map<int, uint32_t>& number) {
+  std::vector<glm::dmat4> to_first(model.skins.size(), glm::dmat4(1.0));
+  for (const int s : skins) {
+    const Skin& skin = model.skins[static_cast<size_t>(s)];
+    for (size_t j = 0; j < skin.joints.size(); ++j) {
+      const auto known = number.find(skin.joints[j]);
+      if (known == number.end()) continue;
+      to_first[static_cast<size_t>(s)] =
+          glm::inverse(rig.inverse_bind[known->second]) * glm::dmat4(skin.inverse_bind[j]);
+      break;
+    }
+    const glm::dmat4 back = glm::inverse(to_first[static_cast<size_t>(s)]);
+    for (size_t j = 0; j < skin.joints.size(); ++j) {
+      if (!number.emplace(skin.joints[j], static_cast<uint32_t>(rig.joints.size())).second) continue;
+      rig.joints.push_back(skin.joints[j]);
+      rig.names.push_back(model.nodes[static_cast<size_t>(skin.joints[j])].name);
+      rig.inverse_bind.push_back(glm::dmat4(skin.inverse_bind[j]) * back);
+    }
+  }
+  return to_first;
+}
+
+void add_primitive(const Primitive& primitive, const Skin& skin, const glm::dmat4& space,
+                   const std::map<int, uint32_t>& number, Rig& rig) {
+  const uint32_t first = static_cast<uint32_t>(rig.positions.size());
+  for (size_t v = 0; v < primitive.positions.size(); ++v) {
+    const glm::dvec3 p(primitive.positions[v]);
+    rig.positions.push_back(space == glm::dmat4(1.0) ? p : glm::dvec3(space * glm::dvec4(p, 1.0)));
+    const Influences& own = primitive.influences[v];
+    for (size_t k = 0; k < rig.given.per_vertex; ++k) {
+      rig.given.joints.push_back(own.weights[k] > 0 ? number.at(skin.joints[own.joints[k]]) : 0);
+      rig.given.weights.push_back(own.weights[k]);
+    }
+  }
+  for (const uint32_t v : primitive.indices) rig.triangles.push_back(first + v);
+}
+
+// Exporters give bones one local axis along which they point. Every joint with one child votes for an axis.
+void find_axes(Rig& rig) {
+  const size_t count = rig.joints.size();
+  std::vector<glm::dvec3> heads(count);
+  std::vector<size_t> children(count, 0);
+  for (size_t j = 0; j < count; ++j) {
+    heads[j] = {rig.bones.heads[3 * j], rig.bones.heads[3 * j + 1], rig.bones.heads[3 * j + 2]};
+    if (rig.bones.parents[j] != HF_NO_INDEX) ++children[rig.bones.parents[j]];
+  }
+  const auto axis_of = [&](size_t j, size_t choice) {
+    const glm::dmat4 bind = glm::inverse(rig.inverse_bind[j]);
+    const glm::dvec3 axis(bind[static_cast<int>(choice / 2)]);
+    const double length = glm::length(axis);
+    return length > 0 ? axis * ((choice % 2 ? -1.0 : 1.0) / length) : glm::dvec3(0);
+  };
+  constexpr double aligned = 0.98, quorum = 0.5;  // cosine; share of the voters
+  size_t votes[6] = {}, voters = 0;
+  for (size_t j = 0; j < count; ++j) {
+    const uint32_t parent = rig.bones.parents[j];
+    if (parent == HF_NO_INDEX || children[parent] != 1) continue;
+    const glm::dvec3 way = heads[j] - heads[parent];
+    if (!(glm::length(way) > 0)) continue;
+    ++voters;
+    for (size_t a = 0; a < 6; ++a) votes[a] += glm::dot(axis_of(parent, a), glm::normalize(way)) > aligned;
+  }
+  const size_t best = static_cast<size_t>(std::max_element(votes, votes + 6) - votes);
+  if (static_cast<double>(votes[best]) < quorum * static_cast<double>(voters) || voters == 0) return;
+  for (size_t j = 0; j < count; ++j) {
+    const glm::dvec3 axis = axis_of(j, best);
+    rig.bones.axes.insert(rig.bones.axes.end(), {axis.x, axis.y, axis.z});
+  }
+}
+
+}  // namespace
+
+Rig read_rig(const Model& model) {
+  Rig rig;
+  std::vector<int> skins;
+  for (const Node& node : model.nodes) {
+    if (node.mesh >= 0 && node.skin >= 0 && std::find(skins.begin(), skins.end(), node.skin) == skins.end())
+      skins.push_back(node.skin);
+  }
+  if (skins.empty()) throw std::runtime_error(model.name + ": the model has no skin");
+  std::map<int, uint32_t> number;
+  const std::vector<glm::dmat4> to_first = collect_joints(model, skins, rig, number);
+  for (size_t n = 0; n < model.nodes.size(); ++n) {
+    const Node& node = model.nodes[n];
+    if (node.mesh < 0 || node.skin < 0) continue;
+    const MeshData& mesh = model.meshes[static_cast<size_t>(node.mesh)];
+    for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+      const Primitive& primitive = mesh.primitives[p];
+      if (primitive.topology != Topology::triangles || primitive.influences.empty()) continue;
+      rig.parts.push_back({static_cast<int>(n), node.mesh, static_cast<int>(p), node.skin,
+                           static_cast<uint32_t>(rig.positions.size())});
+      add_primitive(primitive, model.skins[static_cast<size_t>(node.skin)], to_first[static_cast<size_t>(node.skin)],
+                    number, rig);
+    }
+  }
+  if (rig.positions.empty()) throw std::runtime_error(model.name + ": no triangle has joints");
+  rig.bones.deforms.assign(rig.joints.size(), 0);
+  for (size_t i = 0; i < rig.given.joints.size(); ++i) {
+    if (rig.given.weights[i] > 0) rig.bones.deforms[rig.given.joints[i]] = 1;
+  }
+  for (size_t j = 0; j < rig.joints.size(); ++j) {
+    const glm::dvec4 head = glm::inverse(rig.inverse_bind[j])[3];
+    for (int c = 0; c < 3; ++c) rig.bones.heads.push_back(head[c]);
+    int up = model.nodes[static_cast<size_t>(rig.joints[j])].parent;
+    while (up >= 0 && number.find(up) == number.end()) up = model.nodes[static_cast<size_t>(up)].parent;
+    rig.bones.parents.push_back(up < 0 ? HF_NO_INDEX : number.at(up));
+  }
+  find_axes(rig);
+  glm::dvec3 low = rig.positions[0], high = low;
+  for (const glm::dvec3& p : rig.positions) low = glm::min(low, p), high = glm::max(high, p);
+  rig.diagonal = glm::length(high - low);
+  return rig;
+}
+
+std::vector<glm::dvec3> pose_rig(const Rig& rig, const std::vector<glm::dmat4>& globals, const RigWeights& weights) {
+  std::vector<glm::dmat4> joints;
+  for (size_t j = 0; j < rig.joints.size(); ++j)
+    joints.push_back(globals[static_cast<size_t>(rig.joints[j])] * rig.inverse_bind[j]);
+  std::vector<glm::dvec3> out(rig.positions.size());
+  for (size_t v = 0; v < out.size(); ++v) {
+    glm::dmat4 blend(0.0);
+    double sum = 0;
+    for (size_t k = 0; k < weights.per_vertex; ++k) {
+      const double w = static_cast<double>(weights.weights[v * weights.per_vertex + k]);
+      if (w > 0) blend += joints[weights.joints[v * weights.per_vertex + k]] * w, sum += w;
+    }
+    out[v] = sum > 0 ? glm::dvec3(blend * glm::dvec4(rig.positions[v], 1.0)) / sum : rig.positions[v];
+  }
+  return out;
+}
+
+std::vector<Pose> clip_poses(const Model& model, const Rig& rig) {
+  constexpr size_t least_poses = 40;
+  std::vector<Pose> poses;
+  if (model.animations.empty()) {
+    constexpr double swing = 0.5;  // radians
+    for (size_t f = 0; f < least_poses; ++f) {
+      Pose pose = rest_pose(model);
+      for (size_t j = 0; j < rig.joints.size(); ++j) {
+        NodePose& node = pose[static_cast<size_t>(rig.joints[j])];
+        if (!rig.bones.deforms[j] || node.fixed) continue;
+        const double phase = 2.399963 * static_cast<double>(j), turn = 0.157 * static_cast<double>(f + 1);
+        const glm::dvec3 axis =
+            glm::normalize(glm::dvec3(std::sin(3 * phase) + 0.1, std::cos(5 * phase), std::sin(7 * phase + 1)));
+        node.rotation = node.rotation * glm::angleAxis(swing * std::sin(turn + phase), axis);
+      }
+      poses.push_back(std::move(pose));
+    }
+    return poses;
+  }
+  const size_t each = (least_poses + model.animations.size() - 1) / model.animations.size();
+  for (const Animation& clip : model.animations) {
+    const double duration = clip_duration(clip);
+    for (size_t f = 0; f < each; ++f)
+      poses.push_back(sample(model, clip, duration * static_cast<double>(f) / static_cast<double>(each)));
+  }
+  return poses;
+}
+
+void write_weights(Model& model, const Rig& rig, const RigWeights& weights) {
+  for (const RigPart& part : rig.parts) {
+    Primitive& primitive = model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
+    const std::vector<int>& joints = model.skins[static_cast<size_t>(part.skin)].joints;
+    std::vector<uint16_t> local(rig.joints.size(), 0);
+    for (size_t j = 0; j < joints.size(); ++j) {
+      const auto there = std::find(rig.joints.begin(), rig.joints.end(), joints[j]);
+      local[static_cast<size_t>(there - rig.joints.begin())] = static_cast<uint16_t>(j);
+    }
+    for (size_t v = 0; v < primitive.positions.size(); ++v) {
+      Influences& out = primitive.influences[v];
+      out = Influences{};
+      const size_t row = (part.first_vertex + v) * weights.per_vertex;
+      for (size_t k = 0; k < weights.per_vertex; ++k) {
+        if (weights.weights[row + k] > 0)
+          out.joints[k] = local[weights.joints[row + k]], out.weights[k] = weights.weights[row + k];
+      }
+    }
+  }
+}
+
+}  // namespace samples

@@ -1,0 +1,52 @@
+// The rig of a model: joints and the surface they move, in the space in which the surface was bound to them.
+#ifndef HF_SAMPLES_WEIGHTS_RIG_H
+#define HF_SAMPLES_WEIGHTS_RIG_H
+
+#include <string>
+#include <vector>
+
+#include "common/animate.h"
+#include "hf/hf.hpp"
+
+namespace samples {
+
+// A primitive that a skin moves. Its vertices stand behind those of the parts before.
+struct RigPart {
+  int node = -1, mesh = -1, primitive = -1, skin = -1;
+  uint32_t first_vertex = 0;
+};
+
+// Joints and weights per vertex of the rig.
+struct RigWeights {
+  uint32_t per_vertex = 8;
+  std::vector<uint32_t> joints;
+  std::vector<float> weights;
+};
+
+struct Rig {
+  std::vector<RigPart> parts;
+  std::vector<glm::dvec3> positions;  // bind space of the first skin
+  std::vector<uint32_t> triangles;
+  std::vector<int> joints;  // nodes; the joints of all skins, each once
+  std::vector<std::string> names;
+  std::vector<glm::dmat4> inverse_bind;  // from the bind space of the first skin
+  hf::Bones bones;                       // heads and parents of the joints; a joint deforms if a vertex has it
+  RigWeights given;                      // the weights of the file
+  double diagonal = 0;                   // of the box of positions
+};
+
+// Throws std::runtime_error if the model has no skin.
+Rig read_rig(const Model& model);
+
+// Moves the vertices: sum of w J B p, J the world matrices of the joints.
+std::vector<glm::dvec3> pose_rig(const Rig& rig, const std::vector<glm::dmat4>& globals, const RigWeights& weights);
+
+// Poses of the model's clips, 40 to 54 in all. A model without clips gets one in which every joint swings.
+std::vector<Pose> clip_poses(const Model& model, const Rig& rig);
+
+// Puts weights into the primitives.
+void write_weights(Model& model, const Rig& rig, const RigWeights& weights);
+
+}  // namespace samples
+
+#endif

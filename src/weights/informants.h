@@ -1,0 +1,26 @@
+// Which bones inform which vertices: the nearest bone of each vertex, if the vertex sees it.
+#pragma once
+#include "base/jobs.h"
+#include "weights/skeleton.h"
+
+namespace hf_inner {
+
+struct Informants {
+  explicit Informants(Memory& memory) : start(&memory), bone(&memory), screening(&memory), by_island(&memory) {}
+  Span<const Index> of(Index v) const noexcept {
+    return {bone.data() + start[at(v)], at(start[at(v) + 1] - start[at(v)])};
+  }
+  Vector<Index> start;              // by vertex, one more: where its bones begin
+  Vector<Index> bone;               // bones of one vertex, ascending; each has the same share of p
+  Vector<double> screening;         // H by vertex, 0 without a bone
+  Vector<std::uint32_t> by_island;  // vertices with information
+  std::uint32_t informed = 0;       // of all
+  bool blind = false;               // no vertex sees its bone, so that visibility does not count
+};
+
+// The nearest bone of all informs a vertex, and only if the vertex sees it. If no vertex of the surface sees its bone,
+// all nearest bones inform.
+Informants find_informants(const Mesh& mesh, const Skin& skin, const Vector<BoneSegment>& segments, Memory& memory,
+                           JobRunner& jobs);
+
+}  // namespace hf_inner

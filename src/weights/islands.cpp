@@ -1,0 +1,94 @@
+#include "weights/islands.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weights/constants.h"
+
+namespace hf_inner {
+namespace {
+
+// Vertices with a tree over them.
+class Cloud {
+ public:
+  template <class Takes>
+  Cloud(const Mesh& mesh, Memory& memory, Takes&& takes)
+      : mesh_(mesh), vertices_(&memory), tree_(collect(takes, memory), memory) {}
+  bool empty() const noexcept { return vertices_.empty(); }
+  // The nearest vertex; of equal ones that of the lowest number.
+  Index nearest(const Vec3& p) const {
+    double best = HUGE_VAL;
+    Index found = -1;
+    tree_.near(
+        p, [&] { return best; },
+        [&](Index i) {
+          const Vec3 away = mesh_.positions[at(vertices_[at(i)])] - p;
+          const double squared = dot(away, away);
+          if (squared < best || (squared == best && vertices_[at(i)] < found)) best = squared, found = vertices_[at(i)];
+        });
+    return found;
+  }
+
+ private:
+  template <class Takes>
+  Vector<ItemBox> collect(Takes&& takes, Memory& memory) {
+    Vector<ItemBox> boxes(&memory);
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      if (takes(v)) vertices_.push_back(v), boxes.push_back(ItemBox::of(mesh_.positions[at(v)]));
+    }
+    return boxes;
+  }
+  const Mesh& mesh_;
+  Vector<Index> vertices_;
+  BoxTree tree_;
+};
+
+Vec3 clamped(const Vec3& p) noexcept {
+  const auto one = [](double x) { return std::min(std::max(x, -farthest), farthest); };
+  return {one(p.x), one(p.y), one(p.z)};
+}
+
+}  // namespace
+
+Carriers find_carriers(const Mesh& mesh, const Vector<std::uint8_t>& solved, Memory& memory, JobRunner& jobs) {
+  const std::size_t n = at(mesh.vertex_count()), islands = solved.size();
+  Carriers out(memory);
+  out.of.assign(n, -1), out.rigid.assign(islands, 0);
+  const auto is_solved = [&](Index v) { return solved[at(mesh.component[at(v)])] != 0; };
+  for (Index v = 0; at(v) < n; ++v) out.of[at(v)] = is_solved(v) ? v : -1;
+  const auto left = static_cast<std::size_t>(std::count(solved.begin(), solved.end(), 0));
+  if (left == 0 || left == islands) return out;
+  const Cloud cloud(mesh, memory, is_solved);
+  for_ranges(jobs, n, vertex_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      if (out.of[v] < 0) out.of[v] = cloud.nearest(mesh.positions[v]);
+    }
+  });
+  Vector<ItemBox> box(islands, &memory);
+  Vector<std::uint8_t> seen(islands, 0, &memory);
+  for (std::size_t v = 0; v < n; ++v) {
+    const std::size_t c = at(mesh.component[v]);
+    if (!seen[c]) box[c] = ItemBox::of(mesh.positions[v]), seen[c] = 1;
+    box[c].take(mesh.positions[v]);
+  }
+  for (std::size_t c = 0; c < islands; ++c) {
+    if (solved[c]) continue;
+    out.rigid[c] = norm(box[c].high - box[c].low) < rigid_size;
+    out.rigid_islands += out.rigid[c], out.carried_islands += !out.rigid[c];
+  }
+  return out;
+}
+
+Vector<Index> nearest_of_isolated(const Mesh& mesh, Memory& memory) {
+  Vector<Index> out(&memory);
+  if (mesh.isolated.empty()) return out;
+  const Cloud cloud(mesh, memory, [](Index) { return true; });
+  Poller poller;
+  for (const Mesh::Isolated& vertex : mesh.isolated) {
+    poller.due();
+    out.push_back(cloud.nearest(clamped(mesh.to_inner(vertex.position))));
+  }
+  return out;
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,247 @@
+#include "weights/skeleton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "base/progress.h"
+#include "weights/constants.h"
+
+namespace hf_inner {
+namespace {
+
+Vector<ItemBox> triangle_boxes(const Mesh& mesh, Memory& memory) {
+  Vector<ItemBox> boxes(&memory);
+  boxes.reserve(at(mesh.triangle_count()));
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const Index* v = mesh.triangle(t);
+    ItemBox box = ItemBox::of(mesh.positions[at(v[0])]);
+    box.take(mesh.positions[at(v[1])]), box.take(mesh.positions[at(v[2])]);
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+Vec3 place_of(const Mesh& mesh, const Vec3& given) noexcept {
+  const Vec3 p = mesh.to_inner(given);
+  const auto clamped = [](double x) { return std::min(std::max(x, -farthest), farthest); };
+  return {clamped(p.x), clamped(p.y), clamped(p.z)};
+}
+
+Vec3 area_vector(const Mesh& mesh, Index t) noexcept {
+  const Index* v = mesh.triangle(t);
+  const Vec3 a = mesh.positions[at(v[0])];
+  return cross(mesh.positions[at(v[1])] - a, mesh.positions[at(v[2])] - a);
+}
+
+}  // namespace
+
+Skin::Skin(const Mesh& mesh, Memory& memory)
+    : mesh_(mesh), side_(&memory), normals_(&memory), tree_(triangle_boxes(mesh, memory), memory) {
+  orient();
+  normals_.assign(at(mesh.vertex_count()), Vec3{});
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const Vec3 area = area_vector(mesh, t);
+    for (int k = 0; k < 3; ++k) {
+      Vec3& normal = normals_[at(mesh.triangle(t)[k])];
+      normal = normal + area;
+    }
+  }
+  for (std::size_t v = 0; v < normals_.size(); ++v) {
+    const double length = norm(normals_[v]);
+    normals_[v] = length > 0 ? (side_[at(mesh.component[v])] / length) * normals_[v] : Vec3{};
+  }
+}
+
+// An island whose signed volume is negative is inside out. The volume is measured from a corner of the island, and it
+// counts only if the area vectors cancel, as those of a closed island do.
+void Skin::orient() {
+  const std::size_t islands = at(mesh_.component_count());
+  Memory& memory = *static_cast<Memory*>(side_.get_allocator().resource());
+  Vector<double> volume(islands, 0.0, &memory), area(islands, 0.0, &memory);
+  Vector<Vec3> open(islands, Vec3{}, &memory), origin(islands, Vec3{}, &memory);
+  Vector<std::uint8_t> seen(islands, 0, &memory);
+  for (Index t = 0; t < mesh_.triangle_count(); ++t) {
+    const Index* v = mesh_.triangle(t);
+    const std::size_t c = at(mesh_.component[at(v[0])]);
+    if (!seen[c]) seen[c] = 1, origin[c] = mesh_.positions[at(v[0])];
+    const Vec3 vector = area_vector(mesh_, t);
+    volume[c] += dot(mesh_.positions[at(v[0])] - origin[c], vector);
+    area[c] += norm(vector), open[c] = open[c] + vector;
+  }
+  side_.assign(islands, 1);
+  for (std::size_t c = 0; c < islands; ++c) {
+    if (volume[c] < 0 && norm(open[c]) <= closed_share * area[c]) side_[c] = -1;
+  }
+}
+
+bool Skin::blocked(const Vec3& from, const Vec3& to, Index island, Index own) const noexcept {
+  const Vec3 way = to - from;
+  const bool turned = side_[at(island)] < 0;
+  return tree_.along(from, to, [&](Index t) {
+    const Index* v = mesh_.triangle(t);
+    if (mesh_.component[at(v[0])] != island || v[0] == own || v[1] == own || v[2] == own) return false;
+    bool entering = false;
+    const double where =
+        crossing(from, way, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])], mesh_.positions[at(v[2])], entering);
+    return where >= 0 && entering != turned;
+  });
+}
+
+double Skin::way_out(const Vec3& from, const Vec3& direction, double most) const noexcept {
+  double nearest = most;
+  tree_.along(from, from + most * direction, [&](Index t) {
+    const Index* v = mesh_.triangle(t);
+    bool entering = false;
+    const double where = most * crossing(from, most * direction, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])],
+                                         mesh_.positions[at(v[2])], entering);
+    const bool turned = side_[at(mesh_.component[at(v[0])])] < 0;
+    if (where >= 0 && entering == turned && where < nearest) nearest = where;
+    return false;
+  });
+  return nearest;
+}
+
+bool Skin::inside(const Vec3& point) const noexcept {
+  // Three rays that are parallel to no axis; most of them decide, so that one that passes along a seam does not.
+  constexpr Vec3 directions[3] = {{0.83, 0.41, 0.37}, {-0.31, 0.87, -0.38}, {0.29, -0.43, 0.85}};
+  constexpr double ray_length = 4;  // a ray leaves the box of diagonal 1, from any point in it
+  int votes = 0;
+  for (const Vec3& direction : directions) {
+    int out = 0;
+    const Vec3 way = ray_length * direction;
+    tree_.along(point, point + way, [&](Index t) {
+      const Index* v = mesh_.triangle(t);
+      bool entering = false;
+      const double where = crossing(point, way, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])],
+                                    mesh_.positions[at(v[2])], entering);
+      const bool turned = side_[at(mesh_.component[at(v[0])])] < 0;
+      if (where >= 0) out += entering == turned ? 1 : -1;
+      return false;
+    });
+    votes += out > 0;
+  }
+  return votes >= 2;
+}
+
+namespace {
+
+// Finds where joints end that have no tails.
+class Tails {
+ public:
+  Tails(const Bones& bones, const Mesh& mesh, const Skin& skin, Memory& memory)
+      : head(&memory), bones_(bones), skin_(skin), first_child_(&memory), next_child_(&memory) {
+    const std::size_t count = bones.head.size();
+    for (const Vec3& p : bones.head) head.push_back(place_of(mesh, p));
+    first_child_.assign(count, -1), next_child_.assign(count, -1);
+    Vector<double> lengths(&memory);
+    for (Index j = bones.count() - 1; j >= 0; --j) {
+      const Index parent = bones.parent[at(j)];
+      if (parent < 0 || !bones.deforms[at(j)]) continue;
+      const double length = norm(head[at(j)] - head[at(parent)]);
+      if (length < no_length) continue;
+      lengths.push_back(length);
+      next_child_[at(j)] = first_child_[at(parent)], first_child_[at(parent)] = j;
+    }
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    if (!lengths.empty()) std::nth_element(lengths.begin(), middle, lengths.end());
+    typical_ = lengths.empty() ? 1.0 : *middle;
+  }
+
+  Vec3 of(Index j) const {
+    const Vec3 axis = bones_.axis.empty() ? Vec3{} : bones_.axis[at(j)];
+    const bool has_axis = dot(axis, axis) > 0;
+    const Index child = has_axis ? along(j, axis) : first_child_[at(j)];
+    if (child >= 0 && (has_axis || next_child_[at(child)] < 0)) return head[at(child)];
+    if (child >= 0) return mean_of_children(j);
+    const Index parent = bones_.parent[at(j)];
+    const Vec3 from_parent = parent < 0 ? Vec3{} : head[at(j)] - head[at(parent)];
+    const double length = norm(from_parent);
+    const bool has_length = length >= no_length;
+    if (!has_axis && !has_length) return head[at(j)];
+    const Vec3 direction = has_axis ? axis : (1 / length) * from_parent;
+    const double share = first_child_[at(j)] >= 0 ? hub_length : leaf_length;
+    const double most = share * (has_length ? length : typical_);
+    return head[at(j)] +
+           std::min(most, leaf_reach * skin_.way_out(head[at(j)], direction, most / leaf_reach)) * direction;
+  }
+
+  Vector<Vec3> head;
+
+ private:
+  // The child that lies best along the axis, or -1.
+  Index along(Index j, const Vec3& axis) const {
+    double best = axis_cosine;
+    Index found = -1;
+    for (Index c = first_child_[at(j)]; c >= 0; c = next_child_[at(c)]) {
+      const Vec3 way = head[at(c)] - head[at(j)];
+      const double cosine = dot(way, axis) / norm(way);
+      if (cosine > best) best = cosine, found = c;
+    }
+    return found;
+  }
+  Vec3 mean_of_children(Index j) const {
+    Vec3 sum;
+    double count = 0;
+    for (Index c = first_child_[at(j)]; c >= 0; c = next_child_[at(c)]) sum = sum + head[at(c)], ++count;
+    return (1 / count) * sum;
+  }
+
+  const Bones& bones_;
+  const Skin& skin_;
+  Vector<Index> first_child_, next_child_;  // children that deform and do not lie on their parent
+  double typical_ = 1;
+};
+
+}  // namespace
+
+Vector<BoneSegment> bone_segments(const Bones& bones, const Mesh& mesh, const Skin& skin, Memory& memory) {
+  Vector<BoneSegment> out(&memory);
+  if (!bones.has_tails) {
+    const Tails tails(bones, mesh, skin, memory);
+    Poller poller(64);
+    for (Index j = 0; j < bones.count(); ++j) {
+      poller.due();
+      if (bones.deforms[at(j)]) out.push_back({tails.head[at(j)], tails.of(j), j});
+    }
+    return out;
+  }
+  for (Index b = 0; b < bones.count(); ++b) {
+    if (bones.deforms[at(b)]) out.push_back({place_of(mesh, bones.head[at(b)]), place_of(mesh, bones.tail[at(b)]), b});
+  }
+  return out;
+}
+
+Vector<std::uint32_t> bone_faults(Index count, const Vector<BoneSegment>& segments, const Skin& skin, Memory& memory) {
+  Vector<std::uint32_t> faults(at(count), 0, &memory);
+  Vector<std::uint8_t> is_inside(at(count), 0, &memory), is_long(at(count), 0, &memory), exists(at(count), 0, &memory);
+  Vector<const BoneSegment*> sorted(&memory);
+  constexpr double shares[] = {0.1, 0.3, 0.5, 0.7, 0.9};  // places along a segment; enough to find the part in the skin
+  Poller poller(64);
+  for (const BoneSegment& s : segments) {
+    poller.due();
+    const std::size_t b = at(s.bone);
+    exists[b] = 1;
+    is_long[b] |= norm(s.tail - s.head) >= no_length;
+    for (std::size_t i = 0; i < std::size(shares) && !is_inside[b]; ++i)
+      is_inside[b] = skin.inside(s.head + shares[i] * (s.tail - s.head));
+    sorted.push_back(&s);
+  }
+  const auto key = [](const BoneSegment* s) {
+    return std::tie(s->head.x, s->head.y, s->head.z, s->tail.x, s->tail.y, s->tail.z, s->bone);
+  };
+  std::sort(sorted.begin(), sorted.end(), [&](const auto* a, const auto* b) { return key(a) < key(b); });
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    const BoneSegment &a = *sorted[i - 1], &b = *sorted[i];
+    if (norm(a.head - b.head) == 0 && norm(a.tail - b.tail) == 0 && a.bone != b.bone)
+      faults[at(b.bone)] |= bone_coincident;
+  }
+  for (std::size_t b = 0; b < faults.size(); ++b) {
+    if (!exists[b]) continue;
+    if (!is_long[b]) faults[b] |= bone_no_length;
+    if (!is_inside[b]) faults[b] |= bone_outside;
+  }
+  return faults;
+}
+
+}  // namespace hf_inner

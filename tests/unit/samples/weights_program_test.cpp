@@ -1,0 +1,112 @@
+// hf_weights run as a user runs it: a skinned cylinder gets new weights, pins and kept joints hold, and what bad input
+// is answered.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "common/gltf_read.h"
+#include "common/gltf_write.h"
+#include "common/json_file.h"
+#include "common/skin_write.h"
+#include "gltf_support.h"
+#include "support/program_support.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace samples;
+using samples_test::TemporaryFolder;
+
+constexpr uint32_t around = 12, rings = 21;
+
+int run(const std::string& arguments, std::string& output) {
+  return hf_test::run(hf_test::quoted(HF_WEIGHTS_PROGRAM) + " " + arguments, output);
+}
+
+// A cylinder of length 20 with a joint near either end; each half belongs to one of them. The clip turns the second.
+Model bent() {
+  std::vector<glm::dvec3> positions;
+  std::vector<uint32_t> triangles;
+  for (uint32_t i = 0; i < rings; ++i) {
+    for (uint32_t k = 0; k < around; ++k)
+      positions.push_back({i, std::cos(2 * M_PI * k / around), std::sin(2 * M_PI * k / around)});
+  }
+  for (uint32_t i = 0; i + 1 < rings; ++i) {
+    for (uint32_t k = 0; k < around; ++k) {
+      const uint32_t a = i * around + k, b = i * around + (k + 1) % around;
+      triangles.insert(triangles.end(), {a, b, b + around, a, b + around, a + around});
+    }
+  }
+  const Model source = make_model("cylinder", positions, triangles);
+  SkinDescription skin;
+  skin.joints = {{"left", {5, 0, 0}}, {"right", {15, 0, 0}}};
+  skin.influences_per_vertex = 1;
+  for (size_t v = 0; v < positions.size(); ++v) {
+    skin.vertex_joints.push_back(positions[v].x > 10 ? 1 : 0);
+    skin.vertex_weights.push_back(1);
+  }
+  SkinClip clip;
+  clip.name = "turn", clip.times = {0, 1};
+  const glm::dquat still(1, 0, 0, 0), turned = glm::angleAxis(0.5, glm::dvec3(1, 0, 0));
+  clip.rotations = {still, still, still, turned};
+  clip.translations.assign(4, glm::dvec3(0));
+  skin.clips = {clip};
+  return skin_model(source, flatten(source), skin);
+}
+
+TEST(WeightsProgram, ComputesComparesAndKeeps) {
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return "\"" + (folder.path / name).string() + "\""; };
+  write_gltf(bent(), folder.path / "in.glb");
+  std::string text;
+  ASSERT_EQ(run(path("in.glb") + " -o " + path("out.glb") + " --report " + path("report.json") + " --sheet " +
+                    path("sheet.png"),
+                text),
+            0)
+      << text;
+  EXPECT_NE(text.find("bare: 0"), std::string::npos) << text;
+  EXPECT_GT(fs::file_size(folder.path / "sheet.png"), 10000u);
+  const JsonFile report(folder.path / "report.json");
+  EXPECT_EQ(report.root().at("bare").integer(0, 1000000), 0);
+  EXPECT_EQ(report.root().at("bones").size(), 2u);
+  EXPECT_GT(report.root().at("distance").at("mean").number(), 0.01);  // it blends where the file does not
+  const Model out = read_gltf(folder.path / "out.glb");
+  const Primitive& primitive = out.meshes[0].primitives[0];
+  ASSERT_EQ(primitive.influences.size(), around * rings);
+  EXPECT_GT(primitive.influences[2 * around].weights[0], 0.95f);
+  EXPECT_NEAR(primitive.influences[10 * around].weights[0], 0.5, 0.05);
+
+  ASSERT_EQ(run(path("in.glb") + " --keep left --table", text), 0) << text;
+  EXPECT_NE(text.find(" 0.000 "), std::string::npos) << text;  // what left keeps, right takes the rest of
+  std::ofstream(folder.path / "pins.json") << R"({"pins": [{"vertex": 24, "weights": {"right": 1}}, {"vertex": 130}]})";
+  ASSERT_EQ(run(path("in.glb") + " --pins " + path("pins.json") + " -o " + path("pinned.glb"), text), 0) << text;
+  const Model pinned = read_gltf(folder.path / "pinned.glb");
+  EXPECT_EQ(pinned.meshes[0].primitives[0].influences[24].joints[0], 1);
+  EXPECT_EQ(pinned.meshes[0].primitives[0].influences[24].weights[0], 1.0f);
+  ASSERT_EQ(run(path("in.glb") + " --guide 3", text), 0) << text;
+  EXPECT_NE(text.find("3 pinned"), std::string::npos) << text;
+}
+
+TEST(WeightsProgram, NamesWhatIsWrong) {
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return "\"" + (folder.path / name).string() + "\""; };
+  write_gltf(bent(), folder.path / "in.glb");
+  std::string text;
+  EXPECT_EQ(run("", text), 1);
+  EXPECT_NE(text.find("no model"), std::string::npos) << text;
+  EXPECT_EQ(run(path("in.glb") + " --keep nose", text), 1);
+  EXPECT_NE(text.find("nose"), std::string::npos) << text;
+  EXPECT_EQ(run(path("in.glb") + " --weights 5", text), 1);
+  EXPECT_NE(text.find("weight_count is 5"), std::string::npos) << text;
+  std::ofstream(folder.path / "pins.json") << R"({"pins": [{"vertex": 9999}]})";
+  EXPECT_EQ(run(path("in.glb") + " --pins " + path("pins.json"), text), 1);
+  EXPECT_NE(text.find("pins[0].vertex"), std::string::npos) << text;
+  const Model still = make_model("still", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2});
+  write_gltf(still, folder.path / "still.glb");
+  EXPECT_EQ(run(path("still.glb"), text), 1);
+  EXPECT_NE(text.find("no skin"), std::string::npos) << text;
+}
+
+}  // namespace
