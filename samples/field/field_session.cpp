@@ -74,7 +74,8 @@ void check(hf_result result) {
   if (result == HF_OK) return;
   hf_error_detail detail;
   hf_error_get_detail(&detail);
-  throw std::runtime_error(std::string(detail.function) + ": " + detail.message + " (" + hf_result_get_name(result) + ")");
+  throw std::runtime_error(std::string(detail.function) + ": " + detail.message + " (" + hf_result_get_name(result) +
+                           ")");
 }
 
 Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
@@ -87,6 +88,9 @@ Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
   desc.triangles = mesh.triangles.data();
   desc.operator_kind = options.operator_kind, desc.weld = options.weld;
   desc.thread_count = options.threads;
+  hf_links_desc links = HF_INIT(hf_links_desc);
+  links.mode = HF_LINK_PIECES;
+  if (options.links) desc.links = &links;
   hf_solver_desc sites = HF_INIT(hf_solver_desc);
   sites.engine = options.engine, sites.channel_count = options.kind == FieldType::vector ? 3 : 1;
   if (options.kind == FieldType::biharmonic) desc.field_kind = sites.field_kind = HF_FIELD_BIHARMONIC;
@@ -156,7 +160,8 @@ void Session::apply(const Edit& edit) {
   try {
     direction_ ? change_directions(edit) : change(edit);
   } catch (...) {
-    direction_ ? hf_direction_undo(direction_) : hf_solver_undo(solver_);  // forgets the record; the failed edit has changed nothing
+    direction_ ? hf_direction_undo(direction_)
+               : hf_solver_undo(solver_);  // forgets the record; the failed edit has changed nothing
     throw;
   }
   undone_from_.push_back(before);
@@ -315,7 +320,8 @@ std::vector<hf_critical_point> Session::critical_points(const std::vector<double
 
 std::vector<SiteArgument> propose_sites(const SurfaceMesh& mesh, const Session& session, int extremities) {
   std::vector<uint32_t> vertices, component(mesh.positions.size());
-  check(hf_surface_get_components(session.surface(), static_cast<uint32_t>(component.size()), component.data(), nullptr));
+  check(
+      hf_surface_get_components(session.surface(), static_cast<uint32_t>(component.size()), component.data(), nullptr));
   std::map<uint32_t, int> count{{HF_NO_INDEX, 2}};
   for (const hf_extremity& tip : session.extremities(extremities)) {
     vertices.push_back(tip.vertex);

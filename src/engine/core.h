@@ -12,6 +12,8 @@
 
 namespace hf_inner {
 
+struct Core;
+
 struct CoreOptions {
   OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
   FieldKind field_kind = FieldKind::harmonic;
@@ -20,6 +22,7 @@ struct CoreOptions {
   Span<const std::uint8_t> saved_factor;  // not empty: the factor is loaded from these bytes instead of made
   bool borrow_factor = false;             // reads the numbers of saved_factor in place; they must outlive the core
   double flop_limit = 0;                  // refuses every factorisation on the core that takes more; 0 = no limit
+  const Core* like = nullptr;             // a core whose ordering is used again where the matrix has its pattern
 };
 
 struct CoreTimes {

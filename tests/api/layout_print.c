@@ -47,7 +47,25 @@ static void print_surface(void) {
   F(struct_size), F(vertex_count), F(triangle_count), F(position_stride), F(positions), F(positions_f64), F(triangles),
       F(triangles_u16), F(triangle_stride), F(weld), F(weld_tolerance), F(operator_kind), F(field_kind), F(ordering),
       F(thread_count), F(vertex_limit), F(triangle_limit), F(memory_limit_mb), F(work_limit_gflop), F(reserved),
-      F(allocator), F(job_runner), F(progress), F(saved_factor);
+      F(allocator), F(job_runner), F(progress), F(saved_factor), F(links);
+#undef T
+#define T hf_link
+  STRUCT(hf_link);
+  F(vertex), F(corners), F(barycentrics), F(length), F(weight), F(in_tree);
+#undef T
+#define T hf_links_desc
+  STRUCT(hf_links_desc);
+  F(struct_size), F(mode), F(distance), F(stiffness), F(overlay_distance), F(influence_count), F(joints), F(weights),
+      F(tags), F(link_count), F(light_count), F(heavy_count), F(reserved), F(links), F(light_vertices),
+      F(heavy_vertices);
+#undef T
+#define T hf_gaps_desc
+  STRUCT(hf_gaps_desc);
+  F(struct_size), F(position_stride), F(positions), F(positions_f64);
+#undef T
+#define T hf_gaps_info
+  STRUCT(hf_gaps_info);
+  F(struct_size), F(link_count), F(percentile_95), F(worst), F(worst_link), F(reserved);
 #undef T
 #define T hf_surface_info
   STRUCT(hf_surface_info);
@@ -66,13 +84,14 @@ static void print_surface(void) {
   F(struct_size), F(vertex_count), F(triangle_count), F(welded_vertex_count), F(component_count),
       F(isolated_vertex_count), F(degenerate_triangle_count), F(collapsed_triangle_count), F(duplicate_triangle_count),
       F(non_manifold_edge_count), F(flipped_edge_count), F(boundary_edge_count), F(negative_edge_count),
-      F(smallest_angle), F(bounding_box_diagonal), F(changed_vertex_count), F(first_changed_vertex);
+      F(smallest_angle), F(bounding_box_diagonal), F(changed_vertex_count), F(first_changed_vertex), F(piece_count),
+      F(link_count), F(light_piece_count), F(lone_piece_count), F(longest_tree_link);
 #undef T
 #define T hf_surface_statistics
   STRUCT(hf_surface_statistics);
   F(struct_size), F(unknown_count), F(weld_ms), F(operator_ms), F(ordering_ms), F(symbolic_ms), F(numeric_ms),
       F(factor_entries), F(factor_bytes), F(factor_flops), F(memory_bytes), F(peak_memory_bytes), F(load_ms),
-      F(factor_loaded), F(factor_borrowed);
+      F(factor_loaded), F(factor_borrowed), F(links_ms);
 #undef T
 #define T hf_pick_desc
   STRUCT(hf_pick_desc);
@@ -86,7 +105,8 @@ static void print_surface(void) {
       CONSTANT(HF_OPERATOR_INTRINSIC_DELAUNAY), CONSTANT(HF_OPERATOR_CLAMPED), CONSTANT(HF_OPERATOR_UNIFORM),
       CONSTANT(HF_OPERATOR_COTANGENT), CONSTANT(HF_OPERATOR_GRAPH), CONSTANT(HF_FIELD_HARMONIC),
       CONSTANT(HF_FIELD_BIHARMONIC), CONSTANT(HF_FIELD_BIHARMONIC_GRAPH), CONSTANT(HF_ORDERING_NESTED_DISSECTION),
-      CONSTANT(HF_ORDERING_MINIMUM_DEGREE), CONSTANT(HF_ORDERING_METIS), CONSTANT(HF_FACTOR_ALIGNMENT);
+      CONSTANT(HF_ORDERING_MINIMUM_DEGREE), CONSTANT(HF_ORDERING_METIS), CONSTANT(HF_LINK_NONE),
+      CONSTANT(HF_LINK_PIECES), CONSTANT(HF_LINK_LIST), CONSTANT(HF_FACTOR_ALIGNMENT);
 }
 
 static void print_solver(void) {

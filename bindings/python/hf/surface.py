@@ -77,12 +77,15 @@ class Surface(Object):
     positions: (n, 3) float32 or float64; triangles: (m, 3) uint32 or uint16. Both may have any stride between rows and
     are borrowed for the call. Options are the fields of hf_surface_desc: operator_kind, field_kind, weld,
     weld_tolerance, ordering, thread_count, vertex_limit, ... progress: a Progress. saved_factor: bytes of save().
+    link_pieces: True joins the pieces of a character by links. tags: (n,) uint32, with link_pieces: pieces of different
+    tags stay apart.
     """
 
     _destroy = "hf_surface_destroy"
 
     def __init__(self, positions: ArrayLike, triangles: ArrayLike, *, progress: Optional[Progress] = None,
-                 saved_factor: Optional[bytes] = None, **options: Any) -> None:
+                 saved_factor: Optional[bytes] = None, link_pieces: bool = False, tags: Optional[ArrayLike] = None,
+                 **options: Any) -> None:
         xyz, stride = points(positions, "positions")
         mesh, triangle_stride = corners(triangles, "triangles")
         desc = make(_raw.hf_surface_desc)
@@ -103,6 +106,16 @@ class Surface(Object):
                 raise InvalidArgumentError(f"saved_factor must be bytes: {error}") from None
             factor = make(_raw.hf_factor_desc, bytes=address(block), byte_count=block.size)
             desc.saved_factor = ctypes.addressof(factor)
+        if tags is not None and not link_pieces:
+            raise InvalidArgumentError("tags need link_pieces=True")
+        if link_pieces:
+            links = make(_raw.hf_links_desc, mode=_raw.HF_LINK_PIECES)
+            if tags is not None:
+                groups = np.ascontiguousarray(tags, np.uint32)
+                if groups.shape != (len(xyz),):
+                    raise InvalidArgumentError(f"tags must hold one number for each of {len(xyz)} vertices")
+                links.tags = address(groups)
+            desc.links = ctypes.addressof(links)
         handle = ctypes.c_void_p()
         call(function, ctypes.byref(desc), ctypes.byref(handle))
         self._own(handle)
