@@ -6,44 +6,14 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "mesh/link_constants.h"
 #include "mesh/nearest_triangle.h"
 #include "mesh/union_find.h"
 
 namespace hf_inner {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// Lengths in shares of the diagonal of the box.
-// Pieces touch up to this distance, and then link both ways.
-constexpr double touching = 0.005;
-// Points of a contact cost at most this much more than the cheapest one.
-constexpr double contact_depth = 0.005;
-// All contacts of pieces that touch are within this range.
-constexpr double near_range = touching + contact_depth;
-// Different skin weights count like this much more distance: all joints differ at this distance.
-constexpr double skin_distance = 0.02;
-// Pieces that touch but differ by more than this in their skin weights only link in the tree, unless they are as near
-// as this.
-constexpr double skin_difference = 0.5, crossing = 0.001;
-// Points of a side that link to the other side; half as many where pieces touch outside the tree.
-constexpr std::size_t links_a_side = 8;
-// A light piece has at least this share of its area within the overlay distance of one larger piece, and at most this
-// share of the whole area.
-constexpr double light_cover = 0.5, light_area = 0.25;
-// A light piece has at least this share of its area within so many overlay distances of larger pieces: what sticks out,
-// such as a blade, is no sheet.
-constexpr double light_near = 0.9, overlay_reach = 2;
-// The tree takes a way around a sheet that is this much longer than the way through it, so that a sheet becomes a leaf.
-constexpr double sheet_detour = 0.005;
-// Vertices that tell whether a piece is a sheet.
-constexpr std::size_t sheet_samples = 24;
-// Links of a light piece are this far apart, but there are at least links_a_side of them.
-constexpr double light_spacing = 0.02;
-// Candidate pairs that each piece keeps, the nearest boxes first: bounds the work on thousands of overlapping pieces.
-constexpr std::size_t pairs_a_piece = 32;
-// A corner of less weight than this in a link is left out: the factor has fewer entries.
-constexpr double least_share = 0.05;
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 struct Contact {
   Index vertex, triangle;
@@ -51,15 +21,15 @@ struct Contact {
 };
 
 // Contacts of the vertices of one piece with another piece.
-struct Side {
-  explicit Side(Memory& memory) : contacts(&memory) {}
+struct PairSide {
+  explicit PairSide(Memory& memory) : contacts(&memory) {}
   Vector<Contact> contacts;
 };
 
 struct Pair {
   Index a, b;
   double gap;       // lower bound of the distance: that of the boxes, or the range searched in vain
-  double cost;      // of the nearest contact; infinity: not found yet
+  double cost;      // of the nearest contact; unbounded: not found yet
   double distance;  // of the same
   bool in_tree = false;
 };
@@ -109,8 +79,8 @@ class LinkSearch {
   void list_pieces();
   void list_pairs();
   void search_near();
-  void search_pair(Pair& pair, Side* sides, double range) const;
-  void search_side(Index from, Index to, double range, double depth, Side& side) const;
+  void search_pair(Pair& pair, PairSide* sides, double range) const;
+  void search_side(Index from, Index to, double range, double depth, PairSide& side) const;
   bool is_sheet(Index piece) const;
   void find_sheets();
   void grow_tree();
@@ -118,9 +88,8 @@ class LinkSearch {
   void link_pairs();
   void link_light();
   void link_spread(const Vector<Contact>& contacts, std::size_t most, double spacing, bool in_tree);
-  void link_side(const Pair& pair, const Side& side);
+  void link_side(const Pair& pair, const PairSide& side);
   void add_link(const Contact& contact, bool in_tree);
-  double skin_difference_of(Index vertex, Index triangle, const double* share) const;
   Span<const Index> vertices_of(Index piece) const noexcept {
     return {vertex_.data() + start_[at(piece)], at(start_[at(piece) + 1] - start_[at(piece)])};
   }
@@ -150,7 +119,7 @@ class LinkSearch {
   Vector<std::uint8_t> forced_;   // by piece: 1 light, 2 heavy
   Vector<std::uint8_t> sheet_;    // by piece: 1 if it lies over a larger piece
   Vector<Pair> pairs_;
-  Vector<Side> sides_;                    // two of every pair: of a, and of b
+  Vector<PairSide> sides_;                // two of every pair: of a, and of b
   Vector<Vector<std::size_t>> pairs_of_;  // by piece
   double whole_area_ = 0;
 };
@@ -209,7 +178,7 @@ void LinkSearch::list_pairs() {
   for (std::size_t p = 0; p < pieces_; ++p) {
     for (const Near& found : near[p]) {
       const Index a = std::min(static_cast<Index>(p), found.other), b = std::max(static_cast<Index>(p), found.other);
-      pairs_.push_back({a, b, std::sqrt(found.gap), infinity, infinity});
+      pairs_.push_back({a, b, std::sqrt(found.gap), unbounded, unbounded});
     }
   }
   std::sort(pairs_.begin(), pairs_.end(),
@@ -223,33 +192,9 @@ void LinkSearch::list_pairs() {
   }
 }
 
-double LinkSearch::skin_difference_of(Index vertex, Index triangle, const double* share) const {
-  const SkinHint& skin = options_.skin;
-  if (skin.influence_count == 0) return 0;
-  // The sum of |w_a - w_b| over joints, halved. Rows are short, so each joint is searched in the other rows.
-  const auto row = [&](Index v) { return std::size_t{skin.influence_count} * at(mesh_.given_of_inner[at(v)]); };
-  const auto weight = [&](Index v, std::uint16_t joint) {
-    double sum = 0;
-    for (std::size_t i = row(v); i < row(v) + skin.influence_count; ++i)
-      sum += skin.joints[i] == joint ? static_cast<double>(skin.weights[i]) : 0.0;
-    return sum;
-  };
-  const Index* corner = mesh_.triangle(triangle);
-  double common = 0;
-  for (std::size_t i = row(vertex); i < row(vertex) + skin.influence_count; ++i) {
-    bool again = false;  // a joint named twice
-    for (std::size_t j = row(vertex); j < i; ++j) again = again || skin.joints[j] == skin.joints[i];
-    if (again || !(skin.weights[i] > 0)) continue;
-    double other = 0;
-    for (std::size_t k = 0; k < 3; ++k) other += share[k] * weight(corner[k], skin.joints[i]);
-    common += std::min(other, weight(vertex, skin.joints[i]));
-  }
-  return std::min(std::max(1 - common, 0.0), 1.0);
-}
-
 // Finds the contacts of piece `from` with piece `to` within a range. depth: contacts that cost this much more than the
 // cheapest are left out.
-void LinkSearch::search_side(Index from, Index to, double range, double depth, Side& side) const {
+void LinkSearch::search_side(Index from, Index to, double range, double depth, PairSide& side) const {
   const NearestTriangle::Box box = tree_.box(to);
   double reach = range;
   Index hint = -1;  // consecutive vertices are near each other
@@ -264,7 +209,7 @@ void LinkSearch::search_side(Index from, Index to, double range, double depth, S
     if (options_.skin.influence_count > 0) {
       double share[3];
       tree_.weights(p, found.triangle, share);
-      contact.cost += skin_distance * skin_difference_of(v, found.triangle, share);
+      contact.cost += skin_distance * difference(options_.skin, mesh_, v, mesh_.triangle(found.triangle), share);
     }
     side.contacts.push_back(contact);
     reach = std::min(reach, contact.cost + depth);
@@ -272,8 +217,8 @@ void LinkSearch::search_side(Index from, Index to, double range, double depth, S
 }
 
 // Searches both sides of a pair.
-void LinkSearch::search_pair(Pair& pair, Side* sides, double range) const {
-  pair.cost = pair.distance = infinity;
+void LinkSearch::search_pair(Pair& pair, PairSide* sides, double range) const {
+  pair.cost = pair.distance = unbounded;
   for (int k = 0; k < 2; ++k) {
     sides[k].contacts.clear();
     search_side(k == 0 ? pair.a : pair.b, k == 0 ? pair.b : pair.a, range, contact_depth, sides[k]);
@@ -299,7 +244,7 @@ bool LinkSearch::is_sheet(Index piece) const {
   const std::size_t step = (all.size() + sheet_samples - 1) / sheet_samples;
   const double range = overlay_reach * options_.overlay;
   double whole = 0, near_any = 0, most = 0;
-  Vector<double> nearest((all.size() + step - 1) / step, infinity, &memory_);
+  Vector<double> nearest((all.size() + step - 1) / step, unbounded, &memory_);
   for (std::size_t i = 0; i < all.size(); i += step) whole += areas_[at(all[i])];
   for (const std::size_t pair : pairs_of_[at(piece)]) {
     const Index other = other_of(pair, piece);
@@ -309,7 +254,7 @@ bool LinkSearch::is_sheet(Index piece) const {
     for (std::size_t i = 0; i < all.size(); i += step) {
       const Vec3 p = mesh_.positions[at(all[i])];
       // Once a vertex is near some piece, only the overlay distance matters.
-      const double reach = nearest[i / step] < infinity ? options_.overlay : range;
+      const double reach = nearest[i / step] < unbounded ? options_.overlay : range;
       if (!(squared_distance(p, box) < reach * reach)) continue;
       const NearestTriangle::Found found = tree_.find_in(other, p, reach * reach);
       if (found.triangle < 0) continue;
@@ -319,7 +264,7 @@ bool LinkSearch::is_sheet(Index piece) const {
     most = std::max(most, covered);
   }
   for (std::size_t i = 0; i < all.size(); i += step)
-    near_any += nearest[i / step] < infinity ? areas_[at(all[i])] : 0.0;
+    near_any += nearest[i / step] < unbounded ? areas_[at(all[i])] : 0.0;
   return most >= light_cover * whole && near_any >= light_near * whole;
 }
 
@@ -342,7 +287,7 @@ void LinkSearch::grow_tree() {
     // Most sheets touch what they lie over, so that one search finds the tree's edge.
     const bool sheet = has_sheet(pair);
     const double guess = pair.gap + (sheet ? touching : 0);
-    return Entry{(sheet ? sheet_detour : 0) + (pair.cost < infinity ? pair.cost : guess), i};
+    return Entry{(sheet ? sheet_detour : 0) + (pair.cost < unbounded ? pair.cost : guess), i};
   };
   UnionFind sets(pieces_, memory_);
   Vector<Entry> heap(&memory_);
@@ -354,11 +299,11 @@ void LinkSearch::grow_tree() {
     heap.pop_back();
     Pair& pair = pairs_[entry.pair];
     if (sets.find(pair.a) == sets.find(pair.b)) continue;
-    if (pair.cost < infinity) {
+    if (pair.cost < unbounded) {
       if (pair.distance <= options_.distance) pair.in_tree = sets.unite(pair.a, pair.b);
     } else if (pair.gap < options_.distance) {
       search_pair(pair, &sides_[2 * entry.pair], pair.gap < near_range ? near_range : options_.distance);
-      if (pair.cost < infinity || pair.gap < options_.distance)
+      if (pair.cost < unbounded || pair.gap < options_.distance)
         heap.push_back(entry_of(entry.pair)), std::push_heap(heap.begin(), heap.end());
     }
   }
@@ -404,7 +349,7 @@ void LinkSearch::add_link(const Contact& contact, bool in_tree) {
 // to `most` while they are at least `spacing` apart.
 void LinkSearch::link_spread(const Vector<Contact>& contacts, std::size_t most, double spacing, bool in_tree) {
   if (contacts.empty()) return;
-  Vector<double> apart(contacts.size(), infinity, &memory_);
+  Vector<double> apart(contacts.size(), unbounded, &memory_);
   std::size_t next = 0;
   for (std::size_t i = 1; i < contacts.size(); ++i) next = contacts[i].cost < contacts[next].cost ? i : next;
   for (std::size_t count = 0; count < most && apart[next] > (count < links_a_side ? 0 : spacing); ++count) {
@@ -417,22 +362,22 @@ void LinkSearch::link_spread(const Vector<Contact>& contacts, std::size_t most, 
   }
 }
 
-void LinkSearch::link_side(const Pair& pair, const Side& side) {
+void LinkSearch::link_side(const Pair& pair, const PairSide& side) {
   Vector<Contact> near(&memory_);
   for (const Contact& contact : side.contacts) {
     if (contact.cost <= pair.cost + contact_depth) near.push_back(contact);
   }
-  link_spread(near, pair.in_tree ? links_a_side : links_a_side / 2, infinity, pair.in_tree);
+  link_spread(near, pair.in_tree ? links_a_side : links_a_side / 2, unbounded, pair.in_tree);
 }
 
 void LinkSearch::link_pairs() {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     Pair& pair = pairs_[i];
     if (out_.light[at(pair.a)] || out_.light[at(pair.b)]) continue;
-    if (!(pair.cost < infinity) && pair.gap < near_range)
+    if (!(pair.cost < unbounded) && pair.gap < near_range)
       search_pair(pair, &sides_[2 * i], near_range);  // a sheet, not light
     const bool alike = pair.cost - pair.distance <= skin_difference * skin_distance;
-    const bool touches = pair.distance <= (alike ? touching : crossing);
+    const bool touches = pair.distance <= (alike ? touching : crossing_pieces);
     if (!pair.in_tree && !touches) continue;
     if (pair.in_tree) out_.longest_tree_link = std::max(out_.longest_tree_link, pair.distance);
     link_side(pair, sides_[2 * i]), link_side(pair, sides_[2 * i + 1]);
@@ -442,7 +387,7 @@ void LinkSearch::link_pairs() {
 // Links vertices of every light piece to the nearest points of larger pieces, or of its neighbour in the tree if there
 // is no such point.
 void LinkSearch::link_light() {
-  Vector<Contact> best(mesh_.positions.size(), {Mesh::none, Mesh::none, infinity, infinity}, &memory_);
+  Vector<Contact> best(mesh_.positions.size(), {Mesh::none, Mesh::none, unbounded, unbounded}, &memory_);
   Vector<Contact> found(&memory_);
   for (std::size_t p = 0; p < pieces_; ++p) {
     if (!out_.light[p]) continue;
@@ -450,8 +395,8 @@ void LinkSearch::link_light() {
     for (const std::size_t i : pairs_of_[p]) {
       const Index other = other_of(i, static_cast<Index>(p));
       if (out_.light[at(other)] && !smaller(static_cast<Index>(p), other)) continue;
-      Side side(memory_);
-      search_side(static_cast<Index>(p), other, range, infinity, side);
+      PairSide side(memory_);
+      search_side(static_cast<Index>(p), other, range, unbounded, side);
       for (const Contact& contact : side.contacts) {
         if (contact.cost < best[at(contact.vertex)].cost) best[at(contact.vertex)] = contact;
       }

@@ -64,6 +64,10 @@ struct Links {
   double stiffness = 1;
 };
 
+// Returns how much the skin weights of a vertex and of a point in a triangle differ: 0 for equal ones, 1 without a
+// common joint. corner, share: the triangle and its barycentrics.
+double difference(const SkinHint& skin, const Mesh& mesh, Index vertex, const Index* corner, const double* share);
+
 // Returns the distance of a link's ends at rest.
 double rest_length(const Link& link, const Mesh& mesh) noexcept;
 
