@@ -36,6 +36,32 @@ typedef struct hf_factor_desc {
   const void* bytes;
   size_t byte_count;
 } hf_factor_desc;
+typedef struct hf_link {
+  uint32_t vertex;
+  uint32_t corners[3];
+  double barycentrics[3];
+  double length;
+  float weight;
+  int32_t in_tree;
+} hf_link;
+typedef struct hf_links_desc {
+  uint32_t struct_size;
+  int32_t mode;
+  float distance;
+  float stiffness;
+  float overlay_distance;
+  uint32_t influence_count;
+  const uint16_t* joints;
+  const float* weights;
+  const uint32_t* tags;
+  uint32_t link_count;
+  uint32_t light_count;
+  uint32_t heavy_count;
+  uint32_t reserved;
+  const hf_link* links;
+  const uint32_t* light_vertices;
+  const uint32_t* heavy_vertices;
+} hf_links_desc;
 typedef struct hf_surface_desc {
   uint32_t struct_size;
   uint32_t vertex_count;
@@ -61,6 +87,7 @@ typedef struct hf_surface_desc {
   hf_job_runner job_runner;
   hf_progress progress;
   const hf_factor_desc* saved_factor;
+  const hf_links_desc* links;
   uint32_t face_count;
   uint32_t corner_count;
   const uint32_t* face_starts;
@@ -127,11 +154,30 @@ typedef struct hf_surface_report {
   double bounding_box_diagonal;
   uint32_t changed_vertex_count;
   uint32_t first_changed_vertex;
+  uint32_t piece_count;
+  uint32_t link_count;
+  uint32_t light_piece_count;
+  uint32_t lone_piece_count;
+  double longest_tree_link;
   uint32_t face_count;
   uint32_t polygon_count;
   uint32_t non_planar_count;
   uint32_t largest_face;
 } hf_surface_report;
+typedef struct hf_gaps_desc {
+  uint32_t struct_size;
+  uint32_t position_stride;
+  const float* positions;
+  const double* positions_f64;
+} hf_gaps_desc;
+typedef struct hf_gaps_info {
+  uint32_t struct_size;
+  uint32_t link_count;
+  double percentile_95;
+  double worst;
+  uint32_t worst_link;
+  uint32_t reserved;
+} hf_gaps_info;
 typedef struct hf_surface_statistics {
   uint32_t struct_size;
   uint32_t unknown_count;
@@ -148,6 +194,7 @@ typedef struct hf_surface_statistics {
   double load_ms;
   int32_t factor_loaded;
   int32_t factor_borrowed;
+  double links_ms;
 } hf_surface_statistics;
 typedef struct hf_pick_desc {
   uint32_t struct_size;
@@ -711,6 +758,10 @@ void hf_surface_destroy(hf_surface surface);
 hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
 hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_report);
 hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity, uint32_t* out_components, uint32_t* out_count);
+hf_result hf_surface_get_links(hf_surface surface, uint32_t capacity, hf_link* out_links, uint32_t* out_count);
+hf_result hf_surface_get_pieces(hf_surface surface, uint32_t capacity, uint32_t* out_pieces, int32_t* out_light, uint32_t* out_count);
+hf_result hf_surface_measure_gaps(hf_surface surface, const hf_gaps_desc* desc, uint32_t capacity, double* out_gaps, hf_gaps_info* out_info);
+hf_result hf_surface_relink(hf_surface surface, const hf_links_desc* links, hf_progress progress, hf_surface* out_surface);
 hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statistics* out_statistics);
 hf_result hf_surface_save(hf_surface surface, int32_t field_kind, hf_progress progress, size_t capacity, void* out_bytes, size_t* out_size);
 hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const double* direction, const hf_pick_desc* desc, hf_hit* out_hit);
@@ -874,6 +925,9 @@ local constants = { header_version = '0.1.0',
   HF_ORDERING_MINIMUM_DEGREE = 1,
   HF_ORDERING_METIS = 2,
   HF_FACTOR_ALIGNMENT = 64,
+  HF_LINK_NONE = 0,
+  HF_LINK_PIECES = 1,
+  HF_LINK_LIST = 2,
   HF_ENGINE_GREEN = 0,
   HF_ENGINE_UPDOWN = 1,
   HF_ENGINE_REFACTOR = 2,

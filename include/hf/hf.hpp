@@ -148,6 +148,35 @@ class Surface {
     check(hf_surface_get_components(get(), vertices_, components.data(), nullptr));
     return components;
   }
+  // Returns the links between pieces. You can edit them and give them back through relinked().
+  std::vector<hf_link> links() const {
+    uint32_t count = 0;
+    check(hf_surface_get_links(get(), 0, nullptr, &count));
+    std::vector<hf_link> links(count);
+    if (count > 0) check(hf_surface_get_links(get(), count, links.data(), &count));
+    return links;
+  }
+  // Returns the piece of every vertex, and HF_NO_INDEX for isolated vertices.
+  std::vector<uint32_t> pieces() const {
+    std::vector<uint32_t> pieces(vertices_);
+    check(hf_surface_get_pieces(get(), vertices_, pieces.data(), nullptr, nullptr));
+    return pieces;
+  }
+  // Returns a surface of the same mesh with other links.
+  Surface relinked(const hf_links_desc& links) const {
+    hf_surface raw = nullptr;
+    check(hf_surface_relink(get(), &links, nullptr, &raw));
+    return Surface(raw, vertices_);
+  }
+  // Returns how far linked pieces have opened in these positions: x, y, z of each vertex.
+  hf_gaps_info gaps(const std::vector<float>& positions) const {
+    if (positions.size() != size_t{3} * vertices_) throw std::invalid_argument("positions hold three numbers a vertex");
+    auto desc = make<hf_gaps_desc>();
+    desc.positions = positions.data();
+    auto info = make<hf_gaps_info>();
+    check(hf_surface_measure_gaps(get(), &desc, 0, nullptr, &info));
+    return info;
+  }
   // Returns the factor as bytes. Pass them to hf_surface_create in hf_surface_desc::saved_factor.
   std::vector<uint8_t> save(int32_t field_kind = HF_FIELD_HARMONIC) const {
     size_t size = 0;
@@ -169,6 +198,7 @@ class Surface {
   }
 
  private:
+  Surface(hf_surface raw, uint32_t vertices) : handle_(raw), vertices_(vertices) {}
   static hf_surface_desc mesh(const std::vector<float>& positions, const std::vector<uint32_t>& triangles) {
     auto desc = make<hf_surface_desc>();
     if (positions.size() % 3 != 0 || triangles.size() % 3 != 0)

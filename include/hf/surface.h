@@ -62,6 +62,48 @@ typedef struct hf_factor_desc {
 } hf_factor_desc;
 enum { HF_FACTOR_ALIGNMENT = 64 };
 
+/* Selects how the pieces of a mesh are linked. A piece is an edge-connected part, such as an eye or a plate of a robot.
+ * Without links every piece is a domain of its own: a field or a pose ends where the piece ends. */
+enum {
+  HF_LINK_NONE = 0,   /* pieces stay apart. The default, because a scan or a scene may hold bodies that do not belong
+                         together; the programs and bindings for characters link by default */
+  HF_LINK_PIECES = 1, /* automatic: a tree over the pieces by smallest distance, and all pieces that touch */
+  HF_LINK_LIST = 2    /* the links you give, and no others */
+};
+
+/* A spring from a vertex to a point of a triangle. hf_surface_get_links writes it, hf_links_desc reads it. */
+typedef struct hf_link {
+  uint32_t vertex;        /* as given, of welded copies the first */
+  uint32_t corners[3];    /* the triangle; a corner of barycentric 0 is ignored and can be HF_NO_INDEX */
+  double barycentrics[3]; /* >= 0, of sum 1. 1, 0, 0 links two vertices */
+  double length;          /* out: at rest, in the unit of the positions. Ignored when read */
+  float weight;           /* 1: as strong as an edge between two equilateral triangles; > 0 */
+  int32_t in_tree;        /* out: 1 if the tree over the pieces has it. Ignored when read */
+} hf_link;
+
+/* Says which pieces to link. Joints and weights or tags help the automatic links; each array may be NULL. A light
+ * piece is a sheet over a larger one, such as cloth: it follows the surface below and hardly pulls it. */
+typedef struct hf_links_desc {
+  uint32_t struct_size;
+  int32_t mode;             /* HF_LINK_* */
+  float distance;           /* longest link, in the unit of the positions; 0 = 5 % of the bounding box diagonal */
+  float stiffness;          /* of all links, times each one's weight; 0 = 1 */
+  float overlay_distance;   /* a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 % of the
+                               diagonal, below 0: no piece is light unless light_vertices say so */
+  uint32_t influence_count; /* joints per vertex, 0 to 64 */
+  const uint16_t* joints;   /* [vertex_count][influence_count] of a skin: pieces of one joint rather link */
+  const float* weights;     /* [vertex_count][influence_count] */
+  const uint32_t* tags;     /* [vertex_count]: pieces with different tags do not link, as a rider and a horse. The
+                               first vertex of a piece counts */
+  uint32_t link_count;      /* for HF_LINK_LIST */
+  uint32_t light_count;     /* entries of light_vertices */
+  uint32_t heavy_count;     /* entries of heavy_vertices */
+  uint32_t reserved;        /* 0 */
+  const hf_link* links;     /* [link_count] */
+  const uint32_t* light_vertices; /* [light_count]: their pieces are light */
+  const uint32_t* heavy_vertices; /* [heavy_count]: their pieces are not, as one that gets a site or handle */
+} hf_links_desc;
+
 /* The mesh and the options of a surface. Set positions or positions_f64, and triangles, triangles_u16 or faces. Strides
  * are in bytes; 0 means packed.
  *
@@ -100,6 +142,7 @@ typedef struct hf_surface_desc {
   hf_job_runner job_runner;      /* zero = threads of the library's own */
   hf_progress progress;          /* NULL, or an object to poll and cancel through */
   const hf_factor_desc* saved_factor; /* NULL, or the saved factor of this mesh; ordering is then 0 or the factor's */
+  const hf_links_desc* links;         /* NULL: HF_LINK_NONE. A saved factor needs the links it was made with */
   uint32_t face_count;                /* faces instead of triangles; 0 = triangles are set */
   uint32_t corner_count;              /* entries of corners */
   const uint32_t* face_starts; /* [face_count] first corner of each face. NULL: the faces follow one another. Without
@@ -120,7 +163,9 @@ typedef struct hf_surface_desc {
  * HF_ERROR_OUT_OF_RANGE (index = triangle or face; a face of fewer than three corners is
  * HF_ERROR_INVALID_ARGUMENT, one of too many HF_ERROR_TOO_LARGE), HF_ERROR_NON_FINITE (index = vertex),
  * HF_ERROR_TOO_LARGE (a limit), HF_ERROR_UNSUPPORTED (ordering not in this build), HF_ERROR_CANCELLED,
- * HF_ERROR_NOT_POSITIVE_DEFINITE. With saved_factor also HF_ERROR_INVALID_ARGUMENT (damaged bytes, or bytes of another
+ * HF_ERROR_NOT_POSITIVE_DEFINITE. With links also HF_ERROR_OUT_OF_RANGE, _NON_FINITE and _INVALID_ARGUMENT (index =
+ * link, or position in a list of vertices; for weights the vertex) and HF_ERROR_TOO_LARGE (more than 20,000 pieces to
+ * link automatically). With saved_factor also HF_ERROR_INVALID_ARGUMENT (damaged bytes, or bytes of another
  * mesh, operator or field_kind; borrowed bytes that are not aligned) and HF_ERROR_UNSUPPORTED (another format version
  * or byte order). Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface);
@@ -205,7 +250,8 @@ typedef struct hf_surface_report {
   uint32_t vertex_count;              /* as given */
   uint32_t triangle_count;            /* as given; of faces, the triangles of their cut */
   uint32_t welded_vertex_count;       /* after welding */
-  uint32_t component_count;           /* connected components with at least one triangle (or edge), after welding */
+  uint32_t component_count;           /* connected components with at least one triangle (or edge), after welding;
+                                         linked pieces are one component */
   uint32_t isolated_vertex_count;     /* given vertices in no usable triangle (or edge); fields are 0 there */
   uint32_t degenerate_triangle_count; /* zero area to working precision */
   uint32_t collapsed_triangle_count;  /* two or three equal corners after welding; left out */
@@ -220,10 +266,15 @@ typedef struct hf_surface_report {
                                     of triangles too thin for it, or cut to the digits that there are. A certificate
                                     holds for the weights used; near such vertices the field may be another's */
   uint32_t first_changed_vertex; /* the first of them, as given; HF_NO_INDEX without one */
-  uint32_t face_count;           /* as given; 0 where triangles were given */
-  uint32_t polygon_count;        /* faces of more than three corners */
-  uint32_t non_planar_count;     /* polygons with a corner farther than 1 % of their diameter from their mean plane */
-  uint32_t largest_face;         /* corners of the largest face */
+  uint32_t piece_count;          /* edge-connected pieces, linked or not */
+  uint32_t link_count;           /* hf_surface_get_links writes them */
+  uint32_t light_piece_count;
+  uint32_t lone_piece_count; /* pieces without a link, if there are several */
+  double longest_tree_link;  /* of the tree over the pieces, in the unit of the positions */
+  uint32_t face_count;       /* as given; 0 where triangles were given */
+  uint32_t polygon_count;    /* faces of more than three corners */
+  uint32_t non_planar_count; /* polygons with a corner farther than 1 % of their diameter from their mean plane */
+  uint32_t largest_face;     /* corners of the largest face */
 } hf_surface_report;
 
 /* Writes the report of the mesh. Thread safety: reads `surface`. Since 0.1. */
@@ -234,6 +285,52 @@ HF_API hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* ou
  * vertex_count. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity, uint32_t* out_components,
                                            uint32_t* out_count);
+
+/* ---- links ---- */
+
+/* Writes the links of a surface. You can edit them and give them back with HF_LINK_LIST. out_links: NULL, or
+ * hf_link[capacity]. out_count: NULL, or receives the count. Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_get_links(hf_surface surface, uint32_t capacity, hf_link* out_links, uint32_t* out_count);
+
+/* Writes the piece of every vertex of your mesh, and HF_NO_INDEX for isolated vertices. Pieces are numbered in the
+ * order of their lowest vertices. out_pieces: NULL, or uint32_t[capacity]. out_light: NULL, or int32_t[capacity], 1 on
+ * light pieces: a site or handle there hardly moves the rest. out_count: NULL, or receives vertex_count. Thread safety:
+ * reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_get_pieces(hf_surface surface, uint32_t capacity, uint32_t* out_pieces, int32_t* out_light,
+                                       uint32_t* out_count);
+
+/* Posed positions of the mesh, of which gaps are measured. Set one of the two. */
+typedef struct hf_gaps_desc {
+  uint32_t struct_size;
+  uint32_t position_stride;    /* bytes between vertices; 0 = packed */
+  const float* positions;      /* [vertex_count][3]: of a pose, a frame of a transfer, or any other deformation */
+  const double* positions_f64; /* [vertex_count][3] */
+} hf_gaps_desc;
+
+/* How far linked pieces have opened, in the unit of the positions. */
+typedef struct hf_gaps_info {
+  uint32_t struct_size;
+  uint32_t link_count;
+  double percentile_95; /* 95 of 100 links opened no more than this; 0 without links */
+  double worst;
+  uint32_t worst_link; /* its number in hf_surface_get_links; HF_NO_INDEX without links */
+  uint32_t reserved;
+} hf_gaps_info;
+
+/* Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends are
+ * apart than at rest, and 0 if they are nearer. out_gaps: NULL, or double[capacity], in the order of
+ * hf_surface_get_links. out_info: NULL, or a struct. Errors: HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads
+ * `surface`. Since 0.1. */
+HF_API hf_result hf_surface_measure_gaps(hf_surface surface, const hf_gaps_desc* desc, uint32_t capacity,
+                                         double* out_gaps, hf_gaps_info* out_info);
+
+/* Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old one where
+ * its matrix has the same pattern: other stiffness, weights or light pieces. links: NULL: HF_LINK_NONE. Memory limits
+ * hold for both surfaces together. progress: NULL, or an object to poll and cancel through. out_surface: as in
+ * hf_surface_create. Errors: those of the links in hf_surface_create, HF_ERROR_CANCELLED. Thread safety: reads
+ * `surface`. Since 0.1. */
+HF_API hf_result hf_surface_relink(hf_surface surface, const hf_links_desc* links, hf_progress progress,
+                                   hf_surface* out_surface);
 
 /* hf_surface_get_statistics writes sizes and times of a surface here. Times are in milliseconds. Bytes are doubles
  * (exact to 2^53). */
@@ -250,6 +347,7 @@ typedef struct hf_surface_statistics {
   double load_ms;          /* to load a saved factor; the times to make it are then 0 */
   int32_t factor_loaded;   /* 1: the factor was loaded */
   int32_t factor_borrowed; /* 1: its numbers are read in place; factor_bytes counts them, memory_bytes does not */
+  double links_ms;         /* to find the links; operator_ms counts them too */
 } hf_surface_statistics;
 
 /* Writes the statistics of a surface and of the factor it was made with. Thread safety: reads `surface`. Since 0.1. */

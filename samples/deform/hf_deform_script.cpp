@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/gltf_write.h"
+#include "common/links.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
 #include "deform/pose_sheet.h"
@@ -31,6 +32,7 @@ const char* usage =
     "  --tiles N          frames on the sheet, 2 to 23 (default 7)\n"
     "  --frames-obj DIR   every key frame as DIR/frame_0000.obj ..., in the vertex order of MESH\n"
     "  --mode MODE        smooth or paper, instead of the script's\n"
+    "  --no-links         pieces of the surface stay apart; otherwise links join them\n"
     "  --refine           one full-mesh step on every frame\n"
     "  --threads N        threads the library may use (default 1)\n"
     "  --quiet            no progress bar\n";
@@ -41,7 +43,7 @@ struct Command {
   double keys = 8;
   uint32_t tiles = 7, threads = 1;
   glm::dvec3 up{0, 1, 0};
-  bool propose = false, refine = false, quiet = false, help = false;
+  bool propose = false, refine = false, links = true, quiet = false, help = false;
 };
 
 glm::dvec3 axis_of(const std::string& word) {
@@ -81,6 +83,8 @@ Command parse(Words words) {
       out.up = axis_of(words.value());
     } else if (words.is("--refine")) {
       out.refine = true;
+    } else if (words.is("--no-links")) {
+      out.links = false;
     } else if (words.is("--quiet")) {
       out.quiet = true;
     } else {
@@ -228,10 +232,25 @@ void run(const Command& command) {
   bar.begin("factorising");
   Posable::Options options;
   options.paper = script.paper, options.threads = command.threads;
+  options.links = command.links, options.model = mesh.model.skins.empty() ? nullptr : &mesh.model;
   Posable posable(mesh.flat, options);
   bar.end(std::to_string(mesh.flat.vertex_count()) + " vertices");
+  if (const std::string sentence = links_sentence(posable.surface()); !sentence.empty())
+    std::printf("%s\n", sentence.c_str());
   if (command.propose && !add_proposals(command, mesh, posable, script)) return;
   const std::vector<Key> keys = play(script, command, posable, bar);
+  const Key* widest = nullptr;
+  double worst = 0;
+  for (const Key& key : keys) {
+    hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
+    posed.positions_f64 = key.frame.positions.data();
+    hf_gaps_info info = HF_INIT(hf_gaps_info);
+    expect_ok(hf_surface_measure_gaps(posable.surface(), &posed, 0, nullptr, &info), "the gaps");
+    if (info.link_count > 0 && (!widest || info.worst > worst)) widest = &key, worst = info.worst;
+  }
+  if (widest)
+    std::printf("widest %s, at %.2f s\n",
+                gaps_sentence(posable.surface(), widest->frame.positions, posable.diagonal()).c_str(), widest->time);
 
   if (!command.output.empty()) {
     bar.begin("writing " + command.output.string());

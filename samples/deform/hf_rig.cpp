@@ -27,13 +27,14 @@ const char* usage =
     "  -o FILE          the result, .glb or .gltf\n"
     "  --json FILE      handles, joints and weights (default: OUT.json)\n"
     "  --weights N      joints per vertex, 4 or 8 (default 4)\n"
+    "  --no-links       pieces of the surface stay apart; otherwise links join them\n"
     "  --threads N      threads the library may use (default 1)\n"
     "  --quiet          no progress bar\n";
 
 struct Command {
   std::filesystem::path mesh, handles, output, json;
   uint32_t weights = 4, threads = 1;
-  bool quiet = false, help = false;
+  bool links = true, quiet = false, help = false;
 };
 
 Command parse(Words words) {
@@ -50,6 +51,8 @@ Command parse(Words words) {
     } else if (words.is("--weights")) {
       out.weights = words.whole(4, 8);
       if (out.weights != 4 && out.weights != 8) throw std::runtime_error("--weights takes 4 or 8");
+    } else if (words.is("--no-links")) {
+      out.links = false;
     } else if (words.is("--threads")) {
       out.threads = words.whole(1, 256);
     } else if (words.is("--quiet")) {
@@ -113,6 +116,7 @@ void run(const Command& command) {
   bar.begin("factorising");
   Posable::Options options;
   options.bands = rig.bands, options.threads = command.threads;
+  options.links = command.links, options.model = mesh.model.skins.empty() ? nullptr : &mesh.model;
   Posable posable(mesh.flat, options);
   bar.begin("handles");
   posable.add(rig.handles);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/gltf_read.h"
+#include "common/links.h"
 
 namespace samples {
 namespace {
@@ -56,6 +57,8 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
   desc.thread_count = options.threads;
   if (options.paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
+  const ModelLinks links(options.model, mesh);
+  if (options.links) desc.links = &links.desc;
   expect_ok(hf_surface_create(&desc, &surface_), "the surface");
   hf_pose_desc pose = HF_INIT(hf_pose_desc);
   pose.mode = options.paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH, pose.band_count = options.bands;

@@ -36,8 +36,9 @@ struct HandlePlace {
 class Posable {
  public:
   struct Options {
-    bool paper = false;
+    bool paper = false, links = true;
     uint32_t bands = 0, threads = 1;
+    const Model* model = nullptr;  // its skin helps to link pieces; may be NULL
   };
   Posable(const FlatMesh& mesh, const Options& options);
   ~Posable();
@@ -80,6 +81,7 @@ class Posable {
     MotionEntry before;
   };
   const std::vector<Live>& handles() const { return live_; }
+  hf_surface surface() const { return surface_; }
   // Returns the vertices of a handle, where its field is 1.
   std::vector<uint32_t> region_of(const Live& live) const;
 

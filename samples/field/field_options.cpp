@@ -36,6 +36,7 @@ const char* const field_usage =
     "  --operator NAME    delaunay (default), clamped, uniform, cotangent (the paper's)\n"
     "  --paper            the paper's own way: --engine updown --operator cotangent\n"
     "  --weld NAME        exact (default), none\n"
+    "  --no-links         pieces of the surface stay apart; otherwise links join them (never with --paper)\n"
     "  --threads N        threads the library may use (1)\n";
 
 namespace {
@@ -165,6 +166,8 @@ FieldOptions read_field_options(int argc, char** argv) {
       options.critical_points = true;
     else if (name == "--sheet")
       sheet = true;
+    else if (name == "--no-links")
+      options.links = false;
     else if (name == "--threads")
       options.threads = read_index(next(), name);
     else if (name == "--engine")
@@ -172,7 +175,7 @@ FieldOptions read_field_options(int argc, char** argv) {
     else if (name == "--operator")
       options.operator_kind = read_choice(next(), {"delaunay", "clamped", "uniform", "cotangent"}, name);
     else if (name == "--paper")
-      options.engine = HF_ENGINE_UPDOWN, options.operator_kind = HF_OPERATOR_COTANGENT;
+      options.engine = HF_ENGINE_UPDOWN, options.operator_kind = HF_OPERATOR_COTANGENT, options.links = false;
     else if (name == "--weld")
       options.weld = read_choice(next(), {"exact", "none"}, name);
     else if (name.rfind("--", 0) == 0)

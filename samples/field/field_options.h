@@ -43,6 +43,7 @@ struct FieldOptions {
   bool critical_points = false;
   int engine = 0, operator_kind = 0, weld = 0;
   uint32_t threads = 1;
+  bool links = true;
   int strips = 24;
   std::array<double, 3> direction{0.8, 0.35, 1.0};
   bool help = false;

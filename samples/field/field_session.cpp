@@ -101,6 +101,9 @@ Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
   }
   desc.operator_kind = options.operator_kind, desc.weld = options.weld;
   desc.thread_count = options.threads;
+  hf_links_desc links = HF_INIT(hf_links_desc);
+  links.mode = HF_LINK_PIECES;
+  if (options.links) desc.links = &links;
   hf_solver_desc sites = HF_INIT(hf_solver_desc);
   sites.engine = options.engine, sites.channel_count = options.kind == FieldType::vector ? 3 : 1;
   if (options.kind == FieldType::biharmonic) desc.field_kind = sites.field_kind = HF_FIELD_BIHARMONIC;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "common/links.h"
 #include "field/field_options.h"
 #include "field/field_output.h"
 #include "field/field_session.h"
@@ -49,6 +50,8 @@ void describe(hf_surface surface, double create_ms) {
   for (const auto& entry : dirt) {
     if (entry.count) std::printf("            %u %s\n", entry.count, entry.name);
   }
+  if (const std::string sentence = links_sentence(surface); !sentence.empty())
+    std::printf("links       %s\n", sentence.c_str());
   std::printf("create      %.1f ms (ordering %.1f, symbolic %.1f, factorisation %.1f; factor %.1f MB)\n", create_ms,
               statistics.ordering_ms, statistics.symbolic_ms, statistics.numeric_ms, statistics.factor_bytes / 1e6);
 }

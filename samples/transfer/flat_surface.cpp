@@ -15,7 +15,8 @@ void check(hf_result result, const std::string& what) {
                            hf_result_get_name(result) + ")");
 }
 
-FlatSurface::FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper) {
+FlatSurface::FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper,
+                         const hf_links_desc* links) {
   const std::vector<double> positions = double_positions(mesh.positions);
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
   for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
@@ -25,7 +26,7 @@ FlatSurface::FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t
   desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
   desc.weld = HF_WELD_TOLERANCE,
   desc.weld_tolerance = static_cast<float>(1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20}));
-  desc.thread_count = threads;
+  desc.thread_count = threads, desc.links = links;
   if (paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
   check(hf_surface_create(&desc, &surface_), name);
 }

@@ -15,8 +15,10 @@ void check(hf_result result, const std::string& what);
 
 class FlatSurface {
  public:
-  // paper: use plain cotangent weights, as in the paper, instead of the library's default operator.
-  FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper = false);
+  // paper: use plain cotangent weights, as in the paper, instead of the library's default operator. links: NULL, or
+  // how pieces are linked.
+  FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper = false,
+              const hf_links_desc* links = nullptr);
   ~FlatSurface() { hf_surface_destroy(surface_); }
   FlatSurface(const FlatSurface&) = delete;
   FlatSurface& operator=(const FlatSurface&) = delete;

@@ -3,11 +3,13 @@
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
+#include <utility>
 
 #include "common/animate.h"
 #include "common/file_write.h"
 #include "common/gltf_read.h"
 #include "common/gltf_write.h"
+#include "common/links.h"
 #include "common/mesh_file.h"
 #include "transfer/clip_sheet.h"
 #include "transfer/outputs.h"
@@ -158,7 +160,12 @@ int transfer(const TransferCommand& command) {
   if (command.pairs.empty()) pairs = parse_pairs(propose(source, target).file, "the proposed pairs");
   const Motion motion = read_motion(source, command);
 
-  Session session(source, target, pairs, command.threads, bar);
+  Session session(source, target, pairs, command.threads, command.links, bar);
+  for (const auto& [model, surface] :
+       {std::pair{&source, session.source_surface()}, {&target, session.target_surface()}}) {
+    if (const std::string sentence = links_sentence(surface); !sentence.empty())
+      std::printf("%s: %s\n", model->name.c_str(), sentence.c_str());
+  }
   const RunReport first = run(session, source, target, motion, command, false, bar);
   std::string text = to_text(first, source.name + " on " + target.name);
   nlohmann::json json = to_json(first);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/animate.h"
+#include "common/links.h"
 
 namespace samples {
 namespace {
@@ -54,7 +55,8 @@ double lowest_of(const std::vector<double>& xyz, const glm::dvec3& up) {
 
 }  // namespace
 
-Session::Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, ProgressBar& bar)
+Session::Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, bool links,
+                 ProgressBar& bar)
     : source_(source),
       target_(target),
       file_(pairs),
@@ -63,7 +65,7 @@ Session::Session(const Model& source, const Model& target, const PairsFile& pair
       source_finder_(source, source_flat_, pairs.source_axes),
       target_finder_(target, target_flat_, pairs.target_axes) {
   try {
-    create(threads, bar);
+    create(threads, links, bar);
   } catch (...) {
     hf_transfer_destroy(transfer_);
     throw;
@@ -72,13 +74,16 @@ Session::Session(const Model& source, const Model& target, const PairsFile& pair
 
 Session::~Session() { hf_transfer_destroy(transfer_); }
 
-void Session::create(uint32_t threads, ProgressBar& bar) {
+void Session::create(uint32_t threads, bool links, ProgressBar& bar) {
+  const ModelLinks source_links(&source_, source_flat_), target_links(&target_, target_flat_);
   const auto start = std::chrono::steady_clock::now();
   bar.begin("factorising " + source_.name);
-  source_surface_ = std::make_unique<FlatSurface>(source_flat_, source_.name, threads, file_.settings.paper);
+  source_surface_ = std::make_unique<FlatSurface>(source_flat_, source_.name, threads, file_.settings.paper,
+                                                  links ? &source_links.desc : nullptr);
   bar.end(std::to_string(source_mesh().welded_vertex_count) + " vertices after welding");
   bar.begin("factorising " + target_.name);
-  target_surface_ = std::make_unique<FlatSurface>(target_flat_, target_.name, threads, file_.settings.paper);
+  target_surface_ = std::make_unique<FlatSurface>(target_flat_, target_.name, threads, file_.settings.paper,
+                                                  links ? &target_links.desc : nullptr);
   bar.end(std::to_string(target_mesh().welded_vertex_count) + " vertices after welding");
   setup_ms_ = milliseconds_since(start);
 

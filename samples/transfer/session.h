@@ -1,6 +1,6 @@
 // One transfer session over the C API: two models, their surfaces, a transfer whose pairs may change while it runs.
 //
-//   Session session(source, target, pairs, threads, bar);     // factorises both surfaces, once
+//   Session session(source, target, pairs, threads, links, bar);     // factorises both surfaces, once
 //   PlayedClip clip = session.play(source.animations[0], 30, bar);
 //   session.edit(edits);                                       // pairs out and in: no factorisation
 //   PlayedClip again = session.play(source.animations[0], 30, bar);
@@ -46,7 +46,8 @@ struct PlayedClip {
 
 class Session {
  public:
-  Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, ProgressBar& bar);
+  Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, bool links,
+          ProgressBar& bar);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -77,6 +78,8 @@ class Session {
   hf_transfer_info info() const;
   hf_surface_report source_mesh() const { return mesh_report(source_surface_->get()); }
   hf_surface_report target_mesh() const { return mesh_report(target_surface_->get()); }
+  hf_surface source_surface() const { return source_surface_->get(); }
+  hf_surface target_surface() const { return target_surface_->get(); }
   double setup_ms() const { return setup_ms_; }      // both surfaces
   double prepare_ms() const { return prepare_ms_; }  // fields, clusters, translations after the last change of pairs
   double edit_ms() const { return edit_ms_; }        // the last edit's calls, without prepare
@@ -92,7 +95,7 @@ class Session {
     Region source, target;
     uint32_t number = 0;
   };
-  void create(uint32_t threads, ProgressBar& bar);
+  void create(uint32_t threads, bool links, ProgressBar& bar);
   void add(const std::vector<PairEntry>& entries);
   void prepare();
   void change_flags(const std::vector<PairEntry>& entries);

@@ -50,6 +50,7 @@ const char* usage() {
          "  --report FILE   what was done and how well, as text\n"
          "  --json FILE     the same as JSON\n"
          "  --edit FILE     then remove and add pairs in the running session, and write OUT_edited.glb (and sheet)\n"
+         "  --no-links      pieces of a model stay apart; otherwise links join them\n"
          "  --threads N     threads the library may use (default 1)\n"
          "  --joints FILE   list the joints of a model and the vertices they own, and stop\n"
          "  --quiet         no progress bar\n";
@@ -112,6 +113,8 @@ TransferCommand parse_command(int count, char** arguments) {
       out.morph_tolerance = number_of(word, value(), 0, 1);
     } else if (word == "--suggest-pairs") {
       out.suggest = value();
+    } else if (word == "--no-links") {
+      out.links = false;
     } else if (word == "--threads") {
       out.threads = static_cast<unsigned>(number_of(word, value(), 1, 256));
     } else if (word == "--quiet") {

@@ -21,6 +21,7 @@ struct TransferCommand {
   std::vector<std::filesystem::path> poses;  // posed copies of the source's mesh
   std::vector<std::string> contacts;         // empty: found
   double morph_tolerance = 1e-3;             // of the box
+  bool links = true;                         // between the pieces of a model
   bool quiet = false, help = false;
 };
 

@@ -88,7 +88,7 @@ hf_result hf_surface_space_levels(hf_surface handle, const hf_scalars* field, in
     if (level_count < 1 || level_count > most)
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "level_count is %u; it must be 1 to %u", level_count, most);
     require(out_levels, "out_levels");
-    const Geometry& shape = surface->surface.geometry();
+    const Geometry& shape = surface->surface.geometry().unlinked();
     const Vector<double> values = read_scalars(shape, field);
     Vector<double> levels(level_count, shape.memory.get());
     space_levels(shape.mesh, values, static_cast<LevelSpacing>(spacing), levels, *shape.memory);
@@ -103,7 +103,7 @@ hf_result hf_surface_trace_isolines(hf_surface handle, const hf_scalars* given, 
     hf_isolines out = read_struct(inout_lines, "inout_lines");
     require_zero(out.reserved);
     require_list(level_count, levels, "level_count", "levels");
-    const Geometry& shape = surface->surface.geometry();
+    const Geometry& shape = surface->surface.geometry().unlinked();
     const Vector<double> field = read_scalars(shape, given);
     for (std::uint32_t k = 0; k < level_count; ++k) {
       if (!std::isfinite(levels[k])) fail(HF_ERROR_NON_FINITE, k, "levels[%u] is not finite", k);
@@ -142,7 +142,7 @@ hf_result hf_surface_find_critical_points(hf_surface handle, const hf_scalars* g
     const auto surface = mesh_surface(handle, "critical points");
     require_either(out_points, out_info, "out_points and out_info");
     if (out_info) check_struct(out_info, "out_info");
-    const Geometry& shape = surface->surface.geometry();
+    const Geometry& shape = surface->surface.geometry().unlinked();
     const Vector<double> field = read_scalars(shape, given);
     const CriticalPoints found = find_critical_points(shape.mesh, shape.topology, field, *shape.memory);
     hf_critical_info info{};
@@ -162,7 +162,7 @@ hf_result hf_surface_find_critical_points(hf_surface handle, const hf_scalars* g
 
 hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given, hf_geodesics* out_geodesics) {
   return create("hf_geodesics_create", out_geodesics, "out_geodesics", [&] {
-    const std::shared_ptr<const Core> core = harmonic_core(surface, "geodesic distances");
+    const std::shared_ptr<const Core> core = unlinked_core(surface, "geodesic distances");
     const hf_geodesics_desc desc = read_optional(given, "desc");
     const double smoothing = static_cast<double>(desc.smoothing);
     // The accepted range catches wrong units. On a sphere of 20,000 vertices the mean error is 1.2 % of the longest
@@ -196,7 +196,7 @@ hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_count, 
 hf_result hf_surface_find_extremities(hf_surface handle, const hf_extremities_desc* given, uint32_t capacity,
                                       hf_extremity* out_extremities, uint32_t* out_count) {
   return guarded("hf_surface_find_extremities", [&] {
-    const std::shared_ptr<const Core> shared = harmonic_core(handle, "extremities");
+    const std::shared_ptr<const Core> shared = unlinked_core(handle, "extremities");
     const hf_extremities_desc desc = read_extremities(given);
     require_either(out_extremities, out_count, "out_extremities and out_count");
     const Core& core = *shared;

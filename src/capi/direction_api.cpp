@@ -97,7 +97,7 @@ extern "C" {
 
 hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* given, hf_direction* out_direction) {
   return create("hf_direction_create", out_direction, "out_direction", [&] {
-    const std::shared_ptr<const Core> core = harmonic_core(surface, "a direction field");
+    const std::shared_ptr<const Core> core = unlinked_core(surface, "a direction field");
     const hf_direction_desc desc = read_optional(given, "desc");
     if (desc.degree != 0 && desc.degree != 1 && desc.degree != 2 && desc.degree != 4)
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "degree is %u; it must be 1, 2 or 4", desc.degree);

@@ -55,11 +55,16 @@ inline std::shared_ptr<SurfaceObject> mesh_surface(hf_surface handle, const char
   return object;
 }
 
-// Returns the harmonic core (operator and factor) of such a surface. Poses, transfers, directions, distances and quads
-// are built on this core.
+// Returns the harmonic core (operator and factor) of such a surface, with its links. Poses and transfers are built on
+// this core.
 inline std::shared_ptr<const Core> harmonic_core(hf_surface handle, const char* purpose, const char* name = "surface",
                                                  std::uint32_t index = HF_NO_INDEX) {
   return mesh_surface(handle, purpose, name, index)->surface.core(FieldKind::harmonic);
+}
+
+// The same without links, for what works on triangles: directions, distances, extremities and quads.
+inline std::shared_ptr<const Core> unlinked_core(hf_surface handle, const char* purpose) {
+  return mesh_surface(handle, purpose)->surface.unlinked_core();
 }
 
 struct SolverObject final : Object {

@@ -126,7 +126,7 @@ extern "C" {
 
 hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quads* out_quads) {
   return create("hf_quads_create", out_quads, "out_quads", [&] {
-    const std::shared_ptr<const Core> core = harmonic_core(handle, "quads");
+    const std::shared_ptr<const Core> core = unlinked_core(handle, "quads");
     const hf_quads_desc desc = read_optional(given, "desc");
     Vector<FluxSite> sites(core->memory.get());
     QuadOptions options = read_options(core, desc, sites);
@@ -169,7 +169,7 @@ hf_result hf_quads_get_mesh(hf_quads handle, hf_quads_mesh* inout_mesh) {
 
 hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow) {
   return create("hf_flow_create", out_flow, "out_flow", [&] {
-    const std::shared_ptr<const Core> core = harmonic_core(surface, "flow lines");
+    const std::shared_ptr<const Core> core = unlinked_core(surface, "flow lines");
     return make_owner_in<FlowObject>(core->memory, core);
   });
 }

@@ -88,7 +88,8 @@ hf_result hf_region_edit(hf_region handle, const hf_region_edit_desc* given) {
     Memory* const memory = object->memory.get();
     Vector<std::int32_t> points(memory), remove(memory), add(memory);
     RegionEdit edit;
-    if (desc.curve) read_curve(mesh, read_struct(desc.curve, "curve"), points, edit);
+    if (desc.curve)
+      read_curve(object->region.core().geometry->unlinked().mesh, read_struct(desc.curve, "curve"), points, edit);
     if (desc.remove_count)
       read_list(mesh, desc.remove_count, desc.remove_vertices, "remove_vertices", "remove_vertices", remove);
     if (desc.add_count) read_list(mesh, desc.add_count, desc.add_vertices, "add_vertices", "add_vertices", add);

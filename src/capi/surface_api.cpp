@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "capi/boundary.h"
+#include "capi/links_in.h"
 #include "capi/objects.h"
 #include "capi/surface_options.h"
 #include "capi/vertex_writer.h"
@@ -156,7 +157,10 @@ hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surfac
            info.triangle_count, info.vertex_limit);
     const MeshInput input = read_mesh(desc, faces);
     return make_surface(desc, info, [&](const std::shared_ptr<Memory>& memory, std::shared_ptr<JobRunner> jobs) {
-      return Geometry::make(input, static_cast<OperatorKind>(info.operator_kind), memory, std::move(jobs));
+      auto geometry = Geometry::make(input, static_cast<OperatorKind>(info.operator_kind), memory, std::move(jobs));
+      LinksIn links(memory.get());
+      read_links(desc.links, geometry->mesh, links);
+      return links.options.mode == LinkMode::none ? geometry : Geometry::linked(std::move(geometry), links.options);
     });
   });
 }
@@ -194,6 +198,15 @@ hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_repor
     const Core& core = object->surface.own();
     report.changed_vertex_count = core.changed_count;
     report.first_changed_vertex = given_vertex(core.mesh, core.first_changed);
+    report.piece_count = object->surface.geometry().unlinked().mesh.report.component_count;
+    if (const Links* links = object->surface.geometry().links.get()) {
+      report.link_count = static_cast<std::uint32_t>(links->links.size());
+      report.light_piece_count = static_cast<std::uint32_t>(std::count(links->light.begin(), links->light.end(), 1));
+      report.lone_piece_count = static_cast<std::uint32_t>(links->alone_count);
+      report.longest_tree_link = core.mesh.scale * links->longest_tree_link;
+    } else {
+      report.lone_piece_count = report.piece_count > 1 ? report.piece_count : 0;
+    }
     const Faces& faces = core.mesh.faces;
     report.face_count = static_cast<std::uint32_t>(faces.given_size.size());
     report.polygon_count = faces.polygon_count, report.non_planar_count = faces.non_planar_count;
@@ -235,6 +248,7 @@ hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statistics* o
     statistics.memory_bytes = static_cast<double>(object->memory->live_bytes());
     statistics.peak_memory_bytes = static_cast<double>(object->memory->peak_bytes());
     statistics.factor_loaded = factor.loaded, statistics.factor_borrowed = factor.borrowed;
+    statistics.links_ms = core.geometry->links_ms;
     write_struct(out_statistics, statistics);
   });
 }

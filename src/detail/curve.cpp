@@ -23,7 +23,7 @@ class Paths {
   // Appends the vertices of the shortest path from `from` to `to`; `to` itself is left out.
   void append(Index from, Index to, Vector<Index>& out) {
     if (from == to) return;
-    const Topology& topology = core_.topology;
+    const Topology& topology = core_.geometry->unlinked().topology;
     const Vector<Vec3>& position = core_.mesh.positions;
     // The search runs backwards, so that `before` leads from the start to the end.
     heap_.assign(1, {0.0, to, none});
@@ -72,15 +72,16 @@ struct Pieces {
 };
 
 Pieces cut(const Core& core, Span<const Index> curve, Memory& memory) {
-  const Topology& topology = core.topology;
+  const Topology& topology = core.geometry->unlinked().topology;
   Pieces pieces(memory);
   pieces.piece.assign(at(core.size()), none);
   for (const Index v : curve) pieces.piece[at(v)] = on_curve;
   const Vector<double> areas = vertex_areas(core.mesh, memory);
-  const Index component = core.mesh.component[at(curve[0])];
+  const Vector<Index>& piece_of = core.geometry->unlinked().mesh.component;
+  const Index component = piece_of[at(curve[0])];
   Vector<Index> queue(&memory);
   for (Index start = 0; start < core.size(); ++start) {
-    if (pieces.piece[at(start)] != none || core.mesh.component[at(start)] != component) continue;
+    if (pieces.piece[at(start)] != none || piece_of[at(start)] != component) continue;
     const Index number = static_cast<Index>(pieces.area.size());
     double area = 0;
     queue.clear(), queue.push_back(start), pieces.piece[at(start)] = number;
@@ -100,7 +101,7 @@ Pieces cut(const Core& core, Span<const Index> curve, Memory& memory) {
 
 // Tells whether the curve consists of whole borders of the surface.
 bool along_borders(const Core& core, Span<const Index> curve, const Pieces& pieces) {
-  const Topology& topology = core.topology;
+  const Topology& topology = core.geometry->unlinked().topology;
   return std::all_of(curve.begin(), curve.end(), [&](Index v) {
     bool at_border = false;
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {

@@ -26,7 +26,8 @@ struct HalfEdge {
 // Returns the cotangent weights of these edges, each raised to a small positive number (disc_least_weight).
 Vector<double> positive_weights(const Core& core, Span<const Index> edges, Memory& memory) {
   Vector<double> weights(&memory), magnitude(&memory);
-  for (const Index e : edges) weights.push_back(core.weights[at(e)]), magnitude.push_back(std::fabs(weights.back()));
+  for (const Index e : edges)
+    weights.push_back(core.geometry->unlinked().weights[at(e)]), magnitude.push_back(std::fabs(weights.back()));
   if (weights.empty()) return weights;
   const auto middle = magnitude.begin() + static_cast<std::ptrdiff_t>(magnitude.size() / 2);
   std::nth_element(magnitude.begin(), middle, magnitude.end());
@@ -138,7 +139,7 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
   for (Index l = 0; l < shape.local_count(); ++l)
     if (boundary.place(l) < 0) number[at(l)] = static_cast<Index>(unknown.size()), unknown.push_back(l);
   if (unknown.empty()) return points;
-  const Topology& topology = core.topology;
+  const Topology& topology = core.geometry->unlinked().topology;
   for (const Index l : unknown) {
     const Index v = shape.vertex(l);
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i)

@@ -48,8 +48,11 @@ RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memor
   const auto take = [&](Index v, Vector<Index>& list) {
     if (local[at(v)] == -1) local[at(v)] = taken, list.push_back(v);
   };
-  for (const Index v : inside) for_neighbours(core.topology, v, [&](Index u) { take(u, rim); });
+  const Topology& surface = core.geometry->unlinked().topology;
+  for (const Index v : inside) for_neighbours(surface, v, [&](Index u) { take(u, rim); });
   sites.assign(rim.begin(), rim.end());
+  // Linked vertices outside hold the base, but they are no rim: they lie on other pieces.
+  for (const Index v : inside) for_neighbours(core.topology, v, [&](Index u) { take(u, sites); });
   if (core.root) {
     // K couples the vertices within two edges of L. Each vertex next to the region is read once.
     const SymmetricMatrix& l = core.root->laplacian;
@@ -78,6 +81,7 @@ RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memor
 }
 
 Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, std::int32_t rings, Memory& memory) {
+  const Topology& surface = core.geometry->unlinked().topology;
   Vector<std::uint8_t> in(at(core.size()), 0, &memory);
   for (const Index v : inside) in[at(v)] = 1;
   Vector<Index> front(&memory), next(&memory);
@@ -86,12 +90,12 @@ Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, st
   const std::uint8_t joins = rings > 0;
   for (const Index v : inside) {
     if (joins) {
-      for_neighbours(core.topology, v, [&](Index u) {
+      for_neighbours(surface, v, [&](Index u) {
         if (!in[at(u)]) in[at(u)] = 1, front.push_back(u);
       });
     } else {
       bool edge = false;
-      for_neighbours(core.topology, v, [&](Index u) { edge = edge || in[at(u)] == 0; });
+      for_neighbours(surface, v, [&](Index u) { edge = edge || in[at(u)] == 0; });
       if (edge) front.push_back(v);
     }
   }
@@ -101,7 +105,7 @@ Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, st
   for (std::int64_t step = 1; step < steps && !front.empty(); ++step) {
     next.clear();
     for (const Index v : front) {
-      for_neighbours(core.topology, v, [&](Index u) {
+      for_neighbours(surface, v, [&](Index u) {
         if (in[at(u)] != joins) in[at(u)] = joins, next.push_back(u);
       });
     }

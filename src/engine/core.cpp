@@ -102,23 +102,26 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
   Vector<double> areas(&pool);
   Vector<std::uint8_t> changed(&pool);
   const bool with_areas = options.field_kind == FieldKind::biharmonic;
-  if (options.operator_kind == OperatorKind::intrinsic_delaunay && core.mesh.faces.empty()) {
-    DelaunayOperator made =
-        delaunay_operator(core.mesh, core.topology, core.weights, with_areas, pool, core.jobs.get());
+  const Geometry& plain = core.geometry->unlinked();
+  const Mesh& mesh = plain.mesh;
+  if (options.operator_kind == OperatorKind::intrinsic_delaunay && mesh.faces.empty()) {
+    DelaunayOperator made = delaunay_operator(mesh, plain.topology, plain.weights, with_areas, pool, core.jobs.get());
     core.laplacian = std::move(made.laplacian), areas = std::move(made.areas), changed = std::move(made.changed);
-  } else if (core.mesh.faces.empty()) {
+  } else if (mesh.faces.empty()) {
     if (options.operator_kind == OperatorKind::graph)
       changed.assign(core.geometry->limited.begin(), core.geometry->limited.end());
     else if (options.operator_kind != OperatorKind::uniform)
       changed = widened_vertices(core.mesh, pool);
-    core.laplacian = hf_inner::laplacian(core.topology, core.weights, pool, core.jobs.get());
+    core.laplacian = hf_inner::laplacian(plain.topology, plain.weights, pool, core.jobs.get());
   } else {
     DelaunayOperator made =
-        face_operator(core.mesh, core.topology, core.weights, options.operator_kind, with_areas, pool, core.jobs.get());
+        face_operator(mesh, plain.topology, plain.weights, options.operator_kind, with_areas, pool, core.jobs.get());
     core.laplacian = std::move(made.laplacian), areas = std::move(made.areas);
     changed = std::move(made.changed);
   }
   if (with_areas && areas.empty()) areas.assign(core.areas.begin(), core.areas.end());
+  if (const Links* links = core.geometry->links.get())
+    add_links(core.laplacian, *links, link_edges(*links, options.operator_kind, pool), pool);
   const bool harmonic = options.field_kind == FieldKind::harmonic;
   const double spread = harmonic ? confined_spread : confined_biharmonic_spread;
   changed.resize(at(core.size()), 0);
@@ -213,6 +216,10 @@ FactorOptions factor_options(const Core& core, const CoreOptions& options) noexc
 // The share of progress when the operator stands; the rest is the factor's.
 constexpr float progress_operator = 0.2f;
 
+bool same_pattern(const SymmetricMatrix& a, const SymmetricMatrix& b) noexcept {
+  return a.column_start == b.column_start && a.row == b.row;
+}
+
 void make_factor(Core& core, const CoreOptions& options) {
   Memory& pool = *core.memory;
   if (!options.saved_factor.empty()) {
@@ -222,7 +229,9 @@ void make_factor(Core& core, const CoreOptions& options) {
   } else if (options.need_factor) {
     const Vector<float> coordinates = ordering_coordinates(core.mesh, pool);
     const InPlaceGrounds grounds(core);
-    core.factor = Factor::make(core.laplacian, coordinates, factor_options(core, options), pool, *core.jobs);
+    core.factor = options.like && same_pattern(options.like->laplacian, core.laplacian)
+                      ? options.like->factor->refactor(core.laplacian, {}, pool, *core.jobs)
+                      : Factor::make(core.laplacian, coordinates, factor_options(core, options), pool, *core.jobs);
   }
   if (!core.factor) return;
   const double commute = core.factor->commute_time(core.mesh.component, core.mean_diagonal);
@@ -248,7 +257,7 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
   make_operator(*core, options, 0, confined);
   core->ordering = options.ordering, core->flop_limit = options.flop_limit;
   core->formed_valence = options.formed_valence;
-  core->times.operator_ms = shape->weights_ms + operator_timer.milliseconds();
+  core->times.operator_ms = shape->weights_ms + shape->links_ms + operator_timer.milliseconds();
   report(progress_operator);
   for (int cap = 0;;) {
     try {

@@ -17,6 +17,8 @@ namespace hf_inner {
 // by 4e-9. Below the limit, fields of many sites take fewer sweeps with a formed K.
 constexpr std::int32_t most_formed_valence = 1000;
 
+struct Core;
+
 struct CoreOptions {
   OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
   FieldKind field_kind = FieldKind::harmonic;
@@ -26,6 +28,7 @@ struct CoreOptions {
   bool borrow_factor = false;             // reads the numbers of saved_factor in place; they must outlive the core
   double flop_limit = 0;                  // refuses every factorisation on the core that takes more; 0 = no limit
   std::int32_t formed_valence = most_formed_valence;  // tests lower it
+  const Core* like = nullptr;             // a core whose ordering is used again where the matrix has its pattern
 };
 
 struct CoreTimes {

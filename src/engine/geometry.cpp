@@ -80,4 +80,22 @@ std::shared_ptr<const Geometry> Geometry::make(const GraphInput& input, std::sha
   return shape;
 }
 
+std::shared_ptr<const Geometry> Geometry::linked(std::shared_ptr<const Geometry> plain, const LinkOptions& options) {
+  Memory& pool = *plain->memory;
+  Timer timer;
+  std::shared_ptr<const Links> links = make_links(plain->mesh, plain->areas, options, pool, plain->jobs.get());
+  if (links->links.empty()) return plain;
+  const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(plain->memory, plain->memory, plain->jobs);
+  shape->operator_kind = plain->operator_kind;
+  shape->mesh = linked_mesh(plain->mesh, *links, pool);
+  shape->weights.assign(plain->weights.begin(), plain->weights.end());
+  shape->areas.assign(plain->areas.begin(), plain->areas.end());
+  shape->topology =
+      linked_topology(plain->topology, *links, link_edges(*links, plain->operator_kind, pool), shape->weights, pool);
+  count_given(*shape);
+  shape->weld_ms = plain->weld_ms, shape->weights_ms = plain->weights_ms, shape->links_ms = timer.milliseconds();
+  shape->links = std::move(links), shape->plain = std::move(plain);
+  return shape;
+}
+
 }  // namespace hf_inner

@@ -1,5 +1,8 @@
 // The geometry of a surface: welded mesh, edges, areas and edge weights. It has no factor.
 //
+// Links make a second geometry from a plain one. Its components are groups of linked pieces. Its topology has the links
+// as edges without triangles. What works on triangles alone takes the plain geometry.
+//
 // A geometry is immutable, so any number of threads may read it. Only its workspace pools have a lock.
 #pragma once
 #include <cstdint>
@@ -11,6 +14,7 @@
 #include "engine/workspaces.h"
 #include "mesh/graph.h"
 #include "mesh/laplacian.h"
+#include "mesh/links.h"
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
 
@@ -22,6 +26,11 @@ struct Geometry {
   // HF_ERROR_CANCELLED. Progress runs from 0 to 0.15.
   static std::shared_ptr<const Geometry> make(const MeshInput& input, OperatorKind operator_kind,
                                               std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs);
+  // Returns a geometry whose pieces are linked, or `plain` itself where no link is found. Throws what make_links
+  // throws.
+  static std::shared_ptr<const Geometry> linked(std::shared_ptr<const Geometry> plain, const LinkOptions& options);
+  // The geometry without links: of the triangles alone.
+  const Geometry& unlinked() const noexcept { return plain ? *plain : *this; }
 
   // Reads a graph of the caller (WeightedGraph::make), for OperatorKind::graph. Throws what that throws.
   static std::shared_ptr<const Geometry> make(const GraphInput& input, std::shared_ptr<Memory> memory,
@@ -41,7 +50,9 @@ struct Geometry {
   Vector<double> weight_units;        // of a graph, by component (graph.h); else empty
   Vector<std::uint8_t> limited;       // of a graph, by vertex (graph.h); else empty
   OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
-  double weld_ms = 0, weights_ms = 0;
+  std::shared_ptr<const Geometry> plain;  // null: no links
+  std::shared_ptr<const Links> links;     // null: no links
+  double weld_ms = 0, weights_ms = 0, links_ms = 0;
   mutable WorkspacePool workspaces;
   mutable WorkspacePool zeroed_workspaces;
 };

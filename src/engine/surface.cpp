@@ -23,16 +23,26 @@ Surface::Surface(std::shared_ptr<const Geometry> geometry, const CoreOptions& op
 
 std::shared_ptr<const Core> Surface::core(FieldKind kind) const {
   if (kind == own_->field_kind) return own_;
+  return make_core(static_cast<std::size_t>(kind), geometry_, kind);
+}
+
+std::shared_ptr<const Core> Surface::unlinked_core() const {
+  if (!geometry_->plain) return core(FieldKind::harmonic);
+  constexpr std::size_t unlinked_slot = 3;
+  return make_core(unlinked_slot, geometry_->plain, FieldKind::harmonic);
+}
+
+std::shared_ptr<const Core> Surface::make_core(std::size_t slot, std::shared_ptr<const Geometry> geometry,
+                                               FieldKind kind) const {
   const std::lock_guard<OwnedMutex> lock(making_);
-  const std::size_t slot = static_cast<std::size_t>(kind);
   {
     const std::lock_guard<std::mutex> guard(made_->guard);
     if (std::shared_ptr<const Core> found = made_->core[slot].lock()) return found;
   }
   CoreOptions options;
-  options.operator_kind = geometry_->operator_kind, options.field_kind = kind, options.ordering = own_->ordering;
+  options.operator_kind = geometry->operator_kind, options.field_kind = kind, options.ordering = own_->ordering;
   options.flop_limit = own_->flop_limit, options.formed_valence = own_->formed_valence;
-  const std::shared_ptr<const Core> core = Core::make(geometry_, options);
+  const std::shared_ptr<const Core> core = Core::make(std::move(geometry), options);
   const std::shared_ptr<const Core> counted(core.get(), Forget{core, made_, slot},
                                             OwningAllocator<Core>(geometry_->memory));
   const std::lock_guard<std::mutex> guard(made_->guard);

@@ -27,6 +27,8 @@ class Surface {
   // that ask for them wait. Throws HF_ERROR_REENTRANT if a callback asks during the making, and what Core::make throws.
   // Thread safety: any thread.
   std::shared_ptr<const Core> core(FieldKind kind) const;
+  // Returns the harmonic operator and factor of the triangles alone, without links. Thread safety and errors as above.
+  std::shared_ptr<const Core> unlinked_core() const;
 
  private:
   std::shared_ptr<const Geometry> geometry_;
@@ -34,9 +36,11 @@ class Surface {
   // The operators in use beside the own one, by kind. The last user of one takes it out, so nothing of it is left.
   struct Made {
     std::mutex guard;
-    std::array<std::weak_ptr<const Core>, 3> core;
+    std::array<std::weak_ptr<const Core>, 4> core;  // by kind, then that without links
   };
   struct Forget;
+  std::shared_ptr<const Core> make_core(std::size_t slot, std::shared_ptr<const Geometry> geometry,
+                                        FieldKind kind) const;
   mutable OwnedMutex making_;
   const std::shared_ptr<Made> made_;
 };

@@ -46,20 +46,21 @@ void require_vectors(const ScalarField& field) {
 void move_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* sites, const std::uint32_t* vertices) {
   require_vectors(field), check_site_count(count, field.sites().count());
   const Core& core = field.core();
-  const Mesh& mesh = core.mesh;
+  const Geometry& surface = core.geometry->unlinked();  // vectors are carried along triangles
+  const Mesh& mesh = surface.mesh;
   Vector<double> values(field.core().memory.get());
   for (std::uint32_t i = 0; i < count; ++i) {
     const SiteSet::Slot& slot = vector_site(field, i, sites[i]);
     std::int32_t here = vertex_of(slot.site);
     const std::int32_t to = usable_vertex(mesh, vertices[i], i);
-    if (mesh.component[at(to)] != slot.site.component)
+    if (mesh.component[at(to)] != mesh.component[at(here)])
       fail(HF_ERROR_INVALID_ARGUMENT, i,
            "entry %u of the list: vertex %u lies in another component than site %u; remove it there and add it here", i,
            vertices[i], sites[i]);
-    Vec3 vector = value_of(field, sites[i]), normal = vertex_normal(mesh, core.topology, here);
-    for (const std::int32_t e : edge_path(mesh, core.topology, here, to, *field.core().memory)) {
-      here = core.topology.first(e) == here ? core.topology.second(e) : core.topology.first(e);
-      const Vec3 next = vertex_normal(mesh, core.topology, here);
+    Vec3 vector = value_of(field, sites[i]), normal = vertex_normal(mesh, surface.topology, here);
+    for (const std::int32_t e : edge_path(mesh, surface.topology, here, to, *field.core().memory)) {
+      here = surface.topology.first(e) == here ? surface.topology.second(e) : surface.topology.first(e);
+      const Vec3 next = vertex_normal(mesh, surface.topology, here);
       if (norm(next) == 0) continue;  // no normal, because its triangles cancel out: keeps the last tangent plane
       if (norm(normal) > 0) vector = carry(vector, normal, next);
       normal = next;

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numeric>
+
 
 #include "base/error.h"
 #include "base/hypotenuse.h"
 #include "base/index.h"
 #include "base/progress.h"
 #include "mesh/face_intake.h"
+#include "mesh/union_find.h"
 #include "mesh/weld.h"
 
 namespace hf_inner {
@@ -81,23 +82,6 @@ void find_frame(const MeshInput& input, Mesh& mesh) {
   if (!(mesh.scale < largest_scale))
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the mesh is %g wide; scale it below 1e300", mesh.scale);
 }
-
-// Finds the components of the welded vertices that usable triangles connect, by union-find with path halving.
-struct UnionFind {
-  explicit UnionFind(std::size_t count, Memory& memory) : parent(count, &memory) {
-    std::iota(parent.begin(), parent.end(), 0);
-  }
-  Index find(Index v) noexcept {
-    while (parent[at(v)] != v) v = parent[at(v)] = parent[at(parent[at(v)])];
-    return v;
-  }
-  void unite(Index a, Index b) noexcept {
-    a = find(a), b = find(b);
-    if (a < b) parent[at(b)] = a;
-    if (b < a) parent[at(a)] = b;
-  }
-  Vector<Index> parent;
-};
 
 // Counts triangles with the same three corners as an earlier one. They are sorted into buckets by the smallest corner
 // and compared inside a bucket.

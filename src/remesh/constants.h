@@ -273,13 +273,6 @@ constexpr double size_step = 0.5;
 // A walk along the surface crosses at most this many edges. With 50 and 800 no test mesh changes.
 constexpr int most_crossings = 200;
 
-// --- nearest.cpp ---
-
-// Triangles in a leaf of the search tree: trades tests of boxes for tests of triangles. No result depends on it.
-constexpr std::int32_t triangles_a_leaf = 4;
-// Depth of the search stack: 2^31 triangles halved to leaves make 29 levels, and each level leaves one box to visit.
-constexpr std::int32_t tree_stack = 32;
-
 // --- quad_distance.cpp ---
 
 // From this many vertices on, only every second is sampled, from twice as many every third; this saves time.

@@ -64,7 +64,7 @@ QuadDistance::QuadDistance(const FluxSurface& surface, double spacing, Memory& m
         for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) corners.push_back(surface.tail[h]);
         return corners;
       }()),
-      tree_(surface.position, corners_, memory),
+      tree_(span_of(surface.position), span_of(corners_), memory),
       samples_(memory) {
   sample_surface();
 }
@@ -153,7 +153,7 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
                              NearFaces* known) const {
   Soup soup(*memory_);
   soup.make(mesh);
-  const NearestTriangle quads(mesh.position, soup.corners, *memory_);
+  const NearestTriangle quads(span_of(mesh.position), span_of(soup.corners), *memory_);
   double worst = out_misses ? tolerance : 0;
   Table<double> distance(*memory_);
   Table<std::int32_t> nearest(*memory_);

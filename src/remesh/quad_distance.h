@@ -11,7 +11,7 @@
 
 #include "base/jobs.h"
 #include "base/progress.h"
-#include "remesh/nearest.h"
+#include "mesh/nearest_triangle.h"
 #include "remesh/quad_mesh.h"
 
 namespace hf_inner {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "base/memory.h"
+#include "base/span.h"
 
 namespace hf_inner {
 
@@ -44,5 +45,10 @@ class Table {
  private:
   Vector<T> data_;
 };
+
+template <class T>
+Span<const T> span_of(const Table<T>& table) noexcept {
+  return {table.data(), static_cast<std::size_t>(table.size())};
+}
 
 }  // namespace hf_inner

@@ -47,8 +47,26 @@ static void print_surface(void) {
   F(struct_size), F(vertex_count), F(triangle_count), F(position_stride), F(positions), F(positions_f64), F(triangles),
       F(triangles_u16), F(triangle_stride), F(weld), F(weld_tolerance), F(operator_kind), F(field_kind), F(ordering),
       F(thread_count), F(vertex_limit), F(triangle_limit), F(memory_limit_mb), F(work_limit_gflop), F(reserved),
-      F(allocator), F(job_runner), F(progress), F(saved_factor), F(face_count), F(corner_count), F(face_starts),
-      F(face_sizes), F(corners), F(face_stride), F(corner_stride);
+      F(allocator), F(job_runner), F(progress), F(saved_factor), F(links), F(face_count), F(corner_count),
+      F(face_starts), F(face_sizes), F(corners), F(face_stride), F(corner_stride);
+#undef T
+#define T hf_link
+  STRUCT(hf_link);
+  F(vertex), F(corners), F(barycentrics), F(length), F(weight), F(in_tree);
+#undef T
+#define T hf_links_desc
+  STRUCT(hf_links_desc);
+  F(struct_size), F(mode), F(distance), F(stiffness), F(overlay_distance), F(influence_count), F(joints), F(weights),
+      F(tags), F(link_count), F(light_count), F(heavy_count), F(reserved), F(links), F(light_vertices),
+      F(heavy_vertices);
+#undef T
+#define T hf_gaps_desc
+  STRUCT(hf_gaps_desc);
+  F(struct_size), F(position_stride), F(positions), F(positions_f64);
+#undef T
+#define T hf_gaps_info
+  STRUCT(hf_gaps_info);
+  F(struct_size), F(link_count), F(percentile_95), F(worst), F(worst_link), F(reserved);
 #undef T
 #define T hf_surface_info
   STRUCT(hf_surface_info);
@@ -67,14 +85,15 @@ static void print_surface(void) {
   F(struct_size), F(vertex_count), F(triangle_count), F(welded_vertex_count), F(component_count),
       F(isolated_vertex_count), F(degenerate_triangle_count), F(collapsed_triangle_count), F(duplicate_triangle_count),
       F(non_manifold_edge_count), F(flipped_edge_count), F(boundary_edge_count), F(negative_edge_count),
-      F(smallest_angle), F(bounding_box_diagonal), F(changed_vertex_count), F(first_changed_vertex), F(face_count),
-      F(polygon_count), F(non_planar_count), F(largest_face);
+      F(smallest_angle), F(bounding_box_diagonal), F(changed_vertex_count), F(first_changed_vertex), F(piece_count),
+      F(link_count), F(light_piece_count), F(lone_piece_count), F(longest_tree_link), F(face_count), F(polygon_count),
+      F(non_planar_count), F(largest_face);
 #undef T
 #define T hf_surface_statistics
   STRUCT(hf_surface_statistics);
   F(struct_size), F(unknown_count), F(weld_ms), F(operator_ms), F(ordering_ms), F(symbolic_ms), F(numeric_ms),
       F(factor_entries), F(factor_bytes), F(factor_flops), F(memory_bytes), F(peak_memory_bytes), F(load_ms),
-      F(factor_loaded), F(factor_borrowed);
+      F(factor_loaded), F(factor_borrowed), F(links_ms);
 #undef T
 #define T hf_pick_desc
   STRUCT(hf_pick_desc);
@@ -88,7 +107,8 @@ static void print_surface(void) {
       CONSTANT(HF_OPERATOR_INTRINSIC_DELAUNAY), CONSTANT(HF_OPERATOR_CLAMPED), CONSTANT(HF_OPERATOR_UNIFORM),
       CONSTANT(HF_OPERATOR_COTANGENT), CONSTANT(HF_OPERATOR_GRAPH), CONSTANT(HF_FIELD_HARMONIC),
       CONSTANT(HF_FIELD_BIHARMONIC), CONSTANT(HF_FIELD_BIHARMONIC_GRAPH), CONSTANT(HF_ORDERING_NESTED_DISSECTION),
-      CONSTANT(HF_ORDERING_MINIMUM_DEGREE), CONSTANT(HF_ORDERING_METIS), CONSTANT(HF_FACTOR_ALIGNMENT);
+      CONSTANT(HF_ORDERING_MINIMUM_DEGREE), CONSTANT(HF_ORDERING_METIS), CONSTANT(HF_LINK_NONE),
+      CONSTANT(HF_LINK_PIECES), CONSTANT(HF_LINK_LIST), CONSTANT(HF_FACTOR_ALIGNMENT);
 }
 
 static void print_solver(void) {
@@ -351,13 +371,12 @@ static void print_weights(void) {
   STRUCT(hf_weights_info);
   F(struct_size), F(vertex_count), F(bone_count), F(pin_count), F(lock_count), F(informed_count), F(solved_count),
       F(pinned_count), F(carried_count), F(rigid_count), F(isolated_count), F(carried_island_count),
-      F(rigid_island_count), F(blind), F(no_length_count), F(coincident_count), F(informs_none_count),
-      F(outside_count), F(helper_count), F(factorisation_count), F(path_solve_count), F(reserved);
+      F(rigid_island_count), F(blind), F(no_length_count), F(coincident_count), F(informs_none_count), F(outside_count),
+      F(helper_count), F(factorisation_count), F(path_solve_count), F(reserved);
 #undef T
-  CONSTANT(HF_WEIGHTS_INFORMED), CONSTANT(HF_WEIGHTS_SOLVED), CONSTANT(HF_WEIGHTS_PINNED),
-      CONSTANT(HF_WEIGHTS_CARRIED), CONSTANT(HF_WEIGHTS_RIGID), CONSTANT(HF_WEIGHTS_ISOLATED),
-      CONSTANT(HF_BONE_NO_LENGTH), CONSTANT(HF_BONE_COINCIDENT), CONSTANT(HF_BONE_INFORMS_NONE),
-      CONSTANT(HF_BONE_OUTSIDE), CONSTANT(HF_BONE_HELPER);
+  CONSTANT(HF_WEIGHTS_INFORMED), CONSTANT(HF_WEIGHTS_SOLVED), CONSTANT(HF_WEIGHTS_PINNED), CONSTANT(HF_WEIGHTS_CARRIED),
+      CONSTANT(HF_WEIGHTS_RIGID), CONSTANT(HF_WEIGHTS_ISOLATED), CONSTANT(HF_BONE_NO_LENGTH),
+      CONSTANT(HF_BONE_COINCIDENT), CONSTANT(HF_BONE_INFORMS_NONE), CONSTANT(HF_BONE_OUTSIDE), CONSTANT(HF_BONE_HELPER);
 }
 
 int main(void) {

@@ -37,6 +37,21 @@ void Run::surface_and_picking() {
   double distance = 0;
   call(hf_surface_find_vertex(surface, origin, &posed, &vertex, &distance), "hf_surface_find_vertex");
   take(&vertex, 1), take(&distance, 1);
+  uint32_t link_count = 0, pieces_count = 0;
+  std::vector<std::uint32_t> pieces(n);
+  std::vector<std::int32_t> light(n);
+  hf_links_desc links = desc<hf_links_desc>();
+  links.mode = HF_LINK_PIECES;
+  hf_surface linked = nullptr;
+  call(hf_surface_relink(surface, &links, nullptr, &linked), "hf_surface_relink");
+  call(hf_surface_get_links(linked, 0, nullptr, &link_count), "hf_surface_get_links"), take(&link_count, 1);
+  call(hf_surface_get_pieces(linked, n, pieces.data(), light.data(), &pieces_count), "hf_surface_get_pieces");
+  take(pieces.data(), pieces_count), take(light.data(), pieces_count);
+  hf_gaps_desc gaps = desc<hf_gaps_desc>();
+  gaps.positions = s.posed.data();
+  hf_gaps_info opened = desc<hf_gaps_info>();
+  call(hf_surface_measure_gaps(linked, &gaps, 0, nullptr, &opened), "hf_surface_measure_gaps"), take(&opened, 1);
+  hf_surface_destroy(linked);
   hf_surface_destroy(surface);
 }
 

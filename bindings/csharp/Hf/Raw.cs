@@ -53,6 +53,9 @@ namespace Hf.Native
         public const int HF_ORDERING_MINIMUM_DEGREE = 1;
         public const int HF_ORDERING_METIS = 2;
         public const int HF_FACTOR_ALIGNMENT = 64;
+        public const int HF_LINK_NONE = 0;
+        public const int HF_LINK_PIECES = 1;
+        public const int HF_LINK_LIST = 2;
         public const int HF_ENGINE_GREEN = 0;
         public const int HF_ENGINE_UPDOWN = 1;
         public const int HF_ENGINE_REFACTOR = 2;
@@ -140,6 +143,38 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_link
+    {
+        public uint vertex;
+        public fixed uint corners[3];
+        public fixed double barycentrics[3];
+        public double length;
+        public float weight;
+        public int in_tree;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_links_desc
+    {
+        public uint struct_size;
+        public int mode;
+        public float distance;
+        public float stiffness;
+        public float overlay_distance;
+        public uint influence_count;
+        public IntPtr joints;
+        public IntPtr weights;
+        public IntPtr tags;
+        public uint link_count;
+        public uint light_count;
+        public uint heavy_count;
+        public uint reserved;
+        public IntPtr links;
+        public IntPtr light_vertices;
+        public IntPtr heavy_vertices;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_surface_desc
     {
         public uint struct_size;
@@ -166,6 +201,7 @@ namespace Hf.Native
         public hf_job_runner job_runner;
         public IntPtr progress;
         public IntPtr saved_factor;
+        public IntPtr links;
         public uint face_count;
         public uint corner_count;
         public IntPtr face_starts;
@@ -241,10 +277,35 @@ namespace Hf.Native
         public double bounding_box_diagonal;
         public uint changed_vertex_count;
         public uint first_changed_vertex;
+        public uint piece_count;
+        public uint link_count;
+        public uint light_piece_count;
+        public uint lone_piece_count;
+        public double longest_tree_link;
         public uint face_count;
         public uint polygon_count;
         public uint non_planar_count;
         public uint largest_face;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_gaps_desc
+    {
+        public uint struct_size;
+        public uint position_stride;
+        public IntPtr positions;
+        public IntPtr positions_f64;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_gaps_info
+    {
+        public uint struct_size;
+        public uint link_count;
+        public double percentile_95;
+        public double worst;
+        public uint worst_link;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -265,6 +326,7 @@ namespace Hf.Native
         public double load_ms;
         public int factor_loaded;
         public int factor_borrowed;
+        public double links_ms;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -987,6 +1049,10 @@ namespace Hf.Native
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_info(IntPtr surface, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_report(IntPtr surface, void* out_report);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_components(IntPtr surface, uint capacity, void* out_components, void* out_count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_links(IntPtr surface, uint capacity, void* out_links, void* out_count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_pieces(IntPtr surface, uint capacity, void* out_pieces, void* out_light, void* out_count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_measure_gaps(IntPtr surface, void* desc, uint capacity, void* out_gaps, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_relink(IntPtr surface, void* links, IntPtr progress, void* out_surface);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_statistics(IntPtr surface, void* out_statistics);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_save(IntPtr surface, int field_kind, IntPtr progress, UIntPtr capacity, void* out_bytes, void* out_size);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_cast_ray(IntPtr surface, void* origin, void* direction, void* desc, void* out_hit);

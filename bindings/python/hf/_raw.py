@@ -50,6 +50,9 @@ HF_ORDERING_NESTED_DISSECTION = 0
 HF_ORDERING_MINIMUM_DEGREE = 1
 HF_ORDERING_METIS = 2
 HF_FACTOR_ALIGNMENT = 64
+HF_LINK_NONE = 0
+HF_LINK_PIECES = 1
+HF_LINK_LIST = 2
 HF_ENGINE_GREEN = 0
 HF_ENGINE_UPDOWN = 1
 HF_ENGINE_REFACTOR = 2
@@ -182,6 +185,62 @@ class hf_factor_desc(Structure):
     ]
 
 
+class hf_link(Structure):
+    """A spring from a vertex to a point of a triangle."""
+    vertex: int
+    corners: object
+    barycentrics: object
+    length: float
+    weight: float
+    in_tree: int
+    _fields_ = [
+        ("vertex", c_uint32),
+        ("corners", c_uint32 * 3),
+        ("barycentrics", c_double * 3),
+        ("length", c_double),
+        ("weight", c_float),
+        ("in_tree", c_int32),
+    ]
+
+
+class hf_links_desc(Structure):
+    """Says which pieces to link."""
+    struct_size: int
+    mode: int
+    distance: float
+    stiffness: float
+    overlay_distance: float
+    influence_count: int
+    joints: int
+    weights: int
+    tags: int
+    link_count: int
+    light_count: int
+    heavy_count: int
+    reserved: int
+    links: int
+    light_vertices: int
+    heavy_vertices: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("mode", c_int32),
+        ("distance", c_float),
+        ("stiffness", c_float),
+        ("overlay_distance", c_float),
+        ("influence_count", c_uint32),
+        ("joints", c_void_p),
+        ("weights", c_void_p),
+        ("tags", c_void_p),
+        ("link_count", c_uint32),
+        ("light_count", c_uint32),
+        ("heavy_count", c_uint32),
+        ("reserved", c_uint32),
+        ("links", c_void_p),
+        ("light_vertices", c_void_p),
+        ("heavy_vertices", c_void_p),
+    ]
+
+
 class hf_surface_desc(Structure):
     """The mesh and the options of a surface."""
     struct_size: int
@@ -208,6 +267,7 @@ class hf_surface_desc(Structure):
     job_runner: object
     progress: int
     saved_factor: int
+    links: int
     face_count: int
     corner_count: int
     face_starts: int
@@ -240,6 +300,7 @@ class hf_surface_desc(Structure):
         ("job_runner", hf_job_runner),
         ("progress", c_void_p),
         ("saved_factor", c_void_p),
+        ("links", c_void_p),
         ("face_count", c_uint32),
         ("corner_count", c_uint32),
         ("face_starts", c_void_p),
@@ -353,6 +414,11 @@ class hf_surface_report(Structure):
     bounding_box_diagonal: float
     changed_vertex_count: int
     first_changed_vertex: int
+    piece_count: int
+    link_count: int
+    light_piece_count: int
+    lone_piece_count: int
+    longest_tree_link: float
     face_count: int
     polygon_count: int
     non_planar_count: int
@@ -375,10 +441,47 @@ class hf_surface_report(Structure):
         ("bounding_box_diagonal", c_double),
         ("changed_vertex_count", c_uint32),
         ("first_changed_vertex", c_uint32),
+        ("piece_count", c_uint32),
+        ("link_count", c_uint32),
+        ("light_piece_count", c_uint32),
+        ("lone_piece_count", c_uint32),
+        ("longest_tree_link", c_double),
         ("face_count", c_uint32),
         ("polygon_count", c_uint32),
         ("non_planar_count", c_uint32),
         ("largest_face", c_uint32),
+    ]
+
+
+class hf_gaps_desc(Structure):
+    """Posed positions of the mesh, of which gaps are measured."""
+    struct_size: int
+    position_stride: int
+    positions: int
+    positions_f64: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("position_stride", c_uint32),
+        ("positions", c_void_p),
+        ("positions_f64", c_void_p),
+    ]
+
+
+class hf_gaps_info(Structure):
+    """How far linked pieces have opened, in the unit of the positions."""
+    struct_size: int
+    link_count: int
+    percentile_95: float
+    worst: float
+    worst_link: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("link_count", c_uint32),
+        ("percentile_95", c_double),
+        ("worst", c_double),
+        ("worst_link", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -399,6 +502,7 @@ class hf_surface_statistics(Structure):
     load_ms: float
     factor_loaded: int
     factor_borrowed: int
+    links_ms: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("unknown_count", c_uint32),
@@ -415,6 +519,7 @@ class hf_surface_statistics(Structure):
         ("load_ms", c_double),
         ("factor_loaded", c_int32),
         ("factor_borrowed", c_int32),
+        ("links_ms", c_double),
     ]
 
 
@@ -1607,7 +1712,7 @@ class hf_weights_info(Structure):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_propose_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame, hf_bones_desc, hf_pins_desc, hf_weights_out, hf_weights_info]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_propose_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame, hf_bones_desc, hf_pins_desc, hf_weights_out, hf_weights_info]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -1624,6 +1729,10 @@ PROTOTYPES = {
     "hf_surface_get_info": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_get_report": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_get_components": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_surface_get_links": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_surface_get_pieces": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p]),
+    "hf_surface_measure_gaps": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_surface_relink": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_surface_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_save": (c_int32, [c_void_p, c_int32, c_void_p, c_size_t, c_void_p, c_void_p]),
     "hf_surface_cast_ray": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),

@@ -79,12 +79,15 @@ class Surface(Object):
     (starts, sizes, corners) as Blender's loops, with None for starts where faces follow one another. Options are the
     fields of hf_surface_desc: operator_kind, field_kind, weld, weld_tolerance, ordering, thread_count, vertex_limit, ...
     progress: a Progress. saved_factor: bytes of save().
+    link_pieces: True joins the pieces of a character by links. tags: (n,) uint32, with link_pieces: pieces of different
+    tags stay apart.
     """
 
     _destroy = "hf_surface_destroy"
 
     def __init__(self, positions: ArrayLike, triangles: Optional[ArrayLike] = None, *, faces: Any = None,
-                 progress: Optional[Progress] = None, saved_factor: Optional[bytes] = None, **options: Any) -> None:
+                 progress: Optional[Progress] = None, saved_factor: Optional[bytes] = None, link_pieces: bool = False,
+                 tags: Optional[ArrayLike] = None, **options: Any) -> None:
         xyz, stride = points(positions, "positions")
         mesh, triangle_stride = corners(triangles, "triangles")
         desc = make(_raw.hf_surface_desc)
@@ -95,6 +98,16 @@ class Surface(Object):
             desc.triangle_count, desc.triangle_stride = len(mesh), triangle_stride
             setattr(desc, "triangles" if mesh.dtype == np.uint32 else "triangles_u16", address(mesh))
         _held = None if faces is None else faces_into(desc, faces)
+        if tags is not None and not link_pieces:
+            raise InvalidArgumentError("tags need link_pieces=True")
+        if link_pieces:
+            links = make(_raw.hf_links_desc, mode=_raw.HF_LINK_PIECES)
+            if tags is not None:
+                groups = np.ascontiguousarray(tags, np.uint32)
+                if groups.shape != (len(xyz),):
+                    raise InvalidArgumentError(f"tags must hold one number for each of {len(xyz)} vertices")
+                links.tags = address(groups)
+            desc.links = ctypes.addressof(links)
         self._create("hf_surface_create", desc, progress, saved_factor)
 
     def _create(self, function: str, desc: Any, progress: Optional[Progress], saved_factor: Optional[bytes]) -> None:

@@ -299,7 +299,7 @@ TEST(NearestTriangle, AgreesWithTryingThemAll) {
   Table<std::int32_t> corners(memory), one(memory);
   for (const Vec3& p : core->mesh.positions) positions.push_back(p);
   for (const std::int32_t v : core->mesh.corners) corners.push_back(v);
-  const NearestTriangle tree(positions, corners, memory);
+  const NearestTriangle tree(span_of(positions), span_of(corners), memory);
   for (std::uint64_t i = 0; i < 200; ++i) {
     const Vec3 p{samples::hash_to_unit(1, i) - 0.5, samples::hash_to_unit(2, i) - 0.5,
                  samples::hash_to_unit(3, i) - 0.5};
@@ -307,7 +307,7 @@ TEST(NearestTriangle, AgreesWithTryingThemAll) {
     for (std::int32_t t = 0; 3 * t < corners.size(); ++t) {
       one.clear();
       for (std::int32_t k = 0; k < 3; ++k) one.push_back(corners[3 * t + k]);
-      least = std::min(least, NearestTriangle(positions, one, memory).find(p).squared);
+      least = std::min(least, NearestTriangle(span_of(positions), span_of(one), memory).find(p).squared);
     }
     EXPECT_NEAR(tree.find(p).squared, least, 1e-15);
     // a search that may end early ends at something near enough, or at the nearest

@@ -1,0 +1,333 @@
+/* Links between pieces: fields and poses span them, the list that is read back makes the same bits, refused links
+ * change nothing, a saved factor knows its links, other links keep the ordering, gaps are measured. */
+#include "bad_scene.h"
+
+static Surface mesh; /* the cut sheet, its island pulled near */
+static hf_surface linked, plain;
+
+/* The island lies beside the sheet, a tenth of a unit away. */
+static void bring_island_near(Surface* cut) {
+  float low = INFINITY, right = -INFINITY;
+  for (uint32_t v = 0; v < CUT_ISLAND; ++v) right = fmaxf(right, cut->positions[3 * v]);
+  for (uint32_t v = CUT_ISLAND; v < CUT_ISOLATED; ++v) low = fminf(low, cut->positions[3 * v]);
+  for (uint32_t v = CUT_ISLAND; v < CUT_ISOLATED; ++v) cut->positions[3 * v] += right + 0.1f - low;
+}
+
+static hf_links_desc automatic(void) {
+  hf_links_desc links = HF_INIT(hf_links_desc);
+  links.mode = HF_LINK_PIECES, links.overlay_distance = -1;
+  return links;
+}
+
+static hf_surface surface_with(const hf_links_desc* links) {
+  hf_surface_desc desc = options_of(&mesh).surface;
+  desc.links = links;
+  hf_surface surface = NULL;
+  assert_ok(hf_surface_create(&desc, &surface));
+  return surface;
+}
+
+static hf_surface_report report_of(hf_surface surface) {
+  hf_surface_report report = HF_INIT(hf_surface_report);
+  assert_ok(hf_surface_get_report(surface, &report));
+  return report;
+}
+
+static hf_link* links_of(hf_surface surface, uint32_t* out_count) {
+  assert_ok(hf_surface_get_links(surface, 0, NULL, out_count));
+  hf_link* list = calloc(*out_count + 1, sizeof *list);
+  assert_non_null(list);
+  assert_ok(hf_surface_get_links(surface, *out_count, list, out_count));
+  return list;
+}
+
+static double* field_on(hf_surface surface) {
+  hf_solver solver = solver_on(surface);
+  add_site(solver, CUT_LEFT, 1), add_site(solver, CUT_RIGHT, 3);
+  double* field = field_of(solver, CUT_VERTICES);
+  hf_solver_destroy(solver);
+  return field;
+}
+
+static int set_up(void** state) {
+  (void)state;
+  mesh = surface_cut();
+  bring_island_near(&mesh);
+  const hf_links_desc links = automatic();
+  linked = surface_with(&links), plain = surface_with(NULL);
+  return 0;
+}
+static int tear_down(void** state) {
+  (void)state;
+  hf_surface_destroy(linked), hf_surface_destroy(plain), surface_free(&mesh);
+  return 0;
+}
+
+static void fields_span_linked_pieces(void** state) {
+  (void)state;
+  const hf_surface_report with = report_of(linked), without = report_of(plain);
+  assert_int_equal(with.piece_count, 2), assert_int_equal(with.component_count, 1);
+  assert_int_equal(with.lone_piece_count, 0), assert_int_equal(with.light_piece_count, 0);
+  assert_true(with.link_count > 0);
+  assert_true(with.longest_tree_link >= 0.1f && with.longest_tree_link < 0.3);
+  assert_int_equal(without.piece_count, 2), assert_int_equal(without.component_count, 2);
+  assert_int_equal(without.lone_piece_count, 2), assert_int_equal(without.link_count, 0);
+  double *across = field_on(linked), *apart = field_on(plain);
+  for (uint32_t v = 0; v < CUT_VERTICES; ++v) {
+    const int island = v >= CUT_ISLAND && v < CUT_ISOLATED;
+    assert_true(v == CUT_ISOLATED ? across[v] == 0 : across[v] >= 1 - 1e-12 && across[v] <= 3 + 1e-12);
+    if (island) assert_true(apart[v] == 0);
+  }
+  free(across), free(apart);
+  uint32_t pieces[CUT_VERTICES], components[CUT_VERTICES], count = 0;
+  int32_t light[CUT_VERTICES];
+  assert_ok(hf_surface_get_pieces(linked, CUT_VERTICES, pieces, light, &count));
+  assert_ok(hf_surface_get_components(linked, CUT_VERTICES, components, &count));
+  assert_int_equal(count, CUT_VERTICES);
+  assert_int_equal(pieces[CUT_LEFT], 0), assert_int_equal(pieces[CUT_ISLAND], 1);
+  assert_int_equal(pieces[CUT_ISOLATED], HF_NO_INDEX);
+  assert_int_equal(components[CUT_ISLAND], components[CUT_LEFT]);
+  for (uint32_t v = 0; v < CUT_VERTICES; ++v) assert_int_equal(light[v], 0);
+}
+
+static void what_works_on_triangles_does_not_see_links(void** state) {
+  (void)state;
+  hf_geodesics with = NULL, without = NULL;
+  assert_ok(hf_geodesics_create(linked, NULL, &with)), assert_ok(hf_geodesics_create(plain, NULL, &without));
+  const uint32_t source = CUT_LEFT;
+  double a[CUT_VERTICES], b[CUT_VERTICES];
+  assert_ok(hf_geodesics_solve_f64(with, 1, &source, a, 0)),
+      assert_ok(hf_geodesics_solve_f64(without, 1, &source, b, 0));
+  assert_true(same_bits(a, b, sizeof a));
+  hf_geodesics_destroy(with), hf_geodesics_destroy(without);
+  double* field = field_on(plain);
+  hf_scalars scalars = HF_INIT(hf_scalars);
+  scalars.values_f64 = field;
+  hf_critical_info x = HF_INIT(hf_critical_info), y = HF_INIT(hf_critical_info);
+  assert_ok(hf_surface_find_critical_points(linked, &scalars, 0, NULL, &x));
+  assert_ok(hf_surface_find_critical_points(plain, &scalars, 0, NULL, &y));
+  assert_true(same_bits(&x, &y, sizeof x));
+  free(field);
+}
+
+static void the_list_read_back_makes_the_same_bits(void** state) {
+  (void)state;
+  hf_links_desc list = HF_INIT(hf_links_desc);
+  hf_link* links = links_of(linked, &list.link_count);
+  list.mode = HF_LINK_LIST, list.links = links;
+  hf_surface again = surface_with(&list);
+  double *a = field_on(linked), *b = field_on(again);
+  assert_true(same_bits(a, b, CUT_VERTICES * sizeof *a));
+  uint32_t count = 0;
+  hf_link* back = links_of(again, &count);
+  assert_int_equal(count, list.link_count);
+  for (uint32_t i = 0; i < count; ++i) {
+    assert_int_equal(back[i].vertex, links[i].vertex);
+    assert_true(fabs(back[i].length - links[i].length) < 1e-12);
+  }
+  free(a), free(b), free(back);
+  hf_surface_destroy(again);
+  /* Two vertices joined by hand: no corner but the first is looked at. */
+  hf_link one;
+  memset(&one, 0, sizeof one);
+  one.vertex = CUT_ISLAND, one.corners[0] = CUT_RIGHT, one.corners[1] = one.corners[2] = HF_NO_INDEX;
+  one.barycentrics[0] = 1, one.weight = 1;
+  list.link_count = 1, list.links = &one;
+  again = surface_with(&list);
+  double* field = field_on(again);
+  for (uint32_t v = CUT_ISLAND; v < CUT_ISOLATED; ++v) assert_true(fabs(field[v] - 3) < 1e-12);
+  free(field), free(links);
+  hf_surface_destroy(again);
+}
+
+static void a_saved_factor_needs_its_links(void** state) {
+  (void)state;
+  size_t size = 0;
+  unsigned char* bytes = saved_bytes(linked, HF_FIELD_HARMONIC, &size);
+  hf_factor_desc factor = HF_INIT(hf_factor_desc);
+  factor.bytes = bytes, factor.byte_count = size;
+  hf_surface_desc desc = options_of(&mesh).surface;
+  desc.saved_factor = &factor;
+  hf_surface surface = NULL;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &surface));
+  assert_null(surface);
+  hf_links_desc links = automatic();
+  links.stiffness = 2;
+  desc.links = &links;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &surface));
+  links.stiffness = 0;
+  assert_ok(hf_surface_create(&desc, &surface));
+  double *a = field_on(linked), *b = field_on(surface);
+  assert_true(same_bits(a, b, CUT_VERTICES * sizeof *a));
+  free(a), free(b), free(bytes);
+  hf_surface_destroy(surface);
+}
+
+static void other_links_keep_the_ordering_where_the_pattern_allows(void** state) {
+  (void)state;
+  hf_links_desc links = automatic();
+  links.stiffness = 5;
+  hf_surface stiffer = NULL, fresh = surface_with(&links);
+  assert_ok(hf_surface_relink(linked, &links, NULL, &stiffer));
+  hf_surface_statistics s = HF_INIT(hf_surface_statistics);
+  assert_ok(hf_surface_get_statistics(stiffer, &s));
+  assert_true(s.ordering_ms == 0 && s.symbolic_ms == 0);
+  double *a = field_on(stiffer), *b = field_on(fresh), *old = field_on(linked);
+  for (uint32_t v = 0; v < CUT_VERTICES; ++v) assert_true(fabs(a[v] - b[v]) < 1e-12);
+  assert_false(same_bits(a, old, CUT_VERTICES * sizeof *a));
+  free(a), free(b), free(old);
+  hf_surface_destroy(fresh);
+  /* None: the same as a surface made without. */
+  hf_surface none = NULL;
+  assert_ok(hf_surface_relink(stiffer, NULL, NULL, &none));
+  assert_int_equal(report_of(none).link_count, 0);
+  a = field_on(none), b = field_on(plain);
+  for (uint32_t v = 0; v < CUT_VERTICES; ++v) assert_true(fabs(a[v] - b[v]) < 1e-12);
+  free(a), free(b);
+  hf_surface_destroy(none), hf_surface_destroy(stiffer);
+}
+
+static void a_pose_takes_linked_pieces_along_and_gaps_are_measured(void** state) {
+  (void)state;
+  for (int with = 0; with < 2; ++with) {
+    hf_pose pose = NULL;
+    assert_ok(hf_pose_create(with ? linked : plain, NULL, &pose));
+    const uint32_t counts[1] = {1}, vertices[1] = {CUT_LEFT};
+    hf_handles_desc handles = HF_INIT(hf_handles_desc);
+    handles.handle_count = 1, handles.region_counts = counts, handles.region_vertices = vertices;
+    uint32_t handle = 0;
+    assert_ok(hf_pose_add_handles(pose, &handles, &handle));
+    hf_transform move;
+    memset(&move, 0, sizeof move);
+    move.rotation[3] = 1, move.translation[2] = 4;
+    assert_ok(hf_pose_set_transform(pose, handle, &move));
+    float posed[3 * CUT_VERTICES];
+    hf_deform_info info = HF_INIT(hf_deform_info);
+    assert_ok(hf_deform(pose, posed, &info));
+    assert_int_equal(info.unreached_vertex_count, with ? 1 : 10);
+    hf_gaps_desc desc = HF_INIT(hf_gaps_desc);
+    desc.positions = posed;
+    hf_gaps_info gaps = HF_INIT(hf_gaps_info);
+    double each[64];
+    assert_ok(hf_surface_measure_gaps(linked, &desc, 64, each, &gaps));
+    assert_int_equal(gaps.link_count, report_of(linked).link_count);
+    assert_true(with ? gaps.worst < 1e-5 : gaps.worst > 3.5 && gaps.percentile_95 > 3.5);
+    assert_true(gaps.worst == each[gaps.worst_link]);
+    assert_ok(hf_surface_measure_gaps(plain, &desc, 0, NULL, &gaps));
+    assert_int_equal(gaps.link_count, 0), assert_int_equal(gaps.worst_link, HF_NO_INDEX);
+    hf_pose_destroy(pose);
+  }
+}
+
+/* ---- refused ---- */
+
+static hf_links_desc bad;
+static hf_link one;
+static hf_surface out;
+static double* expected;
+static uint16_t joints[CUT_VERTICES];
+static float weights[CUT_VERTICES], posed[3 * CUT_VERTICES];
+static uint32_t vertex_list[2];
+static hf_gaps_desc gaps_desc;
+static hf_gaps_info gaps_info;
+
+static void good_input(void) {
+  memset(&one, 0, sizeof one);
+  one.vertex = CUT_ISLAND, one.corners[0] = 0, one.corners[1] = 1, one.corners[2] = 6;
+  one.barycentrics[0] = 0.5, one.barycentrics[1] = 0.25, one.barycentrics[2] = 0.25, one.weight = 1;
+  bad = HF_INIT(hf_links_desc);
+  bad.mode = HF_LINK_LIST, bad.link_count = 1, bad.links = &one;
+  vertex_list[0] = CUT_LEFT, vertex_list[1] = CUT_ISLAND;
+  for (int v = 0; v < CUT_VERTICES; ++v) joints[v] = 0, weights[v] = 1;
+  memcpy(posed, mesh.positions, sizeof posed);
+  gaps_desc = HF_INIT(hf_gaps_desc), gaps_info = HF_INIT(hf_gaps_info);
+  gaps_desc.positions = posed;
+  out = linked; /* must become NULL */
+}
+static int nothing_changed(void) {
+  double* now = field_on(linked);
+  const int same = same_bits(now, expected, CUT_VERTICES * sizeof *now);
+  free(now);
+  return same && out != NULL ? out == linked : same;
+}
+static void automatic_with_skin(void) {
+  bad = automatic(), bad.influence_count = 1, bad.joints = joints, bad.weights = weights;
+}
+static uint32_t linked_vertex;
+static void spoil_linked_vertex(void) { posed[3 * linked_vertex] = NAN; }
+static void light_list(uint32_t count) { bad.light_count = count, bad.light_vertices = vertex_list; }
+static void heavy_list(uint32_t count) { bad.heavy_count = count, bad.heavy_vertices = vertex_list; }
+
+#define GOOD good_input
+#define UNCHANGED nothing_changed
+#define RELINK(what, code, index, change) ROW(what, code, index, change, hf_surface_relink(linked, &bad, NULL, &out))
+
+static void bad_links_are_refused_by_index_and_change_nothing(void** state) {
+  (void)state;
+  expected = field_on(linked);
+  uint32_t count = 0;
+  hf_link* list = links_of(linked, &count);
+  linked_vertex = list[0].vertex;
+  free(list);
+  good_input();
+  assert_ok(hf_surface_relink(linked, &bad, NULL, &out));
+  hf_surface_destroy(out);
+  RELINK("a mode that is none", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, bad.mode = 3);
+  RELINK("reserved", HF_ERROR_INVALID_DESC, NO_INDEX, bad.reserved = 1);
+  RELINK("no list", HF_ERROR_NULL_POINTER, NO_INDEX, bad.links = NULL);
+  RELINK("a list without the mode", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, bad.mode = HF_LINK_PIECES);
+  RELINK("vertex out of range", HF_ERROR_OUT_OF_RANGE, 0, one.vertex = CUT_VERTICES);
+  RELINK("isolated vertex", HF_ERROR_INVALID_ARGUMENT, 0, one.vertex = CUT_ISOLATED);
+  RELINK("corner out of range", HF_ERROR_OUT_OF_RANGE, 0, one.corners[2] = HF_NO_INDEX);
+  RELINK("vertex to itself", HF_ERROR_INVALID_ARGUMENT, 0, one.corners[1] = CUT_ISLAND);
+  RELINK("negative barycentric", HF_ERROR_INVALID_ARGUMENT, 0, one.barycentrics[1] = -0.25);
+  RELINK("barycentrics of sum 2", HF_ERROR_INVALID_ARGUMENT, 0, one.barycentrics[1] = 1.25);
+  RELINK("barycentric not finite", HF_ERROR_NON_FINITE, 0, one.barycentrics[0] = (double)NAN);
+  RELINK("weight 0", HF_ERROR_INVALID_ARGUMENT, 0, one.weight = 0);
+  RELINK("weight not finite", HF_ERROR_NON_FINITE, 0, one.weight = INFINITY);
+  RELINK("stiffness below 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, bad.stiffness = -1);
+  RELINK("stiffness not finite", HF_ERROR_NON_FINITE, NO_INDEX, bad.stiffness = NAN);
+  RELINK("distance below 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, bad.distance = -1);
+  RELINK("distance not finite", HF_ERROR_NON_FINITE, NO_INDEX, bad.distance = NAN);
+  RELINK("overlay not finite", HF_ERROR_NON_FINITE, NO_INDEX, bad.overlay_distance = INFINITY);
+  RELINK("too many influences", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (automatic_with_skin(), bad.influence_count = 65));
+  RELINK("influences without a count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+         (automatic_with_skin(), bad.influence_count = 0));
+  RELINK("no joints", HF_ERROR_NULL_POINTER, NO_INDEX, (automatic_with_skin(), bad.joints = NULL));
+  RELINK("no weights", HF_ERROR_NULL_POINTER, NO_INDEX, (automatic_with_skin(), bad.weights = NULL));
+  RELINK("weight of a vertex not finite", HF_ERROR_NON_FINITE, 9, (automatic_with_skin(), weights[9] = NAN));
+  RELINK("light vertices missing", HF_ERROR_NULL_POINTER, NO_INDEX, bad.light_count = 1);
+  RELINK("light vertex out of range", HF_ERROR_OUT_OF_RANGE, 1, (light_list(2), vertex_list[1] = CUT_VERTICES));
+  RELINK("heavy vertex out of range", HF_ERROR_OUT_OF_RANGE, 0, (heavy_list(1), vertex_list[0] = CUT_VERTICES));
+  RELINK("heavy and light", HF_ERROR_INVALID_ARGUMENT, 0, (light_list(1), heavy_list(2), vertex_list[0] = CUT_ISLAND));
+  ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_get_links(linked, 0, NULL, NULL));
+  ROW("short list", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_surface_get_links(linked, 0, &one, NULL));
+  ROW("no array", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_get_pieces(linked, 0, NULL, NULL, NULL));
+  ROW("short array", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_surface_get_pieces(linked, 1, vertex_list, NULL, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
+      hf_surface_measure_gaps(linked, &gaps_desc, 0, NULL, NULL));
+  ROW("no desc", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_measure_gaps(linked, NULL, 0, NULL, &gaps_info));
+  ROW("no positions", HF_ERROR_NULL_POINTER, NO_INDEX, gaps_desc.positions = NULL,
+      hf_surface_measure_gaps(linked, &gaps_desc, 0, NULL, &gaps_info));
+  ROW("short gaps", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
+      hf_surface_measure_gaps(linked, &gaps_desc, 0, one.barycentrics, &gaps_info));
+  ROW("stride", HF_ERROR_TOO_SMALL, NO_INDEX, gaps_desc.position_stride = 8,
+      hf_surface_measure_gaps(linked, &gaps_desc, 0, NULL, &gaps_info));
+  ROW("position not finite", HF_ERROR_NON_FINITE, linked_vertex, spoil_linked_vertex(),
+      hf_surface_measure_gaps(linked, &gaps_desc, 0, NULL, &gaps_info));
+  ROW("destroyed surface", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_surface_relink(NULL, &bad, NULL, &out));
+  free(expected);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(fields_span_linked_pieces),
+      cmocka_unit_test(what_works_on_triangles_does_not_see_links),
+      cmocka_unit_test(the_list_read_back_makes_the_same_bits),
+      cmocka_unit_test(a_saved_factor_needs_its_links),
+      cmocka_unit_test(other_links_keep_the_ordering_where_the_pattern_allows),
+      cmocka_unit_test(a_pose_takes_linked_pieces_along_and_gaps_are_measured),
+      cmocka_unit_test(bad_links_are_refused_by_index_and_change_nothing),
+  };
+  return cmocka_run_group_tests(tests, set_up, tear_down);
+}

@@ -1,0 +1,411 @@
+// hf_link_figures MODEL.glb ... [--pictures DIR]: what links between the pieces of models are worth, as one table.
+//
+// Contacts are measured apart from the library's links: every vertex within 0.5 % of the box of another piece, and the
+// nearest point there. A pose turns one region by 60 degrees and holds another. All lengths are in % of the box.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+
+#include "common/animate.h"
+#include "common/gltf_read.h"
+#include "common/links.h"
+#include "common/mesh_file.h"
+#include "common/picture.h"
+#include "hf/hf.h"
+
+namespace {
+
+using namespace samples;
+
+constexpr double contact_range = 0.005, turn_degrees = 60, handle_radius = 0.06, false_link = 0.03;
+constexpr int pose_count = 4, clip_samples = 8;
+
+void ok(hf_result result) {
+  if (result == HF_OK) return;
+  hf_error_detail detail;
+  hf_error_get_detail(&detail);
+  throw std::runtime_error(std::string(detail.function) + ": " + detail.message);
+}
+
+struct Scene {
+  Model model;
+  FlatMesh flat;
+  std::vector<double> xyz;
+  double diagonal = 1;
+  bool has_model = false;
+};
+
+Scene read_scene(const std::string& file) {
+  Scene out;
+  if (file.size() > 4 && file.substr(file.size() - 4) == ".glb") {
+    out.model = read_gltf(file), out.flat = flatten(out.model), out.has_model = true;
+  } else {
+    out.flat = to_flat_mesh(read_mesh_file(file));
+  }
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const glm::dvec3& p : out.flat.positions) low = glm::min(low, p), high = glm::max(high, p);
+  out.diagonal = glm::length(high - low);
+  out.xyz = double_positions(out.flat.positions);
+  return out;
+}
+
+hf_surface make_surface_of(const Scene& scene, const hf_links_desc* links, double* out_ms) {
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
+  desc.vertex_count = scene.flat.vertex_count(), desc.triangle_count = scene.flat.triangle_count();
+  desc.positions_f64 = scene.xyz.data(), desc.triangles = scene.flat.triangles.data();
+  desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = static_cast<float>(1e-5 * scene.diagonal);
+  desc.links = links;
+  hf_surface surface = nullptr;
+  std::vector<double> times;
+  for (int i = 0; i < 7; ++i) {
+    hf_surface_destroy(surface);
+    const auto start = std::chrono::steady_clock::now();
+    ok(hf_surface_create(&desc, &surface));
+    times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::sort(times.begin(), times.end());
+  *out_ms = times[times.size() / 2];
+  return surface;
+}
+
+// A vertex and the nearest point of another piece.
+struct Contact {
+  uint32_t vertex, corner[3];
+  double share[3], distance;
+};
+
+// The nearest point of a triangle, as barycentrics.
+void nearest_point(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double* w) {
+  const glm::dvec3 ab = b - a, ac = c - a;
+  const auto set = [&](double x, double y, double z) { w[0] = x, w[1] = y, w[2] = z; };
+  const glm::dvec3 ap = p - a, bp = p - b, cp = p - c;
+  const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap), d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp),
+               d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+  if (d1 <= 0 && d2 <= 0) return set(1, 0, 0);
+  if (d3 >= 0 && d4 <= d3) return set(0, 1, 0);
+  if (d6 >= 0 && d5 <= d6) return set(0, 0, 1);
+  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return set(1 - d1 / (d1 - d3), d1 / (d1 - d3), 0);
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return set(1 - d2 / (d2 - d6), 0, d2 / (d2 - d6));
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return set(0, 1 - t, t);
+  }
+  const double sum = va + vb + vc;
+  if (!(sum > 0)) return set(1, 0, 0);
+  set(va / sum, vb / sum, vc / sum);
+}
+
+std::vector<Contact> find_contacts(const Scene& scene, const std::vector<uint32_t>& piece) {
+  std::vector<Contact> out;
+  const double range = contact_range * scene.diagonal;
+  std::vector<char> seen(scene.flat.welded_count, 0);
+  const std::vector<glm::dvec3>& p = scene.flat.positions;
+  for (uint32_t v = 0; v < scene.flat.vertex_count(); ++v) {
+    if (piece[v] == HF_NO_INDEX || seen[scene.flat.welded[v]]) continue;
+    seen[scene.flat.welded[v]] = 1;
+    Contact best{v, {0, 0, 0}, {1, 0, 0}, range};
+    bool found = false;
+    for (uint32_t t = 0; t < scene.flat.triangle_count(); ++t) {
+      const uint32_t* c = &scene.flat.triangles[3 * size_t{t}];
+      if (piece[c[0]] == piece[v] || piece[c[0]] == HF_NO_INDEX) continue;
+      const glm::dvec3 low = glm::min(p[c[0]], glm::min(p[c[1]], p[c[2]])) - range,
+                       high = glm::max(p[c[0]], glm::max(p[c[1]], p[c[2]])) + range;
+      if (glm::any(glm::lessThan(p[v], low)) || glm::any(glm::greaterThan(p[v], high))) continue;
+      double w[3];
+      nearest_point(p[v], p[c[0]], p[c[1]], p[c[2]], w);
+      const double d = glm::length(p[v] - w[0] * p[c[0]] - w[1] * p[c[1]] - w[2] * p[c[2]]);
+      if (d >= best.distance) continue;
+      best = {v, {c[0], c[1], c[2]}, {w[0], w[1], w[2]}, d}, found = true;
+    }
+    if (found) out.push_back(best);
+  }
+  return out;
+}
+
+double apart(uint32_t vertex, const uint32_t* corner, const double* share, const std::vector<double>& xyz) {
+  const auto at = [&](uint32_t v) {
+    return glm::dvec3(xyz[3 * size_t{v}], xyz[3 * size_t{v} + 1], xyz[3 * size_t{v} + 2]);
+  };
+  glm::dvec3 d = at(vertex);
+  for (int k = 0; k < 3; ++k) {
+    if (share[k] > 0) d -= share[k] * at(corner[k]);
+  }
+  return glm::length(d);
+}
+
+struct Spread {
+  double p95 = 0, worst = 0;
+};
+Spread spread_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  return {values[(95 * values.size() + 99) / 100 - 1], values.back()};
+}
+
+// Extremities: vertices far from each other and from the middle.
+std::vector<uint32_t> far_vertices(const Scene& scene, const std::vector<uint32_t>& piece, int count) {
+  glm::dvec3 middle(0);
+  for (const glm::dvec3& p : scene.flat.positions) middle += p / double(scene.flat.vertex_count());
+  std::vector<double> distance(scene.flat.vertex_count());
+  for (uint32_t v = 0; v < distance.size(); ++v)
+    distance[v] = piece[v] == HF_NO_INDEX ? -1 : glm::length(scene.flat.positions[v] - middle);
+  std::vector<uint32_t> out;
+  for (int i = 0; i < count; ++i) {
+    const uint32_t v = uint32_t(std::max_element(distance.begin(), distance.end()) - distance.begin());
+    out.push_back(v);
+    for (uint32_t u = 0; u < distance.size(); ++u)
+      distance[u] = std::min(distance[u], glm::length(scene.flat.positions[u] - scene.flat.positions[v]));
+  }
+  return out;
+}
+
+std::vector<double> turn(hf_surface surface, const Scene& scene, uint32_t turned, uint32_t held, uint32_t* unreached) {
+  hf_pose pose = nullptr;
+  ok(hf_pose_create(surface, nullptr, &pose));
+  uint32_t handle[2];
+  const double radius = handle_radius * scene.diagonal;
+  const glm::dvec3 a = scene.flat.positions[turned], b = scene.flat.positions[held];
+  ok(hf_pose_add_handle_at(pose, &a.x, radius, &handle[0]));
+  ok(hf_pose_add_handle_at(pose, &b.x, radius, &handle[1]));
+  const glm::dvec3 along = glm::normalize(b - a);
+  const glm::dvec3 axis =
+      glm::normalize(glm::cross(along, std::abs(along.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
+  const double half = turn_degrees / 360 * 3.14159265358979323846;
+  hf_transform transform = {};
+  for (int k = 0; k < 3; ++k) transform.rotation[k] = std::sin(half) * axis[k];
+  transform.rotation[3] = std::cos(half);
+  ok(hf_pose_set_transform(pose, handle[0], &transform));
+  std::vector<double> out(scene.xyz.size());
+  hf_deform_desc desc = HF_INIT(hf_deform_desc);
+  desc.positions_f64 = out.data();
+  hf_deform_info info = HF_INIT(hf_deform_info);
+  for (int i = 0; i < 10; ++i) ok(hf_pose_deform(pose, &desc, &info));
+  *unreached = info.unreached_vertex_count;
+  hf_pose_destroy(pose);
+  return out;
+}
+
+// Share of links whose ends move apart by more than 3 % of the box in a clip of the artist's.
+double false_share(const Scene& scene, const std::vector<hf_link>& links) {
+  if (scene.model.animations.empty() || links.empty()) return -1;
+  std::vector<char> bad(links.size(), 0);
+  for (const Animation& clip : scene.model.animations) {
+    for (int i = 0; i < clip_samples; ++i) {
+      const double time = clip_duration(clip) * i / (clip_samples - 1);
+      const std::vector<double> xyz = double_positions(posed_positions(scene.model, scene.flat, clip, time));
+      for (size_t l = 0; l < links.size(); ++l)
+        bad[l] |= apart(links[l].vertex, links[l].corners, links[l].barycentrics, xyz) - links[l].length >
+                  false_link * scene.diagonal;
+    }
+  }
+  return double(std::count(bad.begin(), bad.end(), 1)) / double(links.size());
+}
+
+// Leaves out contacts that the artist's clips open by more than 3 % of the box: these pieces do not belong together.
+void drop_false_contacts(const Scene& scene, std::vector<Contact>& contacts) {
+  for (const Animation& clip : scene.model.animations) {
+    for (int i = 0; i < clip_samples; ++i) {
+      const double time = clip_duration(clip) * i / (clip_samples - 1);
+      const std::vector<double> xyz = double_positions(posed_positions(scene.model, scene.flat, clip, time));
+      contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
+                                    [&](const Contact& c) {
+                                      return apart(c.vertex, c.corner, c.share, xyz) - c.distance >
+                                             false_link * scene.diagonal;
+                                    }),
+                     contacts.end());
+    }
+  }
+}
+
+// Vertices where a field of two far sites is 0 although no site holds them there.
+uint32_t unreached_by_sites(hf_surface surface, const Scene& scene, uint32_t first, uint32_t second) {
+  hf_solver solver = nullptr;
+  ok(hf_create(surface, nullptr, &solver));
+  const uint32_t vertices[2] = {first, second};
+  const double values[2] = {1, 2};
+  hf_sites_desc sites = HF_INIT(hf_sites_desc);
+  sites.site_count = 2, sites.vertices = vertices, sites.values = values;
+  ok(hf_add_sites(solver, &sites, nullptr));
+  std::vector<float> field(scene.flat.vertex_count());
+  hf_solve_info info = HF_INIT(hf_solve_info);
+  ok(hf_solve(solver, field.data(), 0, &info));
+  hf_solver_destroy(solver);
+  return info.unreached_vertex_count;
+}
+
+// A model played on itself: twelve pairs of regions spread over it, the mean distance of all vertices from the artist's
+// frames, in % of the box. -1 without clips.
+double played_on_itself(hf_surface surface, const Scene& scene, const std::vector<uint32_t>& piece) {
+  if (scene.model.animations.empty()) return -1;
+  constexpr int pair_count = 12, clip_count = 3;
+  const std::vector<uint32_t> centres = far_vertices(scene, piece, pair_count);
+  std::vector<uint32_t> counts, vertices;
+  std::vector<char> taken(scene.flat.welded_count, 0);
+  for (const uint32_t centre : centres) {
+    uint32_t count = 0;
+    for (uint32_t v = 0; v < scene.flat.vertex_count(); ++v) {
+      if (piece[v] == HF_NO_INDEX || taken[scene.flat.welded[v]]) continue;
+      if (glm::length(scene.flat.positions[v] - scene.flat.positions[centre]) > 0.03 * scene.diagonal) continue;
+      taken[scene.flat.welded[v]] = 1, vertices.push_back(v), ++count;
+    }
+    if (count > 0) counts.push_back(count);
+  }
+  hf_transfer transfer = nullptr;
+  ok(hf_transfer_create(surface, surface, nullptr, &transfer));
+  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
+  pairs.pair_count = uint32_t(counts.size());
+  pairs.source_counts = pairs.target_counts = counts.data();
+  pairs.source_vertices = pairs.target_vertices = vertices.data();
+  ok(hf_transfer_add_pairs(transfer, &pairs, nullptr));
+  double sum = 0, frames = 0;
+  std::vector<double> out(scene.xyz.size());
+  for (size_t c = 0; c < std::min(scene.model.animations.size(), size_t{clip_count}); ++c) {
+    const Animation& clip = scene.model.animations[c];
+    for (int i = 0; i < clip_samples; ++i) {
+      const std::vector<double> xyz = double_positions(
+          posed_positions(scene.model, scene.flat, clip, clip_duration(clip) * i / (clip_samples - 1)));
+      hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
+      frame.source_positions_f64 = xyz.data(), frame.target_positions_f64 = out.data();
+      ok(hf_transfer_apply(transfer, &frame));
+      // The whole may lie elsewhere: the mean displacement does not count.
+      glm::dvec3 mean(0);
+      const size_t n = scene.flat.vertex_count();
+      const auto miss = [&](size_t v) {
+        return glm::dvec3(out[3 * v] - xyz[3 * v], out[3 * v + 1] - xyz[3 * v + 1], out[3 * v + 2] - xyz[3 * v + 2]);
+      };
+      for (size_t v = 0; v < n; ++v) mean += miss(v) / double(n);
+      for (size_t v = 0; v < n; ++v) sum += glm::length(miss(v) - mean) / double(n);
+      frames += 1;
+    }
+  }
+  hf_transfer_destroy(transfer);
+  return 100 * sum / frames / scene.diagonal;
+}
+
+Picture tile(const Scene& scene, const std::vector<double>& xyz, const std::vector<uint32_t>& marks) {
+  Surface surface = make_surface(xyz, scene.flat.triangles);
+  View view;
+  view.width = 520, view.height = 520, view.direction = {0.5, 0.25, 1.0};
+  Marks dots;
+  for (const uint32_t v : marks)
+    dots.dots.push_back({{xyz[3 * size_t{v}], xyz[3 * size_t{v} + 1], xyz[3 * size_t{v} + 2]}});
+  return render(surface, view, {}, dots);
+}
+
+// Debugging: the pairs of pieces whose contacts open most in the first pose.
+void list_pairs(const Scene& scene, const std::vector<Contact>& contacts, const std::vector<uint32_t>& piece,
+                const std::vector<hf_link>& links, hf_surface linked, const std::vector<uint32_t>& ends) {
+  std::vector<int32_t> light(scene.flat.vertex_count());
+  uint32_t count = 0, unreached = 0;
+  ok(hf_surface_get_pieces(linked, scene.flat.vertex_count(), nullptr, light.data(), &count));
+  for (size_t e = 0; e < ends.size(); ++e) {
+    const std::vector<double> posed = turn(linked, scene, ends[e], ends[(e + 1) % ends.size()], &unreached);
+    std::map<std::pair<uint32_t, uint32_t>, std::array<double, 4>> pairs;
+    for (const Contact& c : contacts) {
+      const uint32_t a = piece[c.vertex], b = piece[c.corner[0]];
+      auto& entry = pairs[{std::min(a, b), std::max(a, b)}];
+      entry[0] += 1;
+      entry[1] = std::max(entry[1], 100 / scene.diagonal * (apart(c.vertex, c.corner, c.share, posed) - c.distance));
+      entry[2] = 100 * c.distance / scene.diagonal;
+      entry[3] += light[c.vertex] ? 1 : 0;
+    }
+    for (const auto& [key, entry] : pairs) {
+      int joined = 0;
+      for (const hf_link& l : links) {
+        uint32_t b = 0;
+        for (int k = 0; k < 3; ++k) b = l.barycentrics[k] > 0 ? piece[l.corners[k]] : b;
+        joined += std::min(piece[l.vertex], b) == key.first && std::max(piece[l.vertex], b) == key.second;
+      }
+      if (entry[1] > 0.5)
+        std::printf("  pose %zu: pieces %u %u: %.0f contacts (%.0f on light), opened %.2f, %d links\n", e, key.first,
+                    key.second, entry[0], entry[3], entry[1], joined);
+    }
+  }
+}
+
+void report(const std::string& file, const std::string& pictures) {
+  const Scene scene = read_scene(file);
+  const ModelLinks links(scene.has_model ? &scene.model : nullptr, scene.flat);
+  double plain_ms = 0, linked_ms = 0;
+  hf_surface plain = make_surface_of(scene, nullptr, &plain_ms),
+             linked = make_surface_of(scene, &links.desc, &linked_ms);
+  hf_surface_report found = HF_INIT(hf_surface_report);
+  ok(hf_surface_get_report(linked, &found));
+  hf_surface_statistics before = HF_INIT(hf_surface_statistics), after = HF_INIT(hf_surface_statistics);
+  ok(hf_surface_get_statistics(plain, &before)), ok(hf_surface_get_statistics(linked, &after));
+  std::vector<hf_link> list(found.link_count);
+  uint32_t count = 0;
+  ok(hf_surface_get_links(linked, found.link_count, list.data(), &count));
+  std::vector<uint32_t> piece(scene.flat.vertex_count());
+  ok(hf_surface_get_pieces(linked, scene.flat.vertex_count(), piece.data(), nullptr, &count));
+  std::vector<Contact> contacts = find_contacts(scene, piece);
+  drop_false_contacts(scene, contacts);
+  const std::vector<uint32_t> ends = far_vertices(scene, piece, pose_count);
+  Spread gap[2];
+  uint32_t unreached = 0;
+  std::vector<Picture> tiles;
+  for (int i = 0; i < pose_count; ++i) {
+    uint32_t held = ends[0];
+    for (const uint32_t v : ends) {
+      const glm::dvec3 p = scene.flat.positions[ends[size_t(i)]];
+      if (glm::length(scene.flat.positions[v] - p) > glm::length(scene.flat.positions[held] - p)) held = v;
+    }
+    if (!pictures.empty()) tiles.push_back(tile(scene, scene.xyz, {ends[size_t(i)], held}));
+    for (int k = 0; k < 2; ++k) {
+      const std::vector<double> posed = turn(k ? linked : plain, scene, ends[size_t(i)], held, &unreached);
+      std::vector<double> opened;
+      for (const Contact& c : contacts)
+        opened.push_back(std::max(0.0, apart(c.vertex, c.corner, c.share, posed) - c.distance));
+      const Spread own = spread_of(opened);
+      gap[k].p95 += own.p95 / pose_count * 100 / scene.diagonal;
+      gap[k].worst += own.worst / pose_count * 100 / scene.diagonal;
+      if (!pictures.empty()) tiles.push_back(tile(scene, posed, {}));
+    }
+  }
+  if (std::getenv("LINK_PAIRS")) list_pairs(scene, contacts, piece, list, linked, ends);
+  const double wrong = false_share(scene, list);
+  const double played[2] = {played_on_itself(plain, scene, piece), played_on_itself(linked, scene, piece)};
+  const std::string name = file.substr(file.find_last_of('/') + 1);
+  std::printf(
+      "| %-26s | %5u | %3u | %3u | %4u | %2u | %5.2f | %5.2f / %5.1f | %6.3f / %5.2f | %4.2f | %5.2f | %5.2f | %+3.0f "
+      "%% | %4u | %5.1f %% | %5.2f / %5.2f |\n",
+      name.c_str(), found.welded_vertex_count, found.piece_count, found.component_count, found.link_count,
+      found.light_piece_count, 100 * found.longest_tree_link / scene.diagonal, gap[0].p95, gap[0].worst, gap[1].p95,
+      gap[1].worst, after.factor_entries / before.factor_entries, after.links_ms, plain_ms,
+      100 * (linked_ms / plain_ms - 1), unreached_by_sites(linked, scene, ends[0], ends[1]), 100 * wrong, played[0],
+      played[1]);
+  std::fflush(stdout);
+  if (!pictures.empty())
+    write_png(pictures + "/" + name + ".png", contact_sheet(tiles, 3, {}, name + ": rest, without links, with links"));
+  hf_surface_destroy(plain), hf_surface_destroy(linked);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  std::string pictures;
+  std::printf(
+      "| model | vertices | pieces | groups | links | light | tree | gap without: 95 %% / worst | with | entries | "
+      "search ms | surface ms | making | unreached | false "
+      "| on itself: without / with |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (int i = 1; i < count; ++i) {
+    if (std::strcmp(arguments[i], "--pictures") == 0 && i + 1 < count) {
+      pictures = arguments[++i];
+      continue;
+    }
+    try {
+      report(arguments[i], pictures);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "hf_link_figures: %s: %s\n", arguments[i], error.what());
+      return 1;
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,311 @@
+// Links between the pieces of a mesh: which are found, and the operator they make.
+#include "mesh/links.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/nearest_triangle.h"
+#include "support/meshes.h"
+#include "support/oracle.h"
+
+namespace {
+
+using hf_inner::at;
+using hf_inner::Index;
+using hf_test::PlainMesh;
+
+constexpr double unit = 0.57735026918962573;  // cot 60 degrees
+
+// A closed box of n x n squares a side, its lower corner at `low`.
+PlainMesh box(std::uint32_t n, std::array<double, 3> size, std::array<double, 3> low) {
+  PlainMesh mesh;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const PlainMesh face = hf_test::grid(n, n, 1.0 / n);
+      const std::uint32_t base = mesh.vertex_count();
+      const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+      for (std::uint32_t i = 0; i < face.vertex_count(); ++i) {
+        double p[3];
+        p[axis] = side, p[u] = face.positions[3 * std::size_t{i}], p[v] = face.positions[3 * std::size_t{i} + 1];
+        // Rounded to a coarse lattice, so that copies on edges weld.
+        for (std::size_t k = 0; k < 3; ++k) mesh.positions.push_back(low[k] + size[k] * std::round(p[k] * 1024) / 1024);
+      }
+      for (std::size_t c = 0; c < face.triangles.size(); c += 3) {
+        const std::uint32_t a = base + face.triangles[c], b = base + face.triangles[c + 1],
+                            d = base + face.triangles[c + 2];
+        if (side) {
+          mesh.triangles.insert(mesh.triangles.end(), {a, b, d});
+        } else {
+          mesh.triangles.insert(mesh.triangles.end(), {a, d, b});
+        }
+      }
+    }
+  }
+  return mesh;
+}
+
+// Two unit cubes with a gap between them along x.
+PlainMesh two_cubes(double gap = 0.01, std::uint32_t n = 6) {
+  PlainMesh mesh = box(n, {1, 1, 1}, {0, 0, 0});
+  hf_test::append(mesh, box(n + 1, {1, 1, 1}, {0, 0.05, 0.03}), 1 + gap);
+  return mesh;
+}
+
+std::shared_ptr<const hf_inner::Geometry> plain_geometry(const PlainMesh& mesh, hf_inner::OperatorKind kind = {}) {
+  hf_inner::MeshInput input;
+  input.vertex_count = mesh.vertex_count(), input.triangle_count = mesh.triangle_count();
+  input.positions = hf_inner::ConstRows(mesh.positions.data(), 3 * sizeof(double));
+  input.triangles = mesh.triangles.data();
+  return hf_inner::Geometry::make(input, kind, std::make_shared<hf_inner::Memory>(),
+                                  std::make_shared<hf_inner::JobRunner>(1u));
+}
+
+hf_inner::LinkOptions automatic() {
+  hf_inner::LinkOptions options;
+  options.mode = hf_inner::LinkMode::pieces;
+  options.distance = hf_inner::default_link_distance, options.overlay = hf_inner::default_overlay;
+  return options;
+}
+
+std::shared_ptr<const hf_inner::Core> core_of(const std::shared_ptr<const hf_inner::Geometry>& shape) {
+  hf_inner::CoreOptions options;
+  options.operator_kind = shape->operator_kind;
+  return hf_inner::Core::make(shape, options);
+}
+
+Eigen::MatrixXd dense(const hf_inner::SymmetricMatrix& k) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(k.size(), k.size());
+  for (Index v = 0; v < k.size(); ++v) {
+    for (Index i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i) out(v, k.row[at(i)]) = k.value[at(i)];
+  }
+  return out;
+}
+
+std::vector<double> field_through(const std::shared_ptr<const hf_inner::Core>& core, const std::vector<Index>& vertices,
+                                  const std::vector<double>& values) {
+  const auto engine = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 0);
+  std::vector<hf_inner::Site> sites;
+  std::vector<Index> slots;
+  for (const Index v : vertices) {
+    slots.push_back(static_cast<Index>(sites.size()));
+    sites.push_back(hf_inner::Site::at_vertex(core->mesh, v));
+  }
+  hf_inner::SiteEdit edit;
+  edit.add = slots, edit.sites = sites;
+  engine->edit(edit);
+  std::vector<double> out(at(core->size()));
+  engine->solve(values.data(), 1, out.data(), nullptr);
+  return out;
+}
+
+TEST(Links, join_two_cubes_into_one_component) {
+  const auto plain = plain_geometry(two_cubes());
+  ASSERT_EQ(plain->mesh.component_count(), 2);
+  const auto linked = hf_inner::Geometry::linked(plain, automatic());
+  ASSERT_TRUE(linked->links);
+  EXPECT_EQ(linked->mesh.component_count(), 1);
+  EXPECT_EQ(linked->links->alone_count, 0);
+  EXPECT_EQ(linked->links->links.size(), 16u);  // eight of each side
+  EXPECT_NEAR(linked->links->longest_tree_link * plain->mesh.scale, 0.01, 1e-12);
+  EXPECT_EQ(&linked->unlinked(), plain.get());
+  // The topology has the links as edges without triangles, and lists neighbours both ways.
+  const hf_inner::Topology& t = linked->topology;
+  Index without = 0;
+  for (Index e = 0; e < t.edge_count(); ++e)
+    without += t.edge_triangle_start[at(e)] == t.edge_triangle_start[at(e) + 1];
+  EXPECT_EQ(without, t.edge_count() - plain->topology.edge_count());
+  EXPECT_GT(without, 15);
+  for (Index v = 0; v < linked->mesh.vertex_count(); ++v) {
+    for (Index i = t.neighbour_start[at(v)]; i < t.neighbour_start[at(v) + 1]; ++i) {
+      const Index w = t.neighbour[at(i)], e = t.neighbour_edge[at(i)];
+      EXPECT_TRUE((t.first(e) == v && t.second(e) == w) || (t.first(e) == w && t.second(e) == v));
+    }
+  }
+}
+
+TEST(Links, keep_the_operator_a_symmetric_m_matrix_whose_rows_sum_to_zero) {
+  for (const auto kind :
+       {hf_inner::OperatorKind::intrinsic_delaunay, hf_inner::OperatorKind::clamped, hf_inner::OperatorKind::uniform}) {
+    const auto core = core_of(hf_inner::Geometry::linked(plain_geometry(two_cubes(), kind), automatic()));
+    const Eigen::MatrixXd k = dense(core->laplacian);
+    EXPECT_EQ((k - k.transpose()).cwiseAbs().maxCoeff(), 0);
+    for (Index v = 0; v < core->size(); ++v) {
+      EXPECT_LE(std::fabs(k.row(v).sum()), 1e-14 * k(v, v));
+      for (Index w = 0; w < core->size(); ++w) {
+        if (v != w) {
+          EXPECT_LE(k(v, w), 1e-15);
+        }
+      }
+    }
+  }
+}
+
+TEST(Links, make_the_operator_of_springs_from_points_to_triangles) {
+  const auto plain = plain_geometry(two_cubes());
+  const auto linked = hf_inner::Geometry::linked(plain, automatic());
+  Eigen::MatrixXd k = dense(core_of(plain)->laplacian);
+  for (const hf_inner::Link& link : linked->links->links) {
+    double sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (link.corner[c] < 0) continue;
+      const double w = unit * link.share[c];
+      k(link.vertex, link.vertex) += w, k(link.corner[c], link.corner[c]) += w;
+      k(link.vertex, link.corner[c]) -= w, k(link.corner[c], link.vertex) -= w;
+      sum += link.share[c];
+    }
+    EXPECT_NEAR(sum, 1, 1e-15);
+  }
+  const auto core = core_of(linked);
+  EXPECT_LE((k - dense(core->laplacian)).cwiseAbs().maxCoeff(), 1e-13);
+  // One site on each cube: the field passes from one to the other, and stays between the values.
+  const Index far = core->size() - 1;
+  const std::vector<double> field = field_through(core, {0, far}, {-1, 2});
+  Eigen::MatrixXd values(2, 1);
+  values << -1, 2;
+  const Eigen::MatrixXd exact = hf_test::dense_field(
+      *core, {hf_inner::Site::at_vertex(core->mesh, 0), hf_inner::Site::at_vertex(core->mesh, far)}, values);
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    EXPECT_NEAR(field[v], exact(static_cast<Index>(v), 0), 1e-10);
+    EXPECT_GE(field[v], -1 - 1e-12);
+    EXPECT_LE(field[v], 2 + 1e-12);
+  }
+  // A site on one cube alone holds both.
+  for (const double u : field_through(core, {0}, {3})) EXPECT_NEAR(u, 3, 1e-10);
+}
+
+TEST(Links, of_a_surface_of_one_piece_are_none) {
+  const auto plain = plain_geometry(hf_test::torus(12, 9));
+  EXPECT_EQ(hf_inner::Geometry::linked(plain, automatic()), plain);
+}
+
+// A body and a sheet close above its top, over a third of it.
+PlainMesh body_with_sheet() {
+  PlainMesh mesh = box(12, {3, 3, 1}, {0, 0, 0});
+  PlainMesh sheet = hf_test::grid(9, 9, 0.15);
+  for (std::size_t i = 0; i < sheet.positions.size(); i += 3)
+    sheet.positions[i] += 0.7, sheet.positions[i + 1] += 0.9, sheet.positions[i + 2] = 1.02;
+  hf_test::append(mesh, sheet, 0);
+  return mesh;
+}
+
+TEST(Links, a_sheet_is_light_and_hardly_changes_the_field_of_the_body) {
+  const auto plain = plain_geometry(body_with_sheet());
+  const auto linked = hf_inner::Geometry::linked(plain, automatic());
+  ASSERT_TRUE(linked->links);
+  EXPECT_EQ(linked->links->light[0], 0);
+  EXPECT_EQ(linked->links->light[1], 1);
+  EXPECT_GE(linked->links->links.size(), 80u);  // all over the sheet
+  const auto core = core_of(linked), own = core_of(plain);
+  const std::vector<double> with = field_through(core, {0, 90}, {0, 1}), without = field_through(own, {0, 90}, {0, 1});
+  double change = 0, low = 1, high = 0;
+  for (Index v = 0; v < core->size(); ++v) {
+    if (plain->mesh.component[at(v)] == 0) {
+      change = std::max(change, std::fabs(with[at(v)] - without[at(v)]));
+    } else {
+      low = std::min(low, with[at(v)]), high = std::max(high, with[at(v)]);
+    }
+  }
+  EXPECT_LE(change, 1e-4);
+  EXPECT_GT(high - low, 0.1);  // the sheet has the body's field, not a mean
+  // Heavy by the host's word, it does change it.
+  auto options = automatic();
+  const Index on_sheet = core->size() - 1;
+  options.heavy = {&on_sheet, 1};
+  const auto heavy = hf_inner::Geometry::linked(plain, options);
+  EXPECT_EQ(heavy->links->light[1], 0);
+  const std::vector<double> stiff = field_through(core_of(heavy), {0, 90}, {0, 1});
+  double heavy_change = 0;
+  for (Index v = 0; v < core->size(); ++v) {
+    if (plain->mesh.component[at(v)] == 0)
+      heavy_change = std::max(heavy_change, std::fabs(stiff[at(v)] - without[at(v)]));
+  }
+  EXPECT_GT(heavy_change, 1e-3);
+}
+
+TEST(Links, pieces_of_different_tags_stay_apart) {
+  const PlainMesh mesh = two_cubes();
+  const auto plain = plain_geometry(mesh);
+  std::vector<std::uint32_t> tags(mesh.vertex_count(), 1);
+  for (std::size_t v = 0; v < tags.size(); ++v) tags[v] = mesh.positions[3 * v] > 1.001 ? 7 : 1;
+  auto options = automatic();
+  options.tags = tags;
+  EXPECT_EQ(hf_inner::Geometry::linked(plain, options), plain);
+}
+
+TEST(Links, stop_at_the_distance_and_count_what_stays_alone) {
+  PlainMesh mesh = two_cubes();
+  hf_test::append(mesh, box(2, {0.5, 0.5, 0.5}, {0, 0, 0}), 4);
+  const auto linked = hf_inner::Geometry::linked(plain_geometry(mesh), automatic());
+  EXPECT_EQ(linked->mesh.component_count(), 2);
+  EXPECT_EQ(linked->links->alone_count, 1);
+  auto options = automatic();
+  options.distance = 1;
+  EXPECT_EQ(hf_inner::Geometry::linked(plain_geometry(mesh), options)->mesh.component_count(), 1);
+}
+
+TEST(Links, skin_weights_choose_between_neighbours) {
+  // A small cube above the seam of two, a little nearer to the left one. Its joint is that of the right one.
+  PlainMesh mesh = box(4, {1, 1, 1}, {0, 0, 0});
+  hf_test::append(mesh, box(4, {1, 1, 0.99}, {0, 0, 0}), 1.02);
+  hf_test::append(mesh, box(2, {0.2, 0.2, 0.2}, {0, 0.4, 1.02}), 0.91);
+  std::vector<std::uint16_t> joints;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+    joints.push_back(mesh.positions[3 * v] > 1.015 || mesh.positions[3 * v + 2] > 1.01 ? 5 : 3);
+  const std::vector<float> weights(mesh.vertex_count(), 1);
+  const auto linked_to = [&](const hf_inner::SkinHint& skin) {
+    auto options = automatic();
+    options.skin = skin, options.overlay = 0;
+    const auto shape = hf_inner::Geometry::linked(plain_geometry(mesh), options);
+    std::vector<int> count(3, 0);
+    for (const hf_inner::Link& link : shape->links->links) {
+      const Index a = shape->links->piece[at(link.vertex)];
+      Index b = -1;
+      for (const Index c : link.corner) b = c >= 0 ? shape->links->piece[at(c)] : b;
+      if (std::max(a, b) == 2) ++count[at(std::min(a, b))];
+    }
+    return count;
+  };
+  const std::vector<int> nearest = linked_to({}), alike = linked_to({1, joints.data(), weights.data()});
+  EXPECT_GT(nearest[0], 0);
+  EXPECT_EQ(nearest[1], 0);
+  EXPECT_EQ(alike[0], 0);
+  EXPECT_GT(alike[1], 0);
+}
+
+TEST(Links, the_nearest_triangle_of_a_group_agrees_with_trying_them_all) {
+  const auto shape = plain_geometry(two_cubes());
+  const hf_inner::Mesh& mesh = shape->mesh;
+  std::vector<Index> group;
+  for (Index t = 0; t < mesh.triangle_count(); ++t) group.push_back(mesh.component[at(mesh.triangle(t)[0])]);
+  const hf_inner::NearestTriangle tree(mesh.positions, mesh.corners, group, 2, *shape->memory);
+  for (Index v = 0; v < mesh.vertex_count(); v += 3) {
+    for (Index g = 0; g < 2; ++g) {
+      double least = 1e300;
+      for (Index t = 0; t < mesh.triangle_count(); ++t) {
+        if (group[at(t)] != g) continue;
+        double w[3];
+        tree.weights(mesh.positions[at(v)], t, w);
+        hf_inner::Vec3 d = mesh.positions[at(v)];
+        for (std::size_t k = 0; k < 3; ++k) d = d - w[k] * mesh.positions[at(mesh.triangle(t)[k])];
+        least = std::min(least, dot(d, d));
+      }
+      const auto found = tree.find_in(g, mesh.positions[at(v)], 10);
+      ASSERT_GE(found.triangle, 0);
+      EXPECT_EQ(group[at(found.triangle)], g);
+      EXPECT_NEAR(found.squared, least, 1e-15);
+      EXPECT_EQ(tree.find_in(g, mesh.positions[at(v)], 0.5 * least).triangle, -1);
+    }
+  }
+}
+
+TEST(Links, of_thousands_of_pieces_are_found) {
+  PlainMesh mesh;
+  for (int i = 0; i < 400; ++i) hf_test::append(mesh, box(1, {0.9, 1, 1}, {0, 0, 0}), i);
+  auto options = automatic();
+  const auto linked = hf_inner::Geometry::linked(plain_geometry(mesh), options);
+  EXPECT_EQ(linked->mesh.component_count(), 1);
+}
+
+}  // namespace
