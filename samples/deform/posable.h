@@ -66,7 +66,6 @@ class Posable {
   void deform(bool refine, std::vector<double>& positions, std::vector<float>& normals, uint32_t iterations = 0);
 
   hf_pose pose() const { return pose_; }
-  hf_surface surface() const { return surface_; }
   double diagonal() const { return diagonal_; }
   // Name, number and region of every handle, in the order in which handles were added.
   struct Live {

@@ -23,7 +23,7 @@ WalkScene::WalkScene(const std::string& source, const std::string& target, uint3
   const Creature from = make_creature(source, vertices), to = make_creature(target, vertices);
   const Model from_model = to_model(from), to_model_of = to_model(to);
   ProgressBar quiet(true);
-  Session session(from_model, to_model_of, read_pairs(pairs), 1, quiet);
+  Session session(from_model, to_model_of, read_pairs(pairs), 1, true, quiet);
   const Animation& walk = from_model.animations[size_t(find_animation(from_model, "walk"))];
   std::vector<double> times;
   std::vector<std::vector<double>> poses;

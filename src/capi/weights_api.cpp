@@ -94,14 +94,14 @@ Vector<Index> read_sources(const hf_bones_desc& desc, std::uint32_t before, Memo
 Site read_place(const Mesh& mesh, const hf_pins_desc& desc, std::uint32_t i) {
   if (desc.vertices) return Site::at_vertex(mesh, usable_vertex(mesh, desc.vertices[i], i, "vertices"));
   const double* weights = desc.barycentrics + 3 * std::size_t{i};
-  const Index* corner = mesh.triangle(usable_triangle(mesh, desc.triangles[i], weights, i));
+  const SurfacePlace place = place_in_triangle(mesh, desc.triangles[i], weights, i);
   Site site;
   int used = 0;
   for (int k = 0; k < 3; ++k) {
-    if (weights[k] > 0) site.vertex[used] = corner[k], site.weight[used++] = weights[k];
+    if (weights[k] > 0) site.vertex[used] = place.vertex[k], site.weight[used++] = weights[k];
   }
   if (used == 1) site.weight[0] = 1;
-  site.component = mesh.component[at(corner[0])];
+  site.component = mesh.component[at(place.vertex[0])];
   return site;
 }
 

@@ -8,7 +8,7 @@
 namespace hf_inner {
 namespace {
 
-struct Link {
+struct VertexLink {
   Index below = 0, above = 0;              // neighbours
   Index edges_below = 0, edges_above = 0;  // edges between neighbours: both ends below or above
 };
@@ -22,7 +22,7 @@ CriticalPoints find_critical_points(const Mesh& mesh, const Topology& topology, 
   };
   const auto has_value = [&](Index v) { return !std::isnan(field[at(v)]); };
   CriticalPoints found(memory);
-  Vector<Link> links(at(mesh.vertex_count()), &memory);
+  Vector<VertexLink> links(at(mesh.vertex_count()), &memory);
   for (Index e = 0; e < topology.edge_count(); ++e) {
     const Index a = topology.first(e), b = topology.second(e);
     if (!has_value(a) || !has_value(b)) continue;
@@ -41,7 +41,7 @@ CriticalPoints find_critical_points(const Mesh& mesh, const Topology& topology, 
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (!has_value(v)) continue;
     ++found.euler_characteristic;
-    const Link& link = links[at(v)];
+    const VertexLink& link = links[at(v)];
     CriticalPoint point{v, CriticalKind::saddle, 1 - (link.below - link.edges_below)};
     if (link.below == 0) {
       point.kind = CriticalKind::minimum, ++found.minima;

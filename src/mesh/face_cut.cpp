@@ -14,7 +14,7 @@ constexpr double no_ear = std::numeric_limits<double>::infinity();
 constexpr double equal_costs = 1e-9;
 // A triangle of the cut must have at least this share of its face's area, on the face's side. It keeps rounding from
 // choosing triangles without area; at 0 a corner on a straight side may become one.
-constexpr double least_share = 1e-9;
+constexpr double least_area_share = 1e-9;
 // A quad whose diagonals pass at more than this distance, in its diameters, is not planar: both cuts count. The weights
 // of the two cuts differ by the square of it.
 constexpr double planar_bend = 1e-6;
@@ -96,7 +96,7 @@ void FaceCutter::add(Index a, Index b, Index c) {
 
 // The canonical order puts the lowest number at corner 0, so that the diagonal 0-2 wins a tie.
 void FaceCutter::cut_quad() {
-  const double least = least_share * square_;
+  const double least = least_area_share * square_;
   const bool first_valid = std::min(side(0, 1, 2), side(0, 2, 3)) > least;
   const bool other_valid = std::min(side(1, 2, 3), side(1, 3, 0)) > least;
   const double first = cotangent_at(point_[1], point_[0], point_[2]) + cotangent_at(point_[3], point_[2], point_[0]);
@@ -128,7 +128,7 @@ void FaceCutter::find_ear(Index corner) noexcept {
   const bool was_reflex = reflex_[at(corner)] != 0;
   reflex_[at(corner)] = !(area > 0);
   ear.cost = no_ear, ear.blocker = -1;
-  if (key_[at(a)] != key_[at(c)] && area > least_share * square_) {
+  if (key_[at(a)] != key_[at(c)] && area > least_area_share * square_) {
     ear.blocker = reflex_inside(a, corner, c);
     if (ear.blocker < 0) ear.cost = roundness_cost(point_[at(a)], point_[at(corner)], point_[at(c)]);
   }

@@ -34,7 +34,8 @@ Vector<ItemBox> segment_boxes(const Vector<BoneSegment>& segments, Memory& memor
 // The search of one thread. It keeps its list of candidates between vertices.
 class Search {
  public:
-  Search(const Mesh& mesh, const Skin& skin, const Vector<BoneSegment>& segments, const BoxTree& tree, Memory& memory)
+  Search(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments, const BoxTree& tree,
+         Memory& memory)
       : mesh_(mesh), skin_(skin), segments_(segments), tree_(tree), candidates_(&memory) {}
 
   // The nearest bones of a vertex; none if it does not see them.
@@ -78,7 +79,7 @@ class Search {
   }
 
   const Mesh& mesh_;
-  const Skin& skin_;
+  const SkinShape& skin_;
   const Vector<BoneSegment>& segments_;
   const BoxTree& tree_;
   Vector<Candidate> candidates_;
@@ -86,7 +87,7 @@ class Search {
 
 }  // namespace
 
-Informants find_informants(const Mesh& mesh, const Skin& skin, const Vector<BoneSegment>& segments, Memory& memory,
+Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments, Memory& memory,
                            JobRunner& jobs) {
   const std::size_t n = at(mesh.vertex_count());
   const BoxTree tree(segment_boxes(segments, memory), memory);

@@ -20,7 +20,7 @@ struct Informants {
 
 // The nearest bone of all informs a vertex, and only if the vertex sees it. If no vertex of the surface sees its bone,
 // all nearest bones inform.
-Informants find_informants(const Mesh& mesh, const Skin& skin, const Vector<BoneSegment>& segments, Memory& memory,
+Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments, Memory& memory,
                            JobRunner& jobs);
 
 }  // namespace hf_inner

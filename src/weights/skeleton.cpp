@@ -36,7 +36,7 @@ Vec3 area_vector(const Mesh& mesh, Index t) noexcept {
 
 }  // namespace
 
-Skin::Skin(const Mesh& mesh, Memory& memory)
+SkinShape::SkinShape(const Mesh& mesh, Memory& memory)
     : mesh_(mesh), side_(&memory), normals_(&memory), tree_(triangle_boxes(mesh, memory), memory) {
   orient();
   normals_.assign(at(mesh.vertex_count()), Vec3{});
@@ -55,7 +55,7 @@ Skin::Skin(const Mesh& mesh, Memory& memory)
 
 // An island whose signed volume is negative is inside out. The volume is measured from a corner of the island, and it
 // counts only if the area vectors cancel, as those of a closed island do.
-void Skin::orient() {
+void SkinShape::orient() {
   const std::size_t islands = at(mesh_.component_count());
   Memory& memory = *static_cast<Memory*>(side_.get_allocator().resource());
   Vector<double> volume(islands, 0.0, &memory), area(islands, 0.0, &memory);
@@ -75,7 +75,7 @@ void Skin::orient() {
   }
 }
 
-bool Skin::blocked(const Vec3& from, const Vec3& to, Index island, Index own) const noexcept {
+bool SkinShape::blocked(const Vec3& from, const Vec3& to, Index island, Index own) const noexcept {
   const Vec3 way = to - from;
   const bool turned = side_[at(island)] < 0;
   return tree_.along(from, to, [&](Index t) {
@@ -88,7 +88,7 @@ bool Skin::blocked(const Vec3& from, const Vec3& to, Index island, Index own) co
   });
 }
 
-double Skin::way_out(const Vec3& from, const Vec3& direction, double most) const noexcept {
+double SkinShape::way_out(const Vec3& from, const Vec3& direction, double most) const noexcept {
   double nearest = most;
   tree_.along(from, from + most * direction, [&](Index t) {
     const Index* v = mesh_.triangle(t);
@@ -102,7 +102,7 @@ double Skin::way_out(const Vec3& from, const Vec3& direction, double most) const
   return nearest;
 }
 
-bool Skin::inside(const Vec3& point) const noexcept {
+bool SkinShape::inside(const Vec3& point) const noexcept {
   // Three rays that are parallel to no axis; most of them decide, so that one that passes along a seam does not.
   constexpr Vec3 directions[3] = {{0.83, 0.41, 0.37}, {-0.31, 0.87, -0.38}, {0.29, -0.43, 0.85}};
   constexpr double ray_length = 4;  // a ray leaves the box of diagonal 1, from any point in it
@@ -129,7 +129,7 @@ namespace {
 // Finds where joints end that have no tails.
 class Tails {
  public:
-  Tails(const Bones& bones, const Mesh& mesh, const Skin& skin, Memory& memory)
+  Tails(const Bones& bones, const Mesh& mesh, const SkinShape& skin, Memory& memory)
       : head(&memory), bones_(bones), skin_(skin), first_child_(&memory), next_child_(&memory) {
     const std::size_t count = bones.head.size();
     for (const Vec3& p : bones.head) head.push_back(place_of(mesh, p));
@@ -188,14 +188,14 @@ class Tails {
   }
 
   const Bones& bones_;
-  const Skin& skin_;
+  const SkinShape& skin_;
   Vector<Index> first_child_, next_child_;  // children that deform and do not lie on their parent
   double typical_ = 1;
 };
 
 }  // namespace
 
-Vector<BoneSegment> bone_segments(const Bones& bones, const Mesh& mesh, const Skin& skin, Memory& memory) {
+Vector<BoneSegment> bone_segments(const Bones& bones, const Mesh& mesh, const SkinShape& skin, Memory& memory) {
   Vector<BoneSegment> out(&memory);
   if (!bones.has_tails) {
     const Tails tails(bones, mesh, skin, memory);
@@ -212,7 +212,8 @@ Vector<BoneSegment> bone_segments(const Bones& bones, const Mesh& mesh, const Sk
   return out;
 }
 
-Vector<std::uint32_t> bone_faults(Index count, const Vector<BoneSegment>& segments, const Skin& skin, Memory& memory) {
+Vector<std::uint32_t> bone_faults(Index count, const Vector<BoneSegment>& segments, const SkinShape& skin,
+                                  Memory& memory) {
   Vector<std::uint32_t> faults(at(count), 0, &memory);
   Vector<std::uint8_t> is_inside(at(count), 0, &memory), is_long(at(count), 0, &memory), exists(at(count), 0, &memory);
   Vector<const BoneSegment*> sorted(&memory);

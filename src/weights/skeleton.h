@@ -39,9 +39,9 @@ enum BoneFault : std::uint32_t {
 };
 
 // The surface as a skeleton needs it: a tree of its triangles.
-class Skin {
+class SkinShape {
  public:
-  Skin(const Mesh& mesh, Memory& memory);
+  SkinShape(const Mesh& mesh, Memory& memory);
   // Whether a segment enters the front of a triangle of this island. Triangles of the vertex `own` do not count.
   bool blocked(const Vec3& from, const Vec3& to, Index island, Index own) const noexcept;
   // The distance from a point along a unit direction to the first place where it leaves the skin, or `most`.
@@ -59,8 +59,9 @@ class Skin {
 };
 
 // Makes the segments of the bones that deform, by number. Bones without tails get them from their children or the skin.
-Vector<BoneSegment> bone_segments(const Bones& bones, const Mesh& mesh, const Skin& skin, Memory& memory);
+Vector<BoneSegment> bone_segments(const Bones& bones, const Mesh& mesh, const SkinShape& skin, Memory& memory);
 // The faults that show without a solve: no length, coincident, outside.
-Vector<std::uint32_t> bone_faults(Index count, const Vector<BoneSegment>& segments, const Skin& skin, Memory& memory);
+Vector<std::uint32_t> bone_faults(Index count, const Vector<BoneSegment>& segments, const SkinShape& skin,
+                                  Memory& memory);
 
 }  // namespace hf_inner

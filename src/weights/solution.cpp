@@ -73,7 +73,7 @@ std::shared_ptr<const Solution> Solution::make(std::shared_ptr<const SkinSurface
   if (std::find(bones.deforms.begin(), bones.deforms.end(), 1) == bones.deforms.end())
     fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no bone deforms; set deforms of at least one to 1");
   const auto made = make_owner_in<Solution>(core->memory, std::move(shape));
-  const Skin& skin = made->surface->skin;
+  const SkinShape& skin = made->surface->skin;
   const Vector<BoneSegment> segments = bone_segments(bones, core->mesh, skin, memory);
   made->faults = bone_faults(bones.count(), segments, skin, memory);
   made->informants = find_informants(core->mesh, skin, segments, memory, *core->jobs);

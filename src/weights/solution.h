@@ -9,7 +9,7 @@ namespace hf_inner {
 struct SkinSurface {
   explicit SkinSurface(std::shared_ptr<const Core> harmonic);
   std::shared_ptr<const Core> core;  // first member: its memory outlives the rest
-  Skin skin;
+  SkinShape skin;
 };
 
 // How the weights of a vertex were found.

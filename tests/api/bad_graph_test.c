@@ -192,6 +192,9 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   uint32_t number = 0;
   double levels[2], distance, xyz[3 * VERTICES];
   float xyz_f32[3 * VERTICES];
+  hf_surface relinked = NULL;
+  hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
+  hf_gaps_info gaps = HF_INIT(hf_gaps_info);
   hf_pose pose = NULL;
   hf_region region = NULL;
   hf_direction direction = NULL;
@@ -205,8 +208,16 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   hf_transfer transfer = NULL;
   scalars.values_f64 = before;
 
+  assert_ok(hf_surface_get_links(graph, 0, NULL, &number)); /* a graph has no links */
+  assert_int_equal(number, 0);
+  assert_ok(hf_surface_get_pieces(graph, 0, NULL, NULL, &number));
+  assert_int_equal(number, VERTICES);
+  posed.positions_f64 = xyz;
+  assert_ok(hf_surface_measure_gaps(graph, &posed, 0, NULL, &gaps));
+  assert_int_equal(gaps.link_count, 0);
   NEEDS("a ray", NO_INDEX, hf_surface_cast_ray(graph, point, ray, NULL, &hit));
   NEEDS("the nearest vertex", NO_INDEX, hf_surface_find_vertex(graph, point, NULL, &number, &distance));
+  NEEDS("other links", NO_INDEX, hf_surface_relink(graph, NULL, NULL, &relinked));
   NEEDS("levels", NO_INDEX, hf_surface_space_levels(graph, &scalars, HF_LEVELS_VALUE, 2, levels));
   NEEDS("iso-lines", NO_INDEX, hf_surface_trace_isolines(graph, &scalars, 1, &level, &lines));
   NEEDS("critical points", NO_INDEX, hf_surface_find_critical_points(graph, &scalars, 0, NULL, &critical));

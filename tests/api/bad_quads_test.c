@@ -237,6 +237,7 @@ static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(
   NOTHING_HAPPENS(hf_flow_destroy);
   NOTHING_HAPPENS(hf_region_destroy);
   NOTHING_HAPPENS(hf_detail_destroy);
+  NOTHING_HAPPENS(hf_weights_destroy);
 #define COUNTS_NOTHING(function)                                               \
   do {                                                                         \
     for (size_t b = 0; b < COUNT_OF(bad); ++b) {                               \

@@ -7,6 +7,7 @@ static Scene scene;
 static hf_quads quads;
 static hf_flow flow;
 static double height[TUBE_VERTICES];
+static hf_surface linked;        /* two octahedra side by side */
 static hf_direction round_field; /* on a closed surface, where the field has singularities */
 
 enum { DIMENSIONS = 4, ARRAYS = 7 };
@@ -33,6 +34,27 @@ static hf_result get_components(Call* c) {
   uint32_t count = 777;
   const hf_result r = hf_surface_get_components(scene.sheet, (uint32_t)c->capacity[0], c->array[0], &count);
   c->count[0] = count;
+  return r;
+}
+static hf_result get_links(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_surface_get_links(linked, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
+static hf_result get_pieces(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_surface_get_pieces(linked, (uint32_t)c->capacity[0], c->array[0], c->array[1], &count);
+  c->count[0] = count;
+  return r;
+}
+static hf_result measure_gaps(Call* c) {
+  float posed[36] = {0};
+  hf_gaps_desc desc = HF_INIT(hf_gaps_desc);
+  hf_gaps_info info = HF_INIT(hf_gaps_info);
+  desc.positions = posed;
+  const hf_result r = hf_surface_measure_gaps(linked, &desc, (uint32_t)c->capacity[0], c->array[0], &info);
+  c->count[0] = info.link_count;
   return r;
 }
 static hf_result save(Call* c) {
@@ -130,8 +152,7 @@ static hf_result weights_get(Call* c) {
 }
 static hf_result weights_get_bones(Call* c) {
   uint32_t count = 777;
-  const hf_result r =
-      hf_weights_get_bones(scene.weights, (uint32_t)c->capacity[0], c->array[0], c->array[1], &count);
+  const hf_result r = hf_weights_get_bones(scene.weights, (uint32_t)c->capacity[0], c->array[0], c->array[1], &count);
   c->count[0] = count;
   return r;
 }
@@ -163,6 +184,9 @@ static const struct {
   int together;         /* what an array holds depends on which others are asked for */
 } functions[] = {
     {"hf_surface_get_components", get_components, {{0, 4, 0}}, 0},
+    {"hf_surface_get_links", get_links, {{0, sizeof(hf_link), 0}}, 0},
+    {"hf_surface_get_pieces", get_pieces, {{0, 4, 0}, {0, 4, 0}}, 0},
+    {"hf_surface_measure_gaps", measure_gaps, {{0, 8, 0}}, 0},
     {"hf_surface_save", save, {{0, 1, 0}}, 0},
     {"hf_surface_find_critical_points", find_critical_points, {{0, sizeof(hf_critical_point), 0}}, 0},
     {"hf_surface_find_extremities", find_extremities, {{0, sizeof(hf_extremity), 0}}, 0},
@@ -195,6 +219,21 @@ static const struct {
      1},
 };
 
+static void linked_create(void) {
+  static float corners[36];
+  static uint32_t faces[48];
+  static const float one[18] = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
+  static const uint32_t of_one[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+  for (int i = 0; i < 36; ++i) corners[i] = one[i % 18] + (i >= 18 && i % 3 == 0 ? 2.05f : 0.0f);
+  for (uint32_t i = 0; i < 48; ++i) faces[i] = of_one[i % 24] + i / 24 * 6;
+  hf_links_desc links = HF_INIT(hf_links_desc);
+  links.mode = HF_LINK_PIECES;
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
+  desc.vertex_count = 12, desc.triangle_count = 16, desc.positions = corners, desc.triangles = faces;
+  desc.links = &links;
+  assert_ok(hf_surface_create(&desc, &linked));
+}
+
 static void round_field_create(void) {
   static float corners[18] = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
   static uint32_t faces[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
@@ -214,7 +253,7 @@ static void scene_with_quads_create(void) {
   desc.edge_length = 2, desc.relax_count = 2;
   assert_ok(hf_quads_create(scene.body, &desc, &quads));
   assert_ok(hf_flow_create(scene.body, &flow));
-  round_field_create();
+  round_field_create(), linked_create();
 }
 
 /* Two entries behind what is needed, so that what is written there is seen. */
@@ -324,6 +363,7 @@ static void every_function_with_a_capacity_keeps_the_protocol(void** state) {
   }
   finish_rows("arrays out");
   hf_quads_destroy(quads), hf_flow_destroy(flow), hf_direction_destroy(round_field);
+  hf_surface_destroy(linked);
   scene_destroy(&scene);
 }
 

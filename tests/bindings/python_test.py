@@ -175,7 +175,8 @@ class Refusals(unittest.TestCase):
         region.edit(add=[0, 1, 2, 12, 13, 14])
         return [self.surface, self.solver, hf.Pose(self.surface), hf.Transfer(self.surface, self.surface),
                 hf.Geodesics(self.surface), hf.Direction(self.surface), region, hf.Detail(region, region.clone()),
-                hf.Flow(self.surface), hf.Quads(self.surface, edge_length=1.0), hf.Progress()]
+                hf.Flow(self.surface), hf.Quads(self.surface, edge_length=1.0), hf.Progress(),
+                hf.Weights(self.surface, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])]
 
     def test_objects_refuse_pickling_by_name(self):
         things = self.everything()
