@@ -9,7 +9,7 @@
 namespace hf_inner::capi {
 namespace {
 
-constexpr std::uint32_t most_influences = 64;
+constexpr std::uint32_t most_skin_joints = 64;
 // Barycentrics are scaled to sum 1 if they are this near to it.
 constexpr double barycentric_slack = 1e-3;
 
@@ -52,7 +52,7 @@ void read_skin(const hf_links_desc& desc, const Mesh& mesh, SkinHint& out) {
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joints or weights are set, but influence_count is 0");
     return;
   }
-  count_of(desc.influence_count, 0, 1, most_influences, "influence_count");
+  count_of(desc.influence_count, 0, 1, most_skin_joints, "influence_count");
   require(desc.joints, "joints"), require(desc.weights, "weights");
   for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
     for (std::size_t i = 0; i < desc.influence_count; ++i) {
