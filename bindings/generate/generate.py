@@ -15,6 +15,7 @@ import layer_csharp
 import layer_js
 import layer_lua
 import layer_python
+import layer_rust
 import parse_headers
 
 BINDINGS = pathlib.Path(__file__).resolve().parent.parent
@@ -29,7 +30,7 @@ def files():
         raise parse_headers.HeaderError(f"base.h: HF_VERSION_* are not the version of CMakeLists.txt, {version}")
     api = {"version": version, **api}
     result = {"api.json": parse_headers.to_text(api)}
-    for layer in (layer_python, layer_js, layer_csharp, layer_lua):
+    for layer in (layer_python, layer_js, layer_csharp, layer_lua, layer_rust):
         result.update(layer.write(api))
     return result
 

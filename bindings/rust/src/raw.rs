@@ -1,0 +1,2135 @@
+// Generated from include/hf/*.h by bindings/generate; do not edit. The C ABI as Rust sees it.
+//! The C ABI, unsafe and without wrapping. The headers of hf describe it.
+#![allow(non_camel_case_types, missing_docs)]
+use std::os::raw::{c_char, c_void};
+
+pub const HEADER_VERSION: &str = "0.1.0";
+pub const HF_VERSION_MAJOR: i32 = 0;
+pub const HF_VERSION_MINOR: i32 = 1;
+pub const HF_VERSION_PATCH: i32 = 0;
+pub const HF_NO_INDEX: u32 = 4294967295;
+pub const HF_MESSAGE_SIZE: i32 = 256;
+pub const HF_OK: i32 = 0;
+pub const HF_ERROR_INVALID_ARGUMENT: i32 = -1;
+pub const HF_ERROR_NULL_POINTER: i32 = -2;
+pub const HF_ERROR_INVALID_HANDLE: i32 = -3;
+pub const HF_ERROR_INVALID_DESC: i32 = -4;
+pub const HF_ERROR_OUT_OF_RANGE: i32 = -5;
+pub const HF_ERROR_NON_FINITE: i32 = -6;
+pub const HF_ERROR_EMPTY: i32 = -7;
+pub const HF_ERROR_DUPLICATE_SITE: i32 = -8;
+pub const HF_ERROR_NO_SUCH_SITE: i32 = -9;
+pub const HF_ERROR_CONFLICT: i32 = -10;
+pub const HF_ERROR_NO_SITES: i32 = -11;
+pub const HF_ERROR_NO_SUCH_HANDLE: i32 = -12;
+pub const HF_ERROR_NO_SUCH_PAIR: i32 = -13;
+pub const HF_ERROR_OVERLAP: i32 = -14;
+pub const HF_ERROR_UNSUPPORTED: i32 = -15;
+pub const HF_ERROR_BUSY: i32 = -16;
+pub const HF_ERROR_REENTRANT: i32 = -17;
+pub const HF_ERROR_TOO_SMALL: i32 = -18;
+pub const HF_ERROR_NO_RECORD: i32 = -19;
+pub const HF_ERROR_OUT_OF_MEMORY: i32 = -100;
+pub const HF_ERROR_TOO_LARGE: i32 = -101;
+pub const HF_ERROR_CANCELLED: i32 = -102;
+pub const HF_ERROR_NOT_POSITIVE_DEFINITE: i32 = -200;
+pub const HF_ERROR_INACCURATE: i32 = -201;
+pub const HF_ERROR_INTERNAL: i32 = -300;
+pub const HF_WELD_EXACT: i32 = 0;
+pub const HF_WELD_NONE: i32 = 1;
+pub const HF_WELD_TOLERANCE: i32 = 2;
+pub const HF_OPERATOR_INTRINSIC_DELAUNAY: i32 = 0;
+pub const HF_OPERATOR_CLAMPED: i32 = 1;
+pub const HF_OPERATOR_UNIFORM: i32 = 2;
+pub const HF_OPERATOR_COTANGENT: i32 = 3;
+pub const HF_OPERATOR_GRAPH: i32 = 4;
+pub const HF_FIELD_HARMONIC: i32 = 0;
+pub const HF_FIELD_BIHARMONIC: i32 = 1;
+pub const HF_FIELD_BIHARMONIC_GRAPH: i32 = 2;
+pub const HF_ORDERING_NESTED_DISSECTION: i32 = 0;
+pub const HF_ORDERING_MINIMUM_DEGREE: i32 = 1;
+pub const HF_ORDERING_METIS: i32 = 2;
+pub const HF_FACTOR_ALIGNMENT: i32 = 64;
+pub const HF_LINK_NONE: i32 = 0;
+pub const HF_LINK_PIECES: i32 = 1;
+pub const HF_LINK_LIST: i32 = 2;
+pub const HF_ENGINE_GREEN: i32 = 0;
+pub const HF_ENGINE_UPDOWN: i32 = 1;
+pub const HF_ENGINE_REFACTOR: i32 = 2;
+pub const HF_ROUTE_NONE: i32 = 0;
+pub const HF_ROUTE_DENSE: i32 = 1;
+pub const HF_ROUTE_FRESH: i32 = 2;
+pub const HF_ROUTE_REBASE: i32 = 3;
+pub const HF_LEVELS_VALUE: i32 = 0;
+pub const HF_LEVELS_AREA: i32 = 1;
+pub const HF_LEVELS_LENGTH: i32 = 2;
+pub const HF_CRITICAL_MINIMUM: i32 = 0;
+pub const HF_CRITICAL_MAXIMUM: i32 = 1;
+pub const HF_CRITICAL_SADDLE: i32 = 2;
+pub const HF_EXTREMITIES_POISSON: i32 = 0;
+pub const HF_EXTREMITIES_GEODESIC: i32 = 1;
+pub const HF_DEFORM_SMOOTH: i32 = 0;
+pub const HF_DEFORM_PAPER: i32 = 1;
+pub const HF_LAYER_COUNT: i32 = 8;
+pub const HF_HANDLE_LIMIT: i32 = 256;
+pub const HF_HANDLE_REASON_FOOT: i32 = 0;
+pub const HF_HANDLE_REASON_TIP: i32 = 1;
+pub const HF_HANDLE_REASON_END: i32 = 2;
+pub const HF_HANDLE_REASON_JOINT: i32 = 3;
+pub const HF_HANDLE_REASON_MIDDLE: i32 = 4;
+pub const HF_QUADS_UNIFORM: i32 = 0;
+pub const HF_QUADS_PURE: i32 = 1;
+pub const HF_SIDE_SMALLER: i32 = 0;
+pub const HF_SIDE_LARGER: i32 = 1;
+pub const HF_SIDE_SEED: i32 = 2;
+pub const HF_REGION_INSIDE: i32 = 0;
+pub const HF_REGION_RIM: i32 = 1;
+pub const HF_REGION_SITES: i32 = 2;
+pub const HF_TRANSFER_FIELDS: i32 = 0;
+pub const HF_TRANSFER_PAPER: i32 = 1;
+pub const HF_PAIR_ANCHOR: i32 = 1;
+pub const HF_PAIR_FOOT: i32 = 2;
+pub const HF_PAIR_TRUNK: i32 = 4;
+pub const HF_PAIR_NO_ALIGNMENT: i32 = 8;
+pub const HF_PAIR_CONTACT: i32 = 16;
+pub const HF_PAIR_LIMIT: i32 = 256;
+pub const HF_WEIGHTS_INFORMED: i32 = 0;
+pub const HF_WEIGHTS_SOLVED: i32 = 1;
+pub const HF_WEIGHTS_PINNED: i32 = 2;
+pub const HF_WEIGHTS_CARRIED: i32 = 3;
+pub const HF_WEIGHTS_RIGID: i32 = 4;
+pub const HF_WEIGHTS_ISOLATED: i32 = 5;
+pub const HF_BONE_NO_LENGTH: i32 = 1;
+pub const HF_BONE_COINCIDENT: i32 = 2;
+pub const HF_BONE_INFORMS_NONE: i32 = 4;
+pub const HF_BONE_OUTSIDE: i32 = 8;
+pub const HF_BONE_HELPER: i32 = 16;
+
+#[repr(C)]
+pub struct hf_progress_object {
+    _opaque: [u8; 0],
+}
+pub type hf_progress = *mut hf_progress_object;
+#[repr(C)]
+pub struct hf_surface_object {
+    _opaque: [u8; 0],
+}
+pub type hf_surface = *mut hf_surface_object;
+#[repr(C)]
+pub struct hf_solver_object {
+    _opaque: [u8; 0],
+}
+pub type hf_solver = *mut hf_solver_object;
+#[repr(C)]
+pub struct hf_geodesics_object {
+    _opaque: [u8; 0],
+}
+pub type hf_geodesics = *mut hf_geodesics_object;
+#[repr(C)]
+pub struct hf_direction_object {
+    _opaque: [u8; 0],
+}
+pub type hf_direction = *mut hf_direction_object;
+#[repr(C)]
+pub struct hf_pose_object {
+    _opaque: [u8; 0],
+}
+pub type hf_pose = *mut hf_pose_object;
+#[repr(C)]
+pub struct hf_quads_object {
+    _opaque: [u8; 0],
+}
+pub type hf_quads = *mut hf_quads_object;
+#[repr(C)]
+pub struct hf_flow_object {
+    _opaque: [u8; 0],
+}
+pub type hf_flow = *mut hf_flow_object;
+#[repr(C)]
+pub struct hf_region_object {
+    _opaque: [u8; 0],
+}
+pub type hf_region = *mut hf_region_object;
+#[repr(C)]
+pub struct hf_detail_object {
+    _opaque: [u8; 0],
+}
+pub type hf_detail = *mut hf_detail_object;
+#[repr(C)]
+pub struct hf_transfer_object {
+    _opaque: [u8; 0],
+}
+pub type hf_transfer = *mut hf_transfer_object;
+#[repr(C)]
+pub struct hf_weights_object {
+    _opaque: [u8; 0],
+}
+pub type hf_weights = *mut hf_weights_object;
+
+/// Details of the last failed call on this thread.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_error_detail {
+    pub code: i32,
+    pub index: u32,
+    pub function: [c_char; 48],
+    pub message: [c_char; 256],
+}
+impl Default for hf_error_detail {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
+/// Your allocator, which serves a surface and everything made from it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_allocator {
+    pub allocate: *const c_void,
+    pub release: *const c_void,
+    pub user: *mut c_void,
+}
+impl Default for hf_allocator {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
+/// Your job system.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_job_runner {
+    pub run: *const c_void,
+    pub user: *mut c_void,
+}
+impl Default for hf_job_runner {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
+/// A factor that hf_surface_save wrote.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_factor_desc {
+    pub struct_size: u32,
+    pub borrow: i32,
+    pub bytes: *const c_void,
+    pub byte_count: usize,
+}
+impl Default for hf_factor_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// A spring from a vertex to a point of a triangle.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_link {
+    pub vertex: u32,
+    pub corners: [u32; 3],
+    pub barycentrics: [f64; 3],
+    pub length: f64,
+    pub weight: f32,
+    pub in_tree: i32,
+}
+impl Default for hf_link {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
+/// Says which pieces to link.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_links_desc {
+    pub struct_size: u32,
+    pub mode: i32,
+    pub distance: f32,
+    pub stiffness: f32,
+    pub overlay_distance: f32,
+    pub influence_count: u32,
+    pub joints: *const u16,
+    pub weights: *const f32,
+    pub tags: *const u32,
+    pub link_count: u32,
+    pub light_count: u32,
+    pub heavy_count: u32,
+    pub reserved: u32,
+    pub links: *const hf_link,
+    pub light_vertices: *const u32,
+    pub heavy_vertices: *const u32,
+}
+impl Default for hf_links_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// The mesh and the options of a surface.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_surface_desc {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub triangle_count: u32,
+    pub position_stride: u32,
+    pub positions: *const f32,
+    pub positions_f64: *const f64,
+    pub triangles: *const u32,
+    pub triangles_u16: *const u16,
+    pub triangle_stride: u32,
+    pub weld: i32,
+    pub weld_tolerance: f32,
+    pub operator_kind: i32,
+    pub field_kind: i32,
+    pub ordering: i32,
+    pub thread_count: u32,
+    pub vertex_limit: u32,
+    pub triangle_limit: u32,
+    pub memory_limit_mb: u32,
+    pub work_limit_gflop: u32,
+    pub reserved: u32,
+    pub allocator: hf_allocator,
+    pub job_runner: hf_job_runner,
+    pub progress: hf_progress,
+    pub saved_factor: *const hf_factor_desc,
+    pub links: *const hf_links_desc,
+    pub face_count: u32,
+    pub corner_count: u32,
+    pub face_starts: *const u32,
+    pub face_sizes: *const u32,
+    pub corners: *const u32,
+    pub face_stride: u32,
+    pub corner_stride: u32,
+}
+impl Default for hf_surface_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// A graph of your own and the options of its surface
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_graph_desc {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub edge_count: u32,
+    pub allow_negative: i32,
+    pub edges: *const u32,
+    pub weights: *const f64,
+    pub masses: *const f64,
+    pub field_kind: i32,
+    pub ordering: i32,
+    pub thread_count: u32,
+    pub vertex_limit: u32,
+    pub edge_limit: u32,
+    pub memory_limit_mb: u32,
+    pub work_limit_gflop: u32,
+    pub reserved: u32,
+    pub allocator: hf_allocator,
+    pub job_runner: hf_job_runner,
+    pub progress: hf_progress,
+    pub saved_factor: *const hf_factor_desc,
+}
+impl Default for hf_graph_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// The options a surface was made with, defaults filled in.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_surface_info {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub triangle_count: u32,
+    pub weld: i32,
+    pub weld_tolerance: f32,
+    pub operator_kind: i32,
+    pub field_kind: i32,
+    pub ordering: i32,
+    pub thread_count: u32,
+    pub vertex_limit: u32,
+    pub triangle_limit: u32,
+    pub memory_limit_mb: u32,
+    pub work_limit_gflop: u32,
+    pub edge_count: u32,
+    pub edge_limit: u32,
+    pub face_count: u32,
+    pub corner_count: u32,
+}
+impl Default for hf_surface_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_surface_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "vertex_count" => f64::from(self.vertex_count),
+            "triangle_count" => f64::from(self.triangle_count),
+            "weld" => f64::from(self.weld),
+            "weld_tolerance" => f64::from(self.weld_tolerance),
+            "operator_kind" => f64::from(self.operator_kind),
+            "field_kind" => f64::from(self.field_kind),
+            "ordering" => f64::from(self.ordering),
+            "thread_count" => f64::from(self.thread_count),
+            "vertex_limit" => f64::from(self.vertex_limit),
+            "triangle_limit" => f64::from(self.triangle_limit),
+            "memory_limit_mb" => f64::from(self.memory_limit_mb),
+            "work_limit_gflop" => f64::from(self.work_limit_gflop),
+            "edge_count" => f64::from(self.edge_count),
+            "edge_limit" => f64::from(self.edge_limit),
+            "face_count" => f64::from(self.face_count),
+            "corner_count" => f64::from(self.corner_count),
+            _ => return None,
+        })
+    }
+}
+
+/// Counts of what the surface found in the mesh.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_surface_report {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub triangle_count: u32,
+    pub welded_vertex_count: u32,
+    pub component_count: u32,
+    pub isolated_vertex_count: u32,
+    pub degenerate_triangle_count: u32,
+    pub collapsed_triangle_count: u32,
+    pub duplicate_triangle_count: u32,
+    pub non_manifold_edge_count: u32,
+    pub flipped_edge_count: u32,
+    pub boundary_edge_count: u32,
+    pub negative_edge_count: u32,
+    pub smallest_angle: f32,
+    pub bounding_box_diagonal: f64,
+    pub changed_vertex_count: u32,
+    pub first_changed_vertex: u32,
+    pub piece_count: u32,
+    pub link_count: u32,
+    pub light_piece_count: u32,
+    pub lone_piece_count: u32,
+    pub longest_tree_link: f64,
+    pub face_count: u32,
+    pub polygon_count: u32,
+    pub non_planar_count: u32,
+    pub largest_face: u32,
+}
+impl Default for hf_surface_report {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_surface_report {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "vertex_count" => f64::from(self.vertex_count),
+            "triangle_count" => f64::from(self.triangle_count),
+            "welded_vertex_count" => f64::from(self.welded_vertex_count),
+            "component_count" => f64::from(self.component_count),
+            "isolated_vertex_count" => f64::from(self.isolated_vertex_count),
+            "degenerate_triangle_count" => f64::from(self.degenerate_triangle_count),
+            "collapsed_triangle_count" => f64::from(self.collapsed_triangle_count),
+            "duplicate_triangle_count" => f64::from(self.duplicate_triangle_count),
+            "non_manifold_edge_count" => f64::from(self.non_manifold_edge_count),
+            "flipped_edge_count" => f64::from(self.flipped_edge_count),
+            "boundary_edge_count" => f64::from(self.boundary_edge_count),
+            "negative_edge_count" => f64::from(self.negative_edge_count),
+            "smallest_angle" => f64::from(self.smallest_angle),
+            "bounding_box_diagonal" => self.bounding_box_diagonal,
+            "changed_vertex_count" => f64::from(self.changed_vertex_count),
+            "first_changed_vertex" => f64::from(self.first_changed_vertex),
+            "piece_count" => f64::from(self.piece_count),
+            "link_count" => f64::from(self.link_count),
+            "light_piece_count" => f64::from(self.light_piece_count),
+            "lone_piece_count" => f64::from(self.lone_piece_count),
+            "longest_tree_link" => self.longest_tree_link,
+            "face_count" => f64::from(self.face_count),
+            "polygon_count" => f64::from(self.polygon_count),
+            "non_planar_count" => f64::from(self.non_planar_count),
+            "largest_face" => f64::from(self.largest_face),
+            _ => return None,
+        })
+    }
+}
+
+/// Posed positions of the mesh, of which gaps are measured.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_gaps_desc {
+    pub struct_size: u32,
+    pub position_stride: u32,
+    pub positions: *const f32,
+    pub positions_f64: *const f64,
+}
+impl Default for hf_gaps_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// How far linked pieces have opened, in the unit of the positions.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_gaps_info {
+    pub struct_size: u32,
+    pub link_count: u32,
+    pub percentile_95: f64,
+    pub worst: f64,
+    pub worst_link: u32,
+    pub reserved: u32,
+}
+impl Default for hf_gaps_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_gaps_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "link_count" => f64::from(self.link_count),
+            "percentile_95" => self.percentile_95,
+            "worst" => self.worst,
+            "worst_link" => f64::from(self.worst_link),
+            "reserved" => f64::from(self.reserved),
+            _ => return None,
+        })
+    }
+}
+
+/// hf_surface_get_statistics writes sizes and times of a surface here.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_surface_statistics {
+    pub struct_size: u32,
+    pub unknown_count: u32,
+    pub weld_ms: f64,
+    pub operator_ms: f64,
+    pub ordering_ms: f64,
+    pub symbolic_ms: f64,
+    pub numeric_ms: f64,
+    pub factor_entries: f64,
+    pub factor_bytes: f64,
+    pub factor_flops: f64,
+    pub memory_bytes: f64,
+    pub peak_memory_bytes: f64,
+    pub load_ms: f64,
+    pub factor_loaded: i32,
+    pub factor_borrowed: i32,
+    pub links_ms: f64,
+}
+impl Default for hf_surface_statistics {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_surface_statistics {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "unknown_count" => f64::from(self.unknown_count),
+            "weld_ms" => self.weld_ms,
+            "operator_ms" => self.operator_ms,
+            "ordering_ms" => self.ordering_ms,
+            "symbolic_ms" => self.symbolic_ms,
+            "numeric_ms" => self.numeric_ms,
+            "factor_entries" => self.factor_entries,
+            "factor_bytes" => self.factor_bytes,
+            "factor_flops" => self.factor_flops,
+            "memory_bytes" => self.memory_bytes,
+            "peak_memory_bytes" => self.peak_memory_bytes,
+            "load_ms" => self.load_ms,
+            "factor_loaded" => f64::from(self.factor_loaded),
+            "factor_borrowed" => f64::from(self.factor_borrowed),
+            "links_ms" => self.links_ms,
+            _ => return None,
+        })
+    }
+}
+
+/// Options of picking
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_pick_desc {
+    pub struct_size: u32,
+    pub position_stride: u32,
+    pub positions: *const f32,
+    pub positions_f64: *const f64,
+    pub front_only: i32,
+    pub reserved: u32,
+}
+impl Default for hf_pick_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// hf_surface_cast_ray writes the first triangle that a ray hits here.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_hit {
+    pub struct_size: u32,
+    pub found: i32,
+    pub triangle: u32,
+    pub vertex: u32,
+    pub barycentrics: [f64; 3],
+    pub position: [f64; 3],
+    pub distance: f64,
+    pub corners: [u32; 3],
+    pub reserved: u32,
+}
+impl Default for hf_hit {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Selects the engine
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_solver_desc {
+    pub struct_size: u32,
+    pub field_kind: i32,
+    pub engine: i32,
+    pub channel_count: u32,
+    pub site_limit: u32,
+    pub reserved: u32,
+    pub penalty: f64,
+    pub progress: hf_progress,
+}
+impl Default for hf_solver_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// hf_solver_get_info writes the options of a solver here, with defaults filled in, and the number of its sites.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_solver_info {
+    pub struct_size: u32,
+    pub field_kind: i32,
+    pub engine: i32,
+    pub channel_count: u32,
+    pub site_limit: u32,
+    pub site_count: u32,
+    pub penalty: f64,
+    pub vertex_count: u32,
+    pub reserved: u32,
+}
+impl Default for hf_solver_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_solver_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "field_kind" => f64::from(self.field_kind),
+            "engine" => f64::from(self.engine),
+            "channel_count" => f64::from(self.channel_count),
+            "site_limit" => f64::from(self.site_limit),
+            "site_count" => f64::from(self.site_count),
+            "penalty" => self.penalty,
+            "vertex_count" => f64::from(self.vertex_count),
+            "reserved" => f64::from(self.reserved),
+            _ => return None,
+        })
+    }
+}
+
+/// Places and values of sites.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_sites_desc {
+    pub struct_size: u32,
+    pub site_count: u32,
+    pub vertices: *const u32,
+    pub triangles: *const u32,
+    pub barycentrics: *const f64,
+    pub values: *const f64,
+    pub stiffness: *const f64,
+    pub radii: *const f64,
+    pub corners: *const u32,
+}
+impl Default for hf_sites_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// One batch of edits, applied in the order remove, move, set, add.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_edit_desc {
+    pub struct_size: u32,
+    pub remove_count: u32,
+    pub remove_sites: *const u32,
+    pub move_count: u32,
+    pub set_count: u32,
+    pub move_sites: *const u32,
+    pub move_to: *const hf_sites_desc,
+    pub set_sites: *const u32,
+    pub set_values: *const f64,
+    pub add: *const hf_sites_desc,
+}
+impl Default for hf_edit_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Places, values and fluxes of the sites.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_sites_info {
+    pub struct_size: u32,
+    pub capacity: u32,
+    pub count: u32,
+    pub reserved: u32,
+    pub sites: *mut u32,
+    pub vertices: *mut u32,
+    pub components: *mut u32,
+    pub values: *mut f64,
+    pub stiffness: *mut f64,
+    pub flux: *mut f64,
+    pub radii: *mut f64,
+}
+impl Default for hf_sites_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// The components that the sites of a solve did not reach.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_solve_info {
+    pub struct_size: u32,
+    pub unreached_component_count: u32,
+    pub first_unreached_component: u32,
+    pub unreached_vertex_count: u32,
+}
+impl Default for hf_solve_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_solve_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "unreached_component_count" => f64::from(self.unreached_component_count),
+            "first_unreached_component" => f64::from(self.first_unreached_component),
+            "unreached_vertex_count" => f64::from(self.unreached_vertex_count),
+            _ => return None,
+        })
+    }
+}
+
+/// Counts and errors of a preview.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_preview_info {
+    pub struct_size: u32,
+    pub exact: i32,
+    pub correction_count: u32,
+    pub unreached_component_count: u32,
+    pub value_range: f64,
+    pub largest_correction: f64,
+    pub error_estimate: f64,
+    pub preview_bytes: f64,
+}
+impl Default for hf_preview_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_preview_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "exact" => f64::from(self.exact),
+            "correction_count" => f64::from(self.correction_count),
+            "unreached_component_count" => f64::from(self.unreached_component_count),
+            "value_range" => self.value_range,
+            "largest_correction" => self.largest_correction,
+            "error_estimate" => self.error_estimate,
+            "preview_bytes" => self.preview_bytes,
+            _ => return None,
+        })
+    }
+}
+
+/// The certificate says how accurate a field is.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_certificate {
+    pub struct_size: u32,
+    pub overshoot_checked: i32,
+    pub tolerance: f64,
+    pub value_range: f64,
+    pub residual: f64,
+    pub site_error: f64,
+    pub overshoot: f64,
+    pub worst_vertex: u32,
+    pub reserved: u32,
+    pub error_estimate: f64,
+}
+impl Default for hf_certificate {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_certificate {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "overshoot_checked" => f64::from(self.overshoot_checked),
+            "tolerance" => self.tolerance,
+            "value_range" => self.value_range,
+            "residual" => self.residual,
+            "site_error" => self.site_error,
+            "overshoot" => self.overshoot,
+            "worst_vertex" => f64::from(self.worst_vertex),
+            "reserved" => f64::from(self.reserved),
+            "error_estimate" => self.error_estimate,
+            _ => return None,
+        })
+    }
+}
+
+/// Counts, memory and cost estimates of a solver.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_solver_statistics {
+    pub struct_size: u32,
+    pub site_count: u32,
+    pub factorisation_count: u32,
+    pub path_solve_count: u32,
+    pub sweep_count: u32,
+    pub last_route: u32,
+    pub rebase_count: u32,
+    pub dense_edit_count: u32,
+    pub dense_row_count: u32,
+    pub eliminated_count: u32,
+    pub rebase_advised: i32,
+    pub reserved: u32,
+    pub site_memory_bytes: f64,
+    pub predicted_dense_ms: f64,
+    pub predicted_rebase_ms: f64,
+}
+impl Default for hf_solver_statistics {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_solver_statistics {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "site_count" => f64::from(self.site_count),
+            "factorisation_count" => f64::from(self.factorisation_count),
+            "path_solve_count" => f64::from(self.path_solve_count),
+            "sweep_count" => f64::from(self.sweep_count),
+            "last_route" => f64::from(self.last_route),
+            "rebase_count" => f64::from(self.rebase_count),
+            "dense_edit_count" => f64::from(self.dense_edit_count),
+            "dense_row_count" => f64::from(self.dense_row_count),
+            "eliminated_count" => f64::from(self.eliminated_count),
+            "rebase_advised" => f64::from(self.rebase_advised),
+            "reserved" => f64::from(self.reserved),
+            "site_memory_bytes" => self.site_memory_bytes,
+            "predicted_dense_ms" => self.predicted_dense_ms,
+            "predicted_rebase_ms" => self.predicted_rebase_ms,
+            _ => return None,
+        })
+    }
+}
+
+/// This struct passes a field with one value per vertex of your mesh.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_scalars {
+    pub struct_size: u32,
+    pub value_stride: u32,
+    pub values: *const f32,
+    pub values_f64: *const f64,
+}
+impl Default for hf_scalars {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Iso-lines as polylines.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_isolines {
+    pub struct_size: u32,
+    pub point_capacity: u32,
+    pub line_capacity: u32,
+    pub point_count: u32,
+    pub line_count: u32,
+    pub reserved: u32,
+    pub point_edges: *mut u32,
+    pub parameters: *mut f64,
+    pub positions: *mut f64,
+    pub line_starts: *mut u32,
+    pub line_levels: *mut u32,
+    pub line_closed: *mut i32,
+}
+impl Default for hf_isolines {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// ---- critical points ----
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_critical_point {
+    pub vertex: u32,
+    pub kind: i32,
+    pub index: i32,
+    pub component: u32,
+    pub value: f64,
+}
+impl Default for hf_critical_point {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_critical_info {
+    pub struct_size: u32,
+    pub point_count: u32,
+    pub minimum_count: u32,
+    pub maximum_count: u32,
+    pub saddle_count: u32,
+    pub index_sum: i32,
+    pub euler_characteristic: i32,
+    pub reserved: u32,
+}
+impl Default for hf_critical_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_critical_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "point_count" => f64::from(self.point_count),
+            "minimum_count" => f64::from(self.minimum_count),
+            "maximum_count" => f64::from(self.maximum_count),
+            "saddle_count" => f64::from(self.saddle_count),
+            "index_sum" => f64::from(self.index_sum),
+            "euler_characteristic" => f64::from(self.euler_characteristic),
+            "reserved" => f64::from(self.reserved),
+            _ => return None,
+        })
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_geodesics_desc {
+    pub struct_size: u32,
+    pub smoothing: f32,
+    pub progress: hf_progress,
+}
+impl Default for hf_geodesics_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Selects how hf_surface_find_extremities finds tips.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_extremities_desc {
+    pub struct_size: u32,
+    pub kind: i32,
+    pub least_length: f32,
+    pub source_count: u32,
+    pub geodesics: hf_geodesics,
+    pub progress: hf_progress,
+    pub out_field: *mut f64,
+}
+impl Default for hf_extremities_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_extremity {
+    pub vertex: u32,
+    pub component: u32,
+    pub length: f64,
+    pub position: [f64; 3],
+}
+impl Default for hf_extremity {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_direction_desc {
+    pub struct_size: u32,
+    pub degree: u32,
+    pub site_limit: u32,
+    pub reserved: u32,
+    pub progress: hf_progress,
+}
+impl Default for hf_direction_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// A singularity is a triangle, or a face, around which the field makes extra turns.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_singularity {
+    pub triangle: u32,
+    pub vertex: u32,
+    pub index: i32,
+}
+impl Default for hf_singularity {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
+/// The options a direction field was made with, and counts of its constraints and of the work done so far.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_direction_statistics {
+    pub struct_size: u32,
+    pub degree: u32,
+    pub site_limit: u32,
+    pub unknown_count: u32,
+    pub site_count: u32,
+    pub factorisation_count: u32,
+    pub path_solve_count: u32,
+    pub sweep_count: u32,
+    pub irregular_vertex_count: u32,
+    pub eliminated_count: u32,
+    pub operator_ms: f64,
+    pub numeric_ms: f64,
+    pub factor_entries: f64,
+    pub factor_bytes: f64,
+    pub site_memory_bytes: f64,
+}
+impl Default for hf_direction_statistics {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_direction_statistics {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "degree" => f64::from(self.degree),
+            "site_limit" => f64::from(self.site_limit),
+            "unknown_count" => f64::from(self.unknown_count),
+            "site_count" => f64::from(self.site_count),
+            "factorisation_count" => f64::from(self.factorisation_count),
+            "path_solve_count" => f64::from(self.path_solve_count),
+            "sweep_count" => f64::from(self.sweep_count),
+            "irregular_vertex_count" => f64::from(self.irregular_vertex_count),
+            "eliminated_count" => f64::from(self.eliminated_count),
+            "operator_ms" => self.operator_ms,
+            "numeric_ms" => self.numeric_ms,
+            "factor_entries" => self.factor_entries,
+            "factor_bytes" => self.factor_bytes,
+            "site_memory_bytes" => self.site_memory_bytes,
+            _ => return None,
+        })
+    }
+}
+
+/// Selects how vertices follow the handles.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_pose_desc {
+    pub struct_size: u32,
+    pub mode: i32,
+    pub band_count: u32,
+    pub iteration_count: u32,
+    pub samples_per_ring: u32,
+    pub group_count: u32,
+}
+impl Default for hf_pose_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_pose_info {
+    pub struct_size: u32,
+    pub mode: i32,
+    pub band_count: u32,
+    pub iteration_count: u32,
+    pub samples_per_ring: u32,
+    pub group_count: u32,
+    pub handle_count: u32,
+    pub vertex_count: u32,
+}
+impl Default for hf_pose_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_pose_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "mode" => f64::from(self.mode),
+            "band_count" => f64::from(self.band_count),
+            "iteration_count" => f64::from(self.iteration_count),
+            "samples_per_ring" => f64::from(self.samples_per_ring),
+            "group_count" => f64::from(self.group_count),
+            "handle_count" => f64::from(self.handle_count),
+            "vertex_count" => f64::from(self.vertex_count),
+            _ => return None,
+        })
+    }
+}
+
+/// The handles to add.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_handles_desc {
+    pub struct_size: u32,
+    pub handle_count: u32,
+    pub region_counts: *const u32,
+    pub region_vertices: *const u32,
+    pub points: *const f64,
+    pub radii: *const f64,
+    pub layer: u32,
+    pub reserved: u32,
+    pub progress: hf_progress,
+}
+impl Default for hf_handles_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// A rigid motion of a handle from its rest place.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_transform {
+    pub rotation: [f64; 4],
+    pub translation: [f64; 3],
+}
+impl Default for hf_transform {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
+/// hf_pose_get_handle writes the region of a handle here, its layer, and its motion in the last hf_deform.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_handle_info {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub site_count: u32,
+    pub component: u32,
+    pub centroid: [f64; 3],
+    pub leak: f64,
+    pub rotation: [f64; 4],
+    pub translation: [f64; 3],
+    pub layer: u32,
+    pub reserved: u32,
+}
+impl Default for hf_handle_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_handle_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "vertex_count" => f64::from(self.vertex_count),
+            "site_count" => f64::from(self.site_count),
+            "component" => f64::from(self.component),
+            "leak" => self.leak,
+            "layer" => f64::from(self.layer),
+            "reserved" => f64::from(self.reserved),
+            _ => return None,
+        })
+    }
+}
+
+/// Counts and times of a deform.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_deform_info {
+    pub struct_size: u32,
+    pub iteration_count: u32,
+    pub cluster_count: u32,
+    pub unreached_vertex_count: u32,
+    pub last_change: f64,
+    pub solve_ms: f64,
+    pub blend_ms: f64,
+    pub normal_ms: f64,
+    pub refine_ms: f64,
+}
+impl Default for hf_deform_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_deform_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "iteration_count" => f64::from(self.iteration_count),
+            "cluster_count" => f64::from(self.cluster_count),
+            "unreached_vertex_count" => f64::from(self.unreached_vertex_count),
+            "last_change" => self.last_change,
+            "solve_ms" => self.solve_ms,
+            "blend_ms" => self.blend_ms,
+            "normal_ms" => self.normal_ms,
+            "refine_ms" => self.refine_ms,
+            _ => return None,
+        })
+    }
+}
+
+/// The options of hf_pose_deform are outputs, strides and a range of vertices.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_deform_desc {
+    pub struct_size: u32,
+    pub position_stride: u32,
+    pub positions: *mut f32,
+    pub positions_f64: *mut f64,
+    pub normals: *mut f32,
+    pub normal_stride: u32,
+    pub iteration_count: u32,
+    pub restart: i32,
+    pub refine: i32,
+    pub first_vertex: u32,
+    pub vertex_count: u32,
+}
+impl Default for hf_deform_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// This struct receives a pose or a transfer as a skin for linear blend skinning.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_skin_info {
+    pub struct_size: u32,
+    pub joint_capacity: u32,
+    pub vertex_capacity: u32,
+    pub weight_count: u32,
+    pub joint_count: u32,
+    pub vertex_count: u32,
+    pub pivots: *mut f64,
+    pub rotations: *mut f64,
+    pub translations: *mut f64,
+    pub axes: *mut f64,
+    pub scales: *mut f64,
+    pub vertex_joints: *mut u32,
+    pub vertex_weights: *mut f32,
+}
+impl Default for hf_skin_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Says why a place is proposed as a handle.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_propose_desc {
+    pub struct_size: u32,
+    pub joint_count: u32,
+    pub joints: *const f64,
+    pub parents: *const u32,
+    pub up: [f64; 3],
+    pub least_length: f32,
+    pub limit: u32,
+    pub progress: hf_progress,
+}
+impl Default for hf_propose_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// One proposed handle.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_handle_proposal {
+    pub vertex: u32,
+    pub component: u32,
+    pub reason: i32,
+    pub pinned: i32,
+    pub joint: u32,
+    pub reserved: u32,
+    pub position: [f64; 3],
+    pub radius: f64,
+    pub length: f64,
+}
+impl Default for hf_handle_proposal {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_quads_desc {
+    pub struct_size: u32,
+    pub kind: i32,
+    pub edge_length: f32,
+    pub site_count: u32,
+    pub site_vertices: *const u32,
+    pub site_lines: *const i32,
+    pub keep_polygons: i32,
+    pub relax_count: u32,
+    pub progress: hf_progress,
+}
+impl Default for hf_quads_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Counts of a quad mesh.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_quads_info {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub face_count: u32,
+    pub corner_count: u32,
+    pub quad_count: u32,
+    pub polygon_count: u32,
+    pub polygon_quad_count: u32,
+    pub site_count: u32,
+    pub saddle_count: u32,
+    pub euler_characteristic: i32,
+    pub edge_length: f32,
+    pub reserved: u32,
+}
+impl Default for hf_quads_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_quads_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "vertex_count" => f64::from(self.vertex_count),
+            "face_count" => f64::from(self.face_count),
+            "corner_count" => f64::from(self.corner_count),
+            "quad_count" => f64::from(self.quad_count),
+            "polygon_count" => f64::from(self.polygon_count),
+            "polygon_quad_count" => f64::from(self.polygon_quad_count),
+            "site_count" => f64::from(self.site_count),
+            "saddle_count" => f64::from(self.saddle_count),
+            "euler_characteristic" => f64::from(self.euler_characteristic),
+            "edge_length" => f64::from(self.edge_length),
+            "reserved" => f64::from(self.reserved),
+            _ => return None,
+        })
+    }
+}
+
+/// hf_quads_get_mesh writes the quad mesh to these arrays.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_quads_mesh {
+    pub struct_size: u32,
+    pub vertex_capacity: u32,
+    pub face_capacity: u32,
+    pub corner_capacity: u32,
+    pub site_capacity: u32,
+    pub vertex_count: u32,
+    pub face_count: u32,
+    pub corner_count: u32,
+    pub site_count: u32,
+    pub reserved: u32,
+    pub positions: *mut f64,
+    pub triangles: *mut u32,
+    pub barycentrics: *mut f64,
+    pub face_starts: *mut u32,
+    pub face_corners: *mut u32,
+    pub site_vertices: *mut u32,
+    pub site_lines: *mut i32,
+    pub corners: *mut u32,
+}
+impl Default for hf_quads_mesh {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_flow_lines {
+    pub struct_size: u32,
+    pub wanted_count: u32,
+    pub seed_count: u32,
+    pub point_capacity: u32,
+    pub line_capacity: u32,
+    pub point_count: u32,
+    pub line_count: u32,
+    pub reserved: u32,
+    pub seeds: *const u32,
+    pub positions: *mut f64,
+    pub values: *mut f64,
+    pub line_starts: *mut u32,
+    pub line_ends: *mut u32,
+}
+impl Default for hf_flow_lines {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_region_desc {
+    pub struct_size: u32,
+    pub field_kind: i32,
+    pub positions: *const f32,
+    pub positions_f64: *const f64,
+    pub position_stride: u32,
+    pub reserved: u32,
+    pub progress: hf_progress,
+}
+impl Default for hf_region_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Describes a closed curve through at least 3 points.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_curve_desc {
+    pub struct_size: u32,
+    pub point_count: u32,
+    pub vertices: *const u32,
+    pub triangles: *const u32,
+    pub barycentrics: *const f64,
+    pub side: i32,
+    pub seed_vertex: u32,
+    pub corners: *const u32,
+}
+impl Default for hf_curve_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// A change of a region.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_region_edit_desc {
+    pub struct_size: u32,
+    pub ring_count: i32,
+    pub curve: *const hf_curve_desc,
+    pub remove_count: u32,
+    pub add_count: u32,
+    pub remove_vertices: *const u32,
+    pub add_vertices: *const u32,
+    pub progress: hf_progress,
+}
+impl Default for hf_region_edit_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Counts and areas of a region and of its last edit.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_region_info {
+    pub struct_size: u32,
+    pub field_kind: i32,
+    pub vertex_count: u32,
+    pub rim_count: u32,
+    pub site_count: u32,
+    pub inserted_count: u32,
+    pub removed_count: u32,
+    pub kept_count: u32,
+    pub factorisation_count: u32,
+    pub path_solve_count: u32,
+    pub last_route: u32,
+    pub whole_sweep: i32,
+    pub area: f64,
+    pub base_area: f64,
+}
+impl Default for hf_region_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_region_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "field_kind" => f64::from(self.field_kind),
+            "vertex_count" => f64::from(self.vertex_count),
+            "rim_count" => f64::from(self.rim_count),
+            "site_count" => f64::from(self.site_count),
+            "inserted_count" => f64::from(self.inserted_count),
+            "removed_count" => f64::from(self.removed_count),
+            "kept_count" => f64::from(self.kept_count),
+            "factorisation_count" => f64::from(self.factorisation_count),
+            "path_solve_count" => f64::from(self.path_solve_count),
+            "last_route" => f64::from(self.last_route),
+            "whole_sweep" => f64::from(self.whole_sweep),
+            "area" => self.area,
+            "base_area" => self.base_area,
+            _ => return None,
+        })
+    }
+}
+
+/// Gives hf_region_morph and hf_detail_morph their weight and outputs.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_morph_desc {
+    pub struct_size: u32,
+    pub position_stride: u32,
+    pub weight: f64,
+    pub positions: *mut f32,
+    pub positions_f64: *mut f64,
+    pub normals: *mut f32,
+    pub normal_stride: u32,
+    pub reserved: u32,
+}
+impl Default for hf_morph_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_detail_desc {
+    pub struct_size: u32,
+    pub pair_count: u32,
+    pub source_vertices: *const u32,
+    pub target_vertices: *const u32,
+    pub scale: f64,
+    pub progress: hf_progress,
+}
+impl Default for hf_detail_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// most pairs of a transfer
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_transfer_desc {
+    pub struct_size: u32,
+    pub mode: i32,
+    pub cluster_count: u32,
+    pub kernel_width: f32,
+    pub scale: f32,
+    pub alignment_angle: f32,
+    pub source_axes: [f32; 9],
+    pub target_axes: [f32; 9],
+}
+impl Default for hf_transfer_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// The pairs to add.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_pairs_desc {
+    pub struct_size: u32,
+    pub pair_count: u32,
+    pub source_counts: *const u32,
+    pub source_vertices: *const u32,
+    pub target_counts: *const u32,
+    pub target_vertices: *const u32,
+    pub flags: *const u32,
+    pub progress: hf_progress,
+}
+impl Default for hf_pairs_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_pair_info {
+    pub struct_size: u32,
+    pub flags: u32,
+    pub source_leak: f64,
+    pub target_leak: f64,
+    pub alignment_angle: f64,
+    pub confidence: f64,
+    pub aligned: i32,
+    pub crossed: i32,
+}
+impl Default for hf_pair_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_pair_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "flags" => f64::from(self.flags),
+            "source_leak" => self.source_leak,
+            "target_leak" => self.target_leak,
+            "alignment_angle" => self.alignment_angle,
+            "confidence" => self.confidence,
+            "aligned" => f64::from(self.aligned),
+            "crossed" => f64::from(self.crossed),
+            _ => return None,
+        })
+    }
+}
+
+/// hf_transfer_get_info writes counts and the scale of a transfer here.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_transfer_info {
+    pub struct_size: u32,
+    pub pair_count: u32,
+    pub cluster_count: u32,
+    pub aligned_count: u32,
+    pub crossed_count: u32,
+    pub scale_found: i32,
+    pub source_factorisation_count: u32,
+    pub target_factorisation_count: u32,
+    pub scale: f64,
+}
+impl Default for hf_transfer_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_transfer_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "pair_count" => f64::from(self.pair_count),
+            "cluster_count" => f64::from(self.cluster_count),
+            "aligned_count" => f64::from(self.aligned_count),
+            "crossed_count" => f64::from(self.crossed_count),
+            "scale_found" => f64::from(self.scale_found),
+            "source_factorisation_count" => f64::from(self.source_factorisation_count),
+            "target_factorisation_count" => f64::from(self.target_factorisation_count),
+            "scale" => self.scale,
+            _ => return None,
+        })
+    }
+}
+
+/// Describes one frame
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_transfer_frame {
+    pub struct_size: u32,
+    pub source_stride: u32,
+    pub source_positions: *const f32,
+    pub source_positions_f64: *const f64,
+    pub target_stride: u32,
+    pub normal_stride: u32,
+    pub target_positions: *mut f32,
+    pub target_positions_f64: *mut f64,
+    pub target_normals: *mut f32,
+    pub hold_count: u32,
+    pub reserved: u32,
+    pub hold_pairs: *const u32,
+    pub hold_positions: *const f64,
+}
+impl Default for hf_transfer_frame {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// The bones of a skeleton, in the unit and frame of the mesh.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_bones_desc {
+    pub struct_size: u32,
+    pub bone_count: u32,
+    pub heads: *const f64,
+    pub tails: *const f64,
+    pub axes: *const f64,
+    pub parents: *const u32,
+    pub deforms: *const i32,
+    pub sources: *const u32,
+    pub progress: hf_progress,
+}
+impl Default for hf_bones_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Places with given weights.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_pins_desc {
+    pub struct_size: u32,
+    pub pin_count: u32,
+    pub vertices: *const u32,
+    pub triangles: *const u32,
+    pub barycentrics: *const f64,
+    pub radii: *const f64,
+    pub joint_count: u32,
+    pub reserved: u32,
+    pub joints: *const u32,
+    pub weights: *const f32,
+    pub progress: hf_progress,
+}
+impl Default for hf_pins_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Receives the weights.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_weights_out {
+    pub struct_size: u32,
+    pub vertex_capacity: u32,
+    pub vertex_count: u32,
+    pub weight_count: u32,
+    pub joints: *mut u32,
+    pub joints_u16: *mut u16,
+    pub weights: *mut f32,
+    pub origins: *mut u8,
+}
+impl Default for hf_weights_out {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Counts of the weights.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_weights_info {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub bone_count: u32,
+    pub pin_count: u32,
+    pub lock_count: u32,
+    pub informed_count: u32,
+    pub solved_count: u32,
+    pub pinned_count: u32,
+    pub carried_count: u32,
+    pub rigid_count: u32,
+    pub isolated_count: u32,
+    pub carried_island_count: u32,
+    pub rigid_island_count: u32,
+    pub blind: i32,
+    pub no_length_count: u32,
+    pub coincident_count: u32,
+    pub informs_none_count: u32,
+    pub outside_count: u32,
+    pub helper_count: u32,
+    pub factorisation_count: u32,
+    pub path_solve_count: u32,
+    pub reserved: u32,
+}
+impl Default for hf_weights_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_weights_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "vertex_count" => f64::from(self.vertex_count),
+            "bone_count" => f64::from(self.bone_count),
+            "pin_count" => f64::from(self.pin_count),
+            "lock_count" => f64::from(self.lock_count),
+            "informed_count" => f64::from(self.informed_count),
+            "solved_count" => f64::from(self.solved_count),
+            "pinned_count" => f64::from(self.pinned_count),
+            "carried_count" => f64::from(self.carried_count),
+            "rigid_count" => f64::from(self.rigid_count),
+            "isolated_count" => f64::from(self.isolated_count),
+            "carried_island_count" => f64::from(self.carried_island_count),
+            "rigid_island_count" => f64::from(self.rigid_island_count),
+            "blind" => f64::from(self.blind),
+            "no_length_count" => f64::from(self.no_length_count),
+            "coincident_count" => f64::from(self.coincident_count),
+            "informs_none_count" => f64::from(self.informs_none_count),
+            "outside_count" => f64::from(self.outside_count),
+            "helper_count" => f64::from(self.helper_count),
+            "factorisation_count" => f64::from(self.factorisation_count),
+            "path_solve_count" => f64::from(self.path_solve_count),
+            "reserved" => f64::from(self.reserved),
+            _ => return None,
+        })
+    }
+}
+
+extern "C" {
+    pub fn hf_error_get_detail(out_detail: *mut hf_error_detail) -> i32;
+    pub fn hf_result_get_name(result: i32) -> *const c_char;
+    pub fn hf_version_get() -> u32;
+    pub fn hf_progress_create(out_progress: *mut hf_progress) -> i32;
+    pub fn hf_progress_destroy(progress: hf_progress);
+    pub fn hf_progress_get_fraction(progress: hf_progress, out_fraction: *mut f32) -> i32;
+    pub fn hf_progress_cancel(progress: hf_progress) -> i32;
+    pub fn hf_surface_create(desc: *const hf_surface_desc, out_surface: *mut hf_surface) -> i32;
+    pub fn hf_surface_create_graph(desc: *const hf_graph_desc, out_surface: *mut hf_surface) -> i32;
+    pub fn hf_surface_destroy(surface: hf_surface);
+    pub fn hf_surface_get_info(surface: hf_surface, out_info: *mut hf_surface_info) -> i32;
+    pub fn hf_surface_get_report(surface: hf_surface, out_report: *mut hf_surface_report) -> i32;
+    pub fn hf_surface_get_components(surface: hf_surface, capacity: u32, out_components: *mut u32, out_count: *mut u32) -> i32;
+    pub fn hf_surface_get_links(surface: hf_surface, capacity: u32, out_links: *mut hf_link, out_count: *mut u32) -> i32;
+    pub fn hf_surface_get_pieces(surface: hf_surface, capacity: u32, out_pieces: *mut u32, out_light: *mut i32, out_count: *mut u32) -> i32;
+    pub fn hf_surface_measure_gaps(surface: hf_surface, desc: *const hf_gaps_desc, capacity: u32, out_gaps: *mut f64, out_info: *mut hf_gaps_info) -> i32;
+    pub fn hf_surface_relink(surface: hf_surface, links: *const hf_links_desc, progress: hf_progress, out_surface: *mut hf_surface) -> i32;
+    pub fn hf_surface_get_statistics(surface: hf_surface, out_statistics: *mut hf_surface_statistics) -> i32;
+    pub fn hf_surface_save(surface: hf_surface, field_kind: i32, progress: hf_progress, capacity: usize, out_bytes: *mut c_void, out_size: *mut usize) -> i32;
+    pub fn hf_surface_cast_ray(surface: hf_surface, origin: *const f64, direction: *const f64, desc: *const hf_pick_desc, out_hit: *mut hf_hit) -> i32;
+    pub fn hf_surface_find_vertex(surface: hf_surface, point: *const f64, desc: *const hf_pick_desc, out_vertex: *mut u32, out_distance: *mut f64) -> i32;
+    pub fn hf_create(surface: hf_surface, desc: *const hf_solver_desc, out_solver: *mut hf_solver) -> i32;
+    pub fn hf_solver_clone(solver: hf_solver, out_solver: *mut hf_solver) -> i32;
+    pub fn hf_solver_destroy(solver: hf_solver);
+    pub fn hf_solver_get_info(solver: hf_solver, out_info: *mut hf_solver_info) -> i32;
+    pub fn hf_add_sites(solver: hf_solver, sites: *const hf_sites_desc, out_sites: *mut u32) -> i32;
+    pub fn hf_solver_add_site(solver: hf_solver, vertex: u32, values: *const f64, out_site: *mut u32) -> i32;
+    pub fn hf_remove_sites(solver: hf_solver, site_count: u32, sites: *const u32) -> i32;
+    pub fn hf_solver_move_sites(solver: hf_solver, site_count: u32, sites: *const u32, to: *const hf_sites_desc) -> i32;
+    pub fn hf_solver_set_values(solver: hf_solver, site_count: u32, sites: *const u32, values: *const f64) -> i32;
+    pub fn hf_solver_edit_sites(solver: hf_solver, edit: *const hf_edit_desc, out_sites: *mut u32) -> i32;
+    pub fn hf_solver_get_site_count(solver: hf_solver) -> u32;
+    pub fn hf_solver_get_sites(solver: hf_solver, inout_info: *mut hf_sites_info) -> i32;
+    pub fn hf_solve(solver: hf_solver, out_values: *mut f32, value_stride: u32, out_info: *mut hf_solve_info) -> i32;
+    pub fn hf_solver_solve_f64(solver: hf_solver, out_values: *mut f64, value_stride: u32, out_info: *mut hf_solve_info) -> i32;
+    pub fn hf_solver_solve_at(solver: hf_solver, vertex_count: u32, vertices: *const u32, out_values: *mut f64) -> i32;
+    pub fn hf_solver_solve_vectors(solver: hf_solver, out_vectors: *mut f32, vector_stride: u32, out_normals: *mut f64, out_info: *mut hf_solve_info) -> i32;
+    pub fn hf_solver_solve_vectors_f64(solver: hf_solver, out_vectors: *mut f64, vector_stride: u32, out_normals: *mut f64, out_info: *mut hf_solve_info) -> i32;
+    pub fn hf_solver_solve_preview(solver: hf_solver, out_values: *mut f32, value_stride: u32, correction_count: u32, out_info: *mut hf_preview_info) -> i32;
+    pub fn hf_solver_solve_preview_f64(solver: hf_solver, out_values: *mut f64, value_stride: u32, correction_count: u32, out_info: *mut hf_preview_info) -> i32;
+    pub fn hf_solver_release_preview(solver: hf_solver) -> i32;
+    pub fn hf_solver_move_vectors(solver: hf_solver, site_count: u32, sites: *const u32, vertices: *const u32) -> i32;
+    pub fn hf_solver_rotate_vectors(solver: hf_solver, site_count: u32, sites: *const u32, angles: *const f64) -> i32;
+    pub fn hf_solver_certify(solver: hf_solver, inout_certificate: *mut hf_certificate) -> i32;
+    pub fn hf_solver_record(solver: hf_solver) -> i32;
+    pub fn hf_solver_undo(solver: hf_solver) -> i32;
+    pub fn hf_solver_redo(solver: hf_solver) -> i32;
+    pub fn hf_solver_prepare_rebase(solver: hf_solver) -> i32;
+    pub fn hf_solver_get_statistics(solver: hf_solver, out_statistics: *mut hf_solver_statistics) -> i32;
+    pub fn hf_surface_space_levels(surface: hf_surface, field: *const hf_scalars, spacing: i32, level_count: u32, out_levels: *mut f64) -> i32;
+    pub fn hf_surface_trace_isolines(surface: hf_surface, field: *const hf_scalars, level_count: u32, levels: *const f64, inout_lines: *mut hf_isolines) -> i32;
+    pub fn hf_surface_find_critical_points(surface: hf_surface, field: *const hf_scalars, capacity: u32, out_points: *mut hf_critical_point, out_info: *mut hf_critical_info) -> i32;
+    pub fn hf_geodesics_create(surface: hf_surface, desc: *const hf_geodesics_desc, out_geodesics: *mut hf_geodesics) -> i32;
+    pub fn hf_geodesics_destroy(geodesics: hf_geodesics);
+    pub fn hf_geodesics_solve(geodesics: hf_geodesics, source_count: u32, sources: *const u32, out_distances: *mut f32, value_stride: u32) -> i32;
+    pub fn hf_geodesics_solve_f64(geodesics: hf_geodesics, source_count: u32, sources: *const u32, out_distances: *mut f64, value_stride: u32) -> i32;
+    pub fn hf_surface_find_extremities(surface: hf_surface, desc: *const hf_extremities_desc, capacity: u32, out_extremities: *mut hf_extremity, out_count: *mut u32) -> i32;
+    pub fn hf_direction_create(surface: hf_surface, desc: *const hf_direction_desc, out_direction: *mut hf_direction) -> i32;
+    pub fn hf_direction_clone(direction: hf_direction, out_direction: *mut hf_direction) -> i32;
+    pub fn hf_direction_destroy(direction: hf_direction);
+    pub fn hf_direction_add_sites(direction: hf_direction, site_count: u32, vertices: *const u32, vectors: *const f64, out_sites: *mut u32) -> i32;
+    pub fn hf_direction_remove_sites(direction: hf_direction, site_count: u32, sites: *const u32) -> i32;
+    pub fn hf_direction_move_sites(direction: hf_direction, site_count: u32, sites: *const u32, vertices: *const u32) -> i32;
+    pub fn hf_direction_set_vectors(direction: hf_direction, site_count: u32, sites: *const u32, vectors: *const f64) -> i32;
+    pub fn hf_direction_rotate_sites(direction: hf_direction, site_count: u32, sites: *const u32, angles: *const f64) -> i32;
+    pub fn hf_direction_record(direction: hf_direction) -> i32;
+    pub fn hf_direction_undo(direction: hf_direction) -> i32;
+    pub fn hf_direction_redo(direction: hf_direction) -> i32;
+    pub fn hf_direction_get_site_count(direction: hf_direction) -> u32;
+    pub fn hf_direction_get_sites(direction: hf_direction, capacity: u32, out_sites: *mut u32, out_vertices: *mut u32, out_vectors: *mut f64, out_count: *mut u32) -> i32;
+    pub fn hf_direction_solve(direction: hf_direction, out_vectors: *mut f32, vector_stride: u32, out_info: *mut hf_solve_info) -> i32;
+    pub fn hf_direction_solve_f64(direction: hf_direction, out_vectors: *mut f64, vector_stride: u32, out_info: *mut hf_solve_info) -> i32;
+    pub fn hf_direction_get_singularities(direction: hf_direction, capacity: u32, out_singularities: *mut hf_singularity, out_count: *mut u32) -> i32;
+    pub fn hf_direction_get_statistics(direction: hf_direction, out_statistics: *mut hf_direction_statistics) -> i32;
+    pub fn hf_pose_create(surface: hf_surface, desc: *const hf_pose_desc, out_pose: *mut hf_pose) -> i32;
+    pub fn hf_pose_clone(pose: hf_pose, out_pose: *mut hf_pose) -> i32;
+    pub fn hf_pose_destroy(pose: hf_pose);
+    pub fn hf_pose_get_info(pose: hf_pose, out_info: *mut hf_pose_info) -> i32;
+    pub fn hf_pose_add_handles(pose: hf_pose, handles: *const hf_handles_desc, out_handles: *mut u32) -> i32;
+    pub fn hf_pose_add_handle_at(pose: hf_pose, point: *const f64, radius: f64, out_handle: *mut u32) -> i32;
+    pub fn hf_pose_remove_handles(pose: hf_pose, handle_count: u32, handles: *const u32) -> i32;
+    pub fn hf_pose_set_transforms(pose: hf_pose, handle_count: u32, handles: *const u32, transforms: *const hf_transform) -> i32;
+    pub fn hf_pose_set_transform(pose: hf_pose, handle: u32, transform: *const hf_transform) -> i32;
+    pub fn hf_pose_set_matrices(pose: hf_pose, handle_count: u32, handles: *const u32, matrices: *const f64) -> i32;
+    pub fn hf_pose_get_handle(pose: hf_pose, handle: u32, out_info: *mut hf_handle_info) -> i32;
+    pub fn hf_pose_get_handle_count(pose: hf_pose) -> u32;
+    pub fn hf_pose_get_field(pose: hf_pose, handle: u32, out_values: *mut f32, value_stride: u32) -> i32;
+    pub fn hf_deform(pose: hf_pose, out_positions: *mut f32, out_info: *mut hf_deform_info) -> i32;
+    pub fn hf_pose_deform(pose: hf_pose, desc: *const hf_deform_desc, out_info: *mut hf_deform_info) -> i32;
+    pub fn hf_pose_get_skin(pose: hf_pose, inout_skin: *mut hf_skin_info) -> i32;
+    pub fn hf_propose_handles(surface: hf_surface, desc: *const hf_propose_desc, capacity: u32, out_proposals: *mut hf_handle_proposal, out_count: *mut u32) -> i32;
+    pub fn hf_quads_create(surface: hf_surface, desc: *const hf_quads_desc, out_quads: *mut hf_quads) -> i32;
+    pub fn hf_quads_destroy(quads: hf_quads);
+    pub fn hf_quads_get_info(quads: hf_quads, out_info: *mut hf_quads_info) -> i32;
+    pub fn hf_quads_get_mesh(quads: hf_quads, inout_mesh: *mut hf_quads_mesh) -> i32;
+    pub fn hf_flow_create(surface: hf_surface, out_flow: *mut hf_flow) -> i32;
+    pub fn hf_flow_destroy(flow: hf_flow);
+    pub fn hf_flow_trace(flow: hf_flow, field: *const hf_scalars, inout_lines: *mut hf_flow_lines) -> i32;
+    pub fn hf_region_create(surface: hf_surface, desc: *const hf_region_desc, out_region: *mut hf_region) -> i32;
+    pub fn hf_region_clone(region: hf_region, out_region: *mut hf_region) -> i32;
+    pub fn hf_region_destroy(region: hf_region);
+    pub fn hf_region_edit(region: hf_region, edit: *const hf_region_edit_desc) -> i32;
+    pub fn hf_region_record(region: hf_region) -> i32;
+    pub fn hf_region_undo(region: hf_region) -> i32;
+    pub fn hf_region_redo(region: hf_region) -> i32;
+    pub fn hf_region_get_info(region: hf_region, out_info: *mut hf_region_info) -> i32;
+    pub fn hf_region_get_vertices(region: hf_region, list: i32, capacity: u32, out_vertices: *mut u32, out_count: *mut u32) -> i32;
+    pub fn hf_region_morph(region: hf_region, desc: *const hf_morph_desc) -> i32;
+    pub fn hf_detail_create(source: hf_region, target: hf_region, desc: *const hf_detail_desc, out_detail: *mut hf_detail) -> i32;
+    pub fn hf_detail_destroy(detail: hf_detail);
+    pub fn hf_detail_morph(detail: hf_detail, desc: *const hf_morph_desc) -> i32;
+    pub fn hf_transfer_create(source: hf_surface, target: hf_surface, desc: *const hf_transfer_desc, out_transfer: *mut hf_transfer) -> i32;
+    pub fn hf_transfer_destroy(transfer: hf_transfer);
+    pub fn hf_transfer_add_pairs(transfer: hf_transfer, pairs: *const hf_pairs_desc, out_pairs: *mut u32) -> i32;
+    pub fn hf_transfer_remove_pairs(transfer: hf_transfer, pair_count: u32, pairs: *const u32) -> i32;
+    pub fn hf_transfer_get_pair(transfer: hf_transfer, pair: u32, out_info: *mut hf_pair_info) -> i32;
+    pub fn hf_transfer_get_info(transfer: hf_transfer, out_info: *mut hf_transfer_info) -> i32;
+    pub fn hf_transfer_apply(transfer: hf_transfer, frame: *const hf_transfer_frame) -> i32;
+    pub fn hf_transfer_get_skin(transfer: hf_transfer, inout_skin: *mut hf_skin_info) -> i32;
+    pub fn hf_weights_create(surface: hf_surface, bones: *const hf_bones_desc, weight_count: u32, out_weights: *mut hf_weights) -> i32;
+    pub fn hf_weights_clone(weights: hf_weights, out_weights: *mut hf_weights) -> i32;
+    pub fn hf_weights_destroy(weights: hf_weights);
+    pub fn hf_weights_set_bones(weights: hf_weights, bones: *const hf_bones_desc) -> i32;
+    pub fn hf_weights_set_pins(weights: hf_weights, pins: *const hf_pins_desc) -> i32;
+    pub fn hf_weights_set_locks(weights: hf_weights, lock_count: u32, bones: *const u32, values: *const f32) -> i32;
+    pub fn hf_weights_get(weights: hf_weights, inout_weights: *mut hf_weights_out) -> i32;
+    pub fn hf_weights_get_bones(weights: hf_weights, capacity: u32, out_flags: *mut u32, out_vertex_counts: *mut u32, out_count: *mut u32) -> i32;
+    pub fn hf_weights_get_info(weights: hf_weights, out_info: *mut hf_weights_info) -> i32;
+    pub fn hf_weights_record(weights: hf_weights) -> i32;
+    pub fn hf_weights_undo(weights: hf_weights) -> i32;
+    pub fn hf_weights_redo(weights: hf_weights) -> i32;
+}

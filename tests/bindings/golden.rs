@@ -1,0 +1,1033 @@
+//! The golden scenes (bindings/golden/README.md) through the Rust crate. HF_SCENES names the filled scenes.
+//!
+//! Safe Rust cannot use an object after it is gone, nor pass null: such steps do not compile. They are counted and skipped.
+#[path = "golden_json.rs"]
+mod golden_json;
+
+use golden_json::Value;
+use hf::*;
+use std::collections::HashMap;
+
+enum Object {
+    Surface(Surface),
+    Solver(Solver),
+    Pose(Pose),
+    Transfer(Transfer),
+    Geodesics(Geodesics),
+    Direction(Direction),
+    Quads(Quads),
+    Flow(Flow),
+    Region(Region),
+    Detail(Detail),
+}
+
+type Figures = Box<dyn Fn(&str) -> Option<f64>>;
+enum Answer {
+    Nothing,
+    Array(Vec<f64>),
+    Numbers(Vec<u32>),
+    Struct(Figures),
+    /// the step cannot be written in safe Rust
+    Impossible,
+}
+type Outcome = std::result::Result<Answer, Error>;
+
+/// Constants that scenes name.
+fn constant(name: &str) -> f64 {
+    let api = Value::parse(include_str!("../../bindings/api.json"));
+    let found = api["constants"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|c| c["name"] == name);
+    found.unwrap_or_else(|| panic!("no constant {name}"))["value"]
+        .as_f64()
+        .unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    match value.as_str() {
+        Some("nan") => f64::NAN,
+        Some("inf") => f64::INFINITY,
+        Some("-inf") => f64::NEG_INFINITY,
+        Some(name) => constant(name),
+        None => value
+            .as_f64()
+            .unwrap_or_else(|| panic!("no number: {value}")),
+    }
+}
+fn whole(value: &Value) -> u32 {
+    number(value) as u32
+}
+/// A point; none if the step has another number of coordinates, which a call in Rust cannot have.
+fn narrow(v: Vec<f64>) -> Option<[f64; 3]> {
+    v.try_into().ok()
+}
+
+struct Scene<'a> {
+    meshes: &'a HashMap<String, Value>,
+    objects: HashMap<String, Object>,
+    kept: HashMap<String, Vec<f64>>,
+    saved: HashMap<String, Vec<u8>>,
+}
+
+macro_rules! on {
+    ($self:ident, $step:ident, $kind:ident) => {
+        match $self.objects.get_mut($step["on"].as_str().unwrap()) {
+            Some(Object::$kind(object)) => object,
+            Some(_) => panic!("{} is of another kind", $step["on"]),
+            None => return Ok(Answer::Impossible),
+        }
+    };
+}
+macro_rules! named {
+    ($self:ident, $step:ident, $key:literal, $kind:ident) => {
+        match $self.objects.get($step[$key].as_str().unwrap()) {
+            Some(Object::$kind(object)) => object,
+            _ => return Ok(Answer::Impossible),
+        }
+    };
+}
+macro_rules! options {
+    ($step:ident, $kind:ident) => {{
+        let mut options = $kind::default();
+        for (name, value) in $step["options"].as_object().into_iter().flatten() {
+            options.set(name, number(value))?;
+        }
+        options
+    }};
+}
+macro_rules! figures {
+    ($info:expr) => {{
+        let info = $info?;
+        Ok(Answer::Struct(Box::new(move |name: &str| {
+            info.figure(name)
+        })))
+    }};
+}
+
+impl Scene<'_> {
+    fn doubles(&self, step: &Value, key: &str) -> Option<Vec<f64>> {
+        match &step[key] {
+            Value::Array(list) => Some(list.iter().map(number).collect()),
+            Value::Text(name) => Some(self.kept[name].clone()),
+            _ => None,
+        }
+    }
+    fn integers(&self, step: &Value, key: &str) -> Option<Vec<u32>> {
+        self.doubles(step, key)
+            .map(|list| list.iter().map(|&v| v as u32).collect())
+    }
+    fn lists(step: &Value, key: &str) -> Option<Vec<Vec<u32>>> {
+        let lists = step[key].as_array()?;
+        Some(
+            lists
+                .iter()
+                .map(|list| list.as_array().unwrap().iter().map(whole).collect())
+                .collect(),
+        )
+    }
+    fn keep(&mut self, step: &Value, object: Object) -> Outcome {
+        self.objects
+            .insert(step["as"].as_str().unwrap().into(), object);
+        Ok(Answer::Nothing)
+    }
+
+    fn surface(&mut self, step: &Value) -> Outcome {
+        let Some(mesh) = step["mesh"].as_str().map(|name| &self.meshes[name]) else {
+            return Ok(Answer::Impossible);
+        };
+        let mut positions: Vec<f64> = mesh["positions"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(number)
+            .collect();
+        let mut triangles: Vec<u32> = mesh["triangles"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(whole)
+            .collect();
+        for (place, value) in step["positions"].as_object().into_iter().flatten() {
+            positions[place.parse::<usize>().unwrap()] = number(value);
+        }
+        for (place, value) in step["triangles"].as_object().into_iter().flatten() {
+            triangles[place.parse::<usize>().unwrap()] = whole(value);
+        }
+        if step["no_triangles"] == true {
+            triangles.clear();
+        }
+        let factor = step["factor"].as_str().map(|name| {
+            let mut bytes = self.saved[name].clone();
+            if let Some(place) = step["damage"].as_u64() {
+                bytes[place as usize] ^= 1;
+            }
+            bytes
+        });
+        let mut options = options!(step, SurfaceOptions);
+        let extras = Extras {
+            saved_factor: factor.as_deref(),
+            ..Default::default()
+        };
+        let half = step["index_bits"] == 16;
+        options.triangle_stride = step["triangle_stride"].as_u64().unwrap_or(0) as u32;
+        let row = match options.triangle_stride as usize {
+            0 => 3,
+            stride => stride / if half { 2 } else { 4 },
+        };
+        let mut laid = vec![u32::MAX; triangles.len() / 3 * row];
+        for (k, &v) in triangles.iter().enumerate() {
+            laid[k / 3 * row + k % 3] = v;
+        }
+        let made = if half {
+            let small: Vec<u16> = laid.iter().map(|&v| v as u16).collect();
+            Surface::with(&positions, &small, &options, &extras)?
+        } else {
+            Surface::with(&positions, &laid, &options, &extras)?
+        };
+        self.keep(step, Object::Surface(made))
+    }
+
+    fn solver_step(&mut self, what: &str, step: &Value) -> Outcome {
+        let (vertices, values) = (
+            self.integers(step, "vertices"),
+            self.doubles(step, "values"),
+        );
+        let (stiffness, radii) = (self.doubles(step, "stiffness"), self.doubles(step, "radii"));
+        let (triangles, barycentrics) = (
+            self.integers(step, "triangles"),
+            self.doubles(step, "barycentrics"),
+        );
+        let places = Sites {
+            vertices: vertices.as_deref(),
+            values: values.as_deref(),
+            stiffness: stiffness.as_deref(),
+            radii: radii.as_deref(),
+            triangles: triangles.as_deref(),
+            barycentrics: barycentrics.as_deref(),
+            ..Default::default()
+        };
+        let sites = self.integers(step, "sites").unwrap_or_default();
+        let lists: Vec<_> = ["remove", "move", "move_to", "set", "add"]
+            .iter()
+            .map(|key| self.integers(step, key))
+            .collect();
+        let (set_values, add_values) = (
+            self.doubles(step, "set_values").unwrap_or_default(),
+            self.doubles(step, "add_values"),
+        );
+        let solver = on!(self, step, Solver);
+        match what {
+            "add_sites" => return Ok(Answer::Numbers(solver.add_sites(&places)?)),
+            "add_site" => {
+                let value = step
+                    .get("value")
+                    .filter(|v| !v.is_null())
+                    .map(|v| [number(v)]);
+                return Ok(Answer::Numbers(vec![solver.add_site(
+                    whole(&step["vertex"]),
+                    value.as_ref().map(|v| &v[..]),
+                )?]));
+            }
+            "edit" => {
+                let edit = Edit {
+                    remove: lists[0].as_deref().unwrap_or_default(),
+                    moved: lists[1].as_deref().unwrap_or_default(),
+                    to: lists[2].as_deref().map(|at| Sites {
+                        vertices: Some(at),
+                        ..Default::default()
+                    }),
+                    set: lists[3].as_deref().unwrap_or_default(),
+                    set_values: &set_values,
+                    add: lists[4].as_deref().map(|at| Sites {
+                        vertices: Some(at),
+                        values: add_values.as_deref(),
+                        ..Default::default()
+                    }),
+                };
+                return Ok(Answer::Numbers(solver.edit_sites(&edit)?));
+            }
+            "remove_sites" => solver.remove_sites(&sites)?,
+            "move_sites" => solver.move_sites(&sites, &places)?,
+            "set_values" => solver.set_values(&sites, places.values.unwrap_or_default())?,
+            "record" => solver.record()?,
+            "undo" => solver.undo()?,
+            "redo" => solver.redo()?,
+            "solve" => return Ok(Answer::Array(solver.solve()?)),
+            "solve_f32" => {
+                let mut out = vec![0f32; solver.solve()?.len()];
+                solver.solve_into(&mut out)?;
+                return Ok(Answer::Array(out.iter().map(|&v| f64::from(v)).collect()));
+            }
+            "preview" => {
+                return Ok(Answer::Array(solver.solve_preview(
+                    step["correction_count"].as_u64().unwrap_or(0) as u32,
+                )?))
+            }
+            "solve_at" => {
+                return Ok(Answer::Array(
+                    solver.solve_at(places.vertices.unwrap_or_default())?,
+                ))
+            }
+            "statistics" => return figures!(solver.statistics()),
+            "solver_info" => return figures!(solver.info()),
+            "certify" => return figures!(solver.certify(step.get("tolerance").map_or(0.0, number))),
+            "clone" => {
+                let copy = solver.try_clone()?;
+                return self.keep(step, Object::Solver(copy));
+            }
+            _ => unreachable!(),
+        }
+        Ok(Answer::Nothing)
+    }
+
+    fn surface_step(&mut self, what: &str, step: &Value) -> Outcome {
+        let (field, posed) = (
+            self.doubles(step, "field").unwrap_or_default(),
+            self.doubles(step, "positions"),
+        );
+        let levels = self.doubles(step, "levels").unwrap_or_default();
+        let point = |key| narrow(self.doubles(step, key).unwrap());
+        let place = step.get("point").map(|_| point("point"));
+        let ray = step
+            .get("origin")
+            .map(|_| point("origin").zip(point("direction")));
+        if place == Some(None) || ray == Some(None) {
+            return Ok(Answer::Impossible);
+        }
+        let (place, ray) = (place.flatten(), ray.flatten());
+        let site_vertices = self.integers(step, "site_vertices").unwrap_or_default();
+        let site_lines: Option<Vec<i32>> = self
+            .doubles(step, "site_lines")
+            .map(|list| list.iter().map(|&v| v as i32).collect());
+        let surface = on!(self, step, Surface);
+        let array = |list: Vec<u32>, sorted: bool| {
+            let mut list = list;
+            if sorted {
+                list.sort_unstable();
+            }
+            Ok(Answer::Array(list.into_iter().map(f64::from).collect()))
+        };
+        let made = match what {
+            "report" => return figures!(surface.report()),
+            "surface_info" => return figures!(surface.info()),
+            "surface_statistics" => return figures!(surface.statistics()),
+            "components" => return array(surface.components()?, false),
+            "save" => {
+                let bytes = surface.save(step["field_kind"].as_i64().unwrap_or(0) as i32)?;
+                self.saved
+                    .insert(step["as"].as_str().unwrap().into(), bytes);
+                return Ok(Answer::Nothing);
+            }
+            "cast_ray" => {
+                let (origin, direction) = ray.unwrap();
+                let hit = surface.cast_ray(
+                    origin,
+                    direction,
+                    posed.as_deref(),
+                    step["front_only"].as_i64().unwrap_or(0) as i32,
+                )?;
+                return Ok(Answer::Array(hit.map_or(vec![0.0], |hit| {
+                    let mut row = vec![1.0, f64::from(hit.triangle), f64::from(hit.vertex)];
+                    row.extend(hit.barycentrics);
+                    row.extend(hit.position);
+                    row.push(hit.distance);
+                    row
+                })));
+            }
+            "find_vertex" => {
+                let (vertex, distance) = surface.find_vertex(place.unwrap(), posed.as_deref())?;
+                return Ok(Answer::Array(vec![f64::from(vertex), distance]));
+            }
+            "levels" => {
+                return Ok(Answer::Array(surface.space_levels(
+                    &field,
+                    whole(&step["count"]),
+                    number(&step["spacing"]) as i32,
+                )?))
+            }
+            "isolines" => {
+                let lines = surface.trace_isolines(&field, &levels)?;
+                if let Some(wanted) = step["lines"].as_u64() {
+                    assert_eq!(lines.closed.len() as u64, wanted, "lines");
+                    assert_eq!(
+                        lines.closed.iter().sum::<i32>() as u64,
+                        step["closed"].as_u64().unwrap(),
+                        "closed lines"
+                    );
+                }
+                return Ok(Answer::Array(lines.positions));
+            }
+            "critical" => {
+                let found = surface.find_critical_points(&field)?;
+                return Ok(Answer::Array(
+                    found.iter().map(|p| f64::from(p.index)).collect(),
+                ));
+            }
+            "extremities" => {
+                return array(
+                    surface
+                        .find_extremities()?
+                        .iter()
+                        .map(|e| e.vertex)
+                        .collect(),
+                    true,
+                )
+            }
+            "propose" => {
+                return array(
+                    surface
+                        .propose_handles()?
+                        .iter()
+                        .map(|p| p.vertex)
+                        .collect(),
+                    true,
+                )
+            }
+            "solver" => Object::Solver(Solver::new(surface, &options!(step, SolverOptions))?),
+            "geodesics" => {
+                Object::Geodesics(Geodesics::new(surface, &options!(step, GeodesicsOptions))?)
+            }
+            "direction" => {
+                Object::Direction(Direction::new(surface, &options!(step, DirectionOptions))?)
+            }
+            "flow" => Object::Flow(Flow::new(surface)?),
+            "pose" => Object::Pose(Pose::new(surface, &options!(step, PoseOptions))?),
+            "region" => Object::Region(Region::new(
+                surface,
+                posed.as_deref(),
+                &options!(step, RegionOptions),
+            )?),
+            "quads" => {
+                let mut options = options!(step, QuadsOptions);
+                options.edge_length = step.get("edge_length").map_or(0.0, number) as f32;
+                Object::Quads(Quads::new(
+                    surface,
+                    &options,
+                    &site_vertices,
+                    site_lines.as_deref(),
+                )?)
+            }
+            _ => unreachable!(),
+        };
+        self.keep(step, made)
+    }
+
+    fn direction_step(&mut self, what: &str, step: &Value) -> Outcome {
+        let (vertices, vectors) = (
+            self.integers(step, "vertices").unwrap_or_default(),
+            self.doubles(step, "vectors").unwrap_or_default(),
+        );
+        let (sites, angles) = (
+            self.integers(step, "sites").unwrap_or_default(),
+            self.doubles(step, "angles").unwrap_or_default(),
+        );
+        let field = on!(self, step, Direction);
+        match what {
+            "add_vectors" => return Ok(Answer::Numbers(field.add_sites(&vertices, &vectors)?)),
+            "remove_vectors" => field.remove_sites(&sites)?,
+            "move_vectors" => field.move_sites(&sites, &vertices)?,
+            "set_vectors" => field.set_vectors(&sites, &vectors)?,
+            "rotate" => field.rotate_sites(&sites, &angles)?,
+            "record_vectors" => field.record()?,
+            "undo_vectors" => field.undo()?,
+            "redo_vectors" => field.redo()?,
+            "vectors" => return Ok(Answer::Array(field.sites()?.2)),
+            "directions" => return Ok(Answer::Array(field.solve()?)),
+            "singularities" => {
+                return Ok(Answer::Array(
+                    field
+                        .singularities()?
+                        .iter()
+                        .map(|s| f64::from(s.index))
+                        .collect(),
+                ))
+            }
+            "clone_vectors" => {
+                let copy = field.try_clone()?;
+                return self.keep(step, Object::Direction(copy));
+            }
+            _ => unreachable!(),
+        }
+        Ok(Answer::Nothing)
+    }
+
+    fn pose_step(&mut self, what: &str, step: &Value) -> Outcome {
+        let (points, radii) = (
+            self.doubles(step, "points"),
+            self.doubles(step, "radii").unwrap_or_default(),
+        );
+        let (handles, layer) = (
+            self.integers(step, "handles").unwrap_or_default(),
+            step["layer"].as_u64().unwrap_or(0) as u32,
+        );
+        // a transform of the type has four and three numbers; none if the step has others
+        let transform = |rotation: Option<&[f64]>, translation: Option<&[f64]>| {
+            let rest = Transform::default();
+            Some(Transform {
+                rotation: rotation.map_or(Some(rest.rotation), |r| r.try_into().ok())?,
+                translation: translation.map_or(Some(rest.translation), |t| t.try_into().ok())?,
+            })
+        };
+        let (turns, shifts) = (
+            self.doubles(step, "rotations"),
+            self.doubles(step, "translations"),
+        );
+        let (turn, shift) = (
+            self.doubles(step, "rotation"),
+            self.doubles(step, "translation"),
+        );
+        let (lists, point) = (Self::lists(step, "regions"), self.doubles(step, "point"));
+        let pose = on!(self, step, Pose);
+        let n = pose.info()?.vertex_count as usize;
+        match what {
+            "add_handles" => {
+                if let Some(points) = points {
+                    return Ok(Answer::Numbers(
+                        pose.add_handles_at(&points, &radii, layer)?,
+                    ));
+                }
+                let Some(lists) = lists else {
+                    return Ok(Answer::Impossible);
+                };
+                let regions: Vec<&[u32]> = lists.iter().map(|list| &list[..]).collect();
+                return Ok(Answer::Numbers(pose.add_handles(&regions, layer, None)?));
+            }
+            "add_handle_at" => {
+                let Some(point) = narrow(point.unwrap()) else {
+                    return Ok(Answer::Impossible);
+                };
+                return Ok(Answer::Numbers(vec![
+                    pose.add_handle_at(point, number(&step["radius"]))?
+                ]));
+            }
+            "remove_handles" => pose.remove_handles(&handles)?,
+            "set_transforms" => {
+                let row = |i: usize| {
+                    let turn = turns
+                        .as_ref()
+                        .map(|r| r.chunks(4).nth(i).unwrap_or_default());
+                    transform(
+                        turn,
+                        shifts
+                            .as_ref()
+                            .map(|t| t.chunks(3).nth(i).unwrap_or_default()),
+                    )
+                };
+                let Some(rows) = (0..handles.len()).map(row).collect::<Option<Vec<_>>>() else {
+                    return Ok(Answer::Impossible);
+                };
+                pose.set_transforms(&handles, &rows)?;
+            }
+            "set_transform" => {
+                let Some(moved) = transform(turn.as_deref(), shift.as_deref()) else {
+                    return Ok(Answer::Impossible);
+                };
+                pose.set_transform(whole(&step["handle"]), moved)?;
+            }
+            "deform" => return Ok(Answer::Array(pose.deform(&options!(step, DeformOptions))?)),
+            "deform_f32" => {
+                let mut out = vec![0f32; 3 * n];
+                pose.deform_into(&mut out, &DeformOptions::default())?;
+                return Ok(Answer::Array(out.iter().map(|&v| f64::from(v)).collect()));
+            }
+            "handle_field" => {
+                return Ok(Answer::Array(
+                    pose.handle_field(whole(&step["handle"]))?
+                        .iter()
+                        .map(|&v| f64::from(v))
+                        .collect(),
+                ))
+            }
+            "handle_info" => return figures!(pose.handle_info(whole(&step["handle"]))),
+            "pose_info" => return figures!(pose.info()),
+            "skin" => {
+                return Ok(Answer::Array(
+                    pose.skin(whole(&step["weight_count"]))?
+                        .weights
+                        .iter()
+                        .map(|&v| f64::from(v))
+                        .collect(),
+                ))
+            }
+            _ => unreachable!(),
+        }
+        Ok(Answer::Nothing)
+    }
+
+    fn region_step(&mut self, what: &str, step: &Value) -> Outcome {
+        let (curve, add, remove) = (
+            self.integers(step, "curve"),
+            self.integers(step, "add"),
+            self.integers(step, "remove"),
+        );
+        if let Some(Object::Detail(detail)) = self.objects.get_mut(step["on"].as_str().unwrap()) {
+            return Ok(Answer::Array(detail.morph(number(&step["weight"]))?));
+        }
+        let region = on!(self, step, Region);
+        match what {
+            "region_edit" => region.edit(&RegionEdit {
+                curve: curve.as_deref(),
+                rings: step["rings"].as_i64().unwrap_or(0) as i32,
+                add: add.as_deref().unwrap_or_default(),
+                remove: remove.as_deref().unwrap_or_default(),
+                ..Default::default()
+            })?,
+            "record_region" => region.record()?,
+            "undo_region" => region.undo()?,
+            "redo_region" => region.redo()?,
+            "region_info" => return figures!(region.info()),
+            "region_vertices" => {
+                let found = region.vertices(step["list"].as_i64().unwrap_or(0) as i32)?;
+                return Ok(Answer::Array(found.into_iter().map(f64::from).collect()));
+            }
+            "morph" => return Ok(Answer::Array(region.morph(number(&step["weight"]))?)),
+            _ => unreachable!(),
+        }
+        Ok(Answer::Nothing)
+    }
+
+    fn run(&mut self, step: &Value) -> Outcome {
+        let what = step["do"].as_str().unwrap();
+        if step.get("sites").is_some_and(Value::is_null) {
+            return Ok(Answer::Impossible); // a slice is never null
+        }
+        match what {
+            "surface" => self.surface(step),
+            "graph" => {
+                let options = options!(step, GraphOptions);
+                let (edges, weights) = (
+                    self.integers(step, "edges").unwrap(),
+                    self.doubles(step, "weights").unwrap(),
+                );
+                let masses = self.doubles(step, "masses");
+                let made = Surface::from_graph(
+                    whole(&step["vertex_count"]),
+                    &edges,
+                    &weights,
+                    masses.as_deref(),
+                    &options,
+                )?;
+                self.keep(step, Object::Surface(made))
+            }
+            "dispose" => {
+                self.objects.remove(step["on"].as_str().unwrap());
+                Ok(Answer::Nothing)
+            }
+            "transfer" => {
+                let options = options!(step, TransferOptions);
+                let (source, target) = (
+                    named!(self, step, "source", Surface),
+                    named!(self, step, "target", Surface),
+                );
+                let made = Transfer::new(source, target, &options)?;
+                self.keep(step, Object::Transfer(made))
+            }
+            "detail" => {
+                let (source, target) = (
+                    named!(self, step, "source", Region),
+                    named!(self, step, "target", Region),
+                );
+                let made = Detail::new(
+                    source,
+                    target,
+                    step["options"].get("scale").map_or(0.0, number),
+                    &[],
+                    &[],
+                )?;
+                self.keep(step, Object::Detail(made))
+            }
+            "distance" => {
+                let sources = self.integers(step, "sources").unwrap();
+                Ok(Answer::Array(
+                    on!(self, step, Geodesics).distance(&sources)?,
+                ))
+            }
+            "quads_info" => {
+                let info = on!(self, step, Quads).info()?;
+                Ok(Answer::Struct(Box::new(move |name: &str| match name {
+                    "other_faces" => Some(f64::from(info.face_count - info.quad_count)),
+                    _ => info.figure(name),
+                })))
+            }
+            "quad_mesh" => Ok(Answer::Array(on!(self, step, Quads).mesh()?.positions)),
+            "flow_lines" => {
+                let (field, seeds) = (
+                    self.doubles(step, "field").unwrap(),
+                    self.integers(step, "seeds"),
+                );
+                let flow = on!(self, step, Flow);
+                let lines = flow.trace(
+                    &field,
+                    step["count"].as_u64().unwrap_or(0) as u32,
+                    seeds.as_deref(),
+                )?;
+                if let Some(wanted) = step["lines"].as_u64() {
+                    assert_eq!(lines.starts.len() as u64 - 1, wanted, "lines");
+                }
+                Ok(Answer::Array(lines.positions))
+            }
+            "add_pairs" => {
+                let (source, target) = (
+                    Self::lists(step, "source_regions").unwrap(),
+                    Self::lists(step, "target_regions").unwrap(),
+                );
+                let (from, to): (Vec<&[u32]>, Vec<&[u32]>) = (
+                    source.iter().map(|l| &l[..]).collect(),
+                    target.iter().map(|l| &l[..]).collect(),
+                );
+                let flags = self.integers(step, "flags");
+                Ok(Answer::Numbers(on!(self, step, Transfer).add_pairs(
+                    &from,
+                    &to,
+                    flags.as_deref(),
+                )?))
+            }
+            "remove_pairs" => {
+                let pairs = self.integers(step, "pairs").unwrap();
+                on!(self, step, Transfer).remove_pairs(&pairs)?;
+                Ok(Answer::Nothing)
+            }
+            "transfer_info" => figures!(on!(self, step, Transfer).info()),
+            "apply" => {
+                let posed = self.doubles(step, "positions").unwrap();
+                Ok(Answer::Array(on!(self, step, Transfer).apply(&posed)?))
+            }
+            "add_sites" | "add_site" | "remove_sites" | "move_sites" | "set_values" | "edit"
+            | "record" | "undo" | "redo" | "solve" | "solve_f32" | "preview" | "solve_at"
+            | "statistics" | "solver_info" | "certify" | "clone" => self.solver_step(what, step),
+            "add_vectors" | "remove_vectors" | "move_vectors" | "set_vectors" | "rotate"
+            | "record_vectors" | "undo_vectors" | "redo_vectors" | "vectors" | "directions"
+            | "singularities" | "clone_vectors" => self.direction_step(what, step),
+            "add_handles" | "add_handle_at" | "remove_handles" | "set_transforms"
+            | "set_transform" | "deform" | "deform_f32" | "handle_field" | "handle_info"
+            | "pose_info" | "skin" => self.pose_step(what, step),
+            "region_edit" | "record_region" | "undo_region" | "redo_region" | "region_info"
+            | "region_vertices" | "morph" => self.region_step(what, step),
+            _ => self.surface_step(what, step),
+        }
+    }
+
+    /// Runs a step and compares. Returns what is wrong, or whether the step was possible.
+    fn play(&mut self, step: &Value) -> std::result::Result<bool, String> {
+        let outcome = self.run(step);
+        if let Ok(Answer::Impossible) = outcome {
+            return if step.get("error").is_some() {
+                Ok(false)
+            } else {
+                Err("names no object".into())
+            };
+        }
+        let wanted = step["error"].as_str();
+        let answer = match (outcome, wanted) {
+            (Err(error), Some(name)) if error.name() == name => {
+                let index = step["index"].as_u64();
+                return if index.is_none() || index == error.index.map(u64::from) {
+                    Ok(true)
+                } else {
+                    Err(format!("index {:?}", error.index))
+                };
+            }
+            (Err(error), _) => return Err(format!("failed: {error}")),
+            (Ok(_), Some(name)) => return Err(format!("did not fail with {name}")),
+            (Ok(answer), None) => answer,
+        };
+        match answer {
+            Answer::Array(values) => {
+                step.get("expect")
+                    .map_or(Ok(()), |wanted| compare(&values, wanted))?;
+                if let Some(name) = step["same_as"].as_str() {
+                    let same = self.kept[name].len() == values.len()
+                        && self.kept[name]
+                            .iter()
+                            .zip(&values)
+                            .all(|(a, b)| a.to_bits() == b.to_bits());
+                    if !same {
+                        return Err(format!("differs from {name}"));
+                    }
+                }
+                if let Some(name) = step["keep"].as_str() {
+                    self.kept.insert(name.into(), values);
+                }
+            }
+            Answer::Numbers(found) => {
+                let wanted = step["numbers"]
+                    .as_array()
+                    .map(|list| list.iter().map(whole).collect::<Vec<_>>());
+                if wanted.is_some_and(|wanted| wanted != found) {
+                    return Err(format!("numbers are {found:?}"));
+                }
+            }
+            Answer::Struct(figure) => {
+                let tolerance = step["expect"]["tolerance"].as_f64().unwrap_or(0.0);
+                for (name, wanted) in step["expect"]
+                    .as_object()
+                    .into_iter()
+                    .flatten()
+                    .filter(|(name, _)| *name != "tolerance")
+                {
+                    let found = figure(name).ok_or(format!("no figure {name}"))?;
+                    if (found - number(wanted)).abs() > tolerance {
+                        return Err(format!("{name} is {found}, not {wanted}"));
+                    }
+                }
+            }
+            Answer::Nothing | Answer::Impossible => {}
+        }
+        Ok(true)
+    }
+}
+
+fn compare(values: &[f64], wanted: &Value) -> std::result::Result<(), String> {
+    if values.iter().any(|v| !v.is_finite()) {
+        return Err("not finite".into());
+    }
+    let (n, t) = (
+        values.len() as f64,
+        wanted["tolerance"].as_f64().unwrap_or(0.0),
+    );
+    let ends = values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| {
+            (low.min(v), high.max(v))
+        });
+    let (least, most) = if values.is_empty() { (0.0, 0.0) } else { ends };
+    let weighted: f64 = values
+        .iter()
+        .enumerate()
+        .map(|(i, v)| v * (i % 7 + 1) as f64)
+        .sum();
+    for (key, found, allowed) in [
+        ("count", n, 0.0),
+        ("sum", values.iter().sum(), t * n + 1e-9),
+        ("weighted", weighted, 7.0 * t * n + 1e-9),
+        ("min", least, t),
+        ("max", most, t),
+    ] {
+        if let Some(value) = wanted[key].as_f64() {
+            if (found - value).abs() > allowed {
+                return Err(format!("{key} is {found}, not {value}"));
+            }
+        }
+    }
+    for (place, value) in wanted["at"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .zip(wanted["values"].as_array().into_iter().flatten())
+    {
+        let place = whole(place) as usize;
+        if (values[place] - number(value)).abs() > t {
+            return Err(format!(
+                "value at {place} is {}, not {value}",
+                values[place]
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The folder of the scenes as they stand in the project.
+fn golden(path: &str) -> String {
+    format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../golden/{}"), path)
+}
+
+fn read(path: &str) -> Value {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    Value::parse(&text)
+}
+
+fn play(file: &str) {
+    let names = ["strip", "torus", "bar", "long_bar", "small", "lonely"];
+    let meshes = names
+        .iter()
+        .map(|name| {
+            (
+                name.to_string(),
+                read(&golden(&format!("meshes/{name}.json"))),
+            )
+        })
+        .collect();
+    let (mut failures, mut steps, mut impossible) = (Vec::new(), 0, 0);
+    for scene in read(file)["scenes"].as_array().unwrap() {
+        let (objects, kept, saved) = (HashMap::new(), HashMap::new(), HashMap::new());
+        let mut player = Scene {
+            meshes: &meshes,
+            objects,
+            kept,
+            saved,
+        };
+        for (place, step) in scene["steps"].as_array().unwrap().iter().enumerate() {
+            steps += 1;
+            match player.play(step) {
+                Ok(possible) => impossible += usize::from(!possible),
+                Err(why) => failures.push(format!(
+                    "{} step {place} ({}): {why}",
+                    scene["name"], step["do"]
+                )),
+            }
+        }
+    }
+    println!("{steps} steps of {file}, {impossible} that safe Rust cannot write");
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn golden_scenes() {
+    play(&std::env::var("HF_SCENES").unwrap_or(golden("scenes.json")));
+}
+
+#[test]
+fn bad_calls_are_refused() {
+    play(&golden("bad_input.json"));
+}
+
+#[test]
+fn options_are_checked() {
+    let mut options = SurfaceOptions::default();
+    assert!(options.set("weld", 0.5).is_err() && options.set("thread_count", -1.0).is_err());
+    assert!(
+        options.set("thread_count", f64::NAN).is_err()
+            && options.set("weld_tolerance", 1e300).is_err()
+    );
+    let unknown = options.set("weeld", 1.0).unwrap_err();
+    assert_eq!(
+        (unknown.name(), unknown.to_string().contains("weeld")),
+        ("HF_ERROR_INVALID_ARGUMENT", true)
+    );
+    assert_eq!(options, SurfaceOptions::default());
+}
+
+#[test]
+fn lengths_are_checked() {
+    let strip = [0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0];
+    let surface = Surface::new(&strip, &[0u32, 1, 2], &SurfaceOptions::default()).unwrap();
+    assert!(Surface::new(&strip[..8], &[0u32, 1, 2], &SurfaceOptions::default()).is_err());
+    assert!(Surface::new(&strip, &[0u16, 1], &SurfaceOptions::default()).is_err());
+    let mut solver = Solver::new(&surface, &SolverOptions::default()).unwrap();
+    let sites = |values| Sites {
+        vertices: Some(&[0, 1]),
+        values: Some(values),
+        ..Default::default()
+    };
+    assert!(solver.add_sites(&sites(&[1.0])).is_err());
+    solver.add_sites(&sites(&[0.0, 1.0])).unwrap();
+    assert!(
+        solver.solve_into(&mut [0f32; 2]).is_err() && solver.solve_into(&mut [0f64; 3]).is_ok()
+    );
+    let mut pose = Pose::new(&surface, &PoseOptions::default()).unwrap();
+    pose.add_handles(&[&[0]], 0, None).unwrap();
+    assert!(
+        pose.set_transforms(&[0], &[]).is_err()
+            && pose
+                .deform_into(&mut [0f32; 3], &DeformOptions::default())
+                .is_err()
+    );
+    assert!(pose.skin(0).map_or(true, |skin| skin.weights.len() >= 3));
+}
+
+#[test]
+fn threads_share_a_surface_and_objects_drop_in_any_order() {
+    let torus = read(&golden("meshes/torus.json"));
+    let positions: Vec<f32> = torus["positions"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|v| number(v) as f32)
+        .collect();
+    let triangles: Vec<u32> = torus["triangles"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(whole)
+        .collect();
+    let surface = std::sync::Arc::new(
+        Surface::new(&positions, &triangles, &SurfaceOptions::default()).unwrap(),
+    );
+    let fields: Vec<Vec<f64>> = (0..4)
+        .map(|_| {
+            let surface = surface.clone();
+            std::thread::spawn(move || {
+                let mut solver = Solver::new(&surface, &SolverOptions::default()).unwrap();
+                drop(surface);
+                solver
+                    .add_sites(&Sites {
+                        vertices: Some(&[0, 100]),
+                        values: Some(&[0.0, 1.0]),
+                        ..Default::default()
+                    })
+                    .unwrap();
+                solver.solve().unwrap()
+            })
+        })
+        .collect::<Vec<_>>()
+        .into_iter()
+        .map(|thread| thread.join().unwrap())
+        .collect();
+    assert!(fields.iter().all(|field| field == &fields[0]));
+}
+
+#[test]
+fn a_cancelled_call_says_so() {
+    let strip = [0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0];
+    let progress = Progress::new().unwrap();
+    progress.cancel().unwrap();
+    let extras = Extras {
+        progress: Some(&progress),
+        ..Default::default()
+    };
+    let refused =
+        Surface::with(&strip, &[0u32, 1, 2], &SurfaceOptions::default(), &extras).unwrap_err();
+    assert_eq!(refused.name(), "HF_ERROR_CANCELLED");
+}
+
+#[test]
+fn weights_of_a_bar() {
+    let bar = read(&golden("meshes/bar.json"));
+    let positions: Vec<f64> = bar["positions"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(number)
+        .collect();
+    let triangles: Vec<u32> = bar["triangles"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(whole)
+        .collect();
+    let surface = Surface::new(&positions, &triangles, &SurfaceOptions::default()).unwrap();
+    let end = |k: usize| {
+        (0..3)
+            .map(|axis| {
+                (0..surface.vertex_count())
+                    .map(|v| positions[3 * v + axis])
+                    .fold(
+                        if k == 0 {
+                            f64::INFINITY
+                        } else {
+                            f64::NEG_INFINITY
+                        },
+                        if k == 0 { f64::min } else { f64::max },
+                    )
+            })
+            .collect::<Vec<_>>()
+    };
+    let (low, high) = (end(0), end(1));
+    let middle: Vec<f64> = (0..3).map(|k| 0.5 * (low[k] + high[k])).collect();
+    let (heads, tails) = ([low, middle.clone()].concat(), [middle, high].concat());
+    let bones = Bones {
+        heads: &heads,
+        tails: Some(&tails),
+        ..Default::default()
+    };
+    let mut weights = Weights::new(&surface, &bones, 4).unwrap();
+    let found = weights.get().unwrap();
+    for row in found.weights.chunks(found.weight_count) {
+        assert_eq!(row.iter().sum::<f32>(), 1.0);
+    }
+    weights.set_pins(&[0], 1, &[1], &[1.0]).unwrap();
+    let pinned = weights.get().unwrap();
+    assert_eq!((pinned.joints[0], pinned.weights[0]), (1, 1.0));
+}
