@@ -184,6 +184,13 @@ local function create(methods, kind, fields, call, ...)
   return methods.adopt(out, fields)
 end
 
+-- Makes an object on a surface: call(surface, desc, out). names: the options that the desc of this kind has.
+local function create_on(methods, kind, surface, options, names, call)
+  local desc = options_into(make(kind .. '_desc'), options, set(names))
+  local raw = raw_of(surface, 'Surface', 'surface')
+  return create(methods, kind, { vertex_count = surface.vertex_count }, call, raw, desc)
+end
+
 -- A call on numbered things: call(handle, count, numbers, ...)
 local function on_numbers(call, raw, list_of_numbers, name, ...)
   local numbers, count = integers(list_of_numbers, name)
@@ -217,6 +224,6 @@ end
 for name, tool in pairs({ whole = whole, real = real, fail = fail, check = check, make = make, array = array, integers = integers,
   doubles = doubles,
   list = list, regions = regions, options_into = options_into, set = set, class = class, raw_of = raw_of,
-    create = create,
+    create = create, create_on = create_on,
   on_numbers = on_numbers, rows = rows, query = query, scalars = scalars }) do core[name] = tool end
 return core

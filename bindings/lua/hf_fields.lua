@@ -5,6 +5,7 @@ local C, check, fail, make, array, integers, doubles, list, options_into = core.
   core.array, core.integers, core.doubles, core.list, core.options_into
 local set, class, raw_of, create, on_numbers, rows, query, scalars = core.set, core.class, core.raw_of, core.create,
   core.on_numbers, core.rows, core.query, core.scalars
+local create_on = core.create_on
 
 local hf = {}
 -- Numbers of sites and as many vertices.
@@ -17,10 +18,7 @@ end
 
 local Geodesics = class('Geodesics', function(raw) C.hf_geodesics_destroy(raw) end)
 function hf.Geodesics(surface, options)
-  local desc = options_into(make('hf_geodesics_desc'), options, set('smoothing'))
-  return create(Geodesics, 'hf_geodesics',
-    { vertex_count = raw_of(surface, 'Surface', 'surface') and surface.vertex_count },
-    C.hf_geodesics_create, surface.raw, desc)
+  return create_on(Geodesics, 'hf_geodesics', surface, options, 'smoothing', C.hf_geodesics_create)
 end
 function Geodesics:distance(sources)
   local out = ffi.new('double[?]', self.vertex_count)
@@ -30,10 +28,7 @@ end
 
 local Direction = class('Direction', function(raw) C.hf_direction_destroy(raw) end)
 function hf.Direction(surface, options)
-  local desc = options_into(make('hf_direction_desc'), options, set('degree site_limit'))
-  return create(Direction, 'hf_direction',
-    { vertex_count = raw_of(surface, 'Surface', 'surface') and surface.vertex_count },
-    C.hf_direction_create, surface.raw, desc)
+  return create_on(Direction, 'hf_direction', surface, options, 'degree site_limit', C.hf_direction_create)
 end
 function Direction:clone()
   return create(Direction, 'hf_direction', { vertex_count = self.vertex_count }, C.hf_direction_clone, self.raw)

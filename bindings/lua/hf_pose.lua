@@ -25,11 +25,8 @@ end
 
 local Pose = class('Pose', function(raw) C.hf_pose_destroy(raw) end)
 function hf.Pose(surface, options)
-  local desc = options_into(make('hf_pose_desc'), options,
-    set('mode band_count iteration_count samples_per_ring group_count'))
-  return create(Pose, 'hf_pose', { vertex_count = raw_of(surface, 'Surface', 'surface') and surface.vertex_count },
-    C.hf_pose_create,
-    surface.raw, desc)
+  return core.create_on(Pose, 'hf_pose', surface, options,
+    'mode band_count iteration_count samples_per_ring group_count', C.hf_pose_create)
 end
 function Pose:clone() return create(Pose, 'hf_pose', { vertex_count = self.vertex_count }, C.hf_pose_clone,
   self.raw) end

@@ -72,8 +72,9 @@ HF_API hf_result hf_pose_get_info(hf_pose pose, hf_pose_info* out_info);
 /* The handles to add. Give their regions as vertex lists one after the other, or as points with radii. */
 typedef struct hf_handles_desc {
   uint32_t struct_size;
-  uint32_t handle_count;           /* >= 1 */
-  const uint32_t* region_counts;   /* [handle_count] vertices of each region, >= 1 */
+  uint32_t handle_count;         /* >= 1 */
+  const uint32_t* region_counts; /* [handle_count] vertices of each region, >= 1; repeats are allowed, up to four times
+                                    the vertices of the mesh in all */
   const uint32_t* region_vertices; /* all regions one after the other; vertices as given */
   const double* points; /* [handle_count][3] at rest. The region is the vertex nearest to the point and what */
   const double* radii;  /* is edge-connected to it within [handle_count] radii >= 0 of the point */
@@ -247,7 +248,7 @@ enum {
 
 typedef struct hf_propose_desc {
   uint32_t struct_size;
-  uint32_t joint_count;    /* joints of a skeleton that the mesh has already; 0 = none */
+  uint32_t joint_count;    /* joints of a skeleton that the mesh has already, up to 65,536; 0 = none */
   const double* joints;    /* [joint_count][3] their places at rest, in the unit and frame of the mesh */
   const uint32_t* parents; /* [joint_count] position of each joint's parent in the list; HF_NO_INDEX for a root */
   double up[3];            /* direction away from the ground, of any length; 0 0 0 = 0 1 0 */

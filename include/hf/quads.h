@@ -27,7 +27,7 @@ enum {
 typedef struct hf_quads_desc {
   uint32_t struct_size;
   int32_t kind;                  /* HF_QUADS_* */
-  float edge_length;             /* wanted length, in the unit of the mesh; 0 = 0.022 of the box diagonal */
+  float edge_length;             /* wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it */
   uint32_t site_count;           /* 0 = sites are proposed: tips, and points far from them */
   const uint32_t* site_vertices; /* [site_count] as given; where lines start or end. Borders are sites of their own */
   const int32_t* site_lines;     /* NULL = chosen, or [site_count]: how many lines end (> 0) or start (< 0) there. Every
@@ -124,7 +124,7 @@ typedef struct hf_flow_lines {
   uint32_t struct_size;
   uint32_t
       wanted_count; /* in: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds */
-  uint32_t seed_count;                    /* in: lines through chosen vertices instead; 0 = none */
+  uint32_t seed_count;                    /* in: lines through chosen vertices instead, up to 1,000,000; 0 = none */
   uint32_t point_capacity, line_capacity; /* in */
   uint32_t point_count, line_count;       /* out */
   uint32_t reserved;                      /* 0 */

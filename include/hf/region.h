@@ -53,7 +53,7 @@ enum {
  * border of the surface is a curve too; it has only one side. */
 typedef struct hf_curve_desc {
   uint32_t struct_size;
-  uint32_t point_count;
+  uint32_t point_count;       /* 3 to the number of vertices of the mesh */
   const uint32_t* vertices;   /* [point_count] vertices as given, or NULL */
   const uint32_t* triangles;  /* [point_count] triangles (or faces of three corners) as given, or NULL */
   const double* barycentrics; /* [point_count][3] with triangles or corners: weights of the corners, >= 0, of sum 1

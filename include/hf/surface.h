@@ -75,7 +75,7 @@ enum {
 typedef struct hf_link {
   uint32_t vertex;        /* as given, of welded copies the first */
   uint32_t corners[3];    /* the triangle; a corner of barycentric 0 is ignored and can be HF_NO_INDEX */
-  double barycentrics[3]; /* >= 0, of sum 1. 1, 0, 0 links two vertices */
+  double barycentrics[3]; /* >= 0, of sum 1 within 1e-3. 1, 0, 0 links two vertices */
   double length;          /* out: at rest, in the unit of the positions. Ignored when read */
   float weight;           /* 1: as strong as an edge between two equilateral triangles; > 0 */
   int32_t in_tree;        /* out: 1 if the tree over the pieces has it. Ignored when read */

@@ -37,8 +37,8 @@ typedef struct hf_transfer_desc {
   int32_t mode;           /* HF_TRANSFER_* */
   uint32_t cluster_count; /* 1 to 512; 0 = 80 */
   float kernel_width;     /* width of a cluster, in field values, 0.005 to 0.5; 0 = 0.04 */
-  float scale; /* lengths of the target over those of the source; 0 = from the legs, or from the boxes when no
-                  pair is a foot */
+  float scale; /* lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when
+                  no pair is a foot */
   float
       alignment_angle;  /* rest directions that differ by more are aligned, radians; 0 = 40 degrees; negative = never */
   float source_axes[9]; /* rows right, up, forward of the source; all zero = x, y, z (glTF: up +y, forward +z) */
@@ -57,7 +57,8 @@ HF_API void hf_transfer_destroy(hf_transfer transfer);
 typedef struct hf_pairs_desc {
   uint32_t struct_size;
   uint32_t pair_count;             /* >= 1 */
-  const uint32_t* source_counts;   /* [pair_count] vertices of each region, >= 1 */
+  const uint32_t* source_counts;   /* [pair_count] vertices of each region, >= 1; repeats are allowed, up to four times
+                                      the vertices of the mesh in all */
   const uint32_t* source_vertices; /* all regions one after the other; vertices as given, up to 4 entries per vertex */
   const uint32_t* target_counts;   /* [pair_count] */
   const uint32_t* target_vertices;

@@ -19,7 +19,7 @@ typedef struct hf_weights_object* hf_weights;
 /* The bones of a skeleton, in the unit and frame of the mesh. */
 typedef struct hf_bones_desc {
   uint32_t struct_size;
-  uint32_t bone_count; /* >= 1 */
+  uint32_t bone_count; /* 1 to 1,048,576 */
   const double* heads; /* [bone_count][3] */
   const double* tails; /* [bone_count][3], or NULL: heads are joints, and the library finds the tails */
   const double* axes;  /* [bone_count][3] with tails NULL: where each bone points, any length, 0 for unknown; or NULL.

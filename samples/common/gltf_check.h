@@ -1,12 +1,15 @@
 // Inner header of gltf_read.cpp: everything that can be checked about a glTF file before tinygltf sees it.
 //
-// open_container() takes a file apart (GLB header and chunks, or plain text), bounds the JSON text and parses it.
-// check_document() checks the tree: types, counts, every index, every byte range of buffer views and accessors (sparse
-// ones too) in 64-bit arithmetic that cannot overflow because every operand is bounded first, the node graph (one
-// parent, no cycle, bounded depth), required extensions. Extras and extensions are taken out and carried past the
-// parser. What is not used is removed, so that the text handed on holds nothing unchecked but the materials' own
-// values. Compressed views and primitives are checked here (gltf_check_compressed.cpp) and decoded by
-// gltf_decompress.cpp.
+// open_container() takes a file apart: a GLB header with chunks, or plain text. It bounds the JSON text and parses it.
+// check_document() checks the tree:
+// - types, counts and every index;
+// - every byte range of buffer views and accessors, sparse ones too. All operands are bounded first, so the 64-bit
+//   arithmetic cannot overflow;
+// - the node graph: one parent, no cycle, bounded depth;
+// - required extensions.
+// Extras and extensions are taken out and carried past the parser. Unused entries are removed. So the text that is
+// handed on holds nothing unchecked but the materials' own values. Compressed views and primitives are checked here
+// (gltf_check_compressed.cpp) and decoded by gltf_decompress.cpp.
 //
 // Cost: linear in the text. Failure: std::runtime_error naming file and element.
 #ifndef HF_SAMPLES_COMMON_GLTF_CHECK_H

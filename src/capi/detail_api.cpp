@@ -1,9 +1,7 @@
 // Implements the part of hf/region.h that carries detail to another region.
-#include <cmath>
-
 #include "capi/morph_out.h"
 #include "capi/region_object.h"
-#include "detail/carried_detail.h"
+#include "detail/intake.h"
 
 namespace hf_inner::capi {
 namespace {
@@ -30,23 +28,11 @@ hf_result hf_detail_create(hf_region source_handle, hf_region target_handle, con
     const auto source = get<RegionObject>(source_handle, "source");
     const auto target = get<RegionObject>(target_handle, "target");
     const hf_detail_desc desc = read_optional(given, "desc");
-    if (!std::isfinite(desc.scale)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "scale is not finite");
-    if (desc.scale < 0)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it must be above 0, or 0", desc.scale);
     const Reading reading_source(*source), reading_target(*target);
-    Memory* const memory = target->memory.get();
-    Vector<std::int32_t> source_pins(memory), target_pins(memory);
-    if (desc.pair_count) {
-      read_list(source->region.core().mesh, desc.pair_count, desc.source_vertices, "pair_count", "source_vertices",
-                source_pins);
-      read_list(target->region.core().mesh, desc.pair_count, desc.target_vertices, "pair_count", "target_vertices",
-                target_pins);
-    }
-    CarryOptions options;
-    options.source_pins = source_pins, options.target_pins = target_pins, options.scale = desc.scale;
+    const CarryInput input = read_carry(source->region, target->region, desc);
     return with_progress(desc.progress, [&] {
-      return make_owner_in<DetailObject>(target->memory,
-                                         carry_detail(source->region, target->region, options, *memory));
+      return make_owner_in<DetailObject>(
+          target->memory, carry_detail(source->region, target->region, input.options(), *target->memory));
     });
   });
 }

@@ -1,8 +1,4 @@
 // Implements hf/direction.h: direction fields.
-#include <algorithm>
-#include <cmath>
-
-#include "capi/boundary.h"
 #include "capi/objects.h"
 #include "capi/unreached.h"
 #include "capi/vertex_writer.h"
@@ -14,20 +10,15 @@ namespace {
 
 struct DirectionObject final : Object {
   static constexpr Kind kind_of = Kind::direction;
-  DirectionObject(const std::shared_ptr<const Core>& core, std::uint32_t given_degree, std::uint32_t limit)
-      : Object(kind_of),
-        degree(given_degree),
-        site_limit(limit),
-        memory(core->memory),
-        field(core, static_cast<std::int32_t>(given_degree), limit) {}
+  DirectionObject(const std::shared_ptr<const Core>& core, std::int32_t degree, std::uint32_t limit)
+      : Object(kind_of), site_limit(limit), memory(core->memory), field(core, degree, limit) {}
   DirectionObject(const DirectionObject& other)
       : Object(kind_of),
-        degree(other.degree),
         site_limit(other.site_limit),
         memory(other.memory),
         field(other.field),
         site_count(other.field.count()) {}
-  const std::uint32_t degree, site_limit;
+  const std::uint32_t site_limit;
   std::shared_ptr<Memory> memory;  // outlives everything below
   DirectionField field;
   std::atomic<std::uint32_t> site_count{0};  // number of constraints after the last finished change
@@ -70,23 +61,6 @@ void solve(hf_direction handle, float* f32, double* f64, std::uint32_t stride, h
     write_struct(out_info, unreached_by(*core.geometry, [&](std::int32_t c) { return solver.constraint_count(c); }));
 }
 
-// Adds up the singularities of the triangles that one face is cut into. Those of a surface of triangles stay.
-Vector<Singularity> by_face(const Mesh& mesh, Vector<Singularity> found) {
-  if (mesh.faces.empty()) return found;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const bool same =
-        count > 0 && mesh.given_of_triangle(found[count - 1].triangle) == mesh.given_of_triangle(found[i].triangle);
-    if (same)
-      found[count - 1].index += found[i].index;
-    else
-      found[count++] = found[i];
-    if (found[count - 1].index == 0) --count;
-  }
-  found.resize(count);
-  return found;
-}
-
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -99,12 +73,9 @@ hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* given
   return create("hf_direction_create", out_direction, "out_direction", [&] {
     const std::shared_ptr<const Core> core = unlinked_core(surface, "a direction field");
     const hf_direction_desc desc = read_optional(given, "desc");
-    if (desc.degree != 0 && desc.degree != 1 && desc.degree != 2 && desc.degree != 4)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "degree is %u; it must be 1, 2 or 4", desc.degree);
-    require_zero(desc.reserved);
+    const std::int32_t degree = read_degree(desc);
     return with_progress(desc.progress, [&] {
-      auto made = make_owner_in<DirectionObject>(core->memory, core, desc.degree ? desc.degree : 1u,
-                                                 desc.site_limit ? desc.site_limit : default_site_limit);
+      auto made = make_owner_in<DirectionObject>(core->memory, core, degree, read_site_limit(desc.site_limit));
       report(1);
       return made;
     });
@@ -201,7 +172,7 @@ hf_result hf_direction_get_singularities(hf_direction handle, uint32_t capacity,
     require_either(out_singularities, out_count, "out_singularities and out_count");
     const Reading reading(*direction);
     const Mesh& mesh = direction->field.solver().core().mesh;
-    const Vector<Singularity> found = by_face(mesh, direction->field.singularities());
+    const Vector<Singularity> found = direction->field.singularities();
     write_count(out_count, found.size());
     check_capacity(out_singularities, capacity, found.size(), "capacity");
     if (!out_singularities) return;
@@ -226,7 +197,7 @@ hf_result hf_direction_get_statistics(hf_direction handle, hf_direction_statisti
     statistics.path_solve_count = counters.path_solves;
     statistics.sweep_count = counters.sweeps;
     statistics.irregular_vertex_count = solver.connection().irregular_count;
-    statistics.degree = direction->degree, statistics.site_limit = direction->site_limit;
+    statistics.degree = static_cast<std::uint32_t>(solver.degree()), statistics.site_limit = direction->site_limit;
     statistics.eliminated_count = static_cast<std::uint32_t>(solver.eliminated_count());
     statistics.operator_ms = solver.operator_ms();
     statistics.numeric_ms = solver.statistics().numeric_ms;

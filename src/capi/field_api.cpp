@@ -1,22 +1,18 @@
 // Implements the part of hf/solver.h for fields, previews and certificates.
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
-#include "capi/boundary.h"
 #include "capi/objects.h"
 #include "capi/unreached.h"
-#include "capi/vertex_lists.h"
 #include "capi/vertex_writer.h"
 #include "field/certificate.h"
 #include "field/vector_field.h"
 #include "field/vector_sites.h"
 #include "hf/solver.h"
+#include "mesh/vertex_lists.h"
 
 namespace hf_inner::capi {
 namespace {
-
-constexpr std::uint32_t most_corrections = 8;  // corrections of a preview; two are enough for a well-posed system
 
 hf_solve_info unreached(const SolverObject& solver) {
   const SiteSolver& engine = solver.field.engine();
@@ -61,15 +57,13 @@ void solve_preview(hf_solver handle, float* f32, double* f64, std::uint32_t valu
   const auto solver = get<SolverObject>(handle, "solver");
   require(f32 ? static_cast<const void*>(f32) : f64, "out_values");
   if (out_info) check_struct(out_info, "out_info");
-  if (correction_count > most_corrections)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "correction_count is %u; it must be 0 to %u", correction_count,
-         most_corrections);
+  const std::int32_t corrections = read_correction_count(correction_count);
   const Reading reading(*solver);
   const Core& core = solver->field.core();
   const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
   const Rows out = rows_of(f32, f64, m, value_stride, "value_stride");
   Workspace field(core.workspaces, static_cast<std::size_t>(core.size()) * m);
-  const PreviewInfo found = solver->field.solve_preview(static_cast<std::int32_t>(correction_count), field.data());
+  const PreviewInfo found = solver->field.solve_preview(corrections, field.data());
   write_vertices(core, m, out, nullptr,
                  [&](std::size_t v, double* values) { std::copy_n(field.data() + v * m, m, values); });
   if (!out_info) return;

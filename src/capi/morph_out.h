@@ -1,9 +1,6 @@
 // Writes positions and normals of a morphed region to the arrays of hf_morph_desc.
 #pragma once
-#include <cmath>
-
 #include "capi/boundary.h"
-#include "capi/vertex_lists.h"
 #include "capi/vertex_writer.h"
 #include "detail/morph.h"
 #include "hf/region.h"
@@ -18,7 +15,7 @@ inline MorphOut read_morph(const hf_morph_desc* given) {
   const hf_morph_desc desc = read_struct(given, "desc");
   require_zero(desc.reserved);
   const PointsOut out = read_points_out(desc);
-  if (!std::isfinite(desc.weight)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "weight is not finite");
+  check_finite(desc.weight, "weight");
   return {out, desc.weight};
 }
 

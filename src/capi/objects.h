@@ -7,7 +7,7 @@
 #include "capi/boundary.h"
 #include "capi/handle_table.h"
 #include "engine/surface.h"
-#include "field/scalar_field.h"
+#include "field/intake.h"
 #include "hf/surface.h"
 #include "mesh/places.h"
 
@@ -69,13 +69,12 @@ inline std::shared_ptr<const Core> unlinked_core(hf_surface handle, const char* 
 
 struct SolverObject final : Object {
   static constexpr Kind kind_of = Kind::solver;
-  SolverObject(std::shared_ptr<const Core> core, EngineKind engine, double given_penalty, std::uint32_t channels,
-               std::uint32_t limit)
+  SolverObject(std::shared_ptr<const Core> core, const SolverOptions& options)
       : Object(kind_of),
-        site_limit(limit),
-        penalty(given_penalty),
+        site_limit(options.site_limit),
+        penalty(options.penalty),
         memory(core->memory),
-        field(std::move(core), engine, given_penalty, static_cast<std::int32_t>(channels), limit) {}
+        field(std::move(core), options.engine, penalty, options.channels, site_limit) {}
   SolverObject(const SolverObject& other)
       : Object(kind_of),
         site_limit(other.site_limit),
@@ -112,26 +111,6 @@ template <class T, class Handle>
 std::uint32_t count_at(Handle handle, const std::atomic<std::uint32_t> T::*count) {
   const std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(handle), T::kind_of);
   return object ? (static_cast<const T&>(*object).*count).load() : 0;
-}
-
-// Most sites of a solver or a direction field unless the caller says so: bounds the memory of a runaway host.
-constexpr std::uint32_t default_site_limit = 100000;
-
-inline std::uint32_t given_vertex(const Mesh& mesh, std::int32_t inner) noexcept {
-  return inner == Mesh::none ? HF_NO_INDEX
-                             : static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(inner)]);
-}
-
-// The triangle or face as given of every inner triangle.
-inline Vector<std::uint32_t> given_triangles(const Mesh& mesh, Memory& memory) {
-  Vector<std::uint32_t> given(static_cast<std::size_t>(mesh.triangle_count()), HF_NO_INDEX, &memory);
-  for (std::size_t t = 0; mesh.faces.empty() && t < mesh.triangle_of_given.size(); ++t) {
-    if (mesh.triangle_of_given[t] != Mesh::none)
-      given[static_cast<std::size_t>(mesh.triangle_of_given[t])] = static_cast<std::uint32_t>(t);
-  }
-  for (std::size_t t = 0; !mesh.faces.empty() && t < given.size(); ++t)
-    given[t] = mesh.given_of_triangle(static_cast<std::int32_t>(t));
-  return given;
 }
 
 }  // namespace hf_inner::capi

@@ -1,16 +1,11 @@
 // Implements hf/pose.h: poses.
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 
-#include "base/error.h"
-#include "capi/boundary.h"
 #include "capi/objects.h"
 #include "capi/skin_out.h"
-#include "capi/vertex_lists.h"
 #include "capi/vertex_writer.h"
-#include "deform/constants.h"
-#include "deform/pose_stack.h"
+#include "deform/intake.h"
 #include "deform/skin.h"
 #include "hf/pose.h"
 
@@ -25,15 +20,8 @@ struct PoseObject final : Object {
       : Object(kind_of),
         memory(std::move(owner)),
         pose(std::move(given)),
-        keeps_order(is_identity(pose->core().mesh)),
+        keeps_order(keeps_vertices(pose->core().mesh)),
         handle_count(pose->handle_count()) {}
-  static bool is_identity(const Mesh& mesh) {
-    if (mesh.report.vertex_count != static_cast<std::uint32_t>(mesh.vertex_count())) return false;
-    for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
-      if (mesh.inner_of_given[v] != static_cast<std::int32_t>(v)) return false;
-    }
-    return true;
-  }
   std::shared_ptr<Memory> memory;  // outlives the pose
   std::shared_ptr<PoseStack> pose;
   bool keeps_order;  // the library's vertices are the caller's: none welded, none isolated
@@ -46,62 +34,14 @@ std::shared_ptr<PoseObject> make_object(std::shared_ptr<PoseStack> pose) {
   return make_owner_in<PoseObject>(memory, memory, std::move(pose));
 }
 
-// The range of vertices that hf_pose_deform writes.
-struct Range {
-  std::uint32_t first, count;
-  bool whole;
-};
-
-Range read_range(const hf_deform_desc& desc, std::uint32_t vertex_count) {
-  if (desc.first_vertex > vertex_count || desc.vertex_count > vertex_count - desc.first_vertex)
-    fail(HF_ERROR_OUT_OF_RANGE, HF_NO_INDEX, "vertices %u to %llu are asked for; the mesh has %u", desc.first_vertex,
-         static_cast<unsigned long long>(desc.first_vertex) + desc.vertex_count, vertex_count);
-  const std::uint32_t count = desc.vertex_count ? desc.vertex_count : vertex_count - desc.first_vertex;
-  return {desc.first_vertex, count, count == vertex_count};
-}
-
 void add_handles(hf_pose handle, const hf_handles_desc& desc, std::uint32_t* out_handles) {
   const auto pose = get<PoseObject>(handle, "pose");
-  check_region_count(0, desc.handle_count, "handle");  // before lists of that length are read
-  require_zero(desc.reserved);
-  const bool near = desc.points || desc.radii;
-  if (near) {
-    if (desc.region_counts || desc.region_vertices)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "regions and points are both set; set one");
-    require(desc.points, "points"), require(desc.radii, "radii");
-  } else {
-    require(desc.region_counts, "region_counts"), require(desc.region_vertices, "region_vertices");
-  }
   const Changing changing(*pose);
-  const Mesh& mesh = pose->pose->core().mesh;
-  Vector<std::uint32_t> start(pose->memory.get());
-  Vector<std::int32_t> vertices(pose->memory.get());
-  if (near) {
-    const std::size_t count = desc.handle_count;
-    regions_near(pose->pose->core(), {desc.points, 3 * count}, {desc.radii, count}, start, vertices);
-  } else {
-    append_starts(desc.handle_count, desc.region_counts, mesh.report.vertex_count, start);
-    append_inner(mesh, start.back(), desc.region_vertices, "region_vertices", vertices);
-  }
+  const HandleInput input = read_handles(pose->pose->core(), desc, *pose->memory);
   Vector<std::uint32_t> numbers(desc.handle_count, pose->memory.get());
-  try {
-    with_progress(desc.progress, [&] { pose->pose->add_handles(start, vertices, desc.layer, numbers); });
-  } catch (const Error& error) {
-    if (!near || error.code() != HF_ERROR_OVERLAP) throw;
-    const std::uint32_t r =
-        static_cast<std::uint32_t>(std::upper_bound(start.begin(), start.end(), error.index()) - start.begin() - 1);
-    fail(HF_ERROR_OVERLAP, r, "the region of point %u overlaps another handle; make its radius smaller", r);
-  }
+  with_progress(desc.progress, [&] { add_handles(*pose->pose, input, numbers); });
   pose->handle_count = pose->pose->handle_count();
   if (out_handles) std::copy(numbers.begin(), numbers.end(), out_handles);
-}
-
-HandleTransform transform_of(const hf_transform& given) noexcept {
-  HandleTransform out;
-  const double* q = given.rotation;
-  out.rotation = {{q[0], q[1], q[2]}, q[3]};
-  out.translation = {given.translation[0], given.translation[1], given.translation[2]};
-  return out;
 }
 
 // read(stack, i) returns the transform of handle i of the list.
@@ -118,18 +58,37 @@ void place_handles(hf_pose handle, std::uint32_t count, const std::uint32_t* han
   pose->pose->set_transforms({handles, count}, {placed, count});
 }
 
+// Writes the vertices of `range` to the arrays of the desc. straight_normals: the pose has written the normals.
+void write_deformed(const PoseObject& object, const VertexRange& range, const hf_deform_desc& desc, bool surface,
+                    bool straight_normals, const DeformReport& report) {
+  const Core& core = object.pose->core();
+  const PointsOut out = read_points_out(desc);
+  if (!range.whole) {
+    const auto put_position = [&](std::size_t v, double* values) {
+      put(surface ? report.positions[v] : object.pose->base().blended(static_cast<std::int32_t>(v)), values);
+    };
+    const auto put_normal = [&](std::size_t v, double* values) { put(to_vec3(report.normals[v]), values); };
+    if (out.positions) write_range(core, range.first, range.count, 3, out.positions, put_rest, put_position);
+    if (out.normals) write_range(core, range.first, range.count, 3, out.normals, put_up, put_normal);
+    return;
+  }
+  const auto write = [&](const auto& points, auto* to, std::uint32_t stride, IsolatedRow isolated) {
+    write_points(core, object.keeps_order, points, to, stride ? stride : 3 * sizeof *to, isolated);
+  };
+  if (desc.positions && !report.packed_positions)
+    write(report.positions, desc.positions, desc.position_stride, put_rest);
+  if (desc.positions_f64) write(report.positions, desc.positions_f64, desc.position_stride, put_rest);
+  if (desc.normals && !straight_normals) write(report.normals, desc.normals, desc.normal_stride, put_up);
+}
+
 void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info) {
   const auto pose = get<PoseObject>(handle, "pose");
   if (out_info) check_struct(out_info, "out_info");
-  check_flag(desc.restart, "restart"), check_flag(desc.refine, "refine");
-  const PointsOut out = read_points_out(desc);
-  DeformRequest request;
-  request.normals = desc.normals != nullptr;
-  request.iteration_count = desc.iteration_count;
-  request.restart = desc.restart != 0, request.refine = desc.refine == 1;
+  DeformRequest request = read_request(desc);
+  read_points_out(desc);
   const Changing changing(*pose);
   const Core& core = pose->pose->core();
-  const Range range = read_range(desc, core.mesh.report.vertex_count);
+  const VertexRange range = read_range(desc, core.mesh.report.vertex_count);
   request.surface = range.whole || request.normals || request.refine || pose->pose->has_layers();
   // The library's and the caller's vertices have the same order.
   const bool straight = range.whole && pose->keeps_order;
@@ -138,24 +97,7 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   const bool straight_normals = straight && desc.normals && packed(desc.normal_stride);
   if (straight_normals) request.packed_normals = reinterpret_cast<Normal*>(desc.normals);
   const DeformReport report = pose->pose->deform(request);
-  const auto put_position = [&](std::size_t v, double* values) {
-    put(request.surface ? report.positions[v] : pose->pose->base().blended(static_cast<std::int32_t>(v)), values);
-  };
-  const auto put_normal = [&](std::size_t v, double* values) { put(to_vec3(report.normals[v]), values); };
-  if (range.whole) {
-    if (desc.positions && !report.packed_positions)
-      write_points(core, pose->keeps_order, report.positions, desc.positions,
-                   stride_of(desc.position_stride, 3 * sizeof(float), "position_stride"), put_rest);
-    if (desc.positions_f64)
-      write_points(core, pose->keeps_order, report.positions, desc.positions_f64,
-                   stride_of(desc.position_stride, 3 * sizeof(double), "position_stride"), put_rest);
-    if (desc.normals && !straight_normals)
-      write_points(core, pose->keeps_order, report.normals, desc.normals,
-                   stride_of(desc.normal_stride, 3 * sizeof(float), "normal_stride"), put_up);
-  } else {
-    if (out.positions) write_range(core, range.first, range.count, 3, out.positions, put_rest, put_position);
-    if (out.normals) write_range(core, range.first, range.count, 3, out.normals, put_up, put_normal);
-  }
+  write_deformed(*pose, range, desc, request.surface, straight_normals, report);
   if (!out_info) return;
   hf_deform_info info{};
   info.iteration_count = report.iteration_count, info.cluster_count = report.cluster_count;
@@ -243,14 +185,14 @@ hf_result hf_pose_set_transforms(hf_pose pose, uint32_t handle_count, const uint
                                  const hf_transform* transforms) {
   return guarded("hf_pose_set_transforms", [&] {
     place_handles(pose, handle_count, handles, transforms, "transforms",
-                  [&](const PoseStack&, std::uint32_t i) { return transform_of(transforms[i]); });
+                  [&](const PoseStack&, std::uint32_t i) { return read_transform(transforms[i]); });
   });
 }
 
 hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_transform* transform) {
   return guarded("hf_pose_set_transform", [&] {
     place_handles(pose, 1, &handle, transform, "transform",
-                  [&](const PoseStack&, std::uint32_t) { return transform_of(*transform); });
+                  [&](const PoseStack&, std::uint32_t) { return read_transform(*transform); });
   });
 }
 

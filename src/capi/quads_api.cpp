@@ -1,13 +1,9 @@
 // Implements hf/quads.h: quad meshes and flow lines.
-#include <cmath>
-
-#include "capi/boundary.h"
 #include "capi/objects.h"
 #include "capi/quads_out.h"
-#include "capi/scalars.h"
-#include "capi/vertex_lists.h"
+#include "field/scalars.h"
 #include "hf/quads.h"
-#include "remesh/constants.h"
+#include "remesh/intake.h"
 
 namespace hf_inner::capi {
 namespace {
@@ -29,61 +25,6 @@ struct FlowObject final : Object {
   FlowTracer tracer;
 };
 
-// Bounds of options, which hf/quads.h states. They refuse mistakes; no result depends on them.
-constexpr std::uint32_t most_rounds = 1000, most_flow_lines = 1000000;
-constexpr std::int32_t most_site_lines = 100000;
-constexpr double least_length = 1e-4, most_length = 1.0;  // edge lengths, as shares of the box diagonal
-
-// The edge length in box diagonals.
-double read_edge_length(const Mesh& mesh, float given) {
-  const double length = static_cast<double>(given);
-  if (!std::isfinite(length)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "edge_length is not finite");
-  if (length == 0) return default_edge_length;
-  const double share = length / mesh.scale;
-  if (share < least_length || share > most_length)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; on this mesh it must be %g to %g, or 0", length,
-         least_length * mesh.scale, most_length * mesh.scale);
-  return share;
-}
-
-void read_sites(const Core& core, const hf_quads_desc& desc, Vector<FluxSite>& sites) {
-  if (desc.site_count == 0) {
-    if (desc.site_vertices || desc.site_lines)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "site_count is 0, but arrays of sites are given");
-    return;
-  }
-  Vector<std::int32_t> inner(core.memory.get());
-  read_list(core.mesh, desc.site_count, desc.site_vertices, "site_count", "site_vertices", inner);
-  Vector<std::uint8_t> taken(static_cast<std::size_t>(core.size()), std::uint8_t{0}, core.memory.get());
-  for (std::uint32_t i = 0; i < desc.site_count; ++i) {
-    if (taken[static_cast<std::size_t>(inner[i])]++)
-      fail(HF_ERROR_DUPLICATE_SITE, i, "entry %u of site_vertices: vertex %u is named twice", i, desc.site_vertices[i]);
-    const std::int32_t lines = desc.site_lines ? desc.site_lines[i] : 0;
-    if (desc.site_lines && (lines == 0 || lines > most_site_lines || lines < -most_site_lines))
-      fail(HF_ERROR_INVALID_ARGUMENT, i, "site_lines[%u] is %d; it must be -%d to %d and not 0", i, lines,
-           most_site_lines, most_site_lines);
-    sites.push_back({inner[i], static_cast<double>(lines)});
-  }
-}
-
-// sites: what options.sites refers to.
-QuadOptions read_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc, Vector<FluxSite>& sites) {
-  check_choice(desc.kind, 2, "kind");
-  check_flag(desc.keep_polygons, "keep_polygons");
-  if (desc.relax_count > most_rounds && desc.relax_count != HF_NO_INDEX)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX",
-         desc.relax_count, most_rounds);
-  QuadOptions options;
-  options.edge_length = read_edge_length(core->mesh, desc.edge_length);
-  options.uniform = desc.kind == HF_QUADS_UNIFORM, options.split = desc.keep_polygons == 0;
-  if (desc.relax_count)
-    options.relax = desc.relax_count == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(desc.relax_count);
-  read_sites(*core, desc, sites);
-  options.sites = sites, options.automatic = sites.empty(), options.scale_lines = !desc.site_lines;
-  options.core = std::move(core);
-  return options;
-}
-
 hf_quads_info info_of(const QuadsObject& object) {
   const QuadResult& result = object.result;
   hf_quads_info info{};
@@ -100,22 +41,6 @@ hf_quads_info info_of(const QuadsObject& object) {
   return info;
 }
 
-void check_flow_counts(const hf_flow_lines& lines) {
-  if (lines.seed_count > most_flow_lines)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "seed_count is %u; it must be up to %u", lines.seed_count,
-         most_flow_lines);
-  if (lines.seed_count == 0 && (lines.wanted_count < 1 || lines.wanted_count > most_flow_lines))
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "wanted_count is %u; it must be 1 to %u", lines.wanted_count,
-         most_flow_lines);
-}
-
-void check_values(const Mesh& mesh, Span<const double> field) {
-  for (std::size_t v = 0; v < field.size(); ++v) {
-    const std::uint32_t given = given_vertex(mesh, static_cast<std::int32_t>(v));
-    if (std::isnan(field[v])) fail(HF_ERROR_NON_FINITE, given, "the value of vertex %u is NaN", given);
-  }
-}
-
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -129,7 +54,7 @@ hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quad
     const std::shared_ptr<const Core> core = unlinked_core(handle, "quads");
     const hf_quads_desc desc = read_optional(given, "desc");
     Vector<FluxSite> sites(core->memory.get());
-    QuadOptions options = read_options(core, desc, sites);
+    const QuadOptions options = read_quad_options(core, desc, sites);
     return with_progress(desc.progress, [&] {
       return make_owner_in<QuadsObject>(core->memory, core, make_quads(options),
                                         options.edge_length * core->mesh.scale);
@@ -181,25 +106,18 @@ hf_result hf_flow_trace(hf_flow handle, const hf_scalars* given, hf_flow_lines* 
     const auto object = get<FlowObject>(handle, "flow");
     hf_flow_lines out = read_struct(inout_lines, "inout_lines");
     require_zero(out.reserved);
-    check_flow_counts(out);
     const Reading reading(*object);
     const Core& core = object->tracer.core();
-    const Mesh& mesh = core.mesh;
-    Vector<std::int32_t> seeds(core.memory.get());
-    if (out.seed_count) {
-      require(out.seeds, "inout_lines->seeds");
-      append_usable(mesh, out.seed_count, out.seeds, "seeds", seeds);
-    }
-    const Vector<double> field = read_scalars(*core.geometry, given);
-    check_values(mesh, field);
+    const Vector<std::int32_t> seeds = read_seeds(core.mesh, out, *core.memory);
+    const Vector<double> field = read_scalars(*core.geometry, read_struct(given, "field"));
+    require_values(core.mesh, field);
     const FlowLineSet lines = object->tracer.trace(field, out.wanted_count, seeds);
-    if (lines.point.size() >= HF_NO_INDEX) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the lines have 2^32 points or more");
     out.point_count = static_cast<std::uint32_t>(lines.point.size());
     out.line_count = static_cast<std::uint32_t>(lines.from.size());
     write_struct(inout_lines, out);
     check_capacity(out.positions || out.values, out.point_capacity, out.point_count, "point_capacity");
     check_capacity(out.line_starts || out.line_ends, out.line_capacity, out.line_count, "line_capacity");
-    write_lines(mesh, lines, out);
+    write_lines(core.mesh, lines, out);
   });
 }
 

@@ -1,43 +1,12 @@
 // Implements hf/region.h: regions.
 #include <algorithm>
-#include <cmath>
 
 #include "capi/morph_out.h"
 #include "capi/region_object.h"
-#include "mesh/places.h"
+#include "detail/intake.h"
 
 namespace hf_inner::capi {
 namespace {
-
-// points: what edit.curve refers to.
-void read_curve(const Mesh& mesh, const hf_curve_desc& curve, Vector<std::int32_t>& points, RegionEdit& edit) {
-  check_choice(curve.side, 3, "side");
-  check_one_place(curve.vertices, curve.triangles, curve.corners);
-  if (curve.vertices && curve.barycentrics)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and barycentrics are both set; set one");
-  if (!curve.vertices && !curve.triangles && !curve.corners)
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "vertices, triangles and corners are all NULL; set one");
-  if (!curve.vertices) require(curve.barycentrics, "barycentrics");
-  constexpr std::uint32_t least = 3;
-  if (curve.point_count < least)
-    fail(HF_ERROR_EMPTY, curve.point_count, "a closed curve takes %u points or more; %u are given", least,
-         curve.point_count);
-  check_vertex_count(mesh, curve.point_count, "point_count");
-  for (std::uint32_t i = 0; i < curve.point_count; ++i) {
-    if (curve.vertices) {
-      points.push_back(usable_vertex(mesh, curve.vertices[i], i, "vertices"));
-      continue;
-    }
-    const std::size_t first = std::size_t{3} * i;
-    const double* const weights = curve.barycentrics + first;
-    points.push_back(nearest_corner(curve.triangles ? place_in_triangle(mesh, curve.triangles[i], weights, i)
-                                                    : place_between(mesh, curve.corners + first, weights, i)));
-  }
-  require_one_component(mesh, points);
-  edit.curve = points, edit.side = static_cast<CurveSide>(curve.side);
-  if (edit.side == CurveSide::seed)
-    edit.seed = usable_vertex(mesh, curve.seed_vertex, curve.seed_vertex, "seed_vertex");
-}
 
 template <class Work>
 hf_result change(const char* function, hf_region handle, Work&& work) {
@@ -84,17 +53,10 @@ hf_result hf_region_edit(hf_region handle, const hf_region_edit_desc* given) {
     const auto object = get<RegionObject>(handle, "region");
     const hf_region_edit_desc desc = read_struct(given, "edit");
     const Changing changing(*object);
-    const Mesh& mesh = object->region.core().mesh;
-    Memory* const memory = object->memory.get();
-    Vector<std::int32_t> points(memory), remove(memory), add(memory);
-    RegionEdit edit;
-    if (desc.curve)
-      read_curve(object->region.core().geometry->unlinked().mesh, read_struct(desc.curve, "curve"), points, edit);
-    if (desc.remove_count)
-      read_list(mesh, desc.remove_count, desc.remove_vertices, "remove_vertices", "remove_vertices", remove);
-    if (desc.add_count) read_list(mesh, desc.add_count, desc.add_vertices, "add_vertices", "add_vertices", add);
-    edit.rings = desc.ring_count, edit.remove = remove, edit.add = add;
-    with_progress(desc.progress, [&] { object->region.edit(edit); });
+    RegionEditInput input(object->memory.get());
+    if (desc.curve) read_curve(object->region.core(), read_struct(desc.curve, "curve"), input);
+    read_region_lists(object->region.core(), desc, input);
+    with_progress(desc.progress, [&] { object->region.edit(input.edit); });
   });
 }
 

@@ -1,60 +1,14 @@
 // Implements hf/solver.h: solvers and their sites.
 #include <algorithm>
 
-#include "capi/boundary.h"
 #include "capi/objects.h"
 #include "capi/vertex_writer.h"
-#include "engine/updown.h"
+#include "field/intake.h"
 #include "field/vector_sites.h"
 #include "hf/solver.h"
 
 namespace hf_inner::capi {
 namespace {
-
-constexpr std::uint32_t most_channels = most_width;
-constexpr double default_penalty = 1e8;   // weight of hard sites as penalties, as in Xu et al. 2009
-constexpr double largest_penalty = 1e10;  // with more, rounding hides the other terms of the equation
-
-// ---- edits ----
-
-Places read_places(const hf_sites_desc& desc) {
-  if (desc.site_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
-  check_one_place(desc.vertices, desc.triangles, desc.corners);
-  if (!desc.vertices && !desc.triangles && !desc.corners)
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "vertices, triangles and corners are all NULL; set one");
-  if (!desc.vertices && !desc.barycentrics)
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "barycentrics is NULL, but the sites are in triangles");
-  Places places;
-  places.count = desc.site_count, places.vertices = desc.vertices, places.triangles = desc.triangles;
-  places.corners = desc.corners;
-  places.barycentrics = desc.barycentrics, places.radii = desc.radii;
-  return places;
-}
-
-void read_addition(const hf_sites_desc* given, FieldEdit& edit) {
-  const hf_sites_desc desc = read_struct(given, "sites");
-  edit.add = read_places(desc);
-  edit.add_values = desc.values, edit.add_stiffness = desc.stiffness;
-}
-
-void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_desc* to, FieldEdit& edit) {
-  require_list(count, sites, "site_count", "sites");
-  const hf_sites_desc desc = read_struct(to, "to");
-  if (desc.values || desc.stiffness || desc.radii)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "moving keeps values, stiffness and radius: set them to NULL in the desc");
-  edit.move_count = count, edit.move_sites = sites, edit.move_to = read_places(desc);
-  if (edit.move_to.count != count)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
-}
-
-// Refuses counts that no valid list can have, before any list is read and before any allocation depends on them.
-void check_counts(const SolverObject& solver, const FieldEdit& edit) {
-  const std::uint32_t there = solver.field.sites().count();
-  check_site_count(edit.remove_count, there);
-  const std::uint32_t left = there - edit.remove_count;
-  check_site_count(edit.move_count, left), check_site_count(edit.set_count, left);
-}
 
 template <class Work>
 void change(hf_solver handle, Work&& work) {
@@ -71,10 +25,7 @@ hf_result apply(const char* function, hf_solver handle, std::uint32_t* out_sites
     get<SolverObject>(handle, "solver");
     FieldEdit edit;
     read(edit);
-    change(handle, [&](SolverObject& solver) {
-      check_counts(solver, edit);
-      solver.field.edit(edit, out_sites);
-    });
+    change(handle, [&](SolverObject& solver) { solver.field.edit(edit, out_sites); });
   });
 }
 
@@ -100,20 +51,9 @@ hf_result hf_create(hf_surface handle, const hf_solver_desc* given, hf_solver* o
   return create("hf_create", out_solver, "out_solver", [&] {
     const auto surface = get<SurfaceObject>(handle, "surface");
     const hf_solver_desc desc = read_optional(given, "desc");
-    check_choice(desc.field_kind, 3, "field_kind");
-    check_choice(desc.engine, 3, "engine");
-    if (desc.engine == HF_ENGINE_UPDOWN) require_updown();
-    require_zero(desc.reserved);
-    const std::uint32_t channels = count_of(desc.channel_count, 1, 1, most_channels, "channel_count");
-    if (desc.penalty != 0 && !(desc.penalty > 0 && desc.penalty <= largest_penalty))
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0 and at most %g, or 0 for %g",
-           desc.penalty, largest_penalty, default_penalty);
-    const double penalty = desc.penalty > 0 ? desc.penalty : default_penalty;
+    const SolverOptions options = read_solver_options(desc);
     return with_progress(desc.progress, [&] {
-      return make_owner_in<SolverObject>(surface->memory,
-                                         surface->surface.core(static_cast<FieldKind>(desc.field_kind)),
-                                         static_cast<EngineKind>(desc.engine), penalty, channels,
-                                         desc.site_limit ? desc.site_limit : default_site_limit);
+      return make_owner_in<SolverObject>(surface->memory, surface->surface.core(options.field_kind), options);
     });
   });
 }
@@ -140,7 +80,8 @@ hf_result hf_solver_get_info(hf_solver handle, hf_solver_info* out_info) {
 }
 
 hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* out_sites) {
-  return apply("hf_add_sites", solver, out_sites, [&](FieldEdit& edit) { read_addition(sites, edit); });
+  return apply("hf_add_sites", solver, out_sites,
+               [&](FieldEdit& edit) { read_addition(read_struct(sites, "sites"), edit); });
 }
 
 hf_result hf_solver_add_site(hf_solver solver, uint32_t vertex, const double* values, uint32_t* out_site) {
@@ -157,7 +98,7 @@ hf_result hf_remove_sites(hf_solver solver, uint32_t site_count, const uint32_t*
 
 hf_result hf_solver_move_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const hf_sites_desc* to) {
   return apply("hf_solver_move_sites", solver, nullptr,
-               [&](FieldEdit& edit) { read_move(site_count, sites, to, edit); });
+               [&](FieldEdit& edit) { read_move(site_count, sites, read_struct(to, "to"), edit); });
 }
 
 hf_result hf_solver_set_values(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* values) {
@@ -172,10 +113,10 @@ hf_result hf_solver_edit_sites(hf_solver solver, const hf_edit_desc* given, uint
     const hf_edit_desc desc = read_struct(given, "edit");
     if (desc.remove_count) require(desc.remove_sites, "remove_sites");
     edit.remove_count = desc.remove_count, edit.remove_sites = desc.remove_sites;
-    if (desc.move_count) read_move(desc.move_count, desc.move_sites, desc.move_to, edit);
+    if (desc.move_count) read_move(desc.move_count, desc.move_sites, read_struct(desc.move_to, "to"), edit);
     if (desc.set_count) require(desc.set_sites, "set_sites"), require(desc.set_values, "set_values");
     edit.set_count = desc.set_count, edit.set_sites = desc.set_sites, edit.set_values = desc.set_values;
-    if (desc.add) read_addition(desc.add, edit);
+    if (desc.add) read_addition(read_struct(desc.add, "sites"), edit);
   });
 }
 

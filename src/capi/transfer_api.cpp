@@ -1,17 +1,24 @@
 // Implements hf/transfer.h: transfers.
-#include <algorithm>
-
-#include "capi/boundary.h"
 #include "capi/objects.h"
 #include "capi/skin_out.h"
-#include "capi/vertex_lists.h"
 #include "capi/vertex_writer.h"
 #include "deform/normals.h"
 #include "hf/transfer.h"
-#include "transfer/transfer.h"
+#include "transfer/intake.h"
 
 namespace hf_inner::capi {
 namespace {
+
+// What the normals of the target need. It is made at the first frame that asks for normals.
+struct NormalRoom {
+  NormalRoom(const Core& core, Memory& memory)
+      : rest(core, memory),
+        sums(memory, static_cast<std::size_t>(core.size())),
+        normals(memory, static_cast<std::size_t>(core.size())) {}
+  const Rest rest;
+  Buffer<NormalSum> sums;
+  Buffer<Normal> normals;
+};
 
 struct TransferObject final : Object {
   static constexpr Kind kind_of = Kind::transfer;
@@ -26,20 +33,22 @@ struct TransferObject final : Object {
   Transfer transfer;
   OwnedMutex preparing;  // readers that solve the fields of new pairs take turns
   Buffer<Vec3> source_posed, target_posed;
-  // The normals of the target need these members, which are made at the first frame that asks for normals.
-  std::shared_ptr<const Rest> rest;
-  Buffer<NormalSum> normal_sums;
-  Buffer<Normal> normals;
+  std::shared_ptr<NormalRoom> normals;
 };
 
-TransferOptions read_options(const hf_transfer_desc* given) {
-  const hf_transfer_desc desc = read_optional(given, "desc");
-  TransferOptions options;
-  options.mode = desc.mode, options.cluster_count = desc.cluster_count;
-  options.kernel_width = static_cast<double>(desc.kernel_width), options.scale = static_cast<double>(desc.scale);
-  options.alignment_angle = static_cast<double>(desc.alignment_angle);
-  std::copy_n(desc.source_axes, 9, options.source_axes), std::copy_n(desc.target_axes, 9, options.target_axes);
-  return options;
+struct FrameRows {
+  ConstRows posed;
+  Rows positions, normals;
+};
+
+FrameRows read_rows(const hf_transfer_frame& frame) {
+  check_one(frame.source_positions, frame.source_positions_f64, "source_positions");
+  require_either(frame.source_positions, frame.source_positions_f64, "source_positions and source_positions_f64");
+  check_one(frame.target_positions, frame.target_positions_f64, "target_positions");
+  require_zero(frame.reserved);
+  return {rows_of(frame.source_positions, frame.source_positions_f64, 3, frame.source_stride, "source_stride"),
+          rows_of(frame.target_positions, frame.target_positions_f64, 3, frame.target_stride, "target_stride"),
+          rows_of(frame.target_normals, nullptr, 3, frame.normal_stride, "normal_stride")};
 }
 
 }  // namespace
@@ -54,7 +63,7 @@ hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_tran
                              hf_transfer* out_transfer) {
   return create("hf_transfer_create", out_transfer, "out_transfer", [&] {
     get<SurfaceObject>(source, "source", 0), get<SurfaceObject>(target, "target", 1);
-    const TransferOptions options = read_options(desc);
+    const TransferOptions options = read_transfer_options(read_optional(desc, "desc"));
     const auto from = harmonic_core(source, "a transfer", "source", 0),
                to = harmonic_core(target, "a transfer", "target", 1);
     return make_owner_in<TransferObject>(to->memory, from, to, options);
@@ -67,19 +76,9 @@ hf_result hf_transfer_add_pairs(hf_transfer handle, const hf_pairs_desc* given, 
   return guarded("hf_transfer_add_pairs", [&] {
     const auto object = get<TransferObject>(handle, "transfer");
     const hf_pairs_desc desc = read_struct(given, "pairs");
-    check_region_count(0, desc.pair_count, "pair");  // before lists of that length are read
-    require(desc.source_counts, "source_counts"), require(desc.source_vertices, "source_vertices");
-    require(desc.target_counts, "target_counts"), require(desc.target_vertices, "target_vertices");
     const Changing changing(*object);
-    Memory* memory = object->memory.get();
-    const Regions source(object->transfer.source().mesh, desc.pair_count, desc.source_counts, desc.source_vertices,
-                         "source_vertices", memory);
-    const Regions target(object->transfer.target().mesh, desc.pair_count, desc.target_counts, desc.target_vertices,
-                         "target_vertices", memory);
-    Vector<PairInput> pairs(memory);
-    for (std::uint32_t p = 0; p < desc.pair_count; ++p)
-      pairs.push_back({source[p], target[p], desc.flags ? desc.flags[p] : 0});
-    with_progress(desc.progress, [&] { object->transfer.add_pairs(pairs, out_pairs); });
+    const PairsInput input = read_pairs(object->transfer, desc, *object->memory);
+    with_progress(desc.progress, [&] { object->transfer.add_pairs(input.pairs, out_pairs); });
   });
 }
 
@@ -133,49 +132,28 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
   return guarded("hf_transfer_apply", [&] {
     const auto object = get<TransferObject>(handle, "transfer");
     const hf_transfer_frame frame = read_struct(given, "frame");
-    check_one(frame.source_positions, frame.source_positions_f64, "source_positions");
-    require_either(frame.source_positions, frame.source_positions_f64, "source_positions and source_positions_f64");
-    check_one(frame.target_positions, frame.target_positions_f64, "target_positions");
-    const ConstRows posed =
-        rows_of(frame.source_positions, frame.source_positions_f64, 3, frame.source_stride, "source_stride");
-    const Rows positions =
-        rows_of(frame.target_positions, frame.target_positions_f64, 3, frame.target_stride, "target_stride");
-    const Rows normals = rows_of(frame.target_normals, nullptr, 3, frame.normal_stride, "normal_stride");
-    require_zero(frame.reserved);
-    if (frame.hold_count > HF_PAIR_LIMIT)
-      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u holds in a frame; a transfer has at most %d pairs", frame.hold_count,
-           HF_PAIR_LIMIT);
-    if (frame.hold_count > 0) require(frame.hold_pairs, "hold_pairs"), require(frame.hold_positions, "hold_positions");
+    const FrameRows rows = read_rows(frame);
+    PairHold holds[HF_PAIR_LIMIT];
+    const Span<const PairHold> held = read_holds(frame, holds);
     const Changing changing(*object);
     const Mesh& source = object->transfer.source().mesh;
     for (std::size_t v = 0; v < source.given_of_inner.size(); ++v) {
       const std::size_t row = static_cast<std::size_t>(source.given_of_inner[v]);
-      object->source_posed[v] = {posed.get(row, 0), posed.get(row, 1), posed.get(row, 2)};
+      object->source_posed[v] = {rows.posed.get(row, 0), rows.posed.get(row, 1), rows.posed.get(row, 2)};
     }
     const Core& target = object->transfer.target();
-    std::shared_ptr<const Rest> rest = object->rest;
-    Buffer<NormalSum> normal_sums;
-    Buffer<Normal> target_normals;
-    if (normals && !rest) {
-      normal_sums.allocate(*object->memory, static_cast<std::size_t>(target.size()));
-      target_normals.allocate(*object->memory, static_cast<std::size_t>(target.size()));
-      rest = make_shared_in<Rest>(*object->memory, target, *object->memory);
-    }
-    PairHold holds[HF_PAIR_LIMIT];
-    for (std::uint32_t i = 0; i < frame.hold_count; ++i)
-      holds[i] = {frame.hold_pairs[i],
-                  {frame.hold_positions[3 * i], frame.hold_positions[3 * i + 1], frame.hold_positions[3 * i + 2]}};
-    object->transfer.apply(object->source_posed.data(), object->target_posed.data(), {holds, frame.hold_count});
-    if (rest != object->rest)
-      object->rest = rest, object->normal_sums.swap(normal_sums), object->normals.swap(target_normals);
-    if (positions)
-      write_vertices(target, 3, positions, put_rest,
+    std::shared_ptr<NormalRoom> room = object->normals;
+    if (rows.normals && !room) room = make_shared_in<NormalRoom>(*object->memory, target, *object->memory);
+    object->transfer.apply(object->source_posed.data(), object->target_posed.data(), held);
+    object->normals = room;
+    if (rows.positions)
+      write_vertices(target, 3, rows.positions, put_rest,
                      [&](std::size_t v, double* values) { put(object->target_posed[v], values); });
-    if (normals) {
-      vertex_normals(target.mesh, *object->rest, object->target_posed.data(), object->normal_sums.data(),
-                     object->normals.data(), *target.jobs);
-      write_vertices(target, 3, normals, put_up,
-                     [&](std::size_t v, double* values) { put(to_vec3(object->normals[v]), values); });
+    if (rows.normals) {
+      vertex_normals(target.mesh, room->rest, object->target_posed.data(), room->sums.data(), room->normals.data(),
+                     *target.jobs);
+      write_vertices(target, 3, rows.normals, put_up,
+                     [&](std::size_t v, double* values) { put(to_vec3(room->normals[v]), values); });
     }
   });
 }

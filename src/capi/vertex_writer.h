@@ -27,9 +27,6 @@ using IsolatedRow = void (*)(const Mesh::Isolated& entry, double* values);
 inline void put_rest(const Mesh::Isolated& entry, double* values) { put(entry.position, values); }
 inline void put_up(const Mesh::Isolated&, double* values) { put({0, 0, 1}, values); }
 
-// The largest number of channels a row may have; hf/solver.h states it.
-constexpr std::size_t most_width = 64;
-
 // Writes rows of `width` numbers for the caller's vertices first .. first + count - 1. row(inner, values) fills the row
 // of a welded vertex. Row 0 of `out` is the row of vertex `first`.
 template <class Row>
@@ -37,14 +34,14 @@ void write_range(const Core& core, std::size_t first, std::size_t count, std::si
                  IsolatedRow isolated, Row&& row) {
   for_each_given(core, first, count, [&](std::size_t v, std::int32_t inner) {
     if (inner == Mesh::none) return;
-    double values[most_width];
+    double values[most_channels];
     row(static_cast<std::size_t>(inner), values);
     for (std::size_t c = 0; c < width; ++c) out.set(v - first, c, values[c]);
   });
   for (const Mesh::Isolated& entry : core.mesh.isolated) {
     const std::size_t v = static_cast<std::size_t>(entry.given);
     if (v < first || v >= first + count) continue;
-    double values[most_width] = {0};
+    double values[most_channels] = {0};
     if (isolated) isolated(entry, values);
     for (std::size_t c = 0; c < width; ++c) out.set(v - first, c, values[c]);
   }

@@ -85,7 +85,8 @@ constexpr StrainLimits strain_limits[] = {{0.8, 1.24, 4.0, 0.25, 0.0, 0.28}, {0.
 // A group of vertices whose second moment is below this share of its first is a line, and a line has no stress. Halving
 // or doubling it changes no energy or stretch in the benchmark.
 constexpr double thinnest_sheet = 1e-2;
-constexpr double largest_strain = 1e150;  // its square is still a double
+// Its square is still a double.
+constexpr double largest_strain = 1e150;
 
 // ---- subspace.cpp ----
 
@@ -236,11 +237,16 @@ constexpr double least_norm_square = 1e-200, largest_norm_square = 1e200;
 constexpr double least_matrix_square = 1e-300, largest_matrix_square = 1e300;
 // Squared. Below it, the rotation to stay near is orthogonal to all best rotations.
 constexpr double least_near_share = 1e-20;
-// The next three decide how a drag goes on beyond half a turn. At half and at twice each value (the axis also with
-// 1e-10 and 1e-3 radians), the 22 tests of drags and rotations pass alike; no other figure was tried.
-constexpr double principal_turn = 0.9 * 3.14159265358979323846;  // radians: below it, the shortest turn is meant
-constexpr double least_axis_angle = 1e-9;                        // radians: a smaller turn has no axis
-constexpr double farthest_gap2 = 1.0, longest_step2 = 2.25;      // squared radians: beyond the gap, the old axis stays
+// The next four numbers decide how a drag goes on beyond half a turn. At half and at twice each of them, 22 tests of
+// drags and rotations pass alike (for the axis also at 1e-10 and 1e-3). No other figure was tried.
+//
+// Below this angle, in radians, the shortest turn is meant.
+constexpr double principal_turn = 0.9 * 3.14159265358979323846;
+// A smaller turn, in radians, has no axis.
+constexpr double least_axis_angle = 1e-9;
+// The old axis stays if the nearest turn is farther from the expected turn than the gap, and the step is shorter than the
+// second number. Both are squared radians.
+constexpr double farthest_gap2 = 1.0, longest_step2 = 2.25;
 // Below this angle (radians) the first two terms of the sine's series are exact in double.
 constexpr double small_angle = 1e-4;
 // Eigenvalues of a matrix with norm 1 that differ by less count as equal: their rounding error and a margin.
@@ -262,14 +268,21 @@ constexpr double settled_newton_step = 1e-14;
 
 // The next numbers fit the joints of a skin to the posed surface. With stretching joints, the skin of a lifted plane is
 // within 0.2 % of the box, with rigid joints within 2.5 %. Bends and twists come within 0.1 % instead of 0.6 %.
-constexpr double skin_vertices = 20000;  // at most this many vertices fit joints: fewer take less time
-constexpr int skin_rounds = 8;           // rounds, each fits every joint of a skin once
-constexpr int stretch_rounds = 6;        // rounds, each fits a joint's rotation, then its stretch
-constexpr double least_moment = 1e-300;  // guards a division
+//
+// At most this many vertices fit the joints. Fewer take less time.
+constexpr double skin_vertices = 20000;
+// One round fits every joint of a skin once.
+constexpr int skin_rounds = 8;
+// One round fits the rotation of a joint, then its stretch.
+constexpr int stretch_rounds = 6;
+// Guards a division.
+constexpr double least_moment = 1e-300;
 // This share of a joint's second moments (how far its vertices spread along each axis) is added to them. A joint
 // without extent in a direction keeps the scale 1 there.
 constexpr double stretch_ballast = 1e-6;
-constexpr double least_stretch = 1e-3;       // a joint shrinks to this scale at most; keeps scales positive
-constexpr double least_vertex_area = 1e-12;  // as a share of the squared box: vertices without area still count
+// A joint shrinks to this scale at most, so scales stay positive.
+constexpr double least_stretch = 1e-3;
+// Area of a vertex without area, as a share of the squared box, so that it still counts.
+constexpr double least_vertex_area = 1e-12;
 
 }  // namespace hf_inner

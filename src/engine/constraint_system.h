@@ -82,13 +82,19 @@ class ConstraintSystem {
       return row >= 0 ? slot.data() + at(row) * m : freed.data() + at(ConstraintState::base_index(row)) * m;
     }
     const double* of(Index row, std::size_t m) const noexcept { return const_cast<Answer*>(this)->of(row, m); }
-    Vector<double> slot;      // lambda: the flux into each site, by slot
-    Vector<double> freed;     // t: values of eliminated sites that were removed
-    Vector<double> centre;    // mean site value by component: a large common offset must not cost digits
-    Vector<double> constant;  // centre + nu by component; zeros where K does not keep constants
-    Vector<double> nu;        // by pinned unknown, where K does not keep constants
-    Vector<double> total;     // by component: minus the sum of its fluxes, for a refinement; empty: 0
-    Vector<double> x;         // scratch
+    // lambda: the flux into each site, by slot.
+    Vector<double> slot;
+    // t: the values of eliminated sites that were removed.
+    Vector<double> freed;
+    // The mean site value of every component. It is subtracted, so that a large common offset costs no digits.
+    Vector<double> centre;
+    // centre + nu by component. It is zero where K does not keep constants.
+    Vector<double> constant;
+    // By pinned unknown, where K does not keep constants.
+    Vector<double> nu;
+    // By component, for a refinement: minus the sum of its fluxes. Empty stands for zeros.
+    Vector<double> total;
+    Vector<double> x;  // scratch
   };
   // Each of the functions below takes the channels first .. first + count - 1 of values[slot * channels + c].
   //

@@ -23,12 +23,18 @@ struct CoreOptions {
   OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
   FieldKind field_kind = FieldKind::harmonic;
   Ordering ordering = Ordering::nested_dissection;
-  bool need_factor = true;                // the engines updown and refactor keep their own
-  Span<const std::uint8_t> saved_factor;  // not empty: the factor is loaded from these bytes instead of made
-  bool borrow_factor = false;             // reads the numbers of saved_factor in place; they must outlive the core
-  double flop_limit = 0;                  // refuses every factorisation on the core that takes more; 0 = no limit
-  std::int32_t formed_valence = most_formed_valence;  // tests lower it
-  const Core* like = nullptr;             // a core whose ordering is used again where the matrix has its pattern
+  // False for the engines updown and refactor, which keep factors of their own.
+  bool need_factor = true;
+  // If this is not empty, the factor is loaded from these bytes.
+  Span<const std::uint8_t> saved_factor;
+  // Reads the numbers of saved_factor in place. The bytes must then outlive the core.
+  bool borrow_factor = false;
+  // Refuses every factorisation on the core that takes more operations. 0 means no limit.
+  double flop_limit = 0;
+  // See most_formed_valence. Tests lower it.
+  std::int32_t formed_valence = most_formed_valence;
+  // A core whose ordering is used again if the matrix has the same pattern, or null.
+  const Core* like = nullptr;
 };
 
 struct CoreTimes {

@@ -80,12 +80,17 @@ class GreenSolver final : public SiteSolver {
 
 // How a refinement is made, and what it found.
 struct GreenSolver::Step {
-  const PreviewFactor* single = nullptr;  // sweeps in single precision
-  float* scratch = nullptr;               // of these: room for the right-hand sides
-  const double* unit = nullptr;           // of changes, by component and channel; null: 1
-  double* change = nullptr;       // takes the change, in the layout of the field, instead of the field and the answer
-  double* flux_change = nullptr;  // with it: by slot, in the layout of a flux
-  double largest = 0;             // written: the largest change of a value
+  // If it is set, the sweeps run in single precision with this factor, and `scratch` holds their right-hand sides.
+  const PreviewFactor* single = nullptr;
+  float* scratch = nullptr;
+  // The unit in which changes are measured, by component and channel. Null stands for 1.
+  const double* unit = nullptr;
+  // If it is set, the change goes here, in the layout of the field. Field and answer then stay as they are.
+  double* change = nullptr;
+  // Goes with `change`: receives the change of the flux, by slot.
+  double* flux_change = nullptr;
+  // Receives the largest change of a value.
+  double largest = 0;
 };
 
 template <class RowOf>

@@ -14,6 +14,9 @@
 
 namespace hf_inner {
 
+// Channels of one field; hf/solver.h states it. The rows of writers have this width.
+constexpr std::uint32_t most_channels = 64;
+
 enum class EngineKind : std::int32_t { green = 0, updown = 1, refactor = 2 };
 
 struct EngineCounters {

@@ -206,20 +206,6 @@ void check_postorder(const Symbolic& out, Memory& memory) {
   }
 }
 
-void place_values(Symbolic& out, std::uint64_t value_count) {
-  std::int64_t next = 0;
-  for (std::int32_t s = out.supernodes - 1; s >= 0; --s) {
-    const std::int64_t width = out.columns(s), below = out.below(s);
-    out.value_start[s] = next;
-    next += width * (width + 1) / 2 + width * below;
-    double work = 0;
-    for (std::int64_t j = 0; j < width; ++j) work += static_cast<double>((width - j + below) * (width - j + below));
-    out.work[s] = work;
-  }
-  out.stored_entries = static_cast<double>(next);
-  if (next != static_cast<std::int64_t>(value_count)) refuse("its numbers do not fit its supernodes");
-}
-
 // The diagonals are stored inverted; each must be positive.
 void check_diagonals(const Symbolic& symbolic, const double* values, JobRunner& jobs) {
   for_supernodes(symbolic, jobs, [&](std::int32_t s) {
@@ -351,7 +337,8 @@ std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, const 
   check_columns(symbolic);
   check_rows(symbolic, jobs);
   check_postorder(symbolic, memory);
-  place_values(symbolic, header.value_count);
+  if (place_values(symbolic) != static_cast<std::int64_t>(header.value_count))
+    refuse("its numbers do not fit its supernodes");
   check_diagonals(symbolic, values.data(), jobs);
   make_plan(symbolic, memory, analysis->plan);
   analysis->pattern_hash = header.pattern_hash;

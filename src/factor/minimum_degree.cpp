@@ -345,24 +345,40 @@ class QuotientGraph {
 
   Index size_;
   Buffer<Index> lists_, storage_;
-  Index free_ = 0;          // end of the neighbour lists
-  Index left_ = 0;          // unknowns not yet eliminated, without the dense ones
-  Index ordered_ = 0;       // places of the elimination order that are filled
-  Index least_ = 0;         // no variable has a smaller degree
-  Index most_ = 0;          // largest weight of an element so far
-  Index tag_ = 2;           // marks in mark_ from this number on belong to the present step
-  Index pivot_degree_ = 0;  // weight of the pivot's list
-  Index pivot_end_ = 0;     // where that list ended before it was shortened
+  // The end of the neighbour lists in storage.
+  Index free_ = 0;
+  // The unknowns that are not yet eliminated, without the dense ones.
+  Index left_ = 0;
+  // The places of the elimination order that are filled.
+  Index ordered_ = 0;
+  // No variable has a smaller degree than this.
+  Index least_ = 0;
+  // The largest weight of an element so far.
+  Index most_ = 0;
+  // Entries of mark_ from this number on belong to the present step.
+  Index tag_ = 2;
+  // The weight of the pivot's list, and where that list ended before it was shortened.
+  Index pivot_degree_ = 0, pivot_end_ = 0;
   Index* order_ = nullptr;
-  Index *start_, *length_;     // the list of a variable or an element
-  Index* elements_;            // number of elements at the start of its list; none: no variable
-  Index* weight_;              // unknowns a variable stands for; negative: in the pivot's list; 0: absorbed
-  Index* degree_;              // bound of a variable's degree; weight of an element's list
-  Index* mark_;                // see subtract_from_elements; 0: absorbed
-  Index *next_, *last_;        // next in a degree or hash list; last unknown a variable stands for
-  Index *previous_, *bucket_;  // previous in a degree list; first variable of a degree
-  Index *hashed_, *hash_;      // first variable of a hash; hash of a variable
-  Index* next_member_;         // next unknown that a variable stands for
+  // Where the list of a variable or an element begins, and how long it is.
+  Index *start_, *length_;
+  // How many elements stand at the start of the list of a variable; none: it is no variable.
+  Index* elements_;
+  // How many unknowns a variable stands for. It is negative while the variable is in the pivot's list, and 0 once the
+  // variable is absorbed.
+  Index* weight_;
+  // A bound of the degree of a variable, or the weight of the list of an element.
+  Index* degree_;
+  // See subtract_from_elements; 0: absorbed.
+  Index* mark_;
+  // The next entry of a degree list or a hash list. The last unknown that a variable stands for.
+  Index *next_, *last_;
+  // The previous entry of a degree list. The first variable of a degree.
+  Index *previous_, *bucket_;
+  // The first variable of a hash. The hash of a variable.
+  Index *hashed_, *hash_;
+  // The next of the unknowns that a variable stands for.
+  Index* next_member_;
 };
 
 }  // namespace

@@ -171,6 +171,20 @@ double Symbolic::index_bytes() const noexcept {
          8.0 * static_cast<double>(row_start.size() + value_start.size() + work.size());
 }
 
+std::int64_t place_values(Symbolic& out) noexcept {
+  std::int64_t next = 0;
+  for (std::int32_t s = out.supernodes - 1; s >= 0; --s) {
+    const std::int64_t width = out.columns(s), below = out.below(s);
+    out.value_start[s] = next;
+    next += width * (width + 1) / 2 + width * below;
+    double work = 0;
+    for (std::int64_t j = 0; j < width; ++j) work += static_cast<double>((width - j + below) * (width - j + below));
+    out.work[s] = work;
+  }
+  out.stored_entries = static_cast<double>(next);
+  return next;
+}
+
 void analyse(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memory& memory, Symbolic& out) {
   const std::int32_t n = matrix.size();
   const std::size_t size = static_cast<std::size_t>(n);
@@ -216,16 +230,7 @@ void analyse(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memo
   make_row_lists(tree, final_of.data(), label_at.data(), memory, out);
   out.value_start.allocate(memory, out.supernodes);
   out.work.allocate(memory, out.supernodes);
-  std::int64_t next = 0;
-  for (std::int32_t s = out.supernodes - 1; s >= 0; --s) {
-    const std::int64_t width = out.columns(s), below = out.below(s);
-    out.value_start[s] = next;
-    next += width * (width + 1) / 2 + width * below;
-    double work = 0;
-    for (std::int64_t j = 0; j < width; ++j) work += static_cast<double>((width - j + below) * (width - j + below));
-    out.work[s] = work;
-  }
-  out.stored_entries = static_cast<double>(next);
+  place_values(out);
 }
 
 FillEstimate estimate_fill(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memory& memory) {

@@ -26,20 +26,29 @@ struct Symbolic {
 
   std::int32_t size = 0;
   std::int32_t supernodes = 0;
-  double entries = 0;         // non-zeros of G, without the zeros that relaxation adds
-  double stored_entries = 0;  // packed triangles and row blocks, with those zeros
-  double flops = 0;           // sum of squared column counts
+  // The non-zeros of G, without the zeros that relaxation adds.
+  double entries = 0;
+  // The numbers that are stored, with those zeros: packed triangles and row blocks.
+  double stored_entries = 0;
+  // The sum of the squared column counts.
+  double flops = 0;
 
-  Buffer<std::int32_t> position;     // position[unknown] = row in factor order
-  Buffer<std::int32_t> order;        // order[row] = unknown
-  Buffer<std::int32_t> supernode;    // supernode of a column
-  Buffer<std::int32_t> first;        // supernode s has the columns [first[s], first[s + 1])
-  Buffer<std::int32_t> parent;       // supernode tree in postorder, -1 for a root
-  Buffer<std::int32_t> subtree;      // first supernode of the subtree of s: the subtree is [subtree[s], s]
-  Buffer<std::int64_t> row_start;    // where the row list of each supernode begins in `rows`
-  Buffer<std::int32_t> rows;         // rows below the triangles, supernode by supernode, ascending
-  Buffer<std::int64_t> value_start;  // where the numbers of s begin; the supernodes are stored last to first
-  Buffer<double> work;               // flops of each supernode, without its subtree
+  // position[unknown] is the row of an unknown in the order of the factor. order[row] is the unknown of a row.
+  Buffer<std::int32_t> position, order;
+  // supernode[column] is the supernode that a column belongs to. Supernode s has the columns first[s] to
+  // first[s + 1] - 1.
+  Buffer<std::int32_t> supernode, first;
+  // parent[s] is the parent of s in the tree of supernodes, or -1 for a root. The tree is in postorder.
+  Buffer<std::int32_t> parent;
+  // The subtree of s is the supernodes subtree[s] to s.
+  Buffer<std::int32_t> subtree;
+  // The rows below the triangle of s begin at rows[row_start[s]], ascending.
+  Buffer<std::int64_t> row_start;
+  Buffer<std::int32_t> rows;
+  // value_start[s] is where the numbers of s begin. The last supernode is stored first.
+  Buffer<std::int64_t> value_start;
+  // The flops of each supernode, without its subtree.
+  Buffer<double> work;
 
   std::int32_t columns(std::int32_t s) const noexcept { return first[s + 1] - first[s]; }
   std::int32_t below(std::int32_t s) const noexcept {
@@ -53,6 +62,9 @@ struct Symbolic {
 // Analyses the pattern of `matrix` under `order` (order[k]: unknown eliminated k-th). The final order differs from it
 // by a postorder of the elimination tree, which changes neither fill nor flops.
 void analyse(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memory& memory, Symbolic& out);
+
+// Fills value_start, work and stored_entries from the other parts. Returns how many numbers the supernodes take.
+std::int64_t place_values(Symbolic& out) noexcept;
 
 // Estimates the non-zeros and flops of a factor under an ordering. It only computes tree and counts, so it is a cheap
 // way to compare orderings.

@@ -47,11 +47,16 @@ struct Connection {
     return to == topology.second(e) ? angle : -angle;
   }
 
-  Vector<Vec3> normal, x, y;     // orthonormal at every vertex, counter-clockwise seen from the normal
-  Vector<double> rotation;       // along an edge from its first vertex to its second; in (-pi, pi]
-  Vector<double> curvature;      // of a triangle; at irregular corners the turn of a round trip, in (-pi, pi]
-  Vector<std::uint8_t> regular;  // by vertex: its triangles form one fan of one orientation
-  Vector<std::uint8_t> closed;   // by component: every vertex is regular and inside
+  // An orthonormal frame at every vertex. From x to y is counter-clockwise, seen from the normal.
+  Vector<Vec3> normal, x, y;
+  // The angle by which a direction turns along each edge, from its first vertex to its second; in (-pi, pi].
+  Vector<double> rotation;
+  // The curvature of each triangle. If a corner is irregular, it is the turn of a round trip instead, in (-pi, pi].
+  Vector<double> curvature;
+  // By vertex: 1 if its triangles form one fan of one orientation.
+  Vector<std::uint8_t> regular;
+  // By component: 1 if every vertex is regular and none is on a border.
+  Vector<std::uint8_t> closed;
   std::uint32_t irregular_count = 0;
 };
 

@@ -236,6 +236,27 @@ void DirectionField::solve(Vec3* out) const {
   }
 }
 
+namespace {
+
+// Adds up the singularities of the triangles that one face is cut into. Those of a surface of triangles stay.
+Vector<Singularity> by_face(const Mesh& mesh, Vector<Singularity> found) {
+  if (mesh.faces.empty()) return found;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const bool same =
+        count > 0 && mesh.given_of_triangle(found[count - 1].triangle) == mesh.given_of_triangle(found[i].triangle);
+    if (same)
+      found[count - 1].index += found[i].index;
+    else
+      found[count++] = found[i];
+    if (found[count - 1].index == 0) --count;
+  }
+  found.resize(count);
+  return found;
+}
+
+}  // namespace
+
 Vector<Singularity> DirectionField::singularities() const {
   const Vector<Complex> field = solved();
   const Core& core = solver_.core();
@@ -268,7 +289,7 @@ Vector<Singularity> DirectionField::singularities() const {
     for (const Index w : {v[1], v[2]}) corner = std::abs(field[at(w)]) < std::abs(field[at(corner)]) ? w : corner;
     found.push_back({t, corner, index});
   }
-  return found;
+  return by_face(core.mesh, std::move(found));
 }
 
 }  // namespace hf_inner

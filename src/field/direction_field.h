@@ -27,7 +27,7 @@ struct DirectionConstraint {
 };
 
 struct Singularity {
-  std::int32_t triangle;  // of the inner mesh
+  std::int32_t triangle;  // of the inner mesh; of a face the first with a turn
   std::int32_t vertex;    // the corner where the field's vector is shortest
   std::int32_t index;     // turns of the field around it, times the degree
 };
@@ -58,7 +58,8 @@ class DirectionField {
 
   // Computes the field of every welded vertex as a vector in space. Throws HF_ERROR_NO_SITES.
   void solve(Vec3* out) const;
-  Vector<Singularity> singularities() const;  // by triangle
+  // Sorted by triangle. The triangles that one face is cut into count as one.
+  Vector<Singularity> singularities() const;
 
  private:
   struct Record {

@@ -20,6 +20,9 @@
 
 namespace hf_inner {
 
+// Smoothing of the authors of the heat method: one squared mean edge. hf/analysis.h states it.
+constexpr double default_smoothing = 1;
+
 class Geodesics {
  public:
   // core: harmonic, with its factor. Costs one numeric factorisation.

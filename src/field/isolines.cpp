@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/error.h"
 #include "base/index.h"
 
 namespace hf_inner {
@@ -159,9 +160,13 @@ Vec3 position_of(const Mesh& mesh, const Isolines::Point& point) noexcept {
 
 Isolines trace_isolines(const Mesh& mesh, const Topology& topology, Span<const double> field, Span<const double> levels,
                         Memory& memory) {
+  const std::size_t count = levels.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!std::isfinite(levels[k]))
+      fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(k), "levels[%zu] is not finite", k);
+  }
   Isolines out(memory);
   out.start.push_back(0);
-  const std::size_t count = levels.size();
   Vector<std::uint32_t> order(count, &memory);
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(),

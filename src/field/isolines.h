@@ -32,8 +32,8 @@ struct Isolines {
 // Returns the position of a point, in the unit of the caller's mesh.
 Vec3 position_of(const Mesh& mesh, const Isolines::Point& point) noexcept;
 
-// field: one value per welded vertex; NaN means no value, and triangles at such a vertex are left out. levels: finite,
-// in any order. The lines come in the order of the levels.
+// field: one value per welded vertex; NaN means no value, and triangles at such a vertex are left out. levels: in
+// any order. The lines come in the order of the levels. Throws HF_ERROR_NON_FINITE (index = level).
 Isolines trace_isolines(const Mesh& mesh, const Topology& topology, Span<const double> field, Span<const double> levels,
                         Memory& memory);
 

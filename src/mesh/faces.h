@@ -62,15 +62,24 @@ struct Faces {
     return {corner.data() + first, static_cast<std::size_t>(corner_start[f + 1]) - first};
   }
 
-  Vector<std::int32_t> corner_start;    // corners of face f: corner[corner_start[f] .. corner_start[f + 1])
-  Vector<std::int32_t> corner;          // inner vertices; no two neighbours are equal
-  Vector<std::int32_t> triangle_start;  // triangles of face f: triangle_start[f] .. triangle_start[f + 1]
-  Vector<std::int32_t> given;           // the number of the face as given
-  Vector<std::uint8_t> second_cut;      // 1: a quad that is not planar, and that its other diagonal cuts as well
-  Vector<std::uint32_t> given_size;     // per face as given: its number of corners
-  std::uint32_t polygon_count = 0;      // faces as given of four corners and more
-  std::uint32_t non_planar_count = 0;   // usable faces with a corner far from their mean plane
-  std::uint32_t largest_size = 0;       // corners of the largest face as given
+  // The corners of face f are corner[corner_start[f] .. corner_start[f + 1]).
+  Vector<std::int32_t> corner_start;
+  // Inner vertices. No two neighbours of a face are equal.
+  Vector<std::int32_t> corner;
+  // The triangles of face f are triangle_start[f] .. triangle_start[f + 1] - 1.
+  Vector<std::int32_t> triangle_start;
+  // The number of each face as the caller gave it.
+  Vector<std::int32_t> given;
+  // 1 for a quad that is not planar: its operator uses both diagonals as cuts.
+  Vector<std::uint8_t> second_cut;
+  // The number of corners of every face as given.
+  Vector<std::uint32_t> given_size;
+  // Faces as given that have four corners or more.
+  std::uint32_t polygon_count = 0;
+  // Usable faces with a corner far from their mean plane.
+  std::uint32_t non_planar_count = 0;
+  // The number of corners of the largest face as given.
+  std::uint32_t largest_size = 0;
 };
 
 }  // namespace hf_inner

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "base/arguments.h"
 #include "base/index.h"
 #include "base/progress.h"
 #include "mesh/laplacian.h"
@@ -182,6 +182,16 @@ void scale_weights(Memory& memory, WeightedGraph& graph) {
 }
 
 }  // namespace
+
+GraphInput read_graph(const hf_graph_desc& desc) {
+  check_flag(desc.allow_negative, "allow_negative");
+  if (desc.edge_count > 0) require(desc.edges, "edges"), require(desc.weights, "weights");
+  GraphInput input;
+  input.vertex_count = desc.vertex_count, input.edge_count = desc.edge_count;
+  input.edges = desc.edges, input.weights = desc.weights, input.masses = desc.masses;
+  input.allow_negative = desc.allow_negative == 1;
+  return input;
+}
 
 WeightedGraph WeightedGraph::make(const GraphInput& input, Memory& memory) {
   check_counts(input);

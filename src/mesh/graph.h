@@ -6,6 +6,7 @@
 #pragma once
 #include <cstdint>
 
+#include "hf/surface.h"
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
 
@@ -19,6 +20,10 @@ struct GraphInput {
   const double* masses = nullptr;        // vertex_count, or null for ones
   bool allow_negative = false;
 };
+
+// Reads the arrays of a desc. Throws HF_ERROR_NULL_POINTER or HF_ERROR_INVALID_ARGUMENT; WeightedGraph::make checks
+// what is in them.
+GraphInput read_graph(const hf_graph_desc& desc);
 
 struct WeightedGraph {
   explicit WeightedGraph(Memory& memory)

@@ -30,6 +30,13 @@ inline Vec3 cross(Vec3 a, Vec3 b) noexcept {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline double norm(Vec3 a) noexcept { return std::sqrt(dot(a, a)); }
+// Scales a to length 1. It divides by the largest coordinate first, so that no square leaves the range. 0 stays 0.
+inline Vec3 unit_vector(Vec3 a) noexcept {
+  const double most = std::fmax(std::fmax(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z));
+  if (!(most > 0)) return {};
+  const Vec3 b{a.x / most, a.y / most, a.z / most};
+  return (1 / norm(b)) * b;
+}
 
 using Triangle = std::int32_t[3];
 
@@ -111,19 +118,26 @@ struct Mesh {
   Vec3 to_given(Vec3 p) const noexcept { return centre + scale * p; }
   Vec3 to_inner(Vec3 p) const noexcept { return (1.0 / scale) * (p - centre); }
 
-  Vector<Vec3> positions;                  // inner vertices, centred and scaled
-  Vector<std::int32_t> corners;            // inner vertices, 3 per usable triangle
-  Vector<std::int32_t> inner_of_given;     // per given vertex; none for isolated ones
-  Vector<std::int32_t> given_of_inner;     // the first of the caller's vertices that were welded to it
-  Vector<std::int32_t> triangle_of_given;  // per given triangle its usable triangle, or none; of a face the first one
-  Faces faces;                             // empty where triangles were given
-  Vector<std::int32_t> component;          // number of the component, per inner vertex
+  // By inner vertex: its position, centred and scaled.
+  Vector<Vec3> positions;
+  // The inner vertices of every usable triangle, three each.
+  Vector<std::int32_t> corners;
+  // By given vertex: its inner vertex, or none for an isolated one.
+  Vector<std::int32_t> inner_of_given;
+  // By inner vertex: the first of the caller's vertices that were welded to it.
+  Vector<std::int32_t> given_of_inner;
+  // By given triangle: its usable triangle, or none. By given face: the first triangle of its cut, or none.
+  Vector<std::int32_t> triangle_of_given;
+  // Empty if the caller gave triangles.
+  Faces faces;
+  // By inner vertex: the number of its component.
+  Vector<std::int32_t> component;
   struct Isolated {
     std::int32_t given;
     Vec3 position;  // as given
   };
-  Vector<Isolated>
-      isolated;  // given vertices without a usable triangle, ascending: they keep their places when the rest is posed
+  // The given vertices without a usable triangle, ascending. They keep their places when the rest is posed.
+  Vector<Isolated> isolated;
   Vec3 centre;
   double scale = 1;
   MeshReport report;

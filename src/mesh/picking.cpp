@@ -4,8 +4,9 @@
 #include <array>
 #include <limits>
 
-#include "base/error.h"
+#include "base/arguments.h"
 #include "base/index.h"
+#include "mesh/places.h"
 
 namespace hf_inner {
 namespace {
@@ -80,6 +81,21 @@ void test_triangle(const Vec3* corner, bool front_only, std::uint32_t triangle, 
 }
 
 }  // namespace
+
+PickTarget read_target(const Mesh& mesh, const hf_pick_desc& desc) {
+  require_zero(desc.reserved);
+  check_flag(desc.front_only, "front_only");
+  check_one(desc.positions, desc.positions_f64, "positions");
+  return {mesh, rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride"),
+          desc.front_only == 1};
+}
+
+Vec3 read_direction(const double* direction) {
+  const Vec3 along = read_point(direction, "direction");
+  if (along.x == 0 && along.y == 0 && along.z == 0)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "direction is 0; a ray needs one");
+  return along;
+}
 
 RayHit cast_ray(const PickTarget& target, Vec3 origin, Vec3 direction, JobRunner& jobs, Memory& memory) {
   const Mesh& mesh = target.mesh;

@@ -1,5 +1,6 @@
 // Finds the first triangle that a ray hits, and the vertex nearest to a point.
 #pragma once
+#include "hf/surface.h"
 #include "mesh/mesh.h"
 
 namespace hf_inner {
@@ -11,6 +12,11 @@ struct PickTarget {
   ConstRows posed;
   bool front_only = false;
 };
+
+// Returns what a pick searches. Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_DESC or HF_ERROR_TOO_SMALL.
+PickTarget read_target(const Mesh& mesh, const hf_pick_desc& desc);
+// Returns the direction of a ray. Throws HF_ERROR_NULL_POINTER, HF_ERROR_NON_FINITE or HF_ERROR_INVALID_ARGUMENT (0).
+Vec3 read_direction(const double* direction);
 
 struct RayHit {
   std::uint32_t triangle = HF_NO_INDEX;                           // or face, as given

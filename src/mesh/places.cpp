@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "base/arguments.h"
 
 namespace hf_inner {
 namespace {
@@ -87,6 +87,31 @@ SurfacePlace place_between(const Mesh& mesh, const std::uint32_t* vertices, cons
   }
   check_weights(weights, position);
   return place;
+}
+
+bool keeps_vertices(const Mesh& mesh) noexcept {
+  if (mesh.report.vertex_count != static_cast<std::uint32_t>(mesh.vertex_count())) return false;
+  for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
+    if (mesh.inner_of_given[v] != static_cast<std::int32_t>(v)) return false;
+  }
+  return true;
+}
+
+Vector<std::uint32_t> given_triangles(const Mesh& mesh, Memory& memory) {
+  Vector<std::uint32_t> given(static_cast<std::size_t>(mesh.triangle_count()), HF_NO_INDEX, &memory);
+  for (std::size_t t = 0; mesh.faces.empty() && t < mesh.triangle_of_given.size(); ++t) {
+    if (mesh.triangle_of_given[t] != Mesh::none)
+      given[static_cast<std::size_t>(mesh.triangle_of_given[t])] = static_cast<std::uint32_t>(t);
+  }
+  for (std::size_t t = 0; !mesh.faces.empty() && t < given.size(); ++t)
+    given[t] = mesh.given_of_triangle(static_cast<std::int32_t>(t));
+  return given;
+}
+
+Vec3 read_point(const double* p, const char* name) {
+  require(p, name);
+  if (!is_finite_point(p)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "%s is not finite", name);
+  return {p[0], p[1], p[2]};
 }
 
 void require_triangles(const Mesh& mesh, const char* purpose, std::uint32_t index) {

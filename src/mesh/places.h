@@ -29,6 +29,21 @@ SurfacePlace place_in_triangle(const Mesh& mesh, std::uint32_t triangle, const d
 SurfacePlace place_between(const Mesh& mesh, const std::uint32_t* vertices, const double* weights,
                            std::size_t position);
 
+// The vertex of the caller for an inner one: the first that was welded to it. HF_NO_INDEX for Mesh::none.
+inline std::uint32_t given_vertex(const Mesh& mesh, std::int32_t inner) noexcept {
+  return inner == Mesh::none ? HF_NO_INDEX
+                             : static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(inner)]);
+}
+
+// Whether the inner vertices are the caller's, in the same order: none is welded, none isolated.
+bool keeps_vertices(const Mesh& mesh) noexcept;
+
+// Returns by inner triangle the triangle or face as given.
+Vector<std::uint32_t> given_triangles(const Mesh& mesh, Memory& memory);
+
+// Returns a point of the caller: xyz. Throws HF_ERROR_NULL_POINTER or HF_ERROR_NON_FINITE.
+Vec3 read_point(const double* p, const char* name);
+
 // Throws HF_ERROR_UNSUPPORTED for a surface that was made of a graph. purpose: what the call needs triangles for.
 void require_triangles(const Mesh& mesh, const char* purpose, std::uint32_t index = HF_NO_INDEX);
 

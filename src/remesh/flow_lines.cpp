@@ -72,6 +72,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
     return s.mesh_vertex[v];
   };
   auto finish = [&](std::int32_t from, std::int32_t to) {
+    if (out.point.size() >= HF_NO_INDEX) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the lines have 2^32 points or more");
     out.from.push_back(from), out.to.push_back(to);
     out.start.push_back(static_cast<std::uint32_t>(out.point.size()));
   };

@@ -31,6 +31,7 @@ class FlowTracer {
 
   // Traces line_count lines from the minima, each for the same flux. With seeds it traces one line through every seed
   // vertex instead, along the edge with the largest flux there. u: by inner vertex, finite wherever a line can run.
+  // Throws HF_ERROR_TOO_LARGE for 2^32 points or more.
   FlowLineSet trace(Span<const double> u, std::uint32_t line_count, Span<const std::int32_t> seeds) const;
 
  private:

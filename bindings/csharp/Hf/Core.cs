@@ -194,6 +194,14 @@ namespace Hf
             return Add(array);
         }
 
+        /// <summary>The desc of a saved factor; null gives NULL.</summary>
+        public unsafe IntPtr AddFactor(byte[] saved)
+        {
+            if (saved == null) return IntPtr.Zero;
+            return Add(new[] { new hf_factor_desc { struct_size = (uint)sizeof(hf_factor_desc), bytes = Add(saved),
+                byte_count = (UIntPtr)saved.Length } });
+        }
+
         public static void Need(int given, int wanted, string name)
         {
             if (given != wanted) throw new HfException(name + " must hold " + wanted + " numbers, not " + given);

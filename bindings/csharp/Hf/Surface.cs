@@ -4,24 +4,40 @@ using Hf.Native;
 
 namespace Hf
 {
-    /// <summary>Fields of hf_surface_desc that are not arrays; 0 is the default of each.</summary>
-    public sealed class SurfaceOptions
+    /// <summary>What surfaces of meshes and of graphs have in common; 0 is the default of each.</summary>
+    public abstract class CommonOptions
     {
-        public int Weld, OperatorKind, FieldKind, Ordering;
-        public float WeldTolerance;
-        public uint ThreadCount, VertexLimit, TriangleLimit, MemoryLimitMb;
+        public int FieldKind, Ordering;
+        public uint ThreadCount, VertexLimit, MemoryLimitMb;
         public byte[] SavedFactor;
         public Progress Progress;
+
+        internal void Write(Pins pins, out int fieldKind, out int ordering, out uint threadCount, out uint vertexLimit,
+            out uint memoryLimitMb, out IntPtr progress, out IntPtr savedFactor)
+        {
+            fieldKind = FieldKind;
+            ordering = Ordering;
+            threadCount = ThreadCount;
+            vertexLimit = VertexLimit;
+            memoryLimitMb = MemoryLimitMb;
+            progress = Progress == null ? IntPtr.Zero : Progress.Handle;
+            savedFactor = pins.AddFactor(SavedFactor);
+        }
+    }
+
+    /// <summary>Fields of hf_surface_desc that are not arrays; 0 is the default of each.</summary>
+    public sealed class SurfaceOptions : CommonOptions
+    {
+        public int Weld, OperatorKind;
+        public float WeldTolerance;
+        public uint TriangleLimit;
     }
 
     /// <summary>Fields of hf_graph_desc that are not arrays; 0 is the default of each.</summary>
-    public sealed class GraphOptions
+    public sealed class GraphOptions : CommonOptions
     {
         public bool AllowNegative;
-        public int FieldKind, Ordering;
-        public uint ThreadCount, VertexLimit, EdgeLimit, MemoryLimitMb;
-        public byte[] SavedFactor;
-        public Progress Progress;
+        public uint EdgeLimit;
     }
 
     /// <summary>Watches and cancels a long call from another thread.</summary>
@@ -107,21 +123,9 @@ namespace Hf
                 desc.weights = pins.Add(weights);
                 desc.masses = pins.Add(masses, vertexCount, "masses");
                 desc.allow_negative = options.AllowNegative ? 1 : 0;
-                desc.field_kind = options.FieldKind;
-                desc.ordering = options.Ordering;
-                desc.thread_count = options.ThreadCount;
-                desc.vertex_limit = options.VertexLimit;
                 desc.edge_limit = options.EdgeLimit;
-                desc.memory_limit_mb = options.MemoryLimitMb;
-                if (options.Progress != null) desc.progress = options.Progress.Handle;
-                hf_factor_desc factor;
-                if (options.SavedFactor != null)
-                {
-                    factor = new hf_factor_desc { struct_size = (uint)sizeof(hf_factor_desc) };
-                    factor.bytes = pins.Add(options.SavedFactor);
-                    factor.byte_count = (UIntPtr)options.SavedFactor.Length;
-                    desc.saved_factor = (IntPtr)(&factor);
-                }
+                options.Write(pins, out desc.field_kind, out desc.ordering, out desc.thread_count,
+                    out desc.vertex_limit, out desc.memory_limit_mb, out desc.progress, out desc.saved_factor);
                 IntPtr raw;
                 HfException.Check(Functions.hf_surface_create_graph(&desc, &raw));
                 GC.KeepAlive(options.Progress);
@@ -166,21 +170,9 @@ namespace Hf
                 desc.weld = options.Weld;
                 desc.weld_tolerance = options.WeldTolerance;
                 desc.operator_kind = options.OperatorKind;
-                desc.ordering = options.Ordering;
-                desc.field_kind = options.FieldKind;
-                desc.thread_count = options.ThreadCount;
-                desc.vertex_limit = options.VertexLimit;
                 desc.triangle_limit = options.TriangleLimit;
-                desc.memory_limit_mb = options.MemoryLimitMb;
-                if (options.Progress != null) desc.progress = options.Progress.Handle;
-                hf_factor_desc factor;
-                if (options.SavedFactor != null)
-                {
-                    factor = new hf_factor_desc { struct_size = (uint)sizeof(hf_factor_desc) };
-                    factor.bytes = pins.Add(options.SavedFactor);
-                    factor.byte_count = (UIntPtr)options.SavedFactor.Length;
-                    desc.saved_factor = (IntPtr)(&factor);
-                }
+                options.Write(pins, out desc.field_kind, out desc.ordering, out desc.thread_count,
+                    out desc.vertex_limit, out desc.memory_limit_mb, out desc.progress, out desc.saved_factor);
                 IntPtr raw;
                 HfException.Check(Functions.hf_surface_create(&desc, &raw));
                 GC.KeepAlive(options.Progress);

@@ -76,29 +76,39 @@ Value find_critical_points(Surface& s, const Arguments& a) {
   return value;
 }
 
-// find_extremities(): { vertex, length } each, the longest first
-Value find_extremities(Surface& s, const Arguments&) {
+// Asks for a count, then for the items: call(capacity, out, count). row(item) returns one row of the table.
+template <class Item, class Call, class Row>
+Value table_of(Call&& call, Row&& row) {
   uint32_t count = 0;
-  check(hf_surface_find_extremities(s.get(), nullptr, 0, nullptr, &count));
-  std::vector<hf_extremity> found(count);
-  if (count) check(hf_surface_find_extremities(s.get(), nullptr, count, found.data(), &count));
+  check(call(0, nullptr, &count));
+  std::vector<Item> found(count);
+  if (count) check(call(count, found.data(), &count));
   Value value;
   value.kind = Value::rows;
-  for (const hf_extremity& tip : found) value.table.push_back({{"vertex", tip.vertex}, {"length", tip.length}});
+  for (const Item& item : found) value.table.push_back(row(item));
   return value;
+}
+
+using TableRow = decltype(Value::table)::value_type;
+
+// find_extremities(): { vertex, length } each, the longest first
+Value find_extremities(Surface& s, const Arguments&) {
+  return table_of<hf_extremity>(
+      [&](uint32_t capacity, hf_extremity* out, uint32_t* count) {
+        return hf_surface_find_extremities(s.get(), nullptr, capacity, out, count);
+      },
+      [](const hf_extremity& tip) { return TableRow{{"vertex", tip.vertex}, {"length", tip.length}}; });
 }
 
 // propose_handles(): { vertex, reason, pinned, radius } each, pinned ones first
 Value propose_handles(Surface& s, const Arguments&) {
-  uint32_t count = 0;
-  check(hf_propose_handles(s.get(), nullptr, 0, nullptr, &count));
-  std::vector<hf_handle_proposal> found(count);
-  if (count) check(hf_propose_handles(s.get(), nullptr, count, found.data(), &count));
-  Value value;
-  value.kind = Value::rows;
-  for (const hf_handle_proposal& p : found)
-    value.table.push_back({{"vertex", p.vertex}, {"reason", p.reason}, {"pinned", p.pinned}, {"radius", p.radius}});
-  return value;
+  return table_of<hf_handle_proposal>(
+      [&](uint32_t capacity, hf_handle_proposal* out, uint32_t* count) {
+        return hf_propose_handles(s.get(), nullptr, capacity, out, count);
+      },
+      [](const hf_handle_proposal& p) {
+        return TableRow{{"vertex", p.vertex}, {"reason", p.reason}, {"pinned", p.pinned}, {"radius", p.radius}};
+      });
 }
 
 // ---- the direction field of a surface: direction_create(degree = 1) replaces it

@@ -1,9 +1,9 @@
-// Reads hf_links_desc.
+// Reads hf_links_desc: checks it and turns its vertices into inner ones.
 #pragma once
 #include "hf/surface.h"
 #include "mesh/links.h"
 
-namespace hf_inner::capi {
+namespace hf_inner {
 
 // The links of a desc as the mesh room takes them. `options` refers to the lists.
 struct LinksIn {
@@ -15,7 +15,7 @@ struct LinksIn {
   LinkOptions options;
 };
 
-// given: NULL for no links. Throws HF_ERROR_OUT_OF_RANGE, _NON_FINITE and _INVALID_ARGUMENT as hf_surface_create says.
-void read_links(const hf_links_desc* given, const Mesh& mesh, LinksIn& out);
+// Throws HF_ERROR_OUT_OF_RANGE, _NON_FINITE and _INVALID_ARGUMENT as hf_surface_create says.
+void read_links(const hf_links_desc& desc, const Mesh& mesh, LinksIn& out);
 
-}  // namespace hf_inner::capi
+}  // namespace hf_inner

@@ -2,15 +2,15 @@
 #pragma once
 #include <cmath>
 
-#include "capi/boundary.h"
+#include "base/arguments.h"
 #include "engine/geometry.h"
 #include "hf/analysis.h"
+#include "mesh/places.h"
 
-namespace hf_inner::capi {
+namespace hf_inner {
 
 // Returns one value per welded vertex. Throws HF_ERROR_NON_FINITE for an infinite value; NaN stays NaN.
-inline Vector<double> read_scalars(const Geometry& shape, const hf_scalars* given) {
-  const hf_scalars desc = read_struct(given, "field");
+inline Vector<double> read_scalars(const Geometry& shape, const hf_scalars& desc) {
   check_one(desc.values, desc.values_f64, "values");
   require_either(desc.values, desc.values_f64, "values and values_f64");
   const ConstRows rows = rows_of(desc.values, desc.values_f64, 1, desc.value_stride, "value_stride");
@@ -25,4 +25,12 @@ inline Vector<double> read_scalars(const Geometry& shape, const hf_scalars* give
   return field;
 }
 
-}  // namespace hf_inner::capi
+// Throws HF_ERROR_NON_FINITE for a value that is NaN; index: the vertex as given. field: by inner vertex.
+inline void require_values(const Mesh& mesh, Span<const double> field) {
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    const std::uint32_t given = given_vertex(mesh, static_cast<std::int32_t>(v));
+    if (std::isnan(field[v])) fail(HF_ERROR_NON_FINITE, given, "the value of vertex %u is NaN", given);
+  }
+}
+
+}  // namespace hf_inner

@@ -1,9 +1,9 @@
 // Reads lists of vertices and regions that the caller names.
 #pragma once
-#include "capi/boundary.h"
+#include "base/arguments.h"
 #include "mesh/places.h"
 
-namespace hf_inner::capi {
+namespace hf_inner {
 
 // Appends the welded vertex of every vertex in the caller's list, or Mesh::none for an isolated vertex. Throws
 // HF_ERROR_OUT_OF_RANGE with the position in the list.
@@ -35,8 +35,8 @@ inline void read_list(const Mesh& mesh, std::uint32_t count, const std::uint32_t
 // Sums the sizes of the regions. `start` gets count + 1 entries: where each region starts.
 inline void append_starts(std::uint32_t count, const std::uint32_t* sizes, std::uint32_t limit,
                           Vector<std::uint32_t>& start) {
-  constexpr std::uint64_t most_repeats =
-      4;  // a region may name welded copies and repeats, a list of this length is a mistake
+  // A region may name welded copies and repeats. A list this many times as long as the mesh is a mistake.
+  constexpr std::uint64_t most_repeats = 4;
   std::uint64_t total = 0;
   start.push_back(0);
   for (std::uint32_t r = 0; r < count; ++r) {
@@ -63,4 +63,4 @@ struct Regions {
   Vector<std::int32_t> vertices;
 };
 
-}  // namespace hf_inner::capi
+}  // namespace hf_inner

@@ -1,0 +1,115 @@
+#include "deform/intake.h"
+
+#include <algorithm>
+
+#include "base/arguments.h"
+#include "field/intake.h"
+#include "mesh/vertex_lists.h"
+
+namespace hf_inner {
+namespace {
+
+static_assert(static_cast<int>(HandleReason::foot) == HF_HANDLE_REASON_FOOT &&
+                  static_cast<int>(HandleReason::tip) == HF_HANDLE_REASON_TIP &&
+                  static_cast<int>(HandleReason::end) == HF_HANDLE_REASON_END &&
+                  static_cast<int>(HandleReason::joint) == HF_HANDLE_REASON_JOINT &&
+                  static_cast<int>(HandleReason::middle) == HF_HANDLE_REASON_MIDDLE,
+              "hf/pose.h states other reasons");
+
+// Bounds what a wrong count of joints reads. Skins of scene files number joints with 16 bits.
+constexpr std::uint32_t most_skeleton_joints = 65536;
+// Proposals without a limit of the caller: more than limbs of an animal, few enough for a menu.
+constexpr std::uint32_t default_proposals = 32;
+
+// The unit vector away from the ground; 0 0 0 is y.
+Vec3 read_up(const double* up) {
+  if (!is_finite_point(up)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "up is not finite");
+  const Vec3 unit = unit_vector({up[0], up[1], up[2]});
+  return unit.x == 0 && unit.y == 0 && unit.z == 0 ? Vec3{0, 1, 0} : unit;
+}
+
+void check_skeleton(const hf_propose_desc& desc) {
+  if (desc.joint_count == 0) return;
+  if (desc.joint_count > most_skeleton_joints)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "joint_count is %u; it must be at most %u", desc.joint_count,
+         most_skeleton_joints);
+  require(desc.joints, "joints"), require(desc.parents, "parents");
+  for (std::uint32_t j = 0; j < desc.joint_count; ++j) {
+    const double* p = desc.joints + 3 * std::size_t{j};
+    if (!is_finite_point(p)) fail(HF_ERROR_NON_FINITE, j, "joint %u is not finite", j);
+    if (desc.parents[j] != HF_NO_INDEX && desc.parents[j] >= desc.joint_count)
+      fail(HF_ERROR_OUT_OF_RANGE, j, "the parent of joint %u is %u; there are %u joints", j, desc.parents[j],
+           desc.joint_count);
+  }
+}
+
+}  // namespace
+
+HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& memory) {
+  check_region_count(0, desc.handle_count, "handle");  // before lists of that length are read
+  require_zero(desc.reserved);
+  HandleInput input(&memory);
+  input.layer = desc.layer, input.by_points = desc.points || desc.radii;
+  if (input.by_points) {
+    if (desc.region_counts || desc.region_vertices)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "regions and points are both set; set one");
+    require(desc.points, "points"), require(desc.radii, "radii");
+    const std::size_t count = desc.handle_count;
+    regions_near(core, {desc.points, 3 * count}, {desc.radii, count}, input.start, input.vertices);
+    return input;
+  }
+  require(desc.region_counts, "region_counts"), require(desc.region_vertices, "region_vertices");
+  append_starts(desc.handle_count, desc.region_counts, core.mesh.report.vertex_count, input.start);
+  append_inner(core.mesh, input.start.back(), desc.region_vertices, "region_vertices", input.vertices);
+  return input;
+}
+
+void add_handles(PoseStack& pose, const HandleInput& input, Span<std::uint32_t> out_numbers) {
+  try {
+    pose.add_handles(input.start, input.vertices, input.layer, out_numbers);
+  } catch (const Error& error) {
+    if (!input.by_points || error.code() != HF_ERROR_OVERLAP) throw;
+    const auto after = std::upper_bound(input.start.begin(), input.start.end(), error.index());
+    const std::uint32_t r = static_cast<std::uint32_t>(after - input.start.begin() - 1);
+    fail(HF_ERROR_OVERLAP, r, "the region of point %u overlaps another handle; make its radius smaller", r);
+  }
+}
+
+HandleTransform read_transform(const hf_transform& given) noexcept {
+  HandleTransform out;
+  const double* q = given.rotation;
+  out.rotation = {{q[0], q[1], q[2]}, q[3]};
+  out.translation = {given.translation[0], given.translation[1], given.translation[2]};
+  return out;
+}
+
+VertexRange read_range(const hf_deform_desc& desc, std::uint32_t vertex_count) {
+  if (desc.first_vertex > vertex_count || desc.vertex_count > vertex_count - desc.first_vertex)
+    fail(HF_ERROR_OUT_OF_RANGE, HF_NO_INDEX, "vertices %u to %llu are asked for; the mesh has %u", desc.first_vertex,
+         static_cast<unsigned long long>(desc.first_vertex) + desc.vertex_count, vertex_count);
+  const std::uint32_t count = desc.vertex_count ? desc.vertex_count : vertex_count - desc.first_vertex;
+  return {desc.first_vertex, count, count == vertex_count};
+}
+
+DeformRequest read_request(const hf_deform_desc& desc) {
+  check_flag(desc.restart, "restart"), check_flag(desc.refine, "refine");
+  DeformRequest request;
+  request.normals = desc.normals != nullptr;
+  request.iteration_count = desc.iteration_count;
+  request.restart = desc.restart != 0, request.refine = desc.refine == 1;
+  return request;
+}
+
+ProposalOptions read_proposal_options(const hf_propose_desc& desc) {
+  ProposalOptions options;
+  options.up = read_up(desc.up);
+  options.least_length = static_cast<double>(read_least_length(desc.least_length));
+  options.limit = count_of(desc.limit, default_proposals, 1, HF_HANDLE_LIMIT, "limit");
+  check_skeleton(desc);
+  if (desc.joint_count == 0) return options;
+  options.joints = {desc.joints, 3 * std::size_t{desc.joint_count}};
+  options.parents = {desc.parents, desc.joint_count};
+  return options;
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,41 @@
+// Reads handles, transforms, requests of frames and options of proposals.
+#pragma once
+#include "deform/pose_stack.h"
+#include "deform/proposals.h"
+#include "hf/pose.h"
+
+namespace hf_inner {
+
+// Regions of handles to add. Region r is vertices[start[r] .. start[r + 1]).
+struct HandleInput {
+  explicit HandleInput(Memory* memory) : start(memory), vertices(memory) {}
+  Vector<std::uint32_t> start;
+  Vector<std::int32_t> vertices;  // inner; Mesh::none for an isolated one
+  bool by_points = false;         // the regions lie around points
+  std::uint32_t layer = 0;
+};
+// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NULL_POINTER,
+// HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE as hf_pose_add_handles says.
+HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& memory);
+// Adds the handles. Throws as PoseStack::add_handles. The index of HF_ERROR_OVERLAP is the region where regions lie
+// around points.
+void add_handles(PoseStack& pose, const HandleInput& input, Span<std::uint32_t> out_numbers);
+
+HandleTransform read_transform(const hf_transform& given) noexcept;
+
+// The vertices as given that hf_pose_deform writes.
+struct VertexRange {
+  std::uint32_t first, count;
+  bool whole;
+};
+// Throws HF_ERROR_OUT_OF_RANGE.
+VertexRange read_range(const hf_deform_desc& desc, std::uint32_t vertex_count);
+
+// Returns what a frame asks for, without its arrays. Throws HF_ERROR_INVALID_ARGUMENT for flags.
+DeformRequest read_request(const hf_deform_desc& desc);
+
+// Throws HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE, HF_ERROR_NULL_POINTER or
+// HF_ERROR_OUT_OF_RANGE as hf_propose_handles says.
+ProposalOptions read_proposal_options(const hf_propose_desc& desc);
+
+}  // namespace hf_inner

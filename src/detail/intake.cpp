@@ -1,0 +1,62 @@
+#include "detail/intake.h"
+
+#include "base/arguments.h"
+#include "mesh/vertex_lists.h"
+
+namespace hf_inner {
+namespace {
+
+// A closed curve has an inside from this many points on.
+constexpr std::uint32_t least_points = 3;
+
+}  // namespace
+
+void read_curve(const Core& core, const hf_curve_desc& curve, RegionEditInput& input) {
+  const Mesh& mesh = core.geometry->unlinked().mesh;
+  RegionEdit& edit = input.edit;
+  check_choice(curve.side, 3, "side");
+  if (curve.vertices && curve.barycentrics)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and barycentrics are both set; set one");
+  check_places(curve.vertices, curve.triangles, curve.corners, curve.barycentrics);
+  if (curve.point_count < least_points)
+    fail(HF_ERROR_EMPTY, curve.point_count, "a closed curve takes %u points or more; %u are given", least_points,
+         curve.point_count);
+  check_vertex_count(mesh, curve.point_count, "point_count");
+  for (std::uint32_t i = 0; i < curve.point_count; ++i) {
+    if (curve.vertices) {
+      input.points.push_back(usable_vertex(mesh, curve.vertices[i], i, "vertices"));
+      continue;
+    }
+    const std::size_t first = std::size_t{3} * i;
+    const double* const weights = curve.barycentrics + first;
+    input.points.push_back(nearest_corner(curve.triangles ? place_in_triangle(mesh, curve.triangles[i], weights, i)
+                                                          : place_between(mesh, curve.corners + first, weights, i)));
+  }
+  require_one_component(mesh, input.points);
+  edit.curve = input.points, edit.side = static_cast<CurveSide>(curve.side);
+  if (edit.side == CurveSide::seed)
+    edit.seed = usable_vertex(mesh, curve.seed_vertex, curve.seed_vertex, "seed_vertex");
+}
+
+void read_region_lists(const Core& core, const hf_region_edit_desc& desc, RegionEditInput& input) {
+  if (desc.remove_count)
+    read_list(core.mesh, desc.remove_count, desc.remove_vertices, "remove_vertices", "remove_vertices", input.remove);
+  if (desc.add_count)
+    read_list(core.mesh, desc.add_count, desc.add_vertices, "add_vertices", "add_vertices", input.add);
+  input.edit.rings = desc.ring_count, input.edit.remove = input.remove, input.edit.add = input.add;
+}
+
+CarryInput read_carry(const Region& source, const Region& target, const hf_detail_desc& desc) {
+  check_finite(desc.scale, "scale");
+  if (desc.scale < 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it must be above 0, or 0", desc.scale);
+  CarryInput input(*target.core().memory);
+  input.scale = desc.scale;
+  if (desc.pair_count == 0) return input;
+  read_list(source.core().mesh, desc.pair_count, desc.source_vertices, "pair_count", "source_vertices",
+            input.source_pins);
+  read_list(target.core().mesh, desc.pair_count, desc.target_vertices, "pair_count", "target_vertices",
+            input.target_pins);
+  return input;
+}
+
+}  // namespace hf_inner

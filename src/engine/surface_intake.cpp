@@ -1,0 +1,103 @@
+#include "engine/surface_intake.h"
+
+#include "base/arguments.h"
+#include "factor/factor_bytes.h"
+#include "factor/ordering.h"
+
+namespace hf_inner {
+namespace {
+
+// Bounds and defaults that hf/surface.h states. They bound what the mistake of a host can cost; no result depends on
+// them. A closed mesh has two triangles per vertex.
+constexpr std::uint32_t most_threads = 256, default_vertex_limit = 20000000, triangles_per_vertex = 8;
+// An hour of one core.
+constexpr std::uint32_t default_work_limit_gflop = 100000;
+// Most edges per vertex of the vertex limit without an edge_limit. Tetrahedra have 7, neighbours of points 5 to 10.
+constexpr std::uint32_t edges_per_vertex = 16;
+
+Ordering ordering_of(std::int32_t given) noexcept {
+  return given == HF_ORDERING_METIS            ? Ordering::metis
+         : given == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
+                                               : Ordering::nested_dissection;
+}
+
+void check_limit(std::uint32_t count, std::uint32_t limit, const char* noun, const char* name) {
+  if (count > limit) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u %s; the %s is %u", count, noun, name, limit);
+}
+
+}  // namespace
+
+hf_surface_desc options_of(const hf_graph_desc& desc) {
+  hf_surface_desc out{};
+  out.vertex_count = desc.vertex_count, out.weld = HF_WELD_NONE;
+  out.field_kind = desc.field_kind, out.ordering = desc.ordering, out.thread_count = desc.thread_count;
+  out.vertex_limit = desc.vertex_limit, out.memory_limit_mb = desc.memory_limit_mb;
+  out.work_limit_gflop = desc.work_limit_gflop, out.reserved = desc.reserved;
+  out.allocator = desc.allocator, out.job_runner = desc.job_runner, out.progress = desc.progress;
+  out.saved_factor = desc.saved_factor;
+  return out;
+}
+
+hf_surface_info read_info(const hf_surface_desc& desc) {
+  hf_surface_info info{};
+  check_choice(desc.weld, 3, "weld");
+  check_choice(desc.operator_kind, 4, "operator_kind");
+  check_choice(desc.field_kind, 3, "field_kind");
+  check_choice(desc.ordering, 3, "ordering");
+  require_ordering(ordering_of(desc.ordering));
+  info.vertex_count = desc.vertex_count, info.triangle_count = desc.triangle_count;
+  info.weld = desc.weld, info.weld_tolerance = desc.weld_tolerance;
+  info.operator_kind = desc.operator_kind, info.field_kind = desc.field_kind, info.ordering = desc.ordering;
+  info.thread_count = count_of(desc.thread_count, 1, 1, most_threads, "thread_count");
+  info.vertex_limit = desc.vertex_limit ? desc.vertex_limit : default_vertex_limit;
+  info.triangle_limit = desc.triangle_limit, info.memory_limit_mb = desc.memory_limit_mb;
+  info.work_limit_gflop = desc.work_limit_gflop ? desc.work_limit_gflop : default_work_limit_gflop;
+  info.face_count = desc.face_count, info.corner_count = desc.corner_count;
+  require_zero(desc.reserved);
+  if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
+  return info;
+}
+
+void check_mesh_limits(const hf_surface_info& info) {
+  check_limit(info.vertex_count, info.vertex_limit, "vertices", "vertex_limit");
+  if (info.triangle_limit != 0) check_limit(info.triangle_count, info.triangle_limit, "triangles", "triangle_limit");
+  if (info.triangle_limit == 0 && info.triangle_count / triangles_per_vertex > info.vertex_limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "%u triangles; without a triangle_limit at most eight per vertex of the vertex_limit %u are taken",
+         info.triangle_count, info.vertex_limit);
+}
+
+void check_graph_limits(const hf_surface_info& info) {
+  check_limit(info.vertex_count, info.vertex_limit, "vertices", "vertex_limit");
+  if (info.edge_limit != 0) check_limit(info.edge_count, info.edge_limit, "edges", "edge_limit");
+  if (info.edge_limit == 0 && info.edge_count / edges_per_vertex > info.vertex_limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "%u edges; without an edge_limit at most sixteen per vertex of the vertex_limit %u are taken", info.edge_count,
+         info.vertex_limit);
+}
+
+CoreOptions core_options(const hf_surface_info& info) {
+  CoreOptions options;
+  options.flop_limit = 1e9 * static_cast<double>(info.work_limit_gflop);
+  options.operator_kind = static_cast<OperatorKind>(info.operator_kind);
+  options.field_kind = static_cast<FieldKind>(info.field_kind);
+  options.ordering = static_cast<Ordering>(info.ordering);
+  return options;
+}
+
+void read_saved_factor(const hf_factor_desc& saved, std::int32_t ordering, CoreOptions& options) {
+  require(saved.bytes, "saved_factor->bytes");
+  check_flag(saved.borrow, "saved_factor->borrow");
+  if (saved.byte_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "saved_factor->byte_count is 0");
+  options.saved_factor = {static_cast<const std::uint8_t*>(saved.bytes), saved.byte_count};
+  options.borrow_factor = saved.borrow != 0;
+  const Ordering found = check_saved_factor(options.saved_factor);
+  if (ordering != 0 && options.ordering != found)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "ordering is %d, but the saved factor has ordering %d; set it to 0 to take the factor's", ordering,
+         static_cast<int>(found));
+  options.ordering = found;
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,26 @@
+// Reads the options of a surface: checks them, fills in defaults, compares counts with limits.
+#pragma once
+#include "engine/core.h"
+#include "hf/surface.h"
+
+namespace hf_inner {
+
+// Returns the options of a graph as those of a surface.
+hf_surface_desc options_of(const hf_graph_desc& desc);
+
+// Returns the options with the defaults filled in. Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_DESC,
+// HF_ERROR_NULL_POINTER (half an allocator), HF_ERROR_UNSUPPORTED (an ordering that is not in this build).
+hf_surface_info read_info(const hf_surface_desc& desc);
+
+// Throw HF_ERROR_TOO_LARGE if there are more vertices, triangles or edges than the limits of the info allow.
+void check_mesh_limits(const hf_surface_info& info);
+void check_graph_limits(const hf_surface_info& info);
+
+// Returns the options of the core that the info describes.
+CoreOptions core_options(const hf_surface_info& info);
+
+// Makes the core load a saved factor. ordering: as the caller asks, 0 for that of the factor. Throws
+// HF_ERROR_INVALID_ARGUMENT (another ordering, damaged bytes), HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER.
+void read_saved_factor(const hf_factor_desc& saved, std::int32_t ordering, CoreOptions& options);
+
+}  // namespace hf_inner

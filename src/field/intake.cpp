@@ -1,0 +1,129 @@
+#include "field/intake.h"
+
+#include <algorithm>
+
+#include "base/arguments.h"
+#include "engine/updown.h"
+#include "mesh/vertex_lists.h"
+
+namespace hf_inner {
+namespace {
+
+// Weight of hard sites as penalties, as in Xu et al. 2009. With more than the second number, rounding hides the other
+// terms of the equation.
+constexpr double default_penalty = 1e8, largest_penalty = 1e10;
+// Two corrections of a preview are enough for a well-posed system.
+constexpr std::uint32_t most_corrections = 8;
+// Most sites of a solver or a direction field unless the caller says so: bounds the memory of a runaway host.
+constexpr std::uint32_t default_site_limit = 100000;
+// Bounds the memory that a wrong count of levels could ask for.
+constexpr std::uint32_t most_levels = 1000000;
+// The accepted range of the smoothing catches wrong units. On a sphere of 20,000 vertices the mean error is 1.2 % of
+// the longest distance at 0.1 and at 0.2, 0.4 % at 1, and 0.1 % from 100 on.
+constexpr double least_smoothing = 0.1, most_smoothing = 1e4;
+// Least length of extremities, as a share of the box diagonal: trades short limbs for bumps. The bound catches wrong
+// units.
+constexpr float default_least_length = 0.05f, most_least_length = 10;
+// Sources of the mean distance: more find tips more exactly and take longer. With 20 a cow has other tips, with 80 the
+// same.
+constexpr std::uint32_t default_sources = 40, most_sources = 1000;
+
+Places read_places(const hf_sites_desc& desc) {
+  if (desc.site_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
+  check_places(desc.vertices, desc.triangles, desc.corners, desc.barycentrics);
+  Places places;
+  places.count = desc.site_count, places.vertices = desc.vertices, places.triangles = desc.triangles;
+  places.corners = desc.corners;
+  places.barycentrics = desc.barycentrics, places.radii = desc.radii;
+  return places;
+}
+
+}  // namespace
+
+SolverOptions read_solver_options(const hf_solver_desc& desc) {
+  check_choice(desc.field_kind, 3, "field_kind");
+  check_choice(desc.engine, 3, "engine");
+  if (desc.engine == HF_ENGINE_UPDOWN) require_updown();
+  require_zero(desc.reserved);
+  SolverOptions options;
+  options.field_kind = static_cast<FieldKind>(desc.field_kind), options.engine = static_cast<EngineKind>(desc.engine);
+  options.channels = static_cast<std::int32_t>(count_of(desc.channel_count, 1, 1, most_channels, "channel_count"));
+  if (desc.penalty != 0 && !(desc.penalty > 0 && desc.penalty <= largest_penalty))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0 and at most %g, or 0 for %g",
+         desc.penalty, largest_penalty, default_penalty);
+  options.penalty = desc.penalty > 0 ? desc.penalty : default_penalty;
+  options.site_limit = read_site_limit(desc.site_limit);
+  return options;
+}
+
+void read_addition(const hf_sites_desc& desc, FieldEdit& edit) {
+  edit.add = read_places(desc);
+  edit.add_values = desc.values, edit.add_stiffness = desc.stiffness;
+}
+
+void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_desc& to, FieldEdit& edit) {
+  require_list(count, sites, "site_count", "sites");
+  if (to.values || to.stiffness || to.radii)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "moving keeps values, stiffness and radius: set them to NULL in the desc");
+  edit.move_count = count, edit.move_sites = sites, edit.move_to = read_places(to);
+  if (edit.move_to.count != count)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
+}
+
+std::int32_t read_correction_count(std::uint32_t given) {
+  if (given > most_corrections)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "correction_count is %u; it must be 0 to %u", given, most_corrections);
+  return static_cast<std::int32_t>(given);
+}
+
+std::int32_t read_degree(const hf_direction_desc& desc) {
+  if (desc.degree != 0 && desc.degree != 1 && desc.degree != 2 && desc.degree != 4)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "degree is %u; it must be 1, 2 or 4", desc.degree);
+  require_zero(desc.reserved);
+  return desc.degree ? static_cast<std::int32_t>(desc.degree) : 1;
+}
+
+std::uint32_t read_site_limit(std::uint32_t given) noexcept { return given ? given : default_site_limit; }
+
+LevelSpacing read_spacing(std::int32_t given, std::uint32_t level_count) {
+  check_choice(given, 3, "spacing");
+  if (level_count < 1 || level_count > most_levels)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "level_count is %u; it must be 1 to %u", level_count, most_levels);
+  return static_cast<LevelSpacing>(given);
+}
+
+double read_smoothing(float given) {
+  const double smoothing = static_cast<double>(given);
+  if (smoothing != 0 && !(smoothing >= least_smoothing && smoothing <= most_smoothing))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "smoothing is %g; it must be %g to %g, or 0 for %g", smoothing,
+         least_smoothing, most_smoothing, default_smoothing);
+  return smoothing > 0 ? smoothing : default_smoothing;
+}
+
+Vector<std::int32_t> read_source_vertices(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sources,
+                                          Memory& memory) {
+  check_vertex_count(mesh, count, "source_count");
+  Vector<std::int32_t> inner(&memory);
+  append_usable(mesh, count, sources, "sources", inner);
+  std::sort(inner.begin(), inner.end());
+  inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
+  return inner;
+}
+
+float read_least_length(float given) {
+  if (given != 0 && !(given > 0 && given <= most_least_length))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "least_length is %g; it is a share of the box diagonal above 0 and up to %g, or 0 for %g",
+         static_cast<double>(given), static_cast<double>(most_least_length), static_cast<double>(default_least_length));
+  return given > 0 ? given : default_least_length;
+}
+
+hf_extremities_desc read_extremities(hf_extremities_desc desc) {
+  check_choice(desc.kind, 2, "kind");
+  desc.least_length = read_least_length(desc.least_length);
+  desc.source_count = count_of(desc.source_count, default_sources, 1, most_sources, "source_count");
+  return desc;
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,51 @@
+// Reads the options of solvers, direction fields, levels, distances and extremities, and the edits of sites.
+#pragma once
+#include "field/geodesics.h"
+#include "field/levels.h"
+#include "field/scalar_field.h"
+#include "hf/analysis.h"
+#include "hf/direction.h"
+#include "hf/solver.h"
+
+namespace hf_inner {
+
+struct SolverOptions {
+  FieldKind field_kind = FieldKind::harmonic;
+  EngineKind engine = EngineKind::green;
+  double penalty = 0;
+  std::int32_t channels = 1;
+  std::uint32_t site_limit = 0;
+};
+// Returns the options with the defaults filled in. Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_DESC,
+// HF_ERROR_UNSUPPORTED (an engine that is not in this build).
+SolverOptions read_solver_options(const hf_solver_desc& desc);
+
+// Write the sites to add, or the moves of sites, into an edit, which refers to the arrays of the caller. Throw
+// HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER or HF_ERROR_INVALID_ARGUMENT; ScalarField::edit checks what is in the arrays.
+void read_addition(const hf_sites_desc& desc, FieldEdit& edit);
+void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_desc& to, FieldEdit& edit);
+
+// Returns the corrections of a preview. Throws HF_ERROR_INVALID_ARGUMENT.
+std::int32_t read_correction_count(std::uint32_t given);
+
+// Returns the degree of a direction field. Throws HF_ERROR_INVALID_ARGUMENT or HF_ERROR_INVALID_DESC.
+std::int32_t read_degree(const hf_direction_desc& desc);
+std::uint32_t read_site_limit(std::uint32_t given) noexcept;
+
+// Returns the spacing of levels, and checks how many are asked for. Throws HF_ERROR_INVALID_ARGUMENT.
+LevelSpacing read_spacing(std::int32_t given, std::uint32_t level_count);
+
+// Smoothing of distances: Geodesics. Throws HF_ERROR_INVALID_ARGUMENT.
+double read_smoothing(float given);
+// Returns the sources of distances as inner vertices, ascending, each once. Throws HF_ERROR_TOO_LARGE,
+// HF_ERROR_OUT_OF_RANGE or HF_ERROR_INVALID_ARGUMENT (index = entry).
+Vector<std::int32_t> read_source_vertices(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sources,
+                                          Memory& memory);
+
+// The least length of extremities and proposed handles, as a share of the box diagonal. Throws
+// HF_ERROR_INVALID_ARGUMENT.
+float read_least_length(float given);
+// Returns the desc with the defaults filled in. Throws HF_ERROR_INVALID_ARGUMENT.
+hf_extremities_desc read_extremities(hf_extremities_desc desc);
+
+}  // namespace hf_inner

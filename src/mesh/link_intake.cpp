@@ -1,0 +1,100 @@
+#include "mesh/link_intake.h"
+
+#include <cmath>
+
+#include "base/arguments.h"
+#include "mesh/vertex_lists.h"
+
+namespace hf_inner {
+namespace {
+
+// Joints per vertex of the skin hint, as hf/surface.h states: refuses a count of another thing, such as all joints.
+constexpr std::uint32_t most_skin_joints = 64;
+// Barycentrics are scaled to sum 1 if they are this near to it.
+constexpr double barycentric_slack = 1e-3;
+
+double read_length(float given, double standard, const Mesh& mesh, const char* name) {
+  const double length = static_cast<double>(given);
+  check_finite(length, name);
+  return length == 0 ? standard : length / mesh.scale;
+}
+
+Link read_link(const hf_link& given, const Mesh& mesh, std::uint32_t i) {
+  Link link;
+  link.vertex = usable_vertex(mesh, given.vertex, i);
+  link.weight = static_cast<double>(given.weight);
+  if (!std::isfinite(link.weight)) fail(HF_ERROR_NON_FINITE, i, "the weight of link %u is not finite", i);
+  if (!(link.weight > 0))
+    fail(HF_ERROR_INVALID_ARGUMENT, i, "the weight of link %u is %g; it must be above 0", i, link.weight);
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double share = given.barycentrics[k];
+    if (!std::isfinite(share)) fail(HF_ERROR_NON_FINITE, i, "a barycentric of link %u is not finite", i);
+    if (share < 0)
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "a barycentric of link %u is %g; it must not be negative", i, share);
+    sum += share;
+  }
+  if (!(std::fabs(sum - 1) <= barycentric_slack))
+    fail(HF_ERROR_INVALID_ARGUMENT, i, "the barycentrics of link %u have the sum %g; it must be 1", i, sum);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (given.barycentrics[k] == 0) continue;
+    link.share[k] = sum == 1 ? given.barycentrics[k] : given.barycentrics[k] / sum;
+    link.corner[k] = usable_vertex(mesh, given.corners[k], i);
+    if (link.corner[k] == link.vertex)
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "link %u joins vertex %u to itself", i, given.vertex);
+  }
+  return link;
+}
+
+void read_skin_hint(const hf_links_desc& desc, const Mesh& mesh, SkinHint& out) {
+  if (desc.influence_count == 0) {
+    if (desc.joints || desc.weights)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joints or weights are set, but influence_count is 0");
+    return;
+  }
+  count_of(desc.influence_count, 0, 1, most_skin_joints, "influence_count");
+  require(desc.joints, "joints"), require(desc.weights, "weights");
+  for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
+    for (std::size_t i = 0; i < desc.influence_count; ++i) {
+      const float w = desc.weights[std::size_t{v} * desc.influence_count + i];
+      if (!std::isfinite(w)) fail(HF_ERROR_NON_FINITE, v, "a weight of vertex %u is not finite", v);
+    }
+  }
+  out = {desc.influence_count, desc.joints, desc.weights};
+}
+
+void read_pieces(const Mesh& mesh, std::uint32_t count, const std::uint32_t* vertices, const char* count_name,
+                 const char* name, Vector<std::int32_t>& out) {
+  if (count > 0) read_list(mesh, count, vertices, count_name, name, out);
+}
+
+}  // namespace
+
+void read_links(const hf_links_desc& desc, const Mesh& mesh, LinksIn& out) {
+  check_choice(desc.mode, 3, "mode");
+  require_zero(desc.reserved);
+  LinkOptions& options = out.options;
+  options.mode = static_cast<LinkMode>(desc.mode);
+  options.distance = read_length(desc.distance, default_link_distance, mesh, "distance");
+  options.overlay = read_length(desc.overlay_distance, default_overlay, mesh, "overlay_distance");
+  options.stiffness = desc.stiffness == 0 ? 1.0 : static_cast<double>(desc.stiffness);
+  if (options.distance < 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "distance is below 0");
+  check_finite(options.stiffness, "stiffness");
+  if (!(options.stiffness > 0))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "stiffness is %g; it must be above 0", options.stiffness);
+  read_skin_hint(desc, mesh, options.skin);
+  if (desc.tags) options.tags = {desc.tags, mesh.report.vertex_count};
+  read_pieces(mesh, desc.light_count, desc.light_vertices, "light_count", "light_vertices", out.light);
+  read_pieces(mesh, desc.heavy_count, desc.heavy_vertices, "heavy_count", "heavy_vertices", out.heavy);
+  options.light = out.light, options.heavy = out.heavy;
+  if (options.mode != LinkMode::list) {
+    if (desc.link_count > 0)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "link_count is %u, but mode is not HF_LINK_LIST", desc.link_count);
+    return;
+  }
+  if (desc.link_count > 0) require(desc.links, "links->links");
+  for (std::uint32_t i = 0; i < desc.link_count; ++i) out.list.push_back(read_link(desc.links[i], mesh, i));
+  options.list = out.list;
+}
+
+}  // namespace hf_inner

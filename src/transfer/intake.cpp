@@ -1,0 +1,44 @@
+#include "transfer/intake.h"
+
+#include <algorithm>
+
+#include "base/arguments.h"
+
+namespace hf_inner {
+
+TransferOptions read_transfer_options(const hf_transfer_desc& desc) {
+  TransferOptions options;
+  options.mode = desc.mode, options.cluster_count = desc.cluster_count;
+  options.kernel_width = static_cast<double>(desc.kernel_width), options.scale = static_cast<double>(desc.scale);
+  options.alignment_angle = static_cast<double>(desc.alignment_angle);
+  std::copy_n(desc.source_axes, 9, options.source_axes), std::copy_n(desc.target_axes, 9, options.target_axes);
+  return options;
+}
+
+PairsInput read_pairs(const Transfer& transfer, const hf_pairs_desc& desc, Memory& memory) {
+  check_region_count(0, desc.pair_count, "pair");  // before lists of that length are read
+  require(desc.source_counts, "source_counts"), require(desc.source_vertices, "source_vertices");
+  require(desc.target_counts, "target_counts"), require(desc.target_vertices, "target_vertices");
+  PairsInput input(Regions(transfer.source().mesh, desc.pair_count, desc.source_counts, desc.source_vertices,
+                           "source_vertices", &memory),
+                   Regions(transfer.target().mesh, desc.pair_count, desc.target_counts, desc.target_vertices,
+                           "target_vertices", &memory),
+                   memory);
+  for (std::uint32_t p = 0; p < desc.pair_count; ++p)
+    input.pairs.push_back({input.source[p], input.target[p], desc.flags ? desc.flags[p] : 0});
+  return input;
+}
+
+Span<const PairHold> read_holds(const hf_transfer_frame& frame, PairHold* room) {
+  if (frame.hold_count > HF_PAIR_LIMIT)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u holds in a frame; a transfer has at most %d pairs", frame.hold_count,
+         HF_PAIR_LIMIT);
+  if (frame.hold_count > 0) require(frame.hold_pairs, "hold_pairs"), require(frame.hold_positions, "hold_positions");
+  for (std::uint32_t i = 0; i < frame.hold_count; ++i) {
+    const double* place = frame.hold_positions + 3 * std::size_t{i};
+    room[i] = {frame.hold_pairs[i], {place[0], place[1], place[2]}};
+  }
+  return {room, frame.hold_count};
+}
+
+}  // namespace hf_inner

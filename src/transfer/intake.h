@@ -1,0 +1,26 @@
+// Reads the options, pairs and holds of a transfer.
+#pragma once
+#include "mesh/vertex_lists.h"
+#include "transfer/transfer.h"
+
+namespace hf_inner {
+
+// The constructor of Transfer checks the options.
+TransferOptions read_transfer_options(const hf_transfer_desc& desc);
+
+// Pairs and the regions that they refer to.
+struct PairsInput {
+  PairsInput(Regions&& from, Regions&& to, Memory& memory)
+      : source(std::move(from)), target(std::move(to)), pairs(&memory) {}
+  Regions source, target;
+  Vector<PairInput> pairs;
+};
+// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_NULL_POINTER, HF_ERROR_OUT_OF_RANGE or HF_ERROR_INVALID_ARGUMENT
+// as hf_transfer_add_pairs says.
+PairsInput read_pairs(const Transfer& transfer, const hf_pairs_desc& desc, Memory& memory);
+
+// Returns the holds of a frame, which it writes to `room`: HF_PAIR_LIMIT entries. Throws HF_ERROR_TOO_LARGE or
+// HF_ERROR_NULL_POINTER.
+Span<const PairHold> read_holds(const hf_transfer_frame& frame, PairHold* room);
+
+}  // namespace hf_inner

@@ -1,0 +1,186 @@
+#include "weights/intake.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/arguments.h"
+#include "mesh/places.h"
+
+namespace hf_inner {
+namespace {
+
+// Bounds the memory of a runaway host; rigs have some hundred bones.
+constexpr std::uint32_t most_bones = 1u << 20;
+
+Vec3 read_bone_point(const double* points, std::uint32_t i, const char* name) {
+  const double* p = points + 3 * std::size_t{i};
+  if (!is_finite_point(p)) fail(HF_ERROR_NON_FINITE, i, "%s: the point of bone %u is not finite", name, i);
+  return {p[0], p[1], p[2]};
+}
+
+// Refuses parents in a circle: a walk from every bone up, which ends where an earlier walk was.
+void check_parents(const Bones& bones, Memory& memory) {
+  Vector<Index> walk(bones.head.size(), -1, &memory);
+  for (Index b = 0; b < bones.count(); ++b) {
+    for (Index up = b; up >= 0 && walk[at(up)] < 0; up = bones.parent[at(up)]) {
+      walk[at(up)] = b;
+      const Index next = bones.parent[at(up)];
+      if (next >= 0 && walk[at(next)] == b)
+        fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(next), "bone %d is an ancestor of itself", next);
+    }
+  }
+}
+
+Site read_place(const Mesh& mesh, const hf_pins_desc& desc, std::uint32_t i) {
+  if (desc.vertices) return Site::at_vertex(mesh, usable_vertex(mesh, desc.vertices[i], i, "vertices"));
+  const double* weights = desc.barycentrics + 3 * std::size_t{i};
+  const SurfacePlace place = place_in_triangle(mesh, desc.triangles[i], weights, i);
+  Site site;
+  int used = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (weights[k] > 0) site.vertex[used] = place.vertex[k], site.weight[used++] = weights[k];
+  }
+  if (used == 1) site.weight[0] = 1;
+  site.component = mesh.component[at(place.vertex[0])];
+  return site;
+}
+
+void read_pin_weights(const hf_pins_desc& desc, std::uint32_t i, std::uint32_t bones, Pins& pins) {
+  double sum = 0;
+  const std::size_t first = pins.share.size();
+  for (std::uint32_t k = 0; k < desc.joint_count; ++k) {
+    const std::size_t entry = std::size_t{i} * desc.joint_count + k;
+    const std::uint32_t joint = desc.joints[entry];
+    const double weight = static_cast<double>(desc.weights[entry]);
+    if (joint >= bones)
+      fail(HF_ERROR_OUT_OF_RANGE, i, "joint %u of pin %u is bone %u, but there are %u bones", k, i, joint, bones);
+    if (!std::isfinite(weight)) fail(HF_ERROR_NON_FINITE, i, "weight %u of pin %u is not finite", k, i);
+    if (weight < 0)
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "weight %u of pin %u is %g; it must not be negative", k, i, weight);
+    if (!(weight > 0)) continue;
+    sum += weight;
+    // A bone named twice counts once, with both weights.
+    std::size_t there = first;
+    while (there < pins.bone.size() && pins.bone[there] != static_cast<Index>(joint)) ++there;
+    if (there < pins.bone.size()) {
+      pins.share[there] += weight;
+    } else {
+      pins.bone.push_back(static_cast<Index>(joint)), pins.share.push_back(weight);
+    }
+  }
+  if (!(sum > 0)) fail(HF_ERROR_INVALID_ARGUMENT, i, "the weights of pin %u are all 0; one must be above 0", i);
+  for (std::size_t k = first; k < pins.share.size(); ++k) pins.share[k] /= sum;
+  pins.start.push_back(static_cast<Index>(pins.bone.size()));
+}
+
+// The weights of locks by inner vertex, in the order of `bones`.
+void read_lock_values(const Mesh& mesh, std::uint32_t count, const float* values, Vector<float>& out) {
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const std::uint32_t given = given_vertex(mesh, v);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const float value = values[std::size_t{given} * count + i];
+      if (!std::isfinite(value)) fail(HF_ERROR_NON_FINITE, given, "value %u of vertex %u is not finite", i, given);
+      if (value < 0 || value > 1)
+        fail(HF_ERROR_INVALID_ARGUMENT, given, "value %u of vertex %u is %g; it must be 0 to 1", i, given,
+             static_cast<double>(value));
+      out.push_back(value);
+    }
+  }
+}
+
+}  // namespace
+
+std::int32_t read_weight_count(std::uint32_t given) {
+  if (given != 0 && given != 4 && given != 8)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4", given);
+  return given == 8 ? 8 : 4;
+}
+
+void read_bones(const hf_bones_desc& desc, Bones& bones, Memory& memory) {
+  require_list(desc.bone_count, desc.heads, "bone_count", "heads");
+  if (desc.bone_count > most_bones)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "bone_count is %u; the limit is %u", desc.bone_count, most_bones);
+  if (desc.tails && desc.axes) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "tails and axes are both set; set one");
+  bones.has_tails = desc.tails != nullptr;
+  for (std::uint32_t b = 0; b < desc.bone_count; ++b) {
+    bones.head.push_back(read_bone_point(desc.heads, b, "heads"));
+    if (desc.tails) bones.tail.push_back(read_bone_point(desc.tails, b, "tails"));
+    if (desc.axes) bones.axis.push_back(unit_vector(read_bone_point(desc.axes, b, "axes")));
+    const std::uint32_t parent = desc.parents ? desc.parents[b] : HF_NO_INDEX;
+    if (parent != HF_NO_INDEX && parent >= desc.bone_count)
+      fail(HF_ERROR_OUT_OF_RANGE, b, "the parent of bone %u is %u, but there are %u bones", b, parent, desc.bone_count);
+    bones.parent.push_back(parent == HF_NO_INDEX ? -1 : static_cast<Index>(parent));
+    const std::int32_t deforms = desc.deforms ? desc.deforms[b] : 1;
+    if (deforms != 0 && deforms != 1)
+      fail(HF_ERROR_INVALID_ARGUMENT, b, "deforms of bone %u is %d; it must be 0 or 1", b, deforms);
+    bones.deforms.push_back(static_cast<std::uint8_t>(deforms));
+  }
+  check_parents(bones, memory);
+}
+
+Vector<Index> read_sources(const hf_bones_desc& desc, std::uint32_t before, Memory& memory) {
+  Vector<Index> sources(&memory);
+  Vector<std::uint8_t> named(before, 0, &memory);
+  for (std::uint32_t b = 0; desc.sources && b < desc.bone_count; ++b) {
+    const std::uint32_t source = desc.sources[b];
+    if (source == HF_NO_INDEX) {
+      sources.push_back(-1);
+      continue;
+    }
+    if (source >= before)
+      fail(HF_ERROR_OUT_OF_RANGE, b, "the source of bone %u is %u, but there were %u bones", b, source, before);
+    if (named[source]) fail(HF_ERROR_DUPLICATE_SITE, b, "the source %u of bone %u is named twice", source, b);
+    named[source] = 1;
+    sources.push_back(static_cast<Index>(source));
+  }
+  return sources;
+}
+
+void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, Pins& pins) {
+  if (desc.pin_count == 0) return;
+  if (desc.vertices && desc.triangles)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
+  require_either(desc.vertices, desc.triangles, "vertices and triangles");
+  if (desc.triangles) require(desc.barycentrics, "barycentrics");
+  require(desc.joints, "joints"), require(desc.weights, "weights");
+  if (desc.joint_count < 1 || desc.joint_count > most_influences)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joint_count is %u; it must be 1 to %d", desc.joint_count,
+         most_influences);
+  if (desc.pin_count > mesh.report.vertex_count)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "pin_count is %u; the mesh has %u vertices", desc.pin_count,
+         mesh.report.vertex_count);
+  for (std::uint32_t i = 0; i < desc.pin_count; ++i) {
+    pins.places.push_back(read_place(mesh, desc, i));
+    const double radius = desc.radii ? desc.radii[i] : 0.0;
+    if (!std::isfinite(radius)) fail(HF_ERROR_NON_FINITE, i, "the radius of pin %u is not finite", i);
+    if (radius < 0)
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "the radius of pin %u is %g; it must not be negative", i, radius);
+    pins.radius.push_back(radius / mesh.scale);
+    read_pin_weights(desc, i, bones, pins);
+  }
+}
+
+LockInput read_locks(const Mesh& mesh, std::uint32_t bone_count, std::uint32_t count, const std::uint32_t* bones,
+                     const float* values, Memory& memory) {
+  if (count > bone_count)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "lock_count is %u, but there are %u bones", count, bone_count);
+  if (count > 0) require(bones, "bones");
+  LockInput locks(&memory);
+  Vector<std::uint8_t> named(bone_count, 0, &memory);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (bones[i] >= bone_count)
+      fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of bones is %u, but there are %u bones", i, bones[i], bone_count);
+    if (named[bones[i]]) fail(HF_ERROR_DUPLICATE_SITE, i, "entry %u of bones names bone %u again", i, bones[i]);
+    named[bones[i]] = 1;
+    locks.bones.push_back(static_cast<Index>(bones[i]));
+  }
+  if (values && count > 0) read_lock_values(mesh, count, values, locks.values);
+  return locks;
+}
+
+std::uint32_t bone_flags(std::uint32_t faults) noexcept {
+  const bool odd = (faults & (bone_no_length | bone_coincident | bone_outside)) != 0;
+  return odd && (faults & bone_informs_none) ? faults | HF_BONE_HELPER : faults;
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,35 @@
+// Reads bones, pins and locks of the caller: checks them and turns them into what the room works on.
+#pragma once
+#include "hf/weights.h"
+#include "weights/weights.h"
+
+namespace hf_inner {
+
+// Weights a vertex: 4 or 8; 0 stands for 4. Throws HF_ERROR_INVALID_ARGUMENT for other numbers.
+std::int32_t read_weight_count(std::uint32_t given);
+
+// Appends the bones to `bones`. sources of the desc are not read. Throws as hf_weights_create says.
+void read_bones(const hf_bones_desc& desc, Bones& bones, Memory& memory);
+
+// Returns by new bone the number it had before, -1 for a new one; empty: the same numbers. before: their count. Throws
+// as hf_weights_set_bones says.
+Vector<Index> read_sources(const hf_bones_desc& desc, std::uint32_t before, Memory& memory);
+
+// Appends the pins to `pins`. bones: their count. Throws as hf_weights_set_pins says.
+void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, Pins& pins);
+
+// Locked bones and their weights [inner vertex][bones]; no weights: the present ones stay.
+struct LockInput {
+  explicit LockInput(Memory* memory) : bones(memory), values(memory) {}
+  Vector<Index> bones;
+  Vector<float> values;
+};
+// bone_count: of the skeleton. values: [vertex as given][count], or null. Throws as hf_weights_set_locks says.
+LockInput read_locks(const Mesh& mesh, std::uint32_t bone_count, std::uint32_t count, const std::uint32_t* bones,
+                     const float* values, Memory& memory);
+
+// The flags HF_BONE_* of a bone with these faults. A bone that no vertex needs and that is a point, a copy or outside
+// is proposed as a helper.
+std::uint32_t bone_flags(std::uint32_t faults) noexcept;
+
+}  // namespace hf_inner
