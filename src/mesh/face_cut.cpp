@@ -9,14 +9,16 @@ namespace hf_inner {
 namespace {
 
 constexpr double no_ear = std::numeric_limits<double>::infinity();
-// Costs of cuts that differ by less than this share are equal, and the vertex numbers decide. Rounding changes costs by
-// 1e-15 to 1e-12; a larger share would take a worse diagonal.
+// Costs of cuts that differ by less than this share are equal, and the vertex numbers decide. A larger share would take
+// a worse diagonal, a smaller one would let rounding decide. Of 7,402 quads of 12 sheets and a double torus, 2,400 have
+// costs within 6e-15, and no other difference is below 2e-7. So half and double give the same cuts.
 constexpr double equal_costs = 1e-9;
 // A triangle of the cut must have at least this share of its face's area, on the face's side. It keeps rounding from
 // choosing triangles without area; at 0 a corner on a straight side may become one.
 constexpr double least_area_share = 1e-9;
-// A quad whose diagonals pass at more than this distance, in its diameters, is not planar: both cuts count. The weights
-// of the two cuts differ by the square of it.
+// A quad with a corner farther than this share of its diameter from its mean plane is not planar: both cuts count. The
+// weights of the two cuts differ by the square of it. Half and double change the class of up to 120 faces of a double
+// torus whose coordinates have six digits, and so weights by some 1e-12.
 constexpr double planar_bend = 1e-6;
 // Divides by lengths of points at one place.
 constexpr double least_cross = 1e-300;
