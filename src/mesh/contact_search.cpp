@@ -133,17 +133,25 @@ Contact ContactSearch::contact(Index v, Index triangle, double squared_length) c
   return out;
 }
 
-void ContactSearch::find(Index from, Index to, double depth, double& reach, Vector<Contact>& out) const {
+void ContactSearch::find(Index from, Index to, double depth, double& reach, Vector<Contact>& out,
+                         std::size_t most) const {
   const std::size_t first = out.size();
   Vector<Leaf> leaves(&memory_);
+  const auto is_near = [&](const Chunk& chunk) { return squared_distance(chunk.box, box(to)) < reach * reach; };
+  std::size_t step = 1;
+  if (most < SIZE_MAX) {
+    std::size_t count = 0;
+    for (const Chunk& chunk : chunks_of(from)) count += is_near(chunk) ? at(chunk.last - chunk.first) : 0;
+    step = std::max<std::size_t>(1, count / most);
+  }
   Index hint = -1;
   for (const Chunk& chunk : chunks_of(from)) {
-    if (!(squared_distance(chunk.box, box(to)) < reach * reach)) continue;
+    if (!is_near(chunk)) continue;
     leaves_near(to, chunk.box, reach, leaves);
     if (leaves.empty()) continue;
-    for (Index i = chunk.first; i < chunk.last; ++i) {
+    for (std::size_t i = at(chunk.first); i < at(chunk.last); i += step) {
       Contact made;
-      if (!contact_of(chunk_vertex_[at(i)], leaves, reach, hint, made)) continue;
+      if (!contact_of(chunk_vertex_[i], leaves, reach, hint, made)) continue;
       out.push_back(made);
       reach = std::min(reach, made.cost + depth);
     }

@@ -29,8 +29,8 @@ class ContactSearch {
   double nearest(Index piece, const Vec3& p, double within, double enough, Index& triangle) const noexcept;
   // Appends the contacts of piece `from` with piece `to` that are nearer than reach, in ascending order of the vertices.
   // reach falls to the cost of the cheapest contact plus `depth`. Contacts that cost more are not needed, but some are
-  // found.
-  void find(Index from, Index to, double depth, double& reach, Vector<Contact>& out) const;
+  // found. most: where more vertices may have contacts, about so many are tried, spread over all of them.
+  void find(Index from, Index to, double depth, double& reach, Vector<Contact>& out, std::size_t most) const;
   // Keeps for each vertex of piece `from` its cheapest contact. best: by vertex; the cost of none is unbounded. alone:
   // each vertex searches for itself, which is cheaper while contacts are unbounded.
   void improve(Index from, Index to, double range, bool alone, Vector<Contact>& best) const;

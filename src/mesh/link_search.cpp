@@ -167,7 +167,7 @@ void LinkSearch::list_pairs() {
 void LinkSearch::measure_pair(Pair& pair, double range) const {
   Vector<Contact> found(&memory_);
   double reach = range;
-  contacts_.find(pair.a, pair.b, 0, reach, found), contacts_.find(pair.b, pair.a, 0, reach, found);
+  contacts_.find(pair.a, pair.b, 0, reach, found, SIZE_MAX), contacts_.find(pair.b, pair.a, 0, reach, found, SIZE_MAX);
   for (const Contact& contact : found) {
     pair.cost = std::min(pair.cost, contact.cost), pair.distance = std::min(pair.distance, contact.distance);
   }
@@ -239,7 +239,7 @@ void LinkSearch::grow_tree() {
     const Pair& pair = pairs_[i];
     // Most sheets touch what they lie over, so that one search finds the tree's edge.
     const bool sheet = has_sheet(pair);
-    const double guess = pair.gap + (sheet ? touching : 0);
+    const double guess = pair.gap + (sheet && pair.gap < touching ? touching : 0);
     return Entry{(sheet ? sheet_detour : 0) + (pair.cost < unbounded ? pair.cost : guess), i};
   };
   UnionFind sets(pieces_, memory_);
@@ -255,7 +255,8 @@ void LinkSearch::grow_tree() {
     if (pair.cost < unbounded) {
       if (pair.distance <= options_.distance) pair.in_tree = sets.unite(pair.a, pair.b);
     } else if (pair.gap < options_.distance) {
-      measure_pair(pair, pair.gap < touching ? touching : options_.distance);
+      // Most pairs are little farther apart than is known, so the range grows by steps.
+      measure_pair(pair, std::min(std::max(touching, 2 * pair.gap), options_.distance));
       if (pair.cost < unbounded || pair.gap < options_.distance)
         heap.push_back(entry_of(entry.pair)), std::push_heap(heap.begin(), heap.end());
     }
@@ -317,17 +318,22 @@ void LinkSearch::link_spread(const Vector<Contact>& contacts, std::size_t most, 
   }
 }
 
-// Links both sides of a pair, at contacts that cost little more than the cheapest.
+// Links both sides of a pair, at contacts that cost little more than the cheapest. All vertices are tried where none of
+// the candidates is a contact, so that a pair of the tree always gets a link.
 void LinkSearch::link_pair(const Pair& pair) {
   Vector<Contact> near(&memory_);
-  for (const bool first : {true, false}) {
-    near.clear();
-    double reach = least_above(pair.cost + contact_depth);
-    contacts_.find(first ? pair.a : pair.b, first ? pair.b : pair.a, unbounded, reach, near);
-    near.erase(std::remove_if(near.begin(), near.end(),
-                              [&](const Contact& contact) { return contact.cost > pair.cost + contact_depth; }),
-               near.end());
-    link_spread(near, pair.in_tree ? links_a_side : links_a_side / 2, unbounded, pair.in_tree);
+  const std::size_t before = out_.links.size();
+  for (const std::size_t most : {link_candidates, std::size_t{SIZE_MAX}}) {
+    for (const bool first : {true, false}) {
+      near.clear();
+      double reach = least_above(pair.cost + contact_depth);
+      contacts_.find(first ? pair.a : pair.b, first ? pair.b : pair.a, unbounded, reach, near, most);
+      near.erase(std::remove_if(near.begin(), near.end(),
+                                [&](const Contact& contact) { return contact.cost > pair.cost + contact_depth; }),
+                 near.end());
+      link_spread(near, pair.in_tree ? links_a_side : links_a_side / 2, unbounded, pair.in_tree);
+    }
+    if (out_.links.size() > before) return;
   }
 }
 

@@ -324,7 +324,7 @@ TEST(Links, contacts_agree_with_trying_all_triangles) {
   for (Index from = 0; from < 2; ++from) {
     hf_inner::Vector<hf_inner::Contact> found(&memory), best(at(mesh.vertex_count()), {-1, -1, 1e300, 1e300}, &memory);
     double reach = range, nearest = 1e300;
-    search.find(from, 1 - from, depth, reach, found);
+    search.find(from, 1 - from, depth, reach, found, SIZE_MAX);
     search.improve(from, 1 - from, range, from == 0, best);
     std::vector<double> distance(at(mesh.vertex_count()), -1);
     for (const hf_inner::Contact& contact : found) distance[at(contact.vertex)] = contact.distance;
