@@ -107,8 +107,8 @@ std::string unreached_sentence(hf_surface surface, const std::vector<uint32_t>& 
   }
   if (without + isolated == 0) return {};
   const uint32_t all = without + isolated;
-  std::string out = std::to_string(all) + (all == 1 ? " vertex is" : " vertices are") + " reached by no " + what + " and " +
-                    fate + ":";
+  std::string out = std::to_string(all) + (all == 1 ? " vertex is" : " vertices are") + " reached by no " + what +
+                    " and " + fate + ":";
   if (without > 0)
     out += " " + std::to_string(without) + " in " + std::to_string(bare) + (bare == 1 ? " component" : " components") +
            " without one (at " + around + ")";

@@ -59,8 +59,8 @@ class WidestGap {
 };
 
 // "34 vertices are reached by no handle and stay at rest: 30 in 2 components without one (at 7, 120), 4 without a
-// triangle"; empty where everything is reached. reached: vertices of the sites, handles or regions. what, fate: the words
-// "handle" and "stay at rest". The vertices named are the first of the components.
+// triangle"; empty where everything is reached. reached: vertices of the sites, handles or regions. what, fate: the
+// words "handle" and "stay at rest". The vertices named are the first of the components.
 std::string unreached_sentence(hf_surface surface, const std::vector<uint32_t>& reached, const std::string& what,
                                const std::string& fate);
 

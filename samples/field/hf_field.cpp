@@ -175,10 +175,10 @@ int run_one(const FieldOptions& options) {
   }
   if (field.empty()) throw std::runtime_error("the script ends without a site; there is no field to write");
   if (info.unreached_vertex_count) {
-    std::fprintf(
-        stderr,
-        "warning: %u vertices are reached by no site (%u components without one, or isolated); they are written as 0 and hatched in pictures\n",
-        info.unreached_vertex_count, info.unreached_component_count);
+    std::fprintf(stderr,
+                 "warning: %u vertices are reached by no site (%u components without one, or isolated); they are "
+                 "written as 0 and hatched in pictures\n",
+                 info.unreached_vertex_count, info.unreached_component_count);
   }
   if (!options.out.empty()) write_field_text(options.out, field, session.components());
   const bool listed = options.critical_points || options.kind == FieldType::direction;

@@ -85,8 +85,9 @@ double ContactSearch::nearest(Index piece, const Vec3& p, double within, double 
 
 void ContactSearch::leaves_near(Index piece, const ItemBox& box, double reach, Vector<Leaf>& out) const {
   out.clear();
-  tree_.leaves(piece, box, reach * reach,
-               [&](const ItemBox& leaf, Span<const Index> triangles) { out.push_back({leaf, triangles}); });
+  tree_.leaves(piece, box, reach * reach, [&](const ItemBox& leaf, Span<const Index> triangles) {
+    out.push_back({leaf, triangles});
+  });
 }
 
 // hint: the triangle of the vertex before, or -1; consecutive vertices are near each other.

@@ -27,9 +27,9 @@ class ContactSearch {
   // Returns the squared distance from p to a piece if it is below `within`, else `within`. enough: a squared distance;
   // the search ends at the first triangle that is at least that near. triangle: the nearest, or -1.
   double nearest(Index piece, const Vec3& p, double within, double enough, Index& triangle) const noexcept;
-  // Appends the contacts of piece `from` with piece `to` that are nearer than reach, in ascending order of the vertices.
-  // reach falls to the cost of the cheapest contact plus `depth`. Contacts that cost more are not needed, but some are
-  // found. most: where more vertices may have contacts, about so many are tried, spread over all of them.
+  // Appends the contacts of piece `from` with piece `to` that are nearer than reach, in ascending order of the
+  // vertices. reach falls to the cost of the cheapest contact plus `depth`. Contacts that cost more are not needed, but
+  // some are found. most: where more vertices may have contacts, about so many are tried, spread over all of them.
   void find(Index from, Index to, double depth, double& reach, Vector<Contact>& out, std::size_t most) const;
   // Keeps for each vertex of piece `from` its cheapest contact. best: by vertex; the cost of none is unbounded. alone:
   // each vertex searches for itself, which is cheaper while contacts are unbounded.
@@ -62,8 +62,8 @@ class ContactSearch {
   Vector<ItemBox> boxes_;  // by triangle
   Vector<Index> group_;    // piece by triangle
   BoxTree tree_;
-  Vector<Index> start_, vertex_;                // the vertices of piece p: vertex_[start_[p] .. start_[p + 1])
-  Vector<Index> chunk_start_, chunk_vertex_;    // the chunks of piece p: chunk_[chunk_start_[p] .. chunk_start_[p + 1])
+  Vector<Index> start_, vertex_;              // the vertices of piece p: vertex_[start_[p] .. start_[p + 1])
+  Vector<Index> chunk_start_, chunk_vertex_;  // the chunks of piece p: chunk_[chunk_start_[p] .. chunk_start_[p + 1])
   Vector<Chunk> chunk_;
 };
 

@@ -41,8 +41,8 @@ constexpr double least_share = 0.05;
 // About so many vertices of a side are tried for links where more lie near the other piece: bounds the work on large
 // contacts.
 constexpr std::size_t link_candidates = 64;
-// Vertices that visit the leaves of another piece together: trades tests of boxes for tests of vertices. No link depends
-// on it.
+// Vertices that visit the leaves of another piece together: trades tests of boxes for tests of vertices. No link
+// depends on it.
 constexpr Index chunk_vertices = 8;
 
 }  // namespace hf_inner

@@ -25,7 +25,10 @@ Vec3 area_vector(const Mesh& mesh, Index t) noexcept {
 }  // namespace
 
 SkinShape::SkinShape(const Mesh& mesh, Memory& memory)
-    : mesh_(mesh), side_(&memory), normals_(&memory), tree_(triangle_boxes(mesh.positions, mesh.corners, memory), memory) {
+    : mesh_(mesh),
+      side_(&memory),
+      normals_(&memory),
+      tree_(triangle_boxes(mesh.positions, mesh.corners, memory), memory) {
   orient();
   normals_.assign(at(mesh.vertex_count()), Vec3{});
   for (Index t = 0; t < mesh.triangle_count(); ++t) {

@@ -11,15 +11,15 @@ Value create_of(Surface& s, hf_surface_desc& desc, const Argument& positions_giv
                 const Argument& saved) {
   auto links = make<hf_links_desc>();
   read_options(options, {{"link_pieces", &links.mode},
-                          {"weld", &desc.weld},
-                          {"weld_tolerance", &desc.weld_tolerance},
-                          {"operator_kind", &desc.operator_kind},
-                          {"field_kind", &desc.field_kind},
-                          {"ordering", &desc.ordering},
-                          {"thread_count", &desc.thread_count},
-                          {"vertex_limit", &desc.vertex_limit},
-                          {"triangle_limit", &desc.triangle_limit},
-                          {"memory_limit_mb", &desc.memory_limit_mb}});
+                         {"weld", &desc.weld},
+                         {"weld_tolerance", &desc.weld_tolerance},
+                         {"operator_kind", &desc.operator_kind},
+                         {"field_kind", &desc.field_kind},
+                         {"ordering", &desc.ordering},
+                         {"thread_count", &desc.thread_count},
+                         {"vertex_limit", &desc.vertex_limit},
+                         {"triangle_limit", &desc.triangle_limit},
+                         {"memory_limit_mb", &desc.memory_limit_mb}});
   if (links.mode != HF_LINK_NONE && links.mode != HF_LINK_PIECES) fail("link_pieces must be 0 or 1");
   desc.links = &links;
   if (positions_given.null) fail("positions are null", HF_ERROR_NULL_POINTER);
@@ -47,8 +47,8 @@ Value create(Surface& s, const Arguments& a) {
   return create_of(s, desc, at(a, 0), at(a, 2), at(a, 3));
 }
 
-// create_faces(positions, offsets, corners, options = {}, saved factor = null): faces of any number of corners; those of
-// face f are corners[offsets[f]] to corners[offsets[f + 1] - 1]
+// create_faces(positions, offsets, corners, options = {}, saved factor = null): faces of any number of corners; those
+// of face f are corners[offsets[f]] to corners[offsets[f + 1] - 1]
 Value create_faces(Surface& s, const Arguments& a) {
   auto desc = make<hf_surface_desc>();
   const List offsets = integers(at(a, 1), "offsets"), corners = integers(at(a, 2), "corners");

@@ -50,7 +50,8 @@ TEST(BoxTree, KeepsGroupsApartAndVisitsTheLeavesNearABox) {
   const BoxTree tree(items, group, groups, memory);
   EXPECT_TRUE(tree.items(2).empty());
   tree.leaves(2, items[0], 10, [](const ItemBox&, const auto&) { ADD_FAILURE(); });
-  tree.near(2, {0, 0, 0}, [] { return 10.0; }, [](Index) { ADD_FAILURE(); });
+  tree.near(
+      2, {0, 0, 0}, [] { return 10.0; }, [](Index) { ADD_FAILURE(); });
   for (const Index g : {0, 1, 3}) {
     EXPECT_EQ(tree.items(g).size(), 100u);
     for (const Index i : tree.items(g)) EXPECT_EQ(group[at(i)], g);

@@ -331,8 +331,8 @@ TEST(Links, contacts_agree_with_trying_all_triangles) {
     for (const Index v : search.vertices_of(from))
       nearest = std::min(nearest, std::sqrt(least_distance(mesh, group, 1 - from, v)));
     EXPECT_NEAR(reach, nearest + depth, 1e-12);
-    EXPECT_TRUE(std::is_sorted(found.begin(), found.end(),
-                               [](const auto& a, const auto& b) { return a.vertex < b.vertex; }));
+    EXPECT_TRUE(
+        std::is_sorted(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; }));
     for (const Index v : search.vertices_of(from)) {
       const double least = std::sqrt(least_distance(mesh, group, 1 - from, v));
       if (least < nearest + depth) {
