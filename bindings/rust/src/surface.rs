@@ -133,7 +133,10 @@ impl Surface {
         let mut links = raw::hf_links_desc::default();
         if let Some(given) = extras.links {
             given.fill(&mut links);
-            links.tags = start_of(extras.tags, desc.vertex_count as usize, "tags")?;
+            if let Some(tags) = extras.tags {
+                of_length(tags, "tags", desc.vertex_count as usize)?;
+            }
+            links.tags = start_of(extras.tags);
             desc.links = &links;
         }
         desc.progress = handle_of(extras.progress);
