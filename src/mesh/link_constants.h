@@ -35,6 +35,10 @@ constexpr std::size_t sheet_turns = 6;
 constexpr double light_spacing = 0.02;
 // Candidate pairs that each piece keeps, the nearest boxes first: bounds the work on thousands of overlapping pieces.
 constexpr std::size_t pairs_a_piece = 32;
+// A link goes to one corner of the triangle if it is this near to the nearest point: trades fill for the place of the
+// link. Chosen on a robot, a man, a spider, a frog and a model of large triangles; docs/studies/links.md has the
+// figures at half, a quarter and 0.
+constexpr double corner_distance = 0.02;
 // A corner of less weight than this in a link is left out: the factor has fewer entries.
 constexpr double least_share = 0.05;
 

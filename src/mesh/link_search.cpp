@@ -26,6 +26,17 @@ struct Pair {
   bool in_tree = false;
 };
 
+// Gives all weight to a corner that is near the point of these barycentrics.
+void snap_to_corner(const Mesh& mesh, const Index* corner, double* share) noexcept {
+  Vec3 point;
+  for (std::size_t k = 0; k < 3; ++k) point = point + share[k] * mesh.positions[at(corner[k])];
+  double distance[3];
+  for (std::size_t k = 0; k < 3; ++k) distance[k] = norm(mesh.positions[at(corner[k])] - point);
+  const std::size_t nearest = static_cast<std::size_t>(std::min_element(distance, distance + 3) - distance);
+  if (distance[nearest] > corner_distance) return;
+  for (std::size_t k = 0; k < 3; ++k) share[k] = k == nearest ? 1 : 0;
+}
+
 class LinkSearch {
  public:
   LinkSearch(const Mesh& mesh, const Vector<double>& areas, const LinkOptions& options, Memory& memory, JobRunner* jobs,
@@ -291,6 +302,7 @@ void LinkSearch::add_link(const Contact& contact, bool in_tree) {
   link.vertex = contact.vertex, link.tree = in_tree;
   double share[3], sum = 0;
   contacts_.weights(contact, share);
+  snap_to_corner(mesh_, mesh_.triangle(contact.triangle), share);
   for (double& s : share) s = s < least_share ? 0 : s, sum += s;
   for (std::size_t k = 0; k < 3; ++k) {
     if (share[k] > 0) link.share[k] = share[k] / sum, link.corner[k] = mesh_.triangle(contact.triangle)[k];
