@@ -18,7 +18,7 @@ import golden  # noqa: E402
 import hf  # noqa: E402
 from bad_scenes import bad_scenes  # noqa: E402
 from oracle import agree, cast_ray, expect, expect_all, expect_rows, field, graph_field, rotation  # noqa: E402
-from shapes import bar, strip, torus  # noqa: E402
+from shapes import bar, pair, strip, torus  # noqa: E402
 
 
 def write_meshes():
@@ -26,7 +26,7 @@ def write_meshes():
         (3, 4, 5)])
     lonely = (small[0] + [(9, 9, 9)], small[1])
     meshes = {"strip": strip(), "torus": torus(), "bar": bar(6, 0.5, 25, 12), "long_bar": bar(9, 0.9, 31, 14),
-        "small": small, "lonely": lonely}
+        "small": small, "lonely": lonely, "pair": pair(5)}
     (HERE / "meshes").mkdir(exist_ok=True)
     for name, (points, triangles) in meshes.items():
         text = {"positions": [round(float(x), 4) + 0.0 for p in points for x in p],
@@ -250,6 +250,8 @@ def scenes(meshes):
     kinds_of_field(scene, mesh, surface, solver)
     picking(scene, mesh, surface)
     graphs(scene, solver, solve)
+    faces(scene, solver, solve)
+    links(scene, surface, solver)
     return found
 
 
@@ -318,6 +320,34 @@ def kinds_of_field(scene, mesh, surface, solver):
           {"do": "save", "on": "n", "as": "f", "field_kind": thin},
           {**surface("torus", "o", field_kind=thin), "factor": "f"},
           {**surface("torus", "o"), "factor": "f", "error": "HF_ERROR_INVALID_ARGUMENT"})
+
+
+def faces(scene, solver, solve):
+    quads = {"offsets": [0, 4, 8], "corners": [0, 2, 3, 1, 2, 4, 5, 3]}
+    given = lambda faces, **more: {"do": "surface", "as": "m", "mesh": "small", "faces": faces, "options": {}, **more}
+    mixed = {"offsets": [0, 4, 7, 10], "corners": [0, 2, 3, 1, 2, 4, 3, 3, 4, 5]}
+    x = np.array([0.0, 0.0, 0.5, 0.5, 1.0, 1.0])
+    calls = [solver(), {"do": "add_sites", "on": "s", "vertices": [0, 1, 4, 5], "values": [0.0, 0.0, 1.0, 1.0]}, solve(x)]
+    scene("faces", "Two squares as faces of four corners, and with one of them cut: the field between two ends is x (closed form).",
+          given(quads), {"do": "report", "on": "m", "expect": {"face_count": 2, "polygon_count": 2, "vertex_count": 6}},
+          *calls, given(mixed), {"do": "report", "on": "m", "expect": {"face_count": 3, "polygon_count": 1}}, *calls,
+          given({**quads, "corners": [0, 2, 3, 1, 2, 4, 9, 3]}, error="HF_ERROR_OUT_OF_RANGE", index=1))
+
+
+def links(scene, surface, solver):
+    sites = {"do": "add_sites", "on": "s", "vertices": [0, 20, 29, 49], "values": [0.0, 0.0, 1.0, 1.0]}
+    look = lambda **figures: {"do": "report", "on": "m", "expect": {"piece_count": 2, "vertex_count": 50, **figures}}
+    alone = {"do": "add_sites", "on": "s", "vertices": [0], "values": [1.0]}
+    zeros = np.repeat([1.0, 0.0], 25)
+    scene("links", "Two plates beside each other are one component with links; without, a site on one leaves the other at 0 (closed form).",
+          surface("pair", link_pieces=1), look(component_count=1, link_count=10), solver(), sites,
+          {"do": "solve", "on": "s", "expect": agree()},
+          surface("pair"), look(component_count=2, link_count=0), solver(), alone,
+          {"do": "solve", "on": "s", "expect": expect(zeros)},
+          surface("pair", link_pieces=1), solver(), alone, {"do": "solve", "on": "s", "expect": expect(np.ones(50))})
+    scene("links_tags", "Pieces of different tags stay apart.",
+          {**surface("pair", link_pieces=1), "tags": [3] * 25 + [4] * 25}, look(component_count=2, link_count=0), solver(),
+          alone, {"do": "solve", "on": "s", "expect": expect(zeros)})
 
 
 def graphs(scene, solver, solve):

@@ -44,3 +44,15 @@ def bar(length, radius, rings, around):
     triangles += [t for j in range(around) for t in ((first, at(0, j + 1), at(0, j)),
         (last, at(rings - 1, j), at(rings - 1, j + 1)))]
     return points, triangles
+
+
+def pair(n):
+    """Two square plates of n x n vertices side by side, 0.01 apart."""
+    points = [(x / (n - 1) + shift, y / (n - 1), 0.0) for shift in (0.0, 1.01) for y in range(n) for x in range(n)]
+    triangles = []
+    for base in (0, n * n):
+        for y in range(n - 1):
+            for x in range(n - 1):
+                a = base + y * n + x
+                triangles += [(a, a + 1, a + n + 1), (a, a + n + 1, a + n)]
+    return points, triangles

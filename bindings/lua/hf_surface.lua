@@ -15,7 +15,8 @@ local graph_options = set('allow_negative field_kind ordering thread_count verte
 local function finish(desc, options, allowed, make_surface)
   local plain = {}
   for key, value in pairs(options) do
-    if key ~= 'saved_factor' and key ~= 'masses' and key ~= 'faces' then plain[key] = value end
+    if key ~= 'saved_factor' and key ~= 'masses' and key ~= 'faces' and key ~= 'link_pieces' and
+      key ~= 'tags' then plain[key] = value end
   end
   options_into(desc, plain, allowed)
   local factor
@@ -39,6 +40,19 @@ local function faces_into(desc, faces)
   return { starts, sizes, corners }
 end
 
+-- Sets the automatic links of a desc: options.link_pieces, and options.tags, a number for each vertex: pieces of
+-- different tags stay apart.
+local function links_into(desc, options)
+  local on = options.link_pieces and options.link_pieces ~= 0
+  if options.tags and not on then fail('tags need link_pieces') end
+  if not on then return nil end
+  local links = make('hf_links_desc', { mode = core.constants.HF_LINK_PIECES })
+  local tags, count = array(options.tags, 'uint32_t', 'tags')
+  if tags and count ~= desc.vertex_count then fail('tags must hold one number for each vertex') end
+  links.tags, desc.links = tags, links
+  return { links, tags }
+end
+
 -- triangles: a list, or cdata uint32_t[?] or uint16_t[?]; triangle_count: for cdata with a stride
 local function new(positions, triangles, options)
   options = options or {}
@@ -54,9 +68,9 @@ local function new(positions, triangles, options)
     triangle_count = corners and corner_count / row or 0 })
   desc[single and 'positions' or 'positions_f64'] = xyz
   if corner_count > 0 then desc[half and 'triangles_u16' or 'triangles'] = corners end
-  local held = options.faces and faces_into(desc, options.faces)
+  local held = { options.faces and faces_into(desc, options.faces), links_into(desc, options) }
   local surface = finish(desc, options, create_options, C.hf_surface_create)
-  held = nil -- the library has copied the faces
+  held = nil -- the library has copied the faces and tags
   return surface
 end
 

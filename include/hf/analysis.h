@@ -82,7 +82,7 @@ typedef struct hf_critical_point {
   uint32_t vertex;    /* as given, of welded copies the first */
   int32_t kind;       /* HF_CRITICAL_* */
   int32_t index;      /* 1 for extrema (0 for a maximum on a border), -k for a saddle where k + 1 valleys meet */
-  uint32_t component; /* as hf_surface_get_components */
+  uint32_t component; /* its piece, as hf_surface_get_pieces: links do not count here */
   double value;
 } hf_critical_point;
 
@@ -162,7 +162,7 @@ typedef struct hf_extremities_desc {
 
 typedef struct hf_extremity {
   uint32_t vertex;    /* as given, of welded copies the first */
-  uint32_t component; /* as hf_surface_get_components */
+  uint32_t component; /* its piece, as hf_surface_get_pieces: links do not count here */
   double length;      /* how far the tip protrudes, in the unit of the mesh. With p the persistence of the peak of the
                          field: sqrt(2 p) for POISSON, p for GEODESIC */
   double position[3];

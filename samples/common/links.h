@@ -2,7 +2,6 @@
 #ifndef HF_SAMPLES_COMMON_LINKS_H
 #define HF_SAMPLES_COMMON_LINKS_H
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -41,17 +40,33 @@ inline std::string links_sentence(hf_surface surface) {
 
 // "gaps between linked pieces: 0.08 % of the box at 95 of 100 links, 0.6 % at worst"; empty without links. diagonal: of
 // the box. positions: xyz of every vertex.
-inline std::string gaps_sentence(hf_surface surface, const std::vector<double>& positions, double diagonal) {
-  hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
-  posed.positions_f64 = positions.data();
-  hf_gaps_info info = HF_INIT(hf_gaps_info);
-  if (hf_surface_measure_gaps(surface, &posed, 0, nullptr, &info) != HF_OK || info.link_count == 0) return {};
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "gaps between linked pieces: %.2g %% of the box at 95 of 100 links, %.2g %% at worst",
-                100 * info.percentile_95 / diagonal, 100 * info.worst / diagonal);
-  return text;
-}
+std::string gaps_sentence(hf_surface surface, const std::vector<double>& positions, double diagonal);
+
+// The frame with the widest gap between linked pieces, of all frames that were taken.
+class WidestGap {
+ public:
+  explicit WidestGap(hf_surface surface) : surface_(surface) {}
+  // positions: xyz of every vertex. place: such as "at 0.5 s". Throws std::runtime_error with the library's message.
+  void take(const std::vector<double>& positions, const std::string& place);
+  // "widest gaps between linked pieces: ..., at 0.5 s"; empty without links.
+  std::string sentence(double diagonal) const;
+
+ private:
+  hf_surface surface_;
+  double worst_ = -1;
+  std::string place_;
+  std::vector<double> positions_;
+};
+
+// "34 vertices are reached by no handle and stay at rest: 30 in 2 components without one (at 7, 120), 4 without a
+// triangle"; empty where everything is reached. reached: vertices of the sites, handles or regions. what, fate: the
+// words "handle" and "stay at rest". The vertices named are the first of the components.
+std::string unreached_sentence(hf_surface surface, const std::vector<uint32_t>& reached, const std::string& what,
+                               const std::string& fate);
+
+// "handle \"sleeve\" lies on a light piece: it moves that piece and hardly pulls the rest"; empty unless most of
+// the vertices are on light pieces.
+std::string light_sentence(hf_surface surface, const std::vector<uint32_t>& vertices, const std::string& name);
 
 }  // namespace samples
 

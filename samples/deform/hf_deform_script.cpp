@@ -239,18 +239,15 @@ void run(const Command& command) {
     std::printf("%s\n", sentence.c_str());
   if (command.propose && !add_proposals(command, mesh, posable, script)) return;
   const std::vector<Key> keys = play(script, command, posable, bar);
-  const Key* widest = nullptr;
-  double worst = 0;
+  WidestGap widest(posable.surface());
   for (const Key& key : keys) {
-    hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
-    posed.positions_f64 = key.frame.positions.data();
-    hf_gaps_info info = HF_INIT(hf_gaps_info);
-    expect_ok(hf_surface_measure_gaps(posable.surface(), &posed, 0, nullptr, &info), "the gaps");
-    if (info.link_count > 0 && (!widest || info.worst > worst)) widest = &key, worst = info.worst;
+    char place[32];
+    std::snprintf(place, sizeof place, "at %.2f s", key.time);
+    widest.take(key.frame.positions, place);
   }
-  if (widest)
-    std::printf("widest %s, at %.2f s\n",
-                gaps_sentence(posable.surface(), widest->frame.positions, posable.diagonal()).c_str(), widest->time);
+  if (const std::string sentence = widest.sentence(posable.diagonal()); !sentence.empty())
+    std::printf("%s\n", sentence.c_str());
+  for (const std::string& remark : posable.remarks()) std::printf("note: %s\n", remark.c_str());
 
   if (!command.output.empty()) {
     bar.begin("writing " + command.output.string());

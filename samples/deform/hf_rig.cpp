@@ -9,6 +9,7 @@
 #include "common/gltf_read.h"
 #include "common/gltf_write.h"
 #include "common/json_file.h"
+#include "common/links.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
 #include "common/skin_write.h"
@@ -121,6 +122,9 @@ void run(const Command& command) {
   bar.begin("handles");
   posable.add(rig.handles);
   bar.end(std::to_string(rig.handles.size()) + " handles");
+  if (const std::string sentence = links_sentence(posable.surface()); !sentence.empty())
+    std::printf("%s\n", sentence.c_str());
+  for (const std::string& remark : posable.remarks()) std::printf("note: %s\n", remark.c_str());
 
   hf_skin_info info = HF_INIT(hf_skin_info);
   expect_ok(hf_pose_get_skin(posable.pose(), &info), "the skin");
@@ -194,6 +198,14 @@ void run(const Command& command) {
         "mean\n",
         skin.clips[c].name.c_str(), posed[c].size(), 100 * worst / posable.diagonal(),
         100 * std::sqrt(squares / count) / posable.diagonal());
+    WidestGap widest(posable.surface());
+    for (size_t f = 0; f < posed[c].size(); ++f) {
+      char place[32];
+      std::snprintf(place, sizeof place, "at %.2f s", skin.clips[c].times[f]);
+      widest.take(posed[c][f], place);
+    }
+    if (const std::string sentence = widest.sentence(posable.diagonal()); !sentence.empty())
+      std::printf("  %s\n", sentence.c_str());
   }
 }
 

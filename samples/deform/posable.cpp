@@ -196,4 +196,18 @@ std::vector<uint32_t> Posable::region_of(const Live& live) const {
   return out;
 }
 
+std::vector<std::string> Posable::remarks() const {
+  std::vector<std::string> out;
+  std::vector<uint32_t> all;
+  for (const Live& live : live_) {
+    const std::vector<uint32_t> region = region_of(live);
+    all.insert(all.end(), region.begin(), region.end());
+    if (std::string light = light_sentence(surface_, region, live.name); !light.empty())
+      out.push_back(std::move(light));
+  }
+  std::string unreached = unreached_sentence(surface_, all, "handle", "stay at rest");
+  if (!live_.empty() && !unreached.empty()) out.push_back(std::move(unreached));
+  return out;
+}
+
 }  // namespace samples

@@ -83,6 +83,8 @@ class Posable {
   hf_surface surface() const { return surface_; }
   // Returns the vertices of a handle, where its field is 1.
   std::vector<uint32_t> region_of(const Live& live) const;
+  // Sentences about what the present handles do not do: vertices that none reaches, handles on light pieces.
+  std::vector<std::string> remarks() const;
 
  private:
   glm::dvec3 at(const glm::dvec3& fraction) const { return lower_ + fraction * (upper_ - lower_); }

@@ -32,61 +32,27 @@ std::vector<Corner> clip(const std::vector<Corner>& polygon, double level, doubl
   return kept;
 }
 
-// The surface cut along the levels; one colour (sRGB) per strip, grey without a value.
+// The surface cut along the levels; one colour (sRGB) per strip, hatched in grey where it has no value.
 struct Strips {
   std::vector<glm::dvec3> positions, normals;
   std::vector<Color> colors;
   std::vector<uint32_t> triangles;
 };
 
-std::vector<glm::vec3> normals_of(const SurfaceMesh& mesh) {
-  return welded_normals(to_flat_mesh(mesh), mesh.positions);
+void add_part(const std::vector<Corner>& part, const Color& color, Strips& strips) {
+  if (part.size() < 3) return;
+  const uint32_t base = static_cast<uint32_t>(strips.positions.size());
+  for (const Corner& corner : part) {
+    strips.positions.push_back(corner.position);
+    strips.normals.push_back(corner.normal);
+    strips.colors.push_back(color);
+  }
+  for (uint32_t k = 2; k < part.size(); ++k)
+    strips.triangles.insert(strips.triangles.end(), {base, base + k - 1, base + k});
 }
 
-Strips cut_into_strips(const FieldView& view) {
-  const SurfaceMesh& mesh = *view.mesh;
-  const std::vector<glm::vec3> normals = normals_of(mesh);
-  const std::vector<double>& levels = view.levels;
-  Strips strips;
-  for (size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
-    std::vector<Corner> triangle;
-    bool whole = true;
-    for (size_t k = 0; k < 3; ++k) {
-      const uint32_t v = mesh.triangles[t + k];
-      const double value = view.components == 1 ? view.values[v] : 0;
-      whole = whole && std::isfinite(value);
-      triangle.push_back({mesh.positions[v], glm::dvec3(normals[v]), value});
-    }
-    size_t first = 0, last = 0;
-    if (whole) {
-      const auto [a, b] = std::minmax({triangle[0].value, triangle[1].value, triangle[2].value});
-      first = static_cast<size_t>(std::upper_bound(levels.begin(), levels.end(), a) - levels.begin());
-      last = static_cast<size_t>(std::lower_bound(levels.begin(), levels.end(), b) - levels.begin());
-    }
-    for (size_t strip = first; strip <= std::max(first, last); ++strip) {
-      std::vector<Corner> part = triangle;
-      if (strip > first) part = clip(part, levels[strip - 1], 1);
-      if (strip < last) part = clip(part, levels[strip], -1);
-      if (part.size() < 3) continue;
-      Color color{0.72, 0.72, 0.72};
-      if (view.components == 3) color = {0.86, 0.82, 0.74};
-      if (whole && view.components == 1) {
-        color = palette_color(Palette::blue_yellow,
-                              (static_cast<double>(strip) + 0.5) / static_cast<double>(levels.size() + 1));
-        const double shade = strip % 2 ? 1.0 : 0.87;  // every other strip a little darker
-        color = {shade * color.r, shade * color.g, shade * color.b};
-      }
-      const uint32_t base = static_cast<uint32_t>(strips.positions.size());
-      for (const Corner& corner : part) {
-        strips.positions.push_back(corner.position);
-        strips.normals.push_back(corner.normal);
-        strips.colors.push_back(color);
-      }
-      for (uint32_t k = 2; k < part.size(); ++k)
-        strips.triangles.insert(strips.triangles.end(), {base, base + k - 1, base + k});
-    }
-  }
-  return strips;
+std::vector<glm::vec3> normals_of(const SurfaceMesh& mesh) {
+  return welded_normals(to_flat_mesh(mesh), mesh.positions);
 }
 
 double diagonal_of(const SurfaceMesh& mesh) {
@@ -94,6 +60,63 @@ double diagonal_of(const SurfaceMesh& mesh) {
   for (const uint32_t v : mesh.triangles)
     low = glm::min(low, mesh.positions[v]), high = glm::max(high, mesh.positions[v]);
   return mesh.triangles.empty() ? 1 : glm::length(high - low);
+}
+
+// Cuts a triangle without a value into stripes of two greys. The stripes are slabs of space, so they go on over edges.
+void hatch(std::vector<Corner> triangle, double width, Strips& strips) {
+  const glm::dvec3 across = glm::normalize(glm::dvec3(1, 1, 0.6));
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (Corner& corner : triangle) {
+    corner.value = glm::dot(corner.position, across) / width;
+    low = std::min(low, corner.value), high = std::max(high, corner.value);
+  }
+  for (double stripe = std::floor(low); stripe < high || stripe == std::floor(low); ++stripe) {
+    std::vector<Corner> part = triangle;
+    if (stripe > low) part = clip(part, stripe, 1);
+    if (stripe + 1 < high) part = clip(part, stripe + 1, -1);
+    const double grey = std::fmod(std::abs(stripe), 2) == 0 ? 0.84 : 0.50;
+    add_part(part, {grey, grey, grey}, strips);
+  }
+}
+
+Strips cut_into_strips(const FieldView& view) {
+  const SurfaceMesh& mesh = *view.mesh;
+  const std::vector<glm::vec3> normals = normals_of(mesh);
+  const std::vector<double>& levels = view.levels;
+  // Stripes of this width can be told apart in a picture of 300 pixels.
+  const double width = 0.012 * diagonal_of(mesh);
+  Strips strips;
+  for (size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
+    std::vector<Corner> triangle;
+    bool whole = true;
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t v = mesh.triangles[t + k];
+      const double value = view.components == 1 ? view.values[v] : view.values[3 * size_t{v}];
+      whole = whole && std::isfinite(value);
+      triangle.push_back({mesh.positions[v], glm::dvec3(normals[v]), view.components == 1 ? value : 0});
+    }
+    if (!whole) {
+      hatch(std::move(triangle), width, strips);
+      continue;
+    }
+    const auto [a, b] = std::minmax({triangle[0].value, triangle[1].value, triangle[2].value});
+    const auto first = static_cast<size_t>(std::upper_bound(levels.begin(), levels.end(), a) - levels.begin());
+    const auto last = static_cast<size_t>(std::lower_bound(levels.begin(), levels.end(), b) - levels.begin());
+    for (size_t strip = first; strip <= std::max(first, last); ++strip) {
+      std::vector<Corner> part = triangle;
+      if (strip > first) part = clip(part, levels[strip - 1], 1);
+      if (strip < last) part = clip(part, levels[strip], -1);
+      Color color{0.86, 0.82, 0.74};
+      if (view.components == 1) {
+        color = palette_color(Palette::blue_yellow,
+                              (static_cast<double>(strip) + 0.5) / static_cast<double>(levels.size() + 1));
+        const double shade = strip % 2 ? 1.0 : 0.87;  // every other strip a little darker
+        color = {shade * color.r, shade * color.g, shade * color.b};
+      }
+      add_part(part, color, strips);
+    }
+  }
+  return strips;
 }
 
 // A place for an arrow: a point in a triangle.

@@ -12,7 +12,8 @@
 
 namespace samples {
 
-// The parts of a field that are shown. values: one per vertex, NaN where it has none, or three for vectors.
+// The parts of a field that are shown. values: one per vertex, or three for vectors; NaN where it has none, which is
+// hatched in grey.
 struct FieldView {
   const SurfaceMesh* mesh = nullptr;
   std::vector<double> values;

@@ -71,11 +71,12 @@ FieldView view_of(const Session& session, const SurfaceMesh& mesh, const std::ve
       for (size_t k = 0; k < 3; ++k) view.values[i + k] = length > 0 ? view.values[i + k] / length : 0;
     }
   }
-  if (session.components() != 1) return view;
+  if (options.kind == FieldType::direction) return view;
   const std::vector<bool> reached = session.reached();
-  for (size_t v = 0; v < field.size(); ++v) {
-    if (!reached[v]) view.values[v] = std::nan("");
+  for (size_t i = 0; i < field.size(); ++i) {
+    if (!reached[i / session.components()]) view.values[i] = std::nan("");
   }
+  if (session.components() != 1) return view;
   double low = INFINITY, high = -INFINITY;
   for (const double value : view.values) {
     if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
@@ -174,10 +175,10 @@ int run_one(const FieldOptions& options) {
   }
   if (field.empty()) throw std::runtime_error("the script ends without a site; there is no field to write");
   if (info.unreached_vertex_count) {
-    std::fprintf(
-        stderr,
-        "warning: %u vertices are reached by no site (%u components without one, or isolated); they are written as 0\n",
-        info.unreached_vertex_count, info.unreached_component_count);
+    std::fprintf(stderr,
+                 "warning: %u vertices are reached by no site (%u components without one, or isolated); they are "
+                 "written as 0 and hatched in pictures\n",
+                 info.unreached_vertex_count, info.unreached_component_count);
   }
   if (!options.out.empty()) write_field_text(options.out, field, session.components());
   const bool listed = options.critical_points || options.kind == FieldType::direction;

@@ -423,11 +423,15 @@ std::vector<std::string> Session::warnings() {
         "feet are anchored but no trunk pair is: the trunk may float; give withers and rump with \"trunk\" and "
         "\"anchor\"");
   for (const bool is_source : {true, false}) {
-    const hf_surface_report report = is_source ? source_mesh() : target_mesh();
-    if (report.component_count > 1) {
-      out.push_back((is_source ? source_ : target_).name + " has " + std::to_string(report.component_count) +
-                    " loose parts; those without a pair follow what they lie next to");
+    std::vector<uint32_t> reached;
+    for (const Live& live : live_) {
+      const std::vector<uint32_t>& region = is_source ? live.source.vertices : live.target.vertices;
+      reached.insert(reached.end(), region.begin(), region.end());
     }
+    const std::string sentence =
+        is_source ? unreached_sentence(source_surface(), reached, "pair", "give no motion")
+                  : unreached_sentence(target_surface(), reached, "pair", "follow what they lie next to");
+    if (!sentence.empty()) out.push_back((is_source ? source_ : target_).name + ": " + sentence);
   }
   return out;
 }

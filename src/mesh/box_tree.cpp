@@ -13,37 +13,75 @@ double axis_of(const Vec3& p, int axis) noexcept { return axis == 0 ? p.x : axis
 
 }  // namespace
 
-BoxTree::BoxTree(const Vector<ItemBox>& items, Memory& memory) : order_(items.size(), &memory), nodes_(&memory) {
-  for (std::size_t i = 0; i < items.size(); ++i) order_[i] = static_cast<Index>(i);
-  nodes_.reserve(items.size() / 2 + 2);
-  if (!items.empty()) build(items, 0, static_cast<Index>(items.size()));
+Vector<ItemBox> triangle_boxes(Span<const Vec3> positions, Span<const Index> corners, Memory& memory) {
+  Vector<ItemBox> boxes(&memory);
+  boxes.reserve(corners.size() / 3);
+  for (std::size_t c = 0; c + 2 < corners.size(); c += 3) {
+    ItemBox box = ItemBox::of(positions[at(corners[c])]);
+    box.take(positions[at(corners[c + 1])]), box.take(positions[at(corners[c + 2])]);
+    boxes.push_back(box);
+  }
+  return boxes;
 }
 
-// Builds the node of order_[first .. first + count): cut at the median of the centres along the longest side.
-Index BoxTree::build(const Vector<ItemBox>& items, Index first, Index count) {
-  poll();
-  const Index here = static_cast<Index>(nodes_.size());
-  ItemBox box = items[at(order_[at(first)])];
-  ItemBox centres = ItemBox::of(0.5 * (box.low + box.high));
-  for (Index i = first + 1; i < first + count; ++i) {
-    const ItemBox& item = items[at(order_[at(i)])];
-    box.take(item), centres.take(0.5 * (item.low + item.high));
+// An item while the tree is built: the sum of its box's corners, so that no axis needs the box.
+struct BoxTree::Entry {
+  double key[3];
+  Index item;
+};
+
+BoxTree::BoxTree(Span<const ItemBox> items, Memory& memory) : BoxTree(items, {}, 1, memory) {}
+
+BoxTree::BoxTree(Span<const ItemBox> items, Span<const Index> group, Index group_count, Memory& memory)
+    : order_(items.size(), &memory),
+      start_(at(group_count) + 1, 0, &memory),
+      root_(at(group_count), -1, &memory),
+      nodes_(&memory) {
+  const auto group_of = [&](std::size_t i) { return group.empty() ? std::size_t{0} : at(group[i]); };
+  for (std::size_t i = 0; i < items.size(); ++i) ++start_[group_of(i) + 1];
+  for (std::size_t g = 0; g < root_.size(); ++g) start_[g + 1] += start_[g];
+  Vector<Index> next(start_.begin(), start_.end() - 1, &memory);
+  Vector<Entry> entries(items.size(), &memory);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Vec3 sum = items[i].low + items[i].high;
+    entries[at(next[group_of(i)]++)] = {{sum.x, sum.y, sum.z}, static_cast<Index>(i)};
   }
-  nodes_.push_back({box, first, count, -1});
-  if (count <= leaf_items) return here;
-  const Vec3 size = centres.high - centres.low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const auto key = [&](Index i) { return axis_of(items[at(i)].low, axis) + axis_of(items[at(i)].high, axis); };
-  const auto begin = order_.begin() + first;
+  nodes_.reserve(items.size() / 2 + 2 * root_.size());
+  for (std::size_t g = 0; g < root_.size(); ++g) {
+    if (start_[g] < start_[g + 1]) root_[g] = build(items, entries.data(), start_[g], start_[g + 1] - start_[g]);
+  }
+}
+
+// Builds the node of the entries [first, first + count): cut at the median of the centres along their longest side.
+Index BoxTree::build(Span<const ItemBox> items, Entry* entries, Index first, Index count) {
+  const Index here = static_cast<Index>(nodes_.size());
+  nodes_.push_back({{}, first, count, -1});
+  Entry* const begin = entries + first;
+  if (count <= leaf_items) {
+    std::sort(begin, begin + count, [](const Entry& a, const Entry& b) { return a.item < b.item; });
+    ItemBox box = items[at(begin->item)];
+    for (Index i = 0; i < count; ++i) order_[at(first + i)] = begin[i].item, box.take(items[at(begin[i].item)]);
+    nodes_[at(here)].box = box;
+    return here;
+  }
+  poll();
+  double low[3], high[3];
+  for (int k = 0; k < 3; ++k) low[k] = high[k] = begin->key[k];
+  for (Index i = 1; i < count; ++i) {
+    for (int k = 0; k < 3; ++k)
+      low[k] = std::min(low[k], begin[i].key[k]), high[k] = std::max(high[k], begin[i].key[k]);
+  }
+  const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+  const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
   // A full order of the items: equal centres are told apart by number.
-  std::nth_element(begin, begin + count / 2, begin + count, [&](Index a, Index b) {
-    const double ka = key(a), kb = key(b);
-    return ka != kb ? ka < kb : a < b;
+  std::nth_element(begin, begin + count / 2, begin + count, [axis](const Entry& a, const Entry& b) {
+    return a.key[axis] != b.key[axis] ? a.key[axis] < b.key[axis] : a.item < b.item;
   });
-  std::sort(begin, begin + count / 2), std::sort(begin + count / 2, begin + count);
-  build(items, first, count / 2);
-  const Index right = build(items, first + count / 2, count - count / 2);
-  nodes_[at(here)].right = right;
+  build(items, entries, first, count / 2);
+  const Index right = build(items, entries, first + count / 2, count - count / 2);
+  ItemBox box = nodes_[at(here) + 1].box;
+  box.take(nodes_[at(right)].box);
+  nodes_[at(here)].box = box, nodes_[at(here)].right = right;
   return here;
 }
 

@@ -1,12 +1,14 @@
-// Finds the items near a point or on a segment, among many triangles, bones or points.
+// Finds the items near a point or a box, or on a segment, among many triangles, bones or points.
 //
-// The tree knows the boxes of the items only. The caller tests the items themselves, through a function. The order of
-// the visits is the same on every machine. A tree is immutable, so any number of threads may search it.
+// It knows the boxes of the items only. The caller tests the items themselves, through a function. Items can be sorted
+// into groups, with a tree for each. The order of the visits is the same on every machine. It is immutable, so any
+// number of threads may search it.
 #pragma once
 #include <algorithm>
 #include <cmath>
 
 #include "base/index.h"
+#include "base/span.h"
 #include "mesh/mesh.h"
 
 namespace hf_inner {
@@ -21,18 +23,54 @@ struct ItemBox {
   static ItemBox of(const Vec3& p) noexcept { return {p, p}; }
 };
 
+// Squared distances between a point or a box and a box.
+inline double squared_distance(const Vec3& p, const ItemBox& box) noexcept {
+  const double x = std::max(std::max(box.low.x - p.x, p.x - box.high.x), 0.0),
+               y = std::max(std::max(box.low.y - p.y, p.y - box.high.y), 0.0),
+               z = std::max(std::max(box.low.z - p.z, p.z - box.high.z), 0.0);
+  return x * x + y * y + z * z;
+}
+inline double squared_distance(const ItemBox& a, const ItemBox& b) noexcept {
+  const double x = std::max(std::max(b.low.x - a.high.x, a.low.x - b.high.x), 0.0),
+               y = std::max(std::max(b.low.y - a.high.y, a.low.y - b.high.y), 0.0),
+               z = std::max(std::max(b.low.z - a.high.z, a.low.z - b.high.z), 0.0);
+  return x * x + y * y + z * z;
+}
+
+// Returns the boxes of triangles. corners: three indices into positions per triangle.
+Vector<ItemBox> triangle_boxes(Span<const Vec3> positions, Span<const Index> corners, Memory& memory);
+
 class BoxTree {
  public:
-  // Builds the tree. It keeps no reference to `items`. Cost: O(n log n).
-  BoxTree(const Vector<ItemBox>& items, Memory& memory);
+  // Builds one tree. It keeps no reference to `items`. Cost: O(n log n).
+  BoxTree(Span<const ItemBox> items, Memory& memory);
+  // Builds one tree per group. group: by item, below group_count.
+  BoxTree(Span<const ItemBox> items, Span<const Index> group, Index group_count, Memory& memory);
 
-  // Visits the items whose boxes are nearer to p than the square root of reach(). item(i) may lower what reach()
-  // returns. The nearer of two boxes comes first.
+  // Visits the items of a group whose boxes are nearer to p than the square root of reach(). item(i) may lower what
+  // reach() returns; below 0 it ends the search. The nearer of two boxes comes first.
   template <class Reach, class Item>
-  void near(const Vec3& p, Reach&& reach, Item&& item) const;
-  // Visits the items whose boxes a segment touches, until item(i) returns true. Returns whether one did.
+  void near(Index group, const Vec3& p, Reach&& reach, Item&& item) const;
+  template <class Reach, class Item>
+  void near(const Vec3& p, Reach&& reach, Item&& item) const {
+    near(0, p, reach, item);
+  }
+  // Visits the leaves of a group whose squared distance to a box is below `squared`: leaf(box, items).
+  template <class Leaf>
+  void leaves(Index group, const ItemBox& box, double squared, Leaf&& leaf) const;
+  // Visits the items whose boxes a segment touches, until item(i) returns true. Returns whether one did. Only for a
+  // single tree.
   template <class Item>
   bool along(const Vec3& from, const Vec3& to, Item&& item) const;
+
+  // Returns the items in the order of the trees: neighbours in this order are neighbours in space.
+  const Vector<Index>& order() const noexcept { return order_; }
+  // The items of one group in this order.
+  Span<const Index> items(Index group) const noexcept {
+    return {order_.data() + start_[at(group)], at(start_[at(group) + 1] - start_[at(group)])};
+  }
+  // The box around a group that has an item.
+  const ItemBox& box(Index group) const noexcept { return nodes_[at(root_[at(group)])].box; }
 
  private:
   // A node's children are the next node and `right`; a leaf has the items order_[first .. first + count).
@@ -40,31 +78,26 @@ class BoxTree {
     ItemBox box;
     Index first, count, right;
   };
+  struct Entry;
   // The stack of a search: 2^31 items halved to leaves make 31 levels, and each leaves one node to visit.
   static constexpr std::size_t depth = 64;
-  Index build(const Vector<ItemBox>& items, Index first, Index count);
-  static double squared(const ItemBox& box, const Vec3& p) noexcept {
-    const double x = std::max(std::max(box.low.x - p.x, p.x - box.high.x), 0.0),
-                 y = std::max(std::max(box.low.y - p.y, p.y - box.high.y), 0.0),
-                 z = std::max(std::max(box.low.z - p.z, p.z - box.high.z), 0.0);
-    return x * x + y * y + z * z;
-  }
+  Index build(Span<const ItemBox> items, Entry* entries, Index first, Index count);
   static bool touches(const ItemBox& box, const Vec3& from, const Vec3& along) noexcept;
 
-  Vector<Index> order_;
+  Vector<Index> order_, start_, root_;  // start_, root_: by group; root -1: it is empty
   Vector<Node> nodes_;
 };
 
 template <class Reach, class Item>
-void BoxTree::near(const Vec3& p, Reach&& reach, Item&& item) const {
-  if (nodes_.empty()) return;
+void BoxTree::near(Index group, const Vec3& p, Reach&& reach, Item&& item) const {
+  if (root_[at(group)] < 0) return;
   struct Open {
     Index node;
     double squared;
   };
   Open stack[depth];
   std::size_t open = 0;
-  stack[open++] = {0, squared(nodes_[0].box, p)};
+  stack[open++] = {root_[at(group)], squared_distance(p, box(group))};
   while (open > 0) {
     const Open next = stack[--open];
     if (next.squared > reach()) continue;
@@ -73,10 +106,27 @@ void BoxTree::near(const Vec3& p, Reach&& reach, Item&& item) const {
       for (Index i = node.first; i < node.first + node.count; ++i) item(order_[at(i)]);
       continue;
     }
-    Open left{next.node + 1, squared(nodes_[at(next.node) + 1].box, p)};
-    Open right{node.right, squared(nodes_[at(node.right)].box, p)};
+    Open left{next.node + 1, squared_distance(p, nodes_[at(next.node) + 1].box)};
+    Open right{node.right, squared_distance(p, nodes_[at(node.right)].box)};
     if (right.squared < left.squared) std::swap(left, right);
     stack[open++] = right, stack[open++] = left;
+  }
+}
+
+template <class Leaf>
+void BoxTree::leaves(Index group, const ItemBox& box, double squared, Leaf&& leaf) const {
+  if (root_[at(group)] < 0) return;
+  Index stack[depth];
+  std::size_t open = 0;
+  stack[open++] = root_[at(group)];
+  while (open > 0) {
+    const Index here = stack[--open];
+    const Node& node = nodes_[at(here)];
+    if (!(squared_distance(box, node.box) < squared)) continue;
+    if (node.right < 0)
+      leaf(node.box, Span<const Index>(order_.data() + node.first, at(node.count)));
+    else
+      stack[open++] = node.right, stack[open++] = here + 1;
   }
 }
 

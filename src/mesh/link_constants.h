@@ -2,14 +2,14 @@
 #pragma once
 #include <cstddef>
 
+#include "base/index.h"
+
 namespace hf_inner {
 
 // Pieces touch up to this distance, and then link both ways.
 constexpr double touching = 0.005;
 // Points of a contact cost at most this much more than the cheapest one.
 constexpr double contact_depth = 0.005;
-// All contacts of pieces that touch are within this range.
-constexpr double near_range = touching + contact_depth;
 // Different skin weights count like this much more distance: all joints differ at this distance.
 constexpr double skin_distance = 0.02;
 // Pieces that touch but differ by more than this in their skin weights only link in the tree, unless they are as near
@@ -28,11 +28,25 @@ constexpr double light_near = 0.9, overlay_reach = 2;
 constexpr double sheet_detour = 0.005;
 // Vertices that tell whether a piece is a sheet.
 constexpr std::size_t sheet_samples = 24;
+// The samples are taken in so many turns over the piece: trades early ends for neighbours in memory. No link depends on
+// it.
+constexpr std::size_t sheet_turns = 6;
 // Links of a light piece are this far apart, but there are at least links_a_side of them.
 constexpr double light_spacing = 0.02;
 // Candidate pairs that each piece keeps, the nearest boxes first: bounds the work on thousands of overlapping pieces.
 constexpr std::size_t pairs_a_piece = 32;
+// A link goes to one corner of the triangle if it is this near to the nearest point: trades fill for the place of the
+// link. Chosen on a robot, a man, a spider, a frog and a model of large triangles; docs/studies/links.md has the
+// figures at half, a quarter and 0.
+constexpr double corner_distance = 0.02;
 // A corner of less weight than this in a link is left out: the factor has fewer entries.
 constexpr double least_share = 0.05;
+
+// About so many vertices of a side are tried for links where more lie near the other piece: bounds the work on large
+// contacts.
+constexpr std::size_t link_candidates = 64;
+// Vertices that visit the leaves of another piece together: trades tests of boxes for tests of vertices. No link
+// depends on it.
+constexpr Index chunk_vertices = 8;
 
 }  // namespace hf_inner

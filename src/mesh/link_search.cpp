@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "mesh/contact_search.h"
 #include "mesh/link_constants.h"
-#include "mesh/nearest_triangle.h"
 #include "mesh/union_find.h"
 
 namespace hf_inner {
@@ -15,16 +15,8 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-struct Contact {
-  Index vertex, triangle;
-  double distance, cost;  // cost: with the difference of skin weights
-};
-
-// Contacts of the vertices of one piece with another piece.
-struct PairSide {
-  explicit PairSide(Memory& memory) : contacts(&memory) {}
-  Vector<Contact> contacts;
-};
+// A bound that contacts of this cost are below.
+double least_above(double cost) noexcept { return cost * (1 + 4 * std::numeric_limits<double>::epsilon()); }
 
 struct Pair {
   Index a, b;
@@ -33,6 +25,17 @@ struct Pair {
   double distance;  // of the same
   bool in_tree = false;
 };
+
+// Gives all weight to a corner that is near the point of these barycentrics.
+void snap_to_corner(const Mesh& mesh, const Index* corner, double* share) noexcept {
+  Vec3 point;
+  for (std::size_t k = 0; k < 3; ++k) point = point + share[k] * mesh.positions[at(corner[k])];
+  double distance[3];
+  for (std::size_t k = 0; k < 3; ++k) distance[k] = norm(mesh.positions[at(corner[k])] - point);
+  const std::size_t nearest = static_cast<std::size_t>(std::min_element(distance, distance + 3) - distance);
+  if (distance[nearest] > corner_distance) return;
+  for (std::size_t k = 0; k < 3; ++k) share[k] = k == nearest ? 1 : 0;
+}
 
 class LinkSearch {
  public:
@@ -45,15 +48,11 @@ class LinkSearch {
         jobs_(jobs),
         out_(out),
         pieces_(at(mesh.component_count())),
-        group_(&memory),
-        tree_(mesh.positions, mesh.corners, group_of_triangles(), mesh.component_count(), memory),
-        start_(pieces_ + 1, 0, &memory),
-        vertex_(mesh.positions.size(), &memory),
+        contacts_(mesh, options.skin, memory),
         area_(pieces_, 0.0, &memory),
         forced_(pieces_, 0, &memory),
         sheet_(pieces_, 0, &memory),
         pairs_(&memory),
-        sides_(&memory),
         pairs_of_(pieces_, &memory) {}
 
   void run() {
@@ -61,7 +60,7 @@ class LinkSearch {
     list_pairs();
     find_sheets();
     poll();
-    search_near();
+    measure_near();
     poll();
     grow_tree();
     find_light();
@@ -71,30 +70,22 @@ class LinkSearch {
   }
 
  private:
-  Span<const Index> group_of_triangles() {
-    group_.reserve(at(mesh_.triangle_count()));
-    for (Index t = 0; t < mesh_.triangle_count(); ++t) group_.push_back(mesh_.component[at(mesh_.triangle(t)[0])]);
-    return group_;
-  }
   void list_pieces();
   void list_pairs();
-  void search_near();
-  void search_pair(Pair& pair, PairSide* sides, double range) const;
-  void search_side(Index from, Index to, double range, double depth, PairSide& side) const;
+  void measure_near();
+  void measure_pair(Pair& pair, double range) const;
   bool is_sheet(Index piece) const;
   void find_sheets();
   void grow_tree();
   void find_light();
   void link_pairs();
   void link_light();
+  void find_below(Index piece, Vector<Contact>& best) const;
   void link_spread(const Vector<Contact>& contacts, std::size_t most, double spacing, bool in_tree);
-  void link_side(const Pair& pair, const PairSide& side);
+  void link_pair(const Pair& pair);
   void add_link(const Contact& contact, bool in_tree);
-  Span<const Index> vertices_of(Index piece) const noexcept {
-    return {vertex_.data() + start_[at(piece)], at(start_[at(piece) + 1] - start_[at(piece)])};
-  }
   std::uint32_t tag_of(Index piece) const {
-    const Index first = vertex_[at(start_[at(piece)])];
+    const Index first = contacts_.vertices_of(piece)[0];
     return options_.tags.empty() ? 0 : options_.tags[at(mesh_.given_of_inner[at(first)])];
   }
   bool smaller(Index a, Index b) const noexcept {
@@ -112,27 +103,18 @@ class LinkSearch {
   JobRunner* jobs_;
   Links& out_;
   const std::size_t pieces_;
-  Vector<Index> group_;  // piece by triangle
-  NearestTriangle tree_;
-  Vector<Index> start_, vertex_;  // the vertices of piece p: vertex_[start_[p] .. start_[p + 1])
-  Vector<double> area_;           // by piece
-  Vector<std::uint8_t> forced_;   // by piece: 1 light, 2 heavy
-  Vector<std::uint8_t> sheet_;    // by piece: 1 if it lies over a larger piece
+  const ContactSearch contacts_;
+  Vector<double> area_;          // by piece
+  Vector<std::uint8_t> forced_;  // by piece: 1 light, 2 heavy
+  Vector<std::uint8_t> sheet_;   // by piece: 1 if it lies over a larger piece
   Vector<Pair> pairs_;
-  Vector<PairSide> sides_;                // two of every pair: of a, and of b
   Vector<Vector<std::size_t>> pairs_of_;  // by piece
   double whole_area_ = 0;
 };
 
 void LinkSearch::list_pieces() {
-  for (const Index p : mesh_.component) ++start_[at(p) + 1];
-  for (std::size_t p = 0; p < pieces_; ++p) start_[p + 1] += start_[p];
-  Vector<Index> next(start_.begin(), start_.end() - 1, &memory_);
-  for (std::size_t v = 0; v < mesh_.component.size(); ++v) {
-    const std::size_t p = at(mesh_.component[v]);
-    vertex_[at(next[p]++)] = static_cast<Index>(v);
-    area_[p] += areas_[v], whole_area_ += areas_[v];
-  }
+  for (std::size_t v = 0; v < mesh_.component.size(); ++v)
+    area_[at(mesh_.component[v])] += areas_[v], whole_area_ += areas_[v];
   for (const Index v : options_.light) forced_[at(mesh_.component[at(v)])] = 1;
   for (const Index v : options_.heavy) forced_[at(mesh_.component[at(v)])] = 2;
 }
@@ -149,9 +131,9 @@ void LinkSearch::list_pairs() {
   const double range = std::max({options_.distance, touching, overlay_reach * options_.overlay});
   Vector<Vector<Near>> near(pieces_, &memory_);
   Vector<Index> order(&memory_);
-  Vector<NearestTriangle::Box> box(&memory_);
+  Vector<ItemBox> box(&memory_);
   for (std::size_t p = 0; p < pieces_; ++p) {
-    order.push_back(static_cast<Index>(p)), box.push_back(tree_.box(static_cast<Index>(p)));
+    order.push_back(static_cast<Index>(p)), box.push_back(contacts_.box(static_cast<Index>(p)));
   }
   std::sort(order.begin(), order.end(), [&](Index a, Index b) {
     return box[at(a)].low.x != box[at(b)].low.x ? box[at(a)].low.x < box[at(b)].low.x : a < b;
@@ -188,84 +170,66 @@ void LinkSearch::list_pairs() {
       pairs_.end());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     pairs_of_[at(pairs_[i].a)].push_back(i), pairs_of_[at(pairs_[i].b)].push_back(i);
-    sides_.emplace_back(memory_), sides_.emplace_back(memory_);
   }
 }
 
-// Finds the contacts of piece `from` with piece `to` within a range. depth: contacts that cost this much more than the
-// cheapest are left out.
-void LinkSearch::search_side(Index from, Index to, double range, double depth, PairSide& side) const {
-  const NearestTriangle::Box box = tree_.box(to);
+// Finds the cost and the distance of a pair, if its pieces are nearer than range. Both sides share one bound, which
+// falls to the cheapest contact.
+void LinkSearch::measure_pair(Pair& pair, double range) const {
+  Vector<Contact> found(&memory_);
   double reach = range;
-  Index hint = -1;  // consecutive vertices are near each other
-  for (const Index v : vertices_of(from)) {
-    const Vec3 p = mesh_.positions[at(v)];
-    if (!(squared_distance(p, box) < reach * reach)) continue;
-    const NearestTriangle::Found found = tree_.find_in(to, p, reach * reach, hint);
-    if (found.triangle < 0) continue;
-    hint = found.triangle;
-    Contact contact{v, found.triangle, std::sqrt(found.squared), 0};
-    contact.cost = contact.distance;
-    if (options_.skin.influence_count > 0) {
-      double share[3];
-      tree_.weights(p, found.triangle, share);
-      contact.cost += skin_distance * difference(options_.skin, mesh_, v, mesh_.triangle(found.triangle), share);
-    }
-    side.contacts.push_back(contact);
-    reach = std::min(reach, contact.cost + depth);
-  }
-}
-
-// Searches both sides of a pair.
-void LinkSearch::search_pair(Pair& pair, PairSide* sides, double range) const {
-  pair.cost = pair.distance = unbounded;
-  for (int k = 0; k < 2; ++k) {
-    sides[k].contacts.clear();
-    search_side(k == 0 ? pair.a : pair.b, k == 0 ? pair.b : pair.a, range, contact_depth, sides[k]);
-    for (const Contact& contact : sides[k].contacts) {
-      pair.cost = std::min(pair.cost, contact.cost), pair.distance = std::min(pair.distance, contact.distance);
-    }
+  contacts_.find(pair.a, pair.b, 0, reach, found, SIZE_MAX), contacts_.find(pair.b, pair.a, 0, reach, found, SIZE_MAX);
+  for (const Contact& contact : found) {
+    pair.cost = std::min(pair.cost, contact.cost), pair.distance = std::min(pair.distance, contact.distance);
   }
   pair.gap = std::max(pair.gap, range);
 }
 
-void LinkSearch::search_near() {
+void LinkSearch::measure_near() {
   for_each(jobs_, static_cast<std::uint32_t>(pairs_.size()), [&](std::uint32_t i) {
-    if (pairs_[i].gap < near_range && !has_sheet(pairs_[i]))
-      search_pair(pairs_[i], &sides_[2 * std::size_t{i}], near_range);
+    if (pairs_[i].gap < touching && !has_sheet(pairs_[i])) measure_pair(pairs_[i], touching);
   });
 }
 
-// Tells whether a piece lies over larger pieces, by some of its vertices.
+// Tells whether a piece lies over larger pieces, by some of its vertices. It ends as soon as the answer is known.
 bool LinkSearch::is_sheet(Index piece) const {
   if (forced_[at(piece)] != 0) return forced_[at(piece)] == 1;
   if (!(options_.overlay > 0) || !(area_[at(piece)] < light_area * whole_area_)) return false;
-  const Span<const Index> all = vertices_of(piece);
-  const std::size_t step = (all.size() + sheet_samples - 1) / sheet_samples;
-  const double range = overlay_reach * options_.overlay;
-  double whole = 0, near_any = 0, most = 0;
-  Vector<double> nearest((all.size() + step - 1) / step, unbounded, &memory_);
-  for (std::size_t i = 0; i < all.size(); i += step) whole += areas_[at(all[i])];
+  const Span<const Index> all = contacts_.vertices_of(piece);
+  const std::size_t step = (all.size() + sheet_samples - 1) / sheet_samples, count = (all.size() + step - 1) / step;
+  const double range = overlay_reach * options_.overlay, overlay = options_.overlay * options_.overlay;
+  struct Larger {
+    Index piece;
+    double covered;  // area of the samples within the overlay distance
+  };
+  Vector<Larger> larger(&memory_);
   for (const std::size_t pair : pairs_of_[at(piece)]) {
     const Index other = other_of(pair, piece);
-    if (!smaller(piece, other)) continue;
-    const NearestTriangle::Box box = tree_.box(other);
-    double covered = 0;
-    for (std::size_t i = 0; i < all.size(); i += step) {
-      const Vec3 p = mesh_.positions[at(all[i])];
-      // Once a vertex is near some piece, only the overlay distance matters.
-      const double reach = nearest[i / step] < unbounded ? options_.overlay : range;
-      if (!(squared_distance(p, box) < reach * reach)) continue;
-      const NearestTriangle::Found found = tree_.find_in(other, p, reach * reach);
-      if (found.triangle < 0) continue;
-      nearest[i / step] = 0;
-      if (found.squared <= options_.overlay * options_.overlay) covered += areas_[at(all[i])];
-    }
-    most = std::max(most, covered);
+    if (pairs_[pair].gap < range && smaller(piece, other)) larger.push_back({other, 0});
   }
-  for (std::size_t i = 0; i < all.size(); i += step)
-    near_any += nearest[i / step] < unbounded ? areas_[at(all[i])] : 0.0;
-  return most >= light_cover * whole && near_any >= light_near * whole;
+  double whole = 0, seen = 0, off = 0, most = 0;
+  for (std::size_t i = 0; i < count; ++i) whole += areas_[at(all[i * step])];
+  // Far samples come early in this order, so that a piece that sticks out is known after few.
+  for (std::size_t turn = 0; turn < sheet_turns; ++turn) {
+    for (std::size_t i = turn; i < count; i += sheet_turns) {
+      const Vec3 p = mesh_.positions[at(all[i * step])];
+      const double area = areas_[at(all[i * step])];
+      bool near = false;
+      for (Larger& other : larger) {
+        // Once the sample is near some piece, only the overlay distance matters, and only until a piece is covered.
+        if (near && most >= light_cover * whole) break;
+        Index triangle;
+        const double within = near ? overlay : range * range;
+        const double found = contacts_.nearest(other.piece, p, within, overlay, triangle);
+        if (triangle < 0) continue;
+        near = true;
+        if (found <= overlay) most = std::max(most, other.covered += area);
+      }
+      seen += area, off += near ? 0 : area;
+      if (whole - off < light_near * whole || most + std::max(whole - seen, 0.0) < light_cover * whole) return false;
+    }
+  }
+  return most >= light_cover * whole;
 }
 
 void LinkSearch::find_sheets() {
@@ -286,7 +250,7 @@ void LinkSearch::grow_tree() {
     const Pair& pair = pairs_[i];
     // Most sheets touch what they lie over, so that one search finds the tree's edge.
     const bool sheet = has_sheet(pair);
-    const double guess = pair.gap + (sheet ? touching : 0);
+    const double guess = pair.gap + (sheet && pair.gap < touching ? touching : 0);
     return Entry{(sheet ? sheet_detour : 0) + (pair.cost < unbounded ? pair.cost : guess), i};
   };
   UnionFind sets(pieces_, memory_);
@@ -302,7 +266,8 @@ void LinkSearch::grow_tree() {
     if (pair.cost < unbounded) {
       if (pair.distance <= options_.distance) pair.in_tree = sets.unite(pair.a, pair.b);
     } else if (pair.gap < options_.distance) {
-      search_pair(pair, &sides_[2 * entry.pair], pair.gap < near_range ? near_range : options_.distance);
+      // Most pairs are little farther apart than is known, so the range grows by steps.
+      measure_pair(pair, std::min(std::max(touching, 2 * pair.gap), options_.distance));
       if (pair.cost < unbounded || pair.gap < options_.distance)
         heap.push_back(entry_of(entry.pair)), std::push_heap(heap.begin(), heap.end());
     }
@@ -336,7 +301,8 @@ void LinkSearch::add_link(const Contact& contact, bool in_tree) {
   Link link;
   link.vertex = contact.vertex, link.tree = in_tree;
   double share[3], sum = 0;
-  tree_.weights(mesh_.positions[at(contact.vertex)], contact.triangle, share);
+  contacts_.weights(contact, share);
+  snap_to_corner(mesh_, mesh_.triangle(contact.triangle), share);
   for (double& s : share) s = s < least_share ? 0 : s, sum += s;
   for (std::size_t k = 0; k < 3; ++k) {
     if (share[k] > 0) link.share[k] = share[k] / sum, link.corner[k] = mesh_.triangle(contact.triangle)[k];
@@ -349,38 +315,49 @@ void LinkSearch::add_link(const Contact& contact, bool in_tree) {
 // to `most` while they are at least `spacing` apart.
 void LinkSearch::link_spread(const Vector<Contact>& contacts, std::size_t most, double spacing, bool in_tree) {
   if (contacts.empty()) return;
-  Vector<double> apart(contacts.size(), unbounded, &memory_);
+  Vector<double> apart(contacts.size(), unbounded, &memory_);  // squared
   std::size_t next = 0;
   for (std::size_t i = 1; i < contacts.size(); ++i) next = contacts[i].cost < contacts[next].cost ? i : next;
-  for (std::size_t count = 0; count < most && apart[next] > (count < links_a_side ? 0 : spacing); ++count) {
+  for (std::size_t count = 0; count < most && apart[next] > (count < links_a_side ? 0 : spacing * spacing); ++count) {
     add_link(contacts[next], in_tree);
     const Vec3 p = mesh_.positions[at(contacts[next].vertex)];
-    for (std::size_t i = 0; i < contacts.size(); ++i)
-      apart[i] = std::min(apart[i], norm(mesh_.positions[at(contacts[i].vertex)] - p));
     apart[next] = 0;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const Vec3 way = mesh_.positions[at(contacts[i].vertex)] - p;
+      apart[i] = std::min(apart[i], dot(way, way));
+    }
     next = static_cast<std::size_t>(std::max_element(apart.begin(), apart.end()) - apart.begin());
   }
 }
 
-void LinkSearch::link_side(const Pair& pair, const PairSide& side) {
+// Links both sides of a pair, at contacts that cost little more than the cheapest. All vertices are tried where none of
+// the candidates is a contact, so that a pair of the tree always gets a link.
+void LinkSearch::link_pair(const Pair& pair) {
   Vector<Contact> near(&memory_);
-  for (const Contact& contact : side.contacts) {
-    if (contact.cost <= pair.cost + contact_depth) near.push_back(contact);
+  const std::size_t before = out_.links.size();
+  for (const std::size_t most : {link_candidates, std::size_t{SIZE_MAX}}) {
+    for (const bool first : {true, false}) {
+      near.clear();
+      double reach = least_above(pair.cost + contact_depth);
+      contacts_.find(first ? pair.a : pair.b, first ? pair.b : pair.a, unbounded, reach, near, most);
+      near.erase(std::remove_if(near.begin(), near.end(),
+                                [&](const Contact& contact) { return contact.cost > pair.cost + contact_depth; }),
+                 near.end());
+      link_spread(near, pair.in_tree ? links_a_side : links_a_side / 2, unbounded, pair.in_tree);
+    }
+    if (out_.links.size() > before) return;
   }
-  link_spread(near, pair.in_tree ? links_a_side : links_a_side / 2, unbounded, pair.in_tree);
 }
 
 void LinkSearch::link_pairs() {
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    Pair& pair = pairs_[i];
+  for (Pair& pair : pairs_) {
     if (out_.light[at(pair.a)] || out_.light[at(pair.b)]) continue;
-    if (!(pair.cost < unbounded) && pair.gap < near_range)
-      search_pair(pair, &sides_[2 * i], near_range);  // a sheet, not light
+    if (!(pair.cost < unbounded) && pair.gap < touching) measure_pair(pair, touching);  // a sheet, not light
     const bool alike = pair.cost - pair.distance <= skin_difference * skin_distance;
     const bool touches = pair.distance <= (alike ? touching : crossing_pieces);
     if (!pair.in_tree && !touches) continue;
     if (pair.in_tree) out_.longest_tree_link = std::max(out_.longest_tree_link, pair.distance);
-    link_side(pair, sides_[2 * i]), link_side(pair, sides_[2 * i + 1]);
+    link_pair(pair);
   }
 }
 
@@ -388,27 +365,31 @@ void LinkSearch::link_pairs() {
 // is no such point.
 void LinkSearch::link_light() {
   Vector<Contact> best(mesh_.positions.size(), {Mesh::none, Mesh::none, unbounded, unbounded}, &memory_);
+  for_each(jobs_, static_cast<std::uint32_t>(pieces_), [&](std::uint32_t p) {
+    if (out_.light[p]) find_below(static_cast<Index>(p), best);
+  });
   Vector<Contact> found(&memory_);
   for (std::size_t p = 0; p < pieces_; ++p) {
     if (!out_.light[p]) continue;
-    const double range = forced_[p] == 1 ? options_.distance : overlay_reach * options_.overlay;
-    for (const std::size_t i : pairs_of_[p]) {
-      const Index other = other_of(i, static_cast<Index>(p));
-      if (out_.light[at(other)] && !smaller(static_cast<Index>(p), other)) continue;
-      PairSide side(memory_);
-      search_side(static_cast<Index>(p), other, range, unbounded, side);
-      for (const Contact& contact : side.contacts) {
-        if (contact.cost < best[at(contact.vertex)].cost) best[at(contact.vertex)] = contact;
-      }
-    }
     found.clear();
-    for (const Index v : vertices_of(static_cast<Index>(p))) {
+    for (const Index v : contacts_.vertices_of(static_cast<Index>(p))) {
       if (best[at(v)].vertex != Mesh::none) found.push_back(best[at(v)]);
     }
     link_spread(found, found.size(), light_spacing, true);
     for (const std::size_t i : pairs_of_[p]) {
-      if (!found.empty() || !pairs_[i].in_tree) continue;
-      link_side(pairs_[i], sides_[2 * i]), link_side(pairs_[i], sides_[2 * i + 1]);
+      if (found.empty() && pairs_[i].in_tree) link_pair(pairs_[i]);
+    }
+  }
+}
+
+// Finds the cheapest contacts of a light piece. Its neighbour in the tree comes first: it bounds the other searches.
+void LinkSearch::find_below(Index piece, Vector<Contact>& best) const {
+  const double range = forced_[at(piece)] == 1 ? options_.distance : overlay_reach * options_.overlay;
+  for (const bool in_tree : {true, false}) {
+    for (const std::size_t i : pairs_of_[at(piece)]) {
+      const Index other = other_of(i, piece);
+      if (pairs_[i].in_tree != in_tree || (out_.light[at(other)] && !smaller(piece, other))) continue;
+      contacts_.improve(piece, other, range, in_tree, best);
     }
   }
 }

@@ -10,18 +10,6 @@
 namespace hf_inner {
 namespace {
 
-Vector<ItemBox> triangle_boxes(const Mesh& mesh, Memory& memory) {
-  Vector<ItemBox> boxes(&memory);
-  boxes.reserve(at(mesh.triangle_count()));
-  for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    const Index* v = mesh.triangle(t);
-    ItemBox box = ItemBox::of(mesh.positions[at(v[0])]);
-    box.take(mesh.positions[at(v[1])]), box.take(mesh.positions[at(v[2])]);
-    boxes.push_back(box);
-  }
-  return boxes;
-}
-
 Vec3 place_of(const Mesh& mesh, const Vec3& given) noexcept {
   const Vec3 p = mesh.to_inner(given);
   const auto clamped = [](double x) { return std::min(std::max(x, -farthest), farthest); };
@@ -37,7 +25,10 @@ Vec3 area_vector(const Mesh& mesh, Index t) noexcept {
 }  // namespace
 
 SkinShape::SkinShape(const Mesh& mesh, Memory& memory)
-    : mesh_(mesh), side_(&memory), normals_(&memory), tree_(triangle_boxes(mesh, memory), memory) {
+    : mesh_(mesh),
+      side_(&memory),
+      normals_(&memory),
+      tree_(triangle_boxes(mesh.positions, mesh.corners, memory), memory) {
   orient();
   normals_.assign(at(mesh.vertex_count()), Vec3{});
   for (Index t = 0; t < mesh.triangle_count(); ++t) {

@@ -330,6 +330,13 @@ void list_pairs(const Scene& scene, const std::vector<Contact>& contacts, const 
   }
 }
 
+// Figures of the artist's clips; a dash for a model without clips.
+std::string or_dash(bool none, const char* format, double first, double second = 0) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, first, second);
+  return none ? "-" : text;
+}
+
 void report(const std::string& file, const std::string& pictures) {
   const Scene scene = read_scene(file);
   const ModelLinks links(scene.has_model ? &scene.model : nullptr, scene.flat);
@@ -375,12 +382,13 @@ void report(const std::string& file, const std::string& pictures) {
   const std::string name = file.substr(file.find_last_of('/') + 1);
   std::printf(
       "| %-26s | %5u | %3u | %3u | %4u | %2u | %5.2f | %5.2f / %5.1f | %6.3f / %5.2f | %4.2f | %5.2f | %5.2f | %+3.0f "
-      "%% | %4u | %5.1f %% | %5.2f / %5.2f |\n",
+      "%% | %4u | %s | %s |\n",
       name.c_str(), found.welded_vertex_count, found.piece_count, found.component_count, found.link_count,
       found.light_piece_count, 100 * found.longest_tree_link / scene.diagonal, gap[0].p95, gap[0].worst, gap[1].p95,
       gap[1].worst, after.factor_entries / before.factor_entries, after.links_ms, plain_ms,
-      100 * (linked_ms / plain_ms - 1), unreached_by_sites(linked, scene, ends[0], ends[1]), 100 * wrong, played[0],
-      played[1]);
+      100 * (linked_ms / plain_ms - 1), unreached_by_sites(linked, scene, ends[0], ends[1]),
+      or_dash(wrong < 0, "%5.1f %%", 100 * wrong).c_str(),
+      or_dash(played[0] < 0, "%5.2f / %5.2f", played[0], played[1]).c_str());
   std::fflush(stdout);
   if (!pictures.empty())
     write_png(pictures + "/" + name + ".png", contact_sheet(tiles, 3, {}, name + ": rest, without links, with links"));

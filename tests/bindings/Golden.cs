@@ -116,7 +116,7 @@ class Scene
             case "surface":
                 {
                     var o = Options(step, "weld", "weld_tolerance", "operator_kind", "field_kind", "ordering",
-                        "thread_count", "vertex_limit", "triangle_limit", "memory_limit_mb");
+                        "thread_count", "vertex_limit", "triangle_limit", "memory_limit_mb", "link_pieces");
                     double[] positions = null;
                     uint[] triangles = null;
                     if (step["mesh"] != null)
@@ -138,8 +138,12 @@ class Scene
                         FieldKind = (int)o["field_kind"], Ordering = (int)o["ordering"],
                         ThreadCount = (uint)o["thread_count"], VertexLimit = (uint)o["vertex_limit"],
                         TriangleLimit = (uint)o["triangle_limit"], MemoryLimitMb = (uint)o["memory_limit_mb"],
-                        SavedFactor = factor };
-                    objects[name] = Whole(step, "index_bits") == 16
+                        SavedFactor = factor, LinkPieces = (int)o["link_pieces"] == 1,
+                        Tags = Numbers(Get(step, "tags")) };
+                    var faces = (Map)Get(step, "faces");
+                    objects[name] = faces != null
+                        ? Surface.OfFaces(positions, Numbers(faces["offsets"]), Numbers(faces["corners"]), options)
+                        : Whole(step, "index_bits") == 16
                         ? new Surface(positions, triangles.Select(v => (ushort)v).ToArray(), options)
                         : new Surface(positions, triangles, options);
                     return null;

@@ -60,7 +60,13 @@ func run(step, objects, kept):
 			if factor != null and step.has("damage"):
 				factor = PoolByteArray(factor)
 				factor[step.damage] = factor[step.damage] ^ 1
-			var result = made.create(positions, triangles, options_of(step), factor)
+			if step.has("tags"):
+				return [false, null, null]
+			var result
+			if step.has("faces"):
+				result = made.create_faces(positions, step.faces.offsets, step.faces.corners, options_of(step), factor)
+			else:
+				result = made.create(positions, triangles, options_of(step), factor)
 			if result != null:
 				objects[step["as"]] = made
 			return [true, result, made]

@@ -114,7 +114,10 @@ local function new_scene(meshes)
         local place = step.damage + 1
         factor = factor:sub(1, place - 1) .. string.char(bit.bxor(factor:byte(place), 1)) .. factor:sub(place + 1)
       end
-      options.saved_factor = factor
+      options.saved_factor, options.tags = factor, get('tags')
+      if step.faces then
+        triangles, options.faces = nil, { starts = step.faces.offsets, corners = step.faces.corners }
+      end
       if triangles and (step.index_bits or step.triangle_stride) then
         triangles, options.triangle_stride = lay_out(triangles, step.index_bits or 32, step.triangle_stride or 0)
       end

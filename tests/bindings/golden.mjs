@@ -81,7 +81,13 @@ function runStep(hf, step, meshes, objects, kept) {
         factor = factor.slice();
         factor[step.damage] ^= 1;
       }
-      objects[step.as] = new hf.Surface(positions, triangles, { ...options, savedFactor: factor });
+      const faces = step.faces && { starts: step.faces.offsets, corners: step.faces.corners };
+      objects[step.as] = new hf.Surface(positions, faces ? null : triangles, {
+        ...options,
+        faces,
+        tags: get('tags'),
+        savedFactor: factor,
+      });
       return {};
     }
     case 'graph':

@@ -88,8 +88,10 @@ class Scene:
             factor = self.kept[step["factor"]] if "factor" in step else None
             if factor is not None and "damage" in step:
                 factor = bytes(b ^ (1 if i == step["damage"] else 0) for i, b in enumerate(factor))
+            faces = step.get("faces") and (step["faces"]["offsets"], step["faces"]["corners"])
             self.objects[step["as"]] = hf.Surface(None if positions is None else np.array(positions, np.float64),
-                triangles, saved_factor=factor, **options)
+                None if faces else triangles, faces=faces, link_pieces=bool(options.pop("link_pieces", 0)),
+                tags=get("tags"), saved_factor=factor, **options)
         elif do == "graph":
             self.objects[step["as"]] = hf.Surface.from_graph(step["vertex_count"], get("edges"), get("weights"),
                 masses=get("masses"), **options)

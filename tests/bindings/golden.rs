@@ -165,11 +165,32 @@ impl Scene<'_> {
             }
             bytes
         });
-        let mut options = options!(step, SurfaceOptions);
+        let mut options = SurfaceOptions::default();
+        let mut links = None;
+        for (name, value) in step["options"].as_object().into_iter().flatten() {
+            if name == "link_pieces" {
+                links = Some(LinkOptions {
+                    mode: number(value) as i32,
+                    ..Default::default()
+                });
+            } else {
+                options.set(name, number(value))?;
+            }
+        }
+        let tags = self.integers(step, "tags");
         let extras = Extras {
             saved_factor: factor.as_deref(),
+            links,
+            tags: tags.as_deref(),
             ..Default::default()
         };
+        if step["faces"].as_object().is_some() {
+            let offsets = self.integers(&step["faces"], "offsets").unwrap();
+            let sizes: Vec<u32> = offsets.windows(2).map(|o| o[1] - o[0]).collect();
+            let corners = self.integers(&step["faces"], "corners").unwrap();
+            let made = Surface::from_faces(&positions, &sizes, &corners, &options, &extras)?;
+            return self.keep(step, Object::Surface(made));
+        }
         let half = step["index_bits"] == 16;
         options.triangle_stride = step["triangle_stride"].as_u64().unwrap_or(0) as u32;
         let row = match options.triangle_stride as usize {

@@ -26,6 +26,7 @@ std::vector<uint8_t> lay_out(const Numbers& corners, size_t width, size_t stride
 
 Result Scene::run_surface(const Json& step) {
   auto desc = make<hf_surface_desc>();
+  auto links = make<hf_links_desc>();
   set_options(step, desc,
               {{"weld", &desc.weld},
                {"operator_kind", &desc.operator_kind},
@@ -33,8 +34,10 @@ Result Scene::run_surface(const Json& step) {
                {"ordering", &desc.ordering},
                {"thread_count", &desc.thread_count},
                {"vertex_limit", &desc.vertex_limit},
-               {"triangle_limit", &desc.triangle_limit}},
+               {"triangle_limit", &desc.triangle_limit},
+               {"link_pieces", &links.mode}},
               {});
+  desc.links = &links;
   if (step["mesh"].is_null()) fail("no positions", HF_ERROR_NULL_POINTER);
   const Json& mesh = meshes_.at(step["mesh"]);
   Doubles positions = mesh["positions"].get<Doubles>();
@@ -52,6 +55,14 @@ Result Scene::run_surface(const Json& step) {
     desc.triangles_u16 = reinterpret_cast<const uint16_t*>(laid.data());
   else if (desc.triangle_count)
     desc.triangles = reinterpret_cast<const uint32_t*>(laid.data());
+  Numbers offsets, corners, tags;
+  if (step.contains("faces")) {
+    offsets = step["faces"]["offsets"].get<Numbers>(), corners = step["faces"]["corners"].get<Numbers>();
+    desc.triangle_count = 0, desc.triangles = nullptr;
+    desc.face_count = static_cast<uint32_t>(offsets.size() - 1), desc.face_starts = offsets.data();
+    desc.corner_count = static_cast<uint32_t>(corners.size()), desc.corners = corners.data();
+  }
+  if (step.contains("tags")) tags = step["tags"].get<Numbers>(), links.tags = tags.data();
   auto factor = make<hf_factor_desc>();
   std::vector<uint8_t> bytes;
   if (step.contains("factor")) {
@@ -120,7 +131,11 @@ Result Scene::run_mesh(const Json& step, const std::string& what, hf_surface sur
     check(hf_surface_get_report(surface, &report));
     result.fields = {{"vertex_count", report.vertex_count},
                      {"component_count", report.component_count},
-                     {"boundary_edge_count", report.boundary_edge_count}};
+                     {"boundary_edge_count", report.boundary_edge_count},
+                     {"piece_count", report.piece_count},
+                     {"link_count", report.link_count},
+                     {"face_count", report.face_count},
+                     {"polygon_count", report.polygon_count}};
   } else if (what == "surface_statistics") {
     auto figures = make<hf_surface_statistics>();
     check(hf_surface_get_statistics(surface, &figures));

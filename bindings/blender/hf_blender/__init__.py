@@ -48,6 +48,8 @@ class HF_PT_panel(bpy.types.Panel):
         if found:
             bind, update = session.figures["bind_ms"], session.figures["update_ms"]
             layout.label(text=f"{found.pose.handle_count} handles, factor {bind:.0f} ms, pose {update:.1f} ms")
+            for remark in found.remarks:
+                layout.label(text=remark, icon="ERROR")
 
 
 def follow(scene, keys=None):

@@ -23,6 +23,8 @@ ORDERING = hf.constants.HF_ORDERING_MINIMUM_DEGREE
 ORDERING_LIMIT = 300000  # vertices; above it nested dissection, the library's default
 
 IDENTITY = np.eye(4)
+# Gaps below this share of the box are not said: a newcomer does not see them.
+GAP_SAID = 0.005
 
 # One thread makes all surfaces, so that one finds the memory that another gave back.
 WORKER = ThreadPoolExecutor(1, "hf")
@@ -66,7 +68,10 @@ class Session:
         mesh = obj.data
         begin = time.perf_counter()
         self.rest = rest_of(mesh)
-        self.surface = make_surface(self.rest, faces_of(mesh), window_manager, meanwhile)
+        self.surface = make_surface(self.rest, faces_of(mesh), window_manager, meanwhile, link_pieces=True)
+        self.light = self.surface.pieces[1]
+        self.info = hf.DeformInfo()
+        self.remarks = []  # sentences for the panel
         self.pose = hf.Pose(self.surface)
         self.numbers = {}  # hf_id -> handle
         self.placed = {}  # hf_id -> matrix of the last update
@@ -96,6 +101,19 @@ class Session:
         figures["sync_ms"] = 1e3 * (time.perf_counter() - begin)
         return found
 
+    def remarks_of(self, found):
+        """What the pose leaves behind: vertices that no handle reaches, gaps between pieces, handles on light pieces."""
+        out, diagonal = [], float(np.linalg.norm(np.ptp(self.rest, axis=0))) or 1.0
+        if self.info.unreached_vertex_count:
+            out.append(f"{self.info.unreached_vertex_count} vertices are reached by no handle and stay at rest")
+        gaps = self.surface.measure_gaps(self.posed)
+        if gaps.link_count and gaps.worst > GAP_SAID * diagonal:
+            out.append(f"Gap between pieces: {100 * gaps.worst / diagonal:.1f} % of the box at worst")
+        for carrier in found.values():
+            if np.mean(self.light[np.array(carrier["hf_vertices"], np.uint32)]) > 0.5:
+                out.append(f"{carrier.name} lies on a light piece: it hardly pulls the rest")
+        return out
+
     def update(self, obj, write=True):
         """The pose from where the carriers stand, into the mesh."""
         begin = time.perf_counter()
@@ -104,12 +122,13 @@ class Session:
             to_local = obj.matrix_world.inverted()
             matrices = np.array([carriers.motion_of(to_local, carrier) for carrier in found.values()])
             self.pose.set_matrices([self.numbers[i] for i in found], matrices)
-            self.pose.deform(self.posed)
+            self.pose.deform(self.posed, info=self.info)
+            self.remarks = self.remarks_of(found)
             moved = any(not np.array_equal(self.placed.get(i, IDENTITY), m) for i, m in zip(found, matrices))
             self.placed = dict(zip(found, matrices))
         else:
             self.posed[:] = self.rest
-            moved = True
+            moved, self.remarks = True, []
         # a mesh that is as it should be stays untouched: Blender would recompute its normals and its box
         if write and (moved or not np.array_equal(mesh_data.positions_of(obj.data), self.posed)):
             mesh_data.keep_rest(obj.data, self.rest)  # until now the mesh itself holds it

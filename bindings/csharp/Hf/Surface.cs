@@ -31,6 +31,10 @@ namespace Hf
         public int Weld, OperatorKind;
         public float WeldTolerance;
         public uint TriangleLimit;
+        /// <summary>Joins the pieces of a character by links, so that fields and poses span them.</summary>
+        public bool LinkPieces;
+        /// <summary>With LinkPieces: null, or a number per vertex. Pieces of different tags stay apart.</summary>
+        public uint[] Tags;
     }
 
     /// <summary>Fields of hf_graph_desc that are not arrays; 0 is the default of each.</summary>
@@ -173,6 +177,15 @@ namespace Hf
                 desc.triangle_limit = options.TriangleLimit;
                 options.Write(pins, out desc.field_kind, out desc.ordering, out desc.thread_count,
                     out desc.vertex_limit, out desc.memory_limit_mb, out desc.progress, out desc.saved_factor);
+                if (options.Tags != null && !options.LinkPieces) throw new HfException("Tags need LinkPieces");
+                hf_links_desc links;
+                if (options.LinkPieces)
+                {
+                    links = new hf_links_desc { struct_size = (uint)sizeof(hf_links_desc) };
+                    links.mode = Constants.HF_LINK_PIECES;
+                    links.tags = pins.Add(options.Tags, positions.Length / 3, "Tags");
+                    desc.links = (IntPtr)(&links);
+                }
                 IntPtr raw;
                 HfException.Check(Functions.hf_surface_create(&desc, &raw));
                 GC.KeepAlive(options.Progress);

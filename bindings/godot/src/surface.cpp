@@ -6,27 +6,29 @@
 namespace hf_godot {
 namespace {
 
-// create(positions, triangles, options = {}, saved factor = null): forgets what was made on the mesh before
-Value create(Surface& s, const Arguments& a) {
-  auto desc = make<hf_surface_desc>();
-  read_options(at(a, 2), {{"weld", &desc.weld},
-                          {"weld_tolerance", &desc.weld_tolerance},
-                          {"operator_kind", &desc.operator_kind},
-                          {"field_kind", &desc.field_kind},
-                          {"ordering", &desc.ordering},
-                          {"thread_count", &desc.thread_count},
-                          {"vertex_limit", &desc.vertex_limit},
-                          {"triangle_limit", &desc.triangle_limit},
-                          {"memory_limit_mb", &desc.memory_limit_mb}});
-  if (at(a, 0).null) fail("positions are null", HF_ERROR_NULL_POINTER);
-  const Doubles& positions = at(a, 0).list;
-  const List triangles = integers(at(a, 1), "triangles");
-  if (positions.size() % 3 || triangles.values.size() % 3) fail("positions and triangles hold three numbers each");
+// Makes the surface of a desc that holds the triangles or the faces. links: HF_LINK_NONE or HF_LINK_PIECES.
+Value create_of(Surface& s, hf_surface_desc& desc, const Argument& positions_given, const Argument& options,
+                const Argument& saved) {
+  auto links = make<hf_links_desc>();
+  read_options(options, {{"link_pieces", &links.mode},
+                         {"weld", &desc.weld},
+                         {"weld_tolerance", &desc.weld_tolerance},
+                         {"operator_kind", &desc.operator_kind},
+                         {"field_kind", &desc.field_kind},
+                         {"ordering", &desc.ordering},
+                         {"thread_count", &desc.thread_count},
+                         {"vertex_limit", &desc.vertex_limit},
+                         {"triangle_limit", &desc.triangle_limit},
+                         {"memory_limit_mb", &desc.memory_limit_mb}});
+  if (links.mode != HF_LINK_NONE && links.mode != HF_LINK_PIECES) fail("link_pieces must be 0 or 1");
+  desc.links = &links;
+  if (positions_given.null) fail("positions are null", HF_ERROR_NULL_POINTER);
+  const Doubles& positions = positions_given.list;
+  if (positions.size() % 3) fail("positions hold three numbers each");
   desc.vertex_count = static_cast<uint32_t>(positions.size() / 3), desc.positions_f64 = positions.data();
-  desc.triangle_count = static_cast<uint32_t>(triangles.values.size() / 3), desc.triangles = triangles.data();
   auto factor = make<hf_factor_desc>();
-  if (!at(a, 3).bytes.empty()) {
-    factor.bytes = a[3].bytes.data(), factor.byte_count = a[3].bytes.size();
+  if (!saved.bytes.empty()) {
+    factor.bytes = saved.bytes.data(), factor.byte_count = saved.bytes.size();
     desc.saved_factor = &factor;
   }
   hf_surface raw = nullptr;
@@ -34,6 +36,26 @@ Value create(Surface& s, const Arguments& a) {
   s.forget();
   s.mesh = std::make_shared<hf::Handle<hf_surface, hf_surface_destroy>>(raw), s.vertex_count = desc.vertex_count;
   return done();
+}
+
+// create(positions, triangles, options = {}, saved factor = null): forgets what was made on the mesh before
+Value create(Surface& s, const Arguments& a) {
+  auto desc = make<hf_surface_desc>();
+  const List triangles = integers(at(a, 1), "triangles");
+  if (triangles.values.size() % 3) fail("triangles hold three numbers each");
+  desc.triangle_count = static_cast<uint32_t>(triangles.values.size() / 3), desc.triangles = triangles.data();
+  return create_of(s, desc, at(a, 0), at(a, 2), at(a, 3));
+}
+
+// create_faces(positions, offsets, corners, options = {}, saved factor = null): faces of any number of corners; those
+// of face f are corners[offsets[f]] to corners[offsets[f + 1] - 1]
+Value create_faces(Surface& s, const Arguments& a) {
+  auto desc = make<hf_surface_desc>();
+  const List offsets = integers(at(a, 1), "offsets"), corners = integers(at(a, 2), "corners");
+  desc.face_count = offsets.values.empty() ? 0 : static_cast<uint32_t>(offsets.values.size() - 1);
+  desc.corner_count = static_cast<uint32_t>(corners.values.size());
+  desc.face_starts = offsets.data(), desc.corners = corners.data();
+  return create_of(s, desc, at(a, 0), at(a, 3), at(a, 4));
 }
 
 // share_from(surface): the same mesh and factor, with nothing made on it yet
@@ -70,6 +92,10 @@ Value report(Surface& s, const Arguments&) {
   check(hf_surface_get_report(s.get(), &found));
   return named({{"vertex_count", found.vertex_count},
                 {"component_count", found.component_count},
+                {"piece_count", found.piece_count},
+                {"link_count", found.link_count},
+                {"face_count", found.face_count},
+                {"polygon_count", found.polygon_count},
                 {"boundary_edge_count", found.boundary_edge_count},
                 {"isolated_vertex_count", found.isolated_vertex_count},
                 {"non_manifold_edge_count", found.non_manifold_edge_count}});
@@ -155,6 +181,7 @@ Value find_vertex(Surface& s, const Arguments& a) {
 
 std::vector<Entry> all_methods() {
   std::vector<Entry> all = {{"create", 2, 4, create},
+                            {"create_faces", 3, 5, create_faces},
                             {"share_from", 1, 1, share_from},
                             {"clone_from", 1, 1, clone_from},
                             {"dispose", 0, 0, dispose},

@@ -35,6 +35,10 @@ export interface SurfaceOptions {
   memoryLimitMb?: number;
   /** Faces instead of triangles. Starts without sizes are offsets, one more than there are faces. */
   faces?: { starts?: Numbers | null; sizes?: Numbers | null; corners: Numbers } | null;
+  /** Joins the pieces of a character by links, so that fields and poses span them. */
+  linkPieces?: boolean | number;
+  /** With linkPieces: a number per vertex. Pieces of different tags stay apart. */
+  tags?: Numbers | null;
   savedFactor?: Uint8Array | null;
   progress?: Progress | null;
 }

@@ -1,4 +1,6 @@
 // Surface and Progress: the mesh with its factor, what is read from it, and picking (hf/surface.h, hf/analysis.h).
+import { constants } from './raw.js';
+
 export function surfaceClasses(tools) {
   const {
     make,
@@ -58,10 +60,19 @@ export function surfaceClasses(tools) {
     desc.set('corners', corners && read(corners));
   };
 
+  /** The desc of automatic links between pieces. tags: null, or a number per vertex; other tags stay apart. */
+  const linksOf = (tags, vertexCount) => {
+    const desc = make('hf_links_desc', { mode: constants.HF_LINK_PIECES });
+    const groups = integers(tags, 'tags');
+    if (groups && groups.length !== vertexCount) fail(`tags must hold one number for each of ${vertexCount} vertices`);
+    return desc.set('tags', groups && read(groups));
+  };
+
   /** Make one per mesh; solvers, poses and the rest are made on it. */
   class Surface extends Handle {
     static prefix = 'hf_surface';
-    constructor(positions, triangles, { savedFactor = null, progress = null, faces = null, ...options } = {}) {
+    constructor(positions, triangles, given = {}) {
+      const { savedFactor = null, progress = null, faces = null, linkPieces = false, tags = null, ...options } = given;
       super();
       if (positions === bare) return;
       const xyz = points(positions, 'positions');
@@ -73,6 +84,8 @@ export function surfaceClasses(tools) {
       desc.set(xyz instanceof Float32Array ? 'positions' : 'positions_f64', read(xyz));
       desc.set(short ? 'triangles_u16' : 'triangles', corners && read(corners));
       if (faces) facesInto(desc, faces);
+      if (tags && !linkPieces) fail('tags need linkPieces');
+      if (linkPieces) desc.set('links', linksOf(tags, xyz.length / 3));
       this._finish('create', desc, savedFactor, progress);
     }
     /** A surface of a graph: two vertices for each edge, and its weight. What needs triangles throws. */

@@ -169,6 +169,24 @@ class Surface(Object):
         call("hf_surface_get_components", self._raw_handle, self.vertex_count, address(out), None)
         return out
 
+    @property
+    def pieces(self) -> Tuple[np.ndarray, np.ndarray]:
+        """(n,) uint32: the piece of every vertex, NO_INDEX for isolated ones; (n,) bool: whether the piece is light."""
+        out, light = np.empty(self.vertex_count, np.uint32), np.empty(self.vertex_count, np.int32)
+        call("hf_surface_get_pieces", self._raw_handle, self.vertex_count, address(out), address(light), None)
+        return out, light != 0
+
+    def measure_gaps(self, positions: ArrayLike) -> _raw.hf_gaps_info:
+        """How much farther the ends of links are apart than at rest. positions: (n, 3), posed."""
+        xyz, stride = points(positions, "positions")
+        if len(xyz) != self.vertex_count:
+            raise InvalidArgumentError(f"positions must have the shape ({self.vertex_count}, 3), not {xyz.shape}")
+        desc = make(_raw.hf_gaps_desc, position_stride=stride)
+        setattr(desc, "positions" if xyz.dtype == np.float32 else "positions_f64", address(xyz))
+        info = make(_raw.hf_gaps_info)
+        call("hf_surface_measure_gaps", self._raw_handle, ctypes.byref(desc), 0, None, ctypes.byref(info))
+        return info
+
     def save(self, field_kind: int = FieldKind.HARMONIC) -> bytes:
         """The factor of a kind of field as bytes, for Surface(..., saved_factor=...)."""
         field_kind, size = whole(field_kind, "field_kind"), ctypes.c_size_t()

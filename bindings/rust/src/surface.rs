@@ -77,6 +77,8 @@ pub struct Extras<'a> {
     pub saved_factor: Option<&'a [u8]>,
     /// Links between loose pieces. Without it, there are none.
     pub links: Option<LinkOptions>,
+    /// With links: a number per vertex. Pieces of different tags stay apart.
+    pub tags: Option<&'a [u32]>,
     /// An object to poll and cancel through.
     pub progress: Option<&'a Progress>,
 }
@@ -131,6 +133,10 @@ impl Surface {
         let mut links = raw::hf_links_desc::default();
         if let Some(given) = extras.links {
             given.fill(&mut links);
+            if let Some(tags) = extras.tags {
+                of_length(tags, "tags", desc.vertex_count as usize)?;
+            }
+            links.tags = start_of(extras.tags);
             desc.links = &links;
         }
         desc.progress = handle_of(extras.progress);

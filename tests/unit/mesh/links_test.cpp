@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/contact_search.h"
 #include "mesh/nearest_triangle.h"
 #include "support/meshes.h"
 #include "support/oracle.h"
@@ -274,28 +275,73 @@ TEST(Links, skin_weights_choose_between_neighbours) {
   EXPECT_GT(alike[1], 0);
 }
 
-TEST(Links, the_nearest_triangle_of_a_group_agrees_with_trying_them_all) {
+// The least squared distance from a vertex to the triangles of a group, by trying all.
+double least_distance(const hf_inner::Mesh& mesh, const std::vector<Index>& group, Index g, Index v) {
+  double least = 1e300;
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    if (group[at(t)] != g) continue;
+    const Index* c = mesh.triangle(t);
+    least = std::min(least, hf_inner::squared_to_triangle(mesh.positions[at(v)], mesh.positions[at(c[0])],
+                                                          mesh.positions[at(c[1])], mesh.positions[at(c[2])]));
+  }
+  return least;
+}
+
+TEST(Links, the_nearest_triangle_of_a_piece_agrees_with_trying_them_all) {
   const auto shape = plain_geometry(two_cubes());
   const hf_inner::Mesh& mesh = shape->mesh;
   std::vector<Index> group;
   for (Index t = 0; t < mesh.triangle_count(); ++t) group.push_back(mesh.component[at(mesh.triangle(t)[0])]);
-  const hf_inner::NearestTriangle tree(mesh.positions, mesh.corners, group, 2, *shape->memory);
+  const hf_inner::SkinHint none;
+  const hf_inner::ContactSearch search(mesh, none, *shape->memory);
   for (Index v = 0; v < mesh.vertex_count(); v += 3) {
     for (Index g = 0; g < 2; ++g) {
-      double least = 1e300;
-      for (Index t = 0; t < mesh.triangle_count(); ++t) {
-        if (group[at(t)] != g) continue;
-        double w[3];
-        tree.weights(mesh.positions[at(v)], t, w);
-        hf_inner::Vec3 d = mesh.positions[at(v)];
-        for (std::size_t k = 0; k < 3; ++k) d = d - w[k] * mesh.positions[at(mesh.triangle(t)[k])];
-        least = std::min(least, dot(d, d));
+      const double least = least_distance(mesh, group, g, v);
+      const hf_inner::Vec3 p = mesh.positions[at(v)];
+      Index triangle = 7;
+      EXPECT_NEAR(search.nearest(g, p, 10, 0, triangle), least, 1e-15);
+      ASSERT_GE(triangle, 0);
+      EXPECT_EQ(group[at(triangle)], g);
+      EXPECT_EQ(search.nearest(g, p, 0.5 * least, 0, triangle), 0.5 * least);
+      EXPECT_EQ(triangle, -1);
+      // A search that may end early finds something near enough, also where the bounds are equal.
+      const double bound = least + 1e-6;
+      EXPECT_LT(search.nearest(g, p, bound, bound, triangle), bound);
+      EXPECT_GE(triangle, 0);
+    }
+  }
+}
+
+TEST(Links, contacts_agree_with_trying_all_triangles) {
+  const auto shape = plain_geometry(two_cubes());
+  const hf_inner::Mesh& mesh = shape->mesh;
+  std::vector<Index> group;
+  for (Index t = 0; t < mesh.triangle_count(); ++t) group.push_back(mesh.component[at(mesh.triangle(t)[0])]);
+  const hf_inner::SkinHint none;
+  const hf_inner::ContactSearch search(mesh, none, *shape->memory);
+  constexpr double range = 0.2, depth = 0.05;
+  hf_inner::Memory memory;
+  for (Index from = 0; from < 2; ++from) {
+    hf_inner::Vector<hf_inner::Contact> found(&memory), best(at(mesh.vertex_count()), {-1, -1, 1e300, 1e300}, &memory);
+    double reach = range, nearest = 1e300;
+    search.find(from, 1 - from, depth, reach, found, SIZE_MAX);
+    search.improve(from, 1 - from, range, from == 0, best);
+    std::vector<double> distance(at(mesh.vertex_count()), -1);
+    for (const hf_inner::Contact& contact : found) distance[at(contact.vertex)] = contact.distance;
+    for (const Index v : search.vertices_of(from))
+      nearest = std::min(nearest, std::sqrt(least_distance(mesh, group, 1 - from, v)));
+    EXPECT_NEAR(reach, nearest + depth, 1e-12);
+    EXPECT_TRUE(
+        std::is_sorted(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; }));
+    for (const Index v : search.vertices_of(from)) {
+      const double least = std::sqrt(least_distance(mesh, group, 1 - from, v));
+      if (least < nearest + depth) {
+        EXPECT_NEAR(distance[at(v)], least, 1e-12);
       }
-      const auto found = tree.find_in(g, mesh.positions[at(v)], 10);
-      ASSERT_GE(found.triangle, 0);
-      EXPECT_EQ(group[at(found.triangle)], g);
-      EXPECT_NEAR(found.squared, least, 1e-15);
-      EXPECT_EQ(tree.find_in(g, mesh.positions[at(v)], 0.5 * least).triangle, -1);
+      EXPECT_EQ(best[at(v)].vertex, least < range ? v : -1);
+      if (least < range) {
+        EXPECT_NEAR(best[at(v)].distance, least, 1e-12);
+      }
     }
   }
 }

@@ -1,0 +1,187 @@
+#include "mesh/contact_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesh/link_constants.h"
+#include "mesh/nearest_triangle.h"
+
+namespace hf_inner {
+namespace {
+
+Vector<Index> pieces_of_triangles(const Mesh& mesh, Memory& memory) {
+  Vector<Index> out(&memory);
+  out.reserve(at(mesh.triangle_count()));
+  for (Index t = 0; t < mesh.triangle_count(); ++t) out.push_back(mesh.component[at(mesh.triangle(t)[0])]);
+  return out;
+}
+
+}  // namespace
+
+ContactSearch::ContactSearch(const Mesh& mesh, const SkinHint& skin, Memory& memory)
+    : mesh_(mesh),
+      skin_(skin),
+      memory_(memory),
+      boxes_(triangle_boxes(mesh.positions, mesh.corners, memory)),
+      group_(pieces_of_triangles(mesh, memory)),
+      tree_(boxes_, group_, mesh.component_count(), memory),
+      start_(at(mesh.component_count()) + 1, 0, &memory),
+      vertex_(mesh.positions.size(), &memory),
+      chunk_start_(&memory),
+      chunk_vertex_(&memory),
+      chunk_(&memory) {
+  for (const Index p : mesh.component) ++start_[at(p) + 1];
+  for (std::size_t p = 0; p + 1 < start_.size(); ++p) start_[p + 1] += start_[p];
+  Vector<Index> next(start_.begin(), start_.end() - 1, &memory);
+  for (std::size_t v = 0; v < mesh.component.size(); ++v)
+    vertex_[at(next[at(mesh.component[v])]++)] = static_cast<Index>(v);
+  make_chunks();
+}
+
+void ContactSearch::make_chunks() {
+  Vector<std::uint8_t> seen(mesh_.positions.size(), 0, &memory_);
+  chunk_vertex_.reserve(seen.size());
+  for (Index piece = 0; piece < mesh_.component_count(); ++piece) {
+    chunk_start_.push_back(static_cast<Index>(chunk_.size()));
+    Index left = 0;  // room in the last chunk
+    for (const Index t : tree_.items(piece)) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index v = mesh_.triangle(t)[k], here = static_cast<Index>(chunk_vertex_.size());
+        if (seen[at(v)]) continue;
+        seen[at(v)] = 1;
+        if (left == 0) chunk_.push_back({ItemBox::of(mesh_.positions[at(v)]), here, here}), left = chunk_vertices;
+        chunk_.back().box.take(mesh_.positions[at(v)]);
+        chunk_.back().last = here + 1, --left;
+        chunk_vertex_.push_back(v);
+      }
+    }
+  }
+  chunk_start_.push_back(static_cast<Index>(chunk_.size()));
+}
+
+double ContactSearch::squared(const Vec3& p, Index t, double* weights) const noexcept {
+  const Index* c = mesh_.triangle(t);
+  return squared_to_triangle(p, mesh_.positions[at(c[0])], mesh_.positions[at(c[1])], mesh_.positions[at(c[2])],
+                             weights);
+}
+
+void ContactSearch::weights(const Contact& contact, double* out) const noexcept {
+  squared(mesh_.positions[at(contact.vertex)], contact.triangle, out);
+}
+
+double ContactSearch::nearest(Index piece, const Vec3& p, double within, double enough,
+                              Index& triangle) const noexcept {
+  double found = within;
+  triangle = -1;
+  const auto reach = [&] { return triangle >= 0 && found <= enough ? -1.0 : found; };
+  tree_.near(piece, p, reach, [&](Index t) {
+    if (!(squared_distance(p, boxes_[at(t)]) < found)) return;
+    const double d = squared(p, t);
+    if (d < found) found = d, triangle = t;
+  });
+  return found;
+}
+
+void ContactSearch::leaves_near(Index piece, const ItemBox& box, double reach, Vector<Leaf>& out) const {
+  out.clear();
+  tree_.leaves(piece, box, reach * reach, [&](const ItemBox& leaf, Span<const Index> triangles) {
+    out.push_back({leaf, triangles});
+  });
+}
+
+// hint: the triangle of the vertex before, or -1; consecutive vertices are near each other.
+bool ContactSearch::contact_of(Index v, const Vector<Leaf>& leaves, double reach, Index& hint, Contact& out) const {
+  const Vec3 p = mesh_.positions[at(v)];
+  double found = reach * reach;
+  Index triangle = -1;
+  const auto test = [&](Index t) {
+    if (!(squared_distance(p, boxes_[at(t)]) < found)) return;
+    const double d = squared(p, t);
+    if (d < found) found = d, triangle = t;
+  };
+  if (hint >= 0) test(hint);
+  for (const Leaf& leaf : leaves) {
+    if (!(squared_distance(p, leaf.box) < found)) continue;
+    for (const Index t : leaf.triangles) test(t);
+  }
+  if (triangle < 0) return false;
+  hint = triangle;
+  out = contact(v, triangle, found);
+  return true;
+}
+
+bool ContactSearch::alone_contact_of(Index v, Index piece, double reach, Index& hint, Contact& out) const {
+  const Vec3 p = mesh_.positions[at(v)];
+  const double bound = reach * reach;
+  const double first = hint >= 0 ? squared(p, hint) : bound;
+  Index triangle;
+  const double found = nearest(piece, p, std::min(bound, first), 0, triangle);
+  if (triangle < 0 && first < bound) triangle = hint;
+  if (triangle < 0) return false;
+  hint = triangle;
+  out = contact(v, triangle, found);
+  return true;
+}
+
+Contact ContactSearch::contact(Index v, Index triangle, double squared_length) const {
+  Contact out{v, triangle, std::sqrt(squared_length), std::sqrt(squared_length)};
+  if (skin_.influence_count > 0) {
+    double share[3];
+    squared(mesh_.positions[at(v)], triangle, share);
+    out.cost += skin_distance * difference(skin_, mesh_, v, mesh_.triangle(triangle), share);
+  }
+  return out;
+}
+
+void ContactSearch::find(Index from, Index to, double depth, double& reach, Vector<Contact>& out,
+                         std::size_t most) const {
+  const std::size_t first = out.size();
+  Vector<Leaf> leaves(&memory_);
+  const auto is_near = [&](const Chunk& chunk) { return squared_distance(chunk.box, box(to)) < reach * reach; };
+  std::size_t step = 1;
+  if (most < SIZE_MAX) {
+    std::size_t count = 0;
+    for (const Chunk& chunk : chunks_of(from)) count += is_near(chunk) ? at(chunk.last - chunk.first) : 0;
+    step = std::max<std::size_t>(1, count / most);
+  }
+  Index hint = -1;
+  for (const Chunk& chunk : chunks_of(from)) {
+    if (!is_near(chunk)) continue;
+    leaves_near(to, chunk.box, reach, leaves);
+    if (leaves.empty()) continue;
+    for (std::size_t i = at(chunk.first); i < at(chunk.last); i += step) {
+      Contact made;
+      if (!contact_of(chunk_vertex_[i], leaves, reach, hint, made)) continue;
+      out.push_back(made);
+      reach = std::min(reach, made.cost + depth);
+    }
+  }
+  std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
+            [](const Contact& a, const Contact& b) { return a.vertex < b.vertex; });
+}
+
+void ContactSearch::improve(Index from, Index to, double range, bool alone, Vector<Contact>& best) const {
+  Vector<Leaf> leaves(&memory_);
+  Index hint = -1;
+  for (const Chunk& chunk : chunks_of(from)) {
+    double reach = 0;
+    for (Index i = chunk.first; i < chunk.last; ++i) reach = std::max(reach, best[at(chunk_vertex_[at(i)])].cost);
+    reach = std::min(reach, range);
+    if (!(squared_distance(chunk.box, box(to)) < reach * reach)) continue;
+    if (!alone) {
+      leaves_near(to, chunk.box, reach, leaves);
+      if (leaves.empty()) continue;
+    }
+    for (Index i = chunk.first; i < chunk.last; ++i) {
+      const Index v = chunk_vertex_[at(i)];
+      const double bound = std::min(best[at(v)].cost, range);
+      Contact made;
+      if (alone ? alone_contact_of(v, to, bound, hint, made) : contact_of(v, leaves, bound, hint, made)) {
+        if (made.cost < best[at(v)].cost) best[at(v)] = made;
+      }
+    }
+  }
+}
+
+}  // namespace hf_inner
