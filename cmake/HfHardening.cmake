@@ -11,7 +11,11 @@ set(hf_hardening_compile)
 set(hf_hardening_link)
 # sanitizers and counters check more, and do not go with all of these; a WebAssembly module is guarded by its host
 if(HF_HARDEN AND NOT HF_SANITIZE AND NOT HF_COVERAGE AND NOT EMSCRIPTEN AND NOT MSVC)
-  foreach(flag -fstack-protector-strong -fstack-clash-protection -fcf-protection=full)
+  set(flags -fstack-protector-strong -fstack-clash-protection -fcf-protection=full)
+  if(MINGW)  # Windows has stack probes of its own, and GCC 12 fails on functions that never return with both
+    list(REMOVE_ITEM flags -fstack-clash-protection)
+  endif()
+  foreach(flag ${flags})
     string(MAKE_C_IDENTIFIER "HF_HAVE${flag}" known)
     check_cxx_compiler_flag("-Werror ${flag}" ${known})
     if(${known})

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/index.h"
 #include "base/progress.h"
 #include "field/vector_field.h"
@@ -25,7 +26,7 @@ double wrapped(double angle) noexcept {
 
 double corner_angle(const Mesh& mesh, Index v, Index a, Index b) noexcept {
   const Vec3 p = mesh.positions[at(a)] - mesh.positions[at(v)], q = mesh.positions[at(b)] - mesh.positions[at(v)];
-  return std::atan2(norm(cross(p, q)), dot(p, q));
+  return arc_tangent(norm(cross(p, q)), dot(p, q));
 }
 
 // A triangle at a vertex. Counter-clockwise, it lies between the neighbours `first` and `second`.
