@@ -146,8 +146,8 @@ void DenseBlock::remove(Span<const std::int32_t> ids) {
   for (std::int32_t i = count() - 1; i >= 0; --i) {
     if (leaves(ids_[static_cast<std::size_t>(i)])) first = i;
   }
-  const double kept = static_cast<double>(first);
-  const double fresh = (left * left * left - kept * kept * kept) / 3 / factor_rate;
+  const double before = static_cast<double>(first);
+  const double fresh = (left * left * left - before * before * before) / 3 / factor_rate;
   if (negative_ == 0 && d * rotation_ns * (k - first) * k < fresh) {
     // Removes rows of the dense factor from the last to the first. Removing a late row is cheap, because few rows lie
     // behind it.

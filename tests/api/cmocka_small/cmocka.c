@@ -32,7 +32,7 @@ void small_same_bytes(const void* got, const void* expected, size_t size, const 
 int small_run(const char* name, const struct CMUnitTest* tests, size_t count, CMFixtureFunction setup,
               CMFixtureFunction teardown) {
   void* state = NULL;
-  int failed = 0;
+  volatile int failed = 0;
   printf("%s: %u tests\n", name, (unsigned)count);
   if (setup && setup(&state) != 0) {
     printf("the setup failed\n");
@@ -48,7 +48,7 @@ int small_run(const char* name, const struct CMUnitTest* tests, size_t count, CM
       tests[i].test_func(&own);
     else
       result = left;
-    failed += result == FAILED;
+    if (result == FAILED) ++failed;
     printf("%-8s %s\n", said[result], tests[i].name);
   }
   if (teardown && teardown(&state) != 0) ++failed;

@@ -35,6 +35,7 @@ void small_same_bytes(const void* got, const void* expected, size_t size, const 
 #define fail_msg(...) small_fail(__FILE__, __LINE__, __VA_ARGS__)
 #define skip() small_skip()
 #define print_message(...) ((void)printf(__VA_ARGS__))
+#define print_error(...) ((void)printf(__VA_ARGS__))
 #define assert_true(c) ((c) ? (void)0 : small_fail(__FILE__, __LINE__, "not true: %s", #c))
 #define assert_false(c) (!(c) ? (void)0 : small_fail(__FILE__, __LINE__, "not false: %s", #c))
 #define assert_null(p) assert_true((p) == NULL)
