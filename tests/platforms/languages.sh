@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Checks the sources by compilers and languages without building them: languages.sh ROOT CC CXX
 #   Every file of src as C++17, C++20 and C++23, with every extension replaced by its plain alternative once.
-#   The public headers as MSVC would take them: clang in MSVC mode, with the headers of clang alone. The library's own
-#   sources need MSVC's C++ library, which is not to be had here, so they are not checked in that mode.
+#   The public headers and the kernels as MSVC would take them: clang in MSVC mode, with its own headers and the few
+#   stand-ins of msvc_headers. The other sources need MSVC's C++ library, which is not to be had here, so they are not
+#   checked in that mode.
 # Prints `languages: N passed, N failed`.
 set -u
 root=$1 cc=$2 cxx=$3
@@ -47,6 +48,21 @@ for header in "$root"/include/hf/*.h; do
   try "$name as C99 in MSVC mode" "$cc" "${msvc[@]}" -std=c99 "$folder/alone.c"
   # the C++ compiler finds stdint.h of clang, since there is none of MSVC
   try "$name as C++17 in MSVC mode" "$cxx" "${msvc[@]}" -std=c++17 "$folder/alone.cpp"
+done
+kernels=(--target=x86_64-pc-windows-msvc -fsyntax-only -ffreestanding -std=c++17 -DHF_BUILDING
+  -isystem "$root/tests/platforms/msvc_headers" -I "$root/include" -I "$root/src" "${warnings[@]}")
+for name in factor/kernels_plain factor/kernels field/directions; do
+  try "$name.cpp in MSVC mode" "$cxx" "${kernels[@]}" "$root/src/$name.cpp"
+  try "$name.cpp in MSVC mode, plain" "$cxx" "${kernels[@]}" -DHF_PLAIN_COMPILER "$root/src/$name.cpp"
+done
+for name in factor/kernels_avx2 deform/blend_avx2 deform/normals_avx2 deform/rotation_avx2; do
+  try "$name.cpp in MSVC mode" "$cxx" "${kernels[@]}" -mavx2 -mfma "$root/src/$name.cpp"
+done
+for name in factor/kernels_avx512 deform/blend_avx512 deform/rotation_avx512; do
+  try "$name.cpp in MSVC mode" "$cxx" "${kernels[@]}" -mavx512f -mavx512vl -mavx512dq -mfma "$root/src/$name.cpp"
+done
+for name in factor/kernels_neon deform/blend_neon deform/normals_neon; do
+  try "$name.cpp in MSVC mode for ARM" "$cxx" "${kernels[@]/x86_64/aarch64}" "$root/src/$name.cpp"
 done
 printf 'languages: %s passed, %s failed\n' "$passed" "$failed"
 [ "$failed" -eq 0 ]
