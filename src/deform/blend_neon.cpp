@@ -51,14 +51,16 @@ void blend_vertices(const BlendRows& rows, std::int32_t first, std::int32_t last
     float64x2_t xy = vld1q_f64(p);
     double z = p[2];
     if (begin < end) {
+      const auto column = [&](std::int32_t k) {
+        return rows.columns + 16 * static_cast<std::size_t>(rows.cluster[k]);
+      };
       float64x2_t sum[8];
-      for (std::int32_t k = begin; k < end; ++k) {
-        const double* a = rows.columns + 16 * static_cast<std::size_t>(rows.cluster[k]);
-        const float64x2_t w = vdupq_n_f64(static_cast<double>(rows.weight[k]));
-        for (int j = 0; j < 8; ++j) {
-          const float64x2_t part = vmulq_f64(w, vld1q_f64(a + 2 * j));
-          sum[j] = k == begin ? part : vaddq_f64(sum[j], part);
-        }
+      const double* a = column(begin);
+      float64x2_t w = vdupq_n_f64(static_cast<double>(rows.weight[begin]));
+      for (int j = 0; j < 8; ++j) sum[j] = vmulq_f64(w, vld1q_f64(a + 2 * j));
+      for (std::int32_t k = begin + 1; k < end; ++k) {
+        a = column(k), w = vdupq_n_f64(static_cast<double>(rows.weight[k]));
+        for (int j = 0; j < 8; ++j) sum[j] = vaddq_f64(sum[j], vmulq_f64(w, vld1q_f64(a + 2 * j)));
       }
       float64x2_t low = vmulq_n_f64(sum[0], p[0]), high = vmulq_n_f64(sum[1], p[0]);
       low = vaddq_f64(low, vmulq_n_f64(sum[2], p[1])), high = vaddq_f64(high, vmulq_n_f64(sum[3], p[1]));

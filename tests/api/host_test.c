@@ -146,6 +146,7 @@ static void rounding_modes_are_kept_and_do_not_matter(void** state) {
   surface_free(&tube);
 }
 
+#if defined(__SSE2__)
 /* valgrind does all arithmetic with the default settings, and keeps neither flags nor traps: what is said of them
  * cannot be tested there. */
 static void skip_where_float_settings_are_not_kept(void) {
@@ -159,7 +160,6 @@ static void skip_where_float_settings_are_not_kept(void) {
   skip();
 }
 
-#if defined(__SSE2__)
 /* The work of a host that flushes subnormals: the same bits, and its control word as it was after every call. */
 static void flush_to_zero_is_kept_and_does_not_matter(void** state) {
   (void)state;
