@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Counts the instructions of kernels under qemu: instructions.sh KERNEL_WORK PLUGIN EMULATOR...
 # Prints for every kernel the instructions of a multiply-add in plain code and in NEON, and the ratio of both. The ratio
-# of sweep, path, triangle and blend must not exceed the limit below.
+# of sweep, path, triangle and blend must not exceed the limit below. Plain code has two lanes and no fused operation. A
+# loop whose sums stay in registers spends one load and four operations on four numbers in plain code, one load and two
+# in NEON, so its ratio cannot fall below 0.6.
 set -u
 program=$1 plugin=$2
 shift 2
-limit=0.5
+limit=0.72
 "$@" -plugin "$plugin" "$program" >/dev/null 2>&1 || { printf 'skipped: this qemu takes no plug-in\n'; exit 77; }
 count() { "${@:3}" -plugin "$plugin" "$program" "$kernel" "$1" "$2" 2>&1 >/dev/null | sed -n 's/^instructions //p'; }
 status=0
