@@ -22,6 +22,9 @@ if(HF_HARDEN AND NOT HF_SANITIZE AND NOT HF_COVERAGE AND NOT EMSCRIPTEN AND NOT 
       list(APPEND hf_hardening_compile ${flag})
     endif()
   endforeach()
+  if(MINGW AND "-fstack-protector-strong" IN_LIST hf_hardening_compile)  # the linker adds libssp, which holds the guard
+    list(APPEND hf_hardening_link -fstack-protector-strong)
+  endif()
   # calls of the C library are checked against the size of their buffer; it works in optimised code only
   foreach(flag -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3)
     list(APPEND hf_hardening_compile $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:${flag}>)
