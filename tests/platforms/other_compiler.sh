@@ -22,7 +22,7 @@ mingw=(--target=x86_64-w64-windows-gnu -static -L "$gcc" -B "$gcc" -I "$root/inc
 must "$(tool clang)" "${mingw[@]}" -std=c99 -o minimal.exe "$root/samples/minimal/minimal.c" "$import"
 said=$("$@" ./minimal.exe | tr -d '\r' | paste -sd' ')
 [ "$said" = "0.000 0.000 0.500 0.500 1.000 1.000" ] || { printf 'error: samples/minimal printed: %s\n' "$said"; exit 1; }
-cxx=("${mingw[@]}" -std=c++17 -isystem "$gcc/include/c++" -isystem "$gcc/include/c++/x86_64-w64-mingw32")
+cxx=("${mingw[@]}" -std=c++17 -pthread -isystem "$gcc/include/c++" -isystem "$gcc/include/c++/x86_64-w64-mingw32")
 must "$(tool clang++)" "${cxx[@]}" -o throws.exe "$root/tests/platforms/throwing_host.cpp" "$import"
 must "$@" ./throws.exe
 if command -v "$(tool llvm-dlltool)" >/dev/null && command -v "$(tool lld-link)" >/dev/null; then
