@@ -12,8 +12,8 @@
 
 namespace samples {
 
-// The command line in UTF-8. Windows hands main() words in the code page of the system, which lacks most letters, so they
-// are asked for once more.
+// The command line in UTF-8. Windows hands main() words in the code page of the system, which lacks most letters, so
+// they are asked for once more.
 class CommandLine {
  public:
   CommandLine(int count, char** arguments);

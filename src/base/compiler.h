@@ -1,5 +1,5 @@
-// The compiler's extensions that the library uses, each with a plain alternative that gives the same bits. No other file
-// of src names a builtin, an attribute or a vector type of a compiler.
+// The compiler's extensions that the library uses, each with a plain alternative that gives the same bits. No other
+// file of src names a builtin, an attribute or a vector type of a compiler.
 //
 // HF_PLAIN_COMPILER chooses the alternatives where the extensions exist too: a test builds with it. Kernels that are
 // compiled for one instruction set include this file. So its functions have internal linkage, and no function compiled
@@ -17,7 +17,8 @@
 #include <intrin.h>
 #endif
 
-// Asks for the cache line at an address: HF_PREFETCH into the nearest cache, HF_PREFETCH_FAR into the second-level cache.
+// Asks for the cache line at an address: HF_PREFETCH into the nearest cache, HF_PREFETCH_FAR into the second-level
+// cache.
 #if HF_GNU_EXTENSIONS
 #define HF_PREFETCH(address) __builtin_prefetch(address)
 #define HF_PREFETCH_FAR(address) __builtin_prefetch(address, 0, 2)
@@ -110,28 +111,28 @@ template <class T>
 struct Same {
   using Type = T;
 };
-#define HF_VECTOR_OPERATOR(sign)                                                                                   \
-  template <class T, int N>                                                                                        \
-  inline PlainVector<T, N> operator sign(const PlainVector<T, N>& a, const PlainVector<T, N>& b) noexcept {        \
-    PlainVector<T, N> result;                                                                                      \
-    for (int i = 0; i < N; ++i) result[i] = a[i] sign b[i];                                                        \
-    return result;                                                                                                 \
-  }                                                                                                                \
-  template <class T, int N>                                                                                        \
-  inline PlainVector<T, N> operator sign(const PlainVector<T, N>& a, const typename Same<T>::Type& b) noexcept {   \
-    PlainVector<T, N> result;                                                                                      \
-    for (int i = 0; i < N; ++i) result[i] = a[i] sign b;                                                           \
-    return result;                                                                                                 \
-  }                                                                                                                \
-  template <class T, int N>                                                                                        \
-  inline PlainVector<T, N> operator sign(const typename Same<T>::Type& a, const PlainVector<T, N>& b) noexcept {   \
-    PlainVector<T, N> result;                                                                                      \
-    for (int i = 0; i < N; ++i) result[i] = a sign b[i];                                                           \
-    return result;                                                                                                 \
-  }                                                                                                                \
-  template <class T, int N, class Other>                                                                           \
-  inline PlainVector<T, N>& operator sign##=(PlainVector<T, N>& a, const Other& b) noexcept {                      \
-    return a = a sign b;                                                                                           \
+#define HF_VECTOR_OPERATOR(sign)                                                                                 \
+  template <class T, int N>                                                                                      \
+  inline PlainVector<T, N> operator sign(const PlainVector<T, N>& a, const PlainVector<T, N>& b) noexcept {      \
+    PlainVector<T, N> result;                                                                                    \
+    for (int i = 0; i < N; ++i) result[i] = a[i] sign b[i];                                                      \
+    return result;                                                                                               \
+  }                                                                                                              \
+  template <class T, int N>                                                                                      \
+  inline PlainVector<T, N> operator sign(const PlainVector<T, N>& a, const typename Same<T>::Type& b) noexcept { \
+    PlainVector<T, N> result;                                                                                    \
+    for (int i = 0; i < N; ++i) result[i] = a[i] sign b;                                                         \
+    return result;                                                                                               \
+  }                                                                                                              \
+  template <class T, int N>                                                                                      \
+  inline PlainVector<T, N> operator sign(const typename Same<T>::Type& a, const PlainVector<T, N>& b) noexcept { \
+    PlainVector<T, N> result;                                                                                    \
+    for (int i = 0; i < N; ++i) result[i] = a sign b[i];                                                         \
+    return result;                                                                                               \
+  }                                                                                                              \
+  template <class T, int N, class Other>                                                                         \
+  inline PlainVector<T, N>& operator sign##=(PlainVector<T, N>& a, const Other& b) noexcept {                    \
+    return a = a sign b;                                                                                         \
   }
 HF_VECTOR_OPERATOR(+)
 HF_VECTOR_OPERATOR(-)

@@ -184,7 +184,8 @@ double arc_cosine(double x) noexcept {
   const Pair below = sum(1, -c), above = sum(1, c), square = product(below.high, above.high);
   const double s = std::sqrt(square.high);
   const Pair back = product(s, s);
-  const double rest = ((square.high - back.high) - back.low) + (square.low + below.high * above.low + below.low * above.high);
+  const double rest =
+      ((square.high - back.high) - back.low) + (square.low + below.high * above.low + below.low * above.high);
   const Pair root = {s, rest / (2 * s)};
   Pair angle = s < c ? angle_of(quotient(root, {c, 0}))
                      : difference({0.5 * pi.high, 0.5 * pi.low}, angle_of(quotient({c, 0}, root)));

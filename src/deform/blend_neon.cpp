@@ -1,5 +1,5 @@
-// The loop of blend.cpp with two vertices or two numbers of a transform in each register. The sums have the order of the
-// plain loop, without fused multiply-adds, so the bits are the same. Every 64-bit ARM processor can run it.
+// The loop of blend.cpp with two vertices or two numbers of a transform in each register. The sums have the order of
+// the plain loop, without fused multiply-adds, so the bits are the same. Every 64-bit ARM processor can run it.
 #include <arm_neon.h>
 
 #include "deform/blend_rows.h"
@@ -51,9 +51,7 @@ void blend_vertices(const BlendRows& rows, std::int32_t first, std::int32_t last
     float64x2_t xy = vld1q_f64(p);
     double z = p[2];
     if (begin < end) {
-      const auto column = [&](std::int32_t k) {
-        return rows.columns + 16 * static_cast<std::size_t>(rows.cluster[k]);
-      };
+      const auto column = [&](std::int32_t k) { return rows.columns + 16 * static_cast<std::size_t>(rows.cluster[k]); };
       float64x2_t sum[8];
       const double* a = column(begin);
       float64x2_t w = vdupq_n_f64(static_cast<double>(rows.weight[begin]));

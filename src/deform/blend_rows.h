@@ -1,4 +1,5 @@
-// The arrays of a blend, as the loops of blend.cpp and of blend_avx2.cpp, blend_avx512.cpp and blend_neon.cpp read them.
+// The arrays of a blend, as the loops of blend.cpp and of blend_avx2.cpp, blend_avx512.cpp and blend_neon.cpp read
+// them.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -12,8 +12,8 @@ namespace hf_inner {
 namespace {
 
 template <class Inside>
-HF_ALWAYS_INLINE void add_normals(const NormalRows& rows, const std::int32_t* corners,
-                                                       std::int32_t count, Inside&& inside) noexcept {
+HF_ALWAYS_INLINE void add_normals(const NormalRows& rows, const std::int32_t* corners, std::int32_t count,
+                                  Inside&& inside) noexcept {
   const double* positions = rows.positions;
   float* sums = rows.sums;
   const __m256d unit = _mm256_set1_pd(rows.unit);

@@ -24,8 +24,8 @@ HF_ALWAYS_INLINE void add_normals(const NormalRows& rows, const std::int32_t* co
     const float64x2_t a = vmulq_n_f64(vsubq_f64(vld1q_f64(q), xy), unit),
                       b = vmulq_n_f64(vsubq_f64(vld1q_f64(r), xy), unit);
     // The third components of both edges share a register.
-    const float64x2_t third = vmulq_n_f64(
-        vsubq_f64(vcombine_f64(vld1_f64(q + 2), vld1_f64(r + 2)), vdupq_n_f64(p[2])), unit);
+    const float64x2_t third =
+        vmulq_n_f64(vsubq_f64(vcombine_f64(vld1_f64(q + 2), vld1_f64(r + 2)), vdupq_n_f64(p[2])), unit);
     // The cross product is (a1 b2 - a2 b1, a2 b0 - a0 b2, a0 b1 - a1 b0).
     const float64x2_t ab = vmulq_laneq_f64(a, third, 1), ba = vmulq_laneq_f64(b, third, 0);
     const double cx = vgetq_lane_f64(ab, 1) - vgetq_lane_f64(ba, 1), cy = vgetq_lane_f64(ba, 0) - vgetq_lane_f64(ab, 0);

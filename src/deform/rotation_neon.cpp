@@ -1,5 +1,5 @@
-// The Newton steps of rotation_batch.cpp with two matrices (lanes) in a register; the bits are the same. Every 64-bit ARM
-// processor can run it.
+// The Newton steps of rotation_batch.cpp with two matrices (lanes) in a register; the bits are the same. Every 64-bit
+// ARM processor can run it.
 #include <cstring>
 
 #include "base/compiler.h"

@@ -1,4 +1,5 @@
-// The result of one Newton step for eight rotations, shared by rotation_batch.cpp and its AVX2, AVX-512 and NEON builds.
+// The result of one Newton step for eight rotations, shared by rotation_batch.cpp and its AVX2, AVX-512 and NEON
+// builds.
 #pragma once
 
 namespace hf_inner {

@@ -1,5 +1,6 @@
-// Vector types of the build for 64-bit ARM. A vector is two registers of NEON, so that the kernels have the shape of the
-// AVX2 build: 16 vectors fill the 32 registers. Sums have the order of AVX2 and are fused, so the bits are the same.
+// Vector types of the build for 64-bit ARM. A vector is two registers of NEON, so that the kernels have the shape of
+// the AVX2 build: 16 vectors fill the 32 registers. Sums have the order of AVX2 and are fused, so the bits are the
+// same.
 #pragma once
 #include <arm_neon.h>
 #include <math.h>

@@ -28,8 +28,11 @@ struct Data {
   std::vector<std::int32_t> row;
   std::vector<std::int64_t> target;
   Data()
-      : below(columns * rows + 64), triangle(columns * (columns + 1) / 2 + 64), z((columns + rows) * 8 + 64),
-        x(columns * lanes + 64), base(rows * lanes + 64) {
+      : below(columns * rows + 64),
+        triangle(columns * (columns + 1) / 2 + 64),
+        z((columns + rows) * 8 + 64),
+        x(columns * lanes + 64),
+        base(rows * lanes + 64) {
     for (std::vector<double>* one : {&below, &triangle, &z, &x, &base}) {
       for (std::size_t i = 0; i < one->size(); ++i) (*one)[i] = small_number(i);
     }
@@ -93,21 +96,32 @@ void blend(const Kernels&, bool neon, Data&) {
     for (int v = 0; v < Data::vertices; ++v) {
       for (int at = 0; at < shared; ++at) {
         weights.cluster.push_back(cluster(v / 8, at)), weights.weight.push_back(0.125f);
-        if (v % 8 == 0) weights.block_cluster.push_back(cluster(v / 8, at)), weights.block_weight.insert(weights.block_weight.end(), 8, 0.125f);
+        if (v % 8 == 0)
+          weights.block_cluster.push_back(cluster(v / 8, at)),
+              weights.block_weight.insert(weights.block_weight.end(), 8, 0.125f);
       }
     }
     for (Affine& a : transforms) std::fill(&a.a[0][0], &a.a[0][0] + 12, 0.25);
     std::fill(std::begin(columns), std::end(columns), 0.25);
   }
 #if defined(__aarch64__)
-  const hf_inner::BlendRows rows{weights.start.data(), weights.cluster.data(), weights.weight.data(), columns,
-                                 &mesh.positions.data()->x, {0.1, 0.2, 0.3}, 2.0, &out[0].x,
-                                 weights.block_start.data(), weights.block_cluster.data(), weights.block_weight.data()};
+  const hf_inner::BlendRows rows{weights.start.data(),
+                                 weights.cluster.data(),
+                                 weights.weight.data(),
+                                 columns,
+                                 &mesh.positions.data()->x,
+                                 {0.1, 0.2, 0.3},
+                                 2.0,
+                                 &out[0].x,
+                                 weights.block_start.data(),
+                                 weights.block_cluster.data(),
+                                 weights.block_weight.data()};
   if (neon) return hf_inner::blend_rows_neon(rows, 0, Data::vertices);
 #endif
   static_cast<void>(neon);
   for (int v = 0; v < Data::vertices; ++v)
-    out[static_cast<std::size_t>(v)] = hf_inner::Vec3{0.1, 0.2, 0.3} + 2.0 * hf_inner::blend_vertex(mesh, weights, transforms, v);
+    out[static_cast<std::size_t>(v)] =
+        hf_inner::Vec3{0.1, 0.2, 0.3} + 2.0 * hf_inner::blend_vertex(mesh, weights, transforms, v);
 }
 
 void rotations(const Kernels&, bool neon, Data&) {
@@ -128,16 +142,16 @@ constexpr double c = Data::columns, r = Data::rows;
 const Work works[] = {
     {"sweep_16_columns", 16 * r, narrow<16, 1>},
     {"sweep_32_columns", 32 * r, sweep<32, 1>},
-    {"sweep_96_columns", c * r, sweep<96, 1>},
-    {"sweep_96_columns_3_fields", 3 * c * r, sweep<96, 3>},
-    {"sweep_96_columns_8_fields", 8 * c * r, sweep<96, 8>},
-    {"triangle_96_columns", c * (c + 1) / 2, triangle<96, 1>},
-    {"triangle_96_columns_8_fields", 8 * c * (c + 1) / 2, triangle<96, 8>},
-    {"forward_triangle_96_columns", c * (c + 1) / 2, forward_triangle},
-    {"path_rows_8_sites", 8 * c * r, path_rows<8>},
-    {"path_rows_32_sites", 32 * c * r, path_rows<32>},
-    {"path_triangle_32_sites", 32 * c * (c + 1) / 2, path_triangle<32>},
-    {"update_96_columns", c * r * r / 2, update},
+    {"sweep_96_columns", c* r, sweep<96, 1>},
+    {"sweep_96_columns_3_fields", 3 * c* r, sweep<96, 3>},
+    {"sweep_96_columns_8_fields", 8 * c* r, sweep<96, 8>},
+    {"triangle_96_columns", c*(c + 1) / 2, triangle<96, 1>},
+    {"triangle_96_columns_8_fields", 8 * c*(c + 1) / 2, triangle<96, 8>},
+    {"forward_triangle_96_columns", c*(c + 1) / 2, forward_triangle},
+    {"path_rows_8_sites", 8 * c* r, path_rows<8>},
+    {"path_rows_32_sites", 32 * c* r, path_rows<32>},
+    {"path_triangle_32_sites", 32 * c*(c + 1) / 2, path_triangle<32>},
+    {"update_96_columns", c* r* r / 2, update},
     {"blend_6_clusters", 12.0 * 6 * Data::vertices, blend},
     {"rotations", 8 * 60, rotations},
 };

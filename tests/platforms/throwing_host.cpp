@@ -1,5 +1,5 @@
-// A C++ host whose allocator throws. The exception must not leave the library: every call returns a code, and the host's
-// own exceptions go on working. Returns 0 when that holds.
+// A C++ host whose allocator throws. The exception must not leave the library: every call returns a code, and the
+// host's own exceptions go on working. Returns 0 when that holds.
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>

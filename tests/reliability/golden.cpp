@@ -3,8 +3,8 @@
 // [--full | --quick] (1 and 3 threads alone, for emulators) | --print (the lines of golden.txt)
 //
 // The program holds the static library, because it hides features of an x86 processor from the library's dispatch.
-// __builtin_cpu_supports reads them from __cpu_model of libgcc or compiler-rt. Other processors have one kind. The whole
-// API is compared between the processors of one machine, since its scene is made with the sines of the C library.
+// __builtin_cpu_supports reads them from __cpu_model of libgcc or compiler-rt. Other processors have one kind. The
+// whole API is compared between the processors of one machine, since its scene is made with the sines of the C library.
 #include <cinttypes>
 #include <cstring>
 #include <fstream>
@@ -75,8 +75,8 @@ struct Hash {
   }
 };
 
-// The bumpy walls of a square tower. Coordinates are multiples of 1/64, so every machine makes the same mesh. bumps: how
-// many of them a vertex is moved at most.
+// The bumpy walls of a square tower. Coordinates are multiples of 1/64, so every machine makes the same mesh. bumps:
+// how many of them a vertex is moved at most.
 Mesh make_sheet(std::uint32_t nu, std::uint32_t nv, std::uint32_t bumps = 40) {
   Mesh sheet;
   std::uint32_t state = 12345;
@@ -330,9 +330,9 @@ class Stages {
 void functions(Hash& hash) {
   for (int i = -20000; i < 20000; ++i) {
     const double x = 0.0009765625 * i, y = 0.125 * (i % 101);
-    const double values[6] = {hf_inner::sine(37 * x), hf_inner::cosine(37 * x), hf_inner::arc_tangent(x, y),
-                              hf_inner::arc_cosine(i / 20000.0), hf_inner::exponential(x),
-                              hf_inner::logarithm(x * x + 0.0009765625)};
+    const double values[6] = {hf_inner::sine(37 * x),      hf_inner::cosine(37 * x),
+                              hf_inner::arc_tangent(x, y), hf_inner::arc_cosine(i / 20000.0),
+                              hf_inner::exponential(x),    hf_inner::logarithm(x * x + 0.0009765625)};
     hash.take(values, 6);
   }
 }
@@ -365,10 +365,11 @@ Hashes read_golden() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool print = argc > 1 && std::strcmp(argv[1], "--print") == 0, quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0,
-             full = report_full(argc, argv);
+  const bool print = argc > 1 && std::strcmp(argv[1], "--print") == 0,
+             quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0, full = report_full(argc, argv);
   constexpr std::uint32_t small_rings = 50;
-  const Mesh sheet = make_sheet(120, 100), small = make_sheet(60, small_rings), smooth = make_sheet(60, small_rings, 12);
+  const Mesh sheet = make_sheet(120, 100), small = make_sheet(60, small_rings),
+             smooth = make_sheet(60, small_rings, 12);
   const Scene scene = make_scene();
   Hashes golden = print ? Hashes() : read_golden(), library;
   const std::size_t listed = golden.right.size();

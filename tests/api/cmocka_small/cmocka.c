@@ -25,7 +25,8 @@ void small_same_text(const char* got, const char* expected, const char* what, co
   if (strcmp(got, expected) != 0) small_fail(file, line, "%s: \"%s\" != \"%s\"", what, got, expected);
 }
 
-void small_same_bytes(const void* got, const void* expected, size_t size, const char* what, const char* file, int line) {
+void small_same_bytes(const void* got, const void* expected, size_t size, const char* what, const char* file,
+                      int line) {
   if (memcmp(got, expected, size) != 0) small_fail(file, line, "%s: other bytes", what);
 }
 
