@@ -11,13 +11,20 @@ set(hf_hardening_compile)
 set(hf_hardening_link)
 # sanitizers and counters check more, and do not go with all of these; a WebAssembly module is guarded by its host
 if(HF_HARDEN AND NOT HF_SANITIZE AND NOT HF_COVERAGE AND NOT EMSCRIPTEN AND NOT MSVC)
-  foreach(flag -fstack-protector-strong -fstack-clash-protection -fcf-protection=full)
+  set(flags -fstack-protector-strong -fstack-clash-protection -fcf-protection=full)
+  if(MINGW)  # Windows has stack probes of its own, and GCC 12 fails on functions that never return with both
+    list(REMOVE_ITEM flags -fstack-clash-protection)
+  endif()
+  foreach(flag ${flags})
     string(MAKE_C_IDENTIFIER "HF_HAVE${flag}" known)
     check_cxx_compiler_flag("-Werror ${flag}" ${known})
     if(${known})
       list(APPEND hf_hardening_compile ${flag})
     endif()
   endforeach()
+  if(MINGW AND "-fstack-protector-strong" IN_LIST hf_hardening_compile)  # the linker adds libssp, which holds the guard
+    list(APPEND hf_hardening_link -fstack-protector-strong)
+  endif()
   # calls of the C library are checked against the size of their buffer; it works in optimised code only
   foreach(flag -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3)
     list(APPEND hf_hardening_compile $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:${flag}>)

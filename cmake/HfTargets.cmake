@@ -2,6 +2,25 @@
 
 include(HfHardening)
 
+# Warnings, and no contraction of a * b + c, by the compiler's own names. clang-cl takes Clang's names behind /clang:.
+set(hf_compile_options)
+if(MSVC)
+  list(APPEND hf_compile_options /W4 /permissive- /utf-8 /fp:precise $<$<BOOL:${HF_WARNINGS_AS_ERRORS}>:/WX>)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    list(APPEND hf_compile_options $<$<COMPILE_LANGUAGE:CXX>:/clang:-ffp-contract=off>)
+  endif()
+else()
+  list(APPEND hf_compile_options -Wall -Wextra -Wpedantic $<$<BOOL:${HF_WARNINGS_AS_ERRORS}>:-Werror>
+    $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+  # the registers of the 387 keep more digits than a double has
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86)$")
+    list(APPEND hf_compile_options -msse2 -mfpmath=sse)
+  endif()
+  if(MINGW)  # printf as C99 has it, not as the C library of Windows has it
+    list(APPEND hf_compile_options -D__USE_MINGW_ANSI_STDIO=1)
+  endif()
+endif()
+
 # Results must not depend on the compiler's mood: no contraction of a*b+c unless the code asks for it (kernels use FMA
 # intrinsics), no -ffast-math, no -march=native.
 function(hf_target_defaults target)
@@ -9,9 +28,7 @@ function(hf_target_defaults target)
   set_target_properties(${target} PROPERTIES
     CXX_EXTENSIONS OFF C_STANDARD 99 C_EXTENSIONS OFF
     CXX_VISIBILITY_PRESET hidden C_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  target_compile_options(${target} PRIVATE
-    -Wall -Wextra -Wpedantic $<$<BOOL:${HF_WARNINGS_AS_ERRORS}>:-Werror>
-    $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+  target_compile_options(${target} PRIVATE ${hf_compile_options})
   hf_harden(${target})
   if(HF_SANITIZE)
     # -O1 -g1: reports name functions and lines; with more, unrolled kernels and Eigen's templates take minutes each to compile

@@ -33,7 +33,9 @@ def write(api):
                 out.append(f"        public {cs_type(api, f)} {safe(f['name'])};")
         out += ["    }", ""]
     out += ["    public static unsafe class Functions", "    {",
-            "#if UNITY_IOS && !UNITY_EDITOR", '        const string Library = "__Internal";', "#else", '        const string Library = "hf";', "#endif", ""]
+            "#if UNITY_IOS && !UNITY_EDITOR", '        internal const string LibraryName = "__Internal";', "#else",
+            '        internal const string LibraryName = "hf";', "#endif", "",
+            "        static Functions() { Library.Load(); }", ""]
     for function in api["functions"]:
         returns = function["returns"]
         result = "IntPtr" if returns["pointer"] else cs_type(api, returns)
@@ -41,7 +43,7 @@ def write(api):
         for p in function["parameters"]:
             kind = "void*" if p["pointer"] else cs_type(api, p)
             parameters.append(f"{kind} {safe(p['name'])}")
-        out += [f"        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] "
+        out += [f"        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] "
                 f"public static extern {result} {function['name']}({', '.join(parameters)});"]
     out += ["    }", "}"]
     return {"csharp/Hf/Raw.cs": "\n".join(out) + "\n"}

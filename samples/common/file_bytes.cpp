@@ -1,29 +1,87 @@
 // See file_bytes.h.
 #include "common/file_bytes.h"
 
+#ifdef _WIN32
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#include <windows.h>
+#else
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#endif
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <system_error>
 
 namespace samples {
 namespace fs = std::filesystem;
 namespace {
 
-// Closes on every way out.
-struct Descriptor {
-  int number = -1;
-  ~Descriptor() {
-    if (number >= 0) ::close(number);
+// A regular file that is read; closed on every way out.
+#ifdef _WIN32
+class Reading {
+ public:
+  explicit Reading(const fs::path& file)
+      : handle_(::CreateFileW(file.c_str(), GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
+                              nullptr, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr)) {}
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+  ~Reading() {
+    if (is_open()) ::CloseHandle(handle_);
   }
-};
+  bool is_open() const { return handle_ != INVALID_HANDLE_VALUE; }
+  bool find_size(uint64_t& size) const {
+    LARGE_INTEGER bytes;
+    if (::GetFileType(handle_) != FILE_TYPE_DISK || !::GetFileSizeEx(handle_, &bytes)) return false;
+    size = static_cast<uint64_t>(bytes.QuadPart);
+    return true;
+  }
+  // The number of bytes read, 0 at the end, or -1.
+  int64_t read(uint8_t* to, size_t most) {
+    DWORD got = 0;
+    return ::ReadFile(handle_, to, static_cast<DWORD>(std::min(most, size_t{1} << 30)), &got, nullptr) ? got : -1;
+  }
+  static std::string message() { return std::system_category().message(static_cast<int>(::GetLastError())); }
 
-std::string system_message() { return std::strerror(errno); }
+ private:
+  HANDLE handle_;
+};
+#else
+class Reading {
+ public:
+  explicit Reading(const fs::path& file)
+      : number_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {}
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+  ~Reading() {
+    if (number_ >= 0) ::close(number_);
+  }
+  bool is_open() const { return number_ >= 0; }
+  bool find_size(uint64_t& size) const {
+    struct stat status {};
+    if (::fstat(number_, &status) != 0 || !S_ISREG(status.st_mode)) return false;
+    size = static_cast<uint64_t>(status.st_size);
+    return true;
+  }
+  // The number of bytes read, 0 at the end, or -1.
+  int64_t read(uint8_t* to, size_t most) {
+    for (;;) {
+      const ssize_t got = ::read(number_, to, most);
+      if (got >= 0 || errno != EINTR) return got;
+    }
+  }
+  static std::string message() { return std::strerror(errno); }
+
+ private:
+  int number_;
+};
+#endif
 
 int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -71,14 +129,10 @@ bool is_below(const fs::path& folder, const fs::path& file) {
 
 std::vector<uint8_t> read_bytes(const fs::path& file, uint64_t max_bytes) {
   const std::string name = file.string();
-  Descriptor in;
-  in.number = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (in.number < 0) throw std::runtime_error(name + ": cannot be opened: " + system_message() + ".");
-  struct stat status {};
-  if (::fstat(in.number, &status) != 0 || !S_ISREG(status.st_mode)) {
-    throw std::runtime_error(name + ": is not a regular file.");
-  }
-  const auto size = static_cast<uint64_t>(status.st_size);
+  Reading in(file);
+  if (!in.is_open()) throw std::runtime_error(name + ": cannot be opened: " + Reading::message() + ".");
+  uint64_t size = 0;
+  if (!in.find_size(size)) throw std::runtime_error(name + ": is not a regular file.");
   if (size > max_bytes) {
     throw std::runtime_error(name + ": has " + std::to_string(size) + " bytes, above the limit of " +
                              std::to_string(max_bytes) + "; raise the limit if the file is to be trusted.");
@@ -86,9 +140,8 @@ std::vector<uint8_t> read_bytes(const fs::path& file, uint64_t max_bytes) {
   std::vector<uint8_t> bytes(static_cast<size_t>(size));
   size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t got = ::read(in.number, bytes.data() + done, bytes.size() - done);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw std::runtime_error(name + ": reading failed: " + system_message() + ".");
+    const int64_t got = in.read(bytes.data() + done, bytes.size() - done);
+    if (got < 0) throw std::runtime_error(name + ": reading failed: " + Reading::message() + ".");
     if (got == 0) break;
     done += static_cast<size_t>(got);
   }

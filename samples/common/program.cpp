@@ -1,6 +1,15 @@
 // See program.h.
 #include "common/program.h"
 
+#ifdef _WIN32
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#include <windows.h>
+// shellapi.h needs what stands before it
+#include <shellapi.h>
+#endif
+
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
@@ -16,6 +25,25 @@ std::string text_of(double number) {
 }
 
 }  // namespace
+
+CommandLine::CommandLine(int count, char** arguments) {
+#ifdef _WIN32
+  int found = 0;
+  if (wchar_t** wide = ::CommandLineToArgvW(::GetCommandLineW(), &found)) {
+    for (int i = 0; i < found; ++i) {
+      const int bytes = ::WideCharToMultiByte(CP_UTF8, 0, wide[i], -1, nullptr, 0, nullptr, nullptr);
+      std::string word(static_cast<size_t>(bytes > 0 ? bytes : 1), '\0');
+      ::WideCharToMultiByte(CP_UTF8, 0, wide[i], -1, word.data(), bytes, nullptr, nullptr);
+      word.pop_back();  // the zero at the end
+      kept_.push_back(word);
+    }
+    ::LocalFree(wide);
+    for (std::string& word : kept_) pointers_.push_back(word.data());
+    return;
+  }
+#endif
+  pointers_.assign(arguments, arguments + count);
+}
 
 bool Words::next() {
   if (at_ + 1 >= count_) return false;

@@ -8,8 +8,22 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace samples {
+
+// The command line in UTF-8. Windows hands main() words in the code page of the system, which lacks most letters, so
+// they are asked for once more.
+class CommandLine {
+ public:
+  CommandLine(int count, char** arguments);
+  int count() const { return static_cast<int>(pointers_.size()); }
+  char** words() { return pointers_.data(); }
+
+ private:
+  std::vector<std::string> kept_;
+  std::vector<char*> pointers_;
+};
 
 // The words of a command line, one after the other. Throws std::runtime_error naming the word that does not fit.
 class Words {
@@ -37,7 +51,8 @@ class Words {
 template <class Parse, class Run>
 int run_program(const char* name, const char* usage, int count, char** arguments, Parse&& parse, Run&& run) {
   try {
-    const auto command = parse(Words(count, arguments));
+    CommandLine line(count, arguments);
+    const auto command = parse(Words(line.count(), line.words()));
     if (command.help) {
       std::fputs(usage, stdout);
       return 0;

@@ -1,14 +1,29 @@
 // See progress_bar.h.
 #include "common/progress_bar.h"
 
+#ifdef _WIN32
+#include <io.h>
+#else
 #include <unistd.h>
+#endif
 
 #include <algorithm>
 #include <cstdio>
 
 namespace samples {
+namespace {
 
-ProgressBar::ProgressBar(bool quiet) : quiet_(quiet), terminal_(!quiet && isatty(STDERR_FILENO) == 1) {}
+bool stderr_is_a_terminal() {
+#ifdef _WIN32
+  return _isatty(_fileno(stderr)) != 0;
+#else
+  return isatty(STDERR_FILENO) == 1;
+#endif
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar(bool quiet) : quiet_(quiet), terminal_(!quiet && stderr_is_a_terminal()) {}
 
 ProgressBar::~ProgressBar() {
   // a step left open by an exception: leave the cursor on a fresh line

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -204,7 +205,7 @@ FieldOptions read_field_options(int argc, char** argv) {
 }
 
 std::vector<Edit> read_edit_script(const std::string& file, size_t components) {
-  std::ifstream stream(file);
+  std::ifstream stream(std::filesystem::path{file});
   if (!stream) throw std::runtime_error(file + ": cannot be read");
   std::vector<Edit> edits;
   std::string line;

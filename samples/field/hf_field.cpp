@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/links.h"
+#include "common/program.h"
 #include "field/field_options.h"
 #include "field/field_output.h"
 #include "field/field_session.h"
@@ -256,7 +257,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return samples::run(argc, argv);
+    samples::CommandLine line(argc, argv);
+    return samples::run(line.count(), line.words());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "hf_field: %s\n", error.what());
     return 1;

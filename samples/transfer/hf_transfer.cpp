@@ -11,6 +11,7 @@
 #include "common/gltf_write.h"
 #include "common/links.h"
 #include "common/mesh_file.h"
+#include "common/program.h"
 #include "transfer/clip_sheet.h"
 #include "transfer/outputs.h"
 #include "transfer/session.h"
@@ -201,7 +202,8 @@ int transfer(const TransferCommand& command) {
 
 int main(int count, char** arguments) {
   try {
-    const TransferCommand command = parse_command(count, arguments);
+    samples::CommandLine line(count, arguments);
+    const TransferCommand command = parse_command(line.count(), line.words());
     if (command.help) {
       std::fputs(usage(), stdout);
       return 0;

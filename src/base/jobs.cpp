@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/compiler.h"
 #include "base/float_environment.h"
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -68,9 +69,7 @@ bool spin(Done&& done) noexcept {
   for (;;) {
     for (int i = 0; i < polls; ++i) {
       if (done()) return true;
-#if defined(__x86_64__) || defined(__i386__)
-      __builtin_ia32_pause();
-#endif
+      pause_in_loop();
     }
     if (std::chrono::steady_clock::now() > until) return false;
   }

@@ -4,6 +4,8 @@
 
 #if defined(__linux__)
 #include <sys/mman.h>
+#elif defined(_WIN32)
+#include <malloc.h>
 #endif
 
 namespace hf_inner {
@@ -20,11 +22,23 @@ void* default_allocate(std::size_t bytes, std::size_t alignment) noexcept {
   const std::size_t align = large ? huge_page : (alignment < sizeof(void*) ? sizeof(void*) : alignment);
   if (bytes > SIZE_MAX - align) return nullptr;
   const std::size_t rounded = (bytes + align - 1) / align * align;
+#if defined(_WIN32)  // its C library has no aligned_alloc, and frees aligned blocks with a function of their own
+  void* pointer = _aligned_malloc(rounded, align);
+#else
   void* pointer = std::aligned_alloc(align, rounded);
+#endif
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
   if (pointer && large) madvise(pointer, rounded, MADV_HUGEPAGE);
 #endif
   return pointer;
+}
+
+void default_release(void* pointer) noexcept {
+#if defined(_WIN32)
+  _aligned_free(pointer);
+#else
+  std::free(pointer);
+#endif
 }
 
 // A standard allocator that calls the host's functions directly. It allocates the Memory object itself.
@@ -89,7 +103,7 @@ void Memory::do_deallocate(void* pointer, std::size_t bytes, std::size_t alignme
   if (hooks_.allocate) {
     hooks_.release(hooks_.user, pointer, bytes, alignment);
   } else {
-    std::free(pointer);
+    default_release(pointer);
   }
 }
 

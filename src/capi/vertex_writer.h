@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/compiler.h"
 #include "base/span.h"
 #include "engine/site_solver.h"
 
@@ -121,7 +122,7 @@ class FieldWriter final : public FieldSink {
       const std::size_t end = std::min(vertices, (p + std::size_t{1}) * piece);
       char* target = out_ + p * piece * stride_ + static_cast<std::size_t>(first) * sizeof(T);
       for (std::size_t v = p * piece; v < end; ++v, target += stride_) {
-        if (v + ahead < end && inner[v + ahead] != Mesh::none) __builtin_prefetch(source_of(inner[v + ahead]));
+        if (v + ahead < end && inner[v + ahead] != Mesh::none) HF_PREFETCH(source_of(inner[v + ahead]));
         T values[M > 0 ? M : 1];
         if (inner[v] == Mesh::none) {
           for (std::size_t c = 0; c < m; ++c) std::memset(target + c * sizeof(T), 0, sizeof(T));

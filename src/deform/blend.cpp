@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/compiler.h"
 #include "deform/blend_rows.h"
 
 namespace hf_inner {
@@ -54,10 +55,13 @@ void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transf
                        weights.block_weight.data()};
   void (*loop)(const BlendRows&, std::int32_t, std::int32_t) noexcept = nullptr;
 #ifdef HF_DEFORM_AVX2
-  if (__builtin_cpu_supports("avx2")) loop = &blend_rows_avx2;
+  if (HF_PROCESSOR_HAS("avx2")) loop = &blend_rows_avx2;
 #ifdef HF_DEFORM_AVX512
-  if (__builtin_cpu_supports("avx512f")) loop = &blend_rows_avx512;
+  if (HF_PROCESSOR_HAS("avx512f")) loop = &blend_rows_avx512;
 #endif
+#endif
+#ifdef HF_DEFORM_NEON
+  loop = &blend_rows_neon;
 #endif
   for_vertex_pieces(jobs, mesh.vertex_count(), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t begin = first; begin < last; begin += packed_at_once) {

@@ -1,4 +1,5 @@
-// The arrays of a blend, as the loops of blend.cpp, blend_avx2.cpp and blend_avx512.cpp read them.
+// The arrays of a blend, as the loops of blend.cpp and of blend_avx2.cpp, blend_avx512.cpp and blend_neon.cpp read
+// them.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -20,8 +21,9 @@ struct BlendRows {
   const float* block_weight;
 };
 
-// Both loops need a `first` that is a multiple of eight.
+// These loops need a `first` that is a multiple of eight.
 void blend_rows_avx2(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
 void blend_rows_avx512(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
+void blend_rows_neon(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
 
 }  // namespace hf_inner

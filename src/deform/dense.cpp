@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/compiler.h"
 #include "deform/constants.h"
-#include "deform/lanes.h"
 
 namespace hf_inner {
 namespace {

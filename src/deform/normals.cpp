@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "base/compiler.h"
 #include "deform/normals_avx2.h"
 
 namespace hf_inner {
@@ -86,7 +87,10 @@ void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, N
   auto* add_inner = &add_inner_normals;
   auto* add_border = &add_border_normals;
 #ifdef HF_DEFORM_AVX2
-  if (__builtin_cpu_supports("avx2")) add_inner = &add_inner_normals_avx2, add_border = &add_border_normals_avx2;
+  if (HF_PROCESSOR_HAS("avx2")) add_inner = &add_inner_normals_avx2, add_border = &add_border_normals_avx2;
+#endif
+#ifdef HF_DEFORM_NEON
+  add_inner = &add_inner_normals_neon, add_border = &add_border_normals_neon;
 #endif
   for_vertex_pieces(jobs, mesh.vertex_count(), [&](std::int32_t first, std::int32_t last) {
     const std::int32_t piece = first / vertex_piece, begin = rest.piece_start[piece], border = rest.piece_border[piece],

@@ -5,13 +5,15 @@
 
 #include <immintrin.h>
 
+#include "base/compiler.h"
+
 namespace hf_inner {
 
 namespace {
 
 template <class Inside>
-inline __attribute__((always_inline)) void add_normals(const NormalRows& rows, const std::int32_t* corners,
-                                                       std::int32_t count, Inside&& inside) noexcept {
+HF_ALWAYS_INLINE void add_normals(const NormalRows& rows, const std::int32_t* corners, std::int32_t count,
+                                  Inside&& inside) noexcept {
   const double* positions = rows.positions;
   float* sums = rows.sums;
   const __m256d unit = _mm256_set1_pd(rows.unit);

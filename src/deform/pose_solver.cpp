@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deform/lanes.h"
+#include "base/compiler.h"
 #include "deform/rotation_batch.h"
 
 namespace hf_inner {
@@ -179,7 +179,7 @@ Vec3 blended_turn(const SmoothSystem& system, std::size_t g, Span<const Vec3> tu
 }
 
 Quaternion within_turn_limit(const Quaternion& q, const Quaternion& anchor, double turn_limit) noexcept {
-  const double angle = q.angularDistance(anchor);
+  const double angle = angle_between(q, anchor);
   if (angle <= turn_limit) return q;
   return normalised(exponential((turn_limit / angle) * logarithm(q * anchor.conjugate())) * anchor);
 }

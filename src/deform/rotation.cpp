@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/elementary.h"
+
 namespace hf_inner {
 namespace {
 
@@ -50,15 +52,23 @@ Quaternion normalised_far(const Quaternion& q) noexcept {
   return Quaternion((q.coeffs() / largest).normalized());
 }
 
+double angle_between(const Quaternion& a, const Quaternion& b) noexcept {
+  const Quaternion turn = a * b.conjugate();
+  return 2 * arc_tangent(norm(to_vec3(turn.vec())), std::fabs(turn.w()));
+}
+
 Quaternion exponential(Vec3 v) noexcept {
   const double angle2 = dot(v, v), angle = std::sqrt(angle2);
-  const double s = angle < small_angle ? 0.5 - angle2 / 48.0 : std::sin(0.5 * angle) / angle;
-  return normalised({s * v, std::cos(0.5 * angle)});
+  const double s = angle < small_angle ? 0.5 - angle2 / 48.0 : sine(0.5 * angle) / angle;
+  return normalised({s * v, cosine(0.5 * angle)});
 }
 
 Vec3 logarithm(const Quaternion& q) noexcept {
-  const hf_eigen::AngleAxisd turn(q);
-  return turn.angle() * to_vec3(turn.axis());
+  const Vec3 v = to_vec3(q.vec());
+  // The vector and -q are the same rotation; the one with a positive scalar turns by at most half a turn.
+  const double length = std::sqrt(dot(v, v)), angle = 2 * arc_tangent(length, std::fabs(q.w()));
+  if (!(length > 0)) return {};
+  return (std::signbit(q.w()) ? -angle / length : angle / length) * v;
 }
 
 Vec3 continued_logarithm(const Quaternion& q, Vec3 previous) noexcept {

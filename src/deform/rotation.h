@@ -48,6 +48,9 @@ inline Quaternion normalised(const Quaternion& q) noexcept {
 }
 inline Vec3 rotate(const Quaternion& q, Vec3 v) noexcept { return to_vec3(q * to_eigen(v)); }
 
+// Returns the angle of the turn from one rotation to the other, from 0 to pi.
+double angle_between(const Quaternion& a, const Quaternion& b) noexcept;
+
 // Convert a rotation vector (axis times angle, any angle) to a quaternion, and back with an angle from 0 to pi.
 Quaternion exponential(Vec3 rotation_vector) noexcept;
 Vec3 logarithm(const Quaternion& q) noexcept;

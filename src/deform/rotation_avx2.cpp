@@ -3,12 +3,13 @@
 // their AVX2 code could be linked into other files.
 #include <cstring>
 
+#include "base/compiler.h"
 #include "deform/rotation_step.h"
 
 namespace hf_inner {
 namespace {
 
-typedef double Lanes __attribute__((vector_size(32)));
+HF_VECTOR(Lanes, double, 4);
 
 #include "deform/rotation_step.inl"
 

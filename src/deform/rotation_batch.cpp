@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "base/compiler.h"
 #include "deform/constants.h"
 #include "deform/rotation_step.h"
 
@@ -43,12 +44,16 @@ void step_rotations(const double* s, double* q, RotationStep& step, bool take) n
 
 StepLoop rotation_loop() noexcept {
 #ifdef HF_DEFORM_AVX512
-  if (__builtin_cpu_supports("avx512f")) return &step_rotations_avx512;
+  if (HF_PROCESSOR_HAS("avx512f")) return &step_rotations_avx512;
 #endif
 #ifdef HF_DEFORM_AVX2
-  if (__builtin_cpu_supports("avx2")) return &step_rotations_avx2;
+  if (HF_PROCESSOR_HAS("avx2")) return &step_rotations_avx2;
 #endif
+#ifdef HF_DEFORM_NEON
+  return &step_rotations_neon;
+#else
   return &step_rotations;
+#endif
 }
 
 void best_rotations_from(RotationBatch& batch, int count) noexcept {

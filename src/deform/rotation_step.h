@@ -1,4 +1,5 @@
-// The result of one Newton step for eight rotations, shared by rotation_batch.cpp and its AVX2 and AVX-512 builds.
+// The result of one Newton step for eight rotations, shared by rotation_batch.cpp and its AVX2, AVX-512 and NEON
+// builds.
 #pragma once
 
 namespace hf_inner {
@@ -15,6 +16,7 @@ using StepLoop = void (*)(const double* s, double* q, RotationStep& step, bool t
 void step_rotations(const double* s, double* q, RotationStep& step, bool take) noexcept;
 void step_rotations_avx2(const double* s, double* q, RotationStep& step, bool take) noexcept;
 void step_rotations_avx512(const double* s, double* q, RotationStep& step, bool take) noexcept;
+void step_rotations_neon(const double* s, double* q, RotationStep& step, bool take) noexcept;
 StepLoop rotation_loop() noexcept;  // for the widest registers that this processor has
 
 }  // namespace hf_inner

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "deform/lanes.h"
+#include "base/compiler.h"
+
 
 namespace hf_inner {
 namespace {
@@ -18,7 +19,8 @@ struct BlendRows {
   const Vec3* positions;
 };
 
-using Four = double __attribute__((vector_size(32)));  // compiled to two halves without AVX
+// Compiled to two halves without AVX.
+HF_VECTOR(Four, double, 4);
 
 // The vectors z_c(e) = W_ic (p_i, 1) - W_jc (p_j, 1) of one edge e = (i, j), clusters c ascending. W are the cluster
 // weights, p the rest positions. It has room for the weights of both ends.

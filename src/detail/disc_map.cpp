@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/error.h"
 #include "base/index.h"
 #include "detail/constants.h"
@@ -130,7 +131,7 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
       const double share =
           whole > 0 ? arc_from_first(i) / whole : static_cast<double>(i - first) / static_cast<double>(steps);
       const double angle = two_pi * (begin + (end - begin) * share);
-      points[at(boundary.loop[i % size])] = {std::cos(angle), std::sin(angle)};
+      points[at(boundary.loop[i % size])] = {cosine(angle), sine(angle)};
     }
   }
 

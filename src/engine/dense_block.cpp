@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/compiler.h"
 #include "base/hypotenuse.h"
 #include "base/index.h"
 #include "factor/kernels.h"
@@ -27,12 +28,8 @@ constexpr double rotation_ns = 2, factor_rate = 15;
 constexpr std::int32_t least_parallel = 400, tiles_per_job = 12;
 
 // Computes dots[i * tile + j] = a_i . b_j over `count` entries. Each product has four running sums in one fixed order,
-// so every instruction set gives the same bits. The attribute target_clones needs the dynamic linker of glibc, and
-// sanitizers cannot run before it.
-#if defined(__GLIBC__) && defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__SANITIZE_ADDRESS__)
-__attribute__((target_clones("avx2", "default")))
-#endif
+// so every instruction set gives the same bits.
+HF_FOUR_LANES
 void tile_dots(const double* const a[tile], const double* const b[tile], std::size_t count, double* dots) {
   constexpr std::size_t lanes = 4;
   double sum[tile * tile][lanes] = {};
@@ -149,7 +146,8 @@ void DenseBlock::remove(Span<const std::int32_t> ids) {
   for (std::int32_t i = count() - 1; i >= 0; --i) {
     if (leaves(ids_[static_cast<std::size_t>(i)])) first = i;
   }
-  const double fresh = (left * left * left - std::pow(static_cast<double>(first), 3)) / 3 / factor_rate;
+  const double before = static_cast<double>(first);
+  const double fresh = (left * left * left - before * before * before) / 3 / factor_rate;
   if (negative_ == 0 && d * rotation_ns * (k - first) * k < fresh) {
     // Removes rows of the dense factor from the last to the first. Removing a late row is cheap, because few rows lie
     // behind it.

@@ -1,5 +1,7 @@
 #include "factor/bytes_hash.h"
 
+#include "base/compiler.h"
+
 namespace hf_inner {
 namespace {
 
@@ -16,7 +18,7 @@ std::uint64_t hash_piece(const std::uint8_t* bytes, std::uint64_t length) noexce
   std::uint64_t chain[chains] = {1, 2, 3, 4, 5, 6, 7, 8};
   std::uint64_t k = 0;
   for (; k + 8 * chains <= length; k += 8 * chains) {
-    __builtin_prefetch(bytes + k + bytes_ahead);
+    HF_PREFETCH(bytes + k + bytes_ahead);
     std::uint64_t word[chains];
     std::memcpy(word, bytes + k, sizeof word);
     for (int c = 0; c < chains; ++c) chain[c] = hash_step(chain[c], word[c]);

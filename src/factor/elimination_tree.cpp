@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/compiler.h"
 #include "base/progress.h"
 
 namespace hf_inner {
@@ -20,7 +21,7 @@ void link_tree(const SymmetricMatrix& matrix, const std::int32_t* order, const s
   Poller poller;
   for (std::int32_t i = 0; i < n; ++i) {
     poller.due();
-    if (i + columns_ahead < n) __builtin_prefetch(row + start[order[i + columns_ahead]]);
+    if (i + columns_ahead < n) HF_PREFETCH(row + start[order[i + columns_ahead]]);
     parent[i] = -1, ancestor[i] = -1;
     const std::int32_t unknown = order[i];
     for (std::int32_t e = start[unknown]; e < start[unknown + 1]; ++e) {
@@ -76,7 +77,7 @@ void make_lower(const SymmetricMatrix& matrix, Memory& memory, const std::int32_
   Poller poller;
   for (std::int32_t i = 0; i < n; ++i) {
     poller.due();
-    if (i + columns_ahead < n) __builtin_prefetch(row + start[tree.label[i + columns_ahead]]);
+    if (i + columns_ahead < n) HF_PREFETCH(row + start[tree.label[i + columns_ahead]]);
     lower_start[i] = k;
     const std::int32_t unknown = tree.label[i];
     for (std::int32_t e = start[unknown]; e < start[unknown + 1]; ++e) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/error.h"
 #include "factor/numeric.h"
 #include "factor/ordering.h"
@@ -80,10 +81,13 @@ constexpr double flops_per_entry = 50;
 // factorisation, the analysis a tenth.
 constexpr float progress_ordered = 0.45f, progress_analysed = 0.55f;
 
+// log2(e) turns a natural logarithm into one to the base 2.
+constexpr double bits_of_e = 1.4426950408889634;
+
 // Tells whether the factor has more than log2(n) times the matrix's entries, up to a constant.
 bool suspicious(const SymmetricMatrix& matrix, const Symbolic& symbolic) {
   const double lower = 0.5 * (static_cast<double>(matrix.row.size()) + matrix.size());
-  return symbolic.entries > suspicious_fill * lower * std::log2(2.0 + matrix.size());
+  return symbolic.entries > suspicious_fill * lower * logarithm(2.0 + matrix.size()) * bits_of_e;
 }
 
 // The pattern of the factor under `order`, which it releases, or under minimum degree where that is better.

@@ -1,7 +1,7 @@
 // Dense kernels of the factorisation. They are compiled once for every instruction set (kernels_plain.cpp,
-// kernels_avx2.cpp, kernels_avx512.cpp), and one set is chosen at run time. Each element of a result is one chain of
-// fused multiply-adds in a fixed order, so AVX2 and AVX-512 give the same bits. The plain build rounds every product
-// and differs in the last digits.
+// kernels_avx2.cpp, kernels_avx512.cpp, kernels_neon.cpp), and one set is chosen at run time. Each element of a result
+// is one chain of fused multiply-adds in a fixed order, so AVX2, AVX-512 and NEON give the same bits. The plain build
+// rounds every product and differs in the last digits.
 //
 // A front is the dense matrix of one supernode with nc columns and m rows below its triangle. Its rows lie in tiles of
 // 8: the nc triangle rows padded to a multiple of 8, then the m rows padded likewise. The panel holds its columns as
@@ -112,5 +112,6 @@ const Kernels& choose_kernels() noexcept;
 const Kernels* plain_kernels() noexcept;
 const Kernels* avx2_kernels() noexcept;
 const Kernels* avx512_kernels() noexcept;
+const Kernels* neon_kernels() noexcept;
 
 }  // namespace hf_inner

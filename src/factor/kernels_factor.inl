@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/compiler.h"
 #include "factor/kernels.h"
 
 namespace {
@@ -155,7 +156,7 @@ std::int32_t factor_tile(double* tile, std::int32_t width, const double* floor) 
   for (std::int32_t j = 0; j < width; ++j) {
     const double pivot = tile[9 * j];
     if (!(pivot > floor[j]) || !(pivot <= 1.7976931348623157e308)) return j;
-    const double inverse = 1.0 / __builtin_sqrt(pivot);
+    const double inverse = 1.0 / HF_SQUARE_ROOT(pivot);
     D::Type column[tile_vectors];
     for (int p = 0; p < tile_vectors; ++p) {
       column[p] = D::multiply(D::load(tile + 8 * j + p * D::width), D::all(inverse));

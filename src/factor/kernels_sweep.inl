@@ -9,15 +9,6 @@
 
 namespace {
 
-// The sums stay in registers only if every loop over them is unrolled.
-#if defined(__clang__)
-#define HF_UNROLL _Pragma("unroll")
-#elif defined(__GNUC__)
-#define HF_UNROLL _Pragma("GCC unroll 16")
-#else
-#define HF_UNROLL
-#endif
-
 // Columns of a supernode that are summed together on the stack, for several right-hand sides.
 constexpr std::int32_t chunk_columns = 256;
 // Columns of a supernode that are summed together on the stack, for one right-hand side. Most supernodes have fewer, so
@@ -71,7 +62,7 @@ inline void sum_in_registers(const T* block, std::int64_t stride, const std::int
     for (int h = 0; h < Chains; ++h) {
       const T* x = z + static_cast<std::int64_t>(rows[r + h]) * channels;
       if (Ahead) {
-        for (int v = 0; v < NV; ++v) __builtin_prefetch(ahead + v * S::width, 0, 2);
+        for (int v = 0; v < NV; ++v) HF_PREFETCH_FAR(ahead + v * S::width);
         ahead += NV * S::width;
       }
       typename S::Type entry[NV];
@@ -213,7 +204,7 @@ inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32
   for (int j = 0; j < N; ++j) sum[j] = S::zero();
   for (std::int32_t r = 0; r < row_count; ++r, block += stride) {
     const typename S::Type x = load_lanes<T>(z + static_cast<std::int64_t>(rows[r]) * channels, count);
-    for (int k = 0; k < N; k += line<T>) __builtin_prefetch(ahead + k, 0, 2);
+    for (int k = 0; k < N; k += line<T>) HF_PREFETCH_FAR(ahead + k);
     ahead += N;
     HF_UNROLL
     for (int j = 0; j < N; ++j) sum[j] = S::multiply_add(S::all(block[j]), x, sum[j]);

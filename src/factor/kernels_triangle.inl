@@ -63,7 +63,7 @@ void forward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::in
   }
 }
 
-#if defined(__AVX2__)
+#if defined(HF_ROW_PRODUCTS)
 // Multiplies the rows of a narrow supernode (at most 16 columns) by one right-hand side, four rows at a time. The last
 // group can write three numbers too many, for which `out` has room.
 inline void forward_rows_narrow(const double* below, std::int32_t row_count, std::int32_t columns, const double* z,

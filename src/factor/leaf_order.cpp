@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/compiler.h"
+
 namespace hf_inner {
 namespace {
 
@@ -46,7 +48,7 @@ void LeafOrder::run(std::int32_t* out) {
     const std::uint64_t* own = row(v);
     for (std::int32_t w = 0; w < words_; ++w) {
       for (std::uint64_t bits = own[w]; bits != 0; bits &= bits - 1) {
-        const std::int32_t u = 64 * w + __builtin_ctzll(bits);
+        const std::int32_t u = 64 * w + trailing_zeros(bits);
         std::uint64_t* target = row(u);
         if (u >= inner_) break;  // neighbour lists of halo vertices (those eliminated later) are never read
         std::int32_t total = 0;

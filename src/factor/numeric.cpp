@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "base/compiler.h"
 #include "base/error.h"
 
 namespace hf_inner {
@@ -171,8 +172,8 @@ class Factorisation {
       const std::int32_t column = first + j;
       if (column + assembly_ahead < symbolic_.size) {
         const std::int32_t ahead = start[order[column + assembly_ahead]];
-        __builtin_prefetch(row + ahead);
-        __builtin_prefetch(value + ahead);
+        HF_PREFETCH(row + ahead);
+        HF_PREFETCH(value + ahead);
       }
       const std::int32_t unknown = order[column];
       double* target = front.panel + 8 * static_cast<std::int64_t>(j);

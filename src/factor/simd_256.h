@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#define HF_ROW_PRODUCTS  // four sums at a time: row_products of simd_avx2.h and simd_avx512.h
+
 namespace {
 
 struct Double4 {

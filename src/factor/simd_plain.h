@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/compiler.h"
+
 namespace {
 
-typedef double Vector2 __attribute__((vector_size(16)));
-typedef float Vector4f __attribute__((vector_size(16)));
+HF_VECTOR(Vector2, double, 2);
+HF_VECTOR(Vector4f, float, 4);
 
 template <class T>
 struct Simd;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/index.h"
 #include "base/progress.h"
 #include "field/vector_field.h"
@@ -25,7 +26,7 @@ double wrapped(double angle) noexcept {
 
 double corner_angle(const Mesh& mesh, Index v, Index a, Index b) noexcept {
   const Vec3 p = mesh.positions[at(a)] - mesh.positions[at(v)], q = mesh.positions[at(b)] - mesh.positions[at(v)];
-  return std::atan2(norm(cross(p, q)), dot(p, q));
+  return arc_tangent(norm(cross(p, q)), dot(p, q));
 }
 
 // A triangle at a vertex. Counter-clockwise, it lies between the neighbours `first` and `second`.
@@ -128,11 +129,11 @@ void fit_frame(const Mesh& mesh, const Topology& topology, Index v, const double
   for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
     const Vec3 edge = mesh.positions[at(topology.neighbour[at(i)])] - mesh.positions[at(v)];
     const std::complex<double> seen(dot(edge, x), dot(edge, y));
-    const double length = std::abs(seen);
-    if (length > 0) sum += seen / length * std::polar(1.0, -angles[i - topology.neighbour_start[at(v)]]);
+    const double length = length_of(seen);
+    if (length > 0) sum += seen / length * at_angle(1.0, -angles[i - topology.neighbour_start[at(v)]]);
   }
-  if (!(std::abs(sum) > least_sum)) return;
-  sum /= std::abs(sum);
+  if (!(length_of(sum) > least_sum)) return;
+  sum /= length_of(sum);
   const Vec3 turned = sum.real() * x + sum.imag() * y;
   y = sum.real() * y - sum.imag() * x;
   x = turned;
@@ -182,7 +183,7 @@ Connection Connection::make(const Mesh& mesh, const Topology& topology, Memory& 
             angle[static_cast<std::size_t>(std::lower_bound(begin, end, v) - topology.neighbour.begin())];
         out.rotation[at(e)] = wrapped(back + pi - angle[at(i)]);
       } else {
-        out.rotation[at(e)] = std::arg(out.to_frame(w, carry(out.x[at(v)], out.normal[at(v)], out.normal[at(w)])));
+        out.rotation[at(e)] = angle_of(out.to_frame(w, carry(out.x[at(v)], out.normal[at(v)], out.normal[at(w)])));
       }
     }
   }

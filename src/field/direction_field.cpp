@@ -25,7 +25,7 @@ constexpr double least_tangent = 1e-9;
 // Raises |z| e^{i phi} to |z| e^{i n phi}, where n is the degree.
 Complex raised(Complex z, Index degree) noexcept {
   if (degree == 1) return z;
-  const double length = std::abs(z);
+  const double length = length_of(z);
   if (!(length > 0)) return 0;
   const Complex unit = z / length;
   Complex power = 1;
@@ -34,7 +34,7 @@ Complex raised(Complex z, Index degree) noexcept {
 }
 
 Complex root(Complex z, Index degree) noexcept {
-  return degree == 1 ? z : std::polar(std::abs(z), std::arg(z) / degree);
+  return degree == 1 ? z : at_angle(length_of(z), angle_of(z) / degree);
 }
 
 double wrapped(double angle) noexcept { return angle - two_pi * std::nearbyint(angle / two_pi); }
@@ -97,7 +97,7 @@ Complex DirectionField::projected(std::uint32_t position, Index vertex, const do
     fail(HF_ERROR_TOO_LARGE, position, "entry %u of the list: the vector has coordinate %g; scale it below 1e150",
          position, most);
   const Complex z = solver_.connection().to_frame(vertex, (1 / most) * v);
-  if (!(std::abs(z) > least_tangent))
+  if (!(length_of(z) > least_tangent))
     fail(HF_ERROR_INVALID_ARGUMENT, position,
          "entry %u of the list: the vector stands on the surface and has no part along it; give a direction in the "
          "tangent plane",
@@ -181,7 +181,7 @@ void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const
       here = core.topology.first(e) == here ? core.topology.second(e) : core.topology.first(e);
       turn += solver_.connection().turn(core.topology, e, here);
     }
-    site = {to, vertices[i], site.vector * std::polar(1.0, turn)};
+    site = {to, vertices[i], site.vector * at_angle(1.0, turn)};
     slots.push_back(static_cast<Index>(sites[i])), inner.push_back(to);
   }
   for (std::uint32_t i = 0; i < count; ++i) check_free(next, i, sites[i]);
@@ -212,7 +212,7 @@ void DirectionField::rotate(std::uint32_t count, const std::uint32_t* sites, con
   update(count, sites, [&](std::uint32_t i, DirectionConstraint& site) {
     if (!std::isfinite(angles[i]))
       fail(HF_ERROR_NON_FINITE, i, "entry %u of the list: the angle is not a finite number", i);
-    site.vector *= std::polar(1.0, wrapped(angles[i]));
+    site.vector *= at_angle(1.0, wrapped(angles[i]));
   });
 }
 
@@ -268,7 +268,7 @@ Vector<Singularity> DirectionField::singularities() const {
   for (Index e = 0; e < core.topology.edge_count(); ++e) {
     const Complex from = field[at(core.topology.first(e))], to = field[at(core.topology.second(e))];
     if (from == 0.0 || to == 0.0) continue;
-    turn[at(e)] = wrapped(std::arg(to) - std::arg(from) - n * connection.rotation[at(e)]);
+    turn[at(e)] = wrapped(angle_of(to) - angle_of(from) - n * connection.rotation[at(e)]);
   }
   Vector<Singularity> found(&memory());
   for (Index t = 0; t < core.mesh.triangle_count(); ++t) {
@@ -286,7 +286,7 @@ Vector<Singularity> DirectionField::singularities() const {
     const Index index = static_cast<Index>(std::lround(sum / two_pi));
     if (index == 0) continue;
     Index corner = v[0];
-    for (const Index w : {v[1], v[2]}) corner = std::abs(field[at(w)]) < std::abs(field[at(corner)]) ? w : corner;
+    for (const Index w : {v[1], v[2]}) corner = length_of(field[at(w)]) < length_of(field[at(corner)]) ? w : corner;
     found.push_back({t, corner, index});
   }
   return by_face(core.mesh, std::move(found));

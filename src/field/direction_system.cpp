@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/progress.h"
 #include "base/timer.h"
 #include "factor/ordering.h"
@@ -119,8 +120,8 @@ void DirectionSystem::make_matrix() {
         double block[2][2] = {{sum, 0}, {0, sum}};  // [row part][column part]
         if (other.edge >= 0) {
           const double w = weights[at(other.edge)], turn = degree * connection.turn(topology, other.edge, other.vertex);
-          block[0][0] = block[1][1] = -w * std::cos(turn);
-          block[1][0] = -w * std::sin(turn), block[0][1] = w * std::sin(turn);
+          block[0][0] = block[1][1] = -w * cosine(turn);
+          block[0][1] = w * sine(turn), block[1][0] = -block[0][1];
         }
         for (std::size_t column = 0; column < 2; ++column) {
           for (std::size_t row = 0; row < 2; ++row) {

@@ -1,25 +1,29 @@
 // The loop of directions.h. It includes no header with inline functions. The linker could otherwise use a function
 // compiled for one instruction set on a processor without it.
+#include <cstring>
+
+#include "base/compiler.h"
+
 namespace {
 
 // Eight numbers. The compiler puts them into one register or several.
-typedef double Eight __attribute__((vector_size(64), aligned(8), may_alias));
-typedef std::int64_t EightBits __attribute__((vector_size(64), aligned(8), may_alias));
-typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
-typedef double Two __attribute__((vector_size(16), aligned(8), may_alias));
+HF_LOOSE_VECTOR(Eight, double, 8);
+HF_LOOSE_VECTOR(EightBits, std::int64_t, 8);
+HF_LOOSE_VECTOR(Four, double, 4);
+HF_LOOSE_VECTOR(Two, double, 2);
 
-inline void get(const double* from, Eight& x) noexcept { __builtin_memcpy(&x, from, sizeof(x)); }
+inline void get(const double* from, Eight& x) noexcept { std::memcpy(&x, from, sizeof(x)); }
 inline void get(const double* from, double& x) noexcept { x = *from; }
 
 // Adds the eight numbers by halves: 8 to 4, 4 to 2, 2 to 1.
 inline double sum_of(const Eight& x) noexcept {
   Four low, high;
-  __builtin_memcpy(&low, &x, sizeof(low));
-  __builtin_memcpy(&high, reinterpret_cast<const char*>(&x) + sizeof(low), sizeof(high));
+  std::memcpy(&low, &x, sizeof(low));
+  std::memcpy(&high, reinterpret_cast<const char*>(&x) + sizeof(low), sizeof(high));
   low += high;
   Two first, second;
-  __builtin_memcpy(&first, &low, sizeof(first));
-  __builtin_memcpy(&second, reinterpret_cast<const char*>(&low) + sizeof(first), sizeof(second));
+  std::memcpy(&first, &low, sizeof(first));
+  std::memcpy(&second, reinterpret_cast<const char*>(&low) + sizeof(first), sizeof(second));
   first += second;
   return first[0] + first[1];
 }
@@ -37,15 +41,15 @@ inline void add_lanes(const hf_inner::TriangleFrame& frame, const double* u0, co
   // source the square of the heat would underflow to zero.
   Bits bits, other;
   Number scale, second;
-  __builtin_memcpy(&bits, &d1, sizeof(bits));
-  __builtin_memcpy(&other, &d2, sizeof(bits));
+  std::memcpy(&bits, &d1, sizeof(bits));
+  std::memcpy(&other, &d2, sizeof(bits));
   bits &= magnitude, other &= magnitude;
-  __builtin_memcpy(&scale, &bits, sizeof(bits));
-  __builtin_memcpy(&second, &other, sizeof(bits));
+  std::memcpy(&scale, &bits, sizeof(bits));
+  std::memcpy(&second, &other, sizeof(bits));
   scale += second;
-  __builtin_memcpy(&bits, &scale, sizeof(bits));
+  std::memcpy(&bits, &scale, sizeof(bits));
   bits = largest - (bits & exponent);
-  __builtin_memcpy(&scale, &bits, sizeof(bits));
+  std::memcpy(&scale, &bits, sizeof(bits));
   d1 *= scale, d2 *= scale;
   // (x, y) is the gradient of the heat times twice the area. With the normal n it is d1 n x (p0 - p2) + d2 n x (p1 -
   // p0), and n x (x, y) = (-y, x).
@@ -54,10 +58,10 @@ inline void add_lanes(const hf_inner::TriangleFrame& frame, const double* u0, co
   // error of 3 %. Each of three Newton steps takes the relative error e to 3/2 e^2. The term 1e-200 keeps the numbers
   // finite where the heat is constant.
   const Number squared = x * x + y * y + 1e-200, half = 0.5 * squared;
-  __builtin_memcpy(&bits, &squared, sizeof(bits));
+  std::memcpy(&bits, &squared, sizeof(bits));
   bits = 0x5fe6eb50c7b537a9 - (bits >> 1);
   Number root;
-  __builtin_memcpy(&root, &bits, sizeof(bits));
+  std::memcpy(&root, &bits, sizeof(bits));
   root = root * (1.5 - half * (root * root));
   root = root * (1.5 - half * (root * root));
   root = root * (1.5 - half * (root * root));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/error.h"
 #include "base/index.h"
 #include "field/connection.h"
@@ -30,7 +31,7 @@ Vec3 value_of(const ScalarField& field, std::uint32_t site) noexcept {
 
 // Turns v about a unit axis by Rodrigues' formula. It is written by hand, since Vec3 is no type of Eigen's.
 Vec3 turned(Vec3 v, Vec3 axis, double angle) noexcept {
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = cosine(angle), s = sine(angle);
   return c * v + s * cross(axis, v) + ((1 - c) * dot(axis, v)) * axis;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/hypotenuse.h"
 #include "base/index.h"
 #include "base/progress.h"
@@ -52,7 +53,7 @@ void sort_by_angle(const Mesh& mesh, Index first, Index second, Vector<Side>& si
     const Vec3 p = mesh.positions[at(mesh.triangle(side.triangle)[(side.corner + 2) % 3])] - origin;
     const Vec3 radius = p - dot(p, axis) * axis;
     if (!(norm(x) > 0)) x = radius, y = cross(axis, radius);
-    side.angle = std::atan2(dot(y, radius), dot(x, radius));
+    side.angle = arc_tangent(dot(y, radius), dot(x, radius));
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     return a.angle != b.angle ? a.angle < b.angle : a.triangle < b.triangle;

@@ -6,6 +6,7 @@
 #include <limits>
 
 
+#include "base/elementary.h"
 #include "base/error.h"
 #include "base/hypotenuse.h"
 #include "base/index.h"
@@ -147,7 +148,7 @@ void measure_triangles(Mesh& mesh, JobRunner* jobs, Memory& memory) {
   Found all;
   for (const Found& own : found)
     all.cotangent = std::max(all.cotangent, own.cotangent), all.degenerate += own.degenerate;
-  mesh.report.smallest_angle = std::atan2(1.0, all.cotangent);
+  mesh.report.smallest_angle = arc_tangent(1.0, all.cotangent);
   mesh.report.degenerate_triangle_count += all.degenerate;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <queue>
 
+#include "base/elementary.h"
 #include "base/error.h"
 #include "base/progress.h"
 #include "factor/factor.h"
@@ -84,7 +85,7 @@ double partition_cost(const Group& g, const Vector<std::uint8_t>& sinks) {
   for (std::size_t i = 0; i < k; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (sinks[i] != sinks[j]) continue;
-      close += std::exp(-g.distance[i * k + j] / mean), like += 1;
+      close += exponential(-g.distance[i * k + j] / mean), like += 1;
     }
   }
   return std::fabs(up - down) / (up + down) + (like > 0 ? neighbour_cost * close / like : 0.0);

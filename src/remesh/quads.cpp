@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/elementary.h"
 #include "field/extremities.h"
 #include "remesh/capture.h"
 #include "remesh/coarsen.h"
@@ -59,7 +60,7 @@ double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, dou
   };
   return short_edge_cost * std::max(0.0, shortest - at(lengths, outliers)) +
          std::max(0.0, at(lengths, 1 - outliers) - longest) +
-         std::max(0.0, std::log(at(aspects, 1 - outliers) / narrowest));
+         std::max(0.0, logarithm(at(aspects, 1 - outliers) / narrowest));
 }
 
 // Makes quad meshes of one surface from several sets of sites (ends of flow lines), with one factor, and one search

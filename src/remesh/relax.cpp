@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 
+#include "base/hypotenuse.h"
 #include "remesh/constants.h"
 
 namespace hf_inner {
@@ -31,7 +32,7 @@ void propose(const QuadMesh& mesh, const std::int32_t* c, double edge_length, Ve
     const Vec3 q = p[k] - middle;
     r += 0.25 * std::complex<double>(dot(q, x), dot(q, y)) * turn;
   }
-  const double size = std::abs(r);
+  const double size = hypotenuse(r.real(), r.imag());
   if (size > 0 && edge_length > 0) r *= (1 - size_step) + size_step * (edge_length / std::sqrt(2.0)) / size;
   turn = 1;
   for (int k = 0; k < 4; ++k, turn *= i) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/elementary.h"
 #include "base/index.h"
 #include "base/unit_weights.h"
 
@@ -79,10 +80,10 @@ void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentre
     // A vertex belongs to the clusters of the four nearest centres. The weight at the fifth is subtracted from theirs,
     // so that weights stay continuous where the four change.
     const double last =
-        near.cluster[blend_count] < 0 ? 0.0 : std::exp(-sharpness * (near.distance[blend_count] - near.distance[0]));
+        near.cluster[blend_count] < 0 ? 0.0 : exponential(-sharpness * (near.distance[blend_count] - near.distance[0]));
     for (std::int32_t i = 0; i < blend_count && near.cluster[i] >= 0; ++i) {
       candidates[count].cluster = near.cluster[i];
-      candidates[count++].weight = std::exp(-sharpness * (near.distance[i] - near.distance[0])) - last;
+      candidates[count++].weight = exponential(-sharpness * (near.distance[i] - near.distance[0])) - last;
     }
     write_weights(candidates, count, out.joint.data() + v * blend_count, out.weight.data() + v * blend_count);
   }
@@ -92,7 +93,8 @@ void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentre
 // u^band_exponent.
 double band_weight(double u, std::int32_t band, std::int32_t bands) noexcept {
   const double hat = 1 - std::abs(u * (bands - 1) - band);
-  return hat > 0 ? hat * std::pow(u, band_exponent) : 0.0;
+  static_assert(band_exponent == 4, "the power is two squares");
+  return hat > 0 ? hat * ((u * u) * (u * u)) : 0.0;
 }
 
 void weigh_by_bands(std::int32_t width, std::int32_t bands, Span<const double> field, Clusters& out, Memory& memory) {
@@ -230,7 +232,7 @@ void centre_rows(const ClusterOptions& options, const double* centre, std::int32
     for (std::size_t v = 0; v < n; ++v) {
       if (distance[v] > kernel_cut * s) continue;
       row.vertex.push_back(static_cast<std::int32_t>(v));
-      row.weight.push_back(std::exp(-0.5 * distance[v] * distance[v] / (s * s)));
+      row.weight.push_back(exponential(-0.5 * distance[v] * distance[v] / (s * s)));
     }
   }
   std::int32_t nearest = 0;

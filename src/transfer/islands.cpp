@@ -29,8 +29,10 @@ class PointGrid {
       ++count;
     }
     low_ = low;
-    cells_ =
-        std::clamp(static_cast<std::int32_t>(std::cbrt(static_cast<double>(count) / points_per_cell)), 1, most_cells);
+    // The cube root of the number of points per cell, by whole numbers.
+    const double cells = static_cast<double>(count) / points_per_cell;
+    const auto cube = [](double x) { return x * x * x; };
+    for (cells_ = 1; cells_ < most_cells && cube(cells_ + 1) <= cells;) ++cells_;
     const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z, least_extent});
     cell_size_ = extent / cells_;
     start_.assign(at(cells_ * cells_ * cells_) + 1, 0);

@@ -136,7 +136,7 @@ void Transfer::prepare_alignment(Prepared& p) const {
     to = rotate(axes_, to);
     const Vec3 right{target_axes_(0, 0), target_axes_(0, 1), target_axes_(0, 2)};
     p.limb_turn[h] = minimal_rotation(from, to, right);
-    p.limb_angle[h] = p.limb_turn[h].angularDistance(Quaternion());
+    p.limb_angle[h] = angle_between(p.limb_turn[h], Quaternion());
     p.aligned[h] = options_.mode == HF_TRANSFER_FIELDS && options_.alignment_angle > 0 &&
                    p.limb_angle[h] > options_.alignment_angle && !(flags & HF_PAIR_NO_ALIGNMENT);
   }

@@ -1,6 +1,7 @@
 // Computes one frame of a transfer (transfer.h): the goals of the regions, the motion of the clusters, and the blend.
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/error.h"
 #include "base/index.h"
 #include "transfer/constants.h"
@@ -17,12 +18,12 @@ double rigid_share(const WholeMotion& whole) noexcept {
   return 1 / (1 + ratio * ratio);
 }
 double turned_share(const Quaternion& turn) noexcept {
-  return smooth_step(turn_low, turn_high, turn.angularDistance(Quaternion()));
+  return smooth_step(turn_low, turn_high, angle_between(turn, Quaternion()));
 }
 
 // Tells how far the body has fallen over, from 0 to 1. Turns about the vertical do not count.
 double fallen_share(const Quaternion& turn, Vec3 up) noexcept {
-  return smooth_step(turn_low, turn_high, std::acos(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0)));
+  return smooth_step(turn_low, turn_high, arc_cosine(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0)));
 }
 
 // Returns the part of the rotation q that turns about the axis.

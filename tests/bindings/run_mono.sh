@@ -13,5 +13,5 @@ mkdir -p "$scratch"
 mcs -langversion:latest -unsafe -target:library -out:"$scratch/Hf.dll" "$root"/bindings/csharp/Hf/*.cs
 mcs -langversion:latest -unsafe -r:"$scratch/Hf.dll" -r:System.Core -out:"$scratch/program.exe" \
   "${program%.cs}"*.cs "$root/tests/bindings/Json.cs"
-ln -sf "$library" "$scratch/libhf.so"
-LD_LIBRARY_PATH="$scratch" exec mono "$scratch/program.exe" "$@"
+ln -sf "$library" "$scratch/libhf.so"  # beside the assembly
+exec mono "$scratch/program.exe" "$@"

@@ -29,8 +29,11 @@ namespace Hf
 
         static string NameOf(int code)
         {
-            return Marshal.PtrToStringAnsi(Functions.hf_result_get_name(code)) ?? "unknown";
+            Library.Load();
+            return Known(code) ?? "unknown";
         }
+
+        static string Known(int code) { return Marshal.PtrToStringAnsi(Functions.hf_result_get_name(code)); }
 
         internal static unsafe void Check(int result)
         {

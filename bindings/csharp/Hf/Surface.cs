@@ -85,24 +85,28 @@ namespace Hf
         /// <summary>positions: xyz per vertex; triangles: three vertices each. Borrowed for the call.</summary>
         public Surface(float[] positions, uint[] triangles, SurfaceOptions options = null)
         {
+            Library.Load();
             Create(positions, triangles, options);
         }
 
         /// <summary>The same from doubles.</summary>
         public Surface(double[] positions, uint[] triangles, SurfaceOptions options = null)
         {
+            Library.Load();
             Create(positions, triangles, options);
         }
 
         /// <summary>The same with 16-bit triangles.</summary>
         public Surface(float[] positions, ushort[] triangles, SurfaceOptions options = null)
         {
+            Library.Load();
             Create(positions, triangles, options);
         }
 
         /// <summary>The same from doubles with 16-bit triangles.</summary>
         public Surface(double[] positions, ushort[] triangles, SurfaceOptions options = null)
         {
+            Library.Load();
             Create(positions, triangles, options);
         }
 
@@ -112,6 +116,13 @@ namespace Hf
         /// bi-harmonic fields. What needs triangles throws.</summary>
         public static Surface FromGraph(int vertexCount, uint[] edges, double[] weights, double[] masses = null,
             GraphOptions options = null)
+        {
+            Library.Load();
+            return OfGraph(vertexCount, edges, weights, masses, options);
+        }
+
+        // Mono looks for the library when it compiles a method that calls it, so the public one has no such call.
+        static Surface OfGraph(int vertexCount, uint[] edges, double[] weights, double[] masses, GraphOptions options)
         {
             if (vertexCount < 0) throw new HfException("vertexCount is " + vertexCount);
             if (edges != null && weights != null && edges.Length != 2 * weights.Length)
@@ -144,6 +155,7 @@ namespace Hf
         {
             if (!(positions is float[] || positions is double[]))
                 throw new HfException("positions must be float[] or double[]", Constants.HF_ERROR_NULL_POINTER);
+            Library.Load();
             var surface = new Surface();
             surface.Create(positions, null, options, offsets, corners);
             return surface;

@@ -1,0 +1,23 @@
+# For cross builds: TinyGLTF from its header, which is the same on every system. Debian's library is for Debian alone.
+# The folder debian-headers names the headers that the samples use, and nothing else of /usr/include.
+set(hf_debian_headers ${PROJECT_BINARY_DIR}/debian-headers)
+file(MAKE_DIRECTORY ${hf_debian_headers})
+foreach(name tiny_gltf.h glm nlohmann stb)
+  if(EXISTS /usr/include/${name})
+    file(CREATE_LINK /usr/include/${name} ${hf_debian_headers}/${name} SYMBOLIC)
+  endif()
+endforeach()
+find_file(TinyGLTF_HEADER tiny_gltf.h PATHS ${hf_debian_headers} NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(TinyGLTF REQUIRED_VARS TinyGLTF_HEADER)
+if(TinyGLTF_FOUND AND NOT TARGET TinyGLTF::TinyGLTF)
+  file(WRITE ${PROJECT_BINARY_DIR}/tiny_gltf.cpp.new
+    "#define TINYGLTF_IMPLEMENTATION\n#define TINYGLTF_NO_STB_IMAGE\n#define TINYGLTF_NO_STB_IMAGE_WRITE\n#include <tiny_gltf.h>\n")
+  configure_file(${PROJECT_BINARY_DIR}/tiny_gltf.cpp.new ${PROJECT_BINARY_DIR}/tiny_gltf.cpp COPYONLY)
+  add_library(hf_tiny_gltf STATIC ${PROJECT_BINARY_DIR}/tiny_gltf.cpp)
+  target_compile_features(hf_tiny_gltf PRIVATE cxx_std_17)
+  target_include_directories(hf_tiny_gltf SYSTEM PUBLIC ${hf_debian_headers})
+  set_target_properties(hf_tiny_gltf PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  add_library(TinyGLTF::TinyGLTF ALIAS hf_tiny_gltf)
+endif()
+set(GLM_INCLUDE_DIR ${hf_debian_headers} CACHE PATH "Folder that holds glm/glm.hpp")

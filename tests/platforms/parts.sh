@@ -1,0 +1,87 @@
+# Sourced by tests/run: the parts windows, arm64, small and clang. Each builds in build/NAME, runs its tests and prints
+# `NAME: N passed, N failed, N skipped`.
+
+# hf_configure NAME CMAKE_ARGUMENTS... and hf_make NAME TARGETS...: the log is build/NAME.log.
+hf_configure() {
+  local name=$1 log="$hf_root/build/$1.log"
+  shift
+  mkdir -p "$hf_root/build"
+  hf_say "building ($name)"
+  cmake -S "$hf_root" -B "$hf_root/build/$name" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
+    -DHF_WARNINGS_AS_ERRORS=ON -DHF_BUILD_TESTS=ON "$@" >"$log" 2>&1 || {
+    tail -30 "$log" >&2
+    hf_say "cmake could not configure $name; the log is build/$name.log"
+    return 1
+  }
+}
+hf_make() {
+  local name=$1 log="$hf_root/build/$1.log"
+  shift
+  (set -o pipefail && NINJA_STATUS='[%f/%t] ' cmake --build "$hf_root/build/$name" -j "$(nproc)" --target "$@" 2>&1 | hf_progress "$log") || {
+    grep -E 'error|FAILED' "$log" | head -30 >&2
+    hf_say "the build of $name failed; the log is build/$name.log"
+    return 1
+  }
+}
+
+# hf_count NAME REGEX: runs the tests of build/NAME whose names match, and counts them.
+hf_count() {
+  local name=$1 log="$hf_root/build/$1.tests" passed failed skipped
+  hf_say "testing ($name)"
+  (cd "$hf_root/build/$name" && ctest --output-on-failure -j "$(nproc)" -R "$2" 2>&1) | tee "$log" | grep -E '^ *[0-9]+/[0-9]+ |^error'
+  passed=$(grep -cE '^ *[0-9]+/[0-9]+ .* Passed ' "$log")
+  skipped=$(grep -cE '^ *[0-9]+/[0-9]+ .*\*\*\*Skipped' "$log")
+  failed=$(($(grep -cE '^ *[0-9]+/[0-9]+ ' "$log") - passed - skipped))
+  printf '%s: %s passed, %s failed, %s skipped\n' "$name" "$passed" "$failed" "$skipped"
+  [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ] || {
+    hf_say "what failed is in build/$name.tests"
+    return 1
+  }
+}
+
+# Windows: the DLL by MinGW, the tests of the public ABI, the golden hashes and the sample programs under Wine.
+test_windows() {
+  hf_configure windows -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/windows.cmake" -DHF_BUILD_SAMPLES=ON &&
+    hf_make windows hf hf_api_tests hf_layout_print reliability_golden platform_throwing_host hf_field hf_transfer hf_make_assets || return 1
+  # Wine has its settings in the build folder, no window, and ends with the tests
+  export WINEPREFIX="$hf_root/build/windows/wine" WINEDEBUG=-all WINEDLLOVERRIDES='mscoree,mshtml=' LC_ALL=C.UTF-8
+  wine wineboot -i >/dev/null 2>&1
+  local code=0
+  hf_count windows '^(api_|platform_|reliability_golden$)' || code=1
+  "$(command -v wineserver || echo /usr/lib/wine/wineserver)" -k >/dev/null 2>&1
+  return "$code"
+}
+
+# 64-bit ARM under qemu: the tests of the public ABI, the golden hashes, and the instructions of the kernels for NEON.
+test_arm64() {
+  hf_configure arm64 -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/arm64.cmake" &&
+    hf_make arm64 hf hf_api_tests hf_layout_print reliability_golden platform_throwing_host kernel_work &&
+    hf_count arm64 '^(api_|platform_|reliability_golden$)'
+}
+
+# Processors without kernels of their own, 32 bits and big-endian, under qemu: quick forms.
+test_small() {
+  local system code=0
+  for system in i686 armhf riscv64 s390x; do
+    { hf_configure "$system" -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/$system.cmake" &&
+      hf_make "$system" hf hf_api_tests hf_layout_print reliability_golden &&
+      hf_count "$system" '^(api_|reliability_golden$)'; } || code=1
+  done
+  return "$code"
+}
+
+# The newest clang here: with libstdc++, with libc++, and the headers of the library in every language and in MSVC mode.
+test_clang() {
+  local version code=0 language
+  for version in 19 18 17 16; do command -v "clang++-$version" >/dev/null && break; done
+  command -v "clang++-$version" >/dev/null || { hf_say "no clang from 16 on here"; return 77; }
+  local compilers=(-DCMAKE_C_COMPILER="clang-$version" -DCMAKE_CXX_COMPILER="clang++-$version" -DHF_BUILD_UNIT_TESTS=OFF)
+  { hf_configure clang "${compilers[@]}" &&
+    hf_make clang hf hf_api_tests hf_layout_print reliability_golden &&
+    hf_count clang '^(api_|reliability_golden$)'; } || code=1
+  { hf_configure clang-libc++ "${compilers[@]}" -DCMAKE_CXX_FLAGS=-stdlib=libc++ &&
+    hf_make clang-libc++ hf hf_api_tests hf_layout_print reliability_golden &&
+    hf_count clang-libc++ '^(api_test|api_.*_test|api_layout|reliability_golden$)'; } || code=1
+  "$hf_root/tests/platforms/languages.sh" "$hf_root" "clang-$version" "clang++-$version" || code=1
+  return "$code"
+}
