@@ -222,7 +222,10 @@ class Tails {
     const bool leaf = first_child_[at(j)] < 0;
     const Index other = leaf ? met(j, direction, unit) : -1;
     if (other >= 0) return head[at(other)];
-    const double most = (leaf ? leaf_length : hub_length) * unit;
+    // A leaf away from the end of its parent, as a foot below the root, has a parent that tells nothing about its size.
+    const bool apart = leaf && parent >= 0 && has_length && !bones_.axis.empty() &&
+                       !(cosine(from_parent, bones_.axis[at(parent)]) > axis_cosine);
+    const double most = leaf ? leaf_length * (apart ? std::min(unit, typical_) : unit) : hub_length * unit;
     return head[at(j)] + std::min(most, skin_.way_out(head[at(j)], direction, most)) * direction;
   }
   Vec3 mean_of_children(Index j) const {
