@@ -118,8 +118,8 @@ namespace Hf
         public void SetScreening(double[] screening, double[] targets = null)
         {
             using (var pins = new Pins())
-                Check(Functions.hf_solver_set_screening(Handle, pins.Add(screening, VertexCount, "screening"),
-                    pins.Add(targets, VertexCount * ChannelCount, "targets")));
+                Check(Functions.hf_solver_set_screening(Handle, (void*)pins.Add(screening, VertexCount, "screening"),
+                    (void*)pins.Add(targets, VertexCount * ChannelCount, "targets")));
         }
 
         /// <summary>One batch: remove, move, set, add; all or nothing. Returns the numbers of the added
