@@ -778,6 +778,7 @@ hf_result hf_solver_set_values(hf_solver solver, uint32_t site_count, const uint
 hf_result hf_solver_edit_sites(hf_solver solver, const hf_edit_desc* edit, uint32_t* out_sites);
 uint32_t hf_solver_get_site_count(hf_solver solver);
 hf_result hf_solver_get_sites(hf_solver solver, hf_sites_info* inout_info);
+hf_result hf_solver_set_screening(hf_solver solver, const double* screening, const double* targets);
 hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
 hf_result hf_solver_solve_f64(hf_solver solver, double* out_values, uint32_t value_stride, hf_solve_info* out_info);
 hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices, double* out_values);

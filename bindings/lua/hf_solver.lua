@@ -66,6 +66,12 @@ function Solver:set_values(sites, values)
   local numbers, count = integers(sites, 'sites')
   check(C.hf_solver_set_values(self.raw, count, numbers, (doubles(values, 'values', count * self.channel_count))))
 end
+-- (K + A H) u = A H p + W lambda: screening is H by vertex, targets is p, 0 if nil. nil removes the screening.
+function Solver:set_screening(screening, targets)
+  local strength = screening and doubles(screening, 'screening', self.vertex_count) or nil
+  local wish = targets and doubles(targets, 'targets', self.vertex_count * self.channel_count) or nil
+  check(C.hf_solver_set_screening(self.raw, strength, wish))
+end
 function Solver:edit_sites(edit)
   local remove, move, change = edit.remove or {}, edit.move or {}, edit.set or {}
   local r, m, s = integers(remove, 'remove'), integers(move, 'move'), integers(change, 'set')

@@ -270,6 +270,13 @@ class Solver {
     need(values.size(), sites.size() * channels_, "values");
     check(hf_solver_set_values(get(), size(sites), sites.data(), values.data()));
   }
+  // (K + A H) u = A H p + W lambda; empty screening removes it. p: [vertex][channel], or empty for 0.
+  void set_screening(const std::vector<double>& screening, const std::vector<double>& targets = {}) {
+    if (!screening.empty()) need(screening.size(), vertices_, "screening");
+    if (!targets.empty()) need(targets.size(), vertices_ * channels_, "targets");
+    check(hf_solver_set_screening(get(), screening.empty() ? nullptr : screening.data(),
+                                  targets.empty() ? nullptr : targets.data()));
+  }
   uint32_t site_count() const noexcept { return hf_solver_get_site_count(get()); }
   hf_solver_info info() const {
     auto info = make<hf_solver_info>();

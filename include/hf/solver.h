@@ -162,6 +162,20 @@ typedef struct hf_sites_info {
 /* Writes all sites. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_get_sites(hf_solver solver, hf_sites_info* inout_info);
 
+/* ---- screening ---- */
+
+/* Screens the field: (K + A H) u = A H p + W lambda, with A the vertex areas. The field follows p where H is large, and
+ * the influence of a site fades over a distance of about 1 / sqrt(H). Such a field needs no site on a component where
+ * some H is above 0. screening: double[vertex_count] H >= 0, in 1 / length^2 with the unit of the mesh; NULL removes
+ * the screening. targets: double[vertex_count][channel_count] p, or NULL for 0. Both are copied; welded copies of a
+ * vertex take the values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores
+ * the screening with the sites. Cost: a numeric factorisation with the ordering of the surface, a sweep and the
+ * paths of the sites. Errors: HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (H below 0) and HF_ERROR_TOO_LARGE (above
+ * 1e200), index = vertex; HF_ERROR_NOT_POSITIVE_DEFINITE (all H of a component are lost in rounding), and
+ * HF_ERROR_UNSUPPORTED (a graph, another engine than HF_ENGINE_GREEN, a bi-harmonic field). hf_solver_certify returns
+ * HF_ERROR_UNSUPPORTED for a screened field. Thread safety: changes `solver`. Since 0.1. */
+HF_API hf_result hf_solver_set_screening(hf_solver solver, const double* screening, const double* targets);
+
 /* ---- fields ---- */
 
 /* The components that the sites of a solve did not reach. */

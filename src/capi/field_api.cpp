@@ -147,6 +147,8 @@ hf_result hf_solver_certify(hf_solver handle, hf_certificate* inout_certificate)
     hf_certificate report = read_struct(inout_certificate, "inout_certificate");
     require_zero(report.reserved);
     const Reading reading(*solver);
+    if (solver->field.is_screened())
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a screened field has no certificate; remove the screening first");
     const double tolerance = certificate_tolerance(report.tolerance, solver->field.engine().kind());
     const Certificate found = certify(solver->field);
     report.overshoot_checked = found.overshoot_checked, report.tolerance = tolerance;

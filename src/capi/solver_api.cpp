@@ -1,5 +1,6 @@
 // Implements hf/solver.h: solvers and their sites.
 #include <algorithm>
+#include <cmath>
 
 #include "capi/objects.h"
 #include "capi/vertex_writer.h"
@@ -27,6 +28,32 @@ hf_result apply(const char* function, hf_solver handle, std::uint32_t* out_sites
     read(edit);
     change(handle, [&](SolverObject& solver) { solver.field.edit(edit, out_sites); });
   });
+}
+
+double read_finite(double value, std::uint32_t vertex, const char* name) {
+  constexpr double largest = 1e200;
+  if (!std::isfinite(value)) fail(HF_ERROR_NON_FINITE, vertex, "%s of vertex %u is not finite", name, vertex);
+  if (std::fabs(value) > largest)
+    fail(HF_ERROR_TOO_LARGE, vertex, "%s of vertex %u is %g; the limit is %g", name, vertex, value, largest);
+  return value;
+}
+
+// Reads H in the inner unit, and p, by inner vertex.
+void read_screening(const Mesh& mesh, std::int32_t channels, const double* screening, const double* targets,
+                    Vector<double>& strength, Vector<double>& target) {
+  for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
+    if (read_finite(screening[v], v, "screening") < 0)
+      fail(HF_ERROR_INVALID_ARGUMENT, v, "screening of vertex %u is %g; it must not be negative", v, screening[v]);
+  }
+  const std::size_t m = static_cast<std::size_t>(channels);
+  for (std::uint32_t v = 0; targets && v < mesh.report.vertex_count; ++v) {
+    for (std::size_t c = 0; c < m; ++c) read_finite(targets[v * m + c], v, "the target");
+  }
+  for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const std::size_t given = given_vertex(mesh, v);
+    strength.push_back(screening[given] * mesh.scale * mesh.scale);
+    for (std::size_t c = 0; targets && c < m; ++c) target.push_back(targets[given * m + c]);
+  }
 }
 
 template <class Work>
@@ -129,6 +156,17 @@ hf_result hf_solver_move_vectors(hf_solver solver, uint32_t site_count, const ui
 hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* angles) {
   return change_vectors("hf_solver_rotate_vectors", solver, site_count, sites, angles, "angles",
                         [&](ScalarField& field) { rotate_vectors(field, site_count, sites, angles); });
+}
+
+hf_result hf_solver_set_screening(hf_solver handle, const double* screening, const double* targets) {
+  return guarded("hf_solver_set_screening", [&] {
+    change(handle, [&](SolverObject& solver) {
+      const Core& core = solver.field.core();
+      Vector<double> strength(solver.memory.get()), target(solver.memory.get());
+      if (screening) read_screening(core.mesh, solver.field.sites().channels(), screening, targets, strength, target);
+      solver.field.set_screening(strength, target.empty() ? nullptr : target.data());
+    });
+  });
 }
 
 uint32_t hf_solver_get_site_count(hf_solver solver) { return count_at(solver, &SolverObject::site_count); }

@@ -97,7 +97,7 @@ PinnedOperator ScreenedOperator::view() const noexcept {
 }
 
 void ScreenedOperator::add_sites(const ConstraintSystem& system, const double* values, Index channels, double* u,
-                                 std::size_t stride) const {
+                                 std::size_t stride, double* flux) const {
   constexpr Index block = ConstraintSystem::channel_block;
   const ConstraintState& state = system.state();
   const std::size_t n = at(core->size()), slots = state.entries.size(), components = pins.size();
@@ -132,6 +132,8 @@ void ScreenedOperator::add_sites(const ConstraintSystem& system, const double* v
     }
     Workspace z(core->workspaces, n * m);
     system.sweep(missing.data(), count, 0, count, answer, z.data());
+    for (std::size_t slot = 0; flux && slot < slots; ++slot)
+      std::copy_n(answer.slot.data() + slot * m, m, flux + slot * at(channels) + at(first));
     for (std::size_t v = 0; v < n; ++v) {
       const std::size_t component = at(core->mesh.component[v]);
       if (state.sites_of[component] == 0) continue;

@@ -32,9 +32,10 @@ struct ScreenedOperator {
   template <class Wish>
   void solve(Index channels, double* u, std::size_t stride, Wish&& wish) const;
   // Adds to u what the sites of a system on this operator change. values: by slot of the system and channel. Hard
-  // vertex sites get their values to the bit.
-  void add_sites(const ConstraintSystem& system, const double* values, Index channels, double* u,
-                 std::size_t stride) const;
+  // vertex sites get their values to the bit. flux: null, or receives lambda, [slot][channels]; sites that the factor
+  // eliminates get none.
+  void add_sites(const ConstraintSystem& system, const double* values, Index channels, double* u, std::size_t stride,
+                 double* flux = nullptr) const;
 
   std::shared_ptr<const Core> core;  // first member: its memory outlives the rest
   SymmetricMatrix matrix;            // K + A H

@@ -19,6 +19,7 @@ ScalarField::ScalarField(const ScalarField& other)
       site_limit_(other.site_limit_),
       sites_(other.sites_, *core_->memory),
       engine_(other.engine_->clone()),
+      screening_(other.screening_),
       history_(*core_->memory) {}
 
 void ScalarField::prepare_rebase() {
@@ -28,7 +29,7 @@ void ScalarField::prepare_rebase() {
     std::optional<Record> made;
     {
       const std::lock_guard<std::mutex> lock(guard_);
-      made.emplace(sites_, engine_->clone(), memory());
+      made.emplace(sites_, engine_->clone(), screening_, memory());
     }
     // Uses one thread only: edits and solves on other threads use the threads of the core meanwhile.
     JobRunner alone(1);
@@ -45,7 +46,7 @@ void ScalarField::prepare_rebase() {
 // Replaces the engine (the solver of the equations) by the one that prepare_rebase made, with the sites of an edit.
 // Returns false if there is none, or if it cannot take these sites; it then waits as it was.
 bool ScalarField::adopt(const SiteSet& next) noexcept {
-  if (!prepared_) return false;
+  if (!prepared_ || prepared_->screening != screening_) return false;
   try {
     const SiteDifference since(prepared_->sites, next, memory());
     if (!since.empty()) prepared_->engine->edit(since.edit());
@@ -100,7 +101,7 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
 }
 
 ScalarField::Record ScalarField::present() const {
-  return Record(sites_, engine_->kind() == EngineKind::green ? engine_->clone() : nullptr, memory());
+  return Record(sites_, engine_->kind() == EngineKind::green ? engine_->clone() : nullptr, screening_, memory());
 }
 
 void ScalarField::restore(Record& record) {
@@ -110,7 +111,24 @@ void ScalarField::restore(Record& record) {
     const SiteDifference difference(sites_, record.sites, memory());
     if (!difference.empty()) engine_->edit(difference.edit());
   }
+  screening_ = std::move(record.screening);
   sites_.swap(record.sites);
+}
+
+void ScalarField::set_screening(Span<const double> strength, const double* target) {
+  const std::lock_guard<std::mutex> lock(guard_);
+  if (engine_->kind() != EngineKind::green || core_->field_kind != FieldKind::harmonic || core_->mesh.is_graph())
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "only harmonic fields of HF_ENGINE_GREEN on a mesh can be screened; make such a solver");
+  std::shared_ptr<const Screening> screening;
+  if (!strength.empty()) screening = Screening::make(core_, strength, target, sites_.channels());
+  std::shared_ptr<SiteSolver> engine = screening ? make_owner_in<ScreenedSolver>(core_->memory, screening)
+                                                 : SiteSolver::make(EngineKind::green, core_, 0);
+  const SiteDifference difference(SiteSet(memory(), sites_.channels()), sites_, memory());
+  if (!difference.empty()) engine->edit(difference.edit());
+  prepared_.reset();
+  engine_ = std::move(engine), screening_ = std::move(screening);
+  history_.clear_redo();
 }
 
 void ScalarField::record() {
@@ -132,7 +150,7 @@ void ScalarField::redo() {
 }
 
 void ScalarField::require_sites() const {
-  if (sites_.count() == 0)
+  if (sites_.count() == 0 && !(screening_ && screening_->reaches_any))
     fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; add at least one before solving");
 }
 

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "base/history.h"
+#include "engine/screened_solver.h"
 #include "engine/site_set.h"
 
 namespace hf_inner {
@@ -37,6 +38,10 @@ class ScalarField {
 
   // out_sites: null, or room for add.count numbers. The numbers are written only on success.
   void edit(const FieldEdit& edit, std::uint32_t* out_sites);
+  // Screens the field: (K + A H) u = A H p + W lambda. strength: H by inner vertex; empty: no screening. target: p,
+  // [vertex][channels]; null: 0. Throws HF_ERROR_UNSUPPORTED (engines other than green, bi-harmonic fields, graphs) and
+  // what Screening::make throws.
+  void set_screening(Span<const double> strength, const double* target);
   void record();
   void undo();
   void redo();
@@ -51,8 +56,9 @@ class ScalarField {
   const std::shared_ptr<const Core>& shared_core() const noexcept { return core_; }
   const SiteSet& sites() const noexcept { return sites_; }
   const SiteSolver& engine() const noexcept { return *engine_; }
+  bool is_screened() const noexcept { return screening_ != nullptr; }
 
-  // Solve functions; they throw HF_ERROR_NO_SITES if the field has no site. field: welded vertex * channels + c.
+  // Solve functions; they throw HF_ERROR_NO_SITES if the field has neither a site nor screening. field: welded vertex * channels + c.
   void solve(double* field) const;
   void solve_into(FieldSink& sink) const;
   PreviewInfo solve_preview(std::int32_t corrections, double* field) const;
@@ -63,10 +69,12 @@ class ScalarField {
 
  private:
   struct Record {
-    Record(const SiteSet& set, std::shared_ptr<SiteSolver> solver, Memory& memory)
-        : sites(set, memory), engine(std::move(solver)) {}
+    Record(const SiteSet& set, std::shared_ptr<SiteSolver> solver, std::shared_ptr<const Screening> screen,
+           Memory& memory)
+        : sites(set, memory), engine(std::move(solver)), screening(std::move(screen)) {}
     SiteSet sites;
     std::shared_ptr<SiteSolver> engine;  // null: the engine has no cheap copy and follows by an edit
+    std::shared_ptr<const Screening> screening;
   };
   bool adopt(const SiteSet& next) noexcept;
   Record present() const;
@@ -78,6 +86,7 @@ class ScalarField {
   std::uint32_t site_limit_;
   SiteSet sites_;
   std::shared_ptr<SiteSolver> engine_;
+  std::shared_ptr<const Screening> screening_;  // null: none
   History<Record> history_;
   std::mutex guard_;  // guards sites_, engine_ and prepared_ while prepare_rebase runs
   std::atomic<bool> preparing_{false};

@@ -111,7 +111,7 @@ Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector
     if (f.count == 0) continue;
     ++out.informed, ++out.by_island[at(mesh.component[v])];
     const double d = std::max(f.distance, least_distance);
-    out.screening[v] = screening_strength / (d * d);
+    out.screening[v] = screening_strength * f.count / (d * d);
   }
   return out;
 }

@@ -137,39 +137,87 @@ class Tails {
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     if (!lengths.empty()) std::nth_element(lengths.begin(), middle, lengths.end());
     typical_ = lengths.empty() ? 1.0 : *middle;
+    if (!bones.axis.empty()) find_loose_axes(memory);
   }
 
-  Vec3 of(Index j) const {
+  // Appends the segments of a joint: one, or one to each child.
+  void append(Index j, Vector<BoneSegment>& out) const {
     const Vec3 axis = bones_.axis.empty() ? Vec3{} : bones_.axis[at(j)];
     const bool has_axis = dot(axis, axis) > 0;
-    const Index child = has_axis ? along(j, axis) : first_child_[at(j)];
-    if (child >= 0 && (has_axis || next_child_[at(child)] < 0)) return head[at(child)];
-    if (child >= 0) return mean_of_children(j);
+    const Index first = first_child_[at(j)];
+    const Index child = has_axis ? along(j, axis) : first;
+    if (child >= 0 && (has_axis || next_child_[at(child)] < 0)) {
+      out.push_back({head[at(j)], head[at(child)], j});
+    } else if (has_axis && loose_axes_ && first >= 0) {
+      for (Index c = first; c >= 0; c = next_child_[at(c)]) out.push_back({head[at(j)], head[at(c)], j});
+    } else {
+      out.push_back({head[at(j)], child >= 0 ? mean_of_children(j) : end_of(j, axis), j});
+    }
+  }
+
+  Vector<Vec3> head;
+
+ private:
+  static double cosine(const Vec3& way, const Vec3& axis) noexcept { return dot(way, axis) / norm(way); }
+  // The child that lies best along the axis, or -1.
+  Index along(Index j, const Vec3& axis) const {
+    double best = axis_cosine;
+    Index found = -1;
+    for (Index c = first_child_[at(j)]; c >= 0; c = next_child_[at(c)]) {
+      const double found_cosine = cosine(head[at(c)] - head[at(j)], axis);
+      if (found_cosine > best) best = found_cosine, found = c;
+    }
+    return found;
+  }
+  // Looks for a joint whose only child, deforming or not, lies off its axis.
+  void find_loose_axes(Memory& memory) {
+    Vector<Index> children(head.size(), 0, &memory);
+    for (const Index parent : bones_.parent) {
+      if (parent >= 0) ++children[at(parent)];
+    }
+    for (Index j = 0; j < bones_.count(); ++j) {
+      const Index parent = bones_.parent[at(j)];
+      if (parent < 0 || children[at(parent)] != 1) continue;
+      const Vec3 axis = bones_.axis[at(parent)], way = head[at(j)] - head[at(parent)];
+      loose_axes_ |= dot(axis, axis) > 0 && norm(way) >= no_length && !(cosine(way, axis) > axis_cosine);
+    }
+  }
+  bool descends(Index j, Index from) const noexcept {
+    while (j >= 0 && j != from) j = bones_.parent[at(j)];
+    return j == from;
+  }
+  // The nearest joint along a direction at which a leaf ends, or -1. A leg often ends where the target that steers it
+  // begins, and that target is no child of the leg.
+  Index met(Index j, const Vec3& direction, double length) const {
+    double nearest = meet_length * length;
+    Index found = -1;
+    for (Index k = 0; k < bones_.count(); ++k) {
+      const Vec3 way = head[at(k)] - head[at(j)];
+      const double distance = norm(way);
+      if (!(distance >= no_length && distance < nearest) || !(cosine(way, direction) > axis_cosine)) continue;
+      if (descends(j, k) || descends(k, j)) continue;
+      nearest = distance, found = k;
+    }
+    return found;
+  }
+  // Where a joint ends that no child continues.
+  Vec3 end_of(Index j, const Vec3& axis) const {
+    const bool has_axis = dot(axis, axis) > 0;
     const Index parent = bones_.parent[at(j)];
     const Vec3 from_parent = parent < 0 ? Vec3{} : head[at(j)] - head[at(parent)];
     const double length = norm(from_parent);
     const bool has_length = length >= no_length;
     if (!has_axis && !has_length) return head[at(j)];
     const Vec3 direction = has_axis ? axis : (1 / length) * from_parent;
-    const double share = first_child_[at(j)] >= 0 ? hub_length : leaf_length;
-    const double most = share * (has_length ? length : typical_);
-    return head[at(j)] +
-           std::min(most, leaf_reach * skin_.way_out(head[at(j)], direction, most / leaf_reach)) * direction;
-  }
-
-  Vector<Vec3> head;
-
- private:
-  // The child that lies best along the axis, or -1.
-  Index along(Index j, const Vec3& axis) const {
-    double best = axis_cosine;
-    Index found = -1;
-    for (Index c = first_child_[at(j)]; c >= 0; c = next_child_[at(c)]) {
-      const Vec3 way = head[at(c)] - head[at(j)];
-      const double cosine = dot(way, axis) / norm(way);
-      if (cosine > best) best = cosine, found = c;
-    }
-    return found;
+    const double unit = has_length ? length : typical_;
+    const bool leaf = first_child_[at(j)] < 0;
+    const Index other = leaf ? met(j, direction, unit) : -1;
+    if (other >= 0) return head[at(other)];
+    // A leaf away from the end of its parent, as a foot below the root, has a parent that tells nothing about its size.
+    const bool apart = leaf && parent >= 0 && has_length && !bones_.axis.empty() &&
+                       !(cosine(from_parent, bones_.axis[at(parent)]) > axis_cosine);
+    const double most = leaf ? leaf_length * (apart ? std::min(unit, typical_) : unit) : hub_length * unit;
+    return head[at(j)] + std::min(most, skin_.way_out(head[at(j)], direction, most)) * direction;
   }
   Vec3 mean_of_children(Index j) const {
     Vec3 sum;
@@ -182,6 +230,7 @@ class Tails {
   const SkinShape& skin_;
   Vector<Index> first_child_, next_child_;  // children that deform and do not lie on their parent
   double typical_ = 1;
+  bool loose_axes_ = false;  // some joint's only child lies off its axis: axes do not tell where joints end
 };
 
 }  // namespace
@@ -193,7 +242,7 @@ Vector<BoneSegment> bone_segments(const Bones& bones, const Mesh& mesh, const Sk
     Poller poller(64);
     for (Index j = 0; j < bones.count(); ++j) {
       poller.due();
-      if (bones.deforms[at(j)]) out.push_back({tails.head[at(j)], tails.of(j), j});
+      if (bones.deforms[at(j)]) tails.append(j, out);
     }
     return out;
   }

@@ -241,6 +241,7 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   disc.site_count = 2, disc.vertices = vertex, disc.radii = radii;
   hf_edit_desc edit = HF_INIT(hf_edit_desc);
   edit.remove_count = 1, edit.remove_sites = &site, edit.add = &disc;
+  const double screening[VERTICES] = {1};
   NEEDS("a point in a triangle", 0, hf_add_sites(solver, &in_triangle, NULL));
   NEEDS("a disc", 1, hf_add_sites(solver, &disc, NULL));
   NEEDS("a disc in a batch", 1, hf_solver_edit_sites(solver, &edit, NULL));
@@ -249,6 +250,7 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   NEEDS("vectors in double", NO_INDEX, hf_solver_solve_vectors_f64(vectors, xyz, 0, NULL, NULL));
   NEEDS("vectors that move", NO_INDEX, hf_solver_move_vectors(vectors, 1, &site, vertex));
   NEEDS("vectors that turn", NO_INDEX, hf_solver_rotate_vectors(vectors, 1, &site, &angle));
+  ROW("screening", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_solver_set_screening(solver, screening, NULL));
   ROW("a site at a vertex without an edge", HF_ERROR_INVALID_ARGUMENT, 0, (void)0,
       hf_solver_add_site(solver, 7, NULL, NULL));
   ROW("a vertex beyond the graph", HF_ERROR_OUT_OF_RANGE, 0, (void)0, hf_solver_add_site(solver, VERTICES, NULL, NULL));

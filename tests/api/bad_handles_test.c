@@ -92,6 +92,9 @@ static hf_result set_site_values(void* h) {
   const double v = 3;
   return hf_solver_set_values(h, 1, scene.sites, &v);
 }
+static hf_result set_screening(void* h) {
+  return hf_solver_set_screening(h, NULL, NULL);
+}
 static hf_result edit_sites(void* h) {
   hf_edit_desc d = HF_INIT(hf_edit_desc);
   d.remove_count = 1, d.remove_sites = scene.sites;
@@ -355,6 +358,7 @@ static const struct {
     {"hf_remove_sites", SOLVER, remove_sites, NO_INDEX},
     {"hf_solver_move_sites", SOLVER, move_sites, NO_INDEX},
     {"hf_solver_set_values", SOLVER, set_site_values, NO_INDEX},
+    {"hf_solver_set_screening", SOLVER, set_screening, NO_INDEX},
     {"hf_solver_edit_sites", SOLVER, edit_sites, NO_INDEX},
     {"hf_solver_get_sites", SOLVER, get_sites, NO_INDEX},
     {"hf_solve", SOLVER, solve, NO_INDEX},

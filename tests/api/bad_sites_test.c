@@ -199,6 +199,45 @@ static void removing_moving_and_setting_bad_sites_is_refused(void** state) {
   finish_rows("removing, moving, setting");
 }
 
+/* Screening is copied: H at every vertex, p in one channel. */
+static double strengths[CUT_VERTICES], wishes[CUT_VERTICES];
+static void good_screening(void) {
+  good_input();
+  for (int i = 0; i < CUT_VERTICES; ++i) strengths[i] = 1, wishes[i] = i;
+}
+#undef GOOD
+#define GOOD good_screening
+
+static void bad_screening_is_refused(void** state) {
+  (void)state;
+  scene_create(&scene);
+  ROW("H is NaN", HF_ERROR_NON_FINITE, 4, strengths[4] = (double)NAN,
+      hf_solver_set_screening(scene.solver, strengths, wishes));
+  ROW("H is negative", HF_ERROR_INVALID_ARGUMENT, 3, strengths[3] = -1,
+      hf_solver_set_screening(scene.solver, strengths, NULL));
+  ROW("H is too large", HF_ERROR_TOO_LARGE, 2, strengths[2] = 1e201,
+      hf_solver_set_screening(scene.solver, strengths, NULL));
+  ROW("p is infinite", HF_ERROR_NON_FINITE, 5, wishes[5] = (double)INFINITY,
+      hf_solver_set_screening(scene.solver, strengths, wishes));
+  ROW("p is too large", HF_ERROR_TOO_LARGE, 1, wishes[1] = -1e201,
+      hf_solver_set_screening(scene.solver, strengths, wishes));
+  GOOD();
+  hf_certificate certificate = HF_INIT(hf_certificate);
+  hf_solver copy;
+  assert_ok(hf_solver_clone(scene.solver, &copy));
+  assert_ok(hf_solver_set_screening(copy, strengths, wishes));
+  assert_int_equal(hf_solver_certify(copy, &certificate), HF_ERROR_UNSUPPORTED);
+  assert_ok(hf_solve(copy, floats, 0, NULL));
+  const uint32_t all[3] = {scene.sites[0], scene.sites[1], scene.sites[2]};
+  assert_ok(hf_remove_sites(copy, 3, all));
+  assert_ok(hf_solve(copy, floats, 0, NULL));
+  assert_ok(hf_solver_set_screening(copy, NULL, NULL));
+  assert_int_equal(hf_solve(copy, floats, 0, NULL), HF_ERROR_NO_SITES);
+  hf_solver_destroy(copy);
+  scene_destroy(&scene);
+  finish_rows("screening");
+}
+
 static void good_edit(void) {
   good_input();
   edit.remove_count = 1, edit.remove_sites = numbers;
@@ -326,7 +365,7 @@ int main(void) {
       cmocka_unit_test(adding_bad_sites_is_refused),
       cmocka_unit_test(linearly_dependent_points_are_refused),
       cmocka_unit_test(removing_moving_and_setting_bad_sites_is_refused),
-      cmocka_unit_test(a_batch_with_one_bad_part_changes_nothing),
+      cmocka_unit_test(bad_screening_is_refused), cmocka_unit_test(a_batch_with_one_bad_part_changes_nothing),
       cmocka_unit_test(reading_with_bad_arguments_is_refused),
       cmocka_unit_test(nothing_to_undo_or_redo_is_said),
       cmocka_unit_test(the_site_limit_of_the_desc_is_kept),

@@ -74,6 +74,13 @@ void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
       [&] { return hf_solver_redo(solver) == HF_ERROR_NO_RECORD; });
   take_field(s, solver);
   s.call("hf_solver_redo", [&] { return hf_solver_redo(solver); });
+  if (desc.engine == HF_ENGINE_GREEN && desc.field_kind == HF_FIELD_HARMONIC) {
+    const std::vector<double> screening(Tube::vertices, 0.5), targets(Tube::vertices, 2.0);
+    s.call("hf_solver_set_screening",
+           [&] { return hf_solver_set_screening(solver, screening.data(), targets.data()); });
+    take_field(s, solver);
+    s.call("hf_solver_set_screening", [&] { return hf_solver_set_screening(solver, nullptr, nullptr); });
+  }
   s.call("hf_remove_sites", [&] { return hf_remove_sites(copy, 1, &numbers[3]); });
   take_field(s, copy);
   double some[2], flux[16];

@@ -88,6 +88,10 @@ void Run::solver_and_sites() {
   call(hf_solver_solve_at(solver, 3, asked, at), "hf_solver_solve_at"), take(at, 3);
   call(hf_solver_undo(solver), "hf_solver_undo"), take_field(solver);
   call(hf_solver_redo(solver), "hf_solver_redo"), take_field(solver);
+  const Numbers screening(std::size_t{n}, 0.5), targets(8 * std::size_t{n}, 2.0);
+  call(hf_solver_set_screening(solver, screening.data(), targets.data()), "hf_solver_set_screening");
+  take_field(solver);
+  call(hf_solver_set_screening(solver, nullptr, nullptr), "hf_solver_set_screening, none");
 
   sites = sites_at(40, 8, 80, 3);
   sites.stiffness = nullptr;

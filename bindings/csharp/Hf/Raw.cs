@@ -1071,6 +1071,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_edit_sites(IntPtr solver, void* edit, void* out_sites);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_solver_get_site_count(IntPtr solver);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_get_sites(IntPtr solver, void* inout_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_set_screening(IntPtr solver, void* screening, void* targets);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve(IntPtr solver, void* out_values, uint value_stride, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_f64(IntPtr solver, void* out_values, uint value_stride, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_at(IntPtr solver, uint vertex_count, void* vertices, void* out_values);

@@ -113,6 +113,15 @@ namespace Hf
             OnList(Functions.hf_solver_set_values, sites, values, ChannelCount, "values");
         }
 
+        /// <summary>(K + A H) u = A H p + W lambda: screening is H by vertex, targets is p, 0 if null. null removes the
+        /// screening.</summary>
+        public void SetScreening(double[] screening, double[] targets = null)
+        {
+            using (var pins = new Pins())
+                Check(Functions.hf_solver_set_screening(Handle, (void*)pins.Add(screening, VertexCount, "screening"),
+                    (void*)pins.Add(targets, VertexCount * ChannelCount, "targets")));
+        }
+
         /// <summary>One batch: remove, move, set, add; all or nothing. Returns the numbers of the added
         /// sites.</summary>
         public uint[] EditSites(uint[] remove = null, uint[] move = null, uint[] moveTo = null, uint[] set = null,

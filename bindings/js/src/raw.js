@@ -874,6 +874,7 @@ export const functions = {
   hf_solver_edit_sites: ['i32', ['handle', 'ptr', 'ptr']],
   hf_solver_get_site_count: ['u32', ['handle']],
   hf_solver_get_sites: ['i32', ['handle', 'ptr']],
+  hf_solver_set_screening: ['i32', ['handle', 'ptr', 'ptr']],
   hf_solve: ['i32', ['handle', 'ptr', 'u32', 'ptr']],
   hf_solver_solve_f64: ['i32', ['handle', 'ptr', 'u32', 'ptr']],
   hf_solver_solve_at: ['i32', ['handle', 'u32', 'ptr', 'ptr']],

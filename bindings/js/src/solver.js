@@ -95,6 +95,12 @@ export function solverClasses(tools) {
       const given = doubles(values, 'values', counted(numbers) * this.channelCount);
       call('hf_solver_set_values', this._handle, counted(numbers), numbers && read(numbers), given && read(given));
     }
+    /** (K + A H) u = A H p + W lambda: screening is H by vertex, targets is p, 0 if null. null removes the screening. */
+    setScreening(screening, targets = null) {
+      const strength = doubles(screening, 'screening', this.vertexCount);
+      const wish = doubles(targets, 'targets', this.vertexCount * this.channelCount);
+      call('hf_solver_set_screening', this._handle, strength && read(strength), wish && read(wish));
+    }
     editSites({
       remove = [],
       move = [],

@@ -1749,6 +1749,7 @@ PROTOTYPES = {
     "hf_solver_edit_sites": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_solver_get_site_count": (c_uint32, [c_void_p]),
     "hf_solver_get_sites": (c_int32, [c_void_p, c_void_p]),
+    "hf_solver_set_screening": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_solve": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
     "hf_solver_solve_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
     "hf_solver_solve_at": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),

@@ -116,6 +116,13 @@ class Solver(Object):
         given = doubles(values, "values", count * self.channel_count)
         call("hf_solver_set_values", self._raw_handle, count, address(numbers), address(given))
 
+    def set_screening(self, screening: Optional[ArrayLike], targets: Optional[ArrayLike] = None) -> None:
+        """(K + A H) u = A H p + W lambda: screening is H by vertex in 1 / length^2, targets is p, 0 if None. None removes
+        the screening."""
+        strength = doubles(screening, "screening", self.vertex_count)
+        wish = doubles(targets, "targets", self.vertex_count * self.channel_count)
+        call("hf_solver_set_screening", self._raw_handle, address(strength), address(wish))
+
     def edit_sites(self, *, remove: ArrayLike = (), move: ArrayLike = (), move_to: Optional[ArrayLike] = None,
         set: ArrayLike = (),
                    set_values: Optional[ArrayLike] = None, add: Optional[ArrayLike] = None,

@@ -2034,6 +2034,7 @@ extern "C" {
     pub fn hf_solver_edit_sites(solver: hf_solver, edit: *const hf_edit_desc, out_sites: *mut u32) -> i32;
     pub fn hf_solver_get_site_count(solver: hf_solver) -> u32;
     pub fn hf_solver_get_sites(solver: hf_solver, inout_info: *mut hf_sites_info) -> i32;
+    pub fn hf_solver_set_screening(solver: hf_solver, screening: *const f64, targets: *const f64) -> i32;
     pub fn hf_solve(solver: hf_solver, out_values: *mut f32, value_stride: u32, out_info: *mut hf_solve_info) -> i32;
     pub fn hf_solver_solve_f64(solver: hf_solver, out_values: *mut f64, value_stride: u32, out_info: *mut hf_solve_info) -> i32;
     pub fn hf_solver_solve_at(solver: hf_solver, vertex_count: u32, vertices: *const u32, out_values: *mut f64) -> i32;

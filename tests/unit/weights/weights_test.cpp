@@ -281,4 +281,53 @@ TEST(Weights, FaultsOfBonesAreNamed) {
   EXPECT_NEAR(weight_of(weights, ring_vertex(13), 1), weight_of(weights, ring_vertex(13), 4), 1e-6);
 }
 
+// Joints along x in a tube of length 9: heads, the axis of each, the parents.
+std::vector<hf_inner::BoneSegment> segments_of(const std::vector<double>& x, const std::vector<double>& axis_x,
+                                               const std::vector<Index>& parents, const std::vector<int>& deforms) {
+  const Scene scene;
+  Bones bones(scene.memory);
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    bones.head.push_back({x[j], 0, 0});
+    const double across = std::sqrt(1 - axis_x[j] * axis_x[j]);
+    bones.axis.push_back({axis_x[j], across, 0});
+    bones.parent.push_back(parents[j]), bones.deforms.push_back(static_cast<std::uint8_t>(deforms[j]));
+  }
+  const auto found = bone_segments(bones, scene.skin->core->mesh, scene.skin->skin, scene.memory);
+  std::vector<hf_inner::BoneSegment> out;
+  for (hf_inner::BoneSegment s : found) {
+    s.head = scene.skin->core->mesh.to_given(s.head), s.tail = scene.skin->core->mesh.to_given(s.tail);
+    out.push_back(s);
+  }
+  return out;
+}
+
+TEST(Weights, ALeafEndsAtTheJointThatItMeets) {
+  // Hip, leg, foot: the foot is a child of the hip's parent. Joint 3 does not deform.
+  const auto found = segments_of({1, 2, 4, 6.5}, {1, 1, 1, 1}, {-1, 0, 1, -1}, {1, 1, 1, 0});
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_NEAR(found[2].tail.x, 6.5, 1e-6);
+  // Farther than 1.5 lengths of the parent, the leaf ends on its own.
+  EXPECT_NEAR(segments_of({1, 2, 4, 7.5}, {1, 1, 1, 1}, {-1, 0, 1, -1}, {1, 1, 1, 0})[2].tail.x, 7, 1e-6);
+  // A joint that the leaf hangs from is no end.
+  EXPECT_NEAR(segments_of({1, 2, 4, 3}, {1, 1, -1, 1}, {3, 0, 1, -1}, {1, 1, 1, 0})[2].tail.x, 1, 1e-6);
+}
+
+TEST(Weights, ALeafAwayFromItsParentHasATypicalLength) {
+  // The foot at 6 hangs from the root at 0.5, across its axis. Lengths: 1, 1, 5.5.
+  const auto found = segments_of({0.5, 1.5, 2.5, 6}, {0, 1, 1, 1}, {-1, 0, 1, 0}, {1, 1, 1, 1});
+  EXPECT_NEAR(found.back().tail.x, 7.5, 1e-6);
+}
+
+TEST(Weights, ARigWhoseAxesDoNotHoldTakesAllChildren) {
+  // The only child of joint 2 lies off its axis, so joint 1 reaches to both of its children.
+  const auto found = segments_of({4, 5, 6, 7, 3}, {1, 0, 0, 1, 1}, {-1, 0, 1, 2, 1}, {1, 1, 1, 1, 1});
+  int of_one = 0, of_two = 0;
+  for (const auto& s : found) of_one += s.bone == 1, of_two += s.bone == 2;
+  EXPECT_EQ(of_one, 2);
+  EXPECT_EQ(of_two, 1);
+  // Where every only child lies on its axis, the joint ends on its own.
+  const auto kept = segments_of({4, 5, 6, 7, 3}, {1, 0, 1, 1, 1}, {-1, 0, 1, 2, 1}, {1, 1, 1, 1, 1});
+  EXPECT_EQ(kept.size(), 5u);
+}
+
 }  // namespace
