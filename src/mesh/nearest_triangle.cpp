@@ -56,6 +56,10 @@ double squared_gap(double low, double high, double other_low, double other_high)
 
 }  // namespace
 
+double nearest_in_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c, double weights[3]) noexcept {
+  return to_triangle(p, a, b, c, weights);
+}
+
 double squared_distance(const NearestTriangle::Box& a, const NearestTriangle::Box& b) noexcept {
   return squared_gap(a.low.x, a.high.x, b.low.x, b.high.x) + squared_gap(a.low.y, a.high.y, b.low.y, b.high.y) +
          squared_gap(a.low.z, a.high.z, b.low.z, b.high.z);

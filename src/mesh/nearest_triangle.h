@@ -54,6 +54,10 @@ class NearestTriangle {
   Vector<Node> nodes_;
 };
 
+// Returns the squared distance from a point to a triangle. weights: receives the barycentric weights of the nearest
+// point.
+double nearest_in_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c, double weights[3]) noexcept;
+
 // Returns the squared distance from a point to a box.
 inline double squared_distance(Vec3 p, const NearestTriangle::Box& box) noexcept {
   const double x = std::max(std::max(box.low.x - p.x, p.x - box.high.x), 0.0),
