@@ -108,7 +108,7 @@ hf_result hf_weights_carry(hf_surface source, hf_surface target, const hf_carry_
     const hf_carry_desc desc = read_struct(given, "desc");
     if (out_info) check_struct(out_info, "out_info");
     const Mesh& shape = from->surface.geometry().unlinked().mesh;
-    const CarryOptions options = read_carry(desc, shape);
+    const MatchOptions options = read_carry(desc, shape);
     const GivenWeights weights = read_carried(desc, shape);
     const hf_weights_out out = read_weights_out(inout_weights, to->surface.geometry().mesh, options.influences);
     if (!wants_weights(out) && !out_info) return;

@@ -9,7 +9,7 @@
 namespace hf_inner {
 
 FilledWeights carry_weights(const Mesh& source, const SkinShape& source_skin, const GivenWeights& given,
-                            std::shared_ptr<const Core> target, const CarryOptions& options) {
+                            std::shared_ptr<const Core> target, const MatchOptions& options) {
   Memory& memory = *target->memory;
   const Mesh& mesh = target->mesh;
   const WeightRows rows = read_rows(source, given, [](Index) { return true; }, memory);

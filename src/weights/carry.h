@@ -16,7 +16,7 @@ struct GivenWeights {
   const float* weights = nullptr;
 };
 
-struct CarryOptions {
+struct MatchOptions {
   double distance = 0;  // inner unit of the source
   double cosine = 1;    // normals agree from this cosine on
   std::int32_t influences = 4;
@@ -43,7 +43,7 @@ struct Probe {
 
 // Finds the match of every vertex for which probe(v, out) is true. any: the nearest point, of any normal and distance.
 template <class ProbeOf>
-Vector<Match> find_matches(const WeightedShape& source, const Core& target, const CarryOptions& options, bool any,
+Vector<Match> find_matches(const WeightedShape& source, const Core& target, const MatchOptions& options, bool any,
                            ProbeOf&& probe) {
   constexpr std::size_t piece = 256;  // vertices in one thread's job: some 0.2 ms
   const double within = any ? HUGE_VAL : options.distance * options.distance, cosine = any ? -1 : options.cosine;
@@ -60,6 +60,6 @@ Vector<Match> find_matches(const WeightedShape& source, const Core& target, cons
 // source, skin: of the surface with weights. target: a core of the other. Throws HF_ERROR_EMPTY if no vertex of the
 // source has weights.
 FilledWeights carry_weights(const Mesh& source, const SkinShape& skin, const GivenWeights& given,
-                            std::shared_ptr<const Core> target, const CarryOptions& options);
+                            std::shared_ptr<const Core> target, const MatchOptions& options);
 
 }  // namespace hf_inner

@@ -7,6 +7,7 @@
 #include "base/arguments.h"
 #include "weights/bone_names.h"
 #include "weights/constants.h"
+#include "weights/intake.h"
 
 namespace hf_inner {
 namespace {
@@ -41,20 +42,18 @@ GivenWeights read_given(const Desc& desc, const Mesh& mesh, std::uint32_t limit)
 
 // scale: of the mesh with the weights.
 template <class Desc>
-CarryOptions carry_options(const Desc& desc, double scale) {
+MatchOptions match_options(const Desc& desc, double scale) {
   require_zero(desc.reserved);
-  if (desc.weight_count != 0 && desc.weight_count != 4 && desc.weight_count != 8)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4", desc.weight_count);
   check_finite(desc.distance, "distance"), check_finite(desc.angle, "angle");
   if (desc.distance < 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "distance is below 0");
   if (desc.angle < 0 || desc.angle > most_angle)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "angle is %g; it must be 0 to %g radians", desc.angle, most_angle);
-  CarryOptions out;
+  MatchOptions out;
   out.distance = desc.distance == 0 ? carry_distance : desc.distance / scale;
   const double angle = desc.angle == 0 ? carry_angle : desc.angle;
   // A hair below the cosine: equal normals agree whatever their rounding.
   out.cosine = angle >= most_angle - 0.01 ? -2 : std::cos(angle) - 1e-12;
-  out.influences = desc.weight_count == 8 ? 8 : 4;
+  out.influences = read_weight_count(desc.weight_count);
   return out;
 }
 
@@ -97,7 +96,7 @@ GivenWeights read_carried(const hf_carry_desc& desc, const Mesh& source) {
   return read_given(desc, source, joint_limit);
 }
 
-CarryOptions read_carry(const hf_carry_desc& desc, const Mesh& source) { return carry_options(desc, source.scale); }
+MatchOptions read_carry(const hf_carry_desc& desc, const Mesh& source) { return match_options(desc, source.scale); }
 
 GivenWeights read_mirrored(const hf_mirror_desc& desc, const Mesh& mesh) {
   return read_given(desc, mesh, desc.bone_count);
@@ -124,7 +123,7 @@ MirrorBones read_mirror_bones(const hf_mirror_desc& desc, const Mesh& mesh, Memo
 
 MirrorOptions read_mirror(const hf_mirror_desc& desc, const Mesh& mesh) {
   MirrorOptions options;
-  options.carry = carry_options(desc, mesh.scale);
+  options.carry = match_options(desc, mesh.scale);
   check_choice(desc.to, 3, "to");
   options.to = static_cast<MirrorTo>(desc.to);
   if (!desc.plane) return options;

@@ -10,7 +10,7 @@ Span<const char> read_bone_names(const char* names, std::size_t bones, Memory& m
 
 // source: the mesh with the weights. They throw as hf_weights_carry says.
 GivenWeights read_carried(const hf_carry_desc& desc, const Mesh& source);
-CarryOptions read_carry(const hf_carry_desc& desc, const Mesh& source);
+MatchOptions read_carry(const hf_carry_desc& desc, const Mesh& source);
 
 // They throw as hf_weights_mirror says.
 GivenWeights read_mirrored(const hf_mirror_desc& desc, const Mesh& mesh);

@@ -13,7 +13,7 @@ enum class MirrorTo : std::int32_t {
 
 struct MirrorOptions {
   MirrorTo to = MirrorTo::negative;
-  CarryOptions carry;
+  MatchOptions carry;
   bool has_plane = false;
   MirrorPlane plane;  // with has_plane
 };

@@ -49,8 +49,8 @@ inline Body make_body(const std::string& name, std::uint32_t vertices) {
   return out;
 }
 
-inline hf_inner::CarryOptions carry_options(std::int32_t influences = 4) {
-  hf_inner::CarryOptions options;
+inline hf_inner::MatchOptions carry_options(std::int32_t influences = 4) {
+  hf_inner::MatchOptions options;
   options.distance = 0.05, options.cosine = std::cos(0.5235987755982988) - 1e-12, options.influences = influences;
   return options;
 }
@@ -58,7 +58,7 @@ inline hf_inner::CarryOptions carry_options(std::int32_t influences = 4) {
 inline hf_inner::FilledWeights carry(const std::shared_ptr<const hf_inner::Core>& source,
                                      const hf_inner::GivenWeights& given,
                                      const std::shared_ptr<const hf_inner::Core>& target,
-                                     const hf_inner::CarryOptions& options = carry_options()) {
+                                     const hf_inner::MatchOptions& options = carry_options()) {
   const hf_inner::SkinShape skin(source->mesh, *source->memory);
   return hf_inner::carry_weights(source->mesh, skin, given, target, options);
 }

@@ -67,7 +67,7 @@ TEST(CarriedWeights, ThePointWhoseNormalAgreesIsTaken) {
   const auto to = make_core(target);
   FilledWeights found = carry(make_core(source), {1, joints.data(), weights.data()}, to);
   for (Index v = 0; v < to->size(); ++v) EXPECT_EQ(share_of(found, at(v), 0), 1.0);
-  hf_inner::CarryOptions any = carry_options();
+  hf_inner::MatchOptions any = carry_options();
   any.cosine = -2;
   found = carry(make_core(source), {1, joints.data(), weights.data()}, to, any);
   for (Index v = 0; v < to->size(); ++v) EXPECT_EQ(share_of(found, at(v), 1), 1.0);
