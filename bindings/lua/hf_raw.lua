@@ -745,6 +745,68 @@ typedef struct hf_weights_info {
   uint32_t path_solve_count;
   uint32_t reserved;
 } hf_weights_info;
+typedef struct hf_carry_desc {
+  uint32_t struct_size;
+  uint32_t influence_count;
+  const uint32_t* joints;
+  const float* weights;
+  double distance;
+  double angle;
+  uint32_t weight_count;
+  uint32_t reserved;
+  hf_progress progress;
+} hf_carry_desc;
+typedef struct hf_carry_info {
+  uint32_t struct_size;
+  uint32_t vertex_count;
+  uint32_t matched_count;
+  uint32_t solved_count;
+  uint32_t carried_count;
+  uint32_t rigid_count;
+  uint32_t isolated_count;
+  uint32_t guessed_island_count;
+} hf_carry_info;
+typedef struct hf_mirror_desc {
+  uint32_t struct_size;
+  uint32_t bone_count;
+  const double* heads;
+  const char* names;
+  const uint32_t* partners;
+  const double* plane;
+  uint32_t influence_count;
+  int32_t to;
+  const uint32_t* joints;
+  const float* weights;
+  double distance;
+  double angle;
+  uint32_t weight_count;
+  uint32_t reserved;
+  hf_progress progress;
+} hf_mirror_desc;
+typedef struct hf_mirror_info {
+  uint32_t struct_size;
+  uint32_t vertex_count;
+  int32_t plane_from;
+  uint32_t named_count;
+  uint32_t placed_count;
+  uint32_t centre_count;
+  uint32_t given_count;
+  uint32_t alone_count;
+  uint32_t kept_count;
+  uint32_t matched_count;
+  uint32_t solved_count;
+  uint32_t carried_count;
+  uint32_t rigid_count;
+  uint32_t isolated_count;
+  uint32_t worst_bone;
+  uint32_t worst_vertex;
+  double point[3];
+  double normal[3];
+  double bone_off;
+  double worst_bone_off;
+  double vertex_off;
+  double worst_vertex_off;
+} hf_mirror_info;
 hf_result hf_error_get_detail(hf_error_detail* out_detail);
 const char* hf_result_get_name(hf_result result);
 uint32_t hf_version_get(void);
@@ -877,6 +939,9 @@ hf_result hf_weights_get_info(hf_weights weights, hf_weights_info* out_info);
 hf_result hf_weights_record(hf_weights weights);
 hf_result hf_weights_undo(hf_weights weights);
 hf_result hf_weights_redo(hf_weights weights);
+hf_result hf_weights_get_helpers(hf_weights weights, const char* names, uint32_t capacity, uint32_t* out_reasons, uint32_t* out_count);
+hf_result hf_weights_carry(hf_surface source, hf_surface target, const hf_carry_desc* desc, hf_weights_out* inout_weights, hf_carry_info* out_info);
+hf_result hf_weights_mirror(hf_surface surface, const hf_mirror_desc* desc, hf_weights_out* inout_weights, uint32_t* out_bones, uint32_t* out_pairings, hf_mirror_info* out_info);
 ]]
 
 local constants = { header_version = '0.1.0',
@@ -975,11 +1040,34 @@ local constants = { header_version = '0.1.0',
   HF_WEIGHTS_CARRIED = 3,
   HF_WEIGHTS_RIGID = 4,
   HF_WEIGHTS_ISOLATED = 5,
+  HF_WEIGHTS_MATCHED = 6,
+  HF_WEIGHTS_KEPT = 7,
   HF_BONE_NO_LENGTH = 1,
   HF_BONE_COINCIDENT = 2,
   HF_BONE_INFORMS_NONE = 4,
   HF_BONE_OUTSIDE = 8,
   HF_BONE_HELPER = 16,
+  HF_HELPER_PROPOSED = 1,
+  HF_HELPER_NAME_ROOT = 2,
+  HF_HELPER_NAME_CONTROL = 4,
+  HF_HELPER_NAME_END = 8,
+  HF_HELPER_ROOT = 16,
+  HF_HELPER_APART = 32,
+  HF_HELPER_NO_LENGTH = 64,
+  HF_HELPER_COINCIDENT = 128,
+  HF_HELPER_OUTSIDE = 256,
+  HF_HELPER_INFORMS_NONE = 512,
+  HF_MIRROR_TO_NEGATIVE = 0,
+  HF_MIRROR_TO_POSITIVE = 1,
+  HF_MIRROR_BOTH = 2,
+  HF_MIRROR_PLANE_GIVEN = 0,
+  HF_MIRROR_PLANE_BONES = 1,
+  HF_MIRROR_PLANE_SURFACE = 2,
+  HF_MIRROR_BONE_ALONE = 0,
+  HF_MIRROR_BONE_NAMED = 1,
+  HF_MIRROR_BONE_PLACED = 2,
+  HF_MIRROR_BONE_CENTRE = 3,
+  HF_MIRROR_BONE_GIVEN = 4,
 }
 
 return constants

@@ -815,6 +815,13 @@ struct VertexWeights {
   std::vector<uint8_t> origins;  // HF_WEIGHTS_* by vertex
 };
 
+// Names of bones as the library takes them: one line for each.
+inline std::string bone_lines(const std::vector<std::string>& names) {
+  std::string lines;
+  for (const std::string& name : names) lines += name + "\n";
+  return lines;
+}
+
 // Skin weights of a surface from a skeleton.
 class Weights {
  public:
@@ -864,6 +871,15 @@ class Weights {
     check(hf_weights_get_bones(get(), count, flags.data(), vertex_counts ? vertex_counts->data() : nullptr, &count));
     return flags;
   }
+  // Why each bone looks like a helper: bits of HF_HELPER_*. names: one for each bone, or empty.
+  std::vector<uint32_t> helpers(const std::vector<std::string>& names = {}) const {
+    uint32_t count = 0;
+    check(hf_weights_get_helpers(get(), nullptr, 0, nullptr, &count));
+    std::vector<uint32_t> reasons(count);
+    const std::string lines = bone_lines(names);
+    check(hf_weights_get_helpers(get(), names.empty() ? nullptr : lines.c_str(), count, reasons.data(), nullptr));
+    return reasons;
+  }
   hf_weights_info info() const {
     auto info = make<hf_weights_info>();
     check(hf_weights_get_info(get(), &info));
@@ -893,6 +909,57 @@ class Weights {
   }
   Handle<hf_weights, hf_weights_destroy> handle_;
 };
+
+namespace detail {
+// Room for the weights of a surface, as an hf_weights_out.
+inline hf_weights_out room_for(VertexWeights& found, uint32_t vertices, uint32_t weight_count) {
+  found.weight_count = weight_count == 0 ? 4 : weight_count;
+  const size_t entries = size_t{vertices} * found.weight_count;
+  found.joints.resize(entries), found.weights.resize(entries), found.origins.resize(vertices);
+  auto out = make<hf_weights_out>();
+  out.vertex_capacity = vertices;
+  out.joints = found.joints.data(), out.weights = found.weights.data(), out.origins = found.origins.data();
+  return out;
+}
+inline uint32_t influences_of(const VertexWeights& given, const Surface& surface) {
+  const size_t entries = size_t{surface.vertex_count()} * given.weight_count;
+  if (given.joints.size() != entries || given.weights.size() != entries)
+    throw std::invalid_argument("joints and weights: weight_count of each vertex of the surface are needed");
+  return given.weight_count;
+}
+}  // namespace detail
+
+// Carries weights to another surface. options: distance, angle and weight_count count. info: null, or receives counts.
+inline VertexWeights carry_weights(const Surface& source, const VertexWeights& given, const Surface& target,
+                                   hf_carry_desc options = make<hf_carry_desc>(), hf_carry_info* info = nullptr) {
+  options.influence_count = detail::influences_of(given, source);
+  options.joints = given.joints.data(), options.weights = given.weights.data();
+  VertexWeights found;
+  hf_weights_out out = detail::room_for(found, target.vertex_count(), options.weight_count);
+  check(hf_weights_carry(source.get(), target.get(), &options, &out, info));
+  return found;
+}
+
+// Mirrors weights. options: plane, partners, to, distance, angle and weight_count count. heads: three numbers for each
+// bone. names: one for each bone, or empty.
+inline VertexWeights mirror_weights(const Surface& surface, const VertexWeights& given, const std::vector<double>& heads,
+                                    const std::vector<std::string>& names = {},
+                                    hf_mirror_desc options = make<hf_mirror_desc>(), hf_mirror_info* info = nullptr,
+                                    std::vector<uint32_t>* partners = nullptr,
+                                    std::vector<uint32_t>* pairings = nullptr) {
+  const std::string lines = bone_lines(names);
+  options.bone_count = static_cast<uint32_t>(heads.size() / 3), options.heads = heads.data();
+  options.names = names.empty() ? nullptr : lines.c_str();
+  options.influence_count = detail::influences_of(given, surface);
+  options.joints = given.joints.data(), options.weights = given.weights.data();
+  if (partners) partners->resize(options.bone_count);
+  if (pairings) pairings->resize(options.bone_count);
+  VertexWeights found;
+  hf_weights_out out = detail::room_for(found, surface.vertex_count(), options.weight_count);
+  check(hf_weights_mirror(surface.get(), &options, &out, partners ? partners->data() : nullptr,
+                          pairings ? pairings->data() : nullptr, info));
+  return found;
+}
 
 }  // namespace hf
 

@@ -10,14 +10,17 @@
 #include "common/gltf_write.h"
 #include "common/json_file.h"
 #include "common/program.h"
+#include "weights/carried.h"
 #include "weights/compare.h"
+#include "weights/skeleton_from.h"
 
 namespace samples {
 namespace {
 
 const char* const usage =
     "usage: hf_weights MODEL.glb [-o OUT.glb] [--bones FILE] [--pins FILE] [--keep JOINTS] [--weights 4|8]\n"
-    "                  [--all] [--guide N] [--sheet FILE.png] [--report FILE.json] [--table]\n"
+    "                  [--all] [--guide N] [--carry FROM.glb] [--mirror negative|positive|both]\n"
+    "                  [--skeleton OTHER.glb [--pairs FILE]] [--sheet FILE.png] [--report FILE.json] [--table]\n"
     "  Computes the weights of a skinned model from its joints, and compares them with the weights of the file.\n"
     "  -o, --output FILE  the model with the new weights\n"
     "  --bones FILE       bones in place of joints: {\"bones\": [{\"joint\": \"arm\", \"head\": [x, y, z],\n"
@@ -28,15 +31,21 @@ const char* const usage =
     "  --weights N        joints per vertex, 4 or 8 (4)\n"
     "  --guide N          sets N pins, each with the weights of the file where the pose is farthest from the file's\n"
     "  --all              all joints deform; else those that have weights in the file\n"
+    "  --carry FROM.glb   takes the weights of another model in the same place; a model without joints gets its joints\n"
+    "  --mirror SIDE      mirrors the weights of the file to a side of the plane of symmetry, or takes the mean of both\n"
+    "  --skeleton FILE    a model without joints gets those of another; they stand where nodes have their names, where\n"
+    "                     --pairs (a pairs file of hf_transfer) leads, and between by the boxes\n"
+    "  --helpers          prints the joints that look like helpers, and why; use it with --all\n"
     "  --sheet FILE       a picture: weights given, computed, their difference\n"
     "  --report FILE      counts, distances and times as JSON\n"
     "  --table            prints one line\n";
 
 struct Command {
-  std::filesystem::path mesh, out, bones, pins, sheet, report;
+  std::filesystem::path mesh, out, bones, pins, sheet, report, carry, skeleton, pairs;
   std::string keep;
   uint32_t weights = 4, guide = 0;
-  bool all = false, table = false, help = false;
+  int32_t mirror = -1;
+  bool all = false, table = false, helpers = false, help = false;
 };
 
 Command parse(Words words) {
@@ -62,6 +71,21 @@ Command parse(Words words) {
       out.sheet = words.value();
     } else if (words.is("--report")) {
       out.report = words.value();
+    } else if (words.is("--carry")) {
+      out.carry = words.value();
+    } else if (words.is("--skeleton")) {
+      out.skeleton = words.value();
+    } else if (words.is("--pairs")) {
+      out.pairs = words.value();
+    } else if (words.is("--mirror")) {
+      const std::string side = words.value();
+      out.mirror = side == "negative"   ? HF_MIRROR_TO_NEGATIVE
+                   : side == "positive" ? HF_MIRROR_TO_POSITIVE
+                   : side == "both"     ? HF_MIRROR_BOTH
+                                        : -1;
+      if (out.mirror < 0) throw std::runtime_error("--mirror: negative, positive or both, not " + side);
+    } else if (words.is("--helpers")) {
+      out.helpers = true;
     } else if (words.is("--table")) {
       out.table = true;
     } else {
@@ -69,6 +93,8 @@ Command parse(Words words) {
     }
   }
   if (!out.help && out.mesh.empty()) throw std::runtime_error("no model is named; see --help");
+  if (!out.carry.empty() && out.mirror >= 0) throw std::runtime_error("--carry and --mirror are both set; set one");
+  if (!out.pairs.empty() && out.skeleton.empty()) throw std::runtime_error("--pairs needs --skeleton");
   return out;
 }
 
@@ -194,6 +220,29 @@ double milliseconds(const std::chrono::steady_clock::time_point& begin) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
+constexpr std::pair<uint32_t, const char*> reason_names[] = {
+    {HF_HELPER_NAME_ROOT, "named root"},   {HF_HELPER_NAME_CONTROL, "named control"}, {HF_HELPER_NAME_END, "named end"},
+    {HF_HELPER_ROOT, "root"},              {HF_HELPER_APART, "apart"},                {HF_HELPER_NO_LENGTH, "no length"},
+    {HF_HELPER_COINCIDENT, "coincident"},  {HF_HELPER_OUTSIDE, "outside"},            {HF_HELPER_INFORMS_NONE, "informs none"}};
+
+nlohmann::json reasons_of(uint32_t reasons) {
+  nlohmann::json out = nlohmann::json::array();
+  for (const auto& [bit, name] : reason_names) {
+    if (reasons & bit) out.push_back(name);
+  }
+  return out;
+}
+
+// One line for each joint that is proposed as a helper, and whether the file gives it weights.
+void print_helpers(const Rig& rig, const hf::Weights& weights) {
+  const std::vector<uint32_t> reasons = weights.helpers(rig.names);
+  std::vector<uint8_t> weighted(rig.names.size(), 0);
+  for (size_t i = 0; i < rig.given.joints.size(); ++i) weighted[rig.given.joints[i]] |= rig.given.weights[i] > 0;
+  for (size_t j = 0; j < reasons.size(); ++j)
+    std::printf("joint %s %s %s %u %s\n", rig.names[j].c_str(), weighted[j] ? "weighted" : "bare",
+                (reasons[j] & HF_HELPER_PROPOSED) ? "proposed" : "-", reasons[j], reasons_of(reasons[j]).dump().c_str());
+}
+
 nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weights& weights, const Comparison& found,
                          double surface_ms, double weights_ms) {
   // A moved bone and a pin, each with the new weights out.
@@ -221,25 +270,48 @@ nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weigh
       {"islands", info.carried_island_count}, {"blind", info.blind}};
   std::vector<uint32_t> counts;
   const std::vector<uint32_t> flags = weights.bones(&counts);
+  const std::vector<uint32_t> reasons = weights.helpers(rig.names);
   out["bones"] = nlohmann::json::array();
   for (size_t j = 0; j < flags.size(); ++j)
-    out["bones"].push_back(
-        {{"joint", rig.names[j]}, {"deforms", rig.bones.deforms[j]}, {"flags", flags[j]}, {"vertices", counts[j]}});
+    out["bones"].push_back({{"joint", rig.names[j]},
+                            {"deforms", rig.bones.deforms[j]},
+                            {"flags", flags[j]},
+                            {"vertices", counts[j]},
+                            {"helper", (reasons[j] & HF_HELPER_PROPOSED) != 0},
+                            {"reasons", reasons_of(reasons[j])}});
   return out;
 }
 
-void run(const Command& options) {
+// The model, with the skeleton of another if it has none.
+Model read_model(const Command& options, Rig& rig) {
   Model model = read_gltf(options.mesh);
-  Rig rig = read_rig(model);
+  const std::filesystem::path& other = options.skeleton.empty() ? options.carry : options.skeleton;
+  if (other.empty() || (options.skeleton.empty() && !model.skins.empty())) {
+    rig = read_rig(model);
+    return model;
+  }
+  if (!model.skins.empty()) throw std::runtime_error(model.name + ": the model has joints; --skeleton is for one without");
+  const Model source = read_gltf(other);
+  std::vector<Landmark> landmarks = name_landmarks(source, model);
+  if (!options.pairs.empty()) {
+    for (const Landmark& mark : pair_landmarks(options.pairs, source, model)) landmarks.push_back(mark);
+  }
+  // Weights are carried between models in one place, so the joints stay where they are.
+  if (options.skeleton.empty()) landmarks = {};
+  TakenSkeleton taken = take_skeleton(source, model, landmarks, options.skeleton.empty());
+  rig = read_rig(taken.model);
+  for (size_t j = 0; j < rig.names.size(); ++j)
+    rig.bones.deforms[j] = std::count(taken.deforming.begin(), taken.deforming.end(), rig.names[j]) > 0;
+  return std::move(taken.model);
+}
+
+void run(const Command& options) {
+  Rig rig;
+  Model model = read_model(options, rig);
   if (options.all) std::fill(rig.bones.deforms.begin(), rig.bones.deforms.end(), 1);
   if (!options.bones.empty()) read_bones(options.bones, rig);
-  const std::vector<double> positions = double_positions(rig.positions);
-  auto desc = hf::make<hf_surface_desc>();
-  desc.vertex_count = static_cast<uint32_t>(rig.positions.size());
-  desc.triangle_count = static_cast<uint32_t>(rig.triangles.size() / 3);
-  desc.positions_f64 = positions.data(), desc.triangles = rig.triangles.data();
   const auto begin = std::chrono::steady_clock::now();
-  const hf::Surface surface(desc);
+  const hf::Surface surface = surface_of(rig, rig.positions);
   const double surface_ms = milliseconds(begin);
   const auto middle = std::chrono::steady_clock::now();
   hf::Weights weights(surface, rig.bones, options.weights);
@@ -249,7 +321,11 @@ void run(const Command& options) {
   const std::vector<Pose> poses = clip_poses(model, rig);
   if (options.guide > 0)
     guide(model, rig, poses, options.guide, options.pins.empty() ? PinFile{} : read_pins(options.pins, rig), weights);
-  const RigWeights own = weights_of(weights);
+  CarriedWeights carried;
+  if (!options.carry.empty()) carried = carry_from(read_gltf(options.carry), model, rig, options.weights);
+  if (options.mirror >= 0) carried = mirror_given(surface, rig, options.mirror, options.weights);
+  const RigWeights own = carried.line.empty() ? weights_of(weights) : carried.weights;
+  if (options.helpers) print_helpers(rig, weights);
   const Comparison found = compare(model, rig, poses, own);
   const hf_weights_info info = weights.info();
   const std::string name = options.mesh.stem().string();
@@ -263,6 +339,7 @@ void run(const Command& options) {
     std::printf(
         "distance     mean %.3f %%, 95 %% below %.3f %%, worst %.2f %% of the box; stretch %.3f of the file's\n",
         found.mean, found.high, found.worst, found.stretch);
+    if (!carried.line.empty()) std::printf("%s\n", carried.line.c_str());
     std::printf(
         "vertices     %u informed, %u solved, %u pinned; guessed: %u carried, %u rigid, %u isolated; bare: %u\n",
         info.informed_count, info.solved_count, info.pinned_count, info.carried_count, info.rigid_count,
@@ -272,8 +349,12 @@ void run(const Command& options) {
                 info.helper_count);
     std::printf("time         surface %.1f ms, weights %.1f ms\n", surface_ms, weights_ms);
   }
-  if (!options.report.empty())
-    write_json(options.report, report_of(options, rig, weights, found, surface_ms, weights_ms));
+  if (!options.report.empty()) {
+    nlohmann::json report = report_of(options, rig, weights, found, surface_ms, weights_ms);
+    if (!options.carry.empty()) report["carry"] = carried.report;
+    if (options.mirror >= 0) report["mirror"] = carried.report;
+    write_json(options.report, report);
+  }
   if (!options.sheet.empty()) {
     char title[200];
     std::snprintf(title, sizeof title, "%s: mean %.2f %%, 95 %% below %.2f %% of the box", name.c_str(), found.mean,

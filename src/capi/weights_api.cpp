@@ -1,19 +1,9 @@
 // Implements hf/weights.h: skin weights from bones.
-#include "capi/objects.h"
-#include "hf/weights.h"
+#include "capi/weights_object.h"
 #include "weights/intake.h"
 
 namespace hf_inner::capi {
 namespace {
-
-struct WeightsObject final : Object {
-  static constexpr Kind kind_of = Kind::weights;
-  WeightsObject(std::shared_ptr<const SkinSurface> surface, std::int32_t influences, const Bones& bones)
-      : Object(kind_of), memory(surface->core->memory), weights(std::move(surface), influences, bones) {}
-  WeightsObject(const WeightsObject& other) : Object(kind_of), memory(other.memory), weights(other.weights) {}
-  std::shared_ptr<Memory> memory;  // outlives what follows
-  Weights weights;
-};
 
 std::uint32_t bone_count(const WeightsObject& object) {
   return static_cast<std::uint32_t>(object.weights.state().inputs->bones.head.size());

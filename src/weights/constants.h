@@ -70,4 +70,31 @@ constexpr double pin_tolerance = 1e-5;
 // other. Without, the mean distance to the artist's pose is 7 % larger; at 0.05 and 0.1 it is as it is.
 constexpr double drop_below = 0.025, keep_above = 0.05;
 
+// --- carry.cpp ---
+
+// A vertex matches a point of the other surface within this distance, and if the angle between their normals is at most
+// this many radians (30 degrees). The published values.
+constexpr double carry_distance = 0.05, carry_angle = 0.5235987755982988;
+
+// --- mirror.cpp, mirror_plane.cpp, mirror_bones.cpp ---
+
+// A vertex this near to the plane belongs to both sides. Exporters round coordinates to 1e-7.
+constexpr double mirror_seam = 1e-4;
+// A normal within this sine of an axis of the frame becomes that axis: models are built along axes.
+constexpr double axis_slack = 1e-3;
+// Bones of a pair stand at least this far apart to say where the plane is.
+constexpr double paired_apart = 1e-3;
+// The plane of the bones counts if their reflections are within this distance of their partners, in the mean. Rigs in
+// their bind pose are within 0.01; a pose is farther off, and the surface decides.
+constexpr double bones_mirror = 0.03;
+// A bone without a partner by name takes a bone within this distance of its reflection.
+constexpr double paired_off = 0.02;
+// Vertices that say how well a plane reflects the surface. More cost time: 6 planes, 8 steps and a search for each.
+constexpr std::size_t most_mirror_samples = 1000;
+constexpr int mirror_steps = 8;
+// Points farther than this from the surface do not pull the plane.
+constexpr double mirror_outlier = 0.05;
+// A step, or another plane, must lower the mean distance to this share.
+constexpr double mirror_gain = 0.95;
+
 }  // namespace hf_inner

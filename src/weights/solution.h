@@ -20,6 +20,8 @@ enum class Origin : std::uint8_t {
   carried = 3,   // from the nearest vertices of other islands
   rigid = 4,     // as carried, one mean for all of a small island
   isolated = 5,  // it has no triangle: from the nearest vertex
+  matched = 6,   // carried or mirrored: from a near point whose normal agrees
+  kept = 7,      // mirrored: as it was
 };
 
 struct Solution {

@@ -290,6 +290,55 @@ static void fill_pins(void* d) { *(hf_pins_desc*)d = HF_INIT(hf_pins_desc); }
 static hf_result weights_set_pins(void* d) { return hf_weights_set_pins(scene.weights, d); }
 static void fill_weights_out(void* d) { *(hf_weights_out*)d = HF_INIT(hf_weights_out); }
 static hf_result weights_get(void* d) { return hf_weights_get(scene.weights, d); }
+static uint32_t one_joint[TUBE_VERTICES];
+static float one_share[TUBE_VERTICES];
+static const double one_head[3] = {0, 0, 0};
+static void fill_carry(void* d) {
+  for (int v = 0; v < TUBE_VERTICES; ++v) one_share[v] = 1;
+  hf_carry_desc* desc = d;
+  *desc = HF_INIT(hf_carry_desc);
+  desc->influence_count = 1, desc->joints = one_joint, desc->weights = one_share;
+}
+static hf_result weights_carry(void* d) {
+  hf_weights_out out = HF_INIT(hf_weights_out);
+  return hf_weights_carry(scene.body, scene.body, d, &out, NULL);
+}
+static hf_result weights_carry_out(void* d) {
+  hf_carry_desc desc;
+  fill_carry(&desc);
+  return hf_weights_carry(scene.body, scene.body, &desc, d, NULL);
+}
+static void fill_carry_info(void* d) { *(hf_carry_info*)d = HF_INIT(hf_carry_info); }
+static hf_result weights_carry_info(void* d) {
+  hf_carry_desc desc;
+  hf_weights_out out = HF_INIT(hf_weights_out);
+  fill_carry(&desc);
+  return hf_weights_carry(scene.body, scene.body, &desc, &out, d);
+}
+static void fill_mirror(void* d) {
+  hf_carry_desc given;
+  fill_carry(&given);
+  hf_mirror_desc* desc = d;
+  *desc = HF_INIT(hf_mirror_desc);
+  desc->bone_count = 1, desc->heads = one_head;
+  desc->influence_count = 1, desc->joints = one_joint, desc->weights = one_share;
+}
+static hf_result weights_mirror(void* d) {
+  hf_weights_out out = HF_INIT(hf_weights_out);
+  return hf_weights_mirror(scene.body, d, &out, NULL, NULL, NULL);
+}
+static hf_result weights_mirror_out(void* d) {
+  hf_mirror_desc desc;
+  fill_mirror(&desc);
+  return hf_weights_mirror(scene.body, &desc, d, NULL, NULL, NULL);
+}
+static void fill_mirror_info(void* d) { *(hf_mirror_info*)d = HF_INIT(hf_mirror_info); }
+static hf_result weights_mirror_info(void* d) {
+  hf_mirror_desc desc;
+  hf_weights_out out = HF_INIT(hf_weights_out);
+  fill_mirror(&desc);
+  return hf_weights_mirror(scene.body, &desc, &out, NULL, NULL, d);
+}
 static void fill_weights_info(void* d) { *(hf_weights_info*)d = HF_INIT(hf_weights_info); }
 static hf_result weights_info(void* d) { return hf_weights_get_info(scene.weights, d); }
 
@@ -363,6 +412,12 @@ static const struct {
     {"hf_weights_set_pins: pins", sizeof(hf_pins_desc), fill_pins, weights_set_pins, 0},
     {"hf_weights_get: inout_weights", sizeof(hf_weights_out), fill_weights_out, weights_get, 0},
     {"hf_weights_get_info: out_info", sizeof(hf_weights_info), fill_weights_info, weights_info, 0},
+    {"hf_weights_carry: desc", sizeof(hf_carry_desc), fill_carry, weights_carry, 0},
+    {"hf_weights_carry: inout_weights", sizeof(hf_weights_out), fill_weights_out, weights_carry_out, 0},
+    {"hf_weights_carry: out_info", sizeof(hf_carry_info), fill_carry_info, weights_carry_info, 1},
+    {"hf_weights_mirror: desc", sizeof(hf_mirror_desc), fill_mirror, weights_mirror, 0},
+    {"hf_weights_mirror: inout_weights", sizeof(hf_weights_out), fill_weights_out, weights_mirror_out, 0},
+    {"hf_weights_mirror: out_info", sizeof(hf_mirror_info), fill_mirror_info, weights_mirror_info, 1},
 };
 
 enum { SPACE = 5000 };

@@ -204,6 +204,9 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   const double head[3] = {0, 0, 0};
   hf_bones_desc bones = HF_INIT(hf_bones_desc);
   bones.bone_count = 1, bones.heads = head;
+  hf_carry_desc carry = HF_INIT(hf_carry_desc);
+  hf_mirror_desc mirror = HF_INIT(hf_mirror_desc);
+  hf_weights_out skin = HF_INIT(hf_weights_out);
   hf_flow flow = NULL;
   hf_transfer transfer = NULL;
   scalars.values_f64 = before;
@@ -229,6 +232,9 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   NEEDS("distances", NO_INDEX, hf_geodesics_create(graph, NULL, &geodesics));
   NEEDS("quads", NO_INDEX, hf_quads_create(graph, NULL, &quads));
   NEEDS("skin weights", NO_INDEX, hf_weights_create(graph, &bones, 4, &weights));
+  NEEDS("weights carried from a graph", NO_INDEX, hf_weights_carry(graph, scene.body, &carry, &skin, NULL));
+  NEEDS("weights carried to a graph", NO_INDEX, hf_weights_carry(scene.body, graph, &carry, &skin, NULL));
+  NEEDS("mirrored weights", NO_INDEX, hf_weights_mirror(graph, &mirror, &skin, NULL, NULL, NULL));
   NEEDS("flow lines", NO_INDEX, hf_flow_create(graph, &flow));
   NEEDS("a transfer from a graph", 0, hf_transfer_create(graph, scene.body, NULL, &transfer));
   NEEDS("a transfer to a graph", 1, hf_transfer_create(scene.body, graph, NULL, &transfer));

@@ -311,6 +311,34 @@ static hf_result weights_get(void* h) {
   return hf_weights_get(h, &out);
 }
 static hf_result weights_get_bones(void* h) { return hf_weights_get_bones(h, 0, NULL, NULL, numbers); }
+static hf_result weights_get_helpers(void* h) { return hf_weights_get_helpers(h, NULL, 0, NULL, numbers); }
+static hf_carry_desc carried(void) {
+  static uint32_t joints[TUBE_VERTICES];
+  static float shares[TUBE_VERTICES];
+  for (int v = 0; v < TUBE_VERTICES; ++v) shares[v] = 1;
+  hf_carry_desc desc = HF_INIT(hf_carry_desc);
+  desc.influence_count = 1, desc.joints = joints, desc.weights = shares;
+  return desc;
+}
+static hf_result weights_carry_from(void* h) {
+  const hf_carry_desc desc = carried();
+  hf_weights_out out = HF_INIT(hf_weights_out);
+  return hf_weights_carry(h, scene.body, &desc, &out, NULL);
+}
+static hf_result weights_carry_to(void* h) {
+  const hf_carry_desc desc = carried();
+  hf_weights_out out = HF_INIT(hf_weights_out);
+  return hf_weights_carry(scene.body, h, &desc, &out, NULL);
+}
+static hf_result weights_mirror(void* h) {
+  static const double head[3] = {0, 0, 0};
+  const hf_carry_desc given = carried();
+  hf_mirror_desc desc = HF_INIT(hf_mirror_desc);
+  desc.bone_count = 1, desc.heads = head;
+  desc.influence_count = 1, desc.joints = given.joints, desc.weights = given.weights;
+  hf_weights_out out = HF_INIT(hf_weights_out);
+  return hf_weights_mirror(h, &desc, &out, NULL, NULL, NULL);
+}
 static hf_result weights_get_info(void* h) {
   hf_weights_info info = HF_INIT(hf_weights_info);
   return hf_weights_get_info(h, &info);
@@ -424,6 +452,10 @@ static const struct {
     {"hf_weights_get", WEIGHTS, weights_get, NO_INDEX},
     {"hf_weights_get_bones", WEIGHTS, weights_get_bones, NO_INDEX},
     {"hf_weights_get_info", WEIGHTS, weights_get_info, NO_INDEX},
+    {"hf_weights_get_helpers", WEIGHTS, weights_get_helpers, NO_INDEX},
+    {"hf_weights_carry", SURFACE, weights_carry_from, NO_INDEX},
+    {"hf_weights_carry", SURFACE, weights_carry_to, NO_INDEX},
+    {"hf_weights_mirror", SURFACE, weights_mirror, NO_INDEX},
     {"hf_weights_record", WEIGHTS, weights_record, NO_INDEX},
     {"hf_weights_undo", WEIGHTS, weights_undo, NO_INDEX},
     {"hf_weights_redo", WEIGHTS, weights_redo, NO_INDEX},

@@ -5,7 +5,7 @@ set -u
 exports=$1
 plain='hf_create hf_add_sites hf_remove_sites hf_solve hf_deform hf_propose_handles' # the six names without a noun
 nouns='surface solver pose region detail transfer direction geodesics quads flow weights progress error result version'
-verbs='add apply cancel cast certify clone create deform destroy edit find get measure morph move prepare record redo release relink
+verbs='add apply cancel carry cast certify clone create deform destroy edit find get measure mirror morph move prepare record redo release relink
   remove rotate save set solve space trace undo'
 status=0
 complain() { printf 'error: %s\n' "$1"; status=1; }

@@ -374,9 +374,54 @@ static void print_weights(void) {
       F(rigid_island_count), F(blind), F(no_length_count), F(coincident_count), F(informs_none_count), F(outside_count),
       F(helper_count), F(factorisation_count), F(path_solve_count), F(reserved);
 #undef T
+#define T hf_carry_desc
+  STRUCT(hf_carry_desc);
+  F(struct_size), F(influence_count), F(joints), F(weights), F(distance), F(angle), F(weight_count), F(reserved),
+      F(progress);
+#undef T
+#define T hf_carry_info
+  STRUCT(hf_carry_info);
+  F(struct_size), F(vertex_count), F(matched_count), F(solved_count), F(carried_count), F(rigid_count),
+      F(isolated_count), F(guessed_island_count);
+#undef T
+#define T hf_mirror_desc
+  STRUCT(hf_mirror_desc);
+  F(struct_size), F(bone_count), F(heads), F(names), F(partners), F(plane), F(influence_count), F(to), F(joints),
+      F(weights), F(distance), F(angle), F(weight_count), F(reserved), F(progress);
+#undef T
+#define T hf_mirror_info
+  STRUCT(hf_mirror_info);
+  F(struct_size), F(vertex_count), F(plane_from), F(named_count), F(placed_count), F(centre_count), F(given_count),
+      F(alone_count), F(kept_count), F(matched_count), F(solved_count), F(carried_count), F(rigid_count),
+      F(isolated_count), F(worst_bone), F(worst_vertex), F(point), F(normal), F(bone_off), F(worst_bone_off),
+      F(vertex_off), F(worst_vertex_off);
+#undef T
   CONSTANT(HF_WEIGHTS_INFORMED), CONSTANT(HF_WEIGHTS_SOLVED), CONSTANT(HF_WEIGHTS_PINNED), CONSTANT(HF_WEIGHTS_CARRIED),
       CONSTANT(HF_WEIGHTS_RIGID), CONSTANT(HF_WEIGHTS_ISOLATED), CONSTANT(HF_BONE_NO_LENGTH),
       CONSTANT(HF_BONE_COINCIDENT), CONSTANT(HF_BONE_INFORMS_NONE), CONSTANT(HF_BONE_OUTSIDE), CONSTANT(HF_BONE_HELPER);
+  CONSTANT(HF_WEIGHTS_MATCHED);
+  CONSTANT(HF_WEIGHTS_KEPT);
+  CONSTANT(HF_HELPER_PROPOSED);
+  CONSTANT(HF_HELPER_NAME_ROOT);
+  CONSTANT(HF_HELPER_NAME_CONTROL);
+  CONSTANT(HF_HELPER_NAME_END);
+  CONSTANT(HF_HELPER_ROOT);
+  CONSTANT(HF_HELPER_APART);
+  CONSTANT(HF_HELPER_NO_LENGTH);
+  CONSTANT(HF_HELPER_COINCIDENT);
+  CONSTANT(HF_HELPER_OUTSIDE);
+  CONSTANT(HF_HELPER_INFORMS_NONE);
+  CONSTANT(HF_MIRROR_TO_NEGATIVE);
+  CONSTANT(HF_MIRROR_TO_POSITIVE);
+  CONSTANT(HF_MIRROR_BOTH);
+  CONSTANT(HF_MIRROR_PLANE_GIVEN);
+  CONSTANT(HF_MIRROR_PLANE_BONES);
+  CONSTANT(HF_MIRROR_PLANE_SURFACE);
+  CONSTANT(HF_MIRROR_BONE_ALONE);
+  CONSTANT(HF_MIRROR_BONE_NAMED);
+  CONSTANT(HF_MIRROR_BONE_PLACED);
+  CONSTANT(HF_MIRROR_BONE_CENTRE);
+  CONSTANT(HF_MIRROR_BONE_GIVEN);
 }
 
 int main(void) {

@@ -156,6 +156,39 @@ static hf_result weights_get_bones(Call* c) {
   c->count[0] = count;
   return r;
 }
+static hf_result weights_get_helpers(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_weights_get_helpers(scene.weights, NULL, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
+static uint32_t one_joint[TUBE_VERTICES];
+static float one_share[TUBE_VERTICES];
+static hf_weights_out to_weights(const Call* c) {
+  for (int v = 0; v < TUBE_VERTICES; ++v) one_share[v] = 1;
+  hf_weights_out out = HF_INIT(hf_weights_out);
+  out.vertex_capacity = (uint32_t)c->capacity[0];
+  out.joints = c->array[0], out.joints_u16 = c->array[1], out.weights = c->array[2], out.origins = c->array[3];
+  return out;
+}
+static hf_result weights_carry(Call* c) {
+  hf_weights_out out = to_weights(c);
+  hf_carry_desc desc = HF_INIT(hf_carry_desc);
+  desc.influence_count = 1, desc.joints = one_joint, desc.weights = one_share;
+  const hf_result r = hf_weights_carry(scene.body, scene.body, &desc, &out, NULL);
+  c->count[0] = out.vertex_count;
+  return r;
+}
+static hf_result weights_mirror(Call* c) {
+  static const double head[3] = {0, 0, 0};
+  hf_weights_out out = to_weights(c);
+  hf_mirror_desc desc = HF_INIT(hf_mirror_desc);
+  desc.bone_count = 1, desc.heads = head;
+  desc.influence_count = 1, desc.joints = one_joint, desc.weights = one_share;
+  const hf_result r = hf_weights_mirror(scene.body, &desc, &out, NULL, NULL, NULL);
+  c->count[0] = out.vertex_count;
+  return r;
+}
 static void to_skin(const Call* c, hf_skin_info* skin) {
   skin->joint_capacity = (uint32_t)c->capacity[0], skin->vertex_capacity = (uint32_t)c->capacity[1];
   skin->pivots = c->array[0], skin->rotations = c->array[1], skin->translations = c->array[2];
@@ -209,6 +242,9 @@ static const struct {
     {"hf_region_get_vertices", region_get_vertices, {{0, 4, 0}}, 0},
     {"hf_weights_get", weights_get, {{0, 16, 0}, {0, 8, 0}, {0, 16, 0}, {0, 1, 0}}, 0},
     {"hf_weights_get_bones", weights_get_bones, {{0, 4, 0}, {0, 4, 0}}, 0},
+    {"hf_weights_get_helpers", weights_get_helpers, {{0, 4, 0}}, 0},
+    {"hf_weights_carry", weights_carry, {{0, 16, 0}, {0, 8, 0}, {0, 16, 0}, {0, 1, 0}}, 0},
+    {"hf_weights_mirror", weights_mirror, {{0, 16, 0}, {0, 8, 0}, {0, 16, 0}, {0, 1, 0}}, 0},
     {"hf_pose_get_skin",
      pose_get_skin,
      {{0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {1, 16, 0}, {1, 16, 0}},

@@ -178,6 +178,36 @@ class Refusals(unittest.TestCase):
                 hf.Flow(self.surface), hf.Quads(self.surface, edge_length=1.0), hf.Progress(),
                 hf.Weights(self.surface, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])]
 
+    def test_weights_are_carried_mirrored_and_helpers_named(self):
+        n = 17
+        x, y = np.meshgrid(np.linspace(-2, 2, n), np.linspace(0, 2, n))
+        points = np.stack([x.ravel(), y.ravel(), np.zeros(n * n)], 1)
+        first = np.array([i * n + j for i in range(n - 1) for j in range(n - 1)])
+        faces = np.concatenate([np.stack([first, first + 1, first + n + 1], 1),
+                                np.stack([first, first + n + 1, first + n], 1)])
+        surface, other = hf.Surface(points, faces), hf.Surface(points[:, [0, 1, 2]] + [0, 0, 0.05], faces)
+        heads = [[0, 0, 0], [1, 1, 0], [-1, 1, 0]]
+        weights = hf.Weights(surface, heads, tails=np.array(heads) + [0, 0.5, 0], parents=[-1, 0, 0])
+        self.assertEqual(weights.helpers(["root", "arm.L", "arm.R"])[0] & hf.HelperReason.NAME_ROOT, 2)
+        self.assertEqual(weights.helpers()[0] & hf.HelperReason.NAME_ROOT, 0)
+        found = weights.weights()
+        carried, info = hf.carry_weights(surface, found.joints, found.weights, other)
+        self.assertEqual(info.matched_count, n * n)
+        np.testing.assert_allclose(carried.weights.sum(1), 1, atol=0)
+        np.testing.assert_allclose(carried.weights[:, 0], found.weights[:, 0], atol=1e-6)
+        kept = np.where((points[:, 0] < -0.01)[:, None], 0, found.weights)
+        mirrored = hf.mirror_weights(surface, found.joints, kept, heads, names=["root", "arm.L", "arm.R"])
+        self.assertEqual(list(mirrored.partners), [0, 2, 1])
+        self.assertEqual(list(mirrored.pairings), [hf.Pairing.CENTRE, hf.Pairing.NAMED, hf.Pairing.NAMED])
+        np.testing.assert_allclose(mirrored.info.normal, [1, 0, 0], atol=1e-9)
+        np.testing.assert_allclose(mirrored.weights.weights.sum(1), 1, atol=0)
+        left, right = [j * n + 3 for j in range(n)], [j * n + n - 4 for j in range(n)]
+        self.assertTrue((mirrored.weights.joints[left, 0] == mirrored.partners[mirrored.weights.joints[right, 0]]).all())
+        with self.assertRaises(hf.InvalidArgumentError):
+            hf.carry_weights(surface, found.joints[1:], found.weights[1:], other)
+        with self.assertRaises(hf.InvalidArgumentError):
+            weights.helpers(["root"])
+
     def test_objects_refuse_pickling_by_name(self):
         things = self.everything()
         self.assertEqual({type(thing) for thing in things}, set(hf._library.Object.__subclasses__()))

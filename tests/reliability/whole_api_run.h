@@ -28,6 +28,8 @@ class Run {
   void regions();
   void graph();
   void skin_weights();
+  void carried_weights(hf_surface surface, const Numbers& heads, const std::vector<std::uint32_t>& joints,
+                       const std::vector<float>& shares);
   void errors();
 
  private:

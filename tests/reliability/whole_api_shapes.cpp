@@ -144,7 +144,7 @@ void Run::regions() {
 
 // Two bones from the first vertex over the middle to the last.
 void Run::skin_weights() {
-  const hf_surface surface = make(surface_desc());
+  const hf_surface surface = make(surface_desc()), second = make(surface_desc());
   Numbers heads;
   for (const std::uint32_t v : {0u, n / 2, n - 1}) {
     for (std::uint32_t k = 0; k < 3; ++k) heads.push_back(static_cast<double>(s.positions[3 * v + k]));
@@ -176,7 +176,31 @@ void Run::skin_weights() {
   take(flags.data(), flags.size());
   hf_weights_info info = desc<hf_weights_info>();
   call(hf_weights_get_info(weights, &info), "hf_weights_get_info"), take(&info, 1);
+  call(hf_weights_get_helpers(weights, "root\narm.L\narm.R\n", 3, flags.data(), nullptr), "hf_weights_get_helpers");
+  take(flags.data(), flags.size());
   hf_weights_destroy(weights);
+  carried_weights(second, heads, joints, shares);
+  hf_surface_destroy(second);
+}
+
+// The weights on the same surface, and on its other side.
+void Run::carried_weights(hf_surface surface, const Numbers& heads, const std::vector<std::uint32_t>& joints,
+                          const std::vector<float>& shares) {
+  std::vector<std::uint32_t> bones(joints.size());
+  std::vector<float> weights(shares.size());
+  hf_weights_out out = desc<hf_weights_out>();
+  out.vertex_capacity = n, out.joints = bones.data(), out.weights = weights.data();
+  hf_carry_desc carry = desc<hf_carry_desc>();
+  carry.influence_count = 4, carry.joints = joints.data(), carry.weights = shares.data();
+  hf_carry_info carried = desc<hf_carry_info>();
+  call(hf_weights_carry(surface, surface, &carry, &out, &carried), "hf_weights_carry");
+  take(bones.data(), bones.size()), take(weights.data(), weights.size()), take(&carried, 1);
+  hf_mirror_desc mirror = desc<hf_mirror_desc>();
+  mirror.bone_count = 3, mirror.heads = heads.data();
+  mirror.influence_count = 4, mirror.joints = joints.data(), mirror.weights = shares.data();
+  hf_mirror_info mirrored = desc<hf_mirror_info>();
+  call(hf_weights_mirror(surface, &mirror, &out, nullptr, nullptr, &mirrored), "hf_weights_mirror");
+  take(bones.data(), bones.size()), take(weights.data(), weights.size()), take(&mirrored, 1);
 }
 
 }  // namespace reliability

@@ -17,7 +17,7 @@ import hf  # noqa: E402
 import bpy  # noqa: E402
 from bpy.app.handlers import persistent  # noqa: E402
 
-from . import carriers, operators, session  # noqa: E402
+from . import carriers, operators, session, skinning  # noqa: E402
 from .operators import mesh_of, refresh  # noqa: E402
 
 
@@ -45,6 +45,13 @@ class HF_PT_panel(bpy.types.Panel):
         column.operator("hf.field")
         column.operator("hf.weights")
         column.operator("hf.transfer")
+        column = layout.column(align=True)
+        column.operator("hf.weights_from_bones")
+        column.operator("hf.pin_weights")
+        column.operator("hf.carry_weights")
+        column.operator("hf.mirror_weights")
+        for sentence in obj.get(skinning.NOTE, "").splitlines():
+            layout.label(text=sentence)
         if found:
             bind, update = session.figures["bind_ms"], session.figures["update_ms"]
             layout.label(text=f"{found.pose.handle_count} handles, factor {bind:.0f} ms, pose {update:.1f} ms")
@@ -64,7 +71,16 @@ def follow(scene, keys=None):
 
 @persistent
 def on_depsgraph(scene, depsgraph):
-    if operators.busy() or not scene.hf_live or not session.sessions:
+    if operators.busy() or not scene.hf_live:
+        return
+    for key in {u.id[skinning.KEY] for u in depsgraph.updates if isinstance(u.id, bpy.types.Object)
+            and u.id.type == "EMPTY" and u.is_updated_transform and skinning.KEY in u.id}:
+        try:
+            with operators.quiet():
+                skinning.follow_pins(key)
+        except hf.HfError as error:
+            print(f"hf: {error.message}")
+    if not session.sessions:
         return
     keys = set()
     for update in depsgraph.updates:
@@ -89,12 +105,14 @@ def on_frame(scene, *_):
 
 @persistent
 def on_undo(*_):
+    skinning.groups_changed()
     if bpy.context.scene.hf_live:
         follow(bpy.context.scene)
 
 
 @persistent
 def on_load(*_):
+    skinning.forget()
     session.sessions.clear()  # the next use binds again, from the rest positions kept in the mesh
 
 
@@ -116,6 +134,7 @@ def register():
 def unregister():
     for name, function in HANDLERS:
         getattr(bpy.app.handlers, name).remove(function)
+    skinning.forget()
     session.sessions.clear()
     del bpy.types.Scene.hf_live
     for cls in reversed(CLASSES):

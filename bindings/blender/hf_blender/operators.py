@@ -6,7 +6,7 @@ import bpy
 
 import hf
 
-from . import carriers, mesh_data, rig, session
+from . import carriers, mesh_data, rig, session, skinning
 
 _busy = 0
 
@@ -263,5 +263,85 @@ class HF_OT_transfer(bpy.types.Operator):
         context.scene.hf_live = False
 
 
+def mesh_and_armature(context):
+    """The selected mesh and the selected armature; else the armature that moves the mesh already."""
+    obj = next((o for o in [context.active_object, *context.selected_objects] if o and o.type == "MESH"), None)
+    armature = next((o for o in context.selected_objects if o.type == "ARMATURE"), None)
+    armature = armature or (skinning.armature_of(obj) if obj else None)
+    if obj is None or armature is None:
+        raise hf.InvalidArgumentError("select a mesh and an armature")
+    return obj, armature
+
+
+class HF_OT_weights_from_bones(bpy.types.Operator):
+    """Skin weights for every vertex of the selected mesh from the deforming bones of the selected armature"""
+    bl_idname, bl_label, bl_options = "hf.weights_from_bones", "Weights from bones", {"REGISTER", "UNDO"}
+    count: bpy.props.EnumProperty(name="Bones per vertex", items=[("4", "4", ""), ("8", "8", "")])
+
+    @guarded
+    def execute(self, context):
+        obj, armature = mesh_and_armature(context)
+        if obj.mode == "EDIT":
+            obj.update_from_editmode()
+        with quiet():
+            info, helpers = skinning.weights_from_bones(obj, armature, int(self.count), context.window_manager)
+        guessed = info.carried_count + info.rigid_count + info.isolated_count
+        self.report({"INFO"}, f"{info.vertex_count} vertices, {guessed} guessed; {len(helpers)} bones look like helpers")
+
+
+class HF_OT_pin_weights(bpy.types.Operator):
+    """An empty that gives the selected vertex to the active bone. Move it: the weights follow"""
+    bl_idname, bl_label, bl_options = "hf.pin_weights", "Pin to bone", {"REGISTER", "UNDO"}
+    bone: bpy.props.StringProperty(name="Bone", description="Empty: the active bone of the armature")
+
+    @guarded
+    def execute(self, context):
+        obj, armature = mesh_and_armature(context)
+        mode = obj.mode
+        if mode == "EDIT":
+            bpy.ops.object.mode_set(mode="OBJECT")
+        bone = self.bone or (armature.data.bones.active.name if armature.data.bones.active else "")
+        if bone not in armature.data.bones or not armature.data.bones[bone].use_deform:
+            raise hf.InvalidArgumentError(f"{armature.name} has no deforming bone '{bone}'")
+        with quiet():
+            skinning.add_pin(obj, armature, bone)
+            skinning.weights_from_bones(obj, armature, 4, context.window_manager)
+        if mode == "EDIT":
+            bpy.ops.object.mode_set(mode=mode)
+
+
+class HF_OT_carry_weights(bpy.types.Operator):
+    """The weights of the other selected mesh on the active one: clothes, hair, levels of detail"""
+    bl_idname, bl_label, bl_options = "hf.carry_weights", "Carry weights", {"REGISTER", "UNDO"}
+    source: bpy.props.StringProperty(name="Source", description="Empty: the other selected mesh")
+    distance: bpy.props.FloatProperty(name="Distance", min=0, description="How near the other mesh is; 0: 5 % of its size")
+
+    @guarded
+    def execute(self, context):
+        target = context.active_object
+        source = bpy.data.objects.get(self.source) if self.source else next((o for o in context.selected_objects
+            if o != target and o.type == "MESH"), None)
+        if source is None or source.type != "MESH" or target is None or target.type != "MESH":
+            raise hf.InvalidArgumentError("select the mesh with the weights, then the other mesh")
+        info = skinning.carry(source, target, 4, self.distance, context.window_manager)
+        self.report({"INFO"}, f"{info.matched_count} vertices matched, {info.solved_count} filled in")
+
+
+class HF_OT_mirror_weights(bpy.types.Operator):
+    """The weights of one side on the other; vertices need not mirror"""
+    bl_idname, bl_label, bl_options = "hf.mirror_weights", "Mirror weights", {"REGISTER", "UNDO"}
+    to: bpy.props.EnumProperty(name="To", items=[("NEGATIVE", "-", "From + to -"), ("POSITIVE", "+", "From - to +"),
+        ("BOTH", "Both", "The mean of both sides")])
+
+    @guarded
+    def execute(self, context):
+        obj = context.active_object
+        if obj is None or obj.type != "MESH":
+            raise hf.InvalidArgumentError("select a mesh object")
+        found = skinning.mirror(obj, hf.MirrorTo[self.to], 4, context.window_manager)
+        self.report({"INFO"}, f"{found.info.matched_count} vertices mirrored, {found.info.alone_count} bones alone")
+
+
 OPERATORS = (HF_OT_bind, HF_OT_unbind, HF_OT_add_handle, HF_OT_add_groups, HF_OT_add_bones, HF_OT_propose, HF_OT_remove_handle,
-    HF_OT_update, HF_OT_field, HF_OT_weights, HF_OT_transfer)
+    HF_OT_update, HF_OT_field, HF_OT_weights, HF_OT_transfer, HF_OT_weights_from_bones, HF_OT_pin_weights,
+    HF_OT_carry_weights, HF_OT_mirror_weights)

@@ -102,11 +102,34 @@ namespace Hf.Native
         public const int HF_WEIGHTS_CARRIED = 3;
         public const int HF_WEIGHTS_RIGID = 4;
         public const int HF_WEIGHTS_ISOLATED = 5;
+        public const int HF_WEIGHTS_MATCHED = 6;
+        public const int HF_WEIGHTS_KEPT = 7;
         public const int HF_BONE_NO_LENGTH = 1;
         public const int HF_BONE_COINCIDENT = 2;
         public const int HF_BONE_INFORMS_NONE = 4;
         public const int HF_BONE_OUTSIDE = 8;
         public const int HF_BONE_HELPER = 16;
+        public const int HF_HELPER_PROPOSED = 1;
+        public const int HF_HELPER_NAME_ROOT = 2;
+        public const int HF_HELPER_NAME_CONTROL = 4;
+        public const int HF_HELPER_NAME_END = 8;
+        public const int HF_HELPER_ROOT = 16;
+        public const int HF_HELPER_APART = 32;
+        public const int HF_HELPER_NO_LENGTH = 64;
+        public const int HF_HELPER_COINCIDENT = 128;
+        public const int HF_HELPER_OUTSIDE = 256;
+        public const int HF_HELPER_INFORMS_NONE = 512;
+        public const int HF_MIRROR_TO_NEGATIVE = 0;
+        public const int HF_MIRROR_TO_POSITIVE = 1;
+        public const int HF_MIRROR_BOTH = 2;
+        public const int HF_MIRROR_PLANE_GIVEN = 0;
+        public const int HF_MIRROR_PLANE_BONES = 1;
+        public const int HF_MIRROR_PLANE_SURFACE = 2;
+        public const int HF_MIRROR_BONE_ALONE = 0;
+        public const int HF_MIRROR_BONE_NAMED = 1;
+        public const int HF_MIRROR_BONE_PLACED = 2;
+        public const int HF_MIRROR_BONE_CENTRE = 3;
+        public const int HF_MIRROR_BONE_GIVEN = 4;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1028,6 +1051,80 @@ namespace Hf.Native
         public uint reserved;
     }
 
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_carry_desc
+    {
+        public uint struct_size;
+        public uint influence_count;
+        public IntPtr joints;
+        public IntPtr weights;
+        public double distance;
+        public double angle;
+        public uint weight_count;
+        public uint reserved;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_carry_info
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public uint matched_count;
+        public uint solved_count;
+        public uint carried_count;
+        public uint rigid_count;
+        public uint isolated_count;
+        public uint guessed_island_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_mirror_desc
+    {
+        public uint struct_size;
+        public uint bone_count;
+        public IntPtr heads;
+        public IntPtr names;
+        public IntPtr partners;
+        public IntPtr plane;
+        public uint influence_count;
+        public int to;
+        public IntPtr joints;
+        public IntPtr weights;
+        public double distance;
+        public double angle;
+        public uint weight_count;
+        public uint reserved;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_mirror_info
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public int plane_from;
+        public uint named_count;
+        public uint placed_count;
+        public uint centre_count;
+        public uint given_count;
+        public uint alone_count;
+        public uint kept_count;
+        public uint matched_count;
+        public uint solved_count;
+        public uint carried_count;
+        public uint rigid_count;
+        public uint isolated_count;
+        public uint worst_bone;
+        public uint worst_vertex;
+        public fixed double point[3];
+        public fixed double normal[3];
+        public double bone_off;
+        public double worst_bone_off;
+        public double vertex_off;
+        public double worst_vertex_off;
+    }
+
     public static unsafe class Functions
     {
 #if UNITY_IOS && !UNITY_EDITOR
@@ -1170,5 +1267,8 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_record(IntPtr weights);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_undo(IntPtr weights);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_redo(IntPtr weights);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_helpers(IntPtr weights, void* names, uint capacity, void* out_reasons, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_carry(IntPtr source, IntPtr target, void* desc, void* inout_weights, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_mirror(IntPtr surface, void* desc, void* inout_weights, void* out_bones, void* out_pairings, void* out_info);
     }
 }

@@ -23,14 +23,15 @@ from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as Dire
                    hf_solver_info as SolverInfo, hf_solver_statistics as SolverStatistics,
                    hf_surface_info as SurfaceInfo, hf_surface_report as SurfaceReport,
                    hf_surface_statistics as SurfaceStatistics, hf_transfer_info as TransferInfo,
-                   hf_weights_info as WeightsInfo)
+                   hf_carry_info as CarryInfo, hf_mirror_info as MirrorInfo, hf_weights_info as WeightsInfo)
 from .direction import Direction
 from .pose import DeformMode, Pair, Pose, Skin, Transfer, TransferMode
 from .quads import Flow, FlowLines, QuadKind, QuadMesh, Quads
 from .region import Detail, Region, RegionList, Side
 from .solver import Engine, Solver
 from .surface import Extremities, FieldKind, Geodesics, Isolines, Levels, Operator, Progress, Surface, Weld
-from .weights import BoneFlag, Origin, VertexWeights, Weights
+from .weights import (BoneFlag, HelperReason, Mirrored, MirrorTo, Origin, Pairing, VertexWeights, Weights, carry_weights,
+                      mirror_weights)
 
 __version__ = constants.HEADER_VERSION
 

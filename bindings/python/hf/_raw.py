@@ -99,11 +99,34 @@ HF_WEIGHTS_PINNED = 2
 HF_WEIGHTS_CARRIED = 3
 HF_WEIGHTS_RIGID = 4
 HF_WEIGHTS_ISOLATED = 5
+HF_WEIGHTS_MATCHED = 6
+HF_WEIGHTS_KEPT = 7
 HF_BONE_NO_LENGTH = 1
 HF_BONE_COINCIDENT = 2
 HF_BONE_INFORMS_NONE = 4
 HF_BONE_OUTSIDE = 8
 HF_BONE_HELPER = 16
+HF_HELPER_PROPOSED = 1
+HF_HELPER_NAME_ROOT = 2
+HF_HELPER_NAME_CONTROL = 4
+HF_HELPER_NAME_END = 8
+HF_HELPER_ROOT = 16
+HF_HELPER_APART = 32
+HF_HELPER_NO_LENGTH = 64
+HF_HELPER_COINCIDENT = 128
+HF_HELPER_OUTSIDE = 256
+HF_HELPER_INFORMS_NONE = 512
+HF_MIRROR_TO_NEGATIVE = 0
+HF_MIRROR_TO_POSITIVE = 1
+HF_MIRROR_BOTH = 2
+HF_MIRROR_PLANE_GIVEN = 0
+HF_MIRROR_PLANE_BONES = 1
+HF_MIRROR_PLANE_SURFACE = 2
+HF_MIRROR_BONE_ALONE = 0
+HF_MIRROR_BONE_NAMED = 1
+HF_MIRROR_BONE_PLACED = 2
+HF_MIRROR_BONE_CENTRE = 3
+HF_MIRROR_BONE_GIVEN = 4
 
 RESULT_NAMES = {
     0: "HF_OK",
@@ -1712,7 +1735,139 @@ class hf_weights_info(Structure):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_propose_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame, hf_bones_desc, hf_pins_desc, hf_weights_out, hf_weights_info]
+class hf_carry_desc(Structure):
+    """Weights to carry from one surface to another."""
+    struct_size: int
+    influence_count: int
+    joints: int
+    weights: int
+    distance: float
+    angle: float
+    weight_count: int
+    reserved: int
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("influence_count", c_uint32),
+        ("joints", c_void_p),
+        ("weights", c_void_p),
+        ("distance", c_double),
+        ("angle", c_double),
+        ("weight_count", c_uint32),
+        ("reserved", c_uint32),
+        ("progress", c_void_p),
+    ]
+
+
+class hf_carry_info(Structure):
+    """Counts of carried weights."""
+    struct_size: int
+    vertex_count: int
+    matched_count: int
+    solved_count: int
+    carried_count: int
+    rigid_count: int
+    isolated_count: int
+    guessed_island_count: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertex_count", c_uint32),
+        ("matched_count", c_uint32),
+        ("solved_count", c_uint32),
+        ("carried_count", c_uint32),
+        ("rigid_count", c_uint32),
+        ("isolated_count", c_uint32),
+        ("guessed_island_count", c_uint32),
+    ]
+
+
+class hf_mirror_desc(Structure):
+    """Weights to mirror."""
+    struct_size: int
+    bone_count: int
+    heads: int
+    names: int
+    partners: int
+    plane: int
+    influence_count: int
+    to: int
+    joints: int
+    weights: int
+    distance: float
+    angle: float
+    weight_count: int
+    reserved: int
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("bone_count", c_uint32),
+        ("heads", c_void_p),
+        ("names", c_void_p),
+        ("partners", c_void_p),
+        ("plane", c_void_p),
+        ("influence_count", c_uint32),
+        ("to", c_int32),
+        ("joints", c_void_p),
+        ("weights", c_void_p),
+        ("distance", c_double),
+        ("angle", c_double),
+        ("weight_count", c_uint32),
+        ("reserved", c_uint32),
+        ("progress", c_void_p),
+    ]
+
+
+class hf_mirror_info(Structure):
+    """The findings of a mirror."""
+    struct_size: int
+    vertex_count: int
+    plane_from: int
+    named_count: int
+    placed_count: int
+    centre_count: int
+    given_count: int
+    alone_count: int
+    kept_count: int
+    matched_count: int
+    solved_count: int
+    carried_count: int
+    rigid_count: int
+    isolated_count: int
+    worst_bone: int
+    worst_vertex: int
+    point: object
+    normal: object
+    bone_off: float
+    worst_bone_off: float
+    vertex_off: float
+    worst_vertex_off: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertex_count", c_uint32),
+        ("plane_from", c_int32),
+        ("named_count", c_uint32),
+        ("placed_count", c_uint32),
+        ("centre_count", c_uint32),
+        ("given_count", c_uint32),
+        ("alone_count", c_uint32),
+        ("kept_count", c_uint32),
+        ("matched_count", c_uint32),
+        ("solved_count", c_uint32),
+        ("carried_count", c_uint32),
+        ("rigid_count", c_uint32),
+        ("isolated_count", c_uint32),
+        ("worst_bone", c_uint32),
+        ("worst_vertex", c_uint32),
+        ("point", c_double * 3),
+        ("normal", c_double * 3),
+        ("bone_off", c_double),
+        ("worst_bone_off", c_double),
+        ("vertex_off", c_double),
+        ("worst_vertex_off", c_double),
+    ]
+
+
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_propose_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame, hf_bones_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_carry_desc, hf_carry_info, hf_mirror_desc, hf_mirror_info]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -1848,6 +2003,9 @@ PROTOTYPES = {
     "hf_weights_record": (c_int32, [c_void_p]),
     "hf_weights_undo": (c_int32, [c_void_p]),
     "hf_weights_redo": (c_int32, [c_void_p]),
+    "hf_weights_get_helpers": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_weights_carry": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
+    "hf_weights_mirror": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
 }
 
 

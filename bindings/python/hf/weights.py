@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from enum import IntEnum, IntFlag
-from typing import Any, NamedTuple, Optional
+from typing import Any, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -17,12 +17,33 @@ class Origin(IntEnum):
     """How the weights of a vertex were found."""
     INFORMED, SOLVED, PINNED = _raw.HF_WEIGHTS_INFORMED, _raw.HF_WEIGHTS_SOLVED, _raw.HF_WEIGHTS_PINNED
     CARRIED, RIGID, ISOLATED = _raw.HF_WEIGHTS_CARRIED, _raw.HF_WEIGHTS_RIGID, _raw.HF_WEIGHTS_ISOLATED
+    MATCHED, KEPT = _raw.HF_WEIGHTS_MATCHED, _raw.HF_WEIGHTS_KEPT
 
 
 class BoneFlag(IntFlag):
     """Why a bone deserves a look."""
     NO_LENGTH, COINCIDENT = _raw.HF_BONE_NO_LENGTH, _raw.HF_BONE_COINCIDENT
     INFORMS_NONE, OUTSIDE, HELPER = _raw.HF_BONE_INFORMS_NONE, _raw.HF_BONE_OUTSIDE, _raw.HF_BONE_HELPER
+
+
+class HelperReason(IntFlag):
+    """Why a bone looks like a helper that should not deform."""
+    PROPOSED, NAME_ROOT = _raw.HF_HELPER_PROPOSED, _raw.HF_HELPER_NAME_ROOT
+    NAME_CONTROL, NAME_END = _raw.HF_HELPER_NAME_CONTROL, _raw.HF_HELPER_NAME_END
+    ROOT, APART, NO_LENGTH = _raw.HF_HELPER_ROOT, _raw.HF_HELPER_APART, _raw.HF_HELPER_NO_LENGTH
+    COINCIDENT, OUTSIDE = _raw.HF_HELPER_COINCIDENT, _raw.HF_HELPER_OUTSIDE
+    INFORMS_NONE = _raw.HF_HELPER_INFORMS_NONE
+
+
+class MirrorTo(IntEnum):
+    """Which side of the plane takes the weights of the other."""
+    NEGATIVE, POSITIVE, BOTH = _raw.HF_MIRROR_TO_NEGATIVE, _raw.HF_MIRROR_TO_POSITIVE, _raw.HF_MIRROR_BOTH
+
+
+class Pairing(IntEnum):
+    """How a bone found its partner."""
+    ALONE, NAMED, PLACED = _raw.HF_MIRROR_BONE_ALONE, _raw.HF_MIRROR_BONE_NAMED, _raw.HF_MIRROR_BONE_PLACED
+    CENTRE, GIVEN = _raw.HF_MIRROR_BONE_CENTRE, _raw.HF_MIRROR_BONE_GIVEN
 
 
 class VertexWeights(NamedTuple):
@@ -36,6 +57,81 @@ def _rows(values: ArrayLike, count: Optional[int], name: str) -> np.ndarray:
     if rows.ndim != 2 or rows.shape[1] != 3 or (count is not None and len(rows) != count):
         raise InvalidArgumentError(f"{name} must have the shape ({'n' if count is None else count}, 3), not {rows.shape}")
     return rows
+
+
+def _lines(names: Optional[Sequence[str]]) -> Optional[ctypes.Array]:
+    """Names of bones as the library takes them: one line for each."""
+    if names is None:
+        return None
+    return ctypes.create_string_buffer("".join(name.replace("\n", " ") + "\n" for name in names).encode())
+
+
+def _given(surface: "Surface", joints: ArrayLike, weights: ArrayLike) -> Tuple[np.ndarray, np.ndarray]:
+    bones, shares = np.ascontiguousarray(joints, dtype=np.uint32), np.ascontiguousarray(weights, dtype=np.float32)
+    if bones.ndim != 2 or bones.shape != shares.shape or len(bones) != surface.vertex_count:
+        raise InvalidArgumentError(f"joints and weights must have the shape ({surface.vertex_count}, n), not {bones.shape} "
+                                   f"and {shares.shape}")
+    return bones, shares
+
+
+def _room(vertex_count: int, weight_count: int) -> Any:
+    shape = (vertex_count, weight_count)
+    found = VertexWeights(np.empty(shape, np.uint32), np.empty(shape, np.float32), np.empty(vertex_count, np.uint8))
+    out = make(_raw.hf_weights_out, vertex_capacity=vertex_count)
+    out.joints, out.weights, out.origins = (address(array) for array in found)
+    return found, out
+
+
+def carry_weights(source: Surface, joints: ArrayLike, weights: ArrayLike, target: Surface, *, distance: float = 0.0,
+                  angle: float = 0.0, weight_count: int = 4, progress: Optional[Progress] = None) -> Any:
+    """Carries weights to another surface: clothes, levels of detail. joints, weights: (vertices of the source, n).
+    distance, angle (radians): how near a point and its normal must be; 0: the library's own. Returns the weights and
+    an hf_carry_info."""
+    first, second = handle_of(source, Surface, "source"), handle_of(target, Surface, "target")
+    bones, shares = _given(source, joints, weights)
+    desc = make(_raw.hf_carry_desc, influence_count=bones.shape[1], joints=address(bones), weights=address(shares),
+                distance=distance, angle=angle, weight_count=weight_count,
+                progress=handle_of(progress, Progress, "progress"))
+    found, out = _room(target.vertex_count, weight_count)
+    info = make(_raw.hf_carry_info)
+    call("hf_weights_carry", first, second, ctypes.byref(desc), ctypes.byref(out), ctypes.byref(info))
+    return found, info
+
+
+class Mirrored(NamedTuple):
+    weights: VertexWeights
+    partners: np.ndarray  # (bones,) uint32, the bone of the other side
+    pairings: np.ndarray  # (bones,) uint32, Pairing
+    info: _raw.hf_mirror_info
+
+
+def mirror_weights(surface: Surface, joints: ArrayLike, weights: ArrayLike, heads: ArrayLike, *,
+                   names: Optional[Sequence[str]] = None, partners: Optional[ArrayLike] = None,
+                   plane: Optional[ArrayLike] = None, to: int = MirrorTo.NEGATIVE, distance: float = 0.0,
+                   angle: float = 0.0, weight_count: int = 4, progress: Optional[Progress] = None) -> Mirrored:
+    """Mirrors weights of one side to the other. heads: (bones, 3). names: of the bones, to pair them. partners: -1 for
+    those to find. plane: a point and a normal; None: find it."""
+    handle = handle_of(surface, Surface, "surface")
+    bones, shares = _given(surface, joints, weights)
+    points, lines = _rows(heads, None, "heads"), _lines(names)
+    desc = make(_raw.hf_mirror_desc, bone_count=len(points), heads=address(points), influence_count=bones.shape[1],
+                to=int(to), joints=address(bones), weights=address(shares), distance=distance, angle=angle,
+                weight_count=weight_count, progress=handle_of(progress, Progress, "progress"))
+    if lines is not None:
+        desc.names = ctypes.addressof(lines)
+    given = _list(partners, np.int64, len(points), "partners")
+    if given is not None:
+        given = (given & 0xFFFFFFFF).astype(np.uint32)
+        desc.partners = address(given)
+    flat = _list(plane, np.float64, 6, "plane")
+    if flat is not None:
+        desc.plane = address(flat)
+    found, out = _room(surface.vertex_count, weight_count)
+    pairs, pairings = np.empty(len(points), np.uint32), np.empty(len(points), np.uint32)
+    info = make(_raw.hf_mirror_info)
+    call("hf_weights_mirror", handle, ctypes.byref(desc), ctypes.byref(out), address(pairs), address(pairings),
+         ctypes.byref(info))
+    return Mirrored(found, pairs, pairings, info)
 
 
 def _list(values: Optional[ArrayLike], dtype: Any, size: int, name: str) -> Optional[np.ndarray]:
@@ -138,6 +234,15 @@ class Weights(Object):
         flags, counts = np.empty(count.value, np.uint32), np.empty(count.value, np.uint32)
         call("hf_weights_get_bones", self._raw_handle, count.value, address(flags), address(counts), None)
         return flags, counts
+
+    def helpers(self, names: Optional[Sequence[str]] = None) -> np.ndarray:
+        """Why each bone looks like a helper (HelperReason). names: one for each bone; None: by places alone."""
+        count, lines = ctypes.c_uint32(), _lines(names)
+        call("hf_weights_get_helpers", self._raw_handle, None, 0, None, ctypes.byref(count))
+        reasons = np.empty(count.value, np.uint32)
+        call("hf_weights_get_helpers", self._raw_handle, None if lines is None else ctypes.addressof(lines), count.value,
+             address(reasons), None)
+        return reasons
 
     def info(self) -> _raw.hf_weights_info:
         info = make(_raw.hf_weights_info)

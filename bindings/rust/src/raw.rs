@@ -99,11 +99,34 @@ pub const HF_WEIGHTS_PINNED: i32 = 2;
 pub const HF_WEIGHTS_CARRIED: i32 = 3;
 pub const HF_WEIGHTS_RIGID: i32 = 4;
 pub const HF_WEIGHTS_ISOLATED: i32 = 5;
+pub const HF_WEIGHTS_MATCHED: i32 = 6;
+pub const HF_WEIGHTS_KEPT: i32 = 7;
 pub const HF_BONE_NO_LENGTH: i32 = 1;
 pub const HF_BONE_COINCIDENT: i32 = 2;
 pub const HF_BONE_INFORMS_NONE: i32 = 4;
 pub const HF_BONE_OUTSIDE: i32 = 8;
 pub const HF_BONE_HELPER: i32 = 16;
+pub const HF_HELPER_PROPOSED: i32 = 1;
+pub const HF_HELPER_NAME_ROOT: i32 = 2;
+pub const HF_HELPER_NAME_CONTROL: i32 = 4;
+pub const HF_HELPER_NAME_END: i32 = 8;
+pub const HF_HELPER_ROOT: i32 = 16;
+pub const HF_HELPER_APART: i32 = 32;
+pub const HF_HELPER_NO_LENGTH: i32 = 64;
+pub const HF_HELPER_COINCIDENT: i32 = 128;
+pub const HF_HELPER_OUTSIDE: i32 = 256;
+pub const HF_HELPER_INFORMS_NONE: i32 = 512;
+pub const HF_MIRROR_TO_NEGATIVE: i32 = 0;
+pub const HF_MIRROR_TO_POSITIVE: i32 = 1;
+pub const HF_MIRROR_BOTH: i32 = 2;
+pub const HF_MIRROR_PLANE_GIVEN: i32 = 0;
+pub const HF_MIRROR_PLANE_BONES: i32 = 1;
+pub const HF_MIRROR_PLANE_SURFACE: i32 = 2;
+pub const HF_MIRROR_BONE_ALONE: i32 = 0;
+pub const HF_MIRROR_BONE_NAMED: i32 = 1;
+pub const HF_MIRROR_BONE_PLACED: i32 = 2;
+pub const HF_MIRROR_BONE_CENTRE: i32 = 3;
+pub const HF_MIRROR_BONE_GIVEN: i32 = 4;
 
 #[repr(C)]
 pub struct hf_progress_object {
@@ -2000,6 +2023,160 @@ impl hf_weights_info {
     }
 }
 
+/// Weights to carry from one surface to another.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_carry_desc {
+    pub struct_size: u32,
+    pub influence_count: u32,
+    pub joints: *const u32,
+    pub weights: *const f32,
+    pub distance: f64,
+    pub angle: f64,
+    pub weight_count: u32,
+    pub reserved: u32,
+    pub progress: hf_progress,
+}
+impl Default for hf_carry_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Counts of carried weights.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_carry_info {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub matched_count: u32,
+    pub solved_count: u32,
+    pub carried_count: u32,
+    pub rigid_count: u32,
+    pub isolated_count: u32,
+    pub guessed_island_count: u32,
+}
+impl Default for hf_carry_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_carry_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "vertex_count" => f64::from(self.vertex_count),
+            "matched_count" => f64::from(self.matched_count),
+            "solved_count" => f64::from(self.solved_count),
+            "carried_count" => f64::from(self.carried_count),
+            "rigid_count" => f64::from(self.rigid_count),
+            "isolated_count" => f64::from(self.isolated_count),
+            "guessed_island_count" => f64::from(self.guessed_island_count),
+            _ => return None,
+        })
+    }
+}
+
+/// Weights to mirror.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_mirror_desc {
+    pub struct_size: u32,
+    pub bone_count: u32,
+    pub heads: *const f64,
+    pub names: *const c_char,
+    pub partners: *const u32,
+    pub plane: *const f64,
+    pub influence_count: u32,
+    pub to: i32,
+    pub joints: *const u32,
+    pub weights: *const f32,
+    pub distance: f64,
+    pub angle: f64,
+    pub weight_count: u32,
+    pub reserved: u32,
+    pub progress: hf_progress,
+}
+impl Default for hf_mirror_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// The findings of a mirror.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_mirror_info {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub plane_from: i32,
+    pub named_count: u32,
+    pub placed_count: u32,
+    pub centre_count: u32,
+    pub given_count: u32,
+    pub alone_count: u32,
+    pub kept_count: u32,
+    pub matched_count: u32,
+    pub solved_count: u32,
+    pub carried_count: u32,
+    pub rigid_count: u32,
+    pub isolated_count: u32,
+    pub worst_bone: u32,
+    pub worst_vertex: u32,
+    pub point: [f64; 3],
+    pub normal: [f64; 3],
+    pub bone_off: f64,
+    pub worst_bone_off: f64,
+    pub vertex_off: f64,
+    pub worst_vertex_off: f64,
+}
+impl Default for hf_mirror_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_mirror_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "vertex_count" => f64::from(self.vertex_count),
+            "plane_from" => f64::from(self.plane_from),
+            "named_count" => f64::from(self.named_count),
+            "placed_count" => f64::from(self.placed_count),
+            "centre_count" => f64::from(self.centre_count),
+            "given_count" => f64::from(self.given_count),
+            "alone_count" => f64::from(self.alone_count),
+            "kept_count" => f64::from(self.kept_count),
+            "matched_count" => f64::from(self.matched_count),
+            "solved_count" => f64::from(self.solved_count),
+            "carried_count" => f64::from(self.carried_count),
+            "rigid_count" => f64::from(self.rigid_count),
+            "isolated_count" => f64::from(self.isolated_count),
+            "worst_bone" => f64::from(self.worst_bone),
+            "worst_vertex" => f64::from(self.worst_vertex),
+            "bone_off" => self.bone_off,
+            "worst_bone_off" => self.worst_bone_off,
+            "vertex_off" => self.vertex_off,
+            "worst_vertex_off" => self.worst_vertex_off,
+            _ => return None,
+        })
+    }
+}
+
 extern "C" {
     pub fn hf_error_get_detail(out_detail: *mut hf_error_detail) -> i32;
     pub fn hf_result_get_name(result: i32) -> *const c_char;
@@ -2133,4 +2310,7 @@ extern "C" {
     pub fn hf_weights_record(weights: hf_weights) -> i32;
     pub fn hf_weights_undo(weights: hf_weights) -> i32;
     pub fn hf_weights_redo(weights: hf_weights) -> i32;
+    pub fn hf_weights_get_helpers(weights: hf_weights, names: *const c_char, capacity: u32, out_reasons: *mut u32, out_count: *mut u32) -> i32;
+    pub fn hf_weights_carry(source: hf_surface, target: hf_surface, desc: *const hf_carry_desc, inout_weights: *mut hf_weights_out, out_info: *mut hf_carry_info) -> i32;
+    pub fn hf_weights_mirror(surface: hf_surface, desc: *const hf_mirror_desc, inout_weights: *mut hf_weights_out, out_bones: *mut u32, out_pairings: *mut u32, out_info: *mut hf_mirror_info) -> i32;
 }

@@ -38,7 +38,7 @@ using Structs = ::testing::Types<
     hf_geodesics_desc, hf_extremities_desc, hf_propose_desc, hf_region_desc, hf_curve_desc, hf_region_edit_desc,
     hf_region_info, hf_morph_desc, hf_detail_desc, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines,
     hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame, hf_graph_desc, hf_links_desc,
-    hf_gaps_desc, hf_gaps_info, hf_bones_desc, hf_pins_desc, hf_weights_out, hf_weights_info>;
+    hf_gaps_desc, hf_gaps_info, hf_bones_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_carry_desc, hf_carry_info, hf_mirror_desc, hf_mirror_info>;
 
 // All bytes a caller owns: the struct in front, its own memory behind.
 constexpr std::size_t room = 1024;

@@ -1,0 +1,101 @@
+#include "weights/carried.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+
+#include "common/flat_mesh.h"
+
+namespace samples {
+namespace {
+
+hf::VertexWeights given_of(const Rig& rig) {
+  hf::VertexWeights out;
+  out.weight_count = rig.given.per_vertex, out.joints = rig.given.joints, out.weights = rig.given.weights;
+  return out;
+}
+
+RigWeights taken(hf::VertexWeights found) {
+  return {found.weight_count, std::move(found.joints), std::move(found.weights)};
+}
+
+const char* const pairing_names[] = {"alone", "named", "placed", "centre", "given"};
+const char* const plane_names[] = {"given", "bones", "surface"};
+
+}  // namespace
+
+hf::Surface surface_of(const Rig& rig, const std::vector<glm::dvec3>& points) {
+  const std::vector<double> positions = double_positions(points);
+  auto desc = hf::make<hf_surface_desc>();
+  desc.vertex_count = static_cast<uint32_t>(points.size());
+  desc.triangle_count = static_cast<uint32_t>(rig.triangles.size() / 3);
+  desc.positions_f64 = positions.data(), desc.triangles = rig.triangles.data();
+  return hf::Surface(desc);
+}
+
+CarriedWeights carry_from(const Model& from, const Model& model, const Rig& rig, uint32_t weight_count) {
+  // World space at rest: the bind spaces of two files can differ.
+  const auto at_rest = [](const Model& whose, const Rig& own) {
+    return surface_of(own, pose_rig(own, global_matrices(whose, rest_pose(whose)), own.given));
+  };
+  const Rig source = read_rig(from);
+  std::vector<uint32_t> number;
+  for (size_t j = 0; j < source.names.size(); ++j) {
+    const auto there = std::find(rig.names.begin(), rig.names.end(), source.names[j]);
+    if (there == rig.names.end() && source.bones.deforms[j])
+      throw std::runtime_error("the model has no joint \"" + source.names[j] + "\", which has weights in " + from.name);
+    number.push_back(static_cast<uint32_t>(there - rig.names.begin()));
+  }
+  hf::VertexWeights given = given_of(source);
+  for (size_t i = 0; i < given.joints.size(); ++i) given.joints[i] = given.weights[i] > 0 ? number[given.joints[i]] : 0;
+  auto options = hf::make<hf_carry_desc>();
+  options.weight_count = weight_count;
+  auto info = hf::make<hf_carry_info>();
+  CarriedWeights out;
+  out.weights = taken(hf::carry_weights(at_rest(from, source), given, at_rest(model, rig), options, &info));
+  out.report = {{"from", from.name},           {"matched", info.matched_count}, {"solved", info.solved_count},
+                {"carried", info.carried_count}, {"rigid", info.rigid_count},     {"isolated", info.isolated_count},
+                {"islands", info.guessed_island_count}};
+  char line[200];
+  std::snprintf(line, sizeof line, "carried      %u matched, %u filled in; guessed: %u carried, %u rigid, %u isolated",
+                info.matched_count, info.solved_count, info.carried_count, info.rigid_count, info.isolated_count);
+  out.line = line;
+  return out;
+}
+
+CarriedWeights mirror_given(const hf::Surface& surface, const Rig& rig, int32_t to, uint32_t weight_count) {
+  auto options = hf::make<hf_mirror_desc>();
+  options.weight_count = weight_count, options.to = to;
+  auto info = hf::make<hf_mirror_info>();
+  std::vector<uint32_t> partners, pairings;
+  CarriedWeights out;
+  out.weights = taken(
+      hf::mirror_weights(surface, given_of(rig), rig.bones.heads, rig.names, options, &info, &partners, &pairings));
+  const double unit = 100 / rig.diagonal;
+  out.report = {{"plane", plane_names[info.plane_from]},
+                {"point", {info.point[0], info.point[1], info.point[2]}},
+                {"normal", {info.normal[0], info.normal[1], info.normal[2]}},
+                {"bones_off", {{"mean", unit * info.bone_off}, {"worst", unit * info.worst_bone_off}}},
+                {"vertices_off", {{"mean", unit * info.vertex_off}, {"worst", unit * info.worst_vertex_off}}},
+                {"kept", info.kept_count},
+                {"matched", info.matched_count},
+                {"solved", info.solved_count},
+                {"carried", info.carried_count},
+                {"rigid", info.rigid_count}};
+  out.report["pairs"] = nlohmann::json::array();
+  for (size_t b = 0; b < partners.size(); ++b)
+    out.report["pairs"].push_back(
+        {{"joint", rig.names[b]}, {"partner", rig.names[partners[b]]}, {"by", pairing_names[pairings[b]]}});
+  char line[300];
+  std::snprintf(line, sizeof line,
+                "mirrored     plane of the %s; joints: %u by name, %u by place, %u in the middle, %u alone, worst %.2f %% "
+                "off\nvertices     %u kept, %u matched, %u filled in, %u guessed; off the surface: mean %.3f %%, worst "
+                "%.2f %%",
+                plane_names[info.plane_from], info.named_count, info.placed_count, info.centre_count, info.alone_count,
+                unit * info.worst_bone_off, info.kept_count, info.matched_count, info.solved_count,
+                info.carried_count + info.rigid_count, unit * info.vertex_off, unit * info.worst_vertex_off);
+  out.line = line;
+  return out;
+}
+
+}  // namespace samples

@@ -1,0 +1,155 @@
+// Implements hf/weights.h: helper bones, carried and mirrored weights.
+#include <algorithm>
+
+#include "capi/weights_object.h"
+#include "weights/carry_intake.h"
+#include "weights/helper_bones.h"
+
+namespace hf_inner::capi {
+namespace {
+
+bool wants_weights(const hf_weights_out& out) noexcept {
+  return out.joints || out.joints_u16 || out.weights || out.origins;
+}
+
+// Checks what the caller can take, and writes the counts.
+hf_weights_out read_weights_out(hf_weights_out* inout, const Mesh& mesh, std::int32_t influences) {
+  hf_weights_out out = read_struct(inout, "inout_weights");
+  out.vertex_count = mesh.report.vertex_count, out.weight_count = static_cast<std::uint32_t>(influences);
+  write_struct(inout, out);
+  check_capacity(wants_weights(out), out.vertex_capacity, out.vertex_count, "vertex_capacity");
+  return out;
+}
+
+void write_filled(const FilledWeights& filled, const Mesh& mesh, const hf_weights_out& out) {
+  constexpr std::uint32_t most_u16 = 65535;
+  const auto most = std::max_element(filled.joints.begin(), filled.joints.end());
+  if (out.joints_u16 && *most > most_u16)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "joint %u does not fit 16 bits; use joints", *most);
+  const std::size_t k = at(filled.influences);
+  std::size_t isolated = 0;
+  for (std::size_t v = 0; v < out.vertex_count; ++v) {
+    const bool loose = mesh.inner_of_given[v] == Mesh::none;
+    const std::size_t inner = at(loose ? filled.nearest_of_isolated[isolated++] : mesh.inner_of_given[v]);
+    for (std::size_t i = 0; i < k; ++i) {
+      const std::uint32_t joint = filled.joints[inner * k + i];
+      if (out.joints) out.joints[v * k + i] = joint;
+      if (out.joints_u16) out.joints_u16[v * k + i] = static_cast<std::uint16_t>(joint);
+      if (out.weights) out.weights[v * k + i] = filled.weights[inner * k + i];
+    }
+    if (out.origins) out.origins[v] = static_cast<std::uint8_t>(loose ? Origin::isolated : filled.origin[inner]);
+  }
+}
+
+template <class Info>
+void count_vertices(const FilledWeights& filled, Info& info) {
+  info.matched_count = filled.by_origin[HF_WEIGHTS_MATCHED], info.solved_count = filled.by_origin[HF_WEIGHTS_SOLVED];
+  info.carried_count = filled.by_origin[HF_WEIGHTS_CARRIED], info.rigid_count = filled.by_origin[HF_WEIGHTS_RIGID];
+  info.isolated_count = filled.by_origin[HF_WEIGHTS_ISOLATED];
+}
+
+void write_mirror_info(const MirroredWeights& made, const Mesh& mesh, hf_mirror_info* out_info) {
+  hf_mirror_info info{};
+  info.vertex_count = mesh.report.vertex_count;
+  info.plane_from = static_cast<std::int32_t>(made.plane.from);
+  info.worst_bone = HF_NO_INDEX, info.worst_vertex = given_vertex(mesh, made.worst);
+  std::uint32_t counts[5] = {}, paired = 0;
+  for (std::size_t b = 0; b < made.pairs.by.size(); ++b) {
+    ++counts[static_cast<std::size_t>(made.pairs.by[b])];
+    if (made.pairs.by[b] == PairedBy::none) continue;
+    const double off = mesh.scale * made.pairs.off[b];
+    ++paired, info.bone_off += off;
+    if (info.worst_bone == HF_NO_INDEX || off > info.worst_bone_off)
+      info.worst_bone = static_cast<std::uint32_t>(b), info.worst_bone_off = off;
+  }
+  if (paired > 0) info.bone_off /= paired;
+  info.alone_count = counts[HF_MIRROR_BONE_ALONE], info.named_count = counts[HF_MIRROR_BONE_NAMED];
+  info.placed_count = counts[HF_MIRROR_BONE_PLACED], info.centre_count = counts[HF_MIRROR_BONE_CENTRE];
+  info.given_count = counts[HF_MIRROR_BONE_GIVEN];
+  count_vertices(made.filled, info);
+  info.kept_count = made.filled.by_origin[HF_WEIGHTS_KEPT];
+  const Vec3 point = mesh.to_given(made.plane.offset * made.plane.normal), normal = made.plane.normal;
+  info.point[0] = point.x, info.point[1] = point.y, info.point[2] = point.z;
+  info.normal[0] = normal.x, info.normal[1] = normal.y, info.normal[2] = normal.z;
+  info.vertex_off = mesh.scale * made.mean_off, info.worst_vertex_off = mesh.scale * made.worst_off;
+  write_struct(out_info, info);
+}
+
+}  // namespace
+}  // namespace hf_inner::capi
+
+using namespace hf_inner;
+using namespace hf_inner::capi;
+
+extern "C" {
+
+hf_result hf_weights_get_helpers(hf_weights handle, const char* names, uint32_t capacity, uint32_t* out_reasons,
+                                 uint32_t* out_count) {
+  return guarded("hf_weights_get_helpers", [&] {
+    const auto object = get<WeightsObject>(handle, "weights");
+    if (!out_reasons) require(out_count, "out_reasons and out_count");
+    const Reading reading(*object);
+    const WeightState& state = object->weights.state();
+    const Bones& bones = state.inputs->bones;
+    write_count(out_count, bones.head.size());
+    check_capacity(out_reasons != nullptr, capacity, bones.head.size(), "capacity");
+    const Span<const char> text = read_bone_names(names, bones.head.size(), *object->memory);
+    if (!out_reasons) return;
+    const Vector<std::uint32_t> found = helper_reasons(bones, state.solution->faults, text, *object->memory);
+    std::copy(found.begin(), found.end(), out_reasons);
+  });
+}
+
+hf_result hf_weights_carry(hf_surface source, hf_surface target, const hf_carry_desc* given,
+                           hf_weights_out* inout_weights, hf_carry_info* out_info) {
+  return guarded("hf_weights_carry", [&] {
+    const auto from = mesh_surface(source, "carried weights", "source");
+    const auto to = mesh_surface(target, "carried weights", "target");
+    const hf_carry_desc desc = read_struct(given, "desc");
+    if (out_info) check_struct(out_info, "out_info");
+    const Mesh& shape = from->surface.geometry().unlinked().mesh;
+    const MatchOptions options = read_carry(desc, shape);
+    const GivenWeights weights = read_carried(desc, shape);
+    const hf_weights_out out = read_weights_out(inout_weights, to->surface.geometry().mesh, options.influences);
+    if (!wants_weights(out) && !out_info) return;
+    const FilledWeights filled = with_progress(desc.progress, [&] {
+      const auto core = to->surface.core(FieldKind::harmonic);
+      const SkinShape skin(shape, *to->memory);
+      return carry_weights(shape, skin, weights, core, options);
+    });
+    write_filled(filled, to->surface.geometry().mesh, out);
+    if (!out_info) return;
+    hf_carry_info info{};
+    info.vertex_count = out.vertex_count, info.guessed_island_count = filled.islands_guessed;
+    count_vertices(filled, info);
+    write_struct(out_info, info);
+  });
+}
+
+hf_result hf_weights_mirror(hf_surface handle, const hf_mirror_desc* given, hf_weights_out* inout_weights,
+                            uint32_t* out_bones, uint32_t* out_pairings, hf_mirror_info* out_info) {
+  return guarded("hf_weights_mirror", [&] {
+    const auto surface = mesh_surface(handle, "mirrored weights");
+    const hf_mirror_desc desc = read_struct(given, "desc");
+    if (out_info) check_struct(out_info, "out_info");
+    const Mesh& mesh = surface->surface.geometry().mesh;
+    const MirrorOptions options = read_mirror(desc, mesh);
+    const MirrorBones bones = read_mirror_bones(desc, mesh, *surface->memory);
+    const GivenWeights weights = read_mirrored(desc, mesh);
+    const hf_weights_out out = read_weights_out(inout_weights, mesh, options.carry.influences);
+    if (!wants_weights(out) && !out_bones && !out_pairings && !out_info) return;
+    const MirroredWeights made = with_progress(desc.progress, [&] {
+      const auto core = surface->surface.core(FieldKind::harmonic);
+      const auto skin = make_owner_in<SkinSurface>(core->memory, core);
+      return mirror_weights(*skin, weights, bones, options);
+    });
+    write_filled(made.filled, mesh, out);
+    for (std::size_t b = 0; b < made.pairs.partner.size(); ++b) {
+      if (out_bones) out_bones[b] = static_cast<std::uint32_t>(made.pairs.partner[b]);
+      if (out_pairings) out_pairings[b] = static_cast<std::uint32_t>(made.pairs.by[b]);
+    }
+    if (out_info) write_mirror_info(made, mesh, out_info);
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,43 @@
+// Mirrors the weights of one side of a surface to the other, on meshes whose vertices do not mirror.
+#pragma once
+#include "weights/carry.h"
+#include "weights/mirror_bones.h"
+
+namespace hf_inner {
+
+enum class MirrorTo : std::int32_t {
+  negative = 0,  // the side that the normal points to gives its weights
+  positive = 1,
+  both = 2,  // each side takes the mean
+};
+
+struct MirrorOptions {
+  MirrorTo to = MirrorTo::negative;
+  MatchOptions carry;
+  bool has_plane = false;
+  MirrorPlane plane;  // with has_plane
+};
+
+// The bones, in the inner unit of the mesh.
+struct MirrorBones {
+  explicit MirrorBones(Memory& memory) : heads(&memory), partner(&memory), given(&memory) {}
+  Vector<Vec3> heads;
+  Vector<Index> partner;        // by names or given, -1 where none is known
+  Vector<std::uint8_t> given;  // 1 where the caller gave it
+};
+
+struct MirroredWeights {
+  explicit MirroredWeights(Memory& memory) : filled(memory), pairs(memory) {}
+  FilledWeights filled;
+  MirrorPlane plane;
+  BonePairs pairs;
+  // Distances of the reflected vertices from the surface, inner unit.
+  double mean_off = 0, worst_off = 0;
+  Index worst = -1;  // inner vertex
+};
+
+// The core is that of `surface`. Throws HF_ERROR_EMPTY if no vertex of the side that gives has weights.
+MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& given, const MirrorBones& bones,
+                               const MirrorOptions& options);
+
+}  // namespace hf_inner
