@@ -34,6 +34,8 @@ export interface SurfaceOptions {
   triangleLimit?: number;
   memoryLimitMb?: number;
   /** Faces instead of triangles. Starts without sizes are offsets, one more than there are faces. */
+  /** Joins the pieces of a character: mode HF_LINK_PIECES and more of hf_links_desc; tags: one number a vertex. */
+  links?: { mode?: number; distance?: number; stiffness?: number; overlayDistance?: number; tags?: Numbers | null } | null;
   faces?: { starts?: Numbers | null; sizes?: Numbers | null; corners: Numbers } | null;
   savedFactor?: Uint8Array | null;
   progress?: Progress | null;
@@ -114,6 +116,8 @@ export interface Surface extends Handle {
   readonly report: Record<string, number>;
   readonly statistics: Record<string, number>;
   readonly components: Uint32Array;
+  /** The piece of every vertex (HF_NO_INDEX for isolated ones), and 1 for each vertex of a light piece. */
+  readonly pieces: { pieces: Uint32Array; light: Int32Array };
   /** The factor of one kind of field as bytes, for the option savedFactor. */
   save(fieldKind?: number): Uint8Array;
   /** The first triangle on a ray, or null. `positions`: a pose of the surface, null for the rest positions. */
@@ -156,6 +160,8 @@ export interface Solver extends Handle {
   readonly info: Record<string, number>;
   readonly statistics: Record<string, number>;
   readonly siteCount: number;
+  /** What the last solve told: components and vertices that no site reaches. */
+  readonly solveInfo: Record<string, number>;
   clone(): Solver;
   addSites(vertices: Numbers | null, values: Rows | null, options?: SiteOptions): Uint32Array;
   /** One hard site; values: a number, or one for each channel. */
@@ -283,6 +289,8 @@ export interface Pose extends Handle {
   readonly vertexCount: number;
   readonly info: Record<string, number>;
   readonly handleCount: number;
+  /** What the last deform told: vertices that no handle reaches, iterations, clusters, milliseconds. */
+  readonly deformInfo: Record<string, number>;
   clone(): Pose;
   addHandles(
     regions: ReadonlyArray<Numbers> | null,
@@ -327,6 +335,36 @@ export interface Transfer extends Handle {
     options?: { normals?: Float32Array | null; Type?: FloatsType; holds?: Numbers | null; holdPositions?: Rows | null },
   ): T;
   skin(weightCount?: number): Skin;
+}
+
+/** Skin weights of a surface for a skeleton. */
+export interface Weights extends Handle {
+  readonly info: Record<string, number>;
+  clone(): Weights;
+  record(): void;
+  undo(): void;
+  redo(): void;
+  setBones(bones: Bones): void;
+  /** Places with given weights: `joints` and `weights` hold as many numbers for each. Replaces all pins. */
+  setPins(
+    vertices: Numbers | null,
+    pins?: { joints?: Numbers; weights?: Numbers; radii?: Numbers | null; progress?: Progress | null },
+  ): void;
+  /** Replaces all locks; values: a number for each vertex and lock, or null for the present ones. */
+  setLocks(bones: Numbers, values?: Float32Array | null): void;
+  /** origins: HF_WEIGHTS_* of each vertex. */
+  weights(): { weightCount: number; joints: Uint32Array; weights: Float32Array; origins: Uint8Array };
+  /** flags: bits HF_BONE_* of each bone; vertexCounts: vertices that ask for it. */
+  bones(): { flags: Uint32Array; vertexCounts: Uint32Array };
+}
+export interface Bones {
+  heads: Rows;
+  tails?: Rows | null;
+  axes?: Rows | null;
+  parents?: Numbers | null;
+  deforms?: Numbers | null;
+  sources?: Numbers | null;
+  progress?: Progress | null;
 }
 
 export interface Hf {
@@ -393,6 +431,7 @@ export interface Hf {
       progress?: Progress | null;
     },
   ) => Detail;
+  readonly Weights: new (surface: Surface, bones: Bones, options?: { weightCount?: number }) => Weights;
   readonly Progress: new () => Progress;
   readonly HfError: typeof HfError;
   readonly constants: Readonly<Record<string, number>>;

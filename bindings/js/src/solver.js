@@ -23,6 +23,11 @@ export function solverClasses(tools) {
   class Solver extends Recorded {
     static prefix = 'hf_solver';
     static create = 'hf_create';
+    #told = make('hf_solve_info');
+    /** What the last solve, solvePreview or solveVectors told: components and vertices that no site reaches. */
+    get solveInfo() {
+      return this.#told.toObject();
+    }
     constructor(surface, { progress = null, ...options } = {}) {
       super(surface, () => watched(make('hf_solver_desc').options(options), progress));
       if (surface !== bare) this.channelCount = this.info.channelCount;
@@ -153,12 +158,12 @@ export function solverClasses(tools) {
     solve(out, Type = Float32Array) {
       out = output(out, this.vertexCount * this.channelCount, Type);
       const name = out instanceof Float32Array ? 'hf_solve' : 'hf_solver_solve_f64';
-      call(name, this._handle, written(out), 0, null);
+      call(name, this._handle, written(out), 0, this.#told);
       return out;
     }
     solvePreview(out, { correctionCount = 0, Type = Float32Array } = {}) {
       out = output(out, this.vertexCount * this.channelCount, Type);
-      call(solveName('hf_solver_solve_preview', out), this._handle, written(out), 0, correctionCount, null);
+      call(solveName('hf_solver_solve_preview', out), this._handle, written(out), 0, correctionCount, this.#told);
       return out;
     }
     solveAt(vertices) {

@@ -58,10 +58,18 @@ export function surfaceClasses(tools) {
     desc.set('corners', corners && read(corners));
   };
 
+  /** Links between pieces: options of hf_links_desc, and `tags`, one for each vertex. */
+  const linksOf = ({ tags = null, ...options }, vertexCount) => {
+    const desc = make('hf_links_desc').options(options, ['influence_count', 'link_count', 'light_count', 'heavy_count']);
+    const given = integers(tags, 'links.tags');
+    if (given && given.length !== vertexCount) fail(`links.tags must hold ${vertexCount} numbers, not ${given.length}`);
+    return desc.set('tags', given && read(given));
+  };
+
   /** Make one per mesh; solvers, poses and the rest are made on it. */
   class Surface extends Handle {
     static prefix = 'hf_surface';
-    constructor(positions, triangles, { savedFactor = null, progress = null, faces = null, ...options } = {}) {
+    constructor(positions, triangles, { savedFactor = null, progress = null, faces = null, links = null, ...options } = {}) {
       super();
       if (positions === bare) return;
       const xyz = points(positions, 'positions');
@@ -73,6 +81,7 @@ export function surfaceClasses(tools) {
       desc.set(xyz instanceof Float32Array ? 'positions' : 'positions_f64', read(xyz));
       desc.set(short ? 'triangles_u16' : 'triangles', corners && read(corners));
       if (faces) facesInto(desc, faces);
+      if (links) desc.set('links', linksOf(links, xyz.length / 3));
       this._finish('create', desc, savedFactor, progress);
     }
     /** A surface of a graph: two vertices for each edge, and its weight. What needs triangles throws. */
@@ -99,6 +108,14 @@ export function surfaceClasses(tools) {
     /** The options it was made with, defaults filled in. */
     get info() {
       return query('hf_surface_info', 'hf_surface_get_info', this._handle);
+    }
+    /** The piece of every vertex (HF_NO_INDEX for isolated ones), and 1 for each vertex of a light piece. */
+    get pieces() {
+      const [pieces, light] = [new Uint32Array(this.vertexCount), new Int32Array(this.vertexCount)];
+      const count = new Uint32Array(1);
+      const room = this.vertexCount;
+      call('hf_surface_get_pieces', this._handle, room, written(pieces), written(light), written(count));
+      return { pieces, light };
     }
     get report() {
       return query('hf_surface_report', 'hf_surface_get_report', this._handle);
