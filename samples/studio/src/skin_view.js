@@ -27,7 +27,9 @@ const overlay = () =>
           float band = t * strips;
           float width = max(fwidth(band), 1e-6);
           float edge = abs(fract(band + 0.5) - 0.5);
-          float line = 1.0 - smoothstep(0.5 * width, 1.6 * width, edge - 0.5 * width);
+          // no line along the ends of the range: whole areas have those values
+          float inner = step(0.5, band) * step(band, strips - 0.5);
+          float line = inner - inner * smoothstep(0.5 * width, 1.6 * width, edge - 0.5 * width);
           colour = mix(ramp(clamp((floor(band) + 0.5) / strips, 0.0, 1.0)), vec3(0.1), 0.65 * line * smoothstep(0.9, 0.3, width));
           float stripe = fract((gl_FragCoord.x + gl_FragCoord.y) / 11.0);
           vec3 hatch = stripe < 0.28 ? vec3(0.3) : vec3(0.9);

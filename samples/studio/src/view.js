@@ -82,7 +82,7 @@ export class View {
     box.getCenter(this.target);
     this.size = box.getSize(new THREE.Vector3()).length() || 1;
     const half = Math.tan((this.camera.fov * Math.PI) / 360);
-    this.distance = (0.54 * this.size) / half / Math.min(1, this.width / this.height);
+    this.distance = (0.46 * this.size) / half / Math.min(1, this.width / this.height);
     this.draw();
   }
   turnBy(dx, dy) {

@@ -118,7 +118,9 @@ self.onmessage = ({ data: { id, task, args } }) => {
       const [answer, buffers] = await tasks[task](args ?? {});
       self.postMessage({ id, answer }, buffers);
     } catch (error) {
-      const { message, codeName = null, index = null } = error;
+      // the library's own sentence, without the name of the function and the code
+      const { codeName = null, index = null, functionName = '' } = error;
+      const message = codeName ? error.message.replace(`${functionName}: `, '').replace(` (${codeName})`, '') : error.message;
       self.postMessage({ id, error: { message, codeName, index } });
     }
   });

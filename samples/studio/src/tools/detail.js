@@ -80,7 +80,7 @@ export class DetailTool {
     this.line.visible = false;
     const curve = this.points.map(({ hit: { vertex } }) => vertex).filter((v, i, all) => i === 0 || v !== all[i - 1]);
     if (curve.length < LEAST_POINTS) return;
-    await this.app.commit({ ...this.app.state, detail: { curve, seedVertex: 0, rings: 0, weight: this.detail?.weight ?? 1 } }, 'draw around a part');
+    await this.app.commit({ ...this.app.state, detail: { curve, seedVertex: 0, rings: 0, weight: this.detail?.weight ?? 0 } }, 'draw around a part');
     this.app.view.draw();
   }
   change(more, name, join) {

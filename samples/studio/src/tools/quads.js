@@ -1,11 +1,9 @@
 // Quads: a quad mesh of the body, made in a Worker of its own; it can be cancelled.
-import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments } from 'three';
+import { BufferAttribute, BufferGeometry, DoubleSide, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial } from 'three';
 import { button, choice, facts, make, ms, slider, whole } from '../ui.js';
 
 /** Length of an edge as part of the size of the body: the library's own default. */
 const EDGE = 0.022;
-/** The lines stand off the surface by this part of an edge, so that they are seen. */
-const OFF = 0.04;
 
 export class QuadsTool {
   static key = 'quads';
@@ -26,12 +24,12 @@ export class QuadsTool {
   }
   leave() {
     if (this.lines) this.lines.visible = false;
+    this.app.skin.group.visible = true;
   }
   dress() {
-    const { skin, body } = this.app;
+    const { skin } = this.app;
+    skin.group.visible = !this.result;
     if (!this.result) return skin.wear('own');
-    skin.setTint(new Float32Array(3 * body.vertexCount).fill(0.8));
-    skin.wear('tint');
     this.#place();
     this.lines.visible = true;
     return undefined;
@@ -86,9 +84,11 @@ export class QuadsTool {
   }
   #clear() {
     if (!this.lines) return;
-    this.lines.geometry.dispose();
-    this.lines.material.dispose();
-    this.lines.removeFromParent();
+    for (const thing of [this.lines, this.faces]) {
+      thing.geometry.dispose();
+      thing.material.dispose();
+      thing.removeFromParent();
+    }
     this.lines = null;
   }
   #draw() {
@@ -112,21 +112,31 @@ export class QuadsTool {
     geometry.setIndex(new BufferAttribute(pairs, 1));
     this.lines = new LineSegments(geometry, new LineBasicMaterial({ color: 0x1c2733 }));
     this.lines.frustumCulled = false;
+    const corners = [];
+    for (let f = 0; f + 1 < faceStarts.length; ++f)
+      for (let i = faceStarts[f] + 2; i < faceStarts[f + 1]; ++i) corners.push(faceCorners[faceStarts[f]], faceCorners[i - 1], faceCorners[i]);
+    const surface = new BufferGeometry();
+    surface.setAttribute('position', geometry.getAttribute('position'));
+    surface.setIndex(corners);
+    // faces lie a little behind their lines
+    const paint = new MeshLambertMaterial({ color: 0xd9d4c8, side: DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+    this.faces = new Mesh(surface, paint);
+    this.faces.frustumCulled = false;
+    this.lines.add(this.faces);
     this.app.view.extras.add(this.lines);
     this.#place();
   }
   /** The lines follow the body: every corner is a place in a triangle. */
   #place() {
     const { corners, barycentrics } = this.result.mesh;
-    const { positions, normals } = this.app.shape;
+    const { positions } = this.app.shape;
     const place = this.lines.geometry.getAttribute('position');
-    const off = OFF * this.result.info.edgeLength;
     for (let v = 0; v < place.count; ++v)
       for (let k = 0; k < 3; ++k) {
         let sum = 0;
         for (let i = 0; i < 3; ++i) {
           const c = 3 * corners[3 * v + i] + k;
-          sum += barycentrics[3 * v + i] * (positions[c] + off * normals[c]);
+          sum += barycentrics[3 * v + i] * positions[c];
         }
         place.array[3 * v + k] = sum;
       }
