@@ -15,12 +15,10 @@ await build({
   entryPoints: { studio: join(here, 'src/studio.js'), worker: join(here, 'src/worker.js') },
   outdir: out,
   bundle: true,
-  splitting: true,
   format: 'esm',
   target: 'es2022',
   minify: true,
   legalComments: 'linked',
-  chunkNames: 'shared-[hash]',
   nodePaths: [process.env.HF_MODULES],
   alias: { 'hf-glue': join(process.env.HF_WASM, 'hf.mjs') },
   // node's own reading of files, in the loader of WebAssembly and of glTF: no browser gets there

@@ -19,7 +19,7 @@ export default async function story(host) {
     await page.evaluate((path) => {
       const { view, skin } = window.hfStudio;
       const box = document.getElementById('canvas').getBoundingClientRect();
-      const loop = path.map(([x, y]) => skin.pick(view.ray(x - box.x, y - box.y)).vertex);
+      const loop = path.flatMap(([x, y]) => skin.pick(view.ray(x - box.x, y - box.y))?.vertex ?? []);
       window.hfStudio.loop = loop.filter((v, i) => i === 0 || v !== loop[i - 1]);
     }, path);
     let regions = 0;

@@ -160,8 +160,10 @@ export interface Solver extends Handle {
   readonly info: Record<string, number>;
   readonly statistics: Record<string, number>;
   readonly siteCount: number;
-  /** What the last solve told: components and vertices that no site reaches. */
+  /** What the last solve or solveVectors told: components and vertices that no site reaches. */
   readonly solveInfo: Record<string, number>;
+  /** What the last solvePreview told: the error estimate, and components that no site reaches. */
+  readonly previewInfo: Record<string, number>;
   clone(): Solver;
   addSites(vertices: Numbers | null, values: Rows | null, options?: SiteOptions): Uint32Array;
   /** One hard site; values: a number, or one for each channel. */
@@ -270,6 +272,8 @@ export interface Flow extends Handle {
 
 export interface Direction extends Handle {
   readonly siteCount: number;
+  /** What the last solve told: components and vertices that no site reaches. */
+  readonly solveInfo: Record<string, number>;
   clone(): Direction;
   record(): void;
   undo(): void;

@@ -236,6 +236,6 @@ export class App {
   help() {
     const rows = [['Turn', 'drag beside the body, right drag, or two fingers'], ['Zoom', 'wheel or pinch'], ['Move the view', 'middle drag, or Shift and drag'],
       ['Handles and sites', 'Tab walks them, Enter chooses, arrows move, Delete removes'], ['Pose', '[ and ] turn a handle, P pins it'], ['Undo, redo', 'Ctrl+Z, Ctrl+Shift+Z'], ['Save, open', 'Ctrl+S, Ctrl+O'], ['Tools', '1 to 6']];
-    card('hf studio', [make('p', {}, 'Drop a creature, pull its leg, save it. Nothing leaves your machine.'), make('table', {}, ...rows.map(([a, b]) => make('tr', {}, make('td', {}, make('strong', {}, a)), make('td', {}, b))))], [['Close', null, true]]);
+    card('hf studio', [make('p', {}, 'Drop a creature, pull its leg, save it. Nothing leaves your machine.'), make('table', {}, ...rows.map(([a, b]) => make('tr', {}, make('td', {}, make('strong', {}, a)), make('td', {}, b))))], [['Light or dark', () => $('theme').click()], ['Close', null, true]]);
   }
 }

@@ -30,7 +30,7 @@ export class Marks {
       if (this.parent.children[i] !== element) this.parent.insertBefore(element, this.parent.children[i] ?? null);
       element.mark = mark;
       seen.add(mark.id);
-      element.setAttribute('aria-label', mark.label);
+      element.setAttribute('aria-label', mark.say ? `${mark.say}: ${mark.label}` : mark.label);
       element.setAttribute('aria-pressed', String(Boolean(mark.chosen)));
       for (const name of ['chosen', 'offer', 'pinned', 'pulse']) element.classList.toggle(name, Boolean(mark[name]));
       if (mark.colour) element.style.setProperty('--dot', mark.colour);
@@ -102,6 +102,8 @@ export class Marks {
     element.onclick = (event) => {
       if (event.detail === 0) this.app.tool.choose?.(element.mark); // Enter or the space bar
     };
-    element.onkeydown = (event) => this.app.tool.key?.(element.mark, event) && event.preventDefault();
+    element.onkeydown = (event) => {
+      if (this.app.tool.key?.(element.mark, event)) event.preventDefault();
+    };
   }
 }

@@ -5,6 +5,7 @@ import { DetailTool } from './tools/detail.js';
 import { FieldTool } from './tools/field.js';
 import { PoseTool } from './tools/pose.js';
 import { QuadsTool } from './tools/quads.js';
+import { TransferTool } from './tools/transfer.js';
 import { WeightsTool } from './tools/weights.js';
 import { $, card, make } from './ui.js';
 
@@ -21,7 +22,7 @@ $('theme').onclick = () => setTheme(root.dataset.theme === 'dark' ? 'light' : 'd
 function start() {
   let app;
   try {
-    app = new App([PoseTool, FieldTool, WeightsTool, QuadsTool, DetailTool], samples);
+    app = new App([PoseTool, FieldTool, TransferTool, WeightsTool, QuadsTool, DetailTool], samples);
   } catch (error) {
     card('The studio cannot draw here', [make('p', {}, `The browser gives no WebGL: ${error.message}`), make('p', {}, 'Turn on hardware acceleration in its settings, or take another browser.')], [['Try again', () => location.reload(), true]]);
     return;

@@ -4,6 +4,8 @@ import { Skin } from './skin_view.js';
 
 /** A click moves less than this many pixels; more is a drag. */
 export const CLICK_PIXELS = 5;
+/** Room around a framed body: handles at its ends stay in the picture. */
+const MARGIN = 1.3;
 /** Radians of turning for each pixel of a drag. */
 const TURN = 0.008;
 
@@ -77,12 +79,25 @@ export class View {
     this.camera.aspect = width / height;
     this.draw();
   }
-  /** Looks at a box from the side and a little from the front. */
+  /** The directions of the picture: right, up, and towards the eye. */
+  axes() {
+    const eye = new THREE.Vector3(Math.sin(this.turn) * Math.cos(this.lift), Math.sin(this.lift), Math.cos(this.turn) * Math.cos(this.lift));
+    const right = new THREE.Vector3(Math.cos(this.turn), 0, -Math.sin(this.turn));
+    return { right, up: eye.clone().cross(right), eye };
+  }
+  /** Half of what a box takes along a direction. */
+  half(box, direction) {
+    const size = box.getSize(new THREE.Vector3());
+    return [0, 1, 2].reduce((sum, k) => sum + 0.5 * size.getComponent(k) * Math.abs(direction.getComponent(k)), 0);
+  }
+  /** Moves so that a box fills the picture but for a margin. */
   frame(box) {
     box.getCenter(this.target);
     this.size = box.getSize(new THREE.Vector3()).length() || 1;
-    const half = Math.tan((this.camera.fov * Math.PI) / 360);
-    this.distance = (0.46 * this.size) / half / Math.min(1, this.width / this.height);
+    const { right, up, eye } = this.axes();
+    const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
+    const [wide, high, deep] = [right, up, eye].map((direction) => this.half(box, direction));
+    this.distance = MARGIN * Math.max(high / tangent, wide / tangent / (this.width / this.height)) + 0.5 * deep;
     this.draw();
   }
   turnBy(dx, dy) {

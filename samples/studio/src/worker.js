@@ -11,10 +11,16 @@ import { weightsOf, quadsOf } from './worker_once.js';
 import { transferOf } from './worker_transfer.js';
 
 let hf = null;
+let memory = null; // bytes of the heap of WebAssembly
 let body = null;
 
 async function ready() {
-  hf ??= await load({ factory: createHf, wasmBinary: await (await fetch(new URL('hf.wasm', self.location))).arrayBuffer() });
+  const factory = async (options) => {
+    const module = await createHf(options);
+    memory = () => module.HEAPU8.length;
+    return module;
+  };
+  hf ??= await load({ factory, wasmBinary: await (await fetch(new URL('hf.wasm', self.location))).arrayBuffer() });
   return hf;
 }
 
@@ -85,6 +91,7 @@ const tasks = {
   },
   transferOpen({ positions, triangles }) {
     body.sourcePositions = positions;
+    body.sourceTriangles = triangles;
     body.transfer?.close();
     body.transfer = transferOf(body, new hf.Surface(positions, triangles, { links: linked() }));
     return [body.transfer.proposals(), []];
@@ -99,8 +106,16 @@ const tasks = {
     smoothNormals(posed, body.triangles, body.groups, normals);
     return [{ positions: posed, normals, milliseconds: performance.now() - begin }, [posed.buffer, normals.buffer]];
   },
+  transferSkin({ positions }) {
+    body.transfer.apply(positions);
+    return [body.transfer.skin(), []];
+  },
+  sourceTree() {
+    const { answer, buffers } = buildBvh(body.sourcePositions, body.sourceTriangles);
+    return [answer, buffers];
+  },
   memory() {
-    return [{ held: body?.surface.statistics.memoryBytes ?? 0 }, []];
+    return [{ held: body?.surface.statistics.memoryBytes ?? 0, heap: memory?.() ?? 0 }, []];
   },
 };
 

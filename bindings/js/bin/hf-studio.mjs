@@ -1,9 +1,16 @@
-// serve.mjs FOLDER [PORT]: serves a static folder on the loopback address and prints the link.
+#!/usr/bin/env node
+// hf-studio [PORT [FOLDER]]: serves the studio on the loopback address and prints the link. The folder of the package is
+// written by samples/studio/run --build bindings/js/studio.
 import { createReadStream, existsSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
+import { fileURLToPath } from 'node:url';
 
-const [folder, port = '0'] = process.argv.slice(2);
+const [port = '0', folder = fileURLToPath(new URL('../studio', import.meta.url))] = process.argv.slice(2);
+if (!existsSync(join(folder, 'index.html'))) {
+  console.error('error: this package was made without the studio; samples/studio/run --build DIR writes it');
+  process.exit(1);
+}
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm', '.glb': 'model/gltf-binary', '.txt': 'text/plain' };
 
 const server = createServer((request, response) => {
