@@ -48,13 +48,22 @@ export async function start() {
   }
   const path = process.env.HF_CHROMIUM ?? '/usr/bin/chromium';
   if (!existsSync(path)) skip('no chromium here');
-  if (!existsSync(join(folder ?? '', 'hf.wasm'))) skip('the folder of the studio is not there; samples/studio/run --build DIR makes it');
+  if (!existsSync(join(folder ?? '', 'hf.wasm')))
+    skip('the folder of the studio is not there; samples/studio/run --build DIR makes it');
   mkdirSync(pictures, { recursive: true });
-  const server = spawn(process.execPath, [join(here, '../../bindings/js/bin/hf-studio.mjs'), '0', folder], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const server = spawn(process.execPath, [join(here, '../../bindings/js/bin/hf-studio.mjs'), '0', folder], {
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
   const address = await new Promise((resolve) => server.stdout.on('data', (text) => resolve(/http\S+/.exec(text)[0])));
   const browser = await chromium.launch({
     executablePath: path,
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--js-flags=--expose-gc'],
+    args: [
+      '--no-sandbox',
+      '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader',
+      '--ignore-gpu-blocklist',
+      '--js-flags=--expose-gc',
+    ],
   });
   return { address, browser, close: async () => (await browser.close(), server.kill()) };
 }
@@ -65,7 +74,10 @@ export class Studio {
     this.complaints = complaints;
   }
   /** A page of the studio. size: [width, height]; options go to the browser's context. */
-  static async open({ browser, address }, { size = [1280, 800], query = 'fresh', wait = true, before = null, ...options } = {}) {
+  static async open(
+    { browser, address },
+    { size = [1280, 800], query = 'fresh', wait = true, before = null, ...options } = {},
+  ) {
     const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, ...options });
     const page = await context.newPage();
     const complaints = [];
@@ -81,7 +93,11 @@ export class Studio {
     return this.page.context().close();
   }
   ready() {
-    return this.page.waitForFunction(() => window.hfStudio?.skin?.bvh && !document.body.hasAttribute('aria-busy'), null, { timeout: 120000 });
+    return this.page.waitForFunction(
+      () => window.hfStudio?.skin?.bvh && !document.body.hasAttribute('aria-busy'),
+      null,
+      { timeout: 120000 },
+    );
   }
   /** Until nothing is on its way to the Worker, and the picture is drawn. */
   async settle() {
@@ -97,7 +113,14 @@ export class Studio {
     await this.settle();
   }
   marks() {
-    return this.page.$$eval('.mark', (all) => all.map((element) => ({ label: element.getAttribute('aria-label'), classes: element.className, x: element.getBoundingClientRect().x + 22, y: element.getBoundingClientRect().y + 22 })));
+    return this.page.$$eval('.mark', (all) =>
+      all.map((element) => ({
+        label: element.getAttribute('aria-label'),
+        classes: element.className,
+        x: element.getBoundingClientRect().x + 22,
+        y: element.getBoundingClientRect().y + 22,
+      })),
+    );
   }
   async mark(part) {
     const found = (await this.marks()).find(({ label }) => label.includes(part));
@@ -117,12 +140,19 @@ export class Studio {
     return this.page.evaluate((step) => {
       const { view, skin } = window.hfStudio;
       const box = document.getElementById('canvas').getBoundingClientRect();
-      const busy = [...document.querySelectorAll('.mark, #told, #legend')].map((element) => element.getBoundingClientRect());
+      const busy = [...document.querySelectorAll('.mark, #told, #legend')].map((element) =>
+        element.getBoundingClientRect(),
+      );
       const found = [];
       for (let y = step; y < box.height - step; y += step)
         for (let x = step; x < box.width - step; x += step) {
           const [cx, cy] = [box.x + x, box.y + y];
-          if (busy.some((other) => cx > other.left - 4 && cx < other.right + 4 && cy > other.top - 4 && cy < other.bottom + 4)) continue;
+          if (
+            busy.some(
+              (other) => cx > other.left - 4 && cx < other.right + 4 && cy > other.top - 4 && cy < other.bottom + 4,
+            )
+          )
+            continue;
           const hit = skin.pick(view.ray(x, y));
           if (hit) found.push([cx, cy, hit.vertex, hit.position]);
         }
@@ -130,7 +160,9 @@ export class Studio {
     }, step);
   }
   facts() {
-    return this.page.$$eval('#sheet dl dt', (all) => Object.fromEntries(all.map((name) => [name.textContent, name.nextSibling.textContent])));
+    return this.page.$$eval('#sheet dl dt', (all) =>
+      Object.fromEntries(all.map((name) => [name.textContent, name.nextSibling.textContent])),
+    );
   }
   told() {
     return this.page.textContent('#told');
@@ -151,7 +183,10 @@ export class Studio {
   /** What a click on an entry of the save menu downloads. */
   async save(id) {
     await this.page.click('#save');
-    const [file] = await Promise.all([this.page.waitForEvent('download', { timeout: 60000 }), this.page.click(`#${id}`)]);
+    const [file] = await Promise.all([
+      this.page.waitForEvent('download', { timeout: 60000 }),
+      this.page.click(`#${id}`),
+    ]);
     const path = join(pictures, file.suggestedFilename());
     await file.saveAs(path);
     return path;

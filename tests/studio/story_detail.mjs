@@ -10,8 +10,16 @@ export function loopAround(studio) {
     for (const radius of [46, 38, 30, 24])
       for (let y = 60; y < box.height - 60; y += 8)
         for (let x = 60; x < box.width - 60; x += 8) {
-          const path = Array.from({ length: 33 }, (_, i) => [x + radius * Math.cos((2 * Math.PI * i) / 32), y + radius * Math.sin((2 * Math.PI * i) / 32)]);
-          if (path.every(([a, b]) => skin.pick(view.ray(a, b)) && document.elementFromPoint(box.x + a, box.y + b)?.id === 'canvas')) return path.map(([a, b]) => [box.x + a, box.y + b]);
+          const path = Array.from({ length: 33 }, (_, i) => [
+            x + radius * Math.cos((2 * Math.PI * i) / 32),
+            y + radius * Math.sin((2 * Math.PI * i) / 32),
+          ]);
+          if (
+            path.every(
+              ([a, b]) => skin.pick(view.ray(a, b)) && document.elementFromPoint(box.x + a, box.y + b)?.id === 'canvas',
+            )
+          )
+            return path.map(([a, b]) => [box.x + a, box.y + b]);
         }
     return null;
   });

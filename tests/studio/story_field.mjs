@@ -9,19 +9,33 @@ export function twoBoxes(distance) {
     for (let i = 0; i < 8; ++i) places.push(x + (i & 1), (i >> 1) & 1, (i >> 2) & 1);
     return places;
   };
-  const faces = [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5];
+  const faces = [
+    0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5,
+  ];
   const vertices = [...cube(0), ...cube(distance)];
   const all = [...faces, ...faces.map((v) => v + 8)];
   const lines = ['# two boxes'];
   for (let v = 0; v < vertices.length; v += 3) lines.push(`v ${vertices.slice(v, v + 3).join(' ')}`);
-  for (let f = 0; f < all.length; f += 3) lines.push(`f ${all.slice(f, f + 3).map((v) => v + 1).join(' ')}`);
+  for (let f = 0; f < all.length; f += 3)
+    lines.push(
+      `f ${all
+        .slice(f, f + 3)
+        .map((v) => v + 1)
+        .join(' ')}`,
+    );
   return lines.join('\n');
 }
 
 export default async function story(host) {
   const studio = await Studio.open(host);
   const { page } = studio;
-  const values = () => page.evaluate(() => window.hfStudio.skin.field.reduce(([low, high], x) => [Math.min(low, x), Math.max(high, x)], [Infinity, -Infinity]));
+  const values = () =>
+    page.evaluate(() =>
+      window.hfStudio.skin.field.reduce(
+        ([low, high], x) => [Math.min(low, x), Math.max(high, x)],
+        [Infinity, -Infinity],
+      ),
+    );
   await studio.tool('field');
   await page.waitForSelector('.mark.offer');
   await check('the ends of the body are proposed as sites', async () => {
@@ -51,12 +65,22 @@ export default async function story(host) {
     assert.equal((await studio.facts()).sites, '3');
   });
   await check('a dragged site takes the field with it, in one step', async () => {
-    const before = await page.evaluate(() => [window.hfStudio.history.past.length, Array.from(window.hfStudio.skin.field)]);
+    const before = await page.evaluate(() => [
+      window.hfStudio.history.past.length,
+      Array.from(window.hfStudio.skin.field),
+    ]);
     const site = await studio.mark('site 1');
     const spots = await studio.spots(12);
-    const to = spots.sort((a, b) => Math.abs(Math.hypot(a[0] - site.x, a[1] - site.y) - 60) - Math.abs(Math.hypot(b[0] - site.x, b[1] - site.y) - 60))[0];
+    const to = spots.sort(
+      (a, b) =>
+        Math.abs(Math.hypot(a[0] - site.x, a[1] - site.y) - 60) -
+        Math.abs(Math.hypot(b[0] - site.x, b[1] - site.y) - 60),
+    )[0];
     await studio.drag(site.x, site.y, to[0] - site.x, to[1] - site.y);
-    const after = await page.evaluate(() => [window.hfStudio.history.past.length, Array.from(window.hfStudio.skin.field)]);
+    const after = await page.evaluate(() => [
+      window.hfStudio.history.past.length,
+      Array.from(window.hfStudio.skin.field),
+    ]);
     assert.equal(after[0], before[0] + 1);
     assert.ok(after[1].some((x, v) => Math.abs(x - before[1][v]) > 0.01));
   });

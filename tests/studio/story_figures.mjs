@@ -10,50 +10,85 @@ import { Studio, check, folder, passOver, shared } from './harness.mjs';
 const [BYTES, REQUESTS] = [0.9e6, 6];
 const SLOW = 10;
 
-const longTasks = (page) => page.addInitScript(() => {
-  window.longTasks = [];
-  new PerformanceObserver((list) => window.longTasks.push(...list.getEntries().map(({ duration, startTime }) => [Math.round(startTime), Math.round(duration)]))).observe({ type: 'longtask', buffered: true });
-});
+const longTasks = (page) =>
+  page.addInitScript(() => {
+    window.longTasks = [];
+    new PerformanceObserver((list) =>
+      window.longTasks.push(
+        ...list.getEntries().map(({ duration, startTime }) => [Math.round(startTime), Math.round(duration)]),
+      ),
+    ).observe({ type: 'longtask', buffered: true });
+  });
 
 async function opened(studio, path) {
   const name = path.split('/').pop();
   await studio.page.setInputFiles('#file', path);
-  await studio.page.waitForFunction((name) => document.querySelector('#card[open]') || (window.hfStudio.body?.name === name && window.hfStudio.skin.bvh && !document.body.hasAttribute('aria-busy')), name, { timeout: 180000 });
+  await studio.page.waitForFunction(
+    (name) =>
+      document.querySelector('#card[open]') ||
+      (window.hfStudio.body?.name === name && window.hfStudio.skin.bvh && !document.body.hasAttribute('aria-busy')),
+    name,
+    { timeout: 180000 },
+  );
   const card = await studio.page.$eval('#card', (dialog) => (dialog.open ? dialog.textContent : ''));
   if (card) throw new Error(card);
 }
 
 /** Poses a second of the Worker and time of the main thread for each. */
-const poses = (page, count) => page.evaluate(async (count) => {
-  const app = window.hfStudio;
-  const { tools: { pose }, state, client } = app;
-  const offer = pose.offers.find(({ id }) => !state.handles.some((handle) => handle.id === id)) ?? pose.offers[0];
-  const others = state.handles.filter(({ id }) => id !== offer.id);
-  const ask = (i) => client.ask('shape', { handles: [...others, { ...offer, translation: [0, 0.01 * i, 0.005 * i] }], detail: null, restart: false });
-  const first = performance.now();
-  await ask(0);
-  const added = performance.now() - first;
-  const begin = performance.now();
-  for (let i = 1; i <= count; ++i) app.skin.set(await ask(i));
-  const time = performance.now() - begin;
-  await client.ask('shape', { handles: state.handles, detail: null, restart: true });
-  return { added, perSecond: (1000 * count) / time };
-}, count);
+const poses = (page, count) =>
+  page.evaluate(async (count) => {
+    const app = window.hfStudio;
+    const {
+      tools: { pose },
+      state,
+      client,
+    } = app;
+    const offer = pose.offers.find(({ id }) => !state.handles.some((handle) => handle.id === id)) ?? pose.offers[0];
+    const others = state.handles.filter(({ id }) => id !== offer.id);
+    const ask = (i) =>
+      client.ask('shape', {
+        handles: [...others, { ...offer, translation: [0, 0.01 * i, 0.005 * i] }],
+        detail: null,
+        restart: false,
+      });
+    const first = performance.now();
+    await ask(0);
+    const added = performance.now() - first;
+    const begin = performance.now();
+    for (let i = 1; i <= count; ++i) app.skin.set(await ask(i));
+    const time = performance.now() - begin;
+    await client.ask('shape', { handles: state.handles, detail: null, restart: true });
+    return { added, perSecond: (1000 * count) / time };
+  }, count);
 
 export default async function story(host) {
   await check(`the first picture takes at most ${BYTES / 1e6} MB (brotli) and ${REQUESTS} requests`, async () => {
     const seen = [];
-    const studio = await Studio.open(host, { before: (page) => page.on('request', (request) => seen.push(new URL(request.url()))) });
-    const files = seen.filter(({ protocol }) => protocol.startsWith('http')).map(({ pathname }) => (pathname === '/' ? 'index.html' : pathname.slice(1)));
+    const studio = await Studio.open(host, {
+      before: (page) => page.on('request', (request) => seen.push(new URL(request.url()))),
+    });
+    // the Worker takes what the page has already from the browser's store
+    const files = [
+      ...new Set(
+        seen
+          .filter(({ protocol }) => protocol.startsWith('http'))
+          .map(({ pathname }) => (pathname === '/' ? 'index.html' : pathname.slice(1))),
+      ),
+    ];
     const bytes = files.reduce((sum, name) => sum + brotliCompressSync(readFileSync(join(folder, name))).length, 0);
     await studio.close();
     assert.ok(files.length <= REQUESTS, files.join(', '));
-    assert.ok(bytes <= BYTES * 1.05, `${bytes} bytes: ${files.map((name) => `${name} ${brotliCompressSync(readFileSync(join(folder, name))).length}`).join(', ')}`);
+    assert.ok(
+      bytes <= BYTES,
+      `${bytes} bytes: ${files.map((name) => `${name} ${brotliCompressSync(readFileSync(join(folder, name))).length}`).join(', ')}`,
+    );
     return `${(bytes / 1e6).toFixed(3)} MB, ${files.length} requests`;
   });
-  await check('no request leaves the page\'s own host', async () => {
+  await check("no request leaves the page's own host", async () => {
     const seen = new Set();
-    const studio = await Studio.open(host, { before: (page) => page.on('request', (request) => seen.add(new URL(request.url()).host)) });
+    const studio = await Studio.open(host, {
+      before: (page) => page.on('request', (request) => seen.add(new URL(request.url()).host)),
+    });
     await studio.close();
     assert.equal([...seen].filter(Boolean).length, 1, [...seen].join(', '));
   });
@@ -81,8 +116,11 @@ export default async function story(host) {
     assert.ok(time < 1500 * SLOW && perSecond > 60 / SLOW);
     return `open ${Math.round(time)} ms, a handle more ${Math.round(added)} ms, ${Math.round(perSecond)} poses a second, long tasks ${long.length}`;
   });
-  const meshes = [['meshes/armadillo_50k.obj', 50000], ['meshes/armadillo_200k_loop.ply', 200000]];
-  for (const [name, vertices] of meshes.slice(0, 1)) {
+  const meshes = [
+    ['meshes/armadillo_50k.obj', 50000],
+    ['meshes/armadillo_200k_loop.ply', 200000],
+  ];
+  for (const [name, vertices] of meshes) {
     const path = join(shared, 'data', name);
     if (!existsSync(path)) {
       passOver(`${vertices} vertices`, 'the shared meshes are not here');
@@ -106,14 +144,16 @@ export default async function story(host) {
   if (!existsSync(gltf)) passOver('every shared glb', 'the shared files are not here');
   else {
     const studio = await Studio.open(host);
-    for (const name of readdirSync(gltf).filter((file) => file.endsWith('.glb')).slice(0, Number(process.env.HF_FULL_TESTS ? 100 : 6)))
+    for (const name of readdirSync(gltf)
+      .filter((file) => file.endsWith('.glb'))
+      .slice(0, Number(process.env.HF_FULL_TESTS ? 100 : 6)))
       await check(`${name}: opens, its proposed handle is pulled, near vertices stay near`, async () => {
         await opened(studio, join(gltf, name)).catch(async (error) => {
           await studio.page.keyboard.press('Escape');
-          // what the studio does not read is said on a card; the test knows no other reason
-          if (!/compressed/.test(error.message)) throw error;
+          // what the studio does not read is said on a card; the test knows two reasons
+          if (!/compressed|holds no triangles/.test(error.message)) throw error;
         });
-        if ((await studio.page.evaluate(() => window.hfStudio.body.name)) !== name) return 'refused: compressed';
+        if ((await studio.page.evaluate(() => window.hfStudio.body.name)) !== name) return 'refused by a sentence';
         return pulled(studio);
       });
     await studio.close();
@@ -141,7 +181,10 @@ async function pulled(studio) {
     const offer = pose.offers.find(({ id }) => !app.state.handles.some((handle) => handle.id === id)) ?? pose.offers[0];
     if (!offer) return -1;
     const size = app.view.size;
-    const handles = [...app.state.handles.filter(({ id }) => id !== offer.id), { ...offer, pinned: false, translation: [0, 0.1 * size, 0] }];
+    const handles = [
+      ...app.state.handles.filter(({ id }) => id !== offer.id),
+      { ...offer, pinned: false, translation: [0, 0.1 * size, 0] },
+    ];
     await app.commit({ ...app.state, handles }, 'pull');
     const [rest, now] = [app.body.positions, app.skin.positions];
     const cell = 0.01 * size;
@@ -153,13 +196,19 @@ async function pulled(studio) {
       if (!grid.has(at)) grid.set(at, []);
       grid.get(at).push(v);
     }
-    let worst = 0;
+    let [worst, moved] = [0, 0];
+    for (let v = 0; v < app.body.vertexCount; ++v)
+      moved = Math.max(moved, Math.hypot(...[0, 1, 2].map((k) => now[3 * v + k] - rest[3 * v + k])) / size);
+    if (moved < 0.05) return { still: document.getElementById('told').textContent || 'no vertex moved' };
     const away = (p, a, b) => Math.hypot(p[3 * a] - p[3 * b], p[3 * a + 1] - p[3 * b + 1], p[3 * a + 2] - p[3 * b + 2]);
     for (const list of grid.values())
-      for (const a of list) for (const b of list) if (a < b && away(rest, a, b) < cell) worst = Math.max(worst, away(now, a, b) / size);
+      for (const a of list)
+        for (const b of list) if (a < b && away(rest, a, b) < cell) worst = Math.max(worst, away(now, a, b) / size);
     return worst;
   });
+  if (worst.still) throw new Error(worst.still);
   if (worst < 0) return 'nothing is proposed';
-  if (worst > 0.05) throw new Error(`two vertices nearer than 1 % at rest are ${(100 * worst).toFixed(1)} % of the body apart`);
+  if (worst > 0.05)
+    throw new Error(`two vertices nearer than 1 % at rest are ${(100 * worst).toFixed(1)} % of the body apart`);
   return `farthest ${(100 * worst).toFixed(1)} %`;
 }

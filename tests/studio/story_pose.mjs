@@ -2,16 +2,25 @@
 import assert from 'node:assert/strict';
 import { Studio, check } from './harness.mjs';
 
-const shift = (studio) => studio.page.evaluate(() => {
-  const { skin, body } = window.hfStudio;
-  let most = 0;
-  for (let v = 0; v < skin.positions.length; v += 3) most = Math.max(most, Math.hypot(...[0, 1, 2].map((k) => skin.positions[v + k] - body.positions[v + k])));
-  return most / window.hfStudio.view.size;
-});
-const feetShift = (studio) => studio.page.evaluate(() => {
-  const { skin, body, state } = window.hfStudio;
-  return Math.max(...state.handles.filter(({ pinned }) => pinned).map(({ vertex }) => Math.hypot(...[0, 1, 2].map((k) => skin.positions[3 * vertex + k] - body.positions[3 * vertex + k]))));
-});
+const shift = (studio) =>
+  studio.page.evaluate(() => {
+    const { skin, body } = window.hfStudio;
+    let most = 0;
+    for (let v = 0; v < skin.positions.length; v += 3)
+      most = Math.max(most, Math.hypot(...[0, 1, 2].map((k) => skin.positions[v + k] - body.positions[v + k])));
+    return most / window.hfStudio.view.size;
+  });
+const feetShift = (studio) =>
+  studio.page.evaluate(() => {
+    const { skin, body, state } = window.hfStudio;
+    return Math.max(
+      ...state.handles
+        .filter(({ pinned }) => pinned)
+        .map(({ vertex }) =>
+          Math.hypot(...[0, 1, 2].map((k) => skin.positions[3 * vertex + k] - body.positions[3 * vertex + k])),
+        ),
+    );
+  });
 
 export default async function story(host) {
   const studio = await Studio.open(host);
@@ -78,7 +87,9 @@ export default async function story(host) {
     const before = await studio.bits();
     const foot = await studio.mark('foot 1');
     const spots = await studio.spots(8);
-    const near = spots.sort((a, b) => Math.hypot(a[0] - foot.x, a[1] - foot.y) - Math.hypot(b[0] - foot.x, b[1] - foot.y))[0];
+    const near = spots.sort(
+      (a, b) => Math.hypot(a[0] - foot.x, a[1] - foot.y) - Math.hypot(b[0] - foot.x, b[1] - foot.y),
+    )[0];
     await page.mouse.click(near[0], near[1]);
     await studio.settle();
     assert.match(await studio.told(), /add a handle: /);
@@ -101,21 +112,24 @@ export default async function story(host) {
     await page.waitForTimeout(500);
     assert.equal(await page.evaluate(() => window.hfStudio.view.pictures), first);
   });
-  await check('the view turns by a drag beside the body, by the right button on it, and zooms by the wheel', async () => {
-    const turn = () => page.evaluate(() => [window.hfStudio.view.turn, window.hfStudio.view.distance]);
-    const before = await turn();
-    await studio.drag(100, 120, 60, 0);
-    const second = await turn();
-    assert.notEqual(second[0], before[0]);
-    const [spot] = await studio.spots();
-    await page.mouse.move(spot[0], spot[1]);
-    await page.mouse.down({ button: 'right' });
-    await page.mouse.move(spot[0] + 50, spot[1], { steps: 4 });
-    await page.mouse.up({ button: 'right' });
-    await page.mouse.wheel(0, -200);
-    const third = await turn();
-    assert.ok(third[0] !== second[0] && third[1] < second[1]);
-  });
+  await check(
+    'the view turns by a drag beside the body, by the right button on it, and zooms by the wheel',
+    async () => {
+      const turn = () => page.evaluate(() => [window.hfStudio.view.turn, window.hfStudio.view.distance]);
+      const before = await turn();
+      await studio.drag(100, 120, 60, 0);
+      const second = await turn();
+      assert.notEqual(second[0], before[0]);
+      const [spot] = await studio.spots();
+      await page.mouse.move(spot[0], spot[1]);
+      await page.mouse.down({ button: 'right' });
+      await page.mouse.move(spot[0] + 50, spot[1], { steps: 4 });
+      await page.mouse.up({ button: 'right' });
+      await page.mouse.wheel(0, -200);
+      const third = await turn();
+      assert.ok(third[0] !== second[0] && third[1] < second[1]);
+    },
+  );
   await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
   await studio.close();
 }

@@ -27,7 +27,11 @@ export default async function story(host) {
     assert.equal((await studio.facts()).quads, before.quads);
     await page.locator('#edge').fill('0.03');
     await page.click('#make');
-    await page.waitForFunction((old) => !document.querySelector('#cancel') && window.hfStudio.tools.quads.result.info.quadCount !== old, Number(before.quads.replace(/,/g, '')), { timeout: 60000 });
+    await page.waitForFunction(
+      (old) => !document.querySelector('#cancel') && window.hfStudio.tools.quads.result.info.quadCount !== old,
+      Number(before.quads.replace(/,/g, '')),
+      { timeout: 60000 },
+    );
   });
   await check('the quads lie on the body in a pose', async () => {
     await studio.tool('pose');
@@ -40,7 +44,9 @@ export default async function story(host) {
       const place = tools.quads.lines.geometry.getAttribute('position').array;
       let most = 0;
       for (let v = 0; v < corners.length / 3; ++v) {
-        const at = [0, 1, 2].map((k) => [0, 1, 2].reduce((sum, i) => sum + barycentrics[3 * v + i] * shape.positions[3 * corners[3 * v + i] + k], 0));
+        const at = [0, 1, 2].map((k) =>
+          [0, 1, 2].reduce((sum, i) => sum + barycentrics[3 * v + i] * shape.positions[3 * corners[3 * v + i] + k], 0),
+        );
         most = Math.max(most, Math.hypot(...at.map((x, k) => x - place[3 * v + k])));
       }
       return most / view.size;

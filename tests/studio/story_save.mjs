@@ -27,13 +27,25 @@ export default async function story(host) {
   await check('it opens again with the same places, its skin, clips and texture coordinates', async () => {
     const before = await page.evaluate(() => {
       const { body } = window.hfStudio;
-      return [body.clips.length, body.parts[0].skin.listJoints().length, body.parts[0].primitive.listSemantics().sort().join()];
+      return [
+        body.clips.length,
+        body.parts[0].skin.listJoints().length,
+        body.parts[0].primitive.listSemantics().sort().join(),
+      ];
     });
     await page.setInputFiles('#file', path);
     await page.waitForFunction(() => window.hfStudio.body.name === 'horse_posed.glb' && window.hfStudio.skin.bvh);
     const after = await page.evaluate(() => {
       const { body } = window.hfStudio;
-      return [[body.clips.length, body.parts[0].skin.listJoints().length, body.parts[0].primitive.listSemantics().sort().join()], Array.from(body.positions), window.hfStudio.view.size];
+      return [
+        [
+          body.clips.length,
+          body.parts[0].skin.listJoints().length,
+          body.parts[0].primitive.listSemantics().sort().join(),
+        ],
+        Array.from(body.positions),
+        window.hfStudio.view.size,
+      ];
     });
     assert.deepEqual(after[0], before);
     const worst = posed.reduce((most, x, i) => Math.max(most, Math.abs(x - after[1][i])), 0);
@@ -52,7 +64,10 @@ export default async function story(host) {
     await page.waitForFunction(() => window.hfStudio.body.name === 'horse_rigged.glb' && window.hfStudio.skin.bvh);
     await page.locator('#scrub').fill('1');
     await studio.settle();
-    const [played, size] = await page.evaluate(() => [Array.from(window.hfStudio.skin.positions), window.hfStudio.view.size]);
+    const [played, size] = await page.evaluate(() => [
+      Array.from(window.hfStudio.skin.positions),
+      window.hfStudio.view.size,
+    ]);
     const worst = shape.reduce((most, x, i) => Math.max(most, Math.abs(x - played[i])), 0) / size;
     assert.ok(worst < 0.03, `a place differs by ${worst} of the body`);
     return `largest difference ${(100 * worst).toFixed(2)} % of the body`;

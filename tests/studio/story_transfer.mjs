@@ -7,17 +7,33 @@ export default async function story(host) {
   const studio = await Studio.open(host, { query: 'fresh&sample=bull' });
   const { page } = studio;
   await studio.tool('transfer');
-  await check('the horse is taken as the source, and pairs are proposed: four feet, two places of the trunk, tips', async () => {
-    await page.click('#take-horse');
-    await page.waitForFunction(() => window.hfStudio.tools.transfer.info, null, { timeout: 30000 });
-    await studio.settle();
-    const kinds = await page.evaluate(() => window.hfStudio.tools.transfer.pairs.map(({ kind }) => kind).sort().join());
-    assert.match(kinds, /^foot,foot,foot,foot,(tip,)+trunk,trunk$/);
-    await studio.picture('transfer_pairs');
-    return kinds;
-  });
+  await check(
+    'the horse is taken as the source, and pairs are proposed: four feet, two places of the trunk, tips',
+    async () => {
+      await page.click('#take-horse');
+      await page.waitForFunction(() => window.hfStudio.tools.transfer.info, null, { timeout: 30000 });
+      await studio.settle();
+      const kinds = await page.evaluate(() =>
+        window.hfStudio.tools.transfer.pairs
+          .map(({ kind }) => kind)
+          .sort()
+          .join(),
+      );
+      assert.match(kinds, /^foot,foot,foot,foot,(tip,)+trunk,trunk$/);
+      await studio.picture('transfer_pairs');
+      return kinds;
+    },
+  );
   await check('feet are paired with feet of the same side and row', async () => {
-    const wrong = await page.evaluate(() => window.hfStudio.tools.transfer.pairs.filter(({ kind, source, target }) => kind === 'foot' && (Math.sign(source.position[0]) !== Math.sign(target.position[0]) || Math.sign(source.position[2]) !== Math.sign(target.position[2]))).length);
+    const wrong = await page.evaluate(
+      () =>
+        window.hfStudio.tools.transfer.pairs.filter(
+          ({ kind, source, target }) =>
+            kind === 'foot' &&
+            (Math.sign(source.position[0]) !== Math.sign(target.position[0]) ||
+              Math.sign(source.position[2]) !== Math.sign(target.position[2])),
+        ).length,
+    );
     assert.equal(wrong, 0);
   });
   await check('the walk moves the feet of the bull like those of the horse', async () => {
@@ -39,6 +55,7 @@ export default async function story(host) {
       return [range(0) / window.hfStudio.view.size, range(1) / window.hfStudio.view.size];
     });
     assert.ok(travel[1] > 0.05, `a foot travels ${travel}`);
+    await page.evaluate(() => window.hfStudio.marksLayer.update());
     await studio.picture('transfer_walk');
     return `a foot travels ${travel.map((x) => x.toFixed(3))} of the picture, up and along`;
   });

@@ -7,7 +7,10 @@ export default async function story(host) {
   const { page } = studio;
   await studio.tool('weights');
   await check('the weights of the file are shown, each bone in its colour', async () => {
-    const colours = await page.evaluate(() => new Set(Array.from({ length: 200 }, (_, i) => window.hfStudio.skin.tint.slice(90 * i, 90 * i + 3).join())).size);
+    const colours = await page.evaluate(
+      () =>
+        new Set(Array.from({ length: 200 }, (_, i) => window.hfStudio.skin.tint.slice(90 * i, 90 * i + 3).join())).size,
+    );
     assert.ok(colours > 50, `${colours} colours`);
     await studio.picture('weights_file');
   });
@@ -15,12 +18,16 @@ export default async function story(host) {
     await page.click('#compute');
     await page.waitForFunction(() => window.hfStudio.tools.weights.result, null, { timeout: 30000 });
     await studio.settle();
-    const [worst, facts] = [await page.evaluate(() => {
-      const { weights, weightCount } = window.hfStudio.tools.weights.result;
-      let worst = 0;
-      for (let v = 0; v < weights.length; v += weightCount) worst = Math.max(worst, Math.abs(1 - weights.slice(v, v + weightCount).reduce((a, b) => a + b)));
-      return worst;
-    }), await studio.facts()];
+    const [worst, facts] = [
+      await page.evaluate(() => {
+        const { weights, weightCount } = window.hfStudio.tools.weights.result;
+        let worst = 0;
+        for (let v = 0; v < weights.length; v += weightCount)
+          worst = Math.max(worst, Math.abs(1 - weights.slice(v, v + weightCount).reduce((a, b) => a + b)));
+        return worst;
+      }),
+      await studio.facts(),
+    ];
     assert.ok(worst < 1e-6, `sums differ from 1 by ${worst}`);
     assert.equal(facts.bones, '38');
     await studio.picture('weights_new');

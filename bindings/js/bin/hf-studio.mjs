@@ -11,7 +11,13 @@ if (!existsSync(join(folder, 'index.html'))) {
   console.error('error: this package was made without the studio; samples/studio/run --build DIR writes it');
   process.exit(1);
 }
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm', '.glb': 'model/gltf-binary', '.txt': 'text/plain' };
+const types = {
+  '.html': 'text/html',
+  '.js': 'text/javascript',
+  '.wasm': 'application/wasm',
+  '.glb': 'model/gltf-binary',
+  '.txt': 'text/plain',
+};
 
 const server = createServer((request, response) => {
   const path = normalize(decodeURIComponent(new URL(request.url, 'http://x').pathname));
@@ -20,6 +26,8 @@ const server = createServer((request, response) => {
   response.writeHead(200, {
     'content-type': types[extname(file)] ?? 'application/octet-stream',
     'content-length': statSync(file).size,
+    // the page and its Worker share files: the second takes them from the first
+    'cache-control': 'max-age=5',
     'cross-origin-opener-policy': 'same-origin',
     'cross-origin-embedder-policy': 'require-corp',
   });

@@ -60,7 +60,12 @@ export function surfaceClasses(tools) {
 
   /** Links between pieces: options of hf_links_desc, and `tags`, one for each vertex. */
   const linksOf = ({ tags = null, ...options }, vertexCount) => {
-    const desc = make('hf_links_desc').options(options, ['influence_count', 'link_count', 'light_count', 'heavy_count']);
+    const desc = make('hf_links_desc').options(options, [
+      'influence_count',
+      'link_count',
+      'light_count',
+      'heavy_count',
+    ]);
     const given = integers(tags, 'links.tags');
     if (given && given.length !== vertexCount) fail(`links.tags must hold ${vertexCount} numbers, not ${given.length}`);
     return desc.set('tags', given && read(given));
@@ -69,14 +74,23 @@ export function surfaceClasses(tools) {
   /** Make one per mesh; solvers, poses and the rest are made on it. */
   class Surface extends Handle {
     static prefix = 'hf_surface';
-    constructor(positions, triangles, { savedFactor = null, progress = null, faces = null, links = null, ...options } = {}) {
+    constructor(
+      positions,
+      triangles,
+      { savedFactor = null, progress = null, faces = null, links = null, ...options } = {},
+    ) {
       super();
       if (positions === bare) return;
       const xyz = points(positions, 'positions');
       const short = triangles instanceof Uint16Array;
       const corners = short ? triangles : integers(triangles, 'triangles');
       if (corners && corners.length % 3) fail(`triangles must hold three numbers each, not ${corners.length}`);
-      const desc = make('hf_surface_desc').options(options, ['vertex_count', 'triangle_count', 'face_count', 'corner_count']);
+      const desc = make('hf_surface_desc').options(options, [
+        'vertex_count',
+        'triangle_count',
+        'face_count',
+        'corner_count',
+      ]);
       desc.set('vertex_count', xyz.length / 3).set('triangle_count', corners ? corners.length / 3 : 0);
       desc.set(xyz instanceof Float32Array ? 'positions' : 'positions_f64', read(xyz));
       desc.set(short ? 'triangles_u16' : 'triangles', corners && read(corners));
@@ -85,13 +99,22 @@ export function surfaceClasses(tools) {
       this._finish('create', desc, savedFactor, progress);
     }
     /** A surface of a graph: two vertices for each edge, and its weight. What needs triangles throws. */
-    static fromGraph(vertexCount, edges, weights, { masses = null, savedFactor = null, progress = null, ...options } = {}) {
+    static fromGraph(
+      vertexCount,
+      edges,
+      weights,
+      { masses = null, savedFactor = null, progress = null, ...options } = {},
+    ) {
       const [ends, sizes] = [integers(edges, 'edges'), doubles(weights, 'weights')];
-      if (ends && sizes && ends.length !== 2 * sizes.length) fail('edges must hold two vertices for each of the weights');
+      if (ends && sizes && ends.length !== 2 * sizes.length)
+        fail('edges must hold two vertices for each of the weights');
       const mass = masses && doubles(masses, 'masses', vertexCount);
       const desc = make('hf_graph_desc').options(options, ['vertex_count', 'edge_count']);
       desc.set('vertex_count', vertexCount).set('edge_count', sizes ? sizes.length : 1);
-      desc.set('edges', ends && read(ends)).set('weights', sizes && read(sizes)).set('masses', mass && read(mass));
+      desc
+        .set('edges', ends && read(ends))
+        .set('weights', sizes && read(sizes))
+        .set('masses', mass && read(mass));
       const surface = new this(bare);
       surface._finish('create_graph', desc, savedFactor, progress);
       return surface;

@@ -1,9 +1,18 @@
 // Skin weights of a surface for a skeleton (hf/weights.h).
 export function weightClasses(tools) {
-  const { make, call, handleOf, query, watched, Recorded, bare, classes, doubles, fail, integers, read, written } = tools;
+  const { make, call, handleOf, query, watched, Recorded, bare, classes, doubles, fail, integers, read, written } =
+    tools;
 
   /** The bones as hf_bones_desc. */
-  const bonesOf = ({ heads, tails = null, axes = null, parents = null, deforms = null, sources = null, progress = null }) => {
+  const bonesOf = ({
+    heads,
+    tails = null,
+    axes = null,
+    parents = null,
+    deforms = null,
+    sources = null,
+    progress = null,
+  }) => {
     const starts = doubles(heads, 'heads');
     if (!starts || starts.length % 3) fail('heads must hold three numbers for each bone');
     const count = starts.length / 3;
@@ -16,7 +25,10 @@ export function weightClasses(tools) {
     };
     const [above, before, moves] = [listOf(parents, 'parents'), listOf(sources, 'sources'), listOf(deforms, 'deforms')];
     const desc = make('hf_bones_desc', { bone_count: count, heads: read(starts) });
-    desc.set('tails', ends && read(ends)).set('axes', along && read(along)).set('parents', above && read(above));
+    desc
+      .set('tails', ends && read(ends))
+      .set('axes', along && read(along))
+      .set('parents', above && read(above));
     desc.set('sources', before && read(before)).set('deforms', moves && read(Int32Array.from(moves)));
     return watched(desc, progress);
   };
@@ -43,7 +55,10 @@ export function weightClasses(tools) {
       if (bones.length !== shares.length) fail('joints and weights must be of one length');
       if (at.length && bones.length % at.length) fail('joints must hold as many numbers for each pin');
       const discs = doubles(radii, 'radii', at.length);
-      const desc = make('hf_pins_desc', { pin_count: at.length, joint_count: at.length ? bones.length / at.length : 0 });
+      const desc = make('hf_pins_desc', {
+        pin_count: at.length,
+        joint_count: at.length ? bones.length / at.length : 0,
+      });
       desc.set('vertices', read(at)).set('radii', discs && read(discs));
       desc.set('joints', read(bones)).set('weights', read(shares));
       call('hf_weights_set_pins', this._handle, watched(desc, progress));

@@ -33,7 +33,8 @@ class Line {
   }
   end() {
     this.worker.terminate();
-    for (const { reject } of this.waiting.values()) reject(new HfFailure({ message: 'cancelled', codeName: 'cancelled' }));
+    for (const { reject } of this.waiting.values())
+      reject(new HfFailure({ message: 'cancelled', codeName: 'cancelled' }));
     this.waiting.clear();
   }
 }

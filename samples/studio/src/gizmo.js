@@ -12,7 +12,10 @@ export class Gizmo {
     this.group = new THREE.Group();
     this.group.visible = false;
     this.rings = [0, 1, 2].map((axis) => {
-      const ring = new THREE.Mesh(new THREE.TorusGeometry(1, 0.02, 8, 72), new THREE.MeshBasicMaterial({ color: colours[axis], depthTest: false, transparent: true, opacity: 0.85 }));
+      const ring = new THREE.Mesh(
+        new THREE.TorusGeometry(1, 0.02, 8, 72),
+        new THREE.MeshBasicMaterial({ color: colours[axis], depthTest: false, transparent: true, opacity: 0.85 }),
+      );
       if (axis === 0) ring.rotation.y = Math.PI / 2;
       if (axis === 1) ring.rotation.x = Math.PI / 2;
       ring.renderOrder = 5;

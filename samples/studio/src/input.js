@@ -15,7 +15,8 @@ export function listen(app, canvas) {
     canvas.setPointerCapture(event.pointerId);
     fingers.set(event.pointerId, here(event));
     if (fingers.size === 2 && act?.taken) app.tool.strokeCancel?.();
-    if (fingers.size === 1) act = { from: here(event), moved: false, taken: false, button: event.button, shift: event.shiftKey };
+    if (fingers.size === 1)
+      act = { from: here(event), moved: false, taken: false, button: event.button, shift: event.shiftKey };
     else act = { ...act, moved: true, taken: false };
     document.activeElement?.classList?.contains('mark') && document.activeElement.blur();
   };
@@ -53,8 +54,12 @@ export function listen(app, canvas) {
   canvas.onpointercancel = end;
   canvas.onpointerleave = () => app.hover(null);
   canvas.oncontextmenu = (event) => event.preventDefault();
-  canvas.parentElement.addEventListener('wheel', (event) => {
-    event.preventDefault();
-    view.zoomBy(Math.exp(event.deltaY * ZOOM));
-  }, { passive: false });
+  canvas.parentElement.addEventListener(
+    'wheel',
+    (event) => {
+      event.preventDefault();
+      view.zoomBy(Math.exp(event.deltaY * ZOOM));
+    },
+    { passive: false },
+  );
 }

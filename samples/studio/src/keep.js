@@ -2,9 +2,22 @@
 const version = 'VERSION';
 const files = ['FILES'];
 
-self.addEventListener('install', (event) => event.waitUntil(caches.open(version).then((store) => store.addAll(['./', ...files])).then(() => self.skipWaiting())));
+self.addEventListener('install', (event) =>
+  event.waitUntil(
+    caches
+      .open(version)
+      .then((store) => store.addAll(['./', ...files]))
+      .then(() => self.skipWaiting()),
+  ),
+);
 self.addEventListener('activate', (event) =>
-  event.waitUntil(caches.keys().then((names) => Promise.all(names.filter((name) => name !== version).map((name) => caches.delete(name)))).then(() => self.clients.claim())));
+  event.waitUntil(
+    caches
+      .keys()
+      .then((names) => Promise.all(names.filter((name) => name !== version).map((name) => caches.delete(name))))
+      .then(() => self.clients.claim()),
+  ),
+);
 self.addEventListener('fetch', (event) => {
   if (event.request.method !== 'GET' || new URL(event.request.url).origin !== self.location.origin) return;
   event.respondWith(
@@ -12,7 +25,8 @@ self.addEventListener('fetch', (event) => {
       if (kept) return kept;
       const answer = await fetch(event.request);
       // samples join the store when they are opened
-      if (answer.ok && /\.glb$/.test(new URL(event.request.url).pathname)) (await caches.open(version)).put(event.request, answer.clone());
+      if (answer.ok && /\.glb$/.test(new URL(event.request.url).pathname))
+        (await caches.open(version)).put(event.request, answer.clone());
       return answer;
     }),
   );

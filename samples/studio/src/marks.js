@@ -4,6 +4,8 @@ import { CLICK_PIXELS } from './view.js';
 
 /** Marks behind the body are looked for when nothing has moved for so many milliseconds. */
 const LOOK_BEHIND_MS = 150;
+/** Larger bodies keep the marks undimmed after a pose: the tree of boxes would take longer than 50 ms to follow. */
+const FOLLOWED_VERTICES = 30000;
 /** A place counts as behind when the surface is nearer to the eye by this part of the size of the body. */
 const BEHIND = 0.03;
 
@@ -35,7 +37,8 @@ export class Marks {
       for (const name of ['chosen', 'offer', 'pinned', 'pulse']) element.classList.toggle(name, Boolean(mark[name]));
       if (mark.colour) element.style.setProperty('--dot', mark.colour);
       const said = element.querySelector('.say');
-      if (Boolean(mark.say) !== Boolean(said)) mark.say ? element.append(make('span', { class: 'say' }, mark.say)) : said.remove();
+      if (Boolean(mark.say) !== Boolean(said))
+        mark.say ? element.append(make('span', { class: 'say' }, mark.say)) : said.remove();
     });
     for (const [id, element] of this.#buttons)
       if (!seen.has(id)) {
@@ -55,7 +58,7 @@ export class Marks {
   }
   #lookBehind() {
     const { view, skin } = this.app;
-    if (!skin?.bvh) return;
+    if (!skin?.bvh || (skin.stale && skin.body.vertexCount > FOLLOWED_VERTICES)) return;
     for (const element of this.#buttons.values()) {
       const { place } = element.mark;
       const { x, y } = view.onScreen(place);

@@ -12,8 +12,7 @@ export function normalGroups(positions, fileNormals) {
   const bits = new Uint32Array(positions.buffer, positions.byteOffset, positions.length);
   for (let v = 0; v < count; ++v) {
     let key = `${bits[3 * v]},${bits[3 * v + 1]},${bits[3 * v + 2]}`;
-    if (fileNormals)
-      for (let k = 0; k < 3; ++k) key += `,${Math.round(fileNormals[3 * v + k] * NORMAL_STEPS)}`;
+    if (fileNormals) for (let k = 0; k < 3; ++k) key += `,${Math.round(fileNormals[3 * v + k] * NORMAL_STEPS)}`;
     const known = first.get(key);
     if (known === undefined) first.set(key, v);
     groups[v] = known ?? v;
@@ -26,8 +25,16 @@ export function smoothNormals(positions, triangles, groups, out) {
   out.fill(0);
   for (let t = 0; t < triangles.length; t += 3) {
     const [a, b, c] = [3 * triangles[t], 3 * triangles[t + 1], 3 * triangles[t + 2]];
-    const [x1, y1, z1] = [positions[b] - positions[a], positions[b + 1] - positions[a + 1], positions[b + 2] - positions[a + 2]];
-    const [x2, y2, z2] = [positions[c] - positions[a], positions[c + 1] - positions[a + 1], positions[c + 2] - positions[a + 2]];
+    const [x1, y1, z1] = [
+      positions[b] - positions[a],
+      positions[b + 1] - positions[a + 1],
+      positions[b + 2] - positions[a + 2],
+    ];
+    const [x2, y2, z2] = [
+      positions[c] - positions[a],
+      positions[c + 1] - positions[a + 1],
+      positions[c + 2] - positions[a + 2],
+    ];
     const [x, y, z] = [y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2];
     for (let k = 0; k < 3; ++k) {
       const g = 3 * groups[triangles[t + k]];

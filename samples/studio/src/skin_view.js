@@ -56,7 +56,13 @@ export class Skin {
     this.parts = body.parts.map((part) => this.#part(part));
     this.whole = new THREE.BufferGeometry();
     this.whole.setIndex(new THREE.BufferAttribute(body.triangles, 1));
-    for (const [name, array, size] of [['position', this.positions, 3], ['normal', this.normals, 3], ['field', this.field, 1], ['reached', this.reached, 1], ['tint', this.tint, 3]])
+    for (const [name, array, size] of [
+      ['position', this.positions, 3],
+      ['normal', this.normals, 3],
+      ['field', this.field, 1],
+      ['reached', this.reached, 1],
+      ['tint', this.tint, 3],
+    ])
       this.whole.setAttribute(name, new THREE.BufferAttribute(array, size));
     this.overlay = overlay();
     this.cover = new THREE.Mesh(this.whole, this.overlay);
@@ -71,14 +77,21 @@ export class Skin {
     const range = (array, size) => array.subarray(size * part.first, size * (part.first + part.count));
     geometry.setAttribute('position', new THREE.BufferAttribute(range(this.positions, 3), 3));
     geometry.setAttribute('normal', new THREE.BufferAttribute(range(this.normals, 3), 3));
-    const corners = this.body.triangles.subarray(part.firstCorner, part.firstCorner + part.cornerCount).map((v) => v - part.first);
+    const corners = this.body.triangles
+      .subarray(part.firstCorner, part.firstCorner + part.cornerCount)
+      .map((v) => v - part.first);
     geometry.setIndex(new THREE.BufferAttribute(corners, 1));
-    for (const [from, to] of [['TEXCOORD_0', 'uv'], ['TEXCOORD_1', 'uv1'], ['COLOR_0', 'color']]) {
+    for (const [from, to] of [
+      ['TEXCOORD_0', 'uv'],
+      ['TEXCOORD_1', 'uv1'],
+      ['COLOR_0', 'color'],
+    ]) {
       const accessor = part.primitive.getAttribute(from);
       if (!accessor) continue;
       const array = new Float32Array(accessor.getCount() * accessor.getElementSize());
       const element = [];
-      for (let i = 0; i < accessor.getCount(); ++i) array.set(accessor.getElement(i, element), i * accessor.getElementSize());
+      for (let i = 0; i < accessor.getCount(); ++i)
+        array.set(accessor.getElement(i, element), i * accessor.getElementSize());
       geometry.setAttribute(to, new THREE.BufferAttribute(array, accessor.getElementSize()));
     }
     const mesh = new THREE.Mesh(geometry, this.#material(part.primitive));
@@ -91,7 +104,12 @@ export class Skin {
     const coloured = Boolean(primitive.getAttribute('COLOR_0'));
     const key = given ?? `plain${coloured}`;
     if (this.materials.has(key)) return this.materials.get(key);
-    const material = new THREE.MeshStandardMaterial({ color: 0xc9c4b8, roughness: 0.8, metalness: 0, vertexColors: coloured });
+    const material = new THREE.MeshStandardMaterial({
+      color: 0xc9c4b8,
+      roughness: 0.8,
+      metalness: 0,
+      vertexColors: coloured,
+    });
     if (given) {
       const [r, g, b, a] = given.getBaseColorFactor();
       material.color.setRGB(r, g, b);
@@ -115,10 +133,20 @@ export class Skin {
     const bitmaps = new Map();
     const textureOf = async (texture, info, colour) => {
       if (!texture?.getImage()) return null;
-      if (!bitmaps.has(texture)) bitmaps.set(texture, createImageBitmap(new Blob([texture.getImage()], { type: texture.getMimeType() }), { colorSpaceConversion: 'none' }));
+      if (!bitmaps.has(texture))
+        bitmaps.set(
+          texture,
+          createImageBitmap(new Blob([texture.getImage()], { type: texture.getMimeType() }), {
+            colorSpaceConversion: 'none',
+          }),
+        );
       const result = new THREE.Texture(await bitmaps.get(texture));
       result.flipY = false;
-      const wraps = { 10497: THREE.RepeatWrapping, 33071: THREE.ClampToEdgeWrapping, 33648: THREE.MirroredRepeatWrapping };
+      const wraps = {
+        10497: THREE.RepeatWrapping,
+        33071: THREE.ClampToEdgeWrapping,
+        33648: THREE.MirroredRepeatWrapping,
+      };
       [result.wrapS, result.wrapT] = [wraps[info.getWrapS()], wraps[info.getWrapT()]];
       result.channel = Math.min(1, info.getTexCoord());
       if (colour) result.colorSpace = THREE.SRGBColorSpace;
@@ -198,7 +226,14 @@ export class Skin {
     const sum = shares.reduce((a, b) => a + b);
     const barycentrics = shares.map((x) => x / sum);
     const vertex = corners[barycentrics.indexOf(Math.max(...barycentrics))];
-    return { triangle: hit.faceIndex, corners, barycentrics, vertex, position: hit.point.toArray(), distance: hit.distance };
+    return {
+      triangle: hit.faceIndex,
+      corners,
+      barycentrics,
+      vertex,
+      position: hit.point.toArray(),
+      distance: hit.distance,
+    };
   }
   /** The place of a point in a triangle, in the present pose or at rest. */
   at({ corners, barycentrics }, positions = this.positions) {

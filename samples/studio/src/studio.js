@@ -7,6 +7,7 @@ import { PoseTool } from './tools/pose.js';
 import { QuadsTool } from './tools/quads.js';
 import { TransferTool } from './tools/transfer.js';
 import { WeightsTool } from './tools/weights.js';
+import { Session } from './session.js';
 import { $, card, make } from './ui.js';
 
 const samples = ['horse', 'bull', 'biped'];
@@ -19,12 +20,19 @@ const setTheme = (theme) => {
 setTheme(matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light');
 $('theme').onclick = () => setTheme(root.dataset.theme === 'dark' ? 'light' : 'dark');
 
-function start() {
+async function start() {
   let app;
   try {
     app = new App([PoseTool, FieldTool, TransferTool, WeightsTool, QuadsTool, DetailTool], samples);
   } catch (error) {
-    card('The studio cannot draw here', [make('p', {}, `The browser gives no WebGL: ${error.message}`), make('p', {}, 'Turn on hardware acceleration in its settings, or take another browser.')], [['Try again', () => location.reload(), true]]);
+    card(
+      'The studio cannot draw here',
+      [
+        make('p', {}, `The browser gives no WebGL: ${error.message}`),
+        make('p', {}, 'Turn on hardware acceleration in its settings, or take another browser.'),
+      ],
+      [['Try again', () => location.reload(), true]],
+    );
     return;
   }
   window.hfStudio = app; // for tests and the curious
@@ -34,7 +42,10 @@ function start() {
     await openFile($('file').files[0]);
     $('file').value = '';
   };
-  $('sample').append(make('option', { value: '' }, 'Samples'), ...samples.map((name) => make('option', { value: name }, name)));
+  $('sample').append(
+    make('option', { value: '' }, 'Samples'),
+    ...samples.map((name) => make('option', { value: name }, name)),
+  );
   $('sample').onchange = () => {
     if ($('sample').value) app.openSample($('sample').value);
     $('sample').value = '';
@@ -62,7 +73,12 @@ function start() {
     if ($('card').open || event.defaultPrevented) return;
     const key = event.key.toLowerCase();
     if (event.ctrlKey || event.metaKey) {
-      const acts = { z: () => app.step(event.shiftKey ? 'redo' : 'undo'), y: () => app.step('redo'), s: () => app.skin && saveMenu(app), o: () => $('file').click() };
+      const acts = {
+        z: () => app.step(event.shiftKey ? 'redo' : 'undo'),
+        y: () => app.step('redo'),
+        s: () => app.skin && saveMenu(app),
+        o: () => $('file').click(),
+      };
       if (!acts[key]) return;
       event.preventDefault();
       acts[key]();
@@ -71,7 +87,11 @@ function start() {
     else if (/^[1-6]$/.test(key)) $('rail').children[Number(key) - 1]?.click();
   });
   const params = new URLSearchParams(location.search);
-  app.openSample(samples.includes(params.get('sample')) ? params.get('sample') : samples[0]);
+  // ?fresh: nothing of an earlier visit; ?sample=bull: that creature
+  if (!params.has('fresh')) new Session(app);
+  const named = samples.includes(params.get('sample')) ? params.get('sample') : null;
+  const kept = app.session && !named && (await app.session.restore());
+  if (!kept) app.openSample(named ?? samples[0]);
   if ('serviceWorker' in navigator && !params.has('fresh')) navigator.serviceWorker.register('keep.js').catch(() => {});
 }
 start();

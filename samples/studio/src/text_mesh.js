@@ -22,7 +22,12 @@ export function readObj(text, name) {
     else if (line.startsWith('f ')) {
       const count = positions.length / 3;
       const face = numbersOf(line.slice(2)).map((word) => parseInt(word, 10));
-      fan(face.map((v) => (v < 0 ? count + v : v - 1)), corners, count, name);
+      fan(
+        face.map((v) => (v < 0 ? count + v : v - 1)),
+        corners,
+        count,
+        name,
+      );
     }
   }
   return finish(positions, corners, name);

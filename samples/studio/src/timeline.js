@@ -19,13 +19,20 @@ function sampled(sampler, time, isTurn) {
   if (cubic) {
     const [out, into] = [values.getElement(3 * i + 2, []), values.getElement(3 * i + 3, [])];
     const [t2, t3, step] = [t * t, t * t * t, t1 - t0];
-    return a.map((x, k) => (2 * t3 - 3 * t2 + 1) * x + step * (t3 - 2 * t2 + t) * out[k] + (3 * t2 - 2 * t3) * b[k] + step * (t3 - t2) * into[k]);
+    return a.map(
+      (x, k) =>
+        (2 * t3 - 3 * t2 + 1) * x +
+        step * (t3 - 2 * t2 + t) * out[k] +
+        (3 * t2 - 2 * t3) * b[k] +
+        step * (t3 - t2) * into[k],
+    );
   }
   if (isTurn) return new Quaternion(...a).slerp(new Quaternion(...b), t).toArray();
   return a.map((x, k) => x + t * (b[k] - x));
 }
 
-export const lengthOf = (clip) => Math.max(0, ...clip.listSamplers().map((sampler) => sampler.getInput()?.getMax([])[0] ?? 0));
+export const lengthOf = (clip) =>
+  Math.max(0, ...clip.listSamplers().map((sampler) => sampler.getInput()?.getMax([])[0] ?? 0));
 
 /** World matrices of all nodes at a time of a clip. */
 export function worldsAt(body, clip, time) {
@@ -40,8 +47,16 @@ export function worldsAt(body, clip, time) {
   const worlds = new Map();
   const worldOf = (node) => {
     if (worlds.has(node)) return worlds.get(node);
-    const { translation = node.getTranslation(), rotation = node.getRotation(), scale = node.getScale() } = changed.get(node) ?? {};
-    const local = new Matrix4().compose(new Vector3(...translation), new Quaternion(...rotation).normalize(), new Vector3(...scale));
+    const {
+      translation = node.getTranslation(),
+      rotation = node.getRotation(),
+      scale = node.getScale(),
+    } = changed.get(node) ?? {};
+    const local = new Matrix4().compose(
+      new Vector3(...translation),
+      new Quaternion(...rotation).normalize(),
+      new Vector3(...scale),
+    );
     const above = node.getParentNode();
     const world = above ? worldOf(above).clone().multiply(local) : local;
     worlds.set(node, world);
@@ -58,7 +73,10 @@ export function localsOf(body, shape) {
     if (!part.skin) matrix.fromArray(part.matrices).invert();
     for (let v = 0; v < part.count; ++v) {
       if (part.skin) matrix.fromArray(part.matrices, 16 * v).invert();
-      place.fromArray(shape, 3 * (part.first + v)).applyMatrix4(matrix).toArray(out, 3 * (part.first + v));
+      place
+        .fromArray(shape, 3 * (part.first + v))
+        .applyMatrix4(matrix)
+        .toArray(out, 3 * (part.first + v));
     }
   }
   return out;
@@ -76,7 +94,11 @@ export function playedAt(body, clip, time, locals, out) {
     for (let v = 0; v < part.count; ++v) {
       const [at, m] = [3 * (part.first + v), part.skin ? 16 * v : 0];
       for (let k = 0; k < 3; ++k)
-        out[at + k] = matrices[m + k] * locals[at] + matrices[m + 4 + k] * locals[at + 1] + matrices[m + 8 + k] * locals[at + 2] + matrices[m + 12 + k];
+        out[at + k] =
+          matrices[m + k] * locals[at] +
+          matrices[m + 4 + k] * locals[at + 1] +
+          matrices[m + 8 + k] * locals[at + 2] +
+          matrices[m + 12 + k];
     }
   }
   return out;
@@ -110,7 +132,15 @@ export class Timeline {
     if (!this.clip) return;
     const length = lengthOf(this.clip);
     this.shown = make('span', {});
-    this.scrub = make('input', { type: 'range', min: 0, max: length, step: length / 240, value: this.time, 'aria-label': 'Time of the clip', id: 'scrub' });
+    this.scrub = make('input', {
+      type: 'range',
+      min: 0,
+      max: length,
+      step: length / 240,
+      value: this.time,
+      'aria-label': 'Time of the clip',
+      id: 'scrub',
+    });
     this.scrub.oninput = () => {
       this.playing = false;
       this.seek(Number(this.scrub.value));
@@ -120,12 +150,19 @@ export class Timeline {
     this.element.replaceChildren(
       this.playButton,
       button('Rest', () => this.stop(), { id: 'to-rest' }),
-      choice('Clip', this.body.clips.map((clip, i) => [i, clip.getName() || `clip ${i + 1}`]), this.body.clips.indexOf(this.clip), (i) => {
-        this.stop();
-        this.clip = this.body.clips[Number(i)];
-        this.draw();
-      }),
-      this.scrub, this.shown);
+      choice(
+        'Clip',
+        this.body.clips.map((clip, i) => [i, clip.getName() || `clip ${i + 1}`]),
+        this.body.clips.indexOf(this.clip),
+        (i) => {
+          this.stop();
+          this.clip = this.body.clips[Number(i)];
+          this.draw();
+        },
+      ),
+      this.scrub,
+      this.shown,
+    );
     this.label();
   }
   label() {

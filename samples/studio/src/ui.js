@@ -13,10 +13,16 @@ export function make(tag, attributes = {}, ...children) {
   return element;
 }
 
-export const button = (text, onclick, attributes = {}) => make('button', { type: 'button', onclick, ...attributes }, text);
+export const button = (text, onclick, attributes = {}) =>
+  make('button', { type: 'button', onclick, ...attributes }, text);
 
 /** A slider with its value beside the name; onmove while it moves, onset at its end. */
-export function slider(name, { value, low, high, step = 0.01, digits = 2, id = null, disabled = false }, onmove, onset = () => {}) {
+export function slider(
+  name,
+  { value, low, high, step = 0.01, digits = 2, id = null, disabled = false },
+  onmove,
+  onset = () => {},
+) {
   const shown = make('span', {}, Number(value).toFixed(digits));
   const input = make('input', { type: 'range', min: low, max: high, step, value, id, disabled });
   input.oninput = () => {
@@ -28,10 +34,18 @@ export function slider(name, { value, low, high, step = 0.01, digits = 2, id = n
 }
 
 export const facts = (rows) =>
-  make('dl', { class: 'facts' }, ...rows.filter(Boolean).flatMap(([name, value]) => [make('dt', {}, name), make('dd', {}, String(value))]));
+  make(
+    'dl',
+    { class: 'facts' },
+    ...rows.filter(Boolean).flatMap(([name, value]) => [make('dt', {}, name), make('dd', {}, String(value))]),
+  );
 
 export function choice(name, options, value, onchange, attributes = {}) {
-  const select = make('select', { 'aria-label': name, ...attributes }, ...options.map(([key, text]) => make('option', { value: key, selected: String(key) === String(value) }, text)));
+  const select = make(
+    'select',
+    { 'aria-label': name, ...attributes },
+    ...options.map(([key, text]) => make('option', { value: key, selected: String(key) === String(value) }, text)),
+  );
   select.onchange = () => onchange(select.value);
   return select;
 }
@@ -42,7 +56,13 @@ export function card(title, content, ways) {
   dialog.replaceChildren(
     make('h2', { id: 'card-title' }, title),
     ...content,
-    make('div', { class: 'row' }, ...ways.map(([text, action, main]) => button(text, () => (dialog.close(), action?.()), main ? { class: 'main' } : {}))),
+    make(
+      'div',
+      { class: 'row' },
+      ...ways.map(([text, action, main]) =>
+        button(text, () => (dialog.close(), action?.()), main ? { class: 'main' } : {}),
+      ),
+    ),
   );
   if (!dialog.open) dialog.showModal();
   return dialog;
@@ -53,7 +73,10 @@ export const whole = (number) => Math.round(number).toLocaleString('en');
 export const ms = (number) => (number < 10 ? `${number.toFixed(1)} ms` : `${Math.round(number)} ms`);
 
 export function download(data, name, type) {
-  const link = make('a', { href: URL.createObjectURL(data instanceof Blob ? data : new Blob([data], { type })), download: name });
+  const link = make('a', {
+    href: URL.createObjectURL(data instanceof Blob ? data : new Blob([data], { type })),
+    download: name,
+  });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }

@@ -62,7 +62,9 @@ export class View {
 
   place() {
     const flat = Math.cos(this.lift) * this.distance;
-    this.camera.position.set(Math.sin(this.turn) * flat, Math.sin(this.lift) * this.distance, Math.cos(this.turn) * flat).add(this.target);
+    this.camera.position
+      .set(Math.sin(this.turn) * flat, Math.sin(this.lift) * this.distance, Math.cos(this.turn) * flat)
+      .add(this.target);
     this.camera.near = this.distance / 100;
     this.camera.far = this.distance * 20;
     this.camera.lookAt(this.target);
@@ -77,11 +79,16 @@ export class View {
     this.height = height;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
+    if (this.framed) this.frame(this.framed);
     this.draw();
   }
   /** The directions of the picture: right, up, and towards the eye. */
   axes() {
-    const eye = new THREE.Vector3(Math.sin(this.turn) * Math.cos(this.lift), Math.sin(this.lift), Math.cos(this.turn) * Math.cos(this.lift));
+    const eye = new THREE.Vector3(
+      Math.sin(this.turn) * Math.cos(this.lift),
+      Math.sin(this.lift),
+      Math.cos(this.turn) * Math.cos(this.lift),
+    );
     const right = new THREE.Vector3(Math.cos(this.turn), 0, -Math.sin(this.turn));
     return { right, up: eye.clone().cross(right), eye };
   }
@@ -90,8 +97,9 @@ export class View {
     const size = box.getSize(new THREE.Vector3());
     return [0, 1, 2].reduce((sum, k) => sum + 0.5 * size.getComponent(k) * Math.abs(direction.getComponent(k)), 0);
   }
-  /** Moves so that a box fills the picture but for a margin. */
+  /** Moves so that a box fills the picture but for a margin; when the window changes, again, until the user zooms. */
   frame(box) {
+    this.framed = box.clone();
     box.getCenter(this.target);
     this.size = box.getSize(new THREE.Vector3()).length() || 1;
     const { right, up, eye } = this.axes();
@@ -106,6 +114,7 @@ export class View {
     this.draw();
   }
   panBy(dx, dy) {
+    this.framed = null;
     const unit = (2 * this.distance * Math.tan((this.camera.fov * Math.PI) / 360)) / this.height;
     const [right, up] = [new THREE.Vector3(), new THREE.Vector3()];
     this.camera.matrixWorld.extractBasis(right, up, new THREE.Vector3());
@@ -113,6 +122,7 @@ export class View {
     this.draw();
   }
   zoomBy(factor) {
+    this.framed = null;
     this.distance = Math.max(this.size * 0.05, Math.min(this.size * 12, this.distance * factor));
     this.draw();
   }

@@ -135,7 +135,9 @@ self.onmessage = ({ data: { id, task, args } }) => {
     } catch (error) {
       // the library's own sentence, without the name of the function and the code
       const { codeName = null, index = null, functionName = '' } = error;
-      const message = codeName ? error.message.replace(`${functionName}: `, '').replace(` (${codeName})`, '') : error.message;
+      const message = codeName
+        ? error.message.replace(`${functionName}: `, '').replace(` (${codeName})`, '')
+        : error.message;
       self.postMessage({ id, error: { message, codeName, index } });
     }
   });

@@ -9,8 +9,12 @@ export function fieldOf(body) {
   let held = new Map(); // id -> { number, corners, barycentrics, value, soft }
   const components = surface.components;
 
-  const place = (list) => ({ corners: list.flatMap((site) => site.corners), barycentrics: list.flatMap((site) => site.barycentrics) });
-  const moved = (a, b) => a.corners.some((x, k) => x !== b.corners[k]) || a.barycentrics.some((x, k) => x !== b.barycentrics[k]);
+  const place = (list) => ({
+    corners: list.flatMap((site) => site.corners),
+    barycentrics: list.flatMap((site) => site.barycentrics),
+  });
+  const moved = (a, b) =>
+    a.corners.some((x, k) => x !== b.corners[k]) || a.barycentrics.some((x, k) => x !== b.barycentrics[k]);
 
   const hold = (sites) => {
     solver ??= new hf.Solver(surface);
@@ -22,14 +26,27 @@ export function fieldOf(body) {
     }
     const kept = sites.filter(({ id }) => held.has(id));
     const travelled = kept.filter((site) => moved(site, held.get(site.id)));
-    if (travelled.length) solver.moveSites(travelled.map(({ id }) => held.get(id).number), null, place(travelled));
+    if (travelled.length)
+      solver.moveSites(
+        travelled.map(({ id }) => held.get(id).number),
+        null,
+        place(travelled),
+      );
     const changed = kept.filter((site) => site.value !== held.get(site.id).value);
-    if (changed.length) solver.setValues(changed.map(({ id }) => held.get(id).number), changed.map(({ value }) => value));
+    if (changed.length)
+      solver.setValues(
+        changed.map(({ id }) => held.get(id).number),
+        changed.map(({ value }) => value),
+      );
     for (const site of kept) held.set(site.id, { ...site, number: held.get(site.id).number });
     const added = sites.filter(({ id }) => !held.has(id));
     if (added.length) {
       const stiffness = added.map(({ soft }) => (soft ? SOFT_STIFFNESS : 0));
-      const numbers = solver.addSites(null, added.map(({ value }) => value), { ...place(added), stiffness });
+      const numbers = solver.addSites(
+        null,
+        added.map(({ value }) => value),
+        { ...place(added), stiffness },
+      );
       added.forEach((site, i) => held.set(site.id, { ...site, number: numbers[i] }));
     }
   };

@@ -3,7 +3,12 @@ export function weightsOf(body, bones, weightCount) {
   const { hf, surface } = body;
   const begin = performance.now();
   const weights = new hf.Weights(surface, bones, { weightCount });
-  const answer = { ...weights.weights(), ...weights.bones(), info: weights.info, milliseconds: performance.now() - begin };
+  const answer = {
+    ...weights.weights(),
+    ...weights.bones(),
+    info: weights.info,
+    milliseconds: performance.now() - begin,
+  };
   weights.close();
   return answer;
 }

@@ -19,7 +19,10 @@ export function poseOf(body) {
     }
     if (same < handles.length) {
       const added = handles.slice(same);
-      const numbers = pose.addHandles(null, { points: added.flatMap(({ position }) => position), radii: added.map(({ radius }) => radius) });
+      const numbers = pose.addHandles(null, {
+        points: added.flatMap(({ position }) => position),
+        radii: added.map(({ radius }) => radius),
+      });
       added.forEach(({ id, position, radius }, i) => held.push({ id, position, radius, number: numbers[i] }));
     }
   };
@@ -45,7 +48,10 @@ export function poseOf(body) {
       change(handles);
       pose.setTransforms(
         held.map(({ number }) => number),
-        { rotations: handles.flatMap((handle) => handle.rotation), translations: handles.flatMap((handle) => handle.translation) },
+        {
+          rotations: handles.flatMap((handle) => handle.rotation),
+          translations: handles.flatMap((handle) => handle.translation),
+        },
       );
       const positions = pose.deform(null, { restart: Number(restart) });
       told = pose.deformInfo;

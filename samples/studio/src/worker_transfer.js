@@ -11,7 +11,10 @@ export function transferOf(body, source) {
   let transfer = null;
 
   const boxOf = (positions) => {
-    const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+    const [low, high] = [
+      [Infinity, Infinity, Infinity],
+      [-Infinity, -Infinity, -Infinity],
+    ];
     for (let i = 0; i < positions.length; ++i) {
       low[i % 3] = Math.min(low[i % 3], positions[i]);
       high[i % 3] = Math.max(high[i % 3], positions[i]);
@@ -21,10 +24,19 @@ export function transferOf(body, source) {
   const placesOf = (on, positions) => {
     const { low, high } = boxOf(positions);
     const size = Math.hypot(...high.map((x, k) => x - low[k]));
-    const places = on.proposeHandles().map(({ position, radius, reason }) => ({ position, radius, foot: reason === HF_HANDLE_REASON_FOOT }));
+    const places = on
+      .proposeHandles()
+      .map(({ position, radius, reason }) => ({ position, radius, foot: reason === HF_HANDLE_REASON_FOOT }));
     const feet = places.filter(({ foot }) => foot);
-    const trunk = trunkOf(on, positions, low, high, feet).map((position) => ({ position, radius: 0.03 * size, trunk: true }));
-    const like = (place) => ({ ...place, like: place.position.map((x, k) => (x - low[k]) / Math.max(high[k] - low[k], 1e-9)) });
+    const trunk = trunkOf(on, positions, low, high, feet).map((position) => ({
+      position,
+      radius: 0.03 * size,
+      trunk: true,
+    }));
+    const like = (place) => ({
+      ...place,
+      like: place.position.map((x, k) => (x - low[k]) / Math.max(high[k] - low[k], 1e-9)),
+    });
     return [...places, ...trunk].map(like);
   };
   /** Withers and rump: where vertical lines over the fore and the hind feet enter the body. Over one row of feet: back and belly. */
@@ -33,7 +45,10 @@ export function transferOf(body, source) {
     const down = (x, z) => on.castRay([x, high[1] + 1, z], [0, -1, 0])?.position;
     if (feet.length >= 4) {
       const middle = centre(feet, 2);
-      const [fore, hind] = [feet.filter(({ position }) => position[2] > middle), feet.filter(({ position }) => position[2] <= middle)];
+      const [fore, hind] = [
+        feet.filter(({ position }) => position[2] > middle),
+        feet.filter(({ position }) => position[2] <= middle),
+      ];
       return [down(centre(fore, 0), centre(fore, 2)), down(centre(hind, 0), centre(hind, 2))].filter(Boolean);
     }
     const [x, z] = feet.length ? [centre(feet, 0), centre(feet, 2)] : [(low[0] + high[0]) / 2, (low[2] + high[2]) / 2];
@@ -43,7 +58,14 @@ export function transferOf(body, source) {
   const regionOf = (positions, { position, radius }, nearest) => {
     const list = [];
     for (let v = 0; 3 * v < positions.length; ++v)
-      if (Math.hypot(positions[3 * v] - position[0], positions[3 * v + 1] - position[1], positions[3 * v + 2] - position[2]) < radius) list.push(v);
+      if (
+        Math.hypot(
+          positions[3 * v] - position[0],
+          positions[3 * v + 1] - position[1],
+          positions[3 * v + 2] - position[2],
+        ) < radius
+      )
+        list.push(v);
     return list.length ? list : [nearest(position)];
   };
 
@@ -53,16 +75,22 @@ export function transferOf(body, source) {
       const [from, to] = [placesOf(source, sourcePositions), placesOf(surface, body.positions)];
       const kindOf = ({ foot, trunk }) => (foot ? 'foot' : trunk ? 'trunk' : 'tip');
       const options = [];
-      from.forEach((a, i) => to.forEach((b, j) => {
-        if (kindOf(a) === kindOf(b)) options.push([Math.hypot(...a.like.map((x, k) => x - b.like[k])), i, j]);
-      }));
+      from.forEach((a, i) =>
+        to.forEach((b, j) => {
+          if (kindOf(a) === kindOf(b)) options.push([Math.hypot(...a.like.map((x, k) => x - b.like[k])), i, j]);
+        }),
+      );
       options.sort((a, b) => a[0] - b[0]);
       const [used, taken, pairs] = [new Set(), new Set(), []];
       for (const [away, i, j] of options) {
         if (used.has(i) || taken.has(j) || away > ALIKE) continue;
         used.add(i);
         taken.add(j);
-        pairs.push({ kind: kindOf(from[i]), source: { position: from[i].position, radius: from[i].radius }, target: { position: to[j].position, radius: to[j].radius } });
+        pairs.push({
+          kind: kindOf(from[i]),
+          source: { position: from[i].position, radius: from[i].radius },
+          target: { position: to[j].position, radius: to[j].radius },
+        });
       }
       return pairs;
     },

@@ -40,7 +40,8 @@ export class DetailTool {
     for (const v of found.rim) tint.set([0.35, 0.2, 0.12], 3 * v);
     // copies of a vertex take the colour of the first
     const groups = this.app.timeline.places();
-    for (let v = 0; v < body.vertexCount; ++v) if (groups[v] !== v) tint.copyWithin(3 * v, 3 * groups[v], 3 * groups[v] + 3);
+    for (let v = 0; v < body.vertexCount; ++v)
+      if (groups[v] !== v) tint.copyWithin(3 * v, 3 * groups[v], 3 * groups[v] + 3);
     skin.setTint(tint);
     return skin.wear('tint');
   }
@@ -68,7 +69,10 @@ export class DetailTool {
     if (!hit) return;
     this.points.push({ at, hit });
     this.line.geometry.dispose();
-    this.line.geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(Float32Array.from(this.points.flatMap(({ hit: { position } }) => position)), 3));
+    this.line.geometry = new BufferGeometry().setAttribute(
+      'position',
+      new BufferAttribute(Float32Array.from(this.points.flatMap(({ hit: { position } }) => position)), 3),
+    );
     this.line.visible = true;
     this.app.view.draw();
   }
@@ -80,7 +84,10 @@ export class DetailTool {
     this.line.visible = false;
     const curve = this.points.map(({ hit: { vertex } }) => vertex).filter((v, i, all) => i === 0 || v !== all[i - 1]);
     if (curve.length < LEAST_POINTS) return;
-    await this.app.commit({ ...this.app.state, detail: { curve, seedVertex: 0, rings: 0, weight: this.detail?.weight ?? 0 } }, 'draw around a part');
+    await this.app.commit(
+      { ...this.app.state, detail: { curve, seedVertex: 0, rings: 0, weight: this.detail?.weight ?? 0 } },
+      'draw around a part',
+    );
     this.app.view.draw();
   }
   change(more, name, join) {
@@ -90,14 +97,38 @@ export class DetailTool {
     const { detail } = this;
     const found = detail && this.app.told?.detail;
     return [
-      make('p', {}, detail ? 'Move the slider: 1 as it is, 0 smooth, 2 twice the detail.' : 'Draw a loop on the body around a part, such as its head.'),
-      detail && slider('Detail', { value: 1 - detail.weight, low: -1, high: 2, step: 0.02, id: 'amount' },
-        (value) => this.app.preview({ ...this.app.state, detail: { ...detail, weight: 1 - value } }), () => this.app.commitPreview('change detail')),
-      detail && make('div', { class: 'row' },
-        button('Larger', () => this.change({ rings: detail.rings + 1 }, 'larger region', 'rings'), { id: 'larger' }),
-        button('Smaller', () => this.change({ rings: detail.rings - 1 }, 'smaller region', 'rings'), { id: 'smaller' }),
-        button('Remove', () => this.app.commit({ ...this.app.state, detail: null }, 'remove the region'), { id: 'remove' })),
-      found && facts([['vertices', whole(found.vertexCount)], ['rim', whole(found.rimCount)], ['time', ms(this.app.told.milliseconds)]]),
+      make(
+        'p',
+        {},
+        detail
+          ? 'Move the slider: 1 as it is, 0 smooth, 2 twice the detail.'
+          : 'Draw a loop on the body around a part, such as its head.',
+      ),
+      detail &&
+        slider(
+          'Detail',
+          { value: 1 - detail.weight, low: -1, high: 2, step: 0.02, id: 'amount' },
+          (value) => this.app.preview({ ...this.app.state, detail: { ...detail, weight: 1 - value } }),
+          () => this.app.commitPreview('change detail'),
+        ),
+      detail &&
+        make(
+          'div',
+          { class: 'row' },
+          button('Larger', () => this.change({ rings: detail.rings + 1 }, 'larger region', 'rings'), { id: 'larger' }),
+          button('Smaller', () => this.change({ rings: detail.rings - 1 }, 'smaller region', 'rings'), {
+            id: 'smaller',
+          }),
+          button('Remove', () => this.app.commit({ ...this.app.state, detail: null }, 'remove the region'), {
+            id: 'remove',
+          }),
+        ),
+      found &&
+        facts([
+          ['vertices', whole(found.vertexCount)],
+          ['rim', whole(found.rimCount)],
+          ['time', ms(this.app.told.milliseconds)],
+        ]),
     ];
   }
 }

@@ -45,10 +45,27 @@ export class FieldTool {
     this.app.panel();
   }
   marks() {
-    const free = (this.ends ?? []).filter(({ vertex }) => !this.sites.some(({ corners, barycentrics }) => corners[barycentrics.indexOf(1)] === vertex));
+    const free = (this.ends ?? []).filter(
+      ({ vertex }) => !this.sites.some(({ corners, barycentrics }) => corners[barycentrics.indexOf(1)] === vertex),
+    );
     return [
-      ...this.sites.map((site, i) => ({ id: site.id, place: this.app.skin.at(site), label: `site ${i + 1}, value ${site.value.toFixed(2)}`, chosen: site.id === this.chosen, colour: this.colour(site.value) })),
-      ...free.map(({ vertex }, i) => ({ id: `e${vertex}`, vertex, place: this.app.skin.at({ corners: [vertex], barycentrics: [1] }), label: `end ${i + 1}, proposed site`, offer: true, pulse: !this.sites.length && i === 0, say: !this.sites.length && i === 0 ? 'click me' : null, colour: '#777' })),
+      ...this.sites.map((site, i) => ({
+        id: site.id,
+        place: this.app.skin.at(site),
+        label: `site ${i + 1}, value ${site.value.toFixed(2)}`,
+        chosen: site.id === this.chosen,
+        colour: this.colour(site.value),
+      })),
+      ...free.map(({ vertex }, i) => ({
+        id: `e${vertex}`,
+        vertex,
+        place: this.app.skin.at({ corners: [vertex], barycentrics: [1] }),
+        label: `end ${i + 1}, proposed site`,
+        offer: true,
+        pulse: !this.sites.length && i === 0,
+        say: !this.sites.length && i === 0 ? 'click me' : null,
+        colour: '#777',
+      })),
     ];
   }
   colour(value) {
@@ -62,7 +79,10 @@ export class FieldTool {
   add(place) {
     const id = `s${this.app.nextId()}`;
     this.chosen = id;
-    return this.app.commit({ ...this.app.state, sites: [...this.sites, { id, value: this.next(), soft: false, ...place }] }, 'add a site');
+    return this.app.commit(
+      { ...this.app.state, sites: [...this.sites, { id, value: this.next(), soft: false, ...place }] },
+      'add a site',
+    );
   }
   hit([x, y]) {
     const hit = this.app.skin.pick(this.app.view.ray(x, y));
@@ -102,7 +122,7 @@ export class FieldTool {
       if (place) this.app.commit(this.with(mark.id, place), 'move a site', `site ${mark.id}`);
       return true;
     }
-    if (event.key === 'Delete' || event.key === 'Backspace') return this.remove(mark.id), true;
+    if (event.key === 'Delete' || event.key === 'Backspace') return (this.remove(mark.id), true);
     return false;
   }
   remove(id) {
@@ -121,13 +141,42 @@ export class FieldTool {
     const site = this.present();
     const told = this.app.fieldTold;
     return [
-      make('p', {}, this.sites.length ? 'Drag a site: the field follows. Hover over the body to read a value.' : 'Click the body, or a proposed end, to put the first site there.'),
-      site && slider('Value', { value: site.value, low: -1, high: 2, id: 'value' }, (value) => this.app.preview(this.with(site.id, { value })), () => this.app.commitPreview('set a value')),
-      site && make('div', { class: 'row' },
-        button(site.soft ? 'Make it hard' : 'Make it soft', () => this.app.commit(this.with(site.id, { soft: !site.soft }), 'hard or soft'), { id: 'soft' }),
-        button('Remove', () => this.remove(site.id), { id: 'remove' })),
-      this.sites.length > 0 && button('Remove all sites', () => this.app.commit({ ...this.app.state, sites: [] }, 'remove all sites'), { id: 'clear' }),
-      told?.unreachedVertexCount > 0 && this.sites.length > 0 && make('p', { class: 'warn' }, `${whole(told.unreachedVertexCount)} vertices belong to pieces without a site; they are hatched.`),
+      make(
+        'p',
+        {},
+        this.sites.length
+          ? 'Drag a site: the field follows. Hover over the body to read a value.'
+          : 'Click the body, or a proposed end, to put the first site there.',
+      ),
+      site &&
+        slider(
+          'Value',
+          { value: site.value, low: -1, high: 2, id: 'value' },
+          (value) => this.app.preview(this.with(site.id, { value })),
+          () => this.app.commitPreview('set a value'),
+        ),
+      site &&
+        make(
+          'div',
+          { class: 'row' },
+          button(
+            site.soft ? 'Make it hard' : 'Make it soft',
+            () => this.app.commit(this.with(site.id, { soft: !site.soft }), 'hard or soft'),
+            { id: 'soft' },
+          ),
+          button('Remove', () => this.remove(site.id), { id: 'remove' }),
+        ),
+      this.sites.length > 0 &&
+        button('Remove all sites', () => this.app.commit({ ...this.app.state, sites: [] }, 'remove all sites'), {
+          id: 'clear',
+        }),
+      told?.unreachedVertexCount > 0 &&
+        this.sites.length > 0 &&
+        make(
+          'p',
+          { class: 'warn' },
+          `${whole(told.unreachedVertexCount)} vertices belong to pieces without a site; they are hatched.`,
+        ),
       facts([['sites', this.sites.length], this.sites.length && told && ['field', ms(told.milliseconds)]]),
     ];
   }

@@ -1,5 +1,13 @@
 // Quads: a quad mesh of the body, made in a Worker of its own; it can be cancelled.
-import { BufferAttribute, BufferGeometry, DoubleSide, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial } from 'three';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshLambertMaterial,
+} from 'three';
 import { button, choice, facts, make, ms, slider, whole } from '../ui.js';
 
 /** Length of an edge as part of the size of the body: the library's own default. */
@@ -58,7 +66,17 @@ export class QuadsTool {
     try {
       const factor = await app.client.ask('factor');
       if (mine.cancelled) return;
-      const job = app.client.job('quads', { positions, triangles, factor, edgeLength: this.edge * app.opened.report.boundingBoxDiagonal, kind: this.kind }, [factor.buffer]);
+      const job = app.client.job(
+        'quads',
+        {
+          positions,
+          triangles,
+          factor,
+          edgeLength: this.edge * app.opened.report.boundingBoxDiagonal,
+          kind: this.kind,
+        },
+        [factor.buffer],
+      );
       mine.job = job;
       const result = await job.answer;
       if (mine.cancelled) return;
@@ -114,12 +132,20 @@ export class QuadsTool {
     this.lines.frustumCulled = false;
     const corners = [];
     for (let f = 0; f + 1 < faceStarts.length; ++f)
-      for (let i = faceStarts[f] + 2; i < faceStarts[f + 1]; ++i) corners.push(faceCorners[faceStarts[f]], faceCorners[i - 1], faceCorners[i]);
+      for (let i = faceStarts[f] + 2; i < faceStarts[f + 1]; ++i)
+        corners.push(faceCorners[faceStarts[f]], faceCorners[i - 1], faceCorners[i]);
     const surface = new BufferGeometry();
     surface.setAttribute('position', geometry.getAttribute('position'));
     surface.setIndex(corners);
     // faces lie a little behind their lines
-    const paint = new MeshLambertMaterial({ color: 0xd9d4c8, side: DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+    const paint = new MeshLambertMaterial({
+      color: 0xd9d4c8,
+      side: DoubleSide,
+      flatShading: true,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
+    });
     this.faces = new Mesh(surface, paint);
     this.faces.frustumCulled = false;
     this.lines.add(this.faces);
@@ -147,14 +173,43 @@ export class QuadsTool {
     const { result, busy } = this;
     return [
       make('p', {}, 'Covers the body with quads that follow its shape. A finer size takes longer.'),
-      slider('Size of a quad, parts of the body', { value: this.edge, low: 0.01, high: 0.06, step: 0.001, digits: 3, id: 'edge', disabled: Boolean(busy) }, (value) => (this.edge = value)),
-      choice('Kind', [[0, 'even size'], [1, 'quads alone, sizes vary']], this.kind, (value) => (this.kind = Number(value)), { id: 'kind', disabled: Boolean(busy) }),
-      make('div', { class: 'row' },
+      slider(
+        'Size of a quad, parts of the body',
+        { value: this.edge, low: 0.01, high: 0.06, step: 0.001, digits: 3, id: 'edge', disabled: Boolean(busy) },
+        (value) => (this.edge = value),
+      ),
+      choice(
+        'Kind',
+        [
+          [0, 'even size'],
+          [1, 'quads alone, sizes vary'],
+        ],
+        this.kind,
+        (value) => (this.kind = Number(value)),
+        { id: 'kind', disabled: Boolean(busy) },
+      ),
+      make(
+        'div',
+        { class: 'row' },
         button('Make quads', () => this.run(), { class: 'main', id: 'make', disabled: Boolean(busy) }),
-        busy && button('Cancel', () => this.cancel(), { id: 'cancel' })),
-      busy && make('div', { class: 'row', role: 'status' }, make('progress', { 'aria-label': 'making quads' }), make('span', { id: 'quads-clock' }, '0 s')),
+        busy && button('Cancel', () => this.cancel(), { id: 'cancel' }),
+      ),
+      busy &&
+        make(
+          'div',
+          { class: 'row', role: 'status' },
+          make('progress', { 'aria-label': 'making quads' }),
+          make('span', { id: 'quads-clock' }, '0 s'),
+        ),
       this.error && make('p', { class: 'warn' }, this.error),
-      result && facts([['quads', whole(result.info.quadCount)], ['faces', whole(result.info.faceCount)], ['corners', whole(result.info.vertexCount)], ['edge', result.info.edgeLength.toPrecision(3)], ['time', ms(result.milliseconds)]]),
+      result &&
+        facts([
+          ['quads', whole(result.info.quadCount)],
+          ['faces', whole(result.info.faceCount)],
+          ['corners', whole(result.info.vertexCount)],
+          ['edge', result.info.edgeLength.toPrecision(3)],
+          ['time', ms(result.milliseconds)],
+        ]),
     ];
   }
 }

@@ -71,7 +71,10 @@ export class TransferTool {
       const shown = { offer: pair.off, colour: this.colour(i), chosen: this.chosenPair === i };
       const at = pair.source.position.map((x, k) => x + this.source.offset[k]);
       const name = `pair ${i + 1}, ${pair.kind}${pair.off ? ', left out' : ''}`;
-      return [{ id: `a${i}`, place: at, label: `${name}, source`, pair: i, ...shown }, { id: `b${i}`, place: pair.target.position, label: `${name}, target`, pair: i, ...shown }];
+      return [
+        { id: `a${i}`, place: at, label: `${name}, source`, pair: i, ...shown },
+        { id: `b${i}`, place: pair.target.position, label: `${name}, target`, pair: i, ...shown },
+      ];
     });
   }
   /** A click on a mark leaves its pair out, or takes it in again. */
@@ -83,7 +86,9 @@ export class TransferTool {
     if (!this.moved) return;
     const { pair, side, place } = this.moved;
     this.moved = null;
-    await this.set(this.pairs.map((other, i) => (i === pair ? { ...other, [side]: { ...other[side], position: place } } : other)));
+    await this.set(
+      this.pairs.map((other, i) => (i === pair ? { ...other, [side]: { ...other[side], position: place } } : other)),
+    );
   }
   drag({ id, pair }, [x, y]) {
     const side = id.startsWith('a') ? 'source' : 'target';
@@ -93,7 +98,9 @@ export class TransferTool {
     const hit = skin.pick(ray);
     if (!hit) return;
     this.moved = { pair, side, place: hit.position };
-    this.pairs = this.pairs.map((other, i) => (i === pair ? { ...other, [side]: { ...other[side], position: hit.position } } : other));
+    this.pairs = this.pairs.map((other, i) =>
+      i === pair ? { ...other, [side]: { ...other[side], position: hit.position } } : other,
+    );
     this.app.marksLayer.update();
   }
   /** Takes a list of pairs; one that the library refuses leaves the list that was there. */
@@ -114,7 +121,11 @@ export class TransferTool {
     try {
       const body = await readModel(bytes, name);
       const clip = body.clips.find((other) => lengthOf(other) > 0);
-      if (!clip) return app.failed(`${name} was not taken`, Object.assign(new Error(`${name} has no clip to play.`), { advice: 'Take a file with an animation.' }));
+      if (!clip)
+        return app.failed(
+          `${name} was not taken`,
+          Object.assign(new Error(`${name} has no clip to play.`), { advice: 'Take a file with an animation.' }),
+        );
       this.#drop();
       const { positions, triangles } = body;
       const pairs = await app.client.ask('transferOpen', { positions, triangles });
@@ -122,8 +133,18 @@ export class TransferTool {
       const groups = normalGroups(positions, body.fileNormals);
       const normals = smoothNormals(positions, triangles, groups, new Float32Array(positions.length));
       skin.set({ positions, normals });
-      this.source = { body, skin, groups, normals, posed: new Float32Array(positions.length), locals: localsOf(body, positions) };
-      app.client.ask('sourceTree').then((tree) => this.source?.skin === skin && skin.useTree(tree), () => {});
+      this.source = {
+        body,
+        skin,
+        groups,
+        normals,
+        posed: new Float32Array(positions.length),
+        locals: localsOf(body, positions),
+      };
+      app.client.ask('sourceTree').then(
+        (tree) => this.source?.skin === skin && skin.useTree(tree),
+        () => {},
+      );
       this.clip = clip;
       this.pairs = this.good = pairs;
       this.time = 0;
@@ -194,30 +215,74 @@ export class TransferTool {
   }
   sheet() {
     const { source, app } = this;
-    const take = make('div', { class: 'row' },
-      ...app.samples.filter((name) => `${name}.glb` !== app.body.name).map((name) => button(`Take the ${name}`, () => this.openSample(name), { id: `take-${name}` })),
-      button('Take a file', () => {
-        const input = make('input', { type: 'file', accept: '.glb,.gltf', id: 'source-file' });
-        input.onchange = async () => input.files[0] && this.open(new Uint8Array(await input.files[0].arrayBuffer()), input.files[0].name);
-        input.click();
-      }, { id: 'take-file' }));
+    const take = make(
+      'div',
+      { class: 'row' },
+      ...app.samples
+        .filter((name) => `${name}.glb` !== app.body.name)
+        .map((name) => button(`Take the ${name}`, () => this.openSample(name), { id: `take-${name}` })),
+      button(
+        'Take a file',
+        () => {
+          const input = make('input', { type: 'file', accept: '.glb,.gltf', id: 'source-file' });
+          input.onchange = async () =>
+            input.files[0] && this.open(new Uint8Array(await input.files[0].arrayBuffer()), input.files[0].name);
+          input.click();
+        },
+        { id: 'take-file' },
+      ),
+    );
     if (!source) return [make('p', {}, 'Take another body with a clip: its motion plays on this one.'), take];
     const active = this.pairs.filter(({ off }) => !off).length;
     return [
-      make('p', {}, this.pairs.length ? 'Left the source, right your body. A click on a dot leaves its pair out; a drag moves it.' : 'No places of the two bodies are alike; take another source.'),
-      this.info && make('div', { class: 'row' },
-        button(this.playing ? 'Pause' : 'Play', () => (this.playing ? ((this.playing = false), app.refresh()) : this.play()), { class: 'main', id: 'transfer-play' }),
-        button('Stop', () => this.stop(), { id: 'transfer-stop' }),
-        choice('Clip of the source', source.body.clips.map((clip, i) => [i, clip.getName() || `clip ${i + 1}`]), source.body.clips.indexOf(this.clip), (i) => (this.clip = source.body.clips[Number(i)]), { id: 'transfer-clip' })),
-      this.info && make('label', { class: 'slide' }, make('span', {}, 'Time'), make('span'), (() => {
-        const input = make('input', { type: 'range', min: 0, max: lengthOf(this.clip), step: 0.01, value: this.time, id: 'transfer-time' });
-        input.oninput = () => {
-          this.playing = false;
-          this.seek(Number(input.value));
-          app.marksLayer.update();
-        };
-        return input;
-      })()),
+      make(
+        'p',
+        {},
+        this.pairs.length
+          ? 'Left the source, right your body. A click on a dot leaves its pair out; a drag moves it.'
+          : 'No places of the two bodies are alike; take another source.',
+      ),
+      this.info &&
+        make(
+          'div',
+          { class: 'row' },
+          button(
+            this.playing ? 'Pause' : 'Play',
+            () => (this.playing ? ((this.playing = false), app.refresh()) : this.play()),
+            { class: 'main', id: 'transfer-play' },
+          ),
+          button('Stop', () => this.stop(), { id: 'transfer-stop' }),
+          choice(
+            'Clip of the source',
+            source.body.clips.map((clip, i) => [i, clip.getName() || `clip ${i + 1}`]),
+            source.body.clips.indexOf(this.clip),
+            (i) => (this.clip = source.body.clips[Number(i)]),
+            { id: 'transfer-clip' },
+          ),
+        ),
+      this.info &&
+        make(
+          'label',
+          { class: 'slide' },
+          make('span', {}, 'Time'),
+          make('span'),
+          (() => {
+            const input = make('input', {
+              type: 'range',
+              min: 0,
+              max: lengthOf(this.clip),
+              step: 0.01,
+              value: this.time,
+              id: 'transfer-time',
+            });
+            input.oninput = () => {
+              this.playing = false;
+              this.seek(Number(input.value));
+              app.marksLayer.update();
+            };
+            return input;
+          })(),
+        ),
       take,
       facts([['pairs', `${active} of ${this.pairs.length}`], this.milliseconds && ['frame', ms(this.milliseconds)]]),
     ];

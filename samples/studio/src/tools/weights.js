@@ -37,7 +37,11 @@ export class WeightsTool {
   ofFile() {
     const { body } = this.app;
     const size = 4;
-    const found = { weightCount: size, joints: new Uint32Array(size * body.vertexCount), weights: new Float32Array(size * body.vertexCount) };
+    const found = {
+      weightCount: size,
+      joints: new Uint32Array(size * body.vertexCount),
+      weights: new Float32Array(size * body.vertexCount),
+    };
     for (const part of body.parts) {
       if (!part.skin) continue;
       const numbers = part.skin.listJoints().map((joint) => this.bones.joints.indexOf(joint));
@@ -115,21 +119,66 @@ export class WeightsTool {
     const info = result?.info;
     const guessed = info && info.rigidCount + info.isolatedCount;
     return [
-      make('p', {}, result ? 'Computed from the bones. Hover over the body to read a vertex.' : 'These are the weights of the file. Compute new ones from its bones.'),
-      make('div', { class: 'row' },
-        button(this.busy ? 'Computing' : 'Compute weights', () => this.compute(), { class: 'main', id: 'compute', disabled: this.busy }),
-        button('Weights of the file', () => { this.result = null; this.dress(); this.app.refresh(); }, { id: 'file-weights', disabled: !result })),
-      choice('Bones for each vertex', [[4, '4 bones for each vertex'], [8, '8 bones for each vertex']], this.weightCount, (value) => (this.weightCount = Number(value)), { id: 'weight-count' }),
+      make(
+        'p',
+        {},
+        result
+          ? 'Computed from the bones. Hover over the body to read a vertex.'
+          : 'These are the weights of the file. Compute new ones from its bones.',
+      ),
+      make(
+        'div',
+        { class: 'row' },
+        button(this.busy ? 'Computing' : 'Compute weights', () => this.compute(), {
+          class: 'main',
+          id: 'compute',
+          disabled: this.busy,
+        }),
+        button(
+          'Weights of the file',
+          () => {
+            this.result = null;
+            this.dress();
+            this.app.refresh();
+          },
+          { id: 'file-weights', disabled: !result },
+        ),
+      ),
+      choice(
+        'Bones for each vertex',
+        [
+          [4, '4 bones for each vertex'],
+          [8, '8 bones for each vertex'],
+        ],
+        this.weightCount,
+        (value) => (this.weightCount = Number(value)),
+        { id: 'weight-count' },
+      ),
       make('p', {}),
-      choice('Bone to show', [['all', 'all bones, each its colour'], ...this.bones.names.map((name, i) => [i, name])], this.shown, (value) => {
-        this.shown = value;
-        if (value === 'all') this.restoreField();
-        this.dress();
-      }, { id: 'bone' }),
+      choice(
+        'Bone to show',
+        [['all', 'all bones, each its colour'], ...this.bones.names.map((name, i) => [i, name])],
+        this.shown,
+        (value) => {
+          this.shown = value;
+          if (value === 'all') this.restoreField();
+          this.dress();
+        },
+        { id: 'bone' },
+      ),
       this.error && make('p', { class: 'warn' }, this.error),
-      guessed > 0 && make('p', { class: 'warn' }, `${whole(guessed)} vertices take their weights from the nearest part: no bone is near them.`),
-      facts([['bones', this.bones.joints.length], result && ['time', ms(result.milliseconds)], info && ['vertices that see their bone', whole(info.informedCount)], info && info.outsideCount > 0 && ['bones outside the skin', info.outsideCount]]),
+      guessed > 0 &&
+        make(
+          'p',
+          { class: 'warn' },
+          `${whole(guessed)} vertices take their weights from the nearest part: no bone is near them.`,
+        ),
+      facts([
+        ['bones', this.bones.joints.length],
+        result && ['time', ms(result.milliseconds)],
+        info && ['vertices that see their bone', whole(info.informedCount)],
+        info && info.outsideCount > 0 && ['bones outside the skin', info.outsideCount],
+      ]),
     ];
   }
 }
-
