@@ -2,7 +2,6 @@
 import { finish, start } from './harness.mjs';
 
 const stories = [
-  'first',
   'pose',
   'field',
   'weights',
@@ -13,6 +12,7 @@ const stories = [
   'save',
   'broken',
   'access',
+  'bodies',
   'figures',
 ];
 const wanted = process.argv.slice(4);

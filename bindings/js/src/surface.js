@@ -1,4 +1,6 @@
 // Surface and Progress: the mesh with its factor, what is read from it, and picking (hf/surface.h, hf/analysis.h).
+import { constants } from './raw.js';
+
 export function surfaceClasses(tools) {
   const {
     make,
@@ -241,10 +243,11 @@ export function surfaceClasses(tools) {
     proposeHandles({ progress = null, ...options } = {}) {
       const desc = make('hf_propose_desc').options(options);
       watched(desc, progress);
+      // room for all at once: a call that only counts would search the surface twice
+      const room = Math.min(desc.get('limit') || 32, constants.HF_HANDLE_LIMIT);
       const count = new Uint32Array(1);
-      call('hf_propose_handles', this._handle, desc, 0, null, written(count));
-      const bytes = new Uint8Array(count[0] * rowSize('hf_handle_proposal'));
-      if (count[0]) call('hf_propose_handles', this._handle, desc, count[0], written(bytes), written(count));
+      const bytes = new Uint8Array(room * rowSize('hf_handle_proposal'));
+      call('hf_propose_handles', this._handle, desc, room, written(bytes), written(count));
       return table('hf_handle_proposal', bytes, count[0]);
     }
   }
