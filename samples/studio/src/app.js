@@ -124,10 +124,10 @@ export class App {
     if (!this.live) return;
     const state = this.live;
     this.live = null;
-    await this.commit(state, name);
+    await this.commit(state, name, null, true);
   }
   /** A step. When the library refuses it, nothing has changed and its sentence is shown. */
-  async commit(state, name, join = null) {
+  async commit(state, name, join = null, dragged = false) {
     this.timeline.stop();
     const before = this.history.state;
     const kept = { past: this.history.past.slice(), future: this.history.future };
@@ -138,7 +138,8 @@ export class App {
       say('');
     } catch (error) {
       if (this.history.state === state) Object.assign(this.history, kept, { state: before });
-      await this.#apply(this.state, true).catch(() => {});
+      // what a drag has shown on its way goes; else the picture has not changed
+      if (dragged) await this.#apply(this.state, true).catch(() => {});
       say(`${name}: ${error.message}`);
     }
     this.refresh();

@@ -4,18 +4,28 @@
 // Normals of a file are told apart in steps of this part of 1: coarser than single precision, finer than an eye sees.
 const NORMAL_STEPS = 64;
 
-/** groups[v]: the first vertex that shares place and file normal with v. */
+/** groups[v]: the first vertex that shares place and file normal with v. A table of open addresses finds it. */
 export function normalGroups(positions, fileNormals) {
   const count = positions.length / 3;
   const groups = new Uint32Array(count);
-  const first = new Map();
   const bits = new Uint32Array(positions.buffer, positions.byteOffset, positions.length);
+  const steps = fileNormals ? Int8Array.from(fileNormals, (x) => Math.round(x * NORMAL_STEPS)) : null;
+  let size = 4;
+  while (size < 2 * count) size *= 2;
+  const table = new Uint32Array(size); // 0: free, else a vertex + 1
   for (let v = 0; v < count; ++v) {
-    let key = `${bits[3 * v]},${bits[3 * v + 1]},${bits[3 * v + 2]}`;
-    if (fileNormals) for (let k = 0; k < 3; ++k) key += `,${Math.round(fileNormals[3 * v + k] * NORMAL_STEPS)}`;
-    const known = first.get(key);
-    if (known === undefined) first.set(key, v);
-    groups[v] = known ?? v;
+    const a = 3 * v;
+    let hash = Math.imul(bits[a], 0x9e3779b1) ^ Math.imul(bits[a + 1], 0x85ebca6b) ^ Math.imul(bits[a + 2], 0xc2b2ae35);
+    if (steps) hash ^= Math.imul(steps[a] * 5 + steps[a + 1] * 17 + steps[a + 2] * 257, 0x27d4eb2f);
+    hash = Math.imul(hash ^ (hash >>> 15), 0x2c1b3c6d);
+    let at = (hash ^ (hash >>> 13)) & (size - 1);
+    for (; table[at]; at = (at + 1) & (size - 1)) {
+      const b = 3 * (table[at] - 1);
+      if (bits[a] !== bits[b] || bits[a + 1] !== bits[b + 1] || bits[a + 2] !== bits[b + 2]) continue;
+      if (!steps || (steps[a] === steps[b] && steps[a + 1] === steps[b + 1] && steps[a + 2] === steps[b + 2])) break;
+    }
+    if (!table[at]) table[at] = v + 1;
+    groups[v] = table[at] - 1;
   }
   return groups;
 }

@@ -124,7 +124,7 @@ export class Timeline {
     this.body = body;
     this.placeGroups = null;
     this.clip = body.clips.find((clip) => lengthOf(clip) > 0) ?? null;
-    this.groups = normalGroups(body.positions, body.fileNormals);
+    this.groups = null;
     this.draw();
   }
   draw() {
@@ -193,6 +193,7 @@ export class Timeline {
     const { app } = this;
     if (!this.locals) {
       this.locals = localsOf(this.body, app.shape.positions);
+      this.groups ??= normalGroups(this.body.positions, this.body.fileNormals);
       this.posed = new Float32Array(this.locals.length);
       this.normals = new Float32Array(this.locals.length);
     }
