@@ -86,19 +86,22 @@ hf_build() {
   hf_say "built in $((SECONDS - begin)) s"
 }
 
-# The npm packages of the tests (tests/npm), below the build folder: the versions and hashes of the lock file, and no
-# install script runs. Returns 1 when there is no npm, or nothing to install from.
-hf_install_node_modules() {
+# The npm packages of a folder with a lock file (FROM), installed into another (TO): the versions and hashes of the lock
+# file, and no install script runs. Returns 1 when there is no npm, or nothing to install from.
+hf_install_locked() {
+  local from=$1 folder=$2
   command -v npm >/dev/null 2>&1 || return 1
-  local lock="$hf_root/tests/npm" folder="$hf_root/build/npm"
-  [ -d "$folder/node_modules" ] && cmp -s "$lock/package-lock.json" "$folder/installed.json" && return 0
+  [ -d "$folder/node_modules" ] && cmp -s "$from/package-lock.json" "$folder/installed.json" && return 0
   mkdir -p "$folder"
-  hf_say "installing koffi, three.js, playwright-core and the Khronos glTF validator (npm)"
+  hf_say "installing the npm packages of ${from#"$hf_root"/}"
   rm -f "$folder/installed.json"
-  cp "$lock/package.json" "$lock/package-lock.json" "$folder/" || return 1
+  cp "$from/package.json" "$from/package-lock.json" "$folder/" || return 1
   (cd "$folder" && npm ci --ignore-scripts --no-audit --no-fund >npm.log 2>&1) || {
-    hf_say "npm could not install them; the log is build/npm/npm.log"
+    hf_say "npm could not install them; the log is $folder/npm.log"
     return 1
   }
-  cp "$lock/package-lock.json" "$folder/installed.json"
+  cp "$from/package-lock.json" "$folder/installed.json"
 }
+
+# The npm packages of the tests: koffi, three.js, playwright-core, axe-core and the Khronos glTF validator.
+hf_install_node_modules() { hf_install_locked "$hf_root/tests/npm" "$hf_root/build/npm"; }

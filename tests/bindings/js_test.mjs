@@ -273,3 +273,56 @@ if (global.gc) {
   console.log(`memory after 200 more surfaces and poses: ${(grown / 1e6).toFixed(1)} MB`);
   assert.ok(grown < 30e6, 'memory does not come back'); // 200 of them hold more than 100 MB
 }
+
+// ---- what the last call told, links and weights: two boxes apart, one of them without a site or handle
+{
+  const box = (x) => Array.from({ length: 8 }, (_, i) => [x + (i & 1), (i >> 1) & 1, (i >> 2) & 1]).flat();
+  const faces = [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5];
+  const places = Float32Array.from([...box(0), ...box(1.2)]);
+  const triangles = Uint32Array.from([...faces, ...faces.map((v) => v + 8)]);
+  const apart = new hf.Surface(places, triangles);
+  const solver = new hf.Solver(apart);
+  solver.addSite(0, 1);
+  solver.solve();
+  assert.deepEqual([solver.solveInfo.unreachedVertexCount, solver.solveInfo.unreachedComponentCount], [8, 1]);
+  solver.solvePreview();
+  assert.equal(solver.previewInfo.unreachedComponentCount, 1);
+  const along = new hf.Direction(apart);
+  along.addSites([0], [[0, 1, 1]]);
+  along.solve();
+  assert.equal(along.solveInfo.unreachedVertexCount, 8);
+  const pose = new hf.Pose(apart);
+  pose.addHandleAt([0, 0, 0], 0.1);
+  pose.deform();
+  assert.equal(pose.deformInfo.unreachedVertexCount, 8);
+  pose.deform(null, { normals: new Float32Array(48) });
+  assert.equal(pose.deformInfo.unreachedVertexCount, 8);
+
+  const linked = new hf.Surface(places, triangles, { links: { mode: hf.constants.HF_LINK_PIECES, distance: 0.5 } });
+  assert.equal(linked.report.componentCount, 1);
+  assert.deepEqual(new Set(linked.pieces.pieces), new Set([0, 1]));
+  const tags = Uint32Array.from({ length: 16 }, (_, v) => Number(v > 7));
+  const strangers = new hf.Surface(places, triangles, { links: { mode: hf.constants.HF_LINK_PIECES, distance: 0.5, tags } });
+  assert.equal(strangers.report.componentCount, 2);
+  assert.throws(() => new hf.Surface(places, triangles, { links: { tags: [1] } }), /links.tags must hold 16/);
+
+  const bones = { heads: [0.2, 0.5, 0.5, 1.4, 0.5, 0.5], tails: [0.8, 0.5, 0.5, 2, 0.5, 0.5] };
+  const weights = new hf.Weights(apart, bones);
+  const found = weights.weights();
+  assert.deepEqual([found.weightCount, found.joints[0], found.joints[4 * 15]], [4, 0, 1]);
+  for (let v = 0; v < 16; ++v) assert.ok(Math.abs(1 - found.weights.subarray(4 * v, 4 * v + 4).reduce((a, b) => a + b)) < 1e-6);
+  assert.deepEqual([weights.info.boneCount, Array.from(weights.bones().flags)], [2, [0, 0]]);
+  weights.record();
+  weights.setPins([0], { joints: [1], weights: [1] });
+  assert.deepEqual([weights.weights().joints[0], weights.info.pinCount], [1, 1]);
+  weights.undo();
+  assert.equal(weights.weights().joints[0], 0);
+  weights.setLocks([0]);
+  assert.equal(weights.info.lockCount, 1);
+  const copy = weights.clone();
+  copy.setBones({ heads: [0, 0, 0], tails: [1, 0, 0], sources: [0] });
+  assert.deepEqual([copy.info.boneCount, weights.info.boneCount], [1, 2]);
+  assert.throws(() => new hf.Weights(apart, { heads: [0, 0] }), /three numbers/);
+  assert.throws(() => weights.setPins([0], { joints: [0, 1], weights: [1] }), /one length/);
+  console.log(`${hf.backend}: reports of calls, links and weights`);
+}

@@ -11,20 +11,24 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 faults = []
 
-wanted = json.loads((HERE / "package.json").read_text())["dependencies"]
-lock = json.loads((HERE / "package-lock.json").read_text())["packages"]
-for name, version in wanted.items():
-    if not re.fullmatch(r"\d+\.\d+\.\d+(-[\w.]+)?", version):
-        faults.append(f"package.json: {name} is {version}, which is no single version")
-    if lock.get(f"node_modules/{name}", {}).get("version") != version:
-        faults.append(f"package-lock.json: {name} is not {version}")
-for path, entry in lock.items():
-    if path and not re.fullmatch(r"sha512-[A-Za-z0-9+/]{86}==", entry.get("integrity", "")):
-        faults.append(f"package-lock.json: {path} has no sha512")
-    if "link" in entry or not entry.get("version", "") and path:
-        faults.append(f"package-lock.json: {path} has no version")
-if "://" in (HERE / "package-lock.json").read_text():
-    faults.append("package-lock.json: holds an address; npm ci finds a package by version and hash (remove resolved and funding)")
+packages = 0
+for folder in (HERE, ROOT / "samples" / "studio"):
+    at = folder.relative_to(ROOT)
+    wanted = json.loads((folder / "package.json").read_text())["dependencies"]
+    lock = json.loads((folder / "package-lock.json").read_text())["packages"]
+    packages += len(lock) - 1
+    for name, version in wanted.items():
+        if not re.fullmatch(r"\d+\.\d+\.\d+(-[\w.]+)?", version):
+            faults.append(f"{at}/package.json: {name} is {version}, which is no single version")
+        if lock.get(f"node_modules/{name}", {}).get("version") != version:
+            faults.append(f"{at}/package-lock.json: {name} is not {version}")
+    for path, entry in lock.items():
+        if path and not re.fullmatch(r"sha512-[A-Za-z0-9+/]{86}==", entry.get("integrity", "")):
+            faults.append(f"{at}/package-lock.json: {path} has no sha512")
+        if "link" in entry or not entry.get("version", "") and path:
+            faults.append(f"{at}/package-lock.json: {path} has no version")
+    if "://" in (folder / "package-lock.json").read_text():
+        faults.append(f"{at}/package-lock.json: holds an address; npm ci finds a package by version and hash (remove resolved and funding)")
 
 # every call of a package manager in scripts: pinned, and nothing of a package runs
 scripts = [path for folder in ("cmake", "tests", "samples", "bindings", ".ci") for path in (ROOT / folder).rglob("*")
@@ -40,8 +44,8 @@ for path in scripts:
         if re.search(r"\bpip3? install\b", line) and "--no-index" not in line and "\\" not in line:
             faults.append(f"{where}: pip may download")
 if not calls:
-    faults.append("no script installs the packages of tests/npm")
+    faults.append("no script installs the packages of the lock files")
 for fault in faults:
     print("error:", fault)
-print(f"{len(lock) - 1} packages with version and hash, {calls} calls")
+print(f"{packages} packages with version and hash, {calls} calls")
 sys.exit(1 if faults else 0)

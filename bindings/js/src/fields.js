@@ -35,6 +35,11 @@ export function fieldClasses(tools) {
 
   class Direction extends Recorded {
     static prefix = 'hf_direction';
+    #told = make('hf_solve_info');
+    /** What the last solve told: components and vertices that no site reaches. */
+    get solveInfo() {
+      return this.#told.toObject();
+    }
     constructor(surface, { progress = null, ...options } = {}) {
       super(surface, () => watched(make('hf_direction_desc').options(options), progress));
     }
@@ -81,7 +86,7 @@ export function fieldClasses(tools) {
     }
     solve(out, Type = Float32Array) {
       out = output(out, 3 * this.vertexCount, Type);
-      call(solveName('hf_direction_solve', out), this._handle, written(out), 0, null);
+      call(solveName('hf_direction_solve', out), this._handle, written(out), 0, this.#told);
       return out;
     }
     singularities() {

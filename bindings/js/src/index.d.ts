@@ -118,6 +118,8 @@ export interface Surface extends Handle {
   readonly report: Record<string, number>;
   readonly statistics: Record<string, number>;
   readonly components: Uint32Array;
+  /** The piece of every vertex (HF_NO_INDEX for isolated ones), and 1 for each vertex of a light piece. */
+  readonly pieces: { pieces: Uint32Array; light: Int32Array };
   /** The factor of one kind of field as bytes, for the option savedFactor. */
   save(fieldKind?: number): Uint8Array;
   /** The first triangle on a ray, or null. `positions`: a pose of the surface, null for the rest positions. */
@@ -160,6 +162,10 @@ export interface Solver extends Handle {
   readonly info: Record<string, number>;
   readonly statistics: Record<string, number>;
   readonly siteCount: number;
+  /** What the last solve or solveVectors told: components and vertices that no site reaches. */
+  readonly solveInfo: Record<string, number>;
+  /** What the last solvePreview told: the error estimate, and components that no site reaches. */
+  readonly previewInfo: Record<string, number>;
   clone(): Solver;
   addSites(vertices: Numbers | null, values: Rows | null, options?: SiteOptions): Uint32Array;
   /** One hard site; values: a number, or one for each channel. */
@@ -268,6 +274,8 @@ export interface Flow extends Handle {
 
 export interface Direction extends Handle {
   readonly siteCount: number;
+  /** What the last solve told: components and vertices that no site reaches. */
+  readonly solveInfo: Record<string, number>;
   clone(): Direction;
   record(): void;
   undo(): void;
@@ -287,6 +295,8 @@ export interface Pose extends Handle {
   readonly vertexCount: number;
   readonly info: Record<string, number>;
   readonly handleCount: number;
+  /** What the last deform told: vertices that no handle reaches, iterations, clusters, milliseconds. */
+  readonly deformInfo: Record<string, number>;
   clone(): Pose;
   addHandles(
     regions: ReadonlyArray<Numbers> | null,
@@ -331,6 +341,36 @@ export interface Transfer extends Handle {
     options?: { normals?: Float32Array | null; Type?: FloatsType; holds?: Numbers | null; holdPositions?: Rows | null },
   ): T;
   skin(weightCount?: number): Skin;
+}
+
+/** Skin weights of a surface for a skeleton. */
+export interface Weights extends Handle {
+  readonly info: Record<string, number>;
+  clone(): Weights;
+  record(): void;
+  undo(): void;
+  redo(): void;
+  setBones(bones: Bones): void;
+  /** Places with given weights: `joints` and `weights` hold as many numbers for each. Replaces all pins. */
+  setPins(
+    vertices: Numbers | null,
+    pins?: { joints?: Numbers; weights?: Numbers; radii?: Numbers | null; progress?: Progress | null },
+  ): void;
+  /** Replaces all locks; values: a number for each vertex and lock, or null for the present ones. */
+  setLocks(bones: Numbers, values?: Float32Array | null): void;
+  /** origins: HF_WEIGHTS_* of each vertex. */
+  weights(): { weightCount: number; joints: Uint32Array; weights: Float32Array; origins: Uint8Array };
+  /** flags: bits HF_BONE_* of each bone; vertexCounts: vertices that ask for it. */
+  bones(): { flags: Uint32Array; vertexCounts: Uint32Array };
+}
+export interface Bones {
+  heads: Rows;
+  tails?: Rows | null;
+  axes?: Rows | null;
+  parents?: Numbers | null;
+  deforms?: Numbers | null;
+  sources?: Numbers | null;
+  progress?: Progress | null;
 }
 
 export interface Hf {
@@ -397,6 +437,7 @@ export interface Hf {
       progress?: Progress | null;
     },
   ) => Detail;
+  readonly Weights: new (surface: Surface, bones: Bones, options?: { weightCount?: number }) => Weights;
   readonly Progress: new () => Progress;
   readonly HfError: typeof HfError;
   readonly constants: Readonly<Record<string, number>>;

@@ -7,6 +7,7 @@ import { detailClasses } from './detail.js';
 import { fieldClasses } from './fields.js';
 import { poseClasses } from './pose.js';
 import { quadClasses } from './quads.js';
+import { weightClasses } from './weights.js';
 
 export function makeApi(backend) {
   const make = (type, fields) => new Struct(backend.width, type, fields);
@@ -161,7 +162,7 @@ export function makeApi(backend) {
   if (Math.floor(number / 1000000) !== major || number < major * 1000000 + minor * 1000) {
     throw new Error(`the hf library is of version ${number}, this package of ${headerVersion}; use matching ones`);
   }
-  for (const more of [surfaceClasses, solverClasses, fieldClasses, quadClasses, detailClasses, poseClasses])
+  for (const more of [surfaceClasses, solverClasses, fieldClasses, quadClasses, detailClasses, poseClasses, weightClasses])
     Object.assign(classes, more(tools));
   return Object.freeze({
     ...classes,

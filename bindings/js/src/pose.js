@@ -50,6 +50,11 @@ export function poseClasses(tools) {
 
   class Pose extends OnSurface {
     static prefix = 'hf_pose';
+    #told = make('hf_deform_info');
+    /** What the last deform told: iterations, clusters, vertices that no handle reaches, milliseconds by step. */
+    get deformInfo() {
+      return this.#told.toObject();
+    }
     constructor(surface, options = {}) {
       super(surface, () => make('hf_pose_desc').options(options));
     }
@@ -135,7 +140,7 @@ export function poseClasses(tools) {
     deform(out, { normals = null, Type = Float32Array, ...options } = {}) {
       out = output(out, 3 * this.vertexCount, Type);
       if (out instanceof Float32Array && !normals && !Object.keys(options).length) {
-        call('hf_deform', this._handle, written(out), null);
+        call('hf_deform', this._handle, written(out), this.#told);
         return out;
       }
       const desc = make('hf_deform_desc').options(options, ['first_vertex', 'vertex_count']);
@@ -145,7 +150,7 @@ export function poseClasses(tools) {
           fail(`normals must be a Float32Array of ${3 * this.vertexCount} numbers`);
         desc.set('normals', written(normals));
       }
-      call('hf_pose_deform', this._handle, desc, null);
+      call('hf_pose_deform', this._handle, desc, this.#told);
       return out;
     }
     skin(weightCount = 4) {

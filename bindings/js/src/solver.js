@@ -23,6 +23,16 @@ export function solverClasses(tools) {
   class Solver extends Recorded {
     static prefix = 'hf_solver';
     static create = 'hf_create';
+    #told = make('hf_solve_info');
+    #preview = make('hf_preview_info');
+    /** What the last solve or solveVectors told: components and vertices that no site reaches. */
+    get solveInfo() {
+      return this.#told.toObject();
+    }
+    /** What the last solvePreview told: the error estimate, and components that no site reaches. */
+    get previewInfo() {
+      return this.#preview.toObject();
+    }
     constructor(surface, { progress = null, ...options } = {}) {
       super(surface, () => watched(make('hf_solver_desc').options(options), progress));
       if (surface !== bare) this.channelCount = this.info.channelCount;
@@ -159,12 +169,12 @@ export function solverClasses(tools) {
     solve(out, Type = Float32Array) {
       out = output(out, this.vertexCount * this.channelCount, Type);
       const name = out instanceof Float32Array ? 'hf_solve' : 'hf_solver_solve_f64';
-      call(name, this._handle, written(out), 0, null);
+      call(name, this._handle, written(out), 0, this.#told);
       return out;
     }
     solvePreview(out, { correctionCount = 0, Type = Float32Array } = {}) {
       out = output(out, this.vertexCount * this.channelCount, Type);
-      call(solveName('hf_solver_solve_preview', out), this._handle, written(out), 0, correctionCount, null);
+      call(solveName('hf_solver_solve_preview', out), this._handle, written(out), 0, correctionCount, this.#preview);
       return out;
     }
     solveAt(vertices) {
@@ -175,7 +185,7 @@ export function solverClasses(tools) {
     }
     solveVectors(out, Type = Float32Array) {
       out = output(out, 3 * this.vertexCount, Type);
-      call(solveName('hf_solver_solve_vectors', out), this._handle, written(out), 0, null, null);
+      call(solveName('hf_solver_solve_vectors', out), this._handle, written(out), 0, null, this.#told);
       return out;
     }
     /** Measures the field on its own equations; fails when an error exceeds the tolerance (0: the default). */

@@ -79,7 +79,12 @@ export function surfaceClasses(tools) {
       const short = triangles instanceof Uint16Array;
       const corners = short ? triangles : integers(triangles, 'triangles');
       if (corners && corners.length % 3) fail(`triangles must hold three numbers each, not ${corners.length}`);
-      const desc = make('hf_surface_desc').options(options, ['vertex_count', 'triangle_count', 'face_count', 'corner_count']);
+      const desc = make('hf_surface_desc').options(options, [
+        'vertex_count',
+        'triangle_count',
+        'face_count',
+        'corner_count',
+      ]);
       desc.set('vertex_count', xyz.length / 3).set('triangle_count', corners ? corners.length / 3 : 0);
       desc.set(xyz instanceof Float32Array ? 'positions' : 'positions_f64', read(xyz));
       desc.set(short ? 'triangles_u16' : 'triangles', corners && read(corners));
@@ -89,13 +94,22 @@ export function surfaceClasses(tools) {
       this._finish('create', desc, savedFactor, progress);
     }
     /** A surface of a graph: two vertices for each edge, and its weight. What needs triangles throws. */
-    static fromGraph(vertexCount, edges, weights, { masses = null, savedFactor = null, progress = null, ...options } = {}) {
+    static fromGraph(
+      vertexCount,
+      edges,
+      weights,
+      { masses = null, savedFactor = null, progress = null, ...options } = {},
+    ) {
       const [ends, sizes] = [integers(edges, 'edges'), doubles(weights, 'weights')];
-      if (ends && sizes && ends.length !== 2 * sizes.length) fail('edges must hold two vertices for each of the weights');
+      if (ends && sizes && ends.length !== 2 * sizes.length)
+        fail('edges must hold two vertices for each of the weights');
       const mass = masses && doubles(masses, 'masses', vertexCount);
       const desc = make('hf_graph_desc').options(options, ['vertex_count', 'edge_count']);
       desc.set('vertex_count', vertexCount).set('edge_count', sizes ? sizes.length : 1);
-      desc.set('edges', ends && read(ends)).set('weights', sizes && read(sizes)).set('masses', mass && read(mass));
+      desc
+        .set('edges', ends && read(ends))
+        .set('weights', sizes && read(sizes))
+        .set('masses', mass && read(mass));
       const surface = new this(bare);
       surface._finish('create_graph', desc, savedFactor, progress);
       return surface;
@@ -112,6 +126,14 @@ export function surfaceClasses(tools) {
     /** The options it was made with, defaults filled in. */
     get info() {
       return query('hf_surface_info', 'hf_surface_get_info', this._handle);
+    }
+    /** The piece of every vertex (HF_NO_INDEX for isolated ones), and 1 for each vertex of a light piece. */
+    get pieces() {
+      const [pieces, light] = [new Uint32Array(this.vertexCount), new Int32Array(this.vertexCount)];
+      const count = new Uint32Array(1);
+      const room = this.vertexCount;
+      call('hf_surface_get_pieces', this._handle, room, written(pieces), written(light), written(count));
+      return { pieces, light };
     }
     get report() {
       return query('hf_surface_report', 'hf_surface_get_report', this._handle);
@@ -214,10 +236,11 @@ export function surfaceClasses(tools) {
     proposeHandles({ progress = null, ...options } = {}) {
       const desc = make('hf_propose_desc').options(options);
       watched(desc, progress);
+      // room for all at once: a call that only counts would search the surface twice
+      const room = Math.min(desc.get('limit') || 32, constants.HF_HANDLE_LIMIT);
       const count = new Uint32Array(1);
-      call('hf_propose_handles', this._handle, desc, 0, null, written(count));
-      const bytes = new Uint8Array(count[0] * rowSize('hf_handle_proposal'));
-      if (count[0]) call('hf_propose_handles', this._handle, desc, count[0], written(bytes), written(count));
+      const bytes = new Uint8Array(room * rowSize('hf_handle_proposal'));
+      call('hf_propose_handles', this._handle, desc, room, written(bytes), written(count));
       return table('hf_handle_proposal', bytes, count[0]);
     }
   }

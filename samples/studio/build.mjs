@@ -1,0 +1,48 @@
+// build.mjs OUTDIR: bundles the page and its Worker. HF_WASM: folder of hf.mjs and hf.wasm. HF_MODULES: the npm packages.
+import { createHash } from 'node:crypto';
+import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const out = process.argv[2];
+const here = dirname(fileURLToPath(import.meta.url));
+const { build } = createRequire(join(process.env.HF_MODULES, 'x.js'))('esbuild');
+
+mkdirSync(out, { recursive: true });
+for (const name of readdirSync(out)) if (/\.(js|html|wasm|txt)$/.test(name)) rmSync(join(out, name));
+await build({
+  entryPoints: { studio: join(here, 'src/studio.js'), worker: join(here, 'src/worker.js') },
+  outdir: out,
+  bundle: true,
+  splitting: true,
+  chunkNames: 'shared-[hash]',
+  format: 'esm',
+  target: 'es2022',
+  minify: true,
+  legalComments: 'linked',
+  nodePaths: [process.env.HF_MODULES],
+  alias: { 'hf-glue': join(process.env.HF_WASM, 'hf.mjs') },
+  // node's own reading of files, in the loader of WebAssembly and of glTF: no browser gets there
+  external: ['node:*', 'fs', 'path', 'module', 'url'],
+  logLevel: 'warning',
+});
+const style = (await build({ entryPoints: [join(here, 'src/studio.css')], minify: true, write: false })).outputFiles[0]
+  .text;
+writeFileSync(
+  join(out, 'index.html'),
+  readFileSync(join(here, 'index.html'), 'utf8').replace('/*STYLE*/', () => style.trim()),
+);
+copyFileSync(join(process.env.HF_WASM, 'hf.wasm'), join(out, 'hf.wasm'));
+
+// what the page keeps for a start without network: all files but the samples, named by their content
+const kept = readdirSync(out)
+  .filter((name) => /\.(js|html|wasm)$/.test(name) && name !== 'keep.js')
+  .sort();
+const hash = createHash('sha256');
+for (const name of kept) hash.update(name).update(readFileSync(join(out, name)));
+const keep = readFileSync(join(here, 'src/keep.js'), 'utf8');
+writeFileSync(
+  join(out, 'keep.js'),
+  keep.replace("'VERSION'", JSON.stringify(hash.digest('hex').slice(0, 16))).replace("['FILES']", JSON.stringify(kept)),
+);

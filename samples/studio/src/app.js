@@ -1,0 +1,316 @@
+// What all tools share: the body, its state with history, the Worker, the panels.
+import { Client } from './client.js';
+import { History } from './history.js';
+import { ModelError } from './model_error.js';
+import { readModel } from './model.js';
+import { Marks } from './marks.js';
+import { Timeline } from './timeline.js';
+import { View } from './view.js';
+import { listen } from './input.js';
+import { $, button, card, make, ms, say, whole } from './ui.js';
+
+const empty = { handles: [], sites: [], detail: null };
+
+export class App {
+  constructor(toolClasses, samples) {
+    this.samples = samples;
+    this.client = new Client();
+    this.view = new View($('canvas'));
+    this.history = new History(empty);
+    this.timeline = new Timeline(this);
+    this.marksLayer = new Marks(this, $('marks'));
+    this.centres = new Map();
+    this.ids = 0;
+    this.tools = {};
+    for (const Tool of toolClasses) this.tools[Tool.key] = new Tool(this);
+    this.figures = { open: 0, shape: 0, field: 0, frames: 0 };
+    listen(this, $('canvas'));
+    this.#rail(toolClasses);
+    this.view.onDraw(() => this.tools.pose.gizmo.rescale());
+  }
+  get state() {
+    return this.live ?? this.history.state;
+  }
+  nextId() {
+    return ++this.ids;
+  }
+  /** A vertex as a place in a triangle. */
+  cornerOf(vertex) {
+    const { triangles } = this.body;
+    const at = triangles.indexOf(vertex);
+    const first = at - (at % 3);
+    const corners = Array.from(triangles.subarray(first, first + 3));
+    return { corners, barycentrics: corners.map((v) => Number(v === vertex)) };
+  }
+
+  // ---- the body
+  /** Opens a model; what was there stays when it cannot be opened. */
+  async open(bytes, name) {
+    say(`opening ${name}`);
+    document.body.setAttribute('aria-busy', 'true');
+    const begin = performance.now();
+    try {
+      const body = await readModel(bytes, name);
+      const { positions, triangles, fileNormals } = body;
+      const opened = await this.client.ask('open', { positions, triangles, fileNormals });
+      const skin = await this.view.show(body);
+      this.skin?.dispose();
+      Object.assign(this, { body, opened, skin, told: null, fieldTold: null, shownState: null });
+      this.client.ask('tree').then(
+        (tree) => this.skin === skin && (skin.useTree(tree), this.refresh()),
+        () => {},
+      );
+      this.centres.clear();
+      this.shape = { positions: body.positions.slice(), normals: opened.normals };
+      skin.set(this.shape);
+      this.view.frame(skin.box());
+      this.timeline.opened(body);
+      for (const tool of Object.values(this.tools)) tool.opened?.();
+      this.session?.opened(bytes, name);
+      this.live = null;
+      this.history.reset({ ...empty, handles: this.tools.pose.first() });
+      await this.#apply(this.state, true);
+      this.figures.open = performance.now() - begin;
+      await this.use(this.tool?.constructor.key ?? 'pose');
+      const { componentCount, pieceCount } = opened.report;
+      const linked = pieceCount > componentCount ? `, ${pieceCount} pieces linked to ${componentCount}` : '';
+      say(
+        [
+          `${name}: ${whole(body.vertexCount)} vertices${linked}; ready in ${ms(this.figures.open)}`,
+          ...body.notes,
+        ].join('; '),
+      );
+    } catch (error) {
+      say('');
+      this.failed(`${name} was not opened`, error);
+    } finally {
+      document.body.removeAttribute('aria-busy');
+    }
+  }
+  async openSample(name) {
+    try {
+      const answer = await fetch(`samples/${name}.glb`);
+      if (!answer.ok)
+        throw new ModelError(`The sample ${name} is not there (${answer.status}).`, 'Open a file of your own.');
+      await this.open(new Uint8Array(await answer.arrayBuffer()), `${name}.glb`);
+    } catch (error) {
+      this.failed(`${name} was not opened`, error);
+    }
+  }
+  failed(title, error) {
+    const codes = {
+      HF_ERROR_OUT_OF_MEMORY: 'Make the mesh coarser, or close other pages.',
+      HF_ERROR_TOO_LARGE: 'Make the mesh coarser first.',
+    };
+    const advice =
+      error.advice ?? codes[error.codeName] ?? 'Repair the mesh where it was made, or take one of the samples.';
+    const ways = [['Open another file', () => $('file').click(), true]];
+    if (this.samples.length) ways.push([`Take the ${this.samples[0]}`, () => this.openSample(this.samples[0])]);
+    ways.push(['Close', null]);
+    card(title, [make('p', {}, error.message), make('p', {}, advice)], ways);
+  }
+
+  // ---- states
+  /** Shows a state that is not a step yet: a drag on its way. */
+  preview(state) {
+    this.live = state;
+    this.#apply(state, false).catch((error) => {
+      if (this.live === state) this.live = null;
+      say(error.message);
+    });
+    this.marksLayer.update();
+  }
+  async commitPreview(name) {
+    if (!this.live) return;
+    const state = this.live;
+    this.live = null;
+    await this.commit(state, name, null, true);
+  }
+  /** A step. When the library refuses it, nothing has changed and its sentence is shown. */
+  async commit(state, name, join = null, dragged = false) {
+    this.timeline.stop();
+    const before = this.history.state;
+    const kept = { past: this.history.past.slice(), future: this.history.future };
+    this.history.push(state, name, join);
+    try {
+      await this.#apply(state, false);
+      this.session?.changed(this.history.state);
+      say('');
+    } catch (error) {
+      if (this.history.state === state) Object.assign(this.history, kept, { state: before });
+      // what a drag has shown on its way goes; else the picture has not changed
+      if (dragged) await this.#apply(this.state, true).catch(() => {});
+      say(`${name}: ${error.message}`);
+    }
+    this.refresh();
+  }
+  async step(way) {
+    const name = this.history[way]();
+    if (!name) return;
+    this.live = null;
+    this.timeline.stop();
+    await this.#apply(this.state, true);
+    this.session?.changed(this.history.state);
+    say(`${way === 'undo' ? 'taken back' : 'done again'}: ${name}`);
+    this.refresh();
+  }
+  /** A state from outside: of a session that was kept. The history begins anew. */
+  async take(state) {
+    const before = this.history.state;
+    this.history.reset({ ...empty, ...state });
+    // numbers of new marks go on after those that are there
+    this.ids = Math.max(0, ...[...state.handles, ...state.sites].map(({ id }) => Number(id.slice(1)) || 0));
+    try {
+      await this.#apply(this.state, true);
+    } catch {
+      this.history.reset(before);
+      await this.#apply(this.state, true);
+    }
+    this.tools.pose.pulled = state.handles.some(({ pinned }) => !pinned);
+    this.refresh();
+  }
+  /** Brings the picture to a state: only what changed is asked for. exact: bits that do not depend on the way there. */
+  async #apply(state, exact) {
+    const { skin } = this;
+    const shown = this.shownState;
+    this.shownState = state;
+    const wanted = [];
+    if (exact || !shown || shown.handles !== state.handles || shown.detail !== state.detail)
+      wanted.push(
+        this.client.frame('shape', { handles: state.handles, detail: state.detail, restart: exact }).then((answer) => {
+          if (!answer || this.skin !== skin) return;
+          this.shape = { positions: answer.positions, normals: answer.normals };
+          this.told = answer.told;
+          for (const { id, centroid } of answer.told.handles) this.centres.set(id, centroid);
+          this.timeline.locals = null;
+          ++this.figures.frames;
+          this.figures.shape = answer.told.milliseconds;
+          if (!this.timeline.away()) skin.set(answer);
+          this.tool?.shaped?.();
+          this.marksLayer.update();
+        }),
+      );
+    if (state.sites.length && (exact || shown?.sites !== state.sites))
+      wanted.push(
+        this.client.frame('field', { sites: state.sites, at: exact }).then((answer) => {
+          if (!answer || this.skin !== skin) return;
+          this.fieldTold = answer.told;
+          this.figures.field = answer.told.milliseconds;
+          skin.setField(answer.values, answer.reached);
+        }),
+      );
+    try {
+      await Promise.all(wanted);
+    } catch (error) {
+      this.shownState = null;
+      throw error;
+    }
+  }
+
+  // ---- tools and panels
+  #rail(toolClasses) {
+    for (const Tool of toolClasses) {
+      const tab = make('button', {
+        type: 'button',
+        role: 'tab',
+        id: `tool-${Tool.key}`,
+        'aria-selected': 'false',
+        'aria-controls': 'sheet',
+        onclick: () => this.use(Tool.key),
+      });
+      tab.innerHTML = `<svg viewBox="0 0 24 24" aria-hidden="true"><path d="${Tool.icon}"/></svg><span>${Tool.title}</span>`;
+      $('rail').append(tab);
+    }
+  }
+  async use(key) {
+    if (this.tool !== this.tools[key]) {
+      this.tool?.leave?.();
+      this.timeline.stop();
+    }
+    this.tool = this.tools[key];
+    for (const tab of $('rail').children) tab.setAttribute('aria-selected', String(tab.id === `tool-${key}`));
+    if (!this.skin) return;
+    this.legend(null);
+    this.timeline.draw();
+    this.refresh();
+    try {
+      await this.tool.enter?.();
+    } catch (error) {
+      say(error.message);
+    }
+    this.refresh();
+  }
+  refresh() {
+    $('undo').disabled = !this.history.past.length;
+    $('redo').disabled = !this.history.future.length;
+    if (!this.skin || !this.tool) return;
+    this.tool.refresh?.();
+    this.marksLayer.update();
+    this.view.draw();
+  }
+  /** Draws the sheet of the tool; what has the focus keeps it. */
+  panel() {
+    const focused = document.activeElement?.id;
+    const held = document.activeElement?.closest?.('#sheet') && document.activeElement.type === 'range' && this.live;
+    if (held) return;
+    const title = this.tool.constructor.title;
+    $('sheet').replaceChildren(
+      make('h2', { id: 'sheet-name' }, title),
+      ...this.tool.sheet().filter((child) => child !== null && child !== undefined && child !== false),
+    );
+    if (focused) document.getElementById(focused)?.focus({ preventScroll: true });
+  }
+  legend(content) {
+    const box = $('legend');
+    box.hidden = !content;
+    if (!content) return;
+    const { low, high, hatch } = content;
+    box.replaceChildren(
+      make('div', { class: 'ramp', style: 'background: linear-gradient(90deg, #2152a8, #ede8db, #d96114)' }),
+      make(
+        'div',
+        { class: 'ends' },
+        make('span', {}, low.toFixed(2)),
+        make('span', {}, ((low + high) / 2).toFixed(2)),
+        make('span', {}, high.toFixed(2)),
+      ),
+    );
+    if (hatch) box.append(make('div', {}, make('span', { class: 'hatch' }), 'no site reaches it'));
+  }
+  hover(at) {
+    const tip = $('tip');
+    const text = at && this.skin && !this.live ? this.tool?.hover?.(at) : null;
+    tip.hidden = !text;
+    if (!text) return;
+    tip.textContent = text;
+    tip.style.left = `${Math.min(at[0] + 14, this.view.width - 120)}px`;
+    tip.style.top = `${at[1] + 14}px`;
+  }
+  help() {
+    const rows = [
+      ['Turn', 'drag beside the body, right drag, or two fingers'],
+      ['Zoom', 'wheel or pinch'],
+      ['Move the view', 'middle drag, or Shift and drag'],
+      ['Handles and sites', 'Tab walks them, Enter chooses, arrows move, Delete removes'],
+      ['Pose', '[ and ] turn a handle, P pins it'],
+      ['Undo, redo', 'Ctrl+Z, Ctrl+Shift+Z'],
+      ['Save, open', 'Ctrl+S, Ctrl+O'],
+      ['Tools', '1 to 6'],
+    ];
+    card(
+      'hf studio',
+      [
+        make('p', {}, 'Drop a creature, pull its leg, save it. Nothing leaves your machine.'),
+        make(
+          'table',
+          {},
+          ...rows.map(([a, b]) => make('tr', {}, make('td', {}, make('strong', {}, a)), make('td', {}, b))),
+        ),
+      ],
+      [
+        ['Light or dark', () => $('theme').click()],
+        ['Close', null, true],
+      ],
+    );
+  }
+}

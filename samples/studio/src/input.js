@@ -1,0 +1,65 @@
+// Pointers on the canvas: a click goes to the tool; a drag turns the view, unless the tool takes it; two fingers turn and pinch.
+import { CLICK_PIXELS } from './view.js';
+
+const ZOOM = 0.0012; // of a wheel's step: a notch of 100 is 13 per cent
+
+export function listen(app, canvas) {
+  const { view } = app;
+  const fingers = new Map();
+  let act = null; // { from, moved, taken, button }
+  const here = (event) => {
+    const box = canvas.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  };
+  canvas.onpointerdown = (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    fingers.set(event.pointerId, here(event));
+    if (fingers.size === 2 && act?.taken) app.tool.strokeCancel?.();
+    if (fingers.size === 1)
+      act = { from: here(event), moved: false, taken: false, button: event.button, shift: event.shiftKey };
+    else act = { ...act, moved: true, taken: false };
+    document.activeElement?.classList?.contains('mark') && document.activeElement.blur();
+  };
+  canvas.onpointermove = (event) => {
+    const at = here(event);
+    const before = fingers.get(event.pointerId);
+    if (!before) {
+      if (event.pointerType === 'mouse') app.hover(at);
+      return;
+    }
+    if (fingers.size === 2) {
+      const [other] = [...fingers].filter(([id]) => id !== event.pointerId).map(([, place]) => place);
+      const length = (p) => Math.hypot(p[0] - other[0], p[1] - other[1]);
+      view.zoomBy(length(before) / Math.max(1, length(at)));
+      view.turnBy((at[0] - before[0]) / 2, (at[1] - before[1]) / 2);
+    } else if (act) {
+      if (!act.moved && Math.hypot(at[0] - act.from[0], at[1] - act.from[1]) >= CLICK_PIXELS) {
+        act.moved = true;
+        act.taken = act.button === 0 && Boolean(app.tool?.strokeStart?.(act.from));
+      }
+      if (act.taken) app.tool.stroke?.(at);
+      else if (act.moved && (act.button === 1 || act.shift)) view.panBy(at[0] - before[0], at[1] - before[1]);
+      else if (act.moved) view.turnBy(at[0] - before[0], at[1] - before[1]);
+    }
+    fingers.set(event.pointerId, at);
+  };
+  const end = (event) => {
+    if (!fingers.delete(event.pointerId) || fingers.size) return;
+    const done = act;
+    act = null;
+    if (done?.taken) app.tool.strokeEnd?.();
+    else if (done && !done.moved && done.button === 0 && event.type === 'pointerup') app.tool?.click?.(done.from);
+  };
+  canvas.onpointerup = end;
+  canvas.onpointercancel = end;
+  canvas.onpointerleave = () => app.hover(null);
+  canvas.oncontextmenu = (event) => event.preventDefault();
+  canvas.parentElement.addEventListener(
+    'wheel',
+    (event) => {
+      event.preventDefault();
+      view.zoomBy(Math.exp(event.deltaY * ZOOM));
+    },
+    { passive: false },
+  );
+}

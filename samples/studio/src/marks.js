@@ -1,0 +1,112 @@
+// Handles and sites as buttons over the canvas: seen, dragged and touched there, walked by Tab, read by a screen reader.
+import { make } from './ui.js';
+import { CLICK_PIXELS } from './view.js';
+
+/** Marks behind the body are looked for when nothing has moved for so many milliseconds. */
+const LOOK_BEHIND_MS = 150;
+/** Larger bodies keep the marks undimmed after a pose: the tree of boxes would take longer than 50 ms to follow. */
+const FOLLOWED_VERTICES = 30000;
+/** A place counts as behind when the surface is nearer to the eye by this part of the size of the body. */
+const BEHIND = 0.03;
+
+export class Marks {
+  #buttons = new Map(); // id -> element
+  #timer = 0;
+  constructor(app, parent) {
+    this.app = app;
+    this.parent = parent;
+    app.view.onDraw(() => this.place());
+  }
+  /** The marks of the present tool: { id, place, label, chosen, offer, pinned, colour, pulse }. */
+  update() {
+    const list = this.app.tool?.marks?.() ?? [];
+    const seen = new Set();
+    list.forEach((mark, i) => {
+      let element = this.#buttons.get(mark.id);
+      if (!element) {
+        element = make('button', { class: 'mark', type: 'button' });
+        this.#listen(element);
+        this.#buttons.set(mark.id, element);
+        this.parent.append(element);
+      }
+      if (this.parent.children[i] !== element) this.parent.insertBefore(element, this.parent.children[i] ?? null);
+      element.mark = mark;
+      seen.add(mark.id);
+      element.setAttribute('aria-label', mark.say ? `${mark.say}: ${mark.label}` : mark.label);
+      element.setAttribute('aria-pressed', String(Boolean(mark.chosen)));
+      for (const name of ['chosen', 'offer', 'pinned', 'pulse']) element.classList.toggle(name, Boolean(mark[name]));
+      if (mark.colour) element.style.setProperty('--dot', mark.colour);
+      const said = element.querySelector('.say');
+      if (Boolean(mark.say) !== Boolean(said))
+        mark.say ? element.append(make('span', { class: 'say' }, mark.say)) : said.remove();
+    });
+    for (const [id, element] of this.#buttons)
+      if (!seen.has(id)) {
+        element.remove();
+        this.#buttons.delete(id);
+      }
+    this.place();
+  }
+  place() {
+    for (const element of this.#buttons.values()) {
+      const { x, y, front } = this.app.view.onScreen(element.mark.place);
+      element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+      element.style.visibility = front ? '' : 'hidden';
+    }
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#lookBehind(), LOOK_BEHIND_MS);
+  }
+  #lookBehind() {
+    const { view, skin } = this.app;
+    if (!skin?.bvh || (skin.stale && skin.body.vertexCount > FOLLOWED_VERTICES)) return;
+    for (const element of this.#buttons.values()) {
+      const { place } = element.mark;
+      const { x, y } = view.onScreen(place);
+      const hit = skin.pick(view.ray(x, y));
+      const away = Math.hypot(...place.map((p, k) => p - view.camera.position.getComponent(k)));
+      element.classList.toggle('behind', Boolean(hit && hit.distance < away - BEHIND * view.size));
+    }
+  }
+  focus(id) {
+    this.#buttons.get(id)?.focus({ preventScroll: true });
+  }
+  elementOf(id) {
+    return this.#buttons.get(id);
+  }
+  #listen(element) {
+    let from = null;
+    const here = (event) => {
+      const box = this.parent.getBoundingClientRect();
+      return [event.clientX - box.left, event.clientY - box.top];
+    };
+    element.onpointerdown = (event) => {
+      if (event.button || from) return;
+      event.stopPropagation();
+      element.setPointerCapture(event.pointerId);
+      from = { at: here(event), pointer: event.pointerId, dragging: false };
+    };
+    element.onpointermove = (event) => {
+      if (!from || event.pointerId !== from.pointer) return;
+      const [x, y] = here(event);
+      if (!from.dragging && Math.hypot(x - from.at[0], y - from.at[1]) < CLICK_PIXELS) return;
+      if (!from.dragging) this.app.tool.dragStart?.(element.mark, from.at);
+      from.dragging = true;
+      this.app.tool.drag?.(element.mark, [x, y], from.at);
+    };
+    const end = (event) => {
+      if (!from || event.pointerId !== from.pointer) return;
+      const { dragging } = from;
+      from = null;
+      if (dragging) this.app.tool.dragEnd?.(element.mark);
+      else if (event.type === 'pointerup') this.app.tool.choose?.(element.mark);
+    };
+    element.onpointerup = end;
+    element.onpointercancel = end;
+    element.onclick = (event) => {
+      if (event.detail === 0) this.app.tool.choose?.(element.mark); // Enter or the space bar
+    };
+    element.onkeydown = (event) => {
+      if (this.app.tool.key?.(element.mark, event)) event.preventDefault();
+    };
+  }
+}

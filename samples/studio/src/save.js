@@ -1,0 +1,264 @@
+// What the user takes away: a glb with the new shape, a glb rigged by the handles, quads, weights, a picture.
+import { Matrix3, Matrix4, Vector3 } from 'three';
+import { localsOf } from './timeline.js';
+import { readModel, writeGlb } from './model.js';
+import { button, card, download, make, say } from './ui.js';
+
+const stem = (name) => name.replace(/\.\w+$/, '');
+
+/** A copy of the body read from its own bytes: changes to it leave the open body alone. */
+async function copyOf(body) {
+  return readModel(await writeGlb(body.document), 'copy.glb');
+}
+
+/** Primitives that several nodes share get one each, because their shapes may differ now. */
+function ownPrimitives(copy) {
+  const seen = new Set();
+  for (const part of copy.parts) {
+    if (!seen.has(part.primitive)) {
+      seen.add(part.primitive);
+      continue;
+    }
+    const mesh = part.node.getMesh();
+    const own = mesh.clone();
+    for (const primitive of own.listPrimitives()) own.removePrimitive(primitive);
+    for (const primitive of mesh.listPrimitives()) own.addPrimitive(primitive.clone());
+    const order = mesh.listPrimitives();
+    for (const other of copy.parts)
+      if (other.node === part.node)
+        other.primitive = own.listPrimitives()[order.indexOf(other.primitive)] ?? other.primitive;
+    part.node.setMesh(own);
+  }
+}
+
+const bufferOf = (document) => document.getRoot().listBuffers()[0] ?? document.createBuffer();
+
+function setShape(document, part, locals, normals) {
+  const accessor = (array) => document.createAccessor().setType('VEC3').setArray(array).setBuffer(bufferOf(document));
+  part.primitive.setAttribute(
+    'POSITION',
+    accessor(Float32Array.from(locals.subarray(3 * part.first, 3 * (part.first + part.count)))),
+  );
+  if (part.primitive.getAttribute('NORMAL'))
+    part.primitive.setAttribute('NORMAL', accessor(localNormals(part, normals)));
+}
+
+function localNormals(part, normals) {
+  const out = new Float32Array(3 * part.count);
+  const [matrix, linear, normal] = [new Matrix4(), new Matrix3(), new Vector3()];
+  for (let v = 0; v < part.count; ++v) {
+    if (part.skin || v === 0)
+      linear.setFromMatrix4(matrix.fromArray(part.matrices, part.skin ? 16 * v : 0)).transpose();
+    normal
+      .fromArray(normals, 3 * (part.first + v))
+      .applyMatrix3(linear)
+      .normalize();
+    if (!(normal.lengthSq() > 0.5)) normal.set(0, 1, 0);
+    normal.toArray(out, 3 * v);
+  }
+  return out;
+}
+
+/** The file with the new shape: materials, texture coordinates, skins and clips stay. */
+export async function shapedGlb(app) {
+  const copy = await copyOf(app.body);
+  ownPrimitives(copy);
+  const locals = localsOf(app.body, app.shape.positions);
+  copy.parts.forEach((part, i) =>
+    setShape(copy.document, { ...part, matrices: app.body.parts[i].matrices }, locals, app.shape.normals),
+  );
+  return writeGlb(copy.document);
+}
+
+/** The rest shape with a skin: `frames` move its joints. names and frames[f][j]: { rotation, translation }. */
+async function skinnedGlb(app, { pivots, joints, weights, jointCount }, frames, seconds, clipName) {
+  const copy = await copyOf(app.body);
+  ownPrimitives(copy);
+  const { document } = copy;
+  const root = document.getRoot();
+  for (const clip of root.listAnimations()) clip.dispose();
+  const buffer = bufferOf(document);
+  const accessor = (type, array) => document.createAccessor().setType(type).setArray(array).setBuffer(buffer);
+  const above = document.createNode('handles');
+  copy.scene.addChild(above);
+  const inverse = new Float32Array(16 * jointCount);
+  const nodes = Array.from({ length: jointCount }, (_, j) => {
+    const pivot = Array.from(pivots.subarray(3 * j, 3 * j + 3));
+    inverse.set(new Matrix4().makeTranslation(...pivot.map((x) => -x)).elements, 16 * j);
+    const node = document.createNode(`joint ${j + 1}`).setTranslation(pivot);
+    above.addChild(node);
+    return node;
+  });
+  const skin = document.createSkin('by handles').setInverseBindMatrices(accessor('MAT4', inverse)).setSkeleton(above);
+  for (const node of nodes) skin.addJoint(node);
+  const body = document.createMesh('body');
+  const moved = new Set();
+  for (const part of copy.parts) {
+    const range = (array, size) => array.slice(size * part.first, size * (part.first + part.count));
+    const { primitive } = part;
+    primitive.setAttribute('POSITION', accessor('VEC3', range(app.body.positions, 3)));
+    if (primitive.getAttribute('NORMAL'))
+      primitive.setAttribute('NORMAL', accessor('VEC3', range(app.opened.normals, 3)));
+    for (const name of primitive.listSemantics())
+      if (/^(JOINTS|WEIGHTS|TANGENT)/.test(name)) primitive.setAttribute(name, null);
+    const shares = range(weights, 4);
+    const numbers = Uint16Array.from(range(joints, 4));
+    for (let i = 0; i < shares.length; ++i) if (!(shares[i] > 0)) shares[i] = numbers[i] = 0;
+    primitive.setAttribute('JOINTS_0', accessor('VEC4', numbers)).setAttribute('WEIGHTS_0', accessor('VEC4', shares));
+    body.addPrimitive(primitive);
+    moved.add(part.node);
+  }
+  for (const node of moved) node.setMesh(null).setSkin(null);
+  copy.scene.addChild(document.createNode('body').setMesh(body).setSkin(skin));
+  for (const old of root.listSkins()) if (old !== skin) old.dispose();
+  for (const old of root.listMeshes())
+    if (!old.listParents().some((parent) => parent.propertyType === 'Node')) old.dispose();
+  const clip = document.createAnimation(clipName);
+  const times = accessor('SCALAR', Float32Array.from(seconds));
+  nodes.forEach((node, j) => {
+    for (const [path, size] of [
+      ['rotation', 4],
+      ['translation', 3],
+    ]) {
+      const values = new Float32Array(size * frames.length);
+      frames.forEach((frame, f) => values.set(frame[`${path}s`].subarray(size * j, size * j + size), size * f));
+      if (size === 4) unit(values);
+      const sampler = document
+        .createAnimationSampler()
+        .setInput(times)
+        .setOutput(accessor(`VEC${size}`, values))
+        .setInterpolation('LINEAR');
+      clip
+        .addSampler(sampler)
+        .addChannel(document.createAnimationChannel().setTargetNode(node).setTargetPath(path).setSampler(sampler));
+    }
+  });
+  return writeGlb(document);
+}
+
+/** Quaternions of length 1 in single precision, each near the one before it. */
+function unit(values) {
+  for (let i = 0; i < values.length; i += 4) {
+    const length = Math.hypot(values[i], values[i + 1], values[i + 2], values[i + 3]) || 1;
+    const dot = i ? [0, 1, 2, 3].reduce((sum, k) => sum + values[i + k] * values[i - 4 + k], 0) : 1;
+    for (let k = 0; k < 4; ++k) values[i + k] *= (dot < 0 ? -1 : 1) / length;
+  }
+}
+
+/** The rest shape rigged by the handles, with a clip from rest to the pose. */
+export async function riggedGlb(app) {
+  const skin = await app.client.ask('skin', { handles: app.state.handles });
+  const rotations = new Float64Array(4 * skin.jointCount).map((_, i) => Number(i % 4 === 3));
+  return skinnedGlb(app, skin, [{ rotations, translations: skin.pivots }, skin], [0, 1], 'pose');
+}
+
+export { skinnedGlb };
+
+/** The file with new weights in its own skins. result: { joints, weights } of the bones of the file. */
+export async function weightedGlb(app, result, bones) {
+  const copy = await copyOf(app.body);
+  ownPrimitives(copy);
+  const { document } = copy;
+  const buffer = bufferOf(document);
+  const accessor = (array) => document.createAccessor().setType('VEC4').setArray(array).setBuffer(buffer);
+  copy.parts.forEach((part, i) => {
+    const { skin } = app.body.parts[i];
+    if (!skin) return;
+    const order = new Map(skin.listJoints().map((joint, j) => [bones.joints.indexOf(joint), j]));
+    for (let set = 0; set < 4; ++set)
+      for (const name of [`JOINTS_${set}`, `WEIGHTS_${set}`]) part.primitive.setAttribute(name, null);
+    const size = result.weightCount;
+    for (let set = 0; set < size / 4; ++set) {
+      const [joints, weights] = [new Uint16Array(4 * part.count), new Float32Array(4 * part.count)];
+      for (let v = 0; v < part.count; ++v)
+        for (let k = 0; k < 4; ++k) {
+          const from = size * (part.first + v) + 4 * set + k;
+          weights[4 * v + k] = result.weights[from];
+          joints[4 * v + k] = result.weights[from] > 0 ? (order.get(result.joints[from]) ?? 0) : 0;
+        }
+      part.primitive.setAttribute(`JOINTS_${set}`, accessor(joints)).setAttribute(`WEIGHTS_${set}`, accessor(weights));
+    }
+  });
+  return writeGlb(document);
+}
+
+/** Quads as obj: glTF has triangles only. */
+export function quadsObj({ positions, faceStarts, faceCorners }) {
+  const lines = ['# quads by hf studio'];
+  for (let v = 0; v < positions.length; v += 3) lines.push(`v ${positions[v]} ${positions[v + 1]} ${positions[v + 2]}`);
+  for (let f = 0; f + 1 < faceStarts.length; ++f)
+    lines.push(`f ${Array.from(faceCorners.subarray(faceStarts[f], faceStarts[f + 1]), (v) => v + 1).join(' ')}`);
+  return `${lines.join('\n')}\n`;
+}
+
+export function saveMenu(app) {
+  const name = stem(app.body.name);
+  const glb = 'model/gltf-binary';
+  const { weights, quads, transfer } = app.tools;
+  const choices = [
+    [
+      'Shape (glb)',
+      'the posed shape; materials, skin and clips of the file stay',
+      async () => download(await shapedGlb(app), `${name}_posed.glb`, glb),
+      true,
+      'save-shape',
+    ],
+    [
+      'Rig by handles (glb)',
+      'the shape at rest, a skin made of the handles, and the pose as a clip',
+      async () => download(await riggedGlb(app), `${name}_rigged.glb`, glb),
+      app.state.handles.length > 0,
+      'save-rig',
+    ],
+    weights && [
+      'Weights (glb)',
+      'the file with the new weights in its skin',
+      async () => download(await weightedGlb(app, weights.result, weights.bones), `${name}_weights.glb`, glb),
+      Boolean(weights.result),
+      'save-weights',
+    ],
+    quads && [
+      'Quads (obj)',
+      'the quad mesh',
+      async () => download(quadsObj(quads.result.mesh), `${name}_quads.obj`, 'text/plain'),
+      Boolean(quads.result),
+      'save-quads',
+    ],
+    transfer && [
+      'Transferred walk (glb)',
+      'this body with the clip of the other',
+      async () => download(await transfer.glb(), `${name}_walk.glb`, glb),
+      Boolean(transfer.ready?.()),
+      'save-transfer',
+    ],
+    [
+      'Picture (png)',
+      'what the stage shows',
+      async () => download(await app.view.picture(), `${name}.png`, 'image/png'),
+      true,
+      'save-picture',
+    ],
+  ].filter(Boolean);
+  const dialog = card(
+    'Save',
+    choices.map(([title, text, act, able, id]) => {
+      const entry = button(
+        '',
+        async () => {
+          dialog.close();
+          say(`saving: ${title}`);
+          try {
+            await act();
+            say(`saved: ${title}`);
+          } catch (error) {
+            app.failed(`${title} was not saved`, error);
+          }
+        },
+        { class: 'choice', disabled: !able, id },
+      );
+      entry.append(make('strong', {}, title), make('small', {}, text));
+      return entry;
+    }),
+    [['Close', null]],
+  );
+}

@@ -1,0 +1,65 @@
+// The session survives a reload: the file and the present state are kept in the browser (IndexedDB), nowhere else.
+
+/** A state is written when no other came for so many milliseconds. */
+const QUIET_MS = 300;
+
+function store(mode, act) {
+  return new Promise((resolve, reject) => {
+    const request = indexedDB.open('hf-studio', 1);
+    request.onupgradeneeded = () => request.result.createObjectStore('session');
+    request.onerror = () => reject(request.error);
+    request.onsuccess = () => {
+      const change = request.result.transaction('session', mode);
+      const answer = act(change.objectStore('session'));
+      change.oncomplete = () => {
+        request.result.close();
+        resolve(answer?.result);
+      };
+      change.onabort = () => reject(change.error);
+    };
+  });
+}
+
+export class Session {
+  #timer = 0;
+  #able = true; // false in windows that keep nothing, and while a session is read back
+  constructor(app) {
+    app.session = this;
+    this.app = app;
+  }
+  /** A file was opened: it replaces what was kept. */
+  opened(bytes, name) {
+    if (this.#able)
+      this.#try(() => store('readwrite', (kept) => (kept.put({ bytes, name }, 'body'), kept.delete('state'))));
+  }
+  changed(state) {
+    clearTimeout(this.#timer);
+    if (this.#able)
+      this.#timer = setTimeout(() => this.#try(() => store('readwrite', (kept) => kept.put(state, 'state'))), QUIET_MS);
+  }
+  async #try(act) {
+    try {
+      await act();
+    } catch {
+      // no room, or a window that keeps nothing: the studio works without
+      this.#able = false;
+    }
+  }
+  /** Opens what was kept; false if there is nothing. */
+  async restore() {
+    try {
+      const body = await store('readonly', (kept) => kept.get('body'));
+      const state = await store('readonly', (kept) => kept.get('state'));
+      if (!body) return false;
+      this.#able = false;
+      await this.app.open(body.bytes, body.name);
+      if (this.app.body?.name !== body.name) return false;
+      if (state) await this.app.take(state);
+      return true;
+    } catch {
+      return false;
+    } finally {
+      this.#able = true;
+    }
+  }
+}

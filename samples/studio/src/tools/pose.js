@@ -1,0 +1,286 @@
+// Pose: handles are proposed; drag one, turn one by its rings or keys, pin one, add one by a click on the body.
+import { Quaternion, Vector3 } from 'three';
+import { button, facts, make, ms, slider, whole } from '../ui.js';
+import { Gizmo } from '../gizmo.js';
+
+const reasons = ['foot', 'tip', 'end', 'joint', 'middle'];
+/** A key moves a handle by this part of the size of the body, and turns it by so many radians. */
+const [NUDGE, TURN_STEP] = [0.02, Math.PI / 18];
+/** Radius of a handle that a click makes, as part of the size of the body: of a leg's width on our own creatures. */
+const RADIUS = 0.035;
+
+const rest = { rotation: [0, 0, 0, 1], translation: [0, 0, 0] };
+
+export class PoseTool {
+  static key = 'pose';
+  static title = 'Pose';
+  static icon = 'M6 20l4-7 3-3 5-6M10 13l6 7M13 10a2 2 0 1 0 .1 0';
+  constructor(app) {
+    this.app = app;
+    this.gizmo = new Gizmo(app, (turn, done) => this.turned(turn, done));
+    this.radius = RADIUS;
+  }
+  opened() {
+    this.chosen = null;
+    this.pulled = false;
+    this.offers = this.app.opened.proposals.map(({ position, radius, reason, pinned, vertex }, i) => ({
+      id: `p${i}`,
+      position,
+      radius,
+      pinned: Boolean(pinned),
+      label: `${reasons[reason]} ${i + 1}`,
+      vertex,
+      ...rest,
+    }));
+  }
+  /** The handles that hold the body from the start. */
+  first() {
+    return this.offers.filter(({ pinned }) => pinned);
+  }
+  enter() {
+    this.app.skin.wear('own');
+    this.gizmo.show(this.present());
+  }
+  leave() {
+    this.gizmo.show(null);
+  }
+  get handles() {
+    return this.app.state.handles;
+  }
+  present() {
+    return this.handles.find(({ id }) => id === this.chosen) ?? null;
+  }
+  placeOf(handle) {
+    const centre = this.app.centres.get(handle.id) ?? handle.position;
+    return centre.map((x, k) => x + handle.translation[k]);
+  }
+  marks() {
+    if (this.app.timeline.away()) return [];
+    const held = new Set(this.handles.map(({ id }) => id));
+    const waiting = this.offers.filter(({ id }) => !held.has(id));
+    const pull = this.pulled ? null : waiting[0]?.id;
+    return [
+      ...this.handles.map((handle) => ({
+        id: handle.id,
+        place: this.placeOf(handle),
+        label: `${handle.label}${handle.pinned ? ', pinned' : ', handle'}`,
+        chosen: handle.id === this.chosen,
+        pinned: handle.pinned,
+      })),
+      ...waiting.map((offer) => ({
+        id: offer.id,
+        place: this.app.skin.at({ corners: [offer.vertex], barycentrics: [1] }),
+        label: `${offer.label}, proposed`,
+        offer: true,
+        pulse: offer.id === pull,
+        say: offer.id === pull ? 'pull me' : null,
+      })),
+    ];
+  }
+  refresh() {
+    this.gizmo.show(this.present());
+    this.app.panel();
+  }
+  choose({ id }) {
+    if (this.handles.some((handle) => handle.id === id)) {
+      this.chosen = this.chosen === id ? null : id;
+      this.app.refresh();
+    } else this.add(this.offers.find((offer) => offer.id === id));
+  }
+  with(id, change) {
+    return {
+      ...this.app.state,
+      handles: this.handles.map((handle) => (handle.id === id ? { ...handle, ...change } : handle)),
+    };
+  }
+  async add(offer, more = {}) {
+    this.pulled = true;
+    this.chosen = offer.id;
+    return this.app.commit(
+      { ...this.app.state, handles: [...this.handles, { ...offer, pinned: false, ...more }] },
+      'add a handle',
+    );
+  }
+  click([x, y]) {
+    const hit = this.app.skin.pick(this.app.view.ray(x, y));
+    if (!hit) {
+      this.chosen = null;
+      return this.app.refresh();
+    }
+    const position = this.app.skin.at(hit, this.app.body.positions);
+    const number = this.handles.filter(({ id }) => id.startsWith('h')).length + 1;
+    return this.add({
+      id: `h${this.app.nextId()}`,
+      position,
+      radius: this.radius * this.app.view.size,
+      label: `handle ${number}`,
+      vertex: hit.vertex,
+      ...rest,
+    });
+  }
+  dragStart({ id }) {
+    const begin = this.handles.find((handle) => handle.id === id);
+    const offer = begin ? null : this.offers.find((other) => other.id === id);
+    this.pulled = true;
+    this.chosen = id;
+    this.from = {
+      handle: begin ? { ...begin, pinned: false } : { ...offer, pinned: false },
+      place: begin ? this.placeOf(begin) : offer.position,
+      before: this.app.state,
+    };
+  }
+  drag({ id }, [x, y], [x0, y0]) {
+    const { view } = this.app;
+    const { handle, place, before } = this.from;
+    const [to, at] = [view.onPlane(x, y, place), view.onPlane(x0, y0, place)];
+    const translation = handle.translation.map((t, k) => t + to[k] - at[k]);
+    const moved = { ...handle, translation };
+    const known = before.handles.some((other) => other.id === id);
+    const handles = known
+      ? before.handles.map((other) => (other.id === id ? moved : other))
+      : [...before.handles, moved];
+    this.app.preview({ ...before, handles });
+  }
+  dragEnd() {
+    return this.app.commitPreview('move a handle');
+  }
+  key({ id }, event) {
+    const handle = this.handles.find((other) => other.id === id);
+    const { view } = this.app;
+    const step = NUDGE * view.size * (event.shiftKey ? 0.25 : 1);
+    const ways = {
+      ArrowLeft: [view.camRight(), -step],
+      ArrowRight: [view.camRight(), step],
+      ArrowUp: [view.camUp(), step],
+      ArrowDown: [view.camUp(), -step],
+    };
+    if (ways[event.key]) {
+      const [way, length] = ways[event.key];
+      const begin = handle ?? { ...this.offers.find((offer) => offer.id === id), pinned: false };
+      const moved = { ...begin, pinned: false, translation: begin.translation.map((t, k) => t + way[k] * length) };
+      const handles = handle
+        ? this.handles.map((other) => (other.id === id ? moved : other))
+        : [...this.handles, moved];
+      this.pulled = true;
+      this.chosen = id;
+      this.app.commit({ ...this.app.state, handles }, 'move a handle', `move ${id}`);
+      return true;
+    }
+    if (!handle) return false;
+    if (event.key === '[' || event.key === ']') {
+      const axis = view.camera.getWorldDirection(new Vector3());
+      this.turn(
+        handle,
+        new Quaternion().setFromAxisAngle(axis, event.key === '[' ? -TURN_STEP : TURN_STEP),
+        `turn ${id}`,
+      );
+      return true;
+    }
+    if (event.key === 'Delete' || event.key === 'Backspace') return (this.remove(handle), true);
+    if (event.key.toLowerCase() === 'p') return (this.pin(handle), true);
+    return false;
+  }
+  turn(handle, by, join) {
+    const rotation = by
+      .multiply(new Quaternion(...handle.rotation))
+      .normalize()
+      .toArray();
+    return this.app.commit(this.with(handle.id, { rotation, pinned: false }), 'turn a handle', join);
+  }
+  /** The gizmo turned the chosen handle by a quaternion from where the drag began. */
+  turned(by, done) {
+    const handle = this.present();
+    if (!this.turnFrom) this.turnFrom = handle.rotation;
+    const rotation = by
+      .clone()
+      .multiply(new Quaternion(...this.turnFrom))
+      .normalize()
+      .toArray();
+    this.app.preview(this.with(handle.id, { rotation, pinned: false }));
+    if (done) {
+      this.turnFrom = null;
+      this.app.commitPreview('turn a handle');
+    }
+  }
+  strokeStart(at) {
+    return this.gizmo.start(at);
+  }
+  stroke(at) {
+    this.gizmo.move(at);
+  }
+  strokeEnd() {
+    this.gizmo.end();
+  }
+  strokeCancel() {
+    this.gizmo.end();
+  }
+  remove(handle) {
+    this.chosen = null;
+    return this.app.commit(
+      { ...this.app.state, handles: this.handles.filter((other) => other !== handle) },
+      'remove a handle',
+    );
+  }
+  pin(handle) {
+    return this.app.commit(this.with(handle.id, { pinned: !handle.pinned }), handle.pinned ? 'unpin' : 'pin');
+  }
+  sheet() {
+    const { app } = this;
+    const handle = this.present();
+    const moved = this.handles.some(({ rotation, translation }) => translation.some(Boolean) || rotation[3] !== 1);
+    const unreached = app.told?.unreachedVertexCount ?? 0;
+    const waiting = this.offers.filter(({ id }) => !this.handles.some((other) => other.id === id));
+    return [
+      make(
+        'p',
+        {},
+        handle
+          ? `${handle.label}: drag it, or turn it by its rings.`
+          : 'Drag a dot: squares hold, circles move. Click the body for a new handle.',
+      ),
+      handle &&
+        make(
+          'div',
+          { class: 'row' },
+          button(handle.pinned ? 'Unpin' : 'Pin', () => this.pin(handle), {
+            id: 'pin',
+            'aria-pressed': String(handle.pinned),
+          }),
+          button('Back to rest', () => app.commit(this.with(handle.id, rest), 'back to rest'), { id: 'back' }),
+          button('Remove', () => this.remove(handle), { id: 'remove' }),
+        ),
+      make(
+        'div',
+        { class: 'row' },
+        button(
+          'Add all proposed',
+          () =>
+            app.commit(
+              { ...app.state, handles: [...this.handles, ...waiting.map((offer) => ({ ...offer, pinned: false }))] },
+              'add handles',
+            ),
+          { id: 'propose', disabled: !waiting.length },
+        ),
+        button(
+          'Rest pose',
+          () =>
+            app.commit({ ...app.state, handles: this.handles.map((other) => ({ ...other, ...rest })) }, 'rest pose'),
+          { id: 'rest', disabled: !moved },
+        ),
+      ),
+      slider(
+        'Size of a new handle',
+        { value: this.radius, low: 0.01, high: 0.15, step: 0.005, digits: 3, id: 'radius' },
+        (value) => (this.radius = value),
+      ),
+      unreached > 0 &&
+        this.handles.length > 0 &&
+        make(
+          'p',
+          { class: 'warn' },
+          `${whole(unreached)} vertices belong to pieces without a handle; they stay where they are.`,
+        ),
+      facts([['handles', this.handles.length], app.told && ['pose', ms(app.told.milliseconds)]]),
+    ];
+  }
+}

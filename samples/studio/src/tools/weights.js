@@ -1,0 +1,184 @@
+// Weights: skin weights for the bones of the file, coloured by bone; one bone alone as a field.
+import { Color } from 'three';
+import { bonesOf, influencesOf } from '../model.js';
+import { button, choice, facts, make, ms, whole } from '../ui.js';
+
+/** The angle between the hues of neighbouring bones, as part of the circle: the golden ratio keeps all apart. */
+const HUE_STEP = 0.61803398875;
+
+export class WeightsTool {
+  static key = 'weights';
+  static title = 'Weights';
+  static icon = 'M7 4a2.4 2.4 0 1 0 2 4l7 8a2.4 2.4 0 1 0 2-2L10 7a2.4 2.4 0 0 0-3-3z';
+  constructor(app) {
+    this.app = app;
+    this.weightCount = 4;
+  }
+  opened() {
+    this.bones = bonesOf(this.app.body);
+    this.result = null;
+    this.shown = 'all';
+    this.colours = this.bones.names.map((_, i) => new Color().setHSL((i * HUE_STEP) % 1, 0.6, 0.52));
+  }
+  enter() {
+    this.dress();
+  }
+  leave() {
+    this.app.legend(null);
+    this.restoreField();
+  }
+  refresh() {
+    this.app.panel();
+  }
+  marks() {
+    return [];
+  }
+  /** Weights of the file, in the form of a result. */
+  ofFile() {
+    const { body } = this.app;
+    const size = 4;
+    const found = {
+      weightCount: size,
+      joints: new Uint32Array(size * body.vertexCount),
+      weights: new Float32Array(size * body.vertexCount),
+    };
+    for (const part of body.parts) {
+      if (!part.skin) continue;
+      const numbers = part.skin.listJoints().map((joint) => this.bones.joints.indexOf(joint));
+      const { size: sets, joints, weights } = influencesOf(part);
+      for (let v = 0; v < part.count; ++v)
+        for (let k = 0; k < size; ++k) {
+          found.joints[size * (part.first + v) + k] = numbers[joints[sets * v + k]];
+          found.weights[size * (part.first + v) + k] = weights[sets * v + k];
+        }
+    }
+    return found;
+  }
+  dress() {
+    const { skin, body } = this.app;
+    if (!this.bones.joints.length) return skin.wear('own');
+    const { weightCount, joints, weights } = this.result ?? this.ofFile();
+    if (this.shown === 'all') {
+      const tint = new Float32Array(3 * body.vertexCount);
+      for (let v = 0; v < body.vertexCount; ++v)
+        for (let k = 0; k < weightCount; ++k) {
+          const weight = weights[weightCount * v + k];
+          if (!weight) continue;
+          const { r, g, b } = this.colours[joints[weightCount * v + k]];
+          tint[3 * v] += weight * r;
+          tint[3 * v + 1] += weight * g;
+          tint[3 * v + 2] += weight * b;
+        }
+      skin.setTint(tint);
+      skin.wear('tint');
+      this.app.legend(null);
+      return undefined;
+    }
+    const bone = Number(this.shown);
+    const field = new Float32Array(body.vertexCount);
+    for (let i = 0; i < joints.length; ++i) if (joints[i] === bone) field[Math.floor(i / weightCount)] += weights[i];
+    this.kept ??= { field: skin.field.slice(), reached: skin.reached.slice() };
+    skin.setField(field, new Float32Array(body.vertexCount).fill(1));
+    skin.wear('field');
+    this.app.legend({ low: 0, high: 1 });
+    return undefined;
+  }
+  restoreField() {
+    if (this.kept) this.app.skin.setField(this.kept.field, this.kept.reached);
+    this.kept = null;
+  }
+  hover(at) {
+    const hit = this.app.skin.pick(this.app.view.ray(...at));
+    if (!hit || !this.bones.joints.length) return null;
+    const { weightCount, joints, weights } = this.result ?? (this.fileWeights ??= this.ofFile());
+    const rows = [];
+    for (let k = 0; k < weightCount; ++k) {
+      const weight = weights[weightCount * hit.vertex + k];
+      if (weight >= 0.01) rows.push(`${this.bones.names[joints[weightCount * hit.vertex + k]]} ${weight.toFixed(2)}`);
+    }
+    return rows.join(', ') || 'no bone';
+  }
+  async compute() {
+    const { heads, parents } = this.bones;
+    try {
+      this.busy = true;
+      this.app.refresh();
+      this.result = await this.app.client.ask('weights', { bones: { heads, parents }, weightCount: this.weightCount });
+      this.error = null;
+    } catch (error) {
+      this.error = error.message;
+    }
+    this.busy = false;
+    this.dress();
+    this.app.refresh();
+  }
+  sheet() {
+    if (!this.bones.joints.length)
+      return [make('p', {}, 'This file has no bones. Save a rig by handles from Pose, or open a file with a skin.')];
+    const { result } = this;
+    const info = result?.info;
+    const guessed = info && info.rigidCount + info.isolatedCount;
+    return [
+      make(
+        'p',
+        {},
+        result
+          ? 'Computed from the bones. Hover over the body to read a vertex.'
+          : 'These are the weights of the file. Compute new ones from its bones.',
+      ),
+      make(
+        'div',
+        { class: 'row' },
+        button(this.busy ? 'Computing' : 'Compute weights', () => this.compute(), {
+          class: 'main',
+          id: 'compute',
+          disabled: this.busy,
+        }),
+        button(
+          'Weights of the file',
+          () => {
+            this.result = null;
+            this.dress();
+            this.app.refresh();
+          },
+          { id: 'file-weights', disabled: !result },
+        ),
+      ),
+      choice(
+        'Bones for each vertex',
+        [
+          [4, '4 bones for each vertex'],
+          [8, '8 bones for each vertex'],
+        ],
+        this.weightCount,
+        (value) => (this.weightCount = Number(value)),
+        { id: 'weight-count' },
+      ),
+      make('p', {}),
+      choice(
+        'Bone to show',
+        [['all', 'all bones, each its colour'], ...this.bones.names.map((name, i) => [i, name])],
+        this.shown,
+        (value) => {
+          this.shown = value;
+          if (value === 'all') this.restoreField();
+          this.dress();
+        },
+        { id: 'bone' },
+      ),
+      this.error && make('p', { class: 'warn' }, this.error),
+      guessed > 0 &&
+        make(
+          'p',
+          { class: 'warn' },
+          `${whole(guessed)} vertices take their weights from the nearest part: no bone is near them.`,
+        ),
+      facts([
+        ['bones', this.bones.joints.length],
+        result && ['time', ms(result.milliseconds)],
+        info && ['vertices that see their bone', whole(info.informedCount)],
+        info && info.outsideCount > 0 && ['bones outside the skin', info.outsideCount],
+      ]),
+    ];
+  }
+}

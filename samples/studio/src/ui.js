@@ -1,0 +1,82 @@
+// Small helpers for the panels: elements, sliders, facts, cards.
+export const $ = (name) => document.getElementById(name);
+
+/** An element: make('button', { class: 'main', onclick }, 'Text', child). */
+export function make(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name.startsWith('on')) element[name] = value;
+    else if (value === true) element.setAttribute(name, '');
+    else if (value !== false && value !== null && value !== undefined) element.setAttribute(name, value);
+  }
+  element.append(...children.filter((child) => child !== null && child !== undefined && child !== false));
+  return element;
+}
+
+export const button = (text, onclick, attributes = {}) =>
+  make('button', { type: 'button', onclick, ...attributes }, text);
+
+/** A slider with its value beside the name; onmove while it moves, onset at its end. */
+export function slider(
+  name,
+  { value, low, high, step = 0.01, digits = 2, id = null, disabled = false },
+  onmove,
+  onset = () => {},
+) {
+  const shown = make('span', {}, Number(value).toFixed(digits));
+  const input = make('input', { type: 'range', min: low, max: high, step, value, id, disabled });
+  input.oninput = () => {
+    shown.textContent = Number(input.value).toFixed(digits);
+    onmove(Number(input.value));
+  };
+  input.onchange = () => onset(Number(input.value));
+  return make('label', { class: 'slide' }, make('span', {}, name), shown, input);
+}
+
+export const facts = (rows) =>
+  make(
+    'dl',
+    { class: 'facts' },
+    ...rows.filter(Boolean).flatMap(([name, value]) => [make('dt', {}, name), make('dd', {}, String(value))]),
+  );
+
+export function choice(name, options, value, onchange, attributes = {}) {
+  const select = make(
+    'select',
+    { 'aria-label': name, ...attributes },
+    ...options.map(([key, text]) => make('option', { value: key, selected: String(key) === String(value) }, text)),
+  );
+  select.onchange = () => onchange(select.value);
+  return select;
+}
+
+/** A card with a title, content and ways on. ways: [text, action, main]. */
+export function card(title, content, ways) {
+  const dialog = $('card');
+  dialog.replaceChildren(
+    make('h2', { id: 'card-title' }, title),
+    ...content,
+    make(
+      'div',
+      { class: 'row' },
+      ...ways.map(([text, action, main]) =>
+        button(text, () => (dialog.close(), action?.()), main ? { class: 'main' } : {}),
+      ),
+    ),
+  );
+  if (!dialog.open) dialog.showModal();
+  return dialog;
+}
+
+export const say = (text) => ($('told').textContent = text);
+export const whole = (number) => Math.round(number).toLocaleString('en');
+export const ms = (number) => (number < 10 ? `${number.toFixed(1)} ms` : `${Math.round(number)} ms`);
+
+export function download(data, name, type) {
+  const link = make('a', {
+    href: URL.createObjectURL(data instanceof Blob ? data : new Blob([data], { type })),
+    download: name,
+  });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}

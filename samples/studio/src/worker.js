@@ -1,0 +1,143 @@
+// The Worker that owns every object of hf. A request says which list of handles or sites is wanted; the worker changes its
+// objects until they hold that list. The main thread sends the newest list only, so a slow answer never queues.
+import createHf from 'hf-glue';
+import { load } from '../../../bindings/js/src/web.js';
+import { buildBvh } from './bvh.js';
+import { normalGroups, smoothNormals } from './normals.js';
+import { poseOf } from './worker_pose.js';
+import { fieldOf } from './worker_field.js';
+import { detailOf } from './worker_detail.js';
+import { weightsOf, quadsOf } from './worker_once.js';
+import { transferOf } from './worker_transfer.js';
+
+let hf = null;
+let memory = null; // bytes of the heap of WebAssembly
+let body = null;
+
+async function ready() {
+  const factory = async (options) => {
+    const module = await createHf(options);
+    memory = () => module.HEAPU8.length;
+    return module;
+  };
+  hf ??= await load({ factory, wasmBinary: await (await fetch(new URL('hf.wasm', self.location))).arrayBuffer() });
+  return hf;
+}
+
+// Pieces of one character are linked: hair, eyes and clothes follow the body.
+
+const tasks = {
+  /** Opens a body: factorises once. Answers with what the page can offer at once. */
+  async open({ positions, triangles, fileNormals }) {
+    await ready();
+    const begin = performance.now();
+    const surface = new hf.Surface(positions, triangles, { linkPieces: true });
+    const groups = normalGroups(positions, fileNormals);
+    const next = { hf, surface, positions, triangles, groups, normals: new Float32Array(positions.length) };
+    const proposals = surface.proposeHandles();
+    closeBody();
+    body = next;
+    body.pose = poseOf(body);
+    body.field = fieldOf(body);
+    body.detail = detailOf(body);
+    smoothNormals(positions, triangles, groups, body.normals);
+    const report = surface.report;
+    const answer = { proposals, report, normals: body.normals.slice(), components: surface.components };
+    answer.openMs = performance.now() - begin;
+    return [answer, [answer.normals.buffer, answer.components.buffer]];
+  },
+  /** The tree for picking, made here so that the page never stops for it. */
+  tree() {
+    const { answer, buffers } = buildBvh(body.positions, body.triangles);
+    return [answer, buffers];
+  },
+  /** Positions and normals of the body under handles and detail. */
+  shape({ handles, detail, restart }) {
+    const begin = performance.now();
+    const positions = body.pose.deform(handles, { restart });
+    const told = body.pose.told();
+    told.detail = detail ? body.detail.apply(positions, detail) : null;
+    const normals = new Float32Array(positions.length);
+    smoothNormals(positions, body.triangles, body.groups, normals);
+    told.milliseconds = performance.now() - begin;
+    return [{ positions, normals, told }, [positions.buffer, normals.buffer]];
+  },
+  field({ sites, at }) {
+    const begin = performance.now();
+    const { values, reached, told } = body.field.solve(sites, at);
+    told.milliseconds = performance.now() - begin;
+    return [{ values, reached, told }, [values.buffer, reached.buffer]];
+  },
+  extremities() {
+    return [body.surface.findExtremities().map(({ vertex, position }) => ({ vertex, position })), []];
+  },
+  weights({ bones, weightCount }) {
+    return [weightsOf(body, bones, weightCount), []];
+  },
+  skin({ handles }) {
+    body.pose.deform(handles, { restart: true });
+    return [body.pose.skin(), []];
+  },
+  factor() {
+    const bytes = body.surface.save();
+    return [bytes, [bytes.buffer]];
+  },
+  /** Quads run in a Worker of their own (job.js): it opens the same body from the saved factor. */
+  async quads({ positions, triangles, factor, edgeLength, kind }) {
+    await ready();
+    const surface = new hf.Surface(positions, triangles, { savedFactor: factor, linkPieces: true });
+    return [quadsOf(hf, surface, { edgeLength, kind }), []];
+  },
+  transferOpen({ positions, triangles }) {
+    body.sourcePositions = positions;
+    body.sourceTriangles = triangles;
+    body.transfer?.close();
+    body.transfer = transferOf(body, new hf.Surface(positions, triangles, { linkPieces: true }));
+    return [body.transfer.proposals(), []];
+  },
+  transferPairs({ pairs }) {
+    return [body.transfer.setPairs(pairs), []];
+  },
+  transferFrame({ positions }) {
+    const begin = performance.now();
+    const posed = body.transfer.apply(positions);
+    const normals = new Float32Array(posed.length);
+    smoothNormals(posed, body.triangles, body.groups, normals);
+    return [{ positions: posed, normals, milliseconds: performance.now() - begin }, [posed.buffer, normals.buffer]];
+  },
+  transferSkin({ positions }) {
+    body.transfer.apply(positions);
+    return [body.transfer.skin(), []];
+  },
+  sourceTree() {
+    const { answer, buffers } = buildBvh(body.sourcePositions, body.sourceTriangles);
+    return [answer, buffers];
+  },
+  memory() {
+    return [{ held: body?.surface.statistics.memoryBytes ?? 0, heap: memory?.() ?? 0 }, []];
+  },
+};
+
+function closeBody() {
+  if (!body) return;
+  for (const part of [body.transfer, body.pose, body.field, body.detail, body.surface]) part?.close();
+  body = null;
+}
+
+// Requests are answered in the order they came, also where one of them waits.
+let last = Promise.resolve();
+self.onmessage = ({ data: { id, task, args } }) => {
+  last = last.then(async () => {
+    try {
+      const [answer, buffers] = await tasks[task](args ?? {});
+      self.postMessage({ id, answer }, buffers);
+    } catch (error) {
+      // the library's own sentence, without the name of the function and the code
+      const { codeName = null, index = null, functionName = '' } = error;
+      const message = codeName
+        ? error.message.replace(`${functionName}: `, '').replace(` (${codeName})`, '')
+        : error.message;
+      self.postMessage({ id, error: { message, codeName, index } });
+    }
+  });
+};

@@ -1,0 +1,194 @@
+// Drives the studio in headless Chromium: a server for the folder, pages, real pointers and keys, counted checks, pictures.
+import { spawn } from 'node:child_process';
+import { existsSync, mkdirSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const modules = process.env.HF_NODE_MODULES ?? join(here, '../../build/npm/node_modules');
+export const require = createRequire(join(modules, 'x.js'));
+/** Data that is not the project's: tests that use it are passed over without it. */
+export const shared = process.env.HF_SHARED ?? join(here, '../../../shared');
+export const [folder, pictures] = process.argv.slice(2);
+
+export function skip(why) {
+  console.log(`skipped: ${why}`);
+  process.exit(77);
+}
+
+let [passed, failed, passedOver] = [0, 0, 0];
+/** Runs one check: its name is the sentence it proves. */
+export async function check(name, act) {
+  const begin = performance.now();
+  try {
+    const told = await act();
+    ++passed;
+    console.log(`ok      ${name}${told ? `: ${told}` : ''} (${Math.round(performance.now() - begin)} ms)`);
+  } catch (error) {
+    ++failed;
+    console.log(`FAILED  ${name}: ${error.message.split('\n').slice(0, 6).join(' | ')}`);
+  }
+}
+export function passOver(name, why) {
+  ++passedOver;
+  console.log(`skipped ${name}: ${why}`);
+}
+export function finish() {
+  console.log(`${passed} passed, ${failed} failed${passedOver ? `, ${passedOver} skipped` : ''}`);
+  return failed ? 1 : 0;
+}
+
+export async function start() {
+  let chromium;
+  try {
+    ({ chromium } = require('playwright-core'));
+  } catch {
+    skip('the npm package playwright-core is not here (HF_NODE_MODULES)');
+  }
+  const path = process.env.HF_CHROMIUM ?? '/usr/bin/chromium';
+  if (!existsSync(path)) skip('no chromium here');
+  if (!existsSync(join(folder ?? '', 'hf.wasm')))
+    skip('the folder of the studio is not there; samples/studio/run --build DIR makes it');
+  mkdirSync(pictures, { recursive: true });
+  const server = spawn(process.execPath, [join(here, '../../bindings/js/bin/hf-studio.mjs'), '0', folder], {
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
+  const address = await new Promise((resolve) => server.stdout.on('data', (text) => resolve(/http\S+/.exec(text)[0])));
+  const browser = await chromium.launch({
+    executablePath: path,
+    args: [
+      '--no-sandbox',
+      '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader',
+      '--ignore-gpu-blocklist',
+      '--js-flags=--expose-gc',
+    ],
+  });
+  return { address, browser, close: async () => (await browser.close(), server.kill()) };
+}
+
+export class Studio {
+  constructor(page, complaints) {
+    this.page = page;
+    this.complaints = complaints;
+  }
+  /** A page of the studio. size: [width, height]; options go to the browser's context. */
+  static async open(
+    { browser, address },
+    { size = [1280, 800], query = 'fresh', wait = true, before = null, ...options } = {},
+  ) {
+    const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, ...options });
+    const page = await context.newPage();
+    const complaints = [];
+    page.on('pageerror', (error) => complaints.push(error.message));
+    page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+    await before?.(page);
+    await page.goto(`${address}?${query}`);
+    const studio = new Studio(page, complaints);
+    if (wait) await studio.ready();
+    return studio;
+  }
+  close() {
+    return this.page.context().close();
+  }
+  ready() {
+    return this.page.waitForFunction(
+      () => window.hfStudio?.skin?.bvh && !document.body.hasAttribute('aria-busy'),
+      null,
+      { timeout: 120000 },
+    );
+  }
+  /** Until nothing is on its way to the Worker, and the picture is drawn. */
+  async settle() {
+    await this.page.evaluate(async () => {
+      await window.hfStudio.client.ask('memory');
+      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+      await window.hfStudio.client.ask('memory');
+    });
+    await this.page.waitForTimeout(30);
+  }
+  async tool(key) {
+    await this.page.click(`#tool-${key}`);
+    await this.settle();
+  }
+  marks() {
+    return this.page.$$eval('.mark', (all) =>
+      all.map((element) => ({
+        label: element.getAttribute('aria-label'),
+        classes: element.className,
+        x: element.getBoundingClientRect().x + 22,
+        y: element.getBoundingClientRect().y + 22,
+      })),
+    );
+  }
+  async mark(part) {
+    const found = (await this.marks()).find(({ label }) => label.includes(part));
+    if (!found) throw new Error(`no mark named ${part}: ${(await this.marks()).map(({ label }) => label).join('; ')}`);
+    return found;
+  }
+  /** A real drag by the mouse. */
+  async drag(x, y, dx, dy, { steps = 12, hold = false } = {}) {
+    await this.page.mouse.move(x, y);
+    await this.page.mouse.down();
+    await this.page.mouse.move(x + dx, y + dy, { steps });
+    if (!hold) await this.page.mouse.up();
+    await this.settle();
+  }
+  /** Pixels where a ray meets the body, on a grid: [x, y, vertex]. */
+  spots(step = 24) {
+    return this.page.evaluate((step) => {
+      const { view, skin } = window.hfStudio;
+      const box = document.getElementById('canvas').getBoundingClientRect();
+      const busy = [...document.querySelectorAll('.mark, #told, #legend')].map((element) =>
+        element.getBoundingClientRect(),
+      );
+      const found = [];
+      for (let y = step; y < box.height - step; y += step)
+        for (let x = step; x < box.width - step; x += step) {
+          const [cx, cy] = [box.x + x, box.y + y];
+          if (
+            busy.some(
+              (other) => cx > other.left - 4 && cx < other.right + 4 && cy > other.top - 4 && cy < other.bottom + 4,
+            )
+          )
+            continue;
+          const hit = skin.pick(view.ray(x, y));
+          if (hit) found.push([cx, cy, hit.vertex, hit.position]);
+        }
+      return found;
+    }, step);
+  }
+  facts() {
+    return this.page.$$eval('#sheet dl dt', (all) =>
+      Object.fromEntries(all.map((name) => [name.textContent, name.nextSibling.textContent])),
+    );
+  }
+  told() {
+    return this.page.textContent('#told');
+  }
+  /** A hash of what is shown: state, positions and field, bit by bit. */
+  bits() {
+    return this.page.evaluate(async () => {
+      const app = window.hfStudio;
+      const arrays = [app.skin.positions, app.state.sites.length ? app.skin.field : new Float32Array(1)];
+      const bytes = new Uint8Array(await new Blob([...arrays, JSON.stringify(app.state)]).arrayBuffer());
+      return Array.from(new Uint8Array(await crypto.subtle.digest('SHA-256', bytes)), (b) => b.toString(16)).join('');
+    });
+  }
+  async picture(name) {
+    await this.settle();
+    await this.page.screenshot({ path: join(pictures, `${name}.png`) });
+  }
+  /** What a click on an entry of the save menu downloads. */
+  async save(id) {
+    await this.page.click('#save');
+    const [file] = await Promise.all([
+      this.page.waitForEvent('download', { timeout: 60000 }),
+      this.page.click(`#${id}`),
+    ]);
+    const path = join(pictures, file.suggestedFilename());
+    await file.saveAs(path);
+    return path;
+  }
+}

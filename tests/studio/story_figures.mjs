@@ -1,0 +1,214 @@
+// The rows of figures: bytes and requests at the start, times, long tasks, poses a second, memory. Times of a shared machine
+// are printed and judged by wide bounds; counts are exact.
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync, readdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { brotliCompressSync } from 'node:zlib';
+import { Studio, check, folder, passOver, shared } from './harness.mjs';
+
+/** Bounds: what the goal of the design says, and what this test refuses on a busy machine without a graphics card. */
+const [BYTES, REQUESTS] = [0.9e6, 6];
+const SLOW = 10;
+
+const longTasks = (page) =>
+  page.addInitScript(() => {
+    window.longTasks = [];
+    new PerformanceObserver((list) =>
+      window.longTasks.push(
+        ...list.getEntries().map(({ duration, startTime }) => [Math.round(startTime), Math.round(duration)]),
+      ),
+    ).observe({ type: 'longtask', buffered: true });
+  });
+
+async function opened(studio, path) {
+  const name = path.split('/').pop();
+  await studio.page.setInputFiles('#file', path);
+  await studio.page.waitForFunction(
+    (name) =>
+      document.querySelector('#card[open]') ||
+      (window.hfStudio.body?.name === name && window.hfStudio.skin.bvh && !document.body.hasAttribute('aria-busy')),
+    name,
+    { timeout: 180000 },
+  );
+  const card = await studio.page.$eval('#card', (dialog) => (dialog.open ? dialog.textContent : ''));
+  if (card) throw new Error(card);
+}
+
+/** Poses a second of the Worker and time of the main thread for each. */
+const poses = (page, count) =>
+  page.evaluate(async (count) => {
+    const app = window.hfStudio;
+    const {
+      tools: { pose },
+      state,
+      client,
+    } = app;
+    const offer = pose.offers.find(({ id }) => !state.handles.some((handle) => handle.id === id)) ?? pose.offers[0];
+    const others = state.handles.filter(({ id }) => id !== offer.id);
+    const ask = (i) =>
+      client.ask('shape', {
+        handles: [...others, { ...offer, translation: [0, 0.01 * i, 0.005 * i] }],
+        detail: null,
+        restart: false,
+      });
+    const first = performance.now();
+    await ask(0);
+    const added = performance.now() - first;
+    const begin = performance.now();
+    for (let i = 1; i <= count; ++i) app.skin.set(await ask(i));
+    const time = performance.now() - begin;
+    await client.ask('shape', { handles: state.handles, detail: null, restart: true });
+    return { added, perSecond: (1000 * count) / time };
+  }, count);
+
+export default async function story(host) {
+  await check(`the first picture takes at most ${BYTES / 1e6} MB (brotli) and ${REQUESTS} requests`, async () => {
+    const seen = [];
+    const studio = await Studio.open(host, {
+      before: (page) => page.on('request', (request) => seen.push(new URL(request.url()))),
+    });
+    // the Worker takes what the page has already from the browser's store
+    const files = [
+      ...new Set(
+        seen
+          .filter(({ protocol }) => protocol.startsWith('http'))
+          .map(({ pathname }) => (pathname === '/' ? 'index.html' : pathname.slice(1))),
+      ),
+    ];
+    const bytes = files.reduce((sum, name) => sum + brotliCompressSync(readFileSync(join(folder, name))).length, 0);
+    await studio.close();
+    assert.ok(files.length <= REQUESTS, files.join(', '));
+    assert.ok(
+      bytes <= BYTES,
+      `${bytes} bytes: ${files.map((name) => `${name} ${brotliCompressSync(readFileSync(join(folder, name))).length}`).join(', ')}`,
+    );
+    return `${(bytes / 1e6).toFixed(3)} MB, ${files.length} requests`;
+  });
+  await check("no request leaves the page's own host", async () => {
+    const seen = new Set();
+    const studio = await Studio.open(host, {
+      before: (page) => page.on('request', (request) => seen.add(new URL(request.url()).host)),
+    });
+    await studio.close();
+    assert.equal([...seen].filter(Boolean).length, 1, [...seen].join(', '));
+  });
+  await check('the second start needs no network', async () => {
+    const studio = await Studio.open(host, { query: '' });
+    await studio.page.evaluate(async () => {
+      await navigator.serviceWorker.ready;
+      await fetch('samples/horse.glb');
+    });
+    await studio.page.waitForTimeout(500);
+    await studio.page.reload();
+    await studio.ready();
+    await studio.page.context().setOffline(true);
+    await studio.page.reload();
+    await studio.ready();
+    await studio.close();
+  });
+  await check('the horse can be pulled', async () => {
+    const studio = await Studio.open(host, { before: longTasks });
+    const time = await studio.page.evaluate(() => window.hfStudio.figures.open);
+    const start = await studio.page.evaluate(() => performance.now());
+    const { perSecond, added } = await poses(studio.page, 120);
+    const long = await studio.page.evaluate((start) => window.longTasks.filter(([time]) => time > start), start);
+    await studio.close();
+    assert.ok(time < 1500 * SLOW && perSecond > 60 / SLOW);
+    return `open ${Math.round(time)} ms, a handle more ${Math.round(added)} ms, ${Math.round(perSecond)} poses a second, long tasks ${long.length}`;
+  });
+  const meshes = [
+    ['meshes/armadillo_50k.obj', 50000],
+    ['meshes/armadillo_200k_loop.ply', 200000],
+  ];
+  for (const [name, vertices] of meshes) {
+    const path = join(shared, 'data', name);
+    if (!existsSync(path)) {
+      passOver(`${vertices} vertices`, 'the shared meshes are not here');
+      continue;
+    }
+    await check(`${vertices} vertices: opened, pulled, no long task while it is pulled`, async () => {
+      const studio = await Studio.open(host, { before: longTasks });
+      const begin = Date.now();
+      await opened(studio, path);
+      const time = Date.now() - begin;
+      const start = await studio.page.evaluate(() => performance.now());
+      const { perSecond, added } = await poses(studio.page, 40);
+      const long = await studio.page.evaluate((start) => window.longTasks.filter(([time]) => time > start), start);
+      await studio.picture(`figures_${vertices}`);
+      await studio.close();
+      assert.ok(perSecond > 60 / SLOW, `${perSecond} poses a second`);
+      return `open ${time} ms, a handle more ${Math.round(added)} ms, ${Math.round(perSecond)} poses a second, long tasks ${JSON.stringify(long)}`;
+    });
+  }
+  const gltf = join(shared, 'data/gltf');
+  if (!existsSync(gltf)) passOver('every shared glb', 'the shared files are not here');
+  else {
+    const studio = await Studio.open(host);
+    for (const name of readdirSync(gltf)
+      .filter((file) => file.endsWith('.glb'))
+      .slice(0, Number(process.env.HF_FULL_TESTS ? 100 : 6)))
+      await check(`${name}: opens, its proposed handle is pulled, near vertices stay near`, async () => {
+        await opened(studio, join(gltf, name)).catch(async (error) => {
+          await studio.page.keyboard.press('Escape');
+          // what the studio does not read is said on a card; the test knows two reasons
+          if (!/compressed|holds no triangles/.test(error.message)) throw error;
+        });
+        if ((await studio.page.evaluate(() => window.hfStudio.body.name)) !== name) return 'refused by a sentence';
+        return pulled(studio);
+      });
+    await studio.close();
+  }
+  await check('ten models in turn leave the memory of the first', async () => {
+    const studio = await Studio.open(host);
+    const held = async () => (await studio.page.evaluate(() => window.hfStudio.client.ask('memory'))).heap;
+    const sizes = [];
+    for (let i = 0; i < 10; ++i) {
+      const name = ['bull', 'horse'][i % 2];
+      await studio.page.evaluate((name) => window.hfStudio.openSample(name), name);
+      sizes.push(await held());
+    }
+    await studio.close();
+    assert.ok(sizes.at(-1) <= sizes[1] * 1.05, sizes.join(', '));
+    return `${(sizes[1] / 2 ** 20).toFixed(1)} MB after two, ${(sizes.at(-1) / 2 ** 20).toFixed(1)} MB after ten`;
+  });
+}
+
+/** Pulls the first free handle by a tenth of the body; pairs nearer than 1 % at rest must stay within 5 %. */
+async function pulled(studio) {
+  const worst = await studio.page.evaluate(async () => {
+    const app = window.hfStudio;
+    const { pose } = app.tools;
+    const offer = pose.offers.find(({ id }) => !app.state.handles.some((handle) => handle.id === id)) ?? pose.offers[0];
+    if (!offer) return -1;
+    const size = app.view.size;
+    const handles = [
+      ...app.state.handles.filter(({ id }) => id !== offer.id),
+      { ...offer, pinned: false, translation: [0, 0.1 * size, 0] },
+    ];
+    await app.commit({ ...app.state, handles }, 'pull');
+    const [rest, now] = [app.body.positions, app.skin.positions];
+    const cell = 0.01 * size;
+    const grid = new Map();
+    const key = (x, y, z) => `${x},${y},${z}`;
+    const step = Math.max(1, Math.floor(app.body.vertexCount / 6000));
+    for (let v = 0; v < app.body.vertexCount; v += step) {
+      const at = key(...[0, 1, 2].map((k) => Math.floor(rest[3 * v + k] / cell)));
+      if (!grid.has(at)) grid.set(at, []);
+      grid.get(at).push(v);
+    }
+    let [worst, moved] = [0, 0];
+    for (let v = 0; v < app.body.vertexCount; ++v)
+      moved = Math.max(moved, Math.hypot(...[0, 1, 2].map((k) => now[3 * v + k] - rest[3 * v + k])) / size);
+    if (moved < 0.05) return { still: document.getElementById('told').textContent || 'no vertex moved' };
+    const away = (p, a, b) => Math.hypot(p[3 * a] - p[3 * b], p[3 * a + 1] - p[3 * b + 1], p[3 * a + 2] - p[3 * b + 2]);
+    for (const list of grid.values())
+      for (const a of list)
+        for (const b of list) if (a < b && away(rest, a, b) < cell) worst = Math.max(worst, away(now, a, b) / size);
+    return worst;
+  });
+  if (worst.still) throw new Error(worst.still);
+  if (worst < 0) return 'nothing is proposed';
+  if (worst > 0.05)
+    throw new Error(`two vertices nearer than 1 % at rest are ${(100 * worst).toFixed(1)} % of the body apart`);
+  return `farthest ${(100 * worst).toFixed(1)} %`;
+}

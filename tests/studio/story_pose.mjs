@@ -1,0 +1,135 @@
+// Pose: the proposed handle is pulled, turned by its rings and keys, pinned; a handle is added by a click; a clip plays.
+import assert from 'node:assert/strict';
+import { Studio, check } from './harness.mjs';
+
+const shift = (studio) =>
+  studio.page.evaluate(() => {
+    const { skin, body } = window.hfStudio;
+    let most = 0;
+    for (let v = 0; v < skin.positions.length; v += 3)
+      most = Math.max(most, Math.hypot(...[0, 1, 2].map((k) => skin.positions[v + k] - body.positions[v + k])));
+    return most / window.hfStudio.view.size;
+  });
+const feetShift = (studio) =>
+  studio.page.evaluate(() => {
+    const { skin, body, state } = window.hfStudio;
+    return Math.max(
+      ...state.handles
+        .filter(({ pinned }) => pinned)
+        .map(({ vertex }) =>
+          Math.hypot(...[0, 1, 2].map((k) => skin.positions[3 * vertex + k] - body.positions[3 * vertex + k])),
+        ),
+    );
+  });
+
+export default async function story(host) {
+  const studio = await Studio.open(host);
+  const { page } = studio;
+  await check('the first body opens with feet pinned and one handle that says "pull me"', async () => {
+    const marks = await studio.marks();
+    assert.equal(marks.filter(({ classes }) => classes.includes('pinned')).length, 4);
+    assert.equal(await page.locator('.mark .say').textContent(), 'pull me');
+    await studio.picture('pose_first');
+  });
+  await check('a drag of the proposed handle moves the body and the pinned feet stay', async () => {
+    const box = await page.locator('.mark.pulse').boundingBox();
+    await studio.drag(box.x + 22, box.y + 22, 60, -140);
+    assert.ok((await shift(studio)) > 0.05, `moved by ${await shift(studio)}`);
+    assert.ok((await feetShift(studio)) < 1e-4, `feet moved by ${await feetShift(studio)}`);
+    assert.equal(await page.locator('.mark .say').count(), 0);
+    assert.equal((await studio.facts()).handles, '5');
+    await studio.picture('pose_pulled');
+  });
+  await check('one drag is one step', async () => {
+    assert.equal(await page.evaluate(() => window.hfStudio.history.past.length), 1);
+  });
+  await check('a ring of the gizmo turns the handle', async () => {
+    const ring = await page.evaluate(() => {
+      const { view, tools } = window.hfStudio;
+      const { gizmo } = tools.pose;
+      const box = document.getElementById('canvas').getBoundingClientRect();
+      for (let angle = 0; angle < 6.28; angle += 0.1) {
+        const point = gizmo.centre.slice();
+        point[0] += gizmo.size() * Math.cos(angle);
+        point[1] += gizmo.size() * Math.sin(angle);
+        const { x, y } = view.onScreen(point);
+        const clear = document.elementFromPoint(box.x + x, box.y + y)?.id === 'canvas';
+        if (clear && gizmo.under([x, y]) >= 0) return [box.x + x, box.y + y];
+      }
+      return null;
+    });
+    assert.ok(ring, 'a ring can be reached');
+    await studio.drag(...ring, 30, 50);
+    const turned = await page.evaluate(() => window.hfStudio.state.handles.at(-1).rotation);
+    assert.ok(Math.abs(turned[3]) < 0.999, `rotation ${turned}`);
+    await studio.picture('pose_turned');
+  });
+  await check('pin, unpin and remove act on the chosen handle', async () => {
+    await page.click('#pin');
+    await studio.settle();
+    assert.equal(await page.evaluate(() => window.hfStudio.state.handles.at(-1).pinned), true);
+    await page.click('#pin');
+    await page.click('#remove');
+    await studio.settle();
+    assert.equal((await studio.facts()).handles, '4');
+  });
+  await check('a click on the body adds a handle there', async () => {
+    const spots = await studio.spots();
+    const middle = spots[Math.floor(spots.length / 2)];
+    await page.mouse.click(middle[0], middle[1]);
+    await studio.settle();
+    assert.equal((await studio.facts()).handles, '5', await studio.told());
+    const centre = await page.evaluate(() => window.hfStudio.tools.pose.placeOf(window.hfStudio.state.handles.at(-1)));
+    assert.ok(Math.hypot(...centre.map((x, k) => x - middle[3][k])) < 0.2, 'the handle is where the click was');
+  });
+  await check('a handle that overlaps another is refused by a sentence, and nothing changes', async () => {
+    await page.evaluate(() => (window.hfStudio.tools.pose.radius = 0.2));
+    const before = await studio.bits();
+    const foot = await studio.mark('foot 1');
+    const spots = await studio.spots(8);
+    const near = spots.sort(
+      (a, b) => Math.hypot(a[0] - foot.x, a[1] - foot.y) - Math.hypot(b[0] - foot.x, b[1] - foot.y),
+    )[0];
+    await page.mouse.click(near[0], near[1]);
+    await studio.settle();
+    assert.match(await studio.told(), /add a handle: /);
+    assert.equal((await studio.facts()).handles, '5');
+    assert.equal(await studio.bits(), before);
+  });
+  await check('a clip plays under the pose, and Rest brings the handles back', async () => {
+    await page.click('#play');
+    await page.waitForTimeout(400);
+    assert.equal((await studio.marks()).length, 0);
+    await page.click('#play');
+    await studio.picture('pose_clip');
+    await page.click('#to-rest');
+    await studio.settle();
+    assert.ok((await studio.marks()).length >= 5);
+  });
+  await check('nothing is drawn while nothing moves', async () => {
+    await studio.settle();
+    const first = await page.evaluate(() => window.hfStudio.view.pictures);
+    await page.waitForTimeout(500);
+    assert.equal(await page.evaluate(() => window.hfStudio.view.pictures), first);
+  });
+  await check(
+    'the view turns by a drag beside the body, by the right button on it, and zooms by the wheel',
+    async () => {
+      const turn = () => page.evaluate(() => [window.hfStudio.view.turn, window.hfStudio.view.distance]);
+      const before = await turn();
+      await studio.drag(100, 120, 60, 0);
+      const second = await turn();
+      assert.notEqual(second[0], before[0]);
+      const [spot] = await studio.spots();
+      await page.mouse.move(spot[0], spot[1]);
+      await page.mouse.down({ button: 'right' });
+      await page.mouse.move(spot[0] + 50, spot[1], { steps: 4 });
+      await page.mouse.up({ button: 'right' });
+      await page.mouse.wheel(0, -200);
+      const third = await turn();
+      assert.ok(third[0] !== second[0] && third[1] < second[1]);
+    },
+  );
+  await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
+  await studio.close();
+}

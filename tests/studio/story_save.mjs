@@ -1,0 +1,89 @@
+// Save: every glb has no error in the Khronos validator, and opens again as it was.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { Studio, check, require } from './harness.mjs';
+
+async function validated(path) {
+  const { issues } = await require('gltf-validator').validateBytes(new Uint8Array(readFileSync(path)));
+  assert.equal(issues.numErrors, 0, JSON.stringify(issues.messages.slice(0, 3)));
+  return issues;
+}
+
+export default async function story(host) {
+  const studio = await Studio.open(host);
+  const { page } = studio;
+  const box = await page.locator('.mark.pulse').boundingBox();
+  await studio.drag(box.x + 22, box.y + 22, 60, -140);
+  const posed = await page.evaluate(() => Array.from(window.hfStudio.shape.positions));
+  let path;
+  await check('the saved shape is a valid glb', async () => {
+    await page.click('#save');
+    await page.screenshot({ path: `${process.argv[3]}/save_menu.png` });
+    await page.click('#card .row button');
+    path = await studio.save('save-shape');
+    const { numWarnings } = await validated(path);
+    return `${numWarnings} warnings`;
+  });
+  await check('it opens again with the same places, its skin, clips and texture coordinates', async () => {
+    const before = await page.evaluate(() => {
+      const { body } = window.hfStudio;
+      return [
+        body.clips.length,
+        body.parts[0].skin.listJoints().length,
+        body.parts[0].primitive.listSemantics().sort().join(),
+      ];
+    });
+    await page.setInputFiles('#file', path);
+    await page.waitForFunction(() => window.hfStudio.body.name === 'horse_posed.glb' && window.hfStudio.skin.bvh);
+    const after = await page.evaluate(() => {
+      const { body } = window.hfStudio;
+      return [
+        [
+          body.clips.length,
+          body.parts[0].skin.listJoints().length,
+          body.parts[0].primitive.listSemantics().sort().join(),
+        ],
+        Array.from(body.positions),
+        window.hfStudio.view.size,
+      ];
+    });
+    assert.deepEqual(after[0], before);
+    const worst = posed.reduce((most, x, i) => Math.max(most, Math.abs(x - after[1][i])), 0);
+    assert.ok(worst < 1e-5 * after[2], `a place differs by ${worst}`);
+    return `largest difference ${(worst / after[2]).toExponential(1)} of the body`;
+  });
+  await check('the rig by handles is valid, and its clip ends in the pose', async () => {
+    await page.selectOption('#sample', 'horse');
+    await page.waitForFunction(() => window.hfStudio.body.name === 'horse.glb' && window.hfStudio.skin.bvh);
+    const again = await page.locator('.mark[aria-label*="proposed"]').first().boundingBox();
+    await studio.drag(again.x + 22, again.y + 22, 60, -140);
+    const shape = await page.evaluate(() => Array.from(window.hfStudio.shape.positions));
+    const rigged = await studio.save('save-rig');
+    await validated(rigged);
+    await page.setInputFiles('#file', rigged);
+    await page.waitForFunction(() => window.hfStudio.body.name === 'horse_rigged.glb' && window.hfStudio.skin.bvh);
+    await page.locator('#scrub').fill('1');
+    await studio.settle();
+    const [played, size] = await page.evaluate(() => [
+      Array.from(window.hfStudio.skin.positions),
+      window.hfStudio.view.size,
+    ]);
+    const worst = shape.reduce((most, x, i) => Math.max(most, Math.abs(x - played[i])), 0) / size;
+    assert.ok(worst < 0.03, `a place differs by ${worst} of the body`);
+    return `largest difference ${(100 * worst).toFixed(2)} % of the body`;
+  });
+  await check('new weights are saved into the skin of the file', async () => {
+    await page.selectOption('#sample', 'bull');
+    await page.waitForFunction(() => window.hfStudio.body.name === 'bull.glb' && window.hfStudio.skin.bvh);
+    await studio.tool('weights');
+    await page.click('#compute');
+    await page.waitForFunction(() => window.hfStudio.tools.weights.result);
+    await validated(await studio.save('save-weights'));
+  });
+  await check('a picture is saved', async () => {
+    const bytes = readFileSync(await studio.save('save-picture'));
+    assert.ok(bytes.length > 10000 && bytes.subarray(1, 4).toString() === 'PNG');
+  });
+  await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
+  await studio.close();
+}

@@ -1,0 +1,88 @@
+// Transfer: the walk of the horse on the bull and on the biped; pairs proposed, left out; played, saved.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { Studio, check, require } from './harness.mjs';
+
+export default async function story(host) {
+  const studio = await Studio.open(host, { query: 'fresh&sample=bull' });
+  const { page } = studio;
+  await studio.tool('transfer');
+  await check(
+    'the horse is taken as the source, and pairs are proposed: four feet, two places of the trunk, tips',
+    async () => {
+      await page.click('#take-horse');
+      await page.waitForFunction(() => window.hfStudio.tools.transfer.info, null, { timeout: 30000 });
+      await studio.settle();
+      const kinds = await page.evaluate(() =>
+        window.hfStudio.tools.transfer.pairs
+          .map(({ kind }) => kind)
+          .sort()
+          .join(),
+      );
+      assert.match(kinds, /^foot,foot,foot,foot,(tip,)+trunk,trunk$/);
+      await studio.picture('transfer_pairs');
+      return kinds;
+    },
+  );
+  await check('feet are paired with feet of the same side and row', async () => {
+    const wrong = await page.evaluate(
+      () =>
+        window.hfStudio.tools.transfer.pairs.filter(
+          ({ kind, source, target }) =>
+            kind === 'foot' &&
+            (Math.sign(source.position[0]) !== Math.sign(target.position[0]) ||
+              Math.sign(source.position[2]) !== Math.sign(target.position[2])),
+        ).length,
+    );
+    assert.equal(wrong, 0);
+  });
+  await check('the walk moves the feet of the bull like those of the horse', async () => {
+    const travel = await page.evaluate(async () => {
+      const { tools, body, skin } = window.hfStudio;
+      const tool = tools.transfer;
+      const foot = tool.pairs.find(({ kind }) => kind === 'foot').target.position;
+      let best = 0;
+      for (let v = 1; v < body.vertexCount; ++v) {
+        const away = (w) => Math.hypot(...foot.map((x, k) => x - body.positions[3 * w + k]));
+        if (away(v) < away(best)) best = v;
+      }
+      const places = [];
+      for (let i = 0; i < 8; ++i) {
+        await tool.seek((i * 1.1) / 8);
+        places.push([skin.positions[3 * best + 1], skin.positions[3 * best + 2]]);
+      }
+      const range = (k) => Math.max(...places.map((p) => p[k])) - Math.min(...places.map((p) => p[k]));
+      return [range(0) / window.hfStudio.view.size, range(1) / window.hfStudio.view.size];
+    });
+    assert.ok(travel[1] > 0.05, `a foot travels ${travel}`);
+    await page.evaluate(() => window.hfStudio.marksLayer.update());
+    await studio.picture('transfer_walk');
+    return `a foot travels ${travel.map((x) => x.toFixed(3))} of the picture, up and along`;
+  });
+  await check('it plays, and stops at rest', async () => {
+    await page.click('#transfer-play');
+    await page.waitForTimeout(600);
+    assert.ok((await page.evaluate(() => window.hfStudio.tools.transfer.time)) > 0);
+    await page.click('#transfer-stop');
+    await studio.settle();
+    assert.ok((await studio.marks()).length >= 12);
+  });
+  await check('a click on a dot leaves its pair out', async () => {
+    const before = (await studio.facts()).pairs;
+    const dot = await studio.mark('tip, target');
+    await page.mouse.click(dot.x, dot.y);
+    await studio.settle();
+    assert.notEqual((await studio.facts()).pairs, before);
+  });
+  await check('the walk is saved as a valid glb', async () => {
+    const path = await studio.save('save-transfer');
+    const { issues } = await require('gltf-validator').validateBytes(new Uint8Array(readFileSync(path)));
+    assert.equal(issues.numErrors, 0, JSON.stringify(issues.messages.slice(0, 3)));
+  });
+  await check('another tool brings the body back alone', async () => {
+    await studio.tool('pose');
+    assert.equal(await page.evaluate(() => window.hfStudio.tools.transfer.source.skin.group.visible), false);
+  });
+  await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
+  await studio.close();
+}
