@@ -1,4 +1,6 @@
 // hf_transfer_table FOLDER [--half choosing|judging|mixed|all] [--source NAME] [--target NAME] [--clip NAME] [--runs]
+// [--where]
+//                   [--no-ground] [--no-links]
 //
 // Plays every clip of every shared model on every other and measures what an animator would send back. Constants are
 // chosen on pairs whose two models lie in the choosing half. The judging half holds the pairs of the other models.
@@ -30,16 +32,31 @@ struct Listed {
   const char* name;
   bool judging;
 };
-constexpr Listed listed[] = {
-    {"farm_Cow", false},         {"farm_Sheep", false},           {"khr_Fox", false},
-    {"q_Cow", false},            {"q_Deer", false},               {"q_Fox", false},
-    {"q_Horse", false},          {"q_Wolf", false},               {"CesiumMan", false},
-    {"q_KnightCharacter", false}, {"q_CyberCharacter", false},    {"q_Man_Casual", false},
-    {"q_Trex", false},           {"farm_Llama", true},            {"farm_Pug", true},
-    {"q_Alpaca", true},          {"q_Husky", true},               {"q_Frog", true},
-    {"RiggedFigure", true},      {"q_PlatformerCharacter", true}, {"q_PlatformerHumanoidRig", true},
-    {"q_Woman_Casual", true},    {"q_Enemy_2Legs", true},         {"q_Velociraptor", true},
-    {"q_Triceratops", true}};
+constexpr Listed listed[] = {{"farm_Cow", false},
+                             {"farm_Sheep", false},
+                             {"khr_Fox", false},
+                             {"q_Cow", false},
+                             {"q_Deer", false},
+                             {"q_Fox", false},
+                             {"q_Horse", false},
+                             {"q_Wolf", false},
+                             {"CesiumMan", false},
+                             {"q_KnightCharacter", false},
+                             {"q_CyberCharacter", false},
+                             {"q_Man_Casual", false},
+                             {"q_Trex", false},
+                             {"farm_Llama", true},
+                             {"farm_Pug", true},
+                             {"q_Alpaca", true},
+                             {"q_Husky", true},
+                             {"q_Frog", true},
+                             {"RiggedFigure", true},
+                             {"q_PlatformerCharacter", true},
+                             {"q_PlatformerHumanoidRig", true},
+                             {"q_Woman_Casual", true},
+                             {"q_Enemy_2Legs", true},
+                             {"q_Velociraptor", true},
+                             {"q_Triceratops", true}};
 
 // A frame spikes if the second difference of a vertex is larger than this share of the box, and than this many times
 // the largest of the source in the same frame.
@@ -150,22 +167,48 @@ Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target
   return out;
 }
 
+// For the search for causes: the vertex that spikes most, per frame that does.
+void say_where(const PlayedClip& played, const Loaded& source, const Loaded& target, Session& session) {
+  const RegionFinder finder(target.model, target.flat, Axes());
+  const double scale = std::max(session.scale(), target.box / source.box);
+  const Motion from = motion_of(played.source_frames, scale / target.box);
+  for (size_t f = 1; f + 1 < played.target_frames.size(); ++f) {
+    double most = 0;
+    size_t vertex = 0;
+    for (size_t i = 0; i < played.target_frames[f].size(); i += 3) {
+      double sum = 0;
+      for (size_t c = i; c < i + 3; ++c) {
+        const double d =
+            played.target_frames[f + 1][c] - 2 * played.target_frames[f][c] + played.target_frames[f - 1][c];
+        sum += d * d / target.box / target.box;
+      }
+      if (std::sqrt(sum) > most) most = std::sqrt(sum), vertex = i / 3;
+    }
+    if (most <= spike_share || most <= spike_ratio * from.jerk[f]) continue;
+    const double* p = played.target_frames[f].data() + 3 * vertex;
+    std::printf("      %s frame %zu: %.3f of the box (source %.3f), vertex %zu of %s at %.2f %.2f %.2f\n",
+                played.clip.name.c_str(), f, most, from.jerk[f], vertex,
+                finder.owner_name(static_cast<uint32_t>(vertex)).c_str(), p[0] / target.box, p[1] / target.box,
+                p[2] / target.box);
+  }
+}
+
 struct Options {
   std::filesystem::path folder;
   std::string half = "choosing", source, target, clip;
-  bool runs = false, links = true;
+  bool runs = false, links = true, ground = true, where = false;
 };
 
 void print_runs(const char* heading, const std::vector<Run>& runs) {
   std::vector<double> ratios;
   size_t spikes = 0, spiked = 0, calm = 0, near = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, selves = 0,
          good = 0;
-  double worst_still = 0, worst_step = 0, worst_slide = 0, worst_sunk = 0, worst_gap = 0, worst_self = 0,
-         mean_self = 0, ms = 0, frames = 0;
+  double worst_still = 0, worst_step = 0, worst_slide = 0, worst_sunk = 0, worst_gap = 0, worst_self = 0, mean_self = 0,
+         ms = 0, frames = 0;
   for (const Run& run : runs) {
     spikes += run.spikes, spiked += run.spikes > 0;
-    if (run.acceleration > 0) ratios.push_back(run.acceleration), calm += run.acceleration <= 1.1,
-        near += run.acceleration <= 1.3;
+    if (run.acceleration > 0)
+      ratios.push_back(run.acceleration), calm += run.acceleration <= 1.1, near += run.acceleration <= 1.3;
     still += run.still > 2, worst_still = std::max(worst_still, run.still);
     step += run.step > 1.5, worst_step = std::max(worst_step, run.step);
     slide += run.slide > 0.001, worst_slide = std::max(worst_slide, run.slide);
@@ -216,7 +259,7 @@ int table(const Options& options) {
         const Suggestion suggestion = suggest_pairs(source.model, source.flat, target.model, target.flat);
         for (const SuggestedPair& pair : suggestion.pairs) proposed += (proposed.empty() ? "" : ", ") + pair.name;
         Session session(source.model, target.model, parse_pairs(suggestion.file, "the proposed pairs"), 1,
-                        options.links, bar);
+                        options.links, bar, options.ground);
         sample_clips(source);
         Frames some;
         for (const Frames& frames : source.frames)
@@ -228,6 +271,7 @@ int table(const Options& options) {
           if (source.frames[c].size() < 3) continue;
           const PlayedClip played = session.play(name, source.times[c], source.frames[c], bar);
           runs.push_back(measure(played, source, target, session));
+          if (options.where && runs.back().spikes > 0) say_where(played, source, target, session);
         }
       } catch (const std::exception& error) {
         ++refused;
@@ -241,10 +285,11 @@ int table(const Options& options) {
                   runs.size(), spikes, acceleration, proposed.c_str());
       for (const Run& run : runs) {
         if (options.runs)
-          std::printf("    %-36s spikes %2zu accel %.2f still %5.1f step %5.2f slide %.4f sunk %.4f gap %.4f self %.4f "
-                      "%.4f\n",
-                      run.name.c_str(), run.spikes, run.acceleration, run.still, run.step, run.slide, run.sunk,
-                      run.gap, run.self_mean, run.self_max);
+          std::printf(
+              "    %-36s spikes %2zu accel %.2f still %5.1f step %5.2f slide %.4f sunk %.4f gap %.4f self %.4f "
+              "%.4f\n",
+              run.name.c_str(), run.spikes, run.acceleration, run.still, run.step, run.slide, run.sunk, run.gap,
+              run.self_mean, run.self_max);
         all.push_back(run);
         if (run.name.find("Death") != std::string::npos) deaths.push_back(run);
       }
@@ -274,6 +319,10 @@ int main(int count, char** arguments) {
         *value = arguments[++i];
       } else if (word == "--runs") {
         options.runs = true;
+      } else if (word == "--where") {
+        options.where = true;
+      } else if (word == "--no-ground") {
+        options.ground = false;
       } else if (word == "--no-links") {
         options.links = false;
       } else {

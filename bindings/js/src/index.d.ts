@@ -356,6 +356,7 @@ export interface Hf {
       kernelWidth?: number;
       scale?: number;
       alignmentAngle?: number;
+      ground?: number;
       sourceAxes?: Numbers;
       targetAxes?: Numbers;
     },
