@@ -101,7 +101,7 @@ function Pose:skin(weight_count) return skin_of(C.hf_pose_get_skin, self.raw, se
 local Transfer = class('Transfer', function(raw) C.hf_transfer_destroy(raw) end)
 function hf.Transfer(source, target, options)
   local desc = options_into(make('hf_transfer_desc'), options,
-    set('mode cluster_count kernel_width scale alignment_angle'))
+    set('mode cluster_count kernel_width scale alignment_angle ground'))
   local from, to = raw_of(source, 'Surface', 'source'), raw_of(target, 'Surface', 'target')
   return create(Transfer, 'hf_transfer', { source_vertex_count = source.vertex_count,
     vertex_count = target.vertex_count },

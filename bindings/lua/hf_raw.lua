@@ -640,6 +640,10 @@ typedef struct hf_transfer_desc {
   float alignment_angle;
   float source_axes[9];
   float target_axes[9];
+  int32_t ground;
+  uint32_t reserved;
+  const float* source_rest;
+  const float* target_rest;
 } hf_transfer_desc;
 typedef struct hf_pairs_desc {
   uint32_t struct_size;
@@ -658,6 +662,7 @@ typedef struct hf_pair_info {
   double target_leak;
   double alignment_angle;
   double confidence;
+  double alignment_share;
   int32_t aligned;
   int32_t crossed;
 } hf_pair_info;
@@ -1028,11 +1033,14 @@ local constants = { header_version = '0.1.0',
   HF_REGION_SITES = 2,
   HF_TRANSFER_FIELDS = 0,
   HF_TRANSFER_PAPER = 1,
+  HF_GROUND_KEEP = 0,
+  HF_GROUND_OFF = 1,
   HF_PAIR_ANCHOR = 1,
   HF_PAIR_FOOT = 2,
   HF_PAIR_TRUNK = 4,
   HF_PAIR_NO_ALIGNMENT = 8,
   HF_PAIR_CONTACT = 16,
+  HF_PAIR_SINKS = 32,
   HF_PAIR_LIMIT = 256,
   HF_WEIGHTS_INFORMED = 0,
   HF_WEIGHTS_SOLVED = 1,

@@ -20,14 +20,20 @@ enum {
   HF_TRANSFER_PAPER = 1   /* a cluster: vertices between two levels of one field, as in the paper */
 };
 
+enum {
+  HF_GROUND_KEEP = 0, /* feet stand, and no part sinks deeper than the source's; thin parts may. The default */
+  HF_GROUND_OFF = 1   /* there is no ground: for flying and swimming, or where the host has its own */
+};
+
 /* These flags describe a pair of regions. They can be combined. */
 enum {
   HF_PAIR_ANCHOR = 1,       /* the target's region follows the scaled path of the source's (feet, trunk) */
   HF_PAIR_FOOT = 2,         /* an anchor that also stands on the ground, and whose leg gives the scale */
   HF_PAIR_TRUNK = 4,        /* part of the trunk: no rest alignment */
   HF_PAIR_NO_ALIGNMENT = 8, /* keep the source's rotations as they are even if the rest limbs point elsewhere */
-  HF_PAIR_CONTACT = 16      /* comes as near to the ground as the source's region, scaled, while that is near it (a nose
+  HF_PAIR_CONTACT = 16,     /* comes as near to the ground as the source's region, scaled, while that is near it (a nose
                                that grazes, a hand that leans); elsewhere it is free */
+  HF_PAIR_SINKS = 32        /* this limb may sink into the ground: a tail, a held weapon. Thin parts may anyway */
 };
 
 enum { HF_PAIR_LIMIT = 256 }; /* most pairs of a transfer */
@@ -35,19 +41,27 @@ enum { HF_PAIR_LIMIT = 256 }; /* most pairs of a transfer */
 typedef struct hf_transfer_desc {
   uint32_t struct_size;
   int32_t mode;           /* HF_TRANSFER_* */
-  uint32_t cluster_count; /* 1 to 512; 0 = 80 */
+  uint32_t cluster_count; /* 1 to 512; 0 = 80, or 5 for each pair if that is more */
   float kernel_width;     /* width of a cluster, in field values, 0.005 to 0.5; 0 = 0.04 */
   float scale; /* lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when
                   no pair is a foot */
-  float
-      alignment_angle;  /* rest directions that differ by more are aligned, radians; 0 = 40 degrees; negative = never */
+  /* A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times the angle it is not
+   * aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never. */
+  float alignment_angle;
   float source_axes[9]; /* rows right, up, forward of the source; all zero = x, y, z (glTF: up +y, forward +z) */
   float target_axes[9];
+  int32_t ground;    /* HF_GROUND_* */
+  uint32_t reserved; /* 0 */
+  /* Poses in which the two bodies correspond: float[vertex_count][3] in each surface's unit, read by the call, or NULL
+   * for the positions of the surface. A character bound in a crouch gets a standing pose here. Motion counts from these
+   * poses; the fields stay those of the surfaces. */
+  const float* source_rest;
+  const float* target_rest;
 } hf_transfer_desc;
 
 /* Creates a transfer between two surfaces; both may be the same. Sets *out_transfer to NULL first. desc: NULL for
- * defaults. Errors: HF_ERROR_INVALID_HANDLE (index 0 source, 1 target), HF_ERROR_INVALID_ARGUMENT. Thread safety: reads
- * the surfaces. Since 0.1. */
+ * defaults. Errors: HF_ERROR_INVALID_HANDLE (index 0 source, 1 target), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE
+ * (index = vertex of a rest pose). Thread safety: reads the surfaces. Since 0.1. */
 HF_API hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,
                                     hf_transfer* out_transfer);
 /* Destroys a transfer. Ignores NULL and destroyed handles. Since 0.1. */
@@ -80,9 +94,10 @@ typedef struct hf_pair_info {
   double
       alignment_angle; /* between the rest directions of the limb, radians; negative when unknown (trunk, short limb) */
   double confidence;   /* 0..1: share of the pair's clusters with enough source vertices */
-  int32_t aligned;     /* 1: the rest alignment is applied */
-  int32_t crossed;     /* 1: the region lies on one side of the source and on the other of the target, by the axes:
-                          left and right may be exchanged */
+  double alignment_share; /* how much of that angle the rest alignment takes away, 0 to 1 */
+  int32_t aligned;        /* 1: alignment_share is above 0 */
+  int32_t crossed;        /* 1: the region lies on one side of the source and on the other of the target, by the axes:
+                             left and right may be exchanged */
 } hf_pair_info;
 /* Writes the info of a pair. The first call after a change of pairs solves the fields of all pairs, unless
  * hf_transfer_apply has done so. This changes no result. Errors: HF_ERROR_NO_SUCH_PAIR. Thread safety: reads
@@ -126,18 +141,20 @@ typedef struct hf_transfer_frame {
 } hf_transfer_frame;
 
 /* Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest directions differ
- * much on the two surfaces (hf_pair_info), it instead takes the direction of the source's limb.
+ * much on the two surfaces (hf_pair_info), it takes the direction of the source's limb instead, by a share.
  *
  * The bits of a frame depend on the pairs, in the order of their numbers, and on this desc alone. Removed pairs and
- * earlier frames have no effect.
+ * earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The result changes as little as
+ * the source does: a source that stands still, but for noise, gives a target that stands still.
  *
  * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region follows the
  * path of the source's region). While a foot of the source stands on the ground, the target's foot follows its scaled
- * path exactly. No part of the target sinks deeper into the ground than the same part of the source, scaled. The ground
- * does not move regions that you hold. A lying target rests on the parts that the source rests on. A rigid motion of
- * the whole source is copied unchanged. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE (index = source vertex,
- * or position in the holds), HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held twice), HF_ERROR_TOO_LARGE
- * (holds). Thread safety: changes `transfer`. Since 0.1. */
+ * path exactly. No part of the target sinks deeper into the ground than the source, scaled, but for thin parts (ears,
+ * antlers, blades) and limbs flagged HF_PAIR_SINKS. The ground does not move regions that you hold. A lying target
+ * rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules of the
+ * ground come in continuously. HF_GROUND_OFF switches them off. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE
+ * (index = source vertex, or position in the holds), HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held
+ * twice), HF_ERROR_TOO_LARGE (holds). Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
 /* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With weight_count 4 the skin replays

@@ -313,11 +313,34 @@ class Writer {
                         TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
   }
 
+  // Displacements of a morph target: most move few vertices, so zeros are left out where that halves the bytes.
+  int add_displacements(const std::vector<glm::vec3>& values, bool bounds = false) {
+    std::vector<uint32_t> indices;
+    std::vector<glm::vec3> moved;
+    for (size_t v = 0; v < values.size(); ++v)
+      if (values[v] != glm::vec3(0)) indices.push_back(static_cast<uint32_t>(v)), moved.push_back(values[v]);
+    constexpr size_t row = sizeof(uint32_t) + sizeof(glm::vec3);
+    if (2 * row * indices.size() > sizeof(glm::vec3) * values.size() || values.empty())
+      return add_vectors(values, bounds);
+    if (indices.empty()) indices.push_back(0), moved.emplace_back(0.0f);
+    tinygltf::Accessor accessor;
+    accessor.count = values.size(), accessor.type = TINYGLTF_TYPE_VEC3;
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    if (bounds) add_bounds(&values[0].x, values.size(), 3, accessor);
+    accessor.sparse.isSparse = true, accessor.sparse.count = static_cast<int>(indices.size());
+    accessor.sparse.indices.byteOffset = accessor.sparse.values.byteOffset = 0;
+    accessor.sparse.indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    accessor.sparse.indices.bufferView = add_view(indices.data(), indices.size() * sizeof(uint32_t), 0);
+    accessor.sparse.values.bufferView = add_view(moved.data(), moved.size() * sizeof(glm::vec3), 0);
+    out_.accessors.push_back(accessor);
+    return static_cast<int>(out_.accessors.size()) - 1;
+  }
+
   std::map<std::string, int> add_target(const Primitive& from, const MorphTarget& target) {
     std::map<std::string, int> to;
     const std::vector<glm::vec3> none(target.positions.empty() ? from.positions.size() : 0, glm::vec3(0));
-    to["POSITION"] = add_vectors(target.positions.empty() ? none : target.positions, true);
-    if (!target.normals.empty() && !from.normals.empty()) to["NORMAL"] = add_vectors(target.normals);
+    to["POSITION"] = add_displacements(target.positions.empty() ? none : target.positions, true);
+    if (!target.normals.empty() && !from.normals.empty()) to["NORMAL"] = add_displacements(target.normals);
     return to;
   }
 

@@ -1,6 +1,8 @@
 // hf_transfer SOURCE.glb TARGET.glb --pairs PAIRS.json -o OUT.glb: the motion of one model played on another. See
 // README.md.
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <stdexcept>
 #include <utility>
@@ -47,6 +49,32 @@ Model read_model(const std::filesystem::path& file) {
   return model;
 }
 
+// The model with the pose of a clip at a time as its rest pose. choice: CLIP@TIME, the time in seconds.
+Model rested(const Model& model, const std::string& choice, const std::string& option) {
+  if (choice.empty()) return model;
+  const size_t cut = choice.rfind('@');
+  char* end = nullptr;
+  const double time = cut == std::string::npos ? 0 : std::strtod(choice.c_str() + cut + 1, &end);
+  if (cut == std::string::npos || end == choice.c_str() + cut + 1 || *end != 0)
+    throw std::runtime_error(option + " takes CLIP@TIME with the time in seconds, not \"" + choice + "\"");
+  const Animation& clip = *choose_clips(model, choice.substr(0, cut)).front();
+  if (!(time >= 0 && time <= clip_duration(clip)))
+    throw std::runtime_error(option + ": clip \"" + clip.name + "\" lasts " + std::to_string(clip_duration(clip)) +
+                             " s; the time must lie within it");
+  Model out = model;
+  const Pose pose = sample(model, clip, time);
+  for (size_t n = 0; n < pose.size(); ++n) {
+    Node& node = out.nodes[n];
+    if (pose[n].weights.size() == node.weights.size())
+      for (size_t k = 0; k < node.weights.size(); ++k) node.weights[k] = static_cast<float>(pose[n].weights[k]);
+    if (pose[n].fixed) continue;
+    node.matrix.reset();
+    node.translation = glm::vec3(pose[n].translation), node.rotation = glm::quat(pose[n].rotation);
+    node.scale = glm::vec3(pose[n].scale);
+  }
+  return out;
+}
+
 // The source's motion: clips, or one sequence of posed meshes.
 struct Motion {
   std::vector<const Animation*> clips;
@@ -81,26 +109,49 @@ std::vector<std::vector<double>> some_poses(const Model& source, const FlatMesh&
   return out;
 }
 
-void write_output(Session& session, const Model& target, const TransferCommand& command,
-                  const std::filesystem::path& output, const std::vector<PlayedClip>& clips, RunReport& report) {
+// A gap between linked pieces beyond this share of the box is warned of.
+constexpr double worrying_gap = 0.01;
+
+// Returns what the written file plays; of frames and files without it, the computed clips.
+std::vector<PlayedClip> write_output(Session& session, const Model& target, const TransferCommand& command,
+                                     const std::filesystem::path& output, const std::vector<PlayedClip>& clips,
+                                     RunReport& report) {
   OutputFigures figures;
   const double box = session.target_mesh().bounding_box_diagonal;
-  report.written_as = command.kind;
-  if (command.kind == "own-skin") {
-    write_gltf(own_skin_model(target, session.target_flat(), clips, box, figures), output);
-  } else if (command.kind == "morph") {
-    write_gltf(morph_model(target, session.target_flat(), clips, box, command.morph_tolerance, 64, figures), output);
-  } else if (command.kind == "frames") {
+  report.written_as = command.kind.empty() ? (has_skin(target) ? "own-skin" : "skin") : command.kind;
+  std::vector<PlayedClip> written;
+  if (report.written_as == "frames") {
     const bool mesh = is_mesh(command.target);
     const SurfaceMesh rest = mesh ? read_mesh_file(command.target) : to_surface_mesh(session.target_flat());
     write_frames(output, mesh ? command.target.extension().string() : ".ply", rest, clips);
+    written = clips;
   } else {
-    SkinDescription skin = session.skin();
-    for (const PlayedClip& clip : clips) skin.clips.push_back(clip.clip);
-    write_gltf(skin_model(target, session.target_flat(), skin), output);
-    report.replay = measure_replay(read_gltf(output), clips, box);
+    if (report.written_as == "own-skin") {
+      write_gltf(own_skin_model(target, session, clips, box, command.key_tolerance, figures), output);
+    } else if (report.written_as == "morph") {
+      write_gltf(morph_model(target, session.target_flat(), clips, box, command.morph_tolerance, 64, figures), output);
+    } else {
+      SkinDescription skin = session.skin();
+      for (const PlayedClip& clip : clips) skin.clips.push_back(clip.clip);
+      Model model = skin_model(target, session.target_flat(), skin);
+      keep_carried(target, model);
+      reduce_clips(model, flatten(model), clips.size(), command.key_tolerance * box, figures);
+      write_gltf(model, output);
+      report.replay = measure_replay(read_gltf(output), clips, box);
+    }
+    written = written_clips(read_gltf(output), session, clips);
+  }
+  for (const PlayedClip& clip : written) {
+    report.written_feet.push_back(clip.feet), report.gaps.push_back(clip.gap);
+    if (clip.gap <= worrying_gap) continue;
+    char text[200];
+    std::snprintf(text, sizeof text, "clip \"%s\": linked pieces come apart by %.1f %% of the box",
+                  clip.clip.name.c_str(), 100 * clip.gap);
+    report.warnings.emplace_back(text);
   }
   report.written_rms = figures.rms, report.written_max = figures.max, report.written_parts = figures.parts;
+  report.keys = figures.keys, report.all_keys = figures.all_keys;
+  return written;
 }
 
 // Plays the clips, writes file and sheet, reads the file again.
@@ -124,19 +175,21 @@ RunReport run(Session& session, const Model& source, const Model& target, const 
   bar.begin("writing " + output.string());
   RunReport report = make_report(session, clips, output.string());
   report.contacts = contacts;
-  write_output(session, target, command, output, clips, report);
+  const std::vector<PlayedClip> written = write_output(session, target, command, output, clips, report);
   bar.end();
   if (!command.sheet.empty()) {
     const std::filesystem::path sheet = name(command.sheet);
     bar.begin("drawing " + sheet.string());
-    write_clip_sheet(sheet, session, source, target, clips);
+    write_clip_sheet(sheet, session, source, target, written);
     bar.end();
   }
   return report;
 }
 
-Suggestion propose(const Model& source, const Model& target) {
-  const Suggestion suggestion = suggest_pairs(source, flatten(source), target, flatten(target));
+Suggestion propose(const Model& source, const Model& target, const TransferCommand& command) {
+  const Suggestion suggestion = suggest_pairs(source, flatten(source), target, flatten(target),
+                                              command.source_axes ? &*command.source_axes : nullptr,
+                                              command.target_axes ? &*command.target_axes : nullptr);
   std::printf("proposed pairs            confidence  on the source; on the target\n");
   for (const SuggestedPair& pair : suggestion.pairs) {
     std::printf("  %-22s %11.2f  %s; %s\n", pair.name.c_str(), pair.confidence, pair.source_found.c_str(),
@@ -152,16 +205,20 @@ int transfer(const TransferCommand& command) {
   if (!command.pairs.empty()) pairs = read_pairs(command.pairs);
   const EditsFile edits = command.edits.empty() ? EditsFile() : read_edits(command.edits);
   bar.begin("reading models");
-  const Model source = read_model(command.source), target = read_model(command.target);
+  const Model source = rested(read_model(command.source), command.source_rest, "--source-rest"),
+              target = rested(read_model(command.target), command.target_rest, "--target-rest");
   bar.end();
   if (!command.suggest.empty()) {
-    write_json(command.suggest, propose(source, target).file);
+    write_json(command.suggest, propose(source, target, command).file);
     return 0;
   }
-  if (command.pairs.empty()) pairs = parse_pairs(propose(source, target).file, "the proposed pairs");
+  if (command.pairs.empty()) pairs = parse_pairs(propose(source, target, command).file, "the proposed pairs");
   const Motion motion = read_motion(source, command);
 
-  Session session(source, target, pairs, command.threads, command.links, bar);
+  for (PairEntry& pair : pairs.pairs)
+    pair.sinks =
+        pair.sinks || std::find(command.sinking.begin(), command.sinking.end(), pair.name) != command.sinking.end();
+  Session session(source, target, pairs, command.threads, command.links, bar, command.ground);
   for (const auto& [model, surface] :
        {std::pair{&source, session.source_surface()}, {&target, session.target_surface()}}) {
     if (const std::string sentence = links_sentence(surface); !sentence.empty())

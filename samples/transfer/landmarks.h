@@ -1,9 +1,10 @@
 // Finds the places of a creature that a transfer needs: feet, head or nose, tail, hands, and two places on the trunk.
 // It uses the shape, and joint names where they help.
 //
-// Feet are the pieces of the surface below 12 % of the height that stand on the ground. The limit is lower for shorter
-// legs, and a piece may be farther off the ground if the model rests in mid-stride. So any number of legs is found, and
-// a front leg named "hand" does no harm. The side axis is the one with the best symmetry. Forward is where toes, head
+// Feet are the ends of limbs by their joints' names, if names give as many on the left as on the right. Else they are
+// the pieces of the surface below 12 % of the height that stand on the ground. The limit is lower for shorter legs, and
+// a piece may be farther off the ground if the model rests in mid-stride. A body without feet (a fish, a snake) has its
+// ends and fins. The side axis is the one with the best symmetry. Forward is where toes, head
 // and eyes point (+z when in doubt, as in glTF). Head, tail and hands come from joint names first, else from the
 // extremities of the surface (hf_surface_find_extremities). Ears come from joint names only. The trunk places lie where
 // a line through the belly, or through the back of an upright body, leaves the body. Every landmark says how it was
@@ -35,7 +36,7 @@ struct Landmarks {
   const Landmark* get(const std::string& name) const;
 };
 
-// Throws std::runtime_error when the surface has no feet. axes: null to find them.
+// axes: null to find them.
 Landmarks find_landmarks(const Model& model, const FlatMesh& mesh, const Axes* axes);
 
 }  // namespace samples

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/animate.h"
+#include "transfer/key_reduce.h"
 #include "transfer/rig_fit.h"
 
 namespace samples {
@@ -102,22 +103,65 @@ std::string safe_name(const std::string& name) {
 
 }  // namespace
 
-Model own_skin_model(const Model& target, const FlatMesh& mesh, const std::vector<PlayedClip>& clips, double box,
-                     OutputFigures& figures) {
+bool has_skin(const Model& model) {
+  return std::any_of(model.nodes.begin(), model.nodes.end(), [&](const Node& node) {
+    if (node.skin < 0 || node.mesh < 0) return false;
+    const std::vector<Primitive>& primitives = model.meshes[static_cast<size_t>(node.mesh)].primitives;
+    return std::any_of(primitives.begin(), primitives.end(),
+                       [](const Primitive& primitive) { return !primitive.influences.empty(); });
+  });
+}
+
+void keep_carried(const Model& target, Model& out) {
+  out.asset = target.asset, out.carried = target.carried, out.required_extensions = target.required_extensions;
+}
+
+void reduce_clips(Model& model, const FlatMesh& mesh, size_t clips, double tolerance, OutputFigures& figures) {
+  for (size_t c = 0; c < clips; ++c) {
+    figures.all_keys += key_count(model.animations[c]);
+    reduce_keys(model, mesh, model.animations[c], tolerance);
+    figures.keys += key_count(model.animations[c]);
+  }
+}
+
+std::vector<PlayedClip> written_clips(const Model& written, const Session& session,
+                                      const std::vector<PlayedClip>& clips) {
+  const FlatMesh mesh = flatten(written);
+  std::vector<PlayedClip> out;
+  for (size_t c = 0; c < clips.size(); ++c) {
+    PlayedClip played;
+    played.clip.name = clips[c].clip.name, played.clip.times = clips[c].clip.times;
+    played.source_frames = clips[c].source_frames, played.frame_ms = clips[c].frame_ms;
+    for (const double time : played.clip.times)
+      played.target_frames.push_back(double_positions(posed_positions(written, mesh, written.animations[c], time)));
+    played.feet = session.feet_of(played), played.gap = session.largest_gap(played.target_frames);
+    out.push_back(std::move(played));
+  }
+  return out;
+}
+
+Model own_skin_model(const Model& target, const Session& session, const std::vector<PlayedClip>& clips, double box,
+                     double key_tolerance, OutputFigures& figures) {
+  const FlatMesh& mesh = session.target_flat();
   const RigFit rig(target, mesh);
   Model out = target;
-  out.animations.clear();
   const Pose rest = rest_pose(target);
   double sum = 0;
-  size_t frames = 0;
+  size_t frames = 0, done = 0;
   for (const PlayedClip& clip : clips) {
     std::vector<Pose> poses;
-    for (const std::vector<double>& frame : clip.target_frames) {
-      poses.push_back(rig.fit(frame, poses.empty() ? rest : poses.back(), poses.empty() ? 30 : 6));
+    for (size_t f = 0; f < clip.target_frames.size(); ++f) {
+      const std::vector<double>& frame = clip.target_frames[f];
+      poses.push_back(
+          rig.fit(frame, poses.empty() ? rest : poses.back(), poses.empty() ? 30 : 6, session.standing(clip, f)));
       measure(posed_positions(target, mesh, poses.back()), frame, box, sum, figures);
       ++frames;
     }
-    out.animations.push_back(rig.clip(clip.clip.name, clip.clip.times, poses));
+    std::string name = clip.clip.name;
+    for (int copy = 2; find_animation(out, name) >= 0; ++copy)
+      name = clip.clip.name + " (" + std::to_string(copy) + ")";
+    out.animations.insert(out.animations.begin() + static_cast<std::ptrdiff_t>(done++),
+                          rig.clip(name, clip.clip.times, poses));
   }
   // nodes that are animated may not have a matrix
   for (const Animation& animation : out.animations) {
@@ -135,6 +179,7 @@ Model own_skin_model(const Model& target, const FlatMesh& mesh, const std::vecto
   }
   figures.rms = frames > 0 ? std::sqrt(sum / static_cast<double>(frames)) : 0;
   figures.parts = rig.turning();
+  reduce_clips(out, mesh, clips.size(), key_tolerance * box, figures);
   return out;
 }
 
@@ -199,6 +244,7 @@ Model morph_model(const Model& target, const FlatMesh& mesh, const std::vector<P
   }
   figures.parts = parts.size();
   Model out = bake(target, mesh, mesh.positions);
+  keep_carried(target, out);
   std::map<int, size_t> mesh_of;
   std::vector<size_t> filled(out.meshes.size(), 0);
   for (const FlatPart& from : mesh.parts) {

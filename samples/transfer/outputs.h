@@ -14,12 +14,27 @@ namespace samples {
 // How far the written motion is from the transfer's motion, in box diagonals: root mean square and largest distance.
 struct OutputFigures {
   double rms = 0, max = 0;
-  size_t parts = 0;  // joints that turn, or morph targets
+  size_t parts = 0;               // joints that turn, or morph targets
+  size_t keys = 0, all_keys = 0;  // written, and before keys were left out
 };
 
-// The target with its own nodes, skin and materials. Its clips are the transferred ones (rig_fit.h).
-Model own_skin_model(const Model& target, const FlatMesh& mesh, const std::vector<PlayedClip>& clips, double box,
-                     OutputFigures& figures);
+// Tells whether a mesh of the model has a skin.
+bool has_skin(const Model& model);
+
+// The target as it is, with the transferred clips before its own (rig_fit.h). Standing feet are met more firmly than
+// the rest. key_tolerance: see reduce_keys, in boxes.
+Model own_skin_model(const Model& target, const Session& session, const std::vector<PlayedClip>& clips, double box,
+                     double key_tolerance, OutputFigures& figures);
+
+// A written model's first clips, played: the source's frames, and what the model gives at the same times.
+std::vector<PlayedClip> written_clips(const Model& written, const Session& session,
+                                      const std::vector<PlayedClip>& clips);
+
+// What the target's file says beside its shape: copyright, extras, lights of the top level.
+void keep_carried(const Model& target, Model& out);
+
+// Leaves out keys of the first clips (key_reduce.h).
+void reduce_clips(Model& model, const FlatMesh& mesh, size_t clips, double tolerance, OutputFigures& figures);
 
 // The target without a skin; its frames are weighted sums of few displacements. These are the leading left singular
 // vectors of all frames together. There are as many as keep every frame within `tolerance` (root mean square over the

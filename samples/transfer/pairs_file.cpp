@@ -17,7 +17,7 @@ std::vector<Selector> read_selectors(const JsonReader& json) {
 }
 
 PairEntry read_pair(const JsonReader& json) {
-  json.expect_only({"name", "both", "source", "target", "anchor", "foot", "trunk", "contact", "align"});
+  json.expect_only({"name", "both", "source", "target", "anchor", "foot", "trunk", "contact", "align", "sinks"});
   PairEntry pair;
   pair.name = json.at("name").string();
   if (pair.name.empty()) json.at("name").fail("a pair needs a name");
@@ -30,7 +30,8 @@ PairEntry read_pair(const JsonReader& json) {
   }
   pair.anchor = json.boolean_or("anchor", false), pair.foot = json.boolean_or("foot", false);
   pair.trunk = json.boolean_or("trunk", false), pair.align = json.boolean_or("align", true);
-  pair.contact = json.boolean_or("contact", false);
+  pair.contact_given = json.has("contact");
+  pair.contact = json.boolean_or("contact", false), pair.sinks = json.boolean_or("sinks", false);
   return pair;
 }
 
@@ -60,7 +61,7 @@ void name_file(std::vector<PairEntry>& pairs, const std::filesystem::path& file)
 uint32_t PairEntry::flags() const {
   return (anchor ? uint32_t{HF_PAIR_ANCHOR} : 0u) | (foot ? uint32_t{HF_PAIR_FOOT} : 0u) |
          (trunk ? uint32_t{HF_PAIR_TRUNK} : 0u) | (contact ? uint32_t{HF_PAIR_CONTACT} : 0u) |
-         (align ? 0u : uint32_t{HF_PAIR_NO_ALIGNMENT});
+         (sinks ? uint32_t{HF_PAIR_SINKS} : 0u) | (align ? 0u : uint32_t{HF_PAIR_NO_ALIGNMENT});
 }
 
 namespace {

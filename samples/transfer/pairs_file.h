@@ -13,8 +13,9 @@ namespace samples {
 struct PairEntry {
   std::string name;
   std::vector<Selector> source, target;
-  bool anchor = false, foot = false, trunk = false, contact = false, align = true;
-  uint32_t flags() const;  // HF_PAIR_*
+  bool anchor = false, foot = false, trunk = false, contact = false, sinks = false, align = true;
+  bool contact_given = false;  // the file says whether it is a contact, so nothing is looked for
+  uint32_t flags() const;      // HF_PAIR_*
 };
 
 struct TransferSettings {

@@ -9,9 +9,10 @@
 namespace samples {
 namespace {
 
-constexpr double keep_rest = 2e-4;  // k, over the mean diagonal of the normal matrix
-constexpr double damping = 1e-3;    // of each diagonal entry
-constexpr double moved = 1e-3;      // of the diagonal: a clip that moves a joint less does not move it
+constexpr double keep_rest = 2e-4;   // k, over the mean diagonal of the normal matrix
+constexpr double damping = 1e-3;     // of each diagonal entry
+constexpr double foot_weight = 300;  // of a vertex of a standing foot, beside 1: planted feet do not slide
+constexpr double moved = 1e-3;       // of the diagonal: a clip that moves a joint less does not move it
 
 // The rotation of a matrix whose columns may be scaled.
 glm::dquat rotation_of(const glm::dmat4& matrix) {
@@ -180,7 +181,8 @@ void RigFit::find_vertices(const FlatMesh& mesh) {
   }
 }
 
-Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, int iterations) const {
+Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, int iterations,
+                 const std::vector<double>& firm) const {
   const Pose rest = decomposed(rest_pose(model_));
   Pose pose = decomposed(start);
   const size_t n = unknowns_;
@@ -227,12 +229,12 @@ Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, int iterat
             columns[used++] = {static_cast<size_t>(joints_[k].translation + c), weight[k] * axis};
         }
       }
+      const double area = vertex.area * (firm.empty() ? 1.0 : 1 + foot_weight * firm[vertex.flat]);
       for (size_t a = 0; a < used; ++a) {
-        rhs[columns[a].index] += vertex.area * glm::dot(columns[a].value, miss);
+        rhs[columns[a].index] += area * glm::dot(columns[a].value, miss);
         for (size_t b = 0; b < used; ++b)
           if (columns[b].index <= columns[a].index)
-            matrix[columns[a].index * n + columns[b].index] +=
-                vertex.area * glm::dot(columns[a].value, columns[b].value);
+            matrix[columns[a].index * n + columns[b].index] += area * glm::dot(columns[a].value, columns[b].value);
       }
     }
     double mean = 0;

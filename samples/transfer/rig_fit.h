@@ -21,8 +21,9 @@ class RigFit {
   RigFit(const Model& model, const FlatMesh& mesh);
 
   // Finds the pose of the frame (x y z of every flat vertex), starting from `start`. iterations: number of Gauss-Newton
-  // steps.
-  Pose fit(const std::vector<double>& frame, const Pose& start, int iterations) const;
+  // steps. firm: empty, or per flat vertex from 0 to 1 how firmly it must be met: a foot that stands.
+  Pose fit(const std::vector<double>& frame, const Pose& start, int iterations,
+           const std::vector<double>& firm = {}) const;
   // Returns a copy of the given model whose only clip has the poses at the times.
   Animation clip(const std::string& name, const std::vector<double>& times, const std::vector<Pose>& poses) const;
 

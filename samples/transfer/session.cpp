@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
@@ -12,6 +13,9 @@
 
 namespace samples {
 namespace {
+
+// Heights of a foot (in boxes) below which it stands, and above which it is free, as in the library.
+constexpr double foot_stands = 0.01, foot_flies = 0.05;
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -56,14 +60,15 @@ double lowest_of(const std::vector<double>& xyz, const glm::dvec3& up) {
 }  // namespace
 
 Session::Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, bool links,
-                 ProgressBar& bar)
+                 ProgressBar& bar, bool ground)
     : source_(source),
       target_(target),
       file_(pairs),
       source_flat_(flatten(source)),
       target_flat_(flatten(target)),
       source_finder_(source, source_flat_, pairs.source_axes),
-      target_finder_(target, target_flat_, pairs.target_axes) {
+      target_finder_(target, target_flat_, pairs.target_axes),
+      ground_(ground) {
   try {
     create(threads, links, bar);
   } catch (...) {
@@ -93,6 +98,7 @@ void Session::create(uint32_t threads, bool links, ProgressBar& bar) {
   desc.cluster_count = settings.clusters;
   desc.kernel_width = static_cast<float>(settings.width), desc.scale = static_cast<float>(settings.scale);
   desc.alignment_angle = static_cast<float>(settings.alignment_degrees * 3.14159265358979323846 / 180);
+  desc.ground = ground_ ? HF_GROUND_KEEP : HF_GROUND_OFF;
   copy_axes(file_.source_axes, desc.source_axes), copy_axes(file_.target_axes, desc.target_axes);
   check(hf_transfer_create(source_surface_->get(), target_surface_->get(), &desc, &transfer_), "the transfer");
   bar.begin("pairs, fields and clusters");
@@ -208,7 +214,7 @@ std::vector<PairEntry> Session::found_contacts(const std::vector<std::vector<dou
   const bool has_feet = std::any_of(live_.begin(), live_.end(), [](const Live& live) { return live.entry.foot; });
   std::vector<PairEntry> out;
   for (const Live& live : live_) {
-    if (live.entry.foot || live.entry.trunk || live.entry.anchor) continue;
+    if (live.entry.foot || live.entry.trunk || live.entry.anchor || live.entry.contact_given) continue;
     PairEntry entry = live.entry;
     const double rest = lowest_of(live.source, source_rest, up) - ground,
                  target = lowest_of(live.target, target_rest, target_up) - target_ground;
@@ -307,12 +313,13 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
     bar.update(static_cast<double>(f + 1) / static_cast<double>(times.size()));
   }
   out.frame_ms = inside / static_cast<double>(times.size());
-  measure_feet(out, out.feet);
+  out.feet = feet_of(out), out.gap = largest_gap(out.target_frames);
   bar.end(std::to_string(times.size()) + " frames");
   return out;
 }
 
-void Session::measure_feet(const PlayedClip& played, FootReport& feet) const {
+FootReport Session::feet_of(const PlayedClip& played) const {
+  FootReport feet;
   const double box = target_mesh().bounding_box_diagonal;
   const std::vector<double> source_rest = double_positions(source_flat_.positions),
                             target_rest = double_positions(target_flat_.positions);
@@ -354,6 +361,33 @@ void Session::measure_feet(const PlayedClip& played, FootReport& feet) const {
     feet.surface_sunk =
         std::max(feet.surface_sunk, (allowed - lowest_of(played.target_frames[f], file_.target_axes.up)) / box);
   }
+  return feet;
+}
+
+std::vector<double> Session::standing(const PlayedClip& played, size_t frame) const {
+  const double box = target_mesh().bounding_box_diagonal;
+  const glm::dvec3& up = file_.source_axes.up;
+  const double ground = lowest_of(double_positions(source_flat_.positions), up);
+  std::vector<double> out(target_flat_.positions.size(), 0.0);
+  for (const Live& live : live_) {
+    if (!live.entry.foot) continue;
+    const double height = scale_ * (lowest_of(live.source, played.source_frames[frame], up) - ground) / box;
+    const double t = std::clamp((foot_flies - height) / (foot_flies - foot_stands), 0.0, 1.0);
+    for (const uint32_t v : live.target.vertices) out[v] = t * t * (3 - 2 * t);
+  }
+  return out;
+}
+
+double Session::largest_gap(const std::vector<std::vector<double>>& frames) const {
+  double out = 0;
+  for (const std::vector<double>& frame : frames) {
+    hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
+    posed.positions_f64 = frame.data();
+    hf_gaps_info info = HF_INIT(hf_gaps_info);
+    if (hf_surface_measure_gaps(target_surface(), &posed, 0, nullptr, &info) != HF_OK || info.link_count == 0) return 0;
+    out = std::max(out, info.worst / target_mesh().bounding_box_diagonal);
+  }
+  return out;
 }
 
 SkinDescription Session::skin() {
@@ -381,7 +415,7 @@ std::vector<PairReport> Session::pairs() {
     report.name = live.entry.name;
     report.source_vertices = live.source.vertices.size(), report.target_vertices = live.target.vertices.size();
     report.anchor = live.entry.anchor || live.entry.foot, report.foot = live.entry.foot,
-    report.trunk = live.entry.trunk, report.contact = live.entry.contact, report.aligned = info.aligned != 0,
+    report.trunk = live.entry.trunk, report.contact = live.entry.contact, report.alignment_share = info.alignment_share,
     report.crossed = info.crossed != 0;
     report.source_leak = info.source_leak, report.target_leak = info.target_leak, report.confidence = info.confidence;
     report.alignment_degrees = info.alignment_angle < 0 ? -1 : info.alignment_angle * 180 / 3.14159265358979323846;
@@ -409,11 +443,14 @@ std::vector<std::string> Session::warnings() {
       out.push_back("pair \"" + pair.name +
                     "\" lies on one side of the source and on the other of the target: left and right are crossed");
     }
-    if (pair.aligned)
-      out.push_back(
-          "pair \"" + pair.name + "\": the limb points " +
-          std::to_string(static_cast<int>(pair.alignment_degrees + 0.5)) +
-          " degrees elsewhere at rest and is aligned with the source; \"align\": false keeps its own direction");
+    if (pair.alignment_share > 0) {
+      char text[256];
+      std::snprintf(text, sizeof text,
+                    "pair \"%s\": the limb points %.0f degrees elsewhere at rest; %.0f %% of that is aligned with the "
+                    "source; \"align\": false keeps its own direction",
+                    pair.name.c_str(), pair.alignment_degrees, 100 * pair.alignment_share);
+      out.emplace_back(text);
+    }
   }
   if (crossed > 1)
     out.push_back(std::to_string(crossed) +

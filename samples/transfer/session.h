@@ -16,16 +16,16 @@
 #include "common/progress_bar.h"
 #include "common/skin_write.h"
 #include "hf/hf.h"
-#include "transfer/pairs_file.h"
 #include "transfer/flat_surface.h"
+#include "transfer/pairs_file.h"
 
 namespace samples {
 
 struct PairReport {
   std::string name;
   size_t source_vertices = 0, target_vertices = 0;  // of the files, copies included
-  bool anchor = false, foot = false, trunk = false, contact = false, aligned = false, crossed = false;
-  double source_leak = 0, target_leak = 0, alignment_degrees = -1, confidence = 0;
+  bool anchor = false, foot = false, trunk = false, contact = false, crossed = false;
+  double source_leak = 0, target_leak = 0, alignment_degrees = -1, alignment_share = 0, confidence = 0;
 };
 
 // The motion of the feet over a clip, in box diagonals of the target.
@@ -42,12 +42,14 @@ struct PlayedClip {
   std::vector<std::vector<double>> source_frames, target_frames;  // xyz of the flat vertices, one per time
   FootReport feet;
   double frame_ms = 0;  // per frame, inside the library
+  double gap = 0;       // largest between linked pieces, in box diagonals
 };
 
 class Session {
  public:
+  // ground: false switches the rules of the ground off.
   Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, bool links,
-          ProgressBar& bar);
+          ProgressBar& bar, bool ground = true);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -66,6 +68,13 @@ class Session {
   // Returns posed copies of the source (x y z of every flat vertex).
   PlayedClip play(const std::string& name, const std::vector<double>& times, std::vector<std::vector<double>> poses,
                   ProgressBar& bar);
+  // The motion of the feet in other frames of the same clip, such as those of a written file.
+  FootReport feet_of(const PlayedClip& played) const;
+  // How firmly each flat vertex of the target belongs to a foot that stands in a frame, 0 to 1. It comes in
+  // continuously with the height of the source's foot.
+  std::vector<double> standing(const PlayedClip& played, size_t frame) const;
+  // The largest gap between linked pieces of the target over all frames, in box diagonals; 0 without links.
+  double largest_gap(const std::vector<std::vector<double>>& frames) const;
   // Joints and weights; the caller adds the clips.
   SkinDescription skin();
 
@@ -102,7 +111,6 @@ class Session {
   std::vector<PairEntry> found_contacts(const std::vector<std::vector<double>>& poses) const;
   std::vector<PairEntry> named_contacts(const std::vector<std::string>& names) const;
   void apply(const std::vector<double>& posed, std::vector<double>& out);
-  void measure_feet(const PlayedClip& played, FootReport& feet) const;
   static hf_surface_report mesh_report(hf_surface surface);
 
   const Model& source_;
@@ -113,6 +121,7 @@ class Session {
   std::unique_ptr<FlatSurface> source_surface_, target_surface_;
   hf_transfer transfer_ = nullptr;
   std::vector<Live> live_;
+  bool ground_ = true;
   double scale_ = 1, setup_ms_ = 0, prepare_ms_ = 0, edit_ms_ = 0;
 };
 

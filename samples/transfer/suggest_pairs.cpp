@@ -58,7 +58,11 @@ std::string counterpart(const std::string& name, const Landmarks& from, const La
                                           {"hind foot left", "foot left"},
                                           {"hind foot right", "foot right"},
                                           {"rump", "seat"},
-                                          {"withers", "upper back"}};
+                                          {"withers", "upper back"},
+                                          {"fin left", "hand left"},
+                                          {"fin right", "hand right"},
+                                          {"fin left", "front foot left"},
+                                          {"fin right", "front foot right"}};
   if (from.leg_pairs > 2 || to.leg_pairs > 2) return "";
   for (const auto& pair : across) {
     if (name == pair[0] && to.get(pair[1])) return pair[1];
@@ -67,15 +71,56 @@ std::string counterpart(const std::string& name, const Landmarks& from, const La
   return "";
 }
 
+// A pair that is proposed, with its two places.
+struct Candidate {
+  json pair;
+  SuggestedPair said;
+  Selector source, target;
+};
+
+// Takes out pairs that the program itself would refuse: a region without a vertex, or inside those of other pairs. The
+// less certain of two pairs goes.
+void keep_accepted(const RegionFinder& source, const RegionFinder& target, std::vector<Candidate>& candidates,
+                   std::vector<std::string>& notes) {
+  std::vector<Candidate> ordered = candidates;
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.said.confidence > b.said.confidence; });
+  std::vector<std::string> kept;
+  std::vector<Region> sources, targets;
+  for (const Candidate& candidate : ordered) {
+    std::vector<Region> a = sources, b = targets;
+    bool good = false;
+    try {
+      a.push_back(source.find({candidate.source})), b.push_back(target.find({candidate.target}));
+      std::vector<Region> left = a, right = b;
+      good = source.separate(left) < 0 && target.separate(right) < 0;
+    } catch (const std::runtime_error&) {
+      good = false;
+    }
+    if (good) {
+      sources.swap(a), targets.swap(b), kept.push_back(candidate.said.name);
+    } else {
+      notes.push_back("\"" + candidate.said.name + "\" lies inside other places on one of the two; it is left out");
+    }
+  }
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                                  [&](const Candidate& candidate) {
+                                    return std::find(kept.begin(), kept.end(), candidate.said.name) == kept.end();
+                                  }),
+                   candidates.end());
+}
+
+// Two, four or more legs, and whether the trunk stands upright: how a head is carried and a tail hangs depends on it.
+bool same_build(const Landmarks& a, const Landmarks& b) { return a.leg_pairs == b.leg_pairs && a.upright == b.upright; }
+
 }  // namespace
 
 Suggestion suggest_pairs(const Model& source, const FlatMesh& source_mesh, const Model& target,
-                         const FlatMesh& target_mesh) {
-  const Landmarks from = find_landmarks(source, source_mesh, nullptr),
-                  to = find_landmarks(target, target_mesh, nullptr);
+                         const FlatMesh& target_mesh, const Axes* source_axes, const Axes* target_axes) {
+  const Landmarks from = find_landmarks(source, source_mesh, source_axes),
+                  to = find_landmarks(target, target_mesh, target_axes);
   Suggestion out;
-  json pairs = json::array();
-  bool trunk = false, feet = false;
+  std::vector<Candidate> candidates;
   for (const Landmark& a : from.list) {
     const std::string other = counterpart(a.name, from, to);
     if (other.empty()) {
@@ -92,11 +137,25 @@ Suggestion suggest_pairs(const Model& source, const FlatMesh& source_mesh, const
     }
     const bool same_kind = other == a.name;
     // a hand is no foot
-    if (a.name.find("foot") != std::string::npos && other.find("foot") != std::string::npos) pair["foot"] = feet = true;
+    if (a.name.find("foot") != std::string::npos && other.find("foot") != std::string::npos) pair["foot"] = true;
     const bool is_trunk = a.name == "withers" || a.name == "rump" || a.name == "seat" || a.name == "upper back";
-    if (is_trunk) pair["trunk"] = pair["anchor"] = trunk = true;
-    pairs.push_back(pair);
-    out.pairs.push_back({a.name, std::min(a.confidence, b.confidence) * (same_kind ? 1 : 0.6), a.found, b.found});
+    if (is_trunk) pair["trunk"] = pair["anchor"] = true;
+    // How a head is carried and a tail hangs belongs to the build of a body, and whether it comes to the ground too.
+    // They are aligned, and searched for contacts, between like bodies only.
+    const bool is_end = a.name == "nose" || a.name == "head" || a.name == "tail";
+    if (is_end && !same_build(from, to)) pair["align"] = pair["contact"] = false;
+    // a tail that is carried low is no contact: drawn to the ground in a jump it whips
+    if (a.name == "tail") pair["contact"] = false, pair["sinks"] = true;
+    const double confidence = std::min(a.confidence, b.confidence) * (same_kind ? 1 : 0.6);
+    candidates.push_back({pair, {a.name, confidence, a.found, b.found}, a.place, b.place});
+  }
+  keep_accepted(RegionFinder(source, source_mesh, from.axes), RegionFinder(target, target_mesh, to.axes), candidates,
+                out.notes);
+  json pairs = json::array();
+  bool trunk = false, feet = false;
+  for (const Candidate& candidate : candidates) {
+    pairs.push_back(candidate.pair), out.pairs.push_back(candidate.said);
+    trunk = trunk || candidate.pair.contains("trunk"), feet = feet || candidate.pair.contains("foot");
   }
   for (const Landmark& b : to.list) {
     const std::string other = counterpart(b.name, to, from);
@@ -110,9 +169,10 @@ Suggestion suggest_pairs(const Model& source, const FlatMesh& source_mesh, const
   if (feet && !trunk)
     out.notes.push_back("no place on the trunk was found on both: add withers and rump, else the trunk floats");
   for (const auto& [model, side] : {std::pair<const Model*, const Landmarks*>(&source, &from), {&target, &to}}) {
-    out.notes.push_back(short_name(*model) + " seems to face " + axis_name(side->axes.forward) +
-                        (side->upright ? " and stands upright" : "") + " on " + std::to_string(2 * side->leg_pairs) +
-                        " legs");
+    out.notes.push_back(
+        short_name(*model) + " seems to face " + axis_name(side->axes.forward) +
+        (side->upright ? " and stands upright" : "") +
+        (side->leg_pairs > 0 ? " on " + std::to_string(2 * side->leg_pairs) + " legs" : " without feet"));
   }
   out.file = {
       {"about", "Proposed for " + short_name(source) + " and " + short_name(target) + ": look at it before use."},

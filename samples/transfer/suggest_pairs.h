@@ -22,9 +22,11 @@ struct Suggestion {
   std::vector<std::string> notes;  // places only one of them has, axes, what to check
 };
 
-// Throws std::runtime_error when the two models have too little in common; the message says what each has.
+// Proposes only pairs that a session accepts. Throws std::runtime_error when the two models have too little in common;
+// the message says what each has. Axes: null to find them.
 Suggestion suggest_pairs(const Model& source, const FlatMesh& source_mesh, const Model& target,
-                         const FlatMesh& target_mesh);
+                         const FlatMesh& target_mesh, const Axes* source_axes = nullptr,
+                         const Axes* target_axes = nullptr);
 
 }  // namespace samples
 

@@ -2,6 +2,7 @@
 #include "transfer/transfer_options.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -23,6 +24,46 @@ std::string tail_of(const std::string& name) {
   return bar == std::string::npos ? name : name.substr(bar + 1);
 }
 
+glm::dvec3 direction_of(const std::string& option, const std::string& text) {
+  for (int c = 0; c < 3; ++c) {
+    for (const char sign : {'+', '-'}) {
+      if (text != std::string(1, sign) + "xyz"[c] && (sign == '-' || text != std::string(1, "xyz"[c]))) continue;
+      glm::dvec3 out(0);
+      out[c] = sign == '+' ? 1 : -1;
+      return out;
+    }
+  }
+  throw std::runtime_error(option + " takes +x, -x, +y, -y, +z or -z, not \"" + text + "\"");
+}
+
+// --up and --forward hold for both models, --source-up and so on for one.
+struct GivenAxes {
+  std::optional<glm::dvec3> up, forward;
+};
+
+std::optional<Axes> axes_of(const GivenAxes& own, const GivenAxes& both, const char* side) {
+  const std::optional<glm::dvec3> up = own.up ? own.up : both.up, forward = own.forward ? own.forward : both.forward;
+  if (!up && !forward) return {};
+  Axes out;
+  out.up = up.value_or(out.up);
+  // a model whose z is up faces -y, as glTF's exporters turn it
+  out.forward = forward.value_or(std::abs(out.up.z) > 0.5 ? glm::dvec3(0, -out.up.z, 0) : glm::dvec3(0, 0, 1));
+  if (glm::dot(out.up, out.forward) != 0)
+    throw std::runtime_error(std::string("up and forward of the ") + side + " must be two different axes");
+  out.right = glm::cross(out.up, out.forward);
+  return out;
+}
+
+std::vector<std::string> words_between_commas(const std::string& list) {
+  std::vector<std::string> out;
+  for (size_t from = 0; from <= list.size();) {
+    const size_t comma = std::min(list.find(',', from), list.size());
+    if (comma > from) out.push_back(list.substr(from, comma - from));
+    from = comma + 1;
+  }
+  return out;
+}
+
 }  // namespace
 
 const char* usage() {
@@ -40,12 +81,20 @@ const char* usage() {
          "  --clip NAME     a clip by name, by the part after '|', by index, or all (default: the first)\n"
          "  --fps N         keys per second, 1 to 240 (default 30; 60 for clips below a second), or keys: the source's "
          "own\n"
-         "  --onto-skin     keep TARGET's own skin: its joints turn so that its rig plays the motion\n"
-         "  --as KIND       skin (new, the default), own-skin, morph (morph targets), frames (with --out-poses)\n"
+         "  --as KIND       own-skin (TARGET's joints turn; the default where it has a skin), skin (a new one),\n"
+         "                  morph (morph targets), frames (with --out-poses)\n"
+         "  --onto-skin     the same as --as own-skin\n"
+         "  --key-tolerance X  how far keys that are left out may move a vertex, in boxes (default 0.0005; 0 keeps "
+         "all)\n"
          "  --morph-tolerance X  how far morph targets may be off, in boxes (default 0.001)\n"
          "  --out-poses DIR a mesh file per frame, in TARGET's own vertex order\n"
          "  --source FILE --target FILE --poses FILES  meshes: posed copies of the source instead of a clip\n"
          "  --contacts LIST pairs or joints that touch the ground, with commas; none; found when not given\n"
+         "  --sinking LIST  pairs whose limb may sink into the ground, with commas; thin parts may anyway\n"
+         "  --no-ground     no feet stand and nothing is kept above the ground\n"
+         "  --source-rest CLIP@TIME, --target-rest CLIP@TIME  a pose of a clip, in seconds, is the rest pose\n"
+         "  --up AXIS, --forward AXIS  for proposals: +y, -z, ...; --source-up, --target-up, --source-forward and\n"
+         "                  --target-forward say it for one model\n"
          "  --sheet FILE    a picture: source above, target below, over the clip\n"
          "  --report FILE   what was done and how well, as text\n"
          "  --json FILE     the same as JSON\n"
@@ -59,6 +108,7 @@ const char* usage() {
 TransferCommand parse_command(int count, char** arguments) {
   TransferCommand out;
   std::vector<std::string> files;
+  GivenAxes both, of_source, of_target;
   for (int i = 1; i < count; ++i) {
     const std::string word = arguments[i];
     const auto value = [&]() -> std::string {
@@ -102,13 +152,25 @@ TransferCommand parse_command(int count, char** arguments) {
       while (i + 1 < count && arguments[i + 1][0] != '-') out.poses.emplace_back(arguments[++i]);
       if (out.poses.empty()) throw std::runtime_error("--poses needs at least one file");
     } else if (word == "--contacts") {
-      const std::string list = value();
-      for (size_t from = 0; from <= list.size();) {
-        const size_t comma = std::min(list.find(',', from), list.size());
-        if (comma > from) out.contacts.push_back(list.substr(from, comma - from));
-        from = comma + 1;
-      }
+      out.contacts = words_between_commas(value());
       if (out.contacts.empty()) throw std::runtime_error("--contacts takes names with commas between them, or none");
+    } else if (word == "--sinking") {
+      out.sinking = words_between_commas(value());
+    } else if (word == "--no-ground") {
+      out.ground = false;
+    } else if (word == "--source-rest") {
+      out.source_rest = value();
+    } else if (word == "--target-rest") {
+      out.target_rest = value();
+    } else if (word == "--up" || word == "--source-up" || word == "--target-up") {
+      (word == "--up" ? both : word == "--source-up" ? of_source : of_target).up = direction_of(word, value());
+    } else if (word == "--forward" || word == "--source-forward" || word == "--target-forward") {
+      (word == "--forward"          ? both
+       : word == "--source-forward" ? of_source
+                                    : of_target)
+          .forward = direction_of(word, value());
+    } else if (word == "--key-tolerance") {
+      out.key_tolerance = number_of(word, value(), 0, 1);
     } else if (word == "--morph-tolerance") {
       out.morph_tolerance = number_of(word, value(), 0, 1);
     } else if (word == "--suggest-pairs") {
@@ -125,6 +187,7 @@ TransferCommand parse_command(int count, char** arguments) {
       files.push_back(word);
     }
   }
+  out.source_axes = axes_of(of_source, both, "source"), out.target_axes = axes_of(of_target, both, "target");
   if (out.help || !out.joints.empty()) return out;
   if (!out.source.empty() || !out.target.empty()) {
     if (!files.empty() || out.source.empty() || out.target.empty())

@@ -3,10 +3,12 @@
 #define HF_SAMPLES_TRANSFER_TRANSFER_OPTIONS_H
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/model.h"
+#include "transfer/regions.h"
 
 namespace samples {
 
@@ -16,12 +18,17 @@ struct TransferCommand {
   std::string clip;                                                   // name, index or all; empty: the first
   double rate = 0;  // frames per second; 0: 30, or 60 for clips below a second; -1: the source's own keys
   unsigned threads = 1;
-  std::string kind = "skin";                 // skin, own-skin, morph, frames
-  std::filesystem::path frames;              // folder of --out-poses
-  std::vector<std::filesystem::path> poses;  // posed copies of the source's mesh
-  std::vector<std::string> contacts;         // empty: found
-  double morph_tolerance = 1e-3;             // of the box
-  bool links = true;                         // between the pieces of a model
+  std::string kind;                              // skin, own-skin, morph, frames; empty: own-skin where there is a skin
+  std::filesystem::path frames;                  // folder of --out-poses
+  std::vector<std::filesystem::path> poses;      // posed copies of the source's mesh
+  std::vector<std::string> contacts;             // empty: found
+  double morph_tolerance = 1e-3;                 // of the box
+  double key_tolerance = 5e-4;                   // of the box
+  std::string source_rest, target_rest;          // CLIP@TIME; empty: the pose of the file
+  std::optional<Axes> source_axes, target_axes;  // for proposals; found when not given
+  std::vector<std::string> sinking;              // pairs whose limb may sink into the ground
+  bool ground = true;
+  bool links = true;  // between the pieces of a model
   bool quiet = false, help = false;
 };
 

@@ -95,10 +95,10 @@ std::string to_text(const RunReport& report, const std::string& heading) {
                                    {pair.anchor && !pair.foot, " anchor"},
                                    {pair.trunk, " trunk"},
                                    {pair.contact, " contact"},
-                                   {pair.crossed, " CROSSED"},
-                                   {pair.aligned, " aligned"}}) {
+                                   {pair.crossed, " CROSSED"}}) {
       if (is) kind += word;
     }
+    if (pair.alignment_share > 0) kind += " aligned " + std::to_string(std::lround(100 * pair.alignment_share)) + " %";
     const std::string angle =
         pair.alignment_degrees < 0 ? "-" : std::to_string(static_cast<int>(pair.alignment_degrees + 0.5));
     print(out, "  %-22s %5zu %5zu   %.1e   %10s  %10.2f %s\n", pair.name.c_str(), pair.source_vertices,
@@ -121,6 +121,17 @@ std::string to_text(const RunReport& report, const std::string& heading) {
     print(out,
           "  written as    %s, %zu parts: %.5f of the box from the computed frames (root mean square; largest %.4f)\n",
           report.written_as.c_str(), report.written_parts, report.written_rms, report.written_max);
+  for (size_t c = 0; c < report.written_feet.size(); ++c)
+    print(out, "  written clip \"%s\": standing feet slide %.4f (largest %.4f), the surface sinks by %.4f of the box\n",
+          report.clip_names[c].c_str(), report.written_feet[c].planted_mean, report.written_feet[c].planted_max,
+          report.written_feet[c].surface_sunk);
+  if (report.all_keys > 0)
+    print(out, "  keys          %zu of %zu are written; the others follow from them\n", report.keys, report.all_keys);
+  for (size_t c = 0; c < report.gaps.size(); ++c) {
+    if (report.gaps[c] > 0)
+      print(out, "  gaps          %.2f %% of the box at most between linked pieces in \"%s\"\n", 100 * report.gaps[c],
+            report.clip_names[c].c_str());
+  }
   for (const std::string& contact : report.contacts) out += "  contact: " + contact + "\n";
   for (const std::string& warning : report.warnings) out += "  note: " + warning + "\n";
   return out;
@@ -136,7 +147,8 @@ nlohmann::json to_json(const RunReport& report) {
          {"anchor", pair.anchor},
          {"foot", pair.foot},
          {"trunk", pair.trunk},
-         {"aligned", pair.aligned},
+         {"aligned", pair.alignment_share > 0},
+         {"alignment_share", pair.alignment_share},
          {"contact", pair.contact},
          {"crossed", pair.crossed},
          {"source_leak", pair.source_leak},
@@ -156,6 +168,10 @@ nlohmann::json to_json(const RunReport& report) {
                      {"planted_max", report.feet[c].planted_max},
                      {"surface_sunk", report.feet[c].surface_sunk},
                      {"gaps", report.gaps[c]}});
+    if (c < report.written_feet.size()) {
+      clips.back()["written_planted_max"] = report.written_feet[c].planted_max;
+      clips.back()["written_planted_mean"] = report.written_feet[c].planted_mean;
+    }
   }
   return {{"output", report.output},
           {"clusters", report.clusters},
@@ -172,6 +188,9 @@ nlohmann::json to_json(const RunReport& report) {
           {"written_max", report.written_max},
           {"written_parts", report.written_parts},
           {"contacts", report.contacts},
+          {"gaps", report.gaps},
+          {"keys", report.keys},
+          {"all_keys", report.all_keys},
           {"replay_key_max", report.replay.key_max},
           {"replay_half_rms", report.replay.half_rms},
           {"warnings", report.warnings}};

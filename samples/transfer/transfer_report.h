@@ -30,7 +30,9 @@ struct RunReport {
   ReplayReport replay;
   std::string written_as = "skin";          // skin, own skin, morph targets, frames
   double written_rms = 0, written_max = 0;  // of own skin and morph targets: from the computed frames, in box diagonals
-  size_t written_parts = 0;
+  size_t written_parts = 0, keys = 0, all_keys = 0;
+  std::vector<FootReport> written_feet;  // in the written file
+  std::vector<double> gaps;              // largest between linked pieces in the written file, in box diagonals
   std::vector<std::string> contacts;
   uint32_t clusters = 0;
   double scale = 1, setup_ms = 0, prepare_ms = 0, edit_ms = 0;

@@ -63,9 +63,14 @@ hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_tran
                              hf_transfer* out_transfer) {
   return create("hf_transfer_create", out_transfer, "out_transfer", [&] {
     get<SurfaceObject>(source, "source", 0), get<SurfaceObject>(target, "target", 1);
-    const TransferOptions options = read_transfer_options(read_optional(desc, "desc"));
+    const hf_transfer_desc given = read_optional(desc, "desc");
+    TransferOptions options = read_transfer_options(given);
     const auto from = harmonic_core(source, "a transfer", "source", 0),
                to = harmonic_core(target, "a transfer", "target", 1);
+    const Vector<Vec3> source_rest = read_rest(given.source_rest, *from),
+                       target_rest = read_rest(given.target_rest, *to);
+    options.source_rest = {source_rest.data(), source_rest.size()};
+    options.target_rest = {target_rest.data(), target_rest.size()};
     return make_owner_in<TransferObject>(to->memory, from, to, options);
   });
 }
@@ -102,7 +107,8 @@ hf_result hf_transfer_get_pair(hf_transfer handle, uint32_t pair, hf_pair_info* 
     info.flags = found.flags;
     info.source_leak = found.source_leak, info.target_leak = found.target_leak;
     info.alignment_angle = found.alignment_angle, info.confidence = found.confidence;
-    info.aligned = found.aligned ? 1 : 0, info.crossed = found.crossed ? 1 : 0;
+    info.alignment_share = found.alignment_share;
+    info.aligned = found.alignment_share > 0 ? 1 : 0, info.crossed = found.crossed ? 1 : 0;
     write_struct(out_info, info);
   });
 }
@@ -118,7 +124,7 @@ hf_result hf_transfer_get_info(hf_transfer handle, hf_transfer_info* out_info) {
     info.pair_count = object->transfer.pair_count();
     for (const std::uint32_t pair : object->transfer.pairs()) {
       const PairInfo found = object->transfer.pair_info(pair);
-      info.aligned_count += found.aligned ? 1u : 0u, info.crossed_count += found.crossed ? 1u : 0u;
+      info.aligned_count += found.alignment_share > 0 ? 1u : 0u, info.crossed_count += found.crossed ? 1u : 0u;
     }
     // The counter includes the surface's own factor as its first factorisation, so one is subtracted.
     info.source_factorisation_count = object->transfer.source_counters().factorisations - 1;

@@ -20,14 +20,18 @@ constexpr double no_height = 1e300;
 // error of a horse transferred to itself is 0.0095 (0.0090 now), and a standing foot slides by 0.025 boxes. At twice
 // the value: that error is 0.0082, but surfaces sink 0.004 boxes into the ground.
 constexpr std::int32_t default_cluster_count = 80;
+// Clusters for each pair, if that is more than the default. With 60 pairs, 80 clusters leave most pairs without a
+// cluster near them: the space of the fields has a dimension for each pair.
+constexpr std::int32_t clusters_per_pair = 5;
 // Width of a cluster of vertices, as a distance of field values: trades local detail for smoothness. At half the value:
 // the error of a horse transferred to itself is 0.0080 (0.0090 now), and the edge stretch of a deer 0.45 (0.35 now). At
 // twice the value: that error is 0.0099, and feet end twice as far from their paths.
 constexpr double default_kernel_width = 0.04;
-// A limb is turned to the source's rest direction if the two directions differ by more. At half the value: the legs of
-// a wolf are turned too, and its feet end 8 times as far from their paths. At twice the value: the hands of the test
-// model Knight are no longer turned.
+// A limb turns to the source's rest direction by a share that grows with the angle between the two directions. It is
+// half at this angle.
 constexpr double default_alignment_angle = 40 * degree;
+// The share is 0 up to the first part of the alignment angle and 1 from the second on.
+constexpr double align_from = 0.6, align_to = 1.4;
 // At most this many clusters (groups of vertices with a common motion): bounds a dense matrix. For 512 clusters it
 // takes 2 MB, and 22 million multiply-adds to factor.
 constexpr std::uint32_t cluster_limit = 512;
@@ -154,6 +158,9 @@ constexpr double least_weight_share = 1e-3;
 
 // --- refit.cpp ---
 
+// Sharpness of the rotation that turns a cluster towards its neighbours (soft_rotation.h). The four rounds of turns are
+// a contraction only where it is small: at 4, a sheep's legs jump between two states (6 spikes in one walk, 0 at 0.25).
+constexpr double refit_sharpness = 0.25;
 // How strongly a cluster keeps its source's rotation when it turns towards its neighbours. At half the value: the error
 // of a horse transferred to itself is 0.0095 (0.0090 now). At twice the value: 0.0085, but the edge stretch of a wolf
 // is 0.34 (0.32 now).
@@ -165,11 +172,19 @@ constexpr double handle_share = 0.9;
 // rotation. Rounding leaves 1e-32, the test models have 9e-11 and more. Halving or doubling it changes no vertex.
 constexpr double least_overlap_extent = 1e-12;
 
+// --- soft_rotation.cpp ---
+
+// Steps of the power that stands for an exponential, a power of two.
+constexpr int soft_steps = 64;
+// Bounds the share that one step adds to the identity, over the size of the moment matrix: below 1 / sqrt(3) the power
+// stays positive definite.
+constexpr double most_soft_step = 0.28;
+
 // --- source_rotations.cpp ---
 
-// Weight of the rotation around a cluster when the cluster's own is computed. It decides the twist of thin clusters.
-// Halving or doubling it changes errors and edge stretches by at most 3 %.
-constexpr double narrow_prior = 0.02;
+// Sharpness of a cluster's own rotation (soft_rotation.h), and the weight of the rotation around it. They decide the
+// twist of thin clusters: it follows the rotation around them where their own moments do not tell.
+constexpr double narrow_sharpness = 4, narrow_prior = 0.02;
 // Weight of the whole body's rotation when the rotation around a cluster is computed. Halving or doubling it changes
 // errors and edge stretches by at most 3 %.
 constexpr double broad_prior = 1e-3;
@@ -209,6 +224,9 @@ constexpr double rigid_residual = 1e-3;
 // Between these angles a body counts as turned or fallen by a share from 0 to 1. The largest step of a vertex in a fall
 // is now 1.14 times the source's. It is 1.5 times with turn_low 40 or turn_high 25, and 1.35 times with turn_high 100.
 constexpr double turn_low = 20 * degree, turn_high = 50 * degree;
+// The part of a foot's turn about the vertical counts by a share from 0 to 1 between these squared lengths of its
+// quaternion: a foot that is turned over has no such part.
+constexpr double twist_low = 0.05, twist_high = 0.3;
 // Rounds that turn clusters towards their neighbours; each places all clusters once. At half the value: the error of a
 // horse transferred to itself is 0.0086 (0.0090 now). At twice the value: 0.0094. All other errors and edge stretches
 // stay the same.
@@ -228,34 +246,35 @@ constexpr double stands = 0.01, flies = 0.05;
 constexpr double touches = 0.1, leaves = 0.45;
 // Shares of the surface that touch the ground when a body begins to lie, and when it lies fully. Halving or doubling it
 // moves vertices by up to 0.04 boxes and changes accelerations by 8 %.
-constexpr double lies_low = 0.01, lies_high = 0.06;
+constexpr double lies_low = 0.01, lies_high = 0.25;
 // Depth (in boxes) that a surface may sink into the ground. Surfaces sink exactly that deep. At half the value they
 // sink by 5e-5, at twice the value by 2e-4.
 constexpr double least_depth = 1e-4;
 // A constraint of a frame (hold) that is met to a smaller share is left out; guards a division by the share. Halving or
 // doubling it changes no frame.
 constexpr double least_hold = 1e-6;
-// Share to which a constraint that lifts a sunk part is met; 1 meets it exactly. Closer to 1 needs fewer rounds. At
-// half the value: the test model Knight sinks 9e-5 boxes (1e-5 now).
-constexpr double sunk_hold = 0.98;
-// A constraint (hold) on a sunk region with a share below this part of sunk_hold is replaced instead of raised. Halving
-// or doubling it moves vertices by up to 9e-4 boxes.
-constexpr double weak_hold = 0.5;
+// Depth (in boxes) at which a part under the ground is held there firmly; between 0 and this depth the hold comes in.
+constexpr double firm_depth = 0.01;
+// A fallen body rises until the depth under the ground, summed over its area, is this much (in boxes).
+constexpr double floating_volume = 2e-4;
+// Newton's steps of the height at which a body floats.
+constexpr std::int32_t floating_steps = 8;
+// Half thicknesses (in boxes) below which a part may sink into the ground, and above which it may not.
+constexpr double thin_from = 0.006, thin_to = 2 * thin_from;
+// Share of a cluster's area vectors that do not cancel, above which it is a patch of a larger body and not a thin part.
+constexpr double open_share = 0.5;
 // A frame with a smaller share of non-rigid motion is not lifted above the ground. Halving or doubling it changes no
 // frame.
 constexpr double least_share = 1e-3;
-// Rounds that lift parts below the ground. At half the value: surfaces sink 0.0007 boxes instead of 0.0001. Doubling it
-// changes errors and edge stretches by at most 3 %.
-constexpr std::int32_t sunk_rounds = 8;
-// Of the rounds that lift parts above the ground, the clusters of vertices also turn in this many. At half the value:
-// the edge stretch of a cow is 0.204 (0.211 now). Doubling it changes errors and edge stretches by at most 3 %.
-constexpr std::int32_t turning_rounds = 3;
+// Rounds that raise clusters under the ground. The first leaves a tenth of the depth, because a vertex follows four
+// clusters.
+constexpr std::int32_t sunk_rounds = 4;
+// A cluster rises with a sunk one if their centres are nearer than this, as a distance of field values: a foot and its
+// hip are about 1 apart.
+constexpr double rise_reach = 1.2;
 
 // --- translations.cpp ---
 
-// At most this many single vertices are kept above the ground in one frame. It bounds a dense matrix, and the time of a
-// frame in which many vertices sink.
-constexpr std::size_t vertex_rows = 24;
 // This share of the diagonal is added to it, so that two constraints on the same place can be solved. Halving or
 // doubling it changes errors and edge stretches by at most 3 %.
 constexpr double hold_ridge = 1e-9;

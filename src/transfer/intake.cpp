@@ -11,8 +11,20 @@ TransferOptions read_transfer_options(const hf_transfer_desc& desc) {
   options.mode = desc.mode, options.cluster_count = desc.cluster_count;
   options.kernel_width = static_cast<double>(desc.kernel_width), options.scale = static_cast<double>(desc.scale);
   options.alignment_angle = static_cast<double>(desc.alignment_angle);
+  check_choice(desc.ground, 2, "ground"), require_zero(desc.reserved);
+  options.keep_ground = desc.ground == HF_GROUND_KEEP;
   std::copy_n(desc.source_axes, 9, options.source_axes), std::copy_n(desc.target_axes, 9, options.target_axes);
   return options;
+}
+
+Vector<Vec3> read_rest(const float* given, const Core& core) {
+  Vector<Vec3> out(core.memory.get());
+  if (!given) return out;
+  for (const std::int32_t v : core.mesh.given_of_inner) {
+    const float* row = given + std::size_t{3} * static_cast<std::size_t>(v);
+    out.push_back({static_cast<double>(row[0]), static_cast<double>(row[1]), static_cast<double>(row[2])});
+  }
+  return out;
 }
 
 PairsInput read_pairs(const Transfer& transfer, const hf_pairs_desc& desc, Memory& memory) {

@@ -1,6 +1,7 @@
 // The data that a transfer derives from its pairs (Transfer::Prepared), shared by the files of Transfer.
 #pragma once
 #include <algorithm>
+#include <cmath>
 
 #include "transfer/transfer.h"
 
@@ -10,6 +11,8 @@ namespace hf_inner {
 struct BlendColumns {
   double m[4][4] = {};
 };
+
+inline bool is_finite(Vec3 p) noexcept { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 inline Vec3 region_mean(Span<const std::int32_t> region, const Vec3* points) noexcept {
   Vec3 sum;
@@ -63,7 +66,10 @@ struct Transfer::Prepared {
         source_lows(&memory),
         target_lows(&memory),
         touch(&memory),
-        deepest(&memory) {}
+        sinks(&memory),
+        depths(&memory),
+        rises(&memory),
+        sunk(&memory) {}
   struct Anchor {
     std::uint32_t number = 0, flags = 0;
     bool is_foot = false;
@@ -74,8 +80,8 @@ struct Transfer::Prepared {
   Buffer<double> source_field, target_field;
   // The next arrays have one entry per pair, in the order of numbers_.
   Vector<double> source_leak, target_leak, limb_angle, confidence;
-  Vector<Quaternion> limb_turn;  // turns the target's limb at rest to the source's direction
-  Vector<std::uint8_t> aligned;
+  Vector<Quaternion> limb_turn;     // turns the target's limb at rest to the source's direction
+  Vector<double> aligned;           // the share of that turn that the limb makes, 0 to 1
   Vector<Quaternion> cluster_turn;  // the part of its limb's turn that a cluster makes
   Clusters clusters;
   SourceRotations source_rotations;
@@ -97,19 +103,16 @@ struct Transfer::Prepared {
   Vector<std::int32_t> rides;  // by target vertex: the region it moves with, or -1
   Vector<BlendColumns> columns;
   Vector<Vec3> blended;               // posed target, inner units.
-  double lift = 0;                    // height by which the whole target is raised
   Vector<std::int32_t> source_owner;  // per source vertex: cluster whose centre is nearest.
   // Four arrays with one entry per cluster (vertices with a common motion). rest_lows and source_lows: lowest scaled
   // height of the cluster's source vertices over the ground, at rest and now. target_lows: lowest height of the
   // cluster's target vertices. touch: the cluster's area if the cluster touches the ground now but not at rest.
   Vector<double> rest_lows, source_lows, target_lows, touch;
-  double source_low = 0;  // lowest height of all source vertices
-  struct Sunk {
-    double depth = 0;
-    std::int32_t vertex = -1;
-  };
-  Vector<Sunk> deepest;  // deepest vertex under the ground, per region, then per cluster
-  std::int32_t held_vertices[vertex_rows] = {};
+  double source_low = 0;         // lowest height of all source vertices
+  Vector<double> sinks;          // per cluster: share of its depth that may stay under the ground, 0 to 1
+  Buffer<double> falloff;        // clusters x clusters: how far a cluster rises with another
+  Vector<double> depths, rises;  // per cluster: largest depth under the ground, and how far it is raised
+  Vector<std::int32_t> sunk;     // scratch: vertices under the ground
 };
 
 }  // namespace hf_inner

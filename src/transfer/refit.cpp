@@ -5,6 +5,7 @@
 
 #include "base/index.h"
 #include "transfer/constants.h"
+#include "transfer/soft_rotation.h"
 
 namespace hf_inner {
 void Refit::prepare(const Mesh& target, Span<const double> area, const Clusters& clusters, Memory& memory) {
@@ -61,7 +62,7 @@ void Refit::turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotati
       const Vec3 y = 0.5 * ((matrices[c] * x + shifts[c]) + (matrices[d] * x + shifts[d]));
       add_outer(moment, weight_[at(i)] / spread_[c], y - place, x - centroid_[c]);
     }
-    rotations[c] = best_rotation_from(moment + keep_rotation * given[c].toRotationMatrix(), rotations[c]);
+    rotations[c] = soft_rotation(moment + keep_rotation * given[c].toRotationMatrix(), given[c], refit_sharpness);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/index.h"
 #include "transfer/constants.h"
+#include "transfer/soft_rotation.h"
 
 namespace hf_inner {
 namespace {
@@ -20,11 +21,6 @@ Mat3 moment_of(const SourceKernels& kernels, std::int32_t c, const Vec3* posed) 
   for (std::int32_t i = first; i < last; ++i)
     add_outer(moment, 1.0, posed[kernels.vertex[at(i)]] - origin, kernels.slope[at(i)]);
   return moment;
-}
-
-Quaternion kernel_rotation(const SourceKernels& kernels, std::int32_t c, const Vec3* posed, double share,
-                           const Quaternion& guide) noexcept {
-  return best_rotation_from(moment_of(kernels, c, posed) + share * guide.toRotationMatrix(), guide);
 }
 
 }  // namespace
@@ -73,8 +69,10 @@ void SourceRotations::clusters(const Clusters& clusters, const Vec3* posed, cons
                                JobRunner& jobs) const {
   jobs.for_each(static_cast<std::uint32_t>(clusters.count), [&](std::uint32_t i) {
     const auto c = static_cast<std::int32_t>(i);
-    const Quaternion broad = kernel_rotation(clusters.broad, c, posed, broad_prior, whole);
-    out[i] = kernel_rotation(clusters.narrow, c, posed, narrow_prior, broad);
+    const Mat3 around = moment_of(clusters.broad, c, posed) + broad_prior * whole.toRotationMatrix();
+    const Quaternion broad = best_rotation_from(around, whole);
+    const Mat3 own = moment_of(clusters.narrow, c, posed) + narrow_prior * broad.toRotationMatrix();
+    out[i] = soft_rotation(own, broad, narrow_sharpness);
   });
 }
 

@@ -15,7 +15,7 @@ namespace hf_inner {
 namespace {
 
 constexpr std::uint32_t known_flags =
-    HF_PAIR_ANCHOR | HF_PAIR_FOOT | HF_PAIR_TRUNK | HF_PAIR_NO_ALIGNMENT | HF_PAIR_CONTACT;
+    HF_PAIR_ANCHOR | HF_PAIR_FOOT | HF_PAIR_TRUNK | HF_PAIR_NO_ALIGNMENT | HF_PAIR_CONTACT | HF_PAIR_SINKS;
 
 Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
   Vec3 sum;
@@ -43,23 +43,42 @@ void check_options(const TransferOptions& options) {
     fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "alignment_angle is not a finite number");
 }
 
+// A core whose rest positions are others. Fields, and all that follows from edges, stay those of the surface as made.
+std::shared_ptr<const Core> with_rest(const std::shared_ptr<const Core>& core, Span<const Vec3> rest,
+                                      const char* side) {
+  if (rest.empty()) return core;
+  auto geometry = make_shared_in<Geometry>(*core->memory, core->memory, core->jobs);
+  const Geometry& from = *core->geometry;
+  geometry->mesh = from.mesh, geometry->topology = from.topology, geometry->areas = from.areas;
+  geometry->weights = from.weights, geometry->operator_kind = from.operator_kind;
+  for (std::size_t v = 0; v < rest.size(); ++v) {
+    if (!is_finite(rest[v])) {
+      const auto given = static_cast<std::uint32_t>(from.mesh.given_of_inner[v]);
+      fail(HF_ERROR_NON_FINITE, given, "vertex %u of the %s's rest pose is not finite", given, side);
+    }
+    geometry->mesh.positions[v] = from.mesh.to_inner(rest[v]);
+  }
+  return make_shared_in<Core>(*core->memory, std::shared_ptr<const Geometry>(std::move(geometry)));
+}
+
 }  // namespace
 
 Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target,
                    const TransferOptions& options)
-    : source_core_(std::move(source)),
-      target_core_(std::move(target)),
+    : source_core_(with_rest(source, options.source_rest, "source")),
+      target_core_(with_rest(target, options.target_rest, "target")),
       options_(options),
       source_axes_(checked_axes(options.source_axes, "source")),
       target_axes_(checked_axes(options.target_axes, "target")),
       axes_(Mat3(target_axes_.transpose() * source_axes_)),
-      source_(source_core_),
-      target_(target_core_),
+      source_(std::move(source)),
+      target_(std::move(target)),
       numbers_(target_core_->memory.get()),
       flags_(target_core_->memory.get()),
       source_area_(area_shares(source_core_->mesh, *target_core_->memory)),
       target_area_(area_shares(target_core_->mesh, *target_core_->memory)) {
   check_options(options);
+  options_.source_rest = options_.target_rest = {};
   if (options_.kernel_width == 0) options_.kernel_width = default_kernel_width;
   if (options_.alignment_angle == 0) options_.alignment_angle = default_alignment_angle;
 }
@@ -121,7 +140,7 @@ void Transfer::prepare_alignment(Prepared& p) const {
       &source_core_->mesh, {p.source_field.data(), p.source_field.size()}, source_area_, source_axes_};
   const RestSide target{
       &target_core_->mesh, {p.target_field.data(), p.target_field.size()}, target_area_, target_axes_};
-  p.limb_angle.assign(width, -1.0), p.aligned.assign(width, std::uint8_t{0}), p.limb_turn.assign(width, Quaternion());
+  p.limb_angle.assign(width, -1.0), p.aligned.assign(width, 0.0), p.limb_turn.assign(width, Quaternion());
   Vector<std::int32_t> feet(target_core_->memory.get());
   for (std::size_t h = 0; h < width; ++h) {
     const std::uint32_t number = numbers_[h], flags = flags_[number];
@@ -137,8 +156,9 @@ void Transfer::prepare_alignment(Prepared& p) const {
     const Vec3 right{target_axes_(0, 0), target_axes_(0, 1), target_axes_(0, 2)};
     p.limb_turn[h] = minimal_rotation(from, to, right);
     p.limb_angle[h] = angle_between(p.limb_turn[h], Quaternion());
-    p.aligned[h] = options_.mode == HF_TRANSFER_FIELDS && options_.alignment_angle > 0 &&
-                   p.limb_angle[h] > options_.alignment_angle && !(flags & HF_PAIR_NO_ALIGNMENT);
+    if (options_.mode == HF_TRANSFER_FIELDS && options_.alignment_angle > 0 && !(flags & HF_PAIR_NO_ALIGNMENT))
+      p.aligned[h] =
+          smooth_step(align_from * options_.alignment_angle, align_to * options_.alignment_angle, p.limb_angle[h]);
   }
 
   p.confidence.assign(width, 0.0);
@@ -149,8 +169,9 @@ void Transfer::prepare_alignment(Prepared& p) const {
     const auto h = static_cast<std::size_t>(std::max_element(centre, centre + width) - centre);
     owned[h] += 1;
     if (p.clusters.support[at(c)] >= enough_support) p.confidence[h] += 1;
-    if (p.aligned[h])
-      p.cluster_turn[at(c)] = power(p.limb_turn[h], std::clamp((centre[h] - fade_from) / fade_width, 0.0, 1.0));
+    if (p.aligned[h] > 0)
+      p.cluster_turn[at(c)] =
+          power(p.limb_turn[h], p.aligned[h] * std::clamp((centre[h] - fade_from) / fade_width, 0.0, 1.0));
   }
   for (std::size_t h = 0; h < width; ++h) p.confidence[h] = owned[h] > 0 ? p.confidence[h] / owned[h] : 0.0;
 
@@ -187,7 +208,7 @@ void Transfer::prepare_anchors(Prepared& p) const {
   options.root = p.anchors.empty() ? root_alone : holds_trunk ? root_with_trunk : root_without_trunk;
   p.translations.prepare(*target_core_, target_area_, p.clusters, {regions.data(), regions.size()},
                          {loose.data(), loose.size()}, options);
-  p.holds.reserve(numbers_.size() + vertex_rows), p.given_hold.assign(numbers_.size() + 1, Hold());
+  p.holds.reserve(numbers_.size()), p.given_hold.assign(numbers_.size() + 1, Hold());
   for (std::size_t k = 0; k < p.anchors.size(); ++k) p.anchors[k].cluster = p.translations.heaviest(k);
 
   // Finds the vertices that are raised with the region of a pair, because they blend from the same clusters.
@@ -248,6 +269,10 @@ Transfer::Prepared& Transfer::prepare() {
   ClusterOptions cluster_options;
   cluster_options.paper_bands = options_.mode == HF_TRANSFER_PAPER;
   cluster_options.cluster_count = static_cast<std::int32_t>(options_.cluster_count);
+  if (options_.cluster_count == 0 && !cluster_options.paper_bands)
+    cluster_options.cluster_count =
+        std::min(static_cast<std::int32_t>(cluster_limit),
+                 std::max(default_cluster_count, clusters_per_pair * static_cast<std::int32_t>(width)));
   cluster_options.kernel_width = options_.kernel_width;
   p.clusters =
       make_clusters(cluster_options, static_cast<std::int32_t>(width), {p.source_field.data(), p.source_field.size()},
@@ -259,6 +284,7 @@ Transfer::Prepared& Transfer::prepare() {
   p.refit.prepare(target_core_->mesh, target_area_, p.clusters, memory);
   p.target_centroid = area_mean(target_core_->mesh, target_area_);
   prepare_ground(p);
+  prepare_sinking(p);
 
   // The frame before the first one is the rest shape.
   const std::size_t count = at(p.clusters.count);
@@ -266,7 +292,7 @@ Transfer::Prepared& Transfer::prepare() {
   p.given.assign(count, Quaternion()), p.rotations.assign(count, Quaternion()),
       p.matrices.assign(count, Mat3::Identity());
   p.columns.assign(count, BlendColumns()), p.blended.resize(at(target_core_->size()));
-  p.deepest.assign(numbers_.size() + 1 + count, Prepared::Sunk());
+  p.depths.assign(count, 0.0), p.rises.assign(count, 0.0), p.sunk.reserve(at(target_core_->size()));
   p.shifts.assign(count, Vec3()), p.cluster_goals.assign(count, Vec3()), p.goals.assign(p.anchors.size(), Vec3());
   prepared_ = std::move(fresh);
   return p;
@@ -280,7 +306,7 @@ PairInfo Transfer::pair_info(std::uint32_t pair) {
   PairInfo info;
   info.flags = flags_[pair];
   info.source_leak = p.source_leak[h], info.target_leak = p.target_leak[h];
-  info.alignment_angle = p.limb_angle[h], info.confidence = p.confidence[h], info.aligned = p.aligned[h] != 0;
+  info.alignment_angle = p.limb_angle[h], info.confidence = p.confidence[h], info.alignment_share = p.aligned[h];
   info.crossed = is_crossed(pair);
   return info;
 }

@@ -38,8 +38,11 @@ struct TransferOptions {
   double kernel_width = 0;          // 0 = default_kernel_width
   double scale = 0;                 // 0 = from the lengths of legs, or the bounding boxes
   double alignment_angle = 0;       // radians; 0 = default_alignment_angle; negative = never
+  bool keep_ground = true;          // false: there is no ground (transfer_ground.cpp)
   double source_axes[9] = {0};      // rows right, up, forward; zero = x, y, z
   double target_axes[9] = {0};
+  // Rest poses in which the two bodies correspond, by inner vertex in the caller's units; empty: the surfaces as made.
+  Span<const Vec3> source_rest, target_rest;  // read by the constructor only
 };
 
 struct PairInput {
@@ -51,8 +54,8 @@ struct PairInfo {
   std::uint32_t flags = 0;
   double source_leak = 0, target_leak = 0;
   double alignment_angle = -1;  // negative = unknown
-  double confidence = 0;
-  bool aligned = false, crossed = false;
+  double confidence = 0, alignment_share = 0;
+  bool crossed = false;
 };
 
 // A constraint of one frame: the mean of a pair's target region goes to `place`, in the caller's units.
@@ -63,7 +66,8 @@ struct PairHold {
 
 class Transfer {
  public:
-  // Throws HF_ERROR_INVALID_ARGUMENT or HF_ERROR_NON_FINITE for bad options.
+  // Throws HF_ERROR_INVALID_ARGUMENT or HF_ERROR_NON_FINITE for bad options (index: the caller's vertex of a rest
+  // pose).
   Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target, const TransferOptions& options);
   ~Transfer();
   Transfer(const Transfer&) = delete;
@@ -105,6 +109,7 @@ class Transfer {
  private:
   struct Prepared;
   Prepared& prepare();
+  bool has_ground() const noexcept { return options_.mode == HF_TRANSFER_FIELDS && options_.keep_ground; }
   void prepare_alignment(Prepared& p) const;
   void prepare_anchors(Prepared& p) const;
   void prepare_ground(Prepared& p) const;
@@ -117,10 +122,12 @@ class Transfer {
   void blend(Prepared& p) const;
   double lying_share(Prepared& p) const noexcept;
   void lie_down(Prepared& p, Vec3 centroid, double lies, double fallen, double share) const;
-  void keep_above_ground(Prepared& p, Vec3 centroid, double share, double fallen) const;
-  void find_sunk(Prepared& p, Vec3 up, double allowed) const noexcept;
-  bool hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) const noexcept;
+  void keep_above_ground(Prepared& p, double share, double fallen) const;
+  void prepare_sinking(Prepared& p) const;
+  double floating_height(Prepared& p, Vec3 up, double allowed) const noexcept;
+  bool raise_sunk(Prepared& p, Vec3 up, double allowed, double share) const;
 
+  // With rest poses of the caller, these hold their positions and no factor; the fields have the cores as made.
   std::shared_ptr<const Core> source_core_, target_core_;
   TransferOptions options_;
   Mat3 source_axes_, target_axes_;

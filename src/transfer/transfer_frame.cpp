@@ -10,8 +10,6 @@
 namespace hf_inner {
 namespace {
 
-bool is_finite(Vec3 p) noexcept { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
 // Tells how rigid a frame of the source is, from 0 to 1.
 double rigid_share(const WholeMotion& whole) noexcept {
   const double ratio = whole.residual / rigid_residual;
@@ -26,9 +24,15 @@ double fallen_share(const Quaternion& turn, Vec3 up) noexcept {
   return smooth_step(turn_low, turn_high, arc_cosine(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0)));
 }
 
-// Returns the part of the rotation q that turns about the axis.
-Quaternion about(const Quaternion& q, Vec3 axis) noexcept {
-  return normalised({dot(to_vec3(q.vec()), axis) * axis, q.w()});
+// Returns the part of the rotation q that turns about the axis, and how certain that part is: it has no meaning for a
+// half turn about another axis.
+struct Twist {
+  Quaternion turn;
+  double certain;
+};
+Twist about(const Quaternion& q, Vec3 axis) noexcept {
+  const double along = dot(to_vec3(q.vec()), axis);
+  return {normalised({along * axis, q.w()}), smooth_step(twist_low, twist_high, along * along + q.w() * q.w())};
 }
 
 }  // namespace
@@ -51,11 +55,12 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     Vec3 turned = carried * offset - offset;
     if (anchor.is_foot && upright > 0) {
       const auto c = static_cast<std::size_t>(anchor.cluster);
-      const Quaternion own = about(p.given[c] * p.cluster_turn[c].conjugate(), up);
-      turned = (1 - upright) * turned + upright * (rotate(power(own, turned_share(own)), offset) - offset);
+      const Twist own = about(p.given[c] * p.cluster_turn[c].conjugate(), up);
+      const Quaternion part = power(own.turn, own.certain * turned_share(own.turn));
+      turned = (1 - upright) * turned + upright * (rotate(part, offset) - offset);
     }
     p.goals[k] = anchor.target_rest + path + turned;
-    if (!anchor.is_foot) continue;
+    if (!anchor.is_foot || !options_.keep_ground) continue;
     // The target's foot may sink only as deep into the ground as the source's foot.
     const double allowed =
         p.target_ground + std::min(0.0, p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground));
@@ -154,7 +159,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   const double share = std::max(rigid, fallen);
   settle(p, centroid);
   hold_regions(p, share);
-  const bool over_ground = options_.mode == HF_TRANSFER_FIELDS && !p.anchors.empty();
+  const bool over_ground = has_ground() && !p.anchors.empty();
   const double lies = over_ground ? (1 - rigid) * lying_share(p) : 0.0;
   if (lies > 0) lie_down(p, centroid, lies, fallen, share);
   // If no region follows its source and no constraint is set, no goal pulls the clusters. Then they need no turn
@@ -168,7 +173,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   }
   if (lies > 0) lie_down(p, centroid, lies, fallen, share);
   blend(p);
-  if (over_ground) keep_above_ground(p, centroid, 1 - rigid, (1 - lies) * fallen);
+  if (over_ground) keep_above_ground(p, 1 - rigid, (1 - lies) * fallen);
   target_core_->jobs->for_each(
       static_cast<std::uint32_t>((p.blended.size() + vertex_block - 1) / vertex_block), [&](std::uint32_t b) {
         const std::size_t last = std::min(p.blended.size(), (std::size_t{b} + 1) * vertex_block);

@@ -5,9 +5,10 @@
 // - A lying source touches the ground with clusters that are far above it at rest. The same clusters of the target
 //   should touch: lie_down moves the goals of the anchored regions along up by the mean difference of their heights.
 // - A body that has fallen over but does not lie yet is raised as a whole by the depth it sinks.
-// - In each cluster that still sinks, the deepest vertex is held at the allowed height, and the clusters turn to follow
-//   it. If that vertex moves with the region of a pair, the region is raised instead. A frame in which no part lies or
-//   sinks only costs one pass over the heights.
+// - Each cluster that still sinks rises by its depth, and the clusters near it in the space of the fields by a part of
+//   it, so that a limb bends up. Thin parts may sink (transfer_sinking.cpp).
+// All three come in continuously: no rule switches, and no vertex is chosen. A frame in which no part lies or sinks
+// only costs one pass over the heights.
 #include <cmath>
 
 #include "base/index.h"
@@ -19,7 +20,7 @@ namespace hf_inner {
 // frame is a rigid motion, or the body has fallen over. At share 1 only the caller's constraints remain.
 void Transfer::hold_regions(Prepared& p, double share) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
-  const bool by_itself = options_.mode == HF_TRANSFER_FIELDS && share < 1;
+  const bool by_itself = has_ground() && share < 1;
   p.holds.clear();
   for (std::size_t row = 0; row < p.given_hold.size(); ++row) {
     if (p.given_hold[row].share > 0) {
@@ -52,7 +53,13 @@ void Transfer::hold_regions(Prepared& p, double share) const {
       wanted = p.scale * height;
     }
     const double allowed = std::min(0.0, p.scale * height);
-    if (at_height + hold.share * (wanted - at_height) < allowed) wanted = allowed, hold.share = 1 - share;
+    const double depth = allowed - (at_height + hold.share * (wanted - at_height));
+    if (depth > 0) {
+      // The hold against sinking comes in with the depth. A contact that is held already only changes its goal.
+      const double firm = (1 - share) * smooth_step(0, firm_depth, depth);
+      wanted = wanted + (hold.share > firm ? firm / hold.share : 1.0) * (allowed - wanted);
+      hold.share = std::max(hold.share, firm);
+    }
     if (wanted == at_height || !(hold.share > least_hold)) continue;
     hold.goal = now + (wanted - at_height) * up, hold.vertical = true;
     p.holds.push_back(hold);
@@ -103,87 +110,67 @@ void Transfer::lie_down(Prepared& p, Vec3 centroid, double lies, double fallen, 
   hold_regions(p, share);
 }
 
-void Transfer::find_sunk(Prepared& p, Vec3 up, double allowed) const noexcept {
-  std::fill(p.deepest.begin(), p.deepest.end(), Prepared::Sunk());
-  const std::size_t rows = p.given_hold.size();
-  for (std::size_t v = 0; v < p.blended.size(); ++v) {
-    const double depth = allowed - dot(up, p.blended[v]);
-    if (!(depth > least_depth)) continue;
-    const std::int32_t row = p.rides[v];
-    if (row >= 0 && p.given_hold[at(row)].share > 0) continue;  // the caller has placed this region
-    Prepared::Sunk& sunk = p.deepest[row >= 0 ? at(row) : rows + at(p.clusters.joint[v * blend_count])];
-    if (depth > sunk.depth) sunk.depth = depth, sunk.vertex = static_cast<std::int32_t>(v);
+// Returns the height by which the whole body must rise so that it only just touches the ground: then the depth under
+// the ground, summed over the area, is floating_volume. Newton's steps on a convex function of the height.
+double Transfer::floating_height(Prepared& p, Vec3 up, double allowed) const noexcept {
+  p.sunk.clear();
+  for (std::size_t v = 0; v < p.blended.size(); ++v)
+    if (allowed - dot(up, p.blended[v]) > 0) p.sunk.push_back(static_cast<std::int32_t>(v));
+  double height = 0;
+  for (std::int32_t step = 0; step < floating_steps; ++step) {
+    double volume = 0, area = 0;
+    for (const std::int32_t v : p.sunk) {
+      const double depth = allowed - dot(up, p.blended[at(v)]) - height;
+      if (depth <= 0) continue;
+      const double share = target_area_[at(v)] * (1 - p.sinks[at(p.clusters.joint[at(v) * blend_count])]);
+      volume += share * depth, area += share;
+    }
+    if (volume <= floating_volume) break;
+    height += (volume - floating_volume) / area;
   }
+  return height;
 }
 
-// Raises the constraint (hold) of each region that sinks into the ground, or adds one. Constrains the deepest vertex of
-// each sunk cluster too. Returns false if no part sinks.
-bool Transfer::hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) const noexcept {
-  const std::size_t rows = p.given_hold.size();
-  bool any = false;
-  const auto raise = [&](std::size_t row, double depth) {
-    any = true;
-    Hold fresh;
-    fresh.row = row, fresh.share = sunk_hold * share, fresh.vertical = true;
-    fresh.goal = p.translations.place(row, p.matrices.data(), p.shifts.data()) + (depth - p.lift) * up;
-    for (Hold& hold : p.holds) {
-      if (hold.row != row) continue;
-      if (hold.share < weak_hold * sunk_hold * share)
-        hold = fresh;  // the old constraint is too weak to raise
-      else
-        hold.goal = hold.goal + depth / hold.share * up;
-      return;
-    }
-    p.holds.push_back(fresh);
-  };
-  for (std::size_t row = 0; row < rows; ++row)
-    if (p.deepest[row].vertex >= 0) raise(row, p.deepest[row].depth);
-  // One vertex of each sunk cluster is held, the deepest first, up to vertex_rows vertices.
-  while (true) {
-    Prepared::Sunk* deepest = nullptr;
-    for (std::size_t c = rows; c < p.deepest.size(); ++c)
-      if (p.deepest[c].vertex >= 0 && (!deepest || p.deepest[c].depth > deepest->depth)) deepest = &p.deepest[c];
-    if (!deepest) return any;
-    const std::int32_t vertex = deepest->vertex;
-    deepest->vertex = -1;
-    std::size_t slot = 0;
-    const auto cluster_of = [&](std::int32_t v) { return p.clusters.joint[at(v) * blend_count]; };
-    while (slot < held && cluster_of(p.held_vertices[slot]) != cluster_of(vertex)) ++slot;
-    if (slot == vertex_rows) continue;
-    if (slot == held) {
-      p.held_vertices[held++] = vertex;
-      p.translations.set_vertex_rows(slot, {&p.held_vertices[slot], 1}, *target_core_, p.clusters);
-    }
-    raise(p.translations.vertex_row(slot), deepest->depth);
+// Raises the clusters that sink by their depth, and the clusters near them by a part of it. The rise is a maximum of
+// depths times constants, so it changes as fast as the depths do and no faster. Returns false if no part sinks.
+bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) const {
+  const std::size_t count = p.depths.size();
+  std::fill(p.depths.begin(), p.depths.end(), 0.0);
+  double deepest = 0;
+  for (std::size_t v = 0; v < p.blended.size(); ++v) {
+    double depth = allowed - dot(up, p.blended[v]);
+    if (!(depth > 0)) continue;
+    const std::int32_t row = p.rides[v];
+    if (row >= 0 && p.given_hold[at(row)].share > 0) continue;  // the caller has placed this region
+    const std::size_t cluster = at(p.clusters.joint[v * blend_count]);
+    depth *= 1 - p.sinks[cluster];
+    p.depths[cluster] = std::max(p.depths[cluster], depth), deepest = std::max(deepest, depth);
   }
+  if (!(deepest > least_depth)) return false;
+  std::fill(p.rises.begin(), p.rises.end(), 0.0);
+  for (std::size_t d = 0; d < count; ++d) {
+    if (!(p.depths[d] > 0)) continue;
+    for (std::size_t c = 0; c < count; ++c) p.rises[c] = std::max(p.rises[c], p.falloff[d * count + c] * p.depths[d]);
+  }
+  for (std::size_t c = 0; c < count; ++c) p.shifts[c] = p.shifts[c] + share * p.rises[c] * up;
+  p.translations.hold({p.holds.data(), p.holds.size()}, up, p.matrices.data(), p.shifts.data());
+  return true;
 }
 
 // Lifts all parts that would sink below the ground. share: 0 for a rigid motion of the whole source, which is copied
 // unchanged, up to 1. fallen: how far the body has tilted over without lying on the ground, from 0 to 1.
-void Transfer::keep_above_ground(Prepared& p, Vec3 centroid, double share, double fallen) const {
+void Transfer::keep_above_ground(Prepared& p, double share, double fallen) const {
   if (!(share > least_share)) return;
   const Vec3 up = up_of(target_axes_);
-  double low = no_height;
-  for (const Vec3& point : p.blended) low = std::min(low, dot(point, up));
   const double allowed = p.target_ground + p.scale * std::min(0.0, p.source_low - p.source_ground);
-  if (!(allowed - low > least_depth)) return;
-  p.lift = share * fallen * (allowed - low);
-  const auto move = [&] {
-    for (Vec3& shift : p.shifts) shift = shift + p.lift * up;
+  const double lift = share * fallen * floating_height(p, up, allowed);
+  if (lift > 0) {
+    for (Vec3& shift : p.shifts) shift = shift + lift * up;
     blend(p);
-  };
-  if (p.lift > 0) move();
-  std::size_t held = 0;
+  }
   for (std::int32_t round = 0; round < sunk_rounds; ++round) {
-    find_sunk(p, up, allowed);
-    if (!hold_sunk(p, up, share, held)) return;
-    for (const bool again : {true, false}) {
-      settle(p, centroid);
-      p.translations.hold({p.holds.data(), p.holds.size()}, up, p.matrices.data(), p.shifts.data());
-      if (!again || round >= turning_rounds) break;
-      turn_clusters(p);
-    }
-    move();
+    if (!raise_sunk(p, up, allowed, share)) return;
+    blend(p);
   }
 }
 

@@ -166,10 +166,6 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
 
 void Translations::add_influences() {
   region_rows_ = row_start_.size() - 1;
-  for (std::size_t i = 0; i < vertex_rows * blend_count; ++i) {
-    row_column_.push_back(0), row_weight_.push_back(0), row_point_.push_back(Vec3());
-    if ((i + 1) % blend_count == 0) row_start_.push_back(static_cast<std::int32_t>(row_column_.size()));
-  }
   const std::size_t rows = row_start_.size() - 1;
   influence_.assign(rows * at(count_), 0.0), gram_.assign(rows * rows, 0.0);
   hold_matrix_.assign(rows * rows, 0.0), hold_rhs_.assign(rows, Vec3());
@@ -197,19 +193,6 @@ void Translations::fill_influences(std::size_t first, std::size_t last) noexcept
       gram_[a * rows + b] = gram_[b * rows + a] = sum;
     }
   }
-}
-
-void Translations::set_vertex_rows(std::size_t first, Span<const std::int32_t> vertices, const Core& target,
-                                   const Clusters& clusters) noexcept {
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    const std::size_t from = at(vertices[k]) * blend_count, to = at(row_start_[region_rows_ + first + k]);
-    for (std::size_t i = 0; i < blend_count; ++i) {
-      const double w = static_cast<double>(clusters.weight[from + i]);
-      row_column_[to + i] = w > 0 ? clusters.joint[from + i] : 0;
-      row_weight_[to + i] = w, row_point_[to + i] = w * target.mesh.positions[at(vertices[k])];
-    }
-  }
-  fill_influences(region_rows_ + first, region_rows_ + first + vertices.size());
 }
 
 std::int32_t Translations::heaviest(std::size_t row) const noexcept {

@@ -77,19 +77,13 @@ class Translations {
 
   // Changes the translations t so that the constraints (holds) are met and the energies rise least (Woodbury formula):
   //     t += A^-1 R^T m,     (R A^-1 R^T + diag(s_k (1 - share) / share)) m = goal - place.
-  // A is the matrix of the energies. R holds the rows of the held regions, s the diagonal of R A^-1 R^T. A row (region
-  // or vertex) may have one hold at most. Allocates nothing.
+  // A is the matrix of the energies. R holds the rows of the held regions, s the diagonal of R A^-1 R^T. A row
+  // may have one hold at most. Allocates nothing.
   void hold(Span<const Hold> holds, Vec3 up, const Mat3* rotations, Vec3* shifts) noexcept;
-  // Makes rows (weights of clusters) of single vertices, so that they can be held like regions. Vertex k gets row
-  // number vertex_row(first + k). Rows of vertices before `first` stay, those after the new ones become invalid. Four
-  // vertices cost O(C^2) for C clusters. Allocates nothing.
-  std::size_t vertex_row(std::size_t i) const noexcept { return region_rows_ + i; }
-  void set_vertex_rows(std::size_t first, Span<const std::int32_t> vertices, const Core& target,
-                       const Clusters& clusters) noexcept;
-  // Returns the cluster with the largest weight in a row (region or vertex).
+  // Returns the cluster with the largest weight in a row.
   std::int32_t heaviest(std::size_t row) const noexcept;
   double row_weight(std::size_t row, std::int32_t cluster) const noexcept;
-  // Returns the present mean of a row's region, or the place of its vertex.
+  // Returns the present mean of a row's region.
   Vec3 place(std::size_t row, const Mat3* rotations, const Vec3* shifts) const noexcept;
 
   // Returns the mean of the region's rest points after the rotations alone, without translations.
@@ -106,7 +100,7 @@ class Translations {
                const Clusters& clusters);
 
   void add_influences();
-  // Finds how a constraint on each of the rows (regions or vertices) first .. last - 1 moves all clusters: A^-1 R^T. A
+  // Finds how a constraint on each of the rows first .. last - 1 moves all clusters: A^-1 R^T. A
   // is the matrix of the energies, R the rows. Also fills R A^-1 R^T, how it moves these rows and all rows before
   // `last`.
   void fill_influences(std::size_t first, std::size_t last) noexcept;
@@ -122,12 +116,12 @@ class Translations {
   Vector<std::int32_t> table_start_, table_column_;
   Vector<Vec3> table_;
   // These arrays hold points as sparse rows of cluster weights. The regions that follow their source come first, then
-  // the whole body (root), the other regions, and single vertices.
+  // the whole body (root), and the other regions.
   Vector<std::int32_t> row_start_, row_column_;
   Vector<double> row_weight_;
   Vector<Vec3> row_point_;
   // influence_: A^-1 R^T, rows x clusters, with A the matrix of the energies and R the rows. gram_: R A^-1 R^T.
-  // hold_matrix_: scratch of the constraints (holds). The last vertex_rows rows belong to set_vertex_rows.
+  // hold_matrix_: scratch of the constraints (holds).
   Vector<double> influence_, gram_, hold_matrix_;
   Vector<Vec3> hold_rhs_;
 };

@@ -321,6 +321,15 @@ static void bad_transfers_are_not_made(void** state) {
   CREATE_TRANSFER("scale NaN", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = (float)NAN);
   CREATE_TRANSFER("scale infinite", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = (float)INFINITY);
   CREATE_TRANSFER("scale absurd", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = 1e30f);
+  CREATE_TRANSFER("ground -1", HF_ERROR_INVALID_ARGUMENT, transfer_desc.ground = -1);
+  CREATE_TRANSFER("ground 2", HF_ERROR_INVALID_ARGUMENT, transfer_desc.ground = 2);
+  CREATE_TRANSFER("reserved set", HF_ERROR_INVALID_DESC, transfer_desc.reserved = 1);
+  static float rest[3 * TUBE_AROUND * (TUBE_RINGS + 2)];
+  rest[3 * 5 + 1] = (float)NAN;
+  ROW("rest of the source NaN", HF_ERROR_NON_FINITE, 5, transfer_desc.source_rest = rest,
+      hf_transfer_create(scene.body, scene.body, &transfer_desc, &out_transfer));
+  ROW("rest of the target NaN", HF_ERROR_NON_FINITE, 5, transfer_desc.target_rest = rest,
+      hf_transfer_create(scene.body, scene.body, &transfer_desc, &out_transfer));
   CREATE_TRANSFER("angle NaN", HF_ERROR_NON_FINITE, transfer_desc.alignment_angle = (float)NAN);
   CREATE_TRANSFER("angle infinite", HF_ERROR_NON_FINITE, transfer_desc.alignment_angle = (float)INFINITY);
   CREATE_TRANSFER("source axis NaN", HF_ERROR_NON_FINITE, transfer_desc.source_axes[4] = (float)NAN);

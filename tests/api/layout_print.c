@@ -326,7 +326,7 @@ static void print_transfer(void) {
 #define T hf_transfer_desc
   STRUCT(hf_transfer_desc);
   F(struct_size), F(mode), F(cluster_count), F(kernel_width), F(scale), F(alignment_angle), F(source_axes),
-      F(target_axes);
+      F(target_axes), F(ground), F(reserved), F(source_rest), F(target_rest);
 #undef T
 #define T hf_pairs_desc
   STRUCT(hf_pairs_desc);
@@ -335,7 +335,8 @@ static void print_transfer(void) {
 #undef T
 #define T hf_pair_info
   STRUCT(hf_pair_info);
-  F(struct_size), F(flags), F(source_leak), F(target_leak), F(alignment_angle), F(confidence), F(aligned), F(crossed);
+  F(struct_size), F(flags), F(source_leak), F(target_leak), F(alignment_angle), F(confidence), F(alignment_share),
+      F(aligned), F(crossed);
 #undef T
 #define T hf_transfer_info
   STRUCT(hf_transfer_info);
@@ -349,7 +350,8 @@ static void print_transfer(void) {
       F(hold_positions);
 #undef T
   CONSTANT(HF_TRANSFER_FIELDS), CONSTANT(HF_TRANSFER_PAPER), CONSTANT(HF_PAIR_ANCHOR), CONSTANT(HF_PAIR_FOOT),
-      CONSTANT(HF_PAIR_TRUNK), CONSTANT(HF_PAIR_NO_ALIGNMENT), CONSTANT(HF_PAIR_CONTACT), CONSTANT(HF_PAIR_LIMIT);
+      CONSTANT(HF_PAIR_TRUNK), CONSTANT(HF_PAIR_NO_ALIGNMENT), CONSTANT(HF_PAIR_CONTACT), CONSTANT(HF_PAIR_SINKS),
+      CONSTANT(HF_PAIR_LIMIT), CONSTANT(HF_GROUND_KEEP), CONSTANT(HF_GROUND_OFF);
 }
 
 static void print_weights(void) {

@@ -298,13 +298,13 @@ if (global.gc) {
   pose.deform(null, { normals: new Float32Array(48) });
   assert.equal(pose.deformInfo.unreachedVertexCount, 8);
 
-  const linked = new hf.Surface(places, triangles, { links: { mode: hf.constants.HF_LINK_PIECES, distance: 0.5 } });
+  const linked = new hf.Surface(places, triangles, { linkPieces: { distance: 0.5 } });
   assert.equal(linked.report.componentCount, 1);
   assert.deepEqual(new Set(linked.pieces.pieces), new Set([0, 1]));
   const tags = Uint32Array.from({ length: 16 }, (_, v) => Number(v > 7));
-  const strangers = new hf.Surface(places, triangles, { links: { mode: hf.constants.HF_LINK_PIECES, distance: 0.5, tags } });
+  const strangers = new hf.Surface(places, triangles, { linkPieces: { distance: 0.5 }, tags });
   assert.equal(strangers.report.componentCount, 2);
-  assert.throws(() => new hf.Surface(places, triangles, { links: { tags: [1] } }), /links.tags must hold 16/);
+  assert.throws(() => new hf.Surface(places, triangles, { linkPieces: true, tags: [1] }), /tags must hold one number for each of 16/);
 
   const bones = { heads: [0.2, 0.5, 0.5, 1.4, 0.5, 0.5], tails: [0.8, 0.5, 0.5, 2, 0.5, 0.5] };
   const weights = new hf.Weights(apart, bones);

@@ -90,11 +90,14 @@ namespace Hf.Native
         public const int HF_REGION_SITES = 2;
         public const int HF_TRANSFER_FIELDS = 0;
         public const int HF_TRANSFER_PAPER = 1;
+        public const int HF_GROUND_KEEP = 0;
+        public const int HF_GROUND_OFF = 1;
         public const int HF_PAIR_ANCHOR = 1;
         public const int HF_PAIR_FOOT = 2;
         public const int HF_PAIR_TRUNK = 4;
         public const int HF_PAIR_NO_ALIGNMENT = 8;
         public const int HF_PAIR_CONTACT = 16;
+        public const int HF_PAIR_SINKS = 32;
         public const int HF_PAIR_LIMIT = 256;
         public const int HF_WEIGHTS_INFORMED = 0;
         public const int HF_WEIGHTS_SOLVED = 1;
@@ -921,6 +924,10 @@ namespace Hf.Native
         public float alignment_angle;
         public fixed float source_axes[9];
         public fixed float target_axes[9];
+        public int ground;
+        public uint reserved;
+        public IntPtr source_rest;
+        public IntPtr target_rest;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -945,6 +952,7 @@ namespace Hf.Native
         public double target_leak;
         public double alignment_angle;
         public double confidence;
+        public double alignment_share;
         public int aligned;
         public int crossed;
     }

@@ -35,8 +35,8 @@ export interface SurfaceOptions {
   memoryLimitMb?: number;
   /** Faces instead of triangles. Starts without sizes are offsets, one more than there are faces. */
   faces?: { starts?: Numbers | null; sizes?: Numbers | null; corners: Numbers } | null;
-  /** Joins the pieces of a character by links, so that fields and poses span them. */
-  linkPieces?: boolean | number;
+  /** Joins the pieces of a character by links, so that fields and poses span them; with options of hf_links_desc. */
+  linkPieces?: boolean | number | { distance?: number; stiffness?: number; overlayDistance?: number };
   /** With linkPieces: a number per vertex. Pieces of different tags stay apart. */
   tags?: Numbers | null;
   savedFactor?: Uint8Array | null;
@@ -400,6 +400,7 @@ export interface Hf {
       kernelWidth?: number;
       scale?: number;
       alignmentAngle?: number;
+      ground?: number;
       sourceAxes?: Numbers;
       targetAxes?: Numbers;
     },

@@ -60,9 +60,10 @@ export function surfaceClasses(tools) {
     desc.set('corners', corners && read(corners));
   };
 
-  /** The desc of automatic links between pieces. tags: null, or a number per vertex; other tags stay apart. */
-  const linksOf = (tags, vertexCount) => {
+  /** The desc of automatic links between pieces. options: distance, stiffness, overlayDistance. tags: see Surface. */
+  const linksOf = (options, tags, vertexCount) => {
     const desc = make('hf_links_desc', { mode: constants.HF_LINK_PIECES });
+    if (typeof options === 'object') desc.options(options, ['mode', 'influence_count', 'link_count', 'light_count', 'heavy_count']);
     const groups = integers(tags, 'tags');
     if (groups && groups.length !== vertexCount) fail(`tags must hold one number for each of ${vertexCount} vertices`);
     return desc.set('tags', groups && read(groups));
@@ -90,7 +91,7 @@ export function surfaceClasses(tools) {
       desc.set(short ? 'triangles_u16' : 'triangles', corners && read(corners));
       if (faces) facesInto(desc, faces);
       if (tags && !linkPieces) fail('tags need linkPieces');
-      if (linkPieces) desc.set('links', linksOf(tags, xyz.length / 3));
+      if (linkPieces) desc.set('links', linksOf(linkPieces, tags, xyz.length / 3));
       this._finish('create', desc, savedFactor, progress);
     }
     /** A surface of a graph: two vertices for each edge, and its weight. What needs triangles throws. */

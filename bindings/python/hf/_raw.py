@@ -87,11 +87,14 @@ HF_REGION_RIM = 1
 HF_REGION_SITES = 2
 HF_TRANSFER_FIELDS = 0
 HF_TRANSFER_PAPER = 1
+HF_GROUND_KEEP = 0
+HF_GROUND_OFF = 1
 HF_PAIR_ANCHOR = 1
 HF_PAIR_FOOT = 2
 HF_PAIR_TRUNK = 4
 HF_PAIR_NO_ALIGNMENT = 8
 HF_PAIR_CONTACT = 16
+HF_PAIR_SINKS = 32
 HF_PAIR_LIMIT = 256
 HF_WEIGHTS_INFORMED = 0
 HF_WEIGHTS_SOLVED = 1
@@ -1500,6 +1503,10 @@ class hf_transfer_desc(Structure):
     alignment_angle: float
     source_axes: object
     target_axes: object
+    ground: int
+    reserved: int
+    source_rest: int
+    target_rest: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("mode", c_int32),
@@ -1509,6 +1516,10 @@ class hf_transfer_desc(Structure):
         ("alignment_angle", c_float),
         ("source_axes", c_float * 9),
         ("target_axes", c_float * 9),
+        ("ground", c_int32),
+        ("reserved", c_uint32),
+        ("source_rest", c_void_p),
+        ("target_rest", c_void_p),
     ]
 
 
@@ -1541,6 +1552,7 @@ class hf_pair_info(Structure):
     target_leak: float
     alignment_angle: float
     confidence: float
+    alignment_share: float
     aligned: int
     crossed: int
     _fields_ = [
@@ -1550,6 +1562,7 @@ class hf_pair_info(Structure):
         ("target_leak", c_double),
         ("alignment_angle", c_double),
         ("confidence", c_double),
+        ("alignment_share", c_double),
         ("aligned", c_int32),
         ("crossed", c_int32),
     ]

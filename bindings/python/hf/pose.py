@@ -26,7 +26,7 @@ class TransferMode(IntEnum):
 class Pair(IntFlag):
     NONE = 0
     ANCHOR, FOOT, TRUNK = _raw.HF_PAIR_ANCHOR, _raw.HF_PAIR_FOOT, _raw.HF_PAIR_TRUNK
-    NO_ALIGNMENT, CONTACT = _raw.HF_PAIR_NO_ALIGNMENT, _raw.HF_PAIR_CONTACT
+    NO_ALIGNMENT, CONTACT, SINKS = _raw.HF_PAIR_NO_ALIGNMENT, _raw.HF_PAIR_CONTACT, _raw.HF_PAIR_SINKS
 
 
 class Skin(NamedTuple):
@@ -180,15 +180,25 @@ class Pose(Object):
 
 
 class Transfer(Object):
-    """The motion of one surface played on another. Options: mode, cluster_count, kernel_width, scale, alignment_angle."""
+    """The motion of one surface played on another. Options: mode, cluster_count, kernel_width, scale, alignment_angle,
+    ground. source_rest, target_rest: poses in which the two correspond, (vertex_count, 3)."""
 
     _destroy = "hf_transfer_destroy"
 
     def __init__(self, source: Surface, target: Surface, *, source_axes: Optional[ArrayLike] = None,
-        target_axes: Optional[ArrayLike] = None,
-                 **options: Any) -> None:
+        target_axes: Optional[ArrayLike] = None, source_rest: Optional[ArrayLike] = None,
+        target_rest: Optional[ArrayLike] = None, **options: Any) -> None:
         desc, handle = make(_raw.hf_transfer_desc), ctypes.c_void_p()
         options_into(desc, options)
+        kept = []  # the arrays live until the call is over
+        for name, rest, surface in (("source_rest", source_rest, source), ("target_rest", target_rest, target)):
+            if rest is None:
+                continue
+            rows = np.ascontiguousarray(rest, np.float32)
+            if rows.size != 3 * surface.vertex_count:
+                raise InvalidArgumentError(f"{name} must hold {3 * surface.vertex_count} numbers, not {rows.size}")
+            kept.append(rows)
+            setattr(desc, name, address(rows))
         for name, axes in (("source_axes", source_axes), ("target_axes", target_axes)):
             if axes is not None:
                 setattr(desc, name, (ctypes.c_float * 9)(*doubles(axes, name, 9).ravel()))

@@ -87,11 +87,14 @@ pub const HF_REGION_RIM: i32 = 1;
 pub const HF_REGION_SITES: i32 = 2;
 pub const HF_TRANSFER_FIELDS: i32 = 0;
 pub const HF_TRANSFER_PAPER: i32 = 1;
+pub const HF_GROUND_KEEP: i32 = 0;
+pub const HF_GROUND_OFF: i32 = 1;
 pub const HF_PAIR_ANCHOR: i32 = 1;
 pub const HF_PAIR_FOOT: i32 = 2;
 pub const HF_PAIR_TRUNK: i32 = 4;
 pub const HF_PAIR_NO_ALIGNMENT: i32 = 8;
 pub const HF_PAIR_CONTACT: i32 = 16;
+pub const HF_PAIR_SINKS: i32 = 32;
 pub const HF_PAIR_LIMIT: i32 = 256;
 pub const HF_WEIGHTS_INFORMED: i32 = 0;
 pub const HF_WEIGHTS_SOLVED: i32 = 1;
@@ -1751,6 +1754,10 @@ pub struct hf_transfer_desc {
     pub alignment_angle: f32,
     pub source_axes: [f32; 9],
     pub target_axes: [f32; 9],
+    pub ground: i32,
+    pub reserved: u32,
+    pub source_rest: *const f32,
+    pub target_rest: *const f32,
 }
 impl Default for hf_transfer_desc {
     fn default() -> Self {
@@ -1792,6 +1799,7 @@ pub struct hf_pair_info {
     pub target_leak: f64,
     pub alignment_angle: f64,
     pub confidence: f64,
+    pub alignment_share: f64,
     pub aligned: i32,
     pub crossed: i32,
 }
@@ -1813,6 +1821,7 @@ impl hf_pair_info {
             "target_leak" => self.target_leak,
             "alignment_angle" => self.alignment_angle,
             "confidence" => self.confidence,
+            "alignment_share" => self.alignment_share,
             "aligned" => f64::from(self.aligned),
             "crossed" => f64::from(self.crossed),
             _ => return None,

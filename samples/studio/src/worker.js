@@ -24,13 +24,12 @@ async function ready() {
   return hf;
 }
 
-// Pieces of one character are linked: hair, eyes and clothes follow the body.
-
 const tasks = {
   /** Opens a body: factorises once. Answers with what the page can offer at once. */
   async open({ positions, triangles, fileNormals }) {
     await ready();
     const begin = performance.now();
+    // the pieces of one character are linked: hair, eyes and clothes follow the body
     const surface = new hf.Surface(positions, triangles, { linkPieces: true });
     const groups = normalGroups(positions, fileNormals);
     const next = { hf, surface, positions, triangles, groups, normals: new Float32Array(positions.length) };

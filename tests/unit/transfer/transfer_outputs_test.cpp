@@ -114,7 +114,9 @@ TEST(TransferOutputs, TheTargetsOwnRigPlaysTheMotion) {
   EXPECT_EQ(made.nodes.size(), given.nodes.size());
   ASSERT_EQ(made.meshes.size(), given.meshes.size());
   EXPECT_EQ(made.meshes[0].primitives[0].positions, given.meshes[0].primitives[0].positions);
-  ASSERT_EQ(made.animations.size(), 1u);
+  // the new clip, then the bull's own
+  ASSERT_EQ(made.animations.size(), given.animations.size() + 1);
+  EXPECT_EQ(made.animations.back().name, given.animations.back().name);
   const json figures = read_json(report);
   EXPECT_LT(figures["written_rms"].get<double>(), 0.015);
   EXPECT_LT(figures["written_max"].get<double>(), 0.08);
@@ -215,7 +217,7 @@ TEST(TransferOutputs, HalfWayBetweenKeysTheFileIsNearTheSolver) {
   fs::remove_all(frames);
   const std::string start = both() + " --pairs " + quoted(horse_to_bull());
   std::string said;
-  ASSERT_EQ(transfer(start + " --fps 30 -o " + quoted(file), said), 0) << said;
+  ASSERT_EQ(transfer(start + " --fps 30 --as skin --key-tolerance 0 -o " + quoted(file), said), 0) << said;
   ASSERT_EQ(transfer(start + " --fps 60 --out-poses " + quoted(frames), said), 0) << said;
   const samples::Model made = samples::read_gltf(file);
   const samples::FlatMesh mesh = samples::flatten(made);
@@ -242,6 +244,49 @@ TEST(TransferOutputs, HalfWayBetweenKeysTheFileIsNearTheSolver) {
   std::printf("file against solver: at keys %.1e of the box, half-way between keys %.5f\n", at_keys, between);
   EXPECT_LT(at_keys, 1e-5);
   EXPECT_LT(between, 0.003);
+}
+
+TEST(TransferOutputs, KeysThatFollowFromOthersAreLeftOutWithinTheBound) {
+  const fs::path whole = folder() / "all_keys.glb", few = folder() / "few_keys.glb",
+                 report = folder() / "few_keys.json";
+  const std::string start = both() + " --pairs " + quoted(horse_to_bull()) + " --fps 30 ";
+  std::string said;
+  ASSERT_EQ(transfer(start + "--key-tolerance 0 -o " + quoted(whole), said), 0) << said;
+  ASSERT_EQ(transfer(start + "-o " + quoted(few) + " --json " + quoted(report), said), 0) << said;
+  const json figures = read_json(report);
+  EXPECT_EQ(figures["written_as"], "own-skin");
+  EXPECT_LT(2 * figures["keys"].get<int>(), figures["all_keys"].get<int>());
+  const samples::Model a = samples::read_gltf(whole), b = samples::read_gltf(few);
+  const samples::FlatMesh mesh = samples::flatten(a);
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  for (const double time : samples::key_times(a.animations[0])) {
+    const std::vector<glm::dvec3> wanted = samples::posed_positions(a, mesh, a.animations[0], time),
+                                  got = samples::posed_positions(b, mesh, b.animations[0], time);
+    for (size_t v = 0; v < got.size(); ++v)
+      ASSERT_LT(glm::distance(got[v], wanted[v]), 0.0005 * glm::length(high - low)) << v << " at " << time;
+  }
+}
+
+TEST(TransferOutputs, FeetComeFromNamesAndBodiesWithoutFeetFromTheirEnds) {
+  if (!fs::exists(data() / "q_Horse.glb") || !fs::exists(data() / "q_Manta_ray.glb"))
+    GTEST_SKIP() << "no q_Horse.glb or q_Manta_ray.glb under " << data();
+  const auto proposed = [&](const char* source, const char* target) {
+    const fs::path list = folder() / "named.json";
+    std::string said;
+    EXPECT_EQ(
+        transfer(quoted(data() / source) + " " + quoted(data() / target) + " --suggest-pairs " + quoted(list), said), 0)
+        << said;
+    std::set<std::string> names;
+    for (const json& pair : read_json(list)["pairs"]) names.insert(pair["name"].get<std::string>());
+    return names;
+  };
+  // the joints of its inverse kinematics own the hoofs: four feet all the same
+  const std::set<std::string> horse = proposed("q_Horse.glb", "q_Horse.glb");
+  for (const char* name : {"front foot left", "front foot right", "hind foot left", "hind foot right"})
+    EXPECT_EQ(horse.count(name), 1u) << name;
+  EXPECT_EQ(horse.count("middle foot 1 left"), 0u);
+  EXPECT_GE(proposed("q_Horse.glb", "q_Manta_ray.glb").size(), 4u);
 }
 
 TEST(TransferOutputs, TheLiveSampleRunsWhileItsHandlesChange) {

@@ -52,12 +52,13 @@ TEST(TransferProgram, TheHorsesWalkGoesToTheBullAndPairsAreEditedInTheSameSessio
   const fs::path horse = creature("horse"), bull = creature("bull"), out = folder() / "horse_on_bull.glb",
                  report = folder() / "horse_on_bull.json";
   std::string said;
-  ASSERT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " --pairs " + quoted(pairs("horse_to_bull.json")) + " -o " +
-                         quoted(out) + " --clip all --sheet " + quoted(folder() / "horse_on_bull.png") + " --report " +
-                         quoted(folder() / "horse_on_bull.txt") + " --json " + quoted(report) + " --edit " +
-                         quoted(pairs("horse_to_bull_edit.json")),
-                     said),
-            0)
+  ASSERT_EQ(
+      transfer(quoted(horse) + " " + quoted(bull) + " --pairs " + quoted(pairs("horse_to_bull.json")) + " -o " +
+                   quoted(out) + " --as skin --key-tolerance 0 --clip all --sheet " +
+                   quoted(folder() / "horse_on_bull.png") + " --report " + quoted(folder() / "horse_on_bull.txt") +
+                   " --json " + quoted(report) + " --edit " + quoted(pairs("horse_to_bull_edit.json")),
+               said),
+      0)
       << said;
   check_output(out, bull, 2);
   check_output(folder() / "horse_on_bull_edited.glb", bull, 2);
@@ -78,11 +79,11 @@ void check_real(const std::string& source, const std::string& target, const std:
     GTEST_SKIP() << "no " << source << " or " << target << " under " << data();
   const std::string stem = fs::path(source).stem().string() + "_on_" + target;
   std::string said;
-  ASSERT_EQ(
-      transfer(quoted(data() / source) + " " + quoted(data() / target) + " --pairs " + quoted(pairs(list)) + " -o " +
-                   quoted(folder() / stem) + " --clip all --fps 30 --json " + quoted(folder() / (stem + ".json")),
-               said),
-      0)
+  ASSERT_EQ(transfer(quoted(data() / source) + " " + quoted(data() / target) + " --pairs " + quoted(pairs(list)) +
+                         " -o " + quoted(folder() / stem) + " --as skin --key-tolerance 0 --clip all --fps 30 --json " +
+                         quoted(folder() / (stem + ".json")),
+                     said),
+            0)
       << said;
   json report = read_json(folder() / (stem + ".json"));
   check_output(folder() / stem, data() / target, report["clips"].size());

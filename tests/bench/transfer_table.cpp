@@ -1,0 +1,338 @@
+// hf_transfer_table FOLDER [--half choosing|judging|mixed|all] [--source NAME] [--target NAME] [--clip NAME] [--runs]
+// [--where]
+//                   [--no-ground] [--no-links]
+//
+// Plays every clip of every shared model on every other and measures what an animator would send back. Constants are
+// chosen on pairs whose two models lie in the choosing half. The judging half holds the pairs of the other models.
+// One line per pair says what was proposed; --runs adds a line per clip. Lengths are in boxes of the target.
+//
+// A length of the source counts times the larger of two scales: that of the transfer, and that of the boxes. A body
+// moves by both: its path follows the first, its turning limbs follow the second.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+#include "common/animate.h"
+#include "common/gltf_read.h"
+#include "common/links.h"
+#include "transfer/session.h"
+#include "transfer/suggest_pairs.h"
+
+namespace {
+
+using namespace samples;
+using Frames = std::vector<std::vector<double>>;
+
+// The halves were written down before any constant was chosen. Models that constants.h names were seen before, so they
+// are in the choosing half.
+struct Listed {
+  const char* name;
+  bool judging;
+};
+constexpr Listed listed[] = {{"farm_Cow", false},
+                             {"farm_Sheep", false},
+                             {"khr_Fox", false},
+                             {"q_Cow", false},
+                             {"q_Deer", false},
+                             {"q_Fox", false},
+                             {"q_Horse", false},
+                             {"q_Wolf", false},
+                             {"CesiumMan", false},
+                             {"q_KnightCharacter", false},
+                             {"q_CyberCharacter", false},
+                             {"q_Man_Casual", false},
+                             {"q_Trex", false},
+                             {"farm_Llama", true},
+                             {"farm_Pug", true},
+                             {"q_Alpaca", true},
+                             {"q_Husky", true},
+                             {"q_Frog", true},
+                             {"RiggedFigure", true},
+                             {"q_PlatformerCharacter", true},
+                             {"q_PlatformerHumanoidRig", true},
+                             {"q_Woman_Casual", true},
+                             {"q_Enemy_2Legs", true},
+                             {"q_Velociraptor", true},
+                             {"q_Triceratops", true}};
+
+// A frame spikes if the second difference of a vertex is larger than this share of the box, and than this many times
+// the largest of the source in the same frame.
+constexpr double spike_share = 0.02, spike_ratio = 4;
+// A source stands still in a frame in which no vertex moves further (in boxes). Smaller steps count as the second.
+constexpr double still_step = 0.002, least_step = 1e-4;
+// A source's step counts for the ratio of steps if it is longer (in boxes).
+constexpr double moving_step = 0.005;
+
+struct Loaded {
+  const char* name = nullptr;
+  bool judging = false;
+  Model model;
+  FlatMesh flat;
+  double box = 1;
+  std::vector<std::vector<double>> times;  // per clip
+  std::vector<Frames> frames;
+};
+
+double box_of(const std::vector<glm::dvec3>& points) {
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const glm::dvec3& p : points) low = glm::min(low, p), high = glm::max(high, p);
+  return glm::length(high - low);
+}
+
+Loaded load(const std::filesystem::path& folder, const Listed& from) {
+  Loaded out;
+  out.name = from.name, out.judging = from.judging;
+  out.model = read_gltf(folder / (std::string(from.name) + ".glb"));
+  out.flat = flatten(out.model), out.box = box_of(out.flat.positions);
+  return out;
+}
+
+void sample_clips(Loaded& model) {
+  if (!model.times.empty()) return;
+  for (const Animation& clip : model.model.animations) {
+    model.times.push_back(frame_times(clip, clip_duration(clip) < 1 ? 60 : 30)), model.frames.emplace_back();
+    for (const double time : model.times.back())
+      model.frames.back().push_back(double_positions(posed_positions(model.model, model.flat, clip, time)));
+  }
+}
+
+// Motion of one clip, per inner frame: the largest second difference and step of a vertex, and the sum of squares.
+struct Motion {
+  std::vector<double> jerk, step;
+  double squares = 0;
+};
+
+Motion motion_of(const Frames& frames, double unit) {
+  Motion out;
+  const size_t n = frames.front().size();
+  for (size_t f = 0; f + 1 < frames.size(); ++f) {
+    double step = 0, jerk = 0, squares = 0;
+    for (size_t i = 0; i < n; i += 3) {
+      double s = 0, j = 0;
+      for (size_t c = i; c < i + 3; ++c) {
+        const double d = (frames[f + 1][c] - frames[f][c]) * unit;
+        s += d * d;
+        if (f == 0) continue;
+        const double e = (frames[f + 1][c] - 2 * frames[f][c] + frames[f - 1][c]) * unit;
+        j += e * e;
+      }
+      step = std::max(step, s), jerk = std::max(jerk, j), squares += j;
+    }
+    out.step.push_back(std::sqrt(step)), out.jerk.push_back(std::sqrt(jerk));
+    out.squares += 3 * squares / static_cast<double>(n);
+  }
+  return out;
+}
+
+struct Run {
+  std::string name;
+  size_t spikes = 0, frames = 0;
+  double acceleration = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, self_mean = -1, self_max = -1, ms = 0;
+};
+
+Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target, Session& session) {
+  Run out;
+  out.name = played.clip.name, out.frames = played.source_frames.size();
+  const double scale = std::max(session.scale(), target.box / source.box);
+  const Motion from = motion_of(played.source_frames, scale / target.box),
+               to = motion_of(played.target_frames, 1 / target.box);
+  for (size_t f = 0; f < to.step.size(); ++f) {
+    if (to.jerk[f] > spike_share && to.jerk[f] > spike_ratio * from.jerk[f]) ++out.spikes;
+    if (from.step[f] < still_step) out.still = std::max(out.still, to.step[f] / std::max(from.step[f], least_step));
+    if (from.step[f] > moving_step) out.step = std::max(out.step, to.step[f] / from.step[f]);
+  }
+  out.acceleration = from.squares > 1e-10 ? std::sqrt(to.squares / from.squares) : 0;
+  out.slide = played.feet.planted_max, out.sunk = played.feet.surface_sunk, out.ms = played.frame_ms;
+  for (const std::vector<double>& frame : played.target_frames) {
+    hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
+    posed.positions_f64 = frame.data();
+    hf_gaps_info info = HF_INIT(hf_gaps_info);
+    if (hf_surface_measure_gaps(session.target_surface(), &posed, 0, nullptr, &info) == HF_OK && info.link_count > 0)
+      out.gap = std::max(out.gap, info.worst / target.box);
+  }
+  if (&source != &target) return out;
+  out.self_mean = out.self_max = 0;
+  for (size_t f = 0; f < out.frames; ++f) {
+    double sum = 0;
+    for (size_t i = 0; i < played.target_frames[f].size(); ++i) {
+      const double d = (played.target_frames[f][i] - played.source_frames[f][i]) / target.box;
+      sum += 3 * d * d / static_cast<double>(played.target_frames[f].size());
+    }
+    out.self_mean += std::sqrt(sum) / static_cast<double>(out.frames);
+    out.self_max = std::max(out.self_max, std::sqrt(sum));
+  }
+  return out;
+}
+
+// For the search for causes: the vertex that spikes most, per frame that does.
+void say_where(const PlayedClip& played, const Loaded& source, const Loaded& target, Session& session) {
+  const RegionFinder finder(target.model, target.flat, Axes());
+  const double scale = std::max(session.scale(), target.box / source.box);
+  const Motion from = motion_of(played.source_frames, scale / target.box);
+  for (size_t f = 1; f + 1 < played.target_frames.size(); ++f) {
+    double most = 0;
+    size_t vertex = 0;
+    for (size_t i = 0; i < played.target_frames[f].size(); i += 3) {
+      double sum = 0;
+      for (size_t c = i; c < i + 3; ++c) {
+        const double d =
+            played.target_frames[f + 1][c] - 2 * played.target_frames[f][c] + played.target_frames[f - 1][c];
+        sum += d * d / target.box / target.box;
+      }
+      if (std::sqrt(sum) > most) most = std::sqrt(sum), vertex = i / 3;
+    }
+    if (most <= spike_share || most <= spike_ratio * from.jerk[f]) continue;
+    const double* p = played.target_frames[f].data() + 3 * vertex;
+    std::printf("      %s frame %zu: %.3f of the box (source %.3f), vertex %zu of %s at %.2f %.2f %.2f\n",
+                played.clip.name.c_str(), f, most, from.jerk[f], vertex,
+                finder.owner_name(static_cast<uint32_t>(vertex)).c_str(), p[0] / target.box, p[1] / target.box,
+                p[2] / target.box);
+  }
+}
+
+struct Options {
+  std::filesystem::path folder;
+  std::string half = "choosing", source, target, clip;
+  bool runs = false, links = true, ground = true, where = false;
+};
+
+void print_runs(const char* heading, const std::vector<Run>& runs) {
+  std::vector<double> ratios;
+  size_t spikes = 0, spiked = 0, calm = 0, near = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, selves = 0,
+         good = 0;
+  double worst_still = 0, worst_step = 0, worst_slide = 0, worst_sunk = 0, worst_gap = 0, worst_self = 0, mean_self = 0,
+         ms = 0, frames = 0;
+  for (const Run& run : runs) {
+    spikes += run.spikes, spiked += run.spikes > 0;
+    if (run.acceleration > 0)
+      ratios.push_back(run.acceleration), calm += run.acceleration <= 1.1, near += run.acceleration <= 1.3;
+    still += run.still > 2, worst_still = std::max(worst_still, run.still);
+    step += run.step > 1.5, worst_step = std::max(worst_step, run.step);
+    slide += run.slide > 0.001, worst_slide = std::max(worst_slide, run.slide);
+    sunk += run.sunk > 0.01, worst_sunk = std::max(worst_sunk, run.sunk);
+    gap += run.gap > 0.005, worst_gap = std::max(worst_gap, run.gap);
+    ms += run.ms * static_cast<double>(run.frames), frames += static_cast<double>(run.frames);
+    if (run.self_mean < 0) continue;
+    ++selves, good += run.self_mean <= 0.010 && run.self_max <= 0.025;
+    mean_self = std::max(mean_self, run.self_mean), worst_self = std::max(worst_self, run.self_max);
+  }
+  std::sort(ratios.begin(), ratios.end());
+  const auto part = [&](double share) {
+    return ratios.empty() ? 0.0 : ratios[static_cast<size_t>(share * static_cast<double>(ratios.size() - 1))];
+  };
+  std::printf("%s: %zu runs, %.3f ms a frame\n", heading, runs.size(), frames > 0 ? ms / frames : 0.0);
+  std::printf("  spikes                  %zu in %zu runs\n", spikes, spiked);
+  std::printf("  acceleration / source's %.1f %% <= 1.1, %.1f %% <= 1.3; median %.2f, 95 %% %.2f, largest %.2f\n",
+              100.0 * static_cast<double>(calm) / static_cast<double>(std::max<size_t>(ratios.size(), 1)),
+              100.0 * static_cast<double>(near) / static_cast<double>(std::max<size_t>(ratios.size(), 1)), part(0.5),
+              part(0.95), part(1));
+  std::printf("  still source            %zu runs step > 2 times; largest %.1f\n", still, worst_still);
+  std::printf("  step / source's         %zu runs > 1.5; largest %.2f\n", step, worst_step);
+  std::printf("  planted feet slide      %zu runs > 0.001; largest %.4f\n", slide, worst_slide);
+  std::printf("  penetration             %zu runs > 0.01; largest %.4f\n", sunk, worst_sunk);
+  std::printf("  gaps                    %zu runs > 0.005; largest %.4f\n", gap, worst_gap);
+  if (selves > 0)
+    std::printf("  on itself               %zu of %zu within 0.010 and 0.025; largest mean %.4f, frame %.4f\n", good,
+                selves, mean_self, worst_self);
+}
+
+int table(const Options& options) {
+  std::vector<Loaded> models;
+  for (const Listed& entry : listed) models.push_back(load(options.folder, entry));
+  std::vector<Run> all, deaths;
+  size_t pairs = 0, refused = 0;
+  ProgressBar bar(true);
+  for (Loaded& source : models) {
+    if (source.model.animations.empty()) continue;
+    if (!options.source.empty() && options.source != source.name) continue;
+    for (Loaded& target : models) {
+      if (!options.target.empty() && options.target != target.name) continue;
+      const std::string half = source.judging != target.judging ? "mixed" : source.judging ? "judging" : "choosing";
+      if (options.half != "all" && options.half != half) continue;
+      ++pairs;
+      std::string proposed;
+      std::vector<Run> runs;
+      try {
+        const Suggestion suggestion = suggest_pairs(source.model, source.flat, target.model, target.flat);
+        for (const SuggestedPair& pair : suggestion.pairs) proposed += (proposed.empty() ? "" : ", ") + pair.name;
+        Session session(source.model, target.model, parse_pairs(suggestion.file, "the proposed pairs"), 1,
+                        options.links, bar, options.ground);
+        sample_clips(source);
+        Frames some;
+        for (const Frames& frames : source.frames)
+          for (size_t k = 0; k < 24; ++k) some.push_back(frames[k * (frames.size() - 1) / 23]);
+        session.set_contacts({}, some);
+        for (size_t c = 0; c < source.frames.size(); ++c) {
+          const std::string& name = source.model.animations[c].name;
+          if (!options.clip.empty() && name.find(options.clip) == std::string::npos) continue;
+          if (source.frames[c].size() < 3) continue;
+          const PlayedClip played = session.play(name, source.times[c], source.frames[c], bar);
+          runs.push_back(measure(played, source, target, session));
+          if (options.where && runs.back().spikes > 0) say_where(played, source, target, session);
+        }
+      } catch (const std::exception& error) {
+        ++refused;
+        std::printf("%-20s on %-22s refused: %s\n", source.name, target.name, error.what());
+        continue;
+      }
+      size_t spikes = 0;
+      double acceleration = 0;
+      for (const Run& run : runs) spikes += run.spikes, acceleration = std::max(acceleration, run.acceleration);
+      std::printf("%-20s on %-22s %zu clips, %zu spikes, acceleration %.2f: %s\n", source.name, target.name,
+                  runs.size(), spikes, acceleration, proposed.c_str());
+      for (const Run& run : runs) {
+        if (options.runs)
+          std::printf(
+              "    %-36s spikes %2zu accel %.2f still %5.1f step %5.2f slide %.4f sunk %.4f gap %.4f self %.4f "
+              "%.4f\n",
+              run.name.c_str(), run.spikes, run.acceleration, run.still, run.step, run.slide, run.sunk, run.gap,
+              run.self_mean, run.self_max);
+        all.push_back(run);
+        if (run.name.find("Death") != std::string::npos) deaths.push_back(run);
+      }
+      std::fflush(stdout);
+    }
+  }
+  std::printf("\n%s half: %zu pairs, %zu refused (%.1f %% transfer)\n", options.half.c_str(), pairs, refused,
+              100.0 * static_cast<double>(pairs - refused) / static_cast<double>(std::max<size_t>(pairs, 1)));
+  print_runs("all clips", all);
+  if (!deaths.empty()) print_runs("falls", deaths);
+  return 0;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    Options options;
+    for (int i = 1; i < count; ++i) {
+      const std::string word = arguments[i];
+      std::string* value = word == "--half"     ? &options.half
+                           : word == "--source" ? &options.source
+                           : word == "--target" ? &options.target
+                           : word == "--clip"   ? &options.clip
+                                                : nullptr;
+      if (value && i + 1 < count) {
+        *value = arguments[++i];
+      } else if (word == "--runs") {
+        options.runs = true;
+      } else if (word == "--where") {
+        options.where = true;
+      } else if (word == "--no-ground") {
+        options.ground = false;
+      } else if (word == "--no-links") {
+        options.links = false;
+      } else {
+        options.folder = word;
+      }
+    }
+    if (options.folder.empty()) throw std::runtime_error("the folder of the models is needed");
+    return table(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "hf_transfer_table: %s\n", error.what());
+    return 1;
+  }
+}
