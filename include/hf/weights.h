@@ -215,8 +215,8 @@ typedef struct hf_carry_info {
 } hf_carry_info;
 
 /* Carries weights from one surface to another: clothes, hair, levels of detail, new topology. Both stand in the same
- * frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One harmonic field fills in
- * the vertices without such a point. An island without any takes the weights of the nearest points. inout_weights: as in
+ * frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-harmonic field fills
+ * in the vertices without such a point. An island without any takes the weights of the nearest points. inout_weights: as in
  * hf_weights_get, with weight_count of the desc. out_info: NULL, or receives the counts. Cost: a search for each vertex,
  * one factorisation, and a sweep for every 8 bones. Errors: HF_ERROR_EMPTY (all weights are 0), HF_ERROR_NON_FINITE and
  * HF_ERROR_INVALID_ARGUMENT (a weight; index = vertex; distance, angle, influence_count, weight_count),
@@ -295,7 +295,7 @@ typedef struct hf_mirror_info {
 } hf_mirror_info;
 
 /* Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the nearest
- * point to its reflection whose normal agrees, with the bones of the other side. One harmonic field fills in the rest.
+ * point to its reflection whose normal agrees, with the bones of the other side. One bi-harmonic field fills in the rest.
  * The plane comes from bones with partners, else from the surface. A found normal has a positive largest component, so
  * along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x. inout_weights: as in hf_weights_get. out_bones: uint32_t
  * [bone_count] partners, or NULL. out_pairings: uint32_t[bone_count] HF_MIRROR_BONE_*, or NULL. out_info: NULL, or

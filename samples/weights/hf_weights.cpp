@@ -282,14 +282,15 @@ nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weigh
   return out;
 }
 
-// The model, with the skeleton of another if it has none.
-Model read_model(const Command& options, Rig& rig) {
+// The model, with the skeleton of another if it has none. given: whether the file has weights.
+Model read_model(const Command& options, Rig& rig, bool& given) {
   Model model = read_gltf(options.mesh);
   const std::filesystem::path& other = options.skeleton.empty() ? options.carry : options.skeleton;
   if (other.empty() || (options.skeleton.empty() && !model.skins.empty())) {
     rig = read_rig(model);
     return model;
   }
+  given = false;
   if (!model.skins.empty()) throw std::runtime_error(model.name + ": the model has joints; --skeleton is for one without");
   const Model source = read_gltf(other);
   std::vector<Landmark> landmarks = name_landmarks(source, model);
@@ -307,7 +308,8 @@ Model read_model(const Command& options, Rig& rig) {
 
 void run(const Command& options) {
   Rig rig;
-  Model model = read_model(options, rig);
+  bool given = true;
+  Model model = read_model(options, rig, given);
   if (options.all) std::fill(rig.bones.deforms.begin(), rig.bones.deforms.end(), 1);
   if (!options.bones.empty()) read_bones(options.bones, rig);
   const auto begin = std::chrono::steady_clock::now();
@@ -336,9 +338,13 @@ void run(const Command& options) {
   } else {
     std::printf("%s: %u vertices, %u joints, %zu poses\n", name.c_str(), info.vertex_count, info.bone_count,
                 poses.size());
-    std::printf(
-        "distance     mean %.3f %%, 95 %% below %.3f %%, worst %.2f %% of the box; stretch %.3f of the file's\n",
-        found.mean, found.high, found.worst, found.stretch);
+    if (given) {
+      std::printf(
+          "distance     mean %.3f %%, 95 %% below %.3f %%, worst %.2f %% of the box; stretch %.3f of the file's\n",
+          found.mean, found.high, found.worst, found.stretch);
+    } else {
+      std::printf("distance     none: the file has no weights\n");
+    }
     if (!carried.line.empty()) std::printf("%s\n", carried.line.c_str());
     std::printf(
         "vertices     %u informed, %u solved, %u pinned; guessed: %u carried, %u rigid, %u isolated; bare: %u\n",
@@ -353,6 +359,7 @@ void run(const Command& options) {
     nlohmann::json report = report_of(options, rig, weights, found, surface_ms, weights_ms);
     if (!options.carry.empty()) report["carry"] = carried.report;
     if (options.mirror >= 0) report["mirror"] = carried.report;
+    if (!given) report["distance"] = nullptr, report["stretch"] = nullptr;
     write_json(options.report, report);
   }
   if (!options.sheet.empty()) {

@@ -115,7 +115,7 @@ hf_result hf_weights_carry(hf_surface source, hf_surface target, const hf_carry_
     const FilledWeights filled = with_progress(desc.progress, [&] {
       const auto core = to->surface.core(FieldKind::harmonic);
       const SkinShape skin(shape, *to->memory);
-      return carry_weights(shape, skin, weights, core, options);
+      return carry_weights(shape, skin, weights, core, options, &to->surface);
     });
     write_filled(filled, to->surface.geometry().mesh, out);
     if (!out_info) return;
@@ -141,7 +141,7 @@ hf_result hf_weights_mirror(hf_surface handle, const hf_mirror_desc* given, hf_w
     const MirroredWeights made = with_progress(desc.progress, [&] {
       const auto core = surface->surface.core(FieldKind::harmonic);
       const auto skin = make_owner_in<SkinSurface>(core->memory, core);
-      return mirror_weights(*skin, weights, bones, options);
+      return mirror_weights(*skin, weights, bones, options, &surface->surface);
     });
     write_filled(made.filled, mesh, out);
     for (std::size_t b = 0; b < made.pairs.partner.size(); ++b) {

@@ -9,7 +9,8 @@
 namespace hf_inner {
 
 FilledWeights carry_weights(const Mesh& source, const SkinShape& source_skin, const GivenWeights& given,
-                            std::shared_ptr<const Core> target, const MatchOptions& options) {
+                            std::shared_ptr<const Core> target, const MatchOptions& options,
+                            const Surface* surface) {
   Memory& memory = *target->memory;
   const Mesh& mesh = target->mesh;
   const WeightRows rows = read_rows(source, given, [](Index) { return true; }, memory);
@@ -22,7 +23,7 @@ FilledWeights carry_weights(const Mesh& source, const SkinShape& source_skin, co
     out = {{clamped(p.x), clamped(p.y), clamped(p.z)}, skin.normals()[at(v)]};
     return true;
   };
-  Fill fill(std::move(target), memory);
+  Fill fill(std::move(target), memory, surface);
   fill.origin.assign(at(mesh.vertex_count()), Origin::matched);
   const auto take_rows = [&](const Vector<Match>& matches, WeightRows& out) {
     for (const Match& match : matches) {

@@ -1,6 +1,6 @@
 // Fills in the weights of a surface of which some vertices have weights: one solve with those vertices as sites.
 #pragma once
-#include "engine/core.h"
+#include "engine/surface.h"
 #include "weights/solution.h"
 #include "weights/weight_rows.h"
 
@@ -20,10 +20,12 @@ struct FilledWeights {
 
 // A surface of which some vertices have weights.
 struct Fill {
-  Fill(std::shared_ptr<const Core> target, Memory& memory) : core(std::move(target)), known(memory), origin(&memory) {}
-  std::shared_ptr<const Core> core;  // harmonic or bi-harmonic
-  WeightRows known;                  // by inner vertex
-  Vector<Origin> origin;             // of the known ones
+  Fill(std::shared_ptr<const Core> target, Memory& memory, const Surface* whose = nullptr)
+      : core(std::move(target)), surface(whose), known(memory), origin(&memory) {}
+  std::shared_ptr<const Core> core;
+  const Surface* surface;  // where the bi-harmonic core comes from, if there is something to solve; null: core solves
+  WeightRows known;        // by inner vertex
+  Vector<Origin> origin;   // of the known ones
 };
 
 // By component: whether a vertex of it is known.

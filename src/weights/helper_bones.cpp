@@ -8,11 +8,12 @@
 namespace hf_inner {
 namespace {
 
-// Chosen on 14 shared rigs. PLACEHOLDER
+// Chosen on 13 shared rigs, of 415 joints: with these points 31 of the 37 joints without weights are proposed, and 3 of
+// the others. A threshold of 3 proposes 32 and 17.
 constexpr HelperPoints helper_points[] = {
-    {helper_name_root, 2}, {helper_name_control, 2}, {helper_name_end, 1}, {helper_root, 1},       {helper_apart, 1},
+    {helper_name_root, 3}, {helper_name_control, 2}, {helper_name_end, 1}, {helper_root, 1},       {helper_apart, 1},
     {helper_no_length, 1}, {helper_coincident, 1},   {helper_outside, 2},  {helper_informs_none, 2}};
-constexpr int helper_threshold = 3;
+constexpr int helper_threshold = 4;
 
 // Words in names of bones that carry no skin, in rigs of Blender, Maya, Unreal, Unity and Mixamo.
 constexpr const char* root_words[] = {"root", "armature", "master", "global", "world", "origin", "trajectory", "rootjoint"};

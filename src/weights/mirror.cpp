@@ -31,7 +31,7 @@ void count_misses(const Vector<Match>& matches, MirroredWeights& out) {
 }  // namespace
 
 MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& given, const MirrorBones& bones,
-                               const MirrorOptions& options) {
+                               const MirrorOptions& options, const Surface* whose) {
   const std::shared_ptr<const Core>& core = surface.core;
   Memory& memory = *core->memory;
   const Mesh& mesh = core->mesh;
@@ -58,7 +58,7 @@ MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& g
   const Vector<Match> matches = find_matches(shape, *core, options.carry, false, probe);
   count_misses(nearest, out);
 
-  Fill fill(core, memory);
+  Fill fill(core, memory, whose);
   fill.origin.assign(at(mesh.vertex_count()), Origin::matched);
   const auto add_own = [&](Index v) {
     for (const Share& share : rows.of(v)) fill.known.add(share.bone, share.weight);

@@ -36,8 +36,8 @@ struct MirroredWeights {
   Index worst = -1;  // inner vertex
 };
 
-// The core is that of `surface`. Throws HF_ERROR_EMPTY if no vertex of the side that gives has weights.
+// whose: as in Fill. Throws HF_ERROR_EMPTY if no vertex of the side that gives has weights.
 MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& given, const MirrorBones& bones,
-                               const MirrorOptions& options);
+                               const MirrorOptions& options, const Surface* whose = nullptr);
 
 }  // namespace hf_inner
