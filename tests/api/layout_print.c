@@ -9,7 +9,7 @@
 #define STRUCT(type) printf("%s size %u\n", #type, (unsigned)sizeof(type))
 #define FIELD(type, field) \
   printf("  %s at %u, %u bytes\n", #field, (unsigned)offsetof(type, field), (unsigned)sizeof(((type*)0)->field))
-#define CONSTANT(name) printf("%s = %ld\n", #name, (long)name)
+#define CONSTANT(name) printf("%s = %lld\n", #name, (long long)name)
 #define F(field) FIELD(T, field)
 
 static void print_base(void) {
