@@ -8,8 +8,8 @@ std::shared_ptr<const Screening> Screening::make(std::shared_ptr<const Core> cor
                                                  const double* target, Index channels) {
   const std::shared_ptr<Memory> memory = core->memory;
   const std::size_t n = at(core->size()), m = at(channels);
-  const auto made = make_owner_in<Screening>(
-      memory, ScreenedOperator::make(std::move(core), strength, ScreenedOptions{}), *memory);
+  const auto made =
+      make_owner_in<Screening>(memory, ScreenedOperator::make(std::move(core), strength, ScreenedOptions{}), *memory);
   const ScreenedOperator& screened = *made->screened;
   for (Index c = 0; c < screened.core->mesh.component_count(); ++c) {
     made->reaches.push_back(screened.screened(c));
@@ -67,8 +67,7 @@ void ScreenedSolver::solve_at(const double* values, Index channels, Span<const I
   const std::size_t m = at(channels);
   Workspace field(core().workspaces, at(core().size()) * m);
   solve(values, channels, field.data(), nullptr);
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    std::copy_n(field.data() + at(vertices[i]) * m, m, out + i * m);
+  for (std::size_t i = 0; i < vertices.size(); ++i) std::copy_n(field.data() + at(vertices[i]) * m, m, out + i * m);
 }
 
 EngineCounters ScreenedSolver::counters() const noexcept {

@@ -16,7 +16,7 @@ struct Screening {
   static std::shared_ptr<const Screening> make(std::shared_ptr<const Core> core, Span<const double> strength,
                                                const double* target, Index channels);
   std::shared_ptr<const ScreenedOperator> screened;  // first member: its memory outlives the rest
-  Vector<std::uint8_t> reaches;                  // by component: 1 if some H in it is above 0
+  Vector<std::uint8_t> reaches;                      // by component: 1 if some H in it is above 0
   bool reaches_any = false;
   Buffer<double> field;  // [vertex][channels] without sites; 0 on components without screening
 };

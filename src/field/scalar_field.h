@@ -58,7 +58,8 @@ class ScalarField {
   const SiteSolver& engine() const noexcept { return *engine_; }
   bool is_screened() const noexcept { return screening_ != nullptr; }
 
-  // Solve functions; they throw HF_ERROR_NO_SITES if the field has neither a site nor screening. field: welded vertex * channels + c.
+  // Solve functions; they throw HF_ERROR_NO_SITES if the field has neither a site nor screening. field: welded vertex *
+  // channels + c.
   void solve(double* field) const;
   void solve_into(FieldSink& sink) const;
   PreviewInfo solve_preview(std::int32_t corrections, double* field) const;

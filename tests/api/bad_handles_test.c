@@ -92,9 +92,7 @@ static hf_result set_site_values(void* h) {
   const double v = 3;
   return hf_solver_set_values(h, 1, scene.sites, &v);
 }
-static hf_result set_screening(void* h) {
-  return hf_solver_set_screening(h, NULL, NULL);
-}
+static hf_result set_screening(void* h) { return hf_solver_set_screening(h, NULL, NULL); }
 static hf_result edit_sites(void* h) {
   hf_edit_desc d = HF_INIT(hf_edit_desc);
   d.remove_count = 1, d.remove_sites = scene.sites;
@@ -472,10 +470,10 @@ static void every_function_refuses_every_handle_that_is_not_its_own(void** state
   (void)state;
   scene_create(&scene);
   int on_the_stack = 0;
-  void* const live[KIND_COUNT] = {scene.sheet,    scene.solver,    scene.pose,     scene.transfer,
+  void* const live[KIND_COUNT] = {scene.sheet,    scene.solver,    scene.pose,      scene.transfer,
                                   scene.progress, scene.geodesics, scene.direction, scene.weights};
-  void* const stale[KIND_COUNT] = {scene.stale_surface,  scene.stale_solver,   scene.stale_pose,
-                                   scene.stale_transfer, scene.stale_progress, scene.stale_geodesics,
+  void* const stale[KIND_COUNT] = {scene.stale_surface,   scene.stale_solver,   scene.stale_pose,
+                                   scene.stale_transfer,  scene.stale_progress, scene.stale_geodesics,
                                    scene.stale_direction, scene.stale_weights};
   for (size_t f = 0; f < COUNT_OF(functions); ++f) {
     const enum Kind kind = functions[f].kind;
@@ -522,7 +520,7 @@ static void destroying_what_is_no_handle_does_nothing(void** state) {
     hf_geodesics_destroy(bad[b]), hf_direction_destroy(bad[b]), hf_surface_destroy(bad[b]);
     hf_weights_destroy(bad[b]);
   }
-  void* const live[KIND_COUNT] = {scene.sheet,    scene.solver,    scene.pose,     scene.transfer,
+  void* const live[KIND_COUNT] = {scene.sheet,    scene.solver,    scene.pose,      scene.transfer,
                                   scene.progress, scene.geodesics, scene.direction, scene.weights};
   for (int k = 0; k < KIND_COUNT; ++k) {
     if (k != SURFACE) hf_surface_destroy(live[k]);

@@ -340,7 +340,8 @@ Outcome run_whole_api(const Scene& scene, const Options& options) {
   run.outcome.hash = 14695981039346656037u;
   run.surface_and_picking(), run.solver_and_sites(), run.other_kinds(), run.other_engines(), run.vectors(),
       run.factor_and_preview(), run.analysis();
-  run.directions(), run.pose_and_transfer(), run.quads_and_flow(), run.regions(), run.skin_weights(), run.graph(), run.errors();
+  run.directions(), run.pose_and_transfer(), run.quads_and_flow(), run.regions(), run.skin_weights(), run.graph(),
+      run.errors();
   return run.outcome;
 }
 
