@@ -860,9 +860,7 @@ fn read(path: &str) -> Value {
 }
 
 fn play(file: &str) {
-    let names = [
-        "strip", "torus", "bar", "long_bar", "small", "lonely", "pair",
-    ];
+    let names = ["strip", "torus", "bar", "long_bar", "small", "lonely"];
     let meshes = names
         .iter()
         .map(|name| {

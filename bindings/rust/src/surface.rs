@@ -77,8 +77,6 @@ pub struct Extras<'a> {
     pub saved_factor: Option<&'a [u8]>,
     /// Links between loose pieces. Without it, there are none.
     pub links: Option<LinkOptions>,
-    /// With links: a number for each vertex. Pieces of different tags stay apart.
-    pub tags: Option<&'a [u32]>,
     /// With links: a number per vertex. Pieces of different tags stay apart.
     pub tags: Option<&'a [u32]>,
     /// An object to poll and cancel through.
