@@ -463,7 +463,7 @@ func imported():
 	deformer.free()
 
 func _init():
-	for name in ["strip", "torus", "bar", "long_bar", "small", "lonely"]:
+	for name in ["strip", "torus", "bar", "long_bar", "small", "lonely", "pair"]:
 		meshes[name] = read(OS.get_environment("HF_GOLDEN") + "/meshes/" + name + ".json")
 	golden(OS.get_environment("HF_SCENES"))
 	golden(OS.get_environment("HF_GOLDEN") + "/bad_input.json")

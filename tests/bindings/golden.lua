@@ -273,7 +273,7 @@ local function new_scene(meshes)
 end
 
 local meshes, failed, wrong_calls = {}, 0, 0
-for _, name in ipairs({ 'strip', 'torus', 'bar', 'long_bar', 'small', 'lonely' }) do meshes[name] =
+for _, name in ipairs({ 'strip', 'torus', 'bar', 'long_bar', 'small', 'lonely', 'pair' }) do meshes[name] =
   read(root .. 'bindings/golden/meshes/' .. name .. '.json') end
 for i = 1, #arg do
   for _, scene in ipairs(read(arg[i]).scenes) do

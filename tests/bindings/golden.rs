@@ -860,7 +860,7 @@ fn read(path: &str) -> Value {
 }
 
 fn play(file: &str) {
-    let names = ["strip", "torus", "bar", "long_bar", "small", "lonely"];
+    let names = ["strip", "torus", "bar", "long_bar", "small", "lonely", "pair"];
     let meshes = names
         .iter()
         .map(|name| {
