@@ -364,8 +364,12 @@ void run(const Command& options) {
   }
   if (!options.sheet.empty()) {
     char title[200];
-    std::snprintf(title, sizeof title, "%s: mean %.2f %%, 95 %% below %.2f %% of the box", name.c_str(), found.mean,
-                  found.high);
+    if (given) {
+      std::snprintf(title, sizeof title, "%s: mean %.2f %%, 95 %% below %.2f %% of the box", name.c_str(), found.mean,
+                    found.high);
+    } else {
+      std::snprintf(title, sizeof title, "%s: a skeleton taken from another model", name.c_str());
+    }
     write_weight_sheet(options.sheet.string(), model, rig, poses, own, found, title);
   }
   if (!options.out.empty()) {

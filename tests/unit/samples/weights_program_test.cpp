@@ -89,6 +89,43 @@ TEST(WeightsProgram, ComputesComparesAndKeeps) {
   EXPECT_NE(text.find("3 pinned"), std::string::npos) << text;
 }
 
+// A sleeve without joints takes those of the cylinder, and its weights; the cylinder's halves mirror each other.
+TEST(WeightsProgram, CarriesMirrorsAndTakesSkeletons) {
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return "\"" + (folder.path / name).string() + "\""; };
+  const Model body = bent();
+  write_gltf(body, folder.path / "in.glb");
+  std::vector<glm::dvec3> positions;
+  for (const glm::vec3& p : body.meshes[0].primitives[0].positions) positions.push_back({p.x, 1.05 * p.y, 1.05 * p.z});
+  write_gltf(make_model("sleeve", positions, body.meshes[0].primitives[0].indices), folder.path / "sleeve.glb");
+  std::string text;
+  ASSERT_EQ(run(path("sleeve.glb") + " --carry " + path("in.glb") + " -o " + path("worn.glb") + " --report " +
+                    path("report.json"),
+                text),
+            0)
+      << text;
+  EXPECT_NE(text.find("252 matched"), std::string::npos) << text;
+  EXPECT_NE(text.find("the file has no weights"), std::string::npos) << text;
+  const Model worn = read_gltf(folder.path / "worn.glb");
+  ASSERT_EQ(worn.skins.size(), 1u);
+  EXPECT_EQ(worn.nodes[static_cast<size_t>(worn.skins[0].joints[1])].name, "right");
+  EXPECT_EQ(worn.meshes[0].primitives[0].influences[5].joints[0], 0);
+  EXPECT_EQ(worn.meshes[0].primitives[0].influences[250].joints[0], 1);
+  const JsonFile report(folder.path / "report.json");
+  EXPECT_EQ(report.root().at("carry").at("matched").integer(0, 1000), 252);
+  EXPECT_EQ(report.root().at("bones").at(0).at("helper").boolean(), false);
+
+  ASSERT_EQ(run(path("in.glb") + " --mirror negative", text), 0) << text;
+  EXPECT_NE(text.find("plane of the bones; joints: 2 by name"), std::string::npos) << text;
+  ASSERT_EQ(run(path("sleeve.glb") + " --skeleton " + path("in.glb") + " -o " + path("own.glb"), text), 0) << text;
+  const Model own = read_gltf(folder.path / "own.glb");
+  EXPECT_NEAR(own.nodes[static_cast<size_t>(own.skins[0].joints[1])].translation.x, 15, 1e-4);
+  EXPECT_EQ(run(path("in.glb") + " --skeleton " + path("in.glb"), text), 1);
+  EXPECT_NE(text.find("has joints"), std::string::npos) << text;
+  EXPECT_EQ(run(path("in.glb") + " --mirror up", text), 1);
+  EXPECT_NE(text.find("--mirror"), std::string::npos) << text;
+}
+
 TEST(WeightsProgram, NamesWhatIsWrong) {
   const TemporaryFolder folder;
   const auto path = [&](const char* name) { return "\"" + (folder.path / name).string() + "\""; };
