@@ -12,7 +12,11 @@
 namespace samples {
 namespace {
 
+#if defined(__MINGW32__) && !defined(__clang__)  // its C++ library has the printf of GNU
+void print(std::string& out, const char* format, ...) __attribute__((format(gnu_printf, 2, 3)));
+#elif defined(__GNUC__)
 void print(std::string& out, const char* format, ...) __attribute__((format(printf, 2, 3)));
+#endif
 void print(std::string& out, const char* format, ...) {
   char line[512];
   va_list arguments;
