@@ -145,7 +145,7 @@ Suggestion suggest_pairs(const Model& source, const FlatMesh& source_mesh, const
     const bool is_end = a.name == "nose" || a.name == "head" || a.name == "tail";
     if (is_end && !same_build(from, to)) pair["align"] = pair["contact"] = false;
     // a tail that is carried low is no contact: drawn to the ground in a jump it whips
-    if (a.name == "tail") pair["contact"] = false, pair["sinks"] = true;
+    if (a.name == "tail") pair["contact"] = false;
     const double confidence = std::min(a.confidence, b.confidence) * (same_kind ? 1 : 0.6);
     candidates.push_back({pair, {a.name, confidence, a.found, b.found}, a.place, b.place});
   }

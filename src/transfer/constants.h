@@ -261,6 +261,9 @@ constexpr double floating_volume = 2e-4;
 constexpr std::int32_t floating_steps = 8;
 // Half thicknesses (in boxes) below which a part may sink into the ground, and above which it may not.
 constexpr double thin_from = 0.006, thin_to = 2 * thin_from;
+// Depth (in boxes) that thin parts may sink: with what the rounds leave, no part is deeper than 0.01. Without a bound,
+// whole tails of dinosaurs go under the ground.
+constexpr double thin_depth = 0.008;
 // Share of a cluster's area vectors that do not cancel, above which it is a patch of a larger body and not a thin part.
 constexpr double open_share = 0.5;
 // A frame with a smaller share of non-rigid motion is not lifted above the ground. Halving or doubling it changes no
@@ -271,7 +274,7 @@ constexpr double least_share = 1e-3;
 constexpr std::int32_t sunk_rounds = 4;
 // A cluster rises with a sunk one if their centres are nearer than this, as a distance of field values: a foot and its
 // hip are about 1 apart.
-constexpr double rise_reach = 1.2;
+constexpr double rise_reach = 0.8;
 
 // --- translations.cpp ---
 

@@ -109,7 +109,7 @@ struct Transfer::Prepared {
   // cluster's target vertices. touch: the cluster's area if the cluster touches the ground now but not at rest.
   Vector<double> rest_lows, source_lows, target_lows, touch;
   double source_low = 0;         // lowest height of all source vertices
-  Vector<double> sinks;          // per cluster: share of its depth that may stay under the ground, 0 to 1
+  Vector<double> sinks;          // per cluster: depth (in boxes) that may stay under the ground
   Buffer<double> falloff;        // clusters x clusters: how far a cluster rises with another
   Vector<double> depths, rises;  // per cluster: largest depth under the ground, and how far it is raised
   Vector<std::int32_t> sunk;     // scratch: vertices under the ground

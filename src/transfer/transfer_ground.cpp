@@ -120,9 +120,10 @@ double Transfer::floating_height(Prepared& p, Vec3 up, double allowed) const noe
   for (std::int32_t step = 0; step < floating_steps; ++step) {
     double volume = 0, area = 0;
     for (const std::int32_t v : p.sunk) {
-      const double depth = allowed - dot(up, p.blended[at(v)]) - height;
+      const double sinks = p.sinks[at(p.clusters.joint[at(v) * blend_count])];
+      const double depth = allowed - dot(up, p.blended[at(v)]) - height - sinks;
       if (depth <= 0) continue;
-      const double share = target_area_[at(v)] * (1 - p.sinks[at(p.clusters.joint[at(v) * blend_count])]);
+      const double share = target_area_[at(v)];
       volume += share * depth, area += share;
     }
     if (volume <= floating_volume) break;
@@ -143,7 +144,7 @@ bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) co
     const std::int32_t row = p.rides[v];
     if (row >= 0 && p.given_hold[at(row)].share > 0) continue;  // the caller has placed this region
     const std::size_t cluster = at(p.clusters.joint[v * blend_count]);
-    depth *= 1 - p.sinks[cluster];
+    depth = std::max(0.0, depth - p.sinks[cluster]);
     p.depths[cluster] = std::max(p.depths[cluster], depth), deepest = std::max(deepest, depth);
   }
   if (!(deepest > least_depth)) return false;

@@ -1,9 +1,10 @@
 // Finds which parts of the target may sink into the ground (transfer_ground.cpp), and how far clusters rise together.
 //
-// A thin part (an ear, an antler, a blade) may sink: to raise a whole body for it looks worse. The half thickness of a
-// cluster is the mean of n.(x - c) over its area, with unit normals n and the cluster's centroid c. For a tube it is
-// the radius times a factor near 1. A patch of a larger body is flat too, but its area vectors do not cancel. Legs
-// never sink, because a foot's path is worth more. The whole limb of a pair flagged HF_PAIR_SINKS may sink.
+// A thin part (an ear, an antler, a blade) may sink by thin_depth: to raise a whole body for it looks worse. The half
+// thickness of a cluster is the mean of n.(x - c) over its area, with unit normals n and the cluster's centroid c. For
+// a tube it is the radius times a factor near 1. A patch of a larger body is flat too, but its area vectors do not
+// cancel. Legs never sink, because a foot's path is worth more. The whole limb of a pair flagged HF_PAIR_SINKS may
+// sink.
 #include <cmath>
 
 #include "base/index.h"
@@ -39,9 +40,9 @@ void Transfer::prepare_sinking(Prepared& p) const {
     const std::uint32_t flags =
         flags_[numbers_[static_cast<std::size_t>(std::max_element(centre, centre + width) - centre)]];
     if (flags & HF_PAIR_SINKS) {
-      p.sinks[c] = 1;
+      p.sinks[c] = no_height;
     } else if (!(flags & (HF_PAIR_FOOT | HF_PAIR_TRUNK)) && area[c] > 0 && norm(sum[c]) < open_share * area[c]) {
-      p.sinks[c] = 1 - smooth_step(thin_from, thin_to, std::abs(moment[c]) / area[c]);
+      p.sinks[c] = thin_depth * (1 - smooth_step(thin_from, thin_to, std::abs(moment[c]) / area[c]));
     }
     for (std::size_t d = 0; d < count; ++d) {
       double square = 0;

@@ -372,7 +372,7 @@ static void bad_pairs_are_not_added(void** state) {
   PAIRS("target overlaps a pair that is there", HF_ERROR_OVERLAP, 0, target_region[0] = 3);
   PAIRS("source regions overlap", HF_ERROR_OVERLAP, 3, region[3] = region[0]);
   PAIRS("target regions overlap", HF_ERROR_OVERLAP, 4, target_region[4] = target_region[1]);
-  PAIRS("unknown flag", HF_ERROR_INVALID_ARGUMENT, 1, flags[1] = 32);
+  PAIRS("unknown flag", HF_ERROR_INVALID_ARGUMENT, 1, flags[1] = 64);
   PAIRS("all flags", HF_ERROR_INVALID_ARGUMENT, 0, flags[0] = UINT32_MAX);
   PAIRS("a source region of 2^31", HF_ERROR_TOO_LARGE, 0, counts[0] = 0x80000000u);
   PAIRS("a target region of 2^32 - 1", HF_ERROR_TOO_LARGE, 1, target_counts[1] = UINT32_MAX);

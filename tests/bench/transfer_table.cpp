@@ -1,6 +1,5 @@
-// hf_transfer_table FOLDER [--half choosing|judging|mixed|all] [--source NAME] [--target NAME] [--clip NAME] [--runs]
-// [--where]
-//                   [--no-ground] [--no-links]
+// hf_transfer_table FOLDER [--half choosing|judging|mixed|all] [--source NAME] [--target NAME] [--clip NAME]
+//                   [--runs] [--where] [--no-ground] [--no-links]
 //
 // Plays every clip of every shared model on every other and measures what an animator would send back. Constants are
 // chosen on pairs whose two models lie in the choosing half. The judging half holds the pairs of the other models.
