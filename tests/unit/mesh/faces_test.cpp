@@ -315,6 +315,109 @@ TEST(FaceCorrection, of_a_flat_mesh_keeps_linear_functions_and_lowers_weights_wh
   }
 }
 
+// Takes faces as lists of points; equal points are one vertex.
+Sheet sheet_of(const std::vector<std::vector<Vec3>>& faces) {
+  Sheet sheet(0, 0, 1.0, 0.0);
+  sheet.positions.clear();
+  for (const auto& face : faces) {
+    for (const Vec3& p : face) {
+      std::size_t v = 0;
+      while (3 * v < sheet.positions.size() &&
+             std::fabs(sheet.positions[3 * v] - p.x) + std::fabs(sheet.positions[3 * v + 1] - p.y) > 1e-9)
+        ++v;
+      if (3 * v == sheet.positions.size()) sheet.positions.insert(sheet.positions.end(), {p.x, p.y, p.z});
+      sheet.corners.push_back(static_cast<unsigned>(v));
+    }
+    sheet.sizes.push_back(static_cast<unsigned>(face.size()));
+  }
+  return sheet;
+}
+
+std::vector<Vec3> ngon(int n, double x, double y) {
+  std::vector<Vec3> points;
+  for (int k = 0; k < n; ++k) {
+    const double turn = 2 * M_PI * (k + 0.5) / n;
+    points.push_back({x + std::cos(turn), y + std::sin(turn), 0});
+  }
+  return points;
+}
+
+// The matrices before and after the correction, and the largest change of a weight.
+double corrected(const Sheet& sheet, Dense& before, Dense& after, hf_inner::Memory& memory) {
+  const hf_inner::Mesh mesh = sheet.make(memory);
+  const auto topology = hf_inner::Topology::make(mesh, memory);
+  const auto weights = hf_inner::edge_weights(mesh, topology, hf_inner::OperatorKind::cotangent, memory);
+  const auto cut = hf_inner::delaunay_operator(mesh, topology, weights, false, memory).laplacian;
+  const auto more = hf_inner::corrected_by_polygons(mesh, cut, memory, nullptr);
+  expect_laplacian(more, true);
+  before = dense(cut), after = dense(more);
+  double most = 0;
+  for (std::size_t v = 0; v < after.size(); ++v) {
+    for (std::size_t w = 0; w < after.size(); ++w) most = std::max(most, std::fabs(after[v][w] - before[v][w]));
+  }
+  return most;
+}
+
+// A honeycomb: its faces are corrected by their own cuts, which are no quads.
+TEST(FaceCorrection, of_hexagons_keeps_linear_functions) {
+  hf_inner::Memory memory;
+  std::vector<std::vector<Vec3>> faces;
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) faces.push_back(ngon(6, std::sqrt(3.0) * (i + 0.5 * j), 1.5 * j));
+  }
+  const Sheet sheet = sheet_of(faces);
+  Dense d, k;
+  EXPECT_GT(corrected(sheet, d, k, memory), 0.05);
+  for (std::size_t v = 0; v < k.size(); ++v) {
+    double x = 0, y = 0;
+    for (std::size_t w = 0; w < k.size(); ++w) {
+      x += (k[v][w] - d[v][w]) * sheet.positions[3 * w], y += (k[v][w] - d[v][w]) * sheet.positions[3 * w + 1];
+    }
+    EXPECT_NEAR(x, 0, 1e-11);
+    EXPECT_NEAR(y, 0, 1e-11);
+  }
+}
+
+// Nine corners are too many, a U has no point that sees all its sides, a spike ends in a triangle without an area.
+TEST(FaceCorrection, leaves_large_faces_and_those_that_are_not_star_shaped) {
+  const std::vector<Vec3> u = {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
+  for (const auto& face : {ngon(9, 0, 0), u}) {
+    hf_inner::Memory memory;
+    Dense d, k;
+    EXPECT_EQ(corrected(sheet_of({face}), d, k, memory), 0) << face.size();
+  }
+}
+
+// Faces of more than 64 corners count as the triangles of their cut.
+TEST(PolygonLaplacian, of_a_face_of_many_corners_is_that_of_its_cut) {
+  hf_inner::Memory memory;
+  const Sheet sheet = sheet_of({ngon(80, 0, 0)});
+  const hf_inner::Mesh mesh = sheet.make(memory);
+  const auto k = hf_inner::polygon_laplacian(mesh, memory);
+  const auto topology = hf_inner::Topology::make(mesh, memory);
+  const auto weights = hf_inner::edge_weights(mesh, topology, hf_inner::OperatorKind::cotangent, memory);
+  const Dense whole = dense(k), cut = dense(hf_inner::laplacian(topology, weights, memory));
+  for (std::size_t v = 0; v < whole.size(); ++v) {
+    for (std::size_t w = 0; w < whole.size(); ++w) EXPECT_NEAR(whole[v][w], cut[v][w], 1e-9 * cut[v][v]);
+  }
+}
+
+// A face whose corners lie on a line has no area: its point is on the line, and the weights give it.
+TEST(FacePoint, of_corners_on_a_line_lies_on_it) {
+  hf_inner::Memory memory;
+  const std::vector<Vec3> points = {{0, 0, 0}, {1, 2, 3}, {3, 6, 9}, {2, 4, 6}};
+  hf_inner::Vector<double> weights(&memory);
+  const Vec3 p = hf_inner::face_point(points, weights);
+  EXPECT_NEAR(p.y, 2 * p.x, 1e-12);
+  EXPECT_NEAR(p.z, 3 * p.x, 1e-12);
+  double sum = 0;
+  for (const double w : weights) sum += w;
+  EXPECT_NEAR(sum, 1, 1e-12);
+  hf_inner::PolygonMatrix matrix(memory);
+  matrix.make(points);
+  EXPECT_FALSE(matrix.is_star);
+}
+
 // Rectangles of ratio r allow 4 / (1 + r^2) of the correction. Taking more, and cutting weights off, would change the
 // second moments of the weights, which are twice the area.
 TEST(FaceCorrection, of_long_rectangles_takes_what_the_weights_allow) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "mesh/nearest_triangle.h"
 #include "support/meshes.h"
 #include "support/oracle.h"
@@ -222,6 +223,56 @@ TEST(Links, a_sheet_is_light_and_hardly_changes_the_field_of_the_body) {
       heavy_change = std::max(heavy_change, std::fabs(stiff[at(v)] - without[at(v)]));
   }
   EXPECT_GT(heavy_change, 1e-3);
+}
+
+// Light by the host's word, a piece beside the body follows it: it is no sheet, and its links hold all over.
+TEST(Links, a_piece_is_light_by_the_hosts_word) {
+  const auto plain = plain_geometry(two_cubes());
+  auto options = automatic();
+  const Index on_second = plain->mesh.vertex_count() - 1;
+  options.light = {&on_second, 1};
+  const auto linked = hf_inner::Geometry::linked(plain, options);
+  ASSERT_TRUE(linked->links);
+  EXPECT_EQ(linked->links->light[0], 0);
+  EXPECT_EQ(linked->links->light[1], 1);
+  EXPECT_EQ(linked->mesh.component_count(), 1);
+  const auto heavy = hf_inner::Geometry::linked(plain, automatic());
+  const std::vector<double> alone = field_through(core_of(plain), {0, 40}, {0, 1}),
+                            with = field_through(core_of(linked), {0, 40}, {0, 1}),
+                            stiff = field_through(core_of(heavy), {0, 40}, {0, 1});
+  double change = 0, heavy_change = 0;
+  for (std::size_t v = 0; v < alone.size(); ++v) {
+    if (plain->mesh.component[v] != 0) continue;
+    change = std::max(change, std::fabs(with[v] - alone[v]));
+    heavy_change = std::max(heavy_change, std::fabs(stiff[v] - alone[v]));
+  }
+  EXPECT_LE(change, 1e-3);
+  EXPECT_GT(heavy_change, 10 * change);
+  const Index on_first = 0;
+  options.heavy = {&on_second, 1};
+  EXPECT_THROW(hf_inner::Geometry::linked(plain, options), hf_inner::Error);
+  options.heavy = {&on_first, 1};
+  EXPECT_EQ(hf_inner::Geometry::linked(plain, options)->links->light[1], 1);
+}
+
+TEST(Links, the_difference_of_skin_weights_counts_a_joint_once) {
+  PlainMesh mesh = hf_test::grid(1, 1, 1.0);
+  const auto plain = plain_geometry(mesh);
+  const std::uint16_t joints[] = {1, 1, 1, 2, 2, 2, 3, 1};
+  const float weights[] = {0.5f, 0.5f, 1, 0, 0.5f, 0.5f, 0.25f, 0.75f};
+  hf_inner::SkinHint skin;
+  skin.influence_count = 2, skin.joints = joints, skin.weights = weights;
+  const Index first[] = {1, 1, 1}, second[] = {2, 2, 2}, third[] = {3, 3, 3};
+  const double share[] = {0.5, 0.25, 0.25};
+  const auto inner = [&](const Index* given) {
+    std::array<Index, 3> out;
+    for (std::size_t k = 0; k < 3; ++k) out[k] = plain->mesh.inner_of_given[at(given[k])];
+    return out;
+  };
+  const Index v = plain->mesh.inner_of_given[0];
+  EXPECT_DOUBLE_EQ(difference(skin, plain->mesh, v, inner(first).data(), share), 0);
+  EXPECT_DOUBLE_EQ(difference(skin, plain->mesh, v, inner(second).data(), share), 1);
+  EXPECT_DOUBLE_EQ(difference(skin, plain->mesh, v, inner(third).data(), share), 0.25);
 }
 
 TEST(Links, pieces_of_different_tags_stay_apart) {
