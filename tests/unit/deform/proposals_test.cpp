@@ -1,4 +1,4 @@
-// Handles proposed for shapes whose list is known: feet, tips, ends, joints and the middle.
+// Handles proposed for a shape whose list is known: a foot, tips, and joints of a skeleton.
 #include "deform/proposals.h"
 
 #include <gtest/gtest.h>
@@ -118,39 +118,6 @@ TEST(HandleProposals, of_a_lying_tube_are_a_foot_its_ends_and_joints_by_the_skel
   const std::vector<HandleProposal> two = propose(*core, options);
   ASSERT_EQ(two.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(two[i].vertex, list[i].vertex);
-}
-
-TEST(HandleProposals, of_a_flat_sheet_have_no_foot_and_the_middle_holds) {
-  const auto core = hf_test::make_core(hf_test::grid(20, 20));
-  auto options = plain();
-  options.up = {0, 0, 1};
-  const std::vector<HandleProposal> list = propose(*core, options);
-  expect_list(*core, list);
-  EXPECT_TRUE(of(list, HandleReason::foot).empty());
-  ASSERT_EQ(of(list, HandleReason::middle).size(), 1u);
-  EXPECT_TRUE(of(list, HandleReason::middle)[0].pinned);
-  EXPECT_EQ(list[0].reason, HandleReason::middle);
-}
-
-// A ring in the air has no foot, and no tip of half the box, so it gets its two ends, opposite each other. A speck gets
-// nothing.
-TEST(HandleProposals, of_a_piece_without_a_tip_are_its_two_ends) {
-  PlainMesh mesh = tube(16, 41, 8);
-  PlainMesh ring = hf_test::torus(40, 12, 0.0), speck = hf_test::torus(8, 6, 0.0);
-  for (std::size_t i = 0; i < ring.positions.size(); ++i) ring.positions[i] += i % 3 == 1 ? 9.0 : 0.0;
-  for (std::size_t i = 0; i < speck.positions.size(); ++i)
-    speck.positions[i] = 0.02 * speck.positions[i] + (i % 3 == 1 ? 9.0 : 0.0);
-  append(mesh, ring, 0), append(mesh, speck, 20);
-  const auto core = hf_test::make_core(mesh);
-  auto options = plain();
-  options.least_length = 0.5;
-  const std::vector<HandleProposal> list = propose(*core, options);
-  expect_list(*core, list);
-  const auto ends = of(list, HandleReason::end);
-  ASSERT_EQ(ends.size(), 2u);
-  EXPECT_GT(norm(ends[0].position - ends[1].position), 5.5);
-  for (const HandleProposal& p : ends) EXPECT_GT(p.position.y, 5);
-  for (const HandleProposal& p : list) EXPECT_LT(p.position.x, 15);
 }
 
 }  // namespace

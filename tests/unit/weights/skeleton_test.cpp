@@ -1,15 +1,12 @@
-// Where bones end that are given as joints, which side of a skin is outside, and how few weights are kept.
+// Where bones end that are given as joints, which side of a skin is outside, and what locks of removed bones become.
 #include "weights/skeleton.h"
 
-#include "base/unit_weights.h"
-#include "weights/prune.h"
 #include "weights_support.h"
 
 namespace {
 
 using namespace hf_test;
 using hf_inner::Bones;
-using hf_inner::Share;
 using hf_inner::Vec3;
 using hf_inner::Weights;
 
@@ -99,40 +96,6 @@ TEST(Skeleton, LocksOfRemovedBonesGo) {
   const Index first[] = {0};
   weights.set_bones(last, {first, 1});
   EXPECT_FALSE(weights.state().inputs->locks);  // no lock is left
-}
-
-// Locked weights come first and stay; the rest is split among the others, or goes to the first lock.
-TEST(Prune, LockedWeightsStayAndTheSumIsOne) {
-  hf_inner::Memory memory;
-  const auto written = [&](std::vector<Share> free, std::vector<Share> locks, std::vector<std::uint32_t>& joints) {
-    hf_inner::Vector<Share> shares(free.begin(), free.end(), &memory), locked(locks.begin(), locks.end(), &memory);
-    joints.assign(4, 99);
-    std::vector<float> weights(4, -1);
-    hf_inner::write_influences(shares, locked, true, 4, joints.data(), weights.data());
-    float sum = 0;
-    for (const float w : weights) sum += w;
-    EXPECT_EQ(sum, 1.0f);
-    return weights;
-  };
-  const double one = hf_inner::weight_units;
-  std::vector<std::uint32_t> joints;
-  auto weights = written({{5, 0.6}, {6, 0.4}, {7, 0.01}}, {{2, 0.25 * one}}, joints);
-  EXPECT_EQ(joints[0], 5u);
-  EXPECT_EQ(joints[2], 2u);
-  EXPECT_EQ(weights[2], 0.25f);
-  EXPECT_NEAR(weights[0], 0.45f, 1e-6f);
-  weights = written({}, {{2, 0.25 * one}, {3, 0.5 * one}}, joints);  // nothing else can take the rest
-  EXPECT_EQ(weights[0], 0.5f);
-  EXPECT_EQ(weights[1], 0.5f);
-  EXPECT_EQ(joints[0] + joints[1], 5u);
-  weights = written({}, {}, joints);
-  EXPECT_EQ(joints[0], 0u);
-  EXPECT_EQ(weights[0], 1.0f);
-  weights = written({{8, -1e-9}}, {}, joints);
-  EXPECT_EQ(joints[0], 8u);
-  weights = written({{4, 0.5}}, {{1, 0.7 * one}, {2, 0.7 * one}, {3, 0.1 * one}}, joints);  // locks above 1
-  EXPECT_EQ(joints[0], 1u);
-  EXPECT_NEAR(weights[1], 0.3f, 1e-6f);
 }
 
 }  // namespace
