@@ -7,7 +7,6 @@
 #include <cstdio>
 
 #include "common/animate.h"
-#include "common/links.h"
 
 namespace samples {
 namespace {
@@ -24,12 +23,6 @@ void print(std::string& out, const char* format, ...) {
   std::vsnprintf(line, sizeof line, format, arguments);
   va_end(arguments);
   out += line;
-}
-
-double diagonal_of(const FlatMesh& mesh) {
-  glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
-  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-  return glm::length(high - low);
 }
 
 }  // namespace
@@ -73,10 +66,6 @@ RunReport make_report(Session& session, const std::vector<PlayedClip>& clips, co
   for (const PlayedClip& clip : clips) {
     out.clip_names.push_back(clip.clip.name), out.frames.push_back(clip.clip.times.size());
     out.feet.push_back(clip.feet), out.frame_ms.push_back(clip.frame_ms);
-    WidestGap widest(session.target_surface());
-    for (size_t f = 0; f < clip.target_frames.size(); ++f)
-      widest.take(clip.target_frames[f], "in frame " + std::to_string(f));
-    out.gaps.push_back(widest.sentence(diagonal_of(session.target_flat())));
   }
   out.clusters = session.cluster_count(), out.scale = session.scale();
   out.setup_ms = session.setup_ms(), out.prepare_ms = session.prepare_ms(), out.edit_ms = session.edit_ms();
@@ -116,7 +105,6 @@ std::string to_text(const RunReport& report, const std::string& heading) {
           report.clip_names[c].c_str(), report.frames[c], report.frame_ms[c], report.feet[c].path_mean,
           report.feet[c].path_max, report.feet[c].planted_mean, report.feet[c].planted_max, report.feet[c].sunk,
           report.feet[c].surface_sunk);
-    if (!report.gaps[c].empty()) out += "  " + report.gaps[c] + "\n";
   }
   if (report.written_as == "skin")
     print(out, "  read back     %.1e of the box at keys; half-way between keys about %.1e\n", report.replay.key_max,
@@ -170,8 +158,7 @@ nlohmann::json to_json(const RunReport& report) {
                      {"planted", report.feet[c].planted},
                      {"planted_mean", report.feet[c].planted_mean},
                      {"planted_max", report.feet[c].planted_max},
-                     {"surface_sunk", report.feet[c].surface_sunk},
-                     {"gaps", report.gaps[c]}});
+                     {"surface_sunk", report.feet[c].surface_sunk}});
     if (c < report.written_feet.size()) {
       clips.back()["written_planted_max"] = report.written_feet[c].planted_max;
       clips.back()["written_planted_mean"] = report.written_feet[c].planted_mean;

@@ -26,7 +26,6 @@ struct RunReport {
   std::vector<size_t> frames;
   std::vector<FootReport> feet;
   std::vector<double> frame_ms;
-  std::vector<std::string> gaps;  // a sentence for each clip; empty ones where the target has no links
   ReplayReport replay;
   std::string written_as = "skin";          // skin, own skin, morph targets, frames
   double written_rms = 0, written_max = 0;  // of own skin and morph targets: from the computed frames, in box diagonals
