@@ -5,6 +5,16 @@
 #include "base/error.h"
 
 namespace hf_inner {
+namespace {
+
+// Refuses counts that no valid list can have, before any list is read and before any allocation depends on them.
+void check_counts(const FieldEdit& edit, std::uint32_t there) {
+  check_site_count(edit.remove_count, there);
+  const std::uint32_t left = there - edit.remove_count;
+  check_site_count(edit.move_count, left), check_site_count(edit.set_count, left);
+}
+
+}  // namespace
 
 ScalarField::ScalarField(std::shared_ptr<const Core> core, EngineKind engine, double penalty, std::int32_t channels,
                          std::uint32_t site_limit)
@@ -60,6 +70,7 @@ bool ScalarField::adopt(const SiteSet& next) noexcept {
 
 void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
   const std::lock_guard<std::mutex> lock(guard_);
+  check_counts(edit, sites_.count());
   SiteSet next(sites_, memory());
   Vector<std::uint32_t> numbers(&memory());
   next.remove(edit.remove_count, edit.remove_sites);

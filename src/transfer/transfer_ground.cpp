@@ -154,6 +154,10 @@ bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) co
     for (std::size_t c = 0; c < count; ++c) p.rises[c] = std::max(p.rises[c], p.falloff[d * count + c] * p.depths[d]);
   }
   for (std::size_t c = 0; c < count; ++c) p.shifts[c] = p.shifts[c] + share * p.rises[c] * up;
+  // Only regions that the caller holds are put back: the others may rise, which moves no foot along the ground.
+  p.holds.clear();
+  for (const Hold& hold : p.given_hold)
+    if (hold.share > 0) p.holds.push_back(hold);
   p.translations.hold({p.holds.data(), p.holds.size()}, up, p.matrices.data(), p.shifts.data());
   return true;
 }

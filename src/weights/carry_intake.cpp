@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/arguments.h"
+#include "base/elementary.h"
 #include "weights/bone_names.h"
 #include "weights/constants.h"
 #include "weights/intake.h"
@@ -52,7 +53,7 @@ MatchOptions match_options(const Desc& desc, double scale) {
   out.distance = desc.distance == 0 ? carry_distance : desc.distance / scale;
   const double angle = desc.angle == 0 ? carry_angle : desc.angle;
   // A hair below the cosine: equal normals agree whatever their rounding.
-  out.cosine = angle >= most_angle - 0.01 ? -2 : std::cos(angle) - 1e-12;
+  out.cosine = angle >= most_angle - 0.01 ? -2 : cosine(angle) - 1e-12;
   out.influences = read_weight_count(desc.weight_count);
   return out;
 }
