@@ -263,7 +263,7 @@ constexpr std::int32_t floating_steps = 8;
 constexpr double thin_from = 0.006, thin_to = 2 * thin_from;
 // Depth (in boxes) that thin parts may sink: with what the rounds leave, no part is deeper than 0.01. Without a bound,
 // whole tails of dinosaurs go under the ground.
-constexpr double thin_depth = 0.006;
+constexpr double thin_depth = 0.005;
 // Share of a cluster's area vectors that do not cancel, above which it is a patch of a larger body and not a thin part.
 constexpr double open_share = 0.5;
 // A frame with a smaller share of non-rigid motion is not lifted above the ground. Halving or doubling it changes no

@@ -58,6 +58,7 @@ struct Transfer::Prepared {
         loose(&memory),
         holds(&memory),
         given_hold(&memory),
+        region_depths(&memory),
         rides(&memory),
         columns(&memory),
         blended(&memory),
@@ -99,6 +100,7 @@ struct Transfer::Prepared {
   Vector<Anchor> loose;     // pairs whose target region does not follow the source's path
   Vector<Hold> holds;       // this round's constraints: room for one per pair and held vertex
   Vector<Hold> given_hold;  // constraint of the caller per region; share 0: none
+  Vector<double> region_depths;  // how deep each region sinks
   // Data that keeps the surface above the ground.
   Vector<std::int32_t> rides;  // by target vertex: the region it moves with, or -1
   Vector<BlendColumns> columns;

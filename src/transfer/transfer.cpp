@@ -209,6 +209,7 @@ void Transfer::prepare_anchors(Prepared& p) const {
   p.translations.prepare(*target_core_, target_area_, p.clusters, {regions.data(), regions.size()},
                          {loose.data(), loose.size()}, options);
   p.holds.reserve(numbers_.size()), p.given_hold.assign(numbers_.size() + 1, Hold());
+  p.region_depths.assign(numbers_.size() + 1, 0.0);
   for (std::size_t k = 0; k < p.anchors.size(); ++k) p.anchors[k].cluster = p.translations.heaviest(k);
 
   // Finds the vertices that are raised with the region of a pair, because they blend from the same clusters.

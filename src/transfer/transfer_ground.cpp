@@ -137,6 +137,7 @@ double Transfer::floating_height(Prepared& p, Vec3 up, double allowed) const noe
 bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) const {
   const std::size_t count = p.depths.size();
   std::fill(p.depths.begin(), p.depths.end(), 0.0);
+  std::fill(p.region_depths.begin(), p.region_depths.end(), 0.0);
   double deepest = 0;
   for (std::size_t v = 0; v < p.blended.size(); ++v) {
     double depth = allowed - dot(up, p.blended[v]);
@@ -146,6 +147,7 @@ bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) co
     const std::size_t cluster = at(p.clusters.joint[v * blend_count]);
     depth = std::max(0.0, depth - p.sinks[cluster]);
     p.depths[cluster] = std::max(p.depths[cluster], depth), deepest = std::max(deepest, depth);
+    if (row >= 0) p.region_depths[at(row)] = std::max(p.region_depths[at(row)], depth);
   }
   if (!(deepest > least_depth)) return false;
   std::fill(p.rises.begin(), p.rises.end(), 0.0);
@@ -154,10 +156,12 @@ bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) co
     for (std::size_t c = 0; c < count; ++c) p.rises[c] = std::max(p.rises[c], p.falloff[d * count + c] * p.depths[d]);
   }
   for (std::size_t c = 0; c < count; ++c) p.shifts[c] = p.shifts[c] + share * p.rises[c] * up;
-  // Only regions that the caller holds are put back: the others may rise, which moves no foot along the ground.
-  p.holds.clear();
-  for (const Hold& hold : p.given_hold)
-    if (hold.share > 0) p.holds.push_back(hold);
+  // Regions that do not sink are put back. One that sinks may rise, the more of it the deeper it sinks; a place of the
+  // caller's never moves.
+  for (Hold& hold : p.holds) {
+    if (p.given_hold[hold.row].share > 0) continue;
+    hold.share *= 1 - smooth_step(0, firm_depth, p.region_depths[hold.row]);
+  }
   p.translations.hold({p.holds.data(), p.holds.size()}, up, p.matrices.data(), p.shifts.data());
   return true;
 }

@@ -27,7 +27,7 @@ TEST(Skeleton, JointsEndAtTheirChildrenAlongTheirAxisOrInTheSkin) {
   const Vec3 side = {0, std::cos(turn), std::sin(turn)};
   add({0.5, 0, 0}, -1);             // 0: the mean of its children
   add({3, 0.3, 0}, 0);              // 1: its only child
-  add({3, -0.3, 0}, 0);             // 2: as long as the way from its parent
+  add({3, -0.3, 0}, 0);             // 2: a leaf, 1.5 times the way from its parent
   add({6.07, 0, 0}, 1, side);       // 3: along its axis, as far as the skin lets it
   add({3, 0.3, 0}, 1);              // 4: on its parent: a point
   add({5, -0.3, 0}, 2, {}, false);  // 5: no bone
@@ -37,6 +37,7 @@ TEST(Skeleton, JointsEndAtTheirChildrenAlongTheirAxisOrInTheSkin) {
   add({4, 0, 0.2}, -1, {1, 0, 0});  // 9: the child along its axis
   add({4, 0.5, 0.2}, 9);            // 10
   add({5, 0, 0.2}, 9);              // 11
+  add({1, -0.5, 0}, 7, {}, false);  // 12: no bone; with one child off its axis alone, 7 would reach to it
   const auto segments = hf_inner::bone_segments(bones, mesh, skin->skin, memory);
   ASSERT_EQ(segments.size(), 11u);
   const auto tail = [&](Index bone) {
@@ -49,8 +50,8 @@ TEST(Skeleton, JointsEndAtTheirChildrenAlongTheirAxisOrInTheSkin) {
   const double way = norm(bones.head[2] - bones.head[0]);
   expect_near(tail(0), {3, 0, 0}, "mean of two children");
   expect_near(tail(1), bones.head[3], "only child");
-  expect_near(tail(2), bones.head[2] + (bones.head[2] - bones.head[0]), "leaf");
-  expect_near(tail(3), bones.head[3] + 0.9 * std::cos(turn) * side, "skin");
+  expect_near(tail(2), bones.head[2] + 1.5 * (bones.head[2] - bones.head[0]), "leaf");
+  expect_near(tail(3), bones.head[3] + std::cos(turn) * side, "skin");
   expect_near(tail(4), bones.head[4], "on its parent");
   expect_near(tail(6), bones.head[6], "alone");
   expect_near(tail(7), bones.head[7] + Vec3{0.5 * way, 0, 0}, "hub");  // way is the middle one of six lengths
