@@ -798,12 +798,12 @@ class Transfer {
 
 // The bones of a skeleton, in the unit and frame of the mesh.
 struct Bones {
-  std::vector<double> heads;       // three numbers per bone
-  std::vector<double> tails;       // the same, or empty: heads are joints
-  std::vector<double> axes;        // without tails: where each bone points, or empty
-  std::vector<uint32_t> parents;   // HF_NO_INDEX for a root; empty: all are roots
-  std::vector<int32_t> deforms;    // empty: all deform
-  std::vector<uint32_t> sources;   // set_bones: the number before, or empty
+  std::vector<double> heads;      // three numbers per bone
+  std::vector<double> tails;      // the same, or empty: heads are joints
+  std::vector<double> axes;       // without tails: where each bone points, or empty
+  std::vector<uint32_t> parents;  // HF_NO_INDEX for a root; empty: all are roots
+  std::vector<int32_t> deforms;   // empty: all deform
+  std::vector<uint32_t> sources;  // set_bones: the number before, or empty
   size_t count() const noexcept { return heads.size() / 3; }
 };
 
@@ -895,8 +895,7 @@ class Weights {
     const size_t count = bones.count();
     const auto fits = [&](size_t size, size_t width) { return size == 0 || size == count * width; };
     if (bones.heads.size() % 3 != 0 || !fits(bones.tails.size(), 3) || !fits(bones.axes.size(), 3) ||
-        !fits(bones.parents.size(), 1) || !fits(bones.deforms.size(), 1) ||
-        !fits(bones.sources.size(), 1))
+        !fits(bones.parents.size(), 1) || !fits(bones.deforms.size(), 1) || !fits(bones.sources.size(), 1))
       throw std::invalid_argument("bones: all lists need as many bones as heads");
     auto desc = make<hf_bones_desc>();
     desc.bone_count = static_cast<uint32_t>(count), desc.heads = bones.heads.data();
@@ -942,8 +941,8 @@ inline VertexWeights carry_weights(const Surface& source, const VertexWeights& g
 
 // Mirrors weights. options: plane, partners, to, distance, angle and weight_count count. heads: three numbers for each
 // bone. names: one for each bone, or empty.
-inline VertexWeights mirror_weights(const Surface& surface, const VertexWeights& given, const std::vector<double>& heads,
-                                    const std::vector<std::string>& names = {},
+inline VertexWeights mirror_weights(const Surface& surface, const VertexWeights& given,
+                                    const std::vector<double>& heads, const std::vector<std::string>& names = {},
                                     hf_mirror_desc options = make<hf_mirror_desc>(), hf_mirror_info* info = nullptr,
                                     std::vector<uint32_t>* partners = nullptr,
                                     std::vector<uint32_t>* pairings = nullptr) {

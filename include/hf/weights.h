@@ -121,7 +121,7 @@ enum {
   HF_BONE_COINCIDENT = 2,   /* it lies exactly on a bone of a lower number */
   HF_BONE_INFORMS_NONE = 4, /* no vertex has it as its nearest bone in sight */
   HF_BONE_OUTSIDE = 8,      /* no part of it is inside the skin */
-  HF_BONE_HELPER = 16       /* a proposal, from the others: it looks like a helper that should not deform */
+  HF_BONE_HELPER = 16 /* a proposal that follows from the other flags: it looks like a helper that should not deform */
 };
 
 /* Writes what was found about each bone: flags of HF_BONE_* and the vertices that ask for it, in uint32_t[capacity].
@@ -170,13 +170,13 @@ HF_API hf_result hf_weights_redo(hf_weights weights);
 
 /* Reasons why a bone looks like a helper: a root, a target or a control that carries no skin. Bits. */
 enum {
-  HF_HELPER_PROPOSED = 1,      /* the reasons together are enough to propose it */
-  HF_HELPER_NAME_ROOT = 2,     /* its name says root, armature, master, ... */
-  HF_HELPER_NAME_CONTROL = 4,  /* its name says pole, target, IK, control, ... */
-  HF_HELPER_NAME_END = 8,      /* its name says end, tip, slot, ... */
-  HF_HELPER_ROOT = 16,         /* it has no parent, but children */
-  HF_HELPER_APART = 32,        /* it has no child, and its parent is a root with other bones */
-  HF_HELPER_NO_LENGTH = 64,    /* as HF_BONE_NO_LENGTH, and so on */
+  HF_HELPER_PROPOSED = 1,     /* the reasons together are enough to propose it */
+  HF_HELPER_NAME_ROOT = 2,    /* its name says root, armature, master, ... */
+  HF_HELPER_NAME_CONTROL = 4, /* its name says pole, target, IK, control, ... */
+  HF_HELPER_NAME_END = 8,     /* its name says end, tip, slot, ... */
+  HF_HELPER_ROOT = 16,        /* it has no parent, but children */
+  HF_HELPER_APART = 32,       /* it has no child, and its parent is a root with other bones */
+  HF_HELPER_NO_LENGTH = 64,   /* as HF_BONE_NO_LENGTH, and so on */
   HF_HELPER_COINCIDENT = 128,
   HF_HELPER_OUTSIDE = 256,
   HF_HELPER_INFORMS_NONE = 512
@@ -216,13 +216,13 @@ typedef struct hf_carry_info {
 
 /* Carries weights from one surface to another: clothes, hair, levels of detail, new topology. Both stand in the same
  * frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-harmonic field fills
- * in the vertices without such a point. An island without any takes the weights of the nearest points. inout_weights: as in
- * hf_weights_get, with weight_count of the desc. out_info: NULL, or receives the counts. Cost: a search for each vertex,
- * one factorisation, and a sweep for every 8 bones. Errors: HF_ERROR_EMPTY (all weights are 0), HF_ERROR_NON_FINITE and
- * HF_ERROR_INVALID_ARGUMENT (a weight; index = vertex; distance, angle, influence_count, weight_count),
- * HF_ERROR_OUT_OF_RANGE (a joint of 1,048,576 or more; index = vertex), HF_ERROR_TOO_SMALL (vertex_capacity),
- * HF_ERROR_TOO_LARGE (joints_u16 with a joint above 65,535), HF_ERROR_UNSUPPORTED (a surface made of a graph),
- * HF_ERROR_CANCELLED. Thread safety: reads both surfaces. Since 0.1. */
+ * in the vertices without such a point. An island without any takes the weights of the nearest points. inout_weights:
+ * as in hf_weights_get, with weight_count of the desc. out_info: NULL, or receives the counts. Cost: a search for each
+ * vertex, one factorisation, and a sweep for every 8 bones. Errors: HF_ERROR_EMPTY (all weights are 0),
+ * HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (a weight; index = vertex; distance, angle, influence_count,
+ * weight_count), HF_ERROR_OUT_OF_RANGE (a joint of 1,048,576 or more; index = vertex), HF_ERROR_TOO_SMALL
+ * (vertex_capacity), HF_ERROR_TOO_LARGE (joints_u16 with a joint above 65,535), HF_ERROR_UNSUPPORTED (a surface made of
+ * a graph), HF_ERROR_CANCELLED. Thread safety: reads both surfaces. Since 0.1. */
 HF_API hf_result hf_weights_carry(hf_surface source, hf_surface target, const hf_carry_desc* desc,
                                   hf_weights_out* inout_weights, hf_carry_info* out_info);
 
@@ -252,27 +252,27 @@ enum {
 /* Weights to mirror. */
 typedef struct hf_mirror_desc {
   uint32_t struct_size;
-  uint32_t bone_count;       /* >= 1 */
-  const double* heads;       /* [bone_count][3] the joints at rest, in the frame of the mesh */
-  const char* names;         /* one line for each bone in UTF-8, or NULL: bones are paired by their places */
-  const uint32_t* partners;  /* [bone_count] the bone of the other side, HF_NO_INDEX: find it; or NULL */
-  const double* plane;       /* [6] a point and a normal, or NULL: find the plane */
-  uint32_t influence_count;  /* bones of each vertex in the arrays, 1 to 64 */
-  int32_t to;                /* HF_MIRROR_* */
-  const uint32_t* joints;    /* [vertices][influence_count] */
-  const float* weights;      /* the same, >= 0; a vertex whose weights are all 0 gives none */
-  double distance;           /* as in hf_carry_desc */
-  double angle;              /* as in hf_carry_desc */
-  uint32_t weight_count;     /* bones of each vertex in the result: 4 or 8; 0: 4 */
-  uint32_t reserved;         /* 0 */
-  hf_progress progress;      /* NULL, or an object to poll and cancel through */
+  uint32_t bone_count;      /* >= 1 */
+  const double* heads;      /* [bone_count][3] the joints at rest, in the frame of the mesh */
+  const char* names;        /* one line for each bone in UTF-8, or NULL: bones are paired by their places */
+  const uint32_t* partners; /* [bone_count] the bone of the other side, HF_NO_INDEX: find it; or NULL */
+  const double* plane;      /* [6] a point and a normal, or NULL: find the plane */
+  uint32_t influence_count; /* bones of each vertex in the arrays, 1 to 64 */
+  int32_t to;               /* HF_MIRROR_* */
+  const uint32_t* joints;   /* [vertices][influence_count] */
+  const float* weights;     /* the same, >= 0; a vertex whose weights are all 0 gives none */
+  double distance;          /* as in hf_carry_desc */
+  double angle;             /* as in hf_carry_desc */
+  uint32_t weight_count;    /* bones of each vertex in the result: 4 or 8; 0: 4 */
+  uint32_t reserved;        /* 0 */
+  hf_progress progress;     /* NULL, or an object to poll and cancel through */
 } hf_mirror_desc;
 
 /* The findings of a mirror. Vertices are counted as given; lengths are in the unit of the mesh. */
 typedef struct hf_mirror_info {
   uint32_t struct_size;
   uint32_t vertex_count;
-  int32_t plane_from; /* HF_MIRROR_PLANE_* */
+  int32_t plane_from;   /* HF_MIRROR_PLANE_* */
   uint32_t named_count; /* bones by HF_MIRROR_BONE_* */
   uint32_t placed_count;
   uint32_t centre_count;
@@ -288,21 +288,21 @@ typedef struct hf_mirror_info {
   uint32_t worst_vertex; /* the vertex farthest off, HF_NO_INDEX: none was mirrored */
   double point[3];       /* of the plane */
   double normal[3];
-  double bone_off;        /* mean distance of reflected bones from their partners */
+  double bone_off; /* mean distance of reflected bones from their partners */
   double worst_bone_off;
-  double vertex_off;      /* mean distance of reflected vertices from the surface */
+  double vertex_off; /* mean distance of reflected vertices from the surface */
   double worst_vertex_off;
 } hf_mirror_info;
 
 /* Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the nearest
- * point to its reflection whose normal agrees, with the bones of the other side. One bi-harmonic field fills in the rest.
- * The plane comes from bones with partners, else from the surface. A found normal has a positive largest component, so
- * along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x. inout_weights: as in hf_weights_get. out_bones: uint32_t
- * [bone_count] partners, or NULL. out_pairings: uint32_t[bone_count] HF_MIRROR_BONE_*, or NULL. out_info: NULL, or
- * receives what was found. Errors: as hf_weights_carry, HF_ERROR_EMPTY (no bone; no weight on the side that gives),
- * HF_ERROR_OUT_OF_RANGE (a partner, index = bone; a joint, index = vertex), HF_ERROR_INVALID_ARGUMENT (names with
- * another count of lines; a partner that has another partner, index = bone; a normal of length 0). Thread safety: reads
- * `surface`. Since 0.1. */
+ * point to its reflection whose normal agrees, with the bones of the other side. One bi-harmonic field fills in the
+ * rest. The plane comes from bones with partners, else from the surface. A found normal has a positive largest
+ * component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x. inout_weights: as in hf_weights_get. out_bones:
+ * uint32_t [bone_count] partners, or NULL. out_pairings: uint32_t[bone_count] HF_MIRROR_BONE_*, or NULL. out_info:
+ * NULL, or receives what was found. Errors: as hf_weights_carry, HF_ERROR_EMPTY (no bone; no weight on the side that
+ * gives), HF_ERROR_OUT_OF_RANGE (a partner, index = bone; a joint, index = vertex), HF_ERROR_INVALID_ARGUMENT (names
+ * with another count of lines; a partner that has another partner, index = bone; a normal of length 0). Thread safety:
+ * reads `surface`. Since 0.1. */
 HF_API hf_result hf_weights_mirror(hf_surface surface, const hf_mirror_desc* desc, hf_weights_out* inout_weights,
                                    uint32_t* out_bones, uint32_t* out_pairings, hf_mirror_info* out_info);
 

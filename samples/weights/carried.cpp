@@ -53,8 +53,12 @@ CarriedWeights carry_from(const Model& from, const Model& model, const Rig& rig,
   auto info = hf::make<hf_carry_info>();
   CarriedWeights out;
   out.weights = taken(hf::carry_weights(at_rest(from, source), given, at_rest(model, rig), options, &info));
-  out.report = {{"from", from.name},           {"matched", info.matched_count}, {"solved", info.solved_count},
-                {"carried", info.carried_count}, {"rigid", info.rigid_count},     {"isolated", info.isolated_count},
+  out.report = {{"from", from.name},
+                {"matched", info.matched_count},
+                {"solved", info.solved_count},
+                {"carried", info.carried_count},
+                {"rigid", info.rigid_count},
+                {"isolated", info.isolated_count},
                 {"islands", info.guessed_island_count}};
   char line[200];
   std::snprintf(line, sizeof line, "carried      %u matched, %u filled in; guessed: %u carried, %u rigid, %u isolated",
@@ -87,13 +91,14 @@ CarriedWeights mirror_given(const hf::Surface& surface, const Rig& rig, int32_t 
     out.report["pairs"].push_back(
         {{"joint", rig.names[b]}, {"partner", rig.names[partners[b]]}, {"by", pairing_names[pairings[b]]}});
   char line[300];
-  std::snprintf(line, sizeof line,
-                "mirrored     plane of the %s; joints: %u by name, %u by place, %u in the middle, %u alone, worst %.2f %% "
-                "off\nvertices     %u kept, %u matched, %u filled in, %u guessed; off the surface: mean %.3f %%, worst "
-                "%.2f %%",
-                plane_names[info.plane_from], info.named_count, info.placed_count, info.centre_count, info.alone_count,
-                unit * info.worst_bone_off, info.kept_count, info.matched_count, info.solved_count,
-                info.carried_count + info.rigid_count, unit * info.vertex_off, unit * info.worst_vertex_off);
+  std::snprintf(
+      line, sizeof line,
+      "mirrored     plane of the %s; joints: %u by name, %u by place, %u in the middle, %u alone, worst %.2f %% "
+      "off\nvertices     %u kept, %u matched, %u filled in, %u guessed; off the surface: mean %.3f %%, worst "
+      "%.2f %%",
+      plane_names[info.plane_from], info.named_count, info.placed_count, info.centre_count, info.alone_count,
+      unit * info.worst_bone_off, info.kept_count, info.matched_count, info.solved_count,
+      info.carried_count + info.rigid_count, unit * info.vertex_off, unit * info.worst_vertex_off);
   out.line = line;
   return out;
 }

@@ -31,9 +31,12 @@ const char* const usage =
     "  --weights N        joints per vertex, 4 or 8 (4)\n"
     "  --guide N          sets N pins, each with the weights of the file where the pose is farthest from the file's\n"
     "  --all              all joints deform; else those that have weights in the file\n"
-    "  --carry FROM.glb   takes the weights of another model in the same place; a model without joints gets its joints\n"
-    "  --mirror SIDE      mirrors the weights of the file to a side of the plane of symmetry, or takes the mean of both\n"
-    "  --skeleton FILE    a model without joints gets those of another; they stand where nodes have their names, where\n"
+    "  --carry FROM.glb   takes the weights of another model in the same place; a model without joints gets its "
+    "joints\n"
+    "  --mirror SIDE      mirrors the weights of the file to a side of the plane of symmetry, or takes the mean of "
+    "both\n"
+    "  --skeleton FILE    a model without joints gets those of another; they stand where nodes have their names, "
+    "where\n"
     "                     --pairs (a pairs file of hf_transfer) leads, and between by the boxes\n"
     "  --helpers          prints the joints that look like helpers, and why; use it with --all\n"
     "  --sheet FILE       a picture: weights given, computed, their difference\n"
@@ -220,10 +223,15 @@ double milliseconds(const std::chrono::steady_clock::time_point& begin) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
-constexpr std::pair<uint32_t, const char*> reason_names[] = {
-    {HF_HELPER_NAME_ROOT, "named root"},   {HF_HELPER_NAME_CONTROL, "named control"}, {HF_HELPER_NAME_END, "named end"},
-    {HF_HELPER_ROOT, "root"},              {HF_HELPER_APART, "apart"},                {HF_HELPER_NO_LENGTH, "no length"},
-    {HF_HELPER_COINCIDENT, "coincident"},  {HF_HELPER_OUTSIDE, "outside"},            {HF_HELPER_INFORMS_NONE, "informs none"}};
+constexpr std::pair<uint32_t, const char*> reason_names[] = {{HF_HELPER_NAME_ROOT, "named root"},
+                                                             {HF_HELPER_NAME_CONTROL, "named control"},
+                                                             {HF_HELPER_NAME_END, "named end"},
+                                                             {HF_HELPER_ROOT, "root"},
+                                                             {HF_HELPER_APART, "apart"},
+                                                             {HF_HELPER_NO_LENGTH, "no length"},
+                                                             {HF_HELPER_COINCIDENT, "coincident"},
+                                                             {HF_HELPER_OUTSIDE, "outside"},
+                                                             {HF_HELPER_INFORMS_NONE, "informs none"}};
 
 nlohmann::json reasons_of(uint32_t reasons) {
   nlohmann::json out = nlohmann::json::array();
@@ -240,7 +248,8 @@ void print_helpers(const Rig& rig, const hf::Weights& weights) {
   for (size_t i = 0; i < rig.given.joints.size(); ++i) weighted[rig.given.joints[i]] |= rig.given.weights[i] > 0;
   for (size_t j = 0; j < reasons.size(); ++j)
     std::printf("joint %s %s %s %u %s\n", rig.names[j].c_str(), weighted[j] ? "weighted" : "bare",
-                (reasons[j] & HF_HELPER_PROPOSED) ? "proposed" : "-", reasons[j], reasons_of(reasons[j]).dump().c_str());
+                (reasons[j] & HF_HELPER_PROPOSED) ? "proposed" : "-", reasons[j],
+                reasons_of(reasons[j]).dump().c_str());
 }
 
 nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weights& weights, const Comparison& found,
@@ -291,7 +300,8 @@ Model read_model(const Command& options, Rig& rig, bool& given) {
     return model;
   }
   given = false;
-  if (!model.skins.empty()) throw std::runtime_error(model.name + ": the model has joints; --skeleton is for one without");
+  if (!model.skins.empty())
+    throw std::runtime_error(model.name + ": the model has joints; --skeleton is for one without");
   const Model source = read_gltf(other);
   std::vector<Landmark> landmarks = name_landmarks(source, model);
   if (!options.pairs.empty()) {

@@ -22,12 +22,12 @@ std::vector<Landmark> pair_landmarks(const std::filesystem::path& file, const Mo
 std::vector<Landmark> name_landmarks(const Model& source, const Model& target);
 
 struct TakenSkeleton {
-  Model model;                        // the target, baked, with joints and all vertices on the first of them
+  Model model;                         // the target, baked, with joints and all vertices on the first of them
   std::vector<std::string> deforming;  // joints that have weights in the source
 };
 
-// in_place: the joints stay where they are. Else they stand where the box of the source leads to in the box of the target, moved so that landmarks fit exactly. Throws
-// std::runtime_error if the source has no skin.
+// in_place: the joints stay where they are. Else they stand where the box of the source leads to in the box of the
+// target, moved so that landmarks fit exactly. Throws std::runtime_error if the source has no skin.
 TakenSkeleton take_skeleton(const Model& source, const Model& target, const std::vector<Landmark>& landmarks,
                             bool in_place = false);
 

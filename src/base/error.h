@@ -27,7 +27,6 @@ class Error final : public std::exception {
 
 // Throws Error. `index` is the vertex, triangle, site, handle or component that the message is about, or HF_NO_INDEX.
 // The message has one line and tells the caller what to do.
-[[noreturn]] void fail(hf_result code, std::uint32_t index, const char* format, ...)
-    HF_LIKE_PRINTF(3, 4);
+[[noreturn]] void fail(hf_result code, std::uint32_t index, const char* format, ...) HF_LIKE_PRINTF(3, 4);
 
 }  // namespace hf_inner

@@ -244,8 +244,8 @@ constexpr double least_near_share = 1e-20;
 constexpr double principal_turn = 0.9 * 3.14159265358979323846;
 // A smaller turn, in radians, has no axis.
 constexpr double least_axis_angle = 1e-9;
-// The old axis stays if the nearest turn is farther from the expected turn than the gap, and the step is shorter than the
-// second number. Both are squared radians.
+// The old axis stays if the nearest turn is farther from the expected turn than the gap, and the step is shorter than
+// the second number. Both are squared radians.
 constexpr double farthest_gap2 = 1.0, longest_step2 = 2.25;
 // Below this angle (radians) the first two terms of the sine's series are exact in double.
 constexpr double small_angle = 1e-4;

@@ -15,8 +15,8 @@ struct NormalRows {
 // A sum of normals with a length in this range can be squared in single precision.
 constexpr float shortest_sum = 1e-15f, longest_sum = 1e15f;
 
-// Add the normals of `count` triangles, three corners each, to the sums of their corners. The border functions only add to the
-// vertices [first, last).
+// Add the normals of `count` triangles, three corners each, to the sums of their corners. The border functions only add
+// to the vertices [first, last).
 void add_inner_normals_avx2(const NormalRows& rows, const std::int32_t* corners, std::int32_t count) noexcept;
 void add_border_normals_avx2(const NormalRows& rows, const std::int32_t* corners, std::int32_t count,
                              std::int32_t first, std::int32_t last) noexcept;

@@ -127,8 +127,7 @@ SolveReport solve_paper_pose(const PaperSystem& system, const Mesh& mesh, const 
       const RigidMotion old = state.motion[f];
       state.motion[f] = match_shape(system, mesh, f, old.rotation, [&](std::int32_t s) { return state.position[s]; });
       transforms[system.handle_count + f] = to_affine(state.motion[f]);
-      const double turned =
-          2.0 * std::sqrt(2.0) * sine(0.5 * angle_between(state.motion[f].rotation, old.rotation));
+      const double turned = 2.0 * std::sqrt(2.0) * sine(0.5 * angle_between(state.motion[f].rotation, old.rotation));
       report.last_change = std::max(report.last_change, turned);
       moved = std::max(moved, norm(state.motion[f].translation - old.translation));
     }

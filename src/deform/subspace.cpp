@@ -6,7 +6,6 @@
 
 #include "base/compiler.h"
 
-
 namespace hf_inner {
 namespace {
 

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <limits>
 
-
 #include "base/elementary.h"
 #include "base/error.h"
 #include "base/hypotenuse.h"

@@ -97,9 +97,9 @@ struct Transfer::Prepared {
   Vector<Quaternion> given, rotations;  // rotations from the source, and after turning to fit neighbours
   Vector<Mat3> matrices;
   Vector<Vec3> shifts, cluster_goals, goals;
-  Vector<Anchor> loose;     // pairs whose target region does not follow the source's path
-  Vector<Hold> holds;       // this round's constraints: room for one per pair and held vertex
-  Vector<Hold> given_hold;  // constraint of the caller per region; share 0: none
+  Vector<Anchor> loose;          // pairs whose target region does not follow the source's path
+  Vector<Hold> holds;            // this round's constraints: room for one per pair and held vertex
+  Vector<Hold> given_hold;       // constraint of the caller per region; share 0: none
   Vector<double> region_depths;  // how deep each region sinks
   // Data that keeps the surface above the ground.
   Vector<std::int32_t> rides;  // by target vertex: the region it moves with, or -1

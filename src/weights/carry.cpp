@@ -9,11 +9,11 @@
 namespace hf_inner {
 
 FilledWeights carry_weights(const Mesh& source, const SkinShape& source_skin, const GivenWeights& given,
-                            std::shared_ptr<const Core> target, const MatchOptions& options,
-                            const Surface* surface) {
+                            std::shared_ptr<const Core> target, const MatchOptions& options, const Surface* surface) {
   Memory& memory = *target->memory;
   const Mesh& mesh = target->mesh;
-  const WeightRows rows = read_rows(source, given, [](Index) { return true; }, memory);
+  const WeightRows rows = read_rows(
+      source, given, [](Index) { return true; }, memory);
   const WeightedShape shape(source, source_skin, rows, memory);
   if (shape.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no vertex of the source has a weight above 0");
   const SkinShape skin(mesh, memory);

@@ -57,8 +57,8 @@ Vector<Match> find_matches(const WeightedShape& source, const Core& target, cons
   return out;
 }
 
-// source, skin: of the surface with weights. target: a core of the other. surface: as in Fill. Throws HF_ERROR_EMPTY if no vertex of the
-// source has weights.
+// source, skin: of the surface with weights. target: a core of the other. surface: as in Fill. Throws HF_ERROR_EMPTY if
+// no vertex of the source has weights.
 FilledWeights carry_weights(const Mesh& source, const SkinShape& skin, const GivenWeights& given,
                             std::shared_ptr<const Core> target, const MatchOptions& options,
                             const Surface* surface = nullptr);

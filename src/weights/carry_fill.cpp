@@ -76,8 +76,8 @@ Solved solve(const Fill& fill, const Vector<std::uint8_t>& known, Memory& memory
   const Core& core = *fill.core;
   const Vector<Site> sites = choose_sites(fill, known, out, memory);
   const std::size_t n = at(core.size());
-  const auto rows = static_cast<std::size_t>(
-      std::count_if(out.row_of.begin(), out.row_of.end(), [](Index row) { return row >= 0; }));
+  const auto rows =
+      static_cast<std::size_t>(std::count_if(out.row_of.begin(), out.row_of.end(), [](Index row) { return row >= 0; }));
   if (rows == 0) return out;
   const Vector<Index> column = number_bones(fill, sites, out, memory);
   const std::shared_ptr<SiteSolver> engine = SiteSolver::make(EngineKind::green, solving_core(fill), 0);
@@ -102,7 +102,8 @@ Solved solve(const Fill& fill, const Vector<std::uint8_t>& known, Memory& memory
     }
     engine->solve(values.data(), static_cast<Index>(m), field.data(), nullptr);
     for (std::size_t v = 0; v < n; ++v) {
-      if (out.row_of[v] >= 0) std::copy_n(field.data() + v * m, m, out.field.data() + at(out.row_of[v]) * width + first);
+      if (out.row_of[v] >= 0)
+        std::copy_n(field.data() + v * m, m, out.field.data() + at(out.row_of[v]) * width + first);
     }
     report(static_cast<float>(first + m) / static_cast<float>(width));
   }

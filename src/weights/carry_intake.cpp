@@ -34,8 +34,7 @@ GivenWeights read_given(const Desc& desc, const Mesh& mesh, std::uint32_t limit)
         fail(HF_ERROR_INVALID_ARGUMENT, v, "weight %u of vertex %u is %g; it must not be negative", k, v,
              static_cast<double>(w));
       if (w > 0 && desc.joints[i] >= limit)
-        fail(HF_ERROR_OUT_OF_RANGE, v, "joint %u of vertex %u is %u; it must be below %u", k, v, desc.joints[i],
-             limit);
+        fail(HF_ERROR_OUT_OF_RANGE, v, "joint %u of vertex %u is %u; it must be below %u", k, v, desc.joints[i], limit);
     }
   }
   return {desc.influence_count, desc.joints, desc.weights};
@@ -88,8 +87,8 @@ Span<const char> read_bone_names(const char* names, std::size_t bones, Memory& m
   const Span<const char> text{names, std::strlen(names)};
   const std::size_t lines = split_names(text, memory).size();
   if (lines != bones)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "names has %zu lines, but there are %zu bones; end each with a newline",
-         lines, bones);
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "names has %zu lines, but there are %zu bones; end each with a newline", lines, bones);
   return text;
 }
 
@@ -111,8 +110,7 @@ MirrorBones read_mirror_bones(const hf_mirror_desc& desc, const Mesh& mesh, Memo
   const auto clamped = [](double x) { return std::min(std::max(x, -farthest), farthest); };
   for (std::uint32_t b = 0; b < desc.bone_count; ++b) {
     const double* p = desc.heads + 3 * std::size_t{b};
-    if (!is_finite_point(p))
-      fail(HF_ERROR_NON_FINITE, b, "heads: the point of bone %u is not finite", b);
+    if (!is_finite_point(p)) fail(HF_ERROR_NON_FINITE, b, "heads: the point of bone %u is not finite", b);
     const Vec3 inner = mesh.to_inner({p[0], p[1], p[2]});
     bones.heads.push_back({clamped(inner.x), clamped(inner.y), clamped(inner.z)});
   }

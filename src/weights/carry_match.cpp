@@ -30,8 +30,8 @@ Match WeightedShape::find(const Vec3& p, const Vec3& normal, double within, doub
         const Index t = triangle_[at(i)];
         const Index* v = mesh_.triangle(t);
         double w[3];
-        const double squared = squared_to_triangle(p, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])],
-                                                   mesh_.positions[at(v[2])], w);
+        const double squared =
+            squared_to_triangle(p, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])], mesh_.positions[at(v[2])], w);
         // Among equally near triangles the lowest number wins.
         if (!(squared < best.squared) && !(squared == best.squared && (best.triangle < 0 || t < best.triangle))) return;
         if (cosine > -1) {

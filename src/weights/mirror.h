@@ -22,7 +22,7 @@ struct MirrorOptions {
 struct MirrorBones {
   explicit MirrorBones(Memory& memory) : heads(&memory), partner(&memory), given(&memory) {}
   Vector<Vec3> heads;
-  Vector<Index> partner;        // by names or given, -1 where none is known
+  Vector<Index> partner;       // by names or given, -1 where none is known
   Vector<std::uint8_t> given;  // 1 where the caller gave it
 };
 

@@ -20,8 +20,8 @@ Vec3 column_of(const Mat3& axes, int c) noexcept { return {axes(0, c), axes(1, c
 // becomes that axis.
 void settle(MirrorPlane& plane) noexcept {
   double n[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
-  const int most = static_cast<int>(
-      std::max_element(n, n + 3, [](double a, double b) { return std::fabs(a) < std::fabs(b); }) - n);
+  const int most =
+      static_cast<int>(std::max_element(n, n + 3, [](double a, double b) { return std::fabs(a) < std::fabs(b); }) - n);
   if (n[most] < 0) plane.normal = -1.0 * plane.normal, plane.offset = -plane.offset;
   if (std::fabs(n[most]) < std::sqrt(1 - axis_slack * axis_slack)) return;
   plane.normal = {most == 0 ? 1.0 : 0.0, most == 1 ? 1.0 : 0.0, most == 2 ? 1.0 : 0.0};

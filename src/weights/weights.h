@@ -60,7 +60,7 @@ class Weights {
   // Pins and locks keep their bones. Throws HF_ERROR_CONFLICT (index = pin) if a pin loses all its bones.
   void set_bones(const Bones& bones, Span<const Index> sources);
   void set_pins(const Pins& pins);
-  // values: [inner vertex][bones] weights, or null for the present ones.
+  // values: the weights to keep, a row of the locked bones for each welded vertex; null: the present weights.
   void set_locks(Span<const Index> bones, const float* values);
 
   void record();

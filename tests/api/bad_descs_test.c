@@ -451,9 +451,9 @@ static void every_struct_is_checked_before_anything_is_done(void** state) {
       given.bytes[size + more - 1] = 1;
       check_row(__LINE__, "an unknown byte is set", what, structs[s].call(longer), HF_ERROR_INVALID_DESC, NO_INDEX);
     }
-    row_holds(__LINE__, what, "the state is unchanged",
-              solver_unchanged(&scene) && pose_unchanged(&scene) && transfer_unchanged(&scene) &&
-                  weights_unchanged(&scene));
+    row_holds(
+        __LINE__, what, "the state is unchanged",
+        solver_unchanged(&scene) && pose_unchanged(&scene) && transfer_unchanged(&scene) && weights_unchanged(&scene));
   }
   finish_rows("structs");
   scene_destroy(&scene);

@@ -9,7 +9,8 @@ static hf_mirror_desc mirror;
 static hf_weights_out out;
 static hf_carry_info carried;
 static hf_mirror_info mirrored;
-static uint32_t joints[INFLUENCES * TUBE_VERTICES], out_joints[8 * TUBE_VERTICES], partners[3], out_bones[3], pairings[3];
+static uint32_t joints[INFLUENCES * TUBE_VERTICES], out_joints[8 * TUBE_VERTICES], partners[3], out_bones[3],
+    pairings[3];
 static float weights[INFLUENCES * TUBE_VERTICES], out_weights[8 * TUBE_VERTICES];
 static uint16_t narrow[8 * TUBE_VERTICES];
 static double heads[9], plane[6];
@@ -45,11 +46,9 @@ static int nothing_is_written(void) {
 #define GOOD good
 #define UNCHANGED() (weights_unchanged(&scene) && nothing_is_written())
 /* What both read alike. */
-#define BOTH(what, expected, index, change)                                     \
-  ROW(what, expected, index, change,                                            \
-      hf_weights_carry(scene.body, scene.body, &carry, &out, &carried));        \
-  ROW(what, expected, index, change,                                            \
-      hf_weights_mirror(scene.body, &mirror, &out, out_bones, pairings, &mirrored))
+#define BOTH(what, expected, index, change)                                                             \
+  ROW(what, expected, index, change, hf_weights_carry(scene.body, scene.body, &carry, &out, &carried)); \
+  ROW(what, expected, index, change, hf_weights_mirror(scene.body, &mirror, &out, out_bones, pairings, &mirrored))
 
 static void bad_weights_are_named(void** state) {
   (void)state;
@@ -74,7 +73,8 @@ static void bad_weights_are_named(void** state) {
       hf_weights_carry(scene.body, scene.body, &carry, &out, &carried));
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
       hf_weights_carry(scene.body, scene.body, &carry, NULL, &carried));
-  ROW("desc NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_weights_carry(scene.body, scene.body, NULL, &out, NULL));
+  ROW("desc NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
+      hf_weights_carry(scene.body, scene.body, NULL, &out, NULL));
   finish_rows("carried weights");
   scene_destroy(&scene);
 }

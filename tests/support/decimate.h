@@ -1,4 +1,5 @@
-// A coarse copy of a closed mesh: the shortest edges are collapsed to their middles, as long as the mesh stays a manifold.
+// A coarse copy of a closed mesh: the shortest edges are collapsed to their middles, as long as the mesh stays a
+// manifold.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -70,8 +71,7 @@ class Decimator {
     std::size_t common = 0;
     for (const std::uint32_t v : of_a) common += of_b.count(v);
     if (!of_a.count(b) || common != 2) return false;
-    for (std::uint32_t k = 0; k < 3; ++k)
-      positions_[3 * a + k] = 0.5 * (positions_[3 * a + k] + positions_[3 * b + k]);
+    for (std::uint32_t k = 0; k < 3; ++k) positions_[3 * a + k] = 0.5 * (positions_[3 * a + k] + positions_[3 * b + k]);
     const std::set<std::uint32_t> moved = around_[b];
     for (const std::uint32_t t : moved) {
       const bool gone = around_[a].count(t) > 0;
@@ -83,7 +83,8 @@ class Decimator {
       if (!gone) around_[a].insert(t);
     }
     around_[b].clear();
-    for (const std::uint32_t v : neighbours(a)) queue_.insert({length(std::min(a, v), std::max(a, v)), std::min(a, v), std::max(a, v)});
+    for (const std::uint32_t v : neighbours(a))
+      queue_.insert({length(std::min(a, v), std::max(a, v)), std::min(a, v), std::max(a, v)});
     return true;
   }
 

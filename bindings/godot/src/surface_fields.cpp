@@ -97,7 +97,9 @@ Value find_extremities(Surface& s, const Arguments&) {
       [&](uint32_t capacity, hf_extremity* out, uint32_t* count) {
         return hf_surface_find_extremities(s.get(), nullptr, capacity, out, count);
       },
-      [](const hf_extremity& tip) { return TableRow{{"vertex", tip.vertex}, {"length", tip.length}}; });
+      [](const hf_extremity& tip) {
+        return TableRow{{"vertex", tip.vertex}, {"length", tip.length}};
+      });
 }
 
 // propose_handles(): { vertex, reason, pinned, radius } each, pinned ones first

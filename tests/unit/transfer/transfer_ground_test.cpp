@@ -176,7 +176,8 @@ TEST(TransferGround, ARegionTheCallerHoldsUnderTheGroundStaysThere) {
   EXPECT_NEAR(lowest_of(a.pairs.target[foot], out) - step.y,
               lowest_of(a.pairs.target[foot], still) - centre_of(a.pairs.target[foot], still).y, 0.01 * a.box);
   const size_t other = a.pair("hind foot right");
-  EXPECT_LT(hf_inner::norm(centre_of(a.pairs.target[other], out) - centre_of(a.pairs.target[other], still)), 0.01 * a.box);
+  EXPECT_LT(hf_inner::norm(centre_of(a.pairs.target[other], out) - centre_of(a.pairs.target[other], still)),
+            0.01 * a.box);
 }
 
 TEST(TransferGround, FramesInWhichSomethingSinksAllocateNothingAndRepeat) {

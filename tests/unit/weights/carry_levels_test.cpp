@@ -24,7 +24,8 @@ std::vector<std::vector<Matrix>> motions(const Body& body, int frames) {
         const double* m = world.data() + 16 * j;
         for (std::size_t r = 0; r < 3; ++r) {
           double moved = m[12 + r];
-          for (std::size_t c = 0; c < 3; ++c) joints[j][4 * r + c] = m[4 * c + r], moved -= m[4 * c + r] * body.heads[j][c];
+          for (std::size_t c = 0; c < 3; ++c)
+            joints[j][4 * r + c] = m[4 * c + r], moved -= m[4 * c + r] * body.heads[j][c];
           joints[j][4 * r + 3] = moved;  // rest rotations are none
         }
       }
@@ -150,7 +151,8 @@ TEST(CarriedLevels, PoseWithinASmallFactorOfTheBestFit) {
     const Body body = make_body(name, 1000);
     const auto source = make_core(body.mesh);
     for (const double share : {0.5, 0.25, 0.1}) {
-      const PlainMesh coarse = Decimator(body.mesh).down_to(static_cast<std::uint32_t>(share * body.mesh.vertex_count()));
+      const PlainMesh coarse =
+          Decimator(body.mesh).down_to(static_cast<std::uint32_t>(share * body.mesh.vertex_count()));
       ASSERT_NEAR(coarse.vertex_count(), share * body.mesh.vertex_count(), 2);
       const auto core = make_core(coarse);
       const hf_inner::FilledWeights found = carry(source, body.given(), core);
@@ -159,7 +161,8 @@ TEST(CarriedLevels, PoseWithinASmallFactorOfTheBestFit) {
       std::vector<double> weights(fit.size(), 0.0);
       for (Index v = 0; v < core->size(); ++v) {
         for (std::size_t j = 0; j < body.heads.size(); ++j)
-          weights[at(core->mesh.given_of_inner[at(v)]) * body.heads.size() + j] = share_of(found, at(v), static_cast<std::uint32_t>(j));
+          weights[at(core->mesh.given_of_inner[at(v)]) * body.heads.size() + j] =
+              share_of(found, at(v), static_cast<std::uint32_t>(j));
       }
       const double carried = std::sqrt(fit.energy(weights, nullptr));
       const double best = std::sqrt(fit.energy(fit.best(weights, 300), nullptr));

@@ -67,7 +67,8 @@ inline hf_inner::FilledWeights carry(const std::shared_ptr<const hf_inner::Core>
 inline double share_of(const hf_inner::FilledWeights& filled, std::size_t v, std::uint32_t joint) {
   double sum = 0;
   const std::size_t k = at(filled.influences);
-  for (std::size_t i = v * k; i < (v + 1) * k; ++i) sum += filled.joints[i] == joint ? static_cast<double>(filled.weights[i]) : 0;
+  for (std::size_t i = v * k; i < (v + 1) * k; ++i)
+    sum += filled.joints[i] == joint ? static_cast<double>(filled.weights[i]) : 0;
   return sum;
 }
 
@@ -80,7 +81,8 @@ inline std::size_t faults_of(const hf_inner::FilledWeights& filled, std::size_t 
     float sum = 0;
     bool good = true;
     for (std::size_t i = v * k; i < (v + 1) * k; ++i) {
-      good &= filled.weights[i] >= 0 && filled.joints[i] < joints && (i == v * k || filled.weights[i] <= filled.weights[i - 1]);
+      good &= filled.weights[i] >= 0 && filled.joints[i] < joints &&
+              (i == v * k || filled.weights[i] <= filled.weights[i - 1]);
       sum += filled.weights[i];
     }
     faults += !(good && sum == 1.0f);
@@ -89,7 +91,8 @@ inline std::size_t faults_of(const hf_inner::FilledWeights& filled, std::size_t 
 }
 
 // A tube around a line, open at both ends: radius from `first` to `last`.
-inline PlainMesh around_line(const Point& from, const Point& to, double first, double last, std::uint32_t around, std::uint32_t rings) {
+inline PlainMesh around_line(const Point& from, const Point& to, double first, double last, std::uint32_t around,
+                             std::uint32_t rings) {
   hf_inner::Vec3 along{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
   along = (1 / norm(along)) * along;
   const hf_inner::Vec3 any = std::fabs(along.x) < 0.6 ? hf_inner::Vec3{1, 0, 0} : hf_inner::Vec3{0, 1, 0};
@@ -102,8 +105,9 @@ inline PlainMesh around_line(const Point& from, const Point& to, double first, d
     for (std::uint32_t k = 0; k < around; ++k) {
       const double a = 8 * std::atan(1.0) * k / around;
       const hf_inner::Vec3 out = (radius * std::cos(a)) * u + (radius * std::sin(a)) * w;
-      mesh.positions.insert(mesh.positions.end(), {from[0] + t * (to[0] - from[0]) + out.x, from[1] + t * (to[1] - from[1]) + out.y,
-                                                   from[2] + t * (to[2] - from[2]) + out.z});
+      mesh.positions.insert(mesh.positions.end(),
+                            {from[0] + t * (to[0] - from[0]) + out.x, from[1] + t * (to[1] - from[1]) + out.y,
+                             from[2] + t * (to[2] - from[2]) + out.z});
     }
   }
   for (std::uint32_t i = 0; i + 1 < rings; ++i) {
@@ -120,7 +124,8 @@ inline double girth(const Body& body, std::uint32_t joint) {
   double most = 0;
   for (std::size_t v = 0; v < body.mesh.vertex_count(); ++v) {
     double weight = 0, squared = 0;
-    for (std::size_t k = 0; k < 4; ++k) weight += body.joints[4 * v + k] == joint ? static_cast<double>(body.weights[4 * v + k]) : 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      weight += body.joints[4 * v + k] == joint ? static_cast<double>(body.weights[4 * v + k]) : 0;
     for (std::size_t k = 0; k < 3; ++k) squared += std::pow(body.mesh.positions[3 * v + k] - body.heads[joint][k], 2);
     if (weight > 0.5) most = std::max(most, squared);
   }
@@ -131,7 +136,9 @@ inline double girth(const Body& body, std::uint32_t joint) {
 inline PlainMesh plate(const Body& body, std::size_t middle, double radius, double gap, double thickness) {
   const PlainMesh& from = body.mesh;
   std::vector<hf_inner::Vec3> normal(from.vertex_count());
-  const auto at_vertex = [&](std::uint32_t v) { return hf_inner::Vec3{from.positions[3 * v], from.positions[3 * v + 1], from.positions[3 * v + 2]}; };
+  const auto at_vertex = [&](std::uint32_t v) {
+    return hf_inner::Vec3{from.positions[3 * v], from.positions[3 * v + 1], from.positions[3 * v + 2]};
+  };
   for (std::size_t t = 0; t < from.triangles.size(); t += 3) {
     const hf_inner::Vec3 a = at_vertex(from.triangles[t]);
     const hf_inner::Vec3 n = cross(at_vertex(from.triangles[t + 1]) - a, at_vertex(from.triangles[t + 2]) - a);
@@ -156,7 +163,8 @@ inline PlainMesh plate(const Body& body, std::size_t middle, double radius, doub
         }
       }
     }
-    const std::uint32_t a = 2 * number[from.triangles[t]], b = 2 * number[from.triangles[t + 1]], c = 2 * number[from.triangles[t + 2]];
+    const std::uint32_t a = 2 * number[from.triangles[t]], b = 2 * number[from.triangles[t + 1]],
+                        c = 2 * number[from.triangles[t + 2]];
     mesh.triangles.insert(mesh.triangles.end(), {a + 1, b + 1, c + 1, a, c, b});
     ++edges[{a, b}], ++edges[{b, c}], ++edges[{c, a}];
   }
@@ -167,8 +175,8 @@ inline PlainMesh plate(const Body& body, std::size_t middle, double radius, doub
   return mesh;
 }
 
-// A sleeve, a skirt, a hood or an armour plate over a creature, with what garments come with: other tessellation, noise,
-// faces that look inwards, specks far away, loose vertices.
+// A sleeve, a skirt, a hood or an armour plate over a creature, with what garments come with: other tessellation,
+// noise, faces that look inwards, specks far away, loose vertices.
 inline PlainMesh garment(const Body& body, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> any(0, 1);
@@ -181,7 +189,8 @@ inline PlainMesh garment(const Body& body, std::uint32_t seed) {
   double size = 0;
   for (const double x : body.mesh.positions) size = std::max(size, std::fabs(x));
   PlainMesh mesh;
-  const auto around = static_cast<std::uint32_t>(7 + random() % 14), rings = static_cast<std::uint32_t>(5 + random() % 9);
+  const auto around = static_cast<std::uint32_t>(7 + random() % 14),
+             rings = static_cast<std::uint32_t>(5 + random() % 9);
   switch (seed % 4) {
     case 0: {  // a sleeve over a bone, longer than it
       const std::uint32_t j = joint(true);
@@ -216,8 +225,8 @@ inline PlainMesh garment(const Body& body, std::uint32_t seed) {
     }
     default:  // an armour plate
       do {
-        mesh = plate(body, random() % body.mesh.vertex_count(), (0.1 + 0.3 * any(random)) * size, 0.02 * size * any(random),
-                     0.02 * size);
+        mesh = plate(body, random() % body.mesh.vertex_count(), (0.1 + 0.3 * any(random)) * size,
+                     0.02 * size * any(random), 0.02 * size);
       } while (mesh.triangles.empty());
   }
   if (random() % 3 == 0) {

@@ -1,8 +1,7 @@
 // Weights carried from one surface to another: exact on the same surface, none missing on 200 garments, close to the
 // best fit on levels of detail.
-#include "carry_support.h"
-
 #include "base/error.h"
+#include "carry_support.h"
 #include "support/decimate.h"
 
 namespace {
@@ -35,7 +34,8 @@ TEST(CarriedWeights, TheSameSurfaceGetsItsWeightsBack) {
 
 // Half of a tube has a source beside it. The other half is filled in, and its weights lie between those of the rim.
 TEST(CarriedWeights, VerticesWithoutAMatchAreFilledIn) {
-  const PlainMesh source = around_line({0, 0, 0}, {2, 0, 0}, 1, 1, 24, 9), target = around_line({0, 0, 0}, {4, 0, 0}, 1.02, 1.02, 16, 21);
+  const PlainMesh source = around_line({0, 0, 0}, {2, 0, 0}, 1, 1, 24, 9),
+                  target = around_line({0, 0, 0}, {4, 0, 0}, 1.02, 1.02, 16, 21);
   std::vector<std::uint32_t> joints;
   std::vector<float> weights;
   for (std::uint32_t v = 0; v < source.vertex_count(); ++v) {
@@ -106,15 +106,16 @@ TEST(CarriedWeights, TwoHundredGarmentsHaveNoBareVertex) {
   // The garments ask for every way in which a vertex gets weights.
   for (const Origin o : {Origin::matched, Origin::solved, Origin::carried, Origin::rigid, Origin::isolated})
     EXPECT_GT(by_origin[static_cast<std::size_t>(o)], 0u) << static_cast<int>(o);
-  std::printf("garments: %zu vertices, %u matched, %u solved, %u carried, %u rigid, %u isolated\n", vertices, by_origin[6],
-              by_origin[1], by_origin[3], by_origin[4], by_origin[5]);
+  std::printf("garments: %zu vertices, %u matched, %u solved, %u carried, %u rigid, %u isolated\n", vertices,
+              by_origin[6], by_origin[1], by_origin[3], by_origin[4], by_origin[5]);
 }
 
 TEST(CarriedWeights, ThreadsDoNotChangeTheBits) {
   const Body& body = body_of(1);
   const PlainMesh mesh = garment(body, 13);
   const auto source = make_core(body.mesh);
-  const FilledWeights one = carry(source, body.given(), make_core(mesh, 1)), four = carry(source, body.given(), make_core(mesh, 4));
+  const FilledWeights one = carry(source, body.given(), make_core(mesh, 1)),
+                      four = carry(source, body.given(), make_core(mesh, 4));
   EXPECT_EQ(one.weights, four.weights);
   EXPECT_EQ(one.joints, four.joints);
 }
@@ -155,7 +156,8 @@ double fill_error(std::size_t kind, hf_inner::FieldKind field) {
 TEST(CarriedWeights, BiharmonicFillsComeNearerToTheTruthThanHarmonicOnes) {
   double harmonic = 0, biharmonic = 0;
   for (std::size_t kind = 0; kind < 3; ++kind) {
-    const double one = fill_error(kind, hf_inner::FieldKind::harmonic), two = fill_error(kind, hf_inner::FieldKind::biharmonic);
+    const double one = fill_error(kind, hf_inner::FieldKind::harmonic),
+                 two = fill_error(kind, hf_inner::FieldKind::biharmonic);
     std::printf("%zu: share that other joints move: harmonic %.4f, bi-harmonic %.4f\n", kind, one, two);
     harmonic += one, biharmonic += two;
   }

@@ -27,7 +27,7 @@ TEST(HelperBones, ReasonsAddUp) {
   EXPECT_EQ(found[1], 0u);
   EXPECT_EQ(found[2], helper_proposed | helper_name_control | helper_apart | helper_outside | helper_informs_none);
   EXPECT_EQ(found[3], helper_name_control | helper_apart);  // a name and a place are not enough
-  EXPECT_EQ(found[4], 0u);  // root inside a word is no root
+  EXPECT_EQ(found[4], 0u);                                  // root inside a word is no root
   EXPECT_EQ(found[5], helper_proposed | helper_name_end | helper_informs_none | helper_no_length);
   EXPECT_EQ(found[6], +helper_coincident);
   EXPECT_EQ(found[7], 0u);  // it does not deform already

@@ -18,11 +18,20 @@ std::vector<Index> partners(const std::string& names, std::size_t count) {
 }
 
 TEST(PairedNames, ASideIsAWordOfItsOwn) {
-  const char* const pairs[][2] = {
-      {"arm.L", "arm.R"},           {"arm_l", "arm_r"},           {"L_arm", "R_arm"},       {"LeftArm", "RightArm"},
-      {"mixamorig:LeftUpLeg", "mixamorig:RightUpLeg"},            {"armL", "armR"},         {"LArm", "RArm"},
-      {"thumb.01.L", "thumb.01.R"}, {"upperleftarm", "upperrightarm"}, {"ARM-LEFT", "ARM-RIGHT"}, {"arm l", "arm r"},
-      {"b_LeftLeg01_015", "b_RightLeg01_019"}, {"Bone.L.001", "Bone.R.001"}, {"hand_L1", "hand_R1"}};
+  const char* const pairs[][2] = {{"arm.L", "arm.R"},
+                                  {"arm_l", "arm_r"},
+                                  {"L_arm", "R_arm"},
+                                  {"LeftArm", "RightArm"},
+                                  {"mixamorig:LeftUpLeg", "mixamorig:RightUpLeg"},
+                                  {"armL", "armR"},
+                                  {"LArm", "RArm"},
+                                  {"thumb.01.L", "thumb.01.R"},
+                                  {"upperleftarm", "upperrightarm"},
+                                  {"ARM-LEFT", "ARM-RIGHT"},
+                                  {"arm l", "arm r"},
+                                  {"b_LeftLeg01_015", "b_RightLeg01_019"},
+                                  {"Bone.L.001", "Bone.R.001"},
+                                  {"hand_L1", "hand_R1"}};
   for (const auto& pair : pairs) {
     const std::string names = std::string(pair[1]) + "\nspine\n" + pair[0] + "\n";
     EXPECT_EQ(partners(names, 3), (std::vector<Index>{2, -1, 0})) << pair[0];
@@ -39,7 +48,8 @@ struct Scene {
   Scene(const std::string& name, double turn = 0, const Point& shift = {0, 0, 0}) : body(make_body(name, 1200)) {
     const auto place = [&](double* p) {
       const double x = p[0], z = p[2];
-      p[0] = std::cos(turn) * x + std::sin(turn) * z + shift[0], p[2] = std::cos(turn) * z - std::sin(turn) * x + shift[2];
+      p[0] = std::cos(turn) * x + std::sin(turn) * z + shift[0],
+      p[2] = std::cos(turn) * z - std::sin(turn) * x + shift[2];
       p[1] += shift[1];
     };
     for (std::size_t i = 0; i < body.mesh.positions.size(); i += 3) place(body.mesh.positions.data() + i);
@@ -52,7 +62,8 @@ struct Scene {
     MirrorBones bones(*core->memory);
     for (const Point& head : body.heads) bones.heads.push_back(core->mesh.to_inner({head[0], head[1], head[2]}));
     const std::size_t count = body.heads.size();
-    bones.partner = pair_names(by_names ? Span<const char>{names.data(), names.size()} : Span<const char>{}, count, *core->memory);
+    bones.partner =
+        pair_names(by_names ? Span<const char>{names.data(), names.size()} : Span<const char>{}, count, *core->memory);
     bones.given.assign(count, 0);
     MirrorOptions options;
     options.to = to, options.carry = carry_options();
@@ -113,7 +124,8 @@ TEST(MirroredWeights, TheOtherSideNeedsNoWeightsAndTheFrameIsAny) {
     for (std::size_t k = 0; x < -1e-4 && k < 4; ++k) half[4 * v + k] = 0;
   }
   for (const bool by_names : {true, false}) {
-    const MirroredWeights found = scene.mirror(MirrorTo::negative, by_names, {4, scene.body.joints.data(), half.data()});
+    const MirroredWeights found =
+        scene.mirror(MirrorTo::negative, by_names, {4, scene.body.joints.data(), half.data()});
     EXPECT_EQ(faults_of(found.filled, at(scene.core->size()), scene.body.heads.size()), 0u);
     EXPECT_NEAR(found.plane.normal.x, std::cos(0.7), 2e-3);
     EXPECT_LT(scene.off(found.filled), 0.02);
