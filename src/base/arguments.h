@@ -83,6 +83,13 @@ inline Rows rows_of(float* f32, double* f64, std::size_t width, std::uint32_t st
   return {};
 }
 
+// Returns the weights of a vertex that a caller asks for: 4 or 8; 0 stands for 4.
+inline std::int32_t weights_per_vertex(std::uint32_t given) {
+  if (given != 0 && given != 4 && given != 8)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4", given);
+  return given == 8 ? 8 : 4;
+}
+
 // Refuses places that are named in no way or in two ways. Places in triangles or between corners need barycentrics.
 inline void check_places(const void* vertices, const void* triangles, const void* corners, const void* barycentrics) {
   const char* const first = vertices ? "vertices" : "triangles";

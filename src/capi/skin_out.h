@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 
+#include "base/arguments.h"
 #include "capi/boundary.h"
 #include "capi/vertex_writer.h"
 #include "deform/rotation.h"
@@ -12,10 +13,7 @@ namespace hf_inner::capi {
 class SkinOut {
  public:
   explicit SkinOut(hf_skin_info* inout) : inout_(inout), out_(read_struct(inout, "inout_skin")) {
-    if (out_.weight_count == 0) out_.weight_count = 4;
-    if (out_.weight_count != 4 && out_.weight_count != 8)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4",
-           out_.weight_count);
+    out_.weight_count = static_cast<std::uint32_t>(weights_per_vertex(out_.weight_count));
   }
   std::uint32_t weight_count() const noexcept { return out_.weight_count; }
   bool wants_scales() const noexcept { return out_.scales != nullptr; }

@@ -1,4 +1,5 @@
 // Implements hf/weights.h: skin weights from bones.
+#include "base/arguments.h"
 #include "capi/weights_object.h"
 #include "weights/intake.h"
 
@@ -31,7 +32,7 @@ hf_result hf_weights_create(hf_surface handle, const hf_bones_desc* given, uint3
   return create("hf_weights_create", out_weights, "out_weights", [&] {
     const auto surface = mesh_surface(handle, "skin weights");
     const hf_bones_desc desc = read_struct(given, "bones");
-    const std::int32_t influences = read_weight_count(weight_count);
+    const std::int32_t influences = weights_per_vertex(weight_count);
     if (desc.sources)
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "sources is set, but there were no bones before; set it to NULL");
     Bones bones(*surface->memory);

@@ -53,7 +53,7 @@ MatchOptions match_options(const Desc& desc, double scale) {
   const double angle = desc.angle == 0 ? carry_angle : desc.angle;
   // A hair below the cosine: equal normals agree whatever their rounding.
   out.cosine = angle >= most_angle - 0.01 ? -2 : cosine(angle) - 1e-12;
-  out.influences = read_weight_count(desc.weight_count);
+  out.influences = weights_per_vertex(desc.weight_count);
   return out;
 }
 

@@ -90,12 +90,6 @@ void read_lock_values(const Mesh& mesh, std::uint32_t count, const float* values
 
 }  // namespace
 
-std::int32_t read_weight_count(std::uint32_t given) {
-  if (given != 0 && given != 4 && given != 8)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4", given);
-  return given == 8 ? 8 : 4;
-}
-
 void read_bones(const hf_bones_desc& desc, Bones& bones, Memory& memory) {
   require_list(desc.bone_count, desc.heads, "bone_count", "heads");
   if (desc.bone_count > most_bones)

@@ -5,9 +5,6 @@
 
 namespace hf_inner {
 
-// Weights a vertex: 4 or 8; 0 stands for 4. Throws HF_ERROR_INVALID_ARGUMENT for other numbers.
-std::int32_t read_weight_count(std::uint32_t given);
-
 // Appends the bones to `bones`. sources of the desc are not read. Throws as hf_weights_create says.
 void read_bones(const hf_bones_desc& desc, Bones& bones, Memory& memory);
 
