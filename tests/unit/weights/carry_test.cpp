@@ -114,8 +114,8 @@ TEST(CarriedWeights, ThreadsDoNotChangeTheBits) {
   const Body& body = body_of(1);
   const PlainMesh mesh = garment(body, 13);
   const auto source = make_core(body.mesh);
-  const FilledWeights one = carry(source, body.given(), make_core(mesh, 1)),
-                      four = carry(source, body.given(), make_core(mesh, 4));
+  const auto single = make_core(mesh, 1), quadruple = make_core(mesh, 4);  // they own the memory of the weights
+  const FilledWeights one = carry(source, body.given(), single), four = carry(source, body.given(), quadruple);
   EXPECT_EQ(one.weights, four.weights);
   EXPECT_EQ(one.joints, four.joints);
 }
