@@ -217,8 +217,8 @@ TEST(Quads, OfTheCreaturesAreValidEvenAndNear) {
         EXPECT_GE(after, 0.997) << what;
       }
       // The biped misses 0.01 here at the edge length 0.022 (0.0132); of seven edge lengths near it, the other six are
-      // below 0.0095. Before the library had its own sine and one tree of boxes, all seven were. The cause is not found,
-      // so the middle of three edge lengths counts until it is.
+      // below 0.0095. Before the library had its own sine and one tree of boxes, all seven were. The cause is not
+      // found, so the middle of three edge lengths counts until it is.
       std::vector<double> distance = {distance_of(mesh, *core, result.mesh)};
       for (const double edge_length : {0.0214, 0.0226}) {
         if (uniform) distance.push_back(distance_of(mesh, *core, make(core, uniform, edge_length).mesh));
