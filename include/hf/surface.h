@@ -356,7 +356,7 @@ HF_API hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statis
 /* ---- the factor as bytes ---- */
 
 /* Saves the factor of one kind of field. An authoring tool saves it once. A game ships the bytes beside the mesh and
- * gives them to hf_surface_create, which then starts in a fraction of the time. The bytes are the same for the same
+ * gives them to hf_surface_create, which then takes a fraction of the time. The bytes are the same for the same
  * mesh, options and library version, whatever the number of threads. The bytes are little-endian and hold a format
  * version, a hash of the matrix and a checksum. They hold no sites.
  *

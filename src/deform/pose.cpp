@@ -236,8 +236,8 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) co
   return layout;
 }
 
-// Gives a new handle the rotation that the posed surface has at its region. Its way back to rest can then be predicted
-// like any other turn.
+// Gives a new handle the rotation that the posed surface has at its region. So the step that predicts the next
+// rotations also works when the host turns the handle back to rest.
 void Pose::carry_handle(const Handle& handle, HandleState& state) const {
   if (!posed_) return;
   ensure_surface();

@@ -139,7 +139,8 @@ void ConstraintEdit::place_sites(Vector<Row>& coming) {
   remove_rows(returning);
 }
 
-// Refuses a component whose eliminated vertices all have unknown (free) values: its system would be singular.
+// Throws NeedsNewLayout if the sites of all eliminated vertices of a component were removed: its system would be
+// singular.
 void ConstraintEdit::check_bases() const {
   if (!state_.base) return;
   Vector<std::uint8_t> in_force(state_.base->floating, &memory());

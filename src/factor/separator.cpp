@@ -229,8 +229,8 @@ void SeparatorSearch::mark_reaching_sink() {
   }
 }
 
-// Chooses between the two extreme minimum cuts, after the last labelling. level_ marks the states that the source
-// reaches, reach_ those that reach the sink.
+// Chooses between the two extreme minimum cuts, those nearest to the source and to the sink. level_ marks the nodes
+// that the source reaches, reach_ those that reach the sink.
 Cut SeparatorSearch::choose_cut(const GraphView& graph, std::uint8_t* side) {
   mark_reaching_sink();
   Cut near_source, near_sink;

@@ -121,7 +121,7 @@ class Gains {
   Vector<double> gain_;
 };
 
-// The same matrix with an entry for every pair of corners of the faces with gains.
+// Returns `matrix` with an additional zero for every pair of corners of the faces in `gains`.
 SymmetricMatrix with_pairs(const Mesh& mesh, const SymmetricMatrix& matrix, const Gains& gains, Memory& memory) {
   const std::size_t n = at(matrix.size());
   Vector<Index> start(n + 1, 0, &memory);

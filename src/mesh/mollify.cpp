@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t mollify_piece = 16384;
 // At most this many rounds lengthen edges of thin triangles. After them, one length is added to every edge.
 constexpr int most_rounds = 64;
-// Factor by which an edge grows more than needed, so that rounding does not leave the triangle open.
+// An edge grows by this factor more than needed, so that rounding does not break the triangle inequality.
 constexpr double overshoot = 1.0001;
 
 void find_lengths(const Mesh& mesh, const Topology& topology, MollifiedLengths& out, JobRunner* jobs) {

@@ -142,7 +142,7 @@ bool PointTree::near(Node& a, Node& b) {
   return dot(wide_a, wide_a) >= dot(wide_b, wide_b) ? half_near(a, b) : half_near(b, a);
 }
 
-// Splits the first node. It is the wider one, so it has several points.
+// Splits the first of two nodes. The caller gives the wider one first, so it has several points.
 bool PointTree::half_near(Node& split, Node& whole) {
   if (split.child == Mesh::none) {
     for (Index i = split.first; i < split.last; ++i) {

@@ -6,9 +6,9 @@
 // Vertices b and d need four faces or more. Vertices a and c need three or more each, and together at most
 // collapse_most_faces. Borders and their faces stay.
 //
-// coarsen_quads collapses quads that have an edge shorter than `shortest`, the shortest first, many at a time. The
-// vertices around them are relaxed, and the distance to the surface is measured. A collapse that makes this distance
-// worse nearby is undone.
+// coarsen_quads collapses quads that have an edge shorter than `shortest`, many at a time; the quad with the shortest
+// edge comes first. The vertices around them are relaxed, and the distance to the surface is measured. A collapse that
+// makes this distance worse nearby is undone.
 #pragma once
 #include "remesh/constants.h"
 #include "remesh/quad_distance.h"

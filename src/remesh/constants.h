@@ -221,8 +221,8 @@ constexpr double ring_at_site = 0.8;
 // Distance from a saddle to the next ring of nodes, in edge lengths. At 0.25 the distance to the surface changes by
 // -0.3 to +0.2 % of the box. At 1 it grows by up to 0.3, and a cow has 40 % irregular vertices instead of 30.
 constexpr double ring_at_saddle = 0.5;
-// At most this many level loops between two critical points give the spacing of rings: more take longer, for evener
-// rings. Halving or doubling it improves some meshes and worsens others.
+// The spacing of rings is measured on at most this many level loops between two critical points: more take longer, for
+// evener rings. Halving or doubling it improves some meshes and worsens others.
 constexpr std::int32_t loops_an_arc = 64;
 // A step between two level loops above this share of the field's range is subdivided. Halving or doubling it improves
 // some meshes and worsens others.

@@ -38,8 +38,8 @@ class FluxSolver {
  public:
   // Orders and factorises the matrix of the flow field. Throws the errors of Factor::make.
   FluxSolver(const FluxSurface& surface, Memory& memory, JobRunner& jobs);
-  // Returns the flow field by vertex of the surface, up to a constant per component. Iterative refinement (flux_solves)
-  // improves it, because lines need a flow that balances at every vertex.
+  // Returns the flow field by vertex of the surface, up to a constant per component. flux_solves steps of iterative
+  // refinement make the flow balance at every vertex, as lines need it.
   Vector<double> solve(Span<const FluxSite> sites) const;
 
  private:

@@ -12,7 +12,7 @@ class Table {
  public:
   explicit Table(Memory& memory) : data_(&memory) {}
   Table(std::int32_t size, const T& value, Memory& memory) : data_(static_cast<std::size_t>(size), value, &memory) {}
-  // A copy uses the same memory, while a copy of a std::pmr container would use the default resource.
+  // A copy allocates from the same memory resource. A copy of a std::pmr container would take the default resource.
   Table(const Table& other) : data_(other.data_, other.data_.get_allocator()) {}
   Table(Table&&) = default;
   Table& operator=(const Table&) = default;

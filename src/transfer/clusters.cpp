@@ -244,7 +244,7 @@ void centre_rows(const ClusterOptions& options, const double* centre, std::int32
 }
 
 // Paper mode: the narrow kernel of a cluster (which gives its rotation) has the weights of one level band. The broad
-// kernel also covers the bands around it.
+// kernel also covers the neighbouring bands.
 void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32_t width, Span<const double> field,
                Span<const double> area, ClusterRows& out) {
   std::int32_t nearest = 0;

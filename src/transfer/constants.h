@@ -166,7 +166,7 @@ constexpr double refit_sharpness = 0.25;
 // is 0.34 (0.32 now).
 constexpr double keep_rotation = 0.18;
 // A cluster of vertices whose centre has a larger field value belongs to a region and keeps its rotation. With 0.45:
-// the edge stretch of a deer is 0.39 (0.35 now). With 1: a standing foot slides by 0.014 boxes.
+// the edge stretch of a deer is 0.39 (0.35 now). With 1: a standing foot slides by 0.014 of the box.
 constexpr double handle_share = 0.9;
 // Mean squared extent of a cluster's overlaps (in squared boxes) below which they count as one point, which gives no
 // rotation. Rounding leaves 1e-32, the test models have 9e-11 and more. Halving or doubling it changes no vertex.

@@ -16,7 +16,7 @@ struct PointPair {
 
 Vec3 column_of(const Mat3& axes, int c) noexcept { return {axes(0, c), axes(1, c), axes(2, c)}; }
 
-// Makes the largest component of the normal positive. A normal along an axis of the frame, up to what exporters round,
+// Makes the largest component of the normal positive. A normal that is an axis but for the rounding of an exporter
 // becomes that axis.
 void settle(MirrorPlane& plane) noexcept {
   double n[3] = {plane.normal.x, plane.normal.y, plane.normal.z};

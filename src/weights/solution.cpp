@@ -23,7 +23,8 @@ namespace {
 // Shares of progress when the informants are found, and when the operator is factorised.
 constexpr float progress_informed = 0.3f, progress_factorised = 0.5f;
 
-// Scales H of islands whose mass A H would be lost beside K in rounding.
+// Returns the screening H by vertex. On islands where A H is so small that rounding would lose it beside K, H is scaled
+// up.
 Vector<double> visible_screening(const Core& core, const Informants& informants) {
   const std::size_t islands = at(core.mesh.component_count());
   Vector<double> mass(islands, 0.0, core.memory.get());
