@@ -14,7 +14,8 @@ constexpr double no_ear = std::numeric_limits<double>::infinity();
 // costs within 6e-15, and no other difference is below 2e-7. So half and double give the same cuts.
 constexpr double equal_costs = 1e-9;
 // A triangle of the cut must have at least this share of its face's area, on the face's side. It keeps rounding from
-// choosing triangles without area; at 0 a corner on a straight side may become one.
+// choosing triangles without area; at 0 a corner on a straight side may become one. On 52 generated sheets, ladders and
+// pentagons, half, double and 1e-6 change no field; 1e-3 changes five by at most 5e-6 of their range.
 constexpr double least_area_share = 1e-9;
 // A quad with a corner farther than this share of its diameter from its mean plane is not planar: both cuts count. The
 // weights of the two cuts differ by the square of it. Half and double change the class of up to 120 faces of a double

@@ -12,16 +12,21 @@ namespace hf_inner {
 namespace {
 
 // A larger face counts as the triangles of its cut. Its corners would form a dense block: 64 corners give 4,096
-// entries; the double would give four times as many.
+// entries; the double would give four times as many. Ladders of faces with 60 to 128 corners: a field changes by 0.8 %
+// of its range between the two.
 constexpr std::size_t most_connected = 64;
 // Eigenvalues below this share of the largest count as 0: the face is flat in that direction. Rounding gives 1e-15; a
-// larger share would move the point of a slightly bent face into its mean plane.
+// larger share would move the point of a slightly bent face into its mean plane. Few matrices come this far: on 52
+// generated meshes neither half, double nor 1e-7 changes a field.
 constexpr double flat_share = 1e-10;
 // A matrix with a determinant above this share of its cubed trace is inverted directly. Below it, a face bent by less
-// than 1e-6 of its size counts as flat. The weights of its corners then give its point in the plane only.
+// than 1e-6 of its size counts as flat. The weights of its corners then give its point in the plane only. Half and
+// double change fields on a double torus with coordinates of six digits by 6e-5 of their range, 1e-9 fields on jittered
+// sheets by 3e-4.
 constexpr double safe_determinant = 1e-12;
 // Each triangle at the point of a star-shaped face has more than this share of the face's area. It keeps cotangents
-// below 1e6; a larger share would leave more faces of uneven sides without a correction.
+// below 1e6; a larger share would leave more faces of uneven sides without a correction. On 52 generated meshes nothing
+// between 5e-7 and 1e-2 changes a field.
 constexpr double least_triangle = 1e-6;
 // Rows that one thread's job sorts. No result depends on this number.
 constexpr std::size_t row_piece = 8192;
