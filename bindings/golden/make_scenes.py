@@ -252,6 +252,8 @@ def scenes(meshes):
     graphs(scene, solver, solve)
     faces(scene, solver, solve)
     links(scene, surface, solver)
+    skin_weights(scene, surface)
+    carried_weights(scene, meshes["strip"], surface)
     return found
 
 
@@ -348,6 +350,75 @@ def links(scene, surface, solver):
     scene("links_tags", "Pieces of different tags stay apart.",
           {**surface("pair", link_pieces=1), "tags": [3] * 25 + [4] * 25}, look(component_count=2, link_count=0), solver(),
           alone, {"do": "solve", "on": "s", "expect": expect(zeros)})
+
+
+def skin_weights(scene, surface):
+    half = lambda *z: [v for height in z for v in (0.0, 0.0, height)]
+    chain = {"heads": half(0.0, 2.0, 4.0), "tails": half(2.0, 4.0, 6.0), "parents": [4294967295, 0, 1]}
+    make = lambda name="w", **bones: {"do": "weights", "on": "m", "as": name, **bones, "options": {"weight_count": 4}}
+    column = lambda bone, **more: {"do": "skin_weights", "on": "w", "bone": bone, **more}
+    near = 24 * 12 + 2  # a vertex of the last ring
+    pin = {"do": "set_pins", "on": "w", "vertices": [near], "joints": [0, 1], "weights": [0.25, 0.75]}
+    pinned = {"count": 302, "at": [near], "tolerance": 0}
+    joints = {"heads": half(0.5, 3.0, 5.0, 5.5, 0.2), "axes": half(1.0, 1.0, 1.0, 1.0, 1.0),
+        "parents": [4294967295, 0, 1, 2, 0], "deforms": [1, 1, 1, 0, 1]}
+    scene("weights", "Skin weights of a bar: pins are exact, undo and locks keep bits, a leaf ends where a child says that does not "
+          "deform (the same weights as with tails).", surface("bar"), make(**chain),
+          {"do": "weights_info", "on": "w", "expect": {"vertex_count": 302, "bone_count": 3, "informed_count": 302,
+              "pin_count": 0}},
+          *(column(bone, expect=agree()) for bone in range(3)), {"do": "bone_flags", "on": "w", "expect": agree(0)},
+          column(2, keep="third"), {"do": "record_weights", "on": "w"}, pin,
+          column(0, expect={**pinned, "values": [0.25]}), column(1, expect={**pinned, "values": [0.75]}),
+          column(2, expect={**pinned, "values": [0.0]}), {"do": "clone_weights", "on": "w", "as": "c"},
+          {"do": "undo_weights", "on": "w"}, column(2, same_as="third"),
+          {"do": "skin_weights", "on": "c", "bone": 0, "expect": {**pinned, "values": [0.25]}},
+          {"do": "redo_weights", "on": "w"}, column(1, expect={**pinned, "values": [0.75]}),
+          {"do": "undo_weights", "on": "w"}, {"do": "undo_weights", "on": "w", "error": "HF_ERROR_NO_RECORD"},
+          {"do": "set_locks", "on": "w", "bones": [2]},
+          {"do": "set_bones", "on": "w", **chain, "tails": half(2.5, 4.0, 6.0)}, column(2, same_as="third"),
+          {"do": "set_locks", "on": "w", "bones": []},
+          {"do": "set_bones", "on": "w", "heads": half(0.5, 3.0, 5.0, 0.2), "tails": half(3.0, 5.0, 5.5, 0.5),
+              "deforms": [1, 1, 1, 0]}, column(2, keep="tail"),
+          {"do": "set_bones", "on": "w", **joints, "deforms": [1, 1, 1, 0, 0]}, column(2, same_as="tail"),
+          {"do": "set_bones", "on": "w", **joints},
+          {"do": "helpers", "on": "w", "names": ["root", "spine", "spine2", "spine2_end", "ik_target"], "expect": agree(0)},
+          {"do": "helpers", "on": "w", "expect": agree(0)},
+          {"do": "helpers", "on": "w", "names": ["root"], "error": "HF_ERROR_INVALID_ARGUMENT"},
+          make("u", heads=[], error="HF_ERROR_EMPTY"),
+          make("u", **{**chain, "parents": [4294967295, 7, 1]}, error="HF_ERROR_OUT_OF_RANGE", index=1),
+          make("u", **{**chain, "deforms": [1, 2, 1]}, error="HF_ERROR_INVALID_ARGUMENT", index=1),
+          make("u", **{**chain, "deforms": [0, 0, 0]}, error="HF_ERROR_EMPTY"),
+          make("u", **{**chain, "heads": [*half(0.0, 2.0), 0.0, 0.0, "nan"]}, error="HF_ERROR_NON_FINITE", index=2),
+          {**pin, "vertices": [999], "error": "HF_ERROR_OUT_OF_RANGE", "index": 0},
+          {**pin, "vertices": [5, 5], "joints": [0, 1], "weights": [1.0, 1.0], "error": "HF_ERROR_DUPLICATE_SITE", "index": 1},
+          {**pin, "weights": [0.0, 0.0], "error": "HF_ERROR_INVALID_ARGUMENT", "index": 0},
+          {"do": "set_locks", "on": "w", "bones": [9], "error": "HF_ERROR_OUT_OF_RANGE", "index": 0},
+          {"do": "dispose", "on": "w"}, {"do": "weights_info", "on": "w", "error": "HF_ERROR_INVALID_HANDLE"})
+
+
+def carried_weights(scene, mesh, surface):
+    x = np.array(mesh["positions"]).reshape(-1, 3)[:, 0]
+    count = len(x)
+    left = np.where(x < 3, 0.75, 0.25)
+    given = {"joints": [0, 1] * count, "weights": np.stack([left, 1 - left], 1).ravel().tolist()}
+    carry = {"do": "carry", "on": "n", "source": "m", **given, "bone": 0}
+    side = np.where(x > 3, 0.0, 0.5)  # bone 1 alone on the right, both on the left
+    arms = {"joints": [0, 1] * count, "weights": np.stack([side, 1 - side], 1).ravel().tolist(),
+        "heads": [0.0, 1.0, 0.0, 6.0, 1.0, 0.0]}
+    mirror = {"do": "mirror", "on": "m", **arms, "names": ["arm.L", "arm.R"], "bone": 0}
+    corners = {"count": count, "at": [0, 12, 52, 64], "tolerance": 1e-6}
+    scene("carried_weights", "Weights carried to the same strip stay (closed form); mirrored ones are those of the other arm.",
+          surface("strip"), surface("strip", "n"), {**carry, "expect": {**expect(left), "tolerance": 1e-6}},
+          {**mirror, "expect": {**corners, "values": [1.0, 0.0, 1.0, 0.0]}},
+          {**mirror, "plane": [3.0, 0.0, 0.0, -1.0, 0.0, 0.0], "expect": {**corners, "values": [0.5, 0.5, 0.5, 0.5]}},
+          {**mirror, "to": 1, "expect": {**corners, "values": [0.5, 0.5, 0.5, 0.5]}},
+          {**carry, "weights": [0.0] * (2 * count), "error": "HF_ERROR_EMPTY"},
+          {**carry, "weights": ["nan", *given["weights"][1:]], "error": "HF_ERROR_NON_FINITE", "index": 0},
+          {**carry, "joints": [*given["joints"][:-1], 1048576], "error": "HF_ERROR_OUT_OF_RANGE", "index": count - 1},
+          {**carry, "weights": given["weights"][:-1], "error": "HF_ERROR_INVALID_ARGUMENT"},
+          {**mirror, "plane": [3.0, 0.0, 0.0, 0.0, 0.0, 0.0], "error": "HF_ERROR_INVALID_ARGUMENT"},
+          {**mirror, "names": ["arm.L"], "error": "HF_ERROR_INVALID_ARGUMENT"},
+          {**mirror, "weights": [0.0] * (2 * count), "error": "HF_ERROR_EMPTY"})
 
 
 def graphs(scene, solver, solve):

@@ -12,7 +12,7 @@ local core = require('hf_core')
 
 local hf = { constants = core.constants, C = core.C, is_error = core.is_error,
   Solver = require('hf_solver') }
-for _, name in ipairs({ 'hf_surface', 'hf_fields', 'hf_pose', 'hf_region' }) do
+for _, name in ipairs({ 'hf_surface', 'hf_fields', 'hf_pose', 'hf_region', 'hf_weights' }) do
   for class, new in pairs(require(name)) do hf[class] = new end
 end
 

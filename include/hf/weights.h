@@ -23,7 +23,8 @@ typedef struct hf_bones_desc {
   const double* heads; /* [bone_count][3] */
   const double* tails; /* [bone_count][3], or NULL: heads are joints, and the library finds the tails */
   const double* axes;  /* [bone_count][3] with tails NULL: where each bone points, any length, 0 for unknown; or NULL.
-                          A bone reaches to the child that lies there, or to the end of the skin */
+                          A bone reaches to the child that lies there, or to the end of the skin. A child that does
+                          not deform says where a last bone ends */
   const uint32_t* parents; /* [bone_count] number of the parent, HF_NO_INDEX for a root; NULL: all are roots */
   const int32_t* deforms;  /* [bone_count] 1: the bone gets weights; NULL: all do */
   const uint32_t* sources; /* hf_weights_set_bones: [bone_count] the number that the bone had before, HF_NO_INDEX for a

@@ -20,7 +20,8 @@ namespace {
 const char* const usage =
     "usage: hf_weights MODEL.glb [-o OUT.glb] [--bones FILE] [--pins FILE] [--keep JOINTS] [--weights 4|8]\n"
     "                  [--all] [--guide N] [--carry FROM.glb] [--mirror negative|positive|both]\n"
-    "                  [--skeleton OTHER.glb [--pairs FILE]] [--sheet FILE.png] [--report FILE.json] [--table]\n"
+    "                  [--skeleton OTHER.glb [--pairs FILE]] [--bend JOINT,AXIS,DEGREES]\n"
+    "                  [--sheet FILE.png] [--report FILE.json] [--table]\n"
     "  Computes the weights of a skinned model from its joints, and compares them with the weights of the file.\n"
     "  -o, --output FILE  the model with the new weights\n"
     "  --bones FILE       bones in place of joints: {\"bones\": [{\"joint\": \"arm\", \"head\": [x, y, z],\n"
@@ -39,6 +40,9 @@ const char* const usage =
     "where\n"
     "                     --pairs (a pairs file of hf_transfer) leads, and between by the boxes\n"
     "  --helpers          prints the joints that look like helpers, and why; use it with --all\n"
+    "  --bend JOINT,AXIS,DEGREES  poses the model by turning a joint about its x, y or z, in place of the clips; may "
+    "be\n"
+    "                     given several times\n"
     "  --sheet FILE       a picture: weights given, computed, their difference\n"
     "  --report FILE      counts, distances and times as JSON\n"
     "  --table            prints one line\n";
@@ -46,6 +50,7 @@ const char* const usage =
 struct Command {
   std::filesystem::path mesh, out, bones, pins, sheet, report, carry, skeleton, pairs;
   std::string keep;
+  std::vector<std::string> bends;
   uint32_t weights = 4, guide = 0;
   int32_t mirror = -1;
   bool all = false, table = false, helpers = false, help = false;
@@ -87,6 +92,8 @@ Command parse(Words words) {
                    : side == "both"     ? HF_MIRROR_BOTH
                                         : -1;
       if (out.mirror < 0) throw std::runtime_error("--mirror: negative, positive or both, not " + side);
+    } else if (words.is("--bend")) {
+      out.bends.push_back(words.value());
     } else if (words.is("--helpers")) {
       out.helpers = true;
     } else if (words.is("--table")) {
@@ -246,7 +253,7 @@ void print_helpers(const Rig& rig, const hf::Weights& weights) {
   const std::vector<uint32_t> reasons = weights.helpers(rig.names);
   std::vector<uint8_t> weighted(rig.names.size(), 0);
   for (size_t i = 0; i < rig.given.joints.size(); ++i) weighted[rig.given.joints[i]] |= rig.given.weights[i] > 0;
-  for (size_t j = 0; j < reasons.size(); ++j)
+  for (size_t j = 0; j < rig.joint_count(); ++j)
     std::printf("joint %s %s %s %u %s\n", rig.names[j].c_str(), weighted[j] ? "weighted" : "bare",
                 (reasons[j] & HF_HELPER_PROPOSED) ? "proposed" : "-", reasons[j],
                 reasons_of(reasons[j]).dump().c_str());
@@ -269,7 +276,7 @@ nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weigh
   const hf_weights_info info = weights.info();
   nlohmann::json out;
   out["model"] = options.mesh.filename().string();
-  out["vertices"] = info.vertex_count, out["joints"] = info.bone_count;
+  out["vertices"] = info.vertex_count, out["joints"] = rig.joint_count(), out["ends"] = rig.end_count;
   out["distance"] = {{"mean", found.mean}, {"high", found.high}, {"worst", found.worst}};
   out["stretch"] = found.stretch, out["bare"] = found.bare;
   out["milliseconds"] = {{"surface", surface_ms}, {"weights", weights_ms}, {"bone", bone_ms}, {"pin", pin_ms}};
@@ -281,7 +288,7 @@ nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weigh
   const std::vector<uint32_t> flags = weights.bones(&counts);
   const std::vector<uint32_t> reasons = weights.helpers(rig.names);
   out["bones"] = nlohmann::json::array();
-  for (size_t j = 0; j < flags.size(); ++j)
+  for (size_t j = 0; j < rig.joint_count(); ++j)
     out["bones"].push_back({{"joint", rig.names[j]},
                             {"deforms", rig.bones.deforms[j]},
                             {"flags", flags[j]},
@@ -320,7 +327,7 @@ void run(const Command& options) {
   Rig rig;
   bool given = true;
   Model model = read_model(options, rig, given);
-  if (options.all) std::fill(rig.bones.deforms.begin(), rig.bones.deforms.end(), 1);
+  if (options.all) std::fill_n(rig.bones.deforms.begin(), static_cast<std::ptrdiff_t>(rig.joint_count()), 1);
   if (!options.bones.empty()) read_bones(options.bones, rig);
   const auto begin = std::chrono::steady_clock::now();
   const hf::Surface surface = surface_of(rig, rig.positions);
@@ -330,7 +337,8 @@ void run(const Command& options) {
   const double weights_ms = milliseconds(middle);
   if (!options.keep.empty()) set_locks(weights, options.keep, rig);
   if (!options.pins.empty()) set_pins(weights, read_pins(options.pins, rig));
-  const std::vector<Pose> poses = clip_poses(model, rig);
+  const std::vector<Pose> poses =
+      options.bends.empty() ? clip_poses(model, rig) : std::vector<Pose>{bent_pose(model, rig, options.bends)};
   if (options.guide > 0)
     guide(model, rig, poses, options.guide, options.pins.empty() ? PinFile{} : read_pins(options.pins, rig), weights);
   CarriedWeights carried;
@@ -342,11 +350,11 @@ void run(const Command& options) {
   const hf_weights_info info = weights.info();
   const std::string name = options.mesh.stem().string();
   if (options.table) {
-    std::printf("%-26s %6u %4u %7.3f %7.3f %6.3f %4u %5u %5u %7.1f %7.1f\n", name.c_str(), info.vertex_count,
-                info.bone_count, found.mean, found.high, found.stretch, found.bare,
+    std::printf("%-26s %6u %4zu %7.3f %7.3f %6.3f %4u %5u %5u %7.1f %7.1f\n", name.c_str(), info.vertex_count,
+                rig.joint_count(), found.mean, found.high, found.stretch, found.bare,
                 info.carried_count + info.rigid_count, info.isolated_count, surface_ms, weights_ms);
   } else {
-    std::printf("%s: %u vertices, %u joints, %zu poses\n", name.c_str(), info.vertex_count, info.bone_count,
+    std::printf("%s: %u vertices, %zu joints, %zu poses\n", name.c_str(), info.vertex_count, rig.joint_count(),
                 poses.size());
     if (given) {
       std::printf(

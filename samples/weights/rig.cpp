@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <stdexcept>
 
@@ -48,6 +49,34 @@ void add_primitive(const Primitive& primitive, const Skin& skin, const glm::dmat
   for (const uint32_t v : primitive.indices) rig.triangles.push_back(first + v);
 }
 
+// Whether a node says where a joint ends: it carries nothing, and its name says so. Blender writes arm_end below arm.
+bool is_end(const Node& node) {
+  if (node.mesh >= 0 || node.camera >= 0 || !node.children.empty()) return false;
+  // Exporters append numbers to names that occur twice: arm_end.001, arm_end_04.
+  std::string name = node.name.substr(0, node.name.find_last_not_of("0123456789._-") + 1);
+  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  constexpr size_t length = 3;
+  const std::string last = name.size() > length ? name.substr(name.size() - length) : "";
+  return last == "end" || last == "tip" || last == "nub";
+}
+
+// Appends the nodes that say where joints end. They have the places of the bind pose.
+void add_ends(const Model& model, const std::map<int, uint32_t>& number, Rig& rig) {
+  const size_t joints = rig.joints.size();
+  const Pose rest = rest_pose(model);
+  for (size_t j = 0; j < joints; ++j) {
+    for (const int child : model.nodes[static_cast<size_t>(rig.joints[j])].children) {
+      const Node& node = model.nodes[static_cast<size_t>(child)];
+      if (number.count(child) || !is_end(node)) continue;
+      const glm::dmat4 bind = glm::inverse(rig.inverse_bind[j]) * local_matrix(rest[static_cast<size_t>(child)]);
+      rig.joints.push_back(child), rig.names.push_back(node.name), ++rig.end_count;
+      rig.inverse_bind.push_back(glm::inverse(bind));
+      rig.bones.heads.insert(rig.bones.heads.end(), {bind[3].x, bind[3].y, bind[3].z});
+      rig.bones.parents.push_back(static_cast<uint32_t>(j)), rig.bones.deforms.push_back(0);
+    }
+  }
+}
+
 // Exporters give bones one local axis along which they point. Every joint with one child votes for an axis.
 void find_axes(Rig& rig) {
   const size_t count = rig.joints.size();
@@ -78,6 +107,17 @@ void find_axes(Rig& rig) {
   for (size_t j = 0; j < count; ++j) {
     const glm::dvec3 axis = axis_of(j, best);
     rig.bones.axes.insert(rig.bones.axes.end(), {axis.x, axis.y, axis.z});
+  }
+}
+
+// A joint that has an end points there, whatever its axes say.
+void point_at_ends(Rig& rig) {
+  if (rig.end_count == 0) return;
+  if (rig.bones.axes.empty()) rig.bones.axes.assign(rig.bones.heads.size(), 0.0);
+  for (size_t end = rig.joint_count(); end < rig.joints.size(); ++end) {
+    const size_t joint = rig.bones.parents[end];
+    for (size_t c = 0; c < 3; ++c)
+      rig.bones.axes[3 * joint + c] = rig.bones.heads[3 * end + c] - rig.bones.heads[3 * joint + c];
   }
 }
 
@@ -118,7 +158,9 @@ Rig read_rig(const Model& model) {
     while (up >= 0 && number.find(up) == number.end()) up = model.nodes[static_cast<size_t>(up)].parent;
     rig.bones.parents.push_back(up < 0 ? HF_NO_INDEX : number.at(up));
   }
+  add_ends(model, number, rig);
   find_axes(rig);
+  point_at_ends(rig);
   glm::dvec3 low = rig.positions[0], high = low;
   for (const glm::dvec3& p : rig.positions) low = glm::min(low, p), high = glm::max(high, p);
   rig.diagonal = glm::length(high - low);
@@ -168,6 +210,29 @@ std::vector<Pose> clip_poses(const Model& model, const Rig& rig) {
       poses.push_back(sample(model, clip, duration * static_cast<double>(f) / static_cast<double>(each)));
   }
   return poses;
+}
+
+Pose bent_pose(const Model& model, const Rig& rig, const std::vector<std::string>& bends) {
+  Pose pose = rest_pose(model);
+  for (const std::string& bend : bends) {
+    const size_t last = bend.rfind(','),
+                 middle = last == std::string::npos || last == 0 ? last : bend.rfind(',', last - 1);
+    if (middle == std::string::npos || last != middle + 2 || bend[middle + 1] < 'x' || bend[middle + 1] > 'z')
+      throw std::runtime_error("--bend: JOINT,AXIS,DEGREES with x, y or z is needed, not " + bend);
+    const std::string name = bend.substr(0, middle), angle = bend.substr(last + 1);
+    const auto joint = std::find(rig.names.begin(), rig.names.end(), name);
+    if (joint == rig.names.end()) throw std::runtime_error("--bend: the model has no joint \"" + name + "\"");
+    char* end = nullptr;
+    const double degrees = std::strtod(angle.c_str(), &end);
+    if (angle.empty() || *end != '\0' || !std::isfinite(degrees))
+      throw std::runtime_error("--bend: \"" + angle + "\" is no angle");
+    glm::dvec3 axis(0);
+    axis[bend[middle + 1] - 'x'] = 1;
+    NodePose& node = pose[static_cast<size_t>(rig.joints[static_cast<size_t>(joint - rig.names.begin())])];
+    if (node.fixed) throw std::runtime_error("--bend: " + name + " has a matrix; it cannot be turned");
+    node.rotation = node.rotation * glm::angleAxis(glm::radians(degrees), axis);
+  }
+  return pose;
 }
 
 void write_weights(Model& model, const Rig& rig, const RigWeights& weights) {

@@ -24,10 +24,12 @@ struct RigWeights {
 };
 
 struct Rig {
+  size_t joint_count() const { return joints.size() - end_count; }  // those of the skins
   std::vector<RigPart> parts;
   std::vector<glm::dvec3> positions;  // bind space of the first skin
   std::vector<uint32_t> triangles;
-  std::vector<int> joints;  // nodes; the joints of all skins, each once
+  std::vector<int> joints;  // nodes; the joints of all skins, each once, then the ends
+  size_t end_count = 0;     // nodes in no skin that say where their parents end, as exporters write tails
   std::vector<std::string> names;
   std::vector<glm::dmat4> inverse_bind;  // from the bind space of the first skin
   hf::Bones bones;                       // heads and parents of the joints; a joint deforms if a vertex has it
@@ -43,6 +45,10 @@ std::vector<glm::dvec3> pose_rig(const Rig& rig, const std::vector<glm::dmat4>& 
 
 // Poses of the model's clips, 40 to 54 in all. A model without clips gets one in which every joint swings.
 std::vector<Pose> clip_poses(const Model& model, const Rig& rig);
+
+// The rest pose with joints turned about axes of their own. Each text is JOINT,AXIS,DEGREES with x, y or z. Throws
+// std::runtime_error naming what is wrong with a text.
+Pose bent_pose(const Model& model, const Rig& rig, const std::vector<std::string>& bends);
 
 // Puts weights into the primitives.
 void write_weights(Model& model, const Rig& rig, const RigWeights& weights);

@@ -107,8 +107,10 @@ TakenSkeleton take_skeleton(const Model& source, const Model& target, const std:
     const glm::dvec3 place = in_place ? glm::dvec3(old[3]) : fit(glm::dvec3(old[3]));
     world.push_back(glm::mat4_cast(turn_of(old)));
     world.back()[3] = glm::dvec4(place, 1.0);
-    skin.joints.push_back(first + static_cast<int>(j));
-    skin.inverse_bind.push_back(glm::mat4(glm::inverse(world.back())));
+    if (j < rig.joint_count()) {
+      skin.joints.push_back(first + static_cast<int>(j));
+      skin.inverse_bind.push_back(glm::mat4(glm::inverse(world.back())));
+    }
     if (rig.bones.deforms[j]) out.deforming.push_back(rig.names[j]);
   }
   for (size_t j = 0; j < rig.joints.size(); ++j) {

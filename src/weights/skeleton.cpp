@@ -121,18 +121,20 @@ namespace {
 class Tails {
  public:
   Tails(const Bones& bones, const Mesh& mesh, const SkinShape& skin, Memory& memory)
-      : head(&memory), bones_(bones), skin_(skin), first_child_(&memory), next_child_(&memory) {
+      : head(&memory), bones_(bones), skin_(skin), first_child_(&memory), first_end_(&memory), next_(&memory) {
     const std::size_t count = bones.head.size();
     for (const Vec3& p : bones.head) head.push_back(place_of(mesh, p));
-    first_child_.assign(count, -1), next_child_.assign(count, -1);
+    first_child_.assign(count, -1), first_end_.assign(count, -1), next_.assign(count, -1);
     Vector<double> lengths(&memory);
     for (Index j = bones.count() - 1; j >= 0; --j) {
       const Index parent = bones.parent[at(j)];
-      if (parent < 0 || !bones.deforms[at(j)]) continue;
+      if (parent < 0) continue;
       const double length = norm(head[at(j)] - head[at(parent)]);
       if (length < no_length) continue;
-      lengths.push_back(length);
-      next_child_[at(j)] = first_child_[at(parent)], first_child_[at(parent)] = j;
+      const bool deforms = bones.deforms[at(j)] != 0;
+      if (deforms) lengths.push_back(length);
+      Index& first = deforms ? first_child_[at(parent)] : first_end_[at(parent)];
+      next_[at(j)] = first, first = j;
     }
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     if (!lengths.empty()) std::nth_element(lengths.begin(), middle, lengths.end());
@@ -145,13 +147,13 @@ class Tails {
     const Vec3 axis = bones_.axis.empty() ? Vec3{} : bones_.axis[at(j)];
     const bool has_axis = dot(axis, axis) > 0;
     const Index first = first_child_[at(j)];
-    const Index child = has_axis ? along(j, axis) : first;
-    if (child >= 0 && (has_axis || next_child_[at(child)] < 0)) {
+    const Index child = end_among(first, j, axis);
+    if (child >= 0) {
       out.push_back({head[at(j)], head[at(child)], j});
     } else if (has_axis && loose_axes_ && first >= 0) {
-      for (Index c = first; c >= 0; c = next_child_[at(c)]) out.push_back({head[at(j)], head[at(c)], j});
+      for (Index c = first; c >= 0; c = next_[at(c)]) out.push_back({head[at(j)], head[at(c)], j});
     } else {
-      out.push_back({head[at(j)], child >= 0 ? mean_of_children(j) : end_of(j, axis), j});
+      out.push_back({head[at(j)], !has_axis && first >= 0 ? mean_of_children(j) : end_of(j, axis), j});
     }
   }
 
@@ -159,11 +161,13 @@ class Tails {
 
  private:
   static double cosine(const Vec3& way, const Vec3& axis) noexcept { return dot(way, axis) / norm(way); }
-  // The child that lies best along the axis, or -1.
-  Index along(Index j, const Vec3& axis) const {
+  // Of a list of children the one at which a joint ends, or -1: the one that lies best along the axis. Without an axis,
+  // the only one.
+  Index end_among(Index first, Index j, const Vec3& axis) const {
+    if (!(dot(axis, axis) > 0)) return first >= 0 && next_[at(first)] < 0 ? first : -1;
     double best = axis_cosine;
     Index found = -1;
-    for (Index c = first_child_[at(j)]; c >= 0; c = next_child_[at(c)]) {
+    for (Index c = first; c >= 0; c = next_[at(c)]) {
       const double found_cosine = cosine(head[at(c)] - head[at(j)], axis);
       if (found_cosine > best) best = found_cosine, found = c;
     }
@@ -202,7 +206,9 @@ class Tails {
   }
   // Where a joint ends that no child continues.
   Vec3 end_of(Index j, const Vec3& axis) const {
-    const bool has_axis = dot(axis, axis) > 0;
+    const bool has_axis = dot(axis, axis) > 0, leaf = first_child_[at(j)] < 0;
+    const Index end = leaf && has_axis ? end_among(first_end_[at(j)], j, axis) : -1;
+    if (end >= 0) return head[at(end)];
     const Index parent = bones_.parent[at(j)];
     const Vec3 from_parent = parent < 0 ? Vec3{} : head[at(j)] - head[at(parent)];
     const double length = norm(from_parent);
@@ -210,25 +216,26 @@ class Tails {
     if (!has_axis && !has_length) return head[at(j)];
     const Vec3 direction = has_axis ? axis : (1 / length) * from_parent;
     const double unit = has_length ? length : typical_;
-    const bool leaf = first_child_[at(j)] < 0;
     const Index other = leaf ? met(j, direction, unit) : -1;
     if (other >= 0) return head[at(other)];
     // A leaf away from the end of its parent, as a foot below the root, has a parent that tells nothing about its size.
-    const bool apart = leaf && parent >= 0 && has_length && !bones_.axis.empty() &&
-                       !(cosine(from_parent, bones_.axis[at(parent)]) > axis_cosine);
+    const Vec3 parent_axis = parent < 0 || bones_.axis.empty() ? Vec3{} : bones_.axis[at(parent)];
+    const bool apart =
+        leaf && has_length && dot(parent_axis, parent_axis) > 0 && !(cosine(from_parent, parent_axis) > axis_cosine);
     const double most = leaf ? leaf_length * (apart ? std::min(unit, typical_) : unit) : hub_length * unit;
     return head[at(j)] + std::min(most, skin_.way_out(head[at(j)], direction, most)) * direction;
   }
   Vec3 mean_of_children(Index j) const {
     Vec3 sum;
     double count = 0;
-    for (Index c = first_child_[at(j)]; c >= 0; c = next_child_[at(c)]) sum = sum + head[at(c)], ++count;
+    for (Index c = first_child_[at(j)]; c >= 0; c = next_[at(c)]) sum = sum + head[at(c)], ++count;
     return (1 / count) * sum;
   }
 
   const Bones& bones_;
   const SkinShape& skin_;
-  Vector<Index> first_child_, next_child_;  // children that deform and do not lie on their parent
+  // Lists of children that do not lie on their parent: those that deform, and others, which say where leaves end.
+  Vector<Index> first_child_, first_end_, next_;
   double typical_ = 1;
   bool loose_axes_ = false;  // some joint's only child lies off its axis: axes do not tell where joints end
 };

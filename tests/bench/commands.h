@@ -66,6 +66,8 @@ Rows run_detail(const Run& run, Report& report);
 void plot_detail(const Runs& runs, const std::string& file);
 Rows run_transfer(const Run& run, Report& report);
 void plot_transfer(const Runs& runs, const std::string& file);
+Rows run_weights(const Run& run, Report& report);
+void plot_weights(const Runs& runs, const std::string& file);
 
 // "2 threads".
 std::string threads_text(uint32_t threads);

@@ -126,6 +126,11 @@ const std::vector<Figure>& all_figures() {
        both(15), both(30), "%.1fx"},
       {"turn_connection", "vector by the connection, one turned or rewritten: CHOLMOD again + solve over ours", true,
        both(15), both(30), "%.1fx"},
+      {"weights_whole", "skin weights: 3.3K vertices, 50 bones, surface to weights, ms", false, both(25), both(12),
+       "%.1f"},
+      {"weights_bone", "skin weights: 13K vertices, a bone moved, new weights out, ms", false, both(30), both(12),
+       "%.1f"},
+      {"weights_pin", "skin weights: 13K vertices, a pin, new weights out, ms", false, both(10), both(4), "%.1f"},
       {"deform_quality", "pose: bars of quality missed", false, both(0), both(0), "%.0f"},
   };
   return figures;

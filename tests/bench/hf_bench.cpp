@@ -50,6 +50,8 @@ constexpr Command commands[] = {
      bench::run_detail, bench::plot_detail},
     {"transfer", "frames a second from one source to one target and to a crowd of eight clones", bench::run_transfer,
      bench::plot_transfer},
+    {"weights", "skin weights from bones, a moved bone, a pin, weights carried, 3K to 70K vertices", bench::run_weights,
+     bench::plot_weights},
 };
 
 constexpr size_t engine_commands = 8;  // first-field to scaling: the factor and the engines, without the rest

@@ -72,6 +72,35 @@ class Scene
         return found;
     }
 
+    float[] Floats(Map step, string key)
+    {
+        double[] values = Doubles(step, key);
+        return values == null ? null : values.Select(x => (float)x).ToArray();
+    }
+
+    static string[] Names(Map step)
+    {
+        object list = Get(step, "names");
+        return list == null ? null : ((Items)list).Cast<string>().ToArray();
+    }
+
+    Bones BonesOf(Map step)
+    {
+        double[] deforms = Doubles(step, "deforms");
+        return new Bones { Heads = Doubles(step, "heads"), Tails = Doubles(step, "tails"), Axes = Doubles(step, "axes"),
+            Parents = Numbers(Get(step, "parents")), Sources = Numbers(Get(step, "sources")),
+            Deforms = deforms == null ? null : deforms.Select(x => (int)x).ToArray() };
+    }
+
+    /// The weight of one bone at every vertex.
+    static double[] Column(VertexWeights found, uint bone)
+    {
+        var column = new double[found.Origins.Length];
+        for (int i = 0; i < found.Joints.Length; ++i)
+            if (found.Joints[i] == bone) column[i / found.WeightCount] += found.Weights[i];
+        return column;
+    }
+
     static void Compare(double[] a, Map wanted)
     {
         double sum = 0, weighted = 0;
@@ -273,6 +302,29 @@ class Scene
                 }
             case "region": objects[name] = new Region(surface, Doubles(step, "positions"),
                 (int)Options(step, "field_kind")["field_kind"]); return null;
+            case "weights": objects[name] = new Weights(surface, BonesOf(step),
+                (uint)Options(step, "weight_count")["weight_count"]); return null;
+            case "set_bones": ((Weights)on).SetBones(BonesOf(step)); return null;
+            case "set_pins": ((Weights)on).SetPins(vertices, Numbers(Get(step, "joints")), Floats(step, "weights"));
+                return null;
+            case "set_locks": ((Weights)on).SetLocks(Numbers(Get(step, "bones"))); return null;
+            case "record_weights": ((Weights)on).Record(); return null;
+            case "undo_weights": ((Weights)on).Undo(); return null;
+            case "redo_weights": ((Weights)on).Redo(); return null;
+            case "clone_weights": objects[name] = ((Weights)on).Clone(); return null;
+            case "weights_info": return Fields(((Weights)on).Info);
+            case "bone_flags": return ((Weights)on).BoneFlags().Select(x => (double)x).ToArray();
+            case "helpers": return ((Weights)on).Helpers(Names(step)).Select(x => (double)x).ToArray();
+            case "skin_weights": return Column(((Weights)on).Get(), Whole(step, "bone"));
+            case "carry":
+                {
+                    hf_carry_info info;
+                    return Column(Weights.Carry((Surface)objects[(string)step["source"]], Numbers(Get(step, "joints")),
+                        Floats(step, "weights"), surface, out info), Whole(step, "bone"));
+                }
+            case "mirror": return Column(Weights.Mirror(surface, Numbers(Get(step, "joints")), Floats(step, "weights"),
+                Doubles(step, "heads"), new MirrorOptions { Names = Names(step), Plane = Doubles(step, "plane"),
+                To = (int)Whole(step, "to") }).Weights, Whole(step, "bone"));
             case "region_edit":
                 ((Region)on).Edit(new RegionEdit { Curve = Numbers(Get(step, "curve")), Add = Numbers(Get(step, "add")),
                     Remove = Numbers(Get(step, "remove")), Rings = Get(step, "rings") == null ? 0

@@ -213,6 +213,37 @@ local function new_scene(meshes)
       expect(step.lines == nil or step.lines == lines.line_count, lines.line_count .. ' lines')
       return 'array', lines.positions, 3 * lines.point_count
     elseif what == 'region' then objects[step.as] = hf.Region(on, get('positions'), options)
+    elseif what == 'weights' or what == 'set_bones' then
+      local bones = {}
+      for _, key in ipairs({ 'heads', 'tails', 'axes', 'parents', 'deforms', 'sources' }) do bones[key] = get(key) end
+      if what == 'set_bones' then on:set_bones(bones)
+      else objects[step.as] = hf.Weights(on, bones, options.weight_count) end
+    elseif what == 'set_pins' then on:set_pins(get('vertices'), get('joints'), get('weights'))
+    elseif what == 'set_locks' then on:set_locks(get('bones'))
+    elseif what == 'record_weights' then on:record()
+    elseif what == 'undo_weights' then on:undo()
+    elseif what == 'redo_weights' then on:redo()
+    elseif what == 'clone_weights' then objects[step.as] = on:clone()
+    elseif what == 'weights_info' then return 'struct', on:info()
+    elseif what == 'bone_flags' or what == 'helpers' then
+      local found, count
+      if what == 'helpers' then found, count = on:helpers(step.names) else found, count = on:bone_flags() end
+      local out = ffi.new('double[?]', count + 1)
+      for i = 0, count - 1 do out[i] = found[i] end
+      return 'array', out, count
+    elseif what == 'skin_weights' or what == 'carry' or what == 'mirror' then
+      local given, found = { joints = get('joints'), weights = get('weights') }, nil
+      if what == 'skin_weights' then found = on:weights()
+      elseif what == 'carry' then found = hf.carry_weights(objects[step.source], given, on)
+      else found = hf.mirror_weights(on, given, get('heads'), { names = step.names, plane = get('plane'), to = step.to }) end
+      local out, k = ffi.new('double[?]', n), found.weight_count
+      for i = 0, n * k - 1 do
+        if found.joints[i] == step.bone then
+          local v = math.floor(i / k)
+          out[v] = out[v] + found.weights[i]
+        end
+      end
+      return 'array', out, n
     elseif what == 'region_edit' then
       on:edit({ curve = step.curve, rings = step.rings, add = step.add, remove = step.remove })
     elseif what == 'region_info' then return 'struct', on:info()

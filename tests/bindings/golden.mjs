@@ -57,6 +57,20 @@ function checkStruct(info, expect) {
   }
 }
 
+const bonesOf = (get, step) =>
+  Object.fromEntries(
+    ['heads', 'tails', 'axes', 'parents', 'deforms', 'sources'].filter((key) => key in step).map((key) => [key, get(key)]),
+  );
+
+/** The weight of one bone at every vertex. */
+const columnOf = (found, bone) =>
+  Float64Array.from(found.origins, (_, v) => {
+    let sum = 0;
+    for (let k = v * found.weightCount; k < (v + 1) * found.weightCount; ++k)
+      if (found.joints[k] === bone) sum += found.weights[k];
+    return sum;
+  });
+
 function runStep(hf, step, meshes, objects, kept) {
   const on = objects[step.on];
   const get = (key, otherwise = null) =>
@@ -254,6 +268,41 @@ function runStep(hf, step, meshes, objects, kept) {
     case 'region':
       objects[step.as] = new hf.Region(on, { positions: get('positions'), ...options });
       return {};
+    case 'weights':
+      objects[step.as] = new hf.Weights(on, bonesOf(get, step), options);
+      return {};
+    case 'set_bones':
+      on.setBones(bonesOf(get, step));
+      return {};
+    case 'set_pins':
+      on.setPins(get('vertices'), { joints: get('joints'), weights: get('weights') });
+      return {};
+    case 'set_locks':
+      on.setLocks(get('bones'));
+      return {};
+    case 'record_weights':
+    case 'undo_weights':
+    case 'redo_weights':
+      on[step.do.split('_')[0]]();
+      return {};
+    case 'clone_weights':
+      objects[step.as] = on.clone();
+      return {};
+    case 'bone_flags':
+      return array(Float64Array.from(on.bones().flags));
+    case 'helpers':
+      return array(Float64Array.from(on.helpers(step.names ?? null)));
+    case 'skin_weights':
+      return array(columnOf(on.weights(), step.bone));
+    case 'carry': {
+      const given = { joints: get('joints'), weights: get('weights') };
+      return array(columnOf(hf.carryWeights(objects[step.source], given, on), step.bone));
+    }
+    case 'mirror': {
+      const given = { joints: get('joints'), weights: get('weights') };
+      const more = { names: step.names ?? null, plane: get('plane'), to: step.to ?? 0 };
+      return array(columnOf(hf.mirrorWeights(on, given, get('heads'), more), step.bone));
+    }
     case 'region_edit':
       on.edit({ curve: get('curve'), rings: step.rings ?? 0, add: get('add'), remove: get('remove') });
       return {};
@@ -261,6 +310,7 @@ function runStep(hf, step, meshes, objects, kept) {
     case 'solver_info':
     case 'pose_info':
     case 'transfer_info':
+    case 'weights_info':
     case 'region_info':
       return { struct: on.info };
     case 'region_vertices':

@@ -206,6 +206,43 @@ class Scene:
             return "array", lines.positions
         elif do == "region":
             self.objects[step["as"]] = hf.Region(on, get("positions"), **options)
+        elif do in ("weights", "set_bones"):
+            rows = {key: np.array(get(key), np.float64).reshape(-1, 3) for key in ("heads", "tails", "axes") if key in step}
+            lists = {key: get(key) for key in ("parents", "deforms", "sources") if key in step}
+            if do == "weights":
+                self.objects[step["as"]] = hf.Weights(on, rows.pop("heads"), **rows, **lists, **options)
+            else:
+                on.set_bones(rows.pop("heads"), **rows, **lists)
+        elif do == "set_pins":
+            on.set_pins(get("vertices"), get("joints"), get("weights"))
+        elif do == "set_locks":
+            on.set_locks(get("bones"))
+        elif do in ("record_weights", "undo_weights", "redo_weights"):
+            getattr(on, do.split("_")[0])()
+        elif do == "clone_weights":
+            self.objects[step["as"]] = on.clone()
+        elif do == "weights_info":
+            return "struct", on.info()
+        elif do == "bone_flags":
+            return "array", on.bones()[0].astype(np.float64)
+        elif do == "helpers":
+            return "array", on.helpers(get("names")).astype(np.float64)
+        elif do in ("skin_weights", "carry", "mirror"):
+            if do == "skin_weights":
+                found = on.weights()
+            else:
+                surface = self.objects[step.get("source", step["on"])]
+                shares = np.array(get("weights"), np.float32)
+                joints = np.array(get("joints"), np.uint32)
+                if joints.size != shares.size or joints.size % surface.vertex_count:
+                    raise hf.InvalidArgumentError("joints and weights of one length")
+                given = joints.reshape(surface.vertex_count, -1), shares.reshape(surface.vertex_count, -1)
+                if do == "carry":
+                    found, _info = hf.carry_weights(surface, *given, on)
+                else:
+                    found = hf.mirror_weights(surface, *given, np.array(get("heads")).reshape(-1, 3), names=get("names"),
+                        plane=get("plane"), to=step.get("to", 0)).weights
+            return "array", np.where(found.joints == step["bone"], found.weights, 0).sum(1).astype(np.float64)
         elif do == "region_edit":
             on.edit(curve=get("curve"), rings=step.get("rings", 0), add=get("add"), remove=get("remove"))
         elif do == "region_info":

@@ -19,6 +19,7 @@ enum Object {
     Flow(Flow),
     Region(Region),
     Detail(Detail),
+    Weights(Weights),
 }
 
 type Figures = Box<dyn Fn(&str) -> Option<f64>>;
@@ -609,6 +610,112 @@ impl Scene<'_> {
         Ok(Answer::Nothing)
     }
 
+    fn weights_step(&mut self, what: &str, step: &Value) -> Outcome {
+        let rows: Vec<_> = ["heads", "tails", "axes"]
+            .iter()
+            .map(|key| self.doubles(step, key))
+            .collect();
+        let (parents, sources) = (
+            self.integers(step, "parents"),
+            self.integers(step, "sources"),
+        );
+        let deforms: Option<Vec<i32>> = self
+            .doubles(step, "deforms")
+            .map(|list| list.iter().map(|&v| v as i32).collect());
+        let bones = Bones {
+            heads: rows[0].as_deref().unwrap_or_default(),
+            tails: rows[1].as_deref(),
+            axes: rows[2].as_deref(),
+            parents: parents.as_deref(),
+            deforms: deforms.as_deref(),
+            sources: sources.as_deref(),
+        };
+        let vertices = self.integers(step, "vertices").unwrap_or_default();
+        let joints = self.integers(step, "joints").unwrap_or_default();
+        let shares: Vec<f32> = self
+            .doubles(step, "weights")
+            .unwrap_or_default()
+            .iter()
+            .map(|&v| v as f32)
+            .collect();
+        let list: Option<Vec<&str>> = step["names"]
+            .as_array()
+            .map(|names| names.iter().map(|name| name.as_str().unwrap()).collect());
+        let bone = step.get("bone").map(whole);
+        let column = |found: &VertexWeights| -> Outcome {
+            let row = |v: usize| v * found.weight_count..(v + 1) * found.weight_count;
+            let of_bone = |&k: &usize| Some(found.joints[k]) == bone;
+            let weight = |v| {
+                row(v)
+                    .filter(of_bone)
+                    .map(|k| f64::from(found.weights[k]))
+                    .sum()
+            };
+            Ok(Answer::Array(
+                (0..found.origins.len()).map(weight).collect(),
+            ))
+        };
+        match what {
+            "weights" => {
+                let count = step["options"].get("weight_count").map_or(0, whole);
+                let made = Weights::new(on!(self, step, Surface), &bones, count)?;
+                return self.keep(step, Object::Weights(made));
+            }
+            "carry" => {
+                let (source, target) = (
+                    named!(self, step, "source", Surface),
+                    named!(self, step, "on", Surface),
+                );
+                return column(
+                    &carry_weights(source, &joints, &shares, target, &Default::default())?.0,
+                );
+            }
+            "mirror" => {
+                let plane = self
+                    .doubles(step, "plane")
+                    .map(|list| <[f64; 6]>::try_from(list).unwrap());
+                let mirror = Mirror {
+                    heads: bones.heads,
+                    names: list.as_deref(),
+                    plane,
+                    to: step.get("to").map_or(0, |to| number(to) as i32),
+                    ..Default::default()
+                };
+                let surface = named!(self, step, "on", Surface);
+                return column(&mirror_weights(surface, &joints, &shares, &mirror)?.weights);
+            }
+            _ => {}
+        }
+        let locked = self.integers(step, "bones").unwrap_or_default();
+        let weights = on!(self, step, Weights);
+        let numbers = |found: Vec<u32>| -> Outcome {
+            Ok(Answer::Array(
+                found.into_iter().map(f64::from).collect::<Vec<f64>>(),
+            ))
+        };
+        match what {
+            "set_bones" => weights.set_bones(&bones)?,
+            "set_pins" => {
+                let each = joints.len() / vertices.len().max(1);
+                weights.set_pins(&vertices, each as u32, &joints, &shares)?;
+            }
+            "set_locks" => weights.set_locks(&locked)?,
+            "record_weights" => weights.record()?,
+            "undo_weights" => weights.undo()?,
+            "redo_weights" => weights.redo()?,
+            "clone_weights" => {
+                let copy = weights.try_clone()?;
+                return self.keep(step, Object::Weights(copy));
+            }
+            "weights_info" => return figures!(weights.info()),
+            "bone_flags" => return numbers(weights.bone_flags()?),
+            "helpers" => return numbers(weights.helpers(list.as_deref())?),
+            "skin_weights" => return column(&weights.get()?),
+            _ => unreachable!(),
+        }
+        Ok(Answer::Nothing)
+    }
+
     fn run(&mut self, step: &Value) -> Outcome {
         let what = step["do"].as_str().unwrap();
         if step.get("sites").is_some_and(Value::is_null) {
@@ -726,6 +833,9 @@ impl Scene<'_> {
             | "pose_info" | "skin" => self.pose_step(what, step),
             "region_edit" | "record_region" | "undo_region" | "redo_region" | "region_info"
             | "region_vertices" | "morph" => self.region_step(what, step),
+            "weights" | "set_bones" | "set_pins" | "set_locks" | "record_weights"
+            | "undo_weights" | "redo_weights" | "clone_weights" | "weights_info" | "bone_flags"
+            | "helpers" | "skin_weights" | "carry" | "mirror" => self.weights_step(what, step),
             _ => self.surface_step(what, step),
         }
     }
@@ -860,7 +970,9 @@ fn read(path: &str) -> Value {
 }
 
 fn play(file: &str) {
-    let names = ["strip", "torus", "bar", "long_bar", "small", "lonely", "pair"];
+    let names = [
+        "strip", "torus", "bar", "long_bar", "small", "lonely", "pair",
+    ];
     let meshes = names
         .iter()
         .map(|name| {

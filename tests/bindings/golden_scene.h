@@ -52,6 +52,7 @@ struct Object {
   hf::Handle<hf_flow, hf_flow_destroy> flow;
   hf::Handle<hf_region, hf_region_destroy> region;
   hf::Handle<hf_detail, hf_detail_destroy> detail;
+  hf::Handle<hf_weights, hf_weights_destroy> weights;
   size_t vertex_count = 0, source_vertex_count = 0;
 };
 
@@ -191,6 +192,8 @@ class Scene {
   Result run_posing(const Json& step, const std::string& what);
   Result run_direction(const Json& step, const std::string& what);
   Result run_region(const Json& step, const std::string& what);
+  Result run_weights(const Json& step, const std::string& what);
+  Result run_carried(const Json& step, const std::string& what);
   Result run_quads(const Json& step, const std::string& what);
   void make_object(const Json& step, const std::string& what);
 

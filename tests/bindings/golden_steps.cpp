@@ -13,6 +13,9 @@ const std::set<std::string> direction_steps = {"add_vectors",   "remove_vectors"
 const std::set<std::string> mesh_steps = {"report", "surface_statistics", "surface_info", "components", "save"};
 const std::set<std::string> region_steps = {"region",        "region_edit", "region_info", "region_vertices",
                                             "record_region", "undo_region", "redo_region", "morph"};
+const std::set<std::string> weight_steps = {
+    "weights",       "set_bones",    "set_pins",   "set_locks", "record_weights", "undo_weights", "redo_weights",
+    "clone_weights", "skin_weights", "bone_flags", "helpers",   "weights_info",   "carry",        "mirror"};
 }  // namespace
 
 Result Scene::run_solver(const Json& step) {
@@ -64,7 +67,7 @@ Result Scene::run(const Json& step) {
   };
   if (what == "dispose") {
     on.surface = {}, on.solver = {}, on.pose = {}, on.transfer = {}, on.geodesics = {}, on.direction = {};
-    on.quads = {}, on.flow = {}, on.region = {}, on.detail = {};
+    on.quads = {}, on.flow = {}, on.region = {}, on.detail = {}, on.weights = {};
   } else if (what == "clone") {
     hf_solver raw = nullptr;
     check(hf_solver_clone(solver, &raw));
@@ -159,6 +162,8 @@ Result Scene::run(const Json& step) {
     return run_direction(step, what);
   } else if (region_steps.count(what)) {
     return run_region(step, what);
+  } else if (weight_steps.count(what)) {
+    return run_weights(step, what);
   } else if (what == "quads_info" || what == "quad_mesh" || what == "flow_lines") {
     return run_quads(step, what);
   } else {

@@ -192,6 +192,8 @@ class Refusals(unittest.TestCase):
         self.assertEqual(weights.helpers()[0] & hf.HelperReason.NAME_ROOT, 0)
         found = weights.weights()
         carried, info = hf.carry_weights(surface, found.joints, found.weights, other)
+        plain, _ = hf.carry_weights(surface, found.joints, found.weights, other, weight_count=0)  # 0: 4
+        np.testing.assert_array_equal(plain.weights, carried.weights)
         self.assertEqual(info.matched_count, n * n)
         np.testing.assert_allclose(carried.weights.sum(1), 1, atol=0)
         np.testing.assert_allclose(carried.weights[:, 0], found.weights[:, 0], atol=1e-6)

@@ -359,9 +359,36 @@ export interface Weights extends Handle {
   /** Replaces all locks; values: a number for each vertex and lock, or null for the present ones. */
   setLocks(bones: Numbers, values?: Float32Array | null): void;
   /** origins: HF_WEIGHTS_* of each vertex. */
-  weights(): { weightCount: number; joints: Uint32Array; weights: Float32Array; origins: Uint8Array };
+  weights(): VertexWeights;
   /** flags: bits HF_BONE_* of each bone; vertexCounts: vertices that ask for it. */
   bones(): { flags: Uint32Array; vertexCounts: Uint32Array };
+  /** Bits HF_HELPER_* of each bone: why it looks like a helper. names: of the bones, or null. */
+  helpers(names?: string[] | null): Uint32Array;
+}
+export interface VertexWeights {
+  weightCount: number;
+  joints: Uint32Array;
+  weights: Float32Array;
+  origins: Uint8Array;
+}
+/** As many numbers for each vertex in both. */
+export interface GivenWeights {
+  joints: Numbers;
+  weights: Numbers | Float32Array;
+}
+/** distance and angle (radians): how near a point and its normal must be; 0: the library's own. */
+export interface CarryOptions {
+  distance?: number;
+  angle?: number;
+  weightCount?: number;
+  progress?: Progress | null;
+}
+/** partners: HF_NO_INDEX: find it. plane: a point and a normal; null: find it. to: HF_MIRROR_*. */
+export interface MirrorOptions extends CarryOptions {
+  names?: string[] | null;
+  partners?: Numbers | null;
+  plane?: Numbers | null;
+  to?: number;
 }
 export interface Bones {
   heads: Rows;
@@ -439,6 +466,20 @@ export interface Hf {
     },
   ) => Detail;
   readonly Weights: new (surface: Surface, bones: Bones, options?: { weightCount?: number }) => Weights;
+  /** Carries weights to another surface: clothes, levels of detail. */
+  carryWeights(
+    source: Surface,
+    given: GivenWeights,
+    target: Surface,
+    options?: CarryOptions,
+  ): VertexWeights & { info: Record<string, number> };
+  /** Mirrors weights of one side to the other. heads: three numbers for each bone. */
+  mirrorWeights(
+    surface: Surface,
+    given: GivenWeights,
+    heads: Rows,
+    options?: MirrorOptions,
+  ): VertexWeights & { partners: Uint32Array; pairings: Uint32Array; info: Record<string, unknown> };
   readonly Progress: new () => Progress;
   readonly HfError: typeof HfError;
   readonly constants: Readonly<Record<string, number>>;

@@ -33,6 +33,70 @@ export function weightClasses(tools) {
     return watched(desc, progress);
   };
 
+  /** Names of bones as the library takes them: one line for each. */
+  const linesOf = (names, count) => {
+    if (names === null || names === undefined) return null;
+    if (!Array.isArray(names) || names.length !== count) fail(`names must be a list of ${count} names`);
+    const text = names.map((name) => `${String(name).replace(/[\0\n]/g, ' ')}\n`).join('');
+    return new TextEncoder().encode(`${text}\0`);
+  };
+
+  /** Bones and shares of every vertex, descending; origins: HF_WEIGHTS_* of each vertex. */
+  const room = (count, size) => {
+    const found = {
+      joints: new Uint32Array(count * size),
+      weights: new Float32Array(count * size),
+      origins: new Uint8Array(size),
+    };
+    const out = make('hf_weights_out', { vertex_capacity: size });
+    for (const [name, array] of Object.entries(found)) out.set(name, written(array));
+    return [{ weightCount: count, ...found }, out];
+  };
+
+  /** Sets the given weights of a desc, and what the calls that carry and mirror share. */
+  const describe = (type, surface, { joints, weights }, { distance = 0, angle = 0, weightCount = 4, progress = null }) => {
+    const [bones, shares] = [integers(joints, 'joints'), weights && Float32Array.from(weights)];
+    const size = surface.vertexCount;
+    if (!bones || !shares || bones.length !== shares.length || bones.length % size)
+      fail(`joints and weights must hold as many numbers for each of ${size} vertices`);
+    const desc = make(type, { influence_count: bones.length / size, distance, angle, weight_count: weightCount });
+    desc.set('joints', read(bones)).set('weights', read(shares));
+    return watched(desc, progress);
+  };
+
+  /** Carries weights to another surface: clothes, levels of detail. given: { joints, weights } of the source. */
+  const carryWeights = (source, given, target, options = {}) => {
+    const from = handleOf(source, classes.Surface, 'source');
+    const to = handleOf(target, classes.Surface, 'target');
+    if (!from || !to) fail('carryWeights needs two surfaces', 'HF_ERROR_NULL_POINTER');
+    const desc = describe('hf_carry_desc', source, given ?? {}, options);
+    const [found, out] = room(desc.get('weight_count') || 4, target.vertexCount);
+    const info = make('hf_carry_info');
+    call('hf_weights_carry', from, to, desc, out, info);
+    return { ...found, info: info.toObject() };
+  };
+
+  /** Mirrors weights of one side to the other. heads: three numbers for each bone. partners: HF_NO_INDEX: find it. */
+  const mirrorWeights = (surface, given, heads, options = {}) => {
+    const { names = null, partners = null, plane = null, to = 0, ...more } = options;
+    const on = handleOf(surface, classes.Surface, 'surface');
+    if (!on) fail('mirrorWeights needs a surface', 'HF_ERROR_NULL_POINTER');
+    const places = doubles(heads, 'heads');
+    if (!places || places.length % 3) fail('heads must hold three numbers for each bone');
+    const count = places.length / 3;
+    const pairs = integers(partners, 'partners');
+    if (pairs && pairs.length !== count) fail(`partners must hold ${count} numbers, not ${pairs.length}`);
+    const desc = describe('hf_mirror_desc', surface, given ?? {}, more);
+    const [flat, lines] = [doubles(plane, 'plane', 6), linesOf(names, count)];
+    desc.set('bone_count', count).set('to', to).set('heads', read(places)).set('names', lines && read(lines));
+    desc.set('partners', pairs && read(pairs)).set('plane', flat && read(flat));
+    const [found, out] = room(desc.get('weight_count') || 4, surface.vertexCount);
+    const [others, pairings] = [new Uint32Array(count), new Uint32Array(count)];
+    const info = make('hf_mirror_info');
+    call('hf_weights_mirror', on, desc, out, written(others), written(pairings), info);
+    return { ...found, partners: others, pairings, info: info.toObject() };
+  };
+
   /** Weights of the bones at every vertex. bones: { heads, tails, axes, parents, deforms }. */
   class Weights extends Recorded {
     static prefix = 'hf_weights';
@@ -74,16 +138,9 @@ export function weightClasses(tools) {
     weights() {
       const ask = make('hf_weights_out');
       call('hf_weights_get', this._handle, ask);
-      const [count, size] = [ask.get('weight_count'), this.vertexCount];
-      const found = {
-        joints: new Uint32Array(count * size),
-        weights: new Float32Array(count * size),
-        origins: new Uint8Array(size),
-      };
-      const out = make('hf_weights_out', { vertex_capacity: size });
-      for (const [name, array] of Object.entries(found)) out.set(name, written(array));
+      const [found, out] = room(ask.get('weight_count'), this.vertexCount);
       call('hf_weights_get', this._handle, out);
-      return { weightCount: count, ...found };
+      return found;
     }
     /** flags: bits HF_BONE_* of each bone; vertexCounts: vertices that ask for it. */
     bones() {
@@ -93,10 +150,18 @@ export function weightClasses(tools) {
       call('hf_weights_get_bones', this._handle, count[0], written(flags), written(vertexCounts), written(count));
       return { flags, vertexCounts };
     }
+    /** Bits HF_HELPER_* of each bone: why it looks like a helper. names: of the bones, or null. */
+    helpers(names = null) {
+      const count = new Uint32Array(1);
+      call('hf_weights_get_helpers', this._handle, null, 0, null, written(count));
+      const [reasons, lines] = [new Uint32Array(count[0]), linesOf(names, count[0])];
+      call('hf_weights_get_helpers', this._handle, lines && read(lines), count[0], written(reasons), null);
+      return reasons;
+    }
     get info() {
       return query('hf_weights_info', 'hf_weights_get_info', this._handle);
     }
   }
 
-  return { Weights };
+  return { Weights, carryWeights, mirrorWeights };
 }

@@ -89,6 +89,7 @@ def carry_weights(source: Surface, joints: ArrayLike, weights: ArrayLike, target
     an hf_carry_info."""
     first, second = handle_of(source, Surface, "source"), handle_of(target, Surface, "target")
     bones, shares = _given(source, joints, weights)
+    weight_count = weight_count or 4
     desc = make(_raw.hf_carry_desc, influence_count=bones.shape[1], joints=address(bones), weights=address(shares),
                 distance=distance, angle=angle, weight_count=weight_count,
                 progress=handle_of(progress, Progress, "progress"))
@@ -113,6 +114,7 @@ def mirror_weights(surface: Surface, joints: ArrayLike, weights: ArrayLike, head
     those to find. plane: a point and a normal; None: find it."""
     handle = handle_of(surface, Surface, "surface")
     bones, shares = _given(surface, joints, weights)
+    weight_count = weight_count or 4
     points, lines = _rows(heads, None, "heads"), _lines(names)
     desc = make(_raw.hf_mirror_desc, bone_count=len(points), heads=address(points), influence_count=bones.shape[1],
                 to=int(to), joints=address(bones), weights=address(shares), distance=distance, angle=angle,

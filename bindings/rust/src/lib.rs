@@ -33,7 +33,7 @@ pub use crate::pose::{DeformOptions, Pose, PoseOptions, Skin, Transfer, Transfer
 pub use crate::region::{Detail, Region, RegionEdit, RegionOptions};
 pub use crate::solver::{Edit, Sites, Solver, SolverOptions};
 pub use crate::surface::{Extras, GraphOptions, Isolines, LinkOptions, Surface, SurfaceOptions};
-pub use crate::weights::{Bones, VertexWeights, Weights};
+pub use crate::weights::{carry_weights, mirror_weights, Bones, CarryOptions, Mirror, Mirrored, VertexWeights, Weights};
 
 /// The version of the loaded library: major * 1,000,000 + minor * 1,000 + patch.
 pub fn version() -> u32 {

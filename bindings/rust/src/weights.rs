@@ -1,6 +1,7 @@
 //! Weights: skin weights of a surface from a skeleton.
-use crate::core::{check, count_of, figures, object, of_length, plain, rows_of, start, start_of};
-use crate::{raw, Result, Surface};
+use crate::core::{check, count_of, figures, handle_of, list, object, of_length, plain, rows_of, start, start_of};
+use crate::{raw, Progress, Result, Surface};
+use std::ffi::CString;
 
 /// The bones of a skeleton, in the unit and frame of the mesh.
 #[derive(Clone, Copy, Debug, Default)]
@@ -9,6 +10,8 @@ pub struct Bones<'a> {
     pub heads: &'a [f64],
     /// three numbers a bone; `None`: heads are joints, and the library finds the tails
     pub tails: Option<&'a [f64]>,
+    /// three numbers a bone, without tails: where each bone points, 0 for unknown
+    pub axes: Option<&'a [f64]>,
     /// the number of each bone's parent, or [`crate::raw::HF_NO_INDEX`]; `None`: all are roots
     pub parents: Option<&'a [u32]>,
     /// 1: the bone gets weights; `None`: all do
@@ -22,6 +25,7 @@ impl Bones<'_> {
         let bone_count = rows_of(self.heads, 3, "heads")?;
         let count = bone_count as usize;
         self.tails.map_or(Ok(()), |tails| of_length(tails, "tails", 3 * count))?;
+        self.axes.map_or(Ok(()), |axes| of_length(axes, "axes", 3 * count))?;
         self.parents.map_or(Ok(()), |parents| of_length(parents, "parents", count))?;
         self.deforms.map_or(Ok(()), |deforms| of_length(deforms, "deforms", count))?;
         self.sources.map_or(Ok(()), |sources| of_length(sources, "sources", count))?;
@@ -29,6 +33,7 @@ impl Bones<'_> {
             bone_count,
             heads: start(self.heads),
             tails: start_of(self.tails),
+            axes: start_of(self.axes),
             parents: start_of(self.parents),
             deforms: start_of(self.deforms),
             sources: start_of(self.sources),
@@ -53,6 +58,136 @@ pub struct VertexWeights {
     pub weights: Vec<f32>,
     /// `HF_WEIGHTS_*`: how the weights of a vertex were found
     pub origins: Vec<u8>,
+}
+
+/// How weights are carried and mirrored; 0 is the library's own.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CarryOptions<'a> {
+    /// a vertex matches points within it, in the unit of the mesh
+    pub distance: f64,
+    /// between the normals of vertex and point, in radians
+    pub angle: f64,
+    /// bones a vertex of the result: 4 or 8
+    pub weight_count: u32,
+    /// follows the call, and cancels it
+    pub progress: Option<&'a Progress>,
+}
+
+/// What [`mirror_weights`] takes beside the weights.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Mirror<'a> {
+    /// the joints at rest, three numbers a bone
+    pub heads: &'a [f64],
+    /// names pair the bones; `None`: their places do
+    pub names: Option<&'a [&'a str]>,
+    /// the bone of the other side, or [`crate::raw::HF_NO_INDEX`]: find it
+    pub partners: Option<&'a [u32]>,
+    /// a point and a normal; `None`: find the plane
+    pub plane: Option<[f64; 6]>,
+    /// `HF_MIRROR_*`: which side takes the weights
+    pub to: i32,
+    /// how near a point must be
+    pub options: CarryOptions<'a>,
+}
+
+/// Mirrored weights.
+#[derive(Clone, Debug)]
+pub struct Mirrored {
+    /// of all vertices
+    pub weights: VertexWeights,
+    /// the bone of the other side, by bone
+    pub partners: Vec<u32>,
+    /// `HF_MIRROR_BONE_*` by bone
+    pub pairings: Vec<u32>,
+    /// what was found
+    pub info: raw::hf_mirror_info,
+}
+
+/// Names as the library takes them: one line for each.
+fn lines_of(names: Option<&[&str]>, count: usize) -> Result<Option<CString>> {
+    let Some(names) = names else { return Ok(None) };
+    of_length(names, "names", count)?;
+    let text: String = names.iter().map(|name| name.replace(['\n', '\0'], " ") + "\n").collect();
+    Ok(Some(CString::new(text).unwrap_or_default()))
+}
+
+/// Arrays for all vertices, filled by a call.
+fn filled(n: usize, weight_count: u32, call: impl FnOnce(&mut raw::hf_weights_out) -> i32) -> Result<VertexWeights> {
+    let k = weight_count as usize;
+    let mut out = VertexWeights { weight_count: k, joints: vec![0; n * k], weights: vec![0.0; n * k], origins: vec![0; n] };
+    let mut desc = raw::hf_weights_out { vertex_capacity: count_of(n, "vertices")?, ..Default::default() };
+    (desc.joints, desc.weights, desc.origins) = (out.joints.as_mut_ptr(), out.weights.as_mut_ptr(), out.origins.as_mut_ptr());
+    check(call(&mut desc))?;
+    Ok(out)
+}
+
+/// The joints of each vertex in a list of all.
+fn influences_of(surface: &Surface, joints: &[u32], weights: &[f32]) -> Result<u32> {
+    let n = surface.vertex_count;
+    let each = joints.len() / n.max(1);
+    of_length(joints, "joints", each * n)?;
+    of_length(weights, "weights", joints.len())?;
+    count_of(each, "joints")
+}
+
+/// Carries weights to another surface: clothes, levels of detail. `joints` and `weights`: as many numbers for each vertex
+/// of the source.
+pub fn carry_weights(
+    source: &Surface,
+    joints: &[u32],
+    weights: &[f32],
+    target: &Surface,
+    options: &CarryOptions,
+) -> Result<(VertexWeights, raw::hf_carry_info)> {
+    let weight_count = if options.weight_count == 0 { 4 } else { options.weight_count };
+    let desc = raw::hf_carry_desc {
+        influence_count: influences_of(source, joints, weights)?,
+        joints: start(joints),
+        weights: start(weights),
+        distance: options.distance,
+        angle: options.angle,
+        weight_count,
+        progress: handle_of(options.progress),
+        ..Default::default()
+    };
+    let mut info = raw::hf_carry_info::default();
+    let found = filled(target.vertex_count, weight_count, |out| {
+        // SAFETY: the lengths are checked, and `out` has room for all vertices of the target.
+        unsafe { raw::hf_weights_carry(source.handle, target.handle, &desc, out, &mut info) }
+    })?;
+    Ok((found, info))
+}
+
+/// Mirrors weights of one side to the other.
+pub fn mirror_weights(surface: &Surface, joints: &[u32], weights: &[f32], mirror: &Mirror) -> Result<Mirrored> {
+    let bone_count = rows_of(mirror.heads, 3, "heads")?;
+    let count = bone_count as usize;
+    let lines = lines_of(mirror.names, count)?;
+    mirror.partners.map_or(Ok(()), |partners| of_length(partners, "partners", count))?;
+    let weight_count = if mirror.options.weight_count == 0 { 4 } else { mirror.options.weight_count };
+    let desc = raw::hf_mirror_desc {
+        bone_count,
+        heads: start(mirror.heads),
+        names: lines.as_ref().map_or(std::ptr::null(), |text| text.as_ptr()),
+        partners: start_of(mirror.partners),
+        plane: start_of(mirror.plane.as_ref().map(|plane| &plane[..])),
+        influence_count: influences_of(surface, joints, weights)?,
+        to: mirror.to,
+        joints: start(joints),
+        weights: start(weights),
+        distance: mirror.options.distance,
+        angle: mirror.options.angle,
+        weight_count,
+        progress: handle_of(mirror.options.progress),
+        ..Default::default()
+    };
+    let (mut partners, mut pairings) = (vec![0; count], vec![0; count]);
+    let mut info = raw::hf_mirror_info::default();
+    let found = filled(surface.vertex_count, weight_count, |out| {
+        // SAFETY: the lengths are checked, and the lists have room for all vertices and bones.
+        unsafe { raw::hf_weights_mirror(surface.handle, &desc, out, partners.as_mut_ptr(), pairings.as_mut_ptr(), &mut info) }
+    })?;
+    Ok(Mirrored { weights: found, partners, pairings, info })
 }
 
 impl Weights {
@@ -119,11 +254,20 @@ impl Weights {
         let mut desc = raw::hf_weights_out::default();
         // SAFETY: null arrays ask for the counts; then the arrays are that large.
         check(unsafe { raw::hf_weights_get(self.handle, &mut desc) })?;
-        let (n, k) = (self.vertex_count, desc.weight_count as usize);
-        let mut out = VertexWeights { weight_count: k, joints: vec![0; n * k], weights: vec![0.0; n * k], origins: vec![0; n] };
-        desc.vertex_capacity = desc.vertex_count;
-        (desc.joints, desc.weights, desc.origins) = (out.joints.as_mut_ptr(), out.weights.as_mut_ptr(), out.origins.as_mut_ptr());
-        check(unsafe { raw::hf_weights_get(self.handle, &mut desc) })?;
-        Ok(out)
+        filled(self.vertex_count, desc.weight_count, |out| unsafe { raw::hf_weights_get(self.handle, out) })
+    }
+
+    /// `HF_BONE_*` of each bone: why it deserves a look.
+    pub fn bone_flags(&self) -> Result<Vec<u32>> {
+        // SAFETY: `list` gives room for as many bones as it says.
+        list(|capacity, flags, count| unsafe { raw::hf_weights_get_bones(self.handle, capacity, flags, std::ptr::null_mut(), count) })
+    }
+
+    /// `HF_HELPER_*` of each bone: why it looks like a helper. `names`: one for each bone; `None`: by places alone.
+    pub fn helpers(&self, names: Option<&[&str]>) -> Result<Vec<u32>> {
+        let lines = names.map_or(Ok(None), |given| lines_of(Some(given), given.len()))?;
+        let text = lines.as_ref().map_or(std::ptr::null(), |lines| lines.as_ptr());
+        // SAFETY: `list` gives room for as many bones as it says; the text ends with a zero.
+        list(|capacity, reasons, count| unsafe { raw::hf_weights_get_helpers(self.handle, text, capacity, reasons, count) })
     }
 }

@@ -122,8 +122,38 @@ TEST(WeightsProgram, CarriesMirrorsAndTakesSkeletons) {
   EXPECT_NEAR(own.nodes[static_cast<size_t>(own.skins[0].joints[1])].translation.x, 15, 1e-4);
   EXPECT_EQ(run(path("in.glb") + " --skeleton " + path("in.glb"), text), 1);
   EXPECT_NE(text.find("has joints"), std::string::npos) << text;
+  ASSERT_EQ(run(path("in.glb") + " --bend right,x,90 --sheet " + path("bend.png"), text), 0) << text;
+  EXPECT_NE(text.find("1 poses"), std::string::npos) << text;
+  for (const char* wrong : {"nose,x,90", "right,w,90", "right,x,far", "right", ",x,1", "x,1"}) {
+    EXPECT_EQ(run(path("in.glb") + " --bend " + wrong, text), 1) << wrong;
+    EXPECT_NE(text.find("--bend"), std::string::npos) << text;
+  }
   EXPECT_EQ(run(path("in.glb") + " --mirror up", text), 1);
   EXPECT_NE(text.find("--mirror"), std::string::npos) << text;
+}
+
+// A node below the last joint says where it ends. Without it, the joint ends 1.5 times as far as its parent is long.
+TEST(WeightsProgram, ReadsWhereJointsEnd) {
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return "\"" + (folder.path / name).string() + "\""; };
+  Model model = bent();
+  const auto right = static_cast<size_t>(model.skins[0].joints[1]);
+  for (const char* name : {"right_end", "other_end.001", "RightTip", "hook"}) {
+    Model ends = model;
+    Node end;
+    end.name = name, end.parent = static_cast<int>(right), end.translation = {0, 3, 0};
+    ends.nodes[right].children.push_back(static_cast<int>(ends.nodes.size()));
+    ends.nodes.push_back(end);
+    write_gltf(ends, folder.path / "ends.glb");
+    std::string text;
+    ASSERT_EQ(run(path("ends.glb") + " --report " + path("ends.json") + " -o " + path("out.glb"), text), 0) << text;
+    EXPECT_NE(text.find("2 joints"), std::string::npos) << text;
+    const JsonFile report(folder.path / "ends.json");
+    EXPECT_EQ(report.root().at("joints").integer(0, 9), 2);
+    EXPECT_EQ(report.root().at("bones").size(), 2u);
+    EXPECT_EQ(report.root().at("ends").integer(0, 9), std::string(name) == "hook" ? 0 : 1) << name;
+    EXPECT_EQ(read_gltf(folder.path / "out.glb").skins[0].joints.size(), 2u);
+  }
 }
 
 TEST(WeightsProgram, NamesWhatIsWrong) {

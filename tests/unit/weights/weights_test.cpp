@@ -312,6 +312,18 @@ TEST(Weights, ALeafEndsAtTheJointThatItMeets) {
   EXPECT_NEAR(segments_of({1, 2, 4, 3}, {1, 1, -1, 1}, {3, 0, 1, -1}, {1, 1, 1, 0})[2].tail.x, 1, 1e-6);
 }
 
+TEST(Weights, ALeafEndsAtAChildThatDoesNotDeform) {
+  // Joint 3 hangs from the leaf at 4 and lies along its axis, nearer than the joint 4 that the leaf would meet.
+  const auto found = segments_of({1, 2, 4, 4.5, 5}, {1, 1, 1, 1, 1}, {-1, 0, 1, 2, -1}, {1, 1, 1, 0, 0});
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_NEAR(found[2].tail.x, 4.5, 1e-6);
+  // However far it is.
+  EXPECT_NEAR(segments_of({1, 2, 4, 8.5}, {1, 1, 1, 1}, {-1, 0, 1, 2}, {1, 1, 1, 0})[2].tail.x, 8.5, 1e-6);
+  // Off the axis it says nothing; nor does it where a child deforms.
+  EXPECT_NEAR(segments_of({1, 2, 4, 3.5}, {1, 1, 1, 1}, {-1, 0, 1, 2}, {1, 1, 1, 0})[2].tail.x, 7, 1e-6);
+  EXPECT_NEAR(segments_of({1, 2, 4, 2.5}, {1, 1, 1, 1}, {-1, 0, 1, 1}, {1, 1, 1, 0})[1].tail.x, 4, 1e-6);
+}
+
 TEST(Weights, ALeafAwayFromItsParentHasATypicalLength) {
   // The foot at 6 hangs from the root at 0.5, across its axis. Lengths: 1, 1, 5.5.
   const auto found = segments_of({0.5, 1.5, 2.5, 6}, {0, 1, 1, 1}, {-1, 0, 1, 0}, {1, 1, 1, 1});
