@@ -33,7 +33,7 @@ blender_try() {
   if [ -n "${HF_BPY:-}" ]; then
     mkdir -p "$scratch/module"
     (cd "$scratch/module" && BLENDER_USER_RESOURCES="$scratch/module" env -u PYTHONPATH -u HF_LIBRARY \
-      "$HF_BPY" "$hf_tests/blender_extension.py" "$scratch/module.png") >"$scratch/module.log" 2>&1 || {
+      "$HF_BPY" "$hf_tests/blender_test.py" -- "$scratch/module.png") >"$scratch/module.log" 2>&1 || {
       tail -20 "$scratch/module.log" >&2
       hf_fail "the extension in Blender as a module"
     }
