@@ -29,11 +29,12 @@ compile=("${CXX:-c++}" -std=c++17 -O2 -shared -fvisibility=hidden -w -I"$headers
   "$here"/src/gdnative.cpp "$here"/src/surface*.cpp)
 case "$library" in
   *.dll)
-    "${compile[@]}" -o "$out/hf/hf_godot.dll" "$library" -static -Wl,--no-insert-timestamp
+    # no date, and an address that is not made of the folder's name: the same bytes anywhere
+    "${compile[@]}" -o "$out/hf/hf_godot.dll" "$library" -static -Wl,--no-insert-timestamp,--image-base,0x180000000
     cp -L "$library" "$out/hf/hf.dll"
     ;;
   *)
-    "${compile[@]}" -fPIC -o "$out/hf/libhf_godot.so" -L"$(dirname "$library")" -l:"$(basename "$library")" -Wl,-rpath,'$ORIGIN'
+    "${compile[@]}" -fPIC -Wl,--build-id=none -o "$out/hf/libhf_godot.so" -L"$(dirname "$library")" -l:"$(basename "$library")" -Wl,-rpath,'$ORIGIN'
     cp -L "$library" "$out/hf/$(objdump -p "$library" | awk '/SONAME/ { print $2 }')"
     ;;
 esac

@@ -18,8 +18,8 @@ godot_make() {
     cp -R "$folder/$platform/hf/." "$folder/all/hf/"
   done
   find "$folder/all" -type f -exec chmod 644 {} +
-  strip --strip-unneeded "$folder/all/hf/libhf_godot.so" || exit 1
-  [ ! -e "$folder/all/hf/hf_godot.dll" ] || x86_64-w64-mingw32-strip --strip-unneeded "$folder/all/hf/hf_godot.dll" || exit 1
+  strip --strip-all "$folder/all/hf/libhf_godot.so" || exit 1
+  [ ! -e "$folder/all/hf/hf_godot.dll" ] || x86_64-w64-mingw32-strip --strip-all "$folder/all/hf/hf_godot.dll" || exit 1
   hf_licences "$folder/all/hf/licences" "linux-x64,windows-x64"
   hf_bom "$folder/all/hf/bom.cdx.json" "linux-x64,windows-x64" "$folder/all/hf"
   hf_pack zip "$out/hf_godot3-$hf_version.zip" "$folder/all" .
