@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # build.sh LIBRARY OUTDIR: the add-on folder OUTDIR/hf for Godot 3 (libhf_godot.so, libhf.so, scripts). Godot's headers
-# come from GODOT_SOURCE (a folder that holds modules/gdnative) or from Debian's source package.
+# come from GODOT_SOURCE (a folder that holds modules/gdnative) or from Debian's source package. For Windows: hf.dll as
+# LIBRARY and MinGW as CXX.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 library=$1
@@ -24,8 +25,17 @@ import gdnative_builders
 api = json.load(open(sys.argv[1] + "/gdnative_api.json"))
 open(sys.argv[2], "w").write(gdnative_builders._build_gdnative_api_struct_header(api))
 PY
-c++ -std=c++17 -O2 -shared -fPIC -fvisibility=hidden -w -I"$headers/include" -I"$generated" -I"$here/../../include" \
-  "$here"/src/gdnative.cpp "$here"/src/surface*.cpp \
-  -o "$out/hf/libhf_godot.so" -L"$(dirname "$library")" -l:"$(basename "$library")" -Wl,-rpath,'$ORIGIN'
-cp -L "$library" "$out/hf/$(objdump -p "$library" | awk '/SONAME/ { print $2 }')"
+compile=("${CXX:-c++}" -std=c++17 -O2 -shared -fvisibility=hidden -w -I"$headers/include" -I"$generated" -I"$here/../../include"
+  "$here"/src/gdnative.cpp "$here"/src/surface*.cpp)
+case "$library" in
+  *.dll)
+    # no date, and an address that is not made of the folder's name: the same bytes anywhere
+    "${compile[@]}" -o "$out/hf/hf_godot.dll" "$library" -static -Wl,--no-insert-timestamp,--image-base,0x180000000
+    cp -L "$library" "$out/hf/hf.dll"
+    ;;
+  *)
+    "${compile[@]}" -fPIC -Wl,--build-id=none -o "$out/hf/libhf_godot.so" -L"$(dirname "$library")" -l:"$(basename "$library")" -Wl,-rpath,'$ORIGIN'
+    cp -L "$library" "$out/hf/$(objdump -p "$library" | awk '/SONAME/ { print $2 }')"
+    ;;
+esac
 cp "$here"/addon/* "$out/hf/"

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/progress.h"
+#include "base/stable_sort.h"
 #include "factor/leaf_order.h"
 #include "factor/minimum_degree.h"
 #include "factor/multilevel.h"
@@ -110,7 +111,8 @@ class Dissection {
       }
     }
     // The largest parts of the graph come first. The order of the jobs only changes the waiting time.
-    std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.size > b.size; });
+    stable_sort(
+        parts, [](const Part& a, const Part& b) { return a.size > b.size; }, memory_);
     cut_share_ = done;
     jobs_.for_each(static_cast<std::uint32_t>(parts.size()), [&](std::uint32_t k) {
       with_workspace([&](Workspace& workspace) { finish(std::move(parts[k]), workspace); });

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/stable_sort.h"
+
 namespace hf_inner {
 namespace {
 
@@ -72,8 +74,9 @@ void group_tasks(const Symbolic& symbolic, const double* share, Memory& memory, 
   std::copy(starts.begin(), starts.end(), plan.task_start.begin());
   plan.task_order.allocate(memory, plan.tasks);
   for (std::int32_t t = 0; t < plan.tasks; ++t) plan.task_order[t] = t;
-  std::stable_sort(plan.task_order.begin(), plan.task_order.end(),
-                   [&](std::int32_t a, std::int32_t b) { return task_share_sum[a] > task_share_sum[b]; });
+  stable_sort(
+      plan.task_order.data(), plan.task_order.size(),
+      [&](std::int32_t a, std::int32_t b) { return task_share_sum[a] > task_share_sum[b]; }, memory);
   // Subtrees of supernodes (blocks of columns) are tasks, one job each. The supernodes above them run in waves: those
   // of equal height above the tasks together.
   Vector<std::int32_t> height(symbolic.supernodes, -1, &memory);
@@ -85,8 +88,8 @@ void group_tasks(const Symbolic& symbolic, const double* share, Memory& memory, 
   }
   plan.top.allocate(memory, top.size());
   std::copy(top.begin(), top.end(), plan.top.begin());
-  std::stable_sort(plan.top.begin(), plan.top.end(),
-                   [&](std::int32_t a, std::int32_t b) { return height[a] < height[b]; });
+  stable_sort(
+      plan.top.data(), plan.top.size(), [&](std::int32_t a, std::int32_t b) { return height[a] < height[b]; }, memory);
   plan.wave_start.allocate(memory, static_cast<std::size_t>(plan.waves) + 1);
   std::int32_t k = 0;
   for (std::int32_t w = 0; w < plan.waves; ++w) {

@@ -34,8 +34,7 @@ struct Cut {
 class SeparatorSearch {
  public:
   explicit SeparatorSearch(Memory& memory)
-      : memory_(memory),
-        band_(&memory),
+      : band_(&memory),
         slot_(&memory),
         band_start_(&memory),
         band_neighbour_(&memory),
@@ -70,7 +69,6 @@ class SeparatorSearch {
   void breadth_first_keys(const GraphView& graph);
   void projection_keys(const GraphView& graph, const double* axis);
 
-  Memory& memory_;
   Vector<std::int32_t> band_, slot_, band_start_, band_neighbour_;
   Vector<std::uint8_t> flags_;
   Vector<std::int32_t> level_, previous_, next_, queue_, stack_, iterator_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/stable_sort.h"
 #include "mesh/link_search.h"
 #include "mesh/union_find.h"
 
@@ -116,9 +117,10 @@ Vector<LinkEdge> link_edges(const Links& links, OperatorKind operator_kind, Memo
     }
   }
   // Equal edges are summed in the order of the links.
-  std::stable_sort(edges.begin(), edges.end(), [](const LinkEdge& a, const LinkEdge& b) {
-    return a.first != b.first ? a.first < b.first : a.second < b.second;
-  });
+  stable_sort(
+      edges,
+      [](const LinkEdge& a, const LinkEdge& b) { return a.first != b.first ? a.first < b.first : a.second < b.second; },
+      memory);
   std::size_t kept = 0;
   for (const LinkEdge& edge : edges) {
     if (kept > 0 && edges[kept - 1].first == edge.first && edges[kept - 1].second == edge.second)

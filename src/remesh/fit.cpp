@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stable_sort.h"
 #include "remesh/coarsen.h"
 #include "remesh/constants.h"
 #include "remesh/refine.h"
@@ -71,7 +72,7 @@ class Fitter {
         const std::int32_t more = place.folds_after - place.folds_before;
         return place.after < (more > 0 ? fit_folding_gain : fit_gain) * place.before && more <= options_.most_folds;
       };
-      const auto failed = std::stable_partition(chosen.begin(), chosen.end(), helped);
+      const auto failed = chosen.begin() + static_cast<std::ptrdiff_t>(stable_partition(chosen, helped, memory_));
       for (auto place = failed; place != chosen.end(); ++place) next_step(place->miss.point, step + 1);
       for (auto place = chosen.begin(); place != failed; ++place) next_step(place->miss.point, release);
       if (failed == chosen.begin()) continue;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/elementary.h"
+#include "base/stable_sort.h"
 #include "field/extremities.h"
 #include "remesh/capture.h"
 #include "remesh/coarsen.h"
@@ -311,8 +312,8 @@ QuadResult make_quads(const QuadOptions& options) {
     // If no mesh can be made, throws why.
     trials.push_back({0, maker.make(given, 1, &deviation), Vector<FluxSite>(given, &memory)});
   // Meshes are fitted in order of distance. The first good one is taken, or else the best.
-  std::stable_sort(trials.begin(), trials.end(),
-                   [](const Trial& a, const Trial& b) { return a.deviation < b.deviation; });
+  stable_sort(
+      trials, [](const Trial& a, const Trial& b) { return a.deviation < b.deviation; }, memory);
   double least = -1;
   std::size_t taken = 0;
   for (std::size_t i = 0; i < std::min(trials.size(), most_fitted) && (i == 0 || least > 1); ++i) {

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/stable_sort.h"
 #include "engine/site_solver.h"
 #include "weights/constants.h"
 #include "weights/islands.h"
@@ -147,9 +148,12 @@ WeightRows island_means(const Fill& fill, const WeightRows& guessed, const Vecto
     if (known[at(c)] || !(size[at(c)] < rigid_size)) continue;
     for (const Share& share : guessed.of(v)) entries.push_back({c, share});
   }
-  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.island != b.island ? a.island < b.island : a.share.bone < b.share.bone;
-  });
+  stable_sort(
+      entries,
+      [](const Entry& a, const Entry& b) {
+        return a.island != b.island ? a.island < b.island : a.share.bone < b.share.bone;
+      },
+      memory);
   WeightRows out(memory);
   std::size_t next = 0;
   for (std::size_t c = 0; c < known.size(); ++c) {

@@ -7,6 +7,8 @@ readelf=$1 nm=$2 objdump=$3 library=$4
 shift 3
 export LC_ALL=C
 status=0
+only=--disassemble  # GNU's name of the option, and LLVM's
+"$objdump" --version | grep -q LLVM && only=--disassemble-symbols
 complain() { printf 'error: %s: %s\n' "$file" "$1"; status=1; }
 
 for file in "$@"; do
@@ -21,7 +23,7 @@ for file in "$@"; do
   if grep -q 'Machine:.*X86-64' <<<"$header"; then
     name=main
     [ "$file" = "$library" ] && name=hf_version_get
-    "$objdump" -d --disassemble="$name" "$file" | grep -q endbr64 || complain "has no landing pads (-fcf-protection)"
+    "$objdump" -d "$only=$name" "$file" | grep -q endbr64 || complain "has no landing pads (-fcf-protection)"
   fi
 done
 # what guards stacks and C library calls shows in the library's calls

@@ -1,5 +1,6 @@
 """The Blender add-on, driven by its operators in Blender without a display: blender_test.py PICTURE.png."""
 
+import importlib
 import math
 import os
 import sys
@@ -8,10 +9,18 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Quaternion, Vector
 
-bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
-bpy.ops.preferences.addon_enable(module="hf_blender")
+if bpy.app.version >= (4, 2, 0):  # the same zip is an extension there
+    MODULE = "bl_ext.user_default.hf_blender"
+    if "user_default" not in [repo.module for repo in bpy.context.preferences.extensions.repos]:
+        bpy.context.preferences.extensions.repos.new(name="User Default", module="user_default")
+    bpy.ops.extensions.package_install_files(filepath=os.environ["HF_ADDON_ZIP"], repo="user_default", enable_on_install=True)
+    assert MODULE in bpy.context.preferences.addons, "the extension is not enabled"
+else:
+    MODULE = "hf_blender"
+    bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
+    bpy.ops.preferences.addon_enable(module=MODULE)
 import hf  # noqa: E402  (the package inside the add-on)
-from hf_blender import carriers, mesh_data, session  # noqa: E402
+carriers, mesh_data, session = (importlib.import_module(f"{MODULE}.{name}") for name in ("carriers", "mesh_data", "session"))
 
 sys.path.insert(0, os.environ["HF_TESTS"])
 import golden  # noqa: E402
@@ -340,5 +349,6 @@ active(bar)
 bar.modifiers.clear()
 assert bpy.ops.hf.unbind() == {"FINISHED"}
 np.testing.assert_allclose(mesh_data.positions_of(bar.data), points, atol=1e-6)
-bpy.ops.preferences.addon_disable(module="hf_blender")
+bpy.ops.preferences.addon_disable(module=MODULE)
+print(f"extension: Blender {bpy.app.version_string}: as {MODULE}, golden scenes and all operators")
 print("blender: all right")

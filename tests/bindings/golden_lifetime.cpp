@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cstdlib>
 #include <functional>
 #include <memory>
+#include <new>
 #include <random>
 
 #include "golden_scene.h"
@@ -16,11 +16,11 @@ std::atomic<long long> held{0}, blocks{0};  // bytes and blocks that the library
 
 void* allocate(void*, size_t size, size_t alignment) {
   held += static_cast<long long>(size), ++blocks;
-  return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  return ::operator new(size, std::align_val_t(alignment), std::nothrow);
 }
-void release(void*, void* block, size_t size, size_t) {
+void release(void*, void* block, size_t size, size_t alignment) {
   held -= static_cast<long long>(size), --blocks;
-  std::free(block);
+  ::operator delete(block, std::align_val_t(alignment));
 }
 
 }  // namespace

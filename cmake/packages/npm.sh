@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# The npm packages: hf-fields with the WebAssembly inside, and one with the native library for each platform, which npm
+# picks by system and processor (optionalDependencies). HF_WASM_DIR: a folder that holds hf.mjs and hf.wasm already.
+. "$(dirname "$0")/common.sh"
+js="$hf_root/bindings/js"
+
+npm_platform() { # what npm calls it: system, processor
+  case "$1" in
+    linux-x64) printf 'linux x64' ;;
+    linux-arm64) printf 'linux arm64' ;;
+    windows-x64) printf 'win32 x64' ;;
+  esac
+}
+
+npm_wasm() {
+  local folder=${HF_WASM_DIR:-$hf_work/wasm}
+  if [ -z "${HF_WASM_DIR:-}" ]; then
+    command -v emcmake >/dev/null || hf_skip "no emscripten here (Debian: emscripten)"
+    HF_JOBS=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)} "$js/wasm/build.sh" "$folder" >"$hf_work/wasm.log" 2>&1 || { tail -5 "$hf_work/wasm.log" >&2; hf_fail "WebAssembly"; }
+  fi
+  [ -s "$folder/hf.wasm" ] && [ -s "$folder/hf.mjs" ] || hf_fail "no hf.wasm in $folder"
+  printf '%s' "$folder"
+}
+
+npm_make() {
+  local out=$1 folder wasm platform system processor optional=()
+  command -v npm >/dev/null || hf_skip "no npm here"
+  wasm=$(npm_wasm) || exit $?
+  folder=$(mktemp -d) || exit 1
+  for platform in $(hf_platforms); do
+    read -r system processor < <(npm_platform "$platform")
+    mkdir -p "$folder/$platform"
+    cp "$(hf_library "$platform")" "$folder/$platform/$(hf_library_name "$platform")"
+    chmod 644 "$folder/$platform"/*hf*
+    hf_licences "$folder/$platform/licences" "$platform"
+    hf_bom "$folder/$platform/bom.cdx.json" "$platform" "$folder/$platform"
+    python3 - "$js/package.json" "$folder/$platform" "$system" "$processor" <<'PY'
+import json, sys
+project = json.load(open(sys.argv[1]))
+system, processor = sys.argv[3:]
+package = {"name": f"hf-fields-{system}-{processor}", "version": project["version"], "license": project["license"],
+           "description": f"The native library of hf-fields for {system} on {processor}.", "os": [system], "cpu": [processor],
+           **({"libc": ["glibc"]} if system == "linux" else {}), "files": ["*"], "preferUnplugged": True}
+json.dump(package, open(sys.argv[2] + "/package.json", "w"), indent=2)
+open(sys.argv[2] + "/README.md", "w").write(f"# {package['name']}\n\n{package['description']} npm installs it with hf-fields.\n")
+PY
+    hf_pack tar "$out/hf-fields-$system-$processor-$hf_version.tgz" "$folder/$platform" package
+    optional+=("hf-fields-$system-$processor")
+  done
+  mkdir -p "$folder/main/dist"
+  cp -r "$js/src" "$js/bin" "$js/README.md" "$folder/main/"
+  cp "$wasm/hf.mjs" "$wasm/hf.wasm" "$folder/main/dist/"
+  chmod 755 "$folder"/main/bin/*
+  hf_licences "$folder/main/licences" wasm
+  hf_bom "$folder/main/bom.cdx.json" wasm "$folder/main"
+  python3 - "$js/package.json" "$folder/main/package.json" "${optional[@]}" <<'PY'
+import json, sys
+project = json.load(open(sys.argv[1]))
+project["optionalDependencies"] |= {name: project["version"] for name in sys.argv[3:]}
+project["files"] += ["licences", "bom.cdx.json"]
+json.dump(project, open(sys.argv[2], "w"), indent=2)
+PY
+  hf_pack tar "$out/hf-fields-$hf_version.tgz" "$folder/main" package
+  rm -rf "$folder"
+}
+
+npm_try() {
+  local out=$1 scratch=$2 filled said=() specifier installed
+  filled=$(hf_filled) || exit 1
+  # koffi at the version and with the hash of the tests' lock file; our packages from their files
+  python3 - "$out" "$scratch/package.json" "$hf_root/tests/npm/package.json" <<'PY'
+import glob, json, os, re, sys
+files = {re.match(r"(.*)-\d+\.\d+\.\d+\.tgz", os.path.basename(f)).group(1): "file:" + f for f in glob.glob(sys.argv[1] + "/*.tgz")}
+koffi = json.load(open(sys.argv[3]))["dependencies"]["koffi"]
+json.dump({"private": True, "dependencies": {"hf-fields": files.pop("hf-fields"), "koffi": koffi}, "overrides": files}, open(sys.argv[2], "w"))
+PY
+  (cd "$scratch" && npm install --ignore-scripts --no-audit --no-fund --cache "$hf_work/npm_cache") >"$scratch/npm.log" 2>&1 || {
+    tail -5 "$scratch/npm.log" >&2
+    hf_skip "npm could not install them with koffi"
+  }
+  installed=$(cd "$scratch/node_modules" && ls -d hf-fields-* | paste -sd' ')
+  [ "$installed" = hf-fields-linux-x64 ] || hf_fail "npm installed the libraries of: $installed"
+  cp "$hf_tests/golden_package.mjs" "$hf_tests/golden.mjs" "$scratch/"
+  for specifier in hf-fields hf-fields/wasm; do
+    said+=("$(cd "$scratch" && "${hf_clean_env[@]}" "$(command -v node)" --expose-gc golden_package.mjs "$specifier" "$hf_golden/meshes" "$filled" "$hf_golden/bad_input.json" 2>"$scratch/error.log" | tail -1)")
+    [ "${PIPESTATUS[0]}" = 0 ] && [ ! -s "$scratch/error.log" ] || { head -10 "$scratch/error.log" >&2; hf_fail "golden scenes of $specifier: ${said[*]}"; }
+    case "${said[-1]}" in *scenes*calls) ;; *) hf_fail "golden scenes of $specifier" ;; esac
+  done
+  hf_ran "npm install into an empty folder picks $installed of $(ls "$out"/hf-fields-*-*-*.tgz | wc -l); node: ${said[0]}; ${said[1]}"
+}
+
+case "$1" in
+  make) npm_make "$2" ;;
+  try) npm_try "$2" "$3" ;;
+esac
