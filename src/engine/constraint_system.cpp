@@ -17,6 +17,9 @@ constexpr double restart_margin = 1.25;
 // counts this many times. Chosen on 800 random edits of 1,000 vectors on 20,000 vertices. 4 takes a fifth longer in all
 // than 8. 16 takes as long as 8, with more rebases.
 constexpr double expected_repeats = 8;
+// Where the sites alone decide, later sites stay rows until these would cost this share of a rebase. A smaller number
+// rebases more often when sites come a part at a time. A larger number costs more when all come at once.
+constexpr double later_share = 0.5;
 
 }  // namespace
 
@@ -89,6 +92,48 @@ double ConstraintSystem::again_ns(const SiteEdit& edit, const SiteCost& cost) co
   return sum;
 }
 
+// Where the sites alone decide: the slots below the result are those that a factor has taken in if the sites come a
+// part at a time. A rebase takes in all that are there when the rows would cost restart_margin times as much. Later
+// rebases come at later_share. So a site more is mostly a row more, and all at once cost at most later_share more.
+Index ConstraintSystem::first_row(const SiteEdit& edit, const SiteCost& cost) const {
+  Vector<std::uint8_t> leaves(state_.entries.size(), 0, &memory());
+  for (const Index slot : edit.remove) leaves[at(slot)] = 1;
+  Index end = 0, part = -1, slot_end = 0;
+  double soft = 0, hard = 0;  // rows that no factor took in
+  const auto close = [&] {
+    const double rebase = cost.rebase_ns(soft);
+    if (hard > 0 && cost.dense_ns(0, soft + hard) - (end > 0 ? cost.dense_ns(0, soft) : 0.0) >
+                        (end > 0 ? later_share : restart_margin) * rebase)
+      end = slot_end, hard = 0;
+  };
+  const auto take = [&](Index slot, const Site& site) {
+    if (site.part != part) close();
+    (site.is_hard_vertex() ? hard : soft) += 1;
+    part = site.part, slot_end = slot + 1;
+  };
+  for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+    if (state_.entries[slot].used() && !leaves[slot]) take(static_cast<Index>(slot), state_.entries[slot].site);
+  }
+  for (std::size_t i = 0; i < edit.add.size(); ++i) take(edit.add[i], edit.sites[i]);
+  close();
+  return end;
+}
+
+// True if the present factor has taken in the hard vertex sites of slots below end and no others, and the edit leaves
+// them there.
+bool ConstraintSystem::has_base(const SiteEdit& edit, Index end) const {
+  if (!state_.base) return false;
+  Index next = 0;
+  for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+    const auto& entry = state_.entries[slot];
+    const bool inside = entry.used() && static_cast<Index>(slot) < end && entry.site.is_hard_vertex();
+    if (entry.eliminated != (inside ? next++ : -1)) return false;
+  }
+  const auto below = [&](Index slot) { return slot < end; };
+  return at(next) == state_.base->vertex.size() && !std::any_of(edit.remove.begin(), edit.remove.end(), below) &&
+         !std::any_of(edit.add.begin(), edit.add.end(), below);
+}
+
 // Compares the cost of editing the present rows of the dense system with the cost of building it again. Building it
 // again may keep the hard vertex sites as rows, or eliminate them in the factor.
 ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
@@ -115,8 +160,9 @@ ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
   decision.dense_ms = std::min(going_on, plain) / 1e6, decision.rebase_ms = hard > 0 ? rebase / 1e6 : 0;
   const double expected = going_on + (expected_repeats - 1) * again;
   if (edit.history_free) {  // the sites alone decide, as if they were all new
-    decision.eliminate = hard > 0 && plain > restart_margin * rebase;
-    decision.route = decision.eliminate ? EditRoute::rebase : state_.base ? EditRoute::fresh : EditRoute::dense;
+    decision.end = first_row(edit, cost), decision.eliminate = decision.end > 0;
+    const bool keeps_base = decision.eliminate ? has_base(edit, decision.end) : !state_.base;
+    decision.route = keeps_base ? EditRoute::dense : decision.eliminate ? EditRoute::rebase : EditRoute::fresh;
   } else if (!(expected > restart_margin * (decision.eliminate ? rebase : plain))) {
     decision.route = EditRoute::dense;
   } else {
@@ -135,7 +181,7 @@ bool ConstraintSystem::try_route(EditRoute route, const SiteEdit& edit, JobRunne
     if (route == EditRoute::dense) {
       change.go_on();
     } else {
-      change.start_over(route == EditRoute::rebase);
+      change.start_over(route == EditRoute::rebase ? decision.end : 0);
     }
   } catch (const ConstraintEdit::NeedsNewLayout&) {
     return false;

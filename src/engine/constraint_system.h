@@ -118,6 +118,8 @@ class ConstraintSystem {
 
  private:
   ConstraintState::Decision decide(const SiteEdit& edit) const;
+  Index first_row(const SiteEdit& edit, const SiteCost& cost) const;
+  bool has_base(const SiteEdit& edit, Index end) const;
   double again_ns(const SiteEdit& edit, const SiteCost& cost) const;
   bool try_route(EditRoute route, const SiteEdit& edit, JobRunner& jobs, const ConstraintState::Decision& decision);
   void base_forward(const double* values, Index channels, Index first, Index count, const Answer& answer,

@@ -59,7 +59,7 @@ struct ConstraintEdit::Batch {
   Vector<double> values;
 };
 
-void ConstraintEdit::start_over(bool eliminate) {
+void ConstraintEdit::start_over(Index end) {
   ConstraintState next(state_.blocks.size(), memory());
   next.entries.swap(state_.entries);
   for (const Index slot : edit_.remove) next.entries[at(slot)] = {};
@@ -72,14 +72,14 @@ void ConstraintEdit::start_over(bool eliminate) {
     entry.path = {}, entry.eliminated = -1;
     if (!entry.used()) continue;
     ++state_.sites_of[at(entry.site.component)];
-    if (eliminate && entry.site.is_hard_vertex()) {
+    if (static_cast<Index>(slot) < end && entry.site.is_hard_vertex()) {
       entry.eliminated = static_cast<Index>(unknowns.size());
       unknowns.push_back(entry.site.vertex[0]), components.push_back(entry.site.component);
     } else {
       rows.push_back({static_cast<Index>(slot), entry.site.component});
     }
   }
-  if (eliminate) {
+  if (!unknowns.empty()) {
     state_.base = EliminatedBase::make(operator_, unknowns, components, jobs_);
     state_.freed.resize(unknowns.size());
     ++factorisations_;

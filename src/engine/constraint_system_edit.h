@@ -15,8 +15,8 @@ class ConstraintEdit {
   ConstraintEdit(const PinnedOperator& a, JobRunner& jobs, const SiteEdit& edit, ConstraintState& state)
       : operator_(a), jobs_(jobs), edit_(edit), state_(state) {}
 
-  void go_on();                     // edits the present rows
-  void start_over(bool eliminate);  // adds every site again; eliminate: hard vertex sites leave the matrix
+  void go_on();                // edits the present rows
+  void start_over(Index end);  // adds every site again; hard vertex sites of slots below end leave the matrix
 
   std::uint32_t path_solves() const noexcept { return path_solves_; }
   std::uint32_t factorisations() const noexcept { return factorisations_; }

@@ -1,6 +1,8 @@
 // The state of a ConstraintSystem: the sites by slot, their elimination paths and dense blocks. A slot is the number of
 // a site. A state can be copied cheaply, because copies share what is immutable. Restoring a copy gives the same bits.
 #pragma once
+#include <limits>
+
 #include "engine/dense_block.h"
 #include "engine/eliminated_base.h"
 #include "engine/site.h"
@@ -12,6 +14,7 @@ struct ConstraintState {
   // vertex and its site was removed, its value is unknown. The row of this value has the number -2 - b, with b the
   // vertex's index in EliminatedBase.
   static constexpr Index no_row = -1;
+  static constexpr Index index_end = std::numeric_limits<Index>::max();
   static Index free_row(Index base_index) noexcept { return -2 - base_index; }
   static Index base_index(Index row) noexcept { return -2 - row; }
 
@@ -43,6 +46,7 @@ struct ConstraintState {
     double dense_ms = 0, rebase_ms = 0;
     // Building the dense system again costs less if the factor eliminates the hard vertex sites.
     bool eliminate = false;
+    Index end = index_end;  // a rebase takes hard vertex sites of slots below it out of the matrix
   };
 
   ConstraintState(std::size_t components, Memory& memory)

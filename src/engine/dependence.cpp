@@ -67,10 +67,13 @@ Index dependent_site(Span<const HardSite> sites, Memory& memory) {
     if (corners[i].vertex == corners[i - 1].vertex)
       parent[at(root_of(parent, corners[i].row))] = root_of(parent, corners[i - 1].row);
   }
-  // By group of sites with common vertices: 1 if a site in it has a small pivot.
+  // By group of sites with common vertices: 1 if a site in it has a small pivot. A site alone depends on none.
   Vector<std::uint8_t> suspect(sites.size(), 0, &memory);
+  Vector<Index> size(sites.size(), 0, &memory);
+  for (std::size_t i = 0; i < sites.size(); ++i) ++size[at(root_of(parent, static_cast<Index>(i)))];
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    if (sites[i].suspect) suspect[at(root_of(parent, static_cast<Index>(i)))] = 1;
+    const Index root = root_of(parent, static_cast<Index>(i));
+    if (sites[i].suspect && size[at(root)] > 1) suspect[at(root)] = 1;
   }
   Vector<Index> rows(&memory), columns(&memory);
   for (std::size_t group = 0; group < sites.size(); ++group) {

@@ -84,6 +84,27 @@ TEST_P(Sites, EveryHistoryOfHandlesGivesTheBitsOfAFreshSolver) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Sites, testing::Values(3, 40));
 
+TEST(Sites, AHandleMoreKeepsTheFactorThatEliminatesTheOthers) {
+  const auto core = hf_test::make_core(hf_test::torus(60, 40, 0.2));
+  hf_inner::Memory& memory = *core->memory;
+  hf_inner::GreenSolver solver(core);
+  Handles present(&memory);
+  const auto add = [&](std::int32_t first, std::int32_t count) {
+    std::vector<std::int32_t> region(static_cast<std::size_t>(count));
+    for (std::int32_t k = 0; k < count; ++k) region[static_cast<std::size_t>(k)] = first + k;
+    const Handles before(present, &memory);
+    present.push_back({static_cast<std::uint32_t>(present.size()),
+                       hf_inner::make_region(*core, {region.data(), region.size()}, 0, memory)});
+    set_handle_sites(*core, solver, before, present, memory);
+  };
+  for (std::int32_t i = 0; i < 6; ++i) add(400 * i, 240);
+  const auto before = solver.counters();
+  ASSERT_GT(before.eliminated, 0);
+  add(300, 3);
+  EXPECT_EQ(solver.counters().factorisations, before.factorisations);
+  EXPECT_EQ(solver.counters().eliminated, before.eliminated);
+}
+
 struct Placed {
   std::uint32_t number, layer;
   std::vector<std::int32_t> region;
