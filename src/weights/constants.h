@@ -8,9 +8,11 @@ namespace hf_inner {
 
 // --- skeleton.cpp ---
 
-// Coordinates of bones are clamped to this many boxes, so that squares of distances stay finite.
+// Coordinates of bones are clamped to this many boxes, so that squares of distances stay finite. A smaller number moves
+// bones that stand far off. Half and double change no figure of the 28 shared rigs, nor does 1 on seven of them.
 constexpr double farthest = 1e6;
-// A bone shorter than this has no length: it is a point. Rounding of the caller's floats is 1e-7.
+// A bone shorter than this has no length: it is a point. Rounding of the caller's floats is 1e-7. A larger number takes
+// short bones for points. Half and double change no figure of the 28 shared rigs, nor does 1e-2 on seven of them.
 constexpr double no_length = 1e-6;
 // A child lies along the axis of its parent if the cosine of the angle between is above this. At 0.95, one of 14 rigs
 // (a tyrannosaur) is posed a fifth worse; exporters put such children on the axis up to rounding.
@@ -27,7 +29,8 @@ constexpr double meet_length = 1.5;
 constexpr double hub_length = 0.5;
 
 // An island counts as closed if its area vectors cancel up to this share of its area. Only closed islands can be inside
-// out.
+// out. A larger number turns open ones too, whose volume says nothing. Half and double change no figure of the 28
+// shared rigs.
 constexpr double closed_share = 1e-3;
 
 // --- informants.cpp ---
@@ -42,12 +45,17 @@ constexpr double facing_excess = 1.001;
 // Bones this much farther than the nearest one inform a vertex as well. Two bones share the vertices around their
 // joint, where their distances differ by rounding. Without, the rigs are posed 0.5 % worse; 1.01 is 1 % worse.
 constexpr double equal_distance = 1 + 1e-4;
-// At most this many bones inform one vertex: those of the lowest numbers.
+// At most this many bones inform one vertex: those of the lowest numbers. A larger number costs memory. 4 and 16 change
+// no figure of the 28 shared rigs; on seven of them 2 poses 95 % of the vertices 0.1 % nearer, 1 poses them 13 %
+// farther from the artist's pose.
 constexpr std::int32_t most_informants = 8;
-// The screening of a vertex on a bone is that of this distance. Smaller distances leave p as it is.
+// The screening of a vertex on a bone is that of this distance. A smaller number binds such vertices more strongly, a
+// larger one blurs thin parts. Half and double change no figure of the 28 shared rigs; 1e-2 poses seven of them 0.4 %
+// farther from the artist's pose in the mean.
 constexpr double least_distance = 1e-4;
 // The mass A H of an island is at least this share of its mean diagonal; below it, rounding would hide H. The weights
-// of such an island are nearly constant, so the factor does not show in them.
+// of such an island are nearly constant, so the factor does not show in them. Half and double change no figure of the
+// 28 shared rigs; 1 poses seven of them 3.6 % farther from the artist's pose in the mean.
 constexpr double least_mass = 1e-6;
 // Vertices in one thread's job: some 0.2 ms.
 constexpr std::size_t vertex_piece = 256;
@@ -55,15 +63,20 @@ constexpr std::size_t vertex_piece = 256;
 // --- solution.cpp ---
 
 // Edge weights of the operator are raised to this share of the mean diagonal. The first with which the matrix can be
-// factorised is taken; the last is the combinatorial Laplacian.
+// factorised is taken; the last is the combinatorial Laplacian. A larger share forgets the shape of the triangles. With
+// half and double the first, the 28 shared rigs have the same figures; with 1e-3 first, seven of them are posed 4 %
+// farther from the artist's pose in the mean, with 0.1 first twice as far.
 constexpr double weight_floors[] = {1e-9, 1e-6, 1e-3, 1e3};
-// An island without information that is smaller than this moves rigidly: all its vertices get the same weights.
+// An island without information that is smaller than this moves rigidly: all its vertices get the same weights. A
+// larger number keeps larger loose parts from bending. Half and double change no figure of the 28 shared rigs, where
+// every island has information.
 constexpr double rigid_size = 0.15;
 
 // --- pins.cpp ---
 
 // The field of a bone is corrected at the pins if it misses one of their weights by more than this. Weights below 0.025
-// are dropped at the end, so a larger number would show, a smaller one costs time.
+// are dropped at the end, so a larger number would show, a smaller one costs time. With ten pins on four shared rigs,
+// half, double and 1e-2 leave the same distances.
 constexpr double pin_tolerance = 1e-5;
 
 // --- prune.cpp ---
