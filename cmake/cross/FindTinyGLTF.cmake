@@ -12,10 +12,12 @@ include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(TinyGLTF REQUIRED_VARS TinyGLTF_HEADER)
 if(TinyGLTF_FOUND AND NOT TARGET TinyGLTF::TinyGLTF)
   file(WRITE ${PROJECT_BINARY_DIR}/tiny_gltf.cpp.new
-    "#define TINYGLTF_IMPLEMENTATION\n#define TINYGLTF_NO_STB_IMAGE\n#define TINYGLTF_NO_STB_IMAGE_WRITE\n#include <tiny_gltf.h>\n")
+    "#define TINYGLTF_IMPLEMENTATION\n#include <tiny_gltf.h>\n")
   configure_file(${PROJECT_BINARY_DIR}/tiny_gltf.cpp.new ${PROJECT_BINARY_DIR}/tiny_gltf.cpp COPYONLY)
   add_library(hf_tiny_gltf STATIC ${PROJECT_BINARY_DIR}/tiny_gltf.cpp)
   target_compile_features(hf_tiny_gltf PRIVATE cxx_std_17)
+  # the header declares other members without them: whoever includes it must agree
+  target_compile_definitions(hf_tiny_gltf PUBLIC TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_STB_IMAGE_WRITE)
   target_include_directories(hf_tiny_gltf SYSTEM PUBLIC ${hf_debian_headers})
   set_target_properties(hf_tiny_gltf PROPERTIES POSITION_INDEPENDENT_CODE ON)
   add_library(TinyGLTF::TinyGLTF ALIAS hf_tiny_gltf)

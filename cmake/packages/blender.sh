@@ -19,11 +19,15 @@ blender_make() {
 }
 
 blender_try() {
-  local out=$1 scratch=$2 blender=${HF_BLENDER:-blender} filled said=()
+  local out=$1 scratch=$2 blender=${HF_BLENDER:-blender} filled said=() platform
   filled=$(hf_filled) || exit 1
   export HF_ADDON_ZIP="$out/hf_blender-$hf_version.zip" HF_TESTS="$hf_tests" HF_SCENES="$filled"
   command -v "$blender" >/dev/null || hf_skip "no Blender here (Debian: blender)"
-  mkdir -p "$scratch/scripts" "$scratch/config"
+  mkdir -p "$scratch/scripts" "$scratch/config" "$scratch/inside"
+  (cd "$scratch/inside" && python3 -m zipfile -e "$HF_ADDON_ZIP" .) || exit 1
+  for platform in $(hf_platforms); do
+    case "$platform" in linux-x64 | windows-x64) hf_same_library "$platform" "$scratch/inside/hf_blender/vendor/hf/$(hf_library_name "$platform")" ;; esac
+  done
   BLENDER_USER_SCRIPTS="$scratch/scripts" BLENDER_USER_CONFIG="$scratch/config" PATH=/usr/bin:$PATH env -u PYTHONPATH -u PYTHONHOME -u HF_LIBRARY \
     "$blender" -b --factory-startup --python-exit-code 3 --python "$hf_tests/blender_test.py" -- "$scratch/picture.png" >"$scratch/blender.log" 2>&1 || {
     tail -20 "$scratch/blender.log" >&2

@@ -89,6 +89,8 @@ hf_library() {
     *) printf '%s/%s/tree/lib/libhf.so.%s' "$hf_work" "$1" "$hf_version" ;;
   esac
 }
+# hf_same_library PLATFORM FILE: a package carries the library that ran in its archive.
+hf_same_library() { cmp -s "$(hf_library "$1")" "$2" || hf_fail "another library than that of $1: $2"; }
 hf_library_name() { case "$1" in windows-x64) printf hf.dll ;; *) printf libhf.so ;; esac; }
 
 # hf_licences FOLDER PLATFORMS: the licences of what is inside, as the machine that builds has them.

@@ -98,23 +98,23 @@ deb_try() {
   [ -z "$said" ] || { printf '%s\n' "$said" >&2; hf_fail "lintian says more than nothing"; }
   hf_quiet apt-get -s -qq install --no-install-recommends "$out"/*.deb
   # an empty root that holds the packages and what they depend on, and nothing else
-  mkdir -p "$root/work" "$scratch/archives"
+  mkdir -p "$root/try" "$scratch/archives"
   depends=$(dpkg-deb -f "$out"/libhf0_*.deb Depends | tr ',' '\n' | sed 's/(.*//; s/|.*//; s/ //g')
   # shellcheck disable=SC2086
   (cd "$scratch/archives" && hf_quiet apt-get -qq download $depends)
   for said in "$scratch"/archives/*.deb "$out"/*.deb; do hf_quiet dpkg-deb -x "$said" "$root"; done
   filled=$(hf_filled) || exit 1
-  cp -r "$hf_golden/meshes" "$hf_golden/bad_input.json" "$root/work/" && cp "$filled" "$root/work/scenes.json" || exit 1
-  hf_quiet cc -std=c99 -I"$root/usr/include" "$hf_root/tests/consumer/use_hf.c" -o "$root/work/shared" -L"$root/usr/lib/$triple" -lhf
-  hf_quiet cc -std=c99 -static -DHF_STATIC "$hf_root/tests/consumer/use_hf.c" -o "$root/work/static" \
+  cp -r "$hf_golden/meshes" "$hf_golden/bad_input.json" "$root/try/" && cp "$filled" "$root/try/scenes.json" || exit 1
+  hf_quiet cc -std=c99 -I"$root/usr/include" "$hf_root/tests/consumer/use_hf.c" -o "$root/try/shared" -L"$root/usr/lib/$triple" -lhf
+  hf_quiet cc -std=c99 -static -DHF_STATIC "$hf_root/tests/consumer/use_hf.c" -o "$root/try/static" \
     $(PKG_CONFIG_SYSROOT_DIR="$root" PKG_CONFIG_LIBDIR="$root/usr/lib/$triple/pkgconfig" pkg-config --static --cflags --libs hf)
-  hf_golden_program linux-x64 "$root/work/golden" -L"$root/usr/lib/$triple" -lhf
+  hf_golden_program linux-x64 "$root/try/golden" -L"$root/usr/lib/$triple" -lhf
   # a name space of its own where it is not root's
   local enter=(chroot "$root")
   [ "$(id -u)" = 0 ] || enter=(unshare -r chroot "$root")
-  hf_quiet "${enter[@]}" /work/shared
-  hf_quiet "${enter[@]}" /work/static
-  said=$("${enter[@]}" /work/golden /work/meshes /work/scenes.json /work/bad_input.json 2>&1) || {
+  hf_quiet "${enter[@]}" /try/shared
+  hf_quiet "${enter[@]}" /try/static
+  said=$("${enter[@]}" /try/golden /try/meshes /try/scenes.json /try/bad_input.json 2>&1) || {
     printf '%s\n' "$said" | grep -vE ': [0-9]+ steps' | head -20 >&2
     hf_fail "golden scenes in the empty root"
   }

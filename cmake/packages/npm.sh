@@ -65,7 +65,12 @@ PY
 }
 
 npm_try() {
-  local out=$1 scratch=$2 filled said=() specifier installed
+  local out=$1 scratch=$2 filled said=() specifier installed platform
+  for platform in $(hf_platforms); do
+    mkdir -p "$scratch/$platform"
+    tar xzf "$out/hf-fields-$(npm_platform "$platform" | tr ' ' -)-$hf_version.tgz" -C "$scratch/$platform"
+    hf_same_library "$platform" "$scratch/$platform/package/$(hf_library_name "$platform")"
+  done
   filled=$(hf_filled) || exit 1
   # koffi at the version and with the hash of the tests' lock file; our packages from their files
   python3 - "$out" "$scratch/package.json" "$hf_root/tests/npm/package.json" <<'PY'

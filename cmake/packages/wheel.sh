@@ -37,6 +37,8 @@ wheel_try() {
     hf_quiet "$tools/bin/pip" download -q --no-deps --no-index --find-links "$out" --only-binary :all: --dest "$scratch/$platform" \
       --python-version 3.8 --platform "$(wheel_tag "$platform" | sed 's/.*\.//')" "hf-fields==$hf_version"
     cmp -s "$wheel" "$scratch/$platform/$(basename "$wheel")" || hf_fail "pip takes another wheel for $platform"
+    (mkdir "$scratch/$platform/inside" && cd "$scratch/$platform/inside" && python3 -m zipfile -e "$wheel" .) || exit 1
+    hf_same_library "$platform" "$scratch/$platform/inside/hf/$(hf_library_name "$platform")"
     case "$platform" in linux-*)
       said=$("$tools/bin/auditwheel" show "$wheel" 2>&1) || { printf '%s\n' "$said" >&2; hf_fail "auditwheel show $wheel"; }
       said=$(printf '%s' "$said" | tr '\n' ' ' | grep -oE 'consistent with the following platform tag: *"[^"]*"|following platform tag: *"[^"]*"' | grep -o '"[^"]*"' | head -1)

@@ -140,8 +140,8 @@ void join_copies(const Model& model, FlatMesh& mesh) {
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
-  const double near = 1e-6 * glm::distance(low, high);
-  std::map<int, std::vector<const FlatPart*>> spaces;  // by skin
+  const double same_place = 1e-6 * glm::distance(low, high);  // windows.h takes the name near
+  std::map<int, std::vector<const FlatPart*>> spaces;         // by skin
   for (const FlatPart& part : mesh.parts) {
     const int skin = model.nodes[static_cast<size_t>(part.node)].skin;
     const bool skinned = skin >= 0 && !primitive_of(model, part).influences.empty();
@@ -162,7 +162,7 @@ void join_copies(const Model& model, FlatMesh& mesh) {
       uint32_t& f = first[copies[i]];
       if (f == UINT32_MAX) f = vertices[i];
       glm::dvec3& p = mesh.positions[vertices[i]];
-      if (glm::distance(p, mesh.positions[f]) <= near) p = mesh.positions[f];
+      if (glm::distance(p, mesh.positions[f]) <= same_place) p = mesh.positions[f];
     }
   }
 }

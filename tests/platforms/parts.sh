@@ -1,4 +1,4 @@
-# Sourced by tests/run: the parts windows, arm64, small, clang and packages. Each builds in build/NAME, runs its tests and
+# Sourced by tests/run: the parts windows, arm64, small, clang, wasm and packages. Each builds in build/NAME, runs its tests and
 # prints `NAME: N passed, N failed, N skipped`. CMAKE_BUILD_PARALLEL_LEVEL and CTEST_PARALLEL_LEVEL: jobs, else all cores.
 
 # hf_configure NAME CMAKE_ARGUMENTS... and hf_make NAME TARGETS...: the log is build/NAME.log.
@@ -97,4 +97,31 @@ test_packages() {
   printf 'packages: %s passed, %s failed, %s skipped\n' "$((rows - failed - skipped))" "$failed" "$skipped"
   [ "$code" = 77 ] && [ "$rows" -gt "$skipped" ] && code=0
   return "$code"
+}
+
+# WebAssembly with SIMD and one thread: the package's tests in node, the golden scenes in Chromium. The library has no
+# threads there.
+test_wasm() {
+  local tool wasm="$hf_root/build/wasm" scenes="$hf_root/build/wasm_scenes.json" passed=0 failed=0 skipped=0 name code
+  for tool in emcc node npm; do
+    command -v "$tool" >/dev/null || { hf_say "skipped: $tool is not here"; return 77; }
+  done
+  hf_install_node_modules || return 77
+  export HF_NODE_MODULES="$hf_root/build/npm/node_modules" HF_WASM="$wasm" HF_SCENES="$scenes"
+  hf_say "building (wasm)"
+  HF_JOBS=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)} "$hf_root/bindings/js/wasm/build.sh" "$wasm" || return 1
+  (hf_build release-tests hf bindings_golden) || return 1
+  "$hf_root/build/release/bin/bindings_golden" "$hf_root/bindings/golden/meshes" "$hf_root/bindings/golden/scenes.json" --fill "$scenes" >/dev/null || return 1
+  hf_say "testing (wasm)"
+  for name in package races chromium; do
+    case "$name" in
+      package) node --expose-gc "$hf_root/tests/bindings/js_test.mjs" wasm ;;
+      races) node --expose-gc "$hf_root/tests/bindings/races.mjs" wasm ;;
+      chromium) node "$hf_root/tests/platforms/chromium_golden.mjs" "$wasm" "$scenes" ;;
+    esac
+    code=$?
+    case "$code" in 0) passed=$((passed + 1)) ;; 77) skipped=$((skipped + 1)) ;; *) failed=$((failed + 1)) && hf_say "failed: $name" ;; esac
+  done
+  printf 'wasm: %s passed, %s failed, %s skipped\n' "$passed" "$failed" "$skipped"
+  [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
 }
