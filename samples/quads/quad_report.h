@@ -13,6 +13,7 @@ namespace samples {
 
 struct QuadReport {
   uint32_t vertices = 0, edges = 0, faces = 0, quads = 0;
+  uint32_t turned_over = 0;  // corners of quads that face away from the mean normal of their quad
   int euler_characteristic = 0;
   bool each_directed_edge_once = true, no_repeated_corner = true;
   std::map<uint32_t, uint32_t> valences;  // faces around a vertex: how many vertices have so many

@@ -419,6 +419,7 @@ export interface Hf {
       siteLines?: Numbers | null;
       keepPolygons?: number;
       relaxCount?: number;
+      faceCount?: number;
       progress?: Progress | null;
     },
   ) => Quads;
