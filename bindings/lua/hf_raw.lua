@@ -519,7 +519,7 @@ typedef struct hf_quads_desc {
   uint32_t relax_count;
   hf_progress progress;
   uint32_t face_count;
-  uint32_t reserved;
+  float crease_angle;
 } hf_quads_desc;
 typedef struct hf_quads_info {
   uint32_t struct_size;

@@ -40,7 +40,8 @@ typedef struct hf_quads_desc {
                            stays as the lines make it */
   hf_progress progress; /* NULL, or an object to poll and cancel through */
   uint32_t face_count;  /* HF_QUADS_FIELD: 0, or the wanted number of quads, up to 10 million; it replaces edge_length */
-  uint32_t reserved;    /* 0 */
+  float crease_angle;   /* HF_QUADS_FIELD: edges of the surface that bend by more degrees, up to 180, become edges of
+                           quads; 0 = none */
 } hf_quads_desc;
 
 /* Counts of a quad mesh. */

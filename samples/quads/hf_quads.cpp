@@ -17,7 +17,7 @@ namespace samples {
 namespace {
 
 const char* const usage =
-    "usage: hf_quads MESH [--sites auto|FILE.json] [--edge LENGTH] [--faces N]\n"
+    "usage: hf_quads MESH [--sites auto|FILE.json] [--edge LENGTH] [--faces N] [--crease DEG]\n"
     "                [--field|--pure|--uniform] [-o OUT] [--sheet FILE.png]\n"
     "  Makes a quad mesh of a .obj, .off, .ply, .gltf or .glb surface from a harmonic field, and prints what it is "
     "worth.\n"
@@ -28,6 +28,7 @@ const char* const usage =
     "  --edge LENGTH  edge length aimed at, in the unit of the mesh, or as a share of its box diagonal: 2% (2.2%)\n"
     "  --field        edges follow smooth crosses along the curvature; no sites\n"
     "  --faces N      number of quads aimed at, instead of --edge; takes --field\n"
+    "  --crease DEG   edges of the surface that bend by more degrees become edges of quads; takes --field\n"
     "  --uniform      edges of about one length: lines are added and ended in pairs (default)\n"
     "  --pure         every line runs from site to site\n"
     "  --polygons     leaves polygons at sites and saddles whole\n"
@@ -38,7 +39,7 @@ const char* const usage =
 struct Command {
   std::filesystem::path mesh, sites, out, sheet;  // sites empty: auto
   double edge = 0;                                // 0: the default; below 0: a share of the box diagonal
-  uint32_t relax = 60, faces = 0;
+  uint32_t relax = 60, faces = 0, crease = 0;     // crease in degrees
   int32_t kind = HF_QUADS_UNIFORM;
   bool polygons = false, help = false;
 };
@@ -71,6 +72,8 @@ Command parse(Words words) {
       out.kind = HF_QUADS_FIELD;
     } else if (words.is("--faces")) {
       out.faces = words.whole(1, 10000000), out.kind = HF_QUADS_FIELD;
+    } else if (words.is("--crease")) {
+      out.crease = words.whole(1, 180), out.kind = HF_QUADS_FIELD;
     } else if (words.is("--polygons")) {
       out.polygons = true;
     } else if (words.is("--relax")) {
@@ -153,6 +156,7 @@ void run(const Command& options) {
 
   auto desc = hf::make<hf_quads_desc>();
   desc.kind = options.kind, desc.face_count = options.faces;
+  desc.crease_angle = static_cast<float>(options.crease);
   desc.keep_polygons = options.polygons;
   desc.relax_count = options.relax ? options.relax : HF_NO_INDEX;
   desc.edge_length = static_cast<float>(options.edge < 0 ? -options.edge * diagonal : options.edge);
@@ -193,9 +197,7 @@ void run(const Command& options) {
   std::printf("share       %.2f %% quads before splitting, %.2f %% now\n",
               percent(quads.info.polygon_quad_count, quads.info.polygon_count), percent(report.quads, report.faces));
   std::printf("valence     %s\n", to_text(report.valences).c_str());
-  const auto regular = report.valences.find(4);
-  std::printf("irregular   %.2f %%\n",
-              100 - percent(regular == report.valences.end() ? 0 : regular->second, report.vertices));
+  std::printf("irregular   %.2f %%\n", percent(report.irregular, report.vertices));
   std::printf("turned over %u corners\n", report.turned_over);
   std::printf("edge/L      5 %%: %.2f, median %.2f, 95 %%: %.2f\n", report.edge[0], report.edge[1], report.edge[2]);
   std::printf("aspect      median %.2f, 95 %%: %.2f\n", report.aspect[1], report.aspect[2]);

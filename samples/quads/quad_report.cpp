@@ -50,7 +50,12 @@ QuadReport measure_quads(const SurfaceMesh& mesh, double edge_length) {
   report.edges = static_cast<uint32_t>(edges.size());
   report.euler_characteristic =
       static_cast<int>(report.vertices) - static_cast<int>(report.edges) + static_cast<int>(report.faces);
-  for (const uint32_t v : valence) ++report.valences[v];
+  std::vector<bool> border(valence.size(), false);
+  for (const auto& [a, b] : directed) {
+    if (!directed.count({b, a})) border[a] = border[b] = true;
+  }
+  for (size_t v = 0; v < valence.size(); ++v)
+    ++report.valences[valence[v]], report.irregular += valence[v] != (border[v] ? 2u : 4u);
   percentiles(lengths, report.edge), percentiles(aspects, report.aspect), percentiles(angles, report.angle);
   return report;
 }

@@ -54,7 +54,6 @@ hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quad
   return create("hf_quads_create", out_quads, "out_quads", [&] {
     const std::shared_ptr<const Core> core = unlinked_core(handle, "quads");
     const hf_quads_desc desc = read_optional(given, "desc");
-    require_zero(desc.reserved);
     check_choice(desc.kind, 3, "kind");
     if (desc.kind == HF_QUADS_FIELD) {
       const FieldQuadOptions options = read_field_quad_options(core, desc);

@@ -14,9 +14,11 @@ constexpr std::int32_t none = -1;
 
 class Extractor {
  public:
-  Extractor(const FluxSurface& surface, const GridMap& map, ExtractReport& report, Memory& memory)
+  Extractor(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features, ExtractReport& report,
+            Memory& memory)
       : s_(surface),
         map_(map),
+        features_(features),
         report_(report),
         memory_(memory),
         half_(std::int64_t{1} << (map.bits - 1)),
@@ -213,14 +215,15 @@ class Extractor {
           const std::int64_t x = 2 * half_ * i, y = 2 * half_ * j;
           SurfacePoint point;
           point.triangle = t;
-          bool inside = true;
+          bool inside = true, on_feature = false;
           for (int k = 0; k < 3; ++k) {
             const int a = (k + 1) % 3, b = (k + 2) % 3;
             const std::int64_t part = (u[a] - x) * (v[b] - y) - (u[b] - x) * (v[a] - y);
             inside &= area > 0 ? part >= 0 : part <= 0;
+            on_feature |= part == 0 && features_[3 * t + a];
             point.weight[k] = static_cast<double>(part) / static_cast<double>(area);
           }
-          const std::uint8_t quality = area > 0 ? at_point_ : at_turned_point_;
+          const std::uint8_t quality = on_feature ? at_feature_ : area > 0 ? at_point_ : at_turned_point_;
           if (inside) offer(number(t, i, j), point, quality);
         }
       }
@@ -263,7 +266,8 @@ class Extractor {
     for (const std::int32_t cell : corners_) {
       if (vertex[cell] == none)
         vertex[cell] =
-            mesh.add_vertex(place_[cell], position_of(s_, place_[cell]), QuadMesh::free, on_border_[cell], 1);
+            mesh.add_vertex(place_[cell], position_of(s_, place_[cell]),
+                            quality_[cell] == at_feature_ ? QuadMesh::site : QuadMesh::free, on_border_[cell], 1);
       mesh.corner.push_back(vertex[cell]);
       if (mesh.corner.size() % 4 == 0) mesh.face_start.push_back(mesh.corner.size());
     }
@@ -271,9 +275,10 @@ class Extractor {
   }
 
   // How good a place of a vertex is; the best is taken.
-  static constexpr std::uint8_t at_edge_ = 1, at_turned_point_ = 2, at_point_ = 3, at_border_ = 4;
+  static constexpr std::uint8_t at_edge_ = 1, at_turned_point_ = 2, at_point_ = 3, at_border_ = 4, at_feature_ = 5;
   const FluxSurface& s_;
   const GridMap& map_;
+  const Table<std::uint8_t>& features_;
   ExtractReport& report_;
   Memory& memory_;
   const std::int64_t half_;
@@ -287,8 +292,9 @@ class Extractor {
 
 }  // namespace
 
-QuadMesh extract_quads(const FluxSurface& surface, const GridMap& map, ExtractReport& report, Memory& memory) {
-  return Extractor(surface, map, report, memory).run();
+QuadMesh extract_quads(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features,
+                       ExtractReport& report, Memory& memory) {
+  return Extractor(surface, map, features, report, memory).run();
 }
 
 std::int32_t remove_doublets(QuadMesh& mesh, Memory& memory) {

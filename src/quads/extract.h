@@ -21,8 +21,10 @@ struct ExtractReport {
   std::int32_t doublets = 0;  // vertices that remove_doublets took away
 };
 
-// Makes the quads. A vertex lies where the map has its whole numbers.
-QuadMesh extract_quads(const FluxSurface& surface, const GridMap& map, ExtractReport& report, Memory& memory);
+// Makes the quads. A vertex lies where the map has its whole numbers. Vertices on feature edges are pinned. features:
+// by half-edge.
+QuadMesh extract_quads(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features,
+                       ExtractReport& report, Memory& memory);
 
 // Joins the two quads at every inner vertex that has no others, and takes away quads folded at a vertex of one quad.
 // Removes unused vertices. Returns how many quads are gone.

@@ -8,6 +8,8 @@ namespace hf_inner {
 namespace {
 
 using Complex = std::complex<double>;
+// Feature edges of one triangle whose directions sum to less than this, as crosses, say nothing about it.
+constexpr double least_agreement = 0.5;
 constexpr double pi = 3.141592653589793238462643383279502884;
 
 Complex unit_of(Complex z) noexcept {
@@ -23,8 +25,27 @@ double corner_angle(const FluxSurface& s, std::int32_t h) noexcept {
 
 }  // namespace
 
+Table<std::uint8_t> find_features(const FluxSurface& surface, double crease, Memory& memory) {
+  Table<std::uint8_t> out(surface.half_count(), 0, memory);
+  Table<Vec3> normal(surface.real_triangles, Vec3{}, memory);
+  for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
+    const Vec3 a = surface.position[surface.tail[3 * t]];
+    normal[t] = cross(surface.position[surface.tail[3 * t + 1]] - a, surface.position[surface.tail[3 * t + 2]] - a);
+  }
+  for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
+    const std::int32_t g = surface.twin[h];
+    if (!surface.is_real(g)) {
+      out[h] = 1;
+    } else if (h < g && crease < pi) {
+      const Vec3 p = normal[h / 3], q = normal[g / 3];
+      out[h] = out[g] = arc_tangent(norm(cross(p, q)), dot(p, q)) > crease;
+    }
+  }
+  return out;
+}
+
 FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connection, Span<const Complex> crosses,
-                          Memory& memory) {
+                          const Table<std::uint8_t>& features, Memory& memory) {
   FaceCross out(memory);
   const std::int32_t triangles = surface.real_triangles, halves = surface.half_count();
   out.edge.assign(halves, Complex(0, 0)), out.direction.assign(triangles, Complex(1, 0));
@@ -52,6 +73,14 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
       d *= d, d *= d;
       sum += size * d;
     }
+    Complex along = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (!features[3 * t + k]) continue;
+      Complex d = unit_of(out.edge[3 * t + k]);
+      d *= d, d *= d;
+      along += d;
+    }
+    if (length_of(along) > least_agreement) sum = along;
     out.direction[t] = at_angle(1.0, angle_of(sum) / 4);
   }
   Table<double> rest(halves, 0.0, memory);

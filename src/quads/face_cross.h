@@ -13,11 +13,16 @@
 
 namespace hf_inner {
 
+// Marks, by half-edge, the feature edges: borders, and edges where the normals of the triangles differ by more than
+// `crease` radians. crease: at least pi for none.
+Table<std::uint8_t> find_features(const FluxSurface& surface, double crease, Memory& memory);
+
 struct FaceCross {
   explicit FaceCross(Memory& memory) : edge(memory), direction(memory), turn(memory), index(memory) {}
-  // crosses: by inner vertex of the mesh, to the fourth degree, in the frames of the connection.
+  // crosses: by inner vertex of the mesh, to the fourth degree, in the frames of the connection. Triangles with feature
+  // edges take the direction of these.
   static FaceCross make(const FluxSurface& surface, const Connection& connection,
-                        Span<const std::complex<double>> crosses, Memory& memory);
+                        Span<const std::complex<double>> crosses, const Table<std::uint8_t>& features, Memory& memory);
 
   Table<std::complex<double>> edge;       // by half-edge of a real triangle: its vector in the triangle's frame
   Table<std::complex<double>> direction;  // by real triangle

@@ -18,6 +18,10 @@ constexpr double smooth_radius = 4;
 // Radius in edge lengths over which the curvature is evened out, and the limits of its rounds.
 constexpr double curvature_radius = 1;
 constexpr std::int32_t least_passes = 2, most_passes = 20;
+// The feature edges of a vertex agree if their crosses sum to more than this share of their number. Else the cross at
+// the vertex is free.
+constexpr double agreement = 0.5;
+constexpr double degrees = 3.141592653589793238462643383279502884 / 180;
 // Edge lengths that are tried until a mesh is valid: each is this share of the one before.
 constexpr double shorter = 0.9;
 constexpr std::int32_t most_tries = 8;
@@ -25,25 +29,27 @@ constexpr std::int32_t most_tries = 8;
 constexpr double faces_error = 0.02;
 constexpr std::int32_t count_tries = 4;
 
-// Crosses at borders lie along them.
-Vector<HardCross> border_crosses(const Core& core, const Connection& connection) {
+// Crosses at feature edges lie along them.
+Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, const Connection& connection,
+                                  const Table<std::uint8_t>& features) {
   Memory& memory = *core.memory;
-  const Topology& topology = core.topology;
   Vector<Complex> sum(at(core.size()), Complex(0, 0), &memory);
+  Vector<double> count(at(core.size()), 0.0, &memory);
   Vector<HardCross> out(&memory);
-  for (Index e = 0; e < topology.edge_count(); ++e) {
-    if (topology.edge_triangle_start[at(e) + 1] - topology.edge_triangle_start[at(e)] != 1) continue;
-    for (const Index v : {topology.first(e), topology.second(e)}) {
-      const Index w = v == topology.first(e) ? topology.second(e) : topology.first(e);
-      Complex z = connection.to_frame(v, core.mesh.positions[at(w)] - core.mesh.positions[at(v)]);
+  for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
+    const std::int32_t g = surface.twin[h];
+    if (!features[h] || (surface.is_real(g) && g < h)) continue;
+    const Vec3 edge = surface.position[surface.head(h)] - surface.position[surface.tail[h]];
+    for (const Index v : {surface.mesh_vertex[surface.tail[h]], surface.mesh_vertex[surface.head(h)]}) {
+      Complex z = connection.to_frame(v, edge);
       if (!(length_of(z) > 0)) continue;
       z /= length_of(z), z *= z, z *= z;
-      sum[at(v)] += z;
+      sum[at(v)] += z, count[at(v)] += 1;
     }
   }
   for (Index v = 0; v < core.size(); ++v) {
     const double length = length_of(sum[at(v)]);
-    if (length > 1) out.push_back({v, sum[at(v)] / length});  // the two edges agree
+    if (count[at(v)] > 0 && length > agreement * count[at(v)]) out.push_back({v, sum[at(v)] / length});
   }
   return out;
 }
@@ -81,8 +87,11 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
       static_cast<Index>(std::min<double>(most_passes, std::max<double>(least_passes, rings * rings))));
   CrossOptions cross_options;
   cross_options.radius = smooth_radius * edge_length;
-  const Vector<Complex> crosses = smooth_crosses(system, wish, border_crosses(core, system.connection), cross_options);
-  const FaceCross faces = FaceCross::make(surface, system.connection, crosses, memory);
+  const Table<std::uint8_t> features =
+      find_features(surface, options.crease > 0 ? options.crease * degrees : HUGE_VAL, memory);
+  const Vector<Complex> crosses =
+      smooth_crosses(system, wish, feature_crosses(core, surface, system.connection, features), cross_options);
+  const FaceCross faces = FaceCross::make(surface, system.connection, crosses, features, memory);
   made.field_ms = timer.milliseconds();
   hf_inner::report(0.2f);
 
@@ -90,7 +99,8 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   const Seams seams = Seams::make(surface, faces, memory);
   made.singularities = seams.singularity_count, made.parameters = seams.parameter_count,
   made.cut_edges = seams.cut_edges;
-  GridMapper mapper(surface, faces, seams, system.position, memory, *core.jobs);
+  GridMapper mapper(surface, faces, seams, features, system.position, memory, *core.jobs);
+  made.left_out = mapper.left_out();
   made.map_ms = map_timer.milliseconds();
   hf_inner::report(0.4f);
 
@@ -104,7 +114,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
     try {
       const GridMap map = mapper.make(length);
       ExtractReport extracted;
-      QuadMesh mesh = extract_quads(surface, map, extracted, memory);
+      QuadMesh mesh = extract_quads(surface, map, features, extracted, memory);
       const std::int32_t raw = mesh.face_count();
       extracted.doublets = remove_doublets(mesh, memory);
       check_quads(mesh, surface.euler_characteristic, memory);
@@ -125,7 +135,12 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
       length *= shorter;
     }
   }
-  if (best < 0) throw Error(*refused);
+  if (best < 0) {
+    if (refused->code() != HF_ERROR_INTERNAL) throw Error(*refused);
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "no edge length from %g to %g box diagonals gives quads around every thin part (%s); ask for shorter edges",
+         length, edge_length, refused->what());
+  }
   made.quads_ms = quads_timer.milliseconds();
   hf_inner::report(0.6f);
 

@@ -15,10 +15,12 @@ struct FieldQuadOptions {
   double edge_length = default_edge_length;  // inner units
   std::int32_t faces = 0;                    // wanted number of quads, which replaces the edge length; 0: none
   std::int32_t relax = default_relax_rounds;
+  double crease = 0;  // degrees: edges that bend more are kept; 0: none
 };
 
 struct FieldQuadReport {
   std::int32_t singularities = 0, parameters = 0, roundings = 0, cut_edges = 0;
+  std::int32_t left_out = 0;     // equations of feature edges
   std::int32_t turned_over = 0;  // triangles of the map
   std::int32_t backward = 0;     // crossings of the map
   std::int32_t doublets = 0, tries = 0;

@@ -24,7 +24,7 @@ constexpr double whole_error = 1e-6;
 }  // namespace
 
 GridMapper::GridMapper(const FluxSurface& surface, const FaceCross& crosses, const Seams& seams,
-                       Span<const Index> order, Memory& memory, JobRunner& jobs)
+                       const Table<std::uint8_t>& features, Span<const Index> order, Memory& memory, JobRunner& jobs)
     : surface_(surface),
       crosses_(crosses),
       seams_(seams),
@@ -32,9 +32,12 @@ GridMapper::GridMapper(const FluxSurface& surface, const FaceCross& crosses, con
       jobs_(jobs),
       order_(order),
       unknown_(memory),
+      sums_(&memory),
+      of_parameter_(memory),
+      of_line_(memory),
       matrix_(memory),
       right_(&memory) {
-  number();
+  number(features);
   assemble();
   FactorOptions options;
   options.ordering = Ordering::natural;
@@ -42,44 +45,78 @@ GridMapper::GridMapper(const FluxSurface& surface, const FaceCross& crosses, con
   system_->set_right(right_);
 }
 
-void GridMapper::number() {
-  unknown_.assign(surface_.vertex_count(), 0);
-  Vector<std::int32_t> free(&memory_);
-  for (std::int32_t v = 0; v < surface_.first_apex; ++v) {
-    if (seams_.parameter[v] == Seams::free) free.push_back(v);
-  }
-  const auto place = [&](std::int32_t v) { return order_[at(surface_.mesh_vertex[v])]; };
-  std::sort(free.begin(), free.end(),
-            [&](std::int32_t a, std::int32_t b) { return place(a) != place(b) ? place(a) < place(b) : a < b; });
-  free_count_ = static_cast<std::int32_t>(free.size());
-  for (std::int32_t i = 0; i < free_count_; ++i) unknown_[free[at(i)]] = i;
-  for (std::int32_t v = 0; v < surface_.first_apex; ++v) {
-    if (seams_.parameter[v] >= 0) unknown_[v] = free_count_ + seams_.parameter[v];
-  }
-  for (std::size_t k = 0; k < seams_.fixed.size(); ++k)
-    unknown_[seams_.fixed[k].vertex] = -1 - static_cast<std::int32_t>(k);
+// Replaces the numbers of parameters by those of unknowns.
+RealSum GridMapper::in_unknowns(RealSum sum) const {
+  for (RealTerm& term : sum) term.number = of_parameter_[term.number];
+  return sum;
 }
 
-// Writes a variable as a sum of complex unknowns. Variables are vertices, and after them the offsets of the seams.
-void GridMapper::expand(std::int32_t variable, SeamSum& out) const {
-  out.clear();
-  const SeamSum* sum = nullptr;
-  if (variable < surface_.vertex_count()) {
-    const std::int32_t number = unknown_[variable];
-    if (number >= 0) {
-      out.push_back({number, Complex(1, 0)});
-      return;
-    }
-    sum = &seams_.fixed[at(-1 - number)].sum;
-  } else {
-    sum = &seams_.offsets[at(variable - surface_.vertex_count())];
+void GridMapper::number(const Table<std::uint8_t>& features) {
+  const std::int32_t n = surface_.vertex_count();
+  FeatureLines lines(surface_, seams_, memory_);
+  for (std::int32_t h = 0; h < 3 * surface_.real_triangles; ++h) {
+    const std::int32_t g = surface_.twin[h];
+    if (features[h] && (!surface_.is_real(g) || h < g)) lines.add(h, crosses_.edge[h]);
   }
-  for (const SeamTerm& term : *sum) out.push_back({free_count_ + term.parameter, term.factor});
+  left_out_ = lines.left_out();
+  Vector<std::int32_t> free(&memory_);
+  for (std::int32_t v = 0; v < surface_.first_apex; ++v) {
+    for (int part = 0; part < 2; ++part) {
+      if (seams_.parameter[v] == Seams::free && !lines.has(v, part)) free.push_back(2 * v + part);
+    }
+  }
+  const auto place = [&](std::int32_t x) { return order_[at(surface_.mesh_vertex[x / 2])]; };
+  Poller poller;
+  std::sort(free.begin(), free.end(), [&](std::int32_t a, std::int32_t b) {
+    poller.due();
+    return place(a) != place(b) ? place(a) < place(b) : a < b;
+  });
+  unknown_.assign(2 * (n + static_cast<std::int32_t>(seams_.offsets.size())), 0);
+  free_count_ = static_cast<std::int32_t>(free.size());
+  for (std::int32_t i = 0; i < free_count_; ++i) unknown_[free[at(i)]] = i;
+  std::int32_t count = free_count_;
+  of_parameter_.assign(2 * seams_.parameter_count, -1), of_line_.assign(lines.line_count(), -1);
+  for (std::int32_t p = 0; p < of_parameter_.size(); ++p) {
+    if (!lines.is_solved(p)) of_parameter_[p] = count++;
+  }
+  const auto keep = [&](std::int32_t variable, RealSum sum) {
+    unknown_[variable] = -1 - static_cast<std::int32_t>(sums_.size());
+    sums_.push_back(std::move(sum));
+  };
+  for (std::int32_t v = 0; v < surface_.first_apex; ++v) {
+    for (int part = 0; part < 2; ++part) {
+      if (seams_.parameter[v] == Seams::free && !lines.has(v, part)) continue;
+      // A vertex that is a sum of parameters gets a place here, if it has none yet.
+      FeatureLines::Place found = lines.place(v, part);
+      lines.reduce(found.sum);
+      RealSum sum = in_unknowns(std::move(found.sum));
+      if (found.line >= 0) {
+        std::int32_t& line = of_line_[found.line];
+        if (line < 0) line = count++;
+        add_to(sum, RealSum(1, RealTerm{line, found.sign}, &memory_), 1);
+      }
+      keep(2 * v + part, std::move(sum));
+    }
+  }
+  for (std::size_t i = 0; i < seams_.offsets.size(); ++i) {
+    for (int part = 0; part < 2; ++part) {
+      RealSum sum = part_of(seams_.offsets[i], part, memory_);
+      lines.reduce(sum);
+      keep(2 * (n + static_cast<std::int32_t>(i)) + part, in_unknowns(std::move(sum)));
+    }
+  }
+  right_.assign(at(count), 0.0);
+}
+
+Span<const RealTerm> GridMapper::expand(std::int32_t variable, int part, RealTerm& single) const {
+  const std::int32_t number = unknown_[2 * variable + part];
+  if (number < 0) return sums_[at(-1 - number)];
+  single = {number, 1.0};
+  return {&single, 1};
 }
 
 void GridMapper::assemble() {
   const std::int32_t n = surface_.vertex_count(), variables = n + static_cast<std::int32_t>(seams_.offsets.size());
-  const std::int32_t unknowns = free_count_ + seams_.parameter_count;
   // First in variables, of which a corner has two at most.
   Vector<Entry> entries(&memory_);
   entries.reserve(at(surface_.real_triangles) * 24);
@@ -113,11 +150,11 @@ void GridMapper::assemble() {
       }
     }
   }
-  const auto before = [](const Entry& a, const Entry& b) {
-    return a.column != b.column ? a.column < b.column : a.row < b.row;
-  };
-  const auto merge = [&](Vector<Entry>& list) {
-    std::sort(list.begin(), list.end(), before);
+  const auto merge = [&](auto& list) {
+    std::sort(list.begin(), list.end(), [&](const auto& a, const auto& b) {
+      poller.due();
+      return a.column != b.column ? a.column < b.column : a.row < b.row;
+    });
     std::size_t count = 0;
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (count > 0 && list[count - 1].row == list[i].row && list[count - 1].column == list[i].column) {
@@ -129,52 +166,45 @@ void GridMapper::assemble() {
     list.resize(count);
   };
   merge(entries);
-  // Then in unknowns.
-  Vector<Entry> final_entries(&memory_);
-  final_entries.reserve(entries.size());
-  SeamSum rows(&memory_), columns(&memory_);
-  std::int32_t expanded = -1;
+  // Then in unknowns. The complex number a + i b is the real block [a -b; b a].
+  Vector<RealEntry> real(&memory_);
+  real.reserve(4 * entries.size());
+  RealTerm single_row, single_column;
   for (const Entry& e : entries) {
     poller.due();
-    if (e.column != expanded) expand(e.column, columns), expanded = e.column;
-    expand(e.row, rows);
-    for (const SeamTerm& a : rows) {
-      for (const SeamTerm& b : columns)
-        final_entries.push_back({a.parameter, b.parameter, std::conj(a.factor) * e.value * b.factor});
+    const double a = e.value.real(), b = e.row == e.column ? 0.0 : e.value.imag();
+    const double block[2][2] = {{a, -b}, {b, a}};
+    for (int column = 0; column < 2; ++column) {
+      for (const RealTerm& y : expand(e.column, column, single_column)) {
+        for (int row = 0; row < 2; ++row) {
+          for (const RealTerm& x : expand(e.row, row, single_row))
+            real.push_back({x.number, y.number, x.factor * block[row][column] * y.factor});
+        }
+      }
     }
   }
-  merge(final_entries);
-  right_.assign(2 * at(unknowns), 0.0);
+  merge(real);
   for (std::int32_t v = 0; v < variables; ++v) {
     if (v >= surface_.first_apex && v < n) continue;
-    expand(v, rows);
-    for (const SeamTerm& a : rows) {
-      const Complex value = std::conj(a.factor) * right[at(v)];
-      right_[2 * at(a.parameter)] += value.real(), right_[2 * at(a.parameter) + 1] += value.imag();
+    for (int part = 0; part < 2; ++part) {
+      const double value = part == 0 ? right[at(v)].real() : right[at(v)].imag();
+      for (const RealTerm& x : expand(v, part, single_row)) right_[at(x.number)] += x.factor * value;
     }
   }
-  // The complex number a + i b in row p and column q is the real block [a -b; b a].
   matrix_.column_start.assign(1, 0);
   std::size_t i = 0;
-  for (std::int32_t q = 0; q < unknowns; ++q) {
-    const std::size_t begin = i;
-    while (i < final_entries.size() && final_entries[i].column == q) ++i;
-    for (int part = 0; part < 2; ++part) {
-      for (std::size_t j = begin; j < i; ++j) {
-        const Entry& e = final_entries[j];
-        const double a = e.value.real(), b = e.row == q ? 0.0 : e.value.imag();
-        matrix_.row.push_back(2 * e.row), matrix_.row.push_back(2 * e.row + 1);
-        matrix_.value.push_back(part == 0 ? a : -b), matrix_.value.push_back(part == 0 ? b : a);
-      }
-      matrix_.column_start.push_back(static_cast<std::int32_t>(matrix_.row.size()));
-    }
+  for (std::int32_t column = 0; column < static_cast<std::int32_t>(right_.size()); ++column) {
+    poller.due();
+    for (; i < real.size() && real[i].column == column; ++i)
+      matrix_.row.push_back(real[i].row), matrix_.value.push_back(real[i].value);
+    matrix_.column_start.push_back(static_cast<std::int32_t>(matrix_.row.size()));
   }
 }
 
 Vector<double> GridMapper::round(double edge_length, Vector<Index>* out_fixed, Vector<double>* out_values) {
   system_->set_scale(1 / edge_length);
   Vector<Index> open(&memory_);
-  for (Index i = 2 * free_count_; i < matrix_.size(); ++i) open.push_back(i);
+  for (Index i = free_count_; i < matrix_.size(); ++i) open.push_back(i);
   Vector<double> values(open.size(), &memory_);
   while (!open.empty()) {
     poll();
@@ -197,40 +227,36 @@ Vector<double> GridMapper::round(double edge_length, Vector<Index>* out_fixed, V
   return x;
 }
 
-Complex GridMapper::value_of(const SeamSum& sum, Span<const double> x) const {
-  Complex value = 0;
-  for (const SeamTerm& term : sum) {
-    const std::size_t i = 2 * at(free_count_ + term.parameter);
-    value += term.factor * Complex(x[i], x[i + 1]);
-  }
-  return value;
-}
-
 GridMap GridMapper::make(double edge_length) {
   const Vector<double> x = round(edge_length, nullptr, nullptr);
   const std::int32_t n = surface_.vertex_count();
-  Table<Complex> z(n, Complex(0, 0), memory_);
-  Table<std::uint8_t> whole(n, 0, memory_);
-  for (std::int32_t v = 0; v < surface_.first_apex; ++v) {
-    const std::int32_t number = unknown_[v];
-    if (number >= 0) {
-      z[v] = Complex(x[2 * at(number)], x[2 * at(number) + 1]);
-      whole[v] = number >= free_count_;
-      continue;
-    }
-    const Seams::Fixed& fixed = seams_.fixed[at(-1 - number)];
-    z[v] = value_of(fixed.sum, x), whole[v] = 1;
-    const Complex near(std::nearbyint(z[v].real()), std::nearbyint(z[v].imag()));
-    if (length_of(z[v] - near) > whole_error)
+  // Returns the value of a real variable, and whether it is a whole number.
+  const auto value_of = [&](std::int32_t variable, int part, bool& whole) {
+    const std::int32_t number = unknown_[2 * variable + part];
+    whole = number < 0;
+    if (!whole) return x[at(number)];
+    double value = 0;
+    for (const RealTerm& term : sums_[at(-1 - number)]) value += term.factor * x[at(term.number)];
+    const double near = std::nearbyint(value);
+    if (!(std::fabs(value - near) <= whole_error))
       fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a singularity of the crosses cannot lie on the grid");
-    z[v] = near;
-  }
+    return near;
+  };
+  Table<Complex> z(n, Complex(0, 0), memory_);
+  Table<std::uint8_t> whole(2 * n, 0, memory_);
+  bool is_whole = false;
+  const auto read = [&](std::int32_t variable, std::uint8_t* flags) {
+    double parts[2];
+    for (int part = 0; part < 2; ++part) {
+      parts[part] = value_of(variable, part, is_whole);
+      if (flags) flags[part] = is_whole;
+    }
+    return Complex(parts[0], parts[1]);
+  };
+  for (std::int32_t v = 0; v < surface_.first_apex; ++v) z[v] = read(v, &whole[2 * v]);
   Vector<Complex> offset(seams_.offsets.size(), &memory_);
+  for (std::size_t i = 0; i < offset.size(); ++i) offset[i] = read(n + static_cast<std::int32_t>(i), nullptr);
   double most = 1;
-  for (std::size_t i = 0; i < offset.size(); ++i) {
-    offset[i] = value_of(seams_.offsets[i], x);
-    offset[i] = Complex(std::nearbyint(offset[i].real()), std::nearbyint(offset[i].imag()));
-  }
   const auto corner = [&](std::int32_t h) {
     const Complex turned = quarter_turned(z[surface_.tail[h]], seams_.unit[h]);
     return seams_.offset[h] >= 0 ? turned + offset[at(seams_.offset[h])] : turned;
@@ -247,14 +273,15 @@ GridMap GridMapper::make(double edge_length) {
   map.bits = std::min(most_bits - whole_bits, most_fraction);
   if (map.bits < least_fraction || !std::isfinite(most))
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the map of the surface to the plane is too large for its edge length");
-  const auto fixed_point = [&](double value, bool is_whole) {
-    if (is_whole) return static_cast<std::int64_t>(value) * (std::int64_t{1} << map.bits);
+  const auto fixed_point = [&](double value, bool exact) {
+    if (exact) return static_cast<std::int64_t>(value) * (std::int64_t{1} << map.bits);
     return 2 * static_cast<std::int64_t>(std::floor(std::ldexp(value, map.bits - 1))) + 1;
   };
   map.u.assign(halves, 0), map.v.assign(halves, 0);
   for (std::int32_t h = 0; h < halves; ++h) {
     const std::int32_t v = surface_.tail[h];
-    const std::int64_t a = fixed_point(z[v].real(), whole[v]), b = fixed_point(z[v].imag(), whole[v]);
+    const std::int64_t a = fixed_point(z[v].real(), whole[2 * v] != 0),
+                       b = fixed_point(z[v].imag(), whole[2 * v + 1] != 0);
     const int k = seams_.unit[h] & 3;
     map.u[h] = k == 0 ? a : k == 1 ? -b : k == 2 ? -a : b;
     map.v[h] = k == 0 ? b : k == 1 ? a : k == 2 ? -b : -a;

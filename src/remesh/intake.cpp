@@ -57,6 +57,10 @@ QuadOptions read_quad_options(std::shared_ptr<const Core> core, const hf_quads_d
   if (desc.face_count)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "face_count is %u; only the kind HF_QUADS_FIELD takes it",
          desc.face_count);
+  check_finite(static_cast<double>(desc.crease_angle), "crease_angle");
+  if (desc.crease_angle != 0)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "crease_angle is %g; only the kind HF_QUADS_FIELD takes it",
+         static_cast<double>(desc.crease_angle));
   QuadOptions options;
   options.relax = read_relax_count(desc.relax_count);
   options.edge_length = read_edge_length(core->mesh, desc.edge_length);

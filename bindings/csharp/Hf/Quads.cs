@@ -9,7 +9,7 @@ namespace Hf
     public sealed class QuadOptions
     {
         public int Kind, KeepPolygons;
-        public float EdgeLength;
+        public float EdgeLength, CreaseAngle;
         public uint RelaxCount, FaceCount;
         public uint[] SiteVertices;
         public int[] SiteLines;
@@ -39,6 +39,7 @@ namespace Hf
                 desc.keep_polygons = options.KeepPolygons;
                 desc.relax_count = options.RelaxCount;
                 desc.face_count = options.FaceCount;
+                desc.crease_angle = options.CreaseAngle;
                 desc.site_count = options.SiteVertices == null ? 0 : (uint)options.SiteVertices.Length;
                 desc.site_vertices = pins.Add(options.SiteVertices);
                 desc.site_lines = pins.Add(options.SiteLines, (int)desc.site_count, "SiteLines");

@@ -774,7 +774,7 @@ namespace Hf.Native
         public uint relax_count;
         public IntPtr progress;
         public uint face_count;
-        public uint reserved;
+        public float crease_angle;
     }
 
     [StructLayout(LayoutKind.Sequential)]

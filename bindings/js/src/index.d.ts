@@ -420,6 +420,7 @@ export interface Hf {
       keepPolygons?: number;
       relaxCount?: number;
       faceCount?: number;
+      creaseAngle?: number;
       progress?: Progress | null;
     },
   ) => Quads;

@@ -638,7 +638,7 @@ export const layouts = {
     relax_count: ['u32', [28, 36], 0],
     progress: ['ptr', [32, 40], 0],
     face_count: ['u32', [36, 48], 0],
-    reserved: ['u32', [40, 52], 0],
+    crease_angle: ['f32', [40, 52], 0],
   } },
   hf_quads_info: { size: [48, 48], fields: {
     struct_size: ['u32', [0, 0], 0],

@@ -1243,7 +1243,7 @@ class hf_quads_desc(Structure):
     relax_count: int
     progress: int
     face_count: int
-    reserved: int
+    crease_angle: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -1255,7 +1255,7 @@ class hf_quads_desc(Structure):
         ("relax_count", c_uint32),
         ("progress", c_void_p),
         ("face_count", c_uint32),
-        ("reserved", c_uint32),
+        ("crease_angle", c_float),
     ]
 
 

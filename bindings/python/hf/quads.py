@@ -36,7 +36,7 @@ class QuadMesh(NamedTuple):
 
 
 class Quads(Object):
-    """A quad mesh of a surface. Options: kind, edge_length, keep_polygons, relax_count, face_count."""
+    """A quad mesh of a surface. Options: kind, edge_length, keep_polygons, relax_count, face_count, crease_angle."""
 
     _destroy = "hf_quads_destroy"
 

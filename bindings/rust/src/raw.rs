@@ -1475,7 +1475,7 @@ pub struct hf_quads_desc {
     pub relax_count: u32,
     pub progress: hf_progress,
     pub face_count: u32,
-    pub reserved: u32,
+    pub crease_angle: f32,
 }
 impl Default for hf_quads_desc {
     fn default() -> Self {
