@@ -123,6 +123,7 @@ Vector<Complex> smooth_crosses(const DirectionSystem& system, Span<const Complex
       values.push_back(part == 0 ? h.cross.real() : h.cross.imag());
     }
   }
+  if (!hard.empty()) solver.fix(unknowns, values);
   for (Index round = 0; round <= options.rounds; ++round) {
     report(static_cast<float>(round) / static_cast<float>(options.rounds + 1));
     for (Index v = 0; v < core.size(); ++v) {
@@ -130,7 +131,6 @@ Vector<Complex> smooth_crosses(const DirectionSystem& system, Span<const Complex
       right[at(system.unknown(v, 0))] = w.real(), right[at(system.unknown(v, 1))] = w.imag();
     }
     solver.set_right(right);
-    if (!hard.empty()) solver.fix(unknowns, values);
     solver.solve(x.data());
     for (Index v = 0; v < core.size(); ++v) {
       field[at(v)] = Complex(x[at(system.unknown(v, 0))], x[at(system.unknown(v, 1))]);

@@ -34,7 +34,6 @@ void DefiniteSystem::clear() {
 void DefiniteSystem::set_right(Span<const double> right) {
   Vector<double> scratch(plain_.size(), &memory_);
   factor_->solve(right.data(), plain_.data(), 1, scratch.data(), jobs_);
-  clear();
 }
 
 void DefiniteSystem::set_scale(double factor) {

@@ -17,7 +17,7 @@ class DefiniteSystem {
   DefiniteSystem(const DefiniteSystem&) = delete;
   DefiniteSystem& operator=(const DefiniteSystem&) = delete;
 
-  // Computes K^-1 right, which scale() multiplies. Removes all given values.
+  // Computes K^-1 right. Given values stay.
   void set_right(Span<const double> right);
   // From now on the right-hand side counts `factor` times. Removes all given values. Costs no sweep.
   void set_scale(double factor);

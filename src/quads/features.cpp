@@ -8,7 +8,7 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr std::int32_t none = -1;
-// A factor nearer to 0 is rounding: factors are sums of powers of i, or halves of them. So for 1.
+// A factor nearer to 0, or to a whole number, is rounding: factors are sums of powers of i, or halves of them.
 constexpr double no_factor = 1e-9;
 
 }  // namespace
@@ -146,7 +146,11 @@ void FeatureLines::relate(RealSum sum) {
   if (sum.empty()) return;
   for (std::size_t i = sum.size(); i-- > 0;) {
     const RealTerm pivot = sum[i];
-    if (std::fabs(std::fabs(pivot.factor) - 1) > no_factor) continue;
+    const bool whole = std::all_of(sum.begin(), sum.end(), [&](const RealTerm& t) {
+      const double share = t.factor / pivot.factor;
+      return std::fabs(share - std::nearbyint(share)) < no_factor;
+    });
+    if (!whole) continue;
     RealSum solution(&memory_);
     add_to(solution, sum, -1 / pivot.factor);
     solution.erase(

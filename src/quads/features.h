@@ -3,8 +3,9 @@
 // A feature edge runs along u or along v in the map of its triangle. So the other coordinate is the same at both ends,
 // and it is a whole number. Every such equation joins two real unknowns: x_a = +-x_b + (a sum of parameters of the
 // seams). Unknowns that are joined become one: a line. Lines are kept as trees (union-find with signs and sums). Where
-// an equation closes a circle, it is one between parameters alone. It is then solved for a parameter whose factor is 1
-// or -1, so that whole numbers stay whole. An equation without such a parameter is left out and counted.
+// an equation closes a circle, it is one between parameters alone. It is then solved for a parameter that is a sum
+// of whole multiples of the others, so that whole numbers stay whole. An equation without such a parameter is left out
+// and counted.
 #pragma once
 #include "quads/seams.h"
 

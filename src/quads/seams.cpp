@@ -1,6 +1,7 @@
 #include "quads/seams.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/progress.h"
@@ -13,6 +14,7 @@ constexpr std::int32_t none = -1;
 
 // A sum of parameters with fewer than this in every factor is 0: factors are sums of powers of i, or halves of them.
 constexpr double no_factor = 1e-9;
+constexpr double half_turn = 3.141592653589793238462643383279502884;
 
 int modulo(int k) noexcept { return k & 3; }
 
@@ -163,6 +165,22 @@ class Cutter {
   }
   bool at_node(std::int32_t v) const noexcept { return is_node(v) || forced_[v]; }
 
+  // By how much a border turns at v, in radians; 0 inside.
+  double sharpness(std::int32_t v) const noexcept {
+    if (border_[v] == none) return 0;
+    double angle = 0;
+    const std::int32_t begin = s_.out[v];
+    for (std::int32_t h = begin;;) {
+      if (s_.is_real(h)) {
+        const Complex a = crosses_.edge[h], b = -crosses_.edge[FluxSurface::previous(h)];
+        angle += angle_of(b * std::conj(a));
+      }
+      h = s_.turn_left(h);
+      if (h == begin) break;
+    }
+    return std::fabs(angle - half_turn);
+  }
+
   // Makes a spanning tree of the seams of every component, chooses the root, the vertex at 0, and the parameters.
   void grow_trees() {
     const std::int32_t n = s_.vertex_count();
@@ -178,9 +196,12 @@ class Cutter {
     const auto rank = [&](std::int32_t v) {
       return v == none ? 0 : s_.is_apex(v) ? 4 : crosses_.index[v] % 2 != 0 ? 3 : !regular(v) ? 2 : 1;
     };
+    Table<double> corner(s_.component_count, -1.0, memory_);
     for (std::int32_t v = 0; v < n; ++v) {
       std::int32_t& best = root[s_.component[v]];
-      if (any[s_.component[v]] == none && !s_.is_apex(v)) any[s_.component[v]] = v;
+      // Without singularities, the sharpest corner of a border is held: it lies on the grid anyway.
+      if (!s_.is_apex(v) && sharpness(v) > corner[s_.component[v]])
+        any[s_.component[v]] = v, corner[s_.component[v]] = sharpness(v);
       if (!s_.is_apex(v)) singular[s_.component[v]] += !regular(v);
       if ((start[v + 1] > start[v] || s_.is_apex(v)) && rank(v) > rank(best)) best = v;
     }
