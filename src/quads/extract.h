@@ -2,8 +2,9 @@
 //
 // In the map, the lines u = c + 1/2 and v = d + 1/2 run between the vertices of the grid. On the surface they are
 // curves without an end but at borders. Every crossing of a u-line and a v-line is a quad. Every piece of the surface
-// between the lines is a vertex. So the result is always a mesh of quads, even where the map is turned over: there,
-// lines cross back and forth, which makes vertices of two quads. remove_doublets() takes these away. The quad mesh is
+// between the lines is a vertex. So every face has four corners, even where the map is turned over. There,
+// lines cross back and forth, which makes vertices of two quads; remove_doublets() takes these away. Two edges between
+// the same vertices can be left, and check_quads() refuses them. The quad mesh is
 // the dual of the lines (Campen, Bommes and Kobbelt 2012 design meshes by such loops; exact coordinates follow the
 // truncation of Ebke, Bommes, Campen and Kobbelt 2013).
 //
