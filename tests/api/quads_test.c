@@ -237,7 +237,7 @@ static void bad_input_is_named(void** state) {
   assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_create(NULL, &desc, &quads));
   desc.struct_size = 4;
   assert_code(HF_ERROR_INVALID_DESC, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.kind = 2;
+  desc = quads_desc(), desc.kind = 3;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.edge_length = -1;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
