@@ -74,14 +74,14 @@ function Direction:singularities()
 end
 
 local Quads = class('Quads', function(raw) C.hf_quads_destroy(raw) end)
--- options: kind, edge_length, keep_polygons, relax_count; site_vertices and site_lines: lists
+-- options: kind, edge_length, keep_polygons, relax_count, face_count, crease_angle; site_vertices and site_lines: lists
 function hf.Quads(surface, options)
   local plain = {}
   for key, value in pairs(options or {}) do plain[key] = value end
   local places, count = plain.site_vertices, 0
   local lines = plain.site_lines
   plain.site_vertices, plain.site_lines = nil, nil
-  local desc = options_into(make('hf_quads_desc'), plain, set('kind edge_length keep_polygons relax_count'))
+  local desc = options_into(make('hf_quads_desc'), plain, set('kind edge_length keep_polygons relax_count face_count crease_angle'))
   if places then
     places, count = integers(places, 'site_vertices')
     desc.site_count, desc.site_vertices = count, places

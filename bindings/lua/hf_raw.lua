@@ -518,6 +518,8 @@ typedef struct hf_quads_desc {
   int32_t keep_polygons;
   uint32_t relax_count;
   hf_progress progress;
+  uint32_t face_count;
+  float crease_angle;
 } hf_quads_desc;
 typedef struct hf_quads_info {
   uint32_t struct_size;
@@ -1025,6 +1027,7 @@ local constants = { header_version = '0.1.0',
   HF_HANDLE_REASON_MIDDLE = 4,
   HF_QUADS_UNIFORM = 0,
   HF_QUADS_PURE = 1,
+  HF_QUADS_FIELD = 2,
   HF_SIDE_SMALLER = 0,
   HF_SIDE_LARGER = 1,
   HF_SIDE_SEED = 2,

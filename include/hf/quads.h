@@ -20,8 +20,10 @@ typedef struct hf_quads_object* hf_quads;
 
 enum {
   HF_QUADS_UNIFORM = 0, /* lines are added and ended, in pairs, so that edges keep about one length */
-  HF_QUADS_PURE = 1     /* every line runs from a source to a sink; edges are as long as the field makes them. Irregular
+  HF_QUADS_PURE = 1,    /* every line runs from a source to a sink; edges are as long as the field makes them. Irregular
                            vertices are sites, saddles, and where quads were split to keep to the surface */
+  HF_QUADS_FIELD = 2    /* edges follow smooth crosses along the curvature. Irregular vertices are the singularities of
+                           the crosses, and where quads were split to keep to the surface. No sites, no polygons */
 };
 
 typedef struct hf_quads_desc {
@@ -37,6 +39,9 @@ typedef struct hf_quads_desc {
   uint32_t relax_count; /* rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none, and the mesh
                            stays as the lines make it */
   hf_progress progress; /* NULL, or an object to poll and cancel through */
+  uint32_t face_count;  /* HF_QUADS_FIELD: 0, or the wanted number of quads, up to 10 million; it replaces edge_length */
+  float crease_angle;   /* HF_QUADS_FIELD: edges of the surface that bend by more degrees, up to 180, become edges of
+                           quads; 0 = none */
 } hf_quads_desc;
 
 /* Counts of a quad mesh. */

@@ -17,7 +17,8 @@ namespace samples {
 namespace {
 
 const char* const usage =
-    "usage: hf_quads MESH [--sites auto|FILE.json] [--edge LENGTH] [--pure|--uniform] [-o OUT] [--sheet FILE.png]\n"
+    "usage: hf_quads MESH [--sites auto|FILE.json] [--edge LENGTH] [--faces N] [--crease DEG]\n"
+    "                [--field|--pure|--uniform] [-o OUT] [--sheet FILE.png]\n"
     "  Makes a quad mesh of a .obj, .off, .ply, .gltf or .glb surface from a harmonic field, and prints what it is "
     "worth.\n"
     "  --sites auto   sites at the tips of the surface (default); borders are always sites\n"
@@ -25,6 +26,9 @@ const char* const usage =
     "0;\n"
     "                 lines that end (positive) or start (negative) there, at all sites or at none\n"
     "  --edge LENGTH  edge length aimed at, in the unit of the mesh, or as a share of its box diagonal: 2% (2.2%)\n"
+    "  --field        edges follow smooth crosses along the curvature; no sites\n"
+    "  --faces N      number of quads aimed at, instead of --edge; takes --field\n"
+    "  --crease DEG   edges of the surface that bend by more degrees become edges of quads; takes --field\n"
     "  --uniform      edges of about one length: lines are added and ended in pairs (default)\n"
     "  --pure         every line runs from site to site\n"
     "  --polygons     leaves polygons at sites and saddles whole\n"
@@ -35,8 +39,9 @@ const char* const usage =
 struct Command {
   std::filesystem::path mesh, sites, out, sheet;  // sites empty: auto
   double edge = 0;                                // 0: the default; below 0: a share of the box diagonal
-  uint32_t relax = 60;
-  bool pure = false, polygons = false, help = false;
+  uint32_t relax = 60, faces = 0, crease = 0;     // crease in degrees
+  int32_t kind = HF_QUADS_UNIFORM;
+  bool polygons = false, help = false;
 };
 
 // A length, or with a percent sign a share of the box diagonal, which comes back below 0.
@@ -60,9 +65,15 @@ Command parse(Words words) {
     } else if (words.is("--edge")) {
       out.edge = read_edge(words.value());
     } else if (words.is("--pure")) {
-      out.pure = true;
+      out.kind = HF_QUADS_PURE;
     } else if (words.is("--uniform")) {
-      out.pure = false;
+      out.kind = HF_QUADS_UNIFORM;
+    } else if (words.is("--field")) {
+      out.kind = HF_QUADS_FIELD;
+    } else if (words.is("--faces")) {
+      out.faces = words.whole(1, 10000000), out.kind = HF_QUADS_FIELD;
+    } else if (words.is("--crease")) {
+      out.crease = words.whole(1, 180), out.kind = HF_QUADS_FIELD;
     } else if (words.is("--polygons")) {
       out.polygons = true;
     } else if (words.is("--relax")) {
@@ -129,6 +140,10 @@ Picture draw(const SurfaceMesh& mesh, const std::vector<Point>& sites, const Poi
   return render(layers, view);
 }
 
+const char* name_of(int32_t kind) {
+  return kind == HF_QUADS_FIELD ? "field" : kind == HF_QUADS_PURE ? "pure" : "uniform";
+}
+
 void run(const Command& options) {
   const SurfaceMesh input = read_mesh_file(options.mesh);
   const std::vector<double> positions = double_positions(input.positions);
@@ -140,7 +155,8 @@ void run(const Command& options) {
   const double diagonal = surface.report().bounding_box_diagonal;
 
   auto desc = hf::make<hf_quads_desc>();
-  desc.kind = options.pure ? HF_QUADS_PURE : HF_QUADS_UNIFORM;
+  desc.kind = options.kind, desc.face_count = options.faces;
+  desc.crease_angle = static_cast<float>(options.crease);
   desc.keep_polygons = options.polygons;
   desc.relax_count = options.relax ? options.relax : HF_NO_INDEX;
   desc.edge_length = static_cast<float>(options.edge < 0 ? -options.edge * diagonal : options.edge);
@@ -173,7 +189,7 @@ void run(const Command& options) {
               diagonal);
   std::printf("quads       %u vertices, %u faces in %.2f s; edge length %.6g (%.2f %% of the box); %s\n",
               report.vertices, report.faces, seconds, static_cast<double>(quads.info.edge_length),
-              100 * static_cast<double>(quads.info.edge_length) / diagonal, options.pure ? "pure" : "uniform");
+              100 * static_cast<double>(quads.info.edge_length) / diagonal, name_of(options.kind));
   std::printf("validity    Euler characteristic %d (surface %d), directed edges once: %s, repeated corners: %s\n",
               report.euler_characteristic, quads.info.euler_characteristic,
               report.each_directed_edge_once ? "yes" : "NO", report.no_repeated_corner ? "none" : "SOME");
@@ -181,6 +197,8 @@ void run(const Command& options) {
   std::printf("share       %.2f %% quads before splitting, %.2f %% now\n",
               percent(quads.info.polygon_quad_count, quads.info.polygon_count), percent(report.quads, report.faces));
   std::printf("valence     %s\n", to_text(report.valences).c_str());
+  std::printf("irregular   %.2f %%\n", percent(report.irregular, report.vertices));
+  std::printf("turned over %u corners\n", report.turned_over);
   std::printf("edge/L      5 %%: %.2f, median %.2f, 95 %%: %.2f\n", report.edge[0], report.edge[1], report.edge[2]);
   std::printf("aspect      median %.2f, 95 %%: %.2f\n", report.aspect[1], report.aspect[2]);
   std::printf("angle off   median %.1f, 95 %%: %.1f degrees\n", report.angle[1], report.angle[2]);
@@ -197,7 +215,7 @@ void run(const Command& options) {
       if (v != HF_NO_INDEX) dots.push_back({input.positions[v].x, input.positions[v].y, input.positions[v].z});
     const std::string name = options.mesh.filename().string();
     write_png(options.sheet, contact_sheet({draw(mesh, dots, {1, 0.4, 0.6}), draw(mesh, dots, {-0.6, 0.4, -1})}, 2,
-                                           {name + (options.pure ? ", pure" : ", uniform"), "from behind"}));
+                                           {name + ", " + name_of(options.kind), "from behind"}));
     std::printf("wrote       %s\n", options.sheet.c_str());
   }
   if (!valid)

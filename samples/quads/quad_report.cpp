@@ -27,6 +27,8 @@ QuadReport measure_quads(const SurfaceMesh& mesh, double edge_length) {
   for (const uint32_t size : mesh.face_sizes) {
     const uint32_t* c = &mesh.face_vertices[first];
     double low = INFINITY, high = 0;
+    glm::dvec3 normal(0);
+    for (uint32_t k = 0; k < size; ++k) normal += cross(mesh.positions[c[k]], mesh.positions[c[(k + 1) % size]]);
     for (uint32_t k = 0; k < size; ++k) {
       const uint32_t a = c[k], b = c[(k + 1) % size], before = c[(k + size - 1) % size];
       ++valence[a];
@@ -34,6 +36,7 @@ QuadReport measure_quads(const SurfaceMesh& mesh, double edge_length) {
       report.each_directed_edge_once &= directed.insert({a, b}).second;
       const glm::dvec3 x = mesh.positions[b] - mesh.positions[a], y = mesh.positions[before] - mesh.positions[a];
       const double length = glm::length(x), other = glm::length(y);
+      report.turned_over += dot(cross(x, y), normal) <= 0;
       if (edges.insert({std::min(a, b), std::max(a, b)}).second) lengths.push_back(length / edge_length);
       low = std::min(low, length), high = std::max(high, length);
       if (size == 4 && length > 0 && other > 0) {
@@ -47,7 +50,12 @@ QuadReport measure_quads(const SurfaceMesh& mesh, double edge_length) {
   report.edges = static_cast<uint32_t>(edges.size());
   report.euler_characteristic =
       static_cast<int>(report.vertices) - static_cast<int>(report.edges) + static_cast<int>(report.faces);
-  for (const uint32_t v : valence) ++report.valences[v];
+  std::vector<bool> border(valence.size(), false);
+  for (const auto& [a, b] : directed) {
+    if (!directed.count({b, a})) border[a] = border[b] = true;
+  }
+  for (size_t v = 0; v < valence.size(); ++v)
+    ++report.valences[valence[v]], report.irregular += valence[v] != (border[v] ? 2u : 4u);
   percentiles(lengths, report.edge), percentiles(aspects, report.aspect), percentiles(angles, report.angle);
   return report;
 }

@@ -13,8 +13,10 @@ namespace samples {
 
 struct QuadReport {
   uint32_t vertices = 0, edges = 0, faces = 0, quads = 0;
+  uint32_t turned_over = 0;  // corners of quads that face away from the mean normal of their quad
   int euler_characteristic = 0;
   bool each_directed_edge_once = true, no_repeated_corner = true;
+  uint32_t irregular = 0;                 // inner vertices of not 4 faces, border vertices of not 2
   std::map<uint32_t, uint32_t> valences;  // faces around a vertex: how many vertices have so many
   // 5th, 50th and 95th percentiles of three figures: edge length over the wanted length, longest over shortest edge of
   // a quad, and degrees by which a corner of a quad differs from 90.

@@ -3,6 +3,7 @@
 #include "capi/quads_out.h"
 #include "field/scalars.h"
 #include "hf/quads.h"
+#include "quads/intake.h"
 #include "remesh/intake.h"
 
 namespace hf_inner::capi {
@@ -53,6 +54,15 @@ hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quad
   return create("hf_quads_create", out_quads, "out_quads", [&] {
     const std::shared_ptr<const Core> core = unlinked_core(handle, "quads");
     const hf_quads_desc desc = read_optional(given, "desc");
+    check_choice(desc.kind, 3, "kind");
+    if (desc.kind == HF_QUADS_FIELD) {
+      const FieldQuadOptions options = read_field_quad_options(core, desc);
+      return with_progress(desc.progress, [&] {
+        FieldQuadReport report;
+        QuadResult result = make_field_quads(options, &report);
+        return make_owner_in<QuadsObject>(core->memory, core, std::move(result), report.edge_length * core->mesh.scale);
+      });
+    }
     Vector<FluxSite> sites(core->memory.get());
     const QuadOptions options = read_quad_options(core, desc, sites);
     return with_progress(desc.progress, [&] {

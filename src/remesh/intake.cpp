@@ -12,18 +12,6 @@ constexpr std::int32_t most_site_lines = 100000;
 // Edge lengths, as shares of the box diagonal.
 constexpr double least_length = 1e-4, most_length = 1.0;
 
-// Returns the edge length in box diagonals.
-double read_edge_length(const Mesh& mesh, float given) {
-  const double length = static_cast<double>(given);
-  check_finite(length, "edge_length");
-  if (length == 0) return default_edge_length;
-  const double share = length / mesh.scale;
-  if (share < least_length || share > most_length)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; on this mesh it must be %g to %g, or 0", length,
-         least_length * mesh.scale, most_length * mesh.scale);
-  return share;
-}
-
 void read_sites(const Core& core, const hf_quads_desc& desc, Vector<FluxSite>& sites) {
   if (desc.site_count == 0) {
     if (desc.site_vertices || desc.site_lines)
@@ -46,17 +34,37 @@ void read_sites(const Core& core, const hf_quads_desc& desc, Vector<FluxSite>& s
 
 }  // namespace
 
+double read_edge_length(const Mesh& mesh, float given) {
+  const double length = static_cast<double>(given);
+  check_finite(length, "edge_length");
+  if (length == 0) return default_edge_length;
+  const double share = length / mesh.scale;
+  if (share < least_length || share > most_length)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; on this mesh it must be %g to %g, or 0", length,
+         least_length * mesh.scale, most_length * mesh.scale);
+  return share;
+}
+
+std::int32_t read_relax_count(std::uint32_t given) {
+  if (given > most_rounds && given != HF_NO_INDEX)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX", given,
+         most_rounds);
+  return given == 0 ? default_relax_rounds : given == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(given);
+}
+
 QuadOptions read_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc, Vector<FluxSite>& sites) {
-  check_choice(desc.kind, 2, "kind");
   check_flag(desc.keep_polygons, "keep_polygons");
-  if (desc.relax_count > most_rounds && desc.relax_count != HF_NO_INDEX)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX",
-         desc.relax_count, most_rounds);
+  if (desc.face_count)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "face_count is %u; only the kind HF_QUADS_FIELD takes it",
+         desc.face_count);
+  check_finite(static_cast<double>(desc.crease_angle), "crease_angle");
+  if (desc.crease_angle != 0)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "crease_angle is %g; only the kind HF_QUADS_FIELD takes it",
+         static_cast<double>(desc.crease_angle));
   QuadOptions options;
+  options.relax = read_relax_count(desc.relax_count);
   options.edge_length = read_edge_length(core->mesh, desc.edge_length);
   options.uniform = desc.kind == HF_QUADS_UNIFORM, options.split = desc.keep_polygons == 0;
-  if (desc.relax_count)
-    options.relax = desc.relax_count == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(desc.relax_count);
   read_sites(*core, desc, sites);
   options.sites = sites, options.automatic = sites.empty(), options.scale_lines = !desc.site_lines;
   options.core = std::move(core);

@@ -161,20 +161,10 @@ class Maker {
     return std::max(deviation / (near_distance * options_.edge_length), 1.0) + shape;
   }
 
-  // Changes the result to vertices and triangles of the Mesh: FluxSurface numbers vertices differently, and may have
-  // turned triangles.
+  // Changes the result to vertices and triangles of the Mesh.
   void to_mesh(QuadResult& result) const {
     for (FluxSite& site : result.sites) site.vertex = surface_.mesh_vertex[site.vertex];
-    for (SurfacePoint& point : result.mesh.location) {
-      const std::int32_t* corners = core_.mesh.triangle(point.triangle);
-      const SurfacePoint here = point;
-      for (int k = 0; k < 3; ++k) {
-        for (int j = 0; j < 3; ++j) {
-          if (surface_.mesh_vertex[surface_.tail[3 * here.triangle + j]] == corners[k])
-            point.weight[k] = here.weight[j];
-        }
-      }
-    }
+    locate_in_mesh(surface_, core_.mesh, result.mesh);
   }
 
  private:
@@ -238,6 +228,18 @@ class Maker {
 };
 
 }  // namespace
+
+void locate_in_mesh(const FluxSurface& surface, const Mesh& mesh, QuadMesh& quads) {
+  for (SurfacePoint& point : quads.location) {
+    const std::int32_t* corners = mesh.triangle(point.triangle);
+    const SurfacePoint here = point;
+    for (int k = 0; k < 3; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        if (surface.mesh_vertex[surface.tail[3 * here.triangle + j]] == corners[k]) point.weight[k] = here.weight[j];
+      }
+    }
+  }
+}
 
 QuadResult make_quads(const QuadOptions& options) {
   const Core& core = *options.core;

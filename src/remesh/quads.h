@@ -32,4 +32,7 @@ struct QuadResult {
 // and std::bad_alloc.
 QuadResult make_quads(const QuadOptions& options);
 
+// Changes the weights of all places to the order of the Mesh's corners: FluxSurface may have turned triangles.
+void locate_in_mesh(const FluxSurface& surface, const Mesh& mesh, QuadMesh& quads);
+
 }  // namespace hf_inner

@@ -136,6 +136,26 @@ static void quads_refuse_bad_descs(void** state) {
       hf_quads_create(surface, &good_quads, &made));
   ROW("a site twice", HF_ERROR_DUPLICATE_SITE, 1, good_quads.site_vertices = twice,
       hf_quads_create(surface, &good_quads, &made));
+  ROW("creases for kind uniform", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.crease_angle = 30,
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("crease angle NaN", HF_ERROR_NON_FINITE, NO_INDEX, good_quads.crease_angle = NAN,
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("crease angle above 180", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+      (good_quads.kind = HF_QUADS_FIELD, good_quads.site_count = 0, good_quads.site_vertices = NULL,
+       good_quads.crease_angle = 181),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a number of faces for kind uniform", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.face_count = 100,
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("sites for kind field", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.kind = HF_QUADS_FIELD,
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("polygons for kind field", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+      (good_quads.kind = HF_QUADS_FIELD, good_quads.site_count = 0, good_quads.site_vertices = NULL,
+       good_quads.keep_polygons = 1),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("too many faces", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+      (good_quads.kind = HF_QUADS_FIELD, good_quads.site_count = 0, good_quads.site_vertices = NULL,
+       good_quads.face_count = 10000001),
+      hf_quads_create(surface, &good_quads, &made));
   ROW("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.struct_size = 0,
       hf_quads_create(surface, &good_quads, &made));
   ROW("struct_size 3", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.struct_size = 3,

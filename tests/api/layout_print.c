@@ -301,7 +301,7 @@ static void print_quads(void) {
 #define T hf_quads_desc
   STRUCT(hf_quads_desc);
   F(struct_size), F(kind), F(edge_length), F(site_count), F(site_vertices), F(site_lines), F(keep_polygons),
-      F(relax_count), F(progress);
+      F(relax_count), F(progress), F(face_count), F(crease_angle);
 #undef T
 #define T hf_quads_info
   STRUCT(hf_quads_info);
@@ -319,7 +319,7 @@ static void print_quads(void) {
   F(struct_size), F(wanted_count), F(seed_count), F(point_capacity), F(line_capacity), F(point_count), F(line_count),
       F(reserved), F(seeds), F(positions), F(values), F(line_starts), F(line_ends);
 #undef T
-  CONSTANT(HF_QUADS_UNIFORM), CONSTANT(HF_QUADS_PURE);
+  CONSTANT(HF_QUADS_UNIFORM), CONSTANT(HF_QUADS_PURE), CONSTANT(HF_QUADS_FIELD);
 }
 
 static void print_transfer(void) {

@@ -69,6 +69,35 @@ static void a_tube_becomes_a_closed_net_of_quads(void** state) {
   hf_surface_destroy(surface), surface_free(&mesh);
 }
 
+static void a_tube_becomes_quads_along_its_curvature(void** state) {
+  (void)state;
+  Surface mesh;
+  const hf_surface surface = tube_on(&mesh);
+  hf_quads_desc desc = HF_INIT(hf_quads_desc);
+  desc.kind = HF_QUADS_FIELD, desc.face_count = 400;
+  hf_quads quads = NULL;
+  assert_ok(hf_quads_create(surface, &desc, &quads));
+  hf_quads_info info = HF_INIT(hf_quads_info);
+  assert_ok(hf_quads_get_info(quads, &info));
+  assert_int_equal(info.euler_characteristic, 0);
+  assert_int_equal(info.quad_count, info.face_count);
+  assert_true(info.face_count >= 380 && info.face_count <= 420);
+  assert_int_equal(info.site_count, 0);
+  assert_int_equal(info.saddle_count, 0);
+  assert_true(info.edge_length > 0);
+  /* a tube has no singularities: every vertex has four faces, two on the borders */
+  uint32_t* corners = calloc(info.corner_count, sizeof *corners);
+  uint32_t* valence = calloc(info.vertex_count, sizeof *valence);
+  hf_quads_mesh net = HF_INIT(hf_quads_mesh);
+  net.corner_capacity = info.corner_count, net.face_corners = corners;
+  assert_ok(hf_quads_get_mesh(quads, &net));
+  for (uint32_t i = 0; i < info.corner_count; ++i) ++valence[corners[i]];
+  for (uint32_t v = 0; v < info.vertex_count; ++v) assert_true(valence[v] == 4 || valence[v] == 2);
+  free(corners), free(valence);
+  hf_quads_destroy(quads);
+  hf_surface_destroy(surface), surface_free(&mesh);
+}
+
 static void flow_lines_rise_and_outlive_the_surface(void** state) {
   (void)state;
   Surface mesh;
@@ -208,7 +237,7 @@ static void bad_input_is_named(void** state) {
   assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_create(NULL, &desc, &quads));
   desc.struct_size = 4;
   assert_code(HF_ERROR_INVALID_DESC, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.kind = 2;
+  desc = quads_desc(), desc.kind = 3;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.edge_length = -1;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
@@ -335,6 +364,7 @@ static void sites_on_a_border_leave_it_a_border(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_tube_becomes_a_closed_net_of_quads),
+      cmocka_unit_test(a_tube_becomes_quads_along_its_curvature),
       cmocka_unit_test(flow_lines_rise_and_outlive_the_surface),
       cmocka_unit_test(cancelling_leaves_nothing_and_stops_one_call),
       cmocka_unit_test(progress_rises_in_small_steps_and_stops_where_it_is_cancelled),

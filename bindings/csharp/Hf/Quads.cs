@@ -9,8 +9,8 @@ namespace Hf
     public sealed class QuadOptions
     {
         public int Kind, KeepPolygons;
-        public float EdgeLength;
-        public uint RelaxCount;
+        public float EdgeLength, CreaseAngle;
+        public uint RelaxCount, FaceCount;
         public uint[] SiteVertices;
         public int[] SiteLines;
         public Progress Progress;
@@ -38,6 +38,8 @@ namespace Hf
                 desc.edge_length = options.EdgeLength;
                 desc.keep_polygons = options.KeepPolygons;
                 desc.relax_count = options.RelaxCount;
+                desc.face_count = options.FaceCount;
+                desc.crease_angle = options.CreaseAngle;
                 desc.site_count = options.SiteVertices == null ? 0 : (uint)options.SiteVertices.Length;
                 desc.site_vertices = pins.Add(options.SiteVertices);
                 desc.site_lines = pins.Add(options.SiteLines, (int)desc.site_count, "SiteLines");

@@ -82,6 +82,7 @@ namespace Hf.Native
         public const int HF_HANDLE_REASON_MIDDLE = 4;
         public const int HF_QUADS_UNIFORM = 0;
         public const int HF_QUADS_PURE = 1;
+        public const int HF_QUADS_FIELD = 2;
         public const int HF_SIDE_SMALLER = 0;
         public const int HF_SIDE_LARGER = 1;
         public const int HF_SIDE_SEED = 2;
@@ -772,6 +773,8 @@ namespace Hf.Native
         public int keep_polygons;
         public uint relax_count;
         public IntPtr progress;
+        public uint face_count;
+        public float crease_angle;
     }
 
     [StructLayout(LayoutKind.Sequential)]

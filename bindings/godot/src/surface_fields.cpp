@@ -196,14 +196,16 @@ Value direction_singularities(Surface& s, const Arguments&) {
 }
 
 // ---- quads_create(options = {}, site vertices = null, site lines = null): kind, edge_length, keep_polygons,
-// relax_count
+// relax_count, face_count, crease_angle
 
 Value quads_create(Surface& s, const Arguments& a) {
   auto desc = make<hf_quads_desc>();
   read_options(at(a, 0), {{"kind", &desc.kind},
                           {"edge_length", &desc.edge_length},
                           {"keep_polygons", &desc.keep_polygons},
-                          {"relax_count", &desc.relax_count}});
+                          {"relax_count", &desc.relax_count},
+                          {"face_count", &desc.face_count},
+                          {"crease_angle", &desc.crease_angle}});
   const List places = integers(at(a, 1), "site vertices");
   desc.site_count = static_cast<uint32_t>(places.values.size()), desc.site_vertices = places.data();
   std::vector<int32_t> line_counts;

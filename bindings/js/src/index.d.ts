@@ -446,6 +446,8 @@ export interface Hf {
       siteLines?: Numbers | null;
       keepPolygons?: number;
       relaxCount?: number;
+      faceCount?: number;
+      creaseAngle?: number;
       progress?: Progress | null;
     },
   ) => Quads;

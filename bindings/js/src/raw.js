@@ -78,6 +78,7 @@ export const constants = Object.freeze({
   HF_HANDLE_REASON_MIDDLE: 4,
   HF_QUADS_UNIFORM: 0,
   HF_QUADS_PURE: 1,
+  HF_QUADS_FIELD: 2,
   HF_SIDE_SMALLER: 0,
   HF_SIDE_LARGER: 1,
   HF_SIDE_SEED: 2,
@@ -626,7 +627,7 @@ export const layouts = {
     radius: ['f64', [48, 48], 0],
     length: ['f64', [56, 56], 0],
   } },
-  hf_quads_desc: { size: [36, 48], fields: {
+  hf_quads_desc: { size: [44, 56], fields: {
     struct_size: ['u32', [0, 0], 0],
     kind: ['i32', [4, 4], 0],
     edge_length: ['f32', [8, 8], 0],
@@ -636,6 +637,8 @@ export const layouts = {
     keep_polygons: ['i32', [24, 32], 0],
     relax_count: ['u32', [28, 36], 0],
     progress: ['ptr', [32, 40], 0],
+    face_count: ['u32', [36, 48], 0],
+    crease_angle: ['f32', [40, 52], 0],
   } },
   hf_quads_info: { size: [48, 48], fields: {
     struct_size: ['u32', [0, 0], 0],

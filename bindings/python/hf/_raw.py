@@ -79,6 +79,7 @@ HF_HANDLE_REASON_JOINT = 3
 HF_HANDLE_REASON_MIDDLE = 4
 HF_QUADS_UNIFORM = 0
 HF_QUADS_PURE = 1
+HF_QUADS_FIELD = 2
 HF_SIDE_SMALLER = 0
 HF_SIDE_LARGER = 1
 HF_SIDE_SEED = 2
@@ -1241,6 +1242,8 @@ class hf_quads_desc(Structure):
     keep_polygons: int
     relax_count: int
     progress: int
+    face_count: int
+    crease_angle: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -1251,6 +1254,8 @@ class hf_quads_desc(Structure):
         ("keep_polygons", c_int32),
         ("relax_count", c_uint32),
         ("progress", c_void_p),
+        ("face_count", c_uint32),
+        ("crease_angle", c_float),
     ]
 
 

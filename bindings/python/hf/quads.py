@@ -15,7 +15,7 @@ from .surface import Progress, Surface
 
 
 class QuadKind(IntEnum):
-    UNIFORM, PURE = _raw.HF_QUADS_UNIFORM, _raw.HF_QUADS_PURE
+    UNIFORM, PURE, FIELD = _raw.HF_QUADS_UNIFORM, _raw.HF_QUADS_PURE, _raw.HF_QUADS_FIELD
 
 
 class QuadMesh(NamedTuple):
@@ -36,7 +36,7 @@ class QuadMesh(NamedTuple):
 
 
 class Quads(Object):
-    """A quad mesh of a surface. Options: kind, edge_length, keep_polygons, relax_count."""
+    """A quad mesh of a surface. Options: kind, edge_length, keep_polygons, relax_count, face_count, crease_angle."""
 
     _destroy = "hf_quads_destroy"
 

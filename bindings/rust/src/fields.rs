@@ -29,6 +29,10 @@ options!(
         keep_polygons: i32,
         /// rounds of evening out
         relax_count: u32,
+        /// `HF_QUADS_FIELD`: wanted number of quads, instead of `edge_length`; 0 = none
+        face_count: u32,
+        /// `HF_QUADS_FIELD`: edges that bend by more degrees are kept; 0 = none
+        crease_angle: f32,
     }
 );
 

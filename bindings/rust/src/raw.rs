@@ -79,6 +79,7 @@ pub const HF_HANDLE_REASON_JOINT: i32 = 3;
 pub const HF_HANDLE_REASON_MIDDLE: i32 = 4;
 pub const HF_QUADS_UNIFORM: i32 = 0;
 pub const HF_QUADS_PURE: i32 = 1;
+pub const HF_QUADS_FIELD: i32 = 2;
 pub const HF_SIDE_SMALLER: i32 = 0;
 pub const HF_SIDE_LARGER: i32 = 1;
 pub const HF_SIDE_SEED: i32 = 2;
@@ -1473,6 +1474,8 @@ pub struct hf_quads_desc {
     pub keep_polygons: i32,
     pub relax_count: u32,
     pub progress: hf_progress,
+    pub face_count: u32,
+    pub crease_angle: f32,
 }
 impl Default for hf_quads_desc {
     fn default() -> Self {

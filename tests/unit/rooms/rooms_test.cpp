@@ -1,5 +1,6 @@
 // Reads the #include lines of the project and fails on a wrong arrow:
 //   base <- {mesh, factor} <- engine <- field <- {deform, detail, remesh} <- transfer <- capi
+//                             remesh <- quads <- capi
 //                             engine <- weights <- capi
 // A room may include itself, the public headers, and the rooms to its left. mesh and factor do not see each other, nor
 // do deform, detail and remesh, nor weights and the rooms above the engine. Bindings and samples see only include/hf; include/hf sees only itself and the C
@@ -77,12 +78,14 @@ const std::map<std::string, Names>& arrows() {
       a[room] = a["field"];
       a[room].insert(room);
     }
+    a["quads"] = a["remesh"];
+    a["quads"].insert("quads");
     a["transfer"] = a["field"];
     a["transfer"].insert({"deform", "detail", "remesh", "transfer"});
     a["weights"] = a["engine"];
     a["weights"].insert("weights");
     a["capi"] = a["transfer"];
-    a["capi"].insert({"capi", "weights"});
+    a["capi"].insert({"capi", "quads", "weights"});
     return a;
   }();
   return allowed;

@@ -1,0 +1,143 @@
+#include "quads/cross_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hf_inner {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Curvatures that differ by this many radians over a length of sqrt(area) count half. Smaller: flat parts follow noise.
+constexpr double half_trust = 3.0;
+// A wish below this length everywhere says nothing: the first solve then starts from one arbitrary direction.
+constexpr double least_wish = 1e-3;
+
+Complex unit_of(Complex z) noexcept {
+  const double length = length_of(z);
+  return length > 0 ? z / length : Complex(0, 0);
+}
+
+Vec3 triangle_normal(const Mesh& mesh, Index t) noexcept {
+  const Index* c = mesh.triangle(t);
+  const Vec3 a = mesh.positions[at(c[0])];
+  return unit_vector(cross(mesh.positions[at(c[1])] - a, mesh.positions[at(c[2])] - a));
+}
+
+}  // namespace
+
+Vector<Complex> curvature_crosses(const Core& core, const Connection& connection, Index passes) {
+  const Mesh& mesh = core.mesh;
+  const Topology& topology = core.topology;
+  Memory& memory = *core.memory;
+  const std::size_t n = at(core.size());
+  // difference: the difference of the principal curvatures, as a number of the second degree. sum: their sum.
+  Vector<Complex> difference(n, Complex(0, 0), &memory), next(n, &memory);
+  Vector<double> sum(n, 0.0, &memory), next_sum(n, &memory);
+  double whole = 0;
+  for (const double area : core.areas) whole += area;
+  Poller poller;
+  for (Index e = 0; e < topology.edge_count(); ++e) {
+    poller.due();
+    const Index first = topology.edge_triangle_start[at(e)];
+    if (topology.edge_triangle_start[at(e) + 1] - first != 2) continue;
+    const Index a = topology.first(e), b = topology.second(e);
+    const Index s = topology.edge_triangle[at(first)], t = topology.edge_triangle[at(first) + 1];
+    const Vec3 edge = mesh.positions[at(b)] - mesh.positions[at(a)], p = triangle_normal(mesh, s),
+               q = triangle_normal(mesh, t);
+    const double length = norm(edge);
+    if (!(length > 0)) continue;
+    // The sign of the bend: whether the corner of t lies below the plane of s.
+    Vec3 corner{};
+    for (int k = 0; k < 3; ++k) {
+      const Index v = mesh.triangle(t)[k];
+      if (v != a && v != b) corner = mesh.positions[at(v)];
+    }
+    const double angle = arc_tangent(norm(cross(p, q)), dot(p, q));
+    const double bend = dot(corner - mesh.positions[at(a)], p) <= 0 ? angle : -angle;
+    for (const Index v : {a, b}) {
+      const Complex along = unit_of(connection.to_frame(v, edge));
+      const double share = bend * length / 2 / core.areas[at(v)];
+      difference[at(v)] += share * along * along, sum[at(v)] += share;
+    }
+  }
+  for (Index pass = 0; pass < passes; ++pass) {
+    for (Index v = 0; v < core.size(); ++v) {
+      poller.due();
+      double weight = core.areas[at(v)];
+      Complex total = weight * difference[at(v)];
+      double total_sum = weight * sum[at(v)];
+      for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
+        const Index w = topology.neighbour[at(i)], e = topology.neighbour_edge[at(i)];
+        const double area = core.areas[at(w)];
+        total += area * difference[at(w)] * at_angle(1.0, 2 * connection.turn(topology, e, v));
+        total_sum += area * sum[at(w)], weight += area;
+      }
+      next[at(v)] = weight > 0 ? total / weight : Complex(0, 0), next_sum[at(v)] = weight > 0 ? total_sum / weight : 0;
+    }
+    difference.swap(next), sum.swap(next_sum);
+  }
+  const double size = std::sqrt(whole);
+  for (std::size_t v = 0; v < n; ++v) {
+    const double amount = length_of(difference[v]);
+    if (!(amount > 0) || !std::isfinite(amount)) {
+      next[v] = 0;
+      continue;
+    }
+    const double relative = amount / std::max(std::fabs(sum[v]), amount);
+    const double bend = amount * size;
+    const Complex along = difference[v] / amount;
+    next[v] = relative * bend / (bend + half_trust) * along * along;
+  }
+  return next;
+}
+
+Vector<Complex> smooth_crosses(const DirectionSystem& system, Span<const Complex> wish, Span<const HardCross> hard,
+                               const CrossOptions& options) {
+  const Core& core = *system.core;
+  Memory& memory = *core.memory;
+  const std::size_t n = at(core.size());
+  const double t = 1 / (options.radius * options.radius);
+  SymmetricMatrix matrix(memory);
+  matrix.column_start.assign(system.matrix.column_start.begin(), system.matrix.column_start.end());
+  matrix.row.assign(system.matrix.row.begin(), system.matrix.row.end());
+  matrix.value.assign(system.matrix.value.begin(), system.matrix.value.end());
+  for (Index v = 0; v < core.size(); ++v) {
+    for (Index part = 0; part < 2; ++part)
+      matrix.value[matrix.diagonal(system.unknown(v, part))] += t * core.areas[at(v)];
+  }
+  DefiniteSystem solver(matrix, system.factor->refactor(matrix, {}, memory, *core.jobs), memory, *core.jobs);
+
+  double most = 0;
+  for (const Complex& w : wish) most = std::max(most, length_of(w));
+  Vector<Complex> field(n, Complex(0, 0), &memory), target(wish.begin(), wish.end(), &memory);
+  if (most < least_wish && hard.empty()) {
+    for (Complex& w : target) w += Complex(1, 0);
+  }
+  Vector<double> right(2 * n, &memory), x(2 * n, &memory);
+  Vector<Index> unknowns(&memory);
+  Vector<double> values(&memory);
+  for (const HardCross& h : hard) {
+    for (Index part = 0; part < 2; ++part) {
+      unknowns.push_back(system.unknown(h.vertex, part));
+      values.push_back(part == 0 ? h.cross.real() : h.cross.imag());
+    }
+  }
+  if (!hard.empty()) solver.fix(unknowns, values);
+  for (Index round = 0; round <= options.rounds; ++round) {
+    report(static_cast<float>(round) / static_cast<float>(options.rounds + 1));
+    for (Index v = 0; v < core.size(); ++v) {
+      const Complex w = t * core.areas[at(v)] * target[at(v)];
+      right[at(system.unknown(v, 0))] = w.real(), right[at(system.unknown(v, 1))] = w.imag();
+    }
+    solver.set_right(right);
+    solver.solve(x.data());
+    for (Index v = 0; v < core.size(); ++v) {
+      field[at(v)] = Complex(x[at(system.unknown(v, 0))], x[at(system.unknown(v, 1))]);
+      target[at(v)] = wish[at(v)] + std::max(0.0, 1 - length_of(wish[at(v)])) * unit_of(field[at(v)]);
+    }
+  }
+  return field;
+}
+
+}  // namespace hf_inner

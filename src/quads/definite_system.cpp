@@ -1,0 +1,95 @@
+#include "quads/definite_system.h"
+
+#include <algorithm>
+
+namespace hf_inner {
+
+DefiniteSystem::DefiniteSystem(const SymmetricMatrix& matrix, std::shared_ptr<const Factor> factor, Memory& memory,
+                               JobRunner& jobs)
+    : matrix_(matrix),
+      factor_(std::move(factor)),
+      memory_(memory),
+      jobs_(jobs),
+      paths_(memory),
+      plain_(at(matrix.size()), 0.0, &memory),
+      fixed_(&memory),
+      values_(&memory) {
+  double sum = 0;
+  for (Index i = 0; i < matrix.size(); ++i) sum += matrix.value[matrix.diagonal(i)];
+  if (sum > 0) weight_ = sum / matrix.size();
+  // One component without a pin: its corner is -1 / weight and its border 0, so that its unknown of the border is 0.
+  paths_.group.assign(1, -1), paths_.column.assign(1, 0), paths_.corner.assign(1, -1 / weight_);
+  clear();
+}
+
+void DefiniteSystem::clear() {
+  PinnedOperator a;
+  a.matrix = &matrix_, a.factor = factor_.get();
+  a.pins = Span<const Index>(&pin_, 1), a.pin_weight = Span<const double>(&weight_, 1), a.paths = &paths_;
+  a.memory = &memory_, a.jobs = &jobs_;
+  system_.emplace(a);
+  fixed_.clear(), values_.clear();
+}
+
+void DefiniteSystem::set_right(Span<const double> right) {
+  Vector<double> scratch(plain_.size(), &memory_);
+  factor_->solve(right.data(), plain_.data(), 1, scratch.data(), jobs_);
+}
+
+void DefiniteSystem::set_scale(double factor) {
+  scale_ = factor;
+  clear();
+}
+
+void DefiniteSystem::fix(Span<const Index> unknowns, Span<const double> values) {
+  Vector<Index> slots(&memory_);
+  Vector<Site> sites(&memory_);
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    slots.push_back(static_cast<Index>(fixed_.size() + i));
+    sites.push_back(Site::at_unknown(unknowns[i], 0));
+  }
+  SiteEdit edit;
+  edit.add = slots, edit.sites = sites;
+  system_->edit(edit);
+  fixed_.insert(fixed_.end(), unknowns.begin(), unknowns.end());
+  values_.insert(values_.end(), values.begin(), values.end());
+}
+
+// Returns what the solution without sites misses at each of them.
+Vector<double> DefiniteSystem::missing() const {
+  Vector<double> out(values_.size(), &memory_);
+  for (std::size_t s = 0; s < out.size(); ++s) out[s] = values_[s] - scale_ * plain_[at(fixed_[s])];
+  return out;
+}
+
+void DefiniteSystem::solve_at(Span<const Index> unknowns, double* out) const {
+  for (std::size_t i = 0; i < unknowns.size(); ++i) out[i] = scale_ * plain_[at(unknowns[i])];
+  if (fixed_.empty()) return;
+  const Vector<double> values = missing();
+  Vector<double> z(plain_.size(), 0.0, &memory_);
+  ConstraintSystem::Answer answer(memory_);
+  if (system_->state().base) {
+    system_->sweep(values.data(), 1, 0, 1, answer, z.data());
+  } else {
+    system_->find_centres(values.data(), 1, 0, 1, answer);
+    system_->solve_dense(values.data(), 1, 0, 1, nullptr, answer);
+    system_->combine(answer, 1, z.data());
+    factor_->backward_at(unknowns, z.data(), 1);
+  }
+  const Span<const Index> position = system_->factor().position();
+  for (std::size_t i = 0; i < unknowns.size(); ++i) out[i] += z[at(position[at(unknowns[i])])];
+}
+
+void DefiniteSystem::solve(double* x) const {
+  for (std::size_t i = 0; i < plain_.size(); ++i) x[i] = scale_ * plain_[i];
+  if (fixed_.empty()) return;
+  const Vector<double> values = missing();
+  Vector<double> z(plain_.size(), 0.0, &memory_);
+  ConstraintSystem::Answer answer(memory_);
+  system_->sweep(values.data(), 1, 0, 1, answer, z.data());
+  const Span<const Index> position = system_->factor().position();
+  for (std::size_t i = 0; i < plain_.size(); ++i) x[i] += z[at(position[i])];
+  for (std::size_t s = 0; s < values_.size(); ++s) x[at(fixed_[s])] = values_[s];
+}
+
+}  // namespace hf_inner

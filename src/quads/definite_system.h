@@ -1,0 +1,51 @@
+// Solves K x = b, where single unknowns of x get given values one after the other. K is positive definite.
+//
+// K is factorised once. A given value is a site of the constraint system: it adds a row to a small dense matrix and
+// does not touch the factor. If the unknowns that get values come last in the order of the factor, their elimination
+// paths are as short as that part, and so each value costs no more than a small dense solve.
+#pragma once
+#include <optional>
+
+#include "engine/constraint_system.h"
+
+namespace hf_inner {
+
+class DefiniteSystem {
+ public:
+  // matrix: K, which must outlive *this. factor: the factor of K.
+  DefiniteSystem(const SymmetricMatrix& matrix, std::shared_ptr<const Factor> factor, Memory& memory, JobRunner& jobs);
+  DefiniteSystem(const DefiniteSystem&) = delete;
+  DefiniteSystem& operator=(const DefiniteSystem&) = delete;
+
+  // Computes K^-1 right. Given values stay.
+  void set_right(Span<const double> right);
+  // From now on the right-hand side counts `factor` times. Removes all given values. Costs no sweep.
+  void set_scale(double factor);
+  // Gives unknowns their values. Each unknown must be without one.
+  void fix(Span<const Index> unknowns, Span<const double> values);
+  // Computes some unknowns of x, or all of them.
+  void solve_at(Span<const Index> unknowns, double* out) const;
+  void solve(double* x) const;
+
+  ConstraintCounts counts() const noexcept { return system_->counts(); }
+  Index fixed_count() const noexcept { return static_cast<Index>(values_.size()); }
+
+ private:
+  void clear();
+  Vector<double> missing() const;
+
+  const SymmetricMatrix& matrix_;
+  std::shared_ptr<const Factor> factor_;
+  Memory& memory_;
+  JobRunner& jobs_;
+  Index pin_ = -1;  // none: K is definite by itself
+  double weight_ = 1;
+  PinPaths paths_;
+  std::optional<ConstraintSystem> system_;
+  Vector<double> plain_;  // K^-1 right
+  double scale_ = 1;
+  Vector<Index> fixed_;    // by site
+  Vector<double> values_;  // by site
+};
+
+}  // namespace hf_inner

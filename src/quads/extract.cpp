@@ -1,0 +1,361 @@
+#include "quads/extract.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/error.h"
+#include "base/progress.h"
+
+namespace hf_inner {
+namespace {
+
+constexpr std::int32_t none = -1;
+
+class Extractor {
+ public:
+  Extractor(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features, ExtractReport& report,
+            Memory& memory)
+      : s_(surface),
+        map_(map),
+        features_(features),
+        report_(report),
+        memory_(memory),
+        half_(std::int64_t{1} << (map.bits - 1)),
+        cells_(memory),
+        parent_(memory),
+        line_start_(memory),
+        lines_(memory),
+        place_(memory),
+        quality_(memory),
+        on_border_(memory),
+        corners_(memory) {}
+
+  QuadMesh run() {
+    order_lines();
+    make_cells();
+    join_cells();
+    make_quads();
+    place_vertices();
+    return number_vertices();
+  }
+
+ private:
+  // The cells of the grid that the image of a triangle can touch; cell (i, j) has the number first + (i - u) rows + j -
+  // v.
+  struct Cells {
+    std::int32_t first, u, v, columns, rows;
+  };
+  std::int32_t cell_of(std::int64_t x) const noexcept { return static_cast<std::int32_t>((x + half_) >> map_.bits); }
+  std::int64_t line(std::int32_t c) const noexcept { return 2 * half_ * c + half_; }
+  std::int32_t number(std::int32_t t, std::int32_t i, std::int32_t j) const noexcept {
+    const Cells& c = cells_[t];
+    return c.first + (i - c.u) * c.rows + (j - c.v);
+  }
+  std::int32_t find(std::int32_t a) noexcept {
+    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
+    return a;
+  }
+  bool owns(std::int32_t h) const noexcept { return !s_.is_real(s_.twin[h]) || h < s_.twin[h]; }
+
+  // Lists the lines that cross each edge, in order from the tail of the half-edge that owns it: 0 for a u-line, 1 for a
+  // v-line of its triangle.
+  void order_lines() {
+    const std::int32_t halves = 3 * s_.real_triangles;
+    line_start_.assign(halves + 1, 0);
+    Poller poller;
+    for (std::int32_t h = 0; h < halves; ++h) {
+      poller.due();
+      line_start_[h] = lines_.size();
+      if (!owns(h)) continue;
+      const std::int32_t g = FluxSurface::next(h);
+      const std::int64_t du = map_.u[g] - map_.u[h], dv = map_.v[g] - map_.v[h], wu = std::llabs(du),
+                         wv = std::llabs(dv);
+      std::int32_t i = cell_of(map_.u[h]), j = cell_of(map_.v[h]);
+      const std::int32_t to_i = cell_of(map_.u[g]), to_j = cell_of(map_.v[g]);
+      while (i != to_i || j != to_j) {
+        bool take_u = j == to_j;
+        if (i != to_i && j != to_j) {
+          const std::int64_t a = std::llabs(line(du > 0 ? i : i - 1) - map_.u[h]),
+                             b = std::llabs(line(dv > 0 ? j : j - 1) - map_.v[h]);
+          take_u = a * wv <= b * wu;  // a / wu <= b / wv
+        }
+        lines_.push_back(static_cast<std::uint8_t>(!take_u));
+        if (take_u) {
+          i += du > 0 ? 1 : -1;
+        } else {
+          j += dv > 0 ? 1 : -1;
+        }
+      }
+    }
+    line_start_[halves] = lines_.size();
+    // The lines of half-edges that own no edge start where the next one's do; lines_of() looks at the owner.
+  }
+
+  void make_cells() {
+    Cells none_yet{0, 0, 0, 0, 0};
+    cells_.assign(s_.real_triangles, none_yet);
+    std::int64_t total = 0;
+    for (std::int32_t t = 0; t < s_.real_triangles; ++t) {
+      const auto bounds = [&](const Table<std::int64_t>& x) {
+        const auto [low, high] = std::minmax({x[3 * t], x[3 * t + 1], x[3 * t + 2]});
+        return std::pair<std::int32_t, std::int32_t>(cell_of(low), cell_of(high));
+      };
+      const auto [u0, u1] = bounds(map_.u);
+      const auto [v0, v1] = bounds(map_.v);
+      cells_[t] = {static_cast<std::int32_t>(total), u0, v0, u1 - u0 + 1, v1 - v0 + 1};
+      total += std::int64_t{u1 - u0 + 1} * (v1 - v0 + 1);
+      if (total > INT32_MAX) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the quads are too many");
+    }
+    parent_.assign(static_cast<std::int32_t>(total), 0);
+    for (std::int32_t c = 0; c < parent_.size(); ++c) parent_[c] = c;
+  }
+
+  // Walks along half-edge h of its triangle and calls work(i, j, line, step) at every line: it leaves cell (i, j) and
+  // changes i (line 0) or j (line 1) by `step`. Then calls end(i, j).
+  template <class Work, class End>
+  void walk(std::int32_t h, Work&& work, End&& end) const {
+    const std::int32_t g = FluxSurface::next(h);
+    const bool own = owns(h);
+    const std::int32_t owner = own ? h : s_.twin[h];
+    std::int32_t i = cell_of(map_.u[h]), j = cell_of(map_.v[h]);
+    const std::int32_t su = map_.u[g] > map_.u[h] ? 1 : -1, sv = map_.v[g] > map_.v[h] ? 1 : -1;
+    const std::int32_t begin = line_start_[owner], stop = line_start_[owner + 1];
+    // A quarter turn between the triangles exchanges u-lines and v-lines.
+    const bool odd = !own && is_odd(h);
+    for (std::int32_t k = 0; k < stop - begin; ++k) {
+      const int found = lines_[own ? begin + k : stop - 1 - k];
+      const int kind = odd ? 1 - found : found;
+      work(i, j, kind, kind == 0 ? su : sv);
+      if (kind == 0) {
+        i += su;
+      } else {
+        j += sv;
+      }
+    }
+    end(i, j);
+  }
+  bool is_odd(std::int32_t h) const noexcept {
+    const std::int32_t g = s_.twin[h];
+    const std::int64_t du = map_.u[FluxSurface::next(h)] - map_.u[h], dv = map_.v[FluxSurface::next(h)] - map_.v[h],
+                       eu = map_.u[g] - map_.u[FluxSurface::next(g)], ev = map_.v[g] - map_.v[FluxSurface::next(g)];
+    // Without a turn or with a half turn, the vectors are (u, v) and +-(u, v). If both fit, so does either order.
+    return !((du == eu && dv == ev) || (du == -eu && dv == -ev));
+  }
+
+  // Makes cells of neighbouring triangles one where they touch.
+  void join_cells() {
+    Table<std::int32_t> mine(memory_), other(memory_);
+    Poller poller;
+    for (std::int32_t h = 0; h < 3 * s_.real_triangles; ++h) {
+      poller.due();
+      const std::int32_t g = s_.twin[h];
+      if (!s_.is_real(g) || !owns(h)) continue;
+      const auto list = [&](std::int32_t half, Table<std::int32_t>& out) {
+        out.clear();
+        walk(
+            half, [&](std::int32_t i, std::int32_t j, int, std::int32_t) { out.push_back(number(half / 3, i, j)); },
+            [&](std::int32_t i, std::int32_t j) {
+              out.push_back(number(half / 3, i, j));
+              if (i != cell_of(map_.u[FluxSurface::next(half)]) || j != cell_of(map_.v[FluxSurface::next(half)]))
+                fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "the two sides of a seam have different lines");
+            });
+      };
+      list(h, mine), list(g, other);
+      for (std::int32_t k = 0; k < mine.size(); ++k) {
+        const std::int32_t a = find(mine[k]), b = find(other[mine.size() - 1 - k]);
+        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+      }
+    }
+  }
+
+  void make_quads() {
+    Table<std::int32_t> up(memory_), down(memory_);
+    Poller poller;
+    for (std::int32_t t = 0; t < s_.real_triangles; ++t) {
+      poller.due();
+      const Cells& cells = cells_[t];
+      if (cells.columns < 2 || cells.rows < 2) continue;
+      // By u-line: the row where the turn around the triangle crosses it towards larger and towards smaller u.
+      up.assign(cells.columns - 1, 0), down.assign(cells.columns - 1, 0);
+      for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        walk(
+            h,
+            [&](std::int32_t i, std::int32_t j, int kind, std::int32_t step) {
+              if (kind == 0) (step > 0 ? up[i - cells.u] : down[i - 1 - cells.u]) = j;
+            },
+            [](std::int32_t, std::int32_t) {});
+      }
+      for (std::int32_t c = 0; c + 1 < cells.columns; ++c) {
+        const std::int32_t i = cells.u + c;
+        const bool backward = up[c] > down[c];
+        for (std::int32_t j = std::min(up[c], down[c]); j < std::max(up[c], down[c]); ++j) {
+          const std::int32_t corner[4] = {number(t, i, j), number(t, i + 1, j), number(t, i + 1, j + 1),
+                                          number(t, i, j + 1)};
+          for (int k = 0; k < 4; ++k) corners_.push_back(find(corner[backward ? 3 - k : k]));
+          report_.backward += backward;
+        }
+      }
+    }
+  }
+
+  // Finds a place for every cell: where the map has its whole numbers, or else the middle of a piece of an edge.
+  void place_vertices() {
+    place_.assign(parent_.size(), SurfacePoint{});
+    quality_.assign(parent_.size(), 0), on_border_.assign(parent_.size(), 0);
+    Poller poller;
+    for (std::int32_t t = 0; t < s_.real_triangles; ++t) {
+      poller.due();
+      const Cells& cells = cells_[t];
+      std::int64_t u[3], v[3];
+      for (int k = 0; k < 3; ++k) u[k] = map_.u[3 * t + k], v[k] = map_.v[3 * t + k];
+      const std::int64_t area = (u[1] - u[0]) * (v[2] - v[0]) - (u[2] - u[0]) * (v[1] - v[0]);
+      for (std::int32_t i = cells.u; area != 0 && i < cells.u + cells.columns; ++i) {
+        for (std::int32_t j = cells.v; j < cells.v + cells.rows; ++j) {
+          const std::int64_t x = 2 * half_ * i, y = 2 * half_ * j;
+          SurfacePoint point;
+          point.triangle = t;
+          bool inside = true, on_feature = false;
+          for (int k = 0; k < 3; ++k) {
+            const int a = (k + 1) % 3, b = (k + 2) % 3;
+            const std::int64_t part = (u[a] - x) * (v[b] - y) - (u[b] - x) * (v[a] - y);
+            inside &= area > 0 ? part >= 0 : part <= 0;
+            on_feature |= part == 0 && features_[3 * t + a];
+            point.weight[k] = static_cast<double>(part) / static_cast<double>(area);
+          }
+          const std::uint8_t quality = on_feature ? at_feature_ : area > 0 ? at_point_ : at_turned_point_;
+          if (inside) offer(number(t, i, j), point, quality);
+        }
+      }
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t h = 3 * t + k;
+        const bool border = !s_.is_real(s_.twin[h]);
+        const std::int64_t du = u[(k + 1) % 3] - u[k], dv = v[(k + 1) % 3] - v[k];
+        double from = 0;
+        const auto piece = [&](std::int32_t i, std::int32_t j, double to) {
+          SurfacePoint point;
+          point.triangle = t;
+          const double middle = (from + to) / 2;
+          point.weight[k] = 1 - middle, point.weight[(k + 1) % 3] = middle;
+          const std::int32_t c = number(t, i, j);
+          offer(c, point, border ? at_border_ : at_edge_);
+          if (border) on_border_[find(c)] = 1;
+          from = to;
+        };
+        walk(
+            h,
+            [&](std::int32_t i, std::int32_t j, int kind, std::int32_t step) {
+              const std::int64_t there =
+                  kind == 0 ? line(step > 0 ? i : i - 1) - u[k] : line(step > 0 ? j : j - 1) - v[k];
+              piece(i, j, std::max(from, static_cast<double>(there) / static_cast<double>(kind == 0 ? du : dv)));
+            },
+            [&](std::int32_t i, std::int32_t j) { piece(i, j, 1.0); });
+      }
+    }
+  }
+  void offer(std::int32_t cell, const SurfacePoint& point, std::uint8_t quality) {
+    cell = find(cell);
+    if (quality_[cell] >= quality) return;
+    quality_[cell] = quality, place_[cell] = point;
+  }
+
+  QuadMesh number_vertices() {
+    QuadMesh mesh(memory_);
+    Table<std::int32_t> vertex(parent_.size(), none, memory_);
+    mesh.face_start.push_back(0);
+    for (const std::int32_t cell : corners_) {
+      if (vertex[cell] == none)
+        vertex[cell] =
+            mesh.add_vertex(place_[cell], position_of(s_, place_[cell]),
+                            quality_[cell] == at_feature_ ? QuadMesh::site : QuadMesh::free, on_border_[cell], 1);
+      mesh.corner.push_back(vertex[cell]);
+      if (mesh.corner.size() % 4 == 0) mesh.face_start.push_back(mesh.corner.size());
+    }
+    return mesh;
+  }
+
+  // How good a place of a vertex is; the best is taken.
+  static constexpr std::uint8_t at_edge_ = 1, at_turned_point_ = 2, at_point_ = 3, at_border_ = 4, at_feature_ = 5;
+  const FluxSurface& s_;
+  const GridMap& map_;
+  const Table<std::uint8_t>& features_;
+  ExtractReport& report_;
+  Memory& memory_;
+  const std::int64_t half_;
+  Table<Cells> cells_;
+  Table<std::int32_t> parent_, line_start_;
+  Table<std::uint8_t> lines_;
+  Table<SurfacePoint> place_;
+  Table<std::uint8_t> quality_, on_border_;
+  Table<std::int32_t> corners_;  // cells, four by quad
+};
+
+}  // namespace
+
+QuadMesh extract_quads(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features,
+                       ExtractReport& report, Memory& memory) {
+  return Extractor(surface, map, features, report, memory).run();
+}
+
+std::int32_t remove_doublets(QuadMesh& mesh, Memory& memory) {
+  Table<std::uint8_t> gone(mesh.face_count(), 0, memory);
+  std::int32_t removed = 0;
+  for (bool changed = true; changed;) {
+    changed = false;
+    poll();
+    Table<std::int32_t> valence(mesh.position.size(), 0, memory), face(mesh.position.size(), none, memory),
+        second(mesh.position.size(), none, memory);
+    for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+      if (gone[f]) continue;
+      for (std::int32_t k = 0; k < 4; ++k) {
+        const std::int32_t v = mesh.corner[4 * f + k];
+        ++valence[v];
+        second[v] = face[v], face[v] = f;
+      }
+    }
+    Table<std::uint8_t> touched(mesh.face_count(), 0, memory);
+    const auto place = [&](std::int32_t f, std::int32_t v) {
+      std::int32_t k = 0;
+      while (k < 4 && mesh.corner[4 * f + k] != v) ++k;
+      return k;
+    };
+    for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
+      if (mesh.border[v]) continue;
+      if (valence[v] == 1 && !touched[face[v]]) {
+        const std::int32_t f = face[v], k = place(f, v);
+        // Both neighbours of v are one vertex: the quad is folded along it.
+        if (mesh.corner[4 * f + (k + 1) % 4] != mesh.corner[4 * f + (k + 3) % 4]) continue;
+        gone[f] = touched[f] = 1, ++removed, changed = true;
+      } else if (valence[v] == 2 && face[v] != second[v] && !touched[face[v]] && !touched[second[v]]) {
+        const std::int32_t f = face[v], g = second[v], k = place(f, v), j = place(g, v);
+        const std::int32_t far = mesh.corner[4 * g + (j + 2) % 4];
+        // The quads (v, p, q, r) and (v, r, s, p) become (s, p, q, r).
+        if (mesh.corner[4 * f + (k + 1) % 4] != mesh.corner[4 * g + (j + 3) % 4] ||
+            mesh.corner[4 * f + (k + 3) % 4] != mesh.corner[4 * g + (j + 1) % 4] ||
+            far == mesh.corner[4 * f + (k + 2) % 4])
+          continue;
+        mesh.corner[4 * f + k] = far;
+        gone[g] = touched[f] = touched[g] = 1, ++removed, changed = true;
+      }
+    }
+  }
+  if (removed == 0) return 0;
+  QuadMesh out(memory);
+  Table<std::int32_t> fresh(mesh.position.size(), none, memory);
+  out.face_start.push_back(0);
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+    if (gone[f]) continue;
+    for (std::int32_t k = 0; k < 4; ++k) {
+      const std::int32_t v = mesh.corner[4 * f + k];
+      if (fresh[v] == none)
+        fresh[v] =
+            out.add_vertex(mesh.location[v], mesh.position[v], mesh.pinned[v], mesh.border[v] != 0, mesh.scale[v]);
+      out.corner.push_back(fresh[v]);
+    }
+    out.face_start.push_back(out.corner.size());
+  }
+  mesh = std::move(out);
+  return removed;
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,113 @@
+#include "quads/face_cross.h"
+
+#include <cmath>
+
+#include "base/progress.h"
+
+namespace hf_inner {
+namespace {
+
+using Complex = std::complex<double>;
+// Feature edges of one triangle whose directions sum to less than this, as crosses, say nothing about it.
+constexpr double least_agreement = 0.5;
+constexpr double pi = 3.141592653589793238462643383279502884;
+
+Complex unit_of(Complex z) noexcept {
+  const double length = length_of(z);
+  return length > 0 ? z / length : Complex(1, 0);
+}
+
+double corner_angle(const FluxSurface& s, std::int32_t h) noexcept {
+  const Vec3 p = s.position[s.tail[h]], a = s.position[s.head(h)] - p,
+             b = s.position[s.tail[FluxSurface::previous(h)]] - p;
+  return arc_tangent(norm(cross(a, b)), dot(a, b));
+}
+
+}  // namespace
+
+Table<std::uint8_t> find_features(const FluxSurface& surface, double crease, Memory& memory) {
+  Table<std::uint8_t> out(surface.half_count(), 0, memory);
+  Table<Vec3> normal(surface.real_triangles, Vec3{}, memory);
+  for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
+    const Vec3 a = surface.position[surface.tail[3 * t]];
+    normal[t] = cross(surface.position[surface.tail[3 * t + 1]] - a, surface.position[surface.tail[3 * t + 2]] - a);
+  }
+  for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
+    const std::int32_t g = surface.twin[h];
+    if (!surface.is_real(g)) {
+      out[h] = 1;
+    } else if (h < g && crease < pi) {
+      const Vec3 p = normal[h / 3], q = normal[g / 3];
+      out[h] = out[g] = arc_tangent(norm(cross(p, q)), dot(p, q)) > crease;
+    }
+  }
+  return out;
+}
+
+FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connection, Span<const Complex> crosses,
+                          const Table<std::uint8_t>& features, Memory& memory) {
+  FaceCross out(memory);
+  const std::int32_t triangles = surface.real_triangles, halves = surface.half_count();
+  out.edge.assign(halves, Complex(0, 0)), out.direction.assign(triangles, Complex(1, 0));
+  out.turn.assign(halves, 0), out.index.assign(surface.vertex_count(), 0);
+  Poller poller;
+  for (std::int32_t t = 0; t < triangles; ++t) {
+    poller.due();
+    Vec3 p[3];
+    for (int k = 0; k < 3; ++k) p[k] = surface.position[surface.tail[3 * t + k]];
+    const Vec3 x = unit_vector(p[1] - p[0]), normal = unit_vector(cross(p[1] - p[0], p[2] - p[0])),
+               y = cross(normal, x);
+    Complex sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 side = p[(k + 1) % 3] - p[k];
+      out.edge[3 * t + k] = Complex(dot(side, x), dot(side, y));
+      const std::int32_t v = surface.mesh_vertex[surface.tail[3 * t + k]];
+      const std::size_t i = static_cast<std::size_t>(v);
+      const double size = length_of(crosses[i]);
+      if (!(size > 0)) continue;
+      const Vec3 space = connection.to_space(v, at_angle(1.0, angle_of(crosses[i]) / 4));
+      // A triangle may be turned over against the mesh.
+      const Vec3 facing = dot(connection.normal[i], normal) < 0 ? -1.0 * normal : normal;
+      const Vec3 carried = carry(space, connection.normal[i], facing);
+      Complex d = unit_of(Complex(dot(carried, x), dot(carried, y)));
+      d *= d, d *= d;
+      sum += size * d;
+    }
+    Complex along = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (!features[3 * t + k]) continue;
+      Complex d = unit_of(out.edge[3 * t + k]);
+      d *= d, d *= d;
+      along += d;
+    }
+    if (length_of(along) > least_agreement) sum = along;
+    out.direction[t] = at_angle(1.0, angle_of(sum) / 4);
+  }
+  Table<double> rest(halves, 0.0, memory);
+  for (std::int32_t h = 0; h < 3 * triangles; ++h) {
+    const std::int32_t g = surface.twin[h];
+    if (!surface.is_real(g) || g < h) continue;
+    const Complex mine = out.direction[h / 3] * std::conj(unit_of(out.edge[h])),
+                  other = out.direction[g / 3] * std::conj(unit_of(-out.edge[g]));
+    const double angle = angle_of(mine * std::conj(other)), quarters = std::nearbyint(angle / (pi / 2));
+    out.turn[h] = static_cast<std::int8_t>(quarters), out.turn[g] = static_cast<std::int8_t>(-quarters);
+    rest[h] = angle - quarters * (pi / 2), rest[g] = -rest[h];
+  }
+  for (std::int32_t v = 0; v < surface.first_apex; ++v) {
+    poller.due();
+    double sum = 2 * pi;
+    bool closed = true;
+    const std::int32_t begin = surface.out[v];
+    for (std::int32_t h = begin;;) {
+      closed &= surface.is_real(h);
+      if (!closed) break;
+      sum += rest[h] - corner_angle(surface, h);
+      h = surface.turn_left(h);
+      if (h == begin) break;
+    }
+    if (closed) out.index[v] = static_cast<std::int32_t>(std::lround(sum / (pi / 2)));
+  }
+  return out;
+}
+
+}  // namespace hf_inner

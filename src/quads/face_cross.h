@@ -1,0 +1,33 @@
+// One cross per triangle, made of the crosses at its corners, and how the crosses of neighbours match.
+//
+// The frame of a triangle has its x axis along the first half-edge. A cross is four directions; `direction` holds one
+// of them as a complex number of length 1. Across an edge, one of the four directions is nearest to it. The half-edge h
+// of triangle f, with triangle g on the other side, has direction_f ~ i^turn direction_g. The index of a vertex counts
+// the quarter turns of the field around it: (sum of residual turns + angle defect) / (pi / 2). The indices of a closed
+// surface sum to 4 chi. A vertex of index k gets 4 - k quads.
+#pragma once
+#include <complex>
+
+#include "field/connection.h"
+#include "remesh/flux_surface.h"
+
+namespace hf_inner {
+
+// Marks, by half-edge, the feature edges: borders, and edges where the normals of the triangles differ by more than
+// `crease` radians. crease: at least pi for none.
+Table<std::uint8_t> find_features(const FluxSurface& surface, double crease, Memory& memory);
+
+struct FaceCross {
+  explicit FaceCross(Memory& memory) : edge(memory), direction(memory), turn(memory), index(memory) {}
+  // crosses: by inner vertex of the mesh, to the fourth degree, in the frames of the connection. Triangles with feature
+  // edges take the direction of these.
+  static FaceCross make(const FluxSurface& surface, const Connection& connection,
+                        Span<const std::complex<double>> crosses, const Table<std::uint8_t>& features, Memory& memory);
+
+  Table<std::complex<double>> edge;       // by half-edge of a real triangle: its vector in the triangle's frame
+  Table<std::complex<double>> direction;  // by real triangle
+  Table<std::int8_t> turn;                // by half-edge; 0 on borders
+  Table<std::int32_t> index;              // by vertex; 0 on borders
+};
+
+}  // namespace hf_inner

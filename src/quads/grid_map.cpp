@@ -1,0 +1,301 @@
+#include "quads/grid_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "mesh/laplacian.h"
+
+namespace hf_inner {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Coordinates stay below 2^29 units, so that orientations of triangles are exact in 64 bits.
+constexpr int most_bits = 29;
+// At least this many bits behind the point: 1 / 256 of an edge. With fewer, small triangles would lose their area.
+constexpr int least_fraction = 8;
+// At most this many bits behind the point. More would only lengthen the numbers.
+constexpr int most_fraction = 20;
+// A value this near to a whole number is one, but for rounding errors of a sum of whole numbers.
+constexpr double whole_error = 1e-6;
+
+}  // namespace
+
+GridMapper::GridMapper(const FluxSurface& surface, const FaceCross& crosses, const Seams& seams,
+                       const Table<std::uint8_t>& features, Span<const Index> order, Memory& memory, JobRunner& jobs)
+    : surface_(surface),
+      crosses_(crosses),
+      seams_(seams),
+      memory_(memory),
+      jobs_(jobs),
+      order_(order),
+      unknown_(memory),
+      sums_(&memory),
+      of_parameter_(memory),
+      of_line_(memory),
+      matrix_(memory),
+      right_(&memory) {
+  number(features);
+  assemble();
+  FactorOptions options;
+  options.ordering = Ordering::natural;
+  system_.emplace(matrix_, Factor::make(matrix_, {}, options, memory_, jobs_), memory_, jobs_);
+  system_->set_right(right_);
+}
+
+// Replaces the numbers of parameters by those of unknowns.
+RealSum GridMapper::in_unknowns(RealSum sum) const {
+  for (RealTerm& term : sum) term.number = of_parameter_[term.number];
+  return sum;
+}
+
+void GridMapper::number(const Table<std::uint8_t>& features) {
+  const std::int32_t n = surface_.vertex_count();
+  FeatureLines lines(surface_, seams_, memory_);
+  for (std::int32_t h = 0; h < 3 * surface_.real_triangles; ++h) {
+    const std::int32_t g = surface_.twin[h];
+    if (features[h] && (!surface_.is_real(g) || h < g)) lines.add(h, crosses_.edge[h]);
+  }
+  left_out_ = lines.left_out();
+  Vector<std::int32_t> free(&memory_);
+  for (std::int32_t v = 0; v < surface_.first_apex; ++v) {
+    for (int part = 0; part < 2; ++part) {
+      if (seams_.parameter[v] == Seams::free && !lines.has(v, part)) free.push_back(2 * v + part);
+    }
+  }
+  const auto place = [&](std::int32_t x) { return order_[at(surface_.mesh_vertex[x / 2])]; };
+  Poller poller;
+  std::sort(free.begin(), free.end(), [&](std::int32_t a, std::int32_t b) {
+    poller.due();
+    return place(a) != place(b) ? place(a) < place(b) : a < b;
+  });
+  unknown_.assign(2 * (n + static_cast<std::int32_t>(seams_.offsets.size())), 0);
+  free_count_ = static_cast<std::int32_t>(free.size());
+  for (std::int32_t i = 0; i < free_count_; ++i) unknown_[free[at(i)]] = i;
+  std::int32_t count = free_count_;
+  of_parameter_.assign(2 * seams_.parameter_count, -1), of_line_.assign(lines.line_count(), -1);
+  for (std::int32_t p = 0; p < of_parameter_.size(); ++p) {
+    if (!lines.is_solved(p)) of_parameter_[p] = count++;
+  }
+  const auto keep = [&](std::int32_t variable, RealSum sum) {
+    unknown_[variable] = -1 - static_cast<std::int32_t>(sums_.size());
+    sums_.push_back(std::move(sum));
+  };
+  for (std::int32_t v = 0; v < surface_.first_apex; ++v) {
+    for (int part = 0; part < 2; ++part) {
+      if (seams_.parameter[v] == Seams::free && !lines.has(v, part)) continue;
+      // A vertex that is a sum of parameters gets a place here, if it has none yet.
+      FeatureLines::Place found = lines.place(v, part);
+      lines.reduce(found.sum);
+      RealSum sum = in_unknowns(std::move(found.sum));
+      if (found.line >= 0) {
+        std::int32_t& line = of_line_[found.line];
+        if (line < 0) line = count++;
+        add_to(sum, RealSum(1, RealTerm{line, found.sign}, &memory_), 1);
+      }
+      keep(2 * v + part, std::move(sum));
+    }
+  }
+  for (std::size_t i = 0; i < seams_.offsets.size(); ++i) {
+    for (int part = 0; part < 2; ++part) {
+      RealSum sum = part_of(seams_.offsets[i], part, memory_);
+      lines.reduce(sum);
+      keep(2 * (n + static_cast<std::int32_t>(i)) + part, in_unknowns(std::move(sum)));
+    }
+  }
+  right_.assign(at(count), 0.0);
+}
+
+Span<const RealTerm> GridMapper::expand(std::int32_t variable, int part, RealTerm& single) const {
+  const std::int32_t number = unknown_[2 * variable + part];
+  if (number < 0) return sums_[at(-1 - number)];
+  single = {number, 1.0};
+  return {&single, 1};
+}
+
+void GridMapper::assemble() {
+  const std::int32_t n = surface_.vertex_count(), variables = n + static_cast<std::int32_t>(seams_.offsets.size());
+  // First in variables, of which a corner has two at most.
+  Vector<Entry> entries(&memory_);
+  entries.reserve(at(surface_.real_triangles) * 24);
+  Vector<Complex> right(at(variables), Complex(0, 0), &memory_);
+  Poller poller;
+  for (std::int32_t t = 0; t < surface_.real_triangles; ++t) {
+    poller.due();
+    Vec3 p[3];
+    for (int k = 0; k < 3; ++k) p[k] = surface_.position[surface_.tail[3 * t + k]];
+    double cotangent[3];
+    corner_cotangents(p, cotangent);
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t h = 3 * t + k, ends[2] = {FluxSurface::next(h), h};
+      const double weight = cotangent[(k + 2) % 3] / 2;
+      const Complex wish = crosses_.edge[h] * std::conj(seams_.direction[t]);
+      SeamTerm terms[4] = {};
+      int count = 0;
+      for (int end = 0; end < 2; ++end) {
+        const double sign = end == 0 ? 1 : -1;
+        const std::int32_t corner = ends[end];
+        terms[count++] = {surface_.tail[corner], quarter_turned(Complex(sign, 0), seams_.unit[corner])};
+        if (seams_.offset[corner] >= 0) terms[count++] = {n + seams_.offset[corner], Complex(sign, 0)};
+      }
+      // Both corners on one side of one seam: the offsets cancel.
+      if (count == 4 && terms[1].parameter == terms[3].parameter) terms[1] = terms[2], count = 2;
+      for (int a = 0; a < count; ++a) {
+        right[at(terms[a].parameter)] += weight * std::conj(terms[a].factor) * wish;
+        for (int b = 0; b < count; ++b)
+          entries.push_back(
+              {terms[a].parameter, terms[b].parameter, weight * std::conj(terms[a].factor) * terms[b].factor});
+      }
+    }
+  }
+  const auto merge = [&](auto& list) {
+    std::sort(list.begin(), list.end(), [&](const auto& a, const auto& b) {
+      poller.due();
+      return a.column != b.column ? a.column < b.column : a.row < b.row;
+    });
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (count > 0 && list[count - 1].row == list[i].row && list[count - 1].column == list[i].column) {
+        list[count - 1].value += list[i].value;
+      } else {
+        list[count++] = list[i];
+      }
+    }
+    list.resize(count);
+  };
+  merge(entries);
+  // Then in unknowns. The complex number a + i b is the real block [a -b; b a].
+  Vector<RealEntry> real(&memory_);
+  real.reserve(4 * entries.size());
+  RealTerm single_row, single_column;
+  for (const Entry& e : entries) {
+    poller.due();
+    const double a = e.value.real(), b = e.row == e.column ? 0.0 : e.value.imag();
+    const double block[2][2] = {{a, -b}, {b, a}};
+    for (int column = 0; column < 2; ++column) {
+      for (const RealTerm& y : expand(e.column, column, single_column)) {
+        for (int row = 0; row < 2; ++row) {
+          for (const RealTerm& x : expand(e.row, row, single_row))
+            real.push_back({x.number, y.number, x.factor * block[row][column] * y.factor});
+        }
+      }
+    }
+  }
+  merge(real);
+  for (std::int32_t v = 0; v < variables; ++v) {
+    if (v >= surface_.first_apex && v < n) continue;
+    for (int part = 0; part < 2; ++part) {
+      const double value = part == 0 ? right[at(v)].real() : right[at(v)].imag();
+      for (const RealTerm& x : expand(v, part, single_row)) right_[at(x.number)] += x.factor * value;
+    }
+  }
+  matrix_.column_start.assign(1, 0);
+  std::size_t i = 0;
+  for (std::int32_t column = 0; column < static_cast<std::int32_t>(right_.size()); ++column) {
+    poller.due();
+    for (; i < real.size() && real[i].column == column; ++i)
+      matrix_.row.push_back(real[i].row), matrix_.value.push_back(real[i].value);
+    matrix_.column_start.push_back(static_cast<std::int32_t>(matrix_.row.size()));
+  }
+}
+
+Vector<double> GridMapper::round(double edge_length, Vector<Index>* out_fixed, Vector<double>* out_values) {
+  system_->set_scale(1 / edge_length);
+  Vector<Index> open(&memory_);
+  for (Index i = free_count_; i < matrix_.size(); ++i) open.push_back(i);
+  Vector<double> values(open.size(), &memory_);
+  while (!open.empty()) {
+    poll();
+    values.resize(open.size());
+    system_->solve_at(open, values.data());
+    std::size_t best = 0;
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      const double away = std::fabs(values[i] - std::nearbyint(values[i]));
+      if (away < least) least = away, best = i;
+    }
+    const Index unknown = open[best];
+    const double whole = std::nearbyint(values[best]);
+    system_->fix(Span<const Index>(&unknown, 1), Span<const double>(&whole, 1));
+    if (out_fixed) out_fixed->push_back(unknown), out_values->push_back(whole);
+    open.erase(open.begin() + static_cast<std::ptrdiff_t>(best));
+  }
+  Vector<double> x(at(matrix_.size()), &memory_);
+  system_->solve(x.data());
+  return x;
+}
+
+GridMap GridMapper::make(double edge_length) {
+  const Vector<double> x = round(edge_length, nullptr, nullptr);
+  const std::int32_t n = surface_.vertex_count();
+  // Returns the value of a real variable, and whether it is a whole number.
+  const auto value_of = [&](std::int32_t variable, int part, bool& whole) {
+    const std::int32_t number = unknown_[2 * variable + part];
+    whole = number < 0;
+    if (!whole) return x[at(number)];
+    double value = 0;
+    for (const RealTerm& term : sums_[at(-1 - number)]) value += term.factor * x[at(term.number)];
+    const double near = std::nearbyint(value);
+    if (!(std::fabs(value - near) <= whole_error))
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a singularity of the crosses cannot lie on the grid");
+    return near;
+  };
+  Table<Complex> z(n, Complex(0, 0), memory_);
+  Table<std::uint8_t> whole(2 * n, 0, memory_);
+  bool is_whole = false;
+  const auto read = [&](std::int32_t variable, std::uint8_t* flags) {
+    double parts[2];
+    for (int part = 0; part < 2; ++part) {
+      parts[part] = value_of(variable, part, is_whole);
+      if (flags) flags[part] = is_whole;
+    }
+    return Complex(parts[0], parts[1]);
+  };
+  for (std::int32_t v = 0; v < surface_.first_apex; ++v) z[v] = read(v, &whole[2 * v]);
+  Vector<Complex> offset(seams_.offsets.size(), &memory_);
+  for (std::size_t i = 0; i < offset.size(); ++i) offset[i] = read(n + static_cast<std::int32_t>(i), nullptr);
+  double most = 1;
+  const auto corner = [&](std::int32_t h) {
+    const Complex turned = quarter_turned(z[surface_.tail[h]], seams_.unit[h]);
+    return seams_.offset[h] >= 0 ? turned + offset[at(seams_.offset[h])] : turned;
+  };
+  const std::int32_t halves = 3 * surface_.real_triangles;
+  for (std::int32_t h = 0; h < halves; ++h) {
+    const Complex c = corner(h), own = z[surface_.tail[h]];
+    most = std::max({most, std::fabs(c.real()), std::fabs(c.imag()), std::fabs(own.real()), std::fabs(own.imag())});
+  }
+  GridMap map(memory_);
+  map.roundings = static_cast<std::int32_t>(system_->fixed_count());
+  int whole_bits = 1;
+  while (whole_bits < most_bits && std::ldexp(1.0, whole_bits) < most + 2) ++whole_bits;
+  map.bits = std::min(most_bits - whole_bits, most_fraction);
+  if (map.bits < least_fraction || !std::isfinite(most))
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the map of the surface to the plane is too large for its edge length");
+  const auto fixed_point = [&](double value, bool exact) {
+    if (exact) return static_cast<std::int64_t>(value) * (std::int64_t{1} << map.bits);
+    return 2 * static_cast<std::int64_t>(std::floor(std::ldexp(value, map.bits - 1))) + 1;
+  };
+  map.u.assign(halves, 0), map.v.assign(halves, 0);
+  for (std::int32_t h = 0; h < halves; ++h) {
+    const std::int32_t v = surface_.tail[h];
+    const std::int64_t a = fixed_point(z[v].real(), whole[2 * v] != 0),
+                       b = fixed_point(z[v].imag(), whole[2 * v + 1] != 0);
+    const int k = seams_.unit[h] & 3;
+    map.u[h] = k == 0 ? a : k == 1 ? -b : k == 2 ? -a : b;
+    map.v[h] = k == 0 ? b : k == 1 ? a : k == 2 ? -b : -a;
+    if (seams_.offset[h] < 0) continue;
+    map.u[h] += fixed_point(offset[at(seams_.offset[h])].real(), true);
+    map.v[h] += fixed_point(offset[at(seams_.offset[h])].imag(), true);
+  }
+  for (std::int32_t t = 0; t < surface_.real_triangles; ++t) {
+    const std::int32_t h = 3 * t;
+    const std::int64_t area =
+        (map.u[h + 1] - map.u[h]) * (map.v[h + 2] - map.v[h]) - (map.u[h + 2] - map.u[h]) * (map.v[h + 1] - map.v[h]);
+    map.turned_over += area <= 0;
+  }
+  return map;
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,11 @@
+// Reads the options of quad meshes made from crosses.
+#pragma once
+#include "hf/quads.h"
+#include "quads/field_quads.h"
+
+namespace hf_inner {
+
+// Throws as hf_quads_create says.
+FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc);
+
+}  // namespace hf_inner

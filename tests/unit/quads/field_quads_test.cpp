@@ -1,0 +1,317 @@
+// Quads from crosses: the crosses, the seams, the map to the grid, its quads.
+#include "quads/field_quads.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+#include <set>
+
+#include "assets/creature.h"
+#include "assets/shapes.h"
+#include "base/error.h"
+#include "base/progress.h"
+#include "support/meshes.h"
+#include "unit/field/analysis_support.h"
+
+namespace {
+
+using namespace hf_inner;
+using Complex = std::complex<double>;
+
+std::shared_ptr<const Core> core_of(const samples::ShapeMesh& shape) {
+  return hf_test::make_core({shape.positions, shape.triangles});
+}
+
+// Everything up to the map.
+struct Stages {
+  explicit Stages(std::shared_ptr<const Core> given, double radius = 0.1)
+      : core(std::move(given)),
+        surface(FluxSurface::make(core->mesh, core->topology, 0, *core->memory)),
+        system(core, 4),
+        features(find_features(surface, 100, *core->memory)),
+        faces([&] {
+          CrossOptions options;
+          options.radius = radius;
+          return FaceCross::make(surface, system.connection,
+                                 smooth_crosses(system, curvature_crosses(*core, system.connection, 2), {}, options),
+                                 features, *core->memory);
+        }()),
+        seams(Seams::make(surface, faces, *core->memory)) {}
+  GridMapper mapper() const {
+    return GridMapper(surface, faces, seams, features, system.position, *core->memory, *core->jobs);
+  }
+  std::int32_t index_sum() const {
+    std::int32_t sum = 0;
+    for (const std::int32_t index : faces.index) sum += index;
+    return sum;
+  }
+  std::shared_ptr<const Core> core;
+  FluxSurface surface;
+  DirectionSystem system;
+  Table<std::uint8_t> features;
+  FaceCross faces;
+  Seams seams;
+};
+
+std::vector<std::pair<std::string, std::shared_ptr<const Core>>> shapes() {
+  std::vector<std::pair<std::string, std::shared_ptr<const Core>>> out;
+  out.emplace_back("sphere", core_of(samples::sphere(24)));
+  out.emplace_back("torus", core_of(samples::jittered_torus(40, 30)));
+  out.emplace_back("cactus", core_of(samples::cactus(3000)));
+  out.emplace_back("ladder of genus 3", hf_test::make_core(hf_test::ladder(3, 0.16)));
+  hf_test::PlainMesh two = hf_test::torus(24, 18);
+  hf_test::append(two, hf_test::torus(20, 15, 0.1), 8);
+  out.emplace_back("two tori", hf_test::make_core(two));
+  return out;
+}
+
+// The oracle, apart from the library's own check: counted from the faces alone.
+void expect_valid(const Core& core, const QuadMesh& mesh, const std::string& what) {
+  std::set<std::pair<std::int32_t, std::int32_t>> directed;
+  std::set<std::int32_t> used;
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+    ASSERT_EQ(mesh.size(f), 4) << what;
+    std::set<std::int32_t> corners;
+    for (std::int32_t k = 0; k < 4; ++k) {
+      const std::int32_t a = mesh.corner[4 * f + k], b = mesh.corner[4 * f + (k + 1) % 4];
+      ASSERT_TRUE(corners.insert(a).second) << what << ": face " << f << " repeats corner " << a;
+      ASSERT_TRUE(directed.insert({a, b}).second) << what << ": edge " << a << " -> " << b << " twice";
+      used.insert(a);
+    }
+  }
+  std::int64_t edges = 0, borders = 0;
+  for (const auto& [a, b] : directed) {
+    const bool inner = directed.count({b, a}) > 0;
+    edges += inner ? 1 : 2, borders += inner ? 0 : 1;
+  }
+  ASSERT_EQ(static_cast<std::int32_t>(used.size()), mesh.position.size()) << what;
+  EXPECT_EQ(mesh.position.size() - edges / 2 + mesh.face_count(),
+            core.mesh.vertex_count() - core.topology.edge_count() + core.mesh.triangle_count())
+      << what;
+  EXPECT_EQ(borders > 0, core.mesh.report.boundary_edge_count > 0) << what;
+  for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
+    const SurfacePoint& point = mesh.location[v];
+    Vec3 p;
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_GE(point.weight[k], -1e-9) << what;
+      p = p + point.weight[k] * core.mesh.positions[at(core.mesh.triangle(point.triangle)[k])];
+    }
+    ASSERT_LT(norm(p - mesh.position[v]), 1e-6) << what;
+  }
+}
+
+// Inner vertices of not 4 quads.
+std::int32_t irregular_count(const QuadMesh& mesh, Memory& memory) {
+  Table<std::int32_t> valence(mesh.position.size(), 0, memory);
+  for (const std::int32_t v : mesh.corner) ++valence[v];
+  std::int32_t count = 0;
+  for (std::int32_t v = 0; v < valence.size(); ++v) count += !mesh.border[v] && valence[v] != 4;
+  return count;
+}
+
+double area_of(const QuadMesh& mesh) {
+  double sum = 0;
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+    const std::int32_t* c = &mesh.corner[4 * f];
+    for (int k = 1; k < 3; ++k)
+      sum +=
+          0.5 * norm(cross(mesh.position[c[k]] - mesh.position[c[0]], mesh.position[c[k + 1]] - mesh.position[c[0]]));
+  }
+  return sum;
+}
+
+TEST(FieldQuads, indices_of_crosses_sum_to_four_times_the_euler_characteristic) {
+  for (const auto& [name, core] : shapes()) {
+    const Stages stages(core);
+    EXPECT_EQ(stages.index_sum(), 4 * stages.surface.euler_characteristic) << name;
+  }
+}
+
+TEST(FieldQuads, crosses_of_a_torus_are_its_principal_directions) {
+  const Stages stages(core_of(samples::jittered_torus(60, 40, 0.0)));
+  EXPECT_EQ(stages.seams.singularity_count, 0);
+  // The axis is where the torus is flattest.
+  Vec3 low{1, 1, 1}, high{-1, -1, -1};
+  for (const Vec3& p : stages.core->mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3 size = high - low, middle = 0.5 * (low + high);
+  const Vec3 axis = size.x < size.y && size.x < size.z ? Vec3{1, 0, 0}
+                    : size.y < size.z                  ? Vec3{0, 1, 0}
+                                                       : Vec3{0, 0, 1};
+  double worst = 0;
+  for (std::int32_t t = 0; t < stages.surface.real_triangles; ++t) {
+    Vec3 p[3], centre;
+    for (int k = 0; k < 3; ++k)
+      p[k] = stages.surface.position[stages.surface.tail[3 * t + k]], centre = centre + 1 / 3.0 * p[k];
+    const Vec3 x = unit_vector(p[1] - p[0]), y = cross(unit_vector(cross(p[1] - p[0], p[2] - p[0])), x);
+    const Vec3 parallel = cross(axis, centre - middle);
+    const Complex along(dot(parallel, x), dot(parallel, y));
+    Complex off = stages.faces.direction[t] * std::conj(along) / std::abs(along);
+    off *= off, off *= off;
+    worst = std::max(worst, std::fabs(std::arg(off)) / 4);
+  }
+  EXPECT_LT(worst * 180 / std::acos(-1.0), 3);  // 22.5 is random
+}
+
+TEST(FieldQuads, the_map_fits_at_every_seam) {
+  for (const auto& [name, core] : shapes()) {
+    const Stages stages(core);
+    GridMapper mapper = stages.mapper();
+    const GridMap map = mapper.make(0.05);
+    const std::int64_t whole = (std::int64_t{1} << map.bits) - 1;
+    for (std::int32_t h = 0; h < 3 * stages.surface.real_triangles; ++h) {
+      const std::int32_t g = stages.surface.twin[h];
+      // Z_left = i^k Z_right + t at both ends, with one whole t.
+      const int k = stages.seams.transition[h];
+      const auto moved = [&](std::int32_t left, std::int32_t right) {
+        const std::int64_t a = map.u[right], b = map.v[right];
+        const std::int64_t u = k == 0   ? a
+                               : k == 1 ? -b
+                               : k == 2 ? -a
+                                        : b,
+                           v = k == 0   ? b
+                               : k == 1 ? a
+                               : k == 2 ? -b
+                                        : -a;
+        return std::make_pair(map.u[left] - u, map.v[left] - v);
+      };
+      const auto at_tail = moved(h, FluxSurface::next(g)), at_head = moved(FluxSurface::next(h), g);
+      ASSERT_EQ(at_tail, at_head) << name << " half-edge " << h;
+      ASSERT_EQ(at_tail.first & whole, 0) << name;
+      ASSERT_EQ(at_tail.second & whole, 0) << name;
+      if (!stages.seams.cut[h]) {
+        ASSERT_EQ(at_tail, std::make_pair(std::int64_t{0}, std::int64_t{0})) << name;
+      }
+    }
+  }
+}
+
+TEST(FieldQuads, rounding_one_after_the_other_solves_the_dense_system) {
+  for (const auto& core :
+       {core_of(samples::sphere(8)), core_of(samples::jittered_torus(16, 10)), core_of(samples::cactus(500))}) {
+    const Stages stages(core);
+    GridMapper mapper = stages.mapper();
+    const double edge_length = 0.1;
+    Vector<Index> fixed;
+    Vector<double> values;
+    const Vector<double> x = mapper.round(edge_length, &fixed, &values);
+    // [K W'; W 0] [x; lambda] = [b; s]
+    const SymmetricMatrix& k = mapper.matrix();
+    const Index n = k.size(), m = static_cast<Index>(fixed.size());
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + m, n + m);
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(n + m);
+    for (Index c = 0; c < n; ++c) {
+      for (Index i = k.column_start[at(c)]; i < k.column_start[at(c) + 1]; ++i) a(k.row[at(i)], c) = k.value[at(i)];
+      b(c) = mapper.right()[at(c)] / edge_length;
+    }
+    ASSERT_LT((a - a.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+    for (Index s = 0; s < m; ++s) a(n + s, fixed[at(s)]) = a(fixed[at(s)], n + s) = 1, b(n + s) = values[at(s)];
+    const Eigen::VectorXd exact = a.fullPivLu().solve(b);
+    double worst = 0;
+    for (Index i = 0; i < n; ++i) worst = std::max(worst, std::fabs(x[at(i)] - exact(i)));
+    EXPECT_LT(worst, 1e-9);
+    EXPECT_EQ(m, 2 * stages.seams.parameter_count);
+    EXPECT_EQ(mapper.system().counts().rebases, 0u);
+  }
+}
+
+TEST(FieldQuads, closed_shapes_of_any_genus_become_valid_meshes) {
+  for (const auto& [name, core] : shapes()) {
+    FieldQuadOptions options;
+    options.core = core, options.faces = 1500;
+    FieldQuadReport report;
+    const QuadResult result = make_field_quads(options, &report);
+    expect_valid(*core, result.mesh, name);
+    const std::int32_t irregular = irregular_count(result.mesh, *core->memory);
+    std::printf(
+        "%s: %d faces, %d irregular of %d, singularities %d, parameters %d, turned over %d, backward %d, doublets %d, "
+        "tries %d\n",
+        name.c_str(), result.mesh.face_count(), irregular, result.mesh.position.size(), report.singularities,
+        report.parameters, report.turned_over, report.backward, report.doublets, report.tries);
+    EXPECT_LE(irregular, report.singularities + result.mesh.position.size() / 50) << name;
+    EXPECT_NEAR(result.mesh.face_count(), 1500, 75) << name;
+  }
+}
+
+TEST(FieldQuads, a_rectangle_becomes_a_grid) {
+  const auto core = hf_test::make_core(hf_test::grid(20, 14, 1, 0.2));
+  FieldQuadOptions options;
+  options.core = core, options.edge_length = 2 / core->mesh.scale;
+  const QuadResult result = make_field_quads(options);
+  expect_valid(*core, result.mesh, "rectangle");
+  EXPECT_EQ(result.mesh.face_count(), 10 * 7);
+  EXPECT_EQ(irregular_count(result.mesh, *core->memory), 0);
+  EXPECT_NEAR(area_of(result.mesh) * core->mesh.scale * core->mesh.scale, 20 * 14, 1e-6);  // borders are kept
+}
+
+TEST(FieldQuads, creases_of_a_box_are_kept) {
+  const auto core = core_of(samples::box(3, 2, 1, 12, 9, 6));
+  FieldQuadOptions options;
+  options.core = core, options.faces = 300, options.crease = 40;
+  FieldQuadReport report;
+  const QuadResult result = make_field_quads(options, &report);
+  expect_valid(*core, result.mesh, "box");
+  EXPECT_EQ(report.left_out, 0);
+  EXPECT_EQ(report.singularities, 8);
+  EXPECT_EQ(irregular_count(result.mesh, *core->memory), 8);
+  const double scale = core->mesh.scale;
+  EXPECT_NEAR(area_of(result.mesh) * scale * scale, 2 * (3 * 2 + 3 * 1 + 2 * 1), 1e-6);
+  // Without creases, edges and corners are cut.
+  options.crease = 0;
+  EXPECT_LT(area_of(make_field_quads(options).mesh) * scale * scale, 22 - 1e-3);
+}
+
+TEST(FieldQuads, a_map_that_is_turned_over_has_crossings_that_cancel) {
+  const Stages stages(core_of(samples::jittered_torus(60, 40)));
+  GridMapper mapper = stages.mapper();
+  GridMap map = mapper.make(0.06);
+  ExtractReport plain;
+  const QuadMesh before = extract_quads(stages.surface, map, stages.features, plain, *stages.core->memory);
+  ASSERT_EQ(plain.backward, 0);
+  // Some vertices that no seam touches are moved in the map, so that triangles around them turn over.
+  std::int32_t moved = 0;
+  for (std::int32_t v = 0; v < stages.surface.first_apex; v += 37) {
+    const std::int32_t begin = stages.surface.out[v];
+    bool free = stages.seams.parameter[v] == Seams::free;
+    for (std::int32_t h = begin;;) {
+      free &= !stages.seams.cut[h];
+      h = stages.surface.turn_left(h);
+      if (h == begin) break;
+    }
+    if (!free) continue;
+    ++moved;
+    const std::int64_t by = (std::int64_t{2} << map.bits) * 2 / 5;
+    for (std::int32_t h = begin;;) {
+      map.u[h] += by / 2 * 2, map.v[h] -= by / 3 * 2 / 2 * 2;
+      h = stages.surface.turn_left(h);
+      if (h == begin) break;
+    }
+  }
+  ASSERT_GT(moved, 10);
+  ExtractReport report;
+  QuadMesh mesh = extract_quads(stages.surface, map, stages.features, report, *stages.core->memory);
+  EXPECT_GT(report.backward, 0);
+  EXPECT_EQ(mesh.face_count() - 2 * report.backward, before.face_count());
+  EXPECT_GT(remove_doublets(mesh, *stages.core->memory), 0);
+  EXPECT_EQ(mesh.corner.size(), 4 * mesh.face_count());
+}
+
+TEST(FieldQuads, stops_when_it_is_cancelled) {
+  Progress progress;
+  FieldQuadOptions options;
+  options.core = core_of(samples::sphere(24));
+  const CallProgress call(&progress);
+  progress.cancel();
+  try {
+    make_field_quads(options);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), HF_ERROR_CANCELLED);
+  }
+}
+
+}  // namespace
