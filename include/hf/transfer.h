@@ -21,7 +21,7 @@ enum {
 };
 
 enum {
-  HF_GROUND_KEEP = 0, /* feet stand, and no part sinks deeper than the source's; thin parts may. The default */
+  HF_GROUND_KEEP = 0, /* feet stand, and no part sinks deeper than the source's. The default */
   HF_GROUND_OFF = 1   /* there is no ground: for flying and swimming, or where the host has its own */
 };
 
@@ -33,7 +33,7 @@ enum {
   HF_PAIR_NO_ALIGNMENT = 8, /* keep the source's rotations as they are even if the rest limbs point elsewhere */
   HF_PAIR_CONTACT = 16,     /* comes as near to the ground as the source's region, scaled, while that is near it (a nose
                                that grazes, a hand that leans); elsewhere it is free */
-  HF_PAIR_SINKS = 32        /* this limb may sink into the ground: a tail, a held weapon. Thin parts may anyway */
+  HF_PAIR_SINKS = 32        /* this limb may sink into the ground: a tail, a held weapon */
 };
 
 enum { HF_PAIR_LIMIT = 256 }; /* most pairs of a transfer */
@@ -149,12 +149,12 @@ typedef struct hf_transfer_frame {
  *
  * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region follows the
  * path of the source's region). While a foot of the source stands on the ground, the target's foot follows its scaled
- * path exactly. No part of the target sinks deeper into the ground than the source, scaled, but for thin parts (ears,
- * antlers, blades) and limbs flagged HF_PAIR_SINKS. The ground does not move regions that you hold. A lying target
- * rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules of the
- * ground come in continuously. HF_GROUND_OFF switches them off. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE
- * (index = source vertex, or position in the holds), HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held
- * twice), HF_ERROR_TOO_LARGE (holds). Thread safety: changes `transfer`. Since 0.1. */
+ * path exactly. No part of the target sinks deeper into the ground than the source, scaled, but for limbs flagged
+ * HF_PAIR_SINKS. What would sink bends up. The ground does not move regions that you hold. A lying target rests on the
+ * parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules of the ground come
+ * in continuously. HF_GROUND_OFF switches them off. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE (index =
+ * source vertex, or position in the holds), HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held twice),
+ * HF_ERROR_TOO_LARGE (holds). Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
 /* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With weight_count 4 the skin replays

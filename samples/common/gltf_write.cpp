@@ -5,19 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <stdexcept>
 
 #include "common/file_bytes.h"
 #include "common/file_write.h"
+#include "common/gltf_accessor_write.h"
 #include "common/gltf_appearance.h"
 #include "common/gltf_pack.h"
 
 namespace samples {
 namespace {
-
-constexpr size_t max_buffer_bytes = (1ull << 31) - 1;  // what tinygltf's own offsets hold
 
 // Arrays of vertices in one file: primitives times attributes and shape keys. An array takes 2.5 KB while it is
 // written, 160 MB at this limit; half would refuse crowds of 300 parts with a hundred keys.
@@ -80,9 +78,9 @@ Influences tidy(const Influences& from) {
   return to;
 }
 
-class Writer {
+class Writer : AccessorWriter {
  public:
-  explicit Writer(const Model& model) : model_(model) {}
+  explicit Writer(const Model& model) : AccessorWriter(model.name), model_(model) {}
 
   std::string run(bool binary) {
     check_vertex_arrays();
@@ -97,54 +95,6 @@ class Writer {
   }
 
  private:
-  int add_view(const void* data, size_t size, int target) {
-    if (size > max_buffer_bytes - 4 || bytes_.size() > max_buffer_bytes - 4 - size) {
-      throw std::runtime_error(model_.name + ": the model takes more than 2 GB and cannot be written as one glTF.");
-    }
-    bytes_.resize((bytes_.size() + 3) / 4 * 4, 0);
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = bytes_.size();
-    view.byteLength = size;
-    view.target = target;
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    bytes_.insert(bytes_.end(), bytes, bytes + size);
-    out_.bufferViews.push_back(view);
-    return static_cast<int>(out_.bufferViews.size()) - 1;
-  }
-
-  int add_accessor(const void* data, size_t count, int type, int component, int target, bool bounds = false) {
-    const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type));
-    const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(component));
-    tinygltf::Accessor accessor;
-    accessor.bufferView = add_view(data, count * static_cast<size_t>(components * bytes), target);
-    accessor.count = count;
-    accessor.type = type;
-    accessor.componentType = component;
-    if (bounds) add_bounds(static_cast<const float*>(data), count, static_cast<size_t>(components), accessor);
-    out_.accessors.push_back(accessor);
-    return static_cast<int>(out_.accessors.size()) - 1;
-  }
-
-  static void add_bounds(const float* values, size_t count, size_t components, tinygltf::Accessor& accessor) {
-    for (size_t c = 0; c < components; ++c) {
-      float low = values[c], high = values[c];
-      for (size_t i = 0; i < count; ++i) {
-        low = std::min(low, values[i * components + c]);
-        high = std::max(high, values[i * components + c]);
-      }
-      accessor.minValues.push_back(low);
-      accessor.maxValues.push_back(high);
-    }
-  }
-
-  template <typename Vector>
-  int add_vectors(const std::vector<Vector>& values, bool bounds = false) {
-    constexpr int types[] = {0, 0, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4};
-    return add_accessor(values.data(), values.size(), types[Vector::length()], TINYGLTF_COMPONENT_TYPE_FLOAT,
-                        TINYGLTF_TARGET_ARRAY_BUFFER, bounds);
-  }
-
   void add_looks() {
     if (model_.appearance) {
       const Appearance& looks = *model_.appearance;
@@ -252,7 +202,7 @@ class Writer {
       to.attributes["COLOR_0"] = add_vectors(colors);
     }
     if (!from.influences.empty()) add_influences(from, to);
-    to.indices = add_indices(from);
+    to.indices = add_indices(from.indices);
     for (const MorphTarget& target : from.targets) to.targets.push_back(add_target(from, target));
     return to;
   }
@@ -300,40 +250,6 @@ class Writer {
                                        TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TARGET_ARRAY_BUFFER);
       to.attributes["WEIGHTS_" + n] = add_vectors(weights);
     }
-  }
-
-  int add_indices(const Primitive& from) {
-    const uint32_t highest = *std::max_element(from.indices.begin(), from.indices.end());
-    if (highest < 65535) {
-      const std::vector<uint16_t> shorts(from.indices.begin(), from.indices.end());
-      return add_accessor(shorts.data(), shorts.size(), TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
-                          TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    }
-    return add_accessor(from.indices.data(), from.indices.size(), TINYGLTF_TYPE_SCALAR,
-                        TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-  }
-
-  // Displacements of a morph target: most move few vertices, so zeros are left out where that halves the bytes.
-  int add_displacements(const std::vector<glm::vec3>& values, bool bounds = false) {
-    std::vector<uint32_t> indices;
-    std::vector<glm::vec3> moved;
-    for (size_t v = 0; v < values.size(); ++v)
-      if (values[v] != glm::vec3(0)) indices.push_back(static_cast<uint32_t>(v)), moved.push_back(values[v]);
-    constexpr size_t row = sizeof(uint32_t) + sizeof(glm::vec3);
-    if (2 * row * indices.size() > sizeof(glm::vec3) * values.size() || values.empty())
-      return add_vectors(values, bounds);
-    if (indices.empty()) indices.push_back(0), moved.emplace_back(0.0f);
-    tinygltf::Accessor accessor;
-    accessor.count = values.size(), accessor.type = TINYGLTF_TYPE_VEC3;
-    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-    if (bounds) add_bounds(&values[0].x, values.size(), 3, accessor);
-    accessor.sparse.isSparse = true, accessor.sparse.count = static_cast<int>(indices.size());
-    accessor.sparse.indices.byteOffset = accessor.sparse.values.byteOffset = 0;
-    accessor.sparse.indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    accessor.sparse.indices.bufferView = add_view(indices.data(), indices.size() * sizeof(uint32_t), 0);
-    accessor.sparse.values.bufferView = add_view(moved.data(), moved.size() * sizeof(glm::vec3), 0);
-    out_.accessors.push_back(accessor);
-    return static_cast<int>(out_.accessors.size()) - 1;
   }
 
   std::map<std::string, int> add_target(const Primitive& from, const MorphTarget& target) {
@@ -493,8 +409,6 @@ class Writer {
   }
 
   const Model& model_;
-  tinygltf::Model out_;
-  std::vector<unsigned char> bytes_;
   WrittenNumbers numbers_;
   std::vector<int> enter_, last_;  // see number_nodes()
 };

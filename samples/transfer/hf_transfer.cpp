@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -14,6 +15,8 @@
 #include "common/links.h"
 #include "common/mesh_file.h"
 #include "common/program.h"
+#include "transfer/batch.h"
+#include "transfer/clip_binding.h"
 #include "transfer/clip_sheet.h"
 #include "transfer/outputs.h"
 #include "transfer/session.h"
@@ -24,6 +27,12 @@
 namespace {
 
 using namespace samples;
+
+#ifdef _WIN32
+constexpr const char* null_device = "NUL";
+#else
+constexpr const char* null_device = "/dev/null";
+#endif
 
 void list_joints(const std::filesystem::path& file) {
   const Model model = read_gltf(file);
@@ -99,15 +108,27 @@ Motion read_motion(const Model& source, const TransferCommand& command) {
   return out;
 }
 
-// Some poses of everything that will be played, to look for contacts.
-std::vector<std::vector<double>> some_poses(const Model& source, const FlatMesh& mesh, const Motion& motion) {
-  std::vector<std::vector<double>> out = motion.poses;
-  for (const Animation* clip : motion.clips) {
-    for (int k = 0; k < 24; ++k)
-      out.push_back(double_positions(posed_positions(source, mesh, *clip, clip_duration(*clip) * k / 23)));
-  }
+// Some poses of a clip, to look for contacts.
+std::vector<std::vector<double>> some_poses(const Model& source, const FlatMesh& mesh, const Animation& clip) {
+  std::vector<std::vector<double>> out;
+  for (int k = 0; k < 24; ++k)
+    out.push_back(double_positions(posed_positions(source, mesh, clip, clip_duration(clip) * k / 23)));
   return out;
 }
+
+// Contacts of one run. Each clip has its own: a nose that grazes in one clip is free in the others.
+struct Contacts {
+  std::vector<std::string> lines;
+  std::set<std::string> names;
+
+  void set(Session& session, const TransferCommand& command, const std::string& clip,
+           const std::vector<std::vector<double>>& poses) {
+    for (const std::string& line : session.set_contacts(command.contacts, poses))
+      lines.push_back(clip.empty() || !command.contacts.empty() ? line : "clip \"" + clip + "\": " + line);
+    for (const PairReport& pair : session.pairs())
+      if (pair.contact) names.insert(pair.name);
+  }
+};
 
 // A gap between linked pieces beyond this share of the box is warned of.
 constexpr double worrying_gap = 0.01;
@@ -158,23 +179,26 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
 RunReport run(Session& session, const Model& source, const Model& target, const Motion& motion,
               const TransferCommand& command, bool edited, ProgressBar& bar) {
   const auto name = [&](const std::filesystem::path& file) { return edited ? edited_name(file) : file; };
-  const std::vector<std::string> contacts =
-      session.set_contacts(command.contacts, some_poses(source, session.source_flat(), motion));
+  Contacts contacts;
   std::vector<PlayedClip> clips;
   for (const Animation* animation : motion.clips) {
     const double rate = command.rate != 0 ? command.rate : clip_duration(*animation) < 1 ? 60 : 30;
+    if (command.contacts.empty() || animation == motion.clips.front())
+      contacts.set(session, command, animation->name, some_poses(source, session.source_flat(), *animation));
     clips.push_back(session.play(*animation, rate, bar));
   }
   if (!motion.poses.empty()) {
     std::vector<double> times;
     for (size_t f = 0; f < motion.poses.size(); ++f)
       times.push_back(static_cast<double>(f) / (command.rate > 0 ? command.rate : 30));
+    contacts.set(session, command, "", motion.poses);
     clips.push_back(session.play("", times, motion.poses, bar));
   }
   const std::filesystem::path output = name(command.kind == "frames" ? command.frames : command.output);
   bar.begin("writing " + output.string());
   RunReport report = make_report(session, clips, output.string());
-  report.contacts = contacts;
+  report.contacts = contacts.lines;
+  for (PairReport& pair : report.pairs) pair.contact = contacts.names.count(pair.name) > 0;
   const std::vector<PlayedClip> written = write_output(session, target, command, output, clips, report);
   bar.end();
   if (!command.sheet.empty()) {
@@ -199,15 +223,48 @@ Suggestion propose(const Model& source, const Model& target, const TransferComma
   return suggestion;
 }
 
-int transfer(const TransferCommand& command) {
+// Clips without a surface go to the target's skeleton as they are: no surface is read, and nothing is computed.
+nlohmann::json put_clips(const Model& clips, const Model& target, const TransferCommand& command) {
+  if (!command.sheet.empty() || !command.suggest.empty() || !command.edits.empty() ||
+      (!command.kind.empty() && command.kind != "own-skin"))
+    throw std::runtime_error(clips.name +
+                             " has no surface: its clips go to TARGET's own skeleton; --sheet, --edit, --suggest-pairs "
+                             "and other kinds of --as need a surface");
+  const BoundClips bound = bind_clips(target, clips, command.clip);
+  write_gltf(bound.model, command.output);
+  nlohmann::json names = nlohmann::json::array();
+  for (size_t c = 0; c < bound.clips; ++c) names.push_back(bound.model.animations[c].name);
+  char text[256];
+  std::snprintf(text, sizeof text, "%zu clips of a skeleton on %s: %zu of %zu joints, lengths times %.4g\n",
+                bound.clips, target.name.c_str(), bound.joints, bound.animated, bound.scale);
+  std::string all = text;
+  for (const std::string& name : bound.missing) all += "  note: the model has no joint \"" + name + "\"\n";
+  std::fputs(all.c_str(), stdout);
+  if (!command.report.empty()) write_bytes(command.report, all);
+  return {
+      {"output", command.output.string()}, {"written_as", "own-skin"}, {"clips", names},      {"joints", bound.joints},
+      {"animated", bound.animated},        {"missing", bound.missing}, {"scale", bound.scale}};
+}
+
+int transfer(TransferCommand command, nlohmann::json& json) {
   ProgressBar bar(command.quiet);
   PairsFile pairs;
   if (!command.pairs.empty()) pairs = read_pairs(command.pairs);
   const EditsFile edits = command.edits.empty() ? EditsFile() : read_edits(command.edits);
   bar.begin("reading models");
-  const Model source = rested(read_model(command.source), command.source_rest, "--source-rest"),
-              target = rested(read_model(command.target), command.target_rest, "--target-rest");
+  Model source = rested(read_model(command.source), command.source_rest, "--source-rest");
+  const Model target = rested(read_model(command.target), command.target_rest, "--target-rest");
   bar.end();
+  if (!has_surface(source) && command.clips.empty()) {
+    json = put_clips(source, target, command);
+    if (!command.json.empty()) write_json(command.json, json);
+    return 0;
+  }
+  if (!command.clips.empty()) {
+    BoundClips bound = bind_clips(source, read_gltf(command.clips), command.clip);
+    bound.model.animations.resize(bound.clips);
+    source = std::move(bound.model), command.clip = "all";
+  }
   if (!command.suggest.empty()) {
     write_json(command.suggest, propose(source, target, command).file);
     return 0;
@@ -220,13 +277,13 @@ int transfer(const TransferCommand& command) {
         pair.sinks || std::find(command.sinking.begin(), command.sinking.end(), pair.name) != command.sinking.end();
   Session session(source, target, pairs, command.threads, command.links, bar, command.ground);
   for (const auto& [model, surface] :
-       {std::pair{&source, session.source_surface()}, {&target, session.target_surface()}}) {
+       {std::pair<const Model*, hf_surface>{&source, session.source_surface()}, {&target, session.target_surface()}}) {
     if (const std::string sentence = links_sentence(surface); !sentence.empty())
       std::printf("%s: %s\n", model->name.c_str(), sentence.c_str());
   }
   const RunReport first = run(session, source, target, motion, command, false, bar);
   std::string text = to_text(first, source.name + " on " + target.name);
-  nlohmann::json json = to_json(first);
+  json = to_json(first);
   bool factorised_again = false;
   if (!command.edits.empty()) {
     const uint32_t before_source = session.info().source_factorisation_count,
@@ -255,21 +312,49 @@ int transfer(const TransferCommand& command) {
   return 0;
 }
 
+// A command line that is refused says so where its outcome is asked for.
+void write_outcome(samples::CommandLine& line, const std::exception& error) {
+  for (int i = 1; i + 1 < line.count(); ++i)
+    if (std::string(line.words()[i]) == "--outcome") write_json(line.words()[i + 1], {{"error", error.what()}});
+}
+
+// The program as its user calls it: words in, exit code out.
+int run_command(const TransferCommand& command, const char* program) {
+  if (command.silent && !std::freopen(null_device, "w", stdout)) return 1;
+  if (command.help) {
+    std::fputs(usage(), stdout);
+    return 0;
+  }
+  if (!command.joints.empty()) {
+    list_joints(command.joints);
+    return 0;
+  }
+  if (!command.batch.empty()) return run_batch(program, read_batch(command.batch), command.jobs);
+  nlohmann::json report;
+  try {
+    const int code = transfer(command, report);
+    if (!command.outcome.empty()) write_json(command.outcome, {{"report", report}});
+    return code;
+  } catch (const std::exception& error) {
+    if (!command.outcome.empty()) write_json(command.outcome, {{"error", error.what()}});
+    if (!command.silent) throw;
+    return 1;
+  }
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
   try {
     samples::CommandLine line(count, arguments);
-    const TransferCommand command = parse_command(line.count(), line.words());
-    if (command.help) {
-      std::fputs(usage(), stdout);
-      return 0;
+    TransferCommand command;
+    try {
+      command = parse_command(line.count(), line.words());
+    } catch (const std::exception& error) {
+      write_outcome(line, error);
+      throw;
     }
-    if (!command.joints.empty()) {
-      list_joints(command.joints);
-      return 0;
-    }
-    return transfer(command);
+    return run_command(command, line.words()[0]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "hf_transfer: %s\n", error.what());
     return 1;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/animate.h"
+#include "transfer/clip_binding.h"
 #include "transfer/key_reduce.h"
 #include "transfer/rig_fit.h"
 
@@ -165,17 +166,7 @@ Model own_skin_model(const Model& target, const Session& session, const std::vec
   }
   // nodes that are animated may not have a matrix
   for (const Animation& animation : out.animations) {
-    for (const Channel& channel : animation.channels) {
-      Node& node = out.nodes[static_cast<size_t>(channel.node)];
-      if (!node.matrix) continue;
-      const glm::mat4 m = *node.matrix;
-      node.matrix.reset(), node.translation = glm::vec3(m[3]);
-      for (int c = 0; c < 3; ++c) node.scale[c] = glm::length(glm::vec3(m[c]));
-      if (glm::determinant(glm::mat3(m)) < 0) node.scale = -node.scale;
-      glm::mat3 turn(m);
-      for (int c = 0; c < 3; ++c) turn[c] /= node.scale[c];
-      node.rotation = glm::normalize(glm::quat_cast(turn));
-    }
+    for (const Channel& channel : animation.channels) split_matrix(out.nodes[static_cast<size_t>(channel.node)]);
   }
   figures.rms = frames > 0 ? std::sqrt(sum / static_cast<double>(frames)) : 0;
   figures.parts = rig.turning();

@@ -188,6 +188,7 @@ uint32_t Session::cluster_count() {
 
 // The pairs of these names are put in again with these flags; the regions stay.
 void Session::change_flags(const std::vector<PairEntry>& entries) {
+  bool changed = false;
   for (const PairEntry& entry : entries) {
     const auto live =
         std::find_if(live_.begin(), live_.end(), [&](const Live& other) { return other.entry.name == entry.name; });
@@ -201,9 +202,9 @@ void Session::change_flags(const std::vector<PairEntry>& entries) {
     desc.source_counts = &source_count, desc.source_vertices = live->source.vertices.data();
     desc.target_counts = &target_count, desc.target_vertices = live->target.vertices.data();
     check(hf_transfer_add_pairs(transfer_, &desc, &live->number), "pair \"" + entry.name + "\"");
-    live->entry = entry;
+    live->entry = entry, changed = true;
   }
-  prepare();
+  if (changed) prepare();
 }
 
 std::vector<PairEntry> Session::found_contacts(const std::vector<std::vector<double>>& poses) const {
@@ -222,11 +223,11 @@ std::vector<PairEntry> Session::found_contacts(const std::vector<std::vector<dou
       if (!has_feet) entry.foot = true, out.push_back(entry);
       continue;
     }
-    for (const std::vector<double>& pose : poses) {
-      if (rest < 0.1 * source_finder_.diagonal() || lowest_of(live.source, pose, up) - ground > 0.15 * rest) continue;
-      entry.contact = true, out.push_back(entry);
-      break;
-    }
+    entry.contact = rest >= 0.1 * source_finder_.diagonal() &&
+                    std::any_of(poses.begin(), poses.end(), [&](const std::vector<double>& pose) {
+                      return lowest_of(live.source, pose, up) - ground <= 0.15 * rest;
+                    });
+    out.push_back(entry);
   }
   return out;
 }
@@ -271,9 +272,11 @@ std::vector<std::string> Session::set_contacts(const std::vector<std::string>& n
   const std::vector<PairEntry> entries = names.empty() ? found_contacts(poses) : named_contacts(names);
   if (!entries.empty()) change_flags(entries);
   std::vector<std::string> out;
-  for (const PairEntry& entry : entries)
-    out.push_back("\"" + entry.name + "\" " +
-                  (entry.foot ? "stands on the ground" : "touches the ground now and then"));
+  for (const PairEntry& entry : entries) {
+    if (entry.foot || entry.contact)
+      out.push_back("\"" + entry.name + "\" " +
+                    (entry.foot ? "stands on the ground" : "touches the ground now and then"));
+  }
   return out;
 }
 

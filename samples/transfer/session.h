@@ -57,9 +57,9 @@ class Session {
   // Removes pairs by name and adds others. Regions of new pairs leave out vertices that existing pairs have.
   void edit(const EditsFile& edits);
 
-  // Pairs that touch the ground in these clips become contacts, or feet if no pair is a foot. names: the pairs or joints
-  // of the source that touch it; "none" alone: no contacts. If names is empty, they are found: a region that stands on
-  // both models is a foot, and one that comes near the ground is a contact. Returns a line for each.
+  // Pairs that touch the ground in these poses become contacts, or feet if no pair is a foot. names: the pairs or
+  // joints of the source that touch it; "none" alone: no contacts. If names is empty, they are found: a region that
+  // stands on both models is a foot, and one that comes near the ground is a contact. Returns a line for each.
   std::vector<std::string> set_contacts(const std::vector<std::string>& names,
                                         const std::vector<std::vector<double>>& poses);
 

@@ -71,6 +71,8 @@ const char* usage() {
          "       hf_transfer --source REF.obj --poses P1.ply P2.obj ... --target REF.obj --pairs PAIRS.json "
          "--out-poses DIR\n"
          "       hf_transfer SOURCE.glb TARGET.glb --suggest-pairs PAIRS.json\n"
+         "       hf_transfer CLIPS.glb TARGET.glb -o OUT.glb  (CLIPS has no surface, TARGET has its skeleton)\n"
+         "       hf_transfer --batch LIST [--jobs N]\n"
          "       hf_transfer --joints FILE.glb\n"
          "Plays the motion of SOURCE on TARGET: pairs of places say what corresponds, the rotations go over, the\n"
          "target keeps its own shape. OUT.glb holds TARGET's surface and looks with a new skin and the clips.\n"
@@ -79,6 +81,7 @@ const char* usage() {
          "  --suggest-pairs FILE  write the proposal, to be edited, and stop\n"
          "  -o FILE         the result, .glb or .gltf\n"
          "  --clip NAME     a clip by name, by the part after '|', by index, or all (default: the first)\n"
+         "  --clips FILE    take the clips of this file, which needs no surface; SOURCE has its skeleton\n"
          "  --fps N         keys per second, 1 to 240 (default 30; 60 for clips below a second), or keys: the source's "
          "own\n"
          "  --as KIND       own-skin (TARGET's joints turn; the default where it has a skin), skin (a new one),\n"
@@ -90,7 +93,7 @@ const char* usage() {
          "  --out-poses DIR a mesh file per frame, in TARGET's own vertex order\n"
          "  --source FILE --target FILE --poses FILES  meshes: posed copies of the source instead of a clip\n"
          "  --contacts LIST pairs or joints that touch the ground, with commas; none; found when not given\n"
-         "  --sinking LIST  pairs whose limb may sink into the ground, with commas; thin parts may anyway\n"
+         "  --sinking LIST  pairs whose limb may sink into the ground, with commas\n"
          "  --no-ground     no feet stand and nothing is kept above the ground\n"
          "  --source-rest CLIP@TIME, --target-rest CLIP@TIME  a pose of a clip, in seconds, is the rest pose\n"
          "  --up AXIS, --forward AXIS  for proposals: +y, -z, ...; --source-up, --target-up, --source-forward and\n"
@@ -102,7 +105,11 @@ const char* usage() {
          "  --no-links      pieces of a model stay apart; otherwise links join them\n"
          "  --threads N     threads the library may use (default 1)\n"
          "  --joints FILE   list the joints of a model and the vertices they own, and stop\n"
-         "  --quiet         no progress bar\n";
+         "  --batch LIST    a transfer for each line of LIST (the words after hf_transfer), each in its own process;\n"
+         "                  a line of JSON for each, the largest exit code\n"
+         "  --jobs N        processes of a batch at a time (default: one for each core)\n"
+         "  --outcome FILE  JSON with the report, or with the error\n"
+         "  --quiet         no progress bar; --silent: not a word\n";
 }
 
 TransferCommand parse_command(int count, char** arguments) {
@@ -136,6 +143,16 @@ TransferCommand parse_command(int count, char** arguments) {
       out.edits = value();
     } else if (word == "--joints") {
       out.joints = value();
+    } else if (word == "--clips") {
+      out.clips = value();
+    } else if (word == "--batch") {
+      out.batch = value();
+    } else if (word == "--jobs") {
+      out.jobs = static_cast<unsigned>(number_of(word, value(), 1, 1024));
+    } else if (word == "--outcome") {
+      out.outcome = value();
+    } else if (word == "--silent") {
+      out.silent = out.quiet = true;
     } else if (word == "--onto-skin") {
       out.kind = "own-skin";
     } else if (word == "--as") {
@@ -189,6 +206,11 @@ TransferCommand parse_command(int count, char** arguments) {
   }
   out.source_axes = axes_of(of_source, both, "source"), out.target_axes = axes_of(of_target, both, "target");
   if (out.help || !out.joints.empty()) return out;
+  if (!out.batch.empty()) {
+    if (!files.empty()) throw std::runtime_error("--batch takes its models from the list, not " + files[0]);
+    return out;
+  }
+  if (!out.clips.empty() && !out.poses.empty()) throw std::runtime_error("give --clips or --poses, not both");
   if (!out.source.empty() || !out.target.empty()) {
     if (!files.empty() || out.source.empty() || out.target.empty())
       throw std::runtime_error("--source and --target go together, and then no other file stands alone; see --help");

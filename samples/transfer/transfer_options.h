@@ -15,6 +15,10 @@ namespace samples {
 struct TransferCommand {
   std::filesystem::path source, target, pairs, output;
   std::filesystem::path sheet, report, json, edits, joints, suggest;  // empty: not asked for
+  std::filesystem::path clips;                                        // a file of clips for the source's skeleton
+  std::filesystem::path batch;                                        // a list of transfers (batch.h)
+  std::filesystem::path outcome;                                      // JSON: the report, or what went wrong
+  unsigned jobs = 0;                                                  // processes of a batch; 0: one for each core
   std::string clip;                                                   // name, index or all; empty: the first
   double rate = 0;  // frames per second; 0: 30, or 60 for clips below a second; -1: the source's own keys
   unsigned threads = 1;
@@ -29,7 +33,7 @@ struct TransferCommand {
   std::vector<std::string> sinking;              // pairs whose limb may sink into the ground
   bool ground = true;
   bool links = true;  // between the pieces of a model
-  bool quiet = false, help = false;
+  bool quiet = false, silent = false, help = false;
 };
 
 // Throws std::runtime_error naming the option.

@@ -58,7 +58,6 @@ struct Transfer::Prepared {
         loose(&memory),
         holds(&memory),
         given_hold(&memory),
-        region_depths(&memory),
         rides(&memory),
         columns(&memory),
         blended(&memory),
@@ -68,9 +67,10 @@ struct Transfer::Prepared {
         target_lows(&memory),
         touch(&memory),
         sinks(&memory),
-        depths(&memory),
         rises(&memory),
-        sunk(&memory) {}
+        needs(&memory),
+        forces(&memory),
+        hold_forces(&memory) {}
   struct Anchor {
     std::uint32_t number = 0, flags = 0;
     bool is_foot = false;
@@ -97,10 +97,9 @@ struct Transfer::Prepared {
   Vector<Quaternion> given, rotations;  // rotations from the source, and after turning to fit neighbours
   Vector<Mat3> matrices;
   Vector<Vec3> shifts, cluster_goals, goals;
-  Vector<Anchor> loose;          // pairs whose target region does not follow the source's path
-  Vector<Hold> holds;            // this round's constraints: room for one per pair and held vertex
-  Vector<Hold> given_hold;       // constraint of the caller per region; share 0: none
-  Vector<double> region_depths;  // how deep each region sinks
+  Vector<Anchor> loose;     // pairs whose target region does not follow the source's path
+  Vector<Hold> holds;       // this round's constraints: room for one per pair and held vertex
+  Vector<Hold> given_hold;  // constraint of the caller per region; share 0: none
   // Data that keeps the surface above the ground.
   Vector<std::int32_t> rides;  // by target vertex: the region it moves with, or -1
   Vector<BlendColumns> columns;
@@ -111,10 +110,10 @@ struct Transfer::Prepared {
   // cluster's target vertices. touch: the cluster's area if the cluster touches the ground now but not at rest.
   Vector<double> rest_lows, source_lows, target_lows, touch;
   double source_low = 0;         // lowest height of all source vertices
-  Vector<double> sinks;          // per cluster: depth (in boxes) that may stay under the ground
-  Buffer<double> falloff;        // clusters x clusters: how far a cluster rises with another
-  Vector<double> depths, rises;  // per cluster: largest depth under the ground, and how far it is raised
-  Vector<std::int32_t> sunk;     // scratch: vertices under the ground
+  Vector<std::uint8_t> sinks;    // per target vertex: 1 if it may stay under the ground
+  Vector<double> rises;          // per cluster: how far it is raised
+  Vector<double> needs, forces;  // per vertex: how far it must rise, and the force that raises it
+  Vector<double> hold_forces;    // per constraint of the frame: the force that keeps it in place
 };
 
 }  // namespace hf_inner

@@ -209,7 +209,6 @@ void Transfer::prepare_anchors(Prepared& p) const {
   p.translations.prepare(*target_core_, target_area_, p.clusters, {regions.data(), regions.size()},
                          {loose.data(), loose.size()}, options);
   p.holds.reserve(numbers_.size()), p.given_hold.assign(numbers_.size() + 1, Hold());
-  p.region_depths.assign(numbers_.size() + 1, 0.0);
   for (std::size_t k = 0; k < p.anchors.size(); ++k) p.anchors[k].cluster = p.translations.heaviest(k);
 
   // Finds the vertices that are raised with the region of a pair, because they blend from the same clusters.
@@ -226,7 +225,7 @@ void Transfer::prepare_anchors(Prepared& p) const {
   }
 }
 
-// Finds the cluster of each source vertex, and the lowest rest height of each cluster.
+// Finds the cluster of each source vertex, the lowest rest height of each cluster, and the vertices that may sink.
 void Transfer::prepare_ground(Prepared& p) const {
   const std::size_t width = numbers_.size(), count = at(p.clusters.count);
   const Mesh& mesh = source_core_->mesh;
@@ -248,6 +247,12 @@ void Transfer::prepare_ground(Prepared& p) const {
                                    }
                                  }
                                });
+  p.sinks.assign(at(target_core_->size()), std::uint8_t{0});
+  for (std::size_t v = 0; v < p.sinks.size(); ++v) {
+    const double* row = p.target_field.data() + v * width;
+    p.sinks[v] =
+        (flags_[numbers_[static_cast<std::size_t>(std::max_element(row, row + width) - row)]] & HF_PAIR_SINKS) != 0;
+  }
   const Vec3 up = up_of(source_axes_);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     double& low = p.rest_lows[at(p.source_owner[v])];
@@ -285,7 +290,6 @@ Transfer::Prepared& Transfer::prepare() {
   p.refit.prepare(target_core_->mesh, target_area_, p.clusters, memory);
   p.target_centroid = area_mean(target_core_->mesh, target_area_);
   prepare_ground(p);
-  prepare_sinking(p);
 
   // The frame before the first one is the rest shape.
   const std::size_t count = at(p.clusters.count);
@@ -293,7 +297,9 @@ Transfer::Prepared& Transfer::prepare() {
   p.given.assign(count, Quaternion()), p.rotations.assign(count, Quaternion()),
       p.matrices.assign(count, Mat3::Identity());
   p.columns.assign(count, BlendColumns()), p.blended.resize(at(target_core_->size()));
-  p.depths.assign(count, 0.0), p.rises.assign(count, 0.0), p.sunk.reserve(at(target_core_->size()));
+  p.rises.assign(count, 0.0);
+  p.needs.assign(at(target_core_->size()), 0.0), p.forces.assign(at(target_core_->size()), 0.0),
+      p.hold_forces.assign(numbers_.size() + 1, 0.0);
   p.shifts.assign(count, Vec3()), p.cluster_goals.assign(count, Vec3()), p.goals.assign(p.anchors.size(), Vec3());
   prepared_ = std::move(fresh);
   return p;

@@ -56,8 +56,9 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     if (anchor.is_foot && upright > 0) {
       const auto c = static_cast<std::size_t>(anchor.cluster);
       const Twist own = about(p.given[c] * p.cluster_turn[c].conjugate(), up);
-      const Quaternion part = power(own.turn, own.certain * turned_share(own.turn));
-      turned = (1 - upright) * turned + upright * (rotate(part, offset) - offset);
+      // A share of the turned offset, not of the turn: half a turn to the left is the same as half a turn to the right.
+      const Quaternion part = power(own.turn, turned_share(own.turn));
+      turned = (1 - upright) * turned + (upright * own.certain) * (rotate(part, offset) - offset);
     }
     p.goals[k] = anchor.target_rest + path + turned;
     if (!anchor.is_foot || !options_.keep_ground) continue;
@@ -173,7 +174,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   }
   if (lies > 0) lie_down(p, centroid, lies, fallen, share);
   blend(p);
-  if (over_ground) keep_above_ground(p, 1 - rigid, (1 - lies) * fallen);
+  if (over_ground) keep_above_ground(p, 1 - rigid);
   target_core_->jobs->for_each(
       static_cast<std::uint32_t>((p.blended.size() + vertex_block - 1) / vertex_block), [&](std::uint32_t b) {
         const std::size_t last = std::min(p.blended.size(), (std::size_t{b} + 1) * vertex_block);

@@ -170,6 +170,16 @@ void Translations::add_influences() {
   influence_.assign(rows * at(count_), 0.0), gram_.assign(rows * rows, 0.0);
   hold_matrix_.assign(rows * rows, 0.0), hold_rhs_.assign(rows, Vec3());
   fill_influences(0, region_rows_);
+  const std::size_t count = at(count_);
+  compliance_.assign(count * count, 0.0);
+  for (std::size_t c = 0; c < count; c += 4) {
+    const std::size_t width = std::min<std::size_t>(4, count - c);
+    std::fill(scratch_.begin(), scratch_.end(), 0.0);
+    for (std::size_t k = 0; k < width; ++k) scratch_[4 * (c + k) + k] = 1;
+    factor_.solve(scratch_.data());
+    for (std::size_t k = 0; k < width; ++k)
+      for (std::size_t d = 0; d < count; ++d) compliance_[(c + k) * count + d] = scratch_[4 * d + k];
+  }
 }
 
 void Translations::fill_influences(std::size_t first, std::size_t last) noexcept {
@@ -264,6 +274,13 @@ Vec3 Translations::turned(std::size_t anchor, const Mat3* rotations) const noexc
   Vec3 sum;
   for (std::int32_t i = row_start_[anchor]; i < row_start_[anchor + 1]; ++i)
     sum = sum + rotations[row_column_[at(i)]] * row_point_[at(i)];
+  return sum;
+}
+
+double Translations::mean(std::size_t row, const double* numbers) const noexcept {
+  double sum = 0;
+  for (std::int32_t i = row_start_[row]; i < row_start_[row + 1]; ++i)
+    sum += row_weight_[at(i)] * numbers[row_column_[at(i)]];
   return sum;
 }
 

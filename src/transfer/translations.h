@@ -20,6 +20,7 @@
 #pragma once
 #include <cstdint>
 
+#include "base/index.h"
 #include "base/span.h"
 #include "deform/dense.h"
 #include "deform/rotation.h"
@@ -58,6 +59,7 @@ class Translations {
         row_weight_(&memory),
         row_point_(&memory),
         influence_(&memory),
+        compliance_(&memory),
         gram_(&memory),
         hold_matrix_(&memory),
         hold_rhs_(&memory) {}
@@ -80,6 +82,13 @@ class Translations {
   // A is the matrix of the energies. R holds the rows of the held regions, s the diagonal of R A^-1 R^T. A row
   // may have one hold at most. Allocates nothing.
   void hold(Span<const Hold> holds, Vec3 up, const Mat3* rotations, Vec3* shifts) noexcept;
+  // How far each cluster moves for a unit force on another: the inverse of the energies' matrix, clusters x clusters.
+  const double* compliance() const noexcept { return compliance_.data(); }
+  // How far each cluster moves for a unit force on a row, and how far the row itself does.
+  const double* influence(std::size_t row) const noexcept { return influence_.data() + row * at(count_); }
+  double give(std::size_t row) const noexcept { return gram_[row * (row_start_.size() - 1) + row]; }
+  // Returns the mean of numbers per cluster over a row's region.
+  double mean(std::size_t row, const double* numbers) const noexcept;
   // Returns the cluster with the largest weight in a row.
   std::int32_t heaviest(std::size_t row) const noexcept;
   double row_weight(std::size_t row, std::int32_t cluster) const noexcept;
@@ -122,7 +131,7 @@ class Translations {
   Vector<Vec3> row_point_;
   // influence_: A^-1 R^T, rows x clusters, with A the matrix of the energies and R the rows. gram_: R A^-1 R^T.
   // hold_matrix_: scratch of the constraints (holds).
-  Vector<double> influence_, gram_, hold_matrix_;
+  Vector<double> influence_, compliance_, gram_, hold_matrix_;
   Vector<Vec3> hold_rhs_;
 };
 

@@ -1,15 +1,17 @@
 // hf_transfer_table FOLDER [--half choosing|judging|mixed|all] [--source NAME] [--target NAME] [--clip NAME]
-//                   [--runs] [--where] [--no-ground] [--no-links]
+//                   [--sample N] [--runs] [--where] [--no-ground] [--no-links]
 //
 // Plays every clip of every shared model on every other and measures what an animator would send back. Constants are
 // chosen on pairs whose two models lie in the choosing half. The judging half holds the pairs of the other models.
-// One line per pair says what was proposed; --runs adds a line per clip. Lengths are in boxes of the target.
+// One line per pair says what was proposed; --runs adds a line per clip. --sample N takes one run of N, always the same
+// ones. Lengths are in boxes of the target.
 //
 // A length of the source counts times the larger of two scales: that of the transfer, and that of the boxes. A body
 // moves by both: its path follows the first, its turning limbs follow the second.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
@@ -192,8 +194,43 @@ void say_where(const PlayedClip& played, const Loaded& source, const Loaded& tar
   }
 }
 
+// Whether a run is one of the sample: by its names, so that the sample never changes.
+bool in_sample(const std::string& source, const std::string& target, const std::string& clip, uint32_t one_of) {
+  uint32_t hash = 2166136261u;
+  for (const char c : source + "|" + target + "|" + clip) hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
+  hash ^= hash >> 16, hash *= 0x85ebca6bu, hash ^= hash >> 13;
+  return hash % one_of == 0;
+}
+
+// The deepest vertex under the ground of a run.
+void say_deepest(const PlayedClip& played, const Loaded& source, const Loaded& target, Session& session) {
+  const RegionFinder finder(target.model, target.flat, Axes());
+  const glm::dvec3 &up = session.target_axes().up, &from_up = session.source_axes().up;
+  const auto low_of = [](const std::vector<double>& xyz, const glm::dvec3& axis, size_t& vertex) {
+    double low = 1e300;
+    for (size_t i = 0; i < xyz.size(); i += 3) {
+      const double height = glm::dot(axis, glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2]));
+      if (height < low) low = height, vertex = i / 3;
+    }
+    return low;
+  };
+  size_t vertex = 0, deepest = 0, frame = 0;
+  const double ground = low_of(double_positions(target.flat.positions), up, vertex),
+               source_ground = low_of(double_positions(source.flat.positions), from_up, vertex);
+  double most = 0;
+  for (size_t f = 0; f < played.target_frames.size(); ++f) {
+    const double allowed =
+        session.scale() * std::min(0.0, low_of(played.source_frames[f], from_up, vertex) - source_ground);
+    const double depth = ground + allowed - low_of(played.target_frames[f], up, vertex);
+    if (depth > most) most = depth, deepest = vertex, frame = f;
+  }
+  std::printf("      %s frame %zu: %.4f of the box under the ground, vertex %zu of %s\n", played.clip.name.c_str(),
+              frame, most / target.box, deepest, finder.owner_name(static_cast<uint32_t>(deepest)).c_str());
+}
+
 struct Options {
   std::filesystem::path folder;
+  uint32_t sample = 1;
   std::string half = "choosing", source, target, clip;
   bool runs = false, links = true, ground = true, where = false;
 };
@@ -251,6 +288,14 @@ int table(const Options& options) {
       if (!options.target.empty() && options.target != target.name) continue;
       const std::string half = source.judging != target.judging ? "mixed" : source.judging ? "judging" : "choosing";
       if (options.half != "all" && options.half != half) continue;
+      const auto chosen = [&](size_t c) {
+        const std::string& name = source.model.animations[c].name;
+        return (options.clip.empty() || name.find(options.clip) != std::string::npos) &&
+               in_sample(source.name, target.name, name, options.sample);
+      };
+      bool any = false;
+      for (size_t c = 0; c < source.model.animations.size(); ++c) any = any || chosen(c);
+      if (!any) continue;
       ++pairs;
       std::string proposed;
       std::vector<Run> runs;
@@ -260,17 +305,16 @@ int table(const Options& options) {
         Session session(source.model, target.model, parse_pairs(suggestion.file, "the proposed pairs"), 1,
                         options.links, bar, options.ground);
         sample_clips(source);
-        Frames some;
-        for (const Frames& frames : source.frames)
-          for (size_t k = 0; k < 24; ++k) some.push_back(frames[k * (frames.size() - 1) / 23]);
-        session.set_contacts({}, some);
         for (size_t c = 0; c < source.frames.size(); ++c) {
-          const std::string& name = source.model.animations[c].name;
-          if (!options.clip.empty() && name.find(options.clip) == std::string::npos) continue;
-          if (source.frames[c].size() < 3) continue;
-          const PlayedClip played = session.play(name, source.times[c], source.frames[c], bar);
+          const Frames& frames = source.frames[c];
+          if (!chosen(c) || frames.size() < 3) continue;
+          Frames some;
+          for (size_t k = 0; k < 24; ++k) some.push_back(frames[k * (frames.size() - 1) / 23]);
+          session.set_contacts({}, some);
+          const PlayedClip played = session.play(source.model.animations[c].name, source.times[c], frames, bar);
           runs.push_back(measure(played, source, target, session));
           if (options.where && runs.back().spikes > 0) say_where(played, source, target, session);
+          if (options.where && runs.back().sunk > 0.01) say_deepest(played, source, target, session);
         }
       } catch (const std::exception& error) {
         ++refused;
@@ -316,6 +360,8 @@ int main(int count, char** arguments) {
                                                 : nullptr;
       if (value && i + 1 < count) {
         *value = arguments[++i];
+      } else if (word == "--sample" && i + 1 < count) {
+        options.sample = static_cast<uint32_t>(std::max(1L, std::strtol(arguments[++i], nullptr, 10)));
       } else if (word == "--runs") {
         options.runs = true;
       } else if (word == "--where") {

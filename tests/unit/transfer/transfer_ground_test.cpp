@@ -112,8 +112,7 @@ TEST(TransferGround, NoPartOfTheSurfaceSinks) {
     deepest = std::max(deepest, sunk(a, posed, frame_of(transfer, posed), transfer.scale()));
   }
   std::printf("falling to the side: sunk by %.5f of the box\n", deepest);
-  // thin parts may sink a little (transfer_sinking.cpp)
-  EXPECT_LT(deepest, 5e-3);
+  EXPECT_LT(deepest, 1e-3);
 }
 
 TEST(TransferGround, ABodyThatLiesRestsOnItsTrunkNotOnWhateverReachesLowest) {
