@@ -30,13 +30,16 @@ ContactSearch::ContactSearch(const Mesh& mesh, const SkinHint& skin, Memory& mem
       vertex_(mesh.positions.size(), &memory),
       chunk_start_(&memory),
       chunk_vertex_(&memory),
-      chunk_(&memory) {
+      chunk_(&memory),
+      joint_start_(&memory),
+      joint_(&memory) {
   for (const Index p : mesh.component) ++start_[at(p) + 1];
   for (std::size_t p = 0; p + 1 < start_.size(); ++p) start_[p + 1] += start_[p];
   Vector<Index> next(start_.begin(), start_.end() - 1, &memory);
   for (std::size_t v = 0; v < mesh.component.size(); ++v)
     vertex_[at(next[at(mesh.component[v])]++)] = static_cast<Index>(v);
   make_chunks();
+  if (skin.influence_count > 0) list_joints();
 }
 
 void ContactSearch::make_chunks() {
@@ -58,6 +61,45 @@ void ContactSearch::make_chunks() {
     }
   }
   chunk_start_.push_back(static_cast<Index>(chunk_.size()));
+}
+
+void ContactSearch::list_joints() {
+  const std::size_t count = skin_.influence_count;
+  Vector<double> largest(&memory_);      // by joint
+  Vector<std::uint16_t> seen(&memory_);  // joints of the piece
+  for (Index piece = 0; piece < mesh_.component_count(); ++piece) {
+    joint_start_.push_back(static_cast<Index>(joint_.size()));
+    for (const Index v : vertices_of(piece)) {
+      const std::size_t row = count * at(mesh_.given_of_inner[at(v)]);
+      for (std::size_t i = row; i < row + count; ++i) {
+        if (!(skin_.weights[i] > 0)) continue;
+        double weight = 0;  // a joint may be named twice
+        for (std::size_t j = row; j < row + count; ++j)
+          weight += skin_.joints[j] == skin_.joints[i] ? static_cast<double>(skin_.weights[j]) : 0.0;
+        const std::size_t joint = skin_.joints[i];
+        if (joint >= largest.size()) largest.resize(joint + 1, 0.0);
+        if (largest[joint] == 0 && weight > 0) seen.push_back(skin_.joints[i]);
+        largest[joint] = std::max(largest[joint], weight);
+      }
+    }
+    std::sort(seen.begin(), seen.end());
+    for (const std::uint16_t joint : seen) joint_.push_back({joint, largest[joint]}), largest[joint] = 0;
+    seen.clear();
+  }
+  joint_start_.push_back(static_cast<Index>(joint_.size()));
+}
+
+double ContactSearch::least_skin_cost(Index a, Index b) const noexcept {
+  if (joint_start_.empty()) return 0;
+  constexpr double rounding = 1e-9;  // far above that of the sums
+  double common = rounding;
+  for (Index i = joint_start_[at(a)], j = joint_start_[at(b)];
+       i < joint_start_[at(a) + 1] && j < joint_start_[at(b) + 1];) {
+    const JointWeight &x = joint_[at(i)], &y = joint_[at(j)];
+    if (x.joint == y.joint) common += std::min(x.weight, y.weight);
+    i += x.joint <= y.joint, j += y.joint <= x.joint;
+  }
+  return skin_distance * std::max(1 - common, 0.0);
 }
 
 double ContactSearch::squared(const Vec3& p, Index t, double* weights) const noexcept {
@@ -83,17 +125,23 @@ double ContactSearch::nearest(Index piece, const Vec3& p, double within, double 
   return found;
 }
 
-void ContactSearch::leaves_near(Index piece, const ItemBox& box, double reach, Vector<Leaf>& out) const {
+ItemBox ContactSearch::leaves_near(Index piece, const ItemBox& box, double reach, Vector<Leaf>& out) const {
   out.clear();
+  ItemBox around{};
   tree_.leaves(piece, box, reach * reach, [&](const ItemBox& leaf, Span<const Index> triangles) {
+    if (out.empty()) around = leaf;
+    around.take(leaf);
     out.push_back({leaf, triangles});
   });
+  return around;
 }
 
 // hint: the triangle of the vertex before, or -1; consecutive vertices are near each other.
-bool ContactSearch::contact_of(Index v, const Vector<Leaf>& leaves, double reach, Index& hint, Contact& out) const {
+bool ContactSearch::contact_of(Index v, const Vector<Leaf>& leaves, const ItemBox& around, double reach, Index& hint,
+                               Contact& out) const {
   const Vec3 p = mesh_.positions[at(v)];
   double found = reach * reach;
+  if (!(squared_distance(p, around) < found)) return false;
   Index triangle = -1;
   const auto test = [&](Index t) {
     if (!(squared_distance(p, boxes_[at(t)]) < found)) return;
@@ -137,6 +185,7 @@ Contact ContactSearch::contact(Index v, Index triangle, double squared_length) c
 void ContactSearch::find(Index from, Index to, double depth, double& reach, Vector<Contact>& out,
                          std::size_t most) const {
   const std::size_t first = out.size();
+  const double least_skin = least_skin_cost(from, to);
   Vector<Leaf> leaves(&memory_);
   const auto is_near = [&](const Chunk& chunk) { return squared_distance(chunk.box, box(to)) < reach * reach; };
   std::size_t step = 1;
@@ -148,13 +197,13 @@ void ContactSearch::find(Index from, Index to, double depth, double& reach, Vect
   Index hint = -1;
   for (const Chunk& chunk : chunks_of(from)) {
     if (!is_near(chunk)) continue;
-    leaves_near(to, chunk.box, reach, leaves);
+    const ItemBox around = leaves_near(to, chunk.box, reach, leaves);
     if (leaves.empty()) continue;
     for (std::size_t i = at(chunk.first); i < at(chunk.last); i += step) {
       Contact made;
-      if (!contact_of(chunk_vertex_[i], leaves, reach, hint, made)) continue;
+      if (!contact_of(chunk_vertex_[i], leaves, around, reach, hint, made)) continue;
       out.push_back(made);
-      reach = std::min(reach, made.cost + depth);
+      reach = std::min(reach, made.cost - least_skin + depth);
     }
   }
   std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
@@ -162,22 +211,26 @@ void ContactSearch::find(Index from, Index to, double depth, double& reach, Vect
 }
 
 void ContactSearch::improve(Index from, Index to, double range, bool alone, Vector<Contact>& best) const {
+  const double least_skin = least_skin_cost(from, to);
   Vector<Leaf> leaves(&memory_);
   Index hint = -1;
   for (const Chunk& chunk : chunks_of(from)) {
     double reach = 0;
     for (Index i = chunk.first; i < chunk.last; ++i) reach = std::max(reach, best[at(chunk_vertex_[at(i)])].cost);
-    reach = std::min(reach, range);
+    reach = std::min(reach - least_skin, range);
+    if (!(reach > 0)) continue;
     if (!(squared_distance(chunk.box, box(to)) < reach * reach)) continue;
+    ItemBox around{};
     if (!alone) {
-      leaves_near(to, chunk.box, reach, leaves);
+      around = leaves_near(to, chunk.box, reach, leaves);
       if (leaves.empty()) continue;
     }
     for (Index i = chunk.first; i < chunk.last; ++i) {
       const Index v = chunk_vertex_[at(i)];
-      const double bound = std::min(best[at(v)].cost, range);
+      const double bound = std::min(best[at(v)].cost - least_skin, range);
+      if (!(bound > 0)) continue;
       Contact made;
-      if (alone ? alone_contact_of(v, to, bound, hint, made) : contact_of(v, leaves, bound, hint, made)) {
+      if (alone ? alone_contact_of(v, to, bound, hint, made) : contact_of(v, leaves, around, bound, hint, made)) {
         if (made.cost < best[at(v)].cost) best[at(v)] = made;
       }
     }

@@ -27,9 +27,12 @@ class ContactSearch {
   // Returns the squared distance from p to a piece if it is below `within`, else `within`. enough: a squared distance;
   // the search ends at the first triangle that is at least that near. triangle: the nearest, or -1.
   double nearest(Index piece, const Vec3& p, double within, double enough, Index& triangle) const noexcept;
+  // A lower bound of what the difference of skin weights adds to the cost of contacts between two pieces.
+  double least_skin_cost(Index a, Index b) const noexcept;
   // Appends the contacts of piece `from` with piece `to` that are nearer than reach, in ascending order of the
-  // vertices. reach falls to the cost of the cheapest contact plus `depth`. Contacts that cost more are not needed, but
-  // some are found. most: where more vertices may have contacts, about so many are tried, spread over all of them.
+  // vertices. reach falls to the distance at which a contact costs `depth` more than the cheapest, or more. Contacts
+  // that cost more are not needed, but some are found. most: where more vertices may have contacts, about so many are
+  // tried, spread over all of them.
   void find(Index from, Index to, double depth, double& reach, Vector<Contact>& out, std::size_t most) const;
   // Keeps for each vertex of piece `from` its cheapest contact. best: by vertex; the cost of none is unbounded. alone:
   // each vertex searches for itself, which is cheaper while contacts are unbounded.
@@ -46,12 +49,20 @@ class ContactSearch {
     ItemBox box;
     Span<const Index> triangles;
   };
+  // The largest weight of a joint in a piece.
+  struct JointWeight {
+    std::uint16_t joint;
+    double weight;
+  };
   void make_chunks();
+  void list_joints();
   Span<const Chunk> chunks_of(Index piece) const noexcept {
     return {chunk_.data() + chunk_start_[at(piece)], at(chunk_start_[at(piece) + 1] - chunk_start_[at(piece)])};
   }
-  void leaves_near(Index piece, const ItemBox& box, double reach, Vector<Leaf>& out) const;
-  bool contact_of(Index v, const Vector<Leaf>& leaves, double reach, Index& hint, Contact& out) const;
+  // Returns the box around the leaves.
+  ItemBox leaves_near(Index piece, const ItemBox& box, double reach, Vector<Leaf>& out) const;
+  bool contact_of(Index v, const Vector<Leaf>& leaves, const ItemBox& around, double reach, Index& hint,
+                  Contact& out) const;
   bool alone_contact_of(Index v, Index piece, double reach, Index& hint, Contact& out) const;
   Contact contact(Index v, Index triangle, double squared_length) const;
   double squared(const Vec3& p, Index t, double* weights = nullptr) const noexcept;
@@ -65,6 +76,8 @@ class ContactSearch {
   Vector<Index> start_, vertex_;              // the vertices of piece p: vertex_[start_[p] .. start_[p + 1])
   Vector<Index> chunk_start_, chunk_vertex_;  // the chunks of piece p: chunk_[chunk_start_[p] .. chunk_start_[p + 1])
   Vector<Chunk> chunk_;
+  Vector<Index> joint_start_;  // the joints of piece p: joint_[joint_start_[p] .. joint_start_[p + 1]), ascending
+  Vector<JointWeight> joint_;
 };
 
 }  // namespace hf_inner

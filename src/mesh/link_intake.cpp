@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/arguments.h"
+#include "mesh/link_constants.h"
 #include "mesh/vertex_lists.h"
 
 namespace hf_inner {

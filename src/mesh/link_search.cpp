@@ -21,19 +21,20 @@ double least_above(double cost) noexcept { return cost * (1 + 4 * std::numeric_l
 struct Pair {
   Index a, b;
   double gap;       // lower bound of the distance: that of the boxes, or the range searched in vain
-  double cost;      // of the nearest contact; unbounded: not found yet
-  double distance;  // of the same
+  double skin;      // lower bound of what skin weights add to the distance
+  double cost;      // of the cheapest contact; unbounded: not found yet
+  double distance;  // of the nearest
   bool in_tree = false;
 };
 
 // Gives all weight to a corner that is near the point of these barycentrics.
-void snap_to_corner(const Mesh& mesh, const Index* corner, double* share) noexcept {
+void snap_to_corner(const Mesh& mesh, const Index* corner, double within, double* share) noexcept {
   Vec3 point;
   for (std::size_t k = 0; k < 3; ++k) point = point + share[k] * mesh.positions[at(corner[k])];
   double distance[3];
   for (std::size_t k = 0; k < 3; ++k) distance[k] = norm(mesh.positions[at(corner[k])] - point);
   const std::size_t nearest = static_cast<std::size_t>(std::min_element(distance, distance + 3) - distance);
-  if (distance[nearest] > corner_distance) return;
+  if (distance[nearest] > within) return;
   for (std::size_t k = 0; k < 3; ++k) share[k] = k == nearest ? 1 : 0;
 }
 
@@ -83,6 +84,7 @@ class LinkSearch {
   void find_below(Index piece, Vector<Contact>& best) const;
   void link_spread(const Vector<Contact>& contacts, std::size_t most, double spacing, bool in_tree);
   void link_pair(const Pair& pair);
+  double edge_length(const Link& link) const;
   void add_link(const Contact& contact, bool in_tree);
   std::uint32_t tag_of(Index piece) const {
     const Index first = contacts_.vertices_of(piece)[0];
@@ -91,6 +93,11 @@ class LinkSearch {
   bool smaller(Index a, Index b) const noexcept {
     return area_[at(a)] != area_[at(b)] ? area_[at(a)] < area_[at(b)] : a > b;
   }
+  // Pieces of different joints never do.
+  static bool may_touch(const Pair& pair) noexcept {
+    return pair.gap < touching && pair.skin <= skin_difference * skin_distance;
+  }
+  bool is_light(Index vertex) const noexcept { return out_.light[at(mesh_.component[at(vertex)])] != 0; }
   bool has_sheet(const Pair& pair) const noexcept { return sheet_[at(pair.a)] || sheet_[at(pair.b)]; }
   Index other_of(std::size_t pair, Index piece) const noexcept {
     return pairs_[pair].a == piece ? pairs_[pair].b : pairs_[pair].a;
@@ -109,12 +116,10 @@ class LinkSearch {
   Vector<std::uint8_t> sheet_;   // by piece: 1 if it lies over a larger piece
   Vector<Pair> pairs_;
   Vector<Vector<std::size_t>> pairs_of_;  // by piece
-  double whole_area_ = 0;
 };
 
 void LinkSearch::list_pieces() {
-  for (std::size_t v = 0; v < mesh_.component.size(); ++v)
-    area_[at(mesh_.component[v])] += areas_[v], whole_area_ += areas_[v];
+  for (std::size_t v = 0; v < mesh_.component.size(); ++v) area_[at(mesh_.component[v])] += areas_[v];
   for (const Index v : options_.light) forced_[at(mesh_.component[at(v)])] = 1;
   for (const Index v : options_.heavy) forced_[at(mesh_.component[at(v)])] = 2;
 }
@@ -160,7 +165,7 @@ void LinkSearch::list_pairs() {
   for (std::size_t p = 0; p < pieces_; ++p) {
     for (const Near& found : near[p]) {
       const Index a = std::min(static_cast<Index>(p), found.other), b = std::max(static_cast<Index>(p), found.other);
-      pairs_.push_back({a, b, std::sqrt(found.gap), unbounded, unbounded});
+      pairs_.push_back({a, b, std::sqrt(found.gap), 0, unbounded, unbounded});
     }
   }
   std::sort(pairs_.begin(), pairs_.end(),
@@ -169,6 +174,7 @@ void LinkSearch::list_pairs() {
       std::unique(pairs_.begin(), pairs_.end(), [](const Pair& x, const Pair& y) { return x.a == y.a && x.b == y.b; }),
       pairs_.end());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    pairs_[i].skin = contacts_.least_skin_cost(pairs_[i].a, pairs_[i].b);
     pairs_of_[at(pairs_[i].a)].push_back(i), pairs_of_[at(pairs_[i].b)].push_back(i);
   }
 }
@@ -177,7 +183,7 @@ void LinkSearch::list_pairs() {
 // falls to the cheapest contact.
 void LinkSearch::measure_pair(Pair& pair, double range) const {
   Vector<Contact> found(&memory_);
-  double reach = range;
+  double reach = std::min(range, least_above(pair.cost - pair.skin));
   contacts_.find(pair.a, pair.b, 0, reach, found, SIZE_MAX), contacts_.find(pair.b, pair.a, 0, reach, found, SIZE_MAX);
   for (const Contact& contact : found) {
     pair.cost = std::min(pair.cost, contact.cost), pair.distance = std::min(pair.distance, contact.distance);
@@ -187,14 +193,14 @@ void LinkSearch::measure_pair(Pair& pair, double range) const {
 
 void LinkSearch::measure_near() {
   for_each(jobs_, static_cast<std::uint32_t>(pairs_.size()), [&](std::uint32_t i) {
-    if (pairs_[i].gap < touching && !has_sheet(pairs_[i])) measure_pair(pairs_[i], touching);
+    if (may_touch(pairs_[i]) && !has_sheet(pairs_[i])) measure_pair(pairs_[i], touching);
   });
 }
 
 // Tells whether a piece lies over larger pieces, by some of its vertices. It ends as soon as the answer is known.
 bool LinkSearch::is_sheet(Index piece) const {
   if (forced_[at(piece)] != 0) return forced_[at(piece)] == 1;
-  if (!(options_.overlay > 0) || !(area_[at(piece)] < light_area * whole_area_)) return false;
+  if (!(options_.overlay > 0)) return false;
   const Span<const Index> all = contacts_.vertices_of(piece);
   const std::size_t step = (all.size() + sheet_samples - 1) / sheet_samples, count = (all.size() + step - 1) / step;
   const double range = overlay_reach * options_.overlay, overlay = options_.overlay * options_.overlay;
@@ -250,7 +256,7 @@ void LinkSearch::grow_tree() {
     const Pair& pair = pairs_[i];
     // Most sheets touch what they lie over, so that one search finds the tree's edge.
     const bool sheet = has_sheet(pair);
-    const double guess = pair.gap + (sheet && pair.gap < touching ? touching : 0);
+    const double guess = pair.gap + std::max(pair.skin, sheet && pair.gap < touching ? touching : 0);
     return Entry{(sheet ? sheet_detour : 0) + (pair.cost < unbounded ? pair.cost : guess), i};
   };
   UnionFind sets(pieces_, memory_);
@@ -267,7 +273,7 @@ void LinkSearch::grow_tree() {
       if (pair.distance <= options_.distance) pair.in_tree = sets.unite(pair.a, pair.b);
     } else if (pair.gap < options_.distance) {
       // Most pairs are little farther apart than is known, so the range grows by steps.
-      measure_pair(pair, std::min(std::max(touching, 2 * pair.gap), options_.distance));
+      measure_pair(pair, std::min(pair.gap < touching ? touching : 2 * pair.gap, options_.distance));
       if (pair.cost < unbounded || pair.gap < options_.distance)
         heap.push_back(entry_of(entry.pair)), std::push_heap(heap.begin(), heap.end());
     }
@@ -297,17 +303,29 @@ void LinkSearch::find_light() {
   }
 }
 
+// About the length of the edges where a link ends, the shorter of both ends; 0 for a light piece, which follows anyway.
+double LinkSearch::edge_length(const Link& link) const {
+  double area = is_light(link.vertex) ? 0 : areas_[at(link.vertex)];
+  for (const Index corner : link.corner) {
+    if (corner != Mesh::none) area = std::min(area, is_light(corner) ? 0 : areas_[at(corner)]);
+  }
+  return std::sqrt(area);
+}
+
 void LinkSearch::add_link(const Contact& contact, bool in_tree) {
   Link link;
   link.vertex = contact.vertex, link.tree = in_tree;
   double share[3], sum = 0;
   contacts_.weights(contact, share);
-  snap_to_corner(mesh_, mesh_.triangle(contact.triangle), share);
+  snap_to_corner(mesh_, mesh_.triangle(contact.triangle),
+                 is_light(link.vertex) ? light_corner_distance : corner_distance, share);
   for (double& s : share) s = s < least_share ? 0 : s, sum += s;
   for (std::size_t k = 0; k < 3; ++k) {
     if (share[k] > 0) link.share[k] = share[k] / sum, link.corner[k] = mesh_.triangle(contact.triangle)[k];
   }
   link.length = rest_length(link, mesh_);
+  // In sixteenths, so that a list read back has the same bits.
+  link.weight = std::max(1.0, std::round(16 * edge_length(link) / spring_edge) / 16);
   out_.links.push_back(link);
 }
 
@@ -335,13 +353,15 @@ void LinkSearch::link_spread(const Vector<Contact>& contacts, std::size_t most, 
 void LinkSearch::link_pair(const Pair& pair) {
   Vector<Contact> near(&memory_);
   const std::size_t before = out_.links.size();
+  const bool alike = pair.cost - pair.distance <= skin_difference * skin_distance;
+  const double depth = alike ? contact_depth : hinge_depth;
   for (const std::size_t most : {link_candidates, std::size_t{SIZE_MAX}}) {
     for (const bool first : {true, false}) {
       near.clear();
-      double reach = least_above(pair.cost + contact_depth);
+      double reach = least_above(pair.cost + depth - pair.skin);
       contacts_.find(first ? pair.a : pair.b, first ? pair.b : pair.a, unbounded, reach, near, most);
       near.erase(std::remove_if(near.begin(), near.end(),
-                                [&](const Contact& contact) { return contact.cost > pair.cost + contact_depth; }),
+                                [&](const Contact& contact) { return contact.cost > pair.cost + depth; }),
                  near.end());
       link_spread(near, pair.in_tree ? links_a_side : links_a_side / 2, unbounded, pair.in_tree);
     }
@@ -352,9 +372,8 @@ void LinkSearch::link_pair(const Pair& pair) {
 void LinkSearch::link_pairs() {
   for (Pair& pair : pairs_) {
     if (out_.light[at(pair.a)] || out_.light[at(pair.b)]) continue;
-    if (!(pair.cost < unbounded) && pair.gap < touching) measure_pair(pair, touching);  // a sheet, not light
-    const bool alike = pair.cost - pair.distance <= skin_difference * skin_distance;
-    const bool touches = pair.distance <= (alike ? touching : crossing_pieces);
+    if (!(pair.cost < unbounded) && may_touch(pair)) measure_pair(pair, touching);  // a sheet, not light
+    const bool touches = pair.distance <= touching && pair.cost - pair.distance <= skin_difference * skin_distance;
     if (!pair.in_tree && !touches) continue;
     if (pair.in_tree) out_.longest_tree_link = std::max(out_.longest_tree_link, pair.distance);
     link_pair(pair);

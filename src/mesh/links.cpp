@@ -5,15 +5,13 @@
 
 #include "base/error.h"
 #include "base/stable_sort.h"
+#include "mesh/link_constants.h"
 #include "mesh/link_search.h"
 #include "mesh/union_find.h"
 
 namespace hf_inner {
 namespace {
 
-// Edges and links of a light piece count this share. A smaller one changes the field of the body less and costs digits
-// of the light piece. A unit test bounds the change by 1e-4.
-constexpr double light_share = 1e-3;
 // The edge weight between two equilateral triangles, cot 60 degrees.
 constexpr double equilateral_weight = 0.57735026918962573;
 

@@ -50,8 +50,6 @@ struct LinkOptions {
   Span<const Index> light, heavy;  // inner vertices whose pieces are light, or not
 };
 
-constexpr double default_link_distance = 0.05, default_overlay = 0.015;
-
 struct Links {
   explicit Links(Memory& memory) : links(&memory), piece(&memory), light(&memory), group(&memory) {}
   Vector<Link> links;

@@ -1,13 +1,14 @@
-// hf_link_figures MODEL.glb ... [--pictures DIR]: what links between the pieces of models are worth, as one table.
+// hf_link_figures MODEL.glb ... [--quick | --causes | --surfaces] [--pictures DIR]: what links between the pieces of
+// models are worth, as one table. --quick leaves out the poses and the transfer without links. --causes also names the
+// pieces whose links open in the artist's clips. --surfaces only makes the surfaces and prints a hash of the links, to
+// count instructions.
 //
 // Contacts are measured apart from the library's links: every vertex within 0.5 % of the box of another piece, and the
 // nearest point there. A pose turns one region by 60 degrees and holds another. All lengths are in % of the box.
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <stdexcept>
@@ -55,7 +56,7 @@ Scene read_scene(const std::string& file) {
   return out;
 }
 
-hf_surface make_surface_of(const Scene& scene, const hf_links_desc* links, double* out_ms) {
+hf_surface make_surface_of(const Scene& scene, const hf_links_desc* links, int times_count, double* out_ms) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = scene.flat.vertex_count(), desc.triangle_count = scene.flat.triangle_count();
   desc.positions_f64 = scene.xyz.data(), desc.triangles = scene.flat.triangles.data();
@@ -63,7 +64,7 @@ hf_surface make_surface_of(const Scene& scene, const hf_links_desc* links, doubl
   desc.links = links;
   hf_surface surface = nullptr;
   std::vector<double> times;
-  for (int i = 0; i < 7; ++i) {
+  for (int i = 0; i < times_count; ++i) {
     hf_surface_destroy(surface);
     const auto start = std::chrono::steady_clock::now();
     ok(hf_surface_create(&desc, &surface));
@@ -192,20 +193,28 @@ std::vector<double> turn(hf_surface surface, const Scene& scene, uint32_t turned
   return out;
 }
 
-// Share of links whose ends move apart by more than 3 % of the box in a clip of the artist's.
-double false_share(const Scene& scene, const std::vector<hf_link>& links) {
-  if (scene.model.animations.empty() || links.empty()) return -1;
-  std::vector<char> bad(links.size(), 0);
+// How far the ends of every link move apart in the artist's clips, in boxes.
+std::vector<double> widest_in_clips(const Scene& scene, const std::vector<hf_link>& links) {
+  std::vector<double> out(links.size(), 0);
   for (const Animation& clip : scene.model.animations) {
     for (int i = 0; i < clip_samples; ++i) {
       const double time = clip_duration(clip) * i / (clip_samples - 1);
       const std::vector<double> xyz = double_positions(posed_positions(scene.model, scene.flat, clip, time));
       for (size_t l = 0; l < links.size(); ++l)
-        bad[l] |= apart(links[l].vertex, links[l].corners, links[l].barycentrics, xyz) - links[l].length >
-                  false_link * scene.diagonal;
+        out[l] =
+            std::max(out[l], (apart(links[l].vertex, links[l].corners, links[l].barycentrics, xyz) - links[l].length) /
+                                 scene.diagonal);
     }
   }
-  return double(std::count(bad.begin(), bad.end(), 1)) / double(links.size());
+  return out;
+}
+
+// Share of links whose ends move apart by more than 3 % of the box. -1 without clips.
+double false_share(const Scene& scene, const std::vector<hf_link>& links) {
+  if (scene.model.animations.empty() || links.empty()) return -1;
+  double wrong = 0;
+  for (const double opened : widest_in_clips(scene, links)) wrong += opened > false_link;
+  return wrong / double(links.size());
 }
 
 // Leaves out contacts that the artist's clips open by more than 3 % of the box: these pieces do not belong together.
@@ -224,8 +233,9 @@ void drop_false_contacts(const Scene& scene, std::vector<Contact>& contacts) {
   }
 }
 
-// Vertices where a field of two far sites is 0 although no site holds them there.
-uint32_t unreached_by_sites(hf_surface surface, const Scene& scene, uint32_t first, uint32_t second) {
+// A field of two sites. unreached: NULL, or receives the vertices where it is 0 although no site holds them there.
+std::vector<float> field_of(hf_surface surface, const Scene& scene, uint32_t first, uint32_t second,
+                            uint32_t* unreached) {
   hf_solver solver = nullptr;
   ok(hf_create(surface, nullptr, &solver));
   const uint32_t vertices[2] = {first, second};
@@ -237,7 +247,31 @@ uint32_t unreached_by_sites(hf_surface surface, const Scene& scene, uint32_t fir
   hf_solve_info info = HF_INIT(hf_solve_info);
   ok(hf_solve(solver, field.data(), 0, &info));
   hf_solver_destroy(solver);
-  return info.unreached_vertex_count;
+  if (unreached) *unreached = info.unreached_vertex_count;
+  return field;
+}
+
+uint32_t unreached_by_sites(hf_surface surface, const Scene& scene, uint32_t first, uint32_t second) {
+  uint32_t out = 0;
+  field_of(surface, scene, first, second, &out);
+  return out;
+}
+
+// How much links change the field of the piece with most vertices, between two far sites of it: 95 % of the vertices.
+double body_change(hf_surface plain, hf_surface linked, const Scene& scene, std::vector<uint32_t> piece) {
+  std::map<uint32_t, size_t> sizes;
+  for (const uint32_t p : piece) sizes[p] += p != HF_NO_INDEX;
+  uint32_t largest = 0;
+  for (const auto& [p, size] : sizes) largest = size > sizes[largest] ? p : largest;
+  for (uint32_t& p : piece) p = p == largest ? p : HF_NO_INDEX;
+  const std::vector<uint32_t> ends = far_vertices(scene, piece, 2);
+  const std::vector<float> a = field_of(plain, scene, ends[0], ends[1], nullptr),
+                           b = field_of(linked, scene, ends[0], ends[1], nullptr);
+  std::vector<double> change;
+  for (size_t v = 0; v < piece.size(); ++v) {
+    if (piece[v] == largest) change.push_back(std::abs(double(a[v]) - double(b[v])));
+  }
+  return spread_of(change).p95;
 }
 
 // A model played on itself: twelve pairs of regions spread over it, the mean distance of all vertices from the artist's
@@ -299,35 +333,59 @@ Picture tile(const Scene& scene, const std::vector<double>& xyz, const std::vect
   return render(surface, view, {}, dots);
 }
 
-// Debugging: the pairs of pieces whose contacts open most in the first pose.
-void list_pairs(const Scene& scene, const std::vector<Contact>& contacts, const std::vector<uint32_t>& piece,
-                const std::vector<hf_link>& links, hf_surface linked, const std::vector<uint32_t>& ends) {
-  std::vector<int32_t> light(scene.flat.vertex_count());
-  uint32_t count = 0, unreached = 0;
-  ok(hf_surface_get_pieces(linked, scene.flat.vertex_count(), nullptr, light.data(), &count));
-  for (size_t e = 0; e < ends.size(); ++e) {
-    const std::vector<double> posed = turn(linked, scene, ends[e], ends[(e + 1) % ends.size()], &unreached);
-    std::map<std::pair<uint32_t, uint32_t>, std::array<double, 4>> pairs;
-    for (const Contact& c : contacts) {
-      const uint32_t a = piece[c.vertex], b = piece[c.corner[0]];
-      auto& entry = pairs[{std::min(a, b), std::max(a, b)}];
-      entry[0] += 1;
-      entry[1] = std::max(entry[1], 100 / scene.diagonal * (apart(c.vertex, c.corner, c.share, posed) - c.distance));
-      entry[2] = 100 * c.distance / scene.diagonal;
-      entry[3] += light[c.vertex] ? 1 : 0;
+// For the search for causes: the pairs of pieces with false links. The joint that moves most of a piece names it.
+void list_false(const Scene& scene, const ModelLinks& skin, const std::vector<hf_link>& links,
+                const std::vector<uint32_t>& piece) {
+  std::map<uint32_t, std::map<int, double>> joints;
+  for (size_t i = 0; i < skin.joints.size(); ++i) joints[piece[i / 8]][skin.joints[i]] += double(skin.weights[i]);
+  const auto name_of = [&](uint32_t p) {
+    std::pair<int, double> most{-1, 0};
+    double all = 0;
+    for (const auto& [joint, weight] : joints[p]) {
+      all += weight;
+      if (weight > most.second) most = {joint, weight};
     }
-    for (const auto& [key, entry] : pairs) {
-      int joined = 0;
-      for (const hf_link& l : links) {
-        uint32_t b = 0;
-        for (int k = 0; k < 3; ++k) b = l.barycentrics[k] > 0 ? piece[l.corners[k]] : b;
-        joined += std::min(piece[l.vertex], b) == key.first && std::max(piece[l.vertex], b) == key.second;
-      }
-      if (entry[1] > 0.5)
-        std::printf("  pose %zu: pieces %u %u: %.0f contacts (%.0f on light), opened %.2f, %d links\n", e, key.first,
-                    key.second, entry[0], entry[3], entry[1], joined);
-    }
+    char text[96] = "no joint";
+    if (most.first >= 0)
+      std::snprintf(text, sizeof text, "%u %s %.0f %%", p, scene.model.nodes[size_t(most.first)].name.c_str(),
+                    100 * most.second / all);
+    return std::string(text);
+  };
+  const std::vector<double> opened = widest_in_clips(scene, links);
+  struct Pair {
+    int links = 0, wrong = 0, tree = 0;
+    double widest = 0, nearest = 1e300;
+  };
+  std::map<std::pair<uint32_t, uint32_t>, Pair> pairs;
+  for (size_t l = 0; l < links.size(); ++l) {
+    uint32_t other = 0;
+    for (int k = 0; k < 3; ++k) other = links[l].barycentrics[k] > 0 ? piece[links[l].corners[k]] : other;
+    const uint32_t own = piece[links[l].vertex];
+    Pair& pair = pairs[{std::min(own, other), std::max(own, other)}];
+    pair.links += 1, pair.wrong += opened[l] > false_link, pair.tree += links[l].in_tree;
+    pair.widest = std::max(pair.widest, opened[l]),
+    pair.nearest = std::min(pair.nearest, links[l].length / scene.diagonal);
   }
+  for (const auto& [key, pair] : pairs) {
+    if (pair.wrong > 0)
+      std::printf("  %s | %s: %d of %d links open, up to %.1f %%; %s, %.2f %% apart at rest\n",
+                  name_of(key.first).c_str(), name_of(key.second).c_str(), pair.wrong, pair.links, 100 * pair.widest,
+                  pair.tree ? "tree" : "not in the tree", 100 * pair.nearest);
+  }
+}
+
+// FNV-1a over the links, so that two searches can be compared.
+uint64_t hash_of(const std::vector<hf_link>& links) {
+  uint64_t hash = 14695981039346656037u;
+  const auto take = [&](const void* from, size_t size) {
+    for (size_t i = 0; i < size; ++i) hash = (hash ^ static_cast<const unsigned char*>(from)[i]) * 1099511628211u;
+  };
+  for (const hf_link& link : links) {
+    take(&link.vertex, sizeof link.vertex), take(link.corners, sizeof link.corners);
+    take(link.barycentrics, sizeof link.barycentrics);
+    if (link.weight < 1 || link.weight > 1) take(&link.weight, sizeof link.weight);
+  }
+  return hash;
 }
 
 // Figures of the artist's clips; a dash for a model without clips.
@@ -337,12 +395,16 @@ std::string or_dash(bool none, const char* format, double first, double second =
   return none ? "-" : text;
 }
 
-void report(const std::string& file, const std::string& pictures) {
+enum class Extent { whole, quick, causes, surfaces };
+
+void report(const std::string& file, const std::string& pictures, Extent extent) {
+  const bool quick = extent != Extent::whole;
   const Scene scene = read_scene(file);
   const ModelLinks links(scene.has_model ? &scene.model : nullptr, scene.flat);
   double plain_ms = 0, linked_ms = 0;
-  hf_surface plain = make_surface_of(scene, nullptr, &plain_ms),
-             linked = make_surface_of(scene, &links.desc, &linked_ms);
+  const int times_count = quick ? 1 : 7;
+  hf_surface plain = make_surface_of(scene, nullptr, times_count, &plain_ms),
+             linked = make_surface_of(scene, &links.desc, times_count, &linked_ms);
   hf_surface_report found = HF_INIT(hf_surface_report);
   ok(hf_surface_get_report(linked, &found));
   hf_surface_statistics before = HF_INIT(hf_surface_statistics), after = HF_INIT(hf_surface_statistics);
@@ -350,6 +412,11 @@ void report(const std::string& file, const std::string& pictures) {
   std::vector<hf_link> list(found.link_count);
   uint32_t count = 0;
   ok(hf_surface_get_links(linked, found.link_count, list.data(), &count));
+  const std::string name = file.substr(file.find_last_of('/') + 1);
+  if (extent == Extent::surfaces) {
+    std::printf("%-26s %u links, %016llx\n", name.c_str(), count, static_cast<unsigned long long>(hash_of(list)));
+    return hf_surface_destroy(plain), hf_surface_destroy(linked);
+  }
   std::vector<uint32_t> piece(scene.flat.vertex_count());
   ok(hf_surface_get_pieces(linked, scene.flat.vertex_count(), piece.data(), nullptr, &count));
   std::vector<Contact> contacts = find_contacts(scene, piece);
@@ -365,7 +432,7 @@ void report(const std::string& file, const std::string& pictures) {
       if (glm::length(scene.flat.positions[v] - p) > glm::length(scene.flat.positions[held] - p)) held = v;
     }
     if (!pictures.empty()) tiles.push_back(tile(scene, scene.xyz, {ends[size_t(i)], held}));
-    for (int k = 0; k < 2; ++k) {
+    for (int k = quick ? 1 : 0; k < 2; ++k) {
       const std::vector<double> posed = turn(k ? linked : plain, scene, ends[size_t(i)], held, &unreached);
       std::vector<double> opened;
       for (const Contact& c : contacts)
@@ -376,19 +443,22 @@ void report(const std::string& file, const std::string& pictures) {
       if (!pictures.empty()) tiles.push_back(tile(scene, posed, {}));
     }
   }
-  if (std::getenv("LINK_PAIRS")) list_pairs(scene, contacts, piece, list, linked, ends);
   const double wrong = false_share(scene, list);
-  const double played[2] = {played_on_itself(plain, scene, piece), played_on_itself(linked, scene, piece)};
-  const std::string name = file.substr(file.find_last_of('/') + 1);
+  const double played[2] = {quick ? 0 : played_on_itself(plain, scene, piece), played_on_itself(linked, scene, piece)};
+  char hash_text[24] = "";
+  if (quick) std::snprintf(hash_text, sizeof hash_text, " %016llx |", static_cast<unsigned long long>(hash_of(list)));
+  const std::string hash = hash_text;
   std::printf(
       "| %-26s | %5u | %3u | %3u | %4u | %2u | %5.2f | %5.2f / %5.1f | %6.3f / %5.2f | %4.2f | %5.2f | %5.2f | %+3.0f "
-      "%% | %4u | %s | %s |\n",
+      "%% | %4u | %s | %s | %.3f |%s\n",
       name.c_str(), found.welded_vertex_count, found.piece_count, found.component_count, found.link_count,
       found.light_piece_count, 100 * found.longest_tree_link / scene.diagonal, gap[0].p95, gap[0].worst, gap[1].p95,
       gap[1].worst, after.factor_entries / before.factor_entries, after.links_ms, plain_ms,
       100 * (linked_ms / plain_ms - 1), unreached_by_sites(linked, scene, ends[0], ends[1]),
       or_dash(wrong < 0, "%5.1f %%", 100 * wrong).c_str(),
-      or_dash(played[0] < 0, "%5.2f / %5.2f", played[0], played[1]).c_str());
+      or_dash(played[1] < 0, "%5.2f / %5.2f", played[0], played[1]).c_str(), body_change(plain, linked, scene, piece),
+      hash.c_str());
+  if (extent == Extent::causes) list_false(scene, links, list, piece);
   std::fflush(stdout);
   if (!pictures.empty())
     write_png(pictures + "/" + name + ".png", contact_sheet(tiles, 3, {}, name + ": rest, without links, with links"));
@@ -399,17 +469,26 @@ void report(const std::string& file, const std::string& pictures) {
 
 int main(int count, char** arguments) {
   std::string pictures;
-  std::printf(
-      "| model | vertices | pieces | groups | links | light | tree | gap without: 95 %% / worst | with | entries | "
-      "search ms | surface ms | making | unreached | false "
-      "| on itself: without / with |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  Extent extent = Extent::whole;
+  for (int i = 1; i < count; ++i) {
+    if (std::strcmp(arguments[i], "--quick") == 0) extent = Extent::quick;
+    if (std::strcmp(arguments[i], "--causes") == 0) extent = Extent::causes;
+    if (std::strcmp(arguments[i], "--surfaces") == 0) extent = Extent::surfaces;
+  }
+  if (extent != Extent::surfaces)
+    std::printf(
+        "| model | vertices | pieces | groups | links | light | tree | gap without: 95 %% / worst | with | entries | "
+        "search ms | surface ms | making | unreached | false "
+        "| on itself: without / with | body "
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int i = 1; i < count; ++i) {
     if (std::strcmp(arguments[i], "--pictures") == 0 && i + 1 < count) {
       pictures = arguments[++i];
       continue;
     }
+    if (std::strncmp(arguments[i], "--", 2) == 0) continue;
     try {
-      report(arguments[i], pictures);
+      report(arguments[i], pictures, extent);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "hf_link_figures: %s: %s\n", arguments[i], error.what());
       return 1;

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "mesh/contact_search.h"
+#include "mesh/link_constants.h"
 #include "mesh/nearest_triangle.h"
 #include "support/meshes.h"
 #include "support/oracle.h"
@@ -118,7 +120,13 @@ TEST(Links, join_two_cubes_into_one_component) {
   for (Index e = 0; e < t.edge_count(); ++e)
     without += t.edge_triangle_start[at(e)] == t.edge_triangle_start[at(e) + 1];
   EXPECT_EQ(without, t.edge_count() - plain->topology.edge_count());
-  EXPECT_GT(without, 15);
+  std::set<std::pair<Index, Index>> springs;
+  for (const hf_inner::Link& link : linked->links->links) {
+    for (const Index corner : link.corner) {
+      if (corner >= 0) springs.insert(std::minmax(link.vertex, corner));
+    }
+  }
+  EXPECT_EQ(static_cast<std::size_t>(without), springs.size());
   for (Index v = 0; v < linked->mesh.vertex_count(); ++v) {
     for (Index i = t.neighbour_start[at(v)]; i < t.neighbour_start[at(v) + 1]; ++i) {
       const Index w = t.neighbour[at(i)], e = t.neighbour_edge[at(i)];
@@ -152,7 +160,7 @@ TEST(Links, make_the_operator_of_springs_from_points_to_triangles) {
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       if (link.corner[c] < 0) continue;
-      const double w = unit * link.share[c];
+      const double w = unit * link.weight * link.share[c];
       k(link.vertex, link.vertex) += w, k(link.corner[c], link.corner[c]) += w;
       k(link.vertex, link.corner[c]) -= w, k(link.corner[c], link.vertex) -= w;
       sum += link.share[c];
@@ -393,6 +401,60 @@ TEST(Links, contacts_agree_with_trying_all_triangles) {
       if (least < range) {
         EXPECT_NEAR(best[at(v)].distance, least, 1e-12);
       }
+    }
+  }
+}
+
+// What skin weights add at least bounds the search, so that it must be below the cost of every contact.
+TEST(Links, the_least_skin_cost_is_below_that_of_every_contact) {
+  const auto shape = plain_geometry(two_cubes());
+  const hf_inner::Mesh& mesh = shape->mesh;
+  constexpr std::uint32_t slots = 3;
+  std::uint32_t state = 7;
+  const auto random = [&] { return static_cast<float>((state = state * 1664525u + 1013904223u) >> 8) / 16777216.0f; };
+  for (const bool rigid : {false, true}) {
+    std::vector<std::uint16_t> joints;
+    std::vector<float> weights;
+    for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
+      const bool second = mesh.component[at(mesh.inner_of_given[v])] == 1;
+      const float first = rigid ? 1 : 0.5f + 0.25f * random(), rest = (1 - first) / 2;
+      // Joint 4 is named twice.
+      joints.insert(joints.end(), {static_cast<std::uint16_t>(second ? 9 : 2), 4, 4});
+      weights.insert(weights.end(), {first, rest, rest});
+    }
+    const hf_inner::SkinHint skin{slots, joints.data(), weights.data()};
+    const hf_inner::ContactSearch search(mesh, skin, *shape->memory);
+    const double least = search.least_skin_cost(0, 1);
+    EXPECT_EQ(search.least_skin_cost(1, 0), least);
+    double lowest = 1, cheapest[2] = {1, 1};
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const Index from = mesh.component[at(v)];
+      double nearest = 1, cost = 1;
+      for (Index t = 0; t < mesh.triangle_count(); ++t) {
+        const Index* c = mesh.triangle(t);
+        if (mesh.component[at(c[0])] == from) continue;
+        double share[3];
+        const double d =
+            std::sqrt(hf_inner::squared_to_triangle(mesh.positions[at(v)], mesh.positions[at(c[0])],
+                                                    mesh.positions[at(c[1])], mesh.positions[at(c[2])], share));
+        const double added = hf_inner::skin_distance * difference(skin, mesh, v, c, share);
+        lowest = std::min(lowest, added);
+        if (d < nearest) nearest = d, cost = d + added;
+      }
+      cheapest[at(from)] = std::min(cheapest[at(from)], cost);
+    }
+    EXPECT_LE(least, lowest);
+    EXPECT_GE(least, lowest - (rigid ? 1e-8 : hf_inner::skin_distance / 2));
+    EXPECT_GT(least, 0.5 * hf_inner::skin_distance * (rigid ? 2 : 1) - 1e-8);
+    // The search ends at the cheapest contact, as trying all does.
+    for (Index from = 0; from < 2; ++from) {
+      hf_inner::Memory memory;
+      hf_inner::Vector<hf_inner::Contact> found(&memory);
+      double reach = 1, cost = 1;
+      search.find(from, 1 - from, 0, reach, found, SIZE_MAX);
+      for (const hf_inner::Contact& contact : found) cost = std::min(cost, contact.cost);
+      EXPECT_NEAR(cost, cheapest[at(from)], 1e-12);
+      EXPECT_NEAR(reach, cost - least, 1e-12);
     }
   }
 }
