@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <numeric>
 #include <stdexcept>
 
 #include "common/gltf_read.h"
@@ -30,7 +31,7 @@ const char* const usage =
     "                     weights, those of the file\n"
     "  --keep JOINTS      joints, separated by commas, that keep the weights of the file\n"
     "  --weights N        joints per vertex, 4 or 8 (4)\n"
-    "  --guide N          sets N pins, each with the weights of the file where the pose is farthest from the file's\n"
+    "  --guide N          sets N pins with the weights of the file, among the vertices where the pose is farthest off\n"
     "  --all              all joints deform; else those that have weights in the file\n"
     "  --carry FROM.glb   takes the weights of another model in the same place; a model without joints gets its "
     "joints\n"
@@ -210,18 +211,42 @@ RigWeights weights_of(const hf::Weights& weights) {
   return {computed.weight_count, std::move(computed.joints), std::move(computed.weights)};
 }
 
-// Sets pins one after the other where the mean distance is largest. Copies of a pinned vertex do not get a second one.
+// Vertices where the mean distance is largest, apart from each other. Those at the places of pins are left out.
+std::vector<size_t> worst_vertices(const Rig& rig, const std::vector<double>& distance, const PinFile& pins) {
+  constexpr size_t most = 4;      // tried for each pin; each costs as much as the comparison
+  constexpr double apart = 0.05;  // of the box
+  std::vector<size_t> order(distance.size()), out;
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return distance[a] > distance[b]; });
+  for (const size_t v : order) {
+    if (out.size() == most || !(distance[v] > 0)) break;
+    const bool pinned = std::any_of(pins.vertices.begin(), pins.vertices.end(),
+                                    [&](uint32_t w) { return rig.positions[v] == rig.positions[w]; });
+    const bool near = std::any_of(out.begin(), out.end(), [&](size_t w) {
+      return glm::length(rig.positions[v] - rig.positions[w]) < apart * rig.diagonal;
+    });
+    if (!pinned && !near) out.push_back(v);
+  }
+  return out;
+}
+
+// Sets pins one after the other. Of the vertices where the mean distance is largest, each is tried and the one kept
+// that leaves the smallest mean.
 void guide(const Model& model, const Rig& rig, const std::vector<Pose>& poses, uint32_t count, PinFile pins,
            hf::Weights& weights) {
+  Comparison now = compare(model, rig, poses, weights_of(weights));
   for (uint32_t i = 0; i < count; ++i) {
-    std::vector<double> distance = compare(model, rig, poses, weights_of(weights)).of_vertex;
-    for (const uint32_t v : pins.vertices) {
-      for (size_t w = 0; w < distance.size(); ++w) {
-        if (rig.positions[w] == rig.positions[v]) distance[w] = 0;
-      }
+    const std::vector<size_t> places = worst_vertices(rig, now.of_vertex, pins);
+    if (places.empty()) break;
+    PinFile best;
+    for (const size_t v : places) {
+      PinFile tried = pins;
+      add_given(rig, v, tried);
+      set_pins(weights, tried);
+      Comparison found = compare(model, rig, poses, weights_of(weights));
+      if (best.vertices.empty() || found.mean < now.mean) now = std::move(found), best = std::move(tried);
     }
-    const auto worst = std::max_element(distance.begin(), distance.end());
-    add_given(rig, static_cast<size_t>(worst - distance.begin()), pins);
+    pins = std::move(best);
     set_pins(weights, pins);
   }
 }

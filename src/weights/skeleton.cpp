@@ -150,7 +150,7 @@ class Tails {
     const Index child = end_among(first, j, axis);
     if (child >= 0) {
       out.push_back({head[at(j)], head[at(child)], j});
-    } else if (has_axis && loose_axes_ && first >= 0) {
+    } else if (has_axis && loose_axes_ && first >= 0 && met(j, axis) < 0) {
       for (Index c = first; c >= 0; c = next_[at(c)]) out.push_back({head[at(j)], head[at(c)], j});
     } else {
       out.push_back({head[at(j)], !has_axis && first >= 0 ? mean_of_children(j) : end_of(j, axis), j});
@@ -173,27 +173,36 @@ class Tails {
     }
     return found;
   }
-  // Looks for a joint whose only child, deforming or not, lies off its axis.
+  // Looks for a joint whose only child, deforming or not, lies off its axis, and that no other joint ends.
   void find_loose_axes(Memory& memory) {
     Vector<Index> children(head.size(), 0, &memory);
     for (const Index parent : bones_.parent) {
       if (parent >= 0) ++children[at(parent)];
     }
-    for (Index j = 0; j < bones_.count(); ++j) {
+    Poller poller(64);
+    for (Index j = 0; j < bones_.count() && !loose_axes_; ++j) {
+      poller.due();
       const Index parent = bones_.parent[at(j)];
       if (parent < 0 || children[at(parent)] != 1) continue;
       const Vec3 axis = bones_.axis[at(parent)], way = head[at(j)] - head[at(parent)];
-      loose_axes_ |= dot(axis, axis) > 0 && norm(way) >= no_length && !(cosine(way, axis) > axis_cosine);
+      loose_axes_ =
+          dot(axis, axis) > 0 && norm(way) >= no_length && !(cosine(way, axis) > axis_cosine) && met(parent, axis) < 0;
     }
   }
   bool descends(Index j, Index from) const noexcept {
     while (j >= 0 && j != from) j = bones_.parent[at(j)];
     return j == from;
   }
-  // The nearest joint along a direction at which a leaf ends, or -1. A leg often ends where the target that steers it
-  // begins, and that target is no child of the leg.
-  Index met(Index j, const Vec3& direction, double length) const {
-    double nearest = meet_length * length;
+  // The way to the parent, or a typical one: the size of a joint that no child tells.
+  double unit_of(Index j) const noexcept {
+    const Index parent = bones_.parent[at(j)];
+    const double length = parent < 0 ? 0 : norm(head[at(j)] - head[at(parent)]);
+    return length >= no_length ? length : typical_;
+  }
+  // The nearest joint along a direction at which a joint ends that no child continues, or -1. A leg often ends where
+  // the target that steers it begins, and that target is no child of the leg.
+  Index met(Index j, const Vec3& direction) const {
+    double nearest = meet_length * unit_of(j);
     Index found = -1;
     for (Index k = 0; k < bones_.count(); ++k) {
       const Vec3 way = head[at(k)] - head[at(j)];
@@ -215,15 +224,22 @@ class Tails {
     const bool has_length = length >= no_length;
     if (!has_axis && !has_length) return head[at(j)];
     const Vec3 direction = has_axis ? axis : (1 / length) * from_parent;
-    const double unit = has_length ? length : typical_;
-    const Index other = leaf ? met(j, direction, unit) : -1;
+    const Index other = met(j, direction);
     if (other >= 0) return head[at(other)];
+    const double unit = unit_of(j);
     // A leaf away from the end of its parent, as a foot below the root, has a parent that tells nothing about its size.
     const Vec3 parent_axis = parent < 0 || bones_.axis.empty() ? Vec3{} : bones_.axis[at(parent)];
     const bool apart =
         leaf && has_length && dot(parent_axis, parent_axis) > 0 && !(cosine(from_parent, parent_axis) > axis_cosine);
-    const double most = leaf ? leaf_length * (apart ? std::min(unit, typical_) : unit) : hub_length * unit;
+    const double most = leaf ? leaf_length * (apart ? std::min(unit, typical_) : unit)
+                             : std::min(hub_length * unit, hub_reach * nearest_child(j));
     return head[at(j)] + std::min(most, skin_.way_out(head[at(j)], direction, most)) * direction;
+  }
+  double nearest_child(Index j) const noexcept {
+    double nearest = HUGE_VAL;
+    for (Index c = first_child_[at(j)]; c >= 0; c = next_[at(c)])
+      nearest = std::min(nearest, norm(head[at(c)] - head[at(j)]));
+    return nearest;
   }
   Vec3 mean_of_children(Index j) const {
     Vec3 sum;

@@ -33,10 +33,10 @@ TEST(Skeleton, JointsEndAtTheirChildrenAlongTheirAxisOrInTheSkin) {
   add({5, -0.3, 0}, 2, {}, false);  // 5: no bone
   add({8, 0, 0}, -1);               // 6: nothing says where it ends: a point
   add({1, 0, 0}, -1, {1, 0, 0});    // 7: no child along its axis: half the usual length
-  add({1, 0.5, 0}, 7);              // 8
-  add({4, 0, 0.2}, -1, {1, 0, 0});  // 9: the child along its axis
-  add({4, 0.5, 0.2}, 9);            // 10
-  add({5, 0, 0.2}, 9);              // 11
+  add({1, 0.9, 0}, 7);              // 8
+  add({4, 0, 2}, -1, {1, 0, 0});    // 9: the child along its axis
+  add({4, 0.5, 2}, 9);              // 10
+  add({5, 0, 2}, 9);                // 11
   add({1, -0.5, 0}, 7, {}, false);  // 12: no bone; with one child off its axis alone, 7 would reach to it
   const auto segments = hf_inner::bone_segments(bones, mesh, skin->skin, memory);
   ASSERT_EQ(segments.size(), 11u);

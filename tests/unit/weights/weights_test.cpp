@@ -324,6 +324,16 @@ TEST(Weights, ALeafEndsAtAChildThatDoesNotDeform) {
   EXPECT_NEAR(segments_of({1, 2, 4, 2.5}, {1, 1, 1, 1}, {-1, 0, 1, 1}, {1, 1, 1, 0})[1].tail.x, 4, 1e-6);
 }
 
+TEST(Weights, AJointWhoseChildrenLieElsewhereEndsAtTheJointThatItMeets) {
+  // The only child of joint 1 lies behind it; joint 3, a child of its parent, lies along its axis. So the axes hold.
+  const auto found = segments_of({2, 4, 3, 5.5}, {1, 1, 1, 1}, {-1, 0, 1, 0}, {1, 1, 1, 1});
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_NEAR(found[1].tail.x, 5.5, 1e-6);
+  // Without a joint to meet, it is half as long as its parent, but at most twice as long as its nearest child is away.
+  EXPECT_NEAR(segments_of({2, 6, 4, 3}, {1, 1, 1, 1}, {-1, 0, 1, 1}, {1, 1, 1, 1})[1].tail.x, 8, 1e-6);
+  EXPECT_NEAR(segments_of({2, 6, 5.5, 3}, {1, 1, 1, 1}, {-1, 0, 1, 1}, {1, 1, 1, 1})[1].tail.x, 7, 1e-6);
+}
+
 TEST(Weights, ALeafAwayFromItsParentHasATypicalLength) {
   // The foot at 6 hangs from the root at 0.5, across its axis. Lengths: 1, 1, 5.5.
   const auto found = segments_of({0.5, 1.5, 2.5, 6}, {0, 1, 1, 1}, {-1, 0, 1, 0}, {1, 1, 1, 1});
