@@ -176,7 +176,7 @@ def bad_scenes():
     bad("NON_FINITE", **{"do": "quads", "on": "m", "as": "n", "edge_length": "nan"})
     bad("NON_FINITE", **{"do": "quads", "on": "m", "as": "n", "edge_length": "inf"})
     bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "edge_length": -1.0})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "options": {"kind": 2}})
+    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "options": {"kind": 3}})
     bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "options": {"relax_count": 1001}})
     bad("OUT_OF_RANGE", index=1, **{"do": "quads", "on": "m", "as": "n", "site_vertices": [0, 302]})
     bad("DUPLICATE_SITE", **{"do": "quads", "on": "m", "as": "n", "site_vertices": [7, 7]})
