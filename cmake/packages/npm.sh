@@ -72,14 +72,15 @@ npm_try() {
     hf_same_library "$platform" "$scratch/$platform/package/$(hf_library_name "$platform")"
   done
   filled=$(hf_filled) || exit 1
-  # koffi at the version and with the hash of the tests' lock file; our packages from their files
-  python3 - "$out" "$scratch/package.json" "$hf_root/tests/npm/package.json" <<'PY'
+  # koffi as the tests' lock file installs it, our packages from their files: nothing is downloaded
+  hf_install_node_modules || hf_skip "npm could not install koffi"
+  python3 - "$out" "$scratch/package.json" "$hf_root/build/npm/node_modules/koffi" <<'PY'
 import glob, json, os, re, sys
 files = {re.match(r"(.*)-\d+\.\d+\.\d+\.tgz", os.path.basename(f)).group(1): "file:" + f for f in glob.glob(sys.argv[1] + "/*.tgz")}
-koffi = json.load(open(sys.argv[3]))["dependencies"]["koffi"]
+koffi = "file:" + os.path.realpath(sys.argv[3])
 json.dump({"private": True, "dependencies": {"hf-fields": files.pop("hf-fields"), "koffi": koffi}, "overrides": files}, open(sys.argv[2], "w"))
 PY
-  (cd "$scratch" && npm install --ignore-scripts --no-audit --no-fund --cache "$hf_work/npm_cache") >"$scratch/npm.log" 2>&1 || {
+  (cd "$scratch" && npm install --offline --ignore-scripts --no-audit --no-fund --cache "$hf_work/npm_cache") >"$scratch/npm.log" 2>&1 || {
     tail -5 "$scratch/npm.log" >&2
     hf_skip "npm could not install them with koffi"
   }
@@ -91,7 +92,7 @@ PY
     [ "${PIPESTATUS[0]}" = 0 ] && [ ! -s "$scratch/error.log" ] || { head -10 "$scratch/error.log" >&2; hf_fail "golden scenes of $specifier: ${said[*]}"; }
     case "${said[-1]}" in *scenes*calls) ;; *) hf_fail "golden scenes of $specifier" ;; esac
   done
-  hf_ran "npm install into an empty folder picks $installed of $(ls "$out"/hf-fields-*-*-*.tgz | wc -l); node: ${said[0]}; ${said[1]}"
+  hf_ran "npm into an empty folder picks $installed of $(ls "$out"/hf-fields-*-*-*.tgz | wc -l); node: ${said[0]}; ${said[1]}"
 }
 
 case "$1" in

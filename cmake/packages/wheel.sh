@@ -57,7 +57,7 @@ wheel_try() {
     hf_fail "golden scenes of the wheel"
   }
   hf_quiet env -u PYTHONPATH "$scratch/venv/bin/pip" check --disable-pip-version-check
-  hf_ran "pip install into an empty environment of Python $("$scratch/venv/bin/python" -c 'import sys; print("%d.%d" % sys.version_info[:2])'): golden scenes and bad calls; pip picks each by platform; $(printf '%s; ' "${found[@]}")Windows and arm64 by their library alone"
+  hf_ran "pip into an empty environment of Python $("$scratch/venv/bin/python" -c 'import sys; print("%d.%d" % sys.version_info[:2])'): golden scenes and bad calls; pip picks each by platform; $(printf '%s; ' "${found[@]}")Windows and arm64 by their library alone"
 }
 
 case "$1" in

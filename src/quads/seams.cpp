@@ -304,7 +304,7 @@ class Cutter {
         }
         turn(sum, 1.0 / lever);
         out_.parameter[v] = Seams::depends;
-        out_.fixed.push_back({v, sum, true});
+        out_.fixed.push_back({v, SeamSum(sum, &memory_), true});  // a plain copy would leave this memory
         continue;
       }
       if (out_.parameter[v] >= 0) right.push_back({out_.parameter[v], lever});  // z = 0 at the vertex that is held

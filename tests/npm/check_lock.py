@@ -39,8 +39,8 @@ for path in scripts:
         where = f"{path.relative_to(ROOT)}:{number}"
         if re.search(r"\b(npm (ci|i|install|exec|add)|npx|yarn|pnpm)\b", line) and not line.lstrip().startswith("#"):
             calls += 1
-            if "npm ci --ignore-scripts" not in line:
-                faults.append(f"{where}: installs npm packages otherwise than by npm ci --ignore-scripts")
+            if "npm ci --ignore-scripts" not in line and "npm install --offline --ignore-scripts" not in line:
+                faults.append(f"{where}: installs npm packages otherwise than by npm ci --ignore-scripts, or offline")
         if re.search(r"\bpip3? install\b", line) and "--no-index" not in line and "\\" not in line:
             faults.append(f"{where}: pip may download")
 if not calls:
