@@ -3,20 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quads/numbers.h"
+
 namespace hf_inner {
 namespace {
-
-using Complex = std::complex<double>;
 
 // Curvatures that differ by this many radians over a length of sqrt(area) count half. Smaller: flat parts follow noise.
 constexpr double half_trust = 3.0;
 // A wish below this length everywhere says nothing: the first solve then starts from one arbitrary direction.
 constexpr double least_wish = 1e-3;
-
-Complex unit_of(Complex z) noexcept {
-  const double length = length_of(z);
-  return length > 0 ? z / length : Complex(0, 0);
-}
 
 Vec3 triangle_normal(const Mesh& mesh, Index t) noexcept {
   const Index* c = mesh.triangle(t);
@@ -56,7 +51,7 @@ Vector<Complex> curvature_crosses(const Core& core, const Connection& connection
     const double angle = arc_tangent(norm(cross(p, q)), dot(p, q));
     const double bend = dot(corner - mesh.positions[at(a)], p) <= 0 ? angle : -angle;
     for (const Index v : {a, b}) {
-      const Complex along = unit_of(connection.to_frame(v, edge));
+      const Complex along = unit_of(connection.to_frame(v, edge), 0);
       const double share = bend * length / 2 / core.areas[at(v)];
       difference[at(v)] += share * along * along, sum[at(v)] += share;
     }
@@ -134,7 +129,7 @@ Vector<Complex> smooth_crosses(const DirectionSystem& system, Span<const Complex
     solver.solve(x.data());
     for (Index v = 0; v < core.size(); ++v) {
       field[at(v)] = Complex(x[at(system.unknown(v, 0))], x[at(system.unknown(v, 1))]);
-      target[at(v)] = wish[at(v)] + std::max(0.0, 1 - length_of(wish[at(v)])) * unit_of(field[at(v)]);
+      target[at(v)] = wish[at(v)] + std::max(0.0, 1 - length_of(wish[at(v)])) * unit_of(field[at(v)], 0);
     }
   }
   return field;

@@ -6,11 +6,10 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "quads/numbers.h"
 
 namespace hf_inner {
 namespace {
-
-constexpr std::int32_t none = -1;
 
 class Extractor {
  public:

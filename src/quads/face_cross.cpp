@@ -3,19 +3,13 @@
 #include <cmath>
 
 #include "base/progress.h"
+#include "quads/numbers.h"
 
 namespace hf_inner {
 namespace {
 
-using Complex = std::complex<double>;
 // Feature edges of one triangle whose directions sum to less than this, as crosses, say nothing about it.
 constexpr double least_agreement = 0.5;
-constexpr double pi = 3.141592653589793238462643383279502884;
-
-Complex unit_of(Complex z) noexcept {
-  const double length = length_of(z);
-  return length > 0 ? z / length : Complex(1, 0);
-}
 
 double corner_angle(const FluxSurface& s, std::int32_t h) noexcept {
   const Vec3 p = s.position[s.tail[h]], a = s.position[s.head(h)] - p,
@@ -36,7 +30,7 @@ Table<std::uint8_t> find_features(const FluxSurface& surface, double crease, Mem
     const std::int32_t g = surface.twin[h];
     if (!surface.is_real(g)) {
       out[h] = 1;
-    } else if (h < g && crease < pi) {
+    } else if (h < g && crease < half_turn) {
       const Vec3 p = normal[h / 3], q = normal[g / 3];
       out[h] = out[g] = arc_tangent(norm(cross(p, q)), dot(p, q)) > crease;
     }
@@ -69,14 +63,14 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
       // A triangle may be turned over against the mesh.
       const Vec3 facing = dot(connection.normal[i], normal) < 0 ? -1.0 * normal : normal;
       const Vec3 carried = carry(space, connection.normal[i], facing);
-      Complex d = unit_of(Complex(dot(carried, x), dot(carried, y)));
+      Complex d = unit_of(Complex(dot(carried, x), dot(carried, y)), 1);
       d *= d, d *= d;
       sum += size * d;
     }
     Complex along = 0;
     for (int k = 0; k < 3; ++k) {
       if (!features[3 * t + k]) continue;
-      Complex d = unit_of(out.edge[3 * t + k]);
+      Complex d = unit_of(out.edge[3 * t + k], 1);
       d *= d, d *= d;
       along += d;
     }
@@ -87,15 +81,15 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
   for (std::int32_t h = 0; h < 3 * triangles; ++h) {
     const std::int32_t g = surface.twin[h];
     if (!surface.is_real(g) || g < h) continue;
-    const Complex mine = out.direction[h / 3] * std::conj(unit_of(out.edge[h])),
-                  other = out.direction[g / 3] * std::conj(unit_of(-out.edge[g]));
-    const double angle = angle_of(mine * std::conj(other)), quarters = std::nearbyint(angle / (pi / 2));
+    const Complex mine = out.direction[h / 3] * std::conj(unit_of(out.edge[h], 1)),
+                  other = out.direction[g / 3] * std::conj(unit_of(-out.edge[g], 1));
+    const double angle = angle_of(mine * std::conj(other)), quarters = std::nearbyint(angle / (half_turn / 2));
     out.turn[h] = static_cast<std::int8_t>(quarters), out.turn[g] = static_cast<std::int8_t>(-quarters);
-    rest[h] = angle - quarters * (pi / 2), rest[g] = -rest[h];
+    rest[h] = angle - quarters * (half_turn / 2), rest[g] = -rest[h];
   }
   for (std::int32_t v = 0; v < surface.first_apex; ++v) {
     poller.due();
-    double sum = 2 * pi;
+    double sum = 2 * half_turn;
     bool closed = true;
     const std::int32_t begin = surface.out[v];
     for (std::int32_t h = begin;;) {
@@ -105,7 +99,7 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
       h = surface.turn_left(h);
       if (h == begin) break;
     }
-    if (closed) out.index[v] = static_cast<std::int32_t>(std::lround(sum / (pi / 2)));
+    if (closed) out.index[v] = static_cast<std::int32_t>(std::lround(sum / (half_turn / 2)));
   }
   return out;
 }

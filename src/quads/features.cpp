@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quads/numbers.h"
+
 namespace hf_inner {
-namespace {
-
-using Complex = std::complex<double>;
-constexpr std::int32_t none = -1;
-// A factor nearer to 0, or to a whole number, is rounding: factors are sums of powers of i, or halves of them.
-constexpr double no_factor = 1e-9;
-
-}  // namespace
+namespace {}  // namespace
 
 void add_to(RealSum& sum, const RealSum& other, double factor) {
   for (const RealTerm& term : other) {

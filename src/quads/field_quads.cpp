@@ -5,13 +5,12 @@
 #include <optional>
 
 #include "base/timer.h"
+#include "quads/numbers.h"
 #include "remesh/fit.h"
 #include "remesh/relax.h"
 
 namespace hf_inner {
 namespace {
-
-using Complex = std::complex<double>;
 
 // Radius in edge lengths over which crosses are evened out.
 constexpr double smooth_radius = 4;
@@ -21,7 +20,7 @@ constexpr std::int32_t least_passes = 2, most_passes = 20;
 // The feature edges of a vertex agree if their crosses sum to more than this share of their number. Else the cross at
 // the vertex is free.
 constexpr double agreement = 0.5;
-constexpr double degrees = 3.141592653589793238462643383279502884 / 180;
+constexpr double degrees = half_turn / 180;
 // Edge lengths that are tried until a mesh is valid: each is this share of the one before.
 constexpr double shorter = 0.9;
 constexpr std::int32_t most_tries = 8;

@@ -6,11 +6,10 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "mesh/laplacian.h"
+#include "quads/numbers.h"
 
 namespace hf_inner {
 namespace {
-
-using Complex = std::complex<double>;
 
 // Coordinates stay below 2^29 units, so that orientations of triangles are exact in 64 bits.
 constexpr int most_bits = 29;

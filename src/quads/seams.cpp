@@ -5,16 +5,10 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "quads/numbers.h"
 
 namespace hf_inner {
 namespace {
-
-using Complex = std::complex<double>;
-constexpr std::int32_t none = -1;
-
-// A sum of parameters with fewer than this in every factor is 0: factors are sums of powers of i, or halves of them.
-constexpr double no_factor = 1e-9;
-constexpr double half_turn = 3.141592653589793238462643383279502884;
 
 int modulo(int k) noexcept { return k & 3; }
 
