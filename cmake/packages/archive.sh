@@ -87,3 +87,14 @@ archive_try() {
   }
   hf_ran "$(printf '%s\n' "$said" | grep -cE ': [0-9]+ steps') golden scenes, $(printf '%s\n' "$said" | sed -n 's/ wrong calls answered.*//p') bad calls; CMake and pkg-config, shared and static"
 }
+
+# archive_linux PLATFORM make|try ...: the archive of a Linux, which also says which glibc its library asks for
+archive_linux() {
+  case "$2" in
+    make) archive_make "$1" "$3" tar ;;
+    try)
+      archive_try "$1" "$3" "$4"
+      hf_symbol_versions "$4/hf-$hf_version-$1/lib/libhf.so"
+      ;;
+  esac
+}

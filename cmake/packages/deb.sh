@@ -27,12 +27,10 @@ deb_docs() {
     gzip -9n >"$doc/changelog.Debian.gz"
   gzip -9nc "$hf_root/CHANGELOG.md" >"$doc/changelog.gz"
   {
-    printf 'Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\nUpstream-Name: hf\n'
-    printf 'Comment: The library contains code of the headers of Eigen.\n\n'
-    printf 'Files: *\nCopyright: %s\nLicense: Expat\n\n' "$(sed -n 's/^Copyright (c) //p' "$hf_root/LICENSE")"
-    printf 'Files: libhf.so libhf.a\nCopyright: 2008-2021 the authors of Eigen\nLicense: MPL-2.0\n\nLicense: Expat\n'
-    sed -n '/^Permission/,$p' "$hf_root/LICENSE" | sed 's/^$/./; s/^/ /'
-    printf '\nLicense: MPL-2.0\n On Debian systems the text of this licence is in /usr/share/common-licenses/MPL-2.0.\n'
+    printf 'hf, dynamic harmonic fields.\n\n'
+    cat "$hf_root/LICENSE"
+    printf '\nThe library contains code of the headers of Eigen, copyright 2008-2021 by its authors, under the Mozilla Public\n'
+    printf 'License 2.0. Its text is in /usr/share/common-licenses/MPL-2.0 on Debian systems.\n'
   } >"$doc/copyright"
 }
 

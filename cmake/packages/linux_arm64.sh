@@ -3,10 +3,4 @@
 . "$(dirname "$0")/common.sh"
 . "$hf_here/archive.sh"
 [ "$1" = make ] || command -v qemu-aarch64 >/dev/null || hf_skip "no qemu-aarch64 here (Debian: qemu-user)"
-case "$1" in
-  make) archive_make linux-arm64 "$2" tar ;;
-  try)
-    archive_try linux-arm64 "$2" "$3"
-    hf_symbol_versions "$3/hf-$hf_version-linux-arm64/lib/libhf.so"
-    ;;
-esac
+archive_linux linux-arm64 "$@"

@@ -2,10 +2,10 @@
 //
 // The ground is the height of the lowest point of the rest shape. A target may sink as deep as its source, scaled.
 // Regions that stand or touch are held while the translations are solved (hold_regions). Two rules move the rest:
-// - A lying source touches the ground with clusters that are far above it at rest. The same clusters of the target
-//   should touch: lie_down moves the goals of the anchored regions along up by the mean difference of their heights.
-// - What sinks is raised to the ground with the least work against the energies (raise_sunk), so that a limb
-//   bends up and no body is raised for its antlers.
+// - lie_down: a lying source touches the ground with clusters that are far above it at rest. The same clusters of the
+//   target should touch. So the goals of the anchored regions move along up, by the mean difference of the heights.
+// - raise_sunk: what sinks is raised to the ground with the least work against the energies. So a limb bends up, and
+//   no body is raised for its antlers.
 // Both come in continuously: no rule switches, and no vertex is chosen. A frame in which no part lies or sinks
 // only costs one pass over the heights.
 #include <cmath>

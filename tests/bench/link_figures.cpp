@@ -11,63 +11,25 @@
 #include <cstdio>
 #include <cstring>
 #include <map>
-#include <stdexcept>
 
+#include "bench/link_scene.h"
 #include "common/animate.h"
-#include "common/gltf_read.h"
-#include "common/links.h"
-#include "common/mesh_file.h"
 #include "common/picture.h"
-#include "hf/hf.h"
 
 namespace {
 
-using namespace samples;
+using namespace bench;
 
 constexpr double contact_range = 0.005, turn_degrees = 60, handle_radius = 0.06, false_link = 0.03;
 constexpr int pose_count = 4, clip_samples = 8;
 
-void ok(hf_result result) {
-  if (result == HF_OK) return;
-  hf_error_detail detail;
-  hf_error_get_detail(&detail);
-  throw std::runtime_error(std::string(detail.function) + ": " + detail.message);
-}
-
-struct Scene {
-  Model model;
-  FlatMesh flat;
-  std::vector<double> xyz;
-  double diagonal = 1;
-  bool has_model = false;
-};
-
-Scene read_scene(const std::string& file) {
-  Scene out;
-  if (file.size() > 4 && file.substr(file.size() - 4) == ".glb") {
-    out.model = read_gltf(file), out.flat = flatten(out.model), out.has_model = true;
-  } else {
-    out.flat = to_flat_mesh(read_mesh_file(file));
-  }
-  glm::dvec3 low(1e300), high(-1e300);
-  for (const glm::dvec3& p : out.flat.positions) low = glm::min(low, p), high = glm::max(high, p);
-  out.diagonal = glm::length(high - low);
-  out.xyz = double_positions(out.flat.positions);
-  return out;
-}
-
-hf_surface make_surface_of(const Scene& scene, const hf_links_desc* links, int times_count, double* out_ms) {
-  hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = scene.flat.vertex_count(), desc.triangle_count = scene.flat.triangle_count();
-  desc.positions_f64 = scene.xyz.data(), desc.triangles = scene.flat.triangles.data();
-  desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = static_cast<float>(1e-5 * scene.diagonal);
-  desc.links = links;
+hf_surface make_surface_of(const LinkScene& scene, const hf_links_desc* links, int times_count, double* out_ms) {
   hf_surface surface = nullptr;
   std::vector<double> times;
   for (int i = 0; i < times_count; ++i) {
     hf_surface_destroy(surface);
     const auto start = std::chrono::steady_clock::now();
-    ok(hf_surface_create(&desc, &surface));
+    surface = make_linked(scene, links);
     times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }
   std::sort(times.begin(), times.end());
@@ -103,7 +65,7 @@ void nearest_point(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b
   set(va / sum, vb / sum, vc / sum);
 }
 
-std::vector<Contact> find_contacts(const Scene& scene, const std::vector<uint32_t>& piece) {
+std::vector<Contact> find_contacts(const LinkScene& scene, const std::vector<uint32_t>& piece) {
   std::vector<Contact> out;
   const double range = contact_range * scene.diagonal;
   std::vector<char> seen(scene.flat.welded_count, 0);
@@ -151,7 +113,7 @@ Spread spread_of(std::vector<double> values) {
 }
 
 // Extremities: vertices far from each other and from the middle.
-std::vector<uint32_t> far_vertices(const Scene& scene, const std::vector<uint32_t>& piece, int count) {
+std::vector<uint32_t> far_vertices(const LinkScene& scene, const std::vector<uint32_t>& piece, int count) {
   glm::dvec3 middle(0);
   for (const glm::dvec3& p : scene.flat.positions) middle += p / double(scene.flat.vertex_count());
   std::vector<double> distance(scene.flat.vertex_count());
@@ -167,7 +129,8 @@ std::vector<uint32_t> far_vertices(const Scene& scene, const std::vector<uint32_
   return out;
 }
 
-std::vector<double> turn(hf_surface surface, const Scene& scene, uint32_t turned, uint32_t held, uint32_t* unreached) {
+std::vector<double> turn(hf_surface surface, const LinkScene& scene, uint32_t turned, uint32_t held,
+                         uint32_t* unreached) {
   hf_pose pose = nullptr;
   ok(hf_pose_create(surface, nullptr, &pose));
   uint32_t handle[2];
@@ -194,7 +157,7 @@ std::vector<double> turn(hf_surface surface, const Scene& scene, uint32_t turned
 }
 
 // How far the ends of every link move apart in the artist's clips, in boxes.
-std::vector<double> widest_in_clips(const Scene& scene, const std::vector<hf_link>& links) {
+std::vector<double> widest_in_clips(const LinkScene& scene, const std::vector<hf_link>& links) {
   std::vector<double> out(links.size(), 0);
   for (const Animation& clip : scene.model.animations) {
     for (int i = 0; i < clip_samples; ++i) {
@@ -210,7 +173,7 @@ std::vector<double> widest_in_clips(const Scene& scene, const std::vector<hf_lin
 }
 
 // Share of links whose ends move apart by more than 3 % of the box. -1 without clips.
-double false_share(const Scene& scene, const std::vector<hf_link>& links) {
+double false_share(const LinkScene& scene, const std::vector<hf_link>& links) {
   if (scene.model.animations.empty() || links.empty()) return -1;
   double wrong = 0;
   for (const double opened : widest_in_clips(scene, links)) wrong += opened > false_link;
@@ -218,7 +181,7 @@ double false_share(const Scene& scene, const std::vector<hf_link>& links) {
 }
 
 // Leaves out contacts that the artist's clips open by more than 3 % of the box: these pieces do not belong together.
-void drop_false_contacts(const Scene& scene, std::vector<Contact>& contacts) {
+void drop_false_contacts(const LinkScene& scene, std::vector<Contact>& contacts) {
   for (const Animation& clip : scene.model.animations) {
     for (int i = 0; i < clip_samples; ++i) {
       const double time = clip_duration(clip) * i / (clip_samples - 1);
@@ -234,7 +197,7 @@ void drop_false_contacts(const Scene& scene, std::vector<Contact>& contacts) {
 }
 
 // A field of two sites. unreached: NULL, or receives the vertices where it is 0 although no site holds them there.
-std::vector<float> field_of(hf_surface surface, const Scene& scene, uint32_t first, uint32_t second,
+std::vector<float> field_of(hf_surface surface, const LinkScene& scene, uint32_t first, uint32_t second,
                             uint32_t* unreached) {
   hf_solver solver = nullptr;
   ok(hf_create(surface, nullptr, &solver));
@@ -251,14 +214,14 @@ std::vector<float> field_of(hf_surface surface, const Scene& scene, uint32_t fir
   return field;
 }
 
-uint32_t unreached_by_sites(hf_surface surface, const Scene& scene, uint32_t first, uint32_t second) {
+uint32_t unreached_by_sites(hf_surface surface, const LinkScene& scene, uint32_t first, uint32_t second) {
   uint32_t out = 0;
   field_of(surface, scene, first, second, &out);
   return out;
 }
 
 // How much links change the field of the piece with most vertices, between two far sites of it: 95 % of the vertices.
-double body_change(hf_surface plain, hf_surface linked, const Scene& scene, std::vector<uint32_t> piece) {
+double body_change(hf_surface plain, hf_surface linked, const LinkScene& scene, std::vector<uint32_t> piece) {
   std::map<uint32_t, size_t> sizes;
   for (const uint32_t p : piece) sizes[p] += p != HF_NO_INDEX;
   uint32_t largest = 0;
@@ -276,7 +239,7 @@ double body_change(hf_surface plain, hf_surface linked, const Scene& scene, std:
 
 // A model played on itself: twelve pairs of regions spread over it, the mean distance of all vertices from the artist's
 // frames, in % of the box. -1 without clips.
-double played_on_itself(hf_surface surface, const Scene& scene, const std::vector<uint32_t>& piece) {
+double played_on_itself(hf_surface surface, const LinkScene& scene, const std::vector<uint32_t>& piece) {
   if (scene.model.animations.empty()) return -1;
   constexpr int pair_count = 12, clip_count = 3;
   const std::vector<uint32_t> centres = far_vertices(scene, piece, pair_count);
@@ -323,7 +286,7 @@ double played_on_itself(hf_surface surface, const Scene& scene, const std::vecto
   return 100 * sum / frames / scene.diagonal;
 }
 
-Picture tile(const Scene& scene, const std::vector<double>& xyz, const std::vector<uint32_t>& marks) {
+Picture tile(const LinkScene& scene, const std::vector<double>& xyz, const std::vector<uint32_t>& marks) {
   Surface surface = make_surface(xyz, scene.flat.triangles);
   View view;
   view.width = 520, view.height = 520, view.direction = {0.5, 0.25, 1.0};
@@ -334,7 +297,7 @@ Picture tile(const Scene& scene, const std::vector<double>& xyz, const std::vect
 }
 
 // For the search for causes: the pairs of pieces with false links. The joint that moves most of a piece names it.
-void list_false(const Scene& scene, const ModelLinks& skin, const std::vector<hf_link>& links,
+void list_false(const LinkScene& scene, const ModelLinks& skin, const std::vector<hf_link>& links,
                 const std::vector<uint32_t>& piece) {
   std::map<uint32_t, std::map<int, double>> joints;
   for (size_t i = 0; i < skin.joints.size(); ++i) joints[piece[i / 8]][skin.joints[i]] += double(skin.weights[i]);
@@ -399,7 +362,7 @@ enum class Extent { whole, quick, causes, surfaces };
 
 void report(const std::string& file, const std::string& pictures, Extent extent) {
   const bool quick = extent != Extent::whole;
-  const Scene scene = read_scene(file);
+  const LinkScene scene = read_scene(file);
   const ModelLinks links(scene.has_model ? &scene.model : nullptr, scene.flat);
   double plain_ms = 0, linked_ms = 0;
   const int times_count = quick ? 1 : 7;

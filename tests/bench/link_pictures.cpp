@@ -9,17 +9,14 @@
 #include <cstdio>
 #include <cstring>
 #include <map>
-#include <stdexcept>
 
+#include "bench/link_scene.h"
 #include "common/animate.h"
-#include "common/gltf_read.h"
-#include "common/links.h"
 #include "common/picture.h"
-#include "hf/hf.h"
 
 namespace {
 
-using namespace samples;
+using namespace bench;
 
 // A limb is a joint whose bones move this share of the area. The first is as near as possible to best_limb, the second
 // as far as possible from it.
@@ -27,37 +24,11 @@ constexpr double least_limb = 0.04, most_limb = 0.35, best_limb = 0.12;
 constexpr double turn_degrees = 60, pin_radius = 0.04, pin_distance = 0.15;
 constexpr int poses_a_model = 2, pin_count = 10;
 
-void ok(hf_result result) {
-  if (result == HF_OK) return;
-  hf_error_detail detail;
-  hf_error_get_detail(&detail);
-  throw std::runtime_error(std::string(detail.function) + ": " + detail.message);
-}
-
-struct Scene {
-  Model model;
-  FlatMesh flat;
-  std::vector<double> xyz;
-  double diagonal = 1;
-  std::vector<uint32_t> piece;
-};
-
 struct Limb {
   int joint = -1;
   std::vector<double> weight;  // by vertex, of all bones of the limb
   double share = 0;
 };
-
-hf_surface make(const Scene& scene, const hf_links_desc* links) {
-  hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = scene.flat.vertex_count(), desc.triangle_count = scene.flat.triangle_count();
-  desc.positions_f64 = scene.xyz.data(), desc.triangles = scene.flat.triangles.data();
-  desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = static_cast<float>(1e-5 * scene.diagonal);
-  desc.links = links;
-  hf_surface surface = nullptr;
-  ok(hf_surface_create(&desc, &surface));
-  return surface;
-}
 
 bool below(const Model& model, int node, int ancestor) {
   for (; node >= 0; node = model.nodes[size_t(node)].parent) {
@@ -67,7 +38,7 @@ bool below(const Model& model, int node, int ancestor) {
 }
 
 // A third of the area of the triangles around each vertex.
-std::vector<double> areas_of(const Scene& scene) {
+std::vector<double> areas_of(const LinkScene& scene) {
   std::vector<double> out(scene.flat.vertex_count(), 0);
   for (size_t t = 0; t < scene.flat.triangle_count(); ++t) {
     const uint32_t* c = &scene.flat.triangles[3 * t];
@@ -77,7 +48,7 @@ std::vector<double> areas_of(const Scene& scene) {
   return out;
 }
 
-std::vector<Limb> limbs_of(const Scene& scene, const ModelLinks& links, const std::vector<glm::dmat4>& world) {
+std::vector<Limb> limbs_of(const LinkScene& scene, const ModelLinks& links, const std::vector<glm::dmat4>& world) {
   const std::vector<double> areas = areas_of(scene);
   double whole = 0;
   for (const double area : areas) whole += area;
@@ -125,7 +96,7 @@ glm::dmat4 turn_about(const glm::dvec3& p, const glm::dvec3& axis) {
 }
 
 // The outer half of the limb, on the piece that has most of it.
-std::vector<uint32_t> handle_of(const Scene& scene, const Limb& limb, const glm::dvec3& joint) {
+std::vector<uint32_t> handle_of(const LinkScene& scene, const Limb& limb, const glm::dvec3& joint) {
   std::vector<double> far;
   for (size_t v = 0; v < limb.weight.size(); ++v) {
     if (limb.weight[v] > 0.5) far.push_back(glm::length(point(scene.xyz, v) - joint));
@@ -145,7 +116,7 @@ std::vector<uint32_t> handle_of(const Scene& scene, const Limb& limb, const glm:
 }
 
 // Vertices that the limb does not move, far from its joint and from each other.
-std::vector<uint32_t> pins_of(const Scene& scene, const Limb& limb, const glm::dvec3& joint) {
+std::vector<uint32_t> pins_of(const LinkScene& scene, const Limb& limb, const glm::dvec3& joint) {
   std::vector<double> distance(limb.weight.size(), -1);
   for (size_t v = 0; v < distance.size(); ++v) {
     const double d = glm::length(point(scene.xyz, v) - joint);
@@ -162,7 +133,7 @@ std::vector<uint32_t> pins_of(const Scene& scene, const Limb& limb, const glm::d
   return out;
 }
 
-std::vector<double> pose_with(hf_surface surface, const Scene& scene, const std::vector<uint32_t>& region,
+std::vector<double> pose_with(hf_surface surface, const LinkScene& scene, const std::vector<uint32_t>& region,
                               const std::vector<uint32_t>& pins, const glm::dmat4& turn) {
   hf_pose pose = nullptr;
   ok(hf_pose_create(surface, nullptr, &pose));
@@ -186,7 +157,7 @@ std::vector<double> pose_with(hf_surface surface, const Scene& scene, const std:
   return out;
 }
 
-std::vector<double> by_skin(const Scene& scene, int joint, const glm::dmat4& turn) {
+std::vector<double> by_skin(const LinkScene& scene, int joint, const glm::dmat4& turn) {
   Pose pose = rest_pose(scene.model);
   const std::vector<glm::dmat4> world = global_matrices(scene.model, pose);
   const int parent = scene.model.nodes[size_t(joint)].parent;
@@ -196,8 +167,8 @@ std::vector<double> by_skin(const Scene& scene, int joint, const glm::dmat4& tur
   return double_positions(posed_positions(scene.model, scene.flat, pose));
 }
 
-Picture tile(const Scene& scene, const std::vector<double>& xyz, const Box& box, const std::vector<uint32_t>& region,
-             const std::vector<uint32_t>& pins) {
+Picture tile(const LinkScene& scene, const std::vector<double>& xyz, const Box& box,
+             const std::vector<uint32_t>& region, const std::vector<uint32_t>& pins) {
   Surface surface = make_surface(xyz, scene.flat.triangles);
   View view;
   view.width = 460, view.height = 460, view.direction = {0.45, 0.2, 1.0}, view.fixed_box = true, view.box = box;
@@ -219,7 +190,7 @@ Picture tile(const Scene& scene, const std::vector<double>& xyz, const Box& box,
   return render(surface, view, look, marks);
 }
 
-std::string distance_text(const Scene& scene, const std::vector<double>& a, const std::vector<double>& b) {
+std::string distance_text(const LinkScene& scene, const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0, worst = 0;
   for (size_t v = 0; v < scene.piece.size(); ++v) {
     const double d = glm::length(point(a, v) - point(b, v)) / scene.diagonal;
@@ -231,14 +202,9 @@ std::string distance_text(const Scene& scene, const std::vector<double>& a, cons
 }
 
 void draw(const std::string& file, const std::string& folder) {
-  Scene scene;
-  scene.model = read_gltf(file), scene.flat = flatten(scene.model);
-  scene.xyz = double_positions(scene.flat.positions);
-  glm::dvec3 low(1e300), high(-1e300);
-  for (const glm::dvec3& p : scene.flat.positions) low = glm::min(low, p), high = glm::max(high, p);
-  scene.diagonal = glm::length(high - low);
+  LinkScene scene = read_scene(file);
   const ModelLinks links(&scene.model, scene.flat);
-  hf_surface plain = make(scene, nullptr), linked = make(scene, &links.desc);
+  hf_surface plain = make_linked(scene, nullptr), linked = make_linked(scene, &links.desc);
   scene.piece.resize(scene.flat.vertex_count());
   uint32_t count = 0;
   ok(hf_surface_get_pieces(linked, scene.flat.vertex_count(), scene.piece.data(), nullptr, &count));

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Dense>
-#include <set>
 
 #include "assets/creature.h"
 #include "assets/shapes.h"
 #include "base/error.h"
 #include "base/progress.h"
 #include "support/meshes.h"
+#include "support/quad_oracle.h"
 #include "unit/field/analysis_support.h"
 
 namespace {
@@ -67,30 +67,9 @@ std::vector<std::pair<std::string, std::shared_ptr<const Core>>> shapes() {
   return out;
 }
 
-// The oracle, apart from the library's own check: counted from the faces alone.
 void expect_valid(const Core& core, const QuadMesh& mesh, const std::string& what) {
-  std::set<std::pair<std::int32_t, std::int32_t>> directed;
-  std::set<std::int32_t> used;
-  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
-    ASSERT_EQ(mesh.size(f), 4) << what;
-    std::set<std::int32_t> corners;
-    for (std::int32_t k = 0; k < 4; ++k) {
-      const std::int32_t a = mesh.corner[4 * f + k], b = mesh.corner[4 * f + (k + 1) % 4];
-      ASSERT_TRUE(corners.insert(a).second) << what << ": face " << f << " repeats corner " << a;
-      ASSERT_TRUE(directed.insert({a, b}).second) << what << ": edge " << a << " -> " << b << " twice";
-      used.insert(a);
-    }
-  }
-  std::int64_t edges = 0, borders = 0;
-  for (const auto& [a, b] : directed) {
-    const bool inner = directed.count({b, a}) > 0;
-    edges += inner ? 1 : 2, borders += inner ? 0 : 1;
-  }
-  ASSERT_EQ(static_cast<std::int32_t>(used.size()), mesh.position.size()) << what;
-  EXPECT_EQ(mesh.position.size() - edges / 2 + mesh.face_count(),
-            core.mesh.vertex_count() - core.topology.edge_count() + core.mesh.triangle_count())
-      << what;
-  EXPECT_EQ(borders > 0, core.mesh.report.boundary_edge_count > 0) << what;
+  hf_test::expect_manifold(core, mesh, what);
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f) ASSERT_EQ(mesh.size(f), 4) << what;
   for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
     const SurfacePoint& point = mesh.location[v];
     Vec3 p;

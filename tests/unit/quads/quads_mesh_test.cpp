@@ -15,6 +15,7 @@
 #include "remesh/capture.h"
 #include "remesh/quads.h"
 #include "support/meshes.h"
+#include "support/quad_oracle.h"
 
 namespace {
 
@@ -32,29 +33,7 @@ QuadResult make(const std::shared_ptr<const Core>& core, bool uniform, double ed
 // The oracle, apart from the library's own check: counted from the faces alone.
 void expect_valid(const Core& core, const QuadResult& result, const std::string& what) {
   const QuadMesh& mesh = result.mesh;
-  std::set<std::pair<std::int32_t, std::int32_t>> directed;
-  std::set<std::int32_t> used;
-  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
-    std::set<std::int32_t> corners;
-    ASSERT_GE(mesh.size(f), 3) << what;
-    for (std::int32_t k = 0; k < mesh.size(f); ++k) {
-      const std::int32_t a = mesh.corner[mesh.face_start[f] + k],
-                         b = mesh.corner[mesh.face_start[f] + (k + 1) % mesh.size(f)];
-      ASSERT_TRUE(corners.insert(a).second) << what << ": face " << f << " repeats corner " << a;
-      ASSERT_TRUE(directed.insert({a, b}).second) << what << ": edge " << a << " -> " << b << " twice";
-      used.insert(a);
-    }
-  }
-  std::int64_t edges = 0, borders = 0;
-  for (const auto& [a, b] : directed) {
-    const bool inner = directed.count({b, a}) > 0;
-    edges += inner ? 1 : 2, borders += inner ? 0 : 1;
-  }
-  ASSERT_EQ(static_cast<std::int32_t>(used.size()), mesh.position.size()) << what;
-  const std::int64_t surface =
-      std::int64_t{core.mesh.vertex_count()} - core.topology.edge_count() + core.mesh.triangle_count();
-  EXPECT_EQ(mesh.position.size() - edges / 2 + mesh.face_count(), surface) << what;
-  EXPECT_EQ(borders > 0, core.mesh.report.boundary_edge_count > 0) << what;
+  hf_test::expect_manifold(core, mesh, what);
   // every vertex is in its triangle, and where its weights say
   for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
     const SurfacePoint& point = mesh.location[v];
