@@ -4,6 +4,7 @@ import { existsSync, mkdirSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { Pictures } from './pictures.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const modules = process.env.HF_NODE_MODULES ?? join(here, '../../build/npm/node_modules');
@@ -65,17 +66,19 @@ export async function start() {
       '--js-flags=--expose-gc',
     ],
   });
-  return { address, browser, close: async () => (await browser.close(), server.kill()) };
+  const kept = new Pictures(browser, pictures);
+  return { address, browser, kept, close: async () => (await browser.close(), server.kill()) };
 }
 
 export class Studio {
-  constructor(page, complaints) {
+  constructor(page, complaints, kept) {
     this.page = page;
     this.complaints = complaints;
+    this.kept = kept;
   }
   /** A page of the studio. size: [width, height]; options go to the browser's context. */
   static async open(
-    { browser, address },
+    { browser, address, kept },
     { size = [1280, 800], query = 'fresh', wait = true, before = null, ...options } = {},
   ) {
     const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, ...options });
@@ -85,7 +88,7 @@ export class Studio {
     page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
     await before?.(page);
     await page.goto(`${address}?${query}`);
-    const studio = new Studio(page, complaints);
+    const studio = new Studio(page, complaints, kept);
     if (wait) await studio.ready();
     return studio;
   }
@@ -176,9 +179,18 @@ export class Studio {
       return Array.from(new Uint8Array(await crypto.subtle.digest('SHA-256', bytes)), (b) => b.toString(16)).join('');
     });
   }
-  async picture(name) {
+  /** A picture of the page for who looks at it. kept: it is compared with the kept one, without the times in its text. */
+  async picture(name, { kept = true } = {}) {
     await this.settle();
-    await this.page.screenshot({ path: join(pictures, `${name}.png`) });
+    // marks behind the body are dimmed a moment after the last picture
+    if (kept) await this.page.waitForTimeout(250);
+    if (kept)
+      await this.page.evaluate(() => {
+        for (const element of document.querySelectorAll('#told, #sheet dd, #quads-clock'))
+          if (!element.children.length) element.textContent = element.textContent.replace(/\d[\d,.]* m?s\b/g, '0 ms');
+      });
+    const shot = await this.page.screenshot({ path: join(pictures, `${name}.png`), animations: 'disabled' });
+    if (kept) await this.kept.compare(name, shot);
   }
   /** What a click on an entry of the save menu downloads. */
   async save(id) {

@@ -155,7 +155,7 @@ export default async function story(host) {
         .map((e) => `${e.id} ${e.offsetWidth}x${e.offsetHeight}`),
     );
     assert.deepEqual(small, []);
-    await studio.picture('touch_phone');
+    await studio.picture('touch_phone', { kept: false });
     await studio.close();
   });
 }

@@ -43,18 +43,18 @@ export default async function story(host) {
       );
       const stem = file.replace(/\.\w+$/, '');
       const told = await studio.told();
-      await studio.picture(`body_${stem}_first`);
+      await studio.picture(`body_${stem}_first`, { kept: false });
       const mark = (await studio.marks()).find(({ label }) => label.includes('proposed'));
       assert.ok(mark, 'a handle is proposed');
       await studio.drag(mark.x, mark.y, 30, -70);
-      await studio.picture(`body_${stem}_pose`);
+      await studio.picture(`body_${stem}_pose`, { kept: false });
       await studio.tool('field');
       await studio.page.waitForSelector('.mark.offer');
       await studio.page.evaluate(async () => {
         for (const end of window.hfStudio.tools.field.marks().slice(0, 4))
           await window.hfStudio.tools.field.choose(end);
       });
-      await studio.picture(`body_${stem}_field`);
+      await studio.picture(`body_${stem}_field`, { kept: false });
       assert.deepEqual(studio.complaints, []);
       await studio.close();
       return told;

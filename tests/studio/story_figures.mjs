@@ -134,7 +134,7 @@ export default async function story(host) {
       const start = await studio.page.evaluate(() => performance.now());
       const { perSecond, added } = await poses(studio.page, 40);
       const long = await studio.page.evaluate((start) => window.longTasks.filter(([time]) => time > start), start);
-      await studio.picture(`figures_${vertices}`);
+      await studio.picture(`figures_${vertices}`, { kept: false });
       await studio.close();
       assert.ok(perSecond > 60 / SLOW, `${perSecond} poses a second`);
       return `open ${time} ms, a handle more ${Math.round(added)} ms, ${Math.round(perSecond)} poses a second, long tasks ${JSON.stringify(long)}`;

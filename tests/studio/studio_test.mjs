@@ -1,5 +1,5 @@
 // studio_test.mjs FOLDER PICTURES [STORY...]: every tool's story and the goals of the studio, in headless Chromium.
-import { finish, start } from './harness.mjs';
+import { check, finish, start } from './harness.mjs';
 
 const stories = [
   'pose',
@@ -25,6 +25,8 @@ try {
     );
     if (story) await story(host);
   }
+  if (host.kept.taken.size)
+    await check('every picture is the one that is kept', async () => host.kept.report(!wanted.length));
 } finally {
   await host.close();
 }

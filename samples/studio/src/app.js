@@ -9,6 +9,9 @@ import { View } from './view.js';
 import { listen } from './input.js';
 import { $, button, card, make, ms, say, whole } from './ui.js';
 
+/** Larger bodies get their tree of boxes from a Worker of its own: it takes longer to make than a Worker to start. */
+const TREE_APART = 30000;
+
 const empty = { handles: [], sites: [], detail: null };
 
 export class App {
@@ -50,16 +53,17 @@ export class App {
     document.body.setAttribute('aria-busy', 'true');
     const begin = performance.now();
     try {
-      const body = await readModel(bytes, name);
+      const body = await readModel(bytes, name, (data) => this.client.ask('read', { bytes: data, name }));
       const { positions, triangles, fileNormals } = body;
+      // the tree for picking is made beside the factorisation, or after the first picture: the first pull needs none
+      const apart = body.vertexCount > TREE_APART;
+      this.treeJob?.cancel();
+      this.treeJob = apart ? this.client.job('tree', { positions, triangles }) : null;
+      this.treeJob?.answer.catch(() => {});
       const opened = await this.client.ask('open', { positions, triangles, fileNormals });
       const skin = await this.view.show(body);
       this.skin?.dispose();
       Object.assign(this, { body, opened, skin, told: null, fieldTold: null, shownState: null });
-      this.client.ask('tree').then(
-        (tree) => this.skin === skin && (skin.useTree(tree), this.refresh()),
-        () => {},
-      );
       this.centres.clear();
       this.shape = { positions: body.positions.slice(), normals: opened.normals };
       skin.set(this.shape);
@@ -69,7 +73,12 @@ export class App {
       this.session?.opened(bytes, name);
       this.live = null;
       this.history.reset({ ...empty, handles: this.tools.pose.first() });
-      await this.#apply(this.state, true);
+      const shaped = this.#apply(this.state, true);
+      (this.treeJob?.answer ?? this.client.ask('tree')).then(
+        (tree) => this.skin === skin && (skin.useTree(tree), this.refresh()),
+        () => {},
+      );
+      await shaped;
       this.figures.open = performance.now() - begin;
       await this.use(this.tool?.constructor.key ?? 'pose');
       const { componentCount, pieceCount } = opened.report;

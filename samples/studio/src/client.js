@@ -1,7 +1,8 @@
 // The page's side of the Worker: requests with answers, frames of which only the newest waits, and jobs that can be ended.
 export class HfFailure extends Error {
-  constructor({ message, codeName, index }) {
+  constructor({ message, codeName, index, advice }) {
     super(message);
+    this.advice = advice;
     this.codeName = codeName;
     this.index = index;
   }

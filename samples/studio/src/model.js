@@ -18,8 +18,6 @@ import {
 } from '@gltf-transform/extensions';
 import { Matrix4, Vector3 } from 'three';
 import { ModelError } from './model_error.js';
-import { readPly } from './ply_mesh.js';
-import { readObj, readOff } from './text_mesh.js';
 
 /** Larger models are refused: WebAssembly has 2 GB, and a factor of 2 million vertices takes more. */
 const VERTEX_LIMIT = 2_000_000;
@@ -42,14 +40,14 @@ const io = () =>
 
 export const writeGlb = (document) => io().writeBinary(document);
 
-/** Reads the bytes of a glb, gltf, obj, off or ply file. */
-export async function readModel(bytes, name) {
+const endingOf = (name) => name.toLowerCase().split('.').pop();
+
+/** Reads the bytes of a glb, gltf, obj, off or ply file. readMesh: how the last three are read, by the Worker. */
+export async function readModel(bytes, name, readMesh = null) {
   if (!bytes.length) throw new ModelError(`${name} is empty.`, 'Export it again, or take one of the samples.');
-  const ending = name.toLowerCase().split('.').pop();
+  const ending = endingOf(name);
   let document;
-  if (ending === 'ply') document = documentOf(readPly(bytes, name));
-  else if (ending === 'obj' || ending === 'off')
-    document = documentOf((ending === 'obj' ? readObj : readOff)(new TextDecoder().decode(bytes), name));
+  if (readMesh && ['ply', 'obj', 'off'].includes(ending)) document = documentOf(await readMesh(bytes, name));
   else if (bytes[0] === 0x67 && bytes[1] === 0x6c && bytes[2] === 0x54 && bytes[3] === 0x46)
     document = await readGlb(bytes, name);
   else if (ending === 'gltf' || bytes[0] === 0x7b) document = await readGltf(bytes, name);
@@ -217,6 +215,11 @@ function readPart(part, { positions, fileNormals }) {
   const places = part.primitive.getAttribute('POSITION');
   const normals = part.primitive.getAttribute('NORMAL');
   const matrices = part.skin ? skinMatrices(part) : Float64Array.from(part.node.getWorldMatrix());
+  const plain = places.getArray();
+  if (!part.skin && !fileNormals && plain instanceof Float32Array && matrices.every((x, k) => x === Number(k % 5 === 0))) {
+    positions.set(plain, 3 * part.first); // a scan: nothing to work out
+    return matrices;
+  }
   const element = [0, 0, 0];
   for (let v = 0; v < part.count; ++v) {
     const m = part.skin ? 16 * v : 0;

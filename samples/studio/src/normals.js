@@ -30,17 +30,34 @@ export function normalGroups(positions, fileNormals) {
   return groups;
 }
 
+/** What smoothNormals goes through: offsets of the corners' coordinates (from) and of their groups' normals (to), triangles by
+ * their smallest group: neighbours in memory come one after the other, which halves the time. Made once for a body. */
+export function normalSums(triangles, groups) {
+  const count = triangles.length / 3;
+  const starts = new Uint32Array(groups.length + 1);
+  const least = new Uint32Array(count);
+  for (let t = 0; t < count; ++t) {
+    least[t] = Math.min(groups[triangles[3 * t]], groups[triangles[3 * t + 1]], groups[triangles[3 * t + 2]]);
+    ++starts[least[t] + 1];
+  }
+  for (let g = 0; g < groups.length; ++g) starts[g + 1] += starts[g];
+  const from = new Uint32Array(3 * count);
+  for (let t = 0; t < count; ++t) {
+    const at = 3 * starts[least[t]]++;
+    for (let k = 0; k < 3; ++k) from[at + k] = 3 * triangles[3 * t + k];
+  }
+  const to = groups.some((group, v) => group !== v) ? from.map((at) => 3 * groups[at / 3]) : from;
+  return { from, to, groups };
+}
+
 /** Area-weighted normals of every group, written for every vertex. */
-export function smoothNormals(positions, triangles, groups, out) {
+export function smoothNormals(positions, { from, to, groups }, out) {
   out.fill(0);
   // plain numbers, no arrays: this runs for every frame
-  for (let t = 0; t < triangles.length; t += 3) {
-    const v0 = triangles[t];
-    const v1 = triangles[t + 1];
-    const v2 = triangles[t + 2];
-    const a = 3 * v0;
-    const b = 3 * v1;
-    const c = 3 * v2;
+  for (let t = 0; t < from.length; t += 3) {
+    const a = from[t];
+    const b = from[t + 1];
+    const c = from[t + 2];
     const x0 = positions[a];
     const y0 = positions[a + 1];
     const z0 = positions[a + 2];
@@ -53,29 +70,34 @@ export function smoothNormals(positions, triangles, groups, out) {
     const x = y1 * z2 - z1 * y2;
     const y = z1 * x2 - x1 * z2;
     const z = x1 * y2 - y1 * x2;
-    const g0 = 3 * groups[v0];
-    const g1 = 3 * groups[v1];
-    const g2 = 3 * groups[v2];
-    out[g0] += x;
-    out[g0 + 1] += y;
-    out[g0 + 2] += z;
-    out[g1] += x;
-    out[g1 + 1] += y;
-    out[g1 + 2] += z;
-    out[g2] += x;
-    out[g2 + 1] += y;
-    out[g2 + 2] += z;
+    const i = to[t];
+    const j = to[t + 1];
+    const k = to[t + 2];
+    out[i] += x;
+    out[i + 1] += y;
+    out[i + 2] += z;
+    out[j] += x;
+    out[j + 1] += y;
+    out[j + 2] += z;
+    out[k] += x;
+    out[k + 1] += y;
+    out[k + 2] += z;
   }
   for (let v = 0; v < groups.length; ++v) {
     const g = 3 * groups[v];
-    if (g === 3 * v) {
+    const at = 3 * v;
+    if (g === at) {
       const length = Math.sqrt(out[g] * out[g] + out[g + 1] * out[g + 1] + out[g + 2] * out[g + 2]);
       if (length > 0) {
         out[g] /= length;
         out[g + 1] /= length;
         out[g + 2] /= length;
       } else out[g + 1] = 1;
-    } else out.copyWithin(3 * v, g, g + 3);
+    } else {
+      out[at] = out[g];
+      out[at + 1] = out[g + 1];
+      out[at + 2] = out[g + 2];
+    }
   }
   return out;
 }

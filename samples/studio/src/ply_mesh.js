@@ -65,6 +65,7 @@ export function readPly(bytes, name) {
   const next = numbersOf(bytes, header);
   let positions = null;
   const corners = [];
+  const list = []; // of one property, used again
   for (const element of header.elements) {
     if (element.name === 'vertex') positions = new Float32Array(3 * element.count);
     const axes = element.properties.map((property) =>
@@ -81,11 +82,12 @@ export function readPly(bytes, name) {
         }
         const size = next(counted);
         if (!(size >= 0)) throw new ModelError(`${name} ends within its data.`);
-        const list = Array.from({ length: size }, () => next(kind));
+        list.length = 0;
+        for (let k = 0; k < size; ++k) list.push(next(kind));
         if (element.name !== 'face' || !/^vertex_ind/.test(property)) return;
-        const bad = list.find((v) => !(v >= 0 && 3 * v < (positions?.length ?? 0)));
-        if (bad !== undefined)
-          throw new ModelError(`A face of ${name} names vertex ${bad}; there are ${(positions?.length ?? 0) / 3}.`);
+        for (const v of list)
+          if (!(v >= 0 && 3 * v < (positions?.length ?? 0)))
+            throw new ModelError(`A face of ${name} names vertex ${v}; there are ${(positions?.length ?? 0) / 3}.`);
         for (let k = 2; k < size; ++k) corners.push(list[0], list[k - 1], list[k]);
       });
   }

@@ -2,7 +2,7 @@
 // handles is played under the clip, because it is a change of the shape at rest.
 import { Matrix4, Quaternion, Vector3 } from 'three';
 import { blendMatrices, jointMatrices } from './model.js';
-import { normalGroups, smoothNormals } from './normals.js';
+import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { $, button, choice, make } from './ui.js';
 
 /** The value of a sampler at a time: steps, lines (quaternions along the arc), or cubic splines. */
@@ -124,7 +124,7 @@ export class Timeline {
     this.body = body;
     this.placeGroups = null;
     this.clip = body.clips.find((clip) => lengthOf(clip) > 0) ?? null;
-    this.groups = null;
+    this.sums = null;
     this.draw();
   }
   draw() {
@@ -193,14 +193,14 @@ export class Timeline {
     const { app } = this;
     if (!this.locals) {
       this.locals = localsOf(this.body, app.shape.positions);
-      this.groups ??= normalGroups(this.body.positions, this.body.fileNormals);
+      this.sums ??= normalSums(this.body.triangles, normalGroups(this.body.positions, this.body.fileNormals));
       this.posed = new Float32Array(this.locals.length);
       this.normals = new Float32Array(this.locals.length);
     }
     const away = this.away();
     this.time = time;
     playedAt(this.body, this.clip, time, this.locals, this.posed);
-    smoothNormals(this.posed, this.body.triangles, this.groups, this.normals);
+    smoothNormals(this.posed, this.sums, this.normals);
     app.skin.set({ positions: this.posed, normals: this.normals });
     if (away !== this.away()) app.refresh();
   }

@@ -46,6 +46,8 @@ export class View {
     this.#wanted = true;
     requestAnimationFrame(() => {
       this.#wanted = false;
+      // a panel that came or went: once, before anything is drawn at the old size
+      this.resize();
       this.drawNow();
     });
   }
@@ -74,7 +76,7 @@ export class View {
   }
   resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
-    if (!width || !height) return;
+    if (!width || !height || (width === this.width && height === this.height)) return;
     this.width = width;
     this.height = height;
     this.renderer.setSize(width, height, false);

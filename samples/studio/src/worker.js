@@ -3,7 +3,8 @@
 import createHf from 'hf-glue';
 import { load } from '../../../bindings/js/src/web.js';
 import { buildBvh } from './bvh.js';
-import { normalGroups, smoothNormals } from './normals.js';
+import { readMesh } from './mesh_files.js';
+import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { poseOf } from './worker_pose.js';
 import { fieldOf } from './worker_field.js';
 import { detailOf } from './worker_detail.js';
@@ -25,29 +26,34 @@ async function ready() {
 }
 
 const tasks = {
+  /** Places and triangles of an obj, off or ply file. */
+  read({ bytes, name }) {
+    const mesh = readMesh(bytes, name);
+    return [mesh, [mesh.positions.buffer, mesh.triangles.buffer]];
+  },
   /** Opens a body: factorises once. Answers with what the page can offer at once. */
   async open({ positions, triangles, fileNormals }) {
     await ready();
     const begin = performance.now();
     // the pieces of one character are linked: hair, eyes and clothes follow the body
     const surface = new hf.Surface(positions, triangles, { linkPieces: true });
-    const groups = normalGroups(positions, fileNormals);
-    const next = { hf, surface, positions, triangles, groups, normals: new Float32Array(positions.length) };
+    const sums = normalSums(triangles, normalGroups(positions, fileNormals));
+    const next = { hf, surface, positions, triangles, sums, normals: new Float32Array(positions.length) };
     const proposals = surface.proposeHandles();
     closeBody();
     body = next;
     body.pose = poseOf(body);
     body.field = fieldOf(body);
     body.detail = detailOf(body);
-    smoothNormals(positions, triangles, groups, body.normals);
+    smoothNormals(positions, sums, body.normals);
     const report = surface.report;
     const answer = { proposals, report, normals: body.normals.slice(), components: surface.components };
     answer.openMs = performance.now() - begin;
     return [answer, [answer.normals.buffer, answer.components.buffer]];
   },
-  /** The tree for picking, made here so that the page never stops for it. */
-  tree() {
-    const { answer, buffers } = buildBvh(body.positions, body.triangles);
+  /** The tree for picking, made here so that the page never stops for it: of the body, or of given arrays. */
+  tree({ positions = body.positions, triangles = body.triangles }) {
+    const { answer, buffers } = buildBvh(positions, triangles);
     return [answer, buffers];
   },
   /** Positions and normals of the body under handles and detail. */
@@ -57,7 +63,7 @@ const tasks = {
     const told = body.pose.told();
     told.detail = detail ? body.detail.apply(positions, detail) : null;
     const normals = new Float32Array(positions.length);
-    smoothNormals(positions, body.triangles, body.groups, normals);
+    smoothNormals(positions, body.sums, normals);
     told.milliseconds = performance.now() - begin;
     return [{ positions, normals, told }, [positions.buffer, normals.buffer]];
   },
@@ -101,7 +107,7 @@ const tasks = {
     const begin = performance.now();
     const posed = body.transfer.apply(positions);
     const normals = new Float32Array(posed.length);
-    smoothNormals(posed, body.triangles, body.groups, normals);
+    smoothNormals(posed, body.sums, normals);
     return [{ positions: posed, normals, milliseconds: performance.now() - begin }, [posed.buffer, normals.buffer]];
   },
   transferSkin({ positions }) {
@@ -132,11 +138,11 @@ self.onmessage = ({ data: { id, task, args } }) => {
       self.postMessage({ id, answer }, buffers);
     } catch (error) {
       // the library's own sentence, without the name of the function and the code
-      const { codeName = null, index = null, functionName = '' } = error;
+      const { codeName = null, index = null, functionName = '', advice } = error;
       const message = codeName
         ? error.message.replace(`${functionName}: `, '').replace(` (${codeName})`, '')
         : error.message;
-      self.postMessage({ id, error: { message, codeName, index } });
+      self.postMessage({ id, error: { message, codeName, index, advice } });
     }
   });
 };

@@ -1,7 +1,7 @@
 // Transfer: a clip of another body played on this one, side by side. Pairs are proposed and can be left out.
 import { Vector3 } from 'three';
 import { readModel } from '../model.js';
-import { smoothNormals, normalGroups } from '../normals.js';
+import { normalGroups, normalSums, smoothNormals } from '../normals.js';
 import { lengthOf, localsOf, playedAt } from '../timeline.js';
 import { skinnedGlb } from '../save.js';
 import { $, button, choice, facts, make, ms, say } from '../ui.js';
@@ -130,13 +130,13 @@ export class TransferTool {
       const { positions, triangles } = body;
       const pairs = await app.client.ask('transferOpen', { positions, triangles });
       const skin = await app.view.show(body);
-      const groups = normalGroups(positions, body.fileNormals);
-      const normals = smoothNormals(positions, triangles, groups, new Float32Array(positions.length));
+      const sums = normalSums(triangles, normalGroups(positions, body.fileNormals));
+      const normals = smoothNormals(positions, sums, new Float32Array(positions.length));
       skin.set({ positions, normals });
       this.source = {
         body,
         skin,
-        groups,
+        sums,
         normals,
         posed: new Float32Array(positions.length),
         locals: localsOf(body, positions),
@@ -164,7 +164,7 @@ export class TransferTool {
     const { app, source } = this;
     this.time = time;
     playedAt(source.body, this.clip, time, source.locals, source.posed);
-    smoothNormals(source.posed, source.body.triangles, source.groups, source.normals);
+    smoothNormals(source.posed, source.sums, source.normals);
     const answer = await app.client.frame('transferFrame', { positions: source.posed });
     if (!answer || this.source !== source || app.tool !== this) return;
     source.skin.set({ positions: source.posed, normals: source.normals });
@@ -193,7 +193,7 @@ export class TransferTool {
     this.time = 0;
     const { source } = this;
     source.posed.set(source.body.positions);
-    smoothNormals(source.posed, source.body.triangles, source.groups, source.normals);
+    smoothNormals(source.posed, source.sums, source.normals);
     source.skin.set({ positions: source.posed, normals: source.normals });
     this.app.skin.set(this.app.shape);
     this.app.refresh();
