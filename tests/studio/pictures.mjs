@@ -11,7 +11,7 @@ const maker = join(kept, 'made_by.txt');
 
 /** A channel (0 to 255) that differs by more than this makes a pixel different: kept channels are rounded to 4. */
 const LEVEL = 16;
-/** Different pixels of all: a dot is 0.05 % of a page, and 0.003 % is the most that ten runs on a busy machine gave. */
+/** Different pixels of all: a dot of a handle is 0.05 % of a page. */
 const SHARE = 2e-4;
 /** Another Chromium has other letters and edges: then only what is gross is seen. */
 const SHARE_OTHER = 0.05;

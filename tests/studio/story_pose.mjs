@@ -101,6 +101,7 @@ export default async function story(host) {
     await page.waitForTimeout(400);
     assert.equal((await studio.marks()).length, 0);
     await page.click('#play');
+    await page.locator('#scrub').fill('0.56');
     await studio.picture('pose_clip');
     await page.click('#to-rest');
     await studio.settle();

@@ -18,7 +18,7 @@ export default async function story(host) {
   let path;
   await check('the saved shape is a valid glb', async () => {
     await page.click('#save');
-    await page.screenshot({ path: `${process.argv[3]}/save_menu.png` });
+    await studio.picture('save_menu');
     await page.click('#card .row button');
     path = await studio.save('save-shape');
     const { numWarnings } = await validated(path);

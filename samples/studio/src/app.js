@@ -5,9 +5,10 @@ import { ModelError } from './model_error.js';
 import { readModel } from './model.js';
 import { Marks } from './marks.js';
 import { Timeline } from './timeline.js';
+import { ramp, STRIPS } from './skin_view.js';
 import { View } from './view.js';
 import { listen } from './input.js';
-import { $, button, card, make, ms, say, whole } from './ui.js';
+import { $, card, make, ms, say, touched, whole } from './ui.js';
 
 /** Larger bodies get their tree of boxes from a Worker of its own: it takes longer to make than a Worker to start. */
 const TREE_APART = 30000;
@@ -52,6 +53,7 @@ export class App {
     say(`opening ${name}`);
     document.body.setAttribute('aria-busy', 'true');
     const begin = performance.now();
+    let showing = null;
     try {
       const body = await readModel(bytes, name, (data) => this.client.ask('read', { bytes: data, name }));
       const { positions, triangles, fileNormals } = body;
@@ -60,8 +62,12 @@ export class App {
       this.treeJob?.cancel();
       this.treeJob = apart ? this.client.job('tree', { positions, triangles }) : null;
       this.treeJob?.answer.catch(() => {});
+      showing = this.view.ready(body);
+      showing.catch(() => {});
       const opened = await this.client.ask('open', { positions, triangles, fileNormals });
-      const skin = await this.view.show(body);
+      const skin = await showing;
+      showing = null;
+      skin.group.visible = true;
       this.skin?.dispose();
       Object.assign(this, { body, opened, skin, told: null, fieldTold: null, shownState: null });
       this.centres.clear();
@@ -91,6 +97,10 @@ export class App {
       );
     } catch (error) {
       say('');
+      showing?.then(
+        (skin) => skin.dispose(),
+        () => {},
+      );
       this.failed(`${name} was not opened`, error);
     } finally {
       document.body.removeAttribute('aria-busy');
@@ -274,8 +284,15 @@ export class App {
     box.hidden = !content;
     if (!content) return;
     const { low, high, hatch } = content;
+    // the strips of the body, with their colours
+    const strips = Array.from({ length: STRIPS }, (_, i) => {
+      const t = (i + 0.5) / STRIPS;
+      const [a, b, part] = t < 0.5 ? [ramp[0], ramp[1], 2 * t] : [ramp[1], ramp[2], 2 * t - 1];
+      const colour = `rgb(${a.map((x, k) => Math.round(255 * (x + part * (b[k] - x)) ** (1 / 2.2))).join(' ')})`;
+      return `${colour} ${(100 * i) / STRIPS}% ${(100 * (i + 1)) / STRIPS}%`;
+    }).join(', ');
     box.replaceChildren(
-      make('div', { class: 'ramp', style: 'background: linear-gradient(90deg, #2152a8, #ede8db, #d96114)' }),
+      make('div', { class: 'ramp', style: `background: linear-gradient(90deg, ${strips})` }),
       make(
         'div',
         { class: 'ends' },
@@ -296,16 +313,24 @@ export class App {
     tip.style.top = `${at[1] + 14}px`;
   }
   help() {
-    const rows = [
-      ['Turn', 'drag beside the body, right drag, or two fingers'],
-      ['Zoom', 'wheel or pinch'],
-      ['Move the view', 'middle drag, or Shift and drag'],
-      ['Handles and sites', 'Tab walks them, Enter chooses, arrows move, Delete removes'],
-      ['Pose', '[ and ] turn a handle, P pins it'],
-      ['Undo, redo', 'Ctrl+Z, Ctrl+Shift+Z'],
-      ['Save, open', 'Ctrl+S, Ctrl+O'],
-      ['Tools', '1 to 6'],
-    ];
+    const rows = touched()
+      ? [
+          ['Turn', 'drag beside the body, or two fingers'],
+          ['Zoom', 'pinch'],
+          ['Pose', 'drag a dot; tap it for its rings; tap the body for a new one'],
+          ['Field', 'tap the body for a site; drag it'],
+          ['Detail', 'draw a loop around a part'],
+        ]
+      : [
+          ['Turn', 'drag beside the body, right drag, or two fingers'],
+          ['Zoom', 'wheel or pinch'],
+          ['Move the view', 'middle drag, or Shift and drag'],
+          ['Handles and sites', 'Tab walks them, Enter chooses, arrows move, Delete removes'],
+          ['Pose', '[ and ] turn a handle, P pins it'],
+          ['Undo, redo', 'Ctrl+Z, Ctrl+Shift+Z'],
+          ['Save, open', 'Ctrl+S, Ctrl+O'],
+          ['Tools', '1 to 6'],
+        ];
     card(
       'hf studio',
       [

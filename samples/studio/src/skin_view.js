@@ -2,10 +2,40 @@
 import * as THREE from 'three';
 import { readBvh } from './bvh.js';
 
+/** Colours of a field from its lowest to its highest value (linear light), and the strips between its lines. */
+export const ramp = [
+  [0.13, 0.32, 0.66],
+  [0.93, 0.91, 0.86],
+  [0.85, 0.38, 0.08],
+];
+export const STRIPS = 12;
+const colour = (list) => `vec3(${list.join(', ')})`;
+/** The shadow under a body: its width as part of the body's, its darkness, its corners. */
+const [SHADOW, DARK, ROUND] = [0.6, 0.34, 48];
+
+/** A soft disc under the body at rest, so that it stands and does not float. */
+function shadow(box) {
+  const size = box.getSize(new THREE.Vector3());
+  const geometry = new THREE.CircleGeometry(1, ROUND);
+  const colours = new Float32Array(4 * (ROUND + 2));
+  colours[3] = DARK; // the middle; all others are clear
+  geometry.setAttribute('color', new THREE.BufferAttribute(colours, 4));
+  const disc = new THREE.Mesh(
+    geometry,
+    new THREE.MeshBasicMaterial({ vertexColors: true, transparent: true, depthWrite: false }),
+  );
+  box.getCenter(disc.position).y = box.min.y;
+  const least = 0.3 * Math.max(size.x, size.z);
+  disc.scale.set(SHADOW * Math.max(size.x, least), SHADOW * Math.max(size.z, least), 1);
+  disc.rotation.x = -Math.PI / 2;
+  disc.renderOrder = -1;
+  return disc;
+}
+
 const overlay = () =>
   new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
-    uniforms: { mode: { value: 0 }, low: { value: 0 }, high: { value: 1 }, strips: { value: 12 } },
+    uniforms: { mode: { value: 0 }, low: { value: 0 }, high: { value: 1 }, strips: { value: STRIPS } },
     vertexShader: `attribute float field; attribute float reached; attribute vec3 tint;
       varying float vField; varying float vReached; varying vec3 vTint; varying vec3 vNormal;
       void main() {
@@ -15,7 +45,7 @@ const overlay = () =>
     fragmentShader: `uniform int mode; uniform float low, high, strips;
       varying float vField; varying float vReached; varying vec3 vTint; varying vec3 vNormal;
       vec3 ramp(float t) {
-        vec3 cold = vec3(0.13, 0.32, 0.66), middle = vec3(0.93, 0.91, 0.86), warm = vec3(0.85, 0.38, 0.08);
+        vec3 cold = ${colour(ramp[0])}, middle = ${colour(ramp[1])}, warm = ${colour(ramp[2])};
         return t < 0.5 ? mix(cold, middle, 2.0 * t) : mix(middle, warm, 2.0 * t - 1.0);
       }
       void main() {
@@ -68,7 +98,7 @@ export class Skin {
     this.cover = new THREE.Mesh(this.whole, this.overlay);
     this.cover.frustumCulled = false;
     this.cover.visible = false;
-    this.group.add(this.cover, ...this.parts);
+    this.group.add(shadow(this.box()), this.cover, ...this.parts);
     view.bodies.add(this.group);
   }
 

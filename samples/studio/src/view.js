@@ -5,7 +5,7 @@ import { Skin } from './skin_view.js';
 /** A click moves less than this many pixels; more is a drag. */
 export const CLICK_PIXELS = 5;
 /** Room around a framed body: handles at its ends stay in the picture. */
-const MARGIN = 1.3;
+const MARGIN = 1.2;
 /** Radians of turning for each pixel of a drag. */
 const TURN = 0.008;
 
@@ -19,6 +19,8 @@ export class View {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.toneMapping = THREE.NoToneMapping;
+    // asking what a shader says waits for the graphics card; faults of our own shaders are seen in the tests
+    this.renderer.debug.checkShaderErrors = false;
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
     this.target = new THREE.Vector3();
     this.turn = 0.75;
@@ -157,9 +159,17 @@ export class View {
     return new THREE.Vector3().setFromMatrixColumn(this.camera.matrixWorld, 1).toArray();
   }
 
-  async show(body) {
+  /** A body that is ready to be drawn, and hidden: pictures are decoded, and the shaders are made without a stop. */
+  async ready(body) {
     const skin = new Skin(body, this);
-    await skin.loadPictures();
+    skin.group.visible = false;
+    try {
+      await skin.loadPictures();
+      await this.renderer.compileAsync(skin.group, this.camera, this.#scene);
+    } catch (error) {
+      skin.dispose();
+      throw error;
+    }
     return skin;
   }
   clear(group) {

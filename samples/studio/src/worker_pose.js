@@ -45,7 +45,9 @@ export function poseOf(body) {
         told = { unreachedVertexCount: 0, handles: [] };
         return body.positions.slice();
       }
+      const known = new Set(held.map(({ number }) => number));
       change(handles);
+      const added = held.some(({ number }) => !known.has(number));
       pose.setTransforms(
         held.map(({ number }) => number),
         {
@@ -55,6 +57,7 @@ export function poseOf(body) {
       );
       const positions = pose.deform(null, { restart: Number(restart) });
       told = pose.deformInfo;
+      told.added = added;
       told.handles = held.map(({ id, number }) => ({ id, centroid: pose.handleInfo(number).centroid }));
       return positions;
     },

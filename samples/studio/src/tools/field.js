@@ -1,5 +1,5 @@
 // Field: sites with values; drag one and the field follows.
-import { button, facts, make, ms, slider, whole } from '../ui.js';
+import { button, facts, make, ms, slider, touched, whole } from '../ui.js';
 
 /** A key moves a site by this many pixels along the surface. */
 const NUDGE_PIXELS = 12;
@@ -145,7 +145,7 @@ export class FieldTool {
         'p',
         {},
         this.sites.length
-          ? 'Drag a site: the field follows. Hover over the body to read a value.'
+          ? `Drag a site: the field follows.${touched() ? '' : ' Hover over the body to read a value.'}`
           : 'Click the body, or a proposed end, to put the first site there.',
       ),
       site &&

@@ -280,7 +280,10 @@ export class PoseTool {
           { class: 'warn' },
           `${whole(unreached)} vertices belong to pieces without a handle; they stay where they are.`,
         ),
-      facts([['handles', this.handles.length], app.told && ['pose', ms(app.told.milliseconds)]]),
+      facts([
+        ['handles', this.handles.length],
+        app.told && [app.told.added ? 'a handle more' : 'pose', ms(app.told.milliseconds)],
+      ]),
     ];
   }
 }

@@ -174,7 +174,7 @@ export class QuadsTool {
     return [
       make('p', {}, 'Covers the body with quads that follow its shape. A finer size takes longer.'),
       slider(
-        'Size of a quad, parts of the body',
+        'Size of a quad',
         { value: this.edge, low: 0.01, high: 0.06, step: 0.001, digits: 3, id: 'edge', disabled: Boolean(busy) },
         (value) => (this.edge = value),
       ),

@@ -129,7 +129,8 @@ export class TransferTool {
       this.#drop();
       const { positions, triangles } = body;
       const pairs = await app.client.ask('transferOpen', { positions, triangles });
-      const skin = await app.view.show(body);
+      const skin = await app.view.ready(body);
+      skin.group.visible = true;
       const sums = normalSums(triangles, normalGroups(positions, body.fileNormals));
       const normals = smoothNormals(positions, sums, new Float32Array(positions.length));
       skin.set({ positions, normals });

@@ -1,7 +1,7 @@
 // Weights: skin weights for the bones of the file, coloured by bone; one bone alone as a field.
 import { Color } from 'three';
 import { bonesOf, influencesOf } from '../model.js';
-import { button, choice, facts, make, ms, whole } from '../ui.js';
+import { button, choice, facts, make, ms, touched, whole } from '../ui.js';
 
 /** The angle between the hues of neighbouring bones, as part of the circle: the golden ratio keeps all apart. */
 const HUE_STEP = 0.61803398875;
@@ -123,7 +123,7 @@ export class WeightsTool {
         'p',
         {},
         result
-          ? 'Computed from the bones. Hover over the body to read a vertex.'
+          ? `Computed from the bones.${touched() ? '' : ' Hover over the body to read a vertex.'}`
           : 'These are the weights of the file. Compute new ones from its bones.',
       ),
       make(
