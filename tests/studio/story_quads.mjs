@@ -2,6 +2,30 @@
 import assert from 'node:assert/strict';
 import { Studio, check } from './harness.mjs';
 
+/** A cube of 6 n n squares as an obj file. */
+function cube(n) {
+  const places = new Map();
+  const [vertices, faces] = [[], []];
+  const at = (...p) => {
+    const key = p.join();
+    if (!places.has(key)) vertices.push(p), places.set(key, vertices.length);
+    return places.get(key);
+  };
+  for (let axis = 0; axis < 3; ++axis)
+    for (const side of [0, n])
+      for (let i = 0; i < n; ++i)
+        for (let j = 0; j < n; ++j) {
+          const corner = (a, b) => {
+            const p = [];
+            [p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]] = [side, i + a, j + b];
+            return at(...p);
+          };
+          const face = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+          faces.push(side ? face : face.reverse());
+        }
+  return `${vertices.map((p) => `v ${p.join(' ')}`).join('\n')}\n${faces.map((f) => `f ${f.join(' ')}`).join('\n')}\n`;
+}
+
 export default async function story(host) {
   const studio = await Studio.open(host);
   const { page } = studio;
@@ -53,6 +77,35 @@ export default async function story(host) {
     });
     assert.ok(away < 0.005, `${away} of the body`);
     await studio.picture('quads_posed');
+  });
+  await check('with creases the edges of a cube are edges of quads', async () => {
+    await page.setInputFiles('#file', { name: 'cube.obj', mimeType: 'text/plain', buffer: Buffer.from(cube(10)) });
+    await page.waitForFunction(() => window.hfStudio.body.name === 'cube.obj' && window.hfStudio.skin.bvh);
+    await studio.tool('quads');
+    await page.selectOption('#kind', '2');
+    await page.locator('#edge').fill('0.06');
+    await page.locator('#crease').fill('45');
+    await page.click('#make');
+    await page.waitForFunction(() => window.hfStudio.tools.quads.result || window.hfStudio.tools.quads.error, null, {
+      timeout: 60000,
+    });
+    await studio.settle();
+    // every edge of a quad that joins two sides of the cube lies on an edge of the cube: none cuts a corner off
+    const [corners, cuts, count] = await page.evaluate(() => {
+      const { positions, faceStarts, faceCorners } = window.hfStudio.tools.quads.result.mesh;
+      const sides = (v) => [0, 1, 2].flatMap((k) => [0, 10].map((x) => Math.abs(positions[3 * v + k] - x) < 1e-4));
+      let [corners, cuts] = [0, 0];
+      for (let v = 0; v < positions.length / 3; ++v) corners += sides(v).filter(Boolean).length === 3;
+      for (let f = 0; f + 1 < faceStarts.length; ++f) {
+        const all = Array.from(faceCorners.subarray(faceStarts[f], faceStarts[f + 1]), sides);
+        cuts += ![0, 1, 2, 3, 4, 5].some((side) => all.every((list) => list[side]));
+      }
+      return [corners, cuts, faceStarts.length - 1];
+    });
+    assert.equal(corners, 8);
+    assert.equal(cuts, 0);
+    await studio.picture('quads_creases');
+    return `${count} quads, all on one side each`;
   });
   await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
   await studio.close();

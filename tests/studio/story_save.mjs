@@ -84,6 +84,66 @@ export default async function story(host) {
     const bytes = readFileSync(await studio.save('save-picture'));
     assert.ok(bytes.length > 10000 && bytes.subarray(1, 4).toString() === 'PNG');
   });
+  await check('a film of six seconds is saved: webm with pictures that move', async () => {
+    const path = await studio.save('save-film');
+    const bytes = readFileSync(path);
+    assert.equal(bytes.subarray(0, 4).toString('hex'), '1a45dfa3');
+    const told = await page.evaluate(async (base64) => {
+      const video = document.createElement('video');
+      video.src = `data:video/webm;base64,${base64}`;
+      video.muted = true;
+      await new Promise((resolve, reject) => ((video.onloadeddata = resolve), (video.onerror = reject)));
+      // a recorded webm knows its length when its end was seen
+      video.currentTime = 1e6;
+      await new Promise((resolve) => (video.onseeked = resolve));
+      const seconds = video.currentTime;
+      const canvas = new OffscreenCanvas(160, 100);
+      const paint = canvas.getContext('2d', { willReadFrequently: true });
+      const shots = [];
+      for (const time of [0.5, 2.3]) {
+        video.currentTime = time;
+        await new Promise((resolve) => (video.onseeked = resolve));
+        paint.drawImage(video, 0, 0, 160, 100);
+        shots.push(paint.getImageData(0, 0, 160, 100).data);
+      }
+      const moved = shots[0].reduce((sum, x, i) => sum + (Math.abs(x - shots[1][i]) > 24), 0);
+      return { moved, seconds, corner: Array.from(shots[0].slice(0, 3)) };
+    }, bytes.toString('base64'));
+    assert.ok(told.moved > 100, `${told.moved} values differ`);
+    assert.ok(told.seconds > 5 && told.seconds < 8, `${told.seconds} s`);
+    assert.ok(Math.min(...told.corner) > 200, `the ground is ${told.corner}`);
+    return `${told.seconds.toFixed(1)} s, ${(bytes.length / 1e6).toFixed(2)} MB`;
+  });
+  await check('a link holds handles, keys, the tool and the view', async () => {
+    await page.selectOption('#sample', 'bull');
+    await page.waitForFunction(() => window.hfStudio.body.name === 'bull.glb' && window.hfStudio.history.past.length === 0);
+    await studio.tool('pose');
+    await studio.settle();
+    const dot = await page.locator('.mark[aria-label*="proposed"]').first().boundingBox();
+    await studio.drag(dot.x + 22, dot.y + 22, 40, -60);
+    await page.evaluate(() => window.hfStudio.view.turnBy(60, 10));
+    await page.click('#save');
+    await page.click('#save-link');
+    const link = await page.inputValue('#link');
+    await studio.picture('save_link');
+    await page.keyboard.press('Escape');
+    const state = await page.evaluate(() => JSON.stringify([window.hfStudio.state, window.hfStudio.view.turn]));
+    const other = await Studio.open(host, { query: new URL(link).search.slice(1) + new URL(link).hash });
+    await other.page.waitForFunction(() => /as in the link/.test(document.getElementById('told').textContent));
+    assert.equal(
+      await other.page.evaluate(() => JSON.stringify([window.hfStudio.state, window.hfStudio.view.turn])),
+      state,
+    );
+    assert.deepEqual(other.complaints, []);
+    await other.close();
+    return `${link.length} letters`;
+  });
+  await check('a damaged link says so, and the sample opens', async () => {
+    const other = await Studio.open(host, { query: 'sample=bull#s=abcd' });
+    assert.equal(await other.page.evaluate(() => window.hfStudio.body.name), 'bull.glb');
+    assert.deepEqual(other.complaints, []);
+    await other.close();
+  });
   await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
   await studio.close();
 }

@@ -38,6 +38,28 @@ export default async function story(host) {
     assert.ok(await page.locator('#legend').isVisible());
     await studio.picture('weights_bone');
   });
+  await check('a click pins a place to the bone that is shown, and the weights follow; undo takes it back', async () => {
+    const shares = (vertex) =>
+      page.evaluate((vertex) => {
+        const { result, shown } = window.hfStudio.tools.weights;
+        const { weightCount, joints, weights } = result;
+        let sum = 0;
+        for (let i = weightCount * vertex; i < weightCount * (vertex + 1); ++i)
+          if (joints[i] === Number(shown)) sum += weights[i];
+        return sum;
+      }, vertex);
+    const spots = await studio.spots();
+    const spot = spots[Math.floor(spots.length / 2)];
+    const before = await shares(spot[2]);
+    await page.mouse.click(spot[0], spot[1]);
+    await page.waitForFunction(() => window.hfStudio.state.pins.length === 1 && !window.hfStudio.tools.weights.busy);
+    assert.ok(before < 0.5 && (await shares(spot[2])) > 0.999, `${before} to ${await shares(spot[2])}`);
+    assert.equal((await studio.marks()).length, 1);
+    await studio.picture('weights_pin');
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction(() => window.hfStudio.state.pins.length === 0 && !window.hfStudio.tools.weights.busy);
+    assert.ok(Math.abs((await shares(spot[2])) - before) < 1e-6);
+  });
   await check('the colours go when the tool is left', async () => {
     await studio.tool('pose');
     assert.equal(await page.evaluate(() => window.hfStudio.skin.cover.visible), false);

@@ -13,11 +13,12 @@ import { $, card, make, ms, say, touched, whole } from './ui.js';
 /** Larger bodies get their tree of boxes from a Worker of its own: it takes longer to make than a Worker to start. */
 const TREE_APART = 30000;
 
-const empty = { handles: [], sites: [], detail: null };
+const empty = { handles: [], sites: [], detail: null, keys: [], pins: [] };
 
 export class App {
   constructor(toolClasses, samples) {
     this.samples = samples;
+    this.ui = { card, make, say }; // for modules that are loaded later
     this.client = new Client();
     this.view = new View($('canvas'));
     this.history = new History(empty);
@@ -95,6 +96,8 @@ export class App {
           ...body.notes,
         ].join('; '),
       );
+      // a link holds settings for a body that is opened later
+      if (this.pending && (await this.pending())) this.pending = null;
     } catch (error) {
       say('');
       showing?.then(
@@ -141,13 +144,21 @@ export class App {
   }
   async commitPreview(name) {
     if (!this.live) return;
-    const state = this.live;
+    const state = this.timeline.keyed(this.live);
     this.live = null;
     await this.commit(state, name, null, true);
   }
+  /** Leaves what is not a step: the picture is that of the last step. */
+  settle() {
+    if (!this.live) return;
+    this.live = null;
+    this.#apply(this.state, false).catch(({ message }) => say(message));
+  }
   /** A step. When the library refuses it, nothing has changed and its sentence is shown. */
   async commit(state, name, join = null, dragged = false) {
-    this.timeline.stop();
+    if (this.timeline.playing) this.timeline.pause();
+    state = this.timeline.keyed(state);
+    this.live = null;
     const before = this.history.state;
     const kept = { past: this.history.past.slice(), future: this.history.future };
     this.history.push(state, name, join);
@@ -167,7 +178,7 @@ export class App {
     const name = this.history[way]();
     if (!name) return;
     this.live = null;
-    this.timeline.stop();
+    this.timeline.arrive(this.state);
     await this.#apply(this.state, true);
     this.session?.changed(this.history.state);
     say(`${way === 'undo' ? 'taken back' : 'done again'}: ${name}`);
@@ -178,6 +189,7 @@ export class App {
     const before = this.history.state;
     this.history.reset({ ...empty, ...state });
     // numbers of new marks go on after those that are there
+    this.timeline.arrive(this.state);
     this.ids = Math.max(0, ...[...state.handles, ...state.sites].map(({ id }) => Number(id.slice(1)) || 0));
     try {
       await this.#apply(this.state, true);
@@ -201,10 +213,9 @@ export class App {
           this.shape = { positions: answer.positions, normals: answer.normals };
           this.told = answer.told;
           for (const { id, centroid } of answer.told.handles) this.centres.set(id, centroid);
-          this.timeline.locals = null;
           ++this.figures.frames;
           this.figures.shape = answer.told.milliseconds;
-          if (!this.timeline.away()) skin.set(answer);
+          this.timeline.show();
           this.tool?.shaped?.();
           this.marksLayer.update();
         }),
@@ -243,8 +254,8 @@ export class App {
   }
   async use(key) {
     if (this.tool !== this.tools[key]) {
+      if (this.skin) this.timeline.stop();
       this.tool?.leave?.();
-      this.timeline.stop();
     }
     this.tool = this.tools[key];
     for (const tab of $('rail').children) tab.setAttribute('aria-selected', String(tab.id === `tool-${key}`));
@@ -264,6 +275,7 @@ export class App {
     $('redo').disabled = !this.history.future.length;
     if (!this.skin || !this.tool) return;
     this.tool.refresh?.();
+    if (!this.timeline.element.hidden) this.timeline.label();
     this.marksLayer.update();
     this.view.draw();
   }
@@ -326,7 +338,7 @@ export class App {
           ['Zoom', 'wheel or pinch'],
           ['Move the view', 'middle drag, or Shift and drag'],
           ['Handles and sites', 'Tab walks them, Enter chooses, arrows move, Delete removes'],
-          ['Pose', '[ and ] turn a handle, P pins it'],
+          ['Pose', '[ and ] turn a handle, P pins it, K sets a key'],
           ['Undo, redo', 'Ctrl+Z, Ctrl+Shift+Z'],
           ['Save, open', 'Ctrl+S, Ctrl+O'],
           ['Tools', '1 to 6'],

@@ -152,6 +152,20 @@ export async function riggedGlb(app) {
   return skinnedGlb(app, skin, [{ rotations, translations: skin.pivots }, skin], [0, 1], 'pose');
 }
 
+/** Frames a second of a clip that is made of keys: of animation files. */
+const FRAME_RATE = 30;
+
+/** The rest shape rigged by the handles, with the keys as a clip. */
+export async function keyedGlb(app) {
+  const { timeline } = app;
+  const { length } = timeline;
+  const count = Math.max(2, Math.round(length * FRAME_RATE) + 1);
+  const seconds = Array.from({ length: count }, (_, f) => (length * f) / (count - 1));
+  const frames = [];
+  for (const time of seconds) frames.push(await app.client.ask('skin', { handles: timeline.handlesAt(time) }));
+  return skinnedGlb(app, frames[0], frames, seconds, 'keys');
+}
+
 export { skinnedGlb };
 
 /** The file with new weights in its own skins. result: { joints, weights } of the bones of the file. */
@@ -210,6 +224,13 @@ export function saveMenu(app) {
       app.state.handles.length > 0,
       'save-rig',
     ],
+    [
+      'Keys (glb)',
+      'the shape at rest, a skin made of the handles, and the keys of the timeline as a clip',
+      async () => download(await keyedGlb(app), `${name}_keys.glb`, glb),
+      app.timeline.keys.length > 0,
+      'save-keys',
+    ],
     weights && [
       'Weights (glb)',
       'the file with the new weights in its skin',
@@ -238,10 +259,25 @@ export function saveMenu(app) {
       true,
       'save-picture',
     ],
+    [
+      'Film (webm)',
+      'six seconds: what plays, or the body turned once',
+      async () => download(await (await import('./film.js')).film(app), `${name}.webm`, 'video/webm'),
+      true,
+      'save-film',
+    ],
+    [
+      'Link',
+      'the settings in an address: handles, sites, keys and the view',
+      async () => (await import('./link.js')).showLink(app),
+      true,
+      'save-link',
+      true,
+    ],
   ].filter(Boolean);
   const dialog = card(
     'Save',
-    choices.map(([title, text, act, able, id]) => {
+    choices.map(([title, text, act, able, id, quiet]) => {
       const entry = button(
         '',
         async () => {
@@ -249,7 +285,7 @@ export function saveMenu(app) {
           say(`saving: ${title}`);
           try {
             await act();
-            say(`saved: ${title}`);
+            say(quiet ? '' : `saved: ${title}`);
           } catch (error) {
             app.failed(`${title} was not saved`, error);
           }

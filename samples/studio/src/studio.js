@@ -84,14 +84,20 @@ async function start() {
       acts[key]();
     } else if (/input|select/i.test(event.target.tagName) && event.target.type !== 'range') return;
     else if (key === '?') app.help();
+    else if (key === 'k' && app.skin && app.tool === app.tools.pose && app.state.handles.length) app.timeline.setKey();
     else if (/^[1-6]$/.test(key)) $('rail').children[Number(key) - 1]?.click();
   });
   const params = new URLSearchParams(location.search);
   // ?fresh: nothing of an earlier visit; ?sample=bull: that creature
   if (!params.has('fresh')) new Session(app);
   const named = samples.includes(params.get('sample')) ? params.get('sample') : null;
-  const kept = app.session && !named && (await app.session.restore());
-  if (!kept) app.openSample(named ?? samples[0]);
+  const link = location.hash ? await import('./link.js') : null;
+  const settings = await link?.settingsOf(location.hash, app.ui);
+  const kept = app.session && !named && !settings && (await app.session.restore());
+  if (!kept) {
+    app.pending = settings ? () => link.takeSettings(app, settings) : null;
+    app.openSample(named ?? samples[0]);
+  }
   if ('serviceWorker' in navigator && !params.has('fresh')) navigator.serviceWorker.register('keep.js').catch(() => {});
 }
 start();

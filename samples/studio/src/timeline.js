@@ -3,7 +3,11 @@
 import { Matrix4, Quaternion, Vector3 } from 'three';
 import { blendMatrices, jointMatrices } from './model.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
+import { blended, keyNear, withKey } from './keys.js';
 import { $, button, choice, make } from './ui.js';
+
+/** Seconds of a timeline without a clip. */
+const KEY_SECONDS = 2;
 
 /** The value of a sampler at a time: steps, lines (quaternions along the arc), or cubic splines. */
 function sampled(sampler, time, isTurn) {
@@ -66,17 +70,25 @@ export function worldsAt(body, clip, time) {
 }
 
 /** Where the vertices of a shape (in the frame of the scene, at rest) are in the frame of their primitives. */
-export function localsOf(body, shape) {
-  const out = new Float64Array(shape.length);
-  const [matrix, place] = [new Matrix4(), new Vector3()];
+export function localsOf(body, shape, out = null) {
+  out ??= new Float64Array(shape.length);
+  const matrix = new Matrix4();
   for (const part of body.parts) {
-    if (!part.skin) matrix.fromArray(part.matrices).invert();
+    if (!part.inverses) {
+      // kept: keys ask for them in every frame
+      part.inverses = new Float64Array(part.matrices.length);
+      for (let m = 0; m < part.matrices.length; m += 16)
+        matrix.fromArray(part.matrices, m).invert().toArray(part.inverses, m);
+    }
+    const { inverses } = part;
     for (let v = 0; v < part.count; ++v) {
-      if (part.skin) matrix.fromArray(part.matrices, 16 * v).invert();
-      place
-        .fromArray(shape, 3 * (part.first + v))
-        .applyMatrix4(matrix)
-        .toArray(out, 3 * (part.first + v));
+      const [at, m] = [3 * (part.first + v), part.skin ? 16 * v : 0];
+      for (let k = 0; k < 3; ++k)
+        out[at + k] =
+          inverses[m + k] * shape[at] +
+          inverses[m + 4 + k] * shape[at + 1] +
+          inverses[m + 8 + k] * shape[at + 2] +
+          inverses[m + 12 + k];
     }
   }
   return out;
@@ -116,29 +128,40 @@ export class Timeline {
   places() {
     return (this.placeGroups ??= normalGroups(this.body.positions, null));
   }
+  get keys() {
+    return this.app.history.state.keys ?? [];
+  }
+  get length() {
+    return this.clip ? lengthOf(this.clip) : KEY_SECONDS;
+  }
+  /** True where the clip moves the body away from the shape that the handles make. */
   away() {
     return Boolean(this.clip) && (this.playing || this.time > 0);
   }
   opened(body) {
-    this.stop(false);
+    this.playing = false;
+    this.time = 0;
+    this.locals = null;
+    this.of = null;
     this.body = body;
     this.placeGroups = null;
-    this.clip = body.clips.find((clip) => lengthOf(clip) > 0) ?? null;
+    this.clips = body.clips.filter((clip) => lengthOf(clip) > 0);
+    this.clip = this.clips[0] ?? null;
     this.sums = null;
     this.draw();
   }
   draw() {
-    this.element.hidden = !this.clip || this.app.tool?.constructor.key !== 'pose';
-    if (!this.clip) return;
-    const length = lengthOf(this.clip);
+    // also before the first tool is chosen, so that the stage keeps its size
+    this.element.hidden = !this.body || (this.app.tool?.constructor.key ?? 'pose') !== 'pose';
+    if (!this.body) return;
     this.shown = make('span', {});
     this.scrub = make('input', {
       type: 'range',
       min: 0,
-      max: length,
-      step: length / 240,
+      max: this.length,
+      step: this.length / 240,
       value: this.time,
-      'aria-label': 'Time of the clip',
+      'aria-label': 'Time',
       id: 'scrub',
     });
     this.scrub.oninput = () => {
@@ -146,36 +169,61 @@ export class Timeline {
       this.seek(Number(this.scrub.value));
       this.label();
     };
+    this.track = make('div', { class: 'track' }, this.scrub);
     this.playButton = button('', () => (this.playing ? this.pause() : this.play()), { id: 'play' });
+    this.restButton = button('', () => this.begin(), { id: 'to-rest' });
+    this.keyButton = button('Key', () => this.setKey(), {
+      id: 'key',
+      title: 'Keeps the handles as they are at this time (K)',
+    });
+    this.noKeyButton = button('Remove key', () => this.removeKey(), { id: 'no-key' });
     this.element.replaceChildren(
       this.playButton,
-      button('Rest', () => this.stop(), { id: 'to-rest' }),
-      choice(
-        'Clip',
-        this.body.clips.map((clip, i) => [i, clip.getName() || `clip ${i + 1}`]),
-        this.body.clips.indexOf(this.clip),
-        (i) => {
-          this.stop();
-          this.clip = this.body.clips[Number(i)];
-          this.draw();
-        },
-      ),
-      this.scrub,
+      this.restButton,
+      this.clips.length
+        ? choice(
+            'Clip',
+            [...this.clips.map((clip, i) => [i, clip.getName() || `clip ${i + 1}`]), ['none', 'keys alone']],
+            this.clip ? this.clips.indexOf(this.clip) : 'none',
+            (i) => {
+              this.stop();
+              this.clip = this.clips[Number(i)] ?? null;
+              this.draw();
+            },
+            { id: 'clip' },
+          )
+        : '',
+      this.track,
       this.shown,
+      this.keyButton,
+      this.noKeyButton,
     );
     this.label();
   }
+  /** The words and the dots of the keys, at the present time. */
   label() {
+    const { keys, app } = this;
     this.playButton.textContent = this.playing ? 'Pause' : 'Play';
-    this.shown.textContent = `${this.time.toFixed(2)} / ${lengthOf(this.clip).toFixed(2)} s`;
+    this.restButton.textContent = keys.length ? 'Start' : 'Rest';
+    this.playButton.disabled = !this.clip && keys.length < 2;
+    this.shown.textContent = `${this.time.toFixed(2)} / ${this.length.toFixed(2)} s`;
     this.scrub.value = this.time;
+    this.scrub.setAttribute(
+      'aria-valuetext',
+      `${this.time.toFixed(2)} seconds, ${keys.length} ${keys.length === 1 ? 'key' : 'keys'}`,
+    );
+    this.keyButton.disabled = !app.state.handles.length || this.playing;
+    this.noKeyButton.hidden = !keys.length;
+    this.noKeyButton.disabled = this.playing || !keyNear(keys, this.time, this.length);
+    const dots = keys.map(({ time }) => make('i', { style: `--at: ${Math.min(1, time / this.length).toFixed(4)}` }));
+    this.track.replaceChildren(this.scrub, ...dots);
   }
   play() {
     this.playing = true;
     let last = performance.now();
     const step = (now) => {
       if (!this.playing) return;
-      this.seek((this.time + (now - last) / 1000) % lengthOf(this.clip));
+      this.seek((this.time + Math.max(0, now - last) / 1000) % this.length);
       last = now;
       this.label();
       requestAnimationFrame(step);
@@ -188,31 +236,85 @@ export class Timeline {
   pause() {
     this.playing = false;
     this.label();
+    this.app.refresh();
+  }
+  /** The handles at a time: between its keys, or as they are. */
+  handlesAt(time) {
+    return blended(this.app.history.state.handles, this.keys, time);
   }
   seek(time) {
     const { app } = this;
-    if (!this.locals) {
-      this.locals = localsOf(this.body, app.shape.positions);
-      this.sums ??= normalSums(this.body.triangles, normalGroups(this.body.positions, this.body.fileNormals));
+    const away = this.away();
+    this.time = time;
+    if (this.keys.length) app.preview({ ...app.history.state, handles: this.handlesAt(time), time });
+    else this.show();
+    if (away !== this.away()) app.refresh();
+    else app.marksLayer.update();
+  }
+  /** Draws the shape that the handles make, and the clip on it. */
+  show() {
+    const { app } = this;
+    if (!this.away()) return app.skin.set(app.shape);
+    if (this.of !== app.shape) {
+      this.locals = localsOf(this.body, app.shape.positions, this.locals);
+      this.of = app.shape;
+    }
+    if (!this.sums) {
+      this.sums = normalSums(this.body.triangles, normalGroups(this.body.positions, this.body.fileNormals));
       this.posed = new Float32Array(this.locals.length);
       this.normals = new Float32Array(this.locals.length);
     }
-    const away = this.away();
-    this.time = time;
-    playedAt(this.body, this.clip, time, this.locals, this.posed);
+    playedAt(this.body, this.clip, this.time, this.locals, this.posed);
     smoothNormals(this.posed, this.sums, this.normals);
-    app.skin.set({ positions: this.posed, normals: this.normals });
-    if (away !== this.away()) app.refresh();
+    return app.skin.set({ positions: this.posed, normals: this.normals });
   }
-  /** Back to the shape at rest: handles can be dragged again. */
-  stop(show = true) {
-    const away = this.away();
+  /** What the clip does at a vertex, at the present time: a matrix from the shape of the handles to the picture. */
+  carrier(vertex) {
+    if (!this.away()) return null;
+    const part = this.body.parts.find(({ first, count }) => vertex >= first && vertex < first + count);
+    const now = new Matrix4();
+    if (part.skin) now.fromArray(part.played ?? part.matrices, part.played ? 16 * (vertex - part.first) : 0);
+    else now.copy(worldsAt(this.body, this.clip, this.time)(part.node));
+    return now.multiply(new Matrix4().fromArray(part.matrices, part.skin ? 16 * (vertex - part.first) : 0).invert());
+  }
+  setKey() {
+    const { app } = this;
+    const state = app.state;
+    const keys = withKey(this.keys, this.time, this.length, state.handles);
+    return app.commit({ ...state, keys, time: this.time }, 'set a key');
+  }
+  removeKey() {
+    const key = keyNear(this.keys, this.time, this.length);
+    if (!key) return undefined;
+    const { app, time } = this;
+    const keys = this.keys.filter((other) => other !== key);
+    return app.commit({ ...app.state, handles: blended(app.state.handles, keys, time), keys, time }, 'remove a key');
+  }
+  /** What a step keeps: where there are keys, an act at a time is a key at that time. */
+  keyed(state) {
+    const { handles, keys } = this.app.history.state;
+    if (!keys.length || state.keys !== keys || state.handles === handles) return state;
+    return { ...state, keys: withKey(this.keys, this.time, this.length, state.handles), time: this.time };
+  }
+  /** Another state is shown: with keys it says at which time it was made. */
+  arrive({ keys = [], time = 0 }) {
+    this.playing = false;
+    this.time = keys.length ? Math.min(time, this.length) : 0;
+    if (this.body) this.draw();
+  }
+  /** Back to the shape at rest, or to the first moment of the keys. */
+  begin() {
+    this.playing = false;
+    if (this.time > 0) this.seek(0);
+    this.label();
+    this.app.refresh();
+  }
+  /** Ends what plays: the handles of the last step, and no clip. */
+  stop() {
     this.playing = false;
     this.time = 0;
-    this.locals = null;
-    if (!show || !away) return;
-    this.app.skin.set(this.app.shape);
-    this.label();
+    this.app.settle();
+    this.show();
     this.app.refresh();
   }
 }

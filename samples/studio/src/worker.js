@@ -76,8 +76,8 @@ const tasks = {
   extremities() {
     return [body.surface.findExtremities().map(({ vertex, position }) => ({ vertex, position })), []];
   },
-  weights({ bones, weightCount }) {
-    return [weightsOf(body, bones, weightCount), []];
+  weights({ bones, weightCount, pins }) {
+    return [weightsOf(body, bones, weightCount, pins), []];
   },
   skin({ handles }) {
     body.pose.deform(handles, { restart: true });
@@ -88,10 +88,10 @@ const tasks = {
     return [bytes, [bytes.buffer]];
   },
   /** Quads run in a Worker of their own (job.js): it opens the same body from the saved factor. */
-  async quads({ positions, triangles, factor, edgeLength, kind }) {
+  async quads({ positions, triangles, factor, ...options }) {
     await ready();
     const surface = new hf.Surface(positions, triangles, { savedFactor: factor, linkPieces: true });
-    return [quadsOf(hf, surface, { edgeLength, kind }), []];
+    return [quadsOf(hf, surface, options), []];
   },
   transferOpen({ positions, triangles }) {
     body.sourcePositions = positions;

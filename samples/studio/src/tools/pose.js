@@ -1,5 +1,5 @@
 // Pose: handles are proposed; drag one, turn one by its rings or keys, pin one, add one by a click on the body.
-import { Quaternion, Vector3 } from 'three';
+import { Matrix3, Quaternion, Vector3 } from 'three';
 import { button, facts, make, ms, slider, whole } from '../ui.js';
 import { Gizmo } from '../gizmo.js';
 
@@ -39,6 +39,7 @@ export class PoseTool {
   }
   enter() {
     this.app.skin.wear('own');
+    this.app.timeline.arrive(this.app.state);
     this.gizmo.show(this.present());
   }
   leave() {
@@ -52,10 +53,19 @@ export class PoseTool {
   }
   placeOf(handle) {
     const centre = this.app.centres.get(handle.id) ?? handle.position;
-    return centre.map((x, k) => x + handle.translation[k]);
+    const place = centre.map((x, k) => x + handle.translation[k]);
+    const carrier = this.app.timeline.carrier(handle.vertex);
+    return carrier ? new Vector3(...place).applyMatrix4(carrier).toArray() : place;
+  }
+  /** A step in the picture as a step of the handle, which lies under the clip. */
+  under(handle, step) {
+    const carrier = this.app.timeline.carrier(handle.vertex);
+    if (!carrier) return step;
+    const linear = new Matrix3().setFromMatrix4(carrier);
+    return Math.abs(linear.determinant()) > 1e-9 ? new Vector3(...step).applyMatrix3(linear.invert()).toArray() : step;
   }
   marks() {
-    if (this.app.timeline.away()) return [];
+    if (this.app.timeline.playing) return [];
     const held = new Set(this.handles.map(({ id }) => id));
     const waiting = this.offers.filter(({ id }) => !held.has(id));
     const pull = this.pulled ? null : waiting[0]?.id;
@@ -78,7 +88,7 @@ export class PoseTool {
     ];
   }
   refresh() {
-    this.gizmo.show(this.present());
+    this.gizmo.show(this.app.timeline.away() ? null : this.present());
     this.app.panel();
   }
   choose({ id }) {
@@ -107,7 +117,7 @@ export class PoseTool {
       this.chosen = null;
       return this.app.refresh();
     }
-    const position = this.app.skin.at(hit, this.app.body.positions);
+    const position = this.app.skin.at(hit, this.app.body.positions); // at rest, wherever the clip is
     const number = this.handles.filter(({ id }) => id.startsWith('h')).length + 1;
     return this.add({
       id: `h${this.app.nextId()}`,
@@ -125,7 +135,7 @@ export class PoseTool {
     this.chosen = id;
     this.from = {
       handle: begin ? { ...begin, pinned: false } : { ...offer, pinned: false },
-      place: begin ? this.placeOf(begin) : offer.position,
+      place: begin ? this.placeOf(begin) : this.app.skin.at({ corners: [offer.vertex], barycentrics: [1] }),
       before: this.app.state,
     };
   }
@@ -133,7 +143,11 @@ export class PoseTool {
     const { view } = this.app;
     const { handle, place, before } = this.from;
     const [to, at] = [view.onPlane(x, y, place), view.onPlane(x0, y0, place)];
-    const translation = handle.translation.map((t, k) => t + to[k] - at[k]);
+    const step = this.under(
+      handle,
+      to.map((p, k) => p - at[k]),
+    );
+    const translation = handle.translation.map((t, k) => t + step[k]);
     const moved = { ...handle, translation };
     const known = before.handles.some((other) => other.id === id);
     const handles = known
@@ -157,7 +171,11 @@ export class PoseTool {
     if (ways[event.key]) {
       const [way, length] = ways[event.key];
       const begin = handle ?? { ...this.offers.find((offer) => offer.id === id), pinned: false };
-      const moved = { ...begin, pinned: false, translation: begin.translation.map((t, k) => t + way[k] * length) };
+      const along = this.under(
+        begin,
+        way.map((x) => x * length),
+      );
+      const moved = { ...begin, pinned: false, translation: begin.translation.map((t, k) => t + along[k]) };
       const handles = handle
         ? this.handles.map((other) => (other.id === id ? moved : other))
         : [...this.handles, moved];

@@ -12,6 +12,8 @@ import { button, choice, facts, make, ms, slider, whole } from '../ui.js';
 
 /** Length of an edge as part of the size of the body: the library's own default. */
 const EDGE = 0.022;
+/** Quads whose edges follow the curvature: HF_QUADS_FIELD. They alone take creases. */
+const FIELD = 2;
 
 export class QuadsTool {
   static key = 'quads';
@@ -21,6 +23,7 @@ export class QuadsTool {
     this.app = app;
     this.edge = EDGE;
     this.kind = 0;
+    this.crease = 0;
   }
   opened() {
     this.cancel();
@@ -74,6 +77,7 @@ export class QuadsTool {
           factor,
           edgeLength: this.edge * app.opened.report.boundingBoxDiagonal,
           kind: this.kind,
+          creaseAngle: this.kind === FIELD ? this.crease : 0,
         },
         [factor.buffer],
       );
@@ -183,11 +187,21 @@ export class QuadsTool {
         [
           [0, 'even size'],
           [1, 'quads alone, sizes vary'],
+          [FIELD, 'along the curvature'],
         ],
         this.kind,
-        (value) => (this.kind = Number(value)),
+        (value) => {
+          this.kind = Number(value);
+          this.app.panel();
+        },
         { id: 'kind', disabled: Boolean(busy) },
       ),
+      this.kind === FIELD &&
+        slider(
+          'Creases from (degrees, 0: none)',
+          { value: this.crease, low: 0, high: 180, step: 5, digits: 0, id: 'crease', disabled: Boolean(busy) },
+          (value) => (this.crease = value),
+        ),
       make(
         'div',
         { class: 'row' },

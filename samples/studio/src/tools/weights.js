@@ -1,10 +1,13 @@
 // Weights: skin weights for the bones of the file, coloured by bone; one bone alone as a field.
 import { Color } from 'three';
 import { bonesOf, influencesOf } from '../model.js';
-import { button, choice, facts, make, ms, touched, whole } from '../ui.js';
+import { button, choice, facts, make, ms, say, touched, whole } from '../ui.js';
 
 /** The angle between the hues of neighbouring bones, as part of the circle: the golden ratio keeps all apart. */
 const HUE_STEP = 0.61803398875;
+
+/** A pin holds what lies within this part of the size of the body: a knee of our own creatures. */
+const PIN_RADIUS = 0.02;
 
 export class WeightsTool {
   static key = 'weights';
@@ -15,6 +18,9 @@ export class WeightsTool {
     this.weightCount = 4;
   }
   opened() {
+    this.chosen = null;
+    this.busy = false;
+    this.fileWeights = null;
     this.bones = bonesOf(this.app.body);
     this.result = null;
     this.shown = 'all';
@@ -28,10 +34,55 @@ export class WeightsTool {
     this.restoreField();
   }
   refresh() {
+    // undo and redo bring other pins
+    if (this.result && !this.busy && !this.setting && this.pinned !== this.app.state.pins) this.compute();
     this.app.panel();
   }
+  get pins() {
+    return this.app.state.pins;
+  }
   marks() {
-    return [];
+    return this.pins.map(({ id, vertex, bone }, i) => ({
+      id,
+      place: this.app.skin.at({ corners: [vertex], barycentrics: [1] }),
+      label: `pin ${i + 1}, ${this.bones.names[bone]}`,
+      colour: this.colours[bone].getStyle(),
+      chosen: this.chosen === id,
+    }));
+  }
+  choose({ id }) {
+    this.chosen = this.chosen === id ? null : id;
+    this.app.refresh();
+  }
+  key({ id }, event) {
+    if (event.key !== 'Delete' && event.key !== 'Backspace') return false;
+    this.setPins(
+      this.pins.filter((pin) => pin.id !== id),
+      'remove a pin',
+    );
+    return true;
+  }
+  /** A click pins the place to the bone that is shown. */
+  click(at) {
+    const hit = this.shown !== 'all' && this.app.skin.pick(this.app.view.ray(...at));
+    if (!hit) return undefined;
+    const pin = {
+      id: `w${this.app.nextId()}`,
+      vertex: hit.vertex,
+      bone: Number(this.shown),
+      radius: PIN_RADIUS * this.app.view.size,
+    };
+    this.chosen = pin.id;
+    return this.setPins([...this.pins, pin], 'pin a place');
+  }
+  /** Pins that the library refuses change nothing. */
+  async setPins(pins, name) {
+    if (this.busy) return;
+    this.setting = true;
+    if (await this.compute(pins)) await this.app.commit({ ...this.app.state, pins }, name);
+    else say(`${name}: ${this.error}`);
+    this.setting = false;
+    this.app.refresh();
   }
   /** Weights of the file, in the form of a result. */
   ofFile() {
@@ -98,19 +149,24 @@ export class WeightsTool {
     }
     return rows.join(', ') || 'no bone';
   }
-  async compute() {
+  async compute(pins = this.pins) {
     const { heads, parents } = this.bones;
+    const { app, weightCount } = this;
+    const mine = app.body;
+    this.busy = true;
+    app.refresh();
+    this.error = null;
     try {
-      this.busy = true;
-      this.app.refresh();
-      this.result = await this.app.client.ask('weights', { bones: { heads, parents }, weightCount: this.weightCount });
-      this.error = null;
+      const result = await app.client.ask('weights', { bones: { heads, parents }, weightCount, pins });
+      if (mine === app.body) [this.result, this.pinned] = [result, pins];
     } catch (error) {
       this.error = error.message;
+      this.pinned = this.pins; // asked for once
     }
     this.busy = false;
-    this.dress();
-    this.app.refresh();
+    if (app.tool === this) this.dress();
+    app.refresh();
+    return !this.error;
   }
   sheet() {
     if (!this.bones.joints.length)
@@ -154,7 +210,6 @@ export class WeightsTool {
         (value) => (this.weightCount = Number(value)),
         { id: 'weight-count' },
       ),
-      make('p', {}),
       choice(
         'Bone to show',
         [['all', 'all bones, each its colour'], ...this.bones.names.map((name, i) => [i, name])],
@@ -163,9 +218,19 @@ export class WeightsTool {
           this.shown = value;
           if (value === 'all') this.restoreField();
           this.dress();
+          this.app.panel();
         },
         { id: 'bone' },
       ),
+      make(
+        'p',
+        {},
+        this.shown === 'all'
+          ? 'Show one bone to pin places to it.'
+          : 'Click the body: the place belongs to this bone, and the weights follow.',
+      ),
+      this.pins.length > 0 &&
+        button('Remove all pins', () => this.setPins([], 'remove all pins'), { id: 'no-pins', disabled: this.busy }),
       this.error && make('p', { class: 'warn' }, this.error),
       guessed > 0 &&
         make(
@@ -175,6 +240,7 @@ export class WeightsTool {
         ),
       facts([
         ['bones', this.bones.joints.length],
+        this.pins.length > 0 && ['pins', this.pins.length],
         result && ['time', ms(result.milliseconds)],
         info && ['vertices that see their bone', whole(info.informedCount)],
         info && info.outsideCount > 0 && ['bones outside the skin', info.outsideCount],

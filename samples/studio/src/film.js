@@ -1,0 +1,66 @@
+// A film of six seconds (webm): what plays is filmed; a body that stands still is turned once. Loaded when it is asked for.
+
+export const SECONDS = 6;
+/** Pictures and bits a second: of films in a page. */
+const [RATE, BITS] = [30, 6e6];
+
+/** Films the stage. Returns a webm file. */
+export async function film(app) {
+  const { view, timeline, tools } = app;
+  const { say } = app.ui;
+  if (!window.MediaRecorder?.isTypeSupported('video/webm')) throw new Error('This browser cannot write webm films.');
+  const { canvas } = view;
+  // the ground of the stage belongs to the page: the film gets it too
+  const sheet = document.createElement('canvas');
+  [sheet.width, sheet.height] = [canvas.width & ~1, canvas.height & ~1];
+  const paint = sheet.getContext('2d');
+  const style = getComputedStyle(document.documentElement);
+  const ground = paint.createLinearGradient(0, 0, 0, sheet.height);
+  ground.addColorStop(0, style.getPropertyValue('--stage-top'));
+  ground.addColorStop(1, style.getPropertyValue('--stage-low'));
+  const copy = () => {
+    paint.fillStyle = ground;
+    paint.fillRect(0, 0, sheet.width, sheet.height);
+    paint.drawImage(canvas, 0, 0);
+  };
+
+  const walking = app.tool === tools.transfer && tools.transfer.ready();
+  const moving = walking || (app.tool === tools.pose && (timeline.clip || timeline.keys.length > 1));
+  const turn = view.turn;
+  if (walking) tools.transfer.play();
+  else if (moving) timeline.play();
+  const stream = sheet.captureStream(RATE);
+  const recorder = new MediaRecorder(stream, { mimeType: 'video/webm', videoBitsPerSecond: BITS });
+  const pieces = [];
+  recorder.ondataavailable = ({ data }) => data.size && pieces.push(data);
+  const ended = new Promise((resolve, reject) => {
+    recorder.onstop = resolve;
+    recorder.onerror = ({ error }) => reject(error ?? new Error('The film was not written.'));
+  });
+  copy();
+  const started = new Promise((resolve) => (recorder.onstart = resolve));
+  recorder.start();
+  await started;
+  const begin = performance.now();
+  await new Promise((resolve) => {
+    const step = () => {
+      const time = (performance.now() - begin) / 1000;
+      if (!moving) {
+        view.turn = turn + (2 * Math.PI * Math.min(time, SECONDS)) / SECONDS;
+        view.drawNow();
+      }
+      copy();
+      say(`filming: ${Math.max(0, SECONDS - time).toFixed(0)} s`);
+      time < SECONDS ? requestAnimationFrame(step) : resolve();
+    };
+    requestAnimationFrame(step);
+  });
+  recorder.stop();
+  await ended;
+  for (const track of stream.getTracks()) track.stop();
+  view.turn = turn;
+  if (walking) await tools.transfer.stop();
+  else if (moving) timeline.begin();
+  view.draw();
+  return new Blob(pieces, { type: 'video/webm' });
+}

@@ -1,0 +1,99 @@
+// A link with the settings: handles, sites, keys, pins, the tool and the view stand in the address after #. The body does not:
+// a sample is named, and a file has to be opened by who has it.
+
+const MARK = '#s=';
+/** Longer links are cut by mail programs and browsers. */
+const LONGEST = 30000;
+
+async function through(stream, bytes) {
+  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+}
+const encode = (bytes) =>
+  btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''))
+    .replace(/\+/g, '-')
+    .replace(/\//g, '_')
+    .replace(/=+$/, '');
+const decode = (text) =>
+  Uint8Array.from(atob(text.replace(/-/g, '+').replace(/_/g, '/')), (letter) => letter.charCodeAt(0));
+
+export async function linkOf(app) {
+  const { history, body, tool, view, samples } = app;
+  const settings = {
+    name: body.name,
+    vertexCount: body.vertexCount,
+    state: history.state,
+    tool: tool.constructor.key,
+    view: [view.turn, view.lift],
+  };
+  const text = new TextEncoder().encode(JSON.stringify(settings));
+  const address = new URL(location.origin + location.pathname);
+  const sample = body.name.replace(/\.glb$/, '');
+  if (samples.includes(sample)) address.searchParams.set('sample', sample);
+  return `${address}${MARK}${encode(await through(new CompressionStream('deflate-raw'), text))}`;
+}
+
+export async function showLink(app) {
+  const { card, make, say } = app.ui;
+  const link = await linkOf(app);
+  if (link.length > LONGEST)
+    throw new Error(`The link would have ${link.length} letters; programs cut links of more than ${LONGEST}.`);
+  const field = make('input', { id: 'link', type: 'text', readonly: true, value: link, 'aria-label': 'Link' });
+  const sample = new URL(link).searchParams.has('sample');
+  card(
+    'Link with the settings',
+    [
+      make(
+        'p',
+        {},
+        sample
+          ? 'Who opens it sees this creature as you left it.'
+          : `It holds the settings and not the body: who opens it needs ${app.body.name} too.`,
+      ),
+      field,
+    ],
+    [
+      [
+        'Copy',
+        async () => {
+          await navigator.clipboard.writeText(link);
+          say('link copied');
+        },
+        true,
+      ],
+      ['Close', null],
+    ],
+  );
+  field.select();
+}
+
+/** The settings of the address, or null. */
+export async function settingsOf(hash, { say }) {
+  if (!hash.startsWith(MARK)) return null;
+  try {
+    const text = await through(new DecompressionStream('deflate-raw'), decode(hash.slice(MARK.length)));
+    return JSON.parse(new TextDecoder().decode(text));
+  } catch {
+    say('the link is damaged: it was cut off or changed');
+    return null;
+  }
+}
+
+/** Brings the body to the settings of a link, if it is their body. */
+export async function takeSettings(app, settings) {
+  const { say } = app.ui;
+  if (settings.name !== app.body?.name || settings.vertexCount !== app.body.vertexCount) {
+    say(`the link is for ${settings.name}: open it to see its settings`);
+    return false;
+  }
+  try {
+    await app.take(settings.state);
+  } catch {
+    say('the link is damaged: its settings do not fit the body');
+    return false;
+  }
+  [app.view.turn, app.view.lift] = settings.view;
+  if (app.tools[settings.tool]) await app.use(settings.tool);
+  app.view.frame(app.skin.box());
+  say(`as in the link: ${settings.name}`);
+  return true;
+}
