@@ -48,8 +48,12 @@ export default async function story(host) {
           if (joints[i] === Number(shown)) sum += weights[i];
         return sum;
       }, vertex);
-    const spots = await studio.spots();
-    const spot = spots[Math.floor(spots.length / 2)];
+    // the first place of the picture that the bone does not hold
+    const free = async (list) => {
+      for (const spot of list) if ((await shares(spot[2])) < 0.1) return spot;
+      return list[0];
+    };
+    const spot = await free((await studio.spots()).slice(10));
     const before = await shares(spot[2]);
     await page.mouse.click(spot[0], spot[1]);
     await page.waitForFunction(() => window.hfStudio.state.pins.length === 1 && !window.hfStudio.tools.weights.busy);

@@ -3,6 +3,8 @@
 export const SECONDS = 6;
 /** Pictures and bits a second: of films in a page. */
 const [RATE, BITS] = [30, 6e6];
+/** The last picture gets so many milliseconds to reach the file. */
+const LAST_MS = 1000;
 
 /** Films the stage. Returns a webm file. */
 export async function film(app) {
@@ -13,7 +15,7 @@ export async function film(app) {
   // the ground of the stage belongs to the page: the film gets it too
   const sheet = document.createElement('canvas');
   [sheet.width, sheet.height] = [canvas.width & ~1, canvas.height & ~1];
-  const paint = sheet.getContext('2d');
+  const paint = sheet.getContext('2d', { alpha: false });
   const style = getComputedStyle(document.documentElement);
   const ground = paint.createLinearGradient(0, 0, 0, sheet.height);
   ground.addColorStop(0, style.getPropertyValue('--stage-top'));
@@ -29,7 +31,9 @@ export async function film(app) {
   const turn = view.turn;
   if (walking) tools.transfer.play();
   else if (moving) timeline.play();
-  const stream = sheet.captureStream(RATE);
+  // every picture is handed over: a busy machine must not leave the last seconds out
+  const stream = sheet.captureStream(0);
+  const [track] = stream.getVideoTracks();
   const recorder = new MediaRecorder(stream, { mimeType: 'video/webm', videoBitsPerSecond: BITS });
   const pieces = [];
   recorder.ondataavailable = ({ data }) => data.size && pieces.push(data);
@@ -37,27 +41,34 @@ export async function film(app) {
     recorder.onstop = resolve;
     recorder.onerror = ({ error }) => reject(error ?? new Error('The film was not written.'));
   });
+  const hand = () => (copy(), track.requestFrame());
   copy();
   const started = new Promise((resolve) => (recorder.onstart = resolve));
   recorder.start();
   await started;
   const begin = performance.now();
+  let handed = -Infinity;
   await new Promise((resolve) => {
     const step = () => {
-      const time = (performance.now() - begin) / 1000;
+      const now = performance.now();
+      const time = (now - begin) / 1000;
       if (!moving) {
         view.turn = turn + (2 * Math.PI * Math.min(time, SECONDS)) / SECONDS;
         view.drawNow();
       }
-      copy();
+      if (now - handed >= 900 / RATE || time >= SECONDS) {
+        hand();
+        handed = now;
+      }
       say(`filming: ${Math.max(0, SECONDS - time).toFixed(0)} s`);
       time < SECONDS ? requestAnimationFrame(step) : resolve();
     };
     requestAnimationFrame(step);
   });
+  await new Promise((resolve) => setTimeout(resolve, LAST_MS));
   recorder.stop();
   await ended;
-  for (const track of stream.getTracks()) track.stop();
+  track.stop();
   view.turn = turn;
   if (walking) await tools.transfer.stop();
   else if (moving) timeline.begin();

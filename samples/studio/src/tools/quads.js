@@ -198,7 +198,7 @@ export class QuadsTool {
       ),
       this.kind === FIELD &&
         slider(
-          'Creases from (degrees, 0: none)',
+          'Creases from, degrees',
           { value: this.crease, low: 0, high: 180, step: 5, digits: 0, id: 'crease', disabled: Boolean(busy) },
           (value) => (this.crease = value),
         ),
