@@ -3,7 +3,7 @@
 TYPES = {"int32_t": "i32", "uint32_t": "u32", "hf_result": "i32", "float": "f32", "double": "f64", "size_t": "usize",
     "char": "c_char", "uint8_t": "u8", "uint16_t": "u16", "int64_t": "i64", "uint64_t": "u64", "void": "c_void"}
 RESERVED = {"type", "move", "ref", "in", "where", "loop", "match", "box", "fn", "mod", "use", "self"}
-FILLED = ("_info", "_report", "_statistics", "_certificate")  # ends of names of structs that the library fills
+FILLED = ("_dials", "_info", "_report", "_statistics", "_certificate")  # ends of names of structs that the library fills
 
 
 def safe(name):

@@ -242,6 +242,11 @@ def scenes(meshes):
           {"do": "transfer_info", "on": "x", "expect": {"pair_count": 3, "scale": 1.5, "tolerance": 1e-6}},
           {"do": "apply", "on": "x", "positions": mesh["positions"], "expect": expect(q, 1e-8)},
           {"do": "apply", "on": "x", "positions": "bent", "expect": agree()},
+          {"do": "set_dials", "on": "x", "options": {"stride": 1.5, "hip_height": 0.25}},
+          {"do": "dials", "on": "x", "expect": {"stride": 1.5, "hip_height": 0.25, "arm_space": 0}},
+          {"do": "apply", "on": "x", "positions": "bent", "expect": agree()},
+          {"do": "set_dials", "on": "x"}, {"do": "dials", "on": "x", "expect": {"stride": 1, "hip_height": 0}},
+          {"do": "apply", "on": "x", "positions": mesh["positions"], "expect": expect(q, 1e-8)},
           {"do": "remove_pairs", "on": "x", "pairs": [1]}, {"do": "transfer_info", "on": "x",
               "expect": {"pair_count": 2}})
 

@@ -125,6 +125,12 @@ function Transfer:pair_info(pair) return query('hf_pair_info', C.hf_transfer_get
 function Transfer:info()
   return query('hf_transfer_info', C.hf_transfer_get_info, self.raw)
 end
+-- stride, hip_height, neck_follow, tail_follow, arm_space of the next frames; the others become neutral
+function Transfer:set_dials(dials)
+  check(C.hf_transfer_set_dials(self.raw, options_into(make('hf_transfer_dials'), dials,
+    set('stride hip_height neck_follow tail_follow arm_space'))))
+end
+function Transfer:dials() return query('hf_transfer_dials', C.hf_transfer_get_dials, self.raw) end
 function Transfer:apply(posed)
   local source = doubles(posed, 'posed', 3 * self.source_vertex_count)
   local out = ffi.new('double[?]', 3 * self.vertex_count)

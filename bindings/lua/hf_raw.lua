@@ -679,6 +679,14 @@ typedef struct hf_transfer_info {
   uint32_t target_factorisation_count;
   double scale;
 } hf_transfer_info;
+typedef struct hf_transfer_dials {
+  uint32_t struct_size;
+  float stride;
+  float hip_height;
+  float neck_follow;
+  float tail_follow;
+  float arm_space;
+} hf_transfer_dials;
 typedef struct hf_transfer_frame {
   uint32_t struct_size;
   uint32_t source_stride;
@@ -932,6 +940,8 @@ hf_result hf_transfer_add_pairs(hf_transfer transfer, const hf_pairs_desc* pairs
 hf_result hf_transfer_remove_pairs(hf_transfer transfer, uint32_t pair_count, const uint32_t* pairs);
 hf_result hf_transfer_get_pair(hf_transfer transfer, uint32_t pair, hf_pair_info* out_info);
 hf_result hf_transfer_get_info(hf_transfer transfer, hf_transfer_info* out_info);
+hf_result hf_transfer_set_dials(hf_transfer transfer, const hf_transfer_dials* dials);
+hf_result hf_transfer_get_dials(hf_transfer transfer, hf_transfer_dials* out_dials);
 hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* inout_skin);
 hf_result hf_weights_create(hf_surface surface, const hf_bones_desc* bones, uint32_t weight_count, hf_weights* out_weights);
@@ -1044,6 +1054,9 @@ local constants = { header_version = '0.1.0',
   HF_PAIR_NO_ALIGNMENT = 8,
   HF_PAIR_CONTACT = 16,
   HF_PAIR_SINKS = 32,
+  HF_PAIR_NECK = 64,
+  HF_PAIR_TAIL = 128,
+  HF_PAIR_ARM = 256,
   HF_PAIR_LIMIT = 256,
   HF_WEIGHTS_INFORMED = 0,
   HF_WEIGHTS_SOLVED = 1,

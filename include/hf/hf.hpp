@@ -780,6 +780,13 @@ class Transfer {
     check(hf_transfer_get_info(get(), &out));
     return out;
   }
+  // Sets what an animator turns while the transfer plays; neutral without an argument.
+  void set_dials(const hf_transfer_dials* dials = nullptr) { check(hf_transfer_set_dials(get(), dials)); }
+  hf_transfer_dials dials() const {
+    auto out = make<hf_transfer_dials>();
+    check(hf_transfer_get_dials(get(), &out));
+    return out;
+  }
   // Poses the target after one posed frame of the source. The positions are in the source's vertex order.
   std::vector<float> apply(const std::vector<float>& source_positions) {
     if (source_positions.size() != size_t{source_vertices_} * 3)

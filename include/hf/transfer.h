@@ -33,7 +33,10 @@ enum {
   HF_PAIR_NO_ALIGNMENT = 8, /* keep the source's rotations as they are even if the rest limbs point elsewhere */
   HF_PAIR_CONTACT = 16,     /* comes as near to the ground as the source's region, scaled, while that is near it (a nose
                                that grazes, a hand that leans); elsewhere it is free */
-  HF_PAIR_SINKS = 32        /* this limb may sink into the ground: a tail, a held weapon */
+  HF_PAIR_SINKS = 32,       /* this limb may sink into the ground: a tail, a held weapon */
+  HF_PAIR_NECK = 64,        /* head, nose or ears: neck_follow of hf_transfer_dials turns the neck that they share */
+  HF_PAIR_TAIL = 128,       /* part of the tail: tail_follow turns it */
+  HF_PAIR_ARM = 256         /* a hand: arm_space turns the arms of each side */
 };
 
 enum { HF_PAIR_LIMIT = 256 }; /* most pairs of a transfer */
@@ -120,6 +123,29 @@ typedef struct hf_transfer_info {
  * does. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_info(hf_transfer transfer, hf_transfer_info* out_info);
 
+/* What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the
+ * result is continuous in each dial. */
+typedef struct hf_transfer_dials {
+  uint32_t struct_size;
+  float stride;     /* the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A
+                       planted foot does not slide. The body travels as much farther */
+  float hip_height; /* raises the pairs flagged HF_PAIR_TRUNK and HF_PAIR_ANCHOR by this share of their mean height at
+                       rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised */
+  /* How far a limb follows the source, -1 to 1. 0 = neutral: it plays the source's motion from its own rest direction.
+   * 1: it also takes the rest direction of the source's limb. -1: it does not move against its root. */
+  float neck_follow; /* pairs flagged HF_PAIR_NECK, together one limb */
+  float tail_follow; /* pairs flagged HF_PAIR_TAIL, together one limb */
+  float arm_space;   /* turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2
+                        radians; 0 = neutral */
+} hf_transfer_dials;
+
+/* Sets the dials of a transfer for the next frames. dials: NULL for neutral ones. Does not factorise and computes no
+ * field. Errors: HF_ERROR_INVALID_ARGUMENT (out of range), HF_ERROR_NON_FINITE; the dials then stay. Thread safety:
+ * changes `transfer`. Since 0.1. */
+HF_API hf_result hf_transfer_set_dials(hf_transfer transfer, const hf_transfer_dials* dials);
+/* Writes the dials; stride is never 0. Thread safety: reads `transfer`. Since 0.1. */
+HF_API hf_result hf_transfer_get_dials(hf_transfer transfer, hf_transfer_dials* out_dials);
+
 /* Describes one frame: the input is the posed source, the output the posed target. Set source_positions or
  * source_positions_f64, and at least one output. Strides are in bytes; 0 = packed. */
 typedef struct hf_transfer_frame {
@@ -143,9 +169,9 @@ typedef struct hf_transfer_frame {
 /* Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest directions differ
  * much on the two surfaces (hf_pair_info), it takes the direction of the source's limb instead, by a share.
  *
- * The bits of a frame depend on the pairs, in the order of their numbers, and on this desc alone. Removed pairs and
- * earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The result changes as little as
- * the source does: a source that stands still, but for noise, gives a target that stands still.
+ * The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone. Removed
+ * pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The result changes as
+ * little as the source does: a source that stands still, but for noise, gives a target that stands still.
  *
  * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region follows the
  * path of the source's region). While a foot of the source stands on the ground, the target's foot follows its scaled

@@ -272,6 +272,7 @@ int transfer(TransferCommand command, nlohmann::json& json) {
   if (command.pairs.empty()) pairs = parse_pairs(propose(source, target, command).file, "the proposed pairs");
   const Motion motion = read_motion(source, command);
 
+  for (const auto& [key, value] : command.dials) set_dial(pairs.dials, key, value);
   for (PairEntry& pair : pairs.pairs)
     pair.sinks =
         pair.sinks || std::find(command.sinking.begin(), command.sinking.end(), pair.name) != command.sinking.end();

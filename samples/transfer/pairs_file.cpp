@@ -2,6 +2,9 @@
 #include "transfer/pairs_file.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <stdexcept>
 
 #include "hf/transfer.h"
 
@@ -17,7 +20,8 @@ std::vector<Selector> read_selectors(const JsonReader& json) {
 }
 
 PairEntry read_pair(const JsonReader& json) {
-  json.expect_only({"name", "both", "source", "target", "anchor", "foot", "trunk", "contact", "align", "sinks"});
+  json.expect_only(
+      {"name", "both", "source", "target", "anchor", "foot", "trunk", "contact", "align", "sinks", "limb"});
   PairEntry pair;
   pair.name = json.at("name").string();
   if (pair.name.empty()) json.at("name").fail("a pair needs a name");
@@ -32,7 +36,29 @@ PairEntry read_pair(const JsonReader& json) {
   pair.trunk = json.boolean_or("trunk", false), pair.align = json.boolean_or("align", true);
   pair.contact_given = json.has("contact");
   pair.contact = json.boolean_or("contact", false), pair.sinks = json.boolean_or("sinks", false);
+  pair.limb = json.string_or("limb", limb_of(pair.name));
+  if (!pair.limb.empty() && pair.limb != "neck" && pair.limb != "tail" && pair.limb != "arm" && pair.limb != "none")
+    json.at("limb").fail("expected \"neck\", \"tail\", \"arm\" or \"none\", found \"" + pair.limb + "\"");
   return pair;
+}
+
+struct DialKey {
+  const char* name;
+  double TransferDials::*value;
+  double least, most;
+};
+constexpr DialKey dial_keys[] = {{"stride", &TransferDials::stride, 0.1, 4},
+                                 {"hip_height", &TransferDials::hip_height, -0.5, 0.5},
+                                 {"neck_follow", &TransferDials::neck_follow, -1, 1},
+                                 {"tail_follow", &TransferDials::tail_follow, -1, 1},
+                                 {"arm_space_degrees", &TransferDials::arm_space_degrees, -90, 90}};
+
+TransferDials read_dials(const JsonReader& json) {
+  json.expect_only({"stride", "hip_height", "neck_follow", "tail_follow", "arm_space_degrees"});
+  TransferDials out;
+  for (const DialKey& key : dial_keys)
+    if (json.has(key.name)) out.*key.value = json.at(key.name).number(key.least, key.most);
+  return out;
 }
 
 std::vector<PairEntry> read_list(const JsonReader& json) {
@@ -58,16 +84,33 @@ void name_file(std::vector<PairEntry>& pairs, const std::filesystem::path& file)
 
 }  // namespace
 
+std::string limb_of(const std::string& pair_name) {
+  std::string name = pair_name;
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  // A part of a word counts only where a word begins: "ear" is no part of "rear foot".
+  const auto has = [&](const char* word) {
+    for (size_t i = name.find(word); i != std::string::npos; i = name.find(word, i + 1))
+      if (i == 0 || !std::isalpha(static_cast<unsigned char>(name[i - 1]))) return true;
+    return false;
+  };
+  for (const char* word : {"nose", "head", "ear", "neck", "horn", "antler", "muzzle", "poll"})
+    if (has(word)) return "neck";
+  if (has("tail")) return "tail";
+  return has("hand") || has("arm") ? "arm" : "";
+}
+
 uint32_t PairEntry::flags() const {
   return (anchor ? uint32_t{HF_PAIR_ANCHOR} : 0u) | (foot ? uint32_t{HF_PAIR_FOOT} : 0u) |
          (trunk ? uint32_t{HF_PAIR_TRUNK} : 0u) | (contact ? uint32_t{HF_PAIR_CONTACT} : 0u) |
-         (sinks ? uint32_t{HF_PAIR_SINKS} : 0u) | (align ? 0u : uint32_t{HF_PAIR_NO_ALIGNMENT});
+         (sinks ? uint32_t{HF_PAIR_SINKS} : 0u) | (align ? 0u : uint32_t{HF_PAIR_NO_ALIGNMENT}) |
+         (limb == "neck" ? uint32_t{HF_PAIR_NECK} : 0u) | (limb == "tail" ? uint32_t{HF_PAIR_TAIL} : 0u) |
+         (limb == "arm" ? uint32_t{HF_PAIR_ARM} : 0u);
 }
 
 namespace {
 
 PairsFile pairs_from(const JsonReader& root, const std::filesystem::path& file) {
-  root.expect_only({"about", "source_axes", "target_axes", "settings", "pairs"});
+  root.expect_only({"about", "source_axes", "target_axes", "settings", "dials", "pairs"});
   PairsFile out;
   if (root.has("source_axes")) out.source_axes = read_axes(root.at("source_axes"));
   if (root.has("target_axes")) out.target_axes = read_axes(root.at("target_axes"));
@@ -84,6 +127,7 @@ PairsFile pairs_from(const JsonReader& root, const std::filesystem::path& file) 
     if (settings.has("alignment_degrees"))
       out.settings.alignment_degrees = settings.at("alignment_degrees").number(-1, 180);
   }
+  if (root.has("dials")) out.dials = read_dials(root.at("dials"));
   out.pairs = read_list(root.at("pairs"));
   name_file(out.pairs, file);
   if (out.pairs.empty()) root.at("pairs").fail("at least one pair is needed");
@@ -99,6 +143,22 @@ PairsFile read_pairs(const std::filesystem::path& file) {
 
 PairsFile parse_pairs(const nlohmann::json& value, const std::string& what) {
   return pairs_from(JsonReader(value, what, ""), what);
+}
+
+void set_dial(TransferDials& dials, const std::string& key, double value) {
+  std::string known;
+  for (const DialKey& dial : dial_keys) {
+    known += (known.empty() ? "" : ", ") + std::string(dial.name);
+    if (key != dial.name) continue;
+    if (!(value >= dial.least && value <= dial.most)) {
+      char text[160];
+      std::snprintf(text, sizeof text, "dial %s is %g; it must be %g to %g", dial.name, value, dial.least, dial.most);
+      throw std::runtime_error(text);
+    }
+    dials.*dial.value = value;
+    return;
+  }
+  throw std::runtime_error("there is no dial \"" + key + "\"; dials are " + known);
 }
 
 EditsFile read_edits(const std::filesystem::path& file) {

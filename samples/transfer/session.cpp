@@ -14,6 +14,8 @@
 namespace samples {
 namespace {
 
+constexpr double degree = 3.14159265358979323846 / 180;
+
 // Heights of a foot (in boxes) below which it stands, and above which it is free, as in the library.
 constexpr double foot_stands = 0.01, foot_flies = 0.05;
 
@@ -97,14 +99,24 @@ void Session::create(uint32_t threads, bool links, ProgressBar& bar) {
   desc.mode = settings.paper ? HF_TRANSFER_PAPER : HF_TRANSFER_FIELDS;
   desc.cluster_count = settings.clusters;
   desc.kernel_width = static_cast<float>(settings.width), desc.scale = static_cast<float>(settings.scale);
-  desc.alignment_angle = static_cast<float>(settings.alignment_degrees * 3.14159265358979323846 / 180);
+  desc.alignment_angle = static_cast<float>(settings.alignment_degrees * degree);
   desc.ground = ground_ ? HF_GROUND_KEEP : HF_GROUND_OFF;
   copy_axes(file_.source_axes, desc.source_axes), copy_axes(file_.target_axes, desc.target_axes);
   check(hf_transfer_create(source_surface_->get(), target_surface_->get(), &desc, &transfer_), "the transfer");
+  set_dials(file_.dials);
   bar.begin("pairs, fields and clusters");
   add(file_.pairs);
   prepare();
   bar.end(std::to_string(live_.size()) + " pairs, " + std::to_string(cluster_count()) + " clusters");
+}
+
+void Session::set_dials(const TransferDials& dials) {
+  hf_transfer_dials set = HF_INIT(hf_transfer_dials);
+  set.stride = static_cast<float>(dials.stride), set.hip_height = static_cast<float>(dials.hip_height);
+  set.neck_follow = static_cast<float>(dials.neck_follow), set.tail_follow = static_cast<float>(dials.tail_follow);
+  set.arm_space = static_cast<float>(dials.arm_space_degrees * degree);
+  check(hf_transfer_set_dials(transfer_, &set), "the dials");
+  file_.dials = dials;
 }
 
 void Session::add(const std::vector<PairEntry>& entries) {
@@ -337,8 +349,10 @@ FootReport Session::feet_of(const PlayedClip& played) const {
     if (!live.entry.foot) continue;
     const Region source = without_copies(live.source, source_flat_), target = without_copies(live.target, target_flat_);
     for (size_t f = 0; f < played.source_frames.size(); ++f) {
-      const glm::dvec3 path =
+      glm::dvec3 path =
           scale_ * (to_target * (centre_of(source, played.source_frames[f]) - centre_of(source, source_rest)));
+      const glm::dvec3 rise = glm::dot(path, file_.target_axes.up) * file_.target_axes.up;
+      path = rise + file_.dials.stride * (path - rise);
       const glm::dvec3 off = centre_of(target, played.target_frames[f]) - centre_of(target, target_rest) - path;
       const double miss = glm::length(off) / box;
       // along the ground: what would be seen as sliding; a lift keeps a turned foot from sinking
@@ -421,7 +435,7 @@ std::vector<PairReport> Session::pairs() {
     report.trunk = live.entry.trunk, report.contact = live.entry.contact, report.alignment_share = info.alignment_share,
     report.crossed = info.crossed != 0;
     report.source_leak = info.source_leak, report.target_leak = info.target_leak, report.confidence = info.confidence;
-    report.alignment_degrees = info.alignment_angle < 0 ? -1 : info.alignment_angle * 180 / 3.14159265358979323846;
+    report.alignment_degrees = info.alignment_angle < 0 ? -1 : info.alignment_angle / degree;
     out.push_back(report);
   }
   return out;

@@ -54,6 +54,9 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
+  // Dials for the next clips; nothing is prepared again.
+  void set_dials(const TransferDials& dials);
+
   // Removes pairs by name and adds others. Regions of new pairs leave out vertices that existing pairs have.
   void edit(const EditsFile& edits);
 

@@ -94,6 +94,8 @@ const char* usage() {
          "  --source FILE --target FILE --poses FILES  meshes: posed copies of the source instead of a clip\n"
          "  --contacts LIST pairs or joints that touch the ground, with commas; none; found when not given\n"
          "  --sinking LIST  pairs whose limb may sink into the ground, with commas\n"
+         "  --dials LIST    stride=1.2,hip_height=-0.1,neck_follow=1,tail_follow=-0.5,arm_space_degrees=10: see "
+         "README.md\n"
          "  --no-ground     no feet stand and nothing is kept above the ground\n"
          "  --source-rest CLIP@TIME, --target-rest CLIP@TIME  a pose of a clip, in seconds, is the rest pose\n"
          "  --up AXIS, --forward AXIS  for proposals: +y, -z, ...; --source-up, --target-up, --source-forward and\n"
@@ -173,6 +175,13 @@ TransferCommand parse_command(int count, char** arguments) {
       if (out.contacts.empty()) throw std::runtime_error("--contacts takes names with commas between them, or none");
     } else if (word == "--sinking") {
       out.sinking = words_between_commas(value());
+    } else if (word == "--dials") {
+      for (const std::string& part : words_between_commas(value())) {
+        const size_t equals = part.find('=');
+        if (equals == std::string::npos) throw std::runtime_error(word + " takes NAME=VALUE, not \"" + part + "\"");
+        out.dials.emplace_back(part.substr(0, equals),
+                               number_of(word + " " + part.substr(0, equals), part.substr(equals + 1), -90, 90));
+      }
     } else if (word == "--no-ground") {
       out.ground = false;
     } else if (word == "--source-rest") {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/model.h"
@@ -31,6 +32,7 @@ struct TransferCommand {
   std::string source_rest, target_rest;          // CLIP@TIME; empty: the pose of the file
   std::optional<Axes> source_axes, target_axes;  // for proposals; found when not given
   std::vector<std::string> sinking;              // pairs whose limb may sink into the ground
+  std::vector<std::pair<std::string, double>> dials;  // name and value, over those of PAIRS.json
   bool ground = true;
   bool links = true;  // between the pieces of a model
   bool quiet = false, silent = false, help = false;

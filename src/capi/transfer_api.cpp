@@ -134,6 +134,29 @@ hf_result hf_transfer_get_info(hf_transfer handle, hf_transfer_info* out_info) {
   });
 }
 
+hf_result hf_transfer_set_dials(hf_transfer handle, const hf_transfer_dials* dials) {
+  return guarded("hf_transfer_set_dials", [&] {
+    const auto object = get<TransferObject>(handle, "transfer");
+    const hf_transfer_dials given = read_optional(dials, "dials");
+    const Changing changing(*object);
+    object->transfer.set_dials(read_dials(given));
+  });
+}
+
+hf_result hf_transfer_get_dials(hf_transfer handle, hf_transfer_dials* out_dials) {
+  return guarded("hf_transfer_get_dials", [&] {
+    const auto object = get<TransferObject>(handle, "transfer");
+    check_struct(out_dials, "out_dials");
+    const Reading reading(*object);
+    const Dials& set = object->transfer.dials();
+    hf_transfer_dials dials{};
+    dials.stride = static_cast<float>(set.stride), dials.hip_height = static_cast<float>(set.hip_height);
+    dials.neck_follow = static_cast<float>(set.neck_follow), dials.tail_follow = static_cast<float>(set.tail_follow);
+    dials.arm_space = static_cast<float>(set.arm_space);
+    write_struct(out_dials, dials);
+  });
+}
+
 hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) {
   return guarded("hf_transfer_apply", [&] {
     const auto object = get<TransferObject>(handle, "transfer");

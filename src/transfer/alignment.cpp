@@ -68,15 +68,15 @@ double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) n
   return legs == static_cast<std::int32_t>(foot_columns.size()) && legs > 0 ? sum / legs : 0.0;
 }
 
-bool limb_direction(const RestSide& side, std::int32_t column, Vec3 region_centroid, Vec3& direction) noexcept {
+bool limb_direction(const RestSide& side, std::int32_t column, Vec3 region_centroid, Vec3& direction,
+                    FieldWindow window) noexcept {
   const std::size_t width = side.field.size() / side.area.size();
   Vec3 centroid;
   double area = 0;
   for (std::size_t v = 0; v < side.area.size(); ++v) {
     const double* row = side.field.data() + v * width;
     const double u = row[column];
-    if (u <= limb_window.low || u >= limb_window.high || row_maximum(row, width) != static_cast<std::size_t>(column))
-      continue;
+    if (u <= window.low || u >= window.high || row_maximum(row, width) != static_cast<std::size_t>(column)) continue;
     centroid = centroid + side.area[v] * side.mesh->positions[v];
     area += side.area[v];
   }

@@ -15,6 +15,7 @@
 #include "base/span.h"
 #include "deform/rotation.h"
 #include "mesh/mesh.h"
+#include "transfer/constants.h"
 
 namespace hf_inner {
 
@@ -39,8 +40,9 @@ double ground_height(const RestSide& side) noexcept;
 double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) noexcept;
 
 // Finds the rest direction of the limb at the region of field `column`; its length is that of the outer part of the
-// limb. Returns false when no vertex has a field value in limb_window.
-bool limb_direction(const RestSide& side, std::int32_t column, Vec3 region_centroid, Vec3& direction) noexcept;
+// limb. Returns false when no vertex has a field value in the window.
+bool limb_direction(const RestSide& side, std::int32_t column, Vec3 region_centroid, Vec3& direction,
+                    FieldWindow window = limb_window) noexcept;
 
 // Returns the minimal rotation that turns the direction `from` to `to`. For opposite directions it turns about the axis
 // nearest to `axis`.

@@ -216,6 +216,20 @@ constexpr double region_vertex_share = 0.75;
 // Vertices of one thread's job; no result depends on it.
 constexpr std::size_t owner_block = 256;
 
+// --- transfer_dials.cpp ---
+
+// The range of each dial. Beyond these a dial is a mistake, such as degrees for radians; no result depends on them.
+constexpr double least_stride = 0.1, most_stride = 4;
+constexpr double most_hip_height = 0.5;
+constexpr double most_follow = 1;
+constexpr double most_arm_space = 90 * degree;
+// A limb that a dial turns begins at the first field value and turns fully after the second. The field of a nose is 0.1
+// where a horse's neck leaves its chest and 0.3 in the middle of the neck, so a neck turns as a whole. The limits of
+// rest alignment would turn the head alone.
+constexpr double root_from = 0.1, root_width = 0.2;
+// The rest direction of such a limb starts at the vertices with these field values, around its root.
+constexpr FieldWindow root_window = {0.08, 0.2};
+
 // --- transfer_frame.cpp ---
 
 // Distance from rigid motion (in boxes) at which a frame counts as half rigid. Trades exact copies of noisy rigid

@@ -17,6 +17,14 @@ TransferOptions read_transfer_options(const hf_transfer_desc& desc) {
   return options;
 }
 
+Dials read_dials(const hf_transfer_dials& desc) {
+  Dials out;
+  out.stride = desc.stride == 0 ? 1.0 : static_cast<double>(desc.stride);
+  out.hip_height = static_cast<double>(desc.hip_height), out.neck_follow = static_cast<double>(desc.neck_follow);
+  out.tail_follow = static_cast<double>(desc.tail_follow), out.arm_space = static_cast<double>(desc.arm_space);
+  return out;
+}
+
 Vector<Vec3> read_rest(const float* given, const Core& core) {
   Vector<Vec3> out(core.memory.get());
   if (!given) return out;

@@ -11,6 +11,8 @@ TransferOptions read_transfer_options(const hf_transfer_desc& desc);
 // Returns a rest pose by inner vertex; empty where none is given. given: float[vertex_count][3] of the core's mesh.
 Vector<Vec3> read_rest(const float* given, const Core& core);
 
+Dials read_dials(const hf_transfer_dials& desc);  // Transfer::set_dials checks them
+
 // Pairs and the regions that they refer to.
 struct PairsInput {
   PairsInput(Regions&& from, Regions&& to, Memory& memory)

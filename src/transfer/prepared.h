@@ -43,6 +43,13 @@ struct Transfer::Prepared {
         limb_turn(&memory),
         aligned(&memory),
         cluster_turn(&memory),
+        neck(memory),
+        tail(memory),
+        arms{DialLimb(memory), DialLimb(memory)},
+        dialled_turn(&memory),
+        stiff(&memory),
+        excess(&memory),
+        dial_holds(&memory),
         clusters(memory),
         source_rotations(memory),
         translations(memory),
@@ -84,6 +91,22 @@ struct Transfer::Prepared {
   Vector<Quaternion> limb_turn;     // turns the target's limb at rest to the source's direction
   Vector<double> aligned;           // the share of that turn that the limb makes, 0 to 1
   Vector<Quaternion> cluster_turn;  // the part of its limb's turn that a cluster makes
+  // A limb that a dial turns: the share of each cluster in it, the cluster at its root, and the turn that takes its
+  // rest direction to the source's.
+  struct DialLimb {
+    explicit DialLimb(Memory& memory) : share(&memory) {}
+    Vector<double> share;
+    std::int32_t root = -1;  // -1: no pair has the flag
+    Quaternion turn;
+  };
+  DialLimb neck, tail, arms[2];     // arms: right and left, whose turn is one radian away from the body
+  Vector<Quaternion> dialled_turn;  // cluster_turn after the dials
+  Vector<double> stiff;             // per cluster: how far it keeps the rotation of its limb's root
+  Vector<Vec3> excess;              // per anchor: how far the dials move its goal in this frame
+  Vec3 body_excess;                 // and the whole body
+  double hip_height = 0;            // mean rest height of the trunk's anchors over the ground
+  double body_rise = 0;             // how far the dials raise them in this frame
+  Vector<Hold> dial_holds;
   Clusters clusters;
   SourceRotations source_rotations;
   Translations translations;

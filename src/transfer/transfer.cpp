@@ -14,8 +14,8 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::uint32_t known_flags =
-    HF_PAIR_ANCHOR | HF_PAIR_FOOT | HF_PAIR_TRUNK | HF_PAIR_NO_ALIGNMENT | HF_PAIR_CONTACT | HF_PAIR_SINKS;
+constexpr std::uint32_t known_flags = HF_PAIR_ANCHOR | HF_PAIR_FOOT | HF_PAIR_TRUNK | HF_PAIR_NO_ALIGNMENT |
+                                      HF_PAIR_CONTACT | HF_PAIR_SINKS | HF_PAIR_NECK | HF_PAIR_TAIL | HF_PAIR_ARM;
 
 Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
   Vec3 sum;
@@ -300,6 +300,8 @@ Transfer::Prepared& Transfer::prepare() {
   p.rises.assign(count, 0.0);
   p.needs.assign(at(target_core_->size()), 0.0), p.forces.assign(at(target_core_->size()), 0.0),
       p.hold_forces.assign(numbers_.size() + 1, 0.0);
+  p.excess.assign(p.anchors.size(), Vec3()), p.dial_holds.reserve(numbers_.size() + 1);
+  prepare_dials(p), turn_dials(p);
   p.shifts.assign(count, Vec3()), p.cluster_goals.assign(count, Vec3()), p.goals.assign(p.anchors.size(), Vec3());
   prepared_ = std::move(fresh);
   return p;

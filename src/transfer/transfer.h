@@ -45,6 +45,13 @@ struct TransferOptions {
   Span<const Vec3> source_rest, target_rest;  // read by the constructor only
 };
 
+// What an animator turns without a new preparation; these values change nothing (hf_transfer_dials).
+struct Dials {
+  double stride = 1, hip_height = 0, neck_follow = 0, tail_follow = 0, arm_space = 0;
+  bool moves_paths() const noexcept { return stride != 1 || hip_height != 0; }
+  bool turns_limbs() const noexcept { return neck_follow != 0 || tail_follow != 0 || arm_space != 0; }
+};
+
 struct PairInput {
   Span<const std::int32_t> source, target;  // inner vertices; may repeat
   std::uint32_t flags = 0;                  // HF_PAIR_*
@@ -84,6 +91,11 @@ class Transfer {
 
   PairInfo pair_info(std::uint32_t pair);
 
+  // Takes dials for the next frames (transfer_dials.cpp). Throws HF_ERROR_INVALID_ARGUMENT or HF_ERROR_NON_FINITE; else
+  // it cannot fail, and it allocates nothing.
+  void set_dials(const Dials& dials);
+  const Dials& dials() const noexcept { return dials_; }
+
   // Poses the target like the posed source. source, out: inner vertices of source and target, in the caller's units.
   // holds: regions of the target whose mean goes to a given place in this frame. Throws HF_ERROR_EMPTY without a pair,
   // and HF_ERROR_NON_FINITE (index: inner vertex of the source). For bad holds it throws HF_ERROR_NO_SUCH_PAIR,
@@ -113,6 +125,10 @@ class Transfer {
   void prepare_alignment(Prepared& p) const;
   void prepare_anchors(Prepared& p) const;
   void prepare_ground(Prepared& p) const;
+  void prepare_dials(Prepared& p) const;  // the limbs that dials turn
+  void turn_dials(Prepared& p) const noexcept;
+  void stiffen(Prepared& p) const noexcept;
+  void move_paths(Prepared& p) const;
   bool is_crossed(std::uint32_t number) const;
   void place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const;
   void read_holds(Prepared& p, Span<const PairHold> holds) const;
@@ -128,6 +144,7 @@ class Transfer {
   // With rest poses of the caller, these hold their positions and no factor; the fields have the cores as made.
   std::shared_ptr<const Core> source_core_, target_core_;
   TransferOptions options_;
+  Dials dials_;
   Mat3 source_axes_, target_axes_;
   Quaternion axes_;  // A: takes the source's axes to the target's
   PairFields source_, target_;

@@ -46,21 +46,37 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
   const double rigid = rigid_share(whole), share = std::max(rigid, turned_share(turn)),
                upright = 1 - std::max(rigid, fallen_share(turn, up));
   const Mat3 carried = power(turn, share).toRotationMatrix();
+  if (dials_.moves_paths()) {
+    const Vec3 travel = p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
+    p.body_rise = (1 - fallen_share(turn, up)) * dials_.hip_height * p.hip_height;
+    p.body_excess = (dials_.stride - 1) * (travel - dot(up, travel) * up) + p.body_rise * up;
+  }
   for (std::size_t k = 0; k < p.anchors.size(); ++k) {
     const Prepared::Anchor& anchor = p.anchors[k];
     const Span<const std::int32_t> from = source_.region(anchor.number), to = target_.region(anchor.number);
     const Vec3 path = p.scale * rotate(axes_, region_mean(from, p.posed.data()) - anchor.source_rest);
     const Vec3 offset =
         anchor.target_rest - p.target_centroid - p.scale * rotate(axes_, anchor.source_rest - whole.rest_centroid);
-    Vec3 turned = carried * offset - offset;
-    if (anchor.is_foot && upright > 0) {
+    Twist own{Quaternion(), 0};
+    const bool steps = anchor.is_foot && upright > 0;
+    if (steps) {
       const auto c = static_cast<std::size_t>(anchor.cluster);
-      const Twist own = about(p.given[c] * p.cluster_turn[c].conjugate(), up);
-      // A share of the turned offset, not of the turn: half a turn to the left is the same as half a turn to the right.
-      const Quaternion part = power(own.turn, turned_share(own.turn));
-      turned = (1 - upright) * turned + (upright * own.certain) * (rotate(part, offset) - offset);
+      own = about(p.given[c] * p.dialled_turn[c].conjugate(), up);
+      own.turn = power(own.turn, turned_share(own.turn));
     }
-    p.goals[k] = anchor.target_rest + path + turned;
+    const auto turned = [&](Vec3 arm) {
+      Vec3 out = carried * arm - arm;
+      // A share of the turned arm, not of the turn: half a turn to the left is the same as half a turn to the right.
+      if (steps) out = (1 - upright) * out + (upright * own.certain) * (rotate(own.turn, arm) - arm);
+      return out;
+    };
+    p.goals[k] = anchor.target_rest + path + turned(offset);
+    if (dials_.moves_paths()) {
+      // The part of the path that the body's turn makes does not count as travel.
+      const Vec3 travel = path - turned(p.scale * rotate(axes_, anchor.source_rest - whole.rest_centroid));
+      p.excess[k] = (dials_.stride - 1) * (travel - dot(up, travel) * up);
+      if (anchor.flags & HF_PAIR_TRUNK) p.excess[k] = p.excess[k] + p.body_rise * up;
+    }
     if (!anchor.is_foot || !options_.keep_ground) continue;
     // The target's foot may sink only as deep into the ground as the source's foot.
     const double allowed =
@@ -151,10 +167,11 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   const Quaternion turn = normalised(axes_ * whole.rotation * axes_.conjugate());
   const Vec3 centroid = p.target_centroid + p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
   for (std::size_t c = 0; c < p.rotations.size(); ++c) {
-    p.given[c] = p.rotations[c] = normalised(axes_ * p.given[c] * axes_.conjugate() * p.cluster_turn[c]);
+    p.given[c] = p.rotations[c] = normalised(axes_ * p.given[c] * axes_.conjugate() * p.dialled_turn[c]);
     p.matrices[c] = p.rotations[c].toRotationMatrix();
     p.cluster_goals[c] = centroid + rotate(turn, p.clusters.pivot[c] - p.target_centroid);
   }
+  if (dials_.turns_limbs()) stiffen(p);
   place_anchors(p, whole, turn);
   const double rigid = rigid_share(whole), fallen = fallen_share(turn, up_of(target_axes_));
   const double share = std::max(rigid, fallen);

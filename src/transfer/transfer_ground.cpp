@@ -52,6 +52,7 @@ void Transfer::hold_regions(Prepared& p, double share) const {
     p.holds.push_back(hold);
   }
   p.translations.hold({p.holds.data(), p.holds.size()}, up, p.matrices.data(), p.shifts.data());
+  if (dials_.moves_paths()) move_paths(p);
 }
 
 // Returns how far the source lies, from 0 to 1. Also fills the scaled heights of the source's clusters.

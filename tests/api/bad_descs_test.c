@@ -164,6 +164,9 @@ static void fill_pair_info(void* d) { *(hf_pair_info*)d = HF_INIT(hf_pair_info);
 static void fill_transfer_info(void* d) { *(hf_transfer_info*)d = HF_INIT(hf_transfer_info); }
 static hf_result transfer_get_info(void* d) { return hf_transfer_get_info(scene.transfer, d); }
 static hf_result transfer_get_pair(void* d) { return hf_transfer_get_pair(scene.transfer, scene.pairs[0], d); }
+static void fill_dials(void* d) { *(hf_transfer_dials*)d = HF_INIT(hf_transfer_dials); }
+static hf_result transfer_set_dials(void* d) { return hf_transfer_set_dials(scene.transfer, d); }
+static hf_result transfer_get_dials(void* d) { return hf_transfer_get_dials(scene.transfer, d); }
 static void fill_frame(void* d) {
   hf_transfer_frame* frame = d;
   *frame = HF_INIT(hf_transfer_frame);
@@ -386,6 +389,8 @@ static const struct {
     {"hf_transfer_add_pairs: pairs", sizeof(hf_pairs_desc), fill_pairs, transfer_add_pairs, 0},
     {"hf_transfer_get_pair: out_info", sizeof(hf_pair_info), fill_pair_info, transfer_get_pair, 0},
     {"hf_transfer_get_info: out_info", sizeof(hf_transfer_info), fill_transfer_info, transfer_get_info, 0},
+    {"hf_transfer_set_dials: dials", sizeof(hf_transfer_dials), fill_dials, transfer_set_dials, 1},
+    {"hf_transfer_get_dials: out_dials", sizeof(hf_transfer_dials), fill_dials, transfer_get_dials, 0},
     {"hf_transfer_apply: frame", sizeof(hf_transfer_frame), fill_frame, transfer_apply, 0},
     {"hf_surface_space_levels: field", sizeof(hf_scalars), fill_scalars, space_levels, 0},
     {"hf_surface_trace_isolines: field", sizeof(hf_scalars), fill_scalars, trace_field, 0},

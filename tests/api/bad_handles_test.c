@@ -276,6 +276,11 @@ static hf_result transfer_get_info(void* h) {
   hf_transfer_info i = HF_INIT(hf_transfer_info);
   return hf_transfer_get_info(h, &i);
 }
+static hf_result transfer_set_dials(void* h) { return hf_transfer_set_dials(h, NULL); }
+static hf_result transfer_get_dials(void* h) {
+  hf_transfer_dials d = HF_INIT(hf_transfer_dials);
+  return hf_transfer_get_dials(h, &d);
+}
 static hf_result transfer_apply(void* h) {
   hf_transfer_frame f = HF_INIT(hf_transfer_frame);
   f.source_positions = scene.posed, f.target_positions = floats;
@@ -412,6 +417,8 @@ static const struct {
     {"hf_transfer_remove_pairs", TRANSFER, transfer_remove_pairs, NO_INDEX},
     {"hf_transfer_get_pair", TRANSFER, transfer_get_pair, NO_INDEX},
     {"hf_transfer_get_info", TRANSFER, transfer_get_info, NO_INDEX},
+    {"hf_transfer_set_dials", TRANSFER, transfer_set_dials, NO_INDEX},
+    {"hf_transfer_get_dials", TRANSFER, transfer_get_dials, NO_INDEX},
     {"hf_transfer_apply", TRANSFER, transfer_apply, NO_INDEX},
     {"hf_transfer_get_skin", TRANSFER, transfer_get_skin, NO_INDEX},
     {"hf_surface_space_levels", SURFACE, space_levels, NO_INDEX},

@@ -372,7 +372,7 @@ static void bad_pairs_are_not_added(void** state) {
   PAIRS("target overlaps a pair that is there", HF_ERROR_OVERLAP, 0, target_region[0] = 3);
   PAIRS("source regions overlap", HF_ERROR_OVERLAP, 3, region[3] = region[0]);
   PAIRS("target regions overlap", HF_ERROR_OVERLAP, 4, target_region[4] = target_region[1]);
-  PAIRS("unknown flag", HF_ERROR_INVALID_ARGUMENT, 1, flags[1] = 64);
+  PAIRS("unknown flag", HF_ERROR_INVALID_ARGUMENT, 1, flags[1] = 512);
   PAIRS("all flags", HF_ERROR_INVALID_ARGUMENT, 0, flags[0] = UINT32_MAX);
   PAIRS("a source region of 2^31", HF_ERROR_TOO_LARGE, 0, counts[0] = 0x80000000u);
   PAIRS("a target region of 2^32 - 1", HF_ERROR_TOO_LARGE, 1, target_counts[1] = UINT32_MAX);
@@ -382,6 +382,9 @@ static void bad_pairs_are_not_added(void** state) {
 
 #define APPLY(what, expected, index, change) \
   ROW(what, expected, index, change, hf_transfer_apply(scene.transfer, &frame))
+#define DIALS(what, expected, change)                                         \
+  ROW(what, expected, NO_INDEX, (dials = HF_INIT(hf_transfer_dials), change), \
+      hf_transfer_set_dials(scene.transfer, &dials))
 #define SKIN(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_transfer_get_skin(scene.transfer, &skin))
 
 static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
@@ -407,6 +410,21 @@ static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
   APPLY("normal stride 1", HF_ERROR_TOO_SMALL, NO_INDEX, (frame.target_normals = normals, frame.normal_stride = 1));
   APPLY("source NaN", HF_ERROR_NON_FINITE, 17, source[3 * 17 + 2] = (float)NAN);
   APPLY("source infinite", HF_ERROR_NON_FINITE, TUBE_VERTICES - 1, source[3 * TUBE_VERTICES - 1] = (float)INFINITY);
+
+  hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
+  DIALS("stride 0.09", HF_ERROR_INVALID_ARGUMENT, dials.stride = 0.09f);
+  DIALS("stride -1", HF_ERROR_INVALID_ARGUMENT, dials.stride = -1);
+  DIALS("stride 5", HF_ERROR_INVALID_ARGUMENT, dials.stride = 5);
+  DIALS("stride NaN", HF_ERROR_NON_FINITE, dials.stride = (float)NAN);
+  DIALS("hip height 0.6", HF_ERROR_INVALID_ARGUMENT, dials.hip_height = 0.6f);
+  DIALS("hip height -0.6", HF_ERROR_INVALID_ARGUMENT, dials.hip_height = -0.6f);
+  DIALS("hip height infinite", HF_ERROR_NON_FINITE, dials.hip_height = (float)INFINITY);
+  DIALS("neck follow 2", HF_ERROR_INVALID_ARGUMENT, dials.neck_follow = 2);
+  DIALS("neck follow NaN", HF_ERROR_NON_FINITE, dials.neck_follow = (float)NAN);
+  DIALS("tail follow -2", HF_ERROR_INVALID_ARGUMENT, dials.tail_follow = -2);
+  DIALS("tail follow NaN", HF_ERROR_NON_FINITE, dials.tail_follow = (float)NAN);
+  DIALS("arm space in degrees", HF_ERROR_INVALID_ARGUMENT, dials.arm_space = 20);
+  DIALS("arm space NaN", HF_ERROR_NON_FINITE, dials.arm_space = (float)NAN);
 
   SKIN("5 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = 5);
   SKIN("no room for the joints", HF_ERROR_TOO_SMALL, skin.pivots = doubles);

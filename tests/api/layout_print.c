@@ -349,9 +349,14 @@ static void print_transfer(void) {
       F(target_positions), F(target_positions_f64), F(target_normals), F(hold_count), F(reserved), F(hold_pairs),
       F(hold_positions);
 #undef T
+#define T hf_transfer_dials
+  STRUCT(hf_transfer_dials);
+  F(struct_size), F(stride), F(hip_height), F(neck_follow), F(tail_follow), F(arm_space);
+#undef T
   CONSTANT(HF_TRANSFER_FIELDS), CONSTANT(HF_TRANSFER_PAPER), CONSTANT(HF_PAIR_ANCHOR), CONSTANT(HF_PAIR_FOOT),
       CONSTANT(HF_PAIR_TRUNK), CONSTANT(HF_PAIR_NO_ALIGNMENT), CONSTANT(HF_PAIR_CONTACT), CONSTANT(HF_PAIR_SINKS),
-      CONSTANT(HF_PAIR_LIMIT), CONSTANT(HF_GROUND_KEEP), CONSTANT(HF_GROUND_OFF);
+      CONSTANT(HF_PAIR_NECK), CONSTANT(HF_PAIR_TAIL), CONSTANT(HF_PAIR_ARM), CONSTANT(HF_PAIR_LIMIT),
+      CONSTANT(HF_GROUND_KEEP), CONSTANT(HF_GROUND_OFF);
 }
 
 static void print_weights(void) {

@@ -296,6 +296,48 @@ static void the_rest_of_the_source_gives_the_rest_of_the_target(void** state) {
   hf_surface_destroy(target), surface_free(&other);
 }
 
+static void dials_are_read_back_and_neutral_ones_change_no_bit(void** state) {
+  (void)state;
+  Surface other = surface_tube(9, 17);
+  enum { TARGET = 9 * 17 };
+  hf_surface target = surface_on(&other);
+  uint32_t pairs[2];
+  hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, surface, target, AROUND, RINGS, 9, 17, pairs);
+  static float posed[3 * VERTICES], plain[3 * TARGET], dialled[3 * TARGET], again[3 * TARGET];
+  for (uint32_t v = 0; v < VERTICES; ++v)
+    for (int c = 0; c < 3; ++c) posed[3 * v + c] = tube.positions[3 * v + c] + (c == 0 ? 2.0f : 0.0f);
+  hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
+  frame.source_positions = posed, frame.target_positions = plain;
+  assert_ok(hf_transfer_apply(transfer, &frame));
+  hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
+  assert_ok(hf_transfer_get_dials(transfer, &dials));
+  assert_true(dials.stride == 1 && dials.hip_height == 0 && dials.neck_follow == 0 && dials.tail_follow == 0 &&
+              dials.arm_space == 0);
+  dials.stride = 1.5f, dials.hip_height = 0.25f, dials.neck_follow = -0.5f, dials.tail_follow = 1,
+  dials.arm_space = 0.5f;
+  assert_ok(hf_transfer_set_dials(transfer, &dials));
+  hf_transfer_dials read = HF_INIT(hf_transfer_dials);
+  assert_ok(hf_transfer_get_dials(transfer, &read));
+  assert_memory_equal(&read, &dials, sizeof read);
+  frame.target_positions = dialled;
+  assert_ok(hf_transfer_apply(transfer, &frame));
+  double moved = 0, path = 0;
+  for (uint32_t v = 0; v < TARGET; ++v) {
+    moved += (double)(dialled[3 * v] - other.positions[3 * v]) / TARGET;
+    path += (double)(plain[3 * v] - other.positions[3 * v]) / TARGET;
+  }
+  assert_true(fabs(moved - 1.5 * path) < 1e-4 * fabs(path)); /* the body travels 1.5 times as far */
+  assert_ok(hf_transfer_set_dials(transfer, NULL));
+  frame.target_positions = again;
+  assert_ok(hf_transfer_apply(transfer, &frame));
+  assert_memory_equal(again, plain, sizeof plain);
+  hf_transfer_info info = HF_INIT(hf_transfer_info);
+  assert_ok(hf_transfer_get_info(transfer, &info));
+  assert_true(info.source_factorisation_count == 0 && info.target_factorisation_count == 0);
+  hf_transfer_destroy(transfer);
+  hf_surface_destroy(target), surface_free(&other);
+}
+
 static void the_skin_replays_the_transfer(void** state) {
   (void)state;
   Surface other = surface_tube(9, 17);
@@ -632,6 +674,7 @@ int main(void) {
       cmocka_unit_test(handles_come_and_go_and_clones_are_independent),
       cmocka_unit_test(what_no_handle_reaches_stays_at_rest),
       cmocka_unit_test(the_rest_of_the_source_gives_the_rest_of_the_target),
+      cmocka_unit_test(dials_are_read_back_and_neutral_ones_change_no_bit),
       cmocka_unit_test(the_skin_replays_the_transfer),
       cmocka_unit_test(a_frame_may_be_transferred_in_place),
       cmocka_unit_test(a_transfer_says_its_scale_and_holds_regions_where_the_caller_wants_them),

@@ -208,6 +208,26 @@ for frame in (1, 10):
 up = moved[-36:] - moved[-36:].mean(0)  # the end cap keeps its size and has turned by the source's 60 degrees
 np.testing.assert_allclose(np.linalg.norm(up, axis=1), 0.8, atol=0.05)
 
+# ---- dials: the motion again with another stride; neutral dials give the keys of before
+def far_end(frame):
+    bpy.context.scene.frame_set(frame)
+    moved = mesh_data.positions_of(other.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh())
+    return np.array(moved)
+
+
+before, middle = far_end(10), other_points.mean(0)
+bpy.context.scene.hf_stride = 2
+active(other)
+assert bpy.ops.hf.dials() == {"FINISHED"}
+after = far_end(10)
+plain, dialled = (before.mean(0) - middle), (after.mean(0) - middle)
+print(f"stride 2: the body travels {np.linalg.norm(plain):.2f} and {np.linalg.norm(dialled):.2f}")
+assert np.linalg.norm(dialled - plain) > 0.5 * np.linalg.norm(plain) * 0.5
+bpy.context.scene.hf_stride = 1
+assert bpy.ops.hf.dials() == {"FINISHED"}
+np.testing.assert_allclose(far_end(10), before, atol=1e-5)
+assert len([o for o in bpy.data.objects if o.name.startswith("long motion")]) == 1
+
 # ---- bones as handles: an armature of three bones in a third tube, posed, animated, taken away
 arm, arm_points = cylinder("arm", 4.0, 0.4, 81, 48, (-4, 0, 0))
 rig = bpy.data.objects.new("rig", bpy.data.armatures.new("rig"))
@@ -282,6 +302,7 @@ fails("no vertex group starts", bpy.ops.hf.add_groups, prefix="zzz")
 fails("no handle", bpy.ops.hf.remove_handle, name="bar")
 fails("the last frame", bpy.ops.hf.transfer, source="long", start=5, end=1)
 fails("select the source", bpy.ops.hf.transfer, source="nobody")
+fails("transfer an animation", bpy.ops.hf.dials)
 lamp = bpy.data.objects.new("lamp", bpy.data.lights.new("lamp", "SUN"))
 bpy.context.scene.collection.objects.link(lamp)
 active(lamp)

@@ -400,6 +400,9 @@ func lifetime():
 			b.share_from(a)
 		a.add_handles([[0, 1, 2], [280, 281]])
 		expect(a.transfer_to(b, [[0, 1], [280]], [[0, 1], [280]]) == true, "transfer_to: " + str(a.get_error()))
+		expect(a.transfer_set_dials(1.5, 0.25) == true and a.transfer_dials()["stride"] == 1.5 and a.transfer_dials()["arm_space"] == 0, "transfer_set_dials")
+		expect(a.transfer_set_dials(9) == null and a.transfer_dials()["hip_height"] == 0.25, "a refused dial")
+		expect(a.transfer_set_dials() == true and a.transfer_dials()["hip_height"] == 0, "neutral dials")
 		var pair = [a, b]
 		if draw.randf() < 0.5:
 			pair.invert()

@@ -274,6 +274,8 @@ local function new_scene(meshes)
     elseif what == 'add_pairs' then return 'numbers', on:add_pairs(step.source_regions, step.target_regions,
       get('flags'))
     elseif what == 'remove_pairs' then on:remove_pairs(get('pairs'))
+    elseif what == 'set_dials' then on:set_dials(options)
+    elseif what == 'dials' then return 'struct', on:dials()
     elseif what == 'transfer_info' then return 'struct', on:info()
     elseif what == 'apply' then return 'array', on:apply(get('positions')), 3 * n
     else error('unknown step ' .. what) end

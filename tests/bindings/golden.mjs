@@ -368,6 +368,11 @@ function runStep(hf, step, meshes, objects, kept) {
     case 'remove_pairs':
       on.removePairs(get('pairs'));
       return {};
+    case 'set_dials':
+      on.setDials(options);
+      return {};
+    case 'dials':
+      return { struct: on.dials };
     case 'apply':
       return array(on.apply(get('positions'), null, { Type: Float64Array }));
     default:

@@ -287,6 +287,10 @@ class Scene:
             return "numbers", on.add_pairs(get("source_regions"), get("target_regions"), get("flags"))
         elif do == "remove_pairs":
             on.remove_pairs(get("pairs"))
+        elif do == "set_dials":
+            on.set_dials(**options)
+        elif do == "dials":
+            return "struct", on.dials
         elif do == "transfer_info":
             return "struct", on.info
         elif do == "apply":

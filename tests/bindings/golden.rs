@@ -817,6 +817,12 @@ impl Scene<'_> {
                 on!(self, step, Transfer).remove_pairs(&pairs)?;
                 Ok(Answer::Nothing)
             }
+            "set_dials" => {
+                let dials = options!(step, TransferDials);
+                on!(self, step, Transfer).set_dials(&dials)?;
+                Ok(Answer::Nothing)
+            }
+            "dials" => figures!(on!(self, step, Transfer).dials()),
             "transfer_info" => figures!(on!(self, step, Transfer).info()),
             "apply" => {
                 let posed = self.doubles(step, "positions").unwrap();

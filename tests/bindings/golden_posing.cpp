@@ -98,6 +98,28 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
   } else if (what == "remove_pairs") {
     const auto pairs = numbers(step, "pairs");
     check(hf_transfer_remove_pairs(on.transfer.get(), count(pairs), data(pairs)));
+  } else if (what == "set_dials") {
+    auto dials = make<hf_transfer_dials>();
+    set_options(step, dials,
+                {{"stride", &dials.stride},
+                 {"hip_height", &dials.hip_height},
+                 {"neck_follow", &dials.neck_follow},
+                 {"tail_follow", &dials.tail_follow},
+                 {"arm_space", &dials.arm_space}},
+                {{"stride", false},
+                 {"hip_height", false},
+                 {"neck_follow", false},
+                 {"tail_follow", false},
+                 {"arm_space", false}});
+    check(hf_transfer_set_dials(on.transfer.get(), &dials));
+  } else if (what == "dials") {
+    auto dials = make<hf_transfer_dials>();
+    check(hf_transfer_get_dials(on.transfer.get(), &dials));
+    result.fields = {{"stride", dials.stride},
+                     {"hip_height", dials.hip_height},
+                     {"neck_follow", dials.neck_follow},
+                     {"tail_follow", dials.tail_follow},
+                     {"arm_space", dials.arm_space}};
   } else if (what == "transfer_info") {
     auto info = make<hf_transfer_info>();
     check(hf_transfer_get_info(on.transfer.get(), &info));

@@ -147,6 +147,11 @@ void transfer(Story& s, const Tube& tube, Allocator& memory) {
   frame.source_positions_f64 = posed.data(), frame.target_positions_f64 = out.data();
   s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
   s.take(out.data(), out.size());
+  hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
+  dials.stride = 1.2f, dials.hip_height = 0.1f;
+  s.call("hf_transfer_set_dials", [&] { return hf_transfer_set_dials(motion, &dials); });
+  s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
+  s.take(out.data(), out.size());
   hf_transfer_info info = HF_INIT(hf_transfer_info);
   s.call("hf_transfer_get_info", [&] { return hf_transfer_get_info(motion, &info); });
   hf_skin_info skin = HF_INIT(hf_skin_info);

@@ -33,6 +33,9 @@ class Transfers final : public Subject {
     hf_transfer_info info = HF_INIT(hf_transfer_info);
     state.begin("info of a transfer");
     state.add(hf_transfer_get_info(handle_, &info)), add_struct(state, info);
+    hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
+    state.begin("dials");
+    state.add(hf_transfer_get_dials(handle_, &dials)), add_struct(state, dials);
     expect(info.pair_count == pairs_.size() || pairs_.empty() || world.desc.memory_limit_mb,
            "the number of pairs is not that of the model");
     for (const Pair& p : pairs_) {
@@ -85,6 +88,7 @@ class Transfers final : public Subject {
       if (result == HF_OK && !batch) result = add_to(fresh, {pair}, nullptr);
     }
     if (result == HF_OK && batch) result = add_to(fresh, pairs, nullptr);
+    if (result == HF_OK) result = hf_transfer_set_dials(fresh, &dials_);
     if (result == HF_OK) result = apply(fresh, bent(0.4), out);
     return hf_transfer_destroy(fresh), result;
   }
@@ -129,6 +133,7 @@ class Transfers final : public Subject {
 
   hf_transfer_desc desc_ = HF_INIT(hf_transfer_desc);
   hf_transfer handle_ = nullptr;
+  hf_transfer_dials dials_ = HF_INIT(hf_transfer_dials);
   std::vector<Pair> pairs_;
 };
 
@@ -141,7 +146,7 @@ struct Calls {
     std::vector<std::uint32_t> out(fresh.size());
     const std::uint32_t n = s.world.shape->vertices();
     for (Pair& p : fresh) {
-      p.flags = random.pick({0u, 0u, 1u, 2u, 5u, 16u, random.one_in(9) ? 64u : 8u});
+      p.flags = random.pick({0u, 0u, 1u, 2u, 5u, 16u, 5u | 64u, 384u, random.one_in(9) ? 512u : 8u});
       const std::uint32_t first = random.below(n), size = 1 + random.below(4);
       for (std::uint32_t k = 0; k < size; ++k) p.source.push_back(random.one_in(60) ? n : (first + k) % n);
       p.target = p.source;
@@ -180,6 +185,20 @@ struct Calls {
     if (random.one_in(20)) desc.source_stride = 5;
     return hf_transfer_apply(s.handle_, random.spoiled(desc));
   }
+  static hf_result dials(Subject& subject, Random& random) {
+    Transfers& s = of(subject);
+    hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
+    const auto value = [&](double low, double high) {
+      return static_cast<float>(random.one_in(12) ? random.number() : random.real(low, high));
+    };
+    if (random.one_in(2)) dials.stride = value(0.1, 4);
+    if (random.one_in(2)) dials.hip_height = value(-0.5, 0.5);
+    if (random.one_in(2)) dials.neck_follow = value(-1, 1), dials.tail_follow = value(-1, 1);
+    if (random.one_in(2)) dials.arm_space = value(-1.5, 1.5);
+    const hf_result result = hf_transfer_set_dials(s.handle_, random.spoiled(dials));
+    if (result == HF_OK) s.dials_ = dials;
+    return result;
+  }
   static hf_result make(Subject& subject, Random& random) {
     Transfers& s = of(subject);
     hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
@@ -204,9 +223,9 @@ struct Calls {
 
 const std::vector<Command>& Transfers::commands() const {
   static const std::vector<Command> table = {
-      {"hf_transfer_add_pairs", 8, Calls::add}, {"hf_transfer_remove_pairs", 3, Calls::remove},
-      {"hf_transfer_apply", 10, Calls::frame},  {"hf_transfer_create", 2, Calls::make},
-      {"reading a transfer", 4, Calls::read},
+      {"hf_transfer_add_pairs", 8, Calls::add},   {"hf_transfer_remove_pairs", 3, Calls::remove},
+      {"hf_transfer_set_dials", 3, Calls::dials}, {"hf_transfer_apply", 10, Calls::frame},
+      {"hf_transfer_create", 2, Calls::make},     {"reading a transfer", 4, Calls::read},
   };
   return table;
 }

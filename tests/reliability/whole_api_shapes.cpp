@@ -59,6 +59,11 @@ void Run::pose_and_transfer() {
     hf_transfer_frame frame = desc<hf_transfer_frame>();
     frame.source_positions = s.posed.data(), frame.target_positions = floats.data();
     call(hf_transfer_apply(transfer, &frame), "hf_transfer_apply"), take_floats();
+    hf_transfer_dials dials = desc<hf_transfer_dials>();
+    dials.stride = 1.2f, dials.hip_height = 0.1f, dials.arm_space = 0.2f;
+    call(hf_transfer_set_dials(transfer, &dials), "hf_transfer_set_dials");
+    call(hf_transfer_apply(transfer, &frame), "hf_transfer_apply, dials"), take_floats();
+    call(hf_transfer_get_dials(transfer, &dials), "hf_transfer_get_dials"), take(&dials, 1);
     hf_pair_info pair = desc<hf_pair_info>();
     call(hf_transfer_get_pair(transfer, numbers[0], &pair), "hf_transfer_get_pair"), take(&pair, 1);
     hf_transfer_info info = desc<hf_transfer_info>();

@@ -17,7 +17,7 @@ import hf  # noqa: E402
 import bpy  # noqa: E402
 from bpy.app.handlers import persistent  # noqa: E402
 
-from . import carriers, operators, session, skinning  # noqa: E402
+from . import carriers, operators, rig, session, skinning  # noqa: E402
 from .operators import mesh_of, refresh  # noqa: E402
 
 
@@ -45,6 +45,10 @@ class HF_PT_panel(bpy.types.Panel):
         column.operator("hf.field")
         column.operator("hf.weights")
         column.operator("hf.transfer")
+        column = layout.column(align=True)
+        for name in operators.DIALS:
+            column.prop(context.scene, f"hf_{name}")
+        column.operator("hf.dials")
         column = layout.column(align=True)
         column.operator("hf.weights_from_bones")
         column.operator("hf.pin_weights")
@@ -113,6 +117,7 @@ def on_undo(*_):
 @persistent
 def on_load(*_):
     skinning.forget()
+    rig.forget_motions()
     session.sessions.clear()  # the next use binds again, from the rest positions kept in the mesh
 
 
@@ -127,6 +132,10 @@ def register():
         bpy.utils.register_class(cls)
     bpy.types.Scene.hf_live = bpy.props.BoolProperty(name="Live", default=True,
         description="Follow the handles while they are dragged")
+    for name, (neutral, least, most, description) in operators.DIALS.items():
+        unit = {"subtype": "ANGLE"} if name == "arm_space" else {}
+        setattr(bpy.types.Scene, f"hf_{name}", bpy.props.FloatProperty(name=name.replace("_", " ").capitalize(),
+            default=neutral, min=least, max=most, description=description, **unit))
     for name, function in HANDLERS:
         getattr(bpy.app.handlers, name).append(function)
 
@@ -135,7 +144,10 @@ def unregister():
     for name, function in HANDLERS:
         getattr(bpy.app.handlers, name).remove(function)
     skinning.forget()
+    rig.forget_motions()
     session.sessions.clear()
     del bpy.types.Scene.hf_live
+    for name in operators.DIALS:
+        delattr(bpy.types.Scene, f"hf_{name}")
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

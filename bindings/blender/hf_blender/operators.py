@@ -259,8 +259,33 @@ class HF_OT_transfer(bpy.types.Operator):
         if self.end < self.start:
             raise hf.InvalidArgumentError("the last frame is before the first")
         rig.transfer_animation(source, target, range(self.start, self.end + 1), self.prefix, context.window_manager,
-            self.scale)
+            self.scale, **dials_of(context.scene))
         context.scene.hf_live = False
+
+
+DIALS = {  # of hf_transfer_dials: neutral value, range, what it does
+    "stride": (1.0, 0.1, 4.0, "How many times the paths of feet and trunk along the ground count"),
+    "hip_height": (0.0, -0.5, 0.5, "Raises the trunk by this share of its height at rest"),
+    "neck_follow": (0.0, -1.0, 1.0, "1: the neck points where the source's points; -1: it does not move against the trunk"),
+    "tail_follow": (0.0, -1.0, 1.0, "1: the tail points where the source's points; -1: it does not move against the trunk"),
+    "arm_space": (0.0, -1.5707, 1.5707, "Turns the arms away from the body"),
+}
+
+
+def dials_of(scene):
+    return {name: getattr(scene, f"hf_{name}") for name in DIALS}
+
+
+class HF_OT_dials(bpy.types.Operator):
+    """Play the last transfer to the active mesh again, with the dials as they are now; nothing is prepared again"""
+    bl_idname, bl_label, bl_options = "hf.dials", "Turn dials", {"REGISTER", "UNDO"}
+
+    @guarded
+    def execute(self, context):
+        target = mesh_of(context)
+        if target is None or target.type != "MESH":
+            raise hf.InvalidArgumentError("select the target mesh")
+        rig.turn_dials(target, context.window_manager, **dials_of(context.scene))
 
 
 def mesh_and_armature(context):
@@ -343,5 +368,5 @@ class HF_OT_mirror_weights(bpy.types.Operator):
 
 
 OPERATORS = (HF_OT_bind, HF_OT_unbind, HF_OT_add_handle, HF_OT_add_groups, HF_OT_add_bones, HF_OT_propose, HF_OT_remove_handle,
-    HF_OT_update, HF_OT_field, HF_OT_weights, HF_OT_transfer, HF_OT_weights_from_bones, HF_OT_pin_weights,
+    HF_OT_update, HF_OT_field, HF_OT_weights, HF_OT_transfer, HF_OT_dials, HF_OT_weights_from_bones, HF_OT_pin_weights,
     HF_OT_carry_weights, HF_OT_mirror_weights)

@@ -51,35 +51,102 @@ def pose_bones(armature, skin, frame=None):
             bone.keyframe_insert("location", frame=frame)
 
 
-def transfer_animation(source, target, frames, prefix="hf ", window_manager=None, scale=0.0):
+# Words of a group's name in square brackets say what a pair is: "hf hoof left [foot]", "hf rump [trunk anchor]".
+KINDS = {"foot": hf.Pair.FOOT, "trunk": hf.Pair.TRUNK, "anchor": hf.Pair.ANCHOR, "contact": hf.Pair.CONTACT,
+    "sinks": hf.Pair.SINKS, "neck": hf.Pair.NECK, "tail": hf.Pair.TAIL, "arm": hf.Pair.ARM}
+
+
+def flags_of(name):
+    inside = name[name.find("[") + 1:name.rfind("]")] if "[" in name and name.endswith("]") else ""
+    unknown = [word for word in inside.split() if word not in KINDS]
+    if unknown:
+        raise hf.InvalidArgumentError(f"group '{name}': '{unknown[0]}' is none of {', '.join(KINDS)}")
+    flags = hf.Pair.NONE
+    for word in inside.split():
+        flags |= KINDS[word]
+    return int(flags)
+
+
+class Motion:
+    """A transfer with the source's frames, so that dials can be turned without a new preparation."""
+
+    def __init__(self, source_surface, transfer):
+        self.source_surface, self.transfer, self.armature = source_surface, transfer, None
+        self.frames = []  # (number, positions of the source)
+
+    def close(self):
+        self.transfer.close()
+        self.source_surface.close()
+
+    def play(self, target, window_manager=None, **dials):
+        """Keys the armature with the motion under these dials; makes it at the first call."""
+        self.transfer.set_dials(**dials)
+        if window_manager:
+            window_manager.progress_begin(0, len(self.frames))
+        out = np.empty_like(session_of(target).rest)
+        for count, (frame, posed) in enumerate(self.frames):
+            self.transfer.apply(posed, out)
+            skin = self.transfer.skin(4)
+            if self.armature is None:
+                self.armature = write_skin(target, skin, f"{target.name} motion").name
+            pose_bones(bpy.data.objects[self.armature], skin, frame)
+            if window_manager:
+                window_manager.progress_update(count)
+        if window_manager:
+            window_manager.progress_end()
+        return bpy.data.objects[self.armature]
+
+
+motions = {}  # by the name of the target
+
+
+def forget_motions():
+    for motion in motions.values():
+        motion.close()
+    motions.clear()
+
+
+def turn_dials(target, window_manager=None, **dials):
+    """Plays the last transfer to this mesh again, with other dials."""
+    motion = motions.get(target.name)
+    if motion is None or motion.armature not in bpy.data.objects:
+        raise hf.InvalidArgumentError(f"transfer an animation to {target.name} first")
+    return motion.play(target, window_manager, **dials)
+
+
+def transfer_animation(source, target, frames, prefix="hf ", window_manager=None, scale=0.0, **dials):
     """The motion of one mesh (however it is animated) played on another through pairs of equally named vertex groups.
     Returns the armature that carries it."""
     names = [g.name for g in source.vertex_groups if g.name.startswith(prefix) and target.vertex_groups.get(g.name)]
     if len(names) < 2:
         raise hf.InvalidArgumentError(f"{source.name} and {target.name} need two vertex groups or more of the same names, "
                                       f"starting with '{prefix}'")
-    rest, source_rest = session_of(target).rest, rest_of(source.data)
-    with make_surface(source_rest, faces_of(source.data), window_manager) as source_surface:
-        with hf.Transfer(source_surface, session_of(target).surface, scale=scale) as transfer:
-            transfer.add_pairs([group_vertices(source, n) for n in names], [group_vertices(target, n) for n in names])
-            armature, scene = None, bpy.context.scene
-            now = scene.frame_current
-            if window_manager:
-                window_manager.progress_begin(0, len(frames))
-            for count, frame in enumerate(frames):
-                scene.frame_set(frame)
-                evaluated = source.evaluated_get(bpy.context.evaluated_depsgraph_get())
-                mesh = evaluated.to_mesh()
-                if len(mesh.vertices) != len(source.data.vertices):
-                    raise hf.InvalidArgumentError(f"the modifiers of {source.name} change its number of vertices")
-                transfer.apply(positions_of(mesh), np.empty_like(rest))
-                evaluated.to_mesh_clear()
-                skin = transfer.skin(4)
-                armature = armature or write_skin(target, skin, f"{target.name} motion")
-                pose_bones(armature, skin, frame)
-                if window_manager:
-                    window_manager.progress_update(count)
-            if window_manager:
-                window_manager.progress_end()
-            scene.frame_set(now)
+    flags = [flags_of(n) for n in names]
+    source_surface = make_surface(rest_of(source.data), faces_of(source.data), window_manager)
+    try:
+        transfer = hf.Transfer(source_surface, session_of(target).surface, scale=scale)
+    except hf.HfError:
+        source_surface.close()
+        raise
+    motion = Motion(source_surface, transfer)
+    try:
+        transfer.add_pairs([group_vertices(source, n) for n in names], [group_vertices(target, n) for n in names], flags)
+        scene = bpy.context.scene
+        now = scene.frame_current
+        for frame in frames:
+            scene.frame_set(frame)
+            evaluated = source.evaluated_get(bpy.context.evaluated_depsgraph_get())
+            mesh = evaluated.to_mesh()
+            if len(mesh.vertices) != len(source.data.vertices):
+                raise hf.InvalidArgumentError(f"the modifiers of {source.name} change its number of vertices")
+            motion.frames.append((frame, np.array(positions_of(mesh), np.float32)))
+            evaluated.to_mesh_clear()
+        armature = motion.play(target, window_manager, **dials)
+        scene.frame_set(now)
+    except Exception:
+        motion.close()
+        raise
+    if target.name in motions:
+        motions[target.name].close()
+    motions[target.name] = motion
     return armature

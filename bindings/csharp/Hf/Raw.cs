@@ -99,6 +99,9 @@ namespace Hf.Native
         public const int HF_PAIR_NO_ALIGNMENT = 8;
         public const int HF_PAIR_CONTACT = 16;
         public const int HF_PAIR_SINKS = 32;
+        public const int HF_PAIR_NECK = 64;
+        public const int HF_PAIR_TAIL = 128;
+        public const int HF_PAIR_ARM = 256;
         public const int HF_PAIR_LIMIT = 256;
         public const int HF_WEIGHTS_INFORMED = 0;
         public const int HF_WEIGHTS_SOLVED = 1;
@@ -975,6 +978,17 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_transfer_dials
+    {
+        public uint struct_size;
+        public float stride;
+        public float hip_height;
+        public float neck_follow;
+        public float tail_follow;
+        public float arm_space;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_transfer_frame
     {
         public uint struct_size;
@@ -1264,6 +1278,8 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_remove_pairs(IntPtr transfer, uint pair_count, void* pairs);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_pair(IntPtr transfer, uint pair, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_info(IntPtr transfer, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_set_dials(IntPtr transfer, void* dials);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_dials(IntPtr transfer, void* out_dials);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_apply(IntPtr transfer, void* frame);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_skin(IntPtr transfer, void* inout_skin);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_create(IntPtr surface, void* bones, uint weight_count, void* out_weights);

@@ -60,6 +60,17 @@ namespace Hf
 
         public hf_transfer_info Info { get { return Read<hf_transfer_info>(Functions.hf_transfer_get_info); } }
 
+        /// <summary>What an animator turns while frames play; a new hf_transfer_dials is neutral.</summary>
+        public hf_transfer_dials Dials
+        {
+            get { return Read<hf_transfer_dials>(Functions.hf_transfer_get_dials); }
+            set
+            {
+                value.struct_size = (uint)sizeof(hf_transfer_dials);
+                Check(Functions.hf_transfer_set_dials(Handle, &value));
+            }
+        }
+
         /// <summary>One posed frame of the source into the target's positions.</summary>
         public double[] Apply(double[] sourcePositions)
         {

@@ -203,6 +203,25 @@ Value transfer_to(Surface& s, const Arguments& a) {
   return done();
 }
 
+// transfer_set_dials(stride = 1, hip height = 0, neck follow = 0, tail follow = 0, arm space = 0)
+Value transfer_set_dials(Surface& s, const Arguments& a) {
+  auto dials = make<hf_transfer_dials>();
+  float* const fields[] = {&dials.stride, &dials.hip_height, &dials.neck_follow, &dials.tail_follow, &dials.arm_space};
+  for (size_t i = 0; i < a.size(); ++i) *fields[i] = static_cast<float>(a[i].number);
+  check(hf_transfer_set_dials(s.transfer.get(), &dials));
+  return done();
+}
+
+Value transfer_dials(Surface& s, const Arguments&) {
+  auto dials = make<hf_transfer_dials>();
+  check(hf_transfer_get_dials(s.transfer.get(), &dials));
+  return named({{"stride", dials.stride},
+                {"hip_height", dials.hip_height},
+                {"neck_follow", dials.neck_follow},
+                {"tail_follow", dials.tail_follow},
+                {"arm_space", dials.arm_space}});
+}
+
 Value transfer_apply(Surface& s, const Arguments& a) {
   auto frame = make<hf_transfer_frame>();
   frame.source_positions_f64 = doubles(at(a, 0), 3 * s.vertex_count, "positions");
@@ -234,6 +253,8 @@ const std::vector<Entry>& pose_methods() {
       {"skin_bones", 0, 1, skin_bones},
       {"skin_weights", 0, 1, skin_weights},
       {"transfer_to", 3, 5, transfer_to},
+      {"transfer_set_dials", 0, 5, transfer_set_dials},
+      {"transfer_dials", 0, 0, transfer_dials},
       {"transfer_apply", 1, 1, transfer_apply},
   };
   return all;

@@ -204,6 +204,13 @@ export function poseClasses(tools) {
     get info() {
       return query('hf_transfer_info', 'hf_transfer_get_info', this._handle);
     }
+    /** stride, hipHeight, neckFollow, tailFollow, armSpace of the next frames; the others become neutral. */
+    setDials(dials = {}) {
+      call('hf_transfer_set_dials', this._handle, make('hf_transfer_dials').options(dials));
+    }
+    get dials() {
+      return query('hf_transfer_dials', 'hf_transfer_get_dials', this._handle);
+    }
     apply(sourcePositions, out, { normals = null, Type = Float32Array, holds = null, holdPositions = null } = {}) {
       const posed = points(sourcePositions, 'sourcePositions', 3 * this.sourceVertexCount);
       out = output(out, 3 * this.vertexCount, Type);

@@ -22,7 +22,8 @@ from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as Dire
                    hf_quads_info as QuadsInfo, hf_region_info as RegionInfo, hf_solve_info as SolveInfo,
                    hf_solver_info as SolverInfo, hf_solver_statistics as SolverStatistics,
                    hf_surface_info as SurfaceInfo, hf_surface_report as SurfaceReport,
-                   hf_surface_statistics as SurfaceStatistics, hf_transfer_info as TransferInfo,
+                   hf_surface_statistics as SurfaceStatistics, hf_transfer_dials as TransferDials,
+                   hf_transfer_info as TransferInfo,
                    hf_carry_info as CarryInfo, hf_mirror_info as MirrorInfo, hf_weights_info as WeightsInfo)
 from .direction import Direction
 from .pose import DeformMode, Pair, Pose, Skin, Transfer, TransferMode

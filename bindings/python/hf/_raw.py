@@ -96,6 +96,9 @@ HF_PAIR_TRUNK = 4
 HF_PAIR_NO_ALIGNMENT = 8
 HF_PAIR_CONTACT = 16
 HF_PAIR_SINKS = 32
+HF_PAIR_NECK = 64
+HF_PAIR_TAIL = 128
+HF_PAIR_ARM = 256
 HF_PAIR_LIMIT = 256
 HF_WEIGHTS_INFORMED = 0
 HF_WEIGHTS_SOLVED = 1
@@ -1597,6 +1600,24 @@ class hf_transfer_info(Structure):
     ]
 
 
+class hf_transfer_dials(Structure):
+    """What an animator turns while a transfer plays."""
+    struct_size: int
+    stride: float
+    hip_height: float
+    neck_follow: float
+    tail_follow: float
+    arm_space: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("stride", c_float),
+        ("hip_height", c_float),
+        ("neck_follow", c_float),
+        ("tail_follow", c_float),
+        ("arm_space", c_float),
+    ]
+
+
 class hf_transfer_frame(Structure):
     """Describes one frame"""
     struct_size: int
@@ -1885,7 +1906,7 @@ class hf_mirror_info(Structure):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_propose_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame, hf_bones_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_carry_desc, hf_carry_info, hf_mirror_desc, hf_mirror_info]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_propose_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_bones_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_carry_desc, hf_carry_info, hf_mirror_desc, hf_mirror_info]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -2007,6 +2028,8 @@ PROTOTYPES = {
     "hf_transfer_remove_pairs": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_transfer_get_pair": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_transfer_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_transfer_set_dials": (c_int32, [c_void_p, c_void_p]),
+    "hf_transfer_get_dials": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_apply": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_get_skin": (c_int32, [c_void_p, c_void_p]),
     "hf_weights_create": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),

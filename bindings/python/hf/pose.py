@@ -27,6 +27,7 @@ class Pair(IntFlag):
     NONE = 0
     ANCHOR, FOOT, TRUNK = _raw.HF_PAIR_ANCHOR, _raw.HF_PAIR_FOOT, _raw.HF_PAIR_TRUNK
     NO_ALIGNMENT, CONTACT, SINKS = _raw.HF_PAIR_NO_ALIGNMENT, _raw.HF_PAIR_CONTACT, _raw.HF_PAIR_SINKS
+    NECK, TAIL, ARM = _raw.HF_PAIR_NECK, _raw.HF_PAIR_TAIL, _raw.HF_PAIR_ARM
 
 
 class Skin(NamedTuple):
@@ -236,6 +237,16 @@ class Transfer(Object):
     @property
     def info(self) -> _raw.hf_transfer_info:
         return self._read("hf_transfer_get_info", _raw.hf_transfer_info)
+
+    def set_dials(self, **dials: float) -> None:
+        """stride, hip_height, neck_follow, tail_follow, arm_space of the next frames; the others become neutral."""
+        desc = make(_raw.hf_transfer_dials)
+        options_into(desc, dials)
+        call("hf_transfer_set_dials", self._raw_handle, ctypes.byref(desc))
+
+    @property
+    def dials(self) -> _raw.hf_transfer_dials:
+        return self._read("hf_transfer_get_dials", _raw.hf_transfer_dials)
 
     def apply(self, source_positions: ArrayLike, out: Optional[np.ndarray] = None, *,
         normals: Optional[np.ndarray] = None, dtype: Any = np.float32,

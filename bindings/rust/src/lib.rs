@@ -29,7 +29,7 @@ mod weights;
 
 pub use crate::core::{Corner, Error, Progress, Real, Result};
 pub use crate::fields::{Direction, DirectionOptions, Flow, FlowLines, Geodesics, GeodesicsOptions, QuadMesh, Quads, QuadsOptions};
-pub use crate::pose::{DeformOptions, Pose, PoseOptions, Skin, Transfer, TransferOptions, Transform};
+pub use crate::pose::{DeformOptions, Pose, PoseOptions, Skin, Transfer, TransferDials, TransferOptions, Transform};
 pub use crate::region::{Detail, Region, RegionEdit, RegionOptions};
 pub use crate::solver::{Edit, Sites, Solver, SolverOptions};
 pub use crate::surface::{Extras, GraphOptions, Isolines, LinkOptions, Surface, SurfaceOptions};

@@ -43,6 +43,21 @@ options!(
         alignment_angle: f32,
     }
 );
+options!(
+    /// What an animator turns while a transfer plays. Zero is neutral for every dial.
+    TransferDials: hf_transfer_dials {
+        /// how many times the paths of feet and trunk along the ground count; 0 = 1
+        stride: f32,
+        /// raises the trunk by this share of its height at rest
+        hip_height: f32,
+        /// how far the neck follows the source, -1 to 1
+        neck_follow: f32,
+        /// how far the tail follows the source, -1 to 1
+        tail_follow: f32,
+        /// radians by which arms turn away from the body
+        arm_space: f32,
+    }
+);
 
 object!(
     /// Handles on a surface, and the surface posed by them.
@@ -251,6 +266,19 @@ impl Transfer {
     figures! {
         /// What was found: scale, clusters, pairs.
         info => hf_transfer_get_info -> hf_transfer_info;
+    }
+
+    figures! {
+        /// The dials of the next frames.
+        dials => hf_transfer_get_dials -> hf_transfer_dials;
+    }
+
+    /// Sets the dials of the next frames.
+    pub fn set_dials(&mut self, dials: &TransferDials) -> Result<()> {
+        let mut desc = raw::hf_transfer_dials::default();
+        dials.fill(&mut desc);
+        // SAFETY: the struct is whole.
+        check(unsafe { raw::hf_transfer_set_dials(self.handle, &desc) })
     }
 
     /// Adds pairs of regions that correspond. `flags`: `HF_PAIR_*` for each, or `None`.

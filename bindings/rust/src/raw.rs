@@ -96,6 +96,9 @@ pub const HF_PAIR_TRUNK: i32 = 4;
 pub const HF_PAIR_NO_ALIGNMENT: i32 = 8;
 pub const HF_PAIR_CONTACT: i32 = 16;
 pub const HF_PAIR_SINKS: i32 = 32;
+pub const HF_PAIR_NECK: i32 = 64;
+pub const HF_PAIR_TAIL: i32 = 128;
+pub const HF_PAIR_ARM: i32 = 256;
 pub const HF_PAIR_LIMIT: i32 = 256;
 pub const HF_WEIGHTS_INFORMED: i32 = 0;
 pub const HF_WEIGHTS_SOLVED: i32 = 1;
@@ -1872,6 +1875,40 @@ impl hf_transfer_info {
     }
 }
 
+/// What an animator turns while a transfer plays.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_transfer_dials {
+    pub struct_size: u32,
+    pub stride: f32,
+    pub hip_height: f32,
+    pub neck_follow: f32,
+    pub tail_follow: f32,
+    pub arm_space: f32,
+}
+impl Default for hf_transfer_dials {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_transfer_dials {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "stride" => f64::from(self.stride),
+            "hip_height" => f64::from(self.hip_height),
+            "neck_follow" => f64::from(self.neck_follow),
+            "tail_follow" => f64::from(self.tail_follow),
+            "arm_space" => f64::from(self.arm_space),
+            _ => return None,
+        })
+    }
+}
+
 /// Describes one frame
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -2308,6 +2345,8 @@ extern "C" {
     pub fn hf_transfer_remove_pairs(transfer: hf_transfer, pair_count: u32, pairs: *const u32) -> i32;
     pub fn hf_transfer_get_pair(transfer: hf_transfer, pair: u32, out_info: *mut hf_pair_info) -> i32;
     pub fn hf_transfer_get_info(transfer: hf_transfer, out_info: *mut hf_transfer_info) -> i32;
+    pub fn hf_transfer_set_dials(transfer: hf_transfer, dials: *const hf_transfer_dials) -> i32;
+    pub fn hf_transfer_get_dials(transfer: hf_transfer, out_dials: *mut hf_transfer_dials) -> i32;
     pub fn hf_transfer_apply(transfer: hf_transfer, frame: *const hf_transfer_frame) -> i32;
     pub fn hf_transfer_get_skin(transfer: hf_transfer, inout_skin: *mut hf_skin_info) -> i32;
     pub fn hf_weights_create(surface: hf_surface, bones: *const hf_bones_desc, weight_count: u32, out_weights: *mut hf_weights) -> i32;

@@ -2,6 +2,9 @@
 // files are read back, compared and validated.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+
 #include "unit/transfer/transfer_program_support.h"
 
 namespace {
@@ -117,6 +120,36 @@ TEST(TransferProgram, TheWalkingManOnTheKnight) {
   check_real("CesiumMan.glb", "q_KnightCharacter.glb", "cesium_man_to_q_knight.json");
 }
 
+TEST(TransferProgram, DialsOfTheFileAndOfTheCommandLineAreTheSame) {
+  const fs::path horse = creature("horse"), bull = creature("bull"), file = folder() / "dialled.json";
+  std::ifstream from(pairs("horse_to_bull.json"));
+  nlohmann::json json = nlohmann::json::parse(from);
+  json["dials"] = {{"stride", 1.3}, {"neck_follow", 0.5}};
+  std::ofstream(file) << json;
+  std::string said;
+  const auto play = [&](const fs::path& list, const std::string& more, const char* name) {
+    const fs::path out = folder() / name;
+    EXPECT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " --clip walk --pairs " + quoted(list) + " -o " +
+                           quoted(out) + more,
+                       said),
+              0)
+        << said;
+    std::ifstream bytes(out, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(bytes), {});
+  };
+  const std::string plain = play(pairs("horse_to_bull.json"), "", "plain.glb"), of_file = play(file, "", "dialled.glb"),
+                    of_line = play(pairs("horse_to_bull.json"), " --dials stride=1.3,neck_follow=0.5", "line.glb"),
+                    neutral = play(file, " --dials stride=1,neck_follow=0", "neutral.glb");
+  EXPECT_FALSE(of_file.empty());
+  EXPECT_EQ(of_file, of_line);
+  EXPECT_EQ(neutral, plain);
+  EXPECT_NE(of_file, plain);
+  EXPECT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " -o never.glb --dials stride=9", said), 1);
+  EXPECT_NE(said.find("stride is 9"), std::string::npos) << said;
+  EXPECT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " -o never.glb --dials speed=1", said), 1);
+  EXPECT_NE(said.find("\"speed\""), std::string::npos) << said;
+}
+
 TEST(TransferProgram, WhatIsWrongIsNamedWithFileAndKeyPath) {
   const fs::path horse = creature("horse"), bull = creature("bull"), file = folder() / "bad.json";
   const auto refused = [&](const std::string& text, const std::string& expected) {
@@ -150,6 +183,9 @@ TEST(TransferProgram, WhatIsWrongIsNamedWithFileAndKeyPath) {
   refused(pair("{\"joint\": \"head\", \"colour\": 1}"), "colour");
   refused("{\"settings\": {\"clusters\": 9999}, \"pairs\": []}", "settings.clusters");
   refused("{\"source_axes\": {\"up\": \"+y\", \"forward\": \"-y\"}, \"pairs\": []}", "source_axes");
+  refused("{\"dials\": {\"stride\": 9}, \"pairs\": []}", "dials.stride");
+  refused("{\"dials\": {\"strut\": 1}, \"pairs\": []}", "strut");
+  refused("{\"pairs\": [{\"name\": \"a\", \"limb\": \"leg\", \"both\": {\"joint\": \"head\"}}]}", "pairs[0].limb");
   refused(
       "{\"pairs\": [{\"name\": \"a\", \"both\": {\"joint\": \"head\"}}, {\"name\": \"a\", \"both\": {\"joint\": "
       "\"jaw\"}}]}",
