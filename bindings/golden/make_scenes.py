@@ -133,6 +133,9 @@ def scenes(meshes):
               "expect": agree()},
           {"do": "geodesics", "on": "m", "as": "g"}, {"do": "distance", "on": "g", "sources": [0, 100],
               "expect": agree()},
+          *[step for method in (1, 2, 3) for step in (
+              {"do": "geodesics", "on": "m", "as": f"g{method}", "options": {"method": method}},
+              {"do": "distance", "on": f"g{method}", "sources": [0, 100], "expect": agree()})],
           surface("bar", "b"), {"do": "extremities", "on": "b", "expect": agree(0)},
           {"do": "propose", "on": "b", "expect": agree(0)},
           {"do": "direction", "on": "m", "as": "d", "options": {"degree": 4}},

@@ -18,7 +18,7 @@ end
 
 local Geodesics = class('Geodesics', function(raw) C.hf_geodesics_destroy(raw) end)
 function hf.Geodesics(surface, options)
-  return create_on(Geodesics, 'hf_geodesics', surface, options, 'smoothing', C.hf_geodesics_create)
+  return create_on(Geodesics, 'hf_geodesics', surface, options, 'smoothing method', C.hf_geodesics_create)
 end
 function Geodesics:distance(sources)
   local out = ffi.new('double[?]', self.vertex_count)

@@ -358,6 +358,8 @@ typedef struct hf_geodesics_desc {
   uint32_t struct_size;
   float smoothing;
   hf_progress progress;
+  int32_t method;
+  uint32_t reserved;
 } hf_geodesics_desc;
 typedef struct hf_extremities_desc {
   uint32_t struct_size;
@@ -1024,6 +1026,10 @@ local constants = { header_version = '0.1.0',
   HF_CRITICAL_MINIMUM = 0,
   HF_CRITICAL_MAXIMUM = 1,
   HF_CRITICAL_SADDLE = 2,
+  HF_GEODESICS_AUTO = 0,
+  HF_GEODESICS_FRONT = 1,
+  HF_GEODESICS_EXACT = 2,
+  HF_GEODESICS_HEAT = 3,
   HF_EXTREMITIES_POISSON = 0,
   HF_EXTREMITIES_GEODESIC = 1,
   HF_DEFORM_SMOOTH = 0,

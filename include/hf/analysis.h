@@ -109,19 +109,30 @@ HF_API hf_result hf_surface_find_critical_points(hf_surface surface, const hf_sc
 
 /* ---- geodesic distance ---- */
 
-/* Computes geodesic distances on one surface. The object holds a factor of its own beside the surface's. */
+/* Computes geodesic distances on one surface: the lengths of shortest paths along it. */
 typedef struct hf_geodesics_object* hf_geodesics;
+
+/* Selects how distances are computed. docs/benchmarks.md has errors and times of each. */
+enum {
+  HF_GEODESICS_AUTO = 0,  /* EXACT up to 10,000 vertices, FRONT beyond */
+  HF_GEODESICS_FRONT = 1, /* fast: circular fronts on the intrinsic Delaunay triangulation (Novotni and Klein 2002) */
+  HF_GEODESICS_EXACT = 2, /* exact up to rounding: windows (Mitchell, Mount and Papadimitriou 1987) */
+  HF_GEODESICS_HEAT = 3   /* smooth, and least exact: the heat method (Crane, Weischedel and Wardetzky 2013) */
+};
 
 typedef struct hf_geodesics_desc {
   uint32_t struct_size;
-  float smoothing;      /* m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to 10,000 */
-  hf_progress progress; /* NULL, or an object to poll and cancel through */
+  float smoothing;      /* of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to
+                           10,000 */
+  hf_progress progress; /* NULL, or an object to poll and cancel through: creation and every later call report to it */
+  int32_t method;       /* HF_GEODESICS_* */
+  uint32_t reserved;    /* 0 */
 } hf_geodesics_desc;
 
-/* Creates the object and makes its factor, the second factor of the heat method (Crane, Weischedel and Wardetzky 2013).
- * This costs one numeric factorisation. desc: NULL for defaults. Sets *out_geodesics to NULL first. Errors:
- * HF_ERROR_INVALID_ARGUMENT (smoothing), HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_CANCELLED. Thread safety: reads
- * `surface`. Since 0.1. */
+/* Creates the object and the tables of its method. FRONT and EXACT take a pass over the triangles. HEAT takes one
+ * numeric factorisation and holds a factor of its own beside the surface's. desc: NULL for defaults. Sets
+ * *out_geodesics to NULL first. Errors: HF_ERROR_INVALID_ARGUMENT (smoothing, method), HF_ERROR_NOT_POSITIVE_DEFINITE
+ * (HEAT), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* desc, hf_geodesics* out_geodesics);
 
 /* Destroys the object. Ignores NULL and destroyed handles. Since 0.1. */
@@ -129,10 +140,12 @@ HF_API void hf_geodesics_destroy(hf_geodesics geodesics);
 
 /* Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
  * out_distances: float[vertex_count], value_stride bytes apart (0 = packed). The distance is 0 at the sources, and -1
- * at vertices that no source can reach. sources: uint32_t[source_count] vertices of your mesh; repeats are allowed. The
- * error falls with the edge length. The distance is rounded off at corners and where two shortest paths meet. Cost: two
- * solves. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (isolated vertex), HF_ERROR_TOO_LARGE (more sources
- * than vertices). Thread safety: reads `geodesics`. Since 0.1. */
+ * at vertices that no source can reach. sources: uint32_t[source_count] vertices of your mesh; repeats are allowed.
+ * Paths follow the triangles and ignore links. EXACT is right up to rounding. The error of FRONT falls with the edge
+ * length. HEAT rounds the distance off at corners and where two shortest paths meet. Cost: O(n log n) for FRONT, about
+ * n^1.5 for EXACT, two solves for HEAT. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (isolated vertex),
+ * HF_ERROR_TOO_LARGE (more sources than vertices), HF_ERROR_CANCELLED (nothing is written). Thread safety: reads
+ * `geodesics`; calls on several threads share its progress. Since 0.1. */
 HF_API hf_result hf_geodesics_solve(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources,
                                     float* out_distances, uint32_t value_stride);
 
@@ -154,7 +167,8 @@ typedef struct hf_extremities_desc {
   int32_t kind;           /* HF_EXTREMITIES_* */
   float least_length;     /* tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10 */
   uint32_t source_count;  /* sources of the mean distance per component, 1 to 1,000; 0 = 40 */
-  hf_geodesics geodesics; /* for HF_EXTREMITIES_GEODESIC: an object made of this surface, or NULL to make one */
+  hf_geodesics geodesics; /* for HF_EXTREMITIES_GEODESIC: an object of this surface. If its method is
+                             HF_GEODESICS_HEAT its factor serves; else, and for NULL, the call makes a factor */
   hf_progress progress;   /* NULL, or an object to poll and cancel through */
   double* out_field; /* NULL, or [vertex_count], packed: the field whose peaks are proposed, 0 at isolated vertices.
                         Unit: length^2 (Poisson), length (geodesic), each up to a constant per component */
@@ -172,8 +186,8 @@ typedef struct hf_extremity {
  * the order of the vertices. Pose and meshing change it only within the resolution of the mesh. desc: NULL for
  * defaults. out_extremities: NULL, or room for `capacity`. out_count: NULL, or receives the number of tips. A component
  * that is no larger than least_length has no tips. Cost: HF_EXTREMITIES_POISSON takes one solve and a few passes over
- * the mesh. HF_EXTREMITIES_GEODESIC takes two solves per eight sources, and one numeric factorisation if
- * desc->geodesics is NULL. Errors: HF_ERROR_INVALID_ARGUMENT (kind, counts, geodesics of another surface),
+ * the mesh. HF_EXTREMITIES_GEODESIC takes two solves per eight sources, and one numeric factorisation
+ * without such a factor. Errors: HF_ERROR_INVALID_ARGUMENT (kind, counts, geodesics of another surface),
  * HF_ERROR_CANCELLED. Thread safety: reads `surface` and desc->geodesics. Since 0.1. */
 HF_API hf_result hf_surface_find_extremities(hf_surface surface, const hf_extremities_desc* desc, uint32_t capacity,
                                              hf_extremity* out_extremities, uint32_t* out_count);

@@ -4,8 +4,8 @@
 #include "capi/objects.h"
 #include "capi/vertex_writer.h"
 #include "field/critical_points.h"
+#include "field/distances.h"
 #include "field/extremities.h"
-#include "field/geodesics.h"
 #include "field/intake.h"
 #include "field/isolines.h"
 #include "field/scalars.h"
@@ -16,10 +16,15 @@ namespace {
 
 struct GeodesicsObject final : Object {
   static constexpr Kind kind_of = Kind::geodesics;
-  GeodesicsObject(std::shared_ptr<const Core> core, double smoothing)
-      : Object(kind_of), memory(core->memory), geodesics(std::move(core), smoothing) {}
-  std::shared_ptr<Memory> memory;  // outlives what follows
-  Geodesics geodesics;
+  GeodesicsObject(const Surface& surface, DistanceMethod method, double smoothing,
+                  std::shared_ptr<ProgressObject> calls)
+      : Object(kind_of),
+        memory(surface.geometry().memory),
+        progress(std::move(calls)),
+        distances(surface, method, smoothing) {}
+  std::shared_ptr<Memory> memory;            // outlives what follows
+  std::shared_ptr<ProgressObject> progress;  // of every call, or null
+  Distances distances;
 };
 
 void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* vertices, float* f32, double* f64,
@@ -28,14 +33,14 @@ void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* ver
   require(f32 ? static_cast<const void*>(f32) : f64, "out_distances");
   require_list(count, vertices, "source_count", "sources");
   const Reading reading(*object);
-  const Core& core = object->geodesics.core();
+  const Geometry& shape = object->distances.geometry();
   const Rows out = rows_of(f32, f64, 1, value_stride, "value_stride");
-  const Vector<std::int32_t> sources = read_source_vertices(core.mesh, count, vertices, *core.memory);
-  Workspace field(core.workspaces, static_cast<std::size_t>(core.size()));
-  object->geodesics.distance(sources, field.data());
-  const double scale = core.mesh.scale;
+  const Vector<std::int32_t> sources = read_source_vertices(shape.mesh, count, vertices, *shape.memory);
+  Workspace field(shape.workspaces, static_cast<std::size_t>(shape.mesh.vertex_count()));
+  with_progress(object->progress, [&] { object->distances.solve(sources, field.data()); });
+  const double scale = shape.mesh.scale;
   write_vertices(
-      core, 1, out, [](const Mesh::Isolated&, double* values) { values[0] = -1; },
+      shape, 1, out, [](const Mesh::Isolated&, double* values) { values[0] = -1; },
       [&](std::size_t v, double* values) { values[0] = field[v] < 0 ? -1 : scale * field[v]; });
 }
 
@@ -46,9 +51,10 @@ Extremities search(const std::shared_ptr<const Core>& core, const hf_extremities
   if (!desc.geodesics) return geodesic_extremities(core, default_smoothing, sources, least);
   const auto object = get<GeodesicsObject>(desc.geodesics, "desc->geodesics");
   const Reading reading(*object);
-  if (&object->geodesics.core() != core.get())
+  if (&object->distances.geometry() != core->geometry.get())
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "desc->geodesics belongs to another surface; make it on this surface");
-  return geodesic_extremities(object->geodesics, sources, least);
+  if (const Geodesics* heat = object->distances.heat()) return geodesic_extremities(*heat, sources, least);
+  return geodesic_extremities(core, default_smoothing, sources, least);
 }
 
 }  // namespace
@@ -136,11 +142,14 @@ hf_result hf_surface_find_critical_points(hf_surface handle, const hf_scalars* g
 
 hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given, hf_geodesics* out_geodesics) {
   return create("hf_geodesics_create", out_geodesics, "out_geodesics", [&] {
-    const std::shared_ptr<const Core> core = unlinked_core(surface, "geodesic distances");
+    const auto object = mesh_surface(surface, "geodesic distances");
     const hf_geodesics_desc desc = read_optional(given, "desc");
     const double smoothing = read_smoothing(desc.smoothing);
-    return with_progress(desc.progress, [&] {
-      auto made = make_owner_in<GeodesicsObject>(core->memory, core, smoothing);
+    const DistanceMethod method = read_method(desc.method);
+    require_zero(desc.reserved);
+    const std::shared_ptr<ProgressObject> progress = progress_of(desc.progress);
+    return with_progress(progress, [&] {
+      auto made = make_owner_in<GeodesicsObject>(object->memory, object->surface, method, smoothing, progress);
       report(1);
       return made;
     });

@@ -19,12 +19,10 @@ struct ProgressObject final : Object {
   Progress progress;
 };
 
-// Calls work() as a call that reports to the progress object of a handle; NULL: to none. A cancel that stopped
+// Calls work() as a call that reports to a progress object; null: to none. A cancel that stopped
 // this call does not stop the next.
 template <class Work>
-auto with_progress(hf_progress handle, Work&& work) {
-  std::shared_ptr<ProgressObject> object;
-  if (handle) object = get<ProgressObject>(handle, "progress");
+auto with_progress(const std::shared_ptr<ProgressObject>& object, Work&& work) {
   Progress* const progress = object ? &object->progress : nullptr;
   const CallProgress here(progress);
   if (progress) progress->begin();
@@ -35,6 +33,13 @@ auto with_progress(hf_progress handle, Work&& work) {
     if (error.code() == HF_ERROR_CANCELLED && object) object->progress.clear_cancel();
     throw;
   }
+}
+inline std::shared_ptr<ProgressObject> progress_of(hf_progress handle) {
+  return handle ? get<ProgressObject>(handle, "progress") : nullptr;
+}
+template <class Work>
+auto with_progress(hf_progress handle, Work&& work) {
+  return with_progress(progress_of(handle), std::forward<Work>(work));
 }
 
 struct SurfaceObject final : Object {

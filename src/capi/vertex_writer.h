@@ -10,9 +10,9 @@
 namespace hf_inner::capi {
 
 // Calls visit(given, inner) for the caller's vertices first .. first + count - 1, on all threads. inner is the welded
-// vertex, or Mesh::none for an isolated vertex.
-template <class Visit>
-void for_each_given(const Core& core, std::size_t first, std::size_t count, Visit&& visit) {
+// vertex, or Mesh::none for an isolated vertex. core: a Core or a Geometry.
+template <class Shape, class Visit>
+void for_each_given(const Shape& core, std::size_t first, std::size_t count, Visit&& visit) {
   constexpr std::size_t piece =
       32768;  // vertices of one thread's job: smaller ones cost more to start, larger ones leave threads idle
   core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
@@ -30,8 +30,8 @@ inline void put_up(const Mesh::Isolated&, double* values) { put({0, 0, 1}, value
 
 // Writes rows of `width` numbers for the caller's vertices first .. first + count - 1. row(inner, values) fills the row
 // of a welded vertex. Row 0 of `out` is the row of vertex `first`.
-template <class Row>
-void write_range(const Core& core, std::size_t first, std::size_t count, std::size_t width, const Rows& out,
+template <class Shape, class Row>
+void write_range(const Shape& core, std::size_t first, std::size_t count, std::size_t width, const Rows& out,
                  IsolatedRow isolated, Row&& row) {
   for_each_given(core, first, count, [&](std::size_t v, std::int32_t inner) {
     if (inner == Mesh::none) return;
@@ -48,8 +48,8 @@ void write_range(const Core& core, std::size_t first, std::size_t count, std::si
   }
 }
 
-template <class Row>
-void write_vertices(const Core& core, std::size_t width, const Rows& out, IsolatedRow isolated, Row&& row) {
+template <class Shape, class Row>
+void write_vertices(const Shape& core, std::size_t width, const Rows& out, IsolatedRow isolated, Row&& row) {
   write_range(core, 0, core.mesh.report.vertex_count, width, out, isolated, row);
 }
 

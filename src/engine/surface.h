@@ -19,6 +19,10 @@ class Surface {
   Surface(std::shared_ptr<const Geometry> geometry, const CoreOptions& options);
 
   const Geometry& geometry() const noexcept { return *geometry_; }
+  // Returns the geometry of the triangles alone, without links.
+  std::shared_ptr<const Geometry> unlinked_geometry() const noexcept {
+    return geometry_->plain ? geometry_->plain : geometry_;
+  }
   // Returns the operator that the surface was made with.
   const Core& own() const noexcept { return *own_; }
   FieldKind field_kind() const noexcept { return own_->field_kind; }

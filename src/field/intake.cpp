@@ -93,6 +93,11 @@ LevelSpacing read_spacing(std::int32_t given, std::uint32_t level_count) {
   return static_cast<LevelSpacing>(given);
 }
 
+DistanceMethod read_method(std::int32_t given) {
+  check_choice(given, 4, "method");
+  return static_cast<DistanceMethod>(given);
+}
+
 double read_smoothing(float given) {
   const double smoothing = static_cast<double>(given);
   if (smoothing != 0 && !(smoothing >= least_smoothing && smoothing <= most_smoothing))

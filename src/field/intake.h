@@ -1,6 +1,6 @@
 // Reads the options of solvers, direction fields, levels, distances and extremities, and the edits of sites.
 #pragma once
-#include "field/geodesics.h"
+#include "field/distances.h"
 #include "field/levels.h"
 #include "field/scalar_field.h"
 #include "hf/analysis.h"
@@ -35,6 +35,8 @@ std::uint32_t read_site_limit(std::uint32_t given) noexcept;
 // Returns the spacing of levels, and checks how many are asked for. Throws HF_ERROR_INVALID_ARGUMENT.
 LevelSpacing read_spacing(std::int32_t given, std::uint32_t level_count);
 
+// Returns the method of distances. Throws HF_ERROR_INVALID_ARGUMENT.
+DistanceMethod read_method(std::int32_t given);
 // Smoothing of distances: Geodesics. Throws HF_ERROR_INVALID_ARGUMENT.
 double read_smoothing(float given);
 // Returns the sources of distances as inner vertices, ascending, each once. Throws HF_ERROR_TOO_LARGE,

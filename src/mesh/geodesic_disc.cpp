@@ -5,8 +5,8 @@
 #include <limits>
 #include <unordered_map>
 
-#include "base/hypotenuse.h"
 #include "base/index.h"
+#include "mesh/unfold.h"
 
 namespace hf_inner {
 namespace {
@@ -19,21 +19,6 @@ constexpr double search_further = 2;
 // A vertex is visited again if its distance falls by at least this share. The number exceeds rounding errors, which
 // could otherwise keep the loop running for ever.
 constexpr double least_gain = 1e-13;
-
-// Returns the distance of corner C from a source that has distance a from corner A and b from corner B. ab, ac and bc
-// are the edge lengths of the triangle.
-double across(double a, double b, double ab, double ac, double bc) noexcept {
-  const double along_edges = std::min(a + ac, b + bc);
-  if (!(ab > 0)) return along_edges;
-  // In the plane, A is the origin, B is (ab, 0), C lies above the x axis and the source below it.
-  const double cx = (ac * ac - bc * bc + ab * ab) / (2 * ab), sx = (a * a - b * b + ab * ab) / (2 * ab);
-  const double cy2 = ac * ac - cx * cx, sy2 = a * a - sx * sx;
-  if (!(cy2 > 0) || sy2 < 0) return along_edges;
-  const double cy = std::sqrt(cy2), sy = std::sqrt(sy2);
-  const double crossing = sx + (cx - sx) * sy / (sy + cy);
-  if (crossing < 0 || crossing > ab) return along_edges;
-  return std::min(along_edges, hypotenuse(cx - sx, cy + sy));
-}
 
 // A front that spreads from vertex to vertex; distances only decrease. It visits a vertex again when it finds a shorter
 // path. This happens behind an obtuse corner: the front may reach the vertex before the edge that the shorter path
@@ -87,7 +72,7 @@ class Front {
         for (int c = 0; c < 3; ++c) {
           if (corner[c] != v && corner[c] != w) third = corner[c];
         }
-        offer(third, across(own, other, edge, length(v, third), length(w, third)));
+        offer(third, distance_across(own, other, edge, length(v, third), length(w, third)));
       }
     }
   }

@@ -121,20 +121,27 @@ static void distances_are_along_the_surface_and_minus_one_where_nothing_is_reach
   (void)state;
   Surface cut = surface_cut();
   hf_surface surface = surface_on(&cut);
-  hf_geodesics geodesics = NULL;
-  assert_ok(hf_geodesics_create(surface, NULL, &geodesics));
-  hf_surface_destroy(surface); /* the child keeps what it needs */
-  float distance[CUT_VERTICES];
-  double precise[CUT_VERTICES];
-  const uint32_t sources[2] = {CUT_LEFT, CUT_LEFT};
-  assert_ok(hf_geodesics_solve(geodesics, 2, sources, distance, 0));
-  assert_ok(hf_geodesics_solve_f64(geodesics, 1, sources, precise, 0));
-  assert_true(distance[CUT_LEFT] == 0.0f);
-  assert_true(distance[CUT_SEAM_LEFT] == distance[CUT_SEAM_RIGHT]);
-  assert_true(distance[CUT_ISLAND] == -1.0f && distance[CUT_ISOLATED] == -1.0f);
-  assert_true(distance[CUT_RIGHT] > distance[CUT_SEAM_LEFT] && distance[CUT_SEAM_LEFT] > 2.0f);
-  for (int v = 0; v < CUT_VERTICES; ++v) assert_near(precise[v], (double)distance[v], 1e-5);
-  hf_geodesics_destroy(geodesics);
+  hf_geodesics made[4] = {NULL, NULL, NULL, NULL};
+  for (int method = 0; method < 4; ++method) {
+    hf_geodesics_desc desc = HF_INIT(hf_geodesics_desc);
+    desc.method = method;
+    assert_ok(hf_geodesics_create(surface, &desc, &made[method]));
+  }
+  hf_surface_destroy(surface); /* the children keep what they need */
+  for (int method = 0; method < 4; ++method) {
+    const hf_geodesics geodesics = made[method];
+    float distance[CUT_VERTICES];
+    double precise[CUT_VERTICES];
+    const uint32_t sources[2] = {CUT_LEFT, CUT_LEFT};
+    assert_ok(hf_geodesics_solve(geodesics, 2, sources, distance, 0));
+    assert_ok(hf_geodesics_solve_f64(geodesics, 1, sources, precise, 0));
+    assert_true(distance[CUT_LEFT] == 0.0f);
+    assert_true(distance[CUT_SEAM_LEFT] == distance[CUT_SEAM_RIGHT]);
+    assert_true(distance[CUT_ISLAND] == -1.0f && distance[CUT_ISOLATED] == -1.0f);
+    assert_true(distance[CUT_RIGHT] > distance[CUT_SEAM_LEFT] && distance[CUT_SEAM_LEFT] > 2.0f);
+    for (int v = 0; v < CUT_VERTICES; ++v) assert_near(precise[v], (double)distance[v], 1e-5);
+    hf_geodesics_destroy(geodesics);
+  }
   surface_free(&cut);
 }
 
@@ -272,6 +279,12 @@ static void bad_input_is_named(void** state) {
   BAD("smoothing 20000", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
   g.smoothing = (float)NAN;
   BAD("smoothing NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
+  g.smoothing = 0, g.method = 4;
+  BAD("method 4", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
+  g.method = -1;
+  BAD("method -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
+  g.method = 0, g.reserved = 1;
+  BAD("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, hf_geodesics_create(s, &g, &made));
   BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_create(s, NULL, NULL));
   uint32_t source[2] = {0, COUNT};
   BAD("no source", HF_ERROR_EMPTY, NO_INDEX, hf_geodesics_solve(geodesics, 0, source, floats, 0));

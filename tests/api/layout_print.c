@@ -250,7 +250,7 @@ static void print_analysis(void) {
 #undef T
 #define T hf_geodesics_desc
   STRUCT(hf_geodesics_desc);
-  F(struct_size), F(smoothing), F(progress);
+  F(struct_size), F(smoothing), F(progress), F(method), F(reserved);
 #undef T
 #define T hf_extremities_desc
   STRUCT(hf_extremities_desc);
@@ -262,7 +262,8 @@ static void print_analysis(void) {
 #undef T
   CONSTANT(HF_LEVELS_VALUE), CONSTANT(HF_LEVELS_AREA), CONSTANT(HF_LEVELS_LENGTH), CONSTANT(HF_CRITICAL_MINIMUM),
       CONSTANT(HF_CRITICAL_MAXIMUM), CONSTANT(HF_CRITICAL_SADDLE), CONSTANT(HF_EXTREMITIES_POISSON),
-      CONSTANT(HF_EXTREMITIES_GEODESIC);
+      CONSTANT(HF_EXTREMITIES_GEODESIC), CONSTANT(HF_GEODESICS_AUTO), CONSTANT(HF_GEODESICS_FRONT),
+      CONSTANT(HF_GEODESICS_EXACT), CONSTANT(HF_GEODESICS_HEAT);
 }
 
 static void print_region(void) {

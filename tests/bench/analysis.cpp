@@ -18,9 +18,11 @@ Rows run_analysis(const Run& run, Report& report) {
       const Solver solver(*mesh, own_defaults(run.threads));
       Sites(solver).edit({0}, {});
       hf_geodesics geodesics = nullptr;
+      hf_geodesics_desc heat = HF_INIT(hf_geodesics_desc);
+      heat.method = HF_GEODESICS_HEAT;
       const double factor = median_ms(run.repetitions, [&] {
         hf_geodesics_destroy(geodesics);
-        check(hf_geodesics_create(solver.surface(), nullptr, &geodesics));
+        check(hf_geodesics_create(solver.surface(), &heat, &geodesics));
       });
       hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
       desc.kind = HF_EXTREMITIES_GEODESIC, desc.geodesics = geodesics;
@@ -30,12 +32,15 @@ Rows run_analysis(const Run& run, Report& report) {
       auto times = take_turns(
           {{"sweep", [&] { return time_ms([&] { solver.solve(field); }); }},
            {"poisson",
-            [&] { return time_ms([&] { check(hf_surface_find_extremities(solver.surface(), nullptr, 0, nullptr, &tips)); }); }},
+            [&] {
+              return time_ms([&] { check(hf_surface_find_extremities(solver.surface(), nullptr, 0, nullptr, &tips)); });
+            }},
            {"distance",
             [&] { return time_ms([&] { check(hf_geodesics_solve_f64(geodesics, 1, &vertex, field.data(), 0)); }); }},
            {"average",
             [&] {
-              return time_ms([&] { check(hf_surface_find_extremities(solver.surface(), &desc, 0, nullptr, &far_tips)); });
+              return time_ms(
+                  [&] { check(hf_surface_find_extremities(solver.surface(), &desc, 0, nullptr, &far_tips)); });
             }}},
           run.repetitions);
       hf_geodesics_destroy(geodesics);

@@ -18,8 +18,10 @@ void Scene::make_object(const Json& step, const std::string& what) {
     check(hf_pose_create(surface, &desc, &raw));
     object.pose = hf::Handle<hf_pose, hf_pose_destroy>(raw);
   } else if (what == "geodesics") {
+    auto desc = make<hf_geodesics_desc>();
+    set_options(step, desc, {{"method", &desc.method}, {"smoothing", &desc.smoothing}}, {{"smoothing", false}});
     hf_geodesics raw = nullptr;
-    check(hf_geodesics_create(surface, nullptr, &raw));
+    check(hf_geodesics_create(surface, &desc, &raw));
     object.geodesics = hf::Handle<hf_geodesics, hf_geodesics_destroy>(raw);
   } else if (what == "direction") {
     auto desc = make<hf_direction_desc>();

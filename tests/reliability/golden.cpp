@@ -182,12 +182,17 @@ class Stages {
     must(hf_surface_find_critical_points(surface, &scalars, n_, points.data(), &info),
          "hf_surface_find_critical_points");
     for (std::uint32_t i = 0; i < info.point_count; ++i) hash.take(&points[i].vertex, 1), hash.take(&points[i].kind, 1);
-    hf_geodesics geodesics = nullptr;
-    must(hf_geodesics_create(surface, nullptr, &geodesics), "hf_geodesics_create");
-    const std::uint32_t sources[2] = {3, 2000};
-    must(hf_geodesics_solve_f64(geodesics, 2, sources, doubles_.data(), 0), "hf_geodesics_solve_f64");
-    hash.take(doubles_.data(), n_);
-    hf_geodesics_destroy(geodesics), hf_solver_destroy(solver), hf_surface_destroy(surface);
+    for (const std::int32_t method : {HF_GEODESICS_HEAT, HF_GEODESICS_FRONT, HF_GEODESICS_EXACT}) {
+      hf_geodesics_desc options = desc<hf_geodesics_desc>();
+      options.method = method;
+      hf_geodesics geodesics = nullptr;
+      must(hf_geodesics_create(surface, &options, &geodesics), "hf_geodesics_create");
+      const std::uint32_t sources[2] = {3, 2000};
+      must(hf_geodesics_solve_f64(geodesics, 2, sources, doubles_.data(), 0), "hf_geodesics_solve_f64");
+      hash.take(doubles_.data(), n_);
+      hf_geodesics_destroy(geodesics);
+    }
+    hf_solver_destroy(solver), hf_surface_destroy(surface);
   }
 
   // Poses the tower by its two ends, in both modes. rings: vertices of a column.

@@ -10,10 +10,11 @@ namespace Hf
     {
         readonly int vertexCount;
 
-        public Geodesics(Surface surface, float smoothing = 0)
+        public Geodesics(Surface surface, float smoothing = 0, int method = 0)
         {
             var desc = new hf_geodesics_desc { struct_size = (uint)sizeof(hf_geodesics_desc) };
             desc.smoothing = smoothing;
+            desc.method = method; // HF_GEODESICS_*
             Make((parent, given, raw) => Functions.hf_geodesics_create(parent, given, raw), surface, "surface", &desc,
                 Functions.hf_geodesics_destroy);
             vertexCount = surface.VertexCount;

@@ -69,6 +69,10 @@ namespace Hf.Native
         public const int HF_CRITICAL_MINIMUM = 0;
         public const int HF_CRITICAL_MAXIMUM = 1;
         public const int HF_CRITICAL_SADDLE = 2;
+        public const int HF_GEODESICS_AUTO = 0;
+        public const int HF_GEODESICS_FRONT = 1;
+        public const int HF_GEODESICS_EXACT = 2;
+        public const int HF_GEODESICS_HEAT = 3;
         public const int HF_EXTREMITIES_POISSON = 0;
         public const int HF_EXTREMITIES_GEODESIC = 1;
         public const int HF_DEFORM_SMOOTH = 0;
@@ -568,6 +572,8 @@ namespace Hf.Native
         public uint struct_size;
         public float smoothing;
         public IntPtr progress;
+        public int method;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]

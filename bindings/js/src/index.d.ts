@@ -432,7 +432,7 @@ export interface Hf {
       targetAxes?: Numbers;
     },
   ) => Transfer;
-  readonly Geodesics: new (surface: Surface, options?: { smoothing?: number; progress?: Progress | null }) => Geodesics;
+  readonly Geodesics: new (surface: Surface, options?: { smoothing?: number; method?: number; progress?: Progress | null }) => Geodesics;
   readonly Direction: new (
     surface: Surface,
     options?: { degree?: number; siteLimit?: number; progress?: Progress | null },

@@ -65,6 +65,10 @@ export const constants = Object.freeze({
   HF_CRITICAL_MINIMUM: 0,
   HF_CRITICAL_MAXIMUM: 1,
   HF_CRITICAL_SADDLE: 2,
+  HF_GEODESICS_AUTO: 0,
+  HF_GEODESICS_FRONT: 1,
+  HF_GEODESICS_EXACT: 2,
+  HF_GEODESICS_HEAT: 3,
   HF_EXTREMITIES_POISSON: 0,
   HF_EXTREMITIES_GEODESIC: 1,
   HF_DEFORM_SMOOTH: 0,
@@ -476,10 +480,12 @@ export const layouts = {
     euler_characteristic: ['i32', [24, 24], 0],
     reserved: ['u32', [28, 28], 0],
   } },
-  hf_geodesics_desc: { size: [12, 16], fields: {
+  hf_geodesics_desc: { size: [20, 24], fields: {
     struct_size: ['u32', [0, 0], 0],
     smoothing: ['f32', [4, 4], 0],
     progress: ['ptr', [8, 8], 0],
+    method: ['i32', [12, 16], 0],
+    reserved: ['u32', [16, 20], 0],
   } },
   hf_extremities_desc: { size: [28, 40], fields: {
     struct_size: ['u32', [0, 0], 0],

@@ -30,7 +30,7 @@ from .pose import DeformMode, Pair, Pose, Skin, Transfer, TransferMode
 from .quads import Flow, FlowLines, QuadKind, QuadMesh, Quads
 from .region import Detail, Region, RegionList, Side
 from .solver import Engine, Solver
-from .surface import Extremities, FieldKind, Geodesics, Isolines, Levels, Operator, Progress, Surface, Weld
+from .surface import DistanceMethod, Extremities, FieldKind, Geodesics, Isolines, Levels, Operator, Progress, Surface, Weld
 from .weights import (BoneFlag, HelperReason, Mirrored, MirrorTo, Origin, Pairing, VertexWeights, Weights, carry_weights,
                       mirror_weights)
 

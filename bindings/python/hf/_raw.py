@@ -66,6 +66,10 @@ HF_LEVELS_LENGTH = 2
 HF_CRITICAL_MINIMUM = 0
 HF_CRITICAL_MAXIMUM = 1
 HF_CRITICAL_SADDLE = 2
+HF_GEODESICS_AUTO = 0
+HF_GEODESICS_FRONT = 1
+HF_GEODESICS_EXACT = 2
+HF_GEODESICS_HEAT = 3
 HF_EXTREMITIES_POISSON = 0
 HF_EXTREMITIES_GEODESIC = 1
 HF_DEFORM_SMOOTH = 0
@@ -899,13 +903,18 @@ class hf_critical_info(Structure):
 
 
 class hf_geodesics_desc(Structure):
+    """Selects how distances are computed."""
     struct_size: int
     smoothing: float
     progress: int
+    method: int
+    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("smoothing", c_float),
         ("progress", c_void_p),
+        ("method", c_int32),
+        ("reserved", c_uint32),
     ]
 
 

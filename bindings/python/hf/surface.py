@@ -36,6 +36,11 @@ class Extremities(IntEnum):
     POISSON, GEODESIC = _raw.HF_EXTREMITIES_POISSON, _raw.HF_EXTREMITIES_GEODESIC
 
 
+class DistanceMethod(IntEnum):
+    AUTO, FRONT = _raw.HF_GEODESICS_AUTO, _raw.HF_GEODESICS_FRONT
+    EXACT, HEAT = _raw.HF_GEODESICS_EXACT, _raw.HF_GEODESICS_HEAT
+
+
 class Progress(Object):
     """Watches and cancels a long call from another thread: fraction, cancel()."""
 
@@ -313,12 +318,14 @@ class Surface(Object):
 
 
 class Geodesics(Object):
-    """Distances along a surface by the heat method."""
+    """Distances along a surface, by a method of DistanceMethod."""
 
     _destroy = "hf_geodesics_destroy"
 
-    def __init__(self, surface: Surface, *, smoothing: float = 0.0) -> None:
-        desc, handle = make(_raw.hf_geodesics_desc, smoothing=smoothing), ctypes.c_void_p()
+    def __init__(self, surface: Surface, *, smoothing: float = 0.0, method: int = DistanceMethod.AUTO,
+                 progress: Optional[Progress] = None) -> None:
+        desc, handle = make(_raw.hf_geodesics_desc, smoothing=smoothing, method=method), ctypes.c_void_p()
+        desc.progress = handle_of(progress, Progress, "progress")
         call("hf_geodesics_create", handle_of(surface, Surface, "surface"), ctypes.byref(desc), ctypes.byref(handle))
         self._own(handle)
         self.vertex_count = surface.vertex_count

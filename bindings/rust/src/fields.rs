@@ -5,8 +5,10 @@ use crate::{raw, Result, Surface};
 options!(
     /// How geodesic distances are made.
     GeodesicsOptions: hf_geodesics_desc {
-        /// times the squared edge length; 0 = the default
+        /// of `HF_GEODESICS_HEAT`: times the squared edge length; 0 = the default
         smoothing: f32,
+        /// `HF_GEODESICS_*`
+        method: i32,
     }
 );
 options!(
@@ -41,7 +43,7 @@ object!(
     Geodesics: hf_geodesics, hf_geodesics_destroy { vertex_count: usize }
 );
 impl Geodesics {
-    /// Factorises for distances.
+    /// Makes the tables of the method.
     pub fn new(surface: &Surface, options: &GeodesicsOptions) -> Result<Self> {
         let (mut desc, mut handle) = (raw::hf_geodesics_desc::default(), std::ptr::null_mut());
         options.fill(&mut desc);

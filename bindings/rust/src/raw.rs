@@ -66,6 +66,10 @@ pub const HF_LEVELS_LENGTH: i32 = 2;
 pub const HF_CRITICAL_MINIMUM: i32 = 0;
 pub const HF_CRITICAL_MAXIMUM: i32 = 1;
 pub const HF_CRITICAL_SADDLE: i32 = 2;
+pub const HF_GEODESICS_AUTO: i32 = 0;
+pub const HF_GEODESICS_FRONT: i32 = 1;
+pub const HF_GEODESICS_EXACT: i32 = 2;
+pub const HF_GEODESICS_HEAT: i32 = 3;
 pub const HF_EXTREMITIES_POISSON: i32 = 0;
 pub const HF_EXTREMITIES_GEODESIC: i32 = 1;
 pub const HF_DEFORM_SMOOTH: i32 = 0;
@@ -1059,12 +1063,15 @@ impl hf_critical_info {
     }
 }
 
+/// Selects how distances are computed.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_geodesics_desc {
     pub struct_size: u32,
     pub smoothing: f32,
     pub progress: hf_progress,
+    pub method: i32,
+    pub reserved: u32,
 }
 impl Default for hf_geodesics_desc {
     fn default() -> Self {

@@ -1,0 +1,67 @@
+// Computes exact geodesic distances on a polyhedral surface, with windows (Mitchell, Mount and Papadimitriou 1987).
+//
+// A window is an interval of an edge. All its points see the same pseudo-source along straight lines, after the
+// triangles between are unfolded into a plane. A pseudo-source is a source, or a vertex where a shortest path may bend:
+// one at a border, at an edge of three triangles, or with angles that sum to more than 2 pi. Windows pass from triangle
+// to triangle in about the order of their distance. Three rules bound or drop a window:
+//
+//   - A ray that reaches a corner sooner bounds it (Chen and Han 1990).
+//   - A path by a corner of the triangle is shorter to every point of the window (Xin and Wang 2009).
+//   - Behind a vertex, only directions at an angle of at least pi to both sides of the incoming path are of use.
+//
+// The result is exact up to rounding on every set of triangles: with borders, edges of three triangles and slivers.
+// Memory: 128 bytes a triangle for the sides, 48 for each call, and 56 for each window of the front.
+#pragma once
+#include <cstdint>
+
+#include "base/span.h"
+#include "mesh/topology.h"
+
+namespace hf_inner {
+
+// The tables that all calls on one mesh share. Side 3 t + k runs from corner k of triangle t to its next corner.
+struct TriangleSides {
+  static constexpr std::int32_t border = -1, several = -2;
+  TriangleSides(const Mesh& mesh, const Topology& topology, Memory& memory);
+
+  static std::int32_t next(std::int32_t side) noexcept { return side % 3 == 2 ? side - 2 : side + 1; }
+  static std::int32_t last(std::int32_t side) noexcept { return side % 3 == 0 ? side + 2 : side - 1; }
+  // Returns the vertex where the side starts.
+  std::int32_t start(std::int32_t side) const noexcept { return mesh.corners[static_cast<std::size_t>(side)]; }
+  // Returns the angle of the corner opposite the side.
+  double opposite_angle(std::int32_t side) const noexcept;
+  // Returns a side on the edge between two neighbours.
+  std::int32_t side_between(std::int32_t v, std::int32_t w) const noexcept;
+
+  const Mesh& mesh;
+  const Topology& topology;
+  Vector<std::int32_t> edge;  // by side
+  Vector<std::int32_t> twin;  // by side: the side of the other triangle; `border`; `several` where there are more
+  struct Frame {
+    double length, x, y;  // if the side runs from 0 along the x axis, the opposite corner lies at (x, y)
+  };
+  Vector<Frame> frame;   // by side
+  Vector<double> angle;  // by vertex: the sum of its angles; infinite at a border or an edge of three triangles
+  double mean_length = 0;
+};
+
+// The end of the shortest path to a vertex. The path comes straight from a pseudo-source across a side of a triangle to
+// the opposite corner, or along an edge.
+struct PathEnd {
+  static constexpr std::int32_t unreached = -1, along_edge = -2, at_source = -3;
+  std::int32_t side = unreached;  // or one of the numbers above
+  std::int32_t from = -1;         // the pseudo-source, a vertex
+  double x = 0, y = 0;            // its place (x, -y) in the frame of the side
+};
+
+struct ExactDistance {
+  explicit ExactDistance(Memory& memory) : distance(&memory), end(&memory) {}
+  Vector<double> distance;         // by vertex; infinite where no source reaches
+  Vector<PathEnd> end;             // by vertex
+  std::uint64_t window_count = 0;  // windows that were made
+};
+
+// Computes the distance from the nearest of the sources. Reports progress and can be cancelled. Throws std::bad_alloc.
+ExactDistance exact_distance(const TriangleSides& sides, Span<const std::int32_t> sources, Memory& memory);
+
+}  // namespace hf_inner
