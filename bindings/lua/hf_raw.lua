@@ -361,6 +361,21 @@ typedef struct hf_geodesics_desc {
   int32_t method;
   uint32_t reserved;
 } hf_geodesics_desc;
+typedef struct hf_surface_point {
+  uint32_t corners[3];
+  uint32_t reserved;
+  double barycentrics[3];
+} hf_surface_point;
+typedef struct hf_path {
+  uint32_t struct_size;
+  uint32_t point_capacity;
+  uint32_t point_count;
+  uint32_t reserved;
+  double length;
+  uint32_t* point_edges;
+  double* parameters;
+  double* positions;
+} hf_path;
 typedef struct hf_extremities_desc {
   uint32_t struct_size;
   int32_t kind;
@@ -881,6 +896,8 @@ hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* desc,
 void hf_geodesics_destroy(hf_geodesics geodesics);
 hf_result hf_geodesics_solve(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources, float* out_distances, uint32_t value_stride);
 hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources, double* out_distances, uint32_t value_stride);
+hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_surface_point* from, const hf_surface_point* to, hf_path* inout_path);
+hf_result hf_geodesics_get_map(hf_geodesics geodesics, const hf_surface_point* centre, double radius, double* out_map, double* out_frame);
 hf_result hf_surface_find_extremities(hf_surface surface, const hf_extremities_desc* desc, uint32_t capacity, hf_extremity* out_extremities, uint32_t* out_count);
 hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* desc, hf_direction* out_direction);
 hf_result hf_direction_clone(hf_direction direction, hf_direction* out_direction);

@@ -153,6 +153,48 @@ HF_API hf_result hf_geodesics_solve(hf_geodesics geodesics, uint32_t source_coun
 HF_API hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources,
                                         double* out_distances, uint32_t value_stride);
 
+/* A point of the surface in the form of hf_hit: three corners of a triangle and their weights. */
+typedef struct hf_surface_point {
+  uint32_t corners[3];    /* as given; a corner of barycentric 0 is ignored and can be HF_NO_INDEX */
+  uint32_t reserved;      /* 0 */
+  double barycentrics[3]; /* >= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex */
+} hf_surface_point;
+
+/* A path along the surface, from its first point to its last. Each point lies on a mesh edge with the end vertices a
+ * and b, at the position (1 - parameter) a + parameter b; at a vertex a is b. An end inside a triangle has HF_NO_INDEX
+ * for both. The arrays are yours: each is NULL or as large as the capacity. */
+typedef struct hf_path {
+  uint32_t struct_size;
+  uint32_t point_capacity; /* in: points the arrays can take */
+  uint32_t point_count;    /* out; 0: no path leads from one to the other */
+  uint32_t reserved;       /* 0 */
+  double length;           /* out: in the unit of the mesh; -1: no path */
+  uint32_t* point_edges;   /* [point_capacity][2] vertices a and b as given, of welded copies the first */
+  double* parameters;      /* [point_capacity] 0 to 1 */
+  double* positions;       /* [point_capacity][3] in the unit and frame of the mesh as given */
+} hf_path;
+
+/* Finds the shortest path between two points, exact up to rounding, whatever the method of the object. If several are
+ * as short, it writes one of them. The path is straight where its triangles are unfolded; it bends at vertices only.
+ * Cost: exact distances up to the length of the path. An object of HF_GEODESICS_EXACT has their tables; for others the
+ * call makes them in a pass over the triangles. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (isolated
+ * vertex, barycentrics, corners of no triangle), HF_ERROR_NON_FINITE, each with index 0 for `from` and 1 for `to`;
+ * HF_ERROR_TOO_SMALL (point_capacity; the counts are written), HF_ERROR_CANCELLED. Thread safety: as
+ * hf_geodesics_solve. Since 0.1. */
+HF_API hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_surface_point* from,
+                                        const hf_surface_point* to, hf_path* inout_path);
+
+/* Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each vertex gets
+ * the length of its shortest path from the point, in the direction in which that path leaves the point. out_map:
+ * double[vertex_count][2] in the unit of the mesh, the point at 0, 0; NaN where no path leads. radius: vertices farther
+ * away get NaN too, and cost nothing; 0 = no bound. out_frame: NULL, or double[6]: the directions in space of the two
+ * axes, unit vectors. Around a vertex of a closed fan, angles are scaled to 2 pi in all. Seen from outside a
+ * consistently oriented mesh, the second axis is to the left of the first. The map is exact up to rounding, and tears
+ * where two shortest paths meet. Errors: as hf_geodesics_find_path, with index 0; HF_ERROR_INVALID_ARGUMENT (radius).
+ * Thread safety: as hf_geodesics_solve. Since 0.1. */
+HF_API hf_result hf_geodesics_get_map(hf_geodesics geodesics, const hf_surface_point* centre, double radius,
+                                      double* out_map, double* out_frame);
+
 /* ---- extremities ---- */
 
 /* Selects how hf_surface_find_extremities finds tips. Both kinds take the maxima of a field that rises towards

@@ -495,6 +495,21 @@ class Geodesics {
     check(hf_geodesics_solve_f64(get(), static_cast<uint32_t>(sources.size()), sources.data(), distances.data(), 0));
     return distances;
   }
+  // The shortest path between two points: xyz of its corners. Empty where no path leads.
+  std::vector<double> path(const hf_surface_point& from, const hf_surface_point& to) const {
+    hf_path path = HF_INIT(hf_path);
+    check(hf_geodesics_find_path(get(), &from, &to, &path));
+    std::vector<double> positions(size_t{3} * path.point_count);
+    path.point_capacity = path.point_count, path.positions = positions.data();
+    check(hf_geodesics_find_path(get(), &from, &to, &path));
+    return positions;
+  }
+  // The surface around a point laid out in a plane: two coordinates per vertex, NaN beyond the radius (0: no bound).
+  std::vector<double> map(const hf_surface_point& centre, double radius = 0) const {
+    std::vector<double> coordinates(2 * vertices_);
+    check(hf_geodesics_get_map(get(), &centre, radius, coordinates.data(), nullptr));
+    return coordinates;
+  }
 
  private:
   Handle<hf_geodesics, hf_geodesics_destroy> handle_;

@@ -1,5 +1,7 @@
 // Implements hf/analysis.h: levels, iso-lines, critical points, geodesic distance, extremities.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "capi/objects.h"
 #include "capi/vertex_writer.h"
@@ -42,6 +44,91 @@ void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* ver
   write_vertices(
       shape, 1, out, [](const Mesh::Isolated&, double* values) { values[0] = -1; },
       [&](std::size_t v, double* values) { values[0] = field[v] < 0 ? -1 : scale * field[v]; });
+}
+
+// Reads a point of the caller. index: its place in the call.
+GeodesicPoint read_surface_point(const TriangleSides& sides, const hf_surface_point* given, const char* name,
+                                 std::uint32_t index, Memory& memory) {
+  require(given, name);
+  if (given->reserved != 0)
+    fail(HF_ERROR_INVALID_DESC, index, "%s: reserved is %u; it must be 0", name, given->reserved);
+  double sum = 0;
+  std::int32_t corners[3] = {Mesh::none, Mesh::none, Mesh::none};
+  for (int k = 0; k < 3; ++k) {
+    const double w = given->barycentrics[k];
+    if (!std::isfinite(w)) fail(HF_ERROR_NON_FINITE, index, "%s: barycentric %d is not finite", name, k);
+    if (w < 0) fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: barycentric %d is %g; it must not be negative", name, k, w);
+    sum += w;
+  }
+  constexpr double sum_error = 1e-6;
+  if (!(std::fabs(sum - 1) <= sum_error))
+    fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: barycentrics sum to %.9g; they must sum to 1", name, sum);
+  for (int k = 0; k < 3; ++k) {
+    if (given->barycentrics[k] > 0) corners[k] = usable_vertex(sides.mesh, given->corners[k], index, name);
+  }
+  GeodesicPoint point(sides, corners, given->barycentrics, memory);
+  if (!point.found()) fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: its corners are not those of one triangle", name);
+  return point;
+}
+
+void find_path(const GeodesicsObject& object, const hf_surface_point* from, const hf_surface_point* to,
+               hf_path* inout_path) {
+  hf_path out = read_struct(inout_path, "inout_path");
+  require_zero(out.reserved);
+  const Geometry& shape = object.distances.geometry();
+  Memory& memory = *shape.memory;
+  const SurfacePath path = object.distances.with_sides([&](const TriangleSides& sides) {
+    const GeodesicPoint first = read_surface_point(sides, from, "from", 0, memory);
+    const GeodesicPoint last = read_surface_point(sides, to, "to", 1, memory);
+    return with_progress(object.progress, [&] { return shortest_path(sides, first, last, memory); });
+  });
+  out.point_count = static_cast<std::uint32_t>(path.points.size());
+  out.length = path.points.empty() ? -1 : shape.mesh.scale * path.length;
+  write_struct(inout_path, out);
+  check_capacity(out.point_edges || out.parameters || out.positions, out.point_capacity, out.point_count,
+                 "point_capacity");
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    const PathPoint& point = path.points[i];
+    if (out.point_edges) {
+      out.point_edges[2 * i] = given_vertex(shape.mesh, point.a);
+      out.point_edges[2 * i + 1] = given_vertex(shape.mesh, point.b);
+    }
+    if (out.parameters) out.parameters[i] = point.t;
+    if (!out.positions) continue;
+    Vec3 p;
+    if (point.a >= 0) {
+      p = (1 - point.t) * shape.mesh.positions[static_cast<std::size_t>(point.a)] +
+          point.t * shape.mesh.positions[static_cast<std::size_t>(point.b)];
+    } else {
+      const hf_surface_point& end = i == 0 ? *from : *to;
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t v = shape.mesh.inner_of_given[end.corners[k]];
+        p = p + end.barycentrics[k] * shape.mesh.positions[static_cast<std::size_t>(v)];
+      }
+    }
+    put(shape.mesh.to_given(p), out.positions + 3 * i);
+  }
+}
+
+void log_map(const GeodesicsObject& object, const hf_surface_point* centre, double radius, double* out_map,
+             double* out_frame) {
+  require(out_map, "out_map");
+  if (!std::isfinite(radius) || radius < 0)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "radius is %g; it must be 0 or above", radius);
+  const Geometry& shape = object.distances.geometry();
+  const double scale = shape.mesh.scale;
+  Workspace map(shape.workspaces, 2 * static_cast<std::size_t>(shape.mesh.vertex_count()));
+  Vec3 frame[2];
+  object.distances.with_sides([&](const TriangleSides& sides) {
+    const GeodesicPoint point = read_surface_point(sides, centre, "centre", 0, *shape.memory);
+    with_progress(object.progress, [&] { object.distances.log_map(sides, point, radius / scale, map.data(), frame); });
+    return 0;
+  });
+  write_vertices(
+      shape, 2, Rows(out_map, 2 * sizeof(double)),
+      [](const Mesh::Isolated&, double* values) { values[0] = values[1] = std::numeric_limits<double>::quiet_NaN(); },
+      [&](std::size_t v, double* values) { values[0] = scale * map[2 * v], values[1] = scale * map[2 * v + 1]; });
+  if (out_frame) put(frame[0], out_frame), put(frame[1], out_frame + 3);
 }
 
 Extremities search(const std::shared_ptr<const Core>& core, const hf_extremities_desc& desc) {
@@ -168,6 +255,24 @@ hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_count, 
                                  double* out_distances, uint32_t value_stride) {
   return guarded("hf_geodesics_solve_f64",
                  [&] { distance(geodesics, source_count, sources, nullptr, out_distances, value_stride); });
+}
+
+hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_surface_point* from, const hf_surface_point* to,
+                                 hf_path* inout_path) {
+  return guarded("hf_geodesics_find_path", [&] {
+    const auto object = get<GeodesicsObject>(geodesics, "geodesics");
+    const Reading reading(*object);
+    find_path(*object, from, to, inout_path);
+  });
+}
+
+hf_result hf_geodesics_get_map(hf_geodesics geodesics, const hf_surface_point* centre, double radius, double* out_map,
+                               double* out_frame) {
+  return guarded("hf_geodesics_get_map", [&] {
+    const auto object = get<GeodesicsObject>(geodesics, "geodesics");
+    const Reading reading(*object);
+    log_map(*object, centre, radius, out_map, out_frame);
+  });
 }
 
 hf_result hf_surface_find_extremities(hf_surface handle, const hf_extremities_desc* given, uint32_t capacity,

@@ -5,7 +5,7 @@
 
 #include "engine/surface.h"
 #include "field/geodesics.h"
-#include "mesh/exact_distance.h"
+#include "mesh/exact_path.h"
 #include "mesh/front_distance.h"
 
 namespace hf_inner {
@@ -25,6 +25,18 @@ class Distances {
   // Writes the distance to the nearest source by inner vertex, -1 where no source reaches. The unit is the box
   // diagonal. The sources are at least one vertex. Reports progress, except for heat.
   void solve(Span<const std::int32_t> sources, double* out) const;
+
+  // The tables of exact paths: its own, or made for the call.
+  template <class Work>
+  auto with_sides(Work&& work) const {
+    if (sides_) return work(*sides_);
+    const TriangleSides made(geometry_->mesh, geometry_->topology, *geometry_->memory);
+    return work(made);
+  }
+
+  // Writes two coordinates by inner vertex: the length of the shortest path from a point, in its direction there. NaN
+  // beyond `reach` (0: no bound) and where no path leads. frame: the directions of the two axes in space.
+  void log_map(const TriangleSides& sides, const GeodesicPoint& from, double reach, double* out, Vec3 frame[2]) const;
 
   const Geometry& geometry() const noexcept { return *geometry_; }
   // Returns the tables of the heat method, or null.

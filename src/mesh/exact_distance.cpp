@@ -40,7 +40,9 @@ TriangleSides::TriangleSides(const Mesh& given, const Topology& edges, Memory& m
       twin(given.corners.size(), border, &memory),
       frame(given.corners.size(), &memory),
       angle(given.positions.size(), 0.0, &memory) {
+  Poller poller;
   for (Index e = 0; e < edges.edge_count(); ++e) {
+    poller.due();
     const Index first = edges.first(e), begin = edges.edge_triangle_start[at(e)],
                 count = edges.edge_triangle_start[at(e) + 1] - begin;
     Index sides[2] = {-1, -1};
@@ -61,6 +63,7 @@ TriangleSides::TriangleSides(const Mesh& given, const Topology& edges, Memory& m
   }
   mean_length /= std::max(1, edges.edge_count());
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    poller.due();
     const Index* v = mesh.triangle(t);
     for (Index k = 0; k < 3; ++k) {
       const Vec3 a = mesh.positions[at(v[k])], ab = mesh.positions[at(v[(k + 1) % 3])] - a,
@@ -70,6 +73,25 @@ TriangleSides::TriangleSides(const Mesh& given, const Topology& edges, Memory& m
       frame[at(3 * t + k)] = {length, x, y};
       angle[at(v[k])] += arc_tangent(y, x);
     }
+  }
+  mark_several_fans(memory);
+}
+
+// Marks the vertices where several closed fans meet: a walk around one of them does not see every triangle.
+void TriangleSides::mark_several_fans(Memory& memory) {
+  const std::size_t n = mesh.positions.size();
+  Vector<Index> count(n, 0, &memory), first(n, Index{-1}, &memory);
+  for (Index s = 0; s < static_cast<Index>(mesh.corners.size()); ++s) ++count[at(start(s))], first[at(start(s))] = s;
+  Poller poller;
+  for (Index v = 0; v < static_cast<Index>(n); ++v) {
+    poller.due();
+    if (std::isinf(angle[at(v)]) || first[at(v)] < 0) continue;
+    Index side = first[at(v)], seen = 0;
+    do {
+      const Index leave = start(side) == v ? last(side) : next(side);
+      side = twin[at(leave)], ++seen;
+    } while (side / 3 != first[at(v)] / 3 && seen <= count[at(v)]);
+    if (seen != count[at(v)]) angle[at(v)] = infinite;
   }
 }
 
@@ -99,26 +121,34 @@ struct Window {
   Index after;        // in its list
 };
 
+// The frame of a side at the source: a ray at angle a in the frame leaves the source at angle + sign a.
+struct Turn {
+  double angle, sign;
+};
+
 class Propagation {
  public:
-  Propagation(const TriangleSides& sides, Memory& memory)
+  Propagation(const TriangleSides& sides, const ExactTask& task, Memory& memory)
       : sides_(sides),
         mesh_(sides.mesh),
+        task_(task),
+        memory_(memory),
         windows_(&memory),
+        turns_(&memory),
         lists_(queue_steps + 1, Mesh::none, &memory),
         best_(sides.frame.size(), Best{infinite, 0}, &memory),
         result_(memory) {
     const std::size_t n = mesh_.positions.size();
     result_.distance.assign(n, infinite), result_.end.assign(n, PathEnd());
+    if (task.directions) result_.direction.assign(n, 0.0);
     step_ = queue_step * std::max(sides.mean_length, least_step);
   }
 
-  ExactDistance run(Span<const Index> sources) {
-    for (const Index s : sources) {
-      result_.distance[at(s)] = 0, result_.end[at(s)].side = PathEnd::at_source;
-      push_vertex(s);
-    }
-    while (live_ > 0) {
+  ExactDistance run() {
+    for (const Index s : task_.sources) start_at(s);
+    if (task_.from && task_.from->vertex >= 0) start_at(task_.from->vertex);
+    if (task_.from && task_.from->vertex < 0) start_at(*task_.from);
+    while (live_ > 0 && !finished()) {
       Index i = lists_[step_now_];
       if (i == Mesh::none) {
         advance();
@@ -126,17 +156,128 @@ class Propagation {
       }
       lists_[step_now_] = windows_[at(i)].after;
       const Window w = windows_[at(i)];
+      const Turn turn = task_.directions ? turns_[at(i)] : Turn{0, 1};
       windows_[at(i)].after = free_, free_ = i, --live_;
       poller_.due();
       if (w.side < 0)
         visit_vertex(-1 - w.side, w.sigma);
       else
-        cross_triangle(w);
+        cross_triangle(w, turn);
+    }
+    for (double& d : result_.distance) {
+      if (task_.reach > 0 && d > task_.reach) d = infinite;
     }
     return std::move(result_);
   }
 
  private:
+  void start_at(Index v) {
+    result_.distance[at(v)] = 0, result_.end[at(v)].side = PathEnd::at_source;
+    push_vertex(v);
+  }
+
+  // Returns the angles of the sides of a triangle from its first.
+  void side_angles(Index t, double* angle) const noexcept {
+    angle[0] = 0, angle[1] = pi - sides_.opposite_angle(3 * t + 2);
+    angle[2] = angle[1] + pi - sides_.opposite_angle(3 * t);
+  }
+
+  // Starts at a point inside a triangle or on an edge.
+  void start_at(const GeodesicPoint& point) {
+    double first_angle[3];  // of the sides of the first triangle
+    Index first_edge_side = 0;
+    for (const GeodesicPoint::Place& place : point.places) {
+      const Index t = place.triangle;
+      const bool is_first = &place == point.places.begin().operator->();
+      double angle[3], base = 0, flip = 1;
+      side_angles(t, angle);
+      if (is_first) {
+        std::copy_n(angle, 3, first_angle), result_.first_triangle = t;
+        for (Index k = 0; k < 3; ++k) first_edge_side = place.weight[(k + 2) % 3] == 0 ? k : first_edge_side;
+      } else {
+        const Index shared = 3 * point.places[0].triangle + first_edge_side;
+        for (Index k = 0; k < 3; ++k) {
+          if (sides_.edge[at(3 * t + k)] != sides_.edge[at(shared)]) continue;
+          const bool same = sides_.start(3 * t + k) == sides_.start(shared);
+          flip = same ? -1 : 1;
+          base = same ? first_angle[first_edge_side] + angle[k] : first_angle[first_edge_side] + pi - angle[k];
+        }
+      }
+      for (Index k = 0; k < 3; ++k) {
+        const Index s = 3 * t + k, c = sides_.start(TriangleSides::last(s));
+        const TriangleSides::Frame& f = sides_.frame[at(s)];
+        const double x = place.weight[(k + 1) % 3] * f.length + place.weight[(k + 2) % 3] * f.x,
+                     y = place.weight[(k + 2) % 3] * f.y;
+        reach(c, length_of(f.x - x, f.y - y), {s, -1, x, -y}, base + flip * (angle[k] + arc_tangent(f.y - y, f.x - x)));
+        if (y > 0) emit(s, 0, f.length, x, y, 0, -1, {base + flip * angle[k], -flip});
+        offer_from_source(t, s, x, y);
+      }
+    }
+  }
+
+  // The path to a target in the triangle of the source is straight.
+  void offer_from_source(Index t, Index s, double x, double y) {
+    for (std::size_t p = 0; task_.to && p < task_.to->places.size(); ++p) {
+      if (task_.to->places[p].triangle != t) continue;
+      const auto [px, py] = place_in(task_.to->places[p], s);
+      offer_target(length_of(px - x, py - y), {PathEnd::at_source, -1, 0, 0}, p);
+    }
+  }
+
+  // Returns the coordinates of a place in the frame of a side of its triangle.
+  std::pair<double, double> place_in(const GeodesicPoint::Place& place, Index s) const noexcept {
+    const TriangleSides::Frame& f = sides_.frame[at(s)];
+    const Index k = s % 3;
+    const double next = place.weight[(k + 1) % 3], opposite = place.weight[(k + 2) % 3];
+    return {next * f.length + opposite * f.x, opposite * f.y};
+  }
+  void offer_target(double d, const PathEnd& end, std::size_t place) {
+    if (result_.to_distance >= 0 && !(d < result_.to_distance)) return;
+    result_.to_distance = d, result_.to_end = end, result_.to_place = static_cast<Index>(place);
+  }
+
+  bool finished() const noexcept {
+    const double level = base_ + step_ * static_cast<double>(step_now_);
+    if (task_.reach > 0 && level > task_.reach) return true;
+    if (!task_.to) return false;
+    return task_.to->vertex >= 0 ? distance(task_.to->vertex) < level
+                                 : result_.to_distance >= 0 && result_.to_distance < level;
+  }
+
+  // Starts at a vertex, with directions: fan by fan, those that end at a border first.
+  void start_fans(Index v) {
+    Vector<Index> done(&memory_);
+    double turned = 0;
+    const auto walk = [&](Index entry) {
+      while (entry >= 0 && std::find(done.begin(), done.end(), entry / 3) == done.end()) {
+        done.push_back(entry / 3);
+        const bool starts = sides_.start(entry) == v;
+        const Index leave = starts ? TriangleSides::last(entry) : TriangleSides::next(entry);
+        const Index opposite = starts ? TriangleSides::next(entry) : TriangleSides::last(entry);
+        const Index a = starts ? sides_.start(opposite) : sides_.start(entry);
+        const Index b = starts ? sides_.start(TriangleSides::next(opposite)) : sides_.start(opposite);
+        const TriangleSides::Frame& f = sides_.frame[at(opposite)];
+        if (result_.first_corner < 0) result_.first_corner = a, result_.first_triangle = entry / 3;
+        reach(a, sides_.frame[at(entry)].length, {PathEnd::along_edge, v, 0, 0}, turned);
+        const Turn turn =
+            starts ? Turn{turned + arc_tangent(f.y, -f.x), -1.0} : Turn{turned - arc_tangent(f.y, f.length - f.x), 1.0};
+        emit(opposite, 0, f.length, f.x, f.y, 0, v, turn);
+        turned += sides_.opposite_angle(opposite);
+        reach(b, sides_.frame[at(leave)].length, {PathEnd::along_edge, v, 0, 0}, turned);
+        entry = sides_.twin[at(leave)];
+      }
+    };
+    // Walks from sides that start at the vertex turn to the left, seen from outside.
+    for_corners(v, [&](Index s) {
+      if (sides_.twin[at(s)] < 0) walk(s);
+    });
+    for_corners(v, [&](Index s) {
+      if (sides_.twin[at(TriangleSides::last(s))] < 0) walk(TriangleSides::last(s));
+    });
+    for_corners(v, [&](Index s) { walk(s); });
+    result_.fan_angle = turned, result_.closed_fan = sides_.angle[at(v)] < infinite;
+  }
+
   struct Best {
     double distance, crossing;
   };
@@ -166,14 +307,16 @@ class Propagation {
                                  : queue_steps;
     windows_[at(i)].after = lists_[step], lists_[step] = i;
   }
-  void push(const Window& w, double key) {
+  void push(const Window& w, double key, const Turn& turn = {0, 1}) {
     Index i = free_;
     if (i != Mesh::none) {
       free_ = windows_[at(i)].after, windows_[at(i)] = w;
     } else {
       i = static_cast<Index>(windows_.size());
       windows_.push_back(w);
+      if (task_.directions) turns_.push_back(turn);
     }
+    if (task_.directions) turns_[at(i)] = turn;
     put(i, key);
     ++live_, ++result_.window_count;
   }
@@ -183,9 +326,10 @@ class Propagation {
     push(w, w.sigma);
   }
 
-  void reach(Index v, double d, const PathEnd& end) {
+  void reach(Index v, double d, const PathEnd& end, double direction = 0) {
     if (!(d < distance(v))) return;
     result_.distance[at(v)] = d, result_.end[at(v)] = end;
+    if (task_.directions) result_.direction[at(v)] = direction;
     push_vertex(v);
   }
 
@@ -193,12 +337,22 @@ class Propagation {
     if (d != distance(v)) return;  // a shorter path was found later
     if (++visited_ % report_every == 0)
       report(std::min(1.0f, static_cast<float>(visited_) / static_cast<float>(mesh_.positions.size())));
+    const PathEnd end = result_.end[at(v)];
+    if (end.side == PathEnd::at_source && task_.directions) return start_fans(v);
     const Topology& topology = sides_.topology;
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
       const Index w = topology.neighbour[at(i)];
-      reach(w, d + norm(mesh_.positions[at(w)] - mesh_.positions[at(v)]), {PathEnd::along_edge, v, 0, 0});
+      reach(w, d + norm(mesh_.positions[at(w)] - mesh_.positions[at(v)]), {PathEnd::along_edge, v, 0, 0},
+            direction_of(v));
     }
-    const PathEnd end = result_.end[at(v)];
+    for (std::size_t p = 0; task_.to && p < task_.to->places.size(); ++p) {
+      for (Index k = 0; k < 3; ++k) {
+        const Index s = 3 * task_.to->places[p].triangle + k;
+        if (sides_.start(s) != v) continue;
+        const auto [x, y] = place_in(task_.to->places[p], s);
+        offer_target(d + length_of(x, y), {PathEnd::along_edge, v, 0, 0}, p);
+      }
+    }
     if (end.side == PathEnd::at_source || sides_.angle[at(v)] == infinite) {
       for_corners(v, [&](Index side) {
         const Index opposite = TriangleSides::next(side);
@@ -209,6 +363,8 @@ class Propagation {
       shadow(v, d, end);
     }
   }
+
+  double direction_of(Index v) const noexcept { return task_.directions ? result_.direction[at(v)] : 0.0; }
 
   // Calls visit(side) for every side that starts at the vertex.
   template <class Visit>
@@ -285,25 +441,39 @@ class Propagation {
   }
 
   // A window leaves a triangle through a side. Coordinates are those of that side; (x, y) is the pseudo-source, on the
-  // side of the triangle.
-  void emit(Index side, double begin, double end, double x, double y, double sigma, Index from) {
+  // side of the triangle. turn: of the frame of the side, seen from beyond it.
+  void emit(Index side, double begin, double end, double x, double y, double sigma, Index from,
+            const Turn& turn = {0, 1}) {
     const double length = sides_.frame[at(side)].length;
     if (!(end - begin > least_window * length)) return;
     const Index start = mesh_.corners[at(side)];
     for_twins(side, [&](Index twin) {
       Window w{begin, end, x, y, sigma, twin, from, Mesh::none};
-      if (mesh_.corners[at(twin)] != start) w.begin = length - end, w.end = length - begin, w.x = length - x;
-      push(w, key(w));
+      if (mesh_.corners[at(twin)] == start) return push(w, key(w), turn);
+      w.begin = length - end, w.end = length - begin, w.x = length - x;
+      push(w, key(w), {turn.angle + turn.sign * pi, -turn.sign});
     });
   }
 
-  void cross_triangle(const Window& w) {
+  // Returns whether the rays of a window come from the source itself, not from a vertex where paths bend.
+  bool from_source(const Window& w) const noexcept {
+    return w.from < 0 || result_.end[at(w.from)].side == PathEnd::at_source;
+  }
+
+  void cross_triangle(const Window& w, const Turn& turn) {
     const Index s = w.side, right = TriangleSides::next(s), left = TriangleSides::last(s);
     const TriangleSides::Frame& f = sides_.frame[at(s)];
     const Index v0 = mesh_.corners[at(s)], v1 = mesh_.corners[at(right)], c = mesh_.corners[at(left)];
     // The source at (x, -y) sees the corner through the side at `crossing`.
     const double straight = w.sigma + length_of(f.x - w.x, f.y + w.y);
     const double crossing = f.y + w.y > 0 ? w.x + (f.x - w.x) * w.y / (f.y + w.y) : w.x;
+    for (std::size_t p = 0; task_.to && p < task_.to->places.size(); ++p) {
+      if (task_.to->places[p].triangle != s / 3) continue;
+      const auto [x, y] = place_in(task_.to->places[p], s);
+      const double through = y + w.y > 0 ? w.x + (x - w.x) * w.y / (y + w.y) : w.x;
+      if (through >= w.begin - corner_rounding * f.length && through <= w.end + corner_rounding * f.length)
+        offer_target(w.sigma + length_of(x - w.x, y + w.y), {s, w.from, w.x, w.y}, p);
+    }
     // the vertices of the side may have shorter distances now than when the window was made
     if (distance(v0) + w.end < w.sigma + length_of(w.end - w.x, w.y) - equal_distance) return;
     if (distance(v1) + (f.length - w.begin) < w.sigma + length_of(w.begin - w.x, w.y) - equal_distance) return;
@@ -313,7 +483,11 @@ class Propagation {
     if (straight < best.distance) {
       if (crossing >= w.begin - rounding && crossing <= w.end + rounding) {
         best = {straight, crossing};
-        reach(c, straight, {s, w.from, w.x, w.y});
+        const bool straight_from = task_.directions && from_source(w);
+        reach(c, straight, {s, w.from, w.x, w.y},
+              straight_from      ? turn.angle + turn.sign * arc_tangent(f.y + w.y, f.x - w.x)
+              : task_.directions ? direction_of(w.from)
+                                 : 0.0);
       }
     } else {
       if (best.crossing < crossing)
@@ -321,16 +495,16 @@ class Propagation {
       else
         right_begin = std::max(right_begin, best.crossing);
     }
-    if (left_end > w.begin) child(w, f, left_end >= crossing, w.begin, left_end, left, v0, v1, c, false);
+    if (left_end > w.begin) child(w, f, left_end >= crossing, w.begin, left_end, left, v0, v1, c, false, turn);
     if (w.end > right_begin)
-      child(w, f, right_begin <= crossing, f.length - w.end, f.length - right_begin, right, v1, v0, c, true);
+      child(w, f, right_begin <= crossing, f.length - w.end, f.length - right_begin, right, v1, v0, c, true, turn);
   }
 
   static double length_of(double x, double y) noexcept { return std::sqrt(x * x + y * y); }
 
   // The part of a window that crosses the edge from `near` to the corner c. Coordinates run from `near` along the side.
   void child(const Window& w, const TriangleSides::Frame& f, bool to_corner, double begin, double end, Index side,
-             Index near, Index far, Index c, bool mirrored) {
+             Index near, Index far, Index c, bool mirrored, const Turn& turn) {
     const double length = sides_.frame[at(side)].length;
     if (!(length > 0)) return;
     const double px = mirrored ? f.length - f.x : f.x, sx = mirrored ? f.length - w.x : w.x;
@@ -347,18 +521,25 @@ class Propagation {
     const double to_u0 = w.sigma + length_of(u0 - a, h), to_u1 = w.sigma + length_of(u1 - a, h);
     if (distance(near) + u1 < to_u1 - equal_distance) return;
     if (distance(c) + (length - u0) < to_u0 - equal_distance) return;
-    const double fx = f.length - u0 * ex, fy = u0 * ey;
-    if (distance(far) + length_of(fx, fy) < to_u0 - equal_distance) return;
-    const bool from_near = mesh_.corners[at(side)] == near;
-    if (from_near)
-      emit(side, u0, u1, a, h, w.sigma, w.from);
+    if (distance(far) + length_of(f.length - u0 * ex, u0 * ey) < to_u0 - equal_distance) return;
+    // The sides run around the triangle: the right one from `near` to c, the left one from c to `near`.
+    Turn own = turn;
+    if (task_.directions) {
+      const double along = mirrored ? arc_tangent(ey, -ex) : arc_tangent(ey, ex) + pi;
+      own = {turn.angle + turn.sign * along, -turn.sign};
+    }
+    if (mirrored)
+      emit(side, u0, u1, a, h, w.sigma, w.from, own);
     else
-      emit(side, length - u1, length - u0, length - a, h, w.sigma, w.from);
+      emit(side, length - u1, length - u0, length - a, h, w.sigma, w.from, own);
   }
 
   const TriangleSides& sides_;
   const Mesh& mesh_;
+  const ExactTask& task_;
+  Memory& memory_;
   Vector<Window> windows_;
+  Vector<Turn> turns_;       // by window, if directions are asked for
   Index free_ = Mesh::none;  // first of the records that no window uses
   Vector<Index> lists_;
   Vector<Best> best_;
@@ -370,8 +551,38 @@ class Propagation {
 
 }  // namespace
 
-ExactDistance exact_distance(const TriangleSides& sides, Span<const Index> sources, Memory& memory) {
-  return Propagation(sides, memory).run(sources);
+GeodesicPoint::GeodesicPoint(const TriangleSides& sides, const Index* corners, const double* weights, Memory& memory)
+    : places(&memory) {
+  Index support[3], count = 0;  // corners of weight above 0
+  for (Index k = 0; k < 3; ++k) {
+    if (weights[k] > 0) support[count++] = k;
+  }
+  if (count == 1) {
+    vertex = corners[support[0]];
+    return;
+  }
+  if (count < 2) return;
+  const Topology& topology = sides.topology;
+  const Index e = topology.edge_between(corners[support[0]], corners[support[1]]);
+  if (e == Mesh::none) return;
+  double sum = 0;
+  for (Index k = 0; k < count; ++k) sum += weights[support[k]];
+  for (Index i = topology.edge_triangle_start[at(e)]; i < topology.edge_triangle_start[at(e) + 1]; ++i) {
+    Place place{topology.edge_triangle[at(i)], {0, 0, 0}};
+    Index matched = 0;
+    for (Index c = 0; c < 3; ++c) {
+      for (Index k = 0; k < count; ++k) {
+        if (sides.start(3 * place.triangle + c) != corners[support[k]]) continue;
+        place.weight[c] = weights[support[k]] / sum, ++matched;
+      }
+    }
+    if (matched == count) places.push_back(place);
+  }
+  if (count == 3 && places.size() > 1) places.resize(1);
+}
+
+ExactDistance exact_distance(const TriangleSides& sides, const ExactTask& task, Memory& memory) {
+  return Propagation(sides, task, memory).run();
 }
 
 }  // namespace hf_inner

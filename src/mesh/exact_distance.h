@@ -40,9 +40,13 @@ struct TriangleSides {
   struct Frame {
     double length, x, y;  // if the side runs from 0 along the x axis, the opposite corner lies at (x, y)
   };
-  Vector<Frame> frame;   // by side
-  Vector<double> angle;  // by vertex: the sum of its angles; infinite at a border or an edge of three triangles
+  Vector<Frame> frame;  // by side
+  // By vertex: the sum of its angles; infinite where its triangles are not one closed fan.
+  Vector<double> angle;
   double mean_length = 0;
+
+ private:
+  void mark_several_fans(Memory& memory);
 };
 
 // The end of the shortest path to a vertex. The path comes straight from a pseudo-source across a side of a triangle to
@@ -50,18 +54,55 @@ struct TriangleSides {
 struct PathEnd {
   static constexpr std::int32_t unreached = -1, along_edge = -2, at_source = -3;
   std::int32_t side = unreached;  // or one of the numbers above
-  std::int32_t from = -1;         // the pseudo-source, a vertex
+  std::int32_t from = -1;         // the pseudo-source: a vertex, or -1 for the source point
   double x = 0, y = 0;            // its place (x, -y) in the frame of the side
 };
 
+// A point of the surface: a vertex, or its place in each triangle that has it, one or those of an edge.
+struct GeodesicPoint {
+  struct Place {
+    std::int32_t triangle;
+    double weight[3];  // of its corners
+  };
+  // corners: those of a triangle; one of weight 0 may be Mesh::none. Without such a triangle, found() is false.
+  GeodesicPoint(const TriangleSides& sides, const std::int32_t* corners, const double* weights, Memory& memory);
+  bool found() const noexcept { return vertex >= 0 || !places.empty(); }
+
+  std::int32_t vertex = -1;
+  Vector<Place> places;
+};
+
+// Bounds what exact_distance computes.
+struct ExactTask {
+  Span<const std::int32_t> sources;     // vertices
+  const GeodesicPoint* from = nullptr;  // or one point
+  const GeodesicPoint* to = nullptr;    // with `from`: stops when the path to this point is known
+  bool directions = false;              // with `from`: fills ExactDistance::direction
+  double reach = 0;                     // above 0: stops beyond this distance
+};
+
 struct ExactDistance {
-  explicit ExactDistance(Memory& memory) : distance(&memory), end(&memory) {}
-  Vector<double> distance;         // by vertex; infinite where no source reaches
-  Vector<PathEnd> end;             // by vertex
+  explicit ExactDistance(Memory& memory) : distance(&memory), end(&memory), direction(&memory) {}
+  Vector<double> distance;  // by vertex; infinite where no source reaches
+  Vector<PathEnd> end;      // by vertex
+  // By vertex, if asked for: the angle in which the path leaves the source. At a vertex it counts from the edge to
+  // first_corner and goes up to fan_angle; at a point inside a triangle it counts from the triangle's first side.
+  Vector<double> direction;
+  double fan_angle = 0;
+  std::int32_t first_corner = -1, first_triangle = -1;
+  bool closed_fan = false;
+  double to_distance = -1;  // of the task's second point inside a triangle or on an edge; -1: not reached
+  PathEnd to_end;           // of that point; along_edge: straight from the corner `from`
+  std::int32_t to_place = 0;
   std::uint64_t window_count = 0;  // windows that were made
 };
 
-// Computes the distance from the nearest of the sources. Reports progress and can be cancelled. Throws std::bad_alloc.
-ExactDistance exact_distance(const TriangleSides& sides, Span<const std::int32_t> sources, Memory& memory);
+// Computes the distance from the nearest source. Reports progress and can be cancelled. Throws std::bad_alloc.
+ExactDistance exact_distance(const TriangleSides& sides, const ExactTask& task, Memory& memory);
+inline ExactDistance exact_distance(const TriangleSides& sides, Span<const std::int32_t> sources, Memory& memory) {
+  ExactTask task;
+  task.sources = sources;
+  return exact_distance(sides, task, memory);
+}
 
 }  // namespace hf_inner

@@ -21,13 +21,16 @@ constexpr std::size_t report_each = 8192;  // vertices between reports of progre
 FrontDistance::FrontDistance(const Mesh& mesh, const Topology& topology, Memory& memory, JobRunner* jobs)
     : memory_(&memory), start_(mesh.positions.size() + 1, 0, &memory), corner_(&memory) {
   IntrinsicTriangulation cover = IntrinsicTriangulation::make(mesh, topology, memory, jobs);
+  poll();
   cover.flip_to_delaunay();
   const Index halves = 3 * cover.face_count();
   for (Index h = 0; h < halves; ++h) ++start_[at(cover.tail(h)) + 1];
   for (std::size_t v = 0; v + 1 < start_.size(); ++v) start_[v + 1] += start_[v];
   corner_.resize(at(halves));
   Vector<Index> cursor(start_.begin(), start_.end() - 1, &memory);
+  Poller poller;
   for (Index f = 0; f < cover.face_count(); ++f) {
+    poller.due();
     for (Index k = 0; k < 3; ++k) {
       const Index h = 3 * f + k, opposite = 3 * f + (k + 1) % 3, back = 3 * f + (k + 2) % 3;
       corner_[at(cursor[at(cover.tail(h))]++)] = {cover.length(h), cover.length(back), cover.length(opposite),

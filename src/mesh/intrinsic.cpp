@@ -245,7 +245,9 @@ std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit)
     if (h < twin_[at(h)] && !is_delaunay(h)) queue.push_back(h);
   }
   std::uint64_t flips = 0;
+  Poller poller;
   for (std::size_t head = 0; head < queue.size() && flips < flip_limit; ++head) {
+    poller.due();
     const Index h = queue[head], g = twin_[at(h)];
     if (h / 3 == g / 3 || is_delaunay(h)) continue;  // not to flip; edges that must not flip are their own twins
     flip(h), ++flips;

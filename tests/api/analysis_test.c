@@ -224,6 +224,83 @@ static void a_surface_of_another_kind_gives_the_same_distances_and_tips(void** s
   hf_surface_destroy(plate), tube_destroy(&tube);
 }
 
+/* A path over the tube and the map around its start: lengths agree with the distances, refused calls write nothing. */
+static void paths_and_maps_agree_with_distances(void** state) {
+  (void)state;
+  Tube tube;
+  tube_create(&tube);
+  hf_geodesics_desc desc = HF_INIT(hf_geodesics_desc);
+  desc.method = HF_GEODESICS_EXACT;
+  hf_geodesics geodesics = NULL;
+  assert_ok(hf_geodesics_create(tube.surface, &desc, &geodesics));
+  static double distance[COUNT], map[COUNT][2], positions[COUNT][3], parameters[COUNT], frame[6];
+  static uint32_t edges[COUNT][2];
+  const uint32_t source = 5;
+  assert_ok(hf_geodesics_solve_f64(geodesics, 1, &source, distance, 0));
+  hf_surface_point from = {{5, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
+  assert_ok(hf_geodesics_get_map(geodesics, &from, 0, &map[0][0], frame));
+  assert_near(frame[0] * frame[3] + frame[1] * frame[4] + frame[2] * frame[5], 0, 1e-12);
+  hf_path path = HF_INIT(hf_path);
+  for (uint32_t v = 0; v < COUNT; v += 17) {
+    const hf_surface_point to = {{HF_NO_INDEX, v, HF_NO_INDEX}, 0, {0, 1, 0}};
+    assert_near(hypot(map[v][0], map[v][1]), distance[v], 1e-9);
+    path.point_capacity = 0, path.positions = NULL, path.parameters = NULL, path.point_edges = NULL;
+    assert_ok(hf_geodesics_find_path(geodesics, &from, &to, &path));
+    assert_near(path.length, distance[v], 1e-9);
+    assert_true(path.point_count <= COUNT);
+    path.point_capacity = path.point_count;
+    path.positions = &positions[0][0], path.parameters = parameters, path.point_edges = &edges[0][0];
+    assert_ok(hf_geodesics_find_path(geodesics, &from, &to, &path));
+    double sum = 0;
+    for (uint32_t i = 1; i < path.point_count; ++i) {
+      double square = 0;
+      for (int k = 0; k < 3; ++k) {
+        const double step = positions[i][k] - positions[i - 1][k];
+        square += step * step;
+      }
+      sum += sqrt(square);
+    }
+    assert_near(sum, distance[v], 1e-7);
+    assert_int_equal(edges[path.point_count - 1][0], v);
+  }
+  /* a radius leaves out what is farther */
+  assert_ok(hf_geodesics_get_map(geodesics, &from, distance[COUNT / 2] / 2, &map[0][0], NULL));
+  for (int v = 0; v < COUNT; ++v) {
+    assert_true((map[v][0] != map[v][0]) == (distance[v] > distance[COUNT / 2] / 2));
+    map[v][0] = 7;
+  }
+#define BAD_POINT(what, code, at, change)                                                          \
+  do {                                                                                             \
+    hf_surface_point to = {{5, 6, HF_NO_INDEX}, 0, {0.5, 0.5, 0}};                                 \
+    change;                                                                                        \
+    const hf_path before = path;                                                                   \
+    BAD(what, code, at, hf_geodesics_find_path(geodesics, &from, &to, &path));                     \
+    assert_true(memcmp(&before, &path, sizeof path) == 0);                                         \
+    BAD(what, code, at == 1 ? 0 : at, hf_geodesics_get_map(geodesics, &to, 0, &map[0][0], frame)); \
+    assert_true(map[3][0] == 7);                                                                   \
+  } while (0)
+  BAD_POINT("reserved set", HF_ERROR_INVALID_DESC, 1, to.reserved = 1);
+  BAD_POINT("corner out of range", HF_ERROR_OUT_OF_RANGE, 1, to.corners[1] = COUNT);
+  BAD_POINT("corner NO_INDEX", HF_ERROR_OUT_OF_RANGE, 1, to.corners[0] = HF_NO_INDEX);
+  BAD_POINT("corners far apart", HF_ERROR_INVALID_ARGUMENT, 1, to.corners[1] = COUNT - 1);
+  BAD_POINT("barycentric NaN", HF_ERROR_NON_FINITE, 1, to.barycentrics[0] = NAN);
+  BAD_POINT("barycentric below 0", HF_ERROR_INVALID_ARGUMENT, 1, (to.barycentrics[0] = -0.5, to.barycentrics[1] = 1.5));
+  BAD_POINT("sum 0.9", HF_ERROR_INVALID_ARGUMENT, 1, to.barycentrics[0] = 0.4);
+#undef BAD_POINT
+  BAD("radius -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_get_map(geodesics, &from, -1, &map[0][0], NULL));
+  BAD("radius NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_get_map(geodesics, &from, NAN, &map[0][0], NULL));
+  BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_get_map(geodesics, &from, 0, NULL, NULL));
+  BAD("centre NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_get_map(geodesics, NULL, 0, &map[0][0], NULL));
+  BAD("from NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_find_path(geodesics, NULL, &from, &path));
+  BAD("path NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_find_path(geodesics, &from, &from, NULL));
+  path.reserved = 1;
+  BAD("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, hf_geodesics_find_path(geodesics, &from, &from, &path));
+  path.reserved = 0, path.point_capacity = 1;
+  const hf_surface_point far_end = {{COUNT - 1, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
+  BAD("no room", HF_ERROR_TOO_SMALL, NO_INDEX, hf_geodesics_find_path(geodesics, &from, &far_end, &path));
+  hf_geodesics_destroy(geodesics), tube_destroy(&tube);
+}
+
 static void bad_input_is_named(void** state) {
   (void)state;
   Tube tube;
@@ -324,6 +401,7 @@ int main(void) {
       cmocka_unit_test(extremities_of_a_tube_are_at_its_ends),
       cmocka_unit_test(a_cancelled_search_leaves_the_outputs_alone_and_the_next_one_runs),
       cmocka_unit_test(a_surface_of_another_kind_gives_the_same_distances_and_tips),
+      cmocka_unit_test(paths_and_maps_agree_with_distances),
       cmocka_unit_test(bad_input_is_named),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

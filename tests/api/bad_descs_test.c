@@ -205,6 +205,11 @@ static hf_result critical_info(void* d) {
   fill_scalars(&field);
   return hf_surface_find_critical_points(scene.sheet, &field, CUT_VERTICES, points, d);
 }
+static void fill_path(void* d) { *(hf_path*)d = HF_INIT(hf_path); }
+static hf_result find_path(void* d) {
+  const hf_surface_point point = {{3, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
+  return hf_geodesics_find_path(scene.geodesics, &point, &point, d);
+}
 static void fill_geodesics(void* d) { *(hf_geodesics_desc*)d = HF_INIT(hf_geodesics_desc); }
 static hf_result geodesics_create(void* d) {
   hf_geodesics geodesics = (hf_geodesics)(void*)&scene;
@@ -397,6 +402,7 @@ static const struct {
     {"hf_surface_trace_isolines: out_lines", sizeof(hf_isolines), fill_isolines, trace_isolines, 0},
     {"hf_surface_find_critical_points: field", sizeof(hf_scalars), fill_scalars, critical_field, 0},
     {"hf_surface_find_critical_points: out_info", sizeof(hf_critical_info), fill_critical_info, critical_info, 1},
+    {"hf_geodesics_find_path: inout_path", sizeof(hf_path), fill_path, find_path, 0},
     {"hf_geodesics_create: desc", sizeof(hf_geodesics_desc), fill_geodesics, geodesics_create, 1},
     {"hf_propose_handles: desc", sizeof(hf_propose_desc), fill_propose, propose, 1},
     {"hf_surface_find_extremities: desc", sizeof(hf_extremities_desc), fill_extremities, find_extremities, 1},

@@ -169,6 +169,12 @@ static hf_result geodesics_distance_f64(void* h) {
   const uint32_t v = 3;
   return hf_geodesics_solve_f64(h, 1, &v, doubles, 0);
 }
+static const hf_surface_point first_vertex = {{0, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
+static hf_result geodesics_path(void* h) {
+  hf_path path = HF_INIT(hf_path);
+  return hf_geodesics_find_path(h, &first_vertex, &first_vertex, &path);
+}
+static hf_result geodesics_map(void* h) { return hf_geodesics_get_map(h, &first_vertex, 0, doubles, NULL); }
 static hf_result find_extremities_with(void* h) {
   hf_extremities_desc d;
   uint32_t count;
@@ -429,6 +435,8 @@ static const struct {
     {"hf_propose_handles", SURFACE, propose, NO_INDEX},
     {"hf_geodesics_solve", GEODESICS, geodesics_distance, NO_INDEX},
     {"hf_geodesics_solve_f64", GEODESICS, geodesics_distance_f64, NO_INDEX},
+    {"hf_geodesics_find_path", GEODESICS, geodesics_path, NO_INDEX},
+    {"hf_geodesics_get_map", GEODESICS, geodesics_map, NO_INDEX},
     {"hf_surface_find_extremities", GEODESICS, find_extremities_with, NO_INDEX},
     {"hf_solver_move_vectors", SOLVER, move_vector_sites, NO_INDEX},
     {"hf_solver_rotate_vectors", SOLVER, rotate_vector_sites, NO_INDEX},

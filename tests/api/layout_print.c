@@ -252,6 +252,15 @@ static void print_analysis(void) {
   STRUCT(hf_geodesics_desc);
   F(struct_size), F(smoothing), F(progress), F(method), F(reserved);
 #undef T
+#define T hf_surface_point
+  STRUCT(hf_surface_point);
+  F(corners), F(reserved), F(barycentrics);
+#undef T
+#define T hf_path
+  STRUCT(hf_path);
+  F(struct_size), F(point_capacity), F(point_count), F(reserved), F(length), F(point_edges), F(parameters),
+      F(positions);
+#undef T
 #define T hf_extremities_desc
   STRUCT(hf_extremities_desc);
   F(struct_size), F(kind), F(least_length), F(source_count), F(geodesics), F(progress), F(out_field);

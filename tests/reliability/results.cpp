@@ -145,7 +145,9 @@ void indefinite() {
   hf_surface surface = nullptr;
   provoke(hf_surface_create(&d, &surface), "two needles");
   hf_geodesics geodesics = nullptr;
-  provoke(hf_geodesics_create(surface, nullptr, &geodesics), "the heat on two needles");
+  hf_geodesics_desc heat = HF_INIT(hf_geodesics_desc);
+  heat.method = HF_GEODESICS_HEAT;
+  provoke(hf_geodesics_create(surface, &heat, &geodesics), "the heat on two needles");
   hf_geodesics_destroy(geodesics), hf_surface_destroy(surface);
 }
 

@@ -250,6 +250,15 @@ void Run::analysis() {
   call(hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0), "hf_geodesics_solve_f64");
   call(hf_geodesics_solve(geodesics, 1, sources, floats.data(), 12), "hf_geodesics_solve");
   take(distance.data(), n), take_floats();
+  const hf_surface_point from = {{3, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}},
+                         to = {{HF_NO_INDEX, 200, HF_NO_INDEX}, 0, {0, 1, 0}};
+  hf_path path = desc<hf_path>();
+  call(hf_geodesics_find_path(geodesics, &from, &to, &path), "hf_geodesics_find_path");
+  Numbers map(2 * n), corners(3 * path.point_count);
+  path.point_capacity = path.point_count, path.positions = corners.data();
+  call(hf_geodesics_find_path(geodesics, &from, &to, &path), "hf_geodesics_find_path");
+  call(hf_geodesics_get_map(geodesics, &to, 0, map.data(), nullptr), "hf_geodesics_get_map");
+  take(&path.length, 1), take(corners.data(), corners.size()), take(map.data(), map.size());
   for (int kind = 0; kind < 2; ++kind) {
     hf_extremities_desc wanted = desc<hf_extremities_desc>();
     wanted.kind = kind, wanted.geodesics = kind == HF_EXTREMITIES_GEODESIC ? geodesics : nullptr;

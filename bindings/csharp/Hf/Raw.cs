@@ -577,6 +577,27 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_surface_point
+    {
+        public fixed uint corners[3];
+        public uint reserved;
+        public fixed double barycentrics[3];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_path
+    {
+        public uint struct_size;
+        public uint point_capacity;
+        public uint point_count;
+        public uint reserved;
+        public double length;
+        public IntPtr point_edges;
+        public IntPtr parameters;
+        public IntPtr positions;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_extremities_desc
     {
         public uint struct_size;
@@ -1223,6 +1244,8 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_geodesics_destroy(IntPtr geodesics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_solve(IntPtr geodesics, uint source_count, void* sources, void* out_distances, uint value_stride);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_solve_f64(IntPtr geodesics, uint source_count, void* sources, void* out_distances, uint value_stride);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_find_path(IntPtr geodesics, void* from, void* to, void* inout_path);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_get_map(IntPtr geodesics, void* centre, double radius, void* out_map, void* out_frame);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_find_extremities(IntPtr surface, void* desc, uint capacity, void* out_extremities, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_create(IntPtr surface, void* desc, void* out_direction);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_clone(IntPtr direction, void* out_direction);

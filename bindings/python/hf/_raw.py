@@ -918,6 +918,40 @@ class hf_geodesics_desc(Structure):
     ]
 
 
+class hf_surface_point(Structure):
+    """A point of the surface in the form of hf_hit"""
+    corners: object
+    reserved: int
+    barycentrics: object
+    _fields_ = [
+        ("corners", c_uint32 * 3),
+        ("reserved", c_uint32),
+        ("barycentrics", c_double * 3),
+    ]
+
+
+class hf_path(Structure):
+    """A path along the surface, from its first point to its last."""
+    struct_size: int
+    point_capacity: int
+    point_count: int
+    reserved: int
+    length: float
+    point_edges: int
+    parameters: int
+    positions: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("point_capacity", c_uint32),
+        ("point_count", c_uint32),
+        ("reserved", c_uint32),
+        ("length", c_double),
+        ("point_edges", c_void_p),
+        ("parameters", c_void_p),
+        ("positions", c_void_p),
+    ]
+
+
 class hf_extremities_desc(Structure):
     """Selects how hf_surface_find_extremities finds tips."""
     struct_size: int
@@ -1915,7 +1949,7 @@ class hf_mirror_info(Structure):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_propose_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_bones_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_carry_desc, hf_carry_info, hf_mirror_desc, hf_mirror_info]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_surface_point, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_propose_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_bones_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_carry_desc, hf_carry_info, hf_mirror_desc, hf_mirror_info]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -1976,6 +2010,8 @@ PROTOTYPES = {
     "hf_geodesics_destroy": (None, [c_void_p]),
     "hf_geodesics_solve": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_uint32]),
     "hf_geodesics_solve_f64": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_uint32]),
+    "hf_geodesics_find_path": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
+    "hf_geodesics_get_map": (c_int32, [c_void_p, c_void_p, c_double, c_void_p, c_void_p]),
     "hf_surface_find_extremities": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_direction_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_direction_clone": (c_int32, [c_void_p, c_void_p]),

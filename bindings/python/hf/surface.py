@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from enum import IntEnum
-from typing import Any, List, NamedTuple, Optional, Tuple
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -338,3 +338,31 @@ class Geodesics(Object):
             count_of(at),
              address(at), address(out), stride)
         return out
+
+    def path(self, start: "Place", end: "Place") -> np.ndarray:
+        """The shortest path between two places: positions of its corners; empty where none leads. A place is a vertex,
+        or three vertices of a triangle and their weights."""
+        ends, path = (_point(start), _point(end)), make(_raw.hf_path)
+        arguments = (self._raw_handle, ctypes.byref(ends[0]), ctypes.byref(ends[1]), ctypes.byref(path))
+        call("hf_geodesics_find_path", *arguments)
+        positions = np.empty((path.point_count, 3))
+        path.point_capacity, path.positions = path.point_count, address(positions)
+        call("hf_geodesics_find_path", *arguments)
+        return positions
+
+    def map(self, centre: "Place", radius: float = 0.0) -> np.ndarray:
+        """The surface around a place laid out in a plane: two coordinates per vertex; NaN beyond the radius."""
+        point, out = _point(centre), np.empty((self.vertex_count, 2))
+        call("hf_geodesics_get_map", self._raw_handle, ctypes.byref(point), ctypes.c_double(radius), address(out), None)
+        return out
+
+
+Place = Union[int, Tuple[Sequence[int], Sequence[float]]]
+
+
+def _point(place: Place) -> Any:
+    point = _raw.hf_surface_point()
+    corners, weights = ((place,) * 3, (1.0, 0.0, 0.0)) if isinstance(place, (int, np.integer)) else place
+    for k in range(3):
+        point.corners[k], point.barycentrics[k] = int(corners[k]), float(weights[k])
+    return point

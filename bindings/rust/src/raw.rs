@@ -1082,6 +1082,43 @@ impl Default for hf_geodesics_desc {
     }
 }
 
+/// A point of the surface in the form of hf_hit
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_surface_point {
+    pub corners: [u32; 3],
+    pub reserved: u32,
+    pub barycentrics: [f64; 3],
+}
+impl Default for hf_surface_point {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
+/// A path along the surface, from its first point to its last.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_path {
+    pub struct_size: u32,
+    pub point_capacity: u32,
+    pub point_count: u32,
+    pub reserved: u32,
+    pub length: f64,
+    pub point_edges: *mut u32,
+    pub parameters: *mut f64,
+    pub positions: *mut f64,
+}
+impl Default for hf_path {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
 /// Selects how hf_surface_find_extremities finds tips.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -2291,6 +2328,8 @@ extern "C" {
     pub fn hf_geodesics_destroy(geodesics: hf_geodesics);
     pub fn hf_geodesics_solve(geodesics: hf_geodesics, source_count: u32, sources: *const u32, out_distances: *mut f32, value_stride: u32) -> i32;
     pub fn hf_geodesics_solve_f64(geodesics: hf_geodesics, source_count: u32, sources: *const u32, out_distances: *mut f64, value_stride: u32) -> i32;
+    pub fn hf_geodesics_find_path(geodesics: hf_geodesics, from: *const hf_surface_point, to: *const hf_surface_point, inout_path: *mut hf_path) -> i32;
+    pub fn hf_geodesics_get_map(geodesics: hf_geodesics, centre: *const hf_surface_point, radius: f64, out_map: *mut f64, out_frame: *mut f64) -> i32;
     pub fn hf_surface_find_extremities(surface: hf_surface, desc: *const hf_extremities_desc, capacity: u32, out_extremities: *mut hf_extremity, out_count: *mut u32) -> i32;
     pub fn hf_direction_create(surface: hf_surface, desc: *const hf_direction_desc, out_direction: *mut hf_direction) -> i32;
     pub fn hf_direction_clone(direction: hf_direction, out_direction: *mut hf_direction) -> i32;

@@ -1,6 +1,4 @@
 // Exact distances against closed forms and against all edge sequences of small meshes, and the errors of fronts.
-#include "mesh/exact_distance.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "base/index.h"
 #include "base/progress.h"
+#include "mesh/exact_path.h"
 #include "mesh/front_distance.h"
 #include "support/dirty_meshes.h"
 #include "support/meshes.h"
@@ -149,18 +148,21 @@ void expect_as_all_sequences(const PlainMesh& mesh, const char* name, std::uint3
 }
 
 TEST(ExactDistance, is_the_shortest_over_all_edge_sequences_of_tiny_meshes) {
-  PlainMesh octahedron, pages, open = hf_test::grid(2, 2), soup;
+  PlainMesh octahedron, pages, open = hf_test::grid(2, 2), soup, hourglass;
   octahedron.positions.resize(18);
   octahedron.triangles = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1, 5, 2, 1, 5, 3, 2, 5, 4, 3, 5, 1, 4};
   pages.positions.resize(24);  // three pages of two triangles on one spine, one of them turned over
   pages.triangles = {0, 1, 2, 1, 3, 2, 1, 0, 4, 1, 4, 5, 0, 1, 6, 1, 7, 6};
   soup.positions.resize(18);  // every edge of the first triangle has three triangles
   soup.triangles = {0, 1, 2, 0, 1, 3, 0, 1, 4, 1, 2, 3, 1, 2, 5, 2, 0, 4, 2, 0, 5, 3, 4, 5};
+  hourglass.positions.resize(21);  // two tetrahedra that share a vertex
+  hourglass.triangles = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2, 0, 4, 5, 0, 5, 6, 0, 6, 4, 4, 6, 5};
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     expect_as_all_sequences(with_random_places(octahedron, seed), "octahedron", seed);
     expect_as_all_sequences(with_random_places(pages, seed), "pages", seed);
     expect_as_all_sequences(with_random_places(open, seed), "grid", seed);
     expect_as_all_sequences(with_random_places(soup, seed), "soup", seed);
+    expect_as_all_sequences(with_random_places(hourglass, seed), "hourglass", seed);
   }
 }
 
@@ -329,6 +331,137 @@ TEST(ExactDistance, is_cancelled_with_nothing_left_allocated) {
   EXPECT_THROW(shape.distance({0}), hf_inner::Error);
   EXPECT_THROW(shape.front(0), hf_inner::Error);
   EXPECT_EQ(shape.memory.live_bytes(), before);
+}
+
+// The place of a point of a path; ends inside a triangle are given.
+hf_inner::Vec3 place_of(const hf_inner::Mesh& mesh, const hf_inner::PathPoint& p, hf_inner::Vec3 inside) {
+  if (p.a < 0) return inside;
+  return (1 - p.t) * mesh.positions[at(p.a)] + p.t * mesh.positions[at(p.b)];
+}
+
+struct RandomPoint {
+  Index corners[3];
+  double weights[3];
+  hf_inner::Vec3 place;
+};
+
+RandomPoint random_point(const hf_inner::Mesh& mesh, std::mt19937& random, int kind) {
+  RandomPoint p;
+  const Index t = static_cast<Index>(random() % static_cast<unsigned>(mesh.triangle_count()));
+  std::copy_n(mesh.triangle(t), 3, p.corners);
+  std::rotate(p.corners, p.corners + random() % 3, p.corners + 3);
+  const double a = 0.05 + 0.4 * (random() % 1000) / 1000, b = 0.05 + 0.4 * (random() % 1000) / 1000;
+  const double weights[3][3] = {{1, 0, 0}, {a, 0, 1 - a}, {a, b, 1 - a - b}};
+  std::copy_n(weights[kind], 3, p.weights);
+  for (std::size_t k = 0; k < 3; ++k) p.place = p.place + p.weights[k] * mesh.positions[at(p.corners[k])];
+  for (std::size_t k = 0; k < 3; ++k) p.corners[k] = p.weights[k] > 0 ? p.corners[k] : -1;
+  return p;
+}
+
+// Every part of a path lies in one triangle, and its length is the distance: so no shorter path was missed, and no
+// part left the surface.
+TEST(ShortestPath, has_the_length_of_the_distance_and_stays_on_the_surface) {
+  std::mt19937 random(4);
+  std::vector<std::pair<std::string, PlainMesh>> meshes = hf_test::dirty_meshes();
+  meshes.push_back({"torus", hf_test::torus(40, 30)});
+  meshes.push_back({"grid", hf_test::grid(12, 12)});
+  meshes.push_back({"slivers", hf_test::sheared_patch(20, 15, 20)});
+  int bent = 0, several = 0;
+  for (const auto& [name, plain] : meshes) {
+    Shape shape(plain);
+    for (int round = 0; round < 45; ++round) {
+      const RandomPoint a = random_point(shape.mesh, random, round % 3),
+                        b = random_point(shape.mesh, random, round / 3 % 3);
+      const hf_inner::GeodesicPoint from(shape.sides, a.corners, a.weights, shape.memory),
+          to(shape.sides, b.corners, b.weights, shape.memory);
+      ASSERT_TRUE(from.found() && to.found());
+      const auto path = hf_inner::shortest_path(shape.sides, from, to, shape.memory);
+      const auto back = hf_inner::shortest_path(shape.sides, to, from, shape.memory);
+      EXPECT_NEAR(path.length, back.length, 1e-10) << name << " " << round;
+      if (path.points.empty()) {
+        EXPECT_TRUE(back.points.empty());
+        continue;
+      }
+      double sum = 0;
+      for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+        const auto& p = path.points[i];
+        const auto& q = path.points[i + 1];
+        sum += norm(place_of(shape.mesh, p, i == 0 ? a.place : b.place) -
+                    place_of(shape.mesh, q, i == 0 && q.a < 0 && path.points.size() > 2 ? a.place : b.place));
+        bent += i > 0 && p.a == p.b;
+        if (p.a < 0 || q.a < 0) continue;
+        bool together = p.a == q.a && p.b == q.b;
+        for (Index t = 0; t < shape.mesh.triangle_count() && !together; ++t) {
+          const Index* v = shape.mesh.triangle(t);
+          const auto has = [&](Index w) { return std::find(v, v + 3, w) != v + 3; };
+          together = has(p.a) && has(p.b) && has(q.a) && has(q.b);
+        }
+        EXPECT_TRUE(together) << name << " " << round << " " << i;
+      }
+      several += path.points.size() > 3;
+      EXPECT_NEAR(sum, path.length, 1e-9) << name << " " << round << ", " << path.points.size() << " points";
+      if (from.vertex >= 0 && to.vertex >= 0) {
+        EXPECT_NEAR(path.length,
+                    hf_inner::exact_distance(shape.sides, hf_inner::Span<const Index>(&from.vertex, 1), shape.memory)
+                        .distance[at(to.vertex)],
+                    1e-12);
+      }
+    }
+  }
+  EXPECT_GT(bent, 10);
+  EXPECT_GT(several, 100);
+}
+
+// In a plane the map is the plane, turned: all distances between mapped vertices are those of the vertices.
+TEST(LogMap, of_a_convex_plane_is_the_plane_itself) {
+  std::mt19937 random(9);
+  const PlainMesh plain = hf_test::turned_over(hf_test::grid(14, 11, 1, 0.3, 5), 3);  // also triangles upside down
+  Shape shape(plain);
+  for (int round = 0; round < 30; ++round) {
+    const RandomPoint p = random_point(shape.mesh, random, round % 3);
+    const hf_inner::GeodesicPoint from(shape.sides, p.corners, p.weights, shape.memory);
+    hf_inner::ExactTask task;
+    task.from = &from, task.directions = true;
+    const auto found = hf_inner::exact_distance(shape.sides, task, shape.memory);
+    EXPECT_LE(found.fan_angle, 6.28318530717959);
+    std::vector<Point2> map;
+    for (std::size_t v = 0; v < found.distance.size(); ++v)
+      map.push_back(
+          {found.distance[v] * std::cos(found.direction[v]), found.distance[v] * std::sin(found.direction[v])});
+    for (std::size_t v = 0; v < map.size(); ++v) {
+      EXPECT_NEAR(found.distance[v], norm(shape.mesh.positions[v] - p.place), 1e-12);
+      const std::size_t w = (v * 37 + 11) % map.size();
+      EXPECT_NEAR(std::hypot(map[v].x - map[w].x, map[v].y - map[w].y),
+                  norm(shape.mesh.positions[v] - shape.mesh.positions[w]), 1e-10)
+          << "round " << round << ", " << v << " and " << w;
+    }
+  }
+}
+
+// The direction in which the path to a vertex leaves is that of the first part of the traced path.
+TEST(LogMap, has_the_directions_of_the_shortest_paths) {
+  std::mt19937 random(11);
+  Shape shape(hf_test::torus(30, 24, 0.3));
+  for (int round = 0; round < 6; ++round) {
+    const RandomPoint p = random_point(shape.mesh, random, 2);
+    const hf_inner::GeodesicPoint from(shape.sides, p.corners, p.weights, shape.memory);
+    hf_inner::ExactTask task;
+    task.from = &from, task.directions = true;
+    const auto found = hf_inner::exact_distance(shape.sides, task, shape.memory);
+    const Index* corner = shape.mesh.triangle(found.first_triangle);
+    const hf_inner::Vec3 o = shape.mesh.positions[at(corner[0])];
+    const hf_inner::Vec3 x = unit_vector(shape.mesh.positions[at(corner[1])] - o);
+    const hf_inner::Vec3 n = unit_vector(cross(x, shape.mesh.positions[at(corner[2])] - o)), y = cross(n, x);
+    for (Index v = 0; v < shape.mesh.vertex_count(); v += 7) {
+      const double one[3] = {1, 0, 0};
+      const Index at_vertex[3] = {v, -1, -1};
+      const hf_inner::GeodesicPoint to(shape.sides, at_vertex, one, shape.memory);
+      const auto path = hf_inner::shortest_path(shape.sides, from, to, shape.memory);
+      const hf_inner::Vec3 first = place_of(shape.mesh, path.points[1], p.place) - p.place;
+      EXPECT_NEAR(std::cos(found.direction[at(v)]), dot(first, x) / norm(first), 1e-7) << v;
+      EXPECT_NEAR(std::sin(found.direction[at(v)]), dot(first, y) / norm(first), 1e-7) << v;
+    }
+  }
 }
 
 TEST(FrontDistance, is_off_by_at_most_one_per_cent_and_three_at_worst) {

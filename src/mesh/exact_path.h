@@ -1,0 +1,24 @@
+// Traces the shortest path between two points of a surface, from exact distances (exact_distance.h).
+#pragma once
+#include "mesh/exact_distance.h"
+
+namespace hf_inner {
+
+// A corner of a path. It lies at (1 - t) a + t b on the edge between the vertices a and b. At a vertex a is b. The ends
+// of a path inside a triangle have a = b = Mesh::none.
+struct PathPoint {
+  std::int32_t a, b;
+  double t;
+};
+
+struct SurfacePath {
+  explicit SurfacePath(Memory& memory) : points(&memory) {}
+  Vector<PathPoint> points;  // from the first point to the second; empty: no path leads there
+  double length = 0;         // the exact distance; -1: no path
+};
+
+// Computes the shortest path. If several are as short, one of them. Throws HF_ERROR_CANCELLED or std::bad_alloc.
+SurfacePath shortest_path(const TriangleSides& sides, const GeodesicPoint& from, const GeodesicPoint& to,
+                          Memory& memory);
+
+}  // namespace hf_inner
