@@ -10,7 +10,7 @@ namespace hf_inner {
 namespace {
 
 // A pseudo-source is found where a corner lies within this share of the path from the place that unfolding gives.
-// Rounding grows with the number of triangles: 10,000 of them add about 1e-12.
+// A smaller share loses paths to rounding, a larger one could take a wrong corner.
 constexpr double place_rounding = 1e-7;
 
 class PathTracer {
