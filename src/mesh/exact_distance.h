@@ -10,7 +10,7 @@
 //   - Behind a vertex, only directions at an angle of at least pi to both sides of the incoming path are of use.
 //
 // The result is exact up to rounding on every set of triangles: with borders, edges of three triangles and slivers.
-// Memory: 128 bytes a triangle for the sides, 48 for each call, and 56 for each window of the front.
+// Memory: 100 bytes a triangle for the tables of sides, 64 for each call, and 56 for each window of the front.
 #pragma once
 #include <cstdint>
 
