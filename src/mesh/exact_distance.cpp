@@ -24,8 +24,9 @@ constexpr double least_window = 1e-13;
 constexpr double saddle_rounding = 1e-11;
 // The wedge behind a pseudo-source is wider by this angle on both sides.
 constexpr double shadow_rounding = 1e-7;
-// Width of a step of the queue in mean edges. Smaller steps sort better, larger ones touch fewer lists.
-constexpr double queue_step = 0.25;
+// Width of a step of the queue in mean edges. Smaller steps make fewer windows, larger ones read nearer memory. On a
+// torus, a sphere and a plane of 100,000 vertices a quarter takes 9 to 36 % longer.
+constexpr double queue_step = 1;
 constexpr std::size_t queue_steps = 4096;
 constexpr double least_step = 1e-6;  // in box diagonals, for meshes without lengths
 // Reports of progress, each after this many vertices.
