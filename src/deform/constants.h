@@ -41,7 +41,7 @@ constexpr std::uint32_t default_iterations_smooth = 5, default_iterations_paper 
 constexpr std::uint32_t default_groups = 250;
 // A pose counts as converged when no group's rotation changes by more in an iteration (Frobenius norm). Solving it
 // again then does nothing.
-constexpr double settled_change = 1e-6;
+constexpr double settled_change = 1e-9;
 // At most this many iterations while the handles stay in place. More would unwind twists of many turns in smooth mode.
 // The paper mode needs hundreds to converge.
 constexpr std::uint32_t idle_limit_smooth = 100, idle_limit_paper = 2000;
@@ -64,6 +64,12 @@ constexpr double over_relaxation = 1.5;
 // Only rotation steps with a larger cosine of half their angle (turns below 90 degrees) are over-relaxed. Larger turns
 // go exactly to the fitted rotation.
 constexpr double over_relaxed_cosine = 0.7;
+// Steps that the acceleration of the rotations learns from (anderson.h).
+constexpr std::size_t anderson_steps = 10;
+// A residual that grows by this factor (squared) makes the acceleration forget its steps.
+constexpr double anderson_growth = 4;
+// Damps directions in which the steps hardly differ, beside 1.
+constexpr double anderson_damping = 1e-9;
 // When handles turn against each other by more than the first angle, the rotation of each vertex group must stay near
 // the blended turns. From the second angle on it stays within least_turn_limit (all in radians). Otherwise a twist of
 // 450 degrees falls back by a whole turn (tests/unit/deform/drag_test.cpp).

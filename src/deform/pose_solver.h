@@ -12,6 +12,7 @@
 // Cost per iteration: size^2 multiply-adds on four lanes, and one rotation per group. Allocates nothing and cannot
 // fail.
 #pragma once
+#include "deform/anderson.h"
 #include "deform/blend.h"
 #include "deform/strain.h"
 #include "deform/subspace.h"
@@ -32,7 +33,7 @@ struct SmoothSystem {
 struct SmoothState {
   static constexpr double no_turn_limit = 10;  // beyond pi, the largest angle there is
   explicit SmoothState(Memory& memory)
-      : rotation(&memory), anchor(&memory), stress(&memory), columns(&memory), rows(&memory), known(&memory) {}
+      : rotation(&memory), anchor(&memory), stress(&memory), columns(&memory), rows(&memory), known(&memory), iterate(&memory), residual(&memory), anderson(memory) {}
   SmoothState(const SmoothState& other, Memory& memory)
       : rotation(other.rotation, &memory),
         anchor(other.anchor, &memory),
@@ -40,6 +41,9 @@ struct SmoothState {
         columns(other.columns, &memory),
         rows(other.rows, &memory),
         known(other.known, &memory),
+        iterate(other.iterate, &memory),
+        residual(other.residual, &memory),
+        anderson(other.anderson, memory),
         turn_limit(other.turn_limit) {}
   // Makes room for a system. Groups of vertices that existed before keep their rotations, and no group has a stress.
   void fit(const SmoothSystem& system, const Groups& groups);
@@ -49,6 +53,8 @@ struct SmoothState {
   Vector<double> columns;             // by group: the rotation wanted for its edges, three columns of four numbers
   Vector<double> rows;                // 4 x 4 doubles per cluster, handles first: its transform, transposed and padded
   Vector<double> known;               // the handles' part of the right-hand side
+  Vector<double> iterate, residual;   // seven numbers per group in use: its rotation and its stress
+  Anderson anderson;
   double turn_limit = no_turn_limit;  // radians between a rotation and its anchor
 };
 
