@@ -37,7 +37,7 @@ void Anderson::keep_difference(Span<const double> z, Span<const double> f) noexc
   for (std::size_t k = 0; k < count_; ++k) gram_[place][k] = gram_[k][place] = product(to_f, df(k), size_);
 }
 
-void Anderson::step(double plain, Span<double> z, Span<const double> f) noexcept {
+void Anderson::step(Span<double> z, Span<const double> f) noexcept {
   const double residual = product(f.data(), f.data(), size_);
   if (open_ && residual > anderson_growth * last_residual_) forget();
   if (open_) keep_difference(z, f);
@@ -62,11 +62,11 @@ void Anderson::step(double plain, Span<double> z, Span<const double> f) noexcept
     gram(k, k) += anderson_damping;
   }
   if (count > 0) right = gram.ldlt().solve(right);
-  for (std::size_t i = 0; i < size_; ++i) z[i] += plain * f[i];
+  for (std::size_t i = 0; i < size_; ++i) z[i] += f[i];
   for (std::size_t k = 0; k < count_; ++k) {
     const double share = right(static_cast<hf_eigen::Index>(k)) * scale(static_cast<hf_eigen::Index>(k));
     const double *from_z = dz(k), *from_f = df(k);
-    for (std::size_t i = 0; i < size_; ++i) z[i] -= share * (from_z[i] + plain * from_f[i]);
+    for (std::size_t i = 0; i < size_; ++i) z[i] -= share * (from_z[i] + from_f[i]);
   }
 }
 

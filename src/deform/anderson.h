@@ -2,8 +2,8 @@
 //
 // The iteration z <- z + f(z) turns slowly what no handle holds, such as a free arm. The last steps tell how the
 // residual f answers to a change of z. With the columns dZ and dF of their differences,
-//     theta = argmin |f - dF theta|,   z <- z + b f - (dZ + b dF) theta.
-// b is the length of a plain step. Steps of earlier frames count too, so a drag learns its slow motions as it goes.
+//     theta = argmin |f - dF theta|,   z <- z + f - (dZ + dF) theta.
+// Steps of earlier frames count too, so a drag learns its slow motions as it goes.
 //
 // Only fit() allocates and can fail.
 #pragma once
@@ -32,8 +32,8 @@ class Anderson {
   void forget() noexcept { count_ = next_ = 0, open_ = false; }
   // The map changes: what the iterate does until the next step tells nothing. Steps before count on.
   void break_off() noexcept { open_ = false; }
-  // Replaces the iterate z by the next one; f: its residual; plain: b. Both have the size of fit().
-  void step(double plain, Span<double> z, Span<const double> f) noexcept;
+  // Replaces the iterate z by the next one; f: its residual. Both have the size of fit().
+  void step(Span<double> z, Span<const double> f) noexcept;
 
  private:
   double* dz(std::size_t k) noexcept { return store_.data() + 2 * k * size_; }
@@ -44,9 +44,9 @@ class Anderson {
 
   Vector<double> store_;  // dz and df of every kept step, then the last iterate and its residual
   std::array<std::array<double, anderson_steps>, anderson_steps> gram_{};  // dF' dF
-  std::size_t size_ = 0, count_ = 0, next_ = 0;  // kept steps; where the next one goes
-  double last_residual_ = 0;                     // squared
-  bool open_ = false;                            // the last iterate and its residual belong to the present map
+  std::size_t size_ = 0, count_ = 0, next_ = 0;                            // kept steps; where the next one goes
+  double last_residual_ = 0;                                               // squared
+  bool open_ = false;  // the last iterate and its residual belong to the present map
 };
 
 }  // namespace hf_inner

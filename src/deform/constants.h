@@ -58,12 +58,6 @@ constexpr double rigid_tolerance = 1e-4;
 
 // ---- pose_solver.cpp ----
 
-// Length of a group's rotation step, relative to the step to its fitted rotation (over-relaxation). 1 takes exactly
-// that step. 1.25 and 1.75 change elastic energies by at most 0.2 %.
-constexpr double over_relaxation = 1.5;
-// Only rotation steps with a larger cosine of half their angle (turns below 90 degrees) are over-relaxed. Larger turns
-// go exactly to the fitted rotation.
-constexpr double over_relaxed_cosine = 0.7;
 // Steps that the acceleration of the rotations learns from (anderson.h).
 constexpr std::size_t anderson_steps = 10;
 // A residual that grows by this factor (squared) makes the acceleration forget its steps.

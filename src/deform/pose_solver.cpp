@@ -218,8 +218,9 @@ void take_group(const SmoothSystem& system, std::size_t g, SmoothState& state) n
   state.stress[g] = {z[4], z[5] / std::sqrt(2.0), z[6]};
 }
 
-// Fits the rotations of all vertex groups (the local step). Returns the largest change.
-double fit_rotations(const SmoothSystem& system, bool relax, SmoothState& state) noexcept {
+// Fits the rotations and stresses of all vertex groups (the local step), and takes the next iterate. Returns the
+// largest distance to a fit.
+double fit_rotations(const SmoothSystem& system, SmoothState& state) noexcept {
   const Subspace& s = system.subspace;
   constexpr std::size_t lanes = RotationBatch::lanes;
   RotationBatch batch;
@@ -240,8 +241,7 @@ double fit_rotations(const SmoothSystem& system, bool relax, SmoothState& state)
       largest = std::max(largest, note_group(system, g, batch.rotation(l), wanted, state));
     }
   }
-  (void)relax;
-  state.anderson.step(1.0, state.iterate, state.residual);
+  state.anderson.step(state.iterate, state.residual);
   for (std::size_t g = 0; g < s.group.size(); ++g) take_group(system, g, state), set_target(system, g, state);
   return largest;
 }
@@ -320,10 +320,10 @@ SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, dou
   set_handle_rows(system, transforms, state);
   set_known(system, state);
   while (report.iterations < iterations) {
-    const bool last = ++report.iterations == iterations;
+    ++report.iterations;
     set_right_hand_side(system, state);
     s.factor.solve(state.rows.data() + 16 * static_cast<std::size_t>(system.handle_count));
-    report.last_change = fit_rotations(system, !last, state);
+    report.last_change = fit_rotations(system, state);
     if (report.last_change < tolerance) break;
   }
   read_transforms(system, state, transforms);
