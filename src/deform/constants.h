@@ -40,7 +40,7 @@ constexpr std::uint32_t default_iterations_smooth = 5, default_iterations_paper 
 // by 3 and 5 %.
 constexpr std::uint32_t default_groups = 250;
 // A pose counts as converged when no group's rotation changes by more in an iteration (Frobenius norm). Solving it
-// again then does nothing.
+// again then does nothing. At 1e-6, poses at rest stay 2e-5 of the box away from it.
 constexpr double settled_change = 1e-9;
 // At most this many iterations while the handles stay in place. More would unwind twists of many turns in smooth mode.
 // The paper mode needs hundreds to converge.
@@ -58,11 +58,13 @@ constexpr double rigid_tolerance = 1e-4;
 
 // ---- pose_solver.cpp ----
 
-// Steps that the acceleration of the rotations learns from (anderson.h).
+// Steps that the acceleration of rotations learns from (anderson.h). Dragged out and back, 18 poses are off rest by
+// 2.0e-4 of the box (geometric mean of the largest distances). With 6 steps: 3.8e-4. With 16: 2.2e-4, and slower.
 constexpr std::size_t anderson_steps = 10;
-// A residual that grows by this factor (squared) makes the acceleration forget its steps.
+// A residual whose square grows by this factor makes the acceleration forget its steps. With 100 the mean is 2.1e-4,
+// but the worst pose is 3.1e-2 off instead of 1.6e-2.
 constexpr double anderson_growth = 4;
-// Damps directions in which the steps hardly differ, beside 1.
+// Damps directions in which the steps hardly differ, beside 1. With 1e-12 the mean is 2.5e-4, with 1e-6 2.6e-4.
 constexpr double anderson_damping = 1e-9;
 // When handles turn against each other by more than the first angle, the rotation of each vertex group must stay near
 // the blended turns. From the second angle on it stays within least_turn_limit (all in radians). Otherwise a twist of
