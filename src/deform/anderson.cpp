@@ -23,7 +23,7 @@ double product(const double* a, const double* b, std::size_t size) noexcept {
 }  // namespace
 
 void Anderson::fit(std::size_t size) {
-  store_.assign((2 * anderson_steps + 2) * size, 0.0);
+  store_.assign((2 * anderson_steps + 3) * size, 0.0);
   size_ = size;
   forget();
 }
@@ -37,7 +37,7 @@ void Anderson::keep_difference(Span<const double> z, Span<const double> f) noexc
   for (std::size_t k = 0; k < count_; ++k) gram_[place][k] = gram_[k][place] = product(to_f, df(k), size_);
 }
 
-void Anderson::step(Span<double> z, Span<const double> f) noexcept {
+void Anderson::step(Span<double> z, Span<const double> f, std::size_t block, double longest) noexcept {
   const double residual = product(f.data(), f.data(), size_);
   if (open_ && residual > anderson_growth * last_residual_) forget();
   if (open_) keep_difference(z, f);
@@ -62,12 +62,17 @@ void Anderson::step(Span<double> z, Span<const double> f) noexcept {
     gram(k, k) += anderson_damping;
   }
   if (count > 0) right = gram.ldlt().solve(right);
-  for (std::size_t i = 0; i < size_; ++i) z[i] += f[i];
+  double* const extra = leap();
+  std::fill(extra, extra + size_, 0.0);
   for (std::size_t k = 0; k < count_; ++k) {
     const double share = right(static_cast<hf_eigen::Index>(k)) * scale(static_cast<hf_eigen::Index>(k));
     const double *from_z = dz(k), *from_f = df(k);
-    for (std::size_t i = 0; i < size_; ++i) z[i] -= share * (from_z[i] + from_f[i]);
+    for (std::size_t i = 0; i < size_; ++i) extra[i] -= share * (from_z[i] + from_f[i]);
   }
+  double largest = 0;
+  for (std::size_t i = 0; i < size_; i += block) largest = std::max(largest, product(extra + i, extra + i, block));
+  const double kept = largest > longest * longest ? longest / std::sqrt(largest) : 1.0;
+  for (std::size_t i = 0; i < size_; ++i) z[i] += f[i] + kept * extra[i];
 }
 
 }  // namespace hf_inner

@@ -32,17 +32,19 @@ class Anderson {
   void forget() noexcept { count_ = next_ = 0, open_ = false; }
   // The map changes: what the iterate does until the next step tells nothing. Steps before count on.
   void break_off() noexcept { open_ = false; }
-  // Replaces the iterate z by the next one; f: its residual. Both have the size of fit().
-  void step(Span<double> z, Span<const double> f) noexcept;
+  // Replaces the iterate z by the next one. f: its residual. Both have the size of fit(), a multiple of `block`. What
+  // acceleration adds is shortened until no block of numbers changes by more than `longest`.
+  void step(Span<double> z, Span<const double> f, std::size_t block, double longest) noexcept;
 
  private:
   double* dz(std::size_t k) noexcept { return store_.data() + 2 * k * size_; }
   double* df(std::size_t k) noexcept { return dz(k) + size_; }
   double* last_z() noexcept { return store_.data() + 2 * anderson_steps * size_; }
   double* last_f() noexcept { return last_z() + size_; }
+  double* leap() noexcept { return last_f() + size_; }
   void keep_difference(Span<const double> z, Span<const double> f) noexcept;
 
-  Vector<double> store_;  // dz and df of every kept step, then the last iterate and its residual
+  Vector<double> store_;  // dz and df of every kept step, then the last iterate, its residual, and a leap
   std::array<std::array<double, anderson_steps>, anderson_steps> gram_{};  // dF' dF
   std::size_t size_ = 0, count_ = 0, next_ = 0;                            // kept steps; where the next one goes
   double last_residual_ = 0;                                               // squared

@@ -151,7 +151,7 @@ SolveReport solve_paper_pose(const PaperSystem& system, const Mesh& mesh, const 
       moved = std::max(moved, norm(fit.translation - old.translation));
       note_motion(old, fit, static_cast<std::size_t>(f), state);
     }
-    state.anderson.step(state.iterate, state.residual);
+    state.anderson.step(state.iterate, state.residual, 7, longest_leap);
     for (std::int32_t f = 0; f < system.free_count; ++f) {
       state.motion[f] = noted_motion(state, static_cast<std::size_t>(f));
       transforms[system.handle_count + f] = to_affine(state.motion[f]);

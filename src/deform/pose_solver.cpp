@@ -241,7 +241,7 @@ double fit_rotations(const SmoothSystem& system, SmoothState& state) noexcept {
       largest = std::max(largest, note_group(system, g, batch.rotation(l), wanted, state));
     }
   }
-  state.anderson.step(state.iterate, state.residual);
+  state.anderson.step(state.iterate, state.residual, 7, longest_leap);
   for (std::size_t g = 0; g < s.group.size(); ++g) take_group(system, g, state), set_target(system, g, state);
   return largest;
 }

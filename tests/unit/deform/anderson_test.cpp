@@ -36,7 +36,7 @@ TEST(Anderson, AFewSlowMotionsAreFoundInAFewSteps) {
   anderson.fit(z.size());
   for (int i = 0; i < 9; ++i) {
     const std::vector<double> f = map.residual(z), g = map.residual(plain);
-    anderson.step(z, f);
+    anderson.step(z, f, 1, 1e9);
     for (std::size_t k = 0; k < plain.size(); ++k) plain[k] += g[k];
   }
   EXPECT_LT(off(z), 1e-6);
@@ -54,7 +54,7 @@ TEST(Anderson, WithoutStepsItIsThePlainIteration) {
     std::vector<double> next = z;
     for (std::size_t k = 0; k < z.size(); ++k) next[k] += f[k];
     anderson.forget();
-    anderson.step(z, f);
+    anderson.step(z, f, 1, 1e9);
     EXPECT_EQ(z, next);
   }
 }
@@ -66,11 +66,30 @@ TEST(Anderson, StepsOfEarlierFramesCountOn) {
   Anderson anderson(memory);
   std::vector<double> z(9, 0.0);
   anderson.fit(z.size());
-  for (int i = 0; i < 5; ++i) anderson.step(z, map.residual(z));
+  for (int i = 0; i < 5; ++i) anderson.step(z, map.residual(z), 1, 1e9);
   for (double& x : z) x -= 0.5;  // as if the target had moved by 0.5
   anderson.break_off();
-  anderson.step(z, map.residual(z));
+  anderson.step(z, map.residual(z), 1, 1e9);
   EXPECT_LT(off(z), 1e-6);
+}
+
+// A leap is shortened as a whole: its direction stays, and no block goes farther than allowed.
+TEST(Anderson, LeapsAreShortened) {
+  const Map map{{0.999, 0.99}};
+  Memory memory;
+  Anderson free(memory), held(memory);
+  std::vector<double> z(4, 0.0), far = z;
+  free.fit(4), held.fit(4);
+  for (int i = 0; i < 2; ++i) {
+    const std::vector<double> f = map.residual(z);
+    free.step(z, f, 2, 1e9);
+    const std::vector<double> from = far, g = map.residual(far);
+    held.step(far, g, 2, 0.01);
+    for (std::size_t b = 0; b < 4; b += 2)
+      EXPECT_LE(std::hypot(far[b] - from[b] - g[b], far[b + 1] - from[b + 1] - g[b + 1]), 0.01 * (1 + 1e-12));
+  }
+  EXPECT_GT(z[1], 0.05);
+  EXPECT_LT(far[1], 0.05);
 }
 
 TEST(Anderson, AtTheFixedPointNothingMoves) {
@@ -79,7 +98,7 @@ TEST(Anderson, AtTheFixedPointNothingMoves) {
   std::vector<double> z(12, 1.0);
   anderson.fit(z.size());
   for (int i = 0; i < 30; ++i) {
-    anderson.step(z, std::vector<double>(12, 0.0));
+    anderson.step(z, std::vector<double>(12, 0.0), 1, 1e9);
     EXPECT_EQ(off(z), 0.0);
   }
 }
@@ -90,11 +109,11 @@ TEST(Anderson, ACopyGoesOnAsTheOriginal) {
   Anderson anderson(memory);
   std::vector<double> z(6, 0.0);
   anderson.fit(z.size());
-  for (int i = 0; i < 3; ++i) anderson.step(z, map.residual(z));
+  for (int i = 0; i < 3; ++i) anderson.step(z, map.residual(z), 1, 1e9);
   Anderson copy(anderson, memory);
   std::vector<double> same = z;
-  anderson.step(z, map.residual(z));
-  copy.step(same, map.residual(same));
+  anderson.step(z, map.residual(z), 1, 1e9);
+  copy.step(same, map.residual(same), 1, 1e9);
   EXPECT_EQ(z, same);
 }
 
