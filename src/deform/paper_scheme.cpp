@@ -57,6 +57,22 @@ RigidMotion match_shape(const PaperSystem& system, const Mesh& mesh, std::int32_
   return motion;
 }
 
+// Writes the motion of free cluster f as an iterate of seven numbers, and its distance to the fit as their residual.
+void note_motion(const RigidMotion& now, const RigidMotion& fit, std::size_t f, PaperState& state) noexcept {
+  double *z = state.iterate.data() + 7 * f, *r = state.residual.data() + 7 * f;
+  const double sign = fit.rotation.dot(now.rotation) < 0 ? -1.0 : 1.0;
+  for (int i = 0; i < 4; ++i)
+    z[i] = now.rotation.coeffs()[i], r[i] = sign * fit.rotation.coeffs()[i] - now.rotation.coeffs()[i];
+  const Vec3 t = now.translation, step = fit.translation - now.translation;
+  z[4] = t.x, z[5] = t.y, z[6] = t.z;
+  r[4] = step.x, r[5] = step.y, r[6] = step.z;
+}
+
+RigidMotion noted_motion(const PaperState& state, std::size_t f) noexcept {
+  const double* z = state.iterate.data() + 7 * f;
+  return {normalised(Quaternion({z[0], z[1], z[2]}, z[3])), {z[4], z[5], z[6]}};
+}
+
 }  // namespace
 
 Affine to_affine(const RigidMotion& motion) noexcept {
@@ -104,6 +120,8 @@ PaperSystem::PaperSystem(const Core& core, const ClusterWeights& weights, Memory
 void PaperState::fit(const PaperSystem& system) {
   motion.assign(system.free_count, RigidMotion());
   position.assign(system.sample.size(), Vec3());
+  const std::size_t size = 7 * static_cast<std::size_t>(system.free_count);
+  iterate.assign(size, 0.0), residual.assign(size, 0.0), anderson.fit(size);
 }
 
 void fit_motions(const PaperSystem& system, const Mesh& mesh, const Vec3* positions, PaperState& state) noexcept {
@@ -118,18 +136,25 @@ SolveReport solve_paper_pose(const PaperSystem& system, const Mesh& mesh, const 
   SolveReport report;
   for (std::int32_t f = 0; f < system.free_count; ++f) transforms[system.handle_count + f] = to_affine(state.motion[f]);
   if (system.free_count == 0) return report;
+  state.anderson.forget();
   while (report.iterations < iterations) {
     ++report.iterations, report.last_change = 0;
     for (std::size_t s = 0; s < system.sample.size(); ++s)
       state.position[s] = blend_vertex(mesh, weights, transforms, system.sample[s]);
     double moved = 0;
     for (std::int32_t f = 0; f < system.free_count; ++f) {
-      const RigidMotion old = state.motion[f];
-      state.motion[f] = match_shape(system, mesh, f, old.rotation, [&](std::int32_t s) { return state.position[s]; });
-      transforms[system.handle_count + f] = to_affine(state.motion[f]);
-      const double turned = 2.0 * std::sqrt(2.0) * sine(0.5 * angle_between(state.motion[f].rotation, old.rotation));
+      const RigidMotion& old = state.motion[f];
+      const RigidMotion fit =
+          match_shape(system, mesh, f, old.rotation, [&](std::int32_t s) { return state.position[s]; });
+      const double turned = 2.0 * std::sqrt(2.0) * sine(0.5 * angle_between(fit.rotation, old.rotation));
       report.last_change = std::max(report.last_change, turned);
-      moved = std::max(moved, norm(state.motion[f].translation - old.translation));
+      moved = std::max(moved, norm(fit.translation - old.translation));
+      note_motion(old, fit, static_cast<std::size_t>(f), state);
+    }
+    state.anderson.step(state.iterate, state.residual, 7, longest_leap);
+    for (std::int32_t f = 0; f < system.free_count; ++f) {
+      state.motion[f] = noted_motion(state, static_cast<std::size_t>(f));
+      transforms[system.handle_count + f] = to_affine(state.motion[f]);
     }
     if (std::max(report.last_change, moved) < tolerance) break;
   }

@@ -3,8 +3,8 @@
 // Every cluster moves rigidly. An iteration has two steps. First, sample vertices are placed by blending the transforms
 // of their clusters. Then every free cluster gets the rigid motion that fits its samples best (shape matching). All
 // clusters move at once, so motion travels through their overlaps by one band per iteration. That takes hundreds of
-// iterations; the smooth mode (pose_solver.h) needs a few. Cost: 40 samples per cluster and iteration. Allocates
-// nothing and cannot fail.
+// iterations, fewer with Anderson acceleration (anderson.h), which ends where they end; the smooth mode (pose_solver.h)
+// needs a few. Cost: 40 samples per cluster and iteration. Allocates nothing and cannot fail.
 #pragma once
 #include "deform/blend.h"
 #include "deform/pose_solver.h"
@@ -26,13 +26,22 @@ struct PaperSystem {
 };
 
 struct PaperState {
-  explicit PaperState(Memory& memory) : motion(&memory), position(&memory) {}
+  explicit PaperState(Memory& memory)
+      : motion(&memory), position(&memory), iterate(&memory), residual(&memory), anderson(memory) {}
   PaperState(const PaperState& other, Memory& memory)
-      : motion(other.motion, &memory), position(other.position, &memory) {}
+      : motion(other.motion, &memory),
+        position(other.position, &memory),
+        iterate(other.iterate, &memory),
+        residual(other.residual, &memory),
+        anderson(other.anderson, memory) {}
   // Makes room for a system, with all its clusters (overlapping bands of vertices) at rest.
   void fit(const PaperSystem& system);
   Vector<RigidMotion> motion;  // by free cluster, in the unit of the scaled mesh
   Vector<Vec3> position;       // per sample
+  // Seven numbers per free cluster, its motion, and how far they are from their fit; and the acceleration that uses
+  // them.
+  Vector<double> iterate, residual;
+  Anderson anderson;
 };
 
 // Turns a rigid motion x = R p + t into the 3 x 4 matrix that the blend uses.

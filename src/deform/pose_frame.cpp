@@ -254,6 +254,7 @@ DeformReport Pose::deform_from(const Pose& start, Span<const Vec3> turns, const 
   if (layout_->smooth) {
     std::copy(start.start_.rotation.begin(), start.start_.rotation.end(), state.smooth.rotation.begin());
     std::fill(state.smooth.stress.begin(), state.smooth.stress.end(), Stress());
+    state.smooth.anderson.forget();
     predict_rotations(*layout_->smooth, turns, state.smooth);
     state.smooth.turn_limit = SmoothState::no_turn_limit;  // the start is close enough
     report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());

@@ -184,22 +184,43 @@ Quaternion within_turn_limit(const Quaternion& q, const Quaternion& anchor, doub
   return normalised(exponential((turn_limit / angle) * logarithm(q * anchor.conjugate())) * anchor);
 }
 
-// Moves the rotation of vertex group g to `fit`, or beyond it if `relax`. Returns the change.
-double turn_group(const SmoothSystem& system, std::size_t g, Quaternion fit, bool relax, SmoothState& state) noexcept {
-  Quaternion& q = state.rotation[system.subspace.group[g]];
-  double cosine = fit.dot(q);
-  if (cosine < 0) fit.coeffs() *= -1, cosine = -cosine;
-  // The Frobenius norm of the change is |R - R'|_F = 2 sqrt(2) sin(angle / 2).
-  const double square = (fit.coeffs() - q.coeffs()).squaredNorm();
-  const double change = 2.0 * std::sqrt(2.0 * square * (1.0 - 0.25 * square));
-  const double on = relax && cosine > over_relaxed_cosine ? over_relaxation : 1.0, back = 1.0 - on;
-  q = normalised(Quaternion(on * fit.coeffs() + back * q.coeffs()));
-  if (state.turn_limit < pi) q = within_turn_limit(q, state.anchor[g], state.turn_limit);
-  return change;
+// The weight of a quaternion's change: |R - R'|_F = 2 sqrt(2) sin(angle / 2), so that rotation and stress compare.
+const double quaternion_weight = 2.0 * std::sqrt(2.0);
+
+// Writes where group g is, and how far its fit is from there. Returns the change (Frobenius norm).
+double note_group(const SmoothSystem& system, std::size_t g, Quaternion fit, const Stress& wanted,
+                  SmoothState& state) noexcept {
+  const Quaternion& q = state.rotation[system.subspace.group[g]];
+  if (fit.dot(q) < 0) fit.coeffs() *= -1;
+  double *z = state.iterate.data() + 7 * g, *f = state.residual.data() + 7 * g;
+  double square = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double change = fit.coeffs()[i] - q.coeffs()[i];
+    z[i] = quaternion_weight * q.coeffs()[i], f[i] = quaternion_weight * change, square += change * change;
+  }
+  const Stress& stress = state.stress[g];
+  const double share = strain_limits[system.sheet[g].limits].follow;
+  z[4] = stress.along, z[5] = std::sqrt(2.0) * stress.across, z[6] = stress.beside;
+  f[4] = share * (wanted.along - stress.along), f[5] = std::sqrt(2.0) * share * (wanted.across - stress.across),
+  f[6] = share * (wanted.beside - stress.beside);
+  return std::max(2.0 * std::sqrt(2.0 * square * (1.0 - 0.25 * square)),
+                  std::sqrt(f[4] * f[4] + f[5] * f[5] + f[6] * f[6]));
 }
 
-// Fits the rotations of all vertex groups (the local step). Returns the largest change.
-double fit_rotations(const SmoothSystem& system, bool relax, SmoothState& state) noexcept {
+// Takes the rotation and the stress of group g from the iterate.
+void take_group(const SmoothSystem& system, std::size_t g, SmoothState& state) noexcept {
+  const double* z = state.iterate.data() + 7 * g;
+  Quaternion& q = state.rotation[system.subspace.group[g]];
+  Quaternion next = normalised(Quaternion(hf_eigen::Vector4d(z[0], z[1], z[2], z[3])));
+  if (state.turn_limit < pi) next = within_turn_limit(next, state.anchor[g], state.turn_limit);
+  if (next.dot(q) < 0) next.coeffs() *= -1;
+  q = next;
+  state.stress[g] = {z[4], z[5] / std::sqrt(2.0), z[6]};
+}
+
+// Fits the rotations and stresses of all vertex groups (the local step), and takes the next iterate. Returns the
+// largest distance to a fit.
+double fit_rotations(const SmoothSystem& system, SmoothState& state) noexcept {
   const Subspace& s = system.subspace;
   constexpr std::size_t lanes = RotationBatch::lanes;
   RotationBatch batch;
@@ -217,11 +238,11 @@ double fit_rotations(const SmoothSystem& system, bool relax, SmoothState& state)
     for (int l = 0; l < count; ++l) {
       const std::size_t g = first + static_cast<std::size_t>(l);
       const Stress wanted = stress_of(system.sheet[g], sum[l], batch.rotation(l).toRotationMatrix());
-      largest = std::max(largest, follow(system.sheet[g], wanted, state.stress[g]));
-      largest = std::max(largest, turn_group(system, g, batch.rotation(l), relax, state));
-      set_target(system, g, state);
+      largest = std::max(largest, note_group(system, g, batch.rotation(l), wanted, state));
     }
   }
+  state.anderson.step(state.iterate, state.residual, 7, longest_leap);
+  for (std::size_t g = 0; g < s.group.size(); ++g) take_group(system, g, state), set_target(system, g, state);
   return largest;
 }
 
@@ -248,6 +269,9 @@ void SmoothState::fit(const SmoothSystem& system, const Groups& groups) {
   anchor.assign(system.subspace.group.size(), Quaternion());
   turn_limit = no_turn_limit;
   stress.assign(system.subspace.group.size(), Stress());
+  iterate.assign(7 * system.subspace.group.size(), 0.0);
+  residual.assign(7 * system.subspace.group.size(), 0.0);
+  anderson.fit(7 * system.subspace.group.size());
   columns.assign(12 * system.subspace.group.size(), 0.0);
   rows.assign(16 * static_cast<std::size_t>(system.handle_count + system.free_count), 0.0);
   known.assign(16 * static_cast<std::size_t>(system.free_count), 0.0);
@@ -256,6 +280,7 @@ void SmoothState::fit(const SmoothSystem& system, const Groups& groups) {
 void start_rotations(const SmoothSystem& system, const Groups& groups, std::int32_t component, Span<const Vec3> turns,
                      SmoothState& state) noexcept {
   const Subspace& s = system.subspace;
+  state.anderson.forget();
   for (std::size_t g = 0; g < s.group.size(); ++g) {
     if (component >= 0 && groups.component[s.group[g]] != component) continue;
     const Vec3 turn = blended_turn(system, g, turns);
@@ -291,13 +316,14 @@ SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, dou
   if (system.free_count == 0) return report;
   const Subspace& s = system.subspace;
   for (std::size_t g = 0; g < s.group.size(); ++g) set_target(system, g, state);
+  state.anderson.break_off();
   set_handle_rows(system, transforms, state);
   set_known(system, state);
   while (report.iterations < iterations) {
-    const bool last = ++report.iterations == iterations;
+    ++report.iterations;
     set_right_hand_side(system, state);
     s.factor.solve(state.rows.data() + 16 * static_cast<std::size_t>(system.handle_count));
-    report.last_change = fit_rotations(system, !last, state);
+    report.last_change = fit_rotations(system, state);
     if (report.last_change < tolerance) break;
   }
   read_transforms(system, state, transforms);

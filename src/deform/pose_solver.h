@@ -3,15 +3,16 @@
 // R_g is the rotation of group g, seed_g its seed vertex, and phi_i the field of handle i. Predict: R_g <- exp(sum_i
 // phi_i(seed_g) dw_i) R_g, where dw_i is the turn of handle i since the last solve. Turns add up, so 450 degrees stay
 // 450. Start: R_g = exp(sum_i phi_i(seed_g) w_i), where w_i is the accumulated turn of handle i. Global step: a
-// prefactored dense system gives the transforms of the free clusters. Local step: R_g = argmax tr(R' S_g), over-relaxed
-// except in the last iteration. If a group is strained beyond its limits (strain.h), it gets a stress, and the next
-// global step aims at that stress too. Turn limit: if handles are turned far against each other, a pose can fall back
-// by a whole turn. So R_g must stay within an angle of the start rotation. This angle shrinks as the turn grows
-// (constants.h).
+// prefactored dense system gives the transforms of the free clusters. Local step: R_g = argmax tr(R' S_g). Rotations
+// and stresses together are accelerated (anderson.h), because a limb that no handle holds turns slowly otherwise. If a
+// group is strained beyond its limits (strain.h), it gets a stress, and the next global step aims at that stress too.
+// Turn limit: if handles are turned far against each other, a pose can fall back by a whole turn. So R_g must stay
+// within an angle of the start rotation. This angle shrinks as the turn grows (constants.h).
 //
 // Cost per iteration: size^2 multiply-adds on four lanes, and one rotation per group. Allocates nothing and cannot
 // fail.
 #pragma once
+#include "deform/anderson.h"
 #include "deform/blend.h"
 #include "deform/strain.h"
 #include "deform/subspace.h"
@@ -32,7 +33,15 @@ struct SmoothSystem {
 struct SmoothState {
   static constexpr double no_turn_limit = 10;  // beyond pi, the largest angle there is
   explicit SmoothState(Memory& memory)
-      : rotation(&memory), anchor(&memory), stress(&memory), columns(&memory), rows(&memory), known(&memory) {}
+      : rotation(&memory),
+        anchor(&memory),
+        stress(&memory),
+        columns(&memory),
+        rows(&memory),
+        known(&memory),
+        iterate(&memory),
+        residual(&memory),
+        anderson(memory) {}
   SmoothState(const SmoothState& other, Memory& memory)
       : rotation(other.rotation, &memory),
         anchor(other.anchor, &memory),
@@ -40,15 +49,20 @@ struct SmoothState {
         columns(other.columns, &memory),
         rows(other.rows, &memory),
         known(other.known, &memory),
+        iterate(other.iterate, &memory),
+        residual(other.residual, &memory),
+        anderson(other.anderson, memory),
         turn_limit(other.turn_limit) {}
   // Makes room for a system. Groups of vertices that existed before keep their rotations, and no group has a stress.
   void fit(const SmoothSystem& system, const Groups& groups);
-  Vector<Quaternion> rotation;        // per group of vertices (groups.h)
-  Vector<Quaternion> anchor;          // centre of a group's allowed rotations, while turn_limit < pi
-  Vector<Stress> stress;              // per group of vertices that can bend
-  Vector<double> columns;             // by group: the rotation wanted for its edges, three columns of four numbers
-  Vector<double> rows;                // 4 x 4 doubles per cluster, handles first: its transform, transposed and padded
-  Vector<double> known;               // the handles' part of the right-hand side
+  Vector<Quaternion> rotation;       // per group of vertices (groups.h)
+  Vector<Quaternion> anchor;         // centre of a group's allowed rotations, while turn_limit < pi
+  Vector<Stress> stress;             // per group of vertices that can bend
+  Vector<double> columns;            // by group: the rotation wanted for its edges, three columns of four numbers
+  Vector<double> rows;               // 4 x 4 doubles per cluster, handles first: its transform, transposed and padded
+  Vector<double> known;              // the handles' part of the right-hand side
+  Vector<double> iterate, residual;  // seven numbers per group in use: its rotation and its stress
+  Anderson anderson;
   double turn_limit = no_turn_limit;  // radians between a rotation and its anchor
 };
 
