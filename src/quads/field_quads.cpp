@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/timer.h"
 #include "quads/numbers.h"
+#include "remesh/coarsen.h"
 #include "remesh/fit.h"
 #include "remesh/relax.h"
 
 namespace hf_inner {
 namespace {
 
-// Radius in edge lengths over which crosses are evened out.
+// Radius over which crosses are evened out, in edge lengths of the quads, or of the surface where those are longer.
 constexpr double smooth_radius = 4;
 // Radius in edge lengths over which the curvature is evened out, and the limits of its rounds.
 constexpr double curvature_radius = 1;
@@ -21,9 +21,11 @@ constexpr std::int32_t least_passes = 2, most_passes = 20;
 // the vertex is free.
 constexpr double agreement = 0.5;
 constexpr double degrees = half_turn / 180;
-// Edge lengths that are tried until a mesh is valid: each is this share of the one before.
-constexpr double shorter = 0.9;
-constexpr std::int32_t most_tries = 8;
+// Where pieces between the lines are no discs, the next edge length is this share of the one before: smaller takes less
+// tries, larger leaves less quads to remove.
+constexpr double shorter = 0.7;
+// At most this many shorter edges are tried. Then triangles are split into quads.
+constexpr std::int32_t most_tries = 4;
 // A number of faces this near to the wanted one is good; tries to come nearer.
 constexpr double faces_error = 0.02;
 constexpr std::int32_t count_tries = 4;
@@ -63,6 +65,88 @@ double area_of(const FluxSurface& surface) {
   return sum;
 }
 
+// Makes quads of a map at any edge length. Components whose quads have another Euler characteristic there get those of
+// shorter edges, and at last quads of their triangles.
+class QuadSource {
+ public:
+  QuadSource(const FluxSurface& surface, GridMapper& mapper, const Table<std::uint8_t>& features,
+             FieldQuadReport& report, Memory& memory)
+      : surface_(surface),
+        mapper_(mapper),
+        features_(features),
+        report_(report),
+        memory_(memory),
+        substitute_(memory),
+        of_substitute_(surface.component_count, 0, memory) {}
+
+  // raw: how many crossings have a quad. Returns valid quads.
+  QuadComplex make(double length, std::int32_t& raw) {
+    const GridMap map = mapper_.make(length);
+    report_.turned_over = map.turned_over, report_.roundings = map.roundings;
+    report_.backward = 0, report_.substitutes = 0, ++report_.tries;
+    QuadComplex found = extract_quads(surface_, map, features_, report_.backward, memory_);
+    raw = found.quad_count();
+    RepairReport repaired;
+    repair_quads(surface_, found, repaired, memory_);
+    report_.removed = repaired.removed, report_.added = repaired.added;
+    const Table<std::int32_t> component = components_of(surface_, found, memory_);
+    const Table<std::uint8_t> sound = find_sound(surface_, found, component, memory_);
+    Table<std::uint8_t> missing(sound.size(), 0, memory_);
+    bool any = false;
+    for (std::int32_t c = 0; c < sound.size(); ++c) {
+      report_.substitutes += !sound[c];
+      missing[c] = !sound[c] && !of_substitute_[c], any |= missing[c] != 0;
+    }
+    if (any) substitute(length, missing);
+    if (report_.substitutes > 0) {
+      QuadComplex all(memory_);
+      Table<std::uint8_t> take(memory_);
+      for (const std::int32_t c : component) take.push_back(sound[c]);
+      all.append(found, take, memory_);
+      take.clear();
+      for (const std::int32_t c : components_of(surface_, substitute_, memory_)) take.push_back(!sound[c]);
+      all.append(substitute_, take, memory_);
+      found = std::move(all);
+    }
+    return found;
+  }
+
+ private:
+  void substitute(double length, Table<std::uint8_t>& missing) {
+    for (std::int32_t i = 0; i < most_tries; ++i) {
+      length *= shorter, ++report_.tries;
+      std::int32_t backward = 0;
+      QuadComplex found = extract_quads(surface_, mapper_.make(length), features_, backward, memory_);
+      RepairReport repaired;
+      repair_quads(surface_, found, repaired, memory_);
+      const Table<std::int32_t> component = components_of(surface_, found, memory_);
+      const Table<std::uint8_t> sound = find_sound(surface_, found, component, memory_);
+      Table<std::uint8_t> take(memory_);
+      for (const std::int32_t c : component) take.push_back(missing[c] && sound[c]);
+      substitute_.append(found, take, memory_);
+      bool open = false;
+      for (std::int32_t c = 0; c < missing.size(); ++c) {
+        of_substitute_[c] |= missing[c] && sound[c];
+        missing[c] = missing[c] && !sound[c], open |= missing[c] != 0;
+      }
+      if (!open) return;
+    }
+    const QuadComplex split = split_triangles(surface_, features_, missing, memory_);
+    substitute_.append(split, Table<std::uint8_t>(split.quad_count(), 1, memory_), memory_);
+    for (std::int32_t c = 0; c < missing.size(); ++c) {
+      of_substitute_[c] |= missing[c], report_.split += missing[c];
+    }
+  }
+
+  const FluxSurface& surface_;
+  GridMapper& mapper_;
+  const Table<std::uint8_t>& features_;
+  FieldQuadReport& report_;
+  Memory& memory_;
+  QuadComplex substitute_;
+  Table<std::uint8_t> of_substitute_;  // by component: whether substitute_ has it
+};
+
 }  // namespace
 
 QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* out_report) {
@@ -85,7 +169,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
       core, system.connection,
       static_cast<Index>(std::min<double>(most_passes, std::max<double>(least_passes, rings * rings))));
   CrossOptions cross_options;
-  cross_options.radius = smooth_radius * edge_length;
+  cross_options.radius = smooth_radius * std::max(edge_length, mean);
   const Table<std::uint8_t> features =
       find_features(surface, options.crease > 0 ? options.crease * degrees : HUGE_VAL, memory);
   const Vector<Complex> crosses =
@@ -106,40 +190,32 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   Timer quads_timer;
   QuadResult result(memory);
   result.euler_characteristic = surface.euler_characteristic;
+  const double wanted = options.faces > 0 ? options.faces : area_of(surface) / (edge_length * edge_length);
+  QuadSource source(surface, mapper, features, made, memory);
+  QuadComplex quads(memory);
   double length = edge_length, best = -1;
-  std::optional<Error> refused;
-  for (std::int32_t round = 0, counted = 0; round < most_tries && counted < count_tries; ++round) {
-    ++made.tries;
-    try {
-      const GridMap map = mapper.make(length);
-      ExtractReport extracted;
-      QuadMesh mesh = extract_quads(surface, map, features, extracted, memory);
-      const std::int32_t raw = mesh.face_count();
-      extracted.doublets = remove_doublets(mesh, memory);
-      check_quads(mesh, surface.euler_characteristic, memory);
-      const double ratio = options.faces > 0 ? static_cast<double>(mesh.face_count()) / options.faces : 1;
-      const double error = std::fabs(ratio - 1);
-      if (best < 0 || error < best) {
-        best = error;
-        result.raw_faces = raw, result.raw_quads = raw;
-        result.mesh = std::move(mesh);
-        made.turned_over = map.turned_over, made.roundings = map.roundings, made.backward = extracted.backward;
-        made.doublets = extracted.doublets, made.edge_length = length;
-      }
-      if (error <= faces_error) break;
-      ++counted, length *= std::sqrt(ratio);
-    } catch (const Error& error) {
-      if (error.code() == HF_ERROR_CANCELLED) throw;
-      refused = error;
-      length *= shorter;
-    }
+  std::int32_t raw = 0;
+  for (std::int32_t round = 0; round < count_tries; ++round) {
+    std::int32_t crossings = 0;
+    QuadComplex found = source.make(length, crossings);
+    const double ratio = found.quad_count() / wanted, error = std::fabs(ratio - 1);
+    const bool better = best < 0 || error < best;
+    if (better) best = error, raw = crossings, quads = std::move(found), made.edge_length = length;
+    // A component that is shorter than the lines cannot come nearer.
+    if (options.faces == 0 || error <= faces_error || (made.substitutes > 0 && (!better || ratio > 1))) break;
+    length *= std::sqrt(ratio);
   }
-  if (best < 0) {
-    if (refused->code() != HF_ERROR_INTERNAL) throw Error(*refused);
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-         "no edge length from %g to %g box diagonals gives quads around every thin part (%s); ask for shorter edges",
-         length, edge_length, refused->what());
+  const bool limited = options.faces > 0 || made.substitutes > 0;
+  const std::int32_t most = static_cast<std::int32_t>((1 + faces_error) * wanted);
+  if (limited)
+    made.chords = collapse_chords(quads, most, static_cast<std::int32_t>((1 - faces_error) * wanted), memory);
+  result.mesh = quads.mesh(memory);
+  if (limited) {
+    if (made.substitutes > 0 || result.mesh.face_count() > most) made.edge_length = edge_length;
+    collapse_to_count(surface, result.mesh, most, edge_length, memory);
   }
+  result.raw_faces = raw, result.raw_quads = raw;
+  check_quads(result.mesh, surface.euler_characteristic, memory);
   made.quads_ms = quads_timer.milliseconds();
   hf_inner::report(0.6f);
 
