@@ -360,6 +360,39 @@ TEST(FieldQuads, thin_parts_keep_their_handles_at_any_number_of_faces) {
   }
 }
 
+TEST(FieldQuads, handles_thinner_than_an_edge_become_valid_meshes) {
+  const auto core = hf_test::make_core(hf_test::ladder(5, 0.16));
+  std::int32_t repaired = 0;
+  for (const std::int32_t wanted : {20, 60, 120}) {
+    FieldQuadOptions options;
+    options.core = core, options.faces = wanted;
+    FieldQuadReport report;
+    const QuadResult result = make_field_quads(options, &report);
+    expect_valid(*core, result.mesh, "ladder");
+    std::printf("ladder of genus 5: wanted %d, %d faces, substitutes %d, split %d, added %d, chords %d\n", wanted,
+                result.mesh.face_count(), report.substitutes, report.split, report.added, report.chords);
+    repaired += report.substitutes + report.added;
+  }
+  EXPECT_GT(repaired, 0);
+}
+
+TEST(FieldQuads, small_components_with_borders_become_valid_meshes) {
+  // A sphere, and sheets that are far smaller than the wanted edges.
+  const samples::ShapeMesh ball = samples::sphere(16);
+  hf_test::PlainMesh mesh{ball.positions, ball.triangles};
+  hf_test::append(mesh, hf_test::grid(2, 1, 0.01, 0), 3);
+  hf_test::PlainMesh ring = hf_test::torus(8, 6);
+  for (double& x : ring.positions) x *= 0.01;
+  hf_test::append(mesh, ring, 6);
+  const auto core = hf_test::make_core(mesh);
+  FieldQuadOptions options;
+  options.core = core, options.faces = 400;
+  FieldQuadReport report;
+  const QuadResult result = make_field_quads(options, &report);
+  expect_valid(*core, result.mesh, "components");
+  EXPECT_GT(report.substitutes, 0);
+}
+
 TEST(FieldQuads, stops_when_it_is_cancelled) {
   Progress progress;
   FieldQuadOptions options;
