@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/progress.h"
+
 namespace hf_inner {
 
 DefiniteSystem::DefiniteSystem(const SymmetricMatrix& matrix, std::shared_ptr<const Factor> factor, Memory& memory,
@@ -90,6 +92,33 @@ void DefiniteSystem::solve(double* x) const {
   const Span<const Index> position = system_->factor().position();
   for (std::size_t i = 0; i < plain_.size(); ++i) x[i] += z[at(position[i])];
   for (std::size_t s = 0; s < values_.size(); ++s) x[at(fixed_[s])] = values_[s];
+}
+
+Vector<double> DefiniteSystem::inverse_at(Span<const Index> unknowns) const {
+  const std::size_t n = unknowns.size();
+  Vector<Index> start(&memory_), group(n, &memory_), column(n, &memory_);
+  Vector<double> ones(n, 1.0, &memory_);
+  for (std::size_t i = 0; i <= n; ++i) start.push_back(static_cast<Index>(i));
+  Vector<std::shared_ptr<const PathGroup>> groups(&memory_);
+  factor_->solve_paths({start, unknowns, ones}, memory_, jobs_, groups, group, column);
+  constexpr Index side = PathGroup::capacity;
+  Vector<double> out(n * n, 0.0, &memory_), tile(at(side) * at(side), &memory_);
+  Vector<Index> member(groups.size() * at(side), -1, &memory_);
+  for (std::size_t i = 0; i < n; ++i) member[at(group[i]) * at(side) + at(column[i])] = static_cast<Index>(i);
+  for (std::size_t a = 0; a < groups.size(); ++a) {
+    poll();
+    for (std::size_t b = 0; b <= a; ++b) {
+      factor_->gram(*groups[a], *groups[b], tile.data(), side);
+      for (Index i = 0; i < groups[a]->count(); ++i) {
+        for (Index j = 0; j < groups[b]->count(); ++j) {
+          const Index row = member[a * at(side) + at(i)], other = member[b * at(side) + at(j)];
+          if (row < 0 || other < 0) continue;
+          out[at(row) * n + at(other)] = out[at(other) * n + at(row)] = tile[at(i) * at(side) + at(j)];
+        }
+      }
+    }
+  }
+  return out;
 }
 
 }  // namespace hf_inner

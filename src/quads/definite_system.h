@@ -27,6 +27,9 @@ class DefiniteSystem {
   void solve_at(Span<const Index> unknowns, double* out) const;
   void solve(double* x) const;
 
+  // Returns the rows and columns of K^-1 at the unknowns, one after the other, without given values.
+  Vector<double> inverse_at(Span<const Index> unknowns) const;
+
   ConstraintCounts counts() const noexcept { return system_->counts(); }
   Index fixed_count() const noexcept { return static_cast<Index>(values_.size()); }
 

@@ -13,30 +13,33 @@ namespace {
 
 class Extractor {
  public:
-  Extractor(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features, ExtractReport& report,
+  Extractor(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features, std::int32_t& backward,
             Memory& memory)
       : s_(surface),
         map_(map),
         features_(features),
-        report_(report),
+        backward_(backward),
         memory_(memory),
         half_(std::int64_t{1} << (map.bits - 1)),
         cells_(memory),
         parent_(memory),
+        piece_parent_(memory),
         line_start_(memory),
         lines_(memory),
         place_(memory),
         quality_(memory),
         on_border_(memory),
-        corners_(memory) {}
+        corners_(memory),
+        sides_(memory),
+        feature_(memory) {}
 
-  QuadMesh run() {
+  QuadComplex run() {
     order_lines();
     make_cells();
     join_cells();
     make_quads();
     place_vertices();
-    return number_vertices();
+    return join_quads();
   }
 
  private:
@@ -51,10 +54,19 @@ class Extractor {
     const Cells& c = cells_[t];
     return c.first + (i - c.u) * c.rows + (j - c.v);
   }
-  std::int32_t find(std::int32_t a) noexcept {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
+  // The piece of a line between cell (i, j) and the next one: (i + 1, j) for a u-line, (i, j + 1) for a v-line.
+  std::int32_t piece(std::int32_t t, std::int32_t i, std::int32_t j, int kind) const noexcept {
+    return 2 * number(t, i, j) + kind;
+  }
+  static std::int32_t root(Table<std::int32_t>& parent, std::int32_t a) noexcept {
+    while (parent[a] != a) a = parent[a] = parent[parent[a]];
     return a;
   }
+  static void unite(Table<std::int32_t>& parent, std::int32_t a, std::int32_t b) noexcept {
+    a = root(parent, a), b = root(parent, b);
+    if (a != b) parent[std::max(a, b)] = std::min(a, b);
+  }
+  std::int32_t find(std::int32_t a) noexcept { return root(parent_, a); }
   bool owns(std::int32_t h) const noexcept { return !s_.is_real(s_.twin[h]) || h < s_.twin[h]; }
 
   // Lists the lines that cross each edge, in order from the tail of the half-edge that owns it: 0 for a u-line, 1 for a
@@ -104,10 +116,13 @@ class Extractor {
       const auto [v0, v1] = bounds(map_.v);
       cells_[t] = {static_cast<std::int32_t>(total), u0, v0, u1 - u0 + 1, v1 - v0 + 1};
       total += std::int64_t{u1 - u0 + 1} * (v1 - v0 + 1);
-      if (total > INT32_MAX) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the quads are too many");
+      if (total > INT32_MAX / 2) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the quads are too many");
     }
     parent_.assign(static_cast<std::int32_t>(total), 0);
     for (std::int32_t c = 0; c < parent_.size(); ++c) parent_[c] = c;
+    piece_parent_.assign(2 * parent_.size(), 0);
+    for (std::int32_t p = 0; p < piece_parent_.size(); ++p) piece_parent_[p] = p;
+    feature_.assign(piece_parent_.size(), 0);
   }
 
   // Walks along half-edge h of its triangle and calls work(i, j, line, step) at every line: it leaves cell (i, j) and
@@ -142,28 +157,38 @@ class Extractor {
     return !((du == eu && dv == ev) || (du == -eu && dv == -ev));
   }
 
-  // Makes cells of neighbouring triangles one where they touch.
+  // Makes cells of neighbouring triangles one where they touch, and the pieces of lines that meet there.
   void join_cells() {
-    Table<std::int32_t> mine(memory_), other(memory_);
+    Table<std::int32_t> mine(memory_), other(memory_), my_pieces(memory_), other_pieces(memory_);
     Poller poller;
     for (std::int32_t h = 0; h < 3 * s_.real_triangles; ++h) {
       poller.due();
       const std::int32_t g = s_.twin[h];
-      if (!s_.is_real(g) || !owns(h)) continue;
-      const auto list = [&](std::int32_t half, Table<std::int32_t>& out) {
-        out.clear();
+      if (!owns(h)) continue;
+      const auto list = [&](std::int32_t half, Table<std::int32_t>& out, Table<std::int32_t>& pieces) {
+        out.clear(), pieces.clear();
         walk(
-            half, [&](std::int32_t i, std::int32_t j, int, std::int32_t) { out.push_back(number(half / 3, i, j)); },
+            half,
+            [&](std::int32_t i, std::int32_t j, int kind, std::int32_t step) {
+              out.push_back(number(half / 3, i, j));
+              const std::int32_t back = step < 0 ? 1 : 0;
+              pieces.push_back(piece(half / 3, kind == 0 ? i - back : i, kind == 0 ? j : j - back, kind));
+            },
             [&](std::int32_t i, std::int32_t j) {
               out.push_back(number(half / 3, i, j));
               if (i != cell_of(map_.u[FluxSurface::next(half)]) || j != cell_of(map_.v[FluxSurface::next(half)]))
                 fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "the two sides of a seam have different lines");
             });
       };
-      list(h, mine), list(g, other);
-      for (std::int32_t k = 0; k < mine.size(); ++k) {
-        const std::int32_t a = find(mine[k]), b = find(other[mine.size() - 1 - k]);
-        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+      list(h, mine, my_pieces);
+      if (s_.is_real(g)) {
+        list(g, other, other_pieces);
+        for (std::int32_t k = 0; k < mine.size(); ++k) unite(parent_, mine[k], other[mine.size() - 1 - k]);
+        for (std::int32_t k = 0; k < my_pieces.size(); ++k)
+          unite(piece_parent_, my_pieces[k], other_pieces[my_pieces.size() - 1 - k]);
+      }
+      if (features_[h]) {
+        for (const std::int32_t p : my_pieces) feature_[p] = 1;
       }
     }
   }
@@ -191,8 +216,14 @@ class Extractor {
         for (std::int32_t j = std::min(up[c], down[c]); j < std::max(up[c], down[c]); ++j) {
           const std::int32_t corner[4] = {number(t, i, j), number(t, i + 1, j), number(t, i + 1, j + 1),
                                           number(t, i, j + 1)};
-          for (int k = 0; k < 4; ++k) corners_.push_back(find(corner[backward ? 3 - k : k]));
-          report_.backward += backward;
+          // Side k runs from corner k to the next, and the other way round where the map is turned over.
+          const std::int32_t side[4] = {piece(t, i, j, 0), piece(t, i + 1, j, 1), piece(t, i, j + 1, 0),
+                                        piece(t, i, j, 1)};
+          for (int k = 0; k < 4; ++k) {
+            corners_.push_back(find(corner[backward ? 3 - k : k]));
+            sides_.push_back(side[backward ? (6 - k) % 4 : k]);
+          }
+          backward_ += backward;
         }
       }
     }
@@ -231,7 +262,7 @@ class Extractor {
         const bool border = !s_.is_real(s_.twin[h]);
         const std::int64_t du = u[(k + 1) % 3] - u[k], dv = v[(k + 1) % 3] - v[k];
         double from = 0;
-        const auto piece = [&](std::int32_t i, std::int32_t j, double to) {
+        const auto offer_piece = [&](std::int32_t i, std::int32_t j, double to) {
           SurfacePoint point;
           point.triangle = t;
           const double middle = (from + to) / 2;
@@ -246,9 +277,9 @@ class Extractor {
             [&](std::int32_t i, std::int32_t j, int kind, std::int32_t step) {
               const std::int64_t there =
                   kind == 0 ? line(step > 0 ? i : i - 1) - u[k] : line(step > 0 ? j : j - 1) - v[k];
-              piece(i, j, std::max(from, static_cast<double>(there) / static_cast<double>(kind == 0 ? du : dv)));
+              offer_piece(i, j, std::max(from, static_cast<double>(there) / static_cast<double>(kind == 0 ? du : dv)));
             },
-            [&](std::int32_t i, std::int32_t j) { piece(i, j, 1.0); });
+            [&](std::int32_t i, std::int32_t j) { offer_piece(i, j, 1.0); });
       }
     }
   }
@@ -258,19 +289,31 @@ class Extractor {
     quality_[cell] = quality, place_[cell] = point;
   }
 
-  QuadMesh number_vertices() {
-    QuadMesh mesh(memory_);
-    Table<std::int32_t> vertex(parent_.size(), none, memory_);
-    mesh.face_start.push_back(0);
-    for (const std::int32_t cell : corners_) {
-      if (vertex[cell] == none)
-        vertex[cell] =
-            mesh.add_vertex(place_[cell], position_of(s_, place_[cell]),
-                            quality_[cell] == at_feature_ ? QuadMesh::site : QuadMesh::free, on_border_[cell], 1);
-      mesh.corner.push_back(vertex[cell]);
-      if (mesh.corner.size() % 4 == 0) mesh.face_start.push_back(mesh.corner.size());
+  QuadComplex join_quads() {
+    QuadComplex out(memory_);
+    Table<std::int32_t> vertex(parent_.size(), none, memory_), first(piece_parent_.size(), none, memory_);
+    for (std::int32_t p = 0; p < feature_.size(); ++p) {
+      if (feature_[p]) feature_[root(piece_parent_, p)] = 1;
     }
-    return mesh;
+    out.twin.assign(corners_.size(), none), out.feature.assign(corners_.size(), 0);
+    for (std::int32_t h = 0; h < corners_.size(); ++h) {
+      const std::int32_t cell = corners_[h];
+      if (vertex[cell] == none)
+        vertex[cell] = out.vertices.add_vertex(place_[cell], position_of(s_, place_[cell]),
+                                               quality_[cell] == at_feature_ ? QuadMesh::site : QuadMesh::free,
+                                               on_border_[cell], 1);
+      out.tail.push_back(vertex[cell]);
+      const std::int32_t p = root(piece_parent_, sides_[h]);
+      out.feature[h] = feature_[p];
+      if (first[p] == none) {
+        first[p] = h;
+      } else {
+        if (out.twin[first[p]] != none) fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "an edge has three quads");
+        out.join(first[p], h);
+      }
+    }
+    out.split_fans(memory_);
+    return out;
   }
 
   // How good a place of a vertex is; the best is taken.
@@ -278,83 +321,23 @@ class Extractor {
   const FluxSurface& s_;
   const GridMap& map_;
   const Table<std::uint8_t>& features_;
-  ExtractReport& report_;
+  std::int32_t& backward_;
   Memory& memory_;
   const std::int64_t half_;
   Table<Cells> cells_;
-  Table<std::int32_t> parent_, line_start_;
+  Table<std::int32_t> parent_, piece_parent_, line_start_;  // by cell, by piece of a line, by half-edge
   Table<std::uint8_t> lines_;
   Table<SurfacePoint> place_;
   Table<std::uint8_t> quality_, on_border_;
-  Table<std::int32_t> corners_;  // cells, four by quad
+  Table<std::int32_t> corners_, sides_;  // cells and pieces of lines, four by quad
+  Table<std::uint8_t> feature_;          // by piece of a line: whether it crosses a feature edge
 };
 
 }  // namespace
 
-QuadMesh extract_quads(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features,
-                       ExtractReport& report, Memory& memory) {
-  return Extractor(surface, map, features, report, memory).run();
-}
-
-std::int32_t remove_doublets(QuadMesh& mesh, Memory& memory) {
-  Table<std::uint8_t> gone(mesh.face_count(), 0, memory);
-  std::int32_t removed = 0;
-  for (bool changed = true; changed;) {
-    changed = false;
-    poll();
-    Table<std::int32_t> valence(mesh.position.size(), 0, memory), face(mesh.position.size(), none, memory),
-        second(mesh.position.size(), none, memory);
-    for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
-      if (gone[f]) continue;
-      for (std::int32_t k = 0; k < 4; ++k) {
-        const std::int32_t v = mesh.corner[4 * f + k];
-        ++valence[v];
-        second[v] = face[v], face[v] = f;
-      }
-    }
-    Table<std::uint8_t> touched(mesh.face_count(), 0, memory);
-    const auto place = [&](std::int32_t f, std::int32_t v) {
-      std::int32_t k = 0;
-      while (k < 4 && mesh.corner[4 * f + k] != v) ++k;
-      return k;
-    };
-    for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
-      if (mesh.border[v]) continue;
-      if (valence[v] == 1 && !touched[face[v]]) {
-        const std::int32_t f = face[v], k = place(f, v);
-        // Both neighbours of v are one vertex: the quad is folded along it.
-        if (mesh.corner[4 * f + (k + 1) % 4] != mesh.corner[4 * f + (k + 3) % 4]) continue;
-        gone[f] = touched[f] = 1, ++removed, changed = true;
-      } else if (valence[v] == 2 && face[v] != second[v] && !touched[face[v]] && !touched[second[v]]) {
-        const std::int32_t f = face[v], g = second[v], k = place(f, v), j = place(g, v);
-        const std::int32_t far = mesh.corner[4 * g + (j + 2) % 4];
-        // The quads (v, p, q, r) and (v, r, s, p) become (s, p, q, r).
-        if (mesh.corner[4 * f + (k + 1) % 4] != mesh.corner[4 * g + (j + 3) % 4] ||
-            mesh.corner[4 * f + (k + 3) % 4] != mesh.corner[4 * g + (j + 1) % 4] ||
-            far == mesh.corner[4 * f + (k + 2) % 4])
-          continue;
-        mesh.corner[4 * f + k] = far;
-        gone[g] = touched[f] = touched[g] = 1, ++removed, changed = true;
-      }
-    }
-  }
-  if (removed == 0) return 0;
-  QuadMesh out(memory);
-  Table<std::int32_t> fresh(mesh.position.size(), none, memory);
-  out.face_start.push_back(0);
-  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
-    if (gone[f]) continue;
-    for (std::int32_t k = 0; k < 4; ++k) {
-      const std::int32_t v = mesh.corner[4 * f + k];
-      if (fresh[v] == none)
-        fresh[v] =
-            out.add_vertex(mesh.location[v], mesh.position[v], mesh.pinned[v], mesh.border[v] != 0, mesh.scale[v]);
-      out.corner.push_back(fresh[v]);
-    }
-    out.face_start.push_back(out.corner.size());
-  }
-  mesh = std::move(out);
-  return removed;
+QuadComplex extract_quads(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features,
+                          std::int32_t& backward, Memory& memory) {
+  return Extractor(surface, map, features, backward, memory).run();
 }
 
 }  // namespace hf_inner

@@ -13,22 +13,14 @@
 // else follows from these orders, so no rounding can make a wrong mesh.
 #pragma once
 #include "quads/grid_map.h"
-#include "remesh/quad_mesh.h"
+#include "quads/quad_complex.h"
 
 namespace hf_inner {
 
-struct ExtractReport {
-  std::int32_t backward = 0;  // crossings where the map is turned over
-  std::int32_t doublets = 0;  // vertices that remove_doublets took away
-};
-
 // Makes the quads. A vertex lies where the map has its whole numbers. Vertices on feature edges are pinned. features:
-// by half-edge.
-QuadMesh extract_quads(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features,
-                       ExtractReport& report, Memory& memory);
-
-// Joins the two quads at every inner vertex that has no others, and takes away quads folded at a vertex of one quad.
-// Removes unused vertices. Returns how many quads are gone.
-std::int32_t remove_doublets(QuadMesh& mesh, Memory& memory);
+// by half-edge. backward: the number of crossings where the map is turned over. Where a piece between the lines is no
+// disc, the Euler characteristic is not that of the surface.
+QuadComplex extract_quads(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features,
+                          std::int32_t& backward, Memory& memory);
 
 }  // namespace hf_inner

@@ -69,7 +69,7 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
     }
     Complex along = 0;
     for (int k = 0; k < 3; ++k) {
-      if (!features[3 * t + k]) continue;
+      if (!features[3 * t + k] || !surface.is_real(surface.twin[3 * t + k])) continue;
       Complex d = unit_of(out.edge[3 * t + k], 1);
       d *= d, d *= d;
       along += d;

@@ -19,8 +19,8 @@ Table<std::uint8_t> find_features(const FluxSurface& surface, double crease, Mem
 
 struct FaceCross {
   explicit FaceCross(Memory& memory) : edge(memory), direction(memory), turn(memory), index(memory) {}
-  // crosses: by inner vertex of the mesh, to the fourth degree, in the frames of the connection. Triangles with feature
-  // edges take the direction of these.
+  // crosses: by inner vertex of the mesh, to the fourth degree, in the frames of the connection. Triangles with creases
+  // take the direction of these; at borders the crosses of the vertices count, which are evened out.
   static FaceCross make(const FluxSurface& surface, const Connection& connection,
                         Span<const std::complex<double>> crosses, const Table<std::uint8_t>& features, Memory& memory);
 

@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/timer.h"
 #include "quads/numbers.h"
+#include "remesh/coarsen.h"
 #include "remesh/fit.h"
 #include "remesh/relax.h"
 
 namespace hf_inner {
 namespace {
 
-// Radius in edge lengths over which crosses are evened out.
+// Radius over which crosses are evened out, in edge lengths of the quads, or of the surface where those are longer.
 constexpr double smooth_radius = 4;
 // Radius in edge lengths over which the curvature is evened out, and the limits of its rounds.
 constexpr double curvature_radius = 1;
@@ -21,16 +21,23 @@ constexpr std::int32_t least_passes = 2, most_passes = 20;
 // the vertex is free.
 constexpr double agreement = 0.5;
 constexpr double degrees = half_turn / 180;
-// Edge lengths that are tried until a mesh is valid: each is this share of the one before.
-constexpr double shorter = 0.9;
-constexpr std::int32_t most_tries = 8;
+// Where pieces between the lines are no discs, the next edge length is this share of the one before: smaller takes less
+// tries, larger leaves less quads to remove.
+constexpr double shorter = 0.7;
+// At most this many shorter edges are tried. Then triangles are split into quads.
+constexpr std::int32_t most_tries = 4;
 // A number of faces this near to the wanted one is good; tries to come nearer.
 constexpr double faces_error = 0.02;
 constexpr std::int32_t count_tries = 4;
+// Fitting adds quads. A result within this share of the wanted number is good, else other numbers are aimed at. Each
+// takes as long as the first.
+constexpr double fitted_error = 0.045;
+constexpr std::int32_t fit_turns_of_count = 3;
 
-// Crosses at feature edges lie along them.
+// Crosses at feature edges lie along them. Along borders they are evened out over `passes` edges: the fourth degree
+// keeps right angles, and ragged borders get their mean direction.
 Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, const Connection& connection,
-                                  const Table<std::uint8_t>& features) {
+                                  const Table<std::uint8_t>& features, Index passes) {
   Memory& memory = *core.memory;
   Vector<Complex> sum(at(core.size()), Complex(0, 0), &memory);
   Vector<double> count(at(core.size()), 0.0, &memory);
@@ -45,6 +52,23 @@ Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, 
       z /= length_of(z), z *= z, z *= z;
       sum[at(v)] += z, count[at(v)] += 1;
     }
+  }
+  const Topology& topology = core.topology;
+  const auto is_border = [&](Index e) {
+    return topology.edge_triangle_start[at(e) + 1] - topology.edge_triangle_start[at(e)] == 1;
+  };
+  Vector<Complex> next(sum.begin(), sum.end(), &memory);
+  for (Index pass = 0; pass < passes; ++pass) {
+    for (Index v = 0; v < core.size(); ++v) {
+      if (count[at(v)] == 0) continue;
+      Complex total = sum[at(v)];
+      for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
+        const Index w = topology.neighbour[at(i)], e = topology.neighbour_edge[at(i)];
+        if (is_border(e)) total += 0.5 * sum[at(w)] * at_angle(1.0, 4 * connection.turn(topology, e, v));
+      }
+      next[at(v)] = 0.5 * total;
+    }
+    sum.swap(next);
   }
   for (Index v = 0; v < core.size(); ++v) {
     const double length = length_of(sum[at(v)]);
@@ -61,6 +85,112 @@ double area_of(const FluxSurface& surface) {
         0.5 * norm(cross(surface.position[surface.tail[3 * t + 1]] - a, surface.position[surface.tail[3 * t + 2]] - a));
   }
   return sum;
+}
+
+// Makes quads of a map at any edge length. Components whose quads have another Euler characteristic there get those of
+// shorter edges, and at last quads of their triangles.
+class QuadSource {
+ public:
+  QuadSource(const FluxSurface& surface, GridMapper& mapper, const Table<std::uint8_t>& features, Memory& memory)
+      : surface_(surface),
+        mapper_(mapper),
+        features_(features),
+        memory_(memory),
+        substitute_(memory),
+        of_substitute_(surface.component_count, 0, memory) {}
+
+  // raw: how many crossings have a quad. Returns valid quads.
+  QuadComplex make(double length, std::int32_t& raw, FieldQuadReport& report) {
+    const GridMap map = mapper_.make(length);
+    report.turned_over = map.turned_over, report.roundings = map.roundings;
+    report.backward = 0, report.substitutes = 0, ++report.tries;
+    QuadComplex found = extract_quads(surface_, map, features_, report.backward, memory_);
+    raw = found.quad_count();
+    RepairReport repaired;
+    repair_quads(surface_, found, repaired, memory_);
+    report.removed = repaired.removed, report.added = repaired.added;
+    const Table<std::int32_t> component = components_of(surface_, found, memory_);
+    const Table<std::uint8_t> sound = find_sound(surface_, found, component, memory_);
+    Table<std::uint8_t> missing(sound.size(), 0, memory_);
+    bool any = false;
+    for (std::int32_t c = 0; c < sound.size(); ++c) {
+      report.substitutes += !sound[c];
+      missing[c] = !sound[c] && !of_substitute_[c], any |= missing[c] != 0;
+    }
+    if (any) substitute(length, missing, report);
+    if (report.substitutes > 0) {
+      QuadComplex all(memory_);
+      Table<std::uint8_t> take(memory_);
+      for (const std::int32_t c : component) take.push_back(sound[c]);
+      all.append(found, take, memory_);
+      take.clear();
+      for (const std::int32_t c : components_of(surface_, substitute_, memory_)) take.push_back(!sound[c]);
+      all.append(substitute_, take, memory_);
+      found = std::move(all);
+    }
+    return found;
+  }
+
+ private:
+  void substitute(double length, Table<std::uint8_t>& missing, FieldQuadReport& report) {
+    for (std::int32_t i = 0; i < most_tries; ++i) {
+      length *= shorter, ++report.tries;
+      std::int32_t backward = 0;
+      QuadComplex found = extract_quads(surface_, mapper_.make(length), features_, backward, memory_);
+      RepairReport repaired;
+      repair_quads(surface_, found, repaired, memory_);
+      const Table<std::int32_t> component = components_of(surface_, found, memory_);
+      const Table<std::uint8_t> sound = find_sound(surface_, found, component, memory_);
+      Table<std::uint8_t> take(memory_);
+      for (const std::int32_t c : component) take.push_back(missing[c] && sound[c]);
+      substitute_.append(found, take, memory_);
+      bool open = false;
+      for (std::int32_t c = 0; c < missing.size(); ++c) {
+        of_substitute_[c] |= missing[c] && sound[c];
+        missing[c] = missing[c] && !sound[c], open |= missing[c] != 0;
+      }
+      if (!open) return;
+    }
+    const QuadComplex split = split_triangles(surface_, features_, missing, memory_);
+    substitute_.append(split, Table<std::uint8_t>(split.quad_count(), 1, memory_), memory_);
+    for (std::int32_t c = 0; c < missing.size(); ++c) {
+      of_substitute_[c] |= missing[c], report.split += missing[c];
+    }
+  }
+
+  const FluxSurface& surface_;
+  GridMapper& mapper_;
+  const Table<std::uint8_t>& features_;
+  Memory& memory_;
+  QuadComplex substitute_;
+  Table<std::uint8_t> of_substitute_;  // by component: whether substitute_ has it
+};
+
+// Makes a mesh of about `wanted` quads, or one of the given edge length. raw: how many crossings have a quad.
+QuadMesh make_count(const FluxSurface& surface, QuadSource& source, double wanted, double edge_length, bool by_count,
+                    FieldQuadReport& made, std::int32_t& raw, Memory& memory) {
+  QuadComplex quads(memory);
+  double length = edge_length, best = -1;
+  for (std::int32_t round = 0; round < count_tries; ++round) {
+    std::int32_t crossings = 0;
+    QuadComplex found = source.make(length, crossings, made);
+    const double ratio = found.quad_count() / wanted, error = std::fabs(ratio - 1);
+    const bool better = best < 0 || error < best;
+    if (better) best = error, raw = crossings, quads = std::move(found), made.edge_length = length;
+    // A component that is shorter than the lines cannot come nearer.
+    if (!by_count || error <= faces_error || (made.substitutes > 0 && (!better || ratio > 1))) break;
+    length *= std::sqrt(ratio);
+  }
+  const bool limited = by_count || made.substitutes > 0;
+  const std::int32_t most = static_cast<std::int32_t>((1 + faces_error) * wanted);
+  if (limited)
+    made.chords = collapse_chords(quads, most, static_cast<std::int32_t>((1 - faces_error) * wanted), memory);
+  QuadMesh mesh = quads.mesh(memory);
+  if (limited) {
+    if (made.substitutes > 0 || mesh.face_count() > most) made.edge_length = edge_length;
+    collapse_to_count(surface, mesh, most, edge_length, memory);
+  }
+  return mesh;
 }
 
 }  // namespace
@@ -81,15 +211,14 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
     mean += norm(core.mesh.positions[at(core.topology.second(e))] - core.mesh.positions[at(core.topology.first(e))]);
   mean /= std::max(core.topology.edge_count(), 1);
   const double rings = curvature_radius * edge_length / mean;
-  const Vector<Complex> wish = curvature_crosses(
-      core, system.connection,
-      static_cast<Index>(std::min<double>(most_passes, std::max<double>(least_passes, rings * rings))));
+  const Index passes = static_cast<Index>(std::min<double>(most_passes, std::max<double>(least_passes, rings * rings)));
+  const Vector<Complex> wish = curvature_crosses(core, system.connection, passes);
   CrossOptions cross_options;
-  cross_options.radius = smooth_radius * edge_length;
+  cross_options.radius = smooth_radius * std::max(edge_length, mean);
   const Table<std::uint8_t> features =
       find_features(surface, options.crease > 0 ? options.crease * degrees : HUGE_VAL, memory);
   const Vector<Complex> crosses =
-      smooth_crosses(system, wish, feature_crosses(core, surface, system.connection, features), cross_options);
+      smooth_crosses(system, wish, feature_crosses(core, surface, system.connection, features, passes), cross_options);
   const FaceCross faces = FaceCross::make(surface, system.connection, crosses, features, memory);
   made.field_ms = timer.milliseconds();
   hf_inner::report(0.2f);
@@ -103,59 +232,46 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   made.map_ms = map_timer.milliseconds();
   hf_inner::report(0.4f);
 
-  Timer quads_timer;
   QuadResult result(memory);
+  FieldQuadReport chosen;
   result.euler_characteristic = surface.euler_characteristic;
-  double length = edge_length, best = -1;
-  std::optional<Error> refused;
-  for (std::int32_t round = 0, counted = 0; round < most_tries && counted < count_tries; ++round) {
-    ++made.tries;
-    try {
-      const GridMap map = mapper.make(length);
-      ExtractReport extracted;
-      QuadMesh mesh = extract_quads(surface, map, features, extracted, memory);
-      const std::int32_t raw = mesh.face_count();
-      extracted.doublets = remove_doublets(mesh, memory);
+  const double wanted = options.faces > 0 ? options.faces : area_of(surface) / (edge_length * edge_length);
+  QuadSource source(surface, mapper, features, memory);
+  double aim = wanted, best = -1;
+  for (std::int32_t turn = 0; turn < fit_turns_of_count; ++turn) {
+    std::int32_t raw = 0;
+    FieldQuadReport now = made;
+    Timer turn_timer;
+    QuadMesh mesh =
+        make_count(surface, source, aim, std::sqrt(area_of(surface) / aim), options.faces > 0, now, raw, memory);
+    check_quads(mesh, surface.euler_characteristic, memory);
+    made.quads_ms += turn_timer.milliseconds();
+    Timer fit_timer;
+    if (options.relax > 0) {
+      RelaxOptions relax;
+      relax.rounds = options.relax, relax.edge_length = now.edge_length;
+      relax_quads(surface, mesh, relax, memory);
+      const QuadDistance distance(surface, sample_spacing * now.edge_length, memory, core.jobs.get());
+      distance.turn_quads(mesh);
+      FitOptions fit;
+      fit.edge_length = now.edge_length, fit.tolerance = fit_tolerance * now.edge_length;
+      fit_quads(surface, distance, mesh, fit, memory);
       check_quads(mesh, surface.euler_characteristic, memory);
-      const double ratio = options.faces > 0 ? static_cast<double>(mesh.face_count()) / options.faces : 1;
-      const double error = std::fabs(ratio - 1);
-      if (best < 0 || error < best) {
-        best = error;
-        result.raw_faces = raw, result.raw_quads = raw;
-        result.mesh = std::move(mesh);
-        made.turned_over = map.turned_over, made.roundings = map.roundings, made.backward = extracted.backward;
-        made.doublets = extracted.doublets, made.edge_length = length;
-      }
-      if (error <= faces_error) break;
-      ++counted, length *= std::sqrt(ratio);
-    } catch (const Error& error) {
-      if (error.code() == HF_ERROR_CANCELLED) throw;
-      refused = error;
-      length *= shorter;
     }
+    made.fit_ms += fit_timer.milliseconds();
+    hf_inner::report(1 - 0.5f / static_cast<float>(turn + 1));
+    const double ratio = mesh.face_count() / wanted, error = std::fabs(ratio - 1);
+    if (best < 0 || error < best) {
+      best = error;
+      result.mesh = std::move(mesh), result.raw_faces = raw, result.raw_quads = raw;
+      now.quads_ms = made.quads_ms, now.fit_ms = made.fit_ms;
+      chosen = now;
+    }
+    // Fitting adds quads, so the next turn aims at less.
+    if (options.faces == 0 || error <= fitted_error) break;
+    aim /= ratio;
   }
-  if (best < 0) {
-    if (refused->code() != HF_ERROR_INTERNAL) throw Error(*refused);
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-         "no edge length from %g to %g box diagonals gives quads around every thin part (%s); ask for shorter edges",
-         length, edge_length, refused->what());
-  }
-  made.quads_ms = quads_timer.milliseconds();
-  hf_inner::report(0.6f);
-
-  Timer fit_timer;
-  if (options.relax > 0) {
-    RelaxOptions relax;
-    relax.rounds = options.relax, relax.edge_length = made.edge_length;
-    relax_quads(surface, result.mesh, relax, memory);
-    const QuadDistance distance(surface, sample_spacing * made.edge_length, memory, core.jobs.get());
-    distance.turn_quads(result.mesh);
-    FitOptions fit;
-    fit.edge_length = made.edge_length, fit.tolerance = fit_tolerance * made.edge_length;
-    fit_quads(surface, distance, result.mesh, fit, memory);
-    check_quads(result.mesh, surface.euler_characteristic, memory);
-  }
-  made.fit_ms = fit_timer.milliseconds();
+  made = chosen;
   locate_in_mesh(surface, core.mesh, result.mesh);
   if (out_report) *out_report = made;
   hf_inner::report(1.0f);

@@ -4,6 +4,7 @@
 // The crosses decide where irregular vertices lie: one at each singularity. Everything but the rounding of the map is
 // independent of the edge length, so several edge lengths cost little more than one.
 #pragma once
+#include "quads/chords.h"
 #include "quads/cross_field.h"
 #include "quads/extract.h"
 #include "remesh/quads.h"
@@ -23,7 +24,12 @@ struct FieldQuadReport {
   std::int32_t left_out = 0;     // equations of feature edges
   std::int32_t turned_over = 0;  // triangles of the map
   std::int32_t backward = 0;     // crossings of the map
-  std::int32_t doublets = 0, tries = 0;
+  std::int32_t removed = 0;      // quads of folds
+  std::int32_t added = 0;        // quads around thin parts
+  std::int32_t chords = 0;       // that were removed
+  std::int32_t substitutes = 0;  // components with quads of shorter edges
+  std::int32_t split = 0;        // components with quads of their triangles
+  std::int32_t tries = 0;
   double edge_length = 0;
   double field_ms = 0, map_ms = 0, quads_ms = 0, fit_ms = 0;
 };

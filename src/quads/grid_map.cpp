@@ -35,7 +35,8 @@ GridMapper::GridMapper(const FluxSurface& surface, const FaceCross& crosses, con
       of_parameter_(memory),
       of_line_(memory),
       matrix_(memory),
-      right_(&memory) {
+      right_(&memory),
+      inverse_(&memory) {
   number(features);
   assemble();
   FactorOptions options;
@@ -169,6 +170,9 @@ void GridMapper::assemble() {
   Vector<RealEntry> real(&memory_);
   real.reserve(4 * entries.size());
   RealTerm single_row, single_column;
+  // Those that must be whole are joined by sums with many terms, so their block is dense.
+  const std::int32_t wholes = static_cast<std::int32_t>(right_.size()) - free_count_;
+  Vector<double> dense(at(wholes) * at(wholes), 0.0, &memory_);
   for (const Entry& e : entries) {
     poller.due();
     const double a = e.value.real(), b = e.row == e.column ? 0.0 : e.value.imag();
@@ -176,8 +180,14 @@ void GridMapper::assemble() {
     for (int column = 0; column < 2; ++column) {
       for (const RealTerm& y : expand(e.column, column, single_column)) {
         for (int row = 0; row < 2; ++row) {
-          for (const RealTerm& x : expand(e.row, row, single_row))
-            real.push_back({x.number, y.number, x.factor * block[row][column] * y.factor});
+          for (const RealTerm& x : expand(e.row, row, single_row)) {
+            const double value = x.factor * block[row][column] * y.factor;
+            if (x.number >= free_count_ && y.number >= free_count_) {
+              dense[at(y.number - free_count_) * at(wholes) + at(x.number - free_count_)] += value;
+            } else {
+              real.push_back({x.number, y.number, value});
+            }
+          }
         }
       }
     }
@@ -196,34 +206,52 @@ void GridMapper::assemble() {
     poller.due();
     for (; i < real.size() && real[i].column == column; ++i)
       matrix_.row.push_back(real[i].row), matrix_.value.push_back(real[i].value);
+    for (std::int32_t k = 0; column >= free_count_ && k < wholes; ++k) {
+      const std::size_t own = at(column - free_count_) * at(wholes) + at(k),
+                        mirrored = at(k) * at(wholes) + at(column - free_count_);
+      if (dense[own] == 0 && dense[mirrored] == 0) continue;
+      matrix_.row.push_back(free_count_ + k), matrix_.value.push_back(dense[own]);
+    }
     matrix_.column_start.push_back(static_cast<std::int32_t>(matrix_.row.size()));
   }
 }
 
 Vector<double> GridMapper::round(double edge_length, Vector<Index>* out_fixed, Vector<double>* out_values) {
   system_->set_scale(1 / edge_length);
-  Vector<Index> open(&memory_);
+  Vector<Index> open(&memory_), fixed(&memory_);
   for (Index i = free_count_; i < matrix_.size(); ++i) open.push_back(i);
-  Vector<double> values(open.size(), &memory_);
-  while (!open.empty()) {
+  if (inverse_.empty()) inverse_ = system_->inverse_at(open);
+  const std::size_t side = open.size();
+  Vector<double> c(inverse_.begin(), inverse_.end(), &memory_), x(side, &memory_), values(&memory_);
+  system_->solve_at(open, x.data());
+  // c is the inverse at the open unknowns while the others are held. The open ones are the first n.
+  for (std::size_t n = side; n > 0; --n) {
     poll();
-    values.resize(open.size());
-    system_->solve_at(open, values.data());
     std::size_t best = 0;
     double least = HUGE_VAL;
-    for (std::size_t i = 0; i < open.size(); ++i) {
-      const double away = std::fabs(values[i] - std::nearbyint(values[i]));
+    for (std::size_t i = 0; i < n; ++i) {
+      const double away = std::fabs(x[i] - std::nearbyint(x[i]));
       if (away < least) least = away, best = i;
     }
-    const Index unknown = open[best];
-    const double whole = std::nearbyint(values[best]);
-    system_->fix(Span<const Index>(&unknown, 1), Span<const double>(&whole, 1));
-    if (out_fixed) out_fixed->push_back(unknown), out_values->push_back(whole);
-    open.erase(open.begin() + static_cast<std::ptrdiff_t>(best));
+    const std::size_t last = n - 1;
+    std::swap(open[best], open[last]), std::swap(x[best], x[last]);
+    for (std::size_t i = 0; i < n; ++i) std::swap(c[i * side + best], c[i * side + last]);
+    std::swap_ranges(&c[best * side], &c[best * side] + n, &c[last * side]);
+    fixed.push_back(open[last]), values.push_back(std::nearbyint(x[last]));
+    const double* column = &c[last * side];
+    const double by = (values.back() - x[last]) / column[last];
+    for (std::size_t i = 0; i < last; ++i) {
+      x[i] += by * column[i];
+      const double share = column[i] / column[last];
+      double* row = &c[i * side];
+      for (std::size_t j = 0; j < last; ++j) row[j] -= share * column[j];
+    }
   }
-  Vector<double> x(at(matrix_.size()), &memory_);
-  system_->solve(x.data());
-  return x;
+  if (!fixed.empty()) system_->fix(fixed, values);
+  if (out_fixed) *out_fixed = fixed, *out_values = values;
+  Vector<double> all(at(matrix_.size()), &memory_);
+  system_->solve(all.data());
+  return all;
 }
 
 GridMap GridMapper::make(double edge_length) {

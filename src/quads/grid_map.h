@@ -4,8 +4,9 @@
 // crosses over the edge length. That is a Poisson problem with two real unknowns for every vertex and every parameter
 // of the seams (seams.h). One factor serves every edge length, because the edge length only scales the right-hand side.
 // The parameters and the lines of features (features.h) are whole numbers in the result. They are rounded one after the
-// other, the nearest to a whole number first. Each rounding is a site on the factor (definite_system.h). They come last
-// in its order, so a rounding costs a small dense solve. Nothing is factorised again.
+// other, the nearest to a whole number first. They come last in the order of the factor, so their part of the inverse
+// costs little, and each rounding updates it (rank one). All together are sites on the factor (definite_system.h) in
+// the end. Nothing is factorised again.
 //
 // The result is exact: coordinates are whole multiples of 1 / unit, and both sides of a seam fit to the bit. Vertices
 // without a singularity get odd multiples, so that no vertex lies on a line of halves.
@@ -72,6 +73,7 @@ class GridMapper {
   std::int32_t left_out_ = 0;
   SymmetricMatrix matrix_;
   Vector<double> right_;
+  Vector<double> inverse_;  // of the matrix, at the unknowns that must be whole; empty until it is needed
   std::optional<DefiniteSystem> system_;
 };
 

@@ -238,4 +238,32 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
   return any ? distance.measure(mesh, 0, nullptr) : deviation;
 }
 
+void collapse_to_count(const FluxSurface& surface, QuadMesh& mesh, std::int32_t wanted, double edge_length,
+                       Memory& memory) {
+  Vector<Collapse> list(&memory), taken(&memory);
+  Table<std::uint8_t> merged(memory);
+  while (mesh.face_count() > wanted) {
+    poll();
+    const VertexFans fans(mesh, memory);
+    list_collapses(mesh, fans, HUGE_VAL, false, list);
+    const std::int32_t most =
+        std::min(mesh.face_count() - wanted, std::max<std::int32_t>(1, mesh.face_count() / count_share));
+    Table<std::uint8_t> blocked(mesh.position.size(), 0, memory);
+    taken.clear();
+    for (const Collapse& collapse : list) {
+      if (static_cast<std::int32_t>(taken.size()) >= most) break;
+      const std::int32_t* c = mesh.corner.data() + mesh.face_start[collapse.face];
+      if (std::any_of(c, c + 4, [&](std::int32_t v) { return blocked[v] != 0; })) continue;
+      block_around(mesh, fans, collapse.face, blocked);
+      taken.push_back(collapse);
+    }
+    if (taken.empty()) return;
+    collapse_quads(surface, mesh, taken, merged, memory);
+    grow_marks(mesh, collapse_rings, merged);
+    RelaxOptions relax;
+    relax.rounds = collapse_relax_rounds, relax.edge_length = edge_length, relax.moving = &merged;
+    relax_quads(surface, mesh, relax, memory);
+  }
+}
+
 }  // namespace hf_inner

@@ -36,4 +36,9 @@ struct CoarsenOptions {
 double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
                      const CoarsenOptions& options, Memory& memory);
 
+// Collapses quads, those with the shortest edges first, until at most `wanted` are left or none can collapse. The
+// distance to the surface is not looked at. edge_length: inner units, at which the quads are relaxed.
+void collapse_to_count(const FluxSurface& surface, QuadMesh& mesh, std::int32_t wanted, double edge_length,
+                       Memory& memory);
+
 }  // namespace hf_inner

@@ -381,4 +381,8 @@ constexpr double collapse_far = 1.1;
 // the value: 1 % more faces.
 constexpr double collapse_same_place = 0.3;
 
+// To reach a number of quads, at most one in this many collapses in a round: fewer rounds against evenness. Half and
+// double were not tried.
+constexpr std::int32_t count_share = 12;
+
 }  // namespace hf_inner

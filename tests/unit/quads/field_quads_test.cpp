@@ -207,10 +207,10 @@ TEST(FieldQuads, closed_shapes_of_any_genus_become_valid_meshes) {
     expect_valid(*core, result.mesh, name);
     const std::int32_t irregular = irregular_count(result.mesh, *core->memory);
     std::printf(
-        "%s: %d faces, %d irregular of %d, singularities %d, parameters %d, turned over %d, backward %d, doublets %d, "
+        "%s: %d faces, %d irregular of %d, singularities %d, parameters %d, turned over %d, backward %d, removed %d, "
         "tries %d\n",
         name.c_str(), result.mesh.face_count(), irregular, result.mesh.position.size(), report.singularities,
-        report.parameters, report.turned_over, report.backward, report.doublets, report.tries);
+        report.parameters, report.turned_over, report.backward, report.removed, report.tries);
     EXPECT_LE(irregular, report.singularities + result.mesh.position.size() / 50) << name;
     EXPECT_NEAR(result.mesh.face_count(), 1500, 75) << name;
   }
@@ -248,9 +248,10 @@ TEST(FieldQuads, a_map_that_is_turned_over_has_crossings_that_cancel) {
   const Stages stages(core_of(samples::jittered_torus(60, 40)));
   GridMapper mapper = stages.mapper();
   GridMap map = mapper.make(0.06);
-  ExtractReport plain;
-  const QuadMesh before = extract_quads(stages.surface, map, stages.features, plain, *stages.core->memory);
-  ASSERT_EQ(plain.backward, 0);
+  Memory& memory = *stages.core->memory;
+  std::int32_t backward = 0;
+  const QuadComplex before = extract_quads(stages.surface, map, stages.features, backward, memory);
+  ASSERT_EQ(backward, 0);
   // Some vertices that no seam touches are moved in the map, so that triangles around them turn over.
   std::int32_t moved = 0;
   for (std::int32_t v = 0; v < stages.surface.first_apex; v += 37) {
@@ -271,12 +272,125 @@ TEST(FieldQuads, a_map_that_is_turned_over_has_crossings_that_cancel) {
     }
   }
   ASSERT_GT(moved, 10);
-  ExtractReport report;
-  QuadMesh mesh = extract_quads(stages.surface, map, stages.features, report, *stages.core->memory);
-  EXPECT_GT(report.backward, 0);
-  EXPECT_EQ(mesh.face_count() - 2 * report.backward, before.face_count());
-  EXPECT_GT(remove_doublets(mesh, *stages.core->memory), 0);
-  EXPECT_EQ(mesh.corner.size(), 4 * mesh.face_count());
+  QuadComplex quads = extract_quads(stages.surface, map, stages.features, backward, memory);
+  EXPECT_GT(backward, 0);
+  EXPECT_EQ(quads.quad_count() - 2 * backward, before.quad_count());
+  RepairReport report;
+  repair_quads(stages.surface, quads, report, memory);
+  EXPECT_GT(report.removed, 0);
+  check_quads(quads.mesh(memory), stages.surface.euler_characteristic, memory);
+}
+
+// A torus of rows x columns quads, all at one place of a surface.
+QuadComplex torus_of(const FluxSurface& surface, std::int32_t rows, std::int32_t columns, Memory& memory) {
+  QuadComplex out(memory);
+  const std::int32_t count = rows * columns;
+  out.twin.assign(4 * count, -1), out.tail.assign(4 * count, 0), out.feature.assign(4 * count, 0);
+  SurfacePoint point;
+  point.triangle = 0, point.weight[0] = 1;
+  out.vertices.add_vertex(point, position_of(surface, point), QuadMesh::free, false, 1);
+  for (std::int32_t i = 0; i < rows; ++i) {
+    for (std::int32_t j = 0; j < columns; ++j) {
+      const std::int32_t q = i * columns + j, right = i * columns + (j + 1) % columns,
+                         above = (i + 1) % rows * columns + j;
+      out.join(4 * q + 1, 4 * right + 3), out.join(4 * q + 2, 4 * above);
+    }
+  }
+  out.split_fans(memory);
+  return out;
+}
+
+TEST(FieldQuads, one_or_two_edges_around_a_thin_part_become_three) {
+  const auto core = core_of(samples::sphere(8));
+  Memory& memory = *core->memory;
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 0, memory);
+  for (const std::int32_t columns : {1, 2, 3}) {
+    QuadComplex quads = torus_of(surface, 6, columns, memory);
+    EXPECT_EQ(quads.vertices.position.size(), 6 * columns);
+    RepairReport report;
+    repair_quads(surface, quads, report, memory);
+    EXPECT_EQ(report.removed, 0);
+    EXPECT_EQ(report.added > 0, columns < 3) << columns;
+    check_quads(quads.mesh(memory), 0, memory);
+  }
+}
+
+TEST(FieldQuads, chords_are_removed_until_the_number_is_reached_or_three_edges_are_left) {
+  const auto core = core_of(samples::sphere(8));
+  Memory& memory = *core->memory;
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 0, memory);
+  QuadComplex quads = torus_of(surface, 12, 8, memory);
+  collapse_chords(quads, 64, 0, memory);
+  EXPECT_LE(quads.quad_count(), 64);
+  EXPECT_GE(quads.quad_count(), 64 - 12);
+  check_quads(quads.mesh(memory), 0, memory);
+  collapse_chords(quads, 0, 0, memory);
+  EXPECT_EQ(quads.quad_count(), 9);
+  check_quads(quads.mesh(memory), 0, memory);
+}
+
+TEST(FieldQuads, chords_go_where_the_mesh_stays_valid_only) {
+  for (const auto& [name, core] : shapes()) {
+    Memory& memory = *core->memory;
+    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 0, memory);
+    const Table<std::uint8_t> all(surface.component_count, 1, memory);
+    const Table<std::uint8_t> features(surface.half_count(), 0, memory);
+    QuadComplex quads = split_triangles(surface, features, all, memory);
+    EXPECT_EQ(quads.quad_count(), 3 * surface.real_triangles) << name;
+    expect_valid(*core, quads.mesh(memory), name);
+    const std::int32_t before = quads.quad_count();
+    EXPECT_GT(collapse_chords(quads, before / 2, 0, memory), 0) << name;
+    EXPECT_LT(quads.quad_count(), before) << name;
+    expect_valid(*core, quads.mesh(memory), name);
+  }
+}
+
+TEST(FieldQuads, thin_parts_keep_their_handles_at_any_number_of_faces) {
+  for (const auto& [name, core] : shapes()) {
+    for (const std::int32_t wanted : {150, 400, 4000}) {
+      FieldQuadOptions options;
+      options.core = core, options.faces = wanted;
+      FieldQuadReport report;
+      const QuadResult result = make_field_quads(options, &report);
+      expect_valid(*core, result.mesh, name);
+      std::printf("%s: wanted %d, %d faces, substitutes %d, split %d, added %d, removed %d\n", name.c_str(), wanted,
+                  result.mesh.face_count(), report.substitutes, report.split, report.added, report.removed);
+      EXPECT_NEAR(result.mesh.face_count(), wanted, wanted / 20) << name;
+    }
+  }
+}
+
+TEST(FieldQuads, handles_thinner_than_an_edge_become_valid_meshes) {
+  const auto core = hf_test::make_core(hf_test::ladder(5, 0.16));
+  std::int32_t repaired = 0;
+  for (const std::int32_t wanted : {20, 60, 120}) {
+    FieldQuadOptions options;
+    options.core = core, options.faces = wanted;
+    FieldQuadReport report;
+    const QuadResult result = make_field_quads(options, &report);
+    expect_valid(*core, result.mesh, "ladder");
+    std::printf("ladder of genus 5: wanted %d, %d faces, substitutes %d, split %d, added %d, chords %d\n", wanted,
+                result.mesh.face_count(), report.substitutes, report.split, report.added, report.chords);
+    repaired += report.substitutes + report.added;
+  }
+  EXPECT_GT(repaired, 0);
+}
+
+TEST(FieldQuads, small_components_with_borders_become_valid_meshes) {
+  // A sphere, and sheets that are far smaller than the wanted edges.
+  const samples::ShapeMesh ball = samples::sphere(16);
+  hf_test::PlainMesh mesh{ball.positions, ball.triangles};
+  hf_test::append(mesh, hf_test::grid(2, 1, 0.01, 0), 3);
+  hf_test::PlainMesh ring = hf_test::torus(8, 6);
+  for (double& x : ring.positions) x *= 0.01;
+  hf_test::append(mesh, ring, 6);
+  const auto core = hf_test::make_core(mesh);
+  FieldQuadOptions options;
+  options.core = core, options.faces = 400;
+  FieldQuadReport report;
+  const QuadResult result = make_field_quads(options, &report);
+  expect_valid(*core, result.mesh, "components");
+  EXPECT_GT(report.substitutes, 0);
 }
 
 TEST(FieldQuads, stops_when_it_is_cancelled) {

@@ -1,0 +1,15 @@
+// Makes a quad mesh coarser by removing whole chords (Daniels, Silva, Shepherd and Cohen 2008).
+//
+// Removing a chord makes every edge that it crosses a point. That is the step from n to n - 1 of a whole length of the
+// map, and it is taken only where the mesh stays valid, so no length becomes 0. The chord with the shortest edges goes
+// first.
+#pragma once
+#include "quads/quad_complex.h"
+
+namespace hf_inner {
+
+// Removes chords until the mesh has at most `wanted` quads, or none can go. A chord that would leave less than `least`
+// quads stays. Returns how many chords are gone. The mesh must be valid, and is valid after.
+std::int32_t collapse_chords(QuadComplex& quads, std::int32_t wanted, std::int32_t least, Memory& memory);
+
+}  // namespace hf_inner

@@ -1,0 +1,188 @@
+#include "quads/quad_complex.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "quads/numbers.h"
+#include "remesh/relax.h"
+
+namespace hf_inner {
+
+void QuadComplex::split_fans(Memory& memory) {
+  QuadMesh old = std::move(vertices);
+  vertices = QuadMesh(memory);
+  Table<std::int32_t> fresh(tail.size(), none, memory);
+  for (std::int32_t start = 0; start < tail.size(); ++start) {
+    if (fresh[start] != none) continue;
+    const std::int32_t v = tail[start];
+    // The fan starts at its border, if it has one.
+    std::int32_t first = start;
+    bool border = false;
+    while (true) {
+      const std::int32_t g = twin[first];
+      if (g == none) {
+        border = true;
+        break;
+      }
+      first = next(g);
+      if (first == start) break;
+    }
+    const std::int32_t number =
+        vertices.add_vertex(old.location[v], old.position[v], old.pinned[v], border, old.scale[v]);
+    for (std::int32_t h = first; h != none;) {
+      fresh[h] = number;
+      h = twin[previous(h)];
+      if (h == first) break;
+    }
+  }
+  tail = std::move(fresh);
+}
+
+void QuadComplex::remove(const Table<std::uint8_t>& dead, Memory& memory) {
+  Table<std::int32_t> place(quad_count(), none, memory);
+  std::int32_t count = 0;
+  for (std::int32_t f = 0; f < quad_count(); ++f) {
+    if (!dead[f]) place[f] = count++;
+  }
+  for (std::int32_t f = 0; f < quad_count(); ++f) {
+    if (dead[f]) continue;
+    for (std::int32_t k = 0; k < 4; ++k) {
+      const std::int32_t from = 4 * f + k, to = 4 * place[f] + k, g = twin[from];
+      tail[to] = tail[from], feature[to] = feature[from];
+      twin[to] = g == none ? none : 4 * place[g / 4] + g % 4;
+    }
+  }
+  tail.resize(4 * count, 0), feature.resize(4 * count, 0), twin.resize(4 * count, none);
+}
+
+void QuadComplex::append(const QuadComplex& other, const Table<std::uint8_t>& take, Memory& memory) {
+  Table<std::int32_t> place(other.quad_count(), none, memory), vertex(other.vertices.position.size(), none, memory);
+  std::int32_t count = quad_count();
+  for (std::int32_t f = 0; f < other.quad_count(); ++f) {
+    if (take[f]) place[f] = count++;
+  }
+  const QuadMesh& from = other.vertices;
+  for (std::int32_t h = 0; h < other.tail.size(); ++h) {
+    if (place[h / 4] == none) continue;
+    const std::int32_t v = other.tail[h], g = other.twin[h];
+    if (vertex[v] == none)
+      vertex[v] =
+          vertices.add_vertex(from.location[v], from.position[v], from.pinned[v], from.border[v] != 0, from.scale[v]);
+    tail.push_back(vertex[v]), feature.push_back(other.feature[h]);
+    twin.push_back(g == none ? none : 4 * place[g / 4] + g % 4);
+  }
+}
+
+QuadMesh QuadComplex::mesh(Memory& memory) const {
+  QuadMesh out(memory);
+  Table<std::int32_t> fresh(vertices.position.size(), none, memory);
+  out.face_start.push_back(0);
+  for (std::int32_t h = 0; h < tail.size(); ++h) {
+    const std::int32_t v = tail[h];
+    if (fresh[v] == none)
+      fresh[v] = out.add_vertex(vertices.location[v], vertices.position[v], vertices.pinned[v], vertices.border[v] != 0,
+                                vertices.scale[v]);
+    out.corner.push_back(fresh[v]);
+    if (h % 4 == 3) out.face_start.push_back(out.corner.size());
+  }
+  return out;
+}
+
+Table<std::int32_t> components_of(const FluxSurface& surface, const QuadComplex& quads, Memory& memory) {
+  Table<std::int32_t> out(quads.quad_count(), 0, memory);
+  for (std::int32_t f = 0; f < out.size(); ++f)
+    out[f] = surface.component[surface.tail[3 * quads.vertices.location[quads.tail[4 * f]].triangle]];
+  return out;
+}
+
+Vector<QuadEdge> edges_of(const QuadComplex& quads, Memory& memory) {
+  Vector<QuadEdge> out(&memory);
+  for (std::int32_t h = 0; h < quads.twin.size(); ++h) {
+    if (quads.twin[h] != none && quads.twin[h] < h) continue;
+    const std::int32_t a = quads.tail[h], b = quads.head(h);
+    out.push_back({std::min(a, b), std::max(a, b), h});
+  }
+  std::sort(out.begin(), out.end(), [](const QuadEdge& x, const QuadEdge& y) {
+    return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.half < y.half;
+  });
+  return out;
+}
+
+Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& quads,
+                               const Table<std::int32_t>& component, Memory& memory) {
+  // By component: the Euler characteristic of the surface less that of the quads, and the pieces of the quads.
+  Table<std::int32_t> euler(surface.component_count, 0, memory), pieces(surface.component_count, 0, memory);
+  for (std::int32_t v = 0; v < surface.first_apex; ++v) ++euler[surface.component[v]];
+  for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
+    std::int32_t& e = euler[surface.component[surface.tail[h]]];
+    e += h % 3 == 0;
+    e -= !surface.is_real(surface.twin[h]) || h < surface.twin[h];
+  }
+  Table<std::uint8_t> seen(quads.vertices.position.size(), 0, memory);
+  Table<std::uint8_t> reached(quads.quad_count(), 0, memory);
+  Table<std::int32_t> stack(memory);
+  for (std::int32_t start = 0; start < quads.quad_count(); ++start) {
+    if (reached[start]) continue;
+    ++pieces[component[start]], reached[start] = 1, stack.push_back(start);
+    while (!stack.empty()) {
+      const std::int32_t f = stack.back();
+      stack.pop_back();
+      --euler[component[f]];
+      for (std::int32_t h = 4 * f; h < 4 * f + 4; ++h) {
+        const std::int32_t g = quads.twin[h];
+        euler[component[f]] += g == none || h < g;
+        if (!seen[quads.tail[h]]) seen[quads.tail[h]] = 1, --euler[component[f]];
+        if (g != none && !reached[g / 4]) reached[g / 4] = 1, stack.push_back(g / 4);
+      }
+    }
+  }
+  Table<std::uint8_t> out(surface.component_count, 0, memory);
+  for (std::int32_t c = 0; c < out.size(); ++c) out[c] = euler[c] == 0 && pieces[c] == 1;
+  const Vector<QuadEdge> edges = edges_of(quads, memory);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (edges[i].a == edges[i].b || (i > 0 && same(edges[i - 1], edges[i]))) out[component[edges[i].half / 4]] = 0;
+  }
+  for (std::int32_t f = 0; f < quads.quad_count(); ++f) {
+    const std::int32_t* v = &quads.tail[4 * f];
+    if (v[0] == v[2] || v[1] == v[3]) out[component[f]] = 0;
+  }
+  return out;
+}
+
+QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t>& features,
+                            const Table<std::uint8_t>& take, Memory& memory) {
+  QuadComplex out(memory);
+  Table<std::int32_t> place(surface.real_triangles, none, memory);
+  std::int32_t count = 0;
+  for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
+    if (take[surface.component[surface.tail[3 * t]]]) place[t] = count++;
+  }
+  out.twin.assign(12 * count, none), out.feature.assign(12 * count, 0);
+  for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
+    if (place[t] == none) continue;
+    for (std::int32_t k = 0; k < 3; ++k) {
+      const std::int32_t h = 3 * t + k, before = (k + 2) % 3, q = 3 * place[t] + k, g = surface.twin[h];
+      const auto add = [&](double at_k, double at_next, double at_last, bool held) {
+        SurfacePoint point;
+        point.triangle = t;
+        point.weight[k] = at_k, point.weight[(k + 1) % 3] = at_next, point.weight[before] = at_last;
+        out.tail.push_back(out.vertices.add_vertex(point, position_of(surface, point),
+                                                   held ? QuadMesh::site : QuadMesh::free, false, 1));
+      };
+      // The corner k, the middle of side k, the middle of the triangle, the middle of the side before.
+      add(1, 0, 0, features[h] || features[3 * t + before]);
+      add(0.5, 0.5, 0, features[h]);
+      add(1.0 / 3, 1.0 / 3, 1.0 / 3, false);
+      add(0.5, 0, 0.5, features[3 * t + before]);
+      out.feature[4 * q] = features[h], out.feature[4 * q + 3] = features[3 * t + before];
+      out.join(4 * q + 1, 4 * (3 * place[t] + (k + 1) % 3) + 2);
+      if (surface.is_real(g)) out.join(4 * q, 4 * (3 * place[g / 3] + (g % 3 + 1) % 3) + 3);
+    }
+  }
+  out.split_fans(memory);
+  return out;
+}
+
+}  // namespace hf_inner

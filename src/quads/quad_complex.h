@@ -1,0 +1,73 @@
+// A mesh of quads as half-edges, and the repairs that make it valid.
+//
+// Half-edge 4 f + k is side k of quad f, counter-clockwise. Two quads may share several sides, and a quad may share
+// sides with itself, so this holds every mesh that lines on a surface can have. A chord is a row of quads, each beside
+// the next across opposite sides; it crosses those sides. Chords end at borders or close. A quad has two chords, or one
+// that crosses itself.
+//
+// A valid mesh has no two edges between the same vertices and no quad with a repeated corner. Two edges that bound a
+// few quads of a fold become one, and the quads go. Two edges around a thin part stay apart: the two quads of one of
+// them get a ring of quads around them (a pillow: Mitchell and Tautges 1995), so the edge gets ends of its own. Every
+// repair keeps the Euler characteristic.
+#pragma once
+#include "remesh/quad_mesh.h"
+
+namespace hf_inner {
+
+struct QuadComplex {
+  explicit QuadComplex(Memory& memory) : twin(memory), tail(memory), feature(memory), vertices(memory) {}
+  Table<std::int32_t> twin;     // by half-edge; none at a border
+  Table<std::int32_t> tail;     // by half-edge: its vertex
+  Table<std::uint8_t> feature;  // by half-edge: whether the edge lies on a border or a crease
+  QuadMesh vertices;            // the vertices of all half-edges; no faces
+
+  std::int32_t quad_count() const noexcept { return tail.size() / 4; }
+  static std::int32_t next(std::int32_t h) noexcept { return h % 4 == 3 ? h - 3 : h + 1; }
+  static std::int32_t previous(std::int32_t h) noexcept { return h % 4 == 0 ? h + 3 : h - 1; }
+  static std::int32_t opposite(std::int32_t h) noexcept { return h ^ 2; }
+  std::int32_t head(std::int32_t h) const noexcept { return tail[next(h)]; }
+  // Joins two half-edges. Either may be none, then the other is at a border.
+  void join(std::int32_t a, std::int32_t b) noexcept {
+    if (a >= 0) twin[a] = b;
+    if (b >= 0) twin[b] = a;
+  }
+  // Gives every fan of quads its own vertex, with the place of the old one. Unused vertices go.
+  void split_fans(Memory& memory);
+  // Removes quads with dead[quad] != 0. Nothing may be joined to them.
+  void remove(const Table<std::uint8_t>& dead, Memory& memory);
+  // Appends the quads of `other` with take[quad] != 0. A quad comes with all quads that it is joined to.
+  void append(const QuadComplex& other, const Table<std::uint8_t>& take, Memory& memory);
+  QuadMesh mesh(Memory& memory) const;
+};
+
+struct QuadEdge {
+  std::int32_t a, b, half;  // a <= b: its vertices
+};
+inline bool same(const QuadEdge& x, const QuadEdge& y) noexcept { return x.a == y.a && x.b == y.b; }
+// Every edge once, those between the same vertices one after the other.
+Vector<QuadEdge> edges_of(const QuadComplex& quads, Memory& memory);
+
+// The component of the surface where each quad lies.
+Table<std::int32_t> components_of(const FluxSurface& surface, const QuadComplex& quads, Memory& memory);
+
+// By component of the surface: whether the quads there are valid, connected, and have its Euler characteristic.
+Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& quads,
+                               const Table<std::int32_t>& component, Memory& memory);
+
+// Makes three quads of every triangle of the components with take[component] != 0: valid at any genus, but most of
+// their vertices are irregular. features: by half-edge of the surface.
+QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t>& features,
+                            const Table<std::uint8_t>& take, Memory& memory);
+
+struct RepairReport {
+  std::int32_t removed = 0;  // quads of folds
+  std::int32_t added = 0;    // quads around thin parts
+};
+
+// Makes the mesh valid, but for two edges between the same vertices that both lie on a border.
+void repair_quads(const FluxSurface& surface, QuadComplex& quads, RepairReport& report, Memory& memory);
+
+// Removes inner vertices of one or two quads. Returns how many quads are gone.
+std::int32_t remove_doublets(QuadComplex& quads, Memory& memory);
+
+}  // namespace hf_inner

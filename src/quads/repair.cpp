@@ -1,0 +1,288 @@
+#include <algorithm>
+
+#include "base/progress.h"
+#include "quads/numbers.h"
+#include "quads/quad_complex.h"
+#include "remesh/relax.h"
+
+namespace hf_inner {
+namespace {
+
+// Two edges between the same vertices that bound at most this many quads are a fold, and the quads go. A larger number
+// cuts off thin limbs, a smaller one keeps folds and puts rings around them. Half and double were not tried.
+constexpr std::int32_t most_fold_quads = 8;
+// Rounds of repairs: quads that one round adds are looked at by the next. It bounds the time. Half and double were not
+// tried.
+constexpr std::int32_t repair_rounds = 12;
+// The corners of new quads lie this share of the way from the corners of the old ones to their middle. Relaxing
+// moves them anyway. Half and double were not tried.
+constexpr double pillow_share = 0.35;
+
+}  // namespace
+
+std::int32_t remove_doublets(QuadComplex& quads, Memory& memory) {
+  Table<std::uint8_t> dead(quads.quad_count(), 0, memory);
+  Table<std::int32_t> queue(memory);
+  const auto next = QuadComplex::next, previous = QuadComplex::previous;
+  std::int32_t removed = 0;
+  for (std::int32_t h = 0; h < quads.tail.size(); ++h) queue.push_back(h);
+  for (std::int32_t place = 0; place < queue.size(); ++place) {
+    const std::int32_t h = queue[place], f = h / 4;
+    if (dead[f] || quads.twin[h] == none) continue;
+    const std::int32_t last = previous(h), k = quads.twin[last];
+    if (k == h) {
+      // The only quad of a vertex is folded: its other two sides lie on each other.
+      const std::int32_t a = quads.twin[next(h)], b = quads.twin[previous(last)];
+      if (a == previous(last) || (a == none && b == none)) continue;
+      quads.join(a, b);
+      dead[f] = 1, ++removed;
+      for (const std::int32_t g : {a, b}) {
+        if (g != none) queue.push_back(g), queue.push_back(next(g));
+      }
+      continue;
+    }
+    if (k == none || k / 4 == f || previous(k) != quads.twin[h]) continue;
+    // The quads (v, p, q, r) and (v, r, s, p) become (s, p, q, r).
+    const std::int32_t far = next(k), farther = next(far);
+    const auto take = [&](std::int32_t to, std::int32_t from) {
+      std::int32_t g = quads.twin[from];
+      if (g == far) g = last;
+      if (g == farther) g = h;
+      quads.join(to, g);
+      quads.feature[to] = quads.feature[from];
+    };
+    const std::int32_t vertex = quads.tail[farther];
+    if (vertex == quads.head(next(h))) continue;  // s and q are one vertex
+    take(h, farther), take(last, far);
+    quads.tail[h] = vertex;
+    dead[k / 4] = 1, ++removed;
+    for (std::int32_t side = 4 * f; side < 4 * f + 4; ++side) queue.push_back(side);
+    for (std::int32_t side = 4 * f; side < 4 * f + 4; ++side) {
+      if (quads.twin[side] != none) queue.push_back(next(quads.twin[side])), queue.push_back(quads.twin[side]);
+    }
+  }
+  if (removed > 0) quads.remove(dead, memory), quads.split_fans(memory);
+  return removed;
+}
+
+namespace {
+
+class Repairer {
+ public:
+  Repairer(const FluxSurface& surface, QuadComplex& quads, Memory& memory)
+      : surface_(surface),
+        quads_(quads),
+        memory_(memory),
+        dead_(quads.quad_count(), 0, memory),
+        mark_(quads.quad_count(), 0, memory) {}
+
+  // Finds the edges between the same vertices. Removes small folds between two of them, or else puts rings of quads
+  // around all but one of them. Returns whether there was anything to do.
+  bool run(RepairReport& report) {
+    const Vector<QuadEdge> edges = edges_of(quads_, memory_);
+    const std::int32_t removed = report.removed;
+    for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+      if (!same(edges[i], edges[i + 1]) || edges[i].a == edges[i].b) continue;
+      for (std::size_t j = i + 1; j < edges.size() && same(edges[i], edges[j]); ++j) {
+        if (remove_fold(edges[i].half, edges[j].half, report)) break;
+      }
+    }
+    if (report.removed != removed) {
+      quads_.remove(dead_, memory_), quads_.split_fans(memory_);
+      return true;
+    }
+    // Every quad gets one ring in a round.
+    const std::int32_t before = quads_.quad_count();
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const bool loop = edges[i].a == edges[i].b;
+      if (!loop && (i == 0 || !same(edges[i - 1], edges[i]))) continue;
+      if (!pillow(edges[i].half) && !loop) pillow(edges[i - 1].half);
+    }
+    for (std::int32_t f = 0; f < before; ++f) {
+      const std::int32_t* v = &quads_.tail[4 * f];
+      if ((v[0] == v[2] || v[1] == v[3]) && mark_[f] != pillowed_) pillow_quads(f, none);
+    }
+    if (quads_.quad_count() == before) return false;
+    report.added += quads_.quad_count() - before;
+    quads_.split_fans(memory_);
+    return true;
+  }
+
+ private:
+  // Puts a ring of quads around the two quads of an edge, so that the edge lies inside and has new ends.
+  bool pillow(std::int32_t h) {
+    const std::int32_t g = quads_.twin[h], f = h / 4;
+    // Quads behind the marks belong to a ring of this round.
+    if (g == none || g / 4 == f || g / 4 >= mark_.size() || mark_[f] == pillowed_ || mark_[g / 4] == pillowed_)
+      return false;
+    pillow_quads(f, h);
+    return true;
+  }
+  // A ring around quad f, or around it and the quad across `inner`: the old corners of these quads get inner copies.
+  void pillow_quads(std::int32_t f, std::int32_t inner) {
+    const auto next = QuadComplex::next;
+    std::int32_t rim[6], count = 0;
+    if (inner == none) {
+      for (std::int32_t k = 0; k < 4; ++k) rim[count++] = 4 * f + k;
+      mark_[f] = pillowed_;
+    } else {
+      const std::int32_t g = quads_.twin[inner];
+      for (std::int32_t h = next(inner); h != inner; h = next(h)) rim[count++] = h;
+      for (std::int32_t h = next(g); h != g; h = next(h)) rim[count++] = h;
+      mark_[f] = mark_[g / 4] = pillowed_;
+    }
+    const QuadMesh& old = quads_.vertices;
+    std::int32_t corner[6], copy[6];
+    Vec3 middle{};
+    for (int k = 0; k < count; ++k)
+      corner[k] = quads_.tail[rim[k]], middle = middle + 1.0 / count * old.position[corner[k]];
+    for (int k = 0; k < count; ++k) {
+      const std::int32_t v = corner[k];
+      const SurfacePoint point = walk_surface(surface_, old.location[v], pillow_share * (middle - old.position[v]));
+      copy[k] = quads_.vertices.add_vertex(point, position_of(surface_, point), QuadMesh::free, false, old.scale[v]);
+    }
+    const std::int32_t first = quads_.tail.size();
+    for (int k = 0; k < count; ++k) {
+      // The ring's quad k: (corner k, corner k + 1, copy k + 1, copy k).
+      const std::int32_t outside = quads_.twin[rim[k]], m = (k + 1) % count;
+      for (const std::int32_t v : {corner[k], corner[m], copy[m], copy[k]}) quads_.tail.push_back(v);
+      for (int side = 0; side < 4; ++side) {
+        quads_.twin.push_back(none);
+        quads_.feature.push_back(side == 0 ? quads_.feature[rim[k]] : std::uint8_t{0});
+      }
+      // A side of the rim that lies on another one: that one's ring quad joins it later.
+      quads_.join(first + 4 * k, outside);
+    }
+    for (int k = 0; k < count; ++k) {
+      const std::int32_t m = (k + 1) % count;
+      quads_.join(first + 4 * k + 1, first + 4 * m + 3);
+      quads_.join(first + 4 * k + 2, rim[k]);
+      quads_.feature[rim[k]] = 0;
+    }
+    if (inner != none) {
+      // The ends of the inner edge belong to both quads.
+      const std::int32_t g = quads_.twin[inner];
+      quads_.tail[inner] = copy[3], quads_.tail[g] = copy[0];
+    }
+    for (int k = 0; k < count; ++k) quads_.tail[rim[k]] = copy[k];
+  }
+
+  // Collects the quads on the left of `start` up to the two edges. Returns false if they are too many or no disc.
+  bool collect(std::int32_t start, std::int32_t e, std::int32_t f, Table<std::int32_t>& region) {
+    ++stamp_;
+    region.clear();
+    region.push_back(start / 4), mark_[start / 4] = stamp_;
+    const auto barrier = [&](std::int32_t h) { return h == e || h == f || quads_.twin[h] == e || quads_.twin[h] == f; };
+    std::int32_t inner_edges = 0;  // twice
+    for (std::int32_t i = 0; i < region.size(); ++i) {
+      if (region.size() > most_fold_quads || dead_[region[i]]) return false;
+      for (std::int32_t h = 4 * region[i]; h < 4 * region[i] + 4; ++h) {
+        if (barrier(h)) continue;
+        const std::int32_t g = quads_.twin[h];
+        if (g == none) return false;
+        ++inner_edges;
+        if (mark_[g / 4] == stamp_) continue;
+        mark_[g / 4] = stamp_, region.push_back(g / 4);
+      }
+    }
+    if (region.size() > most_fold_quads) return false;
+    // An open disc: faces - inner edges + inner vertices = 1.
+    std::int32_t corners[4 * most_fold_quads + 4], count = 0;
+    for (const std::int32_t q : region) {
+      for (std::int32_t h = 4 * q; h < 4 * q + 4; ++h) corners[count++] = quads_.tail[h];
+    }
+    std::sort(corners, corners + count);
+    const std::int32_t vertices = static_cast<std::int32_t>(std::unique(corners, corners + count) - corners);
+    return region.size() - inner_edges / 2 + vertices - 2 == 1;
+  }
+
+  bool remove_fold(std::int32_t e, std::int32_t f, RepairReport& report) {
+    Table<std::int32_t> region(memory_);
+    for (const std::int32_t side : {e, quads_.twin[e]}) {
+      if (side == none || dead_[side / 4] || !collect(side, e, f, region)) continue;
+      // The half-edges of both edges that belong to the region; one each, or the edge is inside it.
+      std::int32_t of[2] = {none, none};
+      bool good = true;
+      for (int k = 0; k < 2; ++k) {
+        const std::int32_t h = k == 0 ? e : f;
+        for (const std::int32_t half : {h, quads_.twin[h]}) {
+          if (half == none || mark_[half / 4] != stamp_) continue;
+          good &= of[k] == none, of[k] = half;
+        }
+        good &= of[k] != none;
+      }
+      if (!good) continue;
+      const std::int32_t a = quads_.twin[of[0]], b = quads_.twin[of[1]];
+      if (a == none && b == none) continue;
+      const std::uint8_t feature = quads_.feature[of[0]] | quads_.feature[of[1]];
+      for (const std::int32_t half : {a, b}) {
+        if (half != none) quads_.feature[half] = feature;
+      }
+      quads_.join(a, b);
+      for (const std::int32_t q : region) dead_[q] = 1;
+      report.removed += region.size();
+      return true;
+    }
+    return false;
+  }
+
+  static constexpr std::int32_t pillowed_ = -1;
+  const FluxSurface& surface_;
+  QuadComplex& quads_;
+  Memory& memory_;
+  Table<std::uint8_t> dead_;
+  Table<std::int32_t> mark_;
+  std::int32_t stamp_ = 0;
+};
+
+// Removes small closed pieces beside larger ones of the same component: lines of a fold that cross each other only.
+std::int32_t remove_islands(const FluxSurface& surface, QuadComplex& quads, Memory& memory) {
+  const Table<std::int32_t> component = components_of(surface, quads, memory);
+  Table<std::int32_t> piece(quads.quad_count(), none, memory), stack(memory), size(memory),
+      largest(surface.component_count, none, memory), of(memory);
+  Table<std::uint8_t> open(memory);
+  for (std::int32_t start = 0; start < piece.size(); ++start) {
+    if (piece[start] != none) continue;
+    const std::int32_t number = size.push_back(0);
+    open.push_back(0), of.push_back(component[start]);
+    piece[start] = number, stack.push_back(start);
+    while (!stack.empty()) {
+      const std::int32_t f = stack.back();
+      stack.pop_back();
+      ++size[number];
+      for (std::int32_t h = 4 * f; h < 4 * f + 4; ++h) {
+        const std::int32_t g = quads.twin[h];
+        if (g == none) {
+          open[number] = 1;
+        } else if (piece[g / 4] == none) {
+          piece[g / 4] = number, stack.push_back(g / 4);
+        }
+      }
+    }
+    std::int32_t& best = largest[of[number]];
+    if (best == none || size[number] > size[best]) best = number;
+  }
+  Table<std::uint8_t> dead(piece.size(), 0, memory);
+  std::int32_t removed = 0;
+  for (std::int32_t f = 0; f < piece.size(); ++f) {
+    const std::int32_t p = piece[f];
+    dead[f] = p != largest[of[p]] && !open[p] && size[p] <= most_fold_quads;
+    removed += dead[f];
+  }
+  if (removed > 0) quads.remove(dead, memory), quads.split_fans(memory);
+  return removed;
+}
+
+}  // namespace
+
+void repair_quads(const FluxSurface& surface, QuadComplex& quads, RepairReport& report, Memory& memory) {
+  report.removed += remove_islands(surface, quads, memory);
+  report.removed += remove_doublets(quads, memory);
+  for (std::int32_t round = 0; round < repair_rounds; ++round) {
+    poll();
+    if (!Repairer(surface, quads, memory).run(report)) return;
+    report.removed += remove_doublets(quads, memory);
+  }
+}
+
+}  // namespace hf_inner
