@@ -5,6 +5,7 @@
 
 #include "base/algebra.h"
 #include "base/compiler.h"
+#include "base/index.h"
 
 namespace hf_inner {
 namespace {
@@ -45,32 +46,32 @@ void Anderson::step(Span<double> z, Span<const double> f, std::size_t block, dou
   std::copy(f.begin(), f.end(), last_f());
   last_residual_ = residual, open_ = true;
 
-  // columns of length 1, so that the small term below trades directions and not sizes
-  using Small = hf_eigen::Matrix<double, hf_eigen::Dynamic, hf_eigen::Dynamic, 0, anderson_steps, anderson_steps>;
-  using SmallVector = hf_eigen::Matrix<double, hf_eigen::Dynamic, 1, 0, anderson_steps, 1>;
-  const auto count = static_cast<hf_eigen::Index>(count_);
-  Small gram(count, count);
-  SmallVector right(count), scale(count);
-  for (hf_eigen::Index k = 0; k < count; ++k) {
-    const double square = gram_[static_cast<std::size_t>(k)][static_cast<std::size_t>(k)];
+  // Columns of length 1, so that damping trades directions and not sizes. What is not kept yet is a row of the
+  // identity.
+  constexpr int most = static_cast<int>(anderson_steps);
+  hf_eigen::Matrix<double, most, most> gram = hf_eigen::Matrix<double, most, most>::Identity();
+  hf_eigen::Matrix<double, most, 1> right = hf_eigen::Matrix<double, most, 1>::Zero(), scale = right;
+  const int count = static_cast<int>(count_);
+  for (int k = 0; k < count; ++k) {
+    const double square = gram_[at(k)][at(k)];
     scale(k) = square > 0 ? 1 / std::sqrt(square) : 0.0;
-    right(k) = scale(k) * product(df(static_cast<std::size_t>(k)), f.data(), size_);
+    right(k) = scale(k) * product(df(at(k)), f.data(), size_);
   }
-  for (hf_eigen::Index k = 0; k < count; ++k) {
-    for (hf_eigen::Index j = 0; j < count; ++j)
-      gram(j, k) = scale(j) * scale(k) * gram_[static_cast<std::size_t>(j)][static_cast<std::size_t>(k)];
+  for (int k = 0; k < count; ++k) {
+    for (int j = 0; j < count; ++j) gram(j, k) = scale(j) * scale(k) * gram_[at(j)][at(k)];
     gram(k, k) += anderson_damping;
   }
-  if (count > 0) right = gram.ldlt().solve(right);
+  if (count > 0) right = gram.ldlt().solve(right).eval();
   double* const extra = leap();
   std::fill(extra, extra + size_, 0.0);
-  for (std::size_t k = 0; k < count_; ++k) {
-    const double share = right(static_cast<hf_eigen::Index>(k)) * scale(static_cast<hf_eigen::Index>(k));
-    const double *from_z = dz(k), *from_f = df(k);
+  for (int k = 0; k < count; ++k) {
+    const double share = right(k) * scale(k);
+    const double *from_z = dz(at(k)), *from_f = df(at(k));
     for (std::size_t i = 0; i < size_; ++i) extra[i] -= share * (from_z[i] + from_f[i]);
   }
   double largest = 0;
   for (std::size_t i = 0; i < size_; i += block) largest = std::max(largest, product(extra + i, extra + i, block));
+  if (!std::isfinite(largest)) std::fill(extra, extra + size_, 0.0), largest = 0, forget();
   const double kept = largest > longest * longest ? longest / std::sqrt(largest) : 1.0;
   for (std::size_t i = 0; i < size_; ++i) z[i] += f[i] + kept * extra[i];
 }

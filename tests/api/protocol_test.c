@@ -90,6 +90,16 @@ static hf_result trace_isolines(Call* c) {
   c->count[0] = lines.point_count, c->count[1] = lines.line_count;
   return r;
 }
+static hf_result find_path(Call* c) {
+  const hf_surface_point from = {{0, 0, 0}, 0, {1, 0, 0}};
+  const hf_surface_point to = {{TUBE_VERTICES - 2, 0, 0}, 0, {1, 0, 0}};
+  hf_path path = HF_INIT(hf_path);
+  path.point_capacity = (uint32_t)c->capacity[0];
+  path.point_edges = c->array[0], path.parameters = c->array[1], path.positions = c->array[2];
+  const hf_result r = hf_geodesics_find_path(scene.geodesics, &from, &to, &path);
+  c->count[0] = path.point_count;
+  return r;
+}
 static hf_result flow_trace(Call* c) {
   const hf_scalars field = heights();
   hf_flow_lines lines = HF_INIT(hf_flow_lines);
@@ -228,6 +238,7 @@ static const struct {
      trace_isolines,
      {{0, 8, 0}, {0, 8, 0}, {0, 24, 0}, {1, 4, 1}, {1, 4, 0}, {1, 4, 0}},
      0},
+    {"hf_geodesics_find_path", find_path, {{0, 8, 0}, {0, 8, 0}, {0, 24, 0}}, 0},
     {"hf_flow_trace", flow_trace, {{0, 24, 0}, {0, 8, 0}, {1, 4, 1}, {1, 8, 0}}, 0},
     {"hf_quads_get_mesh",
      quads_get_mesh,

@@ -259,7 +259,12 @@ class Scene
                 (double)p.index).ToArray();
             case "propose": return surface.ProposeHandles().Select(p => (double)p.vertex).OrderBy(x => x).ToArray();
             case "extremities": return surface.FindExtremities().Select(p => (double)p.vertex).OrderBy(x => x).ToArray();
-            case "geodesics": objects[name] = new Geodesics(surface); return null;
+            case "geodesics":
+                {
+                    var o = Options(step, "method");
+                    objects[name] = new Geodesics(surface, method: o.ContainsKey("method") ? (int)o["method"] : 0);
+                    return null;
+                }
             case "distance": return ((Geodesics)on).Distance(Numbers(Get(step, "sources")));
             case "direction": objects[name] = new Direction(surface, (uint)Options(step, "degree")["degree"]);
                 return null;

@@ -34,6 +34,8 @@ func list(step, key, kept):
 		out.append(number(x))
 	return out
 
+var methods = {} # of distances, by the name of the step that chose it
+
 func options_of(step):
 	var out = {}
 	for key in step.get("options", {}):
@@ -177,8 +179,9 @@ func run(step, objects, kept):
 				return [false, null, null]
 			var made = shares(on)
 			objects[step["as"]] = made
+			methods[step["as"]] = options_of(step).get("method", 0)
 			return [true, true, made]
-		"distance": return [true, on.distance(list(step, "sources", kept)), on]
+		"distance": return [true, on.distance(list(step, "sources", kept), methods.get(step["on"], 0)), on]
 		"levels": return [true, on.space_levels(list(step, "field", kept), step.count,
 			{"HF_LEVELS_AREA": 1}.get(step.spacing, 0)), on]
 		"isolines":

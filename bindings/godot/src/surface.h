@@ -1,6 +1,7 @@
 // The class that scripts see, free of any engine. It holds a surface and one of each thing that is made on it.
 // A table of methods takes plain arguments to plain values. gdnative.cpp and gdextension.cpp only convert.
 #pragma once
+#include <array>
 #include <hf/hf.hpp>
 #include <map>
 #include <memory>
@@ -50,7 +51,7 @@ struct Surface {
   hf::Handle<hf_solver, hf_solver_destroy> solver;
   hf::Handle<hf_pose, hf_pose_destroy> pose;
   hf::Handle<hf_transfer, hf_transfer_destroy> transfer;
-  hf::Handle<hf_geodesics, hf_geodesics_destroy> geodesics;
+  std::array<hf::Handle<hf_geodesics, hf_geodesics_destroy>, HF_GEODESICS_HEAT + 1> geodesics;  // by method
   hf::Handle<hf_direction, hf_direction_destroy> direction;
   hf::Handle<hf_quads, hf_quads_destroy> quads;
   hf::Handle<hf_flow, hf_flow_destroy> flow;

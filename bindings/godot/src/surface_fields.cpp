@@ -23,11 +23,16 @@ Value lines_of(const Doubles& positions, const Numbers& starts) {
   return value;
 }
 
-// distance(sources): along the surface, -1 where none can be reached
+// distance(sources, method = 0): along the surface, -1 where none can be reached
 Value distance(Surface& s, const Arguments& a) {
   const List sources = integers(at(a, 0), "sources");
-  hf_geodesics geodesics =
-      make_once(s.geodesics, [&](hf_geodesics* out) { return hf_geodesics_create(s.get(), nullptr, out); });
+  const int32_t method = signed_whole(at(a, 1).number, "method");
+  auto desc = make<hf_geodesics_desc>();
+  desc.method = method;
+  hf::Handle<hf_geodesics, hf_geodesics_destroy> refused;  // the library refuses what is no method
+  const bool known = method >= 0 && method <= HF_GEODESICS_HEAT;
+  auto& slot = known ? s.geodesics[static_cast<size_t>(method)] : refused;
+  hf_geodesics geodesics = make_once(slot, [&](hf_geodesics* out) { return hf_geodesics_create(s.get(), &desc, out); });
   Value value;
   value.kind = Value::reals, value.floats.resize(s.vertex_count + 1);
   check(hf_geodesics_solve(geodesics, sources.count(), sources.data(), value.floats.data(), 0));
@@ -279,7 +284,7 @@ Value flow_lines(Surface& s, const Arguments& a) {
 
 const std::vector<Entry>& field_methods() {
   static const std::vector<Entry> all = {
-      {"distance", 1, 1, distance},
+      {"distance", 1, 2, distance},
       {"space_levels", 2, 3, space_levels},
       {"trace_isolines", 2, 2, trace_isolines},
       {"find_critical_points", 1, 1, find_critical_points},
