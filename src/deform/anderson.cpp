@@ -10,15 +10,26 @@
 namespace hf_inner {
 namespace {
 
+// Sixteen sums hide the latency of additions: four vectors of four numbers, or eight of two.
 HF_FOUR_LANES
 double product(const double* a, const double* b, std::size_t size) noexcept {
-  double sum[4] = {0, 0, 0, 0};
+  constexpr std::size_t lanes = 16;
+  double sum[lanes] = {};
   std::size_t i = 0;
-  for (; i + 4 <= size; i += 4) {
-    for (std::size_t l = 0; l < 4; ++l) sum[l] += a[i + l] * b[i + l];
+  for (; i + lanes <= size; i += lanes) {
+    for (std::size_t l = 0; l < lanes; ++l) sum[l] += a[i + l] * b[i + l];
   }
   for (; i < size; ++i) sum[0] += a[i] * b[i];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  for (std::size_t half = lanes / 2; half > 0; half /= 2) {
+    for (std::size_t l = 0; l < half; ++l) sum[l] += sum[l + half];
+  }
+  return sum[0];
+}
+
+// Computes to -= factor times from.
+HF_FOUR_LANES
+void subtract(double factor, const double* from, double* to, std::size_t size) noexcept {
+  for (std::size_t i = 0; i < size; ++i) to[i] -= factor * from[i];
 }
 
 }  // namespace
@@ -30,18 +41,29 @@ void Anderson::fit(std::size_t size) {
 }
 
 void Anderson::keep_difference(Span<const double> z, Span<const double> f) noexcept {
-  double *to_z = dz(next_), *to_f = df(next_);
+  double *to_f = df(next_), *to_both = both(next_);
   const double *from_z = last_z(), *from_f = last_f();
-  for (std::size_t i = 0; i < size_; ++i) to_z[i] = z[i] - from_z[i], to_f[i] = f[i] - from_f[i];
+  for (std::size_t i = 0; i < size_; ++i) {
+    to_f[i] = f[i] - from_f[i];
+    to_both[i] = (z[i] - from_z[i]) + to_f[i];
+  }
   const std::size_t place = next_;
   count_ = std::min(count_ + 1, anderson_steps), next_ = (next_ + 1) % anderson_steps;
-  for (std::size_t k = 0; k < count_; ++k) gram_[place][k] = gram_[k][place] = product(to_f, df(k), size_);
+  // f is the last residual plus this difference, so dF' f changes by the new row of dF' dF
+  for (std::size_t k = 0; k < count_; ++k) {
+    gram_[place][k] = gram_[k][place] = product(to_f, df(k), size_);
+    right_[k] += gram_[place][k];
+  }
+  right_[place] = product(to_f, f.data(), size_);
 }
 
 void Anderson::step(Span<double> z, Span<const double> f, std::size_t block, double longest) noexcept {
   const double residual = product(f.data(), f.data(), size_);
   if (open_ && residual > anderson_growth * last_residual_) forget();
-  if (open_) keep_difference(z, f);
+  if (open_)
+    keep_difference(z, f);
+  else
+    for (std::size_t k = 0; k < count_; ++k) right_[k] = product(df(k), f.data(), size_);
   std::copy(z.begin(), z.end(), last_z());
   std::copy(f.begin(), f.end(), last_f());
   last_residual_ = residual, open_ = true;
@@ -55,7 +77,7 @@ void Anderson::step(Span<double> z, Span<const double> f, std::size_t block, dou
   for (int k = 0; k < count; ++k) {
     const double square = gram_[at(k)][at(k)];
     scale(k) = square > 0 ? 1 / std::sqrt(square) : 0.0;
-    right(k) = scale(k) * product(df(at(k)), f.data(), size_);
+    right(k) = scale(k) * right_[at(k)];
   }
   for (int k = 0; k < count; ++k) {
     for (int j = 0; j < count; ++j) gram(j, k) = scale(j) * scale(k) * gram_[at(j)][at(k)];
@@ -64,13 +86,13 @@ void Anderson::step(Span<double> z, Span<const double> f, std::size_t block, dou
   if (count > 0) right = gram.ldlt().solve(right).eval();
   double* const extra = leap();
   std::fill(extra, extra + size_, 0.0);
-  for (int k = 0; k < count; ++k) {
-    const double share = right(k) * scale(k);
-    const double *from_z = dz(at(k)), *from_f = df(at(k));
-    for (std::size_t i = 0; i < size_; ++i) extra[i] -= share * (from_z[i] + from_f[i]);
-  }
+  for (int k = 0; k < count; ++k) subtract(right(k) * scale(k), both(at(k)), extra, size_);
   double largest = 0;
-  for (std::size_t i = 0; i < size_; i += block) largest = std::max(largest, product(extra + i, extra + i, block));
+  for (std::size_t i = 0; i < size_; i += block) {
+    double square = 0;
+    for (std::size_t j = i; j < i + block; ++j) square += extra[j] * extra[j];
+    largest = std::max(largest, square);
+  }
   if (!std::isfinite(largest)) std::fill(extra, extra + size_, 0.0), largest = 0, forget();
   const double kept = largest > longest * longest ? longest / std::sqrt(largest) : 1.0;
   for (std::size_t i = 0; i < size_; ++i) z[i] += f[i] + kept * extra[i];

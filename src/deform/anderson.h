@@ -22,6 +22,7 @@ class Anderson {
   Anderson(const Anderson& other, Memory& memory)
       : store_(other.store_, &memory),
         gram_(other.gram_),
+        right_(other.right_),
         size_(other.size_),
         count_(other.count_),
         next_(other.next_),
@@ -37,15 +38,16 @@ class Anderson {
   void step(Span<double> z, Span<const double> f, std::size_t block, double longest) noexcept;
 
  private:
-  double* dz(std::size_t k) noexcept { return store_.data() + 2 * k * size_; }
-  double* df(std::size_t k) noexcept { return dz(k) + size_; }
+  double* df(std::size_t k) noexcept { return store_.data() + 2 * k * size_; }
+  double* both(std::size_t k) noexcept { return df(k) + size_; }
   double* last_z() noexcept { return store_.data() + 2 * anderson_steps * size_; }
   double* last_f() noexcept { return last_z() + size_; }
   double* leap() noexcept { return last_f() + size_; }
   void keep_difference(Span<const double> z, Span<const double> f) noexcept;
 
-  Vector<double> store_;  // dz and df of every kept step, then the last iterate, its residual, and a leap
+  Vector<double> store_;  // df and dz + df of every kept step, then the last iterate, its residual, and a leap
   std::array<std::array<double, anderson_steps>, anderson_steps> gram_{};  // dF' dF
+  std::array<double, anderson_steps> right_{};                             // dF' f
   std::size_t size_ = 0, count_ = 0, next_ = 0;                            // kept steps; where the next one goes
   double last_residual_ = 0;                                               // squared
   bool open_ = false;  // the last iterate and its residual belong to the present map

@@ -185,9 +185,9 @@ Quaternion within_turn_limit(const Quaternion& q, const Quaternion& anchor, doub
 }
 
 // The weight of a quaternion's change: |R - R'|_F = 2 sqrt(2) sin(angle / 2), so that rotation and stress compare.
-const double quaternion_weight = 2.0 * std::sqrt(2.0);
+constexpr double root_of_two = 1.41421356237309504880, quaternion_weight = 2.0 * root_of_two;
 
-// Writes where group g is, and how far its fit is from there. Returns the change (Frobenius norm).
+// Writes where group g is, and how far its fit is from there. Returns the change (Frobenius norm, squared).
 double note_group(const SmoothSystem& system, std::size_t g, Quaternion fit, const Stress& wanted,
                   SmoothState& state) noexcept {
   const Quaternion& q = state.rotation[system.subspace.group[g]];
@@ -200,11 +200,10 @@ double note_group(const SmoothSystem& system, std::size_t g, Quaternion fit, con
   }
   const Stress& stress = state.stress[g];
   const double share = strain_limits[system.sheet[g].limits].follow;
-  z[4] = stress.along, z[5] = std::sqrt(2.0) * stress.across, z[6] = stress.beside;
-  f[4] = share * (wanted.along - stress.along), f[5] = std::sqrt(2.0) * share * (wanted.across - stress.across),
+  z[4] = stress.along, z[5] = root_of_two * stress.across, z[6] = stress.beside;
+  f[4] = share * (wanted.along - stress.along), f[5] = root_of_two * share * (wanted.across - stress.across),
   f[6] = share * (wanted.beside - stress.beside);
-  return std::max(2.0 * std::sqrt(2.0 * square * (1.0 - 0.25 * square)),
-                  std::sqrt(f[4] * f[4] + f[5] * f[5] + f[6] * f[6]));
+  return std::max(8.0 * square * (1.0 - 0.25 * square), f[4] * f[4] + f[5] * f[5] + f[6] * f[6]);
 }
 
 // Takes the rotation and the stress of group g from the iterate.
@@ -215,7 +214,7 @@ void take_group(const SmoothSystem& system, std::size_t g, SmoothState& state) n
   if (state.turn_limit < pi) next = within_turn_limit(next, state.anchor[g], state.turn_limit);
   if (next.dot(q) < 0) next.coeffs() *= -1;
   q = next;
-  state.stress[g] = {z[4], z[5] / std::sqrt(2.0), z[6]};
+  state.stress[g] = {z[4], z[5] / root_of_two, z[6]};
 }
 
 // Fits the rotations and stresses of all vertex groups (the local step), and takes the next iterate. Returns the
@@ -243,7 +242,7 @@ double fit_rotations(const SmoothSystem& system, SmoothState& state) noexcept {
   }
   state.anderson.step(state.iterate, state.residual, 7, longest_leap);
   for (std::size_t g = 0; g < s.group.size(); ++g) take_group(system, g, state), set_target(system, g, state);
-  return largest;
+  return std::sqrt(largest);
 }
 
 }  // namespace

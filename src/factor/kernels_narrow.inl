@@ -185,24 +185,26 @@ void backward_narrow_any(const T* triangle, const std::int32_t* rows, std::int32
       backward_narrow_columns<T, decltype(size)::value, 1>(triangle, rows, row_count, z, first);
     });
   }
-  if (channels > 4) {
+  if (channels > narrow_channels) {
     for (std::int32_t c = 0; c < channels; c += Simd<T>::width) {
       const int count = channels - c < Simd<T>::width ? channels - c : Simd<T>::width;
       backward_narrow_vector<T>(triangle, columns, rows, row_count, z + c, first, channels, count);
     }
     return;
   }
-  with_columns<most_narrow>(columns, [&](auto size) {
-    constexpr int n = decltype(size)::value;
-    switch (channels) {
-      case 2:
-        return backward_narrow_columns<T, n, 2>(triangle, rows, row_count, z, first);
-      case 3:
-        return backward_narrow_columns<T, n, 3>(triangle, rows, row_count, z, first);
-      default:
-        return backward_narrow_columns<T, n, 4>(triangle, rows, row_count, z, first);
-    }
-  });
+  if constexpr (narrow_channels > 1) {
+    with_columns<most_narrow>(columns, [&](auto size) {
+      constexpr int n = decltype(size)::value;
+      switch (channels) {
+        case 2:
+          return backward_narrow_columns<T, n, 2>(triangle, rows, row_count, z, first);
+        case 3:
+          return backward_narrow_columns<T, n, 3>(triangle, rows, row_count, z, first);
+        default:
+          return backward_narrow_columns<T, n, 4>(triangle, rows, row_count, z, first);
+      }
+    });
+  }
 }
 
 void backward_narrow(const double* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,

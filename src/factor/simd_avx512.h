@@ -96,6 +96,7 @@ inline __m256d row_products(const double* row, const double* z) noexcept {
 }
 
 constexpr int gemm_rows = 3, gemm_columns = 8;  // vectors of rows x columns of a sum: 24 of 32 registers
+constexpr std::int32_t narrow_channels = 4;  // in narrow supernodes, so many right-hand sides have kernels of their own
 constexpr int lane_vectors = 3, lane_rows = 8;  // the same in the kernels for paths
 
 // Transposes by one 8 x 8 transpose in registers: out[r][at + c] = tile[8 c + r] for r < rows and c < columns.

@@ -150,6 +150,7 @@ inline Double4::Type row_products(const double* row, const double* z) noexcept {
 }
 
 constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of a sum: 12 of 16 pairs of registers
+constexpr std::int32_t narrow_channels = 4;  // in narrow supernodes, so many right-hand sides have kernels of their own
 constexpr int lane_vectors = 2, lane_rows = 6;  // the same in the kernels for paths
 
 // Transposes by blocks of 2 x 2: out[r][at + c] = tile[8 c + r] for r < rows and c < columns.
