@@ -167,6 +167,9 @@ def bad_scenes():
              {"do": "geodesics", "on": "m", "as": "g"}, {"do": "direction", "on": "m", "as": "d"}]
     bad("EMPTY", do="distance", on="g", sources=[])
     bad("OUT_OF_RANGE", do="distance", on="g", sources=[302])
+    bad("OUT_OF_RANGE", do="path", on="g", **{"from": [302], "to": [0]})
+    bad("INVALID_ARGUMENT", do="path", on="g", **{"from": [0], "to": [0, 1, 2, 0.5, 0.5, 0.5]})
+    bad("INVALID_ARGUMENT", do="map", on="g", centre=[0], radius=-1.0)
     bad("NO_SITES", do="directions", on="d")
     bad("NON_FINITE", do="add_vectors", on="d", vertices=[0], vectors=["nan", 0.0, 0.0])
     bad("OUT_OF_RANGE", do="add_vectors", on="d", vertices=[302], vectors=[1.0, 0.0, 0.0])
@@ -226,7 +229,8 @@ def bad_scenes():
              "x": [{"do": "add_pairs", "source_regions": [[0]], "target_regions": [[0]]},
                  {"do": "remove_pairs", "pairs": [0]}, {"do": "transfer_info"},
                    {"do": "apply", "positions": [0.0] * 906}],
-             "g": [{"do": "distance", "sources": [0]}], "d": [{"do": "add_vectors", "vertices": [0],
+             "g": [{"do": "distance", "sources": [0]}, {"do": "path", "from": [0], "to": [1]},
+                 {"do": "map", "centre": [0]}], "d": [{"do": "add_vectors", "vertices": [0],
                  "vectors": [1.0, 0.0, 0.0]}, {"do": "rotate", "sites": [0], "angles": [1.0]},
                                                              {"do": "directions"}, {"do": "singularities"}, {"do": "remove_vectors", "sites": [0]}, {"do": "move_vectors", "sites": [0], "vertices": [1]},
                    {"do": "set_vectors", "sites": [0],

@@ -17,7 +17,7 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "tests" / "bindings"), str(HERE
 import golden  # noqa: E402
 import hf  # noqa: E402
 from bad_scenes import bad_scenes  # noqa: E402
-from oracle import agree, cast_ray, expect, expect_all, expect_rows, field, graph_field, rotation  # noqa: E402
+from oracle import agree, cast_ray, expect, expect_all, expect_rows, field, graph_field, rotation, straight_path  # noqa: E402
 from shapes import bar, pair, strip, torus  # noqa: E402
 
 
@@ -257,6 +257,7 @@ def scenes(meshes):
     plain_calls(scene, mesh, surface, solver)
     kinds_of_field(scene, mesh, surface, solver)
     picking(scene, mesh, surface)
+    paths(scene, meshes["strip"], surface)
     graphs(scene, solver, solve)
     faces(scene, solver, solve)
     links(scene, surface, solver)
@@ -453,6 +454,24 @@ def graphs(scene, solver, solve):
           {**given, "weights": weights[:7], "error": "HF_ERROR_INVALID_ARGUMENT"},
           {**given, "masses": [0.0, *masses[1:]], "error": "HF_ERROR_INVALID_ARGUMENT", "index": 0},
           {**given, "edges": [], "weights": [], "error": "HF_ERROR_EMPTY"})
+
+
+def paths(scene, mesh, surface):
+    points, triangles = np.array(mesh["positions"]).reshape(-1, 3), np.array(mesh["triangles"]).reshape(-1, 3)
+    place = lambda t, *weights: [*map(int, triangles[t]), *weights]
+    first, last = place(1, 0.2, 0.3, 0.5), place(88, 0.25, 0.25, 0.5)
+    find = lambda start, end, on="g": {"do": "path", "on": on, "from": start, "to": end,
+        "expect": expect_all(straight_path(points, triangles, start, end).ravel())}
+    scene("paths",
+        "Shortest paths on a flat strip are straight (closed form), whatever the method; its map around a place is the strip itself, turned (agreement).",
+          surface("strip"), {"do": "geodesics", "on": "m", "as": "g"},
+          {"do": "geodesics", "on": "m", "as": "h", "options": {"method": hf.constants.HF_GEODESICS_HEAT}},
+          find(first, last), find(first, last, "h"), find([16], last), find([16], [61]), find([16], [16]),
+          {"do": "map", "on": "g", "centre": [16], "expect": agree()},
+          {"do": "map", "on": "h", "centre": first, "expect": agree()},
+          {"do": "map", "on": "g", "centre": [16], "radius": 100.0, "expect": agree()},
+          {"do": "path", "on": "g", "from": [16], "to": [65], "error": "HF_ERROR_OUT_OF_RANGE", "index": 1},
+          {"do": "map", "on": "g", "centre": [0, 1, 64, 0.2, 0.3, 0.5], "error": "HF_ERROR_INVALID_ARGUMENT"})
 
 
 def picking(scene, mesh, surface):

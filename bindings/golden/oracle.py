@@ -84,6 +84,21 @@ def cast_ray(points, triangles, origin, direction):
     return np.array(best or [0], float)
 
 
+def straight_path(points, triangles, start, end):
+    """The straight line between two places of a flat mesh: its ends, and where it crosses edges."""
+    at = lambda place: points[place[0]] if len(place) == 1 else np.array(place[3:]) @ points[place[:3]]
+    a, b = at(start)[:2], at(end)[:2]
+    params = [0.0, 1.0] if start != end else [0.0]
+    for p, q in {tuple(sorted((int(t[k]), int(t[k - 1])))) for t in triangles for k in range(3)}:
+        sides = np.array([b - a, points[p][:2] - points[q][:2]]).T
+        if abs(np.linalg.det(sides)) < 1e-12:
+            continue
+        along, across = np.linalg.solve(sides, points[p][:2] - a)
+        if 1e-9 < along < 1 - 1e-9 and -1e-12 < across < 1 + 1e-12:
+            params.append(along)
+    return np.array([[*(a + s * (b - a)), 0.0] for s in sorted(params)])
+
+
 def rotation(q):
     x, y, z, w = q
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],

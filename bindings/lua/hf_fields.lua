@@ -25,6 +25,40 @@ function Geodesics:distance(sources)
   on_numbers(C.hf_geodesics_solve_f64, self.raw, sources, 'sources', out, 0)
   return out
 end
+-- A place is a vertex, or corners and barycentrics: lists of three, or what cast_ray gives.
+local function point_of(place, name)
+  local point = ffi.new('hf_surface_point')
+  if type(place) == 'number' then
+    place = { corners = { place, place, place }, barycentrics = { 1, 0, 0 } }
+  elseif type(place) ~= 'table' and type(place) ~= 'cdata' then
+    fail(name .. ' must be a vertex, or corners and barycentrics')
+  end
+  local first = type(place) == 'cdata' and 0 or 1
+  if first == 1 and (#(place.corners or {}) ~= 3 or #(place.barycentrics or {}) ~= 3) then
+    fail(name .. ' must have three corners and three barycentrics')
+  end
+  for k = 0, 2 do
+    point.corners[k] = core.whole(tonumber(place.corners[first + k]), name .. '.corners')
+    point.barycentrics[k] = place.barycentrics[first + k]
+  end
+  return point
+end
+-- The shortest path between two places: xyz of its corners (cdata from 0), and how many numbers they are.
+function Geodesics:path(from, to)
+  local start, finish, path = point_of(from, 'from'), point_of(to, 'to'), make('hf_path')
+  check(C.hf_geodesics_find_path(self.raw, start, finish, path))
+  local count = 3 * path.point_count
+  local positions = ffi.new('double[?]', math.max(1, count))
+  path.point_capacity, path.positions = path.point_count, positions
+  check(C.hf_geodesics_find_path(self.raw, start, finish, path))
+  return positions, count
+end
+-- The surface around a place laid out in a plane: two coordinates per vertex; NaN beyond the radius (0: no bound).
+function Geodesics:map(centre, radius)
+  local out = ffi.new('double[?]', 2 * self.vertex_count)
+  check(C.hf_geodesics_get_map(self.raw, point_of(centre, 'centre'), radius or 0, out, nil))
+  return out
+end
 
 local Direction = class('Direction', function(raw) C.hf_direction_destroy(raw) end)
 function hf.Direction(surface, options)

@@ -38,6 +38,12 @@ class Scene
         return value == null ? null : ((Items)value).Select(Number).ToArray();
     }
 
+    Place PlaceOf(Map step, string key)
+    {
+        double[] list = Doubles(step, key);
+        if (list.Length == 1) return (uint)list[0];
+        return new Place(list.Take(3).Select(x => (uint)x).ToArray(), list.Skip(3).ToArray());
+    }
     static uint[] Numbers(object list)
     {
         return list == null ? null : ((Items)list).Select(x => (uint)(double)x).ToArray();
@@ -265,6 +271,8 @@ class Scene
                     objects[name] = new Geodesics(surface, method: o.ContainsKey("method") ? (int)o["method"] : 0);
                     return null;
                 }
+            case "path": return ((Geodesics)on).Path(PlaceOf(step, "from"), PlaceOf(step, "to"));
+            case "map": return ((Geodesics)on).Map(PlaceOf(step, "centre"), step.ContainsKey("radius") ? Number(step["radius"]) : 0);
             case "distance": return ((Geodesics)on).Distance(Numbers(Get(step, "sources")));
             case "direction": objects[name] = new Direction(surface, (uint)Options(step, "degree")["degree"]);
                 return null;

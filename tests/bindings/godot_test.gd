@@ -182,6 +182,10 @@ func run(step, objects, kept):
 			methods[step["as"]] = options_of(step).get("method", 0)
 			return [true, true, made]
 		"distance": return [true, on.distance(list(step, "sources", kept), methods.get(step["on"], 0)), on]
+		"path":
+			var path = on.find_path(list(step, "from", kept), list(step, "to", kept), methods.get(step["on"], 0))
+			return [true, points_of(step, path), on]
+		"map": return [true, on.map_around(list(step, "centre", kept), step.get("radius", 0), methods.get(step["on"], 0)), on]
 		"levels": return [true, on.space_levels(list(step, "field", kept), step.count,
 			{"HF_LEVELS_AREA": 1}.get(step.spacing, 0)), on]
 		"isolines":

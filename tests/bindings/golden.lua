@@ -77,6 +77,10 @@ local function compare(a, n, wanted)
 end
 
 -- Triangles in the layout a step asks for; what lies between them is all ones.
+local function place_of(list)
+  if #list == 1 then return list[1] end
+  return { corners = { list[1], list[2], list[3] }, barycentrics = { list[4], list[5], list[6] } }
+end
 local function lay_out(triangles, bits, stride)
   local width = bits / 8
   if stride == 0 then stride = 3 * width end
@@ -183,6 +187,8 @@ local function new_scene(meshes)
       return 'array', out, count
     elseif what == 'geodesics' then objects[step.as] = hf.Geodesics(on, options)
     elseif what == 'distance' then return 'array', on:distance(get('sources')), n
+    elseif what == 'path' then return 'array', on:path(place_of(get('from')), place_of(get('to')))
+    elseif what == 'map' then return 'array', on:map(place_of(get('centre')), step.radius), 2 * n
     elseif what == 'direction' then objects[step.as] = hf.Direction(on, options)
     elseif what == 'add_vectors' then return 'numbers', on:add_sites(get('vertices'), get('vectors'))
     elseif what == 'rotate' then on:rotate_sites(get('sites'), get('angles'))

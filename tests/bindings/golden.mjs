@@ -63,6 +63,8 @@ const bonesOf = (get, step) =>
   );
 
 /** The weight of one bone at every vertex. */
+const placeOf = (list) =>
+  list?.length === 6 ? { corners: list.slice(0, 3), barycentrics: list.slice(3) } : list?.[0];
 const columnOf = (found, bone) =>
   Float64Array.from(found.origins, (_, v) => {
     let sum = 0;
@@ -213,6 +215,10 @@ function runStep(hf, step, meshes, objects, kept) {
       return {};
     case 'distance':
       return array(on.distance(get('sources'), null, Float64Array));
+    case 'path':
+      return array(on.path(placeOf(get('from')), placeOf(get('to'))));
+    case 'map':
+      return array(on.map(placeOf(get('centre')), numbers(step.radius ?? 0)));
     case 'direction':
       objects[step.as] = new hf.Direction(on, options);
       return {};

@@ -53,6 +53,10 @@ def check_struct(info, expect):
             assert abs(found - value) <= expect.get("tolerance", 0), f"{key} is {found!r}, not {value!r}"
 
 
+def place_of(numbers):
+    return int(numbers[0]) if len(numbers) == 1 else (np.asarray(numbers[:3], int), numbers[3:])
+
+
 def lay_out(triangles, bits, stride):
     """Rows of corners as a step asks for them; what lies between them is 255 in every byte."""
     kind = np.dtype(np.uint16 if bits == 16 else np.uint32)
@@ -165,6 +169,10 @@ class Scene:
             self.objects[step["as"]] = hf.Geodesics(on, **options)
         elif do == "distance":
             return "array", on.distance(get("sources"), dtype=np.float64)
+        elif do == "path":
+            return "array", on.path(place_of(get("from")), place_of(get("to"))).ravel()
+        elif do == "map":
+            return "array", on.map(place_of(get("centre")), step.get("radius", 0.0)).ravel()
         elif do == "direction":
             self.objects[step["as"]] = hf.Direction(on, **options)
         elif do == "add_vectors":

@@ -119,6 +119,17 @@ impl Scene<'_> {
         self.doubles(step, key)
             .map(|list| list.iter().map(|&v| v as u32).collect())
     }
+    fn place(&self, step: &Value, key: &str) -> hf::raw::hf_surface_point {
+        let list = self.doubles(step, key).unwrap();
+        if list.len() == 1 {
+            return (list[0] as u32).into();
+        }
+        hf::raw::hf_surface_point {
+            corners: [list[0] as u32, list[1] as u32, list[2] as u32],
+            barycentrics: [list[3], list[4], list[5]],
+            ..Default::default()
+        }
+    }
     fn lists(step: &Value, key: &str) -> Option<Vec<Vec<u32>>> {
         let lists = step[key].as_array()?;
         Some(
@@ -770,6 +781,19 @@ impl Scene<'_> {
                 let sources = self.integers(step, "sources").unwrap();
                 Ok(Answer::Array(
                     on!(self, step, Geodesics).distance(&sources)?,
+                ))
+            }
+            "path" => {
+                let (from, to) = (self.place(step, "from"), self.place(step, "to"));
+                Ok(Answer::Array(
+                    on!(self, step, Geodesics).path(&from, &to)?,
+                ))
+            }
+            "map" => {
+                let centre = self.place(step, "centre");
+                let radius = step["radius"].as_f64().unwrap_or(0.0);
+                Ok(Answer::Array(
+                    on!(self, step, Geodesics).map(&centre, radius)?,
                 ))
             }
             "quads_info" => {

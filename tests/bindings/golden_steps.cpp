@@ -16,6 +16,17 @@ const std::set<std::string> region_steps = {"region",        "region_edit", "reg
 const std::set<std::string> weight_steps = {
     "weights",       "set_bones",    "set_pins",   "set_locks", "record_weights", "undo_weights", "redo_weights",
     "clone_weights", "skin_weights", "bone_flags", "helpers",   "weights_info",   "carry",        "mirror"};
+
+// [vertex], or three corners and three barycentrics
+hf_surface_point place_of(const Json& step, const char* key) {
+  const Json& list = step[key];
+  hf_surface_point point = {};
+  for (size_t k = 0; k < 3; ++k) {
+    point.corners[k] = list[list.size() == 1 ? 0 : k].get<uint32_t>();
+    point.barycentrics[k] = list.size() == 1 ? (k == 0 ? 1.0 : 0.0) : list[3 + k].get<double>();
+  }
+  return point;
+}
 }  // namespace
 
 Result Scene::run_solver(const Json& step) {
@@ -156,6 +167,20 @@ Result Scene::run(const Json& step) {
     const auto sources = numbers(step, "sources");
     result.array.emplace(n);
     check(hf_geodesics_solve_f64(on.geodesics.get(), count(sources), data(sources), result.array->data(), 0));
+  } else if (what == "path" || what == "map") {
+    const hf_surface_point from = place_of(step, what == "path" ? "from" : "centre");
+    if (what == "map") {
+      result.array.emplace(2 * n);
+      const double radius = step.contains("radius") ? number(step["radius"]) : 0;
+      check(hf_geodesics_get_map(on.geodesics.get(), &from, radius, result.array->data(), nullptr));
+    } else {
+      const hf_surface_point to = place_of(step, "to");
+      auto path = make<hf_path>();
+      check(hf_geodesics_find_path(on.geodesics.get(), &from, &to, &path));
+      result.array.emplace(3 * size_t{path.point_count});
+      path.point_capacity = path.point_count, path.positions = result.array->data();
+      check(hf_geodesics_find_path(on.geodesics.get(), &from, &to, &path));
+    }
   } else if (what == "pose" || what == "geodesics" || what == "direction" || what == "quads" || what == "flow") {
     make_object(step, what);
   } else if (direction_steps.count(what)) {

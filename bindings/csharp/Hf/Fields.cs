@@ -32,6 +32,69 @@ namespace Hf
             }
             return distances;
         }
+
+        /// <summary>The shortest path between two places: xyz of its corners; empty where none leads.</summary>
+        public double[] Path(Place from, Place to)
+        {
+            hf_surface_point start = Place.Of(from, "from"), end = Place.Of(to, "to");
+            var path = new hf_path { struct_size = (uint)sizeof(hf_path) };
+            Check(Functions.hf_geodesics_find_path(Handle, &start, &end, &path));
+            var positions = new double[3 * path.point_count];
+            fixed (double* place = positions)
+            {
+                path.point_capacity = path.point_count;
+                path.positions = (IntPtr)place;
+                Check(Functions.hf_geodesics_find_path(Handle, &start, &end, &path));
+            }
+            return positions;
+        }
+
+        /// <summary>The surface around a place laid out in a plane: two coordinates per vertex; NaN beyond the radius
+        /// (0: no bound).</summary>
+        public double[] Map(Place centre, double radius = 0)
+        {
+            hf_surface_point point = Place.Of(centre, "centre");
+            var coordinates = new double[2 * vertexCount];
+            fixed (double* at = coordinates) Check(Functions.hf_geodesics_get_map(Handle, &point, radius, at, null));
+            return coordinates;
+        }
+    }
+
+    /// <summary>A place on a surface: a vertex, or three corners of a triangle and their barycentrics.</summary>
+    public sealed class Place
+    {
+        public readonly uint[] Corners;
+        public readonly double[] Barycentrics;
+
+        public Place(uint[] corners, double[] barycentrics)
+        {
+            if (corners == null || corners.Length != 3 || barycentrics == null || barycentrics.Length != 3)
+                throw new HfException("a place has three corners and three barycentrics");
+            Corners = corners;
+            Barycentrics = barycentrics;
+        }
+
+        public static implicit operator Place(uint vertex)
+        {
+            return new Place(new[] { vertex, vertex, vertex }, new[] { 1.0, 0.0, 0.0 });
+        }
+
+        public static implicit operator Place(Hit hit)
+        {
+            return hit == null ? null : new Place(hit.Corners, hit.Barycentrics);
+        }
+
+        internal static unsafe hf_surface_point Of(Place place, string name)
+        {
+            if (place == null) throw new HfException(name + " is null", Constants.HF_ERROR_NULL_POINTER);
+            var point = new hf_surface_point();
+            for (int k = 0; k < 3; ++k)
+            {
+                point.corners[k] = place.Corners[k];
+                point.barycentrics[k] = place.Barycentrics[k];
+            }
+            return point;
+        }
     }
 
     /// <summary>The constraints of a direction field: vectors are xyz for each.</summary>

@@ -23,20 +23,61 @@ Value lines_of(const Doubles& positions, const Numbers& starts) {
   return value;
 }
 
+hf_geodesics geodesics_of(Surface& s, const Argument& argument) {
+  auto desc = make<hf_geodesics_desc>();
+  desc.method = signed_whole(argument.number, "method");
+  const auto create = [&](hf_geodesics* out) { return hf_geodesics_create(s.get(), &desc, out); };
+  if (desc.method < 0 || desc.method > HF_GEODESICS_HEAT) {
+    hf::Handle<hf_geodesics, hf_geodesics_destroy> none;
+    make_once(none, create);  // the library refuses it and says why
+  }
+  return make_once(s.geodesics[static_cast<size_t>(desc.method)], create);
+}
+
 // distance(sources, method = 0): along the surface, -1 where none can be reached
 Value distance(Surface& s, const Arguments& a) {
   const List sources = integers(at(a, 0), "sources");
-  const int32_t method = signed_whole(at(a, 1).number, "method");
-  auto desc = make<hf_geodesics_desc>();
-  desc.method = method;
-  hf::Handle<hf_geodesics, hf_geodesics_destroy> refused;  // the library refuses what is no method
-  const bool known = method >= 0 && method <= HF_GEODESICS_HEAT;
-  auto& slot = known ? s.geodesics[static_cast<size_t>(method)] : refused;
-  hf_geodesics geodesics = make_once(slot, [&](hf_geodesics* out) { return hf_geodesics_create(s.get(), &desc, out); });
+  hf_geodesics geodesics = geodesics_of(s, at(a, 1));
   Value value;
   value.kind = Value::reals, value.floats.resize(s.vertex_count + 1);
   check(hf_geodesics_solve(geodesics, sources.count(), sources.data(), value.floats.data(), 0));
   value.floats.resize(s.vertex_count);
+  return value;
+}
+
+// A place is [vertex], or [three corners of a triangle, their three weights].
+hf_surface_point place_of(const Argument& argument, const char* name) {
+  const Doubles& list = argument.list;
+  if (list.size() != 1 && list.size() != 6)
+    fail(std::string(name) + " must be [vertex], or three corners and three weights");
+  hf_surface_point point = {};
+  for (size_t k = 0; k < 3; ++k) {
+    point.corners[k] = whole(list[list.size() == 1 ? 0 : k], name);
+    point.barycentrics[k] = list.size() == 6 ? list[3 + k] : k == 0 ? 1.0 : 0.0;
+  }
+  return point;
+}
+
+// find_path(from, to, method = 0): points of the shortest path between two places
+Value find_path(Surface& s, const Arguments& a) {
+  const hf_surface_point from = place_of(at(a, 0), "from"), to = place_of(at(a, 1), "to");
+  hf_geodesics geodesics = geodesics_of(s, at(a, 2));
+  auto path = make<hf_path>();
+  check(hf_geodesics_find_path(geodesics, &from, &to, &path));
+  Doubles positions(3 * size_t{path.point_count} + 1);
+  path.point_capacity = path.point_count, path.positions = positions.data();
+  check(hf_geodesics_find_path(geodesics, &from, &to, &path));
+  return lines_of(positions, {0, path.point_count});
+}
+
+// map_around(centre, radius = 0, method = 0): the surface laid out in a plane, two coordinates per vertex
+Value map_around(Surface& s, const Arguments& a) {
+  const hf_surface_point centre = place_of(at(a, 0), "centre");
+  hf_geodesics geodesics = geodesics_of(s, at(a, 2));
+  Doubles map(2 * size_t{s.vertex_count} + 1);
+  check(hf_geodesics_get_map(geodesics, &centre, at(a, 1).number, map.data(), nullptr));
+  Value value;
+  value.kind = Value::reals, value.floats.assign(map.begin(), map.end() - 1);
   return value;
 }
 
@@ -285,6 +326,8 @@ Value flow_lines(Surface& s, const Arguments& a) {
 const std::vector<Entry>& field_methods() {
   static const std::vector<Entry> all = {
       {"distance", 1, 2, distance},
+      {"find_path", 2, 3, find_path},
+      {"map_around", 1, 3, map_around},
       {"space_levels", 2, 3, space_levels},
       {"trace_isolines", 2, 2, trace_isolines},
       {"find_critical_points", 1, 1, find_critical_points},

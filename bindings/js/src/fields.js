@@ -11,6 +11,7 @@ export function fieldClasses(tools) {
     OnSurface,
     Recorded,
     doubles,
+    fail,
     integers,
     output,
     read,
@@ -19,6 +20,16 @@ export function fieldClasses(tools) {
     pairOf,
     solveName,
   } = tools;
+
+  /** A place is a vertex, or three corners of a triangle and their barycentrics, as castRay gives them. */
+  const placeOf = (place, name) => {
+    const { corners, barycentrics } = Number.isInteger(place)
+      ? { corners: [place, place, place], barycentrics: [1, 0, 0] }
+      : (place ?? {});
+    if (corners?.length !== 3 || barycentrics?.length !== 3)
+      fail(`${name} must be a vertex, or an object with three corners and three barycentrics`);
+    return make('hf_surface_point').set('corners', corners).set('barycentrics', barycentrics);
+  };
 
   class Geodesics extends OnSurface {
     static prefix = 'hf_geodesics';
@@ -29,6 +40,21 @@ export function fieldClasses(tools) {
       const at = integers(sources, 'sources');
       out = output(out, this.vertexCount, Type);
       call(solveName('hf_geodesics_solve', out), this._handle, counted(at), at && read(at), written(out), 0);
+      return out;
+    }
+    /** The shortest path between two places: xyz of its corners; empty where none leads. */
+    path(from, to) {
+      const [start, end, path] = [placeOf(from, 'from'), placeOf(to, 'to'), make('hf_path')];
+      call('hf_geodesics_find_path', this._handle, start, end, path);
+      const positions = new Float64Array(3 * path.get('point_count'));
+      path.set('point_capacity', path.get('point_count')).set('positions', written(positions));
+      call('hf_geodesics_find_path', this._handle, start, end, path);
+      return positions;
+    }
+    /** The surface around a place laid out in a plane: two coordinates per vertex; NaN beyond the radius (0: no bound). */
+    map(centre, radius = 0, out) {
+      out = output(out, 2 * this.vertexCount, Float64Array);
+      call('hf_geodesics_get_map', this._handle, placeOf(centre, 'centre'), radius, written(out), null);
       return out;
     }
   }

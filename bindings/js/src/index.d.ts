@@ -72,6 +72,8 @@ export interface Hit {
   position: [number, number, number];
   distance: number;
 }
+/** A vertex, or three corners of a triangle and their weights, such as a hit. */
+export type Place = number | { corners: Numbers; barycentrics: Numbers };
 export interface SiteOptions {
   stiffness?: Numbers | null;
   radii?: Numbers | null;
@@ -203,6 +205,10 @@ export interface Solver extends Handle {
 
 export interface Geodesics extends Handle {
   distance<T extends Floats = Float32Array>(sources: Numbers, out?: T | null, Type?: FloatsType): T;
+  /** The shortest path between two places: xyz of its corners; empty where none leads. */
+  path(from: Place, to: Place): Float64Array;
+  /** The surface around a place laid out in a plane: two coordinates per vertex; NaN beyond the radius (0: no bound). */
+  map(centre: Place, radius?: number, out?: Float64Array): Float64Array;
 }
 
 export interface QuadMesh {

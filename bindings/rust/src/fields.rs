@@ -60,6 +60,40 @@ impl Geodesics {
         check(unsafe { raw::hf_geodesics_solve_f64(self.handle, count, start(sources), out.as_mut_ptr(), 0) })?;
         Ok(out)
     }
+
+    /// The shortest path between two places: xyz of its corners; empty where none leads. A place is a vertex
+    /// (`3.into()`), or a hit of `Surface::cast_ray` (`(&hit).into()`).
+    pub fn path(&self, from: &raw::hf_surface_point, to: &raw::hf_surface_point) -> Result<Vec<f64>> {
+        let mut path = raw::hf_path::default();
+        // SAFETY: no array is given, so the counts alone are written.
+        check(unsafe { raw::hf_geodesics_find_path(self.handle, from, to, &mut path) })?;
+        let mut positions = vec![0.0; 3 * path.point_count as usize];
+        path.point_capacity = path.point_count;
+        path.positions = positions.as_mut_ptr();
+        // SAFETY: `positions` has three numbers for every point of the capacity.
+        check(unsafe { raw::hf_geodesics_find_path(self.handle, from, to, &mut path) })?;
+        Ok(positions)
+    }
+
+    /// The surface around a place laid out in a plane: two coordinates per vertex; NaN beyond the radius (0: no bound).
+    pub fn map(&self, centre: &raw::hf_surface_point, radius: f64) -> Result<Vec<f64>> {
+        let mut out = vec![0.0; 2 * self.vertex_count];
+        // SAFETY: `out` has two numbers a vertex.
+        check(unsafe { raw::hf_geodesics_get_map(self.handle, centre, radius, out.as_mut_ptr(), std::ptr::null_mut()) })?;
+        Ok(out)
+    }
+}
+
+impl From<u32> for raw::hf_surface_point {
+    fn from(vertex: u32) -> Self {
+        Self { corners: [vertex; 3], barycentrics: [1.0, 0.0, 0.0], ..Default::default() }
+    }
+}
+
+impl From<&raw::hf_hit> for raw::hf_surface_point {
+    fn from(hit: &raw::hf_hit) -> Self {
+        Self { corners: hit.corners, barycentrics: hit.barycentrics, ..Default::default() }
+    }
 }
 
 object!(
