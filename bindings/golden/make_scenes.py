@@ -179,6 +179,10 @@ def scenes(meshes):
           {"do": "quads", "on": "m", "as": "r", "edge_length": 0.8, "site_vertices": [0, 150], "site_lines": [8, -8],
               "options": {"kind": 1, "keep_polygons": 1}},
           {"do": "quads_info", "on": "r", "expect": {"euler_characteristic": 0, "site_count": 2}},
+          {"do": "quads", "on": "m", "as": "c", "options": {"kind": hf.constants.HF_QUADS_FIELD, "face_count": 200,
+              "crease_angle": 100.0}},
+          {"do": "quads_info", "on": "c", "expect": {"euler_characteristic": 0, "other_faces": 0}},
+          {"do": "quads_info", "on": "c", "expect": {"face_count": 200, "tolerance": 10}},
           {"do": "dispose", "on": "m"}, {"do": "flow_lines", "on": "w", "field": "u", "count": 8, "lines": 8,
               "expect": {"min": -4.0, "max": 4.0, "tolerance": 4.0}})
 

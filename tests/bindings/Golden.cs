@@ -287,10 +287,11 @@ class Scene
             case "vectors": return ((Direction)on).Sites().Vectors;
             case "quads":
                 {
-                    var o = Options(step, "kind", "keep_polygons", "relax_count");
+                    var o = Options(step, "kind", "keep_polygons", "relax_count", "face_count", "crease_angle");
                     double[] lines = Doubles(step, "site_lines");
                     objects[name] = new Quads(surface, new QuadOptions { Kind = (int)o["kind"],
                         KeepPolygons = (int)o["keep_polygons"], RelaxCount = (uint)o["relax_count"],
+                        FaceCount = (uint)o["face_count"], CreaseAngle = (float)o["crease_angle"],
                         EdgeLength = step.ContainsKey("edge_length") ? (float)Number(step["edge_length"]) : 0,
                             SiteVertices = Numbers(Get(step, "site_vertices")),
                         SiteLines = lines == null ? null : lines.Select(x => (int)x).ToArray() });
@@ -300,7 +301,7 @@ class Scene
                 {
                     var info = ((Quads)on).Info;
                     return new Map { { "euler_characteristic", (double)info.euler_characteristic },
-                        { "site_count", (double)info.site_count },
+                        { "site_count", (double)info.site_count }, { "face_count", (double)info.face_count },
                         { "other_faces", (double)info.face_count - info.quad_count } };
                 }
             case "quad_mesh": return ((Quads)on).Mesh().Positions;

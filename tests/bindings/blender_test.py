@@ -20,7 +20,8 @@ else:
     bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
     bpy.ops.preferences.addon_enable(module=MODULE)
 import hf  # noqa: E402  (the package inside the add-on)
-carriers, mesh_data, session = (importlib.import_module(f"{MODULE}.{name}") for name in ("carriers", "mesh_data", "session"))
+carriers, mesh_data, panels, session = (importlib.import_module(f"{MODULE}.{name}")
+    for name in ("carriers", "mesh_data", "panels", "session"))
 
 sys.path.insert(0, os.environ["HF_TESTS"])
 import golden  # noqa: E402
@@ -92,11 +93,36 @@ assert bpy.ops.hf.unbind() == {"FINISHED"}
 bpy.data.objects.remove(kept)
 bar, points = cylinder("bar", 4.0, 0.5, 81, 48, (0, 0, 0))
 
-# ---- bind, handles from groups
+# ---- bind, handles from groups; the panel says what is next
 active(bar)
+step = lambda obj: panels.next_step(obj, obj and session.session_of(obj, bind=False))
+assert step(None) == "Select a mesh." and step(bar) == "Press Propose handles, or Bind."
 assert bpy.ops.hf.bind() == {"FINISHED"}
+assert step(bar) == "Propose handles, or add one from selected vertices."
 assert bpy.ops.hf.add_groups(prefix="hf ") == {"FINISHED"}
+assert step(bar) == "Move or turn a handle: the mesh follows."
+bpy.context.scene.hf_live = False
+assert step(bar) == "Press Update, or turn Live on."
+bpy.context.scene.hf_live = True
 found = session.session_of(bar, bind=False)
+assert all(hasattr(bpy.types, panel.bl_idname) for panel in panels.PANELS)
+for panel in panels.PANELS[1:]:
+    for operator, _ in panel.buttons:
+        assert getattr(bpy.ops.hf, operator[3:]).get_rna_type(), operator
+
+# ---- quads: a closed mesh of quads near the rest shape, with the groups; a wish that cannot be is refused in a sentence
+assert bpy.ops.hf.quads(faces=600) == {"FINISHED"}
+quads = bpy.data.objects["bar quads"]
+sizes = np.bincount([len(p.vertices) for p in quads.data.polygons])
+assert sizes[4] == sizes.sum() and abs(sizes[4] - 600) <= 60, sizes
+assert len(quads.data.vertices) - len(quads.data.edges) + len(quads.data.polygons) == 2
+at = mesh_data.positions_of(quads.data)
+radii = np.hypot(*np.delete(at, np.argmax(np.ptp(at, axis=0)), axis=1).T)
+assert radii.max() < 0.51 and np.ptp(at, axis=0).max() > 3.9, (radii.max(), np.ptp(at, axis=0))
+assert sorted(g.name for g in quads.vertex_groups) == sorted(g.name for g in bar.vertex_groups)
+high_end = mesh_data.group_vertices(quads, "hf high")
+assert high_end and np.linalg.norm(at[high_end].mean(0) - points[mesh_data.group_vertices(bar, "hf high")].mean(0)) < 0.1
+bpy.data.objects.remove(quads)
 empties = {o.name: o for o in bpy.data.objects if o.type == "EMPTY"}
 assert sorted(empties) == ["bar high", "bar low"] and found.pose.handle_count == 2
 report = found.surface.report  # quads and two caps of 48 corners, as Blender stores them

@@ -329,7 +329,7 @@ func check(step, objects, kept):
 	var wanted = step.get("expect", {})
 	if typeof(result) == TYPE_DICTIONARY:
 		for key in wanted:
-			if key != "tolerance" and abs(result[key] - wanted[key]) > 1e-6:
+			if key != "tolerance" and abs(result[key] - wanted[key]) > max(1e-6, wanted.get("tolerance", 0)):
 				return key + " is " + str(result[key])
 	elif typeof(result) == TYPE_REAL and step.has("numbers"):
 		if result != step.numbers[0]:

@@ -208,7 +208,7 @@ local function new_scene(meshes)
       objects[step.as] = hf.Quads(on, options)
     elseif what == 'quads_info' then
       local info = on:info()
-      return 'struct', { euler_characteristic = info.euler_characteristic, site_count = info.site_count,
+      return 'struct', { euler_characteristic = info.euler_characteristic, site_count = info.site_count, face_count = info.face_count,
         other_faces = info.face_count - info.quad_count }
     elseif what == 'quad_mesh' then
       local mesh = on:mesh()

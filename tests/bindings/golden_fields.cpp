@@ -32,7 +32,12 @@ void Scene::make_object(const Json& step, const std::string& what) {
   } else if (what == "quads") {
     auto desc = make<hf_quads_desc>();
     set_options(step, desc,
-                {{"kind", &desc.kind}, {"keep_polygons", &desc.keep_polygons}, {"relax_count", &desc.relax_count}}, {});
+                {{"kind", &desc.kind},
+                 {"keep_polygons", &desc.keep_polygons},
+                 {"relax_count", &desc.relax_count},
+                 {"face_count", &desc.face_count},
+                 {"crease_angle", &desc.crease_angle}},
+                {{"crease_angle", false}});
     if (step.contains("edge_length")) desc.edge_length = static_cast<float>(number(step["edge_length"]));
     const auto places = numbers(step, "site_vertices");
     const std::vector<int32_t> lines = step.value("site_lines", std::vector<int32_t>());

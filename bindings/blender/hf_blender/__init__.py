@@ -3,7 +3,7 @@
 bl_info = {
     "name": "hf: dynamic harmonic fields", "author": "hf", "version": (0, 1, 0), "blender": (3, 0, 0), "category": "Mesh",
     "location": "View3D > Sidebar > hf",
-    "description": "Pose meshes with handles added at any time, harmonic fields, weights, motion transfer",
+    "description": "Pose meshes with handles added at any time, harmonic fields, weights, motion transfer, quads",
 }
 
 import pathlib
@@ -17,50 +17,8 @@ import hf  # noqa: E402
 import bpy  # noqa: E402
 from bpy.app.handlers import persistent  # noqa: E402
 
-from . import carriers, operators, rig, session, skinning  # noqa: E402
-from .operators import mesh_of, refresh  # noqa: E402
-
-
-class HF_PT_panel(bpy.types.Panel):
-    bl_label, bl_idname, bl_space_type, bl_region_type, bl_category = "hf", "HF_PT_panel", "VIEW_3D", "UI", "hf"
-
-    def draw(self, context):
-        layout, obj = self.layout, mesh_of(context)
-        if obj is None or obj.type != "MESH":
-            layout.label(text="Select a mesh")
-            return
-        found = session.session_of(obj, bind=False)
-        row = layout.row(align=True)
-        row.operator("hf.bind", text="Bind" if found is None else "Bound")
-        row.operator("hf.unbind")
-        layout.prop(context.scene, "hf_live")
-        column = layout.column(align=True)
-        column.operator("hf.propose")
-        column.operator("hf.add_handle", text="Add handle from selection")
-        column.operator("hf.add_groups")
-        column.operator("hf.add_bones")
-        column.operator("hf.remove_handle")
-        column.operator("hf.update")
-        column = layout.column(align=True)
-        column.operator("hf.field")
-        column.operator("hf.weights")
-        column.operator("hf.transfer")
-        column = layout.column(align=True)
-        for name in operators.DIALS:
-            column.prop(context.scene, f"hf_{name}")
-        column.operator("hf.dials")
-        column = layout.column(align=True)
-        column.operator("hf.weights_from_bones")
-        column.operator("hf.pin_weights")
-        column.operator("hf.carry_weights")
-        column.operator("hf.mirror_weights")
-        for sentence in obj.get(skinning.NOTE, "").splitlines():
-            layout.label(text=sentence)
-        if found:
-            bind, update = session.figures["bind_ms"], session.figures["update_ms"]
-            layout.label(text=f"{found.pose.handle_count} handles, factor {bind:.0f} ms, pose {update:.1f} ms")
-            for remark in found.remarks:
-                layout.label(text=remark, icon="ERROR")
+from . import carriers, operators, panels, rig, session, skinning  # noqa: E402
+from .operators import refresh  # noqa: E402
 
 
 def follow(scene, keys=None):
@@ -121,7 +79,7 @@ def on_load(*_):
     session.sessions.clear()  # the next use binds again, from the rest positions kept in the mesh
 
 
-CLASSES = (*operators.OPERATORS, HF_PT_panel)
+CLASSES = (*operators.OPERATORS, *panels.PANELS)
 HANDLERS = (("depsgraph_update_post", on_depsgraph), ("frame_change_post", on_frame), ("undo_post", on_undo),
     ("redo_post", on_undo), ("load_post", on_load))
 

@@ -102,3 +102,31 @@ def write_colour(obj, name, values, strips=12):
     attribute.data.foreach_set("color", np.hstack([colour, np.ones_like(t)]).astype(np.float32).ravel())
     mesh.color_attributes.active_color = attribute
     return attribute
+
+
+def weights_of(obj):
+    """The vertex groups as columns: (vertices, groups)."""
+    weights = np.zeros((len(obj.data.vertices), len(obj.vertex_groups)))
+    for number, vertex in enumerate(obj.data.vertices):
+        for g in vertex.groups:
+            weights[number, g.group] = g.weight
+    return weights
+
+
+def quads_object(obj, quads):
+    """A new object of a quad mesh of this one (hf.QuadMesh), with its materials and its vertex groups."""
+    mesh = bpy.data.meshes.new(f"{obj.data.name} quads")
+    mesh.from_pydata(quads.positions.tolist(), [], [face.tolist() for face in quads.faces()])
+    for material in obj.data.materials:
+        mesh.materials.append(material)
+    made = bpy.data.objects.new(f"{obj.name} quads", mesh)
+    for collection in obj.users_collection:
+        collection.objects.link(made)
+    made.matrix_world = obj.matrix_world
+    if obj.vertex_groups:
+        inside = quads.corners < len(obj.data.vertices)  # a corner that does not count is NO_INDEX
+        corners = np.where(inside, quads.corners, 0)
+        weights = np.einsum("vk,vkg->vg", np.where(inside, quads.barycentrics, 0), weights_of(obj)[corners])
+        for group, column_of in zip(obj.vertex_groups, weights.T):
+            write_group(made, group.name, column_of)
+    return made

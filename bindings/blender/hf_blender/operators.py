@@ -1,6 +1,7 @@
 """The operators: each has undo, and says in one sentence what is wrong."""
 
 import contextlib
+import math
 
 import bpy
 
@@ -223,6 +224,24 @@ class HF_OT_field(bpy.types.Operator):
         (mesh_data.write_group if self.output == "GROUP" else mesh_data.write_colour)(obj, self.name, values)
 
 
+class HF_OT_quads(bpy.types.Operator):
+    """A new object beside this one: its rest shape in quads that follow the form"""
+    bl_idname, bl_label, bl_options = "hf.quads", "Make quads", {"REGISTER", "UNDO"}
+    faces: bpy.props.IntProperty(name="Quads", default=5000, min=1, max=10000000, description="How many are wanted")
+    crease: bpy.props.FloatProperty(name="Crease", default=0.0, min=0.0, max=math.pi, subtype="ANGLE",
+        description="Edges that bend by more are kept; 0: none")
+
+    @guarded
+    def execute(self, context):
+        obj = mesh_of(context)
+        found = session.session_of(obj, context.window_manager)
+        quads = session.watched(lambda progress: hf.Quads(found.surface, kind=hf.constants.HF_QUADS_FIELD,
+            face_count=self.faces, crease_angle=math.degrees(self.crease), progress=progress), context.window_manager)
+        made = mesh_data.quads_object(obj, quads.mesh())
+        made.select_set(True)
+        self.report({"INFO"}, f"{made.name}: {len(made.data.polygons)} quads")
+
+
 class HF_OT_weights(bpy.types.Operator):
     """Write the pose as vertex groups and an armature with one bone per cluster, standing as the pose stands"""
     bl_idname, bl_label, bl_options = "hf.weights", "Weights and armature", {"REGISTER", "UNDO"}
@@ -368,5 +387,5 @@ class HF_OT_mirror_weights(bpy.types.Operator):
 
 
 OPERATORS = (HF_OT_bind, HF_OT_unbind, HF_OT_add_handle, HF_OT_add_groups, HF_OT_add_bones, HF_OT_propose, HF_OT_remove_handle,
-    HF_OT_update, HF_OT_field, HF_OT_weights, HF_OT_transfer, HF_OT_dials, HF_OT_weights_from_bones, HF_OT_pin_weights,
-    HF_OT_carry_weights, HF_OT_mirror_weights)
+    HF_OT_update, HF_OT_field, HF_OT_quads, HF_OT_weights, HF_OT_transfer, HF_OT_dials, HF_OT_weights_from_bones,
+    HF_OT_pin_weights, HF_OT_carry_weights, HF_OT_mirror_weights)

@@ -33,16 +33,14 @@ sessions = {}
 figures = {"bind_ms": 0.0, "update_ms": 0.0, "sync_ms": 0.0}
 
 
-def make_surface(positions, faces, window_manager=None, meanwhile=None, **options):
-    """A surface made on a thread of its own, so that Blender's progress bar moves; options as hf.Surface. `meanwhile`
-    is called on this thread."""
+def watched(make, window_manager=None, meanwhile=None):
+    """What make(progress) returns, made on a thread of its own, so that Blender's progress bar moves. `meanwhile` is called
+    on this thread."""
     progress, made = hf.Progress(), {}
 
     def work():
         try:
-            order = ORDERING if len(positions) <= ORDERING_LIMIT else hf.constants.HF_ORDERING_NESTED_DISSECTION
-            made["surface"] = hf.Surface(positions, faces=faces, progress=progress, thread_count=2, ordering=order,
-                **options)
+            made["it"] = make(progress)
         except BaseException as error:  # noqa: BLE001 - raised again below
             made["error"] = error
 
@@ -60,7 +58,14 @@ def make_surface(positions, faces, window_manager=None, meanwhile=None, **option
             window_manager.progress_end()
     if "error" in made:
         raise made["error"]
-    return made["surface"]
+    return made["it"]
+
+
+def make_surface(positions, faces, window_manager=None, meanwhile=None, **options):
+    """A surface; options as hf.Surface."""
+    order = ORDERING if len(positions) <= ORDERING_LIMIT else hf.constants.HF_ORDERING_NESTED_DISSECTION
+    return watched(lambda progress: hf.Surface(positions, faces=faces, progress=progress, thread_count=2, ordering=order,
+        **options), window_manager, meanwhile)
 
 
 class Session:

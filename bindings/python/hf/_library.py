@@ -165,7 +165,7 @@ def make(struct: type, **fields: Any) -> Any:
     return desc
 
 
-# what the package fills in itself
+# what the package fills in itself; without corners, face_count is a wish and not the length of an array
 _OWN = ("struct_size", "reserved", "vertex_count", "triangle_count", "face_count", "corner_count", "edge_count",
         "site_count")
 
@@ -173,7 +173,8 @@ _OWN = ("struct_size", "reserved", "vertex_count", "triangle_count", "face_count
 def options_into(desc: Any, options: dict) -> None:
     """Sets the named scalar options of a desc; an unknown one is an error that names it."""
     allowed = {f[0] for f in desc._fields_ if f[1] in _INTEGERS or f[1] in _FLOATS}
-    allowed = {name for name in allowed if name not in _OWN and not name.endswith("_stride")}
+    own = _OWN if "corner_count" in allowed else tuple(name for name in _OWN if name != "face_count")
+    allowed = {name for name in allowed if name not in own and not name.endswith("_stride")}
     for key, value in options.items():
         if key not in allowed:
             raise InvalidArgumentError(f"no option '{key}'; there are: {', '.join(sorted(allowed))}")

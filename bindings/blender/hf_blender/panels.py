@@ -1,0 +1,108 @@
+"""The sidebar's tab hf: what to do next, and a panel for each tool, named as in the studio."""
+
+import bpy
+
+from . import carriers, operators, session, skinning
+from .operators import mesh_of
+
+
+def next_step(obj, found):
+    """The sentence at the top of the tab. found: the session of the mesh, or None while it is not bound."""
+    if obj is None or obj.type != "MESH":
+        return "Select a mesh."
+    if not len(obj.data.polygons):
+        return f"{obj.name} has no faces: select another mesh."
+    if found is None:
+        return "Press Propose handles, or Bind."
+    placed = carriers.carriers_of(obj["hf_key"])
+    if not placed:
+        return "Propose handles, or add one from selected vertices."
+    if len(placed) == 1 and not carriers.offered(obj["hf_key"]):
+        return "Add a second handle: one holds, one is moved."
+    if not bpy.context.scene.hf_live:
+        return "Press Update, or turn Live on."
+    return "Move or turn a handle: the mesh follows."
+
+
+class Panel:
+    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "hf"
+
+
+class HF_PT_panel(Panel, bpy.types.Panel):
+    bl_label, bl_idname = "hf", "HF_PT_panel"
+
+    def draw(self, context):
+        layout, obj = self.layout, mesh_of(context)
+        found = session.session_of(obj, bind=False) if obj is not None and obj.type == "MESH" else None
+        layout.label(text=next_step(obj, found), icon="INFO")
+        if obj is None or obj.type != "MESH":
+            return
+        row = layout.row(align=True)
+        row.operator("hf.bind", text="Bind" if found is None else "Bound")
+        row.operator("hf.unbind")
+        if found:
+            bind, update = session.figures["bind_ms"], session.figures["update_ms"]
+            layout.label(text=f"{found.pose.handle_count} handles, factor {bind:.0f} ms, pose {update:.1f} ms")
+            for remark in found.remarks:
+                layout.label(text=remark, icon="ERROR")
+
+
+class Tool(Panel):
+    """A panel under the first, open or closed."""
+    bl_parent_id = "HF_PT_panel"
+
+    @classmethod
+    def poll(cls, context):
+        obj = mesh_of(context)
+        return obj is not None and obj.type == "MESH"
+
+    def draw(self, context):
+        column = self.layout.column(align=True)
+        for name, text in self.buttons:
+            column.operator(name, **({"text": text} if text else {}))
+
+
+class HF_PT_pose(Tool, bpy.types.Panel):
+    bl_label, bl_idname = "Pose", "HF_PT_pose"
+    buttons = (("hf.propose", ""), ("hf.add_handle", "Add handle from selection"), ("hf.add_groups", ""),
+        ("hf.add_bones", ""), ("hf.remove_handle", ""), ("hf.update", ""))
+
+    def draw(self, context):
+        super().draw(context)
+        self.layout.prop(context.scene, "hf_live")
+
+
+class HF_PT_field(Tool, bpy.types.Panel):
+    bl_label, bl_idname, bl_options = "Field", "HF_PT_field", {"DEFAULT_CLOSED"}
+    buttons = (("hf.field", ""),)
+
+
+class HF_PT_weights(Tool, bpy.types.Panel):
+    bl_label, bl_idname, bl_options = "Weights", "HF_PT_weights", {"DEFAULT_CLOSED"}
+    buttons = (("hf.weights_from_bones", ""), ("hf.pin_weights", ""), ("hf.carry_weights", ""), ("hf.mirror_weights", ""),
+        ("hf.weights", ""))
+
+    def draw(self, context):
+        super().draw(context)
+        for sentence in mesh_of(context).get(skinning.NOTE, "").splitlines():
+            self.layout.label(text=sentence)
+
+
+class HF_PT_transfer(Tool, bpy.types.Panel):
+    bl_label, bl_idname, bl_options = "Transfer", "HF_PT_transfer", {"DEFAULT_CLOSED"}
+    buttons = (("hf.transfer", ""),)
+
+    def draw(self, context):
+        super().draw(context)
+        column = self.layout.column(align=True)
+        for name in operators.DIALS:
+            column.prop(context.scene, f"hf_{name}")
+        column.operator("hf.dials")
+
+
+class HF_PT_quads(Tool, bpy.types.Panel):
+    bl_label, bl_idname, bl_options = "Quads", "HF_PT_quads", {"DEFAULT_CLOSED"}
+    buttons = (("hf.quads", ""),)
+
+
+PANELS = (HF_PT_panel, HF_PT_pose, HF_PT_field, HF_PT_weights, HF_PT_transfer, HF_PT_quads)
