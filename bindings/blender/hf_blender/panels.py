@@ -1,5 +1,7 @@
 """The sidebar's tab hf: what to do next, and a panel for each tool, named as in the studio."""
 
+import textwrap
+
 import bpy
 
 from . import carriers, operators, session, skinning
@@ -24,6 +26,16 @@ def next_step(obj, found):
     return "Move or turn a handle: the mesh follows."
 
 
+def say(layout, context, sentence, icon="NONE"):
+    """A sentence in as many lines as the sidebar's width asks for; Blender alone would cut out its middle."""
+    scale = context.preferences.view.ui_scale
+    letters = max(12, int((context.region.width / scale - 70) / 6.2))  # 70: borders and the icon; 6.2: a letter's mean width
+    column = layout.column()
+    column.scale_y = 0.8
+    for number, line in enumerate(textwrap.wrap(sentence, letters)):
+        column.label(text=line, icon="BLANK1" if number and icon != "NONE" else icon)
+
+
 class Panel:
     bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "hf"
 
@@ -34,7 +46,7 @@ class HF_PT_panel(Panel, bpy.types.Panel):
     def draw(self, context):
         layout, obj = self.layout, mesh_of(context)
         found = session.session_of(obj, bind=False) if obj is not None and obj.type == "MESH" else None
-        layout.label(text=next_step(obj, found), icon="INFO")
+        say(layout, context, next_step(obj, found), "INFO")
         if obj is None or obj.type != "MESH":
             return
         row = layout.row(align=True)
@@ -42,9 +54,9 @@ class HF_PT_panel(Panel, bpy.types.Panel):
         row.operator("hf.unbind")
         if found:
             bind, update = session.figures["bind_ms"], session.figures["update_ms"]
-            layout.label(text=f"{found.pose.handle_count} handles, factor {bind:.0f} ms, pose {update:.1f} ms")
+            say(layout, context, f"{found.pose.handle_count} handles, factor {bind:.0f} ms, pose {update:.1f} ms")
             for remark in found.remarks:
-                layout.label(text=remark, icon="ERROR")
+                say(layout, context, remark, "ERROR")
 
 
 class Tool(Panel):
@@ -85,7 +97,7 @@ class HF_PT_weights(Tool, bpy.types.Panel):
     def draw(self, context):
         super().draw(context)
         for sentence in mesh_of(context).get(skinning.NOTE, "").splitlines():
-            self.layout.label(text=sentence)
+            say(self.layout, context, sentence)
 
 
 class HF_PT_transfer(Tool, bpy.types.Panel):
