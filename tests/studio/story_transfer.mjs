@@ -59,6 +59,50 @@ export default async function story(host) {
     await studio.picture('transfer_walk');
     return `a foot travels ${travel.map((x) => x.toFixed(3))} of the picture, up and along`;
   });
+  await check('dials: a longer stride moves a foot farther, the tail follows, and neutral dials give the same picture', async () => {
+    await page.click('#dials summary');
+    const names = await page.evaluate(() => [...document.querySelectorAll('#dials input')].map(({ id }) => id).join());
+    assert.match(names, /^dial-stride,dial-hipHeight,dial-neckFollow/);
+    const shape = (time) =>
+      page.evaluate(async (time) => {
+        const { tools, skin } = window.hfStudio;
+        await tools.transfer.seek(time);
+        return Array.from(skin.positions);
+      }, time);
+    const set = async (name, value) => {
+      await page.evaluate(
+        ([name, value]) => {
+          const input = document.getElementById(`dial-${name}`);
+          input.value = value;
+          input.dispatchEvent(new Event('input'));
+        },
+        [name, value],
+      );
+      await studio.settle();
+    };
+    const feet = await page.evaluate(() => {
+      const { tools, body } = window.hfStudio;
+      const foot = tools.transfer.pairs.find(({ kind }) => kind === 'foot').target.position;
+      const away = (w) => Math.hypot(...foot.map((x, k) => x - body.positions[3 * w + k]));
+      let best = 0;
+      for (let v = 1; v < body.vertexCount; ++v) if (away(v) < away(best)) best = v;
+      return best;
+    });
+    const travel = async () => {
+      const along = [];
+      for (let i = 0; i < 8; ++i) along.push((await shape((i * 1.1) / 8))[3 * feet + 2]);
+      return Math.max(...along) - Math.min(...along);
+    };
+    const neutral = await shape(0.4);
+    const short = await travel();
+    await set('stride', 1.4);
+    const long = await travel();
+    assert.ok(long > 1.2 * short && long < 1.6 * short, `${short} becomes ${long}`);
+    await studio.picture('transfer_dials');
+    await set('stride', 1);
+    assert.deepEqual(await shape(0.4), neutral);
+    return `a foot travels ${(long / short).toFixed(2)} times as far at 1.4; ${names}`;
+  });
   await check('it plays, and stops at rest', async () => {
     await page.click('#transfer-play');
     await page.waitForTimeout(600);

@@ -103,6 +103,10 @@ const tasks = {
   transferPairs({ pairs }) {
     return [body.transfer.setPairs(pairs), []];
   },
+  transferDials({ dials }) {
+    body.transfer.setDials(dials);
+    return [null, []];
+  },
   transferFrame({ positions }) {
     const begin = performance.now();
     const posed = body.transfer.apply(positions);

@@ -6,9 +6,11 @@ const ALIKE = 0.45;
 
 export function transferOf(body, source) {
   const { hf, surface } = body;
-  const { HF_PAIR_FOOT, HF_PAIR_TRUNK, HF_PAIR_ANCHOR, HF_HANDLE_REASON_FOOT } = hf.constants;
+  const { HF_PAIR_FOOT, HF_PAIR_TRUNK, HF_PAIR_ANCHOR, HF_PAIR_NECK, HF_PAIR_TAIL, HF_PAIR_ARM, HF_HANDLE_REASON_FOOT } =
+    hf.constants;
   const sourcePositions = body.sourcePositions;
   let transfer = null;
+  let dials = {};
 
   const boxOf = (positions) => {
     const [low, high] = [
@@ -35,9 +37,21 @@ export function transferOf(body, source) {
     }));
     const like = (place) => ({
       ...place,
+      part: place.foot || place.trunk ? null : partOf(place.position, low, high, feet),
       like: place.position.map((x, k) => (x - low[k]) / Math.max(high[k] - low[k], 1e-9)),
     });
     return [...places, ...trunk].map(like);
+  };
+  /** What a tip belongs to, for the dials: beyond the fore feet to the neck, beyond the hind feet to the tail; of a body on
+   * two feet the top to the neck, what is far to a side to an arm. */
+  const partOf = (position, low, high, feet) => {
+    if (feet.length >= 4) {
+      const rows = feet.map((foot) => foot.position[2]);
+      return position[2] > Math.max(...rows) ? 'neck' : position[2] < Math.min(...rows) ? 'tail' : null;
+    }
+    const share = (k) => (position[k] - low[k]) / Math.max(high[k] - low[k], 1e-9);
+    if (feet.length < 2) return null;
+    return share(1) > 0.8 ? 'neck' : Math.abs(share(0) - 0.5) > 0.3 ? 'arm' : null;
   };
   /** Withers and rump: where vertical lines over the fore and the hind feet enter the body. Over one row of feet: back and belly. */
   const trunkOf = (on, positions, low, high, feet) => {
@@ -88,6 +102,7 @@ export function transferOf(body, source) {
         taken.add(j);
         pairs.push({
           kind: kindOf(from[i]),
+          part: from[i].part === to[j].part ? to[j].part : null,
           source: { position: from[i].position, radius: from[i].radius },
           target: { position: to[j].position, radius: to[j].radius },
         });
@@ -97,12 +112,14 @@ export function transferOf(body, source) {
     setPairs(pairs) {
       const next = new hf.Transfer(source, surface);
       const flags = { foot: HF_PAIR_FOOT | HF_PAIR_ANCHOR, trunk: HF_PAIR_TRUNK | HF_PAIR_ANCHOR, tip: 0 };
+      const partFlags = { neck: HF_PAIR_NECK, tail: HF_PAIR_TAIL, arm: HF_PAIR_ARM };
       try {
         next.addPairs(
           pairs.map((pair) => regionOf(sourcePositions, pair.source, (place) => source.findVertex(place).vertex)),
           pairs.map((pair) => regionOf(body.positions, pair.target, (place) => surface.findVertex(place).vertex)),
-          pairs.map(({ kind }) => flags[kind]),
+          pairs.map(({ kind, part }) => flags[kind] | (partFlags[part] ?? 0)),
         );
+        next.setDials(dials);
       } catch (error) {
         next.close();
         throw error;
@@ -110,6 +127,10 @@ export function transferOf(body, source) {
       transfer?.close();
       transfer = next;
       return next.info;
+    },
+    setDials(next) {
+      transfer?.setDials(next);
+      dials = next;
     },
     apply: (positions) => transfer.apply(positions),
     skin: () => transfer.skin(4),

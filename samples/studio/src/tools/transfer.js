@@ -4,7 +4,7 @@ import { readModel } from '../model.js';
 import { normalGroups, normalSums, smoothNormals } from '../normals.js';
 import { lengthOf, localsOf, playedAt } from '../timeline.js';
 import { skinnedGlb } from '../save.js';
-import { $, button, choice, facts, make, ms, say } from '../ui.js';
+import { $, button, choice, facts, make, ms, say, slider } from '../ui.js';
 
 /** Frames a second of the saved walk: of animation files. */
 const FRAME_RATE = 30;
@@ -12,6 +12,14 @@ const FRAME_RATE = 30;
 const GAP = 1.08;
 /** Hues of neighbouring pairs are this part of the circle apart. */
 const HUE_STEP = 0.61803398875;
+/** What is turned without a new preparation: name, neutral, least and most value, and the part of the body that it needs. */
+const DIALS = [
+  ['stride', 'Stride', 1, 0.5, 2, null],
+  ['hipHeight', 'Hip height', 0, -0.3, 0.3, null],
+  ['neckFollow', 'Neck follows', 0, -1, 1, 'neck'],
+  ['tailFollow', 'Tail follows', 0, -1, 1, 'tail'],
+  ['armSpace', 'Room at the arms', 0, -0.8, 0.8, 'arm'],
+];
 
 export class TransferTool {
   static key = 'transfer';
@@ -30,6 +38,7 @@ export class TransferTool {
     this.source = null;
     this.info = null;
     this.time = 0;
+    this.dials = {};
   }
   ready() {
     return Boolean(this.info);
@@ -174,6 +183,25 @@ export class TransferTool {
     const scrub = $('transfer-time');
     if (scrub) scrub.value = time;
   }
+  /** Sets one dial and shows the frame again. */
+  async turn(name, value) {
+    const dials = { ...this.dials, [name]: value };
+    try {
+      await this.app.client.ask('transferDials', { dials });
+      this.dials = dials;
+    } catch (error) {
+      say(error.message);
+    }
+    if (!this.playing) await this.seek(this.time);
+  }
+  dialRows() {
+    const parts = new Set(this.pairs.filter(({ off }) => !off).map(({ part }) => part));
+    return DIALS.filter(([, , , , , part]) => !part || parts.has(part)).map(([name, text, neutral, low, high]) =>
+      slider(text, { value: this.dials[name] ?? neutral, low, high, id: `dial-${name}` }, (value) =>
+        this.turn(name, value),
+      ),
+    );
+  }
   play() {
     this.playing = true;
     let last = performance.now();
@@ -283,6 +311,13 @@ export class TransferTool {
             };
             return input;
           })(),
+        ),
+      this.info &&
+        make(
+          'details',
+          { open: this.dialsOpen, ontoggle: (event) => (this.dialsOpen = event.target.open), id: 'dials' },
+          make('summary', {}, 'Dials'),
+          ...this.dialRows(),
         ),
       take,
       facts([['pairs', `${active} of ${this.pairs.length}`], this.milliseconds && ['frame', ms(this.milliseconds)]]),
