@@ -17,7 +17,14 @@ typedef struct hf_transfer_object* hf_transfer;
 
 enum {
   HF_TRANSFER_FIELDS = 0, /* a cluster: vertices with similar values of all fields; the default */
-  HF_TRANSFER_PAPER = 1   /* a cluster: vertices between two levels of one field, as in the paper */
+  HF_TRANSFER_PAPER = 1,  /* a cluster: vertices between two levels of one field, as in the paper */
+  /* Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each target vertex i
+   * matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The result x' minimises
+   *     sum over edges of w_ij |(x'_i - x'_j) - (F_i + F_j) / 2 (x_i - x_j)|^2
+   * with cotangent weights w. It is a Poisson equation with the factor of the surface. Borders match borders, and narrow
+   * openings between them, such as lids, close as on the source. There is no ground, no rest alignment, no dial, no hold
+   * and no skin; flags of pairs have no effect but on the scale. A surface on itself gets its own pose */
+  HF_TRANSFER_STRETCH = 2
 };
 
 enum {
@@ -180,12 +187,14 @@ typedef struct hf_transfer_frame {
  * parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules of the ground come
  * in continuously. HF_GROUND_OFF switches them off. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE (index =
  * source vertex, or position in the holds), HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held twice),
- * HF_ERROR_TOO_LARGE (holds). Thread safety: changes `transfer`. Since 0.1. */
+ * HF_ERROR_TOO_LARGE (holds), HF_ERROR_UNSUPPORTED (holds with HF_TRANSFER_STRETCH). Thread safety: changes
+ * `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
 /* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With weight_count 4 the skin replays
  * hf_transfer_apply exactly, because that function also uses the four largest weights. Errors:
- * HF_ERROR_INVALID_ARGUMENT (weight_count), HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
+ * HF_ERROR_INVALID_ARGUMENT (weight_count), HF_ERROR_EMPTY (no pair), HF_ERROR_UNSUPPORTED (HF_TRANSFER_STRETCH).
+ * Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* inout_skin);
 
 #ifdef __cplusplus

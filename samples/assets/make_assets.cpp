@@ -1,7 +1,10 @@
 // hf_make_assets OUTDIR [--vertices N] [--creature NAME]
 //
-// Writes the sample creatures as OUTDIR/NAME.glb. N counts vertices of the closed surface (default 20000).
+// Writes the sample creatures as OUTDIR/NAME.glb. N counts vertices of the closed surface (default 20000). NAME may
+// also be face (with 52 morph targets) or face_other (another head without).
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -12,6 +15,7 @@
 
 #include "assets/creature.h"
 #include "assets/creature_gltf.h"
+#include "assets/face_gltf.h"
 #include "common/gltf_write.h"
 
 namespace {
@@ -56,6 +60,17 @@ Options parse(int count, char** arguments) {
   return options;
 }
 
+// A head with about as many vertices as asked for: four columns for three rows.
+void write_face(const Options& options, const std::string& name) {
+  const auto rows = static_cast<uint32_t>(std::max(30.0, std::sqrt(0.75 * options.vertices)));
+  const auto columns = std::max<uint32_t>(40, options.vertices / rows);
+  const samples::Face face = samples::make_face(columns, rows, name == "face_other");
+  const std::filesystem::path file = std::filesystem::path(options.folder) / (name + ".glb");
+  samples::write_gltf(samples::to_model(face, name, name == "face"), file);
+  std::printf("%s: %u vertices, %zu triangles, %zu shapes\n", file.string().c_str(), face.mesh.vertex_count(),
+              face.mesh.triangles.size() / 3, name == "face" ? face.shapes.size() : size_t{0});
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -68,11 +83,15 @@ int main(int count, char** arguments) {
           "  --vertices N     vertices of the closed surface, 500..2000000 (default 20000)\n"
           "  --creature NAME  one of:");
       for (const std::string& name : samples::creature_names()) std::printf(" %s", name.c_str());
-      std::printf(" (default: all; may be repeated)\n");
+      std::printf(" face face_other (default: the creatures; may be repeated)\n");
       return 0;
     }
     std::filesystem::create_directories(options.folder);
     for (const std::string& name : options.creatures) {
+      if (name == "face" || name == "face_other") {
+        write_face(options, name);
+        continue;
+      }
       const auto start = std::chrono::steady_clock::now();
       const samples::Creature creature = samples::make_creature(name, options.vertices);
       const std::filesystem::path file = std::filesystem::path(options.folder) / (name + ".glb");

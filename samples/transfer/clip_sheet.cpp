@@ -63,7 +63,47 @@ void add_row(const Row& row, const std::vector<std::vector<double>>& frames, std
   }
 }
 
+// Tiles of one surface: its rest pose, then these frames.
+void add_shapes(const Row& row, const std::vector<std::vector<double>>& frames, const std::vector<size_t>& chosen,
+                std::vector<Picture>& tiles) {
+  View view;
+  view.width = 300, view.height = 300;
+  view.direction = point(row.axes.forward + 0.12 * row.axes.up - 0.3 * row.axes.right), view.up = point(row.axes.up);
+  view.fixed_box = true;
+  std::vector<const std::vector<double>*> shown;
+  const std::vector<double> rest = double_positions(row.mesh->positions);
+  shown.push_back(&rest);
+  for (const size_t f : chosen) shown.push_back(&frames[f]);
+  bool empty = true;
+  for (const std::vector<double>* positions : shown) extend(view.box, empty, *positions);
+  SurfaceLook look;
+  look.fill = Fill::colors;
+  for (const std::vector<double>* positions : shown) {
+    Surface surface = make_surface(*positions, row.mesh->triangles);
+    surface.colors = row.colours;
+    tiles.push_back(render(surface, view, look));
+  }
+}
+
 }  // namespace
+
+void write_shape_sheet(const std::filesystem::path& file, const Session& session, const Model& source,
+                       const Model& target, const PlayedClip& shapes, const std::vector<std::string>& names) {
+  const Row from{&session.source_flat(), colours_of(source, session.source_flat()), session.source_axes()};
+  const Row to{&session.target_flat(), colours_of(target, session.target_flat()), session.target_axes()};
+  const size_t count = shapes.target_frames.size(), shown = std::min<size_t>(count, columns);
+  std::vector<size_t> chosen;
+  for (size_t k = 0; k < shown; ++k) chosen.push_back(shown < 2 ? 0 : k * (count - 1) / (shown - 1));
+  std::vector<Picture> tiles;
+  std::vector<std::string> labels;
+  add_shapes(from, shapes.source_frames, chosen, tiles), add_shapes(to, shapes.target_frames, chosen, tiles);
+  for (const std::string& name : {short_name(source), short_name(target)}) {
+    labels.push_back(name + ", rest");
+    for (const size_t f : chosen) labels.push_back(names[f]);
+  }
+  write_png(file.string(), contact_sheet(tiles, static_cast<int>(shown) + 1, labels,
+                                         "shapes of " + short_name(source) + " on " + short_name(target)));
+}
 
 void write_clip_sheet(const std::filesystem::path& file, const Session& session, const Model& source,
                       const Model& target, const std::vector<PlayedClip>& clips) {

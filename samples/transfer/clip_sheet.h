@@ -14,6 +14,11 @@ namespace samples {
 void write_clip_sheet(const std::filesystem::path& file, const Session& session, const Model& source,
                       const Model& target, const std::vector<PlayedClip>& clips);
 
+// The rest pose and shapes, seen from the front: all shapes where there are few, else some, evenly taken. names: of the
+// frames.
+void write_shape_sheet(const std::filesystem::path& file, const Session& session, const Model& source,
+                       const Model& target, const PlayedClip& shapes, const std::vector<std::string>& names);
+
 }  // namespace samples
 
 #endif

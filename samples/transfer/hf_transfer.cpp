@@ -20,6 +20,7 @@
 #include "transfer/clip_sheet.h"
 #include "transfer/outputs.h"
 #include "transfer/session.h"
+#include "transfer/shapes.h"
 #include "transfer/suggest_pairs.h"
 #include "transfer/transfer_options.h"
 #include "transfer/transfer_report.h"
@@ -246,6 +247,29 @@ nlohmann::json put_clips(const Model& clips, const Model& target, const Transfer
       {"animated", bound.animated},        {"missing", bound.missing}, {"scale", bound.scale}};
 }
 
+// Morph targets in, morph targets out.
+int transfer_shapes(const TransferCommand& command, const Model& source, const Model& target, PairsFile pairs,
+                    ProgressBar& bar, nlohmann::json& json) {
+  pairs.settings.stretch = true, pairs.settings.paper = false;
+  std::vector<const Animation*> clips;
+  if (!command.clip.empty()) clips = choose_clips(source, command.clip);
+  Session session(source, target, pairs, command.threads, command.links, bar, false);
+  const CarriedShapes carried = carry_shapes(session, source, target, clips, bar);
+  write_gltf(carried.model, command.output);
+  if (!command.sheet.empty()) {
+    std::vector<std::string> names;
+    for (const ShapeReport& shape : carried.shapes) names.push_back(shape.name);
+    write_shape_sheet(command.sheet, session, source, target, carried.frames, names);
+  }
+  const std::string text =
+      shapes_text(session, carried, command.output.string(), "shapes of " + source.name + " on " + target.name);
+  std::fputs(text.c_str(), stdout);
+  json = shapes_json(session, carried, command.output.string());
+  if (!command.report.empty()) write_bytes(command.report, text);
+  if (!command.json.empty()) write_json(command.json, json);
+  return 0;
+}
+
 int transfer(TransferCommand command, nlohmann::json& json) {
   ProgressBar bar(command.quiet);
   PairsFile pairs;
@@ -269,6 +293,9 @@ int transfer(TransferCommand command, nlohmann::json& json) {
     write_json(command.suggest, propose(source, target, command).file);
     return 0;
   }
+  if (command.shapes) return transfer_shapes(command, source, target, pairs, bar, json);
+  if (pairs.settings.stretch && (command.kind == "skin" || (command.kind.empty() && !has_skin(target))))
+    throw std::runtime_error("mode \"stretch\" gives no skin: take --as own-skin, --as morph or --out-poses");
   if (command.pairs.empty()) pairs = parse_pairs(propose(source, target, command).file, "the proposed pairs");
   const Motion motion = read_motion(source, command);
 

@@ -118,9 +118,9 @@ PairsFile pairs_from(const JsonReader& root, const std::filesystem::path& file) 
     const JsonReader settings = root.at("settings");
     settings.expect_only({"mode", "clusters", "width", "scale", "alignment_degrees"});
     const std::string mode = settings.string_or("mode", "fields");
-    if (mode != "fields" && mode != "paper")
-      settings.at("mode").fail("expected \"fields\" or \"paper\", found \"" + mode + "\"");
-    out.settings.paper = mode == "paper";
+    if (mode != "fields" && mode != "paper" && mode != "stretch")
+      settings.at("mode").fail("expected \"fields\", \"paper\" or \"stretch\", found \"" + mode + "\"");
+    out.settings.paper = mode == "paper", out.settings.stretch = mode == "stretch";
     out.settings.clusters = static_cast<uint32_t>(settings.integer_or("clusters", 1, 512, 0));
     if (settings.has("width")) out.settings.width = settings.at("width").number(0.005, 0.5);
     if (settings.has("scale")) out.settings.scale = settings.at("scale").number(1e-6, 1e6);

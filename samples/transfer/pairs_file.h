@@ -20,7 +20,7 @@ struct PairEntry {
 };
 
 struct TransferSettings {
-  bool paper = false;
+  bool paper = false, stretch = false;
   uint32_t clusters = 0;
   double width = 0, scale = 0, alignment_degrees = 0;  // 0 = the library's default; negative = never
 };

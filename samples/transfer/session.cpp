@@ -96,7 +96,7 @@ void Session::create(uint32_t threads, bool links, ProgressBar& bar) {
 
   const TransferSettings& settings = file_.settings;
   hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
-  desc.mode = settings.paper ? HF_TRANSFER_PAPER : HF_TRANSFER_FIELDS;
+  desc.mode = settings.paper ? HF_TRANSFER_PAPER : settings.stretch ? HF_TRANSFER_STRETCH : HF_TRANSFER_FIELDS;
   desc.cluster_count = settings.clusters;
   desc.kernel_width = static_cast<float>(settings.width), desc.scale = static_cast<float>(settings.scale);
   desc.alignment_angle = static_cast<float>(settings.alignment_degrees * degree);
@@ -192,12 +192,6 @@ void Session::apply(const std::vector<double>& posed, std::vector<double>& out) 
   check(hf_transfer_apply(transfer_, &frame), "a frame");
 }
 
-uint32_t Session::cluster_count() {
-  hf_skin_info info = HF_INIT(hf_skin_info);
-  check(hf_transfer_get_skin(transfer_, &info), "the skin");
-  return info.joint_count;
-}
-
 // The pairs of these names are put in again with these flags; the regions stay.
 void Session::change_flags(const std::vector<PairEntry>& entries) {
   bool changed = false;
@@ -280,7 +274,7 @@ std::vector<PairEntry> Session::named_contacts(const std::vector<std::string>& n
 
 std::vector<std::string> Session::set_contacts(const std::vector<std::string>& names,
                                                const std::vector<std::vector<double>>& poses) {
-  if (names.size() == 1 && names.front() == "none") return {};
+  if (stretches() || (names.size() == 1 && names.front() == "none")) return {};
   const std::vector<PairEntry> entries = names.empty() ? found_contacts(poses) : named_contacts(names);
   if (!entries.empty()) change_flags(entries);
   std::vector<std::string> out;
@@ -304,7 +298,7 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
                          std::vector<std::vector<double>> poses, ProgressBar& bar) {
   PlayedClip out;
   out.clip.name = name;
-  const uint32_t joints = cluster_count();
+  const uint32_t joints = stretches() ? 0 : cluster_count();
   std::vector<double> pivots(3 * joints), rotations(4 * joints), places(3 * joints), target;
   hf_skin_info info = HF_INIT(hf_skin_info);
   info.joint_capacity = joints;
@@ -315,7 +309,7 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
     const auto start = std::chrono::steady_clock::now();
     apply(poses[f], target);
     inside += milliseconds_since(start);
-    check(hf_transfer_get_skin(transfer_, &info), "the skin");
+    if (!stretches()) check(hf_transfer_get_skin(transfer_, &info), "the skin");
     out.clip.times.push_back(times[f]);
     for (uint32_t j = 0; j < joints; ++j) {
       const double* q = rotations.data() + 4 * j;
@@ -395,6 +389,42 @@ std::vector<double> Session::standing(const PlayedClip& played, size_t frame) co
   return out;
 }
 
+std::vector<LimbMotion> Session::limbs_of(const PlayedClip& played) const {
+  const double box = target_mesh().bounding_box_diagonal;
+  const glm::dmat3 source_axes(file_.source_axes.right, file_.source_axes.up, file_.source_axes.forward),
+      target_axes(file_.target_axes.right, file_.target_axes.up, file_.target_axes.forward);
+  const glm::dmat3 to_target = target_axes * glm::transpose(source_axes);
+  const auto centre = [](const std::vector<double>& xyz) {
+    glm::dvec3 sum(0);
+    for (size_t i = 0; i < xyz.size(); i += 3) sum += glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2]);
+    return sum / static_cast<double>(std::max<size_t>(xyz.size() / 3, 1));
+  };
+  std::vector<LimbMotion> out;
+  const size_t frames = played.source_frames.size();
+  std::vector<glm::dvec3> source_body, target_body;
+  for (size_t f = 0; f < frames; ++f)
+    source_body.push_back(centre(played.source_frames[f])), target_body.push_back(centre(played.target_frames[f]));
+  for (const Live& live : live_) {
+    if (live.entry.trunk || frames == 0) continue;
+    std::vector<glm::dvec3> from, to;
+    glm::dvec3 from_mean(0), to_mean(0);
+    for (size_t f = 0; f < frames; ++f) {
+      from.push_back(scale_ * (to_target * (centre_of(live.source, played.source_frames[f]) - source_body[f])));
+      to.push_back(centre_of(live.target, played.target_frames[f]) - target_body[f]);
+      from_mean += from.back() / static_cast<double>(frames), to_mean += to.back() / static_cast<double>(frames);
+    }
+    double ff = 0, tt = 0, ft = 0;
+    for (size_t f = 0; f < frames; ++f) {
+      const glm::dvec3 a = from[f] - from_mean, b = to[f] - to_mean;
+      ff += glm::dot(a, a), tt += glm::dot(b, b), ft += glm::dot(a, b);
+    }
+    out.push_back({live.entry.name, std::sqrt(ff / static_cast<double>(frames)) / box,
+                   std::sqrt(tt / static_cast<double>(frames)) / box,
+                   ff > 0 && tt > 0 ? ft / std::sqrt(ff * tt) : 1.0});
+  }
+  return out;
+}
+
 double Session::largest_gap(const std::vector<std::vector<double>>& frames) const {
   double out = 0;
   for (const std::vector<double>& frame : frames) {
@@ -450,7 +480,7 @@ std::vector<std::string> Session::warnings() {
   size_t crossed = 0;
   for (const PairReport& pair : pairs()) {
     feet = feet || pair.foot, trunk = trunk || (pair.trunk && pair.anchor);
-    if (pair.confidence < 0.3)
+    if (pair.confidence < 0.3 && !stretches())
       out.push_back("pair \"" + pair.name +
                     "\": few source vertices stand behind its clusters; the motion there may be coarse");
     if (pair.source_leak > 1e-6 || pair.target_leak > 1e-6)

@@ -38,11 +38,18 @@ struct FootReport {
 };
 
 struct PlayedClip {
-  SkinClip clip;
+  SkinClip clip;                                                  // without rotations and translations in mode stretch
   std::vector<std::vector<double>> source_frames, target_frames;  // xyz of the flat vertices, one per time
   FootReport feet;
   double frame_ms = 0;  // per frame, inside the library
   double gap = 0;       // largest between linked pieces, in box diagonals
+};
+
+// How the region of a pair moves over a clip, beside the body as a whole: root mean square in boxes of the target, and
+// the cosine between both motions.
+struct LimbMotion {
+  std::string name;
+  double source_moved = 0, target_moved = 0, cosine = 1;
 };
 
 class Session {
@@ -76,6 +83,8 @@ class Session {
   // How firmly each flat vertex of the target belongs to a foot that stands in a frame, 0 to 1. It comes in
   // continuously with the height of the source's foot.
   std::vector<double> standing(const PlayedClip& played, size_t frame) const;
+  // Of all pairs that are no part of the trunk.
+  std::vector<LimbMotion> limbs_of(const PlayedClip& played) const;
   // The largest gap between linked pieces of the target over all frames, in box diagonals; 0 without links.
   double largest_gap(const std::vector<std::vector<double>>& frames) const;
   // Joints and weights; the caller adds the clips.
@@ -84,7 +93,8 @@ class Session {
   std::vector<PairReport> pairs();
   std::vector<std::string> warnings();
   double scale() const { return scale_; }
-  uint32_t cluster_count();
+  uint32_t cluster_count() const { return info().cluster_count; }
+  bool stretches() const { return file_.settings.stretch; }  // no skin, no ground, no dials
 
   // Of the surfaces and the transfer.
   hf_transfer_info info() const;

@@ -72,6 +72,7 @@ const char* usage() {
          "--out-poses DIR\n"
          "       hf_transfer SOURCE.glb TARGET.glb --suggest-pairs PAIRS.json\n"
          "       hf_transfer CLIPS.glb TARGET.glb -o OUT.glb  (CLIPS has no surface, TARGET has its skeleton)\n"
+         "       hf_transfer SOURCE.glb TARGET.glb --pairs PAIRS.json --shapes -o OUT.glb\n"
          "       hf_transfer --batch LIST [--jobs N]\n"
          "       hf_transfer --joints FILE.glb\n"
          "Plays the motion of SOURCE on TARGET: pairs of places say what corresponds, the rotations go over, the\n"
@@ -89,6 +90,8 @@ const char* usage() {
          "  --onto-skin     the same as --as own-skin\n"
          "  --key-tolerance X  how far keys that are left out may move a vertex, in boxes (default 0.0005; 0 keeps "
          "all)\n"
+         "  --shapes        the morph targets of SOURCE become morph targets of TARGET; with --clip also clips of "
+         "weights\n"
          "  --morph-tolerance X  how far morph targets may be off, in boxes (default 0.001)\n"
          "  --out-poses DIR a mesh file per frame, in TARGET's own vertex order\n"
          "  --source FILE --target FILE --poses FILES  meshes: posed copies of the source instead of a clip\n"
@@ -182,6 +185,8 @@ TransferCommand parse_command(int count, char** arguments) {
         out.dials.emplace_back(part.substr(0, equals),
                                number_of(word + " " + part.substr(0, equals), part.substr(equals + 1), -90, 90));
       }
+    } else if (word == "--shapes") {
+      out.shapes = true;
     } else if (word == "--no-ground") {
       out.ground = false;
     } else if (word == "--source-rest") {
@@ -218,6 +223,17 @@ TransferCommand parse_command(int count, char** arguments) {
   if (!out.batch.empty()) {
     if (!files.empty()) throw std::runtime_error("--batch takes its models from the list, not " + files[0]);
     return out;
+  }
+  if (out.shapes) {
+    for (const auto& [given, option] : {std::pair<bool, const char*>(!out.kind.empty(), "--as and --out-poses"),
+                                        {!out.poses.empty(), "--poses"},
+                                        {!out.clips.empty(), "--clips"},
+                                        {!out.edits.empty(), "--edit"},
+                                        {!out.contacts.empty(), "--contacts"},
+                                        {!out.dials.empty(), "--dials"}})
+      if (given) throw std::runtime_error(std::string("--shapes carries morph targets: it does not go with ") + option);
+    if (out.pairs.empty() && out.suggest.empty())
+      throw std::runtime_error("--shapes needs --pairs: which places of the two models correspond");
   }
   if (!out.clips.empty() && !out.poses.empty()) throw std::runtime_error("give --clips or --poses, not both");
   if (!out.source.empty() || !out.target.empty()) {

@@ -193,6 +193,7 @@ hf_result hf_transfer_get_skin(hf_transfer handle, hf_skin_info* inout_skin) {
     SkinOut out(inout_skin);
     const Reading reading(*object);
     const std::lock_guard<OwnedMutex> lock(object->preparing);
+    object->transfer.skin_motion(nullptr, nullptr, nullptr);  // refuses modes without a skin before anything is written
     Memory* memory = object->memory.get();
     const Mesh& mesh = object->transfer.target().mesh;
     const std::size_t joints = static_cast<std::size_t>(object->transfer.cluster_count());

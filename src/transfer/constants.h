@@ -127,6 +127,54 @@ constexpr double broad_band_floor = 1e-6;
 // it changes no vertex of any frame.
 constexpr double least_area_share = 1e-6;
 
+// --- gradients.cpp, matches.cpp, nearest_rows.cpp, warp.cpp ---
+
+// The numbers of this group and the next hold for HF_TRANSFER_STRETCH alone. They were chosen on one pair of generated
+// heads (tests/unit/transfer/transfer_stretch_test.cpp, 9,900 and 11,918 vertices); where a line names no other value,
+// none was tried.
+
+// Weight of the fields of the pairs beside places in boxes, where points of two surfaces are matched: trades parts told
+// apart for smooth matches.
+constexpr double match_field_weight = 0.1;
+// A triangle with a smaller squared sine of its angle is matched along its edges only; guards a division.
+constexpr double flat_triangle = 1e-12;
+// How far a warp may miss its points, and the size of its affine part, in boxes: without the second a warp of less than
+// four points has no solution.
+constexpr double warp_ridge = 1e-3, affine_ridge = 1e-4;
+// Samples of the target, and of its border, that a warp takes to the source, and rounds of matching them: trades close
+// matches for the time of preparing, which grows with the cube of the samples.
+constexpr std::size_t warp_samples = 200, warp_border_samples = 100;
+constexpr std::int32_t warp_rounds = 4;
+// A sample whose match lies farther away (in boxes) or faces another way is left out.
+constexpr double warp_reach = 0.1, warp_cosine = 0.3;
+// A vertex of the target's border matches the source's border if that is at most this much farther in coordinates (in
+// boxes) than the nearest point of the source. Else the source has no such border.
+constexpr double border_reach = 0.1;
+// A gradient in a direction in which a vertex has no edge is that of the whole body, with this weight. At 1e-9 a source
+// of twice the size is off by 1e-9.
+constexpr double least_edge_moment = 1e-12;
+// An edge that is longer than its match by more than this, beyond the scale, does not take the match's own change.
+constexpr double most_edge_ratio = 4;
+// Rows in a leaf of the tree: trades nodes for compared rows. No result depends on it.
+constexpr std::int32_t rows_in_leaf = 8;
+
+// --- openings.cpp, gradient_openings.cpp ---
+
+// Cosine of the largest angle between an outward direction and the place that faces it: 60 degrees.
+constexpr double facing_cosine = 0.5;
+// An opening (in boxes) that is wider at rest is not held: lids and lips are narrower, sleeves and necks wider.
+constexpr double widest_opening = 0.06;
+// How far the constraint of an opening gives way, as a share of its own compliance: trades closed lids for a smooth skin
+// where constraints contradict each other. Before gaps across a border were carried by themselves, closed lids were
+// 1.4 % of the opening apart at 1e-5, 1.7 % at 1e-3 and 2.0 % at 1e-2; on coarse lids 36, 22 and 16 %.
+constexpr double opening_give = 1e-3;
+// At most this many constraints of openings; bounds the dense matrix.
+constexpr std::size_t most_openings = 384;
+// Right-hand sides in one sweep of the factor; no result depends on it.
+constexpr std::int32_t opening_channels = 8;
+// A gap (in boxes) below which its direction means nothing; guards a division.
+constexpr double least_gap = 1e-9;
+
 // --- islands.cpp ---
 
 // At most this many sweeps spread field values over a piece without a region (an eye, a strap). All numbers of this

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transfer/gradients.h"
 #include "transfer/transfer.h"
 
 namespace hf_inner {
@@ -54,6 +55,7 @@ struct Transfer::Prepared {
         source_rotations(memory),
         translations(memory),
         refit(memory),
+        gradients(memory),
         anchors(&memory),
         posed(&memory),
         given(&memory),
@@ -111,6 +113,7 @@ struct Transfer::Prepared {
   SourceRotations source_rotations;
   Translations translations;
   Refit refit;
+  Gradients gradients;  // HF_TRANSFER_STRETCH only
   Vector<Anchor> anchors;
   double scale = 1;  // target lengths over source lengths, in inner units
   double source_ground = 0, target_ground = 0;

@@ -24,9 +24,9 @@ Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
 }
 
 void check_options(const TransferOptions& options) {
-  if (options.mode != HF_TRANSFER_FIELDS && options.mode != HF_TRANSFER_PAPER)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode is %d; use HF_TRANSFER_FIELDS or HF_TRANSFER_PAPER",
-         options.mode);
+  if (options.mode != HF_TRANSFER_FIELDS && options.mode != HF_TRANSFER_PAPER && options.mode != HF_TRANSFER_STRETCH)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "mode is %d; use HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER or HF_TRANSFER_STRETCH", options.mode);
   if (options.cluster_count > cluster_limit)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "cluster_count is %u; it must be 1 to %u, or 0 for the default",
          options.cluster_count, cluster_limit);
@@ -67,6 +67,7 @@ Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Cor
                    const TransferOptions& options)
     : source_core_(with_rest(source, options.source_rest, "source")),
       target_core_(with_rest(target, options.target_rest, "target")),
+      target_factor_(target),
       options_(options),
       source_axes_(checked_axes(options.source_axes, "source")),
       target_axes_(checked_axes(options.target_axes, "target")),
@@ -260,6 +261,20 @@ void Transfer::prepare_ground(Prepared& p) const {
   }
 }
 
+void Transfer::prepare_gradients(Prepared& p) const {
+  Vector<Vec3> source_means(target_core_->memory.get()), target_means(target_core_->memory.get());
+  for (const std::uint32_t number : numbers_) {
+    source_means.push_back(region_mean(source_.region(number), source_core_->mesh.positions.data()));
+    target_means.push_back(region_mean(target_.region(number), target_core_->mesh.positions.data()));
+  }
+  MatchSide source, target;
+  source.core = source_core_.get(), source.field = p.source_field.data(), source.axes = source_axes_;
+  source.means = {source_means.data(), source_means.size()}, source.unit = p.scale;
+  target.core = target_core_.get(), target.field = p.target_field.data(), target.axes = target_axes_;
+  target.means = {target_means.data(), target_means.size()};
+  p.gradients.prepare(source, target, *target_factor_, target_area_, *target_core_->memory);
+}
+
 Transfer::Prepared& Transfer::prepare() {
   if (prepared_) return *prepared_;
   if (numbers_.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the transfer has no pair; add one first");
@@ -290,6 +305,7 @@ Transfer::Prepared& Transfer::prepare() {
   p.refit.prepare(target_core_->mesh, target_area_, p.clusters, memory);
   p.target_centroid = area_mean(target_core_->mesh, target_area_);
   prepare_ground(p);
+  if (options_.mode == HF_TRANSFER_STRETCH) prepare_gradients(p);
 
   // The frame before the first one is the rest shape.
   const std::size_t count = at(p.clusters.count);
@@ -338,6 +354,8 @@ std::int32_t Transfer::cluster_count() { return prepare().clusters.count; }
 double Transfer::scale() { return prepare().scale * target_core_->mesh.scale / source_core_->mesh.scale; }
 
 void Transfer::skin_motion(Vec3* pivots, Quaternion* rotations, Vec3* places) {
+  if (options_.mode == HF_TRANSFER_STRETCH)
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a transfer of mode HF_TRANSFER_STRETCH is no skin; take its positions");
   const Prepared& p = prepare();
   const Mesh& mesh = target_core_->mesh;
   for (std::size_t c = 0; c < p.rotations.size(); ++c) {

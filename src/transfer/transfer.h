@@ -125,6 +125,7 @@ class Transfer {
   void prepare_alignment(Prepared& p) const;
   void prepare_anchors(Prepared& p) const;
   void prepare_ground(Prepared& p) const;
+  void prepare_gradients(Prepared& p) const;
   void prepare_dials(Prepared& p) const;  // the limbs that dials turn
   void turn_dials(Prepared& p) const noexcept;
   void stiffen(Prepared& p) const noexcept;
@@ -142,7 +143,7 @@ class Transfer {
   bool raise_sunk(Prepared& p, Vec3 up, double allowed, double share) const;
 
   // With rest poses of the caller, these hold their positions and no factor; the fields have the cores as made.
-  std::shared_ptr<const Core> source_core_, target_core_;
+  std::shared_ptr<const Core> source_core_, target_core_, target_factor_;
   TransferOptions options_;
   Dials dials_;
   Mat3 source_axes_, target_axes_;

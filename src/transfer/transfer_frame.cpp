@@ -156,11 +156,21 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
            given);
   }
   Prepared& p = prepare();
+  if (options_.mode == HF_TRANSFER_STRETCH && !holds.empty())
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a transfer of mode HF_TRANSFER_STRETCH takes no holds");
   read_holds(p, holds);
   const Mesh& from = source_core_->mesh;
   const Mesh& to = target_core_->mesh;
   for (std::size_t v = 0; v < p.posed.size(); ++v) p.posed[v] = from.to_inner(source[v]);
   const WholeMotion whole = p.source_rotations.whole(from, source_area_, p.posed.data());
+  if (options_.mode == HF_TRANSFER_STRETCH) {
+    const Quaternion turn = normalised(axes_ * whole.rotation * axes_.conjugate());
+    p.gradients.apply({source_core_.get(), target_core_.get(), target_factor_.get(), p.posed.data(), whole, axes_, turn,
+                       p.scale, p.target_centroid, target_area_},
+                      p.blended.data());
+    for (std::size_t v = 0; v < p.blended.size(); ++v) out[v] = to.to_given(p.blended[v]);
+    return;
+  }
   p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), *target_core_->jobs);
 
   // Takes the rotations of the source's clusters into the target's axes and rest directions.

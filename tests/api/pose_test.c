@@ -274,7 +274,7 @@ static void the_rest_of_the_source_gives_the_rest_of_the_target(void** state) {
   (void)state;
   Surface other = surface_tube(9, 17);
   hf_surface target = surface_on(&other);
-  const int32_t transfer_modes[] = {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER};
+  const int32_t transfer_modes[] = {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER, HF_TRANSFER_STRETCH};
   for (size_t m = 0; m < COUNT_OF(transfer_modes); ++m) {
     uint32_t pairs[2];
     hf_transfer transfer = transfer_of(transfer_modes[m], surface, target, AROUND, RINGS, 9, 17, pairs);
@@ -293,6 +293,39 @@ static void the_rest_of_the_source_gives_the_rest_of_the_target(void** state) {
                 info.confidence <= 1);
     hf_transfer_destroy(transfer);
   }
+  hf_surface_destroy(target), surface_free(&other);
+}
+
+static void a_transfer_of_stretch_swells_with_the_source_and_refuses_holds_and_skins(void** state) {
+  (void)state;
+  enum { TARGET = 9 * 17 };
+  Surface other = surface_tube(9, 17);
+  hf_surface target = surface_on(&other);
+  uint32_t pairs[2];
+  hf_transfer transfer = transfer_of(HF_TRANSFER_STRETCH, surface, target, AROUND, RINGS, 9, 17, pairs);
+  static double posed[3 * VERTICES], made[3 * TARGET], before[3 * TARGET];
+  for (uint32_t i = 0; i < 3 * VERTICES; ++i) posed[i] = 1.5 * (double)tube.positions[i];
+  hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
+  frame.source_positions_f64 = posed, frame.target_positions_f64 = made;
+  assert_ok(hf_transfer_apply(transfer, &frame));
+  double box = 0;
+  for (uint32_t i = 0; i < 3 * TARGET; ++i) box = fmax(box, fabs((double)other.positions[i]));
+  for (uint32_t i = 0; i < 3 * TARGET; ++i) {
+    const double off = made[i] - made[i % 3] - 1.5 * ((double)other.positions[i] - (double)other.positions[i % 3]);
+    assert_true(fabs(off) < 1e-9 * box);
+  }
+  memcpy(before, made, sizeof made);
+  const double place[3] = {0, 0, 0};
+  frame.hold_count = 1, frame.hold_pairs = pairs, frame.hold_positions = place;
+  assert_int_equal(hf_transfer_apply(transfer, &frame), HF_ERROR_UNSUPPORTED);
+  assert_memory_equal(made, before, sizeof made);
+  hf_skin_info info = HF_INIT(hf_skin_info);
+  assert_int_equal(hf_transfer_get_skin(transfer, &info), HF_ERROR_UNSUPPORTED);
+  assert_int_equal(info.joint_count, 0);
+  frame.hold_count = 0;
+  assert_ok(hf_transfer_apply(transfer, &frame));
+  assert_memory_equal(made, before, sizeof made);
+  hf_transfer_destroy(transfer);
   hf_surface_destroy(target), surface_free(&other);
 }
 
@@ -674,6 +707,7 @@ int main(void) {
       cmocka_unit_test(handles_come_and_go_and_clones_are_independent),
       cmocka_unit_test(what_no_handle_reaches_stays_at_rest),
       cmocka_unit_test(the_rest_of_the_source_gives_the_rest_of_the_target),
+      cmocka_unit_test(a_transfer_of_stretch_swells_with_the_source_and_refuses_holds_and_skins),
       cmocka_unit_test(dials_are_read_back_and_neutral_ones_change_no_bit),
       cmocka_unit_test(the_skin_replays_the_transfer),
       cmocka_unit_test(a_frame_may_be_transferred_in_place),

@@ -95,6 +95,7 @@ namespace Hf.Native
         public const int HF_REGION_SITES = 2;
         public const int HF_TRANSFER_FIELDS = 0;
         public const int HF_TRANSFER_PAPER = 1;
+        public const int HF_TRANSFER_STRETCH = 2;
         public const int HF_GROUND_KEEP = 0;
         public const int HF_GROUND_OFF = 1;
         public const int HF_PAIR_ANCHOR = 1;

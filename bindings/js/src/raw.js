@@ -91,6 +91,7 @@ export const constants = Object.freeze({
   HF_REGION_SITES: 2,
   HF_TRANSFER_FIELDS: 0,
   HF_TRANSFER_PAPER: 1,
+  HF_TRANSFER_STRETCH: 2,
   HF_GROUND_KEEP: 0,
   HF_GROUND_OFF: 1,
   HF_PAIR_ANCHOR: 1,

@@ -20,7 +20,7 @@ class DeformMode(IntEnum):
 
 
 class TransferMode(IntEnum):
-    FIELDS, PAPER = _raw.HF_TRANSFER_FIELDS, _raw.HF_TRANSFER_PAPER
+    FIELDS, PAPER, STRETCH = _raw.HF_TRANSFER_FIELDS, _raw.HF_TRANSFER_PAPER, _raw.HF_TRANSFER_STRETCH
 
 
 class Pair(IntFlag):

@@ -92,6 +92,7 @@ pub const HF_REGION_RIM: i32 = 1;
 pub const HF_REGION_SITES: i32 = 2;
 pub const HF_TRANSFER_FIELDS: i32 = 0;
 pub const HF_TRANSFER_PAPER: i32 = 1;
+pub const HF_TRANSFER_STRETCH: i32 = 2;
 pub const HF_GROUND_KEEP: i32 = 0;
 pub const HF_GROUND_OFF: i32 = 1;
 pub const HF_PAIR_ANCHOR: i32 = 1;

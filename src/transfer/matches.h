@@ -1,0 +1,34 @@
+// Finds the point of a source surface that corresponds to each vertex of a target (HF_TRANSFER_STRETCH).
+//
+// A warp of space (warp.h) takes the target to the form of the source: first the pairs alone, then, in some rounds,
+// samples of the target with their nearest points. A vertex matches the source point with the nearest coordinates: its
+// warped place, and the fields of all pairs with a small weight, which tell parts apart that lie close, such as lips.
+// Vertices of the target's border match the source's border, if it has one there. A surface matches itself exactly.
+#pragma once
+#include "deform/rotation.h"
+#include "engine/core.h"
+#include "transfer/openings.h"
+
+namespace hf_inner {
+
+// One surface: fields by vertex (width numbers each), and the means of the pairs' regions.
+struct MatchSide {
+  const Core* core = nullptr;
+  const double* field = nullptr;
+  Span<const Vec3> means;
+  Mat3 axes;        // rows right, up, forward
+  double unit = 1;  // lengths of the target over those of this surface
+};
+
+struct Matches {
+  explicit Matches(Memory& memory) : corner(&memory), share(&memory), on_border(&memory) {}
+  Vector<std::int32_t> corner;  // three source vertices for each target vertex
+  Vector<double> share;         // and their shares; where a source vertex is met exactly, its share is exactly 1
+  Vector<std::uint8_t>
+      on_border;  // by target vertex: it matches a place of the source's border, by the first two corners
+};
+
+void find_matches(const MatchSide& source, const MatchSide& target, const Border& source_border,
+                  const Border& target_border, Memory& memory, Matches& out);
+
+}  // namespace hf_inner
