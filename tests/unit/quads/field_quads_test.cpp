@@ -198,6 +198,43 @@ TEST(FieldQuads, rounding_one_after_the_other_solves_the_dense_system) {
   }
 }
 
+TEST(FieldQuads, rounding_takes_the_unknown_nearest_to_a_whole_number_at_every_step) {
+  const Stages stages(core_of(samples::cactus(500)));
+  GridMapper mapper = stages.mapper();
+  const double edge_length = 0.07;
+  Vector<Index> fixed;
+  Vector<double> values;
+  mapper.round(edge_length, &fixed, &values);
+  const SymmetricMatrix& k = mapper.matrix();
+  const Index n = k.size(), m = static_cast<Index>(fixed.size()), first = n - m;
+  ASSERT_GT(m, 40);  // steps are taken together by 32
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+  for (Index c = 0; c < n; ++c) {
+    for (Index i = k.column_start[at(c)]; i < k.column_start[at(c) + 1]; ++i) a(k.row[at(i)], c) = k.value[at(i)];
+    b(c) = mapper.right()[at(c)] / edge_length;
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> factor(a);
+  Eigen::VectorXd x = factor.solve(b).tail(m);
+  Eigen::MatrixXd c = factor.solve(Eigen::MatrixXd::Identity(n, n).rightCols(m)).bottomRows(m);
+  std::vector<bool> held(at(m), false);
+  for (Index s = 0; s < m; ++s) {
+    const Index i = fixed[at(s)] - first;
+    ASSERT_GE(i, 0);
+    ASSERT_FALSE(held[at(i)]);
+    const double away = std::fabs(x(i) - std::nearbyint(x(i)));
+    EXPECT_NEAR(x(i), values[at(s)], away + 1e-7);
+    for (Index j = 0; j < m; ++j) {
+      if (!held[at(j)]) {
+        EXPECT_GE(std::fabs(x(j) - std::nearbyint(x(j))), away - 1e-7) << s << " " << j;
+      }
+    }
+    held[at(i)] = true;
+    x += (values[at(s)] - x(i)) / c(i, i) * c.col(i);
+    c -= Eigen::MatrixXd(c.col(i) * c.row(i) / c(i, i));
+  }
+}
+
 TEST(FieldQuads, closed_shapes_of_any_genus_become_valid_meshes) {
   for (const auto& [name, core] : shapes()) {
     FieldQuadOptions options;
