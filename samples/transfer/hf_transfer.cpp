@@ -131,9 +131,6 @@ struct Contacts {
   }
 };
 
-// A gap between linked pieces beyond this share of the box is warned of.
-constexpr double worrying_gap = 0.01;
-
 // Returns what the written file plays; of frames and files without it, the computed clips.
 std::vector<PlayedClip> write_output(Session& session, const Model& target, const TransferCommand& command,
                                      const std::filesystem::path& output, const std::vector<PlayedClip>& clips,
@@ -165,11 +162,9 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
   }
   for (const PlayedClip& clip : written) {
     report.written_feet.push_back(clip.feet), report.gaps.push_back(clip.gap);
-    if (clip.gap <= worrying_gap) continue;
-    char text[200];
-    std::snprintf(text, sizeof text, "clip \"%s\": linked pieces come apart by %.1f %% of the box",
-                  clip.clip.name.c_str(), 100 * clip.gap);
-    report.warnings.emplace_back(text);
+    report.faults.push_back(find_faults(session, clip));
+    for (const std::string& sentence : fault_sentences(report.faults.back(), clip.clip.name, clip.target_frames.size()))
+      report.warnings.push_back(sentence);
   }
   report.written_rms = figures.rms, report.written_max = figures.max, report.written_parts = figures.parts;
   report.keys = figures.keys, report.all_keys = figures.all_keys;

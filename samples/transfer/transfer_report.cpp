@@ -119,6 +119,12 @@ std::string to_text(const RunReport& report, const std::string& heading) {
           report.written_feet[c].surface_sunk);
   if (report.all_keys > 0)
     print(out, "  keys          %zu of %zu are written; the others follow from them\n", report.keys, report.all_keys);
+  for (size_t c = 0; c < report.faults.size(); ++c)
+    print(out,
+          "  confidence    %.2f in \"%s\": %zu frames jump, acceleration %.2f times the source's, stretch %.2f, limbs "
+          "that lost their source %zu\n",
+          report.faults[c].confidence, report.clip_names[c].c_str(), report.faults[c].spikes,
+          report.faults[c].acceleration, report.faults[c].stretch, report.faults[c].lost.size());
   for (size_t c = 0; c < report.gaps.size(); ++c) {
     if (report.gaps[c] > 0)
       print(out, "  gaps          %.2f %% of the box at most between linked pieces in \"%s\"\n", 100 * report.gaps[c],
@@ -159,6 +165,17 @@ nlohmann::json to_json(const RunReport& report) {
                      {"planted_mean", report.feet[c].planted_mean},
                      {"planted_max", report.feet[c].planted_max},
                      {"surface_sunk", report.feet[c].surface_sunk}});
+    if (c < report.faults.size()) {
+      const ClipFaults& faults = report.faults[c];
+      clips.back()["confidence"] = faults.confidence;
+      clips.back()["faults"] = {{"spikes", faults.spikes},
+                                {"acceleration", faults.acceleration},
+                                {"stretch", faults.stretch},
+                                {"sunk", faults.sunk},
+                                {"gap", faults.gap},
+                                {"lost", faults.lost},
+                                {"sentences", fault_sentences(faults, report.clip_names[c], report.frames[c])}};
+    }
     if (c < report.written_feet.size()) {
       clips.back()["written_planted_max"] = report.written_feet[c].planted_max;
       clips.back()["written_planted_mean"] = report.written_feet[c].planted_mean;

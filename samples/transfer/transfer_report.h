@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "transfer/faults.h"
 #include "transfer/session.h"
 
 namespace samples {
@@ -31,6 +32,7 @@ struct RunReport {
   double written_rms = 0, written_max = 0;  // of own skin and morph targets: from the computed frames, in box diagonals
   size_t written_parts = 0, keys = 0, all_keys = 0;
   std::vector<FootReport> written_feet;  // in the written file
+  std::vector<ClipFaults> faults;        // in the written file
   std::vector<double> gaps;              // largest between linked pieces in the written file, in box diagonals
   std::vector<std::string> contacts;
   uint32_t clusters = 0;

@@ -139,7 +139,7 @@ class Transfer {
   void blend(Prepared& p) const;
   double lying_share(Prepared& p) const noexcept;
   void lie_down(Prepared& p, Vec3 centroid, double lies, double fallen, double share) const;
-  void keep_above_ground(Prepared& p, double share) const;
+  void keep_above_ground(Prepared& p, const Quaternion& turn, Vec3 centroid, double rigid) const;
   bool raise_sunk(Prepared& p, Vec3 up, double allowed, double share) const;
 
   // With rest poses of the caller, these hold their positions and no factor; the fields have the cores as made.

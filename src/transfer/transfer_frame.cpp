@@ -201,7 +201,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   }
   if (lies > 0) lie_down(p, centroid, lies, fallen, share);
   blend(p);
-  if (over_ground) keep_above_ground(p, 1 - rigid);
+  if (over_ground) keep_above_ground(p, turn, centroid, rigid);
   target_core_->jobs->for_each(
       static_cast<std::uint32_t>((p.blended.size() + vertex_block - 1) / vertex_block), [&](std::uint32_t b) {
         const std::size_t last = std::min(p.blended.size(), (std::size_t{b} + 1) * vertex_block);

@@ -160,12 +160,19 @@ bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) co
   return true;
 }
 
-// Lifts all parts that would sink below the ground. share: 0 for a rigid motion of the whole source, which is copied
-// unchanged, up to 1.
-void Transfer::keep_above_ground(Prepared& p, double share) const {
-  if (!(share > least_share)) return;
-  const double allowed = p.target_ground + p.scale * std::min(0.0, p.source_low - p.source_ground);
-  if (raise_sunk(p, up_of(target_axes_), allowed, share)) blend(p);
+// Lifts all parts that would sink below the ground. turn, centroid: where the rest pose of the whole target goes.
+// rigid: the share of a rigid motion of the whole source, which is copied unchanged. What it moves is the target that
+// a source at rest gives; limbs that the rest alignment turns must not sink there. So that share has a ground that
+// moves with the body.
+void Transfer::keep_above_ground(Prepared& p, const Quaternion& turn, Vec3 centroid, double rigid) const {
+  const Vec3 up = up_of(target_axes_), own_up = rotate(turn, up);
+  const double allowed = p.target_ground + p.scale * std::min(0.0, p.source_low - p.source_ground),
+               own = p.target_ground + dot(own_up, centroid) - dot(up, p.target_centroid);
+  // Both shares raise the same surface, so it is blended anew only after both.
+  bool raised = false;
+  if (1 - rigid > least_share) raised = raise_sunk(p, up, allowed, 1 - rigid);
+  if (rigid > least_share) raised = raise_sunk(p, own_up, own, rigid) || raised;
+  if (raised) blend(p);
 }
 
 }  // namespace hf_inner

@@ -19,6 +19,7 @@
 #include "common/animate.h"
 #include "common/gltf_read.h"
 #include "common/links.h"
+#include "transfer/faults.h"
 #include "transfer/session.h"
 #include "transfer/suggest_pairs.h"
 
@@ -131,6 +132,8 @@ Motion motion_of(const Frames& frames, double unit) {
 struct Run {
   std::string name;
   size_t spikes = 0, frames = 0;
+  double confidence = 0, stretch = 0;
+  size_t lost = 0;
   double acceleration = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, self_mean = -1, self_max = -1, ms = 0;
 };
 
@@ -154,6 +157,8 @@ Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target
     if (hf_surface_measure_gaps(session.target_surface(), &posed, 0, nullptr, &info) == HF_OK && info.link_count > 0)
       out.gap = std::max(out.gap, info.worst / target.box);
   }
+  const ClipFaults faults = find_faults(session, played);
+  out.confidence = faults.confidence, out.stretch = faults.stretch, out.lost = faults.lost.size();
   if (&source != &target) return out;
   out.self_mean = out.self_max = 0;
   for (size_t f = 0; f < out.frames; ++f) {
@@ -234,6 +239,52 @@ struct Options {
   std::string half = "choosing", source, target, clip;
   bool runs = false, links = true, ground = true, where = false;
 };
+
+// Ranks from 1; equal numbers share the mean of theirs.
+std::vector<double> ranks(const std::vector<double>& numbers) {
+  std::vector<size_t> order(numbers.size());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return numbers[a] < numbers[b]; });
+  std::vector<double> out(numbers.size());
+  for (size_t i = 0; i < order.size();) {
+    size_t j = i;
+    while (j < order.size() && numbers[order[j]] == numbers[order[i]]) ++j;
+    for (size_t k = i; k < j; ++k) out[order[k]] = 0.5 * static_cast<double>(i + j + 1);
+    i = j;
+  }
+  return out;
+}
+
+// Spearman's rank correlation; 0 where one side is constant.
+double spearman(const std::vector<double>& a, const std::vector<double>& b) {
+  const std::vector<double> x = ranks(a), y = ranks(b);
+  const double mean = 0.5 * static_cast<double>(x.size() + 1);
+  double xx = 0, yy = 0, xy = 0;
+  for (size_t i = 0; i < x.size(); ++i)
+    xx += (x[i] - mean) * (x[i] - mean), yy += (y[i] - mean) * (y[i] - mean), xy += (x[i] - mean) * (y[i] - mean);
+  return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
+}
+
+// How the confidence falls with each measured fault, and with the worst rank of all.
+void print_confidence(const std::vector<Run>& runs) {
+  std::vector<double> confidence, spikes, acceleration, sunk, gap, stretch, lost;
+  for (const Run& run : runs) {
+    confidence.push_back(run.confidence), spikes.push_back(static_cast<double>(run.spikes));
+    acceleration.push_back(run.acceleration), sunk.push_back(run.sunk), gap.push_back(run.gap);
+    stretch.push_back(run.stretch), lost.push_back(static_cast<double>(run.lost));
+  }
+  std::vector<double> worst(runs.size(), 0.0);
+  for (const std::vector<double>* fault : {&spikes, &acceleration, &sunk, &gap}) {
+    const std::vector<double> rank = ranks(*fault);
+    for (size_t i = 0; i < worst.size(); ++i) worst[i] = std::max(worst[i], rank[i]);
+  }
+  std::printf(
+      "  confidence, Spearman    spikes %.2f, acceleration %.2f, penetration %.2f, gaps %.2f; worst of these "
+      "%.2f; stretch %.2f, lost limbs %.2f\n",
+      spearman(confidence, spikes), spearman(confidence, acceleration), spearman(confidence, sunk),
+      spearman(confidence, gap), spearman(confidence, worst), spearman(confidence, stretch),
+      spearman(confidence, lost));
+}
 
 void print_runs(const char* heading, const std::vector<Run>& runs) {
   std::vector<double> ratios;
@@ -330,9 +381,9 @@ int table(const Options& options) {
         if (options.runs)
           std::printf(
               "    %-36s spikes %2zu accel %.2f still %5.1f step %5.2f slide %.4f sunk %.4f gap %.4f self %.4f "
-              "%.4f\n",
+              "%.4f confidence %.3f stretch %.2f lost %zu\n",
               run.name.c_str(), run.spikes, run.acceleration, run.still, run.step, run.slide, run.sunk, run.gap,
-              run.self_mean, run.self_max);
+              run.self_mean, run.self_max, run.confidence, run.stretch, run.lost);
         all.push_back(run);
         if (run.name.find("Death") != std::string::npos) deaths.push_back(run);
       }
@@ -342,6 +393,7 @@ int table(const Options& options) {
   std::printf("\n%s half: %zu pairs, %zu refused (%.1f %% transfer)\n", options.half.c_str(), pairs, refused,
               100.0 * static_cast<double>(pairs - refused) / static_cast<double>(std::max<size_t>(pairs, 1)));
   print_runs("all clips", all);
+  print_confidence(all);
   if (!deaths.empty()) print_runs("falls", deaths);
   return 0;
 }

@@ -115,6 +115,47 @@ TEST(TransferGround, NoPartOfTheSurfaceSinks) {
   EXPECT_LT(deepest, 1e-3);
 }
 
+// The bull is bound with slanting legs, which the rest alignment turns upright: without a ground its hooves would sink,
+// also while the horse stands as it was bound. A breath of the horse must not lift them out at once.
+TEST(TransferGround, LimbsThatAreAlignedAtRestDoNotSinkAtRest) {
+  const Animals& a = animals();
+  Body bull = creature("bull", 1600, a.world);
+  const double ground = lowest_of(bull.rest()), box = bull.core->mesh.scale, top = ground + 0.35 * box;
+  bull.move(a.world, [&](glm::dvec3 p) {
+    if (p.y < top) p.z += 0.9 * (top - p.y);
+    return p;
+  });
+  hf_inner::TransferOptions options;
+  options.alignment_angle = 0.1;  // every limb that differs is aligned
+  const auto depth = [&](const std::vector<Vec3>& out) { return (ground - lowest_of(out)) / box; };
+  hf_inner::TransferOptions off = options;
+  off.keep_ground = false;
+  hf_inner::Transfer transfer(a.horse.core, bull.core, options), bare(a.horse.core, bull.core, off);
+  const Pairs pairs = find_pairs("horse_to_bull.json", a.horse, bull);
+  add(transfer, pairs.inputs()), add(bare, pairs.inputs());
+  const std::vector<Vec3> rest = a.horse.rest();
+  EXPECT_GT(depth(frame_of(bare, rest)), 0.005) << "nothing sinks: no test";
+  const std::vector<Vec3> still = frame_of(transfer, rest);
+  EXPECT_LT(depth(still), 3e-4);
+  // a breath: from 1e-6 to 1e-3 boxes
+  const double horse_box = a.horse.core->mesh.scale, horse_ground = lowest_of(rest);
+  for (const double size : {1e-6, 1e-5, 1e-4, 1e-3}) {
+    std::vector<Vec3> breath = rest;
+    for (Vec3& p : breath) p.x *= 1 + size * smooth(0.3, 0.6, (p.y - horse_ground) / horse_box);
+    const std::vector<Vec3> out = frame_of(transfer, breath);
+    EXPECT_LT(depth(out), 3e-4) << size;
+    EXPECT_LT(largest_distance(out, still) / box, 0.003) << size;
+  }
+  // and a rigid motion carries the standing bull along
+  const hf_inner::Quaternion turn = hf_inner::exponential({0.3, 1.2, -0.4});
+  std::vector<Vec3> turned = rest;
+  for (Vec3& p : turned) p = hf_inner::rotate(turn, p) + Vec3{1, 2, 3};
+  const std::vector<Vec3> out = frame_of(transfer, turned);
+  const Vec3 shift = out[0] - hf_inner::rotate(turn, still[0]);
+  for (size_t v = 0; v < out.size(); ++v)
+    ASSERT_LT(hf_inner::norm(out[v] - hf_inner::rotate(turn, still[v]) - shift) / box, 1e-6) << v;
+}
+
 TEST(TransferGround, ABodyThatLiesRestsOnItsTrunkNotOnWhateverReachesLowest) {
   const Animals& a = animals();
   hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});

@@ -82,14 +82,18 @@ TEST(TransferProgramShapes, TheShapesOfAFaceStandBehindThoseThatTheOtherHas) {
 
 TEST(TransferProgramShapes, WhatDoesNotGoTogetherIsRefused) {
   const Heads heads;
-  const std::string two = quoted(heads.source) + " " + quoted(heads.target) + " --shapes -o " + quoted(folder() / "refused.glb") + " ";
+  const std::string two =
+      quoted(heads.source) + " " + quoted(heads.target) + " --shapes -o " + quoted(folder() / "refused.glb") + " ";
   const std::string list = "--pairs " + quoted(pairs("face_to_other.json"));
   std::string said;
   EXPECT_NE(transfer(two, said), 0);
   EXPECT_NE(said.find("--pairs"), std::string::npos) << said;
   EXPECT_NE(transfer(two + list + " --as morph", said), 0);
   EXPECT_NE(said.find("--as"), std::string::npos) << said;
-  EXPECT_NE(transfer(both() + " --shapes -o " + quoted(folder() / "refused.glb") + " --pairs " + quoted(pairs("horse_to_bull.json")), said), 0);
+  EXPECT_NE(transfer(both() + " --shapes -o " + quoted(folder() / "refused.glb") + " --pairs " +
+                         quoted(pairs("horse_to_bull.json")),
+                     said),
+            0);
   EXPECT_NE(said.find("no morph targets"), std::string::npos) << said;
 }
 

@@ -1,0 +1,91 @@
+// The faults that the report of hf_transfer names, each put into a good clip by hand; the confidence falls with each.
+#include <gtest/gtest.h>
+
+#include "common/animate.h"
+#include "transfer/faults.h"
+#include "unit/transfer/transfer_program_support.h"
+
+namespace {
+
+using namespace transfer_program;
+using namespace samples;
+
+struct Walk {
+  Model horse = to_model(make_creature("horse", 1500)), bull = to_model(make_creature("bull", 1500));
+  ProgressBar bar{true};
+  Session session{horse, bull, read_pairs(pairs("horse_to_bull.json")), 1, true, bar};
+  PlayedClip clip = session.play(horse.animations[static_cast<size_t>(find_animation(horse, "walk"))], 30, bar);
+  double box = session.target_mesh().bounding_box_diagonal;
+};
+
+const Walk& walk() {
+  static const Walk made;
+  return made;
+}
+
+TEST(TransferFaults, AGoodWalkHasNone) {
+  const ClipFaults faults = find_faults(walk().session, walk().clip);
+  EXPECT_EQ(faults.spikes, 0u);
+  EXPECT_TRUE(faults.lost.empty());
+  EXPECT_GT(faults.confidence, 0.8);
+  EXPECT_TRUE(fault_sentences(faults, "walk", walk().clip.target_frames.size()).empty());
+}
+
+// Each fault is found, said, and halves the confidence or more.
+TEST(TransferFaults, WhatIsPutInIsFoundAndSaid) {
+  const Walk& w = walk();
+  const ClipFaults good = find_faults(w.session, w.clip);
+  const auto expect = [&](const PlayedClip& clip, const char* said) {
+    const ClipFaults faults = find_faults(w.session, clip);
+    EXPECT_LT(faults.confidence, 0.6 * good.confidence) << said;
+    std::string all;
+    for (const std::string& sentence : fault_sentences(faults, "walk", clip.target_frames.size()))
+      all += sentence + "\n";
+    EXPECT_NE(all.find(said), std::string::npos) << all;
+    return faults;
+  };
+  PlayedClip jump = w.clip;  // one vertex, one frame
+  jump.target_frames[5][0] += 0.1 * w.box;
+  EXPECT_EQ(expect(jump, "jump").spikes, 3u);  // it leaves, is away, comes back
+
+  PlayedClip shake = w.clip;
+  for (size_t f = 0; f < shake.target_frames.size(); ++f)
+    for (double& x : shake.target_frames[f]) x += (f % 2 ? 0.01 : -0.01) * w.box;
+  EXPECT_GT(expect(shake, "accelerates").acceleration, 2);
+
+  PlayedClip flat = w.clip;  // a tenth of the height, in every frame
+  for (std::vector<double>& frame : flat.target_frames)
+    for (size_t i = 1; i < frame.size(); i += 3) frame[i] *= 0.1;
+  EXPECT_GT(expect(flat, "stretched or squashed").stretch, 0.5);
+
+  PlayedClip sunk = w.clip;
+  sunk.feet.surface_sunk = 0.03;
+  EXPECT_EQ(expect(sunk, "sinks").sunk, 0.03);
+  PlayedClip open = w.clip;
+  open.gap = 0.03;
+  EXPECT_EQ(expect(open, "come apart").gap, 0.03);
+
+  PlayedClip frozen = w.clip;  // feet that follow the body, not their source
+  for (std::vector<double>& frame : frozen.target_frames) {
+    for (size_t i = 0; i < frame.size(); ++i)
+      frame[i] = w.clip.target_frames[0][i] + (frame[0] - w.clip.target_frames[0][0]) * (i % 3 == 0);
+  }
+  EXPECT_GE(expect(frozen, "does not move as its source").lost.size(), 4u);
+}
+
+TEST(TransferFaults, TheReportHoldsThem) {
+  const fs::path out = folder() / "faults.glb", report = folder() / "faults.json";
+  std::string said;
+  ASSERT_EQ(transfer(both() + " --pairs " + quoted(pairs("horse_to_bull.json")) + " -o " + quoted(out) + " --json " +
+                         quoted(report),
+                     said),
+            0)
+      << said;
+  EXPECT_NE(said.find("confidence"), std::string::npos) << said;
+  const json clip = read_json(report)["clips"][0];
+  EXPECT_GT(clip["confidence"].get<double>(), 0.5);
+  for (const char* key : {"spikes", "acceleration", "stretch", "sunk", "gap", "lost", "sentences"})
+    EXPECT_TRUE(clip["faults"].contains(key)) << key;
+}
+
+}  // namespace
