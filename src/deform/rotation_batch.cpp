@@ -11,7 +11,7 @@ namespace {
 
 #include "deform/rotation_step.inl"
 
-constexpr int lanes = RotationBatch::lanes;
+constexpr int batch_lanes = RotationBatch::lanes;
 
 struct LaneState {
   double floor;  // pivots up to this number are not safely positive
@@ -21,9 +21,9 @@ struct LaneState {
 
 // Marks lanes whose Newton step cannot be trusted as lost, and sets the steps of lanes that need none to zero. Returns
 // whether any lane needs more steps.
-bool judge(RotationStep& step, LaneState (&state)[lanes]) noexcept {
+bool judge(RotationStep& step, LaneState (&state)[batch_lanes]) noexcept {
   bool open = false;
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < batch_lanes; ++l) {
     LaneState& lane = state[l];
     const bool good = step.pivot[0][l] > lane.floor && step.pivot[1][l] > lane.floor && step.pivot[2][l] > lane.floor &&
                       step.square[l] <= longest_newton_step;
@@ -57,13 +57,13 @@ StepLoop rotation_loop() noexcept {
 }
 
 void best_rotations_from(RotationBatch& batch, int count) noexcept {
-  for (int l = count; l < lanes; ++l) {
+  for (int l = count; l < batch_lanes; ++l) {
     for (auto& row : batch.s) row[l] = 0;
     batch.set_rotation(l, Quaternion());
   }
   const RotationBatch start = batch;
-  LaneState state[lanes];
-  for (int l = 0; l < lanes; ++l) {
+  LaneState state[batch_lanes];
+  for (int l = 0; l < batch_lanes; ++l) {
     double square = 0;
     for (const auto& row : batch.s) square += row[l] * row[l];
     const bool usable = square > least_matrix_square && square < largest_matrix_square;
