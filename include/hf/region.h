@@ -83,8 +83,9 @@ typedef struct hf_region_edit_desc {
  * call can be cancelled between them. Errors: HF_ERROR_EMPTY (fewer than 3 points, index = how many; no vertex would be
  * left), HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (lists longer than the mesh has vertices),
  * HF_ERROR_CANCELLED, and HF_ERROR_INVALID_ARGUMENT: side, weights, isolated vertex, points of different components; a
- * curve that does not separate the surface; a seed on the curve or in another component (index = the seed); a component
- * without a rim (index = a vertex of it). Thread safety: changes `region`. Since 0.1. */
+ * curve that crosses itself (index = the point before the crossing; it may touch itself); a curve that does not
+ * separate the surface; a seed on the curve or in another component (index = the seed); a component without a rim
+ * (index = a vertex of it). Thread safety: changes `region`. Since 0.1. */
 HF_API hf_result hf_region_edit(hf_region region, const hf_region_edit_desc* edit);
 
 /* Records the region for undo. The library keeps the last 256 records; they share memory. Thread safety: changes

@@ -1,6 +1,8 @@
 // See file_bytes.h.
 #include "common/file_bytes.h"
 
+#include "common/file_name.h"
+
 #ifdef _WIN32
 #ifndef NOMINMAX
 #define NOMINMAX
@@ -114,7 +116,7 @@ std::string name_fault(const std::string& name) {
   }
   if (name.front() == '/') return "the name is absolute";
   if (name.find(':') != std::string::npos) return "the name holds a scheme or a drive";
-  for (const fs::path& part : fs::path(name)) {
+  for (const fs::path& part : file_named(name)) {
     if (part == "..") return "the name leads out of the folder (..)";
   }
   return "";
@@ -163,7 +165,7 @@ fs::path resolve_below(const fs::path& file, const std::string& uri, std::string
     reason = "the folder cannot be resolved";
     return {};
   }
-  const fs::path target = fs::canonical(folder / name, error);
+  const fs::path target = fs::canonical(folder / file_named(name), error);
   if (error) {
     reason = "there is no such file next to it";
     return {};

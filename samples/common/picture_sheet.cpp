@@ -15,6 +15,7 @@
 #pragma GCC diagnostic pop
 #endif
 
+#include "common/file_name.h"
 #include "common/file_write.h"
 #include "picture.h"
 #include "picture_text.h"
@@ -101,7 +102,7 @@ std::vector<uint8_t> encode_png(const Picture& picture) {
 
 void write_png(const std::string& path, const Picture& picture) {
   const std::vector<uint8_t> bytes = encode_png(picture);
-  write_bytes(path, bytes.data(), bytes.size());
+  write_bytes(file_named(path), bytes.data(), bytes.size());
 }
 
 }  // namespace samples

@@ -58,6 +58,8 @@ std::string Words::value() {
   return arguments_[++at_];
 }
 
+std::filesystem::path Words::file() { return file_named(value()); }
+
 double Words::number(double low, double high) {
   const std::string text = value();
   char* end = nullptr;
@@ -81,7 +83,7 @@ int32_t Words::integer(int32_t low, int32_t high) { return static_cast<int32_t>(
 void Words::take_mesh(std::filesystem::path& mesh) const {
   if (!word_.empty() && word_[0] == '-') throw std::runtime_error("unknown option " + word_ + "; see --help");
   if (!mesh.empty()) throw std::runtime_error("one mesh only, not also " + word_);
-  mesh = word_;
+  mesh = file_named(word_);
 }
 
 }  // namespace samples

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "common/file_name.h"
+
 namespace samples {
 
 // The command line in UTF-8. Windows hands main() words in the code page of the system, which lacks most letters, so
@@ -33,6 +35,7 @@ class Words {
   bool is(const char* name, const char* other = nullptr) const;
   // What follows the option at hand.
   std::string value();
+  std::filesystem::path file();
   double number(double low, double high);
   uint32_t whole(uint32_t low, uint32_t high);
   int32_t integer(int32_t low, int32_t high);

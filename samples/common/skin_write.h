@@ -3,8 +3,9 @@
 // The joints stand flat under one root node, each with its pivot c at the point given: a joint whose motion takes x to
 // R x + t has node translation R c + t, rotation R and inverse bind matrix translate(-c), so that interpolation between
 // keys turns about the pivot and not about the origin. A joint that stretches by s along its axes B takes x to
-// R B diag(s) B' (x - c) + c + R c + t - c: its node has rotation R B, scale s and inverse bind matrix B' translate(-c). Keys are LINEAR; quaternion signs are made continuous. Vertex
-// positions are the rest positions in world space; materials and texture coordinates of every primitive are kept.
+// R B diag(s) B' (x - c) + c + R c + t - c: its node has rotation R B, scale s and inverse bind matrix B'
+// translate(-c). Keys are LINEAR; quaternion signs are made continuous. Vertex positions are the rest positions in
+// world space; materials and texture coordinates of every primitive are kept.
 #ifndef HF_SAMPLES_COMMON_SKIN_WRITE_H
 #define HF_SAMPLES_COMMON_SKIN_WRITE_H
 

@@ -61,13 +61,13 @@ Command parse(Words words) {
     if (words.is("--help", "-h")) {
       out.help = true;
     } else if (words.is("--script")) {
-      out.script = words.value();
+      out.script = words.file();
     } else if (words.is("-o", "--output")) {
-      out.output = words.value();
+      out.output = words.file();
     } else if (words.is("--sheet")) {
-      out.sheet = words.value();
+      out.sheet = words.file();
     } else if (words.is("--frames-obj")) {
-      out.frames = words.value();
+      out.frames = words.file();
     } else if (words.is("--keys")) {
       out.keys = words.number(0.5, 60);
     } else if (words.is("--tiles")) {

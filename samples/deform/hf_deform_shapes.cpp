@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "assets/shapes.h"
+#include "common/file_name.h"
 #include "common/mesh_file.h"
 
 namespace {
@@ -29,7 +30,7 @@ int main(int count, char** arguments) {
     return count == 2 ? 0 : 1;
   }
   try {
-    const std::filesystem::path folder = arguments[1];
+    const std::filesystem::path folder = file_named(arguments[1]);
     std::filesystem::create_directories(folder);
     write(folder, "bar", box(1, 6, 1, 16, 96, 16));
     write(folder, "cylinder", cylinder(11, 118), 1.5);

@@ -44,11 +44,11 @@ Command parse(Words words) {
     if (words.is("--help", "-h")) {
       out.help = true;
     } else if (words.is("--handles")) {
-      out.handles = words.value();
+      out.handles = words.file();
     } else if (words.is("-o", "--output")) {
-      out.output = words.value();
+      out.output = words.file();
     } else if (words.is("--json")) {
-      out.json = words.value();
+      out.json = words.file();
     } else if (words.is("--weights")) {
       out.weights = words.whole(4, 8);
       if (out.weights != 4 && out.weights != 8) throw std::runtime_error("--weights takes 4 or 8");

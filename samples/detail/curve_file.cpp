@@ -15,7 +15,7 @@ uint32_t nearest_vertex(const SurfaceMesh& mesh, const std::vector<double>& plac
 
 }  // namespace
 
-CurveFile read_curve_file(const std::string& file, const SurfaceMesh& mesh) {
+CurveFile read_curve_file(const std::filesystem::path& file, const SurfaceMesh& mesh) {
   const JsonFile json(file);
   json.root().expect_only({"points", "side", "seed", "grow"});
   const JsonReader list = json.root().at("points");

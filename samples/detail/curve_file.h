@@ -4,6 +4,7 @@
 #ifndef HF_SAMPLES_DETAIL_CURVE_FILE_H
 #define HF_SAMPLES_DETAIL_CURVE_FILE_H
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct CurveFile {
 };
 
 // Throws std::runtime_error naming file and place.
-CurveFile read_curve_file(const std::string& file, const SurfaceMesh& mesh);
+CurveFile read_curve_file(const std::filesystem::path& file, const SurfaceMesh& mesh);
 
 // Returns the region that the curve encloses, with `grow` more rings.
 void enclose(hf::Region& region, const CurveFile& curve, int32_t grow);

@@ -41,7 +41,7 @@ Command parse(Words words) {
     if (words.is("--help", "-h")) {
       out.help = true;
     } else if (words.is("--curve")) {
-      out.curve = words.value();
+      out.curve = words.file();
     } else if (words.is("--weight")) {
       out.weight = words.number(-1000, 1000);
     } else if (words.is("--thin-plate")) {
@@ -49,13 +49,13 @@ Command parse(Words words) {
     } else if (words.is("--grow")) {
       out.grow = words.integer(-10000, 10000);
     } else if (words.is("--onto")) {
-      out.onto = words.value();
+      out.onto = words.file();
     } else if (words.is("--onto-curve")) {
-      out.onto_curve = words.value();
+      out.onto_curve = words.file();
     } else if (words.is("-o", "--output")) {
-      out.out = words.value();
+      out.out = words.file();
     } else if (words.is("--sheet")) {
-      out.sheet = words.value();
+      out.sheet = words.file();
     } else {
       words.take_mesh(out.mesh);
     }
@@ -109,8 +109,9 @@ struct Subject {
     std::printf("%-10s  %zu vertices, %zu triangles; factored in %.3f s\n", what, mesh.positions.size(),
                 mesh.triangles.size() / 3, create_seconds);
     std::printf("region      %u vertices, rim %u, sites %u; %s of area %.6g over %.6g, made in %.3f s\n",
-                info.vertex_count, info.rim_count, info.site_count, info.field_kind != HF_FIELD_HARMONIC ? "thin plate" : "membrane",
-                info.base_area, info.area, edit_seconds);
+                info.vertex_count, info.rim_count, info.site_count,
+                info.field_kind != HF_FIELD_HARMONIC ? "thin plate" : "membrane", info.base_area, info.area,
+                edit_seconds);
     if (grow_seconds >= 0)
       std::printf("grown       %u sites inserted, %u removed, %u kept in %.3f s; %u factorisations\n",
                   info.inserted_count, info.removed_count, info.kept_count, grow_seconds, info.factorisation_count);

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/file_name.h"
 #include "hf/hf.h"
 
 namespace samples {
@@ -205,7 +206,7 @@ FieldOptions read_field_options(int argc, char** argv) {
 }
 
 std::vector<Edit> read_edit_script(const std::string& file, size_t components) {
-  std::ifstream stream(std::filesystem::path{file});
+  std::ifstream stream(file_named(file));
   if (!stream) throw std::runtime_error(file + ": cannot be read");
   std::vector<Edit> edits;
   std::string line;

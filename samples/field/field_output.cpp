@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <unordered_map>
 
+#include "common/file_name.h"
 #include "common/file_write.h"
 #include "common/flat_mesh.h"
 #include "common/gltf_write.h"
@@ -218,7 +219,7 @@ void write_field_text(const std::string& file, const std::vector<double>& field,
     const int length = std::snprintf(number, sizeof number, "%.17g", field[i]);
     text.append(number, static_cast<size_t>(length)) += (i + 1) % components ? ' ' : '\n';
   }
-  write_bytes(file, text);
+  write_bytes(file_named(file), text);
 }
 
 void write_field_glb(const std::string& file, const FieldView& view) {
@@ -263,7 +264,7 @@ void write_field_glb(const std::string& file, const FieldView& view) {
     }
     if (!ends.empty()) add_lines(model, "vectors", ends, {0.01f, 0.04f, 0.3f, 1.0f});
   }
-  write_gltf(model, file);
+  write_gltf(model, file_named(file));
 }
 
 Picture field_picture(const FieldView& view) {

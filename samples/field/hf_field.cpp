@@ -151,7 +151,7 @@ std::vector<Edit> edits_of(const FieldOptions& options, const SurfaceMesh& mesh,
 }
 
 int run_one(const FieldOptions& options) {
-  const SurfaceMesh mesh = read_mesh_file(options.mesh);
+  const SurfaceMesh mesh = read_mesh_file(file_named(options.mesh));
   for (const std::string& warning : mesh.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   const Clock create_clock;
   Session session(mesh, options);
@@ -232,9 +232,9 @@ int run_sheet(const FieldOptions& given) {
     std::vector<Picture> tiles;
     std::vector<std::string> labels;
     for (const std::string& file : given.sheet) {
-      labels.push_back(std::filesystem::path(file).stem().string());
+      labels.push_back(file_named(file).stem().string());
       const Clock clock;
-      tiles.push_back(sheet_tile(read_mesh_file(file), options, file));
+      tiles.push_back(sheet_tile(read_mesh_file(file_named(file)), options, file));
       std::printf("%-12s %-36s %8.0f ms\n", kind.name, labels.back().c_str(), clock.milliseconds());
       std::fflush(stdout);
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/file_name.h"
 #include "common/file_write.h"
 #include "pictures/palette.h"
 
@@ -132,7 +133,7 @@ std::vector<uint8_t> encode_frames(const std::vector<Picture>& frames, uint32_t 
 
 void write_frames(const std::string& path, const std::vector<Picture>& frames, uint32_t delay_ms) {
   const std::vector<uint8_t> bytes = encode_frames(frames, delay_ms);
-  write_bytes(path, bytes.data(), bytes.size());
+  write_bytes(file_named(path), bytes.data(), bytes.size());
 }
 
 }  // namespace samples

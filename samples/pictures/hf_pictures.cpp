@@ -35,7 +35,7 @@ Command parse(Words words) {
     if (words.is("--help", "-h")) {
       out.help = true;
     } else if (words.is("--pairs")) {
-      out.pairs = words.value();
+      out.pairs = words.file();
     } else if (words.is("--vertices")) {
       out.vertices = words.whole(500, 300000);
     } else if (words.is("--frames")) {

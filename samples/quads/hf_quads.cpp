@@ -61,7 +61,7 @@ Command parse(Words words) {
       out.help = true;
     } else if (words.is("--sites")) {
       const std::string sites = words.value();
-      out.sites = sites == "auto" ? "" : sites;
+      out.sites = file_named(sites == "auto" ? "" : sites);
     } else if (words.is("--edge")) {
       out.edge = read_edge(words.value());
     } else if (words.is("--pure")) {
@@ -79,9 +79,9 @@ Command parse(Words words) {
     } else if (words.is("--relax")) {
       out.relax = words.whole(0, 1000);
     } else if (words.is("-o", "--output")) {
-      out.out = words.value();
+      out.out = words.file();
     } else if (words.is("--sheet")) {
-      out.sheet = words.value();
+      out.sheet = words.file();
     } else {
       words.take_mesh(out.mesh);
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/file_name.h"
 #include "common/picture.h"
 
 namespace samples {
@@ -37,7 +38,7 @@ struct Row {
   Axes axes;
 };
 
-std::string short_name(const Model& model) { return std::filesystem::path(model.name).stem().string(); }
+std::string short_name(const Model& model) { return file_named(model.name).stem().string(); }
 
 Point point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 

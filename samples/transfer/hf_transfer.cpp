@@ -338,7 +338,8 @@ int transfer(TransferCommand command, nlohmann::json& json) {
 // A command line that is refused says so where its outcome is asked for.
 void write_outcome(samples::CommandLine& line, const std::exception& error) {
   for (int i = 1; i + 1 < line.count(); ++i)
-    if (std::string(line.words()[i]) == "--outcome") write_json(line.words()[i + 1], {{"error", error.what()}});
+    if (std::string(line.words()[i]) == "--outcome")
+      write_json(file_named(line.words()[i + 1]), {{"error", error.what()}});
 }
 
 // The program as its user calls it: words in, exit code out.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/animate.h"
+#include "common/file_name.h"
 #include "transfer/clip_binding.h"
 #include "transfer/key_reduce.h"
 #include "transfer/rig_fit.h"
@@ -290,7 +291,7 @@ std::vector<std::filesystem::path> write_frames(const std::filesystem::path& fol
       mesh.positions = to_points(clip.target_frames[f]);
       char number[32];
       std::snprintf(number, sizeof number, "_%04zu", f);
-      out.push_back(folder / (safe_name(clip.clip.name) + number + extension));
+      out.push_back(folder / file_named(safe_name(clip.clip.name) + number + extension));
       write_mesh_file(mesh, out.back());
     }
   }

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "common/file_name.h"
+
 namespace samples {
 namespace {
 
@@ -29,7 +31,7 @@ double rounded(double value) {
   return std::strtod(text, nullptr);
 }
 
-std::string short_name(const Model& model) { return std::filesystem::path(model.name).stem().string(); }
+std::string short_name(const Model& model) { return file_named(model.name).stem().string(); }
 
 json selector_json(const Selector& selector) {
   json out;

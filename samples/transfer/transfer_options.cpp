@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "common/file_name.h"
+
 namespace samples {
 namespace {
 
@@ -130,32 +132,32 @@ TransferCommand parse_command(int count, char** arguments) {
     if (word == "--help" || word == "-h") {
       out.help = true;
     } else if (word == "--pairs") {
-      out.pairs = value();
+      out.pairs = file_named(value());
     } else if (word == "-o" || word == "--output") {
-      out.output = value();
+      out.output = file_named(value());
     } else if (word == "--clip") {
       out.clip = value();
     } else if (word == "--fps") {
       const std::string rate = value();
       out.rate = rate == "keys" ? -1 : number_of(word, rate, 1, 240);
     } else if (word == "--sheet") {
-      out.sheet = value();
+      out.sheet = file_named(value());
     } else if (word == "--report") {
-      out.report = value();
+      out.report = file_named(value());
     } else if (word == "--json") {
-      out.json = value();
+      out.json = file_named(value());
     } else if (word == "--edit") {
-      out.edits = value();
+      out.edits = file_named(value());
     } else if (word == "--joints") {
-      out.joints = value();
+      out.joints = file_named(value());
     } else if (word == "--clips") {
-      out.clips = value();
+      out.clips = file_named(value());
     } else if (word == "--batch") {
-      out.batch = value();
+      out.batch = file_named(value());
     } else if (word == "--jobs") {
       out.jobs = static_cast<unsigned>(number_of(word, value(), 1, 1024));
     } else if (word == "--outcome") {
-      out.outcome = value();
+      out.outcome = file_named(value());
     } else if (word == "--silent") {
       out.silent = out.quiet = true;
     } else if (word == "--onto-skin") {
@@ -165,11 +167,11 @@ TransferCommand parse_command(int count, char** arguments) {
       if (out.kind != "skin" && out.kind != "own-skin" && out.kind != "morph" && out.kind != "frames")
         throw std::runtime_error("--as takes skin, own-skin, morph or frames, not \"" + out.kind + "\"");
     } else if (word == "--out-poses") {
-      out.frames = value(), out.kind = "frames";
+      out.frames = file_named(value()), out.kind = "frames";
     } else if (word == "--source") {
-      out.source = value();
+      out.source = file_named(value());
     } else if (word == "--target") {
-      out.target = value();
+      out.target = file_named(value());
     } else if (word == "--poses") {
       while (i + 1 < count && arguments[i + 1][0] != '-') out.poses.emplace_back(arguments[++i]);
       if (out.poses.empty()) throw std::runtime_error("--poses needs at least one file");
@@ -205,7 +207,7 @@ TransferCommand parse_command(int count, char** arguments) {
     } else if (word == "--morph-tolerance") {
       out.morph_tolerance = number_of(word, value(), 0, 1);
     } else if (word == "--suggest-pairs") {
-      out.suggest = value();
+      out.suggest = file_named(value());
     } else if (word == "--no-links") {
       out.links = false;
     } else if (word == "--threads") {
@@ -242,7 +244,7 @@ TransferCommand parse_command(int count, char** arguments) {
     files = {out.source.string(), out.target.string()};
   }
   if (files.size() != 2) throw std::runtime_error("two models are needed, the source and the target; see --help");
-  out.source = files[0], out.target = files[1];
+  out.source = file_named(files[0]), out.target = file_named(files[1]);
   if (!out.suggest.empty()) return out;
   if (out.kind == "frames") {
     if (out.frames.empty()) throw std::runtime_error("--out-poses is needed: the folder for the frames; see --help");

@@ -63,11 +63,11 @@ Command parse(Words words) {
     if (words.is("--help", "-h")) {
       out.help = true;
     } else if (words.is("-o", "--output")) {
-      out.out = words.value();
+      out.out = words.file();
     } else if (words.is("--bones")) {
-      out.bones = words.value();
+      out.bones = words.file();
     } else if (words.is("--pins")) {
-      out.pins = words.value();
+      out.pins = words.file();
     } else if (words.is("--keep")) {
       out.keep = words.value();
     } else if (words.is("--weights")) {
@@ -77,15 +77,15 @@ Command parse(Words words) {
     } else if (words.is("--all")) {
       out.all = true;
     } else if (words.is("--sheet")) {
-      out.sheet = words.value();
+      out.sheet = words.file();
     } else if (words.is("--report")) {
-      out.report = words.value();
+      out.report = words.file();
     } else if (words.is("--carry")) {
-      out.carry = words.value();
+      out.carry = words.file();
     } else if (words.is("--skeleton")) {
-      out.skeleton = words.value();
+      out.skeleton = words.file();
     } else if (words.is("--pairs")) {
-      out.pairs = words.value();
+      out.pairs = words.file();
     } else if (words.is("--mirror")) {
       const std::string side = words.value();
       out.mirror = side == "negative"   ? HF_MIRROR_TO_NEGATIVE

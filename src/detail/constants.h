@@ -11,6 +11,12 @@ namespace hf_inner {
 // never the result.
 constexpr std::size_t whole_sweep_share = 8;
 
+// --- curve_crossing.cpp ---
+
+// A curve that passes one vertex more often than this is refused. It bounds the pairs of passes that are compared. A rim
+// drawn by hand passes a vertex twice at most.
+constexpr std::int32_t most_visits = 8;
+
 // --- disc_map.cpp ---
 
 // Edge weights of the map to the disc are at least this share of their median: only positive weights give a map without

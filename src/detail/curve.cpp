@@ -132,11 +132,14 @@ void require_one_component(const Mesh& mesh, Span<const std::int32_t> points) {
   }
 }
 
-Vector<std::int32_t> closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory) {
-  Vector<Index> curve(&memory);
+ClosedCurve closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory) {
+  ClosedCurve curve(memory);
   Paths paths(core, memory);
-  for (std::size_t i = 0; i < points.size(); ++i) paths.append(points[i], points[(i + 1) % points.size()], curve);
-  if (curve.empty()) curve.push_back(points[0]);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    paths.append(points[i], points[(i + 1) % points.size()], curve.vertices);
+    curve.point_of.resize(curve.vertices.size(), static_cast<Index>(i));
+  }
+  if (curve.vertices.empty()) curve.vertices.push_back(points[0]), curve.point_of.push_back(0);
   return curve;
 }
 

@@ -23,8 +23,15 @@ std::int32_t nearest_corner(const SurfacePlace& place) noexcept;
 // Throws HF_ERROR_INVALID_ARGUMENT if a point lies in another component than the first point; index: its position.
 void require_one_component(const Mesh& mesh, Span<const std::int32_t> points);
 
-// Returns the vertices of the closed curve in order, without repeats in a row. points: inner vertices of one component.
-Vector<std::int32_t> closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory);
+// A closed curve. vertices: in order, without repeats in a row. point_of[i]: the point whose path vertices[i] lies on,
+// or that it is.
+struct ClosedCurve {
+  explicit ClosedCurve(Memory& memory) : vertices(&memory), point_of(&memory) {}
+  Vector<std::int32_t> vertices, point_of;
+};
+
+// points: inner vertices of one component.
+ClosedCurve closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory);
 
 // Returns the vertices of one side of the curve in ascending order. `seed` is an inner vertex of the wanted side; only
 // CurveSide::seed uses it. Throws HF_ERROR_INVALID_ARGUMENT when the curve does not separate the surface. It throws the

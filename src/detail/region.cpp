@@ -7,6 +7,7 @@
 #include "base/index.h"
 #include "base/number_pool.h"
 #include "detail/constants.h"
+#include "detail/curve_crossing.h"
 #include "detail/morph.h"
 
 namespace hf_inner {
@@ -14,8 +15,9 @@ namespace {
 
 Vector<Index> edited(const Core& core, Vector<Index>&& inside, const RegionEdit& edit, Memory& memory) {
   if (!edit.curve.empty()) {
-    const Vector<Index> curve = closed_curve(core, edit.curve, memory);
-    inside = curve_side(core, curve, edit.side, edit.seed, memory);
+    const ClosedCurve curve = closed_curve(core, edit.curve, memory);
+    require_no_crossing(core, curve, memory);
+    inside = curve_side(core, curve.vertices, edit.side, edit.seed, memory);
   }
   if (edit.rings != 0) inside = grown(core, inside, edit.rings, memory);
   if (edit.remove.empty() && edit.add.empty()) return std::move(inside);

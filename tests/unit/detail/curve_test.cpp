@@ -1,4 +1,5 @@
 // Closed curves: shortest paths between their points, and the side that is meant.
+#include "detail/curve_crossing.h"
 #include "detail_support.h"
 
 namespace {
@@ -9,11 +10,16 @@ using namespace hf_test;
 // A grid of 21 x 21 vertices, one unit apart.
 std::int32_t place(std::int32_t i, std::int32_t j) { return 21 * j + i; }
 
+// The curve through points, which must not cross itself.
+Numbers curve_on(const Core& core, const Numbers& points) {
+  const ClosedCurve curve = closed_curve(core, {points.data(), points.size()}, *core.memory);
+  require_no_crossing(core, curve, *core.memory);
+  return numbers(curve.vertices);
+}
+
 struct Sheet {
   Sheet() : surface(surface_of(make_core(grid(20, 20)))) {}
-  Numbers curve(const Numbers& points) const {
-    return numbers(closed_curve(*surface->core, {points.data(), points.size()}, *surface->core->memory));
-  }
+  Numbers curve(const Numbers& points) const { return curve_on(*surface->core, points); }
   Numbers side(const Numbers& points, CurveSide which, std::int32_t seed = -1) const {
     const Numbers line = curve(points);
     return numbers(curve_side(*surface->core, {line.data(), line.size()}, which, seed, *surface->core->memory));
@@ -53,7 +59,7 @@ TEST(Curve, PathsAreAsShortAsCanBe) {
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b) d[a][b] = std::min(d[a][b], d[a][k] + d[k][b]);
   for (const Numbers& points : {Numbers{0, 20, 41}, Numbers{3, 55, 8, 30, 17}, Numbers{62, 1, 33}}) {
-    const Numbers curve = numbers(closed_curve(*core, {points.data(), points.size()}, *core->memory));
+    const Numbers curve = curve_on(*core, points);
     double length = 0, least = 0;
     for (std::size_t i = 0; i < curve.size(); ++i)
       length += edge(static_cast<std::size_t>(curve[i]), static_cast<std::size_t>(curve[(i + 1) % curve.size()]));
@@ -100,11 +106,95 @@ TEST(Curve, ThatDoesNotSeparateIsRefused) {
   EXPECT_TRUE(region.state()->shape->inside.empty());
 }
 
+TEST(Curve, ThatCrossesItselfIsRefusedWithThePointBeforeTheCrossing) {
+  const Sheet sheet;
+  // an eight: the path after point 2 crosses the path after point 0
+  const Numbers eight{place(5, 5), place(12, 12), place(12, 5), place(5, 12)};
+  EXPECT_EQ(index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { sheet.curve(eight); }), 2u);
+  // two loops through one vertex: both left round, they touch; one left and one right round, they cross
+  const Numbers touch{place(10, 10), place(10, 15), place(5, 15), place(5, 10),
+                      place(10, 10), place(10, 5),  place(15, 5), place(15, 10)};
+  EXPECT_EQ(sheet.side(touch, CurveSide::seed, place(7, 12)).size(), 16u);
+  const Numbers cross{place(10, 10), place(10, 15), place(5, 15), place(5, 10),
+                      place(10, 10), place(15, 10), place(15, 5), place(10, 5)};
+  EXPECT_EQ(index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { sheet.curve(cross); }), 4u);
+  // a star of nine loops through one vertex
+  Numbers star;
+  for (std::int32_t i = 0; i < 9; ++i)
+    star.insert(star.end(), {place(10, 10), place(2 * i + 1, 3), place(2 * i + 2, 3)});
+  index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { sheet.curve(star); });
+}
+
+// How often the curve runs round the middle of each triangle of a grid in the plane.
+std::pair<int, int> windings(const PlainMesh& plane, const Numbers& curve) {
+  std::pair<int, int> range{0, 0};
+  for (std::size_t t = 0; t < plane.triangles.size() / 3; ++t) {
+    double x = 0, y = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      x += plane.triangles[3 * t + k] % 21 / 3.0, y += plane.triangles[3 * t + k] / 21 / 3.0;
+    int turns = 0;
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      const double ax = curve[i] % 21, ay = curve[i] / 21;
+      const double bx = curve[(i + 1) % curve.size()] % 21, by = curve[(i + 1) % curve.size()] / 21;
+      if ((ay > y) == (by > y)) continue;
+      if (ax + (y - ay) / (by - ay) * (bx - ax) > x) turns += by > ay ? 1 : -1;
+    }
+    range.first = std::min(range.first, turns), range.second = std::max(range.second, turns);
+  }
+  return range;
+}
+
+// In the plane, a closed curve crosses itself exactly if its winding numbers are not only 0 and 1 or 0 and -1: the four
+// sides of a crossing have three of them. No side of this test knows of fans and runs. Triangles may be turned.
+TEST(Curve, CrossesItselfExactlyWhereWindingNumbersSaySo) {
+  PlainMesh plane = grid(20, 20);
+  std::uint32_t state = 7;
+  const auto draw = [&state](std::uint32_t below) {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<std::int32_t>((state >> 8) % below);
+  };
+  int refused = 0, taken = 0;
+  for (const bool turned : {false, true}) {
+    if (turned) {
+      for (std::size_t t = 0; t < plane.triangles.size() / 3; ++t)
+        if (draw(2)) std::swap(plane.triangles[3 * t], plane.triangles[3 * t + 1]);
+    }
+    const auto core = make_core(plane);
+    for (int round = 0; round < 1000; ++round) {
+      // few places, so that paths share vertices and borders
+      const std::int32_t wide = round % 2 ? 21 : 6;
+      Numbers points(static_cast<std::size_t>(3 + draw(5)));
+      for (std::int32_t& p : points)
+        p = place(draw(static_cast<std::uint32_t>(wide)), draw(static_cast<std::uint32_t>(wide)));
+      const ClosedCurve curve = closed_curve(*core, {points.data(), points.size()}, *core->memory);
+      // where three strands meet, the sides of a crossing can have no width
+      Numbers sorted = numbers(curve.vertices);
+      std::sort(sorted.begin(), sorted.end());
+      bool thrice = false;
+      for (std::size_t i = 2; i < sorted.size(); ++i) thrice |= sorted[i] == sorted[i - 2];
+      if (thrice) continue;
+      const auto range = windings(plane, numbers(curve.vertices));
+      const bool crosses = range.second - range.first > 1;
+      try {
+        require_no_crossing(*core, curve, *core->memory);
+        ++taken;
+        EXPECT_FALSE(crosses) << "round " << round << ", turned " << turned;
+      } catch (const Error& error) {
+        EXPECT_LT(error.index(), points.size());
+        ++refused;
+        EXPECT_TRUE(crosses) << "round " << round << ", turned " << turned << ": " << error.what();
+      }
+    }
+  }
+  EXPECT_GT(refused, 300);
+  EXPECT_GT(taken, 300);
+}
+
 TEST(Curve, SeedsOnItOrElsewhereAreNamed) {
   PlainMesh mesh = grid(20, 20);
   append(mesh, grid(2, 2), 50);
   const auto core = make_core(mesh);
-  const Numbers curve = numbers(closed_curve(*core, {square.data(), square.size()}, *core->memory));
+  const Numbers curve = curve_on(*core, square);
   const auto with_seed = [&](std::int32_t seed) {
     return index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] {
       curve_side(*core, {curve.data(), curve.size()}, CurveSide::seed, seed, *core->memory);
