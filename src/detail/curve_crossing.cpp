@@ -10,7 +10,7 @@
 namespace hf_inner {
 namespace {
 
-constexpr Index none = -1;
+constexpr Index nowhere = -1;
 
 // The neighbours of one vertex in their order around it, from any of them, either way round. Empty where the triangles
 // of the vertex are not one fan.
@@ -32,7 +32,7 @@ class Fan {
     Index edge = first, triangle = topology_.edge_triangle[at(topology_.edge_triangle_start[at(edge)])];
     while (true) {
       order_.push_back(other(edge));
-      if (triangle == none || order_.size() > at(end - begin)) break;
+      if (triangle == nowhere || order_.size() > at(end - begin)) break;
       const Index far = third(triangle, order_.back());
       edge = topology_.edge_between(vertex_, far);
       if (edge == first) {
@@ -75,11 +75,11 @@ class Fan {
   Index beyond(Index e, Index triangle) const noexcept {
     for (Index i = topology_.edge_triangle_start[at(e)]; i < topology_.edge_triangle_start[at(e) + 1]; ++i)
       if (topology_.edge_triangle[at(i)] != triangle) return topology_.edge_triangle[at(i)];
-    return none;
+    return nowhere;
   }
   const Mesh& mesh_;
   const Topology& topology_;
-  Index vertex_ = none;
+  Index vertex_ = nowhere;
   Vector<Index> order_;
   bool closed_ = false;
 };
@@ -123,7 +123,7 @@ class Strands {
     std::sort(visits.begin(), visits.end(), [&](Index i, Index j) {
       return vertex_[at(i)] != vertex_[at(j)] ? vertex_[at(i)] < vertex_[at(j)] : i < j;
     });
-    Index worst = size_, with = none;  // the first place that crosses an earlier one
+    Index worst = size_, with = nowhere;  // the first place that crosses an earlier one
     for (Index begin = 0, end; begin < size_; begin = end) {
       poll();
       const Index v = vertex_[at(visits[at(begin)])];
@@ -142,7 +142,7 @@ class Strands {
         }
       }
     }
-    if (with == none) return;
+    if (with == nowhere) return;
     const Index given = core_.mesh.given_of_inner[at(vertex_[at(worst)])];
     fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(point_[at(worst)]),
          "the curve crosses itself at vertex %d: what follows point %d meets what follows point %d; give the points in "
