@@ -32,7 +32,7 @@ struct Batch {
   void* context;
   Progress* progress;  // of the call that runs the batch
   std::atomic<std::uint32_t> next{0};
-  std::atomic<bool> failed{false};
+  AtomicFlag failed{0};
   std::exception_ptr error;
 
   void work_one(std::uint32_t index) noexcept {
@@ -41,7 +41,7 @@ struct Batch {
       poll();
       call(context, index);
     } catch (...) {
-      if (!failed.exchange(true)) error = std::current_exception();
+      if (!failed.exchange(1)) error = std::current_exception();
     }
   }
   void work() noexcept {
@@ -92,7 +92,7 @@ struct HostJob {
 // batch alone, so the pool cannot deadlock. A forked child process inherits the pool but not its threads, so it works
 // alone. The child never frees the pool, because joining the missing threads would never return.
 struct JobRunner::Pool {
-  std::atomic<bool> taken{false};
+  AtomicFlag taken{0};
   std::mutex mutex;
   std::condition_variable wake, done;
   Batch* batch = nullptr;
@@ -139,7 +139,7 @@ struct JobRunner::Pool {
     }
   }
   void run(Batch& work) {
-    if (process != this_process() || taken.exchange(true, std::memory_order_acquire)) return work.work();
+    if (process != this_process() || taken.exchange(1, std::memory_order_acquire)) return work.work();
     {
       std::lock_guard<std::mutex> lock(mutex);
       batch = &work;
@@ -155,7 +155,7 @@ struct JobRunner::Pool {
       lock.lock();
     }
     done.wait(lock, [&] { return busy == 0; });
-    taken.store(false, std::memory_order_release);
+    taken.store(0, std::memory_order_release);
   }
 };
 

@@ -2,6 +2,7 @@
 // Results never depend on the number of threads. The work is cut into fixed pieces, and each piece writes its own
 // output. The order of a sum over several pieces never depends on threads.
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <memory>
@@ -11,6 +12,9 @@
 #include "hf/base.h"
 
 namespace hf_inner {
+
+// 0 or 1, swapped by several threads. A word, because riscv64 swaps no single byte without a library of its own.
+using AtomicFlag = std::atomic<std::int32_t>;
 
 class JobRunner {
  public:

@@ -33,7 +33,7 @@ ScalarField::ScalarField(const ScalarField& other)
       history_(*core_->memory) {}
 
 void ScalarField::prepare_rebase() {
-  if (preparing_.exchange(true))
+  if (preparing_.exchange(1))
     fail(HF_ERROR_BUSY, HF_NO_INDEX, "another thread is preparing a rebase of this solver; wait for it");
   try {
     std::optional<Record> made;
@@ -47,10 +47,10 @@ void ScalarField::prepare_rebase() {
     const std::lock_guard<std::mutex> lock(guard_);
     prepared_ = std::move(made);
   } catch (...) {
-    preparing_ = false;
+    preparing_ = 0;
     throw;
   }
-  preparing_ = false;
+  preparing_ = 0;
 }
 
 // Replaces the engine (the solver of the equations) by the one that prepare_rebase made, with the sites of an edit.

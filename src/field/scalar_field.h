@@ -5,12 +5,12 @@
 // exception leaves everything as it was. Records share the immutable parts of the engine (elimination paths, dense
 // blocks), so undo restores the same bits.
 #pragma once
-#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
 
 #include "base/history.h"
+#include "base/jobs.h"
 #include "engine/screened_solver.h"
 #include "engine/site_set.h"
 
@@ -90,7 +90,7 @@ class ScalarField {
   std::shared_ptr<const Screening> screening_;  // null: none
   History<Record> history_;
   std::mutex guard_;  // guards sites_, engine_ and prepared_ while prepare_rebase runs
-  std::atomic<bool> preparing_{false};
+  AtomicFlag preparing_{0};
   std::optional<Record> prepared_;  // a rebased engine and the sites it was made for
 };
 

@@ -330,7 +330,7 @@ static void getters_tell_what_was_asked_for(void** state) {
   desc.vertex_limit = 5000, desc.triangle_limit = 9000, desc.memory_limit_mb = 200, desc.work_limit_gflop = 7;
   assert_ok(hf_surface_create(&desc, &surface));
   assert_ok(hf_surface_get_info(surface, &info));
-  assert_true(info.weld == HF_WELD_TOLERANCE && info.weld_tolerance == 0.01f);
+  assert_true(info.weld == HF_WELD_TOLERANCE && info.weld_tolerance == desc.weld_tolerance);
   assert_true(info.operator_kind == HF_OPERATOR_CLAMPED && info.field_kind == HF_FIELD_BIHARMONIC);
   assert_true(info.ordering == HF_ORDERING_MINIMUM_DEGREE && info.thread_count == 3);
   assert_true(info.vertex_limit == 5000 && info.triangle_limit == 9000 && info.memory_limit_mb == 200 &&
