@@ -163,6 +163,8 @@ typedef struct hf_surface_report {
   uint32_t polygon_count;
   uint32_t non_planar_count;
   uint32_t largest_face;
+  uint32_t inside_out_count;
+  uint32_t first_inside_out_vertex;
 } hf_surface_report;
 typedef struct hf_gaps_desc {
   uint32_t struct_size;

@@ -275,6 +275,9 @@ typedef struct hf_surface_report {
   uint32_t polygon_count;    /* faces of more than three corners */
   uint32_t non_planar_count; /* polygons with a corner farther than 1 % of their diameter from their mean plane */
   uint32_t largest_face;     /* corners of the largest face */
+  uint32_t inside_out_count; /* closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The
+                                inner wall of a hollow body is one too. Fields do not change; what uses normals does */
+  uint32_t first_inside_out_vertex; /* the first vertex of one, as given; HF_NO_INDEX without one */
 } hf_surface_report;
 
 /* Writes the report of the mesh. Thread safety: reads `surface`. Since 0.1. */

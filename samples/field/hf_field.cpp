@@ -47,7 +47,8 @@ void describe(hf_surface surface, double create_ms) {
               {report.flipped_edge_count, "flipped edges"},
               {report.boundary_edge_count, "boundary edges"},
               {report.negative_edge_count, "edges of negative weight"},
-              {report.non_planar_count, "faces that are not planar"}};
+              {report.non_planar_count, "faces that are not planar"},
+              {report.inside_out_count, "closed pieces that are inside out"}};
   for (const auto& entry : dirt) {
     if (entry.count) std::printf("            %u %s\n", entry.count, entry.name);
   }

@@ -77,6 +77,9 @@ hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_repor
     report.face_count = static_cast<std::uint32_t>(faces.given_size.size());
     report.polygon_count = faces.polygon_count, report.non_planar_count = faces.non_planar_count;
     report.largest_face = faces.largest_size;
+    const MeshReport& unlinked = object->surface.geometry().unlinked().mesh.report;
+    report.inside_out_count = unlinked.inside_out_count;
+    report.first_inside_out_vertex = given_vertex(core.mesh, unlinked.first_inside_out);
     write_struct(out_report, report);
   });
 }

@@ -3,6 +3,7 @@
 #include "base/index.h"
 #include "base/timer.h"
 #include "mesh/face_intake.h"
+#include "mesh/orientation.h"
 
 namespace hf_inner {
 
@@ -22,6 +23,16 @@ Geometry::Geometry(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> run
 namespace {
 
 constexpr float welded = 0.1f, weighted = 0.15f;  // reported progress, by the usual share of time
+
+void count_inside_out(Mesh& mesh, Memory& memory) {
+  const Vector<std::int8_t> sides = component_sides(mesh, memory);
+  for (const std::int8_t side : sides) mesh.report.inside_out_count += side < 0;
+  for (Index v = 0; mesh.report.inside_out_count > 0 && v < mesh.vertex_count(); ++v) {
+    if (sides[at(mesh.component[at(v)])] > 0) continue;
+    mesh.report.first_inside_out = v;
+    break;
+  }
+}
 
 void count_given(Geometry& shape) {
   shape.given_count.assign(shape.mesh.report.component_count, 0);
@@ -58,6 +69,7 @@ std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorK
     count_edges(shape->mesh, shape->topology, found);
   else
     count_face_sides(shape->mesh.faces, shape->topology, found, pool);
+  count_inside_out(shape->mesh, pool);
   count_given(*shape);
   shape->weights_ms = weights_timer.milliseconds();
   report(weighted);

@@ -83,6 +83,8 @@ struct MeshReport {
                 isolated_vertex_count = 0;
   std::uint32_t degenerate_triangle_count = 0, collapsed_triangle_count = 0, duplicate_triangle_count = 0;
   std::uint32_t non_manifold_edge_count = 0, flipped_edge_count = 0, boundary_edge_count = 0, negative_edge_count = 0;
+  std::uint32_t inside_out_count = 0;  // closed components that face inwards
+  std::int32_t first_inside_out = -1;  // the first vertex of one, inner numbers
   double smallest_angle = 0, bounding_box_diagonal = 0;
 };
 

@@ -31,11 +31,6 @@ constexpr double hub_length = 0.5;
 // On the 28 shared rigs, in the mean of logarithms: 2 and 3 give 0.459, 1 gives 0.477, 4 gives 0.460, without 0.461.
 constexpr double hub_reach = 2;
 
-// An island counts as closed if its area vectors cancel up to this share of its area. Only closed islands can be inside
-// out. A larger number turns open ones too, whose volume says nothing. Half and double change no figure of the 28
-// shared rigs.
-constexpr double closed_share = 1e-3;
-
 // --- informants.cpp ---
 
 // Strength of the screening H = strength / d^2, d the distance to the nearest bone. A larger number makes weights

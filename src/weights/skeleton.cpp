@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/progress.h"
+#include "mesh/orientation.h"
 #include "weights/constants.h"
 
 namespace hf_inner {
@@ -26,10 +27,9 @@ Vec3 area_vector(const Mesh& mesh, Index t) noexcept {
 
 SkinShape::SkinShape(const Mesh& mesh, Memory& memory)
     : mesh_(mesh),
-      side_(&memory),
+      side_(component_sides(mesh, memory)),
       normals_(&memory),
       tree_(triangle_boxes(mesh.positions, mesh.corners, memory), memory) {
-  orient();
   normals_.assign(at(mesh.vertex_count()), Vec3{});
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     const Vec3 area = area_vector(mesh, t);
@@ -41,28 +41,6 @@ SkinShape::SkinShape(const Mesh& mesh, Memory& memory)
   for (std::size_t v = 0; v < normals_.size(); ++v) {
     const double length = norm(normals_[v]);
     normals_[v] = length > 0 ? (side_[at(mesh.component[v])] / length) * normals_[v] : Vec3{};
-  }
-}
-
-// An island whose signed volume is negative is inside out. The volume is measured from a corner of the island, and it
-// counts only if the area vectors cancel, as those of a closed island do.
-void SkinShape::orient() {
-  const std::size_t islands = at(mesh_.component_count());
-  Memory& memory = *static_cast<Memory*>(side_.get_allocator().resource());
-  Vector<double> volume(islands, 0.0, &memory), area(islands, 0.0, &memory);
-  Vector<Vec3> open(islands, Vec3{}, &memory), origin(islands, Vec3{}, &memory);
-  Vector<std::uint8_t> seen(islands, 0, &memory);
-  for (Index t = 0; t < mesh_.triangle_count(); ++t) {
-    const Index* v = mesh_.triangle(t);
-    const std::size_t c = at(mesh_.component[at(v[0])]);
-    if (!seen[c]) seen[c] = 1, origin[c] = mesh_.positions[at(v[0])];
-    const Vec3 vector = area_vector(mesh_, t);
-    volume[c] += dot(mesh_.positions[at(v[0])] - origin[c], vector);
-    area[c] += norm(vector), open[c] = open[c] + vector;
-  }
-  side_.assign(islands, 1);
-  for (std::size_t c = 0; c < islands; ++c) {
-    if (volume[c] < 0 && norm(open[c]) <= closed_share * area[c]) side_[c] = -1;
   }
 }
 

@@ -51,7 +51,6 @@ class SkinShape {
   const Vector<Vec3>& normals() const noexcept { return normals_; }
 
  private:
-  void orient();
   const Mesh& mesh_;
   Vector<std::int8_t> side_;  // by island: -1 where closed triangles face inwards
   Vector<Vec3> normals_;      // unit, by vertex; zero where triangles have no area

@@ -87,7 +87,7 @@ static void print_surface(void) {
       F(non_manifold_edge_count), F(flipped_edge_count), F(boundary_edge_count), F(negative_edge_count),
       F(smallest_angle), F(bounding_box_diagonal), F(changed_vertex_count), F(first_changed_vertex), F(piece_count),
       F(link_count), F(light_piece_count), F(lone_piece_count), F(longest_tree_link), F(face_count), F(polygon_count),
-      F(non_planar_count), F(largest_face);
+      F(non_planar_count), F(largest_face), F(inside_out_count), F(first_inside_out_vertex);
 #undef T
 #define T hf_surface_statistics
   STRUCT(hf_surface_statistics);
@@ -363,10 +363,10 @@ static void print_transfer(void) {
   STRUCT(hf_transfer_dials);
   F(struct_size), F(stride), F(hip_height), F(neck_follow), F(tail_follow), F(arm_space);
 #undef T
-  CONSTANT(HF_TRANSFER_FIELDS), CONSTANT(HF_TRANSFER_PAPER), CONSTANT(HF_TRANSFER_STRETCH), CONSTANT(HF_PAIR_ANCHOR), CONSTANT(HF_PAIR_FOOT),
-      CONSTANT(HF_PAIR_TRUNK), CONSTANT(HF_PAIR_NO_ALIGNMENT), CONSTANT(HF_PAIR_CONTACT), CONSTANT(HF_PAIR_SINKS),
-      CONSTANT(HF_PAIR_NECK), CONSTANT(HF_PAIR_TAIL), CONSTANT(HF_PAIR_ARM), CONSTANT(HF_PAIR_LIMIT),
-      CONSTANT(HF_GROUND_KEEP), CONSTANT(HF_GROUND_OFF);
+  CONSTANT(HF_TRANSFER_FIELDS), CONSTANT(HF_TRANSFER_PAPER), CONSTANT(HF_TRANSFER_STRETCH), CONSTANT(HF_PAIR_ANCHOR),
+      CONSTANT(HF_PAIR_FOOT), CONSTANT(HF_PAIR_TRUNK), CONSTANT(HF_PAIR_NO_ALIGNMENT), CONSTANT(HF_PAIR_CONTACT),
+      CONSTANT(HF_PAIR_SINKS), CONSTANT(HF_PAIR_NECK), CONSTANT(HF_PAIR_TAIL), CONSTANT(HF_PAIR_ARM),
+      CONSTANT(HF_PAIR_LIMIT), CONSTANT(HF_GROUND_KEEP), CONSTANT(HF_GROUND_OFF);
 }
 
 static void print_weights(void) {

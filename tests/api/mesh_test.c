@@ -73,6 +73,41 @@ static void dirty_triangles_are_counted_and_the_field_is_finite(void** state) {
   free(field), hf_solver_destroy(solver), hf_surface_destroy(surface), surface_free(&sheet);
 }
 
+/* Two tetrahedra of their own vertices; either can be turned, and the second can lack a triangle. */
+static hf_surface_report report_of_tetrahedra(int first_turned, int second_turned, int second_open) {
+  float positions[24];
+  for (uint32_t i = 0; i < 24; ++i) positions[i] = (i / 12 ? 5.0f : 0) + (i % 12 > 2 && i % 4 == 3 ? 1.0f : 0);
+  uint32_t triangles[24] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  for (uint32_t i = 0; i < 12; ++i) triangles[12 + i] = triangles[i] + 4;
+  for (uint32_t t = 0; t < 8; ++t) {
+    if (!(t < 4 ? first_turned : second_turned)) continue;
+    const uint32_t v = triangles[3 * t];
+    triangles[3 * t] = triangles[3 * t + 1], triangles[3 * t + 1] = v;
+  }
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
+  desc.vertex_count = 8, desc.positions = positions;
+  desc.triangle_count = second_open ? 7 : 8, desc.triangles = triangles;
+  hf_surface surface;
+  assert_ok(hf_surface_create(&desc, &surface));
+  const hf_surface_report report = report_of(surface);
+  hf_surface_destroy(surface);
+  return report;
+}
+
+static void closed_pieces_that_face_inwards_are_counted(void** state) {
+  (void)state;
+  const struct {
+    int first, second, open;
+    uint32_t count, vertex;
+  } cases[] = {{0, 0, 0, 0, HF_NO_INDEX}, {1, 0, 0, 1, 0}, {0, 1, 0, 1, 4}, {1, 1, 0, 2, 0}, {0, 1, 1, 0, HF_NO_INDEX}};
+  for (uint32_t i = 0; i < 5; ++i) {
+    const hf_surface_report report = report_of_tetrahedra(cases[i].first, cases[i].second, cases[i].open);
+    assert_int_equal(report.piece_count, 2);
+    assert_int_equal(report.inside_out_count, cases[i].count);
+    assert_int_equal(report.first_inside_out_vertex, cases[i].vertex);
+  }
+}
+
 static void components_are_numbered_by_their_smallest_vertex(void** state) {
   (void)state;
   Surface cut = surface_cut();
@@ -291,6 +326,7 @@ int main(void) {
       cmocka_unit_test(welded_copies_get_the_same_value),
       cmocka_unit_test(the_report_counts_what_was_found),
       cmocka_unit_test(dirty_triangles_are_counted_and_the_field_is_finite),
+      cmocka_unit_test(closed_pieces_that_face_inwards_are_counted),
       cmocka_unit_test(components_are_numbered_by_their_smallest_vertex),
       cmocka_unit_test(what_no_site_reaches_is_zero_and_counted),
       cmocka_unit_test(weld_none_keeps_the_cut_and_a_tolerance_closes_a_gap),

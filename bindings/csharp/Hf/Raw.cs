@@ -321,6 +321,8 @@ namespace Hf.Native
         public uint polygon_count;
         public uint non_planar_count;
         public uint largest_face;
+        public uint inside_out_count;
+        public uint first_inside_out_vertex;
     }
 
     [StructLayout(LayoutKind.Sequential)]

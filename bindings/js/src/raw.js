@@ -263,7 +263,7 @@ export const layouts = {
     face_count: ['u32', [60, 60], 0],
     corner_count: ['u32', [64, 64], 0],
   } },
-  hf_surface_report: { size: [112, 112], fields: {
+  hf_surface_report: { size: [120, 120], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_count: ['u32', [4, 4], 0],
     triangle_count: ['u32', [8, 8], 0],
@@ -290,6 +290,8 @@ export const layouts = {
     polygon_count: ['u32', [100, 100], 0],
     non_planar_count: ['u32', [104, 104], 0],
     largest_face: ['u32', [108, 108], 0],
+    inside_out_count: ['u32', [112, 112], 0],
+    first_inside_out_vertex: ['u32', [116, 116], 0],
   } },
   hf_gaps_desc: { size: [16, 24], fields: {
     struct_size: ['u32', [0, 0], 0],

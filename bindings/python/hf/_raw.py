@@ -458,6 +458,8 @@ class hf_surface_report(Structure):
     polygon_count: int
     non_planar_count: int
     largest_face: int
+    inside_out_count: int
+    first_inside_out_vertex: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -485,6 +487,8 @@ class hf_surface_report(Structure):
         ("polygon_count", c_uint32),
         ("non_planar_count", c_uint32),
         ("largest_face", c_uint32),
+        ("inside_out_count", c_uint32),
+        ("first_inside_out_vertex", c_uint32),
     ]
 
 

@@ -477,6 +477,8 @@ pub struct hf_surface_report {
     pub polygon_count: u32,
     pub non_planar_count: u32,
     pub largest_face: u32,
+    pub inside_out_count: u32,
+    pub first_inside_out_vertex: u32,
 }
 impl Default for hf_surface_report {
     fn default() -> Self {
@@ -516,6 +518,8 @@ impl hf_surface_report {
             "polygon_count" => f64::from(self.polygon_count),
             "non_planar_count" => f64::from(self.non_planar_count),
             "largest_face" => f64::from(self.largest_face),
+            "inside_out_count" => f64::from(self.inside_out_count),
+            "first_inside_out_vertex" => f64::from(self.first_inside_out_vertex),
             _ => return None,
         })
     }
