@@ -10,6 +10,7 @@
 #include "common/picture.h"
 #include "common/program.h"
 #include "hf/hf.hpp"
+#include "quads/crossings.h"
 #include "quads/quad_report.h"
 #include "quads/surface_distance.h"
 
@@ -19,6 +20,7 @@ namespace {
 const char* const usage =
     "usage: hf_quads MESH [--sites auto|FILE.json] [--edge LENGTH] [--faces N] [--crease DEG]\n"
     "                [--field|--pure|--uniform] [-o OUT] [--sheet FILE.png]\n"
+    "       hf_quads MESH --measure QUADS [--sheet FILE.png]\n"
     "  Makes a quad mesh of a .obj, .off, .ply, .gltf or .glb surface from a harmonic field, and prints what it is "
     "worth.\n"
     "  --sites auto   sites at the tips of the surface (default); borders are always sites\n"
@@ -33,11 +35,12 @@ const char* const usage =
     "  --pure         every line runs from site to site\n"
     "  --polygons     leaves polygons at sites and saddles whole\n"
     "  --relax N      rounds of tangential relaxation (60; 0 for none)\n"
+    "  --measure FILE makes no quads and measures those of FILE, which any program can have made of MESH\n"
     "  -o OUT         .obj, .ply or .off with polygons\n"
     "  --sheet FILE   a picture from two sides: quads light, other polygons red, sites as dots\n";
 
 struct Command {
-  std::filesystem::path mesh, sites, out, sheet;  // sites empty: auto
+  std::filesystem::path mesh, sites, measured, out, sheet;  // sites empty: auto
   double edge = 0;                                // 0: the default; below 0: a share of the box diagonal
   uint32_t relax = 60, faces = 0, crease = 0;     // crease in degrees
   int32_t kind = HF_QUADS_UNIFORM;
@@ -78,6 +81,8 @@ Command parse(Words words) {
       out.polygons = true;
     } else if (words.is("--relax")) {
       out.relax = words.whole(0, 1000);
+    } else if (words.is("--measure")) {
+      out.measured = words.file();
     } else if (words.is("-o", "--output")) {
       out.out = words.file();
     } else if (words.is("--sheet")) {
@@ -144,6 +149,54 @@ const char* name_of(int32_t kind) {
   return kind == HF_QUADS_FIELD ? "field" : kind == HF_QUADS_PURE ? "pure" : "uniform";
 }
 
+double percent(uint32_t part, uint32_t whole) { return whole ? 100.0 * part / whole : 0.0; }
+
+void print_figures(const SurfaceMesh& input, double diagonal, const SurfaceMesh& mesh, const QuadReport& report,
+                   int euler_characteristic) {
+  const SurfaceDistance distance = surface_distance(soup_of(input), soup_of(mesh));
+  std::printf("validity    Euler characteristic %d (surface %d), directed edges once: %s, repeated corners: %s\n",
+              report.euler_characteristic, euler_characteristic, report.each_directed_edge_once ? "yes" : "NO",
+              report.no_repeated_corner ? "none" : "SOME");
+  std::printf("quads       %.2f %% of the faces\n", percent(report.quads, report.faces));
+  std::printf("valence     %s\n", to_text(report.valences).c_str());
+  std::printf("irregular   %.2f %%\n", percent(report.irregular, report.vertices));
+  std::printf("turned over %u corners\n", report.turned_over);
+  std::printf("crossing    %u faces run through others (%u of the surface)\n", count_crossing_faces(mesh),
+              count_crossing_faces(input));
+  std::printf("edge/L      5 %%: %.2f, median %.2f, 95 %%: %.2f\n", report.edge[0], report.edge[1], report.edge[2]);
+  std::printf("aspect      median %.2f, 95 %%: %.2f\n", report.aspect[1], report.aspect[2]);
+  std::printf("angle off   median %.1f, 95 %%: %.1f degrees\n", report.angle[1], report.angle[2]);
+  std::printf("Hausdorff   %.3f %% of the box (mesh to quads %.3f %%, mean %.3f %%; quads to mesh %.3f %%)\n",
+              100 * distance.largest() / diagonal, 100 * distance.a_to_b / diagonal,
+              100 * distance.mean_a_to_b / diagonal, 100 * distance.b_to_a / diagonal);
+}
+
+void draw_sheet(const Command& options, const SurfaceMesh& mesh, const std::vector<Point>& dots, const char* how) {
+  if (options.sheet.empty()) return;
+  write_png(options.sheet, contact_sheet({draw(mesh, dots, {1, 0.4, 0.6}), draw(mesh, dots, {-0.6, 0.4, -1})}, 2,
+                                         {options.mesh.filename().string() + ", " + how, "from behind"}));
+  std::printf("wrote       %s\n", options.sheet.c_str());
+}
+
+// The figures of quads that another program made. L is the square root of a face's mean area.
+void measure(const Command& options, const SurfaceMesh& input, double diagonal) {
+  SurfaceMesh mesh = read_mesh_file(options.measured);
+  if (mesh.face_sizes.empty()) mesh.face_sizes.assign(mesh.triangles.size() / 3, 3), mesh.face_vertices = mesh.triangles;
+  double area = 0;
+  for (size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    const glm::dvec3& a = mesh.positions[mesh.triangles[i]];
+    area += 0.5 * length(cross(mesh.positions[mesh.triangles[i + 1]] - a, mesh.positions[mesh.triangles[i + 2]] - a));
+  }
+  const double faces = std::max(1.0, static_cast<double>(mesh.face_count()));
+  const QuadReport report = measure_quads(mesh, std::sqrt(area / faces));
+  SurfaceMesh triangles = input;
+  triangles.face_sizes.assign(input.triangles.size() / 3, 3), triangles.face_vertices = input.triangles;
+  std::printf("quads       %u vertices, %u faces; %s\n", report.vertices, report.faces,
+              options.measured.filename().string().c_str());
+  print_figures(input, diagonal, mesh, report, measure_quads(triangles, 1).euler_characteristic);
+  draw_sheet(options, mesh, {}, options.measured.filename().string().c_str());
+}
+
 void run(const Command& options) {
   const SurfaceMesh input = read_mesh_file(options.mesh);
   const std::vector<double> positions = double_positions(input.positions);
@@ -153,6 +206,9 @@ void run(const Command& options) {
   create.positions_f64 = positions.data(), create.triangles = input.triangles.data();
   const hf::Surface surface(create);
   const double diagonal = surface.report().bounding_box_diagonal;
+  std::printf("mesh        %u vertices, %u triangles, box diagonal %.6g\n", create.vertex_count, create.triangle_count,
+              diagonal);
+  if (!options.measured.empty()) return measure(options, input, diagonal);
 
   auto desc = hf::make<hf_quads_desc>();
   desc.kind = options.kind, desc.face_count = options.faces;
@@ -181,43 +237,23 @@ void run(const Command& options) {
   mesh.face_vertices = quads.face_corners;
 
   const QuadReport report = measure_quads(mesh, static_cast<double>(quads.info.edge_length));
-  const SurfaceDistance distance = surface_distance(soup_of(input), soup_of(mesh));
   const bool valid = report.each_directed_edge_once && report.no_repeated_corner &&
                      report.euler_characteristic == quads.info.euler_characteristic;
-  const auto percent = [](uint32_t part, uint32_t whole) { return whole ? 100.0 * part / whole : 0.0; };
-  std::printf("mesh        %u vertices, %u triangles, box diagonal %.6g\n", create.vertex_count, create.triangle_count,
-              diagonal);
   std::printf("quads       %u vertices, %u faces in %.2f s; edge length %.6g (%.2f %% of the box); %s\n",
               report.vertices, report.faces, seconds, static_cast<double>(quads.info.edge_length),
               100 * static_cast<double>(quads.info.edge_length) / diagonal, name_of(options.kind));
-  std::printf("validity    Euler characteristic %d (surface %d), directed edges once: %s, repeated corners: %s\n",
-              report.euler_characteristic, quads.info.euler_characteristic,
-              report.each_directed_edge_once ? "yes" : "NO", report.no_repeated_corner ? "none" : "SOME");
   std::printf("sites       %u, saddles %u\n", quads.info.site_count, quads.info.saddle_count);
-  std::printf("share       %.2f %% quads before splitting, %.2f %% now\n",
-              percent(quads.info.polygon_quad_count, quads.info.polygon_count), percent(report.quads, report.faces));
-  std::printf("valence     %s\n", to_text(report.valences).c_str());
-  std::printf("irregular   %.2f %%\n", percent(report.irregular, report.vertices));
-  std::printf("turned over %u corners\n", report.turned_over);
-  std::printf("edge/L      5 %%: %.2f, median %.2f, 95 %%: %.2f\n", report.edge[0], report.edge[1], report.edge[2]);
-  std::printf("aspect      median %.2f, 95 %%: %.2f\n", report.aspect[1], report.aspect[2]);
-  std::printf("angle off   median %.1f, 95 %%: %.1f degrees\n", report.angle[1], report.angle[2]);
-  std::printf("Hausdorff   %.3f %% of the box (mesh to quads %.3f %%, mean %.3f %%; quads to mesh %.3f %%)\n",
-              100 * distance.largest() / diagonal, 100 * distance.a_to_b / diagonal,
-              100 * distance.mean_a_to_b / diagonal, 100 * distance.b_to_a / diagonal);
+  std::printf("share       %.2f %% quads before splitting\n",
+              percent(quads.info.polygon_quad_count, quads.info.polygon_count));
+  print_figures(input, diagonal, mesh, report, quads.info.euler_characteristic);
   if (!options.out.empty()) {
     write_mesh_file(mesh, options.out);
     std::printf("wrote       %s\n", options.out.c_str());
   }
-  if (!options.sheet.empty()) {
-    std::vector<Point> dots;
-    for (const uint32_t v : quads.site_vertices)
-      if (v != HF_NO_INDEX) dots.push_back({input.positions[v].x, input.positions[v].y, input.positions[v].z});
-    const std::string name = options.mesh.filename().string();
-    write_png(options.sheet, contact_sheet({draw(mesh, dots, {1, 0.4, 0.6}), draw(mesh, dots, {-0.6, 0.4, -1})}, 2,
-                                           {name + ", " + name_of(options.kind), "from behind"}));
-    std::printf("wrote       %s\n", options.sheet.c_str());
-  }
+  std::vector<Point> dots;
+  for (const uint32_t v : quads.site_vertices)
+    if (v != HF_NO_INDEX) dots.push_back({input.positions[v].x, input.positions[v].y, input.positions[v].z});
+  draw_sheet(options, mesh, dots, name_of(options.kind));
   if (!valid)
     throw std::runtime_error(
         "the result is no valid mesh, see validity above: a fault of the library, please report it");

@@ -19,6 +19,23 @@ int run(const std::string& arguments, std::string& output) {
   return hf_test::run(hf_test::quoted(HF_QUADS_PROGRAM) + " " + arguments, output);
 }
 
+std::string line_of(const std::string& text, const std::string& begin) {
+  const size_t at = text.find("\n" + begin);
+  return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at);
+}
+
+// Two squares, and a third that stands across both.
+TEST(QuadsProgram, CountsFacesThatCross) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path / "cross.obj").string();
+  std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n"
+                         "v .5 .5 -1\nv 1.5 .4 -1\nv 1.5 .5 1\nv .5 .4 1\nv 5 5 5\nv 6 5 5\nv 5 6 5\n"
+                         "f 1 2 3 4\nf 2 5 6 3\nf 7 8 9 10\nf 11 12 13\n";
+  std::string text;
+  ASSERT_EQ(run("\"" + file + "\" --measure \"" + file + "\"", text), 0) << text;
+  EXPECT_NE(text.find("crossing    3 faces"), std::string::npos) << text;
+}
+
 TEST(QuadsProgram, WritesQuadsAndSaysWhatTheyAreWorth) {
   const TemporaryFolder folder;
   const ShapeMesh cactus = samples::cactus(1500);
@@ -29,17 +46,20 @@ TEST(QuadsProgram, WritesQuadsAndSaysWhatTheyAreWorth) {
   const std::string in = (folder.path / "cactus.obj").string(), out = (folder.path / "quads.obj").string(),
                     png = (folder.path / "quads.png").string(), sites = (folder.path / "sites.json").string();
   write_mesh_file(mesh, in);
-  std::string text;
+  std::string text, again;
   for (const char* kind : {"--pure", "--uniform"}) {
     ASSERT_EQ(run("\"" + in + "\" --edge 4% " + kind + " -o \"" + out + "\" --sheet \"" + png + "\"", text), 0) << text;
-    for (const char* word : {"Euler characteristic 2 (surface 2)", "repeated corners: none", "100.00 % now", "valence",
-                             "aspect", "angle off", "Hausdorff"})
+    for (const char* word : {"Euler characteristic 2 (surface 2)", "repeated corners: none", "100.00 % of the faces", "valence",
+                             "crossing    0 faces", "aspect", "angle off", "Hausdorff"})
       EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
     const SurfaceMesh back = read_mesh_file(out);
     ASSERT_FALSE(back.face_sizes.empty());
     for (const uint32_t size : back.face_sizes) EXPECT_EQ(size, 4u);
     EXPECT_EQ(back.positions.size(), back.face_sizes.size() + 2);  // closed quads of genus 0
     EXPECT_GT(fs::file_size(png), 10000u);
+    ASSERT_EQ(run("\"" + in + "\" --measure \"" + out + "\"", again), 0) << again;
+    for (const char* line : {"valence", "irregular", "aspect", "angle off", "Hausdorff"})
+      EXPECT_EQ(line_of(again, line), line_of(text, line)) << line;
   }
   std::ofstream(sites) << "{\"sites\": [{\"vertex\": 3}, {\"vertex\": 900}]}";
   EXPECT_EQ(run("\"" + in + "\" --edge 5% --sites \"" + sites + "\"", text), 0) << text;
