@@ -323,6 +323,10 @@ constexpr double least_share = 1e-3;
 // Sweeps that raise what sinks. In 377 runs of tests/bench/transfer_table.cpp, half and twice as many give the same
 // figures: 14 frames spike, 2 runs sink by more than 0.01 boxes.
 constexpr std::int32_t rise_sweeps = 8;
+// The weights of a vertex are floats that sum to 1. No sum is larger than this, whatever was rounded.
+constexpr double weight_sum_limit = 1.001;
+// Vertices that are looked at together for one that must rise. No result depends on it.
+constexpr std::size_t rise_block = 64;
 // How far a held region gives way when the surface around it must rise, as a share of what it would without a hold. Ten
 // times the value changes no figure of these runs.
 constexpr double held_give = 0.1;

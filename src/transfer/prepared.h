@@ -79,6 +79,7 @@ struct Transfer::Prepared {
         rises(&memory),
         needs(&memory),
         forces(&memory),
+        block_needs(&memory),
         hold_forces(&memory) {}
   struct Anchor {
     std::uint32_t number = 0, flags = 0;
@@ -139,6 +140,7 @@ struct Transfer::Prepared {
   Vector<std::uint8_t> sinks;    // per target vertex: 1 if it may stay under the ground
   Vector<double> rises;          // per cluster: how far it is raised
   Vector<double> needs, forces;  // per vertex: how far it must rise, and the force that raises it
+  Vector<double> block_needs;    // the largest need of some adjacent vertices
   Vector<double> hold_forces;    // per constraint of the frame: the force that keeps it in place
 };
 

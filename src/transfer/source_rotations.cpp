@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "base/compiler.h"
 #include "base/index.h"
 #include "transfer/constants.h"
 #include "transfer/soft_rotation.h"
@@ -11,15 +13,33 @@
 namespace hf_inner {
 namespace {
 
+HF_VECTOR(Four, double, 4);
+
+// Adds q_i g_i' to the three columns of a matrix: q are the posed places of the vertices, relative to the origin.
+HF_FOUR_LANES
+void add_moments(const std::int32_t* vertex, const Vec3* slope, std::size_t count, Vec3 origin, const Vec3* posed,
+                 double (&columns)[3][4]) noexcept {
+  const Four from = {origin.x, origin.y, origin.z, 0};
+  Four x = {0, 0, 0, 0}, y = x, z = x;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 place = posed[vertex[i]], g = slope[i];
+    const Four q = Four{place.x, place.y, place.z, 0} - from;
+    x += q * g.x, y += q * g.y, z += q * g.z;
+  }
+  std::memcpy(columns[0], &x, sizeof x), std::memcpy(columns[1], &y, sizeof y), std::memcpy(columns[2], &z, sizeof z);
+}
+
 // Returns the moment matrix M = sum_v q_v g_v' of cluster c: q are posed places, g the constant vectors of clusters.h.
 // The g sum to zero, so any origin gives the same M. An origin near the cluster keeps the digits of poses far away.
 Mat3 moment_of(const SourceKernels& kernels, std::int32_t c, const Vec3* posed) noexcept {
   Mat3 moment;
   const std::int32_t first = kernels.start[at(c)], last = kernels.start[at(c) + 1];
   if (first == last) return moment;
-  const Vec3 origin = posed[kernels.vertex[at(first)]];
-  for (std::int32_t i = first; i < last; ++i)
-    add_outer(moment, 1.0, posed[kernels.vertex[at(i)]] - origin, kernels.slope[at(i)]);
+  double columns[3][4];
+  add_moments(kernels.vertex.data() + first, kernels.slope.data() + first, at(last - first),
+              posed[kernels.vertex[at(first)]], posed, columns);
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) moment(i, j) = columns[j][i];
   return moment;
 }
 

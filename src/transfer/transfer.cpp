@@ -315,7 +315,7 @@ Transfer::Prepared& Transfer::prepare() {
   p.columns.assign(count, BlendColumns()), p.blended.resize(at(target_core_->size()));
   p.rises.assign(count, 0.0);
   p.needs.assign(at(target_core_->size()), 0.0), p.forces.assign(at(target_core_->size()), 0.0),
-      p.hold_forces.assign(numbers_.size() + 1, 0.0);
+      p.block_needs.assign(p.needs.size() / rise_block + 1, 0.0), p.hold_forces.assign(numbers_.size() + 1, 0.0);
   p.excess.assign(p.anchors.size(), Vec3()), p.dial_holds.reserve(numbers_.size() + 1);
   prepare_dials(p), turn_dials(p);
   p.shifts.assign(count, Vec3()), p.cluster_goals.assign(count, Vec3()), p.goals.assign(p.anchors.size(), Vec3());

@@ -1,6 +1,8 @@
 // Computes one frame of a transfer (transfer.h): the goals of the regions, the motion of the clusters, and the blend.
 #include <cmath>
+#include <cstring>
 
+#include "base/compiler.h"
 #include "base/elementary.h"
 #include "base/error.h"
 #include "base/index.h"
@@ -33,6 +35,34 @@ struct Twist {
 Twist about(const Quaternion& q, Vec3 axis) noexcept {
   const double along = dot(to_vec3(q.vec()), axis);
   return {normalised({along * axis, q.w()}), smooth_step(twist_low, twist_high, along * along + q.w() * q.w())};
+}
+
+HF_VECTOR(Four, double, 4);
+
+// The vertices of a blend: joints and weights, blend_count for each, and rest places.
+struct BlendInput {
+  const BlendColumns* columns;
+  const std::int32_t* joint;
+  const float* weight;
+  const Vec3* rest;
+};
+
+HF_FOUR_LANES
+void blend_vertices(const BlendInput& in, std::size_t first, std::size_t last, Vec3* out) noexcept {
+  for (std::size_t v = first; v < last; ++v) {
+    const Vec3 x = in.rest[v];
+    Four sum = {0, 0, 0, 0};
+    for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
+      const double w = static_cast<double>(in.weight[i]);
+      if (w <= 0) break;
+      const BlendColumns& c = in.columns[in.joint[i]];
+      Four along_x, along_y, along_z, shift;
+      std::memcpy(&along_x, c.m[0], sizeof along_x), std::memcpy(&along_y, c.m[1], sizeof along_y);
+      std::memcpy(&along_z, c.m[2], sizeof along_z), std::memcpy(&shift, c.m[3], sizeof shift);
+      sum += w * (along_x * x.x + along_y * x.y + along_z * x.z + shift);
+    }
+    out[v] = {sum[0], sum[1], sum[2]};
+  }
 }
 
 }  // namespace
@@ -130,21 +160,12 @@ void Transfer::blend(Prepared& p) const {
       for (int j = 0; j < 3; ++j) to.m[j][i] = p.matrices[c](i, j);
     to.m[3][0] = p.shifts[c].x, to.m[3][1] = p.shifts[c].y, to.m[3][2] = p.shifts[c].z;
   }
-  const Vec3* rest = target_core_->mesh.positions.data();
   const std::size_t n = p.blended.size();
+  const BlendInput in = {p.columns.data(), p.clusters.joint.data(), p.clusters.weight.data(),
+                         target_core_->mesh.positions.data()};
   target_core_->jobs->for_each(static_cast<std::uint32_t>((n + vertex_block - 1) / vertex_block), [&](std::uint32_t b) {
-    const std::size_t last = std::min(n, (std::size_t{b} + 1) * vertex_block);
-    for (std::size_t v = std::size_t{b} * vertex_block; v < last; ++v) {
-      const Vec3 x = rest[v];
-      double sum[4] = {0, 0, 0, 0};
-      for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
-        const double w = static_cast<double>(p.clusters.weight[i]);
-        if (w <= 0) break;
-        const BlendColumns& c = p.columns[at(p.clusters.joint[i])];
-        for (int k = 0; k < 4; ++k) sum[k] += w * (c.m[0][k] * x.x + c.m[1][k] * x.y + c.m[2][k] * x.z + c.m[3][k]);
-      }
-      p.blended[v] = {sum[0], sum[1], sum[2]};
-    }
+    const std::size_t first = std::size_t{b} * vertex_block;
+    blend_vertices(in, first, std::min(n, first + vertex_block), p.blended.data());
   });
 }
 

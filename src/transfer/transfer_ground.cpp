@@ -112,11 +112,20 @@ bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) co
     const bool free = p.sinks[v] || (row >= 0 && p.given_hold[at(row)].share > 0);
     p.needs[v] = free ? -no_height : allowed - dot(up, p.blended[v]) - least_depth;
     any = any || p.needs[v] > 0;
+    double& most = p.block_needs[v / rise_block];
+    most = v % rise_block == 0 ? p.needs[v] : std::max(most, p.needs[v]);
   }
   if (!any) return false;
   std::fill(p.rises.begin(), p.rises.end(), 0.0);
   std::fill(p.forces.begin(), p.forces.end(), 0.0);
   std::fill(p.hold_forces.begin(), p.hold_forces.end(), 0.0);
+  double lowest_rise = 0;  // no cluster has sunk deeper in any sweep
+  const auto rise = [&](double change, const double* column) {
+    for (std::size_t c = 0; c < count; ++c) {
+      p.rises[c] += change * column[c];
+      lowest_rise = std::min(lowest_rise, p.rises[c]);
+    }
+  };
   for (std::int32_t sweep = 0; sweep < rise_sweeps; ++sweep) {
     for (std::size_t i = 0; i < p.holds.size(); ++i) {
       const Hold& hold = p.holds[i];
@@ -126,10 +135,16 @@ bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) co
       const double change = -(p.translations.mean(hold.row, p.rises.data()) + soft * p.hold_forces[i]) /
                             (p.translations.give(hold.row) + soft);
       p.hold_forces[i] += change;
-      const double* influence = p.translations.influence(hold.row);
-      for (std::size_t c = 0; c < count; ++c) p.rises[c] += change * influence[c];
+      rise(change, p.translations.influence(hold.row));
     }
     for (std::size_t v = 0; v < p.needs.size(); ++v) {
+      // Most vertices are too far above the ground to take part, now or in an earlier sweep.
+      const double too_little = weight_sum_limit * lowest_rise;
+      if (v % rise_block == 0 && p.block_needs[v / rise_block] <= too_little) {
+        v += rise_block - 1;
+        continue;
+      }
+      if (p.needs[v] <= too_little) continue;
       const std::int32_t* joint = p.clusters.joint.data() + v * blend_count;
       const float* weight = p.clusters.weight.data() + v * blend_count;
       double miss = p.needs[v];
@@ -144,10 +159,7 @@ bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) co
       const double change = std::max(-p.forces[v], miss / give);
       p.forces[v] += change;
       for (std::int32_t i = 0; i < blend_count; ++i) {
-        if (!(weight[i] > 0)) continue;
-        const double* column = compliance + at(joint[i]) * count;
-        const double w = change * static_cast<double>(weight[i]);
-        for (std::size_t c = 0; c < count; ++c) p.rises[c] += w * column[c];
+        if (weight[i] > 0) rise(change * static_cast<double>(weight[i]), compliance + at(joint[i]) * count);
       }
     }
   }
