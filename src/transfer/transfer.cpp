@@ -86,7 +86,7 @@ Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Cor
 
 Transfer::~Transfer() = default;
 
-void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) {
+void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs, bool prepare_now) {
   Memory& memory = *target_core_->memory;
   check_region_count(numbers_.size(), pairs.size(), "pair");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -110,10 +110,22 @@ void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) 
   source.add({fresh_numbers.data(), fresh_numbers.size()}, {source_regions.data(), source_regions.size()}, "source");
   target.add({fresh_numbers.data(), fresh_numbers.size()}, {target_regions.data(), target_regions.size()}, "target");
 
-  // No statement below can fail.
-  source_ = std::move(source), target_ = std::move(target);
-  numbers_.swap(numbers), flags_.swap(flags);
+  std::shared_ptr<Prepared> before = std::move(prepared_);
+  const auto swap_pairs = [&]() noexcept {
+    std::swap(source_, source), std::swap(target_, target);
+    numbers_.swap(numbers), flags_.swap(flags);
+  };
+  swap_pairs();
   prepared_.reset();
+  if (prepare_now) {
+    try {
+      prepare();
+    } catch (...) {
+      swap_pairs();
+      prepared_ = std::move(before);
+      throw;
+    }
+  }
   if (out_pairs) std::copy(fresh_numbers.begin(), fresh_numbers.end(), out_pairs);
 }
 
