@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "base/number_pool.h"
+#include "base/progress.h"
 #include "transfer/constants.h"
 #include "transfer/prepared.h"
 
@@ -160,6 +161,7 @@ void Transfer::prepare_alignment(Prepared& p) const {
     const auto column = static_cast<std::int32_t>(h);
     if (flags & HF_PAIR_FOOT) feet.push_back(column);
     if (flags & HF_PAIR_TRUNK) continue;
+    poll();
     Vec3 from, to;
     const bool known =
         limb_direction(source, column, region_mean(source_.region(number), source.mesh->positions.data()), to) &&
@@ -227,6 +229,7 @@ void Transfer::prepare_anchors(Prepared& p) const {
   // Finds the vertices that are raised with the region of a pair, because they blend from the same clusters.
   p.rides.assign(at(target_core_->size()), -1);
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    poll();
     const std::size_t row = i < p.anchors.size() ? i : i + 1;
     for (std::size_t v = 0; v < p.rides.size(); ++v) {
       double share = 0;
@@ -316,6 +319,7 @@ Transfer::Prepared& Transfer::prepare() {
   p.source_rotations.prepare(source_core_->mesh, source_area_);
   p.refit.prepare(target_core_->mesh, target_area_, p.clusters, memory);
   p.target_centroid = area_mean(target_core_->mesh, target_area_);
+  poll();
   prepare_ground(p);
   if (options_.mode == HF_TRANSFER_STRETCH) prepare_gradients(p);
 
