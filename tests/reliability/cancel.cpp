@@ -71,16 +71,26 @@ struct Run {
 Run watch(const Case& c, hf_progress progress) {
   Run run;
   std::atomic<bool> over{false};
+  const auto read = [&] {
+    float fraction = 0;
+    must(hf_progress_get_fraction(progress, &fraction), "hf_progress_get_fraction");
+    return fraction;
+  };
+  // What the call works on may have been made with this progress. The call itself begins at 0.
+  const float before = read();
   float last = 0;
   Clock::time_point full;
   const Clock::time_point begin = Clock::now();
   std::thread watcher([&] {
+    bool begun = before < 1;
     while (!over) {
-      float fraction = 0;
-      must(hf_progress_get_fraction(progress, &fraction), "hf_progress_get_fraction");
-      if (fraction < last) run.fell = true;
-      if (fraction >= 1 && last < 1) full = Clock::now();
-      last = fraction;
+      const float fraction = read();
+      begun = begun || fraction < 1;
+      if (begun) {
+        if (fraction < last) run.fell = true;
+        if (fraction >= 1 && last < 1) full = Clock::now();
+        last = fraction;
+      }
       std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
   });
