@@ -60,8 +60,7 @@ GeodesicPoint read_surface_point(const TriangleSides& sides, const hf_surface_po
     if (w < 0) fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: barycentric %d is %g; it must not be negative", name, k, w);
     sum += w;
   }
-  constexpr double sum_error = 1e-6;
-  if (!(std::fabs(sum - 1) <= sum_error))
+  if (!(std::fabs(sum - 1) <= weight_sum_error))
     fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: barycentrics sum to %.9g; they must sum to 1", name, sum);
   for (int k = 0; k < 3; ++k) {
     if (given->barycentrics[k] > 0) corners[k] = usable_vertex(sides.mesh, given->corners[k], index, name);

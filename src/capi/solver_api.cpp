@@ -31,10 +31,9 @@ hf_result apply(const char* function, hf_solver handle, std::uint32_t* out_sites
 }
 
 double read_finite(double value, std::uint32_t vertex, const char* name) {
-  constexpr double largest = 1e200;
   if (!std::isfinite(value)) fail(HF_ERROR_NON_FINITE, vertex, "%s of vertex %u is not finite", name, vertex);
-  if (std::fabs(value) > largest)
-    fail(HF_ERROR_TOO_LARGE, vertex, "%s of vertex %u is %g; the limit is %g", name, vertex, value, largest);
+  if (std::fabs(value) > largest_value)
+    fail(HF_ERROR_TOO_LARGE, vertex, "%s of vertex %u is %g; the limit is %g", name, vertex, value, largest_value);
   return value;
 }
 

@@ -26,7 +26,7 @@ namespace hf_inner {
 
 class DenseBlock {
  public:
-  static constexpr std::size_t most_border = 2;
+  static constexpr std::size_t most_border = 2;  // border unknowns: as many as a component has pins
   // Makes a block without rows. border: number of border unknowns. corner: the border x border numbers of C; null
   // stands for zeros.
   explicit DenseBlock(Memory& memory, std::size_t border = 0, const double* corner = nullptr);

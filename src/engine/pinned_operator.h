@@ -12,6 +12,7 @@
 #include "base/index.h"
 #include "base/jobs.h"
 #include "base/symmetric_matrix.h"
+#include "engine/dense_block.h"
 #include "factor/factor.h"
 
 namespace hf_inner {
@@ -25,7 +26,7 @@ struct PinPaths {
 };
 
 struct PinnedOperator {
-  static constexpr std::size_t most_border = 2;
+  static constexpr std::size_t most_border = DenseBlock::most_border;
   Index size() const noexcept { return matrix->size(); }
   std::size_t component_count() const noexcept { return pin_weight.size(); }
   // Returns the number of pinned unknowns of a component. Its dense system has as many additional (border) unknowns.

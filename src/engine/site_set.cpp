@@ -12,9 +12,6 @@
 namespace hf_inner {
 namespace {
 
-// Site values may be at most this large. Larger values times weights of up to 1e12 could give fluxes that are not
-// finite.
-constexpr double most = 1e200;
 // A point whose weight at a corner exceeds 1 minus this number becomes that vertex. A larger number would move points
 // that the host placed near a corner.
 constexpr double corner_share = 1e-12;
@@ -213,7 +210,7 @@ void check_value(double value, std::uint32_t position, std::int32_t channel) {
   if (!std::isfinite(value))
     fail(HF_ERROR_NON_FINITE, position, "entry %u of the list: value of channel %d is not a finite number", position,
          channel);
-  if (std::fabs(value) > most)
+  if (std::fabs(value) > largest_value)
     fail(HF_ERROR_TOO_LARGE, position, "entry %u of the list: value of channel %d is %g; scale it below 1e200",
          position, channel, value);
 }

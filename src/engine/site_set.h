@@ -26,6 +26,10 @@ struct Places {
   const double* radii = nullptr;  // geodesic, in the unit of the mesh; null or 0: points
 };
 
+// Values of sites and targets may be at most this large. Larger values times weights of up to 1e12 could give fluxes
+// that are not finite.
+constexpr double largest_value = 1e200;
+
 // Refuses a list that names more sites than there are, before it is read. Throws HF_ERROR_NO_SUCH_SITE (index = there).
 void check_site_count(std::uint32_t count, std::uint32_t there);
 

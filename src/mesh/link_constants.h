@@ -11,6 +11,8 @@
 
 namespace hf_inner {
 
+// Joints per vertex of a given skin, as the headers state: refuses a count of another thing, such as all joints.
+constexpr std::uint32_t most_skin_joints = 64;
 // Pieces touch up to this distance, and then link both ways, in the tree or not. It trades links for gaps. Half: gap
 // .094 / .27, entries 1.222. Double: .094 / .30, 1.225, false 1.3 %.
 constexpr double touching = 0.005;

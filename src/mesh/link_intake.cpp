@@ -9,8 +9,6 @@
 namespace hf_inner {
 namespace {
 
-// Joints per vertex of the skin hint, as hf/surface.h states: refuses a count of another thing, such as all joints.
-constexpr std::uint32_t most_skin_joints = 64;
 // Barycentrics are scaled to sum 1 if they are this near to it.
 constexpr double barycentric_slack = 1e-3;
 

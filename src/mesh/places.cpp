@@ -5,13 +5,6 @@
 #include "base/arguments.h"
 
 namespace hf_inner {
-namespace {
-
-// Barycentric weights may sum to 1 within this. Single-precision ones do; a larger bound would hide wrong ones.
-constexpr double weight_sum_error = 1e-6;
-
-}  // namespace
-
 std::int32_t inner_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t position, const char* list) {
   if (vertex >= mesh.report.vertex_count)
     fail(HF_ERROR_OUT_OF_RANGE, static_cast<std::uint32_t>(position),

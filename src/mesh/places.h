@@ -13,6 +13,9 @@ std::int32_t inner_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t po
 // The inner vertex. Throws as inner_vertex, and HF_ERROR_INVALID_ARGUMENT for an isolated one.
 std::int32_t usable_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t position, const char* list = "the list");
 
+// Barycentric weights may sum to 1 within this. Single-precision ones do; a larger bound would hide wrong ones.
+constexpr double weight_sum_error = 1e-6;
+
 // A point of the surface: three inner vertices of one component, and their weights.
 struct SurfacePlace {
   std::int32_t vertex[3];

@@ -6,6 +6,7 @@
 
 #include "base/arguments.h"
 #include "base/elementary.h"
+#include "mesh/link_constants.h"
 #include "weights/bone_names.h"
 #include "weights/constants.h"
 #include "weights/intake.h"
@@ -13,17 +14,15 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::uint32_t most_given_influences = 64;
-// Bounds the memory of a runaway host, as in intake.cpp.
-constexpr std::uint32_t joint_limit = 1u << 20;
+// An angle between normals is at most pi; hf/weights.h says up to 3.15.
 constexpr double most_angle = 3.15;
 
-// Checks the arrays of a desc: weights of every vertex, joints below joint_limit.
+// Checks the arrays of a desc: weights of every vertex, joints below most_bones.
 template <class Desc>
 GivenWeights read_given(const Desc& desc, const Mesh& mesh, std::uint32_t limit) {
-  if (desc.influence_count < 1 || desc.influence_count > most_given_influences)
+  if (desc.influence_count < 1 || desc.influence_count > most_skin_joints)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "influence_count is %u; it must be 1 to %u", desc.influence_count,
-         most_given_influences);
+         most_skin_joints);
   require(desc.joints, "joints"), require(desc.weights, "weights");
   for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
     for (std::uint32_t k = 0; k < desc.influence_count; ++k) {
@@ -93,7 +92,7 @@ Span<const char> read_bone_names(const char* names, std::size_t bones, Memory& m
 }
 
 GivenWeights read_carried(const hf_carry_desc& desc, const Mesh& source) {
-  return read_given(desc, source, joint_limit);
+  return read_given(desc, source, most_bones);
 }
 
 MatchOptions read_carry(const hf_carry_desc& desc, const Mesh& source) { return match_options(desc, source.scale); }
@@ -105,8 +104,8 @@ GivenWeights read_mirrored(const hf_mirror_desc& desc, const Mesh& mesh) {
 MirrorBones read_mirror_bones(const hf_mirror_desc& desc, const Mesh& mesh, Memory& memory) {
   MirrorBones bones(memory);
   require_list(desc.bone_count, desc.heads, "bone_count", "heads");
-  if (desc.bone_count > joint_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "bone_count is %u; the limit is %u", desc.bone_count, joint_limit);
+  if (desc.bone_count > most_bones)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "bone_count is %u; the limit is %u", desc.bone_count, most_bones);
   const auto clamped = [](double x) { return std::min(std::max(x, -farthest), farthest); };
   for (std::uint32_t b = 0; b < desc.bone_count; ++b) {
     const double* p = desc.heads + 3 * std::size_t{b};

@@ -6,6 +6,11 @@
 
 namespace hf_inner {
 
+// --- intake.cpp, carry_intake.cpp ---
+
+// Bounds the memory of a runaway host; rigs have some hundred bones.
+constexpr std::uint32_t most_bones = 1u << 20;
+
 // --- skeleton.cpp ---
 
 // Coordinates of bones are clamped to this many boxes, so that squares of distances stay finite. A smaller number moves

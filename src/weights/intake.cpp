@@ -5,12 +5,10 @@
 
 #include "base/arguments.h"
 #include "mesh/places.h"
+#include "weights/constants.h"
 
 namespace hf_inner {
 namespace {
-
-// Bounds the memory of a runaway host; rigs have some hundred bones.
-constexpr std::uint32_t most_bones = 1u << 20;
 
 Vec3 read_bone_point(const double* points, std::uint32_t i, const char* name) {
   const double* p = points + 3 * std::size_t{i};
