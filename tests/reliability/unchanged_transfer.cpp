@@ -21,7 +21,7 @@ struct Frame {
 class Transfers final : public Subject {
  public:
   Transfers(World& given, Random& random) : Subject(given) {
-    desc_.mode = random.pick({0, 0, 1}),
+    desc_.mode = random.pick({0, 0, 1, 2}),
     desc_.cluster_count = random.pick({5u, 10u});  // 80 on 80 vertices would rest on one vertex each
     if (hf_transfer_create(world.surface, world.surface, &desc_, &handle_) != HF_OK) handle_ = nullptr;
   }
@@ -202,7 +202,7 @@ struct Calls {
   static hf_result make(Subject& subject, Random& random) {
     Transfers& s = of(subject);
     hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
-    desc.mode = random.pick({0, 1, 2}), desc.cluster_count = random.pick({0u, 512u, 513u});
+    desc.mode = random.pick({0, 1, 2, 3}), desc.cluster_count = random.pick({0u, 512u, 513u});
     desc.kernel_width = static_cast<float>(random.number()), desc.scale = static_cast<float>(random.number());
     hf_transfer made = s.handle_;
     const hf_result result = hf_transfer_create(s.world.surface, s.world.surface, random.spoiled(desc), &made);
