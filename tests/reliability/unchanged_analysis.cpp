@@ -199,7 +199,8 @@ struct Calls {
     for (double& w : weights) w = random.real(0.1, 2);
     for (double& m : masses) m = random.real(0.5, 2);
     hf_graph_desc desc = HF_INIT(hf_graph_desc);
-    if (random.one_in(3)) edges[random.below(static_cast<std::uint32_t>(edges.size()))] = random.index(s.world.shape->vertices());
+    if (random.one_in(3))
+      edges[random.below(static_cast<std::uint32_t>(edges.size()))] = random.index(s.world.shape->vertices());
     if (random.one_in(3)) weights[random.below(static_cast<std::uint32_t>(weights.size()))] = random.number();
     if (random.one_in(5)) masses[random.below(static_cast<std::uint32_t>(masses.size()))] = random.number();
     desc.vertex_count = s.world.shape->vertices(), desc.edge_count = static_cast<std::uint32_t>(weights.size());

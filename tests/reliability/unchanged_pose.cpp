@@ -225,7 +225,8 @@ struct Calls {
     for (std::size_t k = 0; k < 3; ++k) h.point[k] = static_cast<double>(s.world.shape->positions[3 * v + k]);
     if (random.one_in(20)) h.point[random.below(3)] = random.number();
     h.layer = 0, h.radius = random.pick({0.0, 0.9, 1.2, random.number()});
-    const hf_result result = hf_pose_add_handle_at(b.handle, random.one_in(50) ? nullptr : h.point, h.radius, &h.number);
+    const hf_result result =
+        hf_pose_add_handle_at(b.handle, random.one_in(50) ? nullptr : h.point, h.radius, &h.number);
     if (result == HF_OK) b.handles.push_back(h);
     return result;
   }
@@ -238,8 +239,9 @@ struct Calls {
     hf_propose_desc desc = HF_INIT(hf_propose_desc);
     desc.joint_count = static_cast<std::uint32_t>(parents.size()), desc.joints = joints.data();
     if (!random.one_in(20)) desc.parents = parents.data();
-    desc.up[random.below(3)] = random.number(), desc.least_length = random.pick({0.0f, 0.2f, -1.0f});
-    desc.limit = random.pick({0u, 3u, 70000u}), desc.progress = s.world.progress();
+    desc.up[random.below(3)] = random.number(),
+    desc.least_length = random.one_in(12) ? -1.0f : random.pick({0.0f, 0.2f});
+    desc.limit = random.one_in(12) ? 70000u : random.pick({0u, 3u}), desc.progress = s.world.progress();
     std::vector<hf_handle_proposal> found(random.below(40));
     std::uint32_t count = 0;
     return hf_propose_handles(s.world.surface, random.spoiled(desc), static_cast<std::uint32_t>(found.size()),

@@ -119,6 +119,8 @@ struct SolverCalls {
   static hf_result screen(Subject& subject, Random& random) {
     Solvers& s = of(subject);
     SolverBranch& b = s.any(random);
+    if ((s.graph_ || s.desc_.engine != HF_ENGINE_GREEN || s.desc_.field_kind != HF_FIELD_HARMONIC) && !random.one_in(4))
+      return skipped;  // it would be refused
     Screening given;
     const std::uint32_t vertices = s.world.shape->vertices(), reach = 1 + random.below(vertices);
     if (!random.one_in(4)) given.strength.assign(vertices, 0.0);
@@ -126,7 +128,11 @@ struct SolverCalls {
       if (v % reach == 0 || random.one_in(3)) given.strength[v] = random.real(0.01, 5);
     }
     if (!given.strength.empty() && random.one_in(6)) given.strength[random.below(vertices)] = random.number();
-    if (!given.strength.empty() && random.one_in(2)) given.targets = s.values(s.rows(), random);
+    if (!given.strength.empty() && random.one_in(2)) {
+      given.targets.resize(s.rows());
+      for (double& p : given.targets) p = random.real(-3, 3);
+      if (random.one_in(6)) given.targets[random.below(vertices)] = random.number();
+    }
     if (random.one_in(12)) std::fill(given.strength.begin(), given.strength.end(), 0.0);
     const hf_result result = given.set(b.handle);
     if (result == HF_OK) b.screening = given, b.redo.clear(), b.prepared = false;

@@ -226,11 +226,11 @@ struct WeightsCalls {
 
 const std::vector<Command>& SkinWeights::commands() const {
   static const std::vector<Command> table = {
-      {"hf_weights_set_bones", 8, WeightsCalls::bones}, {"hf_weights_set_pins", 10, WeightsCalls::pins},
-      {"hf_weights_set_locks", 6, WeightsCalls::locks}, {"hf_weights_record", 3, WeightsCalls::record},
+      {"hf_weights_set_bones", 8, WeightsCalls::bones},   {"hf_weights_set_pins", 10, WeightsCalls::pins},
+      {"hf_weights_set_locks", 6, WeightsCalls::locks},   {"hf_weights_record", 3, WeightsCalls::record},
       {"hf_weights_undo or redo", 5, WeightsCalls::step}, {"hf_weights_clone", 2, WeightsCalls::clone},
-      {"hf_weights_create", 3, WeightsCalls::make},     {"hf_weights_destroy", 1, WeightsCalls::destroy},
-      {"reading weights", 2, WeightsCalls::read},       {"hf_weights_carry", 4, WeightsCalls::carry},
+      {"hf_weights_create", 3, WeightsCalls::make},       {"hf_weights_destroy", 1, WeightsCalls::destroy},
+      {"reading weights", 2, WeightsCalls::read},         {"hf_weights_carry", 4, WeightsCalls::carry},
       {"hf_weights_mirror", 4, WeightsCalls::mirror},
   };
   return table;
