@@ -5,15 +5,14 @@
 //
 // Quick form: small meshes; waits are printed and not judged, since other programs run beside it. --full: the sizes of
 // docs/promises.md, 50 moments a case, at most 100 ms.
+#include "cancel.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <functional>
-#include <string>
 #include <thread>
 
 #include "report.h"
-#include "surfaces.h"
 
 namespace {
 
@@ -22,25 +21,6 @@ using Clock = std::chrono::steady_clock;
 
 double milliseconds(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
-}
-
-struct Case {
-  std::string name;
-  // Makes the call with that progress, destroys what it made, and returns the code.
-  std::function<hf_result(hf_progress)> call;
-  // Of all a caller can see of what the call was given; empty when the call is given no object.
-  std::function<std::uint64_t()> state;
-};
-
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
-  hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
-  return hash ^ hash >> 29;
-}
-
-std::uint64_t memory_of(hf_surface surface) {
-  hf_surface_statistics statistics = desc<hf_surface_statistics>();
-  must(hf_surface_get_statistics(surface, &statistics), "hf_surface_get_statistics");
-  return static_cast<std::uint64_t>(statistics.memory_bytes);
 }
 
 // Triangles between random vertices: the factor of such a soup is dense.
@@ -141,30 +121,8 @@ struct World {
     big_surface = made;
     must(hf_pose_create(big_surface, nullptr, &pose), "hf_pose_create");
     must(hf_transfer_create(surface, surface, nullptr, &transfer), "hf_transfer_create");
-    make_weights();
-  }
-  void make_weights() {
-    for (std::uint32_t b = 0; b < bone_count; ++b) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        heads.push_back(static_cast<double>(small.positions[3 * (small.vertex_count() / bone_count * b) + k]));
-        tails.push_back(0.9 * heads.back());
-      }
-    }
-    hf_bones_desc d = bones(nullptr);
-    must(hf_weights_create(surface, &d, 4, &weights), "hf_weights_create");
-    hf_weights_out out = desc<hf_weights_out>();
-    joints.resize(4 * std::size_t{small.vertex_count()}), shares.resize(joints.size());
-    out.vertex_capacity = small.vertex_count(), out.joints = joints.data(), out.weights = shares.data();
-    must(hf_weights_get(weights, &out), "hf_weights_get");
-    std::fill_n(shares.begin(), shares.size() / 3, 0.0f);  // a third has none: a field fills it in
-  }
-  hf_bones_desc bones(hf_progress progress) const {
-    hf_bones_desc d = desc<hf_bones_desc>();
-    d.bone_count = bone_count, d.heads = heads.data(), d.tails = tails.data(), d.progress = progress;
-    return d;
   }
   ~World() {
-    hf_weights_destroy(weights);
     hf_transfer_destroy(transfer), hf_pose_destroy(pose);
     hf_surface_destroy(surface), hf_surface_destroy(big_surface);
   }
@@ -176,11 +134,6 @@ struct World {
   std::vector<unsigned char> saved;
   hf_pose pose = nullptr;
   hf_transfer transfer = nullptr;
-  static constexpr std::uint32_t bone_count = 40;
-  std::vector<double> heads, tails;
-  hf_weights weights = nullptr;
-  std::vector<std::uint32_t> joints;  // of the weights, 4 a vertex
-  std::vector<float> shares;
 };
 
 hf_result make_and_destroy(hf_surface_desc d, hf_progress progress) {
@@ -321,64 +274,6 @@ void add_pose_cases(World& w, std::vector<Case>& cases) {
                    [&w] { return memory_of(w.surface); }});
 }
 
-// Skin weights: made, for other bones, pinned on discs, carried and mirrored.
-void add_weights_cases(World& w, std::vector<Case>& cases) {
-  const auto weights_state = [&w] {
-    hf_weights_info info = desc<hf_weights_info>();
-    must(hf_weights_get_info(w.weights, &info), "hf_weights_get_info");
-    return mixed(mixed(info.factorisation_count, info.path_solve_count), memory_of(w.surface));
-  };
-  const auto surface_state = [&w] { return memory_of(w.surface); };
-  cases.push_back({"weights",
-                   [&w](hf_progress p) {
-                     const hf_bones_desc d = w.bones(p);
-                     hf_weights made = nullptr;
-                     const hf_result result = hf_weights_create(w.surface, &d, 4, &made);
-                     hf_weights_destroy(made);
-                     return result;
-                   },
-                   surface_state});
-  cases.push_back({"weights_bones",
-                   [&w](hf_progress p) {
-                     for (double& x : w.tails) x *= 0.999;  // the same bones would cost nothing
-                     const hf_bones_desc d = w.bones(p);
-                     return hf_weights_set_bones(w.weights, &d);
-                   },
-                   weights_state});
-  cases.push_back({"weights_pins",
-                   [&w](hf_progress p) {
-                     const std::uint32_t vertex[2] = {w.small.vertex_count() / 3, 0}, joint[2] = {0, 1};
-                     const double radii[2] = {0.5, 0.5};
-                     const float share[2] = {1, 1};
-                     hf_pins_desc d = desc<hf_pins_desc>();
-                     must(hf_weights_set_pins(w.weights, &d), "hf_weights_set_pins");  // the same pins cost no path
-                     d.pin_count = 2, d.joint_count = 1, d.vertices = vertex, d.radii = radii, d.progress = p;
-                     d.joints = joint, d.weights = share;
-                     return hf_weights_set_pins(w.weights, &d);
-                   },
-                   {}});
-  cases.push_back({"weights_carry",
-                   [&w](hf_progress p) {
-                     hf_carry_desc d = desc<hf_carry_desc>();
-                     d.influence_count = 4, d.joints = w.joints.data(), d.weights = w.shares.data(), d.progress = p;
-                     hf_weights_out out = desc<hf_weights_out>();
-                     hf_carry_info info = desc<hf_carry_info>();
-                     return hf_weights_carry(w.surface, w.surface, &d, &out, &info);
-                   },
-                   surface_state});
-  cases.push_back({"weights_mirror",
-                   [&w](hf_progress p) {
-                     const double plane[6] = {0, 0, 0, 1, 0, 0};
-                     hf_mirror_desc d = desc<hf_mirror_desc>();
-                     d.bone_count = World::bone_count, d.heads = w.heads.data(), d.plane = plane, d.progress = p;
-                     d.influence_count = 4, d.joints = w.joints.data(), d.weights = w.shares.data();
-                     hf_weights_out out = desc<hf_weights_out>();
-                     hf_mirror_info info = desc<hf_mirror_info>();
-                     return hf_weights_mirror(w.surface, &d, &out, nullptr, nullptr, &info);
-                   },
-                   surface_state});
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -390,7 +285,7 @@ int main(int argc, char** argv) {
   World world(full, std::move(big), std::move(small));
   std::vector<Case> cases;
   add_surface_cases(world, cases), add_field_cases(world, cases), add_pose_cases(world, cases);
-  add_weights_cases(world, cases);
+  add_weights_cases(world.surface, world.small, cases);
   hf_progress progress = nullptr;
   must(hf_progress_create(&progress), "hf_progress_create");
   std::mt19937 random(1);

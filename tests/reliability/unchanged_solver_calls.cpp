@@ -162,6 +162,8 @@ struct SolverCalls {
     if (result != HF_OK || from.empty()) return result;
     // the model has no field of the present state: it is that of a record when it comes back
     to.push_back({b.places, b.screening, 0});
+    // a rebase that waits holds for the screening it was prepared with
+    if (!b.screening.strength.empty() || !from.back().screening.strength.empty()) b.prepared = false;
     b.places = from.back().places, b.screening = from.back().screening;
     const std::uint64_t field = s.field_of(b);
     if (from.back().field && s.desc_.engine == HF_ENGINE_GREEN)
