@@ -7,7 +7,8 @@
  * - A failed call changes nothing. A call with a batch of edits does all of them or none.
  * - Structs start with struct_size. HF_INIT(type) is a struct of defaults: every field but the size is zero.
  * - Output arrays: you pass a capacity and read a count. A call that fails with HF_ERROR_TOO_SMALL writes the count
- *   too. To ask for the count alone, pass NULL arrays; such a call succeeds.
+ *   too. To ask for the count alone, pass NULL arrays; such a call succeeds. Arrays with one row for each vertex of the
+ *   mesh, or for each entry of an input list, take no capacity: their comment gives the length.
  * - Flags are int32_t: 0 is no, 1 is yes.
  * - Threads can use different handles at once. Functions that "read" a handle can run on that handle at the same time.
  *   A call on a handle that another thread is just changing returns HF_ERROR_BUSY.

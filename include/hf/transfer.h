@@ -90,8 +90,10 @@ typedef struct hf_pairs_desc {
   hf_progress progress;  /* NULL, or an object to poll and cancel through */
 } hf_pairs_desc;
 
-/* Adds pairs. out_pairs: NULL, or receives their numbers in uint32_t[pair_count]. Does not factorise. Errors: as
- * hf_pose_add_handles, HF_ERROR_TOO_LARGE (HF_PAIR_LIMIT). Thread safety: changes `transfer`. Since 0.1. */
+/* Adds pairs. out_pairs: NULL, or receives their numbers in uint32_t[pair_count]. Does not factorise. The fields and
+ * clusters of the pairs are made by the next frame. With a progress this call makes them, so that they can be cancelled
+ * too: give one with the last pairs you add. It changes no result. Errors: as hf_pose_add_handles, HF_ERROR_TOO_LARGE
+ * (HF_PAIR_LIMIT), HF_ERROR_CANCELLED. Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_add_pairs(hf_transfer transfer, const hf_pairs_desc* pairs, uint32_t* out_pairs);
 /* Removes pairs by number. Errors: HF_ERROR_NO_SUCH_PAIR. Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_remove_pairs(hf_transfer transfer, uint32_t pair_count, const uint32_t* pairs);

@@ -83,7 +83,7 @@ hf_result hf_transfer_add_pairs(hf_transfer handle, const hf_pairs_desc* given, 
     const hf_pairs_desc desc = read_struct(given, "pairs");
     const Changing changing(*object);
     const PairsInput input = read_pairs(object->transfer, desc, *object->memory);
-    with_progress(desc.progress, [&] { object->transfer.add_pairs(input.pairs, out_pairs); });
+    with_progress(desc.progress, [&] { object->transfer.add_pairs(input.pairs, out_pairs, desc.progress != nullptr); });
   });
 }
 

@@ -8,7 +8,7 @@
 
 namespace hf_inner {
 
-// ---- limits of the C ABI; src/capi checks them ----
+// ---- limits of the C ABI; intake.cpp checks them ----
 
 // At most this many handles in a pose. Then the numbers of handles and clusters (overlapping bands) fit 16 bits.
 constexpr std::uint32_t handle_limit = 256;

@@ -142,7 +142,7 @@ double length_of(double fall, bool poisson) noexcept {
 void propose(const Core& core, const Vector<double>& total, double least_length, bool poisson, Extremities& found) {
   const Vector<double>& u = found.field;
   const Vector<Peak> peaks = find_peaks(core.topology, u, *core.memory);
-  // // base[c]: level from which the length of the highest tip of component c is measured.
+  // base[c]: level from which the length of the highest tip of component c is measured.
   Vector<double> base(total.size(), 0.0, core.memory.get());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
     double sum = base[c];

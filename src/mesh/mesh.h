@@ -18,7 +18,8 @@
 
 namespace hf_inner {
 
-// A plain vector of three numbers, with the basic operations. Larger algebra uses Eigen (base/algebra.h).
+// A plain vector of three numbers, with the basic operations. Arrays of it are arrays of doubles without padding, which
+// kernels read as such. Larger algebra uses Eigen (base/algebra.h).
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 };

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "base/progress.h"
 #include "base/timer.h"
 #include "quads/numbers.h"
 #include "remesh/coarsen.h"
@@ -21,6 +23,12 @@ constexpr std::int32_t least_passes = 2, most_passes = 20;
 // the vertex is free.
 constexpr double agreement = 0.5;
 constexpr double degrees = half_turn / 180;
+// Reported progress: the ends of the parts of the whole, then of each turn. Only the order is right; the shares are not
+// measured.
+constexpr struct {
+  float factored = 0.1f, smoothed = 0.2f, mapped = 0.4f;
+  float extracted = 0.4f, relaxed = 0.5f;
+} field_progress;
 // Where pieces between the lines are no discs, the next edge length is this share of the one before: smaller takes less
 // tries, larger leaves less quads to remove.
 constexpr double shorter = 0.7;
@@ -200,12 +208,14 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   Memory& memory = *core.memory;
   FieldQuadReport made;
   hf_inner::report(0.0f);
+  std::optional<ProgressRange> part(std::in_place, 0.0f, field_progress.factored);
   Timer timer;
   const FluxSurface surface = FluxSurface::make(core.mesh, core.topology, 0, memory);
   double edge_length = options.edge_length;
   if (options.faces > 0) edge_length = std::sqrt(area_of(surface) / options.faces);
 
   const DirectionSystem system(options.core, 4);
+  part.reset();
   double mean = 0;
   for (Index e = 0; e < core.topology.edge_count(); ++e)
     mean += norm(core.mesh.positions[at(core.topology.second(e))] - core.mesh.positions[at(core.topology.first(e))]);
@@ -217,20 +227,24 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   cross_options.radius = smooth_radius * std::max(edge_length, mean);
   const Table<std::uint8_t> features =
       find_features(surface, options.crease > 0 ? options.crease * degrees : HUGE_VAL, memory);
-  const Vector<Complex> crosses =
-      smooth_crosses(system, wish, feature_crosses(core, surface, system.connection, features, passes), cross_options);
+  const auto smooth = [&] {
+    const ProgressRange range(field_progress.factored, field_progress.smoothed);
+    return smooth_crosses(system, wish, feature_crosses(core, surface, system.connection, features, passes),
+                          cross_options);
+  };
+  const Vector<Complex> crosses = smooth();
   const FaceCross faces = FaceCross::make(surface, system.connection, crosses, features, memory);
   made.field_ms = timer.milliseconds();
-  hf_inner::report(0.2f);
 
   Timer map_timer;
+  part.emplace(field_progress.smoothed, field_progress.mapped);
   const Seams seams = Seams::make(surface, faces, memory);
   made.singularities = seams.singularity_count, made.parameters = seams.parameter_count,
   made.cut_edges = seams.cut_edges;
   GridMapper mapper(surface, faces, seams, features, system.position, memory, *core.jobs);
   made.left_out = mapper.left_out();
   made.map_ms = map_timer.milliseconds();
-  hf_inner::report(0.4f);
+  part.reset();
 
   QuadResult result(memory);
   FieldQuadReport chosen;
@@ -238,7 +252,12 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   const double wanted = options.faces > 0 ? options.faces : area_of(surface) / (edge_length * edge_length);
   QuadSource source(surface, mapper, features, memory);
   double aim = wanted, best = -1;
+  float from = field_progress.mapped;
   for (std::int32_t turn = 0; turn < fit_turns_of_count; ++turn) {
+    // One turn is mostly enough, so each gets half of what is left.
+    const float to = options.faces == 0 ? 1.0f : (from + 1) / 2;
+    const ProgressRange turn_range(from, to);
+    from = to;
     std::int32_t raw = 0;
     FieldQuadReport now = made;
     Timer turn_timer;
@@ -246,11 +265,16 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
         make_count(surface, source, aim, std::sqrt(area_of(surface) / aim), options.faces > 0, now, raw, memory);
     check_quads(mesh, surface.euler_characteristic, memory);
     made.quads_ms += turn_timer.milliseconds();
+    hf_inner::report(field_progress.extracted);
     Timer fit_timer;
     if (options.relax > 0) {
       RelaxOptions relax;
       relax.rounds = options.relax, relax.edge_length = now.edge_length;
-      relax_quads(surface, mesh, relax, memory);
+      {
+        const ProgressRange range(field_progress.extracted, field_progress.relaxed);
+        relax_quads(surface, mesh, relax, memory);
+      }
+      const ProgressRange range(field_progress.relaxed, 1.0f);
       const QuadDistance distance(surface, sample_spacing * now.edge_length, memory, core.jobs.get());
       distance.turn_quads(mesh);
       FitOptions fit;
@@ -259,7 +283,6 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
       check_quads(mesh, surface.euler_characteristic, memory);
     }
     made.fit_ms += fit_timer.milliseconds();
-    hf_inner::report(1 - 0.5f / static_cast<float>(turn + 1));
     const double ratio = mesh.face_count() / wanted, error = std::fabs(ratio - 1);
     if (best < 0 || error < best) {
       best = error;

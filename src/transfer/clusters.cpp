@@ -7,6 +7,7 @@
 
 #include "base/elementary.h"
 #include "base/index.h"
+#include "base/progress.h"
 #include "base/unit_weights.h"
 
 namespace hf_inner {
@@ -43,7 +44,9 @@ void sample_centres(const ClusterOptions& options, std::int32_t width, Span<cons
   nearest.assign(n, empty);
   std::size_t next = 0;
   double largest = -1;
+  Poller poller;
   for (std::size_t v = 0; v < n; ++v) {
+    poller.due();
     const double m = *std::max_element(field.data() + v * at(width), field.data() + (v + 1) * at(width));
     if (m > largest) largest = m, next = v;
   }
@@ -73,7 +76,9 @@ void sample_centres(const ClusterOptions& options, std::int32_t width, Span<cons
 
 void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentres>& nearest, Clusters& out) {
   const double sharpness = 1.0 / (2 * options.kernel_width * options.kernel_width);
+  Poller poller;
   for (std::size_t v = 0; v < nearest.size(); ++v) {
+    poller.due();
     const NearestCentres& near = nearest[v];
     Candidate candidates[blend_count];
     std::int32_t count = 0;
@@ -99,7 +104,9 @@ double band_weight(double u, std::int32_t band, std::int32_t bands) noexcept {
 
 void weigh_by_bands(std::int32_t width, std::int32_t bands, Span<const double> field, Clusters& out, Memory& memory) {
   Vector<Candidate> candidates(at(2 * width), &memory);
+  Poller poller;
   for (std::size_t v = 0; v < field.size() / at(width); ++v) {
+    poller.due();
     std::int32_t count = 0;
     for (std::int32_t h = 0; h < width; ++h) {
       const double u = field[v * at(width) + at(h)];
@@ -171,7 +178,9 @@ void append_edges(const KernelRow& row, const Core& core, EdgeScratch& scratch, 
     scratch.slope[at(v)] = scratch.slope[at(v)] + g;
   };
   double trace = 0;
+  Poller poller;
   for (const std::int32_t v : row.vertex) {
+    poller.due();
     for (std::int32_t e = core.topology.neighbour_start[at(v)]; e < core.topology.neighbour_start[at(v) + 1]; ++e) {
       const std::int32_t u = core.topology.neighbour[at(e)];
       if (u < v && kernel[at(u)] > 0) continue;
@@ -222,6 +231,7 @@ void centre_rows(const ClusterOptions& options, const double* centre, std::int32
   for (std::size_t v = 0; v < n; ++v)
     distance[v] = std::sqrt(squared_distance(field.data() + v * at(width), centre, width));
   sorted = distance;
+  poll();
   const double base = options.kernel_width;
   for (const bool is_broad : {false, true}) {
     const double factor = is_broad ? broad_factor : 1.0;
@@ -271,7 +281,9 @@ void measure_target(Span<const double> area, const Mesh& mesh, Clusters& out, Ve
                     Memory& memory) {
   Vector<double> mass(at(out.count), 0.0, &memory);
   Vector<Vec3> pivot(at(out.count), &memory);
+  Poller poller;
   for (std::size_t v = 0; v < area.size(); ++v) {
+    poller.due();
     for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
       const double w = area[v] * static_cast<double>(out.weight[i]);
       mass[at(out.joint[i])] += w;
@@ -360,7 +372,9 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
       std::copy_n(out.centre.data() + at(kept[c] * field_count), field_count, centres.data() + c * at(field_count));
     }
   } else {
+    Poller poller;
     for (std::size_t v = 0; v < n; ++v) {
+      poller.due();
       for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
         const std::size_t c = at(out.joint[i]);
         const double w = target_area[v] * static_cast<double>(out.weight[i]) / out.mass[c];

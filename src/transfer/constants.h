@@ -62,7 +62,7 @@ constexpr double default_whole_pull = 1e-6;
 
 // --- alignment.cpp ---
 
-// // Accepts body axes (right, up, forward) that the caller wrote with three digits; the code makes them orthonormal
+// Accepts body axes (right, up, forward) that the caller wrote with three digits; the code makes them orthonormal
 // afterwards.
 constexpr double axes_tolerance = 1e-3;
 struct FieldWindow {
@@ -110,7 +110,7 @@ constexpr double redundant_share = 0.25;
 // transferred to itself is 0.018 (0.021 now), feet end twice as far from their paths. At twice the value: the error is
 // 0.031, feet a sixth as far.
 constexpr std::int32_t default_bands = 8;
-// // Level bands per field in paper mode, at least and at most. Hat functions need two; the upper bound keeps a dense
+// Level bands per field in paper mode, at least and at most. Hat functions need two; the upper bound keeps a dense
 // matrix small.
 constexpr std::int32_t least_paper_bands = 2, most_paper_bands = 64;
 // Power of the field that shrinks the clusters of paper mode towards their region. At half the value: the error of a

@@ -46,6 +46,7 @@ TrianglePoint nearest_point(const double* row, const double* a, const double* b,
   const auto distance = [&](double s, double t) {
     return std::max(0.0, dd - 2 * (s * ed + t * fd) + s * s * ee + 2 * s * t * ef + t * t * ff);
   };
+  // Two unknowns, by hand: the determinant alone tells whether the triangle is flat.
   const double determinant = ee * ff - ef * ef;
   if (determinant > flat_triangle * ee * ff) {
     const double s = (ff * ed - ef * fd) / determinant, t = (ee * fd - ef * ed) / determinant;

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "base/progress.h"
 
 namespace hf_inner {
 namespace {
@@ -81,6 +82,7 @@ void PairFields::solve(Span<const std::uint32_t> numbers, double* field, double*
   const HandleFields fields = solve_handle_fields(*core_, *solver_, handles, reach, memory);
   const std::size_t count = numbers.size();
   for (std::size_t i = 0; i < count; ++i) {
+    poll();
     const double* column = fields.of(static_cast<std::int32_t>(i));
     for (std::size_t v = 0; v < owner_.size(); ++v) field[v * count + i] = column[v];
     leaks[i] = fields.leak[i];

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/index.h"
+#include "base/progress.h"
 #include "transfer/constants.h"
 #include "transfer/soft_rotation.h"
 
@@ -13,7 +14,9 @@ void Refit::prepare(const Mesh& target, Span<const double> area, const Clusters&
   const std::size_t count = at(count_), width = at(clusters.field_count);
   Vector<double> mass(count * count, 0.0, &memory);
   Vector<Vec3> sum(count * count, &memory);
+  Poller poller;
   for (std::size_t v = 0; v < area.size(); ++v) {
+    poller.due();
     for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
       for (std::size_t j = v * blend_count; j < (v + 1) * blend_count; ++j) {
         const double w = area[v] * static_cast<double>(clusters.weight[i]) * static_cast<double>(clusters.weight[j]);

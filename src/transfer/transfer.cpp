@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "base/number_pool.h"
+#include "base/progress.h"
 #include "transfer/constants.h"
 #include "transfer/prepared.h"
 
@@ -86,7 +87,7 @@ Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Cor
 
 Transfer::~Transfer() = default;
 
-void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) {
+void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs, bool prepare_now) {
   Memory& memory = *target_core_->memory;
   check_region_count(numbers_.size(), pairs.size(), "pair");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -110,10 +111,22 @@ void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) 
   source.add({fresh_numbers.data(), fresh_numbers.size()}, {source_regions.data(), source_regions.size()}, "source");
   target.add({fresh_numbers.data(), fresh_numbers.size()}, {target_regions.data(), target_regions.size()}, "target");
 
-  // No statement below can fail.
-  source_ = std::move(source), target_ = std::move(target);
-  numbers_.swap(numbers), flags_.swap(flags);
+  std::shared_ptr<Prepared> before = std::move(prepared_);
+  const auto swap_pairs = [&]() noexcept {
+    std::swap(source_, source), std::swap(target_, target);
+    numbers_.swap(numbers), flags_.swap(flags);
+  };
+  swap_pairs();
   prepared_.reset();
+  if (prepare_now) {
+    try {
+      prepare();
+    } catch (...) {
+      swap_pairs();
+      prepared_ = std::move(before);
+      throw;
+    }
+  }
   if (out_pairs) std::copy(fresh_numbers.begin(), fresh_numbers.end(), out_pairs);
 }
 
@@ -148,6 +161,7 @@ void Transfer::prepare_alignment(Prepared& p) const {
     const auto column = static_cast<std::int32_t>(h);
     if (flags & HF_PAIR_FOOT) feet.push_back(column);
     if (flags & HF_PAIR_TRUNK) continue;
+    poll();
     Vec3 from, to;
     const bool known =
         limb_direction(source, column, region_mean(source_.region(number), source.mesh->positions.data()), to) &&
@@ -215,6 +229,7 @@ void Transfer::prepare_anchors(Prepared& p) const {
   // Finds the vertices that are raised with the region of a pair, because they blend from the same clusters.
   p.rides.assign(at(target_core_->size()), -1);
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    poll();
     const std::size_t row = i < p.anchors.size() ? i : i + 1;
     for (std::size_t v = 0; v < p.rides.size(); ++v) {
       double share = 0;
@@ -304,6 +319,7 @@ Transfer::Prepared& Transfer::prepare() {
   p.source_rotations.prepare(source_core_->mesh, source_area_);
   p.refit.prepare(target_core_->mesh, target_area_, p.clusters, memory);
   p.target_centroid = area_mean(target_core_->mesh, target_area_);
+  poll();
   prepare_ground(p);
   if (options_.mode == HF_TRANSFER_STRETCH) prepare_gradients(p);
 

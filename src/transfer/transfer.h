@@ -81,8 +81,9 @@ class Transfer {
   Transfer& operator=(const Transfer&) = delete;
 
   // Adds pairs of regions. out_pairs: null, or room for one number per pair. Throws the errors of PairFields::add. Also
-  // throws HF_ERROR_TOO_LARGE above 256 pairs, and HF_ERROR_INVALID_ARGUMENT for unknown flags.
-  void add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs);
+  // throws HF_ERROR_TOO_LARGE above 256 pairs, and HF_ERROR_INVALID_ARGUMENT for unknown flags. prepare_now: also solves
+  // the fields and makes the clusters of all pairs, which else the next frame does. This changes no result.
+  void add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs, bool prepare_now = false);
   // Throws HF_ERROR_NO_SUCH_PAIR (index: position in the list), also for a number named twice.
   void remove_pairs(Span<const std::uint32_t> pairs);
   std::uint32_t pair_count() const noexcept { return static_cast<std::uint32_t>(numbers_.size()); }

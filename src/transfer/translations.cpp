@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/index.h"
+#include "base/progress.h"
 
 namespace hf_inner {
 namespace {
@@ -26,7 +27,9 @@ void add_point(Vector<double>& table, std::size_t entry, double w, Vec3 p) noexc
 void Translations::add_overlap(Span<const double> area, const Core& target, const Clusters& clusters,
                                Buffer<double>& matrix, Vector<double>& table) const {
   const std::size_t count = at(count_);
+  Poller poller;
   for (std::size_t v = 0; v < area.size(); ++v) {
+    poller.due();
     const std::int32_t* joint = clusters.joint.data() + v * blend_count;
     const float* weight = clusters.weight.data() + v * blend_count;
     for (std::int32_t i = 0; i < blend_count; ++i) {
@@ -50,7 +53,9 @@ void Translations::add_spread(const Core& target, const Clusters& clusters, doub
   double floor = 0;
   for (const double w : target.weights) floor += std::abs(w);
   floor = least_weight_share * floor / static_cast<double>(std::max<std::size_t>(1, target.weights.size()));
+  Poller poller;
   for (std::int32_t e = 0; e < target.topology.edge_count(); ++e) {
+    poller.due();
     const std::int32_t ends[2] = {target.topology.first(e), target.topology.second(e)};
     // The difference between the cluster weights of the edge's two ends. It has at most eight clusters.
     std::size_t cluster[2 * blend_count];
@@ -88,7 +93,9 @@ void Translations::add_row(Span<const std::int32_t> vertices, Span<const double>
   Vector<Vec3> point(at(count_), target.memory.get());
   double sum = 0;
   for (const double w : weights) sum += w;
+  Poller poller;
   for (std::size_t k = 0; k < vertices.size(); ++k) {
+    poller.due();
     const std::size_t v = at(vertices[k]);
     for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
       const double w = weights[k] / sum * static_cast<double>(clusters.weight[i]);

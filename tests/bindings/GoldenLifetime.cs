@@ -109,7 +109,9 @@ static class Lifetime
         var solver = new Solver(surface);
         solver.AddSites(new uint[] { 0, 1 }, new double[] { 0, 1 });
         foreach (HfObject thing in new HfObject[] { surface, solver, new Pose(surface), new Geodesics(surface),
-            new Direction(surface), new Flow(surface), new Region(surface), new Progress() })
+            new Direction(surface), new Flow(surface), new Region(surface), new Transfer(surface, surface),
+            new Weights(surface, new Bones { Heads = new double[3], Tails = new double[] { 1, 0, 0 } }),
+            new Progress() })
         {
             try
             {

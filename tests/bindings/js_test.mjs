@@ -170,6 +170,7 @@ for (const thing of [
   new hf.Detail(region, region.clone()),
   new hf.Flow(surface),
   new hf.Quads(surface),
+  new hf.Weights(surface, { heads: [0, 0, 0], tails: [1, 0, 0] }),
   new hf.Progress(),
 ]) {
   const name = thing.constructor.name;

@@ -3,6 +3,8 @@
 // and checks that the fraction never falls, that less than a third of the time is spent at 100 %, and that a cancelled
 // call leaves memory and results as they were.
 //
+// --names lists the cases, --once NAME makes one call and no more (costs.sh).
+//
 // Quick form: small meshes; waits are printed and not judged, since other programs run beside it. --full: the sizes of
 // docs/promises.md, 50 moments a case, at most 100 ms.
 #include "cancel.h"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <thread>
 
 #include "report.h"
@@ -33,6 +36,10 @@ Mesh make_soup(std::uint32_t vertices, std::uint32_t triangles) {
   return mesh;
 }
 
+// The call alone, by a name that a profiler can find (costs.sh).
+extern "C" hf_result watched_call(const Case& c, hf_progress progress) { return c.call(progress); }
+hf_result (*volatile not_inlined)(const Case&, hf_progress) = watched_call;
+
 // What a run without a cancel shows.
 struct Run {
   double total_ms = 0, full_ms = 0;  // the whole call; from the first reading of 1 on
@@ -42,17 +49,26 @@ struct Run {
 Run watch(const Case& c, hf_progress progress) {
   Run run;
   std::atomic<bool> over{false};
+  const auto read = [&] {
+    float fraction = 0;
+    must(hf_progress_get_fraction(progress, &fraction), "hf_progress_get_fraction");
+    return fraction;
+  };
+  // What the call works on may have been made with this progress. The call itself begins at 0.
+  const float before = read();
   float last = 0;
   Clock::time_point full;
   const Clock::time_point begin = Clock::now();
   std::thread watcher([&] {
+    bool begun = before < 1;
     while (!over) {
-      float fraction = 0;
-      must(hf_progress_get_fraction(progress, &fraction), "hf_progress_get_fraction");
-      // a call begins at 0, whatever the one before came to
-      if (fraction < last && last < 1) run.fell = true;
-      if (fraction >= 1 && last < 1) full = Clock::now();
-      last = fraction;
+      const float fraction = read();
+      begun = begun || fraction < 1;
+      if (begun) {
+        if (fraction < last) run.fell = true;
+        if (fraction >= 1 && last < 1) full = Clock::now();
+        last = fraction;
+      }
       std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
   });
@@ -120,7 +136,7 @@ struct World {
     must(hf_surface_save(made, HF_FIELD_HARMONIC, nullptr, size, saved.data(), nullptr), "hf_surface_save");
     big_surface = made;
     must(hf_pose_create(big_surface, nullptr, &pose), "hf_pose_create");
-    must(hf_transfer_create(surface, surface, nullptr, &transfer), "hf_transfer_create");
+    must(hf_transfer_create(big_surface, big_surface, nullptr, &transfer), "hf_transfer_create");
   }
   ~World() {
     hf_transfer_destroy(transfer), hf_pose_destroy(pose);
@@ -194,6 +210,29 @@ Case making(const char* name, hf_surface surface, Desc d, hf_result (*create)(hf
           [=] { return memory_of(surface); }};
 }
 
+// Distances from one vertex. An object of distances reports to the progress that it is made with.
+Case distances(const char* name, std::int32_t method, hf_surface surface, std::size_t vertices) {
+  struct Made {
+    hf_geodesics object = nullptr;
+    ~Made() { hf_geodesics_destroy(object); }
+  };
+  const auto made = std::make_shared<Made>();
+  Case c{name,
+         [=](hf_progress) {
+           std::vector<float> out(vertices);
+           const std::uint32_t source = 0;
+           return hf_geodesics_solve(made->object, 1, &source, out.data(), 0);
+         },
+         [=] { return memory_of(surface); }};
+  c.prepare = [=](hf_progress p) {
+    hf_geodesics_desc d = desc<hf_geodesics_desc>();
+    d.method = method, d.progress = p;
+    hf_geodesics_destroy(made->object);
+    must(hf_geodesics_create(surface, &d, &made->object), "hf_geodesics_create");
+  };
+  return c;
+}
+
 void add_field_cases(World& w, std::vector<Case>& cases) {
   hf_solver_desc bent = desc<hf_solver_desc>();
   bent.field_kind = HF_FIELD_BIHARMONIC;
@@ -203,9 +242,15 @@ void add_field_cases(World& w, std::vector<Case>& cases) {
   cases.push_back(making("region", w.surface, plate, hf_region_create, hf_region_destroy));
   cases.push_back(
       making("geodesics", w.big_surface, desc<hf_geodesics_desc>(), hf_geodesics_create, hf_geodesics_destroy));
+  cases.push_back(distances("distances_front", HF_GEODESICS_FRONT, w.big_surface, w.big.vertex_count()));
+  cases.push_back(distances("distances_heat", HF_GEODESICS_HEAT, w.big_surface, w.big.vertex_count()));
+  cases.push_back(distances("distances_exact", HF_GEODESICS_EXACT, w.surface, w.small.vertex_count()));
   cases.push_back(
       making("directions", w.big_surface, desc<hf_direction_desc>(), hf_direction_create, hf_direction_destroy));
   cases.push_back(making("quads", w.surface, desc<hf_quads_desc>(), hf_quads_create, hf_quads_destroy));
+  hf_quads_desc crosses = desc<hf_quads_desc>();
+  crosses.kind = HF_QUADS_FIELD;
+  cases.push_back(making("quads_field", w.surface, crosses, hf_quads_create, hf_quads_destroy));
   cases.push_back({"propose_handles",
                    [&w](hf_progress p) {
                      hf_propose_desc d = desc<hf_propose_desc>();
@@ -237,6 +282,19 @@ std::vector<double> places(const Mesh& mesh) {
   return points;
 }
 
+// Adds pairs of a surface with itself: bands of the torus, thousands of vertices each.
+hf_result add_pairs(const World& w, hf_progress progress, std::uint32_t* numbers) {
+  const std::uint32_t step = w.big.vertex_count() / handle_count, width = step / 20;
+  std::vector<std::uint32_t> counts(handle_count, width), vertices;
+  for (std::uint32_t k = 0; k < handle_count; ++k) {
+    for (std::uint32_t i = 0; i < width; ++i) vertices.push_back(k * step + i);
+  }
+  hf_pairs_desc d = desc<hf_pairs_desc>();
+  d.pair_count = handle_count, d.source_counts = d.target_counts = counts.data();
+  d.source_vertices = d.target_vertices = vertices.data(), d.progress = progress;
+  return hf_transfer_add_pairs(w.transfer, &d, numbers);
+}
+
 void add_pose_cases(World& w, std::vector<Case>& cases) {
   const auto pose_state = [&w] {
     hf_pose_info info = desc<hf_pose_info>();
@@ -256,28 +314,28 @@ void add_pose_cases(World& w, std::vector<Case>& cases) {
                    pose_state});
   cases.push_back({"pairs",
                    [&w](hf_progress p) {
-                     const std::uint32_t step = w.small.vertex_count() / handle_count;
-                     std::vector<std::uint32_t> counts, vertices;
-                     for (std::uint32_t k = 0; k < handle_count; ++k) {
-                       counts.push_back(3);
-                       for (std::uint32_t i = 0; i < 3; ++i) vertices.push_back(k * step + i);
-                     }
-                     hf_pairs_desc d = desc<hf_pairs_desc>();
-                     d.pair_count = handle_count, d.source_counts = d.target_counts = counts.data();
-                     d.source_vertices = d.target_vertices = vertices.data(), d.progress = p;
                      std::uint32_t pairs[handle_count];
-                     const hf_result result = hf_transfer_add_pairs(w.transfer, &d, pairs);
+                     const hf_result result = add_pairs(w, p, pairs);
                      if (result == HF_OK)
                        must(hf_transfer_remove_pairs(w.transfer, handle_count, pairs), "hf_transfer_remove_pairs");
                      return result;
                    },
-                   [&w] { return memory_of(w.surface); }});
+                   [&w] {
+                     // A transfer that has no pair says so.
+                     hf_transfer_info info = desc<hf_transfer_info>();
+                     const hf_result result = hf_transfer_get_info(w.transfer, &info);
+                     return mixed(mixed(static_cast<std::uint64_t>(-result), info.pair_count),
+                                  memory_of(w.big_surface));
+                   }});
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool full = report_full(argc, argv) != 0;
+  const auto given = [&](const char* option) {
+    return std::any_of(argv + 1, argv + argc, [&](const char* a) { return std::string(a) == option; });
+  };
+  const bool full = report_full(argc, argv) != 0, once = given("--once"), names = given("--names");
   const std::string only = argc > 1 && argv[argc - 1][0] != '-' ? argv[argc - 1] : "";
   const int moments = full ? 50 : 5;
   Mesh big, small;
@@ -286,12 +344,23 @@ int main(int argc, char** argv) {
   std::vector<Case> cases;
   add_surface_cases(world, cases), add_field_cases(world, cases), add_pose_cases(world, cases);
   add_weights_cases(world.surface, world.small, cases);
-  hf_progress progress = nullptr;
-  must(hf_progress_create(&progress), "hf_progress_create");
+  for (const Case& c : cases) {
+    if (names) std::printf("%s\n", c.name.c_str());
+    if (!once || c.name != only) continue;
+    hf_progress progress = nullptr;
+    must(hf_progress_create(&progress), "hf_progress_create");
+    if (c.prepare) c.prepare(progress);
+    must(not_inlined(c, progress), c.name.c_str());
+    hf_progress_destroy(progress);
+  }
+  if (names || once) return 0;
   std::mt19937 random(1);
   int fell = 0, late = 0, wrong = 0, missed = 0;
   for (const Case& c : cases) {
     if (!only.empty() && c.name != only) continue;
+    hf_progress progress = nullptr;  // of its own for every case, so that the watched call begins at 0
+    must(hf_progress_create(&progress), "hf_progress_create");
+    if (c.prepare) c.prepare(progress);
     c.call(nullptr);  // what is made once is made
     const Run run = watch(c, progress);
     fell += run.fell;
@@ -305,9 +374,9 @@ int main(int argc, char** argv) {
                 run.total_ms, 100 * run.full_ms / run.total_ms, waits.cancelled, waits.worst_ms,
                 run.fell ? "; the fraction fell" : "", waits.wrong ? "; wrong" : "");
     std::fflush(stdout);
+    hf_progress_destroy(progress);
     if (full) report_at_most(("cancel_wait_ms_" + c.name).c_str(), waits.worst_ms, 100);
   }
-  hf_progress_destroy(progress);
   report_at_most("cancel_fraction_falls", fell, 0);
   report_at_most("cancel_spent_at_100_percent", late, 0);
   report_at_most("cancel_changed_or_unknown", wrong, 0);

@@ -15,6 +15,8 @@ struct Case {
   std::function<hf_result(hf_progress)> call;
   // Of all a caller can see of what the call was given; empty when the call is given no object.
   std::function<std::uint64_t()> state;
+  // Makes what the call works on with that progress; empty when nothing depends on it.
+  std::function<void(hf_progress)> prepare = {};
 };
 
 inline std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {

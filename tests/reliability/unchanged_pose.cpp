@@ -207,7 +207,7 @@ struct Calls {
         counts[i] = size, vertices.insert(vertices.end(), h.region.begin(), h.region.end());
       }
     }
-    desc.handle_count = count;
+    desc.handle_count = count, desc.progress = s.world.progress();
     if (near)
       desc.points = points.data(), desc.radii = radii.data();
     else

@@ -92,7 +92,8 @@ class Transfers final : public Subject {
     if (result == HF_OK) result = apply(fresh, bent(0.4), out);
     return hf_transfer_destroy(fresh), result;
   }
-  static hf_result add_to(hf_transfer transfer, const std::vector<Pair>& pairs, std::uint32_t* out) {
+  static hf_result add_to(hf_transfer transfer, const std::vector<Pair>& pairs, std::uint32_t* out,
+                          hf_progress progress = nullptr) {
     std::vector<std::uint32_t> counts[2], vertices[2], flags;
     for (const Pair& p : pairs) {
       counts[0].push_back(static_cast<std::uint32_t>(p.source.size()));
@@ -104,7 +105,7 @@ class Transfers final : public Subject {
     hf_pairs_desc desc = HF_INIT(hf_pairs_desc);
     desc.pair_count = static_cast<std::uint32_t>(pairs.size()), desc.flags = flags.data();
     desc.source_counts = counts[0].data(), desc.source_vertices = vertices[0].data();
-    desc.target_counts = counts[1].data(), desc.target_vertices = vertices[1].data();
+    desc.target_counts = counts[1].data(), desc.target_vertices = vertices[1].data(), desc.progress = progress;
     return hf_transfer_add_pairs(transfer, &desc, out);
   }
   // The surface at rest, bent about its y axis.
@@ -152,7 +153,7 @@ struct Calls {
       p.target = p.source;
       if (random.one_in(30)) p.target.back() = random.below(n + 1);
     }
-    const hf_result result = Transfers::add_to(s.handle_, fresh, out.data());
+    const hf_result result = Transfers::add_to(s.handle_, fresh, out.data(), s.world.progress());
     if (result != HF_OK) return result;
     for (std::size_t i = 0; i < out.size(); ++i) fresh[i].number = out[i], s.pairs_.push_back(fresh[i]);
     return result;

@@ -1,6 +1,9 @@
 // The file writer when the disk is full, a signal comes, descriptors run out, or several write at once.
 #include <sched.h>
 #include <sys/mount.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -13,6 +16,26 @@
 namespace {
 
 using namespace file_write_test;
+
+std::string synced;  // "f" for a file, "d" for a folder, in the order of the calls
+
+}  // namespace
+
+// Stands for the C library's fsync in this program.
+extern "C" int fsync(int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) == 0) synced += S_ISDIR(status.st_mode) ? 'd' : 'f';
+  return static_cast<int>(::syscall(SYS_fsync, descriptor));
+}
+
+namespace {
+
+TEST(FileWriteFaults, TheFileIsSyncedAndThenItsFolder) {
+  TemporaryFolder folder;
+  synced.clear();
+  write_bytes(folder.path / "file", std::string("new"));
+  EXPECT_EQ(synced, "fd");
+}
 
 const std::string& long_text() {
   static const std::string text(size_t{96} << 20, 'n');  // takes long enough to be interrupted
