@@ -38,7 +38,8 @@ hf_result hf_weights_create(hf_surface handle, const hf_bones_desc* given, uint3
     Bones bones(*surface->memory);
     read_bones(desc, bones, *surface->memory);
     return with_progress(desc.progress, [&] {
-      const auto core = surface->surface.core(FieldKind::harmonic);
+      const auto core = skin_core(*surface);
+      const ProgressRange range(progress_core, 1.0f);
       return make_owner_in<WeightsObject>(core->memory, make_owner_in<SkinSurface>(core->memory, core), influences,
                                           bones);
     });

@@ -113,7 +113,8 @@ hf_result hf_weights_carry(hf_surface source, hf_surface target, const hf_carry_
     const hf_weights_out out = read_weights_out(inout_weights, to->surface.geometry().mesh, options.influences);
     if (!wants_weights(out) && !out_info) return;
     const FilledWeights filled = with_progress(desc.progress, [&] {
-      const auto core = to->surface.core(FieldKind::harmonic);
+      const auto core = skin_core(*to);
+      const ProgressRange range(progress_core, 1.0f);
       const SkinShape skin(shape, *to->memory);
       return carry_weights(shape, skin, weights, core, options, &to->surface);
     });
@@ -139,7 +140,8 @@ hf_result hf_weights_mirror(hf_surface handle, const hf_mirror_desc* given, hf_w
     const hf_weights_out out = read_weights_out(inout_weights, mesh, options.carry.influences);
     if (!wants_weights(out) && !out_bones && !out_pairings && !out_info) return;
     const MirroredWeights made = with_progress(desc.progress, [&] {
-      const auto core = surface->surface.core(FieldKind::harmonic);
+      const auto core = skin_core(*surface);
+      const ProgressRange range(progress_core, 1.0f);
       const auto skin = make_owner_in<SkinSurface>(core->memory, core);
       return mirror_weights(*skin, weights, bones, options, &surface->surface);
     });

@@ -186,9 +186,12 @@ class Assembly {
     elastic_.assign(core_.mesh.component_count(), 0);
     for (std::size_t k = 0; k < weights_.elastic_components.size(); ++k)
       elastic_[weights_.elastic_components[k]] = 1 + weights_.shared[k];
-    for (std::int32_t g = 0; g < groups_.count(); ++g) {
-      const std::uint8_t kind = elastic_[groups_.component[g]];
-      if (kind) out_.group.push_back(g), out_.shared.push_back(kind - 1);
+    // The numbers of groups say which component got its second handle first. Sums over all groups must not, so groups
+    // are listed by component.
+    for (std::size_t k = 0; k < weights_.elastic_components.size(); ++k) {
+      const std::int32_t c = weights_.elastic_components[k];
+      for (std::int32_t g = groups_.component_start[c]; g < groups_.component_end[c]; ++g)
+        out_.group.push_back(g), out_.shared.push_back(weights_.shared[k]);
     }
   }
 

@@ -53,7 +53,7 @@ struct Subspace {
     double area;
   };
 
-  Vector<std::int32_t> group;        // numbers of the rotation groups in use, ascending
+  Vector<std::int32_t> group;        // numbers of the rotation groups in use, by component, ascending
   Vector<std::uint8_t> shared;       // per group in use: more than two handles meet in its component
   Vector<std::int32_t> entry_start;  // entries of group[k]: entry[entry_start[k] .. entry_start[k + 1])
   Vector<Entry> entry;

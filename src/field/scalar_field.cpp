@@ -150,7 +150,7 @@ void ScalarField::record() {
 void ScalarField::undo() {
   const std::lock_guard<std::mutex> lock(guard_);
   history_.undo(
-      "nothing is recorded; call hf_record before the edits to be undone", [&] { return present(); },
+      "nothing is recorded; call hf_solver_record before the edits to be undone", [&] { return present(); },
       [&](Record& record) { restore(record); });
 }
 

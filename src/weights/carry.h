@@ -26,7 +26,9 @@ struct MatchOptions {
 template <class Takes>
 WeightRows read_rows(const Mesh& mesh, const GivenWeights& given, Takes&& takes, Memory& memory) {
   WeightRows rows(memory);
+  Poller poller;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    poller.due();
     const std::size_t first = at(mesh.given_of_inner[at(v)]) * given.influences;
     for (std::size_t i = first; takes(v) && i < first + given.influences; ++i) {
       if (given.weights[i] > 0) rows.add(static_cast<Index>(given.joints[i]), static_cast<double>(given.weights[i]));

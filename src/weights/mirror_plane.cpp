@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/principal_axes.h"
+#include "base/progress.h"
 #include "mesh/nearest_triangle.h"
 #include "weights/constants.h"
 
@@ -66,7 +67,9 @@ class Symmetry {
   Vector<PointPair> pairs(const MirrorPlane& plane, double& score) const {
     Vector<PointPair> out(&memory_);
     score = 0;
+    Poller poller(64);
     for (const Vec3& p : sample_) {
+      poller.due();
       const Vec3 there = plane.reflect(p);
       const auto found = tree_.find(there);
       double w[3];

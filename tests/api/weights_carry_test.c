@@ -66,6 +66,11 @@ static void bad_weights_are_named(void** state) {
   BOTH("angle of 4", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, carry.angle = mirror.angle = 4);
   BOTH("5 weights", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, carry.weight_count = mirror.weight_count = 5);
   BOTH("reserved", HF_ERROR_INVALID_DESC, NO_INDEX, carry.reserved = mirror.reserved = 1);
+  hf_progress progress = NULL;
+  assert_ok(hf_progress_create(&progress));
+  BOTH("cancelled", HF_ERROR_CANCELLED, NO_INDEX,
+       (assert_ok(hf_progress_cancel(progress)), carry.progress = mirror.progress = progress));
+  hf_progress_destroy(progress);
   BOTH("a small capacity", HF_ERROR_TOO_SMALL, NO_INDEX, out.vertex_capacity = TUBE_VERTICES - 1);
   ROW("a huge joint", HF_ERROR_OUT_OF_RANGE, 11, joints[23] = 1u << 20,
       hf_weights_carry(scene.body, scene.body, &carry, &out, &carried));

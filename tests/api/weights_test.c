@@ -123,6 +123,30 @@ static void bad_pins_and_locks_are_named(void** state) {
   scene_destroy(&scene);
 }
 
+/* A progress object that stops the next call. */
+static hf_progress cancelled(void) {
+  static hf_progress progress;
+  hf_progress_destroy(progress);
+  assert_ok(hf_progress_create(&progress));
+  assert_ok(hf_progress_cancel(progress));
+  return progress;
+}
+
+static void a_cancelled_call_changes_nothing(void** state) {
+  (void)state;
+  scene_create(&scene);
+  ROW("made", HF_ERROR_CANCELLED, NO_INDEX, bones.progress = cancelled(),
+      hf_weights_create(scene.body, &bones, 4, &made));
+  ROW("moved", HF_ERROR_CANCELLED, NO_INDEX, (bones.progress = cancelled(), heads[0] += 0.5),
+      hf_weights_set_bones(scene.weights, &bones));
+  ROW("pinned", HF_ERROR_CANCELLED, NO_INDEX, pins.progress = cancelled(), hf_weights_set_pins(scene.weights, &pins));
+  /* the cancel stopped one call only */
+  assert_ok(hf_weights_set_pins(scene.weights, &pins));
+  hf_progress_destroy(pins.progress);
+  finish_rows("cancelled weights");
+  scene_destroy(&scene);
+}
+
 static void bad_outputs_are_refused(void** state) {
   (void)state;
   scene_create(&scene);
@@ -249,7 +273,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(bad_bones_are_named),      cmocka_unit_test(bad_pins_and_locks_are_named),
       cmocka_unit_test(bad_outputs_are_refused),  cmocka_unit_test(every_vertex_gets_weights),
-      cmocka_unit_test(pins_locks_and_undo_work),
+      cmocka_unit_test(pins_locks_and_undo_work), cmocka_unit_test(a_cancelled_call_changes_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,16 +7,15 @@
 //
 // Quick form: small meshes; waits are printed and not judged, since other programs run beside it. --full: the sizes of
 // docs/promises.md, 50 moments a case, at most 100 ms.
+#include "cancel.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <memory>
-#include <string>
 #include <thread>
 
 #include "report.h"
-#include "surfaces.h"
 
 namespace {
 
@@ -25,27 +24,6 @@ using Clock = std::chrono::steady_clock;
 
 double milliseconds(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
-}
-
-struct Case {
-  std::string name;
-  // Makes the call with that progress, destroys what it made, and returns the code.
-  std::function<hf_result(hf_progress)> call;
-  // Of all a caller can see of what the call was given; empty when the call is given no object.
-  std::function<std::uint64_t()> state;
-  // Makes what the call works on with that progress; empty when nothing depends on it.
-  std::function<void(hf_progress)> prepare = {};
-};
-
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
-  hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
-  return hash ^ hash >> 29;
-}
-
-std::uint64_t memory_of(hf_surface surface) {
-  hf_surface_statistics statistics = desc<hf_surface_statistics>();
-  must(hf_surface_get_statistics(surface, &statistics), "hf_surface_get_statistics");
-  return static_cast<std::uint64_t>(statistics.memory_bytes);
 }
 
 // Triangles between random vertices: the factor of such a soup is dense.
@@ -346,7 +324,8 @@ void add_pose_cases(World& w, std::vector<Case>& cases) {
                      // A transfer that has no pair says so.
                      hf_transfer_info info = desc<hf_transfer_info>();
                      const hf_result result = hf_transfer_get_info(w.transfer, &info);
-                     return mixed(mixed(static_cast<std::uint64_t>(-result), info.pair_count), memory_of(w.big_surface));
+                     return mixed(mixed(static_cast<std::uint64_t>(-result), info.pair_count),
+                                  memory_of(w.big_surface));
                    }});
 }
 
@@ -364,6 +343,7 @@ int main(int argc, char** argv) {
   World world(full, std::move(big), std::move(small));
   std::vector<Case> cases;
   add_surface_cases(world, cases), add_field_cases(world, cases), add_pose_cases(world, cases);
+  add_weights_cases(world.surface, world.small, cases);
   for (const Case& c : cases) {
     if (names) std::printf("%s\n", c.name.c_str());
     if (!once || c.name != only) continue;

@@ -92,6 +92,6 @@ struct Chapter {
   void (*tell)(Story& story, const Tube& tube, Allocator& memory);
 };
 std::vector<Chapter> field_chapters();  // surfaces, solvers, sites, fields, factors
-std::vector<Chapter> shape_chapters();  // analysis, directions, poses, transfers, quads, regions
+std::vector<Chapter> shape_chapters();  // analysis, directions, poses, transfers, quads, regions, weights
 
 }  // namespace refusal

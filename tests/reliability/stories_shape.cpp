@@ -1,4 +1,4 @@
-// Stories of analysis, directions, poses, transfers, quads and regions.
+// Stories of analysis, directions, poses, transfers, quads, regions and skin weights.
 #include "stories.h"
 
 namespace refusal {
@@ -226,13 +226,92 @@ void regions(Story& s, const Tube& tube, Allocator& memory) {
   hf_region_destroy(region), hf_region_destroy(copy), hf_detail_destroy(detail);
 }
 
+// Reads weights whole. A refused call wrote nothing.
+struct WeightsRead {
+  std::vector<std::uint32_t> joints = std::vector<std::uint32_t>(4 * Tube::vertices, 77);
+  std::vector<float> weights = std::vector<float>(4 * Tube::vertices, 77.0f);
+  hf_weights_out desc() {
+    hf_weights_out out = HF_INIT(hf_weights_out);
+    out.vertex_capacity = Tube::vertices, out.joints = joints.data(), out.weights = weights.data();
+    return out;
+  }
+  bool untouched() const { return joints == WeightsRead().joints && weights == WeightsRead().weights; }
+  void take(Story& s) const {
+    s.take(weights.data(), weights.size());
+    for (const std::uint32_t joint : joints) s.take(joint);
+  }
+};
+
+void skin_weights(Story& s, const Tube& tube, Allocator& memory) {
+  hf_surface_desc bent = tube.desc(memory);  // without the harmonic factor that weights use
+  bent.field_kind = HF_FIELD_BIHARMONIC;
+  hf_surface surface = nullptr;
+  s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&bent, &surface); });
+  double heads[9] = {0, 0.5, 0, 0, 3, 0, 0, 6, 0}, tails[9] = {0, 3, 0, 0, 6, 0, 0, 8, 0};
+  const std::uint32_t parents[3] = {HF_NO_INDEX, 0, 1}, sources[3] = {1, 0, 2};
+  hf_bones_desc bones = HF_INIT(hf_bones_desc);
+  bones.bone_count = 3, bones.heads = heads, bones.tails = tails, bones.parents = parents;
+  hf_weights weights = nullptr, copy = nullptr;
+  s.make("hf_weights_create", weights, [&] { return hf_weights_create(surface, &bones, 4, &weights); });
+  s.call("hf_weights_record", [&] { return hf_weights_record(weights); });
+  const std::uint32_t places[3] = {9, 44, 70}, joints[6] = {0, 1, 1, 2, 2, 0}, locks[2] = {1, 2};
+  const float shares[6] = {0.25f, 0.75f, 1, 0, 0.5f, 0.5f};
+  const double radii[3] = {0, 0.9, 0};
+  hf_pins_desc pins = HF_INIT(hf_pins_desc);
+  pins.pin_count = 3, pins.vertices = places, pins.radii = radii;
+  pins.joint_count = 2, pins.joints = joints, pins.weights = shares;
+  const auto read = [&](hf_weights handle) {
+    WeightsRead seen;
+    hf_weights_out out = seen.desc();
+    s.call("hf_weights_get", [&] { return hf_weights_get(handle, &out); }), seen.take(s);
+    return seen;
+  };
+  s.call("hf_weights_set_pins", [&] { return hf_weights_set_pins(weights, &pins); });
+  read(weights);
+  s.make("hf_weights_clone", copy, [&] { return hf_weights_clone(weights, &copy); });
+  s.call("hf_weights_set_locks", [&] { return hf_weights_set_locks(copy, 2, locks, nullptr); });
+  heads[7] = 5, bones.sources = sources;
+  s.call("hf_weights_set_bones", [&] { return hf_weights_set_bones(copy, &bones); });
+  const WeightsRead given = read(copy);
+  s.call(
+      "hf_weights_undo", [&] { return hf_weights_undo(weights); },
+      [&] { return hf_weights_redo(weights) == HF_ERROR_NO_RECORD; });
+  read(weights);
+  s.call("hf_weights_redo", [&] { return hf_weights_redo(weights); });
+  std::uint32_t flags[3] = {77, 77, 77};
+  s.call(
+      "hf_weights_get_helpers",
+      [&] { return hf_weights_get_helpers(weights, "root\narm.L\narm.R\n", 3, flags, nullptr); },
+      [&] { return flags[0] == 77; });
+  s.call("hf_weights_get_bones", [&] { return hf_weights_get_bones(weights, 3, flags, nullptr, nullptr); });
+  hf_weights_destroy(weights), hf_weights_destroy(copy);
+
+  WeightsRead carried, mirrored;
+  hf_weights_out out = carried.desc(), turned = mirrored.desc();
+  hf_carry_desc carry = HF_INIT(hf_carry_desc);
+  carry.influence_count = 4, carry.joints = given.joints.data(), carry.weights = given.weights.data();
+  s.call(
+      "hf_weights_carry", [&] { return hf_weights_carry(surface, surface, &carry, &out, nullptr); },
+      [&] { return carried.untouched(); });
+  carried.take(s);
+  hf_mirror_desc mirror = HF_INIT(hf_mirror_desc);
+  mirror.bone_count = 3, mirror.heads = heads, mirror.names = "spine\narm.L\narm.R\n";
+  mirror.influence_count = 4, mirror.joints = given.joints.data(), mirror.weights = given.weights.data();
+  mirror.distance = 0.05, mirror.angle = 0.2;  // few vertices match, so that a field fills in the others
+  s.call(
+      "hf_weights_mirror", [&] { return hf_weights_mirror(surface, &mirror, &turned, flags, nullptr, nullptr); },
+      [&] { return mirrored.untouched(); });
+  mirrored.take(s);
+  hf_surface_destroy(surface);
+}
+
 }  // namespace
 
 std::vector<Chapter> shape_chapters() {
   return {
       {"lines", lines},           {"distances", distances}, {"directions", directions}, {"smooth_pose", smooth_pose},
       {"paper_pose", paper_pose}, {"transfer", transfer},   {"quads", quads},           {"flow", flow},
-      {"regions", regions}};
+      {"regions", regions},       {"weights", skin_weights}};
 }
 
 }  // namespace refusal

@@ -137,6 +137,7 @@ std::unique_ptr<Subject> make_regions(World& world, Random& random);
 std::unique_ptr<Subject> make_directions(World& world, Random& random);
 std::unique_ptr<Subject> make_analysis(World& world, Random& random);
 std::unique_ptr<Subject> make_quads(World& world, Random& random);
+std::unique_ptr<Subject> make_weights(World& world, Random& random);
 
 struct Tally {
   std::uint64_t calls = 0, done = 0, invalid = 0, memory = 0, cancelled = 0, internal = 0, fresh = 0, failures = 0;

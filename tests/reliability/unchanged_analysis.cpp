@@ -1,4 +1,6 @@
-// Surfaces and what is read off them: geodesics, extremities, levels, iso-lines, critical points, picking, saving.
+// Surfaces, graphs, links, and what is read off them: geodesics, paths, maps, extremities, levels, iso-lines, critical
+// points, picking, saving.
+#include <algorithm>
 #include <cmath>
 
 #include "unchanged.h"
@@ -10,11 +12,12 @@ class Analysis final : public Subject {
  public:
   Analysis(World& given, Random& random) : Subject(given) {
     hf_geodesics_desc desc = HF_INIT(hf_geodesics_desc);
-    desc.smoothing = random.pick({0.0f, 1.0f, 3.0f});
+    desc.smoothing = random.pick({0.0f, 1.0f, 3.0f}), desc.method = random.pick({0, 1, 2, 3});
+    hf_progress_create(&progress_), desc.progress = progress_;
     if (hf_geodesics_create(world.surface, &desc, &geodesics_) != HF_OK) geodesics_ = nullptr;
     for (std::uint32_t v = 0; v < world.shape->vertices(); ++v) field_.push_back(random.real(0, 1) + v);
   }
-  ~Analysis() override { hf_geodesics_destroy(geodesics_); }
+  ~Analysis() override { hf_geodesics_destroy(geodesics_), hf_progress_destroy(progress_); }
   bool ready() const { return geodesics_ != nullptr; }
 
   void glance(State& state) override {
@@ -45,7 +48,32 @@ class Analysis final : public Subject {
     s.values_f64 = field_.data(), s.value_stride = random.one_in(20) ? 3 : 0;
     return s;
   }
+  // Geodesics keep the progress object they were made with. The cancel of a call goes to that one.
+  template <class Call>
+  hf_result call_geodesics(Call&& call) {
+    const hf_progress armed = world.memory.progress;
+    if (!armed) return call();
+    world.memory.progress = progress_;
+    if (world.memory.cancel_at == 0) hf_progress_cancel(progress_);
+    const hf_result result = call();
+    world.memory.disarm(), world.memory.progress = armed;
+    if (result == HF_ERROR_CANCELLED) return result;
+    std::vector<double> distance(world.shape->vertices());  // a cancel that came too late stops this call
+    const std::uint32_t source = 1;
+    hf_geodesics_solve_f64(geodesics_, 1, &source, distance.data(), 0);
+    return result;
+  }
+  hf_surface_point point(Random& random) const {
+    hf_surface_point p = {};
+    const std::uint32_t triangle = random.below(world.shape->count()), i = random.below(5), j = random.below(5 - i);
+    for (std::size_t k = 0; k < 3; ++k) p.corners[k] = world.shape->triangles[3 * triangle + k];
+    if (random.one_in(12)) p.corners[random.below(3)] = random.index(world.shape->vertices());
+    p.barycentrics[0] = i / 4.0, p.barycentrics[1] = j / 4.0, p.barycentrics[2] = (4 - i - j) / 4.0;
+    if (random.one_in(12)) p.barycentrics[random.below(3)] = random.number();
+    return p.reserved = random.one_in(40), p;
+  }
   hf_geodesics geodesics_ = nullptr;
+  hf_progress progress_ = nullptr;
   std::vector<double> field_;
 };
 
@@ -55,7 +83,8 @@ struct Calls {
   static hf_result make(Subject& subject, Random& random) {
     Analysis& s = of(subject);
     hf_geodesics_desc desc = HF_INIT(hf_geodesics_desc);
-    desc.smoothing = static_cast<float>(random.number()), desc.progress = s.world.progress();
+    desc.smoothing = static_cast<float>(random.number()), desc.method = random.pick({0, 1, 2, 3, 3, 4});
+    desc.progress = s.world.progress();
     hf_geodesics made = s.geodesics_;
     const hf_result result = hf_geodesics_create(s.world.surface, random.spoiled(desc), &made);
     if (result != HF_OK) s.expect(made == nullptr, "refused geodesics are no NULL");
@@ -66,7 +95,29 @@ struct Calls {
     std::vector<double> distance(s.world.shape->vertices());
     const std::uint32_t sources[3] = {random.index(s.world.shape->vertices()), random.index(s.world.shape->vertices()),
                                       0};
-    return hf_geodesics_solve_f64(s.geodesics_, random.below(4), sources, distance.data(), random.one_in(9) ? 4 : 0);
+    const std::uint32_t count = random.below(4), stride = random.one_in(9) ? 4 : 0;
+    return s.call_geodesics(
+        [&] { return hf_geodesics_solve_f64(s.geodesics_, count, sources, distance.data(), stride); });
+  }
+  static hf_result path(Subject& subject, Random& random) {
+    Analysis& s = of(subject);
+    const hf_surface_point from = s.point(random), to = random.one_in(9) ? from : s.point(random);
+    std::vector<double> positions(3 * 200);
+    hf_path out = HF_INIT(hf_path);
+    out.point_capacity = random.pick({0u, 2u, 200u, 200u}), out.positions = positions.data();
+    hf_path* given = random.spoiled(out);
+    return s.call_geodesics([&] { return hf_geodesics_find_path(s.geodesics_, &from, &to, given); });
+  }
+  static hf_result map(Subject& subject, Random& random) {
+    Analysis& s = of(subject);
+    const hf_surface_point centre = s.point(random);
+    std::vector<double> plane(2 * s.world.shape->vertices(), 77.0), frame(6, 77.0);
+    const double radius = random.pick({0.0, 1.5, 3.0, random.number()});
+    const hf_result result = s.call_geodesics(
+        [&] { return hf_geodesics_get_map(s.geodesics_, &centre, radius, plane.data(), frame.data()); });
+    const bool written = std::any_of(plane.begin(), plane.end(), [](double x) { return x != 77.0; });
+    s.expect(result == HF_OK || !written, "refused, but a map was written");
+    return result;
   }
   static hf_result tips(Subject& subject, Random& random) {
     Analysis& s = of(subject);
@@ -138,6 +189,54 @@ struct Calls {
     if (result != HF_OK) s.expect(made == nullptr, "a refused surface is no NULL");
     return hf_surface_destroy(made), result;
   }
+  // The edges of the triangles, each with a weight.
+  static hf_result graph(Subject& subject, Random& random) {
+    Analysis& s = of(subject);
+    const std::vector<std::uint32_t>& t = s.world.shape->triangles;
+    std::vector<std::uint32_t> edges;
+    for (std::size_t i = 0; i < t.size(); ++i) edges.push_back(t[i]), edges.push_back(t[i % 3 == 2 ? i - 2 : i + 1]);
+    std::vector<double> weights(t.size()), masses(s.world.shape->vertices());
+    for (double& w : weights) w = random.real(0.1, 2);
+    for (double& m : masses) m = random.real(0.5, 2);
+    hf_graph_desc desc = HF_INIT(hf_graph_desc);
+    if (random.one_in(3))
+      edges[random.below(static_cast<std::uint32_t>(edges.size()))] = random.index(s.world.shape->vertices());
+    if (random.one_in(3)) weights[random.below(static_cast<std::uint32_t>(weights.size()))] = random.number();
+    if (random.one_in(5)) masses[random.below(static_cast<std::uint32_t>(masses.size()))] = random.number();
+    desc.vertex_count = s.world.shape->vertices(), desc.edge_count = static_cast<std::uint32_t>(weights.size());
+    desc.edges = edges.data(), desc.weights = weights.data(), desc.allow_negative = random.pick({0, 0, 1, 2});
+    if (random.one_in(2)) desc.masses = masses.data();
+    desc.field_kind = random.pick({0, 1, 2, 3}), desc.progress = s.world.progress();
+    desc.memory_limit_mb = s.world.desc.memory_limit_mb, desc.allocator = s.world.memory.hooks();
+    if (random.one_in(20)) desc.edge_limit = 5;
+    hf_surface made = s.world.surface;
+    const hf_result result = hf_surface_create_graph(random.spoiled(desc), &made);
+    if (result != HF_OK) s.expect(made == nullptr, "a refused graph is no NULL");
+    return hf_surface_destroy(made), result;
+  }
+  static hf_result relink(Subject& subject, Random& random) {
+    Analysis& s = of(subject);
+    const auto vertex = [&] { return random.index(s.world.shape->vertices()); };
+    std::vector<hf_link> list(1 + random.below(3));
+    for (hf_link& link : list) {
+      const hf_surface_point end = s.point(random);
+      link = {}, link.vertex = vertex(), std::copy_n(end.corners, 3, link.corners);
+      std::copy_n(end.barycentrics, 3, link.barycentrics);
+      link.weight = random.one_in(12) ? static_cast<float>(random.number()) : 1.0f;
+    }
+    const std::uint32_t light = vertex(), heavy = vertex();
+    hf_links_desc desc = HF_INIT(hf_links_desc);
+    desc.mode = random.pick({0, 1, 1, 2, 2, 3}), desc.distance = random.pick({0.0f, 20.0f, -1.0f, 0.5f});
+    if (random.one_in(4)) desc.stiffness = static_cast<float>(random.number());
+    desc.overlay_distance = random.pick({0.0f, 5.0f, -1.0f});
+    if (desc.mode == HF_LINK_LIST) desc.link_count = static_cast<std::uint32_t>(list.size()), desc.links = list.data();
+    if (random.one_in(3)) desc.light_count = 1, desc.light_vertices = &light;
+    if (random.one_in(4)) desc.heavy_count = 1, desc.heavy_vertices = &heavy;
+    hf_surface made = s.world.surface;
+    const hf_result result = hf_surface_relink(s.world.surface, random.spoiled(desc), s.world.progress(), &made);
+    if (result != HF_OK) s.expect(made == nullptr, "a refused surface is no NULL");
+    return hf_surface_destroy(made), result;
+  }
 };
 
 const std::vector<Command>& Analysis::commands() const {
@@ -149,6 +248,10 @@ const std::vector<Command>& Analysis::commands() const {
       {"picking", 2, Calls::pick},
       {"hf_surface_save", 3, Calls::save},
       {"hf_surface_create", 5, Calls::surface},
+      {"hf_surface_create_graph", 4, Calls::graph},
+      {"hf_surface_relink", 5, Calls::relink},
+      {"hf_geodesics_find_path", 4, Calls::path},
+      {"hf_geodesics_get_map", 3, Calls::map},
   };
   return table;
 }

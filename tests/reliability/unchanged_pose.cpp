@@ -207,7 +207,7 @@ struct Calls {
         counts[i] = size, vertices.insert(vertices.end(), h.region.begin(), h.region.end());
       }
     }
-    desc.handle_count = count;
+    desc.handle_count = count, desc.progress = s.world.progress();
     if (near)
       desc.points = points.data(), desc.radii = radii.data();
     else
@@ -216,6 +216,36 @@ struct Calls {
     if (result != HF_OK) return result;
     for (std::uint32_t i = 0; i < count; ++i) fresh[i].number = out[i], b.handles.push_back(fresh[i]);
     return result;
+  }
+  static hf_result add_at(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    Branch& b = s.any(random);
+    Handle h;
+    const std::uint32_t v = random.below(s.world.shape->vertices());
+    for (std::size_t k = 0; k < 3; ++k) h.point[k] = static_cast<double>(s.world.shape->positions[3 * v + k]);
+    if (random.one_in(20)) h.point[random.below(3)] = random.number();
+    h.layer = 0, h.radius = random.pick({0.0, 0.9, 1.2, random.number()});
+    const hf_result result =
+        hf_pose_add_handle_at(b.handle, random.one_in(50) ? nullptr : h.point, h.radius, &h.number);
+    if (result == HF_OK) b.handles.push_back(h);
+    return result;
+  }
+  static hf_result propose(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    std::vector<double> joints(3 * random.below(5));
+    std::vector<std::uint32_t> parents(joints.size() / 3);
+    for (double& x : joints) x = random.number();
+    for (std::uint32_t i = 0; i < parents.size(); ++i) parents[i] = i == 0 ? HF_NO_INDEX : random.index(i);
+    hf_propose_desc desc = HF_INIT(hf_propose_desc);
+    desc.joint_count = static_cast<std::uint32_t>(parents.size()), desc.joints = joints.data();
+    if (!random.one_in(20)) desc.parents = parents.data();
+    desc.up[random.below(3)] = random.number(),
+    desc.least_length = random.one_in(12) ? -1.0f : random.pick({0.0f, 0.2f});
+    desc.limit = random.one_in(12) ? 70000u : random.pick({0u, 3u}), desc.progress = s.world.progress();
+    std::vector<hf_handle_proposal> found(random.below(40));
+    std::uint32_t count = 0;
+    return hf_propose_handles(s.world.surface, random.spoiled(desc), static_cast<std::uint32_t>(found.size()),
+                              found.data(), &count);
   }
   static hf_result remove(Subject& subject, Random& random) {
     Poses& s = of(subject);
@@ -313,7 +343,8 @@ const std::vector<Command>& Poses::commands() const {
       {"hf_pose_set_transforms", 5, Calls::place}, {"hf_pose_set_matrices", 1, Calls::matrices},
       {"hf_pose_deform", 8, Calls::deform},        {"hf_pose_clone", 2, Calls::clone},
       {"hf_pose_create", 1, Calls::make},          {"hf_pose_destroy", 1, Calls::destroy},
-      {"reading a pose", 2, Calls::read},
+      {"reading a pose", 2, Calls::read},          {"hf_pose_add_handle_at", 3, Calls::add_at},
+      {"hf_propose_handles", 2, Calls::propose},
   };
   return table;
 }

@@ -74,6 +74,11 @@ struct Calls {
     if (!random.one_in(6))
       desc.site_count = static_cast<std::uint32_t>(sites.size()), desc.site_vertices = sites.data();
     if (desc.site_count && !random.one_in(4)) desc.site_lines = lines.data();
+    if (desc.kind == HF_QUADS_FIELD && !random.one_in(6)) {  // it takes no sites and keeps no polygons
+      desc.site_count = 0, desc.site_vertices = nullptr, desc.site_lines = nullptr, desc.keep_polygons = 0;
+      desc.face_count = random.pick({0u, 40u, 200u, 4000000000u});
+      desc.crease_angle = random.pick({0.0f, 20.0f, 60.0f, -1.0f});
+    }
     hf_quads made = reinterpret_cast<hf_quads>(s.flow_);
     const hf_result result = hf_quads_create(s.world.surface, random.spoiled(desc), &made);
     if (result != HF_OK) return s.expect(made == nullptr, "refused quads are no NULL"), result;

@@ -12,13 +12,24 @@ struct Place {
 };
 using Places = std::map<std::uint32_t, Place>;  // by number
 
+// What hf_solver_set_screening was given last, or nothing.
+struct Screening {
+  std::vector<double> strength, targets;
+  hf_result set(hf_solver solver) const {
+    return hf_solver_set_screening(solver, strength.empty() ? nullptr : strength.data(),
+                                   targets.empty() ? nullptr : targets.data());
+  }
+};
+
 struct SolverBranch {
   struct Record {
     Places places;
+    Screening screening;
     std::uint64_t field;
   };
   hf_solver handle = nullptr;
   Places places;
+  Screening screening;
   std::vector<Record> undo, redo;
   bool prepared = false;  // a rebase waits
 };
@@ -52,13 +63,15 @@ class Solvers final : public Subject {
     desc_.channel_count = random.pick({1u, 1u, 3u, 2u}), desc_.site_limit = random.pick({0u, 0u, 12u});
     branches_.resize(1);
     channels_ = desc_.channel_count;
-    hf_result result = hf_create(world.surface, &desc_, &branches_[0].handle);
+    if (random.one_in(6)) make_graph(random);
+    hf_result result = hf_create(surface(), &desc_, &branches_[0].handle);
     if (result == HF_ERROR_UNSUPPORTED && desc_.engine == HF_ENGINE_UPDOWN)  // a build without GPL code
-      desc_.engine = HF_ENGINE_GREEN, result = hf_create(world.surface, &desc_, &branches_[0].handle);
+      desc_.engine = HF_ENGINE_GREEN, result = hf_create(surface(), &desc_, &branches_[0].handle);
     if (result != HF_OK) branches_.clear();
   }
   ~Solvers() override {
     for (SolverBranch& b : branches_) hf_solver_destroy(b.handle);
+    hf_surface_destroy(graph_);
   }
   bool ready() const { return !branches_.empty(); }
 
@@ -110,6 +123,9 @@ class Solvers final : public Subject {
 
  private:
   friend struct SolverCalls;
+  // That of the world, or the graph of its edges.
+  hf_surface surface() const { return graph_ ? graph_ : world.surface; }
+  void make_graph(Random& random);
   std::size_t rows() const { return world.shape->vertices() * channels_; }
   SolverBranch& any(Random& random) { return branches_[random.below(static_cast<std::uint32_t>(branches_.size()))]; }
   std::uint64_t look_at_field(const SolverBranch& b, State& state) const {
@@ -174,6 +190,7 @@ class Solvers final : public Subject {
   }
   std::string compare_fresh(const SolverBranch& b) const;
 
+  hf_surface graph_ = nullptr;
   hf_solver_desc desc_ = HF_INIT(hf_solver_desc);
   std::size_t channels_ = 1;
   std::vector<SolverBranch> branches_;

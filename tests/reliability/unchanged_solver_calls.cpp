@@ -1,4 +1,6 @@
 // The calls on solvers.
+#include <algorithm>
+
 #include "unchanged_solver.h"
 
 namespace unchanged {
@@ -114,6 +116,28 @@ struct SolverCalls {
     }
     return s.edited(b, rebases, s.world.memory.refused > refused), result;
   }
+  static hf_result screen(Subject& subject, Random& random) {
+    Solvers& s = of(subject);
+    SolverBranch& b = s.any(random);
+    if ((s.graph_ || s.desc_.engine != HF_ENGINE_GREEN || s.desc_.field_kind != HF_FIELD_HARMONIC) && !random.one_in(4))
+      return skipped;  // it would be refused
+    Screening given;
+    const std::uint32_t vertices = s.world.shape->vertices(), reach = 1 + random.below(vertices);
+    if (!random.one_in(4)) given.strength.assign(vertices, 0.0);
+    for (std::uint32_t v = 0; v < vertices && !given.strength.empty(); ++v) {
+      if (v % reach == 0 || random.one_in(3)) given.strength[v] = random.real(0.01, 5);
+    }
+    if (!given.strength.empty() && random.one_in(6)) given.strength[random.below(vertices)] = random.number();
+    if (!given.strength.empty() && random.one_in(2)) {
+      given.targets.resize(s.rows());
+      for (double& p : given.targets) p = random.real(-3, 3);
+      if (random.one_in(6)) given.targets[random.below(vertices)] = random.number();
+    }
+    if (random.one_in(12)) std::fill(given.strength.begin(), given.strength.end(), 0.0);
+    const hf_result result = given.set(b.handle);
+    if (result == HF_OK) b.screening = given, b.redo.clear(), b.prepared = false;
+    return result;
+  }
   static hf_result prepare(Subject& subject, Random& random) {
     SolverBranch& b = of(subject).any(random);
     const hf_result result = hf_solver_prepare_rebase(b.handle);
@@ -124,7 +148,7 @@ struct SolverCalls {
     Solvers& s = of(subject);
     SolverBranch& b = s.any(random);
     const hf_result result = hf_solver_record(b.handle);
-    if (result == HF_OK) b.undo.push_back({b.places, s.field_of(b)}), b.redo.clear();
+    if (result == HF_OK) b.undo.push_back({b.places, b.screening, s.field_of(b)}), b.redo.clear();
     return result;
   }
   static hf_result step(Subject& subject, Random& random) {
@@ -137,8 +161,10 @@ struct SolverCalls {
              std::string("a step with ") + std::to_string(from.size()) + " records: " + hf_result_get_name(result));
     if (result != HF_OK || from.empty()) return result;
     // the model has no field of the present state: it is that of a record when it comes back
-    to.push_back({b.places, 0});
-    b.places = from.back().places;
+    to.push_back({b.places, b.screening, 0});
+    // a rebase that waits holds for the screening it was prepared with
+    if (!b.screening.strength.empty() || !from.back().screening.strength.empty()) b.prepared = false;
+    b.places = from.back().places, b.screening = from.back().screening;
     const std::uint64_t field = s.field_of(b);
     if (from.back().field && s.desc_.engine == HF_ENGINE_GREEN)
       s.expect(field == from.back().field, "undo or redo gives other bits than at the record");
@@ -153,7 +179,7 @@ struct SolverCalls {
     const hf_result result = hf_solver_clone(b.handle, &made);
     if (result != HF_OK) return s.expect(made == nullptr, "a refused clone is no NULL"), result;
     SolverBranch fresh;
-    fresh.handle = made, fresh.places = b.places;
+    fresh.handle = made, fresh.places = b.places, fresh.screening = b.screening;
     s.expect(s.field_of(fresh) == s.field_of(b), "a clone has other bits");
     s.branches_.push_back(fresh);
     return result;
@@ -166,7 +192,7 @@ struct SolverCalls {
     desc.penalty = random.pick({0.0, 1e8, -1.0, 2e10, random.number()});
     desc.reserved = random.one_in(20), desc.progress = s.world.progress();
     hf_solver made = s.branches_[0].handle;
-    const hf_result result = hf_create(s.world.surface, random.spoiled(desc), &made);
+    const hf_result result = hf_create(s.surface(), random.spoiled(desc), &made);
     if (result != HF_OK) s.expect(made == nullptr, "a refused solver is no NULL");
     return hf_solver_destroy(made), result;
   }
@@ -223,7 +249,7 @@ const std::vector<Command>& Solvers::commands() const {
       {"hf_solver_record", 3, SolverCalls::record},     {"hf_solver_undo or redo", 4, SolverCalls::step},
       {"hf_solver_clone", 2, SolverCalls::clone},       {"hf_create", 2, SolverCalls::make},
       {"hf_solver_destroy", 1, SolverCalls::destroy},   {"a field of a solver", 5, SolverCalls::solve},
-      {"a bad handle", 1, SolverCalls::handle},
+      {"a bad handle", 1, SolverCalls::handle},         {"hf_solver_set_screening", 4, SolverCalls::screen},
   };
   return table;
 }

@@ -21,7 +21,7 @@ struct Frame {
 class Transfers final : public Subject {
  public:
   Transfers(World& given, Random& random) : Subject(given) {
-    desc_.mode = random.pick({0, 0, 1}),
+    desc_.mode = random.pick({0, 0, 1, 2}),
     desc_.cluster_count = random.pick({5u, 10u});  // 80 on 80 vertices would rest on one vertex each
     if (hf_transfer_create(world.surface, world.surface, &desc_, &handle_) != HF_OK) handle_ = nullptr;
   }
@@ -92,7 +92,8 @@ class Transfers final : public Subject {
     if (result == HF_OK) result = apply(fresh, bent(0.4), out);
     return hf_transfer_destroy(fresh), result;
   }
-  static hf_result add_to(hf_transfer transfer, const std::vector<Pair>& pairs, std::uint32_t* out) {
+  static hf_result add_to(hf_transfer transfer, const std::vector<Pair>& pairs, std::uint32_t* out,
+                          hf_progress progress = nullptr) {
     std::vector<std::uint32_t> counts[2], vertices[2], flags;
     for (const Pair& p : pairs) {
       counts[0].push_back(static_cast<std::uint32_t>(p.source.size()));
@@ -104,7 +105,7 @@ class Transfers final : public Subject {
     hf_pairs_desc desc = HF_INIT(hf_pairs_desc);
     desc.pair_count = static_cast<std::uint32_t>(pairs.size()), desc.flags = flags.data();
     desc.source_counts = counts[0].data(), desc.source_vertices = vertices[0].data();
-    desc.target_counts = counts[1].data(), desc.target_vertices = vertices[1].data();
+    desc.target_counts = counts[1].data(), desc.target_vertices = vertices[1].data(), desc.progress = progress;
     return hf_transfer_add_pairs(transfer, &desc, out);
   }
   // The surface at rest, bent about its y axis.
@@ -152,7 +153,7 @@ struct Calls {
       p.target = p.source;
       if (random.one_in(30)) p.target.back() = random.below(n + 1);
     }
-    const hf_result result = Transfers::add_to(s.handle_, fresh, out.data());
+    const hf_result result = Transfers::add_to(s.handle_, fresh, out.data(), s.world.progress());
     if (result != HF_OK) return result;
     for (std::size_t i = 0; i < out.size(); ++i) fresh[i].number = out[i], s.pairs_.push_back(fresh[i]);
     return result;
@@ -195,14 +196,15 @@ struct Calls {
     if (random.one_in(2)) dials.hip_height = value(-0.5, 0.5);
     if (random.one_in(2)) dials.neck_follow = value(-1, 1), dials.tail_follow = value(-1, 1);
     if (random.one_in(2)) dials.arm_space = value(-1.5, 1.5);
-    const hf_result result = hf_transfer_set_dials(s.handle_, random.spoiled(dials));
-    if (result == HF_OK) s.dials_ = dials;
+    const hf_transfer_dials* given = random.spoiled(dials);
+    const hf_result result = hf_transfer_set_dials(s.handle_, given);
+    if (result == HF_OK) s.dials_ = given ? dials : HF_INIT(hf_transfer_dials);  // NULL: neutral ones
     return result;
   }
   static hf_result make(Subject& subject, Random& random) {
     Transfers& s = of(subject);
     hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
-    desc.mode = random.pick({0, 1, 2}), desc.cluster_count = random.pick({0u, 512u, 513u});
+    desc.mode = random.pick({0, 1, 2, 3}), desc.cluster_count = random.pick({0u, 512u, 513u});
     desc.kernel_width = static_cast<float>(random.number()), desc.scale = static_cast<float>(random.number());
     hf_transfer made = s.handle_;
     const hf_result result = hf_transfer_create(s.world.surface, s.world.surface, random.spoiled(desc), &made);

@@ -127,10 +127,10 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> all = {
-      {"solvers", make_solvers, 0.24}, {"poses", make_poses, 0.12},           {"transfers", make_transfers, 0.16},
-      {"regions", make_regions, 0.16}, {"directions", make_directions, 0.16}, {"analysis", make_analysis, 0.12},
-      {"quads", make_quads, 0.04}};
+  static const std::vector<Kind> all = {{"solvers", make_solvers, 0.22},       {"poses", make_poses, 0.12},
+                                        {"transfers", make_transfers, 0.14},   {"regions", make_regions, 0.14},
+                                        {"directions", make_directions, 0.14}, {"analysis", make_analysis, 0.1},
+                                        {"quads", make_quads, 0.04},           {"weights", make_weights, 0.1}};
   return all;
 }
 
