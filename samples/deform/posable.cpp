@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/gltf_read.h"
+#include "common/limits.h"
 #include "common/links.h"
 
 namespace samples {
@@ -59,6 +60,7 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   if (options.paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
   const ModelLinks links(options.model, mesh);
   if (options.links) desc.links = &links.desc;
+  limit_surface(desc);
   expect_ok(hf_surface_create(&desc, &surface_), "the surface");
   hf_pose_desc pose = HF_INIT(hf_pose_desc);
   pose.mode = options.paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH, pose.band_count = options.bands;
