@@ -153,7 +153,9 @@ void run(const Command& command) {
   std::vector<float> normals;
   for (const ClipEntry& entry : rig.clips) {
     bar.begin("clip \"" + entry.name + "\"");
-    Posable player(mesh.flat, options);
+    Posable::Options playing = options;
+    playing.on = &posable;
+    Posable player(mesh.flat, playing);
     player.add(rig.handles);
     SkinClip clip;
     clip.name = entry.name;
