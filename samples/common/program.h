@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/file_name.h"
+#include "common/limits.h"
 
 namespace samples {
 
@@ -39,6 +40,10 @@ class Words {
   double number(double low, double high);
   uint32_t whole(uint32_t low, uint32_t high);
   int32_t integer(int32_t low, int32_t high);
+  // Takes --work-limit or --memory-limit (limits.h), if the word at hand is one of them.
+  bool take_limit() {
+    return samples::take_limit(word_, [this] { return value(); });
+  }
   // The word at hand is no option of the program: the mesh, once.
   void take_mesh(std::filesystem::path& mesh) const;
 
@@ -62,7 +67,7 @@ int run_program(const char* name, const char* usage, int count, char** arguments
     }
     run(command);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    std::fprintf(stderr, "%s: %s\n", name, with_limit_option(error.what()).c_str());
     return 1;
   }
   return 0;

@@ -35,6 +35,8 @@ const char* usage =
     "  --no-links         pieces of the surface stay apart; otherwise links join them\n"
     "  --refine           one full-mesh step on every frame\n"
     "  --threads N        threads the library may use (default 1)\n"
+    "  --work-limit N     refuse a factorisation of more than N * 10^9 operations (default: by the size)\n"
+    "  --memory-limit N   refuse a surface that holds more than N MiB (default: by the size)\n"
     "  --quiet            no progress bar\n";
 
 struct Command {
@@ -87,6 +89,8 @@ Command parse(Words words) {
       out.links = false;
     } else if (words.is("--quiet")) {
       out.quiet = true;
+    } else if (words.take_limit()) {
+      continue;
     } else {
       words.take_mesh(out.mesh);
     }

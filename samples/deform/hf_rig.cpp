@@ -30,6 +30,8 @@ const char* usage =
     "  --weights N      joints per vertex, 4 or 8 (default 4)\n"
     "  --no-links       pieces of the surface stay apart; otherwise links join them\n"
     "  --threads N      threads the library may use (default 1)\n"
+    "  --work-limit N   refuse a factorisation of more than N * 10^9 operations (default: by the size)\n"
+    "  --memory-limit N refuse a surface that holds more than N MiB (default: by the size)\n"
     "  --quiet          no progress bar\n";
 
 struct Command {
@@ -58,6 +60,8 @@ Command parse(Words words) {
       out.threads = words.whole(1, 256);
     } else if (words.is("--quiet")) {
       out.quiet = true;
+    } else if (words.take_limit()) {
+      continue;
     } else {
       words.take_mesh(out.mesh);
     }
@@ -149,7 +153,9 @@ void run(const Command& command) {
   std::vector<float> normals;
   for (const ClipEntry& entry : rig.clips) {
     bar.begin("clip \"" + entry.name + "\"");
-    Posable player(mesh.flat, options);
+    Posable::Options playing = options;
+    playing.on = &posable;
+    Posable player(mesh.flat, playing);
     player.add(rig.handles);
     SkinClip clip;
     clip.name = entry.name;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/gltf_read.h"
+#include "common/limits.h"
 #include "common/links.h"
 
 namespace samples {
@@ -51,6 +52,21 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   lower_ = upper_ = mesh.positions.front();
   for (const glm::dvec3& p : mesh.positions) lower_ = glm::min(lower_, p), upper_ = glm::max(upper_, p);
   diagonal_ = glm::length(upper_ - lower_);
+  own_ = !options.on;
+  if (own_)
+    make_surface(mesh, options);
+  else
+    surface_ = options.on->surface_;
+  hf_pose_desc pose = HF_INIT(hf_pose_desc);
+  pose.mode = options.paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH, pose.band_count = options.bands;
+  const hf_result result = hf_pose_create(surface_, &pose, &pose_);
+  if (result != HF_OK) {
+    if (own_) hf_surface_destroy(surface_);
+    expect_ok(result, "the pose");
+  }
+}
+
+void Posable::make_surface(const FlatMesh& mesh, const Options& options) {
   const std::vector<double> positions = double_positions(mesh.positions);
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
@@ -59,17 +75,14 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   if (options.paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
   const ModelLinks links(options.model, mesh);
   if (options.links) desc.links = &links.desc;
+  limit_surface(desc);
   expect_ok(hf_surface_create(&desc, &surface_), "the surface");
-  hf_pose_desc pose = HF_INIT(hf_pose_desc);
-  pose.mode = options.paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH, pose.band_count = options.bands;
-  const hf_result result = hf_pose_create(surface_, &pose, &pose_);
-  if (result != HF_OK) {
-    hf_surface_destroy(surface_);
-    expect_ok(result, "the pose");
-  }
 }
 
-Posable::~Posable() { hf_pose_destroy(pose_), hf_surface_destroy(surface_); }
+Posable::~Posable() {
+  hf_pose_destroy(pose_);
+  if (own_) hf_surface_destroy(surface_);
+}
 
 std::vector<uint32_t> Posable::vertices_of(const HandleEntry& entry) const {
   if (!entry.has_box) return entry.vertices;

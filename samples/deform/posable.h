@@ -39,6 +39,7 @@ class Posable {
     bool paper = false, links = true;
     uint32_t bands = 0, threads = 1;
     const Model* model = nullptr;  // its skin helps to link pieces; may be NULL
+    const Posable* on = nullptr;   // of the same mesh: its surface is used again, and it outlives this object
   };
   Posable(const FlatMesh& mesh, const Options& options);
   ~Posable();
@@ -87,12 +88,14 @@ class Posable {
   std::vector<std::string> remarks() const;
 
  private:
+  void make_surface(const FlatMesh& mesh, const Options& options);
   glm::dvec3 at(const glm::dvec3& fraction) const { return lower_ + fraction * (upper_ - lower_); }
   std::vector<uint32_t> vertices_of(const HandleEntry& entry) const;
   HandlePlace place(const Live& live, const MotionEntry& motion, double amount) const;
 
   const FlatMesh& mesh_;
   hf_surface surface_ = nullptr;
+  bool own_ = true;  // the surface
   hf_pose pose_ = nullptr;
   glm::dvec3 lower_{0}, upper_{0};
   double diagonal_ = 1;

@@ -26,7 +26,9 @@ const char* const usage =
     "  --onto MESH2       carries the detail to the region of this surface that --onto-curve encloses: its weight W\n"
     "                     is 1 as it was, 0 none, 2 twice as high; points of both curves correspond\n"
     "  -o, --output OUT   .glb, .gltf, .obj, .ply or .off\n"
-    "  --sheet FILE       a picture: surface, both bases, morphs\n";
+    "  --sheet FILE       a picture: surface, both bases, morphs\n"
+    "  --work-limit N     refuse a factorisation of more than N * 10^9 operations (default: by the size)\n"
+    "  --memory-limit N   refuse a surface that holds more than N MiB (default: by the size)\n";
 
 struct Command {
   std::filesystem::path mesh, curve, onto, onto_curve, out, sheet;
@@ -56,6 +58,8 @@ Command parse(Words words) {
       out.out = words.file();
     } else if (words.is("--sheet")) {
       out.sheet = words.file();
+    } else if (words.take_limit()) {
+      continue;
     } else {
       words.take_mesh(out.mesh);
     }
@@ -100,6 +104,7 @@ struct Subject {
     create.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
     create.positions = positions.data(), create.triangles = mesh.triangles.data();
     create.field_kind = thin_plate ? HF_FIELD_BIHARMONIC : HF_FIELD_HARMONIC;
+    limit_surface(create);
     std::optional<hf::Surface> made(create);
     create_seconds = seconds_of(begin);
     return made;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/file_name.h"
+#include "common/limits.h"
 #include "hf/hf.h"
 
 namespace samples {
@@ -39,7 +40,9 @@ const char* const field_usage =
     "  --paper            the paper's own way: --engine updown --operator cotangent\n"
     "  --weld NAME        exact (default), none\n"
     "  --no-links         pieces of the surface stay apart; otherwise links join them (never with --paper)\n"
-    "  --threads N        threads the library may use (1)\n";
+    "  --threads N        threads the library may use (1)\n"
+    "  --work-limit N     refuse a factorisation of more than N * 10^9 operations (default: by the size)\n"
+    "  --memory-limit N   refuse a surface that holds more than N MiB (default: by the size)\n";
 
 namespace {
 
@@ -174,6 +177,8 @@ FieldOptions read_field_options(int argc, char** argv) {
       options.threads = read_index(next(), name);
     else if (name == "--engine")
       options.engine = read_choice(next(), {"green", "updown", "refactor"}, name);
+    else if (take_limit(name, next))
+      continue;
     else if (name == "--operator")
       options.operator_kind = read_choice(next(), {"delaunay", "clamped", "uniform", "cotangent"}, name);
     else if (name == "--paper")

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "common/limits.h"
+
 namespace samples {
 namespace {
 
@@ -107,6 +109,7 @@ Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
   hf_solver_desc sites = HF_INIT(hf_solver_desc);
   sites.engine = options.engine, sites.channel_count = options.kind == FieldType::vector ? 3 : 1;
   if (options.kind == FieldType::biharmonic) desc.field_kind = sites.field_kind = HF_FIELD_BIHARMONIC;
+  limit_surface(desc);
   check(hf_surface_create(&desc, &surface_));
   hf_result result = hf_create(surface_, &sites, &solver_);
   if (result == HF_OK && options.kind == FieldType::direction)

@@ -261,7 +261,7 @@ int main(int argc, char** argv) {
     samples::CommandLine line(argc, argv);
     return samples::run(line.count(), line.words());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "hf_field: %s\n", error.what());
+    std::fprintf(stderr, "hf_field: %s\n", samples::with_limit_option(error.what()).c_str());
     return 1;
   }
 }

@@ -37,7 +37,9 @@ const char* const usage =
     "  --relax N      rounds of tangential relaxation (60; 0 for none)\n"
     "  --measure FILE makes no quads and measures those of FILE, which any program can have made of MESH\n"
     "  -o OUT         .obj, .ply or .off with polygons\n"
-    "  --sheet FILE   a picture from two sides: quads light, other polygons red, sites as dots\n";
+    "  --sheet FILE   a picture from two sides: quads light, other polygons red, sites as dots\n"
+    "  --work-limit N refuse a factorisation of more than N * 10^9 operations (default: by the size)\n"
+    "  --memory-limit N refuse a surface that holds more than N MiB (default: by the size)\n";
 
 struct Command {
   std::filesystem::path mesh, sites, measured, out, sheet;  // sites empty: auto
@@ -87,6 +89,8 @@ Command parse(Words words) {
       out.out = words.file();
     } else if (words.is("--sheet")) {
       out.sheet = words.file();
+    } else if (words.take_limit()) {
+      continue;
     } else {
       words.take_mesh(out.mesh);
     }
@@ -204,6 +208,7 @@ void run(const Command& options) {
   create.vertex_count = static_cast<uint32_t>(input.positions.size());
   create.triangle_count = static_cast<uint32_t>(input.triangles.size() / 3);
   create.positions_f64 = positions.data(), create.triangles = input.triangles.data();
+  limit_surface(create);
   const hf::Surface surface(create);
   const double diagonal = surface.report().bounding_box_diagonal;
   std::printf("mesh        %u vertices, %u triangles, box diagonal %.6g\n", create.vertex_count, create.triangle_count,

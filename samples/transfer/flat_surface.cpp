@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "common/limits.h"
+
 namespace samples {
 
 void check(hf_result result, const std::string& what) {
@@ -28,6 +30,7 @@ FlatSurface::FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t
   desc.weld_tolerance = static_cast<float>(1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20}));
   desc.thread_count = threads, desc.links = links;
   if (paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
+  limit_surface(desc);
   check(hf_surface_create(&desc, &surface_), name);
 }
 

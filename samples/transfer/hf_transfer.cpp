@@ -360,7 +360,7 @@ int run_command(const TransferCommand& command, const char* program) {
     if (!command.outcome.empty()) write_json(command.outcome, {{"report", report}});
     return code;
   } catch (const std::exception& error) {
-    if (!command.outcome.empty()) write_json(command.outcome, {{"error", error.what()}});
+    if (!command.outcome.empty()) write_json(command.outcome, {{"error", with_limit_option(error.what())}});
     if (!command.silent) throw;
     return 1;
   }
@@ -380,7 +380,7 @@ int main(int count, char** arguments) {
     }
     return run_command(command, line.words()[0]);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "hf_transfer: %s\n", error.what());
+    std::fprintf(stderr, "hf_transfer: %s\n", samples::with_limit_option(error.what()).c_str());
     return 1;
   }
 }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/file_name.h"
+#include "common/limits.h"
 
 namespace samples {
 namespace {
@@ -111,6 +112,8 @@ const char* usage() {
          "  --edit FILE     then remove and add pairs in the running session, and write OUT_edited.glb (and sheet)\n"
          "  --no-links      pieces of a model stay apart; otherwise links join them\n"
          "  --threads N     threads the library may use (default 1)\n"
+         "  --work-limit N  refuse a factorisation of more than N * 10^9 operations (default: by the size)\n"
+         "  --memory-limit N refuse a surface that holds more than N MiB (default: by the size)\n"
          "  --joints FILE   list the joints of a model and the vertices they own, and stop\n"
          "  --batch LIST    a transfer for each line of LIST (the words after hf_transfer), each in its own process;\n"
          "                  a line of JSON for each, the largest exit code\n"
@@ -212,6 +215,8 @@ TransferCommand parse_command(int count, char** arguments) {
       out.links = false;
     } else if (word == "--threads") {
       out.threads = static_cast<unsigned>(number_of(word, value(), 1, 256));
+    } else if (take_limit(word, value)) {
+      continue;
     } else if (word == "--quiet") {
       out.quiet = true;
     } else if (!word.empty() && word[0] == '-') {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/flat_mesh.h"
+#include "common/limits.h"
 
 namespace samples {
 namespace {
@@ -30,6 +31,7 @@ hf::Surface surface_of(const Rig& rig, const std::vector<glm::dvec3>& points) {
   desc.vertex_count = static_cast<uint32_t>(points.size());
   desc.triangle_count = static_cast<uint32_t>(rig.triangles.size() / 3);
   desc.positions_f64 = positions.data(), desc.triangles = rig.triangles.data();
+  limit_surface(desc);
   return hf::Surface(desc);
 }
 

@@ -16,9 +16,13 @@ double at_share(std::vector<double>& values, double share) {
   return *place;
 }
 
+// Edges of all poses that are measured, 8 bytes each, twice; of larger models those of every second or third triangle. A
+// soup of 160,000 triangles in 40 poses has 0.337 instead of 0.341 with one triangle of seven.
+constexpr size_t most_edges = 3000000;
+
 // Appends how much the edges of a pose are longer or shorter than at rest, as a factor of at least 1.
-void append_stretch(const Rig& rig, const std::vector<glm::dvec3>& posed, std::vector<double>& out) {
-  for (size_t t = 0; t < rig.triangles.size(); t += 3) {
+void append_stretch(const Rig& rig, const std::vector<glm::dvec3>& posed, size_t stride, std::vector<double>& out) {
+  for (size_t t = 0; t < rig.triangles.size(); t += 3 * stride) {
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t a = rig.triangles[t + k], b = rig.triangles[t + (k + 1) % 3];
       const double rest = glm::length(rig.positions[a] - rig.positions[b]), now = glm::length(posed[a] - posed[b]);
@@ -83,6 +87,7 @@ Comparison compare(const Model& model, const Rig& rig, const std::vector<Pose>& 
   std::vector<double> all, stretch, given_stretch;
   double sum = 0, worst_mean = -1;
   out.of_vertex.assign(rig.positions.size(), 0.0);
+  const size_t stride = 1 + rig.triangles.size() * poses.size() / most_edges;
   for (size_t f = 0; f < poses.size(); ++f) {
     const std::vector<glm::dmat4> globals = global_matrices(model, poses[f]);
     const std::vector<glm::dvec3> given = pose_rig(rig, globals, rig.given), own = pose_rig(rig, globals, weights);
@@ -97,7 +102,7 @@ Comparison compare(const Model& model, const Rig& rig, const std::vector<Pose>& 
     all.insert(all.end(), here.begin(), here.end());
     sum += mean;
     if (mean > worst_mean) worst_mean = mean, out.worst_pose = f, out.of_worst_pose = here;
-    append_stretch(rig, own, stretch), append_stretch(rig, given, given_stretch);
+    append_stretch(rig, own, stride, stretch), append_stretch(rig, given, stride, given_stretch);
   }
   constexpr double most = 0.95;
   out.mean = poses.empty() ? 0 : sum / static_cast<double>(poses.size());

@@ -46,7 +46,9 @@ const char* const usage =
     "                     given several times\n"
     "  --sheet FILE       a picture: weights given, computed, their difference\n"
     "  --report FILE      counts, distances and times as JSON\n"
-    "  --table            prints one line\n";
+    "  --table            prints one line\n"
+    "  --work-limit N     refuse a factorisation of more than N * 10^9 operations (default: by the size)\n"
+    "  --memory-limit N   refuse a surface that holds more than N MiB (default: by the size)\n";
 
 struct Command {
   std::filesystem::path mesh, out, bones, pins, sheet, report, carry, skeleton, pairs;
@@ -99,6 +101,8 @@ Command parse(Words words) {
       out.helpers = true;
     } else if (words.is("--table")) {
       out.table = true;
+    } else if (words.take_limit()) {
+      continue;
     } else {
       words.take_mesh(out.mesh);
     }

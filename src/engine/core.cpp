@@ -9,6 +9,7 @@
 #include "base/timer.h"
 #include "engine/lost_components.h"
 #include "factor/factor_bytes.h"
+#include "factor/work_limit.h"
 #include "mesh/biharmonic.h"
 #include "mesh/delaunay_patches.h"
 #include "mesh/face_operator.h"
@@ -148,6 +149,7 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
     if (exceeds_valence(core.laplacian, options.formed_valence)) {
       core.inverse_mass.swap(areas);
     } else {
+      refuse_soup(core.laplacian, options.flop_limit, 1, pool);  // the product costs more than four times as much
       core.laplacian = biharmonic(core.laplacian, areas, pool, core.jobs.get());
       core.refinements = 1;
     }

@@ -9,6 +9,7 @@
 #include "factor/numeric.h"
 #include "factor/ordering.h"
 #include "factor/supernodal_factor.h"
+#include "factor/work_limit.h"
 
 namespace hf_inner {
 namespace {
@@ -114,12 +115,7 @@ std::shared_ptr<Analysis> make_analysis(const SymmetricMatrix& matrix, const Fac
 // Refuses a factorisation before it begins: its flops and bytes are known once the pattern is.
 void require_within_limits(const Analysis& analysis, double flop_limit, const Memory& memory) {
   const Symbolic& symbolic = analysis.symbolic;
-  if (flop_limit > 0 && symbolic.flops > flop_limit) {
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
-         "the factorisation takes %.0f * 10^9 operations, and the work_limit_gflop is %.0f; triangles that join far "
-         "vertices at random cost that much. Raise the limit or repair the mesh",
-         1e-9 * symbolic.flops, 1e-9 * flop_limit);
-  }
+  require_work(symbolic.flops, flop_limit);
   constexpr double mebibyte = 1048576.0;
   const double needed =
       8.0 * (symbolic.stored_entries + static_cast<double>(analysis.plan.shared_size + analysis.plan.in_task.panel));
@@ -209,6 +205,8 @@ std::shared_ptr<const Factor> Factor::make(const SymmetricMatrix& matrix, Coordi
   }
   report(0.0f);
   Stopwatch watch;
+  if (options.ordering == Ordering::nested_dissection)
+    refuse_soup(matrix, options.flop_limit, minimum_degree_times, memory);
   Buffer<std::int32_t> order;
   {
     const ProgressRange range(0.0f, progress_ordered);

@@ -199,6 +199,7 @@ static void* counting_allocate(void* user, size_t size, size_t alignment) {
   const BlockHead head = {base, size, alignment};
   memcpy(block - sizeof head, &head, sizeof head);
   ++a->live_blocks, a->live_bytes += size;
+  if (a->live_bytes > a->peak_bytes) a->peak_bytes = a->live_bytes;
   return block;
 }
 

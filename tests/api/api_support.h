@@ -82,9 +82,9 @@ hf_pose tube_pose(hf_surface surface, uint32_t around, uint32_t rings, uint32_t 
 uint32_t* tube_ends(uint32_t around, uint32_t rings);
 
 /* An allocator on malloc that counts, and refuses allocation number `refuse_at` (1-based; 0 = never), and all later
- * ones when refuse_on is set. Not thread safe. */
+ * ones when refuse_on is set. peak_bytes: the most at once since a test set it to 0. Not thread safe. */
 typedef struct CountingAllocator {
-  size_t live_blocks, live_bytes, calls, refuse_at;
+  size_t live_blocks, live_bytes, peak_bytes, calls, refuse_at;
   int refuse_on, mismatches;
 } CountingAllocator;
 hf_allocator counting_hooks(CountingAllocator* allocator);

@@ -262,38 +262,6 @@ static void a_memory_limit_is_kept(void** state) {
   surface_free(&sheet);
 }
 
-/* Triangles between any vertices: their factor is nearly full, and its flops grow with the cube of the vertices. The
- * refusal comes before the factorisation, and says what was needed. */
-static void a_work_limit_is_kept(void** state) {
-  (void)state;
-  enum { VERTICES = 2600, TRIANGLES = 20000 };
-  Surface soup = surface_sheet(52, 50); /* as many vertices */
-  uint32_t* corners = malloc(sizeof(uint32_t) * 3 * TRIANGLES);
-  uint32_t random = 1;
-  for (uint32_t i = 0; i < 3 * TRIANGLES; ++i) {
-    random = random * 1664525u + 1013904223u;
-    corners[i] = (random >> 8) % VERTICES;
-  }
-  hf_surface_desc desc = options_of(&soup).surface;
-  desc.vertex_count = VERTICES, desc.triangle_count = TRIANGLES, desc.triangles = corners, desc.triangles_u16 = NULL;
-  desc.triangle_stride = 0;
-  hf_surface surface = NULL;
-  desc.work_limit_gflop = 1;
-  assert_code(HF_ERROR_TOO_LARGE, hf_surface_create(&desc, &surface));
-  assert_null(surface);
-  hf_error_detail detail;
-  hf_error_get_detail(&detail);
-  assert_non_null(strstr(detail.message, "work_limit_gflop"));
-  desc.work_limit_gflop = 0;
-  assert_ok(hf_surface_create(&desc, &surface));
-  hf_surface_statistics statistics = HF_INIT(hf_surface_statistics);
-  assert_ok(hf_surface_get_statistics(surface, &statistics));
-  assert_true(statistics.factor_flops > 1e9);
-  hf_surface_destroy(surface);
-  free(corners);
-  surface_free(&soup);
-}
-
 static void readers_of_base_and_surface_refuse_null_and_small_arrays(void** state) {
   (void)state;
   scene_create(&scene);
@@ -369,7 +337,6 @@ int main(void) {
       cmocka_unit_test(hf_surface_create_refuses_bad_options),
       cmocka_unit_test(hf_create_refuses_bad_options),
       cmocka_unit_test(a_memory_limit_is_kept),
-      cmocka_unit_test(a_work_limit_is_kept),
       cmocka_unit_test(readers_of_base_and_surface_refuse_null_and_small_arrays),
       cmocka_unit_test(every_code_has_its_name_and_others_are_unknown),
       cmocka_unit_test(a_success_leaves_the_detail_of_the_last_failure),

@@ -67,12 +67,6 @@ std::size_t held_bytes() { return held; }
 std::size_t most_bytes() { return most; }
 void reset_most_bytes() { most = held.load(); }
 
-}  // namespace growth
-
-namespace {
-
-using namespace growth;
-
 double slope(const std::vector<std::size_t>& sizes, const std::vector<double>& values) {
   double x = 0, y = 0, xx = 0, xy = 0;
   const auto n = static_cast<double>(sizes.size());
@@ -82,6 +76,12 @@ double slope(const std::vector<std::size_t>& sizes, const std::vector<double>& v
   }
   return (n * xy - x * y) / (n * xx - x * x);
 }
+
+}  // namespace growth
+
+namespace {
+
+using namespace growth;
 
 void measure(const Structure& structure, int repetitions, std::vector<double>& seconds, std::vector<double>& bytes) {
   for (std::size_t i = 0; i < structure.sizes.size(); ++i) {
@@ -102,11 +102,12 @@ void judge(const Structure& structure, bool full) {
   const double steepest = full ? structure.steepest : std::max(structure.steepest, 1.6);
   std::vector<double> seconds(structure.sizes.size(), 1e9), bytes(structure.sizes.size(), 1);
   // a noisy machine: what is too steep is measured again, and the least of all repetitions counts
-  double time_slope = 0;
+  double time_slope = 0, each = 0;
   for (int attempt = 0; attempt < 4; ++attempt) {
     measure(structure, full ? 3 : 1, seconds, bytes);
     time_slope = slope(structure.sizes, seconds);
-    if (time_slope <= steepest) break;
+    each = 1e6 * seconds.back() / static_cast<double>(structure.sizes.back());
+    if (time_slope <= steepest && (structure.most_microseconds <= 0 || each <= structure.most_microseconds)) break;
   }
   const double memory_slope = slope(structure.sizes, bytes);
   std::printf("# %-24s", structure.name.c_str());
@@ -114,6 +115,8 @@ void judge(const Structure& structure, bool full) {
     std::printf(" %zu: %.4f s %.1f MB;", structure.sizes[i], seconds[i], bytes[i] / 1e6);
   std::printf("\n");
   report_at_most(("growth_" + structure.name + "_time").c_str(), time_slope, steepest);
+  if (structure.most_microseconds > 0)
+    report_at_most(("growth_" + structure.name + "_microseconds").c_str(), each, structure.most_microseconds);
   // small blocks and doubling tables make steps; below a megabyte they are all there is
   if (bytes.back() > 1e6) report_at_most(("growth_" + structure.name + "_memory").c_str(), memory_slope, steepest);
 }
@@ -152,37 +155,58 @@ Cost cost_of(const std::vector<std::string>& command) {
 
 struct Program {
   const char* name;
-  std::vector<std::string> before, behind;  // arguments before and behind the file
+  std::vector<std::string> arguments;  // "FILE" stands for the file
 };
 
-void measure_files(const std::string& programs, const std::string& folder, bool full, const std::string& only) {
-  const std::string script = folder + "/pose.json", curve = folder + "/curve.json";
-  std::ofstream(script)
+// Every program that reads models. joints: a command that makes no surface, for all kinds of files in the quick form.
+std::vector<Program> programs_that_read(const std::string& folder) {
+  const auto at = [&](const char* name) { return folder + "/" + name; };
+  std::ofstream(at("pose.json"))
       << R"({"steps": [{"add": [{"name": "low", "box": [[0, 0, 0], [0.4, 0.4, 1]]}, {"name": "high", "box": [[0.6, 0, 0], [1, 1, 1]]}]},
                        {"drag": {"high": {"move": [0.1, 0, 0]}}, "seconds": 0.5}]})";
-  std::ofstream(curve) << R"({"points": [{"vertex": 0}, {"vertex": 1}, {"vertex": 2}], "side": "smaller"})";
-  std::vector<Program> list = {{"hf_transfer", {"--joints"}, {}}};
-  if (full) {
-    list.push_back({"hf_field", {}, {"--site", "0=0", "--out", folder + "/out.txt"}});
-    list.push_back({"hf_deform_script", {}, {"--script", script, "-o", folder + "/out.glb", "--quiet"}});
-    list.push_back({"hf_quads", {}, {"-o", folder + "/out.obj"}});
-    list.push_back({"hf_detail", {}, {"--curve", curve, "--weight", "0.5", "-o", folder + "/out.glb"}});
-  }
+  std::ofstream(at("rig.json"))
+      << R"({"handles": [{"name": "low", "box": [[0, 0, 0], [0.4, 0.4, 1]]}, {"name": "high", "box": [[0.6, 0, 0], [1, 1, 1]]}],
+            "clips": [{"name": "nod", "steps": [{"drag": {"high": {"move": [0.1, 0, 0]}}, "seconds": 0.5}]}]})";
+  std::ofstream(at("curve.json")) << R"({"points": [{"vertex": 0}, {"vertex": 1}, {"vertex": 2}], "side": "smaller"})";
+  return {
+      {"hf_transfer", {"--joints", "FILE"}},
+      {"hf_transfer", {"FILE", "FILE", "--suggest-pairs", at("pairs.json")}},
+      {"hf_transfer", {"FILE", "FILE", "-o", at("out.glb"), "--quiet"}},
+      {"hf_field", {"FILE", "--site", "0=0", "--out", at("out.txt")}},
+      {"hf_field", {"FILE", "--kind", "biharmonic", "--site", "0=0", "--out", at("out.txt")}},
+      {"hf_field", {"FILE", "--kind", "direction", "--site", "0=1,0,0", "--out", at("out.txt")}},
+      {"hf_deform_script", {"FILE", "--script", at("pose.json"), "-o", at("out.glb"), "--quiet"}},
+      {"hf_deform_script", {"FILE", "--propose", "--quiet"}},
+      {"hf_rig", {"FILE", "--handles", at("rig.json"), "-o", at("out.glb"), "--quiet"}},
+      {"hf_quads", {"FILE", "-o", at("out.obj")}},
+      {"hf_quads", {"FILE", "--field", "-o", at("out.obj")}},
+      {"hf_detail", {"FILE", "--curve", at("curve.json"), "--weight", "0.5", "-o", at("out.glb")}},
+      {"hf_detail", {"FILE", "--curve", at("curve.json"), "--thin-plate", "-o", at("out.glb")}},
+      {"hf_weights", {"FILE", "-o", at("out.glb")}},
+  };
+}
+
+void measure_files(const std::string& programs, const std::string& folder, bool full, const std::string& only) {
+  const std::vector<Program> list = programs_that_read(folder);
   for (const std::string& kind : file_kinds()) {
     if (kind.find(only) == std::string::npos) continue;
     const std::string text = file_of_bytes(kind, 1000000);
-    const std::string file = folder + "/" + kind + (text.front() == '{' ? ".gltf" : ".off");
+    const std::string file = folder + "/" + kind + file_ending(text);
     std::ofstream(file, std::ios::binary) << text;
+    const bool all = full || kind.rfind("soup", 0) == 0;
     Cost worst;
     worst.ended = true;
     for (const Program& program : list) {
+      if (!all && &program != list.data()) continue;
       std::vector<std::string> command = {programs + "/" + program.name};
-      command.insert(command.end(), program.before.begin(), program.before.end());
-      command.push_back(file);
-      command.insert(command.end(), program.behind.begin(), program.behind.end());
+      std::string said = program.name;
+      for (const std::string& word : program.arguments) {
+        command.push_back(word == "FILE" ? file : word);
+        if (word.rfind("--", 0) == 0) said += " " + word;
+      }
       Cost cost = cost_of(command);
       if (cost.seconds > most_seconds) cost.seconds = std::min(cost.seconds, cost_of(command).seconds);
-      std::printf("# %-20s %-16s %.2f s %.0f MB\n", kind.c_str(), program.name, cost.seconds, cost.megabytes);
+      std::printf("# %-20s %-40s %.2f s %.0f MB\n", kind.c_str(), said.c_str(), cost.seconds, cost.megabytes);
       worst.seconds = std::max(worst.seconds, cost.seconds),
       worst.megabytes = std::max(worst.megabytes, cost.megabytes);
       worst.ended = worst.ended && cost.ended;
@@ -191,6 +215,22 @@ void measure_files(const std::string& programs, const std::string& folder, bool 
     report_at_most(("growth_1mb_" + kind + "_megabytes").c_str(), worst.megabytes, most_megabytes);
     std::filesystem::remove(file);
   }
+}
+
+// What a factor takes, before it is made.
+void measure_work(bool full) {
+  const std::size_t n = full ? 80000 : 20000;
+  const std::vector<std::size_t> sizes = {n, 2 * n, 4 * n, 8 * n};
+  const TorusWork work = torus_work(sizes);
+  std::printf("# %-24s", "factor_work");
+  for (std::size_t i = 0; i < sizes.size(); ++i) std::printf(" %zu: %.3g GFlop;", sizes[i], 1e-9 * work.flops[i]);
+  std::printf(" 20,000,000: %.0f\n", work.largest_gflop);
+  report_at_most("growth_factor_work_flops", work.slope, 1.6);  // n^1.5 and a logarithm
+  report_at_most("growth_factor_work_20_million_gflop", work.largest_gflop, work.limit_gflop);
+  if (!full) return;
+  const DefaultRefusal refusal = default_refusal(100000);
+  std::printf("# default_refusal: %.0f GFlop of %.0f, %.1f s\n", refusal.gflop, refusal.limit_gflop, refusal.seconds);
+  report_at_most("growth_default_refusal_seconds", refusal.refused ? refusal.seconds : NAN, 60);
 }
 
 }  // namespace
@@ -213,6 +253,7 @@ int main(int count, char** arguments) {
       if (structure.name.find(only) != std::string::npos) judge(structure, full);
     }
   }
+  if (std::string("factor_work").find(only) != std::string::npos) measure_work(full);
   if (std::string("biharmonic_fan").find(only) != std::string::npos) {
     const HighValence found = high_valence_fan();
     std::printf("# biharmonic_fan 100000: %.2f s\n", found.seconds);

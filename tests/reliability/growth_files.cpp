@@ -1,4 +1,6 @@
 // Files with many elements of one kind, and reading them.
+#include <algorithm>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <random>
@@ -181,16 +183,84 @@ std::string polygons(std::size_t count) {
   return text;
 }
 
+// Triangles between any vertices, half as many of these.
+std::string soup(std::size_t triangles) {
+  std::mt19937 random(1);
+  const std::size_t vertices = triangles / 2 + 3;
+  std::string text = "OFF\n" + number(vertices) + " " + number(triangles) + " 0\n";
+  for (std::size_t i = 0; i < vertices; ++i)
+    text += number(random() % 1000) + " " + number(random() % 1000) + " " + number(random() % 1000) + "\n";
+  for (std::size_t t = 0; t < triangles; ++t)
+    text += "3 " + number(random() % vertices) + " " + number(random() % vertices) + " " + number(random() % vertices) +
+            "\n";
+  return text;
+}
+
+void append(std::string& out, std::uint32_t word, std::size_t bytes) {
+  for (std::size_t b = 0; b < bytes; ++b) out += static_cast<char>(word >> 8 * b & 255);
+}
+
+// The same as GLB, with a skin of two joints. Bytes for bytes it holds three times as many triangles.
+std::string soup_glb(std::size_t triangles, std::size_t vertices) {
+  vertices = std::min<std::size_t>(vertices, 65535);
+  std::mt19937 random(1);
+  std::string bytes;
+  for (std::size_t i = 0; i < 3 * vertices; ++i) {
+    const float x = static_cast<float>(random() % 1000) / 1000;
+    std::uint32_t word = 0;
+    std::memcpy(&word, &x, sizeof word);
+    append(bytes, word, 4);
+  }
+  for (std::size_t v = 0; v < vertices; ++v) append(bytes, v % 2, 4);  // joint 0 or 1
+  for (std::size_t v = 0; v < vertices; ++v) append(bytes, 255, 4);    // alone
+  for (std::size_t i = 0; i < 3 * triangles; ++i) append(bytes, static_cast<std::uint32_t>(random() % vertices), 2);
+  while (bytes.size() % 4) bytes += '\0';
+  const std::string v = number(vertices), c = number(3 * triangles);
+  std::string json =
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],"nodes":[{"mesh":0,"skin":0},{"name":"a"},)"
+      R"({"name":"b","translation":[0.5,0.5,0.5]}],"skins":[{"joints":[1,2]}],"meshes":[{"primitives":[{"attributes":)"
+      R"({"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2},"indices":3}]}],"buffers":[{"byteLength":)" +
+      number(bytes.size()) + R"(}],"bufferViews":[{"buffer":0,"byteLength":)" + number(12 * vertices) +
+      R"(},{"buffer":0,"byteOffset":)" + number(12 * vertices) + R"(,"byteLength":)" + number(4 * vertices) +
+      R"(},{"buffer":0,"byteOffset":)" + number(16 * vertices) + R"(,"byteLength":)" + number(4 * vertices) +
+      R"(},{"buffer":0,"byteOffset":)" + number(20 * vertices) + R"(,"byteLength":)" + number(6 * triangles) +
+      R"(}],"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","min":[0,0,0],"max":[1,1,1],"count":)" + v +
+      R"(},{"bufferView":1,"componentType":5121,"type":"VEC4","count":)" + v +
+      R"(},{"bufferView":2,"componentType":5121,"normalized":true,"type":"VEC4","count":)" + v +
+      R"(},{"bufferView":3,"componentType":5123,"type":"SCALAR","count":)" + c + "}]}";
+  while (json.size() % 4) json += ' ';
+  std::string out = "glTF";
+  append(out, 2, 4), append(out, static_cast<std::uint32_t>(28 + json.size() + bytes.size()), 4);
+  append(out, static_cast<std::uint32_t>(json.size()), 4), out += "JSON" + json;
+  append(out, static_cast<std::uint32_t>(bytes.size()), 4), out += std::string("BIN\0", 4) + bytes;
+  return out;
+}
+
+// Files of their own shape: triangles per file.
+const std::vector<std::pair<const char*, std::function<std::string(std::size_t)>>>& meshes() {
+  static const std::vector<std::pair<const char*, std::function<std::string(std::size_t)>>> list = {
+      {"polygons", polygons},
+      {"soup", soup},
+      {"soup_dense", [](std::size_t n) { return soup_glb(n, n / 16 + 3); }},
+      {"soup_glb", [](std::size_t n) { return soup_glb(n, n / 5 + 3); }},
+      {"soup_within", [](std::size_t n) { return soup_glb(n, n / 90 + 3); }},  // the limits let it through
+      {"soup_sparse", [](std::size_t n) { return soup_glb(n, n + 3); }},
+  };
+  return list;
+}
+
 }  // namespace
 
 std::vector<std::string> file_kinds() {
-  std::vector<std::string> names = {"polygons"};
+  std::vector<std::string> names;
+  for (const auto& mesh : meshes()) names.push_back(mesh.first);
   for (const auto& kind : kinds()) names.push_back(kind.first);
   return names;
 }
 
 std::string file_of(const std::string& kind, std::size_t count) {
-  if (kind == "polygons") return polygons(count);
+  for (const auto& mesh : meshes())
+    if (kind == mesh.first) return mesh.second(count);
   for (const auto& known : kinds()) {
     if (kind != known.first) continue;
     Parts parts;
@@ -198,6 +268,10 @@ std::string file_of(const std::string& kind, std::size_t count) {
     return parts.text();
   }
   throw std::runtime_error("no such kind of file: " + kind);
+}
+
+const char* file_ending(const std::string& text) {
+  return text.front() == '{' ? ".gltf" : text.front() == 'g' ? ".glb" : ".off";
 }
 
 std::string file_of_bytes(const std::string& kind, std::size_t bytes) {
@@ -221,7 +295,7 @@ std::vector<Structure> file_structures(bool full) {
       return [text] {
         try {
           const std::vector<uint8_t> bytes(text->begin(), text->end());
-          if (text->front() != '{') {
+          if (text->front() == 'O') {
             samples::read_mesh_bytes(bytes, ".off", "a file");
             return;
           }

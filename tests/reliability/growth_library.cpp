@@ -252,8 +252,8 @@ std::vector<Structure> library_structures(bool full) {
       // every edit copies the list of sites
       {"component_sites", doubled(1000 * large), 2, component_sites},
       {"undo_records", doubled(5000 * large), 1.25, records},
-      {"handle_create", many, 1.25, create_handles},
-      {"handle_find", many, 1.25, find_handles},
+      {"handle_create", many, 1.25, create_handles, 1},
+      {"handle_find", many, 1.25, find_handles, 1},
       {"handle_replace", many, 1.25, replace_handles},
   };
 }

@@ -11,6 +11,7 @@
 
 #include "assets/shapes.h"
 #include "common/gltf_read.h"
+#include "common/limits.h"
 #include "common/mesh_file.h"
 #include "gltf_support.h"
 #include "support/program_support.h"
@@ -187,6 +188,53 @@ TEST(FieldProgram, refuses_what_does_not_fit_together_with_a_sentence) {
     EXPECT_EQ(result.status, 1) << row.arguments;
     EXPECT_NE(result.output.find(row.says), std::string::npos) << row.arguments << ": " << result.output;
   }
+}
+
+TEST(FieldProgram, refuses_a_soup_by_its_size_and_names_the_option_that_lets_it_through) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "soup.off";
+  constexpr uint32_t vertices = 3500, triangles = 20000;
+  uint32_t random = 1;
+  const auto below = [&](uint32_t most) { return (random = random * 1664525u + 1013904223u, (random >> 8) % most); };
+  {
+    std::ofstream out(file);
+    out << "OFF\n" << vertices << " " << triangles << " 0\n";
+    for (uint32_t v = 0; v < vertices; ++v) out << below(1000) << " " << below(1000) << " " << below(1000) << "\n";
+    for (uint32_t t = 0; t < triangles; ++t)
+      out << "3 " << below(vertices) << " " << below(vertices) << " " << below(vertices) << "\n";
+  }
+  const auto field = [&](const std::string& options) {
+    return run(hf_test::quoted(file) + " --site 0=1 --out " + hf_test::quoted(folder.path / "field.txt") + options);
+  };
+  const auto says = [](const Result& result, const std::string& text) {
+    EXPECT_EQ(result.status, 1) << result.output;
+    EXPECT_NE(result.output.find(text), std::string::npos) << result.output;
+  };
+  const Result refused = field("");
+  says(refused, "the work_limit_gflop is 4");
+  says(refused, "--work-limit N raises it");
+  EXPECT_FALSE(fs::exists(folder.path / "field.txt"));
+  says(field(" --work-limit 100 --memory-limit 20"), "--memory-limit N raises it");
+  says(field(" --work-limit 0"), "--work-limit takes a number");
+  EXPECT_EQ(field(" --work-limit 100").status, 0);
+}
+
+TEST(Limits, let_sound_meshes_through_by_the_size_that_triangles_give_them) {
+  const auto limits = [](uint32_t vertices, uint32_t triangles) {
+    auto desc = hf_surface_desc();
+    desc.vertex_count = vertices, desc.triangle_count = triangles;
+    limit_surface(desc);
+    return std::pair<uint32_t, uint32_t>(desc.work_limit_gflop, desc.memory_limit_mb);
+  };
+  EXPECT_EQ(limits(4, 4), std::make_pair(4u, 129u));
+  EXPECT_EQ(limits(1000000, 200), limits(200, 200));        // vertices that no triangle names
+  EXPECT_EQ(limits(400000, 868000).first, 3200u);           // 20 n^2; a lattice of struts takes 278, bi-harmonic 2,688
+  EXPECT_EQ(limits(20000000, 40000000).first, 100000u);     // 4 * 10^12 operations are needed
+  EXPECT_GT(limits(400000, 868000).second, 19 * 400000u / 1024);
+  auto faces = hf_surface_desc();
+  faces.vertex_count = 90000, faces.face_count = 45000, faces.corner_count = 180000;
+  limit_surface(faces);
+  EXPECT_EQ(faces.work_limit_gflop, 162u);
 }
 
 TEST(FieldProgram, is_finite_with_every_kind_of_field_on_every_mesh) {
