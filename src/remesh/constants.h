@@ -385,8 +385,8 @@ constexpr double collapse_far = 1.1;
 // the value: 1 % more faces.
 constexpr double collapse_same_place = 0.3;
 
-// To reach a number of quads, at most one in this many collapses in a round: fewer rounds against evenness. Half and
-// double were not tried.
+// To reach a number of quads, at most one in this many collapses in a round: fewer rounds against evenness. Half
+// changes none of 21 runs. Double changes 7: some get better and some worse, in about the same time.
 constexpr std::int32_t count_share = 12;
 
 }  // namespace hf_inner
