@@ -31,11 +31,12 @@ constexpr std::int32_t disc_stack = 32;
 
 // --- carried_detail.cpp ---
 
-// A direction projected to a tangent plane must keep this share of its length; below it rounding would decide it. Not
-// measured.
+// A direction projected to a tangent plane must keep this share of its length; below it rounding would decide it. It is
+// far above rounding (1e-16). With half, double, 0 and 0.5, a shell of an armadillo on a bunny has the same bits.
 constexpr double least_direction = 1e-9;
 // The sum of the normals around a vertex must have this share of the largest length in the region. Otherwise detail is
-// carried in the whole region's frame. Not measured.
+// carried in the whole region's frame. It is far above rounding. With half, double, 0 and 0.03, a shell of an armadillo
+// on a bunny has the same bits. At 0.3 it changes.
 constexpr double least_normal = 1e-12;
 // The frame of a unit normal starts from the x axis, or from y if the normal's x coordinate is larger than this. Any
 // value from 0.58 to 1 works.

@@ -9,8 +9,10 @@ namespace hf_inner {
 namespace {
 
 // Curvatures that differ by this many radians over a length of sqrt(area) count half. Smaller: flat parts follow noise.
+// In 26 runs half turns 8 % more triangles of the map over, double 6 %; mean distances change by 4 %.
 constexpr double half_trust = 3.0;
-// A wish below this length everywhere says nothing: the first solve then starts from one arbitrary direction.
+// A wish below this length everywhere says nothing: the first solve then starts from one arbitrary direction. With 0
+// and 0.1, 15 runs stay the same. Half and double give a sphere, whose wishes are shorter, the same quads.
 constexpr double least_wish = 1e-3;
 
 Vec3 triangle_normal(const Mesh& mesh, Index t) noexcept {

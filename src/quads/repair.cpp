@@ -9,13 +9,16 @@ namespace hf_inner {
 namespace {
 
 // Two edges between the same vertices that bound at most this many quads are a fold, and the quads go. A larger number
-// cuts off thin limbs, a smaller one keeps folds and puts rings around them. Half and double were not tried.
+// cuts off thin limbs, a smaller one keeps folds and puts rings around them. With 0 there are 20 % more irregular
+// vertices in four coarse runs. 4 changes none of 16 runs; 16 and 60 remove 8 quads more in one, and all figures stay
+// the same.
 constexpr std::int32_t most_fold_quads = 8;
-// Rounds of repairs: quads that one round adds are looked at by the next. It bounds the time. Half and double were not
-// tried.
+// Rounds of repairs: quads that one round adds are looked at by the next. It bounds the time. 6 and 24 change none of
+// 16 runs. With 2, one of four coarse runs gets quads of shorter edges in their place.
 constexpr std::int32_t repair_rounds = 12;
-// The corners of new quads lie this share of the way from the corners of the old ones to their middle. Relaxing
-// moves them anyway. Half and double were not tried.
+// The corners of new quads lie this share of the way from the corners of the old ones to their middle. Relaxing moves
+// them anyway. 0.175 and 0.7 change 2 of 16 runs. Distances fall by 4 % in four coarse ones, and with 0.7 fewer corners
+// are turned over: 111 instead of 150.
 constexpr double pillow_share = 0.35;
 
 }  // namespace

@@ -147,9 +147,11 @@ constexpr MakeProgress make_progress = {0.2f, 0.3f, 0.35f, 0.4f, 0.6f, 0.65f, 0.
 struct EvenProgress {
   float early, early_measured, relaxed, measured, captured;
 };
-// Reported progress while one mesh is evened out. Only the order is right; the shares are not measured.
+// Reported progress while one mesh is evened out. On four shapes, relaxing took 12 to 15 % of the time and snapping 57
+// to 73 %. No result depends on it.
 constexpr EvenProgress even_progress = {0.1f, 0.2f, 0.5f, 0.6f, 0.9f};
-// Share of a turn's reported progress for fitting; the rest is for collapsing quads. The share is not measured.
+// Share of a turn's reported progress for fitting; the rest is for collapsing quads. On four shapes, fitting took 20 to
+// 94 % of both, so no share fits all. No result depends on it.
 constexpr float fit_progress = 0.6f;
 // Reported progress at which a mesh from given sites is made; the rest is for fitting it. On three shapes, making took
 // 10 to 50 % of both.
@@ -171,7 +173,8 @@ constexpr double circle_band = 0.2;
 // A tip must be at least this far (share of the box, along the surface) from borders and earlier sites. Halving it
 // changes no mesh. At twice the value: the 95 % quantile of a cow's edges is 1.9 edge lengths instead of 1.5.
 constexpr double border_distance = 0.08;
-// At most this many sites per component. It bounds a table of all their pairs (border_flux.cpp). Not measured.
+// At most this many sites per component. It bounds a table of all their pairs (border_flux.cpp). Half of it refuses a
+// sheet with 226 borders. Double takes a sheet with 441, in 4 s and 75 MB without relaxing.
 constexpr std::size_t most_sites = 400;
 // At least this many sites in a component: a source and a sink of the flow.
 constexpr std::size_t least_sites = 2;
@@ -188,8 +191,9 @@ constexpr double least_mean_distance = 1e-12;
 // Up to this many sites, all partitions into sources and sinks are tried: 2,048 for 12 sites. With 6, the 5 % quantile
 // of a cow's edges is 0.55 edge lengths instead of 0.64. With 16 its mesh is the same.
 constexpr std::size_t most_tried_at_once = 12;
-// Up to this many sites, two swap sides (source, sink) at once, which costs k^4 per sweep for k sites. Not measured: no
-// tried shape had 20 sites.
+// Up to this many sites, two swap sides (source, sink) at once, which costs k^4 per sweep for k sites. At half the
+// value, a sheet with 31 borders has 12 % more faces, and aspect 29 instead of 9.6. At twice the value, a sheet with 57
+// has 28 % fewer faces, and aspect 17 instead of 85. At 120, a sheet with 101 takes 2.2 s without relaxing, not 0.4.
 constexpr std::size_t most_exchanged_in_pairs = 40;
 // A swap of sites must lower the partition's cost by at least this, so swaps end. It is above rounding errors.
 constexpr double least_cost_gain = 1e-12;
@@ -381,8 +385,8 @@ constexpr double collapse_far = 1.1;
 // the value: 1 % more faces.
 constexpr double collapse_same_place = 0.3;
 
-// To reach a number of quads, at most one in this many collapses in a round: fewer rounds against evenness. Half and
-// double were not tried.
+// To reach a number of quads, at most one in this many collapses in a round: fewer rounds against evenness. Half
+// changes none of 21 runs. Double changes 7: some get better and some worse, in about the same time.
 constexpr std::int32_t count_share = 12;
 
 }  // namespace hf_inner
