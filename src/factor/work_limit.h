@@ -8,8 +8,8 @@ namespace hf_inner {
 // Throws HF_ERROR_TOO_LARGE if `flops` exceed `flop_limit`, with both numbers. 0 = no limit.
 void require_work(double flops, double flop_limit);
 
-// Minimum degree may give so many times the flops of nested dissection: on a lattice with hubs. On random graphs both
-// are alike; half and double refuse the same soups.
+// Minimum degree may give so many times the flops of nested dissection on graphs with hubs; on random graphs both are
+// alike to 5 %. Less could refuse what nested dissection makes cheap; more orders soups that are refused afterwards.
 constexpr double minimum_degree_times = 4;
 
 // Refuses a matrix whose unknowns are joined at random, if minimum degree gives its factor more than `times` the
