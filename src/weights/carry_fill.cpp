@@ -23,7 +23,7 @@ namespace {
 // Shares of progress when the vertices are matched, when the operator has its factor, and when the sites are in it;
 // then that of the sweeps in the rest, before pruning. Chosen by time on a torus of which a third has no weights. Other
 // shares move the fraction at equal times, and no result.
-constexpr float progress_matched = 0.1f, progress_factorised = 0.25f, progress_edited = 0.8f, progress_swept = 0.6f;
+constexpr float fill_matched = 0.1f, fill_factorised = 0.25f, fill_edited = 0.8f, fill_swept = 0.6f;
 
 // The fields of all bones at the vertices to fill in.
 struct Solved {
@@ -87,19 +87,19 @@ Solved solve(const Fill& fill, const Vector<std::uint8_t>& known, Memory& memory
       static_cast<std::size_t>(std::count_if(out.row_of.begin(), out.row_of.end(), [](Index row) { return row >= 0; }));
   if (rows == 0) return out;
   const Vector<Index> column = number_bones(fill, sites, out, memory);
-  report(progress_matched);
+  report(fill_matched);
   std::shared_ptr<SiteSolver> engine;
   {
-    const ProgressRange range(progress_matched, progress_factorised);
+    const ProgressRange range(fill_matched, fill_factorised);
     engine = SiteSolver::make(EngineKind::green, solving_core(fill), 0);
   }
   Vector<Index> slots(sites.size(), &memory);
   std::iota(slots.begin(), slots.end(), 0);
   {
-    const ProgressRange range(progress_factorised, progress_edited);
+    const ProgressRange range(fill_factorised, fill_edited);
     engine->edit({{}, slots, sites});
   }
-  const ProgressRange range(progress_edited, 1.0f);
+  const ProgressRange range(fill_edited, 1.0f);
 
   constexpr std::size_t block = 8;  // bones of one sweep, as in constraint_system.h
   const std::size_t width = out.bone_of.size();
@@ -121,7 +121,7 @@ Solved solve(const Fill& fill, const Vector<std::uint8_t>& known, Memory& memory
       if (out.row_of[v] >= 0)
         std::copy_n(field.data() + v * m, m, out.field.data() + at(out.row_of[v]) * width + first);
     }
-    report(progress_swept * static_cast<float>(first + m) / static_cast<float>(width));
+    report(fill_swept * static_cast<float>(first + m) / static_cast<float>(width));
   }
   return out;
 }
