@@ -51,8 +51,10 @@ void FrontDistance::distance(Span<const Index> sources, double* out) const {
   const std::size_t n = start_.size() - 1;
   std::fill_n(out, n, std::numeric_limits<double>::infinity());
   Vector<Entry> heap(memory_);
+  std::size_t reached = 0;
   const auto offer = [&](Index v, double d) {
     if (!(d < out[v] * (1 - least_shortening))) return;
+    reached += out[v] == std::numeric_limits<double>::infinity();
     out[v] = d;
     heap.push_back({d, v});
     std::push_heap(heap.begin(), heap.end());
@@ -63,7 +65,7 @@ void FrontDistance::distance(Span<const Index> sources, double* out) const {
     const Entry here = heap.back();
     heap.pop_back();
     if (here.distance > out[here.vertex]) continue;
-    if (visited % report_each == 0) report(std::min(1.0f, static_cast<float>(visited) / static_cast<float>(n)));
+    if (visited % report_each == 0) report(static_cast<float>(reached) / static_cast<float>(n));
     for (Index i = start_[at(here.vertex)]; i < start_[at(here.vertex) + 1]; ++i) {
       const Corner& c = corner_[at(i)];
       offer(c.a, here.distance + c.to_a), offer(c.b, here.distance + c.to_b);
