@@ -24,6 +24,7 @@ FrontDistance::FrontDistance(const Mesh& mesh, const Topology& topology, Memory&
   poll();
   cover.flip_to_delaunay();
   const Index halves = 3 * cover.face_count();
+  poll();
   for (Index h = 0; h < halves; ++h) ++start_[at(cover.tail(h)) + 1];
   for (std::size_t v = 0; v + 1 < start_.size(); ++v) start_[v + 1] += start_[v];
   corner_.resize(at(halves));

@@ -241,11 +241,12 @@ std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit)
   const Index halves = static_cast<Index>(twin_.size());
   if (flip_limit == 0) flip_limit = flips_per_half * twin_.size();
   Vector<Index> queue(memory_);
+  Poller poller;
   for (Index h = 0; h < halves; ++h) {
+    poller.due();
     if (h < twin_[at(h)] && !is_delaunay(h)) queue.push_back(h);
   }
   std::uint64_t flips = 0;
-  Poller poller;
   for (std::size_t head = 0; head < queue.size() && flips < flip_limit; ++head) {
     poller.due();
     const Index h = queue[head], g = twin_[at(h)];
