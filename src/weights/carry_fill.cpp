@@ -194,7 +194,7 @@ FilledWeights fill_weights(const Fill& fill, const WeightRows& guessed, std::int
   out.joints.resize(at(core.size()) * k), out.weights.resize(at(core.size()) * k);
   Vector<Share> shares(&memory);
   const Vector<Share> unlocked(&memory);
-  Poller poller(256);
+  Poller poller(filled_per_poll);
   for (Index v = 0; v < core.size(); ++v) {
     poller.due();
     const Index island = core.mesh.component[at(v)];

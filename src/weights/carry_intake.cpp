@@ -14,9 +14,6 @@
 namespace hf_inner {
 namespace {
 
-// An angle between normals is at most pi; hf/weights.h says up to 3.15.
-constexpr double most_angle = 3.15;
-
 // Checks the arrays of a desc: weights of every vertex, joints below most_bones.
 template <class Desc>
 GivenWeights read_given(const Desc& desc, const Mesh& mesh, std::uint32_t limit) {
@@ -50,8 +47,7 @@ MatchOptions match_options(const Desc& desc, double scale) {
   MatchOptions out;
   out.distance = desc.distance == 0 ? carry_distance : desc.distance / scale;
   const double angle = desc.angle == 0 ? carry_angle : desc.angle;
-  // A hair below the cosine: equal normals agree whatever their rounding.
-  out.cosine = angle >= most_angle - 0.01 ? -2 : cosine(angle) - 1e-12;
+  out.cosine = angle >= any_angle ? -2 : cosine(angle) - equal_cosine;
   out.influences = weights_per_vertex(desc.weight_count);
   return out;
 }

@@ -16,6 +16,18 @@ constexpr std::uint32_t most_bones = 1u << 20;
 // Coordinates of bones are clamped to this many boxes, so that squares of distances stay finite. A smaller number moves
 // bones that stand far off. Half and double change no figure of the 28 shared rigs, nor does 1 on seven of them.
 constexpr double farthest = 1e6;
+// Three rays tell whether a point is inside. Most of them decide, so that one that passes along a seam does not. They
+// are parallel to no axis, since faces of models often are. Other directions were not tried.
+constexpr double ray_directions[3][3] = {{0.83, 0.41, 0.37}, {-0.31, 0.87, -0.38}, {0.29, -0.43, 0.85}};
+// A ray of this length, in boxes, leaves the box from any point in it. No result depends on it above 1; 1.2 and 8 find
+// the same bones of 14 shared rigs outside.
+constexpr double ray_length = 4;
+// Places along a bone that are tried until one is inside the surface: more find shorter parts inside and take longer.
+// On 14 shared rigs 41 bones are outside with five places and with two, 35 with eleven.
+constexpr double probed_shares[] = {0.1, 0.3, 0.5, 0.7, 0.9};
+// Bones, or samples, between two looks at a cancel: at most 0.8 ms on four shared rigs, 0.1 ms and 0.02 ms. No result
+// depends on it.
+constexpr std::uint32_t bones_per_poll = 64, samples_per_poll = 64, filled_per_poll = 256;
 // A bone shorter than this has no length: it is a point. Rounding of the caller's floats is 1e-7. A larger number takes
 // short bones for points. Half and double change no figure of the 28 shared rigs, nor does 1e-2 on seven of them.
 constexpr double no_length = 1e-6;
@@ -93,26 +105,49 @@ constexpr double drop_below = 0.025, keep_above = 0.05;
 // A vertex matches a point of the other surface within this distance, and if the angle between their normals is at most
 // this many radians (30 degrees). The published values.
 constexpr double carry_distance = 0.05, carry_angle = 0.5235987755982988;
+// An angle of the caller is at most pi, but for rounding; hf/weights.h says up to 3.15. From any_angle on, which is
+// below pi, normals do not count. On 20 mirrored rigs the slack changes nothing.
+constexpr double most_angle = 3.15, any_angle = 3.14;
+// A cosine this much below the one of the angle still matches: normals that are equal but for rounding do at angle 0.
+// It is above the rounding of a cosine; 0 and 1e-9 change nothing on 20 mirrored rigs.
+constexpr double equal_cosine = 1e-12;
 
 // --- mirror.cpp, mirror_plane.cpp, mirror_bones.cpp ---
+//
+// The figures come from ten shared rigs, mirrored to one side, whose joints lost their names. There are 20 runs: each
+// rig as it is, and with vertices moved by up to 0.4 % of the box, so that no plane is exact. Distances are those of
+// posed vertices from the poses of the file, in % of the box, the mean over the vertices. "Named" are 16 rigs as they
+// are.
 
-// A vertex this near to the plane belongs to both sides. Exporters round coordinates to 1e-7.
+// A vertex this near to the plane belongs to both sides: less takes a seam for a side, more merges sides. Exporters
+// round coordinates to 1e-7. Half and double change the vertices of 5 and 6 of 20 runs, no distance by more than 0.003.
 constexpr double mirror_seam = 1e-4;
-// A normal within this sine of an axis of the frame becomes that axis: models are built along axes.
+// A normal within this sine of an axis of the frame becomes that axis: models are built along axes, and more would bend
+// a plane that is not. Half is the same on 20 runs, double changes two distances by 0.001. Named, double brings a
+// knight from 0.075 to 0.041.
 constexpr double axis_slack = 1e-3;
-// Bones of a pair stand at least this far apart to say where the plane is.
+// Bones of a pair stand at least this far apart to say where the plane is: less lets rounding turn it, more wastes
+// pairs. Named, half, double and 0.03 change nothing.
 constexpr double paired_apart = 1e-3;
 // The plane of the bones counts if their reflections are within this distance of their partners, in the mean. Rigs in
-// their bind pose are within 0.01; a pose is farther off, and the surface decides.
+// their bind pose are within 0.01; a pose is farther off, and the surface decides. Named, half and double change
+// nothing.
 constexpr double bones_mirror = 0.03;
-// A bone without a partner by name takes a bone within this distance of its reflection.
+// A bone without a partner by name takes a bone within this distance of its reflection: less leaves bones alone, more
+// may pair strangers. Half leaves 6 bones of a knight alone, 0.97 instead of 0.04. Double pairs the last 4 bones of a
+// manta ray, 0.02 instead of 1.83; the other 18 runs stay the same.
 constexpr double paired_off = 0.02;
 // Vertices that say how well a plane reflects the surface. More cost time: 6 planes, 8 steps and a search for each.
+// Half changes four of 20 runs by at most 0.002, double one by 0.001.
 constexpr std::size_t most_mirror_samples = 1000;
+// Steps that bring a plane nearer at most; the gain ends them earlier. Half and double give the same 20 runs.
 constexpr int mirror_steps = 8;
-// Points farther than this from the surface do not pull the plane.
+// Points farther than this from the surface do not pull the plane: less ignores what could be mirrored better, more
+// lets a weapon in one hand pull. Half and double change one of 20 runs, from 0.003 to 0.002 and 0.009.
 constexpr double mirror_outlier = 0.05;
-// A step, or another plane, must lower the mean distance to this share.
+// A step, or another plane, must lower the mean distance to this share: less stops early, more follows noise. Half
+// raises a fox with moved vertices from 0.056 to 0.081. At 1 a robot with moved vertices has 0.012 instead of 0.041, a
+// frog 0.037 instead of 0.033. The other 17 runs change by at most 0.006.
 constexpr double mirror_gain = 0.95;
 
 }  // namespace hf_inner

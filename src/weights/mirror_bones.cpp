@@ -129,8 +129,9 @@ BonePairs pair_bones(const Vector<Vec3>& heads, const Vector<Index>& named, cons
   for (std::size_t b = 0; b < count; ++b) {
     if (out.partner[b] < 0) {
       out.partner[b] = static_cast<Index>(b);
-      // Bones at one place: each is its own partner if that place lies on the plane.
-      if (std::fabs(plane.side(heads[b])) <= 0.5 * paired_off) out.by[b] = PairedBy::centre;
+      // Bones at one place: each is its own partner if that place lies on the plane. It is twice as far from its
+      // reflection.
+      if (2 * std::fabs(plane.side(heads[b])) <= paired_off) out.by[b] = PairedBy::centre;
     }
     out.off[b] = norm(plane.reflect(heads[b]) - heads[at(out.partner[b])]);
   }

@@ -67,7 +67,7 @@ class Symmetry {
   Vector<PointPair> pairs(const MirrorPlane& plane, double& score) const {
     Vector<PointPair> out(&memory_);
     score = 0;
-    Poller poller(64);
+    Poller poller(samples_per_poll);
     for (const Vec3& p : sample_) {
       poller.due();
       const Vec3 there = plane.reflect(p);

@@ -72,13 +72,10 @@ double SkinShape::way_out(const Vec3& from, const Vec3& direction, double most) 
 }
 
 bool SkinShape::inside(const Vec3& point) const noexcept {
-  // Three rays that are parallel to no axis; most of them decide, so that one that passes along a seam does not.
-  constexpr Vec3 directions[3] = {{0.83, 0.41, 0.37}, {-0.31, 0.87, -0.38}, {0.29, -0.43, 0.85}};
-  constexpr double ray_length = 4;  // a ray leaves the box of diagonal 1, from any point in it
   int votes = 0;
-  for (const Vec3& direction : directions) {
+  for (const auto& d : ray_directions) {
     int out = 0;
-    const Vec3 way = ray_length * direction;
+    const Vec3 way = ray_length * Vec3{d[0], d[1], d[2]};
     tree_.along(point, point + way, [&](Index t) {
       const Index* v = mesh_.triangle(t);
       bool entering = false;
@@ -157,7 +154,7 @@ class Tails {
     for (const Index parent : bones_.parent) {
       if (parent >= 0) ++children[at(parent)];
     }
-    Poller poller(64);
+    Poller poller(bones_per_poll);
     for (Index j = 0; j < bones_.count() && !loose_axes_; ++j) {
       poller.due();
       const Index parent = bones_.parent[at(j)];
@@ -240,7 +237,7 @@ Vector<BoneSegment> bone_segments(const Bones& bones, const Mesh& mesh, const Sk
   Vector<BoneSegment> out(&memory);
   if (!bones.has_tails) {
     const Tails tails(bones, mesh, skin, memory);
-    Poller poller(64);
+    Poller poller(bones_per_poll);
     for (Index j = 0; j < bones.count(); ++j) {
       poller.due();
       if (bones.deforms[at(j)]) tails.append(j, out);
@@ -258,15 +255,14 @@ Vector<std::uint32_t> bone_faults(Index count, const Vector<BoneSegment>& segmen
   Vector<std::uint32_t> faults(at(count), 0, &memory);
   Vector<std::uint8_t> is_inside(at(count), 0, &memory), is_long(at(count), 0, &memory), exists(at(count), 0, &memory);
   Vector<const BoneSegment*> sorted(&memory);
-  constexpr double shares[] = {0.1, 0.3, 0.5, 0.7, 0.9};  // places along a segment; enough to find the part in the skin
-  Poller poller(64);
+  Poller poller(bones_per_poll);
   for (const BoneSegment& s : segments) {
     poller.due();
     const std::size_t b = at(s.bone);
     exists[b] = 1;
     is_long[b] |= norm(s.tail - s.head) >= no_length;
-    for (std::size_t i = 0; i < std::size(shares) && !is_inside[b]; ++i)
-      is_inside[b] = skin.inside(s.head + shares[i] * (s.tail - s.head));
+    for (std::size_t i = 0; i < std::size(probed_shares) && !is_inside[b]; ++i)
+      is_inside[b] = skin.inside(s.head + probed_shares[i] * (s.tail - s.head));
     sorted.push_back(&s);
   }
   const auto key = [](const BoneSegment* s) {
