@@ -228,7 +228,7 @@ void BandCutter::number_pieces(Span<const std::int32_t> vertices, double smalles
 void BandCutter::emit(const FieldPart& part, Span<const std::int32_t> vertices, Vector<ClusterEntry>& entries) {
   const double* phi = fields_.of(part.handle);
   const std::int32_t last = options_.band_count + 1;
-  if (entries.empty()) entries.reserve(5 * vertices.size());  // three bands, own and others
+  if (entries.empty()) entries.reserve(entries_a_vertex * vertices.size());
   for (const std::int32_t v : vertices) {
     if (share_[v] <= 0) continue;
     const BandValues& b = values_[v];

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/arguments.h"
+#include "deform/constants.h"
 #include "field/intake.h"
 #include "mesh/vertex_lists.h"
 
@@ -15,11 +16,6 @@ static_assert(static_cast<int>(HandleReason::foot) == HF_HANDLE_REASON_FOOT &&
                   static_cast<int>(HandleReason::joint) == HF_HANDLE_REASON_JOINT &&
                   static_cast<int>(HandleReason::middle) == HF_HANDLE_REASON_MIDDLE,
               "hf/pose.h states other reasons");
-
-// Bounds what a wrong count of joints reads. Skins of scene files number joints with 16 bits.
-constexpr std::uint32_t most_skeleton_joints = 65536;
-// Proposals without a limit of the caller: more than limbs of an animal, few enough for a menu.
-constexpr std::uint32_t default_proposals = 32;
 
 // The unit vector away from the ground; 0 0 0 is y.
 Vec3 read_up(const double* up) {

@@ -5,13 +5,11 @@
 #include <limits>
 
 #include "base/compiler.h"
+#include "deform/constants.h"
 #include "deform/normals_avx2.h"
 
 namespace hf_inner {
 namespace {
-
-// A shorter normal sum (in squares of the box) is only rounding of the positions and has no direction.
-constexpr double smallest_length = 1e-36;
 
 void add_border_normals(const NormalRows& rows, const std::int32_t* corners, std::int32_t count, std::int32_t first,
                         std::int32_t last) noexcept {
@@ -69,7 +67,7 @@ void normalise(const NormalRows& rows, std::int32_t first, std::int32_t last) no
       continue;
     }
     const double dx = x, dy = y, dz = z, length = std::sqrt(dx * dx + dy * dy + dz * dz);
-    const bool directed = length > smallest_length && std::isfinite(length);
+    const bool directed = length > least_normal_sum && std::isfinite(length);
     const double s = directed ? 1.0 / length : 0.0;
     normal[0] = static_cast<float>(s * dx), normal[1] = static_cast<float>(s * dy);
     normal[2] = directed ? static_cast<float>(s * dz) : 1.0f;

@@ -12,9 +12,6 @@ struct NormalRows {
   float* normals;           // 3 per vertex
 };
 
-// A sum of normals with a length in this range can be squared in single precision.
-constexpr float shortest_sum = 1e-15f, longest_sum = 1e15f;
-
 // Add the normals of `count` triangles, three corners each, to the sums of their corners. The border functions only add
 // to the vertices [first, last).
 void add_inner_normals_avx2(const NormalRows& rows, const std::int32_t* corners, std::int32_t count) noexcept;

@@ -128,7 +128,7 @@ class Proposer {
     const std::size_t feet = found_.size();
     for (const Extremity& tip : tips.points) {
       const Vec3 p = mesh_.positions[at(tip.vertex)];
-      const bool low = height_[at(tip.vertex)] - ground_ <= 2 * ground_share * tall_;
+      const bool low = height_[at(tip.vertex)] - ground_ <= low_tip_share * tall_;
       bool taken = false;
       for (std::size_t f = 0; f < feet && !taken; ++f) {
         taken = low && distance(found_[f].position, p) <= foot_reach;
