@@ -91,7 +91,7 @@ Quaternion minimal_rotation(Vec3 from, Vec3 to, Vec3 axis) noexcept {
   const double w = 1 + dot(a, b);
   if (w > opposite) return normalised({c, w});
   Vec3 turn = axis - dot(axis, a) * a;
-  if (norm(turn) < opposite) turn = cross(a, std::abs(a.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+  if (norm(turn) < opposite) turn = cross(a, std::abs(a.x) < steep_share ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
   turn = (1 / norm(turn)) * turn;
   return {turn, 0};
 }
