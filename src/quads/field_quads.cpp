@@ -58,6 +58,12 @@ constexpr double fitted_error = 0.045;
 // ones are 9 % off with 1, 3.9 % with 3 and 2.6 % with 6.
 constexpr std::int32_t fit_turns_of_count = 3;
 
+// In a pass that evens out the crosses of a border, each of the two neighbours counts this times the cross itself, and
+// the sum is scaled back. Less keeps ragged borders, more rounds corners. At 5 % edges half changes a sheet with holes
+// from 4.2 % of the box to 5.9 % and a blob of three pieces from 2.7 to 2.5 %; double to 7.2 and 2.4 %. An elephant
+// with holes stays the same.
+constexpr double border_neighbour = 0.5, border_scale = 1 / (1 + 2 * border_neighbour);
+
 // Crosses at feature edges lie along them. Along borders they are evened out over `passes` edges: the fourth degree
 // keeps right angles, and ragged borders get their mean direction.
 Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, const Connection& connection,
@@ -88,9 +94,9 @@ Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, 
       Complex total = sum[at(v)];
       for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
         const Index w = topology.neighbour[at(i)], e = topology.neighbour_edge[at(i)];
-        if (is_border(e)) total += 0.5 * sum[at(w)] * at_angle(1.0, 4 * connection.turn(topology, e, v));
+        if (is_border(e)) total += border_neighbour * sum[at(w)] * at_angle(1.0, 4 * connection.turn(topology, e, v));
       }
-      next[at(v)] = 0.5 * total;
+      next[at(v)] = border_scale * total;
     }
     sum.swap(next);
   }

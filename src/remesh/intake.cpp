@@ -2,15 +2,10 @@
 
 #include "base/arguments.h"
 #include "mesh/vertex_lists.h"
+#include "remesh/constants.h"
 
 namespace hf_inner {
 namespace {
-
-// Bounds of options, which hf/quads.h states. They refuse mistakes; no result depends on them.
-constexpr std::uint32_t most_rounds = 1000, most_flow_lines = 1000000;
-constexpr std::int32_t most_site_lines = 100000;
-// Edge lengths, as shares of the box diagonal.
-constexpr double least_length = 1e-4, most_length = 1.0;
 
 void read_sites(const Core& core, const hf_quads_desc& desc, Vector<FluxSite>& sites) {
   if (desc.site_count == 0) {
@@ -39,16 +34,16 @@ double read_edge_length(const Mesh& mesh, float given) {
   check_finite(length, "edge_length");
   if (length == 0) return default_edge_length;
   const double share = length / mesh.scale;
-  if (share < least_length || share > most_length)
+  if (share < least_edge_length || share > most_edge_length)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; on this mesh it must be %g to %g, or 0", length,
-         least_length * mesh.scale, most_length * mesh.scale);
+         least_edge_length * mesh.scale, most_edge_length * mesh.scale);
   return share;
 }
 
 std::int32_t read_relax_count(std::uint32_t given) {
-  if (given > most_rounds && given != HF_NO_INDEX)
+  if (given > most_relax_count && given != HF_NO_INDEX)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX", given,
-         most_rounds);
+         most_relax_count);
   return given == 0 ? default_relax_rounds : given == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(given);
 }
 
