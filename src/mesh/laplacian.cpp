@@ -12,15 +12,19 @@ namespace {
 // the noise of the measurement (two threads). No result depends on this number.
 constexpr std::size_t weights_piece = 32768;
 // In the area of a triangle with edges a >= b >= c, b + c - a counts as at least this share of a. It keeps the area
-// positive.
+// positive. It is a guard. Half and double change no bit on eight shapes with needles, loose pieces and a long ribbon.
 constexpr double least_gap = 1e-12;
 // A thin triangle with edges a >= b >= c is widened until b + c - a is this share of a. A flat triangle then has
-// cotangents of 350.
+// cotangents of 350. Less gives larger cotangents, more moves the field of shapes that are only thin. Half and double
+// change no bit on eight shapes with needles, loose pieces and a long ribbon.
 constexpr double closing_gap = 1e-6;
 // A cross product keeps fewer than seven digits if twice the area over the longest edge squared is below this number.
+// Such triangles take the slower way by their edges; a larger number takes it for nothing. Half and double change no
+// bit on eight shapes with needles, loose pieces and a long ribbon.
 constexpr double least_area = 1e-9;
 // The clamped operator raises edge weights to this share of the median weight. Positive weights keep the field within
-// its site values. A smaller number would worsen the condition number of the matrix.
+// its site values. A smaller number would worsen the condition number of the matrix. A larger one changes fields. Half
+// and double move fields on eight shapes by at most 3e-4 and 6e-4 of their range, on one with angles of 0.01 degrees.
 constexpr double least_weight = 1e-3;
 
 // Calls work(begin, end) for fixed pieces of the range [0, count).

@@ -9,7 +9,8 @@
 namespace hf_inner {
 namespace {
 
-// Barycentrics are scaled to sum 1 if they are this near to it.
+// Barycentrics are scaled to sum 1 if they are this near to it. Less refuses sums of rounded decimals, more takes wrong
+// numbers for weights. It refuses mistakes, and no link depends on it.
 constexpr double barycentric_slack = 1e-3;
 
 double read_length(float given, double standard, const Mesh& mesh, const char* name) {

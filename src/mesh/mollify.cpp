@@ -11,9 +11,11 @@ namespace {
 // Number of triangles or edges that one thread's job takes. Half and twice the value take the same time within 10 %,
 // the noise of the measurement (two threads). No result depends on this number.
 constexpr std::size_t mollify_piece = 16384;
-// At most this many rounds lengthen edges of thin triangles. After them, one length is added to every edge.
+// At most this many rounds lengthen edges of thin triangles. After them, one length is added to every edge. It bounds
+// the time. Half and double change no bit on eight shapes with needles, loose pieces and a long ribbon.
 constexpr int most_rounds = 64;
-// An edge grows by this factor more than needed, so that rounding does not break the triangle inequality.
+// An edge grows by this factor more than needed, so that rounding does not break the triangle inequality. More moves
+// fields for nothing. Without it, and with twice the excess, fields on eight shapes move by 1e-9 of their range.
 constexpr double overshoot = 1.0001;
 
 void find_lengths(const Mesh& mesh, const Topology& topology, MollifiedLengths& out, JobRunner* jobs) {

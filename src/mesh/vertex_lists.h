@@ -35,7 +35,8 @@ inline void read_list(const Mesh& mesh, std::uint32_t count, const std::uint32_t
 // Sums the sizes of the regions. `start` gets count + 1 entries: where each region starts.
 inline void append_starts(std::uint32_t count, const std::uint32_t* sizes, std::uint32_t limit,
                           Vector<std::uint32_t>& start) {
-  // A region may name welded copies and repeats. A list this many times as long as the mesh is a mistake.
+  // A region may name welded copies and repeats. A list this many times as long as the mesh is a mistake. Less refuses
+  // regions that name copies at seams: a horse with 4,400 vertices has 1,093 places.
   constexpr std::uint64_t most_repeats = 4;
   std::uint64_t total = 0;
   start.push_back(0);
