@@ -13,7 +13,7 @@ constexpr auto no_row = ConstraintState::no_row;
 
 // Groups of elimination paths are packed again when they store more than stored_share times the paths in use plus
 // stored_slack. Smaller numbers pack sooner, which solves paths again. Larger numbers keep unused paths in memory and
-// in every sweep.
+// in every sweep. Half and double of both change no bit where 150 of 300 sites leave eight shapes.
 constexpr std::int64_t stored_share = 2, stored_slack = 2 * PathGroup::capacity;
 
 }  // namespace

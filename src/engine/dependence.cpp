@@ -10,7 +10,8 @@ namespace hf_inner {
 namespace {
 
 // A site depends on others if less than this share of its weight vector's length is orthogonal to theirs. Rounding
-// leaves 1e-15. A larger number would refuse points that lie close to, but not on, a line through other sites.
+// leaves 1e-15. A larger number would refuse points that lie close to, but not on, a line through other sites. Half and
+// double change no bit on eight shapes with needles, loose pieces and a long ribbon.
 constexpr double dependence = 1e-9;
 
 struct Corner {

@@ -15,7 +15,8 @@ namespace hf_inner {
 
 // A pivot of the dense system below this share of its diagonal entry makes its site a suspect: it may depend on others.
 // Crowded points at a distance d have a share of about d^2, and dependent points less than 1e-11. A larger number costs
-// time, because more crowded points are examined.
+// time, because more crowded points are examined. Half and double change no bit on eight shapes with needles, loose
+// pieces and a long ribbon.
 constexpr double suspect_share = 1e-6;
 
 struct HardSite {

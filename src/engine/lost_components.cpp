@@ -8,7 +8,7 @@ namespace {
 
 // A component can be factorised if its pivots exceed the usual limit by this factor. The whole matrix has another
 // ordering, so components near to failing count as well. A larger factor would limit the weights of components that
-// could be factorised.
+// could be factorised. Half and double change no bit on eight shapes with needles, loose pieces and a long ribbon.
 constexpr double margin = 16;
 
 }  // namespace

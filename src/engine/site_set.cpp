@@ -13,7 +13,8 @@ namespace hf_inner {
 namespace {
 
 // A point whose weight at a corner exceeds 1 minus this number becomes that vertex. A larger number would move points
-// that the host placed near a corner.
+// that the host placed near a corner. Half and double change no bit on eight shapes with needles, loose pieces and a
+// long ribbon.
 constexpr double corner_share = 1e-12;
 // Range of the stiffness, in mean diagonals of K, as hf/solver.h documents. Beyond it the system loses digits.
 constexpr double least_stiffness = 1e-12, most_stiffness = 1e12;

@@ -16,7 +16,7 @@ namespace hf_inner {
 namespace {
 
 // After this many edited sites since the last factorisation, a solve takes a refinement step. A step costs one more
-// sweep in every field.
+// sweep in every field. Fewer refine sooner. Half and double pass the 70 tests of the engine.
 constexpr std::uint32_t refine_after = 256;
 
 // CHOLMOD's workspace, with its printing switched off.

