@@ -8,19 +8,21 @@ namespace hf_inner {
 // --- region.cpp ---
 
 // For a region with more than one in this many vertices, the solve passes over the whole factor. This changes the time,
-// never the result.
+// never the result. Less sweeps parts that are nearly everything, more sweeps all for a small region. Half and double
+// are not told apart by hf_bench detail on a busy machine, whose times vary by a factor of two.
 constexpr std::size_t whole_sweep_share = 8;
 
 // --- curve_crossing.cpp ---
 
-// A curve that passes one vertex more often than this is refused. It bounds the pairs of passes that are compared. A rim
-// drawn by hand passes a vertex twice at most.
+// A curve that passes one vertex more often than this is refused. It bounds the pairs of passes that are compared. A
+// rim drawn by hand passes a vertex twice at most.
 constexpr std::int32_t most_visits = 8;
 
 // --- disc_map.cpp ---
 
 // Edge weights of the map to the disc are at least this share of their median: only positive weights give a map without
-// folds. The field's clamped operator has the same share.
+// folds. The field's clamped operator has the same share. A larger one distorts the map, a smaller one crowds its
+// points. Other values were not tried.
 constexpr double disc_least_weight = 1e-3;
 // Triangles in a leaf of the tree that finds the triangle of a disc point. It trades tests of boxes for tests of
 // triangles; no result depends on it.

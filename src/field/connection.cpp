@@ -13,9 +13,11 @@ namespace {
 
 constexpr double pi = 3.141592653589793238462643383279502884;
 // If the angles of a fan (radians), or a sum of unit directions, are smaller than these limits, they are mere rounding
-// and give no direction. Larger limits would make more vertices irregular (without a single fan of triangles).
+// and give no direction. Larger limits would make more vertices irregular (without a single fan of triangles). Half and
+// double change no bit of crosses on seven shapes.
 constexpr double least_angle = 1e-9, least_sum = 1e-9;
 // If 1 + cosine of two normals is below this number, they count as opposite. No smallest rotation exists between them.
+// More would take folds for half turns. Half and double change no bit of crosses on seven shapes.
 constexpr double opposite = 1e-12;
 
 double wrapped(double angle) noexcept {

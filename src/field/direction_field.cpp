@@ -19,7 +19,8 @@ constexpr double two_pi = 6.283185307179586476925286766559;
 // Largest coordinate of a vector, so that the square of its length stays finite.
 constexpr double most_coordinate = 1e150;
 // The tangent part of a unit vector must be at least this long; in a smaller part the direction is mere rounding. A
-// larger limit would refuse more vectors that are nearly normal to the surface.
+// larger limit would refuse more vectors that are nearly normal to the surface. Half and double change no bit of
+// crosses on seven shapes.
 constexpr double least_tangent = 1e-9;
 
 // Raises |z| e^{i phi} to |z| e^{i n phi}, where n is the degree.

@@ -9,15 +9,19 @@
 namespace hf_inner {
 namespace {
 
+// Sources that one sweep solves together: trades passes over the factor for scratch memory of so many numbers a vertex.
+// It is that of the sweeps (channel_block). Half and double move mean distances by 2e-15 on seven shapes.
 constexpr Index group_size = 8;
 constexpr std::int64_t piece = 8192;  // triangles of one thread's job
 // The heat's time step is at least the square of this length (in box diagonals). With a smaller step, the heat at the
-// far end would be too small for a double.
+// far end would be too small for a double. More smooths distances: at twice the value those on a finely refined
+// cylinder move by 1.6 %, and its mean distance by 7 %. Half changes no bit on seven shapes.
 constexpr double least_step = 1.0 / 250;
-// A vertex's area counts as at least this share of the mean. A vertex without area needs a positive diagonal.
+// A vertex's area counts as at least this share of the mean. A vertex without area needs a positive diagonal. It is a
+// guard: half and double change no bit on seven shapes.
 constexpr double least_mass = 1e-12;
 // A triangle with less area over its squared length is left out of the distance; rounding decides the direction of its
-// gradient.
+// gradient. Half and double change no bit on seven shapes.
 constexpr double least_height = 1e-9;
 
 // Shares of progress of a mean distance: its sources are spread, the distances are summed, the sum is integrated.

