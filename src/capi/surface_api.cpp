@@ -92,12 +92,8 @@ hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity, uint3
     const Mesh& mesh = object->surface.geometry().mesh;
     write_count(out_count, mesh.report.vertex_count);
     check_capacity(out_components, capacity, mesh.report.vertex_count, "capacity");
-    for (std::uint32_t v = 0; out_components && v < mesh.report.vertex_count; ++v) {
-      const std::int32_t inner = mesh.inner_of_given[v];
-      out_components[v] = inner == Mesh::none
-                              ? HF_NO_INDEX
-                              : static_cast<std::uint32_t>(mesh.component[static_cast<std::size_t>(inner)]);
-    }
+    if (!out_components) return;
+    visit_given(mesh, [&](std::size_t v, std::int32_t inner) { out_components[v] = component_of(mesh, inner); });
   });
 }
 

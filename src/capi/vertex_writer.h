@@ -6,6 +6,7 @@
 #include "base/compiler.h"
 #include "base/span.h"
 #include "engine/site_solver.h"
+#include "mesh/places.h"
 
 namespace hf_inner::capi {
 
@@ -17,7 +18,7 @@ void for_each_given(const Shape& core, std::size_t first, std::size_t count, Vis
       32768;  // vertices of one thread's job: smaller ones cost more to start, larger ones leave threads idle
   core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
     const std::size_t begin = first + p * piece, end = std::min(first + count, begin + piece);
-    for (std::size_t v = begin; v < end; ++v) visit(v, core.mesh.inner_of_given[v]);
+    visit_given(core.mesh, begin, end, visit);
   });
 }
 

@@ -1,6 +1,7 @@
 // Implements hf/weights.h: skin weights from bones.
 #include "base/arguments.h"
 #include "capi/weights_object.h"
+#include "capi/weights_out.h"
 #include "weights/intake.h"
 
 namespace hf_inner::capi {
@@ -83,30 +84,12 @@ hf_result hf_weights_set_locks(hf_weights handle, uint32_t lock_count, const uin
 hf_result hf_weights_get(hf_weights handle, hf_weights_out* inout) {
   return guarded("hf_weights_get", [&] {
     const auto object = get<WeightsObject>(handle, "weights");
-    hf_weights_out out = read_struct(inout, "inout_weights");
+    check_struct(inout, "inout_weights");
     const Reading reading(*object);
     const Mesh& mesh = object->weights.surface().core->mesh;
-    const WeightState& state = object->weights.state();
-    const std::size_t k = static_cast<std::size_t>(object->weights.influences());
-    out.vertex_count = mesh.report.vertex_count, out.weight_count = static_cast<std::uint32_t>(k);
-    write_struct(inout, out);
-    check_capacity(out.joints || out.joints_u16 || out.weights || out.origins, out.vertex_capacity, out.vertex_count,
-                   "vertex_capacity");
-    constexpr std::uint32_t u16_bones = 1u << 16;  // numbers that 16 bits hold
-    if (out.joints_u16 && bone_count(*object) > u16_bones)
-      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u bones do not fit 16 bits; use joints", bone_count(*object));
-    std::size_t isolated = 0;
-    for (std::size_t v = 0; v < out.vertex_count; ++v) {
-      const bool loose = mesh.inner_of_given[v] == Mesh::none;
-      const std::size_t inner = at(loose ? state.nearest_of_isolated[isolated++] : mesh.inner_of_given[v]);
-      for (std::size_t i = 0; i < k; ++i) {
-        const std::uint32_t joint = state.joints[inner * k + i];
-        if (out.joints) out.joints[v * k + i] = joint;
-        if (out.joints_u16) out.joints_u16[v * k + i] = static_cast<std::uint16_t>(joint);
-        if (out.weights) out.weights[v * k + i] = state.weights[inner * k + i];
-      }
-      if (out.origins) out.origins[v] = static_cast<std::uint8_t>(loose ? Origin::isolated : state.origin[inner]);
-    }
+    const hf_weights_out out = read_weights_out(inout, mesh, object->weights.influences());
+    check_joints_fit(out, bone_count(*object) - 1);
+    write_weights(object->weights.state(), mesh, out);
   });
 }
 

@@ -1,6 +1,7 @@
 #include "field/intake.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/arguments.h"
 #include "engine/updown.h"
@@ -38,6 +39,12 @@ Places read_places(const hf_sites_desc& desc) {
   return places;
 }
 
+void check_vertex_value(double value, std::uint32_t vertex, const char* name) {
+  if (!std::isfinite(value)) fail(HF_ERROR_NON_FINITE, vertex, "%s of vertex %u is not finite", name, vertex);
+  if (std::fabs(value) > largest_value)
+    fail(HF_ERROR_TOO_LARGE, vertex, "%s of vertex %u is %g; the limit is %g", name, vertex, value, largest_value);
+}
+
 }  // namespace
 
 SolverOptions read_solver_options(const hf_solver_desc& desc) {
@@ -69,6 +76,26 @@ void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_d
   edit.move_count = count, edit.move_sites = sites, edit.move_to = read_places(to);
   if (edit.move_to.count != count)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
+}
+
+ScreeningInput read_screening(const Mesh& mesh, std::int32_t channels, const double* screening, const double* targets,
+                              Memory& memory) {
+  for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
+    check_vertex_value(screening[v], v, "screening");
+    if (screening[v] < 0)
+      fail(HF_ERROR_INVALID_ARGUMENT, v, "screening of vertex %u is %g; it must not be negative", v, screening[v]);
+  }
+  const std::size_t m = static_cast<std::size_t>(channels);
+  for (std::uint32_t v = 0; targets && v < mesh.report.vertex_count; ++v) {
+    for (std::size_t c = 0; c < m; ++c) check_vertex_value(targets[v * m + c], v, "the target");
+  }
+  ScreeningInput input(memory);
+  for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const std::size_t given = given_vertex(mesh, v);
+    input.strength.push_back(screening[given] * mesh.scale * mesh.scale);
+    for (std::size_t c = 0; targets && c < m; ++c) input.target.push_back(targets[given * m + c]);
+  }
+  return input;
 }
 
 std::int32_t read_correction_count(std::uint32_t given) {
@@ -114,6 +141,23 @@ Vector<std::int32_t> read_source_vertices(const Mesh& mesh, std::uint32_t count,
   std::sort(inner.begin(), inner.end());
   inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
   return inner;
+}
+
+PointOnSurface read_surface_point(const TriangleSides& sides, const hf_surface_point* given, const char* name,
+                                  std::uint32_t index, Memory& memory) {
+  require(given, name);
+  if (given->reserved != 0)
+    fail(HF_ERROR_INVALID_DESC, index, "%s: reserved is %u; it must be 0", name, given->reserved);
+  const SurfacePlace place = place_on_surface(sides.mesh, *given, index, name);
+  GeodesicPoint point(sides, place.vertex, place.weight, memory);
+  if (!point.found()) fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: its corners are not those of one triangle", name);
+  return {place, std::move(point)};
+}
+
+double read_map_radius(const Mesh& mesh, double given) {
+  if (!std::isfinite(given) || given < 0)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "radius is %g; it must be 0 or above", given);
+  return given / mesh.scale;
 }
 
 float read_least_length(float given) {
