@@ -17,12 +17,11 @@ namespace {
 
 struct GeodesicsObject final : Object {
   static constexpr Kind kind_of = Kind::geodesics;
-  GeodesicsObject(const Surface& surface, DistanceMethod method, double smoothing,
-                  std::shared_ptr<ProgressObject> calls)
+  GeodesicsObject(const Surface& surface, const DistanceOptions& options, std::shared_ptr<ProgressObject> calls)
       : Object(kind_of),
         memory(surface.geometry().memory),
         progress(std::move(calls)),
-        distances(surface, method, smoothing) {}
+        distances(surface, options.method, options.smoothing) {}
   std::shared_ptr<Memory> memory;            // outlives what follows
   std::shared_ptr<ProgressObject> progress;  // of every call, or null
   Distances distances;
@@ -197,12 +196,10 @@ hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given
   return create("hf_geodesics_create", out_geodesics, "out_geodesics", [&] {
     const auto object = mesh_surface(surface, "geodesic distances");
     const hf_geodesics_desc desc = read_optional(given, "desc");
-    const double smoothing = read_smoothing(desc.smoothing);
-    const DistanceMethod method = read_method(desc.method);
-    require_zero(desc.reserved);
+    const DistanceOptions options = read_geodesics(desc);
     const std::shared_ptr<ProgressObject> progress = progress_of(desc.progress);
     return with_progress(progress, [&] {
-      auto made = make_owner_in<GeodesicsObject>(object->memory, object->surface, method, smoothing, progress);
+      auto made = make_owner_in<GeodesicsObject>(object->memory, object->surface, options, progress);
       report(1);
       return made;
     });

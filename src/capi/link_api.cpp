@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "capi/objects.h"
+#include "engine/surface_intake.h"
 #include "mesh/link_intake.h"
 
 namespace hf_inner::capi {
@@ -61,9 +62,7 @@ hf_result hf_surface_measure_gaps(hf_surface surface, const hf_gaps_desc* given,
     const hf_gaps_desc desc = read_struct(given, "desc");
     require_either(out_gaps, out_info, "out_gaps and out_info");
     if (out_info) check_struct(out_info, "out_info");
-    check_one(desc.positions, desc.positions_f64, "positions");
-    require_either(desc.positions, desc.positions_f64, "positions and positions_f64");
-    const ConstRows posed = rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
+    const ConstRows posed = read_posed(desc);
     const Geometry& shape = object->surface.geometry();
     const std::size_t count = shape.links ? shape.links->links.size() : 0;
     hf_gaps_info info{};
@@ -89,11 +88,8 @@ hf_result hf_surface_relink(hf_surface handle, const hf_links_desc* links, hf_pr
       std::shared_ptr<const Geometry> plain = shape.plain ? shape.plain : old.own().geometry;
       LinksIn in(object->memory.get());
       if (links) read_links(read_struct(links, "links"), plain->mesh, in);
-      CoreOptions options;
-      options.operator_kind = plain->operator_kind, options.field_kind = old.field_kind();
-      options.ordering = old.own().ordering, options.flop_limit = old.own().flop_limit, options.like = &old.own();
       auto geometry = Geometry::linked(std::move(plain), in.options);
-      return make_owner_in<SurfaceObject>(object->memory, std::move(geometry), options, object->info);
+      return make_owner_in<SurfaceObject>(object->memory, std::move(geometry), options_like(old), object->info);
     });
   });
 }

@@ -122,9 +122,9 @@ hf_result hf_surface_save(hf_surface handle, int32_t field_kind, hf_progress pro
                           size_t* out_size) {
   return guarded("hf_surface_save", [&] {
     const auto object = get<SurfaceObject>(handle, "surface");
-    check_choice(field_kind, 3, "field_kind");
+    const FieldKind kind = read_field_kind(field_kind);
     with_progress(progress, [&] {
-      const std::shared_ptr<const Core> core = object->surface.core(static_cast<FieldKind>(field_kind));
+      const std::shared_ptr<const Core> core = object->surface.core(kind);
       const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));
       if (out_size) *out_size = size;
       require_either(out_bytes, out_size, "out_bytes and out_size");

@@ -34,10 +34,8 @@ hf_result hf_weights_create(hf_surface handle, const hf_bones_desc* given, uint3
     const auto surface = mesh_surface(handle, "skin weights");
     const hf_bones_desc desc = read_struct(given, "bones");
     const std::int32_t influences = weights_per_vertex(weight_count);
-    if (desc.sources)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "sources is set, but there were no bones before; set it to NULL");
     Bones bones(*surface->memory);
-    read_bones(desc, bones, *surface->memory);
+    read_first_bones(desc, bones, *surface->memory);
     return with_progress(desc.progress, [&] {
       const auto core = skin_core(*surface);
       const ProgressRange range(progress_core, 1.0f);
@@ -66,7 +64,6 @@ hf_result hf_weights_set_bones(hf_weights handle, const hf_bones_desc* given) {
 hf_result hf_weights_set_pins(hf_weights handle, const hf_pins_desc* given) {
   return change("hf_weights_set_pins", handle, [&](WeightsObject& object) {
     const hf_pins_desc desc = read_struct(given, "pins");
-    require_zero(desc.reserved);
     Pins pins(*object.memory);
     read_pins(desc, object.weights.surface().core->mesh, bone_count(object), pins);
     with_progress(desc.progress, [&] { object.weights.set_pins(pins); });
@@ -127,13 +124,10 @@ hf_result hf_weights_get_info(hf_weights handle, hf_weights_info* out_info) {
     info.carried_island_count = counts.islands_carried + counts.islands_rigid;
     info.rigid_island_count = counts.islands_rigid;
     info.blind = counts.blind;
-    for (const std::uint32_t faults : state.solution->faults) {
-      const std::uint32_t flags = bone_flags(faults);
-      info.no_length_count += (flags & HF_BONE_NO_LENGTH) != 0,
-          info.coincident_count += (flags & HF_BONE_COINCIDENT) != 0;
-      info.informs_none_count += (flags & HF_BONE_INFORMS_NONE) != 0;
-      info.outside_count += (flags & HF_BONE_OUTSIDE) != 0, info.helper_count += (flags & HF_BONE_HELPER) != 0;
-    }
+    const BoneFlagCounts bones = count_bone_flags(state.solution->faults);
+    info.no_length_count = bones.no_length, info.coincident_count = bones.coincident;
+    info.informs_none_count = bones.informs_none, info.outside_count = bones.outside;
+    info.helper_count = bones.helper;
     info.factorisation_count = counts.factorisations, info.path_solve_count = counts.path_solves;
     write_struct(out_info, info);
   });

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/arguments.h"
+#include "engine/surface_intake.h"
 #include "engine/updown.h"
 #include "mesh/vertex_lists.h"
 
@@ -48,12 +49,12 @@ void check_vertex_value(double value, std::uint32_t vertex, const char* name) {
 }  // namespace
 
 SolverOptions read_solver_options(const hf_solver_desc& desc) {
-  check_choice(desc.field_kind, 3, "field_kind");
+  const FieldKind kind = read_field_kind(desc.field_kind);
   check_choice(desc.engine, 3, "engine");
   if (desc.engine == HF_ENGINE_UPDOWN) require_updown();
   require_zero(desc.reserved);
   SolverOptions options;
-  options.field_kind = static_cast<FieldKind>(desc.field_kind), options.engine = static_cast<EngineKind>(desc.engine);
+  options.field_kind = kind, options.engine = static_cast<EngineKind>(desc.engine);
   options.channels = static_cast<std::int32_t>(count_of(desc.channel_count, 1, 1, most_channels, "channel_count"));
   if (desc.penalty != 0 && !(desc.penalty > 0 && desc.penalty <= largest_penalty))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0 and at most %g, or 0 for %g",
@@ -120,17 +121,14 @@ LevelSpacing read_spacing(std::int32_t given, std::uint32_t level_count) {
   return static_cast<LevelSpacing>(given);
 }
 
-DistanceMethod read_method(std::int32_t given) {
-  check_choice(given, 4, "method");
-  return static_cast<DistanceMethod>(given);
-}
-
-double read_smoothing(float given) {
-  const double smoothing = static_cast<double>(given);
+DistanceOptions read_geodesics(const hf_geodesics_desc& desc) {
+  const double smoothing = static_cast<double>(desc.smoothing);
   if (smoothing != 0 && !(smoothing >= least_smoothing && smoothing <= most_smoothing))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "smoothing is %g; it must be %g to %g, or 0 for %g", smoothing,
          least_smoothing, most_smoothing, default_smoothing);
-  return smoothing > 0 ? smoothing : default_smoothing;
+  check_choice(desc.method, 4, "method");
+  require_zero(desc.reserved);
+  return {static_cast<DistanceMethod>(desc.method), smoothing > 0 ? smoothing : default_smoothing};
 }
 
 Vector<std::int32_t> read_source_vertices(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sources,

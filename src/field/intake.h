@@ -45,10 +45,12 @@ std::uint32_t read_site_limit(std::uint32_t given) noexcept;
 // Returns the spacing of levels, and checks how many are asked for. Throws HF_ERROR_INVALID_ARGUMENT.
 LevelSpacing read_spacing(std::int32_t given, std::uint32_t level_count);
 
-// Returns the method of distances. Throws HF_ERROR_INVALID_ARGUMENT.
-DistanceMethod read_method(std::int32_t given);
-// Smoothing of distances: Geodesics. Throws HF_ERROR_INVALID_ARGUMENT.
-double read_smoothing(float given);
+struct DistanceOptions {
+  DistanceMethod method;
+  double smoothing;  // of the heat method
+};
+// Returns the options of distances. Throws HF_ERROR_INVALID_ARGUMENT or HF_ERROR_INVALID_DESC.
+DistanceOptions read_geodesics(const hf_geodesics_desc& desc);
 // Returns the sources of distances as inner vertices, ascending, each once. Throws HF_ERROR_TOO_LARGE,
 // HF_ERROR_OUT_OF_RANGE or HF_ERROR_INVALID_ARGUMENT (index = entry).
 Vector<std::int32_t> read_source_vertices(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sources,
