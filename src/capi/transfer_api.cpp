@@ -9,7 +9,7 @@
 namespace hf_inner::capi {
 namespace {
 
-// What the normals of the target need. It is made at the first frame that asks for normals.
+// Holds the working memory for normals of the target. It is made at the first frame that asks for normals.
 struct NormalRoom {
   NormalRoom(const Core& core, Memory& memory)
       : rest(core, memory),

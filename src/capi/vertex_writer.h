@@ -10,8 +10,8 @@
 
 namespace hf_inner::capi {
 
-// Calls visit(given, inner) for the caller's vertices first .. first + count - 1, on all threads. inner is the welded
-// vertex, or Mesh::none for an isolated vertex. core: a Core or a Geometry.
+// Calls visit(given, inner) on all threads, for `count` vertices of the caller from `first` on. inner is as in
+// visit_given. core: a Core or a Geometry.
 template <class Shape, class Visit>
 void for_each_given(const Shape& core, std::size_t first, std::size_t count, Visit&& visit) {
   constexpr std::size_t piece =
