@@ -70,8 +70,7 @@ void find_path(const GeodesicsObject& object, const hf_surface_point* from, cons
     }
     if (out.parameters) out.parameters[i] = point.t;
     if (!out.positions) continue;
-    const Vec3 p =
-        point.a >= 0 ? position_of(shape.mesh, point) : position_of(shape.mesh, i == 0 ? first : last);
+    const Vec3 p = point.a >= 0 ? position_of(shape.mesh, point) : position_of(shape.mesh, i == 0 ? first : last);
     put(p, out.positions + 3 * i);
   }
 }

@@ -22,8 +22,8 @@ void check_graph_limits(const hf_surface_info& info);
 // Returns the options of the core that the info describes.
 CoreOptions core_options(const hf_surface_info& info);
 
-// Returns the options of a surface that has the operator, limits and ordering of another. The other one must outlive the
-// making of the core.
+// Returns the options of a surface that has the operator, limits and ordering of another. The other one must outlive
+// the making of the core.
 CoreOptions options_like(const Surface& other);
 
 // Makes the core load a saved factor. ordering: as the caller asks, 0 for that of the factor. Throws

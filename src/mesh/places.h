@@ -32,8 +32,8 @@ SurfacePlace place_in_triangle(const Mesh& mesh, std::uint32_t triangle, const d
 SurfacePlace place_between(const Mesh& mesh, const std::uint32_t* vertices, const double* weights,
                            std::size_t position);
 
-// A point of the caller. A corner of weight 0 may be any number; its vertex is Mesh::none. name: the point in the text of
-// errors. Throws as usable_vertex, and as the weights of place_in_triangle.
+// A point of the caller. A corner of weight 0 may be any number; its vertex is Mesh::none. name: the point in the text
+// of errors. Throws as usable_vertex, and as the weights of place_in_triangle.
 SurfacePlace place_on_surface(const Mesh& mesh, const hf_surface_point& point, std::size_t position, const char* name);
 
 // The position of a place, in the unit of the caller.
