@@ -50,7 +50,7 @@ enum {
 
 /* Describes a closed curve through at least 3 points. Shortest paths along edges join each point to the next and the
  * last to the first. The vertices on the curve are the rim of the region; they are not part of the region. A whole
- * border of the surface is a curve too; it has only one side. */
+ * border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times. */
 typedef struct hf_curve_desc {
   uint32_t struct_size;
   uint32_t point_count;       /* 3 to the number of vertices of the mesh */

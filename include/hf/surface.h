@@ -131,7 +131,8 @@ typedef struct hf_surface_desc {
   int32_t field_kind;            /* HF_FIELD_*: the factor made now. Others are made when a solver or region asks */
   int32_t ordering;              /* HF_ORDERING_* */
   uint32_t thread_count;         /* threads the library may use, yours included, 1 to 256; 0 = 1 */
-  uint32_t vertex_limit;         /* refuse larger meshes before allocating; 0 = 20,000,000 */
+  uint32_t vertex_limit;         /* refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941
+                                    vertices, triangles or edges are always refused */
   uint32_t triangle_limit;       /* refuse more triangles, or faces that would be cut into more; 0 = eight per vertex
                                     of the vertex limit */
   uint32_t memory_limit_mb;      /* refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit */

@@ -58,7 +58,9 @@ typedef struct hf_transfer_desc {
   /* A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times the angle it is not
    * aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never. */
   float alignment_angle;
-  float source_axes[9]; /* rows right, up, forward of the source; all zero = x, y, z (glTF: up +y, forward +z) */
+  /* Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y, forward +z). Lengths, and
+   * right x up = forward, must hold within 1e-3. The library takes the nearest rotation. */
+  float source_axes[9];
   float target_axes[9];
   int32_t ground;    /* HF_GROUND_* */
   uint32_t reserved; /* 0 */

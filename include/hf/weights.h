@@ -253,7 +253,7 @@ enum {
 /* Weights to mirror. */
 typedef struct hf_mirror_desc {
   uint32_t struct_size;
-  uint32_t bone_count;      /* >= 1 */
+  uint32_t bone_count;      /* 1 to 1,048,576 */
   const double* heads;      /* [bone_count][3] the joints at rest, in the frame of the mesh */
   const char* names;        /* one line for each bone in UTF-8, or NULL: bones are paired by their places */
   const uint32_t* partners; /* [bone_count] the bone of the other side, HF_NO_INDEX: find it; or NULL */

@@ -74,6 +74,33 @@ Influences influences_of(const SkinDescription& skin, uint32_t vertex) {
   return out;
 }
 
+// A primitive and the one before it that look the same and have the same kinds of numbers become one, which a player
+// draws at once. Vertices keep their order. Indices stay below 65,536, so that they are written as shorts.
+void join_neighbours(std::vector<Primitive>& primitives) {
+  constexpr size_t most_vertices = 65535;
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  const auto joins = [&](const Primitive& a, const Primitive& b) {
+    return a.topology == b.topology && a.material == b.material && a.texcoords.size() == b.texcoords.size() &&
+           a.colors.empty() == b.colors.empty() && a.normals.empty() == b.normals.empty() &&
+           a.positions.size() + b.positions.size() <= most_vertices;
+  };
+  std::vector<Primitive> joined;
+  for (Primitive& primitive : primitives) {
+    if (joined.empty() || !joins(joined.back(), primitive)) {
+      joined.push_back(std::move(primitive));
+      continue;
+    }
+    Primitive& to = joined.back();
+    const auto first = static_cast<uint32_t>(to.positions.size());
+    for (const uint32_t index : primitive.indices) to.indices.push_back(first + index);
+    append(to.positions, primitive.positions), append(to.normals, primitive.normals);
+    append(to.colors, primitive.colors), append(to.influences, primitive.influences);
+    for (size_t set = 0; set < to.texcoords.size(); ++set) append(to.texcoords[set], primitive.texcoords[set]);
+    primitive = {};
+  }
+  primitives = std::move(joined);
+}
+
 void add_mesh(const FlatMesh& mesh, const SkinDescription& skin, Model& out) {
   // bake() left one mesh per node; here all their primitives become one mesh
   MeshData all;
@@ -93,6 +120,7 @@ void add_mesh(const FlatMesh& mesh, const SkinDescription& skin, Model& out) {
       primitive.normals.assign(first, last);
     }
   }
+  join_neighbours(all.primitives);
   out.meshes.clear();
   out.meshes.push_back(std::move(all));
 }

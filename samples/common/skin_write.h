@@ -5,7 +5,8 @@
 // keys turns about the pivot and not about the origin. A joint that stretches by s along its axes B takes x to
 // R B diag(s) B' (x - c) + c + R c + t - c: its node has rotation R B, scale s and inverse bind matrix B'
 // translate(-c). Keys are LINEAR; quaternion signs are made continuous. Vertex positions are the rest positions in
-// world space; materials and texture coordinates of every primitive are kept.
+// world space; materials and texture coordinates of every primitive are kept. Neighbouring primitives of one look are
+// joined.
 #ifndef HF_SAMPLES_COMMON_SKIN_WRITE_H
 #define HF_SAMPLES_COMMON_SKIN_WRITE_H
 

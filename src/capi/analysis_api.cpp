@@ -1,6 +1,5 @@
 // Implements hf/analysis.h: levels, iso-lines, critical points, geodesic distance, extremities.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "capi/objects.h"
@@ -18,12 +17,11 @@ namespace {
 
 struct GeodesicsObject final : Object {
   static constexpr Kind kind_of = Kind::geodesics;
-  GeodesicsObject(const Surface& surface, DistanceMethod method, double smoothing,
-                  std::shared_ptr<ProgressObject> calls)
+  GeodesicsObject(const Surface& surface, const DistanceOptions& options, std::shared_ptr<ProgressObject> calls)
       : Object(kind_of),
         memory(surface.geometry().memory),
         progress(std::move(calls)),
-        distances(surface, method, smoothing) {}
+        distances(surface, options.method, options.smoothing) {}
   std::shared_ptr<Memory> memory;            // outlives what follows
   std::shared_ptr<ProgressObject> progress;  // of every call, or null
   Distances distances;
@@ -46,40 +44,18 @@ void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* ver
       [&](std::size_t v, double* values) { values[0] = field[v] < 0 ? -1 : scale * field[v]; });
 }
 
-// Reads a point of the caller. index: its place in the call.
-GeodesicPoint read_surface_point(const TriangleSides& sides, const hf_surface_point* given, const char* name,
-                                 std::uint32_t index, Memory& memory) {
-  require(given, name);
-  if (given->reserved != 0)
-    fail(HF_ERROR_INVALID_DESC, index, "%s: reserved is %u; it must be 0", name, given->reserved);
-  double sum = 0;
-  std::int32_t corners[3] = {Mesh::none, Mesh::none, Mesh::none};
-  for (int k = 0; k < 3; ++k) {
-    const double w = given->barycentrics[k];
-    if (!std::isfinite(w)) fail(HF_ERROR_NON_FINITE, index, "%s: barycentric %d is not finite", name, k);
-    if (w < 0) fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: barycentric %d is %g; it must not be negative", name, k, w);
-    sum += w;
-  }
-  if (!(std::fabs(sum - 1) <= weight_sum_error))
-    fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: barycentrics sum to %.9g; they must sum to 1", name, sum);
-  for (int k = 0; k < 3; ++k) {
-    if (given->barycentrics[k] > 0) corners[k] = usable_vertex(sides.mesh, given->corners[k], index, name);
-  }
-  GeodesicPoint point(sides, corners, given->barycentrics, memory);
-  if (!point.found()) fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: its corners are not those of one triangle", name);
-  return point;
-}
-
 void find_path(const GeodesicsObject& object, const hf_surface_point* from, const hf_surface_point* to,
                hf_path* inout_path) {
   hf_path out = read_struct(inout_path, "inout_path");
   require_zero(out.reserved);
   const Geometry& shape = object.distances.geometry();
   Memory& memory = *shape.memory;
+  SurfacePlace first, last;
   const SurfacePath path = object.distances.with_sides([&](const TriangleSides& sides) {
-    const GeodesicPoint first = read_surface_point(sides, from, "from", 0, memory);
-    const GeodesicPoint last = read_surface_point(sides, to, "to", 1, memory);
-    return with_progress(object.progress, [&] { return shortest_path(sides, first, last, memory); });
+    const PointOnSurface begin = read_surface_point(sides, from, "from", 0, memory);
+    const PointOnSurface end = read_surface_point(sides, to, "to", 1, memory);
+    first = begin.place, last = end.place;
+    return with_progress(object.progress, [&] { return shortest_path(sides, begin.point, end.point, memory); });
   });
   out.point_count = static_cast<std::uint32_t>(path.points.size());
   out.length = path.points.empty() ? -1 : shape.mesh.scale * path.length;
@@ -94,33 +70,22 @@ void find_path(const GeodesicsObject& object, const hf_surface_point* from, cons
     }
     if (out.parameters) out.parameters[i] = point.t;
     if (!out.positions) continue;
-    Vec3 p;
-    if (point.a >= 0) {
-      p = (1 - point.t) * shape.mesh.positions[static_cast<std::size_t>(point.a)] +
-          point.t * shape.mesh.positions[static_cast<std::size_t>(point.b)];
-    } else {
-      const hf_surface_point& end = i == 0 ? *from : *to;
-      for (int k = 0; k < 3; ++k) {
-        const std::int32_t v = shape.mesh.inner_of_given[end.corners[k]];
-        p = p + end.barycentrics[k] * shape.mesh.positions[static_cast<std::size_t>(v)];
-      }
-    }
-    put(shape.mesh.to_given(p), out.positions + 3 * i);
+    const Vec3 p = point.a >= 0 ? position_of(shape.mesh, point) : position_of(shape.mesh, i == 0 ? first : last);
+    put(p, out.positions + 3 * i);
   }
 }
 
 void log_map(const GeodesicsObject& object, const hf_surface_point* centre, double radius, double* out_map,
              double* out_frame) {
   require(out_map, "out_map");
-  if (!std::isfinite(radius) || radius < 0)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "radius is %g; it must be 0 or above", radius);
   const Geometry& shape = object.distances.geometry();
+  const double reach = read_map_radius(shape.mesh, radius);
   const double scale = shape.mesh.scale;
   Workspace map(shape.workspaces, 2 * static_cast<std::size_t>(shape.mesh.vertex_count()));
   Vec3 frame[2];
   object.distances.with_sides([&](const TriangleSides& sides) {
-    const GeodesicPoint point = read_surface_point(sides, centre, "centre", 0, *shape.memory);
-    with_progress(object.progress, [&] { object.distances.log_map(sides, point, radius / scale, map.data(), frame); });
+    const PointOnSurface from = read_surface_point(sides, centre, "centre", 0, *shape.memory);
+    with_progress(object.progress, [&] { object.distances.log_map(sides, from.point, reach, map.data(), frame); });
     return 0;
   });
   write_vertices(
@@ -230,12 +195,10 @@ hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given
   return create("hf_geodesics_create", out_geodesics, "out_geodesics", [&] {
     const auto object = mesh_surface(surface, "geodesic distances");
     const hf_geodesics_desc desc = read_optional(given, "desc");
-    const double smoothing = read_smoothing(desc.smoothing);
-    const DistanceMethod method = read_method(desc.method);
-    require_zero(desc.reserved);
+    const DistanceOptions options = read_geodesics(desc);
     const std::shared_ptr<ProgressObject> progress = progress_of(desc.progress);
     return with_progress(progress, [&] {
-      auto made = make_owner_in<GeodesicsObject>(object->memory, object->surface, method, smoothing, progress);
+      auto made = make_owner_in<GeodesicsObject>(object->memory, object->surface, options, progress);
       report(1);
       return made;
     });

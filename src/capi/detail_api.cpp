@@ -45,10 +45,8 @@ hf_result hf_detail_morph(hf_detail handle, const hf_morph_desc* given) {
     const MorphOut out = read_morph(given);
     const Reading reading(*object);
     const CarriedDetail& carried = object->detail;
-    write_morph(*carried.surface, *carried.state, out, [&](std::size_t, std::size_t i) {
-      const Vec3 base = carried.state->base[i];
-      return out.weight == 0 ? base : base + out.weight * carried.offset[i];
-    });
+    write_morph(*carried.surface, *carried.state, out,
+                [&](std::size_t, std::size_t i) { return carried.position(i, out.weight); });
   });
 }
 

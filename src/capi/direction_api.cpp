@@ -1,8 +1,8 @@
 // Implements hf/direction.h: direction fields.
 #include "capi/objects.h"
-#include "capi/unreached.h"
 #include "capi/vertex_writer.h"
 #include "field/direction_field.h"
+#include "field/unreached.h"
 #include "hf/direction.h"
 
 namespace hf_inner::capi {

@@ -3,9 +3,9 @@
 #include <iterator>
 
 #include "capi/objects.h"
-#include "capi/unreached.h"
 #include "capi/vertex_writer.h"
 #include "field/certificate.h"
+#include "field/unreached.h"
 #include "field/vector_field.h"
 #include "field/vector_sites.h"
 #include "hf/solver.h"
@@ -147,8 +147,6 @@ hf_result hf_solver_certify(hf_solver handle, hf_certificate* inout_certificate)
     hf_certificate report = read_struct(inout_certificate, "inout_certificate");
     require_zero(report.reserved);
     const Reading reading(*solver);
-    if (solver->field.is_screened())
-      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a screened field has no certificate; remove the screening first");
     const double tolerance = certificate_tolerance(report.tolerance, solver->field.engine().kind());
     const Certificate found = certify(solver->field);
     report.overshoot_checked = found.overshoot_checked, report.tolerance = tolerance;
@@ -156,12 +154,7 @@ hf_result hf_solver_certify(hf_solver handle, hf_certificate* inout_certificate)
     report.site_error = found.site_error, report.overshoot = found.overshoot, report.error_estimate = found.error;
     report.worst_vertex = given_vertex(solver->field.core().mesh, found.vertex);
     write_struct(inout_certificate, report);
-    const double worst = std::max({found.error, found.site_error, found.overshoot});
-    if (!(worst <= tolerance))
-      fail(HF_ERROR_INACCURATE, report.worst_vertex,
-           "the field is wrong by %.3g of the range of its values at vertex %u, more than the tolerance %.3g; make a "
-           "new surface of the mesh",
-           worst, report.worst_vertex, tolerance);
+    require_accuracy(found, tolerance, report.worst_vertex);
   });
 }
 

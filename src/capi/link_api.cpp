@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "capi/objects.h"
+#include "engine/surface_intake.h"
 #include "mesh/link_intake.h"
 
 namespace hf_inner::capi {
@@ -45,12 +46,12 @@ hf_result hf_surface_get_pieces(hf_surface surface, uint32_t capacity, uint32_t*
     const Mesh& mesh = shape.unlinked().mesh;
     write_count(out_count, mesh.report.vertex_count);
     check_capacity(out_pieces || out_light, capacity, mesh.report.vertex_count, "capacity");
-    for (std::uint32_t v = 0; (out_pieces || out_light) && v < mesh.report.vertex_count; ++v) {
-      const std::int32_t inner = mesh.inner_of_given[v];
-      const std::int32_t piece = inner == Mesh::none ? Mesh::none : mesh.component[at(inner)];
-      if (out_pieces) out_pieces[v] = piece == Mesh::none ? HF_NO_INDEX : static_cast<std::uint32_t>(piece);
-      if (out_light) out_light[v] = piece != Mesh::none && shape.links && shape.links->light[at(piece)];
-    }
+    if (!out_pieces && !out_light) return;
+    visit_given(mesh, [&](std::size_t v, std::int32_t inner) {
+      const std::uint32_t piece = component_of(mesh, inner);
+      if (out_pieces) out_pieces[v] = piece;
+      if (out_light) out_light[v] = piece != HF_NO_INDEX && shape.links && shape.links->light[piece];
+    });
   });
 }
 
@@ -61,9 +62,7 @@ hf_result hf_surface_measure_gaps(hf_surface surface, const hf_gaps_desc* given,
     const hf_gaps_desc desc = read_struct(given, "desc");
     require_either(out_gaps, out_info, "out_gaps and out_info");
     if (out_info) check_struct(out_info, "out_info");
-    check_one(desc.positions, desc.positions_f64, "positions");
-    require_either(desc.positions, desc.positions_f64, "positions and positions_f64");
-    const ConstRows posed = rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
+    const ConstRows posed = read_posed(desc);
     const Geometry& shape = object->surface.geometry();
     const std::size_t count = shape.links ? shape.links->links.size() : 0;
     hf_gaps_info info{};
@@ -73,13 +72,8 @@ hf_result hf_surface_measure_gaps(hf_surface surface, const hf_gaps_desc* given,
     Vector<double> gaps(count, 0.0, object->memory.get());
     if (count > 0) measure_gaps(shape.mesh, *shape.links, posed, gaps);
     if (out_gaps) std::copy(gaps.begin(), gaps.end(), out_gaps);
-    if (count > 0) {
-      const auto worst = std::max_element(gaps.begin(), gaps.end());
-      info.worst = *worst, info.worst_link = static_cast<std::uint32_t>(worst - gaps.begin());
-      const auto share = gaps.begin() + static_cast<std::ptrdiff_t>((95 * count + 99) / 100 - 1);
-      std::nth_element(gaps.begin(), share, gaps.end());
-      info.percentile_95 = *share;
-    }
+    const GapSummary found = summarise_gaps(gaps);
+    info.worst = found.worst, info.worst_link = found.worst_link, info.percentile_95 = found.percentile_95;
     if (out_info) write_struct(out_info, info);
   });
 }
@@ -94,11 +88,8 @@ hf_result hf_surface_relink(hf_surface handle, const hf_links_desc* links, hf_pr
       std::shared_ptr<const Geometry> plain = shape.plain ? shape.plain : old.own().geometry;
       LinksIn in(object->memory.get());
       if (links) read_links(read_struct(links, "links"), plain->mesh, in);
-      CoreOptions options;
-      options.operator_kind = plain->operator_kind, options.field_kind = old.field_kind();
-      options.ordering = old.own().ordering, options.flop_limit = old.own().flop_limit, options.like = &old.own();
       auto geometry = Geometry::linked(std::move(plain), in.options);
-      return make_owner_in<SurfaceObject>(object->memory, std::move(geometry), options, object->info);
+      return make_owner_in<SurfaceObject>(object->memory, std::move(geometry), options_like(old), object->info);
     });
   });
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include "capi/boundary.h"
 #include "capi/vertex_writer.h"
+#include "detail/intake.h"
 #include "detail/morph.h"
 #include "hf/region.h"
 
@@ -13,10 +14,8 @@ struct MorphOut : PointsOut {
 
 inline MorphOut read_morph(const hf_morph_desc* given) {
   const hf_morph_desc desc = read_struct(given, "desc");
-  require_zero(desc.reserved);
-  const PointsOut out = read_points_out(desc);
-  check_finite(desc.weight, "weight");
-  return {out, desc.weight};
+  const double weight = read_morph_weight(desc);
+  return {read_points_out(desc), weight};
 }
 
 // moved(given, i) returns the morphed position of the i-th vertex inside the region; `given` is its number in the mesh

@@ -49,9 +49,7 @@ template <class Read>
 void place_handles(hf_pose handle, std::uint32_t count, const std::uint32_t* handles, const void* places,
                    const char* name, Read&& read) {
   const auto pose = get<PoseObject>(handle, "pose");
-  require_list(count, handles, "handle_count", "handles"), require(places, name);
-  if (count > HF_HANDLE_LIMIT)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles; a pose has at most %d", count, HF_HANDLE_LIMIT);
+  check_handles(count, handles), require(places, name);
   const Changing changing(*pose);
   HandleTransform placed[HF_HANDLE_LIMIT];
   for (std::uint32_t i = 0; i < count; ++i) placed[i] = read(*pose->pose, i);

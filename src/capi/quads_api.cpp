@@ -54,7 +54,7 @@ hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quad
   return create("hf_quads_create", out_quads, "out_quads", [&] {
     const std::shared_ptr<const Core> core = unlinked_core(handle, "quads");
     const hf_quads_desc desc = read_optional(given, "desc");
-    check_choice(desc.kind, 3, "kind");
+    check_quad_options(desc);
     if (desc.kind == HF_QUADS_FIELD) {
       const FieldQuadOptions options = read_field_quad_options(core, desc);
       return with_progress(desc.progress, [&] {

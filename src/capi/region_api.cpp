@@ -29,15 +29,11 @@ hf_result hf_region_create(hf_surface handle, const hf_region_desc* given, hf_re
   return create("hf_region_create", out_region, "out_region", [&] {
     const auto surface = mesh_surface(handle, "a region");
     const hf_region_desc desc = read_optional(given, "desc");
-    check_choice(desc.field_kind, 3, "field_kind");
-    require_zero(desc.reserved);
+    const RegionOptions options = read_region_options(desc);
     return with_progress(desc.progress, [&] {
-      const auto core = surface->surface.core(static_cast<FieldKind>(desc.field_kind));
-      check_one(desc.positions, desc.positions_f64, "positions");
-      const ConstRows given_positions =
-          rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
+      const auto core = surface->surface.core(options.field_kind);
       return make_owner_in<RegionObject>(
-          core->memory, make_owner_in<RegionSurface>(core->memory, core, positions_of(*core, given_positions)));
+          core->memory, make_owner_in<RegionSurface>(core->memory, core, positions_of(*core, options.positions)));
     });
   });
 }

@@ -38,13 +38,14 @@ class SkinOut {
   // vertex, or Mesh::none for an isolated vertex.
   template <class Weigh>
   void write_vertices(const Mesh& mesh, Weigh&& weigh) const {
-    for (std::size_t v = 0; (out_.vertex_joints || out_.vertex_weights) && v < mesh.report.vertex_count; ++v) {
+    if (!out_.vertex_joints && !out_.vertex_weights) return;
+    visit_given(mesh, [&](std::size_t v, std::int32_t inner) {
       std::uint32_t joints[8] = {0};
       float weights[8] = {0};
-      weigh(mesh.inner_of_given[v], joints, weights);
+      weigh(inner, joints, weights);
       if (out_.vertex_joints) std::copy_n(joints, weight_count(), out_.vertex_joints + v * weight_count());
       if (out_.vertex_weights) std::copy_n(weights, weight_count(), out_.vertex_weights + v * weight_count());
-    }
+    });
   }
 
  private:

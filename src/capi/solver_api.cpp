@@ -1,6 +1,5 @@
 // Implements hf/solver.h: solvers and their sites.
 #include <algorithm>
-#include <cmath>
 
 #include "capi/objects.h"
 #include "capi/vertex_writer.h"
@@ -28,31 +27,6 @@ hf_result apply(const char* function, hf_solver handle, std::uint32_t* out_sites
     read(edit);
     change(handle, [&](SolverObject& solver) { solver.field.edit(edit, out_sites); });
   });
-}
-
-double read_finite(double value, std::uint32_t vertex, const char* name) {
-  if (!std::isfinite(value)) fail(HF_ERROR_NON_FINITE, vertex, "%s of vertex %u is not finite", name, vertex);
-  if (std::fabs(value) > largest_value)
-    fail(HF_ERROR_TOO_LARGE, vertex, "%s of vertex %u is %g; the limit is %g", name, vertex, value, largest_value);
-  return value;
-}
-
-// Reads H in the inner unit, and p, by inner vertex.
-void read_screening(const Mesh& mesh, std::int32_t channels, const double* screening, const double* targets,
-                    Vector<double>& strength, Vector<double>& target) {
-  for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
-    if (read_finite(screening[v], v, "screening") < 0)
-      fail(HF_ERROR_INVALID_ARGUMENT, v, "screening of vertex %u is %g; it must not be negative", v, screening[v]);
-  }
-  const std::size_t m = static_cast<std::size_t>(channels);
-  for (std::uint32_t v = 0; targets && v < mesh.report.vertex_count; ++v) {
-    for (std::size_t c = 0; c < m; ++c) read_finite(targets[v * m + c], v, "the target");
-  }
-  for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
-    const std::size_t given = given_vertex(mesh, v);
-    strength.push_back(screening[given] * mesh.scale * mesh.scale);
-    for (std::size_t c = 0; targets && c < m; ++c) target.push_back(targets[given * m + c]);
-  }
 }
 
 template <class Work>
@@ -160,10 +134,11 @@ hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count, const 
 hf_result hf_solver_set_screening(hf_solver handle, const double* screening, const double* targets) {
   return guarded("hf_solver_set_screening", [&] {
     change(handle, [&](SolverObject& solver) {
-      const Core& core = solver.field.core();
-      Vector<double> strength(solver.memory.get()), target(solver.memory.get());
-      if (screening) read_screening(core.mesh, solver.field.sites().channels(), screening, targets, strength, target);
-      solver.field.set_screening(strength, target.empty() ? nullptr : target.data());
+      ScreeningInput input(*solver.memory);
+      if (screening)
+        input = read_screening(solver.field.core().mesh, solver.field.sites().channels(), screening, targets,
+                               *solver.memory);
+      solver.field.set_screening(input.strength, input.target.empty() ? nullptr : input.target.data());
     });
   });
 }
@@ -184,14 +159,7 @@ hf_result hf_solver_get_sites(hf_solver handle, hf_sites_info* inout) {
     check_capacity(given, info.capacity, info.count, "capacity");
     const std::size_t m = static_cast<std::size_t>(sites.channels());
     Vector<double> flux(solver->memory.get());
-    if (info.flux) {
-      solver->field.flux(flux);
-      for (std::size_t s = 0; s < sites.slots().size(); ++s) {
-        const std::int32_t owner = sites.slots()[s].owner;
-        for (std::size_t c = 0; owner >= 0 && c < m; ++c)
-          flux[static_cast<std::size_t>(owner) * m + c] += flux[s * m + c];
-      }
-    }
+    if (info.flux) solver->field.site_flux(flux);
     std::size_t at = 0;
     for (std::size_t s = 0; s < sites.slots().size(); ++s) {
       const SiteSet::Slot& slot = sites.slots()[s];
@@ -202,8 +170,7 @@ hf_result hf_solver_get_sites(hf_solver handle, hf_sites_info* inout) {
       if (info.stiffness) info.stiffness[at] = slot.stiffness;
       if (info.radii) info.radii[at] = slot.radius;
       if (info.values) std::copy_n(sites.values() + s * m, m, info.values + at * m);
-      const double unit = solver->field.core().flux_unit(slot.site.component);
-      for (std::size_t c = 0; info.flux && c < m; ++c) info.flux[at * m + c] = unit * flux[s * m + c];
+      if (info.flux) std::copy_n(flux.data() + s * m, m, info.flux + at * m);
       ++at;
     }
   });

@@ -92,12 +92,8 @@ hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity, uint3
     const Mesh& mesh = object->surface.geometry().mesh;
     write_count(out_count, mesh.report.vertex_count);
     check_capacity(out_components, capacity, mesh.report.vertex_count, "capacity");
-    for (std::uint32_t v = 0; out_components && v < mesh.report.vertex_count; ++v) {
-      const std::int32_t inner = mesh.inner_of_given[v];
-      out_components[v] = inner == Mesh::none
-                              ? HF_NO_INDEX
-                              : static_cast<std::uint32_t>(mesh.component[static_cast<std::size_t>(inner)]);
-    }
+    if (!out_components) return;
+    visit_given(mesh, [&](std::size_t v, std::int32_t inner) { out_components[v] = component_of(mesh, inner); });
   });
 }
 
@@ -126,9 +122,9 @@ hf_result hf_surface_save(hf_surface handle, int32_t field_kind, hf_progress pro
                           size_t* out_size) {
   return guarded("hf_surface_save", [&] {
     const auto object = get<SurfaceObject>(handle, "surface");
-    check_choice(field_kind, 3, "field_kind");
+    const FieldKind kind = read_field_kind(field_kind);
     with_progress(progress, [&] {
-      const std::shared_ptr<const Core> core = object->surface.core(static_cast<FieldKind>(field_kind));
+      const std::shared_ptr<const Core> core = object->surface.core(kind);
       const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));
       if (out_size) *out_size = size;
       require_either(out_bytes, out_size, "out_bytes and out_size");

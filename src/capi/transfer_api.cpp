@@ -9,7 +9,7 @@
 namespace hf_inner::capi {
 namespace {
 
-// What the normals of the target need. It is made at the first frame that asks for normals.
+// Holds the working memory for normals of the target. It is made at the first frame that asks for normals.
 struct NormalRoom {
   NormalRoom(const Core& core, Memory& memory)
       : rest(core, memory),
@@ -35,21 +35,6 @@ struct TransferObject final : Object {
   Buffer<Vec3> source_posed, target_posed;
   std::shared_ptr<NormalRoom> normals;
 };
-
-struct FrameRows {
-  ConstRows posed;
-  Rows positions, normals;
-};
-
-FrameRows read_rows(const hf_transfer_frame& frame) {
-  check_one(frame.source_positions, frame.source_positions_f64, "source_positions");
-  require_either(frame.source_positions, frame.source_positions_f64, "source_positions and source_positions_f64");
-  check_one(frame.target_positions, frame.target_positions_f64, "target_positions");
-  require_zero(frame.reserved);
-  return {rows_of(frame.source_positions, frame.source_positions_f64, 3, frame.source_stride, "source_stride"),
-          rows_of(frame.target_positions, frame.target_positions_f64, 3, frame.target_stride, "target_stride"),
-          rows_of(frame.target_normals, nullptr, 3, frame.normal_stride, "normal_stride")};
-}
 
 }  // namespace
 }  // namespace hf_inner::capi

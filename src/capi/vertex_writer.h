@@ -6,6 +6,7 @@
 #include "base/compiler.h"
 #include "base/span.h"
 #include "engine/site_solver.h"
+#include "mesh/places.h"
 
 namespace hf_inner::capi {
 
@@ -18,14 +19,14 @@ constexpr std::size_t points_piece = 32768, field_piece = 16384;
 // take a tenth longer.
 constexpr std::size_t rows_ahead = 24;
 
-// Calls visit(given, inner) for the caller's vertices first .. first + count - 1, on all threads. inner is the welded
-// vertex, or Mesh::none for an isolated vertex. core: a Core or a Geometry.
+// Calls visit(given, inner) on all threads, for `count` vertices of the caller from `first` on. inner is as in
+// visit_given. core: a Core or a Geometry.
 template <class Shape, class Visit>
 void for_each_given(const Shape& core, std::size_t first, std::size_t count, Visit&& visit) {
   constexpr std::size_t piece = points_piece;
   core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
     const std::size_t begin = first + p * piece, end = std::min(first + count, begin + piece);
-    for (std::size_t v = begin; v < end; ++v) visit(v, core.mesh.inner_of_given[v]);
+    visit_given(core.mesh, begin, end, visit);
   });
 }
 

@@ -1,6 +1,7 @@
 // Implements hf/weights.h: skin weights from bones.
 #include "base/arguments.h"
 #include "capi/weights_object.h"
+#include "capi/weights_out.h"
 #include "weights/intake.h"
 
 namespace hf_inner::capi {
@@ -33,10 +34,8 @@ hf_result hf_weights_create(hf_surface handle, const hf_bones_desc* given, uint3
     const auto surface = mesh_surface(handle, "skin weights");
     const hf_bones_desc desc = read_struct(given, "bones");
     const std::int32_t influences = weights_per_vertex(weight_count);
-    if (desc.sources)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "sources is set, but there were no bones before; set it to NULL");
     Bones bones(*surface->memory);
-    read_bones(desc, bones, *surface->memory);
+    read_first_bones(desc, bones, *surface->memory);
     return with_progress(desc.progress, [&] {
       const auto core = skin_core(*surface);
       const ProgressRange range(progress_core, 1.0f);
@@ -65,7 +64,6 @@ hf_result hf_weights_set_bones(hf_weights handle, const hf_bones_desc* given) {
 hf_result hf_weights_set_pins(hf_weights handle, const hf_pins_desc* given) {
   return change("hf_weights_set_pins", handle, [&](WeightsObject& object) {
     const hf_pins_desc desc = read_struct(given, "pins");
-    require_zero(desc.reserved);
     Pins pins(*object.memory);
     read_pins(desc, object.weights.surface().core->mesh, bone_count(object), pins);
     with_progress(desc.progress, [&] { object.weights.set_pins(pins); });
@@ -83,30 +81,12 @@ hf_result hf_weights_set_locks(hf_weights handle, uint32_t lock_count, const uin
 hf_result hf_weights_get(hf_weights handle, hf_weights_out* inout) {
   return guarded("hf_weights_get", [&] {
     const auto object = get<WeightsObject>(handle, "weights");
-    hf_weights_out out = read_struct(inout, "inout_weights");
+    check_struct(inout, "inout_weights");
     const Reading reading(*object);
     const Mesh& mesh = object->weights.surface().core->mesh;
-    const WeightState& state = object->weights.state();
-    const std::size_t k = static_cast<std::size_t>(object->weights.influences());
-    out.vertex_count = mesh.report.vertex_count, out.weight_count = static_cast<std::uint32_t>(k);
-    write_struct(inout, out);
-    check_capacity(out.joints || out.joints_u16 || out.weights || out.origins, out.vertex_capacity, out.vertex_count,
-                   "vertex_capacity");
-    constexpr std::uint32_t u16_bones = 1u << 16;  // numbers that 16 bits hold
-    if (out.joints_u16 && bone_count(*object) > u16_bones)
-      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u bones do not fit 16 bits; use joints", bone_count(*object));
-    std::size_t isolated = 0;
-    for (std::size_t v = 0; v < out.vertex_count; ++v) {
-      const bool loose = mesh.inner_of_given[v] == Mesh::none;
-      const std::size_t inner = at(loose ? state.nearest_of_isolated[isolated++] : mesh.inner_of_given[v]);
-      for (std::size_t i = 0; i < k; ++i) {
-        const std::uint32_t joint = state.joints[inner * k + i];
-        if (out.joints) out.joints[v * k + i] = joint;
-        if (out.joints_u16) out.joints_u16[v * k + i] = static_cast<std::uint16_t>(joint);
-        if (out.weights) out.weights[v * k + i] = state.weights[inner * k + i];
-      }
-      if (out.origins) out.origins[v] = static_cast<std::uint8_t>(loose ? Origin::isolated : state.origin[inner]);
-    }
+    const hf_weights_out out = read_weights_out(inout, mesh, object->weights.influences());
+    check_joints_fit(out, bone_count(*object) - 1);
+    write_weights(object->weights.state(), mesh, out);
   });
 }
 
@@ -144,13 +124,10 @@ hf_result hf_weights_get_info(hf_weights handle, hf_weights_info* out_info) {
     info.carried_island_count = counts.islands_carried + counts.islands_rigid;
     info.rigid_island_count = counts.islands_rigid;
     info.blind = counts.blind;
-    for (const std::uint32_t faults : state.solution->faults) {
-      const std::uint32_t flags = bone_flags(faults);
-      info.no_length_count += (flags & HF_BONE_NO_LENGTH) != 0,
-          info.coincident_count += (flags & HF_BONE_COINCIDENT) != 0;
-      info.informs_none_count += (flags & HF_BONE_INFORMS_NONE) != 0;
-      info.outside_count += (flags & HF_BONE_OUTSIDE) != 0, info.helper_count += (flags & HF_BONE_HELPER) != 0;
-    }
+    const BoneFlagCounts bones = count_bone_flags(state.solution->faults);
+    info.no_length_count = bones.no_length, info.coincident_count = bones.coincident;
+    info.informs_none_count = bones.informs_none, info.outside_count = bones.outside;
+    info.helper_count = bones.helper;
     info.factorisation_count = counts.factorisations, info.path_solve_count = counts.path_solves;
     write_struct(out_info, info);
   });

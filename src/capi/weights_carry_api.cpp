@@ -2,43 +2,16 @@
 #include <algorithm>
 
 #include "capi/weights_object.h"
+#include "capi/weights_out.h"
 #include "weights/carry_intake.h"
 #include "weights/helper_bones.h"
 
 namespace hf_inner::capi {
 namespace {
 
-bool wants_weights(const hf_weights_out& out) noexcept {
-  return out.joints || out.joints_u16 || out.weights || out.origins;
-}
-
-// Checks what the caller can take, and writes the counts.
-hf_weights_out read_weights_out(hf_weights_out* inout, const Mesh& mesh, std::int32_t influences) {
-  hf_weights_out out = read_struct(inout, "inout_weights");
-  out.vertex_count = mesh.report.vertex_count, out.weight_count = static_cast<std::uint32_t>(influences);
-  write_struct(inout, out);
-  check_capacity(wants_weights(out), out.vertex_capacity, out.vertex_count, "vertex_capacity");
-  return out;
-}
-
 void write_filled(const FilledWeights& filled, const Mesh& mesh, const hf_weights_out& out) {
-  constexpr std::uint32_t most_u16 = 65535;
-  const auto most = std::max_element(filled.joints.begin(), filled.joints.end());
-  if (out.joints_u16 && *most > most_u16)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "joint %u does not fit 16 bits; use joints", *most);
-  const std::size_t k = at(filled.influences);
-  std::size_t isolated = 0;
-  for (std::size_t v = 0; v < out.vertex_count; ++v) {
-    const bool loose = mesh.inner_of_given[v] == Mesh::none;
-    const std::size_t inner = at(loose ? filled.nearest_of_isolated[isolated++] : mesh.inner_of_given[v]);
-    for (std::size_t i = 0; i < k; ++i) {
-      const std::uint32_t joint = filled.joints[inner * k + i];
-      if (out.joints) out.joints[v * k + i] = joint;
-      if (out.joints_u16) out.joints_u16[v * k + i] = static_cast<std::uint16_t>(joint);
-      if (out.weights) out.weights[v * k + i] = filled.weights[inner * k + i];
-    }
-    if (out.origins) out.origins[v] = static_cast<std::uint8_t>(loose ? Origin::isolated : filled.origin[inner]);
-  }
+  check_joints_fit(out, *std::max_element(filled.joints.begin(), filled.joints.end()));
+  write_weights(filled, mesh, out);
 }
 
 template <class Info>
@@ -52,20 +25,12 @@ void write_mirror_info(const MirroredWeights& made, const Mesh& mesh, hf_mirror_
   hf_mirror_info info{};
   info.vertex_count = mesh.report.vertex_count;
   info.plane_from = static_cast<std::int32_t>(made.plane.from);
-  info.worst_bone = HF_NO_INDEX, info.worst_vertex = given_vertex(mesh, made.worst);
-  std::uint32_t counts[5] = {}, paired = 0;
-  for (std::size_t b = 0; b < made.pairs.by.size(); ++b) {
-    ++counts[static_cast<std::size_t>(made.pairs.by[b])];
-    if (made.pairs.by[b] == PairedBy::none) continue;
-    const double off = mesh.scale * made.pairs.off[b];
-    ++paired, info.bone_off += off;
-    if (info.worst_bone == HF_NO_INDEX || off > info.worst_bone_off)
-      info.worst_bone = static_cast<std::uint32_t>(b), info.worst_bone_off = off;
-  }
-  if (paired > 0) info.bone_off /= paired;
-  info.alone_count = counts[HF_MIRROR_BONE_ALONE], info.named_count = counts[HF_MIRROR_BONE_NAMED];
-  info.placed_count = counts[HF_MIRROR_BONE_PLACED], info.centre_count = counts[HF_MIRROR_BONE_CENTRE];
-  info.given_count = counts[HF_MIRROR_BONE_GIVEN];
+  info.worst_vertex = given_vertex(mesh, made.worst);
+  const BoneMisses bones = bone_misses(made.pairs, mesh.scale);
+  info.bone_off = bones.mean, info.worst_bone_off = bones.worst, info.worst_bone = bones.worst_bone;
+  info.alone_count = bones.by[HF_MIRROR_BONE_ALONE], info.named_count = bones.by[HF_MIRROR_BONE_NAMED];
+  info.placed_count = bones.by[HF_MIRROR_BONE_PLACED], info.centre_count = bones.by[HF_MIRROR_BONE_CENTRE];
+  info.given_count = bones.by[HF_MIRROR_BONE_GIVEN];
   count_vertices(made.filled, info);
   info.kept_count = made.filled.by_origin[HF_WEIGHTS_KEPT];
   const Vec3 point = mesh.to_given(made.plane.offset * made.plane.normal), normal = made.plane.normal;

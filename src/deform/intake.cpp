@@ -71,6 +71,12 @@ void add_handles(PoseStack& pose, const HandleInput& input, Span<std::uint32_t> 
   }
 }
 
+void check_handles(std::uint32_t count, const std::uint32_t* handles) {
+  require_list(count, handles, "handle_count", "handles");
+  if (count > HF_HANDLE_LIMIT)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles; a pose has at most %d", count, HF_HANDLE_LIMIT);
+}
+
 HandleTransform read_transform(const hf_transform& given) noexcept {
   HandleTransform out;
   const double* q = given.rotation;

@@ -21,6 +21,8 @@ HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& 
 // around points.
 void add_handles(PoseStack& pose, const HandleInput& input, Span<std::uint32_t> out_numbers);
 
+// Checks a list of handles. Throws HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER or HF_ERROR_TOO_LARGE.
+void check_handles(std::uint32_t count, const std::uint32_t* handles);
 HandleTransform read_transform(const hf_transform& given) noexcept;
 
 // The vertices as given that hf_pose_deform writes.

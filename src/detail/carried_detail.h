@@ -23,6 +23,10 @@ struct CarriedDetail {
   std::shared_ptr<const RegionSurface> surface;  // of the target; must outlive `state` and `offset`
   std::shared_ptr<const RegionState> state;
   Vector<Vec3> offset;  // detail of the vertices state->shape->inside at weight 1
+  // The position of the i-th of these vertices. Has exactly the bits of the base at weight 0.
+  Vec3 position(std::size_t i, double weight) const noexcept {
+    return weight == 0 ? state->base[i] : state->base[i] + weight * offset[i];
+  }
 };
 
 CarriedDetail carry_detail(const Region& source, const Region& target, const CarryOptions& options, Memory& memory);

@@ -1,6 +1,7 @@
 #include "detail/intake.h"
 
 #include "base/arguments.h"
+#include "engine/surface_intake.h"
 #include "mesh/vertex_lists.h"
 
 namespace hf_inner {
@@ -10,6 +11,19 @@ namespace {
 constexpr std::uint32_t least_points = 3;
 
 }  // namespace
+
+RegionOptions read_region_options(const hf_region_desc& desc) {
+  const FieldKind kind = read_field_kind(desc.field_kind);
+  require_zero(desc.reserved);
+  check_one(desc.positions, desc.positions_f64, "positions");
+  return {kind, rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride")};
+}
+
+double read_morph_weight(const hf_morph_desc& desc) {
+  require_zero(desc.reserved);
+  check_finite(desc.weight, "weight");
+  return desc.weight;
+}
 
 void read_curve(const Core& core, const hf_curve_desc& curve, RegionEditInput& input) {
   const Mesh& mesh = core.geometry->unlinked().mesh;

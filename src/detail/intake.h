@@ -6,6 +6,16 @@
 
 namespace hf_inner {
 
+struct RegionOptions {
+  FieldKind field_kind;
+  ConstRows positions;  // null: those of the surface
+};
+// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_DESC or HF_ERROR_TOO_SMALL (stride).
+RegionOptions read_region_options(const hf_region_desc& desc);
+
+// Returns the weight of a morph. Throws HF_ERROR_NON_FINITE or HF_ERROR_INVALID_DESC.
+double read_morph_weight(const hf_morph_desc& desc);
+
 // An edit and the lists that it refers to.
 struct RegionEditInput {
   explicit RegionEditInput(Memory* memory) : points(memory), remove(memory), add(memory) {}

@@ -38,11 +38,16 @@ hf_surface_desc options_of(const hf_graph_desc& desc) {
   return out;
 }
 
+FieldKind read_field_kind(std::int32_t given) {
+  check_choice(given, 3, "field_kind");
+  return static_cast<FieldKind>(given);
+}
+
 hf_surface_info read_info(const hf_surface_desc& desc) {
   hf_surface_info info{};
   check_choice(desc.weld, 3, "weld");
   check_choice(desc.operator_kind, 4, "operator_kind");
-  check_choice(desc.field_kind, 3, "field_kind");
+  read_field_kind(desc.field_kind);
   check_choice(desc.ordering, 3, "ordering");
   require_ordering(ordering_of(desc.ordering));
   info.vertex_count = desc.vertex_count, info.triangle_count = desc.triangle_count;
@@ -83,6 +88,13 @@ CoreOptions core_options(const hf_surface_info& info) {
   options.operator_kind = static_cast<OperatorKind>(info.operator_kind);
   options.field_kind = static_cast<FieldKind>(info.field_kind);
   options.ordering = static_cast<Ordering>(info.ordering);
+  return options;
+}
+
+CoreOptions options_like(const Surface& other) {
+  CoreOptions options;
+  options.operator_kind = other.own().geometry->operator_kind, options.field_kind = other.field_kind();
+  options.ordering = other.own().ordering, options.flop_limit = other.own().flop_limit, options.like = &other.own();
   return options;
 }
 

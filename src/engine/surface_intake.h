@@ -1,12 +1,15 @@
 // Reads the options of a surface: checks them, fills in defaults, compares counts with limits.
 #pragma once
-#include "engine/core.h"
+#include "engine/surface.h"
 #include "hf/surface.h"
 
 namespace hf_inner {
 
 // Returns the options of a graph as those of a surface.
 hf_surface_desc options_of(const hf_graph_desc& desc);
+
+// Returns the kind of field of any desc. Throws HF_ERROR_INVALID_ARGUMENT.
+FieldKind read_field_kind(std::int32_t given);
 
 // Returns the options with the defaults filled in. Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_DESC,
 // HF_ERROR_NULL_POINTER (half an allocator), HF_ERROR_UNSUPPORTED (an ordering that is not in this build).
@@ -18,6 +21,10 @@ void check_graph_limits(const hf_surface_info& info);
 
 // Returns the options of the core that the info describes.
 CoreOptions core_options(const hf_surface_info& info);
+
+// Returns the options of a surface that has the operator, limits and ordering of another. The other one must outlive
+// the making of the core.
+CoreOptions options_like(const Surface& other);
 
 // Makes the core load a saved factor. ordering: as the caller asks, 0 for that of the factor. Throws
 // HF_ERROR_INVALID_ARGUMENT (another ordering, damaged bytes), HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER.

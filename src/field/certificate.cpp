@@ -308,9 +308,20 @@ double certificate_tolerance(double asked, EngineKind engine) {
 }
 
 Certificate certify(const ScalarField& field) {
+  if (field.is_screened())
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a screened field has no certificate; remove the screening first");
   if (field.sites().count() == 0)
     fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; there is no field to certify");
   return Check(field).run();
+}
+
+void require_accuracy(const Certificate& found, double tolerance, std::uint32_t vertex) {
+  const double worst = std::max({found.error, found.site_error, found.overshoot});
+  if (!(worst <= tolerance))
+    fail(HF_ERROR_INACCURATE, vertex,
+         "the field is wrong by %.3g of the range of its values at vertex %u, more than the tolerance %.3g; make a "
+         "new surface of the mesh",
+         worst, vertex, tolerance);
 }
 
 }  // namespace hf_inner

@@ -1,8 +1,10 @@
 #include "field/intake.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/arguments.h"
+#include "engine/surface_intake.h"
 #include "engine/updown.h"
 #include "mesh/vertex_lists.h"
 
@@ -38,15 +40,21 @@ Places read_places(const hf_sites_desc& desc) {
   return places;
 }
 
+void check_vertex_value(double value, std::uint32_t vertex, const char* name) {
+  if (!std::isfinite(value)) fail(HF_ERROR_NON_FINITE, vertex, "%s of vertex %u is not finite", name, vertex);
+  if (std::fabs(value) > largest_value)
+    fail(HF_ERROR_TOO_LARGE, vertex, "%s of vertex %u is %g; the limit is %g", name, vertex, value, largest_value);
+}
+
 }  // namespace
 
 SolverOptions read_solver_options(const hf_solver_desc& desc) {
-  check_choice(desc.field_kind, 3, "field_kind");
+  const FieldKind kind = read_field_kind(desc.field_kind);
   check_choice(desc.engine, 3, "engine");
   if (desc.engine == HF_ENGINE_UPDOWN) require_updown();
   require_zero(desc.reserved);
   SolverOptions options;
-  options.field_kind = static_cast<FieldKind>(desc.field_kind), options.engine = static_cast<EngineKind>(desc.engine);
+  options.field_kind = kind, options.engine = static_cast<EngineKind>(desc.engine);
   options.channels = static_cast<std::int32_t>(count_of(desc.channel_count, 1, 1, most_channels, "channel_count"));
   if (desc.penalty != 0 && !(desc.penalty > 0 && desc.penalty <= largest_penalty))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0 and at most %g, or 0 for %g",
@@ -71,6 +79,26 @@ void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_d
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
 }
 
+ScreeningInput read_screening(const Mesh& mesh, std::int32_t channels, const double* screening, const double* targets,
+                              Memory& memory) {
+  for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
+    check_vertex_value(screening[v], v, "screening");
+    if (screening[v] < 0)
+      fail(HF_ERROR_INVALID_ARGUMENT, v, "screening of vertex %u is %g; it must not be negative", v, screening[v]);
+  }
+  const std::size_t m = static_cast<std::size_t>(channels);
+  for (std::uint32_t v = 0; targets && v < mesh.report.vertex_count; ++v) {
+    for (std::size_t c = 0; c < m; ++c) check_vertex_value(targets[v * m + c], v, "the target");
+  }
+  ScreeningInput input(memory);
+  for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const std::size_t given = given_vertex(mesh, v);
+    input.strength.push_back(screening[given] * mesh.scale * mesh.scale);
+    for (std::size_t c = 0; targets && c < m; ++c) input.target.push_back(targets[given * m + c]);
+  }
+  return input;
+}
+
 std::int32_t read_correction_count(std::uint32_t given) {
   if (given > most_corrections)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "correction_count is %u; it must be 0 to %u", given, most_corrections);
@@ -93,17 +121,14 @@ LevelSpacing read_spacing(std::int32_t given, std::uint32_t level_count) {
   return static_cast<LevelSpacing>(given);
 }
 
-DistanceMethod read_method(std::int32_t given) {
-  check_choice(given, 4, "method");
-  return static_cast<DistanceMethod>(given);
-}
-
-double read_smoothing(float given) {
-  const double smoothing = static_cast<double>(given);
+DistanceOptions read_geodesics(const hf_geodesics_desc& desc) {
+  const double smoothing = static_cast<double>(desc.smoothing);
   if (smoothing != 0 && !(smoothing >= least_smoothing && smoothing <= most_smoothing))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "smoothing is %g; it must be %g to %g, or 0 for %g", smoothing,
          least_smoothing, most_smoothing, default_smoothing);
-  return smoothing > 0 ? smoothing : default_smoothing;
+  check_choice(desc.method, 4, "method");
+  require_zero(desc.reserved);
+  return {static_cast<DistanceMethod>(desc.method), smoothing > 0 ? smoothing : default_smoothing};
 }
 
 Vector<std::int32_t> read_source_vertices(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sources,
@@ -114,6 +139,23 @@ Vector<std::int32_t> read_source_vertices(const Mesh& mesh, std::uint32_t count,
   std::sort(inner.begin(), inner.end());
   inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
   return inner;
+}
+
+PointOnSurface read_surface_point(const TriangleSides& sides, const hf_surface_point* given, const char* name,
+                                  std::uint32_t index, Memory& memory) {
+  require(given, name);
+  if (given->reserved != 0)
+    fail(HF_ERROR_INVALID_DESC, index, "%s: reserved is %u; it must be 0", name, given->reserved);
+  const SurfacePlace place = place_on_surface(sides.mesh, *given, index, name);
+  GeodesicPoint point(sides, place.vertex, place.weight, memory);
+  if (!point.found()) fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: its corners are not those of one triangle", name);
+  return {place, std::move(point)};
+}
+
+double read_map_radius(const Mesh& mesh, double given) {
+  if (!std::isfinite(given) || given < 0)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "radius is %g; it must be 0 or above", given);
+  return given / mesh.scale;
 }
 
 float read_least_length(float given) {

@@ -6,6 +6,7 @@
 #include "hf/analysis.h"
 #include "hf/direction.h"
 #include "hf/solver.h"
+#include "mesh/places.h"
 
 namespace hf_inner {
 
@@ -25,6 +26,15 @@ SolverOptions read_solver_options(const hf_solver_desc& desc);
 void read_addition(const hf_sites_desc& desc, FieldEdit& edit);
 void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_desc& to, FieldEdit& edit);
 
+// Returns the screening H of all vertices in the inner unit, and what it pulls to: [inner vertex][channels], empty for
+// no targets. Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE or HF_ERROR_INVALID_ARGUMENT (index = vertex).
+struct ScreeningInput {
+  explicit ScreeningInput(Memory& memory) : strength(&memory), target(&memory) {}
+  Vector<double> strength, target;
+};
+ScreeningInput read_screening(const Mesh& mesh, std::int32_t channels, const double* screening, const double* targets,
+                              Memory& memory);
+
 // Returns the corrections of a preview. Throws HF_ERROR_INVALID_ARGUMENT.
 std::int32_t read_correction_count(std::uint32_t given);
 
@@ -35,14 +45,29 @@ std::uint32_t read_site_limit(std::uint32_t given) noexcept;
 // Returns the spacing of levels, and checks how many are asked for. Throws HF_ERROR_INVALID_ARGUMENT.
 LevelSpacing read_spacing(std::int32_t given, std::uint32_t level_count);
 
-// Returns the method of distances. Throws HF_ERROR_INVALID_ARGUMENT.
-DistanceMethod read_method(std::int32_t given);
-// Smoothing of distances: Geodesics. Throws HF_ERROR_INVALID_ARGUMENT.
-double read_smoothing(float given);
+struct DistanceOptions {
+  DistanceMethod method;
+  double smoothing;  // of the heat method
+};
+// Returns the options of distances. Throws HF_ERROR_INVALID_ARGUMENT or HF_ERROR_INVALID_DESC.
+DistanceOptions read_geodesics(const hf_geodesics_desc& desc);
 // Returns the sources of distances as inner vertices, ascending, each once. Throws HF_ERROR_TOO_LARGE,
 // HF_ERROR_OUT_OF_RANGE or HF_ERROR_INVALID_ARGUMENT (index = entry).
 Vector<std::int32_t> read_source_vertices(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sources,
                                           Memory& memory);
+
+// A point of a surface between whose corners distances are measured.
+struct PointOnSurface {
+  SurfacePlace place;
+  GeodesicPoint point;
+};
+// index: the place of the point in the call; name: its name there. Throws HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC,
+// HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE or HF_ERROR_INVALID_ARGUMENT.
+PointOnSurface read_surface_point(const TriangleSides& sides, const hf_surface_point* given, const char* name,
+                                  std::uint32_t index, Memory& memory);
+
+// Returns the radius of a map in the inner unit. Throws HF_ERROR_INVALID_ARGUMENT.
+double read_map_radius(const Mesh& mesh, double given);
 
 // The least length of extremities and proposed handles, as a share of the box diagonal. Throws
 // HF_ERROR_INVALID_ARGUMENT.

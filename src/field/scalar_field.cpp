@@ -196,4 +196,19 @@ void ScalarField::flux(Vector<double>& out, double* field) const {
   out.resize(slots * channels);
 }
 
+void ScalarField::site_flux(Vector<double>& out) const {
+  flux(out);
+  const std::size_t m = static_cast<std::size_t>(sites_.channels());
+  for (std::size_t s = 0; s < sites_.slots().size(); ++s) {
+    const std::int32_t owner = sites_.slots()[s].owner;
+    for (std::size_t c = 0; owner >= 0 && c < m; ++c) out[static_cast<std::size_t>(owner) * m + c] += out[s * m + c];
+  }
+  for (std::size_t s = 0; s < sites_.slots().size(); ++s) {
+    const SiteSet::Slot& slot = sites_.slots()[s];
+    if (!slot.is_site()) continue;
+    const double unit = core_->flux_unit(slot.site.component);
+    for (std::size_t c = 0; c < m; ++c) out[s * m + c] = unit * out[s * m + c];
+  }
+}
+
 }  // namespace hf_inner

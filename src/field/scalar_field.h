@@ -67,6 +67,8 @@ class ScalarField {
   // Computes the flux of each site. out: index of the site (slot) * channels + c; all 0 without sites. field: null, or
   // receives the field as solve does; without sites it is not written.
   void flux(Vector<double>& out, double* field = nullptr) const;
+  // The same in the caller's unit of weights. A site gets the fluxes of all its slots.
+  void site_flux(Vector<double>& out) const;
 
  private:
   struct Record {

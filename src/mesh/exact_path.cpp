@@ -169,6 +169,10 @@ PathPoint end_point(const GeodesicPoint& point, const TriangleSides& sides) {
 
 }  // namespace
 
+Vec3 position_of(const Mesh& mesh, const PathPoint& point) noexcept {
+  return mesh.to_given((1 - point.t) * mesh.positions[at(point.a)] + point.t * mesh.positions[at(point.b)]);
+}
+
 SurfacePath shortest_path(const TriangleSides& sides, const GeodesicPoint& from, const GeodesicPoint& to,
                           Memory& memory) {
   ExactTask task;

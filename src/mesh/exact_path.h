@@ -11,6 +11,9 @@ struct PathPoint {
   double t;
 };
 
+// The position of a corner that is not inside a triangle, in the unit of the caller.
+Vec3 position_of(const Mesh& mesh, const PathPoint& point) noexcept;
+
 struct SurfacePath {
   explicit SurfacePath(Memory& memory) : points(&memory) {}
   Vector<PathPoint> points;  // from the first point to the second; empty: no path leads there

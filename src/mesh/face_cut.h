@@ -1,9 +1,10 @@
 // Cuts one face into triangles, by a rule that depends neither on its first corner nor on its orientation.
 //
 // A quad is cut along its Delaunay diagonal; of two equal ones along that at the vertex of lowest number. A larger face
-// loses its roundest ear, until a triangle is left. Cost: O(1) for a quad, O(n^2) for n corners, and more where many
-// corners are reflex.
+// loses its roundest ear, until a triangle is left (Meisters 1975). Cost: O(1) for a quad, O(n log n) for a face of n
+// corners that do not lie in the way of each other's ears. A face of 60,000 corners takes 0.1 to 0.3 s.
 #pragma once
+#include "mesh/corner_slabs.h"
 #include "mesh/mesh.h"
 
 namespace hf_inner {
@@ -11,7 +12,14 @@ namespace hf_inner {
 class FaceCutter {
  public:
   explicit FaceCutter(Memory& memory)
-      : triangles(&memory), order_(&memory), point_(&memory), key_(&memory), reflex_(&memory), ears_(&memory) {}
+      : triangles(&memory),
+        order_(&memory),
+        point_(&memory),
+        key_(&memory),
+        ears_(&memory),
+        reflex_(&memory),
+        costs_(&memory),
+        slabs_(memory) {}
 
   // Cuts the face with these corners: vertex numbers and positions, at least three, neighbours different.
   void cut(Span<const std::int32_t> vertices, Span<const Vec3> positions);
@@ -23,8 +31,15 @@ class FaceCutter {
  private:
   struct Ear {
     std::int32_t before, after;
-    double cost;           // infinite: the corner cannot be cut off
-    std::int32_t blocker;  // the reflex corner inside the ear, or -1
+    std::int32_t reflex = -1;             // its place in reflex_, or -1
+    std::int32_t blocker = -1;            // a reflex corner inside the ear, or -1
+    std::int32_t blocked = -1;            // the first of the ears that this corner blocks
+    std::int32_t former = -1, next = -1;  // in the list of its blocker
+  };
+  // What a search for the corners inside an ear reads of a reflex corner.
+  struct Reflex {
+    Vec3 point;
+    std::int32_t key, corner;
   };
   void put_in_order(Span<const std::int32_t> vertices, Span<const Vec3> positions);
   void measure();
@@ -32,6 +47,9 @@ class FaceCutter {
   void cut_ears();
   void find_ear(std::int32_t corner) noexcept;
   void free_from(std::int32_t blocker) noexcept;
+  void set_reflex(std::int32_t corner, bool reflex) noexcept;
+  void set_blocker(std::int32_t corner, std::int32_t blocker) noexcept;
+  void set_cost(std::int32_t corner, double cost) noexcept;
   std::int32_t reflex_inside(std::int32_t a, std::int32_t b, std::int32_t c) const noexcept;
   double side(std::int32_t a, std::int32_t b, std::int32_t c) const noexcept;
   void add(std::int32_t a, std::int32_t b, std::int32_t c);
@@ -40,8 +58,18 @@ class FaceCutter {
   Vector<std::int32_t> order_;
   Vector<Vec3> point_;
   Vector<std::int32_t> key_;
-  Vector<std::uint8_t> reflex_;
   Vector<Ear> ears_;
+  Vector<Reflex> reflex_;  // in no order
+  // The costs of the ears as a tournament: a node above two others holds the corner of the lower cost, of equal ones
+  // the lower corner. Corner i stands at leaves_ + i, the winner at 1.
+  struct Cost {
+    double cost;
+    std::int32_t corner;
+  };
+  Vector<Cost> costs_;
+  std::size_t leaves_ = 0;
+  CornerSlabs slabs_;  // of a face of many corners
+  bool in_slabs_ = false;
   bool reversed_ = false;
   Vec3 normal_;        // twice the face's vector area
   double square_ = 0;  // its squared length

@@ -242,4 +242,15 @@ void measure_gaps(const Mesh& mesh, const Links& links, const ConstRows& posed, 
   }
 }
 
+GapSummary summarise_gaps(Span<double> gaps) {
+  GapSummary out;
+  if (gaps.size() == 0) return out;
+  const auto worst = std::max_element(gaps.begin(), gaps.end());
+  out.worst = *worst, out.worst_link = static_cast<std::uint32_t>(worst - gaps.begin());
+  const auto share = gaps.begin() + static_cast<std::ptrdiff_t>((95 * gaps.size() + 99) / 100 - 1);
+  std::nth_element(gaps.begin(), share, gaps.end());
+  out.percentile_95 = *share;
+  return out;
+}
+
 }  // namespace hf_inner

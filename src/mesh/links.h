@@ -92,6 +92,13 @@ Topology linked_topology(const Topology& topology, const Links& links, Span<cons
 // Adds the links to a Laplacian, and scales the edges of light pieces. Rows sum to 0 as before.
 void add_links(SymmetricMatrix& laplacian, const Links& links, Span<const LinkEdge> edges, Memory& memory);
 
+// The widest gap and the 95th percentile; they reorder the gaps. worst_link: HF_NO_INDEX without gaps.
+struct GapSummary {
+  double worst = 0, percentile_95 = 0;
+  std::uint32_t worst_link = HF_NO_INDEX;
+};
+GapSummary summarise_gaps(Span<double> gaps);
+
 // Writes for every link how much farther its ends are apart than at rest, or 0. posed: positions by vertex as given, in
 // the unit of the mesh. Throws HF_ERROR_NON_FINITE (index = vertex as given).
 void measure_gaps(const Mesh& mesh, const Links& links, const ConstRows& posed, Span<double> gaps);

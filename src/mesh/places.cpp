@@ -23,21 +23,21 @@ std::int32_t usable_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t p
 
 namespace {
 
-void check_weights(const double* weights, std::size_t position) {
+void check_weights(const double* weights, std::size_t position, const char* list = "the list") {
   const std::uint32_t index = static_cast<std::uint32_t>(position);
   double sum = 0;
   for (int k = 0; k < 3; ++k) {
     if (!std::isfinite(weights[k]))
-      fail(HF_ERROR_NON_FINITE, index, "entry %zu of the list: barycentric weight %d is not a finite number", position,
+      fail(HF_ERROR_NON_FINITE, index, "entry %zu of %s: barycentric weight %d is not a finite number", position, list,
            k);
     if (weights[k] < 0)
       fail(HF_ERROR_INVALID_ARGUMENT, index,
-           "entry %zu of the list: barycentric weight %d is %g; weights must not be negative", position, k, weights[k]);
+           "entry %zu of %s: barycentric weight %d is %g; weights must not be negative", position, list, k, weights[k]);
     sum += weights[k];
   }
   if (!(std::fabs(sum - 1) <= weight_sum_error))
-    fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of the list: barycentric weights sum to %.9g; they must sum to 1",
-         position, sum);
+    fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of %s: barycentric weights sum to %.9g; they must sum to 1",
+         position, list, sum);
 }
 
 }  // namespace
@@ -80,6 +80,24 @@ SurfacePlace place_between(const Mesh& mesh, const std::uint32_t* vertices, cons
   }
   check_weights(weights, position);
   return place;
+}
+
+SurfacePlace place_on_surface(const Mesh& mesh, const hf_surface_point& point, std::size_t position, const char* name) {
+  check_weights(point.barycentrics, position, name);
+  SurfacePlace place{{Mesh::none, Mesh::none, Mesh::none}, point.barycentrics};
+  for (int k = 0; k < 3; ++k) {
+    if (place.weight[k] > 0) place.vertex[k] = usable_vertex(mesh, point.corners[k], position, name);
+  }
+  return place;
+}
+
+Vec3 position_of(const Mesh& mesh, const SurfacePlace& place) noexcept {
+  Vec3 p;
+  for (int k = 0; k < 3; ++k) {
+    if (place.vertex[k] != Mesh::none)
+      p = p + place.weight[k] * mesh.positions[static_cast<std::size_t>(place.vertex[k])];
+  }
+  return mesh.to_given(p);
 }
 
 bool keeps_vertices(const Mesh& mesh) noexcept {

@@ -2,7 +2,7 @@
 //
 // `position` is the place in the caller's list and becomes the index of the error; `list` names the list in the text.
 #pragma once
-#include "hf/base.h"
+#include "hf/analysis.h"
 #include "mesh/mesh.h"
 
 namespace hf_inner {
@@ -32,10 +32,35 @@ SurfacePlace place_in_triangle(const Mesh& mesh, std::uint32_t triangle, const d
 SurfacePlace place_between(const Mesh& mesh, const std::uint32_t* vertices, const double* weights,
                            std::size_t position);
 
+// A point of the caller. A corner of weight 0 may be any number; its vertex is Mesh::none. name: the point in the text
+// of errors. Throws as usable_vertex, and as the weights of place_in_triangle.
+SurfacePlace place_on_surface(const Mesh& mesh, const hf_surface_point& point, std::size_t position, const char* name);
+
+// The position of a place, in the unit of the caller.
+Vec3 position_of(const Mesh& mesh, const SurfacePlace& place) noexcept;
+
 // The vertex of the caller for an inner one: the first that was welded to it. HF_NO_INDEX for Mesh::none.
 inline std::uint32_t given_vertex(const Mesh& mesh, std::int32_t inner) noexcept {
   return inner == Mesh::none ? HF_NO_INDEX
                              : static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(inner)]);
+}
+
+// Calls visit(given, inner) for the caller's vertices begin .. end - 1. inner: the welded vertex, or Mesh::none for an
+// isolated one.
+template <class Visit>
+void visit_given(const Mesh& mesh, std::size_t begin, std::size_t end, Visit&& visit) {
+  for (std::size_t v = begin; v < end; ++v) visit(v, mesh.inner_of_given[v]);
+}
+// The same for all vertices of the caller.
+template <class Visit>
+void visit_given(const Mesh& mesh, Visit&& visit) {
+  visit_given(mesh, 0, mesh.report.vertex_count, visit);
+}
+
+// The component of an inner vertex; HF_NO_INDEX for Mesh::none.
+inline std::uint32_t component_of(const Mesh& mesh, std::int32_t inner) noexcept {
+  return inner == Mesh::none ? HF_NO_INDEX
+                             : static_cast<std::uint32_t>(mesh.component[static_cast<std::size_t>(inner)]);
 }
 
 // Whether the inner vertices are the caller's, in the same order: none is welded, none isolated.

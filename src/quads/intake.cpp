@@ -13,7 +13,6 @@ constexpr double most_crease = 180;  // degrees
 }  // namespace
 
 FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc) {
-  check_flag(desc.keep_polygons, "keep_polygons");
   if (desc.keep_polygons)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "keep_polygons is 1, but HF_QUADS_FIELD makes quads only");
   if (desc.site_count || desc.site_vertices || desc.site_lines)
@@ -22,7 +21,6 @@ FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "face_count is %u; it must be up to %u", desc.face_count,
          most_wanted_faces);
   const double crease = static_cast<double>(desc.crease_angle);
-  check_finite(crease, "crease_angle");
   if (crease < 0 || crease > most_crease)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "crease_angle is %g; it must be 0 to %g", crease, most_crease);
   FieldQuadOptions options;

@@ -5,7 +5,7 @@
 
 namespace hf_inner {
 
-// Throws as hf_quads_create says.
+// check_quad_options of remesh/intake.h has passed. Throws as hf_quads_create says.
 FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc);
 
 }  // namespace hf_inner

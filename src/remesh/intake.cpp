@@ -47,12 +47,16 @@ std::int32_t read_relax_count(std::uint32_t given) {
   return given == 0 ? default_relax_rounds : given == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(given);
 }
 
-QuadOptions read_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc, Vector<FluxSite>& sites) {
+void check_quad_options(const hf_quads_desc& desc) {
+  check_choice(desc.kind, 3, "kind");
   check_flag(desc.keep_polygons, "keep_polygons");
+  check_finite(static_cast<double>(desc.crease_angle), "crease_angle");
+}
+
+QuadOptions read_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc, Vector<FluxSite>& sites) {
   if (desc.face_count)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "face_count is %u; only the kind HF_QUADS_FIELD takes it",
          desc.face_count);
-  check_finite(static_cast<double>(desc.crease_angle), "crease_angle");
   if (desc.crease_angle != 0)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "crease_angle is %g; only the kind HF_QUADS_FIELD takes it",
          static_cast<double>(desc.crease_angle));

@@ -30,7 +30,8 @@ Mat3 checked_axes(const double (&rows)[9], const char* side) {
   for (const Vec3& r : row) good = good && std::abs(norm(r) - 1) < axes_tolerance;
   if (!good)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "the %s axes must be three orthogonal unit rows right, up, forward with right x up = forward", side);
+         "the %s axes must be three orthogonal unit rows right, up, forward with right x up = forward, within %g", side,
+         axes_tolerance);
   // Takes the rotation nearest to the caller's axes, so that they are exactly orthonormal.
   Mat3 axes;
   for (int i = 0; i < 3; ++i) axes(i, 0) = row[i].x, axes(i, 1) = row[i].y, axes(i, 2) = row[i].z;

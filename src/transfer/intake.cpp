@@ -49,6 +49,16 @@ PairsInput read_pairs(const Transfer& transfer, const hf_pairs_desc& desc, Memor
   return input;
 }
 
+FrameRows read_rows(const hf_transfer_frame& frame) {
+  check_one(frame.source_positions, frame.source_positions_f64, "source_positions");
+  require_either(frame.source_positions, frame.source_positions_f64, "source_positions and source_positions_f64");
+  check_one(frame.target_positions, frame.target_positions_f64, "target_positions");
+  require_zero(frame.reserved);
+  return {rows_of(frame.source_positions, frame.source_positions_f64, 3, frame.source_stride, "source_stride"),
+          rows_of(frame.target_positions, frame.target_positions_f64, 3, frame.target_stride, "target_stride"),
+          rows_of(frame.target_normals, nullptr, 3, frame.normal_stride, "normal_stride")};
+}
+
 Span<const PairHold> read_holds(const hf_transfer_frame& frame, PairHold* room) {
   if (frame.hold_count > HF_PAIR_LIMIT)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u holds in a frame; a transfer has at most %d pairs", frame.hold_count,

@@ -24,6 +24,14 @@ struct PairsInput {
 // as hf_transfer_add_pairs says.
 PairsInput read_pairs(const Transfer& transfer, const hf_pairs_desc& desc, Memory& memory);
 
+// The arrays of a frame.
+struct FrameRows {
+  ConstRows posed;
+  Rows positions, normals;
+};
+// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC or HF_ERROR_TOO_SMALL (stride).
+FrameRows read_rows(const hf_transfer_frame& frame);
+
 // Returns the holds of a frame, which it writes to `room`: HF_PAIR_LIMIT entries. Throws HF_ERROR_TOO_LARGE or
 // HF_ERROR_NULL_POINTER.
 Span<const PairHold> read_holds(const hf_transfer_frame& frame, PairHold* room);

@@ -99,14 +99,10 @@ GivenWeights read_mirrored(const hf_mirror_desc& desc, const Mesh& mesh) {
 
 MirrorBones read_mirror_bones(const hf_mirror_desc& desc, const Mesh& mesh, Memory& memory) {
   MirrorBones bones(memory);
-  require_list(desc.bone_count, desc.heads, "bone_count", "heads");
-  if (desc.bone_count > most_bones)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "bone_count is %u; the limit is %u", desc.bone_count, most_bones);
+  check_bones(desc.bone_count, desc.heads);
   const auto clamped = [](double x) { return std::min(std::max(x, -farthest), farthest); };
   for (std::uint32_t b = 0; b < desc.bone_count; ++b) {
-    const double* p = desc.heads + 3 * std::size_t{b};
-    if (!is_finite_point(p)) fail(HF_ERROR_NON_FINITE, b, "heads: the point of bone %u is not finite", b);
-    const Vec3 inner = mesh.to_inner({p[0], p[1], p[2]});
+    const Vec3 inner = mesh.to_inner(read_bone_point(desc.heads, b, "heads"));
     bones.heads.push_back({clamped(inner.x), clamped(inner.y), clamped(inner.z)});
   }
   bones.partner = pair_names(read_bone_names(desc.names, desc.bone_count, memory), desc.bone_count, memory);

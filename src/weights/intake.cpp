@@ -10,12 +10,6 @@
 namespace hf_inner {
 namespace {
 
-Vec3 read_bone_point(const double* points, std::uint32_t i, const char* name) {
-  const double* p = points + 3 * std::size_t{i};
-  if (!is_finite_point(p)) fail(HF_ERROR_NON_FINITE, i, "%s: the point of bone %u is not finite", name, i);
-  return {p[0], p[1], p[2]};
-}
-
 // Refuses parents in a circle: a walk from every bone up, which ends where an earlier walk was.
 void check_parents(const Bones& bones, Memory& memory) {
   Vector<Index> walk(bones.head.size(), -1, &memory);
@@ -88,10 +82,26 @@ void read_lock_values(const Mesh& mesh, std::uint32_t count, const float* values
 
 }  // namespace
 
+void check_bones(std::uint32_t bone_count, const double* heads) {
+  require_list(bone_count, heads, "bone_count", "heads");
+  if (bone_count > most_bones)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "bone_count is %u; the limit is %u", bone_count, most_bones);
+}
+
+Vec3 read_bone_point(const double* points, std::uint32_t i, const char* name) {
+  const double* p = points + 3 * std::size_t{i};
+  if (!is_finite_point(p)) fail(HF_ERROR_NON_FINITE, i, "%s: the point of bone %u is not finite", name, i);
+  return {p[0], p[1], p[2]};
+}
+
+void read_first_bones(const hf_bones_desc& desc, Bones& bones, Memory& memory) {
+  if (desc.sources)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "sources is set, but there were no bones before; set it to NULL");
+  read_bones(desc, bones, memory);
+}
+
 void read_bones(const hf_bones_desc& desc, Bones& bones, Memory& memory) {
-  require_list(desc.bone_count, desc.heads, "bone_count", "heads");
-  if (desc.bone_count > most_bones)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "bone_count is %u; the limit is %u", desc.bone_count, most_bones);
+  check_bones(desc.bone_count, desc.heads);
   if (desc.tails && desc.axes) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "tails and axes are both set; set one");
   bones.has_tails = desc.tails != nullptr;
   for (std::uint32_t b = 0; b < desc.bone_count; ++b) {
@@ -129,6 +139,7 @@ Vector<Index> read_sources(const hf_bones_desc& desc, std::uint32_t before, Memo
 }
 
 void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, Pins& pins) {
+  require_zero(desc.reserved);
   if (desc.pin_count == 0) return;
   if (desc.vertices && desc.triangles)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
@@ -173,6 +184,17 @@ LockInput read_locks(const Mesh& mesh, std::uint32_t bone_count, std::uint32_t c
 std::uint32_t bone_flags(std::uint32_t faults) noexcept {
   const bool odd = (faults & (bone_no_length | bone_coincident | bone_outside)) != 0;
   return odd && (faults & bone_informs_none) ? faults | HF_BONE_HELPER : faults;
+}
+
+BoneFlagCounts count_bone_flags(Span<const std::uint32_t> faults) noexcept {
+  BoneFlagCounts out;
+  for (const std::uint32_t of_bone : faults) {
+    const std::uint32_t flags = bone_flags(of_bone);
+    out.no_length += (flags & HF_BONE_NO_LENGTH) != 0, out.coincident += (flags & HF_BONE_COINCIDENT) != 0;
+    out.informs_none += (flags & HF_BONE_INFORMS_NONE) != 0, out.outside += (flags & HF_BONE_OUTSIDE) != 0;
+    out.helper += (flags & HF_BONE_HELPER) != 0;
+  }
+  return out;
 }
 
 }  // namespace hf_inner

@@ -30,6 +30,21 @@ void count_misses(const Vector<Match>& matches, MirroredWeights& out) {
 
 }  // namespace
 
+BoneMisses bone_misses(const BonePairs& pairs, double scale) noexcept {
+  BoneMisses out;
+  std::uint32_t paired = 0;
+  for (std::size_t b = 0; b < pairs.by.size(); ++b) {
+    ++out.by[static_cast<std::size_t>(pairs.by[b])];
+    if (pairs.by[b] == PairedBy::none) continue;
+    const double off = scale * pairs.off[b];
+    ++paired, out.mean += off;
+    if (out.worst_bone == HF_NO_INDEX || off > out.worst)
+      out.worst_bone = static_cast<std::uint32_t>(b), out.worst = off;
+  }
+  if (paired > 0) out.mean /= paired;
+  return out;
+}
+
 MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& given, const MirrorBones& bones,
                                const MirrorOptions& options, const Surface* whose) {
   const std::shared_ptr<const Core>& core = surface.core;

@@ -36,6 +36,14 @@ struct MirroredWeights {
   Index worst = -1;  // inner vertex
 };
 
+// How far the reflections of bones are from their partners, in the unit of the mesh.
+struct BoneMisses {
+  double mean = 0, worst = 0;
+  std::uint32_t worst_bone = HF_NO_INDEX;  // HF_NO_INDEX: none has a partner
+  std::uint32_t by[5] = {};                // bones, by PairedBy
+};
+BoneMisses bone_misses(const BonePairs& pairs, double scale) noexcept;
+
 // whose: as in Fill. Throws HF_ERROR_EMPTY if no vertex of the side that gives has weights.
 MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& given, const MirrorBones& bones,
                                const MirrorOptions& options, const Surface* whose = nullptr);

@@ -3,6 +3,9 @@
 // constraints. Both ways of the library: three channels projected on the tangent planes (the paper's), against CHOLMOD
 // on the cotangent Laplacian, three right-hand sides; and the connection Laplacian, against CHOLMOD on its matrix of
 // two unknowns a vertex. The peer keeps its ordering and symbolic analysis: numeric factorisation and solve only.
+//
+// Beside a thousand constraints of the connection, one more is added and taken out again, each with the field after it.
+// No edit factorises.
 #include <cmath>
 #include <cstdio>
 
@@ -16,7 +19,7 @@
 namespace bench {
 namespace {
 
-constexpr uint32_t site_count = 40;
+constexpr uint32_t site_count = 40, many_sites = 1000;
 
 // The connection's matrix as the peer takes it, and the unknowns of the constrained vertices.
 struct ConnectionSystem {
@@ -166,6 +169,60 @@ Way by_connection(const Mesh& mesh, const std::vector<uint32_t>& sites, const Ru
           peer_ms(std::move(system.matrix), system.constrained, 1, run)};
 }
 
+// One constraint more and one fewer, each with the field after it, beside many_sites of them.
+void report_edits(const Mesh& mesh, const Run& run, Report& report, nlohmann::json& row) {
+  const Solver solver(mesh, own_defaults(run.threads));
+  hf_direction direction = nullptr;
+  check(hf_direction_create(solver.surface(), nullptr, &direction));
+  const uint32_t count = std::min(many_sites, mesh.vertex_count() / 8);
+  std::vector<uint32_t> sites = scattered_vertices(mesh.vertex_count(), count + 1, 11);
+  const uint32_t more = sites.back();
+  sites.pop_back();
+  const std::vector<double> vectors = vectors_of(count + 1);
+  check(hf_direction_add_sites(direction, count, sites.data(), vectors.data(), nullptr));
+  std::vector<float> field(size_t{3} * mesh.vertex_count());
+  const auto solve = [&] { check(hf_direction_solve(direction, field.data(), 0, nullptr)); };
+  solve();
+  const auto statistics_now = [&] {
+    hf_direction_statistics statistics = HF_INIT(hf_direction_statistics);
+    check(hf_direction_get_statistics(direction, &statistics));
+    return statistics;
+  };
+  const uint32_t before = statistics_now().factorisation_count;
+  std::vector<double> added, removed;
+  for (uint32_t r = 0; r < run.repetitions; ++r) {
+    uint32_t number = 0;
+    added.push_back(time_ms([&] {
+      check(hf_direction_add_sites(direction, 1, &more, &vectors[size_t{3} * count], &number));
+      solve();
+    }));
+    removed.push_back(time_ms([&] {
+      check(hf_direction_remove_sites(direction, 1, &number));
+      solve();
+    }));
+  }
+  const hf_direction_statistics after = statistics_now();
+  hf_direction_destroy(direction);
+  if (after.factorisation_count != before) throw std::runtime_error("an edit of one constraint has factorised");
+  ConnectionSystem system = connection_system(mesh, sites);
+  const std::pair<double, double> peer = peer_ms(std::move(system.matrix), system.constrained, 1, run);
+  const double add = median(added), remove = median(removed), worst = std::max(add, remove);
+  const double again = peer.first + peer.second;
+  std::printf(
+      "%-14s %4u sites  one more + field %6.2f ms   one fewer + field %6.2f ms   our factorisation %7.1f = %5.1fx   "
+      "CHOLMOD again + solve %7.1f + %5.1f = %5.1fx\n",
+      mesh.name.c_str(), count, add, remove, after.numeric_ms, (after.numeric_ms + worst) / worst, peer.first,
+      peer.second, again / worst);
+  std::fflush(stdout);
+  row["edit"] = {{"sites", count},
+                 {"add_ms", add},
+                 {"remove_ms", remove},
+                 {"own_numeric_ms", after.numeric_ms},
+                 {"peer_factorise_ms", peer.first},
+                 {"peer_solve_ms", peer.second}};
+  if (again > 0 && !run.small) report.measure("edit_connection", mesh.name, run.threads, again / worst);
+}
+
 }  // namespace
 
 Rows run_directions(const Run& run, Report& report) {
@@ -177,6 +234,7 @@ Rows run_directions(const Run& run, Report& report) {
     nlohmann::json row = {{"name", mesh->name}, {"n", mesh->vertex_count()}};
     report_way(by_channels(*mesh, sites, run), *mesh, run, report, row);
     report_way(by_connection(*mesh, sites, run), *mesh, run, report, row);
+    report_edits(*mesh, run, report, row);
     rows.push_back(row);
   }
   return rows;

@@ -126,6 +126,8 @@ const std::vector<Figure>& all_figures() {
        both(15), both(30), "%.1fx"},
       {"turn_connection", "vector by the connection, one turned or rewritten: CHOLMOD again + solve over ours", true,
        both(15), both(30), "%.1fx"},
+      {"edit_connection", "1,000 vectors by the connection, one more or fewer: CHOLMOD again + solve over ours", true,
+       both(5), both(15), "%.1fx"},
       {"weights_whole", "skin weights: 3.3K vertices, 50 bones, surface to weights, ms", false, both(25), both(12),
        "%.1f"},
       {"weights_bone", "skin weights: 13K vertices, a bone moved, new weights out, ms", false, both(30), both(12),

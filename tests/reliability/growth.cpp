@@ -193,11 +193,14 @@ void measure_files(const std::string& programs, const std::string& folder, bool 
     const std::string text = file_of_bytes(kind, 1000000);
     const std::string file = folder + "/" + kind + file_ending(text);
     std::ofstream(file, std::ios::binary) << text;
-    const bool all = full || kind.rfind("soup", 0) == 0;
+    const bool all = full || kind.rfind("soup", 0) == 0 || kind.rfind("polygon", 0) == 0;
     Cost worst;
     worst.ended = true;
+    // one polygon is a sound mesh of 45,000 vertices: what is judged is reading and cutting it, not making its quads
+    const bool sound = kind.rfind("polygon_", 0) == 0;
     for (const Program& program : list) {
       if (!all && &program != list.data()) continue;
+      if (sound && program.name != std::string("hf_field") && program.name != std::string("hf_rig")) continue;
       std::vector<std::string> command = {programs + "/" + program.name};
       std::string said = program.name;
       for (const std::string& word : program.arguments) {
@@ -248,6 +251,13 @@ int main(int count, char** arguments) {
       programs = word;
     }
   }
+  // first, since a child's memory counts from what this process holds when it is forked
+  if (!programs.empty()) {
+    std::string folder = (std::filesystem::temp_directory_path() / "hf_growth_XXXXXX").string();
+    if (!mkdtemp(folder.data())) return 1;
+    measure_files(programs, folder, full, only);
+    std::filesystem::remove_all(folder);
+  }
   for (const auto& structures : {weld_structures(full), library_structures(full), file_structures(full)}) {
     for (const Structure& structure : structures) {
       if (structure.name.find(only) != std::string::npos) judge(structure, full);
@@ -259,12 +269,6 @@ int main(int count, char** arguments) {
     std::printf("# biharmonic_fan 100000: %.2f s\n", found.seconds);
     report_at_most("growth_biharmonic_fan_error", found.error, 1e-8);
     report_at_most("growth_biharmonic_fan_megabytes", found.megabytes, 1000);
-  }
-  if (!programs.empty()) {
-    std::string folder = (std::filesystem::temp_directory_path() / "hf_growth_XXXXXX").string();
-    if (!mkdtemp(folder.data())) return 1;
-    measure_files(programs, folder, full, only);
-    std::filesystem::remove_all(folder);
   }
   return report_status();
 }

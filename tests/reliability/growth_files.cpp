@@ -1,5 +1,6 @@
 // Files with many elements of one kind, and reading them.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -183,6 +184,24 @@ std::string polygons(std::size_t count) {
   return text;
 }
 
+// One face of so many corners: at random, round a circle, or a comb.
+std::string polygon(std::size_t corners, int shape) {
+  std::mt19937 random(1);
+  std::string text = "OFF\n" + number(corners) + " 1 0\n", face = number(corners);
+  for (std::size_t i = 0; i < corners; ++i) {
+    const double turn = 6.283185307179586 * static_cast<double>(i) / static_cast<double>(corners);
+    const std::size_t k = i < corners / 2 ? i : corners - 1 - i;
+    if (shape == 0)
+      text += number(random() % 10000) + " " + number(random() % 10000);
+    else if (shape == 1)
+      text += std::to_string(std::cos(turn)) + " " + std::to_string(std::sin(turn));
+    else
+      text += number(k) + " " + number(i < corners / 2 ? 3 * (k % 2) : 9 + k % 2);
+    text += " 0\n", face += " " + number(i);
+  }
+  return text + face + "\n";
+}
+
 // Triangles between any vertices, half as many of these.
 std::string soup(std::size_t triangles) {
   std::mt19937 random(1);
@@ -240,6 +259,9 @@ std::string soup_glb(std::size_t triangles, std::size_t vertices) {
 const std::vector<std::pair<const char*, std::function<std::string(std::size_t)>>>& meshes() {
   static const std::vector<std::pair<const char*, std::function<std::string(std::size_t)>>> list = {
       {"polygons", polygons},
+      {"polygon_random", [](std::size_t n) { return polygon(n, 0); }},
+      {"polygon_round", [](std::size_t n) { return polygon(n, 1); }},
+      {"polygon_comb", [](std::size_t n) { return polygon(n, 2); }},
       {"soup", soup},
       {"soup_dense", [](std::size_t n) { return soup_glb(n, n / 16 + 3); }},
       {"soup_glb", [](std::size_t n) { return soup_glb(n, n / 5 + 3); }},

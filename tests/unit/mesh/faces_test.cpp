@@ -50,6 +50,66 @@ std::vector<Vec3> random_polygon(std::size_t n, unsigned seed, double bend) {
   return points;
 }
 
+// The rule itself: of all ears without a reflex corner inside, the roundest is cut, of equal ones the lowest corner.
+Triangles plain_cut_of(const std::vector<Vec3>& points) {
+  std::vector<int> left(points.size());
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] = static_cast<int>(i);
+  const auto place = [&](int i) { return points[static_cast<std::size_t>(i)]; };
+  double area = 0;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) area += cross(points[i] - points[0], points[i + 1] - points[0]).z;
+  const auto side = [&](int a, int b, int c) { return area * cross(place(b) - place(a), place(c) - place(a)).z; };
+  Triangles out;
+  while (left.size() > 3) {
+    const std::size_t n = left.size();
+    std::size_t best = 0;
+    double least = 1e300;
+    for (std::size_t i = 0; i < n; ++i) {
+      const int a = left[(i + n - 1) % n], b = left[i], c = left[(i + 1) % n];
+      if (!(side(a, b, c) > 0)) continue;
+      bool free = true;
+      for (std::size_t q = 0; q < n && free; ++q) {
+        const int it = left[q];
+        if (it == a || it == b || it == c || side(left[(q + n - 1) % n], it, left[(q + 1) % n]) > 0) continue;
+        free = !(side(a, b, it) >= 0 && side(b, c, it) >= 0 && side(c, a, it) >= 0);
+      }
+      const Vec3 x = place(b) - place(a), y = place(c) - place(b), z = place(a) - place(c);
+      const double cost = (dot(x, x) + dot(y, y) + dot(z, z)) / norm(cross(x, y));
+      if (free && cost < (1 - 1e-9) * least) best = i, least = cost;
+    }
+    out.push_back({left[(best + n - 1) % n], left[best], left[(best + 1) % n]});
+    std::sort(out.back().begin(), out.back().end());
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
+  }
+  out.push_back(left);
+  std::sort(out.back().begin(), out.back().end());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// From 128 corners on, corners are looked for in slabs. One far corner leaves the others in a small part of the plane.
+TEST(FaceCut, cuts_large_faces_by_the_same_rule) {
+  for (const std::size_t n : {40, 127, 128, 129, 300}) {
+    for (unsigned seed = 0; seed < 6; ++seed) {
+      std::vector<Vec3> points = random_polygon(n, seed, 0);
+      if (seed == 3) points[n / 2].x = 1e4;
+      if (seed == 4) {
+        for (Vec3& p : points) p.y *= 1e-3;
+      }
+      if (seed == 5) {
+        for (std::size_t i = 0; i < n; ++i) {  // a comb: many corners share a coordinate
+          const std::size_t k = i < n / 2 ? i : n - 1 - i;
+          points[i] = {static_cast<double>(k),
+                       i < n / 2 ? 0.0 + 3.0 * static_cast<double>(k % 2) : 9.0 + static_cast<double>(k % 2), 0};
+        }
+      }
+      std::vector<std::int32_t> around(n);
+      for (std::size_t i = 0; i < n; ++i) around[i] = static_cast<std::int32_t>(i);
+      const Triangles expected = plain_cut_of(points);
+      EXPECT_EQ(cut_of(around, points), expected) << n << " corners, polygon " << seed;
+    }
+  }
+}
+
 TEST(FaceCut, does_not_depend_on_the_first_corner_the_orientation_or_a_mirror) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     const std::size_t n = 4 + seed % 9;

@@ -323,6 +323,36 @@ TEST(SkinModel, KeysReproduceTheMotionAndRestIsUntouched) {
   }
 }
 
+// Twenty nodes with one mesh, the last five with another material: two primitives, the vertices in their order.
+TEST(SkinModel, NeighboursOfOneLookBecomeOnePrimitive) {
+  Model source = split_cube();
+  source.materials.resize(2);
+  source.meshes.push_back(source.meshes[0]);
+  source.meshes[1].primitives[0].material = 1;
+  source.nodes.clear(), source.scene_roots.clear();
+  for (int i = 0; i < 20; ++i) {
+    Node node;
+    node.mesh = i < 15 ? 0 : 1;
+    node.translation.x = 3 * static_cast<float>(i);
+    source.nodes.push_back(node), source.scene_roots.push_back(i);
+  }
+  const FlatMesh mesh = flatten(source);
+  SkinDescription skin;
+  skin.influences_per_vertex = 1;
+  skin.joints.push_back({"all", {0, 0, 0}});
+  skin.vertex_joints.assign(mesh.positions.size(), 0), skin.vertex_weights.assign(mesh.positions.size(), 1);
+  const Model model = skin_model(source, mesh, skin);
+  EXPECT_NO_THROW(check_model(model));
+  ASSERT_EQ(model.meshes.size(), 1u);
+  ASSERT_EQ(model.meshes[0].primitives.size(), 2u);
+  EXPECT_EQ(model.meshes[0].primitives[0].positions.size(), 15u * 24);
+  EXPECT_EQ(model.meshes[0].primitives[1].material, 1);
+  const FlatMesh flat = flatten(model);
+  EXPECT_EQ(flat.triangles, mesh.triangles);
+  for (size_t v = 0; v < mesh.positions.size(); ++v)
+    EXPECT_LT(glm::distance(flat.positions[v], mesh.positions[v]), 1e-5);
+}
+
 TEST(SkinModel, WrongDescriptionsAreRefusedByName) {
   const Model source = split_cube();
   const FlatMesh mesh = flatten(source);

@@ -3,7 +3,7 @@
 #include "engine/geometry.h"
 #include "hf/solver.h"
 
-namespace hf_inner::capi {
+namespace hf_inner {
 
 // site_count(component) returns the number of sites on a component.
 template <class Count>
@@ -19,4 +19,4 @@ hf_solve_info unreached_by(const Geometry& shape, Count&& site_count) {
   return info;
 }
 
-}  // namespace hf_inner::capi
+}  // namespace hf_inner
