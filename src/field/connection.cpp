@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/elementary.h"
+#include "base/error.h"
 #include "base/index.h"
 #include "base/progress.h"
 #include "field/vector_field.h"
@@ -142,6 +143,11 @@ void fit_frame(const Mesh& mesh, const Topology& topology, Index v, const double
 }
 
 }  // namespace
+
+void check_angle(std::uint32_t position, double angle) {
+  if (!std::isfinite(angle))
+    fail(HF_ERROR_NON_FINITE, position, "entry %u of the list: the angle is not a finite number", position);
+}
 
 Vec3 carry(Vec3 vector, Vec3 from, Vec3 to) noexcept {
   const double cosine = dot(from, to);

@@ -70,6 +70,9 @@ struct Connection {
   std::uint32_t irregular_count = 0;
 };
 
+// Throws HF_ERROR_NON_FINITE for an angle of a list that is not a number.
+void check_angle(std::uint32_t position, double angle);
+
 // Carries a vector from the plane of one normal to the plane of another normal, by the smallest rotation.
 Vec3 carry(Vec3 vector, Vec3 from_normal, Vec3 to_normal) noexcept;
 

@@ -211,8 +211,7 @@ void DirectionField::set_vectors(std::uint32_t count, const std::uint32_t* sites
 
 void DirectionField::rotate(std::uint32_t count, const std::uint32_t* sites, const double* angles) {
   update(count, sites, [&](std::uint32_t i, DirectionConstraint& site) {
-    if (!std::isfinite(angles[i]))
-      fail(HF_ERROR_NON_FINITE, i, "entry %u of the list: the angle is not a finite number", i);
+    check_angle(i, angles[i]);
     site.vector *= at_angle(1.0, wrapped(angles[i]));
   });
 }

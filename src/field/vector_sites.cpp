@@ -80,8 +80,7 @@ void rotate_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t
   Vector<double> values(field.core().memory.get());
   for (std::uint32_t i = 0; i < count; ++i) {
     const SiteSet::Slot& slot = vector_site(field, i, sites[i]);
-    if (!std::isfinite(angles[i]))
-      fail(HF_ERROR_NON_FINITE, i, "entry %u of the list: the angle is not a finite number", i);
+    check_angle(i, angles[i]);
     const Vec3 normal = vertex_normal(core.mesh, core.topology, vertex_of(slot.site));
     const Vec3 vector = turned(value_of(field, sites[i]), normal, norm(normal) > 0 ? angles[i] : 0.0);
     for (const double x : {vector.x, vector.y, vector.z}) values.push_back(x);

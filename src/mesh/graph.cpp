@@ -11,8 +11,6 @@
 namespace hf_inner {
 namespace {
 
-// Largest number of vertices or edges. The operator has two entries for each edge, and their numbers must fit 31 bits.
-constexpr std::uint32_t graph_size_limit = 0x7fffffffu / 6;
 // Weights and masses may be at most this large. Squares and sums of larger ones could overflow.
 constexpr double largest_weight = 1e100;
 // Weights below this share of the largest of their component are rounding, as cotangents of right angles are. They do
@@ -34,11 +32,11 @@ struct Arc {
 void check_counts(const GraphInput& input) {
   if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
   if (input.edge_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "edge_count is 0");
-  if (input.vertex_count > graph_size_limit)
+  if (input.vertex_count > most_elements)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count,
-         graph_size_limit);
-  if (input.edge_count > graph_size_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u edges; at most %u are supported", input.edge_count, graph_size_limit);
+         most_elements);
+  if (input.edge_count > most_elements)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u edges; at most %u are supported", input.edge_count, most_elements);
 }
 
 void check_edges(const GraphInput& input) {

@@ -20,8 +20,6 @@ namespace {
 
 using Index = std::int32_t;
 
-// Largest number of vertices or triangles. Arrays hold up to six entries for each, and their indices must fit 31 bits.
-constexpr std::uint32_t size_limit = 0x7fffffffu / 6;
 // The diagonal of a mesh must be below this length. Sums of squares in inner coordinates must not overflow.
 constexpr double largest_scale = 1e300;
 // The report counts a triangle as zero-area if its area over the longest edge squared is below this number. Its height
@@ -36,13 +34,13 @@ std::uint32_t check_sizes(const MeshInput& input) {
   if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
   if (input.triangle_count == 0 && input.faces.face_count == 0)
     fail(HF_ERROR_EMPTY, HF_NO_INDEX, "triangle_count is 0");
-  if (input.vertex_count > size_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count, size_limit);
+  if (input.vertex_count > most_elements)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count, most_elements);
   const std::uint64_t triangles =
       input.faces.face_count > 0 ? count_cut_triangles(input.faces) : std::uint64_t{input.triangle_count};
-  if (triangles > size_limit)
+  if (triangles > most_elements)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%llu triangles; at most %u are supported",
-         static_cast<unsigned long long>(triangles), size_limit);
+         static_cast<unsigned long long>(triangles), most_elements);
   return static_cast<std::uint32_t>(triangles);
 }
 

@@ -89,6 +89,10 @@ struct MeshReport {
   double smallest_angle = 0, bounding_box_diagonal = 0;
 };
 
+// Largest number of vertices, triangles, or edges of a graph. Arrays hold up to six entries for each, and their indices
+// must fit 31 bits.
+constexpr std::uint32_t most_elements = 0x7fffffffu / 6;
+
 struct Mesh {
   static constexpr std::int32_t none = -1;
 

@@ -1,7 +1,7 @@
 // All chosen numbers of this folder, grouped by the file that uses them.
 //
 // "A box" means the diagonal of a mesh's bounding box, which is 1 in inner coordinates. The lines say what happened
-// with half or twice the value. All figures come from the animals in ../shared. The self error compares the motion of
+// with half or twice the value. All figures come from the shared animals. The self error compares the motion of
 // q_Horse, transferred to itself, with the original: it is 0.0090 boxes. The foot error is how far feet end from their
 // scaled paths. Edge stretch is the 95th percentile over all edges; it is 0.32 on a wolf and 0.35 on a deer.
 //
@@ -208,7 +208,7 @@ constexpr double least_gap = 1e-9;
 // --- islands.cpp ---
 
 // At most this many sweeps spread field values over a piece without a region (an eye, a strap). All numbers of this
-// group were measured on six characters of ../shared with 3 to 66 pieces. At half the value, field values change by at
+// group were measured on six characters with 3 to 66 pieces. At half the value, field values change by at
 // most 0.008. At twice the value they change by 0.006, in up to twice the time.
 constexpr std::int32_t most_sweeps = 200;
 // The sweeps over a piece without a region end when no field value changes by more. Halving or doubling it changes

@@ -459,6 +459,21 @@ TEST(Links, the_least_skin_cost_is_below_that_of_every_contact) {
   }
 }
 
+TEST(Links, of_too_many_pieces_are_refused) {
+  PlainMesh mesh;
+  for (std::uint32_t i = 0; i <= 20000; ++i) {
+    const double x = 2.0 * (i % 200), y = 2.0 * (i / 200);
+    mesh.positions.insert(mesh.positions.end(), {x, y, 0, x + 1, y, 0, x, y + 1, 0});
+    mesh.triangles.insert(mesh.triangles.end(), {3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  try {
+    hf_inner::Geometry::linked(plain_geometry(mesh), automatic());
+    FAIL() << "not refused";
+  } catch (const hf_inner::Error& error) {
+    EXPECT_EQ(error.code(), HF_ERROR_TOO_LARGE);
+  }
+}
+
 TEST(Links, of_thousands_of_pieces_are_found) {
   PlainMesh mesh;
   for (int i = 0; i < 400; ++i) hf_test::append(mesh, box(1, {0.9, 1, 1}, {0, 0, 0}), i);
