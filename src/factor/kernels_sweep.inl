@@ -21,7 +21,8 @@ constexpr std::int32_t single_columns = 1024;
 // Numbers of the right-hand sides that stay in the second-level cache while groups of columns pass over them: 64 KB of
 // doubles. On a torus of 90,000 vertices 40 channels take 18.2 ms, 17.8 with half and 19.3 with double.
 constexpr std::int64_t pass_numbers = 8192;
-// At least this many rows are summed in one pass, whatever their length: fewer would load and store the sums more often.
+// At least this many rows are summed in one pass, whatever their length: fewer would load and store the sums more
+// often.
 constexpr std::int64_t least_rows = 16;
 // Columns of a supernode's triangle whose values are copied together: 16 KB for eight right-hand sides, inside the
 // first-level cache. On a torus of 90,000 vertices 40 channels take 18.2 ms, 22 with half and 25 with double.

@@ -33,8 +33,8 @@ inline __m256d row_products(const double* row, const double* z) noexcept {
   return _mm256_add_pd(low, high);
 }
 
-// 16 registers: 3 x 4 and 2 x 6 sums take 12; three or two hold a vector of rows each, one a factor. Double spills, half
-// leaves registers idle.
+// 16 registers: 3 x 4 and 2 x 6 sums take 12; three or two hold a vector of rows each, one a factor. Double spills,
+// half leaves registers idle.
 constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of a sum
 constexpr std::int32_t narrow_channels = 4;     // as in simd_avx512.h
 constexpr int lane_vectors = 2, lane_rows = 6;  // the block in the kernels for paths
