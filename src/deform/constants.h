@@ -207,7 +207,9 @@ constexpr std::uint32_t histogram_shares = 8;
 // 0.38 and 0.37 instead of 0.36. The other eleven poses keep their bits.
 constexpr std::int32_t least_group_share = 4;
 // Size of a block of vertices. The search for the farthest vertex reads a block again when a distance in it has
-// changed: smaller blocks are read less, larger ones are fewer. No result depends on it.
+// changed: smaller blocks are read less, larger ones are fewer. No result depends on it. The first frame of a torus of
+// 102,400 vertices with 1,000 groups takes as long with half and double within 2 %; with 32 and 2,048 it takes 8 and 2
+// % longer.
 constexpr std::size_t farthest_block = 256;
 
 // ---- blend.cpp, blend_blocks.cpp ----
