@@ -53,8 +53,8 @@ void find_grounds(Core& core) {
 }
 
 // Edge weights in a bi-harmonic operator are limited to one of these multiples of their median: the first with which
-// the matrix can be factorised. Lower ones change more weights, higher ones leave matrices that fail. Half and double of
-// all change no bit on a finely refined cylinder, an anchor and a wing nut.
+// the matrix can be factorised. Lower ones change more weights, higher ones leave matrices that fail. Half and double
+// of all change no bit on a finely refined cylinder, an anchor and a wing nut.
 constexpr double weight_caps[] = {1e3, 1e2, 1e1};
 constexpr int cap_count = 3;
 // If a second-order operator cannot be factorised, one of these shares of the diagonals is added to every edge weight.
