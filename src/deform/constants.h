@@ -183,7 +183,8 @@ constexpr double least_twice_area = 1e-300;
 // double change no bit of twelve poses, of which the anchor has angles of 0.0007 degrees.
 constexpr double steepest_gradient = 1e9;
 // Bins into which the values of a field are sorted, to space 10 to 64 bands: two for each of the most bands. More bins
-// follow the field more closely and hold fewer triangles each. Other values were not tried.
+// follow the field more closely and hold fewer triangles each. Half changes elastic energies of the benchmark by at
+// most 0.13 % and edge stretches by at most 0.01; double changes those of its planes by 0 and 0.01.
 constexpr int level_bins = 128;
 // Bins to each side in the running mean that smooths the field's gradient over its values. 1 and 6 change elastic
 // energies by 0.3 %.
@@ -206,7 +207,9 @@ constexpr std::uint32_t histogram_shares = 8;
 // 0.38 and 0.37 instead of 0.36. The other eleven poses keep their bits.
 constexpr std::int32_t least_group_share = 4;
 // Size of a block of vertices. The search for the farthest vertex reads a block again when a distance in it has
-// changed: smaller blocks are read less, larger ones are fewer. No result depends on it.
+// changed: smaller blocks are read less, larger ones are fewer. No result depends on it. The first frame of a torus of
+// 102,400 vertices with 1,000 groups takes as long with half and double within 2 %; with 32 and 2,048 it takes 8 and 2
+// % longer.
 constexpr std::size_t farthest_block = 256;
 
 // ---- blend.cpp, blend_blocks.cpp ----

@@ -33,9 +33,11 @@ inline __m256d row_products(const double* row, const double* z) noexcept {
   return _mm256_add_pd(low, high);
 }
 
-constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of a sum: 12 of 16 registers
-constexpr std::int32_t narrow_channels = 4;  // in narrow supernodes, so many right-hand sides have kernels of their own
-constexpr int lane_vectors = 2, lane_rows = 6;  // the same in the kernels for paths
+// 16 registers: 3 x 4 and 2 x 6 sums take 12; three or two hold a vector of rows each, one a factor. Double spills,
+// half leaves registers idle.
+constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of a sum
+constexpr std::int32_t narrow_channels = 4;     // as in simd_avx512.h
+constexpr int lane_vectors = 2, lane_rows = 6;  // the block in the kernels for paths
 
 // Transposes by blocks of 4 x 4: out[r][at + c] = tile[8 c + r] for r < rows and c < columns.
 inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows,

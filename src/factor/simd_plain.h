@@ -61,11 +61,12 @@ struct Narrow {
 
 constexpr bool has_row_products = false;  // without four lanes, one product follows the other
 
-constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of a sum: 12 of 16 registers
+// 16 registers: 3 x 4 sums take 12 and 2 x 4 take 8, the rest holds rows and factors. Double spills.
+constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of a sum
 // In narrow supernodes, only one right-hand side has kernels of its own. With two lanes, more of them lie along the
 // lanes as fast, and the code of 16 widths for 2, 3 and 4 would take a tenth of the WebAssembly file.
 constexpr std::int32_t narrow_channels = 1;
-constexpr int lane_vectors = 2, lane_rows = 4;  // the same in the kernels for paths
+constexpr int lane_vectors = 2, lane_rows = 4;  // the block in the kernels for paths
 
 inline double multiply_add_scalar(double a, double b, double c) noexcept { return a * b + c; }
 inline float multiply_add_scalar(float a, float b, float c) noexcept { return a * b + c; }

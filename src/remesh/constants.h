@@ -308,7 +308,8 @@ constexpr std::int32_t quad_steps = 2;
 // spacings: 0.14 of a spacing. With 0 the mean distance changes by 3 %, with 0.08 it grows by up to 6 %.
 constexpr double flat_diagonal = 0.02;
 // Places on a quad's diagonal that are measured. The middle comes first, so that a bad diagonal is rejected early. More
-// places find more bad diagonals and take longer; only these were tried.
+// places find more bad diagonals and take longer. With the middle alone, and with outer places half and 1.6 times as
+// far from it, two test meshes have at most 3 % fewer and 1 % more faces; their mean distances change by at most 3 %.
 constexpr double diagonal_shares[] = {0.5, 0.25, 0.75};
 // Samples in one thread's job. No result depends on it.
 constexpr std::int32_t samples_a_piece = 4096;

@@ -17,7 +17,8 @@ constexpr std::uint32_t most_bones = 1u << 20;
 // bones that stand far off. Half and double change no figure of the 28 shared rigs, nor does 1 on seven of them.
 constexpr double farthest = 1e6;
 // Three rays tell whether a point is inside. Most of them decide, so that one that passes along a seam does not. They
-// are parallel to no axis, since faces of models often are. Other directions were not tried.
+// are parallel to no axis, since faces of models often are. Turned to other axes, and reversed, they leave the same
+// figures of ten shared rigs.
 constexpr double ray_directions[3][3] = {{0.83, 0.41, 0.37}, {-0.31, 0.87, -0.38}, {0.29, -0.43, 0.85}};
 // A ray of this length, in boxes, leaves the box from any point in it. No result depends on it above 1; 1.2 and 8 find
 // the same bones of 14 shared rigs outside.
