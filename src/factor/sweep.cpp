@@ -16,8 +16,8 @@ namespace hf_inner {
 namespace {
 
 // The sizes of jobs below trade even loads for the cost of a job. On a torus of 102,400 vertices and two threads, half
-// and double of each (for even_share 1 and 2.6) change fields and previews of one channel by at most 3 %, the noise,
-// and of eight channels by at most 6 %. Medians of 80 solves in turns. No result depends on them.
+// and double of each (for even_share 1 and 2.6) change fields of one channel by at most 3 %. Previews, and fields of
+// eight channels, change by at most 6 %, the noise. Medians of 80 solves in turns. No result depends on them.
 
 // One thread's job sums this many columns of a supernode that is split.
 constexpr std::int32_t piece_columns = 96;
