@@ -20,7 +20,8 @@ constexpr double rounding_share = 1e-12;
 // previews use. No matrix keeps the digits of weights that far apart, so the exact factor does not matter.
 constexpr double widest_spread = 1e30;
 
-// A cancelled call is noticed after this many vertices: some milliseconds. No result depends on it.
+// A cancelled call is noticed after this many vertices, some milliseconds: half of them in half the time, at the cost
+// of one more look at a number. No result depends on it.
 constexpr std::size_t polled_piece = 16384;
 
 // One direction of an edge as given: its larger vertex and its weight.

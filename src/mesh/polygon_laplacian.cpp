@@ -28,7 +28,8 @@ constexpr double safe_determinant = 1e-12;
 // below 1e6; a larger share would leave more faces of uneven sides without a correction. On 52 generated meshes nothing
 // between 5e-7 and 1e-2 changes a field.
 constexpr double least_triangle = 1e-6;
-// Rows that one thread's job sorts. No result depends on this number.
+// Rows that one thread's job sorts: smaller jobs cost more to hand out, larger ones leave threads idle. With half and
+// double a field on 90,000 bent quads takes as long within the noise of 10 % (two threads).
 constexpr std::size_t row_piece = 8192;
 
 using Vector3 = hf_eigen::Vector3d;

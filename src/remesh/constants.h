@@ -311,9 +311,9 @@ constexpr double flat_diagonal = 0.02;
 // places find more bad diagonals and take longer. With the middle alone, and with outer places half and 1.6 times as
 // far from it, two test meshes have at most 3 % fewer and 1 % more faces; their mean distances change by at most 3 %.
 constexpr double diagonal_shares[] = {0.5, 0.25, 0.75};
-// Samples in one thread's job. No result depends on it.
+// Samples and faces in one thread's job: smaller jobs cost more to hand out, larger ones leave threads idle. Quads of
+// an armadillo of 15,000 vertices take as long with half and double of both, within 1 %.
 constexpr std::int32_t samples_a_piece = 4096;
-// Faces in one thread's job. No result depends on it.
 constexpr std::int32_t faces_a_piece = 512;
 // The value with which the hash starts: 2^64 over the golden ratio, as in splitmix64.
 constexpr std::uint64_t hash_start = 0x9e3779b97f4a7c15u;

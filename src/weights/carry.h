@@ -47,7 +47,9 @@ struct Probe {
 template <class ProbeOf>
 Vector<Match> find_matches(const WeightedShape& source, const Core& target, const MatchOptions& options, bool any,
                            ProbeOf&& probe) {
-  constexpr std::size_t piece = 256;  // vertices in one thread's job: some 0.2 ms
+  // Vertices in one thread's job, some 0.2 ms. Weights carried to 17,424 vertices take 75 ms, with half 73, with double
+  // 75 (two threads).
+  constexpr std::size_t piece = 256;
   const double within = any ? HUGE_VAL : options.distance * options.distance, cosine = any ? -1 : options.cosine;
   Vector<Match> out(at(target.size()), target.memory.get());
   for_ranges(*target.jobs, out.size(), piece, [&](std::size_t begin, std::size_t end) {
