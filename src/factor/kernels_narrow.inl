@@ -2,7 +2,7 @@
 // over them waits for latency, not for memory.
 //
 // They are stored inverted. A supernode's columns consist of a triangle L and the rows B below. Instead of them, the
-// factor stores X = L^-1 and W = B L^-1. Both sweeps are then products, without a chain from column to column:
+// factor stores X = L^-1 and W = B L^-1. Both sweeps are then products, without a chain from column to column.
 //     backward  z <- X' z - W' y     (y: the rows below)
 //     forward   y <- y - W z, then z <- X z
 // The inverse of at most 16 columns of a Cholesky factor is as accurate as the substitution it replaces (Higham 2002,
