@@ -54,16 +54,16 @@ Run watch(const Case& c, hf_progress progress) {
     must(hf_progress_get_fraction(progress, &fraction), "hf_progress_get_fraction");
     return fraction;
   };
-  // What the call works on may have been made with this progress. The call itself begins at 0.
+  // An earlier call may have left this progress anywhere. The call itself begins at 0, which is no fall.
   const float before = read();
   float last = 0;
   Clock::time_point full;
   const Clock::time_point begin = Clock::now();
   std::thread watcher([&] {
-    bool begun = before < 1;
+    bool begun = before <= 0;
     while (!over) {
       const float fraction = read();
-      begun = begun || fraction < 1;
+      begun = begun || fraction != before;
       if (begun) {
         if (fraction < last) run.fell = true;
         if (fraction >= 1 && last < 1) full = Clock::now();
