@@ -1,9 +1,20 @@
 #include "quads/crossings.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace samples {
 namespace {
+
+// A pair whose boxes meet takes as long as ten others.
+constexpr uint64_t meeting_pair = 10;
+
+// At most this many pairs are tried. Real meshes of 70,000 to 400,000 triangles have 2 to 4 times n^1.5. A disc of 45,000
+// corners and no vertex inside has n^2.
+uint64_t most_pairs(size_t triangles) {
+  const double n = static_cast<double>(triangles);
+  return 10000000 + static_cast<uint64_t>(8 * n * std::sqrt(n));
+}
 
 struct Piece {
   glm::dvec3 corner[3], low, high;
@@ -39,7 +50,7 @@ bool boxes_meet(const Piece& a, const Piece& b) {
 
 }  // namespace
 
-uint32_t count_crossing_faces(const SurfaceMesh& mesh) {
+std::optional<uint32_t> count_crossing_faces(const SurfaceMesh& mesh) {
   std::vector<Piece> pieces;
   std::vector<size_t> start{0};
   size_t first = 0;
@@ -67,10 +78,14 @@ uint32_t count_crossing_faces(const SurfaceMesh& mesh) {
   };
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.low.x < b.low.x; });
   std::vector<bool> crosses(mesh.face_count(), false);
+  const uint64_t most = most_pairs(pieces.size());
+  uint64_t pairs = 0;
   for (size_t i = 0; i < pieces.size(); ++i) {
     for (size_t j = i + 1; j < pieces.size() && pieces[j].low.x <= pieces[i].high.x; ++j) {
+      if (++pairs > most) return std::nullopt;
       const Piece &a = pieces[i], &b = pieces[j];
       if (a.face == b.face || !boxes_meet(a, b) || (crosses[a.face] && crosses[b.face])) continue;
+      pairs += meeting_pair;
       if (!share_a_vertex(a.face, b.face) && cross_each_other(a, b)) crosses[a.face] = crosses[b.face] = true;
     }
   }

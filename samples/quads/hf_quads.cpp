@@ -165,14 +165,22 @@ void print_figures(const SurfaceMesh& input, double diagonal, const SurfaceMesh&
   std::printf("valence     %s\n", to_text(report.valences).c_str());
   std::printf("irregular   %.2f %%\n", percent(report.irregular, report.vertices));
   std::printf("turned over %u corners\n", report.turned_over);
-  std::printf("crossing    %u faces run through others (%u of the surface)\n", count_crossing_faces(mesh),
-              count_crossing_faces(input));
+  const std::optional<uint32_t> crossing = count_crossing_faces(mesh), before = count_crossing_faces(input);
+  if (crossing && before) {
+    std::printf("crossing    %u faces run through others (%u of the surface)\n", *crossing, *before);
+  } else {
+    std::printf("crossing    not counted, too many long triangles lie side by side\n");
+  }
   std::printf("edge/L      5 %%: %.2f, median %.2f, 95 %%: %.2f\n", report.edge[0], report.edge[1], report.edge[2]);
   std::printf("aspect      median %.2f, 95 %%: %.2f\n", report.aspect[1], report.aspect[2]);
   std::printf("angle off   median %.1f, 95 %%: %.1f degrees\n", report.angle[1], report.angle[2]);
-  std::printf("Hausdorff   %.3f %% of the box (mesh to quads %.3f %%, mean %.3f %%; quads to mesh %.3f %%)\n",
-              100 * distance.largest() / diagonal, 100 * distance.a_to_b / diagonal,
-              100 * distance.mean_a_to_b / diagonal, 100 * distance.b_to_a / diagonal);
+  if (distance.measured) {
+    std::printf("Hausdorff   %.3f %% of the box (mesh to quads %.3f %%, mean %.3f %%; quads to mesh %.3f %%)\n",
+                100 * distance.largest() / diagonal, 100 * distance.a_to_b / diagonal,
+                100 * distance.mean_a_to_b / diagonal, 100 * distance.b_to_a / diagonal);
+  } else {
+    std::printf("Hausdorff   not measured, too many long triangles lie side by side\n");
+  }
 }
 
 void draw_sheet(const Command& options, const SurfaceMesh& mesh, const std::vector<Point>& dots, const char* how) {

@@ -73,14 +73,18 @@ uint32_t NearestPoint::build(uint32_t first, uint32_t count) {
 
 double NearestPoint::distance(const glm::dvec3& p) const {
   if (boxes_.empty()) return std::numeric_limits<double>::infinity();
+  // Nearer than rounding: on a flat part, all thin triangles around a point would be tried otherwise.
+  const glm::dvec3 size = boxes_[0].high - boxes_[0].low;
+  const double enough = 1e-28 * dot(size, size);
   double best = std::numeric_limits<double>::infinity();
   uint32_t stack[128];
   int top = 0;
   stack[top++] = 0;
-  while (top > 0) {
+  while (top > 0 && best > enough) {
     const uint32_t number = stack[--top];
     const Box& box = boxes_[number];
     if (to_box(p, box.low, box.high) >= best) continue;
+    tries_ += box.count;
     for (uint32_t i = box.first; i < box.first + box.count; ++i) {
       const uint32_t* t = &soup_.triangles[3 * size_t{order_[i]}];
       best = std::min(best, to_triangle(p, soup_.positions[t[0]], soup_.positions[t[1]], soup_.positions[t[2]]));
@@ -99,12 +103,14 @@ SurfaceDistance surface_distance(const TriangleSoup& a, const TriangleSoup& b, u
   auto one_way = [&](const TriangleSoup& from, const TriangleSoup& to, double& mean) {
     const NearestPoint nearest(to);
     double worst = 0, total = 0, area = 0, count = 0;
+    const size_t triangles = from.triangles.size() / 3;
     auto corner = [&](size_t t, size_t k) { return from.positions[from.triangles[3 * t + k]]; };
     auto visit = [&](const glm::dvec3& p) {
+      if (nearest.tries() > SurfaceDistance::most_tries * (3 * triangles + samples)) out.measured = false;
+      if (!out.measured) return;
       const double d = nearest.distance(p);
       worst = std::max(worst, d), total += d, count += 1;
     };
-    const size_t triangles = from.triangles.size() / 3;
     for (size_t t = 0; t < triangles; ++t)
       area += 0.5 * length(cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)));
     double carried = 0;

@@ -20,8 +20,9 @@ constexpr double most_bend = -0.5;
 
 class Collapser {
  public:
-  Collapser(QuadComplex& quads, Memory& memory)
+  Collapser(QuadComplex& quads, std::int32_t hub, Memory& memory)
       : q_(quads),
+        most_walked_(hub),
         memory_(memory),
         dead_(quads.quad_count(), 0, memory),
         crossed_(quads.quad_count(), 0, memory),
@@ -29,11 +30,16 @@ class Collapser {
         leader_(quads.vertices.position.size(), none, memory),
         start_(leader_),
         place_(leader_),
+        hub_(leader_),
+        gaps_(quads.vertices.position.size(), 0, memory),
+        quads_at_(gaps_),
         corners_(quads.vertices.position.size(), 0, memory),
+        at_border_(corners_),
         halves_(memory),
         classes_(memory),
         fan_(memory),
         neighbours_(memory),
+        moved_(memory),
         joins_(memory),
         undo_(memory) {
     Table<std::uint8_t> sides(q_.vertices.position.size(), 0, memory);
@@ -44,6 +50,10 @@ class Collapser {
     }
     for (std::int32_t v = 0; v < corners_.size(); ++v) corners_[v] = sides[v] == 1 || sides[v] > 2;
     bent_corners();
+    for (std::int32_t h = 0; h < q_.tail.size(); ++h) {
+      ++quads_at_[q_.tail[h]];
+      if (q_.twin[h] == none) at_border_[q_.tail[h]] = at_border_[q_.head(h)] = 1;
+    }
   }
 
   std::int32_t run(std::int32_t wanted, std::int32_t least) {
@@ -140,10 +150,10 @@ class Collapser {
 
   // Removes the chord of the last walk if the mesh stays valid.
   bool collapse() {
-    classes_.clear(), joins_.clear();
+    classes_.clear(), joins_.clear(), moved_.clear();
     const bool good = plan();
     if (good) apply();
-    for (const std::int32_t v : classes_) leader_[v] = none;
+    for (const std::int32_t v : classes_) leader_[v] = hub_[v] = none;
     return good;
   }
 
@@ -169,6 +179,7 @@ class Collapser {
     }
     // A circle of crossed edges may only be the sides of a quad that the chord crosses twice.
     if (merged != edges - twice) return false;
+    if (!find_hubs(twice)) return false;
     // Quads on the two sides of the chord become neighbours.
     for (const std::int32_t h : halves_) {
       for (const std::int32_t side : {QuadComplex::next(h), QuadComplex::previous(h)}) {
@@ -190,7 +201,79 @@ class Collapser {
     return check();
   }
 
-  // Checks the fans of all merged vertices in the mesh as it will be.
+  bool is_hub(std::int32_t v) const noexcept { return quads_at_[v] > most_walked_; }
+
+  // Finds the classes that have a hub, and checks them in the mesh as it is. A tree of edges that becomes a point leaves
+  // one fan, with one gap if the tree meets the border once. So faults can only lie at the vertices that join the hub.
+  bool find_hubs(std::int32_t twice) {
+    bool any = false;
+    for (const std::int32_t v : classes_) {
+      if (!is_hub(v)) continue;
+      std::int32_t& hub = hub_[find(v)];
+      if (hub != none || twice > 0) return false;
+      hub = v, any = true;
+    }
+    if (!any) return true;
+    for (const std::int32_t v : classes_) gaps_[find(v)] += at_border_[v];
+    for (const std::int32_t h : halves_) {
+      start_[q_.tail[h]] = h, start_[q_.head(h)] = QuadComplex::next(h);
+      gaps_[find(q_.tail[h])] -= q_.twin[h] == none;
+    }
+    bool good = true;
+    for (const std::int32_t v : classes_) {
+      const std::int32_t c = find(v);
+      if (hub_[c] != none) good = good && gaps_[c] <= 1 && (v == hub_[c] ? keeps_quads(v) : check_around(v, c));
+    }
+    for (const std::int32_t v : classes_) gaps_[v] = 0, start_[v] = none;
+    return good;
+  }
+  bool keeps_quads(std::int32_t hub) const noexcept {
+    std::int32_t left = quads_at_[hub];
+    for (const std::int32_t h : halves_) left -= q_.tail[h] == hub || q_.head(h) == hub;
+    return left >= 3;
+  }
+  // Checks what is around v, which joins the hub of class c, and notes its half-edges in moved_.
+  bool check_around(std::int32_t v, std::int32_t c) {
+    const std::int32_t first = first_of_fan(start_[v]);
+    for (std::int32_t h = first; h != none;) {
+      const std::int32_t last = QuadComplex::previous(h);
+      if (!crossed_[h / 4]) {
+        moved_.push_back(h);
+        // A quad with a third corner in the class has two of its edges at a neighbour.
+        if (!check_edge(QuadComplex::next(h), c) || !check_edge(last, c)) return false;
+      }
+      h = q_.twin[last];
+      if (h == first) break;
+    }
+    return true;
+  }
+  // Whether the vertex that h leaves will have one edge to class c. check_fan counts the edges of a class.
+  bool check_edge(std::int32_t h, std::int32_t c) {
+    const std::int32_t v = q_.tail[h];
+    if (leader_[v] != none) return find(v) != c && hub_[find(v)] == none;
+    if (is_hub(v)) return false;
+    std::int32_t edges = 0;
+    const std::int32_t first = first_of_fan(h);
+    for (std::int32_t g = first; g != none;) {
+      edges += class_of(q_.head(g)) == c;
+      const std::int32_t last = QuadComplex::previous(g);
+      g = q_.twin[last];
+      edges += g == none && class_of(q_.tail[last]) == c;
+      if (g == first) break;
+    }
+    return edges == 1;
+  }
+  // The half-edge where the fan of h begins: h, or the one at the border.
+  std::int32_t first_of_fan(std::int32_t h) const noexcept {
+    for (std::int32_t first = h; q_.twin[first] != none;) {
+      first = QuadComplex::next(q_.twin[first]);
+      if (first == h) return h;
+      if (q_.twin[first] == none) return first;
+    }
+    return h;
+  }
+
+  // Checks the fans of all other merged vertices in the mesh as it will be.
   bool check() {
     // By class: a half-edge that leaves it in a quad that stays.
     for (const Join& j : joins_) {
@@ -202,13 +285,13 @@ class Collapser {
     bool good = true;
     apply_joins(true);
     for (const std::int32_t v : classes_) {
-      if (find(v) == v) good = good && start_[v] != none && check_fan(v);
+      if (find(v) == v && hub_[v] == none) good = good && start_[v] != none && check_fan(v);
     }
     if (good) {
       // All half-edges of the classes must lie in the fans that were walked.
       for (const Join& j : joins_) {
         for (const std::int32_t g : {j.a, j.b})
-          good = good && (g == none || (in_fan_[g] && in_fan_[QuadComplex::next(g)]));
+          good = good && (g == none || (is_walked(g) && is_walked(QuadComplex::next(g))));
       }
     }
     for (const std::int32_t h : fan_) in_fan_[h] = 0;
@@ -217,6 +300,8 @@ class Collapser {
     if (!good) apply_joins(false);
     return good;
   }
+
+  bool is_walked(std::int32_t h) noexcept { return in_fan_[h] || hub_[find(q_.tail[h])] != none; }
 
   void apply_joins(bool forward) {
     if (forward) {
@@ -234,16 +319,9 @@ class Collapser {
 
   bool check_fan(std::int32_t c) {
     neighbours_.clear();
-    std::int32_t first = start_[c], corners = 0;
-    bool border = false;
-    for (std::int32_t h = first;;) {
-      if (q_.twin[h] == none) {
-        first = h, border = true;
-        break;
-      }
-      h = QuadComplex::next(q_.twin[h]);
-      if (h == first) break;
-    }
+    std::int32_t corners = 0;
+    const std::int32_t first = first_of_fan(start_[c]);
+    const bool border = q_.twin[first] == none;
     for (std::int32_t h = first; h != none;) {
       if (class_of(q_.tail[h]) != c || in_fan_[h]) return false;
       in_fan_[h] = 1, fan_.push_back(h), ++corners;
@@ -283,11 +361,22 @@ class Collapser {
       if (best[i] == none || rank(v) > rank(best[i]) || (rank(v) == rank(best[i]) && away(v, i) < away(best[i], i)))
         best[i] = v;
     }
-    for (const std::int32_t h : halves_) dead_[h / 4] = 1;
+    for (const std::int32_t h : halves_) {
+      if (dead_[h / 4]) continue;
+      dead_[h / 4] = 1;
+      for (std::int32_t k = 0; k < 4; ++k) --quads_at_[q_.tail[h / 4 * 4 + k]];
+    }
     for (const Join& j : joins_) {
       for (const std::int32_t g : {j.a, j.b}) {
         if (g != none) q_.feature[g] = j.feature;
       }
+    }
+    keep_hubs(best);
+    for (const std::int32_t v : classes_) {
+      const std::int32_t to = best[place_[find(v)]];
+      if (v == to) continue;
+      quads_at_[to] += quads_at_[v], quads_at_[v] = 0;
+      at_border_[to] |= at_border_[v];
     }
     // Half-edges around the classes are those of the joins' fans.
     for (const Join& j : joins_) {
@@ -298,21 +387,33 @@ class Collapser {
     }
     for (const std::int32_t v : classes_) place_[v] = none;
   }
+  // A hub keeps its number and takes what the best vertex of its class has. The half-edges of the others get its number.
+  void keep_hubs(Table<std::int32_t>& best) {
+    QuadMesh& all = q_.vertices;
+    for (const std::int32_t h : moved_) q_.tail[h] = hub_[find(q_.tail[h])];
+    for (const std::int32_t v : classes_) {
+      const std::int32_t c = find(v), hub = hub_[c];
+      if (c != v || hub == none) continue;
+      const std::int32_t from = best[place_[c]];
+      all.location[hub] = all.location[from], all.position[hub] = all.position[from];
+      all.pinned[hub] = all.pinned[from], all.border[hub] = all.border[from], all.scale[hub] = all.scale[from];
+      corners_[hub] = corners_[from];
+      best[place_[c]] = hub;
+    }
+  }
   // Gives the whole fan of h its new vertex.
-  void rename(std::int32_t h, const Table<std::int32_t>& best) {
+  void rename(std::int32_t h, Table<std::int32_t>& best) {
     const std::int32_t v = q_.tail[h];
     if (leader_[v] == none) return;
-    const std::int32_t to = best[place_[find(v)]];
-    std::int32_t first = h;
-    while (q_.twin[first] != none) {
-      first = QuadComplex::next(q_.twin[first]);
-      if (first == h) break;
-    }
+    std::int32_t& to = best[place_[find(v)]];
+    if (to == none || hub_[find(v)] != none) return;
+    const std::int32_t first = first_of_fan(h);
     for (std::int32_t g = first; g != none;) {
       q_.tail[g] = to;
       g = q_.twin[QuadComplex::previous(g)];
       if (g == first) break;
     }
+    to = none;
   }
 
   struct Join {
@@ -323,12 +424,17 @@ class Collapser {
     std::int32_t half, twin;
   };
   QuadComplex& q_;
+  const std::int32_t most_walked_;  // quads at a vertex that is no hub
   Memory& memory_;
   Table<std::uint8_t> dead_, crossed_;          // by quad; crossed_: one bit for every side that the chord crosses
   Table<std::uint8_t> in_fan_;                  // by half-edge
-  Table<std::int32_t> leader_, start_, place_;  // by vertex: of the classes of vertices that become one
-  Table<std::uint8_t> corners_;                 // by vertex: whether it must stay
+  // By vertex. Of the classes of vertices that become one.
+  Table<std::int32_t> leader_, start_, place_;
+  Table<std::int32_t> hub_, gaps_;  // by leader: the hub of the class; the gaps that the border makes in its fan
+  Table<std::int32_t> quads_at_;
+  Table<std::uint8_t> corners_, at_border_;  // whether it must stay; whether it lies on a border
   Table<std::int32_t> halves_, classes_, fan_, neighbours_;
+  Table<std::int32_t> moved_;  // half-edges that leave vertices which join a hub
   Table<Join> joins_;
   Table<Undo> undo_;
   std::int32_t quads_ = 0;  // of the chord
@@ -336,8 +442,9 @@ class Collapser {
 
 }  // namespace
 
-std::int32_t collapse_chords(QuadComplex& quads, std::int32_t wanted, std::int32_t least, Memory& memory) {
-  return quads.quad_count() > wanted ? Collapser(quads, memory).run(wanted, least) : 0;
+std::int32_t collapse_chords(QuadComplex& quads, std::int32_t wanted, std::int32_t least, Memory& memory,
+                             std::int32_t hub) {
+  return quads.quad_count() > wanted ? Collapser(quads, hub, memory).run(wanted, least) : 0;
 }
 
 }  // namespace hf_inner

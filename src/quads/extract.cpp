@@ -22,6 +22,8 @@ class Extractor {
         memory_(memory),
         half_(std::int64_t{1} << (map.bits - 1)),
         cells_(memory),
+        first_(memory),
+        low_(memory),
         parent_(memory),
         piece_parent_(memory),
         line_start_(memory),
@@ -43,16 +45,16 @@ class Extractor {
   }
 
  private:
-  // The cells of the grid that the image of a triangle can touch; cell (i, j) has the number first + (i - u) rows + j -
-  // v.
+  // The columns of the grid that the image of a triangle touches: `columns` from u on. In a column, the cells from low_
+  // on are touched, and they have the numbers from first_ on. A long thin triangle touches few of those in its box.
   struct Cells {
-    std::int32_t first, u, v, columns, rows;
+    std::int32_t column, u, columns;
   };
   std::int32_t cell_of(std::int64_t x) const noexcept { return static_cast<std::int32_t>((x + half_) >> map_.bits); }
   std::int64_t line(std::int32_t c) const noexcept { return 2 * half_ * c + half_; }
   std::int32_t number(std::int32_t t, std::int32_t i, std::int32_t j) const noexcept {
-    const Cells& c = cells_[t];
-    return c.first + (i - c.u) * c.rows + (j - c.v);
+    const std::int32_t column = cells_[t].column + (i - cells_[t].u);
+    return first_[column] + (j - low_[column]);
   }
   // The piece of a line between cell (i, j) and the next one: (i + 1, j) for a u-line, (i, j + 1) for a v-line.
   std::int32_t piece(std::int32_t t, std::int32_t i, std::int32_t j, int kind) const noexcept {
@@ -104,20 +106,28 @@ class Extractor {
   }
 
   void make_cells() {
-    Cells none_yet{0, 0, 0, 0, 0};
-    cells_.assign(s_.real_triangles, none_yet);
+    cells_.assign(s_.real_triangles, Cells{0, 0, 0});
     std::int64_t total = 0;
+    Table<std::int32_t> low(memory_), high(memory_);  // of the touched cells, by column of the triangle
+    Poller poller;
     for (std::int32_t t = 0; t < s_.real_triangles; ++t) {
-      const auto bounds = [&](const Table<std::int64_t>& x) {
-        const auto [low, high] = std::minmax({x[3 * t], x[3 * t + 1], x[3 * t + 2]});
-        return std::pair<std::int32_t, std::int32_t>(cell_of(low), cell_of(high));
+      poller.due();
+      const auto [left, right] = std::minmax({map_.u[3 * t], map_.u[3 * t + 1], map_.u[3 * t + 2]});
+      const std::int32_t u = cell_of(left), columns = cell_of(right) - u + 1;
+      cells_[t] = {first_.size(), u, columns};
+      low.assign(columns, INT32_MAX), high.assign(columns, INT32_MIN);
+      const auto touch = [&](std::int32_t i, std::int32_t j) {
+        low[i - u] = std::min(low[i - u], j), high[i - u] = std::max(high[i - u], j);
       };
-      const auto [u0, u1] = bounds(map_.u);
-      const auto [v0, v1] = bounds(map_.v);
-      cells_[t] = {static_cast<std::int32_t>(total), u0, v0, u1 - u0 + 1, v1 - v0 + 1};
-      total += std::int64_t{u1 - u0 + 1} * (v1 - v0 + 1);
+      for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h)
+        walk(h, [&](std::int32_t i, std::int32_t j, int, std::int32_t) { touch(i, j); }, touch);
+      for (std::int32_t c = 0; c < columns; ++c) {
+        first_.push_back(static_cast<std::int32_t>(total)), low_.push_back(low[c]);
+        total += std::int64_t{high[c]} - low[c] + 1;
+      }
       if (total > INT32_MAX / 2) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the quads are too many");
     }
+    first_.push_back(static_cast<std::int32_t>(total));
     parent_.assign(static_cast<std::int32_t>(total), 0);
     for (std::int32_t c = 0; c < parent_.size(); ++c) parent_[c] = c;
     piece_parent_.assign(2 * parent_.size(), 0);
@@ -199,7 +209,7 @@ class Extractor {
     for (std::int32_t t = 0; t < s_.real_triangles; ++t) {
       poller.due();
       const Cells& cells = cells_[t];
-      if (cells.columns < 2 || cells.rows < 2) continue;
+      if (cells.columns < 2) continue;
       // By u-line: the row where the turn around the triangle crosses it towards larger and towards smaller u.
       up.assign(cells.columns - 1, 0), down.assign(cells.columns - 1, 0);
       for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
@@ -241,7 +251,8 @@ class Extractor {
       for (int k = 0; k < 3; ++k) u[k] = map_.u[3 * t + k], v[k] = map_.v[3 * t + k];
       const std::int64_t area = (u[1] - u[0]) * (v[2] - v[0]) - (u[2] - u[0]) * (v[1] - v[0]);
       for (std::int32_t i = cells.u; area != 0 && i < cells.u + cells.columns; ++i) {
-        for (std::int32_t j = cells.v; j < cells.v + cells.rows; ++j) {
+        const std::int32_t column = cells.column + (i - cells.u), rows = first_[column + 1] - first_[column];
+        for (std::int32_t j = low_[column]; j < low_[column] + rows; ++j) {
           const std::int64_t x = 2 * half_ * i, y = 2 * half_ * j;
           SurfacePoint point;
           point.triangle = t;
@@ -325,6 +336,7 @@ class Extractor {
   Memory& memory_;
   const std::int64_t half_;
   Table<Cells> cells_;
+  Table<std::int32_t> first_, low_;  // by column of a triangle: its first number and its lowest row
   Table<std::int32_t> parent_, piece_parent_, line_start_;  // by cell, by piece of a line, by half-edge
   Table<std::uint8_t> lines_;
   Table<SurfacePoint> place_;

@@ -6,7 +6,6 @@
 #include "quads/numbers.h"
 
 namespace hf_inner {
-namespace {}  // namespace
 
 void add_to(RealSum& sum, const RealSum& other, double factor) {
   for (const RealTerm& term : other) {
@@ -43,7 +42,8 @@ FeatureLines::FeatureLines(const FluxSurface& surface, const Seams& seams, Memor
       sign_(memory),
       sum_(&memory),
       solved_(2 * seams.parameter_count, none, memory),
-      solutions_(&memory) {}
+      solutions_(&memory),
+      path_(memory) {}
 
 void FeatureLines::reduce(RealSum& sum) const {
   RealSum out(&memory_);
@@ -58,19 +58,24 @@ void FeatureLines::reduce(RealSum& sum) const {
 }
 
 FeatureLines::Place FeatureLines::find(std::int32_t slot) {
+  // Every slot on the way becomes a child of the root: a line of n edges may be a chain of n slots.
+  path_.clear();
+  for (; slot != none && parent_[slot] != slot; slot = parent_[slot]) path_.push_back(slot);
   Place place(memory_);
-  while (true) {
-    const std::int32_t up = parent_[slot];
-    if (up == slot) break;
-    add_to(place.sum, sum_[static_cast<std::size_t>(slot)], place.sign);
-    if (up == none) {
-      slot = none;
-      break;
-    }
-    place.sign *= sign_[slot], slot = up;
-  }
   place.line = slot;
+  for (std::int32_t i = path_.size(); i-- > 0;) {
+    const std::int32_t s = path_[i];
+    RealSum& sum = sum_[static_cast<std::size_t>(s)];
+    // x_s = sign_s x_parent + sum_s, and x_parent = sign x_line + sum
+    if (parent_[s] != none) add_to(sum, place.sum, sign_[s]), place.sign *= sign_[s];
+    place.sum = sum;
+    parent_[s] = slot, sign_[s] = place.sign;
+  }
   return place;
+}
+
+std::int32_t FeatureLines::line_of(std::int32_t h, Complex edge) {
+  return find(slot_[2 * surface_.tail[h] + own_part(h, part_along(h, edge))]).line;
 }
 
 FeatureLines::Place FeatureLines::place(std::int32_t v, int part) {
@@ -99,8 +104,7 @@ FeatureLines::Place FeatureLines::place(std::int32_t v, int part) {
 // Coordinate `part` of the corner at the tail of h, in the map of its triangle.
 FeatureLines::Place FeatureLines::corner(std::int32_t h, int part) {
   // i^k (x + i y): the real part is x, -y, -x, y for k = 0 .. 3, the imaginary part y, x, -y, -x.
-  const int k = seams_.unit[h] & 3;
-  const int own = k % 2 == 0 ? part : 1 - part;
+  const int k = seams_.unit[h] & 3, own = own_part(h, part);
   const double sign = part == 0 ? (k == 1 || k == 2 ? -1 : 1) : (k == 2 || k == 3 ? -1 : 1);
   Place out = place(surface_.tail[h], own);
   out.sign *= sign;
@@ -112,9 +116,14 @@ FeatureLines::Place FeatureLines::corner(std::int32_t h, int part) {
   return out;
 }
 
-void FeatureLines::add(std::int32_t h, Complex edge) {
+// The coordinate that stays along an edge.
+int FeatureLines::part_along(std::int32_t h, Complex edge) const noexcept {
   const Complex image = edge * std::conj(seams_.direction[h / 3]);
-  const int part = std::fabs(image.real()) > std::fabs(image.imag()) ? 1 : 0;  // the coordinate that stays
+  return std::fabs(image.real()) > std::fabs(image.imag()) ? 1 : 0;
+}
+
+void FeatureLines::add(std::int32_t h, Complex edge) {
+  const int part = part_along(h, edge);
   const Place a = corner(h, part), b = corner(FluxSurface::next(h), part);
   equate(a, b);
 }

@@ -38,6 +38,8 @@ class FeatureLines {
   // Whether the coordinate is on a line, or a sum of parameters because of one.
   bool has(std::int32_t v, int part) const noexcept { return slot_[2 * v + part] >= 0; }
   Place place(std::int32_t v, int part);
+  // The line of an edge that was added; -1 where its coordinate is a sum of parameters.
+  std::int32_t line_of(std::int32_t h, std::complex<double> edge);
   // Replaces parameters that equations were solved for.
   void reduce(RealSum& sum) const;
   bool is_solved(std::int32_t number) const noexcept { return solved_[number] >= 0; }
@@ -45,6 +47,9 @@ class FeatureLines {
   std::int32_t left_out() const noexcept { return left_out_; }
 
  private:
+  int part_along(std::int32_t h, std::complex<double> edge) const noexcept;
+  // Which coordinate of the vertex at the tail of h is coordinate `part` in the map of its triangle.
+  int own_part(std::int32_t h, int part) const noexcept { return (seams_.unit[h] & 1) == 0 ? part : 1 - part; }
   Place corner(std::int32_t h, int part);
   Place find(std::int32_t slot);
   void equate(const Place& a, const Place& b);
@@ -61,6 +66,7 @@ class FeatureLines {
   std::int32_t slots_ = 0, left_out_ = 0;
   Table<std::int32_t> solved_;  // by real parameter: its place in solutions_, or -1
   Vector<RealSum> solutions_;
+  Table<std::int32_t> path_;
 };
 
 }  // namespace hf_inner

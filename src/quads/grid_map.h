@@ -53,6 +53,7 @@ class GridMapper {
     std::int32_t row, column;
     double value;
   };
+  bool keep_longest(FeatureLines& lines, Vector<std::int32_t>& edges) const;
   void number(const Table<std::uint8_t>& features);
   void assemble();
   RealSum in_unknowns(RealSum sum) const;

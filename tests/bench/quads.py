@@ -31,12 +31,12 @@ FIELDS = ["mesh", "wanted", "status", "faces", "irregular", "aspect", "angle", "
 PATTERNS = {
     "faces": r"quads +\d+ vertices, (\d+) faces",
     "seconds": r"faces in ([\d.]+) s",
-    "crossing": r"crossing +(\d+) faces",
+    "crossing": r"crossing +(\d+|not) ",
     "irregular": r"irregular +([\d.]+) %",
     "turned": r"turned over (\d+) corners",
     "aspect": r"aspect +median [\d.naif]+, 95 %: ([\d.naif]+)",
     "angle": r"angle off +median [\d.]+, 95 %: ([\d.]+)",
-    "hausdorff": r"Hausdorff +([\d.naif]+) %",
+    "hausdorff": r"Hausdorff +([\d.naif]+|not) ",
 }
 
 

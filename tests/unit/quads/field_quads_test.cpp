@@ -382,6 +382,53 @@ TEST(FieldQuads, chords_go_where_the_mesh_stays_valid_only) {
   }
 }
 
+// Rings of `corners` vertices around one vertex. Every chord beside the hub would walk all of its quads.
+samples::ShapeMesh fan_of(std::uint32_t corners, std::uint32_t rings) {
+  samples::ShapeMesh mesh;
+  mesh.positions.insert(mesh.positions.end(), {0, 0, 1});
+  for (std::uint32_t r = 1; r <= rings; ++r) {
+    for (std::uint32_t i = 0; i < corners; ++i) {
+      const double turn = 6.283185307179586 * i / corners;
+      mesh.positions.insert(mesh.positions.end(), {r * std::cos(turn), r * std::sin(turn), 0});
+    }
+  }
+  const auto number = [&](std::uint32_t r, std::uint32_t i) {
+    return r == 0 ? 0 : 1 + (r - 1) * corners + i % corners;
+  };
+  for (std::uint32_t r = 0; r < rings; ++r) {
+    for (std::uint32_t i = 0; i < corners; ++i) {
+      for (const std::uint32_t v : {number(r, i), number(r + 1, i), number(r + 1, i + 1)}) mesh.triangles.push_back(v);
+      if (r == 0) continue;
+      for (const std::uint32_t v : {number(r, i), number(r + 1, i + 1), number(r, i + 1)}) mesh.triangles.push_back(v);
+    }
+  }
+  return mesh;
+}
+
+TEST(FieldQuads, chords_beside_hubs_leave_valid_meshes_too) {
+  auto meshes = shapes();
+  meshes.emplace_back("fan", core_of(fan_of(600, 1)));
+  meshes.emplace_back("three rings", core_of(fan_of(300, 3)));
+  for (const auto& [name, core] : meshes) {
+    Memory& memory = *core->memory;
+    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 0, memory);
+    const Table<std::uint8_t> all(surface.component_count, 1, memory);
+    const Table<std::uint8_t> features = find_features(surface, HUGE_VAL, memory);
+    std::int32_t removed[2] = {0, 0};
+    // With a limit of 3 most vertices are hubs, so that what the whole walk refuses is refused without it as well.
+    for (const std::int32_t hub : {3, 5, 8, 1000000}) {
+      for (const std::int32_t share : {2, 8, 64}) {
+        QuadComplex quads = split_triangles(surface, features, all, memory);
+        const std::int32_t count = collapse_chords(quads, quads.quad_count() / share, 0, memory, hub);
+        expect_valid(*core, quads.mesh(memory), name);
+        if (share == 8) removed[hub > 8] += count;
+      }
+    }
+    EXPECT_GT(removed[0], 0) << name;
+    std::printf("%s: %d chords removed with three small limits, %d without\n", name.c_str(), removed[0], removed[1]);
+  }
+}
+
 TEST(FieldQuads, thin_parts_keep_their_handles_at_any_number_of_faces) {
   for (const auto& [name, core] : shapes()) {
     for (const std::int32_t wanted : {150, 400, 4000}) {
