@@ -102,7 +102,7 @@ Vector<double> DefiniteSystem::inverse_at(Span<const Index> unknowns) const {
   Vector<std::shared_ptr<const PathGroup>> groups(&memory_);
   factor_->solve_paths({start, unknowns, ones}, memory_, jobs_, groups, group, column);
   constexpr Index side = PathGroup::capacity;
-  Vector<double> out(n * n, 0.0, &memory_), tile(at(side) * at(side), &memory_);
+  Vector<double> out(lower_row(n), 0.0, &memory_), tile(at(side) * at(side), &memory_);
   Vector<Index> member(groups.size() * at(side), -1, &memory_);
   for (std::size_t i = 0; i < n; ++i) member[at(group[i]) * at(side) + at(column[i])] = static_cast<Index>(i);
   for (std::size_t a = 0; a < groups.size(); ++a) {
@@ -113,7 +113,7 @@ Vector<double> DefiniteSystem::inverse_at(Span<const Index> unknowns) const {
         for (Index j = 0; j < groups[b]->count(); ++j) {
           const Index row = member[a * at(side) + at(i)], other = member[b * at(side) + at(j)];
           if (row < 0 || other < 0) continue;
-          out[at(row) * n + at(other)] = out[at(other) * n + at(row)] = tile[at(i) * at(side) + at(j)];
+          out[lower_row(at(std::max(row, other))) + at(std::min(row, other))] = tile[at(i) * at(side) + at(j)];
         }
       }
     }

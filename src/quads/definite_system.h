@@ -10,6 +10,9 @@
 
 namespace hf_inner {
 
+// Where row i begins in a lower triangle that is kept row after row.
+inline std::size_t lower_row(std::size_t i) noexcept { return i * (i + 1) / 2; }
+
 class DefiniteSystem {
  public:
   // matrix: K, which must outlive *this. factor: the factor of K.
@@ -27,7 +30,7 @@ class DefiniteSystem {
   void solve_at(Span<const Index> unknowns, double* out) const;
   void solve(double* x) const;
 
-  // Returns the rows and columns of K^-1 at the unknowns, one after the other, without given values.
+  // Returns the rows and columns of K^-1 at the unknowns, without given values: the lower triangle, row after row.
   Vector<double> inverse_at(Span<const Index> unknowns) const;
 
   ConstraintCounts counts() const noexcept { return system_->counts(); }

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/stable_sort.h"
+#include "engine/constraint_system.h"
 #include "engine/site_solver.h"
 #include "weights/constants.h"
 #include "weights/islands.h"
@@ -101,7 +102,7 @@ Solved solve(const Fill& fill, const Vector<std::uint8_t>& known, Memory& memory
   }
   const ProgressRange range(fill_edited, 1.0f);
 
-  constexpr std::size_t block = 8;  // bones of one sweep, as in constraint_system.h
+  constexpr std::size_t block = ConstraintSystem::channel_block;  // bones of one sweep
   const std::size_t width = out.bone_of.size();
   out.field.allocate(memory, rows * width);
   Vector<double> values(&memory);
