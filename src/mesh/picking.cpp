@@ -13,7 +13,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Triangles or vertices of one thread's job, some 0.1 ms: smaller jobs cost more to hand out, larger ones leave threads
-// idle. No result depends on it.
+// idle. No result depends on it. On 90,000 triangles and two threads, half and a quarter take about 10 % longer, double
+// and four times the same.
 constexpr std::size_t piece = 16384;
 
 std::uint32_t pieces_of(std::size_t count) { return static_cast<std::uint32_t>((count + piece - 1) / piece); }
