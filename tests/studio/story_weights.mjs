@@ -61,7 +61,11 @@ export default async function story(host) {
     assert.equal((await studio.marks()).length, 1);
     await studio.picture('weights_pin');
     await page.keyboard.press('Control+z');
-    await page.waitForFunction(() => window.hfStudio.state.pins.length === 0 && !window.hfStudio.tools.weights.busy);
+    // the pins go first, the weights without them come later
+    await page.waitForFunction(() => {
+      const { state, tools } = window.hfStudio;
+      return state.pins.length === 0 && tools.weights.pinned === state.pins;
+    });
     assert.ok(Math.abs((await shares(spot[2])) - before) < 1e-6);
   });
   await check('the colours go when the tool is left', async () => {
