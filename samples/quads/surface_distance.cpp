@@ -105,8 +105,9 @@ SurfaceDistance surface_distance(const TriangleSoup& a, const TriangleSoup& b, u
     double worst = 0, total = 0, area = 0, count = 0;
     const size_t triangles = from.triangles.size() / 3;
     auto corner = [&](size_t t, size_t k) { return from.positions[from.triangles[3 * t + k]]; };
+    uint64_t points = 0;
     auto visit = [&](const glm::dvec3& p) {
-      if (nearest.tries() > SurfaceDistance::more_tries + SurfaceDistance::most_tries * (3 * triangles + samples)) out.measured = false;
+      if (nearest.tries() > SurfaceDistance::more_tries + SurfaceDistance::most_tries * points++) out.measured = false;
       if (!out.measured) return;
       const double d = nearest.distance(p);
       worst = std::max(worst, d), total += d, count += 1;

@@ -3,7 +3,7 @@
 // The one-sided Hausdorff distance max over points p of A of min over B |p - q| is sampled: vertices of A and points
 // spread over its triangles, about `samples` of them. The nearest point of B comes from a tree of boxes. Cost:
 // O((samples + triangles) log triangles), but for long thin triangles side by side, whose boxes lie over one another.
-// Then the search ends after most_tries of them a point, and some more.
+// Then the search ends when points have looked at most_tries triangles each, and more_tries in all.
 #ifndef HF_SAMPLES_QUADS_SURFACE_DISTANCE_H
 #define HF_SAMPLES_QUADS_SURFACE_DISTANCE_H
 
@@ -38,7 +38,7 @@ class NearestPoint {
 
 struct SurfaceDistance {
   // Points of six real meshes look at 12 triangles each.
-  static constexpr uint64_t most_tries = 50, more_tries = 20000000;
+  static constexpr uint64_t most_tries = 50, more_tries = 5000000;
   bool measured = true;  // false: the search stopped, and the numbers below are too small
   double a_to_b = 0, b_to_a = 0, mean_a_to_b = 0;
   double largest() const { return a_to_b > b_to_a ? a_to_b : b_to_a; }
