@@ -43,8 +43,8 @@ const char* const usage =
 
 struct Command {
   std::filesystem::path mesh, sites, measured, out, sheet;  // sites empty: auto
-  double edge = 0;                                // 0: the default; below 0: a share of the box diagonal
-  uint32_t relax = 60, faces = 0, crease = 0;     // crease in degrees
+  double edge = 0;                                          // 0: the default; below 0: a share of the box diagonal
+  uint32_t relax = 60, faces = 0, crease = 0;               // crease in degrees
   int32_t kind = HF_QUADS_UNIFORM;
   bool polygons = false, help = false;
 };
@@ -193,7 +193,8 @@ void draw_sheet(const Command& options, const SurfaceMesh& mesh, const std::vect
 // The figures of quads that another program made. L is the square root of a face's mean area.
 void measure(const Command& options, const SurfaceMesh& input, double diagonal) {
   SurfaceMesh mesh = read_mesh_file(options.measured);
-  if (mesh.face_sizes.empty()) mesh.face_sizes.assign(mesh.triangles.size() / 3, 3), mesh.face_vertices = mesh.triangles;
+  if (mesh.face_sizes.empty())
+    mesh.face_sizes.assign(mesh.triangles.size() / 3, 3), mesh.face_vertices = mesh.triangles;
   double area = 0;
   for (size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
     const glm::dvec3& a = mesh.positions[mesh.triangles[i]];

@@ -8,8 +8,8 @@ namespace hf_inner {
 // --- region.cpp ---
 
 // For a region with more than one in this many vertices, the solve passes over the whole factor. This changes the time,
-// never the result. On tori of 18,000 and 42,500 vertices, the sweep of the region takes 0.5 of the whole at a sixteenth,
-// 0.6 to 0.7 at an eighth, the same at a quarter, and 0.9 to 2.7 at a half.
+// never the result. On tori of 18,000 and 42,500 vertices, the sweep of the region takes 0.5 of the whole at a
+// sixteenth, 0.6 to 0.7 at an eighth, the same at a quarter, and 0.9 to 2.7 at a half.
 constexpr std::size_t whole_sweep_share = 4;
 
 // --- curve_crossing.cpp ---

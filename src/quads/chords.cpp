@@ -203,8 +203,9 @@ class Collapser {
 
   bool is_hub(std::int32_t v) const noexcept { return quads_at_[v] > most_walked_; }
 
-  // Finds the classes that have a hub, and checks them in the mesh as it is. A tree of edges that becomes a point leaves
-  // one fan, with one gap if the tree meets the border once. So faults can only lie at the vertices that join the hub.
+  // Finds the classes that have a hub, and checks them in the mesh as it is. A tree of edges that becomes a point
+  // leaves one fan, with one gap if the tree meets the border once. So faults can only lie at the vertices that join
+  // the hub.
   bool find_hubs(std::int32_t twice) {
     bool any = false;
     for (const std::int32_t v : classes_) {
@@ -387,7 +388,8 @@ class Collapser {
     }
     for (const std::int32_t v : classes_) place_[v] = none;
   }
-  // A hub keeps its number and takes what the best vertex of its class has. The half-edges of the others get its number.
+  // A hub keeps its number and takes what the best vertex of its class has. The half-edges of the others get its
+  // number.
   void keep_hubs(Table<std::int32_t>& best) {
     QuadMesh& all = q_.vertices;
     for (const std::int32_t h : moved_) q_.tail[h] = hub_[find(q_.tail[h])];
@@ -426,8 +428,8 @@ class Collapser {
   QuadComplex& q_;
   const std::int32_t most_walked_;  // quads at a vertex that is no hub
   Memory& memory_;
-  Table<std::uint8_t> dead_, crossed_;          // by quad; crossed_: one bit for every side that the chord crosses
-  Table<std::uint8_t> in_fan_;                  // by half-edge
+  Table<std::uint8_t> dead_, crossed_;  // by quad; crossed_: one bit for every side that the chord crosses
+  Table<std::uint8_t> in_fan_;          // by half-edge
   // By vertex. Of the classes of vertices that become one.
   Table<std::int32_t> leader_, start_, place_;
   Table<std::int32_t> hub_, gaps_;  // by leader: the hub of the class; the gaps that the border makes in its fan
