@@ -58,10 +58,9 @@ constexpr double fitted_error = 0.045;
 // ones are 9 % off with 1, 3.9 % with 3 and 2.6 % with 6.
 constexpr std::int32_t fit_turns_of_count = 3;
 
-// Quads that could not become coarser than this many times the wanted number are not fitted: they are parts of
-// triangles, so they lie on the surface, and fitting would take so many times as long as was asked for. A disc of
-// 45,000 corners and no vertex inside has 69 times as many. Of 42 meshes at 500 quads with creases of 20 degrees, three
-// have more than twice as many: 11, 27 and 71 times.
+// A mesh of more than this many times the wanted quads is not fitted. Its quads are parts of triangles and lie on the
+// surface, and fitting would take longer than was asked for. A disc of 45,000 corners and no vertex inside has 69 times
+// as many. At 500 quads with creases of 20 degrees, three of 42 meshes have more than twice as many: 11, 27 and 71 times.
 constexpr double fitted_share = 4;
 
 // How far a number of quads is from the wanted one: half as many are as bad as twice as many.

@@ -30,9 +30,9 @@ constexpr double whole_error = 1e-6;
 constexpr std::size_t at_once = 32;
 
 // At most this many lines of features are whole numbers. If there are more, the shortest are followed only where the
-// crosses lead. All whole numbers are rounded in one dense block: a comb of 65,000 corners has 12,195 lines, and took
-// 24 s and 1.9 GB for 800 quads; with 2,048 it takes 2.6 s, with 1,024 1.9 s (beside other work). Of 42 meshes with
-// creases of 20 degrees, five have more, at most 4,565, mostly of one edge.
+// crosses lead. All whole numbers are rounded in one dense block. A comb of 65,000 corners has 12,195 lines, and took
+// 24 s and 1.9 GB for 800 quads. It takes 2.6 s with 2,048 and 1.9 s with 1,024, beside other work. With creases of 20
+// degrees, five of 42 meshes have more, at most 4,565, mostly of one edge.
 constexpr std::int32_t most_lines = 1024;
 
 [[noreturn]] void fail_too_large() {
