@@ -134,7 +134,14 @@ export class Studio {
   async drag(x, y, dx, dy, { steps = 12, hold = false } = {}) {
     await this.page.mouse.move(x, y);
     await this.page.mouse.down();
-    await this.page.mouse.move(x + dx, y + dy, { steps });
+    // Each step has its frame: a pose that has not settled depends on their number, so a busy machine would show another.
+    for (let step = 1; step <= steps; ++step) {
+      await this.page.mouse.move(x + (dx * step) / steps, y + (dy * step) / steps);
+      await this.page.evaluate(async () => {
+        await new Promise((done) => requestAnimationFrame(done));
+        await window.hfStudio.client.ask('memory');
+      });
+    }
     if (!hold) await this.page.mouse.up();
     await this.settle();
   }
