@@ -10,7 +10,7 @@ namespace {
 constexpr uint64_t meeting_pair = 10;
 
 // At most this many pairs are tried for the first triangles in order. Real meshes of 70,000 to 400,000 triangles have 2
-// to 4 times n^1.5 in all. A disc of 45,000 corners and no vertex inside has n^2.
+// to 4 times n^1.5 in all. A disc of 45,000 corners and no vertex inside has n^2. 30,000,000 take about 0.1 s.
 uint64_t most_pairs(size_t first, size_t triangles) {
   return 30000000 + static_cast<uint64_t>(8 * static_cast<double>(first) * std::sqrt(static_cast<double>(triangles)));
 }

@@ -37,7 +37,7 @@ class NearestPoint {
 };
 
 struct SurfaceDistance {
-  // Points of six real meshes look at 12 triangles each.
+  // Points of six real meshes look at 12 triangles each. 5,000,000 take about 0.1 s.
   static constexpr uint64_t most_tries = 50, more_tries = 5000000;
   bool measured = true;  // false: the search stopped, and the numbers below are too small
   double a_to_b = 0, b_to_a = 0, mean_a_to_b = 0;

@@ -9,8 +9,8 @@
 namespace hf_inner {
 namespace {
 
-// A chord whose mean edge has become longer than this many times the one it was sorted by waits for the next round:
-// smaller spreads the removed chords more evenly, larger takes fewer rounds. Below 1 no chord would go. With 1.0, 16 of
+// A chord waits for the next round if its mean edge has become longer than this many times the one it was sorted by.
+// Smaller spreads the removed chords more evenly, larger takes fewer rounds. Below 1 no chord would go. With 1.0, 16 of
 // 21 runs stay the same, with 2.4 14 do; some of the others get better and some worse.
 constexpr double later = 1.2;
 // Two feature edges at a vertex that turn by more than 60 degrees make a corner, which stays: the cosine between them.

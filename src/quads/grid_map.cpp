@@ -29,7 +29,7 @@ constexpr double whole_error = 1e-6;
 // but each step goes through the columns of those before. With 16 and 64 a mesh with 3,180 unknowns takes as long.
 constexpr std::size_t at_once = 32;
 
-// At most this many lines of features are whole numbers. If there are more, the shortest are followed only where the
+// At most this many lines of features are whole numbers. If there are more, quads follow the shortest only where the
 // crosses lead. All whole numbers are rounded in one dense block. A comb of 65,000 corners has 12,195 lines, and took
 // 24 s and 1.9 GB for 800 quads. It takes 2.6 s with 2,048 and 1.9 s with 1,024, beside other work. With creases of 20
 // degrees, five of 42 meshes have more, at most 4,565, mostly of one edge.
@@ -41,7 +41,7 @@ constexpr std::int32_t most_lines = 1024;
 
 // Holds unknowns one after the other, with the inverse at those that are open: after unknown b is held, the inverse
 // loses c_b c_b^T / c_bb. The columns c_b of a few steps are kept, and the inverse is updated for all of them at once,
-// so it goes through the caches once for many steps. It has its lower triangle only (DefiniteSystem::inverse_at).
+// so it goes through the caches once for many steps. Only the lower triangle of the inverse is kept (lower_row).
 class OpenInverse {
  public:
   OpenInverse(const Vector<double>& inverse, std::size_t side, Memory& memory)

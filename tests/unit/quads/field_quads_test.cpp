@@ -382,14 +382,18 @@ TEST(FieldQuads, chords_go_where_the_mesh_stays_valid_only) {
   }
 }
 
+void add_point(samples::ShapeMesh& mesh, double x, double y, double z) {
+  for (const double value : {x, y, z}) mesh.positions.push_back(value);
+}
+
 // Rings of `corners` vertices around one vertex. Every chord beside the hub would walk all of its quads.
 samples::ShapeMesh fan_of(std::uint32_t corners, std::uint32_t rings) {
   samples::ShapeMesh mesh;
-  mesh.positions.insert(mesh.positions.end(), {0, 0, 1});
+  add_point(mesh, 0, 0, 1);
   for (std::uint32_t r = 1; r <= rings; ++r) {
     for (std::uint32_t i = 0; i < corners; ++i) {
       const double turn = 6.283185307179586 * i / corners;
-      mesh.positions.insert(mesh.positions.end(), {r * std::cos(turn), r * std::sin(turn), 0});
+      add_point(mesh, r * std::cos(turn), r * std::sin(turn), 0);
     }
   }
   const auto number = [&](std::uint32_t r, std::uint32_t i) {
@@ -427,6 +431,37 @@ TEST(FieldQuads, chords_beside_hubs_leave_valid_meshes_too) {
     EXPECT_GT(removed[0], 0) << name;
     std::printf("%s: %d chords removed with three small limits, %d without\n", name.c_str(), removed[0], removed[1]);
   }
+}
+
+// A triangle touches few of the cells in its box of the grid if it is long and thin.
+TEST(FieldQuads, long_thin_triangles_take_the_memory_of_what_they_touch) {
+  const auto core = core_of(fan_of(2000, 1));
+  const Stages stages(core);
+  GridMapper mapper = stages.mapper();
+  const GridMap map = mapper.make(0.005);
+  const std::uint64_t before = core->memory->peak_bytes();
+  std::int32_t backward = 0;
+  const QuadComplex quads = extract_quads(stages.surface, map, stages.features, backward, *core->memory);
+  EXPECT_GT(quads.quad_count(), 10000);
+  EXPECT_LT(static_cast<double>(core->memory->peak_bytes() - before), 1e8);
+}
+
+// Two zigzag borders face each other, and each of their edges is a line of its own.
+TEST(FieldQuads, the_shortest_of_too_many_lines_of_features_need_not_be_whole) {
+  const std::uint32_t half = 3000;
+  samples::ShapeMesh comb;
+  for (std::uint32_t side = 0; side < 2; ++side) {
+    for (std::uint32_t k = 0; k < half; ++k) add_point(comb, k, side == 0 ? 3 * (k % 2) : 9 + k % 2, 0);
+  }
+  for (std::uint32_t k = 0; k + 1 < half; ++k) {
+    for (const std::uint32_t v : {k, k + 1, half + k, k + 1, half + k + 1, half + k}) comb.triangles.push_back(v);
+  }
+  const Stages stages(core_of(comb));
+  GridMapper mapper = stages.mapper();
+  EXPECT_GT(mapper.left_out(), 1000);
+  const GridMap map = mapper.make(0.01);
+  EXPECT_LE(map.roundings, 1024 + 2 * stages.seams.parameter_count);
+  EXPECT_GE(map.roundings, 1024);
 }
 
 TEST(FieldQuads, thin_parts_keep_their_handles_at_any_number_of_faces) {

@@ -1,6 +1,7 @@
 // hf_quads run as a user runs it: its figures, its polygons read back, its picture, and what bad input is answered.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -34,6 +35,27 @@ TEST(QuadsProgram, CountsFacesThatCross) {
   std::string text;
   ASSERT_EQ(run("\"" + file + "\" --measure \"" + file + "\"", text), 0) << text;
   EXPECT_NE(text.find("crossing    3 faces"), std::string::npos) << text;
+}
+
+// A disc without a vertex inside: its triangles are long and thin, and each place lies in the boxes of thousands.
+TEST(QuadsProgram, SaysWhatItDoesNotMeasure) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path / "disc.off").string(), out = (folder.path / "quads.obj").string();
+  const int corners = 6000;
+  {
+    std::ofstream disc(file);
+    disc << "OFF\n" << corners << " 1 0\n";
+    for (int i = 0; i < corners; ++i)
+      disc << std::cos(6.283185307179586 * i / corners) << " " << std::sin(6.283185307179586 * i / corners) << " 0\n";
+    disc << corners;
+    for (int i = 0; i < corners; ++i) disc << " " << i;
+    disc << "\n";
+  }
+  std::string text;
+  ASSERT_EQ(run("\"" + file + "\" --field -o \"" + out + "\"", text), 0) << text;
+  EXPECT_NE(text.find("Euler characteristic 1 (surface 1), directed edges once: yes"), std::string::npos) << text;
+  EXPECT_NE(text.find("crossing    not counted"), std::string::npos) << text;
+  EXPECT_NE(text.find("Hausdorff   not measured"), std::string::npos) << text;
 }
 
 TEST(QuadsProgram, WritesQuadsAndSaysWhatTheyAreWorth) {
