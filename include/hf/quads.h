@@ -41,7 +41,8 @@ typedef struct hf_quads_desc {
   hf_progress progress; /* NULL, or an object to poll and cancel through */
   uint32_t face_count;  /* HF_QUADS_FIELD: 0, or the wanted number of quads, up to 10 million; it replaces edge_length */
   float crease_angle;   /* HF_QUADS_FIELD: edges of the surface that bend by more degrees, up to 180, become edges of
-                           quads; 0 = none */
+                           quads; 0 = none. Creases and borders are straight lines of the grid. If there are more than
+                           1,024 lines, only the longest are kept */
 } hf_quads_desc;
 
 /* Counts of a quad mesh. */
