@@ -1,4 +1,4 @@
-// See mesh_file.h. Choice of the format, text tokens, faces, triangulation. Readers: obj_file.cpp, off_file.cpp,
+// See mesh_file.h. Choice of the format, text tokens, faces. Readers: obj_file.cpp, off_file.cpp,
 // ply_file.cpp; writers: mesh_write.cpp.
 #include "common/mesh_file.h"
 
@@ -7,16 +7,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/face_triangles.h"
 #include "common/file_bytes.h"
 #include "common/gltf_read.h"
 #include "common/mesh_file_parts.h"
 
 namespace samples {
 namespace {
-
-// Corners compared with ears, for each corner of a polygon: bounds a file to what its size pays for. A concave polygon
-// of a thousand corners needs 500 to 750 when it does not meet itself; random corners would take 89,000.
-constexpr size_t ear_steps_per_corner = 2000;
 
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -34,62 +31,6 @@ void check_positions(const SurfaceMesh& mesh, const std::string& name) {
       throw std::runtime_error(name + ": vertex " + std::to_string(v) + " has a coordinate that is not finite.");
     }
   }
-}
-
-// The polygon in the plane of its mean normal (Newell), scaled by nothing: only signs and comparisons are used.
-std::vector<glm::dvec2> project(const std::vector<glm::dvec3>& positions, const uint32_t* corners, size_t count) {
-  glm::dvec3 normal(0);
-  const glm::dvec3 origin = positions[corners[0]];
-  for (size_t i = 0; i < count; ++i) {
-    normal += glm::cross(positions[corners[i]] - origin, positions[corners[(i + 1) % count]] - origin);
-  }
-  if (!(glm::length(normal) > 0)) return {};
-  normal = glm::normalize(normal);
-  const glm::dvec3 axis = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 u = glm::normalize(glm::cross(axis, normal)), v = glm::cross(normal, u);
-  std::vector<glm::dvec2> flat(count);
-  for (size_t i = 0; i < count; ++i) {
-    const glm::dvec3 d = positions[corners[i]] - origin;
-    flat[i] = {glm::dot(d, u), glm::dot(d, v)};
-  }
-  return flat;
-}
-
-double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-bool is_convex(const std::vector<glm::dvec2>& p) {
-  for (size_t i = 0; i < p.size(); ++i) {
-    if (turn(p[i], p[(i + 1) % p.size()], p[(i + 2) % p.size()]) < 0) return false;
-  }
-  // all turns to one side and yet wound twice: a fan triangle would be turned round
-  for (size_t i = 1; i + 1 < p.size(); ++i) {
-    if (turn(p[0], p[i], p[i + 1]) < 0) return false;
-  }
-  return true;
-}
-
-// The next ear: a corner that turns left with no other corner inside. When rounding or self-intersection leaves none,
-// the first corner that turns left, then the first: the count of triangles is always size - 2. So does a polygon that
-// has used up its steps.
-size_t find_ear(const std::vector<glm::dvec2>& p, const std::vector<size_t>& ring, size_t& steps) {
-  const size_t n = ring.size();
-  size_t left_turn = n;
-  for (size_t i = 0; i < n; ++i) {
-    const size_t before = ring[(i + n - 1) % n], at = ring[i], after = ring[(i + 1) % n];
-    const glm::dvec2 &a = p[before], &b = p[at], &c = p[after];
-    if (!(turn(a, b, c) > 0)) continue;
-    if (left_turn == n) left_turn = i;
-    if (steps < n) return left_turn;
-    steps -= n;
-    const bool empty = std::none_of(ring.begin(), ring.end(), [&](size_t k) {
-      if (k == before || k == at || k == after || p[k] == a || p[k] == b || p[k] == c) return false;
-      return turn(a, b, p[k]) >= 0 && turn(b, c, p[k]) >= 0 && turn(c, a, p[k]) >= 0;
-    });
-    if (empty) return i;
-  }
-  return left_turn == n ? 0 : left_turn;
 }
 
 }  // namespace
@@ -207,9 +148,10 @@ void FaceCollector::add(const std::vector<int64_t>& corners, size_t vertex_count
 
 void FaceCollector::finish() {
   mesh_.triangles.reserve(static_cast<size_t>(triangles_) * 3);
+  FaceTriangles cut;
   size_t first = 0;
   for (const uint32_t size : mesh_.face_sizes) {
-    triangulate(mesh_.positions, mesh_.face_vertices.data() + first, size, mesh_.triangles);
+    cut.append(mesh_.positions, mesh_.face_vertices.data() + first, size, mesh_.triangles);
     first += size;
   }
   if (mesh_.triangles.size() == mesh_.face_vertices.size()) {
@@ -219,30 +161,6 @@ void FaceCollector::finish() {
   if (skipped_ > 0) {
     mesh_.warnings.push_back(std::to_string(skipped_) + " faces with fewer than three corners are left out");
   }
-}
-
-void triangulate(const std::vector<glm::dvec3>& positions, const uint32_t* corners, size_t count,
-                 std::vector<uint32_t>& triangles) {
-  if (count < 3) return;
-  std::vector<glm::dvec2> flat;
-  if (count > 3) flat = project(positions, corners, count);
-  // beyond a thousand corners only hostile files go
-  if (count == 3 || count > 1000 || flat.empty() || is_convex(flat)) {
-    for (size_t i = 1; i + 1 < count; ++i) {
-      triangles.insert(triangles.end(), {corners[0], corners[i], corners[i + 1]});
-    }
-    return;
-  }
-  std::vector<size_t> ring(count);
-  for (size_t i = 0; i < count; ++i) ring[i] = i;
-  size_t steps = ear_steps_per_corner * count;
-  while (ring.size() > 3) {
-    const size_t ear = find_ear(flat, ring, steps), n = ring.size();
-    triangles.insert(triangles.end(),
-                     {corners[ring[(ear + n - 1) % n]], corners[ring[ear]], corners[ring[(ear + 1) % n]]});
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(ear));
-  }
-  triangles.insert(triangles.end(), {corners[ring[0]], corners[ring[1]], corners[ring[2]]});
 }
 
 SurfaceMesh read_mesh_bytes(const std::vector<uint8_t>& bytes, const std::string& extension, const std::string& name,

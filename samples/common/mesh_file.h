@@ -1,9 +1,8 @@
 // Surfaces from and to .obj, .off, .ply (text and both binary orders), and from .gltf/.glb by way of flatten().
 //
 // The file's own vertex order is kept, isolated vertices too, so that vertex numbers from other tools fit. Polygons are
-// kept as they are and triangulated into size - 2 triangles: a convex polygon as a fan from its first corner, another
-// by cutting ears in the plane of its mean normal. Faces with fewer than three corners are left out with a warning;
-// repeated corners are kept, what they mean is the user's matter.
+// kept as they are and cut into size - 2 triangles (face_triangles.h). Faces with fewer than three corners are left out
+// with a warning; repeated corners are kept, what they mean is the user's matter.
 //
 // Every count in a header is checked against what the file can hold before anything is allocated; every index against
 // the vertex count. Failure: std::runtime_error naming file, line or element, and what to do. Positions must be finite.
@@ -54,10 +53,6 @@ void write_mesh_file(const SurfaceMesh& mesh, const std::filesystem::path& file)
 // A FlatMesh of one part, welded, for the functions that take one; and the other way round.
 FlatMesh to_flat_mesh(const SurfaceMesh& mesh);
 SurfaceMesh to_surface_mesh(const FlatMesh& mesh);
-
-// Appends the triangles of one polygon (corners are vertex numbers). A fan where it is convex, ears otherwise.
-void triangulate(const std::vector<glm::dvec3>& positions, const uint32_t* corners, size_t count,
-                 std::vector<uint32_t>& triangles);
 
 }  // namespace samples
 

@@ -14,6 +14,10 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace samples {
 namespace {
 
@@ -27,6 +31,12 @@ std::string text_of(double number) {
 }  // namespace
 
 CommandLine::CommandLine(int count, char** arguments) {
+#ifdef __GLIBC__
+  // Blocks of this size go back to the system when they are freed. By default glibc raises the size to the largest
+  // block freed, up to 32 MB, and keeps them: hf_quads on a comb of 64,000 corners then takes 300 MB where 172 are in
+  // use. 1 MB saves no more, 16 MB a third of it; the times are the same.
+  ::mallopt(M_MMAP_THRESHOLD, 4 << 20);
+#endif
 #ifdef _WIN32
   int found = 0;
   if (wchar_t** wide = ::CommandLineToArgvW(::GetCommandLineW(), &found)) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "common/face_triangles.h"
 #include "common/mesh_file.h"
 #include "pictures/scenes.h"
 
@@ -19,9 +20,10 @@ Picture draw_quads(const Body& body, int width, int height) {
   drawn.positions = quads.positions;
   Marks marks;
   const std::vector<glm::dvec3> places = to_points(quads.positions);
+  FaceTriangles cut;
   for (uint32_t f = 0; f < quads.info.face_count; ++f) {
     const uint32_t first = quads.face_starts[f], size = quads.face_starts[f + 1] - first;
-    triangulate(places, &quads.face_corners[first], size, drawn.triangles);
+    cut.append(places, &quads.face_corners[first], size, drawn.triangles);
     Polyline outline;
     outline.width = 0.7, outline.color = {0.16, 0.22, 0.36};
     for (uint32_t k = 0; k <= size; ++k)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quads/surface_distance.h"
+
 namespace samples {
 namespace {
 
@@ -52,12 +54,14 @@ bool boxes_meet(const Piece& a, const Piece& b) {
 std::optional<uint32_t> count_crossing_faces(const SurfaceMesh& mesh) {
   std::vector<Piece> pieces;
   std::vector<size_t> start{0};
+  const std::vector<uint32_t>& corners = mesh.face_sizes.empty() ? mesh.triangles : mesh.face_vertices;
+  FaceTriangles cut;
+  std::vector<uint32_t> triangles;
   size_t first = 0;
   for (uint32_t f = 0; f < mesh.face_count(); ++f) {
     const uint32_t size = mesh.face_sizes.empty() ? 3 : mesh.face_sizes[f];
-    std::vector<uint32_t> triangles;
-    triangulate(mesh.positions, (mesh.face_sizes.empty() ? mesh.triangles : mesh.face_vertices).data() + first, size,
-                triangles);
+    triangles.clear();
+    append_measured(cut, mesh.positions, corners.data() + first, size, triangles);
     for (size_t t = 0; t < triangles.size(); t += 3) {
       Piece piece;
       for (int k = 0; k < 3; ++k) piece.corner[k] = mesh.positions[triangles[t + static_cast<size_t>(k)]];
@@ -68,7 +72,6 @@ std::optional<uint32_t> count_crossing_faces(const SurfaceMesh& mesh) {
     }
     first += size, start.push_back(first);
   }
-  const std::vector<uint32_t>& corners = mesh.face_sizes.empty() ? mesh.triangles : mesh.face_vertices;
   const auto share_a_vertex = [&](uint32_t f, uint32_t g) {
     for (size_t i = start[f]; i < start[f + 1]; ++i)
       for (size_t j = start[g]; j < start[g + 1]; ++j)

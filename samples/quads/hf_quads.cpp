@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "common/face_triangles.h"
 #include "common/json_file.h"
 #include "common/picture.h"
 #include "common/program.h"
@@ -123,6 +124,7 @@ Picture draw(const SurfaceMesh& mesh, const std::vector<Point>& sites, const Poi
   // colours are by vertex, so polygons that are no quads are a layer of their own
   Surface odd;
   odd.positions = surface.positions;
+  FaceTriangles cut;
   size_t first = 0;
   for (const uint32_t size : mesh.face_sizes) {
     const uint32_t* c = &mesh.face_vertices[first];
@@ -133,7 +135,7 @@ Picture draw(const SurfaceMesh& mesh, const std::vector<Point>& sites, const Poi
       outline.points.push_back({p.x, p.y, p.z});
     }
     marks.lines.push_back(outline);
-    if (size != 4) triangulate(mesh.positions, c, size, odd.triangles);
+    if (size != 4) cut.append(mesh.positions, c, size, odd.triangles);
     first += size;
   }
   for (const Point& p : sites) marks.dots.push_back({p, 0.007, {0.86, 0.10, 0.10}});
@@ -243,10 +245,11 @@ void run(const Command& options) {
 
   SurfaceMesh mesh;
   mesh.positions = to_points(quads.positions);
+  FaceTriangles cut;
   for (uint32_t f = 0; f < quads.info.face_count; ++f) {
     const uint32_t first = quads.face_starts[f], size = quads.face_starts[f + 1] - first;
     mesh.face_sizes.push_back(size);
-    triangulate(mesh.positions, &quads.face_corners[first], size, mesh.triangles);
+    append_measured(cut, mesh.positions, &quads.face_corners[first], size, mesh.triangles);
   }
   mesh.face_vertices = quads.face_corners;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace samples {
 namespace {
@@ -20,7 +19,7 @@ QuadReport measure_quads(const SurfaceMesh& mesh, double edge_length) {
   QuadReport report;
   report.vertices = static_cast<uint32_t>(mesh.positions.size());
   report.faces = static_cast<uint32_t>(mesh.face_sizes.size());
-  std::set<std::pair<uint32_t, uint32_t>> directed, edges;
+  std::vector<uint64_t> directed;  // tail and head
   std::vector<uint32_t> valence(mesh.positions.size(), 0);
   std::vector<double> lengths, aspects, angles;
   size_t first = 0;
@@ -33,11 +32,10 @@ QuadReport measure_quads(const SurfaceMesh& mesh, double edge_length) {
       const uint32_t a = c[k], b = c[(k + 1) % size], before = c[(k + size - 1) % size];
       ++valence[a];
       for (uint32_t j = 0; j < k; ++j) report.no_repeated_corner &= c[j] != a;
-      report.each_directed_edge_once &= directed.insert({a, b}).second;
+      directed.push_back(uint64_t{a} << 32 | b);
       const glm::dvec3 x = mesh.positions[b] - mesh.positions[a], y = mesh.positions[before] - mesh.positions[a];
       const double length = glm::length(x), other = glm::length(y);
       report.turned_over += dot(cross(x, y), normal) <= 0;
-      if (edges.insert({std::min(a, b), std::max(a, b)}).second) lengths.push_back(length / edge_length);
       low = std::min(low, length), high = std::max(high, length);
       if (size == 4 && length > 0 && other > 0) {
         const double cosine = std::min(std::max(dot(x, y) / (length * other), -1.0), 1.0);
@@ -47,13 +45,19 @@ QuadReport measure_quads(const SurfaceMesh& mesh, double edge_length) {
     if (size == 4) ++report.quads, aspects.push_back(low > 0 ? high / low : INFINITY);
     first += size;
   }
-  report.edges = static_cast<uint32_t>(edges.size());
+  std::sort(directed.begin(), directed.end());
+  report.each_directed_edge_once = std::adjacent_find(directed.begin(), directed.end()) == directed.end();
+  directed.erase(std::unique(directed.begin(), directed.end()), directed.end());
+  std::vector<bool> border(valence.size(), false);
+  for (const uint64_t edge : directed) {
+    const auto a = static_cast<uint32_t>(edge >> 32), b = static_cast<uint32_t>(edge);
+    const bool both = std::binary_search(directed.begin(), directed.end(), uint64_t{b} << 32 | a);
+    if (!both) border[a] = border[b] = true;
+    if (!both || a < b) lengths.push_back(glm::distance(mesh.positions[a], mesh.positions[b]) / edge_length);
+  }
+  report.edges = static_cast<uint32_t>(lengths.size());
   report.euler_characteristic =
       static_cast<int>(report.vertices) - static_cast<int>(report.edges) + static_cast<int>(report.faces);
-  std::vector<bool> border(valence.size(), false);
-  for (const auto& [a, b] : directed) {
-    if (!directed.count({b, a})) border[a] = border[b] = true;
-  }
   for (size_t v = 0; v < valence.size(); ++v)
     ++report.valences[valence[v]], report.irregular += valence[v] != (border[v] ? 2u : 4u);
   percentiles(lengths, report.edge), percentiles(aspects, report.aspect), percentiles(angles, report.angle);

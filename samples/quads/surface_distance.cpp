@@ -38,6 +38,20 @@ double to_box(const glm::dvec3& p, const glm::dvec3& low, const glm::dvec3& high
 
 }  // namespace
 
+void append_measured(FaceTriangles& cut, const std::vector<glm::dvec3>& positions, const uint32_t* corners,
+                     uint32_t size, std::vector<uint32_t>& triangles) {
+  if (size == 4) {
+    const glm::dvec3 &a = positions[corners[0]], diagonal = positions[corners[2]] - a;
+    const glm::dvec3 first = cross(positions[corners[1]] - a, diagonal);
+    const glm::dvec3 second = cross(diagonal, positions[corners[3]] - a), sum = first + second;
+    if (dot(first, sum) >= 0 && dot(second, sum) >= 0) {
+      triangles.insert(triangles.end(), {corners[0], corners[1], corners[2], corners[0], corners[2], corners[3]});
+      return;
+    }
+  }
+  cut.append(positions, corners, size, triangles);
+}
+
 NearestPoint::NearestPoint(const TriangleSoup& soup) : soup_(soup), order_(soup.triangles.size() / 3) {
   std::iota(order_.begin(), order_.end(), 0u);
   if (!order_.empty()) build(0, static_cast<uint32_t>(order_.size()));

@@ -131,10 +131,13 @@ double area_of(const FluxSurface& surface) {
 // shorter edges, and at last quads of their triangles.
 class QuadSource {
  public:
-  QuadSource(const FluxSurface& surface, GridMapper& mapper, const Table<std::uint8_t>& features, Memory& memory)
+  // once: make is called once, so the map's factor may go before its end.
+  QuadSource(const FluxSurface& surface, GridMapper& mapper, const Table<std::uint8_t>& features, bool once,
+             Memory& memory)
       : surface_(surface),
         mapper_(mapper),
         features_(features),
+        once_(once),
         memory_(memory),
         substitute_(memory),
         of_substitute_(surface.component_count, 0, memory) {}
@@ -191,6 +194,7 @@ class QuadSource {
       }
       if (!open) return;
     }
+    if (once_) mapper_.release();
     const QuadComplex split = split_triangles(surface_, features_, missing, memory_);
     substitute_.append(split, Table<std::uint8_t>(split.quad_count(), 1, memory_), memory_);
     for (std::int32_t c = 0; c < missing.size(); ++c) {
@@ -201,6 +205,7 @@ class QuadSource {
   const FluxSurface& surface_;
   GridMapper& mapper_;
   const Table<std::uint8_t>& features_;
+  const bool once_;
   Memory& memory_;
   QuadComplex substitute_;
   Table<std::uint8_t> of_substitute_;  // by component: whether substitute_ has it
@@ -284,7 +289,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   FieldQuadReport chosen;
   result.euler_characteristic = surface.euler_characteristic;
   const double wanted = options.faces > 0 ? options.faces : area_of(surface) / (edge_length * edge_length);
-  QuadSource source(surface, mapper, features, memory);
+  QuadSource source(surface, mapper, features, options.faces == 0, memory);
   double aim = wanted, best = -1;
   float from = field_progress.mapped;
   for (std::int32_t turn = 0; turn < fit_turns_of_count; ++turn) {

@@ -433,4 +433,10 @@ GridMap GridMapper::make(double edge_length) {
   return map;
 }
 
+void GridMapper::release() noexcept {
+  system_.reset();
+  Vector<double>(right_.get_allocator()).swap(right_), Vector<double>(inverse_.get_allocator()).swap(inverse_);
+  matrix_ = SymmetricMatrix(memory_);
+}
+
 }  // namespace hf_inner

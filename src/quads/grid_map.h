@@ -34,6 +34,8 @@ class GridMapper {
 
   // Throws HF_ERROR_UNSUPPORTED if a singularity cannot lie on the grid or the map is too large.
   GridMap make(double edge_length);
+  // Frees the factor and what it was made of, most of the memory. make, round and system may not be called after it.
+  void release() noexcept;
 
   // The map before its vertices are rounded to multiples of 1 / unit: the unknowns of the factor.
   const SymmetricMatrix& matrix() const noexcept { return matrix_; }

@@ -159,23 +159,38 @@ QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t
   for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
     if (take[surface.component[surface.tail[3 * t]]]) place[t] = count++;
   }
-  out.twin.assign(12 * count, none), out.feature.assign(12 * count, 0);
+  out.twin.assign(12 * count, none), out.feature.assign(12 * count, 0), out.tail.reserve(12 * count);
+  // Triangles share the points of their corners and sides. Fans that only touch are parted at the end.
+  Table<std::int32_t> at_corner(surface.vertex_count(), none, memory),
+      at_side(3 * surface.real_triangles, none, memory);
+  Table<std::uint8_t> held(surface.vertex_count(), 0, memory);
+  for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
+    if (features[h]) held[surface.tail[h]] = held[surface.tail[FluxSurface::next(h)]] = 1;
+  }
   for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
     if (place[t] == none) continue;
+    std::int32_t centre = none;
     for (std::int32_t k = 0; k < 3; ++k) {
       const std::int32_t h = 3 * t + k, before = (k + 2) % 3, q = 3 * place[t] + k, g = surface.twin[h];
-      const auto add = [&](double at_k, double at_next, double at_last, bool held) {
-        SurfacePoint point;
-        point.triangle = t;
-        point.weight[k] = at_k, point.weight[(k + 1) % 3] = at_next, point.weight[before] = at_last;
-        out.tail.push_back(out.vertices.add_vertex(point, position_of(surface, point),
-                                                   held ? QuadMesh::site : QuadMesh::free, false, 1));
+      const auto add = [&](std::int32_t& vertex, double at_k, double at_next, double at_last, bool on_feature) {
+        if (vertex == none) {
+          SurfacePoint point;
+          point.triangle = t;
+          point.weight[k] = at_k, point.weight[(k + 1) % 3] = at_next, point.weight[before] = at_last;
+          vertex = out.vertices.add_vertex(point, position_of(surface, point),
+                                           on_feature ? QuadMesh::site : QuadMesh::free, false, 1);
+        }
+        out.tail.push_back(vertex);
+      };
+      const auto side = [&](std::int32_t half) -> std::int32_t& {
+        const std::int32_t other = surface.twin[half];
+        return at_side[surface.is_real(other) ? std::min(half, other) : half];
       };
       // The corner k, the middle of side k, the middle of the triangle, the middle of the side before.
-      add(1, 0, 0, features[h] || features[3 * t + before]);
-      add(0.5, 0.5, 0, features[h]);
-      add(1.0 / 3, 1.0 / 3, 1.0 / 3, false);
-      add(0.5, 0, 0.5, features[3 * t + before]);
+      add(at_corner[surface.tail[h]], 1, 0, 0, held[surface.tail[h]] != 0);
+      add(side(h), 0.5, 0.5, 0, features[h] != 0);
+      add(centre, 1.0 / 3, 1.0 / 3, 1.0 / 3, false);
+      add(side(3 * t + before), 0.5, 0, 0.5, features[3 * t + before] != 0);
       out.feature[4 * q] = features[h], out.feature[4 * q + 3] = features[3 * t + before];
       out.join(4 * q + 1, 4 * (3 * place[t] + (k + 1) % 3) + 2);
       if (surface.is_real(g)) out.join(4 * q, 4 * (3 * place[g / 3] + (g % 3 + 1) % 3) + 3);

@@ -202,21 +202,47 @@ QuadMesh split_polygons(const FluxSurface& surface, const QuadMesh& in, const Ta
 }
 
 void check_quads(const QuadMesh& mesh, std::int32_t euler_characteristic, Memory& memory) {
-  std::pmr::unordered_set<std::uint64_t> directed(&memory), edges(&memory);
+  const std::int32_t vertices = mesh.position.size();
+  struct Head {
+    std::int32_t vertex, face;
+    bool operator<(const Head& o) const noexcept { return vertex != o.vertex ? vertex < o.vertex : face < o.face; }
+  };
+  // The directed edges by their tail, each list sorted by head.
+  Table<std::int32_t> start(vertices + 1, 0, memory);
+  for (const std::int32_t a : mesh.corner) ++start[a + 1];
+  for (std::int32_t v = 0; v < vertices; ++v) start[v + 1] += start[v];
+  Table<std::int32_t> end = start;
+  Table<Head> heads(start[vertices], Head(), memory);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
     const std::int32_t size = mesh.size(f), *c = mesh.corner.data() + mesh.face_start[f];
     for (std::int32_t k = 0; k < size; ++k) {
-      const std::int32_t a = c[k], b = c[(k + 1) % size];
-      for (std::int32_t j = 0; j < k; ++j)
-        if (c[j] == a) fail(HF_ERROR_INTERNAL, static_cast<std::uint32_t>(a), "face %d has vertex %d twice", f, a);
-      if (!directed.insert(static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b)).second)
-        fail(HF_ERROR_INTERNAL, static_cast<std::uint32_t>(a), "edge %d -> %d of face %d is in another face too", a, b,
-             f);
-      edges.insert(edge_key(a, b));
+      if (std::find(c, c + k, c[k]) != c + k)
+        fail(HF_ERROR_INTERNAL, static_cast<std::uint32_t>(c[k]), "face %d has vertex %d twice", f, c[k]);
+      heads[end[c[k]]++] = {c[(k + 1) % size], f};
     }
   }
-  const std::int64_t found =
-      std::int64_t{mesh.position.size()} - static_cast<std::int64_t>(edges.size()) + mesh.face_count();
+  const auto list = [&](std::int32_t v) {
+    return std::make_pair(heads.data() + start[v], heads.data() + start[v + 1]);
+  };
+  std::int64_t edges = 0;
+  for (std::int32_t a = 0; a < vertices; ++a) {
+    const auto [begin, last] = list(a);
+    std::sort(begin, last);
+    for (const Head* h = begin; h != last; ++h) {
+      if (h == begin || h[-1].vertex != h->vertex) continue;
+      fail(HF_ERROR_INTERNAL, static_cast<std::uint32_t>(a), "edge %d -> %d of face %d is in another face too", a,
+           h->vertex, h->face);
+    }
+  }
+  for (std::int32_t a = 0; a < vertices; ++a) {
+    const auto [begin, last] = list(a);
+    for (const Head* h = begin; h != last; ++h) {
+      const auto [there, its_end] = list(h->vertex);
+      const Head* const back = std::lower_bound(there, its_end, Head{a, 0});
+      edges += a < h->vertex || back == its_end || back->vertex != a;  // the lower end counts it if there are both
+    }
+  }
+  const std::int64_t found = std::int64_t{mesh.position.size()} - edges + mesh.face_count();
   if (found != euler_characteristic)
     fail(HF_ERROR_INTERNAL, HF_NO_INDEX,
          "the polygons have Euler characteristic %lld, the surface %d: a face is no disc",

@@ -62,9 +62,10 @@ double distance_of(const hf_test::PlainMesh& plain_mesh, const Core& core, const
     quads.positions.push_back({p.x, p.y, p.z});
   }
   const std::vector<std::uint32_t> corners(mesh.corner.begin(), mesh.corner.end());
+  samples::FaceTriangles cut;
   for (std::int32_t f = 0; f < mesh.face_count(); ++f)
-    samples::triangulate(quads.positions, &corners[static_cast<std::size_t>(mesh.face_start[f])],
-                         static_cast<std::size_t>(mesh.size(f)), quads.triangles);
+    samples::append_measured(cut, quads.positions, &corners[static_cast<std::size_t>(mesh.face_start[f])],
+                             static_cast<std::uint32_t>(mesh.size(f)), quads.triangles);
   return samples::surface_distance(surface, quads).largest() / core.mesh.scale;
 }
 

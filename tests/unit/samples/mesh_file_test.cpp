@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "common/face_triangles.h"
 #include "gltf_support.h"
 
 namespace {
@@ -187,7 +188,7 @@ TEST(Triangulate, AConcavePolygonIsCutIntoTrianglesThatCoverItOnce) {
   for (size_t shift = 0; shift < 6; ++shift) {
     Indices turned = corners, triangles;
     std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(shift), turned.end());
-    triangulate(p, turned.data(), 6, triangles);
+    FaceTriangles().append(p, turned.data(), 6, triangles);
     ASSERT_EQ(triangles.size(), 12u);
     double area = 0;
     for (size_t t = 0; t < triangles.size(); t += 3) {
@@ -199,13 +200,38 @@ TEST(Triangulate, AConcavePolygonIsCutIntoTrianglesThatCoverItOnce) {
   }
 }
 
+// Caps of machine parts have thousands of corners and dents. A fan from the first corner would lie outside them.
+TEST(Triangulate, APolygonOfManyCornersAndDentsIsCoveredOnceAtAnySize) {
+  for (const double scale : {1.0, 1e-200, 1e150}) {
+    std::vector<glm::dvec3> p;
+    Indices corners, triangles;
+    for (uint32_t i = 0; i < 5000; ++i) {
+      const double turn = 6.283185307179586 * i / 5000, radius = i % 2 ? 1 : 0.9;
+      p.push_back(scale * glm::dvec3(7 + radius * std::cos(turn), radius * std::sin(turn), 3));
+      corners.push_back(i);
+    }
+    FaceTriangles().append(p, corners.data(), corners.size(), triangles);
+    ASSERT_EQ(triangles.size(), 3u * 4998);
+    double area = 0;
+    for (size_t t = 0; t < triangles.size(); t += 3) {
+      const glm::dvec3 a = (p[triangles[t + 1]] - p[triangles[t]]) / scale;
+      const glm::dvec3 b = (p[triangles[t + 2]] - p[triangles[t]]) / scale;
+      const double twice = glm::cross(a, b).z;
+      EXPECT_GT(twice, 0);
+      area += twice / 2;
+    }
+    EXPECT_NEAR(area, 0.5 * 5000 * 0.9 * std::sin(6.283185307179586 / 5000), 1e-9);
+  }
+}
+
 TEST(MeshFile, WhatIsWrittenReadsBackTheSame) {
   SurfaceMesh mesh;
   mesh.positions = {{0.1, -1.0 / 3, 1e-17}, {1e9, 2, 3}, {4, 5, 6}, {7, 8.125, -9}, {0, 0, 0}};
   mesh.face_sizes = {4, 3};
   mesh.face_vertices = {0, 1, 2, 3, 0, 3, 4};
-  triangulate(mesh.positions, mesh.face_vertices.data(), 4, mesh.triangles);
-  triangulate(mesh.positions, mesh.face_vertices.data() + 4, 3, mesh.triangles);
+  FaceTriangles cut;
+  cut.append(mesh.positions, mesh.face_vertices.data(), 4, mesh.triangles);
+  cut.append(mesh.positions, mesh.face_vertices.data() + 4, 3, mesh.triangles);
   for (int v = 0; v < 5; ++v) {
     mesh.normals.push_back(glm::normalize(glm::vec3(1, v, 2)));
     mesh.colors.emplace_back(0.25f * static_cast<float>(v), 1, 0, 1);

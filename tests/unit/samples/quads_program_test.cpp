@@ -44,12 +44,10 @@ TEST(QuadsProgram, SaysWhatItDoesNotMeasure) {
   const int corners = 6000;
   {
     std::ofstream disc(file);
-    disc << "OFF\n" << corners << " 1 0\n";
+    disc << "OFF\n" << corners << " " << corners - 2 << " 0\n";
     for (int i = 0; i < corners; ++i)
       disc << std::cos(6.283185307179586 * i / corners) << " " << std::sin(6.283185307179586 * i / corners) << " 0\n";
-    disc << corners;
-    for (int i = 0; i < corners; ++i) disc << " " << i;
-    disc << "\n";
+    for (int i = 1; i + 1 < corners; ++i) disc << "3 0 " << i << " " << i + 1 << "\n";
   }
   std::string text;
   ASSERT_EQ(run("\"" + file + "\" --field -o \"" + out + "\"", text), 0) << text;
