@@ -202,44 +202,38 @@ QuadMesh split_polygons(const FluxSurface& surface, const QuadMesh& in, const Ta
 }
 
 void check_quads(const QuadMesh& mesh, std::int32_t euler_characteristic, Memory& memory) {
+  // Half-edges are listed at the lower end of their edge. There a stamp on the other end says which were seen.
   const std::int32_t vertices = mesh.position.size();
-  struct Head {
-    std::int32_t vertex, face;
-    bool operator<(const Head& o) const noexcept { return vertex != o.vertex ? vertex < o.vertex : face < o.face; }
+  const auto each = [&](auto&& visit) {
+    for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+      const std::int32_t size = mesh.size(f), *c = mesh.corner.data() + mesh.face_start[f];
+      for (std::int32_t k = 0; k < size; ++k) visit(c[k], c[(k + 1) % size]);
+    }
   };
-  // The directed edges by their tail, each list sorted by head.
-  Table<std::int32_t> start(vertices + 1, 0, memory);
-  for (const std::int32_t a : mesh.corner) ++start[a + 1];
-  for (std::int32_t v = 0; v < vertices; ++v) start[v + 1] += start[v];
-  Table<std::int32_t> end = start;
-  Table<Head> heads(start[vertices], Head(), memory);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
-    const std::int32_t size = mesh.size(f), *c = mesh.corner.data() + mesh.face_start[f];
-    for (std::int32_t k = 0; k < size; ++k) {
-      if (std::find(c, c + k, c[k]) != c + k)
-        fail(HF_ERROR_INTERNAL, static_cast<std::uint32_t>(c[k]), "face %d has vertex %d twice", f, c[k]);
-      heads[end[c[k]]++] = {c[(k + 1) % size], f};
+    const std::int32_t *c = mesh.corner.data() + mesh.face_start[f], *last = c + mesh.size(f);
+    for (const std::int32_t* v = c; v != last; ++v) {
+      if (std::find(c, v, *v) != v)
+        fail(HF_ERROR_INTERNAL, static_cast<std::uint32_t>(*v), "face %d has vertex %d twice", f, *v);
     }
   }
-  const auto list = [&](std::int32_t v) {
-    return std::make_pair(heads.data() + start[v], heads.data() + start[v + 1]);
-  };
+  Table<std::int32_t> start(vertices + 1, 0, memory);
+  each([&](std::int32_t a, std::int32_t b) { ++start[std::min(a, b) + 1]; });
+  for (std::int32_t v = 0; v < vertices; ++v) start[v + 1] += start[v];
+  Table<std::int32_t> end = start, other(start[vertices], 0, memory);  // ~ for a half-edge that ends at the lower end
+  each([&](std::int32_t a, std::int32_t b) { other[end[std::min(a, b)]++] = a < b ? b : ~a; });
+  Table<std::int32_t> away(vertices, none, memory), back(vertices, none, memory);
   std::int64_t edges = 0;
-  for (std::int32_t a = 0; a < vertices; ++a) {
-    const auto [begin, last] = list(a);
-    std::sort(begin, last);
-    for (const Head* h = begin; h != last; ++h) {
-      if (h == begin || h[-1].vertex != h->vertex) continue;
-      fail(HF_ERROR_INTERNAL, static_cast<std::uint32_t>(a), "edge %d -> %d of face %d is in another face too", a,
-           h->vertex, h->face);
-    }
-  }
-  for (std::int32_t a = 0; a < vertices; ++a) {
-    const auto [begin, last] = list(a);
-    for (const Head* h = begin; h != last; ++h) {
-      const auto [there, its_end] = list(h->vertex);
-      const Head* const back = std::lower_bound(there, its_end, Head{a, 0});
-      edges += a < h->vertex || back == its_end || back->vertex != a;  // the lower end counts it if there are both
+  for (std::int32_t v = 0; v < vertices; ++v) {
+    for (std::int32_t i = start[v]; i < start[v + 1]; ++i) {
+      const bool comes = other[i] < 0;
+      const std::int32_t w = comes ? ~other[i] : other[i];
+      edges += away[w] != v && back[w] != v;
+      std::int32_t& stamp = (comes ? back : away)[w];
+      if (stamp == v)
+        fail(HF_ERROR_INTERNAL, static_cast<std::uint32_t>(comes ? w : v), "edge %d -> %d is in two faces",
+             comes ? w : v, comes ? v : w);
+      stamp = v;
     }
   }
   const std::int64_t found = std::int64_t{mesh.position.size()} - edges + mesh.face_count();

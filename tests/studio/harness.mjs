@@ -102,9 +102,10 @@ export class Studio {
       { timeout: 120000 },
     );
   }
-  /** Until nothing is on its way to the Worker, and the picture is drawn. */
+  /** Until nothing is on its way to the Worker, the pose rests, and the picture is drawn. */
   async settle() {
     await this.page.evaluate(async () => {
+      for (let wait = 0; window.hfStudio.moving && wait < 100; ++wait) await new Promise((done) => setTimeout(done, 10));
       await window.hfStudio.client.ask('memory');
       await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
       await window.hfStudio.client.ask('memory');

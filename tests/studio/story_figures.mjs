@@ -49,7 +49,7 @@ const poses = (page, count) =>
       client.ask('shape', {
         handles: [...others, { ...offer, translation: [0, 0.01 * i, 0.005 * i] }],
         detail: null,
-        restart: false,
+        way: 'follow',
       });
     const first = performance.now();
     await ask(0);
@@ -57,7 +57,7 @@ const poses = (page, count) =>
     const begin = performance.now();
     for (let i = 1; i <= count; ++i) app.skin.set(await ask(i));
     const time = performance.now() - begin;
-    await client.ask('shape', { handles: state.handles, detail: null, restart: true });
+    await client.ask('shape', { handles: state.handles, detail: null, way: 'exact' });
     return { added, perSecond: (1000 * count) / time };
   }, count);
 

@@ -40,6 +40,19 @@ export default async function story(host) {
     assert.equal((await studio.facts()).handles, '5');
     await studio.picture('pose_pulled');
   });
+  await check('a drag ends at rest: the same handles from the start, and undone and done again, give the same body', async () => {
+    const { exact, again } = await page.evaluate(async () => {
+      const app = window.hfStudio;
+      const shown = app.skin.positions.slice();
+      const far = (positions) =>
+        positions.reduce((most, x, i) => Math.max(most, Math.abs(x - shown[i])), 0) / app.view.size;
+      const { positions } = await app.client.ask('shape', { handles: app.state.handles, detail: null, way: 'exact' });
+      await app.step('undo');
+      await app.step('redo');
+      return { exact: far(positions), again: far(app.skin.positions) };
+    });
+    assert.ok(exact < 1e-5 && again < 1e-5, `${exact} and ${again} of the view off`);
+  });
   await check('one drag is one step', async () => {
     assert.equal(await page.evaluate(() => window.hfStudio.history.past.length), 1);
   });

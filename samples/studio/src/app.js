@@ -12,6 +12,8 @@ import { $, card, make, ms, say, touched, whole } from './ui.js';
 
 /** Larger bodies get their tree of boxes from a Worker of its own: it takes longer to make than a Worker to start. */
 const TREE_APART = 30000;
+/** A drag that pauses for so long comes to rest. Shorter asks between two moves of a hand, longer is seen. */
+const PAUSE_MS = 80;
 
 const empty = { handles: [], sites: [], detail: null, keys: [], pins: [] };
 
@@ -80,7 +82,7 @@ export class App {
       this.session?.opened(bytes, name);
       this.live = null;
       this.history.reset({ ...empty, handles: this.tools.pose.first() });
-      const shaped = this.#apply(this.state, true);
+      const shaped = this.#apply(this.state, 'exact');
       (this.treeJob?.answer ?? this.client.ask('tree')).then(
         (tree) => this.skin === skin && (skin.useTree(tree), this.refresh()),
         () => {},
@@ -133,13 +135,17 @@ export class App {
   }
 
   // ---- states
-  /** Shows a state that is not a step yet: a drag on its way. */
+  /** Shows a state that is not a step yet: a drag on its way. A drag that pauses comes to rest. */
   preview(state) {
     this.live = state;
-    this.#apply(state, false).catch((error) => {
-      if (this.live === state) this.live = null;
-      say(error.message);
-    });
+    clearTimeout(this.pause);
+    this.#apply(state, 'follow').then(
+      () => (this.pause = setTimeout(() => this.live === state && this.#apply(state, 'rest').catch(() => {}), PAUSE_MS)),
+      (error) => {
+        if (this.live === state) this.live = null;
+        say(error.message);
+      },
+    );
     this.marksLayer.update();
   }
   async commitPreview(name) {
@@ -152,7 +158,7 @@ export class App {
   settle() {
     if (!this.live) return;
     this.live = null;
-    this.#apply(this.state, false).catch(({ message }) => say(message));
+    this.#apply(this.state, 'rest').catch(({ message }) => say(message));
   }
   /** A step. When the library refuses it, nothing has changed and its sentence is shown. */
   async commit(state, name, join = null, dragged = false) {
@@ -163,13 +169,13 @@ export class App {
     const kept = { past: this.history.past.slice(), future: this.history.future };
     this.history.push(state, name, join);
     try {
-      await this.#apply(state, false);
+      await this.#apply(state, 'rest');
       this.session?.changed(this.history.state);
       say('');
     } catch (error) {
       if (this.history.state === state) Object.assign(this.history, kept, { state: before });
       // what a drag has shown on its way goes; else the picture has not changed
-      if (dragged) await this.#apply(this.state, true).catch(() => {});
+      if (dragged) await this.#apply(this.state, 'exact').catch(() => {});
       say(`${name}: ${error.message}`);
     }
     this.refresh();
@@ -179,7 +185,7 @@ export class App {
     if (!name) return;
     this.live = null;
     this.timeline.arrive(this.state);
-    await this.#apply(this.state, true);
+    await this.#apply(this.state, 'exact');
     this.session?.changed(this.history.state);
     say(`${way === 'undo' ? 'taken back' : 'done again'}: ${name}`);
     this.refresh();
@@ -192,23 +198,26 @@ export class App {
     this.timeline.arrive(this.state);
     this.ids = Math.max(0, ...[...state.handles, ...state.sites].map(({ id }) => Number(id.slice(1)) || 0));
     try {
-      await this.#apply(this.state, true);
+      await this.#apply(this.state, 'exact');
     } catch {
       this.history.reset(before);
-      await this.#apply(this.state, true);
+      await this.#apply(this.state, 'exact');
     }
     this.tools.pose.pulled = state.handles.some(({ pinned }) => !pinned);
     this.refresh();
   }
-  /** Brings the picture to a state: only what changed is asked for. exact: bits that do not depend on the way there. */
-  async #apply(state, exact) {
+  /** Brings the picture to a state: only what changed is asked for. way: of the pose, see worker_pose.js. */
+  async #apply(state, way) {
     const { skin } = this;
+    const exact = way === 'exact';
     const shown = this.shownState;
     this.shownState = state;
     const wanted = [];
-    if (exact || !shown || shown.handles !== state.handles || shown.detail !== state.detail)
+    const moving = this.moving && way !== 'follow';
+    if (exact || moving || !shown || shown.handles !== state.handles || shown.detail !== state.detail) {
+      this.moving = way === 'follow';
       wanted.push(
-        this.client.frame('shape', { handles: state.handles, detail: state.detail, restart: exact }).then((answer) => {
+        this.client.frame('shape', { handles: state.handles, detail: state.detail, way }).then((answer) => {
           if (!answer || this.skin !== skin) return;
           this.shape = { positions: answer.positions, normals: answer.normals };
           this.told = answer.told;
@@ -220,6 +229,7 @@ export class App {
           this.marksLayer.update();
         }),
       );
+    }
     if (state.sites.length && (exact || shown?.sites !== state.sites))
       wanted.push(
         this.client.frame('field', { sites: state.sites, at: exact }).then((answer) => {

@@ -57,9 +57,9 @@ const tasks = {
     return [answer, buffers];
   },
   /** Positions and normals of the body under handles and detail. */
-  shape({ handles, detail, restart }) {
+  shape({ handles, detail, way }) {
     const begin = performance.now();
-    const positions = body.pose.deform(handles, { restart });
+    const positions = body.pose.deform(handles, way);
     const told = body.pose.told();
     told.detail = detail ? body.detail.apply(positions, detail) : null;
     const normals = new Float32Array(positions.length);
@@ -80,7 +80,7 @@ const tasks = {
     return [weightsOf(body, bones, weightCount, pins), []];
   },
   skin({ handles }) {
-    body.pose.deform(handles, { restart: true });
+    body.pose.deform(handles, 'exact');
     return [body.pose.skin(), []];
   },
   factor() {

@@ -1,5 +1,9 @@
 // The pose of the body: holds the list of handles that the page asks for.
 
+// At most; a pose at rest ends them. Of two bodies whose handles were moved by 0.2 of the box and turned by 60 degrees, 50
+// leave 1e-7 and 7e-5 of the box, 100 leave 6e-8 and 3e-8, and cost 5 and 8 ms (native).
+const REST_ITERATIONS = 100;
+
 const sameRegion = (a, b) => a.id === b.id && a.radius === b.radius && a.position.every((x, k) => x === b.position[k]);
 
 export function poseOf(body) {
@@ -38,8 +42,11 @@ export function poseOf(body) {
   };
 
   return {
-    /** Positions of every vertex. restart: the bits depend on these handles and transforms alone. */
-    deform(handles, { restart = false } = {}) {
+    /**
+     * Positions of every vertex. way: 'follow' goes a frame on from the last pose, as a drag needs; 'rest' goes on until
+     * nothing moves; 'exact' starts anew and comes to rest, so that its bits depend on these handles alone.
+     */
+    deform(handles, way) {
       if (!handles.length) {
         if (held.length) change([]);
         told = { unreachedVertexCount: 0, handles: [] };
@@ -55,7 +62,10 @@ export function poseOf(body) {
           translations: handles.flatMap((handle) => handle.translation),
         },
       );
-      const positions = pose.deform(null, { restart: Number(restart) });
+      const positions = pose.deform(null, {
+        restart: Number(way === 'exact'),
+        iterationCount: way === 'follow' ? 0 : REST_ITERATIONS,
+      });
       told = pose.deformInfo;
       told.added = added;
       told.handles = held.map(({ id, number }) => ({ id, centroid: pose.handleInfo(number).centroid }));
