@@ -1087,6 +1087,15 @@ fn lengths_are_checked() {
                 .deform_into(&mut [0f32; 3], &DeformOptions::default())
                 .is_err()
     );
+    let (mut posed, mut normals) = ([0f32; 9], [0f32; 9]);
+    let options = DeformOptions::default();
+    assert!(pose
+        .deform_with_normals_into(&mut posed, &mut normals[..3], &options)
+        .is_err());
+    pose.deform_with_normals_into(&mut posed, &mut normals, &options)
+        .unwrap();
+    assert_eq!(posed, strip.map(|x| x as f32));
+    assert_eq!(normals, [0.0, 0.0, -1.0].repeat(3)[..]);
     assert!(pose.skin(0).map_or(true, |skin| skin.weights.len() >= 3));
 }
 

@@ -1,4 +1,4 @@
-# Sourced by tests/run: the parts windows, arm64, small, clang, wasm and packages. Each builds in build/NAME, runs its tests and
+# Sourced by tests/run: the parts windows, arm64, small, clang, wasm, bevy and packages. Each builds in build/NAME, runs its tests and
 # prints `NAME: N passed, N failed, N skipped`. CMAKE_BUILD_PARALLEL_LEVEL and CTEST_PARALLEL_LEVEL: jobs, else all cores.
 
 # hf_configure NAME CMAKE_ARGUMENTS... and hf_make NAME TARGETS...: the log is build/NAME.log.
@@ -124,4 +124,45 @@ test_wasm() {
   done
   printf 'wasm: %s passed, %s failed, %s skipped\n' "$passed" "$failed" "$skipped"
   [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
+}
+
+# The Bevy layer: its tests without a renderer, its README, and the demo drawn without a window, by the processor where there is
+# no graphics card. The crates of the engine compile once.
+test_bevy() {
+  local crate="$hf_root/bindings/bevy" log="$hf_root/build/bevy.log" pictures="$hf_root/build/bevy/pictures" version passed failed
+  command -v cargo >/dev/null || { hf_say "skipped: no cargo here (Rust 1.95 or newer)"; return 77; }
+  version=$(cargo --version | awk '{print $2}')
+  [ "$(printf '%s\n1.95.0\n' "$version" | sort -V | head -n 1)" = 1.95.0 ] || { hf_say "skipped: cargo $version is older than 1.95"; return 77; }
+  export CARGO_TARGET_DIR="$hf_root/build/bevy" CARGO_BUILD_JOBS=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
+  mkdir -p "$pictures"
+  # what was fetched before is enough
+  (cd "$crate" && { cargo fetch --offline || cargo fetch; }) >"$log" 2>&1 || { hf_say "skipped: the crates of Bevy could not be fetched; the log is build/bevy.log"; return 77; }
+  export CARGO_NET_OFFLINE=true
+  (hf_build release-tests hf hf_make_assets) || return 1
+  # Mesa asks for the last one
+  export HF_LIBRARY_DIR="$hf_root/build/release/src" XDG_RUNTIME_DIR="${XDG_RUNTIME_DIR:-$pictures}" LD_LIBRARY_PATH="$hf_root/build/release/src"
+  "$hf_root/build/release/bin/hf_make_assets" "$pictures" --vertices 20000 --creature horse >/dev/null || return 1
+  hf_say "building Bevy (some minutes the first time)"
+  (cd "$crate" && cargo build --tests --examples) >>"$log" 2>&1 || {
+    grep -A8 '^error' "$log" | head -40 >&2
+    hf_say "the build of the Bevy layer failed; the log is build/bevy.log"
+    return 1
+  }
+  hf_say "testing (bevy)"
+  log="$hf_root/build/bevy.tests"
+  (cd "$crate" && cargo test --no-fail-fast 2>&1) | tee "$log" | grep -E '^test .* FAILED$|panicked at|^error'
+  passed=$(grep -cE '^test .* ok$' "$log")
+  failed=$(grep -cE '^test .* FAILED$' "$log")
+  grep -qE '^test result: ' "$log" || failed=$((failed + 1))
+  if (cd "$crate" && cargo run --quiet --example demo -- "$pictures/horse.glb" "$pictures/horse") 2>&1 | tee -a "$log" && [ "${PIPESTATUS[0]}" -eq 0 ]; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    hf_say "failed: the demo"
+  fi
+  printf 'bevy: %s passed, %s failed\n' "$passed" "$failed"
+  [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ] || {
+    hf_say "what failed is in build/bevy.tests"
+    return 1
+  }
 }

@@ -241,6 +241,24 @@ impl Pose {
         Ok(info)
     }
 
+    /// As [`Pose::deform_into`], and writes unit normals of the posed surface too. Vertices that are welded share a normal.
+    pub fn deform_with_normals_into<P: Real>(
+        &mut self,
+        out: &mut [P],
+        out_normals: &mut [f32],
+        options: &DeformOptions,
+    ) -> Result<raw::hf_deform_info> {
+        of_length(out, "out", 3 * self.vertex_count)?;
+        of_length(out_normals, "out_normals", 3 * self.vertex_count)?;
+        let (mut desc, mut info) = (raw::hf_deform_desc::default(), raw::hf_deform_info::default());
+        options.fill(&mut desc);
+        (desc.positions, desc.positions_f64) = P::both_mut(out.as_mut_ptr());
+        desc.normals = out_normals.as_mut_ptr();
+        // SAFETY: `out` and `out_normals` have three numbers a vertex.
+        check(unsafe { raw::hf_pose_deform(self.handle, &desc, &mut info) })?;
+        Ok(info)
+    }
+
     /// The pose as joints and weights, `weight_count` a vertex.
     pub fn skin(&self, weight_count: u32) -> Result<Skin> {
         // SAFETY: `skin` passes a whole struct with room as it says.

@@ -59,7 +59,7 @@ options!(
 options!(
     /// How loose pieces are linked by springs.
     LinkOptions: hf_links_desc {
-        /// `HF_LINKS_*`
+        /// `HF_LINK_*`; the default of a desc is none
         mode: i32,
         /// longest link; 0 = 5 % of the bounding box diagonal
         distance: f32,

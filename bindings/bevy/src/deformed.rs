@@ -1,0 +1,321 @@
+//! The state of a bound deformer: its surface, its pose, and the meshes that it writes.
+use crate::shading::Shading;
+use crate::{DeformHandle, Wanted};
+use bevy::ecs::entity::EntityHashMap;
+use bevy::math::{Affine3A, DQuat, DVec3, Mat3A, Vec3A};
+use bevy::mesh::VertexAttributeValues;
+use bevy::mesh::skinning::SkinnedMesh;
+use bevy::prelude::*;
+use hf::raw::{HF_ERROR_NON_FINITE, hf_handle_proposal, hf_hit};
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+/// Radians. A pose whose rotations changed less in a frame is not solved again until a handle moves. A tenth costs more
+/// frames after a drag and shows no difference; ten times as much lets a pose stop visibly early.
+const SETTLED: f64 = 1e-5;
+
+/// A mesh of the surface.
+pub(crate) struct Part {
+    pub(crate) entity: Entity,
+    /// its vertices in the surface
+    pub(crate) vertices: Range<usize>,
+    /// its mesh and skin before it was bound
+    pub(crate) original: Handle<Mesh>,
+    pub(crate) skin: Option<SkinnedMesh>,
+    /// the mesh that is written
+    pub(crate) shown: Handle<Mesh>,
+    /// from the deformer's space into the mesh's; `None`: they are the same
+    pub(crate) into_mesh: Option<Affine3A>,
+    /// in the mesh's space, exactly as they were
+    pub(crate) rest_positions: Vec<[f32; 3]>,
+    pub(crate) rest_normals: Vec<[f32; 3]>,
+    pub(crate) rest_tangents: Option<Vec<[f32; 4]>>,
+}
+
+/// A handle that the pose has, or that it refused.
+struct Grip {
+    handle: DeformHandle,
+    /// its number in the pose; `None`: refused
+    number: Option<u32>,
+    centroid: DVec3,
+    transform: hf::Transform,
+    /// the place of its entity was refused
+    failed: bool,
+}
+
+#[derive(PartialEq)]
+enum Shows {
+    Rest,
+    Pose,
+}
+
+/// The surface of a [`Deformer`](crate::Deformer), its pose and its posed vertices. The plugin makes it.
+///
+/// Positions are in the space of the deformer's entity. `Changed<DeformedMesh>` holds in frames that moved a vertex.
+#[derive(Component)]
+pub struct DeformedMesh {
+    pub(crate) parts: Vec<Part>,
+    surface: hf::Surface,
+    pose: hf::Pose,
+    rest: Vec<f32>,
+    posed: Vec<f32>,
+    normals: Vec<f32>,
+    /// empty when no mesh has tangents
+    tangents: Vec<[f32; 3]>,
+    shading: Shading,
+    grips: EntityHashMap<Grip>,
+    shows: Shows,
+    /// the meshes are not what is posed
+    behind: bool,
+    settled: bool,
+    said: Vec<(Entity, Option<hf::Error>)>,
+    solved: Duration,
+    posing: Duration,
+    took: Duration,
+}
+
+impl DeformedMesh {
+    pub(crate) fn new(parts: Vec<Part>, surface: hf::Surface, pose: hf::Pose, rest: Vec<f32>, shading: Shading) -> Self {
+        let tangents = if parts.iter().any(|part| part.rest_tangents.is_some()) { rest.len() / 3 } else { 0 };
+        DeformedMesh {
+            tangents: vec![[0.0; 3]; tangents],
+            shading,
+            parts,
+            surface,
+            pose,
+            posed: rest.clone(),
+            normals: vec![0.0; rest.len()],
+            rest,
+            grips: default(),
+            shows: Shows::Rest,
+            behind: false,
+            settled: true,
+            said: vec![],
+            solved: Duration::ZERO,
+            posing: Duration::ZERO,
+            took: Duration::ZERO,
+        }
+    }
+
+    /// The surface, for fields, weights, picking and whatever else can be made on it.
+    pub fn surface(&self) -> &hf::Surface {
+        &self.surface
+    }
+
+    /// Positions at rest.
+    pub fn rest(&self) -> &[[f32; 3]] {
+        self.rest.as_chunks().0
+    }
+
+    /// Positions of the last frame.
+    pub fn posed(&self) -> &[[f32; 3]] {
+        self.posed.as_chunks().0
+    }
+
+    /// Entities of the meshes, and which vertices of the surface each has.
+    pub fn meshes(&self) -> impl Iterator<Item = (Entity, Range<usize>)> + '_ {
+        self.parts.iter().map(|part| (part.entity, part.vertices.clone()))
+    }
+
+    /// Handles that the pose has.
+    pub fn handle_count(&self) -> u32 {
+        self.pose.handle_count()
+    }
+
+    /// Where the region of a handle has its mean at rest; `None` for a handle that the pose does not have.
+    pub fn centroid(&self, handle: Entity) -> Option<Vec3> {
+        self.grips.get(&handle).filter(|grip| grip.number.is_some()).map(|grip| grip.centroid.as_vec3())
+    }
+
+    /// Places for handles, those that hold the body first (`pinned` is 1). Y points up.
+    pub fn propose_handles(&self) -> hf::Result<Vec<hf_handle_proposal>> {
+        self.surface.propose_handles()
+    }
+
+    /// The first triangle of the posed surface on a ray; `None` when the ray misses. The ray is one of the deformer's space.
+    pub fn pick(&self, origin: Vec3, direction: Vec3) -> hf::Result<Option<hf_hit>> {
+        self.surface.cast_ray(origin.as_dvec3().to_array(), direction.as_dvec3().to_array(), Some(&self.posed), 0)
+    }
+
+    /// How long the last frame that moved a vertex took: all, with meshes written, and the part of it that solved the pose.
+    pub fn took(&self) -> (Duration, Duration) {
+        (self.took, self.solved)
+    }
+
+    /// Takes handles as they are wanted, sorted by entity, and solves the pose. Returns whether a vertex may have moved.
+    pub(crate) fn pose(&mut self, wanted: &[Wanted], options: &hf::DeformOptions) -> bool {
+        let begin = Instant::now();
+        let mut moved = self.remove(wanted);
+        moved |= self.add(wanted);
+        if self.pose.handle_count() > 0 && !self.shading.begun() {
+            // no handle has moved yet: these are the normals at rest
+            if self.pose.deform_with_normals_into(&mut self.posed, &mut self.normals, options).is_ok() {
+                self.shading.begin(self.rest.as_chunks().0, self.normals.as_chunks().0);
+            }
+        }
+        moved |= self.place(wanted);
+        if self.pose.handle_count() == 0 {
+            if self.shows == Shows::Rest {
+                return false;
+            }
+            self.posed.copy_from_slice(&self.rest);
+            (self.shows, self.behind, self.settled) = (Shows::Rest, true, true);
+        } else if moved || !self.settled {
+            match self.pose.deform_with_normals_into(&mut self.posed, &mut self.normals, options) {
+                Ok(info) => {
+                    (self.shows, self.behind, self.settled) = (Shows::Pose, true, info.last_change < SETTLED);
+                }
+                // options that the library refuses
+                Err(error) => {
+                    self.settled = true;
+                    self.said.extend(wanted.iter().map(|wanted| (wanted.entity, Some(error.clone()))));
+                    return false;
+                }
+            }
+        } else {
+            return false;
+        }
+        self.solved = begin.elapsed();
+        if self.shows == Shows::Pose {
+            self.shading.carry(self.posed.as_chunks().0, self.normals.as_chunks_mut().0, &mut self.tangents);
+        }
+        self.posing = begin.elapsed();
+        true
+    }
+
+    /// Removes handles that are gone or that are others now.
+    fn remove(&mut self, wanted: &[Wanted]) -> bool {
+        let is_wanted = |entity: &Entity, grip: &Grip| {
+            wanted.binary_search_by_key(entity, |wanted| wanted.entity).is_ok_and(|at| wanted[at].handle == grip.handle)
+        };
+        let gone: Vec<Entity> = self.grips.iter().filter(|(entity, grip)| !is_wanted(entity, grip)).map(|(entity, _)| *entity).collect();
+        if gone.is_empty() {
+            return false;
+        }
+        let mut numbers: Vec<u32> = gone.iter().filter_map(|entity| self.grips.remove(entity)?.number).collect();
+        numbers.sort_unstable();
+        self.pose.remove_handles(&numbers).expect("the pose has the handles that it gave");
+        // there may be room now for handles that were refused
+        self.grips.retain(|_, grip| grip.number.is_some());
+        true
+    }
+
+    /// Adds handles that are new: those of a layer at once, or one by one when one of them is refused.
+    fn add(&mut self, wanted: &[Wanted]) -> bool {
+        let mut new: Vec<&Wanted> = wanted.iter().filter(|wanted| !self.grips.contains_key(&wanted.entity)).collect();
+        new.sort_by_key(|wanted| wanted.handle.layer);
+        for layer in new.chunk_by(|a, b| a.handle.layer == b.handle.layer) {
+            if self.add_batch(layer).is_err() {
+                for one in layer {
+                    if let Err(error) = self.add_batch(&[one]) {
+                        self.keep(one, None, DVec3::ZERO);
+                        self.said.push((one.entity, Some(error)));
+                    }
+                }
+            }
+        }
+        !new.is_empty()
+    }
+
+    fn add_batch(&mut self, batch: &[&Wanted]) -> hf::Result<()> {
+        let points: Vec<f64> = batch.iter().flat_map(|wanted| wanted.handle.point.as_dvec3().to_array()).collect();
+        let radii: Vec<f64> = batch.iter().map(|wanted| wanted.handle.radius as f64).collect();
+        let numbers = self.pose.add_handles_at(&points, &radii, batch[0].handle.layer)?;
+        for (wanted, number) in batch.iter().zip(numbers) {
+            let centroid = DVec3::from_array(self.pose.handle_info(number)?.centroid);
+            self.keep(wanted, Some(number), centroid);
+            self.said.push((wanted.entity, None));
+        }
+        Ok(())
+    }
+
+    fn keep(&mut self, wanted: &Wanted, number: Option<u32>, centroid: DVec3) {
+        let grip = Grip { handle: wanted.handle, number, centroid, transform: default(), failed: false };
+        self.grips.insert(wanted.entity, grip);
+    }
+
+    /// Moves handles to where their entities stand. A handle whose place is refused stays.
+    fn place(&mut self, wanted: &[Wanted]) -> bool {
+        let mut moved = false;
+        for wanted in wanted {
+            let Some(grip) = self.grips.get_mut(&wanted.entity) else { continue };
+            let Some(number) = grip.number else { continue };
+            let placed = motion(wanted, grip.centroid).and_then(|transform| {
+                if grip.transform != transform {
+                    self.pose.set_transform(number, transform)?;
+                    (grip.transform, moved) = (transform, true);
+                }
+                Ok(())
+            });
+            if placed.is_err() != grip.failed {
+                grip.failed = placed.is_err();
+                self.said.push((wanted.entity, placed.err()));
+            }
+        }
+        moved
+    }
+
+    /// Writes positions, normals and tangents into the meshes, in place.
+    pub(crate) fn write(&mut self, meshes: &mut Assets<Mesh>) {
+        if !std::mem::take(&mut self.behind) {
+            return;
+        }
+        let begin = Instant::now();
+        let (posed, normals) = (self.posed.as_chunks::<3>().0, self.normals.as_chunks::<3>().0);
+        for part in &self.parts {
+            let Some(mut mesh) = meshes.get_mut(&part.shown) else { continue };
+            let (posed, normals) = (&posed[part.vertices.clone()], &normals[part.vertices.clone()]);
+            let Ok(VertexAttributeValues::Float32x3(out)) = mesh.try_attribute_mut(Mesh::ATTRIBUTE_POSITION) else { continue };
+            match (&self.shows, &part.into_mesh) {
+                (Shows::Rest, _) => out.copy_from_slice(&part.rest_positions),
+                (_, None) => out.copy_from_slice(posed),
+                (_, Some(into)) => {
+                    for (out, p) in out.iter_mut().zip(posed) {
+                        *out = into.transform_point3(Vec3::from_array(*p)).to_array();
+                    }
+                }
+            }
+            let Ok(VertexAttributeValues::Float32x3(out)) = mesh.try_attribute_mut(Mesh::ATTRIBUTE_NORMAL) else { continue };
+            match (&self.shows, &part.into_mesh) {
+                (Shows::Rest, _) => out.copy_from_slice(&part.rest_normals),
+                (_, None) => out.copy_from_slice(normals),
+                (_, Some(into)) => {
+                    // normals turn by the inverse transpose of what moves points
+                    let turn = into.matrix3.inverse().transpose();
+                    for (out, n) in out.iter_mut().zip(normals) {
+                        *out = (turn * Vec3A::from_array(*n)).normalize_or_zero().to_array();
+                    }
+                }
+            }
+            let Some(rest) = &part.rest_tangents else { continue };
+            let Ok(VertexAttributeValues::Float32x4(out)) = mesh.try_attribute_mut(Mesh::ATTRIBUTE_TANGENT) else { continue };
+            if self.shows == Shows::Rest {
+                out.copy_from_slice(rest);
+                continue;
+            }
+            let turn = part.into_mesh.map_or(Mat3A::IDENTITY, |into| into.matrix3);
+            for (out, t) in out.iter_mut().zip(&self.tangents[part.vertices.clone()]) {
+                let [x, y, z] = (turn * Vec3A::from_array(*t)).normalize_or_zero().to_array();
+                *out = [x, y, z, out[3]]; // the sign of the bitangent stays
+            }
+        }
+        self.took = self.posing + begin.elapsed();
+    }
+
+    /// What is new about handles: an error, or `None` when they have none any more.
+    pub(crate) fn said(&mut self) -> Vec<(Entity, Option<hf::Error>)> {
+        std::mem::take(&mut self.said)
+    }
+}
+
+/// The motion of a handle's region about its centroid.
+fn motion(wanted: &Wanted, centroid: DVec3) -> hf::Result<hf::Transform> {
+    let (_, turn, place) = wanted.place.to_scale_rotation_translation();
+    if !(turn.is_finite() && place.is_finite()) {
+        let message = "the transform of a handle's entity must be finite and have a scale other than 0".into();
+        return Err(hf::Error { code: HF_ERROR_NON_FINITE, message, function: String::new(), index: None });
+    }
+    let turn = DQuat::from_xyzw(turn.x.into(), turn.y.into(), turn.z.into(), turn.w.into()).normalize();
+    let translation = place.as_dvec3() + turn * (centroid - wanted.handle.point.as_dvec3()) - centroid;
+    Ok(hf::Transform { rotation: turn.to_array(), translation: translation.to_array() })
+}
