@@ -120,24 +120,26 @@ SurfaceDistance surface_distance(const TriangleSoup& a, const TriangleSoup& b, u
     const size_t triangles = from.triangles.size() / 3;
     auto corner = [&](size_t t, size_t k) { return from.positions[from.triangles[3 * t + k]]; };
     uint64_t points = 0;
-    auto visit = [&](const glm::dvec3& p) {
+    auto visit = [&](const glm::dvec3& p, double& d) {
       if (nearest.tries() > SurfaceDistance::more_tries + SurfaceDistance::most_tries * points++) out.measured = false;
       if (!out.measured) return;
-      const double d = nearest.distance(p);
+      if (d < 0) d = nearest.distance(p);
       worst = std::max(worst, d), total += d, count += 1;
     };
+    std::vector<double> of_vertex(from.positions.size(), -1);  // until it is known
     for (size_t t = 0; t < triangles; ++t)
       area += 0.5 * length(cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)));
     double carried = 0;
     for (size_t t = 0; t < triangles; ++t) {
       const glm::dvec3 p = corner(t, 0), x = corner(t, 1) - p, y = corner(t, 2) - p;
       carried += area > 0 ? 0.5 * length(cross(x, y)) / area * samples : 0;
-      visit(p), visit(p + x), visit(p + y);
+      for (size_t k = 0; k < 3; ++k) visit(corner(t, k), of_vertex[from.triangles[3 * t + k]]);
       // the points of a low-discrepancy sequence (Roberts 2018), folded into the triangle
       for (uint32_t i = 1; carried >= 1; carried -= 1, ++i) {
         double u = std::fmod(0.5 + i * 0.7548776662466927, 1.0), v = std::fmod(0.5 + i * 0.5698402909980532, 1.0);
         if (u + v > 1) u = 1 - u, v = 1 - v;
-        visit(p + u * x + v * y);
+        double d = -1;
+        visit(p + u * x + v * y, d);
       }
     }
     mean = count > 0 ? total / count : 0;
