@@ -1,8 +1,14 @@
 /* Limits of work and memory: a factorisation that is too dear is refused before it begins, with the numbers needed. */
 #include "api_support.h"
 
-/* Triangles between any vertices: their factor is nearly full, and its flops grow with the cube of the vertices. */
-enum { VERTICES = 3000, TRIANGLES = 40000 };
+/* Triangles between any vertices: their factor is nearly full, and its flops grow with the cube of the vertices: 5.6 and
+ * 1.6 * 10^9. Under an emulator (HF_EMULATED) the larger takes 1,100 s. */
+#ifdef HF_EMULATED
+enum { COLUMNS = 50, ROWS = 40, TRIANGLES = 27000 };
+#else
+enum { COLUMNS = 60, ROWS = 50, TRIANGLES = 40000 };
+#endif
+enum { VERTICES = COLUMNS * ROWS };
 static Surface places;
 static uint32_t corners[3 * TRIANGLES];
 static CountingAllocator counter;
@@ -46,7 +52,11 @@ static void a_work_limit_is_kept(void** state) {
   assert_ok(hf_surface_create(&desc, &surface));
   const double flops = 1e-9 * statistics_of(surface).factor_flops;
   hf_surface_destroy(surface);
+#ifdef HF_EMULATED
+  assert_true(flops > 1.2);
+#else
   assert_true(flops > 4.5);
+#endif
   const char* text = "the factorisation takes %lf * 10^9 operations, and the work_limit_gflop is %lf";
   double needed = 0, limit = 0;
   print_message("%.2f * 10^9 operations\n", flops);
@@ -58,6 +68,7 @@ static void a_work_limit_is_kept(void** state) {
     assert_true(fabs(needed - flops) <= 0.5 + 0.05 * flops);
   }
   assert_true(fabs(needed - flops) <= 0.5);
+#ifndef HF_EMULATED
   /* far below what is needed, the ordering does not begin either */
   float fraction = 1;
   assert_ok(hf_progress_create(&desc.progress));
@@ -66,6 +77,7 @@ static void a_work_limit_is_kept(void** state) {
   assert_ok(hf_progress_get_fraction(desc.progress, &fraction));
   assert_true(fraction <= 0.25f); /* the operator stands; after the ordering it is 0.56 */
   hf_progress_destroy(desc.progress), desc.progress = NULL;
+#endif
   desc.work_limit_gflop = (uint32_t)ceil(flops);
   assert_ok(hf_surface_create(&desc, &surface));
   assert_true(fabs(1e-9 * statistics_of(surface).factor_flops - flops) <= 1e-9 * flops);
@@ -127,7 +139,7 @@ static void a_work_limit_refuses_a_biharmonic_operator_before_it_is_formed(void*
 }
 
 int main(void) {
-  places = surface_sheet(60, 50); /* as many vertices */
+  places = surface_sheet(COLUMNS, ROWS);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_work_limit_is_kept),
       cmocka_unit_test(a_memory_limit_counts_the_factor_before_it_is_made),
