@@ -4,14 +4,19 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 
 #include "common/face_triangles.h"
+#include "common/flat_mesh.h"
+#include "common/gltf_read.h"
+#include "common/gltf_write.h"
 #include "common/json_file.h"
 #include "common/picture.h"
 #include "common/program.h"
 #include "hf/hf.hpp"
 #include "quads/crossings.h"
+#include "quads/quad_model.h"
 #include "quads/quad_report.h"
 #include "quads/surface_distance.h"
 
@@ -37,7 +42,9 @@ const char* const usage =
     "  --polygons     leaves polygons at sites and saddles whole\n"
     "  --relax N      rounds of tangential relaxation (60; 0 for none)\n"
     "  --measure FILE makes no quads and measures those of FILE, which any program can have made of MESH\n"
-    "  -o OUT         .obj, .ply or .off with polygons\n"
+    "  -o OUT         .obj, .ply or .off with polygons; .glb or .gltf with a fan of triangles for each face\n"
+    "                 (FB_ngon_encoding). A glTF model keeps its skeleton, clips and looks: texture coordinates with\n"
+    "                 their seams, colours, weights and morph targets are carried to the quads\n"
     "  --sheet FILE   a picture from two sides: quads light, other polygons red, sites as dots\n"
     "  --work-limit N refuse a factorisation of more than N * 10^9 operations (default: by the size)\n"
     "  --memory-limit N refuse a surface that holds more than N MiB (default: by the size)\n";
@@ -197,6 +204,13 @@ void measure(const Command& options, const SurfaceMesh& input, double diagonal) 
   SurfaceMesh mesh = read_mesh_file(options.measured);
   if (mesh.face_sizes.empty())
     mesh.face_sizes.assign(mesh.triangles.size() / 3, 3), mesh.face_vertices = mesh.triangles;
+  FaceTriangles cut;
+  size_t first = 0;
+  mesh.triangles.clear();
+  for (const uint32_t size : mesh.face_sizes) {
+    append_measured(cut, mesh.positions, &mesh.face_vertices[first], size, mesh.triangles);
+    first += size;
+  }
   double area = 0;
   for (size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
     const glm::dvec3& a = mesh.positions[mesh.triangles[i]];
@@ -212,8 +226,27 @@ void measure(const Command& options, const SurfaceMesh& input, double diagonal) 
   draw_sheet(options, mesh, {}, options.measured.filename().string().c_str());
 }
 
+bool is_gltf(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".glb" || extension == ".gltf";
+}
+
+// Writes the quads: as polygons, or in a glTF model in the place of its surface.
+void write(const Command& options, const std::optional<Model>& model, const SurfaceMesh& input, const SurfaceMesh& mesh,
+           const hf::QuadMesh& quads) {
+  if (!is_gltf(options.out)) return write_mesh_file(mesh, options.out);
+  const Model source = model ? *model : make_model(options.mesh.stem().string(), input.positions, input.triangles);
+  const Model out = quad_model(source, flatten(source), mesh, {quads.triangles, quads.barycentrics});
+  for (size_t i = source.warnings.size(); i < out.warnings.size(); ++i)
+    std::printf("warning     %s\n", out.warnings[i].c_str());
+  write_gltf(out, options.out);
+}
+
 void run(const Command& options) {
-  const SurfaceMesh input = read_mesh_file(options.mesh);
+  std::optional<Model> model;
+  if (is_gltf(options.mesh)) model = read_gltf(options.mesh);
+  const SurfaceMesh input = model ? to_surface_mesh(flatten(*model)) : read_mesh_file(options.mesh);
   const std::vector<double> positions = double_positions(input.positions);
   auto create = hf::make<hf_surface_desc>();
   create.vertex_count = static_cast<uint32_t>(input.positions.size());
@@ -264,7 +297,7 @@ void run(const Command& options) {
               percent(quads.info.polygon_quad_count, quads.info.polygon_count));
   print_figures(input, diagonal, mesh, report, quads.info.euler_characteristic);
   if (!options.out.empty()) {
-    write_mesh_file(mesh, options.out);
+    write(options, model, input, mesh, quads);
     std::printf("wrote       %s\n", options.out.c_str());
   }
   std::vector<Point> dots;

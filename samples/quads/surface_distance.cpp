@@ -52,7 +52,8 @@ void append_measured(FaceTriangles& cut, const std::vector<glm::dvec3>& position
   cut.append(positions, corners, size, triangles);
 }
 
-NearestPoint::NearestPoint(const TriangleSoup& soup) : soup_(soup), order_(soup.triangles.size() / 3) {
+NearestPoint::NearestPoint(const std::vector<glm::dvec3>& positions, const std::vector<uint32_t>& triangles)
+    : positions_(positions), triangles_(triangles), order_(triangles.size() / 3) {
   std::iota(order_.begin(), order_.end(), 0u);
   if (!order_.empty()) build(0, static_cast<uint32_t>(order_.size()));
 }
@@ -61,7 +62,7 @@ uint32_t NearestPoint::build(uint32_t first, uint32_t count) {
   const uint32_t number = static_cast<uint32_t>(boxes_.size());
   Box box{glm::dvec3(std::numeric_limits<double>::infinity()), glm::dvec3(-std::numeric_limits<double>::infinity()),
           first, count, 0};
-  auto corner = [&](uint32_t t, uint32_t k) { return soup_.positions[soup_.triangles[3 * size_t{t} + k]]; };
+  auto corner = [&](uint32_t t, uint32_t k) { return positions_[triangles_[3 * size_t{t} + k]]; };
   for (uint32_t i = first; i < first + count; ++i)
     for (uint32_t k = 0; k < 3; ++k) {
       const glm::dvec3 p = corner(order_[i], k);
@@ -85,7 +86,7 @@ uint32_t NearestPoint::build(uint32_t first, uint32_t count) {
   return number;
 }
 
-double NearestPoint::distance(const glm::dvec3& p) const {
+double NearestPoint::distance(const glm::dvec3& p, uint32_t* triangle) const {
   if (boxes_.empty()) return std::numeric_limits<double>::infinity();
   // Nearer than rounding: on a flat part, all thin triangles around a point would be tried otherwise.
   const glm::dvec3 size = boxes_[0].high - boxes_[0].low;
@@ -100,8 +101,10 @@ double NearestPoint::distance(const glm::dvec3& p) const {
     if (to_box(p, box.low, box.high) >= best) continue;
     tries_ += box.count;
     for (uint32_t i = box.first; i < box.first + box.count; ++i) {
-      const uint32_t* t = &soup_.triangles[3 * size_t{order_[i]}];
-      best = std::min(best, to_triangle(p, soup_.positions[t[0]], soup_.positions[t[1]], soup_.positions[t[2]]));
+      const uint32_t* t = &triangles_[3 * size_t{order_[i]}];
+      const double d = to_triangle(p, positions_[t[0]], positions_[t[1]], positions_[t[2]]);
+      if (triangle && d < best) *triangle = order_[i];
+      best = std::min(best, d);
     }
     if (box.count) continue;
     uint32_t near = number + 1, far = box.right;

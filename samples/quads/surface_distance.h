@@ -19,6 +19,11 @@ struct TriangleSoup {
   std::vector<glm::dvec3> positions;
   std::vector<uint32_t> triangles;
 };
+// The same with positions that others hold too.
+struct SharedSoup {
+  const std::vector<glm::dvec3>* positions = nullptr;
+  std::vector<uint32_t> triangles;
+};
 
 // Appends the triangles of a face of a quad mesh that distances are measured on. A quad that is not flat has two cuts:
 // this takes the one at its first corner where both triangles face the quad's side. The figures of the docs and the
@@ -28,8 +33,11 @@ void append_measured(FaceTriangles& cut, const std::vector<glm::dvec3>& position
 
 class NearestPoint {
  public:
-  explicit NearestPoint(const TriangleSoup& soup);
-  double distance(const glm::dvec3& p) const;
+  // The soup must outlive *this.
+  explicit NearestPoint(const TriangleSoup& soup) : NearestPoint(soup.positions, soup.triangles) {}
+  explicit NearestPoint(const SharedSoup& soup) : NearestPoint(*soup.positions, soup.triangles) {}
+  // triangle: NULL, or receives the number of the nearest one.
+  double distance(const glm::dvec3& p, uint32_t* triangle = nullptr) const;
   uint64_t tries() const { return tries_; }  // triangles that were looked at so far
 
  private:
@@ -37,8 +45,10 @@ class NearestPoint {
     glm::dvec3 low, high;
     uint32_t first, count, right;  // a leaf's triangles, or its right child (the left one is the next box)
   };
+  NearestPoint(const std::vector<glm::dvec3>& positions, const std::vector<uint32_t>& triangles);
   uint32_t build(uint32_t first, uint32_t count);
-  const TriangleSoup& soup_;
+  const std::vector<glm::dvec3>& positions_;
+  const std::vector<uint32_t>& triangles_;
   std::vector<uint32_t> order_;
   std::vector<Box> boxes_;
   mutable uint64_t tries_ = 0;

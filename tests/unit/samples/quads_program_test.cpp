@@ -5,9 +5,16 @@
 #include <filesystem>
 #include <fstream>
 
+#include "assets/creature.h"
+#include "assets/creature_gltf.h"
 #include "assets/shapes.h"
+#include "common/animate.h"
+#include "common/flat_mesh.h"
+#include "common/gltf_read.h"
+#include "common/gltf_write.h"
 #include "common/mesh_file.h"
 #include "gltf_support.h"
+#include "quads/surface_distance.h"
 #include "support/program_support.h"
 
 namespace {
@@ -69,8 +76,8 @@ TEST(QuadsProgram, WritesQuadsAndSaysWhatTheyAreWorth) {
   std::string text, again;
   for (const char* kind : {"--pure", "--uniform"}) {
     ASSERT_EQ(run("\"" + in + "\" --edge 4% " + kind + " -o \"" + out + "\" --sheet \"" + png + "\"", text), 0) << text;
-    for (const char* word : {"Euler characteristic 2 (surface 2)", "repeated corners: none", "100.00 % of the faces", "valence",
-                             "crossing    0 faces", "aspect", "angle off", "Hausdorff"})
+    for (const char* word : {"Euler characteristic 2 (surface 2)", "repeated corners: none", "100.00 % of the faces",
+                             "valence", "crossing    0 faces", "aspect", "angle off", "Hausdorff"})
       EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
     const SurfaceMesh back = read_mesh_file(out);
     ASSERT_FALSE(back.face_sizes.empty());
@@ -91,6 +98,82 @@ TEST(QuadsProgram, WritesQuadsAndSaysWhatTheyAreWorth) {
   EXPECT_EQ(run("\"" + in + "\" --bogus", text), 1);
   EXPECT_NE(text.find("--bogus"), std::string::npos) << text;
   EXPECT_EQ(run("", text), 1);
+}
+
+// The longest side of a triangle in texture coordinates over its length in space.
+double most_stretched(const Model& model, const FlatMesh& flat) {
+  double most = 0;
+  for (const FlatPart& part : flat.parts) {
+    const Primitive& p = model.meshes[static_cast<size_t>(model.nodes[static_cast<size_t>(part.node)].mesh)]
+                             .primitives[static_cast<size_t>(part.primitive)];
+    for (size_t i = 0; i < p.indices.size(); ++i) {
+      const uint32_t a = p.indices[i], b = p.indices[i % 3 == 2 ? i - 2 : i + 1];
+      const double length = glm::distance(flat.positions[part.first_vertex + a], flat.positions[part.first_vertex + b]);
+      if (length > 0) most = std::max(most, glm::distance(p.texcoords[0][a], p.texcoords[0][b]) / length);
+    }
+  }
+  return most;
+}
+
+// A horse as quads: it walks as before, no seam of its texture opens, and no quad is painted across a seam.
+TEST(QuadsProgram, AModelKeepsItsMotionAndLook) {
+  const TemporaryFolder folder;
+  const fs::path in = folder.path / "horse.glb", out = folder.path / "quads.glb";
+  write_gltf(to_model(make_creature("horse", 6000)), in);
+  std::string text;
+  ASSERT_EQ(run("\"" + in.string() + "\" --field --faces 2500 -o \"" + out.string() + "\"", text), 0) << text;
+  const Model before = read_gltf(in), after = read_gltf(out);
+  ASSERT_EQ(after.skins.size(), before.skins.size());
+  EXPECT_EQ(after.skins[0].joints, before.skins[0].joints);
+  ASSERT_EQ(after.animations.size(), before.animations.size());
+  const FlatMesh old_flat = flatten(before), flat = flatten(after);
+  ASSERT_GT(flat.vertex_count(), flat.welded_count) << "the seams of the texture";
+
+  // Fans: as many as faces were said to be.
+  size_t faces = 0;
+  for (const FlatPart& part : flat.parts) {
+    const Primitive& p = after.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
+    EXPECT_EQ(p.carried.extensions, "{\"FB_ngon_encoding\":{}}");
+    for (size_t i = 0; i < p.indices.size(); i += 3) faces += i == 0 || p.indices[i] != p.indices[i - 3];
+  }
+  EXPECT_NE(text.find(" " + std::to_string(faces) + " faces in "), std::string::npos) << faces << "\n" << text;
+
+  // Each vertex lies on a triangle of the horse, and moves as that triangle does.
+  const SharedSoup soup{&old_flat.positions, old_flat.triangles};
+  const NearestPoint nearest(soup);
+  const double size = 3.5;
+  std::vector<uint32_t> triangle(flat.vertex_count());
+  std::vector<glm::dvec3> weights(flat.vertex_count());
+  for (uint32_t v = 0; v < flat.vertex_count(); ++v) {
+    nearest.distance(flat.positions[v], &triangle[v]);
+    const uint32_t* c = &old_flat.triangles[3 * size_t{triangle[v]}];
+    const glm::dvec3 a = old_flat.positions[c[0]], x = old_flat.positions[c[1]] - a, y = old_flat.positions[c[2]] - a,
+                     d = flat.positions[v] - a;
+    const double xx = dot(x, x), xy = dot(x, y), yy = dot(y, y), area = xx * yy - xy * xy;
+    const double s = (yy * dot(d, x) - xy * dot(d, y)) / area, t = (xx * dot(d, y) - xy * dot(d, x)) / area;
+    weights[v] = {1 - s - t, s, t};
+  }
+  for (size_t clip = 0; clip < before.animations.size(); ++clip) {
+    double opened = 0, far = 0, total = 0;
+    for (const double time : {0.2, 0.5, 0.9}) {
+      const auto was = posed_positions(before, old_flat, before.animations[clip], time);
+      const auto is = posed_positions(after, flat, after.animations[clip], time);
+      std::vector<glm::dvec3> of_weld(flat.welded_count, glm::dvec3(NAN));
+      for (uint32_t v = 0; v < flat.vertex_count(); ++v) {
+        const uint32_t* c = &old_flat.triangles[3 * size_t{triangle[v]}];
+        const glm::dvec3 at = weights[v].x * was[c[0]] + weights[v].y * was[c[1]] + weights[v].z * was[c[2]];
+        far = std::max(far, glm::distance(at, is[v]) / size), total += glm::distance(at, is[v]) / size;
+        glm::dvec3& first = of_weld[flat.welded[v]];
+        if (std::isnan(first.x)) first = is[v];
+        opened = std::max(opened, glm::distance(first, is[v]) / size);
+      }
+    }
+    const double mean = total / (3.0 * flat.vertex_count());
+    EXPECT_LT(opened, 1e-6) << before.animations[clip].name;
+    EXPECT_LT(mean, 0.002) << before.animations[clip].name;
+    EXPECT_LT(far, 0.02) << before.animations[clip].name;
+  }
+  EXPECT_LT(most_stretched(after, flat), 2 * most_stretched(before, old_flat));
 }
 
 }  // namespace
