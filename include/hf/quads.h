@@ -70,20 +70,21 @@ typedef struct hf_quads_info {
  * quads into triangles from the first corner. The function checks every result: each directed edge occurs once, no face
  * repeats a corner, and the Euler characteristic is that of the surface.
  *
- * The surface must be manifold. It may have borders, any genus and several components; the function turns triangles
- * that disagree in orientation. However long edge_length is, at least four vertices lie around each limb. Sites that
- * you give may force flux across a border. Then the function holds all sites of that component at one of two levels
- * instead, and site_lines are the even numbers nearest to the fluxes.
+ * The surface may have borders, any genus and several components; the function turns triangles that disagree in
+ * orientation. Where three or more triangles share an edge, the two flattest are joined, then the next two; one that
+ * is left over gets a border. hf_surface_get_report counts such edges. However long edge_length is, at least four
+ * vertices lie around each limb. Sites that you give may force flux across a border. Then the function holds all sites
+ * of that component at one of two levels instead, and site_lines are the even numbers nearest to the fluxes.
  *
  * Sets *out_quads to NULL first. Cost: a factorisation of the mesh and O(n log n + faces). If the sites are proposed,
- * the function makes up to four meshes and keeps the best. If none is within 0.43 edge lengths of the surface, it makes
- * up to four more, with edges as short as edge_length / 1.3. Progress covers factorisations, sites, critical points,
- * relaxation and fitting; each of these can be cancelled. Errors: HF_ERROR_INVALID_ARGUMENT (kind, edge_length,
- * relax_count, lines of one sign or 0, an isolated vertex as site), HF_ERROR_NON_FINITE (edge_length),
- * HF_ERROR_OUT_OF_RANGE, HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (non-manifold edge or surface that cannot be
- * oriented, index = a vertex; sites that no flux can separate), HF_ERROR_TOO_LARGE (more than 400 sites and borders in
- * a component, a million rings), HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check fails. Thread safety: reads
- * `surface`. Since 0.1. */
+ * the function makes up to four meshes and keeps the best. If none is within 0.43 edge lengths of the surface, it
+ * makes up to four more, with edges as short as edge_length / 1.3. Progress covers factorisations, sites, critical
+ * points, relaxation and fitting; each of these can be cancelled. Errors: HF_ERROR_INVALID_ARGUMENT (kind,
+ * edge_length, relax_count, lines of one sign or 0, an isolated vertex as site), HF_ERROR_NON_FINITE (edge_length),
+ * HF_ERROR_OUT_OF_RANGE, HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (surface that cannot be oriented, index = a
+ * vertex; sites that no flux can separate, or a part too small for two), HF_ERROR_TOO_LARGE (more than 400 sites and
+ * borders in a component, a million rings), HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check fails. Thread safety:
+ * reads `surface`. Since 0.1. */
 HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 
 /* Destroys a quad mesh. Ignores NULL and destroyed handles. Since 0.1. */
@@ -118,9 +119,9 @@ HF_API hf_result hf_quads_get_mesh(hf_quads quads, hf_quads_mesh* inout_mesh);
 /* A surface that is prepared for tracing flow lines. */
 typedef struct hf_flow_object* hf_flow;
 
-/* Prepares a surface for tracing: computes half-edges and weights. Sets *out_flow to NULL first. Cost: O(n log n), no
- * factorisation. Errors: HF_ERROR_UNSUPPORTED (non-manifold edge or surface that cannot be oriented; index = a vertex).
- * Thread safety: reads `surface`. Since 0.1. */
+/* Prepares a surface for tracing: computes half-edges and weights. Sets *out_flow to NULL first. Cost: O(n log n),
+ * no factorisation. Edges of three or more triangles are parted as for quads. Errors: HF_ERROR_UNSUPPORTED (surface
+ * that cannot be oriented; index = a vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow);
 
 /* Destroys the object. Ignores NULL and destroyed handles. Since 0.1. */
