@@ -27,19 +27,18 @@ const char* const usage =
     "usage: hf_quads MESH [--sites auto|FILE.json] [--edge LENGTH] [--faces N] [--crease DEG]\n"
     "                [--field|--pure|--uniform] [-o OUT] [--sheet FILE.png]\n"
     "       hf_quads MESH --measure QUADS [--sheet FILE.png]\n"
-    "  Makes a quad mesh of a .obj, .off, .ply, .gltf or .glb surface from a harmonic field, and prints what it is "
-    "worth.\n"
-    "  --sites auto   sites at the tips of the surface (default); borders are always sites\n"
+    "  Makes a quad mesh of a .obj, .off, .ply, .gltf or .glb surface, and prints what it is worth.\n"
+    "  --field        edges follow smooth crosses along the curvature; no sites (default)\n"
+    "  --sites auto   sites at the tips of the surface, borders are always sites; takes --uniform if no kind is named\n"
     "  --sites FILE   {\"sites\": [{\"vertex\": 12}, {\"vertex\": 80, \"lines\": -8}]}: vertices as in the file, from "
     "0;\n"
     "                 lines that end (positive) or start (negative) there, at all sites or at none\n"
     "  --edge LENGTH  edge length aimed at, in the unit of the mesh, or as a share of its box diagonal: 2% (2.2%)\n"
-    "  --field        edges follow smooth crosses along the curvature; no sites\n"
     "  --faces N      number of quads aimed at, instead of --edge; takes --field\n"
     "  --crease DEG   edges of the surface that bend by more degrees become edges of quads; takes --field\n"
-    "  --uniform      edges of about one length: lines are added and ended in pairs (default)\n"
+    "  --uniform      edges of about one length: lines are added and ended in pairs\n"
     "  --pure         every line runs from site to site\n"
-    "  --polygons     leaves polygons at sites and saddles whole\n"
+    "  --polygons     leaves polygons at sites and saddles whole; takes --uniform if no kind is named\n"
     "  --relax N      rounds of tangential relaxation (60; 0 for none)\n"
     "  --measure FILE makes no quads and measures those of FILE, which any program can have made of MESH\n"
     "  -o OUT         .obj, .ply or .off with polygons; .glb or .gltf with a fan of triangles for each face\n"
@@ -53,8 +52,8 @@ struct Command {
   std::filesystem::path mesh, sites, measured, out, sheet;  // sites empty: auto
   double edge = 0;                                          // 0: the default; below 0: a share of the box diagonal
   uint32_t relax = 60, faces = 0, crease = 0;               // crease in degrees
-  int32_t kind = HF_QUADS_UNIFORM;
-  bool polygons = false, help = false;
+  int32_t kind = -1;                                        // not named
+  bool polygons = false, sited = false, help = false;
 };
 
 // A length, or with a percent sign a share of the box diagonal, which comes back below 0.
@@ -74,7 +73,7 @@ Command parse(Words words) {
       out.help = true;
     } else if (words.is("--sites")) {
       const std::string sites = words.value();
-      out.sites = file_named(sites == "auto" ? "" : sites);
+      out.sites = file_named(sites == "auto" ? "" : sites), out.sited = true;
     } else if (words.is("--edge")) {
       out.edge = read_edge(words.value());
     } else if (words.is("--pure")) {
@@ -103,6 +102,7 @@ Command parse(Words words) {
       words.take_mesh(out.mesh);
     }
   }
+  if (out.kind < 0) out.kind = out.sited || out.polygons ? HF_QUADS_UNIFORM : HF_QUADS_FIELD;
   if (!out.help && out.mesh.empty()) throw std::runtime_error("no mesh is named; see --help");
   return out;
 }
