@@ -81,10 +81,10 @@ typedef struct hf_quads_info {
  * makes up to four more, with edges as short as edge_length / 1.3. Progress covers factorisations, sites, critical
  * points, relaxation and fitting; each of these can be cancelled. Errors: HF_ERROR_INVALID_ARGUMENT (kind,
  * edge_length, relax_count, lines of one sign or 0, an isolated vertex as site), HF_ERROR_NON_FINITE (edge_length),
- * HF_ERROR_OUT_OF_RANGE, HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (surface that cannot be oriented, index = a
- * vertex; sites that no flux can separate, or a part too small for two), HF_ERROR_TOO_LARGE (more than 400 sites and
- * borders in a component, a million rings), HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check fails. Thread safety:
- * reads `surface`. Since 0.1. */
+ * HF_ERROR_OUT_OF_RANGE, HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (surface that cannot be oriented or has three
+ * triangles at more than 5 % of its edges, index = a vertex; sites that no flux can separate, or a part too small for
+ * two), HF_ERROR_TOO_LARGE (more than 400 sites and borders in a component, a million rings), HF_ERROR_CANCELLED,
+ * HF_ERROR_INTERNAL when the check fails. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 
 /* Destroys a quad mesh. Ignores NULL and destroyed handles. Since 0.1. */
@@ -120,8 +120,8 @@ HF_API hf_result hf_quads_get_mesh(hf_quads quads, hf_quads_mesh* inout_mesh);
 typedef struct hf_flow_object* hf_flow;
 
 /* Prepares a surface for tracing: computes half-edges and weights. Sets *out_flow to NULL first. Cost: O(n log n),
- * no factorisation. Edges of three or more triangles are parted as for quads. Errors: HF_ERROR_UNSUPPORTED (surface
- * that cannot be oriented; index = a vertex). Thread safety: reads `surface`. Since 0.1. */
+ * no factorisation. Edges of three or more triangles are parted as for quads. Errors: HF_ERROR_UNSUPPORTED (as for
+ * quads; index = a vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow);
 
 /* Destroys the object. Ignores NULL and destroyed handles. Since 0.1. */

@@ -244,8 +244,8 @@ void write(const Command& options, const std::optional<Model>& model, const Surf
 }
 
 void run(const Command& options) {
-  std::optional<Model> model;
-  if (is_gltf(options.mesh)) model = read_gltf(options.mesh);
+  std::optional<Model> model;  // only if its motion and look are asked for
+  if (is_gltf(options.mesh) && is_gltf(options.out)) model = read_gltf(options.mesh);
   const SurfaceMesh input = model ? to_surface_mesh(flatten(*model)) : read_mesh_file(options.mesh);
   const std::vector<double> positions = double_positions(input.positions);
   auto create = hf::make<hf_surface_desc>();

@@ -283,6 +283,25 @@ static void bad_input_is_named(void** state) {
   hf_flow_destroy(flow), hf_surface_destroy(surface), surface_free(&mesh);
 }
 
+static void mostly_non_manifold_triangles_are_refused_with_a_vertex(void** state) {
+  (void)state;
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, -1};
+  const uint32_t triangles[] = {0, 1, 2, 1, 0, 3, 0, 1, 4};
+  hf_surface_desc create = HF_INIT(hf_surface_desc);
+  create.vertex_count = 5, create.triangle_count = 3, create.positions = positions, create.triangles = triangles;
+  hf_surface surface = NULL;
+  assert_ok(hf_surface_create(&create, &surface));
+  hf_quads quads = NULL;
+  hf_flow flow = NULL;
+  assert_code(HF_ERROR_UNSUPPORTED, hf_quads_create(surface, NULL, &quads));
+  assert_code(HF_ERROR_UNSUPPORTED, hf_flow_create(surface, &flow));
+  hf_error_detail detail;
+  assert_ok(hf_error_get_detail(&detail));
+  assert_true(detail.index == 0 || detail.index == 1);
+  assert_non_null(strstr(detail.message, "1 of 1 edges"));
+  hf_surface_destroy(surface);
+}
+
 /* A fin on a sheet: the sheet stays in one piece, the fin gets a border. */
 static void a_non_manifold_edge_is_parted(void** state) {
   (void)state;
@@ -419,6 +438,7 @@ int main(void) {
       cmocka_unit_test(progress_rises_in_small_steps_and_stops_where_it_is_cancelled),
       cmocka_unit_test(sites_on_a_border_leave_it_a_border),
       cmocka_unit_test(bad_input_is_named),
+      cmocka_unit_test(mostly_non_manifold_triangles_are_refused_with_a_vertex),
       cmocka_unit_test(a_non_manifold_edge_is_parted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
