@@ -77,25 +77,19 @@ struct Pairs {
       const Vec3 across = side - (dot(side, edge) / std::max(dot(edge, edge), least_square)) * edge;
       away.push_back((1 / std::sqrt(std::max(dot(across, across), least_square))) * across);
     }
-    struct Candidate {
-      bool disagree;
-      double bend;  // the cosine between the two: -1 if they are flat
-      std::int32_t i, j;
-    };
-    Vector<Candidate> list(&memory);
     const std::int32_t count = std::min(halves.size(), most_parted);
-    for (std::int32_t i = 0; i < count; ++i) {
-      for (std::int32_t j = i + 1; j < count; ++j)
-        list.push_back({vertex(halves[i]) == vertex(halves[j]), dot(away[i], away[j]), i, j});
-    }
-    std::sort(list.begin(), list.end(), [](const Candidate& x, const Candidate& y) {
-      return x.disagree != y.disagree ? y.disagree
-             : x.bend != y.bend       ? x.bend < y.bend
-             : x.i != y.i             ? x.i < y.i
-                                      : x.j < y.j;
-    });
-    for (const Candidate& c : list) {
-      if (twin[halves[c.i]] == none && twin[halves[c.j]] == none) join(halves[c.i], halves[c.j]);
+    while (true) {
+      std::int32_t first = none, second = none;
+      double least = HUGE_VAL;  // the cosine between the two: -1 if they are flat; 4 more if they disagree
+      for (std::int32_t i = 0; i < count; ++i) {
+        for (std::int32_t j = i + 1; j < count; ++j) {
+          if (twin[halves[i]] != none || twin[halves[j]] != none) continue;
+          const double bend = dot(away[i], away[j]) + (vertex(halves[i]) == vertex(halves[j]) ? 4 : 0);
+          if (bend < least) least = bend, first = i, second = j;
+        }
+      }
+      if (first == none) return;
+      join(halves[first], halves[second]);
     }
   }
 };
