@@ -118,7 +118,7 @@ TEST(PlyFile, TextAndBothByteOrdersGiveTheSameMesh) {
   EXPECT_EQ(expected.positions[2], glm::dvec3(1.5, 2.25, -1));
   EXPECT_FLOAT_EQ(expected.colors[3].x, 0.2f);
   EXPECT_EQ(expected.face_sizes, (Indices{4, 3}));
-  EXPECT_EQ(expected.triangles, (Indices{0, 1, 2, 0, 2, 3, 0, 2, 3}));
+  EXPECT_EQ(expected.triangles, (Indices{0, 1, 2, 2, 3, 0, 0, 2, 3}));
   for (const bool big : {false, true}) {
     std::string out = std::string("ply\nformat binary_") + (big ? "big" : "little") + "_endian 1.0\n" + elements;
     for (int v = 0; v < 4; ++v) {
