@@ -83,8 +83,9 @@ typedef struct hf_quads_info {
  * edge_length, relax_count, lines of one sign or 0, an isolated vertex as site), HF_ERROR_NON_FINITE (edge_length),
  * HF_ERROR_OUT_OF_RANGE, HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (surface that cannot be oriented or has three
  * triangles at more than 5 % of its edges, index = a vertex; sites that no flux can separate, or a part too small for
- * two), HF_ERROR_TOO_LARGE (more than 400 sites and borders in a component, a million rings), HF_ERROR_CANCELLED,
- * HF_ERROR_INTERNAL when the check fails. Thread safety: reads `surface`. Since 0.1. */
+ * two), HF_ERROR_TOO_LARGE (more than 400 sites and borders in a component, a million rings, more than a million quads
+ * of the default edge length), HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check fails. Thread safety: reads
+ * `surface`. Since 0.1. */
 HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 
 /* Destroys a quad mesh. Ignores NULL and destroyed handles. Since 0.1. */

@@ -43,6 +43,9 @@ constexpr struct {
 // tries, larger leaves less quads to remove. At 0.5, 19 % more corners are turned over in 21 runs. At 0.85, four tries
 // do not suffice for a sheet with holes: it gets the quads of its triangles, 118 times as many as wanted.
 constexpr double shorter = 0.7;
+// More quads than this must be asked for. At the default edge length a sphere has 2,000; a polygon of 60,000 corners at
+// random, which lies over itself two thousand times, would have 4 million and take 1.6 GB.
+constexpr double most_unasked = 1e6;
 // At most this many shorter edges are tried. Then triangles are split into quads, which can be many. With 2, a sheet
 // with holes gets 119 times as many as wanted. With 8 five runs that need a try stay the same.
 constexpr std::int32_t most_tries = 4;
@@ -254,6 +257,10 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   const FluxSurface surface = FluxSurface::make(core.mesh, core.topology, 0, memory);
   double edge_length = options.edge_length;
   if (options.faces > 0) edge_length = std::sqrt(area_of(surface) / options.faces);
+  const double unasked = area_of(surface) / (edge_length * edge_length);
+  if (options.faces == 0 && edge_length == default_edge_length && unasked > most_unasked)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "the surface lies over itself: %.0f quads of the default edge length; set edge_length or face_count", unasked);
 
   std::optional<DirectionSystem> system(std::in_place, options.core, 4);
   part.reset();

@@ -302,6 +302,36 @@ static void mostly_non_manifold_triangles_are_refused_with_a_vertex(void** state
   hf_surface_destroy(surface);
 }
 
+/* A spiral staircase of 1,500 turns, flat as a disc: over a million quads of the default edge length that nobody asked for. */
+static void very_many_quads_must_be_asked_for(void** state) {
+  (void)state;
+  enum { TURNS = 1500, STEPS = 8, RIM = TURNS * STEPS };
+  static float positions[3 * (2 * RIM + 2)];
+  static uint32_t triangles[6 * RIM];
+  for (uint32_t i = 0; i <= RIM; ++i) {
+    const double angle = 6.283185307179586 * i / STEPS;
+    for (uint32_t k = 0; k < 2; ++k) {
+      float* p = positions + 3 * (2 * i + k);
+      p[0] = (float)((1 + 9 * k) * cos(angle)), p[1] = (float)((1 + 9 * k) * sin(angle)), p[2] = 1e-4f * (float)i;
+    }
+  }
+  for (uint32_t i = 0; i < RIM; ++i) {
+    const uint32_t a = 2 * i, corners[6] = {a, a + 1, a + 3, a, a + 3, a + 2};
+    memcpy(triangles + 6 * i, corners, sizeof corners);
+  }
+  hf_surface_desc create = HF_INIT(hf_surface_desc);
+  create.vertex_count = 2 * RIM + 2, create.triangle_count = 2 * RIM, create.positions = positions;
+  create.triangles = triangles;
+  hf_surface surface = NULL;
+  assert_ok(hf_surface_create(&create, &surface));
+  hf_quads_desc desc = HF_INIT(hf_quads_desc);
+  desc.kind = HF_QUADS_FIELD;
+  hf_quads quads = NULL;
+  assert_code(HF_ERROR_TOO_LARGE, hf_quads_create(surface, &desc, &quads));
+  assert_null(quads);
+  hf_surface_destroy(surface);
+}
+
 /* A fin on a sheet: the sheet stays in one piece, the fin gets a border. */
 static void a_non_manifold_edge_is_parted(void** state) {
   (void)state;
@@ -439,6 +469,7 @@ int main(void) {
       cmocka_unit_test(sites_on_a_border_leave_it_a_border),
       cmocka_unit_test(bad_input_is_named),
       cmocka_unit_test(mostly_non_manifold_triangles_are_refused_with_a_vertex),
+      cmocka_unit_test(very_many_quads_must_be_asked_for),
       cmocka_unit_test(a_non_manifold_edge_is_parted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
