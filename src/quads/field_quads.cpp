@@ -257,10 +257,11 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   const FluxSurface surface = FluxSurface::make(core.mesh, core.topology, 0, memory);
   double edge_length = options.edge_length;
   if (options.faces > 0) edge_length = std::sqrt(area_of(surface) / options.faces);
-  const double unasked = area_of(surface) / (edge_length * edge_length);
-  if (options.faces == 0 && edge_length == default_edge_length && unasked > most_unasked)
+  const double expected = area_of(surface) / (edge_length * edge_length);
+  if (options.faces == 0 && edge_length == default_edge_length && expected > most_unasked)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
-         "the surface lies over itself: %.0f quads of the default edge length; set edge_length or face_count", unasked);
+         "the surface lies over itself: %.0f quads of the default edge length; set edge_length or face_count",
+         expected);
 
   std::optional<DirectionSystem> system(std::in_place, options.core, 4);
   part.reset();

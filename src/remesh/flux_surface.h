@@ -25,7 +25,8 @@ struct FluxSurface {
         position(memory),
         mesh_vertex(memory),
         component(memory) {}
-  // Throws HF_ERROR_UNSUPPORTED (index: a vertex as given) for a surface that cannot be oriented.
+  // Throws HF_ERROR_UNSUPPORTED (index: a vertex as given) for a surface that cannot be oriented, or where more than 5 %
+  // of the edges between triangles join three or more.
   static FluxSurface make(const Mesh& mesh, const Topology& topology, double apex_weight, Memory& memory);
 
   std::int32_t vertex_count() const noexcept { return out.size(); }
