@@ -337,6 +337,39 @@ QuadComplex torus_of(const FluxSurface& surface, std::int32_t rows, std::int32_t
   return out;
 }
 
+// What every mesh of quads goes through before a caller sees it must be able to refuse one.
+TEST(FieldQuads, the_check_refuses_each_fault) {
+  Memory memory;
+  const auto cube = [&] {
+    QuadMesh mesh(memory);
+    for (int v = 0; v < 8; ++v) mesh.add_vertex({}, {v & 1 ? 1.0 : 0, v & 2 ? 1.0 : 0, v & 4 ? 1.0 : 0}, 0, false, 1);
+    for (const int v : {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5})
+      mesh.corner.push_back(v);
+    for (int f = 0; f <= 6; ++f) mesh.face_start.push_back(4 * f);
+    return mesh;
+  };
+  const auto is_refused = [&](const QuadMesh& mesh, std::int32_t euler_characteristic) {
+    try {
+      check_quads(mesh, euler_characteristic, memory);
+    } catch (const Error& error) {
+      return error.code() == HF_ERROR_INTERNAL;
+    }
+    return false;
+  };
+  QuadMesh mesh = cube();
+  EXPECT_FALSE(is_refused(mesh, 2));
+  EXPECT_TRUE(is_refused(mesh, 1)) << "another Euler characteristic";
+  std::swap(mesh.corner[1], mesh.corner[3]);
+  EXPECT_TRUE(is_refused(mesh, 2)) << "a face that is turned over";
+  QuadMesh twice(memory);  // each directed edge once, and the Euler characteristic is right
+  for (int v = 0; v < 3; ++v) twice.add_vertex({}, {1.0 * v, 0, 0}, 0, false, 1);
+  for (const int v : {0, 1, 0, 2}) twice.corner.push_back(v);
+  twice.face_start.push_back(0), twice.face_start.push_back(4);
+  EXPECT_TRUE(is_refused(twice, 2)) << "a corner twice";
+  mesh = cube(), mesh.corner.resize(20, 0), mesh.face_start.resize(6, 0);
+  EXPECT_FALSE(is_refused(mesh, 1)) << "a border";
+}
+
 TEST(FieldQuads, one_or_two_edges_around_a_thin_part_become_three) {
   const auto core = core_of(samples::sphere(8));
   Memory& memory = *core->memory;
