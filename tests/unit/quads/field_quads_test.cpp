@@ -337,6 +337,24 @@ QuadComplex torus_of(const FluxSurface& surface, std::int32_t rows, std::int32_t
   return out;
 }
 
+// A corner of the border belongs to triangles that have no side there.
+TEST(FieldQuads, quads_of_triangles_share_their_vertices_and_hold_the_border) {
+  const auto core = core_of(samples::plane(6, 5));
+  Memory& memory = *core->memory;
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 0, memory);
+  const Table<std::uint8_t> features = find_features(surface, 100, memory);
+  const QuadComplex quads = split_triangles(surface, features, Table<std::uint8_t>(1, 1, memory), memory);
+  EXPECT_EQ(quads.quad_count(), 3 * surface.real_triangles);
+  EXPECT_EQ(quads.vertices.position.size(),
+            core->mesh.vertex_count() + core->topology.edge_count() + core->mesh.triangle_count());
+  std::int32_t at_border = 0;
+  for (std::int32_t v = 0; v < quads.vertices.position.size(); ++v) {
+    EXPECT_EQ(quads.vertices.pinned[v] == QuadMesh::site, quads.vertices.border[v] != 0) << v;
+    at_border += quads.vertices.border[v] != 0;
+  }
+  EXPECT_GT(at_border, 20);
+}
+
 // What every mesh of quads goes through before a caller sees it must be able to refuse one.
 TEST(FieldQuads, the_check_refuses_each_fault) {
   Memory memory;
