@@ -71,8 +71,8 @@ typedef struct hf_quads_info {
  * repeats a corner, and the Euler characteristic is that of the surface.
  *
  * The surface may have borders, any genus and several components; the function turns triangles that disagree in
- * orientation. Where three or more triangles share an edge, the two flattest are joined, then the next two; one that
- * is left over gets a border. hf_surface_get_report counts such edges. However long edge_length is, at least four
+ * orientation. Where three or more triangles share an edge, the two flattest are joined, then the next two. A triangle
+ * without a partner gets a border. hf_surface_get_report counts such edges. However long edge_length is, at least four
  * vertices lie around each limb. Sites that you give may force flux across a border. Then the function holds all sites
  * of that component at one of two levels instead, and site_lines are the even numbers nearest to the fluxes.
  *

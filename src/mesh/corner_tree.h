@@ -25,8 +25,8 @@ class CornerTree {
   void put_in(Index corner) noexcept { count(corner, 1); }
   void take_out(Index corner) noexcept { count(corner, -1); }
 
-  // Returns a corner near the triangle a b c for which accept(corner) holds, or -1. "Near": every corner inside is
-  // looked at, and some outside, also some that are not in.
+  // Returns a corner for which accept(corner) holds, or -1. It tries every corner inside the triangle a b c that is in.
+  // It also tries some outside, and some that are not in.
   template <class Accept>
   Index find(Index a, Index b, Index c, Accept&& accept) const noexcept {
     if (nodes_[1].count == 0) return -1;
