@@ -7,6 +7,7 @@
 
 #include "assets/creature.h"
 #include "assets/creature_gltf.h"
+#include "assets/face_gltf.h"
 #include "assets/shapes.h"
 #include "common/animate.h"
 #include "common/flat_mesh.h"
@@ -115,65 +116,116 @@ double most_stretched(const Model& model, const FlatMesh& flat) {
   return most;
 }
 
+// A model, and its quads as hf_quads writes them, read back.
+struct Remade {
+  Remade(const Model& model, uint32_t faces) {
+    const TemporaryFolder folder;
+    const fs::path in = folder.path / "in.glb", out = folder.path / "out.glb";
+    write_gltf(model, in);
+    const int code =
+        run("\"" + in.string() + "\" --faces " + std::to_string(faces) + " -o \"" + out.string() + "\"", text);
+    EXPECT_EQ(code, 0) << text;
+    if (code != 0) return;
+    before = read_gltf(in), after = read_gltf(out);
+    old_flat = flatten(before), flat = flatten(after);
+    // Each vertex of the quads lies on a triangle of the model.
+    const SharedSoup soup{&old_flat.positions, old_flat.triangles};
+    const NearestPoint nearest(soup);
+    triangle.resize(flat.vertex_count()), weights.resize(flat.vertex_count());
+    glm::dvec3 low(INFINITY), high(-INFINITY);
+    for (uint32_t v = 0; v < flat.vertex_count(); ++v) {
+      nearest.distance(flat.positions[v], &triangle[v]);
+      const uint32_t* c = &old_flat.triangles[3 * size_t{triangle[v]}];
+      const glm::dvec3 a = old_flat.positions[c[0]], x = old_flat.positions[c[1]] - a, y = old_flat.positions[c[2]] - a,
+                       d = flat.positions[v] - a;
+      const double xx = dot(x, x), xy = dot(x, y), yy = dot(y, y), area = xx * yy - xy * xy;
+      const double s = (yy * dot(d, x) - xy * dot(d, y)) / area, t = (xx * dot(d, y) - xy * dot(d, x)) / area;
+      weights[v] = {1 - s - t, s, t};
+      low = glm::min(low, flat.positions[v]), high = glm::max(high, flat.positions[v]);
+    }
+    size = glm::distance(low, high);
+  }
+  // How far the vertices are from where their triangles are, in the mean and at most, and how far seams open; over
+  // size.
+  struct Apart {
+    double mean, most, opened;
+  };
+  Apart compare(const std::vector<glm::dvec3>& was, const std::vector<glm::dvec3>& is) const {
+    Apart out{0, 0, 0};
+    std::vector<glm::dvec3> of_weld(flat.welded_count, glm::dvec3(NAN));
+    for (uint32_t v = 0; v < flat.vertex_count(); ++v) {
+      const uint32_t* c = &old_flat.triangles[3 * size_t{triangle[v]}];
+      const glm::dvec3 at = weights[v].x * was[c[0]] + weights[v].y * was[c[1]] + weights[v].z * was[c[2]];
+      out.most = std::max(out.most, glm::distance(at, is[v]) / size), out.mean += glm::distance(at, is[v]) / size;
+      glm::dvec3& first = of_weld[flat.welded[v]];
+      if (std::isnan(first.x)) first = is[v];
+      out.opened = std::max(out.opened, glm::distance(first, is[v]) / size);
+    }
+    out.mean /= flat.vertex_count();
+    return out;
+  }
+
+  std::string text;
+  Model before, after;
+  FlatMesh old_flat, flat;
+  std::vector<uint32_t> triangle;
+  std::vector<glm::dvec3> weights;
+  double size = 1;
+};
+
 // A horse as quads: it walks as before, no seam of its texture opens, and no quad is painted across a seam.
 TEST(QuadsProgram, AModelKeepsItsMotionAndLook) {
-  const TemporaryFolder folder;
-  const fs::path in = folder.path / "horse.glb", out = folder.path / "quads.glb";
-  write_gltf(to_model(make_creature("horse", 6000)), in);
-  std::string text;
-  ASSERT_EQ(run("\"" + in.string() + "\" --field --faces 2500 -o \"" + out.string() + "\"", text), 0) << text;
-  const Model before = read_gltf(in), after = read_gltf(out);
-  ASSERT_EQ(after.skins.size(), before.skins.size());
-  EXPECT_EQ(after.skins[0].joints, before.skins[0].joints);
-  ASSERT_EQ(after.animations.size(), before.animations.size());
-  const FlatMesh old_flat = flatten(before), flat = flatten(after);
-  ASSERT_GT(flat.vertex_count(), flat.welded_count) << "the seams of the texture";
+  const Remade horse(to_model(make_creature("horse", 6000)), 2500);
+  ASSERT_EQ(horse.after.skins.size(), 1u) << horse.text;
+  EXPECT_EQ(horse.after.skins[0].joints, horse.before.skins[0].joints);
+  ASSERT_EQ(horse.after.animations.size(), horse.before.animations.size());
+  ASSERT_GT(horse.flat.vertex_count(), horse.flat.welded_count) << "the seams of the texture";
 
   // Fans: as many as faces were said to be.
   size_t faces = 0;
-  for (const FlatPart& part : flat.parts) {
-    const Primitive& p = after.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
+  for (const FlatPart& part : horse.flat.parts) {
+    const Primitive& p =
+        horse.after.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
     EXPECT_EQ(p.carried.extensions, "{\"FB_ngon_encoding\":{}}");
     for (size_t i = 0; i < p.indices.size(); i += 3) faces += i == 0 || p.indices[i] != p.indices[i - 3];
   }
-  EXPECT_NE(text.find(" " + std::to_string(faces) + " faces in "), std::string::npos) << faces << "\n" << text;
+  EXPECT_NE(horse.text.find(" " + std::to_string(faces) + " faces in "), std::string::npos) << faces << horse.text;
 
-  // Each vertex lies on a triangle of the horse, and moves as that triangle does.
-  const SharedSoup soup{&old_flat.positions, old_flat.triangles};
-  const NearestPoint nearest(soup);
-  const double size = 3.5;
-  std::vector<uint32_t> triangle(flat.vertex_count());
-  std::vector<glm::dvec3> weights(flat.vertex_count());
-  for (uint32_t v = 0; v < flat.vertex_count(); ++v) {
-    nearest.distance(flat.positions[v], &triangle[v]);
-    const uint32_t* c = &old_flat.triangles[3 * size_t{triangle[v]}];
-    const glm::dvec3 a = old_flat.positions[c[0]], x = old_flat.positions[c[1]] - a, y = old_flat.positions[c[2]] - a,
-                     d = flat.positions[v] - a;
-    const double xx = dot(x, x), xy = dot(x, y), yy = dot(y, y), area = xx * yy - xy * xy;
-    const double s = (yy * dot(d, x) - xy * dot(d, y)) / area, t = (xx * dot(d, y) - xy * dot(d, x)) / area;
-    weights[v] = {1 - s - t, s, t};
-  }
-  for (size_t clip = 0; clip < before.animations.size(); ++clip) {
-    double opened = 0, far = 0, total = 0;
+  for (size_t clip = 0; clip < horse.before.animations.size(); ++clip) {
     for (const double time : {0.2, 0.5, 0.9}) {
-      const auto was = posed_positions(before, old_flat, before.animations[clip], time);
-      const auto is = posed_positions(after, flat, after.animations[clip], time);
-      std::vector<glm::dvec3> of_weld(flat.welded_count, glm::dvec3(NAN));
-      for (uint32_t v = 0; v < flat.vertex_count(); ++v) {
-        const uint32_t* c = &old_flat.triangles[3 * size_t{triangle[v]}];
-        const glm::dvec3 at = weights[v].x * was[c[0]] + weights[v].y * was[c[1]] + weights[v].z * was[c[2]];
-        far = std::max(far, glm::distance(at, is[v]) / size), total += glm::distance(at, is[v]) / size;
-        glm::dvec3& first = of_weld[flat.welded[v]];
-        if (std::isnan(first.x)) first = is[v];
-        opened = std::max(opened, glm::distance(first, is[v]) / size);
-      }
+      const Remade::Apart apart =
+          horse.compare(posed_positions(horse.before, horse.old_flat, horse.before.animations[clip], time),
+                        posed_positions(horse.after, horse.flat, horse.after.animations[clip], time));
+      EXPECT_LT(apart.opened, 1e-6) << horse.before.animations[clip].name;
+      EXPECT_LT(apart.mean, 0.002) << horse.before.animations[clip].name;
+      EXPECT_LT(apart.most, 0.02) << horse.before.animations[clip].name;
     }
-    const double mean = total / (3.0 * flat.vertex_count());
-    EXPECT_LT(opened, 1e-6) << before.animations[clip].name;
-    EXPECT_LT(mean, 0.002) << before.animations[clip].name;
-    EXPECT_LT(far, 0.02) << before.animations[clip].name;
   }
-  EXPECT_LT(most_stretched(after, flat), 2 * most_stretched(before, old_flat));
+  EXPECT_LT(most_stretched(horse.after, horse.flat), 2 * most_stretched(horse.before, horse.old_flat));
+}
+
+// A face as quads: each of its 52 shapes moves it as before.
+TEST(QuadsProgram, AFaceKeepsItsShapes) {
+  const Remade face(to_model(make_face(80, 60, false), "face", true), 4000);
+  const auto posed = [](const Model& model, const FlatMesh& flat, size_t shape) {
+    Pose pose = rest_pose(model);
+    for (NodePose& node : pose) {
+      if (shape < node.weights.size()) node.weights[shape] = 1;
+    }
+    return posed_positions(model, flat, pose);
+  };
+  ASSERT_FALSE(face.after.meshes.empty()) << face.text;
+  ASSERT_EQ(face.after.meshes[0].target_names, face.before.meshes[0].target_names);
+  ASSERT_EQ(face.after.meshes[0].target_names.size(), 52u);
+  double moved = 0;
+  for (size_t shape = 0; shape < 52; ++shape) {
+    const auto was = posed(face.before, face.old_flat, shape);
+    const Remade::Apart apart = face.compare(was, posed(face.after, face.flat, shape));
+    EXPECT_LT(apart.most, 1e-5) << shape;  // shapes are linear, and single precision
+    for (size_t v = 0; v < was.size(); ++v)
+      moved = std::max(moved, glm::distance(was[v], face.old_flat.positions[v]) / face.size);
+  }
+  EXPECT_GT(moved, 0.02) << "shapes that move nothing prove nothing";
 }
 
 }  // namespace
