@@ -43,6 +43,17 @@ typedef struct hf_quads_desc {
   float crease_angle;   /* HF_QUADS_FIELD: edges of the surface that bend by more degrees, up to 180, become edges of
                            quads; 0 = none. Creases and borders are straight lines of the grid. If there are more than
                            1,024 lines, only the longest are kept */
+  uint32_t crease_count; /* HF_QUADS_FIELD: edges of the surface that become edges of quads whatever their angle */
+  uint32_t guide_count;  /* HF_QUADS_FIELD: directions that edges of quads follow, such as strokes of an artist */
+  const uint32_t* crease_edges;   /* [crease_count][2] the two vertices of each edge, as given */
+  const uint32_t* guide_vertices; /* [guide_count] as given; guides of one vertex are averaged */
+  const double* guide_vectors;    /* [guide_count][3] along the surface, of any length above 0; quads run along the
+                                     vector and across it */
+  const float* guide_weights;     /* NULL = all 1, or [guide_count], above 0 to 1: 1 holds the direction, less mixes it
+                                     with that of the curvature, which has the rest of the weight */
+  double symmetry_plane[4];       /* HF_QUADS_FIELD: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh;
+                                     0, 0, 0, 0 = none. Quads are made of the side that (a, b, c) points to, and mirrored.
+                                     Creases and guides on the other side are not used */
 } hf_quads_desc;
 
 /* Counts of a quad mesh. */

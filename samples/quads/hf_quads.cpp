@@ -1,4 +1,5 @@
 // hf_quads: a quad mesh of any mesh file. See README.md beside this file, or --help.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -18,6 +19,7 @@
 #include "quads/crossings.h"
 #include "quads/quad_model.h"
 #include "quads/quad_report.h"
+#include "quads/strokes.h"
 #include "quads/surface_distance.h"
 
 namespace samples {
@@ -25,7 +27,8 @@ namespace {
 
 const char* const usage =
     "usage: hf_quads MESH [--sites auto|FILE.json] [--edge LENGTH] [--faces N] [--crease DEG]\n"
-    "                [--field|--pure|--uniform] [-o OUT] [--sheet FILE.png]\n"
+    "                [--strokes FILE.json] [--symmetry x|y|z] [--field|--pure|--uniform] [-o OUT]\n"
+    "                [--sheet FILE.png]\n"
     "       hf_quads MESH --measure QUADS [--sheet FILE.png]\n"
     "  Makes a quad mesh of a .obj, .off, .ply, .gltf or .glb surface, and prints what it is worth.\n"
     "  --field        edges follow smooth crosses along the curvature; no sites (default)\n"
@@ -36,6 +39,11 @@ const char* const usage =
     "  --edge LENGTH  edge length aimed at, in the unit of the mesh, or as a share of its box diagonal: 2% (2.2%)\n"
     "  --faces N      number of quads aimed at, instead of --edge; takes --field\n"
     "  --crease DEG   edges of the surface that bend by more degrees become edges of quads; takes --field\n"
+    "  --strokes FILE {\"strokes\": [{\"points\": [[0, 1, 0.2], [0.1, 1, 0.3]], \"weight\": 1}]}: edges follow these "
+    "lines,\n"
+    "                 in the frame of the mesh; below 1 the curvature has a say; takes --field\n"
+    "  --symmetry A   the left half is the mirror image of the right one: of the side where x (y, z) is positive. The\n"
+    "                 plane goes through 0; --symmetry x=0.25 moves it; takes --field\n"
     "  --uniform      edges of about one length: lines are added and ended in pairs\n"
     "  --pure         every line runs from site to site\n"
     "  --polygons     leaves polygons at sites and saddles whole; takes --uniform if no kind is named\n"
@@ -49,7 +57,8 @@ const char* const usage =
     "  --memory-limit N refuse a surface that holds more than N MiB (default: by the size)\n";
 
 struct Command {
-  std::filesystem::path mesh, sites, measured, out, sheet;  // sites empty: auto
+  std::filesystem::path mesh, sites, strokes, measured, out, sheet;  // sites empty: auto
+  double plane[4] = {0, 0, 0, 0};                                    // of symmetry; 0: none
   double edge = 0;                                          // 0: the default; below 0: a share of the box diagonal
   uint32_t relax = 60, faces = 0, crease = 0;               // crease in degrees
   int32_t kind = -1;                                        // not named
@@ -64,6 +73,16 @@ double read_edge(const std::string& text) {
   if (text.empty() || (*end != 0 && !share) || !(value > 0) || !std::isfinite(value))
     throw std::runtime_error("--edge takes a length above 0, or a share of the box as in 2.2%, not \"" + text + "\"");
   return share ? -value / 100 : value;
+}
+
+// "x", "y" or "z", and where the plane crosses that axis: "x=0.25".
+void read_symmetry(const std::string& text, double* plane) {
+  const size_t axis = std::string("xyz").find(text[0]);
+  char* end = nullptr;
+  const double place = text.size() > 2 ? std::strtod(text.c_str() + 2, &end) : 0;
+  if (text.empty() || axis > 2 || (text.size() > 1 && (text[1] != '=' || !end || *end != 0)) || !std::isfinite(place))
+    throw std::runtime_error("--symmetry takes x, y or z, or a place on that axis as in x=0.25, not \"" + text + "\"");
+  plane[axis] = 1, plane[3] = place;
 }
 
 Command parse(Words words) {
@@ -86,6 +105,10 @@ Command parse(Words words) {
       out.faces = words.whole(1, 10000000), out.kind = HF_QUADS_FIELD;
     } else if (words.is("--crease")) {
       out.crease = words.whole(1, 180), out.kind = HF_QUADS_FIELD;
+    } else if (words.is("--strokes")) {
+      out.strokes = words.file(), out.kind = HF_QUADS_FIELD;
+    } else if (words.is("--symmetry")) {
+      read_symmetry(words.value(), out.plane), out.kind = HF_QUADS_FIELD;
     } else if (words.is("--polygons")) {
       out.polygons = true;
     } else if (words.is("--relax")) {
@@ -119,6 +142,15 @@ void read_sites(const std::filesystem::path& file, uint32_t vertices, std::vecto
   }
   if (sites.empty()) list.fail("no site is named");
   if (!lines.empty() && lines.size() != sites.size()) list.fail("\"lines\" must stand at every site or at none");
+}
+
+double mean_edge(const SurfaceMesh& mesh) {
+  double sum = 0;
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const size_t next = i % 3 == 2 ? i - 2 : i + 1;
+    sum += length(mesh.positions[mesh.triangles[next]] - mesh.positions[mesh.triangles[i]]);
+  }
+  return sum / static_cast<double>(std::max<size_t>(1, mesh.triangles.size()));
 }
 
 TriangleSoup soup_of(const SurfaceMesh& mesh) { return {mesh.positions, mesh.triangles}; }
@@ -271,6 +303,13 @@ void run(const Command& options) {
   desc.site_count = static_cast<uint32_t>(sites.size());
   if (!sites.empty()) desc.site_vertices = sites.data();
   if (!lines.empty()) desc.site_lines = lines.data();
+  Guides guides;
+  if (!options.strokes.empty()) guides = read_strokes(options.strokes, surface, mean_edge(input));
+  desc.guide_count = static_cast<uint32_t>(guides.vertices.size());
+  if (desc.guide_count)
+    desc.guide_vertices = guides.vertices.data(), desc.guide_vectors = guides.vectors.data(),
+    desc.guide_weights = guides.weights.data();
+  std::copy(options.plane, options.plane + 4, desc.symmetry_plane);
 
   const auto begin = std::chrono::steady_clock::now();
   const hf::QuadMesh quads = hf::make_quads(surface, &desc);

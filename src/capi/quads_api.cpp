@@ -56,7 +56,8 @@ hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quad
     const hf_quads_desc desc = read_optional(given, "desc");
     check_quad_options(desc);
     if (desc.kind == HF_QUADS_FIELD) {
-      const FieldQuadOptions options = read_field_quad_options(core, desc);
+      QuadLists lists(*core->memory);
+      const FieldQuadOptions options = read_field_quad_options(core, desc, lists);
       return with_progress(desc.progress, [&] {
         FieldQuadReport report;
         QuadResult result = make_field_quads(options, &report);

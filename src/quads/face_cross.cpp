@@ -40,6 +40,17 @@ Table<std::uint8_t> find_features(const FluxSurface& surface, double crease, Mem
   return out;
 }
 
+void keep_edges(const FluxSurface& surface, const Topology& topology, Span<const std::int32_t> edges,
+                Table<std::uint8_t>& features, Memory& memory) {
+  if (edges.empty()) return;
+  Table<std::uint8_t> kept(topology.edge_count(), 0, memory);
+  for (const std::int32_t e : edges) kept[e] = 1;
+  for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
+    features[h] |=
+        kept[topology.edge_between(surface.mesh_vertex[surface.tail[h]], surface.mesh_vertex[surface.head(h)])];
+  }
+}
+
 FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connection, Span<const Complex> crosses,
                           const Table<std::uint8_t>& features, Memory& memory) {
   FaceCross out(memory);

@@ -16,6 +16,9 @@ namespace hf_inner {
 // Marks, by half-edge, the feature edges: borders, and edges where the normals of the triangles differ by more than
 // `crease` radians. crease: at least pi for none.
 Table<std::uint8_t> find_features(const FluxSurface& surface, double crease, Memory& memory);
+// Marks the half-edges of a list of edges too.
+void keep_edges(const FluxSurface& surface, const Topology& topology, Span<const std::int32_t> edges,
+                Table<std::uint8_t>& features, Memory& memory);
 
 struct FaceCross {
   explicit FaceCross(Memory& memory) : edge(memory), direction(memory), turn(memory), index(memory) {}

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "base/timer.h"
 #include "quads/numbers.h"
+#include "quads/symmetric.h"
 #include "remesh/coarsen.h"
 #include "remesh/fit.h"
 #include "remesh/relax.h"
@@ -32,6 +33,8 @@ constexpr std::int32_t least_passes = 2, most_passes = 20;
 // the vertex is free. It matters at creases and borders only. At 0.25 aspects fall by 5 %, with 5 % more singularities.
 // At 0.9 means change by at most 2 %.
 constexpr double agreement = 0.5;
+// A guide whose part along the surface is shorter than this share of it has no direction; it refuses mistakes.
+constexpr double least_tangent = 1e-9;
 constexpr double degrees = half_turn / 180;
 // Reported progress: the ends of the parts of the whole, then of each turn. Only the order is right; the shares are not
 // measured.
@@ -122,6 +125,48 @@ Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, 
     if (count[at(v)] > 0 && length > agreement * count[at(v)]) out.push_back({v, sum[at(v)] / length});
   }
   return out;
+}
+
+// What the guides say by vertex: the mean of their crosses, to the fourth degree, and the largest weight.
+struct Guided {
+  explicit Guided(Memory& memory) : cross(&memory), weight(&memory) {}
+  Vector<Complex> cross;
+  Vector<double> weight;
+};
+
+Guided read_guides(Span<const QuadGuide> guides, const Connection& connection, Index vertices, Memory& memory) {
+  Guided out(memory);
+  if (guides.empty()) return out;
+  out.cross.assign(at(vertices), Complex(0, 0)), out.weight.assign(at(vertices), 0.0);
+  Vector<double> sum(at(vertices), 0.0, &memory);
+  for (std::size_t i = 0; i < guides.size(); ++i) {
+    const QuadGuide& guide = guides[i];
+    const std::size_t v = at(guide.vertex);
+    Complex z = connection.to_frame(guide.vertex, unit_vector(guide.vector));
+    if (!(length_of(z) > least_tangent))
+      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(guide.given),
+           "guide_vectors[%d] stands on the surface; give a direction along it", guide.given);
+    z /= length_of(z), z *= z, z *= z;
+    out.cross[v] += guide.weight * z, sum[v] += guide.weight;
+    out.weight[v] = std::max(out.weight[v], guide.weight);
+  }
+  for (std::size_t v = 0; v < out.cross.size(); ++v) {
+    if (sum[v] > 0) out.cross[v] /= sum[v];
+  }
+  return out;
+}
+
+// Guides of weight 1 do not give way, but to the crosses of features at their vertex.
+void add_held(const Guided& guided, Vector<HardCross>& hard) {
+  const std::size_t features = hard.size();
+  std::size_t next = 0;
+  for (std::size_t v = 0; v < guided.weight.size(); ++v) {
+    while (next < features && at(hard[next].vertex) < v) ++next;
+    const bool taken = next < features && at(hard[next].vertex) == v;
+    const double length = length_of(guided.cross[v]);
+    if (guided.weight[v] < 1 || taken || !(length > agreement)) continue;
+    hard.push_back({static_cast<Index>(v), guided.cross[v] / length});
+  }
 }
 
 double area_of(const FluxSurface& surface) {
@@ -248,7 +293,16 @@ QuadMesh make_count(const FluxSurface& surface, QuadSource& source, double wante
 
 }  // namespace
 
+void check_expected(const FieldQuadOptions& options, double area) {
+  const double expected = area / (options.edge_length * options.edge_length);
+  if (options.faces == 0 && options.edge_length == default_edge_length && expected > most_unasked)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "the surface lies over itself: %.0f quads of the default edge length; set edge_length or face_count",
+         expected);
+}
+
 QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* out_report) {
+  if (options.plane.is_set()) return make_symmetric_quads(options, out_report);
   const Core& core = *options.core;
   Memory& memory = *core.memory;
   FieldQuadReport made;
@@ -258,11 +312,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   const FluxSurface surface = FluxSurface::make(core.mesh, core.topology, 0, memory);
   double edge_length = options.edge_length;
   if (options.faces > 0) edge_length = std::sqrt(area_of(surface) / options.faces);
-  const double expected = area_of(surface) / (edge_length * edge_length);
-  if (options.faces == 0 && edge_length == default_edge_length && expected > most_unasked)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
-         "the surface lies over itself: %.0f quads of the default edge length; set edge_length or face_count",
-         expected);
+  check_expected(options, area_of(surface));
 
   std::optional<DirectionSystem> system(std::in_place, options.core, 4);
   part.reset();
@@ -272,15 +322,20 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   mean /= std::max(core.topology.edge_count(), 1);
   const double rings = curvature_radius * edge_length / mean;
   const Index passes = static_cast<Index>(std::min<double>(most_passes, std::max<double>(least_passes, rings * rings)));
-  const Vector<Complex> wish = curvature_crosses(core, system->connection, passes);
+  Vector<Complex> wish = curvature_crosses(core, system->connection, passes);
+  const Guided guided = read_guides(options.guides, system->connection, core.size(), memory);
+  for (std::size_t v = 0; v < guided.weight.size(); ++v)
+    wish[v] = (1 - guided.weight[v]) * wish[v] + guided.weight[v] * guided.cross[v];
   CrossOptions cross_options;
   cross_options.radius = smooth_radius * std::max(edge_length, mean);
-  const Table<std::uint8_t> features =
+  Table<std::uint8_t> features =
       find_features(surface, options.crease > 0 ? options.crease * degrees : HUGE_VAL, memory);
+  keep_edges(surface, core.topology, options.crease_edges, features, memory);
   const auto smooth = [&] {
     const ProgressRange range(field_progress.factored, field_progress.smoothed);
-    return smooth_crosses(*system, wish, feature_crosses(core, surface, system->connection, features, passes),
-                          cross_options);
+    Vector<HardCross> hard = feature_crosses(core, surface, system->connection, features, passes);
+    add_held(guided, hard);
+    return smooth_crosses(*system, wish, hard, cross_options);
   };
   const Vector<Complex> crosses = smooth();
   const FaceCross faces = FaceCross::make(surface, system->connection, crosses, features, memory);

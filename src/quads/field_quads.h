@@ -11,12 +11,32 @@
 
 namespace hf_inner {
 
+// A direction that edges of quads follow. weight: 1 holds it; less mixes it with that of the curvature.
+struct QuadGuide {
+  Index vertex = -1;
+  Vec3 vector;
+  double weight = 1;
+  Index given = -1;  // its number in the caller's list
+};
+
+// The plane of the points p with dot(normal, p) = offset.
+struct MirrorPlane {
+  Vec3 normal;  // of length 1; 0: no plane
+  double offset = 0;
+  bool is_set() const noexcept { return norm(normal) > 0; }
+  double height(Vec3 p) const noexcept { return dot(normal, p) - offset; }
+  Vec3 mirrored(Vec3 p) const noexcept { return p - 2 * height(p) * normal; }
+};
+
 struct FieldQuadOptions {
   std::shared_ptr<const Core> core;
   double edge_length = default_edge_length;  // inner units
   std::int32_t faces = 0;                    // wanted number of quads, which replaces the edge length; 0: none
   std::int32_t relax = default_relax_rounds;
   double crease = 0;  // degrees: edges that bend more are kept; 0: none
+  Span<const Index> crease_edges;  // edges that are kept whatever their angle
+  Span<const QuadGuide> guides;
+  MirrorPlane plane;  // inner units; if it is set, the quads are their own mirror image
 };
 
 struct FieldQuadReport {
@@ -35,7 +55,10 @@ struct FieldQuadReport {
 };
 
 // Throws HF_ERROR_UNSUPPORTED for surfaces that are not manifold or cannot be oriented, and where no try gives a mesh
-// of discs; HF_ERROR_CANCELLED.
+// of discs; HF_ERROR_INVALID_ARGUMENT (index = guide) for a vector that stands on the surface; HF_ERROR_CANCELLED; with
+// a plane what make_symmetric_quads throws.
+// Throws HF_ERROR_TOO_LARGE if the default edge length gives far more quads than anybody wants.
+void check_expected(const FieldQuadOptions& options, double area);
 QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* report = nullptr);
 
 }  // namespace hf_inner

@@ -1,6 +1,9 @@
 #include "quads/intake.h"
 
+#include <cmath>
+
 #include "base/arguments.h"
+#include "mesh/vertex_lists.h"
 #include "remesh/intake.h"
 
 namespace hf_inner {
@@ -9,10 +12,76 @@ namespace {
 // Refuses mistakes; no result depends on it. hf/quads.h states it.
 constexpr std::uint32_t most_wanted_faces = 10000000;
 constexpr double most_crease = 180;  // degrees
+// A normal of symmetry_plane is as long as the caller likes, but its square must be a number.
+constexpr double least_normal = 1e-150, most_normal = 1e150;
+
+void read_guides(const Core& core, const hf_quads_desc& desc, Vector<QuadGuide>& out) {
+  if (desc.guide_count == 0) {
+    if (desc.guide_vertices || desc.guide_vectors || desc.guide_weights)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "guide_count is 0, but arrays of guides are given");
+    return;
+  }
+  require(desc.guide_vertices, "guide_vertices"), require(desc.guide_vectors, "guide_vectors");
+  if (desc.guide_count > most_elements)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "guide_count is %u; it must be up to %u", desc.guide_count, most_elements);
+  Vector<Index> inner(core.memory.get());
+  append_usable(core.mesh, desc.guide_count, desc.guide_vertices, "guide_vertices", inner);
+  for (std::uint32_t i = 0; i < desc.guide_count; ++i) {
+    const double* given = desc.guide_vectors + std::size_t{3} * i;
+    if (!is_finite_point(given)) fail(HF_ERROR_NON_FINITE, i, "guide_vectors[%u] is not finite", i);
+    const Vec3 vector{given[0], given[1], given[2]};
+    if (!(norm(unit_vector(vector)) > 0))
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "guide_vectors[%u] is 0; give a direction along the surface", i);
+    const double weight = desc.guide_weights ? static_cast<double>(desc.guide_weights[i]) : 1.0;
+    if (!std::isfinite(weight)) fail(HF_ERROR_NON_FINITE, i, "guide_weights[%u] is not finite", i);
+    if (!(weight > 0) || weight > 1)
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "guide_weights[%u] is %g; it must be above 0 and up to 1", i, weight);
+    out.push_back({inner[i], vector, weight, static_cast<Index>(i)});
+  }
+}
+
+void read_crease_edges(const Core& core, const hf_quads_desc& desc, Vector<Index>& out) {
+  if (desc.crease_count == 0) {
+    if (desc.crease_edges) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "crease_count is 0, but crease_edges is given");
+    return;
+  }
+  require(desc.crease_edges, "crease_edges");
+  if (desc.crease_count > static_cast<std::uint32_t>(core.topology.edge_count()))
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "crease_count is %u; the mesh has %d edges", desc.crease_count,
+         core.topology.edge_count());
+  for (std::uint32_t i = 0; i < desc.crease_count; ++i) {
+    const std::uint32_t* given = desc.crease_edges + std::size_t{2} * i;
+    const Index a = usable_vertex(core.mesh, given[0], i, "crease_edges"),
+                b = usable_vertex(core.mesh, given[1], i, "crease_edges");
+    const Index e = a == b ? Mesh::none : core.topology.edge_between(a, b);
+    if (e == Mesh::none)
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "crease_edges[%u]: no triangle has an edge from vertex %u to vertex %u", i,
+           given[0], given[1]);
+    out.push_back(e);
+  }
+}
+
+MirrorPlane read_plane(const Mesh& mesh, const double* given) {
+  for (int k = 0; k < 4; ++k) {
+    if (!std::isfinite(given[k])) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "symmetry_plane[%d] is not finite", k);
+  }
+  MirrorPlane plane;
+  const Vec3 normal{given[0], given[1], given[2]};
+  const double length = norm(normal);
+  if (length == 0 && given[3] == 0) return plane;
+  if (!(length > least_normal && length < most_normal))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "symmetry_plane has a normal of length %g; it must be %g to %g, or all four numbers 0", length, least_normal,
+         most_normal);
+  plane.normal = (1 / length) * normal;
+  plane.offset = (given[3] / length - dot(plane.normal, mesh.centre)) / mesh.scale;
+  return plane;
+}
 
 }  // namespace
 
-FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc) {
+FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc,
+                                         QuadLists& lists) {
   if (desc.keep_polygons)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "keep_polygons is 1, but HF_QUADS_FIELD makes quads only");
   if (desc.site_count || desc.site_vertices || desc.site_lines)
@@ -28,6 +97,11 @@ FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const
   options.relax = read_relax_count(desc.relax_count);
   options.edge_length = read_edge_length(core->mesh, desc.edge_length);
   options.faces = static_cast<std::int32_t>(desc.face_count);
+  read_crease_edges(*core, desc, lists.edges);
+  read_guides(*core, desc, lists.guides);
+  options.crease_edges = {lists.edges.data(), lists.edges.size()};
+  options.guides = {lists.guides.data(), lists.guides.size()};
+  options.plane = read_plane(core->mesh, desc.symmetry_plane);
   options.core = std::move(core);
   return options;
 }

@@ -5,7 +5,14 @@
 
 namespace hf_inner {
 
+// The lists of the caller, which the options refer to.
+struct QuadLists {
+  explicit QuadLists(Memory& memory) : guides(&memory), edges(&memory) {}
+  Vector<QuadGuide> guides;
+  Vector<Index> edges;
+};
+
 // check_quad_options of remesh/intake.h has passed. Throws as hf_quads_create says.
-FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc);
+FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc, QuadLists& lists);
 
 }  // namespace hf_inner

@@ -1,5 +1,7 @@
 #include "remesh/intake.h"
 
+#include <algorithm>
+
 #include "base/arguments.h"
 #include "mesh/vertex_lists.h"
 #include "remesh/constants.h"
@@ -60,6 +62,10 @@ QuadOptions read_quad_options(std::shared_ptr<const Core> core, const hf_quads_d
   if (desc.crease_angle != 0)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "crease_angle is %g; only the kind HF_QUADS_FIELD takes it",
          static_cast<double>(desc.crease_angle));
+  if (desc.crease_count || desc.guide_count || desc.crease_edges || desc.guide_vertices || desc.guide_vectors ||
+      desc.guide_weights || std::any_of(desc.symmetry_plane, desc.symmetry_plane + 4, [](double d) { return d != 0; }))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "crease edges, guides or a symmetry_plane are given; only the kind HF_QUADS_FIELD takes them");
   QuadOptions options;
   options.relax = read_relax_count(desc.relax_count);
   options.edge_length = read_edge_length(core->mesh, desc.edge_length);

@@ -1,4 +1,3 @@
-#define _POSIX_C_SOURCE 200809L /* pthread_barrier_t */
 /* Surfaces: what is made on one outlives it, kinds of fields share it, factors of every kind are saved and loaded, and
  * getters tell what was asked for. */
 #include <pthread.h>
@@ -382,10 +381,24 @@ static void getters_tell_what_was_asked_for(void** state) {
   hf_surface_destroy(surface), surface_free(&tube);
 }
 
+/* Holds threads until `missing` of them have come; macOS has no pthread_barrier_t. */
+typedef struct Start {
+  pthread_mutex_t mutex;
+  pthread_cond_t complete;
+  int missing;
+} Start;
+
+static void wait_for_all(Start* start) {
+  pthread_mutex_lock(&start->mutex);
+  if (--start->missing == 0) pthread_cond_broadcast(&start->complete);
+  while (start->missing > 0) pthread_cond_wait(&start->complete, &start->mutex);
+  pthread_mutex_unlock(&start->mutex);
+}
+
 /* Eight threads ask for a kind that is missing, all at once. */
 typedef struct Asker {
   pthread_t thread;
-  pthread_barrier_t* start;
+  Start* start;
   hf_surface surface;
   int32_t kind;
   double field[COUNT];
@@ -397,7 +410,7 @@ static void* ask(void* data) {
   hf_solver_desc desc = HF_INIT(hf_solver_desc);
   desc.field_kind = a->kind;
   hf_solver solver = NULL;
-  pthread_barrier_wait(a->start);
+  wait_for_all(a->start);
   a->wrong += hf_create(a->surface, &desc, &solver) != HF_OK;
   const double values[3] = {1, -2, 0.5};
   const uint32_t vertices[3] = {3, COUNT - 5, COUNT / 2};
@@ -414,8 +427,7 @@ static void eight_threads_may_ask_for_a_missing_kind_at_once(void** state) {
   static Asker askers[THREADS];
   for (int round = 0; round < 10; ++round) {
     const hf_surface surface = surface_on(&tube);
-    pthread_barrier_t start;
-    assert_int_equal(pthread_barrier_init(&start, NULL, THREADS), 0);
+    Start start = {PTHREAD_MUTEX_INITIALIZER, PTHREAD_COND_INITIALIZER, THREADS};
     for (int i = 0; i < THREADS; ++i) {
       askers[i].start = &start, askers[i].surface = surface, askers[i].wrong = 0;
       askers[i].kind = round % 2 ? kinds[1 + i % 2] : kinds[1];
@@ -430,7 +442,7 @@ static void eight_threads_may_ask_for_a_missing_kind_at_once(void** state) {
       assert_true(same_bits(askers[i].field, expected, sizeof(double) * COUNT));
       free(expected), hf_solver_destroy(solver);
     }
-    pthread_barrier_destroy(&start), hf_surface_destroy(surface);
+    pthread_cond_destroy(&start.complete), pthread_mutex_destroy(&start.mutex), hf_surface_destroy(surface);
   }
   surface_free(&tube);
 }

@@ -1,0 +1,318 @@
+#include "quads/symmetric.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/progress.h"
+#include "mesh/nearest_triangle.h"
+#include "quads/numbers.h"
+
+namespace hf_inner {
+namespace {
+
+// A vertex nearer to the plane than this share of its shortest edge is moved onto it. More moves more of the surface,
+// less leaves thinner triangles at the cut.
+constexpr double snapped_share = 0.05;
+// A surface whose mirror image is farther away than this share of the box is not symmetric: the plane is a mistake. A
+// pose that is a little off, as of a scan, gets the shape of one side. Spot is 0.016 off.
+constexpr double most_off = 0.05;
+// A vertex of the quads at a border, no farther from the plane than this, lies on it. Borders keep their places to
+// rounding.
+constexpr double plane_tolerance = 1e-9;
+// Where parts at the plane are too thin for the quads, this many times more are made, at most so often.
+constexpr double more_faces = 1.5;
+constexpr std::int32_t most_turns = 3;
+// Reported progress: the ends of the parts of the whole, not measured.
+constexpr float compared = 0.02f, cut = 0.1f, made = 0.98f;
+
+void check_symmetry(const Core& core, const NearestTriangle& nearest, const MirrorPlane& plane) {
+  Poller poller(64);
+  Index worst = Mesh::none;
+  double distance = most_off * most_off;
+  for (Index v = 0; v < core.size(); ++v) {
+    poller.due();
+    const double squared = nearest.find(plane.mirrored(core.mesh.positions[at(v)]), Mesh::none, distance).squared;
+    if (squared > distance) distance = squared, worst = v;
+  }
+  if (worst == Mesh::none) return;
+  const std::uint32_t given = static_cast<std::uint32_t>(core.mesh.given_of_inner[at(worst)]);
+  fail(HF_ERROR_UNSUPPORTED, given,
+       "the surface is not symmetric in symmetry_plane: the mirror image of vertex %u is %g from it, above %g "
+       "of the box diagonal",
+       given, std::sqrt(distance) * core.mesh.scale, most_off);
+}
+
+std::shared_ptr<const Core> core_of(const Core& whole, const HalfSurface& half) {
+  Vector<std::uint32_t> corners(half.corner.begin(), half.corner.end(), whole.memory.get());
+  MeshInput input;
+  input.vertex_count = static_cast<std::uint32_t>(half.position.size());
+  input.triangle_count = static_cast<std::uint32_t>(half.parent.size());
+  input.positions = {&half.position[0].x, sizeof(Vec3)};
+  input.triangles = CornerRows(corners.data());
+  input.weld = Weld::none;
+  CoreOptions options;
+  options.operator_kind = whole.geometry->operator_kind;
+  options.ordering = whole.ordering, options.flop_limit = whole.flop_limit;
+  options.formed_valence = whole.formed_valence;
+  return Core::make(input, options, whole.memory, whole.jobs);
+}
+
+// The quads of the half, in numbers of the whole.
+void bring_back(const Core& whole, const HalfSurface& half, const Mesh& mesh, QuadMesh& quads) {
+  Vector<Index> given(half.parent.size(), Mesh::none, whole.memory.get());
+  for (std::size_t t = 0; t < half.parent.size(); ++t) {
+    if (mesh.triangle_of_given[t] != Mesh::none) given[at(mesh.triangle_of_given[t])] = static_cast<Index>(t);
+  }
+  for (Index v = 0; v < quads.position.size(); ++v) {
+    quads.position[v] = mesh.to_given(quads.position[v]);
+    const SurfacePoint here = quads.location[v];
+    const std::size_t t = at(given[at(here.triangle)]);
+    Vec3 weight;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        if (mesh.inner_of_given[at(half.corner[3 * t + k])] == mesh.triangle(here.triangle)[j])
+          weight = weight + here.weight[j] * half.weight[3 * t + k];
+      }
+    }
+    quads.location[v] = {half.parent[t], {weight.x, weight.y, weight.z}};
+  }
+}
+
+// Adds the mirror image. Two quads that share two edges, around a vertex on the plane, become one.
+void add_image(const NearestTriangle& nearest, const MirrorPlane& plane,
+               const Table<std::uint8_t>& on_plane, QuadMesh& mesh, Memory& memory) {
+  const Index vertices = mesh.position.size(), faces = mesh.face_count();
+  Table<std::int32_t> valence(vertices, 0, memory);
+  for (const std::int32_t v : mesh.corner) ++valence[v];
+  QuadMesh out(memory);
+  Table<Index> number(vertices, none, memory), image(vertices, none, memory);
+  Table<std::uint8_t> inside(vertices, 0, memory);  // by vertex: of two quads that become one
+  for (Index i = 0; i < mesh.corner.size(); ++i) {
+    const Index v = mesh.corner[i], before = mesh.corner[i % 4 == 0 ? i + 3 : i - 1],
+                next = mesh.corner[i % 4 == 3 ? i - 3 : i + 1];
+    inside[v] = valence[v] == 1 && on_plane[before] && on_plane[v] && on_plane[next];
+  }
+  for (Index v = 0; v < vertices; ++v) {
+    if (inside[v] || valence[v] == 0) continue;
+    Vec3 p = mesh.position[v];
+    if (on_plane[v]) p = p - plane.height(p) * plane.normal;
+    number[v] = image[v] =
+        out.add_vertex(mesh.location[v], p, mesh.pinned[v], mesh.border[v] && !on_plane[v], mesh.scale[v]);
+  }
+  Index hint = Mesh::none;
+  Poller poller(64);
+  for (Index v = 0; v < vertices; ++v) {
+    poller.due();
+    if (on_plane[v] || valence[v] == 0) continue;
+    const Vec3 p = plane.mirrored(mesh.position[v]);
+    SurfacePoint point;
+    point.triangle = hint = nearest.find(p, hint).triangle;
+    nearest.weights(p, point.triangle, point.weight);
+    image[v] = out.add_vertex(point, p, mesh.pinned[v], mesh.border[v], mesh.scale[v]);
+  }
+  out.face_start.push_back(0);
+  const auto add = [&](Index a, Index b, Index c, Index d) {
+    for (const Index v : {a, b, c, d}) out.corner.push_back(v);
+    out.face_start.push_back(out.corner.size());
+  };
+  for (Index f = 0; f < faces; ++f) {
+    const Index* c = &mesh.corner[4 * f];
+    int own = none;
+    for (int k = 0; k < 4; ++k) {
+      if (inside[c[k]]) own = k;
+    }
+    if (own >= 0) {
+      const Index a = c[(own + 1) % 4], b = c[(own + 2) % 4], d = c[(own + 3) % 4];
+      add(number[a], number[b], number[d], image[b]);
+    } else {
+      add(number[c[0]], number[c[1]], number[c[2]], number[c[3]]);
+      add(image[c[0]], image[c[3]], image[c[2]], image[c[1]]);
+    }
+  }
+  mesh = std::move(out);
+}
+
+std::int32_t euler_characteristic(const QuadMesh& mesh, Memory& memory) {
+  Vector<std::uint64_t> edges(&memory);
+  for (Index i = 0; i < mesh.corner.size(); ++i) {
+    const Index a = mesh.corner[i], b = mesh.corner[i % 4 == 3 ? i - 3 : i + 1];
+    edges.push_back(static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b)));
+  }
+  std::sort(edges.begin(), edges.end());
+  const auto count = std::unique(edges.begin(), edges.end()) - edges.begin();
+  return mesh.position.size() - static_cast<std::int32_t>(count) + mesh.face_count();
+}
+
+}  // namespace
+
+HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
+  Memory& memory = *core.memory;
+  const Mesh& mesh = core.mesh;
+  const Topology& topology = core.topology;
+  HalfSurface out(memory);
+  Vector<double> height(&memory), shortest(at(core.size()), HUGE_VAL, &memory);
+  for (const Vec3& p : mesh.positions) height.push_back(plane.height(p));
+  for (Index e = 0; e < topology.edge_count(); ++e) {
+    const std::size_t a = at(topology.first(e)), b = at(topology.second(e));
+    const double length = norm(mesh.positions[b] - mesh.positions[a]);
+    shortest[a] = std::min(shortest[a], length), shortest[b] = std::min(shortest[b], length);
+  }
+  out.of_vertex.assign(at(core.size()), Mesh::none), out.of_edge.assign(at(topology.edge_count()), Mesh::none);
+  for (std::size_t v = 0; v < height.size(); ++v) {
+    if (std::fabs(height[v]) < snapped_share * shortest[v]) height[v] = 0;
+  }
+  const auto add = [&](Vec3 p, bool at_plane) {
+    out.position.push_back(at_plane ? p - plane.height(p) * plane.normal : p);
+    return static_cast<Index>(out.position.size()) - 1;
+  };
+  Poller poller;
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    poller.due();
+    const std::int32_t* c = mesh.triangle(t);
+    if (std::none_of(c, c + 3, [&](Index v) { return height[at(v)] > 0; })) continue;
+    Index corner[4];
+    Vec3 weight[4];
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index v = c[k], w = c[(k + 1) % 3];
+      const double a = height[at(v)], b = height[at(w)];
+      const Vec3 unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+      if (a >= 0) {
+        Index& half = out.of_vertex[at(v)];
+        if (half == Mesh::none) half = add(mesh.positions[at(v)], a == 0);
+        corner[count] = half, weight[count++] = unit[k];
+      }
+      if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
+        const double share = a / (a - b);
+        Index& half = out.of_edge[at(topology.edge_between(v, w))];
+        if (half == Mesh::none)
+          half = add((1 - share) * mesh.positions[at(v)] + share * mesh.positions[at(w)], true);
+        corner[count] = half, weight[count++] = (1 - share) * unit[k] + share * unit[(k + 1) % 3];
+      }
+    }
+    // Of the two diagonals of four corners the shorter one cuts.
+    const auto between = [&](std::size_t i, std::size_t j) {
+      return norm(out.position[at(corner[j])] - out.position[at(corner[i])]);
+    };
+    const std::size_t first = count == 4 && between(1, 3) < between(0, 2) ? 1 : 0;
+    for (std::size_t i = 1; i + 1 < count; ++i) {
+      out.parent.push_back(t);
+      for (const std::size_t k : {first, (first + i) % count, (first + i + 1) % count})
+        out.corner.push_back(corner[k]), out.weight.push_back(weight[k]);
+    }
+  }
+  return out;
+}
+
+bool trim_at_plane(QuadMesh& mesh, const Table<std::uint8_t>& on_plane, Memory& memory) {
+  struct Side {
+    Index a, b, face;
+  };
+  for (bool again = true; again;) {
+    again = false;
+    Vector<Side> sides(&memory);
+    for (Index i = 0; i < mesh.corner.size(); ++i) {
+      const Index a = mesh.corner[i], b = mesh.corner[i % 4 == 3 ? i - 3 : i + 1];
+      if (on_plane[a] && on_plane[b]) sides.push_back({std::min(a, b), std::max(a, b), i / 4});
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+      return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.face < y.face;
+    });
+    Table<std::uint8_t> count(mesh.face_count(), 0, memory);
+    bool doubled = false;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const bool twice = i + 1 < sides.size() && sides[i].a == sides[i + 1].a && sides[i].b == sides[i + 1].b;
+      if (!twice) ++count[sides[i].face];
+      doubled |= twice, i += twice;
+    }
+    Table<Index> kept(memory);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      if (count[f] >= 3) {
+        again = true;
+        continue;
+      }
+      for (Index k = 0; k < 4; ++k) kept.push_back(mesh.corner[4 * f + k]);
+    }
+    if (!again) return !doubled;
+    mesh.corner = std::move(kept);
+    mesh.face_start.clear();
+    for (Index i = 0; i <= mesh.corner.size(); i += 4) mesh.face_start.push_back(i);
+  }
+  return true;
+}
+
+QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report) {
+  const Core& whole = *options.core;
+  Memory& memory = *whole.memory;
+  const MirrorPlane& plane = options.plane;
+  double area = 0;
+  for (const double part : whole.areas) area += part;
+  const double length = options.faces > 0 ? std::sqrt(area / options.faces) : options.edge_length;
+  check_expected(options, area);
+  std::optional<ProgressRange> part(std::in_place, 0.0f, compared);
+  const NearestTriangle nearest(whole.mesh.positions, whole.mesh.corners, memory);
+  check_symmetry(whole, nearest, plane);
+  part.emplace(compared, cut);
+  const HalfSurface half = HalfSurface::make(whole, plane);
+  if (half.parent.empty())
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "no triangle lies on the side of symmetry_plane that its normal points to; turn the signs of all four numbers");
+  FieldQuadOptions own = options;
+  own.plane = {}, own.core = core_of(whole, half);
+  const Mesh& mesh = own.core->mesh;
+  const auto vertex_of = [&](Index v) {
+    const Index found = half.of_vertex[at(v)];
+    return found == Mesh::none ? found : mesh.inner_of_given[at(found)];
+  };
+  Vector<QuadGuide> guides(&memory);
+  for (const QuadGuide& guide : options.guides) {
+    const Index v = vertex_of(guide.vertex);
+    if (v != Mesh::none) guides.push_back(guide), guides.back().vertex = v;
+  }
+  Vector<Index> creases(&memory);
+  for (const Index e : options.crease_edges) {
+    Index ends[2] = {vertex_of(whole.topology.first(e)), vertex_of(whole.topology.second(e))};
+    const Index middle = half.of_edge[at(e)];
+    for (Index& end : ends) {
+      if (end == Mesh::none && middle != Mesh::none) end = mesh.inner_of_given[at(middle)];
+    }
+    if (ends[0] == Mesh::none || ends[1] == Mesh::none) continue;
+    const Index found = own.core->topology.edge_between(ends[0], ends[1]);
+    if (found != Mesh::none) creases.push_back(found);
+  }
+  own.guides = {guides.data(), guides.size()}, own.crease_edges = {creases.data(), creases.size()};
+  double half_area = 0;
+  for (const double a : own.core->areas) half_area += a;
+  own.edge_length = length / mesh.scale;
+  double faces = options.faces > 0 ? 0.5 * options.faces : half_area / (own.edge_length * own.edge_length);
+  if (options.faces > 0) own.faces = static_cast<std::int32_t>(std::lround(std::max(1.0, faces)));
+  for (std::int32_t turn = 0;; ++turn) {
+    part.emplace(cut + (made - cut) * static_cast<float>(turn) / most_turns,
+                 cut + (made - cut) * static_cast<float>(turn + 1) / most_turns);
+    FieldQuadReport found;
+    QuadResult result = make_field_quads(own, &found);
+    part.reset();
+    bring_back(whole, half, mesh, result.mesh);
+    Table<std::uint8_t> on_plane(memory);
+    for (Index v = 0; v < result.mesh.position.size(); ++v)
+      on_plane.push_back(result.mesh.border[v] && std::fabs(plane.height(result.mesh.position[v])) < plane_tolerance);
+    if (trim_at_plane(result.mesh, on_plane, memory)) {
+      add_image(nearest, plane, on_plane, result.mesh, memory);
+      result.euler_characteristic = euler_characteristic(result.mesh, memory);
+      check_quads(result.mesh, result.euler_characteristic, memory);
+      result.raw_faces *= 2, result.raw_quads *= 2;
+      found.edge_length *= mesh.scale;
+      if (report) *report = found;
+      hf_inner::report(1.0f);
+      return result;
+    }
+    if (turn + 1 == most_turns)
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+           "parts at symmetry_plane are thinner than two quads; ask for more than %.0f quads", 2 * faces);
+    faces *= more_faces;
+    own.faces = static_cast<std::int32_t>(std::lround(faces));
+  }
+}
+
+}  // namespace hf_inner
