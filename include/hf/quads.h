@@ -39,10 +39,10 @@ typedef struct hf_quads_desc {
   uint32_t relax_count; /* rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none, and the mesh
                            stays as the lines make it */
   hf_progress progress; /* NULL, or an object to poll and cancel through */
-  uint32_t face_count;  /* HF_QUADS_FIELD: 0, or the wanted number of quads, up to 10 million; it replaces edge_length */
-  float crease_angle;   /* HF_QUADS_FIELD: edges of the surface that bend by more degrees, up to 180, become edges of
-                           quads; 0 = none. Creases and borders are straight lines of the grid. If there are more than
-                           1,024 lines, only the longest are kept */
+  uint32_t face_count; /* HF_QUADS_FIELD: 0, or the wanted number of quads, up to 10 million; it replaces edge_length */
+  float crease_angle;  /* HF_QUADS_FIELD: edges of the surface that bend by more degrees, up to 180, become edges of
+                          quads; 0 = none. Creases and borders are straight lines of the grid. If there are more than
+                          1,024 lines, only the longest are kept */
   uint32_t crease_count; /* HF_QUADS_FIELD: edges of the surface that become edges of quads whatever their angle */
   uint32_t guide_count;  /* HF_QUADS_FIELD: directions that edges of quads follow, such as strokes of an artist */
   const uint32_t* crease_edges;   /* [crease_count][2] the two vertices of each edge, as given */
@@ -51,9 +51,9 @@ typedef struct hf_quads_desc {
                                      vector and across it */
   const float* guide_weights;     /* NULL = all 1, or [guide_count], above 0 to 1: 1 holds the direction, less mixes it
                                      with that of the curvature, which has the rest of the weight */
-  double symmetry_plane[4];       /* HF_QUADS_FIELD: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh;
-                                     0, 0, 0, 0 = none. Quads are made of the side that (a, b, c) points to, and mirrored.
-                                     Creases and guides on the other side are not used */
+  double symmetry_plane[4]; /* HF_QUADS_FIELD: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh;
+                               0, 0, 0, 0 = none. Quads are made of the side that (a, b, c) points to, and mirrored.
+                               Creases and guides on the other side are not used */
 } hf_quads_desc;
 
 /* Counts of a quad mesh. */

@@ -59,9 +59,9 @@ const char* const usage =
 struct Command {
   std::filesystem::path mesh, sites, strokes, measured, out, sheet;  // sites empty: auto
   double plane[4] = {0, 0, 0, 0};                                    // of symmetry; 0: none
-  double edge = 0;                                          // 0: the default; below 0: a share of the box diagonal
-  uint32_t relax = 60, faces = 0, crease = 0;               // crease in degrees
-  int32_t kind = -1;                                        // not named
+  double edge = 0;                             // 0: the default; below 0: a share of the box diagonal
+  uint32_t relax = 60, faces = 0, crease = 0;  // crease in degrees
+  int32_t kind = -1;                           // not named
   bool polygons = false, sited = false, help = false;
 };
 

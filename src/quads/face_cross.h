@@ -21,7 +21,8 @@ void keep_edges(const FluxSurface& surface, const Topology& topology, Span<const
                 Table<std::uint8_t>& features, Memory& memory);
 
 struct FaceCross {
-  explicit FaceCross(Memory& memory) : edge(memory), direction(memory), turn(memory), index(memory) {}
+  explicit FaceCross(Memory& memory)
+      : edge(memory), direction(memory), importance(memory), turn(memory), index(memory) {}
   // crosses: by inner vertex of the mesh, to the fourth degree, in the frames of the connection. Triangles with creases
   // take the direction of these; at borders the crosses of the vertices count, which are evened out.
   static FaceCross make(const FluxSurface& surface, const Connection& connection,
@@ -29,6 +30,7 @@ struct FaceCross {
 
   Table<std::complex<double>> edge;       // by half-edge of a real triangle: its vector in the triangle's frame
   Table<std::complex<double>> direction;  // by real triangle
+  Table<double> importance;               // by real triangle, in the map; empty: 1
   Table<std::int8_t> turn;                // by half-edge; 0 on borders
   Table<std::int32_t> index;              // by vertex; 0 on borders
 };

@@ -36,6 +36,10 @@ constexpr double agreement = 0.5;
 // A guide whose part along the surface is shorter than this share of it has no direction; it refuses mistakes.
 constexpr double least_tangent = 1e-9;
 constexpr double degrees = half_turn / 180;
+// How many times more a triangle counts in the map where guides hold it. A disc held at 29 degrees to all around is 14
+// degrees off with 0, 6 with 3, 2.5 with 10 and 1 with 30. One stroke over spot is 6 degrees off with 0, 8 with 10 and
+// 30, 9 with 100, and 34 without guides.
+constexpr double guide_importance = 10;
 // Reported progress: the ends of the parts of the whole, then of each turn. Only the order is right; the shares are not
 // measured.
 constexpr struct {
@@ -302,7 +306,7 @@ void check_expected(const FieldQuadOptions& options, double area) {
 }
 
 QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* out_report) {
-  if (options.plane.is_set()) return make_symmetric_quads(options, out_report);
+  if (options.plane) return make_symmetric_quads(options, out_report);
   const Core& core = *options.core;
   Memory& memory = *core.memory;
   FieldQuadReport made;
@@ -338,7 +342,15 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
     return smooth_crosses(*system, wish, hard, cross_options);
   };
   const Vector<Complex> crosses = smooth();
-  const FaceCross faces = FaceCross::make(surface, system->connection, crosses, features, memory);
+  FaceCross faces = FaceCross::make(surface, system->connection, crosses, features, memory);
+  if (!guided.weight.empty()) {
+    // The map cannot turn everywhere as the crosses do. Where there are guides, it does.
+    for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
+      double w = 0;
+      for (int k = 0; k < 3; ++k) w += guided.weight[at(surface.mesh_vertex[surface.tail[3 * t + k]])] / 3;
+      faces.importance.push_back(1 + guide_importance * w);
+    }
+  }
   const Vector<Index> order(system->position.begin(), system->position.end(), &memory);
   system.reset();  // its factor and matrix are a tenth of the memory
   made.field_ms = timer.milliseconds();

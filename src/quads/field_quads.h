@@ -4,6 +4,9 @@
 // The crosses decide where irregular vertices lie: one at each singularity. Everything but the rounding of the map is
 // independent of the edge length, so several edge lengths cost little more than one.
 #pragma once
+#include <optional>
+
+#include "mesh/mirror_plane.h"
 #include "quads/chords.h"
 #include "quads/cross_field.h"
 #include "quads/extract.h"
@@ -19,24 +22,15 @@ struct QuadGuide {
   Index given = -1;  // its number in the caller's list
 };
 
-// The plane of the points p with dot(normal, p) = offset.
-struct MirrorPlane {
-  Vec3 normal;  // of length 1; 0: no plane
-  double offset = 0;
-  bool is_set() const noexcept { return norm(normal) > 0; }
-  double height(Vec3 p) const noexcept { return dot(normal, p) - offset; }
-  Vec3 mirrored(Vec3 p) const noexcept { return p - 2 * height(p) * normal; }
-};
-
 struct FieldQuadOptions {
   std::shared_ptr<const Core> core;
   double edge_length = default_edge_length;  // inner units
   std::int32_t faces = 0;                    // wanted number of quads, which replaces the edge length; 0: none
   std::int32_t relax = default_relax_rounds;
-  double crease = 0;  // degrees: edges that bend more are kept; 0: none
+  double crease = 0;               // degrees: edges that bend more are kept; 0: none
   Span<const Index> crease_edges;  // edges that are kept whatever their angle
   Span<const QuadGuide> guides;
-  MirrorPlane plane;  // inner units; if it is set, the quads are their own mirror image
+  std::optional<MirrorPlane> plane;  // the quads are their own mirror image in it
 };
 
 struct FieldQuadReport {

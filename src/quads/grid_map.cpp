@@ -250,6 +250,9 @@ void GridMapper::assemble() {
     for (int k = 0; k < 3; ++k) p[k] = surface_.position[surface_.tail[3 * t + k]];
     double cotangent[3];
     corner_cotangents(p, cotangent);
+    if (!crosses_.importance.empty()) {
+      for (double& c : cotangent) c *= crosses_.importance[t];
+    }
     for (int k = 0; k < 3; ++k) {
       const std::int32_t h = 3 * t + k, ends[2] = {FluxSurface::next(h), h};
       const double weight = cotangent[(k + 2) % 3] / 2;

@@ -61,18 +61,18 @@ void read_crease_edges(const Core& core, const hf_quads_desc& desc, Vector<Index
   }
 }
 
-MirrorPlane read_plane(const Mesh& mesh, const double* given) {
+std::optional<MirrorPlane> read_plane(const Mesh& mesh, const double* given) {
   for (int k = 0; k < 4; ++k) {
     if (!std::isfinite(given[k])) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "symmetry_plane[%d] is not finite", k);
   }
-  MirrorPlane plane;
   const Vec3 normal{given[0], given[1], given[2]};
   const double length = norm(normal);
-  if (length == 0 && given[3] == 0) return plane;
+  if (length == 0 && given[3] == 0) return std::nullopt;
   if (!(length > least_normal && length < most_normal))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
          "symmetry_plane has a normal of length %g; it must be %g to %g, or all four numbers 0", length, least_normal,
          most_normal);
+  MirrorPlane plane;
   plane.normal = (1 / length) * normal;
   plane.offset = (given[3] / length - dot(plane.normal, mesh.centre)) / mesh.scale;
   return plane;

@@ -32,7 +32,7 @@ void check_symmetry(const Core& core, const NearestTriangle& nearest, const Mirr
   double distance = most_off * most_off;
   for (Index v = 0; v < core.size(); ++v) {
     poller.due();
-    const double squared = nearest.find(plane.mirrored(core.mesh.positions[at(v)]), Mesh::none, distance).squared;
+    const double squared = nearest.find(plane.reflect(core.mesh.positions[at(v)]), Mesh::none, distance).squared;
     if (squared > distance) distance = squared, worst = v;
   }
   if (worst == Mesh::none) return;
@@ -47,7 +47,7 @@ std::shared_ptr<const Core> core_of(const Core& whole, const HalfSurface& half) 
   Vector<std::uint32_t> corners(half.corner.begin(), half.corner.end(), whole.memory.get());
   MeshInput input;
   input.vertex_count = static_cast<std::uint32_t>(half.position.size());
-  input.triangle_count = static_cast<std::uint32_t>(half.parent.size());
+  input.triangle_count = static_cast<std::uint32_t>(corners.size() / 3);
   input.positions = {&half.position[0].x, sizeof(Vec3)};
   input.triangles = CornerRows(corners.data());
   input.weld = Weld::none;
@@ -58,30 +58,10 @@ std::shared_ptr<const Core> core_of(const Core& whole, const HalfSurface& half) 
   return Core::make(input, options, whole.memory, whole.jobs);
 }
 
-// The quads of the half, in numbers of the whole.
-void bring_back(const Core& whole, const HalfSurface& half, const Mesh& mesh, QuadMesh& quads) {
-  Vector<Index> given(half.parent.size(), Mesh::none, whole.memory.get());
-  for (std::size_t t = 0; t < half.parent.size(); ++t) {
-    if (mesh.triangle_of_given[t] != Mesh::none) given[at(mesh.triangle_of_given[t])] = static_cast<Index>(t);
-  }
-  for (Index v = 0; v < quads.position.size(); ++v) {
-    quads.position[v] = mesh.to_given(quads.position[v]);
-    const SurfacePoint here = quads.location[v];
-    const std::size_t t = at(given[at(here.triangle)]);
-    Vec3 weight;
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (int j = 0; j < 3; ++j) {
-        if (mesh.inner_of_given[at(half.corner[3 * t + k])] == mesh.triangle(here.triangle)[j])
-          weight = weight + here.weight[j] * half.weight[3 * t + k];
-      }
-    }
-    quads.location[v] = {half.parent[t], {weight.x, weight.y, weight.z}};
-  }
-}
-
-// Adds the mirror image. Two quads that share two edges, around a vertex on the plane, become one.
-void add_image(const NearestTriangle& nearest, const MirrorPlane& plane,
-               const Table<std::uint8_t>& on_plane, QuadMesh& mesh, Memory& memory) {
+// Adds the mirror image, and finds all vertices on the surface. Two quads that share two edges, around a vertex on the
+// plane, become one.
+void add_image(const NearestTriangle& nearest, const MirrorPlane& plane, const Table<std::uint8_t>& on_plane,
+               QuadMesh& mesh, Memory& memory) {
   const Index vertices = mesh.position.size(), faces = mesh.face_count();
   Table<std::int32_t> valence(vertices, 0, memory);
   for (const std::int32_t v : mesh.corner) ++valence[v];
@@ -93,23 +73,22 @@ void add_image(const NearestTriangle& nearest, const MirrorPlane& plane,
                 next = mesh.corner[i % 4 == 3 ? i - 3 : i + 1];
     inside[v] = valence[v] == 1 && on_plane[before] && on_plane[v] && on_plane[next];
   }
-  for (Index v = 0; v < vertices; ++v) {
-    if (inside[v] || valence[v] == 0) continue;
-    Vec3 p = mesh.position[v];
-    if (on_plane[v]) p = p - plane.height(p) * plane.normal;
-    number[v] = image[v] =
-        out.add_vertex(mesh.location[v], p, mesh.pinned[v], mesh.border[v] && !on_plane[v], mesh.scale[v]);
-  }
   Index hint = Mesh::none;
   Poller poller(64);
-  for (Index v = 0; v < vertices; ++v) {
+  const auto add_vertex = [&](Index v, Vec3 p) {
     poller.due();
-    if (on_plane[v] || valence[v] == 0) continue;
-    const Vec3 p = plane.mirrored(mesh.position[v]);
     SurfacePoint point;
     point.triangle = hint = nearest.find(p, hint).triangle;
     nearest.weights(p, point.triangle, point.weight);
-    image[v] = out.add_vertex(point, p, mesh.pinned[v], mesh.border[v], mesh.scale[v]);
+    return out.add_vertex(point, p, mesh.pinned[v], mesh.border[v] && !on_plane[v], mesh.scale[v]);
+  };
+  for (Index v = 0; v < vertices; ++v) {
+    if (inside[v] || valence[v] == 0) continue;
+    const Vec3 p = mesh.position[v];
+    number[v] = image[v] = add_vertex(v, on_plane[v] ? p - plane.side(p) * plane.normal : p);
+  }
+  for (Index v = 0; v < vertices; ++v) {
+    if (!on_plane[v] && valence[v] > 0) image[v] = add_vertex(v, plane.reflect(mesh.position[v]));
   }
   out.face_start.push_back(0);
   const auto add = [&](Index a, Index b, Index c, Index d) {
@@ -152,7 +131,7 @@ HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
   const Topology& topology = core.topology;
   HalfSurface out(memory);
   Vector<double> height(&memory), shortest(at(core.size()), HUGE_VAL, &memory);
-  for (const Vec3& p : mesh.positions) height.push_back(plane.height(p));
+  for (const Vec3& p : mesh.positions) height.push_back(plane.side(p));
   for (Index e = 0; e < topology.edge_count(); ++e) {
     const std::size_t a = at(topology.first(e)), b = at(topology.second(e));
     const double length = norm(mesh.positions[b] - mesh.positions[a]);
@@ -163,7 +142,7 @@ HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
     if (std::fabs(height[v]) < snapped_share * shortest[v]) height[v] = 0;
   }
   const auto add = [&](Vec3 p, bool at_plane) {
-    out.position.push_back(at_plane ? p - plane.height(p) * plane.normal : p);
+    out.position.push_back(at_plane ? p - plane.side(p) * plane.normal : p);
     return static_cast<Index>(out.position.size()) - 1;
   };
   Poller poller;
@@ -172,23 +151,20 @@ HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
     const std::int32_t* c = mesh.triangle(t);
     if (std::none_of(c, c + 3, [&](Index v) { return height[at(v)] > 0; })) continue;
     Index corner[4];
-    Vec3 weight[4];
     std::size_t count = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const Index v = c[k], w = c[(k + 1) % 3];
       const double a = height[at(v)], b = height[at(w)];
-      const Vec3 unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
       if (a >= 0) {
         Index& half = out.of_vertex[at(v)];
         if (half == Mesh::none) half = add(mesh.positions[at(v)], a == 0);
-        corner[count] = half, weight[count++] = unit[k];
+        corner[count++] = half;
       }
       if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
         const double share = a / (a - b);
         Index& half = out.of_edge[at(topology.edge_between(v, w))];
-        if (half == Mesh::none)
-          half = add((1 - share) * mesh.positions[at(v)] + share * mesh.positions[at(w)], true);
-        corner[count] = half, weight[count++] = (1 - share) * unit[k] + share * unit[(k + 1) % 3];
+        if (half == Mesh::none) half = add((1 - share) * mesh.positions[at(v)] + share * mesh.positions[at(w)], true);
+        corner[count++] = half;
       }
     }
     // Of the two diagonals of four corners the shorter one cuts.
@@ -197,9 +173,7 @@ HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
     };
     const std::size_t first = count == 4 && between(1, 3) < between(0, 2) ? 1 : 0;
     for (std::size_t i = 1; i + 1 < count; ++i) {
-      out.parent.push_back(t);
-      for (const std::size_t k : {first, (first + i) % count, (first + i + 1) % count})
-        out.corner.push_back(corner[k]), out.weight.push_back(weight[k]);
+      for (const std::size_t k : {first, (first + i) % count, (first + i + 1) % count}) out.corner.push_back(corner[k]);
     }
   }
   return out;
@@ -245,7 +219,7 @@ bool trim_at_plane(QuadMesh& mesh, const Table<std::uint8_t>& on_plane, Memory& 
 QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report) {
   const Core& whole = *options.core;
   Memory& memory = *whole.memory;
-  const MirrorPlane& plane = options.plane;
+  const MirrorPlane& plane = *options.plane;
   double area = 0;
   for (const double part : whole.areas) area += part;
   const double length = options.faces > 0 ? std::sqrt(area / options.faces) : options.edge_length;
@@ -255,11 +229,12 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
   check_symmetry(whole, nearest, plane);
   part.emplace(compared, cut);
   const HalfSurface half = HalfSurface::make(whole, plane);
-  if (half.parent.empty())
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-         "no triangle lies on the side of symmetry_plane that its normal points to; turn the signs of all four numbers");
+  if (half.corner.empty())
+    fail(
+        HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+        "no triangle lies on the side of symmetry_plane that its normal points to; turn the signs of all four numbers");
   FieldQuadOptions own = options;
-  own.plane = {}, own.core = core_of(whole, half);
+  own.plane.reset(), own.core = core_of(whole, half);
   const Mesh& mesh = own.core->mesh;
   const auto vertex_of = [&](Index v) {
     const Index found = half.of_vertex[at(v)];
@@ -293,10 +268,12 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
     FieldQuadReport found;
     QuadResult result = make_field_quads(own, &found);
     part.reset();
-    bring_back(whole, half, mesh, result.mesh);
     Table<std::uint8_t> on_plane(memory);
-    for (Index v = 0; v < result.mesh.position.size(); ++v)
-      on_plane.push_back(result.mesh.border[v] && std::fabs(plane.height(result.mesh.position[v])) < plane_tolerance);
+    for (Index v = 0; v < result.mesh.position.size(); ++v) {
+      Vec3& p = result.mesh.position[v];
+      p = mesh.to_given(p);
+      on_plane.push_back(result.mesh.border[v] && std::fabs(plane.side(p)) < plane_tolerance);
+    }
     if (trim_at_plane(result.mesh, on_plane, memory)) {
       add_image(nearest, plane, on_plane, result.mesh, memory);
       result.euler_characteristic = euler_characteristic(result.mesh, memory);

@@ -14,13 +14,10 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
 
 // The part of a surface on the side that a plane's normal points to.
 struct HalfSurface {
-  explicit HalfSurface(Memory& memory)
-      : position(&memory), corner(&memory), parent(&memory), weight(&memory), of_vertex(&memory), of_edge(&memory) {}
+  explicit HalfSurface(Memory& memory) : position(&memory), corner(&memory), of_vertex(&memory), of_edge(&memory) {}
   static HalfSurface make(const Core& core, const MirrorPlane& plane);
-  Vector<Vec3> position;   // inner units of the whole
-  Vector<Index> corner;    // three vertices for each triangle
-  Vector<Index> parent;    // by triangle, the triangle of the whole that it is a part of
-  Vector<Vec3> weight;     // three for each triangle: the weights of its corners in the parent
+  Vector<Vec3> position;    // inner units of the whole
+  Vector<Index> corner;     // three vertices for each triangle
   Vector<Index> of_vertex;  // by vertex of the whole, the vertex of the half, or none
   Vector<Index> of_edge;    // by edge of the whole, the vertex where the plane cuts it, or none
 };

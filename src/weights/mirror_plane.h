@@ -1,20 +1,9 @@
-// The plane of symmetry of a skeleton or a surface.
+// Finds the plane of symmetry of a skeleton or a surface.
 #pragma once
 #include "engine/core.h"
+#include "mesh/mirror_plane.h"
 
 namespace hf_inner {
-
-enum class PlaneFrom : std::int32_t { given = 0, bones = 1, surface = 2 };
-
-// The points p with normal . p = offset, in the inner unit of a mesh.
-struct MirrorPlane {
-  Vec3 normal{1, 0, 0};
-  double offset = 0;
-  PlaneFrom from = PlaneFrom::given;
-  double side(const Vec3& p) const noexcept { return dot(normal, p) - offset; }
-  Vec3 reflect(const Vec3& p) const noexcept { return p - (2 * side(p)) * normal; }
-  Vec3 turn(const Vec3& direction) const noexcept { return direction - (2 * dot(normal, direction)) * normal; }
-};
 
 // The plane that reflects heads on those of their partners: bones with another partner count. False, and nothing
 // written: there are none, or no plane reflects them.
