@@ -152,6 +152,65 @@ static void quads_refuse_bad_descs(void** state) {
       (good_quads.kind = HF_QUADS_FIELD, good_quads.site_count = 0, good_quads.site_vertices = NULL,
        good_quads.keep_polygons = 1),
       hf_quads_create(surface, &good_quads, &made));
+#define FIELD good_quads.kind = HF_QUADS_FIELD, good_quads.site_count = 0, good_quads.site_vertices = NULL
+#define GUIDES \
+  FIELD, good_quads.guide_count = 2, good_quads.guide_vertices = two_sites, good_quads.guide_vectors = along
+  const uint32_t across[2] = {0, TUBE_VERTICES - 1}, beyond[4] = {0, 1, 0, TUBE_VERTICES}, point[2] = {3, 3};
+  const double along[6] = {1, 2, 3, 3, 2, 1}, nowhere[6] = {1, 2, 3, 0, 0, 0}, nan_vector[6] = {1, 2, 3, NAN, 0, 0};
+  const float heavy[2] = {1, 1.5f}, weightless[2] = {0, 1}, nan_weight[2] = {1, NAN};
+  ROW("crease edges for kind uniform", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+      (good_quads.crease_count = 1, good_quads.crease_edges = beyond), hf_quads_create(surface, &good_quads, &made));
+  ROW("guides for kind uniform", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+      (good_quads.guide_count = 2, good_quads.guide_vertices = two_sites, good_quads.guide_vectors = along),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a plane for kind pure", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+      (good_quads.kind = HF_QUADS_PURE, good_quads.symmetry_plane[1] = 1),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("crease edges without a count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (FIELD, good_quads.crease_edges = beyond),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("crease edges without a list", HF_ERROR_NULL_POINTER, NO_INDEX, (FIELD, good_quads.crease_count = 1),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("more crease edges than edges", HF_ERROR_TOO_LARGE, NO_INDEX,
+      (FIELD, good_quads.crease_count = 1000000, good_quads.crease_edges = beyond),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a crease edge outside", HF_ERROR_OUT_OF_RANGE, 1,
+      (FIELD, good_quads.crease_count = 2, good_quads.crease_edges = beyond),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a crease edge that is none", HF_ERROR_INVALID_ARGUMENT, 0,
+      (FIELD, good_quads.crease_count = 1, good_quads.crease_edges = across),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a crease edge from a vertex to itself", HF_ERROR_INVALID_ARGUMENT, 0,
+      (FIELD, good_quads.crease_count = 1, good_quads.crease_edges = point),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("guides without a count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (FIELD, good_quads.guide_vectors = along),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("guides without vertices", HF_ERROR_NULL_POINTER, NO_INDEX, (GUIDES, good_quads.guide_vertices = NULL),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("guides without vectors", HF_ERROR_NULL_POINTER, NO_INDEX, (GUIDES, good_quads.guide_vectors = NULL),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("guides beyond any mesh", HF_ERROR_TOO_LARGE, NO_INDEX, (GUIDES, good_quads.guide_count = 0x80000000u),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a guide outside", HF_ERROR_OUT_OF_RANGE, 1, (GUIDES, good_quads.guide_vertices = outside),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a guide without direction", HF_ERROR_INVALID_ARGUMENT, 1, (GUIDES, good_quads.guide_vectors = nowhere),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a guide that is NaN", HF_ERROR_NON_FINITE, 1, (GUIDES, good_quads.guide_vectors = nan_vector),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a weight above 1", HF_ERROR_INVALID_ARGUMENT, 1, (GUIDES, good_quads.guide_weights = heavy),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a weight of 0", HF_ERROR_INVALID_ARGUMENT, 0, (GUIDES, good_quads.guide_weights = weightless),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a weight that is NaN", HF_ERROR_NON_FINITE, 1, (GUIDES, good_quads.guide_weights = nan_weight),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a plane that is infinite", HF_ERROR_NON_FINITE, NO_INDEX, (FIELD, good_quads.symmetry_plane[2] = INFINITY),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a plane without a normal", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (FIELD, good_quads.symmetry_plane[3] = 1),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a plane beside the surface", HF_ERROR_UNSUPPORTED, 5,
+      (FIELD, good_quads.symmetry_plane[0] = 1, good_quads.symmetry_plane[3] = 1e6),
+      hf_quads_create(surface, &good_quads, &made));
+#undef GUIDES
+#undef FIELD
   ROW("too many faces", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
       (good_quads.kind = HF_QUADS_FIELD, good_quads.site_count = 0, good_quads.site_vertices = NULL,
        good_quads.face_count = 10000001),

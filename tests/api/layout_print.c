@@ -311,7 +311,8 @@ static void print_quads(void) {
 #define T hf_quads_desc
   STRUCT(hf_quads_desc);
   F(struct_size), F(kind), F(edge_length), F(site_count), F(site_vertices), F(site_lines), F(keep_polygons),
-      F(relax_count), F(progress), F(face_count), F(crease_angle);
+      F(relax_count), F(progress), F(face_count), F(crease_angle), F(crease_count), F(guide_count), F(crease_edges),
+      F(guide_vertices), F(guide_vectors), F(guide_weights), F(symmetry_plane);
 #undef T
 #define T hf_quads_info
   STRUCT(hf_quads_info);

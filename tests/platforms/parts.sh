@@ -1,4 +1,4 @@
-# Sourced by tests/run: the parts windows, arm64, small, clang, wasm, bevy and packages. Each builds in build/NAME, runs its tests and
+# Sourced by tests/run: the parts windows, arm64, small, clang, macos, wasm, bevy and packages. Each builds in build/NAME, runs its tests and
 # prints `NAME: N passed, N failed, N skipped`. CMAKE_BUILD_PARALLEL_LEVEL and CTEST_PARALLEL_LEVEL: jobs, else all cores.
 
 # hf_configure NAME CMAKE_ARGUMENTS... and hf_make NAME TARGETS...: the log is build/NAME.log.
@@ -84,6 +84,40 @@ test_clang() {
     hf_count clang-libc++ '^(api_test|api_.*_test|api_layout|reliability_golden$)'; } || code=1
   "$hf_root/tests/platforms/languages.sh" "$hf_root" "clang-$version" "clang++-$version" || code=1
   return "$code"
+}
+
+# macOS: the library, the tests of the public ABI and two programs are compiled and linked for both processors, by Zig's
+# clang with the system's headers. Nothing runs.
+test_macos() {
+  local tools="$hf_root/build/macos-tools" list="$hf_root/cmake/cross/requirements-macos.txt" processor name passed=0 failed=0
+  if ! cmp -s "$list" "$tools/installed.txt"; then
+    mkdir -p "$hf_root/build"
+    python3 -m venv "$tools" >/dev/null 2>&1 && "$tools/bin/pip" install -q --disable-pip-version-check -r "$list" >"$hf_root/build/macos-tools.log" 2>&1 ||
+      { hf_say "skipped: Zig could not be installed; the log is build/macos-tools.log"; return 77; }
+    cp "$list" "$tools/installed.txt"
+  fi
+  # the compiler keeps what it makes of the system's libraries in the build folder too
+  export ZIG_GLOBAL_CACHE_DIR="$hf_root/build/macos-cache" ZIG_LOCAL_CACHE_DIR="$hf_root/build/macos-cache"
+  local zig
+  zig=$("$tools/bin/python" -c 'import os, ziglang; print(os.path.join(os.path.dirname(ziglang.__file__), "zig"))')
+  for processor in arm64 x86_64; do
+    name=macos-$processor
+    if hf_configure "$name" -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/macos.cmake" -DHF_ZIG="$zig" \
+      -DHF_MACOS_PROCESSOR="$processor" -DHF_BUILD_SAMPLES=ON &&
+      hf_make "$name" hf hf_static hf_api_tests hf_layout_print reliability_golden platform_throwing_host hf_field hf_transfer; then
+      passed=$((passed + 1))
+    else
+      failed=$((failed + 1))
+      continue
+    fi
+    if "$hf_root/tests/platforms/dylib.sh" "$hf_root/build/$name/src/libhf.dylib" "$hf_root/tests/api/exports.txt" "$processor"; then
+      passed=$((passed + 1))
+    else
+      failed=$((failed + 1))
+    fi
+  done
+  printf 'macos: %s passed, %s failed (built, never run)\n' "$passed" "$failed"
+  [ "$failed" -eq 0 ]
 }
 
 # Every package: made twice, installed into something empty, tried there (cmake/packages/make).
