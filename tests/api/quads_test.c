@@ -98,6 +98,67 @@ static void a_tube_becomes_quads_along_its_curvature(void** state) {
   hf_surface_destroy(surface), surface_free(&mesh);
 }
 
+/* Guides wind around the tube at 45 degrees; the plane cuts it in the middle, so its other half winds the other way. */
+static void a_tube_becomes_quads_along_guides_and_its_own_mirror_image(void** state) {
+  (void)state;
+  Surface mesh;
+  const hf_surface surface = tube_on(&mesh);
+  uint32_t* vertices = calloc(COUNT, sizeof *vertices);
+  double* vectors = calloc(COUNT, 3 * sizeof *vectors);
+  for (uint32_t v = 0; v < COUNT; ++v) {
+    const double x = (double)mesh.positions[3 * v], z = (double)mesh.positions[3 * v + 2];
+    vertices[v] = v;
+    vectors[3 * v] = -z, vectors[3 * v + 1] = 1, vectors[3 * v + 2] = x;
+  }
+  const uint32_t crease[4] = {0, AROUND, AROUND, 2 * AROUND};
+  const double middle = (RINGS - 1) / 2.0;
+  hf_quads_desc desc = HF_INIT(hf_quads_desc);
+  desc.kind = HF_QUADS_FIELD, desc.face_count = 400;
+  desc.guide_count = COUNT, desc.guide_vertices = vertices, desc.guide_vectors = vectors;
+  desc.symmetry_plane[1] = 2, desc.symmetry_plane[3] = 2 * middle;
+  for (int creased = 0; creased < 2; ++creased) {
+    if (creased) desc.crease_count = 2, desc.crease_edges = crease; /* on the side that is mirrored: not used */
+    hf_quads quads = NULL;
+    assert_ok(hf_quads_create(surface, &desc, &quads));
+    hf_quads_info info = HF_INIT(hf_quads_info);
+    assert_ok(hf_quads_get_info(quads, &info));
+    assert_int_equal(info.euler_characteristic, 0);
+    assert_int_equal(info.quad_count, info.face_count);
+    double* positions = calloc(info.vertex_count, 3 * sizeof *positions);
+    uint32_t* corners = calloc(info.corner_count, sizeof *corners);
+    hf_quads_mesh net = HF_INIT(hf_quads_mesh);
+    net.vertex_capacity = info.vertex_count, net.positions = positions;
+    net.corner_capacity = info.corner_count, net.face_corners = corners;
+    assert_ok(hf_quads_get_mesh(quads, &net));
+    uint32_t on_plane = 0;
+    for (uint32_t v = 0; v < info.vertex_count; ++v) {
+      const double* p = positions + 3 * v;
+      int images = 0;
+      for (uint32_t w = 0; w < info.vertex_count; ++w) {
+        const double* q = positions + 3 * w;
+        images += fabs(p[0] - q[0]) + fabs(p[1] + q[1] - 2 * middle) + fabs(p[2] - q[2]) < 1e-9;
+      }
+      assert_int_equal(images, 1);
+      on_plane += fabs(p[1] - middle) < 1e-9;
+    }
+    assert_true(on_plane > 3);
+    /* away from the plane and the ends a side of a quad rises as much as it winds */
+    double slanting = 0, sides = 0;
+    for (uint32_t i = 0; i < info.corner_count; ++i) {
+      const double *p = positions + 3 * corners[i], *q = positions + 3 * corners[i % 4 == 3 ? i - 3 : i + 1];
+      const double rise = fabs(q[1] - p[1]),
+                   along = sqrt((q[0] - p[0]) * (q[0] - p[0]) + (q[2] - p[2]) * (q[2] - p[2]));
+      const double from = fabs((p[1] + q[1]) / 2 - middle);
+      if (from < 3 || from > 7) continue;
+      slanting += fabs(atan2(rise, along) - atan(1.0)), sides += 1;
+    }
+    assert_true(slanting / sides < 0.15); /* pi / 4 without guides */
+    free(positions), free(corners), hf_quads_destroy(quads);
+  }
+  free(vertices), free(vectors);
+  hf_surface_destroy(surface), surface_free(&mesh);
+}
+
 static void flow_lines_rise_and_outlive_the_surface(void** state) {
   (void)state;
   Surface mesh;
@@ -463,6 +524,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_tube_becomes_a_closed_net_of_quads),
       cmocka_unit_test(a_tube_becomes_quads_along_its_curvature),
+      cmocka_unit_test(a_tube_becomes_quads_along_guides_and_its_own_mirror_image),
       cmocka_unit_test(flow_lines_rise_and_outlive_the_surface),
       cmocka_unit_test(cancelling_leaves_nothing_and_stops_one_call),
       cmocka_unit_test(progress_rises_in_small_steps_and_stops_where_it_is_cancelled),

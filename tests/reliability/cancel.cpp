@@ -251,6 +251,8 @@ void add_field_cases(World& w, std::vector<Case>& cases) {
   hf_quads_desc crosses = desc<hf_quads_desc>();
   crosses.kind = HF_QUADS_FIELD;
   cases.push_back(making("quads_field", w.surface, crosses, hf_quads_create, hf_quads_destroy));
+  crosses.symmetry_plane[0] = 1;
+  cases.push_back(making("quads_symmetric", w.surface, crosses, hf_quads_create, hf_quads_destroy));
   cases.push_back({"propose_handles",
                    [&w](hf_progress p) {
                      hf_propose_desc d = desc<hf_propose_desc>();

@@ -24,7 +24,9 @@
 #define HIDDEN __attribute__((visibility("hidden")))
 #endif
 extern "C" {
-extern struct { unsigned int vendor, type, subtype, features[1]; } __cpu_model HIDDEN;
+extern struct {
+  unsigned int vendor, type, subtype, features[1];
+} __cpu_model HIDDEN;
 }
 namespace {
 unsigned processor_features() {

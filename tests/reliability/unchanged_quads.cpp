@@ -79,6 +79,23 @@ struct Calls {
       desc.face_count = random.pick({0u, 40u, 200u, 4000000000u});
       desc.crease_angle = random.pick({0.0f, 20.0f, 60.0f, -1.0f});
     }
+    std::vector<std::uint32_t> guided(1 + random.below(6)), edges(2 * guided.size());
+    std::vector<double> vectors(3 * guided.size());
+    std::vector<float> weights(guided.size());
+    for (std::uint32_t& v : guided) v = random.index(s.world.shape->vertices());
+    for (std::uint32_t& v : edges) v = random.index(s.world.shape->vertices());
+    for (double& x : vectors) x = random.one_in(20) ? random.number() : random.pick({1.0, -0.3, 0.2});
+    for (float& w : weights) w = random.pick({1.0f, 0.5f, 1.0f, 0.0f, 0.2f});
+    if (random.one_in(4)) {
+      desc.guide_count = static_cast<std::uint32_t>(guided.size());
+      desc.guide_vertices = guided.data(), desc.guide_vectors = vectors.data();
+      if (random.one_in(2)) desc.guide_weights = weights.data();
+    }
+    if (random.one_in(8)) desc.crease_count = desc.guide_count, desc.crease_edges = edges.data();
+    if (random.one_in(6)) {
+      desc.symmetry_plane[random.below(3)] = random.pick({1.0, -2.0});
+      desc.symmetry_plane[3] = random.pick({0.0, 0.0, 0.5});
+    }
     hf_quads made = reinterpret_cast<hf_quads>(s.flow_);
     const hf_result result = hf_quads_create(s.world.surface, random.spoiled(desc), &made);
     if (result != HF_OK) return s.expect(made == nullptr, "refused quads are no NULL"), result;
