@@ -101,6 +101,58 @@ TEST(QuadsProgram, WritesQuadsAndSaysWhatTheyAreWorth) {
   EXPECT_EQ(run("", text), 1);
 }
 
+// A torus with a stroke along its top, on one side of the plane.
+TEST(QuadsProgram, FollowsStrokesAndMirrors) {
+  const TemporaryFolder folder;
+  const ShapeMesh torus = samples::jittered_torus(80, 50);
+  SurfaceMesh mesh;
+  for (size_t i = 0; i < torus.positions.size(); i += 3)
+    mesh.positions.push_back({torus.positions[i], torus.positions[i + 1], torus.positions[i + 2]});
+  mesh.triangles = torus.triangles;
+  const std::string in = (folder.path / "torus.ply").string(), out = (folder.path / "quads.obj").string(),
+                    strokes = (folder.path / "strokes.json").string();
+  write_mesh_file(mesh, in);
+  double top = 0, ring = 0;
+  for (const glm::dvec3& p : mesh.positions) top = std::max(top, p.y), ring = std::max(ring, std::hypot(p.x, p.z));
+  ring -= top;
+  std::ofstream(strokes) << "{\"strokes\": [{\"points\": [[" << 0.75 * ring << ", " << top << ", " << -0.45 * ring
+                         << "], [" << 1.0 * ring << ", " << top << ", " << 0.0 << "], [" << 0.95 * ring << ", " << top
+                         << ", " << 0.5 * ring << "]], \"weight\": 0.8}]}";
+  const std::string call = "\"" + in + "\" --faces 1500 --symmetry x -o \"" + out + "\"";
+  std::string text;
+  std::vector<glm::dvec3> plain;
+  for (const bool guided : {false, true}) {
+    ASSERT_EQ(run(call + (guided ? " --strokes \"" + strokes + "\"" : ""), text), 0) << text;
+    EXPECT_NE(text.find("Euler characteristic 0 (surface 0)"), std::string::npos) << text;
+    const SurfaceMesh back = read_mesh_file(out);
+    size_t images = 0;
+    for (const glm::dvec3& p : back.positions) {
+      for (const glm::dvec3& q : back.positions) images += glm::distance(q, {-p.x, p.y, p.z}) < 1e-6;
+    }
+    EXPECT_EQ(images, back.positions.size());
+    if (guided) {
+      EXPECT_TRUE(back.positions.size() != plain.size() || back.positions != plain) << "the stroke changed nothing";
+    }
+    plain = back.positions;
+  }
+  // another place of the plane, where nothing mirrors
+  EXPECT_EQ(run("\"" + in + "\" --faces 500 --symmetry x=0.8", text), 1);
+  EXPECT_NE(text.find("not symmetric"), std::string::npos) << text;
+  for (const char* wrong : {"w", "x=", "x=1e", "xx"}) {
+    EXPECT_EQ(run("\"" + in + "\" --symmetry " + wrong, text), 1) << wrong;
+    EXPECT_NE(text.find("--symmetry takes"), std::string::npos) << text;
+  }
+  for (const char* wrong :
+       {"{\"strokes\": []}", "{\"strokes\": [{\"points\": [[0, 0, 0]]}]}",
+        "{\"strokes\": [{\"points\": [[0, 0, 0], [0, 0, 0]]}]}", "{\"strokes\": [{\"points\": [[0, 0], [1, 0, 0]]}]}",
+        "{\"strokes\": [{\"points\": [[0, 0, 0], [1, 0, 0]], \"weight\": 2}]}",
+        "{\"strokes\": [{\"points\": [[0, 0, 0], [1e9, 0, 0]]}]}"}) {
+    std::ofstream(strokes) << wrong;
+    EXPECT_EQ(run("\"" + in + "\" --strokes \"" + strokes + "\"", text), 1) << wrong;
+    EXPECT_NE(text.find("strokes"), std::string::npos) << text;
+  }
+}
+
 // The longest side of a triangle in texture coordinates over its length in space.
 double most_stretched(const Model& model, const FlatMesh& flat) {
   double most = 0;
