@@ -1,8 +1,11 @@
-# HF_SOURCE_URL in the environment names the archive until one is published; the hash stays.
+# HF_SOURCE_URL in the environment names the archive until one is published; the hash stays. On Windows vcpkg shows the
+# variable to ports only when VCPKG_KEEP_ENV_VARS names it. An archive in the folder of downloads needs no address.
 if(DEFINED ENV{HF_SOURCE_URL})
   set(url "$ENV{HF_SOURCE_URL}")
-else()
+elseif(EXISTS "${DOWNLOADS}/hf-${VERSION}-source.tar.gz")
   set(url "hf-${VERSION}-source.tar.gz")
+else()  # vcpkg would take the file's name for a host and blame the proxy
+  message(FATAL_ERROR "hf-${VERSION}-source.tar.gz is not published: set HF_SOURCE_URL to its address, or put it into ${DOWNLOADS}")
 endif()
 vcpkg_download_distfile(archive URLS "${url}" FILENAME "hf-${VERSION}-source.tar.gz" SHA512 @SHA512@)
 vcpkg_extract_source_archive(source ARCHIVE "${archive}")
