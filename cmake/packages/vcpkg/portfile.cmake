@@ -14,5 +14,8 @@ vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(PACKAGE_NAME hf CONFIG_PATH lib/cmake/hf)
 vcpkg_fixup_pkgconfig()
 file(REMOVE_RECURSE "${CURRENT_PACKAGES_DIR}/debug/include")
+if(VCPKG_LIBRARY_LINKAGE STREQUAL "static")  # projects without CMake get folders from vcpkg, no HF_STATIC
+  vcpkg_replace_string("${CURRENT_PACKAGES_DIR}/include/hf/base.h" "#if defined(HF_STATIC)" "#if 1")
+endif()
 file(INSTALL "${CMAKE_CURRENT_LIST_DIR}/usage" DESTINATION "${CURRENT_PACKAGES_DIR}/share/${PORT}")
 vcpkg_install_copyright(FILE_LIST "${source}/LICENSE")

@@ -1,6 +1,7 @@
 # Stand-ins for the functions of vcpkg that portfile.cmake calls: cmake -DPORTS= -DVERSION= -DSCRATCH= -DJOBS= -P stand_in.cmake
 set(PORT hf)
 set(CURRENT_PACKAGES_DIR ${SCRATCH}/packages)
+set(VCPKG_LIBRARY_LINKAGE static)
 
 function(vcpkg_download_distfile out)
   cmake_parse_arguments(arg "" "FILENAME;SHA512" "URLS" ${ARGN})
@@ -39,6 +40,16 @@ function(vcpkg_cmake_config_fixup)
     string(REPLACE "/../../../" "/../../" text "${text}")
     file(WRITE ${file} "${text}")
   endforeach()
+endfunction()
+
+function(vcpkg_replace_string file old new)
+  file(READ ${file} text)
+  string(FIND "${text}" "${old}" place)
+  if(place EQUAL -1)
+    message(FATAL_ERROR "${file} does not hold \"${old}\"")
+  endif()
+  string(REPLACE "${old}" "${new}" text "${text}")
+  file(WRITE ${file} "${text}")
 endfunction()
 
 function(vcpkg_fixup_pkgconfig)
