@@ -539,6 +539,13 @@ typedef struct hf_quads_desc {
   hf_progress progress;
   uint32_t face_count;
   float crease_angle;
+  uint32_t crease_count;
+  uint32_t guide_count;
+  const uint32_t* crease_edges;
+  const uint32_t* guide_vertices;
+  const double* guide_vectors;
+  const float* guide_weights;
+  double symmetry_plane[4];
 } hf_quads_desc;
 typedef struct hf_quads_info {
   uint32_t struct_size;

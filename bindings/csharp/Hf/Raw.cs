@@ -808,6 +808,13 @@ namespace Hf.Native
         public IntPtr progress;
         public uint face_count;
         public float crease_angle;
+        public uint crease_count;
+        public uint guide_count;
+        public IntPtr crease_edges;
+        public IntPtr guide_vertices;
+        public IntPtr guide_vectors;
+        public IntPtr guide_weights;
+        public fixed double symmetry_plane[4];
     }
 
     [StructLayout(LayoutKind.Sequential)]

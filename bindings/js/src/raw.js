@@ -654,7 +654,7 @@ export const layouts = {
     radius: ['f64', [48, 48], 0],
     length: ['f64', [56, 56], 0],
   } },
-  hf_quads_desc: { size: [44, 56], fields: {
+  hf_quads_desc: { size: [104, 128], fields: {
     struct_size: ['u32', [0, 0], 0],
     kind: ['i32', [4, 4], 0],
     edge_length: ['f32', [8, 8], 0],
@@ -666,6 +666,13 @@ export const layouts = {
     progress: ['ptr', [32, 40], 0],
     face_count: ['u32', [36, 48], 0],
     crease_angle: ['f32', [40, 52], 0],
+    crease_count: ['u32', [44, 56], 0],
+    guide_count: ['u32', [48, 60], 0],
+    crease_edges: ['ptr', [52, 64], 0],
+    guide_vertices: ['ptr', [56, 72], 0],
+    guide_vectors: ['ptr', [60, 80], 0],
+    guide_weights: ['ptr', [64, 88], 0],
+    symmetry_plane: ['f64', [72, 96], 4],
   } },
   hf_quads_info: { size: [48, 48], fields: {
     struct_size: ['u32', [0, 0], 0],

@@ -1295,6 +1295,13 @@ class hf_quads_desc(Structure):
     progress: int
     face_count: int
     crease_angle: float
+    crease_count: int
+    guide_count: int
+    crease_edges: int
+    guide_vertices: int
+    guide_vectors: int
+    guide_weights: int
+    symmetry_plane: object
     _fields_ = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -1307,6 +1314,13 @@ class hf_quads_desc(Structure):
         ("progress", c_void_p),
         ("face_count", c_uint32),
         ("crease_angle", c_float),
+        ("crease_count", c_uint32),
+        ("guide_count", c_uint32),
+        ("crease_edges", c_void_p),
+        ("guide_vertices", c_void_p),
+        ("guide_vectors", c_void_p),
+        ("guide_weights", c_void_p),
+        ("symmetry_plane", c_double * 4),
     ]
 
 

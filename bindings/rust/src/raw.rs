@@ -1528,6 +1528,13 @@ pub struct hf_quads_desc {
     pub progress: hf_progress,
     pub face_count: u32,
     pub crease_angle: f32,
+    pub crease_count: u32,
+    pub guide_count: u32,
+    pub crease_edges: *const u32,
+    pub guide_vertices: *const u32,
+    pub guide_vectors: *const f64,
+    pub guide_weights: *const f32,
+    pub symmetry_plane: [f64; 4],
 }
 impl Default for hf_quads_desc {
     fn default() -> Self {
