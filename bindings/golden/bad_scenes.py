@@ -185,6 +185,25 @@ def bad_scenes():
     bad("DUPLICATE_SITE", **{"do": "quads", "on": "m", "as": "n", "site_vertices": [7, 7]})
     bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "site_vertices": [0, 287], "site_lines": [4, 4]})
     bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "site_vertices": [0, 287], "site_lines": [4]})
+    crosses = {"do": "quads", "on": "m", "as": "n", "options": {"kind": 2}}
+    guide = {"guide_vertices": [7], "guide_vectors": [1.0, 0.0, 0.0]}
+    for wrong in ({"crease_edges": [0, 1, 2]}, {"guide_vertices": [7], "guide_vectors": [1.0, 0.0]},
+            {"guide_vertices": [7, 8], "guide_vectors": [1.0, 0.0, 0.0]}, {"guide_vectors": [1.0, 0.0, 0.0]},
+            {**guide, "guide_weights": [1.0, 1.0]}, {**guide, "guide_weights": []}, {"guide_weights": [1.0]},
+            {"symmetry_plane": [1.0, 0.0, 0.0]}, {"symmetry_plane": [1.0, 0.0, 0.0, 0.0, 0.0]},  # lengths that do not match
+            {"symmetry_plane": [0.0, 0.0, 0.0, 1.0]}):
+        bad("INVALID_ARGUMENT", **crosses, **wrong)
+    bad("INVALID_ARGUMENT", index=0, **crosses, crease_edges=[0, 301])  # no edge
+    bad("OUT_OF_RANGE", index=1, **crosses, crease_edges=[0, 1, 0, 302])
+    bad("OUT_OF_RANGE", index=0, **crosses, **{**guide, "guide_vertices": [302]})
+    bad("NULL_POINTER", **crosses, guide_vertices=[7], guide_vectors=None)
+    bad("NON_FINITE", index=0, **crosses, **{**guide, "guide_vectors": [1.0, "nan", 0.0]})
+    bad("INVALID_ARGUMENT", index=0, **crosses, **{**guide, "guide_vectors": [0.0, 0.0, 0.0]})
+    for weight, error in (("nan", "NON_FINITE"), (0.0, "INVALID_ARGUMENT"), (1.5, "INVALID_ARGUMENT")):
+        bad(error, index=0, **crosses, **guide, guide_weights=[weight])
+    bad("NON_FINITE", **crosses, symmetry_plane=[1.0, 0.0, "inf", 0.0])
+    for given in ({"crease_edges": [0, 1]}, guide, {"symmetry_plane": [1.0, 0.0, 0.0, 0.0]}):
+        bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n"}, **given)  # of kind FIELD alone
     bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 302, count=0)
     bad("NON_FINITE", index=301, do="flow_lines", on="w", field=[0.0] * 301 + ["nan"], count=4)
     bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 9, count=4)

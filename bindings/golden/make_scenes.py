@@ -186,6 +186,23 @@ def scenes(meshes):
           {"do": "dispose", "on": "m"}, {"do": "flow_lines", "on": "w", "field": "u", "count": 8, "lines": 8,
               "expect": {"min": -4.0, "max": 4.0, "tolerance": 4.0}})
 
+    crosses = {"do": "quads", "on": "m", "options": {"kind": hf.constants.HF_QUADS_FIELD, "face_count": 200}}
+    seam = [v for j in range(12) for v in (72 + j, 72 + (j + 1) % 12)]  # around the tube, where x is 0
+    turned = {"guide_vertices": [24, 120], "guide_vectors": [-1.0, 2.0, 2.0, -1.0, -2.0, 2.0]}
+    whole = {"euler_characteristic": 0, "other_faces": 0}
+    scene("guided_quads",
+        "Quads of a torus that follow two guides, keep a ring of edges and are their own mirror image: all quads, Euler characteristic 0 "
+          "(closed forms); positions by agreement.", surface("torus"),
+          *[step for name, more in (("e", {"crease_edges": seam}), ("g", turned),
+              ("w", {**turned, "guide_weights": [1.0, 0.25]}),
+              ("q", {**turned, "guide_weights": [0.5, 1.0], "crease_edges": seam, "symmetry_plane": [0.0, 1.0, 0.0, 0.0]}))
+            for step in ({**crosses, **more, "as": name}, {"do": "quads_info", "on": name, "expect": whole},
+              {"do": "quad_mesh", "on": name, "expect": agree()})],
+          surface("strip", "b"), {**crosses, "on": "b", "as": "s", "symmetry_plane": [-2.0, 0.0, 0.0, -6.0]},
+          {"do": "quads_info", "on": "s", "expect": {"euler_characteristic": 1, "other_faces": 0}},
+          {"do": "quad_mesh", "on": "s", "expect": {"min": 0.0, "max": 6.0, "tolerance": 1e-6}},
+          {"do": "quad_mesh", "on": "s", "expect": agree()})
+
     on_r, patch = {"on": "r"}, [0, 1, 2, 12, 13, 14]
     scene("regions",
         "A patch of a torus: edited, morphed (0 gives the given positions back, bit for bit), undone; onto itself its detail gives the "

@@ -45,6 +45,17 @@ void Scene::make_object(const Json& step, const std::string& what) {
       fail("site_lines are not as many as site_vertices");
     if (places) desc.site_count = count(places), desc.site_vertices = data(places);
     if (!lines.empty()) desc.site_lines = lines.data();
+    const auto edges = numbers(step, "crease_edges"), guided = numbers(step, "guide_vertices");
+    const size_t guides = guided ? guided->size() : 0;
+    const auto vectors = doubles(step, "guide_vectors", 3 * guides), given = doubles(step, "guide_weights", guides);
+    const auto plane = doubles(step, "symmetry_plane", 4);
+    if (edges && edges->size() % 2) fail("crease_edges must hold two vertices each");
+    const std::vector<float> weights = given ? std::vector<float>(given->begin(), given->end()) : std::vector<float>();
+    if (edges) desc.crease_count = count(edges) / 2, desc.crease_edges = data(edges);
+    if (guided) desc.guide_count = count(guided), desc.guide_vertices = data(guided);
+    if (vectors) desc.guide_vectors = vectors->data();
+    if (given) desc.guide_weights = weights.data();
+    if (plane) std::copy(plane->begin(), plane->end(), desc.symmetry_plane);
     hf_quads raw = nullptr;
     check(hf_quads_create(surface, &desc, &raw));
     object.quads = hf::Handle<hf_quads, hf_quads_destroy>(raw);
