@@ -198,8 +198,9 @@ class Scene:
         elif do == "quads":
             if "edge_length" in step:
                 options["edge_length"] = numbers(step["edge_length"])
-            self.objects[step["as"]] = hf.Quads(on, site_vertices=get("site_vertices"), site_lines=get("site_lines"),
-                **options)
+            lists = ("site_vertices", "site_lines", "crease_edges", "guide_vertices", "guide_vectors", "guide_weights",
+                "symmetry_plane")
+            self.objects[step["as"]] = hf.Quads(on, **{key: get(key) for key in lists}, **options)
         elif do == "quads_info":
             info = on.info
             fields = {name: getattr(info, name) for name, _ in info._fields_}

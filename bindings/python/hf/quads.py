@@ -9,8 +9,8 @@ from typing import Any, List, NamedTuple, Optional
 import numpy as np
 
 from . import _raw
-from ._library import (ArrayLike, InvalidArgumentError, Object, OutOfRangeError, TooSmallError, address, call, handle_of,
-                       integers, make, numbers, options_into, scalars, whole)
+from ._library import (ArrayLike, InvalidArgumentError, Object, OutOfRangeError, TooSmallError, address, call, doubles,
+                       handle_of, integers, make, numbers, options_into, scalars, whole)
 from .surface import Progress, Surface
 
 
@@ -36,12 +36,17 @@ class QuadMesh(NamedTuple):
 
 
 class Quads(Object):
-    """A quad mesh of a surface. Options: kind, edge_length, keep_polygons, relax_count, face_count, crease_angle."""
+    """A quad mesh of a surface. Options: kind, edge_length, keep_polygons, relax_count, face_count, crease_angle.
+
+    QuadKind.FIELD takes crease_edges (n, 2), guide_vertices (n,), guide_vectors (n, 3), guide_weights (n,), and
+    symmetry_plane: a, b, c, d of the plane a x + b y + c z = d."""
 
     _destroy = "hf_quads_destroy"
 
     def __init__(self, surface: Surface, *, site_vertices: Optional[ArrayLike] = None,
-        site_lines: Optional[ArrayLike] = None,
+        site_lines: Optional[ArrayLike] = None, crease_edges: Optional[ArrayLike] = None,
+        guide_vertices: Optional[ArrayLike] = None, guide_vectors: Optional[ArrayLike] = None,
+        guide_weights: Optional[ArrayLike] = None, symmetry_plane: Optional[ArrayLike] = None,
                  progress: Optional[Progress] = None, **options: Any) -> None:
         desc, handle = make(_raw.hf_quads_desc), ctypes.c_void_p()
         options_into(desc, options)
@@ -54,6 +59,18 @@ class Quads(Object):
             raise OutOfRangeError("site_lines holds a number beyond 32 bits")
         lines = None if lines is None else lines.astype(np.int32)
         desc.site_lines = address(lines)
+        edges = integers(crease_edges, "crease_edges")
+        if edges is not None and edges.size % 2:
+            raise InvalidArgumentError(f"crease_edges must hold two vertices each, not {edges.size} numbers")
+        desc.crease_count, desc.crease_edges = 0 if edges is None else edges.size // 2, address(edges)
+        guided = integers(guide_vertices, "guide_vertices")
+        desc.guide_count, desc.guide_vertices = 0 if guided is None else guided.size, address(guided)
+        vectors = doubles(guide_vectors, "guide_vectors", 3 * desc.guide_count)
+        weights = doubles(guide_weights, "guide_weights", desc.guide_count)
+        weights = None if weights is None else weights.astype(np.float32)
+        desc.guide_vectors, desc.guide_weights = address(vectors), address(weights)
+        if symmetry_plane is not None:
+            desc.symmetry_plane[:] = doubles(symmetry_plane, "symmetry_plane", 4).ravel()
         desc.progress = handle_of(progress, Progress, "progress")
         call("hf_quads_create", handle_of(surface, Surface, "surface"), ctypes.byref(desc), ctypes.byref(handle))
         self._own(handle)
