@@ -253,6 +253,11 @@ function runStep(hf, step, meshes, objects, kept) {
         ...more,
         siteVertices: get('site_vertices'),
         siteLines: get('site_lines'),
+        creaseEdges: get('crease_edges'),
+        guideVertices: get('guide_vertices'),
+        guideVectors: get('guide_vectors'),
+        guideWeights: get('guide_weights'),
+        symmetryPlane: get('symmetry_plane'),
       });
       return {};
     }

@@ -454,6 +454,11 @@ export interface Hf {
       relaxCount?: number;
       faceCount?: number;
       creaseAngle?: number;
+      creaseEdges?: Numbers | null;
+      guideVertices?: Numbers | null;
+      guideVectors?: Numbers | null;
+      guideWeights?: Numbers | null;
+      symmetryPlane?: Numbers | null;
       progress?: Progress | null;
     },
   ) => Quads;

@@ -9,6 +9,7 @@ export function quadClasses(tools) {
     Handle,
     OnSurface,
     fail,
+    doubles,
     integers,
     read,
     written,
@@ -19,9 +20,22 @@ export function quadClasses(tools) {
 
   class Quads extends Handle {
     static prefix = 'hf_quads';
-    constructor(surface, { siteVertices = null, siteLines = null, progress = null, ...options } = {}) {
+    constructor(
+      surface,
+      {
+        siteVertices = null,
+        siteLines = null,
+        creaseEdges = null,
+        guideVertices = null,
+        guideVectors = null,
+        guideWeights = null,
+        symmetryPlane = null,
+        progress = null,
+        ...options
+      } = {},
+    ) {
       super();
-      const desc = make('hf_quads_desc').options(options, ['site_count']);
+      const desc = make('hf_quads_desc').options(options, ['site_count', 'crease_count', 'guide_count']);
       const places = integers(siteVertices, 'siteVertices');
       if (places) desc.set('site_count', places.length).set('site_vertices', read(places));
       if (siteLines) {
@@ -31,6 +45,18 @@ export function quadClasses(tools) {
         }
         desc.set('site_lines', read(Int32Array.from(lines)));
       }
+      const edges = integers(creaseEdges, 'creaseEdges');
+      if (edges) {
+        if (edges.length % 2) fail(`creaseEdges must hold two vertices each, not ${edges.length} numbers`);
+        desc.set('crease_count', edges.length / 2).set('crease_edges', read(edges));
+      }
+      const guided = integers(guideVertices, 'guideVertices') ?? [];
+      const vectors = doubles(guideVectors, 'guideVectors', 3 * guided.length);
+      const weights = doubles(guideWeights, 'guideWeights', guided.length);
+      desc.set('guide_count', guided.length).set('guide_vertices', read(guided));
+      desc.set('guide_vectors', vectors && read(vectors));
+      desc.set('guide_weights', weights && read(Float32Array.from(weights)));
+      desc.set('symmetry_plane', doubles(symmetryPlane, 'symmetryPlane', 4));
       watched(desc, progress);
       this._make('create', handleOf(surface, classes.Surface, 'surface'), desc);
     }
