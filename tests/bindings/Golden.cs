@@ -294,6 +294,10 @@ class Scene
                         FaceCount = (uint)o["face_count"], CreaseAngle = (float)o["crease_angle"],
                         EdgeLength = step.ContainsKey("edge_length") ? (float)Number(step["edge_length"]) : 0,
                             SiteVertices = Numbers(Get(step, "site_vertices")),
+                        CreaseEdges = Numbers(Get(step, "crease_edges")),
+                        GuideVertices = Numbers(Get(step, "guide_vertices")),
+                        GuideVectors = Doubles(step, "guide_vectors"), GuideWeights = Floats(step, "guide_weights"),
+                        SymmetryPlane = Doubles(step, "symmetry_plane"),
                         SiteLines = lines == null ? null : lines.Select(x => (int)x).ToArray() });
                     return null;
                 }

@@ -13,6 +13,14 @@ namespace Hf
         public uint RelaxCount, FaceCount;
         public uint[] SiteVertices;
         public int[] SiteLines;
+        /// <summary>Two vertices each.</summary>
+        public uint[] CreaseEdges;
+        public uint[] GuideVertices;
+        /// <summary>Three numbers for each guide.</summary>
+        public double[] GuideVectors;
+        public float[] GuideWeights;
+        /// <summary>a, b, c, d of the plane a x + b y + c z = d.</summary>
+        public double[] SymmetryPlane;
         public Progress Progress;
     }
 
@@ -43,6 +51,21 @@ namespace Hf
                 desc.site_count = options.SiteVertices == null ? 0 : (uint)options.SiteVertices.Length;
                 desc.site_vertices = pins.Add(options.SiteVertices);
                 desc.site_lines = pins.Add(options.SiteLines, (int)desc.site_count, "SiteLines");
+                int corners = options.CreaseEdges == null ? 0 : options.CreaseEdges.Length;
+                int guides = options.GuideVertices == null ? 0 : options.GuideVertices.Length;
+                if (corners % 2 != 0)
+                    throw new HfException("CreaseEdges must hold two vertices each, not " + corners + " numbers");
+                desc.crease_count = (uint)(corners / 2);
+                desc.crease_edges = pins.Add(options.CreaseEdges);
+                desc.guide_count = (uint)guides;
+                desc.guide_vertices = pins.Add(options.GuideVertices);
+                desc.guide_vectors = pins.Add(options.GuideVectors, 3 * guides, "GuideVectors");
+                desc.guide_weights = pins.Add(options.GuideWeights, guides, "GuideWeights");
+                if (options.SymmetryPlane != null)
+                {
+                    Pins.Need(options.SymmetryPlane.Length, 4, "SymmetryPlane");
+                    for (int i = 0; i < 4; ++i) desc.symmetry_plane[i] = options.SymmetryPlane[i];
+                }
                 if (options.Progress != null) desc.progress = options.Progress.Handle;
                 Make(Functions.hf_quads_create, surface, "surface", &desc, Functions.hf_quads_destroy);
                 GC.KeepAlive(options.Progress);
