@@ -108,23 +108,42 @@ function Direction:singularities()
 end
 
 local Quads = class('Quads', function(raw) C.hf_quads_destroy(raw) end)
--- options: kind, edge_length, keep_polygons, relax_count, face_count, crease_angle; site_vertices and site_lines: lists
+-- The lists among the options of quads: element type, and numbers for each site, edge or guide.
+local quad_lists = { site_vertices = { 'uint32_t', 1 }, site_lines = { 'int32_t', 1 }, crease_edges = { 'uint32_t', 2 },
+  guide_vertices = { 'uint32_t', 1 }, guide_vectors = { 'double', 3 }, guide_weights = { 'float', 1 },
+  symmetry_plane = { 'double', 4 } }
+-- options: kind, edge_length, keep_polygons, relax_count, face_count, crease_angle; lists: site_vertices, site_lines,
+-- crease_edges, guide_vertices, guide_vectors, guide_weights; symmetry_plane: { a, b, c, d } of a x + b y + c z = d
 function hf.Quads(surface, options)
-  local plain = {}
-  for key, value in pairs(options or {}) do plain[key] = value end
-  local places, count = plain.site_vertices, 0
-  local lines = plain.site_lines
-  plain.site_vertices, plain.site_lines = nil, nil
+  local plain, held, counts = {}, {}, {}
+  for key, value in pairs(options or {}) do
+    if not quad_lists[key] then plain[key] = value end
+  end
   local desc = options_into(make('hf_quads_desc'), plain, set('kind edge_length keep_polygons relax_count face_count crease_angle'))
-  if places then
-    places, count = integers(places, 'site_vertices')
-    desc.site_count, desc.site_vertices = count, places
+  local function take(name, count)
+    local kind, width = quad_lists[name][1], quad_lists[name][2]
+    if not options or options[name] == nil then return end
+    local values, length = array(options[name], kind, name, count and width * count)
+    if length % width ~= 0 then
+      fail(string.format('%s must hold %d numbers each; %d is no multiple of %d', name, width, length, width)) end
+    if length > 0 then held[name] = values end
+    counts[name] = length / width
   end
-  if lines then
-    lines = array(lines, 'int32_t', 'site_lines', count)
-    desc.site_lines = lines
+  take('site_vertices')
+  take('crease_edges')
+  take('guide_vertices')
+  take('site_lines', counts.site_vertices or 0)
+  take('guide_vectors', counts.guide_vertices or 0)
+  take('guide_weights', counts.guide_vertices or 0)
+  take('symmetry_plane', 1)
+  desc.site_count, desc.crease_count = counts.site_vertices or 0, counts.crease_edges or 0
+  desc.guide_count = counts.guide_vertices or 0
+  for name, values in pairs(held) do
+    if name == 'symmetry_plane' then ffi.copy(desc.symmetry_plane, values, 32) else desc[name] = values end
   end
-  return create(Quads, 'hf_quads', {}, C.hf_quads_create, raw_of(surface, 'Surface', 'surface'), desc)
+  local made = create(Quads, 'hf_quads', {}, C.hf_quads_create, raw_of(surface, 'Surface', 'surface'), desc)
+  held = nil -- the library has copied the lists
+  return made
 end
 function Quads:info() return query('hf_quads_info', C.hf_quads_get_info, self.raw) end
 -- Face i has the corners face_corners[face_starts[i]] to face_corners[face_starts[i + 1] - 1]; cdata from 0.

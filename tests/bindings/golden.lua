@@ -204,7 +204,8 @@ local function new_scene(meshes)
       return 'array', found.vectors, 3 * found.count
     elseif what == 'quads' then
       options.edge_length = step.edge_length and number(step.edge_length)
-      options.site_vertices, options.site_lines = step.site_vertices, step.site_lines
+      for _, key in ipairs({ 'site_vertices', 'site_lines', 'crease_edges', 'guide_vertices', 'guide_vectors', 'guide_weights',
+        'symmetry_plane' }) do options[key] = get(key) end
       objects[step.as] = hf.Quads(on, options)
     elseif what == 'quads_info' then
       local info = on:info()
