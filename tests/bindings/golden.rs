@@ -334,6 +334,25 @@ impl Scene<'_> {
         let site_lines: Option<Vec<i32>> = self
             .doubles(step, "site_lines")
             .map(|list| list.iter().map(|&v| v as i32).collect());
+        let edges = self.integers(step, "crease_edges").unwrap_or_default();
+        let guided = self.integers(step, "guide_vertices").unwrap_or_default();
+        let vectors = self.doubles(step, "guide_vectors").unwrap_or_default();
+        let weights: Option<Vec<f32>> = self
+            .doubles(step, "guide_weights")
+            .map(|list| list.iter().map(|&v| v as f32).collect());
+        let plane = self
+            .doubles(step, "symmetry_plane")
+            .map(|list| <[f64; 4]>::try_from(list).ok());
+        if plane == Some(None) || step.get("guide_vectors").is_some_and(Value::is_null) {
+            return Ok(Answer::Impossible); // four numbers are four, and a slice is never null
+        }
+        let guides = QuadGuides {
+            crease_edges: &edges,
+            guide_vertices: &guided,
+            guide_vectors: &vectors,
+            guide_weights: weights.as_deref(),
+            symmetry_plane: plane.flatten(),
+        };
         let surface = on!(self, step, Surface);
         let array = |list: Vec<u32>, sorted: bool| {
             let mut list = list;
@@ -435,12 +454,11 @@ impl Scene<'_> {
             "quads" => {
                 let mut options = options!(step, QuadsOptions);
                 options.edge_length = step.get("edge_length").map_or(0.0, number) as f32;
-                Object::Quads(Quads::new(
-                    surface,
-                    &options,
-                    &site_vertices,
-                    site_lines.as_deref(),
-                )?)
+                Object::Quads(if step.get("site_vertices").is_some() {
+                    Quads::new(surface, &options, &site_vertices, site_lines.as_deref())?
+                } else {
+                    Quads::guided(surface, &options, &guides)?
+                })
             }
             _ => unreachable!(),
         };

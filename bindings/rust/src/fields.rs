@@ -1,5 +1,5 @@
 //! Made on a surface: geodesic distances, direction fields, quad meshes, flow lines.
-use crate::core::{check, count_of, figures, list, object, of_length, options, plain, start, Real};
+use crate::core::{check, count_of, figures, list, object, of_length, options, plain, rows_of, start, start_of, Real};
 use crate::{raw, Result, Surface};
 
 options!(
@@ -205,6 +205,20 @@ object!(
     /// A mesh of quads over a surface.
     Quads: hf_quads, hf_quads_destroy {}
 );
+/// What quads of the kind `HF_QUADS_FIELD` keep to. The default is nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct QuadGuides<'a> {
+    /// two vertices each: edges of the surface that become edges of quads
+    pub crease_edges: &'a [u32],
+    /// where edges of quads follow a direction
+    pub guide_vertices: &'a [u32],
+    /// three numbers a guide, along the surface
+    pub guide_vectors: &'a [f64],
+    /// above 0 to 1 for each guide; `None`: all 1
+    pub guide_weights: Option<&'a [f32]>,
+    /// a, b, c, d of the plane a x + b y + c z = d; `None`: no symmetry
+    pub symmetry_plane: Option<[f64; 4]>,
+}
 /// Faces over a surface: face i has the corners `face_corners[face_starts[i]]` to `face_corners[face_starts[i + 1] - 1]`.
 #[derive(Clone, Debug, Default)]
 pub struct QuadMesh {
@@ -225,6 +239,23 @@ impl Quads {
             of_length(lines, "site_lines", site_vertices.len())?;
             desc.site_lines = start(lines);
         }
+        // SAFETY: the lengths are checked.
+        check(unsafe { raw::hf_quads_create(surface.handle, &desc, &mut handle) })?;
+        Ok(Quads { handle })
+    }
+
+    /// Makes a mesh of the kind `HF_QUADS_FIELD` that keeps to edges, directions and a plane.
+    pub fn guided(surface: &Surface, options: &QuadsOptions, guides: &QuadGuides) -> Result<Self> {
+        let (mut desc, mut handle) = (raw::hf_quads_desc::default(), std::ptr::null_mut());
+        options.fill(&mut desc);
+        desc.crease_count = rows_of(guides.crease_edges, 2, "crease_edges")?;
+        desc.crease_edges = start(guides.crease_edges);
+        let count = guides.guide_vertices.len();
+        of_length(guides.guide_vectors, "guide_vectors", 3 * count)?;
+        guides.guide_weights.map_or(Ok(()), |weights| of_length(weights, "guide_weights", count))?;
+        (desc.guide_count, desc.guide_vertices) = (count_of(count, "guide_vertices")?, start(guides.guide_vertices));
+        (desc.guide_vectors, desc.guide_weights) = (start(guides.guide_vectors), start_of(guides.guide_weights));
+        desc.symmetry_plane = guides.symmetry_plane.unwrap_or_default();
         // SAFETY: the lengths are checked.
         check(unsafe { raw::hf_quads_create(surface.handle, &desc, &mut handle) })?;
         Ok(Quads { handle })
