@@ -215,7 +215,9 @@ func run(step, objects, kept):
 				var options = step.get("options", {}).duplicate()
 				if step.has("edge_length"):
 					options["edge_length"] = number(step.edge_length)
-				result = made.quads_create(options, step.get("site_vertices"), step.get("site_lines"))
+				result = made.quads_create(options, step.get("site_vertices"), step.get("site_lines"), step.get("crease_edges"),
+					step.get("guide_vertices"), list(step, "guide_vectors", kept), list(step, "guide_weights", kept),
+					list(step, "symmetry_plane", kept))
 			if result != null:
 				objects[step["as"]] = made
 			return [true, result, made]

@@ -241,8 +241,9 @@ Value direction_singularities(Surface& s, const Arguments&) {
   return value;
 }
 
-// ---- quads_create(options = {}, site vertices = null, site lines = null): kind, edge_length, keep_polygons,
-// relax_count, face_count, crease_angle
+// ---- quads_create(options = {}, site vertices = null, site lines = null, crease edges = null, guide vertices = null,
+// guide vectors = null, guide weights = null, symmetry plane = null): kind, edge_length, keep_polygons, relax_count,
+// face_count, crease_angle
 
 Value quads_create(Surface& s, const Arguments& a) {
   auto desc = make<hf_quads_desc>();
@@ -260,6 +261,17 @@ Value quads_create(Surface& s, const Arguments& a) {
     if (line_counts.size() != places.values.size()) fail("site lines must be as many as site vertices");
     desc.site_lines = line_counts.data();
   }
+  const List edges = integers(at(a, 3), "crease edges"), guided = integers(at(a, 4), "guide vertices");
+  if (edges.values.size() % 2) fail("crease edges must hold two vertices each");
+  desc.crease_count = static_cast<uint32_t>(edges.values.size() / 2), desc.crease_edges = edges.data();
+  const size_t guides = guided.values.size();
+  desc.guide_count = static_cast<uint32_t>(guides), desc.guide_vertices = guided.data();
+  desc.guide_vectors = doubles(at(a, 5), 3 * guides, "guide vectors");
+  const double* given = doubles(at(a, 6), guides, "guide weights");
+  const std::vector<float> weights(given, given + (given ? guides : 0));
+  if (given) desc.guide_weights = weights.data();
+  const double* plane = doubles(at(a, 7), 4, "symmetry plane");
+  if (plane) std::copy(plane, plane + 4, desc.symmetry_plane);
   make_again(s.quads, [&](hf_quads* out) { return hf_quads_create(s.get(), &desc, out); });
   return done();
 }
@@ -345,7 +357,7 @@ const std::vector<Entry>& field_methods() {
       {"direction_vectors", 0, 0, direction_vectors},
       {"direction_solve", 0, 0, direction_solve},
       {"direction_singularities", 0, 0, direction_singularities},
-      {"quads_create", 0, 3, quads_create},
+      {"quads_create", 0, 8, quads_create},
       {"quads_info", 0, 0, quads_info},
       {"quads_positions", 0, 0, quads_positions},
       {"quads_faces", 0, 0, quads_faces},
