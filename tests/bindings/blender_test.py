@@ -123,6 +123,71 @@ assert sorted(g.name for g in quads.vertex_groups) == sorted(g.name for g in bar
 high_end = mesh_data.group_vertices(quads, "hf high")
 assert high_end and np.linalg.norm(at[high_end].mean(0) - points[mesh_data.group_vertices(bar, "hf high")].mean(0)) < 0.1
 bpy.data.objects.remove(quads)
+
+# ---- quads: the mirror image of themselves; along a stroke that winds up the bar; with vertices on an edge marked as sharp
+def made_quads(*curves, **options):
+    active(bar)
+    for curve in curves:
+        curve.select_set(True)
+    assert bpy.ops.hf.quads(faces=600, **options) == {"FINISHED"}
+    made = bpy.data.objects["bar quads"]
+    at, edges = mesh_data.positions_of(made.data), mesh_data.column(made.data.edges, "vertices", 2).reshape(-1, 2)
+    bpy.data.objects.remove(made)
+    return at, edges
+
+
+def unlike_mirrored(at, axis):
+    mirrored = at * np.where(np.arange(3) == axis, -1, 1)
+    return max(np.linalg.norm(at - point, axis=1).min() for point in mirrored)
+
+
+plain, plain_edges = made_quads()
+for axis, name in enumerate("XY"):
+    assert unlike_mirrored(made_quads(symmetry=name)[0], axis) < 1e-5 < 0.005 < unlike_mirrored(plain, axis), name
+line = bpy.data.curves.new("stroke", "CURVE")
+line.dimensions = "3D"
+spline = line.splines.new("POLY")
+turns = np.linspace(-1.5, 1.5, 40)
+spline.points.add(len(turns) - 1)
+for point, turn in zip(spline.points, turns):  # as far around as up; the curve's object is turned and of twice the size
+    point.co = (0.25 * math.sin(turn), -0.25 * math.cos(turn), 1.0 + 0.25 * turn, 1)
+stroke = bpy.data.objects.new("stroke", line)
+stroke.scale, stroke.rotation_euler = (2, 2, 2), (0, 0, math.pi / 2)
+bpy.context.scene.collection.objects.link(stroke)
+bpy.context.view_layer.update()
+
+
+def against_stroke(middle, way):
+    """Cosines of the angles between the stroke and what lies beside it, and which these are."""
+    turn = np.arctan2(middle[:, 1], middle[:, 0])
+    near = (abs(middle[:, 2] - 2 - 0.5 * turn) < 0.15) & (abs(turn) < 1.6)
+    along = np.stack([-np.sin(turn), np.cos(turn), np.ones(len(turn))], 1) / math.sqrt(2)
+    return (abs((along * way).sum(1)) / np.linalg.norm(way, axis=1))[near], near
+
+
+def turned(at, edges):
+    """1: edges run along the stroke or across it; -1: midway, as on the bar without a stroke."""
+    return np.cos(4 * np.arccos(np.minimum(against_stroke(at[edges].mean(1), at[edges[:, 1]] - at[edges[:, 0]])[0], 1))).mean()
+
+
+guides, ways = mesh_data.guides_of(bar, [stroke], session.session_of(bar, bind=False).surface, 0.15)
+cosines, near = against_stroke(points[guides], ways)
+assert len(guides) == 15 and near.all() and cosines.min() > 0.99, (len(guides), near, cosines)
+guided, straight = turned(*made_quads(stroke)), turned(plain, plain_edges)
+assert straight < -0.9 and guided > -0.4, (guided, straight)
+active(bar)
+fails("there is no curve 'bar'", bpy.ops.hf.quads, strokes="bar")
+line.bevel_depth = 0.01
+fails("a stroke is a curve without bevel or fill", bpy.ops.hf.quads, strokes="stroke")
+bpy.data.objects.remove(stroke)
+ring = [e for e in bar.data.edges if all(abs(bar.data.vertices[v].co.z - 1.55) < 1e-4 for v in e.vertices)]
+assert len(ring) == 48
+for edge in ring:
+    edge.use_edge_sharp = True
+on_ring = lambda at: np.count_nonzero(abs(at[:, 2] - 1.55) < 1e-5)
+assert on_ring(made_quads(sharp=True)[0]) >= 8 and on_ring(made_quads()[0]) < 4
+for edge in ring:
+    edge.use_edge_sharp = False
 empties = {o.name: o for o in bpy.data.objects if o.type == "EMPTY"}
 assert sorted(empties) == ["bar high", "bar low"] and found.pose.handle_count == 2
 report = found.surface.report  # quads and two caps of 48 corners, as Blender stores them

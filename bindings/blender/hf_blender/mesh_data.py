@@ -1,5 +1,7 @@
 """Between a Blender mesh and arrays: positions, faces, vertex groups, colours."""
 
+import math
+
 import bpy
 import numpy as np
 
@@ -111,6 +113,38 @@ def weights_of(obj):
         for g in vertex.groups:
             weights[number, g.group] = g.weight
     return weights
+
+
+def sharp_edges(mesh):
+    """The two vertices of every edge that is marked as sharp."""
+    sharp = np.empty(len(mesh.edges), bool)
+    mesh.edges.foreach_get("use_edge_sharp", sharp)
+    return column(mesh.edges, "vertices", 2).reshape(-1, 2)[sharp]
+
+
+def guides_of(obj, curves, surface, step):
+    """Places along curves, one each step: the nearest vertices, and vectors along the curves, in the space of the mesh."""
+    graph, vertices, vectors = bpy.context.evaluated_depsgraph_get(), [], []
+    for curve in curves:
+        line = curve.evaluated_get(graph)
+        mesh = line.to_mesh()
+        edges, points, solid = column(mesh.edges, "vertices", 2).reshape(-1, 2), positions_of(mesh), len(mesh.polygons)
+        line.to_mesh_clear()
+        if solid:
+            raise hf.InvalidArgumentError(f"{curve.name} has faces; a stroke is a curve without bevel or fill")
+        into = np.array(obj.matrix_world.inverted_safe() @ curve.matrix_world)
+        starts, ends = (points @ into[:3, :3].T + into[:3, 3])[edges.T]
+        along = np.cumsum(np.linalg.norm(ends - starts, axis=1))
+        if not len(along) or not along[-1] > 0:
+            continue
+        count = math.ceil(along[-1] / step)
+        for place in (np.arange(count) + 0.5) * along[-1] / count:
+            edge = np.searchsorted(along, place)
+            vector = ends[edge] - starts[edge]
+            point = ends[edge] - vector * (along[edge] - place) / np.linalg.norm(vector)
+            vertices.append(surface.find_vertex(point)[0])
+            vectors.append(vector)
+    return vertices, np.array(vectors).reshape(-1, 3)
 
 
 def quads_object(obj, quads):

@@ -230,13 +230,28 @@ class HF_OT_quads(bpy.types.Operator):
     faces: bpy.props.IntProperty(name="Quads", default=5000, min=1, max=10000000, description="How many are wanted")
     crease: bpy.props.FloatProperty(name="Crease", default=0.0, min=0.0, max=math.pi, subtype="ANGLE",
         description="Edges that bend by more are kept; 0: none")
+    sharp: bpy.props.BoolProperty(name="Keep sharp edges", description="Edges that are marked as sharp are kept")
+    symmetry: bpy.props.EnumProperty(name="Symmetry", description="The positive side of the object's axis, mirrored",
+        items=[("NONE", "None", ""), ("X", "X", ""), ("Y", "Y", ""), ("Z", "Z", "")])
+    strokes: bpy.props.StringProperty(name="Strokes",
+        description="A curve that edges follow; empty: the other selected curves")
 
     @guarded
     def execute(self, context):
         obj = mesh_of(context)
         found = session.session_of(obj, context.window_manager)
+        curves = [o for o in context.selected_objects if o.type == "CURVE"]
+        if self.strokes:
+            curves = [o for o in (bpy.data.objects.get(self.strokes),) if o and o.type == "CURVE"]
+            if not curves:
+                raise hf.InvalidArgumentError(f"there is no curve '{self.strokes}'")
+        area = sum(polygon.area for polygon in obj.data.polygons)
+        vertices, vectors = mesh_data.guides_of(obj, curves, found.surface, math.sqrt(area / self.faces))
+        plane = None if self.symmetry == "NONE" else [float(axis == self.symmetry) for axis in "XYZ"] + [0.0]
+        edges = mesh_data.sharp_edges(obj.data) if self.sharp else None
         quads = session.watched(lambda progress: hf.Quads(found.surface, kind=hf.constants.HF_QUADS_FIELD,
-            face_count=self.faces, crease_angle=math.degrees(self.crease), progress=progress), context.window_manager)
+            face_count=self.faces, crease_angle=math.degrees(self.crease), crease_edges=edges, guide_vertices=vertices,
+            guide_vectors=vectors, symmetry_plane=plane, progress=progress), context.window_manager)
         made = mesh_data.quads_object(obj, quads.mesh())
         made.select_set(True)
         self.report({"INFO"}, f"{made.name}: {len(made.data.polygons)} quads")
