@@ -28,7 +28,9 @@ mod surface;
 mod weights;
 
 pub use crate::core::{Corner, Error, Progress, Real, Result};
-pub use crate::fields::{Direction, DirectionOptions, Flow, FlowLines, Geodesics, GeodesicsOptions, QuadGuides, QuadMesh, Quads, QuadsOptions};
+pub use crate::fields::{
+    Direction, DirectionOptions, Flow, FlowLines, Geodesics, GeodesicsOptions, QuadGuides, QuadMesh, Quads, QuadsOptions,
+};
 pub use crate::pose::{DeformOptions, Pose, PoseOptions, Skin, Transfer, TransferDials, TransferOptions, Transform};
 pub use crate::region::{Detail, Region, RegionEdit, RegionOptions};
 pub use crate::solver::{Edit, Sites, Solver, SolverOptions};
