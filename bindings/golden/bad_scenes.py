@@ -190,9 +190,11 @@ def bad_scenes():
     for wrong in ({"crease_edges": [0, 1, 2]}, {"guide_vertices": [7], "guide_vectors": [1.0, 0.0]},
             {"guide_vertices": [7, 8], "guide_vectors": [1.0, 0.0, 0.0]}, {"guide_vectors": [1.0, 0.0, 0.0]},
             {**guide, "guide_weights": [1.0, 1.0]}, {**guide, "guide_weights": []}, {"guide_weights": [1.0]},
-            {"symmetry_plane": [1.0, 0.0, 0.0]}, {"symmetry_plane": [1.0, 0.0, 0.0, 0.0, 0.0]},  # lengths that do not match
-            {"symmetry_plane": [0.0, 0.0, 0.0, 1.0]}):
+            {"symmetry_plane": [1.0, 0.0, 0.0]}, {"symmetry_plane": [1.0, 0.0, 0.0, 0.0, 0.0]},
+            {"symmetry_plane": [0.0, 0.0, 0.0, 1.0]}):  # lengths that do not match, and no plane
         bad("INVALID_ARGUMENT", **crosses, **wrong)
+    for option in ("crease_count", "guide_count"):
+        bad("INVALID_ARGUMENT", **{**crosses, "options": {"kind": 2, option: 0}})  # lengths of lists are no options
     bad("INVALID_ARGUMENT", index=0, **crosses, crease_edges=[0, 301])  # no edge
     bad("OUT_OF_RANGE", index=1, **crosses, crease_edges=[0, 1, 0, 302])
     bad("OUT_OF_RANGE", index=0, **crosses, **{**guide, "guide_vertices": [302]})
