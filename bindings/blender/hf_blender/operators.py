@@ -245,8 +245,9 @@ class HF_OT_quads(bpy.types.Operator):
             curves = [o for o in (bpy.data.objects.get(self.strokes),) if o and o.type == "CURVE"]
             if not curves:
                 raise hf.InvalidArgumentError(f"there is no curve '{self.strokes}'")
-        area = sum(polygon.area for polygon in obj.data.polygons)
-        vertices, vectors = mesh_data.guides_of(obj, curves, found.surface, math.sqrt(area / self.faces))
+        polygons = obj.data.polygons
+        step = math.sqrt(sum(polygon.area for polygon in polygons) / min(self.faces, len(polygons)))
+        vertices, vectors = mesh_data.guides_of(obj, curves, found.surface, step)
         plane = None if self.symmetry == "NONE" else [float(axis == self.symmetry) for axis in "XYZ"] + [0.0]
         edges = mesh_data.sharp_edges(obj.data) if self.sharp else None
         quads = session.watched(lambda progress: hf.Quads(found.surface, kind=hf.constants.HF_QUADS_FIELD,
