@@ -18,6 +18,9 @@ constexpr double later = 1.2;
 // 90 degrees 13 of 20 runs stay the same, and mean distances fall by 3 to 10 %.
 constexpr double most_bend = -0.5;
 
+// A closed row of quads keeps at least so many: around a rod, or along it over both its ends.
+constexpr std::int32_t least_ring = 4;
+
 class Collapser {
  public:
   Collapser(QuadComplex& quads, std::int32_t hub, Memory& memory)
@@ -177,6 +180,7 @@ class Collapser {
       if (a == b) continue;
       leader_[std::max(a, b)] = std::min(a, b), ++merged;
     }
+    if (!keeps_rings()) return false;
     // A circle of crossed edges may only be the sides of a quad that the chord crosses twice.
     if (merged != edges - twice) return false;
     if (!find_hubs(twice)) return false;
@@ -199,6 +203,22 @@ class Collapser {
       }
     }
     return check();
+  }
+
+  // Whether every closed row of quads across the chord keeps enough of them.
+  bool keeps_rings() const noexcept {
+    for (const std::int32_t h : halves_) {
+      if (is_crossed(QuadComplex::next(h))) continue;
+      const std::int32_t first = QuadComplex::next(h);
+      std::int32_t left = 0, quads = 0;
+      for (std::int32_t g = first; g != none && quads < 2 * least_ring;) {
+        left += !crossed_[g / 4], ++quads;
+        g = q_.twin[QuadComplex::opposite(g)];
+        if (g == first && left < least_ring) return false;
+        if (g == first) break;
+      }
+    }
+    return true;
   }
 
   bool is_hub(std::int32_t v) const noexcept { return quads_at_[v] > most_walked_; }

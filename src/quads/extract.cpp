@@ -33,7 +33,9 @@ class Extractor {
         on_border_(memory),
         corners_(memory),
         sides_(memory),
-        feature_(memory) {}
+        feature_(memory),
+        crossing_(memory),
+        region_(memory) {}
 
   QuadComplex run() {
     order_lines();
@@ -324,7 +326,103 @@ class Extractor {
       }
     }
     out.split_fans(memory_);
+    find_regions();
+    if (bridge_walls(out)) out.split_fans(memory_);
+    find_holes(out);
     return out;
+  }
+
+  // Finds the lines that cross others. A line without a crossing makes no quad, so it parts nothing: what lies on its
+  // two sides is one region.
+  void find_regions() {
+    crossing_.assign(piece_parent_.size(), 0);
+    for (const std::int32_t p : sides_) crossing_[root(piece_parent_, p)] = 1;
+    region_ = parent_;
+    for (std::int32_t t = 0; t < s_.real_triangles; ++t) {
+      const Cells& cells = cells_[t];
+      for (std::int32_t i = cells.u; i < cells.u + cells.columns; ++i) {
+        const std::int32_t column = cells.column + (i - cells.u), next = column + 1;
+        const std::int32_t low = low_[column], high = low + first_[next] - first_[column];
+        for (std::int32_t j = low; j < high; ++j) {
+          const bool beside =
+              i + 1 < cells.u + cells.columns && j >= low_[next] && j < low_[next] + first_[next + 1] - first_[next];
+          if (beside && !crossing_[root(piece_parent_, piece(t, i, j, 0))])
+            unite(region_, number(t, i, j), number(t, i + 1, j));
+          if (j + 1 < high && !crossing_[root(piece_parent_, piece(t, i, j, 1))])
+            unite(region_, number(t, i, j), number(t, i, j + 1));
+        }
+      }
+    }
+  }
+
+  // Where a wall between two borders is narrower than the lines are apart, one region reaches both borders and has
+  // quads at its two ends only. They are joined by two quads (a, i, o, b) and (a, b, i', o'): a and b are the vertices
+  // of the region at the ends, i and o the vertices before and after them on the borders.
+  bool bridge_walls(QuadComplex& out) {
+    Table<std::int32_t> of(memory_);  // regions
+    Table<std::int32_t> first(parent_.size(), none, memory_), second(first), count(parent_.size(), 0, memory_);
+    for (std::int32_t h = 0; h < corners_.size(); ++h) {
+      if (out.twin[h] != none) continue;
+      const std::int32_t c = root(region_, corners_[h]);
+      (count[c]++ == 0 ? first : second)[c] = h;
+      if (count[c] == 2) of.push_back(c);
+    }
+    bool any = false;
+    for (const std::int32_t c : of) {
+      if (count[c] != 2) continue;
+      const std::int32_t leave[2] = {first[c], second[c]};
+      std::int32_t enter[2];
+      for (int k = 0; k < 2; ++k) {
+        enter[k] = QuadComplex::previous(leave[k]);
+        while (out.twin[enter[k]] != none) enter[k] = QuadComplex::previous(out.twin[enter[k]]);
+      }
+      // The wall beside may have taken a side, or one side leads from end to end, or back to its own end.
+      const std::int32_t sides[4] = {enter[0], enter[1], leave[0], leave[1]};
+      bool free = true;
+      for (int k = 0; k < 4; ++k) {
+        free &= out.twin[sides[k]] == none;
+        for (int j = 0; j < k; ++j) free &= sides[k] != sides[j];
+      }
+      if (!free) continue;
+      const std::int32_t a = out.tail[leave[0]], b = out.tail[leave[1]], q = out.tail.size();
+      for (const std::int32_t v :
+           {a, out.tail[enter[0]], out.head(leave[1]), b, a, b, out.tail[enter[1]], out.head(leave[0])})
+        out.tail.push_back(v), out.twin.push_back(none), out.feature.push_back(0);
+      out.join(q, enter[0]), out.join(q + 2, leave[1]), out.join(q + 3, q + 4);
+      out.join(q + 5, enter[1]), out.join(q + 7, leave[0]);
+      out.feature[q + 1] = out.feature[q + 6] = 1;
+      for (const std::int32_t h : sides) out.feature[h] = 0;
+      out.vertices.pinned[a] = out.vertices.pinned[b] = QuadMesh::free;
+      any = true;
+    }
+    return any;
+  }
+
+  // Notes the borders that only lines without a crossing reach: the quads of the region close such a hole.
+  void find_holes(QuadComplex& out) {
+    Table<std::int32_t> leaving(parent_.size(), none, memory_);  // by region
+    for (std::int32_t h = 0; h < corners_.size(); ++h) leaving[root(region_, corners_[h])] = h;
+    Table<std::uint8_t> seen(3 * s_.real_triangles, 0, memory_);
+    for (std::int32_t start = 0; start < seen.size(); ++start) {
+      if (seen[start] || s_.is_real(s_.twin[start])) continue;
+      bool crossed = false;
+      for (std::int32_t h = start; !seen[h];) {
+        seen[h] = 1;
+        walk(
+            h,
+            [&](std::int32_t i, std::int32_t j, int kind, std::int32_t step) {
+              const std::int32_t back = step < 0 ? 1 : 0;
+              const std::int32_t p = piece(h / 3, kind == 0 ? i - back : i, kind == 0 ? j : j - back, kind);
+              crossed |= crossing_[root(piece_parent_, p)] != 0;
+            },
+            [](std::int32_t, std::int32_t) {});
+        h = FluxSurface::next(h);
+        while (s_.is_real(s_.twin[h])) h = FluxSurface::next(s_.twin[h]);
+      }
+      if (crossed) continue;
+      const std::int32_t c = root(region_, number(start / 3, cell_of(map_.u[start]), cell_of(map_.v[start])));
+      if (leaving[c] != none) out.holes.push_back({leaving[c], start});
+    }
   }
 
   // How good a place of a vertex is; the best is taken.
@@ -343,6 +441,8 @@ class Extractor {
   Table<std::uint8_t> quality_, on_border_;
   Table<std::int32_t> corners_, sides_;  // cells and pieces of lines, four by quad
   Table<std::uint8_t> feature_;          // by piece of a line: whether it crosses a feature edge
+  Table<std::uint8_t> crossing_;         // by first piece of a line: whether it is a side of a quad
+  Table<std::int32_t> region_;           // by cell
 };
 
 }  // namespace

@@ -9,6 +9,13 @@
 #include "remesh/relax.h"
 
 namespace hf_inner {
+namespace {
+
+// Quads of a component with less than this share of its area have lost most of it: a rod that is thinner than the lines
+// are apart becomes two quads.
+constexpr double least_area = 0.6;
+
+}  // namespace
 
 void QuadComplex::split_fans(Memory& memory) {
   QuadMesh old = std::move(vertices);
@@ -120,6 +127,18 @@ Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& qu
     e += h % 3 == 0;
     e -= !surface.is_real(surface.twin[h]) || h < surface.twin[h];
   }
+  // By component: the area of the quads less the least share of that of the surface.
+  Table<double> area(surface.component_count, 0.0, memory);
+  const auto twice_area = [](Vec3 p, Vec3 q, Vec3 r) { return norm(cross(q - p, r - p)); };
+  for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
+    const std::int32_t* v = &surface.tail[3 * t];
+    area[surface.component[v[0]]] -=
+        least_area * twice_area(surface.position[v[0]], surface.position[v[1]], surface.position[v[2]]);
+  }
+  for (std::int32_t f = 0; f < quads.quad_count(); ++f) {
+    const auto corner = [&](std::int32_t k) { return quads.vertices.position[quads.tail[4 * f + k]]; };
+    area[component[f]] += twice_area(corner(0), corner(1), corner(2)) + twice_area(corner(0), corner(2), corner(3));
+  }
   Table<std::uint8_t> seen(quads.vertices.position.size(), 0, memory);
   Table<std::uint8_t> reached(quads.quad_count(), 0, memory);
   Table<std::int32_t> stack(memory);
@@ -139,7 +158,7 @@ Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& qu
     }
   }
   Table<std::uint8_t> out(surface.component_count, 0, memory);
-  for (std::int32_t c = 0; c < out.size(); ++c) out[c] = euler[c] == 0 && pieces[c] == 1;
+  for (std::int32_t c = 0; c < out.size(); ++c) out[c] = euler[c] == 0 && pieces[c] == 1 && area[c] >= 0;
   const Vector<QuadEdge> edges = edges_of(quads, memory);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (edges[i].a == edges[i].b || (i > 0 && same(edges[i - 1], edges[i]))) out[component[edges[i].half / 4]] = 0;

@@ -15,11 +15,17 @@
 namespace hf_inner {
 
 struct QuadComplex {
-  explicit QuadComplex(Memory& memory) : twin(memory), tail(memory), feature(memory), vertices(memory) {}
+  explicit QuadComplex(Memory& memory) : twin(memory), tail(memory), feature(memory), vertices(memory), holes(memory) {}
   Table<std::int32_t> twin;     // by half-edge; none at a border
   Table<std::int32_t> tail;     // by half-edge: its vertex
   Table<std::uint8_t> feature;  // by half-edge: whether the edge lies on a border or a crease
   QuadMesh vertices;            // the vertices of all half-edges; no faces
+  // Holes of the surface that are still closed: a half-edge that leaves the vertex there, and a half-edge of the
+  // surface at the border of the hole. repair_quads() opens them.
+  struct Hole {
+    std::int32_t half, border;
+  };
+  Table<Hole> holes;
 
   std::int32_t quad_count() const noexcept { return tail.size() / 4; }
   static std::int32_t next(std::int32_t h) noexcept { return h % 4 == 3 ? h - 3 : h + 1; }
@@ -37,6 +43,9 @@ struct QuadComplex {
   void remove(const Table<std::uint8_t>& dead, Memory& memory);
   // Appends the quads of `other` with take[quad] != 0. A quad comes with all quads that it is joined to.
   void append(const QuadComplex& other, const Table<std::uint8_t>& take, Memory& memory);
+  void append(const QuadComplex& other, Memory& memory) {
+    append(other, Table<std::uint8_t>(other.quad_count(), 1, memory), memory);
+  }
   QuadMesh mesh(Memory& memory) const;
 };
 
@@ -58,6 +67,10 @@ Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& qu
 // their vertices are irregular. features: by half-edge of the surface.
 QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t>& features,
                             const Table<std::uint8_t>& take, Memory& memory);
+
+// Makes the fewest quads of the components with take[component] != 0: six of one that closes like a sphere, one of a
+// disc. Sets take to 0 for others.
+QuadComplex least_quads(const FluxSurface& surface, Table<std::uint8_t>& take, Memory& memory);
 
 struct RepairReport {
   std::int32_t removed = 0;  // quads of folds

@@ -79,8 +79,8 @@ class Repairer {
         dead_(quads.quad_count(), 0, memory),
         mark_(quads.quad_count(), 0, memory) {}
 
-  // Finds the edges between the same vertices. Removes small folds between two of them, or else puts rings of quads
-  // around all but one of them. Returns whether there was anything to do.
+  // Finds the edges between the same vertices. Removes small folds between two of them, or else gives all but one of
+  // them new ends: a ring of quads, or two more edges at a border. Returns whether there was anything to do.
   bool run(RepairReport& report) {
     const Vector<QuadEdge> edges = edges_of(quads_, memory_);
     const std::int32_t removed = report.removed;
@@ -99,7 +99,7 @@ class Repairer {
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const bool loop = edges[i].a == edges[i].b;
       if (!loop && (i == 0 || !same(edges[i - 1], edges[i]))) continue;
-      if (!pillow(edges[i].half) && !loop) pillow(edges[i - 1].half);
+      if (!widen(edges[i].half) && !loop) widen(edges[i - 1].half);
     }
     for (std::int32_t f = 0; f < before; ++f) {
       const std::int32_t* v = &quads_.tail[4 * f];
@@ -111,13 +111,128 @@ class Repairer {
     return true;
   }
 
+  // Opens a hole of two edges at a vertex of the quads; run() gives it two more.
+  void open(const QuadComplex::Hole& hole) {
+    for (std::int32_t h = hole.half;;) {
+      const std::int32_t g = quads_.twin[h];
+      if (pillow(h)) {
+        const SurfacePoint from = [&] {
+          SurfacePoint point;
+          point.triangle = hole.border / 3, point.weight[hole.border % 3] = 1;
+          return point;
+        }();
+        SurfacePoint thirds[2];
+        points_between(from, from, true, thirds);
+        quads_.twin[h] = quads_.twin[g] = none;
+        quads_.feature[h] = quads_.feature[g] = 1;
+        place(quads_.tail[h], from), place(quads_.tail[g], thirds[0]);
+        return;
+      }
+      if (g == none) return;
+      h = QuadComplex::next(g);
+      if (h == hole.half) return;
+    }
+  }
+
  private:
+  void place(std::int32_t v, const SurfacePoint& point) {
+    QuadMesh& all = quads_.vertices;
+    all.location[v] = point, all.position[v] = position_of(surface_, point);
+    all.pinned[v] = QuadMesh::site, all.border[v] = 1;
+  }
+  bool widen(std::int32_t h) { return quads_.twin[h] == none ? split_border(h) : pillow(h); }
+  // A hole of one edge or two gets two edges more: its quad (v, w, a, b) with the border side from v to w becomes
+  // (v, p, q, c), (q, w, a, c) and (a, b, v, c), with p and q on the border and c inside.
+  bool split_border(std::int32_t h) {
+    const auto next = QuadComplex::next;
+    const std::int32_t f = h / 4, sides[3] = {next(h), next(next(h)), next(next(next(h)))};
+    if (is_taken(f)) return false;
+    std::int32_t outside[3];
+    for (int k = 0; k < 3; ++k) {
+      outside[k] = quads_.twin[sides[k]];
+      if (outside[k] == none || outside[k] / 4 != f) continue;
+      pillow_quads(f, none);  // the quad lies on itself; its ring does not
+      return true;
+    }
+    mark_[f] = pillowed_;
+    const std::int32_t v = quads_.tail[h], w = quads_.head(h), a = quads_.tail[sides[1]], b = quads_.tail[sides[2]];
+    std::uint8_t feature[3];
+    for (int k = 0; k < 3; ++k) feature[k] = quads_.feature[sides[k]];
+    SurfacePoint thirds[2];
+    points_between(quads_.vertices.location[v], quads_.vertices.location[w], v == w, thirds);
+    std::int32_t fresh[3];
+    for (int k = 0; k < 2; ++k)
+      fresh[k] = quads_.vertices.add_vertex(thirds[k], position_of(surface_, thirds[k]), quads_.vertices.pinned[v],
+                                            true, quads_.vertices.scale[v]);
+    const Vec3 from = quads_.vertices.position[a];
+    const SurfacePoint inside =
+        walk_surface(surface_, quads_.vertices.location[a], 0.5 * (quads_.vertices.position[fresh[0]] - from));
+    fresh[2] = quads_.vertices.add_vertex(inside, position_of(surface_, inside), QuadMesh::free, false,
+                                          quads_.vertices.scale[a]);
+    const std::int32_t p = fresh[0], q = fresh[1], c = fresh[2], first = quads_.tail.size();
+    const auto set = [&](std::int32_t half, std::int32_t tail, std::uint8_t is_feature) {
+      quads_.tail[half] = tail, quads_.feature[half] = is_feature, quads_.twin[half] = none;
+    };
+    quads_.tail.resize(first + 8, none), quads_.feature.resize(first + 8, 0), quads_.twin.resize(first + 8, none);
+    const std::int32_t own = 4 * f, right = first, left = first + 4;
+    set(own, v, 1), set(own + 1, p, 1), set(own + 2, q, 0), set(own + 3, c, 0);
+    set(right, q, 1), set(right + 1, w, feature[0]), set(right + 2, a, 0), set(right + 3, c, 0);
+    set(left, a, feature[1]), set(left + 1, b, feature[2]), set(left + 2, v, 0), set(left + 3, c, 0);
+    quads_.join(right + 1, outside[0]), quads_.join(left, outside[1]), quads_.join(left + 1, outside[2]);
+    quads_.join(own + 2, right + 3), quads_.join(right + 2, left + 3), quads_.join(left + 2, own + 3);
+    return true;
+  }
+  // The border half-edge of the surface on which a point lies, or none.
+  std::int32_t border_of(const SurfacePoint& point) const noexcept {
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t h = 3 * point.triangle + k;
+      if (!surface_.is_real(surface_.twin[h]) && point.weight[(k + 2) % 3] == 0) return h;
+    }
+    return none;
+  }
+  // Two points on the border, at a third and at two thirds of the way from one point to another, or right round.
+  void points_between(const SurfacePoint& from, const SurfacePoint& to, bool round, SurfacePoint* out) const {
+    out[0] = from, out[1] = to;
+    const std::int32_t begin = border_of(from), end = border_of(to);
+    if (begin == none || end == none) return;
+    const auto share = [](const SurfacePoint& point, std::int32_t h) { return point.weight[(h % 3 + 1) % 3]; };
+    // Visits the pieces of edges on the way; visit returns false to end.
+    const auto walk = [&](auto&& visit) {
+      double at = share(from, begin);
+      for (std::int32_t h = begin;;) {
+        const bool last = h == end && (round ? h != begin || at == 0 : share(to, end) >= at);
+        if (!visit(h, at, last ? share(to, end) : 1.0) || last) return;
+        h = FluxSurface::next(h), at = 0;
+        while (surface_.is_real(surface_.twin[h])) h = FluxSurface::next(surface_.twin[h]);
+        if (h == begin && !(round && h == end)) return;  // the other point lies on another border
+        if (h == begin && share(to, end) == 0) return;
+      }
+    };
+    const auto length_of_edge = [&](std::int32_t h) {
+      return norm(surface_.position[surface_.head(h)] - surface_.position[surface_.tail[h]]);
+    };
+    double whole = 0;
+    walk([&](std::int32_t h, double a, double b) { return whole += (b - a) * length_of_edge(h), true; });
+    double passed = 0;
+    int found = 0;
+    walk([&](std::int32_t h, double a, double b) {
+      const double length = length_of_edge(h), here = (b - a) * length;
+      for (; found < 2 && passed + here >= (found + 1) * whole / 3 && length > 0; ++found) {
+        const double at = a + ((found + 1) * whole / 3 - passed) / length;
+        SurfacePoint point;
+        point.triangle = h / 3, point.weight[h % 3] = 1 - at, point.weight[(h % 3 + 1) % 3] = at;
+        out[found] = point;
+      }
+      passed += here;
+      return found < 2;
+    });
+  }
+  // Quads behind the marks are new in this round.
+  bool is_taken(std::int32_t f) const noexcept { return f >= mark_.size() || mark_[f] == pillowed_; }
   // Puts a ring of quads around the two quads of an edge, so that the edge lies inside and has new ends.
   bool pillow(std::int32_t h) {
     const std::int32_t g = quads_.twin[h], f = h / 4;
-    // Quads behind the marks belong to a ring of this round.
-    if (g == none || g / 4 == f || g / 4 >= mark_.size() || mark_[f] == pillowed_ || mark_[g / 4] == pillowed_)
-      return false;
+    if (g == none || g / 4 == f || is_taken(f) || is_taken(g / 4)) return false;
     pillow_quads(f, h);
     return true;
   }
@@ -279,6 +394,14 @@ std::int32_t remove_islands(const FluxSurface& surface, QuadComplex& quads, Memo
 }  // namespace
 
 void repair_quads(const FluxSurface& surface, QuadComplex& quads, RepairReport& report, Memory& memory) {
+  if (!quads.holes.empty()) {
+    const std::int32_t before = quads.quad_count();
+    Repairer repairer(surface, quads, memory);
+    for (const QuadComplex::Hole& hole : quads.holes) repairer.open(hole);
+    quads.holes.clear();
+    report.added += quads.quad_count() - before;
+    quads.split_fans(memory);
+  }
   report.removed += remove_islands(surface, quads, memory);
   report.removed += remove_doublets(quads, memory);
   for (std::int32_t round = 0; round < repair_rounds; ++round) {

@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/nearest_triangle.h"
+#include "quads/numbers.h"
+#include "quads/quad_complex.h"
+
+namespace hf_inner {
+namespace {
+
+// The vertices and triangles of one component, and a half-edge of its border.
+struct Part {
+  explicit Part(Memory& memory) : triangles(memory), vertices(memory) {}
+  Table<std::int32_t> triangles, vertices;
+  std::int32_t border = none, borders = 0, euler = 0;
+};
+
+class Maker {
+ public:
+  Maker(const FluxSurface& surface, QuadComplex& out, Memory& memory) : s_(surface), out_(out), memory_(memory) {}
+
+  // A box whose corners lie on the surface: along the direction to the farthest vertex, along that of the vertex
+  // farthest from this line, and across both.
+  void box(const Part& part) {
+    Vec3 centre{};
+    for (const std::int32_t v : part.vertices) centre = centre + 1.0 / part.vertices.size() * s_.position[v];
+    Vec3 axis[3];
+    for (int k = 0; k < 2; ++k) {
+      double most = -1;
+      for (const std::int32_t v : part.vertices) {
+        Vec3 way = s_.position[v] - centre;
+        for (int j = 0; j < k; ++j) way = way - dot(way, axis[j]) * axis[j];
+        if (norm(way) > most) most = norm(way), axis[k] = way;
+      }
+      axis[k] = unit_vector(axis[k]);
+    }
+    axis[2] = cross(axis[0], axis[1]);
+    double size[3] = {0, 0, 0};
+    for (const std::int32_t v : part.vertices) {
+      for (int k = 0; k < 3; ++k) size[k] = std::max(size[k], std::fabs(dot(s_.position[v] - centre, axis[k])));
+    }
+    std::int32_t corner[8];
+    for (int i = 0; i < 8; ++i) {
+      Vec3 p = centre;
+      for (int k = 0; k < 3; ++k) p = p + (i >> k & 1 ? 1.0 : -1.0) * corner_share * size[k] * axis[k];
+      corner[i] = add_vertex(nearest(part, p), false);
+    }
+    // Bit k of a corner's number is its side along axis k. The axes are right-handed, so the sides are seen from
+    // outside counter-clockwise; a component that faces inwards gets them turned.
+    static constexpr int sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                        {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    double volume = 0;
+    for (const std::int32_t t : part.triangles) {
+      const auto p = [&](std::int32_t k) { return s_.position[s_.tail[3 * t + k]] - centre; };
+      volume += dot(p(0), cross(p(1), p(2)));
+    }
+    const std::int32_t first = out_.tail.size();
+    for (const auto& side : sides) {
+      for (int k = 0; k < 4; ++k) add_half(corner[side[volume < 0 ? 3 - k : k]], false);
+    }
+    for (std::int32_t h = first; h < out_.tail.size(); ++h) {
+      for (std::int32_t g = first; g < h; ++g) {
+        if (out_.tail[g] == out_.head(h) && out_.tail[h] == out_.head(g)) out_.join(h, g);
+      }
+    }
+  }
+
+  // One quad with its corners on the border: the vertex farthest from the middle, the one farthest from it, and on
+  // either side of the line between both the one farthest from this line.
+  void disc(const Part& part) {
+    Table<std::int32_t> loop(memory_);  // half-edges of the border
+    for (std::int32_t h = part.border; loop.empty() || h != part.border;) {
+      loop.push_back(h);
+      h = FluxSurface::next(h);
+      while (s_.is_real(s_.twin[h])) h = FluxSurface::next(s_.twin[h]);
+    }
+    const std::int32_t count = loop.size();
+    const auto position = [&](std::int32_t i) { return s_.position[s_.tail[loop[i % count]]]; };
+    Vec3 centre{};
+    for (std::int32_t i = 0; i < count; ++i) centre = centre + 1.0 / count * position(i);
+    std::int32_t from = 0, to = 0;
+    for (std::int32_t i = 1; i < count; ++i) {
+      if (norm(position(i) - centre) > norm(position(from) - centre)) from = i;
+    }
+    for (std::int32_t i = 0; i < count; ++i) {
+      if (norm(position(i) - position(from)) > norm(position(to) - position(from))) to = i;
+    }
+    const Vec3 line = unit_vector(position(to) - position(from));
+    const auto farthest = [&](std::int32_t begin, std::int32_t end) {  // between two places of the loop
+      SurfacePoint best = at_tail(loop[begin % count], 0.5);
+      double most = -1;
+      for (std::int32_t i = begin + 1; i < end; ++i) {
+        const Vec3 way = position(i) - position(from);
+        const double away = norm(way - dot(way, line) * line);
+        if (away > most) most = away, best = at_tail(loop[i % count], 0);
+      }
+      return best;
+    };
+    if (to < from) to += count;
+    const SurfacePoint corner[4] = {at_tail(loop[from], 0), farthest(from, to), at_tail(loop[to % count], 0),
+                                    farthest(to, from + count)};
+    for (const SurfacePoint& point : corner) add_half(add_vertex(point, true), true);
+  }
+
+ private:
+  static constexpr double corner_share = 0.6;  // 1 / sqrt(3) on a sphere
+  static SurfacePoint at_tail(std::int32_t h, double share) {
+    SurfacePoint point;
+    point.triangle = h / 3, point.weight[h % 3] = 1 - share, point.weight[(h % 3 + 1) % 3] = share;
+    return point;
+  }
+  SurfacePoint nearest(const Part& part, Vec3 p) const {
+    SurfacePoint point;
+    double best = HUGE_VAL, weight[3];
+    for (const std::int32_t t : part.triangles) {
+      const auto corner = [&](std::int32_t k) { return s_.position[s_.tail[3 * t + k]]; };
+      const double squared = squared_to_triangle(p, corner(0), corner(1), corner(2), weight);
+      if (squared < best) best = squared, point.triangle = t, std::copy(weight, weight + 3, point.weight);
+    }
+    return point;
+  }
+  std::int32_t add_vertex(const SurfacePoint& point, bool border) {
+    return out_.vertices.add_vertex(point, position_of(s_, point), border ? QuadMesh::site : QuadMesh::free, border, 1);
+  }
+  void add_half(std::int32_t v, bool border) {
+    out_.tail.push_back(v), out_.twin.push_back(none), out_.feature.push_back(border);
+  }
+
+  const FluxSurface& s_;
+  QuadComplex& out_;
+  Memory& memory_;
+};
+
+}  // namespace
+
+QuadComplex least_quads(const FluxSurface& surface, Table<std::uint8_t>& take, Memory& memory) {
+  QuadComplex out(memory);
+  Vector<Part> parts(&memory);
+  parts.reserve(static_cast<std::size_t>(take.size()));
+  for (std::int32_t c = 0; c < take.size(); ++c) parts.emplace_back(memory);
+  const auto part_of = [&](std::int32_t v) -> Part& { return parts[static_cast<std::size_t>(surface.component[v])]; };
+  for (std::int32_t v = 0; v < surface.first_apex; ++v) {
+    if (take[surface.component[v]]) part_of(v).vertices.push_back(v);
+  }
+  for (std::int32_t v = surface.first_apex; v < surface.vertex_count(); ++v) ++part_of(v).borders;
+  for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
+    Part& part = part_of(surface.tail[h]);
+    if (!take[surface.component[surface.tail[h]]]) continue;
+    const bool border = !surface.is_real(surface.twin[h]);
+    part.euler -= border || h < surface.twin[h];
+    if (border) part.border = h;
+    if (h % 3 == 0) part.triangles.push_back(h / 3), ++part.euler;
+  }
+  Maker maker(surface, out, memory);
+  for (std::int32_t c = 0; c < take.size(); ++c) {
+    const Part& part = parts[static_cast<std::size_t>(c)];
+    const std::int32_t euler = part.euler + part.vertices.size();
+    if (take[c] && euler == 2 && part.borders == 0) {
+      maker.box(part);
+    } else if (take[c] && euler == 1 && part.borders == 1) {
+      maker.disc(part);
+    } else {
+      take[c] = 0;
+    }
+  }
+  return out;
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,167 @@
+// What is smaller than the quads: holes, walls between holes, ends, rods, specks.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "assets/shapes.h"
+#include "quads/field_quads.h"
+#include "support/meshes.h"
+#include "support/quad_oracle.h"
+
+namespace {
+
+using namespace hf_inner;
+
+// A plane of n x n squares, without those that `gone` names.
+template <class Gone>
+std::shared_ptr<const Core> sheet(std::uint32_t n, Gone gone) {
+  hf_test::PlainMesh mesh = hf_test::grid(n, n, 1, 0.2);
+  std::vector<std::uint32_t> kept;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const std::uint32_t square = static_cast<std::uint32_t>(t / 6);
+    if (gone(square % n, square / n)) continue;
+    kept.insert(kept.end(), mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t),
+                mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t) + 3);
+  }
+  mesh.triangles = kept;
+  return hf_test::make_core(mesh);
+}
+
+// Quads without a substitute: no component got quads of shorter edges, or of its triangles.
+QuadMesh quads_of(const std::shared_ptr<const Core>& core, std::int32_t faces, const std::string& what) {
+  FieldQuadOptions options;
+  options.core = core, options.faces = faces;
+  FieldQuadReport report;
+  QuadResult result = make_field_quads(options, &report);
+  hf_test::expect_manifold(*core, result.mesh, what);
+  EXPECT_EQ(report.substitutes, 0) << what;
+  EXPECT_NEAR(result.mesh.face_count(), faces, 0.35 * faces) << what;
+  return std::move(result.mesh);
+}
+
+std::int32_t border_loops(const QuadMesh& mesh) {
+  std::map<std::int32_t, std::int32_t> next;
+  std::map<std::pair<std::int32_t, std::int32_t>, bool> directed;
+  for (std::int32_t i = 0; i < mesh.corner.size(); ++i)
+    directed[{mesh.corner[i], mesh.corner[i % 4 == 3 ? i - 3 : i + 1]}] = true;
+  for (const auto& [edge, there] : directed) {
+    if (!directed.count({edge.second, edge.first})) next[edge.first] = edge.second;
+  }
+  std::int32_t loops = 0;
+  while (!next.empty()) {
+    std::int32_t count = 0;
+    for (auto at = next.begin(); at != next.end(); ++count) {
+      const std::int32_t to = at->second;
+      next.erase(at), at = next.find(to);
+    }
+    EXPECT_GE(count, 3) << "edges of a border";
+    ++loops;
+  }
+  return loops;
+}
+
+TEST(SmallParts, holes_that_no_line_crosses_are_open) {
+  for (const std::uint32_t place : {9u, 10u, 11u, 12u, 13u}) {
+    const auto core = sheet(24, [&](std::uint32_t x, std::uint32_t y) {
+      return (x == place && y == 11) || (x == 3 && y == place) || (x == 18 && y == 19);
+    });
+    const QuadMesh mesh = quads_of(core, 36, "holes at " + std::to_string(place));
+    EXPECT_EQ(border_loops(mesh), 4);
+  }
+}
+
+TEST(SmallParts, walls_between_holes_stay) {
+  for (const std::uint32_t place : {9u, 10u, 11u, 12u, 13u}) {
+    const auto core = sheet(24, [&](std::uint32_t x, std::uint32_t y) {
+      return y > 6 && y < 17 && ((x > 4 && x < place) || (x > place && x < 20));
+    });
+    const QuadMesh mesh = quads_of(core, 40, "wall at " + std::to_string(place));
+    EXPECT_EQ(border_loops(mesh), 3);
+  }
+}
+
+// A cone without its tip: the hole there is narrower than a quad.
+TEST(SmallParts, narrow_ends_stay_open) {
+  for (const double radius : {0.02, 0.05, 0.1}) {
+    hf_test::PlainMesh mesh;
+    const std::uint32_t around = 24, rings = 30;
+    for (std::uint32_t r = 0; r <= rings; ++r) {
+      for (std::uint32_t i = 0; i < around; ++i) {
+        const double size = 1 + (radius - 1) * r / rings, angle = 2 * std::acos(-1.0) * (i + 0.1 * (r % 3)) / around;
+        mesh.positions.insert(mesh.positions.end(), {size * std::cos(angle), size * std::sin(angle), 3.0 * r / rings});
+      }
+    }
+    for (std::uint32_t r = 0; r < rings; ++r) {
+      for (std::uint32_t i = 0; i < around; ++i) {
+        const std::uint32_t a = r * around + i, b = r * around + (i + 1) % around;
+        mesh.triangles.insert(mesh.triangles.end(), {a, b, b + around, a, b + around, a + around});
+      }
+    }
+    const QuadMesh quads = quads_of(hf_test::make_core(mesh), 80, "cone " + std::to_string(radius));
+    EXPECT_EQ(border_loops(quads), 2);
+  }
+}
+
+struct Extent {
+  Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+  void add(Vec3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+};
+
+// A ball with a rod and a speck beside it, a ball that faces inwards, and a leaf with a border.
+TEST(SmallParts, rods_and_specks_keep_their_extent) {
+  samples::ShapeMesh mesh = samples::sphere(16);
+  std::vector<Extent> extents(1);
+  const auto append = [&](samples::ShapeMesh part, Vec3 size, Vec3 move, bool turned) {
+    const std::uint32_t base = static_cast<std::uint32_t>(mesh.positions.size() / 3);
+    extents.emplace_back();
+    for (std::size_t i = 0; i < part.positions.size(); i += 3) {
+      const Vec3 p{size.x * part.positions[i] + move.x, size.y * part.positions[i + 1] + move.y,
+                   size.z * part.positions[i + 2] + move.z};
+      mesh.positions.insert(mesh.positions.end(), {p.x, p.y, p.z});
+    }
+    for (std::size_t i = 0; i < part.triangles.size(); i += 3) {
+      if (turned) std::swap(part.triangles[i], part.triangles[i + 1]);
+      for (std::size_t k = 0; k < 3; ++k) mesh.triangles.push_back(base + part.triangles[i + k]);
+    }
+  };
+  append(samples::sphere(6), {0.8, 0.03, 0.02}, {2.2, 0, 0}, false);
+  append(samples::sphere(4), {0.05, 0.05, 0.05}, {0, 1.5, 0}, false);
+  append(samples::sphere(4), {0.05, 0.06, 0.05}, {0, -1.5, 0}, true);
+  append(samples::plane(5, 4), {0.06, 1, 0.05}, {0, 0, 1.6}, false);
+  const auto core = hf_test::make_core({mesh.positions, mesh.triangles});
+  for (const std::int32_t faces : {60, 200, 800}) {
+    FieldQuadOptions options;
+    options.core = core, options.faces = faces;
+    const QuadMesh quads = make_field_quads(options).mesh;
+    const std::string what = std::to_string(faces) + " faces";
+    hf_test::expect_manifold(*core, quads, what);
+    std::vector<Extent> was(extents.size()), is(extents.size());
+    std::vector<double> volume(extents.size(), 0.0);
+    for (Index v = 0; v < core->size(); ++v)
+      was[at(core->mesh.component[at(v)])].add(core->mesh.to_given(core->mesh.positions[at(v)]));
+    const auto component = [&](std::int32_t v) {
+      return at(core->mesh.component[at(core->mesh.triangle(quads.location[v].triangle)[0])]);
+    };
+    for (std::int32_t v = 0; v < quads.position.size(); ++v)
+      is[component(v)].add(core->mesh.to_given(quads.position[v]));
+    for (std::int32_t f = 0; f < quads.face_count(); ++f) {
+      const auto p = [&](std::int32_t k) { return quads.position[quads.corner[4 * f + k]]; };
+      volume[component(quads.corner[4 * f])] += dot(p(0), cross(p(1), p(2))) + dot(p(0), cross(p(2), p(3)));
+    }
+    for (std::size_t c = 0; c < was.size(); ++c) {
+      const Vec3 size = was[c].high - was[c].low, got = is[c].high - is[c].low;
+      EXPECT_GT(std::max({got.x, got.y, got.z}), 0.55 * std::max({size.x, size.y, size.z})) << what << " part " << c;
+      const double expected = c + 1 == was.size() ? 0 : c == 3 ? -1 : 1;  // the leaf, the ball that faces inwards
+      if (expected != 0) {
+        EXPECT_GT(expected * volume[c], 0) << what << " part " << c;
+      }
+    }
+  }
+}
+
+}  // namespace
