@@ -8,6 +8,10 @@
 namespace hf_inner {
 namespace {
 
+// The fewest quads must have this share of the area: a box in a ball has 0.64. One quad over the wrist of a hand has
+// 0.02.
+constexpr double least_share = 0.4;
+
 // The vertices and triangles of one component, and a half-edge of its border.
 struct Part {
   explicit Part(Memory& memory) : triangles(memory), vertices(memory) {}
@@ -102,6 +106,23 @@ class Maker {
     for (const SurfacePoint& point : corner) add_half(add_vertex(point, true), true);
   }
 
+  double area_from(std::int32_t first) const noexcept {
+    double sum = 0;
+    for (std::int32_t h = first; h < out_.tail.size(); h += 4) {
+      const auto p = [&](std::int32_t k) { return out_.vertices.position[out_.tail[h + k]]; };
+      sum += norm(cross(p(1) - p(0), p(2) - p(0))) + norm(cross(p(2) - p(0), p(3) - p(0)));
+    }
+    return sum / 2;
+  }
+  double area(const Part& part) const noexcept {
+    double sum = 0;
+    for (const std::int32_t t : part.triangles) {
+      const auto p = [&](std::int32_t k) { return s_.position[s_.tail[3 * t + k]]; };
+      sum += norm(cross(p(1) - p(0), p(2) - p(0)));
+    }
+    return sum / 2;
+  }
+
  private:
   static constexpr double corner_share = 0.6;  // 1 / sqrt(3) on a sphere
   static SurfacePoint at_tail(std::int32_t h, double share) {
@@ -155,13 +176,14 @@ QuadComplex least_quads(const FluxSurface& surface, Table<std::uint8_t>& take, M
   for (std::int32_t c = 0; c < take.size(); ++c) {
     const Part& part = parts[static_cast<std::size_t>(c)];
     const std::int32_t euler = part.euler + part.vertices.size();
+    const std::int32_t first = out.tail.size();
     if (take[c] && euler == 2 && part.borders == 0) {
       maker.box(part);
     } else if (take[c] && euler == 1 && part.borders == 1) {
       maker.disc(part);
-    } else {
-      take[c] = 0;
     }
+    take[c] = out.tail.size() > first && maker.area_from(first) > least_share * maker.area(part);
+    if (!take[c]) out.tail.resize(first, none), out.twin.resize(first, none), out.feature.resize(first, 0);
   }
   return out;
 }

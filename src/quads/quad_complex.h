@@ -69,7 +69,7 @@ QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t
                             const Table<std::uint8_t>& take, Memory& memory);
 
 // Makes the fewest quads of the components with take[component] != 0: six of one that closes like a sphere, one of a
-// disc. Sets take to 0 for others.
+// disc. Sets take to 0 for others, and where so few quads lose the shape.
 QuadComplex least_quads(const FluxSurface& surface, Table<std::uint8_t>& take, Memory& memory);
 
 struct RepairReport {

@@ -112,17 +112,6 @@ void add_image(const NearestTriangle& nearest, const MirrorPlane& plane, const T
   mesh = std::move(out);
 }
 
-std::int32_t euler_characteristic(const QuadMesh& mesh, Memory& memory) {
-  Vector<std::uint64_t> edges(&memory);
-  for (Index i = 0; i < mesh.corner.size(); ++i) {
-    const Index a = mesh.corner[i], b = mesh.corner[i % 4 == 3 ? i - 3 : i + 1];
-    edges.push_back(static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b)));
-  }
-  std::sort(edges.begin(), edges.end());
-  const auto count = std::unique(edges.begin(), edges.end()) - edges.begin();
-  return mesh.position.size() - static_cast<std::int32_t>(count) + mesh.face_count();
-}
-
 }  // namespace
 
 HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
@@ -179,7 +168,7 @@ HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
   return out;
 }
 
-bool trim_at_plane(QuadMesh& mesh, const Table<std::uint8_t>& on_plane, Memory& memory) {
+bool trim_at_plane(QuadMesh& mesh, const Table<std::uint8_t>& on_plane, std::int32_t& sides_on_plane, Memory& memory) {
   struct Side {
     Index a, b, face;
   };
@@ -195,9 +184,10 @@ bool trim_at_plane(QuadMesh& mesh, const Table<std::uint8_t>& on_plane, Memory& 
     });
     Table<std::uint8_t> count(mesh.face_count(), 0, memory);
     bool doubled = false;
+    sides_on_plane = 0;
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const bool twice = i + 1 < sides.size() && sides[i].a == sides[i + 1].a && sides[i].b == sides[i + 1].b;
-      if (!twice) ++count[sides[i].face];
+      if (!twice) ++count[sides[i].face], ++sides_on_plane;
       doubled |= twice, i += twice;
     }
     Table<Index> kept(memory);
@@ -274,9 +264,14 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
       p = mesh.to_given(p);
       on_plane.push_back(result.mesh.border[v] && std::fabs(plane.side(p)) < plane_tolerance);
     }
-    if (trim_at_plane(result.mesh, on_plane, memory)) {
+    std::int32_t sides = 0;
+    if (trim_at_plane(result.mesh, on_plane, sides, memory)) {
+      // What lies on the plane counts once. Trimming keeps the Euler characteristic of the half.
+      Table<std::uint8_t> shared(on_plane.size(), 0, memory);
+      std::int32_t corners = 0;
+      for (const Index v : result.mesh.corner) corners += on_plane[v] && !shared[v], shared[v] = 1;
+      result.euler_characteristic = 2 * result.euler_characteristic - corners + sides;
       add_image(nearest, plane, on_plane, result.mesh, memory);
-      result.euler_characteristic = euler_characteristic(result.mesh, memory);
       check_quads(result.mesh, result.euler_characteristic, memory);
       result.raw_faces *= 2, result.raw_quads *= 2;
       found.edge_length *= mesh.scale;

@@ -24,6 +24,7 @@ struct HalfSurface {
 
 // Removes from a mesh of quads those with three sides on the plane, again and again: two mirror images would lie on one
 // another. Returns false if an edge off the border has both ends on the plane: its image would be the same edge.
-bool trim_at_plane(QuadMesh& mesh, const Table<std::uint8_t>& on_plane, Memory& memory);
+// sides_on_plane: receives how many sides of quads lie on the plane.
+bool trim_at_plane(QuadMesh& mesh, const Table<std::uint8_t>& on_plane, std::int32_t& sides_on_plane, Memory& memory);
 
 }  // namespace hf_inner

@@ -56,7 +56,7 @@ export default async function story(host) {
           }
           if (key === 'transfer') {
             await studio.page.click('#take-bull');
-            await studio.page.waitForFunction(() => window.hfStudio.tools.transfer.info);
+            await studio.page.waitForFunction(() => window.hfStudio.tools.transfer?.info);
           }
           found.push(...(await axe(studio.page)).map((text) => `${key}: ${text}`));
           await studio.picture(`panel_${key}_${where}_${colorScheme}`);

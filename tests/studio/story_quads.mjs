@@ -32,7 +32,7 @@ export default async function story(host) {
   await studio.tool('quads');
   await check('quads are made and counted, and every face has four corners', async () => {
     await page.click('#make');
-    await page.waitForFunction(() => window.hfStudio.tools.quads.result, null, { timeout: 60000 });
+    await page.waitForFunction(() => window.hfStudio.tools.quads?.result, null, { timeout: 60000 });
     await studio.settle();
     const facts = await studio.facts();
     assert.ok(Number(facts.quads.replace(/,/g, '')) > 300, JSON.stringify(facts));
@@ -52,7 +52,7 @@ export default async function story(host) {
     await page.locator('#edge').fill('0.03');
     await page.click('#make');
     await page.waitForFunction(
-      (old) => !document.querySelector('#cancel') && window.hfStudio.tools.quads.result.info.quadCount !== old,
+      (old) => !document.querySelector('#cancel') && window.hfStudio.tools.quads?.result.info.quadCount !== old,
       Number(before.quads.replace(/,/g, '')),
       { timeout: 60000 },
     );
@@ -90,7 +90,7 @@ export default async function story(host) {
     await page.locator('#edge').fill('0.06');
     await page.locator('#crease').fill('45');
     await page.click('#make');
-    await page.waitForFunction(() => window.hfStudio.tools.quads.result || window.hfStudio.tools.quads.error, null, {
+    await page.waitForFunction(() => window.hfStudio.tools.quads?.result || window.hfStudio.tools.quads?.error, null, {
       timeout: 60000,
     });
     await studio.settle();

@@ -77,7 +77,7 @@ export default async function story(host) {
     await page.waitForFunction(() => window.hfStudio.body.name === 'bull.glb' && window.hfStudio.skin.bvh);
     await studio.tool('weights');
     await page.click('#compute');
-    await page.waitForFunction(() => window.hfStudio.tools.weights.result);
+    await page.waitForFunction(() => window.hfStudio.tools.weights?.result);
     await validated(await studio.save('save-weights'));
   });
   await check('a picture is saved', async () => {

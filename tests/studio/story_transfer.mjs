@@ -11,7 +11,7 @@ export default async function story(host) {
     'the horse is taken as the source, and pairs are proposed: four feet, two places of the trunk, tips',
     async () => {
       await page.click('#take-horse');
-      await page.waitForFunction(() => window.hfStudio.tools.transfer.info, null, { timeout: 30000 });
+      await page.waitForFunction(() => window.hfStudio.tools.transfer?.info, null, { timeout: 30000 });
       await studio.settle();
       const kinds = await page.evaluate(() =>
         window.hfStudio.tools.transfer.pairs

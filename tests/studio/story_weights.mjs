@@ -16,7 +16,7 @@ export default async function story(host) {
   });
   await check('new weights are computed: sum 1, every vertex has a bone', async () => {
     await page.click('#compute');
-    await page.waitForFunction(() => window.hfStudio.tools.weights.result, null, { timeout: 30000 });
+    await page.waitForFunction(() => window.hfStudio.tools.weights?.result, null, { timeout: 30000 });
     await studio.settle();
     const [worst, facts] = [
       await page.evaluate(() => {
@@ -56,7 +56,7 @@ export default async function story(host) {
     const spot = await free((await studio.spots()).slice(10));
     const before = await shares(spot[2]);
     await page.mouse.click(spot[0], spot[1]);
-    await page.waitForFunction(() => window.hfStudio.state.pins.length === 1 && !window.hfStudio.tools.weights.busy);
+    await page.waitForFunction(() => window.hfStudio.state.pins.length === 1 && !window.hfStudio.tools.weights?.busy);
     assert.ok(before < 0.5 && (await shares(spot[2])) > 0.999, `${before} to ${await shares(spot[2])}`);
     assert.equal((await studio.marks()).length, 1);
     await studio.picture('weights_pin');

@@ -29,7 +29,11 @@ export class App {
     this.centres = new Map();
     this.ids = 0;
     this.tools = {};
-    for (const Tool of toolClasses) this.tools[Tool.key] = new Tool(this);
+    this.later = {};
+    for (const Tool of toolClasses) {
+      if (Tool.load) this.later[Tool.key] = Tool.load;
+      else this.tools[Tool.key] = new Tool(this);
+    }
     this.figures = { open: 0, shape: 0, field: 0, frames: 0 };
     listen(this, $('canvas'));
     this.#rail(toolClasses);
@@ -263,6 +267,19 @@ export class App {
     }
   }
   async use(key) {
+    this.wanted = key;
+    if (!this.tools[key]) {
+      try {
+        const Tool = await this.later[key]();
+        if (!this.tools[key]) {
+          this.tools[key] = new Tool(this);
+          if (this.skin) this.tools[key].opened?.();
+        }
+      } catch (error) {
+        return say(error.message);
+      }
+      if (this.wanted !== key) return;
+    }
     if (this.tool !== this.tools[key]) {
       if (this.skin) this.timeline.stop();
       this.tool?.leave?.();

@@ -231,25 +231,25 @@ export function saveMenu(app) {
       app.timeline.keys.length > 0,
       'save-keys',
     ],
-    weights && [
+    [
       'Weights (glb)',
       'the file with the new weights in its skin',
       async () => download(await weightedGlb(app, weights.result, weights.bones), `${name}_weights.glb`, glb),
-      Boolean(weights.result),
+      Boolean(weights?.result),
       'save-weights',
     ],
-    quads && [
+    [
       'Quads (obj)',
       'the quad mesh',
       async () => download(quadsObj(quads.result.mesh), `${name}_quads.obj`, 'text/plain'),
-      Boolean(quads.result),
+      Boolean(quads?.result),
       'save-quads',
     ],
-    transfer && [
+    [
       'Transferred walk (glb)',
       'this body with the clip of the other',
       async () => download(await transfer.glb(), `${name}_walk.glb`, glb),
-      Boolean(transfer.ready?.()),
+      Boolean(transfer?.ready()),
       'save-transfer',
     ],
     [
@@ -274,7 +274,7 @@ export function saveMenu(app) {
       'save-link',
       true,
     ],
-  ].filter(Boolean);
+  ];
   const dialog = card(
     'Save',
     choices.map(([title, text, act, able, id, quiet]) => {

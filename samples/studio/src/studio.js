@@ -1,14 +1,38 @@
 // The page: wires the frame (menus, keys, drop) to the app.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DoubleSide,
+  Line,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshLambertMaterial,
+  Vector3,
+} from 'three';
 import { App } from './app.js';
-import { saveMenu } from './save.js';
-import { DetailTool } from './tools/detail.js';
+import { bonesOf, influencesOf, readModel } from './model.js';
+import { normalGroups, normalSums, smoothNormals } from './normals.js';
+import { saveMenu, skinnedGlb } from './save.js';
+import { lengthOf, localsOf, playedAt } from './timeline.js';
 import { FieldTool } from './tools/field.js';
 import { PoseTool } from './tools/pose.js';
-import { QuadsTool } from './tools/quads.js';
-import { TransferTool } from './tools/transfer.js';
-import { WeightsTool } from './tools/weights.js';
 import { Session } from './session.js';
-import { $, card, make } from './ui.js';
+import { $, button, card, choice, facts, make, ms, say, slider, touched, whole } from './ui.js';
+
+/** Tools that the first picture does not need. Their modules import nothing, so that each is one request: the kit has it all. */
+const kit = { $, button, choice, facts, make, ms, say, slider, touched, whole };
+Object.assign(kit, { BufferAttribute, BufferGeometry, Color, DoubleSide, Line, LineBasicMaterial, LineSegments });
+Object.assign(kit, { Mesh, MeshLambertMaterial, Vector3, bonesOf, influencesOf, readModel, skinnedGlb });
+Object.assign(kit, { normalGroups, normalSums, smoothNormals, lengthOf, localsOf, playedAt });
+const later = (key, title, icon, load) => ({ key, title, icon, load: async () => (await load()).tool(kit) });
+const laterTools = [
+  later('transfer', 'Transfer', 'M4 8h13l-3-3M20 16H7l3 3', () => import('./tools/transfer.js')),
+  later('weights', 'Weights', 'M7 4a2.4 2.4 0 1 0 2 4l7 8a2.4 2.4 0 1 0 2-2L10 7a2.4 2.4 0 0 0-3-3z', () => import('./tools/weights.js')),
+  later('quads', 'Quads', 'M4 7l8-3 8 3v10l-8 3-8-3zM4 12l8-2 8 2M12 4v16M8 5.5v13M16 5.5v13', () => import('./tools/quads.js')),
+  later('detail', 'Detail', 'M3 15c2-6 4 3 6-2s3-4 5 0 4-3 7-1M3 20h18', () => import('./tools/detail.js')),
+];
 
 const samples = ['horse', 'bull', 'biped'];
 const root = document.documentElement;
@@ -23,7 +47,7 @@ $('theme').onclick = () => setTheme(root.dataset.theme === 'dark' ? 'light' : 'd
 async function start() {
   let app;
   try {
-    app = new App([PoseTool, FieldTool, TransferTool, WeightsTool, QuadsTool, DetailTool], samples);
+    app = new App([PoseTool, FieldTool, ...laterTools], samples);
   } catch (error) {
     card(
       'The studio cannot draw here',

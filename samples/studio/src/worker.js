@@ -9,7 +9,6 @@ import { poseOf } from './worker_pose.js';
 import { fieldOf } from './worker_field.js';
 import { detailOf } from './worker_detail.js';
 import { weightsOf, quadsOf } from './worker_once.js';
-import { transferOf } from './worker_transfer.js';
 
 let hf = null;
 let memory = null; // bytes of the heap of WebAssembly
@@ -93,7 +92,8 @@ const tasks = {
     const surface = new hf.Surface(positions, triangles, { savedFactor: factor, linkPieces: true });
     return [quadsOf(hf, surface, options), []];
   },
-  transferOpen({ positions, triangles }) {
+  async transferOpen({ positions, triangles }) {
+    const { transferOf } = await import('./worker_transfer.js');
     body.sourcePositions = positions;
     body.sourceTriangles = triangles;
     body.transfer?.close();

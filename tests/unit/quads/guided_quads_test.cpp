@@ -317,25 +317,27 @@ TEST(SymmetricQuads, quads_with_three_sides_on_the_plane_go_and_doubled_edges_ar
     for (std::int32_t i = 0; i <= mesh.corner.size(); i += 4) mesh.face_start.push_back(i);
     return mesh;
   };
+  std::int32_t sides = 0;
   // A row along the plane stays.
   QuadMesh row = mesh_of({0, 1, 4, 5, 1, 2, 3, 4}, 6);
-  EXPECT_TRUE(trim_at_plane(row, Table<std::uint8_t>(6, 0, memory), memory));
+  EXPECT_TRUE(trim_at_plane(row, Table<std::uint8_t>(6, 0, memory), sides, memory));
   EXPECT_EQ(row.face_count(), 2);
   // 0 1 2 3 is a tongue with three sides on the plane, on a quad 0 3 4 5.
   QuadMesh tongue = mesh_of({0, 1, 2, 3, 0, 3, 4, 5}, 6);
   Table<std::uint8_t> on_plane(6, 1, memory);
   on_plane[4] = on_plane[5] = 0;
-  EXPECT_TRUE(trim_at_plane(tongue, on_plane, memory));
+  EXPECT_TRUE(trim_at_plane(tongue, on_plane, sides, memory));
   EXPECT_EQ(tongue.face_count(), 1);
+  EXPECT_EQ(sides, 1);
   // A tongue of two quads goes in two steps.
   QuadMesh longer = mesh_of({0, 1, 2, 3, 0, 3, 4, 5, 5, 4, 6, 7}, 8);
   on_plane = Table<std::uint8_t>(8, 1, memory);
   on_plane[6] = on_plane[7] = 0;
-  EXPECT_TRUE(trim_at_plane(longer, on_plane, memory));
+  EXPECT_TRUE(trim_at_plane(longer, on_plane, sides, memory));
   EXPECT_EQ(longer.face_count(), 1);
   // A strip one quad wide between two lines of the plane has edges whose images are themselves.
   QuadMesh strip = mesh_of({0, 1, 4, 3, 1, 2, 5, 4}, 6);
-  EXPECT_FALSE(trim_at_plane(strip, Table<std::uint8_t>(6, 1, memory), memory) && strip.face_count() > 0);
+  EXPECT_FALSE(trim_at_plane(strip, Table<std::uint8_t>(6, 1, memory), sides, memory) && strip.face_count() > 0);
 }
 
 }  // namespace

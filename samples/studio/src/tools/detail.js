@@ -1,14 +1,13 @@
 // Detail: draw around a part; smooth it, or exaggerate what is there.
-import { BufferAttribute, BufferGeometry, Line, LineBasicMaterial } from 'three';
-import { button, facts, make, ms, slider, whole } from '../ui.js';
 
 /** Points of a lasso are at least so many pixels apart; a lasso of fewer points is no region. */
 const [STEP_PIXELS, LEAST_POINTS] = [8, 5];
 
-export class DetailTool {
+/** `kit`: what the page has loaded already (studio.js). */
+export const tool = ({ BufferAttribute, BufferGeometry, Line, LineBasicMaterial, button, facts, make, ms, slider, whole }) =>
+class {
   static key = 'detail';
   static title = 'Detail';
-  static icon = 'M3 15c2-6 4 3 6-2s3-4 5 0 4-3 7-1M3 20h18';
   constructor(app) {
     this.app = app;
     const geometry = new BufferGeometry();
@@ -131,4 +130,4 @@ export class DetailTool {
         ]),
     ];
   }
-}
+};

@@ -1,24 +1,16 @@
 // Quads: a quad mesh of the body, made in a Worker of its own; it can be cancelled.
-import {
-  BufferAttribute,
-  BufferGeometry,
-  DoubleSide,
-  LineBasicMaterial,
-  LineSegments,
-  Mesh,
-  MeshLambertMaterial,
-} from 'three';
-import { button, choice, facts, make, ms, slider, whole } from '../ui.js';
-
 /** Length of an edge as part of the size of the body: the library's own default. */
 const EDGE = 0.022;
 /** Quads whose edges follow the curvature: HF_QUADS_FIELD. They alone take creases. */
 const FIELD = 2;
 
-export class QuadsTool {
+/** `kit`: what the page has loaded already (studio.js). */
+export const tool = (kit) => {
+const { BufferAttribute, BufferGeometry, DoubleSide, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial } = kit;
+const { button, choice, facts, make, ms, slider, whole } = kit;
+return class {
   static key = 'quads';
   static title = 'Quads';
-  static icon = 'M4 7l8-3 8 3v10l-8 3-8-3zM4 12l8-2 8 2M12 4v16M8 5.5v13M16 5.5v13';
   constructor(app) {
     this.app = app;
     this.edge = EDGE;
@@ -226,4 +218,5 @@ export class QuadsTool {
         ]),
     ];
   }
-}
+};
+};

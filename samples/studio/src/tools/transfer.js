@@ -1,11 +1,4 @@
 // Transfer: a clip of another body played on this one, side by side. Pairs are proposed and can be left out.
-import { Vector3 } from 'three';
-import { readModel } from '../model.js';
-import { normalGroups, normalSums, smoothNormals } from '../normals.js';
-import { lengthOf, localsOf, playedAt } from '../timeline.js';
-import { skinnedGlb } from '../save.js';
-import { $, button, choice, facts, make, ms, say, slider } from '../ui.js';
-
 /** Frames a second of the saved walk: of animation files. */
 const FRAME_RATE = 30;
 /** Room between source and target, as part of their widths. */
@@ -21,10 +14,13 @@ const DIALS = [
   ['armSpace', 'Room at the arms', 0, -0.8, 0.8, 'arm'],
 ];
 
-export class TransferTool {
+/** `kit`: what the page has loaded already (studio.js). */
+export const tool = (kit) => {
+  const { Vector3, readModel, normalGroups, normalSums, smoothNormals, lengthOf, localsOf, playedAt, skinnedGlb } = kit;
+  const { $, button, choice, facts, make, ms, say, slider } = kit;
+  return class {
   static key = 'transfer';
   static title = 'Transfer';
-  static icon = 'M4 8h13l-3-3M20 16H7l3 3';
   constructor(app) {
     this.app = app;
   }
@@ -323,4 +319,5 @@ export class TransferTool {
       facts([['pairs', `${active} of ${this.pairs.length}`], this.milliseconds && ['frame', ms(this.milliseconds)]]),
     ];
   }
-}
+};
+};

@@ -1,7 +1,4 @@
 // Weights: skin weights for the bones of the file, coloured by bone; one bone alone as a field.
-import { Color } from 'three';
-import { bonesOf, influencesOf } from '../model.js';
-import { button, choice, facts, make, ms, say, touched, whole } from '../ui.js';
 
 /** The angle between the hues of neighbouring bones, as part of the circle: the golden ratio keeps all apart. */
 const HUE_STEP = 0.61803398875;
@@ -9,10 +6,11 @@ const HUE_STEP = 0.61803398875;
 /** A pin holds what lies within this part of the size of the body: a knee of our own creatures. */
 const PIN_RADIUS = 0.02;
 
-export class WeightsTool {
+/** `kit`: what the page has loaded already (studio.js). */
+export const tool = ({ Color, bonesOf, button, choice, facts, influencesOf, make, ms, say, touched, whole }) =>
+class {
   static key = 'weights';
   static title = 'Weights';
-  static icon = 'M7 4a2.4 2.4 0 1 0 2 4l7 8a2.4 2.4 0 1 0 2-2L10 7a2.4 2.4 0 0 0-3-3z';
   constructor(app) {
     this.app = app;
     this.weightCount = 4;
@@ -247,4 +245,4 @@ export class WeightsTool {
       ]),
     ];
   }
-}
+};
