@@ -99,7 +99,8 @@ TEST(SmallParts, narrow_ends_stay_open) {
         mesh.triangles.insert(mesh.triangles.end(), {a, b, b + around, a, b + around, a + around});
       }
     }
-    const QuadMesh quads = quads_of(hf_test::make_core(mesh), 80, "cone " + std::to_string(radius));
+    const auto core = hf_test::make_core(mesh);
+    const QuadMesh quads = quads_of(core, 80, "cone " + std::to_string(radius));
     EXPECT_EQ(border_loops(quads), 2);
   }
 }
