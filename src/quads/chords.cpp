@@ -18,7 +18,8 @@ constexpr double later = 1.2;
 // 90 degrees 13 of 20 runs stay the same, and mean distances fall by 3 to 10 %.
 constexpr double most_bend = -0.5;
 
-// A closed row of quads keeps at least so many: around a rod, or along it over both its ends.
+// A closed row of quads keeps at least so many: around a rod, or along it over both its ends. With 2 a box of six quads
+// can become two flat ones. In 33 runs of models with parts 4 and 2 differ in one: 4.1 and 6.9 % as largest distance.
 constexpr std::int32_t least_ring = 4;
 
 class Collapser {

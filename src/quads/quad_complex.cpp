@@ -12,7 +12,8 @@ namespace hf_inner {
 namespace {
 
 // Quads of a component with less than this share of its area have lost most of it: a rod that is thinner than the lines
-// are apart becomes two quads.
+// are apart becomes two quads. A model of 21 parts at 3,000 quads has 1.07 % of the box as its largest distance; 2.2 %
+// without this, 1.0 to 1.1 % with 0.4 to 0.7. With 0.8 it takes twice as long.
 constexpr double least_area = 0.6;
 
 }  // namespace
