@@ -83,9 +83,10 @@ typedef struct hf_quads_info {
  *
  * The surface may have borders, any genus and several components; the function turns triangles that disagree in
  * orientation. Where three or more triangles share an edge, the two flattest are joined, then the next two. A triangle
- * without a partner gets a border. hf_surface_get_report counts such edges. However long edge_length is, at least four
- * vertices lie around each limb. Sites that you give may force flux across a border. Then the function holds all sites
- * of that component at one of two levels instead, and site_lines are the even numbers nearest to the fluxes.
+ * without a partner gets a border. hf_surface_get_report counts such edges. A Moebius band is parted across. However
+ * long edge_length is, at least four vertices lie around each limb. Sites that you give may force flux across a border.
+ * Then the function holds all sites of that component at one of two levels instead, and site_lines are the even numbers
+ * nearest to the fluxes.
  *
  * Sets *out_quads to NULL first. Cost: a factorisation of the mesh and O(n log n + faces). If the sites are proposed,
  * the function makes up to four meshes and keeps the best. If none is within 0.43 edge lengths of the surface, it
@@ -99,12 +100,12 @@ typedef struct hf_quads_info {
  * Errors: HF_ERROR_INVALID_ARGUMENT (kind, edge_length, relax_count, lines of one sign or 0, an isolated vertex;
  * index = crease, that is no edge of the surface; index = guide, that is 0, stands on the surface or has a weight
  * outside 0 to 1), HF_ERROR_NON_FINITE (edge_length, symmetry_plane, index = guide), HF_ERROR_OUT_OF_RANGE,
- * HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (surface that cannot be oriented or has three triangles at more than
- * 5 % of its edges, index = a vertex; a surface that symmetry_plane does not mirror, index = the vertex that is off
- * most; no triangle on the side of the normal; parts at the plane too thin for the quads; sites that no flux can
- * separate, or a part too small for two), HF_ERROR_TOO_LARGE (more than 400 sites and borders in a component, a million
- * rings, more than a million quads of the default edge length, more creases than edges), HF_ERROR_CANCELLED,
- * HF_ERROR_INTERNAL when the check fails. Thread safety: reads `surface`. Since 0.1. */
+ * HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (a surface that must be parted at more than 5 % of its edges,
+ * because they have three triangles or cannot be oriented, index = a vertex; a surface that symmetry_plane does not
+ * mirror, index = the vertex that is off most; no triangle on the side of the normal; parts at the plane too thin for
+ * the quads; sites that no flux can separate, or a part too small for two), HF_ERROR_TOO_LARGE (more than 400 sites and
+ * borders in a component, a million rings, more than a million quads of the default edge length, more creases than
+ * edges), HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check fails. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 
 /* Destroys a quad mesh. Ignores NULL and destroyed handles. Since 0.1. */

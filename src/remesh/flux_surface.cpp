@@ -94,33 +94,46 @@ struct Pairs {
   }
 };
 
-// Finds which triangles must be turned over, so that all triangles of a component agree with its first one.
-Table<std::uint8_t> orient(const Mesh& mesh, const Pairs& pairs, Memory& memory) {
+// Finds which triangles must be turned over, so that all triangles of a component agree with its first one. Where they
+// cannot, as once around a Moebius band, the edge is parted: it gets a border on both sides. Neighbours that agree as
+// they are go first, so an edge is parted where two disagree.
+Table<std::uint8_t> orient(const Mesh& mesh, Pairs& pairs, Memory& memory) {
   constexpr std::uint8_t unseen = 2;  // a third value, beside the answers 0 and 1
   Table<std::uint8_t> turned(mesh.triangle_count(), unseen, memory);
-  Table<std::int32_t> stack(memory);
+  Table<std::int32_t> agreeing(memory), others(memory);  // half-edges to cross
+  // If both half-edges start at one vertex, the two triangles are oriented against each other.
+  const auto disagree = [&](std::int32_t h) {
+    return mesh.corners[static_cast<std::size_t>(h)] == mesh.corners[static_cast<std::size_t>(pairs.twin[h])];
+  };
+  const auto see = [&](std::int32_t t, std::uint8_t is_turned) {
+    turned[t] = is_turned;
+    for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      if (pairs.twin[h] != none) (disagree(h) ? others : agreeing).push_back(h);
+    }
+  };
+  std::int32_t edges = 0, parted = 0, first_parted = none;
   for (std::int32_t start = 0; start < mesh.triangle_count(); ++start) {
     if (turned[start] != unseen) continue;
-    turned[start] = 0, stack.push_back(start);
-    while (!stack.empty()) {
-      const std::int32_t t = stack.back();
-      stack.pop_back();
-      for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        const std::int32_t other = pairs.twin[h];
-        if (other == none) continue;
-        const std::int32_t a = mesh.corners[static_cast<std::size_t>(h)];
-        // If both half-edges start at a, the two triangles are oriented against each other.
-        const bool same_way = mesh.corners[static_cast<std::size_t>(other)] == a;
-        const std::uint8_t wanted = static_cast<std::uint8_t>(turned[t] ^ (same_way ? 1 : 0));
-        if (turned[other / 3] == unseen) {
-          turned[other / 3] = wanted, stack.push_back(other / 3);
-        } else if (turned[other / 3] != wanted) {
-          fail(HF_ERROR_UNSUPPORTED, given(mesh, a), "the surface at vertex %u cannot be oriented (a Moebius band)",
-               given(mesh, a));
-        }
+    see(start, 0);
+    while (!agreeing.empty() || !others.empty()) {
+      Table<std::int32_t>& list = agreeing.empty() ? others : agreeing;
+      const std::int32_t h = list.back(), other = pairs.twin[h];
+      list.pop_back();
+      if (other == none) continue;  // parted since
+      const std::uint8_t wanted = static_cast<std::uint8_t>(turned[h / 3] ^ (disagree(h) ? 1 : 0));
+      edges += h < other;
+      if (turned[other / 3] == unseen) {
+        see(other / 3, wanted);
+      } else if (turned[other / 3] != wanted) {
+        if (++parted == 1) first_parted = mesh.corners[static_cast<std::size_t>(h)];
+        pairs.twin[h] = pairs.twin[other] = none;
       }
     }
   }
+  if (parted > most_parted_share * edges)
+    fail(HF_ERROR_UNSUPPORTED, given(mesh, first_parted),
+         "the surface at vertex %u cannot be oriented (a Moebius band); it would be parted at %d of %d edges",
+         given(mesh, first_parted), parted, edges);
   return turned;
 }
 
@@ -128,7 +141,7 @@ Table<std::uint8_t> orient(const Mesh& mesh, const Pairs& pairs, Memory& memory)
 
 FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double apex_weight, Memory& memory) {
   FluxSurface s(memory);
-  const Pairs pairs(mesh, memory);
+  Pairs pairs(mesh, memory);
   const Table<std::uint8_t> turned = orient(mesh, pairs, memory);
   s.real_triangles = mesh.triangle_count();
   const std::int32_t real_halves = 3 * s.real_triangles;
