@@ -356,8 +356,8 @@ class Extractor {
   }
 
   // Where a wall between two borders is narrower than the lines are apart, one region reaches both borders and has
-  // quads at its two ends only. They are joined by two quads (a, i, o, b) and (a, b, i', o'): a and b are the vertices
-  // of the region at the ends, i and o the vertices before and after them on the borders.
+  // quads at its two ends only. Two quads join them, (a, i, o, b) and (a, b, i', o'). a and b are the vertices of the
+  // region at the ends, i and o the vertices before and after them on the borders.
   bool bridge_walls(QuadComplex& out) {
     Table<std::int32_t> of(memory_);  // regions
     Table<std::int32_t> first(parent_.size(), none, memory_), second(first), count(parent_.size(), 0, memory_);

@@ -69,8 +69,8 @@ class Maker {
     }
   }
 
-  // One quad with its corners on the border: the vertex farthest from the middle, the one farthest from it, and on
-  // either side of the line between both the one farthest from this line.
+  // One quad with its corners on the border. The first is farthest from the middle, the third is farthest from the
+  // first. The others are farthest from the line between both, one on either side.
   void disc(const Part& part) {
     Table<std::int32_t> loop(memory_);  // half-edges of the border
     for (std::int32_t h = part.border; loop.empty() || h != part.border;) {

@@ -141,8 +141,8 @@ class Repairer {
     all.pinned[v] = QuadMesh::site, all.border[v] = 1;
   }
   bool widen(std::int32_t h) { return quads_.twin[h] == none ? split_border(h) : pillow(h); }
-  // A hole of one edge or two gets two edges more: its quad (v, w, a, b) with the border side from v to w becomes
-  // (v, p, q, c), (q, w, a, c) and (a, b, v, c), with p and q on the border and c inside.
+  // A hole of one edge or two gets two edges more. Its quad (v, w, a, b), with the border side from v to w, becomes
+  // (v, p, q, c), (q, w, a, c) and (a, b, v, c). p and q lie on the border, c inside.
   bool split_border(std::int32_t h) {
     const auto next = QuadComplex::next;
     const std::int32_t f = h / 4, sides[3] = {next(h), next(next(h)), next(next(next(h)))};

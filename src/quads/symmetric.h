@@ -7,9 +7,9 @@
 
 namespace hf_inner {
 
-// options.plane is set. Throws what make_field_quads throws, and HF_ERROR_UNSUPPORTED where the surface is no mirror
-// image of itself (index = vertex as given), where nothing lies on the side of the normal, or where parts at the plane
-// are too thin for the quads.
+// options.plane is set. Throws what make_field_quads throws. Throws HF_ERROR_UNSUPPORTED too: the surface is no mirror
+// image of itself (index = vertex as given), nothing lies on the side of the normal, or parts at the plane are too
+// thin.
 QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report);
 
 // The part of a surface on the side that a plane's normal points to.
