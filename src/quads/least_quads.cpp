@@ -156,6 +156,7 @@ class Maker {
 
 QuadComplex least_quads(const FluxSurface& surface, Table<std::uint8_t>& take, Memory& memory) {
   QuadComplex out(memory);
+  if (std::find(take.begin(), take.end(), 1) == take.end()) return out;
   Vector<Part> parts(&memory);
   parts.reserve(static_cast<std::size_t>(take.size()));
   for (std::int32_t c = 0; c < take.size(); ++c) parts.emplace_back(memory);
