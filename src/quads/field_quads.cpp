@@ -202,12 +202,12 @@ class QuadSource {
         memory_(memory),
         substitute_(memory),
         of_substitute_(surface.component_count, 0, memory),
-        area_(surface.component_count, 0.0, memory) {
-    // A component with creases is not small.
+        area_(surface.component_count, 0.0, memory),
+        creased_(surface.component_count, 0, memory) {
     for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
       const std::int32_t c = surface.component[surface.tail[h]];
       if (h % 3 == 0) area_[c] += area_of(surface, h / 3);
-      if (features[h] && surface.is_real(surface.twin[h])) area_[c] = HUGE_VAL;
+      creased_[c] |= features[h] && surface.is_real(surface.twin[h]);
     }
   }
 
@@ -222,11 +222,11 @@ class QuadSource {
     repair_quads(surface_, found, repaired, memory_);
     report.removed = repaired.removed, report.added = repaired.added;
     const Table<std::int32_t> component = components_of(surface_, found, memory_);
-    const Table<std::uint8_t> sound = find_sound(surface_, found, component, memory_);
+    const Table<std::uint8_t> sound = find_sound(surface_, found, component, area_, memory_);
     Table<std::uint8_t> missing(sound.size(), 0, memory_), small(sound.size(), 0, memory_);
     for (std::int32_t c = 0; c < sound.size(); ++c)
-      small[c] = !sound[c] && !of_substitute_[c] && area_[c] < few_quads * length * length;
-    substitute_.append(least_quads(surface_, small, memory_), memory_);
+      small[c] = !sound[c] && !of_substitute_[c] && !creased_[c] && area_[c] < few_quads * length * length;
+    substitute_.append(least_quads(surface_, area_, small, memory_), memory_);
     for (std::int32_t c = 0; c < sound.size(); ++c) of_substitute_[c] |= small[c];
     bool any = false;
     for (std::int32_t c = 0; c < sound.size(); ++c) {
@@ -257,7 +257,7 @@ class QuadSource {
       RepairReport repaired;
       repair_quads(surface_, found, repaired, memory_);
       const Table<std::int32_t> component = components_of(surface_, found, memory_);
-      const Table<std::uint8_t> sound = find_sound(surface_, found, component, memory_);
+      const Table<std::uint8_t> sound = find_sound(surface_, found, component, area_, memory_);
       Table<std::uint8_t> take(memory_);
       for (const std::int32_t c : component) take.push_back(missing[c] && sound[c]);
       substitute_.append(found, take, memory_);
@@ -284,6 +284,7 @@ class QuadSource {
   QuadComplex substitute_;
   Table<std::uint8_t> of_substitute_;  // by component: whether substitute_ has it
   Table<double> area_;                 // by component
+  Table<std::uint8_t> creased_;        // by component: a few quads would not keep its creases
 };
 
 // Makes a mesh of about `wanted` quads, or one of the given edge length. raw: how many crossings have a quad.

@@ -106,23 +106,6 @@ class Maker {
     for (const SurfacePoint& point : corner) add_half(add_vertex(point, true), true);
   }
 
-  double area_from(std::int32_t first) const noexcept {
-    double sum = 0;
-    for (std::int32_t h = first; h < out_.tail.size(); h += 4) {
-      const auto p = [&](std::int32_t k) { return out_.vertices.position[out_.tail[h + k]]; };
-      sum += norm(cross(p(1) - p(0), p(2) - p(0))) + norm(cross(p(2) - p(0), p(3) - p(0)));
-    }
-    return sum / 2;
-  }
-  double area(const Part& part) const noexcept {
-    double sum = 0;
-    for (const std::int32_t t : part.triangles) {
-      const auto p = [&](std::int32_t k) { return s_.position[s_.tail[3 * t + k]]; };
-      sum += norm(cross(p(1) - p(0), p(2) - p(0)));
-    }
-    return sum / 2;
-  }
-
  private:
   static constexpr double corner_share = 0.6;  // 1 / sqrt(3) on a sphere
   static SurfacePoint at_tail(std::int32_t h, double share) {
@@ -154,7 +137,8 @@ class Maker {
 
 }  // namespace
 
-QuadComplex least_quads(const FluxSurface& surface, Table<std::uint8_t>& take, Memory& memory) {
+QuadComplex least_quads(const FluxSurface& surface, const Table<double>& areas, Table<std::uint8_t>& take,
+                        Memory& memory) {
   QuadComplex out(memory);
   if (std::find(take.begin(), take.end(), 1) == take.end()) return out;
   Vector<Part> parts(&memory);
@@ -183,7 +167,9 @@ QuadComplex least_quads(const FluxSurface& surface, Table<std::uint8_t>& take, M
     } else if (take[c] && euler == 1 && part.borders == 1) {
       maker.disc(part);
     }
-    take[c] = out.tail.size() > first && maker.area_from(first) > least_share * maker.area(part);
+    double area = 0;
+    for (std::int32_t f = first / 4; f < out.quad_count(); ++f) area += out.area(f);
+    take[c] = area > least_share * areas[c];
     if (!take[c]) out.tail.resize(first, none), out.twin.resize(first, none), out.feature.resize(first, 0);
   }
   return out;

@@ -98,6 +98,11 @@ QuadMesh QuadComplex::mesh(Memory& memory) const {
   return out;
 }
 
+double QuadComplex::area(std::int32_t f) const noexcept {
+  const auto p = [&](std::int32_t k) { return vertices.position[tail[4 * f + k]]; };
+  return 0.5 * (norm(cross(p(1) - p(0), p(2) - p(0))) + norm(cross(p(2) - p(0), p(3) - p(0))));
+}
+
 Table<std::int32_t> components_of(const FluxSurface& surface, const QuadComplex& quads, Memory& memory) {
   Table<std::int32_t> out(quads.quad_count(), 0, memory);
   for (std::int32_t f = 0; f < out.size(); ++f)
@@ -119,7 +124,7 @@ Vector<QuadEdge> edges_of(const QuadComplex& quads, Memory& memory) {
 }
 
 Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& quads,
-                               const Table<std::int32_t>& component, Memory& memory) {
+                               const Table<std::int32_t>& component, const Table<double>& areas, Memory& memory) {
   // By component: the Euler characteristic of the surface less that of the quads, and the pieces of the quads.
   Table<std::int32_t> euler(surface.component_count, 0, memory), pieces(surface.component_count, 0, memory);
   for (std::int32_t v = 0; v < surface.first_apex; ++v) ++euler[surface.component[v]];
@@ -128,18 +133,8 @@ Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& qu
     e += h % 3 == 0;
     e -= !surface.is_real(surface.twin[h]) || h < surface.twin[h];
   }
-  // By component: the area of the quads less the least share of that of the surface.
-  Table<double> area(surface.component_count, 0.0, memory);
-  const auto twice_area = [](Vec3 p, Vec3 q, Vec3 r) { return norm(cross(q - p, r - p)); };
-  for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
-    const std::int32_t* v = &surface.tail[3 * t];
-    area[surface.component[v[0]]] -=
-        least_area * twice_area(surface.position[v[0]], surface.position[v[1]], surface.position[v[2]]);
-  }
-  for (std::int32_t f = 0; f < quads.quad_count(); ++f) {
-    const auto corner = [&](std::int32_t k) { return quads.vertices.position[quads.tail[4 * f + k]]; };
-    area[component[f]] += twice_area(corner(0), corner(1), corner(2)) + twice_area(corner(0), corner(2), corner(3));
-  }
+  Table<double> area(areas.size(), 0.0, memory);  // of the quads, by component
+  for (std::int32_t f = 0; f < quads.quad_count(); ++f) area[component[f]] += quads.area(f);
   Table<std::uint8_t> seen(quads.vertices.position.size(), 0, memory);
   Table<std::uint8_t> reached(quads.quad_count(), 0, memory);
   Table<std::int32_t> stack(memory);
@@ -159,7 +154,8 @@ Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& qu
     }
   }
   Table<std::uint8_t> out(surface.component_count, 0, memory);
-  for (std::int32_t c = 0; c < out.size(); ++c) out[c] = euler[c] == 0 && pieces[c] == 1 && area[c] >= 0;
+  for (std::int32_t c = 0; c < out.size(); ++c)
+    out[c] = euler[c] == 0 && pieces[c] == 1 && area[c] >= least_area * areas[c];
   const Vector<QuadEdge> edges = edges_of(quads, memory);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (edges[i].a == edges[i].b || (i > 0 && same(edges[i - 1], edges[i]))) out[component[edges[i].half / 4]] = 0;

@@ -47,6 +47,7 @@ struct QuadComplex {
     append(other, Table<std::uint8_t>(other.quad_count(), 1, memory), memory);
   }
   QuadMesh mesh(Memory& memory) const;
+  double area(std::int32_t quad) const noexcept;
 };
 
 struct QuadEdge {
@@ -59,9 +60,10 @@ Vector<QuadEdge> edges_of(const QuadComplex& quads, Memory& memory);
 // The component of the surface where each quad lies.
 Table<std::int32_t> components_of(const FluxSurface& surface, const QuadComplex& quads, Memory& memory);
 
-// By component of the surface: whether the quads there are valid, connected, and have its Euler characteristic.
+// By component of the surface: whether the quads there are valid, connected, and have its Euler characteristic and most
+// of its area. areas: by component.
 Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& quads,
-                               const Table<std::int32_t>& component, Memory& memory);
+                               const Table<std::int32_t>& component, const Table<double>& areas, Memory& memory);
 
 // Makes three quads of every triangle of the components with take[component] != 0: valid at any genus, but most of
 // their vertices are irregular. features: by half-edge of the surface.
@@ -70,7 +72,9 @@ QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t
 
 // Makes the fewest quads of the components with take[component] != 0: six of one that closes like a sphere, one of a
 // disc. Sets take to 0 for others, and where so few quads lose the shape.
-QuadComplex least_quads(const FluxSurface& surface, Table<std::uint8_t>& take, Memory& memory);
+// areas: by component.
+QuadComplex least_quads(const FluxSurface& surface, const Table<double>& areas, Table<std::uint8_t>& take,
+                        Memory& memory);
 
 struct RepairReport {
   std::int32_t removed = 0;  // quads of folds
