@@ -1,5 +1,6 @@
-// Godot 4: HfSurface as a GDExtension class by godot-cpp, over the same surface*.cpp. It compiles against stand-ins for
-// godot-cpp (tests/bindings/godot_cpp_stubs.h) and has never run. Entry symbol: hf_godot_init.
+// Godot 4: HfSurface as a GDExtension class by godot-cpp, over the same surface*.cpp. It was compiled and linked with
+// godot-cpp 4.3; the tests compile it against stand-ins (tests/bindings/godot_cpp_stubs.h). It has never run in Godot 4.
+// Entry symbol: hf_godot_init.
 #include <godot_cpp/classes/ref_counted.hpp>
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/godot.hpp>
