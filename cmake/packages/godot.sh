@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # hf_godot3-VERSION.zip: the add-on for Godot 3 (folder hf of a project) with GDNative libraries for Linux and Windows.
 # hf_godot4-VERSION.zip: the add-on for Godot 4 (addons/hf) with a .gdextension, of finished libraries. HF_GODOT4 names their
-# folder: one hf_godot4.* of each platform, named as in bindings/godot/addon4/hf.gdextension, and godot-cpp-MIT.txt, the
+# folder, from the root: one hf_godot4.* of each platform, named as in bindings/godot/addon4/hf.gdextension, and godot-cpp-MIT.txt, the
 # licence of the godot-cpp inside. Without it there is no such zip.
 . "$(dirname "$0")/common.sh"
 
@@ -107,7 +107,7 @@ godot4_try() {
     count=$((count + 1))
   done < <(sed -n '/^\[libraries\]/,$s/^\([a-z0-9_.]*\) = "res:\/\/\(.*\)"$/\1 \2/p' "$inside/hf.gdextension")
   [ "$count" -gt 0 ] || hf_fail "hf.gdextension names no library"
-  hf_ran "hf.gdextension: $count lines, each with its library, of the right processor, with $symbol as the only export; never in Godot 4"
+  hf_ran "Godot 4: hf.gdextension of $count lines, each with a library of its processor that exports $symbol alone; never in Godot 4"
 }
 
 godot_try() {
