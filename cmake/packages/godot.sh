@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # hf_godot3-VERSION.zip: the add-on for Godot 3 (folder hf of a project) with GDNative libraries for Linux and Windows.
-# hf_godot4-VERSION.zip: the add-on for Godot 4 (addons/hf) with a .gdextension, of finished libraries. HF_GODOT4 names their
-# folder, from the root: one hf_godot4.* of each platform, named as in bindings/godot/addon4/hf.gdextension, and godot-cpp-MIT.txt, the
-# licence of the godot-cpp inside. Without it there is no such zip.
+# hf_godot4-VERSION.zip: the add-on for Godot 4 (addons/hf) with a .gdextension, of finished libraries. HF_GODOT4 is the full
+# path of their folder: one hf_godot4.* for each platform, named as in bindings/godot/addon4/hf.gdextension, and
+# godot-cpp-MIT.txt, the licence of the godot-cpp inside. Without it there is no such zip.
 . "$(dirname "$0")/common.sh"
 
 godot_make() {
