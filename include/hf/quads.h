@@ -93,19 +93,20 @@ typedef struct hf_quads_info {
  * makes up to four more, with edges as short as edge_length / 1.3. Progress covers factorisations, sites, critical
  * points, relaxation and fitting; each of these can be cancelled.
  *
- * With symmetry_plane a vertex on the plane is its own image, and all others come in pairs, exact to rounding. The mesh
- * has half as many quads on each side. Where surface and mirror image differ, by up to 0.05 box diagonals, the side of
+ * With symmetry_plane a vertex on the plane is its own image, and all others come in pairs, exact to rounding. Half of
+ * the quads lie on each side. Where surface and mirror image differ, by up to 0.05 box diagonals, the side of
  * the normal counts.
  *
- * Errors: HF_ERROR_INVALID_ARGUMENT (kind, edge_length, relax_count, lines of one sign or 0, an isolated vertex;
- * index = crease, that is no edge of the surface; index = guide, that is 0, stands on the surface or has a weight
- * outside 0 to 1), HF_ERROR_NON_FINITE (edge_length, symmetry_plane, index = guide), HF_ERROR_OUT_OF_RANGE,
- * HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (a surface that must be parted at more than 5 % of its edges,
- * because they have three triangles or cannot be oriented, index = a vertex; a surface that symmetry_plane does not
- * mirror, index = the vertex that is off most; no triangle on the side of the normal; parts at the plane too thin for
- * the quads; sites that no flux can separate, or a part too small for two), HF_ERROR_TOO_LARGE (more than 400 sites and
- * borders in a component, a million rings, more than a million quads of the default edge length, more creases than
- * edges), HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check fails. Thread safety: reads `surface`. Since 0.1. */
+ * Errors: HF_ERROR_INVALID_ARGUMENT (kind, edge_length, relax_count, lines of one sign or 0, an isolated vertex,
+ * symmetry_plane without a normal; index = crease, that is no edge of the surface; index = guide, that is 0, stands on
+ * the surface or has a weight outside 0 to 1), HF_ERROR_NON_FINITE (edge_length, symmetry_plane, index = guide),
+ * HF_ERROR_OUT_OF_RANGE, HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (a surface that must be parted at more than 5 %
+ * of its edges, because they have three triangles or cannot be oriented, index = a vertex; a surface that
+ * symmetry_plane does not mirror, index = the vertex that is off most; no triangle on the side of the normal; parts at
+ * the plane too thin for the quads; sites that no flux can separate, or a part too small for two), HF_ERROR_TOO_LARGE
+ * (more than 400 sites and borders in a component, a million rings, more than a million quads of the default edge
+ * length, more creases than edges), HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check fails. Thread safety: reads
+ * `surface`. Since 0.1. */
 HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 
 /* Destroys a quad mesh. Ignores NULL and destroyed handles. Since 0.1. */

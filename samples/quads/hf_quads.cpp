@@ -42,8 +42,8 @@ const char* const usage =
     "  --strokes FILE {\"strokes\": [{\"points\": [[0, 1, 0.2], [0.1, 1, 0.3]], \"weight\": 1}]}: edges follow these "
     "lines,\n"
     "                 in the frame of the mesh; below 1 the curvature has a say; takes --field\n"
-    "  --symmetry A   the left half is the mirror image of the right one: of the side where x (y, z) is positive. The\n"
-    "                 plane goes through 0; --symmetry x=0.25 moves it; takes --field\n"
+    "  --symmetry x   the side where x (or y, or z) is positive gets quads, the other side is its mirror image; the\n"
+    "                 plane goes through 0, and --symmetry x=0.25 moves it; takes --field\n"
     "  --uniform      edges of about one length: lines are added and ended in pairs\n"
     "  --pure         every line runs from site to site\n"
     "  --polygons     leaves polygons at sites and saddles whole; takes --uniform if no kind is named\n"
@@ -82,6 +82,7 @@ void read_symmetry(const std::string& text, double* plane) {
   const double place = text.size() > 2 ? std::strtod(text.c_str() + 2, &end) : 0;
   if (text.empty() || axis > 2 || (text.size() > 1 && (text[1] != '=' || !end || *end != 0)) || !std::isfinite(place))
     throw std::runtime_error("--symmetry takes x, y or z, or a place on that axis as in x=0.25, not \"" + text + "\"");
+  std::fill(plane, plane + 4, 0.0);  // the last --symmetry counts
   plane[axis] = 1, plane[3] = place;
 }
 

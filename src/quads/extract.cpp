@@ -326,9 +326,11 @@ class Extractor {
       }
     }
     out.split_fans(memory_);
-    find_regions();
-    if (bridge_walls(out)) out.split_fans(memory_);
-    find_holes(out);
+    if (s_.first_apex < s_.vertex_count()) {  // there are borders
+      find_regions();
+      if (bridge_walls(out)) out.split_fans(memory_);
+      find_holes(out);
+    }
     return out;
   }
 

@@ -38,9 +38,9 @@ void check_symmetry(const Core& core, const NearestTriangle& nearest, const Mirr
   if (worst == Mesh::none) return;
   const std::uint32_t given = static_cast<std::uint32_t>(core.mesh.given_of_inner[at(worst)]);
   fail(HF_ERROR_UNSUPPORTED, given,
-       "the surface is not symmetric in symmetry_plane: the mirror image of vertex %u is %g from it, above %g "
-       "of the box diagonal",
-       given, std::sqrt(distance) * core.mesh.scale, most_off);
+       "the surface is not symmetric in symmetry_plane: the mirror image of vertex %u is %g away from it, and %g is "
+       "allowed (%g box diagonals)",
+       given, std::sqrt(distance) * core.mesh.scale, most_off * core.mesh.scale, most_off);
 }
 
 std::shared_ptr<const Core> core_of(const Core& whole, const HalfSurface& half) {

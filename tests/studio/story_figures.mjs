@@ -104,6 +104,28 @@ export default async function story(host) {
     await studio.page.context().setOffline(true);
     await studio.page.reload();
     await studio.ready();
+    // tools that load when they are opened are kept too
+    for (const [key, title] of [
+      ['transfer', 'Transfer'],
+      ['weights', 'Weights'],
+      ['quads', 'Quads'],
+      ['detail', 'Detail'],
+    ]) {
+      await studio.page.click(`#tool-${key}`);
+      await studio.page.waitForFunction(
+        (title) => document.getElementById('sheet-name')?.textContent === title,
+        title,
+        { timeout: 5000 },
+      );
+    }
+    await studio.close();
+  });
+  await check('a tool that cannot be loaded says so, and the present one stays', async () => {
+    const studio = await Studio.open(host);
+    await studio.page.route('**/*.js', (route) => route.abort());
+    await studio.page.click('#tool-quads');
+    await studio.page.waitForFunction(() => /could not be loaded/.test(document.getElementById('told').textContent));
+    assert.equal(await studio.page.textContent('#sheet-name'), 'Pose');
     await studio.close();
   });
   await check('the horse can be pulled', async () => {

@@ -275,8 +275,8 @@ export class App {
           this.tools[key] = new Tool(this);
           if (this.skin) this.tools[key].opened?.();
         }
-      } catch (error) {
-        return say(error.message);
+      } catch {
+        return say('This tool could not be loaded. Load the page again when the network is there.');
       }
       if (this.wanted !== key) return;
     }

@@ -29,8 +29,18 @@ Object.assign(kit, { normalGroups, normalSums, smoothNormals, lengthOf, localsOf
 const later = (key, title, icon, load) => ({ key, title, icon, load: async () => (await load()).tool(kit) });
 const laterTools = [
   later('transfer', 'Transfer', 'M4 8h13l-3-3M20 16H7l3 3', () => import('./tools/transfer.js')),
-  later('weights', 'Weights', 'M7 4a2.4 2.4 0 1 0 2 4l7 8a2.4 2.4 0 1 0 2-2L10 7a2.4 2.4 0 0 0-3-3z', () => import('./tools/weights.js')),
-  later('quads', 'Quads', 'M4 7l8-3 8 3v10l-8 3-8-3zM4 12l8-2 8 2M12 4v16M8 5.5v13M16 5.5v13', () => import('./tools/quads.js')),
+  later(
+    'weights',
+    'Weights',
+    'M7 4a2.4 2.4 0 1 0 2 4l7 8a2.4 2.4 0 1 0 2-2L10 7a2.4 2.4 0 0 0-3-3z',
+    () => import('./tools/weights.js'),
+  ),
+  later(
+    'quads',
+    'Quads',
+    'M4 7l8-3 8 3v10l-8 3-8-3zM4 12l8-2 8 2M12 4v16M8 5.5v13M16 5.5v13',
+    () => import('./tools/quads.js'),
+  ),
   later('detail', 'Detail', 'M3 15c2-6 4 3 6-2s3-4 5 0 4-3 7-1M3 20h18', () => import('./tools/detail.js')),
 ];
 

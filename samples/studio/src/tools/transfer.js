@@ -19,305 +19,305 @@ export const tool = (kit) => {
   const { Vector3, readModel, normalGroups, normalSums, smoothNormals, lengthOf, localsOf, playedAt, skinnedGlb } = kit;
   const { $, button, choice, facts, make, ms, say, slider } = kit;
   return class {
-  static key = 'transfer';
-  static title = 'Transfer';
-  constructor(app) {
-    this.app = app;
-  }
-  opened() {
-    this.#drop();
-    this.chosenPair = null;
-  }
-  #drop() {
-    this.playing = false;
-    this.source?.skin.dispose();
-    this.source = null;
-    this.info = null;
-    this.time = 0;
-    this.dials = {};
-  }
-  ready() {
-    return Boolean(this.info);
-  }
-  enter() {
-    this.app.skin.wear('own');
-    if (this.source) this.source.skin.group.visible = true;
-    if (this.source) this.look();
-  }
-  leave() {
-    this.playing = false;
-    if (!this.source) return;
-    this.source.skin.group.visible = false;
-    this.app.skin.set(this.app.shape);
-    this.app.view.frame(this.app.skin.box());
-  }
-  /** Both bodies in the picture; the source stands beside the target, to the left of who looks. */
-  look() {
-    const { view, skin, body } = this.app;
-    const box = skin.box(body.positions);
-    const other = this.source.skin.box(this.source.body.positions);
-    const { right } = view.axes();
-    const away = (view.half(box, right) + view.half(other, right)) * GAP;
-    const place = box.getCenter(new Vector3()).sub(other.getCenter(new Vector3())).addScaledVector(right, -away);
-    place.y = box.min.y - other.min.y;
-    this.source.offset = place.toArray();
-    this.source.skin.group.position.copy(place);
-    view.frame(box.union(other.translate(place)));
-  }
-  refresh() {
-    this.app.panel();
-  }
-  colour(i) {
-    return `hsl(${Math.round(360 * ((i * HUE_STEP) % 1))} 65% 45%)`;
-  }
-  marks() {
-    if (!this.source || this.playing || this.time) return [];
-    return this.pairs.flatMap((pair, i) => {
-      const shown = { offer: pair.off, colour: this.colour(i), chosen: this.chosenPair === i };
-      const at = pair.source.position.map((x, k) => x + this.source.offset[k]);
-      const name = `pair ${i + 1}, ${pair.kind}${pair.off ? ', left out' : ''}`;
-      return [
-        { id: `a${i}`, place: at, label: `${name}, source`, pair: i, ...shown },
-        { id: `b${i}`, place: pair.target.position, label: `${name}, target`, pair: i, ...shown },
-      ];
-    });
-  }
-  /** A click on a mark leaves its pair out, or takes it in again. */
-  async choose({ pair }) {
-    this.chosenPair = pair;
-    await this.set(this.pairs.map((other, i) => (i === pair ? { ...other, off: !other.off } : other)));
-  }
-  async dragEnd() {
-    if (!this.moved) return;
-    const { pair, side, place } = this.moved;
-    this.moved = null;
-    await this.set(
-      this.pairs.map((other, i) => (i === pair ? { ...other, [side]: { ...other[side], position: place } } : other)),
-    );
-  }
-  drag({ id, pair }, [x, y]) {
-    const side = id.startsWith('a') ? 'source' : 'target';
-    const { skin } = side === 'source' ? this.source : this.app;
-    const ray = this.app.view.ray(x, y);
-    if (side === 'source') ray.origin.sub(skin.group.position);
-    const hit = skin.pick(ray);
-    if (!hit) return;
-    this.moved = { pair, side, place: hit.position };
-    this.pairs = this.pairs.map((other, i) =>
-      i === pair ? { ...other, [side]: { ...other[side], position: hit.position } } : other,
-    );
-    this.app.marksLayer.update();
-  }
-  /** Takes a list of pairs; one that the library refuses leaves the list that was there. */
-  async set(pairs) {
-    try {
-      this.info = await this.app.client.ask('transferPairs', { pairs: pairs.filter(({ off }) => !off) });
-      this.pairs = pairs;
-      this.good = pairs;
-      say('');
-    } catch (error) {
-      this.pairs = this.good;
-      say(`pairs: ${error.message}`);
+    static key = 'transfer';
+    static title = 'Transfer';
+    constructor(app) {
+      this.app = app;
     }
-    this.app.refresh();
-  }
-  async open(bytes, name) {
-    const { app } = this;
-    try {
-      const body = await readModel(bytes, name);
-      const clip = body.clips.find((other) => lengthOf(other) > 0);
-      if (!clip)
-        return app.failed(
-          `${name} was not taken`,
-          Object.assign(new Error(`${name} has no clip to play.`), { advice: 'Take a file with an animation.' }),
-        );
+    opened() {
       this.#drop();
-      const { positions, triangles } = body;
-      const pairs = await app.client.ask('transferOpen', { positions, triangles });
-      const skin = await app.view.ready(body);
-      skin.group.visible = true;
-      const sums = normalSums(triangles, normalGroups(positions, body.fileNormals));
-      const normals = smoothNormals(positions, sums, new Float32Array(positions.length));
-      skin.set({ positions, normals });
-      this.source = {
-        body,
-        skin,
-        sums,
-        normals,
-        posed: new Float32Array(positions.length),
-        locals: localsOf(body, positions),
-      };
-      app.client.ask('sourceTree').then(
-        (tree) => this.source?.skin === skin && skin.useTree(tree),
-        () => {},
-      );
-      this.clip = clip;
-      this.pairs = this.good = pairs;
+      this.chosenPair = null;
+    }
+    #drop() {
+      this.playing = false;
+      this.source?.skin.dispose();
+      this.source = null;
+      this.info = null;
       this.time = 0;
-      this.look();
-      if (pairs.length) await this.set(pairs);
-    } catch (error) {
-      app.failed(`${name} was not taken`, error);
+      this.dials = {};
     }
-    return app.refresh();
-  }
-  async openSample(name) {
-    const answer = await fetch(`samples/${name}.glb`);
-    if (answer.ok) await this.open(new Uint8Array(await answer.arrayBuffer()), `${name}.glb`);
-  }
-  /** Source at a time, and this body moved like it. */
-  async seek(time) {
-    const { app, source } = this;
-    this.time = time;
-    playedAt(source.body, this.clip, time, source.locals, source.posed);
-    smoothNormals(source.posed, source.sums, source.normals);
-    const answer = await app.client.frame('transferFrame', { positions: source.posed });
-    if (!answer || this.source !== source || app.tool !== this) return;
-    source.skin.set({ positions: source.posed, normals: source.normals });
-    app.skin.set(answer);
-    this.milliseconds = answer.milliseconds;
-    const scrub = $('transfer-time');
-    if (scrub) scrub.value = time;
-  }
-  /** Sets one dial and shows the frame again. */
-  async turn(name, value) {
-    const dials = { ...this.dials, [name]: value };
-    try {
-      await this.app.client.ask('transferDials', { dials });
-      this.dials = dials;
-    } catch (error) {
-      say(error.message);
+    ready() {
+      return Boolean(this.info);
     }
-    if (!this.playing) await this.seek(this.time);
-  }
-  dialRows() {
-    const parts = new Set(this.pairs.filter(({ off }) => !off).map(({ part }) => part));
-    return DIALS.filter(([, , , , , part]) => !part || parts.has(part)).map(([name, text, neutral, low, high]) =>
-      slider(text, { value: this.dials[name] ?? neutral, low, high, id: `dial-${name}` }, (value) =>
-        this.turn(name, value),
-      ),
-    );
-  }
-  play() {
-    this.playing = true;
-    let last = performance.now();
-    const step = async (now) => {
-      if (!this.playing || !this.source) return;
-      await this.seek((this.time + Math.max(0, now - last) / 1000) % lengthOf(this.clip)).catch((error) => {
-        this.playing = false;
-        say(error.message);
+    enter() {
+      this.app.skin.wear('own');
+      if (this.source) this.source.skin.group.visible = true;
+      if (this.source) this.look();
+    }
+    leave() {
+      this.playing = false;
+      if (!this.source) return;
+      this.source.skin.group.visible = false;
+      this.app.skin.set(this.app.shape);
+      this.app.view.frame(this.app.skin.box());
+    }
+    /** Both bodies in the picture; the source stands beside the target, to the left of who looks. */
+    look() {
+      const { view, skin, body } = this.app;
+      const box = skin.box(body.positions);
+      const other = this.source.skin.box(this.source.body.positions);
+      const { right } = view.axes();
+      const away = (view.half(box, right) + view.half(other, right)) * GAP;
+      const place = box.getCenter(new Vector3()).sub(other.getCenter(new Vector3())).addScaledVector(right, -away);
+      place.y = box.min.y - other.min.y;
+      this.source.offset = place.toArray();
+      this.source.skin.group.position.copy(place);
+      view.frame(box.union(other.translate(place)));
+    }
+    refresh() {
+      this.app.panel();
+    }
+    colour(i) {
+      return `hsl(${Math.round(360 * ((i * HUE_STEP) % 1))} 65% 45%)`;
+    }
+    marks() {
+      if (!this.source || this.playing || this.time) return [];
+      return this.pairs.flatMap((pair, i) => {
+        const shown = { offer: pair.off, colour: this.colour(i), chosen: this.chosenPair === i };
+        const at = pair.source.position.map((x, k) => x + this.source.offset[k]);
+        const name = `pair ${i + 1}, ${pair.kind}${pair.off ? ', left out' : ''}`;
+        return [
+          { id: `a${i}`, place: at, label: `${name}, source`, pair: i, ...shown },
+          { id: `b${i}`, place: pair.target.position, label: `${name}, target`, pair: i, ...shown },
+        ];
       });
-      last = now;
-      requestAnimationFrame(step);
-    };
-    requestAnimationFrame(step);
-    this.app.refresh();
-  }
-  async stop() {
-    this.playing = false;
-    this.time = 0;
-    const { source } = this;
-    source.posed.set(source.body.positions);
-    smoothNormals(source.posed, source.sums, source.normals);
-    source.skin.set({ positions: source.posed, normals: source.normals });
-    this.app.skin.set(this.app.shape);
-    this.app.refresh();
-  }
-  /** This body with a skin whose joints replay the transferred clip. */
-  async glb() {
-    const { app, source } = this;
-    const length = lengthOf(this.clip);
-    const count = Math.max(2, Math.round(length * FRAME_RATE) + 1);
-    const seconds = Array.from({ length: count }, (_, f) => (length * f) / (count - 1));
-    const frames = [];
-    let skin = null;
-    for (const time of seconds) {
-      const posed = playedAt(source.body, this.clip, time, source.locals, new Float32Array(source.posed.length));
-      skin = await app.client.ask('transferSkin', { positions: posed });
-      frames.push(skin);
     }
-    return skinnedGlb(app, skin, frames, seconds, this.clip.getName() || 'clip');
-  }
-  sheet() {
-    const { source, app } = this;
-    const take = make(
-      'div',
-      { class: 'row' },
-      ...app.samples
-        .filter((name) => `${name}.glb` !== app.body.name)
-        .map((name) => button(`Take the ${name}`, () => this.openSample(name), { id: `take-${name}` })),
-      button(
-        'Take a file',
-        () => {
-          const input = make('input', { type: 'file', accept: '.glb,.gltf', id: 'source-file' });
-          input.onchange = async () =>
-            input.files[0] && this.open(new Uint8Array(await input.files[0].arrayBuffer()), input.files[0].name);
-          input.click();
-        },
-        { id: 'take-file' },
-      ),
-    );
-    if (!source) return [make('p', {}, 'Take another body with a clip: its motion plays on this one.'), take];
-    const active = this.pairs.filter(({ off }) => !off).length;
-    return [
-      make(
-        'p',
-        {},
-        this.pairs.length
-          ? 'Left the source, right your body. A click on a dot leaves its pair out; a drag moves it.'
-          : 'No places of the two bodies are alike; take another source.',
-      ),
-      this.info &&
+    /** A click on a mark leaves its pair out, or takes it in again. */
+    async choose({ pair }) {
+      this.chosenPair = pair;
+      await this.set(this.pairs.map((other, i) => (i === pair ? { ...other, off: !other.off } : other)));
+    }
+    async dragEnd() {
+      if (!this.moved) return;
+      const { pair, side, place } = this.moved;
+      this.moved = null;
+      await this.set(
+        this.pairs.map((other, i) => (i === pair ? { ...other, [side]: { ...other[side], position: place } } : other)),
+      );
+    }
+    drag({ id, pair }, [x, y]) {
+      const side = id.startsWith('a') ? 'source' : 'target';
+      const { skin } = side === 'source' ? this.source : this.app;
+      const ray = this.app.view.ray(x, y);
+      if (side === 'source') ray.origin.sub(skin.group.position);
+      const hit = skin.pick(ray);
+      if (!hit) return;
+      this.moved = { pair, side, place: hit.position };
+      this.pairs = this.pairs.map((other, i) =>
+        i === pair ? { ...other, [side]: { ...other[side], position: hit.position } } : other,
+      );
+      this.app.marksLayer.update();
+    }
+    /** Takes a list of pairs; one that the library refuses leaves the list that was there. */
+    async set(pairs) {
+      try {
+        this.info = await this.app.client.ask('transferPairs', { pairs: pairs.filter(({ off }) => !off) });
+        this.pairs = pairs;
+        this.good = pairs;
+        say('');
+      } catch (error) {
+        this.pairs = this.good;
+        say(`pairs: ${error.message}`);
+      }
+      this.app.refresh();
+    }
+    async open(bytes, name) {
+      const { app } = this;
+      try {
+        const body = await readModel(bytes, name);
+        const clip = body.clips.find((other) => lengthOf(other) > 0);
+        if (!clip)
+          return app.failed(
+            `${name} was not taken`,
+            Object.assign(new Error(`${name} has no clip to play.`), { advice: 'Take a file with an animation.' }),
+          );
+        this.#drop();
+        const { positions, triangles } = body;
+        const pairs = await app.client.ask('transferOpen', { positions, triangles });
+        const skin = await app.view.ready(body);
+        skin.group.visible = true;
+        const sums = normalSums(triangles, normalGroups(positions, body.fileNormals));
+        const normals = smoothNormals(positions, sums, new Float32Array(positions.length));
+        skin.set({ positions, normals });
+        this.source = {
+          body,
+          skin,
+          sums,
+          normals,
+          posed: new Float32Array(positions.length),
+          locals: localsOf(body, positions),
+        };
+        app.client.ask('sourceTree').then(
+          (tree) => this.source?.skin === skin && skin.useTree(tree),
+          () => {},
+        );
+        this.clip = clip;
+        this.pairs = this.good = pairs;
+        this.time = 0;
+        this.look();
+        if (pairs.length) await this.set(pairs);
+      } catch (error) {
+        app.failed(`${name} was not taken`, error);
+      }
+      return app.refresh();
+    }
+    async openSample(name) {
+      const answer = await fetch(`samples/${name}.glb`);
+      if (answer.ok) await this.open(new Uint8Array(await answer.arrayBuffer()), `${name}.glb`);
+    }
+    /** Source at a time, and this body moved like it. */
+    async seek(time) {
+      const { app, source } = this;
+      this.time = time;
+      playedAt(source.body, this.clip, time, source.locals, source.posed);
+      smoothNormals(source.posed, source.sums, source.normals);
+      const answer = await app.client.frame('transferFrame', { positions: source.posed });
+      if (!answer || this.source !== source || app.tool !== this) return;
+      source.skin.set({ positions: source.posed, normals: source.normals });
+      app.skin.set(answer);
+      this.milliseconds = answer.milliseconds;
+      const scrub = $('transfer-time');
+      if (scrub) scrub.value = time;
+    }
+    /** Sets one dial and shows the frame again. */
+    async turn(name, value) {
+      const dials = { ...this.dials, [name]: value };
+      try {
+        await this.app.client.ask('transferDials', { dials });
+        this.dials = dials;
+      } catch (error) {
+        say(error.message);
+      }
+      if (!this.playing) await this.seek(this.time);
+    }
+    dialRows() {
+      const parts = new Set(this.pairs.filter(({ off }) => !off).map(({ part }) => part));
+      return DIALS.filter(([, , , , , part]) => !part || parts.has(part)).map(([name, text, neutral, low, high]) =>
+        slider(text, { value: this.dials[name] ?? neutral, low, high, id: `dial-${name}` }, (value) =>
+          this.turn(name, value),
+        ),
+      );
+    }
+    play() {
+      this.playing = true;
+      let last = performance.now();
+      const step = async (now) => {
+        if (!this.playing || !this.source) return;
+        await this.seek((this.time + Math.max(0, now - last) / 1000) % lengthOf(this.clip)).catch((error) => {
+          this.playing = false;
+          say(error.message);
+        });
+        last = now;
+        requestAnimationFrame(step);
+      };
+      requestAnimationFrame(step);
+      this.app.refresh();
+    }
+    async stop() {
+      this.playing = false;
+      this.time = 0;
+      const { source } = this;
+      source.posed.set(source.body.positions);
+      smoothNormals(source.posed, source.sums, source.normals);
+      source.skin.set({ positions: source.posed, normals: source.normals });
+      this.app.skin.set(this.app.shape);
+      this.app.refresh();
+    }
+    /** This body with a skin whose joints replay the transferred clip. */
+    async glb() {
+      const { app, source } = this;
+      const length = lengthOf(this.clip);
+      const count = Math.max(2, Math.round(length * FRAME_RATE) + 1);
+      const seconds = Array.from({ length: count }, (_, f) => (length * f) / (count - 1));
+      const frames = [];
+      let skin = null;
+      for (const time of seconds) {
+        const posed = playedAt(source.body, this.clip, time, source.locals, new Float32Array(source.posed.length));
+        skin = await app.client.ask('transferSkin', { positions: posed });
+        frames.push(skin);
+      }
+      return skinnedGlb(app, skin, frames, seconds, this.clip.getName() || 'clip');
+    }
+    sheet() {
+      const { source, app } = this;
+      const take = make(
+        'div',
+        { class: 'row' },
+        ...app.samples
+          .filter((name) => `${name}.glb` !== app.body.name)
+          .map((name) => button(`Take the ${name}`, () => this.openSample(name), { id: `take-${name}` })),
+        button(
+          'Take a file',
+          () => {
+            const input = make('input', { type: 'file', accept: '.glb,.gltf', id: 'source-file' });
+            input.onchange = async () =>
+              input.files[0] && this.open(new Uint8Array(await input.files[0].arrayBuffer()), input.files[0].name);
+            input.click();
+          },
+          { id: 'take-file' },
+        ),
+      );
+      if (!source) return [make('p', {}, 'Take another body with a clip: its motion plays on this one.'), take];
+      const active = this.pairs.filter(({ off }) => !off).length;
+      return [
         make(
-          'div',
-          { class: 'row' },
-          button(
-            this.playing ? 'Pause' : 'Play',
-            () => (this.playing ? ((this.playing = false), app.refresh()) : this.play()),
-            { class: 'main', id: 'transfer-play' },
+          'p',
+          {},
+          this.pairs.length
+            ? 'Left the source, right your body. A click on a dot leaves its pair out; a drag moves it.'
+            : 'No places of the two bodies are alike; take another source.',
+        ),
+        this.info &&
+          make(
+            'div',
+            { class: 'row' },
+            button(
+              this.playing ? 'Pause' : 'Play',
+              () => (this.playing ? ((this.playing = false), app.refresh()) : this.play()),
+              { class: 'main', id: 'transfer-play' },
+            ),
+            button('Stop', () => this.stop(), { id: 'transfer-stop' }),
+            choice(
+              'Clip of the source',
+              source.body.clips.map((clip, i) => [i, clip.getName() || `clip ${i + 1}`]),
+              source.body.clips.indexOf(this.clip),
+              (i) => (this.clip = source.body.clips[Number(i)]),
+              { id: 'transfer-clip' },
+            ),
           ),
-          button('Stop', () => this.stop(), { id: 'transfer-stop' }),
-          choice(
-            'Clip of the source',
-            source.body.clips.map((clip, i) => [i, clip.getName() || `clip ${i + 1}`]),
-            source.body.clips.indexOf(this.clip),
-            (i) => (this.clip = source.body.clips[Number(i)]),
-            { id: 'transfer-clip' },
+        this.info &&
+          make(
+            'label',
+            { class: 'slide' },
+            make('span', {}, 'Time'),
+            make('span'),
+            (() => {
+              const input = make('input', {
+                type: 'range',
+                min: 0,
+                max: lengthOf(this.clip),
+                step: 0.01,
+                value: this.time,
+                id: 'transfer-time',
+              });
+              input.oninput = () => {
+                this.playing = false;
+                this.seek(Number(input.value));
+                app.marksLayer.update();
+              };
+              return input;
+            })(),
           ),
-        ),
-      this.info &&
-        make(
-          'label',
-          { class: 'slide' },
-          make('span', {}, 'Time'),
-          make('span'),
-          (() => {
-            const input = make('input', {
-              type: 'range',
-              min: 0,
-              max: lengthOf(this.clip),
-              step: 0.01,
-              value: this.time,
-              id: 'transfer-time',
-            });
-            input.oninput = () => {
-              this.playing = false;
-              this.seek(Number(input.value));
-              app.marksLayer.update();
-            };
-            return input;
-          })(),
-        ),
-      this.info &&
-        make(
-          'details',
-          { open: this.dialsOpen, ontoggle: (event) => (this.dialsOpen = event.target.open), id: 'dials' },
-          make('summary', {}, 'Dials'),
-          ...this.dialRows(),
-        ),
-      take,
-      facts([['pairs', `${active} of ${this.pairs.length}`], this.milliseconds && ['frame', ms(this.milliseconds)]]),
-    ];
-  }
-};
+        this.info &&
+          make(
+            'details',
+            { open: this.dialsOpen, ontoggle: (event) => (this.dialsOpen = event.target.open), id: 'dials' },
+            make('summary', {}, 'Dials'),
+            ...this.dialRows(),
+          ),
+        take,
+        facts([['pairs', `${active} of ${this.pairs.length}`], this.milliseconds && ['frame', ms(this.milliseconds)]]),
+      ];
+    }
+  };
 };
