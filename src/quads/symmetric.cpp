@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "base/progress.h"
-#include "mesh/nearest_triangle.h"
 #include "quads/numbers.h"
 
 namespace hf_inner {
@@ -20,9 +19,9 @@ constexpr double most_off = 0.05;
 // A vertex of the quads at a border, no farther from the plane than this, lies on it. Borders keep their places to
 // rounding.
 constexpr double plane_tolerance = 1e-9;
-// Where parts at the plane are too thin for the quads, this many times more are made, at most so often.
-constexpr double more_faces = 1.5;
-constexpr std::int32_t most_turns = 3;
+// The new vertices of a row along the plane lie this share of the way to the middle of their quad, and as far along the
+// normal as that quad is large, before they are put on the surface. They need only be off the plane and apart.
+constexpr double row_share = 0.35;
 // Reported progress: the ends of the parts of the whole, not measured.
 constexpr float compared = 0.02f, cut = 0.1f, made = 0.98f;
 
@@ -168,42 +167,136 @@ HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
   return out;
 }
 
-bool trim_at_plane(QuadMesh& mesh, const Table<std::uint8_t>& on_plane, std::int32_t& sides_on_plane, Memory& memory) {
-  struct Side {
-    Index a, b, face;
-  };
-  for (bool again = true; again;) {
-    again = false;
+Vec3 PlaceOnSurface::operator()(Vec3 p) const noexcept {
+  const Index t = nearest.find(p).triangle;
+  double weight[3];
+  nearest.weights(p, t, weight);
+  Vec3 out;
+  for (int k = 0; k < 3; ++k) out = out + weight[k] * core.mesh.positions[at(core.mesh.triangle(t)[k])];
+  return out;
+}
+
+namespace {
+
+// The sides of quads with both ends on the plane.
+struct PlaneSides {
+  PlaneSides(const QuadMesh& mesh, const Table<std::uint8_t>& on_plane, Memory& memory)
+      : at_border(memory), inner(memory) {
+    struct Side {
+      Index a, b, corner;
+    };
     Vector<Side> sides(&memory);
     for (Index i = 0; i < mesh.corner.size(); ++i) {
       const Index a = mesh.corner[i], b = mesh.corner[i % 4 == 3 ? i - 3 : i + 1];
-      if (on_plane[a] && on_plane[b]) sides.push_back({std::min(a, b), std::max(a, b), i / 4});
+      if (on_plane[a] && on_plane[b]) sides.push_back({std::min(a, b), std::max(a, b), i});
     }
     std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-      return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.face < y.face;
+      return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.corner < y.corner;
     });
-    Table<std::uint8_t> count(mesh.face_count(), 0, memory);
-    bool doubled = false;
-    sides_on_plane = 0;
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const bool twice = i + 1 < sides.size() && sides[i].a == sides[i + 1].a && sides[i].b == sides[i + 1].b;
-      if (!twice) ++count[sides[i].face], ++sides_on_plane;
-      doubled |= twice, i += twice;
+      (twice ? inner : at_border).push_back(sides[i].corner);
+      i += twice;
     }
-    Table<Index> kept(memory);
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-      if (count[f] >= 3) {
+  }
+  Table<Index> at_border, inner;  // the corners where they begin; one of the two of an inner edge
+};
+
+// By quad: a number that quads of one piece share.
+Table<Index> pieces_of(const QuadMesh& mesh, Memory& memory) {
+  Table<Index> parent(mesh.position.size(), none, memory), out(memory);
+  for (Index v = 0; v < parent.size(); ++v) parent[v] = v;
+  const auto root = [&](Index v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (Index i = 0; i < mesh.corner.size(); ++i) parent[root(mesh.corner[i])] = root(mesh.corner[i / 4 * 4]);
+  for (Index f = 0; f < mesh.face_count(); ++f) out.push_back(root(mesh.corner[4 * f]));
+  return out;
+}
+
+// Moves the quads of the marked pieces off the plane, and puts a row of quads between.
+void add_rows(QuadMesh& mesh, const Table<Index>& sides, Table<std::uint8_t>& on_plane, const Table<Index>& piece,
+              const Table<std::uint8_t>& marked, const MirrorPlane& plane, const PlaceOnSurface& place,
+              Memory& memory) {
+  Table<Index> copy(mesh.position.size(), none, memory);
+  const Index old = mesh.corner.size();
+  for (const Index i : sides) {
+    if (!marked[piece[i / 4]]) continue;
+    const Index* c = &mesh.corner[i / 4 * 4];
+    Vec3 middle;
+    for (int k = 0; k < 4; ++k) middle = middle + 0.25 * mesh.position[c[k]];
+    const Index ends[2] = {mesh.corner[i], mesh.corner[i % 4 == 3 ? i - 3 : i + 1]};
+    for (const Index v : ends) {
+      if (copy[v] != none) continue;
+      const Vec3 way = middle - mesh.position[v];
+      const Vec3 p = place(mesh.position[v] + row_share * way + norm(way) * plane.normal);
+      copy[v] = mesh.add_vertex(mesh.location[v], p, QuadMesh::free, false, mesh.scale[v]);
+      on_plane.push_back(0);
+    }
+    for (const Index v : {ends[0], ends[1], copy[ends[1]], copy[ends[0]]}) mesh.corner.push_back(v);
+    mesh.face_start.push_back(mesh.corner.size());
+  }
+  for (Index i = 0; i < old; ++i) {
+    Index& v = mesh.corner[i];
+    if (marked[piece[i / 4]] && copy[v] != none) v = copy[v];
+  }
+}
+
+}  // namespace
+
+void prepare_at_plane(QuadMesh& mesh, Table<std::uint8_t>& on_plane, const MirrorPlane& plane,
+                      const PlaceOnSurface& place, std::int32_t& sides_on_plane, Memory& memory) {
+  const Table<Index> piece = pieces_of(mesh, memory);
+  QuadMesh trimmed = mesh;
+  Table<Index> origin(memory);  // by quad of trimmed, its number in mesh
+  for (Index f = 0; f < mesh.face_count(); ++f) origin.push_back(f);
+  Table<std::uint8_t> marked(mesh.position.size(), 0, memory);  // by piece: whether it gets a row
+  for (bool again = true; again;) {
+    again = false;
+    const PlaneSides sides(trimmed, on_plane, memory);
+    Table<std::uint8_t> count(trimmed.face_count(), 0, memory);
+    for (const Index i : sides.at_border) ++count[i / 4];
+    Table<Index> kept(memory), from(memory);
+    for (Index f = 0; f < trimmed.face_count(); ++f) {
+      if (count[f] == 3) {
         again = true;
         continue;
       }
-      for (Index k = 0; k < 4; ++k) kept.push_back(mesh.corner[4 * f + k]);
+      if (count[f] == 4) marked[piece[origin[f]]] = 1;
+      from.push_back(origin[f]);
+      for (Index k = 0; k < 4; ++k) kept.push_back(trimmed.corner[4 * f + k]);
     }
-    if (!again) return !doubled;
-    mesh.corner = std::move(kept);
-    mesh.face_start.clear();
-    for (Index i = 0; i <= mesh.corner.size(); i += 4) mesh.face_start.push_back(i);
+    if (!again) {
+      for (const Index i : sides.inner) marked[piece[origin[i / 4]]] = 1;
+      break;
+    }
+    trimmed.corner = std::move(kept), origin = std::move(from);
+    trimmed.face_start.clear();
+    for (Index i = 0; i <= trimmed.corner.size(); i += 4) trimmed.face_start.push_back(i);
   }
-  return true;
+  Table<std::uint8_t> left(mesh.position.size(), 0, memory);  // by piece
+  for (const Index f : origin) left[piece[f]] = 1;
+  for (const Index number : piece) marked[number] |= !left[number];
+  // A piece with a row starts from what it was before it was trimmed.
+  QuadMesh out(memory);
+  out = mesh;
+  out.corner.clear(), out.face_start.clear(), out.face_start.push_back(0);
+  Table<Index> piece_of_out(memory);
+  const auto take = [&](const QuadMesh& source, Index f, Index number) {
+    for (Index k = 0; k < 4; ++k) out.corner.push_back(source.corner[4 * f + k]);
+    out.face_start.push_back(out.corner.size()), piece_of_out.push_back(number);
+  };
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (marked[piece[f]]) take(mesh, f, piece[f]);
+  }
+  for (Index f = 0; f < trimmed.face_count(); ++f) {
+    if (!marked[piece[origin[f]]]) take(trimmed, f, piece[origin[f]]);
+  }
+  mesh = std::move(out);
+  const PlaneSides sides(mesh, on_plane, memory);
+  sides_on_plane = sides.at_border.size();
+  add_rows(mesh, sides.at_border, on_plane, piece_of_out, marked, plane, place, memory);
 }
 
 QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report) {
@@ -247,44 +340,32 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
     if (found != Mesh::none) creases.push_back(found);
   }
   own.guides = {guides.data(), guides.size()}, own.crease_edges = {creases.data(), creases.size()};
-  double half_area = 0;
-  for (const double a : own.core->areas) half_area += a;
   own.edge_length = length / mesh.scale;
-  double faces = options.faces > 0 ? 0.5 * options.faces : half_area / (own.edge_length * own.edge_length);
-  if (options.faces > 0) own.faces = static_cast<std::int32_t>(std::lround(std::max(1.0, faces)));
-  for (std::int32_t turn = 0;; ++turn) {
-    part.emplace(cut + (made - cut) * static_cast<float>(turn) / most_turns,
-                 cut + (made - cut) * static_cast<float>(turn + 1) / most_turns);
-    FieldQuadReport found;
-    QuadResult result = make_field_quads(own, &found);
-    part.reset();
-    Table<std::uint8_t> on_plane(memory);
-    for (Index v = 0; v < result.mesh.position.size(); ++v) {
-      Vec3& p = result.mesh.position[v];
-      p = mesh.to_given(p);
-      on_plane.push_back(result.mesh.border[v] && std::fabs(plane.side(p)) < plane_tolerance);
-    }
-    std::int32_t sides = 0;
-    if (trim_at_plane(result.mesh, on_plane, sides, memory)) {
-      // What lies on the plane counts once. Trimming keeps the Euler characteristic of the half.
-      Table<std::uint8_t> shared(on_plane.size(), 0, memory);
-      std::int32_t corners = 0;
-      for (const Index v : result.mesh.corner) corners += on_plane[v] && !shared[v], shared[v] = 1;
-      result.euler_characteristic = 2 * result.euler_characteristic - corners + sides;
-      add_image(nearest, plane, on_plane, result.mesh, memory);
-      check_quads(result.mesh, result.euler_characteristic, memory);
-      result.raw_faces *= 2, result.raw_quads *= 2;
-      found.edge_length *= mesh.scale;
-      if (report) *report = found;
-      hf_inner::report(1.0f);
-      return result;
-    }
-    if (turn + 1 == most_turns)
-      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-           "parts at symmetry_plane are thinner than two quads; ask for more than %.0f quads", 2 * faces);
-    faces *= more_faces;
-    own.faces = static_cast<std::int32_t>(std::lround(faces));
+  if (options.faces > 0) own.faces = std::max(1, (options.faces + 1) / 2);
+  part.emplace(cut, made);
+  FieldQuadReport found;
+  QuadResult result = make_field_quads(own, &found);
+  part.reset();
+  Table<std::uint8_t> on_plane(memory);
+  for (Index v = 0; v < result.mesh.position.size(); ++v) {
+    Vec3& p = result.mesh.position[v];
+    p = mesh.to_given(p);
+    on_plane.push_back(result.mesh.border[v] && std::fabs(plane.side(p)) < plane_tolerance);
   }
+  std::int32_t sides = 0;
+  prepare_at_plane(result.mesh, on_plane, plane, PlaceOnSurface{whole, nearest}, sides, memory);
+  // What lies on the plane counts once. Preparing keeps the Euler characteristic of the half.
+  Table<std::uint8_t> shared(on_plane.size(), 0, memory);
+  std::int32_t corners = 0;
+  for (const Index v : result.mesh.corner) corners += on_plane[v] && !shared[v], shared[v] = 1;
+  result.euler_characteristic = 2 * result.euler_characteristic - corners + sides;
+  add_image(nearest, plane, on_plane, result.mesh, memory);
+  check_quads(result.mesh, result.euler_characteristic, memory);
+  result.raw_faces *= 2, result.raw_quads *= 2;
+  found.edge_length *= mesh.scale;
+  if (report) *report = found;
+  hf_inner::report(1.0f);
+  return result;
 }
 
 }  // namespace hf_inner

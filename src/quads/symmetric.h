@@ -3,13 +3,13 @@
 // The surface is cut by the plane. The side that the normal points to gets quads, for which the cut is a border: a line
 // of the grid whose vertices stay. The other side is its mirror image.
 #pragma once
+#include "mesh/nearest_triangle.h"
 #include "quads/field_quads.h"
 
 namespace hf_inner {
 
 // options.plane is set. Throws what make_field_quads throws. Throws HF_ERROR_UNSUPPORTED too: the surface is no mirror
-// image of itself (index = vertex as given), nothing lies on the side of the normal, or parts at the plane are too
-// thin.
+// image of itself (index = vertex as given), or nothing lies on the side of the normal.
 QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report);
 
 // The part of a surface on the side that a plane's normal points to.
@@ -22,9 +22,16 @@ struct HalfSurface {
   Vector<Index> of_edge;    // by edge of the whole, the vertex where the plane cuts it, or none
 };
 
-// Removes from a mesh of quads those with three sides on the plane, again and again: two mirror images would lie on one
-// another. Returns false if an edge off the border has both ends on the plane: its image would be the same edge.
-// sides_on_plane: receives how many sides of quads lie on the plane.
-bool trim_at_plane(QuadMesh& mesh, const Table<std::uint8_t>& on_plane, std::int32_t& sides_on_plane, Memory& memory);
+// Makes the half of a mesh such that its image can be joined to it. Quads with three sides on the plane go, again and
+// again: two images would lie on one another. A piece that would go as a whole, or where an edge off the border has
+// both ends on the plane, gets a row of quads along the plane instead. place: finds a point of the surface near another
+// point. sides_on_plane: receives how many sides of quads lie on the plane.
+struct PlaceOnSurface {
+  const Core& core;
+  const NearestTriangle& nearest;
+  Vec3 operator()(Vec3 p) const noexcept;
+};
+void prepare_at_plane(QuadMesh& mesh, Table<std::uint8_t>& on_plane, const MirrorPlane& plane,
+                      const PlaceOnSurface& place, std::int32_t& sides_on_plane, Memory& memory);
 
 }  // namespace hf_inner

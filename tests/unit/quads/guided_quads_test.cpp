@@ -305,37 +305,83 @@ TEST(SymmetricQuads, surfaces_without_that_symmetry_are_refused) {
   EXPECT_EQ(refusal(torus, {1, 0, 0}, 0), "none");
 }
 
-// Two rows of quads at the plane: the corners 0 to 3 lie on it.
-TEST(SymmetricQuads, quads_with_three_sides_on_the_plane_go_and_doubled_edges_are_found) {
-  Memory memory;
-  const auto mesh_of = [&](std::initializer_list<std::int32_t> corners, std::int32_t vertices) {
-    QuadMesh mesh(memory);
-    for (std::int32_t v = 0; v < vertices; ++v) mesh.add_vertex({}, {}, QuadMesh::free, true, 1);
-    for (const std::int32_t v : corners) mesh.corner.push_back(v);
-    for (std::int32_t i = 0; i <= mesh.corner.size(); i += 4) mesh.face_start.push_back(i);
-    return mesh;
+// A long thin box is a trough on one side of a plane along it: quads there have three or four sides on the plane.
+TEST(SymmetricQuads, thin_parts_on_the_plane_keep_their_shape) {
+  for (const double thick : {0.05, 0.1, 0.3}) {
+    samples::ShapeMesh mesh = samples::box(thick, thick, 3, 4, 4, 40);
+    samples::ShapeMesh ball = samples::sphere(10);
+    const std::uint32_t base = static_cast<std::uint32_t>(mesh.positions.size() / 3);
+    for (std::size_t i = 0; i < ball.positions.size(); ++i)
+      mesh.positions.push_back(ball.positions[i] + (i % 3 == 1 ? 2.0 : 0.0));
+    for (const std::uint32_t v : ball.triangles) mesh.triangles.push_back(base + v);
+    const auto core = core_of(mesh);
+    for (const std::int32_t wanted : {20, 60, 200, 1000}) {
+      const std::string what = std::to_string(thick) + " thick, " + std::to_string(wanted) + " quads";
+      FieldQuadOptions options;
+      options.core = core, options.faces = wanted, options.plane = plane_of(*core, {1, 0, 0}, 0);
+      const QuadMesh quads = make_field_quads(options).mesh;
+      hf_test::expect_manifold(*core, quads, what);
+      expect_symmetric(quads, *options.plane, what);
+      double low = 1e9, high = -1e9, width = 0;
+      for (std::int32_t v = 0; v < quads.position.size(); ++v) {
+        const Vec3 p = core->mesh.to_given(quads.position[v]);
+        if (p.y > 0.9) continue;  // the ball
+        low = std::min(low, p.z), high = std::max(high, p.z), width = std::max(width, p.x);
+      }
+      EXPECT_GT(high - low, 2.5) << what;
+      EXPECT_GT(width, 0.3 * thick) << what;
+    }
+  }
+}
+
+// The corners 0 to 3 lie on the plane, and more where it is said. place puts new vertices on a sphere.
+TEST(SymmetricQuads, quads_at_the_plane_go_or_get_a_row) {
+  const auto core = core_of(samples::sphere(6));
+  Memory& memory = *core->memory;
+  const NearestTriangle nearest(core->mesh.positions, core->mesh.corners, memory);
+  const PlaceOnSurface place{*core, nearest};
+  struct Case {
+    std::string name;
+    std::vector<std::int32_t> corners;
+    std::int32_t vertices;
+    std::vector<std::int32_t> off_plane;
+    std::int32_t faces, sides;
   };
-  std::int32_t sides = 0;
-  // A row along the plane stays.
-  QuadMesh row = mesh_of({0, 1, 4, 5, 1, 2, 3, 4}, 6);
-  EXPECT_TRUE(trim_at_plane(row, Table<std::uint8_t>(6, 0, memory), sides, memory));
-  EXPECT_EQ(row.face_count(), 2);
-  // 0 1 2 3 is a tongue with three sides on the plane, on a quad 0 3 4 5.
-  QuadMesh tongue = mesh_of({0, 1, 2, 3, 0, 3, 4, 5}, 6);
-  Table<std::uint8_t> on_plane(6, 1, memory);
-  on_plane[4] = on_plane[5] = 0;
-  EXPECT_TRUE(trim_at_plane(tongue, on_plane, sides, memory));
-  EXPECT_EQ(tongue.face_count(), 1);
-  EXPECT_EQ(sides, 1);
-  // A tongue of two quads goes in two steps.
-  QuadMesh longer = mesh_of({0, 1, 2, 3, 0, 3, 4, 5, 5, 4, 6, 7}, 8);
-  on_plane = Table<std::uint8_t>(8, 1, memory);
-  on_plane[6] = on_plane[7] = 0;
-  EXPECT_TRUE(trim_at_plane(longer, on_plane, sides, memory));
-  EXPECT_EQ(longer.face_count(), 1);
-  // A strip one quad wide between two lines of the plane has edges whose images are themselves.
-  QuadMesh strip = mesh_of({0, 1, 4, 3, 1, 2, 5, 4}, 6);
-  EXPECT_FALSE(trim_at_plane(strip, Table<std::uint8_t>(6, 1, memory), sides, memory) && strip.face_count() > 0);
+  const std::vector<Case> cases{{"nothing on the plane", {0, 1, 4, 5, 1, 2, 3, 4}, 6, {0, 1, 2, 3, 4, 5}, 2, 0},
+                                {"a row along the plane stays", {0, 1, 5, 4, 1, 2, 6, 5}, 7, {4, 5, 6}, 2, 2},
+                                {"a tongue goes", {0, 1, 2, 3, 0, 3, 4, 5}, 6, {4, 5}, 1, 1},
+                                {"a tongue of two goes", {0, 1, 2, 3, 0, 3, 4, 5, 5, 4, 6, 7}, 8, {6, 7}, 1, 1},
+                                {"one quad gets a row all round", {0, 1, 2, 3}, 4, {}, 5, 4},
+                                {"so do two", {0, 1, 4, 3, 1, 2, 5, 4}, 6, {}, 8, 6},
+                                {"and three", {0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6}, 8, {}, 11, 8},
+                                {"a strip between two lines of the plane",
+                                 {0, 1, 4, 3, 1, 2, 5, 4, 6, 0, 3, 7, 2, 8, 9, 5},
+                                 10,
+                                 {6, 7, 8, 9},
+                                 8,
+                                 4}};
+  for (const Case& c : cases) {
+    QuadMesh mesh(memory);
+    for (std::int32_t v = 0; v < c.vertices; ++v)
+      mesh.add_vertex({}, {0, 0.1 * std::cos(0.7 * v), 0.1 * std::sin(0.7 * v)}, QuadMesh::site, true, 1);
+    for (const std::int32_t v : c.corners) mesh.corner.push_back(v);
+    for (std::int32_t i = 0; i <= mesh.corner.size(); i += 4) mesh.face_start.push_back(i);
+    Table<std::uint8_t> on_plane(c.vertices, 1, memory);
+    for (const std::int32_t v : c.off_plane) on_plane[v] = 0;
+    std::int32_t sides = -1;
+    MirrorPlane plane;
+    prepare_at_plane(mesh, on_plane, plane, place, sides, memory);
+    EXPECT_EQ(mesh.face_count(), c.faces) << c.name;
+    EXPECT_EQ(sides, c.sides) << c.name;
+    EXPECT_EQ(on_plane.size(), mesh.position.size()) << c.name;
+    // No quad has three sides on the plane, and no side off the border lies there.
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> times;
+    for (std::int32_t i = 0; i < mesh.corner.size(); ++i) {
+      const std::int32_t a = mesh.corner[i], b = mesh.corner[i % 4 == 3 ? i - 3 : i + 1];
+      if (on_plane[a] && on_plane[b]) ++times[{std::min(a, b), std::max(a, b)}];
+    }
+    for (const auto& [edge, count] : times) EXPECT_EQ(count, 1) << c.name;
+  }
 }
 
 }  // namespace
