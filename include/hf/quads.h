@@ -102,11 +102,10 @@ typedef struct hf_quads_info {
  * the surface or has a weight outside 0 to 1), HF_ERROR_NON_FINITE (edge_length, symmetry_plane, index = guide),
  * HF_ERROR_OUT_OF_RANGE, HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (a surface that must be parted at more than 5 %
  * of its edges, because they have three triangles or cannot be oriented, index = a vertex; a surface that
- * symmetry_plane does not mirror, index = the vertex that is off most; no triangle on the side of the normal; parts at
- * the plane too thin for the quads; sites that no flux can separate, or a part too small for two), HF_ERROR_TOO_LARGE
- * (more than 400 sites and borders in a component, a million rings, more than a million quads of the default edge
- * length, more creases than edges), HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check fails. Thread safety: reads
- * `surface`. Since 0.1. */
+ * symmetry_plane does not mirror, index = the vertex that is off most; no triangle on the side of the normal; sites
+ * that no flux can separate, or a part too small for two), HF_ERROR_TOO_LARGE (more than 400 sites and borders in a
+ * component, a million rings, more than a million quads of the default edge length, more creases than edges),
+ * HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check fails. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 
 /* Destroys a quad mesh. Ignores NULL and destroyed handles. Since 0.1. */

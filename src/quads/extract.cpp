@@ -34,6 +34,7 @@ class Extractor {
         corners_(memory),
         sides_(memory),
         feature_(memory),
+        border_lines_(memory),
         crossing_(memory),
         region_(memory) {}
 
@@ -199,8 +200,9 @@ class Extractor {
         for (std::int32_t k = 0; k < my_pieces.size(); ++k)
           unite(piece_parent_, my_pieces[k], other_pieces[my_pieces.size() - 1 - k]);
       }
-      if (features_[h]) {
-        for (const std::int32_t p : my_pieces) feature_[p] = 1;
+      for (const std::int32_t p : my_pieces) {
+        if (features_[h]) feature_[p] = 1;
+        if (!s_.is_real(g)) border_lines_.push_back({h, p});
       }
     }
   }
@@ -404,20 +406,13 @@ class Extractor {
   void find_holes(QuadComplex& out) {
     Table<std::int32_t> leaving(parent_.size(), none, memory_);  // by region
     for (std::int32_t h = 0; h < corners_.size(); ++h) leaving[root(region_, corners_[h])] = h;
-    Table<std::uint8_t> seen(3 * s_.real_triangles, 0, memory_);
+    Table<std::uint8_t> seen(3 * s_.real_triangles, 0, memory_), reached(seen);  // by half-edge
+    for (const BorderLine& line : border_lines_) reached[line.half] |= crossing_[root(piece_parent_, line.piece)];
     for (std::int32_t start = 0; start < seen.size(); ++start) {
       if (seen[start] || s_.is_real(s_.twin[start])) continue;
       bool crossed = false;
       for (std::int32_t h = start; !seen[h];) {
-        seen[h] = 1;
-        walk(
-            h,
-            [&](std::int32_t i, std::int32_t j, int kind, std::int32_t step) {
-              const std::int32_t back = step < 0 ? 1 : 0;
-              const std::int32_t p = piece(h / 3, kind == 0 ? i - back : i, kind == 0 ? j : j - back, kind);
-              crossed |= crossing_[root(piece_parent_, p)] != 0;
-            },
-            [](std::int32_t, std::int32_t) {});
+        seen[h] = 1, crossed |= reached[h] != 0;
         h = FluxSurface::next(h);
         while (s_.is_real(s_.twin[h])) h = FluxSurface::next(s_.twin[h]);
       }
@@ -443,8 +438,12 @@ class Extractor {
   Table<std::uint8_t> quality_, on_border_;
   Table<std::int32_t> corners_, sides_;  // cells and pieces of lines, four by quad
   Table<std::uint8_t> feature_;          // by piece of a line: whether it crosses a feature edge
-  Table<std::uint8_t> crossing_;         // by first piece of a line: whether it is a side of a quad
-  Table<std::int32_t> region_;           // by cell
+  struct BorderLine {
+    std::int32_t half, piece;
+  };
+  Table<BorderLine> border_lines_;  // where lines end at borders: the half-edge and the piece
+  Table<std::uint8_t> crossing_;    // by first piece of a line: whether it is a side of a quad
+  Table<std::int32_t> region_;      // by cell
 };
 
 }  // namespace

@@ -79,8 +79,10 @@ constexpr std::int32_t fit_turns_of_count = 3;
 // over. The elephant stays 3.0 % of the box away, b9 is 7.6 instead of 6.2 % away.
 constexpr double fitted_share = 4;
 
-// A component smaller than so many quads that loses its shape gets the fewest quads there can be, six or one. With 6
-// and 12, three of five coarse models of many parts have 20 to 60 % more irregular vertices; 48 changes one of them.
+// A component smaller than so many quads that loses its shape gets the fewest quads there can be, six or one. Of 16
+// runs of models with parts, 12 changes two: irregular vertices by 6 % at most, one largest distance from 1.6 to 2.0 %
+// of the box. 48 changes four: a spider at 800 quads has 18 instead of 52 % irregular vertices, but the rods of a model
+// of 21 parts at 3,000 are 3.0 instead of 1.1 % off.
 constexpr double few_quads = 24;
 
 // How far a number of quads is from the wanted one: half as many are as bad as twice as many.

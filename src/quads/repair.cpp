@@ -196,36 +196,36 @@ class Repairer {
     const std::int32_t begin = border_of(from), end = border_of(to);
     if (begin == none || end == none) return;
     const auto share = [](const SurfacePoint& point, std::int32_t h) { return point.weight[(h % 3 + 1) % 3]; };
-    // Visits the pieces of edges on the way; visit returns false to end.
-    const auto walk = [&](auto&& visit) {
-      double at = share(from, begin);
-      for (std::int32_t h = begin;;) {
-        const bool last = h == end && (round ? h != begin || at == 0 : share(to, end) >= at);
-        if (!visit(h, at, last ? share(to, end) : 1.0) || last) return;
-        h = FluxSurface::next(h), at = 0;
-        while (surface_.is_real(surface_.twin[h])) h = FluxSurface::next(surface_.twin[h]);
-        if (h == begin && !(round && h == end)) return;  // the other point lies on another border
-        if (h == begin && share(to, end) == 0) return;
-      }
+    // The pieces of edges on the way, and their lengths together.
+    struct Piece {
+      std::int32_t half;
+      double from, to, length;
     };
-    const auto length_of_edge = [&](std::int32_t h) {
-      return norm(surface_.position[surface_.head(h)] - surface_.position[surface_.tail[h]]);
-    };
-    double whole = 0;
-    walk([&](std::int32_t h, double a, double b) { return whole += (b - a) * length_of_edge(h), true; });
+    Table<Piece> way(memory_);
+    double whole = 0, at = share(from, begin);
+    for (std::int32_t h = begin;;) {
+      const bool last = h == end && (round ? !way.empty() : share(to, end) >= at);
+      const double stop = last ? share(to, end) : 1.0;
+      const double length = norm(surface_.position[surface_.head(h)] - surface_.position[surface_.tail[h]]);
+      way.push_back({h, at, stop, (stop - at) * length}), whole += way.back().length;
+      if (last) break;
+      h = FluxSurface::next(h), at = 0;
+      while (surface_.is_real(surface_.twin[h])) h = FluxSurface::next(surface_.twin[h]);
+      if (h == begin && h != end) return;  // the other point lies on another border
+    }
     double passed = 0;
     int found = 0;
-    walk([&](std::int32_t h, double a, double b) {
-      const double length = length_of_edge(h), here = (b - a) * length;
-      for (; found < 2 && passed + here >= (found + 1) * whole / 3 && length > 0; ++found) {
-        const double at = a + ((found + 1) * whole / 3 - passed) / length;
+    for (const Piece& piece : way) {
+      for (; found < 2 && passed + piece.length >= (found + 1) * whole / 3 && piece.length > 0; ++found) {
+        const double step = ((found + 1) * whole / 3 - passed) / piece.length,
+                     place = piece.from + step * (piece.to - piece.from);
         SurfacePoint point;
-        point.triangle = h / 3, point.weight[h % 3] = 1 - at, point.weight[(h % 3 + 1) % 3] = at;
+        point.triangle = piece.half / 3, point.weight[piece.half % 3] = 1 - place;
+        point.weight[(piece.half % 3 + 1) % 3] = place;
         out[found] = point;
       }
-      passed += here;
-      return found < 2;
-    });
+      passed += piece.length;
+    }
   }
   // Quads behind the marks are new in this round.
   bool is_taken(std::int32_t f) const noexcept { return f >= mark_.size() || mark_[f] == pillowed_; }

@@ -22,10 +22,10 @@ struct HalfSurface {
   Vector<Index> of_edge;    // by edge of the whole, the vertex where the plane cuts it, or none
 };
 
-// Makes the half of a mesh such that its image can be joined to it. Quads with three sides on the plane go, again and
-// again: two images would lie on one another. A piece that would go as a whole, or where an edge off the border has
-// both ends on the plane, gets a row of quads along the plane instead. place: finds a point of the surface near another
-// point. sides_on_plane: receives how many sides of quads lie on the plane.
+// Makes the half of a mesh such that its image can be joined to it. An edge off the border with both ends on the plane
+// would be its own image. Quads with three sides on the plane have one, and go. Where small pieces have one, or one is
+// left, a piece gets a row of quads along the plane. place: finds a point of the surface near another point.
+// sides_on_plane: receives how many sides of quads lie on the plane.
 struct PlaceOnSurface {
   const Core& core;
   const NearestTriangle& nearest;

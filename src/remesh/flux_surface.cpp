@@ -132,8 +132,8 @@ Table<std::uint8_t> orient(const Mesh& mesh, Pairs& pairs, Memory& memory) {
   }
   if (parted > most_parted_share * edges)
     fail(HF_ERROR_UNSUPPORTED, given(mesh, first_parted),
-         "the surface at vertex %u cannot be oriented (a Moebius band); it would be parted at %d of %d edges",
-         given(mesh, first_parted), parted, edges);
+         "the surface at vertex %u cannot be oriented; %d of %d edges would be parted", given(mesh, first_parted),
+         parted, edges);
   return turned;
 }
 

@@ -349,8 +349,7 @@ TEST(SymmetricQuads, quads_at_the_plane_go_or_get_a_row) {
   };
   const std::vector<Case> cases{{"nothing on the plane", {0, 1, 4, 5, 1, 2, 3, 4}, 6, {0, 1, 2, 3, 4, 5}, 2, 0},
                                 {"a row along the plane stays", {0, 1, 5, 4, 1, 2, 6, 5}, 7, {4, 5, 6}, 2, 2},
-                                {"a tongue goes", {0, 1, 2, 3, 0, 3, 4, 5}, 6, {4, 5}, 1, 1},
-                                {"a tongue of two goes", {0, 1, 2, 3, 0, 3, 4, 5, 5, 4, 6, 7}, 8, {6, 7}, 1, 1},
+                                {"a small piece with a tongue", {0, 1, 2, 3, 0, 3, 4, 5}, 6, {4, 5}, 5, 3},
                                 {"one quad gets a row all round", {0, 1, 2, 3}, 4, {}, 5, 4},
                                 {"so do two", {0, 1, 4, 3, 1, 2, 5, 4}, 6, {}, 8, 6},
                                 {"and three", {0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6}, 8, {}, 11, 8},
@@ -360,7 +359,20 @@ TEST(SymmetricQuads, quads_at_the_plane_go_or_get_a_row) {
                                  {6, 7, 8, 9},
                                  8,
                                  4}};
-  for (const Case& c : cases) {
+  // A tongue of two quads on a sheet of 6 by 6: the sheet's vertices 7 y + x, two of which lie on the plane.
+  Case sheet{"a large piece with a tongue", {}, 53, {}, 36, 1};
+  for (std::int32_t y = 0; y < 6; ++y) {
+    for (std::int32_t x = 0; x < 6; ++x) {
+      for (const std::int32_t v : {7 * y + x, 7 * y + x + 1, 7 * y + x + 8, 7 * y + x + 7}) sheet.corners.push_back(v);
+    }
+  }
+  for (const std::int32_t v : {3, 2, 50, 49, 49, 50, 52, 51}) sheet.corners.push_back(v);
+  for (std::int32_t v = 0; v < 49; ++v) {
+    if (v != 2 && v != 3) sheet.off_plane.push_back(v);
+  }
+  std::vector<Case> all = cases;
+  all.push_back(sheet);
+  for (const Case& c : all) {
     QuadMesh mesh(memory);
     for (std::int32_t v = 0; v < c.vertices; ++v)
       mesh.add_vertex({}, {0, 0.1 * std::cos(0.7 * v), 0.1 * std::sin(0.7 * v)}, QuadMesh::site, true, 1);
