@@ -38,4 +38,5 @@ case "$library" in
     cp -L "$library" "$out/hf/$(objdump -p "$library" | awk '/SONAME/ { print $2 }')"
     ;;
 esac
-cp "$here"/addon/* "$out/hf/"
+cp "$here/addon/hf.gdnlib" "$here/addon/hf_surface.gdns" "$out/hf/"
+sed -f "$here/godot3.sed" "$here/addon/hf_deformer.gd" >"$out/hf/hf_deformer.gd"

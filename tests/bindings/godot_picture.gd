@@ -1,23 +1,25 @@
-# A picture of a glb posed by hf_deformer.gd: godot3-runner --path PROJECT -s godot_picture.gd, under Xvfb; writes
-# $HF_PICTURE.
+# A picture of a glb, at rest and posed by hf_deformer.gd: godot --path PROJECT -s picture.gd, under Xvfb; writes
+# $HF_PICTURE. For Godot 3 bindings/godot/godot3.sed changes some words.
 extends SceneTree
 
-const Deformer = preload("res://hf/hf_deformer.gd")
+const Deformer = preload("res://addons/hf/hf_deformer.gd")
+const Host = preload("res://host.gd")
 
-func shown(x):
+func shown():
+	var scene = load("res://model.glb").instantiate()
 	var deformer = Deformer.new()
-	deformer.mesh = Deformer.mesh_in(load("res://model.glb").instance())
-	deformer.translation.x = x
+	deformer.mesh = Deformer.mesh_in(scene)
+	scene.free()
 	get_root().add_child(deformer)
 	return deformer
 
-func _init():
-	var light = DirectionalLight.new()
+func _initialize():
+	var light = DirectionalLight3D.new()
 	light.rotation_degrees = Vector3(-40, 30, 0)
 	light.light_energy = 0.6
 	get_root().add_child(light)
-	var rest = shown(-1.0)
-	var posed = shown(1.0)
+	var rest = shown()
+	var posed = shown()
 	if not posed.bind():
 		quit(1)
 		return
@@ -29,15 +31,15 @@ func _init():
 		if points[i].z > points[front].z:
 			front = i
 	var size = box.size.length()
-	rest.translation = Vector3(-0.3 * size, 0, 0)
-	posed.translation = Vector3(0.3 * size, 0, 0)
+	rest.transform.origin = Vector3(-0.3 * size, 0, 0)
+	posed.transform.origin = Vector3(0.3 * size, 0, 0)
 	var environment = WorldEnvironment.new()
 	environment.environment = Environment.new()
 	environment.environment.background_mode = Environment.BG_COLOR
 	environment.environment.background_color = Color(0.25, 0.27, 0.3)
 	environment.environment.ambient_light_color = Color(0.3, 0.3, 0.3)
 	get_root().add_child(environment)
-	var camera = Camera.new()
+	var camera = Camera3D.new()
 	get_root().add_child(camera)
 	camera.look_at_from_position(Vector3(0.75 * size, 0.45 * size, 0.95 * size), box.position + 0.5 * box.size, Vector3.UP)
 	camera.current = true
@@ -46,14 +48,13 @@ func _init():
 	if trunk == null or head == null:
 		quit(1)
 		return
-	head.translation += Vector3(0.08 * size, 0.1 * size, -0.02 * size)
+	head.transform.origin += Vector3(0.08 * size, 0.1 * size, -0.02 * size)
 	head.rotate_x(-0.4)
 	for i in 10:
 		posed.update()
 	for i in 6:
-		yield(self, "idle_frame")
-	var image = get_root().get_texture().get_data()
-	image.flip_y()
+		await process_frame
+	var image = Host.picture(get_root())
 	image.save_png(OS.get_environment("HF_PICTURE"))
 	print("picture: ", image.get_width(), " x ", image.get_height())
 	quit(0)

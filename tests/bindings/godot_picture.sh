@@ -11,7 +11,7 @@ command -v godot3-runner >/dev/null && command -v xvfb-run >/dev/null || {
   echo "skipped: the test bindings_godot has made no project"
   exit 77
 }
-cp "$here/godot_picture.gd" "$1/project/picture.gd"
+sed -f "$here/../../bindings/godot/godot3.sed" "$here/godot_picture.gd" >"$1/project/picture.gd"
 rm -f "$2"
 export LANG=en_US.UTF-8 HOME="$1/home" HF_PICTURE=$2
 timeout 90 xvfb-run -a -s "-screen 0 1024x600x24" godot3-runner --path "$1/project" -s picture.gd || exit 1

@@ -1,4 +1,4 @@
-# The second block of bindings/godot/README.md on a torus with sites and handles: godot3-server --path PROJECT -s FILE
+# The second block of bindings/godot/README.md on a torus with sites and handles: godot --headless --path PROJECT -s FILE
 extends SceneTree
 
 func torus(surface):
@@ -12,10 +12,10 @@ func torus(surface):
 			var right = (i + 1) % 48 * 24
 			var up = (j + 1) % 24
 			triangles += [24 * i + j, right + j, right + up, 24 * i + j, right + up, 24 * i + up]
-	return surface.create(PoolVector3Array(positions), PoolIntArray(triangles))
+	return surface.create(PackedVector3Array(positions), PackedInt32Array(triangles))
 
-func _init():
-	var surface = preload("res://hf/hf_surface.gdns").new()
+func _initialize():
+	var surface = HfSurface.new()
 	torus(surface)
 	surface.add_sites([0, 1, 600, 700], [0, 0.2, 1, 0.7])
 	surface.add_handles([[0, 1, 2], [600, 601, 602]])
@@ -24,7 +24,7 @@ func _init():
 	var missing = 0
 	var results = {"lines": lines, "faces": faces, "crosses": crosses, "found": found, "smooth": smooth, "bones": bones}
 	for name in results:
-		if results[name] == null or results[name].empty():
+		if results[name] == null or results[name].is_empty():
 			printerr(name, " of the README came back empty; the last error: ", surface.get_error())
 			missing += 1
 	if missing == 0 and crosses.size() == 1152 and smooth.size() == 1152:

@@ -1,11 +1,11 @@
-# The golden scenes through the GDNative class, then a glb imported by Godot and posed:
-# godot3-server --path PROJECT -s godot_test.gd
+# The golden scenes through HfSurface, then a glb imported by Godot and posed: godot --headless --path PROJECT -s test.gd
+# For Godot 3 bindings/godot/godot3.sed changes some words.
 # Positions and fields are single precision here, so figures agree to 3e-6 of the largest. Steps of calls that the class
 # does not offer are counted and left out.
 extends SceneTree
 
-const HfSurface = preload("res://hf/hf_surface.gdns")
-const Deformer = preload("res://hf/hf_deformer.gd")
+const Deformer = preload("res://addons/hf/hf_deformer.gd")
+const Host = preload("res://host.gd")
 var meshes = {}
 var failed = 0
 var left_out = 0
@@ -13,12 +13,12 @@ var done = 0
 var wrong = 0
 
 func read(path):
-	var file = File.new()
-	if file.open(path, File.READ) != OK:
+	var result = Host.json(path)
+	if result == null:
 		printerr("cannot read ", path)
 		failed += 1
 		return {}
-	return JSON.parse(file.get_as_text()).result
+	return result
 
 func number(v):
 	return {"nan": NAN, "inf": INF, "-inf": -INF}.get(v, v) if typeof(v) == TYPE_STRING else v
@@ -27,7 +27,7 @@ func list(step, key, kept):
 	var v = step.get(key)
 	if typeof(v) == TYPE_STRING:
 		return kept.get(v)
-	if v == null or v.empty() or typeof(v[0]) == TYPE_ARRAY:
+	if v == null or v.is_empty() or typeof(v[0]) == TYPE_ARRAY:
 		return v
 	var out = []
 	for x in v:
@@ -60,7 +60,7 @@ func run(step, objects, kept):
 				triangles = []
 			var factor = kept.get(step.get("factor"))
 			if factor != null and step.has("damage"):
-				factor = PoolByteArray(factor)
+				factor = PackedByteArray(factor)
 				factor[step.damage] = factor[step.damage] ^ 1
 			if step.has("tags"):
 				return [false, null, null]
@@ -143,17 +143,17 @@ func run(step, objects, kept):
 		"pose_info": return [true, on.pose_info(), on]
 		"components":
 			var found = on.components()
-			return [true, PoolRealArray(Array(found)) if found != null else null, on]
+			return [true, PackedFloat32Array(Array(found)) if found != null else null, on]
 		"cast_ray":
 			var hit = on.cast_ray(list(step, "origin", kept), list(step, "direction", kept), list(step, "positions", kept),
 				step.get("front_only", 0))
-			if hit == null or hit.empty():
-				return [true, hit if hit == null else PoolRealArray([0]), on]
-			return [true, PoolRealArray([1, hit.triangle, hit.vertex, hit.weight_0, hit.weight_1, hit.weight_2, hit.x, hit.y,
+			if hit == null or hit.is_empty():
+				return [true, hit if hit == null else PackedFloat32Array([0]), on]
+			return [true, PackedFloat32Array([1, hit.triangle, hit.vertex, hit.weight_0, hit.weight_1, hit.weight_2, hit.x, hit.y,
 				hit.z, hit.distance]), on]
 		"find_vertex":
 			var nearest = on.find_vertex(list(step, "point", kept), list(step, "positions", kept))
-			return [true, PoolRealArray([nearest.vertex, nearest.distance]) if nearest != null else null, on]
+			return [true, PackedFloat32Array([nearest.vertex, nearest.distance]) if nearest != null else null, on]
 		"save":
 			var bytes = on.save(step.get("field_kind", 0))
 			if bytes != null:
@@ -197,14 +197,14 @@ func run(step, objects, kept):
 			if places != null:
 				places = Array(places)
 				places.sort()
-				places = PoolRealArray(places)
+				places = PackedFloat32Array(places)
 			return [true, places, on]
 		"extremities":
 			var tips = column(on.find_extremities(), "vertex")
 			if tips != null:
 				tips = Array(tips)
 				tips.sort()
-				tips = PoolRealArray(tips)
+				tips = PackedFloat32Array(tips)
 			return [true, tips, on]
 		"direction", "quads":
 			var made = shares(on)
@@ -264,7 +264,7 @@ func column(rows, name):
 	var out = []
 	for row in rows:
 		out.append(row[name])
-	return PoolRealArray(out)
+	return PackedFloat32Array(out)
 
 # All points of polylines one after the other.
 func points_of(step, lines):
@@ -274,10 +274,10 @@ func points_of(step, lines):
 	var out = []
 	for line in lines:
 		out += Array(line)
-	return PoolVector3Array(out)
+	return PackedVector3Array(out)
 
 func flat(a):
-	if typeof(a) != TYPE_VECTOR3_ARRAY:
+	if typeof(a) != TYPE_PACKED_VECTOR3_ARRAY:
 		return a
 	var out = []
 	for v in a:
@@ -333,17 +333,17 @@ func check(step, objects, kept):
 		for key in wanted:
 			if key != "tolerance" and abs(result[key] - wanted[key]) > max(1e-6, wanted.get("tolerance", 0)):
 				return key + " is " + str(result[key])
-	elif typeof(result) == TYPE_REAL and step.has("numbers"):
+	elif typeof(result) == TYPE_FLOAT and step.has("numbers"):
 		if result != step.numbers[0]:
 			return "number " + str(result)
-	elif typeof(result) == TYPE_INT_ARRAY:
+	elif typeof(result) == TYPE_PACKED_INT32_ARRAY:
 		if step.has("numbers") and step["do"] != "edit":
 			for i in result.size():
 				if result[i] != step.numbers[i]:
 					return "numbers " + str(result)
-	elif typeof(result) == TYPE_REAL_ARRAY or typeof(result) == TYPE_VECTOR3_ARRAY:
+	elif typeof(result) == TYPE_PACKED_FLOAT32_ARRAY or typeof(result) == TYPE_PACKED_VECTOR3_ARRAY:
 		var values = flat(result)
-		if not wanted.empty():
+		if not wanted.is_empty():
 			var message = compare(values, wanted)
 			if message != "":
 				return message
@@ -368,10 +368,8 @@ func golden(path):
 
 # Memory comes back: what 150 surfaces with factors and poses would hold is far more than what the process grows by.
 func resident():
-	var file = File.new()
-	if file.open("/proc/self/statm", File.READ) != OK:
-		return 0
-	return int(file.get_line().split(" ")[1]) * 4096
+	var line = Host.first_line("/proc/self/statm")
+	return int(line.split(" ")[1]) * 4096 if line != "" else 0
 
 func memory():
 	var torus = meshes["torus"]
@@ -384,7 +382,7 @@ func memory():
 		s.add_handles([[0, 1], [140, 141]])
 		s.deform()
 	var grown = resident() - before
-	expect(before > 1000000 or not File.new().file_exists("/proc/self/statm"), "cannot read what the process holds")
+	expect(before > 1000000 or Host.first_line("/proc/self/statm") == "", "cannot read what the process holds")
 	print("memory after 150 more surfaces: ", grown / 1e6, " MB")
 	expect(grown < 16e6, "memory does not come back")
 
@@ -414,7 +412,7 @@ func lifetime():
 		expect(a.transfer_set_dials() == true and a.transfer_dials()["hip_height"] == 0, "neutral dials")
 		var pair = [a, b]
 		if draw.randf() < 0.5:
-			pair.invert()
+			pair.reverse()
 		pair[0].dispose()
 		pair[0].dispose()
 		expect(pair[0].solve() == null and pair[0].get_error()["name"] == "HF_ERROR_INVALID_HANDLE", "stale solve")
@@ -433,11 +431,11 @@ func lifetime():
 	print("lifetime: ", calls, " wrong calls answered")
 
 func imported():
-	var scene = load("res://model.glb")
+	var scene = load("res://model.glb") if ResourceLoader.exists("res://model.glb") else null
 	if scene == null:
 		print("no model.glb in the project: the imported mesh is left out")
 		return
-	var root_node = scene.instance()
+	var root_node = scene.instantiate()
 	var deformer = Deformer.new()
 	deformer.mesh = Deformer.mesh_in(root_node)
 	get_root().add_child(deformer)
@@ -456,7 +454,7 @@ func imported():
 	var fixed = deformer.add_handle(rest[first], 0.12 * size)
 	var moved = deformer.add_handle(rest[last], 0.05 * size)
 	expect(fixed != null and moved != null, "handles")
-	moved.translation += Vector3(0, 0.2 * size, 0)
+	moved.transform.origin += Vector3(0, 0.2 * size, 0)
 	var posed = deformer.update()
 	expect(posed.size() == rest.size(), "positions")
 	expect(abs(posed[last].y - rest[last].y - 0.2 * size) < 1e-3 * size, "the moved handle lands")
@@ -467,14 +465,14 @@ func imported():
 	expect(third != null and deformer.surface.statistics()["factorisation_count"] == 0,
 		"a handle in mid-pose, no factorisation after the surface's")
 	var hit = deformer.surface.cast_ray(posed[last] + Vector3(0, 0, size), Vector3(0, 0, -1), posed)
-	expect(hit != null and not hit.empty() and abs(hit.z - posed[last].z) < 0.1 * size, "a ray hits the posed mesh")
+	expect(hit != null and not hit.is_empty() and abs(hit.z - posed[last].z) < 0.1 * size, "a ray hits the posed mesh")
 	deformer.remove_handle(third)
 	expect(deformer.update() != null, "after removing it")
 	print("imported glb: ", rest.size(), " vertices posed")
 	root_node.free()
 	deformer.free()
 
-func _init():
+func _initialize():
 	for name in ["strip", "torus", "bar", "long_bar", "small", "lonely", "pair"]:
 		meshes[name] = read(OS.get_environment("HF_GOLDEN") + "/meshes/" + name + ".json")
 	golden(OS.get_environment("HF_SCENES"))

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# run_godot.sh LIBRARY SCRATCH MODEL.glb SCRIPT.gd: builds the add-on, makes a project with it and the model, imports
-# and runs; 77 (skipped) without Godot 3 or its headers.
+# run_godot.sh LIBRARY SCRATCH MODEL.glb SCRIPT.gd: builds the add-on for Godot 3, makes a project with it and the model,
+# imports and runs; 77 (skipped) without Godot 3 or its headers.
 set -u
 root=$(cd "$(dirname "$0")/../.." && pwd)
 library=$1 scratch=$2 model=$3 script=$4
@@ -11,7 +11,8 @@ mkdir -p "$project"
 rm -rf "$project/hf"
 cp -r "$scratch/hf" "$project/hf"
 [ -f "$model" ] && cp "$model" "$project/model.glb"
-cp "$script" "$project/test.gd"
+cp "$root/tests/bindings/godot3_host.gd" "$project/host.gd"
+sed -f "$root/bindings/godot/godot3.sed" "$script" >"$project/test.gd"
 printf 'config_version=4\n[application]\nconfig/name="hf"\n' >"$project/project.godot"
 export LANG=en_US.UTF-8 HOME="$scratch/home" HF_GOLDEN="$root/bindings/golden"
 export HF_SCENES="${HF_SCENES:-$root/bindings/golden/scenes.json}"

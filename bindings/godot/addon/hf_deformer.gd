@@ -1,22 +1,21 @@
-# A MeshInstance whose mesh follows handles: spatials given by add_handle(), which may be added and removed at any time.
+# A MeshInstance3D whose mesh follows handles: spatials given by add_handle(), which may be added and removed at any time.
 #
-#   var deformer = preload("res://hf/hf_deformer.gd").new()
+#   var deformer = preload("res://addons/hf/hf_deformer.gd").new()
 #   deformer.mesh = some_mesh
 #   add_child(deformer)
 #   deformer.bind()
-#   var head = deformer.add_handle(Vector3(0, 1.2, 0.4), 0.2)   # a Spatial: move it
-extends MeshInstance
+#   var head = deformer.add_handle(Vector3(0, 1.2, 0.4), 0.2)   # a Node3D: move it
+extends MeshInstance3D
 
-const HfSurface = preload("res://hf/hf_surface.gdns")
 
 var surface = null
-var handles = {} # Spatial -> { number, rest }
+var handles = {} # Node3D -> { number, rest }
 var arrays = []
 var last = []
 
 # The first mesh in a scene, an imported glb for one; null when there is none.
 static func mesh_in(node):
-	if node is MeshInstance:
+	if node is MeshInstance3D:
 		return node.mesh
 	for child in node.get_children():
 		var found = mesh_in(child)
@@ -32,7 +31,7 @@ func bind(options = {}):
 	if triangles == null:
 		triangles = range(arrays[Mesh.ARRAY_VERTEX].size())
 	# Godot's triangles are clockwise, the library's counter-clockwise
-	var turned = PoolIntArray(triangles)
+	var turned = PackedInt32Array(triangles)
 	for i in range(0, turned.size(), 3):
 		var keep = turned[i + 1]
 		turned[i + 1] = turned[i + 2]
@@ -51,8 +50,8 @@ func add_handle(point, radius, layer = 0):
 	if not said(numbers):
 		return null
 	var info = surface.handle_info(numbers[0])
-	var handle = Spatial.new()
-	handle.translation = Vector3(info.x, info.y, info.z)
+	var handle = Node3D.new()
+	handle.transform.origin = Vector3(info.x, info.y, info.z)
 	add_child(handle)
 	handles[handle] = { "number": numbers[0], "rest": handle.transform }
 	return handle
@@ -64,16 +63,16 @@ func remove_handle(handle):
 
 # Solves the pose and shows it; returns the positions, or null.
 func update():
-	if handles.empty():
+	if handles.is_empty():
 		return null
 	var numbers = []
 	var turns = []
 	var moves = []
 	for handle in handles:
-		var turn = (handle.transform.basis * handles[handle].rest.basis.inverse()).get_rotation_quat()
+		var turn = (handle.transform.basis * handles[handle].rest.basis.inverse()).get_rotation_quaternion()
 		numbers.append(handles[handle].number)
 		turns += [turn.x, turn.y, turn.z, turn.w]
-		var move = handle.translation - handles[handle].rest.origin
+		var move = handle.transform.origin - handles[handle].rest.origin
 		moves += [move.x, move.y, move.z]
 	if not said(surface.set_transforms(numbers, turns, moves)):
 		return null
