@@ -15,4 +15,5 @@ static func first_line(path):
 static func picture(viewport):
 	var image = viewport.get_texture().get_data()
 	image.flip_y()
+	image.lock() # so that pixels can be read
 	return image
