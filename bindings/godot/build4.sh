@@ -12,7 +12,8 @@ trap 'rm -rf "$scratch"' EXIT
 CXX=${CXX:-c++}
 machine=$("$CXX" -dumpmachine)
 # nothing in the file tells the time or the folder of the build
-compile=("$CXX" -std=c++17 -O2 -shared -s -fvisibility=hidden -fstack-protector-strong -DHF_STATIC -I"$here/../../include"
+# shellcheck disable=SC2206  # CXXFLAGS are words
+compile=("$CXX" -std=c++17 -O2 ${CXXFLAGS:-} -shared -s -fvisibility=hidden -fstack-protector-strong -DHF_STATIC -I"$here/../../include"
   "$here"/src/gdextension.cpp "$here"/src/surface*.cpp)
 case "$machine" in
   x86_64*mingw*)
@@ -27,7 +28,7 @@ case "$machine" in
     printf '{ global: hf_godot_init; local: *; };\n' >"$scratch/exports.map"
     runtime=(-static-libgcc)
     [ -z "${HF_PORTABLE_DIR:-}" ] || runtime=("$HF_PORTABLE_DIR/single.c"
-      -Wl,--push-state,--no-as-needed "$(echo "$HF_PORTABLE_DIR"/stand_in/libpthread.so*)" -Wl,--pop-state)
+      -Wl,--push-state,--no-as-needed "$HF_PORTABLE_DIR/stand_in/libpthread.so.0" -Wl,--pop-state)
     "${compile[@]}" -fPIC -pthread -o "$out/$name" "$library" "${runtime[@]}" -static-libstdc++ -Wl,--no-undefined,--gc-sections \
       -Wl,-z,relro,-z,now,--build-id=none,--version-script="$scratch/exports.map"
     ;;

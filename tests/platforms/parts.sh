@@ -1,4 +1,4 @@
-# Sourced by tests/run: the parts windows, arm64, small, clang, macos, wasm, bevy and packages. Each builds in build/NAME, runs its tests and
+# Sourced by tests/run: the parts windows, arm64, small, clang, macos, wasm, bevy, godot4 and packages. Each builds in build/NAME, runs its tests and
 # prints `NAME: N passed, N failed, N skipped`. CMAKE_BUILD_PARALLEL_LEVEL and CTEST_PARALLEL_LEVEL: jobs, else all cores.
 
 # hf_configure NAME CMAKE_ARGUMENTS... and hf_make NAME TARGETS...: the log is build/NAME.log.
@@ -199,4 +199,50 @@ test_bevy() {
     hf_say "what failed is in build/bevy.tests"
     return 1
   }
+}
+
+# Godot 4: one that is here, else that of Debian sid in a folder. The class HfSurface, the deformer, the README, a picture under
+# Xvfb, unloading, and our declarations of its C interface against its own.
+test_godot4() {
+  local folder="$hf_root/build/godot4/test" bindings="$hf_root/tests/bindings" readme="$hf_root/bindings/godot/README.md" compiler=${CXX:-c++}
+  local assets="$folder/assets" run skipped=0
+  local log="$hf_root/build/godot4/tests.log"
+  HF_GODOT4=$("$hf_root/tests/platforms/godot4_program.sh" --make) || return $?
+  export HF_GODOT4 HF_SCENES="$folder/scenes.json" HF_PICTURE="$folder/picture.png"
+  (hf_build release-tests hf_static bindings_golden hf_make_assets) || return 1
+  rm -rf "$folder"
+  mkdir -p "$assets"
+  "$hf_root/build/release/bin/hf_make_assets" "$assets" --vertices 20000 --creature horse >/dev/null &&
+    "$hf_root/build/release/bin/bindings_golden" "$hf_root/bindings/golden/meshes" "$hf_root/bindings/golden/scenes.json" --fill "$HF_SCENES" >/dev/null &&
+    CXX="$compiler" "$hf_root/bindings/godot/build4.sh" "$hf_root/build/release/src/libhf.a" "$folder" || return 1
+  hf_say "testing (godot4: $("$HF_GODOT4" --version))"
+  run=("$bindings/run_godot4.sh" "$folder/addons" "$folder")
+  {
+    hf_godot4_case interface 'functions of' "$bindings/godot4_interface.sh" "$HF_GODOT4" "$compiler" "$folder/interface"
+    hf_godot4_case golden 'imported glb: .* vertices posed' "${run[@]}" "$assets/horse.glb" "$bindings/godot_test.gd"
+    hf_godot4_case unload 'unloaded 3 times' "${run[@]}" none "$bindings/godot4_unload.gd"
+    hf_godot4_case readme 'README: HF_ERROR_OUT_OF_RANGE' python3 "$bindings/readme_example.py" "$readme" gdscript "$folder/readme.gd" \
+      "${run[@]}" none "$folder/readme.gd"
+    hf_godot4_case readme_calls 'README: all calls answered' python3 "$bindings/readme_example.py" --calls "$bindings/godot_readme_calls.gd" \
+      "$readme" gdscript "$folder/readme_calls.gd" "${run[@]}" none "$folder/readme_calls.gd"
+    if command -v xvfb-run >/dev/null; then
+      LIBGL_ALWAYS_SOFTWARE=1 hf_godot4_case picture 'picture: ' xvfb-run -a -s '-screen 0 1024x600x24' "${run[@]}" none "$bindings/godot_picture.gd" \
+        --rendering-driver opengl3 --audio-driver Dummy --resolution 1024x600
+    else
+      skipped=1
+    fi
+  } | tee "$log"
+  printf 'godot4: %s passed, %s failed, %s skipped\n' "$(grep -c '^passed: ' "$log")" "$(grep -c '^failed: ' "$log")" "$skipped"
+  ! grep -q '^failed: ' "$log"
+}
+
+# hf_godot4_case NAME EXPECTED COMMAND...: passes when the command does and prints what is expected.
+hf_godot4_case() {
+  local name=$1 expected=$2 said
+  shift 2
+  if said=$("$@" 2>&1) && grep -q "$expected" <<<"$said"; then
+    printf 'passed: %s (%s)\n' "$name" "$(grep -m1 "$expected" <<<"$said")"
+  else
+    printf '%s\nfailed: %s\n' "$said" "$name"
+  fi
 }
