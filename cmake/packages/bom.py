@@ -1,8 +1,8 @@
 """bom.py OUT.json PLATFORM FOLDER...: the bill of materials of a package as CycloneDX 1.5.
 
-PLATFORM: linux-x64, linux-arm64, windows-x64 (the C++ runtime is inside), debian (it is not), godot4 (godot-cpp is
-inside), none (no library inside); several with commas. The files below the folders that are libraries are named with
-their SHA-256. Versions are those of this machine's Debian packages.
+PLATFORM: linux-x64, linux-arm64, windows-x64 (the C++ runtime is inside), debian (it is not), none (no
+library inside); several with commas. The files below the folders that are libraries are named with their SHA-256.
+Versions are those of this machine's Debian packages.
 """
 
 import datetime
@@ -26,7 +26,6 @@ PARTS = (
     ("GCC runtime (libstdc++, libgcc, libssp)", ("gcc-mingw-w64-x86-64-posix-runtime",), GCC, "windows-x64"),
     ("mingw-w64 runtime and winpthreads", ("mingw-w64-x86-64-dev",), "ZPL-2.1 AND MIT AND BSD-3-Clause", "windows-x64"),
     ("Emscripten runtime (libc, libc++)", ("emscripten",), "MIT AND (Apache-2.0 WITH LLVM-exception)", "wasm"),
-    ("godot-cpp", ("godot-cpp",), "MIT", "godot4"),
 )
 
 
