@@ -27,8 +27,8 @@ case "$machine" in
     case "$machine" in x86_64*) name=hf_godot4.linux.x86_64.so ;; *) name=hf_godot4.linux.arm64.so ;; esac
     printf '{ global: hf_godot_init; local: *; };\n' >"$scratch/exports.map"
     runtime=(-static-libgcc)
-    [ -z "${HF_PORTABLE_DIR:-}" ] || runtime=("$HF_PORTABLE_DIR/single.c"
-      -Wl,--push-state,--no-as-needed "$HF_PORTABLE_DIR/stand_in/libpthread.so.0" -Wl,--pop-state)
+    [ -z "${HF_PORTABLE_DIR:-}" ] || runtime=("$HF_PORTABLE_DIR/single.c" "-Wl,--push-state,--no-as-needed"
+      "$HF_PORTABLE_DIR/stand_in/libpthread.so.0" "-Wl,--pop-state")
     "${compile[@]}" -fPIC -pthread -o "$out/$name" "$library" "${runtime[@]}" -static-libstdc++ -Wl,--no-undefined,--gc-sections \
       -Wl,-z,relro,-z,now,--build-id=none,--version-script="$scratch/exports.map"
     ;;
@@ -40,6 +40,7 @@ esac
 cp "$here/addon/hf_deformer.gd" "$out/"
 # the lines of libraries that are there
 while IFS= read -r line; do
-  case "$line" in *res://*) file=${line##*/} && [ -e "$out/${file%\"}" ] || continue ;; esac
+  file=${line##*/}
+  case "$line" in *res://*) [ -e "$out/${file%\"}" ] || continue ;; esac
   printf '%s\n' "$line"
 done <"$here/addon/hf.gdextension" >"$out/hf.gdextension"

@@ -1,5 +1,5 @@
-// A host without Godot: godot4_host LIBRARY. It loads the add-on's library for Godot 4 and calls hf_godot_init. With every
-// function there it must succeed; with one missing it must fail and name that one.
+// A host without Godot: godot4_host LIBRARY. It loads the add-on's library for Godot 4 and calls hf_godot_init. With
+// every function there it must succeed; with one missing it must fail and name that one.
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -45,8 +45,8 @@ int main(int count, char** arguments) {
   if (!init) return std::fprintf(stderr, "no hf_godot_init in %s\n", count == 2 ? arguments[1] : "LIBRARY"), 1;
   int token = 0, functions = 0, failed = 0;
   godot4::Initialization initialization{};
-  if (init(find, &token, &initialization) != 1 || initialization.least != godot4::scene_level || !initialization.initialize ||
-      !initialization.deinitialize || !said.empty())
+  if (init(find, &token, &initialization) != 1 || initialization.least != godot4::scene_level ||
+      !initialization.initialize || !initialization.deinitialize || !said.empty())
     failed += std::printf("FAILED with every function: %s\n", said.c_str()) > 0;
 
 #define HF_GODOT4_NAME(result, name, parameters) #name,

@@ -1,5 +1,6 @@
 // bindings/godot/src/godot4.h against what Godot prints of its own interface. godot4_interface.sh makes godot4_names.h:
-// HF_GODOT_TYPE_name and HF_GODOT_SINCE_name (a version) for each function, and figures of Godot's API. Compiling is the test.
+// HF_GODOT_TYPE_name and HF_GODOT_SINCE_name (403: Godot 4.3) for each function, and figures of Godot's API. Compiling
+// is the test.
 #include <type_traits>
 
 #include "gdextension_interface.h"
@@ -8,8 +9,8 @@
 
 namespace {
 
-// The same kind: both pointers, to functions of the same kinds or to structs of the same size where both are known; or both
-// numbers of the same size and sign. Enumerations count as integers.
+// The same kind: both pointers, to functions of the same kinds or to structs of the same size where both are known; or
+// both numbers of the same size and sign. Enumerations count as integers.
 template <class Ours, class Theirs>
 struct Same;
 
@@ -22,8 +23,10 @@ struct SameBehind : std::bool_constant<std::is_void_v<Theirs> || std::is_void_v<
                                        std::is_same_v<std::remove_cv_t<Ours>, std::remove_cv_t<Theirs>>> {
   template <class T>
   static constexpr size_t size() {
-    if constexpr (std::is_void_v<T>) return 0;
-    else return sizeof(T);
+    if constexpr (std::is_void_v<T>)
+      return 0;
+    else
+      return sizeof(T);
   }
   static constexpr bool sizes = !size<Ours>() || !size<Theirs>() || size<Ours>() == size<Theirs>();
   // what is written through in our declaration may be written in Godot's
@@ -36,32 +39,38 @@ struct Same {
     if constexpr (std::is_pointer_v<Ours> && std::is_pointer_v<Theirs>) {
       using O = std::remove_pointer_t<Ours>;
       using T = std::remove_pointer_t<Theirs>;
-      if constexpr (std::is_function_v<O> || std::is_function_v<T>) return Same<O, T>::value;
-      else return SameBehind<O, T>::value && SameBehind<O, T>::sizes && SameBehind<O, T>::constness;
+      if constexpr (std::is_function_v<O> || std::is_function_v<T>)
+        return Same<O, T>::value;
+      else
+        return SameBehind<O, T>::value && SameBehind<O, T>::sizes && SameBehind<O, T>::constness;
     } else if constexpr (std::is_void_v<Ours> || std::is_void_v<Theirs>) {
       return std::is_void_v<Ours> && std::is_void_v<Theirs>;
     } else {
       constexpr bool enumeration = std::is_enum_v<Ours> || std::is_enum_v<Theirs>;
-      return sizeof(Ours) == sizeof(Theirs) && is_whole<Ours> == is_whole<Theirs> &&
-             (enumeration || std::is_signed_v<Ours> == std::is_signed_v<Theirs>) && std::is_pointer_v<Ours> == std::is_pointer_v<Theirs>;
+      constexpr bool sign = enumeration || std::is_signed_v<Ours> == std::is_signed_v<Theirs>;
+      constexpr bool kind = is_whole<Ours> == is_whole<Theirs> && std::is_pointer_v<Ours> == std::is_pointer_v<Theirs>;
+      return sizeof(Ours) == sizeof(Theirs) && sign && kind;
     }
   }();
 };
 template <class R, class... P, class S, class... Q>
 struct Same<R(P...), S(Q...)> {
   static constexpr bool value = [] {
-    if constexpr (sizeof...(P) != sizeof...(Q)) return false;
-    else return Same<R, S>::value && (Same<P, Q>::value && ...);
+    if constexpr (sizeof...(P) != sizeof...(Q))
+      return false;
+    else
+      return Same<R, S>::value && (Same<P, Q>::value && ...);
   }();
 };
 
-#define FUNCTION(result, name, parameters) \
+#define FUNCTION(result, name, parameters)                                                    \
   static_assert(Same<decltype(godot4::Interface::name), HF_GODOT_TYPE_##name>::value, #name); \
-  static_assert(HF_GODOT_SINCE_##name < 4.35, #name " is newer than Godot 4.3");
+  static_assert(HF_GODOT_SINCE_##name <= 403, #name " is newer than Godot 4.3");
 HF_GODOT4_FUNCTIONS(FUNCTION)
 
-#define SIZE(ours, theirs) static_assert(sizeof(godot4::ours) == sizeof(theirs) && alignof(godot4::ours) == alignof(theirs), #ours);
-#define FIELD(ours, name, theirs, their_name)                                               \
+#define SIZE(ours, theirs) \
+  static_assert(sizeof(godot4::ours) == sizeof(theirs) && alignof(godot4::ours) == alignof(theirs), #ours);
+#define FIELD(ours, name, theirs, their_name)                                                   \
   static_assert(offsetof(godot4::ours, name) == offsetof(theirs, their_name), #ours "." #name); \
   static_assert(Same<decltype(godot4::ours::name), decltype(theirs::their_name)>::value, #ours "." #name);
 #define VALUE(ours, theirs) static_assert(int64_t(godot4::ours) == int64_t(theirs), #ours);
@@ -104,7 +113,9 @@ FIELD(ClassInfo, create, GDExtensionClassCreationInfo3, create_instance_func)
 FIELD(ClassInfo, free, GDExtensionClassCreationInfo3, free_instance_func)
 FIELD(ClassInfo, user_data, GDExtensionClassCreationInfo3, class_userdata)
 static_assert(offsetof(godot4::ClassInfo, unused) == offsetof(GDExtensionClassCreationInfo3, set_func), "unused");
-static_assert(offsetof(godot4::ClassInfo, unused_later) == offsetof(GDExtensionClassCreationInfo3, recreate_instance_func), "unused");
+static_assert(offsetof(godot4::ClassInfo, unused_later) ==
+                  offsetof(GDExtensionClassCreationInfo3, recreate_instance_func),
+              "unused");
 
 SIZE(BindingCallbacks, GDExtensionInstanceBindingCallbacks)
 FIELD(BindingCallbacks, create, GDExtensionInstanceBindingCallbacks, create_callback)
@@ -144,7 +155,8 @@ VALUE(usage_default, HF_GODOT_USAGE_DEFAULT)
 VALUE(usage_any_variant, HF_GODOT_USAGE_NIL_IS_VARIANT)
 
 // the largest of every build of Godot: single and double precision, 32 and 64 bits
-static_assert(sizeof(godot4::Opaque) >= HF_GODOT_LARGEST_OPAQUE && sizeof(godot4::Storage) >= HF_GODOT_LARGEST_VARIANT, "memory");
+static_assert(sizeof(godot4::Opaque) >= HF_GODOT_LARGEST_OPAQUE && sizeof(godot4::Storage) >= HF_GODOT_LARGEST_VARIANT,
+              "memory");
 static_assert(sizeof(uint8_t) == sizeof(GDExtensionBool) && sizeof(int64_t) == sizeof(GDExtensionInt), "numbers");
 // Vector3 and Quaternion of the builds with single precision, which alone are used
 static_assert(HF_GODOT_VECTOR3 == 3 * sizeof(float) && HF_GODOT_QUATERNION == 4 * sizeof(float), "vectors");

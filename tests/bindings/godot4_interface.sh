@@ -12,8 +12,8 @@ import json
 import re
 
 # a comment says the name that Godot knows a function by; the type of its pointer follows
-for name, since, type_name in re.findall(r"@name (\w+)\n \* @since (\d+\.\d+)\n.*?\n \*/\ntypedef [^;]*?\(\*(GDExtensionInterface\w+)\)\(", open("gdextension_interface.h").read(), re.S):
-    print(f"#define HF_GODOT_TYPE_{name} {type_name}\n#define HF_GODOT_SINCE_{name} {since}")
+for name, major, minor, type_name in re.findall(r"@name (\w+)\n \* @since (\d+)\.(\d+)\n.*?\n \*/\ntypedef [^;]*?\(\*(GDExtensionInterface\w+)\)\(", open("gdextension_interface.h").read(), re.S):
+    print(f"#define HF_GODOT_TYPE_{name} {type_name}\n#define HF_GODOT_SINCE_{name} {100 * int(major) + int(minor)}")
 api = json.load(open("extension_api.json"))
 usage = next(e for e in api["global_enums"] if e["name"] == "PropertyUsageFlags")["values"]
 for flag in ("DEFAULT", "NIL_IS_VARIANT"):

@@ -2,6 +2,7 @@
 # godot4_program.sh [--make]: prints the path of a Godot 4.3 or newer: godot4 or godot on PATH, else build/godot4/godot.
 # --make puts that one there: Godot of Debian sid and its libraries in a folder, nothing is installed. 77 (skipped) without.
 set -u
+# shellcheck source=../../cmake/setup.sh
 . "$(dirname "$0")/../../cmake/setup.sh"
 folder="$hf_root/build/godot4"
 for program in "$(command -v godot4)" "$(command -v godot)" "$folder/godot"; do
@@ -10,11 +11,12 @@ for program in "$(command -v godot4)" "$(command -v godot)" "$folder/godot"; do
 done
 [ "${1:-}" = --make ] || { echo "skipped: no Godot 4.3 or newer here" >&2 && exit 77; }
 . /etc/os-release
-[ "${ID:-}" = debian ] && command -v mmdebstrap >/dev/null || {
+if [ "${ID:-}" != debian ] || ! command -v mmdebstrap >/dev/null; then
   echo "skipped: no Godot 4.3 or newer here, and no Debian with mmdebstrap to take one of" >&2
   exit 77
-}
+fi
 mkdir -p "$folder"
+# shellcheck disable=SC2016  # words of apt-get
 mirror=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' |
   awk -v r="$VERSION_CODENAME" '$2 == r && $3 == "main" { print $1; exit }')
 # a mirror of a past day has lists that are out of date

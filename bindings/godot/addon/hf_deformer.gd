@@ -1,4 +1,4 @@
-# A MeshInstance3D whose mesh follows handles: spatials given by add_handle(), which may be added and removed at any time.
+# A MeshInstance3D whose mesh follows handles: nodes given by add_handle(), which may be added and removed at any time.
 #
 #   var deformer = preload("res://addons/hf/hf_deformer.gd").new()
 #   deformer.mesh = some_mesh

@@ -1,5 +1,5 @@
-// Godot 4: HfSurface as a GDExtension class over Godot's C interface (godot4.h), without godot-cpp. Godot's values become
-// hf_godot::Argument and back. Entry symbol: hf_godot_init.
+// Godot 4: HfSurface as a GDExtension class over Godot's C interface (godot4.h), without godot-cpp. Godot's values
+// become hf_godot::Argument and back. Entry symbol: hf_godot_init.
 #include <cstring>
 #include <limits>
 
@@ -391,7 +391,8 @@ extern "C" HF_GODOT4_EXPORT uint8_t hf_godot_init(godot4::FindFunction find, voi
                                                   godot4::Initialization* initialization) {
   library = token;
   if (const char* missing = api.load(find)) {
-    if (api.print_error_with_message) say((std::string("Godot has no ") + missing + "; 4.3 or newer is needed").c_str());
+    if (api.print_error_with_message)
+      say((std::string("Godot has no ") + missing + "; 4.3 or newer is needed").c_str());
     return 0;
   }
   *initialization = {godot4::scene_level, nullptr, initialize, deinitialize};

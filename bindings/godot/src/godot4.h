@@ -100,6 +100,7 @@ using FromType = void (*)(void* made, void* value);
 using Destroy = void (*)(void* value);
 
 // Every function, with the name that Godot knows it by. `made` is memory without a value.
+// clang-format off
 #define HF_GODOT4_FUNCTIONS(f)                                                                                         \
   f(void, print_error_with_message,                                                                                    \
     (const char* description, const char* message, const char* function, const char* file, int32_t line, uint8_t show)) \
@@ -134,6 +135,7 @@ using Destroy = void (*)(void* value);
     (void* library, const void* class_name, const void* parent_name, const ClassInfo* info))                           \
   f(void, classdb_register_extension_class_method, (void* library, const void* class_name, const MethodInfo* info))    \
   f(void, classdb_unregister_extension_class, (void* library, const void* class_name))
+// clang-format on
 
 struct Interface {
 #define HF_GODOT4_MEMBER(result, name, parameters) result(*name) parameters;
@@ -143,8 +145,8 @@ struct Interface {
   // The name of the first function that this Godot lacks, or null.
   const char* load(FindFunction find) {
     const char* missing = nullptr;
-#define HF_GODOT4_LOAD(result, name, parameters)                  \
-  name = reinterpret_cast<result(*) parameters>(find(#name));     \
+#define HF_GODOT4_LOAD(result, name, parameters)              \
+  name = reinterpret_cast<result(*) parameters>(find(#name)); \
   if (!name && !missing) missing = #name;
     HF_GODOT4_FUNCTIONS(HF_GODOT4_LOAD)
 #undef HF_GODOT4_LOAD
