@@ -117,11 +117,6 @@ static_assert(offsetof(godot4::ClassInfo, unused_later) ==
                   offsetof(GDExtensionClassCreationInfo3, recreate_instance_func),
               "unused");
 
-SIZE(BindingCallbacks, GDExtensionInstanceBindingCallbacks)
-FIELD(BindingCallbacks, create, GDExtensionInstanceBindingCallbacks, create_callback)
-FIELD(BindingCallbacks, free, GDExtensionInstanceBindingCallbacks, free_callback)
-FIELD(BindingCallbacks, reference, GDExtensionInstanceBindingCallbacks, reference_callback)
-
 SIZE(Initialization, GDExtensionInitialization)
 FIELD(Initialization, least, GDExtensionInitialization, minimum_initialization_level)
 FIELD(Initialization, user_data, GDExtensionInitialization, userdata)

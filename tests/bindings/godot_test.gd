@@ -403,6 +403,12 @@ func expect(condition, message):
 		failed += 1
 		print("FAILED ", message)
 
+# A variable can hold what is no more. Other objects may have taken the place.
+func freed():
+	var node = Node3D.new()
+	node.free()
+	return node
+
 # Objects of every kind, freed in any order; a transfer keeps what it needs.
 func lifetime():
 	var draw = RandomNumberGenerator.new()
@@ -435,7 +441,7 @@ func lifetime():
 		a = null
 		b = null
 	for wrong in [[null, null], ["text", "text"], [[1, 2], [0]], [{}, {}], [3, 4],
-		[[Vector3(), "x", Vector3()], [0, 1, 2]], [["x", 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2]], [[NAN, 0, 0], [0, 0, 0]]]:
+		[self, self], [freed(), freed()], [[Vector3(), "x", Vector3()], [0, 1, 2]], [["x", 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2]], [[NAN, 0, 0], [0, 0, 0]]]:
 		var s = HfSurface.new()
 		expect(s.create(wrong[0], wrong[1]) == null and s.get_error().has("message"), "create(" + str(wrong) + ")")
 		expect(s.clone_from(wrong[0]) == null and s.share_from(wrong[0]) == null and s.transfer_to(wrong[0], [[0]], [[0]]) == null, "clone_from, transfer_to")

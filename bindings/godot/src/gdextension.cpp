@@ -2,6 +2,8 @@
 // become hf_godot::Argument and back. Entry symbol: hf_godot_init.
 #include <cstring>
 #include <limits>
+#include <map>
+#include <mutex>
 
 #include "godot4.h"
 #include "surface.h"
@@ -177,8 +179,32 @@ void read_dictionary(const void* variant, Argument& argument) {
 }
 
 struct Instance {
+  void* object;  // Godot's
   std::shared_ptr<Surface> surface = std::make_shared<Surface>();
 };
+
+// The surfaces of objects that exist. A script can pass an object that was freed: its address is looked up here, never
+// read.
+class Registry {
+ public:
+  void add(const Instance& instance) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    surfaces_[instance.object] = instance.surface;
+  }
+  void remove(const Instance& instance) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    surfaces_.erase(instance.object);
+  }
+  std::shared_ptr<Surface> find(const void* object) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = surfaces_.find(object);
+    return found == surfaces_.end() ? nullptr : found->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<const void*, std::shared_ptr<Surface>> surfaces_;
+} registry;
 
 Argument argument_of(const void* variant) {
   Argument argument;
@@ -194,10 +220,7 @@ Argument argument_of(const void* variant) {
     api.get_variant_to_type_constructor(type)(xyzw, const_cast<void*>(variant));
     argument.list.assign(xyzw, xyzw + 4);
   } else if (type == godot4::object_type) {
-    void* object = number_in<void*>(variant, type);
-    // only our objects have a binding of this library
-    const void* instance = object ? api.object_get_instance_binding(object, library, nullptr) : nullptr;
-    if (instance) argument.surface = static_cast<const Instance*>(instance)->surface;
+    argument.surface = registry.find(number_in<void*>(variant, type));
   } else if (type == godot4::dictionary_type) {
     read_dictionary(variant, argument);
   } else if (type == godot4::bytes_type) {
@@ -323,15 +346,17 @@ void get_error(void*, void* instance, const void* const*, int64_t, void* result,
 }
 
 void* make_instance(void*) {
-  static const godot4::BindingCallbacks none{};
   Name name("HfSurface"), parent("RefCounted");
-  void* object = api.classdb_construct_object(parent.get());
-  auto* instance = new Instance;
-  api.object_set_instance(object, name.get(), instance);
-  api.object_set_instance_binding(object, library, instance, &none);
-  return object;
+  auto* instance = new Instance{api.classdb_construct_object(parent.get())};
+  api.object_set_instance(instance->object, name.get(), instance);
+  registry.add(*instance);
+  return instance->object;
 }
-void free_instance(void*, void* instance) { delete static_cast<Instance*>(instance); }
+void free_instance(void*, void* memory) {
+  const auto* instance = static_cast<Instance*>(memory);
+  registry.remove(*instance);
+  delete instance;
+}
 
 void register_method(const char* name, godot4::Call function, const Entry* entry) {
   Name class_name("HfSurface"), method_name(name), nothing("");

@@ -79,12 +79,6 @@ struct ClassInfo {  // GDExtensionClassCreationInfo3
   void* user_data;
 };
 
-struct BindingCallbacks {
-  void* (*create)(void* token, void* object);
-  void (*free)(void* token, void* object, void* binding);
-  uint8_t (*reference)(void* token, void* binding, uint8_t up);
-};
-
 enum Level : int { core_level, servers_level, scene_level, editor_level };
 struct Initialization {
   Level least;
@@ -127,8 +121,6 @@ using Destroy = void (*)(void* value);
   f(const uint8_t*, packed_byte_array_operator_index_const, (const void* array, int64_t index))                        \
   f(const double*, packed_float64_array_operator_index_const, (const void* array, int64_t index))                      \
   f(void*, packed_vector3_array_operator_index_const, (const void* array, int64_t index))                              \
-  f(void*, object_get_instance_binding, (void* object, void* token, const BindingCallbacks* callbacks))                \
-  f(void, object_set_instance_binding, (void* object, void* token, void* binding, const BindingCallbacks* callbacks))  \
   f(void, object_set_instance, (void* object, const void* class_name, void* instance))                                 \
   f(void*, classdb_construct_object, (const void* class_name))                                                         \
   f(void, classdb_register_extension_class3,                                                                           \
