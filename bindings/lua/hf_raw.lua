@@ -943,6 +943,7 @@ hf_result hf_pose_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_inf
 hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* inout_skin);
 hf_result hf_propose_handles(hf_surface surface, const hf_propose_desc* desc, uint32_t capacity, hf_handle_proposal* out_proposals, uint32_t* out_count);
 hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
+hf_result hf_quads_update(hf_quads quads, const hf_quads_desc* desc);
 void hf_quads_destroy(hf_quads quads);
 hf_result hf_quads_get_info(hf_quads quads, hf_quads_info* out_info);
 hf_result hf_quads_get_mesh(hf_quads quads, hf_quads_mesh* inout_mesh);

@@ -16,6 +16,8 @@ struct QuadsObject final : Object {
   std::shared_ptr<const Core> core;  // outlives the result, which lies in its memory
   QuadResult result;
   double edge_length;
+  bool of_crosses = false;
+  QuadKeeper kept;  // by updates
 };
 
 struct FlowObject final : Object {
@@ -61,7 +63,10 @@ hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quad
       return with_progress(desc.progress, [&] {
         FieldQuadReport report;
         QuadResult result = make_field_quads(options, &report);
-        return make_owner_in<QuadsObject>(core->memory, core, std::move(result), report.edge_length * core->mesh.scale);
+        auto object =
+            make_owner_in<QuadsObject>(core->memory, core, std::move(result), report.edge_length * core->mesh.scale);
+        object->of_crosses = true;
+        return object;
       });
     }
     Vector<FluxSite> sites(core->memory.get());
@@ -69,6 +74,25 @@ hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quad
     return with_progress(desc.progress, [&] {
       return make_owner_in<QuadsObject>(core->memory, core, make_quads(options),
                                         options.edge_length * core->mesh.scale);
+    });
+  });
+}
+
+hf_result hf_quads_update(hf_quads handle, const hf_quads_desc* given) {
+  return guarded("hf_quads_update", [&] {
+    const auto object = get<QuadsObject>(handle, "quads");
+    const hf_quads_desc desc = read_struct(given, "desc");
+    const Changing changing(*object);
+    check_quad_options(desc);
+    if (!object->of_crosses || desc.kind != HF_QUADS_FIELD)
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "only quads of the kind HF_QUADS_FIELD can be updated, with the same kind");
+    const Core& core = *object->core;
+    QuadLists lists(*core.memory);
+    const FieldQuadOptions options = read_field_quad_options(object->core, desc, lists);
+    with_progress(desc.progress, [&] {
+      FieldQuadReport report;
+      object->result = make_field_quads(options, &report, &object->kept);
+      object->edge_length = report.edge_length * core.mesh.scale;
     });
   });
 }

@@ -36,16 +36,13 @@ double missing_edges(const Core& core) {
 
 }  // namespace
 
-DirectionSystem::DirectionSystem(std::shared_ptr<const Core> given, Index n)
+DirectionMatrix::DirectionMatrix(std::shared_ptr<const Core> given, Index n)
     : core(std::move(given)),
       degree(n),
       connection(Connection::make(core->mesh, core->topology, *core->memory)),
       position(core->memory.get()),
       order(core->size(), core->memory.get()),
-      matrix(*core->memory),
-      beta(core->memory.get()),
-      pins(core->memory.get()),
-      pin_paths(*core->memory) {
+      matrix(*core->memory) {
   Timer timer;
   report(progress_connection);
   {
@@ -54,7 +51,21 @@ DirectionSystem::DirectionSystem(std::shared_ptr<const Core> given, Index n)
   }
   make_matrix();
   operator_ms = timer.milliseconds();
+}
+
+std::shared_ptr<const Factor> DirectionMatrix::factorise(const SymmetricMatrix& like) const {
   const ProgressRange range(progress_ordered_directions, 1.0f);
+  FactorOptions options;
+  options.ordering = Ordering::natural;  // the unknowns stand in the order of the surface's factor
+  options.flop_limit = core->flop_limit;
+  return Factor::make(like, {}, options, *core->memory, *core->jobs);
+}
+
+DirectionSystem::DirectionSystem(std::shared_ptr<const Core> given, Index n)
+    : DirectionMatrix(std::move(given), n),
+      beta(core->memory.get()),
+      pins(core->memory.get()),
+      pin_paths(*core->memory) {
   make_pins();
 }
 
@@ -66,7 +77,7 @@ PinnedOperator DirectionSystem::pinned_operator() const noexcept {
   return a;
 }
 
-void DirectionSystem::make_order() {
+void DirectionMatrix::make_order() {
   const Span<const Index> own = core->factor->position();
   position.assign(own.begin(), own.end());
   if (missing_edges(*core) > missing_share * core->topology.edge_count()) {
@@ -83,7 +94,7 @@ void DirectionSystem::make_order() {
 // Writes the matrix in real 2 x 2 blocks. A diagonal block is the identity times the sum of the vertex's weights. The
 // block between two neighbours is -w R, with w the weight of their edge and R the rotation from the column's frame to
 // the row's frame.
-void DirectionSystem::make_matrix() {
+void DirectionMatrix::make_matrix() {
   const Topology& topology = core->topology;
   const std::size_t n = at(core->size());
   const Vector<double> weights =
@@ -162,10 +173,7 @@ void DirectionSystem::make_pins() {
       a.value[a.diagonal(pins.back())] += beta[c];
     }
   }
-  FactorOptions options;
-  options.ordering = Ordering::natural;  // the unknowns stand in the order of the surface's factor
-  options.flop_limit = core->flop_limit;
-  factor = Factor::make(a, {}, options, *core->memory, *core->jobs);
+  factor = factorise(a);
   const Vector<double> ones(pins.size(), 1.0, &*core->memory);
   pin_paths.group.resize(pins.size()), pin_paths.column.resize(pins.size());
   factor->solve_paths({start, pins, ones}, *core->memory, *core->jobs, pin_paths.groups, pin_paths.group,

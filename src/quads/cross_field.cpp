@@ -14,6 +14,9 @@ constexpr double half_trust = 3.0;
 // A wish below this length everywhere says nothing: the first solve then starts from one arbitrary direction. With 0
 // and 0.1, 15 runs stay the same. Half and double give a sphere, whose wishes are shorter, the same quads.
 constexpr double least_wish = 1e-3;
+// Rounds after the first solve: each takes a solve, and the crosses come nearer to length 1. In 15 runs, 4 and 16 give 4
+// and 5 % fewer irregular vertices, and distances grow by 3 and 10 %.
+constexpr Index smooth_rounds = 8;
 
 Vec3 triangle_normal(const Mesh& mesh, Index t) noexcept {
   const Index* c = mesh.triangle(t);
@@ -89,22 +92,28 @@ Vector<Complex> curvature_crosses(const Core& core, const Connection& connection
   return next;
 }
 
-Vector<Complex> smooth_crosses(const DirectionSystem& system, Span<const Complex> wish, Span<const HardCross> hard,
-                               const CrossOptions& options) {
+CrossSmoother::CrossSmoother(const DirectionMatrix& system, double radius)
+    : system_(system), radius_(radius), matrix_(*system.core->memory) {
+  const Core& core = *system.core;
+  const double t = 1 / (radius * radius);
+  matrix_.column_start.assign(system.matrix.column_start.begin(), system.matrix.column_start.end());
+  matrix_.row.assign(system.matrix.row.begin(), system.matrix.row.end());
+  matrix_.value.assign(system.matrix.value.begin(), system.matrix.value.end());
+  for (Index v = 0; v < core.size(); ++v) {
+    for (Index part = 0; part < 2; ++part)
+      matrix_.value[matrix_.diagonal(system.unknown(v, part))] += t * core.areas[at(v)];
+  }
+  solver_.emplace(matrix_, system.factorise(matrix_), *core.memory, *core.jobs);
+}
+
+Vector<Complex> CrossSmoother::smooth(Span<const Complex> wish, Span<const HardCross> hard) {
+  const DirectionMatrix& system = system_;
   const Core& core = *system.core;
   Memory& memory = *core.memory;
   const std::size_t n = at(core.size());
-  const double t = 1 / (options.radius * options.radius);
-  SymmetricMatrix matrix(memory);
-  matrix.column_start.assign(system.matrix.column_start.begin(), system.matrix.column_start.end());
-  matrix.row.assign(system.matrix.row.begin(), system.matrix.row.end());
-  matrix.value.assign(system.matrix.value.begin(), system.matrix.value.end());
-  for (Index v = 0; v < core.size(); ++v) {
-    for (Index part = 0; part < 2; ++part)
-      matrix.value[matrix.diagonal(system.unknown(v, part))] += t * core.areas[at(v)];
-  }
-  DefiniteSystem solver(matrix, system.factor->refactor(matrix, {}, memory, *core.jobs), memory, *core.jobs);
-
+  const double t = 1 / (radius_ * radius_);
+  DefiniteSystem& solver = *solver_;
+  solver.set_scale(1);  // without the sites of the call before
   double most = 0;
   for (const Complex& w : wish) most = std::max(most, length_of(w));
   Vector<Complex> field(n, Complex(0, 0), &memory), target(wish.begin(), wish.end(), &memory);
@@ -121,8 +130,8 @@ Vector<Complex> smooth_crosses(const DirectionSystem& system, Span<const Complex
     }
   }
   if (!hard.empty()) solver.fix(unknowns, values);
-  for (Index round = 0; round <= options.rounds; ++round) {
-    report(static_cast<float>(round) / static_cast<float>(options.rounds + 1));
+  for (Index round = 0; round <= smooth_rounds; ++round) {
+    report(static_cast<float>(round) / static_cast<float>(smooth_rounds + 1));
     for (Index v = 0; v < core.size(); ++v) {
       const Complex w = t * core.areas[at(v)] * target[at(v)];
       right[at(system.unknown(v, 0))] = w.real(), right[at(system.unknown(v, 1))] = w.imag();

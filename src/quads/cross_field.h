@@ -20,21 +20,26 @@ namespace hf_inner {
 // over `passes` rings. connection: of the vertices.
 Vector<std::complex<double>> curvature_crosses(const Core& core, const Connection& connection, std::int32_t passes);
 
-struct CrossOptions {
-  double radius = 0.05;  // inner units
-  // Rounds after the first solve: each takes a solve, and the crosses come nearer to length 1. In 15 runs, 4 and 16
-  // give 4 and 5 % fewer irregular vertices, and distances grow by 3 and 10 %.
-  std::int32_t rounds = 8;
-};
-
 // A cross that does not give way.
 struct HardCross {
   std::int32_t vertex;
   std::complex<double> cross;  // to the fourth degree, length 1, in the frame of the vertex
 };
 
-// Returns the crosses by inner vertex, to the fourth degree. system: of degree 4. wish: by inner vertex.
-Vector<std::complex<double>> smooth_crosses(const DirectionSystem& system, Span<const std::complex<double>> wish,
-                                            Span<const HardCross> hard, const CrossOptions& options);
+// The factor of K + t M for one radius.
+class CrossSmoother {
+ public:
+  // system: of degree 4; it must outlive *this. radius: inner units. Throws what Factor::make throws.
+  CrossSmoother(const DirectionMatrix& system, double radius);
+  double radius() const noexcept { return radius_; }
+  // Returns the crosses by inner vertex, to the fourth degree. wish: by inner vertex.
+  Vector<std::complex<double>> smooth(Span<const std::complex<double>> wish, Span<const HardCross> hard);
+
+ private:
+  const DirectionMatrix& system_;
+  double radius_;
+  SymmetricMatrix matrix_;
+  std::optional<DefiniteSystem> solver_;
+};
 
 }  // namespace hf_inner

@@ -326,44 +326,74 @@ void check_expected(const FieldQuadOptions& options, double area) {
          expected);
 }
 
-QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* out_report) {
-  if (options.plane) return make_symmetric_quads(options, out_report);
+QuadBase::QuadBase(std::shared_ptr<const Core> given)
+    : core(std::move(given)),
+      surface(FluxSurface::make(core->mesh, core->topology, 0, *core->memory)),
+      area(area_of(surface)),
+      curvature(core->memory.get()) {
+  const Topology& topology = core->topology;
+  for (Index e = 0; e < topology.edge_count(); ++e)
+    mean_edge += norm(core->mesh.positions[at(topology.second(e))] - core->mesh.positions[at(topology.first(e))]);
+  mean_edge /= std::max(topology.edge_count(), 1);
+}
+
+void QuadBase::prepare(double edge_length) {
+  if (!system) system.emplace(core, 4);
+  const double radius = smooth_radius * std::max(edge_length, mean_edge);
+  if (!smoother || smoother->radius() != radius) {
+    smoother.reset();
+    smoother.emplace(*system, radius);
+  }
+  const double rings = curvature_radius * edge_length / mean_edge;
+  const Index wanted = static_cast<Index>(std::min<double>(most_passes, std::max<double>(least_passes, rings * rings)));
+  if (passes == wanted) return;
+  passes = -1;
+  curvature = curvature_crosses(*core, system->connection, wanted);
+  passes = wanted;
+}
+
+const QuadDistance& QuadBase::distance(double spacing) {
+  if (!distance_ || spacing_ != spacing) {
+    distance_.reset();
+    distance_.emplace(surface, spacing, *core->memory, core->jobs.get());
+    spacing_ = spacing;
+  }
+  return *distance_;
+}
+
+QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* out_report, QuadKeeper* kept) {
+  if (options.plane) return make_symmetric_quads(options, out_report, kept);
   const Core& core = *options.core;
   Memory& memory = *core.memory;
   FieldQuadReport made;
   hf_inner::report(0.0f);
   std::optional<ProgressRange> part(std::in_place, 0.0f, field_progress.factored);
   Timer timer;
-  const FluxSurface surface = FluxSurface::make(core.mesh, core.topology, 0, memory);
+  std::optional<QuadBase> own;
+  if (kept && !kept->whole) kept->whole = make_owner_in<QuadBase>(core.memory, options.core);
+  QuadBase& base = kept ? *kept->whole : own.emplace(options.core);
+  const FluxSurface& surface = base.surface;
   double edge_length = options.edge_length;
-  if (options.faces > 0) edge_length = std::sqrt(area_of(surface) / options.faces);
-  check_expected(options, area_of(surface));
-
-  std::optional<DirectionSystem> system(std::in_place, options.core, 4);
+  if (options.faces > 0) edge_length = std::sqrt(base.area / options.faces);
+  check_expected(options, base.area);
+  base.prepare(edge_length);
+  const Connection& connection = base.system->connection;
   part.reset();
-  double mean = 0;
-  for (Index e = 0; e < core.topology.edge_count(); ++e)
-    mean += norm(core.mesh.positions[at(core.topology.second(e))] - core.mesh.positions[at(core.topology.first(e))]);
-  mean /= std::max(core.topology.edge_count(), 1);
-  const double rings = curvature_radius * edge_length / mean;
-  const Index passes = static_cast<Index>(std::min<double>(most_passes, std::max<double>(least_passes, rings * rings)));
-  Vector<Complex> wish = curvature_crosses(core, system->connection, passes);
-  const Guided guided = read_guides(options.guides, system->connection, core.size(), memory);
+  Vector<Complex> wish(base.curvature.begin(), base.curvature.end(), &memory);
+  const Guided guided = read_guides(options.guides, connection, core.size(), memory);
   for (std::size_t v = 0; v < guided.weight.size(); ++v)
     wish[v] = (1 - guided.weight[v]) * wish[v] + guided.weight[v] * guided.cross[v];
-  CrossOptions cross_options;
-  cross_options.radius = smooth_radius * std::max(edge_length, mean);
   Table<std::uint8_t> features =
       find_features(surface, options.crease > 0 ? options.crease * degrees : HUGE_VAL, memory);
   keep_edges(surface, core.topology, options.crease_edges, features, memory);
   const auto smooth = [&] {
     const ProgressRange range(field_progress.factored, field_progress.smoothed);
-    Vector<HardCross> hard = feature_crosses(core, surface, system->connection, features, passes);
+    Vector<HardCross> hard = feature_crosses(core, surface, connection, features, base.passes);
     add_held(guided, hard);
-    return smooth_crosses(*system, wish, hard, cross_options);
+    return base.smoother->smooth(wish, hard);
   };
   const Vector<Complex> crosses = smooth();
-  FaceCross faces = FaceCross::make(surface, system->connection, crosses, features, memory);
+  FaceCross faces = FaceCross::make(surface, connection, crosses, features, memory);
   if (!guided.weight.empty()) {
     // The map cannot turn everywhere as the crosses do. Where there are guides, it does.
     for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
@@ -372,8 +402,8 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
       faces.importance.push_back(1 + guide_importance * w);
     }
   }
-  const Vector<Index> order(system->position.begin(), system->position.end(), &memory);
-  system.reset();  // its factor and matrix are a tenth of the memory
+  const Vector<Index> order(base.system->position.begin(), base.system->position.end(), &memory);
+  if (!kept) base.smoother.reset(), base.system.reset();  // their factor and matrices are a tenth of the memory
   made.field_ms = timer.milliseconds();
 
   Timer map_timer;
@@ -389,7 +419,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   QuadResult result(memory);
   FieldQuadReport chosen;
   result.euler_characteristic = surface.euler_characteristic;
-  const double wanted = options.faces > 0 ? options.faces : area_of(surface) / (edge_length * edge_length);
+  const double wanted = options.faces > 0 ? options.faces : base.area / (edge_length * edge_length);
   QuadSource source(surface, mapper, features, options.faces == 0, memory);
   double aim = wanted, best = -1;
   float from = field_progress.mapped;
@@ -402,7 +432,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
     FieldQuadReport now = made;
     Timer turn_timer;
     QuadMesh mesh =
-        make_count(surface, source, aim, std::sqrt(area_of(surface) / aim), options.faces > 0, now, raw, memory);
+        make_count(surface, source, aim, std::sqrt(base.area / aim), options.faces > 0, now, raw, memory);
     check_quads(mesh, surface.euler_characteristic, memory);
     made.quads_ms += turn_timer.milliseconds();
     hf_inner::report(field_progress.extracted);
@@ -416,7 +446,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
         relax_quads(surface, mesh, relax, memory);
       }
       const ProgressRange range(field_progress.relaxed, 1.0f);
-      const QuadDistance distance(surface, sample_spacing * now.edge_length, memory, core.jobs.get());
+      const QuadDistance& distance = base.distance(sample_spacing * now.edge_length);
       distance.turn_quads(mesh);
       FitOptions fit;
       fit.edge_length = now.edge_length, fit.tolerance = fit_tolerance * now.edge_length;

@@ -10,6 +10,7 @@
 #include "quads/chords.h"
 #include "quads/cross_field.h"
 #include "quads/extract.h"
+#include "remesh/quad_distance.h"
 #include "remesh/quads.h"
 
 namespace hf_inner {
@@ -48,11 +49,44 @@ struct FieldQuadReport {
   double field_ms = 0, map_ms = 0, quads_ms = 0, fit_ms = 0;
 };
 
+// What quads of one surface share, whatever their creases and guides. What belongs to an edge length is made again when
+// another one is wanted. An exception leaves parts unmade, which the next call makes.
+struct QuadBase {
+  explicit QuadBase(std::shared_ptr<const Core> core);
+  QuadBase(const QuadBase&) = delete;
+  QuadBase& operator=(const QuadBase&) = delete;
+  // Makes the curvature and the factor of the crosses for an edge length.
+  void prepare(double edge_length);
+  // Returns samples of the surface that are so far apart.
+  const QuadDistance& distance(double spacing);
+
+  std::shared_ptr<const Core> core;
+  FluxSurface surface;
+  double area = 0, mean_edge = 0;
+  std::optional<DirectionMatrix> system;
+  std::optional<CrossSmoother> smoother;
+  Index passes = -1;                       // of `curvature`; -1: not made
+  Vector<std::complex<double>> curvature;  // wished crosses
+ private:
+  double spacing_ = 0;
+  std::optional<QuadDistance> distance_;
+};
+
+struct HalfBase;  // the same for symmetric quads (symmetric.h)
+
+// What updates of quads keep.
+struct QuadKeeper {
+  std::shared_ptr<QuadBase> whole;
+  std::shared_ptr<HalfBase> half;
+};
+
 // Throws HF_ERROR_UNSUPPORTED for surfaces that are not manifold or cannot be oriented, and where no try gives a mesh
 // of discs; HF_ERROR_INVALID_ARGUMENT (index = guide) for a vector that stands on the surface; HF_ERROR_CANCELLED; with
 // a plane what make_symmetric_quads throws.
 // Throws HF_ERROR_TOO_LARGE if the default edge length gives far more quads than anybody wants.
 void check_expected(const FieldQuadOptions& options, double area);
-QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* report = nullptr);
+// kept: NULL, or of earlier calls with the same core; receives what this call makes. The result is the same, bit for bit.
+QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* report = nullptr,
+                            QuadKeeper* kept = nullptr);
 
 }  // namespace hf_inner

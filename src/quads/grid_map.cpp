@@ -111,6 +111,59 @@ class OpenInverse {
   Vector<double> columns_;
 };
 
+// Entries of a square matrix, put into columns in any order. Entries of one place are summed in the order in which they
+// are put, so that every compiler comes to the same bits.
+template <class Value>
+class EntryColumns {
+ public:
+  struct Entry {
+    std::int32_t row;
+    Value value;
+  };
+  EntryColumns(std::int32_t size, Memory& memory)
+      : start_(size + 1, 0, memory), cursor_(memory), place_(size, -1, memory), entries_(&memory) {}
+
+  // First every entry is counted, then as many are put.
+  void count(std::int32_t column, std::int32_t entries) { start_[column + 1] += entries; }
+  void begin() {
+    for (std::int32_t c = 0; c < size(); ++c) start_[c + 1] += start_[c];
+    cursor_ = start_;
+    poll();
+    entries_.resize(at(start_[size()]));
+  }
+  void put(std::int32_t row, std::int32_t column, Value value) { entries_[at(cursor_[column]++)] = {row, value}; }
+
+  // Sums what is put, to one entry a place. Rows have no order.
+  void sum() {
+    Poller poller;
+    std::int32_t out = 0;
+    for (std::int32_t c = 0; c < size(); ++c) {
+      poller.due();
+      const std::int32_t first = out;
+      for (std::int32_t i = start_[c]; i < cursor_[c]; ++i) {
+        const Entry entry = entries_[at(i)];
+        std::int32_t& place = place_[entry.row];
+        if (place >= first) {
+          entries_[at(place)].value += entry.value;
+        } else {
+          place = out, entries_[at(out++)] = entry;
+        }
+      }
+      start_[c] = first;
+    }
+    start_[size()] = out;
+    entries_.resize(at(out));
+  }
+  std::int32_t size() const noexcept { return start_.size() - 1; }
+  std::int32_t start(std::int32_t column) const noexcept { return start_[column]; }
+  const Entry& operator[](std::int32_t i) const noexcept { return entries_[at(i)]; }
+
+ private:
+  Table<std::int32_t> start_, cursor_;
+  Table<std::int32_t> place_;  // by row: its entry in the last column that has it
+  Vector<Entry> entries_;
+};
+
 }  // namespace
 
 GridMapper::GridMapper(const FluxSurface& surface, const FaceCross& crosses, const Seams& seams,
@@ -240,23 +293,16 @@ Span<const RealTerm> GridMapper::expand(std::int32_t variable, int part, RealTer
 void GridMapper::assemble() {
   const std::int32_t n = surface_.vertex_count(), variables = n + static_cast<std::int32_t>(seams_.offsets.size());
   // First in variables, of which a corner has two at most.
-  Vector<Entry> entries(&memory_);
-  entries.reserve(at(surface_.real_triangles) * 24);
+  EntryColumns<Complex> sums(variables, memory_);
   Vector<Complex> right(at(variables), Complex(0, 0), &memory_);
   Poller poller;
-  for (std::int32_t t = 0; t < surface_.real_triangles; ++t) {
-    poller.due();
-    Vec3 p[3];
-    for (int k = 0; k < 3; ++k) p[k] = surface_.position[surface_.tail[3 * t + k]];
-    double cotangent[3];
-    corner_cotangents(p, cotangent);
-    if (!crosses_.importance.empty()) {
-      for (double& c : cotangent) c *= crosses_.importance[t];
-    }
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t h = 3 * t + k, ends[2] = {FluxSurface::next(h), h};
-      const double weight = cotangent[(k + 2) % 3] / 2;
-      const Complex wish = crosses_.edge[h] * std::conj(seams_.direction[t]);
+  double cotangent[3] = {};
+  // The first pass counts.
+  for (const bool counting : {true, false}) {
+    if (!counting) sums.begin();
+    for (std::int32_t h = 0; h < 3 * surface_.real_triangles; ++h) {
+      poller.due();
+      const std::int32_t t = h / 3, ends[2] = {FluxSurface::next(h), h};
       SeamTerm terms[4] = {};
       int count = 0;
       for (int end = 0; end < 2; ++end) {
@@ -267,57 +313,62 @@ void GridMapper::assemble() {
       }
       // Both corners on one side of one seam: the offsets cancel.
       if (count == 4 && terms[1].parameter == terms[3].parameter) terms[1] = terms[2], count = 2;
+      if (counting) {
+        for (int a = 0; a < count; ++a) sums.count(terms[a].parameter, count);
+        continue;
+      }
+      if (h % 3 == 0) {
+        Vec3 p[3];
+        for (int k = 0; k < 3; ++k) p[k] = surface_.position[surface_.tail[h + k]];
+        corner_cotangents(p, cotangent);
+        if (!crosses_.importance.empty()) {
+          for (double& c : cotangent) c *= crosses_.importance[t];
+        }
+      }
+      const double weight = cotangent[(h + 2) % 3] / 2;
+      const Complex wish = crosses_.edge[h] * std::conj(seams_.direction[t]);
       for (int a = 0; a < count; ++a) {
-        right[at(terms[a].parameter)] += weight * std::conj(terms[a].factor) * wish;
-        for (int b = 0; b < count; ++b)
-          entries.push_back(
-              {terms[a].parameter, terms[b].parameter, weight * std::conj(terms[a].factor) * terms[b].factor});
+        const Complex factor = weight * std::conj(terms[a].factor);
+        right[at(terms[a].parameter)] += factor * wish;
+        for (int b = 0; b < count; ++b) sums.put(terms[a].parameter, terms[b].parameter, factor * terms[b].factor);
       }
     }
   }
-  const auto merge = [&](auto& list) {
-    std::sort(list.begin(), list.end(), [&](const auto& a, const auto& b) {
-      poller.due();
-      return a.column != b.column ? a.column < b.column : a.row < b.row;
-    });
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      if (count > 0 && list[count - 1].row == list[i].row && list[count - 1].column == list[i].column) {
-        list[count - 1].value += list[i].value;
-      } else {
-        list[count++] = list[i];
-      }
-    }
-    list.resize(count);
-  };
-  merge(entries);
+  sums.sum();
   // Then in unknowns. The complex number a + i b is the real block [a -b; b a].
-  Vector<RealEntry> real(&memory_);
-  real.reserve(4 * entries.size());
+  const std::int32_t size = static_cast<std::int32_t>(right_.size());
   RealTerm single_row, single_column;
   // Those that must be whole are joined by sums with many terms, so their block is dense.
-  const std::int32_t wholes = static_cast<std::int32_t>(right_.size()) - free_count_;
+  const std::int32_t wholes = size - free_count_;
   Vector<double> dense(at(wholes) * at(wholes), 0.0, &memory_);
-  for (const Entry& e : entries) {
-    poller.due();
-    const double a = e.value.real(), b = e.row == e.column ? 0.0 : e.value.imag();
-    const double block[2][2] = {{a, -b}, {b, a}};
-    for (int column = 0; column < 2; ++column) {
-      for (const RealTerm& y : expand(e.column, column, single_column)) {
-        for (int row = 0; row < 2; ++row) {
-          for (const RealTerm& x : expand(e.row, row, single_row)) {
-            const double value = x.factor * block[row][column] * y.factor;
-            if (x.number >= free_count_ && y.number >= free_count_) {
-              dense[at(y.number - free_count_) * at(wholes) + at(x.number - free_count_)] += value;
-            } else {
-              real.push_back({x.number, y.number, value});
+  EntryColumns<double> real(size, memory_);
+  for (const bool counting : {true, false}) {
+    if (!counting) real.begin();
+    for (std::int32_t column = 0; column < variables; ++column) {
+      for (std::int32_t i = sums.start(column); i < sums.start(column + 1); ++i) {
+        poller.due();
+        const std::int32_t row = sums[i].row;
+        const double a = sums[i].value.real(), b = row == column ? 0.0 : sums[i].value.imag();
+        const double block[2][2] = {{a, -b}, {b, a}};
+        for (int k = 0; k < 4; ++k) {
+          if (block[k % 2][k / 2] == 0) continue;  // most blocks are diagonal
+          for (const RealTerm& y : expand(column, k / 2, single_column)) {
+            for (const RealTerm& x : expand(row, k % 2, single_row)) {
+              const double value = x.factor * block[k % 2][k / 2] * y.factor;
+              if (x.number >= free_count_ && y.number >= free_count_) {
+                if (!counting) dense[at(y.number - free_count_) * at(wholes) + at(x.number - free_count_)] += value;
+              } else if (counting) {
+                real.count(y.number, 1);
+              } else {
+                real.put(x.number, y.number, value);
+              }
             }
           }
         }
       }
     }
   }
-  merge(real);
+  real.sum();
   for (std::int32_t v = 0; v < variables; ++v) {
     if (v >= surface_.first_apex && v < n) continue;
     for (int part = 0; part < 2; ++part) {
@@ -325,19 +376,30 @@ void GridMapper::assemble() {
       for (const RealTerm& x : expand(v, part, single_row)) right_[at(x.number)] += x.factor * value;
     }
   }
-  matrix_.column_start.assign(1, 0);
-  std::size_t i = 0;
-  for (std::int32_t column = 0; column < static_cast<std::int32_t>(right_.size()); ++column) {
+  // Columns one after the other, put as rows, are sorted. The matrix is symmetric.
+  Vector<std::int32_t>& start = matrix_.column_start;
+  start.assign(at(size) + 1, 0);
+  const auto has = [&](std::int32_t x, std::int32_t y) {
+    return dense[at(y) * at(wholes) + at(x)] != 0 || dense[at(x) * at(wholes) + at(y)] != 0;
+  };
+  for (std::int32_t i = 0; i < real.start(size); ++i) ++start[at(real[i].row) + 1];
+  for (std::int32_t y = 0; y < wholes; ++y) {
+    for (std::int32_t x = 0; x < wholes; ++x) start[at(free_count_ + y) + 1] += has(x, y);
+  }
+  for (std::int32_t c = 0; c < size; ++c) start[at(c) + 1] += start[at(c)];
+  Vector<std::int32_t> cursor(start.begin(), start.end(), &memory_);
+  matrix_.row.resize(at(start[at(size)])), matrix_.value.resize(matrix_.row.size());
+  const auto put = [&](std::int32_t row, std::int32_t column, double value) {
+    const std::size_t i = at(cursor[at(column)]++);
+    matrix_.row[i] = row, matrix_.value[i] = value;
+  };
+  for (std::int32_t c = 0; c < size; ++c) {
     poller.due();
-    for (; i < real.size() && real[i].column == column; ++i)
-      matrix_.row.push_back(real[i].row), matrix_.value.push_back(real[i].value);
-    for (std::int32_t k = 0; column >= free_count_ && k < wholes; ++k) {
-      const std::size_t own = at(column - free_count_) * at(wholes) + at(k),
-                        mirrored = at(k) * at(wholes) + at(column - free_count_);
-      if (dense[own] == 0 && dense[mirrored] == 0) continue;
-      matrix_.row.push_back(free_count_ + k), matrix_.value.push_back(dense[own]);
+    for (std::int32_t i = real.start(c); i < real.start(c + 1); ++i) put(c, real[i].row, real[i].value);
+    for (std::int32_t x = 0; c >= free_count_ && x < wholes; ++x) {
+      const std::int32_t y = c - free_count_;
+      if (has(x, y)) put(c, free_count_ + x, dense[at(x) * at(wholes) + at(y)]);
     }
-    matrix_.column_start.push_back(static_cast<std::int32_t>(matrix_.row.size()));
   }
 }
 

@@ -47,14 +47,6 @@ class GridMapper {
   Vector<double> round(double edge_length, Vector<Index>* out_fixed, Vector<double>* out_values);
 
  private:
-  struct Entry {
-    std::int32_t row, column;
-    std::complex<double> value;
-  };
-  struct RealEntry {
-    std::int32_t row, column;
-    double value;
-  };
   bool keep_longest(FeatureLines& lines, Vector<std::int32_t>& edges) const;
   void number(const Table<std::uint8_t>& features);
   void assemble();

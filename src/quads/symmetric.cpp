@@ -277,7 +277,20 @@ void prepare_at_plane(QuadMesh& mesh, Table<std::uint8_t>& on_plane, const Mirro
   }
 }
 
-QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report) {
+HalfBase::HalfBase(const Core& whole, const MirrorPlane& given)
+    : plane(given), nearest(whole.mesh.positions, whole.mesh.corners, *whole.memory), half(*whole.memory) {
+  std::optional<ProgressRange> part(std::in_place, 0.0f, compared);
+  check_symmetry(whole, nearest, plane);
+  part.emplace(compared, cut);
+  half = HalfSurface::make(whole, plane);
+  if (half.corner.empty())
+    fail(
+        HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+        "no triangle lies on the side of symmetry_plane that its normal points to; turn the signs of all four numbers");
+  core = core_of(whole, half);
+}
+
+QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report, QuadKeeper* kept) {
   const Core& whole = *options.core;
   Memory& memory = *whole.memory;
   const MirrorPlane& plane = *options.plane;
@@ -285,17 +298,20 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
   for (const double part : whole.areas) area += part;
   const double length = options.faces > 0 ? std::sqrt(area / options.faces) : options.edge_length;
   check_expected(options, area);
-  std::optional<ProgressRange> part(std::in_place, 0.0f, compared);
-  const NearestTriangle nearest(whole.mesh.positions, whole.mesh.corners, memory);
-  check_symmetry(whole, nearest, plane);
-  part.emplace(compared, cut);
-  const HalfSurface half = HalfSurface::make(whole, plane);
-  if (half.corner.empty())
-    fail(
-        HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-        "no triangle lies on the side of symmetry_plane that its normal points to; turn the signs of all four numbers");
+  // One that fails stays unmade.
+  std::shared_ptr<HalfBase> base = kept ? kept->half : nullptr;
+  const auto same = [&](const MirrorPlane& other) {
+    return norm(other.normal - plane.normal) == 0 && other.offset == plane.offset;
+  };
+  if (!base || !same(base->plane)) {
+    if (kept) kept->half.reset();
+    base = make_owner_in<HalfBase>(whole.memory, whole, plane);
+    if (kept) kept->half = base;
+  }
+  const NearestTriangle& nearest = base->nearest;
+  const HalfSurface& half = base->half;
   FieldQuadOptions own = options;
-  own.plane.reset(), own.core = core_of(whole, half);
+  own.plane.reset(), own.core = base->core;
   const Mesh& mesh = own.core->mesh;
   const auto vertex_of = [&](Index v) {
     const Index found = half.of_vertex[at(v)];
@@ -320,9 +336,9 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
   own.guides = {guides.data(), guides.size()}, own.crease_edges = {creases.data(), creases.size()};
   own.edge_length = length / mesh.scale;
   if (options.faces > 0) own.faces = std::max(1, (options.faces + 1) / 2);
-  part.emplace(cut, made);
+  std::optional<ProgressRange> part(std::in_place, cut, made);
   FieldQuadReport found;
-  QuadResult result = make_field_quads(own, &found);
+  QuadResult result = make_field_quads(own, &found, kept ? &base->kept : nullptr);
   part.reset();
   Table<std::uint8_t> on_plane(memory);
   for (Index v = 0; v < result.mesh.position.size(); ++v) {

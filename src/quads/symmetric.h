@@ -8,10 +8,6 @@
 
 namespace hf_inner {
 
-// options.plane is set. Throws what make_field_quads throws. Throws HF_ERROR_UNSUPPORTED too: the surface is no mirror
-// image of itself (index = vertex as given), or nothing lies on the side of the normal.
-QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report);
-
 // The part of a surface on the side that a plane's normal points to.
 struct HalfSurface {
   explicit HalfSurface(Memory& memory) : position(&memory), corner(&memory), of_vertex(&memory), of_edge(&memory) {}
@@ -21,6 +17,22 @@ struct HalfSurface {
   Vector<Index> of_vertex;  // by vertex of the whole, the vertex of the half, or none
   Vector<Index> of_edge;    // by edge of the whole, the vertex where the plane cuts it, or none
 };
+
+// What symmetric quads of one surface and plane share.
+struct HalfBase {
+  // Throws as make_symmetric_quads for the surface.
+  HalfBase(const Core& whole, const MirrorPlane& plane);
+  MirrorPlane plane;
+  NearestTriangle nearest;  // of the whole
+  HalfSurface half;
+  std::shared_ptr<const Core> core;  // of the half
+  QuadKeeper kept;
+};
+
+// options.plane is set. Throws what make_field_quads throws. Throws HF_ERROR_UNSUPPORTED too: the surface is no mirror
+// image of itself (index = vertex as given), or nothing lies on the side of the normal.
+QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report,
+                                QuadKeeper* kept = nullptr);
 
 // Makes the half of a mesh such that its image can be joined to it. An edge off the border with both ends on the plane
 // would be its own image. Quads with three sides on the plane have one, and go. Where small pieces have one, or one is

@@ -159,6 +159,96 @@ static void a_tube_becomes_quads_along_guides_and_its_own_mirror_image(void** st
   hf_surface_destroy(surface), surface_free(&mesh);
 }
 
+typedef struct Net {
+  hf_quads_info info;
+  double* positions;
+  uint32_t* corners;
+} Net;
+
+static Net net_of(hf_quads quads) {
+  Net net = {HF_INIT(hf_quads_info), NULL, NULL};
+  assert_ok(hf_quads_get_info(quads, &net.info));
+  net.positions = calloc(net.info.vertex_count, 3 * sizeof *net.positions);
+  net.corners = calloc(net.info.corner_count, sizeof *net.corners);
+  hf_quads_mesh out = HF_INIT(hf_quads_mesh);
+  out.vertex_capacity = net.info.vertex_count, out.corner_capacity = net.info.corner_count;
+  out.positions = net.positions, out.face_corners = net.corners;
+  assert_ok(hf_quads_get_mesh(quads, &out));
+  return net;
+}
+
+/* Whether two nets are the same bit for bit. Frees both. */
+static int same_nets(Net a, Net b) {
+  const int same = memcmp(&a.info, &b.info, sizeof a.info) == 0 &&
+                   memcmp(a.positions, b.positions, 3 * a.info.vertex_count * sizeof *a.positions) == 0 &&
+                   memcmp(a.corners, b.corners, a.info.corner_count * sizeof *a.corners) == 0;
+  free(a.positions), free(a.corners), free(b.positions), free(b.corners);
+  return same;
+}
+
+/* Every update gives what hf_quads_create gives, whatever came before; a refused one changes nothing. */
+static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
+  (void)state;
+  Surface mesh;
+  const hf_surface surface = tube_on(&mesh);
+  const uint32_t creases[2] = {5 * AROUND, 6 * AROUND};
+  uint32_t guided[3] = {10 * AROUND, 10 * AROUND + 1, 11 * AROUND};
+  double vectors[9];
+  hf_quads_desc desc = HF_INIT(hf_quads_desc);
+  desc.kind = HF_QUADS_FIELD, desc.face_count = 300;
+  hf_quads updated = NULL, fresh = NULL;
+  assert_ok(hf_quads_create(surface, &desc, &updated));
+  for (uint32_t step = 0; step < 9; ++step) {
+    for (uint32_t i = 0; i < 3; ++i) /* a stroke that turns */
+      vectors[3 * i] = 0.1 * step, vectors[3 * i + 1] = 0, vectors[3 * i + 2] = 1;
+    memset(&desc, 0, sizeof desc);
+    desc.struct_size = sizeof desc, desc.kind = HF_QUADS_FIELD, desc.face_count = 300, desc.relax_count = step % 2 ? 3 : HF_NO_INDEX;
+    if (step > 0) desc.guide_count = 3, desc.guide_vertices = guided, desc.guide_vectors = vectors;
+    if (step == 3) desc.crease_count = 1, desc.crease_edges = creases;
+    if (step == 4) desc.face_count = 0, desc.edge_length = 0.8f;
+    if (step == 5 || step == 6) desc.symmetry_plane[2] = 1;
+    if (step == 7) desc.symmetry_plane[0] = 1;
+    assert_ok(hf_quads_update(updated, &desc));
+    assert_ok(hf_quads_create(surface, &desc, &fresh));
+    assert_true(same_nets(net_of(updated), net_of(fresh)));
+    hf_quads_destroy(fresh);
+
+    const Net before = net_of(updated);
+    hf_quads_desc bad = desc;
+    bad.kind = HF_QUADS_PURE;
+    assert_code(HF_ERROR_UNSUPPORTED, hf_quads_update(updated, &bad));
+    bad = desc, bad.edge_length = -1;
+    assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_update(updated, &bad));
+    bad = desc, bad.guide_count = 3, bad.guide_vertices = guided, bad.guide_vectors = vectors;
+    const double none[9] = {0, 0, 1, 0, 0, 1, 0, 0, 0};
+    bad.guide_vectors = none;
+    assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_update(updated, &bad));
+    hf_progress progress = NULL;
+    assert_ok(hf_progress_create(&progress));
+    assert_ok(hf_progress_cancel(progress));
+    bad = desc, bad.progress = progress;
+    assert_code(HF_ERROR_CANCELLED, hf_quads_update(updated, &bad));
+    hf_progress_destroy(progress);
+    assert_true(same_nets(before, net_of(updated)));
+  }
+  assert_code(HF_ERROR_NULL_POINTER, hf_quads_update(updated, NULL));
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_update(NULL, &desc));
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_update((hf_quads)surface, &desc));
+  /* it outlives the surface */
+  hf_surface_destroy(surface);
+  desc.symmetry_plane[0] = 0;
+  assert_ok(hf_quads_update(updated, &desc));
+  hf_quads_destroy(updated);
+  /* other kinds have nothing to keep */
+  const hf_surface again = surface_on(&mesh);
+  desc = quads_desc();
+  assert_ok(hf_quads_create(again, &desc, &updated));
+  assert_code(HF_ERROR_UNSUPPORTED, hf_quads_update(updated, &desc));
+  desc.kind = HF_QUADS_FIELD;
+  assert_code(HF_ERROR_UNSUPPORTED, hf_quads_update(updated, &desc));
+  hf_quads_destroy(updated), hf_surface_destroy(again), surface_free(&mesh);
+}
+
 static void flow_lines_rise_and_outlive_the_surface(void** state) {
   (void)state;
   Surface mesh;
@@ -525,6 +615,7 @@ int main(void) {
       cmocka_unit_test(a_tube_becomes_a_closed_net_of_quads),
       cmocka_unit_test(a_tube_becomes_quads_along_its_curvature),
       cmocka_unit_test(a_tube_becomes_quads_along_guides_and_its_own_mirror_image),
+      cmocka_unit_test(an_update_is_a_new_mesh_of_the_same_options),
       cmocka_unit_test(flow_lines_rise_and_outlive_the_surface),
       cmocka_unit_test(cancelling_leaves_nothing_and_stops_one_call),
       cmocka_unit_test(progress_rises_in_small_steps_and_stops_where_it_is_cancelled),

@@ -210,6 +210,29 @@ Case making(const char* name, hf_surface surface, Desc d, hf_result (*create)(hf
           [=] { return memory_of(surface); }};
 }
 
+// The first update of quads.
+Case updates(const char* name, hf_surface surface, hf_quads_desc d) {
+  struct Made {
+    hf_quads object = nullptr;
+    ~Made() { hf_quads_destroy(object); }
+  };
+  const auto made = std::make_shared<Made>();
+  Case c{name,
+         [=](hf_progress p) {
+           hf_quads_desc with = d;
+           with.progress = p;
+           return hf_quads_update(made->object, &with);
+         },
+         [=] { return memory_of(surface); }};
+  c.prepare = [=](hf_progress) {
+    hf_quads_desc coarse = d;
+    coarse.face_count = 100, coarse.relax_count = HF_NO_INDEX;
+    hf_quads_destroy(made->object);
+    must(hf_quads_create(surface, &coarse, &made->object), "hf_quads_create");
+  };
+  return c;
+}
+
 // Distances from one vertex. An object of distances reports to the progress that it is made with.
 Case distances(const char* name, std::int32_t method, hf_surface surface, std::size_t vertices) {
   struct Made {
@@ -251,7 +274,9 @@ void add_field_cases(World& w, std::vector<Case>& cases) {
   hf_quads_desc crosses = desc<hf_quads_desc>();
   crosses.kind = HF_QUADS_FIELD;
   cases.push_back(making("quads_field", w.surface, crosses, hf_quads_create, hf_quads_destroy));
+  cases.push_back(updates("quads_update", w.surface, crosses));
   crosses.symmetry_plane[0] = 1;
+  cases.push_back(updates("quads_update_symmetric", w.surface, crosses));
   cases.push_back(making("quads_symmetric", w.surface, crosses, hf_quads_create, hf_quads_destroy));
   cases.push_back({"propose_handles",
                    [&w](hf_progress p) {

@@ -184,6 +184,23 @@ void quads(Story& s, const Tube& tube, Allocator& memory) {
   hf_quads_destroy(mesh), hf_surface_destroy(surface);
 }
 
+// The first update makes what later ones keep.
+void crosses(Story& s, const Tube& tube, Allocator& memory) {
+  const hf_surface surface = made(s, tube, memory);
+  hf_quads_desc desc = HF_INIT(hf_quads_desc);
+  desc.kind = HF_QUADS_FIELD, desc.face_count = 40, desc.relax_count = HF_NO_INDEX;
+  hf_quads mesh = nullptr;
+  hf_quads_info info = HF_INIT(hf_quads_info);
+  s.make("hf_quads_create", mesh, [&] { return hf_quads_create(surface, &desc, &mesh); });
+  for (const double z : {0.0, 1.0}) {
+    desc.symmetry_plane[2] = z;
+    s.call("hf_quads_update", [&] { return hf_quads_update(mesh, &desc); });
+    s.call("hf_quads_get_info", [&] { return hf_quads_get_info(mesh, &info); });
+    s.take(info.vertex_count), s.take(info.face_count);
+  }
+  hf_quads_destroy(mesh), hf_surface_destroy(surface);
+}
+
 void flow(Story& s, const Tube& tube, Allocator& memory) {
   const hf_surface surface = made(s, tube, memory);
   hf_flow flow = nullptr;
@@ -310,7 +327,7 @@ void skin_weights(Story& s, const Tube& tube, Allocator& memory) {
 std::vector<Chapter> shape_chapters() {
   return {
       {"lines", lines},           {"distances", distances}, {"directions", directions}, {"smooth_pose", smooth_pose},
-      {"paper_pose", paper_pose}, {"transfer", transfer},   {"quads", quads},           {"flow", flow},
+      {"paper_pose", paper_pose}, {"transfer", transfer},   {"quads", quads},           {"crosses", crosses},           {"flow", flow},
       {"regions", regions},       {"weights", skin_weights}};
 }
 

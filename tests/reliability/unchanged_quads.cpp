@@ -58,8 +58,9 @@ class Quads final : public Subject {
 struct Calls {
   static Quads& of(Subject& s) { return static_cast<Quads&>(s); }
 
-  static hf_result make(Subject& subject, Random& random) {
-    Quads& s = of(subject);
+  // Calls work(desc) with a description that is good or not.
+  template <class Work>
+  static hf_result with_desc(Quads& s, Random& random, Work&& work) {
     hf_quads_desc desc = HF_INIT(hf_quads_desc);
     desc.kind = random.pick({0, 1, 0, 1, 2}), desc.edge_length = random.pick({0.9f, 1.3f, 2.0f, -1.0f});
     if (random.one_in(15)) desc.edge_length = static_cast<float>(random.number());
@@ -96,11 +97,22 @@ struct Calls {
       desc.symmetry_plane[random.below(3)] = random.pick({1.0, -2.0});
       desc.symmetry_plane[3] = random.pick({0.0, 0.0, 0.5});
     }
-    hf_quads made = reinterpret_cast<hf_quads>(s.flow_);
-    const hf_result result = hf_quads_create(s.world.surface, random.spoiled(desc), &made);
-    if (result != HF_OK) return s.expect(made == nullptr, "refused quads are no NULL"), result;
-    if (s.made_.size() > 1) hf_quads_destroy(s.made_.front()), s.made_.erase(s.made_.begin());
-    return s.made_.push_back(made), result;
+    return work(random.spoiled(desc));
+  }
+  static hf_result make(Subject& subject, Random& random) {
+    Quads& s = of(subject);
+    return with_desc(s, random, [&](const hf_quads_desc* desc) {
+      hf_quads made = reinterpret_cast<hf_quads>(s.flow_);
+      const hf_result result = hf_quads_create(s.world.surface, desc, &made);
+      if (result != HF_OK) return s.expect(made == nullptr, "refused quads are no NULL"), result;
+      if (s.made_.size() > 1) hf_quads_destroy(s.made_.front()), s.made_.erase(s.made_.begin());
+      return s.made_.push_back(made), result;
+    });
+  }
+  static hf_result update(Subject& subject, Random& random) {
+    Quads& s = of(subject);
+    if (s.made_.empty()) return skipped;
+    return with_desc(s, random, [&](const hf_quads_desc* desc) { return hf_quads_update(s.made_.back(), desc); });
   }
   static hf_result flow(Subject& subject, Random& random) {
     Quads& s = of(subject);
@@ -134,6 +146,7 @@ struct Calls {
 const std::vector<Command>& Quads::commands() const {
   static const std::vector<Command> table = {
       {"hf_quads_create", 6, Calls::make},
+      {"hf_quads_update", 6, Calls::update},
       {"hf_flow_create", 3, Calls::flow},
       {"hf_flow_trace", 8, Calls::trace},
       {"hf_quads_get_mesh", 2, Calls::read},

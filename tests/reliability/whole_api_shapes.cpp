@@ -92,6 +92,12 @@ void Run::quads_and_flow() {
   call(hf_quads_get_mesh(quads, &mesh), "hf_quads_get_mesh");
   take(positions.data(), positions.size()), take(corners.data(), corners.size());
   hf_quads_destroy(quads);
+  wanted.kind = HF_QUADS_FIELD;
+  call(hf_quads_create(surface, &wanted, &quads), "hf_quads_create, crosses");
+  wanted.relax_count = HF_NO_INDEX;
+  call(hf_quads_update(quads, &wanted), "hf_quads_update");
+  call(hf_quads_get_info(quads, &info), "hf_quads_get_info"), take(&info, 1);
+  hf_quads_destroy(quads);
   hf_flow flow = nullptr;
   call(hf_flow_create(surface, &flow), "hf_flow_create");
   hf_surface_destroy(surface);

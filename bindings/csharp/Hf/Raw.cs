@@ -1292,6 +1292,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_skin(IntPtr pose, void* inout_skin);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_propose_handles(IntPtr surface, void* desc, uint capacity, void* out_proposals, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_create(IntPtr surface, void* desc, void* out_quads);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_update(IntPtr quads, void* desc);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_quads_destroy(IntPtr quads);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_get_info(IntPtr quads, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_get_mesh(IntPtr quads, void* inout_mesh);

@@ -1074,6 +1074,7 @@ export const functions = {
   hf_pose_get_skin: ['i32', ['handle', 'ptr']],
   hf_propose_handles: ['i32', ['handle', 'ptr', 'u32', 'ptr', 'ptr']],
   hf_quads_create: ['i32', ['handle', 'ptr', 'ptr']],
+  hf_quads_update: ['i32', ['handle', 'ptr']],
   hf_quads_destroy: ['void', ['handle']],
   hf_quads_get_info: ['i32', ['handle', 'ptr']],
   hf_quads_get_mesh: ['i32', ['handle', 'ptr']],

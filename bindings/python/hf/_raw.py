@@ -2067,6 +2067,7 @@ PROTOTYPES = {
     "hf_pose_get_skin": (c_int32, [c_void_p, c_void_p]),
     "hf_propose_handles": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_quads_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_quads_update": (c_int32, [c_void_p, c_void_p]),
     "hf_quads_destroy": (None, [c_void_p]),
     "hf_quads_get_info": (c_int32, [c_void_p, c_void_p]),
     "hf_quads_get_mesh": (c_int32, [c_void_p, c_void_p]),

@@ -2378,6 +2378,7 @@ extern "C" {
     pub fn hf_pose_get_skin(pose: hf_pose, inout_skin: *mut hf_skin_info) -> i32;
     pub fn hf_propose_handles(surface: hf_surface, desc: *const hf_propose_desc, capacity: u32, out_proposals: *mut hf_handle_proposal, out_count: *mut u32) -> i32;
     pub fn hf_quads_create(surface: hf_surface, desc: *const hf_quads_desc, out_quads: *mut hf_quads) -> i32;
+    pub fn hf_quads_update(quads: hf_quads, desc: *const hf_quads_desc) -> i32;
     pub fn hf_quads_destroy(quads: hf_quads);
     pub fn hf_quads_get_info(quads: hf_quads, out_info: *mut hf_quads_info) -> i32;
     pub fn hf_quads_get_mesh(quads: hf_quads, inout_mesh: *mut hf_quads_mesh) -> i32;

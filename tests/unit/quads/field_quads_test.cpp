@@ -32,11 +32,9 @@ struct Stages {
         system(core, 4),
         features(find_features(surface, 100, *core->memory)),
         faces([&] {
-          CrossOptions options;
-          options.radius = radius;
-          return FaceCross::make(surface, system.connection,
-                                 smooth_crosses(system, curvature_crosses(*core, system.connection, 2), {}, options),
-                                 features, *core->memory);
+          const Vector<Complex> wish = curvature_crosses(*core, system.connection, 2);
+          return FaceCross::make(surface, system.connection, CrossSmoother(system, radius).smooth(wish, {}), features,
+                                 *core->memory);
         }()),
         seams(Seams::make(surface, faces, *core->memory)) {}
   GridMapper mapper() const {
@@ -49,7 +47,7 @@ struct Stages {
   }
   std::shared_ptr<const Core> core;
   FluxSurface surface;
-  DirectionSystem system;
+  DirectionMatrix system;
   Table<std::uint8_t> features;
   FaceCross faces;
   Seams seams;
