@@ -108,14 +108,14 @@ typedef struct hf_quads_info {
  * HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check fails. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 
-/* Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The result is that of
- * hf_quads_create with the same options, bit for bit. The first update takes as long. It keeps what does not depend on
- * guides, creases and relax_count, so later updates with the same edge_length, face_count and symmetry_plane take less:
- * 0.1 s for 15,000 vertices without relaxation (relax_count = HF_NO_INDEX). Use that while the user drags, and relax_count
- * = 0 at the end. Other sizes and planes are allowed; what belongs to them is made again. After an error `quads` is what
- * it was. Kept memory: 2 to 4 kB a vertex, until `quads` is destroyed. Errors: as for hf_quads_create, and
- * HF_ERROR_UNSUPPORTED (`quads` or desc is of another kind than HF_QUADS_FIELD). Thread safety: changes `quads`, reads its
- * surface. Since 0.1. */
+/* Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The result is that
+ * of hf_quads_create with the same options, bit for bit. The first update takes as long. It keeps what does not depend
+ * on guides, creases and relax_count, so later updates with the same edge_length, face_count and symmetry_plane take
+ * less: 0.1 s for 15,000 vertices without relaxation (relax_count = HF_NO_INDEX). Use that while the user drags, and
+ * relax_count = 0 at the end. Other sizes and planes are allowed; what belongs to them is made again. After an error
+ * `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until `quads` is destroyed. Errors: as for hf_quads_create,
+ * and HF_ERROR_UNSUPPORTED (`quads` or desc is of another kind than HF_QUADS_FIELD). Thread safety: changes `quads`,
+ * reads its surface. Since 0.1. */
 HF_API hf_result hf_quads_update(hf_quads quads, const hf_quads_desc* desc);
 
 /* Destroys a quad mesh. Ignores NULL and destroyed handles. Since 0.1. */

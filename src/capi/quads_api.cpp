@@ -85,7 +85,8 @@ hf_result hf_quads_update(hf_quads handle, const hf_quads_desc* given) {
     const Changing changing(*object);
     check_quad_options(desc);
     if (!object->of_crosses || desc.kind != HF_QUADS_FIELD)
-      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "only quads of the kind HF_QUADS_FIELD can be updated, with the same kind");
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+           "only quads of the kind HF_QUADS_FIELD can be updated, with the same kind");
     const Core& core = *object->core;
     QuadLists lists(*core.memory);
     const FieldQuadOptions options = read_field_quad_options(object->core, desc, lists);

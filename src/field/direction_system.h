@@ -1,6 +1,6 @@
 // The operator of the direction fields of one surface and degree. It is immutable: DirectionMatrix has connection and
-// matrix; DirectionSystem has also the factor and the elimination paths of the pinned unknowns, and all direction fields
-// of that degree on the surface share it.
+// matrix; DirectionSystem has also the factor and the elimination paths of the pinned unknowns, and all direction
+// fields of that degree on the surface share it.
 //
 // The unknowns have the order of the surface's own factor if that factor has the edges of the mesh. The intrinsic
 // Delaunay operator can have many other edges. In that case the unknowns get an ordering computed from the edges of the

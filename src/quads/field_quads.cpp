@@ -431,8 +431,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
     std::int32_t raw = 0;
     FieldQuadReport now = made;
     Timer turn_timer;
-    QuadMesh mesh =
-        make_count(surface, source, aim, std::sqrt(base.area / aim), options.faces > 0, now, raw, memory);
+    QuadMesh mesh = make_count(surface, source, aim, std::sqrt(base.area / aim), options.faces > 0, now, raw, memory);
     check_quads(mesh, surface.euler_characteristic, memory);
     made.quads_ms += turn_timer.milliseconds();
     hf_inner::report(field_progress.extracted);

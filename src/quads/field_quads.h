@@ -85,7 +85,8 @@ struct QuadKeeper {
 // a plane what make_symmetric_quads throws.
 // Throws HF_ERROR_TOO_LARGE if the default edge length gives far more quads than anybody wants.
 void check_expected(const FieldQuadOptions& options, double area);
-// kept: NULL, or of earlier calls with the same core; receives what this call makes. The result is the same, bit for bit.
+// kept: NULL, or of earlier calls with the same core; receives what this call makes. The result is the same, bit for
+// bit.
 QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* report = nullptr,
                             QuadKeeper* kept = nullptr);
 

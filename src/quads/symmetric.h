@@ -31,8 +31,7 @@ struct HalfBase {
 
 // options.plane is set. Throws what make_field_quads throws. Throws HF_ERROR_UNSUPPORTED too: the surface is no mirror
 // image of itself (index = vertex as given), or nothing lies on the side of the normal.
-QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report,
-                                QuadKeeper* kept = nullptr);
+QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report, QuadKeeper* kept = nullptr);
 
 // Makes the half of a mesh such that its image can be joined to it. An edge off the border with both ends on the plane
 // would be its own image. Quads with three sides on the plane have one, and go. Where small pieces have one, or one is

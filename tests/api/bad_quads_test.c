@@ -33,6 +33,11 @@ static hf_result quads_create(void* h) {
   hf_quads out;
   return hf_quads_create(h, NULL, &out);
 }
+static hf_result quads_update(void* h) {
+  hf_quads_desc desc = HF_INIT(hf_quads_desc);
+  desc.kind = HF_QUADS_FIELD;
+  return hf_quads_update(h, &desc);
+}
 static hf_result quads_get_info(void* h) {
   hf_quads_info info = HF_INIT(hf_quads_info);
   return hf_quads_get_info(h, &info);
@@ -79,16 +84,13 @@ static void quads_flow_and_regions_refuse_every_handle_that_is_not_their_own(voi
     const char* function;
     hf_result (*call)(void*);
     void* own;
-  } functions[] = {{"hf_quads_create", quads_create, surface},
-                   {"hf_quads_get_info", quads_get_info, quads},
-                   {"hf_quads_get_mesh", quads_get_mesh, quads},
-                   {"hf_flow_create", flow_create, surface},
-                   {"hf_flow_trace", flow_trace, flow},
-                   {"hf_region_get_info", region_get_info, region},
-                   {"hf_region_get_vertices", region_get_vertices, region},
-                   {"hf_region_undo", region_undo, region},
-                   {"hf_region_redo", region_redo, region},
-                   {"hf_detail_morph", detail_morph, &stale}};
+  } functions[] = {
+      {"hf_quads_create", quads_create, surface},      {"hf_quads_update", quads_update, quads},
+      {"hf_quads_get_info", quads_get_info, quads},    {"hf_quads_get_mesh", quads_get_mesh, quads},
+      {"hf_flow_create", flow_create, surface},        {"hf_flow_trace", flow_trace, flow},
+      {"hf_region_get_info", region_get_info, region}, {"hf_region_get_vertices", region_get_vertices, region},
+      {"hf_region_undo", region_undo, region},         {"hf_region_redo", region_redo, region},
+      {"hf_detail_morph", detail_morph, &stale}};
   void* const bad[] = {
       NULL, (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, stale, surface, solver, quads, flow, region};
   for (size_t f = 0; f < COUNT_OF(functions); ++f) {
@@ -110,6 +112,20 @@ static void refresh_quads(void) {
   good_quads.edge_length = 2, good_quads.relax_count = 2;
   good_quads.site_count = 2, good_quads.site_vertices = two_sites;
   made = (hf_quads)(uintptr_t)5;
+}
+static hf_quads crosses;
+static double sum_before;
+static double sum_of_crosses(void) {
+  hf_quads_info info = HF_INIT(hf_quads_info);
+  assert_ok(hf_quads_get_info(crosses, &info));
+  double* all = calloc(info.vertex_count, 3 * sizeof *all);
+  hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
+  mesh.vertex_capacity = info.vertex_count, mesh.positions = all;
+  assert_ok(hf_quads_get_mesh(crosses, &mesh));
+  double sum = info.face_count;
+  for (uint32_t i = 0; i < 3 * info.vertex_count; ++i) sum += (i % 7 + 1) * all[i];
+  free(all);
+  return sum;
 }
 #define GOOD() refresh_quads()
 #define UNCHANGED() (made == NULL)
@@ -209,8 +225,6 @@ static void quads_refuse_bad_descs(void** state) {
   ROW("a plane beside the surface", HF_ERROR_UNSUPPORTED, 5,
       (FIELD, good_quads.symmetry_plane[0] = 1, good_quads.symmetry_plane[3] = 1e6),
       hf_quads_create(surface, &good_quads, &made));
-#undef GUIDES
-#undef FIELD
   ROW("too many faces", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
       (good_quads.kind = HF_QUADS_FIELD, good_quads.site_count = 0, good_quads.site_vertices = NULL,
        good_quads.face_count = 10000001),
@@ -229,6 +243,33 @@ static void quads_refuse_bad_descs(void** state) {
 #undef UNCHANGED
 #define UNCHANGED() 1
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_create(surface, &good_quads, NULL));
+  ROW("quads of another kind", HF_ERROR_UNSUPPORTED, NO_INDEX, FIELD, hf_quads_update(quads, &good_quads));
+  refresh_quads(), FIELD;
+  assert_ok(hf_quads_create(surface, &good_quads, &crosses));
+  sum_before = sum_of_crosses();
+#undef UNCHANGED
+#define UNCHANGED() (sum_of_crosses() == sum_before)
+  ROW("no desc", HF_ERROR_NULL_POINTER, NO_INDEX, FIELD, hf_quads_update(crosses, NULL));
+  ROW("another kind", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_quads_update(crosses, &good_quads));
+  ROW("no such kind", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.kind = 7, hf_quads_update(crosses, &good_quads));
+  ROW("struct_size 3", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.struct_size = 3,
+      hf_quads_update(crosses, &good_quads));
+  ROW("edge length NaN", HF_ERROR_NON_FINITE, NO_INDEX, (FIELD, good_quads.edge_length = NAN),
+      hf_quads_update(crosses, &good_quads));
+  ROW("a crease edge outside", HF_ERROR_OUT_OF_RANGE, 1,
+      (FIELD, good_quads.crease_count = 2, good_quads.crease_edges = beyond), hf_quads_update(crosses, &good_quads));
+  ROW("a guide that is NaN", HF_ERROR_NON_FINITE, 1, (GUIDES, good_quads.guide_vectors = nan_vector),
+      hf_quads_update(crosses, &good_quads));
+  ROW("a plane beside the surface", HF_ERROR_UNSUPPORTED, 5,
+      (FIELD, good_quads.symmetry_plane[0] = 1, good_quads.symmetry_plane[3] = 1e6),
+      hf_quads_update(crosses, &good_quads));
+  ROW("a progress object that is none", HF_ERROR_INVALID_HANDLE, NO_INDEX,
+      (FIELD, good_quads.progress = (hf_progress)(void*)solver), hf_quads_update(crosses, &good_quads));
+  hf_quads_destroy(crosses);
+#undef GUIDES
+#undef FIELD
+#undef UNCHANGED
+#define UNCHANGED() 1
   hf_quads_info info = HF_INIT(hf_quads_info);
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_get_info(quads, NULL));
   ROW("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, info.struct_size = 0, hf_quads_get_info(quads, &info));

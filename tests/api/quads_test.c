@@ -202,7 +202,8 @@ static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
     for (uint32_t i = 0; i < 3; ++i) /* a stroke that turns */
       vectors[3 * i] = 0.1 * step, vectors[3 * i + 1] = 0, vectors[3 * i + 2] = 1;
     memset(&desc, 0, sizeof desc);
-    desc.struct_size = sizeof desc, desc.kind = HF_QUADS_FIELD, desc.face_count = 300, desc.relax_count = step % 2 ? 3 : HF_NO_INDEX;
+    desc.struct_size = sizeof desc, desc.kind = HF_QUADS_FIELD, desc.face_count = 300,
+    desc.relax_count = step % 2 ? 3 : HF_NO_INDEX;
     if (step > 0) desc.guide_count = 3, desc.guide_vertices = guided, desc.guide_vectors = vectors;
     if (step == 3) desc.crease_count = 1, desc.crease_edges = creases;
     if (step == 4) desc.face_count = 0, desc.edge_length = 0.8f;

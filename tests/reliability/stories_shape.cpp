@@ -325,10 +325,17 @@ void skin_weights(Story& s, const Tube& tube, Allocator& memory) {
 }  // namespace
 
 std::vector<Chapter> shape_chapters() {
-  return {
-      {"lines", lines},           {"distances", distances}, {"directions", directions}, {"smooth_pose", smooth_pose},
-      {"paper_pose", paper_pose}, {"transfer", transfer},   {"quads", quads},           {"crosses", crosses},           {"flow", flow},
-      {"regions", regions},       {"weights", skin_weights}};
+  return {{"lines", lines},
+          {"distances", distances},
+          {"directions", directions},
+          {"smooth_pose", smooth_pose},
+          {"paper_pose", paper_pose},
+          {"transfer", transfer},
+          {"quads", quads},
+          {"crosses", crosses},
+          {"flow", flow},
+          {"regions", regions},
+          {"weights", skin_weights}};
 }
 
 }  // namespace refusal
