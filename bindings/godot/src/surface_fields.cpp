@@ -245,7 +245,8 @@ Value direction_singularities(Surface& s, const Arguments&) {
 // guide vectors = null, guide weights = null, symmetry plane = null): kind, edge_length, keep_polygons, relax_count,
 // face_count, crease_angle
 
-Value quads_create(Surface& s, const Arguments& a) {
+template <class Make>
+Value with_quads_desc(const Arguments& a, Make&& make_quads) {
   auto desc = make<hf_quads_desc>();
   read_options(at(a, 0), {{"kind", &desc.kind},
                           {"edge_length", &desc.edge_length},
@@ -272,8 +273,19 @@ Value quads_create(Surface& s, const Arguments& a) {
   if (given) desc.guide_weights = weights.data();
   const double* plane = doubles(at(a, 7), 4, "symmetry plane");
   if (plane) std::copy(plane, plane + 4, desc.symmetry_plane);
-  make_again(s.quads, [&](hf_quads* out) { return hf_quads_create(s.get(), &desc, out); });
+  make_quads(desc);
   return done();
+}
+
+Value quads_create(Surface& s, const Arguments& a) {
+  return with_quads_desc(a, [&](const hf_quads_desc& desc) {
+    make_again(s.quads, [&](hf_quads* out) { return hf_quads_create(s.get(), &desc, out); });
+  });
+}
+
+// quads_update(what quads_create takes): makes the quads of quads_create again, and keeps what strokes do not change
+Value quads_update(Surface& s, const Arguments& a) {
+  return with_quads_desc(a, [&](const hf_quads_desc& desc) { check(hf_quads_update(s.quads.get(), &desc)); });
 }
 
 hf_quads_info info_of(const Surface& s) {
@@ -358,6 +370,7 @@ const std::vector<Entry>& field_methods() {
       {"direction_solve", 0, 0, direction_solve},
       {"direction_singularities", 0, 0, direction_singularities},
       {"quads_create", 0, 8, quads_create},
+      {"quads_update", 0, 8, quads_update},
       {"quads_info", 0, 0, quads_info},
       {"quads_positions", 0, 0, quads_positions},
       {"quads_faces", 0, 0, quads_faces},
