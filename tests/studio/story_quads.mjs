@@ -8,7 +8,7 @@ function cube(n) {
   const [vertices, faces] = [[], []];
   const at = (...p) => {
     const key = p.join();
-    if (!places.has(key)) vertices.push(p), places.set(key, vertices.length);
+    if (!places.has(key)) (vertices.push(p), places.set(key, vertices.length));
     return places.get(key);
   };
   for (let axis = 0; axis < 3; ++axis)
@@ -81,6 +81,108 @@ export default async function story(host) {
     await page.keyboard.press('Control+Shift+z');
     await studio.settle();
     await studio.picture('quads_posed');
+  });
+  await check('a stroke that is drawn and dragged turns the quads, live; undo brings them back', async () => {
+    const seen = () =>
+      page.evaluate(() => {
+        const { tools, body, state } = window.hfStudio;
+        const { positions, faceStarts, faceCorners } = tools.quads.result.mesh;
+        const place = ({ corners, barycentrics }) =>
+          [0, 1, 2].map((k) => corners.reduce((sum, v, i) => sum + barycentrics[i] * body.positions[3 * v + k], 0));
+        const strokes = (state.strokes ?? []).map(({ places }) => places.map(place));
+        const at = (v) => Array.from(positions.subarray(3 * v, 3 * v + 3));
+        const less = (a, b) => a.map((x, k) => x - b[k]);
+        const length = (a) => Math.hypot(...a);
+        // the mean angle between a stroke and the nearest edges of quads, in degrees
+        const off = strokes.map((points) => {
+          let [sum, count] = [0, 0];
+          const near = length(less(points[0], points.at(-1))) / 6;
+          for (let f = 0; f + 1 < faceStarts.length; ++f)
+            for (let i = faceStarts[f]; i < faceStarts[f + 1]; ++i) {
+              const a = at(faceCorners[i]);
+              const edge = less(at(faceCorners[i + 1 < faceStarts[f + 1] ? i + 1 : faceStarts[f]]), a);
+              const nearest = points.reduce(
+                (best, p, k) => (length(less(p, a)) < length(less(points[best], a)) ? k : best),
+                0,
+              );
+              const [p, q] = [Math.max(0, nearest - 1), Math.min(points.length - 1, nearest + 1)];
+              if (length(less(points[nearest], a)) > near) continue;
+              const way = less(points[q], points[p]);
+              const cosine = Math.abs(edge.reduce((x, e, k) => x + e * way[k], 0)) / (length(edge) * length(way));
+              const angle = (Math.acos(Math.min(1, cosine)) * 180) / Math.PI;
+              [sum, count] = [sum + Math.min(angle, 90 - angle), count + 1];
+            }
+          return sum / count;
+        });
+        return {
+          strokes: strokes.length,
+          off,
+          count: faceStarts.length - 1,
+          followed: tools.quads.followed,
+          mesh: positions.join(),
+        };
+      });
+    const still = async () => {
+      await page.waitForFunction(() => !window.hfStudio.tools.quads.following && !window.hfStudio.live);
+      await studio.settle();
+    };
+    await studio.tool('pose');
+    await page.keyboard.press('Control+z');
+    await studio.tool('quads');
+    await page.click('#make');
+    await page.waitForFunction(() => !document.querySelector('#cancel'), null, { timeout: 60000 });
+    const before = await seen();
+    await page.click('#draw');
+    assert.equal(await page.getAttribute('#draw', 'aria-pressed'), 'true');
+    // over the trunk, slanting
+    const middle = await page.evaluate(() => {
+      const { skin, view } = window.hfStudio;
+      const box = skin.box();
+      const { x, y } = view.onScreen([0, 1, 2].map((k) => (box.min.getComponent(k) + box.max.getComponent(k)) / 2));
+      return [x, y];
+    });
+    const canvas = await page.locator('canvas').boundingBox();
+    const [x, y] = [canvas.x + middle[0], canvas.y + middle[1] - 20];
+    await studio.drag(x - 55, y + 35, 110, -70);
+    await still();
+    const drawn = await seen();
+    assert.equal(drawn.strokes, 1);
+    assert.ok(drawn.followed > before.followed, 'no mesh was made while the stroke was drawn');
+    assert.ok(drawn.off[0] < 15, `${drawn.off[0]} degrees off the stroke`);
+    await studio.picture('quads_stroke');
+    // its dot is dragged
+    const dot = await page.locator('.mark').first().boundingBox();
+    await studio.drag(dot.x + dot.width / 2, dot.y + dot.height / 2, 40, 25);
+    await still();
+    const moved = await seen();
+    assert.ok(moved.followed > drawn.followed, 'no mesh was made while the stroke was dragged');
+    assert.notEqual(moved.mesh, drawn.mesh);
+    assert.ok(moved.off[0] < 18, `${moved.off[0]} degrees off the moved stroke`);
+    await page.keyboard.press('Control+z');
+    await still();
+    assert.equal((await seen()).mesh, drawn.mesh);
+    await page.keyboard.press('Control+z');
+    await still();
+    const back = await seen();
+    assert.equal(back.strokes, 0);
+    assert.equal(back.mesh, before.mesh);
+    // a mirror in the plane of the body: as many quads on both sides
+    await page.selectOption('#mirror', '0');
+    await page.click('#make');
+    await page.waitForFunction(() => !document.querySelector('#cancel') && !window.hfStudio.tools.quads.busy, null, {
+      timeout: 60000,
+    });
+    const [left, right] = await page.evaluate(() => {
+      const { tools, body } = window.hfStudio;
+      const inX = (positions) => positions.filter((_, i) => i % 3 === 0);
+      const [low, high] = inX(body.positions).reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [9e9, -9e9]);
+      const away = inX(tools.quads.result.mesh.positions).map((x) => x - (low + high) / 2);
+      return [-1, 1].map((side) => away.filter((x) => side * x > 1e-5).length);
+    });
+    assert.ok(left > 100 && left === right, `${left} and ${right} vertices`);
+    await page.selectOption('#mirror', '');
+    await page.click('#draw');
+    return `${drawn.followed - before.followed} meshes while drawn, ${moved.followed - drawn.followed} while dragged; ${drawn.off[0].toFixed(1)} degrees off`;
   });
   await check('with creases the edges of a cube are edges of quads', async () => {
     await page.setInputFiles('#file', { name: 'cube.obj', mimeType: 'text/plain', buffer: Buffer.from(cube(10)) });

@@ -18,47 +18,52 @@ export function quadClasses(tools) {
   } = tools;
   const tooSmall = 'HF_ERROR_TOO_SMALL';
 
+  const descOf = ({
+    siteVertices = null,
+    siteLines = null,
+    creaseEdges = null,
+    guideVertices = null,
+    guideVectors = null,
+    guideWeights = null,
+    symmetryPlane = null,
+    progress = null,
+    ...options
+  } = {}) => {
+    const desc = make('hf_quads_desc').options(options, ['site_count', 'crease_count', 'guide_count']);
+    const places = integers(siteVertices, 'siteVertices');
+    if (places) desc.set('site_count', places.length).set('site_vertices', read(places));
+    if (siteLines) {
+      const lines = Array.from(siteLines);
+      if (lines.length !== (places ? places.length : 0) || !lines.every(Number.isInteger)) {
+        fail(`siteLines must be ${places ? places.length : 0} whole numbers`);
+      }
+      desc.set('site_lines', read(Int32Array.from(lines)));
+    }
+    const edges = integers(creaseEdges, 'creaseEdges');
+    if (edges) {
+      if (edges.length % 2) fail(`creaseEdges must hold two vertices each, not ${edges.length} numbers`);
+      desc.set('crease_count', edges.length / 2).set('crease_edges', read(edges));
+    }
+    const guided = integers(guideVertices, 'guideVertices') ?? [];
+    const vectors = doubles(guideVectors, 'guideVectors', 3 * guided.length);
+    const weights = doubles(guideWeights, 'guideWeights', guided.length);
+    desc.set('guide_count', guided.length).set('guide_vertices', read(guided));
+    desc.set('guide_vectors', vectors && read(vectors));
+    desc.set('guide_weights', weights && read(Float32Array.from(weights)));
+    desc.set('symmetry_plane', doubles(symmetryPlane, 'symmetryPlane', 4));
+    return watched(desc, progress);
+  };
+
   class Quads extends Handle {
     static prefix = 'hf_quads';
-    constructor(
-      surface,
-      {
-        siteVertices = null,
-        siteLines = null,
-        creaseEdges = null,
-        guideVertices = null,
-        guideVectors = null,
-        guideWeights = null,
-        symmetryPlane = null,
-        progress = null,
-        ...options
-      } = {},
-    ) {
+    constructor(surface, options) {
       super();
-      const desc = make('hf_quads_desc').options(options, ['site_count', 'crease_count', 'guide_count']);
-      const places = integers(siteVertices, 'siteVertices');
-      if (places) desc.set('site_count', places.length).set('site_vertices', read(places));
-      if (siteLines) {
-        const lines = Array.from(siteLines);
-        if (lines.length !== (places ? places.length : 0) || !lines.every(Number.isInteger)) {
-          fail(`siteLines must be ${places ? places.length : 0} whole numbers`);
-        }
-        desc.set('site_lines', read(Int32Array.from(lines)));
-      }
-      const edges = integers(creaseEdges, 'creaseEdges');
-      if (edges) {
-        if (edges.length % 2) fail(`creaseEdges must hold two vertices each, not ${edges.length} numbers`);
-        desc.set('crease_count', edges.length / 2).set('crease_edges', read(edges));
-      }
-      const guided = integers(guideVertices, 'guideVertices') ?? [];
-      const vectors = doubles(guideVectors, 'guideVectors', 3 * guided.length);
-      const weights = doubles(guideWeights, 'guideWeights', guided.length);
-      desc.set('guide_count', guided.length).set('guide_vertices', read(guided));
-      desc.set('guide_vectors', vectors && read(vectors));
-      desc.set('guide_weights', weights && read(Float32Array.from(weights)));
-      desc.set('symmetry_plane', doubles(symmetryPlane, 'symmetryPlane', 4));
-      watched(desc, progress);
+      const desc = descOf(options);
       this._make('create', handleOf(surface, classes.Surface, 'surface'), desc);
+    }
+    /** Makes the mesh again, with the options of a new one. After an error it is what it was. */
+    update(options) {
+      call('hf_quads_update', this._handle, descOf(options));
     }
     get info() {
       return query('hf_quads_info', 'hf_quads_get_info', this._handle);

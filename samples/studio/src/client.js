@@ -67,6 +67,11 @@ export class Client {
     }
   }
 
+  /** A Worker of its own, until line.end(). */
+  line() {
+    return new Line();
+  }
+
   /** A job in a Worker of its own: { answer, cancel }. */
   job(task, args, transfer) {
     const line = new Line();

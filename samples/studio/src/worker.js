@@ -86,11 +86,14 @@ const tasks = {
     const bytes = body.surface.save();
     return [bytes, [bytes.buffer]];
   },
-  /** Quads run in a Worker of their own (job.js): it opens the same body from the saved factor. */
-  async quads({ positions, triangles, factor, ...options }) {
+  /** Quads run in a Worker of their own (client.js): it opens the same body from the saved factor. */
+  async quadsOpen({ positions, triangles, factor }) {
     await ready();
-    const surface = new hf.Surface(positions, triangles, { savedFactor: factor, linkPieces: true });
-    return [quadsOf(hf, surface, options), []];
+    body = { hf, surface: new hf.Surface(positions, triangles, { savedFactor: factor, linkPieces: true }) };
+    return [null, []];
+  },
+  quads(options) {
+    return [quadsOf(body, options), []];
   },
   async transferOpen({ positions, triangles }) {
     const { transferOf } = await import('./worker_transfer.js');

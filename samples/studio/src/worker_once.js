@@ -21,10 +21,14 @@ export function weightsOf(body, bones, weightCount, pins) {
   }
 }
 
-export function quadsOf(hf, surface, options) {
+/** kept: { hf, surface, quads, kind }. Quads along the curvature are updated, which keeps what they share. */
+export function quadsOf(kept, options) {
   const begin = performance.now();
-  const quads = new hf.Quads(surface, options);
-  const answer = { mesh: quads.mesh(), info: quads.info, milliseconds: performance.now() - begin };
-  quads.close();
-  return answer;
+  if (kept.quads && kept.kind === 2 && options.kind === 2) kept.quads.update(options);
+  else {
+    const quads = new kept.hf.Quads(kept.surface, options);
+    kept.quads?.close();
+    Object.assign(kept, { quads, kind: options.kind });
+  }
+  return { mesh: kept.quads.mesh(), info: kept.quads.info, milliseconds: performance.now() - begin };
 }
