@@ -206,6 +206,29 @@ def bad_scenes():
     bad("NON_FINITE", **crosses, symmetry_plane=[1.0, 0.0, "inf", 0.0])
     for given in ({"crease_edges": [0, 1]}, guide, {"symmetry_plane": [1.0, 0.0, 0.0, 0.0]}):
         bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n"}, **given)  # of kind FIELD alone
+    wanted = {"options": {"kind": 2, "face_count": 200}}
+    made += [{"do": "quads", "on": "m", "as": "u", **wanted}, {"do": "quad_mesh", "on": "u", "keep": "before"},
+        {"do": "quads", "on": "m", "as": "n", **wanted, **guide}, {"do": "quad_mesh", "on": "n", "keep": "guided"},
+        {"do": "quad_mesh", "on": "k", "keep": "uniform"}]
+    again = {"do": "update_quads", "on": "u", **wanted}
+    bad("UNSUPPORTED", do="update_quads", on="k", **wanted)  # it is uniform
+    bad("UNSUPPORTED", do="update_quads", on="k", edge_length=1.0)
+    made.append({"do": "quad_mesh", "on": "k", "same_as": "uniform"})
+    for kind, error in ((0, "UNSUPPORTED"), (1, "UNSUPPORTED"), (3, "INVALID_ARGUMENT")):
+        bad(error, **{**again, "options": {"kind": kind}})
+    bad("NON_FINITE", index=0, **again, **{**guide, "guide_vectors": [1.0, "nan", 0.0]})
+    bad("INVALID_ARGUMENT", index=0, **again, **{**guide, "guide_vectors": [0.0, 0.0, 0.0]})
+    bad("OUT_OF_RANGE", index=0, **again, **{**guide, "guide_vertices": [302]})
+    bad("INVALID_ARGUMENT", index=0, **again, crease_edges=[0, 301])  # no edge
+    bad("NON_FINITE", **again, symmetry_plane=[1.0, 0.0, "inf", 0.0])
+    bad("UNSUPPORTED", **again, symmetry_plane=[1.0, 0.0, 0.0, 100.0])  # nothing on its side
+    bad("NON_FINITE", **again, edge_length="nan")
+    bad("INVALID_ARGUMENT", **{**again, "options": {"kind": 2, "relax_count": 1001}})
+    bad("INVALID_ARGUMENT", **{**again, "options": {"kind": 2, "guide_count": 0}})
+    for wrong in ({"crease_edges": [0, 1, 2]}, {"guide_vertices": [7, 8], "guide_vectors": [1.0, 0.0, 0.0]},
+            {**guide, "guide_weights": []}, {"symmetry_plane": [1.0, 0.0, 0.0]}):  # lengths that do not match
+        bad("INVALID_ARGUMENT", **again, **wrong)
+    made += [{"do": "quad_mesh", "on": "u", "same_as": "before"}, {**again, **guide, "same_as": "guided"}]
     bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 302, count=0)
     bad("NON_FINITE", index=301, do="flow_lines", on="w", field=[0.0] * 301 + ["nan"], count=4)
     bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 9, count=4)
@@ -259,7 +282,7 @@ def bad_scenes():
                        0.0]}, {"do": "record_vectors"}, {"do": "undo_vectors"}, {"do": "redo_vectors"},
                    {"do": "clone_vectors", "as": "e"}],
              "w": [{"do": "flow_lines", "field": [0.0] * 302, "count": 4}], "k": [{"do": "quads_info"},
-                 {"do": "quad_mesh"}],
+                 {"do": "quad_mesh"}, {"do": "update_quads", "options": {"kind": 2}}],
              "o": [{"do": "region_edit", "rings": 1}, {"do": "region_info"}, {"do": "region_vertices"},
                  {"do": "morph", "weight": 1.0},
                    {"do": "record_region"}, {"do": "undo_region"}, {"do": "redo_region"}]}

@@ -204,6 +204,24 @@ def scenes(meshes):
           {"do": "quad_mesh", "on": "s", "expect": {"min": 0.0, "max": 6.0, "tolerance": 1e-6}},
           {"do": "quad_mesh", "on": "s", "expect": agree(1e-5)})
 
+    mirrored = {"symmetry_plane": [0.0, 1.0, 0.0, 0.0]}
+    update, quads_of = {**crosses, "do": "update_quads", "on": "u"}, lambda **more: {**crosses, **more}
+    mesh_of = lambda name, **more: {"do": "quad_mesh", "on": name, **more}
+    dragged = {"kind": hf.constants.HF_QUADS_FIELD, "face_count": 200, "relax_count": hf.NO_INDEX}
+    scene("updated_quads",
+        "Quads that are made again with guides and with a plane of symmetry are those that are made anew, bit for bit. A wrong call leaves "
+          "them as they are. While the user drags they are not relaxed (agreement).", surface("torus"),
+          quads_of(**{"as": "p"}), mesh_of("p", keep="plain"), quads_of(**turned, **{"as": "g"}), mesh_of("g", keep="guided"),
+          quads_of(**mirrored, **{"as": "s"}), mesh_of("s", keep="mirrored"),
+          quads_of(crease_edges=seam, **{"as": "e"}), mesh_of("e", keep="creased"),
+          quads_of(**{"as": "u"}), mesh_of("u", same_as="plain"),
+          {**update, **turned, "options": dragged, "expect": agree(1e-3)}, {**update, **turned, "same_as": "guided"},
+          {"do": "quads_info", "on": "u", "expect": whole}, {**update, **mirrored, "same_as": "mirrored"},
+          {**update, **mirrored, "expect": agree(1e-3)}, {"do": "quads_info", "on": "u", "expect": whole},
+          {**update, "crease_edges": [0, 144], "error": "HF_ERROR_INVALID_ARGUMENT", "index": 0},
+          {**update, "crease_edges": seam, "same_as": "creased"},
+          {"do": "dispose", "on": "m"}, {**update, "same_as": "plain"}, mesh_of("u", same_as="plain"), mesh_of("g", same_as="guided"))
+
     on_r, patch = {"on": "r"}, [0, 1, 2, 12, 13, 14]
     scene("regions",
         "A patch of a torus: edited, morphed (0 gives the given positions back, bit for bit), undone; onto itself its detail gives the "

@@ -114,7 +114,8 @@ local quad_lists = { site_vertices = { 'uint32_t', 1 }, site_lines = { 'int32_t'
   symmetry_plane = { 'double', 4 } }
 -- options: kind, edge_length, keep_polygons, relax_count, face_count, crease_angle; lists: site_vertices, site_lines,
 -- crease_edges, guide_vertices, guide_vectors, guide_weights; symmetry_plane: { a, b, c, d } of a x + b y + c z = d
-function hf.Quads(surface, options)
+-- Returns a desc, and the arrays it points into: they must live until the call is over.
+local function quad_desc(options)
   local plain, held, counts = {}, {}, {}
   for key, value in pairs(options or {}) do
     if not quad_lists[key] then plain[key] = value end
@@ -141,9 +142,20 @@ function hf.Quads(surface, options)
   for name, values in pairs(held) do
     if name == 'symmetry_plane' then ffi.copy(desc.symmetry_plane, values, 32) else desc[name] = values end
   end
+  return desc, held
+end
+function hf.Quads(surface, options)
+  local desc, held = quad_desc(options)
   local made = create(Quads, 'hf_quads', {}, C.hf_quads_create, raw_of(surface, 'Surface', 'surface'), desc)
   held = nil -- the library has copied the lists
   return made
+end
+-- Makes the mesh again, of the kind HF_QUADS_FIELD only, with the options of hf.Quads: for strokes and creases that the
+-- user drags. After an error the mesh is what it was.
+function Quads:update(options)
+  local desc, held = quad_desc(options)
+  check(C.hf_quads_update(self.raw, desc))
+  held = nil -- the library has copied the lists
 end
 function Quads:info() return query('hf_quads_info', C.hf_quads_get_info, self.raw) end
 -- Face i has the corners face_corners[face_starts[i]] to face_corners[face_starts[i + 1] - 1]; cdata from 0.

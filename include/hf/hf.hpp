@@ -526,27 +526,46 @@ struct QuadMesh {
   hf_quads_info info;
   std::vector<uint32_t> corners;  // three per quad vertex: the vertices of the given mesh that barycentrics belong to
 };
+// Keeps a quad mesh, to make it again while the user drags strokes and creases.
+class Quads {
+ public:
+  explicit Quads(const Surface& surface, const hf_quads_desc* desc = nullptr) {
+    hf_quads raw = nullptr;
+    check(hf_quads_create(surface.get(), desc, &raw));
+    handle_ = Handle<hf_quads, hf_quads_destroy>(raw);
+  }
+  hf_quads get() const noexcept { return handle_.get(); }
+  // Only for the kind HF_QUADS_FIELD. When it throws, the mesh is what it was.
+  void update(const hf_quads_desc& desc) { check(hf_quads_update(get(), &desc)); }
+  hf_quads_info info() const {
+    auto info = make<hf_quads_info>();
+    check(hf_quads_get_info(get(), &info));
+    return info;
+  }
+  QuadMesh mesh() const {
+    QuadMesh mesh;
+    mesh.info = info();
+    mesh.positions.resize(size_t{mesh.info.vertex_count} * 3), mesh.barycentrics.resize(mesh.positions.size());
+    mesh.triangles.resize(mesh.info.vertex_count), mesh.face_starts.resize(size_t{mesh.info.face_count} + 1);
+    mesh.face_corners.resize(mesh.info.corner_count);
+    mesh.site_vertices.resize(mesh.info.site_count), mesh.site_lines.resize(mesh.info.site_count);
+    auto out = make<hf_quads_mesh>();
+    out.vertex_capacity = mesh.info.vertex_count, out.face_capacity = mesh.info.face_count;
+    out.corner_capacity = mesh.info.corner_count, out.site_capacity = mesh.info.site_count;
+    out.positions = mesh.positions.data(), out.triangles = mesh.triangles.data();
+    out.barycentrics = mesh.barycentrics.data(), out.face_starts = mesh.face_starts.data();
+    out.face_corners = mesh.face_corners.data(), out.site_vertices = mesh.site_vertices.data();
+    out.site_lines = mesh.site_lines.data();
+    mesh.corners.resize(mesh.positions.size()), out.corners = mesh.corners.data();
+    check(hf_quads_get_mesh(get(), &out));
+    return mesh;
+  }
+
+ private:
+  Handle<hf_quads, hf_quads_destroy> handle_;
+};
 inline QuadMesh make_quads(const Surface& surface, const hf_quads_desc* desc = nullptr) {
-  hf_quads raw = nullptr;
-  check(hf_quads_create(surface.get(), desc, &raw));
-  const Handle<hf_quads, hf_quads_destroy> handle(raw);
-  QuadMesh mesh;
-  mesh.info = make<hf_quads_info>();
-  check(hf_quads_get_info(raw, &mesh.info));
-  mesh.positions.resize(size_t{mesh.info.vertex_count} * 3), mesh.barycentrics.resize(mesh.positions.size());
-  mesh.triangles.resize(mesh.info.vertex_count), mesh.face_starts.resize(size_t{mesh.info.face_count} + 1);
-  mesh.face_corners.resize(mesh.info.corner_count);
-  mesh.site_vertices.resize(mesh.info.site_count), mesh.site_lines.resize(mesh.info.site_count);
-  auto out = make<hf_quads_mesh>();
-  out.vertex_capacity = mesh.info.vertex_count, out.face_capacity = mesh.info.face_count;
-  out.corner_capacity = mesh.info.corner_count, out.site_capacity = mesh.info.site_count;
-  out.positions = mesh.positions.data(), out.triangles = mesh.triangles.data();
-  out.barycentrics = mesh.barycentrics.data(), out.face_starts = mesh.face_starts.data();
-  out.face_corners = mesh.face_corners.data(), out.site_vertices = mesh.site_vertices.data();
-  out.site_lines = mesh.site_lines.data();
-  mesh.corners.resize(mesh.positions.size()), out.corners = mesh.corners.data();
-  check(hf_quads_get_mesh(raw, &out));
-  return mesh;
+  return Quads(surface, desc).mesh();
 }
 
 // Holds flow lines of a field. One Flow can trace many fields on its surface.

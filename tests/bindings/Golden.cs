@@ -286,10 +286,11 @@ class Scene
             case "clone_vectors": objects[name] = ((Direction)on).Clone(); return null;
             case "vectors": return ((Direction)on).Sites().Vectors;
             case "quads":
+            case "update_quads":
                 {
                     var o = Options(step, "kind", "keep_polygons", "relax_count", "face_count", "crease_angle");
                     double[] lines = Doubles(step, "site_lines");
-                    objects[name] = new Quads(surface, new QuadOptions { Kind = (int)o["kind"],
+                    var given = new QuadOptions { Kind = (int)o["kind"],
                         KeepPolygons = (int)o["keep_polygons"], RelaxCount = (uint)o["relax_count"],
                         FaceCount = (uint)o["face_count"], CreaseAngle = (float)o["crease_angle"],
                         EdgeLength = step.ContainsKey("edge_length") ? (float)Number(step["edge_length"]) : 0,
@@ -298,7 +299,13 @@ class Scene
                         GuideVertices = Numbers(Get(step, "guide_vertices")),
                         GuideVectors = Doubles(step, "guide_vectors"), GuideWeights = Floats(step, "guide_weights"),
                         SymmetryPlane = Doubles(step, "symmetry_plane"),
-                        SiteLines = lines == null ? null : lines.Select(x => (int)x).ToArray() });
+                        SiteLines = lines == null ? null : lines.Select(x => (int)x).ToArray() };
+                    if (what == "update_quads")
+                    {
+                        ((Quads)on).Update(given);
+                        return ((Quads)on).Mesh().Positions;
+                    }
+                    objects[name] = new Quads(surface, given);
                     return null;
                 }
             case "quads_info":

@@ -202,10 +202,15 @@ local function new_scene(meshes)
     elseif what == 'vectors' then
       local found = on:sites()
       return 'array', found.vectors, 3 * found.count
-    elseif what == 'quads' then
+    elseif what == 'quads' or what == 'update_quads' then
       options.edge_length = step.edge_length and number(step.edge_length)
       for _, key in ipairs({ 'site_vertices', 'site_lines', 'crease_edges', 'guide_vertices', 'guide_vectors', 'guide_weights',
         'symmetry_plane' }) do options[key] = get(key) end
+      if what == 'update_quads' then
+        on:update(options)
+        local mesh = on:mesh()
+        return 'array', mesh.positions, 3 * mesh.vertex_count
+      end
       objects[step.as] = hf.Quads(on, options)
     elseif what == 'quads_info' then
       local info = on:info()

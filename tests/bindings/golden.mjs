@@ -246,9 +246,10 @@ function runStep(hf, step, meshes, objects, kept) {
       return {};
     case 'vectors':
       return array(on.sites().vectors);
-    case 'quads': {
+    case 'quads':
+    case 'update_quads': {
       const more = 'edge_length' in step ? { edgeLength: numbers(step.edge_length) } : {};
-      objects[step.as] = new hf.Quads(on, {
+      const given = {
         ...options,
         ...more,
         siteVertices: get('site_vertices'),
@@ -258,7 +259,12 @@ function runStep(hf, step, meshes, objects, kept) {
         guideVectors: get('guide_vectors'),
         guideWeights: get('guide_weights'),
         symmetryPlane: get('symmetry_plane'),
-      });
+      };
+      if (step.do === 'update_quads') {
+        on.update(given);
+        return array(on.mesh().positions);
+      }
+      objects[step.as] = new hf.Quads(on, given);
       return {};
     }
     case 'quads_info': {

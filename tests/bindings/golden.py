@@ -195,12 +195,16 @@ class Scene:
             return "array", on.solve(dtype=np.float64)
         elif do == "singularities":
             return "array", on.singularities()["index"].astype(np.float64)
-        elif do == "quads":
+        elif do in ("quads", "update_quads"):
             if "edge_length" in step:
                 options["edge_length"] = numbers(step["edge_length"])
             lists = ("site_vertices", "site_lines", "crease_edges", "guide_vertices", "guide_vectors", "guide_weights",
                 "symmetry_plane")
-            self.objects[step["as"]] = hf.Quads(on, **{key: get(key) for key in lists}, **options)
+            options.update({key: get(key) for key in lists})
+            if do == "update_quads":
+                on.update(**options)
+                return "array", on.mesh().positions
+            self.objects[step["as"]] = hf.Quads(on, **options)
         elif do == "quads_info":
             info = on.info
             fields = {name: getattr(info, name) for name, _ in info._fields_}

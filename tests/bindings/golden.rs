@@ -353,6 +353,16 @@ impl Scene<'_> {
             guide_weights: weights.as_deref(),
             symmetry_plane: plane.flatten(),
         };
+        let quad_options = || -> std::result::Result<QuadsOptions, Error> {
+            let mut options = options!(step, QuadsOptions);
+            options.edge_length = step.get("edge_length").map_or(0.0, number) as f32;
+            Ok(options)
+        };
+        if what == "update_quads" {
+            let quads = on!(self, step, Quads);
+            quads.update(&quad_options()?, &guides)?;
+            return Ok(Answer::Array(quads.mesh()?.positions));
+        }
         let surface = on!(self, step, Surface);
         let array = |list: Vec<u32>, sorted: bool| {
             let mut list = list;
@@ -452,8 +462,7 @@ impl Scene<'_> {
                 &options!(step, RegionOptions),
             )?),
             "quads" => {
-                let mut options = options!(step, QuadsOptions);
-                options.edge_length = step.get("edge_length").map_or(0.0, number) as f32;
+                let options = quad_options()?;
                 Object::Quads(if step.get("site_vertices").is_some() {
                     Quads::new(surface, &options, &site_vertices, site_lines.as_deref())?
                 } else {

@@ -6,6 +6,37 @@ namespace golden {
 using hf::check;
 using hf::make;
 
+// Reads the options of quads and calls with them. They point into arrays that live until the call is over.
+void Scene::with_quad_options(const Json& step, const std::function<void(const hf_quads_desc&)>& call) {
+  auto desc = make<hf_quads_desc>();
+  set_options(step, desc,
+              {{"kind", &desc.kind},
+               {"keep_polygons", &desc.keep_polygons},
+               {"relax_count", &desc.relax_count},
+               {"face_count", &desc.face_count},
+               {"crease_angle", &desc.crease_angle}},
+              {{"crease_angle", false}});
+  if (step.contains("edge_length")) desc.edge_length = static_cast<float>(number(step["edge_length"]));
+  const auto places = numbers(step, "site_vertices");
+  const std::vector<int32_t> lines = step.value("site_lines", std::vector<int32_t>());
+  if (!lines.empty() && lines.size() != (places ? places->size() : 0))
+    fail("site_lines are not as many as site_vertices");
+  if (places) desc.site_count = count(places), desc.site_vertices = data(places);
+  if (!lines.empty()) desc.site_lines = lines.data();
+  const auto edges = numbers(step, "crease_edges"), guided = numbers(step, "guide_vertices");
+  const size_t guides = guided ? guided->size() : 0;
+  const auto vectors = doubles(step, "guide_vectors", 3 * guides), given = doubles(step, "guide_weights", guides);
+  const auto plane = doubles(step, "symmetry_plane", 4);
+  if (edges && edges->size() % 2) fail("crease_edges must hold two vertices each");
+  const std::vector<float> weights = given ? std::vector<float>(given->begin(), given->end()) : std::vector<float>();
+  if (edges) desc.crease_count = count(edges) / 2, desc.crease_edges = data(edges);
+  if (guided) desc.guide_count = count(guided), desc.guide_vertices = data(guided);
+  if (vectors) desc.guide_vectors = vectors->data();
+  if (given) desc.guide_weights = weights.data();
+  if (plane) std::copy(plane->begin(), plane->end(), desc.symmetry_plane);
+  call(desc);
+}
+
 void Scene::make_object(const Json& step, const std::string& what) {
   hf_surface surface = objects_[step["on"]].surface.get();
   const size_t n = objects_[step["on"]].vertex_count;
@@ -30,34 +61,8 @@ void Scene::make_object(const Json& step, const std::string& what) {
     check(hf_direction_create(surface, &desc, &raw));
     object.direction = hf::Handle<hf_direction, hf_direction_destroy>(raw);
   } else if (what == "quads") {
-    auto desc = make<hf_quads_desc>();
-    set_options(step, desc,
-                {{"kind", &desc.kind},
-                 {"keep_polygons", &desc.keep_polygons},
-                 {"relax_count", &desc.relax_count},
-                 {"face_count", &desc.face_count},
-                 {"crease_angle", &desc.crease_angle}},
-                {{"crease_angle", false}});
-    if (step.contains("edge_length")) desc.edge_length = static_cast<float>(number(step["edge_length"]));
-    const auto places = numbers(step, "site_vertices");
-    const std::vector<int32_t> lines = step.value("site_lines", std::vector<int32_t>());
-    if (!lines.empty() && lines.size() != (places ? places->size() : 0))
-      fail("site_lines are not as many as site_vertices");
-    if (places) desc.site_count = count(places), desc.site_vertices = data(places);
-    if (!lines.empty()) desc.site_lines = lines.data();
-    const auto edges = numbers(step, "crease_edges"), guided = numbers(step, "guide_vertices");
-    const size_t guides = guided ? guided->size() : 0;
-    const auto vectors = doubles(step, "guide_vectors", 3 * guides), given = doubles(step, "guide_weights", guides);
-    const auto plane = doubles(step, "symmetry_plane", 4);
-    if (edges && edges->size() % 2) fail("crease_edges must hold two vertices each");
-    const std::vector<float> weights = given ? std::vector<float>(given->begin(), given->end()) : std::vector<float>();
-    if (edges) desc.crease_count = count(edges) / 2, desc.crease_edges = data(edges);
-    if (guided) desc.guide_count = count(guided), desc.guide_vertices = data(guided);
-    if (vectors) desc.guide_vectors = vectors->data();
-    if (given) desc.guide_weights = weights.data();
-    if (plane) std::copy(plane->begin(), plane->end(), desc.symmetry_plane);
     hf_quads raw = nullptr;
-    check(hf_quads_create(surface, &desc, &raw));
+    with_quad_options(step, [&](const hf_quads_desc& desc) { check(hf_quads_create(surface, &desc, &raw)); });
     object.quads = hf::Handle<hf_quads, hf_quads_destroy>(raw);
   } else {
     hf_flow raw = nullptr;
@@ -135,6 +140,8 @@ Result Scene::run_quads(const Json& step, const std::string& what) {
     if (step.contains("lines")) expect(step["lines"] == lines.line_count, "lines: " + std::to_string(lines.line_count));
     return result;
   }
+  if (what == "update_quads")
+    with_quad_options(step, [&](const hf_quads_desc& desc) { check(hf_quads_update(on.quads.get(), &desc)); });
   auto info = make<hf_quads_info>();
   check(hf_quads_get_info(on.quads.get(), &info));
   if (what == "quads_info") {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <hf/hf.hpp>
 #include <limits>
 #include <map>
@@ -195,6 +196,7 @@ class Scene {
   Result run_weights(const Json& step, const std::string& what);
   Result run_carried(const Json& step, const std::string& what);
   Result run_quads(const Json& step, const std::string& what);
+  void with_quad_options(const Json& step, const std::function<void(const hf_quads_desc&)>& call);
   void make_object(const Json& step, const std::string& what);
 
   const std::map<std::string, Json>& meshes_;

@@ -189,7 +189,7 @@ Result Scene::run(const Json& step) {
     return run_region(step, what);
   } else if (weight_steps.count(what)) {
     return run_weights(step, what);
-  } else if (what == "quads_info" || what == "quad_mesh" || what == "flow_lines") {
+  } else if (what == "update_quads" || what == "quads_info" || what == "quad_mesh" || what == "flow_lines") {
     return run_quads(step, what);
   } else {
     return run_posing(step, what);

@@ -41,35 +41,54 @@ namespace Hf
             options = options ?? new QuadOptions();
             using (var pins = new Pins())
             {
-                var desc = new hf_quads_desc { struct_size = (uint)sizeof(hf_quads_desc) };
-                desc.kind = options.Kind;
-                desc.edge_length = options.EdgeLength;
-                desc.keep_polygons = options.KeepPolygons;
-                desc.relax_count = options.RelaxCount;
-                desc.face_count = options.FaceCount;
-                desc.crease_angle = options.CreaseAngle;
-                desc.site_count = options.SiteVertices == null ? 0 : (uint)options.SiteVertices.Length;
-                desc.site_vertices = pins.Add(options.SiteVertices);
-                desc.site_lines = pins.Add(options.SiteLines, (int)desc.site_count, "SiteLines");
-                int corners = options.CreaseEdges == null ? 0 : options.CreaseEdges.Length;
-                int guides = options.GuideVertices == null ? 0 : options.GuideVertices.Length;
-                if (corners % 2 != 0)
-                    throw new HfException("CreaseEdges must hold two vertices each, not " + corners + " numbers");
-                desc.crease_count = (uint)(corners / 2);
-                desc.crease_edges = pins.Add(options.CreaseEdges);
-                desc.guide_count = (uint)guides;
-                desc.guide_vertices = pins.Add(options.GuideVertices);
-                desc.guide_vectors = pins.Add(options.GuideVectors, 3 * guides, "GuideVectors");
-                desc.guide_weights = pins.Add(options.GuideWeights, guides, "GuideWeights");
-                if (options.SymmetryPlane != null)
-                {
-                    Pins.Need(options.SymmetryPlane.Length, 4, "SymmetryPlane");
-                    for (int i = 0; i < 4; ++i) desc.symmetry_plane[i] = options.SymmetryPlane[i];
-                }
-                if (options.Progress != null) desc.progress = options.Progress.Handle;
+                hf_quads_desc desc = DescOf(options, pins);
                 Make(Functions.hf_quads_create, surface, "surface", &desc, Functions.hf_quads_destroy);
                 GC.KeepAlive(options.Progress);
             }
+        }
+
+        /// <summary>Makes the mesh again, of the kind HF_QUADS_FIELD only: for strokes and creases that the user drags.
+        /// After an exception it is what it was.</summary>
+        public void Update(QuadOptions options)
+        {
+            options = options ?? new QuadOptions();
+            using (var pins = new Pins())
+            {
+                hf_quads_desc desc = DescOf(options, pins);
+                Check(Functions.hf_quads_update(Handle, &desc));
+                GC.KeepAlive(options.Progress);
+            }
+        }
+
+        static hf_quads_desc DescOf(QuadOptions options, Pins pins)
+        {
+            var desc = new hf_quads_desc { struct_size = (uint)sizeof(hf_quads_desc) };
+            desc.kind = options.Kind;
+            desc.edge_length = options.EdgeLength;
+            desc.keep_polygons = options.KeepPolygons;
+            desc.relax_count = options.RelaxCount;
+            desc.face_count = options.FaceCount;
+            desc.crease_angle = options.CreaseAngle;
+            desc.site_count = options.SiteVertices == null ? 0 : (uint)options.SiteVertices.Length;
+            desc.site_vertices = pins.Add(options.SiteVertices);
+            desc.site_lines = pins.Add(options.SiteLines, (int)desc.site_count, "SiteLines");
+            int corners = options.CreaseEdges == null ? 0 : options.CreaseEdges.Length;
+            int guides = options.GuideVertices == null ? 0 : options.GuideVertices.Length;
+            if (corners % 2 != 0)
+                throw new HfException("CreaseEdges must hold two vertices each, not " + corners + " numbers");
+            desc.crease_count = (uint)(corners / 2);
+            desc.crease_edges = pins.Add(options.CreaseEdges);
+            desc.guide_count = (uint)guides;
+            desc.guide_vertices = pins.Add(options.GuideVertices);
+            desc.guide_vectors = pins.Add(options.GuideVectors, 3 * guides, "GuideVectors");
+            desc.guide_weights = pins.Add(options.GuideWeights, guides, "GuideWeights");
+            if (options.SymmetryPlane != null)
+            {
+                Pins.Need(options.SymmetryPlane.Length, 4, "SymmetryPlane");
+                for (int i = 0; i < 4; ++i) desc.symmetry_plane[i] = options.SymmetryPlane[i];
+            }
+            if (options.Progress != null) desc.progress = options.Progress.Handle;
+            return desc;
         }
 
         public hf_quads_info Info { get { return Read<hf_quads_info>(Functions.hf_quads_get_info); } }

@@ -229,8 +229,30 @@ export interface FlowLines {
   lineEnds: Uint32Array;
 }
 
+export interface QuadOptions {
+  kind?: number;
+  edgeLength?: number;
+  siteVertices?: Numbers | null;
+  siteLines?: Numbers | null;
+  keepPolygons?: number;
+  relaxCount?: number;
+  faceCount?: number;
+  creaseAngle?: number;
+  creaseEdges?: Numbers | null;
+  guideVertices?: Numbers | null;
+  guideVectors?: Numbers | null;
+  guideWeights?: Numbers | null;
+  symmetryPlane?: Numbers | null;
+  progress?: Progress | null;
+}
+
 export interface Quads extends Handle {
   readonly info: Record<string, number>;
+  /**
+   * Makes the mesh again, of the kind HF_QUADS_FIELD only: for strokes and creases that the user drags. Options that are
+   * left out are the defaults. After an error the mesh is what it was.
+   */
+  update(options?: QuadOptions): void;
   /** Face i has the corners faceCorners[faceStarts[i]] to faceCorners[faceStarts[i + 1] - 1], counter-clockwise. */
   mesh(): QuadMesh;
 }
@@ -443,25 +465,7 @@ export interface Hf {
     surface: Surface,
     options?: { degree?: number; siteLimit?: number; progress?: Progress | null },
   ) => Direction;
-  readonly Quads: new (
-    surface: Surface,
-    options?: {
-      kind?: number;
-      edgeLength?: number;
-      siteVertices?: Numbers | null;
-      siteLines?: Numbers | null;
-      keepPolygons?: number;
-      relaxCount?: number;
-      faceCount?: number;
-      creaseAngle?: number;
-      creaseEdges?: Numbers | null;
-      guideVertices?: Numbers | null;
-      guideVectors?: Numbers | null;
-      guideWeights?: Numbers | null;
-      symmetryPlane?: Numbers | null;
-      progress?: Progress | null;
-    },
-  ) => Quads;
+  readonly Quads: new (surface: Surface, options?: QuadOptions) => Quads;
   readonly Flow: new (surface: Surface) => Flow;
   /** `positions`: a pose of the surface to work on, null for its rest positions. */
   readonly Region: new (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from enum import IntEnum
-from typing import Any, List, NamedTuple, Optional
+from typing import Any, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
@@ -35,45 +35,59 @@ class QuadMesh(NamedTuple):
         return [self.face_corners[a:b] for a, b in zip(self.face_starts[:-1], self.face_starts[1:])]
 
 
+def _desc_of(*, site_vertices: Optional[ArrayLike] = None,
+        site_lines: Optional[ArrayLike] = None, crease_edges: Optional[ArrayLike] = None,
+        guide_vertices: Optional[ArrayLike] = None, guide_vectors: Optional[ArrayLike] = None,
+        guide_weights: Optional[ArrayLike] = None, symmetry_plane: Optional[ArrayLike] = None,
+             progress: Optional[Progress] = None, **options: Any) -> Tuple[_raw.hf_quads_desc, tuple]:
+    """The desc, and the arrays it points into: hold them until the call is over."""
+    desc = make(_raw.hf_quads_desc)
+    options_into(desc, options)
+    places = integers(site_vertices, "site_vertices")
+    desc.site_count, desc.site_vertices = 0 if places is None else places.size, address(places)
+    lines = None if site_lines is None else np.ascontiguousarray(numbers(site_lines, "site_lines"))
+    if lines is not None and (lines.dtype.kind not in "iu" or lines.size != desc.site_count):
+        raise InvalidArgumentError(f"site_lines must be {desc.site_count} whole numbers")
+    if lines is not None and lines.size and not -(1 << 31) <= lines.min() <= lines.max() < 1 << 31:
+        raise OutOfRangeError("site_lines holds a number beyond 32 bits")
+    lines = None if lines is None else lines.astype(np.int32)
+    desc.site_lines = address(lines)
+    edges = integers(crease_edges, "crease_edges")
+    if edges is not None and edges.size % 2:
+        raise InvalidArgumentError(f"crease_edges must hold two vertices each, not {edges.size} numbers")
+    desc.crease_count, desc.crease_edges = 0 if edges is None else edges.size // 2, address(edges)
+    guided = integers(guide_vertices, "guide_vertices")
+    desc.guide_count, desc.guide_vertices = 0 if guided is None else guided.size, address(guided)
+    vectors = doubles(guide_vectors, "guide_vectors", 3 * desc.guide_count)
+    weights = doubles(guide_weights, "guide_weights", desc.guide_count)
+    weights = None if weights is None else weights.astype(np.float32)
+    desc.guide_vectors, desc.guide_weights = address(vectors), address(weights)
+    if symmetry_plane is not None:
+        desc.symmetry_plane[:] = doubles(symmetry_plane, "symmetry_plane", 4).ravel()
+    desc.progress = handle_of(progress, Progress, "progress")
+    return desc, (places, lines, edges, guided, vectors, weights, progress)
+
+
 class Quads(Object):
-    """A quad mesh of a surface. Options: kind, edge_length, keep_polygons, relax_count, face_count, crease_angle.
+    """A quad mesh of a surface. Options: kind, edge_length, keep_polygons, relax_count, face_count, crease_angle;
+    site_vertices (n,), site_lines (n,), progress.
 
     QuadKind.FIELD takes crease_edges (n, 2), guide_vertices (n,), guide_vectors (n, 3), guide_weights (n,), and
     symmetry_plane: a, b, c, d of the plane a x + b y + c z = d."""
 
     _destroy = "hf_quads_destroy"
 
-    def __init__(self, surface: Surface, *, site_vertices: Optional[ArrayLike] = None,
-        site_lines: Optional[ArrayLike] = None, crease_edges: Optional[ArrayLike] = None,
-        guide_vertices: Optional[ArrayLike] = None, guide_vectors: Optional[ArrayLike] = None,
-        guide_weights: Optional[ArrayLike] = None, symmetry_plane: Optional[ArrayLike] = None,
-                 progress: Optional[Progress] = None, **options: Any) -> None:
-        desc, handle = make(_raw.hf_quads_desc), ctypes.c_void_p()
-        options_into(desc, options)
-        places = integers(site_vertices, "site_vertices")
-        desc.site_count, desc.site_vertices = 0 if places is None else places.size, address(places)
-        lines = None if site_lines is None else np.ascontiguousarray(numbers(site_lines, "site_lines"))
-        if lines is not None and (lines.dtype.kind not in "iu" or lines.size != desc.site_count):
-            raise InvalidArgumentError(f"site_lines must be {desc.site_count} whole numbers")
-        if lines is not None and lines.size and not -(1 << 31) <= lines.min() <= lines.max() < 1 << 31:
-            raise OutOfRangeError("site_lines holds a number beyond 32 bits")
-        lines = None if lines is None else lines.astype(np.int32)
-        desc.site_lines = address(lines)
-        edges = integers(crease_edges, "crease_edges")
-        if edges is not None and edges.size % 2:
-            raise InvalidArgumentError(f"crease_edges must hold two vertices each, not {edges.size} numbers")
-        desc.crease_count, desc.crease_edges = 0 if edges is None else edges.size // 2, address(edges)
-        guided = integers(guide_vertices, "guide_vertices")
-        desc.guide_count, desc.guide_vertices = 0 if guided is None else guided.size, address(guided)
-        vectors = doubles(guide_vectors, "guide_vectors", 3 * desc.guide_count)
-        weights = doubles(guide_weights, "guide_weights", desc.guide_count)
-        weights = None if weights is None else weights.astype(np.float32)
-        desc.guide_vectors, desc.guide_weights = address(vectors), address(weights)
-        if symmetry_plane is not None:
-            desc.symmetry_plane[:] = doubles(symmetry_plane, "symmetry_plane", 4).ravel()
-        desc.progress = handle_of(progress, Progress, "progress")
+    def __init__(self, surface: Surface, **options: Any) -> None:
+        desc, _held = _desc_of(**options)
+        handle = ctypes.c_void_p()
         call("hf_quads_create", handle_of(surface, Surface, "surface"), ctypes.byref(desc), ctypes.byref(handle))
         self._own(handle)
+
+    def update(self, **options: Any) -> None:
+        """Makes the mesh again, of kind FIELD only: for strokes and creases that the user drags. The same options as
+        for a new one; those that are left out are the defaults. After an error the mesh is what it was."""
+        desc, _held = _desc_of(**options)
+        call("hf_quads_update", self._raw_handle, ctypes.byref(desc))
 
     @property
     def info(self) -> _raw.hf_quads_info:

@@ -244,9 +244,9 @@ impl Quads {
         Ok(Quads { handle })
     }
 
-    /// Makes a mesh of the kind `HF_QUADS_FIELD` that keeps to edges, directions and a plane.
-    pub fn guided(surface: &Surface, options: &QuadsOptions, guides: &QuadGuides) -> Result<Self> {
-        let (mut desc, mut handle) = (raw::hf_quads_desc::default(), std::ptr::null_mut());
+    /// The desc points into `guides`.
+    fn guided_desc(options: &QuadsOptions, guides: &QuadGuides) -> Result<raw::hf_quads_desc> {
+        let mut desc = raw::hf_quads_desc::default();
         options.fill(&mut desc);
         desc.crease_count = rows_of(guides.crease_edges, 2, "crease_edges")?;
         desc.crease_edges = start(guides.crease_edges);
@@ -256,9 +256,23 @@ impl Quads {
         (desc.guide_count, desc.guide_vertices) = (count_of(count, "guide_vertices")?, start(guides.guide_vertices));
         (desc.guide_vectors, desc.guide_weights) = (start(guides.guide_vectors), start_of(guides.guide_weights));
         desc.symmetry_plane = guides.symmetry_plane.unwrap_or_default();
+        Ok(desc)
+    }
+
+    /// Makes a mesh of the kind `HF_QUADS_FIELD` that keeps to edges, directions and a plane.
+    pub fn guided(surface: &Surface, options: &QuadsOptions, guides: &QuadGuides) -> Result<Self> {
+        let (desc, mut handle) = (Self::guided_desc(options, guides)?, std::ptr::null_mut());
         // SAFETY: the lengths are checked.
         check(unsafe { raw::hf_quads_create(surface.handle, &desc, &mut handle) })?;
         Ok(Quads { handle })
+    }
+
+    /// Makes the mesh again, of the kind `HF_QUADS_FIELD` only: for strokes and creases that the user drags. After an
+    /// error it is what it was.
+    pub fn update(&mut self, options: &QuadsOptions, guides: &QuadGuides) -> Result<()> {
+        let desc = Self::guided_desc(options, guides)?;
+        // SAFETY: the lengths are checked.
+        check(unsafe { raw::hf_quads_update(self.handle, &desc) })
     }
 
     figures! {
