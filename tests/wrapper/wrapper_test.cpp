@@ -170,19 +170,53 @@ TEST(Wrapper, reads_lines_points_distances_and_tips_of_a_strip) {
   EXPECT_NEAR(std::fabs(tips[0].position[0] - tips[1].position[0]), 8, 0.01);
 }
 
-TEST(Wrapper, regions_morph_and_hand_their_detail_on) {
-  // a sheet of 12 x 12 quads with a bump
+// A sheet of 12 x 12 squares with a bump.
+struct Sheet {
   std::vector<float> positions;
   std::vector<uint32_t> triangles;
-  for (uint32_t j = 0; j < 13; ++j)
-    for (uint32_t i = 0; i < 13; ++i)
-      positions.insert(positions.end(), {float(i), float(j), i > 4 && i < 8 && j > 4 && j < 8 ? 1.0f : 0.0f});
-  for (uint32_t j = 0; j < 12; ++j)
-    for (uint32_t i = 0; i < 12; ++i) {
-      const uint32_t v = 13 * j + i;
-      triangles.insert(triangles.end(), {v, v + 1, v + 14, v, v + 14, v + 13});
-    }
-  const hf::Surface surface(positions, triangles);
+  Sheet() {
+    for (uint32_t j = 0; j < 13; ++j)
+      for (uint32_t i = 0; i < 13; ++i)
+        positions.insert(positions.end(), {float(i), float(j), i > 4 && i < 8 && j > 4 && j < 8 ? 1.0f : 0.0f});
+    for (uint32_t j = 0; j < 12; ++j)
+      for (uint32_t i = 0; i < 12; ++i) {
+        const uint32_t v = 13 * j + i;
+        triangles.insert(triangles.end(), {v, v + 1, v + 14, v, v + 14, v + 13});
+      }
+  }
+};
+
+TEST(Wrapper, quads_are_made_again_along_a_stroke) {
+  const Sheet sheet;
+  const hf::Surface surface(sheet.positions, sheet.triangles);
+  auto desc = hf::make<hf_quads_desc>();
+  desc.kind = HF_QUADS_FIELD, desc.face_count = 100;
+  hf::Quads quads(surface, &desc);
+  const hf::QuadMesh plain = quads.mesh();
+  EXPECT_EQ(plain.positions, hf::make_quads(surface, &desc).positions);
+  const uint32_t place = 13 * 2 + 6;
+  const double along[3] = {1, 1, 0};
+  auto stroke = desc;
+  stroke.guide_count = 1, stroke.guide_vertices = &place, stroke.guide_vectors = along;
+  stroke.relax_count = HF_NO_INDEX;
+  quads.update(stroke);
+  EXPECT_NE(quads.mesh().positions, plain.positions);
+  EXPECT_EQ(quads.mesh().face_corners.size(), quads.info().corner_count);
+  stroke.relax_count = 0;
+  quads.update(stroke);
+  const hf::QuadMesh guided = quads.mesh();
+  EXPECT_EQ(guided.positions, hf::make_quads(surface, &stroke).positions);
+  stroke.kind = HF_QUADS_UNIFORM;
+  EXPECT_THROW(quads.update(stroke), hf::Error);
+  EXPECT_EQ(quads.mesh().positions, guided.positions);
+  quads.update(desc);
+  EXPECT_EQ(quads.mesh().positions, plain.positions);
+}
+
+TEST(Wrapper, regions_morph_and_hand_their_detail_on) {
+  const Sheet sheet;
+  const std::vector<float>& positions = sheet.positions;
+  const hf::Surface surface(positions, sheet.triangles);
   hf::Region region(surface, positions);
   region.enclose({13 * 3 + 3, 13 * 3 + 9, 13 * 9 + 9, 13 * 9 + 3});
   EXPECT_EQ(region.info().vertex_count, 25u);
