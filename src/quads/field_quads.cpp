@@ -6,9 +6,9 @@
 
 #include "base/progress.h"
 #include "base/timer.h"
+#include "quads/counted_quads.h"
 #include "quads/numbers.h"
 #include "quads/symmetric.h"
-#include "remesh/coarsen.h"
 #include "remesh/fit.h"
 #include "remesh/relax.h"
 
@@ -46,25 +46,9 @@ constexpr struct {
   float factored = 0.1f, smoothed = 0.2f, mapped = 0.4f;
   float extracted = 0.4f, relaxed = 0.5f;
 } field_progress;
-// Where pieces between the lines are no discs, the next edge length is this share of the one before: smaller takes less
-// tries, larger leaves less quads to remove. At 0.5, 19 % more corners are turned over in 21 runs. At 0.85, four tries
-// do not suffice for a sheet with holes: it gets the quads of its triangles, 118 times as many as wanted.
-constexpr double shorter = 0.7;
 // More quads than this must be asked for. At the default edge length a sphere has 2,000; a polygon of 60,000 corners at
 // random, which lies over itself two thousand times, would have 4 million and take 1.6 GB.
 constexpr double most_unasked = 1e6;
-// At most this many shorter edges are tried. Then triangles are split into quads, which can be many. With 2, a sheet
-// with holes gets 119 times as many as wanted. With 8 five runs that need a try stay the same.
-constexpr std::int32_t most_tries = 4;
-// The same where lines of creases or borders were left out. Shorter edges do not bring them back. A comb of 64,000
-// corners fails four times and takes 1.4 s; with one try it takes 1.3 s. Of the shared meshes, with creases of 20 and
-// 30 degrees, none that leaves lines out needs a try.
-constexpr std::int32_t tries_without_lines = 1;
-// A number of faces this near to the wanted one is good. The result is 1.4 % off on average. At 0.01 it is 1.0 %, with
-// a tenth more tries. At 0.04 it is 2.2 %, and 2 of 15 runs take 2.4 times as long: fitting aims twice (fitted_error).
-constexpr double faces_error = 0.02;
-// At most this many tries to come so near. With 2 the result is 1.9 % off on average, with 8 it is 1.3 %.
-constexpr std::int32_t count_tries = 4;
 // Fitting adds quads. A result within this share of the wanted number is good, else other numbers are aimed at. At half
 // the value 3 of 15 runs take twice as long, for 1.3 % off on average instead of 1.4. Double changes none of them.
 constexpr double fitted_error = 0.045;
@@ -79,14 +63,20 @@ constexpr std::int32_t fit_turns_of_count = 3;
 // over. The elephant stays 3.0 % of the box away, b9 is 7.6 instead of 6.2 % away.
 constexpr double fitted_share = 4;
 
-// A component smaller than so many quads that loses its shape gets the fewest quads there can be, six or one. Of 16
-// runs of models with parts, 12 changes two: irregular vertices by 6 % at most, one largest distance from 1.6 to 2.0 %
-// of the box. 48 changes four: a spider at 800 quads has 18 instead of 52 % irregular vertices, but the rods of a model
-// of 21 parts at 3,000 are 3.0 instead of 1.1 % off.
-constexpr double few_quads = 24;
-
-// How far a number of quads is from the wanted one: half as many are as bad as twice as many.
-double miss_of(double ratio) { return std::max(ratio, 1 / std::max(ratio, 1e-9)) - 1; }
+// A mesh farther than this from the surface, in wanted edge lengths, has lost a limb: too few lines run around it. Then
+// finer quads are made, and as many chords removed as it takes. The nearest mesh stays.
+// X
+constexpr double lost_fitted = 1.0, lost_unfitted = 2.0;
+// The edges of each finer mesh are this share of those before.
+// X
+constexpr double finer_share = 0.85;
+// At most so many finer meshes are made, and none after one that is not nearer by this share.
+// X
+constexpr std::int32_t finer_tries = 3;
+constexpr double nearer_share = 0.99;
+// A finer mesh may have so many times the irregular vertices of the first. One where a component fails has five to
+// eight times as many, one that brings limbs back has up to two and a half times.
+constexpr std::int32_t most_irregular = 3;
 
 // In a pass that evens out the crosses of a border, each of the two neighbours counts this times the cross itself, and
 // the sum is scaled back. Less keeps ragged borders, more rounds corners. At 5 % edges half changes a sheet with holes
@@ -179,141 +169,29 @@ void add_held(const Guided& guided, Vector<HardCross>& hard) {
   }
 }
 
-double area_of(const FluxSurface& surface, std::int32_t t) {
-  const Vec3 a = surface.position[surface.tail[3 * t]];
-  return 0.5 *
-         norm(cross(surface.position[surface.tail[3 * t + 1]] - a, surface.position[surface.tail[3 * t + 2]] - a));
-}
-double area_of(const FluxSurface& surface) {
-  double sum = 0;
-  for (std::int32_t t = 0; t < surface.real_triangles; ++t) sum += area_of(surface, t);
-  return sum;
+// How many vertices inside have not four quads.
+std::int32_t count_irregular(const QuadMesh& mesh, Memory& memory) {
+  Table<std::int32_t> valence(mesh.position.size(), 0, memory);
+  for (const std::int32_t v : mesh.corner) ++valence[v];
+  std::int32_t count = 0;
+  for (std::int32_t v = 0; v < valence.size(); ++v) count += !mesh.border[v] && valence[v] != 4;
+  return count;
 }
 
-// Makes quads of a map at any edge length. Components whose quads have another Euler characteristic there get those of
-// shorter edges, and at last quads of their triangles.
-class QuadSource {
- public:
-  // once: make is called once, so the map's factor may go before its end.
-  QuadSource(const FluxSurface& surface, GridMapper& mapper, const Table<std::uint8_t>& features, bool once,
-             Memory& memory)
-      : surface_(surface),
-        mapper_(mapper),
-        features_(features),
-        once_(once),
-        memory_(memory),
-        substitute_(memory),
-        of_substitute_(surface.component_count, 0, memory),
-        area_(surface.component_count, 0.0, memory),
-        creased_(surface.component_count, 0, memory) {
-    for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
-      const std::int32_t c = surface.component[surface.tail[h]];
-      if (h % 3 == 0) area_[c] += area_of(surface, h / 3);
-      creased_[c] |= features[h] && surface.is_real(surface.twin[h]);
-    }
+// Evens out quads and fits them to the surface. Returns their distance.
+double even_out(const FluxSurface& surface, const QuadDistance& distance, std::int32_t rounds, double edge_length,
+                QuadMesh& mesh, Memory& memory) {
+  RelaxOptions relax;
+  relax.rounds = rounds, relax.edge_length = edge_length;
+  {
+    const ProgressRange range(field_progress.extracted, field_progress.relaxed);
+    relax_quads(surface, mesh, relax, memory);
   }
-
-  // raw: how many crossings have a quad. Returns valid quads.
-  QuadComplex make(double length, std::int32_t& raw, FieldQuadReport& report) {
-    const GridMap map = mapper_.make(length);
-    report.turned_over = map.turned_over, report.roundings = map.roundings;
-    report.backward = 0, report.substitutes = 0, ++report.tries;
-    QuadComplex found = extract_quads(surface_, map, features_, report.backward, memory_);
-    raw = found.quad_count();
-    RepairReport repaired;
-    repair_quads(surface_, found, repaired, memory_);
-    report.removed = repaired.removed, report.added = repaired.added;
-    const Table<std::int32_t> component = components_of(surface_, found, memory_);
-    const Table<std::uint8_t> sound = find_sound(surface_, found, component, area_, memory_);
-    Table<std::uint8_t> missing(sound.size(), 0, memory_), small(sound.size(), 0, memory_);
-    for (std::int32_t c = 0; c < sound.size(); ++c)
-      small[c] = !sound[c] && !of_substitute_[c] && !creased_[c] && area_[c] < few_quads * length * length;
-    substitute_.append(least_quads(surface_, area_, small, memory_), memory_);
-    for (std::int32_t c = 0; c < sound.size(); ++c) of_substitute_[c] |= small[c];
-    bool any = false;
-    for (std::int32_t c = 0; c < sound.size(); ++c) {
-      report.substitutes += !sound[c];
-      missing[c] = !sound[c] && !of_substitute_[c], any |= missing[c] != 0;
-    }
-    if (any) substitute(length, missing, report);
-    if (report.substitutes > 0) {
-      QuadComplex all(memory_);
-      Table<std::uint8_t> take(memory_);
-      for (const std::int32_t c : component) take.push_back(sound[c]);
-      all.append(found, take, memory_);
-      take.clear();
-      for (const std::int32_t c : components_of(surface_, substitute_, memory_)) take.push_back(!sound[c]);
-      all.append(substitute_, take, memory_);
-      found = std::move(all);
-    }
-    return found;
-  }
-
- private:
-  void substitute(double length, Table<std::uint8_t>& missing, FieldQuadReport& report) {
-    const std::int32_t tries = mapper_.left_out() > 0 ? tries_without_lines : most_tries;
-    for (std::int32_t i = 0; i < tries; ++i) {
-      length *= shorter, ++report.tries;
-      std::int32_t backward = 0;
-      QuadComplex found = extract_quads(surface_, mapper_.make(length), features_, backward, memory_);
-      RepairReport repaired;
-      repair_quads(surface_, found, repaired, memory_);
-      const Table<std::int32_t> component = components_of(surface_, found, memory_);
-      const Table<std::uint8_t> sound = find_sound(surface_, found, component, area_, memory_);
-      Table<std::uint8_t> take(memory_);
-      for (const std::int32_t c : component) take.push_back(missing[c] && sound[c]);
-      substitute_.append(found, take, memory_);
-      bool open = false;
-      for (std::int32_t c = 0; c < missing.size(); ++c) {
-        of_substitute_[c] |= missing[c] && sound[c];
-        missing[c] = missing[c] && !sound[c], open |= missing[c] != 0;
-      }
-      if (!open) return;
-    }
-    if (once_) mapper_.release();
-    const QuadComplex split = split_triangles(surface_, features_, missing, memory_);
-    substitute_.append(split, memory_);
-    for (std::int32_t c = 0; c < missing.size(); ++c) {
-      of_substitute_[c] |= missing[c], report.split += missing[c];
-    }
-  }
-
-  const FluxSurface& surface_;
-  GridMapper& mapper_;
-  const Table<std::uint8_t>& features_;
-  const bool once_;
-  Memory& memory_;
-  QuadComplex substitute_;
-  Table<std::uint8_t> of_substitute_;  // by component: whether substitute_ has it
-  Table<double> area_;                 // by component
-  Table<std::uint8_t> creased_;        // by component: a few quads would not keep its creases
-};
-
-// Makes a mesh of about `wanted` quads, or one of the given edge length. raw: how many crossings have a quad.
-QuadMesh make_count(const FluxSurface& surface, QuadSource& source, double wanted, double edge_length, bool by_count,
-                    FieldQuadReport& made, std::int32_t& raw, Memory& memory) {
-  QuadComplex quads(memory);
-  double length = edge_length, best = -1;
-  for (std::int32_t round = 0; round < count_tries; ++round) {
-    std::int32_t crossings = 0;
-    QuadComplex found = source.make(length, crossings, made);
-    const double ratio = found.quad_count() / wanted, error = miss_of(ratio);
-    const bool better = best < 0 || error < best;
-    if (better) best = error, raw = crossings, quads = std::move(found), made.edge_length = length;
-    // A component that is shorter than the lines cannot come nearer.
-    if (!by_count || error <= faces_error || (made.substitutes > 0 && (!better || ratio > 1))) break;
-    length *= std::sqrt(ratio);
-  }
-  const bool limited = by_count || made.substitutes > 0;
-  const std::int32_t most = static_cast<std::int32_t>((1 + faces_error) * wanted);
-  if (limited)
-    made.chords = collapse_chords(quads, most, static_cast<std::int32_t>((1 - faces_error) * wanted), memory);
-  QuadMesh mesh = quads.mesh(memory);
-  if (limited) {
-    if (made.substitutes > 0 || mesh.face_count() > most) made.edge_length = edge_length;
-    collapse_to_count(surface, mesh, most, edge_length, memory);
-  }
-  return mesh;
+  const ProgressRange range(field_progress.relaxed, 1.0f);
+  distance.turn_quads(mesh);
+  FitOptions fit;
+  fit.edge_length = edge_length, fit.tolerance = fit_tolerance * edge_length;
+  return fit_quads(surface, distance, mesh, fit, memory);
 }
 
 }  // namespace
@@ -428,31 +306,48 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
     const float to = options.faces == 0 ? 1.0f : (from + 1) / 2;
     const ProgressRange turn_range(from, to);
     from = to;
+    const double aimed = std::sqrt(base.area / aim);
+    CountedQuads counted(surface, source, aim, aimed, options.faces > 0, memory);
+    const QuadDistance& distance = base.distance(sample_spacing * aimed);
+    QuadMesh mesh(memory);
+    FieldQuadReport now;
     std::int32_t raw = 0;
-    FieldQuadReport now = made;
-    Timer turn_timer;
-    QuadMesh mesh = make_count(surface, source, aim, std::sqrt(base.area / aim), options.faces > 0, now, raw, memory);
-    check_quads(mesh, surface.euler_characteristic, memory);
-    made.quads_ms += turn_timer.milliseconds();
-    hf_inner::report(field_progress.extracted);
-    Timer fit_timer;
-    const bool too_many = mesh.face_count() > fitted_share * wanted;
-    if (options.relax > 0 && !too_many) {
-      RelaxOptions relax;
-      relax.rounds = options.relax, relax.edge_length = now.edge_length;
-      {
-        const ProgressRange range(field_progress.extracted, field_progress.relaxed);
-        relax_quads(surface, mesh, relax, memory);
+    bool too_many = false;
+    double off = HUGE_VAL, done = 0;  // the distance to the surface; the progress of this turn
+    std::int32_t irregular = 0;       // irregular vertices of the first mesh
+    for (std::int32_t i = 0; i <= finer_tries && source.is_open(); ++i) {
+      // One try is mostly enough.
+      const ProgressRange try_range(done, (done + 1) / 2);
+      done = (done + 1) / 2;
+      FieldQuadReport tried = made;
+      std::int32_t crossings = 0;
+      Timer turn_timer;
+      QuadMesh found =
+          i == 0 ? counted.make(tried, crossings) : counted.make_finer(std::pow(finer_share, i), tried, crossings);
+      check_quads(found, surface.euler_characteristic, memory);
+      made.quads_ms += turn_timer.milliseconds();
+      hf_inner::report(field_progress.extracted);
+      Timer fit_timer;
+      double away = 0;
+      const bool unfit = options.relax > 0 && found.face_count() > fitted_share * wanted;
+      if (unfit && i > 0) break;
+      too_many = unfit;
+      if (options.relax == 0) {
+        away = distance.measure(found, 0, nullptr) / lost_unfitted;
+      } else if (!too_many) {
+        away = even_out(surface, distance, options.relax, tried.edge_length, found, memory) / lost_fitted;
+        check_quads(found, surface.euler_characteristic, memory);
       }
-      const ProgressRange range(field_progress.relaxed, 1.0f);
-      const QuadDistance& distance = base.distance(sample_spacing * now.edge_length);
-      distance.turn_quads(mesh);
-      FitOptions fit;
-      fit.edge_length = now.edge_length, fit.tolerance = fit_tolerance * now.edge_length;
-      fit_quads(surface, distance, mesh, fit, memory);
-      check_quads(mesh, surface.euler_characteristic, memory);
+      made.fit_ms += fit_timer.milliseconds();
+      const bool enough = too_many || away <= aimed || away > nearer_share * off;
+      const std::int32_t count = count_irregular(found, memory);
+      if (i == 0) irregular = count;
+      if (away < off && count <= most_irregular * irregular) {
+        off = away, mesh = std::move(found), raw = crossings, now = tried;
+        if (i > 0) now.edge_length = aimed;  // with as many quads
+      }
+      if (enough) break;
     }
-    made.fit_ms += fit_timer.milliseconds();
     const double ratio = mesh.face_count() / wanted, error = miss_of(ratio);
     if (best < 0 || error < best) {
       best = error;

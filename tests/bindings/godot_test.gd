@@ -206,18 +206,26 @@ func run(step, objects, kept):
 				tips.sort()
 				tips = PackedFloat32Array(tips)
 			return [true, tips, on]
-		"direction", "quads":
+		"direction":
 			var made = shares(on)
-			var result
-			if step["do"] == "direction":
-				result = made.direction_create(step.get("options", {}).get("degree", 1))
-			else:
-				var options = step.get("options", {}).duplicate()
-				if step.has("edge_length"):
-					options["edge_length"] = number(step.edge_length)
-				result = made.quads_create(options, step.get("site_vertices"), step.get("site_lines"), step.get("crease_edges"),
-					step.get("guide_vertices"), list(step, "guide_vectors", kept), list(step, "guide_weights", kept),
-					list(step, "symmetry_plane", kept))
+			var result = made.direction_create(step.get("options", {}).get("degree", 1))
+			if result != null:
+				objects[step["as"]] = made
+			return [true, result, made]
+		"quads", "update_quads":
+			var options = step.get("options", {}).duplicate()
+			for key in options:
+				options[key] = number(options[key])
+			if step.has("edge_length"):
+				options["edge_length"] = number(step.edge_length)
+			var given = [options, step.get("site_vertices"), step.get("site_lines"), step.get("crease_edges"),
+				step.get("guide_vertices"), list(step, "guide_vectors", kept), list(step, "guide_weights", kept),
+				list(step, "symmetry_plane", kept)]
+			if step["do"] == "update_quads":
+				var updated = on.callv("quads_update", given)
+				return [true, on.quads_positions() if updated != null else null, on]
+			var made = shares(on)
+			var result = made.callv("quads_create", given)
 			if result != null:
 				objects[step["as"]] = made
 			return [true, result, made]

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <map>
 
+#include "assets/creature.h"
 #include "assets/shapes.h"
 #include "quads/field_quads.h"
+#include "remesh/quad_distance.h"
 #include "support/meshes.h"
 #include "support/quad_oracle.h"
 
@@ -122,6 +124,27 @@ struct Extent {
 };
 
 // A ball with a rod and a speck beside it, a ball that faces inwards, and a leaf with a border.
+// Three lines or less would run round the legs, which then are two quads back to back, or none.
+TEST(SmallParts, limbs_that_few_lines_run_round_are_kept) {
+  const samples::ShapeMesh shape = samples::welded_surface(samples::make_creature("horse", 3000));
+  const auto core = hf_test::make_core({shape.positions, shape.triangles});
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 0, *core->memory);
+  const QuadDistance distance(surface, 0.01, *core->memory);
+  for (const double length : {0.026, 0.03, 0.034}) {
+    for (const std::int32_t relax : {0, 20}) {
+      FieldQuadOptions options;
+      options.core = core, options.edge_length = length, options.relax = relax;
+      FieldQuadReport report;
+      const QuadMesh mesh = make_field_quads(options, &report).mesh;
+      hf_test::expect_manifold(*core, mesh, "horse");
+      const double off = distance.measure(mesh, 0, nullptr) / length;
+      std::printf("edges of %.3f, %2d rounds: %d quads, %.2f edges off\n", length, relax, mesh.face_count(), off);
+      EXPECT_LT(off, relax > 0 ? 1.1 : 2.0) << length;
+      EXPECT_NEAR(report.edge_length, length, 1e-12);
+    }
+  }
+}
+
 TEST(SmallParts, rods_and_specks_keep_their_extent) {
   samples::ShapeMesh mesh = samples::sphere(16);
   std::vector<Extent> extents(1);

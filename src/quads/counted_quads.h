@@ -1,0 +1,68 @@
+// Quads of about a wanted number, from a map that can be made for any edge length.
+#pragma once
+#include "quads/field_quads.h"
+#include "quads/grid_map.h"
+
+namespace hf_inner {
+
+double area_of(const FluxSurface& surface);
+
+// How far a number of quads is from the wanted one: half as many are as bad as twice as many.
+double miss_of(double ratio) noexcept;
+
+// Makes quads of a map at any edge length. Components whose quads have another Euler characteristic there get those of
+// shorter edges, and at last quads of their triangles.
+class QuadSource {
+ public:
+  // once: make is called once if need be, so the map's factor may go before its end.
+  QuadSource(const FluxSurface& surface, GridMapper& mapper, const Table<std::uint8_t>& features, bool once,
+             Memory& memory);
+  // raw: how many crossings have a quad. Returns valid quads.
+  QuadComplex make(double length, std::int32_t& raw, FieldQuadReport& report);
+  // Whether make can be called once more.
+  bool is_open() const noexcept { return !released_; }
+
+ private:
+  void substitute(double length, Table<std::uint8_t>& missing, FieldQuadReport& report);
+
+  const FluxSurface& surface_;
+  GridMapper& mapper_;
+  const Table<std::uint8_t>& features_;
+  const bool once_;
+  bool released_ = false;
+  Memory& memory_;
+  QuadComplex substitute_;
+  Table<std::uint8_t> of_substitute_;  // by component: whether substitute_ has it
+  Table<double> area_;                 // by component
+  Table<std::uint8_t> creased_;        // by component: a few quads would not keep its creases
+};
+
+// Makes meshes of about `wanted` quads, or of an edge length.
+class CountedQuads {
+ public:
+  CountedQuads(const FluxSurface& surface, QuadSource& source, double wanted, double edge_length, bool by_count,
+               Memory& memory)
+      : surface_(surface),
+        source_(source),
+        wanted_(wanted),
+        edge_length_(edge_length),
+        by_count_(by_count),
+        memory_(memory) {}
+
+  // raw: how many crossings have a quad.
+  QuadMesh make(FieldQuadReport& made, std::int32_t& raw);
+  // Makes another of shorter edges, which has as many quads. share: of the edges of make.
+  QuadMesh make_finer(double share, FieldQuadReport& made, std::int32_t& raw);
+
+ private:
+  QuadMesh coarsened(QuadComplex& quads, bool limited, FieldQuadReport& made);
+
+  const FluxSurface& surface_;
+  QuadSource& source_;
+  const double wanted_, edge_length_;
+  const bool by_count_;
+  Memory& memory_;
+  double length_ = 0;  // of the lines of make
+};
+
+}  // namespace hf_inner
