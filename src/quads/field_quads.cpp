@@ -66,17 +66,18 @@ constexpr double fitted_share = 4;
 // A mesh farther than this from the surface, in wanted edge lengths, has lost a limb: too few lines run around it. Then
 // finer quads are made, and as many chords removed as it takes. The nearest mesh stays. On 18 meshes at 500 quads that
 // are 1.5 % of the box away or more, distances are 3.9 % on average without this and 3.1 % with it, in 1.8 times the
-// time. Half as many edge lengths give 2.8 % in 2.6 times the time, twice as many 3.5 %. Meshes that are not fitted are
-// one edge length away where nothing is lost.
-constexpr double lost_fitted = 1.0, lost_unfitted = 2.0;
+// time. Half as many edge lengths give 2.8 % in 2.6 times the time, twice as many 3.5 %. Meshes that are not fitted, as
+// during drags, are not measured.
+constexpr double lost_limb = 1.0;
 // The edges of each finer mesh are this share of those before. At 0.72 these distances are 3.6 %.
 constexpr double finer_share = 0.85;
-// At most so many finer meshes are made, and none after one that is not nearer by this share. With one try the
+// At most so many finer meshes are made in all, and none after one that is not nearer by this share. With one try the
 // distances are 3.2 %; six change nothing.
 constexpr std::int32_t finer_tries = 3;
 constexpr double nearer_share = 0.99;
-// A finer mesh may have so many times the irregular vertices of the first. One where a component fails has five to
-// eight times as many: seen on five of 36 models. One that brings limbs back has up to two and a half times.
+// A finer mesh may have so many times the irregular vertices of the first, and one of a nearer number those of the
+// last. One where a component fails has five to eight times as many: seen on five of 36 models. One that brings limbs
+// back has up to two and a half times.
 constexpr std::int32_t most_irregular = 3;
 
 // In a pass that evens out the crosses of a border, each of the two neighbours counts this times the cross itself, and
@@ -301,6 +302,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   const double wanted = options.faces > 0 ? options.faces : base.area / (edge_length * edge_length);
   QuadSource source(surface, mapper, features, options.faces == 0, memory);
   double aim = wanted, best = -1;
+  std::int32_t chosen_irregular = 0, finer_left = finer_tries;
   float from = field_progress.mapped;
   for (std::int32_t turn = 0; turn < fit_turns_of_count; ++turn) {
     // One turn is mostly enough, so each gets half of what is left.
@@ -309,14 +311,14 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
     from = to;
     const double aimed = std::sqrt(base.area / aim);
     CountedQuads counted(surface, source, aim, aimed, options.faces > 0, memory);
-    const QuadDistance& distance = base.distance(sample_spacing * aimed);
     QuadMesh mesh(memory);
     FieldQuadReport now;
     std::int32_t raw = 0;
     bool too_many = false;
     double off = HUGE_VAL, done = 0;  // the distance to the surface; the progress of this turn
     std::int32_t irregular = 0;       // irregular vertices of the first mesh
-    for (std::int32_t i = 0; i <= finer_tries && source.is_open(); ++i) {
+    for (std::int32_t i = 0; i == 0 || (finer_left > 0 && source.is_open()); ++i) {
+      finer_left -= i > 0;
       // One try is mostly enough.
       const ProgressRange try_range(done, (done + 1) / 2);
       done = (done + 1) / 2;
@@ -333,14 +335,13 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
       const bool unfit = options.relax > 0 && found.face_count() > fitted_share * wanted;
       if (unfit && i > 0) break;
       too_many = unfit;
-      if (options.relax == 0) {
-        away = distance.measure(found, 0, nullptr) / lost_unfitted;
-      } else if (!too_many) {
-        away = even_out(surface, distance, options.relax, tried.edge_length, found, memory) / lost_fitted;
+      if (options.relax > 0 && !too_many) {
+        away =
+            even_out(surface, base.distance(sample_spacing * aimed), options.relax, tried.edge_length, found, memory);
         check_quads(found, surface.euler_characteristic, memory);
       }
       made.fit_ms += fit_timer.milliseconds();
-      const bool enough = too_many || away <= aimed || away > nearer_share * off;
+      const bool enough = away <= lost_limb * aimed || away > nearer_share * off;
       const std::int32_t count = count_irregular(found, memory);
       if (i == 0) irregular = count;
       if (away < off && count <= most_irregular * irregular) {
@@ -350,8 +351,9 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
       if (enough) break;
     }
     const double ratio = mesh.face_count() / wanted, error = miss_of(ratio);
-    if (best < 0 || error < best) {
-      best = error;
+    const std::int32_t count = count_irregular(mesh, memory);
+    if (best < 0 || (error < best && count <= most_irregular * chosen_irregular)) {
+      best = error, chosen_irregular = count;
       result.mesh = std::move(mesh), result.raw_faces = raw, result.raw_quads = raw;
       now.quads_ms = made.quads_ms, now.fit_ms = made.fit_ms;
       chosen = now;

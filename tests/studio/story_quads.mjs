@@ -123,12 +123,16 @@ export default async function story(host) {
         };
       });
     const still = async () => {
-      await page.waitForFunction(() => !window.hfStudio.tools.quads.following && !window.hfStudio.live);
+      await page.waitForFunction(() => {
+        const { tools, live, state } = window.hfStudio;
+        return !live && !tools.quads.following && tools.quads.relaxed && tools.quads.shown === state.strokes;
+      });
       await studio.settle();
     };
     await studio.tool('pose');
     await page.keyboard.press('Control+z');
     await studio.tool('quads');
+    await page.locator('#edge').fill('0.022');
     await page.click('#make');
     await page.waitForFunction(() => !document.querySelector('#cancel'), null, { timeout: 60000 });
     const before = await seen();

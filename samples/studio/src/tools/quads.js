@@ -26,6 +26,7 @@ export const tool = (kit) => {
       this.kind = FIELD;
       this.crease = 0;
       this.mirror = '';
+      this.relaxed = true; // what is shown
       this.followed = 0; // meshes made while a stroke was drawn or dragged
       this.ink = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: INK, depthTest: false }));
       this.ink.frustumCulled = false;
@@ -38,6 +39,7 @@ export const tool = (kit) => {
       this.result = null;
       this.chosen = null;
       this.shown = undefined;
+      this.relaxed = true;
       this.#clear();
     }
     enter() {
@@ -60,7 +62,8 @@ export const tool = (kit) => {
     /** After every step, undo and redo too: the mesh is that of the strokes that are there. */
     refresh() {
       this.#drawStrokes();
-      if (this.shown !== this.app.state.strokes && !this.busy) this.#follow(true);
+      const { live, state } = this.app;
+      if (!live && !this.busy && (this.shown !== state.strokes || !this.relaxed)) this.#follow(true);
       this.app.panel();
     }
     shaped() {
@@ -205,6 +208,7 @@ export const tool = (kit) => {
       if (line !== this.line) return null;
       this.result = result;
       this.shown = strokes;
+      this.relaxed = relaxed;
       this.error = null;
       this.#draw();
       return result;
@@ -224,6 +228,7 @@ export const tool = (kit) => {
       } catch (error) {
         this.error = error.message;
         this.shown = this.app.state.strokes;
+        this.relaxed = true;
       } finally {
         this.following = false;
         if (this.app.tool === this && !this.app.live) this.app.refresh();
