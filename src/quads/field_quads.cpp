@@ -316,9 +316,10 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
     std::int32_t raw = 0;
     bool too_many = false;
     double off = HUGE_VAL, done = 0;  // the distance to the surface; the progress of this turn
+    double share = 1;                 // of the edges
     std::int32_t irregular = 0;       // irregular vertices of the first mesh
     for (std::int32_t i = 0; i == 0 || (finer_left > 0 && source.is_open()); ++i) {
-      finer_left -= i > 0;
+      if (i > 0) --finer_left, share *= finer_share;
       // One try is mostly enough.
       const ProgressRange try_range(done, (done + 1) / 2);
       done = (done + 1) / 2;
@@ -326,7 +327,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
       std::int32_t crossings = 0;
       Timer turn_timer;
       QuadMesh found =
-          i == 0 ? counted.make(tried, crossings) : counted.make_finer(std::pow(finer_share, i), tried, crossings);
+          i == 0 ? counted.make(tried, crossings) : counted.make_finer(share, tried, crossings);
       check_quads(found, surface.euler_characteristic, memory);
       made.quads_ms += turn_timer.milliseconds();
       hf_inner::report(field_progress.extracted);
