@@ -326,8 +326,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
       FieldQuadReport tried = made;
       std::int32_t crossings = 0;
       Timer turn_timer;
-      QuadMesh found =
-          i == 0 ? counted.make(tried, crossings) : counted.make_finer(share, tried, crossings);
+      QuadMesh found = i == 0 ? counted.make(tried, crossings) : counted.make_finer(share, tried, crossings);
       check_quads(found, surface.euler_characteristic, memory);
       made.quads_ms += turn_timer.milliseconds();
       hf_inner::report(field_progress.extracted);
