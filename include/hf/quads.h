@@ -90,10 +90,10 @@ typedef struct hf_quads_info {
  *
  * Sets *out_quads to NULL first. Cost: a factorisation of the mesh and O(n log n + faces). If the sites are proposed,
  * the function makes up to four meshes and keeps the best. If none is within 0.43 edge lengths of the surface, it
- * makes up to four more, with edges as short as edge_length / 1.3. HF_QUADS_FIELD makes up to three finer meshes if
- * one is farther than an edge length from the surface, because a limb is lost, and removes rows of quads until the
- * number is right. Progress covers factorisations, sites, critical points, relaxation and fitting; each of these can
- * be cancelled.
+ * makes up to four more, with edges as short as edge_length / 1.3. If a mesh of HF_QUADS_FIELD is farther than an edge
+ * length from the surface, a limb is lost. Then the function makes up to three finer meshes, and removes rows of quads
+ * until the number is right. Progress covers factorisations, sites, critical points, relaxation and fitting; each of
+ * these can be cancelled.
  *
  * With symmetry_plane a vertex on the plane is its own image, and all others come in pairs, exact to rounding. Half of
  * the quads lie on each side. Where surface and mirror image differ, by up to 0.05 box diagonals, the side of
