@@ -63,7 +63,8 @@ export const tool = (kit) => {
     refresh() {
       this.#drawStrokes();
       const { live, state } = this.app;
-      if (!live && !this.busy && (this.shown !== state.strokes || !this.relaxed)) this.#follow(true);
+      if (this.kind === FIELD && !live && !this.busy && (this.shown !== state.strokes || !this.relaxed))
+        this.#follow(true);
       this.app.panel();
     }
     shaped() {
@@ -197,12 +198,23 @@ export const tool = (kit) => {
       const { app } = this;
       if (!this.line) {
         const line = app.client.line();
-        this.line = line;
         const { positions, triangles } = app.body;
-        const factor = await app.client.ask('factor');
-        await line.ask('quadsOpen', { positions, triangles, factor }, [factor.buffer]);
+        line.opened = app.client.ask('factor').then((factor) => {
+          // a Worker that was ended never answers
+          if (line !== this.line) throw Object.assign(new Error('cancelled'), { codeName: 'cancelled' });
+          return line.ask('quadsOpen', { positions, triangles, factor }, [factor.buffer]);
+        });
+        this.line = line;
       }
       const { line } = this;
+      try {
+        // a stroke and a click can ask while it is opened
+        await line.opened;
+      } catch (error) {
+        if (line === this.line) this.#end();
+        throw error;
+      }
+      if (line !== this.line) return null;
       const strokes = app.state.strokes;
       const result = await line.ask('quads', this.#options(relaxed));
       if (line !== this.line) return null;
@@ -226,7 +238,7 @@ export const tool = (kit) => {
           if (this.app.tool === this) this.dress();
         }
       } catch (error) {
-        this.error = error.message;
+        if (error.codeName !== 'cancelled') this.error = error.message;
         this.shown = this.app.state.strokes;
         this.relaxed = true;
       } finally {
