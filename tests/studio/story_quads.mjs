@@ -57,6 +57,18 @@ export default async function story(host) {
       { timeout: 60000 },
     );
   });
+  await check('a cancel while the Worker opens is taken, and who asks meanwhile waits', async () => {
+    const error = await page.evaluate(async () => {
+      const { quads } = window.hfStudio.tools;
+      quads.opened(); // no Worker
+      const first = quads.run();
+      quads.cancel();
+      await Promise.all([first, quads.run(), quads.run()]);
+      return quads.error;
+    });
+    assert.equal(error, null);
+    await studio.settle();
+  });
   await check('the quads lie on the body in a pose', async () => {
     await studio.tool('pose');
     const box = await page.locator('.mark.pulse').boundingBox();
