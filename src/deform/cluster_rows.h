@@ -1,21 +1,17 @@
-// Makes each vertex's row of cluster weights from the entries (vertex, cluster, weight) of the level bands.
+// Makes each vertex's row of cluster weights from the level bands at the vertex.
 //
-// For each vertex it sums the entries of the same cluster, drops small weights, scales the rest to sum 1, and rounds
-// them to multiples of 2^-24. Cost: O(entries). Pieces of vertices run on several threads. A failed call changes
-// nothing.
+// A band has the weight share times B-spline, for the cluster of its patch. The last band belongs to the handle of the
+// field. The first band is given to all handles j, each with the weight phi_j / (1 - phi). Small weights are dropped.
+// The others are scaled to sum 1, and rounded to multiples of 2^-24. Cost: O(slots) and O(handles) a vertex. Pieces of
+// vertices run on several threads. A failed call changes nothing.
 #pragma once
-#include "deform/bands.h"
+#include "deform/band_patches.h"
 
 namespace hf_inner {
 
-struct ClusterEntry {
-  std::int32_t vertex, cluster;
-  double weight;
-};
-
-// entries: one list of (vertex, cluster, weight) per vertex_piece vertices. Entries of one vertex are summed in their
-// order. It fills start, cluster, weight and unreached_vertex_count of `out`.
-void write_rows(const Core& core, const Reach& reach, const HandleFields& fields,
-                const Vector<Vector<ClusterEntry>>& entries, ClusterWeights& out, Memory& memory);
+// clusters: by piece, the cluster of each of its patches, or -1 for those that were dropped. It fills start, cluster,
+// weight and unreached_vertex_count of `out`.
+void write_rows(const BandSource& source, const Vector<PieceBands>& pieces,
+                const Vector<Span<const std::int32_t>>& clusters, ClusterWeights& out, Memory& memory);
 
 }  // namespace hf_inner

@@ -134,6 +134,8 @@ constexpr double edge_samples = 60000;
 // A cluster of vertices with fewer edges uses all of them instead of a sample. Halving or doubling it changes no energy
 // or stretch in the benchmark.
 constexpr std::int32_t few_edges = 1500;
+// Jobs that count the edges of clusters. Counts are whole numbers, so no result depends on it.
+constexpr std::uint32_t count_shares = 8;
 // One thread's job sums this many edges of the elastic energy: smaller jobs cost more to start, larger ones leave
 // threads idle. The size is fixed, so that sums keep their order. Half and double change no bit of twelve poses.
 constexpr std::int32_t edge_piece = 16384;
@@ -146,8 +148,16 @@ constexpr double least_edge_weight = 0.01, largest_edge_weight = 25;
 // One thread's job handles this many vertices: smaller jobs cost more to start, larger ones leave threads idle. The
 // size is fixed, so that sums keep their order. Half and double change no bit of twelve poses.
 constexpr std::int32_t vertex_piece = 4096;
+// Triangles of a component that give the field's mean gradient: fewer take less time. Halving or doubling it changes
+// elastic energies by 0.2 %.
+constexpr double triangle_samples = 20000;
+// Jobs into which the triangles are split: more suit more threads and add more sums. The number is fixed, so that sums
+// keep their order. Half and double change no bit of twelve poses.
+constexpr std::uint32_t histogram_shares = 8;
+// Guards a division: triangles without area have no gradient.
+constexpr double least_twice_area = 1e-300;
 
-// ---- bands.cpp, cluster_rows.cpp ----
+// ---- band_patches.cpp, bands.cpp, cluster_rows.cpp ----
 
 // A handle's field counts at a vertex only above this share of the norm of all fields there. With 0.03, a scan with
 // three handles has 2 % less elastic energy but twice as many weights per vertex. A torus with eight handles then has
@@ -168,17 +178,15 @@ constexpr double area_growth = 4;
 // double changes nothing there. With 69 handles on a cat half and double move vertices by 0.04 and 0.05 of the box.
 // Half and double the limit change no bit of these.
 constexpr std::int32_t free_cluster_target = 480, free_cluster_limit = 768;
-// Room for the weights of a vertex in a handle's clusters at first: three bands, their own pieces and others. It trades
-// memory for one more copy of the list. One and ten change no bit of twelve poses.
-constexpr std::size_t entries_a_vertex = 5;
+// Room for the fields that count at a vertex at first. It trades memory for one more copy of the list. No result
+// depends on it.
+constexpr std::size_t slots_a_vertex = 2;
 // Of a vertex's weights in clusters, those below this share of their norm are dropped. Halving or doubling it changes
 // elastic energies by 0.2 %.
 constexpr double weight_prune = 1e-3;
 
 // ---- levels.cpp ----
 
-// Guards a division: triangles without area have no gradient.
-constexpr double least_twice_area = 1e-300;
 // Largest gradient, per box diagonal. A larger one comes from a needle and not from the field. It is a guard: half and
 // double change no bit of twelve poses, of which the anchor has angles of 0.0007 degrees.
 constexpr double steepest_gradient = 1e9;
@@ -192,12 +200,6 @@ constexpr int smoothed_bins = 3;
 // The gradient of a handle's field counts as at least this share of its largest value. It limits how many bands fall on
 // parts where the field is nearly constant. Halving or doubling it changes no energy or stretch in the benchmark.
 constexpr double least_gradient = 1e-4;
-// Triangles of a component that give the field's mean gradient: fewer take less time. Halving or doubling it changes
-// elastic energies by 0.2 %.
-constexpr double triangle_samples = 20000;
-// Jobs into which the triangles are split: more suit more threads and add more sums. The number is fixed, so that sums
-// keep their order. Half and double change no bit of twelve poses.
-constexpr std::uint32_t histogram_shares = 8;
 
 // ---- groups.cpp ----
 

@@ -164,6 +164,10 @@ std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups,
     grown->component_end[c] = grown->count();
     for (const std::int32_t v : vertices) grown->group_of[v] = spreading.group(v);
   }
+  for (std::int32_t e = 0; e < core.topology.edge_count(); ++e) {
+    if (grown->group_of[core.topology.first(e)] != grown->group_of[core.topology.second(e)])
+      grown->border_edge.push_back(e);
+  }
   return grown;
 }
 

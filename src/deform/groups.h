@@ -15,12 +15,18 @@ namespace hf_inner {
 
 struct Groups {
   explicit Groups(Memory& memory)
-      : group_of(&memory), seed(&memory), component(&memory), component_start(&memory), component_end(&memory) {}
+      : group_of(&memory),
+        seed(&memory),
+        component(&memory),
+        component_start(&memory),
+        component_end(&memory),
+        border_edge(&memory) {}
   Vector<std::int32_t> group_of;         // rotation group per vertex, -1 in components without groups
   Vector<std::int32_t> seed;             // first vertex of each group
   Vector<std::int32_t> component;        // per group
   Vector<std::int32_t> component_start;  // groups of component c: [component_start[c], component_end[c])
   Vector<std::int32_t> component_end;
+  Vector<std::int32_t> border_edge;  // edges between two groups, ascending
   std::int32_t count() const noexcept { return static_cast<std::int32_t>(seed.size()); }
   bool has(std::int32_t c) const noexcept { return component_end[c] > component_start[c]; }
 

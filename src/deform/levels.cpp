@@ -13,30 +13,19 @@ struct Histogram {
   }
 };
 
-// The length of a field's gradient on a triangle, and the triangle's area. With the field phi and the normal n, the
-// gradient is n x (sum of phi_k times edge opposite k) / (2 area).
-struct TriangleGradient {
-  double length, area;
-};
-TriangleGradient gradient(const Vec3& p0, const Vec3& p1, const Vec3& p2, const double (&phi)[3]) noexcept {
-  const Vec3 sum = phi[0] * (p2 - p1) + phi[1] * (p0 - p2) + phi[2] * (p1 - p0);
-  const double twice_area = norm(cross(p1 - p0, p2 - p0));
-  return {twice_area > least_twice_area ? norm(sum) / twice_area : 0.0, 0.5 * twice_area};
-}
-
-void add_triangle(const Mesh& mesh, const std::int32_t* corner, const double* phi, Histogram& histogram) noexcept {
-  const double values[3] = {phi[corner[0]], phi[corner[1]], phi[corner[2]]};
+// Adds a triangle to the histogram of a field. The gradient on it is n x (sum of phi_k times the edge opposite k) / (2
+// area), with the normal n.
+void add_triangle(const Rest::SampledTriangle& t, const double* phi, Histogram& histogram) noexcept {
+  const double values[3] = {phi[t.corner[0]], phi[t.corner[1]], phi[t.corner[2]]};
   const double low = std::min({values[0], values[1], values[2]}), high = std::max({values[0], values[1], values[2]});
   if (!(high > low)) return;
-  const TriangleGradient g =
-      gradient(mesh.positions[corner[0]], mesh.positions[corner[1]], mesh.positions[corner[2]], values);
-  if (!(g.length > 0) || !(g.length < steepest_gradient)) return;
+  const Vec3 sum = values[0] * t.opposite[0] + values[1] * t.opposite[1] + values[2] * t.opposite[2];
+  const double length = norm(sum) / t.twice_area, area = 0.5 * t.twice_area;
+  if (!(length > 0) || !(length < steepest_gradient)) return;
   const int first = std::min(static_cast<int>(low * Levels::bins), Levels::bins - 1);
   const int last = std::min(static_cast<int>(high * Levels::bins), Levels::bins - 1);
-  for (int b = first; b <= last; ++b) {
-    histogram.squared[b] += g.area * g.length * g.length;
-    histogram.cubed[b] += g.area * g.length * g.length * g.length;
-  }
+  const double squared = area * length * length, cubed = squared * length;
+  for (int b = first; b <= last; ++b) histogram.squared[b] += squared, histogram.cubed[b] += cubed;
 }
 
 void set_equal_value(Levels& levels) noexcept {
@@ -89,31 +78,23 @@ double Levels::operator()(double phi) const noexcept {
 }
 
 Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields,
-                           const Vector<FieldPart>& parts, BandSpacing spacing, Memory& memory) {
+                           const Vector<FieldPart>& parts, const Vector<std::int32_t>& part_start, BandSpacing spacing,
+                           Memory& memory) {
   const Mesh& mesh = core.mesh;
   Vector<Levels> levels(parts.size(), Levels(), &memory);
   if (spacing == BandSpacing::equal_value) {
     for (Levels& l : levels) set_equal_value(l);
     return levels;
   }
-  // The handles' fields on component c are parts [part_start[c], part_start[c + 1]).
-  Vector<std::int32_t> part_start(mesh.component_count() + 1, 0, &memory);
-  for (const FieldPart& part : parts) ++part_start[part.component + 1];
-  for (std::int32_t c = 0; c < mesh.component_count(); ++c) part_start[c + 1] += part_start[c];
   // The triangles are split into a fixed number of jobs. Their histograms of gradient lengths are summed in the order
   // of the jobs.
   Vector<Histogram> histograms(histogram_shares * parts.size(), Histogram{}, &memory);
   core.jobs->for_each(histogram_shares, [&](std::uint32_t share) {
-    const std::int64_t count = mesh.triangle_count();
-    const std::int32_t first = static_cast<std::int32_t>(share * count / histogram_shares),
-                       last = static_cast<std::int32_t>((share + 1) * count / histogram_shares);
-    for (std::int32_t t = first; t < last; ++t) {
-      const std::int32_t* corner = mesh.triangle(t);
-      const std::int32_t c = mesh.component[corner[0]];
-      if (part_start[c] == part_start[c + 1]) continue;
-      if (scattered(static_cast<std::uint32_t>(t)) * rest.component_triangles[c] > triangle_samples) continue;
+    for (std::int32_t k = rest.sampled_start[share]; k < rest.sampled_start[share + 1]; ++k) {
+      const Rest::SampledTriangle& triangle = rest.sampled[k];
+      const std::int32_t c = mesh.component[triangle.corner[0]];
       for (std::int32_t p = part_start[c]; p < part_start[c + 1]; ++p)
-        add_triangle(mesh, corner, fields.of(parts[p].handle), histograms[share * parts.size() + p]);
+        add_triangle(triangle, fields.of(parts[p].handle), histograms[share * parts.size() + p]);
     }
   });
   for (std::size_t share = 1; share < histogram_shares; ++share) {

@@ -28,10 +28,11 @@ struct Levels {
   double operator()(double phi) const noexcept;
 };
 
-// Computes the levels (field values turned to [0, 1]) of several fields in one pass over the triangles. parts: ordered
-// by component.
+// Computes the levels (field values turned to [0, 1]) of several fields in one pass over the triangles. The fields of
+// component c are parts[part_start[c] .. part_start[c + 1]).
 Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields,
-                           const Vector<FieldPart>& parts, BandSpacing spacing, Memory& memory);
+                           const Vector<FieldPart>& parts, const Vector<std::int32_t>& part_start, BandSpacing spacing,
+                           Memory& memory);
 
 // Values of the clamped uniform B-spline basis B_0 .. B_{K+1} of degree 1 or 2 on [0, 1]. At most degree + 1 of them
 // are not zero.

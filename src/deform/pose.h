@@ -71,7 +71,8 @@ struct DeformReport {
 
 class Pose {
  public:
-  // core: one of harmonic fields that has its factor; the caller sees to it. Throws HF_ERROR_INVALID_ARGUMENT for options out of range.
+  // core: one of harmonic fields that has its factor; the caller sees to it. Throws HF_ERROR_INVALID_ARGUMENT for
+  // options out of range.
   static std::shared_ptr<Pose> make(std::shared_ptr<const Core> core, const PoseOptions& options);
   std::shared_ptr<Pose> clone() const;
 

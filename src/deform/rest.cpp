@@ -59,6 +59,24 @@ void list_faces(const Mesh& mesh, Rest& rest) {
   }
 }
 
+void sample_triangles(const Mesh& mesh, Rest& rest) {
+  std::uint32_t share = 0;
+  const std::int64_t count = mesh.triangle_count();
+  for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
+    for (; share * count / histogram_shares <= t; ++share)
+      rest.sampled_start[share] = static_cast<std::int32_t>(rest.sampled.size());
+    const std::int32_t* corner = mesh.triangle(t);
+    if (scattered(static_cast<std::uint32_t>(t)) * rest.component_triangles[mesh.component[corner[0]]] >
+        triangle_samples)
+      continue;
+    const Vec3 &p0 = mesh.positions[corner[0]], &p1 = mesh.positions[corner[1]], &p2 = mesh.positions[corner[2]];
+    const double twice_area = norm(cross(p1 - p0, p2 - p0));
+    if (!(twice_area > least_twice_area)) continue;
+    rest.sampled.push_back({{corner[0], corner[1], corner[2]}, {p2 - p1, p0 - p2, p1 - p0}, twice_area});
+  }
+  for (; share <= histogram_shares; ++share) rest.sampled_start[share] = static_cast<std::int32_t>(rest.sampled.size());
+}
+
 }  // namespace
 
 Rest::Rest(const Core& core, Memory& memory)
@@ -72,6 +90,7 @@ Rest::Rest(const Core& core, Memory& memory)
       piece_corner(&memory),
       face_start(&memory),
       face(&memory),
+      sampled(&memory),
       stiffness(core.weights.begin(), core.weights.end(), &memory) {
   core.jobs->for_each(2, [&](std::uint32_t half) {
     if (half == 0) {
@@ -79,6 +98,7 @@ Rest::Rest(const Core& core, Memory& memory)
       list_faces(core.mesh, *this);
     } else {
       sort_components(core.mesh, *this);
+      sample_triangles(core.mesh, *this);
       for (double& w : stiffness) w = std::clamp(w, least_edge_weight, largest_edge_weight);
     }
   });

@@ -25,6 +25,14 @@ struct Rest {
   Vector<std::int32_t> piece_corner;
   // The faces at vertex v are face[face_start[v] .. face_start[v + 1]), ascending. Empty where triangles were given.
   Vector<std::int32_t> face_start, face;
+  // The triangles that give a field's mean gradient (levels.h): all of a component with few triangles, else a sample.
+  struct SampledTriangle {
+    std::int32_t corner[3];
+    Vec3 opposite[3];   // the edge opposite each corner
+    double twice_area;  // above 0
+  };
+  Vector<SampledTriangle> sampled;
+  std::int32_t sampled_start[histogram_shares + 1];  // cut into jobs at fixed triangles
   // Edge weights of the elastic energy: the operator's, clamped to [least_edge_weight, largest_edge_weight]. Negative
   // weights would reward collapse, and huge ones come from triangles without area.
   Vector<double> stiffness;

@@ -148,7 +148,6 @@ class Assembly {
         out_(out),
         memory_(memory),
         elastic_(&memory),
-        edge_count_(&memory),
         needs_all_(&memory),
         entry_of_(&memory),
         row_of_group_(&memory),
@@ -197,29 +196,53 @@ class Assembly {
 
   bool is_elastic(std::int32_t vertex) const noexcept { return elastic_[core_.mesh.component[vertex]] != 0; }
 
+  // Counts the edge ends in each cluster, and marks the vertices of clusters that have few.
   void count_edges() {
-    edge_count_.assign(weights_.cluster_count, 0);
-    widest_ = 0;
-    for (std::int32_t v = 0; v < core_.size(); ++v)
-      widest_ = std::max(widest_, weights_.start[v + 1] - weights_.start[v]);
-    // Edges are counted at both ends: a vertex has as many edges as neighbours.
+    struct Counts {
+      Counts(std::size_t clusters, Memory& memory) : by_cluster(clusters, 0, &memory) {}
+      Vector<std::int32_t> by_cluster;
+      std::int64_t all = 0;
+      std::int32_t widest = 0;
+    };
     const Topology& topology = core_.topology;
-    double ends = 0;
-    for (std::int32_t v = 0; v < core_.size(); ++v) {
-      if (!is_elastic(v)) continue;
-      const std::int32_t degree = topology.neighbour_start[v + 1] - topology.neighbour_start[v];
-      ends += degree;
-      for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k)
-        edge_count_[weights_.cluster[k]] += degree;
-    }
-    if (ends > 0) probability_ = edge_samples / (0.5 * ends), sampled_weight_ = 1 / probability_;
-    needs_all_.assign(core_.size(), 0);
-    for (std::int32_t v = 0; v < core_.size(); ++v) {
-      for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) {
-        if (weights_.cluster[k] >= weights_.handle_count && edge_count_[weights_.cluster[k]] < few_edges)
-          needs_all_[v] = 1;
+    const std::size_t clusters = static_cast<std::size_t>(weights_.cluster_count);
+    Vector<Counts> counts(&memory_);
+    counts.reserve(count_shares);
+    for (std::uint32_t share = 0; share < count_shares; ++share) counts.emplace_back(clusters, memory_);
+    const auto first_of = [&](std::uint32_t share) {
+      return static_cast<std::int32_t>(std::int64_t{core_.size()} * share / count_shares);
+    };
+    core_.jobs->for_each(count_shares, [&](std::uint32_t share) {
+      Counts& own = counts[share];
+      for (std::int32_t v = first_of(share); v < first_of(share + 1); ++v) {
+        own.widest = std::max(own.widest, weights_.start[v + 1] - weights_.start[v]);
+        if (!is_elastic(v)) continue;
+        // Edges are counted at both ends: a vertex has as many edges as neighbours.
+        const std::int32_t degree = topology.neighbour_start[v + 1] - topology.neighbour_start[v];
+        own.all += degree;
+        for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k)
+          own.by_cluster[weights_.cluster[k]] += degree;
       }
+    });
+    Counts total(clusters, memory_);
+    for (const Counts& own : counts) {
+      total.all += own.all, widest_ = std::max(widest_, own.widest);
+      for (std::size_t c = 0; c < clusters; ++c) total.by_cluster[c] += own.by_cluster[c];
     }
+    if (total.all > 0)
+      probability_ = edge_samples / (0.5 * static_cast<double>(total.all)), sampled_weight_ = 1 / probability_;
+    Vector<std::uint8_t> few(clusters, 0, &memory_);
+    bool any = false;
+    for (std::size_t c = static_cast<std::size_t>(weights_.handle_count); c < clusters; ++c)
+      few[c] = total.by_cluster[c] < few_edges, any = any || few[c];
+    needs_all_.assign(core_.size(), 0);
+    if (!any) return;
+    core_.jobs->for_each(count_shares, [&](std::uint32_t share) {
+      for (std::int32_t v = first_of(share); v < first_of(share + 1); ++v) {
+        for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k)
+          needs_all_[v] |= few[weights_.cluster[k]];
+      }
+    });
   }
 
   // Returns the weight of edge e in the sample, or 0 if the sample leaves it out.
@@ -231,8 +254,8 @@ class Assembly {
     return scattered(static_cast<std::uint32_t>(e)) < probability_ ? sampled_weight_ : 0;
   }
 
-  // Numbers the pairs (rotation group, cluster) that share vertices. It marks them in a table, then numbers them group
-  // by group.
+  // Numbers the pairs (rotation group, cluster) that share vertices or edges. It marks them in a table, then numbers
+  // them group by group.
   void number_entries() {
     const std::size_t clusters = static_cast<std::size_t>(weights_.cluster_count);
     entry_of_.assign(out_.group.size() * clusters, -1);
@@ -243,11 +266,9 @@ class Assembly {
       for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) row[weights_.cluster[k]] = 0;
     };
     const Topology& topology = core_.topology;
-    for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
+    for (const std::int32_t e : groups_.border_edge) {
       const std::int32_t i = topology.first(e), j = topology.second(e);
-      if (!is_elastic(i)) continue;
-      const std::int32_t gi = groups_.group_of[i], gj = groups_.group_of[j];
-      if (gj != gi) mark(gi, j), mark(gj, i);
+      if (is_elastic(i)) mark(groups_.group_of[i], j), mark(groups_.group_of[j], i);
     }
     for (std::int32_t v = 0; v < core_.size(); ++v) {
       if (is_elastic(v)) mark(groups_.group_of[v], v);
@@ -390,7 +411,6 @@ class Assembly {
   Memory& memory_;
   // By component: 0 without free clusters, 1 with free clusters, 2 if more than two handles meet there too.
   Vector<std::uint8_t> elastic_;
-  Vector<std::int32_t> edge_count_;   // by cluster: number of edge ends in it
   Vector<std::uint8_t> needs_all_;    // by vertex: 1 in a cluster with few edges
   Vector<std::int32_t> entry_of_;     // by group and cluster: number of the pair
   Vector<std::size_t> row_of_group_;  // by rotation group: where its row of entry_of_ begins

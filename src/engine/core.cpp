@@ -144,9 +144,7 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
     for (std::size_t v = 0; v < changed.size(); ++v) changed[v] |= confined[at(core.mesh.component[v])];
   }
   core.changed_count = static_cast<std::uint32_t>(std::count(changed.begin(), changed.end(), 1));
-  core.first_changed = core.changed_count == 0
-                           ? Mesh::none
-                           : static_cast<Index>(std::find(changed.begin(), changed.end(), 1) - changed.begin());
+  core.first_changed = core.mesh.first_of_given([&](Index v) { return changed[at(v)] != 0; });
   if (!harmonic) {
     if (options.field_kind == FieldKind::biharmonic) areas = inverse_masses(core.mesh, std::move(areas));
     for (std::size_t v = 0; !confined.empty() && v < areas.size(); ++v) {

@@ -27,11 +27,7 @@ constexpr float welded = 0.1f, weighted = 0.15f;  // reported progress, by the u
 void count_inside_out(Mesh& mesh, Memory& memory) {
   const Vector<std::int8_t> sides = component_sides(mesh, memory);
   for (const std::int8_t side : sides) mesh.report.inside_out_count += side < 0;
-  for (Index v = 0; mesh.report.inside_out_count > 0 && v < mesh.vertex_count(); ++v) {
-    if (sides[at(mesh.component[at(v)])] > 0) continue;
-    mesh.report.first_inside_out = v;
-    break;
-  }
+  mesh.report.first_inside_out = mesh.first_of_given([&](Index v) { return sides[at(mesh.component[at(v)])] < 0; });
 }
 
 void count_given(Geometry& shape) {

@@ -2,8 +2,8 @@
 //
 // A k-d tree (Bentley 1975) over all corners. Each node counts the corners below it that are in; corners come and go. A
 // search leaves out what has no corner in, what lies beside the triangle's box, and what lies beyond one of its sides.
-// Cost: O(n log n) to make, O(log n) for a corner that comes or goes. A search costs O(log n) and what it finds near the
-// triangle.
+// Cost: O(n log n) to make, O(log n) for a corner that comes or goes. A search costs O(log n) and what it finds near
+// the triangle.
 #pragma once
 #include <algorithm>
 #include <cmath>

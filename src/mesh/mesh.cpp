@@ -12,6 +12,7 @@
 #include "base/progress.h"
 #include "mesh/face_intake.h"
 #include "mesh/union_find.h"
+#include "mesh/vertex_order.h"
 #include "mesh/weld.h"
 
 namespace hf_inner {
@@ -165,6 +166,22 @@ void take_triangles(const MeshInput& input, const Vector<Index>& representative,
   }
 }
 
+// Gives the inner vertices other numbers: the i-th is the one that had the number order[i].
+void renumber(const Vector<Index>& order, Mesh& mesh, Memory& memory) {
+  Vector<Index> number(order.size(), &memory);
+  for (std::size_t i = 0; i < order.size(); ++i) number[at(order[i])] = static_cast<Index>(i);
+  Vector<Index> given(order.size(), &memory);
+  Vector<Vec3> positions(order.size(), &memory);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    given[i] = mesh.given_of_inner[at(order[i])], positions[i] = mesh.positions[at(order[i])];
+  mesh.given_of_inner = std::move(given), mesh.positions = std::move(positions);
+  for (Index& v : mesh.inner_of_given) {
+    if (v != Mesh::none) v = number[at(v)];
+  }
+  for (Index& corner : mesh.corners) corner = number[at(corner)];
+  for (Index& corner : mesh.faces.corner) corner = number[at(corner)];
+}
+
 }  // namespace
 
 std::uint32_t Mesh::given_of_triangle(Index t) const noexcept {
@@ -201,7 +218,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
          input.faces.face_count > 0 ? "face" : "triangle", input.weld == Weld::none ? "" : " after welding");
 
   poll();
-  // The inner vertices are the welded vertices of usable triangles, numbered in the caller's order.
+  // The inner vertices are the welded vertices of usable triangles. They are numbered in the caller's order at first.
   Vector<Index> inner(input.vertex_count, none, &memory);
   for (Index& corner : mesh.corners) inner[at(corner)] = 0;
   for (std::uint32_t v = 0; v < input.vertex_count; ++v) {
@@ -227,6 +244,8 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
     mesh.positions[i] =
         mesh.to_inner({input.positions.get(v, 0), input.positions.get(v, 1), input.positions.get(v, 2)});
   }
+  poll();
+  if (!is_local(mesh.corners, count)) renumber(curve_order(mesh.positions, memory), mesh, memory);
 
   poll();
   UnionFind sets(count, memory);
@@ -234,11 +253,13 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
     sets.unite(mesh.triangle(t)[0], mesh.triangle(t)[1]);
     sets.unite(mesh.triangle(t)[1], mesh.triangle(t)[2]);
   }
-  mesh.component.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Index root = sets.find(static_cast<Index>(i));
-    mesh.component[i] =
-        root == static_cast<Index>(i) ? static_cast<Index>(mesh.report.component_count++) : mesh.component[at(root)];
+  // Components are numbered by the first of the caller's vertices in them.
+  mesh.component.assign(count, none);
+  for (const Index i : mesh.inner_of_given) {
+    if (i == none || mesh.component[at(i)] != none) continue;
+    Index& of_root = mesh.component[at(sets.find(i))];
+    if (of_root == none) of_root = static_cast<Index>(mesh.report.component_count++);
+    mesh.component[at(i)] = of_root;
   }
 
   poll();

@@ -119,6 +119,14 @@ struct Mesh {
   const std::int32_t* triangle(std::int32_t t) const noexcept {
     return corners.data() + std::size_t{3} * static_cast<std::size_t>(t);
   }
+  // Returns the inner vertex that is true and comes first in the caller's order, or none.
+  template <class True>
+  std::int32_t first_of_given(True&& is_true) const {
+    for (const std::int32_t v : inner_of_given) {
+      if (v != none && is_true(v)) return v;
+    }
+    return none;
+  }
   // A surface made of a graph (graph.h) has no triangles; one made of a mesh always has some.
   bool is_graph() const noexcept { return corners.empty(); }
   // to_given converts an inner position to the caller's frame: centre + scale p. to_inner converts back.
@@ -131,7 +139,8 @@ struct Mesh {
   Vector<std::int32_t> corners;
   // By given vertex: its inner vertex, or none for an isolated one.
   Vector<std::int32_t> inner_of_given;
-  // By inner vertex: the first of the caller's vertices that were welded to it.
+  // By inner vertex: the first of the caller's vertices that were welded to it. Ascending, unless the caller's order
+  // is bad for the cache (vertex_order.h).
   Vector<std::int32_t> given_of_inner;
   // By given triangle: its usable triangle, or none. By given face: the first triangle of its cut, or none.
   Vector<std::int32_t> triangle_of_given;

@@ -18,7 +18,6 @@ struct Topology {
   // Fills the rows of neighbours from the list of edges. vertex_count: rows to make.
   void fill_neighbours(std::size_t vertex_count, Memory& memory);
 
-
   std::int32_t edge_count() const noexcept { return static_cast<std::int32_t>(edges.size() / 2); }
   // first and second are the end vertices of edge e, the smaller one first. Edges are ordered by (first, second).
   std::int32_t first(std::int32_t e) const noexcept { return edges[std::size_t{2} * static_cast<std::size_t>(e)]; }

@@ -1,6 +1,4 @@
 // Handles, their fields, levels, bands and the dense system they end in.
-#include "support/eigen.h"
-
 #include "deform/bands.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +9,7 @@
 #include "cases.h"
 #include "deform/dense.h"
 #include "deform/groups.h"
+#include "support/eigen.h"
 
 namespace {
 
@@ -175,8 +174,11 @@ TEST(Bands, EqualLengthLevelsFollowTheLengthOfATubeOfChangingWidth) {
   HandleFields fields(core->size(), 2, memory);
   for (int i = 0; i < 2; ++i) std::copy(pose->field(numbers[i]).begin(), pose->field(numbers[i]).end(), fields.of(i));
   const Vector<FieldPart> parts({{0, 1}}, &memory);
-  const Vector<Levels> length = make_levels(*core, rest_surface, fields, parts, BandSpacing::equal_length, memory);
-  const Vector<Levels> value = make_levels(*core, rest_surface, fields, parts, BandSpacing::equal_value, memory);
+  const Vector<std::int32_t> part_start({0, static_cast<std::int32_t>(parts.size())}, &memory);
+  const Vector<Levels> length =
+      make_levels(*core, rest_surface, fields, parts, part_start, BandSpacing::equal_length, memory);
+  const Vector<Levels> value =
+      make_levels(*core, rest_surface, fields, parts, part_start, BandSpacing::equal_value, memory);
   double largest = 0, largest_by_value = 0;
   for (std::int32_t v = 0; v < core->size(); ++v) {
     const double y = core->mesh.to_given(core->mesh.positions[v]).y;
