@@ -448,7 +448,7 @@ typedef struct hf_handles_desc {
   const double* points;
   const double* radii;
   uint32_t layer;
-  uint32_t reserved;
+  int32_t in_place;
   hf_progress progress;
 } hf_handles_desc;
 typedef struct hf_transform {

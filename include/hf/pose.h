@@ -79,18 +79,23 @@ typedef struct hf_handles_desc {
   const double* points; /* [handle_count][3] at rest. The region is the vertex nearest to the point and what */
   const double* radii;  /* is edge-connected to it within [handle_count] radii >= 0 of the point */
   uint32_t layer;       /* 0 to HF_LAYER_COUNT - 1, for the whole batch */
-  uint32_t reserved;    /* 0 */
+  int32_t in_place;     /* 1: handles of layer 0 start where the posed surface stands, not at rest; see below */
   hf_progress progress; /* NULL, or an object to poll and cancel through */
 } hf_handles_desc;
 
 /* Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a posed
- * surface back to rest there. On a higher layer the surface does not move (to 1e-9 of the box) until you move the
- * handle. Handles of lower layers hold the surface in place for the higher layers. out_handles: NULL, or
- * uint32_t[handle_count]. Cost: one field solve for the layer of the handles and for each higher layer. No two regions
- * may overlap, on any layer; welded copies count as one vertex. Errors: HF_ERROR_OUT_OF_RANGE and HF_ERROR_OVERLAP
- * (index = position in region_vertices, or handle when given by points), HF_ERROR_INVALID_ARGUMENT (isolated vertex,
- * layer, regions and points at once), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (HF_HANDLE_LIMIT). Thread safety: changes
- * `pose`. Since 0.1. */
+ * surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion that its
+ * region has in the last pose (hf_pose_get_handle writes it), and the surface stays where it is (to 1e-6 of the box).
+ * It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to rest. Until then
+ * the region of the new handle keeps a part of its bend. restart ends this at once. HF_DEFORM_PAPER places the handle
+ * only. On a higher layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower
+ * layers hold the surface in place for the higher layers. out_handles: NULL, or uint32_t[handle_count]. Cost: one field
+ * solve for the layer of the handles and for each higher layer. To keep the frame rate on large meshes, add the handles
+ * to a clone in another thread, pose the old one meanwhile, then set the transforms of the clone and use it. No two
+ * regions may overlap, on any layer; welded copies count as one vertex. Errors: HF_ERROR_OUT_OF_RANGE and
+ * HF_ERROR_OVERLAP (index = position in region_vertices, or handle when given by points), HF_ERROR_INVALID_ARGUMENT
+ * (isolated vertex, layer, in_place, regions and points at once), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE
+ * (HF_HANDLE_LIMIT). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handles, uint32_t* out_handles);
 
 /* Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, double[3], and all vertices that are

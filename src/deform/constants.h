@@ -201,6 +201,17 @@ constexpr int smoothed_bins = 3;
 // parts where the field is nearly constant. Halving or doubling it changes no energy or stretch in the benchmark.
 constexpr double least_gradient = 1e-4;
 
+// ---- crossfade.cpp, pose.cpp ----
+
+// Way of a handle, in box diagonals, over which a surface that was kept in place goes over to the new pose. Shorter
+// ways move the surface more a frame beside the handle's own motion: at most 2 * 7e-3 / reach of it. Longer ones keep
+// handles off their targets for longer.
+constexpr double crossfade_reach = 0.05;
+// Box diagonals that a turn of one radian counts: the lever arm of a limb.
+constexpr double crossfade_turn = 0.25;
+// Iterations that settle the new pose before the difference is taken.
+constexpr std::uint32_t crossfade_iterations = 20;
+
 // ---- groups.cpp ----
 
 // The vertices of a component form groups that share a rotation. Larger components get more groups, but each gets at

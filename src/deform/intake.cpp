@@ -43,9 +43,9 @@ void check_skeleton(const hf_propose_desc& desc) {
 
 HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& memory) {
   check_region_count(0, desc.handle_count, "handle");  // before lists of that length are read
-  require_zero(desc.reserved);
+  check_flag(desc.in_place, "in_place");
   HandleInput input(&memory);
-  input.layer = desc.layer, input.by_points = desc.points || desc.radii;
+  input.layer = desc.layer, input.in_place = desc.in_place != 0, input.by_points = desc.points || desc.radii;
   if (input.by_points) {
     if (desc.region_counts || desc.region_vertices)
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "regions and points are both set; set one");
@@ -62,7 +62,7 @@ HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& 
 
 void add_handles(PoseStack& pose, const HandleInput& input, Span<std::uint32_t> out_numbers) {
   try {
-    pose.add_handles(input.start, input.vertices, input.layer, out_numbers);
+    pose.add_handles(input.start, input.vertices, input.layer, out_numbers, input.in_place);
   } catch (const Error& error) {
     if (!input.by_points || error.code() != HF_ERROR_OVERLAP) throw;
     const auto after = std::upper_bound(input.start.begin(), input.start.end(), error.index());

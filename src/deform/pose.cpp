@@ -44,6 +44,7 @@ Pose::Pose(std::shared_ptr<const Core> core, const PoseOptions& options, std::sh
       rest_(std::move(rest)),
       positions_(memory(), static_cast<std::size_t>(core_->size())),
       turns_(memory(), handle_limit),
+      placed_(handle_limit, RigidMotion(), &memory()),
       start_(memory()) {}
 
 std::shared_ptr<Pose> Pose::make(std::shared_ptr<const Core> core, const PoseOptions& options) {
@@ -62,7 +63,7 @@ std::shared_ptr<Pose> Pose::clone() const {
     ensure_surface();
     std::memcpy(copy->positions_.data(), positions_.data(), positions_.size() * sizeof(Vec3));
   }
-  copy->posed_ = posed_, copy->report_ = report_;
+  copy->posed_ = posed_, copy->refined_ = refined_, copy->report_ = report_;
   return copy;
 }
 
@@ -115,7 +116,7 @@ void Pose::check_regions(Span<const std::uint32_t> start, Span<const std::int32_
 }
 
 void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices,
-                       Span<std::uint32_t> out_numbers) {
+                       Span<std::uint32_t> out_numbers, bool in_place) {
   check_regions(start, vertices);
   Handles handles(&memory());
   if (layout_) handles.assign(layout_->handles.begin(), layout_->handles.end());
@@ -131,6 +132,7 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
   }
   std::shared_ptr<const Layout> layout = make_layout(handles);
   std::shared_ptr<State> state = carry_over(*layout);
+  if (in_place && posed_) keep_in_place(*layout, *state);
   previous_layout_ = layout_, previous_state_ = state_;
   install(std::move(layout), std::move(state));
   for (std::size_t r = 0; r < out_numbers.size(); ++r) out_numbers[r] = layout_->handles[first + r].number;
@@ -236,16 +238,49 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) co
   return layout;
 }
 
-// Gives a new handle the rotation that the posed surface has at its region. So the step that predicts the next
-// rotations also works when the host turns the handle back to rest.
-void Pose::carry_handle(const Handle& handle, HandleState& state) const {
-  if (!posed_) return;
+// Returns the rigid motion from rest that the posed surface has at a handle's region, in the unit of the scaled mesh.
+RigidMotion Pose::fit_region(const Handle& handle) const {
   ensure_surface();
-  const HandleRegion& region = *handle.region;
   Vector<Vec3> rest(&memory()), posed(&memory());
-  for (const std::int32_t v : region.vertices) rest.push_back(core_->mesh.positions[v]), posed.push_back(positions_[v]);
-  state.solved = fit_rigid(rest, posed, {}, Quaternion()).rotation;
-  state.solved_turn = logarithm(state.solved);
+  for (const std::int32_t v : handle.region->vertices)
+    rest.push_back(core_->mesh.positions[v]), posed.push_back(core_->mesh.to_inner(positions_[v]));
+  return fit_rigid(rest, posed, {}, Quaternion());
+}
+
+// Places the new handles where the surface stands, solves, and notes how far the new pose is from the surface. It moves
+// the handles of `state` alone.
+void Pose::keep_in_place(const Layout& layout, State& state) {
+  for (std::size_t i = 0; i < layout.handles.size(); ++i) {
+    if (find(layout.handles[i].number) >= 0) continue;
+    const RigidMotion motion = fit_region(layout.handles[i]);
+    HandleState& handle = state.handles[i];
+    const Vec3 centroid = layout.handles[i].region->centroid;
+    handle.rotation = motion.rotation, handle.translation = apply(motion, centroid) - centroid;
+    handle.turn = handle.solved_turn = logarithm(motion.rotation), handle.solved = motion.rotation;
+  }
+  if (!layout.smooth) return;
+  place_handles(layout, state);
+  Vector<Vec3> turns(&memory());
+  for (const HandleState& handle : state.handles) turns.push_back(handle.turn);
+  set_turn_limit(*layout.smooth, turns, state.smooth);
+  solve_pose(*layout.smooth, crossfade_iterations, settled_change, state.smooth, state.transforms.data());
+  state.started = true, state.changed = false;  // no frame solves again before a handle moves
+  const std::size_t n = positions_.size();
+  Buffer<Vec3> fresh(memory(), n);
+  blend(core_->mesh, layout.weights, state.transforms.data(), state.columns.data(), core_->mesh.centre,
+        core_->mesh.scale, fresh.data(), nullptr, *core_->jobs);
+  if (refined_) make_refinement(layout), refine(layout, state, fresh.data());
+  auto crossfade = make_shared_in<Crossfade>(memory(), n, memory());
+  const Span<const RigidMotion> now = placed(state);
+  crossfade->placed.assign(now.begin(), now.end());
+  crossfade->from_rest = way_from_rest(now);
+  if (!(crossfade->from_rest > 0)) return;
+  for (std::size_t v = 0; v < n; ++v) {
+    const Vec3 d = positions_[v] - fresh[v];
+    float* offset = crossfade->offset.data() + 3 * v;
+    offset[0] = static_cast<float>(d.x), offset[1] = static_cast<float>(d.y), offset[2] = static_cast<float>(d.z);
+  }
+  state.crossfade = std::move(crossfade);
 }
 
 std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
@@ -257,8 +292,11 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
     HandleState carried;
     if (old >= 0 && layout_->handles[old].region == handle.region) {
       carried = state_->handles[old];
-    } else {
-      carry_handle(handle, carried);
+    } else if (posed_) {
+      // A new handle gets the rotation that the surface has at its region. So the step that predicts the next rotations
+      // also works when the host turns the handle back to rest.
+      carried.solved = fit_region(handle).rotation;
+      carried.solved_turn = logarithm(carried.solved);
     }
     state->handles.push_back(carried);
   }
@@ -297,6 +335,11 @@ HandleReport Pose::handle(std::uint32_t number) const {
   report.centroid = core_->mesh.to_given(region.centroid);
   report.leak = layout_->fields.leak[i];
   return report;
+}
+
+HandleTransform Pose::transform(std::uint32_t number) const {
+  const HandleState& handle = state_->handles[require(number, HF_NO_INDEX)];
+  return {handle.rotation, core_->mesh.scale * handle.translation};
 }
 
 Span<const double> Pose::field(std::uint32_t number) const {

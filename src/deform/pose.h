@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "deform/crossfade.h"
 #include "deform/normals.h"
 #include "deform/paper_scheme.h"
 #include "deform/pose_solver.h"
@@ -76,10 +77,12 @@ class Pose {
   static std::shared_ptr<Pose> make(std::shared_ptr<const Core> core, const PoseOptions& options);
   std::shared_ptr<Pose> clone() const;
 
-  // Adds handles at rest. Region r holds vertices[start[r] .. start[r + 1]), which are inner vertices; Mesh::none
-  // stands for an isolated vertex and is an error. out_numbers: empty or one per region. Throws HF_ERROR_EMPTY,
-  // _OUT_OF_RANGE, _INVALID_ARGUMENT or _OVERLAP (index: position in vertices), or _TOO_LARGE.
-  void add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, Span<std::uint32_t> out_numbers);
+  // Adds handles at rest, or in place: where the posed surface stands, which stays there (crossfade.h). Region r holds
+  // vertices[start[r] .. start[r + 1]), which are inner vertices; Mesh::none stands for an isolated vertex and is an
+  // error. out_numbers: empty or one per region. Throws HF_ERROR_EMPTY, _OUT_OF_RANGE, _INVALID_ARGUMENT or _OVERLAP
+  // (index: position in vertices), or _TOO_LARGE.
+  void add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, Span<std::uint32_t> out_numbers,
+                   bool in_place = false);
   // Throws HF_ERROR_EMPTY or _NO_SUCH_HANDLE (index: position; also for a number named twice).
   void remove_handles(Span<const std::uint32_t> numbers);
   // Throws HF_ERROR_EMPTY, _NO_SUCH_HANDLE or _NON_FINITE (index: position).
@@ -109,6 +112,7 @@ class Pose {
     return static_cast<std::uint32_t>(require(number, HF_NO_INDEX));
   }
   const Rest& rest() const noexcept { return *rest_; }
+  HandleTransform transform(std::uint32_t number) const;                                        // as it was set
   Span<const Vec3> surface() const noexcept { return {positions_.data(), positions_.size()}; }  // of the last deform
   // Throws HF_ERROR_NON_FINITE with this index for a bad transform. scale: the mesh's scale.
   static void check_transform(const HandleTransform& transform, std::uint32_t index, double scale);
@@ -150,7 +154,8 @@ class Pose {
           started(other.started),
           changed(other.changed),
           last_change(other.last_change),
-          idle_iterations(other.idle_iterations) {}
+          idle_iterations(other.idle_iterations),
+          crossfade(other.crossfade) {}
     Vector<HandleState> handles;  // like Layout::handles
     Vector<Affine> transforms;    // per cluster (handle or overlapping band of vertices)
     Buffer<double> columns;       // scratch of the blend
@@ -159,7 +164,8 @@ class Pose {
     bool started = false;  // a solved pose exists, from which to continue
     bool changed = true;   // transforms or handles changed since the last solve
     double last_change = 0;
-    std::uint32_t idle_iterations = 0;  // iterations since the last change
+    std::uint32_t idle_iterations = 0;           // iterations since the last change
+    std::shared_ptr<const Crossfade> crossfade;  // null: the surface is that of the transforms
   };
 
   Memory& memory() const noexcept { return *core_->memory; }
@@ -171,10 +177,15 @@ class Pose {
   // Returns a state for `layout` (handles and the clusters they make). Handles and clusters of the present state keep
   // their motions, so the surface does not jump.
   std::shared_ptr<State> carry_over(const Layout& layout) const;
-  void carry_handle(const Handle& handle, HandleState& state) const;
+  RigidMotion fit_region(const Handle& handle) const;
+  void keep_in_place(const Layout& layout, State& state);
+  void place_handles(const Layout& layout, State& state) const noexcept;
+  Span<const RigidMotion> placed(const State& state) const noexcept;
+  double crossfade_share() const noexcept;
+  void make_refinement(const Layout& layout);
+  void refine(const Layout& layout, const State& state, Vec3* positions);
   void install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept;
   bool restore_previous(const Handles& remaining);
-  void place_handles() noexcept;
   void solve_smooth(std::uint32_t iterations) noexcept;
   void solve_paper(std::uint32_t iterations) noexcept;
   void prepare(const DeformRequest& request);
@@ -193,7 +204,9 @@ class Pose {
   Buffer<Normal> normals_;
   Buffer<NormalSum> normal_sums_;
   Buffer<Vec3> turns_;                      // scratch for handle_limit handles
+  mutable Vector<RigidMotion> placed_;      // the same
   bool posed_ = false;                      // there is a last pose
+  bool refined_ = false;                    // it had the full-mesh step
   mutable bool stale_ = false;              // positions_ are older than the last pose, which only wrote transforms
   std::shared_ptr<Refinement> refinement_;  // made at the first refined frame
   GroupStart start_;

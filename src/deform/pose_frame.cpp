@@ -1,6 +1,7 @@
 // A frame of a pose: transforms of handles in, transforms of clusters, vertices and normals out.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/error.h"
 #include "base/timer.h"
@@ -46,19 +47,28 @@ void Pose::set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTr
     HandleState& handle = state_->handles[find(numbers[k])];
     const Quaternion rotation = normalised(transforms[k].rotation);
     const Vec3 translation = (1.0 / core_->mesh.scale) * transforms[k].translation;
+    const bool same = std::memcmp(&rotation, &handle.rotation, sizeof rotation) == 0 &&
+                      std::memcmp(&translation, &handle.translation, sizeof translation) == 0;
     handle.turn = continued_logarithm(rotation, handle.turn);
     handle.rotation = rotation, handle.translation = translation;
-    state_->changed = true;
+    state_->changed = state_->changed || !same;
   }
 }
 
-void Pose::place_handles() noexcept {
-  for (std::size_t i = 0; i < state_->handles.size(); ++i) {
-    const HandleState& handle = state_->handles[i];
-    const Vec3 centroid = layout_->handles[i].region->centroid;
+void Pose::place_handles(const Layout& layout, State& state) const noexcept {
+  for (std::size_t i = 0; i < state.handles.size(); ++i) {
+    const HandleState& handle = state.handles[i];
+    const Vec3 centroid = layout.handles[i].region->centroid;
     const Vec3 turned = handle.rotation.toRotationMatrix() * centroid;
-    state_->transforms[i] = to_affine({handle.rotation, centroid - turned + handle.translation});
+    state.transforms[i] = to_affine({handle.rotation, centroid - turned + handle.translation});
   }
+}
+
+// Returns the handles as Crossfade::placed has them. The span stays valid until the next call.
+Span<const RigidMotion> Pose::placed(const State& state) const noexcept {
+  for (std::size_t i = 0; i < state.handles.size(); ++i)
+    placed_[i] = {state.handles[i].rotation, state.handles[i].translation};
+  return {placed_.data(), state.handles.size()};
 }
 
 void Pose::solve_smooth(std::uint32_t iterations) noexcept {
@@ -87,6 +97,16 @@ void Pose::solve_paper(std::uint32_t iterations) noexcept {
                              state_->transforms.data());
 }
 
+void Pose::make_refinement(const Layout& layout) {
+  // one that is too small is replaced, so that it can be put back
+  const std::int32_t slots = layout.sites->slot_count();
+  const std::shared_ptr<Refinement> refinement = refinement_ && refinement_->has_room(slots)
+                                                     ? refinement_
+                                                     : make_shared_in<Refinement>(memory(), *core_, memory());
+  refinement->fit(slots);
+  refinement_ = refinement;
+}
+
 // Makes what the frame needs beside the pose, all or nothing.
 void Pose::prepare(const DeformRequest& request) {
   if (!layout_) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
@@ -97,15 +117,7 @@ void Pose::prepare(const DeformRequest& request) {
   const bool own_normals = request.normals && !request.packed_normals;
   if (request.normals && normal_sums_.size() < n) sums.allocate(memory(), n);
   if (own_normals && normals_.size() < n) normals.allocate(memory(), n);
-  if (request.refine) {
-    // one that is too small is replaced, so that it can be put back
-    const std::int32_t slots = layout_->sites->slot_count();
-    const std::shared_ptr<Refinement> refinement = refinement_ && refinement_->has_room(slots)
-                                                       ? refinement_
-                                                       : make_shared_in<Refinement>(memory(), *core_, memory());
-    refinement->fit(slots);
-    refinement_ = refinement;
-  }
+  if (request.refine) make_refinement(*layout_);
   if (!sums.empty()) normal_sums_ = std::move(sums);
   if (!normals.empty()) normals_ = std::move(normals);
 }
@@ -114,7 +126,7 @@ struct Pose::Kept {
   std::shared_ptr<State> state;
   Buffer<Vec3> positions;
   std::shared_ptr<Refinement> refinement;
-  bool posed = false, stale = false, whole = false;
+  bool posed = false, stale = false, refined = false, whole = false;
   SolveReport report;
 };
 
@@ -128,7 +140,7 @@ std::shared_ptr<Pose::Kept> Pose::keep(bool whole) {
     kept->state = make_shared_in<State>(memory(), *state_, memory());
     kept->state.swap(state_);
   }
-  kept->posed = posed_, kept->stale = stale_, kept->report = report_;
+  kept->posed = posed_, kept->stale = stale_, kept->refined = refined_, kept->report = report_;
   return kept;
 }
 
@@ -136,49 +148,67 @@ void Pose::put_back(Kept& kept) noexcept {
   refinement_.swap(kept.refinement);
   if (!kept.whole) return;
   state_.swap(kept.state), positions_.swap(kept.positions);
-  posed_ = kept.posed, stale_ = kept.stale, report_ = kept.report;
+  posed_ = kept.posed, stale_ = kept.stale, refined_ = kept.refined, report_ = kept.report;
 }
 
 void Pose::ensure_surface() const {
   if (!stale_) return;
   blend(core_->mesh, layout_->weights, state_->transforms.data(), state_->columns.data(), core_->mesh.centre,
         core_->mesh.scale, positions_.data(), nullptr, *core_->jobs);
+  if (const double share = crossfade_share(); share > 0)
+    add_crossfade(*state_->crossfade, share, positions_.data(), *core_->jobs);
   stale_ = false;
 }
 
+double Pose::crossfade_share() const noexcept {
+  return state_->crossfade ? share_left(*state_->crossfade, placed(*state_)) : 0;
+}
+
+// Takes the full-mesh step.
+void Pose::refine(const Layout& layout, const State& state, Vec3* positions) {
+  const RefineInput input{*core_,
+                          *rest_,
+                          layout.reach,
+                          layout.weights,
+                          *layout.sites,
+                          layout.handles,
+                          layout.groups.get(),
+                          layout.smooth ? &state.smooth.rotation : nullptr,
+                          state.transforms.data()};
+  refinement_->apply(input, positions);
+}
+
 Vec3 Pose::blended(std::int32_t vertex) const noexcept {
-  return core_->mesh.to_given(blend_vertex(core_->mesh, layout_->weights, state_->transforms.data(), vertex));
+  const Vec3 p = core_->mesh.to_given(blend_vertex(core_->mesh, layout_->weights, state_->transforms.data(), vertex));
+  const double share = crossfade_share();
+  if (!(share > 0)) return p;
+  const float* d = state_->crossfade->offset.data() + 3 * static_cast<std::size_t>(vertex);
+  return p + share * Vec3{d[0], d[1], d[2]};
 }
 
 // Vertices and normals from the transforms.
 void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
   const Mesh& mesh = core_->mesh;
-  posed_ = true;
+  posed_ = true, refined_ = request.refine;
   stale_ = !request.surface;
   report.cluster_count = static_cast<std::uint32_t>(layout_->weights.cluster_count);
   report.unreached_vertex_count = static_cast<std::uint32_t>(layout_->weights.unreached_vertex_count);
   report.last_change = state_->last_change;
   if (!request.surface) return;
   const Timer blend_timer;
-  float* packed = request.refine ? nullptr : request.packed_positions;
+  const double share = crossfade_share();
+  if (!(share > 0)) state_->crossfade.reset();  // it comes back to nothing
+  float* packed = request.refine || share > 0 ? nullptr : request.packed_positions;
   blend(mesh, layout_->weights, state_->transforms.data(), state_->columns.data(), mesh.centre, mesh.scale,
         positions_.data(), packed, *core_->jobs);
   report.packed_positions = packed != nullptr;
   report.blend_ms = blend_timer.milliseconds();
   if (request.refine) {
     const Timer refine_timer;
-    const RefineInput input{*core_,
-                            *rest_,
-                            layout_->reach,
-                            layout_->weights,
-                            *layout_->sites,
-                            layout_->handles,
-                            layout_->groups.get(),
-                            layout_->smooth ? &state_->smooth.rotation : nullptr,
-                            state_->transforms.data()};
-    refinement_->apply(input, positions_.data());
+    refine(*layout_, *state_, positions_.data());
     report.refine_ms = refine_timer.milliseconds();
   }
+  if (share > 0) add_crossfade(*state_->crossfade, share, positions_.data(), *core_->jobs);
   report.positions = {positions_.data(), positions_.size()};
   if (request.normals) {
     const Timer normal_timer;
@@ -196,6 +226,7 @@ DeformReport Pose::deform(const DeformRequest& request) {
     for (HandleState& handle : state.handles) handle.turn = logarithm(handle.rotation);
     for (RigidMotion& motion : state.paper.motion) motion = RigidMotion();
     state.started = false, state.changed = true;
+    state.crossfade.reset();
   }
 
   DeformReport report;
@@ -204,7 +235,7 @@ DeformReport Pose::deform(const DeformRequest& request) {
   const std::uint32_t idle_limit = layout_->smooth ? idle_limit_smooth : idle_limit_paper;
   if (state.changed || (state.last_change >= settled_change && state.idle_iterations < idle_limit)) {
     const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
-    place_handles();
+    place_handles(*layout_, state);
     if (layout_->smooth) {
       solve_smooth(iterations);
     } else {
@@ -250,7 +281,7 @@ DeformReport Pose::deform_from(const Pose& start, Span<const Vec3> turns, const 
   DeformReport report;
   const Timer solve_timer;
   const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
-  place_handles();
+  place_handles(*layout_, state);
   if (layout_->smooth) {
     std::copy(start.start_.rotation.begin(), start.start_.rotation.end(), state.smooth.rotation.begin());
     std::fill(state.smooth.stress.begin(), state.smooth.stress.end(), Stress());

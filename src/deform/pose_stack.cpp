@@ -100,7 +100,7 @@ std::shared_ptr<PoseStack::Layer> PoseStack::make_layer(std::shared_ptr<Pose> pl
 }
 
 void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, std::uint32_t layer,
-                            Span<std::uint32_t> out_numbers) {
+                            Span<std::uint32_t> out_numbers, bool in_place) {
   if (layer >= layer_limit)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "layer is %u; it must be 0 to %u", layer, layer_limit - 1);
   const std::size_t added = start.size() < 2 ? 0 : start.size() - 1, first = entries_.size();
@@ -117,7 +117,7 @@ void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int
   }
   Vector<std::uint32_t> inner(added, 0u, &memory());
   const auto enter = [&](Pose& pose, std::uint32_t k) {
-    pose.add_handles(start, vertices, inner);
+    pose.add_handles(start, vertices, inner, in_place && k == 0);
     for (std::size_t r = 0; r < added; ++r) {
       entries[first + r].inner[k] = inner[r];
       entries[first + r].centroid = pose.handle(inner[r]).centroid;
@@ -133,6 +133,12 @@ void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int
     layers[k] = make_layer(std::move(plain));
   }
   if (layer == 0) enter(*base_, 0);  // changes all or nothing; the lines below cannot fail
+  for (std::size_t r = 0; layer == 0 && r < added; ++r) {
+    Entry& entry = entries[first + r];
+    entry.edit = base_->transform(entry.inner[0]);
+    entry.turn = logarithm(entry.edit.rotation);
+    entry.placed = motion_of(entry.edit, entry.centroid);
+  }
   entries_ = std::move(entries);
   layers_ = std::move(layers);
   mark_stale(layer);

@@ -29,7 +29,7 @@ class PoseStack {
   // Adds handles to a layer (0 coarsest), like Pose::add_handles. Throws HF_ERROR_INVALID_ARGUMENT for a layer beyond
   // layer_limit. Regions must not overlap, even in different layers.
   void add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, std::uint32_t layer,
-                   Span<std::uint32_t> out_numbers);
+                   Span<std::uint32_t> out_numbers, bool in_place = false);
   void remove_handles(Span<const std::uint32_t> numbers);
   // On layer 0 a transform starts from the rest shape. On higher layers it starts where the lower layers put the
   // handle, in the frame of its rest shape.

@@ -108,7 +108,8 @@ static void bad_handles_are_not_added(void** state) {
   ADD("layer 8", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.layer = 8);
   ADD("layer 2^32 - 1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.layer = UINT32_MAX);
   ADD("overlap on a higher layer", HF_ERROR_OVERLAP, 1, (region[1] = 0, handles.layer = 3));
-  ADD("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, handles.reserved = 1);
+  ADD("in_place 2", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.in_place = 2);
+  ADD("in_place -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.in_place = -1);
   ADD("regions and points", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (handles.points = points, handles.radii = radii));
 #define NEAR(what, expected, index, change)                                                                    \
   ADD(what, expected, index,                                                                                   \

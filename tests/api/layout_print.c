@@ -172,7 +172,7 @@ static void print_pose(void) {
 #undef T
 #define T hf_handles_desc
   STRUCT(hf_handles_desc);
-  F(struct_size), F(handle_count), F(region_counts), F(region_vertices), F(points), F(radii), F(layer), F(reserved),
+  F(struct_size), F(handle_count), F(region_counts), F(region_vertices), F(points), F(radii), F(layer), F(in_place),
       F(progress);
 #undef T
 #define T hf_transform

@@ -225,6 +225,66 @@ static void handles_come_and_go_and_clones_are_independent(void** state) {
   hf_pose_destroy(pose), hf_pose_destroy(copy);
 }
 
+static void a_handle_in_place_moves_nothing(void** state) {
+  (void)state;
+  uint32_t handles[2], added = 0;
+  hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles);
+  const hf_transform bent = {{0, 0, sin(0.3), cos(0.3)}, {0.4, -0.1, 0.1}};
+  assert_ok(hf_pose_set_transform(pose, handles[1], &bent));
+  const uint32_t count = AROUND * RINGS;
+  double* before = malloc(3 * sizeof(double) * count);
+  double* after = malloc(3 * sizeof(double) * count);
+  const hf_deform_desc first = to_doubles(before, NULL), second = to_doubles(after, NULL);
+  assert_ok(hf_pose_deform(pose, &first, NULL));
+  const uint32_t ring[1] = {AROUND}, start = AROUND * (RINGS / 2);
+  uint32_t vertices[AROUND];
+  for (uint32_t i = 0; i < AROUND; ++i) vertices[i] = start + i;
+  hf_handles_desc desc = HF_INIT(hf_handles_desc);
+  desc.handle_count = 1, desc.region_counts = ring, desc.region_vertices = vertices, desc.in_place = 1;
+  assert_ok(hf_pose_add_handles(pose, &desc, &added));
+  hf_handle_info info = HF_INIT(hf_handle_info);
+  assert_ok(hf_pose_get_handle(pose, added, &info));
+  assert_true(fabs(info.translation[0]) + fabs(info.translation[1]) > 0.01);
+  assert_true(fabs(info.rotation[3]) < 0.9999);
+  assert_ok(hf_pose_deform(pose, &second, NULL));
+  for (uint32_t i = 0; i < 3 * count; ++i) assert_true(fabs(after[i] - before[i]) < 1e-6);
+  hf_transform stands;
+  memcpy(stands.rotation, info.rotation, sizeof stands.rotation);
+  memcpy(stands.translation, info.translation, sizeof stands.translation);
+  assert_ok(hf_pose_set_transform(pose, added, &stands)); /* 1e-4 of the box: rounding makes it a motion */
+  assert_ok(hf_pose_deform(pose, &second, NULL));
+  for (uint32_t i = 0; i < 3 * count; ++i) assert_true(fabs(after[i] - before[i]) < 2e-3);
+  hf_pose_destroy(pose), free(before), free(after);
+}
+
+/* what a host does that must not lose a frame */
+static void handles_come_to_a_clone_while_the_pose_is_dragged(void** state) {
+  (void)state;
+  uint32_t handles[2], added = 0;
+  hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles), next = NULL;
+  hf_transform bent = {{0, 0, sin(0.3), cos(0.3)}, {0.4, -0.1, 0.1}};
+  const uint32_t count = AROUND * RINGS;
+  double* before = malloc(3 * sizeof(double) * count);
+  double* after = malloc(3 * sizeof(double) * count);
+  const hf_deform_desc first = to_doubles(before, NULL), second = to_doubles(after, NULL);
+  assert_ok(hf_pose_set_transform(pose, handles[1], &bent));
+  for (int f = 0; f < 30; ++f) assert_ok(hf_pose_deform(pose, &first, NULL));
+  assert_ok(hf_pose_clone(pose, &next));
+  const uint32_t ring[1] = {AROUND}, start = AROUND * (RINGS / 2);
+  uint32_t vertices[AROUND];
+  for (uint32_t i = 0; i < AROUND; ++i) vertices[i] = start + i;
+  hf_handles_desc desc = HF_INIT(hf_handles_desc);
+  desc.handle_count = 1, desc.region_counts = ring, desc.region_vertices = vertices, desc.in_place = 1;
+  assert_ok(hf_pose_add_handles(next, &desc, &added)); /* in another thread */
+  bent.translation[0] += 1e-4;
+  assert_ok(hf_pose_set_transform(pose, handles[1], &bent));
+  assert_ok(hf_pose_deform(pose, &first, NULL));
+  assert_ok(hf_pose_set_transform(next, handles[1], &bent));
+  assert_ok(hf_pose_deform(next, &second, NULL));
+  for (uint32_t i = 0; i < 3 * count; ++i) assert_true(fabs(after[i] - before[i]) < 1e-2);
+  hf_pose_destroy(pose), hf_pose_destroy(next), free(before), free(after);
+}
+
 static void what_no_handle_reaches_stays_at_rest(void** state) {
   (void)state;
   Surface cut = surface_cut();
@@ -739,6 +799,8 @@ int main(void) {
       cmocka_unit_test(float_double_and_strided_outputs_agree),
       cmocka_unit_test(handles_come_and_go_and_clones_are_independent),
       cmocka_unit_test(handles_one_by_one_give_the_bits_of_a_batch),
+      cmocka_unit_test(a_handle_in_place_moves_nothing),
+      cmocka_unit_test(handles_come_to_a_clone_while_the_pose_is_dragged),
       cmocka_unit_test(what_no_handle_reaches_stays_at_rest),
       cmocka_unit_test(the_rest_of_the_source_gives_the_rest_of_the_target),
       cmocka_unit_test(a_transfer_of_stretch_swells_with_the_source_and_refuses_holds_and_skins),

@@ -693,7 +693,7 @@ namespace Hf.Native
         public IntPtr points;
         public IntPtr radii;
         public uint layer;
-        public uint reserved;
+        public int in_place;
         public IntPtr progress;
     }
 

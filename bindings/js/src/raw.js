@@ -575,7 +575,7 @@ export const layouts = {
     points: ['ptr', [16, 24], 0],
     radii: ['ptr', [20, 32], 0],
     layer: ['u32', [24, 40], 0],
-    reserved: ['u32', [28, 44], 0],
+    in_place: ['i32', [28, 44], 0],
     progress: ['ptr', [32, 48], 0],
   } },
   hf_transform: { size: [56, 56], fields: {

@@ -1102,7 +1102,7 @@ class hf_handles_desc(Structure):
     points: int
     radii: int
     layer: int
-    reserved: int
+    in_place: int
     progress: int
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1112,7 +1112,7 @@ class hf_handles_desc(Structure):
         ("points", c_void_p),
         ("radii", c_void_p),
         ("layer", c_uint32),
-        ("reserved", c_uint32),
+        ("in_place", c_int32),
         ("progress", c_void_p),
     ]
 

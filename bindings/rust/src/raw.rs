@@ -1314,7 +1314,7 @@ pub struct hf_handles_desc {
     pub points: *const f64,
     pub radii: *const f64,
     pub layer: u32,
-    pub reserved: u32,
+    pub in_place: i32,
     pub progress: hf_progress,
 }
 impl Default for hf_handles_desc {
