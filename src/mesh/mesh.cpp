@@ -245,7 +245,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
         mesh.to_inner({input.positions.get(v, 0), input.positions.get(v, 1), input.positions.get(v, 2)});
   }
   poll();
-  if (!is_local(mesh.corners, count)) renumber(curve_order(mesh.positions, memory), mesh, memory);
+  if (!is_local(mesh.corners, count)) renumber(curve_order(mesh.positions, jobs, memory), mesh, memory);
 
   poll();
   UnionFind sets(count, memory);
