@@ -244,10 +244,9 @@ def quad_option(name, **more):
 
 def look_again(group, context):
     """An option of quads was changed in the panel."""
-    made = group.id_data
-    if not busy() and group.key in quads.kept:
+    if group.key and not busy():
         with quiet():
-            quads.look(made, context.scene, context.evaluated_depsgraph_get())
+            quads.look(group.id_data, context.scene, context.evaluated_depsgraph_get())
 
 
 class HF_PG_quads(bpy.types.PropertyGroup):
