@@ -1,6 +1,8 @@
 """Quads that follow in the Blender add-on: strokes, poles and edges change, and the quads are made again."""
 
+import contextlib
 import importlib
+import io
 import math
 import os
 import sys
@@ -288,13 +290,39 @@ state.job.result()
 assert quads.tick() is None and mesh[quads.RELAXED] and state.job is None
 assert content(made) == fresh(body, line)
 
+# ---- edited by hand while it is relaxed: the edit stays
+line.location.z -= 0.02
+update()
+quads.begin(state)
+state.job.result()
+mesh.vertices[0].co.x += 0.01
+by_hand = content(made)
+assert quads.tick() is None and content(made) == by_hand and not mesh[quads.RELAXED]
+select(made)
+assert bpy.ops.hf.update_quads() == {"FINISHED"} and content(made) == fresh(body, line)
+
 # ---- what cannot be made: the mesh of before stays, the panel says why, and it is not tried again and again
 before = content(made)
 line.data.bevel_depth = 0.02
 update()
 state = state_of(made)
 assert content(made) == before and "line has faces; a stroke is a curve without bevel or fill" in state.error, state.error
+with contextlib.redirect_stdout(io.StringIO()) as printed:
+    for _ in range(3):
+        line.location.z += 0.01
+        update()
+assert state.error and not printed.getvalue(), "it is printed once"
+line.location.z -= 0.03
 line.data.bevel_depth = 0
+update()
+assert not state.error and content(made) == before
+plain_guides = mesh_data.guides_of
+mesh_data.guides_of = lambda *_: 1 / 0  # what nobody thought of is said too, and no handler raises
+line.location.z += 0.01
+update()
+assert "ZeroDivisionError" in state.error and content(made) == before
+mesh_data.guides_of = plain_guides
+line.location.z -= 0.01
 update()
 assert not state.error and content(made) == before
 # the library's own refusal: a mirror that the shape has not

@@ -121,6 +121,16 @@ class Poles(unittest.TestCase):
         np.testing.assert_array_equal(again, vertices)
         np.testing.assert_array_equal(ways, vectors)
 
+    def test_a_ring_goes_on_across_seams(self):
+        corners = self.points[self.triangles].reshape(-1, 3)  # every triangle has corners of its own
+        for place in self.points[[40, 500]] + 0.01:
+            vertices, vectors = self.guides(place, 5, self.edge)
+            again, ways = hf.pole_guides(corners, np.arange(len(corners)), place, 5, self.edge)
+            given = self.triangles.ravel()[again]
+            self.assertEqual(set(given), set(vertices))
+            turns = np.einsum("ij,ij->i", ways, vectors[np.searchsorted(vertices, given)])
+            self.assertGreater(turns.min(), 0.99)
+
     def test_the_direction_is_that_of_an_edge(self):
         place = self.points[300]
         way = np.cross(place, [0.1, 0.9, 0.2])

@@ -141,8 +141,10 @@ class HF_PT_quads(Tool, bpy.types.Panel):
         group, state = made.hf_quads, quads.kept.get(made.hf_quads.key)
         self.layout.prop(group, "follow")
         column = self.layout.column(align=True)
-        for name in operators.QUAD_OPTIONS:
+        for name in ("faces", "crease", "sharp"):
             column.prop(group, name)
+        column.label(text="Symmetry")
+        column.row(align=True).prop(group, "symmetry", expand=True)
         column = self.layout.column(align=True)
         column.operator("hf.draw_strokes")
         row = column.row(align=True)

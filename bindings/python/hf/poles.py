@@ -44,9 +44,9 @@ def pole_guides(positions: ArrayLike, triangles: ArrayLike, place: ArrayLike, qu
     loose = np.ones(len(xyz), bool)
     loose[faces] = False
     away[loose] = np.inf
-    nearest = int(away.argmin())
-    at = _onto(xyz, faces[(faces == nearest).any(1)], at)
-    inside, vertices, touching = _ring(faces, nearest, np.linalg.norm(xyz - at, axis=1) <= radius)
+    start = (xyz == xyz[away.argmin()]).all(1)  # with its copies, as along seams of textures
+    at = _onto(xyz, faces[start[faces].any(1)], at)
+    inside, vertices, touching = _ring(xyz, faces, start, np.linalg.norm(xyz - at, axis=1) <= radius)
     normals = _normals(xyz, touching)
     up = normals[inside].sum(0)
     if not np.linalg.norm(up) > 0:
@@ -59,12 +59,18 @@ def pole_guides(positions: ArrayLike, triangles: ArrayLike, place: ArrayLike, qu
     return vertices.astype(np.uint32), _turned(vectors, up, normals[vertices])
 
 
-def _ring(faces: np.ndarray, start: int, near: np.ndarray) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The near vertices that are connected with one (a mask), those beside them, and the triangles of both."""
-    inside = np.zeros(len(near), bool)
-    inside[start] = True
-    faces = faces[(near | inside)[faces].any(1)]
+def _ring(xyz: np.ndarray, faces: np.ndarray, start: np.ndarray,
+          near: np.ndarray) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The near vertices that are connected with the first ones (a mask), those beside them, and the triangles of both.
+    Copies of a vertex are connected."""
+    near, inside = near | start, start.copy()
+    candidates = np.flatnonzero(near)
+    names = np.unique(xyz[candidates], axis=0, return_inverse=True)[1].ravel()
+    faces = faces[near[faces].any(1)]
     while True:
+        reached = np.zeros(len(candidates), bool)
+        reached[names[inside[candidates]]] = True
+        inside[candidates] = reached[names]
         touching = faces[inside[faces].any(1)]
         beside = np.zeros(len(near), bool)
         beside[touching] = True
