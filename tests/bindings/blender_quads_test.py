@@ -147,8 +147,10 @@ made = bpy.data.objects["body quads"]
 group = made.hf_quads
 assert group.source == body and group.faces == FACES and group.follow and quads.keys_of(line) == [group.key]
 first, mesh = content(made), made.data
+gloss = bpy.data.materials.new("gloss")
+mesh.materials.append(gloss)
 for polygon in mesh.polygons:
-    polygon.use_smooth = True
+    polygon.use_smooth, polygon.material_index = True, 1
 
 # ---- an update about something else makes nothing again
 bystander = bpy.data.objects.new("bystander", None)
@@ -165,7 +167,7 @@ moved = content(made)
 assert moved != first and made.data == mesh and bpy.data.objects["body quads"] == made
 assert calls[-1]["relax_count"] == hf.NO_INDEX and not mesh[quads.RELAXED] and len(calls) == 1
 assert "followed in" in state_of(made).line and not state_of(made).error
-assert list(mesh.materials) == [paint] and all(p.use_smooth for p in mesh.polygons)
+assert list(mesh.materials) == [paint, gloss] and all(p.use_smooth and p.material_index == 1 for p in mesh.polygons)
 update()
 assert len(calls) == 1 and content(made) == moved  # its own writing is no reason to make it again
 quads.finish()
@@ -174,7 +176,7 @@ assert "relax_count" not in calls[-1] and mesh[quads.RELAXED] and "relaxed in" i
 update()
 assert len(calls) == 2 and relaxed != moved
 assert relaxed == fresh(body, line), "the same bits as a new one"
-assert list(mesh.materials) == [paint] and all(p.use_smooth for p in mesh.polygons)
+assert list(mesh.materials) == [paint, gloss] and all(p.use_smooth and p.material_index == 1 for p in mesh.polygons)
 assert [g.name for g in made.vertex_groups] == ["upper"]
 upper = set(mesh_data.group_vertices(made, "upper"))
 at = mesh_data.positions_of(mesh)
@@ -194,8 +196,8 @@ def undo_of(*steps):
 bpy.ops.ed.undo_push(message="before")
 select(line)
 bpy.ops.transform.translate(value=(0, 0, 0.25))
+bpy.ops.ed.undo_push(message="moved")  # as Blender does it: before the event
 update()
-bpy.ops.ed.undo_push(message="moved")
 quads.finish()
 further = content(made)
 assert further != relaxed
@@ -207,9 +209,23 @@ undo_of(bpy.ops.ed.redo)
 assert abs(line.location.z - 0.25) < 1e-6
 quads.finish()
 assert content(made) == further
+bpy.data.objects["bystander"].location.x += 1
+bpy.ops.ed.undo_push(message="something else")
+undo_of(bpy.ops.ed.undo)  # to a step that was kept before the quads had followed
+quads.finish()
+assert abs(line.location.z - 0.25) < 1e-6 and content(made) == further
 undo_of(bpy.ops.ed.undo)
 quads.finish()
 assert content(made) == relaxed
+
+line.location.z += 0.1  # no event yet: the end of an undo is enough
+for handler in bpy.app.handlers.undo_post:
+    handler(bpy.context.scene)
+assert content(made) != relaxed
+line.location.z -= 0.1
+update()
+quads.finish()
+assert content(made) == fresh(body, line)
 
 # ---- points of a stroke, in its Edit Mode too
 count = len(calls)
@@ -307,12 +323,13 @@ line.data.bevel_depth = 0.02
 update()
 state = state_of(made)
 assert content(made) == before and "line has faces; a stroke is a curve without bevel or fill" in state.error, state.error
+height = line.location.z
 with contextlib.redirect_stdout(io.StringIO()) as printed:
     for _ in range(3):
         line.location.z += 0.01
         update()
 assert state.error and not printed.getvalue(), "it is printed once"
-line.location.z -= 0.03
+line.location.z = height
 line.data.bevel_depth = 0
 update()
 assert not state.error and content(made) == before
@@ -322,7 +339,7 @@ line.location.z += 0.01
 update()
 assert "ZeroDivisionError" in state.error and content(made) == before
 mesh_data.guides_of = plain_guides
-line.location.z -= 0.01
+line.location.z = height
 update()
 assert not state.error and content(made) == before
 # the library's own refusal: a mirror that the shape has not
@@ -348,6 +365,17 @@ fails(state_of(other).error, bpy.ops.hf.update_quads)
 assert content(other) == before_other
 other.hf_quads.symmetry = "NONE"
 assert not state_of(other).error and content(other) == before_other
+
+# ---- another mesh in the source
+flat = ball("flat", 14, at=(6, 0, 0), scale=(2, 1, 0.5))
+plain_mesh, refused.data = refused.data, flat.data
+update()
+assert not state_of(other).error and np.ptp(mesh_data.positions_of(other.data), axis=0)[2] < 1.1
+refused.data = plain_mesh
+update()
+quads.finish()
+assert content(other) == before_other
+bpy.data.objects.remove(flat)
 
 # ---- Follow off, Update quads
 select(made)
@@ -401,6 +429,13 @@ quads.finish()
 assert content(copy) == before != content(made)
 assert content(made) == fresh(body, line, second)
 bpy.data.objects.remove(copy)
+select(second, line, body)
+assert bpy.ops.hf.quads(faces=FACES) == {"FINISHED"}
+twin, count = bpy.data.objects["body quads.001"], len(calls)
+body.update_tag()
+update()
+assert len(calls) == count  # the order in which they were selected is no change
+bpy.data.objects.remove(twin)
 
 # ---- a stroke that is deleted, by the user's way and by a script's
 with_second = content(made)
@@ -448,6 +483,14 @@ for count in (3, 5):
     pole.rotation_euler.rotate_axis("Z", 0.4)
     update()
     assert content(made) != turned
+    place, body.location, body.rotation_euler.z, body.scale = pole.location.copy(), (3, 1, 2), 0.7, (2, 2, 2)
+    update()
+    pole.location = body.matrix_world @ place  # in the space of the mesh where it was
+    update()
+    pole.location = place
+    assert pole_off(pole, count) < 1
+    body.location, body.rotation_euler.z, body.scale = (0, 0, 0), 0, (1, 1, 1)
+    update()
     select(pole)
     bpy.ops.object.delete()
     update()
@@ -523,8 +566,9 @@ update()
 state = state_of(made)
 quads.begin(state)
 key = made.hf_quads.key
-select(made)
-bpy.ops.object.delete()
+bpy.data.objects.remove(made)
+quads.finish()
+assert not state.error and state.job is None
 update()
 line.location.z += 0.05
 update()
@@ -532,6 +576,8 @@ assert key not in quads.kept and state.quads is None and "body quads" not in bpy
 select(line, body)
 assert bpy.ops.hf.quads(faces=FACES) == {"FINISHED"}
 made = bpy.data.objects["body quads"]
+select(line)
+assert quads.made_of(bpy.context) == made  # not those that are gone
 line.location.z += 0.05
 update()
 before = content(made)
