@@ -145,7 +145,7 @@ def move(degrees):
 
 
 def make_quads():
-    """Quads of the body at rest, with a stroke over the flank and a pole of 5 on the thigh."""
+    """Quads of the body at rest, with a stroke over the flank and a pole of 5 on the croup."""
     _, area, _ = view()
     space = area.spaces.active
     body = mesh()
@@ -178,7 +178,7 @@ def make_quads():
     body.hide_set(True)
     made = quads_made()
     activate(made)
-    bpy.context.scene.cursor.location = on_body(0.2, 0.03)
+    bpy.context.scene.cursor.location = on_body(0.17, 0.11)
     assert bpy.ops.hf.add_pole(count="5") == {"FINISHED"}
     bpy.context.active_object.show_in_front = True
     bpy.context.scene.cursor.location = (0, 0, -10 * size)
@@ -232,9 +232,11 @@ def let_go():
 
 def relaxed():
     """Again in a second while the thread is at work."""
-    seen["waits"] = seen.get("waits", 0) + 1
-    assert seen["waits"] < 40, "quads are relaxed when the mouse rests"
-    return not quads_made().data["hf_quads_relaxed"]
+    waits = seen["waits"] = seen.get("waits", 0) + 1
+    assert waits < 60, "quads are relaxed when the mouse rests"
+    if quads_made().data["hf_quads_relaxed"]:
+        seen["waits"] = 0
+    return seen["waits"] > 0
 
 
 def show_pole():
@@ -244,7 +246,7 @@ def show_pole():
     space = view()[1].spaces.active
     space.region_3d.view_location = pole.location
     space.region_3d.view_rotation = Quaternion((0, 0, 1), 0.1) @ space.region_3d.view_rotation
-    space.region_3d.view_distance *= 0.3
+    space.region_3d.view_distance *= 0.25
 
 
 def undo():
