@@ -17,7 +17,7 @@ import hf  # noqa: E402
 import bpy  # noqa: E402
 from bpy.app.handlers import persistent  # noqa: E402
 
-from . import carriers, operators, panels, quads, rig, session, skinning  # noqa: E402
+from . import carriers, operators, panels, quad_operators, quads, rig, session, skinning  # noqa: E402
 from .operators import refresh  # noqa: E402
 
 
@@ -87,7 +87,7 @@ def on_load(*_):
     quads.known = None
 
 
-CLASSES = (operators.HF_PG_quads, *operators.OPERATORS, *panels.PANELS)
+CLASSES = (*operators.OPERATORS, *quad_operators.CLASSES, *panels.PANELS)
 HANDLERS = (("depsgraph_update_post", on_depsgraph), ("frame_change_post", on_frame), ("undo_post", on_undo),
     ("redo_post", on_undo), ("load_post", on_load))
 
@@ -98,7 +98,7 @@ def register():
         bpy.utils.register_class(cls)
     bpy.types.Scene.hf_live = bpy.props.BoolProperty(name="Live", default=True,
         description="Follow the handles while they are dragged")
-    bpy.types.Object.hf_quads = bpy.props.PointerProperty(type=operators.HF_PG_quads)
+    bpy.types.Object.hf_quads = bpy.props.PointerProperty(type=quad_operators.HF_PG_quads)
     for name, (neutral, least, most, description) in operators.DIALS.items():
         unit = {"subtype": "ANGLE"} if name == "arm_space" else {}
         setattr(bpy.types.Scene, f"hf_{name}", bpy.props.FloatProperty(name=name.replace("_", " ").capitalize(),
