@@ -1,14 +1,17 @@
 """Pictures of the add-on for its README, in Blender with a window: blender_pictures.py MODEL.glb FOLDER.
 
-The sidebar shows the tab hf alone. Three states: bound with proposed handles; the head pulled; a field in strips.
+The sidebar shows the tab hf alone. Three states: bound with proposed handles; the head pulled; a field in strips. Then
+quads that follow a stroke, which simulated events drag as a user would.
 """
 
+import math
 import os
 import sys
 import traceback
 
 import bpy
 import numpy
+from bpy_extras.view3d_utils import location_3d_to_region_2d
 from mathutils import Quaternion, Vector
 
 MODEL, FOLDER = sys.argv[sys.argv.index("--") + 1:][:2]
@@ -30,22 +33,28 @@ def inside(operator, *arguments, **options):
         return operator(*arguments, **options)
 
 
-def picture(name):
-    """The window without the bars above and below, as FOLDER/NAME.jpg."""
-    path = os.path.join(FOLDER, f"{name}.png")
+def screen():
+    """The window without the bars above and below: rows from below."""
+    path = os.path.join(FOLDER, "screen.png")
     inside(bpy.ops.screen.screenshot, filepath=path)
     shot = bpy.data.images.load(path)
     width, height = shot.size
     pixels = numpy.empty(4 * width * height, numpy.float32)
     shot.pixels.foreach_get(pixels)
-    cut = pixels.reshape(height, width, 4)[80:height - 80, 230:].ravel()  # rows from below
-    image = bpy.data.images.new(name, width - 230, height - 160)
-    image.pixels.foreach_set(cut)
+    bpy.data.images.remove(shot)
+    os.remove(path)
+    return pixels.reshape(height, width, 4)[80:height - 80, 230:]
+
+
+def picture(name, pixels=None):
+    """FOLDER/NAME.jpg."""
+    pixels = screen() if pixels is None else pixels
+    image = bpy.data.images.new(name, pixels.shape[1], pixels.shape[0])
+    image.pixels.foreach_set(pixels.ravel())
     image.filepath_raw, image.file_format = os.path.join(FOLDER, f"{name}.jpg"), "JPEG"
     image.save()
     assert os.path.getsize(image.filepath_raw) > 15000, name
-    bpy.data.images.remove(shot), bpy.data.images.remove(image)
-    os.remove(path)
+    bpy.data.images.remove(image)
 
 
 def activate(obj):
@@ -124,13 +133,145 @@ def strips():
     area.spaces.active.shading.color_type = "VERTEX"
 
 
+def event(kind, value="PRESS", at=(0, 0), **keys):
+    """at: from the origin of the stroke, in pixels."""
+    window, _, region = view()
+    x, y = location_3d_to_region_2d(region, region.data, bpy.data.objects["stroke"].location)
+    window.event_simulate(type=kind, value=value, x=int(region.x + x + at[0]), y=int(region.y + y + at[1]), **keys)
+
+
+def move(degrees):
+    event("MOUSEMOVE", "NOTHING", (150 * math.cos(math.radians(degrees)), 150 * math.sin(math.radians(degrees))))
+
+
+def make_quads():
+    """Quads of the body at rest, with a stroke over the flank and a pole of 5 on the croup."""
+    _, area, _ = view()
+    space = area.spaces.active
+    body = mesh()
+    activate(body)
+    assert bpy.ops.hf.unbind() == {"FINISHED"}
+    right, up, back = (space.region_3d.view_rotation @ Vector(axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
+    middle = sum((body.matrix_world @ Vector(c) for c in body.bound_box), Vector()) / 8
+    size, into = max(body.dimensions), body.matrix_world.inverted()
+
+    def on_body(x, y):
+        start = middle + size * (x * right + y * up + 2 * back)
+        hit, place, _, _ = body.ray_cast(into @ start, into.to_3x3() @ -back)
+        assert hit, (x, y)
+        return body.matrix_world @ place
+
+    line = bpy.data.curves.new("stroke", "CURVE")
+    line.dimensions = "3D"
+    spline = line.splines.new("POLY")
+    places = [on_body(0.01 * i - 0.09, 0.05 + 0.002 * i) for i in range(23)]
+    centre = on_body(0.02, 0.072)
+    spline.points.add(len(places) - 1)
+    for point, place in zip(spline.points, places):
+        point.co = (*(place - centre), 1)
+    stroke = bpy.data.objects.new("stroke", line)
+    stroke.location = centre
+    bpy.context.scene.collection.objects.link(stroke)
+    stroke.show_in_front = True
+    stroke.select_set(True)
+    assert bpy.ops.hf.quads(faces=5000) == {"FINISHED"}
+    body.hide_set(True)
+    made = quads_made()
+    activate(made)
+    bpy.context.scene.cursor.location = on_body(0.17, 0.11)
+    assert bpy.ops.hf.add_pole(count="5") == {"FINISHED"}
+    bpy.context.active_object.show_in_front = True
+    bpy.context.scene.cursor.location = (0, 0, -10 * size)
+    made.color, made.show_wire, made.show_all_edges = (0.55, 0.62, 0.72, 1), True, True
+    space.shading.color_type = "OBJECT"
+    space.overlay.wireframe_threshold = 1
+    space.region_3d.view_distance *= 0.7
+    space.region_3d.view_location += size * (0.05 * up + 0.08 * right)
+    activate(stroke)
+    bpy.ops.ed.undo_push(message="quads, a stroke and a pole")
+
+
+def quads_made():
+    return next(o for o in bpy.data.objects if o.type == "MESH" and o.hf_quads.key)
+
+
+def places_of(obj):
+    out = numpy.empty(3 * len(obj.data.vertices), numpy.float32)
+    obj.data.vertices.foreach_get("co", out)
+    return out
+
+
+def open_panel():
+    """A click on the panel Quads, below the sentence at the top."""
+    window, area, _ = view()
+    sidebar = next(r for r in area.regions if r.type == "UI")
+    place = {"x": sidebar.x + 60, "y": sidebar.y + sidebar.height - 88}
+    window.event_simulate(type="MOUSEMOVE", value="NOTHING", **place)
+    window.event_simulate(type="LEFTMOUSE", value="PRESS", **place)
+    window.event_simulate(type="LEFTMOUSE", value="RELEASE", **place)
+
+
+def turn_stroke():
+    """R, and the mouse goes around the stroke: a drag of Blender's own."""
+    seen["made"] = places_of(quads_made())
+    move(0)
+    event("R", at=(150, 0))
+    event("R", "RELEASE", at=(150, 0))
+
+
+def on_the_way():
+    made = quads_made()
+    assert not made.data["hf_quads_relaxed"] and len(places_of(made)) and not numpy.array_equal(places_of(made), seen["made"]), \
+        "quads follow while the mouse button is not released yet"
+
+
+def let_go():
+    event("LEFTMOUSE", at=(0, 0))
+    event("LEFTMOUSE", "RELEASE", at=(0, 0))
+
+
+def relaxed():
+    """Again in a second while the thread is at work."""
+    waits = seen["waits"] = seen.get("waits", 0) + 1
+    assert waits < 60, "quads are relaxed when the mouse rests"
+    if quads_made().data["hf_quads_relaxed"]:
+        seen["waits"] = 0
+    return seen["waits"] > 0
+
+
+def show_pole():
+    """The pole from near, along its normal."""
+    pole = next(o for o in bpy.data.objects if "hf_pole" in o)
+    activate(pole)
+    space = view()[1].spaces.active
+    space.region_3d.view_location = pole.location
+    space.region_3d.view_rotation = Quaternion((0, 0, 1), 0.1) @ space.region_3d.view_rotation
+    space.region_3d.view_distance *= 0.25
+
+
+def undo():
+    assert abs(bpy.data.objects["stroke"].matrix_world.to_quaternion().angle) > 0.3
+    event("Z", ctrl=True)
+    event("Z", "RELEASE", ctrl=True)
+
+
+def undone():
+    assert abs(bpy.data.objects["stroke"].matrix_world.to_quaternion().angle) < 1e-6
+    assert numpy.array_equal(places_of(quads_made()), seen["made"]), "undo of the drag takes the quads back"
+
+
+seen = {}
 STEPS = [set_up, look, open_tab, propose, lambda: picture("proposed"), pull, lambda: picture("pulled"), strips,
-    lambda: picture("field")]
+    lambda: picture("field"), make_quads, relaxed, open_panel, lambda: move(0), lambda: picture("drawn", screen()[:, :760]), turn_stroke,
+    lambda: move(-10), lambda: move(-30), on_the_way, lambda: picture("followed"), lambda: move(-50), let_go, relaxed, undo, relaxed,
+    undone, show_pole, lambda: None, lambda: picture("pole")]
 
 
 def tick():
     try:
-        STEPS.pop(0)()
+        if STEPS[0]():  # not ready yet
+            return 1.0
+        STEPS.pop(0)
         view()[1].tag_redraw()
     except BaseException:
         traceback.print_exc()

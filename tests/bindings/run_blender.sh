@@ -22,7 +22,7 @@ export HF_ADDON_ZIP="$scratch/hf_blender.zip" HF_TESTS="$root/tests/bindings"
 unset PYTHONPATH PYTHONHOME HF_LIBRARY
 export PATH=/usr/bin:$PATH  # an embedded Python looks for its home by the first python3 on the path
 if [ "$window" = 1 ]; then
-  LIBGL_ALWAYS_SOFTWARE=1 exec timeout 150 xvfb-run -a -s "-screen 0 1280x800x24" "$blender" --factory-startup \
+  LIBGL_ALWAYS_SOFTWARE=1 exec timeout 280 xvfb-run -a -s "-screen 0 1280x800x24" "$blender" --factory-startup \
     --enable-event-simulate -p 0 0 1280 800 --python "$script" -- "$@"
 fi
 exec "$blender" -b --factory-startup --python-exit-code 3 --python "$script" -- "$@"

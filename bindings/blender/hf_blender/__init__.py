@@ -17,7 +17,7 @@ import hf  # noqa: E402
 import bpy  # noqa: E402
 from bpy.app.handlers import persistent  # noqa: E402
 
-from . import carriers, operators, panels, rig, session, skinning  # noqa: E402
+from . import carriers, operators, panels, quad_operators, quads, rig, session, skinning  # noqa: E402
 from .operators import refresh  # noqa: E402
 
 
@@ -33,7 +33,11 @@ def follow(scene, keys=None):
 
 @persistent
 def on_depsgraph(scene, depsgraph):
-    if operators.busy() or not scene.hf_live:
+    if operators.busy() or depsgraph.mode == "RENDER":
+        return
+    with operators.quiet():
+        quads.on_depsgraph(scene, depsgraph)
+    if not scene.hf_live:
         return
     for key in {u.id[skinning.KEY] for u in depsgraph.updates if isinstance(u.id, bpy.types.Object)
             and u.id.type == "EMPTY" and u.is_updated_transform and skinning.KEY in u.id}:
@@ -70,6 +74,8 @@ def on_undo(*_):
     skinning.groups_changed()
     if bpy.context.scene.hf_live:
         follow(bpy.context.scene)
+    with operators.quiet():
+        quads.look_at_all(bpy.context.scene)
 
 
 @persistent
@@ -77,9 +83,11 @@ def on_load(*_):
     skinning.forget()
     rig.forget_motions()
     session.sessions.clear()  # the next use binds again, from the rest positions kept in the mesh
+    quads.forget()
+    quads.known = None
 
 
-CLASSES = (*operators.OPERATORS, *panels.PANELS)
+CLASSES = (*operators.OPERATORS, *quad_operators.CLASSES, *panels.PANELS)
 HANDLERS = (("depsgraph_update_post", on_depsgraph), ("frame_change_post", on_frame), ("undo_post", on_undo),
     ("redo_post", on_undo), ("load_post", on_load))
 
@@ -90,6 +98,7 @@ def register():
         bpy.utils.register_class(cls)
     bpy.types.Scene.hf_live = bpy.props.BoolProperty(name="Live", default=True,
         description="Follow the handles while they are dragged")
+    bpy.types.Object.hf_quads = bpy.props.PointerProperty(type=quad_operators.HF_PG_quads)
     for name, (neutral, least, most, description) in operators.DIALS.items():
         unit = {"subtype": "ANGLE"} if name == "arm_space" else {}
         setattr(bpy.types.Scene, f"hf_{name}", bpy.props.FloatProperty(name=name.replace("_", " ").capitalize(),
@@ -101,9 +110,14 @@ def register():
 def unregister():
     for name, function in HANDLERS:
         getattr(bpy.app.handlers, name).remove(function)
+    if bpy.app.timers.is_registered(quads.tick):
+        bpy.app.timers.unregister(quads.tick)
+    quads.forget()
+    quads.known = None
     skinning.forget()
     rig.forget_motions()
     session.sessions.clear()
+    del bpy.types.Object.hf_quads
     del bpy.types.Scene.hf_live
     for name in operators.DIALS:
         delattr(bpy.types.Scene, f"hf_{name}")

@@ -122,12 +122,15 @@ def sharp_edges(mesh):
     return column(mesh.edges, "vertices", 2).reshape(-1, 2)[sharp]
 
 
-def guides_of(obj, curves, surface, step):
-    """Places along curves, one each step: the nearest vertices, and vectors along the curves, in the space of the mesh."""
-    graph, vertices, vectors = bpy.context.evaluated_depsgraph_get(), [], []
+def guides_of(obj, curves, surface, step, graph=None):
+    """Places along curves, one each step: the nearest vertices, and vectors along the curves, in the space of the mesh.
+    graph: the evaluated scene; in a handler of its updates the one that the handler got."""
+    graph, vertices, vectors = graph or bpy.context.evaluated_depsgraph_get(), [], []
     for curve in curves:
         line = curve.evaluated_get(graph)
         mesh = line.to_mesh()
+        if mesh is None:  # nothing is drawn yet
+            continue
         edges, points, solid = column(mesh.edges, "vertices", 2).reshape(-1, 2), positions_of(mesh), len(mesh.polygons)
         line.to_mesh_clear()
         if solid:
@@ -147,20 +150,45 @@ def guides_of(obj, curves, surface, step):
     return vertices, np.array(vectors).reshape(-1, 3)
 
 
-def quads_object(obj, quads):
-    """A new object of a quad mesh of this one (hf.QuadMesh), with its materials and its vertex groups."""
+def quads_object(obj):
+    """A new object beside this one, with its materials and without a mesh yet."""
     mesh = bpy.data.meshes.new(f"{obj.data.name} quads")
-    mesh.from_pydata(quads.positions.tolist(), [], [face.tolist() for face in quads.faces()])
     for material in obj.data.materials:
         mesh.materials.append(material)
     made = bpy.data.objects.new(f"{obj.name} quads", mesh)
     for collection in obj.users_collection:
         collection.objects.link(made)
     made.matrix_world = obj.matrix_world
-    if obj.vertex_groups:
-        inside = quads.corners < len(obj.data.vertices)  # a corner that does not count is NO_INDEX
-        corners = np.where(inside, quads.corners, 0)
-        weights = np.einsum("vk,vkg->vg", np.where(inside, quads.barycentrics, 0), weights_of(obj)[corners])
-        for group, column_of in zip(obj.vertex_groups, weights.T):
-            write_group(made, group.name, column_of)
     return made
+
+
+def write_quads(mesh, quads):
+    """A quad mesh (hf.QuadMesh) in place of what a mesh holds. Materials stay, and shading where all faces share it."""
+    first = mesh.polygons[0] if len(mesh.polygons) else None
+    smooth, material = (first.use_smooth, first.material_index) if first else (False, 0)
+    starts, sizes = quads.face_starts[:-1].astype(np.int32), np.diff(quads.face_starts.astype(np.int32))
+    mesh.clear_geometry()
+    mesh.vertices.add(len(quads.positions))
+    mesh.vertices.foreach_set("co", quads.positions.astype(np.float32).ravel())
+    mesh.loops.add(len(quads.face_corners))
+    mesh.loops.foreach_set("vertex_index", quads.face_corners.astype(np.int32))
+    mesh.polygons.add(len(starts))
+    mesh.polygons.foreach_set("loop_start", starts)
+    if bpy.app.version < (3, 6, 0):  # later versions know it from the starts
+        mesh.polygons.foreach_set("loop_total", sizes)
+    if smooth:
+        mesh.polygons.foreach_set("use_smooth", np.ones(len(starts), bool))
+    if material:
+        mesh.polygons.foreach_set("material_index", np.full(len(starts), material, np.int32))
+    mesh.update(calc_edges=True)
+
+
+def carry_groups(obj, made, quads):
+    """The vertex groups of a mesh on its quads."""
+    if not obj.vertex_groups:
+        return
+    inside = quads.corners < len(obj.data.vertices)  # a corner that does not count is NO_INDEX
+    corners = np.where(inside, quads.corners, 0)
+    weights = np.einsum("vk,vkg->vg", np.where(inside, quads.barycentrics, 0), weights_of(obj)[corners])
+    for group, column_of in zip(obj.vertex_groups, weights.T):
+        write_group(made, group.name, column_of)

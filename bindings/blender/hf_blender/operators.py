@@ -1,7 +1,6 @@
 """The operators: each has undo, and says in one sentence what is wrong."""
 
 import contextlib
-import math
 
 import bpy
 
@@ -224,40 +223,6 @@ class HF_OT_field(bpy.types.Operator):
         (mesh_data.write_group if self.output == "GROUP" else mesh_data.write_colour)(obj, self.name, values)
 
 
-class HF_OT_quads(bpy.types.Operator):
-    """A new object beside this one: its rest shape in quads that follow the form"""
-    bl_idname, bl_label, bl_options = "hf.quads", "Make quads", {"REGISTER", "UNDO"}
-    faces: bpy.props.IntProperty(name="Quads", default=5000, min=1, max=10000000, description="How many are wanted")
-    crease: bpy.props.FloatProperty(name="Crease", default=0.0, min=0.0, max=math.pi, subtype="ANGLE",
-        description="Edges that bend by more are kept; 0: none")
-    sharp: bpy.props.BoolProperty(name="Keep sharp edges", description="Edges that are marked as sharp are kept")
-    symmetry: bpy.props.EnumProperty(name="Symmetry", description="The positive side of the object's axis, mirrored",
-        items=[("NONE", "None", ""), ("X", "X", ""), ("Y", "Y", ""), ("Z", "Z", "")])
-    strokes: bpy.props.StringProperty(name="Strokes",
-        description="A curve that edges follow; empty: the other selected curves")
-
-    @guarded
-    def execute(self, context):
-        obj = mesh_of(context)
-        found = session.session_of(obj, context.window_manager)
-        curves = [o for o in context.selected_objects if o.type == "CURVE"]
-        if self.strokes:
-            curves = [o for o in (bpy.data.objects.get(self.strokes),) if o and o.type == "CURVE"]
-            if not curves:
-                raise hf.InvalidArgumentError(f"there is no curve '{self.strokes}'")
-        polygons = obj.data.polygons
-        step = math.sqrt(sum(polygon.area for polygon in polygons) / min(self.faces, len(polygons)))
-        vertices, vectors = mesh_data.guides_of(obj, curves, found.surface, step)
-        plane = None if self.symmetry == "NONE" else [float(axis == self.symmetry) for axis in "XYZ"] + [0.0]
-        edges = mesh_data.sharp_edges(obj.data) if self.sharp else None
-        quads = session.watched(lambda progress: hf.Quads(found.surface, kind=hf.constants.HF_QUADS_FIELD,
-            face_count=self.faces, crease_angle=math.degrees(self.crease), crease_edges=edges, guide_vertices=vertices,
-            guide_vectors=vectors, symmetry_plane=plane, progress=progress), context.window_manager)
-        made = mesh_data.quads_object(obj, quads.mesh())
-        made.select_set(True)
-        self.report({"INFO"}, f"{made.name}: {len(made.data.polygons)} quads")
-
-
 class HF_OT_weights(bpy.types.Operator):
     """Write the pose as vertex groups and an armature with one bone per cluster, standing as the pose stands"""
     bl_idname, bl_label, bl_options = "hf.weights", "Weights and armature", {"REGISTER", "UNDO"}
@@ -403,5 +368,5 @@ class HF_OT_mirror_weights(bpy.types.Operator):
 
 
 OPERATORS = (HF_OT_bind, HF_OT_unbind, HF_OT_add_handle, HF_OT_add_groups, HF_OT_add_bones, HF_OT_propose, HF_OT_remove_handle,
-    HF_OT_update, HF_OT_field, HF_OT_quads, HF_OT_weights, HF_OT_transfer, HF_OT_dials, HF_OT_weights_from_bones,
+    HF_OT_update, HF_OT_field, HF_OT_weights, HF_OT_transfer, HF_OT_dials, HF_OT_weights_from_bones,
     HF_OT_pin_weights, HF_OT_carry_weights, HF_OT_mirror_weights)

@@ -4,7 +4,7 @@ import textwrap
 
 import bpy
 
-from . import carriers, operators, session, skinning
+from . import carriers, operators, quads, session, skinning
 from .operators import mesh_of
 
 
@@ -24,6 +24,15 @@ def next_step(obj, found):
     if not bpy.context.scene.hf_live:
         return "Press Update, or turn Live on."
     return "Move or turn a handle: the mesh follows."
+
+
+def quads_step(made, active):
+    """The same for quads that were made."""
+    if not made.hf_quads.follow:
+        return "Press Update quads, or turn Follow on."
+    if active == made:
+        return "Draw strokes, or add a pole."
+    return f"Move the {'pole' if active.type == 'EMPTY' else 'stroke'}: the quads follow."
 
 
 def say(layout, context, sentence, icon="NONE"):
@@ -46,6 +55,10 @@ class HF_PT_panel(Panel, bpy.types.Panel):
     def draw(self, context):
         layout, obj = self.layout, mesh_of(context)
         found = session.session_of(obj, bind=False) if obj is not None and obj.type == "MESH" else None
+        made = quads.made_of(context)
+        if made is not None:
+            say(layout, context, quads_step(made, context.active_object), "INFO")
+            return
         say(layout, context, next_step(obj, found), "INFO")
         if obj is None or obj.type != "MESH":
             return
@@ -115,6 +128,33 @@ class HF_PT_transfer(Tool, bpy.types.Panel):
 class HF_PT_quads(Tool, bpy.types.Panel):
     bl_label, bl_idname, bl_options = "Quads", "HF_PT_quads", {"DEFAULT_CLOSED"}
     buttons = (("hf.quads", ""),)
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) or quads.made_of(context) is not None
+
+    def draw(self, context):
+        made = quads.made_of(context)
+        if made is None:
+            super().draw(context)
+            return
+        group, state = made.hf_quads, quads.kept.get(made.hf_quads.key)
+        self.layout.prop(group, "follow")
+        column = self.layout.column(align=True)
+        for name in ("faces", "crease", "sharp"):
+            column.prop(group, name)
+        column.label(text="Symmetry")
+        column.row(align=True).prop(group, "symmetry", expand=True)
+        column = self.layout.column(align=True)
+        column.operator("hf.draw_strokes")
+        row = column.row(align=True)
+        for count in "35":
+            row.operator("hf.add_pole", text=f"Add pole of {count}").count = count
+        column.operator("hf.update_quads")
+        if state and state.line:
+            say(self.layout, context, state.line)
+        if state and state.error:
+            say(self.layout, context, f"The quads stay as they were: {state.error}", "ERROR")
 
 
 PANELS = (HF_PT_panel, HF_PT_pose, HF_PT_field, HF_PT_weights, HF_PT_transfer, HF_PT_quads)
