@@ -145,6 +145,7 @@ Guided read_guides(Span<const QuadGuide> guides, const Connection& connection, I
     const QuadGuide& guide = guides[i];
     const std::size_t v = at(guide.vertex);
     Complex z = connection.to_frame(guide.vertex, unit_vector(guide.vector));
+    if (!(length_of(z) > least_tangent) && guide.given == QuadGuide::of_pole) continue;
     if (!(length_of(z) > least_tangent))
       fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(guide.given),
            "guide_vectors[%d] stands on the surface; give a direction along it", guide.given);

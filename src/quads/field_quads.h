@@ -17,10 +17,11 @@ namespace hf_inner {
 
 // A direction that edges of quads follow. weight: 1 holds it; less mixes it with that of the curvature.
 struct QuadGuide {
+  static constexpr Index of_pole = -1;
   Index vertex = -1;
   Vec3 vector;
   double weight = 1;
-  Index given = -1;  // its number in the caller's list
+  Index given = of_pole;  // its number in the caller's list, or of_pole: then it may stand on the surface
 };
 
 struct FieldQuadOptions {

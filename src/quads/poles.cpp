@@ -1,0 +1,123 @@
+#include "quads/poles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/elementary.h"
+#include "base/error.h"
+#include "field/vector_field.h"
+
+namespace hf_inner {
+namespace {
+
+// A direction whose part along the surface is a smaller share of it says little: the noise of the normal decides.
+constexpr double least_along = 0.1;
+// Cosine of the largest turn from the normal of the pole to that of a vertex of the ring; a turn by 180 degrees has no
+// axis.
+constexpr double largest_turn = -0.9;
+
+Index nearest_vertex(const Mesh& mesh, Vec3 place) noexcept {
+  Index nearest = 0;
+  double least = -1;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 d = mesh.positions[at(v)] - place;
+    if (const double square = dot(d, d); least < 0 || square < least) least = square, nearest = v;
+  }
+  return nearest;
+}
+
+// Calls use(triangle) for the triangles at a vertex, those with two edges there twice.
+template <class Use>
+void for_triangles(const Topology& topology, Index v, Use&& use) {
+  for (Index k = topology.neighbour_start[at(v)]; k < topology.neighbour_start[at(v) + 1]; ++k) {
+    const std::size_t e = at(topology.neighbour_edge[at(k)]);
+    for (Index i = topology.edge_triangle_start[e]; i < topology.edge_triangle_start[e + 1]; ++i)
+      use(topology.edge_triangle[at(i)]);
+  }
+}
+
+// A point of the triangles at a vertex near a place, which may hover beside them.
+Vec3 onto(const Core& core, Index vertex, Vec3 place) {
+  Vec3 nearest = core.mesh.positions[at(vertex)];
+  double least = norm(nearest - place);
+  for_triangles(core.topology, vertex, [&](Index t) {
+    const Index* corner = core.mesh.triangle(t);
+    const Vec3 p[3] = {core.mesh.positions[at(corner[0])], core.mesh.positions[at(corner[1])],
+                       core.mesh.positions[at(corner[2])]};
+    const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+    double share[3], sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      share[k] = std::max(0.0, dot(cross(p[(k + 1) % 3] - place, p[(k + 2) % 3] - place), normal));
+      sum += share[k];
+    }
+    if (!(sum > 0)) return;
+    const Vec3 point = (share[0] / sum) * p[0] + (share[1] / sum) * p[1] + (share[2] / sum) * p[2];
+    if (norm(point - place) < least) least = norm(point - place), nearest = point;
+  });
+  return nearest;
+}
+
+// The vertices that are edge-connected to the first one within a radius of a point, and those beside them.
+struct PoleRing {
+  PoleRing(const Core& core, Index first, Vec3 point, double radius, Memory& memory)
+      : inside(&memory), around(&memory) {
+    const Topology& topology = core.topology;
+    Vector<std::uint8_t> seen(at(core.size()), 0, &memory);
+    inside.push_back(first), seen[at(first)] = 1;
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      const Index v = inside[i];
+      for (Index k = topology.neighbour_start[at(v)]; k < topology.neighbour_start[at(v) + 1]; ++k) {
+        const Index u = topology.neighbour[at(k)];
+        if (seen[at(u)]) continue;
+        seen[at(u)] = 1;
+        (norm(core.mesh.positions[at(u)] - point) <= radius ? inside : around).push_back(u);
+      }
+    }
+    std::sort(around.begin(), around.end());
+  }
+  Vector<Index> inside, around;
+};
+
+// The part of a direction across `up`, of length 1; without one, that of an axis of space.
+Vec3 in_plane(Vec3 up, Vec3 direction) noexcept {
+  const Vec3 part = direction - dot(direction, up) * up;
+  if (norm(part) > least_along * norm(direction)) return unit_vector(part);
+  const double size[3] = {std::fabs(up.x), std::fabs(up.y), std::fabs(up.z)};
+  const Vec3 axis = size[0] <= size[1] && size[0] <= size[2] ? Vec3{1, 0, 0}
+                    : size[1] <= size[2]                     ? Vec3{0, 1, 0}
+                                                             : Vec3{0, 0, 1};
+  return unit_vector(axis - dot(axis, up) * up);
+}
+
+// Turns a vector across `up` by the smallest turn from `up` to a normal.
+Vec3 turned(Vec3 vector, Vec3 up, Vec3 normal) noexcept {
+  const Vec3 axis = cross(up, normal), first = cross(axis, vector);
+  return vector + first + (1 / (1 + std::max(dot(normal, up), largest_turn))) * cross(axis, first);
+}
+
+}  // namespace
+
+void add_pole_guides(const Core& core, Span<const QuadPole> poles, double radius, Vector<QuadGuide>& out) {
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    poll();
+    const QuadPole& pole = poles[i];
+    const Index first = nearest_vertex(core.mesh, pole.place);
+    const Vec3 point = onto(core, first, pole.place);
+    const PoleRing ring(core, first, point, radius, *core.memory);
+    Vec3 up;
+    for (const Index v : ring.inside) up = up + core.areas[at(v)] * vertex_normal(core.mesh, core.topology, v);
+    up = unit_vector(up);
+    if (!(norm(up) > 0))
+      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i), "the surface has no normal at pole_points[%zu]",
+           i);
+    const Vec3 x = in_plane(up, pole.direction), y = cross(up, x);
+    for (const Index v : ring.around) {
+      const Vec3 arm = core.mesh.positions[at(v)] - point;
+      const double angle = 0.25 * (4 - pole.quads) * arc_tangent(dot(arm, y), dot(arm, x));
+      const Vec3 vector = cosine(angle) * x + sine(angle) * y;
+      out.push_back({v, turned(vector, up, vertex_normal(core.mesh, core.topology, v)), 1.0, QuadGuide::of_pole});
+    }
+  }
+}
+
+}  // namespace hf_inner
