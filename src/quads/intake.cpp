@@ -4,16 +4,39 @@
 
 #include "base/arguments.h"
 #include "mesh/vertex_lists.h"
-#include "remesh/intake.h"
 
 namespace hf_inner {
 namespace {
 
-// Refuses mistakes; no result depends on it. hf/quads.h states it.
+// Refuse mistakes; no result depends on them. hf/quads.h states them.
 constexpr std::uint32_t most_wanted_faces = 10000000;
+// 16 times the usual rounds.
+constexpr std::uint32_t most_relax_count = 1000;
+// As shares of the box: below, a mesh would have 10^8 faces; above, none.
+constexpr double least_edge_length = 1e-4, most_edge_length = 1.0;
 constexpr double most_crease = 180;  // degrees
 // A normal of symmetry_plane is as long as the caller likes, but its square must be a number.
 constexpr double least_normal = 1e-150, most_normal = 1e150;
+
+// Returns the edge length in box diagonals.
+double read_edge_length(const Mesh& mesh, float given) {
+  const double length = static_cast<double>(given);
+  check_finite(length, "edge_length");
+  if (length == 0) return default_edge_length;
+  const double share = length / mesh.scale;
+  if (share < least_edge_length || share > most_edge_length)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; on this mesh it must be %g to %g, or 0", length,
+         least_edge_length * mesh.scale, most_edge_length * mesh.scale);
+  return share;
+}
+
+// Returns the rounds of relaxation.
+std::int32_t read_relax_count(std::uint32_t given) {
+  if (given > most_relax_count && given != HF_NO_INDEX)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX", given,
+         most_relax_count);
+  return given == 0 ? default_relax_rounds : given == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(given);
+}
 
 void read_guides(const Core& core, const hf_quads_desc& desc, Vector<QuadGuide>& out) {
   if (desc.guide_count == 0) {
@@ -82,14 +105,12 @@ std::optional<MirrorPlane> read_plane(const Mesh& mesh, const double* given) {
 
 FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc,
                                          QuadLists& lists) {
-  if (desc.keep_polygons)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "keep_polygons is 1, but HF_QUADS_FIELD makes quads only");
-  if (desc.site_count || desc.site_vertices || desc.site_lines)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "sites are given, but HF_QUADS_FIELD takes none");
+  require_zero(desc.reserved);
   if (desc.face_count > most_wanted_faces)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "face_count is %u; it must be up to %u", desc.face_count,
          most_wanted_faces);
   const double crease = static_cast<double>(desc.crease_angle);
+  check_finite(crease, "crease_angle");
   if (crease < 0 || crease > most_crease)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "crease_angle is %g; it must be 0 to %g", crease, most_crease);
   FieldQuadOptions options;

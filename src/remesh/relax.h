@@ -19,7 +19,7 @@ namespace hf_inner {
 
 struct RelaxOptions {
   std::int32_t rounds = 0;
-  double edge_length = 0;                       // 0: quads keep their sizes
+  double edge_length = 0;                       // inner units
   const Table<std::uint8_t>* moving = nullptr;  // by vertex: whether it may move; NULL: all may
 };
 
