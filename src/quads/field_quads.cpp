@@ -346,6 +346,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
         check_quads(found, surface.euler_characteristic, memory);
       }
       made.fit_ms += fit_timer.milliseconds();
+      hf_inner::report(1.0f);
       const bool enough = away <= lost_limb * aimed || away > nearer_share * off;
       const std::int32_t count = count_irregular(found, memory);
       if (i == 0) irregular = count;
@@ -355,6 +356,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
       }
       if (enough) break;
     }
+    hf_inner::report(1.0f);  // tries that were not needed are passed over
     const double ratio = mesh.face_count() / wanted, error = miss_of(ratio);
     const std::int32_t count = count_irregular(mesh, memory);
     if (best < 0 || (error < best && count <= most_irregular * chosen_irregular)) {
