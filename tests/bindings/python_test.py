@@ -283,7 +283,7 @@ class Refusals(unittest.TestCase):
                 self.refused(case)
         for wrong in (2**31, 0.5, "1", None):
             self.refused(lambda: region.edit(rings=wrong), "ring_count")
-        self.refused(lambda: hf.Quads(surface, site_vertices=[0], site_lines=[2**40]), "site_lines")
+        self.refused(lambda: hf.Quads(surface, crease_edges=[0, 2**40]), "crease_edges")
 
     def test_arrays_that_numpy_would_convert_are_refused_by_name(self):
         points, triangles, solver = self.points, self.triangles, self.solver

@@ -150,7 +150,7 @@ def guides_of(obj, curves, surface, step):
 def quads_object(obj, quads):
     """A new object of a quad mesh of this one (hf.QuadMesh), with its materials and its vertex groups."""
     mesh = bpy.data.meshes.new(f"{obj.data.name} quads")
-    mesh.from_pydata(quads.positions.tolist(), [], [face.tolist() for face in quads.faces()])
+    mesh.from_pydata(quads.positions.tolist(), [], quads.faces.tolist())
     for material in obj.data.materials:
         mesh.materials.append(material)
     made = bpy.data.objects.new(f"{obj.name} quads", mesh)

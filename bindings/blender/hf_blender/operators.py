@@ -250,7 +250,7 @@ class HF_OT_quads(bpy.types.Operator):
         vertices, vectors = mesh_data.guides_of(obj, curves, found.surface, step)
         plane = None if self.symmetry == "NONE" else [float(axis == self.symmetry) for axis in "XYZ"] + [0.0]
         edges = mesh_data.sharp_edges(obj.data) if self.sharp else None
-        quads = session.watched(lambda progress: hf.Quads(found.surface, kind=hf.constants.HF_QUADS_FIELD,
+        quads = session.watched(lambda progress: hf.Quads(found.surface,
             face_count=self.faces, crease_angle=math.degrees(self.crease), crease_edges=edges, guide_vertices=vertices,
             guide_vectors=vectors, symmetry_plane=plane, progress=progress), context.window_manager)
         made = mesh_data.quads_object(obj, quads.mesh())
