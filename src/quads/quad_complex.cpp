@@ -192,7 +192,7 @@ QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t
           point.triangle = t;
           point.weight[k] = at_k, point.weight[(k + 1) % 3] = at_next, point.weight[before] = at_last;
           vertex = out.vertices.add_vertex(point, position_of(surface, point),
-                                           on_feature ? QuadMesh::site : QuadMesh::free, false, 1);
+                                           on_feature ? QuadMesh::feature : QuadMesh::free, false, 1);
         }
         out.tail.push_back(vertex);
       };

@@ -18,7 +18,7 @@ struct QuadMesh {
       : location(memory), position(memory), pinned(memory), border(memory), scale(memory), corner(memory) {}
   Table<SurfacePoint> location;  // By vertex.
   Table<Vec3> position;          // By vertex, inner units.
-  static constexpr std::uint8_t free = 0, site = 1, snapped = 2;
+  static constexpr std::uint8_t free = 0, feature = 1, snapped = 2;
   Table<std::uint8_t> pinned;  // by vertex: whether it may not move, and why.
   Table<std::uint8_t> border;  // by vertex: whether it lies on a border.
   Table<float> scale;          // by vertex: factor on the wanted edge length, below 1 if refined.

@@ -346,7 +346,7 @@ TEST(FieldQuads, quads_of_triangles_share_their_vertices_and_hold_the_border) {
             core->mesh.vertex_count() + core->topology.edge_count() + core->mesh.triangle_count());
   std::int32_t at_border = 0;
   for (std::int32_t v = 0; v < quads.vertices.position.size(); ++v) {
-    EXPECT_EQ(quads.vertices.pinned[v] == QuadMesh::site, quads.vertices.border[v] != 0) << v;
+    EXPECT_EQ(quads.vertices.pinned[v] == QuadMesh::feature, quads.vertices.border[v] != 0) << v;
     at_border += quads.vertices.border[v] != 0;
   }
   EXPECT_GT(at_border, 20);
