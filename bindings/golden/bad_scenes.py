@@ -179,43 +179,30 @@ def bad_scenes():
     bad("NON_FINITE", **{"do": "quads", "on": "m", "as": "n", "edge_length": "nan"})
     bad("NON_FINITE", **{"do": "quads", "on": "m", "as": "n", "edge_length": "inf"})
     bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "edge_length": -1.0})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "options": {"kind": 3}})
     bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "options": {"relax_count": 1001}})
-    bad("OUT_OF_RANGE", index=1, **{"do": "quads", "on": "m", "as": "n", "site_vertices": [0, 302]})
-    bad("DUPLICATE_SITE", **{"do": "quads", "on": "m", "as": "n", "site_vertices": [7, 7]})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "site_vertices": [0, 287], "site_lines": [4, 4]})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "site_vertices": [0, 287], "site_lines": [4]})
-    crosses = {"do": "quads", "on": "m", "as": "n", "options": {"kind": 2}}
+    quads = {"do": "quads", "on": "m", "as": "n"}
     guide = {"guide_vertices": [7], "guide_vectors": [1.0, 0.0, 0.0]}
     for wrong in ({"crease_edges": [0, 1, 2]}, {"guide_vertices": [7], "guide_vectors": [1.0, 0.0]},
             {"guide_vertices": [7, 8], "guide_vectors": [1.0, 0.0, 0.0]}, {"guide_vectors": [1.0, 0.0, 0.0]},
             {**guide, "guide_weights": [1.0, 1.0]}, {**guide, "guide_weights": []}, {"guide_weights": [1.0]},
             {"symmetry_plane": [1.0, 0.0, 0.0]}, {"symmetry_plane": [1.0, 0.0, 0.0, 0.0, 0.0]},
             {"symmetry_plane": [0.0, 0.0, 0.0, 1.0]}):  # lengths that do not match, and no plane
-        bad("INVALID_ARGUMENT", **crosses, **wrong)
+        bad("INVALID_ARGUMENT", **quads, **wrong)
     for option in ("crease_count", "guide_count"):
-        bad("INVALID_ARGUMENT", **{**crosses, "options": {"kind": 2, option: 0}})  # lengths of lists are no options
-    bad("INVALID_ARGUMENT", index=0, **crosses, crease_edges=[0, 301])  # no edge
-    bad("OUT_OF_RANGE", index=1, **crosses, crease_edges=[0, 1, 0, 302])
-    bad("OUT_OF_RANGE", index=0, **crosses, **{**guide, "guide_vertices": [302]})
-    bad("NULL_POINTER", **crosses, guide_vertices=[7], guide_vectors=None)
-    bad("NON_FINITE", index=0, **crosses, **{**guide, "guide_vectors": [1.0, "nan", 0.0]})
-    bad("INVALID_ARGUMENT", index=0, **crosses, **{**guide, "guide_vectors": [0.0, 0.0, 0.0]})
+        bad("INVALID_ARGUMENT", **{**quads, "options": {option: 0}})  # lengths of lists are no options
+    bad("INVALID_ARGUMENT", index=0, **quads, crease_edges=[0, 301])  # no edge
+    bad("OUT_OF_RANGE", index=1, **quads, crease_edges=[0, 1, 0, 302])
+    bad("OUT_OF_RANGE", index=0, **quads, **{**guide, "guide_vertices": [302]})
+    bad("NULL_POINTER", **quads, guide_vertices=[7], guide_vectors=None)
+    bad("NON_FINITE", index=0, **quads, **{**guide, "guide_vectors": [1.0, "nan", 0.0]})
+    bad("INVALID_ARGUMENT", index=0, **quads, **{**guide, "guide_vectors": [0.0, 0.0, 0.0]})
     for weight, error in (("nan", "NON_FINITE"), (0.0, "INVALID_ARGUMENT"), (1.5, "INVALID_ARGUMENT")):
-        bad(error, index=0, **crosses, **guide, guide_weights=[weight])
-    bad("NON_FINITE", **crosses, symmetry_plane=[1.0, 0.0, "inf", 0.0])
-    for given in ({"crease_edges": [0, 1]}, guide, {"symmetry_plane": [1.0, 0.0, 0.0, 0.0]}):
-        bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n"}, **given)  # of kind FIELD alone
-    wanted = {"options": {"kind": 2, "face_count": 200}}
+        bad(error, index=0, **quads, **guide, guide_weights=[weight])
+    bad("NON_FINITE", **quads, symmetry_plane=[1.0, 0.0, "inf", 0.0])
+    wanted = {"options": {"face_count": 200}}
     made += [{"do": "quads", "on": "m", "as": "u", **wanted}, {"do": "quad_mesh", "on": "u", "keep": "before"},
-        {"do": "quads", "on": "m", "as": "n", **wanted, **guide}, {"do": "quad_mesh", "on": "n", "keep": "guided"},
-        {"do": "quad_mesh", "on": "k", "keep": "uniform"}]
+        {"do": "quads", "on": "m", "as": "n", **wanted, **guide}, {"do": "quad_mesh", "on": "n", "keep": "guided"}]
     again = {"do": "update_quads", "on": "u", **wanted}
-    bad("UNSUPPORTED", do="update_quads", on="k", **wanted)  # it is uniform
-    bad("UNSUPPORTED", do="update_quads", on="k", edge_length=1.0)
-    made.append({"do": "quad_mesh", "on": "k", "same_as": "uniform"})
-    for kind, error in ((0, "UNSUPPORTED"), (1, "UNSUPPORTED"), (3, "INVALID_ARGUMENT")):
-        bad(error, **{**again, "options": {"kind": kind}})
     bad("NON_FINITE", index=0, **again, **{**guide, "guide_vectors": [1.0, "nan", 0.0]})
     bad("INVALID_ARGUMENT", index=0, **again, **{**guide, "guide_vectors": [0.0, 0.0, 0.0]})
     bad("OUT_OF_RANGE", index=0, **again, **{**guide, "guide_vertices": [302]})
@@ -223,8 +210,8 @@ def bad_scenes():
     bad("NON_FINITE", **again, symmetry_plane=[1.0, 0.0, "inf", 0.0])
     bad("UNSUPPORTED", **again, symmetry_plane=[1.0, 0.0, 0.0, 100.0])  # nothing on its side
     bad("NON_FINITE", **again, edge_length="nan")
-    bad("INVALID_ARGUMENT", **{**again, "options": {"kind": 2, "relax_count": 1001}})
-    bad("INVALID_ARGUMENT", **{**again, "options": {"kind": 2, "guide_count": 0}})
+    bad("INVALID_ARGUMENT", **{**again, "options": {"relax_count": 1001}})
+    bad("INVALID_ARGUMENT", **{**again, "options": {"guide_count": 0}})
     for wrong in ({"crease_edges": [0, 1, 2]}, {"guide_vertices": [7, 8], "guide_vectors": [1.0, 0.0, 0.0]},
             {**guide, "guide_weights": []}, {"symmetry_plane": [1.0, 0.0, 0.0]}):  # lengths that do not match
         bad("INVALID_ARGUMENT", **again, **wrong)
@@ -233,8 +220,6 @@ def bad_scenes():
     bad("NON_FINITE", index=301, do="flow_lines", on="w", field=[0.0] * 301 + ["nan"], count=4)
     bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 9, count=4)
     bad("OUT_OF_RANGE", index=1, do="flow_lines", on="w", field=[0.0] * 302, seeds=[0, 302])
-    made.append(surface("z"))  # no inner vertex, no room for two sites
-    bad("UNSUPPORTED", **{"do": "quads", "on": "z", "as": "n"})
     made += [{"do": "region", "on": "m", "as": "o"}]
     bad("INVALID_ARGUMENT", do="region", on="m", **{"as": "n"}, positions=[0.0] * 9)
     bad("OUT_OF_RANGE", do="region_edit", on="o", add=[302])
@@ -282,7 +267,7 @@ def bad_scenes():
                        0.0]}, {"do": "record_vectors"}, {"do": "undo_vectors"}, {"do": "redo_vectors"},
                    {"do": "clone_vectors", "as": "e"}],
              "w": [{"do": "flow_lines", "field": [0.0] * 302, "count": 4}], "k": [{"do": "quads_info"},
-                 {"do": "quad_mesh"}, {"do": "update_quads", "options": {"kind": 2}}],
+                 {"do": "quad_mesh"}, {"do": "update_quads"}],
              "o": [{"do": "region_edit", "rings": 1}, {"do": "region_info"}, {"do": "region_vertices"},
                  {"do": "morph", "weight": 1.0},
                    {"do": "record_region"}, {"do": "undo_region"}, {"do": "redo_region"}]}

@@ -108,19 +108,18 @@ function Direction:singularities()
 end
 
 local Quads = class('Quads', function(raw) C.hf_quads_destroy(raw) end)
--- The lists among the options of quads: element type, and numbers for each site, edge or guide.
-local quad_lists = { site_vertices = { 'uint32_t', 1 }, site_lines = { 'int32_t', 1 }, crease_edges = { 'uint32_t', 2 },
-  guide_vertices = { 'uint32_t', 1 }, guide_vectors = { 'double', 3 }, guide_weights = { 'float', 1 },
-  symmetry_plane = { 'double', 4 } }
--- options: kind, edge_length, keep_polygons, relax_count, face_count, crease_angle; lists: site_vertices, site_lines,
--- crease_edges, guide_vertices, guide_vectors, guide_weights; symmetry_plane: { a, b, c, d } of a x + b y + c z = d
+-- The lists among the options of quads: element type, and numbers for each edge or guide.
+local quad_lists = { crease_edges = { 'uint32_t', 2 }, guide_vertices = { 'uint32_t', 1 },
+  guide_vectors = { 'double', 3 }, guide_weights = { 'float', 1 }, symmetry_plane = { 'double', 4 } }
+-- options: face_count, edge_length, crease_angle, relax_count; lists: crease_edges, guide_vertices, guide_vectors,
+-- guide_weights; symmetry_plane: { a, b, c, d } of a x + b y + c z = d
 -- Returns a desc, and the arrays it points into: they must live until the call is over.
 local function quad_desc(options)
   local plain, held, counts = {}, {}, {}
   for key, value in pairs(options or {}) do
     if not quad_lists[key] then plain[key] = value end
   end
-  local desc = options_into(make('hf_quads_desc'), plain, set('kind edge_length keep_polygons relax_count face_count crease_angle'))
+  local desc = options_into(make('hf_quads_desc'), plain, set('face_count edge_length crease_angle relax_count'))
   local function take(name, count)
     local kind, width = quad_lists[name][1], quad_lists[name][2]
     if not options or options[name] == nil then return end
@@ -130,15 +129,12 @@ local function quad_desc(options)
     if length > 0 then held[name] = values end
     counts[name] = length / width
   end
-  take('site_vertices')
   take('crease_edges')
   take('guide_vertices')
-  take('site_lines', counts.site_vertices or 0)
   take('guide_vectors', counts.guide_vertices or 0)
   take('guide_weights', counts.guide_vertices or 0)
   take('symmetry_plane', 1)
-  desc.site_count, desc.crease_count = counts.site_vertices or 0, counts.crease_edges or 0
-  desc.guide_count = counts.guide_vertices or 0
+  desc.crease_count, desc.guide_count = counts.crease_edges or 0, counts.guide_vertices or 0
   for name, values in pairs(held) do
     if name == 'symmetry_plane' then ffi.copy(desc.symmetry_plane, values, 32) else desc[name] = values end
   end
@@ -150,28 +146,23 @@ function hf.Quads(surface, options)
   held = nil -- the library has copied the lists
   return made
 end
--- Makes the mesh again, of the kind HF_QUADS_FIELD only, with the options of hf.Quads: for strokes and creases that the
--- user drags. After an error the mesh is what it was.
+-- Makes the mesh again, with the options of hf.Quads: for strokes and creases that the user drags. After an error the
+-- mesh is what it was.
 function Quads:update(options)
   local desc, held = quad_desc(options)
   check(C.hf_quads_update(self.raw, desc))
   held = nil -- the library has copied the lists
 end
 function Quads:info() return query('hf_quads_info', C.hf_quads_get_info, self.raw) end
--- Face i has the corners face_corners[face_starts[i]] to face_corners[face_starts[i + 1] - 1]; cdata from 0.
+-- Face i has the corners faces[4 * i] to faces[4 * i + 3]; cdata from 0.
 function Quads:mesh()
   local info = self:info()
-  local v, f, c, s = info.vertex_count, info.face_count, info.corner_count, info.site_count
+  local v, f = info.vertex_count, info.face_count
   local mesh = { vertex_count = v, face_count = f, positions = ffi.new('double[?]', 3 * v),
-    triangles = ffi.new('uint32_t[?]', v),
-    barycentrics = ffi.new('double[?]', 3 * v), face_starts = ffi.new('uint32_t[?]', f + 1),
-    face_corners = ffi.new('uint32_t[?]', c), site_vertices = ffi.new('uint32_t[?]', s + 1),
-      site_lines = ffi.new('int32_t[?]', s + 1), corners = ffi.new('uint32_t[?]', 3 * v) }
-  local out = make('hf_quads_mesh', { vertex_capacity = v, face_capacity = f, corner_capacity = c, site_capacity = s })
-  for _, name in ipairs({ 'positions', 'triangles', 'barycentrics', 'face_starts', 'face_corners', 'site_vertices',
-    'site_lines', 'corners' }) do
-    out[name] = mesh[name]
-  end
+    faces = ffi.new('uint32_t[?]', 4 * f), triangles = ffi.new('uint32_t[?]', v),
+    barycentrics = ffi.new('double[?]', 3 * v), corners = ffi.new('uint32_t[?]', 3 * v) }
+  local out = make('hf_quads_mesh', { vertex_capacity = v, face_capacity = f })
+  for _, name in ipairs({ 'positions', 'faces', 'triangles', 'barycentrics', 'corners' }) do out[name] = mesh[name] end
   check(C.hf_quads_get_mesh(self.raw, out))
   return mesh
 end

@@ -529,56 +529,41 @@ typedef struct hf_handle_proposal {
 } hf_handle_proposal;
 typedef struct hf_quads_desc {
   uint32_t struct_size;
-  int32_t kind;
-  float edge_length;
-  uint32_t site_count;
-  const uint32_t* site_vertices;
-  const int32_t* site_lines;
-  int32_t keep_polygons;
-  uint32_t relax_count;
-  hf_progress progress;
   uint32_t face_count;
+  float edge_length;
   float crease_angle;
+  uint32_t relax_count;
   uint32_t crease_count;
   uint32_t guide_count;
+  uint32_t pole_count;
+  double symmetry_plane[4];
   const uint32_t* crease_edges;
   const uint32_t* guide_vertices;
   const double* guide_vectors;
   const float* guide_weights;
-  double symmetry_plane[4];
+  const double* pole_points;
+  const uint32_t* pole_quads;
+  const double* pole_directions;
+  hf_progress progress;
 } hf_quads_desc;
 typedef struct hf_quads_info {
   uint32_t struct_size;
   uint32_t vertex_count;
   uint32_t face_count;
-  uint32_t corner_count;
-  uint32_t quad_count;
-  uint32_t polygon_count;
-  uint32_t polygon_quad_count;
-  uint32_t site_count;
-  uint32_t saddle_count;
   int32_t euler_characteristic;
   float edge_length;
-  uint32_t reserved;
 } hf_quads_info;
 typedef struct hf_quads_mesh {
   uint32_t struct_size;
   uint32_t vertex_capacity;
   uint32_t face_capacity;
-  uint32_t corner_capacity;
-  uint32_t site_capacity;
   uint32_t vertex_count;
   uint32_t face_count;
-  uint32_t corner_count;
-  uint32_t site_count;
   uint32_t reserved;
   double* positions;
+  uint32_t* faces;
   uint32_t* triangles;
   double* barycentrics;
-  uint32_t* face_starts;
-  uint32_t* face_corners;
-  uint32_t* site_vertices;
-  int32_t* site_lines;
   uint32_t* corners;
 } hf_quads_mesh;
 typedef struct hf_flow_lines {
@@ -1068,9 +1053,6 @@ local constants = { header_version = '0.1.0',
   HF_HANDLE_REASON_END = 2,
   HF_HANDLE_REASON_JOINT = 3,
   HF_HANDLE_REASON_MIDDLE = 4,
-  HF_QUADS_UNIFORM = 0,
-  HF_QUADS_PURE = 1,
-  HF_QUADS_FIELD = 2,
   HF_SIDE_SMALLER = 0,
   HF_SIDE_LARGER = 1,
   HF_SIDE_SEED = 2,

@@ -519,12 +519,10 @@ class Geodesics {
 // Holds a quad mesh (hf/quads.h) with all its arrays.
 struct QuadMesh {
   std::vector<double> positions, barycentrics;  // three numbers per vertex
+  std::vector<uint32_t> faces;                  // four vertices per quad
   std::vector<uint32_t> triangles;              // the triangle of the given mesh in which each quad vertex lies
-  std::vector<uint32_t> face_starts, face_corners;
-  std::vector<uint32_t> site_vertices;
-  std::vector<int32_t> site_lines;
-  hf_quads_info info;
   std::vector<uint32_t> corners;  // three per quad vertex: the vertices of the given mesh that barycentrics belong to
+  hf_quads_info info;
 };
 // Keeps a quad mesh, to make it again while the user drags strokes and creases.
 class Quads {
@@ -535,7 +533,7 @@ class Quads {
     handle_ = Handle<hf_quads, hf_quads_destroy>(raw);
   }
   hf_quads get() const noexcept { return handle_.get(); }
-  // Only for the kind HF_QUADS_FIELD. When it throws, the mesh is what it was.
+  // When it throws, the mesh is what it was.
   void update(const hf_quads_desc& desc) { check(hf_quads_update(get(), &desc)); }
   hf_quads_info info() const {
     auto info = make<hf_quads_info>();
@@ -546,17 +544,12 @@ class Quads {
     QuadMesh mesh;
     mesh.info = info();
     mesh.positions.resize(size_t{mesh.info.vertex_count} * 3), mesh.barycentrics.resize(mesh.positions.size());
-    mesh.triangles.resize(mesh.info.vertex_count), mesh.face_starts.resize(size_t{mesh.info.face_count} + 1);
-    mesh.face_corners.resize(mesh.info.corner_count);
-    mesh.site_vertices.resize(mesh.info.site_count), mesh.site_lines.resize(mesh.info.site_count);
+    mesh.triangles.resize(mesh.info.vertex_count), mesh.corners.resize(mesh.positions.size());
+    mesh.faces.resize(size_t{mesh.info.face_count} * 4);
     auto out = make<hf_quads_mesh>();
     out.vertex_capacity = mesh.info.vertex_count, out.face_capacity = mesh.info.face_count;
-    out.corner_capacity = mesh.info.corner_count, out.site_capacity = mesh.info.site_count;
-    out.positions = mesh.positions.data(), out.triangles = mesh.triangles.data();
-    out.barycentrics = mesh.barycentrics.data(), out.face_starts = mesh.face_starts.data();
-    out.face_corners = mesh.face_corners.data(), out.site_vertices = mesh.site_vertices.data();
-    out.site_lines = mesh.site_lines.data();
-    mesh.corners.resize(mesh.positions.size()), out.corners = mesh.corners.data();
+    out.positions = mesh.positions.data(), out.faces = mesh.faces.data(), out.triangles = mesh.triangles.data();
+    out.barycentrics = mesh.barycentrics.data(), out.corners = mesh.corners.data();
     check(hf_quads_get_mesh(get(), &out));
     return mesh;
   }

@@ -21,13 +21,11 @@ Picture draw_quads(const Body& body, int width, int height) {
   Marks marks;
   const std::vector<glm::dvec3> places = to_points(quads.positions);
   FaceTriangles cut;
-  for (uint32_t f = 0; f < quads.info.face_count; ++f) {
-    const uint32_t first = quads.face_starts[f], size = quads.face_starts[f + 1] - first;
-    cut.append(places, &quads.face_corners[first], size, drawn.triangles);
+  for (size_t i = 0; i < quads.faces.size(); i += 4) {
+    cut.append(places, &quads.faces[i], 4, drawn.triangles);
     Polyline outline;
     outline.width = 0.7, outline.color = {0.16, 0.22, 0.36};
-    for (uint32_t k = 0; k <= size; ++k)
-      outline.points.push_back(point_of(quads.positions, quads.face_corners[first + k % size]));
+    for (uint32_t k = 0; k <= 4; ++k) outline.points.push_back(point_of(quads.positions, quads.faces[i + k % 4]));
     marks.lines.push_back(outline);
   }
   View view = side_view(width, height);

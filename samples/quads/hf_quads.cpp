@@ -26,43 +26,34 @@ namespace samples {
 namespace {
 
 const char* const usage =
-    "usage: hf_quads MESH [--sites auto|FILE.json] [--edge LENGTH] [--faces N] [--crease DEG]\n"
-    "                [--strokes FILE.json] [--symmetry x|y|z] [--field|--pure|--uniform] [-o OUT]\n"
-    "                [--sheet FILE.png]\n"
+    "usage: hf_quads MESH [--faces N] [--edge LENGTH] [--crease DEG] [--strokes FILE.json]\n"
+    "                [--symmetry x|y|z] [-o OUT] [--sheet FILE.png]\n"
     "       hf_quads MESH --measure QUADS [--sheet FILE.png]\n"
     "  Makes a quad mesh of a .obj, .off, .ply, .gltf or .glb surface, and prints what it is worth.\n"
-    "  --field        edges follow smooth crosses along the curvature; no sites (default)\n"
-    "  --sites auto   sites at the tips of the surface, borders are always sites; takes --uniform if no kind is named\n"
-    "  --sites FILE   {\"sites\": [{\"vertex\": 12}, {\"vertex\": 80, \"lines\": -8}]}: vertices as in the file, from "
-    "0;\n"
-    "                 lines that end (positive) or start (negative) there, at all sites or at none\n"
+    "  Edges follow smooth crosses along the curvature.\n"
+    "  --faces N      number of quads aimed at, instead of --edge\n"
     "  --edge LENGTH  edge length aimed at, in the unit of the mesh, or as a share of its box diagonal: 2% (2.2%)\n"
-    "  --faces N      number of quads aimed at, instead of --edge; takes --field\n"
-    "  --crease DEG   edges of the surface that bend by more degrees become edges of quads; takes --field\n"
+    "  --crease DEG   edges of the surface that bend by more degrees become edges of quads\n"
     "  --strokes FILE {\"strokes\": [{\"points\": [[0, 1, 0.2], [0.1, 1, 0.3]], \"weight\": 1}]}: edges follow these "
     "lines,\n"
-    "                 in the frame of the mesh; below 1 the curvature has a say; takes --field\n"
+    "                 in the frame of the mesh; below 1 the curvature has a say\n"
     "  --symmetry x   the side where x (or y, or z) is positive gets quads, the other side is its mirror image; the\n"
-    "                 plane goes through 0, and --symmetry x=0.25 moves it; takes --field\n"
-    "  --uniform      edges of about one length: lines are added and ended in pairs\n"
-    "  --pure         every line runs from site to site\n"
-    "  --polygons     leaves polygons at sites and saddles whole; takes --uniform if no kind is named\n"
+    "                 plane goes through 0, and --symmetry x=0.25 moves it\n"
     "  --relax N      rounds of tangential relaxation (60; 0 for none)\n"
     "  --measure FILE makes no quads and measures those of FILE, which any program can have made of MESH\n"
-    "  -o OUT         .obj, .ply or .off with polygons; .glb or .gltf with a fan of triangles for each face\n"
+    "  -o OUT         .obj, .ply or .off with quads; .glb or .gltf with a fan of triangles for each face\n"
     "                 (FB_ngon_encoding). A glTF model keeps its skeleton, clips and looks: texture coordinates with\n"
     "                 their seams, colours, weights and morph targets are carried to the quads\n"
-    "  --sheet FILE   a picture from two sides: quads light, other polygons red, sites as dots\n"
+    "  --sheet FILE   a picture from two sides: quads light, other polygons red\n"
     "  --work-limit N refuse a factorisation of more than N * 10^9 operations (default: by the size)\n"
     "  --memory-limit N refuse a surface that holds more than N MiB (default: by the size)\n";
 
 struct Command {
-  std::filesystem::path mesh, sites, strokes, measured, out, sheet;  // sites empty: auto
-  double plane[4] = {0, 0, 0, 0};                                    // of symmetry; 0: none
+  std::filesystem::path mesh, strokes, measured, out, sheet;
+  double plane[4] = {0, 0, 0, 0};              // of symmetry; 0: none
   double edge = 0;                             // 0: the default; below 0: a share of the box diagonal
   uint32_t relax = 60, faces = 0, crease = 0;  // crease in degrees
-  int32_t kind = -1;                           // not named
-  bool polygons = false, sited = false, help = false;
+  bool help = false;
 };
 
 // A length, or with a percent sign a share of the box diagonal, which comes back below 0.
@@ -91,27 +82,16 @@ Command parse(Words words) {
   while (words.next()) {
     if (words.is("--help", "-h")) {
       out.help = true;
-    } else if (words.is("--sites")) {
-      const std::string sites = words.value();
-      out.sites = file_named(sites == "auto" ? "" : sites), out.sited = true;
     } else if (words.is("--edge")) {
       out.edge = read_edge(words.value());
-    } else if (words.is("--pure")) {
-      out.kind = HF_QUADS_PURE;
-    } else if (words.is("--uniform")) {
-      out.kind = HF_QUADS_UNIFORM;
-    } else if (words.is("--field")) {
-      out.kind = HF_QUADS_FIELD;
     } else if (words.is("--faces")) {
-      out.faces = words.whole(1, 10000000), out.kind = HF_QUADS_FIELD;
+      out.faces = words.whole(1, 10000000);
     } else if (words.is("--crease")) {
-      out.crease = words.whole(1, 180), out.kind = HF_QUADS_FIELD;
+      out.crease = words.whole(1, 180);
     } else if (words.is("--strokes")) {
-      out.strokes = words.file(), out.kind = HF_QUADS_FIELD;
+      out.strokes = words.file();
     } else if (words.is("--symmetry")) {
-      read_symmetry(words.value(), out.plane), out.kind = HF_QUADS_FIELD;
-    } else if (words.is("--polygons")) {
-      out.polygons = true;
+      read_symmetry(words.value(), out.plane);
     } else if (words.is("--relax")) {
       out.relax = words.whole(0, 1000);
     } else if (words.is("--measure")) {
@@ -126,23 +106,8 @@ Command parse(Words words) {
       words.take_mesh(out.mesh);
     }
   }
-  if (out.kind < 0) out.kind = out.sited || out.polygons ? HF_QUADS_UNIFORM : HF_QUADS_FIELD;
   if (!out.help && out.mesh.empty()) throw std::runtime_error("no mesh is named; see --help");
   return out;
-}
-
-void read_sites(const std::filesystem::path& file, uint32_t vertices, std::vector<uint32_t>& sites,
-                std::vector<int32_t>& lines) {
-  const JsonFile json(file);
-  const JsonReader list = json.root().at("sites");
-  for (size_t i = 0; i < list.size(); ++i) {
-    const JsonReader site = list.at(i);
-    site.expect_only({"vertex", "lines"});
-    sites.push_back(static_cast<uint32_t>(site.at("vertex").integer(0, int64_t{vertices} - 1)));
-    if (site.has("lines")) lines.push_back(static_cast<int32_t>(site.at("lines").integer(-100000, 100000)));
-  }
-  if (sites.empty()) list.fail("no site is named");
-  if (!lines.empty() && lines.size() != sites.size()) list.fail("\"lines\" must stand at every site or at none");
 }
 
 double mean_edge(const SurfaceMesh& mesh) {
@@ -156,7 +121,7 @@ double mean_edge(const SurfaceMesh& mesh) {
 
 TriangleSoup soup_of(const SurfaceMesh& mesh) { return {mesh.positions, mesh.triangles}; }
 
-Picture draw(const SurfaceMesh& mesh, const std::vector<Point>& sites, const Point& direction) {
+Picture draw(const SurfaceMesh& mesh, const Point& direction) {
   Surface surface;
   Marks marks;
   for (const glm::dvec3& p : mesh.positions) surface.positions.insert(surface.positions.end(), {p.x, p.y, p.z});
@@ -178,7 +143,6 @@ Picture draw(const SurfaceMesh& mesh, const std::vector<Point>& sites, const Poi
     if (size != 4) cut.append(mesh.positions, c, size, odd.triangles);
     first += size;
   }
-  for (const Point& p : sites) marks.dots.push_back({p, 0.007, {0.86, 0.10, 0.10}});
   View view;
   view.width = view.height = 720, view.direction = direction;
   SurfaceLook look;
@@ -189,10 +153,6 @@ Picture draw(const SurfaceMesh& mesh, const std::vector<Point>& sites, const Poi
     layers.push_back({odd, look, {}});
   }
   return render(layers, view);
-}
-
-const char* name_of(int32_t kind) {
-  return kind == HF_QUADS_FIELD ? "field" : kind == HF_QUADS_PURE ? "pure" : "uniform";
 }
 
 double percent(uint32_t part, uint32_t whole) { return whole ? 100.0 * part / whole : 0.0; }
@@ -225,10 +185,10 @@ void print_figures(const SurfaceMesh& input, double diagonal, const SurfaceMesh&
   }
 }
 
-void draw_sheet(const Command& options, const SurfaceMesh& mesh, const std::vector<Point>& dots, const char* how) {
+void draw_sheet(const Command& options, const SurfaceMesh& mesh, const std::string& title) {
   if (options.sheet.empty()) return;
-  write_png(options.sheet, contact_sheet({draw(mesh, dots, {1, 0.4, 0.6}), draw(mesh, dots, {-0.6, 0.4, -1})}, 2,
-                                         {options.mesh.filename().string() + ", " + how, "from behind"}));
+  write_png(options.sheet,
+            contact_sheet({draw(mesh, {1, 0.4, 0.6}), draw(mesh, {-0.6, 0.4, -1})}, 2, {title, "from behind"}));
   std::printf("wrote       %s\n", options.sheet.c_str());
 }
 
@@ -256,7 +216,7 @@ void measure(const Command& options, const SurfaceMesh& input, double diagonal) 
   std::printf("quads       %u vertices, %u faces; %s\n", report.vertices, report.faces,
               options.measured.filename().string().c_str());
   print_figures(input, diagonal, mesh, report, measure_quads(triangles, 1).euler_characteristic);
-  draw_sheet(options, mesh, {}, options.measured.filename().string().c_str());
+  draw_sheet(options, mesh, options.mesh.filename().string() + ", " + options.measured.filename().string());
 }
 
 bool is_gltf(const std::filesystem::path& file) {
@@ -293,17 +253,10 @@ void run(const Command& options) {
   if (!options.measured.empty()) return measure(options, input, diagonal);
 
   auto desc = hf::make<hf_quads_desc>();
-  desc.kind = options.kind, desc.face_count = options.faces;
+  desc.face_count = options.faces;
   desc.crease_angle = static_cast<float>(options.crease);
-  desc.keep_polygons = options.polygons;
   desc.relax_count = options.relax ? options.relax : HF_NO_INDEX;
   desc.edge_length = static_cast<float>(options.edge < 0 ? -options.edge * diagonal : options.edge);
-  std::vector<uint32_t> sites;
-  std::vector<int32_t> lines;
-  if (!options.sites.empty()) read_sites(options.sites, create.vertex_count, sites, lines);
-  desc.site_count = static_cast<uint32_t>(sites.size());
-  if (!sites.empty()) desc.site_vertices = sites.data();
-  if (!lines.empty()) desc.site_lines = lines.data();
   Guides guides;
   if (!options.strokes.empty()) guides = read_strokes(options.strokes, surface, mean_edge(input));
   desc.guide_count = static_cast<uint32_t>(guides.vertices.size());
@@ -319,31 +272,22 @@ void run(const Command& options) {
   SurfaceMesh mesh;
   mesh.positions = to_points(quads.positions);
   FaceTriangles cut;
-  for (uint32_t f = 0; f < quads.info.face_count; ++f) {
-    const uint32_t first = quads.face_starts[f], size = quads.face_starts[f + 1] - first;
-    mesh.face_sizes.push_back(size);
-    append_measured(cut, mesh.positions, &quads.face_corners[first], size, mesh.triangles);
-  }
-  mesh.face_vertices = quads.face_corners;
+  for (size_t i = 0; i < quads.faces.size(); i += 4)
+    append_measured(cut, mesh.positions, &quads.faces[i], 4, mesh.triangles);
+  mesh.face_sizes.assign(quads.info.face_count, 4), mesh.face_vertices = quads.faces;
 
   const QuadReport report = measure_quads(mesh, static_cast<double>(quads.info.edge_length));
   const bool valid = report.each_directed_edge_once && report.no_repeated_corner &&
                      report.euler_characteristic == quads.info.euler_characteristic;
-  std::printf("quads       %u vertices, %u faces in %.2f s; edge length %.6g (%.2f %% of the box); %s\n",
-              report.vertices, report.faces, seconds, static_cast<double>(quads.info.edge_length),
-              100 * static_cast<double>(quads.info.edge_length) / diagonal, name_of(options.kind));
-  std::printf("sites       %u, saddles %u\n", quads.info.site_count, quads.info.saddle_count);
-  std::printf("share       %.2f %% quads before splitting\n",
-              percent(quads.info.polygon_quad_count, quads.info.polygon_count));
+  std::printf("quads       %u vertices, %u faces in %.2f s; edge length %.6g (%.2f %% of the box)\n", report.vertices,
+              report.faces, seconds, static_cast<double>(quads.info.edge_length),
+              100 * static_cast<double>(quads.info.edge_length) / diagonal);
   print_figures(input, diagonal, mesh, report, quads.info.euler_characteristic);
   if (!options.out.empty()) {
     write(options, model, input, mesh, quads);
     std::printf("wrote       %s\n", options.out.c_str());
   }
-  std::vector<Point> dots;
-  for (const uint32_t v : quads.site_vertices)
-    if (v != HF_NO_INDEX) dots.push_back({input.positions[v].x, input.positions[v].y, input.positions[v].z});
-  draw_sheet(options, mesh, dots, name_of(options.kind));
+  draw_sheet(options, mesh, options.mesh.filename().string());
   if (!valid)
     throw std::runtime_error(
         "the result is no valid mesh, see validity above: a fault of the library, please report it");

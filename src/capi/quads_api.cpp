@@ -16,7 +16,6 @@ struct QuadsObject final : Object {
   std::shared_ptr<const Core> core;  // outlives the result, which lies in its memory
   QuadResult result;
   double edge_length;
-  bool of_crosses = false;
   QuadKeeper kept;  // by updates
 };
 
@@ -33,12 +32,6 @@ hf_quads_info info_of(const QuadsObject& object) {
   hf_quads_info info{};
   info.vertex_count = static_cast<std::uint32_t>(result.mesh.position.size());
   info.face_count = static_cast<std::uint32_t>(result.mesh.face_count());
-  info.corner_count = static_cast<std::uint32_t>(result.mesh.corner.size());
-  info.quad_count = static_cast<std::uint32_t>(result.mesh.quad_count());
-  info.polygon_count = static_cast<std::uint32_t>(result.raw_faces);
-  info.polygon_quad_count = static_cast<std::uint32_t>(result.raw_quads);
-  info.site_count = static_cast<std::uint32_t>(result.sites.size());
-  info.saddle_count = static_cast<std::uint32_t>(result.saddles);
   info.euler_characteristic = result.euler_characteristic;
   info.edge_length = static_cast<float>(object.edge_length);
   return info;
@@ -56,24 +49,12 @@ hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quad
   return create("hf_quads_create", out_quads, "out_quads", [&] {
     const std::shared_ptr<const Core> core = unlinked_core(handle, "quads");
     const hf_quads_desc desc = read_optional(given, "desc");
-    check_quad_options(desc);
-    if (desc.kind == HF_QUADS_FIELD) {
-      QuadLists lists(*core->memory);
-      const FieldQuadOptions options = read_field_quad_options(core, desc, lists);
-      return with_progress(desc.progress, [&] {
-        FieldQuadReport report;
-        QuadResult result = make_field_quads(options, &report);
-        auto object =
-            make_owner_in<QuadsObject>(core->memory, core, std::move(result), report.edge_length * core->mesh.scale);
-        object->of_crosses = true;
-        return object;
-      });
-    }
-    Vector<FluxSite> sites(core->memory.get());
-    const QuadOptions options = read_quad_options(core, desc, sites);
+    QuadLists lists(*core->memory);
+    const FieldQuadOptions options = read_field_quad_options(core, desc, lists);
     return with_progress(desc.progress, [&] {
-      return make_owner_in<QuadsObject>(core->memory, core, make_quads(options),
-                                        options.edge_length * core->mesh.scale);
+      FieldQuadReport report;
+      QuadResult result = make_field_quads(options, &report);
+      return make_owner_in<QuadsObject>(core->memory, core, std::move(result), report.edge_length * core->mesh.scale);
     });
   });
 }
@@ -83,10 +64,6 @@ hf_result hf_quads_update(hf_quads handle, const hf_quads_desc* given) {
     const auto object = get<QuadsObject>(handle, "quads");
     const hf_quads_desc desc = read_struct(given, "desc");
     const Changing changing(*object);
-    check_quad_options(desc);
-    if (!object->of_crosses || desc.kind != HF_QUADS_FIELD)
-      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-           "only quads of the kind HF_QUADS_FIELD can be updated, with the same kind");
     const Core& core = *object->core;
     QuadLists lists(*core.memory);
     const FieldQuadOptions options = read_field_quad_options(object->core, desc, lists);
@@ -116,14 +93,11 @@ hf_result hf_quads_get_mesh(hf_quads handle, hf_quads_mesh* inout_mesh) {
     require_zero(out.reserved);
     const Reading reading(*object);
     const hf_quads_info info = info_of(*object);
-    out.vertex_count = info.vertex_count, out.face_count = info.face_count, out.corner_count = info.corner_count;
-    out.site_count = info.site_count;
+    out.vertex_count = info.vertex_count, out.face_count = info.face_count;
     write_struct(inout_mesh, out);
     check_capacity(out.positions || out.triangles || out.barycentrics || out.corners, out.vertex_capacity,
                    out.vertex_count, "vertex_capacity");
-    check_capacity(out.face_starts, out.face_capacity, out.face_count, "face_capacity");
-    check_capacity(out.face_corners, out.corner_capacity, out.corner_count, "corner_capacity");
-    check_capacity(out.site_vertices || out.site_lines, out.site_capacity, out.site_count, "site_capacity");
+    check_capacity(out.faces, out.face_capacity, out.face_count, "face_capacity");
     write_mesh(*object->core, object->result, out);
   });
 }

@@ -1,13 +1,12 @@
 // Quad meshes and flow lines, written as hf_quads_mesh and hf_flow_lines say.
 #pragma once
 #include <algorithm>
-#include <cmath>
 
 #include "capi/objects.h"
 #include "capi/vertex_writer.h"
 #include "hf/quads.h"
+#include "quads/field_quads.h"
 #include "remesh/flow_lines.h"
-#include "remesh/quads.h"
 
 namespace hf_inner::capi {
 
@@ -25,12 +24,7 @@ inline void write_mesh(const Core& core, const QuadResult& result, const hf_quad
       out.corners[3 * i + k] = given_vertex(mesh, mesh.triangle(point.triangle)[k]);
     if (out.barycentrics) std::copy(point.weight, point.weight + 3, out.barycentrics + 3 * i);
   }
-  if (out.face_starts) std::copy(result.mesh.face_start.begin(), result.mesh.face_start.end(), out.face_starts);
-  if (out.face_corners) std::copy(result.mesh.corner.begin(), result.mesh.corner.end(), out.face_corners);
-  for (std::size_t i = 0; i < result.sites.size(); ++i) {
-    if (out.site_vertices) out.site_vertices[i] = given_vertex(mesh, result.sites[i].vertex);
-    if (out.site_lines) out.site_lines[i] = static_cast<std::int32_t>(std::lround(result.sites[i].lines));
-  }
+  if (out.faces) std::copy(result.mesh.corner.begin(), result.mesh.corner.end(), out.faces);
 }
 
 // Fills the arrays that are given; capacities are checked.

@@ -64,12 +64,11 @@ QuadSource::QuadSource(const FluxSurface& surface, GridMapper& mapper, const Tab
   }
 }
 
-QuadComplex QuadSource::make(double length, std::int32_t& raw, FieldQuadReport& report) {
+QuadComplex QuadSource::make(double length, FieldQuadReport& report) {
   const GridMap map = mapper_.make(length);
   report.turned_over = map.turned_over, report.roundings = map.roundings;
   report.backward = 0, report.substitutes = 0, ++report.tries;
   QuadComplex found = extract_quads(surface_, map, features_, report.backward, memory_);
-  raw = found.quad_count();
   RepairReport repaired;
   repair_quads(surface_, found, repaired, memory_);
   report.removed = repaired.removed, report.added = repaired.added;
@@ -127,15 +126,14 @@ void QuadSource::substitute(double length, Table<std::uint8_t>& missing, FieldQu
   }
 }
 
-QuadMesh CountedQuads::make(FieldQuadReport& made, std::int32_t& raw) {
+QuadMesh CountedQuads::make(FieldQuadReport& made) {
   QuadComplex quads(memory_);
   double length = edge_length_, best = -1;
   for (std::int32_t round = 0; round < count_tries; ++round) {
-    std::int32_t crossings = 0;
-    QuadComplex found = source_.make(length, crossings, made);
+    QuadComplex found = source_.make(length, made);
     const double ratio = found.quad_count() / wanted_, error = miss_of(ratio);
     const bool better = best < 0 || error < best;
-    if (better) best = error, raw = crossings, quads = std::move(found), made.edge_length = length;
+    if (better) best = error, quads = std::move(found), made.edge_length = length;
     // A component that is shorter than the lines cannot come nearer.
     if (!by_count_ || error <= faces_error || (made.substitutes > 0 && (!better || ratio > 1))) break;
     length *= std::sqrt(ratio);
@@ -144,8 +142,8 @@ QuadMesh CountedQuads::make(FieldQuadReport& made, std::int32_t& raw) {
   return coarsened(quads, by_count_ || made.substitutes > 0, made);
 }
 
-QuadMesh CountedQuads::make_finer(double share, FieldQuadReport& made, std::int32_t& raw) {
-  QuadComplex quads = source_.make(share * length_, raw, made);
+QuadMesh CountedQuads::make_finer(double share, FieldQuadReport& made) {
+  QuadComplex quads = source_.make(share * length_, made);
   made.edge_length = share * length_;
   return coarsened(quads, true, made);
 }

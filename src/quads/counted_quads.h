@@ -17,8 +17,8 @@ class QuadSource {
   // once: make is called once if need be, so the map's factor may go before its end.
   QuadSource(const FluxSurface& surface, GridMapper& mapper, const Table<std::uint8_t>& features, bool once,
              Memory& memory);
-  // raw: how many crossings have a quad. Returns valid quads.
-  QuadComplex make(double length, std::int32_t& raw, FieldQuadReport& report);
+  // Returns valid quads.
+  QuadComplex make(double length, FieldQuadReport& report);
   // Whether make can be called once more.
   bool is_open() const noexcept { return !released_; }
 
@@ -49,10 +49,9 @@ class CountedQuads {
         by_count_(by_count),
         memory_(memory) {}
 
-  // raw: how many crossings have a quad.
-  QuadMesh make(FieldQuadReport& made, std::int32_t& raw);
+  QuadMesh make(FieldQuadReport& made);
   // Makes another of shorter edges, which has as many quads. share: of the edges of make.
-  QuadMesh make_finer(double share, FieldQuadReport& made, std::int32_t& raw);
+  QuadMesh make_finer(double share, FieldQuadReport& made);
 
  private:
   QuadMesh coarsened(QuadComplex& quads, bool limited, FieldQuadReport& made);

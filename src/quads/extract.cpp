@@ -315,7 +315,7 @@ class Extractor {
       const std::int32_t cell = corners_[h];
       if (vertex[cell] == none)
         vertex[cell] = out.vertices.add_vertex(place_[cell], position_of(s_, place_[cell]),
-                                               quality_[cell] == at_feature_ ? QuadMesh::site : QuadMesh::free,
+                                               quality_[cell] == at_feature_ ? QuadMesh::feature : QuadMesh::free,
                                                on_border_[cell], 1);
       out.tail.push_back(vertex[cell]);
       const std::int32_t p = root(piece_parent_, sides_[h]);

@@ -4,16 +4,42 @@
 
 #include "base/arguments.h"
 #include "mesh/vertex_lists.h"
-#include "remesh/intake.h"
+#include "quads/poles.h"
 
 namespace hf_inner {
 namespace {
 
-// Refuses mistakes; no result depends on it. hf/quads.h states it.
+// Refuse mistakes; no result depends on them. hf/quads.h states them.
 constexpr std::uint32_t most_wanted_faces = 10000000;
+// 16 times the usual rounds.
+constexpr std::uint32_t most_relax_count = 1000;
+// As shares of the box: below, a mesh would have 10^8 faces; above, none.
+constexpr double least_edge_length = 1e-4, most_edge_length = 1.0;
 constexpr double most_crease = 180;  // degrees
+// Each pole is looked for among all vertices: 1,000 take 0.3 s on 300,000. hf/quads.h states it.
+constexpr std::uint32_t most_poles = 1000;
 // A normal of symmetry_plane is as long as the caller likes, but its square must be a number.
 constexpr double least_normal = 1e-150, most_normal = 1e150;
+
+// Returns the edge length in box diagonals.
+double read_edge_length(const Mesh& mesh, float given) {
+  const double length = static_cast<double>(given);
+  check_finite(length, "edge_length");
+  if (length == 0) return default_edge_length;
+  const double share = length / mesh.scale;
+  if (share < least_edge_length || share > most_edge_length)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; on this mesh it must be %g to %g, or 0", length,
+         least_edge_length * mesh.scale, most_edge_length * mesh.scale);
+  return share;
+}
+
+// Returns the rounds of relaxation.
+std::int32_t read_relax_count(std::uint32_t given) {
+  if (given > most_relax_count && given != HF_NO_INDEX)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX", given,
+         most_relax_count);
+  return given == 0 ? default_relax_rounds : given == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(given);
+}
 
 void read_guides(const Core& core, const hf_quads_desc& desc, Vector<QuadGuide>& out) {
   if (desc.guide_count == 0) {
@@ -38,6 +64,41 @@ void read_guides(const Core& core, const hf_quads_desc& desc, Vector<QuadGuide>&
       fail(HF_ERROR_INVALID_ARGUMENT, i, "guide_weights[%u] is %g; it must be above 0 and up to 1", i, weight);
     out.push_back({inner[i], vector, weight, static_cast<Index>(i)});
   }
+}
+
+void read_poles(const Core& core, const hf_quads_desc& desc, const FieldQuadOptions& options,
+                Vector<QuadGuide>& guides) {
+  if (desc.pole_count == 0) {
+    if (desc.pole_points || desc.pole_quads || desc.pole_directions)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "pole_count is 0, but arrays of poles are given");
+    return;
+  }
+  require(desc.pole_points, "pole_points"), require(desc.pole_quads, "pole_quads");
+  if (desc.pole_count > most_poles)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "pole_count is %u; it must be up to %u", desc.pole_count, most_poles);
+  Vector<QuadPole> poles(core.memory.get());
+  for (std::uint32_t i = 0; i < desc.pole_count; ++i) {
+    const double* point = desc.pole_points + std::size_t{3} * i;
+    if (!is_finite_point(point)) fail(HF_ERROR_NON_FINITE, i, "pole_points[%u] is not finite", i);
+    if (desc.pole_quads[i] != 3 && desc.pole_quads[i] != 5)
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "pole_quads[%u] is %u; it must be 3 or 5", i, desc.pole_quads[i]);
+    QuadPole pole;
+    pole.place = core.mesh.to_inner({point[0], point[1], point[2]});
+    pole.quads = static_cast<std::int32_t>(desc.pole_quads[i]);
+    if (desc.pole_directions) {
+      const double* direction = desc.pole_directions + std::size_t{3} * i;
+      if (!is_finite_point(direction)) fail(HF_ERROR_NON_FINITE, i, "pole_directions[%u] is not finite", i);
+      pole.direction = unit_vector({direction[0], direction[1], direction[2]});
+    }
+    poles.push_back(pole);
+  }
+  double edge = options.edge_length;
+  if (options.faces > 0) {
+    double area = 0;
+    for (const double own : vertex_areas(core.mesh, *core.memory)) area += own;
+    edge = std::sqrt(area / options.faces);
+  }
+  add_pole_guides(core, poles, edge, guides);
 }
 
 void read_crease_edges(const Core& core, const hf_quads_desc& desc, Vector<Index>& out) {
@@ -82,14 +143,11 @@ std::optional<MirrorPlane> read_plane(const Mesh& mesh, const double* given) {
 
 FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc,
                                          QuadLists& lists) {
-  if (desc.keep_polygons)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "keep_polygons is 1, but HF_QUADS_FIELD makes quads only");
-  if (desc.site_count || desc.site_vertices || desc.site_lines)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "sites are given, but HF_QUADS_FIELD takes none");
   if (desc.face_count > most_wanted_faces)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "face_count is %u; it must be up to %u", desc.face_count,
          most_wanted_faces);
   const double crease = static_cast<double>(desc.crease_angle);
+  check_finite(crease, "crease_angle");
   if (crease < 0 || crease > most_crease)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "crease_angle is %g; it must be 0 to %g", crease, most_crease);
   FieldQuadOptions options;
@@ -99,6 +157,7 @@ FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const
   options.faces = static_cast<std::int32_t>(desc.face_count);
   read_crease_edges(*core, desc, lists.edges);
   read_guides(*core, desc, lists.guides);
+  read_poles(*core, desc, options, lists.guides);
   options.crease_edges = {lists.edges.data(), lists.edges.size()};
   options.guides = {lists.guides.data(), lists.guides.size()};
   options.plane = read_plane(core->mesh, desc.symmetry_plane);

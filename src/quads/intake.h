@@ -1,4 +1,4 @@
-// Reads the options of quad meshes made from crosses.
+// Reads the options of quad meshes.
 #pragma once
 #include "hf/quads.h"
 #include "quads/field_quads.h"
@@ -12,7 +12,7 @@ struct QuadLists {
   Vector<Index> edges;
 };
 
-// check_quad_options of remesh/intake.h has passed. Throws as hf_quads_create says.
+// Throws as hf_quads_create says.
 FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc, QuadLists& lists);
 
 }  // namespace hf_inner

@@ -124,7 +124,8 @@ class Maker {
     return point;
   }
   std::int32_t add_vertex(const SurfacePoint& point, bool border) {
-    return out_.vertices.add_vertex(point, position_of(s_, point), border ? QuadMesh::site : QuadMesh::free, border, 1);
+    return out_.vertices.add_vertex(point, position_of(s_, point), border ? QuadMesh::feature : QuadMesh::free, border,
+                                    1);
   }
   void add_half(std::int32_t v, bool border) {
     out_.tail.push_back(v), out_.twin.push_back(none), out_.feature.push_back(border);

@@ -86,14 +86,12 @@ void QuadComplex::append(const QuadComplex& other, const Table<std::uint8_t>& ta
 QuadMesh QuadComplex::mesh(Memory& memory) const {
   QuadMesh out(memory);
   Table<std::int32_t> fresh(vertices.position.size(), none, memory);
-  out.face_start.push_back(0);
   for (std::int32_t h = 0; h < tail.size(); ++h) {
     const std::int32_t v = tail[h];
     if (fresh[v] == none)
       fresh[v] = out.add_vertex(vertices.location[v], vertices.position[v], vertices.pinned[v], vertices.border[v] != 0,
                                 vertices.scale[v]);
     out.corner.push_back(fresh[v]);
-    if (h % 4 == 3) out.face_start.push_back(out.corner.size());
   }
   return out;
 }
@@ -194,7 +192,7 @@ QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t
           point.triangle = t;
           point.weight[k] = at_k, point.weight[(k + 1) % 3] = at_next, point.weight[before] = at_last;
           vertex = out.vertices.add_vertex(point, position_of(surface, point),
-                                           on_feature ? QuadMesh::site : QuadMesh::free, false, 1);
+                                           on_feature ? QuadMesh::feature : QuadMesh::free, false, 1);
         }
         out.tail.push_back(vertex);
       };

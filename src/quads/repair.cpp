@@ -138,7 +138,7 @@ class Repairer {
   void place(std::int32_t v, const SurfacePoint& point) {
     QuadMesh& all = quads_.vertices;
     all.location[v] = point, all.position[v] = position_of(surface_, point);
-    all.pinned[v] = QuadMesh::site, all.border[v] = 1;
+    all.pinned[v] = QuadMesh::feature, all.border[v] = 1;
   }
   bool widen(std::int32_t h) { return quads_.twin[h] == none ? split_border(h) : pillow(h); }
   // A hole of one edge or two gets two edges more. Its quad (v, w, a, b), with the border side from v to w, becomes

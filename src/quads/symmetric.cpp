@@ -95,10 +95,8 @@ void add_image(const NearestTriangle& nearest, const MirrorPlane& plane, const T
   for (Index v = 0; v < vertices; ++v) {
     if (!on_plane[v] && valence[v] > 0) image[v] = add_vertex(v, plane.reflect(mesh.position[v]));
   }
-  out.face_start.push_back(0);
   const auto add = [&](Index a, Index b, Index c, Index d) {
     for (const Index v : {a, b, c, d}) out.corner.push_back(v);
-    out.face_start.push_back(out.corner.size());
   };
   for (Index f = 0; f < faces; ++f) {
     const Index* c = &mesh.corner[4 * f];
@@ -238,7 +236,6 @@ void add_rows(QuadMesh& mesh, const Table<Index>& sides, Table<std::uint8_t>& on
       on_plane.push_back(0);
     }
     for (const Index v : {ends[0], ends[1], copy[ends[1]], copy[ends[0]]}) mesh.corner.push_back(v);
-    mesh.face_start.push_back(mesh.corner.size());
   }
   for (Index i = 0; i < old; ++i) {
     Index& v = mesh.corner[i];
@@ -273,7 +270,7 @@ void prepare_at_plane(QuadMesh& mesh, Table<std::uint8_t>& on_plane, const Mirro
       add_rows(mesh, sides.at_border, on_plane, piece, marked, plane, place, memory);
       return;
     }
-    piece.resize(kept, none), mesh.corner.resize(4 * kept, none), mesh.face_start.resize(kept + 1, 0);
+    piece.resize(kept, none), mesh.corner.resize(4 * kept, none);
   }
 }
 
@@ -355,7 +352,6 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
   result.euler_characteristic = 2 * result.euler_characteristic - corners + sides;
   add_image(nearest, plane, on_plane, result.mesh, memory);
   check_quads(result.mesh, result.euler_characteristic, memory);
-  result.raw_faces *= 2, result.raw_quads *= 2;
   found.edge_length *= mesh.scale;
   if (report) *report = found;
   hf_inner::report(1.0f);

@@ -1,16 +1,11 @@
-// Collapses quads of a mesh where its edges are short.
+// Collapses quads of a mesh: where it misses the surface, or where its edges are short.
 //
 // A quad (a, b, c, d) collapses along its diagonal: a and c become one vertex, and its sides coincide in pairs
 // (diagonal collapse: Tarini, Pietroni, Cignoni, Panozzo and Puppo 2010). The result is again a mesh of quads with the
 // same Euler characteristic if a and c have no common neighbours except b and d, and no common face except this one.
 // Vertices b and d need four faces or more. Vertices a and c need three or more each, and together at most
 // collapse_most_faces. Borders and their faces stay.
-//
-// coarsen_quads collapses quads that have an edge shorter than `shortest`, many at a time; the quad with the shortest
-// edge comes first. The vertices around them are relaxed, and the distance to the surface is measured. A collapse that
-// makes this distance worse nearby is undone.
 #pragma once
-#include "remesh/constants.h"
 #include "remesh/quad_distance.h"
 
 namespace hf_inner {
@@ -23,18 +18,6 @@ bool can_collapse(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, 
 // mesh, whether it was two vertices; unchanged if no quad collapsed.
 std::int32_t collapse_misses(const FluxSurface& surface, QuadMesh& mesh, const Vector<QuadMiss>& misses,
                              Table<std::uint8_t>& merged, Memory& memory);
-
-struct CoarsenOptions {
-  double edge_length = 0, tolerance = 0;  // in inner units
-  double shortest = short_edge;           // in edge lengths
-  bool only_refined = false;              // collapses only quads with a corner where the mesh was refined
-  std::int32_t rounds = collapse_rounds;
-};
-
-// Collapses quads with short edges. Returns the distance between the new mesh and the surface: at most collapse_far
-// tolerances, or the given `deviation` if that is more.
-double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
-                     const CoarsenOptions& options, Memory& memory);
 
 // Collapses quads, those with the shortest edges first, until at most `wanted` are left or none can collapse. The
 // distance to the surface is not looked at. edge_length: inner units, at which the quads are relaxed.

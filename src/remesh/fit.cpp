@@ -69,8 +69,7 @@ class Fitter {
       double now = measure(trial, after_);
       compare(trial, chosen);
       const auto helped = [&](const Place& place) {
-        const std::int32_t more = place.folds_after - place.folds_before;
-        return place.after < (more > 0 ? fit_folding_gain : fit_gain) * place.before && more <= options_.most_folds;
+        return place.after < fit_gain * place.before && place.folds_after <= place.folds_before;
       };
       const auto failed = chosen.begin() + static_cast<std::ptrdiff_t>(stable_partition(chosen, helped, memory_));
       for (auto place = failed; place != chosen.end(); ++place) next_step(place->miss.point, step + 1);
@@ -135,19 +134,16 @@ class Fitter {
   // Returns the vertex that a fitting step (release, snap, ...) would change: the corner of the quad at a missed place
   // that is nearest to the place and may take the step.
   std::int32_t vertex_for(std::int32_t step, const QuadMiss& miss, const VertexFans& fans) const {
-    const std::int32_t f = miss.face, size = mesh_.size(f), *c = mesh_.corner.data() + mesh_.face_start[f];
-    if (step == collapse)
-      return size == 4 && (can_collapse(mesh_, fans, f, 0) || can_collapse(mesh_, fans, f, 1)) ? c[0] : none;
+    const std::int32_t f = miss.face, *c = mesh_.quad(f);
+    if (step == collapse) return can_collapse(mesh_, fans, f, 0) || can_collapse(mesh_, fans, f, 1) ? c[0] : none;
     if (step > snap && mesh_.face_count() >= most_faces_) return none;
     std::int32_t best = none;
-    for (std::int32_t k = 0; k < size; ++k) {
+    for (std::int32_t k = 0; k < 4; ++k) {
       const std::int32_t v = c[k];
       bool may = !mesh_.border[v] || (step == snap && miss.vertex >= 0 && on_border(miss.vertex));
       if (step == release) may = may && mesh_.pinned[v] == QuadMesh::snapped && miss.vertex == QuadMiss::of_quads;
       if (step == snap) may = may && !mesh_.pinned[v];
       if (step == split || step == widen) may = may && fans.valence(v) >= 4;
-      for (std::int32_t i = fans.start[v]; step > snap && may && i < fans.start[v + 1]; ++i)
-        may = mesh_.size(fans.face[i]) == 4;
       if (may && (best == none || norm(mesh_.position[v] - miss.point) < norm(mesh_.position[best] - miss.point)))
         best = v;
     }
@@ -219,22 +215,22 @@ class Fitter {
       Vector<QuadMiss> list(&memory_);
       for (const Place& place : places) list.push_back(place.miss);
       collapse_misses(surface_, mesh, list, moving, memory_);
-      return relax(mesh, options_.relax_rings, moving);
+      return relax(mesh, fit_rings, moving);
     }
     if (step == subdivide) {
       for (const Place& place : places) moving[place.vertex] = 1;
       refine_quads(surface_, mesh, moving, memory_);
       moving.resize(mesh.position.size(), 1);
-      relax(mesh, options_.relax_rings, moving);
+      relax(mesh, fit_rings, moving);
       snap_nearest(places, mesh, moving);
       return relax(mesh, fit_resnap_rings, moving);
     }
     for (const Place& place : places) {
       moving[place.vertex] = 1;
       if (step == release) {
-        for (std::int32_t k = mesh.face_start[place.miss.face]; k < mesh.face_start[place.miss.face + 1]; ++k)
-          if (mesh.pinned[mesh.corner[k]] == QuadMesh::snapped)
-            mesh.pinned[mesh.corner[k]] = QuadMesh::free, moving[mesh.corner[k]] = 1;
+        const std::int32_t* c = mesh.quad(place.miss.face);
+        for (std::int32_t k = 0; k < 4; ++k)
+          if (mesh.pinned[c[k]] == QuadMesh::snapped) mesh.pinned[c[k]] = QuadMesh::free, moving[c[k]] = 1;
         continue;
       }
       if (step == snap) {
@@ -248,7 +244,7 @@ class Fitter {
         put(mesh, v, walk_surface(surface_, mesh.location[v], 0.5 * (place.miss.point - mesh.position[v])),
             QuadMesh::free);
     }
-    relax(mesh, options_.relax_rings + (step <= snap ? fit_snap_rings : 0), moving);
+    relax(mesh, fit_rings + (step <= snap ? fit_snap_rings : 0), moving);
   }
 
   // For each missed place, snaps the nearest vertex that may move to it.
@@ -269,11 +265,11 @@ class Fitter {
     std::int32_t count = 0;
     const double radius = fit_reach * options_.edge_length;
     for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
-      const std::int32_t size = mesh.size(f), *c = mesh.corner.data() + mesh.face_start[f];
+      const std::int32_t* c = mesh.quad(f);
       if (norm(mesh.position[c[0]] - point) > radius) continue;
-      for (std::int32_t k = 0; k < size; ++k) {
-        const Vec3 p = mesh.position[c[k]], x = mesh.position[c[(k + 1) % size]] - p,
-                   y = mesh.position[c[(k + size - 1) % size]] - p;
+      for (std::int32_t k = 0; k < 4; ++k) {
+        const Vec3 p = mesh.position[c[k]], x = mesh.position[c[(k + 1) % 4]] - p,
+                   y = mesh.position[c[(k + 3) % 4]] - p;
         const SurfacePoint& at = mesh.location[c[k]];
         Vec3 normal;
         for (int j = 0; j < 3; ++j) normal = normal + at.weight[j] * normals_[surface_.tail[3 * at.triangle + j]];

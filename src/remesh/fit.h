@@ -13,20 +13,16 @@
 //
 // A step moves only vertices within a few quads of its place, so distant places can be judged separately. A step stays
 // if the misses around it shrink; they are measured by the sum of d^2 - tolerance^2 over samples at distance d. A step
-// may not turn corners over against the mean normal of the surface, except for the few that most_folds allows on
-// crumpled surfaces. Otherwise it is undone, and the next step is tried. So the mesh never gets worse, and it stays a
-// mesh of quads with its Euler characteristic. Cost: O(n + faces) for every round of steps, mostly one or two dozen
-// rounds.
+// may not turn corners over against the mean normal of the surface. Otherwise it is undone, and the next step is tried.
+// So the mesh never gets worse, and it stays a mesh of quads with its Euler characteristic. Cost: O(n + faces) for
+// every round of steps, mostly one or two dozen rounds.
 #pragma once
-#include "remesh/constants.h"
 #include "remesh/quad_distance.h"
 
 namespace hf_inner {
 
 struct FitOptions {
   double edge_length = 0, tolerance = 0;  // in inner units
-  std::int32_t most_folds = 0;            // corners that a step may turn over (fit_folding_gain)
-  std::int32_t relax_rings = fit_rings;   // rings of quads around a step that are relaxed
 };
 
 // Returns the distance between the fitted mesh and the surface.

@@ -18,17 +18,17 @@ FluxField::FluxField(const FluxSurface& surface, Span<const double> u, Memory& m
       memory_(&memory),
       u_(memory),
       rank_(surface.vertex_count(), 0, memory),
-      order_(memory),
       matches_(&memory),
       match_start_(memory),
       saddle_of_(surface.vertex_count(), none, memory),
       saddle_scale_(memory) {
   const std::int32_t n = surface.vertex_count();
-  u_.reserve(n), order_.reserve(n);
-  for (std::int32_t v = 0; v < n; ++v) u_.push_back(u[static_cast<std::size_t>(v)]), order_.push_back(v);
-  std::sort(order_.begin(), order_.end(),
+  Table<std::int32_t> order(memory);
+  u_.reserve(n), order.reserve(n);
+  for (std::int32_t v = 0; v < n; ++v) u_.push_back(u[static_cast<std::size_t>(v)]), order.push_back(v);
+  std::sort(order.begin(), order.end(),
             [&](std::int32_t a, std::int32_t b) { return u_[a] != u_[b] ? u_[a] < u_[b] : a < b; });
-  for (std::int32_t r = 0; r < n; ++r) rank_[order_[r]] = r;
+  for (std::int32_t r = 0; r < n; ++r) rank_[order[r]] = r;
   match_start_.push_back(0);
   for (std::int32_t v = 0; v < n; ++v)
     if (sign_changes(v) > 2) match(v);
@@ -48,20 +48,6 @@ std::int32_t FluxField::sign_changes(std::int32_t v) const noexcept {
     changes += now != before, before = now;
     g = surface_->turn_left(g);
     if (g == begin) return changes;
-  }
-}
-
-double FluxField::imbalance(std::int32_t v) const noexcept {
-  const std::int32_t begin = surface_->out[v];
-  double in = 0, out = 0;
-  for (std::int32_t g = begin;;) {
-    if (rises(g)) {
-      out += flux(g);
-    } else {
-      in += flux(surface_->twin[g]);
-    }
-    g = surface_->turn_left(g);
-    if (g == begin) return (out - in) / (out + in);
   }
 }
 

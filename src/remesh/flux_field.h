@@ -1,12 +1,12 @@
-// A harmonic field as an exact discrete flow, along which flux lines run.
+// A field as an exact discrete flow, along which flux lines run.
 //
 //     f_ij = w_ij (u_j - u_i)     on every edge from the lower end i to the higher end j
 //
-// The flow f is positive, because the weights w are. It is balanced at every vertex that is no site (K u = 0). A point
-// of a flux line is an edge and an offset in [0, f] from the edge's left side, seen uphill. At a vertex, a planar
-// matching that keeps the order maps incoming intervals to outgoing ones. Such lines never cross or merge, and they
-// rise strictly. Reversed, they run back the same way. They end only at sites, on any genus. No geometric intersection
-// is computed.
+// The flow f is positive, because the weights w are. In a harmonic field it is balanced at every vertex that is no site
+// (K u = 0). A point of a flux line is an edge and an offset in [0, f] from the edge's left side, seen uphill. At a
+// vertex, a planar matching that keeps the order maps incoming intervals to outgoing ones. Such lines never cross or
+// merge, and they rise strictly. Reversed, they run back the same way. They end only at extrema, on any genus. No
+// geometric intersection is computed.
 //
 // Around a regular vertex the incoming intervals are contiguous, and so are the outgoing ones, so they are matched in
 // order. At a saddle a symmetric planar matching is made once and kept. From both sides of every boundary between
@@ -32,16 +32,12 @@ class FluxField {
   FluxField(const FluxSurface& surface, Span<const double> u, Memory& memory);
 
   double value(std::int32_t v) const noexcept { return u_[v]; }
-  std::int32_t rank(std::int32_t v) const noexcept { return rank_[v]; }
-  std::int32_t by_rank(std::int32_t r) const noexcept { return order_[r]; }
   bool rises(std::int32_t h) const noexcept { return rank_[surface_->tail[h]] < rank_[surface_->head(h)]; }
   // Returns the flux of a half-edge that points uphill.
   double flux(std::int32_t h) const noexcept;
   // Returns how often edges around a vertex change between rising and falling: 0 at an extremum, 2 at a regular vertex,
   // 2 k + 2 at a saddle of index -k.
   std::int32_t sign_changes(std::int32_t v) const noexcept;
-  // Returns (outflow - inflow) / (outflow + inflow). At a vertex that is no site this is only rounding error.
-  double imbalance(std::int32_t v) const noexcept;
 
   // Return the next point of the flux line, beyond the head of its edge or before its tail. FluxPoint::half is -1 where
   // the line ends at an extremum.
@@ -62,7 +58,7 @@ class FluxField {
   const FluxSurface* surface_;
   Memory* memory_;
   Table<double> u_;
-  Table<std::int32_t> rank_, order_;
+  Table<std::int32_t> rank_;         // by vertex: its place in the order of values
   Vector<Match> matches_;            // matches of incoming with outgoing flux, saddle by saddle
   Table<std::int32_t> match_start_;  // by number of the saddle
   Table<std::int32_t> saddle_of_;    // by vertex: number of the saddle, -1 at regular vertices

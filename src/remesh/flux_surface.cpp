@@ -139,7 +139,7 @@ Table<std::uint8_t> orient(const Mesh& mesh, Pairs& pairs, Memory& memory) {
 
 }  // namespace
 
-FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double apex_weight, Memory& memory) {
+FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, Memory& memory) {
   FluxSurface s(memory);
   Pairs pairs(mesh, memory);
   const Table<std::uint8_t> turned = orient(mesh, pairs, memory);
@@ -181,10 +181,6 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
   poll();
   // Computes the edge weights.
   const Vector<double> weights = edge_weights(mesh, topology, OperatorKind::clamped, memory);
-  Vector<double> sorted(weights.begin(), weights.end(), &memory);
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double median = *middle;
   s.weight.assign(real_halves, 0);
   for (std::int32_t h = 0; h < real_halves; ++h) {
     const std::int32_t a = std::min(corner[h], corner[next(h)]), b = std::max(corner[h], corner[next(h)]);
@@ -210,8 +206,7 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
       const std::int32_t a = s.tail[h], b = s.head(h), fresh = s.tail.size();
       s.tail.push_back(b), s.tail.push_back(a), s.tail.push_back(apex);
       s.twin.push_back(h), s.twin.push_back(none), s.twin.push_back(none);
-      s.weight.push_back(s.weight[h]), s.weight.push_back(apex_weight * median),
-          s.weight.push_back(apex_weight * median);
+      s.weight.push_back(s.weight[h]), s.weight.push_back(0), s.weight.push_back(0);
       s.twin[h] = fresh;
       // The edge a -> apex of this triangle is the edge apex -> b of the triangle before it on the border.
       if (last != none) s.twin[last + 2] = fresh + 1, s.twin[fresh + 1] = last + 2;

@@ -1,13 +1,11 @@
-// The surface along which flux lines run: an oriented half-edge mesh without borders, with one positive weight per
-// edge.
+// The surface of flow lines and quads: an oriented half-edge mesh without borders, with a weight for each edge.
 //
 // Triangles are turned so that neighbours agree. If an edge has three or more triangles, the two flattest are joined,
 // then the next two. A triangle without a partner gets a border. A Moebius band is parted across. A vertex where
 // several fans of triangles meet becomes one vertex per fan. Every border loop is closed by an additional vertex, an
-// apex, that is joined to all its vertices. An apex is a site like any other, and its flux is the flux through the
-// border. So the code that uses this mesh only sees closed surfaces. Weights are cotangent weights with a floor of 1e-3
-// of their median, which keeps every flux positive uphill. Edges to an apex weigh `apex_weight` medians, so that the
-// border is nearly at one level. With 0 the apex has no effect on the field.
+// apex, that is joined to all its vertices. So the code that uses this mesh only sees closed surfaces. Weights are
+// cotangent weights with a floor of 1e-3 of their median, which keeps every flux positive uphill. Edges to an apex
+// weigh 0, so an apex has no effect on a field.
 //
 // Half-edge 3 t + k of triangle t runs from its corner k to the next corner. Cost: O(n log n) for n vertices.
 #pragma once
@@ -27,7 +25,7 @@ struct FluxSurface {
         component(memory) {}
   // Throws HF_ERROR_UNSUPPORTED (index: a vertex as given) where more than 5 % of the edges between triangles join
   // three or more, or would have to be parted so that all triangles can agree.
-  static FluxSurface make(const Mesh& mesh, const Topology& topology, double apex_weight, Memory& memory);
+  static FluxSurface make(const Mesh& mesh, const Topology& topology, Memory& memory);
 
   std::int32_t vertex_count() const noexcept { return out.size(); }
   std::int32_t half_count() const noexcept { return tail.size(); }

@@ -33,10 +33,10 @@ struct Soup {
       corners.push_back(a), corners.push_back(b), corners.push_back(c), face.push_back(f);
     };
     for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
-      const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
-      for (std::int32_t k = 2; k < mesh.size(f); ++k) add(c[0], c[k - 1], c[k], f);
+      const std::int32_t* c = mesh.quad(f);
+      for (std::int32_t k = 2; k < 4; ++k) add(c[0], c[k - 1], c[k], f);
       std::int32_t last = 0;
-      if (mesh.size(f) == 4 && reflex_corners(mesh, c, last) > 1) add(c[1], c[2], c[3], f), add(c[3], c[0], c[1], f);
+      if (reflex_corners(mesh, c, last) > 1) add(c[1], c[2], c[3], f), add(c[3], c[0], c[1], f);
     }
   }
 };
@@ -81,9 +81,8 @@ void QuadDistance::sample_surface() {
       samples_.push_back({s.position[c[k]], c[k], none, none});
     }
     if (s.real_triangles > most_spread) continue;
-    spread(s.position[c[0]], s.position[c[1]], s.position[c[2]], spacing_, surface_steps, [&](const Vec3& p) {
-      samples_.push_back({p, QuadMiss::of_surface, none, none});
-    });
+    spread(s.position[c[0]], s.position[c[1]], s.position[c[2]], spacing_, surface_steps,
+           [&](const Vec3& p) { samples_.push_back({p, QuadMiss::of_surface, none, none}); });
   }
 }
 
@@ -93,9 +92,8 @@ Table<QuadDistance::Sample> QuadDistance::sample_quads(const QuadMesh& mesh, con
   for (std::int32_t i = 0; i < faces.size(); ++i) {
     if (known && known->has(mesh, faces[i])) continue;
     const std::int32_t* c = corners.data() + 3 * i;
-    spread(mesh.position[c[0]], mesh.position[c[1]], mesh.position[c[2]], spacing_, quad_steps, [&](const Vec3& p) {
-      samples.push_back({p, QuadMiss::of_quads, faces[i], mesh.location[c[0]].triangle});
-    });
+    spread(mesh.position[c[0]], mesh.position[c[1]], mesh.position[c[2]], spacing_, quad_steps,
+           [&](const Vec3& p) { samples.push_back({p, QuadMiss::of_quads, faces[i], mesh.location[c[0]].triangle}); });
   }
   return samples;
 }
@@ -109,8 +107,8 @@ SurfacePoint QuadDistance::nearest(Vec3 p) const noexcept {
 
 std::uint64_t NearFaces::key(const QuadMesh& mesh, std::int32_t f) noexcept {
   std::uint64_t key = hash_start;
-  for (std::int32_t k = mesh.face_start[f]; k < mesh.face_start[f + 1]; ++k) {
-    const Vec3 p = mesh.position[mesh.corner[k]];
+  for (std::int32_t k = 0; k < 4; ++k) {
+    const Vec3 p = mesh.position[mesh.quad(f)[k]];
     for (const double x : {p.x, p.y, p.z}) {
       std::uint64_t bits = 0;
       std::memcpy(&bits, &x, sizeof bits);
@@ -126,8 +124,8 @@ void QuadDistance::turn_quads(QuadMesh& mesh, const NearFaces* known) const {
   for_each(jobs_, static_cast<std::uint32_t>(pieces), [&](std::uint32_t piece) {
     const std::int32_t first = static_cast<std::int32_t>(piece) * faces_a_piece;
     for (std::int32_t f = first; f < std::min(first + faces_a_piece, mesh.face_count()); ++f) {
-      if (mesh.size(f) != 4 || (known && known->has(mesh, f))) continue;
-      std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
+      if (known && known->has(mesh, f)) continue;
+      std::int32_t* c = mesh.quad(f);
       std::int32_t reflex = 0;
       if (reflex_corners(mesh, c, reflex) == 1) {
         std::rotate(c, c + reflex, c + 4);

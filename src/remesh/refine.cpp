@@ -35,30 +35,26 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
     first[v] = m;
     return vertex;
   };
-  Table<std::int32_t> starts(memory), corners(memory);
-  starts.push_back(0);
+  Table<std::int32_t> corners(memory);
   auto quad = [&](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
     corners.push_back(a), corners.push_back(b), corners.push_back(c), corners.push_back(d);
-    starts.push_back(corners.size());
   };
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
-    const std::int32_t begin = mesh.face_start[f], size = mesh.size(f);
+    const std::int32_t* q = mesh.quad(f);
     std::int32_t at = none;
-    for (std::int32_t k = 0; k < size; ++k)
-      if (marked[mesh.corner[begin + k]]) at = k;
+    for (std::int32_t k = 0; k < 4; ++k)
+      if (marked[q[k]]) at = k;
     if (at == none) {
-      for (std::int32_t k = 0; k < size; ++k) corners.push_back(mesh.corner[begin + k]);
-      starts.push_back(corners.size());
+      quad(q[0], q[1], q[2], q[3]);
       continue;
     }
-    const std::int32_t v = mesh.corner[begin + at], a = mesh.corner[begin + (at + 1) % 4],
-                       b = mesh.corner[begin + (at + 2) % 4], c = mesh.corner[begin + (at + 3) % 4];
+    const std::int32_t v = q[at], a = q[(at + 1) % 4], b = q[(at + 2) % 4], c = q[(at + 3) % 4];
     const std::int32_t e_a = middle_of(v, a), e_c = middle_of(v, c), i = half_way(v, mesh.position[b]);
     quad(v, e_a, i, e_c), quad(e_a, a, b, i), quad(i, b, c, e_c);
   }
   for (std::int32_t v = 0; v < marked.size(); ++v)
     if (marked[v]) mesh.scale[v] *= subdivided_scale;
-  mesh.face_start.swap(starts), mesh.corner.swap(corners);
+  mesh.corner.swap(corners);
 }
 
 std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Memory& memory) {
@@ -67,8 +63,8 @@ std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, M
   Table<std::int32_t> faces(memory), spokes(memory);
   Table<std::int32_t> first(memory), last(memory);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f)
-    for (std::int32_t k = 0; k < mesh.size(f); ++k) {
-      const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
+    for (std::int32_t k = 0; k < 4; ++k) {
+      const std::int32_t* c = mesh.quad(f);
       if (c[k] == v) faces.push_back(f), first.push_back(c[(k + 1) % 4]), last.push_back(c[(k + 3) % 4]);
     }
   const std::int32_t n = faces.size();
@@ -97,10 +93,8 @@ std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, M
   mesh.scale[v] *= split_scale;
   const std::int32_t added = mesh.add_vertex(mesh.location[v], p, QuadMesh::free, false, mesh.scale[v]);
   for (std::int32_t i = from; i != to; i = (i + 1) % n)
-    for (std::int32_t k = mesh.face_start[faces[i]]; k < mesh.face_start[faces[i] + 1]; ++k)
-      if (mesh.corner[k] == v) mesh.corner[k] = added;
-  for (const std::int32_t c : {v, first[from], added, first[to]}) mesh.corner.push_back(c);
-  mesh.face_start.push_back(mesh.corner.size());
+    std::replace(mesh.quad(faces[i]), mesh.quad(faces[i]) + 4, v, added);
+  mesh.add_quad(v, first[from], added, first[to]);
   return added;
 }
 

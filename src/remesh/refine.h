@@ -11,13 +11,13 @@
 
 namespace hf_inner {
 
-// Replaces each quad at a marked vertex by three. A marked vertex must not lie on a border, and must have only quads
-// around it. No quad may have two marked vertices.
+// Replaces each quad at a marked vertex by three. A marked vertex must not lie on a border. No
+// quad may have two marked vertices.
 void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::uint8_t>& marked, Memory& memory);
 
 // Splits v into two vertices with a new quad between them, the inverse of a collapse (Tarini et al. 2010). The quads on
 // the side of `towards` join the new vertex, whose number is returned. Both vertices stay at v's position. v must be an
-// inner vertex with at least four faces, all of them quads.
+// inner vertex with at least four quads.
 std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Memory& memory);
 
 }  // namespace hf_inner

@@ -33,7 +33,7 @@ void propose(const QuadMesh& mesh, const std::int32_t* c, double edge_length, Ve
     r += 0.25 * std::complex<double>(dot(q, x), dot(q, y)) * turn;
   }
   const double size = hypotenuse(r.real(), r.imag());
-  if (size > 0 && edge_length > 0) r *= (1 - size_step) + size_step * (edge_length / std::sqrt(2.0)) / size;
+  if (size > 0) r *= (1 - size_step) + size_step * (edge_length / std::sqrt(2.0)) / size;
   turn = 1;
   for (int k = 0; k < 4; ++k, turn *= i) {
     const std::complex<double> z = r * turn;
@@ -100,9 +100,8 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
   Table<std::uint8_t> was_over(mesh.corner.size(), 0, memory), back(n, 0, memory), tangled(n, 0, memory);
   // Tells whether corner k of face f is turned over against the normal of the surface there.
   auto over = [&](std::int32_t f, std::int32_t k) {
-    const std::int32_t size = mesh.size(f), *c = mesh.corner.data() + mesh.face_start[f];
-    const Vec3 p = mesh.position[c[k]], x = mesh.position[c[(k + 1) % size]] - p,
-               y = mesh.position[c[(k + size - 1) % size]] - p;
+    const std::int32_t* c = mesh.quad(f);
+    const Vec3 p = mesh.position[c[k]], x = mesh.position[c[(k + 1) % 4]] - p, y = mesh.position[c[(k + 3) % 4]] - p;
     return dot(cross(x, y), triangle_normal(s, mesh.location[c[k]].triangle)) <= 0;
   };
   // The vertices that may move, and the faces around them.
@@ -110,18 +109,17 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
   for (std::int32_t v = 0; v < n; ++v)
     if (!options.moving || (*options.moving)[v]) vertices.push_back(v);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
-    const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
-    if (!options.moving || std::any_of(c, c + mesh.size(f), [&](std::int32_t v) { return (*options.moving)[v] != 0; }))
+    const std::int32_t* c = mesh.quad(f);
+    if (!options.moving || std::any_of(c, c + 4, [&](std::int32_t v) { return (*options.moving)[v] != 0; }))
       faces.push_back(f);
   }
   old_position = mesh.position, old_location = mesh.location;
   for (std::int32_t round = 0; round < options.rounds; ++round) {
     for (const std::int32_t v : vertices) sum[v] = centres[v] = Vec3{}, count[v] = 0, tangled[v] = 0;
     for (const std::int32_t f : faces) {
-      const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
-      for (std::int32_t k = 0; k < mesh.size(f); ++k) was_over[mesh.face_start[f] + k] = over(f, k);
+      const std::int32_t* c = mesh.quad(f);
+      for (std::int32_t k = 0; k < 4; ++k) was_over[4 * f + k] = over(f, k);
       Vec3 proposal[4];
-      if (mesh.size(f) != 4) continue;
       double scale = 0;
       Vec3 outward;
       for (int k = 0; k < 4; ++k) {
@@ -132,7 +130,7 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
       const Vec3 centre = 0.25 * (proposal[0] + proposal[1] + proposal[2] + proposal[3]);
       for (int k = 0; k < 4; ++k) {
         sum[c[k]] = sum[c[k]] + proposal[k], centres[c[k]] = centres[c[k]] + centre, count[c[k]] += 1;
-        if (was_over[mesh.face_start[f] + k])
+        if (was_over[4 * f + k])
           for (int j = 0; j < 4; ++j) tangled[c[j]] = 1;
       }
     }
@@ -149,10 +147,10 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
       any = false;
       for (const std::int32_t v : vertices) back[v] = 0;
       for (const std::int32_t f : faces) {
-        for (std::int32_t k = 0; k < mesh.size(f); ++k) {
-          if (was_over[mesh.face_start[f] + k] || !over(f, k)) continue;
+        for (std::int32_t k = 0; k < 4; ++k) {
+          if (was_over[4 * f + k] || !over(f, k)) continue;
           any = true;
-          for (std::int32_t j = 0; j < mesh.size(f); ++j) back[mesh.corner[mesh.face_start[f] + j]] = 1;
+          for (std::int32_t j = 0; j < 4; ++j) back[mesh.quad(f)[j]] = 1;
         }
       }
       for (const std::int32_t v : vertices)

@@ -7,8 +7,8 @@
 // scheme as in Bouaziz, Deuss, Schwartzburg, Weise and Pauly 2012. If a quad has a corner turned over, its vertices
 // move to the mean of the centres around them instead, which untangles the quad. A vertex walks straight in its
 // triangle, and unfolds the next triangle at every edge that it crosses. So it never leaves the surface, never jumps to
-// another sheet, and stops at a border. A vertex that would turn a corner over stays. Sites, snapped vertices and
-// border vertices stay too.
+// another sheet, and stops at a border. A vertex that would turn a corner over stays. Vertices of
+// features, snapped vertices and border vertices stay too.
 //
 // Cost: O(vertices that may move) per round, and O(vertices) once.
 #pragma once
@@ -19,7 +19,7 @@ namespace hf_inner {
 
 struct RelaxOptions {
   std::int32_t rounds = 0;
-  double edge_length = 0;                       // 0: quads keep their sizes
+  double edge_length = 0;                       // inner units
   const Table<std::uint8_t>* moving = nullptr;  // by vertex: whether it may move; NULL: all may
 };
 

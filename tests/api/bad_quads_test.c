@@ -35,7 +35,6 @@ static hf_result quads_create(void* h) {
 }
 static hf_result quads_update(void* h) {
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
-  desc.kind = HF_QUADS_FIELD;
   return hf_quads_update(h, &desc);
 }
 static hf_result quads_get_info(void* h) {
@@ -106,22 +105,20 @@ static void quads_flow_and_regions_refuse_every_handle_that_is_not_their_own(voi
 
 static hf_quads_desc good_quads;
 static hf_quads made;
-static const uint32_t two_sites[2] = {0, TUBE_VERTICES - 1};
+static const uint32_t two_vertices[2] = {0, TUBE_VERTICES - 1};
 static void refresh_quads(void) {
   good_quads = HF_INIT(hf_quads_desc);
   good_quads.edge_length = 2, good_quads.relax_count = 2;
-  good_quads.site_count = 2, good_quads.site_vertices = two_sites;
   made = (hf_quads)(uintptr_t)5;
 }
-static hf_quads crosses;
 static double sum_before;
-static double sum_of_crosses(void) {
+static double sum_of_quads(void) {
   hf_quads_info info = HF_INIT(hf_quads_info);
-  assert_ok(hf_quads_get_info(crosses, &info));
+  assert_ok(hf_quads_get_info(quads, &info));
   double* all = calloc(info.vertex_count, 3 * sizeof *all);
   hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
   mesh.vertex_capacity = info.vertex_count, mesh.positions = all;
-  assert_ok(hf_quads_get_mesh(crosses, &mesh));
+  assert_ok(hf_quads_get_mesh(quads, &mesh));
   double sum = info.face_count;
   for (uint32_t i = 0; i < 3 * info.vertex_count; ++i) sum += (i % 7 + 1) * all[i];
   free(all);
@@ -133,11 +130,7 @@ static double sum_of_crosses(void) {
 static void quads_refuse_bad_descs(void** state) {
   (void)state;
   setup_surface();
-  const uint32_t outside[2] = {3, TUBE_VERTICES}, twice[2] = {9, 9};
-  const int32_t one_sign[2] = {4, 4}, none[2] = {4, 0};
-  ROW("kind", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.kind = 7, hf_quads_create(surface, &good_quads, &made));
-  ROW("kind below 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.kind = -1,
-      hf_quads_create(surface, &good_quads, &made));
+  const uint32_t outside[2] = {3, TUBE_VERTICES};
   ROW("edge length below 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.edge_length = -1,
       hf_quads_create(surface, &good_quads, &made));
   ROW("edge length NaN", HF_ERROR_NON_FINITE, NO_INDEX, good_quads.edge_length = NAN,
@@ -146,59 +139,32 @@ static void quads_refuse_bad_descs(void** state) {
       hf_quads_create(surface, &good_quads, &made));
   ROW("rounds of relaxation", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.relax_count = 1001,
       hf_quads_create(surface, &good_quads, &made));
-  ROW("sites without a list", HF_ERROR_NULL_POINTER, NO_INDEX, good_quads.site_vertices = NULL,
-      hf_quads_create(surface, &good_quads, &made));
-  ROW("a site outside", HF_ERROR_OUT_OF_RANGE, 1, good_quads.site_vertices = outside,
-      hf_quads_create(surface, &good_quads, &made));
-  ROW("a site twice", HF_ERROR_DUPLICATE_SITE, 1, good_quads.site_vertices = twice,
-      hf_quads_create(surface, &good_quads, &made));
-  ROW("creases for kind uniform", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.crease_angle = 30,
-      hf_quads_create(surface, &good_quads, &made));
   ROW("crease angle NaN", HF_ERROR_NON_FINITE, NO_INDEX, good_quads.crease_angle = NAN,
       hf_quads_create(surface, &good_quads, &made));
-  ROW("crease angle above 180", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-      (good_quads.kind = HF_QUADS_FIELD, good_quads.site_count = 0, good_quads.site_vertices = NULL,
-       good_quads.crease_angle = 181),
+  ROW("crease angle above 180", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.crease_angle = 181,
       hf_quads_create(surface, &good_quads, &made));
-  ROW("a number of faces for kind uniform", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.face_count = 100,
+  ROW("crease angle below 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.crease_angle = -1,
       hf_quads_create(surface, &good_quads, &made));
-  ROW("sites for kind field", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.kind = HF_QUADS_FIELD,
+  ROW("a reserved field", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.reserved = 1,
       hf_quads_create(surface, &good_quads, &made));
-  ROW("polygons for kind field", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-      (good_quads.kind = HF_QUADS_FIELD, good_quads.site_count = 0, good_quads.site_vertices = NULL,
-       good_quads.keep_polygons = 1),
-      hf_quads_create(surface, &good_quads, &made));
-#define FIELD good_quads.kind = HF_QUADS_FIELD, good_quads.site_count = 0, good_quads.site_vertices = NULL
-#define GUIDES \
-  FIELD, good_quads.guide_count = 2, good_quads.guide_vertices = two_sites, good_quads.guide_vectors = along
+#define GUIDES good_quads.guide_count = 2, good_quads.guide_vertices = two_vertices, good_quads.guide_vectors = along
   const uint32_t across[2] = {0, TUBE_VERTICES - 1}, beyond[4] = {0, 1, 0, TUBE_VERTICES}, point[2] = {3, 3};
   const double along[6] = {1, 2, 3, 3, 2, 1}, nowhere[6] = {1, 2, 3, 0, 0, 0}, nan_vector[6] = {1, 2, 3, NAN, 0, 0};
   const float heavy[2] = {1, 1.5f}, weightless[2] = {0, 1}, nan_weight[2] = {1, NAN};
-  ROW("crease edges for kind uniform", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-      (good_quads.crease_count = 1, good_quads.crease_edges = beyond), hf_quads_create(surface, &good_quads, &made));
-  ROW("guides for kind uniform", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-      (good_quads.guide_count = 2, good_quads.guide_vertices = two_sites, good_quads.guide_vectors = along),
+  ROW("crease edges without a count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.crease_edges = beyond,
       hf_quads_create(surface, &good_quads, &made));
-  ROW("a plane for kind pure", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-      (good_quads.kind = HF_QUADS_PURE, good_quads.symmetry_plane[1] = 1),
-      hf_quads_create(surface, &good_quads, &made));
-  ROW("crease edges without a count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (FIELD, good_quads.crease_edges = beyond),
-      hf_quads_create(surface, &good_quads, &made));
-  ROW("crease edges without a list", HF_ERROR_NULL_POINTER, NO_INDEX, (FIELD, good_quads.crease_count = 1),
+  ROW("crease edges without a list", HF_ERROR_NULL_POINTER, NO_INDEX, good_quads.crease_count = 1,
       hf_quads_create(surface, &good_quads, &made));
   ROW("more crease edges than edges", HF_ERROR_TOO_LARGE, NO_INDEX,
-      (FIELD, good_quads.crease_count = 1000000, good_quads.crease_edges = beyond),
+      (good_quads.crease_count = 1000000, good_quads.crease_edges = beyond),
       hf_quads_create(surface, &good_quads, &made));
   ROW("a crease edge outside", HF_ERROR_OUT_OF_RANGE, 1,
-      (FIELD, good_quads.crease_count = 2, good_quads.crease_edges = beyond),
-      hf_quads_create(surface, &good_quads, &made));
+      (good_quads.crease_count = 2, good_quads.crease_edges = beyond), hf_quads_create(surface, &good_quads, &made));
   ROW("a crease edge that is none", HF_ERROR_INVALID_ARGUMENT, 0,
-      (FIELD, good_quads.crease_count = 1, good_quads.crease_edges = across),
-      hf_quads_create(surface, &good_quads, &made));
+      (good_quads.crease_count = 1, good_quads.crease_edges = across), hf_quads_create(surface, &good_quads, &made));
   ROW("a crease edge from a vertex to itself", HF_ERROR_INVALID_ARGUMENT, 0,
-      (FIELD, good_quads.crease_count = 1, good_quads.crease_edges = point),
-      hf_quads_create(surface, &good_quads, &made));
-  ROW("guides without a count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (FIELD, good_quads.guide_vectors = along),
+      (good_quads.crease_count = 1, good_quads.crease_edges = point), hf_quads_create(surface, &good_quads, &made));
+  ROW("guides without a count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.guide_vectors = along,
       hf_quads_create(surface, &good_quads, &made));
   ROW("guides without vertices", HF_ERROR_NULL_POINTER, NO_INDEX, (GUIDES, good_quads.guide_vertices = NULL),
       hf_quads_create(surface, &good_quads, &made));
@@ -218,16 +184,14 @@ static void quads_refuse_bad_descs(void** state) {
       hf_quads_create(surface, &good_quads, &made));
   ROW("a weight that is NaN", HF_ERROR_NON_FINITE, 1, (GUIDES, good_quads.guide_weights = nan_weight),
       hf_quads_create(surface, &good_quads, &made));
-  ROW("a plane that is infinite", HF_ERROR_NON_FINITE, NO_INDEX, (FIELD, good_quads.symmetry_plane[2] = INFINITY),
+  ROW("a plane that is infinite", HF_ERROR_NON_FINITE, NO_INDEX, good_quads.symmetry_plane[2] = INFINITY,
       hf_quads_create(surface, &good_quads, &made));
-  ROW("a plane without a normal", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (FIELD, good_quads.symmetry_plane[3] = 1),
+  ROW("a plane without a normal", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.symmetry_plane[3] = 1,
       hf_quads_create(surface, &good_quads, &made));
   ROW("a plane beside the surface", HF_ERROR_UNSUPPORTED, 5,
-      (FIELD, good_quads.symmetry_plane[0] = 1, good_quads.symmetry_plane[3] = 1e6),
+      (good_quads.symmetry_plane[0] = 1, good_quads.symmetry_plane[3] = 1e6),
       hf_quads_create(surface, &good_quads, &made));
-  ROW("too many faces", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-      (good_quads.kind = HF_QUADS_FIELD, good_quads.site_count = 0, good_quads.site_vertices = NULL,
-       good_quads.face_count = 10000001),
+  ROW("too many faces", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.face_count = 10000001,
       hf_quads_create(surface, &good_quads, &made));
   ROW("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.struct_size = 0,
       hf_quads_create(surface, &good_quads, &made));
@@ -235,39 +199,28 @@ static void quads_refuse_bad_descs(void** state) {
       hf_quads_create(surface, &good_quads, &made));
   ROW("a progress object that is none", HF_ERROR_INVALID_HANDLE, NO_INDEX,
       good_quads.progress = (hf_progress)(void*)solver, hf_quads_create(surface, &good_quads, &made));
-  ROW("lines of one sign", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-      (good_quads.kind = HF_QUADS_PURE, good_quads.site_lines = one_sign),
-      hf_quads_create(surface, &good_quads, &made));
-  ROW("no lines at a site", HF_ERROR_INVALID_ARGUMENT, 1,
-      (good_quads.kind = HF_QUADS_PURE, good_quads.site_lines = none), hf_quads_create(surface, &good_quads, &made));
 #undef UNCHANGED
 #define UNCHANGED() 1
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_create(surface, &good_quads, NULL));
-  ROW("quads of another kind", HF_ERROR_UNSUPPORTED, NO_INDEX, FIELD, hf_quads_update(quads, &good_quads));
-  refresh_quads(), FIELD;
-  assert_ok(hf_quads_create(surface, &good_quads, &crosses));
-  sum_before = sum_of_crosses();
+  sum_before = sum_of_quads();
 #undef UNCHANGED
-#define UNCHANGED() (sum_of_crosses() == sum_before)
-  ROW("no desc", HF_ERROR_NULL_POINTER, NO_INDEX, FIELD, hf_quads_update(crosses, NULL));
-  ROW("another kind", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_quads_update(crosses, &good_quads));
-  ROW("no such kind", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.kind = 7, hf_quads_update(crosses, &good_quads));
+#define UNCHANGED() (sum_of_quads() == sum_before)
+  ROW("no desc", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_update(quads, NULL));
+  ROW("a reserved field", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.reserved = 1,
+      hf_quads_update(quads, &good_quads));
   ROW("struct_size 3", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.struct_size = 3,
-      hf_quads_update(crosses, &good_quads));
-  ROW("edge length NaN", HF_ERROR_NON_FINITE, NO_INDEX, (FIELD, good_quads.edge_length = NAN),
-      hf_quads_update(crosses, &good_quads));
+      hf_quads_update(quads, &good_quads));
+  ROW("edge length NaN", HF_ERROR_NON_FINITE, NO_INDEX, good_quads.edge_length = NAN,
+      hf_quads_update(quads, &good_quads));
   ROW("a crease edge outside", HF_ERROR_OUT_OF_RANGE, 1,
-      (FIELD, good_quads.crease_count = 2, good_quads.crease_edges = beyond), hf_quads_update(crosses, &good_quads));
+      (good_quads.crease_count = 2, good_quads.crease_edges = beyond), hf_quads_update(quads, &good_quads));
   ROW("a guide that is NaN", HF_ERROR_NON_FINITE, 1, (GUIDES, good_quads.guide_vectors = nan_vector),
-      hf_quads_update(crosses, &good_quads));
+      hf_quads_update(quads, &good_quads));
   ROW("a plane beside the surface", HF_ERROR_UNSUPPORTED, 5,
-      (FIELD, good_quads.symmetry_plane[0] = 1, good_quads.symmetry_plane[3] = 1e6),
-      hf_quads_update(crosses, &good_quads));
+      (good_quads.symmetry_plane[0] = 1, good_quads.symmetry_plane[3] = 1e6), hf_quads_update(quads, &good_quads));
   ROW("a progress object that is none", HF_ERROR_INVALID_HANDLE, NO_INDEX,
-      (FIELD, good_quads.progress = (hf_progress)(void*)solver), hf_quads_update(crosses, &good_quads));
-  hf_quads_destroy(crosses);
+      good_quads.progress = (hf_progress)(void*)solver, hf_quads_update(quads, &good_quads));
 #undef GUIDES
-#undef FIELD
 #undef UNCHANGED
 #define UNCHANGED() 1
   hf_quads_info info = HF_INIT(hf_quads_info);
@@ -276,6 +229,9 @@ static void quads_refuse_bad_descs(void** state) {
   hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_get_mesh(quads, NULL));
   ROW("no room", HF_ERROR_TOO_SMALL, NO_INDEX, (mesh.positions = positions, mesh.vertex_capacity = 1),
+      hf_quads_get_mesh(quads, &mesh));
+  mesh = HF_INIT(hf_quads_mesh);
+  ROW("no room for faces", HF_ERROR_TOO_SMALL, NO_INDEX, (mesh.faces = numbers, mesh.face_capacity = 1),
       hf_quads_get_mesh(quads, &mesh));
   ROW("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, mesh.struct_size = 0, hf_quads_get_mesh(quads, &mesh));
   finish_rows("quads");

@@ -310,27 +310,24 @@ static void print_region(void) {
 static void print_quads(void) {
 #define T hf_quads_desc
   STRUCT(hf_quads_desc);
-  F(struct_size), F(kind), F(edge_length), F(site_count), F(site_vertices), F(site_lines), F(keep_polygons),
-      F(relax_count), F(progress), F(face_count), F(crease_angle), F(crease_count), F(guide_count), F(crease_edges),
-      F(guide_vertices), F(guide_vectors), F(guide_weights), F(symmetry_plane);
+  F(struct_size), F(face_count), F(edge_length), F(crease_angle), F(relax_count), F(crease_count), F(guide_count),
+      F(reserved), F(symmetry_plane), F(crease_edges), F(guide_vertices), F(guide_vectors), F(guide_weights),
+      F(progress);
 #undef T
 #define T hf_quads_info
   STRUCT(hf_quads_info);
-  F(struct_size), F(vertex_count), F(face_count), F(corner_count), F(quad_count), F(polygon_count),
-      F(polygon_quad_count), F(site_count), F(saddle_count), F(euler_characteristic), F(edge_length), F(reserved);
+  F(struct_size), F(vertex_count), F(face_count), F(euler_characteristic), F(edge_length);
 #undef T
 #define T hf_quads_mesh
   STRUCT(hf_quads_mesh);
-  F(struct_size), F(vertex_capacity), F(face_capacity), F(corner_capacity), F(site_capacity), F(vertex_count),
-      F(face_count), F(corner_count), F(site_count), F(reserved), F(positions), F(triangles), F(barycentrics),
-      F(face_starts), F(face_corners), F(site_vertices), F(site_lines), F(corners);
+  F(struct_size), F(vertex_capacity), F(face_capacity), F(vertex_count), F(face_count), F(reserved), F(positions),
+      F(faces), F(triangles), F(barycentrics), F(corners);
 #undef T
 #define T hf_flow_lines
   STRUCT(hf_flow_lines);
   F(struct_size), F(wanted_count), F(seed_count), F(point_capacity), F(line_capacity), F(point_count), F(line_count),
       F(reserved), F(seeds), F(positions), F(values), F(line_starts), F(line_ends);
 #undef T
-  CONSTANT(HF_QUADS_UNIFORM), CONSTANT(HF_QUADS_PURE), CONSTANT(HF_QUADS_FIELD);
 }
 
 static void print_transfer(void) {

@@ -114,13 +114,10 @@ static hf_result flow_trace(Call* c) {
 static hf_result quads_get_mesh(Call* c) {
   hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
   mesh.vertex_capacity = (uint32_t)c->capacity[0], mesh.face_capacity = (uint32_t)c->capacity[1];
-  mesh.corner_capacity = (uint32_t)c->capacity[2], mesh.site_capacity = (uint32_t)c->capacity[3];
   mesh.positions = c->array[0], mesh.triangles = c->array[1], mesh.barycentrics = c->array[2];
-  mesh.face_starts = c->array[3], mesh.face_corners = c->array[4];
-  mesh.site_vertices = c->array[5], mesh.site_lines = c->array[6];
+  mesh.corners = c->array[3], mesh.faces = c->array[4];
   const hf_result r = hf_quads_get_mesh(quads, &mesh);
   c->count[0] = mesh.vertex_count, c->count[1] = mesh.face_count;
-  c->count[2] = mesh.corner_count, c->count[3] = mesh.site_count;
   return r;
 }
 static hf_result get_sites(Call* c) {
@@ -240,10 +237,7 @@ static const struct {
      0},
     {"hf_geodesics_find_path", find_path, {{0, 8, 0}, {0, 8, 0}, {0, 24, 0}}, 0},
     {"hf_flow_trace", flow_trace, {{0, 24, 0}, {0, 8, 0}, {1, 4, 1}, {1, 8, 0}}, 0},
-    {"hf_quads_get_mesh",
-     quads_get_mesh,
-     {{0, 24, 0}, {0, 4, 0}, {0, 24, 0}, {1, 4, 1}, {2, 4, 0}, {3, 4, 0}, {3, 4, 0}},
-     0},
+    {"hf_quads_get_mesh", quads_get_mesh, {{0, 24, 0}, {0, 4, 0}, {0, 24, 0}, {0, 12, 0}, {1, 16, 0}}, 0},
     {"hf_solver_get_sites",
      get_sites,
      {{0, 4, 0}, {0, 4, 0}, {0, 4, 0}, {0, 8, 0}, {0, 8, 0}, {0, 8, 0}, {0, 8, 0}},

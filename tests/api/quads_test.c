@@ -19,53 +19,57 @@ static void a_tube_becomes_a_closed_net_of_quads(void** state) {
   (void)state;
   Surface mesh;
   const hf_surface surface = tube_on(&mesh);
-  for (int32_t kind = HF_QUADS_UNIFORM; kind <= HF_QUADS_PURE; ++kind) {
-    hf_quads_desc desc = quads_desc();
-    desc.kind = kind;
-    hf_quads quads = NULL;
-    assert_ok(hf_quads_create(surface, &desc, &quads));
-    hf_quads_info info = HF_INIT(hf_quads_info);
-    assert_ok(hf_quads_get_info(quads, &info));
-    assert_int_equal(info.euler_characteristic, 0);
-    assert_int_equal(info.quad_count, info.face_count);
-    assert_int_equal(info.corner_count, 4 * info.face_count);
-    assert_int_equal(info.site_count, 2); /* the two borders */
-    assert_true(fabsf(info.edge_length - 1) < 1e-6f);
-    double* positions = calloc(info.vertex_count, 3 * sizeof *positions);
-    double* weights = calloc(info.vertex_count, 3 * sizeof *weights);
-    uint32_t* triangles = calloc(info.vertex_count, sizeof *triangles);
-    uint32_t* starts = calloc(info.face_count + 1u, sizeof *starts);
-    uint32_t* corners = calloc(info.corner_count, sizeof *corners);
-    uint32_t sites[2];
-    int32_t lines[2];
-    hf_quads_mesh net = HF_INIT(hf_quads_mesh);
-    net.vertex_capacity = info.vertex_count, net.face_capacity = info.face_count;
-    net.corner_capacity = info.corner_count, net.site_capacity = 2;
-    net.positions = positions, net.triangles = triangles, net.barycentrics = weights;
-    net.face_starts = starts, net.face_corners = corners, net.site_vertices = sites, net.site_lines = lines;
-    assert_ok(hf_quads_get_mesh(quads, &net));
-    assert_int_equal(starts[0], 0);
-    assert_int_equal(starts[info.face_count], info.corner_count);
-    assert_true(sites[0] == HF_NO_INDEX && sites[1] == HF_NO_INDEX);
-    assert_int_equal(lines[0] + lines[1], 0);
-    for (uint32_t i = 0; i < info.corner_count; ++i) assert_true(corners[i] < info.vertex_count);
-    for (uint32_t v = 0; v < info.vertex_count; ++v) {
-      assert_true(triangles[v] < mesh.triangle_count);
-      for (uint32_t k = 0; k < 3; ++k) { /* the vertex is where its weights say */
-        double p = 0;
-        for (uint32_t c = 0; c < 3; ++c)
-          p += weights[3 * v + c] * (double)mesh.positions[3 * mesh.triangles[3 * triangles[v] + c] + k];
-        assert_true(fabs(p - positions[3 * v + k]) < 1e-6);
-      }
-    }
-    /* too small: nothing is written */
-    net.face_capacity = info.face_count - 1, starts[0] = 77;
-    assert_code(HF_ERROR_TOO_SMALL, hf_quads_get_mesh(quads, &net));
-    assert_int_equal(starts[0], 77);
-    free(positions), free(weights), free(triangles), free(starts), free(corners);
-    hf_quads_destroy(quads);
-    assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_get_info(quads, &info));
+  hf_quads_desc desc = quads_desc();
+  hf_quads quads = NULL;
+  assert_ok(hf_quads_create(surface, &desc, &quads));
+  hf_quads_info info = HF_INIT(hf_quads_info);
+  assert_ok(hf_quads_get_info(quads, &info));
+  assert_int_equal(info.euler_characteristic, 0);
+  assert_true(fabsf(info.edge_length - 1) < 1e-6f);
+  double* positions = calloc(info.vertex_count, 3 * sizeof *positions);
+  double* weights = calloc(info.vertex_count, 3 * sizeof *weights);
+  uint32_t* triangles = calloc(info.vertex_count, sizeof *triangles);
+  uint32_t* corners = calloc(info.vertex_count, 3 * sizeof *corners);
+  uint32_t* faces = calloc(info.face_count, 4 * sizeof *faces);
+  hf_quads_mesh net = HF_INIT(hf_quads_mesh);
+  net.vertex_capacity = info.vertex_count, net.face_capacity = info.face_count;
+  net.positions = positions, net.triangles = triangles, net.barycentrics = weights, net.corners = corners;
+  net.faces = faces;
+  assert_ok(hf_quads_get_mesh(quads, &net));
+  assert_int_equal(net.vertex_count, info.vertex_count);
+  assert_int_equal(net.face_count, info.face_count);
+  for (uint32_t i = 0; i < 4 * info.face_count; ++i) {
+    assert_true(faces[i] < info.vertex_count);
+    for (uint32_t k = i / 4 * 4; k < i; ++k) assert_true(faces[k] != faces[i]);
   }
+  for (uint32_t v = 0; v < info.vertex_count; ++v) {
+    assert_true(triangles[v] < mesh.triangle_count);
+    for (uint32_t k = 0; k < 3; ++k) { /* the vertex is where its weights say */
+      double p = 0;
+      for (uint32_t c = 0; c < 3; ++c) {
+        assert_int_equal(corners[3 * v + c], mesh.triangles[3 * triangles[v] + c]);
+        p += weights[3 * v + c] * (double)mesh.positions[3 * corners[3 * v + c] + k];
+      }
+      assert_true(fabs(p - positions[3 * v + k]) < 1e-6);
+    }
+  }
+  /* too small: nothing is written */
+  net.face_capacity = info.face_count - 1, faces[0] = faces[1] = 77777;
+  assert_code(HF_ERROR_TOO_SMALL, hf_quads_get_mesh(quads, &net));
+  assert_true(faces[0] == 77777 && faces[1] == 77777);
+  free(positions), free(weights), free(triangles), free(corners), free(faces);
+  hf_quads_destroy(quads);
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_get_info(quads, &info));
+  /* HF_INIT, and no desc at all, give quads of 0.022 box diagonals */
+  hf_quads_info plain[2] = {HF_INIT(hf_quads_info), HF_INIT(hf_quads_info)};
+  desc = HF_INIT(hf_quads_desc);
+  for (int given = 0; given < 2; ++given) {
+    assert_ok(hf_quads_create(surface, given ? &desc : NULL, &quads));
+    assert_ok(hf_quads_get_info(quads, &plain[given]));
+    hf_quads_destroy(quads);
+  }
+  assert_memory_equal(&plain[0], &plain[1], sizeof plain[0]);
+  assert_true(fabsf(plain[0].edge_length / 0.022f - sqrtf(8 + (RINGS - 1) * (RINGS - 1))) < 1e-3f);
   hf_surface_destroy(surface), surface_free(&mesh);
 }
 
@@ -74,24 +78,21 @@ static void a_tube_becomes_quads_along_its_curvature(void** state) {
   Surface mesh;
   const hf_surface surface = tube_on(&mesh);
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
-  desc.kind = HF_QUADS_FIELD, desc.face_count = 400;
+  desc.face_count = 400;
   hf_quads quads = NULL;
   assert_ok(hf_quads_create(surface, &desc, &quads));
   hf_quads_info info = HF_INIT(hf_quads_info);
   assert_ok(hf_quads_get_info(quads, &info));
   assert_int_equal(info.euler_characteristic, 0);
-  assert_int_equal(info.quad_count, info.face_count);
   assert_true(info.face_count >= 380 && info.face_count <= 420);
-  assert_int_equal(info.site_count, 0);
-  assert_int_equal(info.saddle_count, 0);
   assert_true(info.edge_length > 0);
   /* a tube has no singularities: every vertex has four faces, two on the borders */
-  uint32_t* corners = calloc(info.corner_count, sizeof *corners);
+  uint32_t* corners = calloc(info.face_count, 4 * sizeof *corners);
   uint32_t* valence = calloc(info.vertex_count, sizeof *valence);
   hf_quads_mesh net = HF_INIT(hf_quads_mesh);
-  net.corner_capacity = info.corner_count, net.face_corners = corners;
+  net.face_capacity = info.face_count, net.faces = corners;
   assert_ok(hf_quads_get_mesh(quads, &net));
-  for (uint32_t i = 0; i < info.corner_count; ++i) ++valence[corners[i]];
+  for (uint32_t i = 0; i < 4 * info.face_count; ++i) ++valence[corners[i]];
   for (uint32_t v = 0; v < info.vertex_count; ++v) assert_true(valence[v] == 4 || valence[v] == 2);
   free(corners), free(valence);
   hf_quads_destroy(quads);
@@ -113,7 +114,7 @@ static void a_tube_becomes_quads_along_guides_and_its_own_mirror_image(void** st
   const uint32_t crease[4] = {0, AROUND, AROUND, 2 * AROUND};
   const double middle = (RINGS - 1) / 2.0;
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
-  desc.kind = HF_QUADS_FIELD, desc.face_count = 400;
+  desc.face_count = 400;
   desc.guide_count = COUNT, desc.guide_vertices = vertices, desc.guide_vectors = vectors;
   desc.symmetry_plane[1] = 2, desc.symmetry_plane[3] = 2 * middle;
   for (int creased = 0; creased < 2; ++creased) {
@@ -123,12 +124,11 @@ static void a_tube_becomes_quads_along_guides_and_its_own_mirror_image(void** st
     hf_quads_info info = HF_INIT(hf_quads_info);
     assert_ok(hf_quads_get_info(quads, &info));
     assert_int_equal(info.euler_characteristic, 0);
-    assert_int_equal(info.quad_count, info.face_count);
     double* positions = calloc(info.vertex_count, 3 * sizeof *positions);
-    uint32_t* corners = calloc(info.corner_count, sizeof *corners);
+    uint32_t* corners = calloc(info.face_count, 4 * sizeof *corners);
     hf_quads_mesh net = HF_INIT(hf_quads_mesh);
     net.vertex_capacity = info.vertex_count, net.positions = positions;
-    net.corner_capacity = info.corner_count, net.face_corners = corners;
+    net.face_capacity = info.face_count, net.faces = corners;
     assert_ok(hf_quads_get_mesh(quads, &net));
     uint32_t on_plane = 0;
     for (uint32_t v = 0; v < info.vertex_count; ++v) {
@@ -144,7 +144,7 @@ static void a_tube_becomes_quads_along_guides_and_its_own_mirror_image(void** st
     assert_true(on_plane > 3);
     /* away from the plane and the ends a side of a quad rises as much as it winds */
     double slanting = 0, sides = 0;
-    for (uint32_t i = 0; i < info.corner_count; ++i) {
+    for (uint32_t i = 0; i < 4 * info.face_count; ++i) {
       const double *p = positions + 3 * corners[i], *q = positions + 3 * corners[i % 4 == 3 ? i - 3 : i + 1];
       const double rise = fabs(q[1] - p[1]),
                    along = sqrt((q[0] - p[0]) * (q[0] - p[0]) + (q[2] - p[2]) * (q[2] - p[2]));
@@ -169,10 +169,10 @@ static Net net_of(hf_quads quads) {
   Net net = {HF_INIT(hf_quads_info), NULL, NULL};
   assert_ok(hf_quads_get_info(quads, &net.info));
   net.positions = calloc(net.info.vertex_count, 3 * sizeof *net.positions);
-  net.corners = calloc(net.info.corner_count, sizeof *net.corners);
+  net.corners = calloc(net.info.face_count, 4 * sizeof *net.corners);
   hf_quads_mesh out = HF_INIT(hf_quads_mesh);
-  out.vertex_capacity = net.info.vertex_count, out.corner_capacity = net.info.corner_count;
-  out.positions = net.positions, out.face_corners = net.corners;
+  out.vertex_capacity = net.info.vertex_count, out.face_capacity = net.info.face_count;
+  out.positions = net.positions, out.faces = net.corners;
   assert_ok(hf_quads_get_mesh(quads, &out));
   return net;
 }
@@ -181,7 +181,7 @@ static Net net_of(hf_quads quads) {
 static int same_nets(Net a, Net b) {
   const int same = memcmp(&a.info, &b.info, sizeof a.info) == 0 &&
                    memcmp(a.positions, b.positions, 3 * a.info.vertex_count * sizeof *a.positions) == 0 &&
-                   memcmp(a.corners, b.corners, a.info.corner_count * sizeof *a.corners) == 0;
+                   memcmp(a.corners, b.corners, 4 * a.info.face_count * sizeof *a.corners) == 0;
   free(a.positions), free(a.corners), free(b.positions), free(b.corners);
   return same;
 }
@@ -195,15 +195,14 @@ static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
   uint32_t guided[3] = {10 * AROUND, 10 * AROUND + 1, 11 * AROUND};
   double vectors[9];
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
-  desc.kind = HF_QUADS_FIELD, desc.face_count = 300;
+  desc.face_count = 300;
   hf_quads updated = NULL, fresh = NULL;
   assert_ok(hf_quads_create(surface, &desc, &updated));
   for (uint32_t step = 0; step < 9; ++step) {
     for (uint32_t i = 0; i < 3; ++i) /* a stroke that turns */
       vectors[3 * i] = 0.1 * step, vectors[3 * i + 1] = 0, vectors[3 * i + 2] = 1;
     memset(&desc, 0, sizeof desc);
-    desc.struct_size = sizeof desc, desc.kind = HF_QUADS_FIELD, desc.face_count = 300,
-    desc.relax_count = step % 2 ? 3 : HF_NO_INDEX;
+    desc.struct_size = sizeof desc, desc.face_count = 300, desc.relax_count = step % 2 ? 3 : HF_NO_INDEX;
     if (step > 0) desc.guide_count = 3, desc.guide_vertices = guided, desc.guide_vectors = vectors;
     if (step == 3) desc.crease_count = 1, desc.crease_edges = creases;
     if (step == 4) desc.face_count = 0, desc.edge_length = 0.8f;
@@ -216,9 +215,7 @@ static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
 
     const Net before = net_of(updated);
     hf_quads_desc bad = desc;
-    bad.kind = HF_QUADS_PURE;
-    assert_code(HF_ERROR_UNSUPPORTED, hf_quads_update(updated, &bad));
-    bad = desc, bad.edge_length = -1;
+    bad.edge_length = -1;
     assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_update(updated, &bad));
     bad = desc, bad.guide_count = 3, bad.guide_vertices = guided, bad.guide_vectors = vectors;
     const double none[9] = {0, 0, 1, 0, 0, 1, 0, 0, 0};
@@ -239,15 +236,7 @@ static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
   hf_surface_destroy(surface);
   desc.symmetry_plane[0] = 0;
   assert_ok(hf_quads_update(updated, &desc));
-  hf_quads_destroy(updated);
-  /* other kinds have nothing to keep */
-  const hf_surface again = surface_on(&mesh);
-  desc = quads_desc();
-  assert_ok(hf_quads_create(again, &desc, &updated));
-  assert_code(HF_ERROR_UNSUPPORTED, hf_quads_update(updated, &desc));
-  desc.kind = HF_QUADS_FIELD;
-  assert_code(HF_ERROR_UNSUPPORTED, hf_quads_update(updated, &desc));
-  hf_quads_destroy(updated), hf_surface_destroy(again), surface_free(&mesh);
+  hf_quads_destroy(updated), surface_free(&mesh);
 }
 
 static void flow_lines_rise_and_outlive_the_surface(void** state) {
@@ -354,11 +343,10 @@ static void progress_rises_in_small_steps_and_stops_where_it_is_cancelled(void**
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&create, &surface));
   assert_ok(hf_progress_create(&watcher.progress));
-  const uint32_t sites[2] = {5, 300};
-  for (int automatic = 0; automatic < 2; ++automatic) {
+  for (int counted = 0; counted < 2; ++counted) {
     hf_quads_desc desc = quads_desc();
     desc.progress = watcher.progress;
-    if (!automatic) desc.site_count = 2, desc.site_vertices = sites;
+    if (counted) desc.face_count = 300;
     watcher.last = watcher.largest_step = 0, watcher.values = watcher.falls = 0, watcher.cancel_at = 2;
     hf_quads quads = NULL;
     assert_ok(hf_quads_create(surface, &desc, &quads));
@@ -382,15 +370,14 @@ static void bad_input_is_named(void** state) {
   Surface mesh;
   const hf_surface surface = tube_on(&mesh);
   hf_quads quads = NULL;
-  const uint32_t vertices[] = {5, 300, 5}, beyond[] = {COUNT};
-  const int32_t lines[] = {4, 0}, one_sign[] = {4, 4};
+  const uint32_t beyond[] = {COUNT}, edge[] = {0, 1, 0, COUNT};
   hf_quads_desc desc = quads_desc();
   assert_code(HF_ERROR_NULL_POINTER, hf_quads_create(surface, &desc, NULL));
   assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_create(NULL, &desc, &quads));
   desc.struct_size = 4;
   assert_code(HF_ERROR_INVALID_DESC, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.kind = 3;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
+  desc = quads_desc(), desc.reserved = 3;
+  assert_code(HF_ERROR_INVALID_DESC, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.edge_length = -1;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.edge_length = NAN;
@@ -399,21 +386,11 @@ static void bad_input_is_named(void** state) {
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.relax_count = 1001;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.site_count = 2;
-  assert_code(HF_ERROR_NULL_POINTER, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.site_vertices = vertices;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.site_count = 1, desc.site_vertices = beyond;
+  desc = quads_desc(), desc.crease_count = 2, desc.crease_edges = edge;
   assert_code(HF_ERROR_OUT_OF_RANGE, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.site_count = 3, desc.site_vertices = vertices;
-  assert_code(HF_ERROR_DUPLICATE_SITE, hf_quads_create(surface, &desc, &quads));
   hf_error_detail detail;
   assert_ok(hf_error_get_detail(&detail));
-  assert_int_equal(detail.index, 2);
-  desc = quads_desc(), desc.site_count = 2, desc.site_vertices = vertices, desc.site_lines = lines;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
-  desc.site_lines = one_sign;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
+  assert_int_equal(detail.index, 1);
   assert_null(quads);
   hf_flow flow = NULL;
   assert_code(HF_ERROR_NULL_POINTER, hf_flow_create(surface, NULL));
@@ -481,7 +458,6 @@ static void very_many_quads_must_be_asked_for(void** state) {
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&create, &surface));
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
-  desc.kind = HF_QUADS_FIELD;
   hf_quads quads = NULL;
   assert_code(HF_ERROR_TOO_LARGE, hf_quads_create(surface, &desc, &quads));
   assert_null(quads);
@@ -518,7 +494,7 @@ static void a_non_manifold_edge_is_parted(void** state) {
   assert_ok(hf_surface_get_report(surface, &report));
   assert_int_equal(report.non_manifold_edge_count, N);
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
-  desc.kind = HF_QUADS_FIELD, desc.edge_length = 1;
+  desc.edge_length = 1;
   hf_quads quads = NULL;
   assert_ok(hf_quads_create(surface, &desc, &quads));
   hf_quads_info info = HF_INIT(hf_quads_info);
@@ -528,16 +504,15 @@ static void a_non_manifold_edge_is_parted(void** state) {
   /* in the middle of the edge the sheet has four quads, and the border of the fin two */
   enum { MOST = 2 * SHEET };
   static double places[3 * MOST];
-  static uint32_t starts[MOST], corners[4 * MOST];
+  static uint32_t corners[4 * MOST];
   hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
-  mesh.vertex_capacity = MOST, mesh.face_capacity = MOST - 1, mesh.corner_capacity = 4 * MOST;
-  mesh.positions = places, mesh.face_starts = starts, mesh.face_corners = corners;
+  mesh.vertex_capacity = mesh.face_capacity = MOST, mesh.positions = places, mesh.faces = corners;
   assert_ok(hf_quads_get_mesh(quads, &mesh));
   uint32_t copies = 0;
   for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
     if (fabs(places[3 * v] - 6) + fabs(places[3 * v + 1] - 6) + fabs(places[3 * v + 2]) > 0.1) continue;
     uint32_t around = 0, upright = 0;
-    for (uint32_t c = 0; c < mesh.corner_count; ++c) {
+    for (uint32_t c = 0; c < 4 * mesh.face_count; ++c) {
       if (corners[c] != v) continue;
       double top = 0;
       for (uint32_t k = 0; k < 4; ++k) top = fmax(top, places[3 * corners[c / 4 * 4 + k] + 2]);
@@ -553,64 +528,6 @@ static void a_non_manifold_edge_is_parted(void** state) {
   hf_flow_destroy(flow), hf_surface_destroy(surface);
 }
 
-/* A sheet of n x n unit squares; of n = 3 the middle one can be missing. */
-static hf_surface squares_on(uint32_t n, int with_hole) {
-  float positions[75];
-  uint32_t triangles[96], count = 0;
-  for (uint32_t v = 0; v < (n + 1) * (n + 1); ++v) {
-    positions[3 * v] = (float)(v % (n + 1)), positions[3 * v + 1] = (float)(v / (n + 1)), positions[3 * v + 2] = 0;
-  }
-  for (uint32_t q = 0; q < n * n; ++q) {
-    if (with_hole && q == 4) continue;
-    const uint32_t a = q / n * (n + 1) + q % n, c = a + n + 1;
-    count = add_square(triangles, count, a, a + 1, c, c + 1);
-  }
-  hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = (n + 1) * (n + 1), desc.triangle_count = count / 3;
-  desc.positions = positions, desc.triangles = triangles;
-  hf_surface surface = NULL;
-  assert_ok(hf_surface_create(&desc, &surface));
-  return surface;
-}
-
-static hf_surface triangle_on(void) {
-  const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-  const uint32_t corners[3] = {0, 1, 2};
-  hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 3, desc.triangle_count = 1, desc.positions = positions, desc.triangles = corners;
-  hf_surface surface = NULL;
-  assert_ok(hf_surface_create(&desc, &surface));
-  return surface;
-}
-
-/* A site on a border gets the border's own level: rounding decided which of the two was the extremum, and a hole could
- * come out as a face. */
-static void sites_on_a_border_leave_it_a_border(void** state) {
-  (void)state;
-  const struct {
-    hf_surface surface;
-    int32_t kind;
-    float edge_length;
-    uint32_t count, vertices[5];
-    int32_t lines[5], euler;
-  } cases[] = {
-      {triangle_on(), HF_QUADS_PURE, 0.565685f, 3, {0, 2, 1}, {2, 2, -8}, 1},
-      {squares_on(4, 0), HF_QUADS_PURE, 0.565685f, 5, {21, 18, 24, 20, 3}, {-12, -8, -12, 4, 10}, 1},
-      {squares_on(3, 1), HF_QUADS_UNIFORM, 2.262742f, 3, {5, 10, 11}, {-2, -2, 4}, 0},
-  };
-  for (size_t i = 0; i < COUNT_OF(cases); ++i) {
-    hf_quads_desc desc = HF_INIT(hf_quads_desc);
-    desc.kind = cases[i].kind, desc.edge_length = cases[i].edge_length, desc.site_count = cases[i].count;
-    desc.site_vertices = cases[i].vertices, desc.site_lines = cases[i].lines;
-    hf_quads quads = NULL;
-    assert_ok(hf_quads_create(cases[i].surface, &desc, &quads));
-    hf_quads_info info = HF_INIT(hf_quads_info);
-    assert_ok(hf_quads_get_info(quads, &info));
-    assert_int_equal(info.euler_characteristic, cases[i].euler);
-    hf_quads_destroy(quads), hf_surface_destroy(cases[i].surface);
-  }
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_tube_becomes_a_closed_net_of_quads),
@@ -620,7 +537,6 @@ int main(void) {
       cmocka_unit_test(flow_lines_rise_and_outlive_the_surface),
       cmocka_unit_test(cancelling_leaves_nothing_and_stops_one_call),
       cmocka_unit_test(progress_rises_in_small_steps_and_stops_where_it_is_cancelled),
-      cmocka_unit_test(sites_on_a_border_leave_it_a_border),
       cmocka_unit_test(bad_input_is_named),
       cmocka_unit_test(mostly_non_manifold_triangles_are_refused_with_a_vertex),
       cmocka_unit_test(very_many_quads_must_be_asked_for),

@@ -1,4 +1,4 @@
-"""How near irregular vertices are to where hf.pole_guides wants them: poles.py MESH... [--count N] [--faces N] [--relax].
+"""How near irregular vertices are to where poles want them: poles.py MESH... [--count N] [--faces N] [--relax].
 
 At N random places of each mesh, OBJ or OFF, quads are made with a pole of 3 and with one of 5. A row says how far the
 nearest such vertex is from its place in edges of quads, without the pole and with it: the median, the 90 % quantile and
@@ -13,7 +13,6 @@ import numpy as np
 
 import hf
 
-FIELD = {"kind": hf.constants.HF_QUADS_FIELD} if hasattr(hf.constants, "HF_QUADS_FIELD") else {}
 
 
 def fans(faces):
@@ -36,7 +35,7 @@ class Seen:
     """A quad mesh and its irregular vertices."""
 
     def __init__(self, mesh):
-        self.points, self.faces = mesh.positions, mesh.face_corners.reshape(-1, 4)
+        self.points, self.faces = mesh.positions, mesh.faces
         edges = np.sort(np.stack([self.faces, np.roll(self.faces, -1, 1)], -1).reshape(-1, 2), 1)
         edges, uses = np.unique(edges, axis=0, return_counts=True)
         self.valences = np.bincount(edges.ravel(), minlength=len(self.points))
@@ -60,7 +59,7 @@ class Seen:
 
 def measure(path, count, wanted, relax):
     points, triangles = read(path)
-    options = {**FIELD, "face_count": wanted, **({} if relax else {"relax_count": hf.NO_INDEX})}
+    options = {"face_count": wanted, **({} if relax else {"relax_count": hf.NO_INDEX})}
     quads = hf.Quads(hf.Surface(points, triangles), **options)
     plain = Seen(quads.mesh())
     a, b, c = points[triangles].transpose(1, 0, 2)
@@ -73,8 +72,7 @@ def measure(path, count, wanted, relax):
         rows = []
         for triangle in picked:
             place, direction = random.dirichlet([1, 1, 1]) @ points[triangles[triangle]], random.normal(size=3)
-            vertices, vectors = hf.pole_guides(points, triangles, place, quad_count, edge, direction=direction)
-            quads.update(guide_vertices=vertices, guide_vectors=vectors, **options)
+            quads.update(pole_points=[place], pole_quads=[quad_count], pole_directions=[direction], **options)
             seen = Seen(quads.mesh())
             vertex, away = seen.nearest(place, quad_count)
             turn = np.nan if away > edge else seen.off(vertex, normals[triangle] / areas[triangle], direction)

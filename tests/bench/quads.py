@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Quads from crosses over meshes: the figures of docs/studies/quads_field.md.
+"""Quads over meshes: the figures of docs/studies/quads_field.md.
 
     python3 tests/bench/quads.py HF_QUADS OUT.csv MESH... [--faces 500,5000,50000] [--limit SECONDS] [--crease DEG]
                                    [--peer "COMMAND {mesh} {faces} {out}"]
@@ -84,7 +84,7 @@ def measure(program, mesh, faces, limit, crease, peer, folder):
             return {**row, "status": "refused", "message": f"exit code {done.returncode}, nothing written"}
         command, limit = [program, mesh, "--measure", made], None if done else limit
     else:
-        command = [program, mesh, "--field", "--faces", str(faces)] + (["--crease", str(crease)] if crease else [])
+        command = [program, mesh, "--faces", str(faces)] + (["--crease", str(crease)] if crease else [])
         done = True
     if done:
         done, measured = run(command, limit)

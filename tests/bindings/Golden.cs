@@ -288,18 +288,14 @@ class Scene
             case "quads":
             case "update_quads":
                 {
-                    var o = Options(step, "kind", "keep_polygons", "relax_count", "face_count", "crease_angle");
-                    double[] lines = Doubles(step, "site_lines");
-                    var given = new QuadOptions { Kind = (int)o["kind"],
-                        KeepPolygons = (int)o["keep_polygons"], RelaxCount = (uint)o["relax_count"],
+                    var o = Options(step, "relax_count", "face_count", "crease_angle");
+                    var given = new QuadOptions { RelaxCount = (uint)o["relax_count"],
                         FaceCount = (uint)o["face_count"], CreaseAngle = (float)o["crease_angle"],
                         EdgeLength = step.ContainsKey("edge_length") ? (float)Number(step["edge_length"]) : 0,
-                            SiteVertices = Numbers(Get(step, "site_vertices")),
                         CreaseEdges = Numbers(Get(step, "crease_edges")),
                         GuideVertices = Numbers(Get(step, "guide_vertices")),
                         GuideVectors = Doubles(step, "guide_vectors"), GuideWeights = Floats(step, "guide_weights"),
-                        SymmetryPlane = Doubles(step, "symmetry_plane"),
-                        SiteLines = lines == null ? null : lines.Select(x => (int)x).ToArray() };
+                        SymmetryPlane = Doubles(step, "symmetry_plane") };
                     if (what == "update_quads")
                     {
                         ((Quads)on).Update(given);
@@ -312,8 +308,7 @@ class Scene
                 {
                     var info = ((Quads)on).Info;
                     return new Map { { "euler_characteristic", (double)info.euler_characteristic },
-                        { "site_count", (double)info.site_count }, { "face_count", (double)info.face_count },
-                        { "other_faces", (double)info.face_count - info.quad_count } };
+                        { "face_count", (double)info.face_count } };
                 }
             case "quad_mesh": return ((Quads)on).Mesh().Positions;
             case "flow": objects[name] = new Flow(surface); return null;

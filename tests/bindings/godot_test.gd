@@ -218,9 +218,8 @@ func run(step, objects, kept):
 				options[key] = number(options[key])
 			if step.has("edge_length"):
 				options["edge_length"] = number(step.edge_length)
-			var given = [options, step.get("site_vertices"), step.get("site_lines"), step.get("crease_edges"),
-				step.get("guide_vertices"), list(step, "guide_vectors", kept), list(step, "guide_weights", kept),
-				list(step, "symmetry_plane", kept)]
+			var given = [options, step.get("crease_edges"), step.get("guide_vertices"), list(step, "guide_vectors", kept),
+				list(step, "guide_weights", kept), list(step, "symmetry_plane", kept)]
 			if step["do"] == "update_quads":
 				var updated = on.callv("quads_update", given)
 				return [true, on.quads_positions() if updated != null else null, on]
@@ -244,10 +243,7 @@ func run(step, objects, kept):
 		"directions": return [true, on.direction_solve(), on]
 		"singularities": return [true, column(on.direction_singularities(), "index"), on]
 		"quads_info":
-			var info = on.quads_info()
-			if info != null:
-				info["other_faces"] = info.face_count - info.quad_count
-			return [true, info, on]
+			return [true, on.quads_info(), on]
 		"quad_mesh":
 			var faces = on.quads_faces()
 			var info = on.quads_info()

@@ -204,8 +204,9 @@ local function new_scene(meshes)
       return 'array', found.vectors, 3 * found.count
     elseif what == 'quads' or what == 'update_quads' then
       options.edge_length = step.edge_length and number(step.edge_length)
-      for _, key in ipairs({ 'site_vertices', 'site_lines', 'crease_edges', 'guide_vertices', 'guide_vectors', 'guide_weights',
-        'symmetry_plane' }) do options[key] = get(key) end
+      for _, key in ipairs({ 'crease_edges', 'guide_vertices', 'guide_vectors', 'guide_weights', 'symmetry_plane' }) do
+        options[key] = get(key)
+      end
       if what == 'update_quads' then
         on:update(options)
         local mesh = on:mesh()
@@ -214,8 +215,7 @@ local function new_scene(meshes)
       objects[step.as] = hf.Quads(on, options)
     elseif what == 'quads_info' then
       local info = on:info()
-      return 'struct', { euler_characteristic = info.euler_characteristic, site_count = info.site_count, face_count = info.face_count,
-        other_faces = info.face_count - info.quad_count }
+      return 'struct', { euler_characteristic = info.euler_characteristic, face_count = info.face_count }
     elseif what == 'quad_mesh' then
       local mesh = on:mesh()
       return 'array', mesh.positions, 3 * mesh.vertex_count

@@ -252,8 +252,6 @@ function runStep(hf, step, meshes, objects, kept) {
       const given = {
         ...options,
         ...more,
-        siteVertices: get('site_vertices'),
-        siteLines: get('site_lines'),
         creaseEdges: get('crease_edges'),
         guideVertices: get('guide_vertices'),
         guideVectors: get('guide_vectors'),
@@ -267,10 +265,8 @@ function runStep(hf, step, meshes, objects, kept) {
       objects[step.as] = new hf.Quads(on, given);
       return {};
     }
-    case 'quads_info': {
-      const info = on.info;
-      return { struct: { ...info, otherFaces: info.faceCount - info.quadCount } };
-    }
+    case 'quads_info':
+      return { struct: on.info };
     case 'quad_mesh':
       return array(on.mesh().positions);
     case 'flow':

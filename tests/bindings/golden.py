@@ -7,7 +7,6 @@ import json
 import math
 import pathlib
 import sys
-import types
 
 import numpy as np
 
@@ -198,17 +197,14 @@ class Scene:
         elif do in ("quads", "update_quads"):
             if "edge_length" in step:
                 options["edge_length"] = numbers(step["edge_length"])
-            lists = ("site_vertices", "site_lines", "crease_edges", "guide_vertices", "guide_vectors", "guide_weights",
-                "symmetry_plane")
+            lists = ("crease_edges", "guide_vertices", "guide_vectors", "guide_weights", "symmetry_plane")
             options.update({key: get(key) for key in lists})
             if do == "update_quads":
                 on.update(**options)
                 return "array", on.mesh().positions
             self.objects[step["as"]] = hf.Quads(on, **options)
         elif do == "quads_info":
-            info = on.info
-            fields = {name: getattr(info, name) for name, _ in info._fields_}
-            return "struct", types.SimpleNamespace(**fields, other_faces=info.face_count - info.quad_count)
+            return "struct", on.info
         elif do == "quad_mesh":
             return "array", on.mesh().positions
         elif do == "flow":

@@ -330,10 +330,6 @@ impl Scene<'_> {
             return Ok(Answer::Impossible);
         }
         let (place, ray) = (place.flatten(), ray.flatten());
-        let site_vertices = self.integers(step, "site_vertices").unwrap_or_default();
-        let site_lines: Option<Vec<i32>> = self
-            .doubles(step, "site_lines")
-            .map(|list| list.iter().map(|&v| v as i32).collect());
         let edges = self.integers(step, "crease_edges").unwrap_or_default();
         let guided = self.integers(step, "guide_vertices").unwrap_or_default();
         let vectors = self.doubles(step, "guide_vectors").unwrap_or_default();
@@ -461,14 +457,7 @@ impl Scene<'_> {
                 posed.as_deref(),
                 &options!(step, RegionOptions),
             )?),
-            "quads" => {
-                let options = quad_options()?;
-                Object::Quads(if step.get("site_vertices").is_some() {
-                    Quads::new(surface, &options, &site_vertices, site_lines.as_deref())?
-                } else {
-                    Quads::guided(surface, &options, &guides)?
-                })
-            }
+            "quads" => Object::Quads(Quads::new(surface, &quad_options()?, &guides)?),
             _ => unreachable!(),
         };
         self.keep(step, made)
@@ -825,10 +814,7 @@ impl Scene<'_> {
             }
             "quads_info" => {
                 let info = on!(self, step, Quads).info()?;
-                Ok(Answer::Struct(Box::new(move |name: &str| match name {
-                    "other_faces" => Some(f64::from(info.face_count - info.quad_count)),
-                    _ => info.figure(name),
-                })))
+                Ok(Answer::Struct(Box::new(move |name: &str| info.figure(name))))
             }
             "quad_mesh" => Ok(Answer::Array(on!(self, step, Quads).mesh()?.positions)),
             "flow_lines" => {

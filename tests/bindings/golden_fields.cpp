@@ -9,20 +9,11 @@ using hf::make;
 // Reads the options of quads and calls with them. They point into arrays that live until the call is over.
 void Scene::with_quad_options(const Json& step, const std::function<void(const hf_quads_desc&)>& call) {
   auto desc = make<hf_quads_desc>();
-  set_options(step, desc,
-              {{"kind", &desc.kind},
-               {"keep_polygons", &desc.keep_polygons},
-               {"relax_count", &desc.relax_count},
-               {"face_count", &desc.face_count},
-               {"crease_angle", &desc.crease_angle}},
-              {{"crease_angle", false}});
+  set_options(
+      step, desc,
+      {{"relax_count", &desc.relax_count}, {"face_count", &desc.face_count}, {"crease_angle", &desc.crease_angle}},
+      {{"crease_angle", false}});
   if (step.contains("edge_length")) desc.edge_length = static_cast<float>(number(step["edge_length"]));
-  const auto places = numbers(step, "site_vertices");
-  const std::vector<int32_t> lines = step.value("site_lines", std::vector<int32_t>());
-  if (!lines.empty() && lines.size() != (places ? places->size() : 0))
-    fail("site_lines are not as many as site_vertices");
-  if (places) desc.site_count = count(places), desc.site_vertices = data(places);
-  if (!lines.empty()) desc.site_lines = lines.data();
   const auto edges = numbers(step, "crease_edges"), guided = numbers(step, "guide_vertices");
   const size_t guides = guided ? guided->size() : 0;
   const auto vectors = doubles(step, "guide_vectors", 3 * guides), given = doubles(step, "guide_weights", guides);
@@ -146,8 +137,6 @@ Result Scene::run_quads(const Json& step, const std::string& what) {
   check(hf_quads_get_info(on.quads.get(), &info));
   if (what == "quads_info") {
     result.fields = {{"euler_characteristic", info.euler_characteristic},
-                     {"other_faces", double(info.face_count) - info.quad_count},
-                     {"site_count", info.site_count},
                      {"vertex_count", info.vertex_count},
                      {"face_count", info.face_count}};
     return result;

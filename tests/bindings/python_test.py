@@ -55,111 +55,45 @@ class Poles(unittest.TestCase):
     def setUp(self):
         self.points, self.triangles = ball(24)
         self.edge = np.sqrt(4 * np.pi / 1500)
+        self.options = {"face_count": 1500, "relax_count": hf.NO_INDEX}
+        self.quads = hf.Quads(hf.Surface(self.points, self.triangles), **self.options)
 
-    def guides(self, *arguments, **options):
-        return hf.pole_guides(self.points, self.triangles, *arguments, **options)
-
-    def test_guides_make_a_quarter_turn_along_a_ring_around_the_place(self):
-        for place in self.points[[40, 500, 1000, 3000]] + 0.01:
-            for count, turn in ((3, 0.25), (5, -0.25)):
-                vertices, vectors = self.guides(place, count, self.edge)
-                up = place / np.linalg.norm(place)
-                x = np.cross(up, [0.3, 0.2, 0.9])
-                arms, y = self.points[vertices] - place, np.cross(up, x)
-                order = np.argsort(np.arctan2(arms @ y, arms @ x))
-                away = np.linalg.norm(arms, axis=1)
-                self.assertTrue((away > self.edge * 0.9).all() and (away < self.edge + 0.15).all())
-                angles = np.arctan2(vectors @ y, vectors @ x)[order]
-                steps = np.diff(np.append(angles, angles[0]))
-                steps -= np.round(steps / (np.pi / 2)) * np.pi / 2  # a cross looks the same after a quarter turn
-                self.assertAlmostEqual(steps.sum() / (2 * np.pi), turn, places=6)
-                normals = self.points[vertices]
-                self.assertLess(abs((vectors * normals).sum(1)).max(), 0.05)  # along the surface
+    def off(self, place, count):
+        mesh = self.quads.mesh()
+        edges = np.unique(np.sort(np.stack([mesh.faces, np.roll(mesh.faces, 1, 1)], -1).reshape(-1, 2), 1), axis=0)
+        found = mesh.positions[np.bincount(edges.ravel()) == count]
+        return np.linalg.norm(found - place, axis=1).min() / self.edge if len(found) else np.inf
 
     def test_the_irregular_vertex_is_within_an_edge_of_the_place_wherever_that_is(self):
-        surface = hf.Surface(self.points, self.triangles)
-        options = {"kind": hf.constants.HF_QUADS_FIELD} if hasattr(hf.constants, "HF_QUADS_FIELD") else {}
-        options.update(face_count=1500, relax_count=hf.NO_INDEX)
-        quads = hf.Quads(surface, **options)
-
-        def off(place, count):
-            mesh = quads.mesh()
-            corners = mesh.face_corners.reshape(-1, 4)
-            edges = np.unique(np.sort(np.stack([corners, np.roll(corners, 1, 1)], -1).reshape(-1, 2), 1), axis=0)
-            found = mesh.positions[np.bincount(edges.ravel()) == count]
-            return np.linalg.norm(found - place, axis=1).min() / self.edge if len(found) else np.inf
-
         random = np.random.default_rng(3)
         for count in (3, 5):
             plain, held = [], []
             for _ in range(12):
                 place, direction = random.normal(size=3), random.normal(size=3)
                 place /= np.linalg.norm(place)
-                quads.update(**options)
-                plain.append(off(place, count))
-                vertices, vectors = self.guides(place, count, self.edge, direction=direction)
-                quads.update(guide_vertices=vertices, guide_vectors=vectors, **options)
-                held.append(off(place, count))
+                self.quads.update(**self.options)
+                plain.append(self.off(place, count))
+                self.quads.update(pole_points=[place], pole_quads=[count], pole_directions=[direction], **self.options)
+                held.append(self.off(place, count))
             self.assertLess(max(held), 1, (count, held))
             self.assertGreater(np.median(plain), 2, (count, plain))
 
-    def test_a_place_beside_the_surface_is_the_one_on_it(self):
-        points = np.array([[x, y, 0] for x in range(11) for y in range(11)], float)
-        a = np.array([11 * x + y for x in range(10) for y in range(10)])
-        triangles = np.concatenate([np.stack([a, a + 11, a + 12], 1), np.stack([a, a + 12, a + 1], 1)])
-        for count in (3, 5):
-            vertices, vectors = hf.pole_guides(points, triangles, [0, 5, 0], count, 1.5, direction=[0, 1, 0])
-            for beside in ([0, 5, 0.7], [-0.7, 5, 0]):
-                again, ways = hf.pole_guides(points, triangles, beside, count, 1.5, direction=[0, 1, 0])
-                np.testing.assert_array_equal(again, vertices)
-                np.testing.assert_allclose(ways, vectors, atol=1e-12)
-
-    def test_a_loose_vertex_at_the_place_is_no_part_of_the_surface(self):
-        place = self.points[40] + 0.01
-        vertices, vectors = self.guides(place, 5, self.edge)
-        again, ways = hf.pole_guides([*self.points, place], self.triangles, place, 5, self.edge)
-        np.testing.assert_array_equal(again, vertices)
-        np.testing.assert_array_equal(ways, vectors)
-
-    def test_a_ring_goes_on_across_seams(self):
-        corners = self.points[self.triangles].reshape(-1, 3)  # every triangle has corners of its own
-        for place in self.points[[40, 500]] + 0.01:
-            vertices, vectors = self.guides(place, 5, self.edge)
-            again, ways = hf.pole_guides(corners, np.arange(len(corners)), place, 5, self.edge)
-            given = self.triangles.ravel()[again]
-            self.assertEqual(set(given), set(vertices))
-            turns = np.einsum("ij,ij->i", ways, vectors[np.searchsorted(vertices, given)])
-            self.assertGreater(turns.min(), 0.99)
-
-    def test_the_direction_is_that_of_an_edge(self):
-        place = self.points[300]
-        way = np.cross(place, [0.1, 0.9, 0.2])
-        vertices, vectors = self.guides(place, 3, self.edge, direction=way)
-        arms = self.points[vertices] - place
-        along = np.argmax(arms @ way / np.linalg.norm(arms, axis=1))
-        self.assertGreater(vectors[along] @ way / np.linalg.norm(vectors[along]) / np.linalg.norm(way), 0.98)
-        # one that stands on the surface says nothing
-        np.testing.assert_array_equal(self.guides(place, 3, self.edge, direction=place)[1], self.guides(place, 3, self.edge)[1])
-
     def test_what_cannot_be_is_refused_by_name(self):
         place = self.points[3]
-        for word, error, case in (
-                ("quad_count", hf.InvalidArgumentError, lambda: self.guides(place, 4, 0.1)),
-                ("quad_count", hf.InvalidArgumentError, lambda: self.guides(place, 3.0, 0.1)),
-                ("radius", hf.InvalidArgumentError, lambda: self.guides(place, 3, 0.0)),
-                ("radius", hf.InvalidArgumentError, lambda: self.guides(place, 3, float("nan"))),
-                ("radius", hf.InvalidArgumentError, lambda: self.guides(place, 3, "1")),
-                ("place", hf.InvalidArgumentError, lambda: self.guides(place[:2], 3, 0.1)),
-                ("place", hf.NonFiniteError, lambda: self.guides(place * np.nan, 3, 0.1)),
-                ("place", hf.EmptyError, lambda: self.guides(None, 3, 0.1)),
-                ("direction", hf.NonFiniteError, lambda: self.guides(place, 3, 0.1, direction=[np.inf, 0, 0])),
-                ("triangles", hf.EmptyError, lambda: hf.pole_guides(self.points, self.triangles[:0], place, 3, 0.1)),
-                ("triangles", hf.OutOfRangeError, lambda: hf.pole_guides(self.points[:9], self.triangles, place, 3, 0.1)),
-                ("no normal", hf.InvalidArgumentError, lambda: hf.pole_guides(self.points * 0, self.triangles, place, 3, 0.1))):
-            with self.subTest(word=word, error=error):
+        for word, error, options in (
+                ("pole_quads[1]", hf.InvalidArgumentError, {"pole_points": [place, place], "pole_quads": [3, 4]}),
+                ("pole_points[0]", hf.NonFiniteError, {"pole_points": [place * np.nan], "pole_quads": [3]}),
+                ("pole_points", hf.InvalidArgumentError, {"pole_points": [place[:2]], "pole_quads": [3]}),
+                ("pole_directions[0]", hf.NonFiniteError,
+                 {"pole_points": [place], "pole_quads": [5], "pole_directions": [[np.inf, 0, 0]]}),
+                ("pole_points", hf.HfError, {"pole_quads": [3]}),
+                ("pole_quads", hf.HfError, {"pole_points": [place]})):
+            with self.subTest(word=word):
+                before = self.quads.mesh().positions
                 with self.assertRaises(error) as caught:
-                    case()
+                    self.quads.update(**options)
                 self.assertIn(word, str(caught.exception))
+                np.testing.assert_array_equal(self.quads.mesh().positions, before)
 
 
 class Arrays(unittest.TestCase):
@@ -407,7 +341,7 @@ class Refusals(unittest.TestCase):
                 self.refused(case)
         for wrong in (2**31, 0.5, "1", None):
             self.refused(lambda: region.edit(rings=wrong), "ring_count")
-        self.refused(lambda: hf.Quads(surface, site_vertices=[0], site_lines=[2**40]), "site_lines")
+        self.refused(lambda: hf.Quads(surface, crease_edges=[0, 2**40]), "crease_edges")
 
     def test_arrays_that_numpy_would_convert_are_refused_by_name(self):
         points, triangles, solver = self.points, self.triangles, self.solver

@@ -270,14 +270,12 @@ void add_field_cases(World& w, std::vector<Case>& cases) {
   cases.push_back(distances("distances_exact", HF_GEODESICS_EXACT, w.surface, w.small.vertex_count()));
   cases.push_back(
       making("directions", w.big_surface, desc<hf_direction_desc>(), hf_direction_create, hf_direction_destroy));
-  cases.push_back(making("quads", w.surface, desc<hf_quads_desc>(), hf_quads_create, hf_quads_destroy));
-  hf_quads_desc crosses = desc<hf_quads_desc>();
-  crosses.kind = HF_QUADS_FIELD;
-  cases.push_back(making("quads_field", w.surface, crosses, hf_quads_create, hf_quads_destroy));
-  cases.push_back(updates("quads_update", w.surface, crosses));
-  crosses.symmetry_plane[0] = 1;
-  cases.push_back(updates("quads_update_symmetric", w.surface, crosses));
-  cases.push_back(making("quads_symmetric", w.surface, crosses, hf_quads_create, hf_quads_destroy));
+  hf_quads_desc quads = desc<hf_quads_desc>();
+  cases.push_back(making("quads", w.surface, quads, hf_quads_create, hf_quads_destroy));
+  cases.push_back(updates("quads_update", w.surface, quads));
+  quads.symmetry_plane[0] = 1;
+  cases.push_back(updates("quads_update_symmetric", w.surface, quads));
+  cases.push_back(making("quads_symmetric", w.surface, quads, hf_quads_create, hf_quads_destroy));
   cases.push_back({"propose_handles",
                    [&w](hf_progress p) {
                      hf_propose_desc d = desc<hf_propose_desc>();

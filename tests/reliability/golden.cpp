@@ -288,10 +288,10 @@ class Stages {
     hf_quads_info info = desc<hf_quads_info>();
     must(hf_quads_get_info(quads, &info), "hf_quads_get_info");
     std::vector<double> positions(3 * std::size_t{info.vertex_count});
-    std::vector<std::uint32_t> corners(info.corner_count);
+    std::vector<std::uint32_t> corners(4 * std::size_t{info.face_count});
     hf_quads_mesh made = desc<hf_quads_mesh>();
-    made.vertex_capacity = info.vertex_count, made.corner_capacity = info.corner_count;
-    made.positions = positions.data(), made.face_corners = corners.data();
+    made.vertex_capacity = info.vertex_count, made.face_capacity = info.face_count;
+    made.positions = positions.data(), made.faces = corners.data();
     must(hf_quads_get_mesh(quads, &made), "hf_quads_get_mesh");
     hash.take(positions.data(), positions.size()), hash.take(corners.data(), corners.size());
     hf_quads_destroy(quads), hf_surface_destroy(surface);

@@ -185,10 +185,10 @@ void quads(Story& s, const Tube& tube, Allocator& memory) {
 }
 
 // The first update makes what later ones keep.
-void crosses(Story& s, const Tube& tube, Allocator& memory) {
+void updates(Story& s, const Tube& tube, Allocator& memory) {
   const hf_surface surface = made(s, tube, memory);
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
-  desc.kind = HF_QUADS_FIELD, desc.face_count = 40, desc.relax_count = HF_NO_INDEX;
+  desc.face_count = 40, desc.relax_count = HF_NO_INDEX;
   hf_quads mesh = nullptr;
   hf_quads_info info = HF_INIT(hf_quads_info);
   s.make("hf_quads_create", mesh, [&] { return hf_quads_create(surface, &desc, &mesh); });
@@ -332,7 +332,7 @@ std::vector<Chapter> shape_chapters() {
           {"paper_pose", paper_pose},
           {"transfer", transfer},
           {"quads", quads},
-          {"crosses", crosses},
+          {"updates", updates},
           {"flow", flow},
           {"regions", regions},
           {"weights", skin_weights}};

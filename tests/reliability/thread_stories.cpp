@@ -239,10 +239,10 @@ void read_shapes(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   morph.weight = 1, morph.positions_f64 = positions.data();
   seen.call(hf_detail_morph(o.detail, &morph)), seen.take(positions);
   hf_quads_info info = desc<hf_quads_info>();
-  seen.call(hf_quads_get_info(o.quads, &info)), seen.take(&info.corner_count, 1);
-  std::vector<std::uint32_t> corners(info.corner_count);
+  seen.call(hf_quads_get_info(o.quads, &info)), seen.take(&info.face_count, 1);
+  std::vector<std::uint32_t> corners(4 * std::size_t{info.face_count});
   hf_quads_mesh mesh = desc<hf_quads_mesh>();
-  mesh.corner_capacity = info.corner_count, mesh.face_corners = corners.data();
+  mesh.face_capacity = info.face_count, mesh.faces = corners.data();
   seen.call(hf_quads_get_mesh(o.quads, &mesh)), seen.take(corners);
 }
 

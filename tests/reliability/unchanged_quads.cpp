@@ -1,4 +1,4 @@
-// Quad meshes from proposed and given sites, and flow lines.
+// Quad meshes and flow lines.
 #include <cmath>
 
 #include "unchanged.h"
@@ -30,13 +30,12 @@ class Quads final : public Subject {
       hf_quads_info info = HF_INIT(hf_quads_info);
       hf_quads_get_info(quads, &info);
       std::vector<double> positions(3 * info.vertex_count);
-      std::vector<std::uint32_t> starts(info.face_count + 1), corners(info.corner_count);
+      std::vector<std::uint32_t> faces(4 * std::size_t{info.face_count});
       hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
       mesh.vertex_capacity = info.vertex_count, mesh.face_capacity = info.face_count;
-      mesh.corner_capacity = info.corner_count, mesh.positions = positions.data();
-      mesh.face_starts = starts.data(), mesh.face_corners = corners.data();
+      mesh.positions = positions.data(), mesh.faces = faces.data();
       state.begin("a quad mesh");
-      state.add(hf_quads_get_mesh(quads, &mesh)), state.add(positions), state.add(starts), state.add(corners);
+      state.add(hf_quads_get_mesh(quads, &mesh)), state.add(positions), state.add(faces);
     }
     hf_scalars field = HF_INIT(hf_scalars);
     field.values_f64 = field_.data();
@@ -62,24 +61,15 @@ struct Calls {
   template <class Work>
   static hf_result with_desc(Quads& s, Random& random, Work&& work) {
     hf_quads_desc desc = HF_INIT(hf_quads_desc);
-    desc.kind = random.pick({0, 1, 0, 1, 2}), desc.edge_length = random.pick({0.9f, 1.3f, 2.0f, -1.0f});
+    desc.edge_length = random.pick({0.9f, 1.3f, 2.0f, -1.0f});
     if (random.one_in(15)) desc.edge_length = static_cast<float>(random.number());
     if (desc.edge_length > 0 && desc.edge_length < 0.3f) desc.edge_length = 0.3f;
     if (desc.edge_length == 0) desc.edge_length = 1;  // the default is too fine for a test of many calls
-    desc.keep_polygons = random.pick({0, 0, 1}), desc.relax_count = random.pick({2u, 5u, HF_NO_INDEX, 2000u});
+    desc.relax_count = random.pick({2u, 5u, HF_NO_INDEX, 2000u});
     desc.progress = s.world.progress();
-    std::vector<std::uint32_t> sites(1 + random.below(4));
-    std::vector<std::int32_t> lines(sites.size());
-    for (std::uint32_t& v : sites) v = random.index(s.world.shape->vertices());
-    for (std::int32_t& n : lines) n = random.pick({4, 6, -4, -8, 10, 0});
-    if (!random.one_in(6))
-      desc.site_count = static_cast<std::uint32_t>(sites.size()), desc.site_vertices = sites.data();
-    if (desc.site_count && !random.one_in(4)) desc.site_lines = lines.data();
-    if (desc.kind == HF_QUADS_FIELD && !random.one_in(6)) {  // it takes no sites and keeps no polygons
-      desc.site_count = 0, desc.site_vertices = nullptr, desc.site_lines = nullptr, desc.keep_polygons = 0;
-      desc.face_count = random.pick({0u, 40u, 200u, 4000000000u});
-      desc.crease_angle = random.pick({0.0f, 20.0f, 60.0f, -1.0f});
-    }
+    desc.face_count = random.pick({0u, 0u, 40u, 200u, 4000000000u});
+    desc.crease_angle = random.pick({0.0f, 20.0f, 60.0f, -1.0f});
+    desc.reserved = random.one_in(15);
     std::vector<std::uint32_t> guided(1 + random.below(6)), edges(2 * guided.size());
     std::vector<double> vectors(3 * guided.size());
     std::vector<float> weights(guided.size());
@@ -87,7 +77,7 @@ struct Calls {
     for (std::uint32_t& v : edges) v = random.index(s.world.shape->vertices());
     for (double& x : vectors) x = random.one_in(20) ? random.number() : random.pick({1.0, -0.3, 0.2});
     for (float& w : weights) w = random.pick({1.0f, 0.5f, 1.0f, 0.0f, 0.2f});
-    if (random.one_in(4)) {
+    if (random.one_in(3)) {
       desc.guide_count = static_cast<std::uint32_t>(guided.size());
       desc.guide_vertices = guided.data(), desc.guide_vectors = vectors.data();
       if (random.one_in(2)) desc.guide_weights = weights.data();

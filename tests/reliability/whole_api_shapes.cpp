@@ -85,15 +85,12 @@ void Run::quads_and_flow() {
   hf_quads_info info = desc<hf_quads_info>();
   call(hf_quads_get_info(quads, &info), "hf_quads_get_info"), take(&info, 1);
   Numbers positions(3 * std::size_t{info.vertex_count});
-  std::vector<std::uint32_t> corners(info.corner_count);
+  std::vector<std::uint32_t> corners(4 * std::size_t{info.face_count});
   hf_quads_mesh mesh = desc<hf_quads_mesh>();
-  mesh.vertex_capacity = info.vertex_count, mesh.corner_capacity = info.corner_count;
-  mesh.positions = positions.data(), mesh.face_corners = corners.data();
+  mesh.vertex_capacity = info.vertex_count, mesh.face_capacity = info.face_count;
+  mesh.positions = positions.data(), mesh.faces = corners.data();
   call(hf_quads_get_mesh(quads, &mesh), "hf_quads_get_mesh");
   take(positions.data(), positions.size()), take(corners.data(), corners.size());
-  hf_quads_destroy(quads);
-  wanted.kind = HF_QUADS_FIELD;
-  call(hf_quads_create(surface, &wanted, &quads), "hf_quads_create, crosses");
   wanted.relax_count = HF_NO_INDEX;
   call(hf_quads_update(quads, &wanted), "hf_quads_update");
   call(hf_quads_get_info(quads, &info), "hf_quads_get_info"), take(&info, 1);

@@ -36,7 +36,13 @@ export default async function story(host) {
     await studio.settle();
     const facts = await studio.facts();
     assert.ok(Number(facts.quads.replace(/,/g, '')) > 300, JSON.stringify(facts));
-    assert.equal(facts.quads, facts.faces);
+    const four = await page.evaluate(() => {
+      const { mesh, info } = window.hfStudio.tools.quads.result;
+      let count = 0;
+      for (let i = 0; i < mesh.faces.length; i += 4) count += new Set(mesh.faces.subarray(i, i + 4)).size === 4;
+      return [count, info.faceCount];
+    });
+    assert.equal(four[0], four[1]);
     await studio.picture('quads_made');
   });
   await check('a run is cancelled: the last quads stay, and the next run works', async () => {
@@ -52,7 +58,7 @@ export default async function story(host) {
     await page.locator('#edge').fill('0.03');
     await page.click('#make');
     await page.waitForFunction(
-      (old) => !document.querySelector('#cancel') && window.hfStudio.tools.quads?.result.info.quadCount !== old,
+      (old) => !document.querySelector('#cancel') && window.hfStudio.tools.quads?.result.info.faceCount !== old,
       Number(before.quads.replace(/,/g, '')),
       { timeout: 60000 },
     );
@@ -98,7 +104,7 @@ export default async function story(host) {
     const seen = () =>
       page.evaluate(() => {
         const { tools, body, state } = window.hfStudio;
-        const { positions, faceStarts, faceCorners } = tools.quads.result.mesh;
+        const { positions, faces } = tools.quads.result.mesh;
         const place = ({ corners, barycentrics }) =>
           [0, 1, 2].map((k) => corners.reduce((sum, v, i) => sum + barycentrics[i] * body.positions[3 * v + k], 0));
         const strokes = (state.strokes ?? []).map(({ places }) => places.map(place));
@@ -109,27 +115,26 @@ export default async function story(host) {
         const off = strokes.map((points) => {
           let [sum, count] = [0, 0];
           const near = length(less(points[0], points.at(-1))) / 6;
-          for (let f = 0; f + 1 < faceStarts.length; ++f)
-            for (let i = faceStarts[f]; i < faceStarts[f + 1]; ++i) {
-              const a = at(faceCorners[i]);
-              const edge = less(at(faceCorners[i + 1 < faceStarts[f + 1] ? i + 1 : faceStarts[f]]), a);
-              const nearest = points.reduce(
-                (best, p, k) => (length(less(p, a)) < length(less(points[best], a)) ? k : best),
-                0,
-              );
-              const [p, q] = [Math.max(0, nearest - 1), Math.min(points.length - 1, nearest + 1)];
-              if (length(less(points[nearest], a)) > near) continue;
-              const way = less(points[q], points[p]);
-              const cosine = Math.abs(edge.reduce((x, e, k) => x + e * way[k], 0)) / (length(edge) * length(way));
-              const angle = (Math.acos(Math.min(1, cosine)) * 180) / Math.PI;
-              [sum, count] = [sum + Math.min(angle, 90 - angle), count + 1];
-            }
+          for (let i = 0; i < faces.length; ++i) {
+            const a = at(faces[i]);
+            const edge = less(at(faces[i % 4 === 3 ? i - 3 : i + 1]), a);
+            const nearest = points.reduce(
+              (best, p, k) => (length(less(p, a)) < length(less(points[best], a)) ? k : best),
+              0,
+            );
+            const [p, q] = [Math.max(0, nearest - 1), Math.min(points.length - 1, nearest + 1)];
+            if (length(less(points[nearest], a)) > near) continue;
+            const way = less(points[q], points[p]);
+            const cosine = Math.abs(edge.reduce((x, e, k) => x + e * way[k], 0)) / (length(edge) * length(way));
+            const angle = (Math.acos(Math.min(1, cosine)) * 180) / Math.PI;
+            [sum, count] = [sum + Math.min(angle, 90 - angle), count + 1];
+          }
           return sum / count;
         });
         return {
           strokes: strokes.length,
           off,
-          count: faceStarts.length - 1,
+          count: faces.length / 4,
           followed: tools.quads.followed,
           mesh: positions.join(),
         };
@@ -204,7 +209,6 @@ export default async function story(host) {
     await page.setInputFiles('#file', { name: 'cube.obj', mimeType: 'text/plain', buffer: Buffer.from(cube(10)) });
     await page.waitForFunction(() => window.hfStudio.body.name === 'cube.obj' && window.hfStudio.skin.bvh);
     await studio.tool('quads');
-    await page.selectOption('#kind', '2');
     await page.locator('#edge').fill('0.06');
     await page.locator('#crease').fill('45');
     await page.click('#make');
@@ -214,15 +218,15 @@ export default async function story(host) {
     await studio.settle();
     // every edge of a quad that joins two sides of the cube lies on an edge of the cube: none cuts a corner off
     const [corners, cuts, count] = await page.evaluate(() => {
-      const { positions, faceStarts, faceCorners } = window.hfStudio.tools.quads.result.mesh;
+      const { positions, faces } = window.hfStudio.tools.quads.result.mesh;
       const sides = (v) => [0, 1, 2].flatMap((k) => [0, 10].map((x) => Math.abs(positions[3 * v + k] - x) < 1e-4));
       let [corners, cuts] = [0, 0];
       for (let v = 0; v < positions.length / 3; ++v) corners += sides(v).filter(Boolean).length === 3;
-      for (let f = 0; f + 1 < faceStarts.length; ++f) {
-        const all = Array.from(faceCorners.subarray(faceStarts[f], faceStarts[f + 1]), sides);
+      for (let i = 0; i < faces.length; i += 4) {
+        const all = Array.from(faces.subarray(i, i + 4), sides);
         cuts += ![0, 1, 2, 3, 4, 5].some((side) => all.every((list) => list[side]));
       }
-      return [corners, cuts, faceStarts.length - 1];
+      return [corners, cuts, faces.length / 4];
     });
     assert.equal(corners, 8);
     assert.equal(cuts, 0);

@@ -18,15 +18,14 @@ inline void expect_manifold(const hf_inner::Core& core, const hf_inner::QuadMesh
   std::set<std::int32_t> used;
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
     std::set<std::int32_t> corners;
-    ASSERT_GE(mesh.size(f), 3) << what;
-    for (std::int32_t k = 0; k < mesh.size(f); ++k) {
-      const std::int32_t a = mesh.corner[mesh.face_start[f] + k],
-                         b = mesh.corner[mesh.face_start[f] + (k + 1) % mesh.size(f)];
+    for (std::int32_t k = 0; k < 4; ++k) {
+      const std::int32_t a = mesh.quad(f)[k], b = mesh.quad(f)[(k + 1) % 4];
       ASSERT_TRUE(corners.insert(a).second) << what << ": face " << f << " repeats corner " << a;
       ASSERT_TRUE(directed.insert({a, b}).second) << what << ": edge " << a << " -> " << b << " twice";
       used.insert(a);
     }
   }
+  ASSERT_EQ(mesh.corner.size() % 4, 0) << what;
   std::int64_t edges = 0, borders = 0;
   for (const auto& [a, b] : directed) {
     const bool inner = directed.count({b, a}) > 0;

@@ -190,7 +190,7 @@ TEST(Wrapper, quads_are_made_again_along_a_stroke) {
   const Sheet sheet;
   const hf::Surface surface(sheet.positions, sheet.triangles);
   auto desc = hf::make<hf_quads_desc>();
-  desc.kind = HF_QUADS_FIELD, desc.face_count = 100;
+  desc.face_count = 100;
   hf::Quads quads(surface, &desc);
   const hf::QuadMesh plain = quads.mesh();
   EXPECT_EQ(plain.positions, hf::make_quads(surface, &desc).positions);
@@ -201,12 +201,12 @@ TEST(Wrapper, quads_are_made_again_along_a_stroke) {
   stroke.relax_count = HF_NO_INDEX;
   quads.update(stroke);
   EXPECT_NE(quads.mesh().positions, plain.positions);
-  EXPECT_EQ(quads.mesh().face_corners.size(), quads.info().corner_count);
+  EXPECT_EQ(quads.mesh().faces.size(), size_t{4} * quads.info().face_count);
   stroke.relax_count = 0;
   quads.update(stroke);
   const hf::QuadMesh guided = quads.mesh();
   EXPECT_EQ(guided.positions, hf::make_quads(surface, &stroke).positions);
-  stroke.kind = HF_QUADS_UNIFORM;
+  stroke.relax_count = 1001;
   EXPECT_THROW(quads.update(stroke), hf::Error);
   EXPECT_EQ(quads.mesh().positions, guided.positions);
   quads.update(desc);

@@ -166,20 +166,20 @@ def write_quads(mesh, quads):
     """A quad mesh (hf.QuadMesh) in place of what a mesh holds. Materials stay, and shading where all faces share it."""
     first = mesh.polygons[0] if len(mesh.polygons) else None
     smooth, material = (first.use_smooth, first.material_index) if first else (False, 0)
-    starts, sizes = quads.face_starts[:-1].astype(np.int32), np.diff(quads.face_starts.astype(np.int32))
+    count = len(quads.faces)
     mesh.clear_geometry()
     mesh.vertices.add(len(quads.positions))
     mesh.vertices.foreach_set("co", quads.positions.astype(np.float32).ravel())
-    mesh.loops.add(len(quads.face_corners))
-    mesh.loops.foreach_set("vertex_index", quads.face_corners.astype(np.int32))
-    mesh.polygons.add(len(starts))
-    mesh.polygons.foreach_set("loop_start", starts)
-    if bpy.app.version < (3, 6, 0):  # later versions know it from the starts
-        mesh.polygons.foreach_set("loop_total", sizes)
+    mesh.loops.add(4 * count)
+    mesh.loops.foreach_set("vertex_index", quads.faces.astype(np.int32).ravel())
+    mesh.polygons.add(count)
+    mesh.polygons.foreach_set("loop_start", np.arange(0, 4 * count, 4, dtype=np.int32))
+    if bpy.app.version < (3, 6, 0):  # later versions take it from the starts
+        mesh.polygons.foreach_set("loop_total", np.full(count, 4, np.int32))
     if smooth:
-        mesh.polygons.foreach_set("use_smooth", np.ones(len(starts), bool))
+        mesh.polygons.foreach_set("use_smooth", np.ones(count, bool))
     if material:
-        mesh.polygons.foreach_set("material_index", np.full(len(starts), material, np.int32))
+        mesh.polygons.foreach_set("material_index", np.full(count, material, np.int32))
     mesh.update(calc_edges=True)
 
 

@@ -29,9 +29,6 @@ IDLE = 0.3
 # How often a relaxation is asked whether it is ready, in seconds.
 POLL = 0.05
 
-# The quads along the curvature. A library that makes no others has no kinds.
-FIELD = {"kind": hf.constants.HF_QUADS_FIELD} if hasattr(hf.constants, "HF_QUADS_FIELD") else {}
-
 # One thread relaxes, so that the user can go on dragging.
 WORKER = ThreadPoolExecutor(1, "hf quads")
 
@@ -133,18 +130,13 @@ def options_of(source, found, strokes, poles, graph, faces, crease, sharp, symme
     polygons.foreach_get("area", areas)
     area = float(areas.sum(dtype=np.float64))
     vertices, vectors = mesh_data.guides_of(source, strokes, found.surface, math.sqrt(area / min(faces, len(polygons))), graph)
-    if poles:
-        source.data.calc_loop_triangles()
-        triangles = mesh_data.column(source.data.loop_triangles, "vertices", 3).reshape(-1, 3)
-        into = source.matrix_world.inverted_safe()
-        for pole in poles:
-            at = into @ pole.matrix_world
-            ring, ways = hf.pole_guides(found.rest, triangles, at.translation[:], int(pole[POLE]), math.sqrt(area / faces),
-                direction=at.to_3x3().col[0][:])
-            vertices, vectors = [*vertices, *ring], np.concatenate([vectors, ways])
-    return {**FIELD, "face_count": faces, "crease_angle": math.degrees(crease),
+    into = source.matrix_world.inverted_safe()
+    places = [into @ pole.matrix_world for pole in poles]
+    return {"face_count": faces, "crease_angle": math.degrees(crease),
         "crease_edges": mesh_data.sharp_edges(source.data) if sharp else None, "guide_vertices": vertices,
-        "guide_vectors": vectors,
+        "guide_vectors": vectors, "pole_points": [at.translation[:] for at in places] if poles else None,
+        "pole_quads": [int(pole[POLE]) for pole in poles] if poles else None,
+        "pole_directions": [at.to_3x3().col[0][:] for at in places] if poles else None,
         "symmetry_plane": None if symmetry == "NONE" else [float(axis == symmetry) for axis in "XYZ"] + [0.0]}
 
 

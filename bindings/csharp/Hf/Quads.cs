@@ -8,11 +8,8 @@ namespace Hf
     /// <summary>Fields of hf_quads_desc; 0 and null are the defaults.</summary>
     public sealed class QuadOptions
     {
-        public int Kind, KeepPolygons;
         public float EdgeLength, CreaseAngle;
         public uint RelaxCount, FaceCount;
-        public uint[] SiteVertices;
-        public int[] SiteLines;
         /// <summary>Two vertices each.</summary>
         public uint[] CreaseEdges;
         public uint[] GuideVertices;
@@ -24,13 +21,11 @@ namespace Hf
         public Progress Progress;
     }
 
-    /// <summary>Face i has the corners FaceCorners[FaceStarts[i]] to FaceCorners[FaceStarts[i + 1] - 1],
-    /// counter-clockwise.</summary>
+    /// <summary>Face i has the corners Faces[4 * i] to Faces[4 * i + 3], counter-clockwise.</summary>
     public sealed class QuadMesh
     {
         public double[] Positions, Barycentrics;
-        public uint[] Triangles, FaceStarts, FaceCorners, SiteVertices, Corners;
-        public int[] SiteLines;
+        public uint[] Faces, Triangles, Corners;
     }
 
     /// <summary>A quad mesh of a surface.</summary>
@@ -47,8 +42,8 @@ namespace Hf
             }
         }
 
-        /// <summary>Makes the mesh again, of the kind HF_QUADS_FIELD only: for strokes and creases that the user drags.
-        /// After an exception it is what it was.</summary>
+        /// <summary>Makes the mesh again: for strokes and creases that the user drags. After an exception it is what it
+        /// was.</summary>
         public void Update(QuadOptions options)
         {
             options = options ?? new QuadOptions();
@@ -63,15 +58,10 @@ namespace Hf
         static hf_quads_desc DescOf(QuadOptions options, Pins pins)
         {
             var desc = new hf_quads_desc { struct_size = (uint)sizeof(hf_quads_desc) };
-            desc.kind = options.Kind;
             desc.edge_length = options.EdgeLength;
-            desc.keep_polygons = options.KeepPolygons;
             desc.relax_count = options.RelaxCount;
             desc.face_count = options.FaceCount;
             desc.crease_angle = options.CreaseAngle;
-            desc.site_count = options.SiteVertices == null ? 0 : (uint)options.SiteVertices.Length;
-            desc.site_vertices = pins.Add(options.SiteVertices);
-            desc.site_lines = pins.Add(options.SiteLines, (int)desc.site_count, "SiteLines");
             int corners = options.CreaseEdges == null ? 0 : options.CreaseEdges.Length;
             int guides = options.GuideVertices == null ? 0 : options.GuideVertices.Length;
             if (corners % 2 != 0)
@@ -96,27 +86,21 @@ namespace Hf
         public QuadMesh Mesh()
         {
             hf_quads_info info = Info;
-            uint v = info.vertex_count, s = info.site_count;
+            uint v = info.vertex_count;
             var mesh = new QuadMesh
             {
                 Positions = new double[3 * v], Barycentrics = new double[3 * v], Triangles = new uint[v],
-                FaceStarts = new uint[info.face_count + 1], FaceCorners = new uint[info.corner_count],
-                SiteVertices = new uint[s], SiteLines = new int[s], Corners = new uint[3 * v],
+                Faces = new uint[4 * info.face_count], Corners = new uint[3 * v],
             };
             using (var pins = new Pins())
             {
                 var place = new hf_quads_mesh { struct_size = (uint)sizeof(hf_quads_mesh) };
                 place.vertex_capacity = v;
                 place.face_capacity = info.face_count;
-                place.corner_capacity = info.corner_count;
-                place.site_capacity = s;
                 place.positions = pins.Add(mesh.Positions);
                 place.triangles = pins.Add(mesh.Triangles);
                 place.barycentrics = pins.Add(mesh.Barycentrics);
-                place.face_starts = pins.Add(mesh.FaceStarts);
-                place.face_corners = pins.Add(mesh.FaceCorners);
-                place.site_vertices = pins.Add(mesh.SiteVertices);
-                place.site_lines = pins.Add(mesh.SiteLines);
+                place.faces = pins.Add(mesh.Faces);
                 place.corners = pins.Add(mesh.Corners);
                 Check(Functions.hf_quads_get_mesh(Handle, &place));
             }

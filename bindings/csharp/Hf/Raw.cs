@@ -84,9 +84,6 @@ namespace Hf.Native
         public const int HF_HANDLE_REASON_END = 2;
         public const int HF_HANDLE_REASON_JOINT = 3;
         public const int HF_HANDLE_REASON_MIDDLE = 4;
-        public const int HF_QUADS_UNIFORM = 0;
-        public const int HF_QUADS_PURE = 1;
-        public const int HF_QUADS_FIELD = 2;
         public const int HF_SIDE_SMALLER = 0;
         public const int HF_SIDE_LARGER = 1;
         public const int HF_SIDE_SEED = 2;
@@ -798,23 +795,22 @@ namespace Hf.Native
     public unsafe struct hf_quads_desc
     {
         public uint struct_size;
-        public int kind;
-        public float edge_length;
-        public uint site_count;
-        public IntPtr site_vertices;
-        public IntPtr site_lines;
-        public int keep_polygons;
-        public uint relax_count;
-        public IntPtr progress;
         public uint face_count;
+        public float edge_length;
         public float crease_angle;
+        public uint relax_count;
         public uint crease_count;
         public uint guide_count;
+        public uint pole_count;
+        public fixed double symmetry_plane[4];
         public IntPtr crease_edges;
         public IntPtr guide_vertices;
         public IntPtr guide_vectors;
         public IntPtr guide_weights;
-        public fixed double symmetry_plane[4];
+        public IntPtr pole_points;
+        public IntPtr pole_quads;
+        public IntPtr pole_directions;
+        public IntPtr progress;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -823,15 +819,8 @@ namespace Hf.Native
         public uint struct_size;
         public uint vertex_count;
         public uint face_count;
-        public uint corner_count;
-        public uint quad_count;
-        public uint polygon_count;
-        public uint polygon_quad_count;
-        public uint site_count;
-        public uint saddle_count;
         public int euler_characteristic;
         public float edge_length;
-        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -840,20 +829,13 @@ namespace Hf.Native
         public uint struct_size;
         public uint vertex_capacity;
         public uint face_capacity;
-        public uint corner_capacity;
-        public uint site_capacity;
         public uint vertex_count;
         public uint face_count;
-        public uint corner_count;
-        public uint site_count;
         public uint reserved;
         public IntPtr positions;
+        public IntPtr faces;
         public IntPtr triangles;
         public IntPtr barycentrics;
-        public IntPtr face_starts;
-        public IntPtr face_corners;
-        public IntPtr site_vertices;
-        public IntPtr site_lines;
         public IntPtr corners;
     }
 

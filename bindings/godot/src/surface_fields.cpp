@@ -143,9 +143,7 @@ Value find_extremities(Surface& s, const Arguments&) {
       [&](uint32_t capacity, hf_extremity* out, uint32_t* count) {
         return hf_surface_find_extremities(s.get(), nullptr, capacity, out, count);
       },
-      [](const hf_extremity& tip) {
-        return TableRow{{"vertex", tip.vertex}, {"length", tip.length}};
-      });
+      [](const hf_extremity& tip) { return TableRow{{"vertex", tip.vertex}, {"length", tip.length}}; });
 }
 
 // propose_handles(): { vertex, reason, pinned, radius } each, pinned ones first
@@ -241,37 +239,26 @@ Value direction_singularities(Surface& s, const Arguments&) {
   return value;
 }
 
-// ---- quads_create(options = {}, site vertices = null, site lines = null, crease edges = null, guide vertices = null,
-// guide vectors = null, guide weights = null, symmetry plane = null): kind, edge_length, keep_polygons, relax_count,
-// face_count, crease_angle
+// ---- quads_create(options = {}, crease edges = null, guide vertices = null, guide vectors = null, guide weights =
+// null, symmetry plane = null): face_count, edge_length, crease_angle, relax_count
 
 template <class Make>
 Value with_quads_desc(const Arguments& a, Make&& make_quads) {
   auto desc = make<hf_quads_desc>();
-  read_options(at(a, 0), {{"kind", &desc.kind},
+  read_options(at(a, 0), {{"face_count", &desc.face_count},
                           {"edge_length", &desc.edge_length},
-                          {"keep_polygons", &desc.keep_polygons},
-                          {"relax_count", &desc.relax_count},
-                          {"face_count", &desc.face_count},
-                          {"crease_angle", &desc.crease_angle}});
-  const List places = integers(at(a, 1), "site vertices");
-  desc.site_count = static_cast<uint32_t>(places.values.size()), desc.site_vertices = places.data();
-  std::vector<int32_t> line_counts;
-  if (!at(a, 2).null) {
-    for (double lines : at(a, 2).list) line_counts.push_back(signed_whole(lines, "site lines"));
-    if (line_counts.size() != places.values.size()) fail("site lines must be as many as site vertices");
-    desc.site_lines = line_counts.data();
-  }
-  const List edges = integers(at(a, 3), "crease edges"), guided = integers(at(a, 4), "guide vertices");
+                          {"crease_angle", &desc.crease_angle},
+                          {"relax_count", &desc.relax_count}});
+  const List edges = integers(at(a, 1), "crease edges"), guided = integers(at(a, 2), "guide vertices");
   if (edges.values.size() % 2) fail("crease edges must hold two vertices each");
   desc.crease_count = static_cast<uint32_t>(edges.values.size() / 2), desc.crease_edges = edges.data();
   const size_t guides = guided.values.size();
   desc.guide_count = static_cast<uint32_t>(guides), desc.guide_vertices = guided.data();
-  desc.guide_vectors = doubles(at(a, 5), 3 * guides, "guide vectors");
-  const double* given = doubles(at(a, 6), guides, "guide weights");
+  desc.guide_vectors = doubles(at(a, 3), 3 * guides, "guide vectors");
+  const double* given = doubles(at(a, 4), guides, "guide weights");
   const std::vector<float> weights(given, given + (given ? guides : 0));
   if (given) desc.guide_weights = weights.data();
-  const double* plane = doubles(at(a, 7), 4, "symmetry plane");
+  const double* plane = doubles(at(a, 5), 4, "symmetry plane");
   if (plane) std::copy(plane, plane + 4, desc.symmetry_plane);
   make_quads(desc);
   return done();
@@ -298,9 +285,6 @@ Value quads_info(Surface& s, const Arguments&) {
   const hf_quads_info info = info_of(s);
   return named({{"vertex_count", info.vertex_count},
                 {"face_count", info.face_count},
-                {"quad_count", info.quad_count},
-                {"site_count", info.site_count},
-                {"saddle_count", info.saddle_count},
                 {"euler_characteristic", info.euler_characteristic}});
 }
 
@@ -313,18 +297,16 @@ Value quads_positions(Surface& s, const Arguments&) {
   return vectors(positions);
 }
 
-// the vertices of every face, counter-clockwise
+// the four vertices of every face, counter-clockwise
 Value quads_faces(Surface& s, const Arguments&) {
   const hf_quads_info info = info_of(s);
   auto mesh = make<hf_quads_mesh>();
-  Numbers starts(size_t{info.face_count} + 1), corners(info.corner_count);
-  mesh.face_capacity = info.face_count, mesh.corner_capacity = info.corner_count;
-  mesh.face_starts = starts.data(), mesh.face_corners = corners.data();
+  Numbers corners(4 * size_t{info.face_count});
+  mesh.face_capacity = info.face_count, mesh.faces = corners.data();
   check(hf_quads_get_mesh(s.quads.get(), &mesh));
   Value value;
   value.kind = Value::lists;
-  for (uint32_t i = 0; i < info.face_count; ++i)
-    value.sets.emplace_back(corners.begin() + starts[i], corners.begin() + starts[i + 1]);
+  for (auto face = corners.begin(); face != corners.end(); face += 4) value.sets.emplace_back(face, face + 4);
   return value;
 }
 

@@ -213,12 +213,10 @@ export interface Geodesics extends Handle {
 
 export interface QuadMesh {
   positions: Float64Array;
+  /** Four vertices for each quad, counter-clockwise. */
+  faces: Uint32Array;
   triangles: Uint32Array;
   barycentrics: Float64Array;
-  faceStarts: Uint32Array;
-  faceCorners: Uint32Array;
-  siteVertices: Uint32Array;
-  siteLines: Int32Array;
   /** Three vertices for each vertex of the quad mesh: those that barycentrics belong to. */
   corners: Uint32Array;
 }
@@ -230,13 +228,9 @@ export interface FlowLines {
 }
 
 export interface QuadOptions {
-  kind?: number;
-  edgeLength?: number;
-  siteVertices?: Numbers | null;
-  siteLines?: Numbers | null;
-  keepPolygons?: number;
-  relaxCount?: number;
   faceCount?: number;
+  edgeLength?: number;
+  relaxCount?: number;
   creaseAngle?: number;
   creaseEdges?: Numbers | null;
   guideVertices?: Numbers | null;
@@ -249,11 +243,11 @@ export interface QuadOptions {
 export interface Quads extends Handle {
   readonly info: Record<string, number>;
   /**
-   * Makes the mesh again, of the kind HF_QUADS_FIELD only: for strokes and creases that the user drags. Options that are
-   * left out are the defaults. After an error the mesh is what it was.
+   * Makes the mesh again: for strokes and creases that the user drags. Options that are left out are the defaults. After
+   * an error the mesh is what it was.
    */
   update(options?: QuadOptions): void;
-  /** Face i has the corners faceCorners[faceStarts[i]] to faceCorners[faceStarts[i + 1] - 1], counter-clockwise. */
+  /** Face i has the corners faces[4 * i] to faces[4 * i + 3], counter-clockwise. */
   mesh(): QuadMesh;
 }
 

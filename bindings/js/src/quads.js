@@ -19,8 +19,6 @@ export function quadClasses(tools) {
   const tooSmall = 'HF_ERROR_TOO_SMALL';
 
   const descOf = ({
-    siteVertices = null,
-    siteLines = null,
     creaseEdges = null,
     guideVertices = null,
     guideVectors = null,
@@ -29,16 +27,7 @@ export function quadClasses(tools) {
     progress = null,
     ...options
   } = {}) => {
-    const desc = make('hf_quads_desc').options(options, ['site_count', 'crease_count', 'guide_count']);
-    const places = integers(siteVertices, 'siteVertices');
-    if (places) desc.set('site_count', places.length).set('site_vertices', read(places));
-    if (siteLines) {
-      const lines = Array.from(siteLines);
-      if (lines.length !== (places ? places.length : 0) || !lines.every(Number.isInteger)) {
-        fail(`siteLines must be ${places ? places.length : 0} whole numbers`);
-      }
-      desc.set('site_lines', read(Int32Array.from(lines)));
-    }
+    const desc = make('hf_quads_desc').options(options, ['crease_count', 'guide_count']);
     const edges = integers(creaseEdges, 'creaseEdges');
     if (edges) {
       if (edges.length % 2) fail(`creaseEdges must hold two vertices each, not ${edges.length} numbers`);
@@ -68,17 +57,14 @@ export function quadClasses(tools) {
     get info() {
       return query('hf_quads_info', 'hf_quads_get_info', this._handle);
     }
-    /** Face i has the corners faceCorners[faceStarts[i]] to faceCorners[faceStarts[i + 1] - 1], counter-clockwise. */
+    /** Face i has the corners faces[4 * i] to faces[4 * i + 3], counter-clockwise. */
     mesh() {
-      const { vertexCount: v, faceCount: f, cornerCount: c, siteCount: s } = this.info;
+      const { vertexCount: v, faceCount: f } = this.info;
       const mesh = {
         positions: new Float64Array(3 * v),
+        faces: new Uint32Array(4 * f),
         triangles: new Uint32Array(v),
         barycentrics: new Float64Array(3 * v),
-        faceStarts: new Uint32Array(f + 1),
-        faceCorners: new Uint32Array(c),
-        siteVertices: new Uint32Array(s),
-        siteLines: new Int32Array(s),
         corners: new Uint32Array(3 * v),
       };
       call(
@@ -87,15 +73,10 @@ export function quadClasses(tools) {
         make('hf_quads_mesh', {
           vertex_capacity: v,
           face_capacity: f,
-          corner_capacity: c,
-          site_capacity: s,
           positions: written(mesh.positions),
+          faces: written(mesh.faces),
           triangles: written(mesh.triangles),
           barycentrics: written(mesh.barycentrics),
-          face_starts: written(mesh.faceStarts),
-          face_corners: written(mesh.faceCorners),
-          site_vertices: written(mesh.siteVertices),
-          site_lines: written(mesh.siteLines),
           corners: written(mesh.corners),
         }),
       );

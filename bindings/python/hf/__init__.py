@@ -26,9 +26,8 @@ from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as Dire
                    hf_transfer_info as TransferInfo,
                    hf_carry_info as CarryInfo, hf_mirror_info as MirrorInfo, hf_weights_info as WeightsInfo)
 from .direction import Direction
-from .poles import pole_guides
 from .pose import DeformMode, Pair, Pose, Skin, Transfer, TransferMode
-from .quads import Flow, FlowLines, QuadKind, QuadMesh, Quads
+from .quads import Flow, FlowLines, QuadMesh, Quads
 from .region import Detail, Region, RegionList, Side
 from .solver import Engine, Solver
 from .surface import DistanceMethod, Extremities, FieldKind, Geodesics, Isolines, Levels, Operator, Progress, Surface, Weld

@@ -81,9 +81,6 @@ HF_HANDLE_REASON_TIP = 1
 HF_HANDLE_REASON_END = 2
 HF_HANDLE_REASON_JOINT = 3
 HF_HANDLE_REASON_MIDDLE = 4
-HF_QUADS_UNIFORM = 0
-HF_QUADS_PURE = 1
-HF_QUADS_FIELD = 2
 HF_SIDE_SMALLER = 0
 HF_SIDE_LARGER = 1
 HF_SIDE_SEED = 2
@@ -1284,43 +1281,42 @@ class hf_handle_proposal(Structure):
 
 
 class hf_quads_desc(Structure):
+    """Options of a quad mesh."""
     struct_size: int
-    kind: int
-    edge_length: float
-    site_count: int
-    site_vertices: int
-    site_lines: int
-    keep_polygons: int
-    relax_count: int
-    progress: int
     face_count: int
+    edge_length: float
     crease_angle: float
+    relax_count: int
     crease_count: int
     guide_count: int
+    pole_count: int
+    symmetry_plane: object
     crease_edges: int
     guide_vertices: int
     guide_vectors: int
     guide_weights: int
-    symmetry_plane: object
+    pole_points: int
+    pole_quads: int
+    pole_directions: int
+    progress: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("kind", c_int32),
-        ("edge_length", c_float),
-        ("site_count", c_uint32),
-        ("site_vertices", c_void_p),
-        ("site_lines", c_void_p),
-        ("keep_polygons", c_int32),
-        ("relax_count", c_uint32),
-        ("progress", c_void_p),
         ("face_count", c_uint32),
+        ("edge_length", c_float),
         ("crease_angle", c_float),
+        ("relax_count", c_uint32),
         ("crease_count", c_uint32),
         ("guide_count", c_uint32),
+        ("pole_count", c_uint32),
+        ("symmetry_plane", c_double * 4),
         ("crease_edges", c_void_p),
         ("guide_vertices", c_void_p),
         ("guide_vectors", c_void_p),
         ("guide_weights", c_void_p),
-        ("symmetry_plane", c_double * 4),
+        ("pole_points", c_void_p),
+        ("pole_quads", c_void_p),
+        ("pole_directions", c_void_p),
+        ("progress", c_void_p),
     ]
 
 
@@ -1329,28 +1325,14 @@ class hf_quads_info(Structure):
     struct_size: int
     vertex_count: int
     face_count: int
-    corner_count: int
-    quad_count: int
-    polygon_count: int
-    polygon_quad_count: int
-    site_count: int
-    saddle_count: int
     euler_characteristic: int
     edge_length: float
-    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
         ("face_count", c_uint32),
-        ("corner_count", c_uint32),
-        ("quad_count", c_uint32),
-        ("polygon_count", c_uint32),
-        ("polygon_quad_count", c_uint32),
-        ("site_count", c_uint32),
-        ("saddle_count", c_uint32),
         ("euler_characteristic", c_int32),
         ("edge_length", c_float),
-        ("reserved", c_uint32),
     ]
 
 
@@ -1359,39 +1341,25 @@ class hf_quads_mesh(Structure):
     struct_size: int
     vertex_capacity: int
     face_capacity: int
-    corner_capacity: int
-    site_capacity: int
     vertex_count: int
     face_count: int
-    corner_count: int
-    site_count: int
     reserved: int
     positions: int
+    faces: int
     triangles: int
     barycentrics: int
-    face_starts: int
-    face_corners: int
-    site_vertices: int
-    site_lines: int
     corners: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_capacity", c_uint32),
         ("face_capacity", c_uint32),
-        ("corner_capacity", c_uint32),
-        ("site_capacity", c_uint32),
         ("vertex_count", c_uint32),
         ("face_count", c_uint32),
-        ("corner_count", c_uint32),
-        ("site_count", c_uint32),
         ("reserved", c_uint32),
         ("positions", c_void_p),
+        ("faces", c_void_p),
         ("triangles", c_void_p),
         ("barycentrics", c_void_p),
-        ("face_starts", c_void_p),
-        ("face_corners", c_void_p),
-        ("site_vertices", c_void_p),
-        ("site_lines", c_void_p),
         ("corners", c_void_p),
     ]
 

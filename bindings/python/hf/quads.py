@@ -1,57 +1,36 @@
-"""Quad meshes and flow lines from harmonic fields (hf/quads.h)."""
+"""Quad meshes of surfaces, and flow lines of fields (hf/quads.h)."""
 
 from __future__ import annotations
 
 import ctypes
-from enum import IntEnum
 from typing import Any, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
 from . import _raw
-from ._library import (ArrayLike, InvalidArgumentError, Object, OutOfRangeError, TooSmallError, address, call, doubles,
-                       handle_of, integers, make, numbers, options_into, scalars, whole)
+from ._library import (ArrayLike, InvalidArgumentError, Object, TooSmallError, address, call, doubles, handle_of, integers,
+                       make, options_into, scalars, whole)
 from .surface import Progress, Surface
 
 
-class QuadKind(IntEnum):
-    UNIFORM, PURE, FIELD = _raw.HF_QUADS_UNIFORM, _raw.HF_QUADS_PURE, _raw.HF_QUADS_FIELD
-
-
 class QuadMesh(NamedTuple):
-    """Face i has the corners face_corners[face_starts[i]] to face_corners[face_starts[i + 1] - 1], counter-clockwise."""
+    """Quads over a surface."""
 
     positions: np.ndarray  # (vertices, 3) float64
+    faces: np.ndarray  # (faces, 4) uint32: the vertices of each, counter-clockwise
     triangles: np.ndarray  # (vertices,) uint32: or faces, of the mesh as given, that the vertex lies in
     barycentrics: np.ndarray  # (vertices, 3) float64
-    face_starts: np.ndarray  # (faces + 1,) uint32
-    face_corners: np.ndarray  # (corners,) uint32
-    site_vertices: np.ndarray  # (sites,) uint32, NO_INDEX for a border
-    site_lines: np.ndarray  # (sites,) int32
     corners: np.ndarray  # (vertices, 3) uint32: the vertices that barycentrics belong to
 
-    def faces(self) -> List[np.ndarray]:
-        """Each face's corners."""
-        return [self.face_corners[a:b] for a, b in zip(self.face_starts[:-1], self.face_starts[1:])]
 
-
-def _desc_of(*, site_vertices: Optional[ArrayLike] = None,
-        site_lines: Optional[ArrayLike] = None, crease_edges: Optional[ArrayLike] = None,
-        guide_vertices: Optional[ArrayLike] = None, guide_vectors: Optional[ArrayLike] = None,
-        guide_weights: Optional[ArrayLike] = None, symmetry_plane: Optional[ArrayLike] = None,
-             progress: Optional[Progress] = None, **options: Any) -> Tuple[_raw.hf_quads_desc, tuple]:
+def _desc_of(*, crease_edges: Optional[ArrayLike] = None, guide_vertices: Optional[ArrayLike] = None,
+             guide_vectors: Optional[ArrayLike] = None, guide_weights: Optional[ArrayLike] = None,
+             pole_points: Optional[ArrayLike] = None, pole_quads: Optional[ArrayLike] = None,
+             pole_directions: Optional[ArrayLike] = None, symmetry_plane: Optional[ArrayLike] = None, progress: Optional[Progress] = None,
+             **options: Any) -> Tuple[_raw.hf_quads_desc, tuple]:
     """The desc, and the arrays it points into: hold them until the call is over."""
     desc = make(_raw.hf_quads_desc)
     options_into(desc, options)
-    places = integers(site_vertices, "site_vertices")
-    desc.site_count, desc.site_vertices = 0 if places is None else places.size, address(places)
-    lines = None if site_lines is None else np.ascontiguousarray(numbers(site_lines, "site_lines"))
-    if lines is not None and (lines.dtype.kind not in "iu" or lines.size != desc.site_count):
-        raise InvalidArgumentError(f"site_lines must be {desc.site_count} whole numbers")
-    if lines is not None and lines.size and not -(1 << 31) <= lines.min() <= lines.max() < 1 << 31:
-        raise OutOfRangeError("site_lines holds a number beyond 32 bits")
-    lines = None if lines is None else lines.astype(np.int32)
-    desc.site_lines = address(lines)
     edges = integers(crease_edges, "crease_edges")
     if edges is not None and edges.size % 2:
         raise InvalidArgumentError(f"crease_edges must hold two vertices each, not {edges.size} numbers")
@@ -62,18 +41,21 @@ def _desc_of(*, site_vertices: Optional[ArrayLike] = None,
     weights = doubles(guide_weights, "guide_weights", desc.guide_count)
     weights = None if weights is None else weights.astype(np.float32)
     desc.guide_vectors, desc.guide_weights = address(vectors), address(weights)
+    counts = integers(pole_quads, "pole_quads")
+    desc.pole_count, desc.pole_quads = 0 if counts is None else counts.size, address(counts)
+    places = doubles(pole_points, "pole_points", 3 * desc.pole_count)
+    ways = doubles(pole_directions, "pole_directions", 3 * desc.pole_count)
+    desc.pole_points, desc.pole_directions = address(places), address(ways)
     if symmetry_plane is not None:
         desc.symmetry_plane[:] = doubles(symmetry_plane, "symmetry_plane", 4).ravel()
     desc.progress = handle_of(progress, Progress, "progress")
-    return desc, (places, lines, edges, guided, vectors, weights, progress)
+    return desc, (edges, guided, vectors, weights, counts, places, ways, progress)
 
 
 class Quads(Object):
-    """A quad mesh of a surface. Options: kind, edge_length, keep_polygons, relax_count, face_count, crease_angle;
-    site_vertices (n,), site_lines (n,), progress.
-
-    QuadKind.FIELD takes crease_edges (n, 2), guide_vertices (n,), guide_vectors (n, 3), guide_weights (n,), and
-    symmetry_plane: a, b, c, d of the plane a x + b y + c z = d."""
+    """A quad mesh of a surface. Options: face_count, edge_length, crease_angle, relax_count; crease_edges (n, 2),
+    guide_vertices (n,), guide_vectors (n, 3), guide_weights (n,), pole_points (n, 3), pole_quads (n,) of 3 or 5,
+    pole_directions (n, 3), progress, and symmetry_plane: a, b, c, d of the plane a x + b y + c z = d."""
 
     _destroy = "hf_quads_destroy"
 
@@ -84,8 +66,8 @@ class Quads(Object):
         self._own(handle)
 
     def update(self, **options: Any) -> None:
-        """Makes the mesh again, of kind FIELD only: for strokes and creases that the user drags. The same options as
-        for a new one; those that are left out are the defaults. After an error the mesh is what it was."""
+        """Makes the mesh again: for strokes and creases that the user drags. The same options as for a new one; those
+        that are left out are the defaults. After an error the mesh is what it was."""
         desc, _held = _desc_of(**options)
         call("hf_quads_update", self._raw_handle, ctypes.byref(desc))
 
@@ -96,10 +78,10 @@ class Quads(Object):
 
     def mesh(self) -> QuadMesh:
         info = self.info
-        v, f, c, s = info.vertex_count, info.face_count, info.corner_count, info.site_count
-        mesh = QuadMesh(np.empty((v, 3)), np.empty(v, np.uint32), np.empty((v, 3)), np.empty(f + 1, np.uint32),
-                        np.empty(c, np.uint32), np.empty(s, np.uint32), np.empty(s, np.int32), np.empty((v, 3), np.uint32))
-        out = make(_raw.hf_quads_mesh, vertex_capacity=v, face_capacity=f, corner_capacity=c, site_capacity=s,
+        v, f = info.vertex_count, info.face_count
+        mesh = QuadMesh(np.empty((v, 3)), np.empty((f, 4), np.uint32), np.empty(v, np.uint32), np.empty((v, 3)),
+                        np.empty((v, 3), np.uint32))
+        out = make(_raw.hf_quads_mesh, vertex_capacity=v, face_capacity=f,
                    **{name: address(getattr(mesh, name)) for name in QuadMesh._fields})
         call("hf_quads_get_mesh", self._raw_handle, ctypes.byref(out))
         return mesh

@@ -23,18 +23,14 @@ options!(
 options!(
     /// How a quad mesh is made.
     QuadsOptions: hf_quads_desc {
-        /// `HF_QUADS_*`
-        kind: i32,
-        /// wanted, in the unit of the mesh; 0 = found
-        edge_length: f32,
-        /// 1: faces of other corners stay
-        keep_polygons: i32,
-        /// rounds of evening out
-        relax_count: u32,
-        /// `HF_QUADS_FIELD`: wanted number of quads, instead of `edge_length`; 0 = none
+        /// wanted number of quads, instead of `edge_length`; 0 = none
         face_count: u32,
-        /// `HF_QUADS_FIELD`: edges that bend by more degrees are kept; 0 = none
+        /// wanted, in the unit of the mesh; 0 = 0.022 box diagonals
+        edge_length: f32,
+        /// edges that bend by more degrees are kept; 0 = none
         crease_angle: f32,
+        /// rounds of evening out; 0 = 60
+        relax_count: u32,
     }
 );
 
@@ -205,7 +201,7 @@ object!(
     /// A mesh of quads over a surface.
     Quads: hf_quads, hf_quads_destroy {}
 );
-/// What quads of the kind `HF_QUADS_FIELD` keep to. The default is nothing.
+/// What quads keep to. The default is the curvature alone.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct QuadGuides<'a> {
     /// two vertices each: edges of the surface that become edges of quads
@@ -219,33 +215,17 @@ pub struct QuadGuides<'a> {
     /// a, b, c, d of the plane a x + b y + c z = d; `None`: no symmetry
     pub symmetry_plane: Option<[f64; 4]>,
 }
-/// Faces over a surface: face i has the corners `face_corners[face_starts[i]]` to `face_corners[face_starts[i + 1] - 1]`.
+/// Quads over a surface.
 #[derive(Clone, Debug, Default)]
 pub struct QuadMesh {
     /// three numbers a vertex
     pub positions: Vec<f64>,
-    /// one more than faces
-    pub face_starts: Vec<u32>,
-    /// vertices
-    pub face_corners: Vec<u32>,
+    /// the vertices of each quad, counter-clockwise
+    pub faces: Vec<[u32; 4]>,
 }
 impl Quads {
-    /// Makes the mesh. `site_vertices` are where the field has its extremes, `site_lines` how many lines start there.
-    pub fn new(surface: &Surface, options: &QuadsOptions, site_vertices: &[u32], site_lines: Option<&[i32]>) -> Result<Self> {
-        let (mut desc, mut handle) = (raw::hf_quads_desc::default(), std::ptr::null_mut());
-        options.fill(&mut desc);
-        (desc.site_count, desc.site_vertices) = (count_of(site_vertices.len(), "site_vertices")?, start(site_vertices));
-        if let Some(lines) = site_lines {
-            of_length(lines, "site_lines", site_vertices.len())?;
-            desc.site_lines = start(lines);
-        }
-        // SAFETY: the lengths are checked.
-        check(unsafe { raw::hf_quads_create(surface.handle, &desc, &mut handle) })?;
-        Ok(Quads { handle })
-    }
-
     /// The desc points into `guides`.
-    fn guided_desc(options: &QuadsOptions, guides: &QuadGuides) -> Result<raw::hf_quads_desc> {
+    fn desc_of(options: &QuadsOptions, guides: &QuadGuides) -> Result<raw::hf_quads_desc> {
         let mut desc = raw::hf_quads_desc::default();
         options.fill(&mut desc);
         desc.crease_count = rows_of(guides.crease_edges, 2, "crease_edges")?;
@@ -259,18 +239,17 @@ impl Quads {
         Ok(desc)
     }
 
-    /// Makes a mesh of the kind `HF_QUADS_FIELD` that keeps to edges, directions and a plane.
-    pub fn guided(surface: &Surface, options: &QuadsOptions, guides: &QuadGuides) -> Result<Self> {
-        let (desc, mut handle) = (Self::guided_desc(options, guides)?, std::ptr::null_mut());
+    /// Makes the mesh.
+    pub fn new(surface: &Surface, options: &QuadsOptions, guides: &QuadGuides) -> Result<Self> {
+        let (desc, mut handle) = (Self::desc_of(options, guides)?, std::ptr::null_mut());
         // SAFETY: the lengths are checked.
         check(unsafe { raw::hf_quads_create(surface.handle, &desc, &mut handle) })?;
         Ok(Quads { handle })
     }
 
-    /// Makes the mesh again, of the kind `HF_QUADS_FIELD` only: for strokes and creases that the user drags. After an
-    /// error it is what it was.
+    /// Makes the mesh again: for strokes and creases that the user drags. After an error it is what it was.
     pub fn update(&mut self, options: &QuadsOptions, guides: &QuadGuides) -> Result<()> {
-        let desc = Self::guided_desc(options, guides)?;
+        let desc = Self::desc_of(options, guides)?;
         // SAFETY: the lengths are checked.
         check(unsafe { raw::hf_quads_update(self.handle, &desc) })
     }
@@ -283,17 +262,13 @@ impl Quads {
     /// The mesh.
     pub fn mesh(&self) -> Result<QuadMesh> {
         let info = self.info()?;
-        let (v, f, c) = (info.vertex_count, info.face_count, info.corner_count);
-        let mut out =
-            QuadMesh { positions: vec![0.0; 3 * v as usize], face_starts: vec![0; f as usize + 1], face_corners: vec![0; c as usize] };
+        let (v, f) = (info.vertex_count, info.face_count);
+        let mut out = QuadMesh { positions: vec![0.0; 3 * v as usize], faces: vec![[0; 4]; f as usize] };
         let mut mesh = raw::hf_quads_mesh {
             vertex_capacity: v,
             face_capacity: f,
-            corner_capacity: c,
-            site_capacity: info.site_count,
             positions: out.positions.as_mut_ptr(),
-            face_starts: out.face_starts.as_mut_ptr(),
-            face_corners: out.face_corners.as_mut_ptr(),
+            faces: out.faces.as_mut_ptr().cast(),
             ..Default::default()
         };
         // SAFETY: the arrays have room as `mesh` says; the others are null.

@@ -81,9 +81,6 @@ pub const HF_HANDLE_REASON_TIP: i32 = 1;
 pub const HF_HANDLE_REASON_END: i32 = 2;
 pub const HF_HANDLE_REASON_JOINT: i32 = 3;
 pub const HF_HANDLE_REASON_MIDDLE: i32 = 4;
-pub const HF_QUADS_UNIFORM: i32 = 0;
-pub const HF_QUADS_PURE: i32 = 1;
-pub const HF_QUADS_FIELD: i32 = 2;
 pub const HF_SIDE_SMALLER: i32 = 0;
 pub const HF_SIDE_LARGER: i32 = 1;
 pub const HF_SIDE_SEED: i32 = 2;
@@ -1514,27 +1511,27 @@ impl Default for hf_handle_proposal {
     }
 }
 
+/// Options of a quad mesh.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_quads_desc {
     pub struct_size: u32,
-    pub kind: i32,
-    pub edge_length: f32,
-    pub site_count: u32,
-    pub site_vertices: *const u32,
-    pub site_lines: *const i32,
-    pub keep_polygons: i32,
-    pub relax_count: u32,
-    pub progress: hf_progress,
     pub face_count: u32,
+    pub edge_length: f32,
     pub crease_angle: f32,
+    pub relax_count: u32,
     pub crease_count: u32,
     pub guide_count: u32,
+    pub pole_count: u32,
+    pub symmetry_plane: [f64; 4],
     pub crease_edges: *const u32,
     pub guide_vertices: *const u32,
     pub guide_vectors: *const f64,
     pub guide_weights: *const f32,
-    pub symmetry_plane: [f64; 4],
+    pub pole_points: *const f64,
+    pub pole_quads: *const u32,
+    pub pole_directions: *const f64,
+    pub progress: hf_progress,
 }
 impl Default for hf_quads_desc {
     fn default() -> Self {
@@ -1552,15 +1549,8 @@ pub struct hf_quads_info {
     pub struct_size: u32,
     pub vertex_count: u32,
     pub face_count: u32,
-    pub corner_count: u32,
-    pub quad_count: u32,
-    pub polygon_count: u32,
-    pub polygon_quad_count: u32,
-    pub site_count: u32,
-    pub saddle_count: u32,
     pub euler_characteristic: i32,
     pub edge_length: f32,
-    pub reserved: u32,
 }
 impl Default for hf_quads_info {
     fn default() -> Self {
@@ -1577,15 +1567,8 @@ impl hf_quads_info {
             "struct_size" => f64::from(self.struct_size),
             "vertex_count" => f64::from(self.vertex_count),
             "face_count" => f64::from(self.face_count),
-            "corner_count" => f64::from(self.corner_count),
-            "quad_count" => f64::from(self.quad_count),
-            "polygon_count" => f64::from(self.polygon_count),
-            "polygon_quad_count" => f64::from(self.polygon_quad_count),
-            "site_count" => f64::from(self.site_count),
-            "saddle_count" => f64::from(self.saddle_count),
             "euler_characteristic" => f64::from(self.euler_characteristic),
             "edge_length" => f64::from(self.edge_length),
-            "reserved" => f64::from(self.reserved),
             _ => return None,
         })
     }
@@ -1598,20 +1581,13 @@ pub struct hf_quads_mesh {
     pub struct_size: u32,
     pub vertex_capacity: u32,
     pub face_capacity: u32,
-    pub corner_capacity: u32,
-    pub site_capacity: u32,
     pub vertex_count: u32,
     pub face_count: u32,
-    pub corner_count: u32,
-    pub site_count: u32,
     pub reserved: u32,
     pub positions: *mut f64,
+    pub faces: *mut u32,
     pub triangles: *mut u32,
     pub barycentrics: *mut f64,
-    pub face_starts: *mut u32,
-    pub face_corners: *mut u32,
-    pub site_vertices: *mut u32,
-    pub site_lines: *mut i32,
     pub corners: *mut u32,
 }
 impl Default for hf_quads_mesh {

@@ -197,11 +197,11 @@ export async function weightedGlb(app, result, bones) {
 }
 
 /** Quads as obj: glTF has triangles only. */
-export function quadsObj({ positions, faceStarts, faceCorners }) {
+export function quadsObj({ positions, faces }) {
   const lines = ['# quads by hf studio'];
   for (let v = 0; v < positions.length; v += 3) lines.push(`v ${positions[v]} ${positions[v + 1]} ${positions[v + 2]}`);
-  for (let f = 0; f + 1 < faceStarts.length; ++f)
-    lines.push(`f ${Array.from(faceCorners.subarray(faceStarts[f], faceStarts[f + 1]), (v) => v + 1).join(' ')}`);
+  for (let i = 0; i < faces.length; i += 4)
+    lines.push(`f ${Array.from(faces.subarray(i, i + 4), (v) => v + 1).join(' ')}`);
   return `${lines.join('\n')}\n`;
 }
 

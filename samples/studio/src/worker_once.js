@@ -21,14 +21,10 @@ export function weightsOf(body, bones, weightCount, pins) {
   }
 }
 
-/** kept: { hf, surface, quads, kind }. Quads along the curvature are updated, which keeps what they share. */
+/** kept: { hf, surface, quads }. Quads are updated, which keeps what they share. */
 export function quadsOf(kept, options) {
   const begin = performance.now();
-  if (kept.quads && kept.kind === 2 && options.kind === 2) kept.quads.update(options);
-  else {
-    const quads = new kept.hf.Quads(kept.surface, options);
-    kept.quads?.close();
-    Object.assign(kept, { quads, kind: options.kind });
-  }
+  if (kept.quads) kept.quads.update(options);
+  else kept.quads = new kept.hf.Quads(kept.surface, options);
   return { mesh: kept.quads.mesh(), info: kept.quads.info, milliseconds: performance.now() - begin };
 }

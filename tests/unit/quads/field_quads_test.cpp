@@ -28,7 +28,7 @@ std::shared_ptr<const Core> core_of(const samples::ShapeMesh& shape) {
 struct Stages {
   explicit Stages(std::shared_ptr<const Core> given, double radius = 0.1)
       : core(std::move(given)),
-        surface(FluxSurface::make(core->mesh, core->topology, 0, *core->memory)),
+        surface(FluxSurface::make(core->mesh, core->topology, *core->memory)),
         system(core, 4),
         features(find_features(surface, 100, *core->memory)),
         faces([&] {
@@ -67,7 +67,6 @@ std::vector<std::pair<std::string, std::shared_ptr<const Core>>> shapes() {
 
 void expect_valid(const Core& core, const QuadMesh& mesh, const std::string& what) {
   hf_test::expect_manifold(core, mesh, what);
-  for (std::int32_t f = 0; f < mesh.face_count(); ++f) ASSERT_EQ(mesh.size(f), 4) << what;
   for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
     const SurfacePoint& point = mesh.location[v];
     Vec3 p;
@@ -339,7 +338,7 @@ QuadComplex torus_of(const FluxSurface& surface, std::int32_t rows, std::int32_t
 TEST(FieldQuads, quads_of_triangles_share_their_vertices_and_hold_the_border) {
   const auto core = core_of(samples::plane(6, 5));
   Memory& memory = *core->memory;
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 0, memory);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
   const Table<std::uint8_t> features = find_features(surface, 100, memory);
   const QuadComplex quads = split_triangles(surface, features, Table<std::uint8_t>(1, 1, memory), memory);
   EXPECT_EQ(quads.quad_count(), 3 * surface.real_triangles);
@@ -347,7 +346,7 @@ TEST(FieldQuads, quads_of_triangles_share_their_vertices_and_hold_the_border) {
             core->mesh.vertex_count() + core->topology.edge_count() + core->mesh.triangle_count());
   std::int32_t at_border = 0;
   for (std::int32_t v = 0; v < quads.vertices.position.size(); ++v) {
-    EXPECT_EQ(quads.vertices.pinned[v] == QuadMesh::site, quads.vertices.border[v] != 0) << v;
+    EXPECT_EQ(quads.vertices.pinned[v] == QuadMesh::feature, quads.vertices.border[v] != 0) << v;
     at_border += quads.vertices.border[v] != 0;
   }
   EXPECT_GT(at_border, 20);
@@ -361,7 +360,6 @@ TEST(FieldQuads, the_check_refuses_each_fault) {
     for (int v = 0; v < 8; ++v) mesh.add_vertex({}, {v & 1 ? 1.0 : 0, v & 2 ? 1.0 : 0, v & 4 ? 1.0 : 0}, 0, false, 1);
     for (const int v : {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5})
       mesh.corner.push_back(v);
-    for (int f = 0; f <= 6; ++f) mesh.face_start.push_back(4 * f);
     return mesh;
   };
   const auto is_refused = [&](const QuadMesh& mesh, std::int32_t euler_characteristic) {
@@ -380,16 +378,15 @@ TEST(FieldQuads, the_check_refuses_each_fault) {
   QuadMesh twice(memory);  // each directed edge once, and the Euler characteristic is right
   for (int v = 0; v < 3; ++v) twice.add_vertex({}, {1.0 * v, 0, 0}, 0, false, 1);
   for (const int v : {0, 1, 0, 2}) twice.corner.push_back(v);
-  twice.face_start.push_back(0), twice.face_start.push_back(4);
   EXPECT_TRUE(is_refused(twice, 2)) << "a corner twice";
-  mesh = cube(), mesh.corner.resize(20, 0), mesh.face_start.resize(6, 0);
+  mesh = cube(), mesh.corner.resize(20, 0);
   EXPECT_FALSE(is_refused(mesh, 1)) << "a border";
 }
 
 TEST(FieldQuads, one_or_two_edges_around_a_thin_part_become_three) {
   const auto core = core_of(samples::sphere(8));
   Memory& memory = *core->memory;
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 0, memory);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
   for (const std::int32_t columns : {1, 2, 3}) {
     QuadComplex quads = torus_of(surface, 6, columns, memory);
     EXPECT_EQ(quads.vertices.position.size(), 6 * columns);
@@ -404,7 +401,7 @@ TEST(FieldQuads, one_or_two_edges_around_a_thin_part_become_three) {
 TEST(FieldQuads, chords_are_removed_until_the_number_is_reached_or_rings_of_four_are_left) {
   const auto core = core_of(samples::sphere(8));
   Memory& memory = *core->memory;
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 0, memory);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
   QuadComplex quads = torus_of(surface, 12, 8, memory);
   collapse_chords(quads, 64, 0, memory);
   EXPECT_LE(quads.quad_count(), 64);
@@ -418,7 +415,7 @@ TEST(FieldQuads, chords_are_removed_until_the_number_is_reached_or_rings_of_four
 TEST(FieldQuads, chords_go_where_the_mesh_stays_valid_only) {
   for (const auto& [name, core] : shapes()) {
     Memory& memory = *core->memory;
-    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 0, memory);
+    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
     const Table<std::uint8_t> all(surface.component_count, 1, memory);
     const Table<std::uint8_t> features(surface.half_count(), 0, memory);
     QuadComplex quads = split_triangles(surface, features, all, memory);
@@ -464,7 +461,7 @@ TEST(FieldQuads, chords_beside_hubs_leave_valid_meshes_too) {
   meshes.emplace_back("three rings", core_of(fan_of(300, 3)));
   for (const auto& [name, core] : meshes) {
     Memory& memory = *core->memory;
-    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 0, memory);
+    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
     const Table<std::uint8_t> all(surface.component_count, 1, memory);
     const Table<std::uint8_t> features = find_features(surface, HUGE_VAL, memory);
     std::int32_t removed[2] = {0, 0};

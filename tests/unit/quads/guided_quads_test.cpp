@@ -375,9 +375,8 @@ TEST(SymmetricQuads, quads_at_the_plane_go_or_get_a_row) {
   for (const Case& c : all) {
     QuadMesh mesh(memory);
     for (std::int32_t v = 0; v < c.vertices; ++v)
-      mesh.add_vertex({}, {0, 0.1 * std::cos(0.7 * v), 0.1 * std::sin(0.7 * v)}, QuadMesh::site, true, 1);
+      mesh.add_vertex({}, {0, 0.1 * std::cos(0.7 * v), 0.1 * std::sin(0.7 * v)}, QuadMesh::feature, true, 1);
     for (const std::int32_t v : c.corners) mesh.corner.push_back(v);
-    for (std::int32_t i = 0; i <= mesh.corner.size(); i += 4) mesh.face_start.push_back(i);
     Table<std::uint8_t> on_plane(c.vertices, 1, memory);
     for (const std::int32_t v : c.off_plane) on_plane[v] = 0;
     std::int32_t sides = -1;

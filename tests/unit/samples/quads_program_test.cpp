@@ -58,7 +58,7 @@ TEST(QuadsProgram, SaysWhatItDoesNotMeasure) {
     for (int i = 1; i + 1 < corners; ++i) disc << "3 0 " << i << " " << i + 1 << "\n";
   }
   std::string text;
-  ASSERT_EQ(run("\"" + file + "\" --field -o \"" + out + "\"", text), 0) << text;
+  ASSERT_EQ(run("\"" + file + "\" -o \"" + out + "\"", text), 0) << text;
   EXPECT_NE(text.find("Euler characteristic 1 (surface 1), directed edges once: yes"), std::string::npos) << text;
   EXPECT_NE(text.find("crossing    not counted"), std::string::npos) << text;
   EXPECT_NE(text.find("Hausdorff   not measured"), std::string::npos) << text;
@@ -72,29 +72,21 @@ TEST(QuadsProgram, WritesQuadsAndSaysWhatTheyAreWorth) {
     mesh.positions.push_back({cactus.positions[i], cactus.positions[i + 1], cactus.positions[i + 2]});
   mesh.triangles = cactus.triangles;
   const std::string in = (folder.path / "cactus.obj").string(), out = (folder.path / "quads.obj").string(),
-                    png = (folder.path / "quads.png").string(), sites = (folder.path / "sites.json").string();
+                    png = (folder.path / "quads.png").string();
   write_mesh_file(mesh, in);
   std::string text, again;
-  for (const char* kind : {"--pure", "--uniform"}) {
-    ASSERT_EQ(run("\"" + in + "\" --edge 4% " + kind + " -o \"" + out + "\" --sheet \"" + png + "\"", text), 0) << text;
-    for (const char* word : {"Euler characteristic 2 (surface 2)", "repeated corners: none", "100.00 % of the faces",
-                             "valence", "crossing    0 faces", "aspect", "angle off", "Hausdorff"})
-      EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
-    const SurfaceMesh back = read_mesh_file(out);
-    ASSERT_FALSE(back.face_sizes.empty());
-    for (const uint32_t size : back.face_sizes) EXPECT_EQ(size, 4u);
-    EXPECT_EQ(back.positions.size(), back.face_sizes.size() + 2);  // closed quads of genus 0
-    EXPECT_GT(fs::file_size(png), 10000u);
-    ASSERT_EQ(run("\"" + in + "\" --measure \"" + out + "\"", again), 0) << again;
-    for (const char* line : {"valence", "irregular", "aspect", "angle off", "Hausdorff"})
-      EXPECT_EQ(line_of(again, line), line_of(text, line)) << line;
-  }
-  std::ofstream(sites) << "{\"sites\": [{\"vertex\": 3}, {\"vertex\": 900}]}";
-  EXPECT_EQ(run("\"" + in + "\" --edge 5% --sites \"" + sites + "\"", text), 0) << text;
-  EXPECT_NE(text.find("sites       2, saddles 0"), std::string::npos) << text;
-  std::ofstream(sites) << "{\"sites\": [{\"vertex\": 99999}]}";
-  EXPECT_EQ(run("\"" + in + "\" --sites \"" + sites + "\"", text), 1);
-  EXPECT_NE(text.find("sites[0].vertex"), std::string::npos) << text;
+  ASSERT_EQ(run("\"" + in + "\" --edge 4% -o \"" + out + "\" --sheet \"" + png + "\"", text), 0) << text;
+  for (const char* word : {"Euler characteristic 2 (surface 2)", "repeated corners: none", "100.00 % of the faces",
+                           "valence", "crossing    0 faces", "aspect", "angle off", "Hausdorff"})
+    EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
+  const SurfaceMesh back = read_mesh_file(out);
+  ASSERT_FALSE(back.face_sizes.empty());
+  for (const uint32_t size : back.face_sizes) EXPECT_EQ(size, 4u);
+  EXPECT_EQ(back.positions.size(), back.face_sizes.size() + 2);  // closed quads of genus 0
+  EXPECT_GT(fs::file_size(png), 10000u);
+  ASSERT_EQ(run("\"" + in + "\" --measure \"" + out + "\"", again), 0) << again;
+  for (const char* line : {"valence", "irregular", "aspect", "angle off", "Hausdorff"})
+    EXPECT_EQ(line_of(again, line), line_of(text, line)) << line;
   EXPECT_EQ(run("\"" + in + "\" --edge -1", text), 1);
   EXPECT_EQ(run("\"" + in + "\" --bogus", text), 1);
   EXPECT_NE(text.find("--bogus"), std::string::npos) << text;

@@ -1,9 +1,7 @@
-// Quads: a quad mesh of the body, made in a Worker of its own; it can be cancelled. Edges follow strokes that the user draws
-// and drags: the mesh follows at once without relaxation, and with it at the end.
+// Quads: a quad mesh of the body along its curvature, made in a Worker of its own; it can be cancelled. Edges follow strokes
+// that the user draws and drags: the mesh follows at once without relaxation, and with it at the end.
 /** Length of an edge as part of the size of the body: the library's own default. */
 const EDGE = 0.022;
-/** Quads whose edges follow the curvature: HF_QUADS_FIELD. They alone take strokes, creases and a mirror. */
-const FIELD = 2;
 /** HF_NO_INDEX: no relaxation and no fitting, which take most of the time. */
 const NO_RELAXATION = 0xffffffff;
 /** A stroke has a place every so many pixels: a fine body has a triangle about there. */
@@ -23,7 +21,6 @@ export const tool = (kit) => {
     constructor(app) {
       this.app = app;
       this.edge = EDGE;
-      this.kind = FIELD;
       this.crease = 0;
       this.mirror = '';
       this.relaxed = true; // what is shown
@@ -63,8 +60,7 @@ export const tool = (kit) => {
     refresh() {
       this.#drawStrokes();
       const { live, state } = this.app;
-      if (this.kind === FIELD && !live && !this.busy && (this.shown !== state.strokes || !this.relaxed))
-        this.#follow(true);
+      if (!live && !this.busy && (this.shown !== state.strokes || !this.relaxed)) this.#follow(true);
       this.app.panel();
     }
     shaped() {
@@ -86,7 +82,7 @@ export const tool = (kit) => {
       this.#follow(false);
     }
     strokeStart(at) {
-      const place = this.drawing && this.kind === FIELD ? this.#hit(at) : null;
+      const place = this.drawing ? this.#hit(at) : null;
       if (!place) return false;
       const number = 1 + Math.max(0, ...this.strokes.map(({ id }) => Number(id.slice(1))));
       this.pen = { at, id: `k${number}`, places: [place], before: this.strokes };
@@ -113,7 +109,6 @@ export const tool = (kit) => {
       return this.app.commitPreview('draw a stroke');
     }
     marks() {
-      if (this.kind !== FIELD) return [];
       return this.strokes.map(({ id, places }, i) => ({
         id,
         place: this.app.skin.at(places[places.length >> 1]),
@@ -154,7 +149,7 @@ export const tool = (kit) => {
     }
     #drawStrokes() {
       const { app, ink } = this;
-      ink.visible = this.kind === FIELD && app.tool === this;
+      ink.visible = app.tool === this;
       const ends = this.strokes.flatMap(({ places }) => {
         const points = places.map((place) => app.skin.at(place));
         return points.slice(1).flatMap((point, i) => [...points[i], ...point]);
@@ -183,9 +178,8 @@ export const tool = (kit) => {
 
     // ---- making
     #options(relaxed) {
-      const { app, kind, mirror } = this;
-      const options = { kind, edgeLength: this.edge * app.opened.report.boundingBoxDiagonal };
-      if (kind !== FIELD) return options;
+      const { app, mirror } = this;
+      const options = { edgeLength: this.edge * app.opened.report.boundingBoxDiagonal };
       if (mirror !== '') {
         const along = app.body.positions.filter((_, i) => i % 3 === Number(mirror));
         const [low, high] = along.reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [Infinity, -Infinity]);
@@ -292,14 +286,13 @@ export const tool = (kit) => {
     }
     #draw() {
       this.#clear();
-      const { faceStarts, faceCorners, positions } = this.result.mesh;
+      const { faces, positions } = this.result.mesh;
       const edges = new Set();
       const count = positions.length / 3;
-      for (let f = 0; f + 1 < faceStarts.length; ++f)
-        for (let i = faceStarts[f]; i < faceStarts[f + 1]; ++i) {
-          const [a, b] = [faceCorners[i], faceCorners[i + 1 < faceStarts[f + 1] ? i + 1 : faceStarts[f]]];
-          edges.add(Math.min(a, b) * count + Math.max(a, b));
-        }
+      for (let i = 0; i < faces.length; ++i) {
+        const [a, b] = [faces[i], faces[i % 4 === 3 ? i - 3 : i + 1]];
+        edges.add(Math.min(a, b) * count + Math.max(a, b));
+      }
       const pairs = new Uint32Array(2 * edges.size);
       let at = 0;
       for (const key of edges) {
@@ -312,9 +305,10 @@ export const tool = (kit) => {
       this.lines = new LineSegments(geometry, new LineBasicMaterial({ color: 0x1c2733 }));
       this.lines.frustumCulled = false;
       const corners = [];
-      for (let f = 0; f + 1 < faceStarts.length; ++f)
-        for (let i = faceStarts[f] + 2; i < faceStarts[f + 1]; ++i)
-          corners.push(faceCorners[faceStarts[f]], faceCorners[i - 1], faceCorners[i]);
+      for (let i = 0; i < faces.length; i += 4) {
+        const [a, b, c, d] = faces.subarray(i, i + 4);
+        corners.push(a, b, c, a, c, d);
+      }
       const surface = new BufferGeometry();
       surface.setAttribute('position', geometry.getAttribute('position'));
       surface.setIndex(corners);
@@ -353,12 +347,11 @@ export const tool = (kit) => {
     sheet() {
       const { result, busy } = this;
       const disabled = Boolean(busy);
-      const field = this.kind === FIELD;
       return [
         make(
           'p',
           {},
-          this.drawing && field
+          this.drawing
             ? 'Draw on the body: edges follow the stroke. Drag its dot, and the quads follow.'
             : 'Covers the body with quads that follow its shape. A finer size takes longer.',
         ),
@@ -367,54 +360,37 @@ export const tool = (kit) => {
           { value: this.edge, low: 0.01, high: 0.06, step: 0.001, digits: 3, id: 'edge', disabled },
           (value) => (this.edge = value),
         ),
-        choice(
-          'Kind',
-          [
-            [FIELD, 'along the curvature'],
-            [0, 'even size'],
-            [1, 'quads alone, sizes vary'],
-          ],
-          this.kind,
-          (value) => {
-            this.kind = Number(value);
-            this.app.refresh();
-          },
-          { id: 'kind', disabled },
+        slider(
+          'Creases from, degrees',
+          { value: this.crease, low: 0, high: 180, step: 5, digits: 0, id: 'crease', disabled },
+          (value) => (this.crease = value),
         ),
-        field &&
-          slider(
-            'Creases from, degrees',
-            { value: this.crease, low: 0, high: 180, step: 5, digits: 0, id: 'crease', disabled },
-            (value) => (this.crease = value),
+        choice(
+          'Mirror',
+          [
+            ['', 'no mirror'],
+            [0, 'mirror in x'],
+            [1, 'mirror in y'],
+            [2, 'mirror in z'],
+          ],
+          this.mirror,
+          (value) => (this.mirror = value),
+          { id: 'mirror', disabled },
+        ),
+        make(
+          'div',
+          { class: 'row' },
+          button(
+            'Draw strokes',
+            () => {
+              this.drawing = !this.drawing;
+              this.app.refresh();
+            },
+            { id: 'draw', 'aria-pressed': String(Boolean(this.drawing)), disabled },
           ),
-        field &&
-          choice(
-            'Mirror',
-            [
-              ['', 'no mirror'],
-              [0, 'mirror in x'],
-              [1, 'mirror in y'],
-              [2, 'mirror in z'],
-            ],
-            this.mirror,
-            (value) => (this.mirror = value),
-            { id: 'mirror', disabled },
-          ),
-        field &&
-          make(
-            'div',
-            { class: 'row' },
-            button(
-              'Draw strokes',
-              () => {
-                this.drawing = !this.drawing;
-                this.app.refresh();
-              },
-              { id: 'draw', 'aria-pressed': String(Boolean(this.drawing)), disabled },
-            ),
-            this.strokes.length > 0 &&
-              button('Remove strokes', () => this.#set([], 'remove all strokes'), { id: 'clear', disabled }),
-          ),
+          this.strokes.length > 0 &&
+            button('Remove strokes', () => this.#set([], 'remove all strokes'), { id: 'clear', disabled }),
+        ),
         make(
           'div',
           { class: 'row' },
@@ -431,8 +407,7 @@ export const tool = (kit) => {
         this.error && make('p', { class: 'warn' }, this.error),
         result &&
           facts([
-            ['quads', whole(result.info.quadCount)],
-            ['faces', whole(result.info.faceCount)],
+            ['quads', whole(result.info.faceCount)],
             ['corners', whole(result.info.vertexCount)],
             ['edge', result.info.edgeLength.toPrecision(3)],
             ['time', ms(result.milliseconds)],
