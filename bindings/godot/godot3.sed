@@ -9,6 +9,8 @@ s/\bTYPE_PACKED_FLOAT32_ARRAY\b/TYPE_REAL_ARRAY/g
 s/\bTYPE_FLOAT\b/TYPE_REAL/g
 s/\b\(MeshInstance\|DirectionalLight\|Camera\)3D\b/\1/g
 s/\bNode3D\b/Spatial/g
+s/\bTransform3D\b/Transform/g
+s/\bQuaternion(/Quat(/g
 s/\.is_empty()/.empty()/g
 s/\.reverse()/.invert()/g
 s/\.instantiate()/.instance()/g

@@ -123,6 +123,7 @@ def bad_scenes():
         bad("OUT_OF_RANGE", do="add_handles", regions=[[0, 1, vertex]], index=2, **on)
     bad("OVERLAP", do="add_handles", regions=[[0, 1, 2], [2, 3]], **on)
     bad("INVALID_ARGUMENT", do="add_handles", regions=[[0]], layer=8, **on)
+    bad("INVALID_ARGUMENT", do="add_handles", regions=[[0]], in_place=2, **on)
     bad("NON_FINITE", do="add_handles", points=["nan", 0.0, 0.0], radii=[1.0], **on)
     bad("NON_FINITE", do="add_handles", points=[0.0, 0.0, 0.0], radii=["inf"], **on)
     bad("INVALID_ARGUMENT", do="add_handles", points=[0.0, 0.0, 0.0], radii=[-1.0], **on)

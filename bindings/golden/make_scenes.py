@@ -264,6 +264,22 @@ def scenes(meshes):
           pose(do="set_transforms", handles=[2], translations=[0.0, 0.7, 0.0]), pose(do="deform", expect=agree()),
           pose(do="remove_handles", handles=[2]), pose(do="deform", options={"restart": 1, "iteration_count": 20},
               same_as="bent"))
+    stands = [*turn, *shift(middle)]
+    bend = pose(do="set_transforms", handles=[0, 1], rotations=[0, 0, 0, 1] + turn, translations=[0, 0, 0, 1, 0, 0])
+    scene("handles_in_place",
+        "A handle is added where a bar stands that moved rigidly (closed forms), and one where it is bent (agreement). They move then.",
+          surface("bar"), {"do": "pose", "on": "m", "as": "p"}, pose(do="add_handles", regions=[low, high]),
+          pose(do="set_transforms", handles=[0, 1], rotations=turn + turn, translations=shift(low) + shift(high)),
+          pose(do="deform", expect=expect(both, 1e-8)),
+          pose(do="add_handles", regions=[middle], in_place=1, numbers=[2]),
+          pose(do="handle_place", handle=2, expect=expect(np.array(stands), 1e-8)),
+          pose(do="deform", expect=expect(both, 1e-8)),
+          pose(do="set_transform", handle=2, rotation=turn, translation=[x + 0.5 for x in stands[4:]]),
+          pose(do="deform", expect=expect_rows(both[middle] + 0.5, middle)), pose(do="deform", expect=agree()),
+          pose(do="remove_handles", handles=[2]), bend, pose(do="deform", options={"iteration_count": 100}, expect=agree()),
+          pose(do="add_handles", points=p[middle[0]].tolist(), radii=[0.6], in_place=1, numbers=[2]),
+          pose(do="handle_place", handle=2, expect=agree()), pose(do="deform", expect=agree()),
+          pose(do="set_transform", handle=2, translation=[0.5, 0.0, 0.0]), pose(do="deform", expect=agree()))
 
     q = np.array(meshes["long_bar"]["positions"]).reshape(-1, 3)
     ends = lambda points, length: [[int(v) for v in np.flatnonzero(points[:, 2] <= 0.13 * length)],

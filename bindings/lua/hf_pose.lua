@@ -30,9 +30,12 @@ function hf.Pose(surface, options)
 end
 function Pose:clone() return create(Pose, 'hf_pose', { vertex_count = self.vertex_count }, C.hf_pose_clone,
   self.raw) end
+-- more: points and radii in place of lists, layer, in_place. in_place = true: the handles start where the posed surface
+-- stands, not at rest; handle_info says where.
 function Pose:add_handles(lists, more)
   more = more or {}
-  local desc, held = make('hf_handles_desc', { layer = more.layer or 0 }), {}
+  local in_place = more.in_place == true and 1 or more.in_place or 0
+  local desc, held = make('hf_handles_desc', { layer = more.layer or 0, in_place = in_place }), {}
   if more.points then
     local at, n = doubles(more.points, 'points')
     held = { at, doubles(more.radii, 'radii', n / 3) }

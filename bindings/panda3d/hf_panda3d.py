@@ -8,7 +8,7 @@
 
 import numpy as np
 from panda3d.core import (Geom, GeomNode, GeomVertexArrayFormat, GeomVertexData, GeomVertexFormat, InternalName, LQuaternion,
-                          LPoint3, NodePath)
+                          LPoint3, LVector3, NodePath)
 
 import hf
 
@@ -72,12 +72,19 @@ class Deformer:
     def _rows(data, array):
         return np.frombuffer(memoryview(data.modifyArray(array)).cast("B"), np.float32).reshape(-1, 3)
 
-    def add_handle(self, point, radius):
-        """A handle of what is edge-connected within radius of a point at rest. No factorisation, in any pose."""
-        number = self.pose.add_handle_at(point, radius)
-        place = LPoint3(*self.pose.handle_info(number).centroid)
+    def add_handle(self, point, radius, in_place=False):
+        """A handle of what is edge-connected within radius of a point at rest. No factorisation, in any pose.
+
+        in_place: it starts where the posed model stands, and the model stays; else it starts at rest.
+        """
+        number = int(self.pose.add_handles(points=point, radii=[radius], in_place=in_place)[0])
+        info = self.pose.handle_info(number)
+        place = LPoint3(*info.centroid)
         handle = self.node.attachNewNode(f"handle {number}")
         handle.setPos(place)
+        if in_place:
+            handle.setPos(place + LVector3(*info.translation))
+            handle.setQuat(LQuaternion(info.rotation[3], *info.rotation[:3]))
         self.handles[handle] = (number, place)
         return handle
 

@@ -726,15 +726,16 @@ class Pose {
     check(hf_pose_clone(get(), &raw));
     return Pose(raw, vertices_);
   }
-  // Adds one handle for each region of vertices.
-  std::vector<uint32_t> add_handles(const std::vector<std::vector<uint32_t>>& regions, uint32_t layer = 0) {
+  // Adds one handle for each region of vertices. in_place: it starts where the posed surface stands, not at rest.
+  std::vector<uint32_t> add_handles(const std::vector<std::vector<uint32_t>>& regions, uint32_t layer = 0,
+                                    bool in_place = false) {
     std::vector<uint32_t> counts, vertices, numbers(regions.size());
     for (const auto& region : regions) {
       counts.push_back(static_cast<uint32_t>(region.size()));
       vertices.insert(vertices.end(), region.begin(), region.end());
     }
     auto desc = make<hf_handles_desc>();
-    desc.handle_count = static_cast<uint32_t>(regions.size()), desc.layer = layer;
+    desc.handle_count = static_cast<uint32_t>(regions.size()), desc.layer = layer, desc.in_place = in_place;
     desc.region_counts = counts.data(), desc.region_vertices = vertices.data();
     check(hf_pose_add_handles(get(), &desc, numbers.data()));
     return numbers;
@@ -746,10 +747,10 @@ class Pose {
     check(hf_pose_set_transform(get(), handle, &transform));
   }
   // Adds a handle: the vertex nearest to a point at rest, and all vertices edge-connected to it within a radius of the
-  // point.
-  uint32_t add_handle(const double (&point)[3], double radius, uint32_t layer = 0) {
+  // point. in_place: as in add_handles.
+  uint32_t add_handle(const double (&point)[3], double radius, uint32_t layer = 0, bool in_place = false) {
     auto desc = make<hf_handles_desc>();
-    desc.handle_count = 1, desc.points = point, desc.radii = &radius, desc.layer = layer;
+    desc.handle_count = 1, desc.points = point, desc.radii = &radius, desc.layer = layer, desc.in_place = in_place;
     uint32_t number = 0;
     check(hf_pose_add_handles(get(), &desc, &number));
     return number;

@@ -57,6 +57,19 @@ class Scene
     }
 
     static uint[][] Lists(object lists) { return lists == null ? null : ((Items)lists).Select(Numbers).ToArray(); }
+    // a bool of C# is no third value, so the test refuses it
+    static bool Flag(Map step, string key)
+    {
+        double value = Get(step, key) == null ? 0 : (double)Get(step, key);
+        if (value != 0 && value != 1) throw new HfException(key + " must be 0 or 1");
+        return value == 1;
+    }
+    static unsafe double[] Place(Hf.Native.hf_handle_info info)
+    {
+        var place = new double[7];
+        for (int i = 0; i < 7; ++i) place[i] = i < 4 ? info.rotation[i] : info.translation[i - 4];
+        return place;
+    }
     static uint Whole(Map step, string key)
     {
         object value = Get(step, key);
@@ -368,9 +381,11 @@ class Scene
             case "singularities": return ((Direction)on).Singularities().Select(p => (double)p.index).ToArray();
             case "pose": { var o = Options(step, "mode", "band_count");
                 objects[name] = new Pose(surface, (int)o["mode"], (uint)o["band_count"]); return null; }
-            case "add_handles": return step.ContainsKey("points") ? pose.AddHandles(Doubles(step, "points"),
-                Doubles(step, "radii"), Whole(step, "layer")) : pose.AddHandles(Lists(Get(step, "regions")),
-                Whole(step, "layer"));
+            case "add_handles":
+                bool inPlace = Flag(step, "in_place");
+                return step.ContainsKey("points") ? pose.AddHandles(Doubles(step, "points"), Doubles(step, "radii"),
+                    Whole(step, "layer"), inPlace) : pose.AddHandles(Lists(Get(step, "regions")), Whole(step, "layer"),
+                    inPlace);
             case "add_handle_at":
                 return new[] { pose.AddHandleAt(Doubles(step, "point"), Number(step["radius"])) };
             case "set_transform":
@@ -389,6 +404,7 @@ class Scene
                 return pose.DeformDouble((uint)o["iteration_count"], o["restart"] != 0, o["refine"] != 0); }
             case "handle_field": return pose.HandleField(Whole(step, "handle")).Select(x => (double)x).ToArray();
             case "handle_info": return Fields(pose.HandleInfo(Whole(step, "handle")));
+            case "handle_place": return Place(pose.HandleInfo(Whole(step, "handle")));
             case "skin": return pose.Skin(Whole(step, "weight_count")).Weights.Select(x => (double)x).ToArray();
             case "transfer": { var o = Options(step, "mode", "scale");
                 objects[name] = new Transfer((Surface)objects[(string)step["source"]],

@@ -161,9 +161,10 @@ func run(step, objects, kept):
 			return [true, bytes, on]
 		"add_handles":
 			var layer = step.get("layer", 0)
+			var in_place = step.get("in_place", false)
 			if step.has("points"):
-				return [true, on.add_handles_at(list(step, "points", kept), list(step, "radii", kept), layer), on]
-			return [true, on.add_handles(step.regions, layer), on]
+				return [true, on.add_handles_at(list(step, "points", kept), list(step, "radii", kept), layer, in_place), on]
+			return [true, on.add_handles(step.regions, layer, in_place), on]
 		"add_handle_at": return [true, on.add_handle_at(list(step, "point", kept), number(step.radius)), on]
 		"set_transform": return [true, on.set_transform(step.handle, list(step, "rotation", kept), list(step, "translation",
 			kept)), on]
@@ -173,6 +174,12 @@ func run(step, objects, kept):
 			list(step, "translations", kept)), on]
 		"handle_field": return [true, on.handle_field(step.handle), on]
 		"handle_info": return [true, on.handle_info(step.handle), on]
+		"handle_place":
+			var info = on.handle_info(step.handle)
+			if info == null:
+				return [true, null, on]
+			return [true, PackedFloat32Array([info.rotation_x, info.rotation_y, info.rotation_z, info.rotation_w,
+				info.translation_x, info.translation_y, info.translation_z]), on]
 		"deform": return [true, on.deform(options_of(step)), on]
 		"geodesics", "flow": # made with the first call here
 			if step.has("error"):
@@ -488,6 +495,16 @@ func imported():
 		"a handle in mid-pose, no factorisation after the surface's")
 	var hit = deformer.surface.cast_ray(posed[last] + Vector3(0, 0, size), Vector3(0, 0, -1), posed)
 	expect(hit != null and not hit.is_empty() and abs(hit.z - posed[last].z) < 0.1 * size, "a ray hits the posed mesh")
+	deformer.remove_handle(third)
+	for i in 40:
+		posed = deformer.update()
+	third = deformer.add_handle(box.position + 0.5 * box.size, 0.1 * size, 0, true)
+	var went = third.transform.origin.distance_to(deformer.handles[third].rest.origin)
+	var still = deformer.update()
+	var far = 0.0
+	for i in rest.size():
+		far = max(far, still[i].distance_to(posed[i]))
+	expect(went > 0.01 * size and far < 0.1 * went, "a handle in place, %f off rest, moves the mesh by %f" % [went, far])
 	deformer.remove_handle(third)
 	expect(deformer.update() != null, "after removing it")
 	print("imported glb: ", rest.size(), " vertices posed")

@@ -272,7 +272,8 @@ local function new_scene(meshes)
     elseif what == 'directions' then return 'array', on:solve(), 3 * n
     elseif what == 'pose' then objects[step.as] = hf.Pose(on, options)
     elseif what == 'add_handles' then return 'numbers',
-      on:add_handles(step.regions, { points = get('points'), radii = get('radii'), layer = step.layer })
+      on:add_handles(step.regions, { points = get('points'), radii = get('radii'), layer = step.layer,
+        in_place = step.in_place })
     elseif what == 'add_handle_at' then return 'numbers', { on:add_handle_at(get('point'), number(step.radius)) }
     elseif what == 'remove_handles' then on:remove_handles(get('handles'))
     elseif what == 'set_transforms' then on:set_transforms(get('handles'), get('rotations'), get('translations'))
@@ -281,6 +282,11 @@ local function new_scene(meshes)
     elseif what == 'deform' then return 'array', on:deform(nil, options), 3 * n
     elseif what == 'handle_field' then return 'array', on:handle_field(step.handle), n
     elseif what == 'handle_info' then return 'struct', on:handle_info(step.handle)
+    elseif what == 'handle_place' then
+      local info, out = on:handle_info(step.handle), ffi.new('double[7]')
+      for i = 0, 3 do out[i] = info.rotation[i] end
+      for i = 0, 2 do out[4 + i] = info.translation[i] end
+      return 'array', out, 7
     elseif what == 'skin' then return 'array', on:skin(step.weight_count).weights, n * step.weight_count
     elseif what == 'transfer' then objects[step.as] = hf.Transfer(objects[step.source], objects[step.target], options)
     elseif what == 'add_pairs' then return 'numbers', on:add_pairs(step.source_regions, step.target_regions,
@@ -381,6 +387,15 @@ local function work(count)
     pose:deform()
     if _ % 10 == 0 then collectgarbage() end
   end
+end
+local held = hf.Pose(hf.Surface(meshes.torus.positions, meshes.torus.triangles))
+held:add_handles({ { 0, 1 }, { 140, 141 } })
+held:set_transforms({ 0, 1 }, nil, { 0, 0, 3, 0, 0, 3 })
+held:deform()
+local stands = held:handle_info(held:add_handles({ { 70, 71 } }, { in_place = true })[1]).translation[2]
+assert(math.abs(stands - 3) < 1e-6, 'in_place takes true')
+for _, slip in ipairs({ 2, 0.5, 'true' }) do
+  assert(not pcall(held.add_handles, held, { { 90 } }, { in_place = slip }), 'in_place = ' .. tostring(slip))
 end
 work(30)
 local before = resident()

@@ -347,7 +347,12 @@ function runStep(hf, step, meshes, objects, kept) {
       return {};
     case 'add_handles':
       return {
-        numbers: on.addHandles(get('regions'), { points: get('points'), radii: get('radii'), layer: step.layer ?? 0 }),
+        numbers: on.addHandles(get('regions'), {
+          points: get('points'),
+          radii: get('radii'),
+          layer: step.layer ?? 0,
+          inPlace: step.in_place ?? false,
+        }),
       };
     case 'add_handle_at':
       return { numbers: [on.addHandleAt(get('point'), numbers(step.radius))] };
@@ -368,6 +373,10 @@ function runStep(hf, step, meshes, objects, kept) {
       return array(on.handleField(step.handle));
     case 'handle_info':
       return { struct: on.handleInfo(step.handle) };
+    case 'handle_place': {
+      const { rotation, translation } = on.handleInfo(step.handle);
+      return array(Float64Array.from([...rotation, ...translation]));
+    }
     case 'skin': {
       const skin = on.skin(step.weight_count);
       assert(skin.jointCount >= 2, `${skin.jointCount} joints`);

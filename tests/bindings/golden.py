@@ -268,7 +268,7 @@ class Scene:
             self.objects[step["as"]] = hf.Pose(on, **options)
         elif do == "add_handles":
             return "numbers", on.add_handles(get("regions"), points=get("points"), radii=get("radii"),
-                layer=step.get("layer", 0))
+                layer=step.get("layer", 0), in_place=step.get("in_place", 0))
         elif do == "add_handle_at":
             return "numbers", [on.add_handle_at(get("point"), numbers(step["radius"]))]
         elif do == "remove_handles":
@@ -285,6 +285,9 @@ class Scene:
             return "array", on.handle_field(step["handle"])
         elif do == "handle_info":
             return "struct", on.handle_info(step["handle"])
+        elif do == "handle_place":
+            info = on.handle_info(step["handle"])
+            return "array", np.array([*info.rotation, *info.translation])
         elif do == "skin":
             skin = on.skin(step["weight_count"])
             assert len(skin.pivots) >= 2, f"{len(skin.pivots)} joints"

@@ -532,16 +532,27 @@ impl Scene<'_> {
         let n = pose.info()?.vertex_count as usize;
         match what {
             "add_handles" => {
+                let in_place = match step["in_place"].as_u64().unwrap_or(0) {
+                    0 => false,
+                    1 => true,
+                    _ => return Ok(Answer::Impossible), // a method of its own is no flag
+                };
                 if let Some(points) = points {
-                    return Ok(Answer::Numbers(
-                        pose.add_handles_at(&points, &radii, layer)?,
-                    ));
+                    return Ok(Answer::Numbers(if in_place {
+                        pose.add_handles_in_place_at(&points, &radii)?
+                    } else {
+                        pose.add_handles_at(&points, &radii, layer)?
+                    }));
                 }
                 let Some(lists) = lists else {
                     return Ok(Answer::Impossible);
                 };
                 let regions: Vec<&[u32]> = lists.iter().map(|list| &list[..]).collect();
-                return Ok(Answer::Numbers(pose.add_handles(&regions, layer, None)?));
+                return Ok(Answer::Numbers(if in_place {
+                    pose.add_handles_in_place(&regions, None)?
+                } else {
+                    pose.add_handles(&regions, layer, None)?
+                }));
             }
             "add_handle_at" => {
                 let Some(point) = narrow(point.unwrap()) else {
@@ -590,6 +601,12 @@ impl Scene<'_> {
                 ))
             }
             "handle_info" => return figures!(pose.handle_info(whole(&step["handle"]))),
+            "handle_place" => {
+                let info = pose.handle_info(whole(&step["handle"]))?;
+                return Ok(Answer::Array(
+                    [&info.rotation[..], &info.translation[..]].concat(),
+                ));
+            }
             "pose_info" => return figures!(pose.info()),
             "skin" => {
                 return Ok(Answer::Array(
@@ -873,7 +890,7 @@ impl Scene<'_> {
             | "singularities" | "clone_vectors" => self.direction_step(what, step),
             "add_handles" | "add_handle_at" | "remove_handles" | "set_transforms"
             | "set_transform" | "deform" | "deform_f32" | "handle_field" | "handle_info"
-            | "pose_info" | "skin" => self.pose_step(what, step),
+            | "handle_place" | "pose_info" | "skin" => self.pose_step(what, step),
             "region_edit" | "record_region" | "undo_region" | "redo_region" | "region_info"
             | "region_vertices" | "morph" => self.region_step(what, step),
             "weights" | "set_bones" | "set_pins" | "set_locks" | "record_weights"

@@ -16,7 +16,7 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
     const auto lists = regions(step, "regions");
     const auto points = doubles(step, "points");
     const auto radii = points ? doubles(step, "radii", points->size() / 3) : std::nullopt;
-    desc.layer = step.value("layer", 0u);
+    desc.layer = step.value("layer", 0u), desc.in_place = step.value("in_place", 0);
     if (points)
       desc.handle_count = static_cast<uint32_t>(points->size() / 3), desc.points = data(points),
       desc.radii = data(radii);
@@ -75,6 +75,11 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
     auto info = make<hf_handle_info>();
     check(hf_pose_get_handle(pose, step["handle"], &info));
     result.fields["layer"] = info.layer;
+  } else if (what == "handle_place") {
+    auto info = make<hf_handle_info>();
+    check(hf_pose_get_handle(pose, step["handle"], &info));
+    result.array.emplace(info.rotation, info.rotation + 4);
+    result.array->insert(result.array->end(), info.translation, info.translation + 3);
   } else if (what == "skin") {
     auto info = make<hf_skin_info>();
     info.weight_count = step["weight_count"];

@@ -90,6 +90,8 @@ const wrong = [
   () => new hf.Pose(surface, { mode: 8 }),
   () => pose.deform(),
   () => pose.addHandles([[0]], { layer: -1 }),
+  () => pose.addHandles([[0]], { inPlace: 2 }),
+  () => pose.addHandles([[0]], { inPlace: 'yes' }),
   () => surface.castRay([0, 0], [0, 0, 1]),
   () => surface.findVertex('x'),
 ];

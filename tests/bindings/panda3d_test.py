@@ -56,7 +56,7 @@ low, high = rest[:, 2] < 0.01, rest[:, 2] > 4.0
 tip.setPos(tip.getPos() + (1, 0, -0.3))
 tip.setHpr(0, 0, 50)
 for _ in range(30):
-    posed = deformer.update()
+    posed = deformer.update().copy()  # update() returns the same array every time
 np.testing.assert_allclose(posed[low], rest[low], atol=1e-4)
 turn = np.array(tip.getMat(deformer.node).getUpper3()).reshape(3, 3)
 start = np.array(deformer.handles[tip][1])
@@ -73,8 +73,16 @@ deformer.update()
 deformer.remove_handle(middle)
 assert len(deformer.handles) == 2
 for _ in range(30):
-    again = deformer.update()
+    again = deformer.update().copy()
 assert np.abs(again - posed).max() < 0.05
+# a handle in place: the model stays, and it follows the handle from there
+waist = deformer.add_handle((0, 0, 2), 0.25, in_place=True)
+assert (waist.getPos() - deformer.handles[waist][1]).length() > 0.05, waist.getPos()
+still = deformer.update().copy()
+assert np.abs(still - again).max() < 0.01, np.abs(still - again).max()
+waist.setPos(waist.getPos() + (0, 0.5, 0))
+assert np.abs(deformer.update() - still).max() > 0.3
+deformer.remove_handle(waist)
 hit = deformer.pick((1, -5, float(posed[high][:, 2].mean())), (0, 1, 0))
 assert hit is not None and deformer.pick((50, -5, 0), (0, 1, 0)) is None
 

@@ -319,7 +319,10 @@ class Refusals(unittest.TestCase):
         self.refused(lambda: hf.Pose(surface).deform(positions_f64=12345), "no option")
         pose = hf.Pose(surface)
         pose.add_handles([[0, 1], [140, 141]])
+        pose.add_handles([[70, 71]], in_place=True)
         pose.deform(restart=True, refine=False)  # flags are bools
+        for wrong in (2, -1, 0.5, "1", None):
+            self.refused(lambda: pose.add_handles([[90]], in_place=wrong), "in_place")
 
     def test_numbers_are_checked_for_range(self):
         surface, solver, region = self.surface, self.solver, hf.Region(self.surface)

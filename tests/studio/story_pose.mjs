@@ -95,6 +95,25 @@ export default async function story(host) {
     const centre = await page.evaluate(() => window.hfStudio.tools.pose.placeOf(window.hfStudio.state.handles.at(-1)));
     assert.ok(Math.hypot(...centre.map((x, k) => x - middle[3][k])) < 0.2, 'the handle is where the click was');
   });
+  await check('a handle that is added in mid-pose moves nothing', async () => {
+    const { far, went } = await page.evaluate(async () => {
+      const app = window.hfStudio;
+      const { pose } = app.tools;
+      const { view, skin } = app;
+      await app.commit(
+        pose.with(app.state.handles.at(-1).id, { translation: [0, 0.1 * view.size, 0] }),
+        'move a handle',
+      );
+      const shown = skin.positions.slice();
+      await pose.add(pose.offers.find((offer) => !app.state.handles.some(({ id }) => id === offer.id)));
+      const far = skin.positions.reduce((most, x, i) => Math.max(most, Math.abs(x - shown[i])), 0) / view.size;
+      const went = Math.hypot(...app.state.handles.at(-1).translation) / view.size;
+      await app.step('undo');
+      await app.step('undo');
+      return { far, went };
+    });
+    assert.ok(went > 1e-3 && far < 1e-3, `the handle is ${went} off rest, the body moved by ${far}`);
+  });
   await check('a handle that overlaps another is refused by a sentence, and nothing changes', async () => {
     await page.evaluate(() => (window.hfStudio.tools.pose.radius = 0.2));
     const before = await studio.bits();

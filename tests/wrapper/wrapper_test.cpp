@@ -140,6 +140,14 @@ TEST(Wrapper, handles_move_and_children_outlive_parents) {
   pose.set_transform(handles[1], {{0, 0, 0, 1}, {0, 0, 2}});
   EXPECT_NEAR(pose.clone().deform()[3 * 17 + 2], 2, 1e-6);
 
+  pose.set_transform(handles[0], {{0, 0, 0, 1}, {0, 0, 2}});
+  pose.deform();
+  const auto still = pose.add_handles({{8, 9}}, 0, true);
+  EXPECT_NEAR(pose.handle(still[0]).translation[2], 2, 1e-6);
+  const double point[3] = {6, 0.5, 0};
+  EXPECT_NEAR(pose.handle(pose.add_handle(point, 0.6, 0, true)).translation[2], 2, 1e-6);
+  EXPECT_NEAR(pose.deform()[3 * 8 + 2], 2, 1e-6);
+
   transfer.add_pair({0, 1}, {0, 1});
   transfer.add_pair({16, 17}, {16, 17});
   const auto played = transfer.apply(strip.positions);

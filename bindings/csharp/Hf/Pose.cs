@@ -70,8 +70,9 @@ namespace Hf
             return copy;
         }
 
-        /// <summary>A handle for each region of vertices; no factorisation. Returns their numbers.</summary>
-        public uint[] AddHandles(uint[][] regions, uint layer = 0)
+        /// <summary>A handle for each region of vertices; no factorisation. Returns their numbers. inPlace: the handles
+        /// start where the posed surface stands, not at rest; HandleInfo says where.</summary>
+        public uint[] AddHandles(uint[][] regions, uint layer = 0, bool inPlace = false)
         {
             var lists = new Regions(regions, "regions");
             using (var pins = new Pins())
@@ -81,14 +82,16 @@ namespace Hf
                 desc.region_counts = pins.Add(lists.Counts);
                 desc.region_vertices = pins.Add(lists.Vertices);
                 desc.layer = layer;
+                desc.in_place = inPlace ? 1 : 0;
                 var numbers = new uint[desc.handle_count];
                 Check(Functions.hf_pose_add_handles(Handle, &desc, (void*)pins.Add(numbers)));
                 return numbers;
             }
         }
 
-        /// <summary>A handle for each point: what is edge-connected to the nearest vertex within the radius.</summary>
-        public uint[] AddHandles(double[] points, double[] radii, uint layer = 0)
+        /// <summary>A handle for each point: what is edge-connected to the nearest vertex within the radius.
+        /// inPlace: as with regions.</summary>
+        public uint[] AddHandles(double[] points, double[] radii, uint layer = 0, bool inPlace = false)
         {
             if (points == null || points.Length % 3 != 0) throw new HfException("points must hold three numbers each");
             using (var pins = new Pins())
@@ -98,6 +101,7 @@ namespace Hf
                 desc.points = pins.Add(points);
                 desc.radii = pins.Add(radii, points.Length / 3, "radii");
                 desc.layer = layer;
+                desc.in_place = inPlace ? 1 : 0;
                 var numbers = new uint[desc.handle_count];
                 Check(Functions.hf_pose_add_handles(Handle, &desc, (void*)pins.Add(numbers)));
                 return numbers;

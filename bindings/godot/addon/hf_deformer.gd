@@ -45,15 +45,20 @@ func said(result):
 	return true
 
 # A handle from the vertices that are edge-connected to a point of the rest mesh within a radius. Null when refused.
-func add_handle(point, radius, layer = 0):
-	var numbers = surface.add_handles_at([point], [radius], layer)
+# in_place: the node starts where the posed mesh stands, and the mesh stays; else both start at rest.
+func add_handle(point, radius, layer = 0, in_place = false):
+	var numbers = surface.add_handles_at([point], [radius], layer, in_place)
 	if not said(numbers):
 		return null
 	var info = surface.handle_info(numbers[0])
 	var handle = Node3D.new()
 	handle.transform.origin = Vector3(info.x, info.y, info.z)
-	add_child(handle)
 	handles[handle] = { "number": numbers[0], "rest": handle.transform }
+	if in_place:
+		var turn = Quaternion(info.rotation_x, info.rotation_y, info.rotation_z, info.rotation_w)
+		handle.transform = Transform3D(Basis(turn), handle.transform.origin + Vector3(info.translation_x, info.translation_y,
+			info.translation_z))
+	add_child(handle)
 	return handle
 
 func remove_handle(handle):

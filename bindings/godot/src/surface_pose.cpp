@@ -32,10 +32,13 @@ Value pose_info(Surface& s, const Arguments&) {
                 {"vertex_count", info.vertex_count}});
 }
 
+// add_handles(regions, layer = 0, in_place = false). in_place: the handles start where the posed surface stands, not at
+// rest. add_handles_at takes points and radii, then the same.
 Value add_handles(Surface& s, const Arguments& a) {
   const Regions regions(at(a, 0), "regions");
   auto desc = make<hf_handles_desc>();
   desc.handle_count = regions.count(), desc.layer = whole(at(a, 1).number, "layer");
+  desc.in_place = signed_whole(at(a, 2).number, "in_place");
   if (!regions.counts.empty())
     desc.region_counts = regions.counts.data(), desc.region_vertices = regions.vertices.data();
   Numbers made(desc.handle_count + 1);
@@ -49,7 +52,7 @@ Value add_handles_at(Surface& s, const Arguments& a) {
   auto desc = make<hf_handles_desc>();
   desc.handle_count = static_cast<uint32_t>(count), desc.points = doubles(at(a, 0), 3 * count, "points"),
   desc.radii = doubles(at(a, 1), count, "radii");
-  desc.layer = whole(at(a, 2).number, "layer");
+  desc.layer = whole(at(a, 2).number, "layer"), desc.in_place = signed_whole(at(a, 3).number, "in_place");
   Numbers made(count + 1);
   check(hf_pose_add_handles(pose_of(s), &desc, made.data()));
   made.resize(count);
@@ -94,13 +97,21 @@ Value set_transform(Surface& s, const Arguments& a) {
   return done();
 }
 
-Value handle_centroid(Surface& s, const Arguments& a) {
+// x, y, z: the centroid at rest. The last frame took the handle to rotation (p - centroid) + centroid + translation.
+Value handle_info(Surface& s, const Arguments& a) {
   auto info = make<hf_handle_info>();
   check(hf_pose_get_handle(pose_of(s), whole(at(a, 0).number, "handle"), &info));
-  Value value;
-  value.kind = Value::named;
-  value.fields = {{"x", info.centroid[0]}, {"y", info.centroid[1]}, {"z", info.centroid[2]}, {"layer", info.layer}};
-  return value;
+  return named({{"x", info.centroid[0]},
+                {"y", info.centroid[1]},
+                {"z", info.centroid[2]},
+                {"rotation_x", info.rotation[0]},
+                {"rotation_y", info.rotation[1]},
+                {"rotation_z", info.rotation[2]},
+                {"rotation_w", info.rotation[3]},
+                {"translation_x", info.translation[0]},
+                {"translation_y", info.translation[1]},
+                {"translation_z", info.translation[2]},
+                {"layer", info.layer}});
 }
 
 Value handle_field(Surface& s, const Arguments& a) {
@@ -239,13 +250,13 @@ const std::vector<Entry>& pose_methods() {
   static const std::vector<Entry> all = {
       {"pose_create", 0, 1, pose_create},
       {"pose_info", 0, 0, pose_info},
-      {"add_handles", 1, 2, add_handles},
-      {"add_handles_at", 2, 3, add_handles_at},
+      {"add_handles", 1, 3, add_handles},
+      {"add_handles_at", 2, 4, add_handles_at},
       {"add_handle_at", 2, 2, add_handle_at},
       {"remove_handles", 1, 1, remove_handles},
       {"set_transforms", 3, 3, set_transforms},
       {"set_transform", 2, 3, set_transform},
-      {"handle_info", 1, 1, handle_centroid},
+      {"handle_info", 1, 1, handle_info},
       {"handle_field", 1, 1, handle_field},
       {"deform", 0, 1, deform},
       {"normals", 0, 0, normals_of},

@@ -320,9 +320,10 @@ export interface Pose extends Handle {
   /** What the last deform told: vertices that no handle reaches, iterations, clusters, milliseconds. */
   readonly deformInfo: Record<string, number>;
   clone(): Pose;
+  /** inPlace: the handles start where the posed surface stands, not at rest; handleInfo says where. */
   addHandles(
     regions: ReadonlyArray<Numbers> | null,
-    options?: { points?: Rows | null; radii?: Numbers | null; layer?: number },
+    options?: { points?: Rows | null; radii?: Numbers | null; layer?: number; inPlace?: boolean },
   ): Uint32Array;
   /** One handle on layer 0: what is edge-connected within `radius` of a point at rest. */
   addHandleAt(point: Numbers, radius: number): number;

@@ -65,7 +65,8 @@ export function poseClasses(tools) {
     get info() {
       return query('hf_pose_info', 'hf_pose_get_info', this._handle);
     }
-    addHandles(lists, { points: centres = null, radii = null, layer = 0 } = {}) {
+    /** inPlace: the handles start where the posed surface stands, not at rest; handleInfo says where. */
+    addHandles(lists, { points: centres = null, radii = null, layer = 0, inPlace = false } = {}) {
       const desc = make('hf_handles_desc');
       if (centres) {
         const at = doubles(centres, 'points');
@@ -82,7 +83,7 @@ export function poseClasses(tools) {
           .set('region_counts', counts && read(counts))
           .set('region_vertices', vertices && read(vertices));
       }
-      desc.options({ layer });
+      desc.options({ layer, inPlace });
       const out = new Uint32Array(desc.get('handle_count'));
       call('hf_pose_add_handles', this._handle, desc, written(out));
       return out;

@@ -79,20 +79,23 @@ class Pose(Object):
         return copy
 
     def add_handles(self, region_lists: Optional[Sequence[ArrayLike]] = None, *, points: Optional[ArrayLike] = None,
-                    radii: Optional[ArrayLike] = None, layer: int = 0) -> np.ndarray:
-        """Adds handles: lists of vertices, or points with radii; no factorisation. Returns their numbers, (k,) uint32."""
+                    radii: Optional[ArrayLike] = None, layer: int = 0, in_place: bool = False) -> np.ndarray:
+        """Adds handles: lists of vertices, or points with radii; no factorisation. Returns their numbers, (k,) uint32.
+
+        in_place: they start where the posed surface stands, not at rest; handle_info says where.
+        """
         if points is not None:
             centres = doubles(points, "points")
             if centres.size % 3:
                 raise InvalidArgumentError(f"points must have the shape (k, 3), not {centres.shape}")
             reach = doubles(radii, "radii", centres.size // 3)
             desc = make(_raw.hf_handles_desc, handle_count=centres.size // 3, points=address(centres),
-                radii=address(reach), layer=layer)
+                radii=address(reach), layer=layer, in_place=in_place)
         else:
             counts, vertices = regions(region_lists, "region_lists")
             desc = make(_raw.hf_handles_desc, handle_count=1 if counts is None else counts.size,
                 region_counts=address(counts),
-                        region_vertices=address(vertices), layer=layer)
+                        region_vertices=address(vertices), layer=layer, in_place=in_place)
         out = np.empty(desc.handle_count, np.uint32)
         call("hf_pose_add_handles", self._raw_handle, ctypes.byref(desc), address(out))
         return out

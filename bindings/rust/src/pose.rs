@@ -146,24 +146,41 @@ impl Pose {
 
     /// Adds handles, each a list of vertices, and returns their numbers. `layer`: 0, or a finer one above it.
     pub fn add_handles(&mut self, regions: &[&[u32]], layer: u32, progress: Option<&Progress>) -> Result<Vec<u32>> {
+        self.add_regions(regions, raw::hf_handles_desc { layer, progress: handle_of(progress), ..Default::default() })
+    }
+
+    /// Adds handles of layer 0 where the posed surface stands, not at rest. The surface stays, and
+    /// [`Pose::handle_info`] says where the handles stand.
+    pub fn add_handles_in_place(&mut self, regions: &[&[u32]], progress: Option<&Progress>) -> Result<Vec<u32>> {
+        self.add_regions(regions, raw::hf_handles_desc { in_place: 1, progress: handle_of(progress), ..Default::default() })
+    }
+
+    /// Adds handles by points at rest (three numbers each) and radii.
+    pub fn add_handles_at(&mut self, points: &[f64], radii: &[f64], layer: u32) -> Result<Vec<u32>> {
+        self.add_points(points, radii, raw::hf_handles_desc { layer, ..Default::default() })
+    }
+
+    /// As [`Pose::add_handles_in_place`], by points at rest (three numbers each) and radii.
+    pub fn add_handles_in_place_at(&mut self, points: &[f64], radii: &[f64]) -> Result<Vec<u32>> {
+        self.add_points(points, radii, raw::hf_handles_desc { in_place: 1, ..Default::default() })
+    }
+
+    fn add_regions(&mut self, regions: &[&[u32]], options: raw::hf_handles_desc) -> Result<Vec<u32>> {
         let (counts, vertices) = flatten(regions, "regions")?;
         let desc = raw::hf_handles_desc {
             handle_count: count_of(regions.len(), "regions")?,
             region_counts: start(&counts),
             region_vertices: start(&vertices),
-            layer,
-            progress: handle_of(progress),
-            ..Default::default()
+            ..options
         };
         self.add(&desc)
     }
 
-    /// Adds handles by points (three numbers each) and radii.
-    pub fn add_handles_at(&mut self, points: &[f64], radii: &[f64], layer: u32) -> Result<Vec<u32>> {
+    fn add_points(&mut self, points: &[f64], radii: &[f64], options: raw::hf_handles_desc) -> Result<Vec<u32>> {
         let handle_count = rows_of(points, 3, "points")?;
         of_length(radii, "radii", handle_count as usize)?;
         let (points, radii) = (start(points), start(radii));
-        self.add(&raw::hf_handles_desc { handle_count, points, radii, layer, ..Default::default() })
+        self.add(&raw::hf_handles_desc { handle_count, points, radii, ..options })
     }
 
     fn add(&mut self, desc: &raw::hf_handles_desc) -> Result<Vec<u32>> {

@@ -66,6 +66,10 @@ const tasks = {
     told.milliseconds = performance.now() - begin;
     return [{ positions, normals, told }, [positions.buffer, normals.buffer]];
   },
+  /** Where handles stand that are added in mid-pose. */
+  grab({ handles, added }) {
+    return [body.pose.grab(handles, added), []];
+  },
   field({ sites, at }) {
     const begin = performance.now();
     const { values, reached, told } = body.field.solve(sites, at);

@@ -11,9 +11,10 @@ export function poseOf(body) {
   let pose = null;
   let held = []; // { id, position, radius, number }
   let told = {};
+  let grabbed = false; // since the last deform
 
   /** Handles up to the first difference stay; the others are removed and added in order, so that order decides the bits. */
-  const hold = (handles) => {
+  const hold = (handles, inPlace = false) => {
     pose ??= new hf.Pose(surface);
     let same = 0;
     while (same < held.length && same < handles.length && sameRegion(held[same], handles[same])) ++same;
@@ -26,22 +27,49 @@ export function poseOf(body) {
       const numbers = pose.addHandles(null, {
         points: added.flatMap(({ position }) => position),
         radii: added.map(({ radius }) => radius),
+        inPlace,
       });
       added.forEach(({ id, position, radius }, i) => held.push({ id, position, radius, number: numbers[i] }));
     }
   };
 
-  const change = (handles) => {
+  const change = (handles, inPlace = false) => {
     const before = held.slice();
     try {
-      hold(handles);
+      hold(handles, inPlace);
     } catch (error) {
       hold(before);
       throw error;
     }
   };
 
+  const place = (handles) => {
+    change(handles);
+    pose.setTransforms(
+      held.map(({ number }) => number),
+      {
+        rotations: handles.flatMap((handle) => handle.rotation),
+        translations: handles.flatMap((handle) => handle.translation),
+      },
+    );
+  };
+
   return {
+    /**
+     * Adds handles where the posed body stands, so that it stays. Returns the rotation and translation of each. The next
+     * deform gets them in its list.
+     */
+    grab(handles, added) {
+      // a skin may have been asked for since the last frame, at another time
+      place(handles);
+      pose.deform(null, { iterationCount: REST_ITERATIONS });
+      change([...handles, ...added], true);
+      grabbed = true;
+      return held.slice(handles.length).map(({ number }) => {
+        const { rotation, translation } = pose.handleInfo(number);
+        return { rotation, translation };
+      });
+    },
     /**
      * Positions of every vertex. way: 'follow' goes a frame on from the last pose, as a drag needs; 'rest' goes on until
      * nothing moves; 'exact' starts anew and comes to rest, so that its bits depend on these handles alone.
@@ -53,15 +81,9 @@ export function poseOf(body) {
         return body.positions.slice();
       }
       const known = new Set(held.map(({ number }) => number));
-      change(handles);
-      const added = held.some(({ number }) => !known.has(number));
-      pose.setTransforms(
-        held.map(({ number }) => number),
-        {
-          rotations: handles.flatMap((handle) => handle.rotation),
-          translations: handles.flatMap((handle) => handle.translation),
-        },
-      );
+      place(handles);
+      const added = grabbed || held.some(({ number }) => !known.has(number));
+      grabbed = false;
       const positions = pose.deform(null, {
         restart: Number(way === 'exact'),
         iterationCount: way === 'follow' ? 0 : REST_ITERATIONS,

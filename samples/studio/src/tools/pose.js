@@ -103,13 +103,28 @@ export class PoseTool {
       handles: this.handles.map((handle) => (handle.id === id ? { ...handle, ...change } : handle)),
     };
   }
-  async add(offer, more = {}) {
+  /** A handle at rest would pull a posed body back to rest. */
+  posed() {
+    return this.handles.some(({ rotation, translation }) => translation.some(Boolean) || rotation[3] !== 1);
+  }
+  /** New handles, placed where the body stands. A refusal is left to the step that adds them. */
+  async placed(added) {
+    if (!this.posed()) return added;
+    const places = await this.app.client.ask('grab', { handles: this.handles, added }).catch(() => []);
+    return added.map((handle, i) => ({ ...handle, ...places[i] }));
+  }
+  async addAll(offers, name) {
+    const { body } = this.app;
+    const placed = await this.placed(offers.map((offer) => ({ ...offer, pinned: false })));
+    // while the Worker answered, another body was opened or the same handle was added
+    const known = new Set(this.handles.map(({ id }) => id));
+    if (this.app.body !== body || placed.some(({ id }) => known.has(id))) return undefined;
+    return this.app.commit({ ...this.app.state, handles: [...this.handles, ...placed] }, name);
+  }
+  add(offer) {
     this.pulled = true;
     this.chosen = offer.id;
-    return this.app.commit(
-      { ...this.app.state, handles: [...this.handles, { ...offer, pinned: false, ...more }] },
-      'add a handle',
-    );
+    return this.addAll([offer], 'add a handle');
   }
   click([x, y]) {
     const hit = this.app.skin.pick(this.app.view.ray(x, y));
@@ -138,8 +153,16 @@ export class PoseTool {
       place: begin ? this.placeOf(begin) : this.app.skin.at({ corners: [offer.vertex], barycentrics: [1] }),
       before: this.app.state,
     };
+    const { from } = this;
+    if (offer && this.posed())
+      from.waits = this.placed([from.handle]).then(([handle]) => Object.assign(from, { handle, waits: null }));
   }
-  drag({ id }, [x, y], [x0, y0]) {
+  drag(mark, at, begin) {
+    // nothing is shown until the Worker has said where the new handle stands
+    this.from.last = [mark, at, begin];
+    if (!this.from.waits) this.dragged(...this.from.last);
+  }
+  dragged({ id }, [x, y], [x0, y0]) {
     const { view } = this.app;
     const { handle, place, before } = this.from;
     const [to, at] = [view.onPlane(x, y, place), view.onPlane(x0, y0, place)];
@@ -155,7 +178,13 @@ export class PoseTool {
       : [...before.handles, moved];
     this.app.preview({ ...before, handles });
   }
-  dragEnd() {
+  async dragEnd() {
+    const { from } = this;
+    if (from.waits) {
+      await from.waits;
+      if (this.from !== from || this.app.state !== from.before) return undefined;
+      this.dragged(...from.last);
+    }
     return this.app.commitPreview('move a handle');
   }
   key({ id }, event) {
@@ -168,6 +197,12 @@ export class PoseTool {
       ArrowUp: [view.camUp(), step],
       ArrowDown: [view.camUp(), -step],
     };
+    if (ways[event.key] && !handle && this.posed()) {
+      this.add(this.offers.find((offer) => offer.id === id)).then(
+        () => this.handles.some((other) => other.id === id) && this.key({ id }, event),
+      );
+      return true;
+    }
     if (ways[event.key]) {
       const [way, length] = ways[event.key];
       const begin = handle ?? { ...this.offers.find((offer) => offer.id === id), pinned: false };
@@ -245,7 +280,7 @@ export class PoseTool {
   sheet() {
     const { app } = this;
     const handle = this.present();
-    const moved = this.handles.some(({ rotation, translation }) => translation.some(Boolean) || rotation[3] !== 1);
+    const moved = this.posed();
     const unreached = app.told?.unreachedVertexCount ?? 0;
     const waiting = this.offers.filter(({ id }) => !this.handles.some((other) => other.id === id));
     return [
@@ -270,15 +305,10 @@ export class PoseTool {
       make(
         'div',
         { class: 'row' },
-        button(
-          'Add all proposed',
-          () =>
-            app.commit(
-              { ...app.state, handles: [...this.handles, ...waiting.map((offer) => ({ ...offer, pinned: false }))] },
-              'add handles',
-            ),
-          { id: 'propose', disabled: !waiting.length },
-        ),
+        button('Add all proposed', () => this.addAll(waiting, 'add handles'), {
+          id: 'propose',
+          disabled: !waiting.length,
+        }),
         button(
           'Rest pose',
           () =>
