@@ -145,8 +145,6 @@ static void quads_refuse_bad_descs(void** state) {
       hf_quads_create(surface, &good_quads, &made));
   ROW("crease angle below 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.crease_angle = -1,
       hf_quads_create(surface, &good_quads, &made));
-  ROW("a reserved field", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.reserved = 1,
-      hf_quads_create(surface, &good_quads, &made));
 #define GUIDES good_quads.guide_count = 2, good_quads.guide_vertices = two_vertices, good_quads.guide_vectors = along
   const uint32_t across[2] = {0, TUBE_VERTICES - 1}, beyond[4] = {0, 1, 0, TUBE_VERTICES}, point[2] = {3, 3};
   const double along[6] = {1, 2, 3, 3, 2, 1}, nowhere[6] = {1, 2, 3, 0, 0, 0}, nan_vector[6] = {1, 2, 3, NAN, 0, 0};
@@ -184,6 +182,23 @@ static void quads_refuse_bad_descs(void** state) {
       hf_quads_create(surface, &good_quads, &made));
   ROW("a weight that is NaN", HF_ERROR_NON_FINITE, 1, (GUIDES, good_quads.guide_weights = nan_weight),
       hf_quads_create(surface, &good_quads, &made));
+  const double places[6] = {0, 0, 0, 0.1, 0.1, 0}, nan_place[6] = {0, 0, 0, 0, NAN, 0};
+  const uint32_t three_five[2] = {3, 5}, three_four[2] = {3, 4};
+#define POLES good_quads.pole_count = 2, good_quads.pole_points = places, good_quads.pole_quads = three_five
+  ROW("poles without a count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.pole_points = places,
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("poles without points", HF_ERROR_NULL_POINTER, NO_INDEX, (POLES, good_quads.pole_points = NULL),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("poles without quads", HF_ERROR_NULL_POINTER, NO_INDEX, (POLES, good_quads.pole_quads = NULL),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("more than 1,000 poles", HF_ERROR_TOO_LARGE, NO_INDEX, (POLES, good_quads.pole_count = 1001),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a pole of four quads", HF_ERROR_INVALID_ARGUMENT, 1, (POLES, good_quads.pole_quads = three_four),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a pole that is NaN", HF_ERROR_NON_FINITE, 1, (POLES, good_quads.pole_points = nan_place),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a direction of a pole that is NaN", HF_ERROR_NON_FINITE, 1, (POLES, good_quads.pole_directions = nan_place),
+      hf_quads_create(surface, &good_quads, &made));
   ROW("a plane that is infinite", HF_ERROR_NON_FINITE, NO_INDEX, good_quads.symmetry_plane[2] = INFINITY,
       hf_quads_create(surface, &good_quads, &made));
   ROW("a plane without a normal", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.symmetry_plane[3] = 1,
@@ -206,7 +221,7 @@ static void quads_refuse_bad_descs(void** state) {
 #undef UNCHANGED
 #define UNCHANGED() (sum_of_quads() == sum_before)
   ROW("no desc", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_update(quads, NULL));
-  ROW("a reserved field", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.reserved = 1,
+  ROW("a pole count without poles", HF_ERROR_NULL_POINTER, NO_INDEX, good_quads.pole_count = 1,
       hf_quads_update(quads, &good_quads));
   ROW("struct_size 3", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.struct_size = 3,
       hf_quads_update(quads, &good_quads));

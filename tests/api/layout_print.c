@@ -311,8 +311,8 @@ static void print_quads(void) {
 #define T hf_quads_desc
   STRUCT(hf_quads_desc);
   F(struct_size), F(face_count), F(edge_length), F(crease_angle), F(relax_count), F(crease_count), F(guide_count),
-      F(reserved), F(symmetry_plane), F(crease_edges), F(guide_vertices), F(guide_vectors), F(guide_weights),
-      F(progress);
+      F(pole_count), F(symmetry_plane), F(crease_edges), F(guide_vertices), F(guide_vectors), F(guide_weights),
+      F(pole_points), F(pole_quads), F(pole_directions), F(progress);
 #undef T
 #define T hf_quads_info
   STRUCT(hf_quads_info);
