@@ -186,6 +186,34 @@ static int same_nets(Net a, Net b) {
   return same;
 }
 
+/* A tube has no irregular vertex by itself. */
+static void a_pole_is_where_it_is_wanted(void** state) {
+  (void)state;
+  Surface mesh;
+  const hf_surface surface = tube_on(&mesh);
+  const double pole[3] = {1, RINGS / 2, 0}, along[3] = {0, 1, 0};
+  const uint32_t three = 3;
+  for (int with = 0; with < 2; ++with) {
+    hf_quads_desc desc = HF_INIT(hf_quads_desc);
+    desc.face_count = 1200, desc.relax_count = HF_NO_INDEX;
+    if (with) desc.pole_count = 1, desc.pole_points = pole, desc.pole_quads = &three, desc.pole_directions = along;
+    hf_quads quads = NULL;
+    assert_ok(hf_quads_create(surface, &desc, &quads));
+    Net net = net_of(quads);
+    uint32_t* around = calloc(net.info.vertex_count, sizeof *around);
+    for (uint32_t k = 0; k < 4 * net.info.face_count; ++k) ++around[net.corners[k]];
+    double least = INFINITY;
+    for (uint32_t v = 0; v < net.info.vertex_count; ++v) {
+      const double *p = net.positions + 3 * v, d[3] = {p[0] - pole[0], p[1] - pole[1], p[2] - pole[2]};
+      if (around[v] == three) least = fmin(least, sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]));
+    }
+    const double edge = sqrt(6.2831853 * (RINGS - 1) / 1200);
+    assert_true(with ? least < 1.5 * edge : least > 3 * edge);
+    free(around), free(net.positions), free(net.corners), hf_quads_destroy(quads);
+  }
+  hf_surface_destroy(surface), surface_free(&mesh);
+}
+
 /* Every update gives what hf_quads_create gives, whatever came before; a refused one changes nothing. */
 static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
   (void)state;
@@ -194,6 +222,8 @@ static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
   const uint32_t creases[2] = {5 * AROUND, 6 * AROUND};
   uint32_t guided[3] = {10 * AROUND, 10 * AROUND + 1, 11 * AROUND};
   double vectors[9];
+  const double pole[3] = {1, RINGS / 2, 0};
+  const uint32_t three = 3;
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
   desc.face_count = 300;
   hf_quads updated = NULL, fresh = NULL;
@@ -208,6 +238,7 @@ static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
     if (step == 4) desc.face_count = 0, desc.edge_length = 0.8f;
     if (step == 5 || step == 6) desc.symmetry_plane[2] = 1;
     if (step == 7) desc.symmetry_plane[0] = 1;
+    if (step == 2 || step == 8) desc.pole_count = 1, desc.pole_points = pole, desc.pole_quads = &three;
     assert_ok(hf_quads_update(updated, &desc));
     assert_ok(hf_quads_create(surface, &desc, &fresh));
     assert_true(same_nets(net_of(updated), net_of(fresh)));
@@ -376,8 +407,8 @@ static void bad_input_is_named(void** state) {
   assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_create(NULL, &desc, &quads));
   desc.struct_size = 4;
   assert_code(HF_ERROR_INVALID_DESC, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.reserved = 3;
-  assert_code(HF_ERROR_INVALID_DESC, hf_quads_create(surface, &desc, &quads));
+  desc = quads_desc(), desc.pole_count = 3;
+  assert_code(HF_ERROR_NULL_POINTER, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.edge_length = -1;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.edge_length = NAN;
@@ -533,6 +564,7 @@ int main(void) {
       cmocka_unit_test(a_tube_becomes_a_closed_net_of_quads),
       cmocka_unit_test(a_tube_becomes_quads_along_its_curvature),
       cmocka_unit_test(a_tube_becomes_quads_along_guides_and_its_own_mirror_image),
+      cmocka_unit_test(a_pole_is_where_it_is_wanted),
       cmocka_unit_test(an_update_is_a_new_mesh_of_the_same_options),
       cmocka_unit_test(flow_lines_rise_and_outlive_the_surface),
       cmocka_unit_test(cancelling_leaves_nothing_and_stops_one_call),
