@@ -69,7 +69,7 @@ struct Calls {
     desc.progress = s.world.progress();
     desc.face_count = random.pick({0u, 0u, 40u, 200u, 4000000000u});
     desc.crease_angle = random.pick({0.0f, 20.0f, 60.0f, -1.0f});
-    desc.reserved = random.one_in(15);
+    if (random.one_in(15)) desc.pole_count = 1;
     std::vector<std::uint32_t> guided(1 + random.below(6)), edges(2 * guided.size());
     std::vector<double> vectors(3 * guided.size());
     std::vector<float> weights(guided.size());
@@ -81,6 +81,15 @@ struct Calls {
       desc.guide_count = static_cast<std::uint32_t>(guided.size());
       desc.guide_vertices = guided.data(), desc.guide_vectors = vectors.data();
       if (random.one_in(2)) desc.guide_weights = weights.data();
+    }
+    std::vector<double> places(3 * (1 + random.below(3)));
+    std::vector<std::uint32_t> meeting(places.size() / 3);
+    for (double& x : places) x = random.one_in(30) ? random.number() : random.pick({0.0, 0.7, -1.0, 2.5});
+    for (std::uint32_t& q : meeting) q = random.pick({3u, 5u, 3u, 5u, 4u});
+    if (random.one_in(3)) {
+      desc.pole_count = static_cast<std::uint32_t>(meeting.size());
+      desc.pole_points = places.data(), desc.pole_quads = meeting.data();
+      if (random.one_in(2)) desc.pole_directions = places.data();
     }
     if (random.one_in(8)) desc.crease_count = desc.guide_count, desc.crease_edges = edges.data();
     if (random.one_in(6)) {
