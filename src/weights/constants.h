@@ -88,6 +88,51 @@ constexpr double weight_floors[] = {1e-9, 1e-6, 1e-3, 1e3};
 // every island has information.
 constexpr double rigid_size = 0.15;
 
+// --- piece_bones.cpp ---
+
+// Places of a bone that are tried, besides its joint: TODO
+constexpr int bone_places = 10;
+// TODO
+constexpr std::size_t around_rays = 18;
+// TODO
+constexpr double piece_tilt[3] = {0.013, 0.027, -0.019};
+// Places in one thread's job: some 0.2 ms.
+constexpr std::size_t place_piece = 16;
+
+// --- piece_contacts.cpp ---
+
+// TODO
+constexpr double contact_distance = 0.04;
+// TODO
+constexpr double contact_softness = 0.008;
+// TODO
+constexpr std::size_t contacts_a_sample = 4;
+// TODO
+constexpr std::size_t piece_samples = 128;
+
+// --- rigid_pieces.cpp ---
+
+// TODO
+constexpr double held_share = 0.5;
+// TODO
+constexpr std::ptrdiff_t bending_bones = 3;
+// TODO
+constexpr double robot_bends = 0.3;
+// TODO
+constexpr double solid_openness = 0.25;
+// TODO
+constexpr double robot_solid = 0.5;
+// TODO
+constexpr double owned_share = 0.3;
+// TODO
+constexpr double joint_reach = 0.2;
+// TODO
+constexpr double small_piece = 0.3;
+// TODO
+constexpr double clear_share = 0.6;
+// TODO
+constexpr std::size_t kept_shares = 4;
+
 // --- pins.cpp ---
 
 // The field of a bone is corrected at the pins if it misses one of their weights by more than this. Weights below 0.025
