@@ -1,9 +1,7 @@
 #include "weights/rigid_pieces.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "mesh/nearest_triangle.h"
 #include "weights/constants.h"
 #include "weights/piece_bones.h"
 #include "weights/piece_contacts.h"
@@ -25,6 +23,8 @@ struct Mean {
   double share[kept_shares];
 };
 
+enum class Kind { other, robot, creature };
+
 class RigidPieces {
  public:
   RigidPieces(const Solution& solution, const Vector<BoneSegment>& segments)
@@ -40,7 +40,8 @@ class RigidPieces {
 
   void run() {
     measure();
-    robot_ = is_robot();
+    kind_ = kind_of_surface();
+    if (kind_ == Kind::other) return;
     choose_own();
     take_from_others();
   }
@@ -55,6 +56,7 @@ class RigidPieces {
   Vector<Index> column;  // by island
 
  private:
+  bool robot() const noexcept { return kind_ == Kind::robot; }
   std::size_t width() const noexcept { return solution_.width(); }
   std::ptrdiff_t holds(std::size_t island) const noexcept {
     const Span<const HeldBone> held = held_.of(static_cast<Index>(island));
@@ -76,8 +78,8 @@ class RigidPieces {
     }
   }
 
-  // Whether the surface is made of solid parts of which hardly any bends.
-  bool is_robot() const {
+  // What the surface is made of: solid parts of which hardly any bends, or a body that bends and what it wears.
+  Kind kind_of_surface() const {
     double bends = 0, solid = 0, all = 0;
     for (std::size_t c = 0; c < shapes_.size(); ++c) {
       const Shape& shape = shapes_[c];
@@ -85,7 +87,8 @@ class RigidPieces {
       if (holds(c) >= bending_bones) bends += shape.area;
       if (norm(shape.open) <= solid_openness * shape.area) solid += shape.area;
     }
-    return bends < robot_bends * all && solid > robot_solid * all;
+    if (bends >= robot_bends * all) return Kind::creature;
+    return solid >= robot_solid * all ? Kind::robot : Kind::other;
   }
 
   // The column of the bone that an island of a robot holds, or -1. mean: its smooth weights by column.
@@ -116,7 +119,7 @@ class RigidPieces {
     for (std::size_t c = 0; c < islands; ++c) {
       const ItemBox& box = shapes_[c].box;
       const std::ptrdiff_t held = holds(c);
-      const bool candidate = robot_ ? held < bending_bones : held == 0 && norm(box.high - box.low) < small_piece;
+      const bool candidate = robot() ? held < bending_bones : held == 0 && norm(box.high - box.low) < small_piece;
       if (!candidate || solution_.informants.by_island[c] == 0) continue;
       std::fill(mean.begin(), mean.end(), 0.0);
       double area = 0;
@@ -127,7 +130,7 @@ class RigidPieces {
       }
       if (!(area > 0)) continue;
       for (double& m : mean) m /= area;
-      if (robot_) column[c] = own_column(c, mean);
+      if (robot()) column[c] = own_column(c, mean);
       if (column[c] < 0) waits_[c] = 1, keep_largest(mean, mean_[c]);
     }
   }
@@ -204,14 +207,14 @@ class RigidPieces {
       }
     }
     const auto best = std::max_element(sum.begin(), sum.end());
-    return robot_ || *best >= clear_share ? static_cast<Index>(best - sum.begin()) : -1;
+    return robot() || *best >= clear_share ? static_cast<Index>(best - sum.begin()) : -1;
   }
 
   PieceBones held_;
   Vector<Shape> shapes_;
   Vector<std::uint8_t> waits_;  // by island: it takes a bone from others
   Vector<Mean> mean_;           // by island that waits
-  bool robot_ = false;
+  Kind kind_ = Kind::other;
 };
 
 }  // namespace
