@@ -8,7 +8,7 @@
 namespace hf_inner {
 namespace {
 
-constexpr int directions = 26;  // to the sides, edges and corners of a cube
+constexpr std::size_t directions = 26;  // to the sides, edges and corners of a cube
 constexpr std::size_t places_a_bone = 1 + bone_places;
 
 Vec3 place_on(const BoneSegment& s, std::size_t place) noexcept {
@@ -18,34 +18,56 @@ Vec3 place_on(const BoneSegment& s, std::size_t place) noexcept {
 // The search of one thread for the islands around a point.
 class Around {
  public:
-  Around(const SkinShape& skin, Memory& memory) : skin_(skin), hit_(&memory), all_(&memory) {
+  // boxes: a tree of the boxes of the islands.
+  Around(const SkinShape& skin, const BoxTree& boxes, Memory& memory)
+      : skin_(skin), boxes_(boxes), near_(&memory), count_(&memory), hit_(&memory) {
     for (int i = 0; i < 27; ++i) {
       if (i == 13) continue;  // the middle of the cube
       const Vec3 corner{i % 3 - 1 + piece_tilt[0], i / 3 % 3 - 1 + piece_tilt[1], i / 9 - 1 + piece_tilt[2]};
       way_[i - (i > 13)] = ray_length * unit_vector(corner);
     }
   }
-  // Appends the islands that enough of the rays meet, ascending.
+  // Appends the islands that enough of the rays meet, ascending. From outside a box at most 17 rays meet it.
   void find(const Vec3& p, Vector<Index>& out) {
-    all_.clear();
-    for (const Vec3& way : way_) {
-      skin_.islands_along(p, p + way, hit_);
-      all_.insert(all_.end(), hit_.begin(), hit_.end());
+    static_assert(around_rays > 17, "islands whose boxes do not contain the point are not tried");
+    near_.clear();
+    boxes_.near(p, [] { return 0.0; }, [&](Index island) { near_.push_back(island); });
+    std::sort(near_.begin(), near_.end());
+    count_.assign(near_.size(), 0);
+    std::size_t most = 0;
+    for (std::size_t ray = 0; ray < directions && !near_.empty(); ++ray) {
+      if (most + directions - ray < around_rays) return;
+      skin_.islands_along(p, p + way_[ray], hit_);
+      for (const Index island : hit_) {
+        const auto place = std::lower_bound(near_.begin(), near_.end(), island);
+        if (place == near_.end() || *place != island) continue;
+        most = std::max(most, ++count_[static_cast<std::size_t>(place - near_.begin())]);
+      }
     }
-    std::sort(all_.begin(), all_.end());
-    for (std::size_t i = 0; i < all_.size();) {
-      std::size_t end = i;
-      while (end < all_.size() && all_[end] == all_[i]) ++end;
-      if (end - i >= around_rays) out.push_back(all_[i]);
-      i = end;
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+      if (count_[i] >= around_rays) out.push_back(near_[i]);
     }
   }
 
  private:
   const SkinShape& skin_;
+  const BoxTree& boxes_;
   Vec3 way_[directions];
-  Vector<Index> hit_, all_;
+  Vector<Index> near_;
+  Vector<std::size_t> count_;  // of rays that meet each of near_
+  Vector<Index> hit_;
 };
+
+Vector<ItemBox> island_boxes(const Mesh& mesh, Memory& memory) {
+  Vector<ItemBox> out(at(mesh.component_count()), &memory);
+  Vector<std::uint8_t> seen(out.size(), 0, &memory);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const std::size_t c = at(mesh.component[at(v)]);
+    if (!seen[c]) out[c] = ItemBox::of(mesh.positions[at(v)]), seen[c] = 1;
+    out[c].take(mesh.positions[at(v)]);
+  }
+  return out;
+}
 
 struct Entry {
   Index island, bone, segment, place;
@@ -56,9 +78,10 @@ struct Entry {
 PieceBones find_piece_bones(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments,
                             Memory& memory, JobRunner& jobs) {
   const std::size_t places = segments.size() * places_a_bone;
+  const BoxTree boxes(island_boxes(mesh, memory), memory);
   Vector<Vector<Index>> around(places, Vector<Index>(&memory), &memory);
   for_ranges(jobs, places, place_piece, [&](std::size_t begin, std::size_t end) {
-    Around search(skin, memory);
+    Around search(skin, boxes, memory);
     for (std::size_t i = begin; i < end; ++i)
       search.find(place_on(segments[i / places_a_bone], i % places_a_bone), around[i]);
   });
