@@ -18,26 +18,32 @@ Vec3 place_on(const BoneSegment& s, std::size_t place) noexcept {
 // The search of one thread for the islands around a point.
 class Around {
  public:
-  // boxes: a tree of the boxes of the islands.
-  Around(const SkinShape& skin, const BoxTree& boxes, Memory& memory)
-      : skin_(skin), boxes_(boxes), near_(&memory), count_(&memory), hit_(&memory) {
+  // tree: of the boxes of the islands.
+  Around(const SkinShape& skin, const Vector<ItemBox>& boxes, const BoxTree& tree, Memory& memory)
+      : skin_(skin), boxes_(boxes), tree_(tree), near_(&memory), count_(&memory), hit_(&memory) {
     for (int i = 0; i < 27; ++i) {
       if (i == 13) continue;  // the middle of the cube
       const Vec3 corner{i % 3 - 1 + piece_tilt[0], i / 3 % 3 - 1 + piece_tilt[1], i / 9 - 1 + piece_tilt[2]};
-      way_[i - (i > 13)] = ray_length * unit_vector(corner);
+      way_[i - (i > 13)] = unit_vector(corner);
     }
   }
   // Appends the islands that enough of the rays meet, ascending. From outside a box at most 17 rays meet it.
   void find(const Vec3& p, Vector<Index>& out) {
     static_assert(around_rays > 17, "islands whose boxes do not contain the point are not tried");
     near_.clear();
-    boxes_.near(p, [] { return 0.0; }, [&](Index island) { near_.push_back(island); });
+    double length = 0;  // that leaves the boxes
+    tree_.near(
+        p, [] { return 0.0; },
+        [&](Index island) {
+          const ItemBox& box = boxes_[at(island)];
+          near_.push_back(island), length = std::max(length, 1.01 * norm(box.high - box.low));
+        });
     std::sort(near_.begin(), near_.end());
     count_.assign(near_.size(), 0);
     std::size_t most = 0;
     for (std::size_t ray = 0; ray < directions && !near_.empty(); ++ray) {
       if (most + directions - ray < around_rays) return;
-      skin_.islands_along(p, p + way_[ray], hit_);
+      skin_.islands_along(p, p + length * way_[ray], hit_);
       for (const Index island : hit_) {
         const auto place = std::lower_bound(near_.begin(), near_.end(), island);
         if (place == near_.end() || *place != island) continue;
@@ -51,7 +57,8 @@ class Around {
 
  private:
   const SkinShape& skin_;
-  const BoxTree& boxes_;
+  const Vector<ItemBox>& boxes_;
+  const BoxTree& tree_;
   Vec3 way_[directions];
   Vector<Index> near_;
   Vector<std::size_t> count_;  // of rays that meet each of near_
@@ -78,10 +85,11 @@ struct Entry {
 PieceBones find_piece_bones(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments,
                             Memory& memory, JobRunner& jobs) {
   const std::size_t places = segments.size() * places_a_bone;
-  const BoxTree boxes(island_boxes(mesh, memory), memory);
+  const Vector<ItemBox> boxes = island_boxes(mesh, memory);
+  const BoxTree tree(boxes, memory);
   Vector<Vector<Index>> around(places, Vector<Index>(&memory), &memory);
   for_ranges(jobs, places, place_piece, [&](std::size_t begin, std::size_t end) {
-    Around search(skin, boxes, memory);
+    Around search(skin, boxes, tree, memory);
     for (std::size_t i = begin; i < end; ++i)
       search.find(place_on(segments[i / places_a_bone], i % places_a_bone), around[i]);
   });
