@@ -1,9 +1,10 @@
 /* hf/weights.h - compute skin weights of a surface from a skeleton.
  *
  * Every vertex gets 4 or 8 bones with weights of sum 1. A vertex asks for its nearest bone if it sees that bone, the
- * more strongly the nearer it is. A smooth field gives the weights between (Baran and Popovic 2007). Pins are places
- * whose weights you give; they change the weights around them. No vertex stays without weights. Where the skeleton
- * gives no information, weights come from the nearest vertices, and the info counts them. */
+ * more strongly the nearer it is. A smooth field gives the weights between (Baran and Popovic 2007). Pieces that do not
+ * bend take one bone each: the parts of a robot, and eyes and buttons where their bone is clear. Pins are places whose
+ * weights you give; they change the weights around them. No vertex stays without weights. Where the skeleton gives no
+ * information, weights come from the nearest vertices, and the info counts them. */
 #ifndef HF_WEIGHTS_H
 #define HF_WEIGHTS_H
 

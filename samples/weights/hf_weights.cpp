@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <numeric>
 #include <stdexcept>
 
 #include "common/gltf_read.h"
@@ -13,6 +12,7 @@
 #include "common/program.h"
 #include "weights/carried.h"
 #include "weights/compare.h"
+#include "weights/guide.h"
 #include "weights/skeleton_from.h"
 
 namespace samples {
@@ -113,12 +113,6 @@ Command parse(Words words) {
   return out;
 }
 
-uint32_t joint_named(const Rig& rig, const std::string& name) {
-  const auto there = std::find(rig.names.begin(), rig.names.end(), name);
-  if (there == rig.names.end()) throw std::runtime_error("the model has no joint \"" + name + "\"");
-  return static_cast<uint32_t>(there - rig.names.begin());
-}
-
 void read_bones(const std::filesystem::path& file, Rig& rig) {
   const JsonFile json(file);
   const JsonReader list = json.root().at("bones");
@@ -138,59 +132,6 @@ void read_bones(const std::filesystem::path& file, Rig& rig) {
   }
 }
 
-// Pins with weights for every joint that any of them names.
-struct PinFile {
-  std::vector<uint32_t> vertices, joints;
-  std::vector<double> radii;
-  std::vector<float> weights;
-};
-
-// Appends a pin with the weights of the file.
-void add_given(const Rig& rig, size_t vertex, PinFile& out) {
-  out.vertices.push_back(static_cast<uint32_t>(vertex)), out.radii.push_back(0);
-  for (size_t k = 0; k < rig.given.per_vertex; ++k) {
-    out.joints.push_back(rig.given.joints[vertex * rig.given.per_vertex + k]);
-    out.weights.push_back(rig.given.weights[vertex * rig.given.per_vertex + k]);
-  }
-}
-
-PinFile read_pins(const std::filesystem::path& file, const Rig& rig) {
-  constexpr size_t width = 8;
-  const JsonFile json(file);
-  const JsonReader list = json.root().at("pins");
-  PinFile out;
-  for (size_t i = 0; i < list.size(); ++i) {
-    const JsonReader entry = list.at(i);
-    entry.expect_only({"vertex", "radius", "weights"});
-    const auto vertex =
-        static_cast<size_t>(entry.at("vertex").integer(0, static_cast<int64_t>(rig.positions.size()) - 1));
-    out.vertices.push_back(static_cast<uint32_t>(vertex));
-    out.radii.push_back(entry.number_or("radius", 0));
-    std::vector<std::pair<uint32_t, float>> own;
-    if (entry.has("weights")) {
-      for (const auto& [name, value] : entry.at("weights").value().items()) {
-        if (!value.is_number()) entry.fail("weights." + name + " is no number");
-        own.push_back({joint_named(rig, name), value.get<float>()});
-      }
-    } else {
-      for (size_t k = 0; k < rig.given.per_vertex; ++k)
-        own.push_back({rig.given.joints[vertex * width + k], rig.given.weights[vertex * width + k]});
-    }
-    if (own.size() > width) entry.fail("more than 8 weights");
-    own.resize(width, {own.empty() ? 0u : own[0].first, 0.0f});
-    for (const auto& [joint, weight] : own) out.joints.push_back(joint), out.weights.push_back(weight);
-  }
-  return out;
-}
-
-void set_pins(hf::Weights& weights, const PinFile& pins) {
-  auto desc = hf::make<hf_pins_desc>();
-  desc.pin_count = static_cast<uint32_t>(pins.vertices.size());
-  desc.vertices = pins.vertices.data(), desc.radii = pins.radii.data();
-  desc.joint_count = 8, desc.joints = pins.joints.data(), desc.weights = pins.weights.data();
-  weights.set_pins(desc);
-}
-
 void set_locks(hf::Weights& weights, const std::string& names, const Rig& rig) {
   std::vector<uint32_t> joints;
   for (size_t begin = 0; begin <= names.size();) {
@@ -208,51 +149,6 @@ void set_locks(hf::Weights& weights, const std::string& names, const Rig& rig) {
     }
   }
   weights.set_locks(joints, values);
-}
-
-RigWeights weights_of(const hf::Weights& weights) {
-  hf::VertexWeights computed = weights.weights();
-  return {computed.weight_count, std::move(computed.joints), std::move(computed.weights)};
-}
-
-// Vertices where the mean distance is largest, apart from each other. Those at the places of pins are left out.
-std::vector<size_t> worst_vertices(const Rig& rig, const std::vector<double>& distance, const PinFile& pins) {
-  constexpr size_t most = 4;      // tried for each pin; each costs as much as the comparison
-  constexpr double apart = 0.05;  // of the box
-  std::vector<size_t> order(distance.size()), out;
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return distance[a] > distance[b]; });
-  for (const size_t v : order) {
-    if (out.size() == most || !(distance[v] > 0)) break;
-    const bool pinned = std::any_of(pins.vertices.begin(), pins.vertices.end(),
-                                    [&](uint32_t w) { return rig.positions[v] == rig.positions[w]; });
-    const bool near = std::any_of(out.begin(), out.end(), [&](size_t w) {
-      return glm::length(rig.positions[v] - rig.positions[w]) < apart * rig.diagonal;
-    });
-    if (!pinned && !near) out.push_back(v);
-  }
-  return out;
-}
-
-// Sets pins one after the other. Of the vertices where the mean distance is largest, each is tried and the one kept
-// that leaves the smallest mean.
-void guide(const Model& model, const Rig& rig, const std::vector<Pose>& poses, uint32_t count, PinFile pins,
-           hf::Weights& weights) {
-  Comparison now = compare(model, rig, poses, weights_of(weights));
-  for (uint32_t i = 0; i < count; ++i) {
-    const std::vector<size_t> places = worst_vertices(rig, now.of_vertex, pins);
-    if (places.empty()) break;
-    PinFile best;
-    for (const size_t v : places) {
-      PinFile tried = pins;
-      add_given(rig, v, tried);
-      set_pins(weights, tried);
-      Comparison found = compare(model, rig, poses, weights_of(weights));
-      if (best.vertices.empty() || found.mean < now.mean) now = std::move(found), best = std::move(tried);
-    }
-    pins = std::move(best);
-    set_pins(weights, pins);
-  }
 }
 
 double milliseconds(const std::chrono::steady_clock::time_point& begin) {
@@ -298,7 +194,7 @@ nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weigh
   edited.set_bones(moved), edited.weights();
   const double bone_ms = milliseconds(begin);
   PinFile pin;
-  add_given(rig, rig.positions.size() / 2, pin);
+  add_given(rig, rig.positions.size() / 2, 0, pin);
   const auto middle = std::chrono::steady_clock::now();
   set_pins(edited, pin), edited.weights();
   const double pin_ms = milliseconds(middle);

@@ -71,6 +71,21 @@ double SkinShape::way_out(const Vec3& from, const Vec3& direction, double most) 
   return nearest;
 }
 
+void SkinShape::islands_along(const Vec3& from, const Vec3& to, Vector<Index>& out) const {
+  out.clear();
+  const Vec3 way = to - from;
+  tree_.along(from, to, [&](Index t) {
+    const Index* v = mesh_.triangle(t);
+    bool entering = false;
+    if (crossing(from, way, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])], mesh_.positions[at(v[2])],
+                 entering) >= 0)
+      out.push_back(mesh_.component[at(v[0])]);
+    return false;
+  });
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+}
+
 bool SkinShape::inside(const Vec3& point) const noexcept {
   int votes = 0;
   for (const auto& d : ray_directions) {

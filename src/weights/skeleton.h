@@ -48,6 +48,8 @@ class SkinShape {
   double way_out(const Vec3& from, const Vec3& direction, double most) const noexcept;
   // Whether a point is inside: a ray from it leaves the skin more often than it enters.
   bool inside(const Vec3& point) const noexcept;
+  // Writes the islands whose triangles a segment crosses, each once.
+  void islands_along(const Vec3& from, const Vec3& to, Vector<Index>& out) const;
   const Vector<Vec3>& normals() const noexcept { return normals_; }
 
  private:

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "weights/constants.h"
+#include "weights/rigid_pieces.h"
 
 namespace hf_inner {
 
@@ -66,6 +67,19 @@ std::shared_ptr<const ScreenedOperator> factorise(const std::shared_ptr<const Co
   }
 }
 
+// Gives islands one bone. column: by island, or -1 where the weights stay.
+void make_rigid(Solution& made, const Vector<Index>& column) {
+  const std::size_t width = made.width();
+  const Mesh& mesh = made.surface->core->mesh;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Index own = column[at(mesh.component[at(v)])];
+    if (own < 0) continue;
+    double* const row = made.field.data() + at(v) * width;
+    std::fill_n(row, width, 0.0);
+    row[own] = 1;
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const Solution> Solution::make(std::shared_ptr<const SkinSurface> shape, const Bones& bones) {
@@ -109,6 +123,7 @@ std::shared_ptr<const Solution> Solution::make(std::shared_ptr<const SkinSurface
                             if (column >= 0 && column < count) p[column] = 1.0 / static_cast<double>(own.size());
                           }
                         });
+  make_rigid(*made, rigid_columns(*made, segments));
   return made;
 }
 

@@ -1,0 +1,130 @@
+#include "weights/piece_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/nearest_triangle.h"
+#include "weights/constants.h"
+
+namespace hf_inner {
+namespace {
+
+// The nearest place of an island.
+struct Near {
+  double squared = HUGE_VAL;
+  Index island = -1, vertex = -1;
+  bool operator<(const Near& b) const noexcept {
+    return squared != b.squared ? squared < b.squared : island < b.island;
+  }
+};
+
+// Triangles by island, and the boxes of the islands.
+class Finder {
+ public:
+  Finder(const Mesh& mesh, Memory& memory)
+      : mesh_(mesh),
+        triangles_(triangle_boxes(mesh.positions, mesh.corners, memory), groups(mesh, memory), mesh.component_count(),
+                   memory),
+        islands_(island_boxes(mesh, memory), memory) {}
+
+  // The nearest islands but `own`, ascending; places left over have no island.
+  void find(const Vec3& p, Index own, Near (&out)[contacts_a_sample]) const {
+    std::fill_n(out, contacts_a_sample, Near{});
+    const auto reach = [&] {
+      return std::min(contact_distance * contact_distance, out[contacts_a_sample - 1].squared);
+    };
+    islands_.near(p, reach, [&](Index island) {
+      if (island == own) return;
+      Near found;
+      found.squared = reach(), found.island = island;
+      triangles_.near(
+          island, p, [&] { return found.squared; },
+          [&](Index t) {
+            const Index* v = mesh_.triangle(t);
+            double weight[3];
+            const double squared = squared_to_triangle(p, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])],
+                                                       mesh_.positions[at(v[2])], weight);
+            if (!(squared < found.squared)) return;
+            found.squared = squared, found.vertex = v[std::max_element(weight, weight + 3) - weight];
+          });
+      if (found.vertex < 0) return;
+      for (Near& place : out) {
+        if (found < place) std::swap(found, place);
+      }
+    });
+  }
+
+ private:
+  static Vector<Index> groups(const Mesh& mesh, Memory& memory) {
+    Vector<Index> out(&memory);
+    for (Index t = 0; t < mesh.triangle_count(); ++t) out.push_back(mesh.component[at(mesh.triangle(t)[0])]);
+    return out;
+  }
+  static Vector<ItemBox> island_boxes(const Mesh& mesh, Memory& memory) {
+    Vector<ItemBox> out(at(mesh.component_count()), &memory);
+    Vector<std::uint8_t> seen(out.size(), 0, &memory);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const std::size_t c = at(mesh.component[at(v)]);
+      if (!seen[c]) out[c] = ItemBox::of(mesh.positions[at(v)]), seen[c] = 1;
+      out[c].take(mesh.positions[at(v)]);
+    }
+    return out;
+  }
+  const Mesh& mesh_;
+  BoxTree triangles_, islands_;
+};
+
+// Every vertex of the marked islands, or every second, third, ... of large ones.
+Vector<Index> sample(const Mesh& mesh, const Vector<std::uint8_t>& marked, Memory& memory) {
+  Vector<std::size_t> size(marked.size(), 0, &memory), passed(marked.size(), 0, &memory);
+  for (const Index c : mesh.component) ++size[at(c)];
+  Vector<Index> out(&memory);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const std::size_t c = at(mesh.component[at(v)]);
+    if (!marked[c]) continue;
+    const std::size_t stride = (size[c] + piece_samples - 1) / piece_samples;
+    if (passed[c]++ % stride == 0) out.push_back(v);
+  }
+  return out;
+}
+
+}  // namespace
+
+PieceContacts::PieceContacts(const Core& core, const Vector<std::uint8_t>& marked, Memory& memory)
+    : all(&memory),
+      from_start_(marked.size() + 1, 0, &memory),
+      from_(&memory),
+      to_start_(marked.size() + 1, 0, &memory),
+      to_(&memory) {
+  const Mesh& mesh = core.mesh;
+  const Finder finder(mesh, memory);
+  const Vector<Index> samples = sample(mesh, marked, memory);
+  struct Row {
+    Near near[contacts_a_sample];
+  };
+  Vector<Row> rows(samples.size(), &memory);
+  for_ranges(*core.jobs, samples.size(), vertex_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t v = at(samples[i]);
+      finder.find(mesh.positions[v], mesh.component[v], rows[i].near);
+    }
+  });
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (const Near& near : rows[i].near) {
+      if (near.island < 0) continue;
+      const double soft = std::sqrt(near.squared) + contact_softness;
+      all.push_back({mesh.component[at(samples[i])], near.vertex, core.areas[at(samples[i])] / (soft * soft)});
+    }
+  }
+  const auto sort = [&](auto&& island_of, Vector<Index>& start, Vector<Index>& list) {
+    for (const PieceContact& contact : all) ++start[at(island_of(contact)) + 1];
+    for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
+    Vector<Index> next(start.begin(), start.end() - 1, &memory);
+    list.assign(all.size(), 0);
+    for (std::size_t i = 0; i < all.size(); ++i) list[at(next[at(island_of(all[i]))]++)] = static_cast<Index>(i);
+  };
+  sort([](const PieceContact& contact) { return contact.island; }, from_start_, from_);
+  sort([&](const PieceContact& contact) { return mesh.component[at(contact.vertex)]; }, to_start_, to_);
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,231 @@
+#include "weights/rigid_pieces.h"
+
+#include <algorithm>
+
+#include "weights/constants.h"
+#include "weights/piece_bones.h"
+#include "weights/piece_contacts.h"
+
+namespace hf_inner {
+namespace {
+
+// What is known of an island before a bone is chosen.
+struct Shape {
+  double area = 0;
+  Vec3 open;  // the sum of the area vectors: 0 for a closed surface
+  ItemBox box;
+  bool seen = false;
+};
+
+// The largest smooth weights of an island, as the mean over its area.
+struct Mean {
+  Index column[kept_shares];
+  double share[kept_shares];
+};
+
+enum class Kind { other, robot, creature };
+
+class RigidPieces {
+ public:
+  RigidPieces(const Solution& solution, const Vector<BoneSegment>& segments)
+      : solution_(solution),
+        core_(*solution.surface->core),
+        mesh_(core_.mesh),
+        memory_(*core_.memory),
+        column(at(mesh_.component_count()), -1, &memory_),
+        held_(find_piece_bones(mesh_, solution.surface->skin, segments, memory_, *core_.jobs)),
+        shapes_(column.size(), &memory_),
+        waits_(column.size(), 0, &memory_),
+        mean_(column.size(), &memory_) {}
+
+  void run() {
+    measure();
+    kind_ = kind_of_surface();
+    if (kind_ == Kind::other) return;
+    choose_own();
+    take_from_others();
+  }
+
+ private:
+  const Solution& solution_;
+  const Core& core_;
+  const Mesh& mesh_;
+  Memory& memory_;
+
+ public:
+  Vector<Index> column;  // by island
+
+ private:
+  bool robot() const noexcept { return kind_ == Kind::robot; }
+  std::size_t width() const noexcept { return solution_.width(); }
+  std::ptrdiff_t holds(std::size_t island) const noexcept {
+    const Span<const HeldBone> held = held_.of(static_cast<Index>(island));
+    return std::count_if(held.begin(), held.end(), [](const HeldBone& h) { return h.share >= held_share; });
+  }
+
+  void measure() {
+    for (Index t = 0; t < mesh_.triangle_count(); ++t) {
+      const Index* v = mesh_.triangle(t);
+      Shape& shape = shapes_[at(mesh_.component[at(v[0])])];
+      const Vec3 a = mesh_.positions[at(v[0])];
+      const Vec3 area = cross(mesh_.positions[at(v[1])] - a, mesh_.positions[at(v[2])] - a);
+      shape.open = shape.open + area, shape.area += norm(area);
+      for (int k = 0; k < 3; ++k) {
+        const Vec3& p = mesh_.positions[at(v[k])];
+        if (!shape.seen) shape.box = ItemBox::of(p), shape.seen = true;
+        shape.box.take(p);
+      }
+    }
+  }
+
+  // What the surface is made of: solid parts of which hardly any bends, or a body that bends and what it wears.
+  Kind kind_of_surface() const {
+    double bends = 0, solid = 0, all = 0;
+    for (std::size_t c = 0; c < shapes_.size(); ++c) {
+      const Shape& shape = shapes_[c];
+      all += shape.area;
+      if (holds(c) >= bending_bones) bends += shape.area;
+      if (norm(shape.open) <= solid_openness * shape.area) solid += shape.area;
+    }
+    if (bends >= robot_bends * all) return Kind::creature;
+    return solid >= robot_solid * all ? Kind::robot : Kind::other;
+  }
+
+  // The column of the bone that an island of a robot holds, or -1. mean: its smooth weights by column.
+  Index own_column(std::size_t island, const Vector<double>& mean) const {
+    const ItemBox& box = shapes_[island].box;
+    const Vec3 middle = 0.5 * (box.low + box.high);
+    const double near = joint_reach * norm(box.high - box.low);
+    Index longest = -1, joint = -1;
+    double length = 0;
+    for (const HeldBone& held : held_.of(static_cast<Index>(island))) {
+      const Index c = solution_.column_of[at(held.bone)];
+      if (c < 0) continue;
+      if (held.share >= owned_share && held.length > length) longest = c, length = held.length;
+      if (held.has_head && norm(held.head - middle) < near && (joint < 0 || mean[at(c)] > mean[at(joint)])) joint = c;
+    }
+    return longest >= 0 ? longest : joint;
+  }
+
+  // Gives islands of a robot the bones that they hold, and marks the islands that take one from others.
+  void choose_own() {
+    const std::size_t islands = column.size();
+    Vector<Index> start(islands + 1, 0, &memory_), order(at(core_.size()), &memory_);
+    for (const Index c : mesh_.component) ++start[at(c) + 1];
+    for (std::size_t c = 0; c < islands; ++c) start[c + 1] += start[c];
+    Vector<Index> next(start.begin(), start.end() - 1, &memory_);
+    for (Index v = 0; v < core_.size(); ++v) order[at(next[at(mesh_.component[at(v)])]++)] = v;
+    Vector<double> mean(width(), &memory_);
+    for (std::size_t c = 0; c < islands; ++c) {
+      const ItemBox& box = shapes_[c].box;
+      const std::ptrdiff_t held = holds(c);
+      const bool candidate = robot() ? held < bending_bones : held == 0 && norm(box.high - box.low) < small_piece;
+      if (!candidate || solution_.informants.by_island[c] == 0) continue;
+      std::fill(mean.begin(), mean.end(), 0.0);
+      double area = 0;
+      for (Index i = start[c]; i < start[c + 1]; ++i) {
+        const std::size_t v = at(order[at(i)]);
+        area += core_.areas[v];
+        for (std::size_t k = 0; k < width(); ++k) mean[k] += core_.areas[v] * solution_.field[v * width() + k];
+      }
+      if (!(area > 0)) continue;
+      for (double& m : mean) m /= area;
+      if (robot()) column[c] = own_column(c, mean);
+      if (column[c] < 0) waits_[c] = 1, keep_largest(mean, mean_[c]);
+    }
+  }
+
+  static void keep_largest(const Vector<double>& mean, Mean& out) {
+    std::fill_n(out.column, kept_shares, -1);
+    std::fill_n(out.share, kept_shares, 0.0);
+    for (std::size_t k = 0; k < mean.size(); ++k) {
+      double share = mean[k];
+      Index place = static_cast<Index>(k);
+      for (std::size_t i = 0; i < kept_shares; ++i) {
+        if (share > out.share[i]) std::swap(share, out.share[i]), std::swap(place, out.column[i]);
+      }
+    }
+  }
+
+  // Islands that wait take a bone one after the other, first the one that most touches others which do not wait.
+  void take_from_others() {
+    if (std::find(waits_.begin(), waits_.end(), 1) == waits_.end()) return;
+    const PieceContacts contacts(core_, waits_, memory_);
+    const std::size_t islands = column.size();
+    Vector<double> strength(islands, 0.0, &memory_), sum(width(), &memory_);
+    struct Open {
+      double strength;
+      Index island;
+      bool operator<(const Open& b) const noexcept {
+        return strength != b.strength ? strength < b.strength : island > b.island;
+      }
+    };
+    Vector<Open> open(&memory_);
+    const auto settle = [&](Index island) {
+      for (const Index i : contacts.to(island)) {
+        const PieceContact& contact = contacts.all[at(i)];
+        if (!waits_[at(contact.island)]) continue;
+        strength[at(contact.island)] += contact.strength;
+        open.push_back({strength[at(contact.island)], contact.island});
+        std::push_heap(open.begin(), open.end());
+      }
+    };
+    for (std::size_t c = 0; c < islands; ++c) {
+      if (waits_[c]) open.push_back({0, static_cast<Index>(c)}), std::push_heap(open.begin(), open.end());
+    }
+    for (std::size_t c = 0; c < islands; ++c) {
+      if (!waits_[c] && solution_.informants.by_island[c] > 0) settle(static_cast<Index>(c));
+    }
+    while (!open.empty()) {
+      std::pop_heap(open.begin(), open.end());
+      const Open next = open.back();
+      open.pop_back();
+      const std::size_t c = at(next.island);
+      if (!waits_[c] || next.strength != strength[c]) continue;
+      column[c] = taken_column(c, contacts, strength[c], sum);
+      waits_[c] = 0;
+      settle(next.island);
+    }
+  }
+
+  // The column with the largest mean of the weights at contacts and of the island's own.
+  Index taken_column(std::size_t island, const PieceContacts& contacts, double strength, Vector<double>& sum) const {
+    std::fill(sum.begin(), sum.end(), 0.0);
+    const double own = strength > 0 ? 0.5 : 1.0;
+    for (std::size_t i = 0; i < kept_shares; ++i) {
+      if (mean_[island].column[i] >= 0) sum[at(mean_[island].column[i])] += own * mean_[island].share[i];
+    }
+    for (const Index i : contacts.from(static_cast<Index>(island))) {
+      const PieceContact& contact = contacts.all[at(i)];
+      const std::size_t other = at(mesh_.component[at(contact.vertex)]);
+      if (waits_[other] || solution_.informants.by_island[other] == 0) continue;
+      const double share = (1 - own) * contact.strength / strength;
+      if (column[other] >= 0) {
+        sum[at(column[other])] += share;
+      } else {
+        for (std::size_t k = 0; k < width(); ++k) sum[k] += share * solution_.field[at(contact.vertex) * width() + k];
+      }
+    }
+    const auto best = std::max_element(sum.begin(), sum.end());
+    return robot() || *best >= clear_share ? static_cast<Index>(best - sum.begin()) : -1;
+  }
+
+  PieceBones held_;
+  Vector<Shape> shapes_;
+  Vector<std::uint8_t> waits_;  // by island: it takes a bone from others
+  Vector<Mean> mean_;           // by island that waits
+  Kind kind_ = Kind::other;
+};
+
+}  // namespace
+
+Vector<Index> rigid_columns(const Solution& solution, const Vector<BoneSegment>& segments) {
+  const Mesh& mesh = solution.surface->core->mesh;
+  if (mesh.component_count() < 2)
+    return Vector<Index>(at(mesh.component_count()), -1, solution.surface->core->memory.get());
+  RigidPieces pieces(solution, segments);
+  pieces.run();
+  return std::move(pieces.column);
+}
+
+}  // namespace hf_inner
