@@ -240,7 +240,8 @@ Value direction_singularities(Surface& s, const Arguments&) {
 }
 
 // ---- quads_create(options = {}, crease edges = null, guide vertices = null, guide vectors = null, guide weights =
-// null, symmetry plane = null, pole points = null, pole quads = null, pole directions = null): face_count, edge_length, crease_angle, relax_count
+// null, symmetry plane = null, pole points = null, pole quads = null, pole directions = null): face_count, edge_length,
+// crease_angle, relax_count
 
 template <class Make>
 Value with_quads_desc(const Arguments& a, Make&& make_quads) {
