@@ -183,13 +183,16 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "options": {"relax_count": 1001}})
     quads = {"do": "quads", "on": "m", "as": "n"}
     guide = {"guide_vertices": [7], "guide_vectors": [1.0, 0.0, 0.0]}
+    pole = {"pole_points": [4.0, 0.0, 0.0], "pole_quads": [5]}
     for wrong in ({"crease_edges": [0, 1, 2]}, {"guide_vertices": [7], "guide_vectors": [1.0, 0.0]},
             {"guide_vertices": [7, 8], "guide_vectors": [1.0, 0.0, 0.0]}, {"guide_vectors": [1.0, 0.0, 0.0]},
             {**guide, "guide_weights": [1.0, 1.0]}, {**guide, "guide_weights": []}, {"guide_weights": [1.0]},
+            {"pole_points": [4.0, 0.0, 0.0]}, {"pole_directions": [0.0, 1.0, 0.0]}, {**pole, "pole_points": [4.0, 0.0]},
+            {**pole, "pole_quads": [5, 3]}, {**pole, "pole_directions": [0.0, 1.0]}, {**pole, "pole_directions": []},
             {"symmetry_plane": [1.0, 0.0, 0.0]}, {"symmetry_plane": [1.0, 0.0, 0.0, 0.0, 0.0]},
             {"symmetry_plane": [0.0, 0.0, 0.0, 1.0]}):  # lengths that do not match, and no plane
         bad("INVALID_ARGUMENT", **quads, **wrong)
-    for option in ("crease_count", "guide_count"):
+    for option in ("crease_count", "guide_count", "pole_count"):
         bad("INVALID_ARGUMENT", **{**quads, "options": {option: 0}})  # lengths of lists are no options
     bad("INVALID_ARGUMENT", index=0, **quads, crease_edges=[0, 301])  # no edge
     bad("OUT_OF_RANGE", index=1, **quads, crease_edges=[0, 1, 0, 302])
@@ -199,6 +202,10 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", index=0, **quads, **{**guide, "guide_vectors": [0.0, 0.0, 0.0]})
     for weight, error in (("nan", "NON_FINITE"), (0.0, "INVALID_ARGUMENT"), (1.5, "INVALID_ARGUMENT")):
         bad(error, index=0, **quads, **guide, guide_weights=[weight])
+    bad("INVALID_ARGUMENT", index=1, **quads, pole_points=[4.0, 0.0, 0.0] * 2, pole_quads=[3, 4])
+    bad("NULL_POINTER", **quads, pole_points=None, pole_quads=[3])
+    bad("NON_FINITE", index=0, **quads, **{**pole, "pole_points": [4.0, "nan", 0.0]})
+    bad("NON_FINITE", index=0, **quads, **pole, pole_directions=["inf", 0.0, 0.0])
     bad("NON_FINITE", **quads, symmetry_plane=[1.0, 0.0, "inf", 0.0])
     wanted = {"options": {"face_count": 200}}
     made += [{"do": "quads", "on": "m", "as": "u", **wanted}, {"do": "quad_mesh", "on": "u", "keep": "before"},
@@ -207,6 +214,8 @@ def bad_scenes():
     bad("NON_FINITE", index=0, **again, **{**guide, "guide_vectors": [1.0, "nan", 0.0]})
     bad("INVALID_ARGUMENT", index=0, **again, **{**guide, "guide_vectors": [0.0, 0.0, 0.0]})
     bad("OUT_OF_RANGE", index=0, **again, **{**guide, "guide_vertices": [302]})
+    bad("INVALID_ARGUMENT", index=0, **again, **{**pole, "pole_quads": [4]})
+    bad("NON_FINITE", index=0, **again, **{**pole, "pole_points": [4.0, "inf", 0.0]})
     bad("INVALID_ARGUMENT", index=0, **again, crease_edges=[0, 301])  # no edge
     bad("NON_FINITE", **again, symmetry_plane=[1.0, 0.0, "inf", 0.0])
     bad("UNSUPPORTED", **again, symmetry_plane=[1.0, 0.0, 0.0, 100.0])  # nothing on its side
@@ -214,7 +223,7 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", **{**again, "options": {"relax_count": 1001}})
     bad("INVALID_ARGUMENT", **{**again, "options": {"guide_count": 0}})
     for wrong in ({"crease_edges": [0, 1, 2]}, {"guide_vertices": [7, 8], "guide_vectors": [1.0, 0.0, 0.0]},
-            {**guide, "guide_weights": []}, {"symmetry_plane": [1.0, 0.0, 0.0]}):  # lengths that do not match
+            {**guide, "guide_weights": []}, {"pole_points": [4.0, 0.0, 0.0]}, {"symmetry_plane": [1.0, 0.0, 0.0]}):  # lengths that do not match
         bad("INVALID_ARGUMENT", **again, **wrong)
     made += [{"do": "quad_mesh", "on": "u", "same_as": "before"}, {**again, **guide, "same_as": "guided"}]
     bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 302, count=0)

@@ -218,6 +218,19 @@ def scenes(meshes):
           {**update, "crease_edges": seam, "same_as": "creased"},
           {"do": "dispose", "on": "m"}, {**update, "same_as": "plain"}, mesh_of("u", same_as="plain"), mesh_of("g", same_as="guided"))
 
+    poles = {"pole_points": [-2.2, 2.2, 1.0, 3.2, 2.2, 0.0], "pole_quads": [3, 5]}
+    turned_poles = {**poles, "pole_directions": [0.0, 1.0, 0.0, 1.0, -1.0, 2.0]}
+    scene("quads_with_poles",
+        "Quads of a torus with a pole of 3 and a pole of 5 that the user places, turns and drags: Euler characteristic 0 (closed form); "
+          "positions by agreement.", surface("torus"),
+          *[step for name, more in (("p", poles), ("t", turned_poles), ("s", {**turned_poles, **mirrored}))
+            for step in ({**wanted, **more, "as": name}, {"do": "quads_info", "on": name, "expect": whole},
+              {"do": "quad_mesh", "on": name, "expect": agree(1e-3), "keep": name})],
+          quads_of(**{"as": "u"}), mesh_of("u", keep="plain"), {**update, **turned_poles, "options": dragged, "expect": agree(1e-3)},
+          {**update, **poles, "same_as": "p"}, {**update, **turned_poles, **mirrored, "same_as": "s"},
+          {**update, **poles, "pole_quads": [3, 4], "error": "HF_ERROR_INVALID_ARGUMENT", "index": 1}, mesh_of("u", same_as="s"),
+          {**update, **turned_poles, "same_as": "t"}, {**update, "same_as": "plain"})
+
     on_r, patch = {"on": "r"}, [0, 1, 2, 12, 13, 14]
     scene("regions",
         "A patch of a torus: edited, morphed (0 gives the given positions back, bit for bit), undone; onto itself its detail gives the "

@@ -108,11 +108,12 @@ function Direction:singularities()
 end
 
 local Quads = class('Quads', function(raw) C.hf_quads_destroy(raw) end)
--- The lists among the options of quads: element type, and numbers for each edge or guide.
+-- The lists among the options of quads: element type, and numbers for each edge, guide or pole.
 local quad_lists = { crease_edges = { 'uint32_t', 2 }, guide_vertices = { 'uint32_t', 1 },
-  guide_vectors = { 'double', 3 }, guide_weights = { 'float', 1 }, symmetry_plane = { 'double', 4 } }
+  guide_vectors = { 'double', 3 }, guide_weights = { 'float', 1 }, pole_points = { 'double', 3 },
+  pole_quads = { 'uint32_t', 1 }, pole_directions = { 'double', 3 }, symmetry_plane = { 'double', 4 } }
 -- options: face_count, edge_length, crease_angle, relax_count; lists: crease_edges, guide_vertices, guide_vectors,
--- guide_weights; symmetry_plane: { a, b, c, d } of a x + b y + c z = d
+-- guide_weights, pole_points, pole_quads of 3 or 5, pole_directions; symmetry_plane: { a, b, c, d } of a x + b y + c z = d
 -- Returns a desc, and the arrays it points into: they must live until the call is over.
 local function quad_desc(options)
   local plain, held, counts = {}, {}, {}
@@ -133,8 +134,12 @@ local function quad_desc(options)
   take('guide_vertices')
   take('guide_vectors', counts.guide_vertices or 0)
   take('guide_weights', counts.guide_vertices or 0)
+  take('pole_quads')
+  take('pole_points', counts.pole_quads or 0)
+  take('pole_directions', counts.pole_quads or 0)
   take('symmetry_plane', 1)
   desc.crease_count, desc.guide_count = counts.crease_edges or 0, counts.guide_vertices or 0
+  desc.pole_count = counts.pole_quads or 0
   for name, values in pairs(held) do
     if name == 'symmetry_plane' then ffi.copy(desc.symmetry_plane, values, 32) else desc[name] = values end
   end
@@ -146,8 +151,8 @@ function hf.Quads(surface, options)
   held = nil -- the library has copied the lists
   return made
 end
--- Makes the mesh again, with the options of hf.Quads: for strokes and creases that the user drags. After an error the
--- mesh is what it was.
+-- Makes the mesh again, with the options of hf.Quads: for strokes, creases and poles that the user drags. After an
+-- error the mesh is what it was.
 function Quads:update(options)
   local desc, held = quad_desc(options)
   check(C.hf_quads_update(self.raw, desc))

@@ -524,7 +524,7 @@ struct QuadMesh {
   std::vector<uint32_t> corners;  // three per quad vertex: the vertices of the given mesh that barycentrics belong to
   hf_quads_info info;
 };
-// Keeps a quad mesh, to make it again while the user drags strokes and creases.
+// Keeps a quad mesh, to make it again while the user drags strokes, creases and poles.
 class Quads {
  public:
   explicit Quads(const Surface& surface, const hf_quads_desc* desc = nullptr) {

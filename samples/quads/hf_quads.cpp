@@ -27,7 +27,7 @@ namespace {
 
 const char* const usage =
     "usage: hf_quads MESH [--faces N] [--edge LENGTH] [--crease DEG] [--strokes FILE.json]\n"
-    "                [--symmetry x|y|z] [-o OUT] [--sheet FILE.png]\n"
+    "                [--poles FILE.json] [--symmetry x|y|z] [-o OUT] [--sheet FILE.png]\n"
     "       hf_quads MESH --measure QUADS [--sheet FILE.png]\n"
     "  Makes a quad mesh of a .obj, .off, .ply, .gltf or .glb surface, and prints what it is worth.\n"
     "  Edges follow smooth crosses along the curvature.\n"
@@ -37,6 +37,10 @@ const char* const usage =
     "  --strokes FILE {\"strokes\": [{\"points\": [[0, 1, 0.2], [0.1, 1, 0.3]], \"weight\": 1}]}: edges follow these "
     "lines,\n"
     "                 in the frame of the mesh; below 1 the curvature has a say\n"
+    "  --poles FILE   {\"poles\": [{\"point\": [0, 1, 0.2], \"quads\": 3, \"direction\": [1, 0, 0]}]}: 3 or 5 quads "
+    "meet "
+    "there;\n"
+    "                 one side of the pole runs along the direction, which may be missing\n"
     "  --symmetry x   the side where x (or y, or z) is positive gets quads, the other side is its mirror image; the\n"
     "                 plane goes through 0, and --symmetry x=0.25 moves it\n"
     "  --relax N      rounds of tangential relaxation (60; 0 for none)\n"
@@ -49,7 +53,7 @@ const char* const usage =
     "  --memory-limit N refuse a surface that holds more than N MiB (default: by the size)\n";
 
 struct Command {
-  std::filesystem::path mesh, strokes, measured, out, sheet;
+  std::filesystem::path mesh, strokes, poles, measured, out, sheet;
   double plane[4] = {0, 0, 0, 0};              // of symmetry; 0: none
   double edge = 0;                             // 0: the default; below 0: a share of the box diagonal
   uint32_t relax = 60, faces = 0, crease = 0;  // crease in degrees
@@ -90,6 +94,8 @@ Command parse(Words words) {
       out.crease = words.whole(1, 180);
     } else if (words.is("--strokes")) {
       out.strokes = words.file();
+    } else if (words.is("--poles")) {
+      out.poles = words.file();
     } else if (words.is("--symmetry")) {
       read_symmetry(words.value(), out.plane);
     } else if (words.is("--relax")) {
@@ -263,6 +269,12 @@ void run(const Command& options) {
   if (desc.guide_count)
     desc.guide_vertices = guides.vertices.data(), desc.guide_vectors = guides.vectors.data(),
     desc.guide_weights = guides.weights.data();
+  Poles poles;
+  if (!options.poles.empty()) poles = read_poles(options.poles);
+  desc.pole_count = static_cast<uint32_t>(poles.quads.size());
+  if (desc.pole_count)
+    desc.pole_points = poles.points.data(), desc.pole_quads = poles.quads.data(),
+    desc.pole_directions = poles.directions.data();
   std::copy(options.plane, options.plane + 4, desc.symmetry_plane);
 
   const auto begin = std::chrono::steady_clock::now();

@@ -1,4 +1,4 @@
-// Strokes of an artist: lines over a surface that quads follow.
+// Strokes and poles of an artist: lines over a surface that quads follow, and irregular vertices at chosen places.
 #pragma once
 #include <filesystem>
 
@@ -17,5 +17,16 @@ struct Guides {
 // weight is above 0 to 1, and 1 if there is none. edge: the mean length of an edge. Throws std::runtime_error with the
 // file and the place in it.
 Guides read_strokes(const std::filesystem::path& file, const hf::Surface& surface, double edge);
+
+// The poles of hf_quads_desc.
+struct Poles {
+  std::vector<double> points;  // three each
+  std::vector<uint32_t> quads;
+  std::vector<double> directions;  // three each; 0 0 0: any
+};
+
+// Reads {"poles": [{"point": [x, y, z], "quads": 3, "direction": [x, y, z]}]}: in the frame of the surface; quads is 3
+// or 5, and the direction may be missing. Throws std::runtime_error with the file and the place in it.
+Poles read_poles(const std::filesystem::path& file);
 
 }  // namespace samples

@@ -308,6 +308,8 @@ class Scene
                         CreaseEdges = Numbers(Get(step, "crease_edges")),
                         GuideVertices = Numbers(Get(step, "guide_vertices")),
                         GuideVectors = Doubles(step, "guide_vectors"), GuideWeights = Floats(step, "guide_weights"),
+                        PolePoints = Doubles(step, "pole_points"), PoleQuads = Numbers(Get(step, "pole_quads")),
+                        PoleDirections = Doubles(step, "pole_directions"),
                         SymmetryPlane = Doubles(step, "symmetry_plane") };
                     if (what == "update_quads")
                     {

@@ -226,7 +226,8 @@ func run(step, objects, kept):
 			if step.has("edge_length"):
 				options["edge_length"] = number(step.edge_length)
 			var given = [options, step.get("crease_edges"), step.get("guide_vertices"), list(step, "guide_vectors", kept),
-				list(step, "guide_weights", kept), list(step, "symmetry_plane", kept)]
+				list(step, "guide_weights", kept), list(step, "symmetry_plane", kept), list(step, "pole_points", kept),
+				step.get("pole_quads"), list(step, "pole_directions", kept)]
 			if step["do"] == "update_quads":
 				var updated = on.callv("quads_update", given)
 				return [true, on.quads_positions() if updated != null else null, on]

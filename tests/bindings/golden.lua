@@ -204,7 +204,8 @@ local function new_scene(meshes)
       return 'array', found.vectors, 3 * found.count
     elseif what == 'quads' or what == 'update_quads' then
       options.edge_length = step.edge_length and number(step.edge_length)
-      for _, key in ipairs({ 'crease_edges', 'guide_vertices', 'guide_vectors', 'guide_weights', 'symmetry_plane' }) do
+      for _, key in ipairs({ 'crease_edges', 'guide_vertices', 'guide_vectors', 'guide_weights', 'pole_points',
+        'pole_quads', 'pole_directions', 'symmetry_plane' }) do
         options[key] = get(key)
       end
       if what == 'update_quads' then

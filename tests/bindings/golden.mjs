@@ -256,6 +256,9 @@ function runStep(hf, step, meshes, objects, kept) {
         guideVertices: get('guide_vertices'),
         guideVectors: get('guide_vectors'),
         guideWeights: get('guide_weights'),
+        polePoints: get('pole_points'),
+        poleQuads: get('pole_quads'),
+        poleDirections: get('pole_directions'),
         symmetryPlane: get('symmetry_plane'),
       };
       if (step.do === 'update_quads') {

@@ -197,7 +197,8 @@ class Scene:
         elif do in ("quads", "update_quads"):
             if "edge_length" in step:
                 options["edge_length"] = numbers(step["edge_length"])
-            lists = ("crease_edges", "guide_vertices", "guide_vectors", "guide_weights", "symmetry_plane")
+            lists = ("crease_edges", "guide_vertices", "guide_vectors", "guide_weights", "pole_points", "pole_quads",
+                "pole_directions", "symmetry_plane")
             options.update({key: get(key) for key in lists})
             if do == "update_quads":
                 on.update(**options)

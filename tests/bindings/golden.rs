@@ -336,10 +336,14 @@ impl Scene<'_> {
         let weights: Option<Vec<f32>> = self
             .doubles(step, "guide_weights")
             .map(|list| list.iter().map(|&v| v as f32).collect());
+        let poles = self.integers(step, "pole_quads").unwrap_or_default();
+        let pole_points = self.doubles(step, "pole_points").unwrap_or_default();
+        let pole_directions = self.doubles(step, "pole_directions");
         let plane = self
             .doubles(step, "symmetry_plane")
             .map(|list| <[f64; 4]>::try_from(list).ok());
-        if plane == Some(None) || step.get("guide_vectors").is_some_and(Value::is_null) {
+        let null = |key| step.get(key).is_some_and(Value::is_null);
+        if plane == Some(None) || null("guide_vectors") || null("pole_points") {
             return Ok(Answer::Impossible); // four numbers are four, and a slice is never null
         }
         let guides = QuadGuides {
@@ -347,6 +351,9 @@ impl Scene<'_> {
             guide_vertices: &guided,
             guide_vectors: &vectors,
             guide_weights: weights.as_deref(),
+            pole_points: &pole_points,
+            pole_quads: &poles,
+            pole_directions: pole_directions.as_deref(),
             symmetry_plane: plane.flatten(),
         };
         let quad_options = || -> std::result::Result<QuadsOptions, Error> {

@@ -17,6 +17,10 @@ void Scene::with_quad_options(const Json& step, const std::function<void(const h
   const auto edges = numbers(step, "crease_edges"), guided = numbers(step, "guide_vertices");
   const size_t guides = guided ? guided->size() : 0;
   const auto vectors = doubles(step, "guide_vectors", 3 * guides), given = doubles(step, "guide_weights", guides);
+  const auto poles = numbers(step, "pole_quads");
+  const size_t pole_count = poles ? poles->size() : 0;
+  const auto places = doubles(step, "pole_points", 3 * pole_count),
+             ways = doubles(step, "pole_directions", 3 * pole_count);
   const auto plane = doubles(step, "symmetry_plane", 4);
   if (edges && edges->size() % 2) fail("crease_edges must hold two vertices each");
   const std::vector<float> weights = given ? std::vector<float>(given->begin(), given->end()) : std::vector<float>();
@@ -24,6 +28,9 @@ void Scene::with_quad_options(const Json& step, const std::function<void(const h
   if (guided) desc.guide_count = count(guided), desc.guide_vertices = data(guided);
   if (vectors) desc.guide_vectors = vectors->data();
   if (given) desc.guide_weights = weights.data();
+  if (poles) desc.pole_count = count(poles), desc.pole_quads = data(poles);
+  if (places) desc.pole_points = places->data();
+  if (ways) desc.pole_directions = ways->data();
   if (plane) std::copy(plane->begin(), plane->end(), desc.symmetry_plane);
   call(desc);
 }

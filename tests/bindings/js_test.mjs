@@ -117,7 +117,8 @@ for (const option of ['positionStride', 'normalStride', 'firstVertex', 'vertexCo
   assert.throws(() => posed.deform(null, { [option]: 400 }), /no option/, option);
 for (const option of ['positionStride', 'triangleStride', 'vertexCount', 'triangleCount'])
   assert.throws(() => new hf.Surface(positions, triangles, { [option]: 400 }), /no option/, option);
-assert.throws(() => new hf.Quads(surface, { guideCount: 2 }), /no option/);
+for (const option of ['guideCount', 'poleCount'])
+  assert.throws(() => new hf.Quads(surface, { [option]: 2 }), /no option/);
 assert.ok(Math.abs(solver.solve()[5] - 1) < 1e-6);
 
 // ---- numbers that a DataView or the call would wrap, and arrays that are none

@@ -87,7 +87,7 @@ class Poles(unittest.TestCase):
                 ("pole_directions[0]", hf.NonFiniteError,
                  {"pole_points": [place], "pole_quads": [5], "pole_directions": [[np.inf, 0, 0]]}),
                 ("pole_points", hf.HfError, {"pole_quads": [3]}),
-                ("pole_quads", hf.HfError, {"pole_points": [place]})):
+                ("pole_points", hf.HfError, {"pole_points": [place]})):
             with self.subTest(word=word):
                 before = self.quads.mesh().positions
                 with self.assertRaises(error) as caught:

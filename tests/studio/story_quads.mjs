@@ -1,4 +1,4 @@
-// Quads: made in a Worker of their own, with counts; cancelled; they follow a pose.
+// Quads: made in a Worker of their own, with counts; cancelled; they follow a pose, strokes and poles.
 import assert from 'node:assert/strict';
 import { Studio, check } from './harness.mjs';
 
@@ -29,6 +29,25 @@ function cube(n) {
 export default async function story(host) {
   const studio = await Studio.open(host);
   const { page } = studio;
+  // the mesh is relaxed, and that of the strokes and poles that are there
+  const still = async () => {
+    await page.waitForFunction(() => {
+      const { tools, live, state } = window.hfStudio;
+      return !live && !tools.quads.following && tools.quads.relaxed && tools.quads.shows(state);
+    });
+    await studio.settle();
+  };
+  // where the middle of the trunk is on the screen
+  const trunk = async () => {
+    const middle = await page.evaluate(() => {
+      const { skin, view } = window.hfStudio;
+      const box = skin.box();
+      const { x, y } = view.onScreen([0, 1, 2].map((k) => (box.min.getComponent(k) + box.max.getComponent(k)) / 2));
+      return [x, y];
+    });
+    const canvas = await page.locator('canvas').boundingBox();
+    return [canvas.x + middle[0], canvas.y + middle[1] - 20];
+  };
   await studio.tool('quads');
   await check('quads are made and counted, and every face has four corners', async () => {
     await page.click('#make');
@@ -139,13 +158,6 @@ export default async function story(host) {
           mesh: positions.join(),
         };
       });
-    const still = async () => {
-      await page.waitForFunction(() => {
-        const { tools, live, state } = window.hfStudio;
-        return !live && !tools.quads.following && tools.quads.relaxed && tools.quads.shown === state.strokes;
-      });
-      await studio.settle();
-    };
     await studio.tool('pose');
     await page.keyboard.press('Control+z');
     await studio.tool('quads');
@@ -156,14 +168,7 @@ export default async function story(host) {
     await page.click('#draw');
     assert.equal(await page.getAttribute('#draw', 'aria-pressed'), 'true');
     // over the trunk, slanting
-    const middle = await page.evaluate(() => {
-      const { skin, view } = window.hfStudio;
-      const box = skin.box();
-      const { x, y } = view.onScreen([0, 1, 2].map((k) => (box.min.getComponent(k) + box.max.getComponent(k)) / 2));
-      return [x, y];
-    });
-    const canvas = await page.locator('canvas').boundingBox();
-    const [x, y] = [canvas.x + middle[0], canvas.y + middle[1] - 20];
+    const [x, y] = await trunk();
     await studio.drag(x - 55, y + 35, 110, -70);
     await still();
     const drawn = await seen();
@@ -205,6 +210,104 @@ export default async function story(host) {
     await page.click('#draw');
     return `${drawn.followed - before.followed} meshes while drawn, ${moved.followed - drawn.followed} while dragged; ${drawn.off[0].toFixed(1)} degrees off`;
   });
+  await check(
+    'a pole that is placed and dragged is an irregular vertex at its dot, live; undo and a link keep it',
+    async () => {
+      const seen = () =>
+        page.evaluate(() => {
+          const { tools, body, state, skin } = window.hfStudio;
+          const { mesh, info } = tools.quads.result;
+          const { positions, faces } = mesh;
+          const count = new Uint32Array(positions.length / 3);
+          for (const corner of faces) ++count[corner];
+          const inX = body.positions.filter((_, i) => i % 3 === 0);
+          const [low, high] = inX.reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [9e9, -9e9]);
+          const nearest = (place, quads) =>
+            count.reduce(
+              (least, n, v) =>
+                n === quads
+                  ? Math.min(least, Math.hypot(...place.map((x, k) => x - positions[3 * v + k])) / info.edgeLength)
+                  : least,
+              Infinity,
+            );
+          const poles = state.poles ?? [];
+          const at = poles.map((pole) => skin.at(pole, body.positions));
+          return {
+            poles: poles.map(({ quads }) => quads),
+            // how many edges away is a vertex with as many quads
+            away: at.map((place, i) => nearest(place, poles[i].quads)),
+            image: at.map(([x, ...rest], i) => nearest([low + high - x, ...rest], poles[i].quads)),
+            followed: tools.quads.followed,
+            mesh: positions.join(),
+          };
+        });
+      const made = async () => {
+        await page.click('#make');
+        await page.waitForFunction(
+          () => !document.querySelector('#cancel') && !window.hfStudio.tools.quads.busy,
+          null,
+          {
+            timeout: 60000,
+          },
+        );
+        await still();
+      };
+      await made();
+      const before = await seen();
+      const [x, y] = await trunk();
+      await page.click('#pole-3');
+      assert.equal(await page.getAttribute('#pole-3', 'aria-pressed'), 'true');
+      await page.mouse.click(x, y);
+      await still();
+      const placed = await seen();
+      assert.deepEqual(placed.poles, [3]);
+      assert.ok(placed.away[0] < 1, `${placed.away[0]} edges off the pole`);
+      assert.notEqual(placed.mesh, before.mesh);
+      const dot = page.locator('.mark').first();
+      const box = await dot.boundingBox();
+      await studio.drag(box.x + box.width / 2, box.y + box.height / 2, 40, 15);
+      await still();
+      const moved = await seen();
+      assert.ok(moved.followed > placed.followed, 'no mesh was made while the pole was dragged');
+      assert.notEqual(moved.mesh, placed.mesh);
+      assert.ok(moved.away[0] < 1, `${moved.away[0]} edges off the moved pole`);
+      await page.keyboard.press('Control+z');
+      await still();
+      assert.equal((await seen()).mesh, placed.mesh);
+      // with a mirror a pole has an image, on whichever side it is placed
+      await page.click('#pole-5');
+      assert.equal(await page.getAttribute('#pole-3', 'aria-pressed'), 'false');
+      await page.mouse.click(x + 60, y);
+      await still();
+      await page.selectOption('#mirror', '0');
+      await made();
+      const mirrored = await seen();
+      assert.deepEqual(mirrored.poles, [3, 5]);
+      for (const off of [...mirrored.away, ...mirrored.image]) assert.ok(off < 1, `${off} edges off`);
+      // a link and a session hold the state, and a state that comes back holds the poles
+      const kept = await page.evaluate(async () => {
+        const app = window.hfStudio;
+        const text = JSON.stringify(app.history.state);
+        await app.take(JSON.parse(text));
+        return JSON.stringify(app.history.state.poles) === JSON.stringify(JSON.parse(text).poles);
+      });
+      assert.ok(kept);
+      await still();
+      assert.deepEqual((await seen()).poles, [3, 5]);
+      await page.selectOption('#mirror', '');
+      await page.locator('.mark').first().focus();
+      await page.keyboard.press('Delete');
+      await still();
+      assert.deepEqual((await seen()).poles, [5]);
+      await page.click('#clear-poles');
+      await still();
+      assert.deepEqual((await seen()).poles, []);
+      await made();
+      assert.equal((await seen()).mesh, before.mesh);
+      await page.click('#pole-5');
+      return `${placed.away[0].toFixed(2)} and ${moved.away[0].toFixed(2)} edges off; ${moved.followed - placed.followed} meshes while dragged`;
+    },
+  );
   await check('with creases the edges of a cube are edges of quads', async () => {
     await page.setInputFiles('#file', { name: 'cube.obj', mimeType: 'text/plain', buffer: Buffer.from(cube(10)) });
     await page.waitForFunction(() => window.hfStudio.body.name === 'cube.obj' && window.hfStudio.skin.bvh);

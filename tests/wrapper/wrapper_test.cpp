@@ -194,7 +194,7 @@ struct Sheet {
   }
 };
 
-TEST(Wrapper, quads_are_made_again_along_a_stroke) {
+TEST(Wrapper, quads_are_made_again_along_a_stroke_and_around_a_pole) {
   const Sheet sheet;
   const hf::Surface surface(sheet.positions, sheet.triangles);
   auto desc = hf::make<hf_quads_desc>();
@@ -217,6 +217,15 @@ TEST(Wrapper, quads_are_made_again_along_a_stroke) {
   stroke.relax_count = 1001;
   EXPECT_THROW(quads.update(stroke), hf::Error);
   EXPECT_EQ(quads.mesh().positions, guided.positions);
+  auto pole = desc;
+  const double at[3] = {9, 9, 0};
+  const uint32_t three = 3, four = 4;
+  pole.pole_count = 1, pole.pole_points = at, pole.pole_quads = &three;
+  quads.update(pole);
+  EXPECT_EQ(quads.mesh().positions, hf::make_quads(surface, &pole).positions);
+  EXPECT_NE(quads.mesh().positions, plain.positions);
+  pole.pole_quads = &four;
+  EXPECT_THROW(quads.update(pole), hf::Error);
   quads.update(desc);
   EXPECT_EQ(quads.mesh().positions, plain.positions);
 }

@@ -16,6 +16,12 @@ namespace Hf
         /// <summary>Three numbers for each guide.</summary>
         public double[] GuideVectors;
         public float[] GuideWeights;
+        /// <summary>Irregular vertices at places that the user drags: three numbers each.</summary>
+        public double[] PolePoints;
+        /// <summary>How many quads meet at each pole: 3 or 5.</summary>
+        public uint[] PoleQuads;
+        /// <summary>Three numbers for each pole: one side of it runs along them. 0, 0, 0 is any direction.</summary>
+        public double[] PoleDirections;
         /// <summary>a, b, c, d of the plane a x + b y + c z = d.</summary>
         public double[] SymmetryPlane;
         public Progress Progress;
@@ -42,8 +48,8 @@ namespace Hf
             }
         }
 
-        /// <summary>Makes the mesh again: for strokes and creases that the user drags. After an exception it is what it
-        /// was.</summary>
+        /// <summary>Makes the mesh again: for strokes, creases and poles that the user drags. After an exception it is
+        /// what it was.</summary>
         public void Update(QuadOptions options)
         {
             options = options ?? new QuadOptions();
@@ -72,6 +78,11 @@ namespace Hf
             desc.guide_vertices = pins.Add(options.GuideVertices);
             desc.guide_vectors = pins.Add(options.GuideVectors, 3 * guides, "GuideVectors");
             desc.guide_weights = pins.Add(options.GuideWeights, guides, "GuideWeights");
+            int poles = options.PoleQuads == null ? 0 : options.PoleQuads.Length;
+            desc.pole_count = (uint)poles;
+            desc.pole_quads = pins.Add(options.PoleQuads);
+            desc.pole_points = pins.Add(options.PolePoints, 3 * poles, "PolePoints");
+            desc.pole_directions = pins.Add(options.PoleDirections, 3 * poles, "PoleDirections");
             if (options.SymmetryPlane != null)
             {
                 Pins.Need(options.SymmetryPlane.Length, 4, "SymmetryPlane");

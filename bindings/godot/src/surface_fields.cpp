@@ -240,7 +240,8 @@ Value direction_singularities(Surface& s, const Arguments&) {
 }
 
 // ---- quads_create(options = {}, crease edges = null, guide vertices = null, guide vectors = null, guide weights =
-// null, symmetry plane = null): face_count, edge_length, crease_angle, relax_count
+// null, symmetry plane = null, pole points = null, pole quads = null, pole directions = null): face_count, edge_length,
+// crease_angle, relax_count
 
 template <class Make>
 Value with_quads_desc(const Arguments& a, Make&& make_quads) {
@@ -258,6 +259,11 @@ Value with_quads_desc(const Arguments& a, Make&& make_quads) {
   const double* given = doubles(at(a, 4), guides, "guide weights");
   const std::vector<float> weights(given, given + (given ? guides : 0));
   if (given) desc.guide_weights = weights.data();
+  const List counts = integers(at(a, 7), "pole quads");
+  const size_t poles = counts.values.size();
+  desc.pole_count = static_cast<uint32_t>(poles), desc.pole_quads = counts.data();
+  desc.pole_points = doubles(at(a, 6), 3 * poles, "pole points");
+  desc.pole_directions = doubles(at(a, 8), 3 * poles, "pole directions");
   const double* plane = doubles(at(a, 5), 4, "symmetry plane");
   if (plane) std::copy(plane, plane + 4, desc.symmetry_plane);
   make_quads(desc);
@@ -351,8 +357,8 @@ const std::vector<Entry>& field_methods() {
       {"direction_vectors", 0, 0, direction_vectors},
       {"direction_solve", 0, 0, direction_solve},
       {"direction_singularities", 0, 0, direction_singularities},
-      {"quads_create", 0, 8, quads_create},
-      {"quads_update", 0, 8, quads_update},
+      {"quads_create", 0, 9, quads_create},
+      {"quads_update", 0, 9, quads_update},
       {"quads_info", 0, 0, quads_info},
       {"quads_positions", 0, 0, quads_positions},
       {"quads_faces", 0, 0, quads_faces},

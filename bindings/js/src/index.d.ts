@@ -236,6 +236,12 @@ export interface QuadOptions {
   guideVertices?: Numbers | null;
   guideVectors?: Numbers | null;
   guideWeights?: Numbers | null;
+  /** Irregular vertices at places that the user drags: three numbers each. */
+  polePoints?: Numbers | null;
+  /** How many quads meet at each pole: 3 or 5. */
+  poleQuads?: Numbers | null;
+  /** Three numbers each: one side of the pole runs along them. 0, 0, 0 is any direction. */
+  poleDirections?: Numbers | null;
   symmetryPlane?: Numbers | null;
   progress?: Progress | null;
 }
@@ -243,8 +249,8 @@ export interface QuadOptions {
 export interface Quads extends Handle {
   readonly info: Record<string, number>;
   /**
-   * Makes the mesh again: for strokes and creases that the user drags. Options that are left out are the defaults. After
-   * an error the mesh is what it was.
+   * Makes the mesh again: for strokes, creases and poles that the user drags. Options that are left out are the
+   * defaults. After an error the mesh is what it was.
    */
   update(options?: QuadOptions): void;
   /** Face i has the corners faces[4 * i] to faces[4 * i + 3], counter-clockwise. */

@@ -23,11 +23,14 @@ export function quadClasses(tools) {
     guideVertices = null,
     guideVectors = null,
     guideWeights = null,
+    polePoints = null,
+    poleQuads = null,
+    poleDirections = null,
     symmetryPlane = null,
     progress = null,
     ...options
   } = {}) => {
-    const desc = make('hf_quads_desc').options(options, ['crease_count', 'guide_count']);
+    const desc = make('hf_quads_desc').options(options, ['crease_count', 'guide_count', 'pole_count']);
     const edges = integers(creaseEdges, 'creaseEdges');
     if (edges) {
       if (edges.length % 2) fail(`creaseEdges must hold two vertices each, not ${edges.length} numbers`);
@@ -39,6 +42,11 @@ export function quadClasses(tools) {
     desc.set('guide_count', guided.length).set('guide_vertices', read(guided));
     desc.set('guide_vectors', vectors && read(vectors));
     desc.set('guide_weights', weights && read(Float32Array.from(weights)));
+    const counts = integers(poleQuads, 'poleQuads') ?? [];
+    const points = doubles(polePoints, 'polePoints', 3 * counts.length);
+    const directions = doubles(poleDirections, 'poleDirections', 3 * counts.length);
+    desc.set('pole_count', counts.length).set('pole_quads', read(counts));
+    desc.set('pole_points', points && read(points)).set('pole_directions', directions && read(directions));
     desc.set('symmetry_plane', doubles(symmetryPlane, 'symmetryPlane', 4));
     return watched(desc, progress);
   };

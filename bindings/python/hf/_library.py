@@ -167,7 +167,7 @@ def make(struct: type, **fields: Any) -> Any:
 
 # what the package fills in itself; without corners, face_count is a wish and not the length of an array
 _OWN = ("struct_size", "reserved", "vertex_count", "triangle_count", "face_count", "corner_count", "edge_count",
-        "site_count", "crease_count", "guide_count")
+        "site_count", "crease_count", "guide_count", "pole_count")
 
 
 def options_into(desc: Any, options: dict) -> None:

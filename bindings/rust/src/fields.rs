@@ -212,6 +212,12 @@ pub struct QuadGuides<'a> {
     pub guide_vectors: &'a [f64],
     /// above 0 to 1 for each guide; `None`: all 1
     pub guide_weights: Option<&'a [f32]>,
+    /// three numbers a pole: irregular vertices at places that the user drags
+    pub pole_points: &'a [f64],
+    /// how many quads meet at each pole: 3 or 5
+    pub pole_quads: &'a [u32],
+    /// three numbers a pole: one side of it runs along them, 0 0 0: any; `None`: any for all
+    pub pole_directions: Option<&'a [f64]>,
     /// a, b, c, d of the plane a x + b y + c z = d; `None`: no symmetry
     pub symmetry_plane: Option<[f64; 4]>,
 }
@@ -235,6 +241,11 @@ impl Quads {
         guides.guide_weights.map_or(Ok(()), |weights| of_length(weights, "guide_weights", count))?;
         (desc.guide_count, desc.guide_vertices) = (count_of(count, "guide_vertices")?, start(guides.guide_vertices));
         (desc.guide_vectors, desc.guide_weights) = (start(guides.guide_vectors), start_of(guides.guide_weights));
+        let poles = guides.pole_quads.len();
+        of_length(guides.pole_points, "pole_points", 3 * poles)?;
+        guides.pole_directions.map_or(Ok(()), |all| of_length(all, "pole_directions", 3 * poles))?;
+        (desc.pole_count, desc.pole_quads) = (count_of(poles, "pole_quads")?, start(guides.pole_quads));
+        (desc.pole_points, desc.pole_directions) = (start(guides.pole_points), start_of(guides.pole_directions));
         desc.symmetry_plane = guides.symmetry_plane.unwrap_or_default();
         Ok(desc)
     }
@@ -247,7 +258,7 @@ impl Quads {
         Ok(Quads { handle })
     }
 
-    /// Makes the mesh again: for strokes and creases that the user drags. After an error it is what it was.
+    /// Makes the mesh again: for strokes, creases and poles that the user drags. After an error it is what it was.
     pub fn update(&mut self, options: &QuadsOptions, guides: &QuadGuides) -> Result<()> {
         let desc = Self::desc_of(options, guides)?;
         // SAFETY: the lengths are checked.

@@ -145,6 +145,69 @@ TEST(QuadsProgram, FollowsStrokesAndMirrors) {
   }
 }
 
+// The least distance of an irregular vertex of that many edges to a place.
+double nearest_pole(const SurfaceMesh& mesh, const glm::dvec3& place, uint32_t quads) {
+  std::vector<uint32_t> count(mesh.positions.size());
+  for (const uint32_t corner : mesh.face_vertices) ++count[corner];
+  double least = 1e9;
+  for (size_t v = 0; v < count.size(); ++v) {
+    if (count[v] == quads) least = std::min(least, glm::distance(mesh.positions[v], place));
+  }
+  return least;
+}
+
+TEST(QuadsProgram, PutsPolesWhereAFileSays) {
+  const TemporaryFolder folder;
+  const ShapeMesh shape = samples::sphere(20);
+  SurfaceMesh mesh;
+  for (size_t i = 0; i < shape.positions.size(); i += 3)
+    mesh.positions.push_back({shape.positions[i], shape.positions[i + 1], shape.positions[i + 2]});
+  mesh.triangles = shape.triangles;
+  const std::string in = (folder.path / "shape.ply").string(), out = (folder.path / "quads.obj").string(),
+                    poles = (folder.path / "poles.json").string();
+  write_mesh_file(mesh, in);
+  const glm::dvec3 three = mesh.positions[1200], five = mesh.positions[2700];
+  const auto text_of = [](const glm::dvec3& p) {
+    return "[" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + "]";
+  };
+  std::ofstream(poles) << "{\"poles\": [{\"point\": " << text_of(three)
+                       << ", \"quads\": 3, \"direction\": [0.2, 1, 0.1]}, {\"point\": " << text_of(five)
+                       << ", \"quads\": 5}]}";
+  const std::string call = "\"" + in + "\" --faces 1500 -o \"" + out + "\"";
+  std::string text;
+  ASSERT_EQ(run(call, text), 0) << text;
+  const SurfaceMesh plain = read_mesh_file(out);
+  double edge = 0;
+  for (size_t i = 0; i < plain.face_vertices.size(); ++i)
+    edge += glm::distance(plain.positions[plain.face_vertices[i]],
+                          plain.positions[plain.face_vertices[i % 4 == 3 ? i - 3 : i + 1]]);
+  edge /= static_cast<double>(plain.face_vertices.size());
+  EXPECT_GT(nearest_pole(plain, three, 3), 2 * edge);
+  EXPECT_GT(nearest_pole(plain, five, 5), 2 * edge);
+  ASSERT_EQ(run(call + " --poles \"" + poles + "\"", text), 0) << text;
+  EXPECT_NE(text.find("Euler characteristic 2 (surface 2)"), std::string::npos) << text;
+  const SurfaceMesh placed = read_mesh_file(out);
+  EXPECT_LT(nearest_pole(placed, three, 3), edge);
+  EXPECT_LT(nearest_pole(placed, five, 5), edge);
+  // the file and the entry are named
+  const std::pair<const char*, const char*> wrongs[] = {
+      {"{\"poles\": []}", "no pole"},
+      {"{\"pole\": []}", "pole"},
+      {"{\"poles\": [{\"point\": [0, 0, 0]}]}", "poles[0]: the key \"quads\""},
+      {"{\"poles\": [{\"quads\": 3}]}", "poles[0]: the key \"point\""},
+      {"{\"poles\": [{\"point\": [0, 0], \"quads\": 3}]}", "poles[0].point"},
+      {"{\"poles\": [{\"point\": [0, 0, 0], \"quads\": 3}, {\"point\": [0, 0, 0], \"quads\": 4}]}", "poles[1].quads"},
+      {"{\"poles\": [{\"point\": [0, 0, 0], \"quads\": 3.5}]}", "poles[0].quads"},
+      {"{\"poles\": [{\"point\": [0, 0, 0], \"quads\": 3, \"direction\": [0, 0, 0]}]}", "poles[0].direction"},
+      {"{\"poles\": [{\"point\": [0, 0, 0], \"quads\": 3, \"weight\": 1}]}", "poles[0]: the key \"weight\""}};
+  for (const auto& [wrong, entry] : wrongs) {
+    std::ofstream(poles) << wrong;
+    EXPECT_EQ(run("\"" + in + "\" --poles \"" + poles + "\"", text), 1) << wrong;
+    EXPECT_NE(text.find("poles.json"), std::string::npos) << text;
+    EXPECT_NE(text.find(entry, text.find("poles.json") + 10), std::string::npos) << text;
+  }
+}
+
 // The longest side of a triangle in texture coordinates over its length in space.
 double most_stretched(const Model& model, const FlatMesh& flat) {
   double most = 0;

@@ -1,5 +1,8 @@
 // Quads: a quad mesh of the body along its curvature, made in a Worker of its own; it can be cancelled. Edges follow strokes
-// that the user draws and drags: the mesh follows at once without relaxation, and with it at the end.
+// that the user draws and drags, and 3 or 5 quads meet at poles: the mesh follows at once without relaxation, and with it at
+// the end.
+import { drawQuads, dropQuads, placeQuads } from '../quad_lines.js';
+
 /** Length of an edge as part of the size of the body: the library's own default. */
 const EDGE = 0.022;
 /** HF_NO_INDEX: no relaxation and no fitting, which take most of the time. */
@@ -9,11 +12,14 @@ const STEP_PIXELS = 6;
 /** Fewer places say no direction. */
 const LEAST_PLACES = 3;
 const INK = 0xd8452e;
+/** Colours of the dots of poles, by the number of quads that meet there. */
+const DOTS = { 3: '#1f78b4', 5: '#7b3fa0' };
+/** An arrow key moves a pole by so many pixels. */
+const NUDGE_PIXELS = 8;
 
 /** `kit`: what the page has loaded already (studio.js). */
 export const tool = (kit) => {
-  const { BufferAttribute, BufferGeometry, DoubleSide, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial } =
-    kit;
+  const { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments } = kit;
   const { button, choice, facts, make, ms, slider, whole } = kit;
   return class {
     static key = 'quads';
@@ -24,7 +30,8 @@ export const tool = (kit) => {
       this.crease = 0;
       this.mirror = '';
       this.relaxed = true; // what is shown
-      this.followed = 0; // meshes made while a stroke was drawn or dragged
+      this.followed = 0; // meshes made while a stroke or a pole was drawn or dragged
+      this.placing = 0; // a click places a pole of that many quads; 0: none
       this.ink = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: INK, depthTest: false }));
       this.ink.frustumCulled = false;
       this.ink.renderOrder = 1;
@@ -35,7 +42,7 @@ export const tool = (kit) => {
       this.#end();
       this.result = null;
       this.chosen = null;
-      this.shown = undefined;
+      this.shown = {};
       this.relaxed = true;
       this.#clear();
     }
@@ -56,11 +63,11 @@ export const tool = (kit) => {
       this.lines.visible = true;
       return undefined;
     }
-    /** After every step, undo and redo too: the mesh is that of the strokes that are there. */
+    /** After every step, undo and redo too: the mesh is that of the strokes and poles that are there. */
     refresh() {
       this.#drawStrokes();
       const { live, state } = this.app;
-      if (!live && !this.busy && (this.shown !== state.strokes || !this.relaxed)) this.#follow(true);
+      if (!live && !this.busy && !(this.shows(state) && this.relaxed)) this.#follow(true);
       this.app.panel();
     }
     shaped() {
@@ -68,16 +75,26 @@ export const tool = (kit) => {
       if (this.result) this.#place();
     }
 
-    // ---- strokes
+    // ---- strokes and poles
     get strokes() {
       return this.app.state.strokes ?? [];
+    }
+    get poles() {
+      return this.app.state.poles ?? [];
+    }
+    /** Whether the mesh is that of the strokes and poles of a state. */
+    shows({ strokes, poles }) {
+      return this.shown.strokes === strokes && this.shown.poles === poles;
+    }
+    #isPole(id) {
+      return this.poles.some((pole) => pole.id === id);
     }
     #hit(at) {
       const hit = this.app.skin.pick(this.app.view.ray(...at));
       return hit && { corners: hit.corners, barycentrics: hit.barycentrics };
     }
-    #preview(strokes) {
-      this.app.preview({ ...this.app.history.state, strokes });
+    #preview(change) {
+      this.app.preview({ ...this.app.history.state, ...change });
       this.#drawStrokes();
       this.#follow(false);
     }
@@ -99,7 +116,8 @@ export const tool = (kit) => {
       }
       pen.at = at;
       this.chosen = pen.id;
-      if (pen.places.length >= LEAST_PLACES) this.#preview([...pen.before, { id: pen.id, places: pen.places }]);
+      if (pen.places.length >= LEAST_PLACES)
+        this.#preview({ strokes: [...pen.before, { id: pen.id, places: pen.places }] });
     }
     strokeCancel() {
       this.app.settle();
@@ -108,14 +126,33 @@ export const tool = (kit) => {
     strokeEnd() {
       return this.app.commitPreview('draw a stroke');
     }
+    /** A pole is placed where the user clicks. */
+    click(at) {
+      const place = this.placing ? this.#hit(at) : null;
+      if (!place) return undefined;
+      const id = `q${1 + Math.max(0, ...this.poles.map((pole) => Number(pole.id.slice(1))))}`;
+      const quads = this.placing;
+      return this.#set({ poles: [...this.poles, { id, quads, ...place }] }, `place a pole of ${quads}`, id);
+    }
+    #moved(id, place) {
+      return { poles: this.poles.map((pole) => (pole.id === id ? { ...pole, ...place } : pole)) };
+    }
     marks() {
-      return this.strokes.map(({ id, places }, i) => ({
+      const poles = this.poles.map(({ id, quads, ...place }, i) => ({
+        id,
+        place: this.app.skin.at(place),
+        label: `pole ${i + 1}, of ${quads} quads`,
+        chosen: id === this.chosen,
+        colour: DOTS[quads],
+      }));
+      const strokes = this.strokes.map(({ id, places }, i) => ({
         id,
         place: this.app.skin.at(places[places.length >> 1]),
         label: `stroke ${i + 1}`,
         chosen: id === this.chosen,
         colour: '#d8452e',
       }));
+      return [...strokes, ...poles];
     }
     choose({ id }) {
       this.chosen = this.chosen === id ? null : id;
@@ -123,29 +160,41 @@ export const tool = (kit) => {
     }
     dragStart({ id }) {
       this.chosen = id;
+      if (this.#isPole(id)) return;
       const { places } = this.strokes.find((stroke) => stroke.id === id);
       this.held = places.map((place) => this.app.view.onScreen(this.app.skin.at(place)));
     }
-    /** The stroke moves over the picture and lies on the body where it arrives. */
+    /** A stroke moves over the picture and lies on the body where it arrives. A pole is where the pointer is. */
     drag({ id }, [x, y], from) {
+      if (this.#isPole(id)) {
+        const place = this.#hit([x, y]);
+        if (place) this.#preview(this.#moved(id, place));
+        return;
+      }
       const places = this.held.map((p) => this.#hit([p.x + x - from[0], p.y + y - from[1]])).filter(Boolean);
       if (places.length < LEAST_PLACES) return;
-      this.#preview(this.strokes.map((stroke) => (stroke.id === id ? { id, places } : stroke)));
+      this.#preview({ strokes: this.strokes.map((stroke) => (stroke.id === id ? { id, places } : stroke)) });
     }
-    dragEnd() {
-      return this.app.commitPreview('move a stroke');
+    dragEnd({ id }) {
+      return this.app.commitPreview(this.#isPole(id) ? 'move a pole' : 'move a stroke');
     }
-    key({ id }, { key }) {
+    key({ id, place }, { key }) {
+      const others = (list) => list.filter((one) => one.id !== id);
+      const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[key];
+      if (way && this.#isPole(id)) {
+        const { x, y } = this.app.view.onScreen(place);
+        const hit = this.#hit([x + way[0] * NUDGE_PIXELS, y + way[1] * NUDGE_PIXELS]);
+        if (hit) this.#set(this.#moved(id, hit), 'move a pole', id, `pole ${id}`);
+        return true;
+      }
       if (key !== 'Delete' && key !== 'Backspace') return false;
-      this.#set(
-        this.strokes.filter((stroke) => stroke.id !== id),
-        'remove a stroke',
-      );
+      if (this.#isPole(id)) this.#set({ poles: others(this.poles) }, 'remove a pole');
+      else this.#set({ strokes: others(this.strokes) }, 'remove a stroke');
       return true;
     }
-    #set(strokes, name) {
-      this.chosen = null;
-      return this.app.commit({ ...this.app.state, strokes }, name);
+    #set(change, name, chosen = null, join = null) {
+      this.chosen = chosen;
+      return this.app.commit({ ...this.app.state, ...change }, name, join);
     }
     #drawStrokes() {
       const { app, ink } = this;
@@ -176,6 +225,18 @@ export const tool = (kit) => {
       return guideVertices.length ? { guideVertices, guideVectors } : {};
     }
 
+    /** Places of the body at rest. A pole on the side that is mirrored counts as its image. */
+    #polesAt(plane) {
+      if (!this.poles.length) return {};
+      const { positions } = this.app.body;
+      const polePoints = this.poles.flatMap((pole) => {
+        const point = Array.from(this.app.skin.at(pole, positions));
+        const behind = plane ? plane[3] - point.reduce((sum, x, k) => sum + x * plane[k], 0) : 0;
+        return behind > 0 ? point.map((x, k) => x + 2 * behind * plane[k]) : point;
+      });
+      return { polePoints, poleQuads: this.poles.map(({ quads }) => quads) };
+    }
+
     // ---- making
     #options(relaxed) {
       const { app, mirror } = this;
@@ -185,7 +246,8 @@ export const tool = (kit) => {
         const [low, high] = along.reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [Infinity, -Infinity]);
         options.symmetryPlane = [0, 1, 2].map((k) => Number(k === Number(mirror))).concat((low + high) / 2);
       }
-      return { ...options, creaseAngle: this.crease, relaxCount: relaxed ? 0 : NO_RELAXATION, ...this.#guides() };
+      Object.assign(options, this.#guides(), this.#polesAt(options.symmetryPlane));
+      return { ...options, creaseAngle: this.crease, relaxCount: relaxed ? 0 : NO_RELAXATION };
     }
     /** Asks the Worker of the quads, which is started when it is needed; null when the body changed meanwhile. */
     async #ask(relaxed) {
@@ -209,17 +271,17 @@ export const tool = (kit) => {
         throw error;
       }
       if (line !== this.line) return null;
-      const strokes = app.state.strokes;
+      const { strokes, poles } = app.state;
       const result = await line.ask('quads', this.#options(relaxed));
       if (line !== this.line) return null;
       this.result = result;
-      this.shown = strokes;
+      this.shown = { strokes, poles };
       this.relaxed = relaxed;
       this.error = null;
       this.#draw();
       return result;
     }
-    /** Follows the strokes: while a mesh is made, the newest strokes wait. */
+    /** Follows the strokes and poles: while a mesh is made, the newest ones wait. */
     async #follow(relaxed) {
       this.wanted = { relaxed };
       if (this.following) return;
@@ -233,7 +295,8 @@ export const tool = (kit) => {
         }
       } catch (error) {
         if (error.codeName !== 'cancelled') this.error = error.message;
-        this.shown = this.app.state.strokes;
+        const { strokes, poles } = this.app.state;
+        this.shown = { strokes, poles };
         this.relaxed = true;
       } finally {
         this.following = false;
@@ -276,72 +339,17 @@ export const tool = (kit) => {
       if (this.app.tool === this) this.app.refresh();
     }
     #clear() {
-      if (!this.lines) return;
-      for (const thing of [this.lines, this.faces]) {
-        thing.geometry.dispose();
-        thing.material.dispose();
-        thing.removeFromParent();
-      }
+      if (this.lines) dropQuads(this.lines);
       this.lines = null;
     }
     #draw() {
       this.#clear();
-      const { faces, positions } = this.result.mesh;
-      const edges = new Set();
-      const count = positions.length / 3;
-      for (let i = 0; i < faces.length; ++i) {
-        const [a, b] = [faces[i], faces[i % 4 === 3 ? i - 3 : i + 1]];
-        edges.add(Math.min(a, b) * count + Math.max(a, b));
-      }
-      const pairs = new Uint32Array(2 * edges.size);
-      let at = 0;
-      for (const key of edges) {
-        pairs[at++] = Math.floor(key / count);
-        pairs[at++] = key % count;
-      }
-      const geometry = new BufferGeometry();
-      geometry.setAttribute('position', new BufferAttribute(new Float32Array(positions.length), 3));
-      geometry.setIndex(new BufferAttribute(pairs, 1));
-      this.lines = new LineSegments(geometry, new LineBasicMaterial({ color: 0x1c2733 }));
-      this.lines.frustumCulled = false;
-      const corners = [];
-      for (let i = 0; i < faces.length; i += 4) {
-        const [a, b, c, d] = faces.subarray(i, i + 4);
-        corners.push(a, b, c, a, c, d);
-      }
-      const surface = new BufferGeometry();
-      surface.setAttribute('position', geometry.getAttribute('position'));
-      surface.setIndex(corners);
-      // faces lie a little behind their lines
-      const paint = new MeshLambertMaterial({
-        color: 0xd9d4c8,
-        side: DoubleSide,
-        flatShading: true,
-        polygonOffset: true,
-        polygonOffsetFactor: 1,
-        polygonOffsetUnits: 1,
-      });
-      this.faces = new Mesh(surface, paint);
-      this.faces.frustumCulled = false;
-      this.lines.add(this.faces);
+      this.lines = drawQuads(kit, this.result.mesh);
       this.app.view.extras.add(this.lines);
       this.#place();
     }
-    /** The lines follow the body: every corner is a place in a triangle. */
     #place() {
-      const { corners, barycentrics } = this.result.mesh;
-      const { positions } = this.app.shape;
-      const place = this.lines.geometry.getAttribute('position');
-      for (let v = 0; v < place.count; ++v)
-        for (let k = 0; k < 3; ++k) {
-          let sum = 0;
-          for (let i = 0; i < 3; ++i) {
-            const c = 3 * corners[3 * v + i] + k;
-            sum += barycentrics[3 * v + i] * positions[c];
-          }
-          place.array[3 * v + k] = sum;
-        }
-      place.needsUpdate = true;
+      placeQuads(this.lines, this.result.mesh, this.app.shape.positions);
       this.app.view.draw();
     }
     sheet() {
@@ -353,7 +361,9 @@ export const tool = (kit) => {
           {},
           this.drawing
             ? 'Draw on the body: edges follow the stroke. Drag its dot, and the quads follow.'
-            : 'Covers the body with quads that follow its shape. A finer size takes longer.',
+            : this.placing
+              ? `Click on the body: ${this.placing} quads meet there. Drag the dot, and the quads follow.`
+              : 'Covers the body with quads that follow its shape. A finer size takes longer.',
         ),
         slider(
           'Size of a quad',
@@ -384,12 +394,30 @@ export const tool = (kit) => {
             'Draw strokes',
             () => {
               this.drawing = !this.drawing;
+              this.placing = 0;
               this.app.refresh();
             },
             { id: 'draw', 'aria-pressed': String(Boolean(this.drawing)), disabled },
           ),
           this.strokes.length > 0 &&
-            button('Remove strokes', () => this.#set([], 'remove all strokes'), { id: 'clear', disabled }),
+            button('Remove strokes', () => this.#set({ strokes: [] }, 'remove all strokes'), { id: 'clear', disabled }),
+        ),
+        make(
+          'div',
+          { class: 'row' },
+          ...[3, 5].map((quads) =>
+            button(
+              `Pole of ${quads}`,
+              () => {
+                this.placing = this.placing === quads ? 0 : quads;
+                this.drawing = false;
+                this.app.refresh();
+              },
+              { id: `pole-${quads}`, 'aria-pressed': String(this.placing === quads), disabled },
+            ),
+          ),
+          this.poles.length > 0 &&
+            button('Remove poles', () => this.#set({ poles: [] }, 'remove all poles'), { id: 'clear-poles', disabled }),
         ),
         make(
           'div',
