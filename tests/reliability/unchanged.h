@@ -100,6 +100,7 @@ struct Command {
   const char* name;
   std::uint32_t weight;
   hf_result (*call)(Subject& subject, Random& random);  // one call of the library
+  bool caches = false;  // a refused call may keep parts of its work for the next one, or drop those it replaced
 };
 
 class Subject {

@@ -144,8 +144,9 @@ struct Calls {
 
 const std::vector<Command>& Quads::commands() const {
   static const std::vector<Command> table = {
-      {"hf_quads_create", 6, Calls::make}, {"hf_quads_update", 6, Calls::update}, {"hf_flow_create", 3, Calls::flow},
-      {"hf_flow_trace", 8, Calls::trace},  {"hf_quads_get_mesh", 2, Calls::read},
+      {"hf_quads_create", 6, Calls::make},   {"hf_quads_update", 6, Calls::update, true},
+      {"hf_flow_create", 3, Calls::flow},    {"hf_flow_trace", 8, Calls::trace},
+      {"hf_quads_get_mesh", 2, Calls::read},
   };
   return table;
 }
