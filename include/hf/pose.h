@@ -90,8 +90,8 @@ typedef struct hf_handles_desc {
  * the region of the new handle keeps a part of its bend. restart ends this at once. HF_DEFORM_PAPER places the handle
  * only. On a higher layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower
  * layers hold the surface in place for the higher layers. out_handles: NULL, or uint32_t[handle_count]. Cost: one field
- * solve for the layer of the handles and for each higher layer. To keep the frame rate on large meshes, add the handles
- * to a clone in another thread, pose the old one meanwhile, then set the transforms of the clone and use it. No two
+ * solve for the layer of the handles and for each higher layer. On large meshes a frame may be late. To avoid that, add
+ * the handles to a clone in another thread and pose the old one meanwhile. Then set the transforms of the clone. No two
  * regions may overlap, on any layer; welded copies count as one vertex. Errors: HF_ERROR_OUT_OF_RANGE and
  * HF_ERROR_OVERLAP (index = position in region_vertices, or handle when given by points), HF_ERROR_INVALID_ARGUMENT
  * (isolated vertex, layer, in_place, regions and points at once), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE

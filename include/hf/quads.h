@@ -67,10 +67,10 @@ typedef struct hf_quads_info {
  * the quads lie on each side. Where surface and mirror image differ, by up to 0.05 box diagonals, the side of
  * the normal counts.
  *
- * A pole is an irregular vertex at a place that the user drags. It is made by guides: the function holds the crosses on
- * a ring around the place, an edge of the quads away, so that they make a quarter turn along it. Of 1,000 poles at
- * random places of 20 meshes 96 % are within an edge of the place. A pole of 5 quads brings poles of 3 with it, because
- * the indices of the crosses sum to four times the Euler characteristic.
+ * A pole is an irregular vertex at a place that the user drags. The function makes it by guides on a ring around the
+ * place, an edge of the quads away. The crosses on the ring make a quarter turn along it. 96 % of 1,000 poles at random
+ * places of 20 meshes are within an edge of the place. A pole of 5 quads brings poles of 3 with it, because the indices
+ * of the crosses sum to four times the Euler characteristic. On a torus or a knot a single pole of 5 is often lost.
  *
  * desc: NULL = HF_INIT. Sets *out_quads to NULL first. Cost: two factorisations of the mesh and O(n log n + faces);
  * a thousand singularities take minutes. Progress covers factorisations, relaxation and fitting; each can be cancelled.

@@ -204,12 +204,14 @@ constexpr double least_gradient = 1e-4;
 // ---- crossfade.cpp, pose.cpp ----
 
 // Way of a handle, in box diagonals, over which a surface that was kept in place goes over to the new pose. Shorter
-// ways move the surface more a frame beside the handle's own motion: at most 2 * 7e-3 / reach of it. Longer ones keep
-// handles off their targets for longer.
+// ways move it more a frame, longer ones keep handles off their targets for longer. In a drag of 0.005 a frame on four
+// meshes no vertex moves by more than 0.0056. Half: 0.0074, double: 0.0052.
 constexpr double crossfade_reach = 0.05;
-// Box diagonals that a turn of one radian counts: the lever arm of a limb.
+// Box diagonals that a turn of one radian counts: the lever arm of a limb. More lets go sooner in a turn. In turns of
+// 0.02 radians a frame no vertex moves by more than 0.0045. Half: 0.0040, double: 0.0076.
 constexpr double crossfade_turn = 0.25;
-// Iterations that settle the new pose before the difference is taken.
+// Iterations that settle the new pose before the difference is taken. Each takes as long as one of a frame. Half and
+// double change the moves above by at most 0.0009, on a human whose pose settles slowly.
 constexpr std::uint32_t crossfade_iterations = 20;
 
 // ---- groups.cpp ----

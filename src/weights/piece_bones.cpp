@@ -65,6 +65,12 @@ class Around {
   Vector<Index> hit_;
 };
 
+struct Entry {
+  Index island, bone, segment, place;
+};
+
+}  // namespace
+
 Vector<ItemBox> island_boxes(const Mesh& mesh, Memory& memory) {
   Vector<ItemBox> out(at(mesh.component_count()), &memory);
   Vector<std::uint8_t> seen(out.size(), 0, &memory);
@@ -75,12 +81,6 @@ Vector<ItemBox> island_boxes(const Mesh& mesh, Memory& memory) {
   }
   return out;
 }
-
-struct Entry {
-  Index island, bone, segment, place;
-};
-
-}  // namespace
 
 PieceBones find_piece_bones(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments,
                             Memory& memory, JobRunner& jobs) {

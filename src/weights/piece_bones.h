@@ -1,6 +1,7 @@
 // Which bones the islands of a surface hold: those whose places have the island all around.
 #pragma once
 #include "base/jobs.h"
+#include "mesh/box_tree.h"
 #include "weights/skeleton.h"
 
 namespace hf_inner {
@@ -22,6 +23,9 @@ struct PieceBones {
   Vector<Index> start;  // by island, one more
   Vector<HeldBone> bones;
 };
+
+// Returns the box of every island.
+Vector<ItemBox> island_boxes(const Mesh& mesh, Memory& memory);
 
 // Finds the bones of every island, by number.
 PieceBones find_piece_bones(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments,

@@ -5,6 +5,7 @@
 
 #include "mesh/nearest_triangle.h"
 #include "weights/constants.h"
+#include "weights/piece_bones.h"
 
 namespace hf_inner {
 namespace {
@@ -58,16 +59,6 @@ class Finder {
   static Vector<Index> groups(const Mesh& mesh, Memory& memory) {
     Vector<Index> out(&memory);
     for (Index t = 0; t < mesh.triangle_count(); ++t) out.push_back(mesh.component[at(mesh.triangle(t)[0])]);
-    return out;
-  }
-  static Vector<ItemBox> island_boxes(const Mesh& mesh, Memory& memory) {
-    Vector<ItemBox> out(at(mesh.component_count()), &memory);
-    Vector<std::uint8_t> seen(out.size(), 0, &memory);
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      const std::size_t c = at(mesh.component[at(v)]);
-      if (!seen[c]) out[c] = ItemBox::of(mesh.positions[at(v)]), seen[c] = 1;
-      out[c].take(mesh.positions[at(v)]);
-    }
     return out;
   }
   const Mesh& mesh_;
