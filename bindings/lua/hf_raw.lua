@@ -583,7 +583,7 @@ typedef struct hf_flow_lines {
 } hf_flow_lines;
 typedef struct hf_region_desc {
   uint32_t struct_size;
-  int32_t field_kind;
+  int32_t base;
   const float* positions;
   const double* positions_f64;
   uint32_t position_stride;
@@ -599,6 +599,8 @@ typedef struct hf_curve_desc {
   int32_t side;
   uint32_t seed_vertex;
   const uint32_t* corners;
+  int32_t kind;
+  uint32_t reserved;
 } hf_curve_desc;
 typedef struct hf_region_edit_desc {
   uint32_t struct_size;
@@ -944,6 +946,7 @@ hf_result hf_region_undo(hf_region region);
 hf_result hf_region_redo(hf_region region);
 hf_result hf_region_get_info(hf_region region, hf_region_info* out_info);
 hf_result hf_region_get_vertices(hf_region region, int32_t list, uint32_t capacity, uint32_t* out_vertices, uint32_t* out_count);
+hf_result hf_region_get_curve(hf_region region, uint32_t capacity, double* out_points, uint32_t* out_count);
 hf_result hf_region_morph(hf_region region, const hf_morph_desc* desc);
 hf_result hf_detail_create(hf_region source, hf_region target, const hf_detail_desc* desc, hf_detail* out_detail);
 void hf_detail_destroy(hf_detail detail);
@@ -1053,9 +1056,15 @@ local constants = { header_version = '0.1.0',
   HF_HANDLE_REASON_END = 2,
   HF_HANDLE_REASON_JOINT = 3,
   HF_HANDLE_REASON_MIDDLE = 4,
+  HF_BASE_DEFAULT = 0,
+  HF_BASE_MEMBRANE = 1,
+  HF_BASE_THIN_PLATE = 2,
+  HF_BASE_THIN_PLATE_GRAPH = 3,
   HF_SIDE_SMALLER = 0,
   HF_SIDE_LARGER = 1,
   HF_SIDE_SEED = 2,
+  HF_CURVE_STRAIGHT = 0,
+  HF_CURVE_EDGES = 1,
   HF_REGION_INSIDE = 0,
   HF_REGION_RIM = 1,
   HF_REGION_SITES = 2,

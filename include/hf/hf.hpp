@@ -609,15 +609,13 @@ class Flow {
 // two.
 class Region {
  public:
-  // positions: the surface of weight 0, or empty for the positions of the mesh. field_kind: HF_FIELD_HARMONIC makes a
-  // membrane, the other kinds make thin plates.
-  explicit Region(const Surface& surface, const std::vector<float>& positions = {},
-                  int32_t field_kind = HF_FIELD_HARMONIC)
+  // positions: the surface of weight 0, or empty for the positions of the mesh. base: HF_BASE_*.
+  explicit Region(const Surface& surface, const std::vector<float>& positions = {}, int32_t base = HF_BASE_DEFAULT)
       : vertices_(surface.vertex_count()) {
     if (!positions.empty() && positions.size() != size_t{vertices_} * 3)
       throw std::invalid_argument("positions: three numbers per vertex are needed");
     auto desc = make<hf_region_desc>();
-    desc.field_kind = field_kind;
+    desc.base = base;
     if (!positions.empty()) desc.positions = positions.data();
     hf_region raw = nullptr;
     check(hf_region_create(surface.get(), &desc, &raw));
@@ -630,11 +628,12 @@ class Region {
     return Region(raw, vertices_);
   }
   void edit(const hf_region_edit_desc& desc) { check(hf_region_edit(get(), &desc)); }
-  // Makes the region what a closed curve through these vertices encloses.
-  void enclose(const std::vector<uint32_t>& points, int32_t side = HF_SIDE_SMALLER, uint32_t seed_vertex = 0) {
+  // Makes the region what a closed curve through these vertices encloses. kind: HF_CURVE_*.
+  void enclose(const std::vector<uint32_t>& points, int32_t side = HF_SIDE_SMALLER, uint32_t seed_vertex = 0,
+               int32_t kind = HF_CURVE_STRAIGHT) {
     auto curve = make<hf_curve_desc>();
     curve.point_count = static_cast<uint32_t>(points.size()), curve.vertices = points.data();
-    curve.side = side, curve.seed_vertex = seed_vertex;
+    curve.side = side, curve.seed_vertex = seed_vertex, curve.kind = kind;
     auto desc = make<hf_region_edit_desc>();
     desc.curve = &curve;
     edit(desc);
@@ -670,6 +669,14 @@ class Region {
     std::vector<uint32_t> found(count);
     check(hf_region_get_vertices(get(), list, count, found.data(), &count));
     return found;
+  }
+  // Returns the corners of the last curve: x, y, z of each.
+  std::vector<double> curve() const {
+    uint32_t count = 0;
+    check(hf_region_get_curve(get(), 0, nullptr, &count));
+    std::vector<double> points(size_t{3} * count);
+    if (count > 0) check(hf_region_get_curve(get(), count, points.data(), &count));
+    return points;
   }
   // out_normals: null, or a vector that receives the normals.
   std::vector<float> morph(double weight, std::vector<float>* out_normals = nullptr) const {

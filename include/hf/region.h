@@ -2,9 +2,9 @@
  *
  * The smooth base of a region is a surface of the same connectivity without the detail (Xu, Zhang, Cohen-Or and Xiong
  * 2009). Each of its three coordinates is a field whose boundary values are the positions around the region. A harmonic
- * base is a membrane. A bi-harmonic base is a thin plate, which leaves the surrounding surface smoothly. A weight
- * morphs between surface and base. Only vertices around the region hold sites, so a region grows and shrinks without a
- * factorisation. The detail is the difference between the surface and the base. */
+ * base is a membrane. A bi-harmonic base is a thin plate, which leaves the surrounding surface smoothly; it is the
+ * default. A weight morphs between surface and base. Only vertices around the region hold sites, so a region grows and
+ * shrinks without a factorisation. The detail is the difference between the surface and the base. */
 #ifndef HF_REGION_H
 #define HF_REGION_H
 
@@ -19,9 +19,17 @@ extern "C" {
 /* A region of a surface and its smooth base. */
 typedef struct hf_region_object* hf_region;
 
+/* The smooth base of a region. */
+enum {
+  HF_BASE_DEFAULT = 0,         /* THIN_PLATE; MEMBRANE on surfaces whose bi-harmonic matrix does not factorise */
+  HF_BASE_MEMBRANE = 1,        /* harmonic: the least area for its rim, nearly; it meets the rim with a crease */
+  HF_BASE_THIN_PLATE = 2,      /* bi-harmonic (HF_FIELD_BIHARMONIC): leaves the surface around it without a crease */
+  HF_BASE_THIN_PLATE_GRAPH = 3 /* the paper's bi-harmonic field (HF_FIELD_BIHARMONIC_GRAPH) */
+};
+
 typedef struct hf_region_desc {
   uint32_t struct_size;
-  int32_t field_kind;     /* HF_FIELD_*: HARMONIC a membrane, the others thin plates; a missing factor is made now */
+  int32_t base;           /* HF_BASE_*. If the surface has no factor for it yet, it is made now */
   const float* positions; /* [vertex_count][3] the surface of weight 0, bit for bit: the positions of the mesh or any */
   const double* positions_f64; /* pose of them. Both NULL: the mesh's own to 1e-15 of the box. Copied */
   uint32_t position_stride;    /* bytes between vertices; 0 = packed */
@@ -30,8 +38,9 @@ typedef struct hf_region_desc {
 } hf_region_desc;
 
 /* Creates a region without vertices. desc: NULL for defaults. Sets *out_region to NULL first. Cost: O(n), and the
- * factor that may be missing. Errors: HF_ERROR_INVALID_ARGUMENT (field_kind, both positions set), HF_ERROR_NON_FINITE
- * (index = vertex), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+ * factor that may be missing. hf_region_info::field_kind says which base it has. Errors: HF_ERROR_INVALID_ARGUMENT
+ * (base, both positions set), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_NOT_POSITIVE_DEFINITE (a thin plate that
+ * was asked for), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_region_create(hf_surface surface, const hf_region_desc* desc, hf_region* out_region);
 
 /* Copies a region, without the undo stack. The copy shares the factor. Sets *out_region to NULL first. Thread safety:
@@ -41,26 +50,36 @@ HF_API hf_result hf_region_clone(hf_region region, hf_region* out_region);
 /* Destroys a region. Ignores NULL and destroyed handles. Since 0.1. */
 HF_API void hf_region_destroy(hf_region region);
 
-/* A closed curve cuts the surface into pieces. The side says which of the pieces becomes the region. */
+/* A closed curve cuts the surface in two. The side says which part becomes the region. Where a curve along edges
+ * touches itself there are more parts: SMALLER takes all but the largest, SEED the part of its vertex. */
 enum {
-  HF_SIDE_SMALLER = 0, /* all but the piece of largest area */
-  HF_SIDE_LARGER = 1,  /* the piece of largest area */
-  HF_SIDE_SEED = 2     /* the piece that seed_vertex lies in */
+  HF_SIDE_SMALLER = 0, /* the side of smaller area */
+  HF_SIDE_LARGER = 1,  /* the side of larger area */
+  HF_SIDE_SEED = 2     /* the side that seed_vertex lies in */
 };
 
-/* Describes a closed curve through at least 3 points. Shortest paths along edges join each point to the next and the
- * last to the first. The vertices on the curve are the rim of the region; they are not part of the region. A whole
- * border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times. */
+/* How the points of a curve are joined: each to the next, and the last to the first. */
+enum {
+  HF_CURVE_STRAIGHT = 0, /* by shortest paths along the surface, through triangles, exact up to rounding */
+  HF_CURVE_EDGES = 1     /* by shortest paths along edges; points in triangles stand for their nearest corner */
+};
+
+/* Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are the
+ * region. The rim is the vertices next to them, on or beyond the curve: it follows the curve within an edge, and where
+ * the curve runs along edges the rim is the curve. A whole border of the surface is a curve too; it has only one side.
+ * The curve passes a vertex at most 8 times. */
 typedef struct hf_curve_desc {
   uint32_t struct_size;
   uint32_t point_count;       /* 3 to the number of vertices of the mesh */
   const uint32_t* vertices;   /* [point_count] vertices as given, or NULL */
   const uint32_t* triangles;  /* [point_count] triangles (or faces of three corners) as given, or NULL */
   const double* barycentrics; /* [point_count][3] with triangles or corners: weights of the corners, >= 0, of sum 1
-                                 within 1e-6; the curve passes through the corner of largest weight */
+                                 within 1e-6 */
   int32_t side;               /* HF_SIDE_* */
   uint32_t seed_vertex;       /* with HF_SIDE_SEED */
   const uint32_t* corners;    /* [point_count][3] three vertices of one face, as hf_hit has them, or NULL */
+  int32_t kind;               /* HF_CURVE_* */
+  uint32_t reserved;          /* 0 */
 } hf_curve_desc;
 
 /* A change of a region. The parts are applied in the order curve, rings, remove, add. A part that is 0 or NULL is
@@ -82,10 +101,12 @@ typedef struct hf_region_edit_desc {
  * vertices need. A region may have several pieces, in several components. Progress covers curve, sites and base; the
  * call can be cancelled between them. Errors: HF_ERROR_EMPTY (fewer than 3 points, index = how many; no vertex would be
  * left), HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (lists longer than the mesh has vertices),
- * HF_ERROR_CANCELLED, and HF_ERROR_INVALID_ARGUMENT: side, weights, isolated vertex, points of different components; a
- * curve that crosses itself (index = the point before the crossing; it may touch itself); a curve that does not
- * separate the surface; a seed on the curve or in another component (index = the seed); a component without a rim
- * (index = a vertex of it). Thread safety: changes `region`. Since 0.1. */
+ * HF_ERROR_CANCELLED, and HF_ERROR_INVALID_ARGUMENT: side, kind, weights, isolated vertex, points of different
+ * components; corners of no triangle (index = the point); a curve that crosses itself (index = the point before the
+ * crossing; it may touch itself); a STRAIGHT curve through a vertex whose triangles are not one fan (index = the point
+ * before it); a curve that does not separate the surface or goes round no vertex; a seed on the curve or in another
+ * component (index = the seed); a component without a rim (index = a vertex of it). Thread safety: changes `region`.
+ * Since 0.1. */
 HF_API hf_result hf_region_edit(hf_region region, const hf_region_edit_desc* edit);
 
 /* Records the region for undo. The library keeps the last 256 records; they share memory. Thread safety: changes
@@ -130,6 +151,12 @@ enum {
 HF_API hf_result hf_region_get_vertices(hf_region region, int32_t list, uint32_t capacity, uint32_t* out_vertices,
                                         uint32_t* out_count);
 
+/* Writes the corners of the region's last curve, to draw it: double[capacity][3], in order, in the unit and frame of
+ * the positions in hf_region_desc. The last corner is joined to the first. Rings, added and removed vertices leave it
+ * as it is. out_points: NULL, or room for `capacity` points. out_count: NULL, or receives the number of corners, 0
+ * without a curve. Thread safety: reads `region`. Since 0.1. */
+HF_API hf_result hf_region_get_curve(hf_region region, uint32_t capacity, double* out_points, uint32_t* out_count);
+
 /* Gives hf_region_morph and hf_detail_morph their weight and outputs. Set at least one output. */
 typedef struct hf_morph_desc {
   uint32_t struct_size;
@@ -156,8 +183,8 @@ typedef struct hf_detail_object* hf_detail;
 
 typedef struct hf_detail_desc {
   uint32_t struct_size;
-  uint32_t pair_count;             /* corresponding points of the two rims, in order along both; 0 = the first point of
-                                      each region's curve, or without a curve its rim vertex of lowest number */
+  uint32_t pair_count;             /* corresponding points of the two rims, in order along both; 0 = the rim vertex
+                                      nearest to the first point of each curve, without a curve the lowest one */
   const uint32_t* source_vertices; /* [pair_count] rim vertices of the source, as given */
   const uint32_t* target_vertices; /* [pair_count] rim vertices of the target, as given */
   double scale;                    /* of the detail, > 0; 0 = square root of target base area over source base area */

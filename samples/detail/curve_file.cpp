@@ -17,7 +17,7 @@ uint32_t nearest_vertex(const SurfaceMesh& mesh, const std::vector<double>& plac
 
 CurveFile read_curve_file(const std::filesystem::path& file, const SurfaceMesh& mesh) {
   const JsonFile json(file);
-  json.root().expect_only({"points", "side", "seed", "grow"});
+  json.root().expect_only({"points", "side", "seed", "grow", "edges"});
   const JsonReader list = json.root().at("points");
   CurveFile curve;
   for (size_t i = 0; i < list.size(); ++i) {
@@ -44,6 +44,7 @@ CurveFile read_curve_file(const std::filesystem::path& file, const SurfaceMesh& 
     curve.seed =
         static_cast<uint32_t>(json.root().at("seed").integer(0, static_cast<int64_t>(mesh.positions.size()) - 1));
   }
+  curve.edges = json.root().boolean_or("edges", false);
   curve.grow = static_cast<int32_t>(json.root().integer_or("grow", -10000, 10000, 0));
   return curve;
 }
@@ -54,6 +55,7 @@ void enclose(hf::Region& region, const CurveFile& curve, int32_t grow) {
   if (!curve.vertices.empty()) desc.vertices = curve.vertices.data();
   if (!curve.triangles.empty()) desc.triangles = curve.triangles.data(), desc.barycentrics = curve.barycentrics.data();
   desc.side = curve.side, desc.seed_vertex = curve.seed;
+  desc.kind = curve.edges ? HF_CURVE_EDGES : HF_CURVE_STRAIGHT;
   auto edit = hf::make<hf_region_edit_desc>();
   edit.curve = &desc, edit.ring_count = curve.grow + grow;
   region.edit(edit);

@@ -15,13 +15,14 @@ namespace samples {
 namespace {
 
 const char* const usage =
-    "usage: hf_detail MESH --curve C.json --weight W [--thin-plate] [--grow N] [--onto MESH2 --onto-curve C2.json]\n"
+    "usage: hf_detail MESH --curve C.json --weight W [--membrane] [--grow N] [--onto MESH2 --onto-curve C2.json]\n"
     "                 [-o OUT] [--sheet FILE.png]\n"
     "  Morphs a region of a .obj, .off, .ply, .gltf or .glb surface towards its smooth base surface.\n"
     "  --curve FILE       closed curve round the region: {\"points\": [{\"near\": [x, y, z]}, {\"vertex\": 12}, ...],\n"
-    "                     \"side\": \"smaller\" or \"larger\", or \"seed\": vertex inside, \"grow\": rings}\n"
+    "                     \"side\": \"smaller\" or \"larger\", or \"seed\": vertex inside, \"grow\": rings,\n"
+    "                     \"edges\": true joins the points along edges, else straight through triangles}\n"
     "  --weight W         0 the surface, 1 its base; between, beyond and below 0 as well (1)\n"
-    "  --thin-plate       the base leaves its rim smoothly (bi-harmonic); else it is a membrane\n"
+    "  --membrane         the base has nearly the least area; else it is a thin plate, which leaves its rim smoothly\n"
     "  --grow N           then grows the region by N rings of vertices, below 0 shrinks it\n"
     "  --onto MESH2       carries the detail to the region of this surface that --onto-curve encloses: its weight W\n"
     "                     is 1 as it was, 0 none, 2 twice as high; points of both curves correspond\n"
@@ -34,7 +35,7 @@ struct Command {
   std::filesystem::path mesh, curve, onto, onto_curve, out, sheet;
   double weight = 1;
   int32_t grow = 0;
-  bool thin_plate = false, help = false;
+  bool thin_plate = true, help = false;
 };
 
 Command parse(Words words) {
@@ -46,8 +47,8 @@ Command parse(Words words) {
       out.curve = words.file();
     } else if (words.is("--weight")) {
       out.weight = words.number(-1000, 1000);
-    } else if (words.is("--thin-plate")) {
-      out.thin_plate = true;
+    } else if (words.is("--membrane")) {
+      out.thin_plate = false;
     } else if (words.is("--grow")) {
       out.grow = words.integer(-10000, 10000);
     } else if (words.is("--onto")) {
@@ -88,7 +89,7 @@ struct Subject {
         positions(float_positions(mesh.positions)),
         curve(read_curve_file(curve_name, mesh)),
         surface(make_surface(thin_plate)),
-        region(*surface, positions, thin_plate ? HF_FIELD_BIHARMONIC : HF_FIELD_HARMONIC) {
+        region(*surface, positions, thin_plate ? HF_BASE_THIN_PLATE : HF_BASE_MEMBRANE) {
     const auto begin = std::chrono::steady_clock::now();
     enclose(region, curve, 0);
     edit_seconds = seconds_of(begin);

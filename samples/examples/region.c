@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   hf_morph_desc morph = HF_INIT(hf_morph_desc);
   morph.positions = out;
 
-  morph.weight = 1; /* the smooth base: a membrane between the rims */
+  morph.weight = 1; /* the smooth base: a thin plate that leaves its rims smoothly */
   ok(hf_region_morph(region, &morph));
   mesh_save(&mesh, out, "region_smooth.obj");
   morph.weight = -1; /* detail twice as strong */
@@ -45,13 +45,13 @@ int main(int argc, char** argv) {
   printf("%u vertices, rim of %u, %u factorisations\n", info.vertex_count, info.rim_count, info.factorisation_count);
   ok(hf_region_undo(region));
 
-  /* a thin plate leaves its rim smoothly: the bi-harmonic factor is made here, once */
-  hf_region_desc thin = HF_INIT(hf_region_desc);
-  hf_region plate;
-  thin.field_kind = HF_FIELD_BIHARMONIC;
-  ok(hf_region_create(surface, &thin, &plate));
+  /* a membrane has the least area between its rims and meets them with a crease */
+  hf_region_desc desc = HF_INIT(hf_region_desc);
+  hf_region membrane;
+  desc.base = HF_BASE_MEMBRANE;
+  ok(hf_region_create(surface, &desc, &membrane));
 
   free(out), mesh_free(&mesh);
-  hf_region_destroy(plate), hf_region_destroy(region), hf_surface_destroy(surface);
+  hf_region_destroy(membrane), hf_region_destroy(region), hf_surface_destroy(surface);
   return 0;
 }

@@ -17,6 +17,17 @@ hf_result change(const char* function, hf_region handle, Work&& work) {
   });
 }
 
+// Returns the core of the base. A thin plate that was not asked for by name gives way to a membrane where its matrix
+// does not factorise.
+std::shared_ptr<const Core> base_core(const Surface& surface, const RegionOptions& options) {
+  try {
+    return surface.core(options.field_kind);
+  } catch (const Error& error) {
+    if (!options.may_be_membrane || error.code() != HF_ERROR_NOT_POSITIVE_DEFINITE) throw;
+  }
+  return surface.core(FieldKind::harmonic);
+}
+
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -31,7 +42,7 @@ hf_result hf_region_create(hf_surface handle, const hf_region_desc* given, hf_re
     const hf_region_desc desc = read_optional(given, "desc");
     const RegionOptions options = read_region_options(desc);
     return with_progress(desc.progress, [&] {
-      const auto core = surface->surface.core(options.field_kind);
+      const auto core = base_core(surface->surface, options);
       return make_owner_in<RegionObject>(
           core->memory, make_owner_in<RegionSurface>(core->memory, core, positions_of(*core, options.positions)));
     });
@@ -108,6 +119,19 @@ hf_result hf_region_get_vertices(hf_region handle, int32_t list, uint32_t capaci
     const Mesh& mesh = object->region.core().mesh;
     for (std::size_t i = 0; i < vertices.size(); ++i) out_vertices[i] = given_vertex(mesh, vertices[i]);
     std::sort(out_vertices, out_vertices + vertices.size());
+  });
+}
+
+hf_result hf_region_get_curve(hf_region handle, uint32_t capacity, double* out_points, uint32_t* out_count) {
+  return guarded("hf_region_get_curve", [&] {
+    const auto object = get<RegionObject>(handle, "region");
+    require_either(out_points, out_count, "out_points and out_count");
+    const Reading reading(*object);
+    const Vector<Vec3>* const curve = object->region.state()->curve.get();
+    const std::size_t count = curve ? curve->size() : 0;
+    write_count(out_count, count);
+    check_capacity(out_points, capacity, count, "capacity");
+    for (std::size_t i = 0; out_points && i < count; ++i) put((*curve)[i], out_points + 3 * i);
   });
 }
 

@@ -12,11 +12,17 @@ namespace hf_inner {
 // sixteenth, 0.6 to 0.7 at an eighth, the same at a quarter, and 0.9 to 2.7 at a half.
 constexpr std::size_t whole_sweep_share = 4;
 
-// --- curve_crossing.cpp ---
+// --- curve_crossing.cpp, curve_sides.cpp ---
 
 // A curve that passes one vertex more often than this is refused. It bounds the pairs of passes that are compared. A
 // rim drawn by hand passes a vertex twice at most.
 constexpr std::int32_t most_visits = 8;
+
+// --- curve_sides.cpp ---
+
+// Where a curve crosses itself, at most this many pairs of lines are compared to name the place. It bounds the time of
+// a refusal to 0.1 s. A line crosses a triangle with few others, so curves drawn by hand need a thousand.
+constexpr std::size_t most_compared = std::size_t{1} << 20;
 
 // --- disc_map.cpp ---
 

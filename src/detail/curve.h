@@ -7,21 +7,10 @@
 #include <cstdint>
 
 #include "engine/core.h"
-#include "mesh/places.h"
 
 namespace hf_inner {
 
 enum class CurveSide : std::int32_t { smaller = 0, larger = 1, seed = 2 };
-
-// Returns the corner of a given triangle that lies nearest to a point in it: the one with the largest barycentric
-// weight. Throws HF_ERROR_OUT_OF_RANGE for a triangle that does not exist, HF_ERROR_INVALID_ARGUMENT for a collapsed
-// triangle, a negative weight or a sum other than 1, and HF_ERROR_NON_FINITE. The error's index is `position`.
-std::int32_t nearest_corner(const Mesh& mesh, std::uint32_t triangle, const double* barycentrics,
-                            std::uint32_t position);
-std::int32_t nearest_corner(const SurfacePlace& place) noexcept;
-
-// Throws HF_ERROR_INVALID_ARGUMENT if a point lies in another component than the first point; index: its position.
-void require_one_component(const Mesh& mesh, Span<const std::int32_t> points);
 
 // A closed curve. vertices: in order, without repeats in a row. point_of[i]: the point whose path vertices[i] lies on,
 // or that it is.
@@ -32,6 +21,13 @@ struct ClosedCurve {
 
 // points: inner vertices of one component.
 ClosedCurve closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory);
+
+// Tells whether the curve consists of whole borders of the surface. on: by inner vertex, whether it is on the curve.
+bool along_borders(const Core& core, Span<const std::int32_t> curve, Span<const std::uint8_t> on);
+
+// Throws HF_ERROR_INVALID_ARGUMENT if the seed is on the curve or elsewhere: in another component. The index is the
+// seed as the caller numbered it.
+void check_seed(const Core& core, std::int32_t seed, bool on, bool elsewhere);
 
 // Returns the vertices of one side of the curve in ascending order. `seed` is an inner vertex of the wanted side; only
 // CurveSide::seed uses it. Throws HF_ERROR_INVALID_ARGUMENT when the curve does not separate the surface. It throws the

@@ -1,5 +1,7 @@
 #include "detail/intake.h"
 
+#include <algorithm>
+
 #include "base/arguments.h"
 #include "engine/surface_intake.h"
 #include "mesh/vertex_lists.h"
@@ -13,10 +15,14 @@ constexpr std::uint32_t least_points = 3;
 }  // namespace
 
 RegionOptions read_region_options(const hf_region_desc& desc) {
-  const FieldKind kind = read_field_kind(desc.field_kind);
+  check_choice(desc.base, 4, "base");
   require_zero(desc.reserved);
   check_one(desc.positions, desc.positions_f64, "positions");
-  return {kind, rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride")};
+  const FieldKind kind = desc.base == HF_BASE_MEMBRANE           ? FieldKind::harmonic
+                         : desc.base == HF_BASE_THIN_PLATE_GRAPH ? FieldKind::biharmonic_graph
+                                                                 : FieldKind::biharmonic;
+  return {kind, desc.base == HF_BASE_DEFAULT,
+          rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride")};
 }
 
 double read_morph_weight(const hf_morph_desc& desc) {
@@ -28,7 +34,8 @@ double read_morph_weight(const hf_morph_desc& desc) {
 void read_curve(const Core& core, const hf_curve_desc& curve, RegionEditInput& input) {
   const Mesh& mesh = core.geometry->unlinked().mesh;
   RegionEdit& edit = input.edit;
-  check_choice(curve.side, 3, "side");
+  check_choice(curve.side, 3, "side"), check_choice(curve.kind, 2, "kind");
+  require_zero(curve.reserved);
   if (curve.vertices && curve.barycentrics)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and barycentrics are both set; set one");
   check_places(curve.vertices, curve.triangles, curve.corners, curve.barycentrics);
@@ -36,15 +43,26 @@ void read_curve(const Core& core, const hf_curve_desc& curve, RegionEditInput& i
     fail(HF_ERROR_EMPTY, curve.point_count, "a closed curve takes %u points or more; %u are given", least_points,
          curve.point_count);
   check_vertex_count(mesh, curve.point_count, "point_count");
+  edit.kind = static_cast<CurveKind>(curve.kind);
   for (std::uint32_t i = 0; i < curve.point_count; ++i) {
     if (curve.vertices) {
-      input.points.push_back(usable_vertex(mesh, curve.vertices[i], i, "vertices"));
+      input.points.push_back(at_vertex(usable_vertex(mesh, curve.vertices[i], i, "vertices")));
       continue;
     }
     const std::size_t first = std::size_t{3} * i;
     const double* const weights = curve.barycentrics + first;
-    input.points.push_back(nearest_corner(curve.triangles ? place_in_triangle(mesh, curve.triangles[i], weights, i)
-                                                          : place_between(mesh, curve.corners + first, weights, i)));
+    const SurfacePlace place = curve.triangles ? place_in_triangle(mesh, curve.triangles[i], weights, i)
+                                               : place_between(mesh, curve.corners + first, weights, i);
+    CurvePoint point = at_vertex(Mesh::none);
+    std::copy_n(place.vertex, 3, point.corner), std::copy_n(place.weight, 3, point.weight);
+    const double sum = point.weight[0] + point.weight[1] + point.weight[2];
+    for (double& w : point.weight) w /= sum;
+    if (edit.kind == CurveKind::straight && !is_on_triangle(mesh, core.geometry->unlinked().topology, point))
+      fail(HF_ERROR_INVALID_ARGUMENT, i,
+           "point %u lies between corners of no triangle; take one of them, or join the points along edges "
+           "(HF_CURVE_EDGES)",
+           i);
+    input.points.push_back(point);
   }
   require_one_component(mesh, input.points);
   edit.curve = input.points, edit.side = static_cast<CurveSide>(curve.side);

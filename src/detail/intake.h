@@ -8,7 +8,8 @@ namespace hf_inner {
 
 struct RegionOptions {
   FieldKind field_kind;
-  ConstRows positions;  // null: those of the surface
+  bool may_be_membrane;  // where the matrix of field_kind does not factorise
+  ConstRows positions;   // null: those of the surface
 };
 // Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_DESC or HF_ERROR_TOO_SMALL (stride).
 RegionOptions read_region_options(const hf_region_desc& desc);
@@ -21,7 +22,8 @@ struct RegionEditInput {
   explicit RegionEditInput(Memory* memory) : points(memory), remove(memory), add(memory) {}
   RegionEditInput(const RegionEditInput&) = delete;
   RegionEditInput& operator=(const RegionEditInput&) = delete;
-  Vector<std::int32_t> points, remove, add;
+  Vector<CurvePoint> points;
+  Vector<std::int32_t> remove, add;
   RegionEdit edit;
 };
 // Read the curve, and the other parts of the edit. Throw as hf_region_edit says.

@@ -8,17 +8,43 @@
 #include "base/number_pool.h"
 #include "detail/constants.h"
 #include "detail/curve_crossing.h"
+#include "detail/curve_sides.h"
 #include "detail/morph.h"
 
 namespace hf_inner {
 namespace {
 
-Vector<Index> edited(const Core& core, Vector<Index>&& inside, const RegionEdit& edit, Memory& memory) {
-  if (!edit.curve.empty()) {
-    const ClosedCurve curve = closed_curve(core, edit.curve, memory);
+// A closed curve and the vertices on one side of it.
+struct Enclosed {
+  explicit Enclosed(Memory& memory) : inside(&memory), line(&memory) {}
+  Vector<Index> inside;
+  Vector<Vec3> line;  // corners of the curve, in the caller's unit
+};
+
+Enclosed enclosed(const RegionSurface& surface, const RegionEdit& edit, Memory& memory) {
+  const Core& core = *surface.core;
+  Enclosed result(memory);
+  if (edit.kind == CurveKind::edges) {
+    Vector<Index> points(&memory);
+    for (const CurvePoint& point : edit.curve) points.push_back(nearest_corner(point));
+    const ClosedCurve curve = closed_curve(core, points, memory);
     require_no_crossing(core, curve, memory);
-    inside = curve_side(core, curve.vertices, edit.side, edit.seed, memory);
+    result.inside = curve_side(core, curve.vertices, edit.side, edit.seed, memory);
+    for (const Index v : curve.vertices) result.line.push_back(surface.position(v));
+    return result;
   }
+  const SurfaceCurve curve = surface_curve(core, edit.curve, memory);
+  result.inside = surface_curve_side(core, edit.curve, curve, edit.side, edit.seed, memory);
+  for (std::size_t i = 0; i < curve.place.size(); ++i) {
+    const PathPoint& place = curve.place[i];
+    result.line.push_back(place.a == Mesh::none
+                              ? surface.position(edit.curve[at(curve.point_of[i])])
+                              : (1 - place.t) * surface.position(place.a) + place.t * surface.position(place.b));
+  }
+  return result;
+}
+
+Vector<Index> edited(const Core& core, Vector<Index>&& inside, const RegionEdit& edit, Memory& memory) {
   if (edit.rings != 0) inside = grown(core, inside, edit.rings, memory);
   if (edit.remove.empty() && edit.add.empty()) return std::move(inside);
   Vector<std::uint8_t> in(at(core.size()), 0, &memory);
@@ -29,6 +55,13 @@ Vector<Index> edited(const Core& core, Vector<Index>&& inside, const RegionEdit&
   for (Index v = 0; v < core.size(); ++v)
     if (in[at(v)]) inside.push_back(v);
   return std::move(inside);
+}
+
+// Returns the vertex of a list that lies nearest to a point.
+Index nearest_of(const RegionSurface& surface, Span<const Index> vertices, Vec3 point) {
+  return *std::min_element(vertices.begin(), vertices.end(), [&](Index a, Index b) {
+    return norm(surface.position(a) - point) < norm(surface.position(b) - point);
+  });
 }
 
 // Clones the engine (solver) of `from`, and changes the clone's sites to those of `to`.
@@ -109,6 +142,14 @@ Vector<Vec3> positions_of(const Core& core, const ConstRows& given) {
   return positions;
 }
 
+Vec3 RegionSurface::position(const CurvePoint& point) const noexcept {
+  Vec3 sum;
+  for (int k = 0; k < 3; ++k) {
+    if (point.weight[k] > 0) sum = sum + point.weight[k] * position(point.corner[k]);
+  }
+  return sum;
+}
+
 RegionSurface::RegionSurface(std::shared_ptr<const Core> shared, Vector<Vec3>&& given)
     : core(std::move(shared)),
       positions(std::move(given), core->memory.get()),
@@ -149,7 +190,10 @@ void Region::edit(const RegionEdit& edit) {
   constexpr float shaped = 0.2f, placed = 0.7f;  // reported progress, by the usual share of time
   report(0.0f);
   const RegionShape& before = *state_->shape;
-  const Vector<Index> inside = edited(core(), Vector<Index>(before.inside, &memory()), edit, memory());
+  Enclosed enclosing(memory());
+  if (!edit.curve.empty()) enclosing = enclosed(*surface_, edit, memory());
+  Vector<Index>& begun = edit.curve.empty() ? enclosing.inside = before.inside : enclosing.inside;
+  const Vector<Index> inside = edited(core(), std::move(begun), edit, memory());
   if (inside.empty())
     fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the region would have no vertex; take a wider curve or fewer rings away");
   const auto shape = make_shared_in<RegionShape>(memory(), core(), inside, memory());
@@ -159,7 +203,11 @@ void Region::edit(const RegionEdit& edit) {
   report(placed);
   solve_base(*surface_, *next, memory());
   next->base_area = morphed_area(*surface_, *next, 1.0, memory());
-  next->first = edit.curve.empty() ? state_->first : edit.curve[0];
+  next->first = state_->first, next->curve = state_->curve;
+  if (!edit.curve.empty()) {
+    next->first = nearest_of(*surface_, shape->rim, surface_->position(edit.curve[0]));
+    next->curve = make_shared_in<Vector<Vec3>>(memory(), std::move(enclosing.line));
+  }
   report(1.0f);
   history_.clear_redo();
   state_ = next;

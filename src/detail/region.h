@@ -20,6 +20,7 @@
 #include "base/progress.h"
 #include "detail/curve.h"
 #include "detail/region_shape.h"
+#include "detail/surface_curve.h"
 #include "engine/site_solver.h"
 
 namespace hf_inner {
@@ -30,6 +31,7 @@ struct RegionSurface {
   Vec3 position(std::int32_t inner) const noexcept {
     return positions[static_cast<std::size_t>(core->mesh.given_of_inner[static_cast<std::size_t>(inner)])];
   }
+  Vec3 position(const CurvePoint& point) const noexcept;
   // Returns the position centred and scaled. Lengths, areas and normals use it, because squares in the caller's unit
   // may overflow.
   Vec3 scaled_position(std::int32_t inner) const noexcept { return core->mesh.to_inner(position(inner)); }
@@ -42,8 +44,12 @@ struct RegionSurface {
 // HF_ERROR_NON_FINITE; index: the vertex as given.
 Vector<Vec3> positions_of(const Core& core, const ConstRows& given);
 
+// How the points of a curve are joined.
+enum class CurveKind : std::int32_t { straight = 0, edges = 1 };
+
 struct RegionEdit {
-  Span<const std::int32_t> curve;  // inner vertices of the curve's points; empty: no curve
+  Span<const CurvePoint> curve;  // the curve's points; empty: no curve
+  CurveKind kind = CurveKind::straight;
   CurveSide side = CurveSide::smaller;
   std::int32_t seed = -1;
   std::int32_t rings = 0;
@@ -58,7 +64,8 @@ struct RegionState {
   Vector<Vec3> base;          // positions of the smooth base surface by vertex inside, in the caller's unit.
   // By vertex around the region: scaled sum of the cross products of its triangles outside the region.
   Vector<Vec3> outer_normal;
-  std::int32_t first = -1;  // vertex that matches on carried detail: the curve's first point; -1: none.
+  std::int32_t first = -1;  // vertex that matches on carried detail: of the rim, nearest to the curve's first point
+  std::shared_ptr<const Vector<Vec3>> curve;          // the last curve, in the caller's unit; null: none
   std::uint32_t inserted = 0, removed = 0, kept = 0;  // counts of sites in the last edit.
   bool whole_sweep = false;
   double area = 0, base_area = 0;  // of the region and of its base surface, on the scaled mesh.

@@ -64,6 +64,10 @@ static hf_result region_get_info(void* h) {
 static hf_result region_get_vertices(void* h) {
   return hf_region_get_vertices(h, HF_REGION_INSIDE, TUBE_VERTICES, numbers, NULL);
 }
+static hf_result region_get_curve(void* h) {
+  uint32_t count = 0;
+  return hf_region_get_curve(h, 0, NULL, &count);
+}
 static hf_result region_undo(void* h) { return hf_region_undo(h); }
 static hf_result region_redo(void* h) { return hf_region_redo(h); }
 static hf_result detail_morph(void* h) {
@@ -84,12 +88,12 @@ static void quads_flow_and_regions_refuse_every_handle_that_is_not_their_own(voi
     hf_result (*call)(void*);
     void* own;
   } functions[] = {
-      {"hf_quads_create", quads_create, surface},      {"hf_quads_update", quads_update, quads},
-      {"hf_quads_get_info", quads_get_info, quads},    {"hf_quads_get_mesh", quads_get_mesh, quads},
-      {"hf_flow_create", flow_create, surface},        {"hf_flow_trace", flow_trace, flow},
-      {"hf_region_get_info", region_get_info, region}, {"hf_region_get_vertices", region_get_vertices, region},
-      {"hf_region_undo", region_undo, region},         {"hf_region_redo", region_redo, region},
-      {"hf_detail_morph", detail_morph, &stale}};
+      {"hf_quads_create", quads_create, surface},        {"hf_quads_update", quads_update, quads},
+      {"hf_quads_get_info", quads_get_info, quads},      {"hf_quads_get_mesh", quads_get_mesh, quads},
+      {"hf_flow_create", flow_create, surface},          {"hf_flow_trace", flow_trace, flow},
+      {"hf_region_get_info", region_get_info, region},   {"hf_region_get_vertices", region_get_vertices, region},
+      {"hf_region_get_curve", region_get_curve, region}, {"hf_region_undo", region_undo, region},
+      {"hf_region_redo", region_redo, region},           {"hf_detail_morph", detail_morph, &stale}};
   void* const bad[] = {
       NULL, (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, stale, surface, solver, quads, flow, region};
   for (size_t f = 0; f < COUNT_OF(functions); ++f) {

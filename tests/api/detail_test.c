@@ -27,9 +27,9 @@ static hf_region_info info_of(hf_region region) {
 }
 
 /* A region of 8 x 8 vertices on a bumpy sheet. */
-static hf_region sheet_region(hf_surface surface, const Surface* sheet, int32_t field_kind) {
+static hf_region sheet_region(hf_surface surface, const Surface* sheet, int32_t base) {
   hf_region_desc desc = HF_INIT(hf_region_desc);
-  desc.field_kind = field_kind;
+  desc.base = base;
   desc.positions = sheet->positions;
   hf_region region = NULL;
   assert_ok(hf_region_create(surface, &desc, &region));
@@ -52,7 +52,7 @@ static void weight_0_gives_the_bits_and_1_the_base(void** state) {
   sheet.positions[3 * at(7, 7)] = -0.0f;  /* p + 0 (base - p) would be +0 */
   sheet.positions[3 * at(0, 0)] = 1e-30f;
   const hf_surface surface = surface_on(&sheet);
-  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
+  const hf_region region = sheet_region(surface, &sheet, HF_BASE_MEMBRANE);
   float p[3 * COUNT], q[3 * COUNT], normals[3 * COUNT];
   double base[3 * COUNT], half[3 * COUNT], other[3 * COUNT];
   morph_to(region, 0, p, NULL, NULL);
@@ -101,7 +101,7 @@ static void edits_keep_the_factor_and_undo_brings_back_the_bits(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
   const hf_surface surface = surface_on(&sheet);
-  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
+  const hf_region region = sheet_region(surface, &sheet, HF_BASE_MEMBRANE);
   hf_region copy = NULL;
   double first[3 * COUNT], now[3 * COUNT];
   morph_to(region, 1, NULL, first, NULL);
@@ -140,7 +140,7 @@ static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
   const hf_surface surface = surface_on(&sheet);
-  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
+  const hf_region region = sheet_region(surface, &sheet, HF_BASE_MEMBRANE);
   uint32_t triangles[4];
   double weights[12];
   for (uint32_t k = 0; k < 4; ++k) {
@@ -154,10 +154,10 @@ static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
   }
   hf_region other = NULL;
   hf_region_desc desc = HF_INIT(hf_region_desc);
-  desc.positions = sheet.positions;
+  desc.positions = sheet.positions, desc.base = HF_BASE_MEMBRANE;
   assert_ok(hf_region_create(surface, &desc, &other));
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
-  curve.point_count = 4, curve.triangles = triangles, curve.barycentrics = weights;
+  curve.point_count = 4, curve.triangles = triangles, curve.barycentrics = weights, curve.kind = HF_CURVE_EDGES;
   const hf_region_edit_desc edit = edit_of(&curve, 0);
   assert_ok(hf_region_edit(other, &edit));
   double a[3 * COUNT], b[3 * COUNT];
@@ -166,11 +166,66 @@ static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
   hf_region_destroy(region), hf_region_destroy(other), hf_surface_destroy(surface), surface_free(&sheet);
 }
 
+/* Points at vertices and in triangles, joined straight: a square turned by 45 degrees, whose corners lie on vertices.
+ */
+static void a_straight_curve_cuts_through_triangles(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(SIDE, SIDE);
+  const hf_surface surface = surface_on(&sheet);
+  hf_region region = NULL;
+  assert_ok(hf_region_create(surface, NULL, &region));
+  assert_int_equal(info_of(region).field_kind, HF_FIELD_BIHARMONIC);
+  uint32_t count = 7;
+  assert_ok(hf_region_get_curve(region, 0, NULL, &count));
+  assert_int_equal(count, 0);
+  const uint32_t points[4] = {at(8, 3), at(13, 8), at(8, 13), at(3, 8)};
+  const hf_curve_desc curve = curve_of(4, points);
+  const hf_region_edit_desc edit = edit_of(&curve, 0);
+  assert_ok(hf_region_edit(region, &edit));
+  uint32_t inside[COUNT], found = 0;
+  assert_ok(hf_region_get_vertices(region, HF_REGION_INSIDE, COUNT, inside, &found));
+  assert_int_equal(found, 41); /* |x - 8| + |y - 8| < 5 */
+  for (uint32_t i = 0; i < found; ++i)
+    assert_true(abs((int)(inside[i] % ROW) - 8) + abs((int)(inside[i] / ROW) - 8) < 5);
+  assert_ok(hf_region_get_curve(region, 0, NULL, &count));
+  assert_true(count >= 20); /* each side crosses a vertex in each row; half of them edges between */
+  double corners[3 * COUNT];
+  assert_code(HF_ERROR_TOO_SMALL, hf_region_get_curve(region, count - 1, corners, NULL));
+  assert_ok(hf_region_get_curve(region, count, corners, NULL));
+  for (int k = 0; k < 3; ++k)
+    assert_true(fabs(corners[k] - (double)sheet.positions[3 * at(8, 3) + (uint32_t)k]) < 1e-6);
+  hf_region_edit_desc ring = edit_of(NULL, 1);
+  assert_ok(hf_region_edit(region, &ring));
+  uint32_t still = 0;
+  assert_ok(hf_region_get_curve(region, 0, NULL, &still));
+  assert_int_equal(still, count);
+  /* its points in another order: an eight. The line after point 2 crosses the one after point 0 */
+  const uint32_t eight[4] = {at(8, 3), at(8, 13), at(13, 8), at(3, 8)};
+  const hf_curve_desc crossing = curve_of(4, eight);
+  const hf_region_edit_desc bad_edit = edit_of(&crossing, 0);
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_region_edit(region, &bad_edit));
+  hf_error_detail detail;
+  hf_error_get_detail(&detail);
+  assert_int_equal(detail.index, 2);
+  /* corners of no triangle: a straight curve has no place there, a curve along edges takes the nearest corner */
+  const uint32_t far[9] = {at(2, 2), at(3, 2), at(2, 9), at(9, 2), at(9, 3), at(8, 2), at(5, 9), at(6, 9), at(5, 10)};
+  const double nearest[9] = {0.4, 0.3, 0.3, 1, 0, 0, 1, 0, 0};
+  hf_curve_desc loose = HF_INIT(hf_curve_desc);
+  loose.point_count = 3, loose.corners = far, loose.barycentrics = nearest;
+  const hf_region_edit_desc loose_edit = edit_of(&loose, 0);
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_region_edit(region, &loose_edit));
+  hf_error_get_detail(&detail);
+  assert_int_equal(detail.index, 0);
+  loose.kind = HF_CURVE_EDGES;
+  assert_ok(hf_region_edit(region, &loose_edit));
+  hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
+}
+
 static void a_thin_plate_is_a_region_of_a_biharmonic_kind(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
   const hf_surface surface = surface_on(&sheet);
-  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_BIHARMONIC);
+  const hf_region region = sheet_region(surface, &sheet, HF_BASE_THIN_PLATE);
   const hf_region_info info = info_of(region);
   assert_int_equal(info.field_kind, HF_FIELD_BIHARMONIC);
   assert_true(info.site_count > info.rim_count);
@@ -190,7 +245,7 @@ static void detail_onto_itself_is_the_surface_and_outlives_all_else(void** state
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
   const hf_surface surface = surface_on(&sheet);
-  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
+  const hf_region region = sheet_region(surface, &sheet, HF_BASE_MEMBRANE);
   double base[3 * COUNT], carried[3 * COUNT];
   morph_to(region, 1, NULL, base, NULL);
   hf_detail detail = NULL;
@@ -245,7 +300,7 @@ static void cancelling_leaves_all_as_it_was_and_stops_one_call(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
   const hf_surface surface = surface_on(&sheet);
-  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
+  const hf_region region = sheet_region(surface, &sheet, HF_BASE_MEMBRANE);
   hf_progress progress = NULL;
   assert_ok(hf_progress_create(&progress));
   assert_ok(hf_progress_cancel(progress));
@@ -278,7 +333,7 @@ static void bad_regions_are_named(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
   const hf_surface surface = surface_on(&sheet);
-  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
+  const hf_region region = sheet_region(surface, &sheet, HF_BASE_MEMBRANE);
   double before[3 * COUNT], after[3 * COUNT];
   morph_to(region, 1, NULL, before, NULL);
   hf_region made = NULL;
@@ -295,9 +350,9 @@ static void bad_regions_are_named(void** state) {
   desc.position_stride = 0, before[3 * 40 + 1] = NAN;
   BAD(HF_ERROR_NON_FINITE, 40, hf_region_create(surface, &desc, &made));
   desc = HF_INIT(hf_region_desc);
-  desc.field_kind = 3;
+  desc.base = 4;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_create(surface, &desc, &made));
-  desc.field_kind = 0, desc.reserved = 1;
+  desc.base = 0, desc.reserved = 1;
   BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_create(surface, &desc, &made));
   assert_null(made);
   morph_to(region, 1, NULL, before, NULL);
@@ -323,6 +378,10 @@ static void bad_regions_are_named(void** state) {
   BAD(HF_ERROR_TOO_LARGE, NO_INDEX, hf_region_edit(region, &edit));
   curve = curve_of(4, square), curve.side = 3;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
+  curve = curve_of(4, square), curve.kind = 2;
+  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
+  curve = curve_of(4, square), curve.reserved = 1;
+  BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_edit(region, &edit));
   curve = curve_of(4, square), curve.struct_size = 12;
   BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_edit(region, &edit));
   const uint32_t beyond[4] = {square[0], square[1], COUNT, square[3]}, line[3] = {at(2, 2), at(9, 2), at(5, 2)};
@@ -362,6 +421,8 @@ static void bad_regions_are_named(void** state) {
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_get_vertices(region, 3, 64, found, NULL));
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_get_vertices(region, 0, 64, NULL, NULL));
   BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_get_vertices(region, 0, 63, found, NULL));
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_get_curve(region, 64, NULL, NULL));
+  BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_get_curve(region, 3, before, NULL));
   assert_int_equal(found[0], 7);
   hf_morph_desc morph = HF_INIT(hf_morph_desc);
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_morph(region, &morph));
@@ -389,7 +450,7 @@ static void bad_details_are_named(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
   const hf_surface surface = surface_on(&sheet);
-  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
+  const hf_region region = sheet_region(surface, &sheet, HF_BASE_MEMBRANE);
   hf_region empty = NULL;
   assert_ok(hf_region_create(surface, NULL, &empty));
   hf_detail detail = NULL;
@@ -431,6 +492,7 @@ int main(void) {
       cmocka_unit_test(weight_0_gives_the_bits_and_1_the_base),
       cmocka_unit_test(edits_keep_the_factor_and_undo_brings_back_the_bits),
       cmocka_unit_test(a_point_in_a_triangle_stands_for_its_nearest_corner),
+      cmocka_unit_test(a_straight_curve_cuts_through_triangles),
       cmocka_unit_test(a_thin_plate_is_a_region_of_a_biharmonic_kind),
       cmocka_unit_test(detail_onto_itself_is_the_surface_and_outlives_all_else),
       cmocka_unit_test(an_empty_region_gives_the_surface),

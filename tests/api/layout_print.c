@@ -278,11 +278,12 @@ static void print_analysis(void) {
 static void print_region(void) {
 #define T hf_region_desc
   STRUCT(hf_region_desc);
-  F(struct_size), F(field_kind), F(positions), F(positions_f64), F(position_stride), F(reserved), F(progress);
+  F(struct_size), F(base), F(positions), F(positions_f64), F(position_stride), F(reserved), F(progress);
 #undef T
 #define T hf_curve_desc
   STRUCT(hf_curve_desc);
-  F(struct_size), F(point_count), F(vertices), F(triangles), F(barycentrics), F(side), F(seed_vertex), F(corners);
+  F(struct_size), F(point_count), F(vertices), F(triangles), F(barycentrics), F(side), F(seed_vertex), F(corners),
+      F(kind), F(reserved);
 #undef T
 #define T hf_region_edit_desc
   STRUCT(hf_region_edit_desc);

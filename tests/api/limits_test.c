@@ -1,8 +1,8 @@
 /* Limits of work and memory: a factorisation that is too dear is refused before it begins, with the numbers needed. */
 #include "api_support.h"
 
-/* Triangles between any vertices: their factor is nearly full, and its flops grow with the cube of the vertices: 5.6 and
- * 1.6 * 10^9. Under an emulator (HF_EMULATED) the larger takes 1,100 s. */
+/* Triangles between any vertices: their factor is nearly full, and its flops grow with the cube of the vertices: 5.6
+ * and 1.6 * 10^9. Under an emulator (HF_EMULATED) the larger takes 1,100 s. */
 #ifdef HF_EMULATED
 enum { COLUMNS = 50, ROWS = 40, TRIANGLES = 27000 };
 #else

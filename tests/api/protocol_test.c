@@ -8,6 +8,7 @@ static hf_quads quads;
 static hf_flow flow;
 static double height[TUBE_VERTICES];
 static hf_surface linked;        /* two octahedra side by side */
+static hf_region curved;         /* enclosed by a curve round the tube */
 static hf_direction round_field; /* on a closed surface, where the field has singularities */
 
 enum { DIMENSIONS = 4, ARRAYS = 7 };
@@ -149,6 +150,12 @@ static hf_result region_get_vertices(Call* c) {
   c->count[0] = count;
   return r;
 }
+static hf_result region_get_curve(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_region_get_curve(curved, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
 static hf_result weights_get(Call* c) {
   hf_weights_out out = HF_INIT(hf_weights_out);
   out.vertex_capacity = (uint32_t)c->capacity[0];
@@ -245,6 +252,7 @@ static const struct {
     {"hf_direction_get_sites", direction_get_sites, {{0, 4, 0}, {0, 4, 0}, {0, 24, 0}}, 0},
     {"hf_direction_get_singularities", get_singularities, {{0, sizeof(hf_singularity), 0}}, 0},
     {"hf_region_get_vertices", region_get_vertices, {{0, 4, 0}}, 0},
+    {"hf_region_get_curve", region_get_curve, {{0, 24, 0}}, 0},
     {"hf_weights_get", weights_get, {{0, 16, 0}, {0, 8, 0}, {0, 16, 0}, {0, 1, 0}}, 0},
     {"hf_weights_get_bones", weights_get_bones, {{0, 4, 0}, {0, 4, 0}}, 0},
     {"hf_weights_get_helpers", weights_get_helpers, {{0, 4, 0}}, 0},
@@ -294,6 +302,12 @@ static void scene_with_quads_create(void) {
   desc.edge_length = 2, desc.relax_count = 2;
   assert_ok(hf_quads_create(scene.body, &desc, &quads));
   assert_ok(hf_flow_create(scene.body, &flow));
+  const uint32_t round[3] = {5 * TUBE_AROUND, 5 * TUBE_AROUND + TUBE_AROUND / 3, 5 * TUBE_AROUND + 2 * TUBE_AROUND / 3};
+  hf_curve_desc curve = HF_INIT(hf_curve_desc);
+  hf_region_edit_desc enclose = HF_INIT(hf_region_edit_desc);
+  curve.point_count = 3, curve.vertices = round, enclose.curve = &curve;
+  assert_ok(hf_region_create(scene.body, NULL, &curved));
+  assert_ok(hf_region_edit(curved, &enclose));
   round_field_create(), linked_create();
 }
 
@@ -403,7 +417,7 @@ static void every_function_with_a_capacity_keeps_the_protocol(void** state) {
     enough_writes_what_is_there_and_no_more(f, &asked);
   }
   finish_rows("arrays out");
-  hf_quads_destroy(quads), hf_flow_destroy(flow), hf_direction_destroy(round_field);
+  hf_quads_destroy(quads), hf_flow_destroy(flow), hf_direction_destroy(round_field), hf_region_destroy(curved);
   hf_surface_destroy(linked);
   scene_destroy(&scene);
 }
@@ -418,6 +432,9 @@ static void nothing_to_write_is_a_count_of_zero(void** state) {
   assert_int_equal(count, 0);
   count = 777;
   assert_ok(hf_region_get_vertices(empty, HF_REGION_INSIDE, 0, vertices, &count));
+  assert_int_equal(count, 0);
+  count = 777;
+  assert_ok(hf_region_get_curve(empty, 0, NULL, &count));
   assert_int_equal(count, 0);
   hf_sites_info info = HF_INIT(hf_sites_info);
   info.sites = vertices, info.count = 777;

@@ -222,7 +222,7 @@ static void a_kind_asked_for_later_gives_the_bits_of_a_surface_made_with_it(void
       add_some(solver);
       fields[i] = field_of(solver, COUNT);
       hf_region_desc desc = HF_INIT(hf_region_desc);
-      desc.field_kind = kinds[k];
+      desc.base = HF_BASE_MEMBRANE + kinds[k];
       hf_region region = NULL;
       const uint32_t inside[6] = {40, 41, 42, 52, 53, 54};
       hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);

@@ -14,7 +14,11 @@ namespace {
 
 class Region {
  public:
-  explicit Region(const Solver& solver) { check(hf_region_create(solver.surface(), nullptr, &handle_)); }
+  explicit Region(const Solver& solver) {
+    hf_region_desc desc = HF_INIT(hf_region_desc);
+    desc.base = HF_BASE_MEMBRANE;
+    check(hf_region_create(solver.surface(), &desc, &handle_));
+  }
   Region(const Region& other) { check(hf_region_clone(other.handle_, &handle_)); }
   Region& operator=(const Region&) = delete;
   ~Region() { hf_region_destroy(handle_); }

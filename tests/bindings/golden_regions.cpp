@@ -23,7 +23,7 @@ Result Scene::run_region(const Json& step, const std::string& what) {
   hf_region region = on.region.get();
   if (what == "region") {
     auto desc = make<hf_region_desc>();
-    set_options(step, desc, {{"field_kind", &desc.field_kind}}, {});
+    set_options(step, desc, {{"base", &desc.base}}, {});
     const auto positions = doubles(step, "positions", 3 * on.vertex_count);
     desc.positions_f64 = data(positions);
     hf_region raw = nullptr;
@@ -36,6 +36,7 @@ Result Scene::run_region(const Json& step, const std::string& what) {
     auto desc = make<hf_region_edit_desc>();
     auto line = make<hf_curve_desc>();
     desc.ring_count = step.value("rings", 0);
+    line.kind = step.value("curve_kind", 0);
     if (curve) line.point_count = count(curve), line.vertices = data(curve), desc.curve = &line;
     if (add) desc.add_count = count(add), desc.add_vertices = data(add);
     if (removed) desc.remove_count = count(removed), desc.remove_vertices = data(removed);
@@ -54,6 +55,12 @@ Result Scene::run_region(const Json& step, const std::string& what) {
     Numbers found(size);
     check(hf_region_get_vertices(region, list, size, found.data(), &size));
     result.array.emplace(found.begin(), found.end());
+  } else if (what == "region_curve") {
+    uint32_t size = 0;
+    check(hf_region_get_curve(region, 0, nullptr, &size));
+    std::vector<double> found(3 * size_t{size});
+    if (size > 0) check(hf_region_get_curve(region, size, found.data(), &size));
+    result.array = found;
   } else if (what == "record_region") {
     check(hf_region_record(region));
   } else if (what == "undo_region") {

@@ -260,7 +260,7 @@ void add_field_cases(World& w, std::vector<Case>& cases) {
   hf_solver_desc bent = desc<hf_solver_desc>();
   bent.field_kind = HF_FIELD_BIHARMONIC;
   hf_region_desc plate = desc<hf_region_desc>();
-  plate.field_kind = HF_FIELD_BIHARMONIC;
+  plate.base = HF_BASE_THIN_PLATE;
   cases.push_back(making("solver_of_another_kind", w.surface, bent, hf_create, hf_solver_destroy));
   cases.push_back(making("region", w.surface, plate, hf_region_create, hf_region_destroy));
   cases.push_back(

@@ -180,7 +180,7 @@ std::vector<Program> programs_that_read(const std::string& folder) {
       {"hf_rig", {"FILE", "--handles", at("rig.json"), "-o", at("out.glb"), "--quiet"}},
       {"hf_quads", {"FILE", "-o", at("out.obj")}},
       {"hf_detail", {"FILE", "--curve", at("curve.json"), "--weight", "0.5", "-o", at("out.glb")}},
-      {"hf_detail", {"FILE", "--curve", at("curve.json"), "--thin-plate", "-o", at("out.glb")}},
+      {"hf_detail", {"FILE", "--curve", at("curve.json"), "-o", at("out.glb")}},
       {"hf_weights", {"FILE", "-o", at("out.glb")}},
   };
 }

@@ -28,8 +28,7 @@ double torus_flops(std::size_t vertices) {
   for (std::uint32_t i = 0; i < around; ++i) {
     for (std::uint32_t k = 0; k < side; ++k) {
       const double a = turn * i / around, b = turn * k / side, r = 2 + std::cos(b);
-      for (const double x : {r * std::cos(a), r * std::sin(a), std::sin(b)})
-        positions.push_back(static_cast<float>(x));
+      for (const double x : {r * std::cos(a), r * std::sin(a), std::sin(b)}) positions.push_back(static_cast<float>(x));
       const std::uint32_t next = (i + 1) % around * side, up = (k + 1) % side, own = i * side;
       triangles.insert(triangles.end(), {own + k, next + k, own + up, own + up, next + k, next + up});
     }

@@ -260,7 +260,7 @@ void missing_kinds(Story& s, const Tube& tube, Allocator& memory) {
       // the first turns leave workspaces for later ones
       s.holds(turn < 3 || memory.live_bytes <= bytes, "a factor that no object uses is still there");
       hf_region_desc bare = HF_INIT(hf_region_desc);
-      bare.field_kind = kind;
+      bare.base = HF_BASE_MEMBRANE + kind;
       hf_region region = nullptr;
       s.make_factor("hf_region_create", region, [&] { return hf_region_create(surface, &bare, &region); });
       hf_region_destroy(region);

@@ -240,6 +240,15 @@ void regions(Story& s, const Tube& tube, Allocator& memory) {
   s.make("hf_detail_create", detail, [&] { return hf_detail_create(region, copy, nullptr, &detail); });
   s.call("hf_detail_morph", [&] { return hf_detail_morph(detail, &morph); });
   s.take(out.data(), out.size());
+  // a curve round the tube that cuts through triangles
+  const std::uint32_t round[4] = {a, a + Tube::around + 2, a + 4, a + Tube::around + 6};
+  hf_curve_desc curve = HF_INIT(hf_curve_desc);
+  curve.point_count = 4, curve.vertices = round;
+  hf_region_edit_desc enclose = HF_INIT(hf_region_edit_desc);
+  enclose.curve = &curve;
+  s.call("hf_region_edit", [&] { return hf_region_edit(copy, &enclose); });
+  s.call("hf_region_morph", [&] { return hf_region_morph(copy, &morph); });
+  s.take(out.data(), out.size());
   hf_region_destroy(region), hf_region_destroy(copy), hf_detail_destroy(detail);
 }
 

@@ -37,6 +37,12 @@ class Regions final : public Subject {
         state.begin("vertices of a region");
         state.add(vertices_of(b, list));
       }
+      std::uint32_t corners = 0;
+      state.begin("curve of a region");
+      state.add(hf_region_get_curve(b.handle, 0, nullptr, &corners)), state.add(corners);
+      std::vector<double> curve(3 * std::size_t{corners});
+      if (corners > 0) hf_region_get_curve(b.handle, corners, curve.data(), &corners);
+      for (const double x : curve) state.add(x);
       look_at_base(b, state);
     }
     for (const hf_detail detail : details_) {
@@ -123,6 +129,7 @@ struct Calls {
       triangles[i] = random.index(s.world.shape->count()), weights[3 * i + random.below(3)] = 1;
     hf_curve_desc curve = HF_INIT(hf_curve_desc);
     curve.point_count = static_cast<std::uint32_t>(points.size()), curve.side = random.pick({0, 0, 1, 2, 3});
+    curve.kind = random.pick({0, 0, 1, 1, 2}), curve.reserved = random.one_in(20);
     curve.seed_vertex = random.index(s.world.shape->vertices());
     if (random.one_in(3))
       curve.triangles = triangles.data(), curve.barycentrics = weights.data();
@@ -177,7 +184,7 @@ struct Calls {
     for (double& p : positions) p = random.real(-1, 1);
     if (random.one_in(4)) positions[random.below(static_cast<std::uint32_t>(positions.size()))] = random.number();
     hf_region_desc desc = HF_INIT(hf_region_desc);
-    desc.field_kind = random.pick({0, 1, 2, 3}), desc.progress = s.world.progress(), desc.reserved = random.one_in(20);
+    desc.base = random.pick({0, 1, 2, 3, 4}), desc.progress = s.world.progress(), desc.reserved = random.one_in(20);
     if (random.one_in(2)) desc.positions_f64 = positions.data();
     hf_region made = s.branches_[0].handle;
     const hf_result result = hf_region_create(s.world.surface, random.spoiled(desc), &made);

@@ -139,6 +139,8 @@ void Run::regions() {
   hf_region_info info = desc<hf_region_info>();
   call(hf_region_get_info(target, &info), "hf_region_get_info"), take(&info, 1);
   call(hf_region_get_vertices(target, HF_REGION_RIM, n, list.data(), nullptr), "hf_region_get_vertices");
+  std::uint32_t corner_count = 0;
+  call(hf_region_get_curve(target, 0, nullptr, &corner_count), "hf_region_get_curve");
   take(list.data(), info.rim_count);
   hf_morph_desc morph = desc<hf_morph_desc>();
   morph.weight = 0.5, morph.positions_f64 = doubles.data(), morph.normals = floats.data();

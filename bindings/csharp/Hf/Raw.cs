@@ -84,9 +84,15 @@ namespace Hf.Native
         public const int HF_HANDLE_REASON_END = 2;
         public const int HF_HANDLE_REASON_JOINT = 3;
         public const int HF_HANDLE_REASON_MIDDLE = 4;
+        public const int HF_BASE_DEFAULT = 0;
+        public const int HF_BASE_MEMBRANE = 1;
+        public const int HF_BASE_THIN_PLATE = 2;
+        public const int HF_BASE_THIN_PLATE_GRAPH = 3;
         public const int HF_SIDE_SMALLER = 0;
         public const int HF_SIDE_LARGER = 1;
         public const int HF_SIDE_SEED = 2;
+        public const int HF_CURVE_STRAIGHT = 0;
+        public const int HF_CURVE_EDGES = 1;
         public const int HF_REGION_INSIDE = 0;
         public const int HF_REGION_RIM = 1;
         public const int HF_REGION_SITES = 2;
@@ -861,7 +867,7 @@ namespace Hf.Native
     public unsafe struct hf_region_desc
     {
         public uint struct_size;
-        public int field_kind;
+        public int @base;
         public IntPtr positions;
         public IntPtr positions_f64;
         public uint position_stride;
@@ -880,6 +886,8 @@ namespace Hf.Native
         public int side;
         public uint seed_vertex;
         public IntPtr corners;
+        public int kind;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1290,6 +1298,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_redo(IntPtr region);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_info(IntPtr region, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_vertices(IntPtr region, int list, uint capacity, void* out_vertices, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_curve(IntPtr region, uint capacity, void* out_points, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_morph(IntPtr region, void* desc);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_detail_create(IntPtr source, IntPtr target, void* desc, void* out_detail);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_detail_destroy(IntPtr detail);

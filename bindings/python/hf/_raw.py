@@ -81,9 +81,15 @@ HF_HANDLE_REASON_TIP = 1
 HF_HANDLE_REASON_END = 2
 HF_HANDLE_REASON_JOINT = 3
 HF_HANDLE_REASON_MIDDLE = 4
+HF_BASE_DEFAULT = 0
+HF_BASE_MEMBRANE = 1
+HF_BASE_THIN_PLATE = 2
+HF_BASE_THIN_PLATE_GRAPH = 3
 HF_SIDE_SMALLER = 0
 HF_SIDE_LARGER = 1
 HF_SIDE_SEED = 2
+HF_CURVE_STRAIGHT = 0
+HF_CURVE_EDGES = 1
 HF_REGION_INSIDE = 0
 HF_REGION_RIM = 1
 HF_REGION_SITES = 2
@@ -1396,8 +1402,9 @@ class hf_flow_lines(Structure):
 
 
 class hf_region_desc(Structure):
+    """The smooth base of a region."""
     struct_size: int
-    field_kind: int
+    base: int
     positions: int
     positions_f64: int
     position_stride: int
@@ -1405,7 +1412,7 @@ class hf_region_desc(Structure):
     progress: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("field_kind", c_int32),
+        ("base", c_int32),
         ("positions", c_void_p),
         ("positions_f64", c_void_p),
         ("position_stride", c_uint32),
@@ -1415,7 +1422,7 @@ class hf_region_desc(Structure):
 
 
 class hf_curve_desc(Structure):
-    """Describes a closed curve through at least 3 points."""
+    """Describes a closed curve through at least 3 points, on the mesh at rest."""
     struct_size: int
     point_count: int
     vertices: int
@@ -1424,6 +1431,8 @@ class hf_curve_desc(Structure):
     side: int
     seed_vertex: int
     corners: int
+    kind: int
+    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("point_count", c_uint32),
@@ -1433,6 +1442,8 @@ class hf_curve_desc(Structure):
         ("side", c_int32),
         ("seed_vertex", c_uint32),
         ("corners", c_void_p),
+        ("kind", c_int32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -2051,6 +2062,7 @@ PROTOTYPES = {
     "hf_region_redo": (c_int32, [c_void_p]),
     "hf_region_get_info": (c_int32, [c_void_p, c_void_p]),
     "hf_region_get_vertices": (c_int32, [c_void_p, c_int32, c_uint32, c_void_p, c_void_p]),
+    "hf_region_get_curve": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_region_morph": (c_int32, [c_void_p, c_void_p]),
     "hf_detail_create": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_detail_destroy": (None, [c_void_p]),

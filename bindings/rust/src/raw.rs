@@ -81,9 +81,15 @@ pub const HF_HANDLE_REASON_TIP: i32 = 1;
 pub const HF_HANDLE_REASON_END: i32 = 2;
 pub const HF_HANDLE_REASON_JOINT: i32 = 3;
 pub const HF_HANDLE_REASON_MIDDLE: i32 = 4;
+pub const HF_BASE_DEFAULT: i32 = 0;
+pub const HF_BASE_MEMBRANE: i32 = 1;
+pub const HF_BASE_THIN_PLATE: i32 = 2;
+pub const HF_BASE_THIN_PLATE_GRAPH: i32 = 3;
 pub const HF_SIDE_SMALLER: i32 = 0;
 pub const HF_SIDE_LARGER: i32 = 1;
 pub const HF_SIDE_SEED: i32 = 2;
+pub const HF_CURVE_STRAIGHT: i32 = 0;
+pub const HF_CURVE_EDGES: i32 = 1;
 pub const HF_REGION_INSIDE: i32 = 0;
 pub const HF_REGION_RIM: i32 = 1;
 pub const HF_REGION_SITES: i32 = 2;
@@ -1625,11 +1631,12 @@ impl Default for hf_flow_lines {
     }
 }
 
+/// The smooth base of a region.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_region_desc {
     pub struct_size: u32,
-    pub field_kind: i32,
+    pub base: i32,
     pub positions: *const f32,
     pub positions_f64: *const f64,
     pub position_stride: u32,
@@ -1645,7 +1652,7 @@ impl Default for hf_region_desc {
     }
 }
 
-/// Describes a closed curve through at least 3 points.
+/// Describes a closed curve through at least 3 points, on the mesh at rest.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_curve_desc {
@@ -1657,6 +1664,8 @@ pub struct hf_curve_desc {
     pub side: i32,
     pub seed_vertex: u32,
     pub corners: *const u32,
+    pub kind: i32,
+    pub reserved: u32,
 }
 impl Default for hf_curve_desc {
     fn default() -> Self {
@@ -2370,6 +2379,7 @@ extern "C" {
     pub fn hf_region_redo(region: hf_region) -> i32;
     pub fn hf_region_get_info(region: hf_region, out_info: *mut hf_region_info) -> i32;
     pub fn hf_region_get_vertices(region: hf_region, list: i32, capacity: u32, out_vertices: *mut u32, out_count: *mut u32) -> i32;
+    pub fn hf_region_get_curve(region: hf_region, capacity: u32, out_points: *mut f64, out_count: *mut u32) -> i32;
     pub fn hf_region_morph(region: hf_region, desc: *const hf_morph_desc) -> i32;
     pub fn hf_detail_create(source: hf_region, target: hf_region, desc: *const hf_detail_desc, out_detail: *mut hf_detail) -> i32;
     pub fn hf_detail_destroy(detail: hf_detail);

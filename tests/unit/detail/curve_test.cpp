@@ -1,6 +1,7 @@
 // Closed curves: shortest paths between their points, and the side that is meant.
 #include "detail/curve_crossing.h"
 #include "detail_support.h"
+#include "mesh/places.h"
 
 namespace {
 
@@ -100,9 +101,13 @@ TEST(Curve, ThatDoesNotSeparateIsRefused) {
   const auto surface = surface_of(make_core(torus(12, 9, 0)));
   Region region(surface);
   const Numbers meridian{0, 3, 6};
-  RegionEdit edit;
-  edit.curve = {meridian.data(), meridian.size()};
-  index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { region.edit(edit); });
+  std::vector<CurvePoint> points;
+  for (const std::int32_t v : meridian) points.push_back(at_vertex(v));
+  for (const CurveKind kind : {CurveKind::straight, CurveKind::edges}) {
+    RegionEdit edit;
+    edit.curve = points, edit.kind = kind;
+    index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { region.edit(edit); });
+  }
   EXPECT_TRUE(region.state()->shape->inside.empty());
 }
 
@@ -216,13 +221,10 @@ void expect_error(hf_result code, std::uint32_t index, Work&& work) {
 }
 
 TEST(Curve, APointStandsForTheCornerOfItsLargestWeight) {
-  const Sheet sheet;
-  const Mesh& mesh = sheet.surface->core->mesh;
   const double weights[3][3] = {{0.5, 0.3, 0.2}, {0.2, 0.5, 0.3}, {0.3, 0.2, 0.5}};
+  const std::int32_t corners[3] = {4, 6, 9};
   for (int k = 0; k < 3; ++k)
-    EXPECT_EQ(nearest_corner(mesh, 7, weights[k], 0), mesh.triangle(mesh.triangle_of_given[7])[k]);
-  const double rounded[3] = {0.2f, 0.3f, 0.5f};  // floats do not sum to 1 exactly
-  EXPECT_EQ(nearest_corner(mesh, 7, rounded, 0), mesh.triangle(mesh.triangle_of_given[7])[2]);
+    EXPECT_EQ(nearest_corner(CurvePoint{{4, 6, 9}, {weights[k][0], weights[k][1], weights[k][2]}}), corners[k]);
 }
 
 TEST(Curve, BadPointsAreRefusedWithTheirPosition) {
@@ -230,7 +232,7 @@ TEST(Curve, BadPointsAreRefusedWithTheirPosition) {
   const Mesh& mesh = sheet.surface->core->mesh;
   const auto refused = [&](hf_result code, std::uint32_t triangle, double a, double b, double c) {
     const double weights[3] = {a, b, c};
-    expect_error(code, 5, [&] { nearest_corner(mesh, triangle, weights, 5); });
+    expect_error(code, 5, [&] { place_in_triangle(mesh, triangle, weights, 5); });
   };
   refused(HF_ERROR_OUT_OF_RANGE, mesh.report.triangle_count, 1, 0, 0);
   refused(HF_ERROR_NON_FINITE, 0, 1, std::nan(""), 0);
@@ -243,9 +245,13 @@ TEST(Curve, PointsOfTwoComponentsAreRefused) {
   append(two, grid(4, 4), 10);
   const auto core = make_core(two);
   const std::int32_t second = core->mesh.inner_of_given[25];
-  const Numbers one{0, 1, 2}, mixed{0, 1, second};
-  require_one_component(core->mesh, {one.data(), one.size()});
-  expect_error(HF_ERROR_INVALID_ARGUMENT, 2, [&] { require_one_component(core->mesh, {mixed.data(), mixed.size()}); });
+  const auto points = [](const Numbers& vertices) {
+    std::vector<CurvePoint> list;
+    for (const std::int32_t v : vertices) list.push_back(at_vertex(v));
+    return list;
+  };
+  require_one_component(core->mesh, points({0, 1, 2}));
+  expect_error(HF_ERROR_INVALID_ARGUMENT, 2, [&] { require_one_component(core->mesh, points({0, 1, second})); });
 }
 
 TEST(Region, PositionsAreTheCallersOrTheMeshs) {

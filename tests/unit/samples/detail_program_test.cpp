@@ -49,7 +49,7 @@ TEST(DetailProgram, MorphsAndCarriesDetail) {
   const std::string in = "\"" + path("bumpy.ply") + "\"" + curve, out = " -o \"" + path("out.ply") + "\"";
   std::string text;
 
-  ASSERT_EQ(run(in + " --weight 0" + out, text), 0) << text;
+  ASSERT_EQ(run(in + " --membrane --weight 0" + out, text), 0) << text;
   const SurfaceMesh same = read_mesh_file(path("out.ply"));
   ASSERT_EQ(same.positions.size(), bumpy.positions.size());
   for (size_t v = 0; v < same.positions.size(); ++v)
@@ -62,7 +62,7 @@ TEST(DetailProgram, MorphsAndCarriesDetail) {
   EXPECT_GT(highest(read_mesh_file(path("out.ply"))), 1.3 * highest(bumpy));
 
   ASSERT_EQ(
-      run(in + " --weight 1 --thin-plate -o \"" + path("out.glb") + "\" --sheet \"" + path("sheet.png") + "\"", text),
+      run(in + " --weight 1 -o \"" + path("out.glb") + "\" --sheet \"" + path("sheet.png") + "\"", text),
       0)
       << text;
   EXPECT_NE(text.find("thin plate"), std::string::npos) << text;
@@ -108,7 +108,7 @@ TEST(DetailProgram, SaysWhatIsWrong) {
   EXPECT_EQ(run(in + " --bogus", text), 1);
   EXPECT_NE(text.find("--bogus"), std::string::npos) << text;
   EXPECT_EQ(run("--help", text), 0);
-  EXPECT_NE(text.find("--thin-plate"), std::string::npos) << text;
+  EXPECT_NE(text.find("--membrane"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -1,0 +1,24 @@
+// Tells the two sides of a closed curve through triangles (surface_curve.h), and refuses one that crosses itself.
+//
+// Each edge that the curve crosses counts +1 or -1 from its first vertex to its second. Summed along edges, these
+// numbers say how often the curve runs round each vertex: its winding number. Where the sums depend on the way, the
+// curve does not separate the surface. One that does not cross itself has two winding numbers, a whole number and the
+// next one; the four sides of a crossing have three. A vertex on the curve is on neither side. Cost: O(n) for n
+// vertices and the fans of the vertices that the curve passes. Crossings whose sides hold no vertex are not seen: no
+// region depends on them.
+#pragma once
+#include "detail/curve.h"
+#include "detail/surface_curve.h"
+
+namespace hf_inner {
+
+// Returns the vertices of one side, in ascending order. `seed` is an inner vertex of the wanted side; only
+// CurveSide::seed uses it. A single vertex that the curve leaves between itself and the region, with one edge to the
+// rest, joins the region. On a surface that is not oriented, the curve may cross itself. Throws
+// HF_ERROR_INVALID_ARGUMENT when the curve crosses itself (index: the point before the crossing), passes a vertex whose
+// triangles are not one fan (index: that point), does not separate the surface or goes round no vertex, and for a seed
+// on the curve or in another component (index: the seed as the caller numbered it).
+Vector<std::int32_t> surface_curve_side(const Core& core, Span<const CurvePoint> points, const SurfaceCurve& curve,
+                                        CurveSide side, std::int32_t seed, Memory& memory);
+
+}  // namespace hf_inner

@@ -1,0 +1,48 @@
+// Draws closed curves through triangles: shortest paths along the surface between their points.
+//
+// Each path is exact (mesh/exact_path.h). It is searched for only where it can run: its length is at most that of the
+// shortest path along edges, so it stays in the ellipsoid whose foci are its two ends. Cost: a path costs O(d log d)
+// for the d vertices nearer than its end along edges, and exact distances on the triangles in the ellipsoid.
+#pragma once
+#include "engine/core.h"
+#include "mesh/exact_path.h"
+
+namespace hf_inner {
+
+// A point of a triangle. A corner of weight 0 may be Mesh::none. The weights sum to 1.
+struct CurvePoint {
+  std::int32_t corner[3];
+  double weight[3];
+};
+inline CurvePoint at_vertex(std::int32_t v) noexcept { return {{v, Mesh::none, Mesh::none}, {1, 0, 0}}; }
+
+// A closed curve. Its places are the vertices that it passes, the edges that it crosses, and its points inside
+// triangles; between two places it is a straight line in one triangle.
+struct SurfaceCurve {
+  explicit SurfaceCurve(Memory& memory) : place(&memory), point_of(&memory), triangle(&memory) {}
+  Vector<PathPoint> place;        // no place comes twice in a row
+  Vector<std::int32_t> point_of;  // the point whose path place[i] lies on, or that it is
+  Vector<std::int32_t> triangle;  // of the line from place[i] to the next one
+};
+
+// Weights of corners below this count as 0, and places of edges nearer to an end as that vertex. Straight lines that
+// pass a vertex then pass it always, whichever way they run. It is far above the rounding of a path (1e-13), and no eye
+// sees it. Half and double give the same regions in the tests.
+constexpr double place_tolerance = 1e-9;
+
+// points: of one component, each in a triangle of the mesh (CurvePoint).
+SurfaceCurve surface_curve(const Core& core, Span<const CurvePoint> points, Memory& memory);
+
+// The triangle that has these three corners; Mesh::none if none has.
+std::int32_t triangle_of(const Mesh& mesh, const Topology& topology, const std::int32_t corners[3]);
+
+// Tells whether the corners of weight above 0 are those of a vertex, an edge or a triangle of the mesh.
+bool is_on_triangle(const Mesh& mesh, const Topology& topology, const CurvePoint& point);
+
+// The corner of largest weight.
+std::int32_t nearest_corner(const CurvePoint& point) noexcept;
+
+// Throws HF_ERROR_INVALID_ARGUMENT if a point lies in another component than the first point; index: its position.
+void require_one_component(const Mesh& mesh, Span<const CurvePoint> points);
+
+}  // namespace hf_inner
