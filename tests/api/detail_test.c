@@ -33,7 +33,8 @@ static hf_region sheet_region(hf_surface surface, const Surface* sheet, int32_t 
   desc.positions = sheet->positions;
   hf_region region = NULL;
   assert_ok(hf_region_create(surface, &desc, &region));
-  const hf_curve_desc curve = curve_of(4, square);
+  hf_curve_desc curve = curve_of(4, square);
+  curve.kind = HF_CURVE_EDGES;
   const hf_region_edit_desc edit = edit_of(&curve, 0);
   assert_ok(hf_region_edit(region, &edit));
   return region;
@@ -171,6 +172,8 @@ static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
 static void a_straight_curve_cuts_through_triangles(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
+  for (uint32_t v = 0; v < COUNT; ++v)
+    for (uint32_t k = 0; k < 3; ++k) sheet.positions[3 * v + k] = (float)(k == 0 ? v % ROW : k == 1 ? v / ROW : 0);
   const hf_surface surface = surface_on(&sheet);
   hf_region region = NULL;
   assert_ok(hf_region_create(surface, NULL, &region));
@@ -387,9 +390,9 @@ static void bad_regions_are_named(void** state) {
   const uint32_t beyond[4] = {square[0], square[1], COUNT, square[3]}, line[3] = {at(2, 2), at(9, 2), at(5, 2)};
   curve = curve_of(4, beyond);
   BAD(HF_ERROR_OUT_OF_RANGE, 2, hf_region_edit(region, &edit));
-  curve = curve_of(3, line);
+  curve = curve_of(3, line), curve.kind = HF_CURVE_EDGES;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
-  curve = curve_of(4, square), curve.side = HF_SIDE_SEED, curve.seed_vertex = COUNT;
+  curve = curve_of(4, square), curve.kind = HF_CURVE_EDGES, curve.side = HF_SIDE_SEED, curve.seed_vertex = COUNT;
   BAD(HF_ERROR_OUT_OF_RANGE, COUNT, hf_region_edit(region, &edit));
   curve.seed_vertex = at(3, 7);
   BAD(HF_ERROR_INVALID_ARGUMENT, at(3, 7), hf_region_edit(region, &edit));

@@ -14,7 +14,7 @@ struct Branch {
 class Regions final : public Subject {
  public:
   Regions(World& given, Random& random) : Subject(given) {
-    desc_.field_kind = random.pick({0, 0, 1, 2});
+    desc_.base = random.pick({0, 1, 1, 2, 3});
     branches_.resize(1);
     if (hf_region_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
   }

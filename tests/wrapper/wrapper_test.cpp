@@ -234,9 +234,10 @@ TEST(Wrapper, regions_morph_and_hand_their_detail_on) {
   const Sheet sheet;
   const std::vector<float>& positions = sheet.positions;
   const hf::Surface surface(positions, sheet.triangles);
-  hf::Region region(surface, positions);
+  hf::Region region(surface, positions, HF_BASE_MEMBRANE);
   region.enclose({13 * 3 + 3, 13 * 3 + 9, 13 * 9 + 9, 13 * 9 + 3});
   EXPECT_EQ(region.info().vertex_count, 25u);
+  EXPECT_GT(region.curve().size(), 3u * 4u);
   EXPECT_EQ(region.vertices(HF_REGION_RIM).size(), region.info().rim_count);
   EXPECT_EQ(region.morph(0), positions);
   std::vector<float> normals;

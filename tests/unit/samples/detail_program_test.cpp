@@ -57,7 +57,7 @@ TEST(DetailProgram, MorphsAndCarriesDetail) {
       EXPECT_EQ(static_cast<float>(same.positions[v][c]), static_cast<float>(bumpy.positions[v][c]));
   EXPECT_NE(text.find("membrane"), std::string::npos) << text;
 
-  ASSERT_EQ(run(in + " --weight -1 --grow 2" + out, text), 0) << text;
+  ASSERT_EQ(run(in + " --membrane --weight -1 --grow 2" + out, text), 0) << text;
   EXPECT_NE(text.find("0 factorisations"), std::string::npos) << text;
   EXPECT_GT(highest(read_mesh_file(path("out.ply"))), 1.3 * highest(bumpy));
 
@@ -96,7 +96,8 @@ TEST(DetailProgram, SaysWhatIsWrong) {
     EXPECT_NE(text.find(word), std::string::npos) << text;
   };
   refused(R"({"points": [{"vertex": 1}, {"vertex": 99999}, {"vertex": 3}]})", "points[1].vertex");
-  refused(R"({"points": [{"vertex": 1}, {"vertex": 3}, {"vertex": 2}]})", "does not separate");
+  refused(R"({"points": [{"vertex": 1}, {"vertex": 3}, {"vertex": 2}]})", "goes round no vertex");
+  refused(R"({"points": [{"vertex": 1}, {"vertex": 3}, {"vertex": 2}], "edges": true})", "does not separate");
   refused(R"({"points": [{"vertex": 1}, {"vertex": 3}]})", "3 points or more");
   refused(R"({"points": [{"near": [0, 0]}]})", "points[0].near");
   refused(R"({"points": [], "sides": "smaller"})", "sides");
