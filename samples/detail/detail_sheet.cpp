@@ -70,6 +70,15 @@ void write_sheet(const std::string& file, const SheetScene& scene, const std::ve
     if (pictures.empty())
       for (const uint32_t v : scene.points)
         marks.dots.push_back({point_of(tile.positions, v), 0.009, {0.86, 0.1, 0.1}});
+    if (pictures.empty() && !scene.curve.empty()) {
+      Polyline line;
+      line.color = {0.86, 0.1, 0.1}, line.width = 2;
+      for (size_t i = 0; i <= scene.curve.size(); i += 3) {
+        const double* p = &scene.curve[i % scene.curve.size()];
+        line.points.push_back({p[0], p[1], p[2]});
+      }
+      marks.lines.push_back(std::move(line));
+    }
     pictures.push_back(render(surface, view, look, marks));
     labels.push_back(tile.label);
   }

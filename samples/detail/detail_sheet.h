@@ -20,6 +20,7 @@ struct SheetScene {
   std::vector<float> surface;    // positions before any morph
   std::vector<uint32_t> inside;  // drawn in colour
   std::vector<uint32_t> points;  // of the curve, as dots on the first tile; may be empty
+  std::vector<double> curve;     // its corners, drawn as a closed line; may be empty
   double zoom = 1.45;            // size of the page over the size of the region
 };
 

@@ -167,6 +167,7 @@ void run(const Command& options) {
     SheetScene scene;
     scene.triangles = shown.mesh.triangles, scene.surface = shown.positions;
     scene.inside = shown.region.vertices(), scene.points = shown.curve.vertices;
+    scene.curve = shown.region.curve();
     const std::string name = options.mesh.filename().string();
     std::vector<SheetTile> tiles;
     if (detail) {

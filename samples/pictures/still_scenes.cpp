@@ -49,7 +49,7 @@ Picture draw_detail(const Body& body, int width, int height) {
     seen.insert(seen.end(), p, p + 3);
   }
   extend(box, empty, seen);
-  hf::Region region(body.surface, {}, HF_FIELD_BIHARMONIC);
+  hf::Region region(body.surface, {}, HF_BASE_THIN_PLATE);
   region.add_vertices(head);
   std::vector<uint8_t> in(body.surface.vertex_count(), 0);
   for (const uint32_t v : head) in[v] = 1;

@@ -165,7 +165,9 @@ TEST(SurfaceCurve, MayTouchItself) {
   EXPECT_EQ(index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { side_of(*core, cross); }), 4u);
   const Points eight = at_vertices({at(5, 5), at(12, 12), at(12, 5), at(5, 12)});
   EXPECT_EQ(index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { side_of(*core, eight); }), 2u);
-  // an eight whose lines cross inside a triangle
+  // an eight whose lines cross in the middle of an edge, and one inside a triangle
+  const Points middle = at_vertices({at(5, 7), at(11, 10), at(11, 7), at(5, 10)});
+  EXPECT_EQ(index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { side_of(*core, middle); }), 2u);
   const Points skew = at_vertices({at(5, 5), at(12, 13), at(13, 4), at(5, 12)});
   EXPECT_EQ(index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { side_of(*core, skew); }), 2u);
   // out from the corner of a square and back, at a slope that meets no vertex
