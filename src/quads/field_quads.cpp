@@ -11,6 +11,7 @@
 #include "quads/symmetric.h"
 #include "remesh/fit.h"
 #include "remesh/relax.h"
+#include "remesh/unfold.h"
 
 namespace hf_inner {
 namespace {
@@ -201,7 +202,8 @@ double even_out(const FluxSurface& surface, const QuadDistance& distance, std::i
   distance.turn_quads(mesh);
   FitOptions fit;
   fit.edge_length = edge_length, fit.tolerance = fit_tolerance * edge_length;
-  return fit_quads(surface, distance, mesh, fit, memory);
+  const double away = fit_quads(surface, distance, mesh, fit, memory);
+  return unfold_quads(surface, distance, edge_length, away, mesh, memory);
 }
 
 }  // namespace

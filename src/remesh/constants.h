@@ -37,6 +37,16 @@ constexpr double size_step = 0.5;
 // A walk along the surface crosses at most this many edges. With 50 and 800 no test mesh changes.
 constexpr int most_crossings = 200;
 
+// --- unfold.cpp ---
+
+// Corners count as unfolded from this sine on. Larger moves more vertices, 0 leaves corners on the edge of turning.
+constexpr double unfold_margin = 0.1;
+constexpr std::int32_t unfold_rounds = 20;
+// A vertex tries places this far away, in edge lengths, then half as far, down to the least.
+constexpr double unfold_reach = 0.4;
+constexpr double unfold_least = 0.02;
+constexpr std::int32_t unfold_returns = 4;
+
 // --- quad_distance.cpp ---
 
 // From this many vertices on, only every second is sampled, from twice as many every third; this saves time. Half,

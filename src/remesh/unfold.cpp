@@ -1,0 +1,164 @@
+#include "remesh/unfold.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/progress.h"
+#include "remesh/constants.h"
+#include "remesh/relax.h"
+
+namespace hf_inner {
+namespace {
+
+Vec3 area_vector(const Vec3* p) noexcept { return cross(p[2] - p[0], p[3] - p[1]); }
+
+class Unfolder {
+ public:
+  Unfolder(const FluxSurface& surface, const QuadDistance& distance, double edge_length, QuadMesh& mesh, Memory& memory)
+      : surface_(surface),
+        distance_(distance),
+        edge_length_(edge_length),
+        mesh_(mesh),
+        memory_(memory),
+        fans_(mesh, memory),
+        old_position_(memory),
+        old_location_(memory) {
+    old_position_ = mesh.position, old_location_ = mesh.location;
+  }
+
+  double run(double away) {
+    Table<std::int32_t> todo(memory_);
+    bool moved = false;
+    for (std::int32_t round = 0; round < unfold_rounds; ++round) {
+      poll();
+      gather(todo);
+      if (todo.size() == 0) break;
+      bool any = false;
+      for (std::int32_t i = 0; i < todo.size(); ++i) any = improve(todo[i]) || any;
+      moved = moved || any;
+      if (!any) break;
+    }
+    return moved ? held(away) : away;
+  }
+
+ private:
+  // The vertices of quads with a turned corner that may move.
+  void gather(Table<std::int32_t>& todo) const {
+    Table<std::uint8_t> marked(mesh_.position.size(), 0, memory_);
+    for (std::int32_t f = 0; f < mesh_.face_count(); ++f) {
+      if (least_sine(f) > 0) continue;
+      for (std::int32_t k = 0; k < 4; ++k) marked[mesh_.quad(f)[k]] = 1;
+    }
+    todo.clear();
+    for (std::int32_t v = 0; v < mesh_.position.size(); ++v) {
+      if (marked[v] && !mesh_.border[v] && mesh_.pinned[v] != QuadMesh::feature) todo.push_back(v);
+    }
+  }
+
+  // Calls use(sine) for each corner of a quad.
+  template <class Use>
+  void for_sines(std::int32_t f, Use&& use) const {
+    const std::int32_t* c = mesh_.quad(f);
+    const Vec3 p[4] = {mesh_.position[c[0]], mesh_.position[c[1]], mesh_.position[c[2]], mesh_.position[c[3]]};
+    const Vec3 n = unit(area_vector(p));
+    for (std::int32_t k = 0; k < 4; ++k) use(dot(cross(unit(p[(k + 1) % 4] - p[k]), unit(p[(k + 3) % 4] - p[k])), n));
+  }
+  double least_sine(std::int32_t f) const {
+    double least = 1;
+    for_sines(f, [&](double sine) { least = std::min(least, sine); });
+    return least;
+  }
+  double energy(std::int32_t v) const {
+    double sum = 0;
+    for (std::int32_t i = fans_.start[v]; i < fans_.start[v + 1]; ++i) {
+      for_sines(fans_.face[i], [&](double sine) {
+        const double miss = std::max(0.0, unfold_margin - sine);
+        sum += miss * miss;
+      });
+    }
+    return sum;
+  }
+
+  // Moves a vertex to the best of some places around it. Returns whether it moved.
+  bool improve(std::int32_t v) {
+    const SurfacePoint from = mesh_.location[v];
+    const Vec3 origin = mesh_.position[v];
+    SurfacePoint best_place = from;
+    Vec3 best_position = origin;
+    const double before = energy(v);
+    double best = before;
+    const auto offer = [&](Vec3 way) {
+      const SurfacePoint place = walk_surface(surface_, from, way);
+      mesh_.position[v] = position_of(surface_, place);
+      const double e = energy(v);
+      if (e < best) best = e, best_place = place, best_position = mesh_.position[v];
+    };
+    Vec3 centre;
+    std::int32_t count = 0;
+    Vec3 normal;
+    for (std::int32_t i = fans_.start[v]; i < fans_.start[v + 1]; ++i) {
+      const std::int32_t* c = mesh_.quad(fans_.face[i]);
+      const Vec3 p[4] = {mesh_.position[c[0]], mesh_.position[c[1]], mesh_.position[c[2]], mesh_.position[c[3]]};
+      normal = normal + area_vector(p);
+      for (std::int32_t k = 0; k < 4; ++k) {
+        if (c[k] != v) centre = centre + mesh_.position[c[k]], ++count;
+      }
+    }
+    const Vec3 axis = std::fabs(normal.x) < std::fabs(normal.y) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 x = unit(cross(normal, axis)), y = unit(cross(normal, x));
+    for (double length = unfold_reach * edge_length_; length > unfold_least * edge_length_; length *= 0.5) {
+      for (const double a : {-1.0, 0.0, 1.0}) {
+        for (const double b : {-1.0, 0.0, 1.0}) {
+          if (a == 0 && b == 0) continue;
+          offer(length * (a * x + b * y));
+        }
+      }
+      if (best < before) break;
+    }
+    mesh_.position[v] = origin;
+    if (count > 0) offer((1.0 / count) * centre - origin);
+    mesh_.position[v] = best_position, mesh_.location[v] = best_place;
+    return best < before;
+  }
+
+  // Takes back what lies farther from the surface than before.
+  double held(double away) {
+    Vector<QuadMiss> misses(&memory_);
+    for (std::int32_t round = 0; round < unfold_returns; ++round) {
+      distance_.turn_quads(mesh_);
+      misses.clear();
+      const double now = distance_.measure(mesh_, away, &misses);
+      if (misses.empty()) return std::min(now, away);
+      Table<std::uint8_t> back(mesh_.position.size(), 0, memory_);
+      for (const QuadMiss& miss : misses) {
+        for (std::int32_t k = 0; k < 4; ++k) back[mesh_.quad(miss.face)[k]] = 1;
+      }
+      grow_marks(mesh_, round, back);
+      for (std::int32_t v = 0; v < mesh_.position.size(); ++v) {
+        if (back[v]) restore(v);
+      }
+    }
+    for (std::int32_t v = 0; v < mesh_.position.size(); ++v) restore(v);
+    distance_.turn_quads(mesh_);
+    return away;
+  }
+  void restore(std::int32_t v) { mesh_.position[v] = old_position_[v], mesh_.location[v] = old_location_[v]; }
+
+  const FluxSurface& surface_;
+  const QuadDistance& distance_;
+  double edge_length_;
+  QuadMesh& mesh_;
+  Memory& memory_;
+  VertexFans fans_;
+  Table<Vec3> old_position_;
+  Table<SurfacePoint> old_location_;
+};
+
+}  // namespace
+
+double unfold_quads(const FluxSurface& surface, const QuadDistance& distance, double edge_length, double away,
+                    QuadMesh& mesh, Memory& memory) {
+  return Unfolder(surface, distance, edge_length, mesh, memory).run(away);
+}
+
+}  // namespace hf_inner
