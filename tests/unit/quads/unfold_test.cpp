@@ -1,0 +1,102 @@
+// Unfolding: corners that face away from the normal of their quad are mended, and nothing moves away from the surface.
+#include "remesh/unfold.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "assets/creature.h"
+#include "assets/shapes.h"
+#include "quads/field_quads.h"
+#include "remesh/relax.h"
+#include "support/meshes.h"
+
+namespace {
+
+using namespace hf_inner;
+
+constexpr double edge_length = 0.05;
+
+struct Thrown {
+  Thrown()
+      : core(hf_test::make_core({shape.positions, shape.triangles})),
+        surface(FluxSurface::make(core->mesh, core->topology, *core->memory)),
+        distance(surface, 0.25 * edge_length, *core->memory),
+        mesh([&] {
+          FieldQuadOptions options;
+          options.core = core, options.edge_length = edge_length, options.relax = 20;
+          return make_field_quads(options).mesh;
+        }()) {}
+  // Moves every tenth vertex by up to an edge, so that quads turn over.
+  void fold(std::uint8_t pin) {
+    for (std::int32_t v = 0; v < mesh.position.size(); v += 10) {
+      const auto unit_of = [&](std::uint64_t k) {
+        return samples::hash_to_unit(k, static_cast<std::uint64_t>(v)) - 0.5;
+      };
+      mesh.location[v] =
+          walk_surface(surface, mesh.location[v], 2 * edge_length * Vec3{unit_of(1), unit_of(2), unit_of(3)});
+      mesh.position[v] = position_of(surface, mesh.location[v]), mesh.pinned[v] = pin;
+    }
+    distance.turn_quads(mesh);
+  }
+  std::int32_t turned() const {
+    std::int32_t count = 0;
+    for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+      Vec3 p[4], normal;
+      for (std::int32_t k = 0; k < 4; ++k) p[k] = mesh.position[mesh.quad(f)[k]];
+      for (std::int32_t k = 0; k < 4; ++k) normal = normal + cross(p[k], p[(k + 1) % 4]);
+      for (std::int32_t k = 0; k < 4; ++k)
+        count += dot(cross(p[(k + 1) % 4] - p[k], p[(k + 3) % 4] - p[k]), normal) <= 0;
+    }
+    return count;
+  }
+  samples::ShapeMesh shape = samples::jittered_torus(60, 40);
+  std::shared_ptr<const Core> core;
+  FluxSurface surface;
+  QuadDistance distance;
+  QuadMesh mesh;
+};
+
+TEST(UnfoldQuads, NoCornerStaysTurnedOverAndTheMeshGetsNoFarther) {
+  Thrown thrown;
+  EXPECT_EQ(thrown.turned(), 0);
+  for (const std::uint8_t pin : {QuadMesh::free, QuadMesh::snapped}) {
+    Thrown now;
+    now.fold(pin);
+    ASSERT_GT(now.turned(), 20);
+    const double before = now.distance.measure(now.mesh, 0, nullptr);
+    const double after = unfold_quads(now.surface, now.distance, edge_length, before, now.mesh, *now.core->memory);
+    EXPECT_EQ(now.turned(), 0);
+    EXPECT_LE(after, before);
+    EXPECT_LE(now.distance.measure(now.mesh, 0, nullptr), before);
+    for (std::int32_t v = 0; v < now.mesh.position.size(); ++v)
+      ASSERT_LT(norm(position_of(now.surface, now.mesh.location[v]) - now.mesh.position[v]), 1e-9) << v;
+  }
+}
+
+TEST(UnfoldQuads, FeaturesStayAndAMeshWithoutTurnedCornersKeepsItsBits) {
+  Thrown thrown;
+  const QuadMesh flat = thrown.mesh;
+  EXPECT_EQ(unfold_quads(thrown.surface, thrown.distance, edge_length, 0.25, thrown.mesh, *thrown.core->memory), 0.25);
+  for (std::int32_t v = 0; v < flat.position.size(); ++v)
+    EXPECT_EQ(norm(thrown.mesh.position[v] - flat.position[v]), 0);
+  thrown.fold(QuadMesh::feature);
+  const QuadMesh folded = thrown.mesh;
+  const double before = thrown.distance.measure(thrown.mesh, 0, nullptr);
+  unfold_quads(thrown.surface, thrown.distance, edge_length, before, thrown.mesh, *thrown.core->memory);
+  for (std::int32_t v = 0; v < folded.position.size(); v += 10)
+    EXPECT_EQ(norm(thrown.mesh.position[v] - folded.position[v]), 0);
+}
+
+// Where nothing may lie farther from the surface than a bound that is too small, all goes back.
+TEST(UnfoldQuads, WhatWouldLieFartherGoesBack) {
+  Thrown thrown;
+  thrown.fold(QuadMesh::free);
+  const QuadMesh folded = thrown.mesh;
+  const double before = thrown.distance.measure(thrown.mesh, 0, nullptr);
+  unfold_quads(thrown.surface, thrown.distance, edge_length, 0.01 * before, thrown.mesh, *thrown.core->memory);
+  for (std::int32_t v = 0; v < folded.position.size(); ++v)
+    EXPECT_EQ(norm(thrown.mesh.position[v] - folded.position[v]), 0);
+}
+
+}  // namespace
