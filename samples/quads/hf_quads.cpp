@@ -251,7 +251,7 @@ void run(const Command& options) {
   create.vertex_count = static_cast<uint32_t>(input.positions.size());
   create.triangle_count = static_cast<uint32_t>(input.triangles.size() / 3);
   create.positions_f64 = positions.data(), create.triangles = input.triangles.data();
-  limit_surface(create);
+  limit_surface(create, options.faces);
   const hf::Surface surface(create);
   const double diagonal = surface.report().bounding_box_diagonal;
   std::printf("mesh        %u vertices, %u triangles, box diagonal %.6g\n", create.vertex_count, create.triangle_count,
