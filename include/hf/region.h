@@ -65,9 +65,9 @@ enum {
 };
 
 /* Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are the
- * region. The rim is the vertices next to them, on or beyond the curve: it follows the curve within an edge, and where
- * the curve runs along edges the rim is the curve. A whole border of the surface is a curve too; it has only one side.
- * The curve passes a vertex at most 8 times. */
+ * region, and any single vertex that these surround but for one edge. The rim is the vertices next to them, on or
+ * beyond the curve: it follows the curve within an edge, and where the curve runs along edges the rim is the curve. A
+ * whole border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times. */
 typedef struct hf_curve_desc {
   uint32_t struct_size;
   uint32_t point_count;       /* 3 to the number of vertices of the mesh */

@@ -146,6 +146,7 @@ struct World {
   World& operator=(const World&) = delete;
 
   Mesh big, small, soup;
+  std::uint32_t small_around = 0;  // vertices around the small torus
   hf_surface surface = nullptr, big_surface = nullptr;
   std::vector<unsigned char> saved;
   hf_pose pose = nullptr;
@@ -256,6 +257,33 @@ Case distances(const char* name, std::int32_t method, hf_surface surface, std::s
   return c;
 }
 
+// A region inside a straight curve through three points that lie an eighth of the torus apart. around: its nv.
+Case region_curve(hf_surface surface, std::uint32_t vertices, std::uint32_t around) {
+  struct Made {
+    hf_region object = nullptr;
+    ~Made() { hf_region_destroy(object); }
+  };
+  const auto made = std::make_shared<Made>();
+  hf_region_desc membrane = desc<hf_region_desc>();
+  membrane.base = HF_BASE_MEMBRANE;
+  must(hf_region_create(surface, &membrane, &made->object), "hf_region_create");
+  return {"region_curve",
+          [=](hf_progress p) {
+            const std::uint32_t along = vertices / around;
+            const std::uint32_t points[3] = {0, along / 8 * around, along / 16 * around + around / 4};
+            hf_curve_desc curve = desc<hf_curve_desc>();
+            curve.point_count = 3, curve.vertices = points;
+            hf_region_edit_desc edit = desc<hf_region_edit_desc>();
+            edit.curve = &curve, edit.progress = p;
+            hf_region copy = nullptr;
+            must(hf_region_clone(made->object, &copy), "hf_region_clone");
+            const hf_result result = hf_region_edit(copy, &edit);
+            hf_region_destroy(copy);
+            return result;
+          },
+          [=] { return memory_of(surface); }};
+}
+
 void add_field_cases(World& w, std::vector<Case>& cases) {
   hf_solver_desc bent = desc<hf_solver_desc>();
   bent.field_kind = HF_FIELD_BIHARMONIC;
@@ -263,6 +291,7 @@ void add_field_cases(World& w, std::vector<Case>& cases) {
   plate.base = HF_BASE_THIN_PLATE;
   cases.push_back(making("solver_of_another_kind", w.surface, bent, hf_create, hf_solver_destroy));
   cases.push_back(making("region", w.surface, plate, hf_region_create, hf_region_destroy));
+  cases.push_back(region_curve(w.surface, w.small.vertex_count(), w.small_around));
   cases.push_back(
       making("geodesics", w.big_surface, desc<hf_geodesics_desc>(), hf_geodesics_create, hf_geodesics_destroy));
   cases.push_back(distances("distances_front", HF_GEODESICS_FRONT, w.big_surface, w.big.vertex_count()));
@@ -366,6 +395,7 @@ int main(int argc, char** argv) {
   Mesh big, small;
   add_torus(big, full ? 1000 : 80, full ? 500 : 40), add_torus(small, full ? 400 : 60, full ? 200 : 30);
   World world(full, std::move(big), std::move(small));
+  world.small_around = full ? 200 : 30;
   std::vector<Case> cases;
   add_surface_cases(world, cases), add_field_cases(world, cases), add_pose_cases(world, cases);
   add_weights_cases(world.surface, world.small, cases);
