@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "base/index.h"
@@ -187,11 +188,16 @@ Region::Region(std::shared_ptr<const RegionSurface> surface) : surface_(std::mov
 Region::Region(const Region& other) : surface_(other.surface_), state_(other.state_), history_(memory()) {}
 
 void Region::edit(const RegionEdit& edit) {
-  constexpr float shaped = 0.2f, placed = 0.7f;  // reported progress, by the usual share of time
+  // Reported progress, by the usual share of time. A curve comes first, if there is one.
+  constexpr float shaped = 0.2f, placed = 0.7f, drawn = 0.5f;
   report(0.0f);
   const RegionShape& before = *state_->shape;
   Enclosed enclosing(memory());
-  if (!edit.curve.empty()) enclosing = enclosed(*surface_, edit, memory());
+  if (!edit.curve.empty()) {
+    const ProgressRange range(0.0f, drawn);
+    enclosing = enclosed(*surface_, edit, memory());
+  }
+  std::optional<ProgressRange> part(std::in_place, edit.curve.empty() ? 0.0f : drawn, 1.0f);
   Vector<Index>& begun = edit.curve.empty() ? enclosing.inside = before.inside : enclosing.inside;
   const Vector<Index> inside = edited(core(), std::move(begun), edit, memory());
   if (inside.empty())
@@ -199,7 +205,10 @@ void Region::edit(const RegionEdit& edit) {
   const auto shape = make_shared_in<RegionShape>(memory(), core(), inside, memory());
   report(shaped);
   const auto next = make_shared_in<RegionState>(memory(), *surface_, shape, memory());
-  place_sites(*state_, *next, core(), memory());
+  {
+    const ProgressRange range(shaped, placed);
+    place_sites(*state_, *next, core(), memory());
+  }
   report(placed);
   solve_base(*surface_, *next, memory());
   next->base_area = morphed_area(*surface_, *next, 1.0, memory());
@@ -208,6 +217,7 @@ void Region::edit(const RegionEdit& edit) {
     next->first = nearest_of(*surface_, shape->rim, surface_->position(edit.curve[0]));
     next->curve = make_shared_in<Vector<Vec3>>(memory(), std::move(enclosing.line));
   }
+  part.reset();
   report(1.0f);
   history_.clear_redo();
   state_ = next;

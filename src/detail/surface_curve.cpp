@@ -68,6 +68,8 @@ class CurveTracer {
       const CurvePoint from = snapped(points_[i]), to = snapped(points_[(i + 1) % points_.size()]);
       put(place_of(from));
       if (in_one_triangle(from, to)) continue;
+      const float count = static_cast<float>(points_.size());
+      const ProgressRange range(static_cast<float>(i) / count, static_cast<float>(i + 1) / count);
       const std::size_t before = curve_.place.size();
       if (exact(from, to) && holds_together(before - 1, to)) continue;
       // A path that rounding loses is replaced by the one along edges.
