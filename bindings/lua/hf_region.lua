@@ -24,7 +24,7 @@ end
 function Region:clone()
   return create(Region, 'hf_region', { vertex_count = self.vertex_count }, C.hf_region_clone, self.raw)
 end
--- One edit: curve (what these vertices enclose; side, seed_vertex, curve_kind HF_CURVE_*), rings more or less, add and remove (lists).
+-- One edit: curve (what these vertices enclose; side, seed_vertex, curve_kind), rings more or less, add and remove (lists).
 function Region:edit(edit)
   local desc = make('hf_region_edit_desc', { ring_count = edit.rings or 0 })
   local along, points = nil, 0

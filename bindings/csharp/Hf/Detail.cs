@@ -94,7 +94,8 @@ namespace Hf
             uint count;
             Check(Functions.hf_region_get_curve(Handle, 0, null, &count));
             var points = new double[3 * count];
-            if (count > 0) fixed (double* place = points) Check(Functions.hf_region_get_curve(Handle, count, place, &count));
+            if (count > 0)
+                fixed (double* place = points) Check(Functions.hf_region_get_curve(Handle, count, place, &count));
             return points;
         }
 

@@ -18,7 +18,7 @@ export function detailClasses(tools) {
     return out;
   };
 
-  /** A region of a surface. `positions`: a pose of the surface to work on, null for its rest positions. `base`: HF_BASE_*. */
+  /** A region of a surface. `positions`: a pose to work on, null for the rest positions. `base`: HF_BASE_*. */
   class Region extends Recorded {
     static prefix = 'hf_region';
     constructor(surface, { positions = null, base = 0, progress = null } = {}) {
@@ -32,7 +32,7 @@ export function detailClasses(tools) {
     clone() {
       return this._copy();
     }
-    /** One edit: what a closed curve encloses; rings more or less; vertices added and removed. `curveKind`: HF_CURVE_*. */
+    /** One edit: what a closed curve (`curveKind`: HF_CURVE_*) encloses; rings; vertices added and removed. */
     edit({
       curve = null,
       side = 0,

@@ -472,7 +472,7 @@ export interface Hf {
   ) => Direction;
   readonly Quads: new (surface: Surface, options?: QuadOptions) => Quads;
   readonly Flow: new (surface: Surface) => Flow;
-  /** `positions`: a pose of the surface to work on, null for its rest positions. `base`: HF_BASE_*. */
+  /** `positions`: a pose to work on, null for the rest positions. `base`: HF_BASE_*. */
   readonly Region: new (
     surface: Surface,
     options?: { positions?: Floats | Numbers | null; base?: number; progress?: Progress | null },
