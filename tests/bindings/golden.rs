@@ -827,9 +827,7 @@ impl Scene<'_> {
             }
             "path" => {
                 let (from, to) = (self.place(step, "from"), self.place(step, "to"));
-                Ok(Answer::Array(
-                    on!(self, step, Geodesics).path(&from, &to)?,
-                ))
+                Ok(Answer::Array(on!(self, step, Geodesics).path(&from, &to)?))
             }
             "map" => {
                 let centre = self.place(step, "centre");
@@ -840,7 +838,9 @@ impl Scene<'_> {
             }
             "quads_info" => {
                 let info = on!(self, step, Quads).info()?;
-                Ok(Answer::Struct(Box::new(move |name: &str| info.figure(name))))
+                Ok(Answer::Struct(Box::new(move |name: &str| {
+                    info.figure(name)
+                })))
             }
             "quad_mesh" => Ok(Answer::Array(on!(self, step, Quads).mesh()?.positions)),
             "flow_lines" => {

@@ -65,12 +65,7 @@ impl Region {
 
     /// Carries out one edit.
     pub fn edit(&mut self, edit: &RegionEdit) -> Result<()> {
-        let mut curve = raw::hf_curve_desc {
-            side: edit.side,
-            seed_vertex: edit.seed_vertex,
-            kind: edit.curve_kind,
-            ..Default::default()
-        };
+        let mut curve = raw::hf_curve_desc { side: edit.side, seed_vertex: edit.seed_vertex, kind: edit.curve_kind, ..Default::default() };
         let mut desc = raw::hf_region_edit_desc {
             ring_count: edit.rings,
             add_count: count_of(edit.add.len(), "add")?,
@@ -110,9 +105,8 @@ impl Region {
     /// The corners of the last closed curve, to draw it: x, y, z of each. The last is joined to the first.
     pub fn curve(&self) -> Result<Vec<f64>> {
         // SAFETY: `list` passes room for as many triples as it says.
-        let corners: Vec<[f64; 3]> = list(|room, out: *mut [f64; 3], count| unsafe {
-            raw::hf_region_get_curve(self.handle, room, out.cast(), count)
-        })?;
+        let corners: Vec<[f64; 3]> =
+            list(|room, out: *mut [f64; 3], count| unsafe { raw::hf_region_get_curve(self.handle, room, out.cast(), count) })?;
         Ok(corners.concat())
     }
 
