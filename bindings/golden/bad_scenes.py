@@ -232,7 +232,13 @@ def bad_scenes():
     bad("OUT_OF_RANGE", index=1, do="flow_lines", on="w", field=[0.0] * 302, seeds=[0, 302])
     made += [{"do": "region", "on": "m", "as": "o"}]
     bad("INVALID_ARGUMENT", do="region", on="m", **{"as": "n"}, positions=[0.0] * 9)
+    for base in (-1, 4):
+        bad("INVALID_ARGUMENT", do="region", on="m", **{"as": "n"}, options={"base": base})
     bad("OUT_OF_RANGE", do="region_edit", on="o", add=[302])
+    for kind in (-1, 2):
+        bad("INVALID_ARGUMENT", do="region_edit", on="o", curve=[0, 1, 13], curve_kind=kind)
+    bad("EMPTY", index=2, do="region_edit", on="o", curve=[0, 1])
+    made += [{"do": call, "on": "o", "expect": {"count": 0}} for call in ("region_curve", "region_vertices")]
     bad("NON_FINITE", do="morph", on="o", weight="nan")
     bad("NO_RECORD", do="undo_region", on="o")
     bad("EMPTY", **{"do": "detail", "as": "n", "source": "o", "target": "o"})
@@ -279,7 +285,7 @@ def bad_scenes():
              "w": [{"do": "flow_lines", "field": [0.0] * 302, "count": 4}], "k": [{"do": "quads_info"},
                  {"do": "quad_mesh"}, {"do": "update_quads"}],
              "o": [{"do": "region_edit", "rings": 1}, {"do": "region_info"}, {"do": "region_vertices"},
-                 {"do": "morph", "weight": 1.0},
+                 {"do": "region_curve"}, {"do": "morph", "weight": 1.0},
                    {"do": "record_region"}, {"do": "undo_region"}, {"do": "redo_region"}]}
     for name, steps in calls.items():
         made += [{"do": "dispose", "on": name}, {"do": "dispose", "on": name}]

@@ -17,7 +17,8 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "tests" / "bindings"), str(HERE
 import golden  # noqa: E402
 import hf  # noqa: E402
 from bad_scenes import bad_scenes  # noqa: E402
-from oracle import agree, cast_ray, expect, expect_all, expect_rows, field, graph_field, rotation, straight_path  # noqa: E402
+from oracle import (agree, cast_ray, expect, expect_all, expect_rows, field, graph_field, inside_polygon, rotation,  # noqa: E402
+                    straight_path)
 from shapes import bar, pair, strip, torus  # noqa: E402
 
 
@@ -242,7 +243,8 @@ def scenes(meshes):
               "expect": agree(0), **on_r},
           {"do": "morph", "weight": 0.0, "expect": expect(np.array(mesh["positions"]), 0), **on_r}, {"do": "morph",
               "weight": 1.0, "expect": agree(), **on_r},
-          {"do": "region_info", "expect": {"factorisation_count": 0}, **on_r}, {"do": "undo_region", **on_r},
+          {"do": "region_info", "expect": {"factorisation_count": 0, "field_kind": hf.constants.HF_FIELD_BIHARMONIC}, **on_r},
+          {"do": "undo_region", **on_r},
           {"do": "region_vertices", "expect": expect(np.array(patch), 0), **on_r}, {"do": "redo_region", **on_r},
           {"do": "region_vertices", "same_as": "grown", **on_r},
           {"do": "region_edit", "curve": [0, 1, 2, 3, 15, 27, 39, 38, 37, 36, 24, 12],
@@ -323,6 +325,7 @@ def scenes(meshes):
     kinds_of_field(scene, mesh, surface, solver)
     picking(scene, mesh, surface)
     paths(scene, meshes["strip"], surface)
+    curves(scene, meshes["strip"], surface)
     graphs(scene, solver, solve)
     faces(scene, solver, solve)
     links(scene, surface, solver)
@@ -369,11 +372,11 @@ def kinds_of_field(scene, mesh, surface, solver):
     vertices, values = [0, 50, 100, 200, 287], [1.0, -1.0, 0.5, 2.0, 0.0]
     given = {"do": "add_sites", "vertices": vertices, "values": values}
     thin, graph = hf.constants.HF_FIELD_BIHARMONIC, hf.constants.HF_FIELD_BIHARMONIC_GRAPH
-    patch = {"do": "region_edit", "add": [0, 1, 2, 12, 13, 14]}
+    patch, plate = {"do": "region_edit", "add": [0, 1, 2, 12, 13, 14]}, hf.constants.HF_BASE_THIN_PLATE
     turn = {"do": "set_transforms", "handles": [1], "translations": [0.5, 0.0, 0.0]}
     handles = {"do": "add_handles", "regions": [[0, 1, 2], [144, 145, 146]]}
     scene("biharmonic",
-        "A bi-harmonic solver and region on a harmonic surface, beside a harmonic one (oracle); a surface made bi-harmonic gives the "
+        "A bi-harmonic solver and a thin plate on a harmonic surface, beside a harmonic one (oracle); a surface made bi-harmonic gives the "
           "same bits, and its poses use the harmonic factor.", surface("torus"), solver("h"), {**given, "on": "h"},
           solver("g", field_kind=graph), {**given, "on": "g"},
           {"do": "solve", "on": "h", "expect": expect(field(mesh, vertices, values))},
@@ -381,7 +384,7 @@ def kinds_of_field(scene, mesh, surface, solver):
           {"do": "solver_info", "on": "g", "expect": {"field_kind": graph}},
           {"do": "statistics", "on": "g", "expect": {"factorisation_count": 0, "site_count": 5}},
           solver("b", field_kind=thin), {**given, "on": "b"}, {"do": "solve", "on": "b", "keep": "thin", "expect": agree()},
-          {"do": "region", "on": "m", "as": "r", "options": {"field_kind": thin}}, {**patch, "on": "r"},
+          {"do": "region", "on": "m", "as": "r", "options": {"base": plate}}, {**patch, "on": "r"},
           {"do": "region_info", "on": "r", "expect": {"field_kind": thin, "vertex_count": 6}},
           {"do": "morph", "on": "r", "weight": 1.0, "keep": "smooth", "expect": agree()},
           {"do": "pose", "on": "m", "as": "p"}, {**handles, "on": "p"}, {**turn, "on": "p"},
@@ -389,7 +392,7 @@ def kinds_of_field(scene, mesh, surface, solver):
           surface("torus", "n", field_kind=thin), {"do": "dispose", "on": "m"},
           {"do": "surface_info", "on": "n", "expect": {"field_kind": thin}},
           solver("b", "n", field_kind=thin), {**given, "on": "b"}, {"do": "solve", "on": "b", "same_as": "thin"},
-          {"do": "region", "on": "n", "as": "r", "options": {"field_kind": thin}}, {**patch, "on": "r"},
+          {"do": "region", "on": "n", "as": "r", "options": {"base": plate}}, {**patch, "on": "r"},
           {"do": "morph", "on": "r", "weight": 1.0, "same_as": "smooth"},
           {"do": "pose", "on": "n", "as": "p"}, {**handles, "on": "p"}, {**turn, "on": "p"},
           {"do": "deform", "on": "p", "same_as": "posed"},
@@ -493,6 +496,33 @@ def carried_weights(scene, mesh, surface):
           {**mirror, "plane": [3.0, 0.0, 0.0, 0.0, 0.0, 0.0], "error": "HF_ERROR_INVALID_ARGUMENT"},
           {**mirror, "names": ["arm.L"], "error": "HF_ERROR_INVALID_ARGUMENT"},
           {**mirror, "weights": [0.0] * (2 * count), "error": "HF_ERROR_EMPTY"})
+
+
+def curves(scene, mesh, surface):
+    points, triangles = np.array(mesh["positions"]).reshape(-1, 3), np.array(mesh["triangles"]).reshape(-1, 3)
+    through = [14, 23, 48, 40]
+    corners = points[through]
+    line = np.concatenate([straight_path(points, triangles, [v], [w])[:-1] for v, w in zip(through,
+        np.roll(through, -1).tolist())])
+    inside = inside_polygon(points, corners)
+    inside[through] = False
+    rim = np.zeros_like(inside)
+    rim[triangles[inside[triangles].any(1)]] = True
+    edit = lambda curve, **more: {"do": "region_edit", "on": "r", "curve": curve, **more}
+    list_of = lambda which, found: {"do": "region_vertices", "on": "r", "list": which,
+        "expect": expect(np.flatnonzero(found), 0)}
+    drawn = lambda **more: {"do": "region_curve", "on": "r", **more}
+    scene("curves",
+        "A straight curve on a flat strip is a polygon: its corners, the vertices inside it and their rim (closed forms). Along "
+          "edges by agreement. A curve that crosses itself is refused and changes nothing.", surface("strip"),
+          {"do": "region", "on": "m", "as": "r", "options": {"base": hf.constants.HF_BASE_MEMBRANE}},
+          drawn(expect={"count": 0}), edit(through), list_of(0, inside), list_of(1, rim & ~inside),
+          {"do": "region_info", "on": "r", "expect": {"field_kind": hf.constants.HF_FIELD_HARMONIC}},
+          drawn(expect=expect_all(line.ravel()), keep="line"),
+          edit([14, 48, 23, 40], error="HF_ERROR_INVALID_ARGUMENT", index=2), drawn(same_as="line"),
+          {"do": "region_edit", "on": "r", "rings": 1}, drawn(same_as="line"),
+          edit(through, curve_kind=hf.constants.HF_CURVE_EDGES), drawn(expect=agree(0)),
+          {"do": "region_vertices", "on": "r", "expect": agree(0)})
 
 
 def graphs(scene, solver, solve):

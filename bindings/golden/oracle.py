@@ -99,6 +99,15 @@ def straight_path(points, triangles, start, end):
     return np.array([[*(a + s * (b - a)), 0.0] for s in sorted(params)])
 
 
+def inside_polygon(points, corners):
+    """The points of a flat mesh that a polygon encloses."""
+    inside = np.zeros(len(points), bool)
+    for (ax, ay), (bx, by) in zip(corners[:, :2], np.roll(corners[:, :2], -1, 0)):
+        spans = (points[:, 1] < ay) != (points[:, 1] < by)
+        inside ^= spans & (points[:, 0] < ax + (points[:, 1] - ay) * (bx - ax) / (by - ay))
+    return inside
+
+
 def rotation(q):
     x, y, z, w = q
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],

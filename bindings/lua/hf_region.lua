@@ -14,24 +14,24 @@ local function morph(call, thing, weight)
 end
 
 local Region = class('Region', function(raw) C.hf_region_destroy(raw) end)
--- positions: a pose of the surface to work on; nil: at rest. options: field_kind (0 a membrane, others a thin plate)
+-- positions: a pose of the surface to work on; nil: at rest. options: base (HF_BASE_*)
 function hf.Region(surface, positions, options)
   local parent = raw_of(surface, 'Surface', 'surface')
   local xyz = doubles(positions, 'positions', 3 * surface.vertex_count)
-  local desc = core.options_into(make('hf_region_desc', { positions_f64 = xyz }), options, core.set('field_kind'))
+  local desc = core.options_into(make('hf_region_desc', { positions_f64 = xyz }), options, core.set('base'))
   return create(Region, 'hf_region', { vertex_count = surface.vertex_count }, C.hf_region_create, parent, desc)
 end
 function Region:clone()
   return create(Region, 'hf_region', { vertex_count = self.vertex_count }, C.hf_region_clone, self.raw)
 end
--- One edit: curve (what these vertices enclose; side, seed_vertex), rings more or less, add and remove (lists).
+-- One edit: curve (what these vertices enclose; side, seed_vertex, curve_kind), rings more or less, add and remove (lists).
 function Region:edit(edit)
   local desc = make('hf_region_edit_desc', { ring_count = edit.rings or 0 })
   local along, points = nil, 0
   if edit.curve then
     along, points = integers(edit.curve, 'curve')
     local line = make('hf_curve_desc', { point_count = points, vertices = along, side = edit.side or 0,
-      seed_vertex = edit.seed_vertex or 0 })
+      seed_vertex = edit.seed_vertex or 0, kind = edit.curve_kind or 0 })
     desc.curve = line
     along = { along, line } -- kept until the call has returned
   end
@@ -50,6 +50,14 @@ function Region:vertices(which)
   return core.rows('uint32_t', function(capacity, out, count)
     return C.hf_region_get_vertices(self.raw, core.whole(which or 0, 'which'), capacity, out, count)
   end)
+end
+-- xyz of the corners of the last closed curve, and how many corners; the last is joined to the first.
+function Region:curve()
+  local count = ffi.new('uint32_t[1]')
+  check(C.hf_region_get_curve(self.raw, 0, nil, count))
+  local out = ffi.new('double[?]', 3 * count[0] + 1)
+  if count[0] > 0 then check(C.hf_region_get_curve(self.raw, count[0], out, count)) end
+  return out, count[0]
 end
 -- 0: the surface, 1: its base without detail, between and beyond in proportion
 function Region:morph(weight) return morph(C.hf_region_morph, self, weight) end

@@ -336,7 +336,7 @@ class Scene
                     return lines.Positions;
                 }
             case "region": objects[name] = new Region(surface, Doubles(step, "positions"),
-                (int)Options(step, "field_kind")["field_kind"]); return null;
+                (int)Options(step, "base")["base"]); return null;
             case "weights": objects[name] = new Weights(surface, BonesOf(step),
                 (uint)Options(step, "weight_count")["weight_count"]); return null;
             case "set_bones": ((Weights)on).SetBones(BonesOf(step)); return null;
@@ -363,12 +363,13 @@ class Scene
             case "region_edit":
                 ((Region)on).Edit(new RegionEdit { Curve = Numbers(Get(step, "curve")), Add = Numbers(Get(step, "add")),
                     Remove = Numbers(Get(step, "remove")), Rings = Get(step, "rings") == null ? 0
-                        : (int)(double)step["rings"] });
+                        : (int)(double)step["rings"], CurveKind = (int)Whole(step, "curve_kind") });
                 return null;
             case "region_info":
                 return Fields(((Region)on).Info);
             case "region_vertices":
                 return ((Region)on).Vertices((int)Whole(step, "list")).Select(x => (double)x).ToArray();
+            case "region_curve": return ((Region)on).Curve();
             case "record_region": ((Region)on).Record(); return null;
             case "undo_region": ((Region)on).Undo(); return null; case "redo_region": ((Region)on).Redo(); return null;
             case "morph":

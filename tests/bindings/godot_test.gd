@@ -98,14 +98,15 @@ func run(step, objects, kept):
 		"certify": return [true, on.certify(number(step.get("tolerance", 0))), on]
 		"region":
 			var made = shares(on)
-			var result = made.region_create(list(step, "positions", kept), options_of(step).get("field_kind", 0))
+			var result = made.region_create(list(step, "positions", kept), options_of(step).get("base", 0))
 			if result != null:
 				objects[step["as"]] = made
 			return [true, result, made]
 		"region_edit": return [true, on.region_edit(list(step, "add", kept), list(step, "remove", kept), step.get("rings", 0),
-			list(step, "curve", kept)), on]
+			list(step, "curve", kept), 0, 0, step.get("curve_kind", 0)), on]
 		"region_info": return [true, on.region_info(), on]
 		"region_vertices": return [true, on.region_vertices(step.get("list", 0)), on]
+		"region_curve": return [true, on.region_curve(), on]
 		"record_region": return [true, on.region_record(), on]
 		"undo_region": return [true, on.region_undo(), on]
 		"redo_region": return [true, on.region_redo(), on]

@@ -258,13 +258,16 @@ local function new_scene(meshes)
       end
       return 'array', out, n
     elseif what == 'region_edit' then
-      on:edit({ curve = step.curve, rings = step.rings, add = step.add, remove = step.remove })
+      on:edit({ curve = step.curve, curve_kind = step.curve_kind, rings = step.rings, add = step.add, remove = step.remove })
     elseif what == 'region_info' then return 'struct', on:info()
     elseif what == 'region_vertices' then
       local found, count = on:vertices(step.list)
       local out = ffi.new('double[?]', count + 1)
       for i = 0, count - 1 do out[i] = found[i] end
       return 'array', out, count
+    elseif what == 'region_curve' then
+      local found, count = on:curve()
+      return 'array', found, 3 * count
     elseif what == 'record_region' then on:record()
     elseif what == 'undo_region' then on:undo()
     elseif what == 'redo_region' then on:redo()

@@ -320,7 +320,13 @@ function runStep(hf, step, meshes, objects, kept) {
       return array(columnOf(hf.mirrorWeights(on, given, get('heads'), more), step.bone));
     }
     case 'region_edit':
-      on.edit({ curve: get('curve'), rings: step.rings ?? 0, add: get('add'), remove: get('remove') });
+      on.edit({
+        curve: get('curve'),
+        curveKind: step.curve_kind ?? 0,
+        rings: step.rings ?? 0,
+        add: get('add'),
+        remove: get('remove'),
+      });
       return {};
     case 'surface_info':
     case 'solver_info':
@@ -331,6 +337,8 @@ function runStep(hf, step, meshes, objects, kept) {
       return { struct: on.info };
     case 'region_vertices':
       return array(Float64Array.from(on.vertices(step.list ?? 0)));
+    case 'region_curve':
+      return array(on.curve());
     case 'record_region':
     case 'undo_region':
     case 'redo_region':

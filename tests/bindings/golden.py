@@ -254,11 +254,14 @@ class Scene:
                         plane=get("plane"), to=step.get("to", 0)).weights
             return "array", np.where(found.joints == step["bone"], found.weights, 0).sum(1).astype(np.float64)
         elif do == "region_edit":
-            on.edit(curve=get("curve"), rings=step.get("rings", 0), add=get("add"), remove=get("remove"))
+            on.edit(curve=get("curve"), curve_kind=step.get("curve_kind", 0), rings=step.get("rings", 0), add=get("add"),
+                remove=get("remove"))
         elif do == "region_info":
             return "struct", on.info
         elif do == "region_vertices":
             return "array", on.vertices(step.get("list", 0)).astype(np.float64)
+        elif do == "region_curve":
+            return "array", on.curve().ravel()
         elif do in ("record_region", "undo_region", "redo_region"):
             getattr(on, do.split("_")[0])()
         elif do == "morph":

@@ -642,6 +642,7 @@ impl Scene<'_> {
         match what {
             "region_edit" => region.edit(&RegionEdit {
                 curve: curve.as_deref(),
+                curve_kind: step["curve_kind"].as_i64().unwrap_or(0) as i32,
                 rings: step["rings"].as_i64().unwrap_or(0) as i32,
                 add: add.as_deref().unwrap_or_default(),
                 remove: remove.as_deref().unwrap_or_default(),
@@ -655,6 +656,7 @@ impl Scene<'_> {
                 let found = region.vertices(step["list"].as_i64().unwrap_or(0) as i32)?;
                 return Ok(Answer::Array(found.into_iter().map(f64::from).collect()));
             }
+            "region_curve" => return Ok(Answer::Array(region.curve()?)),
             "morph" => return Ok(Answer::Array(region.morph(number(&step["weight"]))?)),
             _ => unreachable!(),
         }
@@ -825,9 +827,7 @@ impl Scene<'_> {
             }
             "path" => {
                 let (from, to) = (self.place(step, "from"), self.place(step, "to"));
-                Ok(Answer::Array(
-                    on!(self, step, Geodesics).path(&from, &to)?,
-                ))
+                Ok(Answer::Array(on!(self, step, Geodesics).path(&from, &to)?))
             }
             "map" => {
                 let centre = self.place(step, "centre");
@@ -838,7 +838,9 @@ impl Scene<'_> {
             }
             "quads_info" => {
                 let info = on!(self, step, Quads).info()?;
-                Ok(Answer::Struct(Box::new(move |name: &str| info.figure(name))))
+                Ok(Answer::Struct(Box::new(move |name: &str| {
+                    info.figure(name)
+                })))
             }
             "quad_mesh" => Ok(Answer::Array(on!(self, step, Quads).mesh()?.positions)),
             "flow_lines" => {
@@ -899,7 +901,7 @@ impl Scene<'_> {
             | "set_transform" | "deform" | "deform_f32" | "handle_field" | "handle_info"
             | "handle_place" | "pose_info" | "skin" => self.pose_step(what, step),
             "region_edit" | "record_region" | "undo_region" | "redo_region" | "region_info"
-            | "region_vertices" | "morph" => self.region_step(what, step),
+            | "region_vertices" | "region_curve" | "morph" => self.region_step(what, step),
             "weights" | "set_bones" | "set_pins" | "set_locks" | "record_weights"
             | "undo_weights" | "redo_weights" | "clone_weights" | "weights_info" | "bone_flags"
             | "helpers" | "skin_weights" | "carry" | "mirror" => self.weights_step(what, step),

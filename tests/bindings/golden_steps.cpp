@@ -11,8 +11,9 @@ const std::set<std::string> direction_steps = {"add_vectors",   "remove_vectors"
                                                "rotate",        "record_vectors", "undo_vectors", "redo_vectors",
                                                "clone_vectors", "vectors",        "directions",   "singularities"};
 const std::set<std::string> mesh_steps = {"report", "surface_statistics", "surface_info", "components", "save"};
-const std::set<std::string> region_steps = {"region",        "region_edit", "region_info", "region_vertices",
-                                            "record_region", "undo_region", "redo_region", "morph"};
+const std::set<std::string> region_steps = {"region",          "region_edit",  "region_info",
+                                            "region_vertices", "region_curve", "record_region",
+                                            "undo_region",     "redo_region",  "morph"};
 const std::set<std::string> weight_steps = {
     "weights",       "set_bones",    "set_pins",   "set_locks", "record_weights", "undo_weights", "redo_weights",
     "clone_weights", "skin_weights", "bone_flags", "helpers",   "weights_info",   "carry",        "mirror"};

@@ -205,7 +205,7 @@ class Arrays(unittest.TestCase):
                  lambda: solver.add_site(-1), lambda: solver.add_site(1.5), lambda: solver.add_site(1, "x"),
                  lambda: hf.Pose(None), lambda: hf.Pose(3), lambda: hf.Pose(solver), lambda: hf.Pose(hf.Progress()),
                  lambda: hf.Transfer(surface, None), lambda: hf.Geodesics("s"), lambda: hf.Direction(None),
-                 lambda: hf.Region(surface, field_kind=9)]
+                 lambda: hf.Region(surface, base=9)]
         for number, case in enumerate(cases):
             with self.assertRaises(hf.HfError, msg=f"case {number}") as caught:
                 case()
@@ -344,6 +344,8 @@ class Refusals(unittest.TestCase):
                 self.refused(case)
         for wrong in (2**31, 0.5, "1", None):
             self.refused(lambda: region.edit(rings=wrong), "ring_count")
+            self.refused(lambda: region.edit(curve=[0, 1, 2, 14], curve_kind=wrong), "kind")
+            self.refused(lambda: hf.Region(surface, base=wrong), "base")
         self.refused(lambda: hf.Quads(surface, crease_edges=[0, 2**40]), "crease_edges")
 
     def test_arrays_that_numpy_would_convert_are_refused_by_name(self):

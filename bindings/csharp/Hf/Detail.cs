@@ -12,27 +12,29 @@ namespace Hf
         public uint[] Curve;
         public int Side;
         public uint SeedVertex;
+        /// <summary>HF_CURVE_STRAIGHT through triangles, HF_CURVE_EDGES along edges.</summary>
+        public int CurveKind;
         /// <summary>Rings of vertices more, or less when below 0.</summary>
         public int Rings;
         public uint[] Add, Remove;
     }
 
-    /// <summary>A region of a surface and its smooth base: a membrane, or a thin plate for a bi-harmonic
-    /// kind.</summary>
+    /// <summary>A region of a surface and its smooth base: a thin plate, or a membrane.</summary>
     public sealed unsafe class Region : HfObject
     {
         public int VertexCount { get; private set; }
 
         Region() { }
 
-        /// <summary>positions: a pose of the surface to work on, xyz per vertex; null: its rest positions.</summary>
-        public Region(Surface surface, double[] positions = null, int fieldKind = Constants.HF_FIELD_HARMONIC)
+        /// <summary>positions: a pose of the surface to work on, xyz per vertex; null: its rest positions. baseKind:
+        /// HF_BASE_*.</summary>
+        public Region(Surface surface, double[] positions = null, int baseKind = Constants.HF_BASE_DEFAULT)
         {
             HandleOf(surface, "surface");
             using (var pins = new Pins())
             {
                 var desc = new hf_region_desc { struct_size = (uint)sizeof(hf_region_desc) };
-                desc.field_kind = fieldKind;
+                desc.@base = baseKind;
                 desc.positions_f64 = pins.Add(positions, 3 * surface.VertexCount, "positions");
                 Make(Functions.hf_region_create, surface, "surface", &desc, Functions.hf_region_destroy);
             }
@@ -61,6 +63,7 @@ namespace Hf
                     curve.vertices = pins.Add(edit.Curve);
                     curve.side = edit.Side;
                     curve.seed_vertex = edit.SeedVertex;
+                    curve.kind = edit.CurveKind;
                     desc.curve = (IntPtr)(&curve);
                 }
                 desc.add_count = edit.Add == null ? 0 : (uint)edit.Add.Length;
@@ -82,6 +85,18 @@ namespace Hf
         {
             return Rows<uint>((handle, capacity, rows, count) => Functions.hf_region_get_vertices(handle, list, capacity,
                 rows, count));
+        }
+
+        /// <summary>xyz of the corners of the last closed curve, to draw it; the last is joined to the
+        /// first.</summary>
+        public double[] Curve()
+        {
+            uint count;
+            Check(Functions.hf_region_get_curve(Handle, 0, null, &count));
+            var points = new double[3 * count];
+            if (count > 0)
+                fixed (double* place = points) Check(Functions.hf_region_get_curve(Handle, count, place, &count));
+            return points;
         }
 
         /// <summary>Weight 0: the surface, 1: its smooth base; between and beyond in proportion.</summary>

@@ -5,19 +5,20 @@
 namespace hf_godot {
 namespace {
 
-// region_create(positions = null, field_kind = 0): an empty region, of a pose of the surface or of its rest positions
+// region_create(positions = null, base = 0): HF_BASE_*. An empty region, of a pose of the surface or of its rest
+// positions
 Value region_create(Surface& s, const Arguments& a) {
   auto desc = make<hf_region_desc>();
   desc.positions_f64 = doubles(at(a, 0), 3 * s.vertex_count, "positions");
-  desc.field_kind = signed_whole(at(a, 1).number, "field_kind");
+  desc.base = signed_whole(at(a, 1).number, "base");
   make_again(s.region, [&](hf_region* out) { return hf_region_create(s.get(), &desc, out); });
   s.detail = {};
   return done();
 }
 
-// region_edit(add = null, remove = null, rings = 0, curve = null, side = 0, seed vertex = 0): a batch. The region
-// becomes what a closed curve through these vertices encloses, grows by rings (below 0 it shrinks), loses and gains
-// vertices.
+// region_edit(add = null, remove = null, rings = 0, curve = null, side = 0, seed vertex = 0, curve kind = 0): a batch.
+// The region becomes what a closed curve through these vertices encloses (kind: HF_CURVE_*), grows by rings (below 0 it
+// shrinks), loses and gains vertices.
 Value region_edit(Surface& s, const Arguments& a) {
   const List add = integers(at(a, 0), "add"), remove = integers(at(a, 1), "remove"),
              along = integers(at(a, 3), "curve");
@@ -30,6 +31,7 @@ Value region_edit(Surface& s, const Arguments& a) {
     curve.point_count = along.count(), curve.vertices = along.data();
     curve.side = signed_whole(at(a, 4).number, "side");
     curve.seed_vertex = whole(at(a, 5).number, "seed vertex");
+    curve.kind = signed_whole(at(a, 6).number, "curve kind");
     edit.curve = &curve;
   }
   check(hf_region_edit(s.region.get(), &edit));
@@ -65,8 +67,17 @@ Value region_vertices(Surface& s, const Arguments& a) {
   uint32_t count = 0;
   check(hf_region_get_vertices(s.region.get(), list, 0, nullptr, &count));
   Numbers found(count);
-  check(hf_region_get_vertices(s.region.get(), list, count, found.data(), nullptr));
+  check(hf_region_get_vertices(s.region.get(), list, count, found.data(), &count));
   return numbers(std::move(found));
+}
+
+// region_curve(): corners of the last closed curve; the last is joined to the first
+Value region_curve(Surface& s, const Arguments&) {
+  uint32_t count = 0;
+  check(hf_region_get_curve(s.region.get(), 0, nullptr, &count));
+  Doubles points(3 * size_t{count});
+  check(hf_region_get_curve(s.region.get(), count, points.data(), &count));
+  return vectors(points);
 }
 
 template <class Raw>
@@ -103,11 +114,12 @@ Value detail_morph(Surface& s, const Arguments& a) { return morph(s, a, s.detail
 
 const std::vector<Entry>& region_methods() {
   static const std::vector<Entry> all = {
-      {"region_create", 0, 2, region_create},     {"region_edit", 0, 6, region_edit},
+      {"region_create", 0, 2, region_create},     {"region_edit", 0, 7, region_edit},
       {"region_record", 0, 0, region_record},     {"region_undo", 0, 0, region_undo},
       {"region_redo", 0, 0, region_redo},         {"region_info", 0, 0, region_info},
-      {"region_vertices", 0, 1, region_vertices}, {"region_morph", 1, 1, region_morph},
-      {"detail_from", 1, 4, detail_from},         {"detail_morph", 1, 1, detail_morph},
+      {"region_vertices", 0, 1, region_vertices}, {"region_curve", 0, 0, region_curve},
+      {"region_morph", 1, 1, region_morph},       {"detail_from", 1, 4, detail_from},
+      {"detail_morph", 1, 1, detail_morph},
   };
   return all;
 }

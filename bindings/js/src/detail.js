@@ -18,12 +18,12 @@ export function detailClasses(tools) {
     return out;
   };
 
-  /** A region of a surface. `positions`: a pose of the surface to work on, null for its rest positions. */
+  /** A region of a surface. `positions`: a pose to work on, null for the rest positions. `base`: HF_BASE_*. */
   class Region extends Recorded {
     static prefix = 'hf_region';
-    constructor(surface, { positions = null, fieldKind = 0, progress = null } = {}) {
+    constructor(surface, { positions = null, base = 0, progress = null } = {}) {
       super(surface, () => {
-        const desc = watched(make('hf_region_desc').options({ fieldKind }), progress);
+        const desc = watched(make('hf_region_desc').options({ base }), progress);
         if (!positions) return desc;
         const given = points(positions, 'positions', 3 * surface.vertexCount);
         return desc.set(given instanceof Float32Array ? 'positions' : 'positions_f64', read(given));
@@ -32,12 +32,21 @@ export function detailClasses(tools) {
     clone() {
       return this._copy();
     }
-    /** One edit: what a closed curve encloses; rings more or less; vertices added and removed. */
-    edit({ curve = null, side = 0, seedVertex = 0, rings = 0, add = null, remove = null, progress = null } = {}) {
+    /** One edit: what a closed curve (`curveKind`: HF_CURVE_*) encloses; rings; vertices added and removed. */
+    edit({
+      curve = null,
+      side = 0,
+      seedVertex = 0,
+      curveKind = 0,
+      rings = 0,
+      add = null,
+      remove = null,
+      progress = null,
+    } = {}) {
       const desc = make('hf_region_edit_desc').options({ ringCount: rings });
       const along = integers(curve, 'curve');
       if (along) {
-        const line = make('hf_curve_desc').options({ side, seedVertex });
+        const line = make('hf_curve_desc').options({ side, seedVertex, kind: curveKind });
         desc.set('curve', line.set('point_count', along.length).set('vertices', read(along)));
       }
       const [added, removed] = [integers(add, 'add'), integers(remove, 'remove')];
@@ -54,7 +63,15 @@ export function detailClasses(tools) {
       const size = new Uint32Array(1);
       call('hf_region_get_vertices', this._handle, list, 0, null, written(size));
       const out = new Uint32Array(size[0]);
-      call('hf_region_get_vertices', this._handle, list, out.length, written(out), null);
+      call('hf_region_get_vertices', this._handle, list, out.length, written(out), written(size));
+      return out;
+    }
+    /** xyz of the corners of the last closed curve, to draw it; the last is joined to the first. */
+    curve() {
+      const size = new Uint32Array(1);
+      call('hf_region_get_curve', this._handle, 0, null, written(size));
+      const out = new Float64Array(3 * size[0]);
+      call('hf_region_get_curve', this._handle, size[0], written(out), written(size));
       return out;
     }
     /** Weight 0: the surface, 1: its smooth base; between and beyond in proportion. */

@@ -265,6 +265,8 @@ export interface Region extends Handle {
     curve?: Numbers | null;
     side?: number;
     seedVertex?: number;
+    /** HF_CURVE_STRAIGHT (the default) or HF_CURVE_EDGES. */
+    curveKind?: number;
     rings?: number;
     add?: Numbers | null;
     remove?: Numbers | null;
@@ -275,6 +277,8 @@ export interface Region extends Handle {
   redo(): void;
   /** HF_REGION_INSIDE, HF_REGION_RIM or HF_REGION_SITES. */
   vertices(list?: number): Uint32Array;
+  /** xyz of the corners of the last closed curve; the last is joined to the first. */
+  curve(): Float64Array;
   /** 0: the surface, 1: its base without detail. */
   morph<T extends Floats = Float32Array>(
     weight: number,
@@ -468,10 +472,10 @@ export interface Hf {
   ) => Direction;
   readonly Quads: new (surface: Surface, options?: QuadOptions) => Quads;
   readonly Flow: new (surface: Surface) => Flow;
-  /** `positions`: a pose of the surface to work on, null for its rest positions. */
+  /** `positions`: a pose to work on, null for the rest positions. `base`: HF_BASE_*. */
   readonly Region: new (
     surface: Surface,
-    options?: { positions?: Floats | Numbers | null; fieldKind?: number; progress?: Progress | null },
+    options?: { positions?: Floats | Numbers | null; base?: number; progress?: Progress | null },
   ) => Region;
   readonly Detail: new (
     source: Region,

@@ -28,7 +28,7 @@ from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as Dire
 from .direction import Direction
 from .pose import DeformMode, Pair, Pose, Skin, Transfer, TransferMode
 from .quads import Flow, FlowLines, QuadMesh, Quads
-from .region import Detail, Region, RegionList, Side
+from .region import Base, CurveKind, Detail, Region, RegionList, Side
 from .solver import Engine, Solver
 from .surface import DistanceMethod, Extremities, FieldKind, Geodesics, Isolines, Levels, Operator, Progress, Surface, Weld
 from .weights import (BoneFlag, HelperReason, Mirrored, MirrorTo, Origin, Pairing, VertexWeights, Weights, carry_weights,

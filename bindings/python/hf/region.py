@@ -11,7 +11,16 @@ import numpy as np
 from . import _raw
 from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, handle_of, integers, make, output,
                        points, whole)
-from .surface import FieldKind, Progress, Surface
+from .surface import Progress, Surface
+
+
+class Base(IntEnum):
+    DEFAULT, MEMBRANE = _raw.HF_BASE_DEFAULT, _raw.HF_BASE_MEMBRANE
+    THIN_PLATE, THIN_PLATE_GRAPH = _raw.HF_BASE_THIN_PLATE, _raw.HF_BASE_THIN_PLATE_GRAPH
+
+
+class CurveKind(IntEnum):
+    STRAIGHT, EDGES = _raw.HF_CURVE_STRAIGHT, _raw.HF_CURVE_EDGES
 
 
 class Side(IntEnum):
@@ -37,15 +46,15 @@ def _morph(function: str, thing: Any, weight: float, out: Optional[np.ndarray], 
 class Region(Object):
     """A region of a surface that grows, shrinks and is drawn by closed curves.
 
-    positions: a pose of the surface to work on; None: at rest. field_kind: the base is a membrane (HARMONIC) or a thin
-    plate (the others).
+    positions: a pose of the surface to work on; None: at rest. base: a thin plate leaves the surface around it without
+    a crease, a membrane has nearly the least area.
     """
 
     _destroy = "hf_region_destroy"
 
     def __init__(self, surface: Surface, positions: Optional[ArrayLike] = None, *,
-                 field_kind: int = FieldKind.HARMONIC, progress: Optional[Progress] = None) -> None:
-        desc, handle = make(_raw.hf_region_desc, field_kind=field_kind), ctypes.c_void_p()
+                 base: int = Base.DEFAULT, progress: Optional[Progress] = None) -> None:
+        desc, handle = make(_raw.hf_region_desc, base=base), ctypes.c_void_p()
         desc.progress = handle_of(progress, Progress, "progress")
         parent = handle_of(surface, Surface, "surface")
         if positions is not None:
@@ -65,16 +74,17 @@ class Region(Object):
         copy.vertex_count = self.vertex_count
         return copy
 
-    def edit(self, *, curve: Optional[ArrayLike] = None, side: int = Side.SMALLER, seed_vertex: int = 0, rings: int = 0,
-             add: Optional[ArrayLike] = None, remove: Optional[ArrayLike] = None,
-             progress: Optional[Progress] = None) -> None:
-        """One edit, all or nothing: what a closed curve through these vertices encloses; rings of vertices more, or less
-        when below 0; vertices added and removed. Sites are edited, nothing is factorised."""
+    def edit(self, *, curve: Optional[ArrayLike] = None, side: int = Side.SMALLER, seed_vertex: int = 0,
+             curve_kind: int = CurveKind.STRAIGHT, rings: int = 0, add: Optional[ArrayLike] = None,
+             remove: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> None:
+        """One edit, all or nothing: what a closed curve through these vertices encloses, straight through triangles or
+        along edges; rings of vertices more, or less when below 0; vertices added and removed. Sites are edited, nothing
+        is factorised."""
         added, removed, along = integers(add, "add"), integers(remove, "remove"), integers(curve, "curve")
         desc = make(_raw.hf_region_edit_desc, ring_count=rings, progress=handle_of(progress, Progress, "progress"))
         if along is not None:
             line = make(_raw.hf_curve_desc, point_count=along.size, vertices=address(along), side=side,
-                        seed_vertex=seed_vertex)
+                        seed_vertex=seed_vertex, kind=curve_kind)
             desc.curve = ctypes.addressof(line)
         if added is not None:
             desc.add_count, desc.add_vertices = added.size, address(added)
@@ -102,6 +112,14 @@ class Region(Object):
         call("hf_region_get_vertices", self._raw_handle, which, 0, None, ctypes.byref(size))
         out = np.empty(size.value, np.uint32)
         call("hf_region_get_vertices", self._raw_handle, which, out.size, address(out), ctypes.byref(size))
+        return out
+
+    def curve(self) -> np.ndarray:
+        """Corners of the last closed curve, (k, 3) float64, to draw it; the last is joined to the first."""
+        size = ctypes.c_uint32()
+        call("hf_region_get_curve", self._raw_handle, 0, None, ctypes.byref(size))
+        out = np.empty((size.value, 3))
+        call("hf_region_get_curve", self._raw_handle, len(out), address(out), ctypes.byref(size))
         return out
 
     def morph(self, weight: float, out: Optional[np.ndarray] = None, *, normals: Optional[np.ndarray] = None,

@@ -5,8 +5,8 @@ use crate::{raw, Result, Surface};
 options!(
     /// How a region is made.
     RegionOptions: hf_region_desc {
-        /// `HF_FIELD_HARMONIC` a membrane, others a thin plate
-        field_kind: i32,
+        /// `HF_BASE_*`: a thin plate, or a membrane
+        base: i32,
     }
 );
 
@@ -24,6 +24,8 @@ pub struct RegionEdit<'a> {
     pub side: i32,
     /// with a side by a vertex: that vertex
     pub seed_vertex: u32,
+    /// with a curve: `HF_CURVE_*`, straight through triangles or along edges
+    pub curve_kind: i32,
     /// rings of vertices more, or fewer if negative
     pub rings: i32,
     /// vertices that come in
@@ -63,7 +65,7 @@ impl Region {
 
     /// Carries out one edit.
     pub fn edit(&mut self, edit: &RegionEdit) -> Result<()> {
-        let mut curve = raw::hf_curve_desc { side: edit.side, seed_vertex: edit.seed_vertex, ..Default::default() };
+        let mut curve = raw::hf_curve_desc { side: edit.side, seed_vertex: edit.seed_vertex, kind: edit.curve_kind, ..Default::default() };
         let mut desc = raw::hf_region_edit_desc {
             ring_count: edit.rings,
             add_count: count_of(edit.add.len(), "add")?,
@@ -98,6 +100,14 @@ impl Region {
     pub fn vertices(&self, which: i32) -> Result<Vec<u32>> {
         // SAFETY: `list` passes room for as many entries as it says.
         list(|room, out, count| unsafe { raw::hf_region_get_vertices(self.handle, which, room, out, count) })
+    }
+
+    /// The corners of the last closed curve, to draw it: x, y, z of each. The last is joined to the first.
+    pub fn curve(&self) -> Result<Vec<f64>> {
+        // SAFETY: `list` passes room for as many triples as it says.
+        let corners: Vec<[f64; 3]> =
+            list(|room, out: *mut [f64; 3], count| unsafe { raw::hf_region_get_curve(self.handle, room, out.cast(), count) })?;
+        Ok(corners.concat())
     }
 
     /// 0 is the surface, 1 its base without detail; between and beyond in proportion.
