@@ -69,8 +69,9 @@ typedef struct hf_quads_info {
  *
  * A pole is an irregular vertex at a place that the user drags. The function makes it by guides on a ring around the
  * place, an edge of the quads away. The crosses on the ring make a quarter turn along it. 96 % of 1,000 poles at random
- * places of 20 meshes are within an edge of the place. A pole of 5 quads brings poles of 3 with it, because the indices
- * of the crosses sum to four times the Euler characteristic. On a torus or a knot a single pole of 5 is often lost.
+ * places of 20 meshes come out within an edge of the place; such a vertex then moves to the place and stays there. A
+ * pole of 5 quads brings poles of 3 with it, because the indices of the crosses sum to four times the Euler
+ * characteristic. On a torus or a knot a single pole of 5 is often lost.
  *
  * desc: NULL = HF_INIT. Sets *out_quads to NULL first. Cost: two factorisations of the mesh and O(n log n + faces);
  * a thousand singularities take minutes. Progress covers factorisations, relaxation and fitting; each can be cancelled.

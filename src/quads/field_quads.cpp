@@ -8,6 +8,7 @@
 #include "base/timer.h"
 #include "quads/counted_quads.h"
 #include "quads/numbers.h"
+#include "quads/poles.h"
 #include "quads/symmetric.h"
 #include "remesh/fit.h"
 #include "remesh/relax.h"
@@ -336,6 +337,7 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
       Timer turn_timer;
       QuadMesh found = i == 0 ? counted.make(tried) : counted.make_finer(share, tried);
       check_quads(found, surface.euler_characteristic, memory);
+      hold_poles(surface, options.poles, tried.edge_length, found, memory);
       made.quads_ms += turn_timer.milliseconds();
       hf_inner::report(field_progress.extracted);
       Timer fit_timer;

@@ -30,6 +30,13 @@ struct QuadGuide {
   Index given = of_pole;  // its number in the caller's list, or of_pole: then it may stand on the surface
 };
 
+// An irregular vertex at a place that the caller chooses (poles.h).
+struct QuadPole {
+  Vec3 place;          // near the surface, inner units
+  std::int32_t quads;  // how many meet there: 3 or 5
+  Vec3 direction;      // of one side of the pole; its part along the surface counts; 0: any
+};
+
 struct FieldQuadOptions {
   std::shared_ptr<const Core> core;
   double edge_length = default_edge_length;  // inner units
@@ -38,6 +45,7 @@ struct FieldQuadOptions {
   double crease = 0;               // degrees: edges that bend more are kept; 0: none
   Span<const Index> crease_edges;  // edges that are kept whatever their angle
   Span<const QuadGuide> guides;
+  Span<const QuadPole> poles;        // whose guides are among the guides
   std::optional<MirrorPlane> plane;  // the quads are their own mirror image in it
 };
 

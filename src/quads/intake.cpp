@@ -66,8 +66,7 @@ void read_guides(const Core& core, const hf_quads_desc& desc, Vector<QuadGuide>&
   }
 }
 
-void read_poles(const Core& core, const hf_quads_desc& desc, const FieldQuadOptions& options,
-                Vector<QuadGuide>& guides) {
+void read_poles(const Core& core, const hf_quads_desc& desc, const FieldQuadOptions& options, QuadLists& lists) {
   if (desc.pole_count == 0) {
     if (desc.pole_points || desc.pole_quads || desc.pole_directions)
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "pole_count is 0, but arrays of poles are given");
@@ -76,7 +75,7 @@ void read_poles(const Core& core, const hf_quads_desc& desc, const FieldQuadOpti
   require(desc.pole_points, "pole_points"), require(desc.pole_quads, "pole_quads");
   if (desc.pole_count > most_poles)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "pole_count is %u; it must be up to %u", desc.pole_count, most_poles);
-  Vector<QuadPole> poles(core.memory.get());
+  Vector<QuadPole>& poles = lists.poles;
   for (std::uint32_t i = 0; i < desc.pole_count; ++i) {
     const double* point = desc.pole_points + std::size_t{3} * i;
     if (!is_finite_point(point)) fail(HF_ERROR_NON_FINITE, i, "pole_points[%u] is not finite", i);
@@ -98,7 +97,7 @@ void read_poles(const Core& core, const hf_quads_desc& desc, const FieldQuadOpti
     for (const double own : vertex_areas(core.mesh, *core.memory)) area += own;
     edge = std::sqrt(area / options.faces);
   }
-  add_pole_guides(core, poles, edge, guides);
+  add_pole_guides(core, poles, edge, lists.guides);
 }
 
 void read_crease_edges(const Core& core, const hf_quads_desc& desc, Vector<Index>& out) {
@@ -157,9 +156,10 @@ FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const
   options.faces = static_cast<std::int32_t>(desc.face_count);
   read_crease_edges(*core, desc, lists.edges);
   read_guides(*core, desc, lists.guides);
-  read_poles(*core, desc, options, lists.guides);
+  read_poles(*core, desc, options, lists);
   options.crease_edges = {lists.edges.data(), lists.edges.size()};
   options.guides = {lists.guides.data(), lists.guides.size()};
+  options.poles = {lists.poles.data(), lists.poles.size()};
   options.plane = read_plane(core->mesh, desc.symmetry_plane);
   options.core = std::move(core);
   return options;

@@ -7,8 +7,9 @@ namespace hf_inner {
 
 // The lists of the caller, which the options refer to.
 struct QuadLists {
-  explicit QuadLists(Memory& memory) : guides(&memory), edges(&memory) {}
+  explicit QuadLists(Memory& memory) : guides(&memory), poles(&memory), edges(&memory) {}
   Vector<QuadGuide> guides;
+  Vector<QuadPole> poles;
   Vector<Index> edges;
 };
 

@@ -8,14 +8,13 @@
 
 namespace hf_inner {
 
-struct QuadPole {
-  Vec3 place;          // near the surface, inner units
-  std::int32_t quads;  // how many meet there: 3 or 5
-  Vec3 direction;      // of one side of the pole; its part along the surface counts; 0: any
-};
-
 // Appends the guides of the poles. radius: of the rings, inner units; an edge of the quads is a good one. A ring is a
 // triangle wide at least. Throws HF_ERROR_INVALID_ARGUMENT (index = pole) where the surface has no normal.
 void add_pole_guides(const Core& core, Span<const QuadPole> poles, double radius, Vector<QuadGuide>& out);
+
+// Moves irregular vertices to their poles: for each pole the nearest free vertex of as many quads, if one is within
+// pole_reach edges. It stays there when the mesh is evened out. Vertices around it move along. Returns how many moved.
+std::int32_t hold_poles(const FluxSurface& surface, Span<const QuadPole> poles, double edge_length, QuadMesh& mesh,
+                        Memory& memory);
 
 }  // namespace hf_inner

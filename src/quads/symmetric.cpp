@@ -330,6 +330,11 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
     const Index found = own.core->topology.edge_between(ends[0], ends[1]);
     if (found != Mesh::none) creases.push_back(found);
   }
+  Vector<QuadPole> poles(&memory);
+  for (const QuadPole& pole : options.poles) {
+    if (plane.side(pole.place) >= 0) poles.push_back(pole), poles.back().place = mesh.to_inner(pole.place);
+  }
+  own.poles = {poles.data(), poles.size()};
   own.guides = {guides.data(), guides.size()}, own.crease_edges = {creases.data(), creases.size()};
   own.edge_length = length / mesh.scale;
   if (options.faces > 0) own.faces = std::max(1, (options.faces + 1) / 2);
