@@ -3,6 +3,7 @@ import { check, finish, start } from './harness.mjs';
 
 const stories = [
   'pose',
+  'mirror',
   'keys',
   'field',
   'weights',

@@ -13,6 +13,7 @@ import {
 } from 'three';
 import { App } from './app.js';
 import { bonesOf, influencesOf, readModel } from './model.js';
+import { middleOf, mirrorChoice } from './mirror.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { saveMenu, skinnedGlb } from './save.js';
 import { lengthOf, localsOf, playedAt } from './timeline.js';
@@ -22,7 +23,7 @@ import { Session } from './session.js';
 import { $, button, card, choice, facts, make, ms, say, slider, touched, whole } from './ui.js';
 
 /** Tools that the first picture does not need. Their modules import nothing, so that each is one request: the kit has it all. */
-const kit = { $, button, choice, facts, make, ms, say, slider, touched, whole };
+const kit = { $, button, choice, facts, make, middleOf, mirrorChoice, ms, say, slider, touched, whole };
 Object.assign(kit, { BufferAttribute, BufferGeometry, Color, DoubleSide, Line, LineBasicMaterial, LineSegments });
 Object.assign(kit, { Mesh, MeshLambertMaterial, Vector3, bonesOf, influencesOf, readModel, skinnedGlb });
 Object.assign(kit, { normalGroups, normalSums, smoothNormals, lengthOf, localsOf, playedAt });

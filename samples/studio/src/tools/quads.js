@@ -20,7 +20,7 @@ const NUDGE_PIXELS = 8;
 /** `kit`: what the page has loaded already (studio.js). */
 export const tool = (kit) => {
   const { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments } = kit;
-  const { button, choice, facts, make, ms, slider, whole } = kit;
+  const { button, facts, make, middleOf, mirrorChoice, ms, slider, whole } = kit;
   return class {
     static key = 'quads';
     static title = 'Quads';
@@ -242,9 +242,7 @@ export const tool = (kit) => {
       const { app, mirror } = this;
       const options = { edgeLength: this.edge * app.opened.report.boundingBoxDiagonal };
       if (mirror !== '') {
-        const along = app.body.positions.filter((_, i) => i % 3 === Number(mirror));
-        const [low, high] = along.reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [Infinity, -Infinity]);
-        options.symmetryPlane = [0, 1, 2].map((k) => Number(k === Number(mirror))).concat((low + high) / 2);
+        options.symmetryPlane = [0, 1, 2].map((k) => Number(k === mirror)).concat(middleOf(app.body.positions, mirror));
       }
       Object.assign(options, this.#guides(), this.#polesAt(options.symmetryPlane));
       return { ...options, creaseAngle: this.crease, relaxCount: relaxed ? 0 : NO_RELAXATION };
@@ -375,18 +373,7 @@ export const tool = (kit) => {
           { value: this.crease, low: 0, high: 180, step: 5, digits: 0, id: 'crease', disabled },
           (value) => (this.crease = value),
         ),
-        choice(
-          'Mirror',
-          [
-            ['', 'no mirror'],
-            [0, 'mirror in x'],
-            [1, 'mirror in y'],
-            [2, 'mirror in z'],
-          ],
-          this.mirror,
-          (value) => (this.mirror = value),
-          { id: 'mirror', disabled },
-        ),
+        mirrorChoice(this.mirror, (value) => (this.mirror = value), { disabled }),
         make(
           'div',
           { class: 'row' },
