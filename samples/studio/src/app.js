@@ -144,7 +144,8 @@ export class App {
     this.live = state;
     clearTimeout(this.pause);
     this.#apply(state, 'follow').then(
-      () => (this.pause = setTimeout(() => this.live === state && this.#apply(state, 'rest').catch(() => {}), PAUSE_MS)),
+      () =>
+        (this.pause = setTimeout(() => this.live === state && this.#apply(state, 'rest').catch(() => {}), PAUSE_MS)),
       (error) => {
         if (this.live === state) this.live = null;
         say(error.message);
@@ -197,6 +198,8 @@ export class App {
   /** A state from outside: of a session that was kept. The history begins anew. */
   async take(state) {
     const before = this.history.state;
+    const from = state.detail?.carry?.from;
+    if (from) await this.#source(from).catch(() => {}); // the tool says that it is missing
     this.history.reset({ ...empty, ...state });
     // numbers of new marks go on after those that are there
     this.timeline.arrive(this.state);
@@ -209,6 +212,20 @@ export class App {
     }
     this.tools.pose.pulled = state.handles.some(({ pinned }) => !pinned);
     this.refresh();
+  }
+  /** The picture of the present state anew. */
+  again() {
+    return this.#apply(this.state, 'exact').catch(({ message }) => say(message));
+  }
+  /** The body whose detail a state takes: of the session, or a sample. */
+  async #source(name) {
+    let bytes = await this.session?.sourceBytes(name);
+    const sample = name.replace(/\.glb$/, '');
+    if (!bytes && this.samples.includes(sample)) {
+      const answer = await fetch(`samples/${name}`);
+      if (answer.ok) bytes = new Uint8Array(await answer.arrayBuffer());
+    }
+    if (bytes) await (await this.need('detail')).bring(bytes, name);
   }
   /** Brings the picture to a state: only what changed is asked for. way: of the pose, see worker_pose.js. */
   async #apply(state, way) {
@@ -266,15 +283,22 @@ export class App {
       $('rail').append(tab);
     }
   }
+  /** A tool that is loaded when it is wanted. */
+  async need(key) {
+    if (!this.tools[key]) {
+      const Tool = await this.later[key]();
+      if (!this.tools[key]) {
+        this.tools[key] = new Tool(this);
+        if (this.skin) this.tools[key].opened?.();
+      }
+    }
+    return this.tools[key];
+  }
   async use(key) {
     this.wanted = key;
     if (!this.tools[key]) {
       try {
-        const Tool = await this.later[key]();
-        if (!this.tools[key]) {
-          this.tools[key] = new Tool(this);
-          if (this.skin) this.tools[key].opened?.();
-        }
+        await this.need(key);
       } catch {
         return say('This tool could not be loaded. Load the page again when the network is there.');
       }
@@ -322,7 +346,7 @@ export class App {
     const box = $('legend');
     box.hidden = !content;
     if (!content) return;
-    const { low, high, hatch } = content;
+    const { low, high, hatch, note } = content;
     // the strips of the body, with their colours
     const strips = Array.from({ length: STRIPS }, (_, i) => {
       const t = (i + 0.5) / STRIPS;
@@ -341,6 +365,7 @@ export class App {
       ),
     );
     if (hatch) box.append(make('div', {}, make('span', { class: 'hatch' }), 'no site reaches it'));
+    if (note) box.append(make('div', {}, note));
   }
   hover(at) {
     const tip = $('tip');

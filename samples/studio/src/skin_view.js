@@ -210,8 +210,27 @@ export class Skin {
     this.#changed('position', 'normal');
   }
   setField(values, reached) {
+    if (this.lent) {
+      Object.assign(this.lent, { field: values, reached });
+      return;
+    }
     this.field.set(values);
     this.reached.set(reached);
+    this.#changed('field', 'reached');
+  }
+  /** Other values in the place of the field: weights of a bone, a difference. null: the field again. */
+  lend(values) {
+    if (!values && !this.lent) return;
+    this.lent ??= { field: this.field.slice(), reached: this.reached.slice() };
+    if (values) {
+      this.field.set(values);
+      this.reached.fill(1);
+    } else {
+      const { field, reached } = this.lent;
+      this.lent = null;
+      this.field.set(field);
+      this.reached.set(reached);
+    }
     this.#changed('field', 'reached');
   }
   setTint(tint) {

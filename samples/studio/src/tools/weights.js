@@ -126,15 +126,13 @@ export const tool = ({ Color, bonesOf, button, choice, facts, influencesOf, make
       const bone = Number(this.shown);
       const field = new Float32Array(body.vertexCount);
       for (let i = 0; i < joints.length; ++i) if (joints[i] === bone) field[Math.floor(i / weightCount)] += weights[i];
-      this.kept ??= { field: skin.field.slice(), reached: skin.reached.slice() };
-      skin.setField(field, new Float32Array(body.vertexCount).fill(1));
+      skin.lend(field);
       skin.wear('field');
       this.app.legend({ low: 0, high: 1 });
       return undefined;
     }
     restoreField() {
-      if (this.kept) this.app.skin.setField(this.kept.field, this.kept.reached);
-      this.kept = null;
+      this.app.skin.lend(null);
     }
     hover(at) {
       const hit = this.app.skin.pick(this.app.view.ray(...at));
