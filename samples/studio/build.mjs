@@ -54,6 +54,13 @@ writeFileSync(
   readFileSync(join(here, 'index.html'), 'utf8').replace('/*STYLE*/', () => style.trim()),
 );
 copyFileSync(join(process.env.HF_WASM, 'hf.wasm'), join(out, 'hf.wasm'));
+// the decoder of Draco as three has it, as a module
+const draco = join(process.env.HF_MODULES, 'three/examples/jsm/libs/draco/gltf');
+mkdirSync(join(out, 'draco'), { recursive: true });
+const wrapper = readFileSync(join(draco, 'draco_wasm_wrapper.js'), 'utf8');
+writeFileSync(join(out, 'draco', 'decoder.js'), `${wrapper}\nexport default DracoDecoderModule;\n`);
+copyFileSync(join(draco, 'draco_decoder.wasm'), join(out, 'draco', 'decoder.wasm'));
+
 // the build with threads as it is, in a folder of its own: its threads are Workers that load it by its name
 rmSync(join(out, 'threads'), { recursive: true, force: true });
 if (process.env.HF_WASM_MT) {

@@ -12,6 +12,7 @@ const stories = [
   'transfer',
   'history',
   'save',
+  'compressed',
   'broken',
   'access',
   'bodies',

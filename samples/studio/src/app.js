@@ -37,7 +37,6 @@ export class App {
     this.figures = { open: 0, shape: 0, field: 0, frames: 0 };
     listen(this, $('canvas'));
     this.#rail(toolClasses);
-    this.view.onDraw(() => this.tools.pose.gizmo.rescale());
   }
   get state() {
     return this.live ?? this.history.state;

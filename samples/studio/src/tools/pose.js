@@ -19,7 +19,11 @@ export class PoseTool {
   static icon = 'M6 20l4-7 3-3 5-6M10 13l6 7M13 10a2 2 0 1 0 .1 0';
   constructor(app) {
     this.app = app;
-    this.gizmo = new Gizmo(app, (turn, done) => this.turned(turn, done));
+    this.gizmo = new Gizmo(
+      app,
+      (turn, done) => this.turned(turn, done),
+      (handle) => this.placeOf(handle),
+    );
     this.radius = RADIUS;
     this.mirror = new Mirror(app);
   }
