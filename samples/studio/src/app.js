@@ -8,7 +8,7 @@ import { Timeline } from './timeline.js';
 import { ramp, STRIPS } from './skin_view.js';
 import { View } from './view.js';
 import { listen } from './input.js';
-import { $, card, make, ms, say, touched, whole } from './ui.js';
+import { $, card, make, ms, say, whole } from './ui.js';
 
 /** Larger bodies get their tree of boxes from a Worker of its own: it takes longer to make than a Worker to start. */
 const TREE_APART = 30000;
@@ -202,7 +202,10 @@ export class App {
     this.history.reset({ ...empty, ...state });
     // numbers of new marks go on after those that are there
     this.timeline.arrive(this.state);
-    this.ids = Math.max(0, ...[...state.handles, ...state.sites].map(({ id }) => Number(id.slice(1)) || 0));
+    this.ids = Math.max(
+      0,
+      ...[...state.handles, ...state.sites, ...this.state.pins].map(({ id }) => Number(id.slice(1)) || 0),
+    );
     try {
       await this.#apply(this.state, 'exact');
     } catch {
@@ -374,40 +377,5 @@ export class App {
     tip.textContent = text;
     tip.style.left = `${Math.min(at[0] + 14, this.view.width - 120)}px`;
     tip.style.top = `${at[1] + 14}px`;
-  }
-  help() {
-    const rows = touched()
-      ? [
-          ['Turn', 'drag beside the body, or two fingers'],
-          ['Zoom', 'pinch'],
-          ['Pose', 'drag a dot; tap it for its rings; tap the body for a new one'],
-          ['Field', 'tap the body for a site; drag it'],
-          ['Detail', 'draw a loop around a part'],
-        ]
-      : [
-          ['Turn', 'drag beside the body, right drag, or two fingers'],
-          ['Zoom', 'wheel or pinch'],
-          ['Move the view', 'middle drag, or Shift and drag'],
-          ['Handles and sites', 'Tab walks them, Enter chooses, arrows move, Delete removes'],
-          ['Pose', '[ and ] turn a handle, P pins it, K sets a key'],
-          ['Undo, redo', 'Ctrl+Z, Ctrl+Shift+Z'],
-          ['Save, open', 'Ctrl+S, Ctrl+O'],
-          ['Tools', '1 to 6'],
-        ];
-    card(
-      'hf studio',
-      [
-        make('p', {}, 'Drop a creature, pull its leg, save it. Nothing leaves your machine.'),
-        make(
-          'table',
-          {},
-          ...rows.map(([a, b]) => make('tr', {}, make('td', {}, make('strong', {}, a)), make('td', {}, b))),
-        ),
-      ],
-      [
-        ['Light or dark', () => $('theme').click()],
-        ['Close', null, true],
-      ],
-    );
   }
 }

@@ -214,6 +214,9 @@ function handleGlb(app, result, { heads, handles }) {
   return skinnedGlb(app, { ...result, pivots, jointCount: handles.length }, [rest, pose], [0, 1], 'pose');
 }
 
+/** For modules that are loaded when they are asked for: they import nothing that the page has. */
+const parts = { bufferOf, copyOf, localNormals, localsOf, ownPrimitives, writeGlb };
+
 /** Quads as obj: glTF has triangles only. */
 export function quadsObj({ positions, faces }) {
   const lines = ['# quads by hf studio'];
@@ -237,21 +240,28 @@ export function saveMenu(app) {
     ],
     [
       'Rig by handles (glb)',
-      'the shape at rest, a skin made of the handles, and the pose as a clip',
+      'a skin made of the handles, and the pose as a clip',
       async () => download(await riggedGlb(app), `${name}_rigged.glb`, glb),
       app.state.handles.length > 0,
       'save-rig',
     ],
     [
+      'Morph (glb)',
+      'the pose, or each key, as a morph target with a clip',
+      async () => download(await (await import('./morph.js')).morphGlb(app, parts), `${name}_morph.glb`, glb),
+      true,
+      'save-morph',
+    ],
+    [
       'Keys (glb)',
-      'the shape at rest, a skin made of the handles, and the keys of the timeline as a clip',
+      'a skin made of the handles, and the keys as a clip',
       async () => download(await keyedGlb(app), `${name}_keys.glb`, glb),
       app.timeline.keys.length > 0,
       'save-keys',
     ],
     [
       'Weights (glb)',
-      'the new weights in the skin of the file, or in one of the handles',
+      'the new weights in the skin of the file, or of the handles',
       async () => download(await weightedGlb(app, weights.changed(), weights.bones), `${name}_weights.glb`, glb),
       Boolean(weights?.changed()),
       'save-weights',
@@ -286,7 +296,7 @@ export function saveMenu(app) {
     ],
     [
       'Link',
-      'the settings in an address: handles, sites, keys and the view',
+      'the settings in an address: tools, handles, keys, the view',
       async () => (await import('./link.js')).showLink(app),
       true,
       'save-link',

@@ -15,6 +15,7 @@ import {
 } from 'three';
 import { App } from './app.js';
 import { Gizmo } from './gizmo.js';
+import { help } from './help.js';
 import { bonesOf, influencesOf, readModel } from './model.js';
 import { middleOf, mirrorChoice } from './mirror.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
@@ -92,7 +93,7 @@ async function start() {
   $('undo').onclick = () => app.step('undo');
   $('redo').onclick = () => app.step('redo');
   $('save').onclick = () => app.skin && saveMenu(app);
-  $('help').onclick = () => app.help();
+  $('help').onclick = () => help();
 
   let inside = 0;
   addEventListener('dragenter', (event) => {
@@ -122,7 +123,7 @@ async function start() {
       event.preventDefault();
       acts[key]();
     } else if (/input|select/i.test(event.target.tagName) && event.target.type !== 'range') return;
-    else if (key === '?') app.help();
+    else if (key === '?') help();
     else if (key === 'k' && app.skin && app.tool === app.tools.pose && app.state.handles.length) app.timeline.setKey();
     else if (/^[1-6]$/.test(key)) $('rail').children[Number(key) - 1]?.click();
   });

@@ -38,6 +38,13 @@ export const tool = (kit) => {
     get detail() {
       return this.app.state.detail;
     }
+    /** What a link keeps beside the region. */
+    settings() {
+      return { mapped: this.mapped };
+    }
+    adopt({ mapped }) {
+      this.mapped = mapped;
+    }
     enter() {
       if (this.source) {
         this.source.skin.group.visible = true;

@@ -41,6 +41,14 @@ export class PoseTool {
       ...rest,
     }));
   }
+  /** What a link keeps beside the handles. */
+  settings() {
+    return { mirror: this.mirror.axis, radius: this.radius };
+  }
+  adopt({ mirror, radius }) {
+    this.radius = radius;
+    this.mirror.set(mirror);
+  }
   /** The handles that hold the body from the start. */
   first() {
     return this.offers.filter(({ pinned }) => pinned);

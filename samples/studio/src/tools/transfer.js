@@ -39,6 +39,25 @@ export const tool = (kit) => {
     ready() {
       return Boolean(this.info);
     }
+    /** What a link keeps: a source that is a sample, its pairs and dials. */
+    settings() {
+      const { source, pairs, dials, clip, app } = this;
+      const sample = source?.body.name.replace(/\.glb$/, '');
+      if (!app.samples.includes(sample)) return {};
+      return { sample, pairs, dials, clip: source.body.clips.indexOf(clip) };
+    }
+    async adopt({ sample, pairs, dials = {}, clip = 0 }) {
+      if (!sample) return;
+      const answer = await fetch(`samples/${sample}.glb`);
+      if (!answer.ok) return;
+      await this.open(new Uint8Array(await answer.arrayBuffer()), `${sample}.glb`);
+      if (!this.source) return;
+      this.clip = this.source.body.clips[clip] ?? this.clip;
+      if (pairs) await this.set(pairs);
+      await this.app.client.ask('transferDials', { dials });
+      this.dials = dials;
+      if (this.app.tool !== this) this.leave();
+    }
     enter() {
       this.app.skin.wear('own');
       if (this.source) this.source.skin.group.visible = true;

@@ -2,6 +2,7 @@
 // that bends the bones.
 import { Bend } from '../bend.js';
 import { pruned } from '../skinning.js';
+import { weightsSheet } from '../weights_sheet.js';
 
 /** The angle between the hues of neighbouring bones, as part of the circle: the golden ratio keeps all apart. */
 const HUE_STEP = 0.61803398875;
@@ -13,7 +14,7 @@ const NO_BONE = 0xffffffff;
 
 /** `kit`: what the page has loaded already (studio.js). */
 export const tool = (kit) => {
-  const { Color, bonesOf, button, choice, facts, influencesOf, lengthOf, make, ms, say, slider, touched, whole } = kit;
+  const { Color, bonesOf, influencesOf, say } = kit;
   return class {
     static key = 'weights';
     static title = 'Weights';
@@ -63,6 +64,18 @@ export const tool = (kit) => {
         this.result ??
         (this.of === 'file' && this.fileBones.joints.length && this.present().lost > 0 ? this.kept : null)
       );
+    }
+    /** What a link keeps beside the pins. */
+    settings() {
+      const { of, weightCount, shown, result } = this;
+      return { of, weightCount, shown, computed: Boolean(result) };
+    }
+    async adopt({ of, weightCount, shown, computed }) {
+      Object.assign(this, { of, weightCount });
+      this.clear();
+      if (computed) await this.compute();
+      if (this.app.tool === this) this.look(shown);
+      else this.shown = shown;
     }
     enter() {
       this.dress();
@@ -267,148 +280,8 @@ export const tool = (kit) => {
       this.bend.show();
       this.app.panel();
     }
-    testRows() {
-      const { bend, app, shown } = this;
-      if (!this.present()) return [];
-      const clip = this.of === 'file' && app.timeline.clip;
-      return [
-        make('h3', {}, 'Test'),
-        make(
-          'p',
-          {},
-          shown === 'all'
-            ? 'Show one bone to bend it. The test changes nothing.'
-            : 'Turn the bone by its rings or the slider: the skin follows.',
-        ),
-        shown !== 'all' &&
-          slider(
-            'Turn the bone, degrees',
-            { value: bend.degrees, low: -120, high: 120, step: 5, digits: 0, id: 'bend', disabled: Boolean(bend.clip) },
-            (value) => bend.slide(value),
-            () => app.panel(),
-          ),
-        make(
-          'div',
-          { class: 'row' },
-          clip &&
-            button(
-              bend.clip ? 'Stop the clip' : 'Play the clip',
-              () => (bend.clip ? bend.rest() : bend.play(clip, lengthOf(clip))),
-              { id: 'test-clip' },
-            ),
-          button('Rest', () => bend.rest(), { id: 'test-rest', disabled: !bend.active }),
-        ),
-      ];
-    }
     sheet() {
-      const { result, app } = this;
-      const info = result?.info;
-      const guessed = info && info.rigidCount + info.isolatedCount;
-      const own = this.fileBones.joints.length > 0;
-      const lost = !result && this.of === 'file' && own ? this.present().lost : 0;
-      const source = own
-        ? choice(
-            'Bones',
-            [
-              ['file', 'bones of the file'],
-              ['handles', 'the handles as bones'],
-            ],
-            this.of,
-            (value) => {
-              this.of = value;
-              this.clear();
-              this.dress();
-              this.bend.show();
-              app.refresh();
-            },
-            { id: 'bones-of', disabled: this.busy },
-          )
-        : make('p', {}, 'This file has no bones: the handles of Pose are the bones.');
-      if (!this.bones.names.length) return [source, make('p', {}, 'Add handles in Pose first: each becomes a bone.')];
-      return [
-        make(
-          'p',
-          {},
-          result
-            ? `Computed from the bones.${touched() ? '' : ' Hover over the body to read a vertex.'}`
-            : this.of === 'file'
-              ? 'These are the weights of the file. Compute new ones from its bones.'
-              : 'Compute weights: each handle is a bone.',
-        ),
-        source,
-        make(
-          'div',
-          { class: 'row' },
-          button(this.busy ? 'Computing' : 'Compute weights', () => this.compute(), {
-            class: 'main',
-            id: 'compute',
-            disabled: this.busy,
-          }),
-          this.of === 'file' &&
-            button(
-              'Weights of the file',
-              () => {
-                this.result = null;
-                this.dress();
-                this.bend.show();
-                app.refresh();
-              },
-              { id: 'file-weights', disabled: !result },
-            ),
-        ),
-        choice(
-          'Bones for each vertex',
-          [
-            [4, '4 bones for each vertex'],
-            [8, '8 bones for each vertex'],
-          ],
-          this.weightCount,
-          (value) => {
-            this.weightCount = Number(value);
-            if (result) return this.compute();
-            this.dress();
-            this.bend.show();
-            return app.refresh();
-          },
-          { id: 'weight-count', disabled: this.busy },
-        ),
-        choice(
-          'Bone to show',
-          [['all', 'all bones, each its colour'], ...this.bones.names.map((name, i) => [i, name])],
-          this.shown,
-          (value) => this.look(value),
-          { id: 'bone' },
-        ),
-        make(
-          'p',
-          {},
-          this.shown === 'all'
-            ? 'Show one bone to pin places to it.'
-            : 'Click the body: the place belongs to this bone, and the weights follow.',
-        ),
-        this.pins.length > 0 && button('Remove all pins', () => this.unpin(), { id: 'no-pins', disabled: this.busy }),
-        this.error && make('p', { class: 'warn' }, this.error),
-        guessed > 0 &&
-          make(
-            'p',
-            { class: 'warn' },
-            `${whole(guessed)} vertices take their weights from the nearest part: no bone is near them.`,
-          ),
-        lost > 0 &&
-          make(
-            'p',
-            { class: 'warn' },
-            `Fewer bones: a vertex loses at most ${(100 * lost).toFixed(1)} % of its weight.`,
-          ),
-        ...this.testRows(),
-        facts([
-          ['bones', this.bones.names.length],
-          this.pins.length > 0 && ['pins', this.pins.length],
-          result && ['time', ms(result.milliseconds)],
-          info && ['vertices that see their bone', whole(info.informedCount)],
-          info && info.outsideCount > 0 && ['bones outside the skin', info.outsideCount],
-        ]),
-      ];
+      return weightsSheet(kit, this);
     }
   };
 };
