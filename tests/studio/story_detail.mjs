@@ -6,7 +6,7 @@ import { Studio, check } from './harness.mjs';
 export function loopAround(studio, beside = false) {
   return studio.page.evaluate((beside) => {
     const { view, tools, skin: own } = window.hfStudio;
-    const { source } = tools.detail;
+    const source = tools.detail?.source;
     const box = document.getElementById('canvas').getBoundingClientRect();
     const meets = (a, b) => {
       const ray = view.ray(a, b);

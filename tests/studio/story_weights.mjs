@@ -22,7 +22,7 @@ export default async function story(host) {
         new Set(Array.from({ length: 200 }, (_, i) => window.hfStudio.skin.tint.slice(90 * i, 90 * i + 3).join())).size,
     );
     assert.ok(colours > 50, `${colours} colours`);
-    await studio.picture('weights_file');
+    await studio.picture('weights_file', { kept: false });
   });
   await check('new weights are computed: sum 1, every vertex has a bone', async () => {
     await page.click('#compute');
