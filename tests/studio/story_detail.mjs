@@ -1,5 +1,7 @@
 // Detail: a lasso around a part, the slider, larger and smaller, undo.
 import assert from 'node:assert/strict';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { Studio, check } from './harness.mjs';
 
 /** A closed path of pixels around a spot that stays on the body (or on the one beside it), or null. */
@@ -197,7 +199,9 @@ export default async function story(host) {
     await second.tool('detail');
     await lasso(second, await loopAround(second));
     await second.settle();
-    await second.page.click('#take-bull');
+    // a file: a sample could be had again
+    const [chooser] = await Promise.all([second.page.waitForEvent('filechooser'), second.page.click('#take-file')]);
+    await chooser.setFiles(join(dirname(fileURLToPath(import.meta.url)), 'data/ring_meshopt.glb'));
     await second.page.waitForFunction(() => window.hfStudio.tools.detail?.source?.skin.bvh);
     await lasso(second, await loopAround(second, true));
     await second.settle();
@@ -207,7 +211,7 @@ export default async function story(host) {
     await second.ready();
     await second.settle();
     assert.equal(await second.bits(), bits);
-    assert.equal(await second.page.evaluate(() => window.hfStudio.tools.detail.source.name), 'bull.glb');
+    assert.equal(await second.page.evaluate(() => window.hfStudio.tools.detail.source.name), 'ring_meshopt.glb');
     assert.deepEqual(second.complaints, []);
     await second.close();
   });
