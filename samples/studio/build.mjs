@@ -1,4 +1,5 @@
 // build.mjs OUTDIR: bundles the page and its Worker. HF_WASM: folder of hf.mjs and hf.wasm. HF_MODULES: the npm packages.
+// HF_WASM_MT: folder of those with threads; without it the page has none.
 import { createHash } from 'node:crypto';
 import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -39,6 +40,7 @@ await build({
   minify: true,
   legalComments: 'linked',
   nodePaths: [process.env.HF_MODULES],
+  define: { HF_THREADS: JSON.stringify(Boolean(process.env.HF_WASM_MT)) },
   alias: { 'hf-glue': join(process.env.HF_WASM, 'hf.mjs') },
   // node's own reading of files, in the loader of WebAssembly and of glTF: no browser gets there
   external: ['node:*', 'fs', 'path', 'module', 'url'],
@@ -52,6 +54,24 @@ writeFileSync(
   readFileSync(join(here, 'index.html'), 'utf8').replace('/*STYLE*/', () => style.trim()),
 );
 copyFileSync(join(process.env.HF_WASM, 'hf.wasm'), join(out, 'hf.wasm'));
+// the decoder of Draco as three has it, as a module
+const draco = join(process.env.HF_MODULES, 'three/examples/jsm/libs/draco/gltf');
+mkdirSync(join(out, 'draco'), { recursive: true });
+const wrapper = readFileSync(join(draco, 'draco_wasm_wrapper.js'), 'utf8');
+writeFileSync(join(out, 'draco', 'decoder.js'), `${wrapper}\nexport default DracoDecoderModule;\n`);
+copyFileSync(join(draco, 'draco_decoder.wasm'), join(out, 'draco', 'decoder.wasm'));
+
+// the build with threads as it is, in a folder of its own: its threads are Workers that load it by its name
+rmSync(join(out, 'threads'), { recursive: true, force: true });
+if (process.env.HF_WASM_MT) {
+  mkdirSync(join(out, 'threads'));
+  for (const name of ['hf.mjs', 'hf.worker.js']) {
+    const text = readFileSync(join(process.env.HF_WASM_MT, name), 'utf8');
+    // hosts that do not know .mjs send it as plain text, which is no module
+    writeFileSync(join(out, 'threads', name.replace('.mjs', '.js')), text.replaceAll('./hf.mjs', './hf.js'));
+  }
+  copyFileSync(join(process.env.HF_WASM_MT, 'hf.wasm'), join(out, 'threads', 'hf.wasm'));
+}
 
 // what the page keeps for a start without network: all files but the samples, named by their content
 const kept = readdirSync(out)

@@ -162,6 +162,43 @@ export default async function story(host) {
       return `open ${time} ms, a handle more ${Math.round(added)} ms, ${Math.round(perSecond)} poses a second, long tasks ${JSON.stringify(long)}`;
     });
   }
+  const large = join(shared, 'data', meshes[0][0]);
+  if (!existsSync(join(folder, 'threads'))) passOver('threads', 'the page was built without');
+  else if (!existsSync(large)) passOver('threads', 'the shared meshes are not here');
+  else
+    await check(
+      'threads: a large body takes them, one without gives the same bits, the first picture asks for none',
+      async () => {
+        const told = [];
+        for (const without of [false, true]) {
+          const asked = [];
+          const studio = await Studio.open(host, {
+            before: (page) =>
+              page.on('request', (request) => /threads/.test(request.url()) && asked.push(request.url())),
+          });
+          assert.deepEqual(asked, []);
+          if (without) await studio.page.route('**/threads/*', (route) => route.abort());
+          await opened(studio, large);
+          told.push(
+            await studio.page.evaluate(async () => {
+              const { client, tools, state } = window.hfStudio;
+              const offer = tools.pose.offers.find(({ id }) => !state.handles.some((handle) => handle.id === id));
+              const handles = [...state.handles, { ...offer, translation: [0.05, 0.1, 0] }];
+              const { positions } = await client.ask('shape', { handles, detail: null, way: 'exact' });
+              const hash = new Uint8Array(await crypto.subtle.digest('SHA-256', positions));
+              const { threads } = await client.ask('memory');
+              return { hash: hash.join(), threads, cores: navigator.hardwareConcurrency };
+            }),
+          );
+          await studio.close();
+        }
+        const [many, one] = told;
+        assert.equal(many.threads, Math.min(4, many.cores));
+        assert.equal(one.threads, 1);
+        assert.equal(many.hash, one.hash);
+        return `${many.threads} threads`;
+      },
+    );
   const gltf = join(shared, 'data/gltf');
   if (!existsSync(gltf)) passOver('every shared glb', 'the shared files are not here');
   else {

@@ -29,7 +29,7 @@ export default async function story(host) {
     const marks = await studio.marks();
     assert.equal(marks.filter(({ classes }) => classes.includes('pinned')).length, 4);
     assert.equal(await page.locator('.mark .say').textContent(), 'pull me');
-    await studio.picture('pose_first');
+    await studio.picture('pose_first', { kept: false });
   });
   await check('a drag of the proposed handle moves the body and the pinned feet stay', async () => {
     const box = await page.locator('.mark.pulse').boundingBox();

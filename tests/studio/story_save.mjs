@@ -9,6 +9,22 @@ async function validated(path) {
   return issues;
 }
 
+function glbOf(path) {
+  const bytes = readFileSync(path);
+  const length = bytes.readUInt32LE(12);
+  return { json: JSON.parse(bytes.subarray(20, 20 + length).toString()), bytes, start: 28 + length };
+}
+/** An accessor of three floats for each vertex. */
+function floats({ json, bytes, start }, number) {
+  const { bufferView, byteOffset = 0, count, type, componentType } = json.accessors[number];
+  const { byteOffset: viewOffset = 0, byteStride = 12 } = json.bufferViews[bufferView];
+  assert.ok(componentType === 5126 && type === 'VEC3');
+  const at = start + viewOffset + byteOffset;
+  return Float32Array.from({ length: 3 * count }, (_, i) =>
+    bytes.readFloatLE(at + byteStride * Math.floor(i / 3) + 4 * (i % 3)),
+  );
+}
+
 export default async function story(host) {
   const studio = await Studio.open(host);
   const { page } = studio;
@@ -72,6 +88,36 @@ export default async function story(host) {
     assert.ok(worst < 0.03, `a place differs by ${worst} of the body`);
     return `largest difference ${(100 * worst).toFixed(2)} % of the body`;
   });
+  await check('the pose is saved as a morph target: valid, and rest and target give the pose', async () => {
+    await page.selectOption('#sample', 'horse');
+    await page.waitForFunction(() => window.hfStudio.body.name === 'horse.glb' && window.hfStudio.skin.bvh);
+    const dot = await page.locator('.mark[aria-label*="proposed"]').first().boundingBox();
+    await studio.drag(dot.x + 22, dot.y + 22, 60, -140);
+    const [morph, baked] = [await studio.save('save-morph'), await studio.save('save-shape')];
+    await validated(morph);
+    const [a, b] = [glbOf(morph), glbOf(baked)];
+    const worst = a.json.meshes[0].primitives.reduce((most, { attributes, targets }, i) => {
+      assert.equal(targets.length, 1);
+      const [rest, way] = [floats(a, attributes.POSITION), floats(a, targets[0].POSITION)];
+      const pose = floats(b, b.json.meshes[0].primitives[i].attributes.POSITION);
+      return rest.reduce((m, x, k) => Math.max(m, Math.abs(x + way[k] - pose[k])), most);
+    }, 0);
+    assert.ok(worst < 1e-5, `a place differs by ${worst}`);
+    const clip = a.json.animations.find(({ name }) => name === 'pose');
+    assert.equal(clip.channels[0].target.path, 'weights');
+    assert.equal(a.json.skins.length, b.json.skins.length);
+    // keys: one target for each
+    await page.click('#key');
+    await studio.settle();
+    await page.locator('#scrub').fill('0.5');
+    await studio.settle();
+    await page.click('#key');
+    await studio.settle();
+    const keyed = await studio.save('save-morph');
+    await validated(keyed);
+    assert.equal(glbOf(keyed).json.meshes[0].primitives[0].targets.length, 2);
+    return `largest difference ${worst.toExponential(1)}`;
+  });
   await check('new weights are saved into the skin of the file', async () => {
     await page.selectOption('#sample', 'bull');
     await page.waitForFunction(() => window.hfStudio.body.name === 'bull.glb' && window.hfStudio.skin.bvh);
@@ -121,7 +167,9 @@ export default async function story(host) {
   });
   await check('a link holds handles, keys, the tool and the view', async () => {
     await page.selectOption('#sample', 'bull');
-    await page.waitForFunction(() => window.hfStudio.body.name === 'bull.glb' && window.hfStudio.history.past.length === 0);
+    await page.waitForFunction(
+      () => window.hfStudio.body.name === 'bull.glb' && window.hfStudio.history.past.length === 0,
+    );
     await studio.tool('pose');
     await studio.settle();
     const dot = await page.locator('.mark[aria-label*="proposed"]').first().boundingBox();
@@ -141,6 +189,41 @@ export default async function story(host) {
       await other.page.evaluate(() => JSON.stringify([window.hfStudio.state, window.hfStudio.view.turn])),
       state,
     );
+    assert.deepEqual(other.complaints, []);
+    await other.close();
+    return `${link.length} letters`;
+  });
+  await check('a link opens each tool as it was: mirror, quads, weights, another body with its dials', async () => {
+    await page.selectOption('#mirror', '0');
+    await studio.tool('quads');
+    await page.locator('#edge').fill('0.03');
+    await page.selectOption('#mirror', '0');
+    await studio.tool('weights');
+    await page.selectOption('#weight-count', '8');
+    await page.selectOption('#bone', { index: 4 });
+    await studio.tool('transfer');
+    await page.click('#take-horse');
+    await page.waitForFunction(() => window.hfStudio.tools.transfer.info);
+    await page.click('#dials summary');
+    await page.locator('#dial-stride').fill('1.5');
+    await studio.settle();
+    await page.click('#save');
+    await page.click('#save-link');
+    const link = await page.inputValue('#link');
+    await page.keyboard.press('Escape');
+    const of = (other) =>
+      other.page.evaluate(() => {
+        const { tools, tool } = window.hfStudio;
+        return JSON.stringify([
+          tool.constructor.key,
+          ...['pose', 'quads', 'weights', 'transfer'].map((key) => tools[key]?.settings()),
+        ]);
+      });
+    const settings = await of(studio);
+    const other = await Studio.open(host, { query: new URL(link).search.slice(1) + new URL(link).hash });
+    await other.page.waitForFunction(() => /as in the link/.test(document.getElementById('told').textContent));
+    assert.equal(await of(other), settings);
+    assert.match(settings, /"stride":1.5/);
     assert.deepEqual(other.complaints, []);
     await other.close();
     return `${link.length} letters`;

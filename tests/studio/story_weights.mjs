@@ -1,6 +1,16 @@
 // Weights: the weights of the file in colour, new ones from its bones, one bone alone.
 import assert from 'node:assert/strict';
-import { Studio, check } from './harness.mjs';
+import { readFileSync } from 'node:fs';
+import { Studio, check, require } from './harness.mjs';
+
+/** How far the picture is from the shape of the handles, as part of the body's size. */
+const moved = async (studio) => {
+  await studio.settle();
+  return studio.page.evaluate(() => {
+    const { skin, shape, view } = window.hfStudio;
+    return skin.positions.reduce((most, x, i) => Math.max(most, Math.abs(x - shape.positions[i])), 0) / view.size;
+  });
+};
 
 export default async function story(host) {
   const studio = await Studio.open(host);
@@ -12,7 +22,7 @@ export default async function story(host) {
         new Set(Array.from({ length: 200 }, (_, i) => window.hfStudio.skin.tint.slice(90 * i, 90 * i + 3).join())).size,
     );
     assert.ok(colours > 50, `${colours} colours`);
-    await studio.picture('weights_file');
+    await studio.picture('weights_file', { kept: false });
   });
   await check('new weights are computed: sum 1, every vertex has a bone', async () => {
     await page.click('#compute');
@@ -38,35 +48,137 @@ export default async function story(host) {
     assert.ok(await page.locator('#legend').isVisible());
     await studio.picture('weights_bone');
   });
-  await check('a click pins a place to the bone that is shown, and the weights follow; undo takes it back', async () => {
-    const shares = (vertex) =>
-      page.evaluate((vertex) => {
-        const { result, shown } = window.hfStudio.tools.weights;
-        const { weightCount, joints, weights } = result;
-        let sum = 0;
-        for (let i = weightCount * vertex; i < weightCount * (vertex + 1); ++i)
-          if (joints[i] === Number(shown)) sum += weights[i];
-        return sum;
-      }, vertex);
-    // the first place of the picture that the bone does not hold
-    const free = async (list) => {
-      for (const spot of list) if ((await shares(spot[2])) < 0.1) return spot;
-      return list[0];
-    };
-    const spot = await free((await studio.spots()).slice(10));
-    const before = await shares(spot[2]);
-    await page.mouse.click(spot[0], spot[1]);
-    await page.waitForFunction(() => window.hfStudio.state.pins.length === 1 && !window.hfStudio.tools.weights?.busy);
-    assert.ok(before < 0.5 && (await shares(spot[2])) > 0.999, `${before} to ${await shares(spot[2])}`);
-    assert.equal((await studio.marks()).length, 1);
-    await studio.picture('weights_pin');
-    await page.keyboard.press('Control+z');
-    // the pins go first, the weights without them come later
-    await page.waitForFunction(() => {
-      const { state, tools } = window.hfStudio;
-      return state.pins.length === 0 && tools.weights.pinned === state.pins;
+  await check(
+    'a click pins a place to the bone that is shown, and the weights follow; undo takes it back',
+    async () => {
+      const shares = (vertex) =>
+        page.evaluate((vertex) => {
+          const { result, shown } = window.hfStudio.tools.weights;
+          const { weightCount, joints, weights } = result;
+          let sum = 0;
+          for (let i = weightCount * vertex; i < weightCount * (vertex + 1); ++i)
+            if (joints[i] === Number(shown)) sum += weights[i];
+          return sum;
+        }, vertex);
+      // the first place of the picture that the bone does not hold
+      const free = async (list) => {
+        for (const spot of list) if ((await shares(spot[2])) < 0.1) return spot;
+        return list[0];
+      };
+      const spot = await free((await studio.spots()).slice(10));
+      const before = await shares(spot[2]);
+      await page.mouse.click(spot[0], spot[1]);
+      await page.waitForFunction(() => window.hfStudio.state.pins.length === 1 && !window.hfStudio.tools.weights?.busy);
+      assert.ok(before < 0.5 && (await shares(spot[2])) > 0.999, `${before} to ${await shares(spot[2])}`);
+      assert.equal((await studio.marks()).length, 1);
+      await studio.picture('weights_pin');
+      await page.keyboard.press('Control+z');
+      // the pins go first, the weights without them come later
+      await page.waitForFunction(() => {
+        const { state, tools } = window.hfStudio;
+        return state.pins.length === 0 && tools.weights.pinned === state.pins;
+      });
+      assert.ok(Math.abs((await shares(spot[2])) - before) < 1e-6);
+    },
+  );
+  await check('fewer bones: 8 are kept as 4, and the shares that go are told', async () => {
+    await page.selectOption('#weight-count', '8');
+    await page.waitForFunction(() => window.hfStudio.tools.weights.result?.weightCount === 8);
+    const most = await page.evaluate(() => {
+      const { weights, weightCount } = window.hfStudio.tools.weights.result;
+      let most = 0;
+      for (let v = 0; v < weights.length; v += weightCount)
+        most = Math.max(most, weights.slice(v, v + weightCount).filter(Boolean).length);
+      return most;
     });
-    assert.ok(Math.abs((await shares(spot[2])) - before) < 1e-6);
+    await page.selectOption('#weight-count', '4');
+    await page.waitForFunction(() => window.hfStudio.tools.weights.result?.weightCount === 4);
+    assert.ok(most > 4, `a vertex has at most ${most} bones`);
+    return `${most} bones at a vertex, then 4`;
+  });
+  await check('live test: a ring turns the bone, the skin follows, and Rest brings it back', async () => {
+    // a bone of a leg, where its rings are free
+    const bones = await page.$$eval('#bone option', (all) => all.map(({ textContent }) => textContent));
+    await page.selectOption('#bone', { label: bones.find((name) => /front_lower_leg_L/.test(name)) });
+    await studio.settle();
+    const ring = await page.evaluate(() => {
+      const { view, tools } = window.hfStudio;
+      const { gizmo } = tools.weights.bend;
+      const box = document.getElementById('canvas').getBoundingClientRect();
+      for (let angle = 0; angle < 6.28; angle += 0.1) {
+        const point = gizmo.centre.slice();
+        point[0] += gizmo.size() * Math.cos(angle);
+        point[1] += gizmo.size() * Math.sin(angle);
+        const { x, y } = view.onScreen(point);
+        if (document.elementFromPoint(box.x + x, box.y + y)?.id === 'canvas' && gizmo.under([x, y]) >= 0)
+          return [box.x + x, box.y + y];
+      }
+      return null;
+    });
+    assert.ok(ring);
+    await studio.drag(...ring, -60, 70);
+    const bent = await moved(studio);
+    assert.ok(bent > 0.01, `moved by ${bent}`);
+    const { steps, state } = await page.evaluate(() => ({
+      steps: window.hfStudio.history.past.length,
+      state: window.hfStudio.state.handles.length,
+    }));
+    assert.ok(steps === 0 && state === 4, `${steps} steps`);
+    await page.click('#test-rest');
+    assert.equal(await moved(studio), 0);
+    return `moved by ${(100 * bent).toFixed(1)} % of the body`;
+  });
+  await check('the slider turns it by keys', async () => {
+    await page.focus('#bend');
+    for (let i = 0; i < 8; ++i) await page.keyboard.press('ArrowRight');
+    const bent = await moved(studio);
+    await studio.picture('weights_test');
+    assert.ok(bent > 0.005, `moved by ${bent}`);
+    await page.click('#test-rest');
+    assert.equal(await moved(studio), 0);
+  });
+  await check('the clip plays with these weights; with those of the file it is the clip of the file', async () => {
+    await page.click('#test-clip');
+    await page.waitForTimeout(300);
+    assert.ok((await moved(studio)) > 0.005);
+    await page.click('#test-clip');
+    assert.equal(await moved(studio), 0);
+    await page.click('#file-weights');
+    const off = await page.evaluate(() => {
+      const app = window.hfStudio;
+      const { bend } = app.tools.weights;
+      [bend.clip, bend.time] = [app.timeline.clip, 0.4];
+      bend.show();
+      const mine = app.skin.positions.slice();
+      bend.rest();
+      app.timeline.time = 0.4;
+      app.timeline.show();
+      const most = mine.reduce((most, x, i) => Math.max(most, Math.abs(x - app.skin.positions[i])), 0) / app.view.size;
+      app.timeline.stop();
+      return most;
+    });
+    assert.ok(off < 1e-5, `${off} off the clip of the file`);
+    return `${off.toExponential(1)} of the body off`;
+  });
+  await check('the handles as bones: weights are computed, and saved with the pose as a valid glb', async () => {
+    await page.selectOption('#bones-of', 'handles');
+    assert.equal((await studio.facts()).bones, '4');
+    await page.click('#compute');
+    await page.waitForFunction(() => window.hfStudio.tools.weights.result);
+    await studio.settle();
+    await studio.picture('weights_handles');
+    const { worst, used } = await page.evaluate(() => {
+      const { weights, joints, weightCount } = window.hfStudio.tools.weights.result;
+      let worst = 0;
+      for (let v = 0; v < weights.length; v += weightCount)
+        worst = Math.max(worst, Math.abs(1 - weights.slice(v, v + weightCount).reduce((a, b) => a + b)));
+      return { worst, used: new Set(joints.filter((_, i) => weights[i] > 0)).size };
+    });
+    assert.ok(worst < 1e-6 && used === 4, `sums off by ${worst}, ${used} bones used`);
+    const { issues } = await require('gltf-validator').validateBytes(
+      new Uint8Array(readFileSync(await studio.save('save-weights'))),
+    );
+    assert.equal(issues.numErrors, 0, JSON.stringify(issues.messages.slice(0, 3)));
   });
   await check('the colours go when the tool is left', async () => {
     await studio.tool('pose');

@@ -3,6 +3,7 @@ import { check, finish, start } from './harness.mjs';
 
 const stories = [
   'pose',
+  'mirror',
   'keys',
   'field',
   'weights',
@@ -11,6 +12,7 @@ const stories = [
   'transfer',
   'history',
   'save',
+  'compressed',
   'broken',
   'access',
   'bodies',

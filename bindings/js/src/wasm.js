@@ -14,6 +14,12 @@ export function wasmBackend(module) {
       return align(argument.bytes.length) + argument.pointers.reduce((sum, [, target]) => sum + measure(target), 0);
     return 0;
   };
+  // a thread of the library may have grown the memory: then the view of it that is there is too short
+  const heap = () => {
+    const { wasmMemory } = module;
+    if (wasmMemory && module.HEAPU8.buffer !== wasmMemory.buffer) module.HEAPU8 = new Uint8Array(wasmMemory.buffer);
+    return module.HEAPU8;
+  };
   const bytesOf = (array) => new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
   return {
     name: 'wasm',
@@ -36,7 +42,7 @@ export function wasmBackend(module) {
         if (argument instanceof Memory) {
           const at = next;
           next += align(argument.array.byteLength);
-          module.HEAPU8.set(bytesOf(argument.array), at);
+          heap().set(bytesOf(argument.array), at);
           if (argument.written) back.push([at, bytesOf(argument.array)]);
           return at;
         }
@@ -44,7 +50,7 @@ export function wasmBackend(module) {
           const at = next;
           next += align(argument.bytes.length);
           for (const [offset, target] of argument.pointers) argument.view.setUint32(offset, place(target), true);
-          module.HEAPU8.set(argument.bytes, at);
+          heap().set(argument.bytes, at);
           back.push([at, argument.bytes]);
           return at;
         }
@@ -52,7 +58,7 @@ export function wasmBackend(module) {
       };
       try {
         const result = module['_' + name](...args.map(place));
-        for (const [at, bytes] of back) bytes.set(module.HEAPU8.subarray(at, at + bytes.length));
+        for (const [at, bytes] of back) bytes.set(heap().subarray(at, at + bytes.length));
         return result;
       } finally {
         if (block) module._free(block);

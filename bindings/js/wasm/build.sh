@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # build.sh OUTDIR: hf.mjs and hf.wasm in OUTDIR (bindings/js/dist for the package).
-# Needs emscripten, cmake, ninja, Eigen.
+# Needs emscripten, cmake, ninja, Eigen. HF_WASM_THREADS=ON: with threads, for pages that are isolated; hf.worker.js besides.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 [ $# -ge 1 ] || { echo "usage: build.sh OUTDIR" >&2; exit 2; }
@@ -9,6 +9,7 @@ mkdir -p "$1"
 out=$(cd "$1" && pwd)
 export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}
 emcmake cmake -S "$here" -B "$out" -G Ninja -DCMAKE_BUILD_TYPE=None \
+  "-DHF_WASM_THREADS=${HF_WASM_THREADS:-OFF}" \
   >"$out/cmake.log" 2>&1 || {
   tail -20 "$out/cmake.log"
   exit 1

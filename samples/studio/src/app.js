@@ -8,7 +8,7 @@ import { Timeline } from './timeline.js';
 import { ramp, STRIPS } from './skin_view.js';
 import { View } from './view.js';
 import { listen } from './input.js';
-import { $, card, make, ms, say, touched, whole } from './ui.js';
+import { $, card, make, ms, say, whole } from './ui.js';
 
 /** Larger bodies get their tree of boxes from a Worker of its own: it takes longer to make than a Worker to start. */
 const TREE_APART = 30000;
@@ -37,7 +37,6 @@ export class App {
     this.figures = { open: 0, shape: 0, field: 0, frames: 0 };
     listen(this, $('canvas'));
     this.#rail(toolClasses);
-    this.view.onDraw(() => this.tools.pose.gizmo.rescale());
   }
   get state() {
     return this.live ?? this.history.state;
@@ -144,7 +143,8 @@ export class App {
     this.live = state;
     clearTimeout(this.pause);
     this.#apply(state, 'follow').then(
-      () => (this.pause = setTimeout(() => this.live === state && this.#apply(state, 'rest').catch(() => {}), PAUSE_MS)),
+      () =>
+        (this.pause = setTimeout(() => this.live === state && this.#apply(state, 'rest').catch(() => {}), PAUSE_MS)),
       (error) => {
         if (this.live === state) this.live = null;
         say(error.message);
@@ -197,10 +197,15 @@ export class App {
   /** A state from outside: of a session that was kept. The history begins anew. */
   async take(state) {
     const before = this.history.state;
+    const from = state.detail?.carry?.from;
+    if (from) await this.#source(from).catch(() => {}); // the tool says that it is missing
     this.history.reset({ ...empty, ...state });
     // numbers of new marks go on after those that are there
     this.timeline.arrive(this.state);
-    this.ids = Math.max(0, ...[...state.handles, ...state.sites].map(({ id }) => Number(id.slice(1)) || 0));
+    this.ids = Math.max(
+      0,
+      ...[...state.handles, ...state.sites, ...this.state.pins].map(({ id }) => Number(id.slice(1)) || 0),
+    );
     try {
       await this.#apply(this.state, 'exact');
     } catch {
@@ -209,6 +214,20 @@ export class App {
     }
     this.tools.pose.pulled = state.handles.some(({ pinned }) => !pinned);
     this.refresh();
+  }
+  /** The picture of the present state anew. */
+  again() {
+    return this.#apply(this.state, 'exact').catch(({ message }) => say(message));
+  }
+  /** The body whose detail a state takes: of the session, or a sample. */
+  async #source(name) {
+    let bytes = await this.session?.sourceBytes(name);
+    const sample = name.replace(/\.glb$/, '');
+    if (!bytes && this.samples.includes(sample)) {
+      const answer = await fetch(`samples/${name}`);
+      if (answer.ok) bytes = new Uint8Array(await answer.arrayBuffer());
+    }
+    if (bytes) await (await this.need('detail')).bring(bytes, name);
   }
   /** Brings the picture to a state: only what changed is asked for. way: of the pose, see worker_pose.js. */
   async #apply(state, way) {
@@ -266,15 +285,22 @@ export class App {
       $('rail').append(tab);
     }
   }
+  /** A tool that is loaded when it is wanted. */
+  async need(key) {
+    if (!this.tools[key]) {
+      const Tool = await this.later[key]();
+      if (!this.tools[key]) {
+        this.tools[key] = new Tool(this);
+        if (this.skin) this.tools[key].opened?.();
+      }
+    }
+    return this.tools[key];
+  }
   async use(key) {
     this.wanted = key;
     if (!this.tools[key]) {
       try {
-        const Tool = await this.later[key]();
-        if (!this.tools[key]) {
-          this.tools[key] = new Tool(this);
-          if (this.skin) this.tools[key].opened?.();
-        }
+        await this.need(key);
       } catch {
         return say('This tool could not be loaded. Load the page again when the network is there.');
       }
@@ -322,7 +348,7 @@ export class App {
     const box = $('legend');
     box.hidden = !content;
     if (!content) return;
-    const { low, high, hatch } = content;
+    const { low, high, hatch, note } = content;
     // the strips of the body, with their colours
     const strips = Array.from({ length: STRIPS }, (_, i) => {
       const t = (i + 0.5) / STRIPS;
@@ -341,6 +367,7 @@ export class App {
       ),
     );
     if (hatch) box.append(make('div', {}, make('span', { class: 'hatch' }), 'no site reaches it'));
+    if (note) box.append(make('div', {}, note));
   }
   hover(at) {
     const tip = $('tip');
@@ -350,40 +377,5 @@ export class App {
     tip.textContent = text;
     tip.style.left = `${Math.min(at[0] + 14, this.view.width - 120)}px`;
     tip.style.top = `${at[1] + 14}px`;
-  }
-  help() {
-    const rows = touched()
-      ? [
-          ['Turn', 'drag beside the body, or two fingers'],
-          ['Zoom', 'pinch'],
-          ['Pose', 'drag a dot; tap it for its rings; tap the body for a new one'],
-          ['Field', 'tap the body for a site; drag it'],
-          ['Detail', 'draw a loop around a part'],
-        ]
-      : [
-          ['Turn', 'drag beside the body, right drag, or two fingers'],
-          ['Zoom', 'wheel or pinch'],
-          ['Move the view', 'middle drag, or Shift and drag'],
-          ['Handles and sites', 'Tab walks them, Enter chooses, arrows move, Delete removes'],
-          ['Pose', '[ and ] turn a handle, P pins it, K sets a key'],
-          ['Undo, redo', 'Ctrl+Z, Ctrl+Shift+Z'],
-          ['Save, open', 'Ctrl+S, Ctrl+O'],
-          ['Tools', '1 to 6'],
-        ];
-    card(
-      'hf studio',
-      [
-        make('p', {}, 'Drop a creature, pull its leg, save it. Nothing leaves your machine.'),
-        make(
-          'table',
-          {},
-          ...rows.map(([a, b]) => make('tr', {}, make('td', {}, make('strong', {}, a)), make('td', {}, b))),
-        ),
-      ],
-      [
-        ['Light or dark', () => $('theme').click()],
-        ['Close', null, true],
-      ],
-    );
   }
 }

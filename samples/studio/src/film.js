@@ -27,10 +27,11 @@ export async function film(app) {
   };
 
   const walking = app.tool === tools.transfer && tools.transfer.ready();
-  const moving = walking || (app.tool === tools.pose && (timeline.clip || timeline.keys.length > 1));
+  const tested = app.tool === tools.weights && tools.weights.bend.clip;
+  const moving = tested || walking || (app.tool === tools.pose && (timeline.clip || timeline.keys.length > 1));
   const turn = view.turn;
   if (walking) tools.transfer.play();
-  else if (moving) timeline.play();
+  else if (moving && !tested) timeline.play();
   // every picture is handed over: a busy machine must not leave the last seconds out
   const stream = sheet.captureStream(0);
   const [track] = stream.getVideoTracks();
@@ -71,7 +72,7 @@ export async function film(app) {
   track.stop();
   view.turn = turn;
   if (walking) await tools.transfer.stop();
-  else if (moving) timeline.begin();
+  else if (moving && !tested) timeline.begin();
   view.draw();
   return new Blob(pieces, { type: 'video/webm' });
 }

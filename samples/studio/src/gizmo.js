@@ -6,9 +6,11 @@ const [RING, REACH, POINTS] = [70, 11, 72];
 const colours = [0xd8452e, 0x3d9a3a, 0x2f6fd6];
 
 export class Gizmo {
-  constructor(app, onturn) {
+  /** placeOf: where the middle of what is turned stands. */
+  constructor(app, onturn, placeOf) {
     this.app = app;
     this.onturn = onturn;
+    this.placeOf = placeOf;
     this.group = new THREE.Group();
     this.group.visible = false;
     this.rings = [0, 1, 2].map((axis) => {
@@ -23,6 +25,7 @@ export class Gizmo {
       return ring;
     });
     app.view.extras.add(this.group);
+    app.view.onDraw(() => this.rescale());
     this.handle = null;
     this.active = null;
   }
@@ -30,7 +33,7 @@ export class Gizmo {
     this.handle = handle;
     this.group.visible = Boolean(handle) && !this.app.timeline.away();
     if (handle) {
-      this.centre = this.app.tools.pose.placeOf(handle);
+      this.centre = this.placeOf(handle);
       this.group.position.set(...this.centre);
       this.group.scale.setScalar(this.size());
     }

@@ -13,6 +13,7 @@ export function listen(app, canvas) {
   };
   canvas.onpointerdown = (event) => {
     canvas.setPointerCapture(event.pointerId);
+    app.hover(null);
     fingers.set(event.pointerId, here(event));
     if (fingers.size === 2 && act?.taken) app.tool.strokeCancel?.();
     if (fingers.size === 1)

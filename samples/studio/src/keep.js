@@ -24,8 +24,8 @@ self.addEventListener('fetch', (event) => {
     caches.match(event.request, { ignoreSearch: true }).then(async (kept) => {
       if (kept) return kept;
       const answer = await fetch(event.request);
-      // samples join the store when they are opened
-      if (answer.ok && /\.glb$/.test(new URL(event.request.url).pathname))
+      // samples and what few pages need join the store when they are asked for
+      if (answer.ok && /\.glb$|\/(threads|draco)\//.test(new URL(event.request.url).pathname))
         (await caches.open(version)).put(event.request, answer.clone());
       return answer;
     }),

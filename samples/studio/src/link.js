@@ -1,4 +1,4 @@
-// A link with the settings: handles, sites, keys, pins, the tool and the view stand in the address after #. The body does not:
+// A link with the settings: handles, sites, keys, pins, the tools and the view stand in the address after #. The body does not:
 // a sample is named, and a file has to be opened by who has it.
 
 const MARK = '#s=';
@@ -23,7 +23,12 @@ export async function linkOf(app) {
     vertexCount: body.vertexCount,
     state: history.state,
     tool: tool.constructor.key,
+    tools: Object.fromEntries(
+      Object.entries(app.tools).flatMap(([key, one]) => (one.settings ? [[key, one.settings()]] : [])),
+    ),
+    clip: app.timeline.clips.indexOf(app.timeline.clip),
     view: [view.turn, view.lift],
+    eye: view.framed ? null : [view.distance, ...view.target.toArray()],
   };
   const text = new TextEncoder().encode(JSON.stringify(settings));
   const address = new URL(location.origin + location.pathname);
@@ -91,9 +96,23 @@ export async function takeSettings(app, settings) {
     say('the link is damaged: its settings do not fit the body');
     return false;
   }
-  [app.view.turn, app.view.lift] = settings.view;
-  if (app.tools[settings.tool]) await app.use(settings.tool);
-  app.view.frame(app.skin.box());
+  const { timeline, view } = app;
+  [view.turn, view.lift] = settings.view;
+  if (settings.clip !== undefined) timeline.clip = timeline.clips[settings.clip] ?? null;
+  if (app.tools[settings.tool] || app.later[settings.tool]) await app.use(settings.tool);
+  view.frame(app.skin.box());
+  // what a tool does not take it has as from the start
+  for (const [key, own] of Object.entries(settings.tools ?? {}))
+    await app
+      .need(key)
+      .then((one) => one.adopt?.(own))
+      .catch(() => {});
+  if (settings.eye) {
+    view.framed = null;
+    [view.distance] = settings.eye;
+    view.target.fromArray(settings.eye, 1);
+  }
+  app.refresh();
   say(`as in the link: ${settings.name}`);
   return true;
 }

@@ -17,7 +17,7 @@ export class Marks {
     this.parent = parent;
     app.view.onDraw(() => this.place());
   }
-  /** The marks of the present tool: { id, place, label, chosen, offer, pinned, colour, pulse }. */
+  /** The marks of the present tool: { id, place, label, chosen, twin, offer, pinned, colour, pulse }. */
   update() {
     const list = this.app.tool?.marks?.() ?? [];
     const seen = new Set();
@@ -34,7 +34,8 @@ export class Marks {
       seen.add(mark.id);
       element.setAttribute('aria-label', mark.say ? `${mark.say}: ${mark.label}` : mark.label);
       element.setAttribute('aria-pressed', String(Boolean(mark.chosen)));
-      for (const name of ['chosen', 'offer', 'pinned', 'pulse']) element.classList.toggle(name, Boolean(mark[name]));
+      for (const name of ['chosen', 'twin', 'offer', 'pinned', 'pulse'])
+        element.classList.toggle(name, Boolean(mark[name]));
       if (mark.colour) element.style.setProperty('--dot', mark.colour);
       const said = element.querySelector('.say');
       if (Boolean(mark.say) !== Boolean(said))

@@ -2,7 +2,9 @@
 // primitive each range of vertices belongs to, and how to take it back there.
 import { Document, WebIO } from '@gltf-transform/core';
 import {
+  EXTMeshoptCompression,
   KHRDracoMeshCompression,
+  KHRTextureBasisu,
   KHRMaterialsUnlit,
   KHRMeshQuantization,
   KHRTextureTransform,
@@ -22,21 +24,29 @@ import { ModelError } from './model_error.js';
 /** Larger models are refused: WebAssembly has 2 GB, and a factor of 2 million vertices takes more. */
 const VERTEX_LIMIT = 2_000_000;
 
-const io = () =>
-  new WebIO().registerExtensions([
-    KHRMaterialsUnlit,
-    KHRMeshQuantization,
-    KHRTextureTransform,
-    KHRMaterialsClearcoat,
-    KHRMaterialsEmissiveStrength,
-    KHRMaterialsIOR,
-    KHRMaterialsSheen,
-    KHRMaterialsSpecular,
-    KHRMaterialsTransmission,
-    KHRMaterialsVolume,
-    KHRMaterialsPBRSpecularGlossiness,
-    EXTTextureWebP,
-  ]);
+/** Compressions: what decodes them is loaded when a file uses one. Nothing is written in them. */
+const COMPRESSIONS = [KHRDracoMeshCompression, EXTMeshoptCompression].map(({ EXTENSION_NAME }) => EXTENSION_NAME);
+
+const io = (decoders = {}) =>
+  new WebIO()
+    .registerExtensions([
+      EXTMeshoptCompression,
+      KHRDracoMeshCompression,
+      KHRTextureBasisu,
+      KHRMaterialsUnlit,
+      KHRMeshQuantization,
+      KHRTextureTransform,
+      KHRMaterialsClearcoat,
+      KHRMaterialsEmissiveStrength,
+      KHRMaterialsIOR,
+      KHRMaterialsSheen,
+      KHRMaterialsSpecular,
+      KHRMaterialsTransmission,
+      KHRMaterialsVolume,
+      KHRMaterialsPBRSpecularGlossiness,
+      EXTTextureWebP,
+    ])
+    .registerDependencies(decoders);
 
 export const writeGlb = (document) => io().writeBinary(document);
 
@@ -69,13 +79,13 @@ async function readGlb(bytes, name) {
   if (view.getUint32(4, true) !== 2)
     throw new ModelError(`${name} is glTF version ${view.getUint32(4, true)}.`, 'Export it as glTF 2.0.');
   const json = new TextDecoder().decode(bytes.subarray(20, 20 + view.getUint32(12, true)));
-  refuseCompressed(json, name);
-  return translated(() => io().readBinary(bytes), name);
+  const decoders = await decodersFor(json, name);
+  return translated(async () => plain(await io(decoders).readBinary(bytes)), name);
 }
 
 async function readGltf(bytes, name) {
   const text = new TextDecoder().decode(bytes);
-  refuseCompressed(text, name);
+  const decoders = await decodersFor(text, name);
   return translated(async () => {
     const json = JSON.parse(text);
     const outside = [...(json.buffers ?? []), ...(json.images ?? [])].find(
@@ -86,25 +96,34 @@ async function readGltf(bytes, name) {
         `${name} needs the file ${outside.uri}, which a page cannot read.`,
         'Export it as one glb file.',
       );
-    return io().readJSON({ json, resources: {} });
+    return plain(await io(decoders).readJSON({ json, resources: {} }));
   }, name);
 }
 
-function refuseCompressed(text, name) {
-  let needed = [];
+/** What decodes the compressions that a file uses. */
+async function decodersFor(text, name) {
+  let used = [];
   try {
-    needed = JSON.parse(text).extensionsRequired ?? [];
+    used = (JSON.parse(text).extensionsUsed ?? []).filter((extension) => COMPRESSIONS.includes(extension));
   } catch {
     throw new ModelError(`${name} holds no readable JSON.`, 'Copy or download it again.');
   }
-  const compressed = needed.find((extension) =>
-    [KHRDracoMeshCompression.EXTENSION_NAME, 'EXT_meshopt_compression', 'KHR_texture_basisu'].includes(extension),
-  );
-  if (compressed)
+  if (!used.length) return {};
+  try {
+    return await (await import('./compressed.js')).decoders(used.includes(KHRDracoMeshCompression.EXTENSION_NAME));
+  } catch {
     throw new ModelError(
-      `${name} is compressed (${compressed}), which the studio does not read.`,
-      'Export it without compression.',
+      `${name} is compressed (${used[0]}), and what reads it could not be loaded.`,
+      'Open it when the network is there, or export it without compression.',
     );
+  }
+}
+
+/** The document without compression: it is written plain. */
+function plain(document) {
+  for (const extension of document.getRoot().listExtensionsUsed())
+    if (COMPRESSIONS.includes(extension.extensionName)) extension.dispose();
+  return document;
 }
 
 async function translated(read, name) {
@@ -216,7 +235,12 @@ function readPart(part, { positions, fileNormals }) {
   const normals = part.primitive.getAttribute('NORMAL');
   const matrices = part.skin ? skinMatrices(part) : Float64Array.from(part.node.getWorldMatrix());
   const plain = places.getArray();
-  if (!part.skin && !fileNormals && plain instanceof Float32Array && matrices.every((x, k) => x === Number(k % 5 === 0))) {
+  if (
+    !part.skin &&
+    !fileNormals &&
+    plain instanceof Float32Array &&
+    matrices.every((x, k) => x === Number(k % 5 === 0))
+  ) {
     positions.set(plain, 3 * part.first); // a scan: nothing to work out
     return matrices;
   }

@@ -70,8 +70,24 @@ export async function shapedGlb(app) {
   return writeGlb(copy.document);
 }
 
+/** Writes bones and shares of a part, four of each in an attribute. jointOf: the joint of a bone. */
+function setInfluences({ primitive, first, count }, given, accessor, jointOf = (bone) => bone) {
+  const { joints, weights, weightCount: size } = given;
+  for (let set = 0; set < size / 4; ++set) {
+    const [numbers, shares] = [new Uint16Array(4 * count), new Float32Array(4 * count)];
+    for (let i = 0; i < 4 * count; ++i) {
+      const from = size * (first + (i >> 2)) + 4 * set + (i & 3);
+      if (!(weights[from] > 0)) continue;
+      [shares[i], numbers[i]] = [weights[from], jointOf(joints[from])];
+    }
+    primitive
+      .setAttribute(`JOINTS_${set}`, accessor('VEC4', numbers))
+      .setAttribute(`WEIGHTS_${set}`, accessor('VEC4', shares));
+  }
+}
+
 /** The rest shape with a skin: `frames` move its joints. names and frames[f][j]: { rotation, translation }. */
-async function skinnedGlb(app, { pivots, joints, weights, jointCount }, frames, seconds, clipName) {
+async function skinnedGlb(app, { pivots, joints, weights, jointCount, weightCount = 4 }, frames, seconds, clipName) {
   const copy = await copyOf(app.body);
   ownPrimitives(copy);
   const { document } = copy;
@@ -101,10 +117,7 @@ async function skinnedGlb(app, { pivots, joints, weights, jointCount }, frames, 
       primitive.setAttribute('NORMAL', accessor('VEC3', range(app.opened.normals, 3)));
     for (const name of primitive.listSemantics())
       if (/^(JOINTS|WEIGHTS|TANGENT)/.test(name)) primitive.setAttribute(name, null);
-    const shares = range(weights, 4);
-    const numbers = Uint16Array.from(range(joints, 4));
-    for (let i = 0; i < shares.length; ++i) if (!(shares[i] > 0)) shares[i] = numbers[i] = 0;
-    primitive.setAttribute('JOINTS_0', accessor('VEC4', numbers)).setAttribute('WEIGHTS_0', accessor('VEC4', shares));
+    setInfluences(part, { joints, weights, weightCount }, accessor);
     body.addPrimitive(primitive);
     moved.add(part.node);
   }
@@ -170,31 +183,39 @@ export { skinnedGlb };
 
 /** The file with new weights in its own skins. result: { joints, weights } of the bones of the file. */
 export async function weightedGlb(app, result, bones) {
+  if (!bones.joints) return handleGlb(app, result, bones);
   const copy = await copyOf(app.body);
   ownPrimitives(copy);
   const { document } = copy;
   const buffer = bufferOf(document);
-  const accessor = (array) => document.createAccessor().setType('VEC4').setArray(array).setBuffer(buffer);
+  const accessor = (type, array) => document.createAccessor().setType(type).setArray(array).setBuffer(buffer);
   copy.parts.forEach((part, i) => {
     const { skin } = app.body.parts[i];
     if (!skin) return;
     const order = new Map(skin.listJoints().map((joint, j) => [bones.joints.indexOf(joint), j]));
     for (let set = 0; set < 4; ++set)
       for (const name of [`JOINTS_${set}`, `WEIGHTS_${set}`]) part.primitive.setAttribute(name, null);
-    const size = result.weightCount;
-    for (let set = 0; set < size / 4; ++set) {
-      const [joints, weights] = [new Uint16Array(4 * part.count), new Float32Array(4 * part.count)];
-      for (let v = 0; v < part.count; ++v)
-        for (let k = 0; k < 4; ++k) {
-          const from = size * (part.first + v) + 4 * set + k;
-          weights[4 * v + k] = result.weights[from];
-          joints[4 * v + k] = result.weights[from] > 0 ? (order.get(result.joints[from]) ?? 0) : 0;
-        }
-      part.primitive.setAttribute(`JOINTS_${set}`, accessor(joints)).setAttribute(`WEIGHTS_${set}`, accessor(weights));
-    }
+    setInfluences(part, result, accessor, (bone) => order.get(bone) ?? 0);
   });
   return writeGlb(document);
 }
+
+/** The shape at rest with a joint for each handle, and a clip from rest to the pose of the handles. */
+function handleGlb(app, result, { heads, handles }) {
+  const pivots = Float64Array.from(heads);
+  const rest = {
+    rotations: new Float64Array(4 * handles.length).map((_, i) => Number(i % 4 === 3)),
+    translations: pivots,
+  };
+  const pose = {
+    rotations: Float64Array.from(handles.flatMap(({ rotation }) => rotation)),
+    translations: Float64Array.from(handles.flatMap(({ translation }) => translation)).map((t, i) => t + pivots[i]),
+  };
+  return skinnedGlb(app, { ...result, pivots, jointCount: handles.length }, [rest, pose], [0, 1], 'pose');
+}
+
+/** For modules that are loaded when they are asked for: they import nothing that the page has. */
+const parts = { bufferOf, copyOf, localNormals, localsOf, ownPrimitives, writeGlb };
 
 /** Quads as obj: glTF has triangles only. */
 export function quadsObj({ positions, faces }) {
@@ -219,23 +240,30 @@ export function saveMenu(app) {
     ],
     [
       'Rig by handles (glb)',
-      'the shape at rest, a skin made of the handles, and the pose as a clip',
+      'a skin made of the handles, and the pose as a clip',
       async () => download(await riggedGlb(app), `${name}_rigged.glb`, glb),
       app.state.handles.length > 0,
       'save-rig',
     ],
     [
+      'Morph (glb)',
+      'the pose, or each key, as a morph target with a clip',
+      async () => download(await (await import('./morph.js')).morphGlb(app, parts), `${name}_morph.glb`, glb),
+      true,
+      'save-morph',
+    ],
+    [
       'Keys (glb)',
-      'the shape at rest, a skin made of the handles, and the keys of the timeline as a clip',
+      'a skin made of the handles, and the keys as a clip',
       async () => download(await keyedGlb(app), `${name}_keys.glb`, glb),
       app.timeline.keys.length > 0,
       'save-keys',
     ],
     [
       'Weights (glb)',
-      'the file with the new weights in its skin',
-      async () => download(await weightedGlb(app, weights.result, weights.bones), `${name}_weights.glb`, glb),
-      Boolean(weights?.result),
+      'the new weights in the skin of the file, or of the handles',
+      async () => download(await weightedGlb(app, weights.changed(), weights.bones), `${name}_weights.glb`, glb),
+      Boolean(weights?.changed()),
       'save-weights',
     ],
     [
@@ -268,7 +296,7 @@ export function saveMenu(app) {
     ],
     [
       'Link',
-      'the settings in an address: handles, sites, keys and the view',
+      'the settings in an address: tools, handles, keys, the view',
       async () => (await import('./link.js')).showLink(app),
       true,
       'save-link',

@@ -30,7 +30,17 @@ export class Session {
   /** A file was opened: it replaces what was kept. */
   opened(bytes, name) {
     if (this.#able)
-      this.#try(() => store('readwrite', (kept) => (kept.put({ bytes, name }, 'body'), kept.delete('state'))));
+      this.#try(() =>
+        store('readwrite', (kept) => (kept.put({ bytes, name }, 'body'), kept.delete('state'), kept.delete('source'))),
+      );
+  }
+  /** Another body whose detail is taken. */
+  source(bytes, name) {
+    if (this.#able) this.#try(() => store('readwrite', (kept) => kept.put({ bytes, name }, 'source')));
+  }
+  async sourceBytes(name) {
+    const source = await store('readonly', (kept) => kept.get('source'));
+    return source?.name === name ? source.bytes : null;
   }
   changed(state) {
     clearTimeout(this.#timer);

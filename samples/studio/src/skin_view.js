@@ -160,9 +160,14 @@ export class Skin {
   /** Decodes the textures; a picture that cannot be decoded leaves its colour and says so. */
   async loadPictures() {
     const failed = [];
+    let packed = false;
     const bitmaps = new Map();
     const textureOf = async (texture, info, colour) => {
       if (!texture?.getImage()) return null;
+      if (texture.getMimeType() === 'image/ktx2') {
+        packed = true;
+        return null;
+      }
       if (!bitmaps.has(texture))
         bitmaps.set(
           texture,
@@ -200,6 +205,7 @@ export class Skin {
         failed.push(given.getName() || 'a material');
       }
     }
+    if (packed) this.body.notes.push('pictures in KTX2 stay in the file and are not shown');
     if (failed.length) this.body.notes.push(`pictures of ${failed.join(', ')} cannot be decoded`);
   }
 
@@ -210,8 +216,27 @@ export class Skin {
     this.#changed('position', 'normal');
   }
   setField(values, reached) {
+    if (this.lent) {
+      Object.assign(this.lent, { field: values, reached });
+      return;
+    }
     this.field.set(values);
     this.reached.set(reached);
+    this.#changed('field', 'reached');
+  }
+  /** Other values in the place of the field: weights of a bone, a difference. null: the field again. */
+  lend(values) {
+    if (!values && !this.lent) return;
+    this.lent ??= { field: this.field.slice(), reached: this.reached.slice() };
+    if (values) {
+      this.field.set(values);
+      this.reached.fill(1);
+    } else {
+      const { field, reached } = this.lent;
+      this.lent = null;
+      this.field.set(field);
+      this.reached.set(reached);
+    }
     this.#changed('field', 'reached');
   }
   setTint(tint) {

@@ -7,24 +7,30 @@ import {
   Line,
   LineBasicMaterial,
   LineSegments,
+  Matrix4,
   Mesh,
   MeshLambertMaterial,
+  Quaternion,
   Vector3,
 } from 'three';
 import { App } from './app.js';
+import { Gizmo } from './gizmo.js';
+import { help } from './help.js';
 import { bonesOf, influencesOf, readModel } from './model.js';
+import { middleOf, mirrorChoice } from './mirror.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { saveMenu, skinnedGlb } from './save.js';
-import { lengthOf, localsOf, playedAt } from './timeline.js';
+import { lengthOf, localsOf, playedAt, worldsAt } from './timeline.js';
 import { FieldTool } from './tools/field.js';
 import { PoseTool } from './tools/pose.js';
 import { Session } from './session.js';
 import { $, button, card, choice, facts, make, ms, say, slider, touched, whole } from './ui.js';
 
 /** Tools that the first picture does not need. Their modules import nothing, so that each is one request: the kit has it all. */
-const kit = { $, button, choice, facts, make, ms, say, slider, touched, whole };
+const kit = { $, button, choice, facts, make, middleOf, mirrorChoice, ms, say, slider, touched, whole };
 Object.assign(kit, { BufferAttribute, BufferGeometry, Color, DoubleSide, Line, LineBasicMaterial, LineSegments });
-Object.assign(kit, { Mesh, MeshLambertMaterial, Vector3, bonesOf, influencesOf, readModel, skinnedGlb });
+Object.assign(kit, { Gizmo, Matrix4, Mesh, MeshLambertMaterial, Quaternion, Vector3, worldsAt });
+Object.assign(kit, { bonesOf, influencesOf, readModel, skinnedGlb });
 Object.assign(kit, { normalGroups, normalSums, smoothNormals, lengthOf, localsOf, playedAt });
 const later = (key, title, icon, load) => ({ key, title, icon, load: async () => (await load()).tool(kit) });
 const laterTools = [
@@ -87,7 +93,7 @@ async function start() {
   $('undo').onclick = () => app.step('undo');
   $('redo').onclick = () => app.step('redo');
   $('save').onclick = () => app.skin && saveMenu(app);
-  $('help').onclick = () => app.help();
+  $('help').onclick = () => help();
 
   let inside = 0;
   addEventListener('dragenter', (event) => {
@@ -117,7 +123,7 @@ async function start() {
       event.preventDefault();
       acts[key]();
     } else if (/input|select/i.test(event.target.tagName) && event.target.type !== 'range') return;
-    else if (key === '?') app.help();
+    else if (key === '?') help();
     else if (key === 'k' && app.skin && app.tool === app.tools.pose && app.state.handles.length) app.timeline.setKey();
     else if (/^[1-6]$/.test(key)) $('rail').children[Number(key) - 1]?.click();
   });

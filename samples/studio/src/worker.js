@@ -7,21 +7,41 @@ import { readMesh } from './mesh_files.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { poseOf } from './worker_pose.js';
 import { fieldOf } from './worker_field.js';
-import { detailOf } from './worker_detail.js';
+import { awayOf, detailOf } from './worker_detail.js';
 import { weightsOf, quadsOf } from './worker_once.js';
 
-let hf = null;
-let memory = null; // bytes of the heap of WebAssembly
+/** Larger bodies take the build with threads where the page is isolated: smaller ones do not wait for it. */
+const THREADED_VERTICES = 30000;
+/** More threads than these gain little, and each is a Worker. */
+const MOST_THREADS = 4;
+
+const built = {}; // 'plain' and 'threads': the library, once loaded
+const memory = []; // bytes of the heap of each
 let body = null;
 
-async function ready() {
+async function make(createHf, wasm) {
   const factory = async (options) => {
     const module = await createHf(options);
-    memory = () => module.HEAPU8.length;
+    memory.push(() => (module.wasmMemory ?? module.HEAPU8).buffer.byteLength);
     return module;
   };
-  hf ??= await load({ factory, wasmBinary: await (await fetch(new URL('hf.wasm', self.location))).arrayBuffer() });
-  return hf;
+  return load({ factory, wasmBinary: await (await fetch(wasm)).arrayBuffer() });
+}
+
+/** The library for a body, and the threads that a surface of it may take. */
+async function ready(vertexCount) {
+  const threadCount = Math.min(MOST_THREADS, navigator.hardwareConcurrency ?? 1);
+  if (HF_THREADS && self.crossOriginIsolated && threadCount > 1 && vertexCount > THREADED_VERTICES) {
+    try {
+      const at = (name) => new URL(`threads/${name}`, self.location);
+      built.threads ??= await make((await import(at('hf.js').href)).default, at('hf.wasm'));
+      return [built.threads, { threadCount }];
+    } catch {
+      // not there, or no room: one thread does the same
+    }
+  }
+  built.plain ??= await make(createHf, new URL('hf.wasm', self.location));
+  return [built.plain, {}];
 }
 
 const tasks = {
@@ -32,12 +52,12 @@ const tasks = {
   },
   /** Opens a body: factorises once. Answers with what the page can offer at once. */
   async open({ positions, triangles, fileNormals }) {
-    await ready();
+    const [hf, threads] = await ready(positions.length / 3);
     const begin = performance.now();
     // the pieces of one character are linked: hair, eyes and clothes follow the body
-    const surface = new hf.Surface(positions, triangles, { linkPieces: true });
+    const surface = new hf.Surface(positions, triangles, { linkPieces: true, ...threads });
     const sums = normalSums(triangles, normalGroups(positions, fileNormals));
-    const next = { hf, surface, positions, triangles, sums, normals: new Float32Array(positions.length) };
+    const next = { hf, threads, surface, positions, triangles, sums, normals: new Float32Array(positions.length) };
     const proposals = surface.proposeHandles();
     closeBody();
     body = next;
@@ -63,12 +83,22 @@ const tasks = {
     told.detail = detail ? body.detail.apply(positions, detail) : null;
     const normals = new Float32Array(positions.length);
     smoothNormals(positions, body.sums, normals);
+    if (detail) {
+      told.detail.away = awayOf(told.detail, positions, normals);
+      delete told.detail.before;
+    }
     told.milliseconds = performance.now() - begin;
     return [{ positions, normals, told }, [positions.buffer, normals.buffer]];
   },
   /** Where handles stand that are added in mid-pose. */
   grab({ handles, added }) {
     return [body.pose.grab(handles, added), []];
+  },
+  /** Another body whose detail can be taken, and the tree for picking on it. */
+  detailSource({ name, positions, triangles }) {
+    body.detail.addSource(name, positions, triangles);
+    const { answer, buffers } = buildBvh(positions, triangles);
+    return [answer, buffers];
   },
   field({ sites, at }) {
     const begin = performance.now();
@@ -92,8 +122,8 @@ const tasks = {
   },
   /** Quads run in a Worker of their own (client.js): it opens the same body from the saved factor. */
   async quadsOpen({ positions, triangles, factor }) {
-    await ready();
-    body = { hf, surface: new hf.Surface(positions, triangles, { savedFactor: factor, linkPieces: true }) };
+    const [hf, threads] = await ready(positions.length / 3);
+    body = { hf, surface: new hf.Surface(positions, triangles, { savedFactor: factor, linkPieces: true, ...threads }) };
     return [null, []];
   },
   quads(options) {
@@ -104,7 +134,8 @@ const tasks = {
     body.sourcePositions = positions;
     body.sourceTriangles = triangles;
     body.transfer?.close();
-    body.transfer = transferOf(body, new hf.Surface(positions, triangles, { linkPieces: true }));
+    const { hf, threads } = body;
+    body.transfer = transferOf(body, new hf.Surface(positions, triangles, { linkPieces: true, ...threads }));
     return [body.transfer.proposals(), []];
   },
   transferPairs({ pairs }) {
@@ -130,7 +161,8 @@ const tasks = {
     return [answer, buffers];
   },
   memory() {
-    return [{ held: body?.surface.statistics.memoryBytes ?? 0, heap: memory?.() ?? 0 }, []];
+    const heap = memory.reduce((sum, bytes) => sum + bytes(), 0);
+    return [{ held: body?.surface.statistics.memoryBytes ?? 0, heap, threads: body?.threads.threadCount ?? 1 }, []];
   },
 };
 

@@ -1,28 +1,29 @@
-// Detail: draw around a part; smooth it, or exaggerate what is there.
+// Detail: draw around a part; smooth it, or exaggerate what is there, or give it the detail of a part of another body.
+import { lookAtBoth, openBeside, takeRow } from '../beside.js';
 
 /** Points of a lasso are at least so many pixels apart; a lasso of fewer points is no region. */
 const [STEP_PIXELS, LEAST_POINTS] = [8, 5];
+/** Colours of a region: inside, its rim, and the rest. */
+const [INSIDE, RIM, REST] = [[0.93, 0.62, 0.33], [0.35, 0.2, 0.12], 0.78];
+
+/** Copies of a vertex take what the first at their place has. */
+function shared(values, size, places) {
+  for (let v = 0; v < places.length; ++v)
+    if (places[v] !== v) values.copyWithin(size * v, size * places[v], size * (places[v] + 1));
+  return values;
+}
 
 /** `kit`: what the page has loaded already (studio.js). */
-export const tool = ({
-  BufferAttribute,
-  BufferGeometry,
-  Line,
-  LineBasicMaterial,
-  button,
-  facts,
-  make,
-  ms,
-  slider,
-  whole,
-}) =>
-  class {
+export const tool = (kit) => {
+  const { BufferAttribute, BufferGeometry, Line, LineBasicMaterial, normalGroups, readModel } = kit;
+  const { button, facts, make, ms, say, slider, whole } = kit;
+  return class {
     static key = 'detail';
     static title = 'Detail';
     constructor(app) {
       this.app = app;
-      const geometry = new BufferGeometry();
-      this.line = new Line(geometry, new LineBasicMaterial({ color: 0xd8452e, depthTest: false }));
+      this.mapped = false; // the difference is shown
+      this.line = new Line(new BufferGeometry(), new LineBasicMaterial({ color: 0xd8452e, depthTest: false }));
       this.line.frustumCulled = false;
       this.line.visible = false;
       app.view.extras.add(this.line);
@@ -30,30 +31,77 @@ export const tool = ({
     opened() {
       this.points = [];
       this.line.visible = false;
+      this.mapped = false;
+      this.source?.skin.dispose();
+      this.source = null;
     }
     get detail() {
       return this.app.state.detail;
     }
+    /** What a link keeps beside the region. */
+    settings() {
+      return { mapped: this.mapped };
+    }
+    adopt({ mapped }) {
+      this.mapped = mapped;
+    }
     enter() {
+      if (this.source) {
+        this.source.skin.group.visible = true;
+        lookAtBoth(kit, this.app, this.source);
+      }
       this.dress();
     }
     leave() {
       this.line.visible = false;
+      this.app.legend(null);
+      this.app.skin.lend(null);
+      if (!this.source) return;
+      this.source.skin.group.visible = false;
+      this.app.view.frame(this.app.skin.box());
     }
-    /** The region in colour: inside warm, its rim dark. */
+
+    // ---- the picture
+    /** Regions in colour, or how far the surface went. */
     dress() {
-      const { skin, body, told } = this.app;
-      const found = this.detail && told?.detail;
-      if (!found) return skin.wear('own');
-      const tint = new Float32Array(3 * body.vertexCount).fill(0.78);
-      for (const v of found.inside) tint.set([0.93, 0.62, 0.33], 3 * v);
-      for (const v of found.rim) tint.set([0.35, 0.2, 0.12], 3 * v);
-      // copies of a vertex take the colour of the first
-      const groups = this.app.timeline.places();
-      for (let v = 0; v < body.vertexCount; ++v)
-        if (groups[v] !== v) tint.copyWithin(3 * v, 3 * groups[v], 3 * groups[v] + 3);
-      skin.setTint(tint);
-      return skin.wear('tint');
+      const { app, source } = this;
+      const found = this.detail && app.told?.detail;
+      const taken = found?.source?.from === source?.name ? found?.source : null;
+      if (source && taken) {
+        const tint = this.tinted(source.body.vertexCount, taken);
+        source.skin.setTint(shared(tint, 3, (source.places ??= normalGroups(source.body.positions, null))));
+        source.skin.wear('tint');
+      } else source?.skin.wear('own');
+      if (!found || !this.mapped) app.legend(null);
+      if (!found) {
+        app.skin.lend(null);
+        return app.skin.wear('own');
+      }
+      if (this.mapped) return this.map(found);
+      app.skin.lend(null);
+      app.skin.setTint(shared(this.tinted(app.body.vertexCount, found), 3, app.timeline.places()));
+      return app.skin.wear('tint');
+    }
+    tinted(vertexCount, { inside, rim }) {
+      const tint = new Float32Array(3 * vertexCount).fill(REST);
+      for (const v of inside) tint.set(INSIDE, 3 * v);
+      for (const v of rim) tint.set(RIM, 3 * v);
+      return tint;
+    }
+    /** Out of the surface warm, into it cold, in per cent of the body. */
+    map({ inside, away }) {
+      const { app } = this;
+      const percent = 100 / app.view.size;
+      const values = new Float32Array(app.body.vertexCount);
+      let most = 0;
+      inside.forEach((v, i) => {
+        values[v] = percent * away[i];
+        most = Math.max(most, Math.abs(values[v]));
+      });
+      most ||= 1;
+      app.skin.lend(shared(values, 1, app.timeline.places()));
+      app.skin.wear('field', { low: -most, high: most });
+      app.legend({ low: -most, high: most, note: '% of the body, out of it above 0' });
     }
     shaped() {
       this.dress();
@@ -66,16 +114,34 @@ export const tool = ({
     marks() {
       return [];
     }
-    strokeStart(at) {
+    hover(at) {
+      if (!this.mapped) return null;
       const hit = this.app.skin.pick(this.app.view.ray(...at));
-      if (!hit) return false;
+      return hit && `${this.app.skin.field[hit.vertex].toFixed(2)} %`;
+    }
+
+    // ---- loops
+    /** What lies under a pixel: of this body, or of the one beside it. */
+    under(at, side = null) {
+      const { app, source } = this;
+      const own = side !== 'source' && app.skin.pick(app.view.ray(...at));
+      if (own) return { side: 'body', vertex: own.vertex, position: own.position };
+      if (!source || side === 'body') return null;
+      const ray = app.view.ray(...at);
+      ray.origin.sub(source.skin.group.position);
+      const hit = source.skin.pick(ray);
+      return hit && { side: 'source', vertex: hit.vertex, position: hit.position.map((x, k) => x + source.offset[k]) };
+    }
+    strokeStart(at) {
+      const hit = this.under(at);
+      if (!hit || (hit.side === 'source' && !this.detail)) return false;
       this.points = [{ at, hit }];
       return true;
     }
     stroke(at) {
-      const last = this.points.at(-1).at;
-      if (Math.hypot(at[0] - last[0], at[1] - last[1]) < STEP_PIXELS) return;
-      const hit = this.app.skin.pick(this.app.view.ray(...at));
+      const last = this.points.at(-1);
+      if (Math.hypot(at[0] - last.at[0], at[1] - last.at[1]) < STEP_PIXELS) return;
+      const hit = this.under(at, last.hit.side);
       if (!hit) return;
       this.points.push({ at, hit });
       this.line.geometry.dispose();
@@ -92,34 +158,83 @@ export const tool = ({
     }
     async strokeEnd() {
       this.line.visible = false;
-      const curve = this.points.map(({ hit: { vertex } }) => vertex).filter((v, i, all) => i === 0 || v !== all[i - 1]);
+      const { detail, points } = this;
+      const curve = points.map(({ hit }) => hit.vertex).filter((v, i, all) => i === 0 || v !== all[i - 1]);
       if (curve.length < LEAST_POINTS) return;
-      await this.app.commit(
-        { ...this.app.state, detail: { curve, seedVertex: 0, rings: 0, weight: this.detail?.weight ?? 0 } },
-        'draw around a part',
-      );
+      if (points[0].hit.side === 'source')
+        await this.change({ carry: { from: this.source.name, curve, turn: 0 } }, 'carry detail');
+      else
+        await this.app.commit(
+          { ...this.app.state, detail: { curve, seedVertex: 0, rings: 0, weight: detail?.weight ?? 0, carry: null } },
+          'draw around a part',
+        );
       this.app.view.draw();
+    }
+
+    // ---- the body beside
+    /** Reads a body and makes it known to the Worker. */
+    async bring(bytes, name) {
+      const { app } = this;
+      const body = await readModel(bytes, name, (data) => app.client.ask('read', { bytes: data, name }));
+      const tree = await app.client.ask('detailSource', {
+        name,
+        positions: body.positions,
+        triangles: body.triangles,
+      });
+      const beside = await openBeside(kit, app, body);
+      beside.skin.useTree(tree);
+      this.source?.skin.dispose();
+      this.source = { ...beside, name };
+      this.source.skin.group.visible = app.tool === this;
+      app.session?.source(bytes, name);
+    }
+    async take(bytes, name) {
+      const { app } = this;
+      const { body } = app;
+      try {
+        await this.bring(bytes, name);
+      } catch (error) {
+        if (app.body === body) app.failed(`${name} was not taken`, error);
+        return;
+      }
+      if (app.body !== body || app.tool !== this) return;
+      lookAtBoth(kit, app, this.source);
+      // a region that waits for this body gets its detail now
+      if (this.detail?.carry?.from === name) await app.again();
+      app.refresh();
     }
     change(more, name, join) {
       return this.app.commit({ ...this.app.state, detail: { ...this.detail, ...more } }, name, join);
     }
     sheet() {
-      const { detail } = this;
-      const found = detail && this.app.told?.detail;
+      const { app, detail, source } = this;
+      const found = detail && app.told?.detail;
+      const carry = detail?.carry;
+      const slide = (key, valueOf) => [
+        (value) => app.preview({ ...app.state, detail: { ...this.detail, ...valueOf(value) } }),
+        () => app.commitPreview(key),
+      ];
       return [
         make(
           'p',
           {},
-          detail
-            ? 'Move the slider: 1 as it is, 0 smooth, 2 twice the detail.'
-            : 'Draw a loop on the body around a part, such as its head.',
+          !detail
+            ? 'Draw a loop on the body around a part, such as its head.'
+            : carry
+              ? 'Move the slider: 1 as on the other body, 0 smooth, 2 twice the detail.'
+              : 'Move the slider: 1 as it is, 0 smooth, 2 twice the detail.',
         ),
         detail &&
           slider(
             'Detail',
             { value: 1 - detail.weight, low: -1, high: 2, step: 0.02, id: 'amount' },
-            (value) => this.app.preview({ ...this.app.state, detail: { ...detail, weight: 1 - value } }),
-            () => this.app.commitPreview('change detail'),
+            ...slide('change detail', (value) => ({ weight: 1 - value })),
+          ),
+        carry &&
+          slider(
+            'Turn of the other part',
+            { value: carry.turn, low: 0, high: 1, step: 0.02, id: 'turn' },
+            ...slide('turn detail', (turn) => ({ carry: { ...this.detail.carry, turn } })),
           ),
         detail &&
           make(
@@ -131,16 +246,34 @@ export const tool = ({
             button('Smaller', () => this.change({ rings: detail.rings - 1 }, 'smaller region', 'rings'), {
               id: 'smaller',
             }),
-            button('Remove', () => this.app.commit({ ...this.app.state, detail: null }, 'remove the region'), {
-              id: 'remove',
-            }),
+            button('Remove', () => app.commit({ ...app.state, detail: null }, 'remove the region'), { id: 'remove' }),
+            button(
+              'Difference',
+              () => {
+                this.mapped = !this.mapped;
+                app.refresh();
+              },
+              { id: 'difference', 'aria-pressed': String(this.mapped) },
+            ),
+            carry && button('Own detail', () => this.change({ carry: null }, 'own detail'), { id: 'own' }),
           ),
+        found?.missing && make('p', { class: 'warn' }, `The detail is of ${found.missing}: take it to see it here.`),
+        detail &&
+          make(
+            'p',
+            {},
+            source
+              ? 'Draw a loop on the left body: its detail goes to your region.'
+              : 'Detail of another body: take it, and draw a loop on it.',
+          ),
+        detail && takeRow(kit, app, (bytes, name) => this.take(bytes, name), '.glb,.gltf,.obj,.off,.ply'),
         found &&
           facts([
             ['vertices', whole(found.vertexCount)],
             ['rim', whole(found.rimCount)],
-            ['time', ms(this.app.told.milliseconds)],
+            ['time', ms(app.told.milliseconds)],
           ]),
       ];
     }
   };
+};

@@ -1,7 +1,9 @@
-// Pose: handles are proposed; drag one, turn one by its rings or keys, pin one, add one by a click on the body.
+// Pose: handles are proposed; drag one, turn one by its rings or keys, pin one, add one by a click on the body. With a mirror
+// the twin of a handle on the other side does the same.
 import { Matrix3, Quaternion, Vector3 } from 'three';
-import { button, facts, make, ms, slider, whole } from '../ui.js';
+import { button, facts, make, ms, say, slider, whole } from '../ui.js';
 import { Gizmo } from '../gizmo.js';
+import { Mirror, mirrorChoice } from '../mirror.js';
 
 const reasons = ['foot', 'tip', 'end', 'joint', 'middle'];
 /** A key moves a handle by this part of the size of the body, and turns it by so many radians. */
@@ -17,10 +19,16 @@ export class PoseTool {
   static icon = 'M6 20l4-7 3-3 5-6M10 13l6 7M13 10a2 2 0 1 0 .1 0';
   constructor(app) {
     this.app = app;
-    this.gizmo = new Gizmo(app, (turn, done) => this.turned(turn, done));
+    this.gizmo = new Gizmo(
+      app,
+      (turn, done) => this.turned(turn, done),
+      (handle) => this.placeOf(handle),
+    );
     this.radius = RADIUS;
+    this.mirror = new Mirror(app);
   }
   opened() {
+    this.mirror.opened();
     this.chosen = null;
     this.pulled = false;
     this.offers = this.app.opened.proposals.map(({ position, radius, reason, pinned, vertex }, i) => ({
@@ -33,6 +41,14 @@ export class PoseTool {
       ...rest,
     }));
   }
+  /** What a link keeps beside the handles. */
+  settings() {
+    return { mirror: this.mirror.axis, radius: this.radius };
+  }
+  adopt({ mirror, radius }) {
+    this.radius = radius;
+    this.mirror.set(mirror);
+  }
   /** The handles that hold the body from the start. */
   first() {
     return this.offers.filter(({ pinned }) => pinned);
@@ -41,9 +57,11 @@ export class PoseTool {
     this.app.skin.wear('own');
     this.app.timeline.arrive(this.app.state);
     this.gizmo.show(this.present());
+    this.mirror.show(true);
   }
   leave() {
     this.gizmo.show(null);
+    this.mirror.show(false);
   }
   get handles() {
     return this.app.state.handles;
@@ -69,12 +87,14 @@ export class PoseTool {
     const held = new Set(this.handles.map(({ id }) => id));
     const waiting = this.offers.filter(({ id }) => !held.has(id));
     const pull = this.pulled ? null : waiting[0]?.id;
+    const twin = this.twin()?.id;
     return [
       ...this.handles.map((handle) => ({
         id: handle.id,
         place: this.placeOf(handle),
         label: `${handle.label}${handle.pinned ? ', pinned' : ', handle'}`,
         chosen: handle.id === this.chosen,
+        twin: handle.id === twin,
         pinned: handle.pinned,
       })),
       ...waiting.map((offer) => ({
@@ -97,10 +117,18 @@ export class PoseTool {
       this.app.refresh();
     } else this.add(this.offers.find((offer) => offer.id === id));
   }
+  /** The twin of the chosen handle, or null. */
+  twin() {
+    const handle = this.present();
+    return handle && this.mirror.twin(handle, this.handles);
+  }
+  /** The state with one handle changed, and its twin. */
   with(id, change) {
+    const handle = this.handles.find((other) => other.id === id);
+    const ids = [id, handle && this.mirror.twin(handle, this.handles)?.id];
     return {
       ...this.app.state,
-      handles: this.handles.map((handle) => (handle.id === id ? { ...handle, ...change } : handle)),
+      handles: this.handles.map((other) => (ids.includes(other.id) ? { ...other, ...change } : other)),
     };
   }
   /** A handle at rest would pull a posed body back to rest. */
@@ -113,18 +141,35 @@ export class PoseTool {
     const places = await this.app.client.ask('grab', { handles: this.handles, added }).catch(() => []);
     return added.map((handle, i) => ({ ...handle, ...places[i] }));
   }
+  /** What is added with some handles: with a mirror their twins too. */
+  added(list) {
+    return this.mirror.withTwins(
+      list.map((handle) => ({ ...handle, pinned: false })),
+      this.handles,
+      this.offers,
+      (twin) => this.fresh(twin),
+    );
+  }
   async addAll(offers, name) {
     const { body } = this.app;
-    const placed = await this.placed(offers.map((offer) => ({ ...offer, pinned: false })));
+    const placed = await this.placed(this.added(offers));
     // while the Worker answered, another body was opened or the same handle was added
     const known = new Set(this.handles.map(({ id }) => id));
     if (this.app.body !== body || placed.some(({ id }) => known.has(id))) return undefined;
-    return this.app.commit({ ...this.app.state, handles: [...this.handles, ...placed] }, name);
+    await this.app.commit({ ...this.app.state, handles: [...this.handles, ...placed] }, name);
+    if (this.mirror.alone && this.handles.some(({ id }) => id === this.mirror.alone))
+      say('The body has no surface at the mirror image: one handle was added.');
+    return undefined;
   }
   add(offer) {
     this.pulled = true;
     this.chosen = offer.id;
     return this.addAll([offer], 'add a handle');
+  }
+  /** A handle of the user's own at a place of the body at rest. */
+  fresh({ position, radius, vertex }) {
+    const id = this.app.nextId();
+    return { id: `h${id}`, position, radius, label: `handle ${id}`, vertex, pinned: false, ...rest };
   }
   click([x, y]) {
     const hit = this.app.skin.pick(this.app.view.ray(x, y));
@@ -133,15 +178,7 @@ export class PoseTool {
       return this.app.refresh();
     }
     const position = this.app.skin.at(hit, this.app.body.positions); // at rest, wherever the clip is
-    const number = this.handles.filter(({ id }) => id.startsWith('h')).length + 1;
-    return this.add({
-      id: `h${this.app.nextId()}`,
-      position,
-      radius: this.radius * this.app.view.size,
-      label: `handle ${number}`,
-      vertex: hit.vertex,
-      ...rest,
-    });
+    return this.add(this.fresh({ position, radius: this.radius * this.app.view.size, vertex: hit.vertex }));
   }
   dragStart({ id }) {
     const begin = this.handles.find((handle) => handle.id === id);
@@ -149,13 +186,13 @@ export class PoseTool {
     this.pulled = true;
     this.chosen = id;
     this.from = {
-      handle: begin ? { ...begin, pinned: false } : { ...offer, pinned: false },
+      added: begin ? [] : this.added([offer]),
       place: begin ? this.placeOf(begin) : this.app.skin.at({ corners: [offer.vertex], barycentrics: [1] }),
       before: this.app.state,
     };
     const { from } = this;
     if (offer && this.posed())
-      from.waits = this.placed([from.handle]).then(([handle]) => Object.assign(from, { handle, waits: null }));
+      from.waits = this.placed(from.added).then((added) => Object.assign(from, { added, waits: null }));
   }
   drag(mark, at, begin) {
     // nothing is shown until the Worker has said where the new handle stands
@@ -164,19 +201,14 @@ export class PoseTool {
   }
   dragged({ id }, [x, y], [x0, y0]) {
     const { view } = this.app;
-    const { handle, place, before } = this.from;
+    const { added, place, before } = this.from;
+    const handles = [...before.handles, ...added];
     const [to, at] = [view.onPlane(x, y, place), view.onPlane(x0, y0, place)];
     const step = this.under(
-      handle,
+      handles.find((other) => other.id === id),
       to.map((p, k) => p - at[k]),
     );
-    const translation = handle.translation.map((t, k) => t + step[k]);
-    const moved = { ...handle, translation };
-    const known = before.handles.some((other) => other.id === id);
-    const handles = known
-      ? before.handles.map((other) => (other.id === id ? moved : other))
-      : [...before.handles, moved];
-    this.app.preview({ ...before, handles });
+    this.app.preview({ ...before, handles: this.mirror.moved(handles, id, step) });
   }
   async dragEnd() {
     const { from } = this;
@@ -205,18 +237,20 @@ export class PoseTool {
     }
     if (ways[event.key]) {
       const [way, length] = ways[event.key];
-      const begin = handle ?? { ...this.offers.find((offer) => offer.id === id), pinned: false };
+      const handles = handle
+        ? this.handles
+        : [...this.handles, ...this.added([this.offers.find((offer) => offer.id === id)])];
       const along = this.under(
-        begin,
+        handles.find((other) => other.id === id),
         way.map((x) => x * length),
       );
-      const moved = { ...begin, pinned: false, translation: begin.translation.map((t, k) => t + along[k]) };
-      const handles = handle
-        ? this.handles.map((other) => (other.id === id ? moved : other))
-        : [...this.handles, moved];
       this.pulled = true;
       this.chosen = id;
-      this.app.commit({ ...this.app.state, handles }, 'move a handle', `move ${id}`);
+      this.app.commit(
+        { ...this.app.state, handles: this.mirror.moved(handles, id, along) },
+        'move a handle',
+        `move ${id}`,
+      );
       return true;
     }
     if (!handle) return false;
@@ -234,22 +268,14 @@ export class PoseTool {
     return false;
   }
   turn(handle, by, join) {
-    const rotation = by
-      .multiply(new Quaternion(...handle.rotation))
-      .normalize()
-      .toArray();
-    return this.app.commit(this.with(handle.id, { rotation, pinned: false }), 'turn a handle', join);
+    const handles = this.mirror.moved(this.handles, handle.id, [0, 0, 0], by);
+    return this.app.commit({ ...this.app.state, handles }, 'turn a handle', join);
   }
   /** The gizmo turned the chosen handle by a quaternion from where the drag began. */
   turned(by, done) {
     const handle = this.present();
-    if (!this.turnFrom) this.turnFrom = handle.rotation;
-    const rotation = by
-      .clone()
-      .multiply(new Quaternion(...this.turnFrom))
-      .normalize()
-      .toArray();
-    this.app.preview(this.with(handle.id, { rotation, pinned: false }));
+    this.turnFrom ??= this.handles;
+    this.app.preview({ ...this.app.state, handles: this.mirror.moved(this.turnFrom, handle.id, [0, 0, 0], by) });
     if (done) {
       this.turnFrom = null;
       this.app.commitPreview('turn a handle');
@@ -269,8 +295,9 @@ export class PoseTool {
   }
   remove(handle) {
     this.chosen = null;
+    const twin = this.mirror.twin(handle, this.handles);
     return this.app.commit(
-      { ...this.app.state, handles: this.handles.filter((other) => other !== handle) },
+      { ...this.app.state, handles: this.handles.filter((other) => other !== handle && other !== twin) },
       'remove a handle',
     );
   }
@@ -288,7 +315,7 @@ export class PoseTool {
         'p',
         {},
         handle
-          ? `${handle.label}: drag it, or turn it by its rings.`
+          ? `${handle.label}: drag it, or turn it by its rings.${this.twin() ? ` ${this.twin().label} mirrors it.` : ''}`
           : 'Drag a dot: squares hold, circles move. Click the body for a new handle.',
       ),
       handle &&
@@ -316,6 +343,10 @@ export class PoseTool {
           { id: 'rest', disabled: !moved },
         ),
       ),
+      mirrorChoice(this.mirror.axis, (axis) => {
+        this.mirror.set(axis);
+        app.refresh();
+      }),
       slider(
         'Size of a new handle',
         { value: this.radius, low: 0.01, high: 0.15, step: 0.005, digits: 3, id: 'radius' },

@@ -1,12 +1,11 @@
 // Quads: a quad mesh of the body along its curvature, made in a Worker of its own; it can be cancelled. Edges follow strokes
 // that the user draws and drags, and 3 or 5 quads meet at poles: the mesh follows at once without relaxation, and with it at
 // the end.
+import { quadOptions } from '../quad_options.js';
 import { drawQuads, dropQuads, placeQuads } from '../quad_lines.js';
 
 /** Length of an edge as part of the size of the body: the library's own default. */
 const EDGE = 0.022;
-/** HF_NO_INDEX: no relaxation and no fitting, which take most of the time. */
-const NO_RELAXATION = 0xffffffff;
 /** A stroke has a place every so many pixels: a fine body has a triangle about there. */
 const STEP_PIXELS = 6;
 /** Fewer places say no direction. */
@@ -20,7 +19,7 @@ const NUDGE_PIXELS = 8;
 /** `kit`: what the page has loaded already (studio.js). */
 export const tool = (kit) => {
   const { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments } = kit;
-  const { button, choice, facts, make, ms, slider, whole } = kit;
+  const { button, facts, make, mirrorChoice, ms, slider, whole } = kit;
   return class {
     static key = 'quads';
     static title = 'Quads';
@@ -45,6 +44,14 @@ export const tool = (kit) => {
       this.shown = {};
       this.relaxed = true;
       this.#clear();
+    }
+    /** What a link keeps beside strokes and poles. */
+    settings() {
+      const { edge, crease, mirror } = this;
+      return { edge, crease, mirror };
+    }
+    adopt({ edge, crease, mirror }) {
+      Object.assign(this, { edge, crease, mirror });
     }
     enter() {
       this.dress();
@@ -207,48 +214,7 @@ export const tool = (kit) => {
       ink.geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(Float32Array.from(ends), 3));
       app.view.draw();
     }
-    /** Directions along the strokes of the body at rest, at the corners of the triangles under them. */
-    #guides() {
-      const { positions } = this.app.body;
-      const [guideVertices, guideVectors] = [[], []];
-      for (const { places } of this.strokes) {
-        const points = places.map((place) => this.app.skin.at(place, positions));
-        points.slice(1).forEach((point, i) => {
-          const vector = point.map((x, k) => x - points[i][k]);
-          if (!Math.hypot(...vector)) return;
-          for (const vertex of places[i].corners) {
-            guideVertices.push(vertex);
-            guideVectors.push(...vector);
-          }
-        });
-      }
-      return guideVertices.length ? { guideVertices, guideVectors } : {};
-    }
-
-    /** Places of the body at rest. A pole on the side that is mirrored counts as its image. */
-    #polesAt(plane) {
-      if (!this.poles.length) return {};
-      const { positions } = this.app.body;
-      const polePoints = this.poles.flatMap((pole) => {
-        const point = Array.from(this.app.skin.at(pole, positions));
-        const behind = plane ? plane[3] - point.reduce((sum, x, k) => sum + x * plane[k], 0) : 0;
-        return behind > 0 ? point.map((x, k) => x + 2 * behind * plane[k]) : point;
-      });
-      return { polePoints, poleQuads: this.poles.map(({ quads }) => quads) };
-    }
-
     // ---- making
-    #options(relaxed) {
-      const { app, mirror } = this;
-      const options = { edgeLength: this.edge * app.opened.report.boundingBoxDiagonal };
-      if (mirror !== '') {
-        const along = app.body.positions.filter((_, i) => i % 3 === Number(mirror));
-        const [low, high] = along.reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [Infinity, -Infinity]);
-        options.symmetryPlane = [0, 1, 2].map((k) => Number(k === Number(mirror))).concat((low + high) / 2);
-      }
-      Object.assign(options, this.#guides(), this.#polesAt(options.symmetryPlane));
-      return { ...options, creaseAngle: this.crease, relaxCount: relaxed ? 0 : NO_RELAXATION };
-    }
     /** Asks the Worker of the quads, which is started when it is needed; null when the body changed meanwhile. */
     async #ask(relaxed) {
       const { app } = this;
@@ -272,7 +238,7 @@ export const tool = (kit) => {
       }
       if (line !== this.line) return null;
       const { strokes, poles } = app.state;
-      const result = await line.ask('quads', this.#options(relaxed));
+      const result = await line.ask('quads', quadOptions(kit, this, relaxed));
       if (line !== this.line) return null;
       this.result = result;
       this.shown = { strokes, poles };
@@ -375,18 +341,7 @@ export const tool = (kit) => {
           { value: this.crease, low: 0, high: 180, step: 5, digits: 0, id: 'crease', disabled },
           (value) => (this.crease = value),
         ),
-        choice(
-          'Mirror',
-          [
-            ['', 'no mirror'],
-            [0, 'mirror in x'],
-            [1, 'mirror in y'],
-            [2, 'mirror in z'],
-          ],
-          this.mirror,
-          (value) => (this.mirror = value),
-          { id: 'mirror', disabled },
-        ),
+        mirrorChoice(this.mirror, (value) => (this.mirror = value), { disabled }),
         make(
           'div',
           { class: 'row' },

@@ -1,8 +1,8 @@
 // Transfer: a clip of another body played on this one, side by side. Pairs are proposed and can be left out.
+import { lookAtBoth, openBeside, takeRow } from '../beside.js';
+
 /** Frames a second of the saved walk: of animation files. */
 const FRAME_RATE = 30;
-/** Room between source and target, as part of their widths. */
-const GAP = 1.08;
 /** Hues of neighbouring pairs are this part of the circle apart. */
 const HUE_STEP = 0.61803398875;
 /** What is turned without a new preparation: name, neutral, least and most value, and the part of the body that it needs. */
@@ -16,7 +16,7 @@ const DIALS = [
 
 /** `kit`: what the page has loaded already (studio.js). */
 export const tool = (kit) => {
-  const { Vector3, readModel, normalGroups, normalSums, smoothNormals, lengthOf, localsOf, playedAt, skinnedGlb } = kit;
+  const { readModel, smoothNormals, lengthOf, localsOf, playedAt, skinnedGlb } = kit;
   const { $, button, choice, facts, make, ms, say, slider } = kit;
   return class {
     static key = 'transfer';
@@ -39,6 +39,25 @@ export const tool = (kit) => {
     ready() {
       return Boolean(this.info);
     }
+    /** What a link keeps: a source that is a sample, its pairs and dials. */
+    settings() {
+      const { source, pairs, dials, clip, app } = this;
+      const sample = source?.body.name.replace(/\.glb$/, '');
+      if (!app.samples.includes(sample)) return {};
+      return { sample, pairs, dials, clip: source.body.clips.indexOf(clip) };
+    }
+    async adopt({ sample, pairs, dials = {}, clip = 0 }) {
+      if (!sample) return;
+      const answer = await fetch(`samples/${sample}.glb`);
+      if (!answer.ok) return;
+      await this.open(new Uint8Array(await answer.arrayBuffer()), `${sample}.glb`);
+      if (!this.source) return;
+      this.clip = this.source.body.clips[clip] ?? this.clip;
+      if (pairs) await this.set(pairs);
+      await this.app.client.ask('transferDials', { dials });
+      this.dials = dials;
+      if (this.app.tool !== this) this.leave();
+    }
     enter() {
       this.app.skin.wear('own');
       if (this.source) this.source.skin.group.visible = true;
@@ -51,18 +70,8 @@ export const tool = (kit) => {
       this.app.skin.set(this.app.shape);
       this.app.view.frame(this.app.skin.box());
     }
-    /** Both bodies in the picture; the source stands beside the target, to the left of who looks. */
     look() {
-      const { view, skin, body } = this.app;
-      const box = skin.box(body.positions);
-      const other = this.source.skin.box(this.source.body.positions);
-      const { right } = view.axes();
-      const away = (view.half(box, right) + view.half(other, right)) * GAP;
-      const place = box.getCenter(new Vector3()).sub(other.getCenter(new Vector3())).addScaledVector(right, -away);
-      place.y = box.min.y - other.min.y;
-      this.source.offset = place.toArray();
-      this.source.skin.group.position.copy(place);
-      view.frame(box.union(other.translate(place)));
+      lookAtBoth(kit, this.app, this.source);
     }
     refresh() {
       this.app.panel();
@@ -134,16 +143,10 @@ export const tool = (kit) => {
         this.#drop();
         const { positions, triangles } = body;
         const pairs = await app.client.ask('transferOpen', { positions, triangles });
-        const skin = await app.view.ready(body);
-        skin.group.visible = true;
-        const sums = normalSums(triangles, normalGroups(positions, body.fileNormals));
-        const normals = smoothNormals(positions, sums, new Float32Array(positions.length));
-        skin.set({ positions, normals });
+        const beside = await openBeside(kit, app, body);
+        const { skin } = beside;
         this.source = {
-          body,
-          skin,
-          sums,
-          normals,
+          ...beside,
           posed: new Float32Array(positions.length),
           locals: localsOf(body, positions),
         };
@@ -160,10 +163,6 @@ export const tool = (kit) => {
         app.failed(`${name} was not taken`, error);
       }
       return app.refresh();
-    }
-    async openSample(name) {
-      const answer = await fetch(`samples/${name}.glb`);
-      if (answer.ok) await this.open(new Uint8Array(await answer.arrayBuffer()), `${name}.glb`);
     }
     /** Source at a time, and this body moved like it. */
     async seek(time) {
@@ -240,23 +239,7 @@ export const tool = (kit) => {
     }
     sheet() {
       const { source, app } = this;
-      const take = make(
-        'div',
-        { class: 'row' },
-        ...app.samples
-          .filter((name) => `${name}.glb` !== app.body.name)
-          .map((name) => button(`Take the ${name}`, () => this.openSample(name), { id: `take-${name}` })),
-        button(
-          'Take a file',
-          () => {
-            const input = make('input', { type: 'file', accept: '.glb,.gltf', id: 'source-file' });
-            input.onchange = async () =>
-              input.files[0] && this.open(new Uint8Array(await input.files[0].arrayBuffer()), input.files[0].name);
-            input.click();
-          },
-          { id: 'take-file' },
-        ),
-      );
+      const take = takeRow(kit, app, (bytes, name) => this.open(bytes, name));
       if (!source) return [make('p', {}, 'Take another body with a clip: its motion plays on this one.'), take];
       const active = this.pairs.filter(({ off }) => !off).length;
       return [

@@ -1,4 +1,8 @@
-// Weights: skin weights for the bones of the file, coloured by bone; one bone alone as a field.
+// Weights: skin weights for the bones of the file or for the handles, coloured by bone; one bone alone as a field; pins; a test
+// that bends the bones.
+import { Bend } from '../bend.js';
+import { pruned } from '../skinning.js';
+import { weightsSheet } from '../weights_sheet.js';
 
 /** The angle between the hues of neighbouring bones, as part of the circle: the golden ratio keeps all apart. */
 const HUE_STEP = 0.61803398875;
@@ -6,45 +10,114 @@ const HUE_STEP = 0.61803398875;
 /** A pin holds what lies within this part of the size of the body: a knee of our own creatures. */
 const PIN_RADIUS = 0.02;
 
+const NO_BONE = 0xffffffff;
+
 /** `kit`: what the page has loaded already (studio.js). */
-export const tool = ({ Color, bonesOf, button, choice, facts, influencesOf, make, ms, say, touched, whole }) =>
-  class {
+export const tool = (kit) => {
+  const { Color, bonesOf, influencesOf, say } = kit;
+  return class {
     static key = 'weights';
     static title = 'Weights';
     constructor(app) {
       this.app = app;
       this.weightCount = 4;
+      this.bend = new Bend(kit, this);
     }
     opened() {
+      this.fileBones = bonesOf(this.app.body);
+      this.of = this.fileBones.joints.length ? 'file' : 'handles';
+      this.clear();
+    }
+    /** Other bones: nothing is computed yet. */
+    clear() {
       this.chosen = null;
       this.busy = false;
-      this.fileWeights = null;
-      this.bones = bonesOf(this.app.body);
+      this.kept = null;
       this.result = null;
+      this.error = null;
       this.shown = 'all';
+      this.bend.opened();
+      this.bones = this.of === 'file' ? this.fileBones : this.handleBones();
       this.colours = this.bones.names.map((_, i) => new Color().setHSL((i * HUE_STEP) % 1, 0.6, 0.52));
+    }
+    /** Every handle is a bone without a parent, at its middle. */
+    handleBones() {
+      const { state, centres } = this.app;
+      const { handles } = state;
+      return {
+        handles,
+        heads: handles.flatMap(({ id, position }) => centres.get(id) ?? position),
+        parents: handles.map(() => NO_BONE),
+        names: handles.map(({ label }) => label),
+      };
+    }
+    /** Weights that can be seen: computed, or of the file with as many bones for a vertex as are wanted. */
+    present() {
+      if (this.result) return this.result;
+      if (this.of === 'handles') return null;
+      if (this.kept?.weightCount !== this.weightCount) this.kept = pruned(this.ofFile(), this.weightCount);
+      return this.kept;
+    }
+    /** Weights that the file does not have, or null. */
+    changed() {
+      return (
+        this.result ??
+        (this.of === 'file' && this.fileBones.joints.length && this.present().lost > 0 ? this.kept : null)
+      );
+    }
+    /** What a link keeps beside the pins. */
+    settings() {
+      const { of, weightCount, shown, result } = this;
+      return { of, weightCount, shown, computed: Boolean(result) };
+    }
+    async adopt({ of, weightCount, shown, computed }) {
+      Object.assign(this, { of, weightCount });
+      this.clear();
+      if (computed) await this.compute();
+      if (this.app.tool === this) this.look(shown);
+      else this.shown = shown;
     }
     enter() {
       this.dress();
+      this.bend.show();
     }
     leave() {
       this.app.legend(null);
       this.restoreField();
+      this.bend.hide();
+    }
+    shaped() {
+      this.bend.show();
     }
     refresh() {
+      // other handles are other bones
+      if (
+        this.of === 'handles' &&
+        !this.busy &&
+        this.bones.handles.map(({ id }) => id).join() !== this.app.state.handles.map(({ id }) => id).join()
+      ) {
+        this.clear();
+        this.dress();
+      }
       // undo and redo bring other pins
       if (this.result && !this.busy && !this.setting && this.pinned !== this.app.state.pins) this.compute();
       this.app.panel();
     }
+    /** Of a list the pins of these bones, with the numbers of their bones. */
+    mine(pins) {
+      const numberOf = ({ of = 'file', bone, handle }) =>
+        of !== this.of ? -1 : of === 'file' ? bone : this.bones.handles.findIndex(({ id }) => id === handle);
+      return pins.map((pin) => ({ ...pin, bone: numberOf(pin) })).filter(({ bone }) => bone >= 0);
+    }
     get pins() {
-      return this.app.state.pins;
+      return this.mine(this.app.state.pins);
     }
     marks() {
       return this.pins.map(({ id, vertex, bone }, i) => ({
         id,
         place: this.app.skin.at({ corners: [vertex], barycentrics: [1] }),
-        label: `pin ${i + 1}, ${this.bones.names[bone]}`,
-        colour: this.colours[bone].getStyle(),
+        label: `pin ${i + 1}, ${this.bones.names[bone] ?? 'no bone'}`,
+        colour: this.colours[bone]?.getStyle(),
         chosen: this.chosen === id,
       }));
     }
@@ -55,23 +128,44 @@ export const tool = ({ Color, bonesOf, button, choice, facts, influencesOf, make
     key({ id }, event) {
       if (event.key !== 'Delete' && event.key !== 'Backspace') return false;
       this.setPins(
-        this.pins.filter((pin) => pin.id !== id),
+        this.app.state.pins.filter((pin) => pin.id !== id),
         'remove a pin',
       );
       return true;
     }
     /** A click pins the place to the bone that is shown. */
     click(at) {
-      const hit = this.shown !== 'all' && this.app.skin.pick(this.app.view.ray(...at));
+      const hit = this.shown !== 'all' && !this.bend.clip && this.app.skin.pick(this.app.view.ray(...at));
       if (!hit) return undefined;
       const pin = {
         id: `w${this.app.nextId()}`,
         vertex: hit.vertex,
+        of: this.of,
         bone: Number(this.shown),
+        handle: this.bones.handles?.[Number(this.shown)].id,
         radius: PIN_RADIUS * this.app.view.size,
       };
       this.chosen = pin.id;
-      return this.setPins([...this.pins, pin], 'pin a place');
+      return this.setPins([...this.app.state.pins, pin], 'pin a place');
+    }
+    strokeStart(at) {
+      return this.shown !== 'all' && this.bend.gizmo.start(at);
+    }
+    stroke(at) {
+      this.bend.gizmo.move(at);
+    }
+    strokeEnd() {
+      this.bend.gizmo.end();
+    }
+    strokeCancel() {
+      this.bend.gizmo.end();
+    }
+    unpin() {
+      const gone = new Set(this.pins.map(({ id }) => id));
+      return this.setPins(
+        this.app.state.pins.filter(({ id }) => !gone.has(id)),
+        'remove all pins',
+      );
     }
     /** Pins that the library refuses change nothing. */
     async setPins(pins, name) {
@@ -85,7 +179,7 @@ export const tool = ({ Color, bonesOf, button, choice, facts, influencesOf, make
     /** Weights of the file, in the form of a result. */
     ofFile() {
       const { body } = this.app;
-      const size = 4;
+      const size = Math.max(4, ...body.parts.map((part) => (part.skin ? influencesOf(part).size : 0)));
       const found = {
         weightCount: size,
         joints: new Uint32Array(size * body.vertexCount),
@@ -96,7 +190,7 @@ export const tool = ({ Color, bonesOf, button, choice, facts, influencesOf, make
         const numbers = part.skin.listJoints().map((joint) => this.bones.joints.indexOf(joint));
         const { size: sets, joints, weights } = influencesOf(part);
         for (let v = 0; v < part.count; ++v)
-          for (let k = 0; k < size; ++k) {
+          for (let k = 0; k < sets; ++k) {
             found.joints[size * (part.first + v) + k] = numbers[joints[sets * v + k]];
             found.weights[size * (part.first + v) + k] = weights[sets * v + k];
           }
@@ -105,8 +199,13 @@ export const tool = ({ Color, bonesOf, button, choice, facts, influencesOf, make
     }
     dress() {
       const { skin, body } = this.app;
-      if (!this.bones.joints.length) return skin.wear('own');
-      const { weightCount, joints, weights } = this.result ?? this.ofFile();
+      const present = this.bones.names.length ? this.present() : null;
+      if (!present) {
+        this.app.legend(null);
+        this.restoreField();
+        return skin.wear('own');
+      }
+      const { weightCount, joints, weights } = present;
       if (this.shown === 'all') {
         const tint = new Float32Array(3 * body.vertexCount);
         for (let v = 0; v < body.vertexCount; ++v)
@@ -126,20 +225,19 @@ export const tool = ({ Color, bonesOf, button, choice, facts, influencesOf, make
       const bone = Number(this.shown);
       const field = new Float32Array(body.vertexCount);
       for (let i = 0; i < joints.length; ++i) if (joints[i] === bone) field[Math.floor(i / weightCount)] += weights[i];
-      this.kept ??= { field: skin.field.slice(), reached: skin.reached.slice() };
-      skin.setField(field, new Float32Array(body.vertexCount).fill(1));
+      skin.lend(field);
       skin.wear('field');
       this.app.legend({ low: 0, high: 1 });
       return undefined;
     }
     restoreField() {
-      if (this.kept) this.app.skin.setField(this.kept.field, this.kept.reached);
-      this.kept = null;
+      this.app.skin.lend(null);
     }
     hover(at) {
       const hit = this.app.skin.pick(this.app.view.ray(...at));
-      if (!hit || !this.bones.joints.length) return null;
-      const { weightCount, joints, weights } = this.result ?? (this.fileWeights ??= this.ofFile());
+      const present = hit && this.bones.names.length ? this.present() : null;
+      if (!present) return null;
+      const { weightCount, joints, weights } = present;
       const rows = [];
       for (let k = 0; k < weightCount; ++k) {
         const weight = weights[weightCount * hit.vertex + k];
@@ -147,7 +245,7 @@ export const tool = ({ Color, bonesOf, button, choice, facts, influencesOf, make
       }
       return rows.join(', ') || 'no bone';
     }
-    async compute(pins = this.pins) {
+    async compute(pins = this.app.state.pins) {
       const { heads, parents } = this.bones;
       const { app, weightCount } = this;
       const mine = app.body;
@@ -155,94 +253,35 @@ export const tool = ({ Color, bonesOf, button, choice, facts, influencesOf, make
       app.refresh();
       this.error = null;
       try {
-        const result = await app.client.ask('weights', { bones: { heads, parents }, weightCount, pins });
+        const result = await app.client.ask('weights', {
+          bones: { heads, parents },
+          weightCount,
+          pins: this.mine(pins),
+        });
         if (mine === app.body) [this.result, this.pinned] = [result, pins];
       } catch (error) {
         this.error = error.message;
-        this.pinned = this.pins; // asked for once
+        this.pinned = app.state.pins; // asked for once
       }
       this.busy = false;
-      if (app.tool === this) this.dress();
+      if (app.tool === this) {
+        this.dress();
+        this.bend.show();
+      }
       app.refresh();
       return !this.error;
     }
+    /** Shows one bone, or all. */
+    look(value) {
+      this.shown = value;
+      this.bend.forget();
+      if (value === 'all') this.restoreField();
+      this.dress();
+      this.bend.show();
+      this.app.panel();
+    }
     sheet() {
-      if (!this.bones.joints.length)
-        return [make('p', {}, 'This file has no bones. Save a rig by handles from Pose, or open a file with a skin.')];
-      const { result } = this;
-      const info = result?.info;
-      const guessed = info && info.rigidCount + info.isolatedCount;
-      return [
-        make(
-          'p',
-          {},
-          result
-            ? `Computed from the bones.${touched() ? '' : ' Hover over the body to read a vertex.'}`
-            : 'These are the weights of the file. Compute new ones from its bones.',
-        ),
-        make(
-          'div',
-          { class: 'row' },
-          button(this.busy ? 'Computing' : 'Compute weights', () => this.compute(), {
-            class: 'main',
-            id: 'compute',
-            disabled: this.busy,
-          }),
-          button(
-            'Weights of the file',
-            () => {
-              this.result = null;
-              this.dress();
-              this.app.refresh();
-            },
-            { id: 'file-weights', disabled: !result },
-          ),
-        ),
-        choice(
-          'Bones for each vertex',
-          [
-            [4, '4 bones for each vertex'],
-            [8, '8 bones for each vertex'],
-          ],
-          this.weightCount,
-          (value) => (this.weightCount = Number(value)),
-          { id: 'weight-count' },
-        ),
-        choice(
-          'Bone to show',
-          [['all', 'all bones, each its colour'], ...this.bones.names.map((name, i) => [i, name])],
-          this.shown,
-          (value) => {
-            this.shown = value;
-            if (value === 'all') this.restoreField();
-            this.dress();
-            this.app.panel();
-          },
-          { id: 'bone' },
-        ),
-        make(
-          'p',
-          {},
-          this.shown === 'all'
-            ? 'Show one bone to pin places to it.'
-            : 'Click the body: the place belongs to this bone, and the weights follow.',
-        ),
-        this.pins.length > 0 &&
-          button('Remove all pins', () => this.setPins([], 'remove all pins'), { id: 'no-pins', disabled: this.busy }),
-        this.error && make('p', { class: 'warn' }, this.error),
-        guessed > 0 &&
-          make(
-            'p',
-            { class: 'warn' },
-            `${whole(guessed)} vertices take their weights from the nearest part: no bone is near them.`,
-          ),
-        facts([
-          ['bones', this.bones.joints.length],
-          this.pins.length > 0 && ['pins', this.pins.length],
-          result && ['time', ms(result.milliseconds)],
-          info && ['vertices that see their bone', whole(info.informedCount)],
-          info && info.outsideCount > 0 && ['bones outside the skin', info.outsideCount],
-        ]),
-      ];
+      return weightsSheet(kit, this);
     }
   };
+};
