@@ -28,19 +28,18 @@ function keeper(hf, surface, rest, triangles) {
   let region = null;
   let key = '';
   let shape = null;
-  let rings = 0;
   let version = 0;
   let groups = null; // the first vertex at the place of each
   let starts = new Map(); // of this region
   const same = (positions) => shape === positions || (shape && positions && shape.every((x, i) => x === positions[i]));
   return {
-    /** positions: a pose, or null for the body at rest. */
-    at({ curve, seedVertex = 0, rings: wanted = 0 }, positions = null) {
-      const wish = JSON.stringify([curve, seedVertex]);
+    /** positions: a pose, or null for the body at rest. Made anew for other rings: the bits depend on no history. */
+    at({ curve, seedVertex = 0, rings = 0 }, positions = null) {
+      const wish = JSON.stringify([curve, seedVertex, rings]);
       if (!region || wish !== key || !same(positions)) {
         const next = new hf.Region(surface, { positions });
         try {
-          next.edit({ curve, seedVertex, side: 0 });
+          next.edit({ curve, seedVertex, side: 0, rings });
         } catch (error) {
           next.close();
           throw error;
@@ -49,13 +48,6 @@ function keeper(hf, surface, rest, triangles) {
         region = next;
         key = wish;
         shape = positions?.slice() ?? null;
-        rings = 0;
-        starts = new Map();
-        ++version;
-      }
-      if (wanted !== rings) {
-        region.edit({ rings: wanted - rings });
-        rings = wanted;
         starts = new Map();
         ++version;
       }
