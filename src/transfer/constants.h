@@ -251,6 +251,21 @@ constexpr double handle_share = 0.9;
 // rotation. Rounding leaves 1e-32, the test models have 9e-11 and more. Halving or doubling it changes no vertex.
 constexpr double least_overlap_extent = 1e-12;
 
+// --- slack.cpp ---
+
+// Added to the diagonal of the fit, as a share of it and of the mean: bounds translations of clusters that differ in
+// few vertices.
+constexpr double fit_ridge = 1e-3;
+// Two clusters with a smaller overlap on the source (as a share of the mean of a cluster with itself) get no slide:
+// guards a division.
+constexpr double least_common = 1e-6;
+// The edges of E_spread between two clusters have positive and negative weights. If their sum is a smaller share of the
+// sum of their sizes, the slide is that of the overlap.
+constexpr double certain_tie = 0.1;
+// How far from the middle of their overlap two clusters may turn, in distances of the clusters: trades exact joints for
+// calm where parts do not correspond.
+constexpr double most_offset = 6;
+
 // --- soft_rotation.cpp ---
 
 // Steps of the power that stands for an exponential, a power of two: trades exactness for a matrix product per
@@ -334,6 +349,10 @@ constexpr double turn_low = 20 * degree, turn_high = 50 * degree;
 // quaternion: a foot that is turned over has no such part. A narrow range would make it jump when it turns over. Half
 // and double of both move no vertex of five runs and six falls.
 constexpr double twist_low = 0.05, twist_high = 0.3;
+// A foot higher than this (in boxes) does not turn its own offset; between `stands` and this height it does by a share.
+// A foot that kicks or is drawn up points anywhere, and the offset is long if one body is. In 1,508 runs of the
+// choosing half of tests/bench/transfer_table.cpp 51 frames spike; without this rule 57.
+constexpr double turns_freely = 0.2;
 // Rounds that turn clusters towards their neighbours; each places all clusters once. At half the value: the error of a
 // horse transferred to itself is 0.0086 (0.0090 now). At twice the value: 0.0094. All other errors and edge stretches
 // stay the same.
