@@ -354,8 +354,9 @@ constexpr double turn_low = 20 * degree, turn_high = 50 * degree;
 // and double of both move no vertex of five runs and six falls.
 constexpr double twist_low = 0.05, twist_high = 0.3;
 // A foot higher than this (in boxes) does not turn its own offset; between `stands` and this height it does by a share.
-// A foot that kicks or is drawn up points anywhere, and the offset is long if one body is. In 1,508 runs of the
-// choosing half of tests/bench/transfer_table.cpp 51 frames spike; without this rule 57.
+// A foot that kicks or is drawn up points anywhere, and the offset is long if one body is. Of the 1,508 runs of the
+// choosing half of tests/bench/transfer_table.cpp, without the slides of slack.cpp, 51 frames spike, and 57 without
+// this rule. Half and double were not measured.
 constexpr double turns_freely = 0.2;
 // Rounds that turn clusters towards their neighbours; each places all clusters once. At half the value: the error of a
 // horse transferred to itself is 0.0086 (0.0090 now). At twice the value: 0.0094. All other errors and edge stretches
