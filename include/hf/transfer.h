@@ -3,7 +3,7 @@
  * You pair regions of the source surface with regions of the target surface. From the pairs both surfaces get the same
  * harmonic coordinates, and places of equal coordinates correspond. The vertices around such a place form a cluster.
  * The target takes over the rotations of the source's clusters. Its translations follow from its own shape (Xu, Zhang,
- * Cohen-Or and Xiong 2009, Section 6). */
+ * Cohen-Or and Xiong 2009, Section 6), and from where the source's clusters turn about one another. */
 #ifndef HF_TRANSFER_H
 #define HF_TRANSFER_H
 

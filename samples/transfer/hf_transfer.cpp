@@ -177,6 +177,7 @@ RunReport run(Session& session, const Model& source, const Model& target, const 
   const auto name = [&](const std::filesystem::path& file) { return edited ? edited_name(file) : file; };
   Contacts contacts;
   std::vector<PlayedClip> clips;
+  session.set_in_place(command.in_place);
   for (const Animation* animation : motion.clips) {
     const double rate = command.rate != 0 ? command.rate : clip_duration(*animation) < 1 ? 60 : 30;
     if (command.contacts.empty() || animation == motion.clips.front())

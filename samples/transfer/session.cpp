@@ -61,6 +61,21 @@ double lowest_of(const std::vector<double>& xyz, const glm::dvec3& up) {
 
 }  // namespace
 
+void take_travel(const std::vector<double>& times, const glm::dvec3& up, std::vector<std::vector<double>>& poses) {
+  if (poses.size() < 2 || !(times.back() > times.front())) return;
+  const auto mean = [](const std::vector<double>& xyz) {
+    glm::dvec3 sum(0);
+    for (size_t i = 0; i < xyz.size(); i += 3) sum += glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2]);
+    return sum / static_cast<double>(std::max<size_t>(xyz.size() / 3, 1));
+  };
+  glm::dvec3 travel = mean(poses.back()) - mean(poses.front());
+  travel -= glm::dot(travel, up) * up;
+  for (size_t f = 0; f < poses.size(); ++f) {
+    const glm::dvec3 part = (times[f] - times.front()) / (times.back() - times.front()) * travel;
+    for (size_t i = 0; i < poses[f].size(); ++i) poses[f][i] -= part[static_cast<int>(i % 3)];
+  }
+}
+
 Session::Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, bool links,
                  ProgressBar& bar, bool ground)
     : source_(source),
@@ -298,6 +313,7 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
                          std::vector<std::vector<double>> poses, ProgressBar& bar) {
   PlayedClip out;
   out.clip.name = name;
+  if (in_place_) take_travel(times, file_.source_axes.up, poses);
   const uint32_t joints = stretches() ? 0 : cluster_count();
   std::vector<double> pivots(3 * joints), rotations(4 * joints), places(3 * joints), target;
   hf_skin_info info = HF_INIT(hf_skin_info);

@@ -52,6 +52,10 @@ struct LimbMotion {
   double source_moved = 0, target_moved = 0, cosine = 1;
 };
 
+// Takes the straight travel along the ground out of posed copies of a surface, x y z of every vertex: the mean of the
+// vertices ends over the place where it began. Sway and steps stay. up: a unit vector; times: one for each pose.
+void take_travel(const std::vector<double>& times, const glm::dvec3& up, std::vector<std::vector<double>>& poses);
+
 class Session {
  public:
   // ground: false switches the rules of the ground off.
@@ -73,6 +77,8 @@ class Session {
   std::vector<std::string> set_contacts(const std::vector<std::string>& names,
                                         const std::vector<std::vector<double>>& poses);
 
+  // Whether clips lose their travel along the ground before they are transferred (take_travel).
+  void set_in_place(bool in_place) { in_place_ = in_place; }
   // rate: frames per second; below 0: the clip's own key times.
   PlayedClip play(const Animation& animation, double rate, ProgressBar& bar);
   // Returns posed copies of the source (x y z of every flat vertex).
@@ -134,6 +140,7 @@ class Session {
   std::unique_ptr<FlatSurface> source_surface_, target_surface_;
   hf_transfer transfer_ = nullptr;
   std::vector<Live> live_;
+  bool in_place_ = false;
   bool ground_ = true;
   double scale_ = 1, setup_ms_ = 0, prepare_ms_ = 0, edit_ms_ = 0;
 };

@@ -74,8 +74,8 @@ void sample_centres(const ClusterOptions& options, std::int32_t width, Span<cons
   out.field_count = width;
 }
 
-void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentres>& nearest, Clusters& out) {
-  const double sharpness = 1.0 / (2 * options.kernel_width * options.kernel_width);
+void weigh_by_distance(double kernel_width, const Vector<NearestCentres>& nearest, std::int32_t* joint, float* weight) {
+  const double sharpness = 1.0 / (2 * kernel_width * kernel_width);
   Poller poller;
   for (std::size_t v = 0; v < nearest.size(); ++v) {
     poller.due();
@@ -90,7 +90,7 @@ void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentre
       candidates[count].cluster = near.cluster[i];
       candidates[count++].weight = exponential(-sharpness * (near.distance[i] - near.distance[0])) - last;
     }
-    write_weights(candidates, count, out.joint.data() + v * blend_count, out.weight.data() + v * blend_count);
+    write_weights(candidates, count, joint + v * blend_count, weight + v * blend_count);
   }
 }
 
@@ -348,7 +348,7 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
   } else {
     Vector<NearestCentres> nearest(&memory);
     sample_centres(options, field_count, target_field, out, nearest, memory, jobs);
-    weigh_by_distance(options, nearest, out);
+    weigh_by_distance(options.kernel_width, nearest, out.joint.data(), out.weight.data());
   }
   Vector<std::int32_t> kept(&memory);
   measure_target(target_area, target_mesh, out, kept, memory);
@@ -396,6 +396,27 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
     }
     out.support.push_back(row.support);
   }
+  return out;
+}
+
+SourceWeights weigh_source(const Clusters& clusters, double kernel_width, Span<const double> source_field,
+                           Memory& memory, JobRunner& jobs) {
+  const std::int32_t width = clusters.field_count;
+  const std::size_t n = source_field.size() / at(width);
+  NearestCentres empty;
+  std::fill(std::begin(empty.distance), std::end(empty.distance), std::numeric_limits<double>::infinity());
+  std::fill(std::begin(empty.cluster), std::end(empty.cluster), -1);
+  Vector<NearestCentres> nearest(n, empty, &memory);
+  jobs.for_each(static_cast<std::uint32_t>((n + vertex_block - 1) / vertex_block), [&](std::uint32_t b) {
+    const std::size_t last = std::min(n, (std::size_t{b} + 1) * vertex_block);
+    for (std::size_t v = std::size_t{b} * vertex_block; v < last; ++v)
+      for (std::int32_t c = 0; c < clusters.count; ++c)
+        nearest[v].insert(
+            squared_distance(source_field.data() + v * at(width), clusters.centre.data() + at(c * width), width), c);
+  });
+  SourceWeights out(memory);
+  out.joint.resize(n * blend_count), out.weight.resize(n * blend_count);
+  weigh_by_distance(kernel_width, nearest, out.joint.data(), out.weight.data());
   return out;
 }
 

@@ -66,6 +66,15 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
                        Span<const double> source_area, const Core& source_core, Span<const double> target_field,
                        Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs);
 
+// The weights of the source's vertices in the same clusters, as those of the target.
+struct SourceWeights {
+  explicit SourceWeights(Memory& memory) : joint(&memory), weight(&memory) {}
+  Vector<std::int32_t> joint;  // blend_count per source vertex, by falling weight
+  Vector<float> weight;
+};
+SourceWeights weigh_source(const Clusters& clusters, double kernel_width, Span<const double> source_field,
+                           Memory& memory, JobRunner& jobs);
+
 // Writes the four (or fewer) largest weights of one vertex, taken from `count` candidates. They are multiples of 2^-24
 // with sum exactly 1. The candidates end up sorted.
 struct Candidate {

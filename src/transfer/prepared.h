@@ -55,6 +55,7 @@ struct Transfer::Prepared {
         source_rotations(memory),
         translations(memory),
         refit(memory),
+        slack(memory),
         gradients(memory),
         anchors(&memory),
         posed(&memory),
@@ -114,6 +115,7 @@ struct Transfer::Prepared {
   SourceRotations source_rotations;
   Translations translations;
   Refit refit;
+  Slack slack;
   Gradients gradients;  // HF_TRANSFER_STRETCH only
   Vector<Anchor> anchors;
   double scale = 1;  // target lengths over source lengths, in inner units

@@ -49,9 +49,19 @@ void Refit::prepare(const Mesh& target, Span<const double> area, const Clusters&
     const bool is_point = !(spread_[c] > least_overlap_extent * total);
     if (is_point || *std::max_element(centre, centre + width) > handle_share) spread_[c] = 0;
   }
+  pair_.assign(other_.size(), 0);
 }
 
-void Refit::turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotations,
+void Refit::take_pairs(Span<const Slack::Pair> pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const std::int32_t ends[2] = {pairs[i].first, pairs[i].second};
+    for (int side = 0; side < 2; ++side)
+      for (std::int32_t k = start_[at(ends[side])]; k < start_[at(ends[side]) + 1]; ++k)
+        if (other_[at(k)] == ends[1 - side]) pair_[at(k)] = (side ? -1 : 1) * static_cast<std::int32_t>(i + 1);
+  }
+}
+
+void Refit::turn(const Quaternion* given, const Vec3* slides, const Vec3* shifts, Quaternion* rotations,
                  const Mat3* matrices) const noexcept {
   for (std::size_t c = 0; c < at(count_); ++c) {
     if (!(spread_[c] > 0)) continue;
@@ -62,7 +72,10 @@ void Refit::turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotati
     for (std::int32_t i = start_[c]; i < start_[c + 1]; ++i) {
       const auto d = at(other_[at(i)]);
       const Vec3 x = point_[at(i)];
-      const Vec3 y = 0.5 * ((matrices[c] * x + shifts[c]) + (matrices[d] * x + shifts[d]));
+      Vec3 other = matrices[d] * x + shifts[d];
+      if (pair_[at(i)] > 0) other = other + slides[pair_[at(i)] - 1];
+      if (pair_[at(i)] < 0) other = other - slides[-pair_[at(i)] - 1];
+      const Vec3 y = 0.5 * ((matrices[c] * x + shifts[c]) + other);
       add_outer(moment, weight_[at(i)] / spread_[c], y - place, x - centroid_[c]);
     }
     rotations[c] = soft_rotation(moment + keep_rotation * given[c].toRotationMatrix(), given[c], refit_sharpness);

@@ -18,23 +18,36 @@
 #include "base/span.h"
 #include "deform/rotation.h"
 #include "transfer/clusters.h"
+#include "transfer/slack.h"
 
 namespace hf_inner {
 
 class Refit {
  public:
   explicit Refit(Memory& memory)
-      : start_(&memory), other_(&memory), weight_(&memory), point_(&memory), spread_(&memory), centroid_(&memory) {}
+      : start_(&memory),
+        other_(&memory),
+        pair_(&memory),
+        weight_(&memory),
+        point_(&memory),
+        spread_(&memory),
+        centroid_(&memory) {}
   void prepare(const Mesh& target, Span<const double> area, const Clusters& clusters, Memory& memory);
 
-  // Runs one round of rotations. given: the rotations taken from the source. rotations: the present rotations, which it
+  // Tells which pair of overlapping clusters has which slide (slack.h).
+  void take_pairs(Span<const Slack::Pair> pairs);
+
+  // Runs one round of rotations. given: the rotations taken from the source. slides: one for each pair of take_pairs,
+  // or null if it was not called. rotations: the present rotations, which it
   // replaces. matrices: the present rotations as matrices. shifts: the present translations.
-  void turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotations, const Mat3* matrices) const noexcept;
+  void turn(const Quaternion* given, const Vec3* slides, const Vec3* shifts, Quaternion* rotations,
+            const Mat3* matrices) const noexcept;
 
  private:
   std::int32_t count_ = 0;
   // The overlaps (common vertices) of each cluster with others and with itself.
   Vector<std::int32_t> start_, other_;
+  Vector<std::int32_t> pair_;  // by overlap: 1 + the slack's pair, negative from its other side; 0: none
   Vector<double> weight_;
   Vector<Vec3> point_;
   Vector<double> spread_;  // rest spread per cluster; 0: it keeps its rotation

@@ -318,6 +318,16 @@ Transfer::Prepared& Transfer::prepare() {
   prepare_anchors(p);
   p.source_rotations.prepare(source_core_->mesh, source_area_);
   p.refit.prepare(target_core_->mesh, target_area_, p.clusters, memory);
+  if (options_.mode == HF_TRANSFER_FIELDS) {
+    const SourceWeights weights = weigh_source(
+        p.clusters, options_.kernel_width, {p.source_field.data(), p.source_field.size()}, memory, *target_core_->jobs);
+    p.slack.prepare(p.clusters.count, {source_core_.get(), source_area_, weights.joint.data(), weights.weight.data()},
+                    {target_core_.get(), target_area_, p.clusters.joint.data(), p.clusters.weight.data()},
+                    p.translations, axes_.toRotationMatrix(), p.scale, memory);
+  } else {
+    p.slack.prepare_none(p.clusters.count);
+  }
+  p.refit.take_pairs(p.slack.pairs());
   p.target_centroid = area_mean(target_core_->mesh, target_area_);
   poll();
   prepare_ground(p);

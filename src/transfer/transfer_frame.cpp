@@ -69,8 +69,9 @@ void blend_vertices(const BlendInput& in, std::size_t first, std::size_t last, V
 
 // Computes where the regions go that follow their source (anchors). turn: rotation of the whole source in the target's
 // frame. When the body turns, the offset between the two rest shapes turns with it. A standing foot stays in place
-// while the body turns over it. While the body is upright, the foot's offset therefore turns only as far about the
-// vertical as the foot itself.
+// while the body turns over it. While the body is upright and the foot is low, the foot's offset therefore turns only
+// as far about the vertical as the foot itself. High in the air it turns with the body: a foot that kicks points
+// anywhere.
 void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
   const double rigid = rigid_share(whole), share = std::max(rigid, turned_share(turn)),
@@ -89,6 +90,8 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
         anchor.target_rest - p.target_centroid - p.scale * rotate(axes_, anchor.source_rest - whole.rest_centroid);
     Twist own{Quaternion(), 0};
     const bool steps = anchor.is_foot && upright > 0;
+    const double height = p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground),
+                 own_share = upright * (1 - smooth_step(stands, turns_freely, height));
     if (steps) {
       const auto c = static_cast<std::size_t>(anchor.cluster);
       own = about(p.given[c] * p.dialled_turn[c].conjugate(), up);
@@ -97,7 +100,7 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     const auto turned = [&](Vec3 arm) {
       Vec3 out = carried * arm - arm;
       // A share of the turned arm, not of the turn: half a turn to the left is the same as half a turn to the right.
-      if (steps) out = (1 - upright) * out + (upright * own.certain) * (rotate(own.turn, arm) - arm);
+      if (steps) out = (1 - own_share) * out + (own_share * own.certain) * (rotate(own.turn, arm) - arm);
       return out;
     };
     p.goals[k] = anchor.target_rest + path + turned(offset);
@@ -109,8 +112,7 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     }
     if (!anchor.is_foot || !options_.keep_ground) continue;
     // The target's foot may sink only as deep into the ground as the source's foot.
-    const double allowed =
-        p.target_ground + std::min(0.0, p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground));
+    const double allowed = p.target_ground + std::min(0.0, height);
     const Mat3 rotation = p.translations.mean_rotation(k, p.matrices.data());
     double low = no_height;
     for (const std::int32_t v : to)
@@ -145,11 +147,11 @@ void Transfer::read_holds(Prepared& p, Span<const PairHold> holds) const {
 
 void Transfer::settle(Prepared& p, Vec3 centroid) const {
   p.translations.solve(p.clusters, p.matrices.data(), {p.goals.data(), p.goals.size()}, centroid,
-                       p.cluster_goals.data(), p.shifts.data());
+                       p.cluster_goals.data(), p.slack.forces(), p.shifts.data());
 }
 
 void Transfer::turn_clusters(Prepared& p) const {
-  p.refit.turn(p.given.data(), p.shifts.data(), p.rotations.data(), p.matrices.data());
+  p.refit.turn(p.given.data(), p.slack.slides(), p.shifts.data(), p.rotations.data(), p.matrices.data());
   for (std::size_t c = 0; c < p.rotations.size(); ++c) p.matrices[c] = p.rotations[c].toRotationMatrix();
 }
 
@@ -193,6 +195,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
     return;
   }
   p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), *target_core_->jobs);
+  if (options_.mode == HF_TRANSFER_FIELDS) p.slack.measure(p.given.data(), p.posed.data(), axes_, *target_core_->jobs);
 
   // Takes the rotations of the source's clusters into the target's axes and rest directions.
   const Quaternion turn = normalised(axes_ * whole.rotation * axes_.conjugate());

@@ -45,46 +45,47 @@ void Translations::add_overlap(Span<const double> area, const Core& target, cons
   }
 }
 
-void Translations::add_spread(const Core& target, const Clusters& clusters, double share, Buffer<double>& matrix,
-                              Vector<double>& table) const {
-  const std::size_t count = at(count_);
-  Memory& memory = *target.memory;
-  Vector<double> own_matrix(count * count, 0.0, &memory), own_table(3 * count * count, 0.0, &memory);
+SpreadTies spread_ties(const Core& core, const std::int32_t* joint, const float* weight, std::size_t count,
+                       Memory& memory) {
+  SpreadTies out(count, memory);
   double floor = 0;
-  for (const double w : target.weights) floor += std::abs(w);
-  floor = least_weight_share * floor / static_cast<double>(std::max<std::size_t>(1, target.weights.size()));
+  for (const double w : core.weights) floor += std::abs(w);
+  floor = least_weight_share * floor / static_cast<double>(std::max<std::size_t>(1, core.weights.size()));
   Poller poller;
-  for (std::int32_t e = 0; e < target.topology.edge_count(); ++e) {
+  for (std::int32_t e = 0; e < core.topology.edge_count(); ++e) {
     poller.due();
-    const std::int32_t ends[2] = {target.topology.first(e), target.topology.second(e)};
+    const std::int32_t ends[2] = {core.topology.first(e), core.topology.second(e)};
     // The difference between the cluster weights of the edge's two ends. It has at most eight clusters.
     std::size_t cluster[2 * blend_count];
     double delta[2 * blend_count];
     std::size_t used = 0;
     for (int side = 0; side < 2; ++side) {
       for (std::size_t i = at(ends[side]) * blend_count; i < (at(ends[side]) + 1) * blend_count; ++i) {
-        if (clusters.weight[i] <= 0) continue;
-        const std::size_t c = at(clusters.joint[i]);
+        if (weight[i] <= 0) continue;
+        const std::size_t c = at(joint[i]);
         std::size_t k = 0;
         while (k < used && cluster[k] != c) ++k;
         if (k == used) cluster[used] = c, delta[used++] = 0;
-        delta[k] += (side ? -1.0 : 1.0) * static_cast<double>(clusters.weight[i]);
+        delta[k] += (side ? -1.0 : 1.0) * static_cast<double>(weight[i]);
       }
     }
-    const double w = std::clamp(target.weights[at(e)], floor, std::max(floor, steepest_weight));
-    const Vec3 middle = 0.5 * (target.mesh.positions[at(ends[0])] + target.mesh.positions[at(ends[1])]);
+    const double w = std::clamp(core.weights[at(e)], floor, std::max(floor, steepest_weight));
+    const Vec3 middle = 0.5 * (core.mesh.positions[at(ends[0])] + core.mesh.positions[at(ends[1])]);
     for (std::size_t i = 0; i < used; ++i) {
       for (std::size_t j = 0; j < used; ++j) {
         const double product = w * delta[i] * delta[j];
-        own_matrix[cluster[i] * count + cluster[j]] += product;
-        add_point(own_table, cluster[i] * count + cluster[j], -product, middle);
+        const std::size_t entry = cluster[i] * count + cluster[j];
+        out.matrix[entry] += product, out.size[entry] += std::abs(product);
+        add_point(out.table, entry, -product, middle);
       }
     }
   }
-  const double sum = trace(own_matrix, count);
-  if (!(sum > 0)) return;
-  for (std::size_t i = 0; i < own_matrix.size(); ++i) matrix[i] += share / sum * own_matrix[i];
-  for (std::size_t i = 0; i < own_table.size(); ++i) table[i] += share / sum * own_table[i];
+  const double sum = trace(out.matrix, count);
+  const double unit = sum > 0 ? 1 / sum : 0.0;
+  for (double& x : out.matrix) x *= unit;
+  for (double& x : out.size) x *= unit;
+  for (double& x : out.table) x *= unit;
+  return out;
 }
 
 void Translations::add_row(Span<const std::int32_t> vertices, Span<const double> weights, const Core& target,
@@ -125,7 +126,15 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
     for (double& x : matrix) x /= sum;
     for (double& x : table) x /= sum;
   }
-  if (options.spread_share > 0) add_spread(target, clusters, options.spread_share, matrix, table);
+  overlap_coupling_.resize(count * count), spread_coupling_.assign(count * count, 0.0);
+  for (std::size_t i = 0; i < matrix.size(); ++i) overlap_coupling_[i] = -matrix[i];
+  if (options.spread_share > 0) {
+    const SpreadTies ties = spread_ties(target, clusters.joint.data(), clusters.weight.data(), count, memory);
+    for (std::size_t i = 0; i < matrix.size(); ++i) {
+      matrix[i] += options.spread_share * ties.matrix[i], spread_coupling_[i] = -options.spread_share * ties.matrix[i];
+    }
+    for (std::size_t i = 0; i < table.size(); ++i) table[i] += options.spread_share * ties.table[i];
+  }
   const double total = trace(matrix, count);
   const double mean = total > 0 ? total / static_cast<double>(count) : 1.0;
   anchor_ = options.anchor * mean, root_ = options.root * mean, whole_ = options.whole * mean;
@@ -299,9 +308,9 @@ Mat3 Translations::mean_rotation(std::size_t anchor, const Mat3* rotations) cons
 }
 
 void Translations::solve(const Clusters& clusters, const Mat3* rotations, Span<const Vec3> goals, Vec3 centroid,
-                         const Vec3* cluster_goals, Vec3* out) noexcept {
+                         const Vec3* cluster_goals, const Vec3* forces, Vec3* out) noexcept {
   for (std::int32_t c = 0; c < count_; ++c) {
-    Vec3 rhs = whole_ * (cluster_goals[c] - rotations[c] * clusters.pivot[at(c)]);
+    Vec3 rhs = forces[c] + whole_ * (cluster_goals[c] - rotations[c] * clusters.pivot[at(c)]);
     for (std::int32_t i = table_start_[at(c)]; i < table_start_[at(c) + 1]; ++i)
       rhs = rhs + rotations[table_column_[at(i)]] * table_[at(i)];
     out[c] = rhs;

@@ -46,6 +46,19 @@ struct Hold {
   bool vertical = false;
 };
 
+// E_spread of one surface with weights W, scaled to trace 1: the matrix, its table of vectors g (three numbers each),
+// and the sum of the sizes of what was summed up in each entry. All are clusters x clusters.
+struct SpreadTies {
+  SpreadTies(std::size_t count, Memory& memory)
+      : matrix(count * count, 0.0, &memory),
+        size(count * count, 0.0, &memory),
+        table(3 * count * count, 0.0, &memory) {}
+  Vector<double> matrix, size, table;
+};
+// joint, weight: blend_count for each vertex of the surface.
+SpreadTies spread_ties(const Core& core, const std::int32_t* joint, const float* weight, std::size_t count,
+                       Memory& memory);
+
 class Translations {
  public:
   explicit Translations(Memory& memory)
@@ -58,6 +71,8 @@ class Translations {
         row_column_(&memory),
         row_weight_(&memory),
         row_point_(&memory),
+        overlap_coupling_(&memory),
+        spread_coupling_(&memory),
         influence_(&memory),
         compliance_(&memory),
         gram_(&memory),
@@ -75,7 +90,11 @@ class Translations {
   // of the whole body. cluster_goals: one per cluster, its rest centroid under the motion of the whole body. Allocates
   // nothing. Two threads must not call it at once.
   void solve(const Clusters& clusters, const Mat3* rotations, Span<const Vec3> goals, Vec3 centroid,
-             const Vec3* cluster_goals, Vec3* out) noexcept;
+             const Vec3* cluster_goals, const Vec3* forces, Vec3* out) noexcept;
+
+  // How strongly each energy ties two different clusters.
+  double overlap_coupling(std::size_t c, std::size_t d) const noexcept { return overlap_coupling_[c * at(count_) + d]; }
+  double spread_coupling(std::size_t c, std::size_t d) const noexcept { return spread_coupling_[c * at(count_) + d]; }
 
   // Changes the translations t so that the constraints (holds) are met and the energies rise least (Woodbury formula):
   //     t += A^-1 R^T m,     (R A^-1 R^T + diag(s_k (1 - share) / share)) m = goal - place.
@@ -103,8 +122,6 @@ class Translations {
  private:
   void add_overlap(Span<const double> area, const Core& target, const Clusters& clusters, Buffer<double>& matrix,
                    Vector<double>& table) const;
-  void add_spread(const Core& target, const Clusters& clusters, double share, Buffer<double>& matrix,
-                  Vector<double>& table) const;
   void add_row(Span<const std::int32_t> vertices, Span<const double> weights, const Core& target,
                const Clusters& clusters);
 
@@ -129,6 +146,7 @@ class Translations {
   Vector<std::int32_t> row_start_, row_column_;
   Vector<double> row_weight_;
   Vector<Vec3> row_point_;
+  Vector<double> overlap_coupling_, spread_coupling_;
   // influence_: A^-1 R^T, rows x clusters, with A the matrix of the energies and R the rows. gram_: R A^-1 R^T.
   // hold_matrix_: scratch of the constraints (holds).
   Vector<double> influence_, compliance_, gram_, hold_matrix_;

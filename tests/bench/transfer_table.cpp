@@ -1,10 +1,10 @@
 // hf_transfer_table FOLDER [--half choosing|judging|mixed|all] [--source NAME] [--target NAME] [--clip NAME]
-//                   [--sample N] [--runs] [--where] [--no-ground] [--no-links]
+//                   [--sample N] [--runs] [--where] [--no-ground] [--no-links] [--itself]
 //
 // Plays every clip of every shared model on every other and measures what an animator would send back. Constants are
 // chosen on pairs whose two models lie in the choosing half. The judging half holds the pairs of the other models.
 // One line per pair says what was proposed; --runs adds a line per clip. --sample N takes one run of N, always the same
-// ones. Lengths are in boxes of the target.
+// ones. --itself plays models on themselves alone. Lengths are in boxes of the target.
 //
 // A length of the source counts times the larger of two scales: that of the transfer, and that of the boxes. A body
 // moves by both: its path follows the first, its turning limbs follow the second.
@@ -237,7 +237,7 @@ struct Options {
   std::filesystem::path folder;
   uint32_t sample = 1;
   std::string half = "choosing", source, target, clip;
-  bool runs = false, links = true, ground = true, where = false;
+  bool itself = false, runs = false, links = true, ground = true, where = false;
 };
 
 // Ranks from 1; equal numbers share the mean of theirs.
@@ -337,6 +337,7 @@ int table(const Options& options) {
     if (!options.source.empty() && options.source != source.name) continue;
     for (Loaded& target : models) {
       if (!options.target.empty() && options.target != target.name) continue;
+      if (options.itself && &source != &target) continue;
       const std::string half = source.judging != target.judging ? "mixed" : source.judging ? "judging" : "choosing";
       if (options.half != "all" && options.half != half) continue;
       const auto chosen = [&](size_t c) {
@@ -416,6 +417,8 @@ int main(int count, char** arguments) {
         options.sample = static_cast<uint32_t>(std::max(1L, std::strtol(arguments[++i], nullptr, 10)));
       } else if (word == "--runs") {
         options.runs = true;
+      } else if (word == "--itself") {
+        options.itself = true;
       } else if (word == "--where") {
         options.where = true;
       } else if (word == "--no-ground") {

@@ -4,6 +4,7 @@
 
 #include "common/animate.h"
 #include "common/mesh_file.h"
+#include "transfer/session.h"
 #include "unit/transfer/transfer_program_support.h"
 
 namespace {
@@ -288,6 +289,69 @@ TEST(TransferOutputs, FeetComeFromNamesAndBodiesWithoutFeetFromTheirEnds) {
     EXPECT_EQ(horse.count(name), 1u) << name;
   EXPECT_EQ(horse.count("middle foot 1 left"), 0u);
   EXPECT_GE(proposed("q_Horse.glb", "q_Manta_ray.glb").size(), 4u);
+}
+
+TEST(TransferOutputs, TravelIsTakenOutAndSwayAndHeightStay) {
+  const glm::dvec3 up(0, 1, 0);
+  const std::vector<double> times = {0, 0.1, 0.4, 1};
+  std::vector<std::vector<double>> still, travels;
+  for (const double t : times) {
+    const double sway = 0.2 * std::sin(3.14159265358979323846 * t), rise = 0.5 * t;
+    still.push_back({sway, rise, 0, sway + 1, rise, 2});
+    travels.push_back({sway + 3 * t, rise, -4 * t, sway + 1 + 3 * t, rise, 2 - 4 * t});
+  }
+  samples::take_travel(times, up, travels);
+  for (size_t f = 0; f < times.size(); ++f)
+    for (size_t i = 0; i < 6; ++i) EXPECT_NEAR(travels[f][i], still[f][i], 1e-12) << f << " " << i;
+  std::vector<std::vector<double>> one = {{1, 2, 3}};
+  samples::take_travel({0}, up, one);
+  EXPECT_EQ(one[0], (std::vector<double>{1, 2, 3}));
+}
+
+TEST(TransferOutputs, InPlaceIsAnOptionOfTheProgram) {
+  // The horse walks away: where its topmost joint is, is keyed anew.
+  samples::Model horse = samples::read_gltf(creature("horse"));
+  samples::Animation& walk = horse.animations[static_cast<size_t>(samples::find_animation(horse, "walk"))];
+  int top = horse.skins.front().joints.front();
+  const auto is_joint = [&](int node) {
+    const std::vector<int>& joints = horse.skins.front().joints;
+    return std::find(joints.begin(), joints.end(), node) != joints.end();
+  };
+  while (is_joint(horse.nodes[static_cast<size_t>(top)].parent)) top = horse.nodes[static_cast<size_t>(top)].parent;
+  walk.channels.erase(std::remove_if(walk.channels.begin(), walk.channels.end(),
+                                     [&](const samples::Channel& channel) {
+                                       return channel.node == top && channel.path == samples::Path::translation;
+                                     }),
+                      walk.channels.end());
+  samples::Channel travels_on;
+  travels_on.node = top;
+  travels_on.times = {0, static_cast<float>(samples::clip_duration(walk))};
+  const glm::vec3 at = horse.nodes[static_cast<size_t>(top)].translation;
+  travels_on.values = {at.x, at.y, at.z, at.x, at.y, at.z + 2};
+  walk.channels.push_back(travels_on);
+  const fs::path walker = folder() / "walks_away.glb";
+  samples::write_gltf(horse, walker);
+  const auto travel = [&](const std::string& more, const char* name) {
+    const fs::path out = folder() / name;
+    std::string said;
+    EXPECT_EQ(transfer(quoted(walker) + " " + quoted(creature("bull")) + " --clip walk --pairs " +
+                           quoted(pairs("horse_to_bull.json")) + " --as skin -o " + quoted(out) + more,
+                       said),
+              0)
+        << said;
+    const samples::Model model = samples::read_gltf(out);
+    const samples::FlatMesh mesh = samples::flatten(model);
+    const samples::Animation& clip = model.animations.front();
+    glm::dvec3 path(0);
+    const auto last = samples::posed_positions(model, mesh, clip, samples::clip_duration(clip)),
+               first = samples::posed_positions(model, mesh, clip, 0);
+    for (size_t v = 0; v < last.size(); ++v) path += (last[v] - first[v]) / static_cast<double>(last.size());
+    return std::hypot(path.x, path.z);
+  };
+  const double walks = travel("", "travels.glb"), stays = travel(" --in-place", "stays.glb");
+  std::printf("the walk travels by %.4f, in place by %.4f\n", walks, stays);
+  EXPECT_GT(walks, 0.5);
+  EXPECT_LT(stays, 0.02 * walks);
 }
 
 TEST(TransferOutputs, TheLiveSampleRunsWhileItsHandlesChange) {

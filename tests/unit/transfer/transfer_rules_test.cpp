@@ -219,7 +219,7 @@ TEST(TransferRules, AClusterThatOverlapsNoOtherKeepsTheRotationOfItsSource) {
     const hf_inner::Mat3 matrix = given.toRotationMatrix();
     const Vec3 shift{0.1, 0.2, -0.3};
     hf_inner::Quaternion turned = given;
-    refit.turn(&given, &shift, &turned, &matrix);
+    refit.turn(&given, nullptr, &shift, &turned, &matrix);
     ASSERT_LT(turned.angularDistance(given), 1e-12) << "trial " << trial;
   }
 }
