@@ -74,7 +74,8 @@ typedef struct hf_quads_info {
  * characteristic. On a torus or a knot a single pole of 5 is often lost.
  *
  * desc: NULL = HF_INIT. Sets *out_quads to NULL first. Cost: two factorisations of the mesh and O(n log n + faces);
- * a thousand singularities take most of a minute. Progress covers factorisations, relaxation and fitting; each can be cancelled.
+ * a thousand singularities take most of a minute. Progress covers factorisations, relaxation and fitting; each can be
+ * cancelled.
  *
  * Errors: HF_ERROR_INVALID_ARGUMENT (face_count, edge_length, crease_angle, relax_count, an array without its count, an
  * isolated vertex, symmetry_plane without a normal; index = crease, that is no edge of the surface; index = guide, that
