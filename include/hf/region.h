@@ -21,7 +21,7 @@ typedef struct hf_region_object* hf_region;
 
 /* The smooth base of a region. */
 enum {
-  HF_BASE_DEFAULT = 0,         /* THIN_PLATE; MEMBRANE on surfaces whose bi-harmonic matrix does not factorise */
+  HF_BASE_DEFAULT = 0,         /* THIN_PLATE */
   HF_BASE_MEMBRANE = 1,        /* harmonic: the least area for its rim, nearly; it meets the rim with a crease */
   HF_BASE_THIN_PLATE = 2,      /* bi-harmonic (HF_FIELD_BIHARMONIC): leaves the surface around it without a crease */
   HF_BASE_THIN_PLATE_GRAPH = 3 /* the paper's bi-harmonic field (HF_FIELD_BIHARMONIC_GRAPH) */
@@ -39,8 +39,8 @@ typedef struct hf_region_desc {
 
 /* Creates a region without vertices. desc: NULL for defaults. Sets *out_region to NULL first. Cost: O(n), and the
  * factor that may be missing. hf_region_info::field_kind says which base it has. Errors: HF_ERROR_INVALID_ARGUMENT
- * (base, both positions set), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_NOT_POSITIVE_DEFINITE (a thin plate that
- * was asked for), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+ * (base, both positions set), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_NOT_POSITIVE_DEFINITE (the matrix of the
+ * base does not factorise), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_region_create(hf_surface surface, const hf_region_desc* desc, hf_region* out_region);
 
 /* Copies a region, without the undo stack. The copy shares the factor. Sets *out_region to NULL first. Thread safety:

@@ -17,17 +17,6 @@ hf_result change(const char* function, hf_region handle, Work&& work) {
   });
 }
 
-// Returns the core of the base. A thin plate that was not asked for by name gives way to a membrane where its matrix
-// does not factorise.
-std::shared_ptr<const Core> base_core(const Surface& surface, const RegionOptions& options) {
-  try {
-    return surface.core(options.field_kind);
-  } catch (const Error& error) {
-    if (!options.may_be_membrane || error.code() != HF_ERROR_NOT_POSITIVE_DEFINITE) throw;
-  }
-  return surface.core(FieldKind::harmonic);
-}
-
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -42,7 +31,7 @@ hf_result hf_region_create(hf_surface handle, const hf_region_desc* given, hf_re
     const hf_region_desc desc = read_optional(given, "desc");
     const RegionOptions options = read_region_options(desc);
     return with_progress(desc.progress, [&] {
-      const auto core = base_core(surface->surface, options);
+      const auto core = surface->surface.core(options.field_kind);
       return make_owner_in<RegionObject>(
           core->memory, make_owner_in<RegionSurface>(core->memory, core, positions_of(*core, options.positions)));
     });

@@ -21,7 +21,7 @@ constexpr std::int32_t most_visits = 8;
 // --- curve_sides.cpp ---
 
 // Where a curve crosses itself, at most this many pairs of lines are compared to name the place. It bounds the time of
-// a refusal to 0.1 s. A line crosses a triangle with few others, so curves drawn by hand need a thousand.
+// a refusal; past it the error names a point beside the crossing. Lines drawn by hand share a triangle with few others.
 constexpr std::size_t most_compared = std::size_t{1} << 20;
 
 // --- disc_map.cpp ---

@@ -21,8 +21,7 @@ RegionOptions read_region_options(const hf_region_desc& desc) {
   const FieldKind kind = desc.base == HF_BASE_MEMBRANE           ? FieldKind::harmonic
                          : desc.base == HF_BASE_THIN_PLATE_GRAPH ? FieldKind::biharmonic_graph
                                                                  : FieldKind::biharmonic;
-  return {kind, desc.base == HF_BASE_DEFAULT,
-          rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride")};
+  return {kind, rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride")};
 }
 
 double read_morph_weight(const hf_morph_desc& desc) {

@@ -8,8 +8,7 @@ namespace hf_inner {
 
 struct RegionOptions {
   FieldKind field_kind;
-  bool may_be_membrane;  // where the matrix of field_kind does not factorise
-  ConstRows positions;   // null: those of the surface
+  ConstRows positions;  // null: those of the surface
 };
 // Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_DESC or HF_ERROR_TOO_SMALL (stride).
 RegionOptions read_region_options(const hf_region_desc& desc);

@@ -27,7 +27,7 @@ struct SurfaceCurve {
 
 // Weights of corners below this count as 0, and places of edges nearer to an end as that vertex. Straight lines that
 // pass a vertex then pass it always, whichever way they run. It is far above the rounding of a path (1e-13), and no eye
-// sees it. Half and double give the same regions in the tests.
+// sees it. With 1e-10, half, double and 1e-7, surface_curve_test passes.
 constexpr double place_tolerance = 1e-9;
 
 // points: of one component, each in a triangle of the mesh (CurvePoint).

@@ -4,10 +4,14 @@
 // clusters of the leg against each other, like beads on a string. So each cluster is fitted to its overlaps:
 //     R_c = argmax tr(R' (M_c / s_c + b R_c0)),   M_c = sum_d k_cd (y_cd - y_c)(x_cd - x_c)',
 //     k_cd = sum_v a_v W_vc W_vd.
-// R_c is the new rotation of cluster c. a_v is the area of vertex v, W_vc its weight in c. x_cd is the rest centroid of
-// the overlap of clusters c and d, and y_cd the mean of the places that c and d give it. x_c and y_c are the same for c
-// alone, and s_c is its rest spread. R_c0 is the rotation taken from the source: it decides the twist. The constant b
-// (keep_rotation) limits how far a cluster turns.
+//
+//     R_c         the new rotation of cluster c
+//     R_c0        its rotation taken from the source, which decides the twist
+//     a_v, W_vc   the area of vertex v, and its weight in c
+//     x_cd, y_cd  the rest centroid of the overlap of c and d, and the mean of the places that c and d give it
+//     x_c, y_c    the same for c alone
+//     s_c         the rest spread of c
+//     b           keep_rotation: it limits how far a cluster turns
 //
 // Translations are solved again afterwards. This is the shape matching of Xu et al. 2009, Section 5.2, started at the
 // transferred rotations. Clusters of handles keep their rotations, and so do clusters that overlap no other. A rigid

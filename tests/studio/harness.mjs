@@ -105,12 +105,46 @@ export class Studio {
   /** Until nothing is on its way to the Worker, the pose rests, and the picture is drawn. */
   async settle() {
     await this.page.evaluate(async () => {
-      for (let wait = 0; window.hfStudio.moving && wait < 100; ++wait) await new Promise((done) => setTimeout(done, 10));
+      for (let wait = 0; window.hfStudio.moving && wait < 100; ++wait)
+        await new Promise((done) => setTimeout(done, 10));
       await window.hfStudio.client.ask('memory');
       await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
       await window.hfStudio.client.ask('memory');
     });
     await this.page.waitForTimeout(30);
+  }
+  /** Opens a file by the menu, until it can be pulled. Throws what the card says if it is refused. */
+  async open(path, timeout = 180000) {
+    const name = path.split('/').pop();
+    await this.page.setInputFiles('#file', path);
+    await this.page.waitForFunction(
+      (name) =>
+        document.querySelector('#card[open]') ||
+        (window.hfStudio.body?.name === name && window.hfStudio.skin.bvh && !document.body.hasAttribute('aria-busy')),
+      name,
+      { timeout },
+    );
+    const card = await this.page.$eval('#card', (dialog) => (dialog.open ? dialog.textContent : ''));
+    if (card) throw new Error(card);
+  }
+  /** A place on the page where a ring of a gizmo can be taken. part: of the tools, with dots: pose, weights.bend. */
+  async ring(part) {
+    const found = await this.page.evaluate((part) => {
+      const { view, tools } = window.hfStudio;
+      const { gizmo } = part.split('.').reduce((thing, name) => thing[name], tools);
+      const box = document.getElementById('canvas').getBoundingClientRect();
+      for (let angle = 0; angle < 6.28; angle += 0.1) {
+        const point = gizmo.centre.slice();
+        point[0] += gizmo.size() * Math.cos(angle);
+        point[1] += gizmo.size() * Math.sin(angle);
+        const { x, y } = view.onScreen(point);
+        const clear = document.elementFromPoint(box.x + x, box.y + y)?.id === 'canvas';
+        if (clear && gizmo.under([x, y]) >= 0) return [box.x + x, box.y + y];
+      }
+      return null;
+    }, part);
+    if (!found) throw new Error(`no ring of ${part} can be reached`);
+    return found;
   }
   async tool(key) {
     await this.page.click(`#tool-${key}`);

@@ -12,19 +12,6 @@ const [VERTICES, TRIANGLES] = [1152, 2304];
 
 const jsonOf = (bytes) => JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString());
 
-async function opened(studio, path) {
-  const name = path.split('/').pop();
-  await studio.page.setInputFiles('#file', path);
-  await studio.page.waitForFunction(
-    (name) =>
-      document.querySelector('#card[open]') ||
-      (window.hfStudio.body?.name === name && window.hfStudio.skin.bvh && !document.body.hasAttribute('aria-busy')),
-    name,
-  );
-  const card = await studio.page.$eval('#card', (dialog) => (dialog.open ? dialog.textContent : ''));
-  assert.equal(card, '');
-}
-
 export default async function story(host) {
   const studio = await Studio.open(host);
   const { page } = studio;
@@ -35,7 +22,7 @@ export default async function story(host) {
     await check(`${name}.glb opens, is pulled, and is saved without compression as a valid glb`, async () => {
       const path = join(data, `${name}.glb`);
       assert.ok(jsonOf(readFileSync(path)).extensionsRequired.includes(extension));
-      await opened(studio, path);
+      await studio.open(path);
       const { vertices, triangles, box } = await page.evaluate(() => {
         const { body, skin } = window.hfStudio;
         const { min, max } = skin.box(body.positions);
@@ -59,7 +46,7 @@ export default async function story(host) {
     });
   await check('a picture in KTX2 is not shown, which is said, and is saved byte for byte', async () => {
     const path = join(data, 'ring_ktx2.glb');
-    await opened(studio, path);
+    await studio.open(path);
     assert.match(await studio.told(), /KTX2 stay in the file/);
     const saved = readFileSync(await studio.save('save-shape'));
     const pictureOf = (bytes) => {
@@ -101,7 +88,7 @@ export default async function story(host) {
     passOver('a file by another program, meshopt and quantised', 'the shared files are not here');
   else
     await check('a file by another program, meshopt and quantised, opens', async () => {
-      await opened(studio, pirate);
+      await studio.open(pirate);
       await studio.picture('compressed_pirate', { kept: false });
       return `${await page.evaluate(() => window.hfStudio.body.vertexCount)} vertices`;
     });

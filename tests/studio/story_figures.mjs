@@ -20,20 +20,6 @@ const longTasks = (page) =>
     ).observe({ type: 'longtask', buffered: true });
   });
 
-async function opened(studio, path) {
-  const name = path.split('/').pop();
-  await studio.page.setInputFiles('#file', path);
-  await studio.page.waitForFunction(
-    (name) =>
-      document.querySelector('#card[open]') ||
-      (window.hfStudio.body?.name === name && window.hfStudio.skin.bvh && !document.body.hasAttribute('aria-busy')),
-    name,
-    { timeout: 180000 },
-  );
-  const card = await studio.page.$eval('#card', (dialog) => (dialog.open ? dialog.textContent : ''));
-  if (card) throw new Error(card);
-}
-
 /** Poses a second of the Worker and time of the main thread for each. */
 const poses = (page, count) =>
   page.evaluate(async (count) => {
@@ -151,7 +137,7 @@ export default async function story(host) {
     await check(`${vertices} vertices: opened, pulled, no long task while it is pulled`, async () => {
       const studio = await Studio.open(host, { before: longTasks });
       const begin = Date.now();
-      await opened(studio, path);
+      await studio.open(path);
       const time = Date.now() - begin;
       const start = await studio.page.evaluate(() => performance.now());
       const { perSecond, added } = await poses(studio.page, 40);
@@ -178,7 +164,7 @@ export default async function story(host) {
           });
           assert.deepEqual(asked, []);
           if (without) await studio.page.route('**/threads/*', (route) => route.abort());
-          await opened(studio, large);
+          await studio.open(large);
           told.push(
             await studio.page.evaluate(async () => {
               const { client, tools, state } = window.hfStudio;
@@ -207,7 +193,7 @@ export default async function story(host) {
       .filter((file) => file.endsWith('.glb'))
       .slice(0, Number(process.env.HF_FULL_TESTS ? 100 : 6)))
       await check(`${name}: opens, its proposed handle is pulled, near vertices stay near`, async () => {
-        await opened(studio, join(gltf, name)).catch(async (error) => {
+        await studio.open(join(gltf, name)).catch(async (error) => {
           await studio.page.keyboard.press('Escape');
           // what the studio does not read is said on a card; the test knows two reasons
           if (!/compressed|holds no triangles/.test(error.message)) throw error;

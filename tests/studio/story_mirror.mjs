@@ -95,20 +95,7 @@ export default async function story(host) {
     await page.click('#back');
     await studio.settle();
     assert.ok((await seen(studio)).handles.every(({ rotation }) => rotation[3] === 1));
-    const ring = await page.evaluate(() => {
-      const { view, tools } = window.hfStudio;
-      const { gizmo } = tools.pose;
-      const box = document.getElementById('canvas').getBoundingClientRect();
-      for (let angle = 0; angle < 6.28; angle += 0.1) {
-        const point = gizmo.centre.slice();
-        point[0] += gizmo.size() * Math.cos(angle);
-        point[1] += gizmo.size() * Math.sin(angle);
-        const { x, y } = view.onScreen(point);
-        const clear = document.elementFromPoint(box.x + x, box.y + y)?.id === 'canvas';
-        if (clear && gizmo.under([x, y]) >= 0) return [box.x + x, box.y + y];
-      }
-      return null;
-    });
+    const ring = await studio.ring('pose');
     await studio.drag(...ring, 40, 40);
     const { chosen, twin } = await seen(studio);
     assert.ok(chosen.rotation[3] < 0.999 && Math.abs(chosen.rotation[3] - twin.rotation[3]) < 1e-12);

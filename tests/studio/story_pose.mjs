@@ -40,38 +40,27 @@ export default async function story(host) {
     assert.equal((await studio.facts()).handles, '5');
     await studio.picture('pose_pulled');
   });
-  await check('a drag ends at rest: the same handles from the start, and undone and done again, give the same body', async () => {
-    const { exact, again } = await page.evaluate(async () => {
-      const app = window.hfStudio;
-      const shown = app.skin.positions.slice();
-      const far = (positions) =>
-        positions.reduce((most, x, i) => Math.max(most, Math.abs(x - shown[i])), 0) / app.view.size;
-      const { positions } = await app.client.ask('shape', { handles: app.state.handles, detail: null, way: 'exact' });
-      await app.step('undo');
-      await app.step('redo');
-      return { exact: far(positions), again: far(app.skin.positions) };
-    });
-    assert.ok(exact < 1e-5 && again < 1e-5, `${exact} and ${again} of the view off`);
-  });
+  await check(
+    'a drag ends at rest: the same handles from the start, and undone and done again, give the same body',
+    async () => {
+      const { exact, again } = await page.evaluate(async () => {
+        const app = window.hfStudio;
+        const shown = app.skin.positions.slice();
+        const far = (positions) =>
+          positions.reduce((most, x, i) => Math.max(most, Math.abs(x - shown[i])), 0) / app.view.size;
+        const { positions } = await app.client.ask('shape', { handles: app.state.handles, detail: null, way: 'exact' });
+        await app.step('undo');
+        await app.step('redo');
+        return { exact: far(positions), again: far(app.skin.positions) };
+      });
+      assert.ok(exact < 1e-5 && again < 1e-5, `${exact} and ${again} of the view off`);
+    },
+  );
   await check('one drag is one step', async () => {
     assert.equal(await page.evaluate(() => window.hfStudio.history.past.length), 1);
   });
   await check('a ring of the gizmo turns the handle', async () => {
-    const ring = await page.evaluate(() => {
-      const { view, tools } = window.hfStudio;
-      const { gizmo } = tools.pose;
-      const box = document.getElementById('canvas').getBoundingClientRect();
-      for (let angle = 0; angle < 6.28; angle += 0.1) {
-        const point = gizmo.centre.slice();
-        point[0] += gizmo.size() * Math.cos(angle);
-        point[1] += gizmo.size() * Math.sin(angle);
-        const { x, y } = view.onScreen(point);
-        const clear = document.elementFromPoint(box.x + x, box.y + y)?.id === 'canvas';
-        if (clear && gizmo.under([x, y]) >= 0) return [box.x + x, box.y + y];
-      }
-      return null;
-    });
-    assert.ok(ring, 'a ring can be reached');
+    const ring = await studio.ring('pose');
     await studio.drag(...ring, 30, 50);
     const turned = await page.evaluate(() => window.hfStudio.state.handles.at(-1).rotation);
     assert.ok(Math.abs(turned[3]) < 0.999, `rotation ${turned}`);

@@ -101,21 +101,7 @@ export default async function story(host) {
     const bones = await page.$$eval('#bone option', (all) => all.map(({ textContent }) => textContent));
     await page.selectOption('#bone', { label: bones.find((name) => /front_lower_leg_L/.test(name)) });
     await studio.settle();
-    const ring = await page.evaluate(() => {
-      const { view, tools } = window.hfStudio;
-      const { gizmo } = tools.weights.bend;
-      const box = document.getElementById('canvas').getBoundingClientRect();
-      for (let angle = 0; angle < 6.28; angle += 0.1) {
-        const point = gizmo.centre.slice();
-        point[0] += gizmo.size() * Math.cos(angle);
-        point[1] += gizmo.size() * Math.sin(angle);
-        const { x, y } = view.onScreen(point);
-        if (document.elementFromPoint(box.x + x, box.y + y)?.id === 'canvas' && gizmo.under([x, y]) >= 0)
-          return [box.x + x, box.y + y];
-      }
-      return null;
-    });
-    assert.ok(ring);
+    const ring = await studio.ring('weights.bend');
     await studio.drag(...ring, -60, 70);
     const bent = await moved(studio);
     assert.ok(bent > 0.01, `moved by ${bent}`);
