@@ -42,18 +42,20 @@ constexpr int most_crossings = 200;
 // Chosen on triceratops, mpi_triang, man, anchor, skull and boot at 5,000 quads, which have 8, 32, 12, 1, 2 and 72
 // turned corners before.
 
-// Corners count as unfolded from this sine on. With half and double, boot keeps 2 turned corners instead of 0.
+// Of all six, 2 corners stay turned over, and 102 quads run through others.
+
+// Corners count as unfolded from this sine on. Larger moves more vertices. With half and double the turned corners are
+// the same, and 106 and 101 quads run through others.
 constexpr double unfold_margin = 0.1;
-// It bounds the time. Half and double give the same meshes.
+// It bounds the time. Half and double give the same figures.
 constexpr std::int32_t unfold_rounds = 20;
 // A vertex tries places this far away, in edge lengths, then half as far, down to the least. Longer steps unfold more
-// and make more quads run through others: turned corners and such quads of all six are 2 and 102; with double 1 and 109,
-// with four times 2 and 150.
+// and make more quads run through others: half 2 and 99, double 1 and 109, four times 2 and 150.
 constexpr double unfold_reach = 0.2;
-// Half and double give the same meshes.
+// Half gives 2 and 101, double the same.
 constexpr double unfold_least = 0.02;
 // How often vertices near places that lie too far go back, each time a ring more; then all do. Half and double give the
-// same meshes.
+// same figures.
 constexpr std::int32_t unfold_returns = 4;
 
 // --- quad_distance.cpp ---
