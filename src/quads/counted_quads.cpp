@@ -36,6 +36,19 @@ double area_of(const FluxSurface& surface, std::int32_t t) {
   return 0.5 *
          norm(cross(surface.position[surface.tail[3 * t + 1]] - a, surface.position[surface.tail[3 * t + 2]] - a));
 }
+
+// The quads of `a` in the components with first[component], and those of `b` in the others.
+QuadComplex joined(const QuadComplex& a, const Table<std::int32_t>& component_a, const Table<std::uint8_t>& first,
+                   const QuadComplex& b, const Table<std::int32_t>& component_b, Memory& memory) {
+  QuadComplex all(memory);
+  Table<std::uint8_t> take(memory);
+  for (const std::int32_t c : component_a) take.push_back(first[c]);
+  all.append(a, take, memory);
+  take.clear();
+  for (const std::int32_t c : component_b) take.push_back(!first[c]);
+  all.append(b, take, memory);
+  return all;
+}
 }  // namespace
 
 double area_of(const FluxSurface& surface) {
@@ -64,16 +77,39 @@ QuadSource::QuadSource(const FluxSurface& surface, GridMapper& mapper, const Tab
   }
 }
 
-QuadComplex QuadSource::make(double length, FieldQuadReport& report) {
-  const GridMap map = mapper_.make(length);
-  report.turned_over = map.turned_over, report.roundings = map.roundings;
-  report.backward = 0, report.substitutes = 0, ++report.tries;
-  QuadComplex found = extract_quads(surface_, map, features_, report.backward, memory_);
+QuadSource::Found QuadSource::find_in_map(double length, bool untangled, FieldQuadReport& report) {
+  const GridMap map = mapper_.make(length, untangled);
+  Found out(memory_);
+  std::int32_t backward = 0;
+  out.quads = extract_quads(surface_, map, features_, backward, memory_);
   RepairReport repaired;
-  repair_quads(surface_, found, repaired, memory_);
+  repair_quads(surface_, out.quads, repaired, memory_);
+  out.component = components_of(surface_, out.quads, memory_);
+  out.sound = find_sound(surface_, out.quads, out.component, area_, memory_);
+  report.turned_over = map.turned_over, report.roundings = map.roundings, report.backward = backward;
   report.removed = repaired.removed, report.added = repaired.added;
-  const Table<std::int32_t> component = components_of(surface_, found, memory_);
-  const Table<std::uint8_t> sound = find_sound(surface_, found, component, area_, memory_);
+  return out;
+}
+
+QuadSource::Found QuadSource::find(double length, bool untangled, FieldQuadReport& report) {
+  ++report.tries;
+  Found found = find_in_map(length, untangled, report);
+  if (std::find(found.sound.begin(), found.sound.end(), 0) == found.sound.end()) return found;
+  // Lines that run to and fro in a fold can be the only ones around a thin part.
+  FieldQuadReport unused;
+  const Found other = find_in_map(length, !untangled, unused);
+  Table<std::uint8_t> keep(found.sound.size(), 0, memory_);
+  for (std::int32_t c = 0; c < keep.size(); ++c) keep[c] = found.sound[c] || !other.sound[c];
+  found.quads = joined(found.quads, found.component, keep, other.quads, other.component, memory_);
+  found.component = components_of(surface_, found.quads, memory_);
+  for (std::int32_t c = 0; c < keep.size(); ++c) found.sound[c] |= other.sound[c];
+  return found;
+}
+
+QuadComplex QuadSource::make(double length, bool untangled, FieldQuadReport& report) {
+  report.substitutes = 0;
+  Found found = find(length, untangled, report);
+  const Table<std::uint8_t>& sound = found.sound;
   Table<std::uint8_t> missing(sound.size(), 0, memory_), small(sound.size(), 0, memory_);
   for (std::int32_t c = 0; c < sound.size(); ++c)
     small[c] = !sound[c] && !of_substitute_[c] && !creased_[c] && area_[c] < few_quads * length * length;
@@ -84,37 +120,26 @@ QuadComplex QuadSource::make(double length, FieldQuadReport& report) {
     report.substitutes += !sound[c];
     missing[c] = !sound[c] && !of_substitute_[c], any |= missing[c] != 0;
   }
-  if (any) substitute(length, missing, report);
-  if (report.substitutes > 0) {
-    QuadComplex all(memory_);
-    Table<std::uint8_t> take(memory_);
-    for (const std::int32_t c : component) take.push_back(sound[c]);
-    all.append(found, take, memory_);
-    take.clear();
-    for (const std::int32_t c : components_of(surface_, substitute_, memory_)) take.push_back(!sound[c]);
-    all.append(substitute_, take, memory_);
-    found = std::move(all);
-  }
-  return found;
+  if (any) substitute(length, untangled, missing, report);
+  if (report.substitutes == 0) return std::move(found.quads);
+  return joined(found.quads, found.component, sound, substitute_, components_of(surface_, substitute_, memory_),
+                memory_);
 }
 
-void QuadSource::substitute(double length, Table<std::uint8_t>& missing, FieldQuadReport& report) {
+void QuadSource::substitute(double length, bool untangled, Table<std::uint8_t>& missing, FieldQuadReport& report) {
   const std::int32_t tries = mapper_.left_out() > 0 ? tries_without_lines : most_tries;
   for (std::int32_t i = 0; i < tries; ++i) {
-    length *= shorter, ++report.tries;
-    std::int32_t backward = 0;
-    QuadComplex found = extract_quads(surface_, mapper_.make(length), features_, backward, memory_);
-    RepairReport repaired;
-    repair_quads(surface_, found, repaired, memory_);
-    const Table<std::int32_t> component = components_of(surface_, found, memory_);
-    const Table<std::uint8_t> sound = find_sound(surface_, found, component, area_, memory_);
+    length *= shorter;
+    FieldQuadReport unused;
+    const Found found = find(length, untangled, unused);
+    ++report.tries;
     Table<std::uint8_t> take(memory_);
-    for (const std::int32_t c : component) take.push_back(missing[c] && sound[c]);
-    substitute_.append(found, take, memory_);
+    for (const std::int32_t c : found.component) take.push_back(missing[c] && found.sound[c]);
+    substitute_.append(found.quads, take, memory_);
     bool open = false;
     for (std::int32_t c = 0; c < missing.size(); ++c) {
-      of_substitute_[c] |= missing[c] && sound[c];
-      missing[c] = missing[c] && !sound[c], open |= missing[c] != 0;
+      of_substitute_[c] |= missing[c] && found.sound[c];
+      missing[c] = missing[c] && !found.sound[c], open |= missing[c] != 0;
     }
     if (!open) return;
   }
@@ -126,11 +151,11 @@ void QuadSource::substitute(double length, Table<std::uint8_t>& missing, FieldQu
   }
 }
 
-QuadMesh CountedQuads::make(FieldQuadReport& made) {
+QuadMesh CountedQuads::make(bool untangled, FieldQuadReport& made) {
   QuadComplex quads(memory_);
   double length = edge_length_, best = -1;
   for (std::int32_t round = 0; round < count_tries; ++round) {
-    QuadComplex found = source_.make(length, made);
+    QuadComplex found = source_.make(length, untangled, made);
     const double ratio = found.quad_count() / wanted_, error = miss_of(ratio);
     const bool better = best < 0 || error < best;
     if (better) best = error, quads = std::move(found), made.edge_length = length;
@@ -142,8 +167,8 @@ QuadMesh CountedQuads::make(FieldQuadReport& made) {
   return coarsened(quads, by_count_ || made.substitutes > 0, made);
 }
 
-QuadMesh CountedQuads::make_finer(double share, FieldQuadReport& made) {
-  QuadComplex quads = source_.make(share * length_, made);
+QuadMesh CountedQuads::make_again(double share, bool untangled, FieldQuadReport& made) {
+  QuadComplex quads = source_.make(share * length_, untangled, made);
   made.edge_length = share * length_;
   return coarsened(quads, true, made);
 }

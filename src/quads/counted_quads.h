@@ -17,13 +17,21 @@ class QuadSource {
   // once: make is called once if need be, so the map's factor may go before its end.
   QuadSource(const FluxSurface& surface, GridMapper& mapper, const Table<std::uint8_t>& features, bool once,
              Memory& memory);
-  // Returns valid quads.
-  QuadComplex make(double length, FieldQuadReport& report);
+  // Returns valid quads. untangled: which map is taken; components that have no valid quads there take the other one.
+  QuadComplex make(double length, bool untangled, FieldQuadReport& report);
   // Whether make can be called once more.
   bool is_open() const noexcept { return !released_; }
 
  private:
-  void substitute(double length, Table<std::uint8_t>& missing, FieldQuadReport& report);
+  struct Found {
+    explicit Found(Memory& memory) : quads(memory), component(memory), sound(memory) {}
+    QuadComplex quads;
+    Table<std::int32_t> component;  // by quad
+    Table<std::uint8_t> sound;      // by component: whether its quads have its Euler characteristic and area
+  };
+  Found find_in_map(double length, bool untangled, FieldQuadReport& report);
+  Found find(double length, bool untangled, FieldQuadReport& report);
+  void substitute(double length, bool untangled, Table<std::uint8_t>& missing, FieldQuadReport& report);
 
   const FluxSurface& surface_;
   GridMapper& mapper_;
@@ -49,9 +57,9 @@ class CountedQuads {
         by_count_(by_count),
         memory_(memory) {}
 
-  QuadMesh make(FieldQuadReport& made);
-  // Makes another of shorter edges, which has as many quads. share: of the edges of make.
-  QuadMesh make_finer(double share, FieldQuadReport& made);
+  QuadMesh make(bool untangled, FieldQuadReport& made);
+  // Makes another of edges that are `share` times as long, which has as many quads.
+  QuadMesh make_again(double share, bool untangled, FieldQuadReport& made);
 
  private:
   QuadMesh coarsened(QuadComplex& quads, bool limited, FieldQuadReport& made);

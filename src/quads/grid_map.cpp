@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "mesh/laplacian.h"
 #include "quads/numbers.h"
+#include "quads/untangle.h"
 
 namespace hf_inner {
 namespace {
@@ -180,7 +181,8 @@ GridMapper::GridMapper(const FluxSurface& surface, const FaceCross& crosses, con
       of_line_(memory),
       matrix_(memory),
       right_(&memory),
-      inverse_(&memory) {
+      inverse_(&memory),
+      made_(&memory) {
   number(features);
   assemble();
   FactorOptions options;
@@ -438,8 +440,12 @@ Vector<double> GridMapper::round(double edge_length, Vector<Index>* out_fixed, V
   return all;
 }
 
-GridMap GridMapper::make(double edge_length) {
-  const Vector<double> x = round(edge_length, nullptr, nullptr);
+GridMap GridMapper::make(double edge_length, bool untangled) {
+  if (made_.empty() || made_length_ != edge_length) {
+    made_.clear();
+    made_ = round(edge_length, nullptr, nullptr), made_length_ = edge_length;
+  }
+  const Vector<double>& x = made_;
   const std::int32_t n = surface_.vertex_count();
   // Returns the value of a real variable, and whether it is a whole number.
   const auto value_of = [&](std::int32_t variable, int part, bool& whole) {
@@ -467,6 +473,7 @@ GridMap GridMapper::make(double edge_length) {
   for (std::int32_t v = 0; v < surface_.first_apex; ++v) z[v] = read(v, &whole[2 * v]);
   Vector<Complex> offset(seams_.offsets.size(), &memory_);
   for (std::size_t i = 0; i < offset.size(); ++i) offset[i] = read(n + static_cast<std::int32_t>(i), nullptr);
+  if (untangled) untangle(surface_, crosses_, seams_, edge_length, offset, whole, z, memory_);
   double most = 1;
   const auto corner = [&](std::int32_t h) {
     const Complex turned = quarter_turned(z[surface_.tail[h]], seams_.unit[h]);
@@ -511,6 +518,7 @@ GridMap GridMapper::make(double edge_length) {
 void GridMapper::release() noexcept {
   system_.reset();
   Vector<double>(right_.get_allocator()).swap(right_), Vector<double>(inverse_.get_allocator()).swap(inverse_);
+  Vector<double>(made_.get_allocator()).swap(made_);
   matrix_ = SymmetricMatrix(memory_);
 }
 

@@ -33,7 +33,8 @@ class GridMapper {
              const Table<std::uint8_t>& features, Span<const Index> order, Memory& memory, JobRunner& jobs);
 
   // Throws HF_ERROR_UNSUPPORTED if a singularity cannot lie on the grid or the map is too large.
-  GridMap make(double edge_length);
+  // untangled: turns triangles back that are turned over (untangle.h).
+  GridMap make(double edge_length, bool untangled = true);
   // Frees the factor and what it was made of, most of the memory. make, round and system may not be called after it.
   void release() noexcept;
 
@@ -70,6 +71,8 @@ class GridMapper {
   Vector<double> right_;
   Vector<double> inverse_;  // of the matrix, at the unknowns that must be whole; empty until it is needed
   std::optional<DefiniteSystem> system_;
+  double made_length_ = 0;  // the edge length of made_, the unknowns of the last make
+  Vector<double> made_;
 };
 
 }  // namespace hf_inner

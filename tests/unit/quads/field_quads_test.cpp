@@ -11,6 +11,7 @@
 #include "assets/shapes.h"
 #include "base/error.h"
 #include "base/progress.h"
+#include "quads/untangle.h"
 #include "support/meshes.h"
 #include "support/quad_oracle.h"
 #include "unit/field/analysis_support.h"
@@ -162,6 +163,90 @@ TEST(FieldQuads, the_map_fits_at_every_seam) {
       if (!stages.seams.cut[h]) {
         ASSERT_EQ(at_tail, std::make_pair(std::int64_t{0}, std::int64_t{0})) << name;
       }
+    }
+  }
+}
+
+// How many triangles of a map are turned over or flat, without those that have two corners at one place.
+std::int32_t turned_over(const FluxSurface& surface, const GridMap& map) {
+  std::int32_t count = 0;
+  for (std::int32_t h = 0; h < 3 * surface.real_triangles; h += 3) {
+    const auto side = [&](std::int32_t a, std::int32_t b) {
+      return std::make_pair(map.u[b] - map.u[a], map.v[b] - map.v[a]);
+    };
+    const auto a = side(h, h + 1), b = side(h + 1, h + 2), c = side(h + 2, h);
+    const std::pair<std::int64_t, std::int64_t> same(0, 0);
+    count += a != same && b != same && c != same && a.first * b.second <= a.second * b.first;
+  }
+  return count;
+}
+
+TEST(FieldQuads, a_map_is_untangled_but_where_singularities_share_a_place) {
+  std::int32_t before = 0;
+  for (const auto& [name, core] : shapes()) {
+    const Stages stages(core);
+    GridMapper mapper = stages.mapper();
+    for (const double length : {0.02, 0.04, 0.08}) {
+      const GridMap folded = mapper.make(length, false), map = mapper.make(length);
+      const std::int32_t was = turned_over(stages.surface, folded), is = turned_over(stages.surface, map);
+      std::printf("%s at %.2f: %d turned over, then %d\n", name.c_str(), length, was, is);
+      before += was;
+      EXPECT_EQ(is, 0) << name << " at " << length;
+      if (folded.turned_over > 0) continue;
+      EXPECT_TRUE(std::equal(map.u.begin(), map.u.end(), folded.u.begin()));
+      EXPECT_TRUE(std::equal(map.v.begin(), map.v.end(), folded.v.begin()));
+    }
+  }
+  EXPECT_GT(before, 20);
+}
+
+TEST(FieldQuads, untangling_finds_back_a_plane_whose_inside_is_scrambled) {
+  const Stages stages(hf_test::make_core(hf_test::grid(14, 14)));
+  const FluxSurface& surface = stages.surface;
+  Memory& memory = *stages.core->memory;
+  const double length = 1.7 * norm(surface.position[surface.head(0)] - surface.position[surface.tail[0]]);
+  const Vec3 origin = surface.position[surface.tail[0]];
+  const Vec3 normal =
+      unit_vector(cross(surface.position[surface.tail[1]] - origin, surface.position[surface.tail[2]] - origin));
+  const Vec3 x = unit_vector(surface.position[surface.tail[1]] - origin), y = cross(normal, x);
+  for (const bool border : {true, false}) {
+    Table<Complex> z(surface.vertex_count(), Complex(0, 0), memory);
+    Table<std::uint8_t> whole(2 * surface.vertex_count(), 0, memory);
+    std::uint32_t seed = 7;
+    const auto draw = [&] { return (seed = 1664525 * seed + 1013904223) / 4294967296.0 - 0.5; };
+    for (std::int32_t v = 0; v < surface.first_apex; ++v) {
+      const Vec3 p = surface.position[v] - origin;
+      z[v] = Complex(dot(p, x), dot(p, y)) / length;
+      bool inside = true;
+      std::int32_t h = surface.out[v];
+      do {
+        inside &= surface.is_real(h);
+        h = surface.turn_left(h);
+      } while (h != surface.out[v]);
+      if (inside) {
+        z[v] += Complex(4 * draw(), 4 * draw());
+      } else if (border) {
+        whole[2 * v] = whole[2 * v + 1] = 1;
+      } else {
+        whole[2 * v + v % 2] = 1;  // one coordinate is free
+      }
+    }
+    const Table<Complex> given = z;
+    const auto count = [&] {
+      std::int32_t turned = 0;
+      for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
+        const Complex* p[3];
+        for (int k = 0; k < 3; ++k) p[k] = &z[surface.tail[3 * t + k]];
+        turned += (std::conj(*p[1] - *p[0]) * (*p[2] - *p[0])).imag() <= 0;
+      }
+      return turned;
+    };
+    EXPECT_GT(count(), 100);
+    untangle(surface, stages.faces, stages.seams, length, {}, whole, z, memory);
+    EXPECT_EQ(count(), 0);
+    for (std::int32_t v = 0; v < surface.first_apex; ++v) {
+      EXPECT_TRUE(!whole[2 * v] || z[v].real() == given[v].real());
+      EXPECT_TRUE(!whole[2 * v + 1] || z[v].imag() == given[v].imag());
     }
   }
 }
