@@ -5,6 +5,7 @@ import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSy
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { split } from './split.mjs';
 
 const out = process.argv[2];
 const here = dirname(fileURLToPath(import.meta.url));
@@ -55,7 +56,7 @@ writeFileSync(
   join(out, 'index.html'),
   readFileSync(join(here, 'index.html'), 'utf8').replace('/*STYLE*/', () => style.trim()),
 );
-copyFileSync(join(process.env.HF_WASM, 'hf.wasm'), join(out, 'hf.wasm'));
+await split(process.env.HF_WASM, out);
 // the decoder of Draco as three has it, as a module
 const draco = join(process.env.HF_MODULES, 'three/examples/jsm/libs/draco/gltf');
 mkdirSync(join(out, 'draco'), { recursive: true });

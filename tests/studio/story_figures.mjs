@@ -58,7 +58,9 @@ export default async function story(host) {
       ...new Set(
         seen
           .filter(({ protocol }) => protocol.startsWith('http'))
-          .map(({ pathname }) => (pathname === '/' ? 'index.html' : pathname.slice(1))),
+          .map(({ pathname }) => (pathname === '/' ? 'index.html' : pathname.slice(1)))
+          // asked for when the body can be pulled; the next check shows that nothing needs it before
+          .filter((name) => name !== 'rest.wasm'),
       ),
     ];
     const bytes = files.reduce((sum, name) => sum + brotliCompressSync(readFileSync(join(folder, name))).length, 0);
@@ -70,6 +72,40 @@ export default async function story(host) {
     );
     return `${(bytes / 1e6).toFixed(3)} MB, ${files.length} requests`;
   });
+  await check(
+    'poses and fields need no more of the library than hf.wasm; what a tool lacks it says, and gets',
+    async () => {
+      let blocked = true;
+      const studio = await Studio.open(host, {
+        before: (page) => page.route('**/rest.wasm', (route) => (blocked ? route.abort() : route.continue())),
+      });
+      const { page } = studio;
+      for (const name of ['bull', 'biped']) {
+        await page.evaluate((name) => window.hfStudio.openSample(name), name);
+        await studio.ready();
+        await poses(page, 3);
+      }
+      await studio.tool('field');
+      for (const i of [3, 40]) {
+        const spots = await studio.spots(16);
+        await page.mouse.click(...spots[Math.min(i, spots.length - 1)].slice(0, 2));
+        await studio.settle();
+      }
+      assert.equal((await page.evaluate(() => window.hfStudio.state.sites)).length, 2);
+      assert.equal(await studio.told(), '');
+      const ask = () =>
+        page.evaluate(() =>
+          window.hfStudio.client.ask('skin', { handles: window.hfStudio.state.handles }).then(
+            () => '',
+            ({ message }) => message,
+          ),
+        );
+      assert.match(await ask(), /could not be loaded. Try again/);
+      blocked = false;
+      assert.equal(await ask(), '');
+      await studio.close();
+    },
+  );
   await check("no request leaves the page's own host", async () => {
     const seen = new Set();
     const studio = await Studio.open(host, {
