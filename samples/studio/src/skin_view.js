@@ -229,7 +229,9 @@ export class Skin {
     this.ghost.visible = shown;
     this.view.draw();
   }
+  /** reached: null where every vertex is. */
   setField(values, reached) {
+    reached ??= new Float32Array(values.length).fill(1);
     if (this.lent) {
       Object.assign(this.lent, { field: values, reached });
       return;

@@ -9,6 +9,7 @@ import { poseOf } from './worker_pose.js';
 import { fieldOf } from './worker_field.js';
 import { awayOf, detailOf } from './worker_detail.js';
 import { inTwo } from './worker_parts.js';
+import { warm } from './worker_warm.js';
 import { weightsOf, quadsOf } from './worker_once.js';
 
 /** Larger bodies take the build with threads where the page is isolated: smaller ones do not wait for it. */
@@ -112,7 +113,7 @@ const tasks = {
     const begin = performance.now();
     const { values, reached, told } = body.field.solve(sites, at);
     told.milliseconds = performance.now() - begin;
-    return [{ values, reached, told }, [values.buffer, reached.buffer]];
+    return [{ values, reached, told }, [values.buffer, ...(reached ? [reached.buffer] : [])]];
   },
   extremities() {
     return [body.surface.findExtremities().map(({ vertex, position }) => ({ vertex, position })), []];
@@ -169,9 +170,10 @@ const tasks = {
     const { answer, buffers } = buildBvh(body.sourcePositions, body.sourceTriangles);
     return [answer, buffers];
   },
-  /** The rest of the library, before a tool needs it. Nothing waits for it. */
+  /** What a pull and a tool will need: code that is compiled well, and the rest of the library. Nothing waits for it. */
   rest() {
     built.rest?.().catch(() => {}); // the tool that needs it says so
+    warm(body.hf).catch(() => {}); // no room: the first pull is slower, and no more
     return [null, []];
   },
   memory() {
