@@ -57,6 +57,20 @@ writeFileSync(
   readFileSync(join(here, 'index.html'), 'utf8').replace('/*STYLE*/', () => style.trim()),
 );
 await split(process.env.HF_WASM, out);
+// what is bundled is under the MIT licence, which goes along
+const licences = [
+  'three',
+  'three-mesh-bvh',
+  '@gltf-transform/core',
+  '@gltf-transform/extensions',
+  'property-graph',
+  'ktx-parse',
+].map((name) => {
+  const file = readdirSync(join(process.env.HF_MODULES, name)).find((entry) => /^licen[cs]e/i.test(entry));
+  return `${name}\n\n${readFileSync(join(process.env.HF_MODULES, name, file), 'utf8')}`;
+});
+writeFileSync(join(out, 'licences.txt'), licences.join('\n\n'));
+
 // the decoder of Draco as three has it, as a module
 const draco = join(process.env.HF_MODULES, 'three/examples/jsm/libs/draco/gltf');
 mkdirSync(join(out, 'draco'), { recursive: true });

@@ -29,7 +29,7 @@ export function loopAround(studio, beside = false) {
     return null;
   }, beside);
 }
-async function lasso({ page }, path) {
+export async function lasso({ page }, path) {
   assert.ok(path, 'there is room for a loop');
   await page.mouse.move(...path[0]);
   await page.mouse.down();
