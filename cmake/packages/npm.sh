@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The npm packages: hf-fields with the WebAssembly inside, and one with the native library for each platform, which npm
 # picks by system and processor (optionalDependencies). HF_WASM_DIR: a folder that holds hf.mjs and hf.wasm already.
+# HF_STUDIO_DIR: a folder that samples/studio/run --build wrote already; npx hf-studio serves it.
 . "$(dirname "$0")/common.sh"
 js="$hf_root/bindings/js"
 
@@ -22,10 +23,20 @@ npm_wasm() {
   printf '%s' "$folder"
 }
 
+npm_studio() { # the page, of the WebAssembly in a folder
+  if [ -n "${HF_STUDIO_DIR:-}" ]; then
+    printf '%s' "$HF_STUDIO_DIR"
+    return
+  fi
+  HF_WASM=$1 "$hf_root/samples/studio/run" --yes --build "$hf_work/studio" >"$hf_work/studio.log" 2>&1 || { tail -5 "$hf_work/studio.log" >&2; hf_fail "the studio"; }
+  printf '%s' "$hf_work/studio"
+}
+
 npm_make() {
-  local out=$1 folder wasm platform system processor optional=()
+  local out=$1 folder wasm studio platform system processor optional=()
   command -v npm >/dev/null || hf_skip "no npm here"
   wasm=$(npm_wasm) || exit $?
+  studio=$(npm_studio "$wasm") || exit $?
   folder=$(mktemp -d) || exit 1
   for platform in $(hf_platforms); do
     read -r system processor < <(npm_platform "$platform")
@@ -50,6 +61,7 @@ PY
   mkdir -p "$folder/main/dist"
   cp -r "$js/src" "$js/bin" "$js/README.md" "$folder/main/"
   cp "$wasm/hf.mjs" "$wasm/hf.wasm" "$folder/main/dist/"
+  cp -r "$studio" "$folder/main/studio"
   chmod 755 "$folder"/main/bin/*
   hf_licences "$folder/main/licences" wasm
   hf_bom "$folder/main/bom.cdx.json" wasm "$folder/main"
@@ -65,7 +77,7 @@ PY
 }
 
 npm_try() {
-  local out=$1 scratch=$2 filled said=() specifier installed platform
+  local out=$1 scratch=$2 filled said=() specifier installed platform served link file
   for platform in $(hf_platforms); do
     mkdir -p "$scratch/$platform"
     tar xzf "$out/hf-fields-$(npm_platform "$platform" | tr ' ' -)-$hf_version.tgz" -C "$scratch/$platform"
@@ -86,13 +98,26 @@ PY
   }
   installed=$(cd "$scratch/node_modules" && ls -d hf-fields-* | paste -sd' ')
   [ "$installed" = hf-fields-linux-x64 ] || hf_fail "npm installed the libraries of: $installed"
+  # the page as npx hf-studio serves it
+  (cd "$scratch" && exec "${hf_clean_env[@]}" "$(command -v node)" node_modules/.bin/hf-studio) >"$scratch/studio.log" 2>&1 &
+  served=$!
+  for _ in $(seq 50); do
+    grep -q http "$scratch/studio.log" && break
+    sleep 0.1
+  done
+  link=$(grep -o 'http[^ ]*' "$scratch/studio.log")
+  for file in '' hf.wasm rest.wasm samples/horse.glb; do
+    [ "$("${hf_clean_env[@]}" "$(command -v node)" -e 'fetch(process.argv[1]).then((answer) => console.log(answer.status))' "$link$file")" = 200 ] || said+=("$file")
+  done
+  kill "$served"
+  [ "${#said[@]}" = 0 ] || hf_fail "npx hf-studio does not serve: ${said[*]}"
   cp "$hf_tests/golden_package.mjs" "$hf_tests/golden.mjs" "$scratch/"
   for specifier in hf-fields hf-fields/wasm; do
     said+=("$(cd "$scratch" && "${hf_clean_env[@]}" "$(command -v node)" --expose-gc golden_package.mjs "$specifier" "$hf_golden/meshes" "$filled" "$hf_golden/bad_input.json" 2>"$scratch/error.log" | tail -1)")
     [ "${PIPESTATUS[0]}" = 0 ] && [ ! -s "$scratch/error.log" ] || { head -10 "$scratch/error.log" >&2; hf_fail "golden scenes of $specifier: ${said[*]}"; }
     case "${said[-1]}" in *scenes*calls) ;; *) hf_fail "golden scenes of $specifier" ;; esac
   done
-  hf_ran "npm into an empty folder picks $installed of $(ls "$out"/hf-fields-*-*-*.tgz | wc -l); node: ${said[0]}; ${said[1]}"
+  hf_ran "npm into an empty folder picks $installed of $(ls "$out"/hf-fields-*-*-*.tgz | wc -l); node: ${said[0]}; ${said[1]}; npx hf-studio serves the page"
 }
 
 case "$1" in

@@ -5,6 +5,7 @@ import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSy
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { split } from './split.mjs';
 
 const out = process.argv[2];
 const here = dirname(fileURLToPath(import.meta.url));
@@ -55,7 +56,21 @@ writeFileSync(
   join(out, 'index.html'),
   readFileSync(join(here, 'index.html'), 'utf8').replace('/*STYLE*/', () => style.trim()),
 );
-copyFileSync(join(process.env.HF_WASM, 'hf.wasm'), join(out, 'hf.wasm'));
+await split(process.env.HF_WASM, out);
+// what is bundled is under the MIT licence, which goes along
+const licences = [
+  'three',
+  'three-mesh-bvh',
+  '@gltf-transform/core',
+  '@gltf-transform/extensions',
+  'property-graph',
+  'ktx-parse',
+].map((name) => {
+  const file = readdirSync(join(process.env.HF_MODULES, name)).find((entry) => /^licen[cs]e/i.test(entry));
+  return `${name}\n\n${readFileSync(join(process.env.HF_MODULES, name, file), 'utf8')}`;
+});
+writeFileSync(join(out, 'licences.txt'), licences.join('\n\n'));
+
 // the decoder of Draco as three has it, as a module
 const draco = join(process.env.HF_MODULES, 'three/examples/jsm/libs/draco/gltf');
 mkdirSync(join(out, 'draco'), { recursive: true });

@@ -76,12 +76,19 @@ export class Studio {
     this.complaints = complaints;
     this.kept = kept;
   }
-  /** A page of the studio. size: [width, height]; options go to the browser's context. */
+  /**
+   * A page of the studio. size: [width, height]; options go to the browser's context. Less motion is wished, so that samples
+   * stand still.
+   */
   static async open(
     { browser, address, kept },
-    { size = [1280, 800], query = 'fresh', wait = true, before = null, ...options } = {},
+    { size = [1280, 800], query = 'fresh', wait = true, before = null, reducedMotion = 'reduce', ...options } = {},
   ) {
-    const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, ...options });
+    const context = await browser.newContext({
+      viewport: { width: size[0], height: size[1] },
+      reducedMotion,
+      ...options,
+    });
     const page = await context.newPage();
     const complaints = [];
     page.on('pageerror', (error) => complaints.push(error.message));
@@ -112,6 +119,10 @@ export class Studio {
       await window.hfStudio.client.ask('memory');
     });
     await this.page.waitForTimeout(30);
+  }
+  /** Until the session is written. */
+  written() {
+    return this.page.waitForFunction(() => !window.hfStudio.session.busy);
   }
   /** Opens a file by the menu, until it can be pulled. Throws what the card says if it is refused. */
   async open(path, timeout = 180000) {

@@ -29,7 +29,7 @@ export function loopAround(studio, beside = false) {
     return null;
   }, beside);
 }
-async function lasso({ page }, path) {
+export async function lasso({ page }, path) {
   assert.ok(path, 'there is room for a loop');
   await page.mouse.move(...path[0]);
   await page.mouse.down();
@@ -70,6 +70,28 @@ export default async function story(host) {
     const facts = await studio.facts();
     assert.ok(Number(facts.vertices) > 10, `${JSON.stringify(facts)} ${await studio.told()}`);
     await studio.picture('detail_region');
+  });
+  await check('the curve of the region is drawn straight along the surface, through triangles', async () => {
+    const { off, within, seen } = await page.evaluate(() => {
+      const { skin, view, tools } = window.hfStudio;
+      const [curve] = tools.detail.curves;
+      const { array } = curve.geometry.getAttribute('position');
+      const [point, target] = [view.camera.position.clone(), {}];
+      let [off, within] = [0, 0];
+      for (let i = 0; i < array.length; i += 3) {
+        point.fromArray(array, i);
+        skin.bvh.closestPointToPoint(point, target);
+        off = Math.max(off, target.distance / view.size);
+        const corners = Array.from(skin.body.triangles.subarray(3 * target.faceIndex, 3 * target.faceIndex + 3));
+        const nearest = Math.min(
+          ...corners.map((v) => Math.hypot(...[0, 1, 2].map((k) => skin.positions[3 * v + k] - array[i + k]))),
+        );
+        if (nearest > 1e-4 * view.size) ++within;
+      }
+      return { off, within, seen: curve.visible };
+    });
+    assert.ok(seen && off < 1e-6 && within > 3, `${off} of the view off the body, ${within} corners beside vertices`);
+    return `${within} corners beside vertices`;
   });
   await check('the slider smooths it: the surface inside moves, outside it stays', async () => {
     const slider = page.locator('#amount');
@@ -152,6 +174,7 @@ export default async function story(host) {
     const far = await apart(studio, 'own');
     assert.ok(far > 1e-3, `the surface moved by ${far}`);
     assert.ok(outside > 0);
+    assert.ok(await page.evaluate(() => window.hfStudio.tools.detail.curves.every(({ visible }) => visible)));
     await studio.picture('detail_carried');
     return `the surface moved by ${(100 * far).toFixed(2)} % of the body`;
   });
@@ -191,6 +214,7 @@ export default async function story(host) {
   await check('another tool shows the body alone', async () => {
     await studio.tool('pose');
     assert.equal(await page.evaluate(() => window.hfStudio.tools.detail.source.skin.group.visible), false);
+    assert.ok(await page.evaluate(() => window.hfStudio.tools.detail.curves.every(({ visible }) => !visible)));
   });
   await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
   await studio.close();
@@ -206,7 +230,7 @@ export default async function story(host) {
     await lasso(second, await loopAround(second, true));
     await second.settle();
     const bits = await second.bits();
-    await second.page.waitForTimeout(800);
+    await second.written();
     await second.page.reload();
     await second.ready();
     await second.settle();

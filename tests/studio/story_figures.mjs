@@ -58,7 +58,9 @@ export default async function story(host) {
       ...new Set(
         seen
           .filter(({ protocol }) => protocol.startsWith('http'))
-          .map(({ pathname }) => (pathname === '/' ? 'index.html' : pathname.slice(1))),
+          .map(({ pathname }) => (pathname === '/' ? 'index.html' : pathname.slice(1)))
+          // asked for when the body can be pulled; the next check shows that nothing needs it before
+          .filter((name) => name !== 'rest.wasm'),
       ),
     ];
     const bytes = files.reduce((sum, name) => sum + brotliCompressSync(readFileSync(join(folder, name))).length, 0);
@@ -70,6 +72,40 @@ export default async function story(host) {
     );
     return `${(bytes / 1e6).toFixed(3)} MB, ${files.length} requests`;
   });
+  await check(
+    'poses and fields need no more of the library than hf.wasm; what a tool lacks it says, and gets',
+    async () => {
+      let blocked = true;
+      const studio = await Studio.open(host, {
+        before: (page) => page.route('**/rest.wasm', (route) => (blocked ? route.abort() : route.continue())),
+      });
+      const { page } = studio;
+      for (const name of ['bull', 'biped']) {
+        await page.evaluate((name) => window.hfStudio.openSample(name), name);
+        await studio.ready();
+        await poses(page, 3);
+      }
+      await studio.tool('field');
+      for (const i of [3, 40]) {
+        const spots = await studio.spots(16);
+        await page.mouse.click(...spots[Math.min(i, spots.length - 1)].slice(0, 2));
+        await studio.settle();
+      }
+      assert.equal((await page.evaluate(() => window.hfStudio.state.sites)).length, 2);
+      assert.equal(await studio.told(), '');
+      const ask = () =>
+        page.evaluate(() =>
+          window.hfStudio.client.ask('skin', { handles: window.hfStudio.state.handles }).then(
+            () => '',
+            ({ message }) => message,
+          ),
+        );
+      assert.match(await ask(), /could not be loaded. Try again/);
+      blocked = false;
+      assert.equal(await ask(), '');
+      await studio.close();
+    },
+  );
   await check("no request leaves the page's own host", async () => {
     const seen = new Set();
     const studio = await Studio.open(host, {
@@ -123,6 +159,40 @@ export default async function story(host) {
     await studio.close();
     assert.ok(time < 1500 * SLOW && perSecond > 60 / SLOW);
     return `open ${Math.round(time)} ms, a handle more ${Math.round(added)} ms, ${Math.round(perSecond)} poses a second, long tasks ${long.length}`;
+  });
+  await check('first calls take about as long as later ones', async () => {
+    const studio = await Studio.open(host);
+    await studio.page.waitForTimeout(2000); // the Worker warms up
+    const times = await studio.page.evaluate(async () => {
+      const { client, state, tools, body, view } = window.hfStudio;
+      const offer = tools.pose.offers.find(({ id }) => !state.handles.some((handle) => handle.id === id));
+      const corners = (triangle) => Array.from(body.triangles.subarray(3 * triangle, 3 * triangle + 3));
+      const found = { more: [], pose: [], field: [] };
+      for (let round = 0; round < 9; ++round) {
+        const shape = async (list, way) =>
+          (await client.ask('shape', { handles: list, detail: null, way })).told.milliseconds;
+        const pulled = (x) => [...state.handles, { ...offer, translation: [0, x * view.size, 0] }];
+        found.more.push(await shape(pulled(0.01), 'follow'));
+        found.pose.push(await shape(pulled(0.02), 'follow'));
+        await shape(state.handles, 'exact');
+        const sites = [0, 900].map((triangle, id) => ({
+          id,
+          corners: corners(triangle),
+          barycentrics: [1, 0, 0],
+          value: id,
+          soft: false,
+        }));
+        found.field.push((await client.ask('field', { sites, at: true })).told.milliseconds);
+      }
+      return found;
+    });
+    await studio.close();
+    const told = Object.entries(times).map(([name, [first, ...later]]) => {
+      const median = later.sort((a, b) => a - b)[later.length >> 1];
+      assert.ok(first < 1.5 * SLOW * median, `${name}: ${first} and then ${median} ms`);
+      return `${name} ${first.toFixed(1)} and ${median.toFixed(1)} ms`;
+    });
+    return told.join(', ');
   });
   const meshes = [
     ['meshes/armadillo_50k.obj', 50000],

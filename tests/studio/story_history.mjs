@@ -110,7 +110,7 @@ export default async function story(host) {
     const box = await other.page.locator('.mark.pulse').boundingBox();
     await other.drag(box.x + 22, box.y + 22, 40, -80);
     const state = await other.page.evaluate(() => JSON.stringify(window.hfStudio.state));
-    await other.page.waitForTimeout(800);
+    await other.written();
     await other.page.reload();
     await other.ready();
     await other.page.waitForFunction(() => window.hfStudio.state.handles.length > 4);

@@ -41,6 +41,39 @@ export default async function story(host) {
     await studio.picture('pose_pulled');
   });
   await check(
+    'around the pose stands the ghost of rest, and the chosen handle has a circle of its radius',
+    async () => {
+      const shown = () =>
+        page.evaluate(() => {
+          const { skin, body, state, tools } = window.hfStudio;
+          const { array } = skin.ghost.geometry.getAttribute('position');
+          const { circle } = tools.pose;
+          return {
+            ghost: skin.ghost.visible,
+            atRest: array.every((x, i) => x === body.positions[i]),
+            circle: circle.visible && circle.scale.x / state.handles.at(-1).radius,
+          };
+        });
+      assert.deepEqual(await shown(), { ghost: true, atRest: true, circle: 1 });
+      await page.click('#ghost');
+      assert.equal((await shown()).ghost, false);
+      await page.click('#ghost');
+      await page.click('#rest');
+      await studio.settle();
+      assert.equal((await shown()).ghost, false, 'a body at rest has no ghost');
+      await page.keyboard.press('Control+z');
+      await studio.settle();
+      assert.equal((await shown()).ghost, true);
+      await studio.tool('field');
+      const { ghost, circle } = await shown();
+      assert.deepEqual([ghost, circle], [false, false]);
+      await studio.tool('pose');
+      await page.evaluate(() => window.hfStudio.step('redo'));
+      await page.evaluate(() => window.hfStudio.step('undo'));
+      await studio.settle();
+    },
+  );
+  await check(
     'a drag ends at rest: the same handles from the start, and undone and done again, give the same body',
     async () => {
       const { exact, again } = await page.evaluate(async () => {
@@ -154,4 +187,50 @@ export default async function story(host) {
   );
   await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
   await studio.close();
+  await check('a sample opens moving, with one handle that says "pull me"; a pull ends that', async () => {
+    const other = await Studio.open(host, { reducedMotion: 'no-preference' });
+    const moving = () =>
+      other.page.evaluate(async () => {
+        const { skin } = window.hfStudio;
+        const before = skin.positions.slice();
+        await new Promise((done) => setTimeout(done, 300));
+        return skin.positions.some((x, i) => x !== before[i]);
+      });
+    assert.ok(await moving());
+    assert.deepEqual(
+      (await other.marks()).map(({ label }) => label.slice(0, 7)),
+      ['pull me'],
+    );
+    await other.picture('pose_moving', { kept: false });
+    const box = await other.page.locator('.mark.pulse').boundingBox();
+    await other.drag(box.x + 22, box.y + 22, 40, -100);
+    assert.ok((await shift(other)) > 0.05 && (await feetShift(other)) < 1e-4, await other.told());
+    assert.equal((await other.marks()).filter(({ classes }) => classes.includes('pinned')).length, 4);
+    assert.equal(await moving(), false);
+    assert.equal(await other.page.evaluate(() => window.hfStudio.history.past.length), 1);
+    // another sample moves too, and stands still for a key, a click on the body and another tool
+    for (const act of [
+      async () => {
+        await other.page.locator('.mark.pulse').focus();
+        await other.page.keyboard.press('ArrowUp');
+      },
+      async () => {
+        const spots = await other.spots();
+        await other.page.mouse.click(...spots[Math.floor(spots.length / 2)].slice(0, 2));
+      },
+      () => other.tool('field'),
+    ]) {
+      await other.page.selectOption('#sample', 'bull');
+      await other.page.waitForFunction(
+        () => window.hfStudio.timeline.greeting && window.hfStudio.skin.bvh && window.hfStudio.body.name === 'bull.glb',
+      );
+      await act();
+      await other.settle();
+      assert.equal(await moving(), false);
+      await other.page.selectOption('#sample', 'horse');
+      await other.page.waitForFunction(() => window.hfStudio.body.name === 'horse.glb');
+    }
+    assert.deepEqual(other.complaints, []);
+    await other.close();
+  });
 }

@@ -87,7 +87,7 @@ export class App {
       this.history.reset({ ...empty, handles: this.tools.pose.first() });
       const shaped = this.#apply(this.state, 'exact');
       (this.treeJob?.answer ?? this.client.ask('tree')).then(
-        (tree) => this.skin === skin && (skin.useTree(tree), this.refresh()),
+        (tree) => this.skin === skin && (skin.useTree(tree), this.refresh(), this.client.ask('rest')),
         () => {},
       );
       await shaped;
@@ -114,12 +114,14 @@ export class App {
       document.body.removeAttribute('aria-busy');
     }
   }
-  async openSample(name) {
+  /** moving: it plays its clip until someone acts, unless less motion is wished. */
+  async openSample(name, moving = true) {
     try {
       const answer = await fetch(`samples/${name}.glb`);
       if (!answer.ok)
         throw new ModelError(`The sample ${name} is not there (${answer.status}).`, 'Open a file of your own.');
       await this.open(new Uint8Array(await answer.arrayBuffer()), `${name}.glb`);
+      if (moving && this.body?.name === `${name}.glb`) this.timeline.greet();
     } catch (error) {
       this.failed(`${name} was not opened`, error);
     }
@@ -166,7 +168,7 @@ export class App {
   }
   /** A step. When the library refuses it, nothing has changed and its sentence is shown. */
   async commit(state, name, join = null, dragged = false) {
-    if (this.timeline.playing) this.timeline.pause();
+    if (!this.timeline.still() && this.timeline.playing) this.timeline.pause();
     state = this.timeline.keyed(state);
     this.live = null;
     const before = this.history.state;

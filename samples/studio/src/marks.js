@@ -83,6 +83,7 @@ export class Marks {
     element.onpointerdown = (event) => {
       if (event.button || from) return;
       event.stopPropagation();
+      this.app.timeline.still(); // what moves stands, and then it is pulled
       element.setPointerCapture(event.pointerId);
       from = { at: here(event), pointer: event.pointerId, dragging: false };
     };

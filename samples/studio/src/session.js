@@ -22,6 +22,7 @@ function store(mode, act) {
 
 export class Session {
   #timer = 0;
+  #writing = 0;
   #able = true; // false in windows that keep nothing, and while a session is read back
   constructor(app) {
     app.session = this;
@@ -44,15 +45,26 @@ export class Session {
   }
   changed(state) {
     clearTimeout(this.#timer);
+    this.#timer = 0;
     if (this.#able)
-      this.#timer = setTimeout(() => this.#try(() => store('readwrite', (kept) => kept.put(state, 'state'))), QUIET_MS);
+      this.#timer = setTimeout(() => {
+        this.#timer = 0;
+        this.#try(() => store('readwrite', (kept) => kept.put(state, 'state')));
+      }, QUIET_MS);
+  }
+  /** True while something is not written yet. */
+  get busy() {
+    return Boolean(this.#timer || this.#writing);
   }
   async #try(act) {
+    ++this.#writing;
     try {
       await act();
     } catch {
       // no room, or a window that keeps nothing: the studio works without
       this.#able = false;
+    } finally {
+      --this.#writing;
     }
   }
   /** Opens what was kept; false if there is nothing. */

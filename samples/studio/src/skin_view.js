@@ -1,6 +1,7 @@
 // A body on the screen: its own materials, or one overlay (field strips, colours of bones, a wash) over the same arrays.
 import * as THREE from 'three';
 import { readBvh } from './bvh.js';
+import { ghostOf } from './ghost.js';
 
 /** Colours of a field from its lowest to its highest value (linear light), and the strips between its lines. */
 export const ramp = [
@@ -35,6 +36,10 @@ function shadow(box) {
 const overlay = () =>
   new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
+    // lines along the surface lie before it
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
     uniforms: { mode: { value: 0 }, low: { value: 0 }, high: { value: 1 }, strips: { value: STRIPS } },
     vertexShader: `attribute float field; attribute float reached; attribute vec3 tint;
       varying float vField; varying float vReached; varying vec3 vTint; varying vec3 vNormal;
@@ -98,7 +103,8 @@ export class Skin {
     this.cover = new THREE.Mesh(this.whole, this.overlay);
     this.cover.frustumCulled = false;
     this.cover.visible = false;
-    this.group.add(shadow(this.box()), this.cover, ...this.parts);
+    this.ghost = ghostOf(body.positions, body.triangles);
+    this.group.add(shadow(this.box()), this.cover, ...this.parts, this.ghost);
     view.bodies.add(this.group);
   }
 
@@ -215,7 +221,17 @@ export class Skin {
     this.stale = true;
     this.#changed('position', 'normal');
   }
+  /** The body at rest around the posed one. normals: those at rest, once for a body. */
+  showGhost(shown, normals) {
+    if (shown && !this.ghost.geometry.hasAttribute('normal'))
+      this.ghost.geometry.setAttribute('normal', new THREE.BufferAttribute(normals, 3));
+    if (this.ghost.visible === shown) return;
+    this.ghost.visible = shown;
+    this.view.draw();
+  }
+  /** reached: null where every vertex is. */
   setField(values, reached) {
+    reached ??= new Float32Array(values.length).fill(1);
     if (this.lent) {
       Object.assign(this.lent, { field: values, reached });
       return;

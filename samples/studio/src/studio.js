@@ -6,6 +6,7 @@ import {
   DoubleSide,
   Line,
   LineBasicMaterial,
+  LineLoop,
   LineSegments,
   Matrix4,
   Mesh,
@@ -28,7 +29,8 @@ import { $, button, card, choice, facts, make, ms, say, slider, touched, whole }
 
 /** Tools that the first picture does not need. Their modules import nothing, so that each is one request: the kit has it all. */
 const kit = { $, button, choice, facts, make, middleOf, mirrorChoice, ms, say, slider, touched, whole };
-Object.assign(kit, { BufferAttribute, BufferGeometry, Color, DoubleSide, Line, LineBasicMaterial, LineSegments });
+Object.assign(kit, { BufferAttribute, BufferGeometry, Color, DoubleSide, Line, LineBasicMaterial, LineLoop });
+Object.assign(kit, { LineSegments });
 Object.assign(kit, { Gizmo, Matrix4, Mesh, MeshLambertMaterial, Quaternion, Vector3, worldsAt });
 Object.assign(kit, { bonesOf, influencesOf, readModel, skinnedGlb });
 Object.assign(kit, { normalGroups, normalSums, smoothNormals, lengthOf, localsOf, playedAt });
@@ -136,7 +138,7 @@ async function start() {
   const kept = app.session && !named && !settings && (await app.session.restore());
   if (!kept) {
     app.pending = settings ? () => link.takeSettings(app, settings) : null;
-    app.openSample(named ?? samples[0]);
+    app.openSample(named ?? samples[0], !settings);
   }
   if ('serviceWorker' in navigator && !params.has('fresh')) navigator.serviceWorker.register('keep.js').catch(() => {});
 }

@@ -218,7 +218,23 @@ export class Timeline {
     const dots = keys.map(({ time }) => make('i', { style: `--at: ${Math.min(1, time / this.length).toFixed(4)}` }));
     this.track.replaceChildren(this.scrub, ...dots);
   }
-  play() {
+  /** A sample shows how it moves, until someone acts. */
+  greet() {
+    if (this.clip && this.app.tool === this.app.tools.pose && !matchMedia('(prefers-reduced-motion: reduce)').matches)
+      this.play(true);
+  }
+  /** Ends the greeting: the body stands at rest. True when there was one. */
+  still() {
+    if (!this.greeting) return false;
+    this.stop();
+    return true;
+  }
+  get greeting() {
+    return this.playing && this.greets;
+  }
+  play(greets = false) {
+    this.greets = greets;
+    if (this.playing) return;
     this.playing = true;
     let last = performance.now();
     const step = (now) => {

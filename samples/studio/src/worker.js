@@ -8,6 +8,8 @@ import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { poseOf } from './worker_pose.js';
 import { fieldOf } from './worker_field.js';
 import { awayOf, detailOf } from './worker_detail.js';
+import { inTwo } from './worker_parts.js';
+import { warm } from './worker_warm.js';
 import { weightsOf, quadsOf } from './worker_once.js';
 
 /** Larger bodies take the build with threads where the page is isolated: smaller ones do not wait for it. */
@@ -15,17 +17,23 @@ const THREADED_VERTICES = 30000;
 /** More threads than these gain little, and each is a Worker. */
 const MOST_THREADS = 4;
 
-const built = {}; // 'plain' and 'threads': the library, once loaded
+const built = {}; // 'plain' and 'threads': the library, once loaded; 'rest' loads what the plain one lacks at first
 const memory = []; // bytes of the heap of each
 let body = null;
 
-async function make(createHf, wasm) {
+/** The library from a function that makes its module from the bytes of hf.wasm. */
+function make(create, wasmBinary) {
   const factory = async (options) => {
-    const module = await createHf(options);
+    const module = await create(options);
     memory.push(() => (module.wasmMemory ?? module.HEAPU8).buffer.byteLength);
     return module;
   };
-  return load({ factory, wasmBinary: await (await fetch(wasm)).arrayBuffer() });
+  return load({ factory, wasmBinary });
+}
+async function makePlain() {
+  const parts = await inTwo(self.location);
+  built.rest = parts.rest;
+  return make(() => parts.make(createHf), true);
 }
 
 /** The library for a body, and the threads that a surface of it may take. */
@@ -34,13 +42,14 @@ async function ready(vertexCount) {
   if (HF_THREADS && self.crossOriginIsolated && threadCount > 1 && vertexCount > THREADED_VERTICES) {
     try {
       const at = (name) => new URL(`threads/${name}`, self.location);
-      built.threads ??= await make((await import(at('hf.js').href)).default, at('hf.wasm'));
+      const { default: create } = await import(at('hf.js').href);
+      built.threads ??= await make(create, await (await fetch(at('hf.wasm'))).arrayBuffer());
       return [built.threads, { threadCount }];
     } catch {
       // not there, or no room: one thread does the same
     }
   }
-  built.plain ??= await make(createHf, new URL('hf.wasm', self.location));
+  built.plain ??= await makePlain();
   return [built.plain, {}];
 }
 
@@ -104,7 +113,7 @@ const tasks = {
     const begin = performance.now();
     const { values, reached, told } = body.field.solve(sites, at);
     told.milliseconds = performance.now() - begin;
-    return [{ values, reached, told }, [values.buffer, reached.buffer]];
+    return [{ values, reached, told }, [values.buffer, ...(reached ? [reached.buffer] : [])]];
   },
   extremities() {
     return [body.surface.findExtremities().map(({ vertex, position }) => ({ vertex, position })), []];
@@ -123,6 +132,7 @@ const tasks = {
   /** Quads run in a Worker of their own (client.js): it opens the same body from the saved factor. */
   async quadsOpen({ positions, triangles, factor }) {
     const [hf, threads] = await ready(positions.length / 3);
+    await built.rest?.();
     body = { hf, surface: new hf.Surface(positions, triangles, { savedFactor: factor, linkPieces: true, ...threads }) };
     return [null, []];
   },
@@ -160,6 +170,12 @@ const tasks = {
     const { answer, buffers } = buildBvh(body.sourcePositions, body.sourceTriangles);
     return [answer, buffers];
   },
+  /** What a pull and a tool will need: code that is compiled well, and the rest of the library. Nothing waits for it. */
+  rest() {
+    built.rest?.().catch(() => {}); // the tool that needs it says so
+    warm(body.hf).catch(() => {}); // no room: the first pull is slower, and no more
+    return [null, []];
+  },
   memory() {
     const heap = memory.reduce((sum, bytes) => sum + bytes(), 0);
     return [{ held: body?.surface.statistics.memoryBytes ?? 0, heap, threads: body?.threads.threadCount ?? 1 }, []];
@@ -172,11 +188,15 @@ function closeBody() {
   body = null;
 }
 
+/** What the first file of the library does; all other tasks wait for the rest of it. */
+const early = new Set(['read', 'open', 'tree', 'shape', 'grab', 'field', 'extremities', 'memory', 'rest', 'quadsOpen']);
+
 // Requests are answered in the order they came, also where one of them waits.
 let last = Promise.resolve();
 self.onmessage = ({ data: { id, task, args } }) => {
   last = last.then(async () => {
     try {
+      if (!early.has(task) || args?.detail) await built.rest?.();
       const [answer, buffers] = await tasks[task](args ?? {});
       self.postMessage({ id, answer }, buffers);
     } catch (error) {

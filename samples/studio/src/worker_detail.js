@@ -91,7 +91,10 @@ export function detailOf(body) {
       carried?.detail.close();
       carried = { detail, of };
     }
-    return { detail: carried.detail, source: { inside: taken.vertices(0), rim: taken.vertices(1) } };
+    return {
+      detail: carried.detail,
+      source: { inside: taken.vertices(0), rim: taken.vertices(1), curve: Float32Array.from(taken.curve()) },
+    };
   };
 
   return {
@@ -108,6 +111,7 @@ export function detailOf(body) {
       const region = target.at(detail, positions);
       const { vertexCount, rimCount, area } = region.info;
       const told = { vertexCount, rimCount, area, inside: region.vertices(0), rim: region.vertices(1) };
+      told.curve = Float32Array.from(region.curve());
       told.before = new Float32Array(3 * told.inside.length);
       told.inside.forEach((v, i) => told.before.set(positions.subarray(3 * v, 3 * v + 3), 3 * i));
       const { carry: wanted, weight } = detail;

@@ -66,7 +66,10 @@ export function fieldOf(body) {
   };
 
   return {
-    /** fresh: the bits do not depend on the sites that were there before. */
+    /**
+     * fresh: the bits do not depend on the sites that were there before. reached: 1 where a site reaches, null where all is
+     * reached.
+     */
     solve(sites, fresh) {
       if (fresh && solver) {
         solver.close();
@@ -76,9 +79,10 @@ export function fieldOf(body) {
       change(sites);
       const values = solver.solve();
       const told = solver.solveInfo;
+      if (!told.unreachedVertexCount) return { values, reached: null, told };
       const reached = new Float32Array(values.length);
-      const with_site = new Set(sites.map(({ corners }) => components[corners[0]]));
-      for (let v = 0; v < reached.length; ++v) reached[v] = with_site.has(components[v]) ? 1 : 0;
+      const withSite = new Set(sites.map(({ corners }) => components[corners[0]]));
+      for (let v = 0; v < reached.length; ++v) reached[v] = withSite.has(components[v]) ? 1 : 0;
       return { values, reached, told };
     },
     close: () => solver?.close(),

@@ -15,7 +15,7 @@ function shared(values, size, places) {
 
 /** `kit`: what the page has loaded already (studio.js). */
 export const tool = (kit) => {
-  const { BufferAttribute, BufferGeometry, Line, LineBasicMaterial, normalGroups, readModel } = kit;
+  const { BufferAttribute, BufferGeometry, Line, LineBasicMaterial, LineLoop, normalGroups, readModel } = kit;
   const { button, facts, make, ms, say, slider, whole } = kit;
   return class {
     static key = 'detail';
@@ -27,6 +27,15 @@ export const tool = (kit) => {
       this.line.frustumCulled = false;
       this.line.visible = false;
       app.view.extras.add(this.line);
+      // the curves of the region and of the one that gives its detail
+      this.curves = ['body', 'source'].map((side) => {
+        const curve = new LineLoop(new BufferGeometry(), new LineBasicMaterial({ color: 0x1c2733 }));
+        curve.frustumCulled = false;
+        curve.visible = false;
+        curve.side = side;
+        app.view.extras.add(curve);
+        return curve;
+      });
     }
     opened() {
       this.points = [];
@@ -54,6 +63,7 @@ export const tool = (kit) => {
     }
     leave() {
       this.line.visible = false;
+      for (const curve of this.curves) curve.visible = false;
       this.app.legend(null);
       this.app.skin.lend(null);
       if (!this.source) return;
@@ -72,6 +82,7 @@ export const tool = (kit) => {
         source.skin.setTint(shared(tint, 3, (source.places ??= normalGroups(source.body.positions, null))));
         source.skin.wear('tint');
       } else source?.skin.wear('own');
+      this.showCurves({ body: found?.curve, source: taken?.curve });
       if (!found || !this.mapped) app.legend(null);
       if (!found) {
         app.skin.lend(null);
@@ -81,6 +92,18 @@ export const tool = (kit) => {
       app.skin.lend(null);
       app.skin.setTint(shared(this.tinted(app.body.vertexCount, found), 3, app.timeline.places()));
       return app.skin.wear('tint');
+    }
+    /** The curves as the library joined them: straight along the surface. */
+    showCurves(found) {
+      for (const curve of this.curves) {
+        const points = found[curve.side];
+        curve.visible = Boolean(points?.length);
+        if (!points || curve.points === points) continue;
+        curve.points = points;
+        curve.geometry.dispose();
+        curve.geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(points, 3));
+        if (curve.side === 'source') curve.position.set(...this.source.offset);
+      }
     }
     tinted(vertexCount, { inside, rim }) {
       const tint = new Float32Array(3 * vertexCount).fill(REST);

@@ -1,6 +1,6 @@
 // Pose: handles are proposed; drag one, turn one by its rings or keys, pin one, add one by a click on the body. With a mirror
 // the twin of a handle on the other side does the same.
-import { Matrix3, Quaternion, Vector3 } from 'three';
+import { BufferGeometry, LineBasicMaterial, LineLoop, Matrix3, Quaternion, Vector3 } from 'three';
 import { button, facts, make, ms, say, slider, whole } from '../ui.js';
 import { Gizmo } from '../gizmo.js';
 import { Mirror, mirrorChoice } from '../mirror.js';
@@ -10,6 +10,8 @@ const reasons = ['foot', 'tip', 'end', 'joint', 'middle'];
 const [NUDGE, TURN_STEP] = [0.02, Math.PI / 18];
 /** Radius of a handle that a click makes, as part of the size of the body: of a leg's width on our own creatures. */
 const RADIUS = 0.035;
+/** Corners of the circle that shows a radius. */
+const POINTS = 72;
 
 const rest = { rotation: [0, 0, 0, 1], translation: [0, 0, 0] };
 
@@ -26,6 +28,20 @@ export class PoseTool {
     );
     this.radius = RADIUS;
     this.mirror = new Mirror(app);
+    this.ghost = true; // the body at rest is shown around the pose
+    // how far the chosen handle reaches
+    const round = Array.from({ length: POINTS }, (_, i) => (2 * Math.PI * i) / POINTS);
+    this.circle = new LineLoop(
+      new BufferGeometry().setFromPoints(round.map((angle) => new Vector3(Math.cos(angle), Math.sin(angle)))),
+      new LineBasicMaterial({ color: 0xe0781e, depthTest: false }),
+    );
+    this.circle.visible = false;
+    this.circle.renderOrder = 4;
+    app.view.extras.add(this.circle);
+    this.circle.onBeforeRender = (renderer, scene, camera) => {
+      this.circle.quaternion.copy(camera.quaternion);
+      this.circle.updateMatrixWorld();
+    };
   }
   opened() {
     this.mirror.opened();
@@ -56,12 +72,32 @@ export class PoseTool {
   enter() {
     this.app.skin.wear('own');
     this.app.timeline.arrive(this.app.state);
-    this.gizmo.show(this.present());
+    this.dress();
     this.mirror.show(true);
   }
   leave() {
     this.gizmo.show(null);
+    this.circle.visible = false;
+    this.app.skin.showGhost(false);
     this.mirror.show(false);
+  }
+  /** The rings and the reach of the chosen handle, and the ghost of rest. */
+  dress() {
+    const { app } = this;
+    const away = app.timeline.away();
+    this.gizmo.show(away ? null : this.present());
+    this.placeCircle();
+    app.skin.showGhost(this.ghost && !away && this.posed(), app.opened.normals);
+  }
+  placeCircle() {
+    const handle = this.app.tool === this && this.present();
+    this.circle.visible = Boolean(handle) && !this.app.timeline.away();
+    if (!this.circle.visible) return;
+    this.circle.position.set(...this.placeOf(handle));
+    this.circle.scale.setScalar(handle.radius);
+  }
+  shaped() {
+    this.dress();
   }
   get handles() {
     return this.app.state.handles;
@@ -83,13 +119,16 @@ export class PoseTool {
     return Math.abs(linear.determinant()) > 1e-9 ? new Vector3(...step).applyMatrix3(linear.invert()).toArray() : step;
   }
   marks() {
-    if (this.app.timeline.playing) return [];
+    const { greeting, playing } = this.app.timeline;
+    if (playing && !greeting) return [];
     const held = new Set(this.handles.map(({ id }) => id));
     const waiting = this.offers.filter(({ id }) => !held.has(id));
     const pull = this.pulled ? null : waiting[0]?.id;
     const twin = this.twin()?.id;
+    // a body that greets shows the one mark to pull
+    const [shown, offered] = greeting ? [[], waiting.slice(0, 1)] : [this.handles, waiting];
     return [
-      ...this.handles.map((handle) => ({
+      ...shown.map((handle) => ({
         id: handle.id,
         place: this.placeOf(handle),
         label: `${handle.label}${handle.pinned ? ', pinned' : ', handle'}`,
@@ -97,7 +136,7 @@ export class PoseTool {
         twin: handle.id === twin,
         pinned: handle.pinned,
       })),
-      ...waiting.map((offer) => ({
+      ...offered.map((offer) => ({
         id: offer.id,
         place: this.app.skin.at({ corners: [offer.vertex], barycentrics: [1] }),
         label: `${offer.label}, proposed`,
@@ -108,7 +147,7 @@ export class PoseTool {
     ];
   }
   refresh() {
-    this.gizmo.show(this.app.timeline.away() ? null : this.present());
+    this.dress();
     this.app.panel();
   }
   choose({ id }) {
@@ -181,6 +220,7 @@ export class PoseTool {
     return this.add(this.fresh({ position, radius: this.radius * this.app.view.size, vertex: hit.vertex }));
   }
   dragStart({ id }) {
+    this.app.timeline.still();
     const begin = this.handles.find((handle) => handle.id === id);
     const offer = begin ? null : this.offers.find((other) => other.id === id);
     this.pulled = true;
@@ -220,6 +260,7 @@ export class PoseTool {
     return this.app.commitPreview('move a handle');
   }
   key({ id }, event) {
+    if (event.key.startsWith('Arrow')) this.app.timeline.still();
     const handle = this.handles.find((other) => other.id === id);
     const { view } = this.app;
     const step = NUDGE * view.size * (event.shiftKey ? 0.25 : 1);
@@ -341,6 +382,19 @@ export class PoseTool {
           () =>
             app.commit({ ...app.state, handles: this.handles.map((other) => ({ ...other, ...rest })) }, 'rest pose'),
           { id: 'rest', disabled: !moved },
+        ),
+        button(
+          'Ghost',
+          () => {
+            this.ghost = !this.ghost;
+            app.refresh();
+          },
+          {
+            id: 'ghost',
+            'aria-pressed': String(this.ghost),
+            disabled: !moved,
+            title: 'Shows the body at rest around the pose',
+          },
         ),
       ),
       mirrorChoice(this.mirror.axis, (axis) => {
