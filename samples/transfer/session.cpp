@@ -52,10 +52,12 @@ double lowest_of(const Region& region, const std::vector<double>& xyz, const glm
   return low;
 }
 
-double lowest_of(const std::vector<double>& xyz, const glm::dvec3& up) {
+// sinking: empty, or 1 for vertices that do not count.
+double lowest_of(const std::vector<double>& xyz, const glm::dvec3& up, const std::vector<uint8_t>& sinking = {}) {
   double low = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < xyz.size(); i += 3)
-    low = std::min(low, glm::dot(up, glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2])));
+    if (sinking.empty() || !sinking[i / 3])
+      low = std::min(low, glm::dot(up, glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2])));
   return low;
 }
 
@@ -198,6 +200,8 @@ void Session::prepare() {
   check(hf_transfer_get_info(transfer_, &info), "the transfer");
   prepare_ms_ = milliseconds_since(start);
   scale_ = info.scale;
+  sinking_.resize(target_flat_.vertex_count());
+  check(hf_transfer_get_sinking(transfer_, sinking_.data()), "the parts that sink");
 }
 
 void Session::apply(const std::vector<double>& posed, std::vector<double>& out) {
@@ -385,8 +389,8 @@ FootReport Session::feet_of(const PlayedClip& played) const {
   for (size_t f = 0; f < played.source_frames.size(); ++f) {
     const double allowed =
         ground + scale_ * std::min(0.0, lowest_of(played.source_frames[f], file_.source_axes.up) - source_ground);
-    feet.surface_sunk =
-        std::max(feet.surface_sunk, (allowed - lowest_of(played.target_frames[f], file_.target_axes.up)) / box);
+    feet.surface_sunk = std::max(feet.surface_sunk,
+                                 (allowed - lowest_of(played.target_frames[f], file_.target_axes.up, sinking_)) / box);
   }
   return feet;
 }

@@ -32,7 +32,8 @@ struct PairReport {
 struct FootReport {
   double path_mean = 0, path_max = 0;  // from the scaled path of the source's foot
   double sunk = 0;                     // deeper under the rest ground than the source's foot, scaled
-  // along the ground over the frames in which the source's foot stands; and how deep any vertex of the surface sinks
+  // along the ground over the frames in which the source's foot stands; and how deep a vertex of the surface sinks
+  // that may not
   double planted_mean = 0, planted_max = 0, surface_sunk = 0;
   size_t planted = 0;
 };
@@ -99,6 +100,8 @@ class Session {
   std::vector<PairReport> pairs();
   std::vector<std::string> warnings();
   double scale() const { return scale_; }
+  // By flat vertex of the target: 1 if it may sink into the ground.
+  const std::vector<uint8_t>& sinking() const { return sinking_; }
   uint32_t cluster_count() const { return info().cluster_count; }
   bool stretches() const { return file_.settings.stretch; }  // no skin, no ground, no dials
 
@@ -140,6 +143,7 @@ class Session {
   std::unique_ptr<FlatSurface> source_surface_, target_surface_;
   hf_transfer transfer_ = nullptr;
   std::vector<Live> live_;
+  std::vector<uint8_t> sinking_;
   bool in_place_ = false;
   bool ground_ = true;
   double scale_ = 1, setup_ms_ = 0, prepare_ms_ = 0, edit_ms_ = 0;
