@@ -362,6 +362,8 @@ FootReport Session::feet_of(const PlayedClip& played) const {
   for (const Live& live : live_) {
     if (!live.entry.foot) continue;
     const Region source = without_copies(live.source, source_flat_), target = without_copies(live.target, target_flat_);
+    bool stood = false;
+    glm::dvec3 began(0);
     for (size_t f = 0; f < played.source_frames.size(); ++f) {
       glm::dvec3 path =
           scale_ * (to_target * (centre_of(source, played.source_frames[f]) - centre_of(source, source_rest)));
@@ -369,12 +371,18 @@ FootReport Session::feet_of(const PlayedClip& played) const {
       path = rise + file_.dials.stride * (path - rise);
       const glm::dvec3 off = centre_of(target, played.target_frames[f]) - centre_of(target, target_rest) - path;
       const double miss = glm::length(off) / box;
-      // along the ground: what would be seen as sliding; a lift keeps a turned foot from sinking
-      const double slide = glm::length(off - glm::dot(off, file_.target_axes.up) * file_.target_axes.up) / box;
+      // along the ground, from where the foot began to stand: what would be seen as sliding
+      const glm::dvec3 along = off - glm::dot(off, file_.target_axes.up) * file_.target_axes.up;
       feet.path_mean += miss, feet.path_max = std::max(feet.path_max, miss), ++count;
       const double ground = lowest_of(source_rest, file_.source_axes.up);
-      if (scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < 0.01 * box)
+      const bool stands =
+          scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < 0.01 * box;
+      if (stands && !stood) began = along;
+      stood = stands;
+      if (stands) {
+        const double slide = glm::length(along - began) / box;
         feet.planted_mean += slide, feet.planted_max = std::max(feet.planted_max, slide), ++feet.planted;
+      }
       const double from = scale_ * std::min(0.0, lowest_of(source, played.source_frames[f], file_.source_axes.up) -
                                                      lowest_of(source, source_rest, file_.source_axes.up));
       const double to = lowest_of(target, played.target_frames[f], file_.target_axes.up) -

@@ -32,8 +32,8 @@ struct PairReport {
 struct FootReport {
   double path_mean = 0, path_max = 0;  // from the scaled path of the source's foot
   double sunk = 0;                     // deeper under the rest ground than the source's foot, scaled
-  // along the ground over the frames in which the source's foot stands; and how deep a vertex of the surface sinks
-  // that may not
+  // along the ground while the source's foot stands, from where it began to stand, beside its scaled path; and how deep
+  // a vertex of the surface sinks that may not
   double planted_mean = 0, planted_max = 0, surface_sunk = 0;
   size_t planted = 0;
 };
