@@ -275,6 +275,7 @@ int transfer(TransferCommand command, nlohmann::json& json) {
   Model source = rested(read_model(command.source), command.source_rest, "--source-rest");
   const Model target = rested(read_model(command.target), command.target_rest, "--target-rest");
   bar.end();
+  if (!has_surface(target)) throw std::runtime_error(target.name + " has no surface: TARGET needs one");
   if (!has_surface(source) && command.clips.empty()) {
     json = put_clips(source, target, command);
     if (!command.json.empty()) write_json(command.json, json);
