@@ -63,8 +63,9 @@ double lowest_of(const std::vector<double>& xyz, const glm::dvec3& up, const std
 
 }  // namespace
 
-void take_travel(const std::vector<double>& times, const glm::dvec3& up, std::vector<std::vector<double>>& poses) {
-  if (poses.size() < 2 || !(times.back() > times.front())) return;
+glm::dvec3 take_travel(const std::vector<double>& times, const glm::dvec3& up,
+                       std::vector<std::vector<double>>& poses) {
+  if (poses.size() < 2 || !(times.back() > times.front())) return glm::dvec3(0);
   const auto mean = [](const std::vector<double>& xyz) {
     glm::dvec3 sum(0);
     for (size_t i = 0; i < xyz.size(); i += 3) sum += glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2]);
@@ -76,6 +77,7 @@ void take_travel(const std::vector<double>& times, const glm::dvec3& up, std::ve
     const glm::dvec3 part = (times[f] - times.front()) / (times.back() - times.front()) * travel;
     for (size_t i = 0; i < poses[f].size(); ++i) poses[f][i] -= part[static_cast<int>(i % 3)];
   }
+  return travel;
 }
 
 Session::Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, bool links,
@@ -317,7 +319,12 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
                          std::vector<std::vector<double>> poses, ProgressBar& bar) {
   PlayedClip out;
   out.clip.name = name;
-  if (in_place_) take_travel(times, file_.source_axes.up, poses);
+  if (in_place_) {
+    const glm::dmat3 source(file_.source_axes.right, file_.source_axes.up, file_.source_axes.forward),
+        target(file_.target_axes.right, file_.target_axes.up, file_.target_axes.forward);
+    const glm::dvec3 travel = take_travel(times, file_.source_axes.up, poses);
+    out.travel = file_.dials.stride * scale_ * (target * glm::transpose(source) * travel);
+  }
   const uint32_t joints = stretches() ? 0 : cluster_count();
   std::vector<double> pivots(3 * joints), rotations(4 * joints), places(3 * joints), target;
   hf_skin_info info = HF_INIT(hf_skin_info);

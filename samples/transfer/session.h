@@ -42,8 +42,9 @@ struct PlayedClip {
   SkinClip clip;                                                  // without rotations and translations in mode stretch
   std::vector<std::vector<double>> source_frames, target_frames;  // xyz of the flat vertices, one per time
   FootReport feet;
-  double frame_ms = 0;  // per frame, inside the library
-  double gap = 0;       // largest between linked pieces, in box diagonals
+  double frame_ms = 0;         // per frame, inside the library
+  double gap = 0;              // largest between linked pieces, in box diagonals
+  glm::dvec3 travel{0, 0, 0};  // of the target, that was taken out
 };
 
 // How the region of a pair moves over a clip, beside the body as a whole: root mean square in boxes of the target, and
@@ -54,8 +55,9 @@ struct LimbMotion {
 };
 
 // Takes the straight travel along the ground out of posed copies of a surface, x y z of every vertex: the mean of the
-// vertices ends over the place where it began. Sway and steps stay. up: a unit vector; times: one for each pose.
-void take_travel(const std::vector<double>& times, const glm::dvec3& up, std::vector<std::vector<double>>& poses);
+// vertices ends over the place where it began. Sway and steps stay. Returns the travel. up: a unit vector; times: one
+// for each pose.
+glm::dvec3 take_travel(const std::vector<double>& times, const glm::dvec3& up, std::vector<std::vector<double>>& poses);
 
 class Session {
  public:
