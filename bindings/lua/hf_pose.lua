@@ -134,6 +134,11 @@ function Transfer:set_dials(dials)
     set('stride hip_height neck_follow tail_follow arm_space'))))
 end
 function Transfer:dials() return query('hf_transfer_dials', C.hf_transfer_get_dials, self.raw) end
+function Transfer:sinking()
+  local out = ffi.new('uint8_t[?]', self.vertex_count)
+  check(C.hf_transfer_get_sinking(self.raw, out))
+  return out
+end
 function Transfer:apply(posed)
   local source = doubles(posed, 'posed', 3 * self.source_vertex_count)
   local out = ffi.new('double[?]', 3 * self.vertex_count)

@@ -960,6 +960,7 @@ hf_result hf_transfer_get_info(hf_transfer transfer, hf_transfer_info* out_info)
 hf_result hf_transfer_set_dials(hf_transfer transfer, const hf_transfer_dials* dials);
 hf_result hf_transfer_get_dials(hf_transfer transfer, hf_transfer_dials* out_dials);
 hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
+hf_result hf_transfer_get_sinking(hf_transfer transfer, uint8_t* out_sinking);
 hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* inout_skin);
 hf_result hf_weights_create(hf_surface surface, const hf_bones_desc* bones, uint32_t weight_count, hf_weights* out_weights);
 hf_result hf_weights_clone(hf_weights weights, hf_weights* out_weights);

@@ -822,6 +822,12 @@ class Transfer {
     check(hf_transfer_get_dials(get(), &out));
     return out;
   }
+  // 1 for every target vertex that may sink into the ground.
+  std::vector<uint8_t> sinking() const {
+    std::vector<uint8_t> out(target_vertices_);
+    check(hf_transfer_get_sinking(get(), out.data()));
+    return out;
+  }
   // Poses the target after one posed frame of the source. The positions are in the source's vertex order.
   std::vector<float> apply(const std::vector<float>& source_positions) {
     if (source_positions.size() != size_t{source_vertices_} * 3)

@@ -28,7 +28,7 @@ enum {
 };
 
 enum {
-  HF_GROUND_KEEP = 0, /* feet stand, and no part sinks deeper than the source's. The default */
+  HF_GROUND_KEEP = 0, /* feet stand, and no part sinks deeper than the source's, but for thin ones. The default */
   HF_GROUND_OFF = 1   /* there is no ground: for flying and swimming, or where the host has its own */
 };
 
@@ -40,7 +40,7 @@ enum {
   HF_PAIR_NO_ALIGNMENT = 8, /* keep the source's rotations as they are even if the rest limbs point elsewhere */
   HF_PAIR_CONTACT = 16,     /* comes as near to the ground as the source's region, scaled, while that is near it (a nose
                                that grazes, a hand that leans); elsewhere it is free */
-  HF_PAIR_SINKS = 32,       /* this limb may sink into the ground: a tail, a held weapon */
+  HF_PAIR_SINKS = 32,       /* this limb may sink into the ground, thick or thin (hf_transfer_get_sinking) */
   HF_PAIR_NECK = 64,        /* head, nose or ears: neck_follow of hf_transfer_dials turns the neck that they share */
   HF_PAIR_TAIL = 128,       /* part of the tail: tail_follow turns it */
   HF_PAIR_ARM = 256         /* a hand: arm_space turns the arms of each side */
@@ -52,7 +52,8 @@ typedef struct hf_transfer_desc {
   uint32_t struct_size;
   int32_t mode;           /* HF_TRANSFER_* */
   uint32_t cluster_count; /* 1 to 512; 0 = 80, or 5 for each pair if that is more */
-  float kernel_width;     /* width of a cluster, in field values, 0.005 to 0.5; 0 = 0.04 */
+  float kernel_width;     /* width of a cluster, in field values, 0.005 to 0.5; 0 = 0.04, or 0.004 for each pair if that
+                             is more, up to 0.12 */
   float scale; /* lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when
                   no pair is a foot */
   /* A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times the angle it is not
@@ -186,14 +187,21 @@ typedef struct hf_transfer_frame {
  *
  * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region follows the
  * path of the source's region). While a foot of the source stands on the ground, the target's foot follows its scaled
- * path exactly. No part of the target sinks deeper into the ground than the source, scaled, but for limbs flagged
- * HF_PAIR_SINKS. What would sink bends up. The ground does not move regions that you hold. A lying target rests on the
+ * path exactly. No part of the target sinks deeper into the ground than the source, scaled, but for those of
+ * hf_transfer_get_sinking. What would sink bends up. The ground does not move regions that you hold. A lying target rests on the
  * parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules of the ground come
  * in continuously. HF_GROUND_OFF switches them off. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE (index =
  * source vertex, or position in the holds), HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held twice),
  * HF_ERROR_TOO_LARGE (holds), HF_ERROR_UNSUPPORTED (holds with HF_TRANSFER_STRETCH). Thread safety: changes
  * `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
+
+/* Writes 1 for every target vertex that may sink into the ground, else 0: uint8_t[target vertex_count]. These are limbs
+ * flagged HF_PAIR_SINKS, tails (HF_PAIR_TAIL) where they are thin, and thin parts that no pair moves: antlers, ears, a
+ * held weapon. Thin is less than 4 % of the bounding box through. Legs (HF_PAIR_FOOT) never sink by themselves, nor does
+ * what is thin around an anchor, a contact or the trunk, but for loose pieces without a pair. The first call after a
+ * change of pairs solves fields. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
+HF_API hf_result hf_transfer_get_sinking(hf_transfer transfer, uint8_t* out_sinking);
 
 /* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With weight_count 4 the skin replays
  * hf_transfer_apply exactly, because that function also uses the four largest weights. Errors:

@@ -23,18 +23,22 @@ void add_bounds(const float* values, size_t count, size_t components, tinygltf::
 
 }  // namespace
 
-int AccessorWriter::add_view(const void* data, size_t size, int target) {
+void AccessorWriter::append(const void* data, size_t size) {
   if (size > max_buffer_bytes - 4 || bytes_.size() > max_buffer_bytes - 4 - size) {
     throw std::runtime_error(name_ + ": the model takes more than 2 GB and cannot be written as one glTF.");
   }
+  const auto* bytes = static_cast<const unsigned char*>(data);
+  bytes_.insert(bytes_.end(), bytes, bytes + size);
+}
+
+int AccessorWriter::add_view(const void* data, size_t size, int target) {
   bytes_.resize((bytes_.size() + 3) / 4 * 4, 0);
   tinygltf::BufferView view;
   view.buffer = 0;
   view.byteOffset = bytes_.size();
   view.byteLength = size;
   view.target = target;
-  const auto* bytes = static_cast<const unsigned char*>(data);
-  bytes_.insert(bytes_.end(), bytes, bytes + size);
+  append(data, size);
   out_.bufferViews.push_back(view);
   return static_cast<int>(out_.bufferViews.size()) - 1;
 }
@@ -49,6 +53,33 @@ int AccessorWriter::add_accessor(const void* data, size_t count, int type, int c
   accessor.componentType = component;
   if (bounds) add_bounds(static_cast<const float*>(data), count, static_cast<size_t>(components), accessor);
   out_.accessors.push_back(accessor);
+  return static_cast<int>(out_.accessors.size()) - 1;
+}
+
+tinygltf::Accessor AccessorWriter::keys(const void* data, size_t count, int type, int component) {
+  if (keys_ < 0) keys_ = add_view(nullptr, 0, 0);
+  tinygltf::BufferView& view = out_.bufferViews[static_cast<size_t>(keys_)];
+  tinygltf::Accessor out;
+  out.bufferView = keys_, out.byteOffset = view.byteLength;
+  out.count = count, out.type = type, out.componentType = component;
+  const size_t size = count * static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type)) *
+                                                  tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(component)));
+  append(data, size);
+  view.byteLength += size;
+  return out;
+}
+
+int AccessorWriter::add_keys(const float* values, size_t count, int type, bool bounds) {
+  tinygltf::Accessor accessor = keys(values, count, type, TINYGLTF_COMPONENT_TYPE_FLOAT);
+  const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type));
+  if (bounds) add_bounds(values, count, static_cast<size_t>(components), accessor);
+  out_.accessors.push_back(accessor);
+  return static_cast<int>(out_.accessors.size()) - 1;
+}
+
+int AccessorWriter::add_short_keys(const int16_t* values, size_t count, int type) {
+  out_.accessors.push_back(keys(values, count, type, TINYGLTF_COMPONENT_TYPE_SHORT));
+  out_.accessors.back().normalized = true;
   return static_cast<int>(out_.accessors.size()) - 1;
 }
 

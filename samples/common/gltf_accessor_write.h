@@ -20,6 +20,11 @@ class AccessorWriter {
   // Each returns the number of what it adds. Throws std::runtime_error if the buffer would pass 2 GB.
   int add_view(const void* data, size_t size, int target);
   int add_accessor(const void* data, size_t count, int type, int component, int target, bool bounds = false);
+  // Keys of a clip: accessors that share a view, since a view for each takes more bytes than short keys do.
+  // Nothing else may be added between them.
+  void begin_keys() { keys_ = -1; }
+  int add_keys(const float* values, size_t count, int type, bool bounds = false);
+  int add_short_keys(const int16_t* values, size_t count, int type);  // normalized
   int add_indices(const std::vector<uint32_t>& indices);
   // Displacements of a morph target: most move few vertices, so zeros are left out where that halves the bytes.
   int add_displacements(const std::vector<glm::vec3>& values, bool bounds = false);
@@ -34,7 +39,11 @@ class AccessorWriter {
   std::vector<unsigned char> bytes_;
 
  private:
+  void append(const void* data, size_t size);
+  tinygltf::Accessor keys(const void* data, size_t count, int type, int component);
+
   const std::string& name_;
+  int keys_ = -1;  // the view of the clip, or -1 before its first keys
 };
 
 }  // namespace samples

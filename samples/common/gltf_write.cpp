@@ -374,6 +374,7 @@ class Writer : AccessorWriter {
       tinygltf::Animation to;
       to.name = from.name;
       std::map<std::vector<float>, int> inputs;
+      begin_keys();
       for (const Channel& channel : from.channels) {
         const int node_mesh = model_.nodes[static_cast<size_t>(channel.node)].mesh;
         if (channel.path == Path::weights && (node_mesh < 0 || numbers_.meshes[static_cast<size_t>(node_mesh)] < 0))
@@ -381,8 +382,7 @@ class Writer : AccessorWriter {
         const auto known = inputs.find(channel.times);
         const int input = known != inputs.end()
                               ? known->second
-                              : add_accessor(channel.times.data(), channel.times.size(), TINYGLTF_TYPE_SCALAR,
-                                             TINYGLTF_COMPONENT_TYPE_FLOAT, 0, true);
+                              : add_keys(channel.times.data(), channel.times.size(), TINYGLTF_TYPE_SCALAR, true);
         inputs.emplace(channel.times, input);
         tinygltf::AnimationSampler sampler;
         sampler.input = input;
@@ -405,7 +405,10 @@ class Writer : AccessorWriter {
     const bool scalars = channel.path == Path::weights;
     const size_t width = scalars ? 1 : channel.width;
     const int type = scalars ? TINYGLTF_TYPE_SCALAR : width == 4 ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3;
-    return add_accessor(channel.values.data(), channel.values.size() / width, type, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
+    if (!channel.shorts) return add_keys(channel.values.data(), channel.values.size() / width, type);
+    std::vector<int16_t> values;
+    for (const float value : channel.values) values.push_back(static_cast<int16_t>(std::lround(value * 32767)));
+    return add_short_keys(values.data(), values.size() / width, type);
   }
 
   const Model& model_;

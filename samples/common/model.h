@@ -113,6 +113,7 @@ struct Channel {
   size_t width = 3;
   std::vector<float> times;
   std::vector<float> values;
+  bool shorts = false;  // a rotation whose values are multiples of 1 / 32767 and are written as such
 };
 
 struct Animation {

@@ -145,8 +145,12 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
     write_frames(output, mesh ? command.target.extension().string() : ".ply", rest, clips);
     written = clips;
   } else {
+    if (command.root_motion && report.written_as != "own-skin")
+      throw std::runtime_error("--root-motion needs the target's own skin (--as own-skin): others have no root");
+    Model own;
     if (report.written_as == "own-skin") {
-      write_gltf(own_skin_model(target, session, clips, box, command.key_tolerance, figures), output);
+      own = own_skin_model(target, session, clips, box, command.key_tolerance, figures);
+      write_gltf(own, output);
     } else if (report.written_as == "morph") {
       write_gltf(morph_model(target, session.target_flat(), clips, box, command.morph_tolerance, 64, figures), output);
     } else {
@@ -159,6 +163,10 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
       report.replay = measure_replay(read_gltf(output), clips, box);
     }
     written = written_clips(read_gltf(output), session, clips);
+    if (command.root_motion) {  // the figures are those of the body in its place
+      add_root_motion(own, clips);
+      write_gltf(own, output);
+    }
   }
   for (const PlayedClip& clip : written) {
     report.written_feet.push_back(clip.feet), report.gaps.push_back(clip.gap);
@@ -177,7 +185,7 @@ RunReport run(Session& session, const Model& source, const Model& target, const 
   const auto name = [&](const std::filesystem::path& file) { return edited ? edited_name(file) : file; };
   Contacts contacts;
   std::vector<PlayedClip> clips;
-  session.set_in_place(command.in_place);
+  session.set_in_place(command.in_place || command.root_motion);
   for (const Animation* animation : motion.clips) {
     const double rate = command.rate != 0 ? command.rate : clip_duration(*animation) < 1 ? 60 : 30;
     if (command.contacts.empty() || animation == motion.clips.front())
@@ -275,6 +283,7 @@ int transfer(TransferCommand command, nlohmann::json& json) {
   Model source = rested(read_model(command.source), command.source_rest, "--source-rest");
   const Model target = rested(read_model(command.target), command.target_rest, "--target-rest");
   bar.end();
+  if (!has_surface(target)) throw std::runtime_error(target.name + " has no surface: TARGET needs one");
   if (!has_surface(source) && command.clips.empty()) {
     json = put_clips(source, target, command);
     if (!command.json.empty()) write_json(command.json, json);

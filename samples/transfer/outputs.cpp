@@ -126,6 +126,42 @@ void reduce_clips(Model& model, const FlatMesh& mesh, size_t clips, double toler
   }
 }
 
+void add_root_motion(Model& model, const std::vector<PlayedClip>& clips) {
+  if (model.skins.empty()) throw std::runtime_error(model.name + " has no skin, so there is no root for its travel");
+  int root = model.skins.front().joints.front();
+  while (model.nodes[static_cast<size_t>(root)].parent >= 0) root = model.nodes[static_cast<size_t>(root)].parent;
+  Node& node = model.nodes[static_cast<size_t>(root)];
+  split_matrix(node);
+  for (size_t c = 0; c < clips.size(); ++c) {
+    const std::vector<double>& times = clips[c].clip.times;
+    if (!(glm::length(clips[c].travel) > 0)) continue;
+    std::vector<Channel>& channels = model.animations[c].channels;
+    const auto known = std::find_if(channels.begin(), channels.end(), [&](const Channel& channel) {
+      return channel.node == root && channel.path == Path::translation;
+    });
+    const bool is_new = known == channels.end();
+    const auto number = is_new ? 0 : static_cast<size_t>(known - channels.begin());
+    if (is_new) {
+      Channel channel;
+      channel.node = root;
+      channel.times = {static_cast<float>(times.front()), static_cast<float>(times.back())};
+      for (int k = 0; k < 2; ++k)
+        for (int i = 0; i < 3; ++i) channel.values.push_back(node.translation[i]);
+      channels.insert(channels.begin(), std::move(channel));
+    }
+    Channel& channel = channels[number];
+    if (channel.times.size() == 1) {  // it stood still
+      channel.times.push_back(static_cast<float>(times.back()));
+      for (int i = 0; i < 3; ++i) channel.values.push_back(channel.values[static_cast<size_t>(i)]);
+    }
+    for (size_t k = 0; k < channel.times.size(); ++k) {
+      const double share = (static_cast<double>(channel.times[k]) - times.front()) / (times.back() - times.front());
+      for (int i = 0; i < 3; ++i)
+        channel.values[3 * k + static_cast<size_t>(i)] += static_cast<float>(share * clips[c].travel[i]);
+    }
+  }
+}
+
 std::vector<PlayedClip> written_clips(const Model& written, const Session& session,
                                       const std::vector<PlayedClip>& clips) {
   const FlatMesh mesh = flatten(written);

@@ -26,6 +26,10 @@ bool has_skin(const Model& model);
 Model own_skin_model(const Model& target, const Session& session, const std::vector<PlayedClip>& clips, double box,
                      double key_tolerance, OutputFigures& figures);
 
+// Gives the travel that was taken out of the first clips to the topmost node over the target's joints, as two keys.
+// Throws std::runtime_error without a skin.
+void add_root_motion(Model& model, const std::vector<PlayedClip>& clips);
+
 // A written model's first clips, played: the source's frames, and what the model gives at the same times.
 std::vector<PlayedClip> written_clips(const Model& written, const Session& session,
                                       const std::vector<PlayedClip>& clips);

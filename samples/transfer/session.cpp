@@ -52,17 +52,20 @@ double lowest_of(const Region& region, const std::vector<double>& xyz, const glm
   return low;
 }
 
-double lowest_of(const std::vector<double>& xyz, const glm::dvec3& up) {
+// sinking: empty, or 1 for vertices that do not count.
+double lowest_of(const std::vector<double>& xyz, const glm::dvec3& up, const std::vector<uint8_t>& sinking = {}) {
   double low = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < xyz.size(); i += 3)
-    low = std::min(low, glm::dot(up, glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2])));
+    if (sinking.empty() || !sinking[i / 3])
+      low = std::min(low, glm::dot(up, glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2])));
   return low;
 }
 
 }  // namespace
 
-void take_travel(const std::vector<double>& times, const glm::dvec3& up, std::vector<std::vector<double>>& poses) {
-  if (poses.size() < 2 || !(times.back() > times.front())) return;
+glm::dvec3 take_travel(const std::vector<double>& times, const glm::dvec3& up,
+                       std::vector<std::vector<double>>& poses) {
+  if (poses.size() < 2 || !(times.back() > times.front())) return glm::dvec3(0);
   const auto mean = [](const std::vector<double>& xyz) {
     glm::dvec3 sum(0);
     for (size_t i = 0; i < xyz.size(); i += 3) sum += glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2]);
@@ -74,6 +77,7 @@ void take_travel(const std::vector<double>& times, const glm::dvec3& up, std::ve
     const glm::dvec3 part = (times[f] - times.front()) / (times.back() - times.front()) * travel;
     for (size_t i = 0; i < poses[f].size(); ++i) poses[f][i] -= part[static_cast<int>(i % 3)];
   }
+  return travel;
 }
 
 Session::Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, bool links,
@@ -198,6 +202,8 @@ void Session::prepare() {
   check(hf_transfer_get_info(transfer_, &info), "the transfer");
   prepare_ms_ = milliseconds_since(start);
   scale_ = info.scale;
+  sinking_.resize(target_flat_.vertex_count());
+  check(hf_transfer_get_sinking(transfer_, sinking_.data()), "the parts that sink");
 }
 
 void Session::apply(const std::vector<double>& posed, std::vector<double>& out) {
@@ -313,7 +319,12 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
                          std::vector<std::vector<double>> poses, ProgressBar& bar) {
   PlayedClip out;
   out.clip.name = name;
-  if (in_place_) take_travel(times, file_.source_axes.up, poses);
+  if (in_place_) {
+    const glm::dmat3 source(file_.source_axes.right, file_.source_axes.up, file_.source_axes.forward),
+        target(file_.target_axes.right, file_.target_axes.up, file_.target_axes.forward);
+    const glm::dvec3 travel = take_travel(times, file_.source_axes.up, poses);
+    out.travel = file_.dials.stride * scale_ * (target * glm::transpose(source) * travel);
+  }
   const uint32_t joints = stretches() ? 0 : cluster_count();
   std::vector<double> pivots(3 * joints), rotations(4 * joints), places(3 * joints), target;
   hf_skin_info info = HF_INIT(hf_skin_info);
@@ -358,6 +369,8 @@ FootReport Session::feet_of(const PlayedClip& played) const {
   for (const Live& live : live_) {
     if (!live.entry.foot) continue;
     const Region source = without_copies(live.source, source_flat_), target = without_copies(live.target, target_flat_);
+    bool stood = false;
+    glm::dvec3 began(0);
     for (size_t f = 0; f < played.source_frames.size(); ++f) {
       glm::dvec3 path =
           scale_ * (to_target * (centre_of(source, played.source_frames[f]) - centre_of(source, source_rest)));
@@ -365,12 +378,18 @@ FootReport Session::feet_of(const PlayedClip& played) const {
       path = rise + file_.dials.stride * (path - rise);
       const glm::dvec3 off = centre_of(target, played.target_frames[f]) - centre_of(target, target_rest) - path;
       const double miss = glm::length(off) / box;
-      // along the ground: what would be seen as sliding; a lift keeps a turned foot from sinking
-      const double slide = glm::length(off - glm::dot(off, file_.target_axes.up) * file_.target_axes.up) / box;
+      // along the ground, from where the foot began to stand: what would be seen as sliding
+      const glm::dvec3 along = off - glm::dot(off, file_.target_axes.up) * file_.target_axes.up;
       feet.path_mean += miss, feet.path_max = std::max(feet.path_max, miss), ++count;
       const double ground = lowest_of(source_rest, file_.source_axes.up);
-      if (scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < 0.01 * box)
+      const bool stands =
+          scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < 0.01 * box;
+      if (stands && !stood) began = along;
+      stood = stands;
+      if (stands) {
+        const double slide = glm::length(along - began) / box;
         feet.planted_mean += slide, feet.planted_max = std::max(feet.planted_max, slide), ++feet.planted;
+      }
       const double from = scale_ * std::min(0.0, lowest_of(source, played.source_frames[f], file_.source_axes.up) -
                                                      lowest_of(source, source_rest, file_.source_axes.up));
       const double to = lowest_of(target, played.target_frames[f], file_.target_axes.up) -
@@ -385,8 +404,8 @@ FootReport Session::feet_of(const PlayedClip& played) const {
   for (size_t f = 0; f < played.source_frames.size(); ++f) {
     const double allowed =
         ground + scale_ * std::min(0.0, lowest_of(played.source_frames[f], file_.source_axes.up) - source_ground);
-    feet.surface_sunk =
-        std::max(feet.surface_sunk, (allowed - lowest_of(played.target_frames[f], file_.target_axes.up)) / box);
+    feet.surface_sunk = std::max(feet.surface_sunk,
+                                 (allowed - lowest_of(played.target_frames[f], file_.target_axes.up, sinking_)) / box);
   }
   return feet;
 }

@@ -32,7 +32,8 @@ struct PairReport {
 struct FootReport {
   double path_mean = 0, path_max = 0;  // from the scaled path of the source's foot
   double sunk = 0;                     // deeper under the rest ground than the source's foot, scaled
-  // along the ground over the frames in which the source's foot stands; and how deep any vertex of the surface sinks
+  // along the ground while the source's foot stands, from where it began to stand, beside its scaled path; and how deep
+  // a vertex of the surface sinks that may not
   double planted_mean = 0, planted_max = 0, surface_sunk = 0;
   size_t planted = 0;
 };
@@ -41,8 +42,9 @@ struct PlayedClip {
   SkinClip clip;                                                  // without rotations and translations in mode stretch
   std::vector<std::vector<double>> source_frames, target_frames;  // xyz of the flat vertices, one per time
   FootReport feet;
-  double frame_ms = 0;  // per frame, inside the library
-  double gap = 0;       // largest between linked pieces, in box diagonals
+  double frame_ms = 0;         // per frame, inside the library
+  double gap = 0;              // largest between linked pieces, in box diagonals
+  glm::dvec3 travel{0, 0, 0};  // of the target, that was taken out
 };
 
 // How the region of a pair moves over a clip, beside the body as a whole: root mean square in boxes of the target, and
@@ -53,8 +55,9 @@ struct LimbMotion {
 };
 
 // Takes the straight travel along the ground out of posed copies of a surface, x y z of every vertex: the mean of the
-// vertices ends over the place where it began. Sway and steps stay. up: a unit vector; times: one for each pose.
-void take_travel(const std::vector<double>& times, const glm::dvec3& up, std::vector<std::vector<double>>& poses);
+// vertices ends over the place where it began. Sway and steps stay. Returns the travel. up: a unit vector; times: one
+// for each pose.
+glm::dvec3 take_travel(const std::vector<double>& times, const glm::dvec3& up, std::vector<std::vector<double>>& poses);
 
 class Session {
  public:
@@ -99,6 +102,8 @@ class Session {
   std::vector<PairReport> pairs();
   std::vector<std::string> warnings();
   double scale() const { return scale_; }
+  // By flat vertex of the target: 1 if it may sink into the ground.
+  const std::vector<uint8_t>& sinking() const { return sinking_; }
   uint32_t cluster_count() const { return info().cluster_count; }
   bool stretches() const { return file_.settings.stretch; }  // no skin, no ground, no dials
 
@@ -140,6 +145,7 @@ class Session {
   std::unique_ptr<FlatSurface> source_surface_, target_surface_;
   hf_transfer transfer_ = nullptr;
   std::vector<Live> live_;
+  std::vector<uint8_t> sinking_;
   bool in_place_ = false;
   bool ground_ = true;
   double scale_ = 1, setup_ms_ = 0, prepare_ms_ = 0, edit_ms_ = 0;

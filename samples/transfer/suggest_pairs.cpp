@@ -148,6 +148,11 @@ Suggestion suggest_pairs(const Model& source, const FlatMesh& source_mesh, const
     if (is_end && !same_build(from, to)) pair["align"] = pair["contact"] = false;
     // a tail that is carried low is no contact: drawn to the ground in a jump it whips
     if (a.name == "tail") pair["contact"] = false;
+    // an ear is thin all along; held above the ground it would lift the head
+    if (a.name.rfind("ear ", 0) == 0) pair["contact"] = false, pair["sinks"] = true;
+    // a fin points to the side and a leg down: each keeps its own direction
+    const auto is_fin = [](const std::string& name) { return name.rfind("fin ", 0) == 0; };
+    if (is_fin(a.name) != is_fin(other)) pair["align"] = false;
     if (a.name.find("hand") != std::string::npos || other.find("hand") != std::string::npos) pair["limb"] = "arm";
     const double confidence = std::min(a.confidence, b.confidence) * (same_kind ? 1 : 0.6);
     candidates.push_back({pair, {a.name, confidence, a.found, b.found}, a.place, b.place});

@@ -103,6 +103,8 @@ const char* usage() {
          "  --dials LIST    stride=1.2,hip_height=-0.1,neck_follow=1,tail_follow=-0.5,arm_space_degrees=10: see "
          "README.md\n"
          "  --in-place      the clip stays where it begins: its straight travel along the ground is taken out\n"
+         "  --root-motion   that travel goes to the topmost node over the target's joints, and the body stays in place "
+         "under it\n"
          "  --no-ground     no feet stand and nothing is kept above the ground\n"
          "  --source-rest CLIP@TIME, --target-rest CLIP@TIME  a pose of a clip, in seconds, is the rest pose\n"
          "  --up AXIS, --forward AXIS  for proposals: +y, -z, ...; --source-up, --target-up, --source-forward and\n"
@@ -195,6 +197,8 @@ TransferCommand parse_command(int count, char** arguments) {
       out.shapes = true;
     } else if (word == "--in-place") {
       out.in_place = true;
+    } else if (word == "--root-motion") {
+      out.root_motion = true;
     } else if (word == "--no-ground") {
       out.ground = false;
     } else if (word == "--source-rest") {

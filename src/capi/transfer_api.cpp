@@ -172,6 +172,21 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
   });
 }
 
+hf_result hf_transfer_get_sinking(hf_transfer handle, uint8_t* out_sinking) {
+  return guarded("hf_transfer_get_sinking", [&] {
+    const auto object = get<TransferObject>(handle, "transfer");
+    require(out_sinking, "out_sinking");
+    const Reading reading(*object);
+    const std::lock_guard<OwnedMutex> lock(object->preparing);
+    const std::uint8_t* sinking = object->transfer.sinking();
+    const Mesh& mesh = object->transfer.target().mesh;
+    for (std::size_t v = 0; v < mesh.inner_of_given.size(); ++v) {
+      const std::int32_t inner = mesh.inner_of_given[v];
+      out_sinking[v] = sinking && inner != Mesh::none ? sinking[inner] : 0;
+    }
+  });
+}
+
 hf_result hf_transfer_get_skin(hf_transfer handle, hf_skin_info* inout_skin) {
   return guarded("hf_transfer_get_skin", [&] {
     const auto object = get<TransferObject>(handle, "transfer");

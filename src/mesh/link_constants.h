@@ -25,6 +25,11 @@ constexpr double skin_distance = 0.02;
 // Pieces that touch but differ by more than this in their skin weights only link in the tree. Half:
 // entries 1.218. Double, so that all touching pieces link: false 4.1 %.
 constexpr double skin_difference = 0.5;
+// A link whose ends have equal skin weights is so much stronger; at skin_difference it is as strong as others. It was
+// chosen on a sample of 65 transfers to Man_Casual and Cyber (tests/bench/transfer_table.cpp, --sample 4): 51 open by
+// more than 0.5 % of the box and more than their source with 0, 19 at 300, 20 at 1,000, 22 at 3,000. Their largest gaps
+// are .107, .043, .043 and .034.
+constexpr double rigid_weight = 1000;
 // The depth of contacts between such pieces, which hinge: a narrow contact slides less. Half: false links 0.6 instead
 // of 1.1 %, gap .094 / .36. Double: false 1.6 %, entries 1.235, and 1.53 on the robot of 66 pieces.
 constexpr double hinge_depth = 0.005;

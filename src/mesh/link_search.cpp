@@ -327,8 +327,12 @@ void LinkSearch::add_link(const Contact& contact, bool in_tree) {
     if (share[k] > 0) link.share[k] = share[k] / sum, link.corner[k] = mesh_.triangle(contact.triangle)[k];
   }
   link.length = rest_length(link, mesh_);
-  // In sixteenths, so that a list read back has the same bits.
-  link.weight = std::max(1.0, std::round(16 * edge_length(link) / spring_edge) / 16);
+  double weight = std::max(1.0, edge_length(link) / spring_edge);
+  // What moves with the same joints is one body: it opens nowhere.
+  if (options_.skin.influence_count > 0)
+    weight *=
+        1 + rigid_weight * std::max(0.0, 1 - (contact.cost - contact.distance) / (skin_difference * skin_distance));
+  link.weight = std::round(16 * weight) / 16;  // so that a list read back has the same bits
   out_.links.push_back(link);
 }
 

@@ -34,6 +34,7 @@ constexpr std::int32_t clusters_per_pair = 5;
 // the error of a horse transferred to itself is 0.0080 (0.0090 now), and the edge stretch of a deer 0.45 (0.35 now). At
 // twice the value: that error is 0.0099, and feet end twice as far from their paths.
 constexpr double default_kernel_width = 0.04;
+constexpr double width_per_pair = 0.004, widest_default_kernel = 0.12;
 // A limb turns to the source's rest direction by a share that grows with the angle between the two directions. It is
 // half at this angle: less takes the target's own stance away, more leaves limbs that point elsewhere. On five runs
 // half raises the foot error of a wolf from 4e-5 to 5e-3. At twice the value a tail 85 degrees off no longer turns: it
@@ -294,6 +295,11 @@ constexpr double broad_prior = 1e-3;
 // At most this many vertices give the rotation of the whole body; this bounds its time. At half the value: vertices
 // move by up to 0.003 boxes.
 constexpr std::size_t most_sampled = 4096;
+
+// --- thin_parts.cpp ---
+
+constexpr double thin_width = 0.04;
+constexpr double idle_slope = 0.2;
 
 // --- transfer.cpp ---
 

@@ -111,10 +111,11 @@ void Slack::prepare(std::int32_t cluster_count, const Side& source, const Side& 
       pair.reach = norm(here);
       if (!(pair.reach > 0) || !(cosine > 0)) continue;
       pair.first = static_cast<std::int32_t>(c), pair.second = static_cast<std::int32_t>(d);
-      pair.factor = scale * likeness(far, scale * pair.reach) *
-                    likeness(from.mass[entry] / std::sqrt(from.own[c] * from.own[d]),
-                             to.mass[entry] / std::sqrt(to.own[c] * to.own[d])) *
-                    (cosine / (pair.reach * far)) * (cosine / (pair.reach * far));
+      const double alike = likeness(far, scale * pair.reach) *
+                           likeness(from.mass[entry] / std::sqrt(from.own[c] * from.own[d]),
+                                    to.mass[entry] / std::sqrt(to.own[c] * to.own[d])) *
+                           (cosine / (pair.reach * far)) * (cosine / (pair.reach * far));
+      pair.factor = scale * alike * alike;
       pair.overlap_point = pair.spread_point = (1 / from.mass[entry]) * from.sum[entry];
       // Where the edges of E_spread cancel, their centroid has no meaning.
       const double tie = -ties.matrix[entry];

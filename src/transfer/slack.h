@@ -14,7 +14,8 @@
 //
 // The factor k_cd is the scale where both bodies are alike around the overlap, as on a body that plays its own motion.
 // It is smaller where the overlaps are not alike: by their share of the clusters, by the distance of the clusters, and
-// by the direction from one to the other. Slides of parts that do not correspond would open kinks.
+// by the direction from one to the other. The product of these likenesses counts squared: slides of parts that do not
+// correspond open kinks, and pieces of the target.
 //
 // A slide is at most limit_cd = m |R_c - R_d| d_cd, softly, with the distance d_cd of the clusters: turns about another
 // point explain no more. So a rigid motion has no slide, and a source that is only stretched has none.

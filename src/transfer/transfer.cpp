@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "transfer/constants.h"
 #include "transfer/prepared.h"
+#include "transfer/thin_parts.h"
 
 namespace hf_inner {
 namespace {
@@ -81,7 +82,6 @@ Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Cor
       target_area_(area_shares(target_core_->mesh, *target_core_->memory)) {
   check_options(options);
   options_.source_rest = options_.target_rest = {};
-  if (options_.kernel_width == 0) options_.kernel_width = default_kernel_width;
   if (options_.alignment_angle == 0) options_.alignment_angle = default_alignment_angle;
 }
 
@@ -241,7 +241,32 @@ void Transfer::prepare_anchors(Prepared& p) const {
   }
 }
 
-// Finds the cluster of each source vertex, the lowest rest height of each cluster, and the vertices that may sink.
+// Finds the vertices that may sink: limbs that the caller names, thin tails, and thin parts that no pair moves. Feet
+// never do by themselves. Nor do thin parts around a region that stands or touches, such as fingers, but what a hand
+// holds does.
+void Transfer::find_sinking(Prepared& p) const {
+  const std::size_t width = numbers_.size(), n = at(target_core_->size());
+  const Geometry& geometry = target_factor_->geometry->unlinked();
+  Memory& memory = *target_core_->memory;
+  const Vector<std::uint8_t> thin = thin_vertices(geometry, memory, *target_core_->jobs),
+                             idle = idle_vertices(geometry, p.target_field.data(), width, memory);
+  Vector<std::uint8_t> reached(at(geometry.mesh.component_count()), std::uint8_t{0}, &memory);
+  for (const std::uint32_t number : numbers_)
+    for (const std::int32_t v : target_.region(number)) reached[at(geometry.mesh.component[at(v)])] = 1;
+  constexpr std::uint32_t leading = HF_PAIR_ANCHOR | HF_PAIR_TRUNK | HF_PAIR_CONTACT;
+  p.sinks.assign(n, std::uint8_t{0});
+  for (std::size_t v = 0; v < n; ++v) {
+    const double* row = p.target_field.data() + v * width;
+    const auto h = static_cast<std::size_t>(std::max_element(row, row + width) - row);
+    const std::uint32_t flags = flags_[numbers_[h]];
+    const bool around = row[h] > handle_share && reached[at(geometry.mesh.component[v])];
+    const bool leads = (flags & HF_PAIR_FOOT) || ((flags & leading) && around);
+    p.sinks[v] = (flags & HF_PAIR_SINKS) ||
+                 (thin[v] && !leads && (idle[v] || ((flags & HF_PAIR_TAIL) && row[h] > limb_window.low)));
+  }
+}
+
+// Finds the cluster of each source vertex, and the lowest rest height of each cluster.
 void Transfer::prepare_ground(Prepared& p) const {
   const std::size_t width = numbers_.size(), count = at(p.clusters.count);
   const Mesh& mesh = source_core_->mesh;
@@ -263,12 +288,6 @@ void Transfer::prepare_ground(Prepared& p) const {
                                    }
                                  }
                                });
-  p.sinks.assign(at(target_core_->size()), std::uint8_t{0});
-  for (std::size_t v = 0; v < p.sinks.size(); ++v) {
-    const double* row = p.target_field.data() + v * width;
-    p.sinks[v] =
-        (flags_[numbers_[static_cast<std::size_t>(std::max_element(row, row + width) - row)]] & HF_PAIR_SINKS) != 0;
-  }
   const Vec3 up = up_of(source_axes_);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     double& low = p.rest_lows[at(p.source_owner[v])];
@@ -290,6 +309,13 @@ void Transfer::prepare_gradients(Prepared& p) const {
   p.gradients.prepare(source, target, *target_factor_, target_area_, *target_core_->memory);
 }
 
+// Fields of many regions change faster along the surface, so kernels of the same size on it are wider in field values.
+double Transfer::kernel_width() const noexcept {
+  if (options_.kernel_width != 0) return options_.kernel_width;
+  const double pairs = static_cast<double>(numbers_.size());
+  return std::min(std::max(default_kernel_width, width_per_pair * pairs), widest_default_kernel);
+}
+
 Transfer::Prepared& Transfer::prepare() {
   if (prepared_) return *prepared_;
   if (numbers_.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the transfer has no pair; add one first");
@@ -309,7 +335,7 @@ Transfer::Prepared& Transfer::prepare() {
     cluster_options.cluster_count =
         std::min(static_cast<std::int32_t>(cluster_limit),
                  std::max(default_cluster_count, clusters_per_pair * static_cast<std::int32_t>(width)));
-  cluster_options.kernel_width = options_.kernel_width;
+  cluster_options.kernel_width = kernel_width();
   p.clusters =
       make_clusters(cluster_options, static_cast<std::int32_t>(width), {p.source_field.data(), p.source_field.size()},
                     source_area_, *source_core_, {p.target_field.data(), p.target_field.size()}, target_area_,
@@ -320,7 +346,7 @@ Transfer::Prepared& Transfer::prepare() {
   p.refit.prepare(target_core_->mesh, target_area_, p.clusters, memory);
   if (options_.mode == HF_TRANSFER_FIELDS) {
     const SourceWeights weights = weigh_source(
-        p.clusters, options_.kernel_width, {p.source_field.data(), p.source_field.size()}, memory, *target_core_->jobs);
+        p.clusters, kernel_width(), {p.source_field.data(), p.source_field.size()}, memory, *target_core_->jobs);
     p.slack.prepare(p.clusters.count, {source_core_.get(), source_area_, weights.joint.data(), weights.weight.data()},
                     {target_core_.get(), target_area_, p.clusters.joint.data(), p.clusters.weight.data()},
                     p.translations, axes_.toRotationMatrix(), p.scale, memory);
@@ -331,6 +357,7 @@ Transfer::Prepared& Transfer::prepare() {
   p.target_centroid = area_mean(target_core_->mesh, target_area_);
   poll();
   prepare_ground(p);
+  if (has_ground()) find_sinking(p);
   if (options_.mode == HF_TRANSFER_STRETCH) prepare_gradients(p);
 
   // The frame before the first one is the rest shape.
@@ -389,6 +416,11 @@ void Transfer::skin_motion(Vec3* pivots, Quaternion* rotations, Vec3* places) {
     if (rotations) rotations[c] = p.rotations[c];
     if (places) places[c] = mesh.to_given(p.matrices[c] * p.clusters.pivot[c] + p.shifts[c]);
   }
+}
+
+const std::uint8_t* Transfer::sinking() {
+  const Prepared& p = prepare();
+  return p.sinks.empty() ? nullptr : p.sinks.data();
 }
 
 void Transfer::skin_weights(std::int32_t vertex, std::uint32_t weight_count, std::uint32_t* joints, float* weights) {

@@ -35,7 +35,7 @@ namespace hf_inner {
 struct TransferOptions {
   std::int32_t mode = HF_TRANSFER_FIELDS;
   std::uint32_t cluster_count = 0;  // 0 = default_cluster_count; paper mode: default_bands per pair
-  double kernel_width = 0;          // 0 = default_kernel_width
+  double kernel_width = 0;          // 0 = from the number of pairs
   double scale = 0;                 // 0 = from the lengths of legs, or the bounding boxes
   double alignment_angle = 0;       // radians; 0 = default_alignment_angle; negative = never
   bool keep_ground = true;          // false: there is no ground (transfer_ground.cpp)
@@ -81,8 +81,8 @@ class Transfer {
   Transfer& operator=(const Transfer&) = delete;
 
   // Adds pairs of regions. out_pairs: null, or room for one number per pair. Throws the errors of PairFields::add. Also
-  // throws HF_ERROR_TOO_LARGE above 256 pairs, and HF_ERROR_INVALID_ARGUMENT for unknown flags. prepare_now: also solves
-  // the fields and makes the clusters of all pairs, which else the next frame does. This changes no result.
+  // throws HF_ERROR_TOO_LARGE above 256 pairs, and HF_ERROR_INVALID_ARGUMENT for unknown flags. prepare_now: also
+  // solves the fields and makes the clusters of all pairs, which else the next frame does. This changes no result.
   void add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs, bool prepare_now = false);
   // Throws HF_ERROR_NO_SUCH_PAIR (index: position in the list), also for a number named twice.
   void remove_pairs(Span<const std::uint32_t> pairs);
@@ -108,6 +108,8 @@ class Transfer {
   // Writes each cluster's rest centroid, rotation and posed centroid, in the caller's units. Each array is null or
   // cluster_count() long.
   void skin_motion(Vec3* pivots, Quaternion* rotations, Vec3* places);
+  // By inner vertex of the target: 1 if it may sink into the ground. NULL: there is no ground.
+  const std::uint8_t* sinking();
   // Writes the joints and weights of an inner vertex of the target, by falling weight, with sum exactly 1.
   // weight_count: 4 or 8, the length of both arrays.
   void skin_weights(std::int32_t vertex, std::uint32_t weight_count, std::uint32_t* joints, float* weights);
@@ -122,10 +124,12 @@ class Transfer {
  private:
   struct Prepared;
   Prepared& prepare();
+  double kernel_width() const noexcept;
   bool has_ground() const noexcept { return options_.mode == HF_TRANSFER_FIELDS && options_.keep_ground; }
   void prepare_alignment(Prepared& p) const;
   void prepare_anchors(Prepared& p) const;
   void prepare_ground(Prepared& p) const;
+  void find_sinking(Prepared& p) const;
   void prepare_gradients(Prepared& p) const;
   void prepare_dials(Prepared& p) const;  // the limbs that dials turn
   void turn_dials(Prepared& p) const noexcept;

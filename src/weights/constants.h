@@ -16,13 +16,6 @@ constexpr std::uint32_t most_bones = 1u << 20;
 // Coordinates of bones are clamped to this many boxes, so that squares of distances stay finite. A smaller number moves
 // bones that stand far off. Half and double change no figure of the 28 shared rigs, nor does 1 on seven of them.
 constexpr double farthest = 1e6;
-// Three rays tell whether a point is inside. Most of them decide, so that one that passes along a seam does not. They
-// are parallel to no axis, since faces of models often are. Turned to other axes, and reversed, they leave the same
-// figures of ten shared rigs.
-constexpr double ray_directions[3][3] = {{0.83, 0.41, 0.37}, {-0.31, 0.87, -0.38}, {0.29, -0.43, 0.85}};
-// A ray of this length, in boxes, leaves the box from any point in it. No result depends on it above 1; 1.2 and 8 find
-// the same bones of 14 shared rigs outside.
-constexpr double ray_length = 4;
 // Places along a bone that are tried until one is inside the surface: more find shorter parts inside and take longer.
 // On 14 shared rigs 41 bones are outside with five places and with two, 35 with eleven.
 constexpr double probed_shares[] = {0.1, 0.3, 0.5, 0.7, 0.9};

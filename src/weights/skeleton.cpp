@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "base/progress.h"
-#include "mesh/orientation.h"
 #include "weights/constants.h"
 
 namespace hf_inner {
@@ -16,96 +15,6 @@ Vec3 place_of(const Mesh& mesh, const Vec3& given) noexcept {
   const auto clamped = [](double x) { return std::min(std::max(x, -farthest), farthest); };
   return {clamped(p.x), clamped(p.y), clamped(p.z)};
 }
-
-Vec3 area_vector(const Mesh& mesh, Index t) noexcept {
-  const Index* v = mesh.triangle(t);
-  const Vec3 a = mesh.positions[at(v[0])];
-  return cross(mesh.positions[at(v[1])] - a, mesh.positions[at(v[2])] - a);
-}
-
-}  // namespace
-
-SkinShape::SkinShape(const Mesh& mesh, Memory& memory)
-    : mesh_(mesh),
-      side_(component_sides(mesh, memory)),
-      normals_(&memory),
-      tree_(triangle_boxes(mesh.positions, mesh.corners, memory), memory) {
-  normals_.assign(at(mesh.vertex_count()), Vec3{});
-  for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    const Vec3 area = area_vector(mesh, t);
-    for (int k = 0; k < 3; ++k) {
-      Vec3& normal = normals_[at(mesh.triangle(t)[k])];
-      normal = normal + area;
-    }
-  }
-  for (std::size_t v = 0; v < normals_.size(); ++v) {
-    const double length = norm(normals_[v]);
-    normals_[v] = length > 0 ? (side_[at(mesh.component[v])] / length) * normals_[v] : Vec3{};
-  }
-}
-
-bool SkinShape::blocked(const Vec3& from, const Vec3& to, Index island, Index own) const noexcept {
-  const Vec3 way = to - from;
-  const bool turned = side_[at(island)] < 0;
-  return tree_.along(from, to, [&](Index t) {
-    const Index* v = mesh_.triangle(t);
-    if (mesh_.component[at(v[0])] != island || v[0] == own || v[1] == own || v[2] == own) return false;
-    bool entering = false;
-    const double where =
-        crossing(from, way, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])], mesh_.positions[at(v[2])], entering);
-    return where >= 0 && entering != turned;
-  });
-}
-
-double SkinShape::way_out(const Vec3& from, const Vec3& direction, double most) const noexcept {
-  double nearest = most;
-  tree_.along(from, from + most * direction, [&](Index t) {
-    const Index* v = mesh_.triangle(t);
-    bool entering = false;
-    const double where = most * crossing(from, most * direction, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])],
-                                         mesh_.positions[at(v[2])], entering);
-    const bool turned = side_[at(mesh_.component[at(v[0])])] < 0;
-    if (where >= 0 && entering == turned && where < nearest) nearest = where;
-    return false;
-  });
-  return nearest;
-}
-
-void SkinShape::islands_along(const Vec3& from, const Vec3& to, Vector<Index>& out) const {
-  out.clear();
-  const Vec3 way = to - from;
-  tree_.along(from, to, [&](Index t) {
-    const Index* v = mesh_.triangle(t);
-    bool entering = false;
-    if (crossing(from, way, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])], mesh_.positions[at(v[2])],
-                 entering) >= 0)
-      out.push_back(mesh_.component[at(v[0])]);
-    return false;
-  });
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-}
-
-bool SkinShape::inside(const Vec3& point) const noexcept {
-  int votes = 0;
-  for (const auto& d : ray_directions) {
-    int out = 0;
-    const Vec3 way = ray_length * Vec3{d[0], d[1], d[2]};
-    tree_.along(point, point + way, [&](Index t) {
-      const Index* v = mesh_.triangle(t);
-      bool entering = false;
-      const double where = crossing(point, way, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])],
-                                    mesh_.positions[at(v[2])], entering);
-      const bool turned = side_[at(mesh_.component[at(v[0])])] < 0;
-      if (where >= 0) out += entering == turned ? 1 : -1;
-      return false;
-    });
-    votes += out > 0;
-  }
-  return votes >= 2;
-}
-
-namespace {
 
 // Finds where joints end that have no tails.
 class Tails {

@@ -1,8 +1,8 @@
 // The bones of a skeleton as the library works on them: segments in the frame of the welded mesh.
 #pragma once
 #include "base/span.h"
-#include "mesh/box_tree.h"
 #include "mesh/mesh.h"
+#include "mesh/skin_shape.h"
 
 namespace hf_inner {
 
@@ -36,27 +36,6 @@ enum BoneFault : std::uint32_t {
   bone_coincident = 2,  // lies on a bone of a lower number
   bone_informs_none = 4,
   bone_outside = 8,  // no part of it is inside the skin
-};
-
-// The surface as a skeleton needs it: a tree of its triangles.
-class SkinShape {
- public:
-  SkinShape(const Mesh& mesh, Memory& memory);
-  // Whether a segment enters the front of a triangle of this island. Triangles of the vertex `own` do not count.
-  bool blocked(const Vec3& from, const Vec3& to, Index island, Index own) const noexcept;
-  // The distance from a point along a unit direction to the first place where it leaves the skin, or `most`.
-  double way_out(const Vec3& from, const Vec3& direction, double most) const noexcept;
-  // Whether a point is inside: a ray from it leaves the skin more often than it enters.
-  bool inside(const Vec3& point) const noexcept;
-  // Writes the islands whose triangles a segment crosses, each once.
-  void islands_along(const Vec3& from, const Vec3& to, Vector<Index>& out) const;
-  const Vector<Vec3>& normals() const noexcept { return normals_; }
-
- private:
-  const Mesh& mesh_;
-  Vector<std::int8_t> side_;  // by island: -1 where closed triangles face inwards
-  Vector<Vec3> normals_;      // unit, by vertex; zero where triangles have no area
-  BoxTree tree_;
 };
 
 // Makes the segments of the bones that deform, by number. Bones without tails get them from their children or the skin.

@@ -287,6 +287,7 @@ static hf_result transfer_get_dials(void* h) {
   hf_transfer_dials d = HF_INIT(hf_transfer_dials);
   return hf_transfer_get_dials(h, &d);
 }
+static hf_result transfer_get_sinking(void* h) { return hf_transfer_get_sinking(h, (uint8_t*)numbers); }
 static hf_result transfer_apply(void* h) {
   hf_transfer_frame f = HF_INIT(hf_transfer_frame);
   f.source_positions = scene.posed, f.target_positions = floats;
@@ -425,6 +426,7 @@ static const struct {
     {"hf_transfer_get_info", TRANSFER, transfer_get_info, NO_INDEX},
     {"hf_transfer_set_dials", TRANSFER, transfer_set_dials, NO_INDEX},
     {"hf_transfer_get_dials", TRANSFER, transfer_get_dials, NO_INDEX},
+    {"hf_transfer_get_sinking", TRANSFER, transfer_get_sinking, NO_INDEX},
     {"hf_transfer_apply", TRANSFER, transfer_apply, NO_INDEX},
     {"hf_transfer_get_skin", TRANSFER, transfer_get_skin, NO_INDEX},
     {"hf_surface_space_levels", SURFACE, space_levels, NO_INDEX},

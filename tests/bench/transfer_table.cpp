@@ -1,5 +1,5 @@
 // hf_transfer_table FOLDER [--half choosing|judging|mixed|all] [--source NAME] [--target NAME] [--clip NAME]
-//                   [--sample N] [--runs] [--where] [--no-ground] [--no-links] [--itself]
+//                   [--sample N] [--runs] [--where] [--sinking] [--no-ground] [--no-links] [--itself]
 //
 // Plays every clip of every shared model on every other and measures what an animator would send back. Constants are
 // chosen on pairs whose two models lie in the choosing half. The judging half holds the pairs of the other models.
@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 
 #include "common/animate.h"
@@ -134,8 +135,22 @@ struct Run {
   size_t spikes = 0, frames = 0;
   double confidence = 0, stretch = 0;
   size_t lost = 0;
-  double acceleration = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, self_mean = -1, self_max = -1, ms = 0;
+  double acceleration = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, source_gap = 0, self_mean = -1,
+         self_max = -1, ms = 0;
 };
+
+// The largest gap between linked pieces; 0 without links.
+double largest_gap(hf_surface surface, const Frames& frames) {
+  double out = 0;
+  for (const std::vector<double>& frame : frames) {
+    hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
+    posed.positions_f64 = frame.data();
+    hf_gaps_info info = HF_INIT(hf_gaps_info);
+    if (hf_surface_measure_gaps(surface, &posed, 0, nullptr, &info) != HF_OK || info.link_count == 0) return 0;
+    out = std::max(out, info.worst);
+  }
+  return out;
+}
 
 Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target, Session& session) {
   Run out;
@@ -150,13 +165,8 @@ Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target
   }
   out.acceleration = from.squares > 1e-10 ? std::sqrt(to.squares / from.squares) : 0;
   out.slide = played.feet.planted_max, out.sunk = played.feet.surface_sunk, out.ms = played.frame_ms;
-  for (const std::vector<double>& frame : played.target_frames) {
-    hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
-    posed.positions_f64 = frame.data();
-    hf_gaps_info info = HF_INIT(hf_gaps_info);
-    if (hf_surface_measure_gaps(session.target_surface(), &posed, 0, nullptr, &info) == HF_OK && info.link_count > 0)
-      out.gap = std::max(out.gap, info.worst / target.box);
-  }
+  out.gap = largest_gap(session.target_surface(), played.target_frames) / target.box;
+  out.source_gap = largest_gap(session.source_surface(), played.source_frames) / source.box;
   const ClipFaults faults = find_faults(session, played);
   out.confidence = faults.confidence, out.stretch = faults.stretch, out.lost = faults.lost.size();
   if (&source != &target) return out;
@@ -233,11 +243,50 @@ void say_deepest(const PlayedClip& played, const Loaded& source, const Loaded& t
               frame, most / target.box, deepest, finder.owner_name(static_cast<uint32_t>(deepest)).c_str());
 }
 
+// The link that opens most in a run, and the joints at its ends.
+void say_widest(const PlayedClip& played, const Loaded& target, const Session& session) {
+  const RegionFinder finder(target.model, target.flat, Axes());
+  uint32_t count = 0, worst = HF_NO_INDEX;
+  size_t frame = 0;
+  double most = 0;
+  hf_surface_get_links(session.target_surface(), 0, nullptr, &count);
+  std::vector<hf_link> links(count);
+  hf_surface_get_links(session.target_surface(), count, links.data(), nullptr);
+  for (size_t f = 0; f < played.target_frames.size(); ++f) {
+    hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
+    posed.positions_f64 = played.target_frames[f].data();
+    hf_gaps_info info = HF_INIT(hf_gaps_info);
+    if (hf_surface_measure_gaps(session.target_surface(), &posed, 0, nullptr, &info) != HF_OK || info.worst <= most)
+      continue;
+    most = info.worst, worst = info.worst_link, frame = f;
+  }
+  if (worst == HF_NO_INDEX) return;
+  const hf_link& link = links[worst];
+  const auto corner = std::max_element(link.barycentrics, link.barycentrics + 3) - link.barycentrics;
+  const glm::dvec3 p = target.flat.positions[link.vertex] / target.box;
+  std::printf("      %s frame %zu: a gap of %.4f of the box from vertex %u of %s at %.2f %.2f %.2f to %s\n",
+              played.clip.name.c_str(), frame, most / target.box, link.vertex, finder.owner_name(link.vertex).c_str(),
+              p.x, p.y, p.z, finder.owner_name(link.corners[corner]).c_str());
+}
+
+// How many vertices of each joint may sink.
+void say_sinking(const Loaded& target, const Session& session) {
+  const RegionFinder finder(target.model, target.flat, Axes());
+  std::map<std::string, std::pair<size_t, size_t>> of_joint;
+  for (uint32_t v = 0; v < target.flat.vertex_count(); ++v) {
+    std::pair<size_t, size_t>& count = of_joint[finder.owner_name(v)];
+    ++count.second, count.first += session.sinking()[v];
+  }
+  for (const auto& [joint, count] : of_joint)
+    if (count.first > 0)
+      std::printf("      sinks: %zu of %zu vertices of %s\n", count.first, count.second, joint.c_str());
+}
+
 struct Options {
   std::filesystem::path folder;
   uint32_t sample = 1;
   std::string half = "choosing", source, target, clip;
-  bool itself = false, runs = false, links = true, ground = true, where = false;
+  bool itself = false, runs = false, links = true, ground = true, where = false, sinking = false;
 };
 
 // Ranks from 1; equal numbers share the mean of theirs.
@@ -288,8 +337,8 @@ void print_confidence(const std::vector<Run>& runs) {
 
 void print_runs(const char* heading, const std::vector<Run>& runs) {
   std::vector<double> ratios;
-  size_t spikes = 0, spiked = 0, calm = 0, near = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, selves = 0,
-         good = 0;
+  size_t spikes = 0, spiked = 0, calm = 0, near = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, opened = 0,
+         selves = 0, good = 0;
   double worst_still = 0, worst_step = 0, worst_slide = 0, worst_sunk = 0, worst_gap = 0, worst_self = 0, mean_self = 0,
          ms = 0, frames = 0;
   for (const Run& run : runs) {
@@ -300,7 +349,8 @@ void print_runs(const char* heading, const std::vector<Run>& runs) {
     step += run.step > 1.5, worst_step = std::max(worst_step, run.step);
     slide += run.slide > 0.001, worst_slide = std::max(worst_slide, run.slide);
     sunk += run.sunk > 0.01, worst_sunk = std::max(worst_sunk, run.sunk);
-    gap += run.gap > 0.005, worst_gap = std::max(worst_gap, run.gap);
+    opened += run.gap > std::max(0.005, run.source_gap), gap += run.gap > 0.005,
+        worst_gap = std::max(worst_gap, run.gap);
     ms += run.ms * static_cast<double>(run.frames), frames += static_cast<double>(run.frames);
     if (run.self_mean < 0) continue;
     ++selves, good += run.self_mean <= 0.010 && run.self_max <= 0.025;
@@ -320,7 +370,8 @@ void print_runs(const char* heading, const std::vector<Run>& runs) {
   std::printf("  step / source's         %zu runs > 1.5; largest %.2f\n", step, worst_step);
   std::printf("  planted feet slide      %zu runs > 0.001; largest %.4f\n", slide, worst_slide);
   std::printf("  penetration             %zu runs > 0.01; largest %.4f\n", sunk, worst_sunk);
-  std::printf("  gaps                    %zu runs > 0.005; largest %.4f\n", gap, worst_gap);
+  std::printf("  gaps                    %zu runs > 0.005, %zu of them more than the source's own; largest %.4f\n", gap,
+              opened, worst_gap);
   if (selves > 0)
     std::printf("  on itself               %zu of %zu within 0.010 and 0.025; largest mean %.4f, frame %.4f\n", good,
                 selves, mean_self, worst_self);
@@ -356,6 +407,7 @@ int table(const Options& options) {
         for (const SuggestedPair& pair : suggestion.pairs) proposed += (proposed.empty() ? "" : ", ") + pair.name;
         Session session(source.model, target.model, parse_pairs(suggestion.file, "the proposed pairs"), 1,
                         options.links, bar, options.ground);
+        if (options.sinking) say_sinking(target, session);
         sample_clips(source);
         for (size_t c = 0; c < source.frames.size(); ++c) {
           const Frames& frames = source.frames[c];
@@ -367,6 +419,7 @@ int table(const Options& options) {
           runs.push_back(measure(played, source, target, session));
           if (options.where && runs.back().spikes > 0) say_where(played, source, target, session);
           if (options.where && runs.back().sunk > 0.01) say_deepest(played, source, target, session);
+          if (options.where && runs.back().gap > 0.005) say_widest(played, target, session);
         }
       } catch (const std::exception& error) {
         ++refused;
@@ -381,10 +434,10 @@ int table(const Options& options) {
       for (const Run& run : runs) {
         if (options.runs)
           std::printf(
-              "    %-36s spikes %2zu accel %.2f still %5.1f step %5.2f slide %.4f sunk %.4f gap %.4f self %.4f "
-              "%.4f confidence %.3f stretch %.2f lost %zu\n",
+              "    %-36s spikes %2zu accel %.2f still %5.1f step %5.2f slide %.4f sunk %.4f gap %.4f (%.4f) self "
+              "%.4f %.4f confidence %.3f stretch %.2f lost %zu\n",
               run.name.c_str(), run.spikes, run.acceleration, run.still, run.step, run.slide, run.sunk, run.gap,
-              run.self_mean, run.self_max, run.confidence, run.stretch, run.lost);
+              run.source_gap, run.self_mean, run.self_max, run.confidence, run.stretch, run.lost);
         all.push_back(run);
         if (run.name.find("Death") != std::string::npos) deaths.push_back(run);
       }
@@ -421,6 +474,8 @@ int main(int count, char** arguments) {
         options.itself = true;
       } else if (word == "--where") {
         options.where = true;
+      } else if (word == "--sinking") {
+        options.sinking = true;
       } else if (word == "--no-ground") {
         options.ground = false;
       } else if (word == "--no-links") {

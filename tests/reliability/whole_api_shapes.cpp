@@ -64,6 +64,9 @@ void Run::pose_and_transfer() {
     call(hf_transfer_set_dials(transfer, &dials), "hf_transfer_set_dials");
     call(hf_transfer_apply(transfer, &frame), "hf_transfer_apply, dials"), take_floats();
     call(hf_transfer_get_dials(transfer, &dials), "hf_transfer_get_dials"), take(&dials, 1);
+    std::vector<std::uint8_t> sinking(n);
+    call(hf_transfer_get_sinking(transfer, sinking.data()), "hf_transfer_get_sinking");
+    take(sinking.data(), sinking.size());
     hf_pair_info pair = desc<hf_pair_info>();
     call(hf_transfer_get_pair(transfer, numbers[0], &pair), "hf_transfer_get_pair"), take(&pair, 1);
     hf_transfer_info info = desc<hf_transfer_info>();

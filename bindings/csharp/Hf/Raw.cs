@@ -1312,6 +1312,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_set_dials(IntPtr transfer, void* dials);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_dials(IntPtr transfer, void* out_dials);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_apply(IntPtr transfer, void* frame);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_sinking(IntPtr transfer, void* out_sinking);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_skin(IntPtr transfer, void* inout_skin);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_create(IntPtr surface, void* bones, uint weight_count, void* out_weights);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_clone(IntPtr weights, void* out_weights);

@@ -71,6 +71,14 @@ namespace Hf
             }
         }
 
+        /// <summary>1 for every target vertex that may sink into the ground.</summary>
+        public byte[] Sinking()
+        {
+            var sinking = new byte[targetCount];
+            fixed (byte* to = sinking) Check(Functions.hf_transfer_get_sinking(Handle, to));
+            return sinking;
+        }
+
         /// <summary>One posed frame of the source into the target's positions.</summary>
         public double[] Apply(double[] sourcePositions)
         {

@@ -212,6 +212,12 @@ export function poseClasses(tools) {
     get dials() {
       return query('hf_transfer_dials', 'hf_transfer_get_dials', this._handle);
     }
+    // 1 for every target vertex that may sink into the ground.
+    sinking() {
+      const out = new Uint8Array(this.vertexCount);
+      call('hf_transfer_get_sinking', this._handle, written(out));
+      return out;
+    }
     apply(sourcePositions, out, { normals = null, Type = Float32Array, holds = null, holdPositions = null } = {}) {
       const posed = points(sourcePositions, 'sourcePositions', 3 * this.sourceVertexCount);
       out = output(out, 3 * this.vertexCount, Type);

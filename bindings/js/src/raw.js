@@ -1094,6 +1094,7 @@ export const functions = {
   hf_transfer_set_dials: ['i32', ['handle', 'ptr']],
   hf_transfer_get_dials: ['i32', ['handle', 'ptr']],
   hf_transfer_apply: ['i32', ['handle', 'ptr']],
+  hf_transfer_get_sinking: ['i32', ['handle', 'ptr']],
   hf_transfer_get_skin: ['i32', ['handle', 'ptr']],
   hf_weights_create: ['i32', ['handle', 'ptr', 'u32', 'ptr']],
   hf_weights_clone: ['i32', ['handle', 'ptr']],

@@ -2076,6 +2076,7 @@ PROTOTYPES = {
     "hf_transfer_set_dials": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_get_dials": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_apply": (c_int32, [c_void_p, c_void_p]),
+    "hf_transfer_get_sinking": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_get_skin": (c_int32, [c_void_p, c_void_p]),
     "hf_weights_create": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
     "hf_weights_clone": (c_int32, [c_void_p, c_void_p]),

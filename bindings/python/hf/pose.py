@@ -251,6 +251,12 @@ class Transfer(Object):
     def dials(self) -> _raw.hf_transfer_dials:
         return self._read("hf_transfer_get_dials", _raw.hf_transfer_dials)
 
+    def sinking(self) -> np.ndarray:
+        """Whether each target vertex may sink into the ground."""
+        out = np.empty(self.vertex_count, np.uint8)
+        call("hf_transfer_get_sinking", self._raw_handle, address(out))
+        return out.astype(bool)
+
     def apply(self, source_positions: ArrayLike, out: Optional[np.ndarray] = None, *,
         normals: Optional[np.ndarray] = None, dtype: Any = np.float32,
               holds: Optional[ArrayLike] = None, hold_positions: Optional[ArrayLike] = None) -> np.ndarray:

@@ -308,6 +308,14 @@ impl Transfer {
         dials => hf_transfer_get_dials -> hf_transfer_dials;
     }
 
+    /// 1 for every target vertex that may sink into the ground.
+    pub fn sinking(&self) -> Result<Vec<u8>> {
+        let mut out = vec![0; self.vertex_count as usize];
+        // SAFETY: there is room for every vertex.
+        check(unsafe { raw::hf_transfer_get_sinking(self.handle, out.as_mut_ptr()) })?;
+        Ok(out)
+    }
+
     /// Sets the dials of the next frames.
     pub fn set_dials(&mut self, dials: &TransferDials) -> Result<()> {
         let mut desc = raw::hf_transfer_dials::default();

@@ -2393,6 +2393,7 @@ extern "C" {
     pub fn hf_transfer_set_dials(transfer: hf_transfer, dials: *const hf_transfer_dials) -> i32;
     pub fn hf_transfer_get_dials(transfer: hf_transfer, out_dials: *mut hf_transfer_dials) -> i32;
     pub fn hf_transfer_apply(transfer: hf_transfer, frame: *const hf_transfer_frame) -> i32;
+    pub fn hf_transfer_get_sinking(transfer: hf_transfer, out_sinking: *mut u8) -> i32;
     pub fn hf_transfer_get_skin(transfer: hf_transfer, inout_skin: *mut hf_skin_info) -> i32;
     pub fn hf_weights_create(surface: hf_surface, bones: *const hf_bones_desc, weight_count: u32, out_weights: *mut hf_weights) -> i32;
     pub fn hf_weights_clone(weights: hf_weights, out_weights: *mut hf_weights) -> i32;

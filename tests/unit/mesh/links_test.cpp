@@ -334,6 +334,33 @@ TEST(Links, skin_weights_choose_between_neighbours) {
   EXPECT_GT(alike[1], 0);
 }
 
+TEST(Links, what_moves_with_the_same_joints_is_held_together_firmly) {
+  const PlainMesh mesh = two_cubes(0.01, 48);  // edges so short that all links count once
+  // Both cubes have joint 1; the second one has a share of joint 2 too.
+  const auto weight_of_links = [&](float share) {
+    std::vector<std::uint16_t> joints;
+    std::vector<float> weights;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+      const float own = mesh.positions[3 * v] > 1.001 ? share : 0;
+      joints.insert(joints.end(), {1, 2}), weights.insert(weights.end(), {1 - own, own});
+    }
+    auto options = automatic();
+    options.overlay = 0, options.skin = {2, joints.data(), weights.data()};
+    const auto linked = hf_inner::Geometry::linked(plain_geometry(mesh), options);
+    double least = 1e300, most = 0;
+    for (const hf_inner::Link& link : linked->links->links)
+      least = std::min(least, link.weight), most = std::max(most, link.weight);
+    EXPECT_EQ(std::round(16 * least), 16 * least);
+    return std::make_pair(least, most);
+  };
+  const auto equal = weight_of_links(0), half = weight_of_links(0.25f), other = weight_of_links(0.5f);
+  EXPECT_DOUBLE_EQ(equal.first, 1 + hf_inner::rigid_weight);
+  EXPECT_DOUBLE_EQ(equal.second, 1 + hf_inner::rigid_weight);
+  EXPECT_NEAR(half.first, 1 + 0.5 * hf_inner::rigid_weight, 1);
+  EXPECT_DOUBLE_EQ(other.first, 1);
+  EXPECT_DOUBLE_EQ(other.second, 1);
+}
+
 // The least squared distance from a vertex to the triangles of a group, by trying all.
 double least_distance(const hf_inner::Mesh& mesh, const std::vector<Index>& group, Index g, Index v) {
   double least = 1e300;

@@ -85,6 +85,57 @@ TEST(TransferBatch, AWrongListIsNamed) {
   EXPECT_EQ(transfer("--batch " + quoted(list) + " a.glb", said), 1);
 }
 
+// Two workers on this machine; the program of one line kills the worker that started it, once.
+TEST(TransferBatch, OnAClusterALineWhoseWorkerDiesRunsAgainElsewhere) {
+  std::string python;
+  for (const char* candidate : {"python3", "/usr/bin/python3"})
+    if (python.empty() && works(std::string(candidate) + " -c \"import distributed\"")) python = candidate;
+  if (python.empty()) GTEST_SKIP() << "no python3 with dask.distributed (Debian: python3-distributed)";
+  const fs::path list = folder() / "cluster.txt", killed = folder() / "killed.txt", program = folder() / "killing.sh",
+                 alone = folder() / "not_on_a_cluster.glb";
+  fs::remove(killed);
+  std::ofstream(program) << "#!/bin/sh\n"
+                         << "case \"$*\" in *deadly*) if [ ! -e " << quoted(killed) << " ]; then\n"
+                         << "  echo $PPID > " << quoted(killed) << "; kill -9 $PPID; exit 1\nfi;; esac\n"
+                         << "exec " << quoted(HF_TRANSFER_PROGRAM) << " \"$@\"\n";
+  fs::permissions(program, fs::perms::owner_all);
+  const std::string words = " --pairs " + quoted(pairs("horse_to_bull.json"));
+  std::ofstream lines_file(list);
+  for (const char* name : {"first", "deadly", "third"}) {
+    fs::remove(folder() / (std::string(name) + "_line.glb"));
+    lines_file << both() << words << " -o " << quoted(folder() / (std::string(name) + "_line.glb")) << "\n";
+  }
+  lines_file << "absent.glb " << quoted(creature("bull")) << " -o never.glb\n";
+  lines_file.close();
+  std::string said;
+  EXPECT_EQ(run(python + " " + quoted(fs::path(HF_SOURCE_DIR) / "samples/transfer/batch_dask.py") + " " + quoted(list) +
+                    " --program " + quoted(program) + " --workers 2",
+                said),
+            1)
+      << said;
+  const std::vector<json> lines = lines_of(said);
+  ASSERT_EQ(lines.size(), 4u) << said;
+  ASSERT_TRUE(fs::exists(killed)) << "no worker was killed: no test";
+  int dead = 0;
+  std::ifstream(killed) >> dead;
+  ASSERT_EQ(transfer(both() + words + " -o " + quoted(alone), said), 0) << said;
+  const auto bytes = [](const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(lines[i]["exit"], 0) << lines[i];
+    EXPECT_EQ(lines[i]["report"]["clips"][0]["name"], "walk");
+    if (i == 1) {
+      EXPECT_NE(lines[i]["worker"], dead) << lines[i];
+    }
+  }
+  EXPECT_EQ(lines[3]["exit"], 1);
+  EXPECT_NE(lines[3]["error"].get<std::string>().find("absent.glb"), std::string::npos) << lines[3];
+  for (const char* name : {"first_line.glb", "deadly_line.glb", "third_line.glb"})
+    EXPECT_TRUE(bytes(folder() / name) == bytes(alone)) << name;
+}
+
 TEST(TransferClips, ClipsWithoutASurfaceGoToAModelOfTheirSkeleton) {
   const fs::path clips = folder() / "library.glb", out = folder() / "from_library.glb";
   samples::Model library = skeleton_only();

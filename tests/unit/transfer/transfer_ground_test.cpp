@@ -83,10 +83,14 @@ TEST(TransferGround, FeetThatTurnWithTheBodyComeRoundWithIt) {
   }
 }
 
-// Deepest vertex of the target under the ground, beyond what the source sinks, in boxes.
-double sunk(const Animals& a, const std::vector<Vec3>& posed, const std::vector<Vec3>& out, double scale) {
+// Deepest vertex of the bull under the ground, beyond what the source sinks, in boxes. Thin parts do not count.
+double sunk(const Animals& a, const std::vector<Vec3>& posed, const std::vector<Vec3>& out,
+            hf_inner::Transfer& transfer) {
   const double source = std::min(0.0, lowest_of(posed) - lowest_of(a.horse.rest()));
-  return (lowest_of(a.bull.rest()) + scale * source - lowest_of(out)) / a.box;
+  double low = 1e300;
+  for (size_t v = 0; v < out.size(); ++v)
+    if (!transfer.sinking()[v]) low = std::min(low, out[v].y);
+  return (lowest_of(a.bull.rest()) + transfer.scale() * source - low) / a.box;
 }
 
 TEST(TransferGround, NoPartOfTheSurfaceSinks) {
@@ -103,13 +107,13 @@ TEST(TransferGround, NoPartOfTheSurfaceSinks) {
       const double height = p.y - ground;
       p.y = ground + std::max(0.25 * height, height - drop * box * smooth(0, 0.3 * box, height));
     }
-    EXPECT_LT(sunk(a, posed, frame_of(transfer, posed), transfer.scale()), 1e-3) << "drop " << drop;
+    EXPECT_LT(sunk(a, posed, frame_of(transfer, posed), transfer), 1e-3) << "drop " << drop;
   }
   // on its side, and on the way there
   double deepest = 0;
   for (int k = 0; k <= 12; ++k) {
     const std::vector<Vec3> posed = falling(a, k * pi / 24, 0.05 * k);
-    deepest = std::max(deepest, sunk(a, posed, frame_of(transfer, posed), transfer.scale()));
+    deepest = std::max(deepest, sunk(a, posed, frame_of(transfer, posed), transfer));
   }
   std::printf("falling to the side: sunk by %.5f of the box\n", deepest);
   EXPECT_LT(deepest, 1e-3);
@@ -154,6 +158,88 @@ TEST(TransferGround, LimbsThatAreAlignedAtRestDoNotSinkAtRest) {
   const Vec3 shift = out[0] - hf_inner::rotate(turn, still[0]);
   for (size_t v = 0; v < out.size(); ++v)
     ASSERT_LT(hf_inner::norm(out[v] - hf_inner::rotate(turn, still[v]) - shift) / box, 1e-6) << v;
+}
+
+// Gives the bull a thin rod that begins at a place, a piece of its own as a held weapon is. Returns its vertices.
+std::vector<int32_t> hold_a_rod(Body& bull, const World& world, Vec3 from, double length) {
+  const auto first = static_cast<uint32_t>(bull.mesh.positions.size());
+  const glm::dvec3 low(from.x, from.y, from.z), high = low + glm::dvec3(length, 0.02, 0.02);
+  for (uint32_t i = 0; i < 8; ++i)
+    bull.mesh.positions.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+  for (const uint32_t corner :
+       {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5})
+    bull.mesh.triangles.push_back(first + corner);
+  bull.build(world);
+  return bull.inner_of({first, first + 1, first + 2, first + 3, first + 4, first + 5, first + 6, first + 7});
+}
+
+TEST(TransferGround, ThinPartsThatNoPairMovesAndTailsMaySink) {
+  const Animals& a = animals();
+  Body bull = creature("bull", 1600, a.world);
+  const Pairs pairs = find_pairs("horse_to_bull.json", a.horse, bull);
+  const std::vector<int32_t> before(bull.core->mesh.given_of_inner.begin(), bull.core->mesh.given_of_inner.end());
+  const std::vector<int32_t> rod = hold_a_rod(bull, a.world, centre_of(pairs.target[a.pair("nose")], bull.rest()), 0.9);
+  std::vector<std::vector<int32_t>> regions;
+  std::vector<hf_inner::PairInput> inputs = pairs.inputs();
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    std::vector<uint32_t> flat;
+    for (const int32_t v : pairs.target[i]) flat.push_back(static_cast<uint32_t>(before[static_cast<size_t>(v)]));
+    regions.push_back(bull.inner_of(flat));
+  }
+  for (size_t i = 0; i < inputs.size(); ++i) inputs[i].target = {regions[i].data(), regions[i].size()};
+  inputs[a.pair("tail")].flags |= HF_PAIR_TAIL;
+  hf_inner::Transfer transfer(a.horse.core, bull.core, {});
+  add(transfer, inputs);
+  const std::vector<Vec3> rest = bull.rest();
+  const uint8_t* sinking = transfer.sinking();
+  ASSERT_NE(sinking, nullptr);
+  size_t horns = 0, tuft = 0, legs = 0, trunk = 0, low_legs = 0;
+  for (size_t v = 0; v < rest.size(); ++v) {
+    const Vec3& p = rest[v];
+    if (std::find(rod.begin(), rod.end(), static_cast<int32_t>(v)) != rod.end()) {
+      EXPECT_EQ(sinking[v], 1) << "the rod, " << v;
+      continue;
+    }
+    const bool is_tail = p.z < -1.0 && p.y < 0.9;
+    const bool is_horn = std::abs(p.x) > 0.2 && p.y > 1.38 && p.z > 0.97, is_tuft = is_tail && p.y < 0.5;
+    horns += is_horn, tuft += is_tuft;
+    if (is_horn || is_tuft) {
+      EXPECT_EQ(sinking[v], 1) << p.x << " " << p.y << " " << p.z;
+    }
+    if (p.y < 0.5 && !is_tail) low_legs += 1, legs += sinking[v];
+    if (p.y > 0.8 && p.z < 0.5 && p.z > -0.8) trunk += sinking[v];
+  }
+  std::printf("%zu vertices of horns, %zu of the tail's tuft, %zu of lower legs\n", horns, tuft, low_legs);
+  EXPECT_GT(horns, 4u);
+  EXPECT_GT(tuft, 4u);
+  EXPECT_EQ(legs, 0u);
+  EXPECT_EQ(trunk, 0u);
+  // Lying, the rod goes into the ground as deep as it is long and keeps its shape; what may not sink does not.
+  for (const double degrees : {60.0, 90.0, 120.0}) {
+    const std::vector<Vec3> posed = falling(a, degrees * pi / 180, 0.3), out = frame_of(transfer, posed);
+    const double ground =
+        lowest_of(rest) + transfer.scale() * std::min(0.0, lowest_of(posed) - lowest_of(a.horse.rest()));
+    double deepest = 0, of_sinking = 0;
+    for (size_t v = 0; v < out.size(); ++v)
+      (sinking[v] ? of_sinking : deepest) = std::max(sinking[v] ? of_sinking : deepest, ground - out[v].y);
+    std::printf("at %.0f degrees: parts that may sink %.4f under the ground, the others %.5f\n", degrees,
+                of_sinking / a.box, deepest / a.box);
+    EXPECT_LT(deepest / a.box, 1e-3) << degrees;
+    for (const int32_t u : rod)
+      for (const int32_t v : rod)
+        EXPECT_NEAR(hf_inner::norm(out[static_cast<size_t>(u)] - out[static_cast<size_t>(v)]),
+                    hf_inner::norm(rest[static_cast<size_t>(u)] - rest[static_cast<size_t>(v)]), 0.01 * a.box);
+  }
+  // A contact is held above the ground with what is thin around it, and without a ground nothing is named.
+  inputs[a.pair("tail")].flags = HF_PAIR_CONTACT;
+  hf_inner::Transfer touching(a.horse.core, bull.core, {});
+  add(touching, inputs);
+  for (const int32_t v : regions[a.pair("tail")]) EXPECT_EQ(touching.sinking()[v], 0);
+  hf_inner::TransferOptions off;
+  off.keep_ground = false;
+  hf_inner::Transfer flying(a.horse.core, bull.core, off);
+  add(flying, inputs);
+  EXPECT_EQ(flying.sinking(), nullptr);
 }
 
 TEST(TransferGround, ABodyThatLiesRestsOnItsTrunkNotOnWhateverReachesLowest) {

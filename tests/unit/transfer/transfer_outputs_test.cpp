@@ -269,6 +269,53 @@ TEST(TransferOutputs, KeysThatFollowFromOthersAreLeftOutWithinTheBound) {
   }
 }
 
+TEST(TransferOutputs, ClipsOfARealAnimalTakeFewBytes) {
+  if (!fs::exists(data() / "q_Horse.glb") || !fs::exists(data() / "q_Wolf.glb"))
+    GTEST_SKIP() << "no q_Horse.glb or q_Wolf.glb under " << data();
+  // what the wolf takes without the new clips
+  const size_t alone = samples::gltf_bytes(samples::read_gltf(data() / "q_Wolf.glb"), true).size();
+  const auto bytes = [&](const std::string& clip) {
+    const fs::path out = folder() / "bytes.glb";
+    std::string said;
+    EXPECT_EQ(transfer(quoted(data() / "q_Horse.glb") + " " + quoted(data() / "q_Wolf.glb") + " --pairs " +
+                           quoted(pairs("q_horse_to_q_wolf.json")) + " --clip " + clip + " -o " + quoted(out),
+                       said),
+              0)
+        << said;
+    return static_cast<size_t>(fs::file_size(out)) - alone;
+  };
+  const size_t walk = bytes("Walk"), all = bytes("all");
+  std::printf("a walk takes %zu bytes, thirteen clips %zu\n", walk, all);
+  EXPECT_LT(walk, 120000u);
+  EXPECT_LT(all, 600000u);
+}
+
+// A body whose morph target moves few vertices keeps it sparse beside a new clip.
+TEST(TransferOutputs, SparseMorphTargetsStaySparse) {
+  samples::Model bull = samples::read_gltf(creature("bull"));
+  samples::Primitive& primitive = bull.meshes.front().primitives.front();
+  samples::MorphTarget blink;
+  blink.positions.assign(primitive.positions.size(), glm::vec3(0));
+  blink.positions[7] = glm::vec3(0.1f, 0, 0);
+  primitive.targets.push_back(blink);
+  const fs::path target = folder() / "sparse_bull.glb", out = folder() / "sparse_out.glb";
+  samples::write_gltf(bull, target);
+  std::string said;
+  ASSERT_EQ(transfer(quoted(creature("horse")) + " " + quoted(target) + " --pairs " +
+                         quoted(pairs("horse_to_bull.json")) + " -o " + quoted(out),
+                     said),
+            0)
+      << said;
+  std::ifstream file(out, std::ios::binary);
+  const std::string all{std::istreambuf_iterator<char>(file), {}};
+  uint32_t length = 0;
+  std::copy(all.begin() + 12, all.begin() + 16, reinterpret_cast<char*>(&length));
+  const json root = json::parse(all.substr(20, length));
+  const size_t accessor = root["meshes"][0]["primitives"][0]["targets"][0]["POSITION"];
+  EXPECT_EQ(root["accessors"][accessor]["sparse"]["count"], 1);
+  EXPECT_EQ(samples::read_gltf(out).meshes.front().primitives.front().targets.front().positions[7], blink.positions[7]);
+}
+
 TEST(TransferOutputs, FeetComeFromNamesAndBodiesWithoutFeetFromTheirEnds) {
   if (!fs::exists(data() / "q_Horse.glb") || !fs::exists(data() / "q_Manta_ray.glb"))
     GTEST_SKIP() << "no q_Horse.glb or q_Manta_ray.glb under " << data();
@@ -335,7 +382,7 @@ TEST(TransferOutputs, InPlaceIsAnOptionOfTheProgram) {
     const fs::path out = folder() / name;
     std::string said;
     EXPECT_EQ(transfer(quoted(walker) + " " + quoted(creature("bull")) + " --clip walk --pairs " +
-                           quoted(pairs("horse_to_bull.json")) + " --as skin -o " + quoted(out) + more,
+                           quoted(pairs("horse_to_bull.json")) + " --as own-skin -o " + quoted(out) + more,
                        said),
               0)
         << said;
@@ -352,6 +399,32 @@ TEST(TransferOutputs, InPlaceIsAnOptionOfTheProgram) {
   std::printf("the walk travels by %.4f, in place by %.4f\n", walks, stays);
   EXPECT_GT(walks, 0.5);
   EXPECT_LT(stays, 0.02 * walks);
+  // The travel as a motion of the root: the same body at every time, under two keys.
+  const double moved = travel(" --root-motion", "root.glb");
+  EXPECT_NEAR(moved, walks, 0.01 * walks);
+  const samples::Model there = samples::read_gltf(folder() / "root.glb"),
+                       plain = samples::read_gltf(folder() / "stays.glb");
+  const samples::FlatMesh mesh = samples::flatten(there);
+  int root = there.skins.front().joints.front();
+  while (there.nodes[static_cast<size_t>(root)].parent >= 0) root = there.nodes[static_cast<size_t>(root)].parent;
+  const samples::Animation &clip = there.animations.front(), &still = plain.animations.front();
+  const auto channel = std::find_if(clip.channels.begin(), clip.channels.end(), [&](const samples::Channel& c) {
+    return c.node == root && c.path == samples::Path::translation;
+  });
+  ASSERT_NE(channel, clip.channels.end());
+  for (const double time : {0.0, 0.4, 1.0}) {
+    const auto a = samples::posed_positions(there, mesh, clip, time),
+               b = samples::posed_positions(plain, mesh, still, time);
+    const glm::dvec3 shift = a[0] - b[0];
+    EXPECT_NEAR(glm::length(shift), moved * time / samples::clip_duration(clip), 0.02 * moved);
+    for (size_t v = 0; v < a.size(); ++v) ASSERT_LT(glm::distance(a[v] - b[v], shift), 1e-5);
+  }
+  std::string said;
+  EXPECT_EQ(transfer(both() + " --pairs " + quoted(pairs("horse_to_bull.json")) + " --as morph --root-motion -o " +
+                         quoted(folder() / "no_root.glb"),
+                     said),
+            1);
+  EXPECT_NE(said.find("--root-motion"), std::string::npos) << said;
 }
 
 TEST(TransferOutputs, TheLiveSampleRunsWhileItsHandlesChange) {

@@ -93,8 +93,8 @@ TEST(TransferSlack, ATurnAboutAnotherPointIsTheSlideThatWasPutIn) {
     // the soft limit takes 0.2 % away here, the ridge of the fit 0.1 %
     EXPECT_LT(hf_inner::norm(found - expected), 0.005 * hf_inner::norm(expected) + 1e-9);
     const Vec3 doubled = bar.slide(bent, bar.pose(bent, shift), 2);
-    // on a target of the same size, twice the scale says that the bodies are not alike, and only half of it counts
-    EXPECT_LT(hf_inner::norm(doubled - found), 1e-9);
+    // on a target of the same size, twice the scale says that the bodies are not alike, and only a quarter of it counts
+    EXPECT_LT(hf_inner::norm(doubled - 0.5 * found), 1e-9);
   }
 }
 
@@ -128,7 +128,7 @@ TEST(TransferSlack, ClustersThatDoNotCorrespondGetLess) {
     return slack.pairs().empty() ? 0.0 : slack.pairs()[0].factor;
   };
   EXPECT_NEAR(factor({0, 0, 1}, 0), 1, 1e-9);
-  EXPECT_NEAR(factor({0, 0, 1}, 0.5), std::cos(0.5) * std::cos(0.5), 1e-6);
+  EXPECT_NEAR(factor({0, 0, 1}, 0.5), std::pow(std::cos(0.5), 4), 1e-6);
   EXPECT_EQ(factor({0, 0, 1}, 2.0), 0.0);
 }
 

@@ -1,0 +1,30 @@
+// Tells inside from outside of a surface by rays.
+#pragma once
+#include "mesh/box_tree.h"
+#include "mesh/mesh.h"
+
+namespace hf_inner {
+
+// The triangles of a surface in a tree, for rays: what lies inside, and how far it is through.
+class SkinShape {
+ public:
+  SkinShape(const Mesh& mesh, Memory& memory);
+  // Whether a segment enters the front of a triangle of this island. Triangles of the vertex `own` do not count.
+  bool blocked(const Vec3& from, const Vec3& to, Index island, Index own) const noexcept;
+  // The distance from a point along a unit direction to the first place where it leaves the skin, or `most`. island:
+  // only the skin of this one counts, or that of all.
+  double way_out(const Vec3& from, const Vec3& direction, double most, Index island = Mesh::none) const noexcept;
+  // Whether a point is inside: a ray from it leaves the skin more often than it enters.
+  bool inside(const Vec3& point) const noexcept;
+  // Writes the islands whose triangles a segment crosses, each once.
+  void islands_along(const Vec3& from, const Vec3& to, Vector<Index>& out) const;
+  const Vector<Vec3>& normals() const noexcept { return normals_; }
+
+ private:
+  const Mesh& mesh_;
+  Vector<std::int8_t> side_;  // by island: -1 where closed triangles face inwards
+  Vector<Vec3> normals_;      // unit, by vertex; zero where triangles have no area
+  BoxTree tree_;
+};
+
+}  // namespace hf_inner
