@@ -99,6 +99,8 @@ inline bool processor_has(const char* name) noexcept {
 #define HF_VECTOR(Name, Number, count) typedef Number Name __attribute__((vector_size(count * sizeof(Number))))
 #define HF_LOOSE_VECTOR(Name, Number, count) \
   typedef Number Name __attribute__((vector_size(count * sizeof(Number)), aligned(sizeof(Number)), may_alias))
+// The larger numbers of two vectors of one type; the second where they do not compare.
+#define HF_LARGER(a, b) ((a) > (b) ? (a) : (b))
 #else
 namespace {
 template <class T, int N>
@@ -131,7 +133,7 @@ struct Same {
     return result;                                                                                               \
   }                                                                                                              \
   template <class T, int N, class Other>                                                                         \
-  inline PlainVector<T, N>& operator sign##=(PlainVector<T, N>& a, const Other& b) noexcept {                    \
+  inline PlainVector<T, N>& operator sign## = (PlainVector<T, N> & a, const Other& b) noexcept {                 \
     return a = a sign b;                                                                                         \
   }
 HF_VECTOR_OPERATOR(+)
@@ -141,7 +143,14 @@ HF_VECTOR_OPERATOR(/)
 HF_VECTOR_OPERATOR(&)
 HF_VECTOR_OPERATOR(>>)
 #undef HF_VECTOR_OPERATOR
+template <class T, int N>
+inline PlainVector<T, N> larger(const PlainVector<T, N>& a, const PlainVector<T, N>& b) noexcept {
+  PlainVector<T, N> result;
+  for (int i = 0; i < N; ++i) result[i] = a[i] > b[i] ? a[i] : b[i];
+  return result;
+}
 }  // namespace
+#define HF_LARGER(a, b) larger(a, b)
 #define HF_VECTOR(Name, Number, count) using Name = PlainVector<Number, count>
 #define HF_LOOSE_VECTOR(Name, Number, count) using Name = PlainVector<Number, count>
 #endif

@@ -55,9 +55,6 @@ class BoxTree {
   void near(const Vec3& p, Reach&& reach, Item&& item) const {
     near(0, p, reach, item);
   }
-  // Visits the leaves of a group whose squared distance to a box is below `squared`: leaf(box, items).
-  template <class Leaf>
-  void leaves(Index group, const ItemBox& box, double squared, Leaf&& leaf) const;
   // Visits the items whose boxes a segment touches, until item(i) returns true. Returns whether one did. Only for a
   // single tree.
   template <class Item>
@@ -65,12 +62,6 @@ class BoxTree {
 
   // Returns the items in the order of the trees: neighbours in this order are neighbours in space.
   const Vector<Index>& order() const noexcept { return order_; }
-  // The items of one group in this order.
-  Span<const Index> items(Index group) const noexcept {
-    return {order_.data() + start_[at(group)], at(start_[at(group) + 1] - start_[at(group)])};
-  }
-  // The box around a group that has an item.
-  const ItemBox& box(Index group) const noexcept { return nodes_[at(root_[at(group)])].box; }
 
  private:
   // A node's children are the next node and `right`; a leaf has the items order_[first .. first + count).
@@ -102,7 +93,7 @@ void BoxTree::near(Index group, const Vec3& p, Reach&& reach, Item&& item) const
   };
   Open stack[depth];
   std::size_t open = 0;
-  stack[open++] = {root_[at(group)], squared_distance(p, box(group))};
+  stack[open++] = {root_[at(group)], squared_distance(p, nodes_[at(root_[at(group)])].box)};
   while (open > 0) {
     const Open next = stack[--open];
     if (next.squared > reach()) continue;
@@ -115,23 +106,6 @@ void BoxTree::near(Index group, const Vec3& p, Reach&& reach, Item&& item) const
     Open right{node.right, squared_distance(p, nodes_[at(node.right)].box)};
     if (right.squared < left.squared) std::swap(left, right);
     stack[open++] = right, stack[open++] = left;
-  }
-}
-
-template <class Leaf>
-void BoxTree::leaves(Index group, const ItemBox& box, double squared, Leaf&& leaf) const {
-  if (root_[at(group)] < 0) return;
-  Index stack[depth];
-  std::size_t open = 0;
-  stack[open++] = root_[at(group)];
-  while (open > 0) {
-    const Index here = stack[--open];
-    const Node& node = nodes_[at(here)];
-    if (!(squared_distance(box, node.box) < squared)) continue;
-    if (node.right < 0)
-      leaf(node.box, Span<const Index>(order_.data() + node.first, at(node.count)));
-    else
-      stack[open++] = node.right, stack[open++] = here + 1;
   }
 }
 

@@ -112,60 +112,25 @@ void ContactSearch::weights(const Contact& contact, double* out) const noexcept 
   squared(mesh_.positions[at(contact.vertex)], contact.triangle, out);
 }
 
-double ContactSearch::nearest(Index piece, const Vec3& p, double within, double enough,
+double ContactSearch::nearest(Index piece, const Vec3& p, double within, double enough, Index hint,
                               Index& triangle) const noexcept {
   double found = within;
   triangle = -1;
+  const auto test = [&](Index t) {
+    const double d = squared(p, t);
+    if (d < found || (triangle >= 0 && t < triangle && d <= found)) found = d, triangle = t;
+  };
+  if (hint >= 0 && squared_distance(p, boxes_[at(hint)]) < found) test(hint);
   const auto reach = [&] { return triangle >= 0 && found <= enough ? -1.0 : found; };
   tree_.near(piece, p, reach, [&](Index t) {
-    if (!(squared_distance(p, boxes_[at(t)]) < found)) return;
-    const double d = squared(p, t);
-    if (d < found) found = d, triangle = t;
+    if (t != hint) test(t);
   });
   return found;
 }
 
-ItemBox ContactSearch::leaves_near(Index piece, const ItemBox& box, double reach, Vector<Leaf>& out) const {
-  out.clear();
-  ItemBox around{};
-  tree_.leaves(piece, box, reach * reach, [&](const ItemBox& leaf, Span<const Index> triangles) {
-    if (out.empty()) around = leaf;
-    around.take(leaf);
-    out.push_back({leaf, triangles});
-  });
-  return around;
-}
-
-// hint: the triangle of the vertex before, or -1; consecutive vertices are near each other.
-bool ContactSearch::contact_of(Index v, const Vector<Leaf>& leaves, const ItemBox& around, double reach, Index& hint,
-                               Contact& out) const {
-  const Vec3 p = mesh_.positions[at(v)];
-  double found = reach * reach;
-  if (!(squared_distance(p, around) < found)) return false;
-  Index triangle = -1;
-  const auto test = [&](Index t) {
-    if (!(squared_distance(p, boxes_[at(t)]) < found)) return;
-    const double d = squared(p, t);
-    if (d < found) found = d, triangle = t;
-  };
-  if (hint >= 0) test(hint);
-  for (const Leaf& leaf : leaves) {
-    if (!(squared_distance(p, leaf.box) < found)) continue;
-    for (const Index t : leaf.triangles) test(t);
-  }
-  if (triangle < 0) return false;
-  hint = triangle;
-  out = contact(v, triangle, found);
-  return true;
-}
-
-bool ContactSearch::alone_contact_of(Index v, Index piece, double reach, Index& hint, Contact& out) const {
-  const Vec3 p = mesh_.positions[at(v)];
-  const double bound = reach * reach;
-  const double first = hint >= 0 ? squared(p, hint) : bound;
+bool ContactSearch::contact_of(Index v, Index piece, double reach, Index& hint, Contact& out) const {
   Index triangle;
-  const double found = nearest(piece, p, std::min(bound, first), 0, triangle);
-  if (triangle < 0 && first < bound) triangle = hint;
+  const double found = nearest(piece, mesh_.positions[at(v)], reach * reach, -1, hint, triangle);
   if (triangle < 0) return false;
   hint = triangle;
   out = contact(v, triangle, found);
@@ -186,7 +151,6 @@ void ContactSearch::find(Index from, Index to, double depth, double& reach, Vect
                          std::size_t most) const {
   const std::size_t first = out.size();
   const double least_skin = least_skin_cost(from, to);
-  Vector<Leaf> leaves(&memory_);
   const auto is_near = [&](const Chunk& chunk) { return squared_distance(chunk.box, box(to)) < reach * reach; };
   std::size_t step = 1;
   if (most < SIZE_MAX) {
@@ -196,12 +160,10 @@ void ContactSearch::find(Index from, Index to, double depth, double& reach, Vect
   }
   Index hint = -1;
   for (const Chunk& chunk : chunks_of(from)) {
-    if (!is_near(chunk)) continue;
-    const ItemBox around = leaves_near(to, chunk.box, reach, leaves);
-    if (leaves.empty()) continue;
+    if (!is_near(chunk) || !tree_.is_near(to, chunk.box, reach * reach)) continue;
     for (std::size_t i = at(chunk.first); i < at(chunk.last); i += step) {
       Contact made;
-      if (!contact_of(chunk_vertex_[i], leaves, around, reach, hint, made)) continue;
+      if (!contact_of(chunk_vertex_[i], to, reach, hint, made)) continue;
       out.push_back(made);
       reach = std::min(reach, made.cost - least_skin + depth);
     }
@@ -210,9 +172,8 @@ void ContactSearch::find(Index from, Index to, double depth, double& reach, Vect
             [](const Contact& a, const Contact& b) { return a.vertex < b.vertex; });
 }
 
-void ContactSearch::improve(Index from, Index to, double range, bool alone, Vector<Contact>& best) const {
+void ContactSearch::improve(Index from, Index to, double range, Vector<Contact>& best) const {
   const double least_skin = least_skin_cost(from, to);
-  Vector<Leaf> leaves(&memory_);
   Index hint = -1;
   for (const Chunk& chunk : chunks_of(from)) {
     double reach = 0;
@@ -220,19 +181,13 @@ void ContactSearch::improve(Index from, Index to, double range, bool alone, Vect
     reach = std::min(reach - least_skin, range);
     if (!(reach > 0)) continue;
     if (!(squared_distance(chunk.box, box(to)) < reach * reach)) continue;
-    ItemBox around{};
-    if (!alone) {
-      around = leaves_near(to, chunk.box, reach, leaves);
-      if (leaves.empty()) continue;
-    }
+    if (!tree_.is_near(to, chunk.box, reach * reach)) continue;
     for (Index i = chunk.first; i < chunk.last; ++i) {
       const Index v = chunk_vertex_[at(i)];
       const double bound = std::min(best[at(v)].cost - least_skin, range);
       if (!(bound > 0)) continue;
       Contact made;
-      if (alone ? alone_contact_of(v, to, bound, hint, made) : contact_of(v, leaves, around, bound, hint, made)) {
-        if (made.cost < best[at(v)].cost) best[at(v)] = made;
-      }
+      if (contact_of(v, to, bound, hint, made) && made.cost < best[at(v)].cost) best[at(v)] = made;
     }
   }
 }

@@ -1,11 +1,10 @@
 // Finds contacts between the pieces of a mesh: vertices of one piece near triangles of another.
 //
-// Each piece has a tree of boxes over its triangles. Its vertices are cut into chunks that are neighbours in space. A
-// chunk visits the leaves near its box once; its vertices test these leaves only. Cost: O(log n) per chunk near the
-// other piece, and a few triangles per vertex there.
+// Each piece has a tree of boxes over its triangles. Its vertices are cut into chunks that are neighbours in space, and
+// a chunk that is far from the other piece is left out. Cost: O(log n) per vertex near the other piece.
 #pragma once
-#include "mesh/box_tree.h"
 #include "mesh/links.h"
+#include "mesh/piece_tree.h"
 
 namespace hf_inner {
 
@@ -25,8 +24,9 @@ class ContactSearch {
     return {vertex_.data() + start_[at(piece)], at(start_[at(piece) + 1] - start_[at(piece)])};
   }
   // Returns the squared distance from p to a piece if it is below `within`, else `within`. enough: a squared distance;
-  // the search ends at the first triangle that is at least that near. triangle: the nearest, or -1.
-  double nearest(Index piece, const Vec3& p, double within, double enough, Index& triangle) const noexcept;
+  // the search ends at the first triangle that is at least that near. hint: a triangle that may be near, or -1.
+  // triangle: the nearest, of equal ones the first, or -1.
+  double nearest(Index piece, const Vec3& p, double within, double enough, Index hint, Index& triangle) const noexcept;
   // A lower bound of what the difference of skin weights adds to the cost of contacts between two pieces.
   double least_skin_cost(Index a, Index b) const noexcept;
   // Appends the contacts of piece `from` with piece `to` that are nearer than reach, in ascending order of the
@@ -34,9 +34,8 @@ class ContactSearch {
   // that cost more are not needed, but some are found. most: where more vertices may have contacts, about so many are
   // tried, spread over all of them.
   void find(Index from, Index to, double depth, double& reach, Vector<Contact>& out, std::size_t most) const;
-  // Keeps for each vertex of piece `from` its cheapest contact. best: by vertex; the cost of none is unbounded. alone:
-  // each vertex searches for itself, which is cheaper while contacts are unbounded.
-  void improve(Index from, Index to, double range, bool alone, Vector<Contact>& best) const;
+  // Keeps for each vertex of piece `from` its cheapest contact. best: by vertex; the cost of none is unbounded.
+  void improve(Index from, Index to, double range, Vector<Contact>& best) const;
   // The barycentric weights of the point of a contact's triangle nearest to its vertex.
   void weights(const Contact& contact, double* out) const noexcept;
 
@@ -44,10 +43,6 @@ class ContactSearch {
   struct Chunk {
     ItemBox box;
     Index first, last;  // of chunk_vertex_
-  };
-  struct Leaf {
-    ItemBox box;
-    Span<const Index> triangles;
   };
   // The largest weight of a joint in a piece.
   struct JointWeight {
@@ -59,11 +54,9 @@ class ContactSearch {
   Span<const Chunk> chunks_of(Index piece) const noexcept {
     return {chunk_.data() + chunk_start_[at(piece)], at(chunk_start_[at(piece) + 1] - chunk_start_[at(piece)])};
   }
-  // Returns the box around the leaves.
-  ItemBox leaves_near(Index piece, const ItemBox& box, double reach, Vector<Leaf>& out) const;
-  bool contact_of(Index v, const Vector<Leaf>& leaves, const ItemBox& around, double reach, Index& hint,
-                  Contact& out) const;
-  bool alone_contact_of(Index v, Index piece, double reach, Index& hint, Contact& out) const;
+  // Finds the contact of a vertex with a piece. hint: the triangle of the vertex before, or -1; consecutive vertices
+  // are near each other. It receives the triangle found.
+  bool contact_of(Index v, Index piece, double reach, Index& hint, Contact& out) const;
   Contact contact(Index v, Index triangle, double squared_length) const;
   double squared(const Vec3& p, Index t, double* weights = nullptr) const noexcept;
 
@@ -72,7 +65,7 @@ class ContactSearch {
   Memory& memory_;
   Vector<ItemBox> boxes_;  // by triangle
   Vector<Index> group_;    // piece by triangle
-  BoxTree tree_;
+  PieceTree tree_;
   Vector<Index> start_, vertex_;              // the vertices of piece p: vertex_[start_[p] .. start_[p + 1])
   Vector<Index> chunk_start_, chunk_vertex_;  // the chunks of piece p: chunk_[chunk_start_[p] .. chunk_start_[p + 1])
   Vector<Chunk> chunk_;

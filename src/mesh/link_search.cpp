@@ -86,6 +86,7 @@ class LinkSearch {
   void link_light();
   void find_below(Index piece, Vector<Contact>& best) const;
   void link_spread(const Vector<Contact>& contacts, std::size_t most, double spacing, bool in_tree);
+  void link_hinge(Vector<Contact>* sides);
   void link_pair(const Pair& pair);
   double edge_length(const Link& link) const;
   void add_link(const Contact& contact, bool in_tree);
@@ -229,7 +230,7 @@ bool LinkSearch::is_sheet(Index piece) const {
         if (near && most >= light_cover * whole) break;
         Index triangle;
         const double within = near ? overlay : range * range;
-        const double found = contacts_.nearest(other.piece, p, within, overlay, triangle);
+        const double found = contacts_.nearest(other.piece, p, within, overlay, -1, triangle);
         if (triangle < 0) continue;
         near = true;
         if (found <= overlay) most = std::max(most, other.covered += area);
@@ -355,24 +356,53 @@ void LinkSearch::link_spread(const Vector<Contact>& contacts, std::size_t most, 
   }
 }
 
+// Links each side of a pair of the tree once, near the middle of the contact. Pieces of different joints turn about
+// each other, and points near the axis move apart the least. The links are as stiff as those of other pairs together.
+void LinkSearch::link_hinge(Vector<Contact>* sides) {
+  Vec3 middle;
+  double sum = 0;
+  for (int side = 0; side < 2; ++side) {
+    for (const Contact& contact : sides[side]) {
+      const double area = areas_[at(contact.vertex)];
+      middle = middle + area * mesh_.positions[at(contact.vertex)], sum += area;
+    }
+  }
+  if (sum > 0) middle = (1 / sum) * middle;
+  const auto off = [&](const Contact& contact) { return norm(mesh_.positions[at(contact.vertex)] - middle); };
+  const std::size_t before = out_.links.size();
+  for (int side = 0; side < 2; ++side) {
+    Vector<Contact>& near = sides[side];
+    double least = unbounded;
+    for (const Contact& contact : near) least = std::min(least, off(contact));
+    near.erase(std::remove_if(near.begin(), near.end(),
+                              [&](const Contact& contact) { return off(contact) > least + hinge_width; }),
+               near.end());
+    link_spread(near, 1, unbounded, true);
+  }
+  for (std::size_t i = before; i < out_.links.size(); ++i) out_.links[i].weight *= static_cast<double>(links_a_side);
+}
+
 // Links both sides of a pair, at contacts that cost little more than the cheapest. All vertices are tried where none of
 // the candidates is a contact, so that a pair of the tree always gets a link.
 void LinkSearch::link_pair(const Pair& pair) {
-  Vector<Contact> near(&memory_);
-  const std::size_t before = out_.links.size();
-  const bool alike = pair.cost - pair.distance <= skin_difference * skin_distance;
-  const double depth = alike ? contact_depth : hinge_depth;
+  Vector<Contact> sides[2] = {Vector<Contact>(&memory_), Vector<Contact>(&memory_)};
+  const bool hinge = pair.cost - pair.distance > skin_difference * skin_distance;
+  const double depth = hinge ? hinge_depth : contact_depth;
   for (const std::size_t most : {link_candidates, std::size_t{SIZE_MAX}}) {
-    for (const bool first : {true, false}) {
+    for (int side = 0; side < 2; ++side) {
+      Vector<Contact>& near = sides[side];
       near.clear();
       double reach = least_above(pair.cost + depth - pair.skin);
-      contacts_.find(first ? pair.a : pair.b, first ? pair.b : pair.a, unbounded, reach, near, most);
+      contacts_.find(side ? pair.b : pair.a, side ? pair.a : pair.b, unbounded, reach, near, most);
       near.erase(std::remove_if(near.begin(), near.end(),
                                 [&](const Contact& contact) { return contact.cost > pair.cost + depth; }),
                  near.end());
-      link_spread(near, pair.in_tree ? links_a_side : links_a_side / 2, unbounded, pair.in_tree);
     }
-    if (out_.links.size() > before) return;
+    if (sides[0].empty() && sides[1].empty()) continue;
+    if (hinge) return link_hinge(sides);
+    for (const Vector<Contact>& near : sides)
+      link_spread(near, pair.in_tree ? links_a_side : links_a_side / 2, unbounded, pair.in_tree);
+    return;
   }
 }
 
@@ -401,7 +431,10 @@ void LinkSearch::link_light() {
     for (const Index v : contacts_.vertices_of(static_cast<Index>(p))) {
       if (best[at(v)].vertex != Mesh::none) found.push_back(best[at(v)]);
     }
-    link_spread(found, found.size(), light_spacing, true);
+    double unlike = unbounded;
+    for (const Contact& contact : found) unlike = std::min(unlike, contact.cost - contact.distance);
+    const bool hinge = unlike > skin_difference * skin_distance;
+    link_spread(found, hinge ? light_hinge_links : found.size(), light_spacing, true);
     for (const std::size_t i : pairs_of_[p]) {
       if (found.empty() && pairs_[i].in_tree) link_pair(pairs_[i]);
     }
@@ -415,7 +448,7 @@ void LinkSearch::find_below(Index piece, Vector<Contact>& best) const {
     for (const std::size_t i : pairs_of_[at(piece)]) {
       const Index other = other_of(i, piece);
       if (pairs_[i].in_tree != in_tree || (out_.light[at(other)] && !smaller(piece, other))) continue;
-      contacts_.improve(piece, other, range, in_tree, best);
+      contacts_.improve(piece, other, range, best);
     }
   }
 }

@@ -10,7 +10,7 @@ double squared(Vec3 a) { return dot(a, a); }
 }  // namespace
 
 // By the regions of its corners, edges and face (Ericson 2005, Section 5.1.5).
-double squared_to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c, double* weights) noexcept {
+double squared_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, double* weights) noexcept {
   const auto take = [&](double s, double t, double rest, double distance) {
     if (weights) weights[0] = s, weights[1] = t, weights[2] = rest;
     return distance;

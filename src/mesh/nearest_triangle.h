@@ -9,7 +9,8 @@ namespace hf_inner {
 
 // Returns the squared distance from p to a triangle. weights: NULL, or receives the barycentric weights of the nearest
 // point.
-double squared_to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c, double* weights = nullptr) noexcept;
+double squared_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c,
+                           double* weights = nullptr) noexcept;
 
 class NearestTriangle {
  public:
@@ -29,8 +30,8 @@ class NearestTriangle {
   const Vector<Index>& order() const noexcept { return tree_.order(); }
 
  private:
-  double squared(Vec3 p, Index t, double* weights = nullptr) const noexcept {
-    const auto corner = [&](std::size_t k) { return positions_[at(corners_[3 * at(t) + k])]; };
+  double squared(const Vec3& p, Index t, double* weights = nullptr) const noexcept {
+    const auto corner = [&](std::size_t k) -> const Vec3& { return positions_[at(corners_[3 * at(t) + k])]; };
     return squared_to_triangle(p, corner(0), corner(1), corner(2), weights);
   }
 

@@ -305,6 +305,11 @@ if (global.gc) {
   const linked = new hf.Surface(places, triangles, { linkPieces: { distance: 0.5 } });
   assert.equal(linked.report.componentCount, 1);
   assert.deepEqual(new Set(linked.pieces.pieces), new Set([0, 1]));
+  const opened = Float32Array.from(places, (x, i) => x + (i >= 24 && i % 3 === 2 ? 3 : 0));
+  assert.equal(linked.measureGaps(Float32Array.from(places)).worst, 0);
+  const gaps = linked.measureGaps(opened);
+  assert.ok(gaps.worst > 1 && gaps.worst <= 3 && gaps.linkCount === linked.report.linkCount, `${gaps.worst}`);
+  assert.throws(() => linked.measureGaps([0, 0, 0]), /positions must hold 48/);
   const tags = Uint32Array.from({ length: 16 }, (_, v) => Number(v > 7));
   const strangers = new hf.Surface(places, triangles, { linkPieces: { distance: 0.5 }, tags });
   assert.equal(strangers.report.componentCount, 2);

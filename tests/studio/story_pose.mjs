@@ -1,6 +1,7 @@
 // Pose: the proposed handle is pulled, turned by its rings and keys, pinned; a handle is added by a click; a clip plays.
 import assert from 'node:assert/strict';
 import { Studio, check } from './harness.mjs';
+import { twoBoxes } from './story_field.mjs';
 
 const shift = (studio) =>
   studio.page.evaluate(() => {
@@ -185,6 +186,22 @@ export default async function story(host) {
       assert.ok(third[0] !== second[0] && third[1] < second[1]);
     },
   );
+  await check('pieces that a pose pulls apart are said', async () => {
+    await page.setInputFiles('#file', { name: 'near.obj', mimeType: 'text/plain', buffer: Buffer.from(twoBoxes(1.02)) });
+    await page.waitForFunction(() => window.hfStudio.body.name === 'near.obj' && window.hfStudio.skin.bvh);
+    await studio.settle();
+    if (await page.isEnabled('#propose')) await page.click('#propose');
+    await studio.settle();
+    const apart = /Pieces stand apart by up to [\d.]+ % of the box/;
+    assert.doesNotMatch(await page.textContent('#sheet'), apart);
+    await page.evaluate(async () => {
+      const app = window.hfStudio;
+      const [first, ...others] = app.state.handles;
+      await app.commit({ ...app.state, handles: [{ ...first, translation: [0, 2, 0] }, ...others] }, 'pull');
+    });
+    await studio.settle();
+    assert.match(await page.textContent('#sheet'), apart);
+  });
   await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
   await studio.close();
   await check('a sample opens moving, with one handle that says "pull me"; a pull ends that', async () => {

@@ -139,6 +139,14 @@ export function surfaceClasses(tools) {
     get report() {
       return query('hf_surface_report', 'hf_surface_get_report', this._handle);
     }
+    /** How far a deformation has opened the links: `positions` posed. */
+    measureGaps(positions) {
+      const xyz = points(positions, 'positions', 3 * this.vertexCount);
+      const desc = make('hf_gaps_desc').set(xyz instanceof Float32Array ? 'positions' : 'positions_f64', read(xyz));
+      const info = make('hf_gaps_info');
+      call('hf_surface_measure_gaps', this._handle, desc, 0, null, info);
+      return info.toObject();
+    }
     get statistics() {
       return query('hf_surface_statistics', 'hf_surface_get_statistics', this._handle);
     }

@@ -90,6 +90,7 @@ export function poseOf(body) {
       });
       told = pose.deformInfo;
       told.added = added;
+      if (way !== 'follow') told.gap = surface.measureGaps(positions).worst / surface.report.boundingBoxDiagonal;
       told.handles = held.map(({ id, number }) => ({ id, centroid: pose.handleInfo(number).centroid }));
       return positions;
     },

@@ -13,42 +13,16 @@
 #include "mesh/nearest_triangle.h"
 #include "support/meshes.h"
 #include "support/oracle.h"
+#include "support/parts.h"
 
 namespace {
 
 using hf_inner::at;
 using hf_inner::Index;
+using hf_test::box;
 using hf_test::PlainMesh;
 
 constexpr double unit = 0.57735026918962573;  // cot 60 degrees
-
-// A closed box of n x n squares a side, its lower corner at `low`.
-PlainMesh box(std::uint32_t n, std::array<double, 3> size, std::array<double, 3> low) {
-  PlainMesh mesh;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (int side = 0; side < 2; ++side) {
-      const PlainMesh face = hf_test::grid(n, n, 1.0 / n);
-      const std::uint32_t base = mesh.vertex_count();
-      const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-      for (std::uint32_t i = 0; i < face.vertex_count(); ++i) {
-        double p[3];
-        p[axis] = side, p[u] = face.positions[3 * std::size_t{i}], p[v] = face.positions[3 * std::size_t{i} + 1];
-        // Rounded to a coarse lattice, so that copies on edges weld.
-        for (std::size_t k = 0; k < 3; ++k) mesh.positions.push_back(low[k] + size[k] * std::round(p[k] * 1024) / 1024);
-      }
-      for (std::size_t c = 0; c < face.triangles.size(); c += 3) {
-        const std::uint32_t a = base + face.triangles[c], b = base + face.triangles[c + 1],
-                            d = base + face.triangles[c + 2];
-        if (side) {
-          mesh.triangles.insert(mesh.triangles.end(), {a, b, d});
-        } else {
-          mesh.triangles.insert(mesh.triangles.end(), {a, d, b});
-        }
-      }
-    }
-  }
-  return mesh;
-}
 
 // Two unit cubes with a gap between them along x.
 PlainMesh two_cubes(double gap = 0.01, std::uint32_t n = 6) {
@@ -361,6 +335,42 @@ TEST(Links, what_moves_with_the_same_joints_is_held_together_firmly) {
   EXPECT_DOUBLE_EQ(other.second, 1);
 }
 
+// Pieces of different joints turn about each other. Near the middle of their contact they slide least.
+TEST(Links, pieces_of_different_joints_link_near_the_middle_of_their_contact) {
+  const PlainMesh mesh = two_cubes();
+  std::vector<std::uint16_t> joints;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) joints.push_back(mesh.positions[3 * v] > 1.005 ? 5 : 3);
+  const std::vector<float> weights(mesh.vertex_count(), 1);
+  auto options = automatic();
+  options.skin = {1, joints.data(), weights.data()};
+  const auto plain = plain_geometry(mesh);
+  const auto shape = hf_inner::Geometry::linked(plain, options);
+  ASSERT_TRUE(shape->links);
+  ASSERT_EQ(shape->links->links.size(), 2u);  // one of each side
+  EXPECT_NE(shape->links->piece[at(shape->links->links[0].vertex)],
+            shape->links->piece[at(shape->links->links[1].vertex)]);
+  for (const hf_inner::Link& link : shape->links->links) {
+    EXPECT_TRUE(link.tree);
+    EXPECT_GE(link.weight, double{hf_inner::links_a_side});
+    const hf_inner::Vec3 p = plain->mesh.to_given(plain->mesh.positions[at(link.vertex)]);
+    EXPECT_LT(std::hypot(p.y - 0.5, p.z - 0.5), 0.2);
+  }
+}
+
+// A sheet of another joint than all below swings about a place, and is not held all over.
+TEST(Links, a_sheet_of_another_joint_has_few_links) {
+  const PlainMesh mesh = body_with_sheet();
+  std::vector<std::uint16_t> joints;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) joints.push_back(mesh.positions[3 * v + 2] > 1.01 ? 5 : 3);
+  const std::vector<float> weights(mesh.vertex_count(), 1);
+  auto options = automatic();
+  options.skin = {1, joints.data(), weights.data()};
+  const auto shape = hf_inner::Geometry::linked(plain_geometry(mesh), options);
+  ASSERT_TRUE(shape->links);
+  EXPECT_EQ(shape->links->light[1], 1);
+  EXPECT_EQ(shape->links->links.size(), hf_inner::light_hinge_links);
+}
+
 // The least squared distance from a vertex to the triangles of a group, by trying all.
 double least_distance(const hf_inner::Mesh& mesh, const std::vector<Index>& group, Index g, Index v) {
   double least = 1e300;
@@ -371,6 +381,11 @@ double least_distance(const hf_inner::Mesh& mesh, const std::vector<Index>& grou
                                                           mesh.positions[at(c[1])], mesh.positions[at(c[2])]));
   }
   return least;
+}
+
+// The last triangle of a group.
+Index search_hint(const std::vector<Index>& group, Index g) {
+  return static_cast<Index>(group.rend() - std::find(group.rbegin(), group.rend(), g)) - 1;
 }
 
 TEST(Links, the_nearest_triangle_of_a_piece_agrees_with_trying_them_all) {
@@ -385,15 +400,22 @@ TEST(Links, the_nearest_triangle_of_a_piece_agrees_with_trying_them_all) {
       const double least = least_distance(mesh, group, g, v);
       const hf_inner::Vec3 p = mesh.positions[at(v)];
       Index triangle = 7;
-      EXPECT_NEAR(search.nearest(g, p, 10, 0, triangle), least, 1e-15);
+      EXPECT_NEAR(search.nearest(g, p, 10, 0, -1, triangle), least, 1e-15);
       ASSERT_GE(triangle, 0);
       EXPECT_EQ(group[at(triangle)], g);
-      EXPECT_EQ(search.nearest(g, p, 0.5 * least, 0, triangle), 0.5 * least);
+      EXPECT_EQ(search.nearest(g, p, 0.5 * least, 0, -1, triangle), 0.5 * least);
       EXPECT_EQ(triangle, -1);
       // A search that may end early finds something near enough, also where the bounds are equal.
       const double bound = least + 1e-6;
-      EXPECT_LT(search.nearest(g, p, bound, bound, triangle), bound);
+      EXPECT_LT(search.nearest(g, p, bound, bound, -1, triangle), bound);
       EXPECT_GE(triangle, 0);
+      // A hint changes no answer. The nearest of equal triangles is the first.
+      Index hinted = 7;
+      search.nearest(g, p, 10, -1, -1, triangle);
+      for (const Index hint : {search_hint(group, g), triangle}) {
+        EXPECT_NEAR(search.nearest(g, p, 10, -1, hint, hinted), least, 1e-15);
+        EXPECT_EQ(hinted, triangle);
+      }
     }
   }
 }
@@ -411,7 +433,7 @@ TEST(Links, contacts_agree_with_trying_all_triangles) {
     hf_inner::Vector<hf_inner::Contact> found(&memory), best(at(mesh.vertex_count()), {-1, -1, 1e300, 1e300}, &memory);
     double reach = range, nearest = 1e300;
     search.find(from, 1 - from, depth, reach, found, SIZE_MAX);
-    search.improve(from, 1 - from, range, from == 0, best);
+    search.improve(from, 1 - from, range, best);
     std::vector<double> distance(at(mesh.vertex_count()), -1);
     for (const hf_inner::Contact& contact : found) distance[at(contact.vertex)] = contact.distance;
     for (const Index v : search.vertices_of(from))

@@ -6,6 +6,8 @@ import { Gizmo } from '../gizmo.js';
 import { Mirror, mirrorChoice } from '../mirror.js';
 
 const reasons = ['foot', 'tip', 'end', 'joint', 'middle'];
+/** Gaps between pieces below this part of the box are not said: a newcomer does not see them. */
+const GAP_SAID = 0.005;
 /** A key moves a handle by this part of the size of the body, and turns it by so many radians. */
 const [NUDGE, TURN_STEP] = [0.02, Math.PI / 18];
 /** Radius of a handle that a click makes, as part of the size of the body: of a leg's width on our own creatures. */
@@ -413,6 +415,8 @@ export class PoseTool {
           { class: 'warn' },
           `${whole(unreached)} vertices belong to pieces without a handle; they stay where they are.`,
         ),
+      app.told?.gap > GAP_SAID &&
+        make('p', { class: 'warn' }, `Pieces stand apart by up to ${(100 * app.told.gap).toFixed(1)} % of the box.`),
       facts([
         ['handles', this.handles.length],
         app.told && [app.told.added ? 'a handle more' : 'pose', ms(app.told.milliseconds)],
