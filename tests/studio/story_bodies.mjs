@@ -80,8 +80,8 @@ async function others(studio, stem) {
   const said = [];
   const done = async (name, ready) => {
     await page
-      .waitForFunction(ready, null, { timeout: 120000 })
-      .catch(async () => said.push(`${name}: ${(await studio.told()) || 'not in two minutes'}`));
+      .waitForFunction(ready, null, { timeout: 60000 })
+      .catch(async () => said.push(`${name}: ${(await studio.told()) || 'not in a minute'}`));
     await studio.picture(`body_${stem}_${name}`, { kept: false });
   };
   await studio.tool('weights');
