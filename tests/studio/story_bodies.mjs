@@ -13,6 +13,15 @@ const bodies = [
   'meshes/armadillo_200k_loop.ply',
 ];
 
+/** The horse walks on a body whose proposed pairs lie so near that their regions meet. */
+async function nearPairs(studio) {
+  await studio.tool('transfer');
+  await studio.page.click('#take-horse');
+  await studio.page.waitForFunction(() => window.hfStudio.tools.transfer?.info);
+  assert.doesNotMatch(await studio.told(), /overlap/);
+  await studio.tool('pose');
+}
+
 export default async function story(host) {
   await check('two starts give the same picture, byte by byte', async () => {
     const drawn = async () => {
@@ -44,6 +53,7 @@ export default async function story(host) {
       );
       const stem = file.replace(/\.\w+$/, '');
       const told = await studio.told();
+      if (file.includes('Woman')) await nearPairs(studio);
       await studio.picture(`body_${stem}_first`, { kept: false });
       const mark = (await studio.marks()).find(({ label }) => label.includes('proposed'));
       assert.ok(mark, 'a handle is proposed');
@@ -70,8 +80,8 @@ async function others(studio, stem) {
   const said = [];
   const done = async (name, ready) => {
     await page
-      .waitForFunction(ready, null, { timeout: 120000 })
-      .catch(async () => said.push(`${name}: ${(await studio.told()) || 'not in two minutes'}`));
+      .waitForFunction(ready, null, { timeout: 60000 })
+      .catch(async () => said.push(`${name}: ${(await studio.told()) || 'not in a minute'}`));
     await studio.picture(`body_${stem}_${name}`, { kept: false });
   };
   await studio.tool('weights');
@@ -86,7 +96,7 @@ async function others(studio, stem) {
   await studio.settle();
   await done('detail', () => window.hfStudio.told.detail);
   await studio.tool('transfer');
-  await page.click('#take-horse');
+  if (!(await page.evaluate(() => window.hfStudio.tools.transfer.info))) await page.click('#take-horse');
   await done('transfer', () => window.hfStudio.tools.transfer.info);
   return said.length ? `; ${said.join('; ')}` : '';
 }

@@ -6,8 +6,15 @@ const ALIKE = 0.45;
 
 export function transferOf(body, source) {
   const { hf, surface } = body;
-  const { HF_PAIR_FOOT, HF_PAIR_TRUNK, HF_PAIR_ANCHOR, HF_PAIR_NECK, HF_PAIR_TAIL, HF_PAIR_ARM, HF_HANDLE_REASON_FOOT } =
-    hf.constants;
+  const {
+    HF_PAIR_FOOT,
+    HF_PAIR_TRUNK,
+    HF_PAIR_ANCHOR,
+    HF_PAIR_NECK,
+    HF_PAIR_TAIL,
+    HF_PAIR_ARM,
+    HF_HANDLE_REASON_FOOT,
+  } = hf.constants;
   const sourcePositions = body.sourcePositions;
   let transfer = null;
   let dials = {};
@@ -69,18 +76,23 @@ export function transferOf(body, source) {
     const under = on.castRay([x, low[1] - 1, z], [0, 1, 0])?.position;
     return [down(x, z), under].filter(Boolean);
   };
-  const regionOf = (positions, { position, radius }, nearest) => {
-    const list = [];
-    for (let v = 0; 3 * v < positions.length; ++v)
-      if (
-        Math.hypot(
-          positions[3 * v] - position[0],
-          positions[3 * v + 1] - position[1],
-          positions[3 * v + 2] - position[2],
-        ) < radius
-      )
-        list.push(v);
-    return list.length ? list : [nearest(position)];
+  /** The vertices around each place; one that lies in reach of two belongs to the nearer. */
+  const regionsOf = (positions, places, nearest) => {
+    const lists = places.map(() => []);
+    for (let v = 0; 3 * v < positions.length; ++v) {
+      let [best, owner] = [1, -1];
+      places.forEach(({ position, radius }, i) => {
+        const away =
+          Math.hypot(
+            positions[3 * v] - position[0],
+            positions[3 * v + 1] - position[1],
+            positions[3 * v + 2] - position[2],
+          ) / radius;
+        if (away < best) [best, owner] = [away, i];
+      });
+      if (owner >= 0) lists[owner].push(v);
+    }
+    return lists.map((list, i) => (list.length ? list : [nearest(places[i].position)]));
   };
 
   return {
@@ -115,8 +127,16 @@ export function transferOf(body, source) {
       const partFlags = { neck: HF_PAIR_NECK, tail: HF_PAIR_TAIL, arm: HF_PAIR_ARM };
       try {
         next.addPairs(
-          pairs.map((pair) => regionOf(sourcePositions, pair.source, (place) => source.findVertex(place).vertex)),
-          pairs.map((pair) => regionOf(body.positions, pair.target, (place) => surface.findVertex(place).vertex)),
+          ...[
+            ['source', source, sourcePositions],
+            ['target', surface, body.positions],
+          ].map(([side, on, positions]) =>
+            regionsOf(
+              positions,
+              pairs.map((pair) => pair[side]),
+              (place) => on.findVertex(place).vertex,
+            ),
+          ),
           pairs.map(({ kind, part }) => flags[kind] | (partFlags[part] ?? 0)),
         );
         next.setDials(dials);

@@ -5,7 +5,7 @@ import { poseOf } from './worker_pose.js';
 
 /**
  * Rounds of poses and fields. After 10 the first pose of the horse takes 1.0 to 3.3 times a later one and the first field 3.8
- * to 6.9 times, after 20 0.9 to 1.4 and 1.2 to 1.5. Ten take 0.1 s of a Worker.
+ * to 6.9 times, after 20 0.9 to 1.4 and 1.2 to 1.8 (three starts each, load 6). Twenty take 0.3 to 0.4 s of a Worker there.
  */
 const ROUNDS = 30;
 /** Rings and corners of a ring. */
