@@ -23,7 +23,7 @@ double turned_share(const Quaternion& turn) noexcept {
 
 // Tells how far the body has fallen over, from 0 to 1. Turns about the vertical do not count.
 double fallen_share(const Quaternion& turn, Vec3 up) noexcept {
-  return smooth_step(turn_low, turn_high, arc_cosine(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0)));
+  return smooth_step(fall_low, fall_high, arc_cosine(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0)));
 }
 
 // Returns the part of the rotation q that turns about the axis, and how certain that part is: it has no meaning for a
@@ -74,8 +74,9 @@ void blend_vertices(const BlendInput& in, std::size_t first, std::size_t last, V
 // anywhere.
 void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
-  const double rigid = rigid_share(whole), share = std::max(rigid, turned_share(turn)),
-               upright = 1 - std::max(rigid, fallen_share(turn, up));
+  const Twist round = about(turn, up);
+  const double rigid = rigid_share(whole), fallen = std::max(rigid, fallen_share(turn, up)), upright = 1 - fallen,
+               share = std::max(fallen, round.certain * turned_share(round.turn));
   const Mat3 carried = power(turn, share).toRotationMatrix();
   if (dials_.moves_paths()) {
     const Vec3 travel = p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
