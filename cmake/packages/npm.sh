@@ -110,14 +110,14 @@ PY
     [ "$("${hf_clean_env[@]}" "$(command -v node)" -e 'fetch(process.argv[1]).then((answer) => console.log(answer.status))' "$link$file")" = 200 ] || said+=("$file")
   done
   kill "$served"
-  [ "${#said[@]}" = 0 ] || hf_fail "npx hf-studio does not serve: ${said[*]}"
+  [ "${#said[@]}" = 0 ] || hf_fail "the studio of the package does not serve: ${said[*]}"
   cp "$hf_tests/golden_package.mjs" "$hf_tests/golden.mjs" "$scratch/"
   for specifier in hf-fields hf-fields/wasm; do
     said+=("$(cd "$scratch" && "${hf_clean_env[@]}" "$(command -v node)" --expose-gc golden_package.mjs "$specifier" "$hf_golden/meshes" "$filled" "$hf_golden/bad_input.json" 2>"$scratch/error.log" | tail -1)")
     [ "${PIPESTATUS[0]}" = 0 ] && [ ! -s "$scratch/error.log" ] || { head -10 "$scratch/error.log" >&2; hf_fail "golden scenes of $specifier: ${said[*]}"; }
     case "${said[-1]}" in *scenes*calls) ;; *) hf_fail "golden scenes of $specifier" ;; esac
   done
-  hf_ran "npm into an empty folder picks $installed of $(ls "$out"/hf-fields-*-*-*.tgz | wc -l); node: ${said[0]}; ${said[1]}; npx hf-studio serves the page"
+  hf_ran "npm into an empty folder picks $installed of $(ls "$out"/hf-fields-*-*-*.tgz | wc -l); node: ${said[0]}; ${said[1]}; its studio serves the page"
 }
 
 case "$1" in

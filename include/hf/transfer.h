@@ -18,12 +18,12 @@ typedef struct hf_transfer_object* hf_transfer;
 enum {
   HF_TRANSFER_FIELDS = 0, /* a cluster: vertices with similar values of all fields; the default */
   HF_TRANSFER_PAPER = 1,  /* a cluster: vertices between two levels of one field, as in the paper */
-  /* Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each target vertex i
-   * matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The result x' minimises
-   *     sum over edges of w_ij |(x'_i - x'_j) - (F_i + F_j) / 2 (x_i - x_j)|^2
-   * with cotangent weights w. It is a Poisson equation with the factor of the surface. Borders match borders, and narrow
-   * openings between them, such as lids, close as on the source. There is no ground, no rest alignment, no dial, no hold
-   * and no skin; flags of pairs have no effect but on the scale. A surface on itself gets its own pose */
+  /* Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each target vertex
+   * i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The result x' minimises sum
+   * over edges of w_ij |(x'_i - x'_j) - (F_i + F_j) / 2 (x_i - x_j)|^2 with cotangent weights w. It is a Poisson
+   * equation with the factor of the surface. Borders match borders, and narrow openings between them, such as lids,
+   * close as on the source. There is no ground, no rest alignment, no dial, no hold and no skin; flags of pairs have no
+   * effect but on the scale. A surface on itself gets its own pose */
   HF_TRANSFER_STRETCH = 2
 };
 
@@ -188,19 +188,19 @@ typedef struct hf_transfer_frame {
  * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region follows the
  * path of the source's region). While a foot of the source stands on the ground, the target's foot follows its scaled
  * path exactly. No part of the target sinks deeper into the ground than the source, scaled, but for those of
- * hf_transfer_get_sinking. What would sink bends up. The ground does not move regions that you hold. A lying target rests on the
- * parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules of the ground come
- * in continuously. HF_GROUND_OFF switches them off. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE (index =
- * source vertex, or position in the holds), HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held twice),
- * HF_ERROR_TOO_LARGE (holds), HF_ERROR_UNSUPPORTED (holds with HF_TRANSFER_STRETCH). Thread safety: changes
+ * hf_transfer_get_sinking. What would sink bends up. The ground does not move regions that you hold. A lying target
+ * rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules of the
+ * ground come in continuously. HF_GROUND_OFF switches them off. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE
+ * (index = source vertex, or position in the holds), HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held
+ * twice), HF_ERROR_TOO_LARGE (holds), HF_ERROR_UNSUPPORTED (holds with HF_TRANSFER_STRETCH). Thread safety: changes
  * `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
 /* Writes 1 for every target vertex that may sink into the ground, else 0: uint8_t[target vertex_count]. These are limbs
  * flagged HF_PAIR_SINKS, tails (HF_PAIR_TAIL) where they are thin, and thin parts that no pair moves: antlers, ears, a
- * held weapon. Thin is less than 4 % of the bounding box through. Legs (HF_PAIR_FOOT) never sink by themselves, nor does
- * what is thin around an anchor, a contact or the trunk, but for loose pieces without a pair. The first call after a
- * change of pairs solves fields. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
+ * held weapon. Thin is less than 4 % of the bounding box through. Legs (HF_PAIR_FOOT) never sink by themselves, nor
+ * does what is thin around an anchor, a contact or the trunk, but for loose pieces without a pair. The first call after
+ * a change of pairs solves fields. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_sinking(hf_transfer transfer, uint8_t* out_sinking);
 
 /* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With weight_count 4 the skin replays

@@ -167,7 +167,7 @@ QuadMesh CountedQuads::make(bool untangled, FieldQuadReport& made) {
   return coarsened(quads, by_count_ || made.substitutes > 0, made);
 }
 
-QuadMesh CountedQuads::make_again(double share, bool untangled, FieldQuadReport& made) {
+QuadMesh CountedQuads::make_finer(double share, bool untangled, FieldQuadReport& made) {
   QuadComplex quads = source_.make(share * length_, untangled, made);
   made.edge_length = share * length_;
   return coarsened(quads, true, made);

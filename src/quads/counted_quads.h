@@ -58,8 +58,8 @@ class CountedQuads {
         memory_(memory) {}
 
   QuadMesh make(bool untangled, FieldQuadReport& made);
-  // Makes another of edges that are `share` times as long, which has as many quads.
-  QuadMesh make_again(double share, bool untangled, FieldQuadReport& made);
+  // Makes another of shorter edges, which has as many quads. share: of the edges of make.
+  QuadMesh make_finer(double share, bool untangled, FieldQuadReport& made);
 
  private:
   QuadMesh coarsened(QuadComplex& quads, bool limited, FieldQuadReport& made);

@@ -17,8 +17,9 @@ namespace {
 constexpr std::int32_t untangle_rounds = 4;
 // Newton steps of a vertex in a round. Half leaves 241, double 230.
 constexpr std::int32_t untangle_sweeps = 10;
-// Vertices so many triangles away move too. 4 leaves 228 too, 8 leaves 234 and takes longer.
-constexpr std::int32_t untangle_rings = 2;
+// Vertices so many triangles away move too. 2 and 8 leave 228 and 234. With 2, a skull has 2.33 instead of 2.22 %
+// irregular vertices; 8 takes longer.
+constexpr std::int32_t untangle_rings = 4;
 // Triangles below this determinant are spread out as well. Half leaves 226, double 230.
 constexpr double untangle_least = 0.05;
 // e is this share of the least determinant. Half leaves 216, double 233.
