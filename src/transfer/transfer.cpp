@@ -79,7 +79,8 @@ Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Cor
       numbers_(target_core_->memory.get()),
       flags_(target_core_->memory.get()),
       source_area_(area_shares(source_core_->mesh, *target_core_->memory)),
-      target_area_(area_shares(target_core_->mesh, *target_core_->memory)) {
+      target_area_(area_shares(target_core_->mesh, *target_core_->memory)),
+      thin_(target_core_->memory.get()) {
   check_options(options);
   options_.source_rest = options_.target_rest = {};
   if (options_.alignment_angle == 0) options_.alignment_angle = default_alignment_angle;
@@ -244,12 +245,12 @@ void Transfer::prepare_anchors(Prepared& p) const {
 // Finds the vertices that may sink: limbs that the caller names, thin tails, and thin parts that no pair moves. Feet
 // never do by themselves. Nor do thin parts around a region that stands or touches, such as fingers, but what a hand
 // holds does.
-void Transfer::find_sinking(Prepared& p) const {
+void Transfer::find_sinking(Prepared& p) {
   const std::size_t width = numbers_.size(), n = at(target_core_->size());
   const Geometry& geometry = target_factor_->geometry->unlinked();
   Memory& memory = *target_core_->memory;
-  const Vector<std::uint8_t> thin = thin_vertices(geometry, memory, *target_core_->jobs),
-                             idle = idle_vertices(geometry, p.target_field.data(), width, memory);
+  if (thin_.empty()) thin_ = thin_vertices(geometry, memory, *target_core_->jobs);
+  const Vector<std::uint8_t> idle = idle_vertices(geometry, p.target_field.data(), width, memory);
   Vector<std::uint8_t> reached(at(geometry.mesh.component_count()), std::uint8_t{0}, &memory);
   for (const std::uint32_t number : numbers_)
     for (const std::int32_t v : target_.region(number)) reached[at(geometry.mesh.component[at(v)])] = 1;
@@ -262,7 +263,7 @@ void Transfer::find_sinking(Prepared& p) const {
     const bool around = row[h] > handle_share && reached[at(geometry.mesh.component[v])];
     const bool leads = (flags & HF_PAIR_FOOT) || ((flags & leading) && around);
     p.sinks[v] = (flags & HF_PAIR_SINKS) ||
-                 (thin[v] && !leads && (idle[v] || ((flags & HF_PAIR_TAIL) && row[h] > limb_window.low)));
+                 (thin_[v] && !leads && (idle[v] || ((flags & HF_PAIR_TAIL) && row[h] > limb_window.low)));
   }
 }
 

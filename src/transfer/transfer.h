@@ -129,7 +129,7 @@ class Transfer {
   void prepare_alignment(Prepared& p) const;
   void prepare_anchors(Prepared& p) const;
   void prepare_ground(Prepared& p) const;
-  void find_sinking(Prepared& p) const;
+  void find_sinking(Prepared& p);
   void prepare_gradients(Prepared& p) const;
   void prepare_dials(Prepared& p) const;  // the limbs that dials turn
   void turn_dials(Prepared& p) const noexcept;
@@ -157,6 +157,7 @@ class Transfer {
   Vector<std::uint32_t> numbers_;  // numbers of pairs in use, ascending: order of the fields
   Vector<std::uint32_t> flags_;    // HF_PAIR_*, by pair number
   Vector<double> source_area_, target_area_;
+  Vector<std::uint8_t> thin_;  // by inner vertex of the target (thin_parts.h); empty until the first pairs are prepared
   std::shared_ptr<Prepared> prepared_;
 };
 
