@@ -98,8 +98,8 @@ constexpr double most_stretched = 1.5;
 
 // Maps for at least so many quads are untangled (untangle.h). Below, lines that run to and fro in a fold are often the
 // only ones around a limb. By a twentieth or more, of 40 meshes: at 5,000 quads irregular vertices are fewer on 12 and
-// more on 5, distances smaller on 11 and larger on 7; at 1,500 quads 13 and 4, 11 and 7; at 500 quads 11 and 12, 5 and
-// 17.
+// more on 5, distances smaller on 11 and larger on 7; at 50,000 9 and 7, 5 and 9, and one more mesh is valid; at 1,500
+// quads 13 and 4, 11 and 7; at 500 quads 11 and 12, 5 and 17.
 constexpr double untangled_from = 1000;
 
 // In a pass that evens out the crosses of a border, each of the two neighbours counts this times the cross itself, and
