@@ -7,6 +7,11 @@ namespace {
 
 double squared(Vec3 a) { return dot(a, a); }
 
+// Below this the areas of a needle, seen from a point, are mostly rounding: their relative error is the unit of
+// rounding over this. Above, the nearest point of the sides would be as far off as the needle is wide: the square root
+// of this. Both are 6e-6 of its length here.
+constexpr double needle = 3e-11;
+
 }  // namespace
 
 // By the regions of its corners, edges and face (Ericson 2005, Section 5.1.5).
@@ -35,10 +40,24 @@ double squared_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Ve
     return take(0, 1 - w, w, squared(bp - w * (c - b)));
   }
   const double sum = va + vb + vc;
-  if (!(sum > 0)) {
-    const double corners[3] = {squared(ap), squared(bp), squared(cp)};
-    const int k = corners[0] <= corners[1] && corners[0] <= corners[2] ? 0 : corners[1] <= corners[2] ? 1 : 2;
-    return take(k == 0, k == 1, k == 2, corners[k]);
+  const double most =
+      std::fmax(std::fmax(std::fabs(d1), std::fabs(d2)),
+                std::fmax(std::fmax(std::fabs(d3), std::fabs(d4)), std::fmax(std::fabs(d5), std::fabs(d6))));
+  if (!(sum > needle * most * most) || va < 0 || vb < 0 || vc < 0) {
+    // Rounding decides the areas, so the nearest point of the sides is taken.
+    const Vec3* corner[3] = {&a, &b, &c};
+    double best = -1, at[3] = {0, 0, 0};
+    for (int k = 0; k < 3; ++k) {
+      const int next = (k + 1) % 3;
+      const Vec3 side = *corner[next] - *corner[k], away = p - *corner[k];
+      const double length = squared(side);
+      const double w = length > 0 ? std::fmin(1.0, std::fmax(0.0, dot(side, away) / length)) : 0.0;
+      const double distance = squared(away - w * side);
+      if (best >= 0 && distance >= best) continue;
+      best = distance;
+      at[k] = 1 - w, at[next] = w, at[(k + 2) % 3] = 0;
+    }
+    return take(at[0], at[1], at[2], best);
   }
   return take(va / sum, vb / sum, vc / sum, squared(ap - (vb / sum) * ab - (vc / sum) * ac));
 }

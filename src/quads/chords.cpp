@@ -37,6 +37,8 @@ class Collapser {
         hub_(leader_),
         gaps_(quads.vertices.position.size(), 0, memory),
         quads_at_(gaps_),
+        piece_(quads.quad_count(), none, memory),
+        size_(memory),
         corners_(quads.vertices.position.size(), 0, memory),
         at_border_(corners_),
         halves_(memory),
@@ -52,6 +54,7 @@ class Collapser {
       for (const std::int32_t v : {q_.tail[h], q_.head(h)})
         sides[v] = static_cast<std::uint8_t>(std::min(sides[v] + 1, 3));
     }
+    find_pieces();
     for (std::int32_t v = 0; v < corners_.size(); ++v) corners_[v] = sides[v] == 1 || sides[v] > 2;
     bent_corners();
     for (std::int32_t h = 0; h < q_.tail.size(); ++h) {
@@ -102,6 +105,22 @@ class Collapser {
   }
 
  private:
+  void find_pieces() {
+    Table<std::int32_t> stack(memory_);
+    for (std::int32_t f = 0; f < q_.quad_count(); ++f) {
+      if (piece_[f] != none) continue;
+      piece_[f] = size_.size(), size_.push_back(0), stack.push_back(f);
+      while (!stack.empty()) {
+        const std::int32_t g = stack.back();
+        stack.pop_back(), ++size_[piece_[g]];
+        for (std::int32_t h = 4 * g; h < 4 * g + 4; ++h) {
+          const std::int32_t next = q_.twin[h] == none ? none : q_.twin[h] / 4;
+          if (next != none && piece_[next] == none) piece_[next] = piece_[g], stack.push_back(next);
+        }
+      }
+    }
+  }
+
   // Vertices where a feature turns sharply.
   void bent_corners() {
     Table<Vec3> before(corners_.size(), Vec3{}, memory_);
@@ -162,6 +181,8 @@ class Collapser {
   }
 
   bool plan() {
+    // Three quads around a point are a triangle, which one quad is not.
+    if (quads_ == 2 && size_[piece_[halves_[0] / 4]] == 3) return false;
     const Table<std::uint8_t>&pinned = q_.vertices.pinned, &border = q_.vertices.border;
     for (const std::int32_t h : halves_) {
       for (const std::int32_t v : {q_.tail[h], q_.head(h)}) {
@@ -385,7 +406,7 @@ class Collapser {
     }
     for (const std::int32_t h : halves_) {
       if (dead_[h / 4]) continue;
-      dead_[h / 4] = 1;
+      dead_[h / 4] = 1, --size_[piece_[h / 4]];
       for (std::int32_t k = 0; k < 4; ++k) --quads_at_[q_.tail[h / 4 * 4 + k]];
     }
     for (const Join& j : joins_) {
@@ -455,6 +476,7 @@ class Collapser {
   Table<std::int32_t> leader_, start_, place_;
   Table<std::int32_t> hub_, gaps_;  // by leader: the hub of the class; the gaps that the border makes in its fan
   Table<std::int32_t> quads_at_;
+  Table<std::int32_t> piece_, size_;         // by quad, its piece; by piece, the quads that are left
   Table<std::uint8_t> corners_, at_border_;  // whether it must stay; whether it lies on a border
   Table<std::int32_t> halves_, classes_, fan_, neighbours_;
   Table<std::int32_t> moved_;  // half-edges that leave vertices which join a hub

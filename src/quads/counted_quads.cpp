@@ -109,19 +109,24 @@ QuadSource::Found QuadSource::find(double length, bool untangled, FieldQuadRepor
 QuadComplex QuadSource::make(double length, bool untangled, FieldQuadReport& report) {
   report.substitutes = 0;
   Found found = find(length, untangled, report);
-  const Table<std::uint8_t>& sound = found.sound;
+  Table<std::uint8_t>& sound = found.sound;
   Table<std::uint8_t> missing(sound.size(), 0, memory_), small(sound.size(), 0, memory_);
+  // A component of one quad in the map gets quads with the corners of its outline.
+  Table<std::int32_t> count(sound.size(), 0, memory_);
+  for (const std::int32_t c : found.component) ++count[c];
   for (std::int32_t c = 0; c < sound.size(); ++c)
-    small[c] = !sound[c] && !of_substitute_[c] && !creased_[c] && area_[c] < few_quads * length * length;
+    small[c] =
+        (!sound[c] || count[c] == 1) && !of_substitute_[c] && !creased_[c] && area_[c] < few_quads * length * length;
   substitute_.append(least_quads(surface_, area_, small, memory_), memory_);
-  for (std::int32_t c = 0; c < sound.size(); ++c) of_substitute_[c] |= small[c];
-  bool any = false;
+  bool any = false, all = true;
   for (std::int32_t c = 0; c < sound.size(); ++c) {
+    of_substitute_[c] |= small[c];
     report.substitutes += !sound[c];
     missing[c] = !sound[c] && !of_substitute_[c], any |= missing[c] != 0;
+    sound[c] = sound[c] && !(count[c] == 1 && of_substitute_[c]), all = all && sound[c];
   }
   if (any) substitute(length, untangled, missing, report);
-  if (report.substitutes == 0) return std::move(found.quads);
+  if (all) return std::move(found.quads);
   return joined(found.quads, found.component, sound, substitute_, components_of(surface_, substitute_, memory_),
                 memory_);
 }

@@ -94,18 +94,22 @@ struct QuadBase {
 };
 
 struct HalfBase;  // the same for symmetric quads (symmetric.h)
+struct CutBase;   // and where long triangles are cut (cut_mesh.h)
 
 // What updates of quads keep.
 struct QuadKeeper {
   std::shared_ptr<QuadBase> whole;
   std::shared_ptr<HalfBase> half;
+  std::shared_ptr<CutBase> cut;
 };
+
+double area_of(const Core& core);
+// Throws HF_ERROR_TOO_LARGE if the default edge length gives far more quads than anybody wants.
+void check_expected(const FieldQuadOptions& options, double area);
 
 // Throws HF_ERROR_UNSUPPORTED for surfaces that are not manifold or cannot be oriented, and where no try gives a mesh
 // of discs; HF_ERROR_INVALID_ARGUMENT (index = guide) for a vector that stands on the surface; HF_ERROR_CANCELLED; with
 // a plane what make_symmetric_quads throws.
-// Throws HF_ERROR_TOO_LARGE if the default edge length gives far more quads than anybody wants.
-void check_expected(const FieldQuadOptions& options, double area);
 // kept: NULL, or of earlier calls with the same core; receives what this call makes. The result is the same, bit for
 // bit.
 QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* report = nullptr,

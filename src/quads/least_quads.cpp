@@ -12,6 +12,13 @@ namespace {
 // 0.02, and drew the hand back into it. 0.1 to 0.3 change two of six coarse models of many parts, by 4 % at most.
 constexpr double least_share = 0.4;
 
+// A corner whose sine is at most this is no corner: the outline is a triangle. Less leaves quads that are triangles,
+// more makes three quads of blunt ones. 0.17 is 10 degrees.
+constexpr double flat_corner = 0.17;
+// The other three corners must have this share of the area. Less takes bent outlines for triangles, whose sides the
+// three quads do not follow.
+constexpr double straight_share = 0.9;
+
 // The vertices and triangles of one component, and a half-edge of its border.
 struct Part {
   explicit Part(Memory& memory) : triangles(memory), vertices(memory) {}
@@ -103,15 +110,66 @@ class Maker {
     if (to < from) to += count;
     const SurfacePoint corner[4] = {at_tail(loop[from], 0), farthest(from, to), at_tail(loop[to % count], 0),
                                     farthest(to, from + count)};
+    Vec3 p[4];
+    for (int k = 0; k < 4; ++k) p[k] = position_of(s_, corner[k]);
+    const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 x = p[(k + 1) % 4] - p[k], y = p[(k + 3) % 4] - p[k];
+      const bool flat = dot(cross(x, y), normal) <= flat_corner * norm(normal) * norm(x) * norm(y);
+      if (flat && 0.5 * norm(cross(p[(k + 2) % 4] - p[(k + 1) % 4], p[(k + 3) % 4] - p[(k + 1) % 4])) >
+                      straight_share * area_of(part))
+        return triangle(part, loop, corner, k);
+    }
     for (const SurfacePoint& point : corner) add_half(add_vertex(point, true), true);
   }
 
  private:
+  // Three quads around a point in the middle. The outline has three corners; corner `flat` of the four is none.
+  void triangle(const Part& part, const Table<std::int32_t>& loop, const SurfacePoint (&corner)[4], int flat) {
+    std::int32_t tip[3], side[3];  // side k is between tips k and k + 1
+    Vec3 middle{};
+    for (int k = 0; k < 3; ++k) {
+      const SurfacePoint& point = corner[(flat + 1 + k) % 4];
+      tip[k] = add_vertex(point, true), middle = middle + (1.0 / 3) * position_of(s_, point);
+    }
+    for (int k = 0; k < 3; ++k) {
+      side[k] = add_vertex(halfway(loop, corner[(flat + 1 + k) % 4], corner[(flat + 1 + (k + 1) % 3) % 4]), true);
+    }
+    const std::int32_t centre = add_vertex(nearest(part, middle), false), first = out_.tail.size();
+    for (int k = 0; k < 3; ++k) {
+      add_half(tip[k], true), add_half(side[k], false), add_half(centre, false), add_half(side[(k + 2) % 3], true);
+    }
+    for (int k = 0; k < 3; ++k) out_.join(first + 4 * k + 1, first + 4 * ((k + 1) % 3) + 2);
+  }
+  // The point of the border loop halfway from one point to another one.
+  SurfacePoint halfway(const Table<std::int32_t>& loop, const SurfacePoint& from, const SurfacePoint& to) const {
+    const Vec3 p = position_of(s_, from), q = position_of(s_, to);
+    const Vec3 middle = 0.5 * (p + q), way = q - p;
+    SurfacePoint best;
+    double least = HUGE_VAL;
+    for (const std::int32_t h : loop) {
+      // Where the plane halfway between the two cuts the edge.
+      const double a = dot(s_.position[s_.tail[h]] - middle, way), b = dot(s_.position[s_.head(h)] - middle, way);
+      if ((a < 0) == (b < 0)) continue;
+      const SurfacePoint place = at_tail(h, a / (a - b));
+      const double away = norm(position_of(s_, place) - middle);
+      if (away < least) least = away, best = place;
+    }
+    return best;
+  }
   static constexpr double corner_share = 0.6;  // 1 / sqrt(3) on a sphere
   static SurfacePoint at_tail(std::int32_t h, double share) {
     SurfacePoint point;
     point.triangle = h / 3, point.weight[h % 3] = 1 - share, point.weight[(h % 3 + 1) % 3] = share;
     return point;
+  }
+  double area_of(const Part& part) const {
+    double area = 0;
+    for (const std::int32_t t : part.triangles) {
+      const Vec3 p = s_.position[s_.tail[3 * t]];
+      area += 0.5 * norm(cross(s_.position[s_.tail[3 * t + 1]] - p, s_.position[s_.tail[3 * t + 2]] - p));
+    }
+    return area;
   }
   SurfacePoint nearest(const Part& part, Vec3 p) const {
     SurfacePoint point;

@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "quads/numbers.h"
+#include "quads/other_core.h"
 
 namespace hf_inner {
 namespace {
@@ -46,21 +47,6 @@ void check_symmetry(const Core& core, const NearestTriangle& nearest, const Mirr
        "the surface is not symmetric in symmetry_plane: the mirror image of vertex %u is %g away from it; %g is "
        "allowed",
        given, std::sqrt(distance) * core.mesh.scale, most_off * core.mesh.scale);
-}
-
-std::shared_ptr<const Core> core_of(const Core& whole, const HalfSurface& half) {
-  Vector<std::uint32_t> corners(half.corner.begin(), half.corner.end(), whole.memory.get());
-  MeshInput input;
-  input.vertex_count = static_cast<std::uint32_t>(half.position.size());
-  input.triangle_count = static_cast<std::uint32_t>(corners.size() / 3);
-  input.positions = {&half.position[0].x, sizeof(Vec3)};
-  input.triangles = CornerRows(corners.data());
-  input.weld = Weld::none;
-  CoreOptions options;
-  options.operator_kind = whole.geometry->operator_kind;
-  options.ordering = whole.ordering, options.flop_limit = whole.flop_limit;
-  options.formed_valence = whole.formed_valence;
-  return Core::make(input, options, whole.memory, whole.jobs);
 }
 
 // Adds the mirror image, and finds all vertices on the surface. Two quads that share two edges, around a vertex on the
@@ -284,15 +270,14 @@ HalfBase::HalfBase(const Core& whole, const MirrorPlane& given)
     fail(
         HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
         "no triangle lies on the side of symmetry_plane that its normal points to; turn the signs of all four numbers");
-  core = core_of(whole, half);
+  core = core_like(whole, half.position, half.corner);
 }
 
 QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report, QuadKeeper* kept) {
   const Core& whole = *options.core;
   Memory& memory = *whole.memory;
   const MirrorPlane& plane = *options.plane;
-  double area = 0;
-  for (const double part : whole.areas) area += part;
+  const double area = area_of(whole);
   const double length = options.faces > 0 ? std::sqrt(area / options.faces) : options.edge_length;
   check_expected(options, area);
   // One that fails stays unmade.
@@ -307,40 +292,27 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
   }
   const NearestTriangle& nearest = base->nearest;
   const HalfSurface& half = base->half;
-  FieldQuadOptions own = options;
-  own.plane.reset(), own.core = base->core;
-  const Mesh& mesh = own.core->mesh;
-  const auto vertex_of = [&](Index v) {
-    const Index found = half.of_vertex[at(v)];
-    return found == Mesh::none ? found : mesh.inner_of_given[at(found)];
-  };
-  Vector<QuadGuide> guides(&memory);
+  const Mesh& mesh = base->core->mesh;
+  OtherOptions own(options, base->core, length);
   for (const QuadGuide& guide : options.guides) {
-    const Index v = vertex_of(guide.vertex);
-    if (v != Mesh::none) guides.push_back(guide), guides.back().vertex = v;
+    const Index v = half.of_vertex[at(guide.vertex)];
+    if (v != Mesh::none) own.add_guide(guide, v);
   }
-  Vector<Index> creases(&memory);
   for (const Index e : options.crease_edges) {
-    Index ends[2] = {vertex_of(whole.topology.first(e)), vertex_of(whole.topology.second(e))};
-    const Index middle = half.of_edge[at(e)];
+    Index ends[2] = {half.of_vertex[at(whole.topology.first(e))], half.of_vertex[at(whole.topology.second(e))]};
     for (Index& end : ends) {
-      if (end == Mesh::none && middle != Mesh::none) end = mesh.inner_of_given[at(middle)];
+      if (end == Mesh::none) end = half.of_edge[at(e)];
     }
-    if (ends[0] == Mesh::none || ends[1] == Mesh::none) continue;
-    const Index found = own.core->topology.edge_between(ends[0], ends[1]);
-    if (found != Mesh::none) creases.push_back(found);
+    if (ends[0] != Mesh::none && ends[1] != Mesh::none && ends[0] != ends[1]) own.add_crease(ends[0], ends[1]);
   }
-  Vector<QuadPole> poles(&memory);
   for (const QuadPole& pole : options.poles) {
-    if (plane.side(pole.place) >= 0) poles.push_back(pole), poles.back().place = mesh.to_inner(pole.place);
+    if (plane.side(pole.place) >= 0) own.add_pole(pole);
   }
-  own.poles = {poles.data(), poles.size()};
-  own.guides = {guides.data(), guides.size()}, own.crease_edges = {creases.data(), creases.size()};
-  own.edge_length = length / mesh.scale;
-  if (options.faces > 0) own.faces = std::max(1, (options.faces + 1) / 2);
+  FieldQuadOptions half_options = own.get();
+  if (options.faces > 0) half_options.faces = std::max(1, (options.faces + 1) / 2);
   std::optional<ProgressRange> part(std::in_place, cut, made);
   FieldQuadReport found;
-  QuadResult result = make_field_quads(own, &found, kept ? &base->kept : nullptr);
+  QuadResult result = make_field_quads(half_options, &found, kept ? &base->kept : nullptr);
   part.reset();
   Table<std::uint8_t> on_plane(memory);
   for (Index v = 0; v < result.mesh.position.size(); ++v) {

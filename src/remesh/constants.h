@@ -57,6 +57,14 @@ constexpr double unfold_least = 0.02;
 // How often vertices near places that lie too far go back, each time a ring more; then all do. Half and double give the
 // same figures.
 constexpr std::int32_t unfold_returns = 4;
+// A place lies on the border, or at its vertex, if the weights of the other corners are below this: rounding.
+constexpr double on_border = 1e-9;
+// Vertices on borders slide along them as far as the cosine of the border's turn stays above this: 18 degrees. More
+// rounds the border off, less keeps vertices where they are.
+constexpr double straight_border = 0.95;
+// They keep at least this share of an edge, or of the old distance, from the other corners of their quads: else edges
+// would vanish.
+constexpr double unfold_apart = 0.25;
 
 // --- quad_distance.cpp ---
 

@@ -131,6 +131,10 @@ class Fitter {
     return false;
   }
 
+  std::int32_t component_of(const SurfacePoint& point) const {
+    return surface_.component[surface_.tail[3 * point.triangle]];
+  }
+
   // Returns the vertex that a fitting step (release, snap, ...) would change: the corner of the quad at a missed place
   // that is nearest to the place and may take the step.
   std::int32_t vertex_for(std::int32_t step, const QuadMiss& miss, const VertexFans& fans) const {
@@ -138,9 +142,12 @@ class Fitter {
     if (step == collapse) return can_collapse(mesh_, fans, f, 0) || can_collapse(mesh_, fans, f, 1) ? c[0] : none;
     if (step > snap && mesh_.face_count() >= most_faces_) return none;
     std::int32_t best = none;
+    const std::int32_t component = component_of(target(miss));
     for (std::int32_t k = 0; k < 4; ++k) {
       const std::int32_t v = c[k];
       bool may = !mesh_.border[v] || (step == snap && miss.vertex >= 0 && on_border(miss.vertex));
+      // A place of a lost component does not draw vertices of others.
+      if (step == snap || step == split) may = may && component_of(mesh_.location[v]) == component;
       if (step == release) may = may && mesh_.pinned[v] == QuadMesh::snapped && miss.vertex == QuadMiss::of_quads;
       if (step == snap) may = may && !mesh_.pinned[v];
       if (step == split || step == widen) may = may && fans.valence(v) >= 4;
@@ -251,8 +258,10 @@ class Fitter {
   void snap_nearest(const Vector<Place>& places, QuadMesh& mesh, const Table<std::uint8_t>& moving) const {
     for (const Place& place : places) {
       std::int32_t best = none;
+      const std::int32_t component = component_of(target(place.miss));
       for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
         if (!moving[v] || mesh.pinned[v] || mesh.border[v]) continue;
+        if (component_of(mesh.location[v]) != component) continue;
         if (best == none || norm(mesh.position[v] - place.miss.point) < norm(mesh.position[best] - place.miss.point))
           best = v;
       }

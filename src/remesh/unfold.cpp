@@ -42,6 +42,8 @@ class Unfolder {
   }
 
  private:
+  static constexpr std::int32_t none = -1;
+
   // The vertices of quads with a turned corner that may move.
   void gather(Table<std::int32_t>& todo) const {
     Table<std::uint8_t> marked(mesh_.position.size(), 0, memory_);
@@ -51,7 +53,7 @@ class Unfolder {
     }
     todo.clear();
     for (std::int32_t v = 0; v < mesh_.position.size(); ++v) {
-      if (marked[v] && !mesh_.border[v] && mesh_.pinned[v] != QuadMesh::feature) todo.push_back(v);
+      if (marked[v] && (mesh_.border[v] || mesh_.pinned[v] != QuadMesh::feature)) todo.push_back(v);
     }
   }
 
@@ -79,20 +81,35 @@ class Unfolder {
     return sum;
   }
 
+  // A vertex and the best of the places that it was offered.
+  struct Best {
+    std::int32_t vertex;
+    SurfacePoint place;
+    Vec3 position;
+    double before, energy;
+  };
+  Best start(std::int32_t v) const {
+    const double before = energy(v);
+    return {v, mesh_.location[v], mesh_.position[v], before, before};
+  }
+  void offer(const SurfacePoint& place, Best& best) {
+    mesh_.position[best.vertex] = position_of(surface_, place);
+    const double e = energy(best.vertex);
+    if (e < best.energy) best.energy = e, best.place = place, best.position = mesh_.position[best.vertex];
+  }
+  // Moves the vertex to the best place. Returns whether it moved.
+  bool take(const Best& best) {
+    mesh_.position[best.vertex] = best.position, mesh_.location[best.vertex] = best.place;
+    return best.energy < best.before;
+  }
+
+  bool improve(std::int32_t v) { return mesh_.border[v] ? slide(v) : move(v); }
+
   // Moves a vertex to the best of some places around it. Returns whether it moved.
-  bool improve(std::int32_t v) {
+  bool move(std::int32_t v) {
     const SurfacePoint from = mesh_.location[v];
     const Vec3 origin = mesh_.position[v];
-    SurfacePoint best_place = from;
-    Vec3 best_position = origin;
-    const double before = energy(v);
-    double best = before;
-    const auto offer = [&](Vec3 way) {
-      const SurfacePoint place = walk_surface(surface_, from, way);
-      mesh_.position[v] = position_of(surface_, place);
-      const double e = energy(v);
-      if (e < best) best = e, best_place = place, best_position = mesh_.position[v];
-    };
+    Best best = start(v);
     Vec3 centre;
     std::int32_t count = 0;
     Vec3 normal;
@@ -110,15 +127,83 @@ class Unfolder {
       for (const double a : {-1.0, 0.0, 1.0}) {
         for (const double b : {-1.0, 0.0, 1.0}) {
           if (a == 0 && b == 0) continue;
-          offer(length * (a * x + b * y));
+          offer(walk_surface(surface_, from, length * (a * x + b * y)), best);
         }
       }
-      if (best < before) break;
+      if (best.energy < best.before) break;
     }
-    mesh_.position[v] = origin;
-    if (count > 0) offer((1.0 / count) * centre - origin);
-    mesh_.position[v] = best_position, mesh_.location[v] = best_place;
-    return best < before;
+    if (count > 0) offer(walk_surface(surface_, from, (1.0 / count) * centre - origin), best);
+    return take(best);
+  }
+
+  // The half-edge of the border that a place lies on, or none.
+  std::int32_t border_edge(const SurfacePoint& place) const {
+    for (std::int32_t k = 0; k < 3; ++k) {
+      const std::int32_t h = 3 * place.triangle + k;
+      if (!surface_.is_real(surface_.twin[h]) && std::fabs(place.weight[(k + 2) % 3]) < on_border) return h;
+    }
+    return none;
+  }
+  std::int32_t next_border(std::int32_t h) const {
+    h = FluxSurface::next(h);
+    while (surface_.is_real(surface_.twin[h])) h = FluxSurface::next(surface_.twin[h]);
+    return h;
+  }
+  std::int32_t previous_border(std::int32_t h) const {
+    h = FluxSurface::previous(h);
+    while (surface_.is_real(surface_.twin[h])) h = FluxSurface::previous(surface_.twin[h]);
+    return h;
+  }
+  Vec3 vector_of(std::int32_t h) const {
+    return surface_.position[surface_.head(h)] - surface_.position[surface_.tail[h]];
+  }
+  bool is_straight(std::int32_t h, std::int32_t g) const {
+    return dot(unit(vector_of(h)), unit(vector_of(g))) > straight_border;
+  }
+
+  // Whether a place of vertex v is away from the other corners of its quads.
+  bool is_apart(std::int32_t v, Vec3 place) const {
+    for (std::int32_t i = fans_.start[v]; i < fans_.start[v + 1]; ++i) {
+      const std::int32_t* c = mesh_.quad(fans_.face[i]);
+      for (std::int32_t k = 0; k < 4; ++k) {
+        const double before = norm(mesh_.position[c[k]] - old_position_[v]);
+        if (c[k] != v && norm(mesh_.position[c[k]] - place) < unfold_apart * std::min(edge_length_, before))
+          return false;
+      }
+    }
+    return true;
+  }
+
+  // Moves a vertex of a border along it, but not over its corners. Returns whether it moved.
+  bool slide(std::int32_t v) {
+    const SurfacePoint from = mesh_.location[v];
+    const std::int32_t edge = border_edge(from);
+    if (edge == none) return false;
+    Best best = start(v);
+    const double share = from.weight[(edge + 1) % 3];  // of the way along the edge
+    if (share < on_border && !is_straight(previous_border(edge), edge)) return false;
+    if (share > 1 - on_border && !is_straight(edge, next_border(edge))) return false;
+    for (double length = unfold_reach * edge_length_; length > unfold_least * edge_length_; length *= 0.5) {
+      for (const bool forward : {false, true}) {
+        std::int32_t h = edge;
+        double at = share, left = length;
+        while (true) {
+          const double size = norm(vector_of(h)), rest = (forward ? 1 - at : at) * size;
+          if (rest >= left) {
+            at += (forward ? left : -left) / size;
+            SurfacePoint place;
+            place.triangle = h / 3, place.weight[h % 3] = 1 - at, place.weight[(h + 1) % 3] = at;
+            if (is_apart(v, position_of(surface_, place))) offer(place, best);
+            break;
+          }
+          const std::int32_t g = forward ? next_border(h) : previous_border(h);
+          if (!is_straight(h, g) || g == edge) break;
+          left -= rest, h = g, at = forward ? 0 : 1;
+        }
+      }
+      if (best.energy < best.before) break;
+    }
+    return take(best);
   }
 
   // Takes back what lies farther from the surface than before.

@@ -88,6 +88,50 @@ TEST(UnfoldQuads, FeaturesStayAndAMeshWithoutTurnedCornersKeepsItsBits) {
     EXPECT_EQ(norm(thrown.mesh.position[v] - folded.position[v]), 0);
 }
 
+// A vertex of a border that passed its neighbour comes back along the border. Corners of the border stay.
+TEST(UnfoldQuads, VerticesOfABorderSlideAlongIt) {
+  const auto core = hf_test::make_core(hf_test::grid(20, 20));
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, *core->memory);
+  FieldQuadOptions options;
+  options.core = core, options.edge_length = edge_length;
+  QuadMesh mesh = make_field_quads(options).mesh;
+  const QuadDistance distance(surface, 0.25 * edge_length, *core->memory);
+  const auto turned = [&] {
+    std::int32_t count = 0;
+    for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+      for (std::int32_t k = 0; k < 4; ++k) {
+        const std::int32_t* c = mesh.quad(f);
+        const Vec3 p = mesh.position[c[k]];
+        count += cross(mesh.position[c[(k + 1) % 4]] - p, mesh.position[c[(k + 3) % 4]] - p).z <= 0;
+      }
+    }
+    return count;
+  };
+  ASSERT_EQ(turned(), 0);
+  const Vec3 low = core->mesh.to_inner({0, 0, 0}), high = core->mesh.to_inner({20, 20, 0});
+  std::int32_t moved = -1;
+  for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
+    const Vec3 p = mesh.position[v];
+    if (std::fabs(p.y - low.y) < 1e-9 && p.x > low.x + 3 * edge_length && p.x < high.x - 3 * edge_length) moved = v;
+  }
+  ASSERT_GE(moved, 0);
+  ASSERT_TRUE(mesh.border[moved]);
+  mesh.location[moved] = walk_surface(surface, mesh.location[moved], {1.1 * edge_length, 0, 0});
+  mesh.position[moved] = position_of(surface, mesh.location[moved]);
+  distance.turn_quads(mesh);
+  ASSERT_GT(turned(), 0);
+  unfold_quads(surface, distance, edge_length, edge_length, mesh, *core->memory);
+  EXPECT_EQ(turned(), 0);
+  EXPECT_NEAR(mesh.position[moved].y, low.y, 1e-12);
+  std::int32_t corners = 0;
+  for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
+    const Vec3 p = mesh.position[v];
+    corners += (std::fabs(p.x - low.x) < 1e-9 || std::fabs(p.x - high.x) < 1e-9) &&
+               (std::fabs(p.y - low.y) < 1e-9 || std::fabs(p.y - high.y) < 1e-9);
+  }
+  EXPECT_EQ(corners, 4);
+}
+
 // Where nothing may lie farther from the surface than a bound that is too small, all goes back.
 TEST(UnfoldQuads, WhatWouldLieFartherGoesBack) {
   Thrown thrown;
