@@ -144,38 +144,39 @@ TEST(SmallParts, limbs_that_few_lines_run_round_are_kept) {
 }
 
 // A triangle smaller than the quads becomes three quads around a point: one quad would have a flat corner. A needle
-// too.
+// too. Where there are too many quads, those of triangles stay.
 TEST(SmallParts, lone_triangles_become_three_quads) {
-  hf_test::PlainMesh mesh = hf_test::grid(20, 20, 1, 0.2);
-  const std::vector<std::vector<double>> lone = {{30, 0, 0, 31.5, 0.2, 0, 30.4, 1.3, 0},
-                                                 {28.62, -53.98, -2.69, 27.81, -53.72, -2.69, 29.38, -54.23, -2.66}};
-  for (const std::vector<double>& corners : lone) {
-    const std::uint32_t first = static_cast<std::uint32_t>(mesh.positions.size() / 3);
-    mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
-    for (std::uint32_t k = 0; k < 3; ++k) mesh.triangles.push_back(first + k);
-  }
-  const auto core = hf_test::make_core(mesh);
-  FieldQuadOptions options;
-  options.core = core, options.faces = 150;
-  const QuadResult result = make_field_quads(options);
-  hf_test::expect_manifold(*core, result.mesh, "triangles");
-  std::int32_t counts[2] = {0, 0};
-  for (std::int32_t f = 0; f < result.mesh.face_count(); ++f) {
-    const std::int32_t* c = result.mesh.quad(f);
-    const Vec3 p0 = core->mesh.to_given(result.mesh.position[c[0]]);
-    if (p0.x < 25) continue;
-    ++counts[p0.y < -10];
-    const Vec3 normal = cross(result.mesh.position[c[2]] - result.mesh.position[c[0]],
-                              result.mesh.position[c[3]] - result.mesh.position[c[1]]);
-    for (int k = 0; k < 4; ++k) {
-      const Vec3 p = result.mesh.position[c[k]];
-      const Vec3 turn = cross(unit_vector(result.mesh.position[c[(k + 1) % 4]] - p),
-                              unit_vector(result.mesh.position[c[(k + 3) % 4]] - p));
-      EXPECT_GT(dot(turn, normal), 0) << f;
+  for (const int needles : {1, 60}) {
+    hf_test::PlainMesh mesh = hf_test::grid(20, 20, 1, 0.2);
+    std::vector<std::vector<double>> lone = {{30, 0, 0, 31.5, 0.2, 0, 30.4, 1.3, 0}};
+    for (int i = 0; i < needles; ++i)
+      lone.push_back({28.62 + 3 * i, -53.98, -2.69, 27.81 + 3 * i, -53.72, -2.69, 29.38 + 3 * i, -54.23, -2.66});
+    for (const std::vector<double>& corners : lone) {
+      const std::uint32_t first = static_cast<std::uint32_t>(mesh.positions.size() / 3);
+      mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
+      for (std::uint32_t k = 0; k < 3; ++k) mesh.triangles.push_back(first + k);
     }
+    const auto core = hf_test::make_core(mesh);
+    FieldQuadOptions options;
+    options.core = core, options.faces = 150;
+    const QuadResult result = make_field_quads(options);
+    hf_test::expect_manifold(*core, result.mesh, "triangles");
+    std::int32_t count = 0;
+    for (std::int32_t f = 0; f < result.mesh.face_count(); ++f) {
+      const std::int32_t* c = result.mesh.quad(f);
+      if (core->mesh.to_given(result.mesh.position[c[0]]).x < 25) continue;
+      ++count;
+      const Vec3 normal = cross(result.mesh.position[c[2]] - result.mesh.position[c[0]],
+                                result.mesh.position[c[3]] - result.mesh.position[c[1]]);
+      for (int k = 0; k < 4; ++k) {
+        const Vec3 p = result.mesh.position[c[k]];
+        const Vec3 turn = cross(unit_vector(result.mesh.position[c[(k + 1) % 4]] - p),
+                                unit_vector(result.mesh.position[c[(k + 3) % 4]] - p));
+        EXPECT_GT(dot(turn, normal), 0) << f;
+      }
+    }
+    EXPECT_EQ(count, 3 * (needles + 1));
   }
-  EXPECT_EQ(counts[0], 3);
-  EXPECT_EQ(counts[1], 3);
 }
 
 TEST(SmallParts, rods_and_specks_keep_their_extent) {
