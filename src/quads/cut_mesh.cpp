@@ -163,10 +163,20 @@ bool CutMesh::cut(double longest, Index most, Memory& memory) {
   return true;
 }
 
+namespace {
+
+CutMesh cut_checked(const Core& whole, double length, double quads) {
+  // Refuses what is no surface. A cut one has more edges, so its faults are a smaller share.
+  FluxSurface::make(whole.mesh, whole.topology, *whole.memory);
+  return CutMesh::make(whole, cut_length * length, most_triangles(whole, quads));
+}
+
+}  // namespace
+
 CutBase::CutBase(const Core& whole, double given_length, double given_quads)
     : length(given_length),
       quads(given_quads),
-      cut(CutMesh::make(whole, cut_length * length, most_triangles(whole, quads))),
+      cut(cut_checked(whole, length, quads)),
       core(core_like(whole, cut.position, cut.corner)) {}
 
 SurfacePoint CutBase::in_whole(const SurfacePoint& point) const noexcept {
