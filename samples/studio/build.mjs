@@ -1,4 +1,4 @@
-// build.mjs OUTDIR: bundles the page and its Worker. HF_WASM: folder of hf.mjs and hf.wasm. HF_MODULES: the npm packages.
+// build.mjs OUTDIR: bundles the page and its Worker. HF_WASM: folder of hf.mjs, hf_gltf.mjs and their wasm files. HF_MODULES: the npm packages.
 // HF_WASM_MT: folder of those with threads; without it the page has none.
 import { createHash } from 'node:crypto';
 import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -44,7 +44,10 @@ await build({
   legalComments: 'linked',
   nodePaths: [process.env.HF_MODULES],
   define: { HF_THREADS: JSON.stringify(Boolean(process.env.HF_WASM_MT)) },
-  alias: { 'hf-glue': join(process.env.HF_WASM, 'hf.mjs') },
+  alias: {
+    'hf-glue': join(process.env.HF_WASM, 'hf.mjs'),
+    'hf-gltf-glue': join(process.env.HF_WASM, 'hf_gltf.mjs'),
+  },
   // node's own reading of files, in the loader of WebAssembly and of glTF: no browser gets there
   external: ['node:*', 'fs', 'path', 'module', 'url'],
   logLevel: 'warning',
@@ -57,6 +60,7 @@ writeFileSync(
   readFileSync(join(here, 'index.html'), 'utf8').replace('/*STYLE*/', () => style.trim()),
 );
 await split(process.env.HF_WASM, out);
+copyFileSync(join(process.env.HF_WASM, 'hf_gltf.wasm'), join(out, 'gltf.wasm'));
 // what is bundled is under the MIT licence, which goes along
 const licences = [
   'three',

@@ -139,14 +139,14 @@ const tasks = {
   quads(options) {
     return [quadsOf(body, options), []];
   },
-  async transferOpen({ positions, triangles }) {
+  async transferOpen({ positions, triangles, glb }) {
     const { transferOf } = await import('./worker_transfer.js');
     body.sourcePositions = positions;
     body.sourceTriangles = triangles;
     body.transfer?.close();
     const { hf, threads } = body;
     body.transfer = transferOf(body, new hf.Surface(positions, triangles, { linkPieces: true, ...threads }));
-    return [body.transfer.proposals(), []];
+    return [await body.transfer.proposals(glb), []];
   },
   transferPairs({ pairs }) {
     return [body.transfer.setPairs(pairs), []];
