@@ -51,7 +51,7 @@ export default async function story(host) {
   await studio.tool('quads');
   await check('quads are made and counted, and every face has four corners', async () => {
     await page.click('#make');
-    await page.waitForFunction(() => window.hfStudio.tools.quads?.result, null, { timeout: 60000 });
+    await page.waitForFunction(() => window.hfStudio.tools.quads?.result && !window.hfStudio.tools.quads.busy, null, { timeout: 60000 });
     await studio.settle();
     const facts = await studio.facts();
     assert.ok(Number(facts.quads.replace(/,/g, '')) > 300, JSON.stringify(facts));
@@ -315,7 +315,7 @@ export default async function story(host) {
     await page.locator('#edge').fill('0.06');
     await page.locator('#crease').fill('45');
     await page.click('#make');
-    await page.waitForFunction(() => window.hfStudio.tools.quads?.result || window.hfStudio.tools.quads?.error, null, {
+    await page.waitForFunction(() => (window.hfStudio.tools.quads?.result && !window.hfStudio.tools.quads.busy) || window.hfStudio.tools.quads?.error, null, {
       timeout: 60000,
     });
     await studio.settle();
