@@ -66,7 +66,7 @@ class Reading {
   }
   bool is_open() const { return number_ >= 0; }
   bool find_size(uint64_t& size) const {
-    struct stat status{};
+    struct stat status {};
     if (::fstat(number_, &status) != 0 || !S_ISREG(status.st_mode)) return false;
     size = static_cast<uint64_t>(status.st_size);
     return true;

@@ -103,7 +103,7 @@ struct sigaction earlier_action[std::size(ending_signals)];
 bool is_replaced[std::size(ending_signals)];
 
 // Removes the new file and lets the signal do what it did before.
-extern "C" void hf_samples_remove_unfinished(int signal) {
+extern "C" void hf_gltf_remove_unfinished(int signal) {
   const int reason = errno, folder = unfinished_folder.load();
   if (folder) ::unlinkat(folder - 1, unfinished_name, 0);
   is_interrupted = true;
@@ -119,10 +119,10 @@ class SignalGuard {
  public:
   SignalGuard() {
     is_interrupted = false;
-    struct sigaction action{};
+    struct sigaction action {};
     sigfillset(&action.sa_mask);
     for (size_t i = 0; i < std::size(ending_signals); ++i) {
-      action.sa_handler = ending_signals[i] == SIGXFSZ ? SIG_IGN : hf_samples_remove_unfinished;
+      action.sa_handler = ending_signals[i] == SIGXFSZ ? SIG_IGN : hf_gltf_remove_unfinished;
       is_replaced[i] = ::sigaction(ending_signals[i], nullptr, &earlier_action[i]) == 0 &&
                        earlier_action[i].sa_handler != SIG_IGN && ::sigaction(ending_signals[i], &action, nullptr) == 0;
     }
@@ -196,7 +196,7 @@ int open_folder(const fs::path& folder) {
 // Permissions, owner and group of the file that is replaced. A group that cannot be kept gets what others have.
 bool keep_rights(int descriptor, const struct stat& old) {
   mode_t mode = old.st_mode & 0777;
-  struct stat made{};
+  struct stat made {};
   if (::fstat(descriptor, &made) != 0) return false;
   const bool same = made.st_uid == old.st_uid && made.st_gid == old.st_gid;
   if (!same && ::fchown(descriptor, old.st_uid, old.st_gid) != 0 &&
@@ -216,7 +216,7 @@ bool find_present(const fs::path& file, const fs::path& target, struct stat& old
 }
 
 void replace(const fs::path& file, const fs::path& target, const void* data, size_t size) {
-  struct stat old{};
+  struct stat old {};
   const bool present = find_present(file, target, old);
   const OpenFile folder(open_folder(folder_of(target)));
   if (folder.number() < 0) refuse_file(file, "its folder " + folder_of(target).string() + ": " + system_reason());
@@ -235,7 +235,8 @@ void replace(const fs::path& file, const fs::path& target, const void* data, siz
 
 // Linux refuses links of other users in shared folders (fs.protected_symlinks); here also where it does not.
 void check_link(const fs::path& file, const fs::path& link) {
-  struct stat at{}, folder{};
+  struct stat at {
+  }, folder{};
   if (::lstat(link.c_str(), &at) != 0 || ::stat(folder_of(link).c_str(), &folder) != 0) return;
   const bool shared = (folder.st_mode & S_ISVTX) && (folder.st_mode & S_IWOTH);
   if (shared && at.st_uid != ::geteuid() && at.st_uid != folder.st_uid) {
@@ -250,7 +251,7 @@ void write_bytes(const fs::path& file, const void* data, size_t size) {
     std::fflush(nullptr);  // what was printed before stands before
     return write_through(file, ::fcntl(own, F_DUPFD_CLOEXEC, 3), data, size);
   }
-  struct stat status{};
+  struct stat status {};
   if (::stat(file.c_str(), &status) == 0) {
     if (S_ISDIR(status.st_mode)) refuse_file(file, "it is a folder");
     if (!S_ISREG(status.st_mode)) {

@@ -50,7 +50,7 @@ class RigFit {
     uint32_t flat = 0;
     std::vector<Influence> influences;
   };
-  void find_joints(), find_vertices(const FlatMesh& mesh);
+  void find_joints(), find_vertices(const FlatMesh&mesh);
 
   const Model& model_;
   std::vector<Joint> joints_;

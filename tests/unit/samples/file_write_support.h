@@ -36,7 +36,7 @@ inline std::string text_of(const fs::path& file) {
 }
 
 inline mode_t mode_of(const fs::path& file) {
-  struct stat status{};
+  struct stat status {};
   return ::stat(file.c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
 }
 

@@ -68,7 +68,7 @@ TEST(FileWrite, OwnerAndGroupOfAReplacedFileStay) {
   SharedFolder folder;
   const fs::path file = folder.file("file", 0640);
   write_bytes(file, "new");
-  struct stat status{};
+  struct stat status {};
   ASSERT_EQ(::stat(file.c_str(), &status), 0);
   EXPECT_EQ(status.st_uid, other_user);
   EXPECT_EQ(status.st_gid, other_user);
