@@ -117,6 +117,10 @@ HF_GLTF_API hf_result hf_gltf_model_set_positions(hf_gltf_model model, const dou
 HF_GLTF_API hf_result hf_gltf_model_write(hf_gltf_model model, int32_t format, uint64_t capacity, void* bytes,
                                           uint64_t* out_count);
 
+/* Writes a file, .glb or .gltf by its ending; file: UTF-8. What stood there goes when the new one is complete. Errors:
+ * HF_ERROR_INVALID_ARGUMENT (the file cannot be written; the detail says why). Since 0.1. */
+HF_GLTF_API hf_result hf_gltf_model_save(hf_gltf_model model, const char* file);
+
 /* ---- clips ---- */
 
 typedef struct hf_gltf_clip_info {

@@ -135,14 +135,8 @@ int main(int argc, char** argv) {
   printf("clip \"%s\": %zu frames on %u joints, %u of %u keys, %.4f of the box off (root mean square)\n", clip.name,
          frames, fit.joint_count, clip.key_count, all_keys, fit.rms / target.diagonal);
 
-  uint64_t bytes = 0;
-  good(hf_gltf_model_write(target.model, HF_GLTF_GLB, 0, NULL, &bytes));
-  void* written = space((size_t)bytes);
-  good(hf_gltf_model_write(target.model, HF_GLTF_GLB, bytes, written, &bytes));
-  FILE* out = fopen(argv[3], "wb");
-  if (!out || fwrite(written, 1, (size_t)bytes, out) != bytes || fclose(out) != 0)
-    return fprintf(stderr, "hf_walk: %s cannot be written\n", argv[3]), 1;
-  free(written), free(times), free(posed), free(played);
+  good(hf_gltf_model_save(target.model, argv[3]));
+  free(times), free(posed), free(played);
   hf_transfer_destroy(transfer), body_free(&source), body_free(&target);
   return 0;
 }

@@ -217,6 +217,14 @@ hf_result hf_gltf_model_write(hf_gltf_model model, int32_t format, uint64_t capa
   });
 }
 
+hf_result hf_gltf_model_save(hf_gltf_model model, const char* file) {
+  return guarded(__func__, [&] {
+    const Reading<ModelObject> object(model, "model");
+    need(file, "file");
+    write_gltf(object->model, file_named(file));
+  });
+}
+
 hf_result hf_gltf_model_get_clip(hf_gltf_model model, uint32_t clip, hf_gltf_clip_info* out_info) {
   return guarded(__func__, [&] {
     const Reading<ModelObject> object(model, "model");

@@ -218,6 +218,8 @@ static void refused_calls_change_nothing(void** state) {
   void* after = written(model, HF_GLTF_GLB, &same);
   assert_int_equal(same, count);
   assert_memory_equal(after, bytes, (size_t)count);
+  assert_int_equal(hf_gltf_model_save(model, "no_such_folder/a.glb"), HF_ERROR_INVALID_ARGUMENT);
+  assert_int_equal(hf_gltf_model_save(model, NULL), HF_ERROR_NULL_POINTER);
   /* a cut file, and handles that are none */
   assert_int_equal(reread(bytes, count / 2, &other), HF_ERROR_INVALID_ARGUMENT);
   assert_null(other);

@@ -122,7 +122,12 @@ async function others(studio, stem, shots) {
   if (!(await page.evaluate(() => window.hfStudio.tools.transfer.info))) await page.click(`#take-${other}`);
   await page
     .waitForFunction(() => window.hfStudio.tools.transfer.info, null, { timeout: 60000 })
-    .then(() => page.evaluate(() => window.hfStudio.tools.transfer.seek(0.4)))
+    .then(() =>
+      page.evaluate(async () => {
+        await window.hfStudio.tools.transfer.seek(0.4);
+        window.hfStudio.marksLayer.update();
+      }),
+    )
     .catch(() => {});
   await done('transfer', () => window.hfStudio.tools.transfer.info);
   return said.length ? `; ${said.join('; ')}` : '';

@@ -336,6 +336,7 @@ export const tool = (kit) => {
       this.#clear();
       this.lines = drawQuads(kit, this.result.mesh);
       this.app.view.extras.add(this.lines);
+      this.lines.visible = this.app.tool === this; // they can come when another tool is open
       this.#place();
     }
     #place() {
