@@ -163,7 +163,7 @@ TEST_P(CreatureSize, NormalsAreUnitAndPointOutwards) {
 }
 
 TEST_P(CreatureSize, TheSkinnedRestPoseIsTheRestPose) {
-  const std::vector<double> posed = samples::skin_positions(it(), hf_gltf::rest_pose(it()));
+  const std::vector<double> posed = samples::skin_positions(it(), samples::rest_pose(it()));
   for (size_t i = 0; i < posed.size(); ++i) ASSERT_NEAR(posed[i], double(it().positions[i]), 1e-6);
 }
 
@@ -175,7 +175,7 @@ TEST_P(CreatureSize, ItStandsOnTheGroundAndLooksAlongZ) {
   EXPECT_NEAR(lowest, 0, 2e-3);
   EXPECT_GT(highest, 1.2f);
   // the head is in front of the hips and left is +x
-  const std::vector<double> world = hf_gltf::rest_pose(it());
+  const std::vector<double> world = samples::rest_pose(it());
   const auto z = [&](const char* joint) { return world[16 * size_t(samples::find_joint(it(), joint)) + 14]; };
   EXPECT_GT(z("head"), z("hips"));
   for (size_t j = 0; j < it().skeleton.size(); ++j) {
@@ -305,7 +305,7 @@ INSTANTIATE_TEST_SUITE_P(All, EachCreature, testing::Values("horse", "bull", "bi
 TEST(Creature, TheTwoQuadrupedsAreOfDifferentBuild) {
   const auto ratio = [](const char* name) {
     const Creature& it = creature(name, 1000);
-    const std::vector<double> world = hf_gltf::rest_pose(it);
+    const std::vector<double> world = samples::rest_pose(it);
     const auto y = [&](const char* joint) { return world[16 * size_t(samples::find_joint(it, joint)) + 13]; };
     // leg length over head height
     return y("front_lower_leg_L") / y("head");
@@ -314,7 +314,7 @@ TEST(Creature, TheTwoQuadrupedsAreOfDifferentBuild) {
   const Creature& bull = creature("bull", 1000);
   EXPECT_LT(ratio("horse"), ratio("bull"));  // the bull carries its head low
   const auto leg = [](const Creature& it) {
-    return hf_gltf::rest_pose(it)[16 * size_t(samples::find_joint(it, "front_lower_leg_L")) + 13];
+    return samples::rest_pose(it)[16 * size_t(samples::find_joint(it, "front_lower_leg_L")) + 13];
   };
   EXPECT_GT(leg(horse), 1.25 * leg(bull));
 }

@@ -13,7 +13,6 @@
 namespace {
 
 using namespace samples;
-using namespace hf_gltf;
 
 // Two triangles that fill [-1, 1]^2 at depth z, facing +z.
 Surface square(double z, double half = 1) {
