@@ -4,9 +4,11 @@
 #define HF_SAMPLES_ASSETS_CREATURE_GLTF_H
 
 #include "assets/creature.h"
-#include "common/model.h"
+#include "gltf/model.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 Model to_model(const Creature& creature);
 

@@ -1,9 +1,11 @@
 // See face_gltf.h.
 #include "assets/face_gltf.h"
 
-#include "common/flat_mesh.h"
+#include "gltf/flat_mesh.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 Model to_model(const Face& face, const std::string& name, bool shapes) {
   Model model = make_model(name, to_points(face.mesh.positions), face.mesh.triangles);

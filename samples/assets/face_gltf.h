@@ -3,9 +3,11 @@
 #define HF_SAMPLES_ASSETS_FACE_GLTF_H
 
 #include "assets/face.h"
-#include "common/model.h"
+#include "gltf/model.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 // shapes: with morph targets and the clip "blink"; else the bare head.
 Model to_model(const Face& face, const std::string& name, bool shapes);

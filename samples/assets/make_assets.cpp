@@ -16,8 +16,8 @@
 #include "assets/creature.h"
 #include "assets/creature_gltf.h"
 #include "assets/face_gltf.h"
-#include "common/file_name.h"
-#include "common/gltf_write.h"
+#include "gltf/file_name.h"
+#include "gltf/gltf_write.h"
 
 namespace {
 
@@ -66,8 +66,8 @@ void write_face(const Options& options, const std::string& name) {
   const auto rows = static_cast<uint32_t>(std::max(30.0, std::sqrt(0.75 * options.vertices)));
   const auto columns = std::max<uint32_t>(40, options.vertices / rows);
   const samples::Face face = samples::make_face(columns, rows, name == "face_other");
-  const std::filesystem::path file = samples::file_named(options.folder) / (name + ".glb");
-  samples::write_gltf(samples::to_model(face, name, name == "face"), file);
+  const std::filesystem::path file = hf_gltf::file_named(options.folder) / (name + ".glb");
+  hf_gltf::write_gltf(samples::to_model(face, name, name == "face"), file);
   std::printf("%s: %u vertices, %zu triangles, %zu shapes\n", file.string().c_str(), face.mesh.vertex_count(),
               face.mesh.triangles.size() / 3, name == "face" ? face.shapes.size() : size_t{0});
 }
@@ -87,7 +87,7 @@ int main(int count, char** arguments) {
       std::printf(" face face_other (default: the creatures; may be repeated)\n");
       return 0;
     }
-    std::filesystem::create_directories(samples::file_named(options.folder));
+    std::filesystem::create_directories(hf_gltf::file_named(options.folder));
     for (const std::string& name : options.creatures) {
       if (name == "face" || name == "face_other") {
         write_face(options, name);
@@ -95,8 +95,8 @@ int main(int count, char** arguments) {
       }
       const auto start = std::chrono::steady_clock::now();
       const samples::Creature creature = samples::make_creature(name, options.vertices);
-      const std::filesystem::path file = samples::file_named(options.folder) / (name + ".glb");
-      samples::write_gltf(samples::to_model(creature), file);
+      const std::filesystem::path file = hf_gltf::file_named(options.folder) / (name + ".glb");
+      hf_gltf::write_gltf(samples::to_model(creature), file);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       std::printf("%s: %u vertices (%u stored, %u charts), %zu triangles, %zu joints, clips", file.string().c_str(),
                   creature.surface_vertex_count, creature.vertex_count(), creature.chart_count,

@@ -5,9 +5,11 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "common/model.h"
+#include "gltf/model.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 ModelLinks::ModelLinks(const Model* model, const FlatMesh& mesh) {
   desc.mode = HF_LINK_PIECES;

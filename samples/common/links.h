@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "common/flat_mesh.h"
+#include "gltf/flat_mesh.h"
 #include "hf/surface.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 // The automatic links of a model. `desc` points into the object.
 struct ModelLinks {

@@ -8,11 +8,13 @@
 #include <stdexcept>
 
 #include "common/face_triangles.h"
-#include "common/file_bytes.h"
-#include "common/gltf_read.h"
 #include "common/mesh_file_parts.h"
+#include "gltf/file_bytes.h"
+#include "gltf/gltf_read.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 std::string lower_extension(const std::filesystem::path& file) {

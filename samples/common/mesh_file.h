@@ -15,9 +15,11 @@
 #include <string>
 #include <vector>
 
-#include "common/flat_mesh.h"
+#include "gltf/flat_mesh.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 struct SurfaceMesh {
   std::vector<glm::dvec3> positions;

@@ -5,11 +5,13 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "common/file_write.h"
-#include "common/gltf_write.h"
 #include "common/mesh_file.h"
+#include "gltf/file_write.h"
+#include "gltf/gltf_write.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 class Text {

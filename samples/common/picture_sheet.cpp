@@ -15,12 +15,14 @@
 #pragma GCC diagnostic pop
 #endif
 
-#include "common/file_name.h"
-#include "common/file_write.h"
+#include "gltf/file_name.h"
+#include "gltf/file_write.h"
 #include "picture.h"
 #include "picture_text.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 // Pixels that a sheet gives a line of text at scale 1.
 constexpr int line_height = 16;

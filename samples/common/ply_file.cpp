@@ -7,10 +7,12 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "common/file_bytes.h"
 #include "common/mesh_file_parts.h"
+#include "gltf/file_bytes.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 enum class Type { none, i8, u8, i16, u16, i32, u32, f32, f64 };

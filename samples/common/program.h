@@ -10,10 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "common/file_name.h"
 #include "common/limits.h"
+#include "gltf/file_name.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 // The command line in UTF-8. Windows hands main() words in the code page of the system, which lacks most letters, so
 // they are asked for once more.

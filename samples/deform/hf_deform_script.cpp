@@ -6,16 +6,17 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "common/gltf_write.h"
 #include "common/links.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
 #include "deform/pose_sheet.h"
 #include "deform/propose_script.h"
+#include "gltf/gltf_write.h"
 
 namespace {
 
 using namespace samples;
+using namespace hf_gltf;
 
 const char* usage =
     "usage: hf_deform_script MESH --script POSE.json | --propose [-o OUT.glb] [--sheet S.png] [--frames-obj DIR] "

@@ -4,12 +4,13 @@
 #include <filesystem>
 
 #include "assets/shapes.h"
-#include "common/file_name.h"
 #include "common/mesh_file.h"
+#include "gltf/file_name.h"
 
 namespace {
 
 using namespace samples;
+using namespace hf_gltf;
 
 void write(const std::filesystem::path& folder, const char* name, ShapeMesh shape, double stretch = 1) {
   SurfaceMesh mesh;

@@ -5,19 +5,20 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "common/animate.h"
-#include "common/gltf_read.h"
-#include "common/gltf_write.h"
-#include "common/json_file.h"
 #include "common/links.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
-#include "common/skin_write.h"
 #include "deform/posable.h"
+#include "gltf/animate.h"
+#include "gltf/gltf_read.h"
+#include "gltf/gltf_write.h"
+#include "gltf/json_file.h"
+#include "gltf/skin_write.h"
 
 namespace {
 
 using namespace samples;
+using namespace hf_gltf;
 
 const char* usage =
     "usage: hf_rig MESH --handles H.json -o OUT.glb [options]\n"

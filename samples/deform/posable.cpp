@@ -7,11 +7,13 @@
 #include <set>
 #include <stdexcept>
 
-#include "common/gltf_read.h"
 #include "common/limits.h"
 #include "common/links.h"
+#include "gltf/gltf_read.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 constexpr double pi = 3.14159265358979323846;

@@ -11,13 +11,15 @@
 #include <string>
 #include <vector>
 
-#include "common/flat_mesh.h"
 #include "common/mesh_file.h"
-#include "common/model.h"
 #include "deform/rig_file.h"
+#include "gltf/flat_mesh.h"
+#include "gltf/model.h"
 #include "hf/hf.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 // The content of a file: a glTF scene at rest, or a plain surface. `surface` keeps its faces and vertex order.
 struct PosableMesh {

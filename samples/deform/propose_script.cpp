@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "common/animate.h"
+#include "gltf/animate.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 // The joints of all skins, with the nearest ancestor that is a joint as parent.

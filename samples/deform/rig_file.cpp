@@ -3,9 +3,11 @@
 
 #include <stdexcept>
 
-#include "common/json_file.h"
+#include "gltf/json_file.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 glm::dvec3 point_of(const JsonReader& json) {

@@ -1,8 +1,10 @@
 #include "detail/curve_file.h"
 
-#include "common/json_file.h"
+#include "gltf/json_file.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 uint32_t nearest_vertex(const SurfaceMesh& mesh, const std::vector<double>& place) {

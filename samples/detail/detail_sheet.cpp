@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/flat_mesh.h"
+#include "gltf/flat_mesh.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 Point point_of(const std::vector<float>& positions, size_t v) {

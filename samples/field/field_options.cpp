@@ -7,11 +7,13 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "common/file_name.h"
 #include "common/limits.h"
+#include "gltf/file_name.h"
 #include "hf/hf.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 const char* const field_usage =
     "usage: hf_field MESH --site PLACE=VALUE[@STIFFNESS] ... [options]\n"

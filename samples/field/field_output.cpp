@@ -5,12 +5,14 @@
 #include <cstdio>
 #include <unordered_map>
 
-#include "common/file_name.h"
-#include "common/file_write.h"
-#include "common/flat_mesh.h"
-#include "common/gltf_write.h"
+#include "gltf/file_name.h"
+#include "gltf/file_write.h"
+#include "gltf/flat_mesh.h"
+#include "gltf/gltf_write.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 struct Corner {

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "common/file_name.h"
-#include "common/file_write.h"
+#include "gltf/file_name.h"
+#include "gltf/file_write.h"
 #include "pictures/palette.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 using Bytes = std::vector<uint8_t>;

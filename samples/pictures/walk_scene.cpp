@@ -2,11 +2,13 @@
 #include <algorithm>
 
 #include "assets/creature_gltf.h"
-#include "common/animate.h"
+#include "gltf/animate.h"
 #include "pictures/scenes.h"
 #include "transfer/session.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 std::vector<float> coat_of(const Creature& creature) {

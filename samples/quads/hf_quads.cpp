@@ -9,12 +9,12 @@
 #include <stdexcept>
 
 #include "common/face_triangles.h"
-#include "common/flat_mesh.h"
-#include "common/gltf_read.h"
-#include "common/gltf_write.h"
-#include "common/json_file.h"
 #include "common/picture.h"
 #include "common/program.h"
+#include "gltf/flat_mesh.h"
+#include "gltf/gltf_read.h"
+#include "gltf/gltf_write.h"
+#include "gltf/json_file.h"
 #include "hf/hf.hpp"
 #include "quads/crossings.h"
 #include "quads/quad_model.h"
@@ -23,6 +23,8 @@
 #include "quads/surface_distance.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 const char* const usage =

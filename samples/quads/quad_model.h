@@ -15,11 +15,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/flat_mesh.h"
 #include "common/mesh_file.h"
-#include "common/model.h"
+#include "gltf/flat_mesh.h"
+#include "gltf/model.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 // Where the vertices of a quad mesh lie on the flat mesh that it was made of.
 struct QuadPlaces {

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-#include "common/json_file.h"
+#include "gltf/json_file.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 // Steps along all strokes together. Each looks at all vertices: 10,000 take 12 s at 300,000 vertices. More are

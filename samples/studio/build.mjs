@@ -1,7 +1,7 @@
-// build.mjs OUTDIR: bundles the page and its Worker. HF_WASM: folder of hf.mjs and hf.wasm. HF_MODULES: the npm packages.
+// build.mjs OUTDIR: bundles the page and its Worker. HF_WASM: folder of hf.mjs, hf_gltf.mjs and their wasm files. HF_MODULES: the npm packages.
 // HF_WASM_MT: folder of those with threads; without it the page has none.
 import { createHash } from 'node:crypto';
-import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -44,7 +44,10 @@ await build({
   legalComments: 'linked',
   nodePaths: [process.env.HF_MODULES],
   define: { HF_THREADS: JSON.stringify(Boolean(process.env.HF_WASM_MT)) },
-  alias: { 'hf-glue': join(process.env.HF_WASM, 'hf.mjs') },
+  alias: {
+    'hf-glue': join(process.env.HF_WASM, 'hf.mjs'),
+    'hf-gltf-glue': join(process.env.HF_WASM, 'hf_gltf.mjs'),
+  },
   // node's own reading of files, in the loader of WebAssembly and of glTF: no browser gets there
   external: ['node:*', 'fs', 'path', 'module', 'url'],
   logLevel: 'warning',
@@ -57,6 +60,7 @@ writeFileSync(
   readFileSync(join(here, 'index.html'), 'utf8').replace('/*STYLE*/', () => style.trim()),
 );
 await split(process.env.HF_WASM, out);
+copyFileSync(join(process.env.HF_WASM, 'hf_gltf.wasm'), join(out, 'gltf.wasm'));
 // what is bundled is under the MIT licence, which goes along
 const licences = [
   'three',
@@ -69,6 +73,11 @@ const licences = [
   const file = readdirSync(join(process.env.HF_MODULES, name)).find((entry) => /^licen[cs]e/i.test(entry));
   return `${name}\n\n${readFileSync(join(process.env.HF_MODULES, name, file), 'utf8')}`;
 });
+// and what is compiled into gltf.wasm
+for (const name of ['libtinygltf-dev', 'libglm-dev', 'nlohmann-json3-dev']) {
+  const file = join('/usr/share/doc', name, 'copyright');
+  licences.push(`${name}\n\n${existsSync(file) ? readFileSync(file, 'utf8') : 'MIT licence'}`);
+}
 writeFileSync(join(out, 'licences.txt'), licences.join('\n\n'));
 
 // the decoder of Draco as three has it, as a module

@@ -12,10 +12,12 @@
 #include <stdexcept>
 #include <thread>
 
-#include "common/json_file.h"
+#include "gltf/json_file.h"
 #include "transfer/child_process.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace fs = std::filesystem;
 namespace {
 

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/file_name.h"
 #include "common/picture.h"
+#include "gltf/file_name.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 constexpr int columns = 6;  // frames beside the rest pose

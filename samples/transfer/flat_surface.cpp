@@ -17,6 +17,19 @@ void check(hf_result result, const std::string& what) {
                            hf_result_get_name(result) + ")");
 }
 
+std::vector<uint32_t> tips_of(const FlatMesh& mesh, const std::string& name) {
+  const FlatSurface surface(mesh, name, 1);
+  hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
+  desc.kind = HF_EXTREMITIES_GEODESIC;
+  std::vector<hf_extremity> found(256);
+  uint32_t count = 0;
+  const hf_result result =
+      hf_surface_find_extremities(surface.get(), &desc, static_cast<uint32_t>(found.size()), found.data(), &count);
+  std::vector<uint32_t> out;
+  for (uint32_t i = 0; result == HF_OK && i < count; ++i) out.push_back(found[i].vertex);
+  return out;
+}
+
 FlatSurface::FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper,
                          const hf_links_desc* links) {
   const std::vector<double> positions = double_positions(mesh.positions);

@@ -4,14 +4,20 @@
 #define HF_SAMPLES_TRANSFER_FLAT_SURFACE_H
 
 #include <string>
+#include <vector>
 
-#include "common/flat_mesh.h"
+#include "gltf/flat_mesh.h"
 #include "hf/hf.h"
 
 namespace samples {
 
+using namespace hf_gltf;
+
 // Throws std::runtime_error with "what: the library's message" unless the result is HF_OK.
 void check(hf_result result, const std::string& what);
+
+// The extremities of a mesh, largest first (hf_surface_find_extremities); none where the library finds none.
+std::vector<uint32_t> tips_of(const FlatMesh& mesh, const std::string& name);
 
 class FlatSurface {
  public:

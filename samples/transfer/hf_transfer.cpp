@@ -8,26 +8,27 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/animate.h"
-#include "common/file_write.h"
-#include "common/gltf_read.h"
-#include "common/gltf_write.h"
 #include "common/links.h"
 #include "common/mesh_file.h"
 #include "common/program.h"
+#include "gltf/animate.h"
+#include "gltf/clip_binding.h"
+#include "gltf/file_write.h"
+#include "gltf/gltf_read.h"
+#include "gltf/gltf_write.h"
+#include "gltf/suggest_pairs.h"
 #include "transfer/batch.h"
-#include "transfer/clip_binding.h"
 #include "transfer/clip_sheet.h"
 #include "transfer/outputs.h"
 #include "transfer/session.h"
 #include "transfer/shapes.h"
-#include "transfer/suggest_pairs.h"
 #include "transfer/transfer_options.h"
 #include "transfer/transfer_report.h"
 
 namespace {
 
 using namespace samples;
+using namespace hf_gltf;
 
 #ifdef _WIN32
 constexpr const char* null_device = "NUL";
@@ -216,9 +217,11 @@ RunReport run(Session& session, const Model& source, const Model& target, const 
 }
 
 Suggestion propose(const Model& source, const Model& target, const TransferCommand& command) {
-  const Suggestion suggestion = suggest_pairs(source, flatten(source), target, flatten(target),
-                                              command.source_axes ? &*command.source_axes : nullptr,
-                                              command.target_axes ? &*command.target_axes : nullptr);
+  const FlatMesh source_mesh = flatten(source), target_mesh = flatten(target);
+  const auto axes = [](const std::optional<Axes>& given) { return given ? &*given : nullptr; };
+  const Suggestion suggestion =
+      suggest_pairs({source, source_mesh, tips_of(source_mesh, source.name), axes(command.source_axes)},
+                    {target, target_mesh, tips_of(target_mesh, target.name), axes(command.target_axes)});
   std::printf("proposed pairs            confidence  on the source; on the target\n");
   for (const SuggestedPair& pair : suggestion.pairs) {
     std::printf("  %-22s %11.2f  %s; %s\n", pair.name.c_str(), pair.confidence, pair.source_found.c_str(),

@@ -8,13 +8,15 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "common/animate.h"
-#include "common/file_name.h"
-#include "transfer/clip_binding.h"
-#include "transfer/key_reduce.h"
-#include "transfer/rig_fit.h"
+#include "gltf/animate.h"
+#include "gltf/clip_binding.h"
+#include "gltf/file_name.h"
+#include "gltf/key_reduce.h"
+#include "gltf/rig_fit.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 void measure(const std::vector<glm::dvec3>& got, const std::vector<double>& wanted, double box, double& sum,
@@ -105,19 +107,6 @@ std::string safe_name(const std::string& name) {
 
 }  // namespace
 
-bool has_skin(const Model& model) {
-  return std::any_of(model.nodes.begin(), model.nodes.end(), [&](const Node& node) {
-    if (node.skin < 0 || node.mesh < 0) return false;
-    const std::vector<Primitive>& primitives = model.meshes[static_cast<size_t>(node.mesh)].primitives;
-    return std::any_of(primitives.begin(), primitives.end(),
-                       [](const Primitive& primitive) { return !primitive.influences.empty(); });
-  });
-}
-
-void keep_carried(const Model& target, Model& out) {
-  out.asset = target.asset, out.carried = target.carried, out.required_extensions = target.required_extensions;
-}
-
 void reduce_clips(Model& model, const FlatMesh& mesh, size_t clips, double tolerance, OutputFigures& figures) {
   for (size_t c = 0; c < clips; ++c) {
     figures.all_keys += key_count(model.animations[c]);
@@ -183,27 +172,14 @@ Model own_skin_model(const Model& target, const Session& session, const std::vec
   const FlatMesh& mesh = session.target_flat();
   const RigFit rig(target, mesh);
   Model out = target;
-  const Pose rest = rest_pose(target);
   double sum = 0;
   size_t frames = 0, done = 0;
   for (const PlayedClip& clip : clips) {
-    std::vector<Pose> poses;
-    for (size_t f = 0; f < clip.target_frames.size(); ++f) {
-      const std::vector<double>& frame = clip.target_frames[f];
-      poses.push_back(
-          rig.fit(frame, poses.empty() ? rest : poses.back(), poses.empty() ? 30 : 6, session.standing(clip, f)));
-      measure(posed_positions(target, mesh, poses.back()), frame, box, sum, figures);
-      ++frames;
-    }
-    std::string name = clip.clip.name;
-    for (int copy = 2; find_animation(out, name) >= 0; ++copy)
-      name = clip.clip.name + " (" + std::to_string(copy) + ")";
-    out.animations.insert(out.animations.begin() + static_cast<std::ptrdiff_t>(done++),
-                          rig.clip(name, clip.clip.times, poses));
-  }
-  // nodes that are animated may not have a matrix
-  for (const Animation& animation : out.animations) {
-    for (const Channel& channel : animation.channels) split_matrix(out.nodes[static_cast<size_t>(channel.node)]);
+    const std::vector<Pose> poses =
+        rig.fit_all(clip.target_frames, [&](size_t f) { return session.standing(clip, f); });
+    for (size_t f = 0; f < poses.size(); ++f, ++frames)
+      measure(posed_positions(target, mesh, poses[f]), clip.target_frames[f], box, sum, figures);
+    insert_clip(out, done++, rig.clip(clip.clip.name, clip.clip.times, poses));
   }
   figures.rms = frames > 0 ? std::sqrt(sum / static_cast<double>(frames)) : 0;
   figures.parts = rig.turning();

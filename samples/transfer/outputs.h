@@ -18,9 +18,6 @@ struct OutputFigures {
   size_t keys = 0, all_keys = 0;  // written, and before keys were left out
 };
 
-// Tells whether a mesh of the model has a skin.
-bool has_skin(const Model& model);
-
 // The target as it is, with the transferred clips before its own (rig_fit.h). Standing feet are met more firmly than
 // the rest. key_tolerance: see reduce_keys, in boxes.
 Model own_skin_model(const Model& target, const Session& session, const std::vector<PlayedClip>& clips, double box,
@@ -33,9 +30,6 @@ void add_root_motion(Model& model, const std::vector<PlayedClip>& clips);
 // A written model's first clips, played: the source's frames, and what the model gives at the same times.
 std::vector<PlayedClip> written_clips(const Model& written, const Session& session,
                                       const std::vector<PlayedClip>& clips);
-
-// What the target's file says beside its shape: copyright, extras, lights of the top level.
-void keep_carried(const Model& target, Model& out);
 
 // Leaves out keys of the first clips (key_reduce.h).
 void reduce_clips(Model& model, const FlatMesh& mesh, size_t clips, double tolerance, OutputFigures& figures);

@@ -8,10 +8,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "common/animate.h"
 #include "common/links.h"
+#include "gltf/animate.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
@@ -147,16 +149,8 @@ void Session::add(const std::vector<PairEntry>& entries) {
     for (const Live& live : live_) {
       if (live.entry.name == entry.name) throw std::runtime_error("there is a pair \"" + entry.name + "\" already");
     }
-    source.push_back(source_finder_.find(entry.source)), target.push_back(target_finder_.find(entry.target));
   }
-  const int covered_source = source_finder_.separate(source, before),
-            covered_target = target_finder_.separate(target, before);
-  for (const int covered : {covered_source, covered_target}) {
-    if (covered < 0) continue;
-    throw std::runtime_error("pair \"" + entries[static_cast<size_t>(covered) - before].name +
-                             "\": its region on the " + (covered_source >= 0 ? "source" : "target") +
-                             " lies inside those of other pairs; move it or make the radius smaller");
-  }
+  add_regions(entries, source_finder_, target_finder_, source, target);
   std::vector<uint32_t> source_counts, target_counts, source_vertices, target_vertices, flags, numbers(entries.size());
   for (size_t i = 0; i < entries.size(); ++i) {
     const auto &a = source[before + i].vertices, &b = target[before + i].vertices;

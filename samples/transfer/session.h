@@ -14,12 +14,14 @@
 #include <vector>
 
 #include "common/progress_bar.h"
-#include "common/skin_write.h"
+#include "gltf/pairs_file.h"
+#include "gltf/skin_write.h"
 #include "hf/hf.h"
 #include "transfer/flat_surface.h"
-#include "transfer/pairs_file.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 struct PairReport {
   std::string name;

@@ -7,9 +7,11 @@
 #include <set>
 #include <stdexcept>
 
-#include "common/animate.h"
+#include "gltf/animate.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 size_t shape_count(const MeshData& mesh) {

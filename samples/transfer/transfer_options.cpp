@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "common/file_name.h"
 #include "common/limits.h"
+#include "gltf/file_name.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 double number_of(const std::string& option, const std::string& text, double low, double high) {
@@ -20,11 +22,6 @@ double number_of(const std::string& option, const std::string& text, double low,
                              ", not \"" + text + "\"");
   }
   return value;
-}
-
-std::string tail_of(const std::string& name) {
-  const size_t bar = name.rfind('|');
-  return bar == std::string::npos ? name : name.substr(bar + 1);
 }
 
 glm::dvec3 direction_of(const std::string& option, const std::string& text) {
@@ -264,29 +261,6 @@ TransferCommand parse_command(int count, char** arguments) {
     throw std::runtime_error("-o is needed: the file to write (or --out-poses, a folder of meshes); see --help");
   }
   return out;
-}
-
-std::vector<const Animation*> choose_clips(const Model& model, const std::string& wanted) {
-  if (model.animations.empty()) throw std::runtime_error(model.name + " has no clip to transfer");
-  std::vector<const Animation*> out;
-  if (wanted == "all") {
-    for (const Animation& animation : model.animations) out.push_back(&animation);
-    return out;
-  }
-  if (wanted.empty()) return {&model.animations.front()};
-  for (const Animation& animation : model.animations) {
-    if (animation.name == wanted) return {&animation};
-  }
-  for (const Animation& animation : model.animations) {
-    if (tail_of(animation.name) == wanted) return {&animation};
-  }
-  char* end = nullptr;
-  const unsigned long index = std::strtoul(wanted.c_str(), &end, 10);
-  if (*end == 0 && index < model.animations.size()) return {&model.animations[index]};
-  std::string names;
-  for (size_t i = 0; i < model.animations.size(); ++i)
-    names += (i ? ", " : "") + std::to_string(i) + " \"" + model.animations[i].name + "\"";
-  throw std::runtime_error("--clip: " + model.name + " has no clip \"" + wanted + "\"; it has " + names);
 }
 
 std::filesystem::path edited_name(const std::filesystem::path& file) {

@@ -8,10 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "common/model.h"
-#include "transfer/regions.h"
+#include "gltf/model.h"
+#include "gltf/regions.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 struct TransferCommand {
   std::filesystem::path source, target, pairs, output;
@@ -44,10 +46,6 @@ struct TransferCommand {
 // Throws std::runtime_error naming the option.
 TransferCommand parse_command(int count, char** arguments);
 const char* usage();
-
-// Returns the clips that --clip names: by exact name, by the part after the last '|', or by index. Throws with a list
-// of the existing clips.
-std::vector<const Animation*> choose_clips(const Model& model, const std::string& wanted);
 
 // "out/walk.glb" -> "out/walk_edited.glb"
 std::filesystem::path edited_name(const std::filesystem::path& file);

@@ -6,9 +6,11 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "common/animate.h"
+#include "gltf/animate.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 #if defined(__MINGW32__) && !defined(__clang__)  // its C++ library has the printf of GNU

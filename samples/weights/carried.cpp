@@ -4,10 +4,12 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "common/flat_mesh.h"
 #include "common/limits.h"
+#include "gltf/flat_mesh.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 hf::VertexWeights given_of(const Rig& rig) {

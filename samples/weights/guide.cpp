@@ -6,9 +6,11 @@
 #include <map>
 #include <stdexcept>
 
-#include "common/json_file.h"
+#include "gltf/json_file.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 uint32_t joint_named(const Rig& rig, const std::string& name) {
   const auto there = std::find(rig.names.begin(), rig.names.end(), name);

@@ -6,16 +6,18 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "common/gltf_read.h"
-#include "common/gltf_write.h"
-#include "common/json_file.h"
 #include "common/program.h"
+#include "gltf/gltf_read.h"
+#include "gltf/gltf_write.h"
+#include "gltf/json_file.h"
 #include "weights/carried.h"
 #include "weights/compare.h"
 #include "weights/guide.h"
 #include "weights/skeleton_from.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 const char* const usage =

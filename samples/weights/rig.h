@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "common/animate.h"
+#include "gltf/animate.h"
 #include "hf/hf.hpp"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 // A primitive that a skin moves. Its vertices stand behind those of the parts before.
 struct RigPart {

@@ -3,11 +3,13 @@
 #include <map>
 #include <stdexcept>
 
-#include "common/animate.h"
-#include "transfer/pairs_file.h"
+#include "gltf/animate.h"
+#include "gltf/pairs_file.h"
 #include "weights/rig.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 namespace {
 
 struct Box {

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "common/flat_mesh.h"
-#include "common/model.h"
+#include "gltf/flat_mesh.h"
+#include "gltf/model.h"
 
 namespace samples {
+
+using namespace hf_gltf;
 
 // A place of the model with the skeleton, and where it is on the other; world space at rest.
 struct Landmark {

@@ -11,9 +11,9 @@ try() { # label, command...
   shift
   if "$@" >"$folder/log" 2>&1; then printf 'ok     %s\n' "$label"; else printf 'error  %s\n' "$label" && cat "$folder/log" && status=1; fi
 }
-for header in "$include"/hf/*.h; do
-  name=$(basename "$header")
-  printf '#include "hf/%s"\n#include "hf/%s"\nint main(void) { return 0; }\n' "$name" "$name" >"$folder/alone.c"
+for header in "$include"/hf*/*.h; do
+  name=${header#"$include"/}
+  printf '#include "%s"\n#include "%s"\nint main(void) { return 0; }\n' "$name" "$name" >"$folder/alone.c"
   cp "$folder/alone.c" "$folder/alone.cpp"
   try "$name as C99" "$cc" -std=c99 $warnings -Wstrict-prototypes -Wold-style-definition -fsyntax-only -I"$include" "$folder/alone.c"
   try "$name as C11" "$cc" -std=c11 $warnings -Wstrict-prototypes -fsyntax-only -I"$include" "$folder/alone.c"

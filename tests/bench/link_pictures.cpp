@@ -11,8 +11,8 @@
 #include <map>
 
 #include "bench/link_scene.h"
-#include "common/animate.h"
 #include "common/picture.h"
+#include "gltf/animate.h"
 
 namespace {
 

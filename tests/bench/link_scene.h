@@ -2,14 +2,15 @@
 #pragma once
 #include <stdexcept>
 
-#include "common/gltf_read.h"
 #include "common/links.h"
 #include "common/mesh_file.h"
+#include "gltf/gltf_read.h"
 #include "hf/hf.h"
 
 namespace bench {
 
 using namespace samples;
+using namespace hf_gltf;
 
 inline void ok(hf_result result) {
   if (result == HF_OK) return;

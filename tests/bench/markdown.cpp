@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "bench/machine.h"
-#include "common/file_write.h"
+#include "gltf/file_write.h"
 
 namespace bench {
 namespace {
@@ -103,6 +103,6 @@ void write_markdown(const std::string& file, const std::string& text) {
   write_text(file, old.substr(0, from + begin.size()) + "\n" + text + "\n" + old.substr(to));
 }
 
-void write_text(const std::string& file, const std::string& text) { samples::write_bytes(file, text); }
+void write_text(const std::string& file, const std::string& text) { hf_gltf::write_bytes(file, text); }
 
 }  // namespace bench

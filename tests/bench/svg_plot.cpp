@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "common/file_write.h"
+#include "gltf/file_write.h"
 
 namespace bench {
 namespace {
@@ -116,8 +116,7 @@ class Sheet {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
         "viewBox=\"0 0 %.0f %.0f\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\">\n",
         width_, height_, width_, height_);
-    samples::write_bytes(file,
-                         head + "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" + body_ + "</svg>\n");
+    hf_gltf::write_bytes(file, head + "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" + body_ + "</svg>\n");
   }
 
  private:

@@ -17,16 +17,17 @@
 #include <map>
 #include <stdexcept>
 
-#include "common/animate.h"
-#include "common/gltf_read.h"
 #include "common/links.h"
+#include "gltf/animate.h"
+#include "gltf/gltf_read.h"
+#include "gltf/suggest_pairs.h"
 #include "transfer/faults.h"
 #include "transfer/session.h"
-#include "transfer/suggest_pairs.h"
 
 namespace {
 
 using namespace samples;
+using namespace hf_gltf;
 using Frames = std::vector<std::vector<double>>;
 
 // The halves were written down before any constant was chosen. Models that constants.h names were seen before, so they
@@ -403,7 +404,8 @@ int table(const Options& options) {
       std::string proposed;
       std::vector<Run> runs;
       try {
-        const Suggestion suggestion = suggest_pairs(source.model, source.flat, target.model, target.flat);
+        const Suggestion suggestion = suggest_pairs({source.model, source.flat, tips_of(source.flat, source.name)},
+                                                    {target.model, target.flat, tips_of(target.flat, target.name)});
         for (const SuggestedPair& pair : suggestion.pairs) proposed += (proposed.empty() ? "" : ", ") + pair.name;
         Session session(source.model, target.model, parse_pairs(suggestion.file, "the proposed pairs"), 1,
                         options.links, bar, options.ground);

@@ -264,10 +264,10 @@ File text_file() {
 
 std::vector<File> made_seeds() {
   std::vector<File> seeds = {samples_test::sound_file(), sheet_file(), quantised_file(), text_file(), carried_file()};
-#ifdef HF_SAMPLES_DRACO
+#ifdef HF_GLTF_DRACO
   for (const bool edgebreaker : {true, false}) seeds.push_back(samples_test::draco_file(edgebreaker));
 #endif
-#ifdef HF_SAMPLES_MESHOPT
+#ifdef HF_GLTF_MESHOPT
   seeds.push_back(samples_test::meshopt_file());
 #endif
   return seeds;

@@ -8,17 +8,18 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "common/animate.h"
-#include "common/gltf_read.h"
-#include "common/gltf_write.h"
 #include "common/mesh_file.h"
-#include "common/skin_write.h"
+#include "gltf/animate.h"
+#include "gltf/gltf_read.h"
+#include "gltf/gltf_write.h"
+#include "gltf/skin_write.h"
 #include "hf/hf.h"
 
 namespace hostile {
 namespace {
 
 using namespace samples;
+using namespace hf_gltf;
 
 struct Wrong : std::logic_error {
   using std::logic_error::logic_error;

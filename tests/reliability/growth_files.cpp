@@ -8,13 +8,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/animate.h"
-#include "common/flat_mesh.h"
-#include "common/gltf_read.h"
-#include "common/gltf_write.h"
 #include "common/mesh_file.h"
+#include "gltf/animate.h"
+#include "gltf/flat_mesh.h"
+#include "gltf/gltf_read.h"
+#include "gltf/gltf_write.h"
+#include "gltf/regions.h"
 #include "growth.h"
-#include "transfer/regions.h"
 
 namespace growth {
 namespace {
@@ -322,10 +322,10 @@ std::vector<Structure> file_structures(bool full) {
             samples::read_mesh_bytes(bytes, ".off", "a file");
             return;
           }
-          const samples::Model model = samples::read_gltf_bytes(bytes, "a file");
-          const samples::FlatMesh mesh = samples::flatten(model);
-          samples::RegionFinder(model, mesh, samples::Axes()).describe_joints();
-          samples::gltf_bytes(model, true);
+          const hf_gltf::Model model = hf_gltf::read_gltf_bytes(bytes, "a file");
+          const hf_gltf::FlatMesh mesh = hf_gltf::flatten(model);
+          hf_gltf::RegionFinder(model, mesh, hf_gltf::Axes()).describe_joints();
+          hf_gltf::gltf_bytes(model, true);
         } catch (const std::runtime_error&) {
         }
       };

@@ -51,7 +51,7 @@ export default async function story(host) {
   await studio.tool('quads');
   await check('quads are made and counted, and every face has four corners', async () => {
     await page.click('#make');
-    await page.waitForFunction(() => window.hfStudio.tools.quads?.result, null, { timeout: 60000 });
+    await page.waitForFunction(() => window.hfStudio.tools.quads?.result && !window.hfStudio.tools.quads.busy, null, { timeout: 60000 });
     await studio.settle();
     const facts = await studio.facts();
     assert.ok(Number(facts.quads.replace(/,/g, '')) > 300, JSON.stringify(facts));
@@ -64,16 +64,21 @@ export default async function story(host) {
     assert.equal(four[0], four[1]);
     await studio.picture('quads_made');
   });
-  await check('a run is cancelled: the last quads stay, and the next run works', async () => {
+  await check('the first form is shown while it is evened out; a cancel keeps what is shown, and the next run works', async () => {
     const before = await studio.facts();
     await page.locator('#edge').fill('0.01');
     await page.click('#make');
     await page.waitForSelector('#cancel');
-    await page.waitForTimeout(150);
+    const count = () => page.evaluate(() => window.hfStudio.tools.quads.result.info.faceCount);
+    await page.waitForFunction((old) => window.hfStudio.tools.quads.result.info.faceCount > 2 * old, Number(before.quads.replace(/,/g, '')));
+    assert.ok(await page.evaluate(() => window.hfStudio.tools.quads.busy && !window.hfStudio.tools.quads.relaxed));
     await studio.page.screenshot({ path: `${process.argv[3]}/quads_busy.png` });
+    const shown = await count();
     await page.click('#cancel');
     await studio.settle();
-    assert.equal((await studio.facts()).quads, before.quads);
+    await page.waitForTimeout(500);
+    assert.equal(await count(), shown);
+    assert.equal((await studio.facts()).quads, shown.toLocaleString('en'));
     await page.locator('#edge').fill('0.03');
     await page.click('#make');
     await page.waitForFunction(
@@ -315,7 +320,7 @@ export default async function story(host) {
     await page.locator('#edge').fill('0.06');
     await page.locator('#crease').fill('45');
     await page.click('#make');
-    await page.waitForFunction(() => window.hfStudio.tools.quads?.result || window.hfStudio.tools.quads?.error, null, {
+    await page.waitForFunction(() => (window.hfStudio.tools.quads?.result && !window.hfStudio.tools.quads.busy) || window.hfStudio.tools.quads?.error, null, {
       timeout: 60000,
     });
     await studio.settle();

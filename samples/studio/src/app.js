@@ -87,7 +87,7 @@ export class App {
       this.history.reset({ ...empty, handles: this.tools.pose.first() });
       const shaped = this.#apply(this.state, 'exact');
       (this.treeJob?.answer ?? this.client.ask('tree')).then(
-        (tree) => this.skin === skin && (skin.useTree(tree), this.refresh(), this.client.ask('rest')),
+        (tree) => this.skin === skin && (skin.useTree(tree), this.refresh(), this.client.ask('rest', { handles: this.tools.pose.offers })),
         () => {},
       );
       await shaped;

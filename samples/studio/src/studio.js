@@ -17,7 +17,7 @@ import {
 import { App } from './app.js';
 import { Gizmo } from './gizmo.js';
 import { help } from './help.js';
-import { bonesOf, influencesOf, readModel } from './model.js';
+import { bonesOf, influencesOf, readModel, writeGlb } from './model.js';
 import { middleOf, mirrorChoice } from './mirror.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { saveMenu, skinnedGlb } from './save.js';
@@ -32,7 +32,7 @@ const kit = { $, button, choice, facts, make, middleOf, mirrorChoice, ms, say, s
 Object.assign(kit, { BufferAttribute, BufferGeometry, Color, DoubleSide, Line, LineBasicMaterial, LineLoop });
 Object.assign(kit, { LineSegments });
 Object.assign(kit, { Gizmo, Matrix4, Mesh, MeshLambertMaterial, Quaternion, Vector3, worldsAt });
-Object.assign(kit, { bonesOf, influencesOf, readModel, skinnedGlb });
+Object.assign(kit, { bonesOf, influencesOf, readModel, writeGlb, skinnedGlb });
 Object.assign(kit, { normalGroups, normalSums, smoothNormals, lengthOf, localsOf, playedAt });
 const later = (key, title, icon, load) => ({ key, title, icon, load: async () => (await load()).tool(kit) });
 const laterTools = [

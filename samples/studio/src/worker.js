@@ -9,7 +9,7 @@ import { poseOf } from './worker_pose.js';
 import { fieldOf } from './worker_field.js';
 import { awayOf, detailOf } from './worker_detail.js';
 import { inTwo } from './worker_parts.js';
-import { warm } from './worker_warm.js';
+import { prepare, warm } from './worker_warm.js';
 import { weightsOf, quadsOf } from './worker_once.js';
 
 /** Larger bodies take the build with threads where the page is isolated: smaller ones do not wait for it. */
@@ -139,14 +139,14 @@ const tasks = {
   quads(options) {
     return [quadsOf(body, options), []];
   },
-  async transferOpen({ positions, triangles }) {
+  async transferOpen({ positions, triangles, glb }) {
     const { transferOf } = await import('./worker_transfer.js');
     body.sourcePositions = positions;
     body.sourceTriangles = triangles;
     body.transfer?.close();
     const { hf, threads } = body;
     body.transfer = transferOf(body, new hf.Surface(positions, triangles, { linkPieces: true, ...threads }));
-    return [body.transfer.proposals(), []];
+    return [await body.transfer.proposals(glb), []];
   },
   transferPairs({ pairs }) {
     return [body.transfer.setPairs(pairs), []];
@@ -171,9 +171,12 @@ const tasks = {
     return [answer, buffers];
   },
   /** What a pull and a tool will need: code that is compiled well, and the rest of the library. Nothing waits for it. */
-  rest() {
+  rest({ handles }) {
     built.rest?.().catch(() => {}); // the tool that needs it says so
-    warm(body.hf).catch(() => {}); // no room: the first pull is slower, and no more
+    const mine = body;
+    warm(body.hf)
+      .then(() => body === mine && prepare(mine, handles ?? []))
+      .catch(() => {}); // no room: the first pull is slower, and no more
     return [null, []];
   },
   memory() {

@@ -1,5 +1,6 @@
 // A browser compiles WebAssembly fast first and well later, function by function, once they have run for a while. Poses and
 // fields of a small body make it compile what the first pull needs, between the requests of the page.
+import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { fieldOf } from './worker_field.js';
 import { poseOf } from './worker_pose.js';
 
@@ -8,6 +9,8 @@ import { poseOf } from './worker_pose.js';
  * to 6.9 times, after 20 0.9 to 1.4 and 1.2 to 1.8 (three starts each, load 6). Twenty take 0.3 to 0.4 s of a Worker there.
  */
 const ROUNDS = 30;
+/** Rounds on the body itself. */
+const PREPARE_ROUNDS = 3;
 /** Rings and corners of a ring. */
 const [RINGS, CORNERS] = [40, 24];
 
@@ -34,6 +37,8 @@ export async function warm(hf) {
   const { positions, triangles } = tube();
   const surface = new hf.Surface(positions, triangles, { linkPieces: true });
   const [pose, field] = [poseOf, fieldOf].map((make) => make({ hf, surface, positions }));
+  const sums = normalSums(triangles, normalGroups(positions, null));
+  const normals = new Float32Array(positions.length);
   const ends = [0, RINGS - 1].map((ring, id) => ({
     id,
     position: [0.22 * ring, 0, 0],
@@ -53,10 +58,42 @@ export async function warm(hf) {
     const pulled = (x) => [ends[0], { ...ends[1], translation: [0, x, 0] }];
     pose.deform(ends.slice(0, 1), 'exact');
     pose.deform(pulled(0.5), 'follow');
-    for (const x of [0.7, 0.9]) pose.deform(pulled(x), 'follow');
+    // the page's own code runs slowly at first too
+    for (const x of [0.7, 0.9]) smoothNormals(pose.deform(pulled(x), 'follow'), sums, normals);
     pose.deform(pulled(0.9), 'rest');
     field.solve([site(0, 0), site(1, 900)], true);
     field.solve([site(0, 0), site(1, 500 + 10 * round)], false);
   }
   for (const part of [pose, field, surface]) part.close();
+}
+
+/** A larger body would keep its first pull waiting for as long as it saves there. */
+const PREPARED_VERTICES = 30000;
+
+/**
+ * Does once what the first pull and the first field of a body do, on objects of its own: code and memory of that size are
+ * ready then. handles: those that the library proposes.
+ */
+export async function prepare({ hf, surface, positions, triangles }, handles) {
+  if (positions.length > 3 * PREPARED_VERTICES || !handles.length) return;
+  const [pose, field] = [poseOf, fieldOf].map((make) => make({ hf, surface, positions }));
+  const sums = normalSums(triangles, normalGroups(positions, null));
+  const normals = new Float32Array(positions.length);
+  const site = (id, triangle) => ({
+    id,
+    corners: Array.from(triangles.subarray(3 * triangle, 3 * triangle + 3)),
+    barycentrics: [1, 0, 0],
+    value: id,
+    soft: false,
+  });
+  try {
+    for (let round = 0; round < PREPARE_ROUNDS; ++round) {
+      await new Promise((done) => setTimeout(done));
+      pose.deform(handles.slice(0, -1), 'exact');
+      for (const list of [handles, handles]) smoothNormals(pose.deform(list, 'follow'), sums, normals);
+      field.solve([site(0, 0), site(1, Math.floor(triangles.length / 6))], true);
+    }
+  } finally {
+    for (const part of [pose, field]) part.close();
+  }
 }

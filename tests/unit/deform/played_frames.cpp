@@ -4,12 +4,13 @@
 #include <cstdio>
 #include <exception>
 
-#include "common/animate.h"
-#include "common/gltf_read.h"
 #include "common/mesh_file.h"
+#include "gltf/animate.h"
+#include "gltf/gltf_read.h"
 
 int main(int count, char** arguments) {
   using namespace samples;
+  using namespace hf_gltf;
   if (count != 4) return 2;
   try {
     const Model model = read_gltf(arguments[1]);

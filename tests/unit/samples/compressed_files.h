@@ -4,13 +4,13 @@
 
 #include "support/draco_encode.h"
 #include "unit/samples/gltf_support.h"
-#ifdef HF_SAMPLES_MESHOPT
+#ifdef HF_GLTF_MESHOPT
 #include <meshoptimizer.h>
 #endif
 
 namespace samples_test {
 
-#ifdef HF_SAMPLES_DRACO
+#ifdef HF_GLTF_DRACO
 // One primitive of two joints.
 inline GlbBuilder draco_builder(const Sheet& sheet, const DracoStream& stream) {
   GlbBuilder b;
@@ -35,7 +35,7 @@ inline std::vector<uint8_t> draco_file(bool edgebreaker) {
 }
 #endif
 
-#ifdef HF_SAMPLES_MESHOPT
+#ifdef HF_GLTF_MESHOPT
 // A view of `count` elements whose bytes are a meshopt stream. The second buffer stands for the uncompressed bytes.
 inline int meshopt_view(GlbBuilder& b, const std::vector<uint8_t>& stream, size_t count, size_t stride,
                         const char* mode, const char* filter = "NONE") {

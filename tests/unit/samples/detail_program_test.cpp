@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace samples;
+using namespace hf_gltf;
 using samples_test::TemporaryFolder;
 
 int run(const std::string& arguments, std::string& output) {
@@ -61,9 +62,7 @@ TEST(DetailProgram, MorphsAndCarriesDetail) {
   EXPECT_NE(text.find("0 factorisations"), std::string::npos) << text;
   EXPECT_GT(highest(read_mesh_file(path("out.ply"))), 1.3 * highest(bumpy));
 
-  ASSERT_EQ(
-      run(in + " --weight 1 -o \"" + path("out.glb") + "\" --sheet \"" + path("sheet.png") + "\"", text),
-      0)
+  ASSERT_EQ(run(in + " --weight 1 -o \"" + path("out.glb") + "\" --sheet \"" + path("sheet.png") + "\"", text), 0)
       << text;
   EXPECT_NE(text.find("thin plate"), std::string::npos) << text;
   EXPECT_GT(fs::file_size(path("sheet.png")), 10000u);

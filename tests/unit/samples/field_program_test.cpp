@@ -10,9 +10,9 @@
 #include <sstream>
 
 #include "assets/shapes.h"
-#include "common/gltf_read.h"
 #include "common/limits.h"
 #include "common/mesh_file.h"
+#include "gltf/gltf_read.h"
 #include "gltf_support.h"
 #include "support/program_support.h"
 
@@ -20,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace samples;
+using namespace hf_gltf;
 using samples_test::TemporaryFolder;
 
 struct Result {
@@ -227,9 +228,9 @@ TEST(Limits, let_sound_meshes_through_by_the_size_that_triangles_give_them) {
     return std::pair<uint32_t, uint32_t>(desc.work_limit_gflop, desc.memory_limit_mb);
   };
   EXPECT_EQ(limits(4, 4), std::make_pair(4u, 129u));
-  EXPECT_EQ(limits(1000000, 200), limits(200, 200));        // vertices that no triangle names
-  EXPECT_EQ(limits(400000, 868000).first, 3200u);           // 20 n^2; a lattice of struts takes 278, bi-harmonic 2,688
-  EXPECT_EQ(limits(20000000, 40000000).first, 100000u);     // 4 * 10^12 operations are needed
+  EXPECT_EQ(limits(1000000, 200), limits(200, 200));     // vertices that no triangle names
+  EXPECT_EQ(limits(400000, 868000).first, 3200u);        // 20 n^2; a lattice of struts takes 278, bi-harmonic 2,688
+  EXPECT_EQ(limits(20000000, 40000000).first, 100000u);  // 4 * 10^12 operations are needed
   EXPECT_GT(limits(400000, 868000).second, 19 * 400000u / 1024);
   auto faces = hf_surface_desc();
   faces.vertex_count = 90000, faces.face_count = 45000, faces.corner_count = 180000;

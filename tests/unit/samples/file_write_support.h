@@ -17,13 +17,13 @@
 #include <string>
 #include <vector>
 
-#include "common/file_write.h"
+#include "gltf/file_write.h"
 #include "unit/samples/gltf_support.h"
 
 namespace file_write_test {
 
 namespace fs = std::filesystem;
-using samples::write_bytes;
+using hf_gltf::write_bytes;
 using samples_test::message_of;
 using samples_test::TemporaryFolder;
 using samples_test::write_text;

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <random>
 
-#include "common/animate.h"
+#include "gltf/animate.h"
 #include "gltf_support.h"
 
 namespace {
 
-using namespace samples;
+using namespace hf_gltf;
 
 Channel channel_of(Path path, Interpolation interpolation, std::vector<float> times, std::vector<float> values) {
   Channel channel;

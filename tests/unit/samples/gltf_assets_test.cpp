@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <sstream>
 
-#include "common/animate.h"
-#include "common/gltf_decompress.h"
-#include "common/gltf_write.h"
+#include "gltf/animate.h"
+#include "gltf/gltf_decompress.h"
+#include "gltf/gltf_write.h"
 #include "gltf_support.h"
 
 namespace {
 
-using namespace samples;
+using namespace hf_gltf;
 using namespace samples_test;
 
 struct Row {

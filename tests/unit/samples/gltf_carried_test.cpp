@@ -3,15 +3,15 @@
 
 #include <algorithm>
 
-#include "common/animate.h"
-#include "common/file_bytes.h"
-#include "common/flat_mesh.h"
-#include "common/gltf_write.h"
+#include "gltf/animate.h"
+#include "gltf/file_bytes.h"
+#include "gltf/flat_mesh.h"
+#include "gltf/gltf_write.h"
 #include "gltf_support.h"
 
 namespace {
 
-using namespace samples;
+using namespace hf_gltf;
 using namespace samples_test;
 
 json round_trip(const GlbBuilder& b, std::vector<std::string>* warnings = nullptr) {

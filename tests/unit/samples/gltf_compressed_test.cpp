@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <random>
 
-#include "common/flat_mesh.h"
-#include "common/gltf_decompress.h"
-#include "common/gltf_write.h"
 #include "compressed_files.h"
+#include "gltf/flat_mesh.h"
+#include "gltf/gltf_decompress.h"
+#include "gltf/gltf_write.h"
 
 namespace {
 
-using namespace samples;
+using namespace hf_gltf;
 using namespace samples_test;
 
 const Primitive& first_primitive(const Model& model) { return model.meshes.at(0).primitives.at(0); }
@@ -76,7 +76,7 @@ size_t binary_start(const std::vector<uint8_t>& glb) {
   return 28 + text;
 }
 
-#ifdef HF_SAMPLES_DRACO
+#ifdef HF_GLTF_DRACO
 TEST(Draco, BothMethodsDecodeToTheSheetWithItsJointsAndWeights) {
   const Sheet sheet = make_sheet(6);
   for (const bool edgebreaker : {true, false}) {
@@ -167,7 +167,7 @@ TEST(Draco, BrokenReferencesAreRefusedByName) {
 }
 #endif
 
-#ifdef HF_SAMPLES_MESHOPT
+#ifdef HF_GLTF_MESHOPT
 TEST(Meshopt, TheSheetComesBackExactly) {
   const Sheet sheet = make_sheet(6);
   const Model model = read_gltf_bytes(meshopt_glb(meshopt_builder(sheet)), "test.glb");

@@ -3,14 +3,14 @@
 
 #include <random>
 
-#include "common/animate.h"
-#include "common/gltf_write.h"
-#include "common/skin_write.h"
+#include "gltf/animate.h"
+#include "gltf/gltf_write.h"
+#include "gltf/skin_write.h"
 #include "gltf_support.h"
 
 namespace {
 
-using namespace samples;
+using namespace hf_gltf;
 using namespace samples_test;
 
 // A cube as exporters store it: 24 vertices, one per corner and face normal.

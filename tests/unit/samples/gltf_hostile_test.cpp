@@ -11,16 +11,17 @@
 #include <chrono>
 #include <random>
 
-#include "common/animate.h"
-#include "common/gltf_write.h"
 #include "common/mesh_file.h"
-#include "common/skin_write.h"
+#include "gltf/animate.h"
+#include "gltf/gltf_write.h"
+#include "gltf/skin_write.h"
 #include "gltf_support.h"
 #include "sound_file.h"
 
 namespace {
 
 using namespace samples;
+using namespace hf_gltf;
 using namespace samples_test;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

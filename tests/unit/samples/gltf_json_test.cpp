@@ -1,12 +1,12 @@
 // Settings files: errors name file and key; text is bounded before it is parsed.
 #include <gtest/gtest.h>
 
-#include "common/json_file.h"
+#include "gltf/json_file.h"
 #include "gltf_support.h"
 
 namespace {
 
-using namespace samples;
+using namespace hf_gltf;
 using namespace samples_test;
 
 TEST(JsonFile, ErrorsNameTheFileAndTheKeyPath) {

@@ -3,15 +3,15 @@
 
 #include <string>
 
-#include "common/animate.h"
-#include "common/flat_mesh.h"
-#include "common/gltf_read.h"
-#include "common/gltf_write.h"
+#include "gltf/animate.h"
+#include "gltf/flat_mesh.h"
+#include "gltf/gltf_read.h"
+#include "gltf/gltf_write.h"
 #include "gltf_support.h"
 
 namespace {
 
-using namespace samples;
+using namespace hf_gltf;
 using samples_test::message_of;
 
 std::string times(size_t count, const std::string& element) {

@@ -5,7 +5,7 @@
 
 namespace {
 
-using namespace samples;
+using namespace hf_gltf;
 using namespace samples_test;
 
 const Primitive& only_primitive(const Model& model) { return model.meshes.at(0).primitives.at(0); }

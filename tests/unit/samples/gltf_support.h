@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "common/gltf_read.h"
+#include "gltf/gltf_read.h"
 
 namespace samples_test {
 
@@ -83,7 +83,7 @@ struct GlbBuilder {
     return out;
   }
 
-  samples::Model read() const { return samples::read_gltf_bytes(glb(), "test.glb"); }
+  hf_gltf::Model read() const { return hf_gltf::read_gltf_bytes(glb(), "test.glb"); }
 };
 
 inline const std::vector<float>& unit_triangle() {

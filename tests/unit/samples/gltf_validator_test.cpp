@@ -6,15 +6,16 @@
 
 #include <cstdio>
 
-#include "common/gltf_decompress.h"
-#include "common/gltf_write.h"
 #include "common/mesh_file.h"
-#include "common/skin_write.h"
 #include "compressed_files.h"
+#include "gltf/gltf_decompress.h"
+#include "gltf/gltf_write.h"
+#include "gltf/skin_write.h"
 
 namespace {
 
 using namespace samples;
+using namespace hf_gltf;
 using namespace samples_test;
 
 std::filesystem::path validator_modules() {
@@ -163,11 +164,11 @@ TEST(Validator, WrittenFilesHaveNoErrors) {
   scatter(scattered, mesh, mesh.positions);
   write(scattered, "scattered");
   write(carried(), "carried");
-#ifdef HF_SAMPLES_DRACO
+#ifdef HF_GLTF_DRACO
   write(read_gltf_bytes(draco_file(true), "edgebreaker"), "edgebreaker");
   write(read_gltf_bytes(draco_file(false), "sequential"), "sequential");
 #endif
-#ifdef HF_SAMPLES_MESHOPT
+#ifdef HF_GLTF_MESHOPT
   write(read_gltf_bytes(meshopt_file(), "meshopt"), "meshopt");
 #endif
   write_mesh_file(to_surface_mesh(mesh), folder.path / "surface.glb");

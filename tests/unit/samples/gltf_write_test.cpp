@@ -1,17 +1,17 @@
 // Writing glTF: what is written reads back the same; what cannot be written is refused and leaves no file.
-#include "common/gltf_write.h"
+#include "gltf/gltf_write.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "common/animate.h"
-#include "common/file_bytes.h"
+#include "gltf/animate.h"
+#include "gltf/file_bytes.h"
 #include "gltf_support.h"
 
 namespace {
 
-using namespace samples;
+using namespace hf_gltf;
 using namespace samples_test;
 
 Model read_back(const Model& model, bool binary) {

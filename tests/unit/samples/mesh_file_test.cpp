@@ -11,6 +11,7 @@
 namespace {
 
 using namespace samples;
+using namespace hf_gltf;
 using namespace samples_test;
 
 SurfaceMesh read_text(const std::string& text, const std::string& extension) {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/file_bytes.h"
 #include "common/picture_text.h"
+#include "gltf/file_bytes.h"
 #include "gltf_support.h"
 #include "pictures/animation_file.h"
 #include "pictures/palette.h"
@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace samples;
+using namespace hf_gltf;
 using Bytes = std::vector<uint8_t>;
 
 uint32_t read32(const Bytes& bytes, size_t at) {

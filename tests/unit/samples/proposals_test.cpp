@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "common/animate.h"
-#include "common/flat_mesh.h"
+#include "gltf/animate.h"
+#include "gltf/flat_mesh.h"
 #include "gltf_support.h"
 #include "hf/hf.hpp"
 
 namespace {
 
-using namespace samples;
+using namespace hf_gltf;
 using namespace samples_test;
 using Proposals = std::vector<hf_handle_proposal>;
 

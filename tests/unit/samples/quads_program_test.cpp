@@ -9,11 +9,11 @@
 #include "assets/creature_gltf.h"
 #include "assets/face_gltf.h"
 #include "assets/shapes.h"
-#include "common/animate.h"
-#include "common/flat_mesh.h"
-#include "common/gltf_read.h"
-#include "common/gltf_write.h"
 #include "common/mesh_file.h"
+#include "gltf/animate.h"
+#include "gltf/flat_mesh.h"
+#include "gltf/gltf_read.h"
+#include "gltf/gltf_write.h"
 #include "gltf_support.h"
 #include "quads/surface_distance.h"
 #include "support/program_support.h"
@@ -22,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace samples;
+using namespace hf_gltf;
 using samples_test::TemporaryFolder;
 
 int run(const std::string& arguments, std::string& output) {

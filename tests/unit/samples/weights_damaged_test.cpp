@@ -9,13 +9,14 @@
 #include <map>
 #include <random>
 
-#include "common/gltf_read.h"
+#include "gltf/gltf_read.h"
 #include "gltf_support.h"
 #include "weights/rig.h"
 
 namespace {
 
 using namespace samples;
+using namespace hf_gltf;
 using samples_test::shared_data;
 
 struct Variant {

@@ -6,17 +6,17 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/gltf_read.h"
-#include "common/gltf_write.h"
-#include "common/json_file.h"
-#include "common/skin_write.h"
+#include "gltf/gltf_read.h"
+#include "gltf/gltf_write.h"
+#include "gltf/json_file.h"
+#include "gltf/skin_write.h"
 #include "gltf_support.h"
 #include "support/program_support.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-using namespace samples;
+using namespace hf_gltf;
 using samples_test::TemporaryFolder;
 
 constexpr uint32_t around = 12, rings = 21;

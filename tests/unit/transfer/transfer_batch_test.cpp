@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "common/animate.h"
+#include "gltf/animate.h"
 #include "unit/transfer/transfer_program_support.h"
 
 namespace {
@@ -21,19 +21,19 @@ std::vector<json> lines_of(const std::string& said) {
 }
 
 // The horse's clips without its surface, as animation libraries come.
-samples::Model skeleton_only() {
-  samples::Model out = samples::read_gltf(creature("horse"));
+hf_gltf::Model skeleton_only() {
+  hf_gltf::Model out = hf_gltf::read_gltf(creature("horse"));
   out.meshes.clear();
-  for (samples::Node& node : out.nodes) node.mesh = -1;
+  for (hf_gltf::Node& node : out.nodes) node.mesh = -1;
   return out;
 }
 
-double furthest(const samples::Model& a, const samples::Animation& of_a, const samples::Model& b,
-                const samples::Animation& of_b) {
-  const samples::FlatMesh mesh_a = samples::flatten(a), mesh_b = samples::flatten(b);
+double furthest(const hf_gltf::Model& a, const hf_gltf::Animation& of_a, const hf_gltf::Model& b,
+                const hf_gltf::Animation& of_b) {
+  const hf_gltf::FlatMesh mesh_a = hf_gltf::flatten(a), mesh_b = hf_gltf::flatten(b);
   double out = 0;
-  for (const double time : samples::frame_times(of_a, 10)) {
-    const auto p = samples::posed_positions(a, mesh_a, of_a, time), q = samples::posed_positions(b, mesh_b, of_b, time);
+  for (const double time : hf_gltf::frame_times(of_a, 10)) {
+    const auto p = hf_gltf::posed_positions(a, mesh_a, of_a, time), q = hf_gltf::posed_positions(b, mesh_b, of_b, time);
     for (size_t v = 0; v < p.size(); ++v) out = std::max(out, glm::distance(p[v], q[v]));
   }
   return out;
@@ -56,7 +56,7 @@ TEST(TransferBatch, EachLineIsATransferAndAWrongOneStopsNoOther) {
   EXPECT_EQ(lines[0]["line"], 2);
   EXPECT_EQ(lines[0]["exit"], 0) << lines[0];
   EXPECT_EQ(lines[0]["report"]["clips"][0]["name"], "walk");
-  EXPECT_EQ(samples::read_gltf(first).animations.front().name, "walk (2)");  // the bull has a walk
+  EXPECT_EQ(hf_gltf::read_gltf(first).animations.front().name, "walk (2)");  // the bull has a walk
   EXPECT_EQ(lines[1]["exit"], 1);
   EXPECT_NE(lines[1]["error"].get<std::string>().find("absent.glb"), std::string::npos);
   EXPECT_NE(lines[2]["error"].get<std::string>().find("--wrong"), std::string::npos) << lines[2];
@@ -138,28 +138,28 @@ TEST(TransferBatch, OnAClusterALineWhoseWorkerDiesRunsAgainElsewhere) {
 
 TEST(TransferClips, ClipsWithoutASurfaceGoToAModelOfTheirSkeleton) {
   const fs::path clips = folder() / "library.glb", out = folder() / "from_library.glb";
-  samples::Model library = skeleton_only();
+  hf_gltf::Model library = skeleton_only();
   ASSERT_FALSE(library.animations.empty());
   library.animations.front().name = "library walk";
-  samples::write_gltf(library, clips);
+  hf_gltf::write_gltf(library, clips);
   std::string said;
   ASSERT_EQ(transfer(quoted(clips) + " " + quoted(creature("horse")) + " -o " + quoted(out), said), 0) << said;
-  const samples::Model made = samples::read_gltf(out), horse = samples::read_gltf(creature("horse"));
+  const hf_gltf::Model made = hf_gltf::read_gltf(out), horse = hf_gltf::read_gltf(creature("horse"));
   ASSERT_EQ(made.animations.size(), horse.animations.size() + 1);
   EXPECT_EQ(made.animations.front().name, "library walk");
   EXPECT_LT(furthest(made, made.animations.front(), horse, horse.animations.front()), 1e-6);
   // a skeleton of twice the size gives the same motion: translations count from its own rest pose
-  for (samples::Node& node : library.nodes) node.translation *= 2.0f;
-  for (samples::Channel& channel : library.animations.front().channels)
-    if (channel.path == samples::Path::translation)
+  for (hf_gltf::Node& node : library.nodes) node.translation *= 2.0f;
+  for (hf_gltf::Channel& channel : library.animations.front().channels)
+    if (channel.path == hf_gltf::Path::translation)
       for (float& x : channel.values) x *= 2.0f;
-  samples::write_gltf(library, clips);
+  hf_gltf::write_gltf(library, clips);
   ASSERT_EQ(transfer(quoted(clips) + " " + quoted(creature("horse")) + " -o " + quoted(out), said), 0) << said;
-  const samples::Model again = samples::read_gltf(out);
+  const hf_gltf::Model again = hf_gltf::read_gltf(out);
   EXPECT_LT(furthest(again, again.animations.front(), horse, horse.animations.front()), 1e-4);
   // another skeleton is refused with the numbers, and a sheet needs a surface
-  for (samples::Node& node : library.nodes) node.name += "_other";
-  samples::write_gltf(library, clips);
+  for (hf_gltf::Node& node : library.nodes) node.name += "_other";
+  hf_gltf::write_gltf(library, clips);
   EXPECT_EQ(transfer(quoted(clips) + " " + quoted(creature("horse")) + " -o " + quoted(out), said), 1);
   EXPECT_NE(said.find("the skeletons differ"), std::string::npos) << said;
   EXPECT_EQ(transfer(quoted(clips) + " " + quoted(creature("horse")) + " -o " + quoted(out) + " --sheet a.png", said),
@@ -170,12 +170,12 @@ TEST(TransferClips, ClipsWithoutASurfaceGoToAModelOfTheirSkeleton) {
 TEST(TransferClips, ALibraryMovesAModelThatAnotherBodyFollows) {
   const fs::path clips = folder() / "library_of_horse.glb", out = folder() / "bull_from_library.glb",
                  direct = folder() / "bull_direct.glb";
-  samples::write_gltf(skeleton_only(), clips);
+  hf_gltf::write_gltf(skeleton_only(), clips);
   std::string said;
   const std::string list = " --pairs " + quoted(pairs("horse_to_bull.json")) + " -o ";
   ASSERT_EQ(transfer(both() + list + quoted(direct), said), 0) << said;
   ASSERT_EQ(transfer(both() + " --clips " + quoted(clips) + list + quoted(out), said), 0) << said;
-  const samples::Model a = samples::read_gltf(direct), b = samples::read_gltf(out);
+  const hf_gltf::Model a = hf_gltf::read_gltf(direct), b = hf_gltf::read_gltf(out);
   EXPECT_LT(furthest(a, a.animations.front(), b, b.animations.front()), 1e-6);
 }
 

@@ -27,7 +27,8 @@ TEST(TransferContacts, ARegionTheCallerHoldsGoesExactlyWhereItIsSaidAndTheRestFo
   EXPECT_LT(hf_inner::norm(centre_of(a.pairs.target[foot], held) - step), 1e-6 * a.box);
   EXPECT_LT(hf_inner::norm(centre_of(a.pairs.target[nose], held) - rail), 1e-6 * a.box);
   // another foot stays, and nothing tears
-  EXPECT_LT(hf_inner::norm(centre_of(a.pairs.target[5], held) - centre_of(a.pairs.target[5], free_frame)), 0.01 * a.box);
+  EXPECT_LT(hf_inner::norm(centre_of(a.pairs.target[5], held) - centre_of(a.pairs.target[5], free_frame)),
+            0.01 * a.box);
   EXPECT_LT(largest_distance(held, free_frame), 0.12 * a.box);
   // holds are of one frame
   EXPECT_EQ(largest_distance(frame_of(transfer, posed), free_frame), 0.0);
@@ -64,7 +65,7 @@ TEST(TransferContacts, AStandingFootDoesNotSlideOffItsScaledPath) {
   double worst = 0;
   int standing = 0;
   for (int f = 0; f < 40; ++f) {
-    const std::vector<Vec3> posed = a.horse.posed(a.walk, samples::clip_duration(a.walk) * f / 40),
+    const std::vector<Vec3> posed = a.horse.posed(a.walk, hf_gltf::clip_duration(a.walk) * f / 40),
                             out = frame_of(transfer, posed);
     for (size_t foot = 2; foot < 6; ++foot) {
       if (transfer.scale() * (lowest_of(a.pairs.source[foot], posed) - lowest_of(source_rest)) > 0.009 * a.box)
@@ -127,18 +128,18 @@ TEST(TransferContacts, PairsThatChangeSidesAreSaidToBeCrossed) {
 // ---- against joints copied by name ----
 
 // Local rotations of the source's joints on the target's joints of the same name; translations by their change, scaled.
-std::vector<glm::dvec3> copied_by_name(const Body& source, const samples::Animation& clip, double time,
+std::vector<glm::dvec3> copied_by_name(const Body& source, const hf_gltf::Animation& clip, double time,
                                        const Body& target, double scale) {
-  const samples::Pose from = samples::sample(source.model, clip, time), from_rest = samples::rest_pose(source.model);
-  samples::Pose to = samples::rest_pose(target.model);
+  const hf_gltf::Pose from = hf_gltf::sample(source.model, clip, time), from_rest = hf_gltf::rest_pose(source.model);
+  hf_gltf::Pose to = hf_gltf::rest_pose(target.model);
   for (size_t n = 0; n < to.size(); ++n) {
-    const int other = samples::find_node(source.model, target.model.nodes[n].name);
+    const int other = hf_gltf::find_node(source.model, target.model.nodes[n].name);
     if (other < 0) continue;
     const auto o = static_cast<size_t>(other);
     to[n].rotation = from[o].rotation;
     to[n].translation += scale * (from[o].translation - from_rest[o].translation);
   }
-  return samples::posed_positions(target.model, target.mesh, to);
+  return hf_gltf::posed_positions(target.model, target.mesh, to);
 }
 
 void check_against_names(const std::string& target_name, const std::string& list) {
@@ -146,18 +147,18 @@ void check_against_names(const std::string& target_name, const std::string& list
   if (!std::filesystem::exists(file("q_Horse.glb")) || !std::filesystem::exists(file(target_name)))
     GTEST_SKIP() << "no q_Horse.glb or " << target_name << " under " << data_folder();
   const World world;
-  const Body horse(samples::read_gltf(file("q_Horse.glb")), world), other(samples::read_gltf(file(target_name)), world);
+  const Body horse(hf_gltf::read_gltf(file("q_Horse.glb")), world), other(hf_gltf::read_gltf(file(target_name)), world);
   const Pairs pairs = find_pairs(list, horse, other);
   hf_inner::TransferOptions paper_options;
   paper_options.mode = HF_TRANSFER_PAPER;
   hf_inner::Transfer transfer(horse.core, other.core, {}), paper(horse.core, other.core, paper_options);
   add(transfer, pairs.inputs()), add(paper, pairs.inputs());
   for (const char* name : {"AnimalArmature|Gallop", "AnimalArmature|Walk"}) {
-    const samples::Animation& clip =
-        horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, name))];
+    const hf_gltf::Animation& clip =
+        horse.model.animations[static_cast<size_t>(hf_gltf::find_animation(horse.model, name))];
     double mean = 0, of_paper = 0, nothing = 0;
     for (int k = 0; k < 12; ++k) {
-      const double time = samples::clip_duration(clip) * k / 11;
+      const double time = hf_gltf::clip_duration(clip) * k / 11;
       const std::vector<Vec3> posed = horse.posed(clip, time),
                               named = other.inner(copied_by_name(horse, clip, time, other, transfer.scale()));
       mean += rms(*other.core, frame_of(transfer, posed), named, true) / 12;

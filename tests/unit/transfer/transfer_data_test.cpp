@@ -10,7 +10,7 @@ using hf_inner::Vec3;
 
 bool have(const std::string& name) { return std::filesystem::exists(data_folder() / "gltf" / name); }
 Body load(const std::string& name, const World& world) {
-  return Body(samples::read_gltf(data_folder() / "gltf" / name), world);
+  return Body(hf_gltf::read_gltf(data_folder() / "gltf" / name), world);
 }
 
 struct Figures {
@@ -30,9 +30,9 @@ Figures self_transfer(int32_t mode, bool anchored) {
   add(transfer, pairs.inputs());
   Figures out;
   int frames = 0;
-  for (const samples::Animation& clip : horse.model.animations) {
+  for (const hf_gltf::Animation& clip : horse.model.animations) {
     for (int k = 0; k < 6; ++k, ++frames) {
-      const std::vector<Vec3> posed = horse.posed(clip, samples::clip_duration(clip) * k / 5);
+      const std::vector<Vec3> posed = horse.posed(clip, hf_gltf::clip_duration(clip) * k / 5);
       const double error = rms(*horse.core, frame_of(transfer, posed), posed, !anchored);
       out.mean += error, out.worst = std::max(out.worst, error);
       if (clip.name == "AnimalArmature|Idle") out.idle = std::max(out.idle, error);
@@ -75,16 +75,17 @@ CrossFigures cross(const Body& horse, const Body& other, const Pairs& pairs, int
   out.scale = transfer.scale();
   int count = 0;
   for (const char* name : {"Gallop", "Walk", "Eating", "Idle"}) {
-    const samples::Animation& clip = horse.model.animations[static_cast<size_t>(
-        samples::find_animation(horse.model, std::string("AnimalArmature|") + name))];
+    const hf_gltf::Animation& clip = horse.model.animations[static_cast<size_t>(
+        hf_gltf::find_animation(horse.model, std::string("AnimalArmature|") + name))];
     for (int f = 0; f < 12; ++f) {
-      const std::vector<Vec3> posed = horse.posed(clip, samples::clip_duration(clip) * f / 12),
+      const std::vector<Vec3> posed = horse.posed(clip, hf_gltf::clip_duration(clip) * f / 12),
                               frame = frame_of(transfer, posed);
       for (size_t p = 0; p < pairs.names.size(); ++p) {
         if (!(pairs.flags[p] & HF_PAIR_FOOT)) continue;
         const Vec3 path = out.scale * (centre_of(pairs.source[p], posed) - centre_of(pairs.source[p], horse_rest));
-        const double miss = hf_inner::norm(centre_of(pairs.target[p], frame) - centre_of(pairs.target[p], rest) - path) /
-                            other.core->mesh.scale;
+        const double miss =
+            hf_inner::norm(centre_of(pairs.target[p], frame) - centre_of(pairs.target[p], rest) - path) /
+            other.core->mesh.scale;
         out.mean += miss, out.largest = std::max(out.largest, miss), ++count;
       }
       std::vector<double> stretch;
@@ -131,11 +132,11 @@ TEST(TransferData, TheDeersNoseComesAsNearToTheGroundAsTheGrazingHorses) {
   pairs.flags[0] |= HF_PAIR_CONTACT;
   hf_inner::Transfer transfer(horse.core, deer.core, {});
   add(transfer, pairs.inputs());
-  const samples::Animation& eating =
-      horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "AnimalArmature|Eating"))];
+  const hf_gltf::Animation& eating =
+      horse.model.animations[static_cast<size_t>(hf_gltf::find_animation(horse.model, "AnimalArmature|Eating"))];
   double from = 1e300, to = 1e300;
   for (int k = 0; k <= 60; ++k) {
-    const std::vector<Vec3> posed = horse.posed(eating, samples::clip_duration(eating) * k / 60);
+    const std::vector<Vec3> posed = horse.posed(eating, hf_gltf::clip_duration(eating) * k / 60);
     from = std::min(from, transfer.scale() * (lowest_of(pairs.source[0], posed) - lowest_of(horse.rest())));
     to = std::min(to, lowest_of(pairs.target[0], frame_of(transfer, posed)) - lowest_of(deer.rest()));
   }

@@ -1,7 +1,7 @@
 // The faults that the report of hf_transfer names, each put into a good clip by hand; the confidence falls with each.
 #include <gtest/gtest.h>
 
-#include "common/animate.h"
+#include "gltf/animate.h"
 #include "transfer/faults.h"
 #include "unit/transfer/transfer_program_support.h"
 
@@ -9,6 +9,7 @@ namespace {
 
 using namespace transfer_program;
 using namespace samples;
+using namespace hf_gltf;
 
 struct Walk {
   Model horse = to_model(make_creature("horse", 1500)), bull = to_model(make_creature("bull", 1500));

@@ -28,7 +28,7 @@ struct Twins {
     pairs = find_pairs("horse_to_bull.json", source, target);
     for (std::vector<int32_t>& region : pairs.target)
       for (int32_t& v : region) v = target.core->mesh.given_of_inner[static_cast<size_t>(v)];
-    target.mesh.positions = other(samples::rest_pose(target.model));
+    target.mesh.positions = other(hf_gltf::rest_pose(target.model));
     target.build(world);
     for (std::vector<int32_t>& region : pairs.target)
       for (int32_t& v : region) v = target.core->mesh.inner_of_given[static_cast<size_t>(v)];
@@ -36,12 +36,12 @@ struct Twins {
   World world;
   Body source, target;
   bool same;
-  samples::FlatMesh skin;
+  hf_gltf::FlatMesh skin;
   Pairs pairs;
 
-  std::vector<glm::dvec3> other(samples::Pose pose) const {
+  std::vector<glm::dvec3> other(hf_gltf::Pose pose) const {
     for (size_t n = 0; n < pose.size(); ++n) pose[n].translation *= same ? 1.0 : longer(target.model.nodes[n].name);
-    return samples::posed_positions(target.model, skin, pose);
+    return hf_gltf::posed_positions(target.model, skin, pose);
   }
 
   // The vertices within a distance of a place that no region has yet; at least the nearest of them.
@@ -92,12 +92,12 @@ struct Twins {
     add(transfer, with(count).inputs());
     double sum = 0;
     int frames = 0;
-    for (const samples::Animation& clip : source.model.animations) {
+    for (const hf_gltf::Animation& clip : source.model.animations) {
       for (int k = 0; k < 8; ++k, ++frames) {
-        const double time = samples::clip_duration(clip) * k / 8;
-        const std::vector<glm::dvec3> truth = other(samples::sample(
+        const double time = hf_gltf::clip_duration(clip) * k / 8;
+        const std::vector<glm::dvec3> truth = other(hf_gltf::sample(
             target.model,
-            target.model.animations[static_cast<size_t>(samples::find_animation(target.model, clip.name))], time));
+            target.model.animations[static_cast<size_t>(hf_gltf::find_animation(target.model, clip.name))], time));
         sum += rms(*target.core, frame_of(transfer, source.posed(clip, time)), target.inner(truth));
       }
     }

@@ -2,8 +2,8 @@
 // and the live sample.
 #include <gtest/gtest.h>
 
-#include "common/animate.h"
 #include "common/mesh_file.h"
+#include "gltf/animate.h"
 #include "transfer/session.h"
 #include "unit/transfer/transfer_program_support.h"
 
@@ -109,7 +109,7 @@ TEST(TransferOutputs, TheTargetsOwnRigPlaysTheMotion) {
                      said),
             0)
       << said;
-  const samples::Model made = samples::read_gltf(out), given = samples::read_gltf(folder() / "bull.glb");
+  const hf_gltf::Model made = hf_gltf::read_gltf(out), given = hf_gltf::read_gltf(folder() / "bull.glb");
   ASSERT_EQ(made.skins.size(), given.skins.size());
   EXPECT_EQ(made.skins[0].joints, given.skins[0].joints);
   EXPECT_EQ(made.nodes.size(), given.nodes.size());
@@ -144,7 +144,7 @@ TEST(TransferOutputs, MorphTargetsKeepEveryFrameWithinTheTolerance) {
                      said),
             0)
       << said;
-  const samples::Model made = samples::read_gltf(out);
+  const hf_gltf::Model made = hf_gltf::read_gltf(out);
   EXPECT_TRUE(made.skins.empty());
   const json figures = read_json(report);
   EXPECT_EQ(made.meshes[0].primitives[0].targets.size(), figures["written_parts"].get<size_t>());
@@ -155,12 +155,12 @@ TEST(TransferOutputs, MorphTargetsKeepEveryFrameWithinTheTolerance) {
 
 TEST(TransferOutputs, MeshSequencesGiveWhatTheClipGives) {
   // the walk of the horse as posed meshes, the bull as a mesh; places as vertices and positions
-  const samples::Model horse = samples::read_gltf(creature("horse")), bull = samples::read_gltf(creature("bull"));
-  const samples::FlatMesh from = samples::flatten(horse), to = samples::flatten(bull);
+  const hf_gltf::Model horse = hf_gltf::read_gltf(creature("horse")), bull = hf_gltf::read_gltf(creature("bull"));
+  const hf_gltf::FlatMesh from = hf_gltf::flatten(horse), to = hf_gltf::flatten(bull);
   const fs::path place = folder() / "sequence";
   fs::remove_all(place);
   fs::create_directories(place);
-  const auto mesh = [](const samples::FlatMesh& flat, const std::vector<glm::dvec3>& positions) {
+  const auto mesh = [](const hf_gltf::FlatMesh& flat, const std::vector<glm::dvec3>& positions) {
     samples::SurfaceMesh out;
     out.positions = positions, out.triangles = flat.triangles;
     return out;
@@ -170,7 +170,7 @@ TEST(TransferOutputs, MeshSequencesGiveWhatTheClipGives) {
   std::string poses;
   for (int f = 0; f < 4; ++f) {
     const fs::path file = place / ("pose" + std::to_string(f) + (f % 2 ? ".obj" : ".ply"));
-    samples::write_mesh_file(mesh(from, samples::posed_positions(horse, from, horse.animations[0], f * 0.1)), file);
+    samples::write_mesh_file(mesh(from, hf_gltf::posed_positions(horse, from, horse.animations[0], f * 0.1)), file);
     poses += " " + quoted(file);
   }
   std::string said;
@@ -220,8 +220,8 @@ TEST(TransferOutputs, HalfWayBetweenKeysTheFileIsNearTheSolver) {
   std::string said;
   ASSERT_EQ(transfer(start + " --fps 30 --as skin --key-tolerance 0 -o " + quoted(file), said), 0) << said;
   ASSERT_EQ(transfer(start + " --fps 60 --out-poses " + quoted(frames), said), 0) << said;
-  const samples::Model made = samples::read_gltf(file);
-  const samples::FlatMesh mesh = samples::flatten(made);
+  const hf_gltf::Model made = hf_gltf::read_gltf(file);
+  const hf_gltf::FlatMesh mesh = hf_gltf::flatten(made);
   glm::dvec3 low(1e300), high(-1e300);
   for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
   std::vector<fs::path> files;
@@ -232,7 +232,7 @@ TEST(TransferOutputs, HalfWayBetweenKeysTheFileIsNearTheSolver) {
   for (size_t f = 0; f + 1 < files.size(); ++f) {
     const samples::SurfaceMesh expected = samples::read_mesh_file(files[f]);
     const std::vector<glm::dvec3> got =
-        samples::posed_positions(made, mesh, made.animations[0], static_cast<double>(f) / 60);
+        hf_gltf::posed_positions(made, mesh, made.animations[0], static_cast<double>(f) / 60);
     ASSERT_EQ(got.size(), expected.positions.size());
     double sum = 0, largest = 0;
     for (size_t v = 0; v < got.size(); ++v) {
@@ -257,13 +257,13 @@ TEST(TransferOutputs, KeysThatFollowFromOthersAreLeftOutWithinTheBound) {
   const json figures = read_json(report);
   EXPECT_EQ(figures["written_as"], "own-skin");
   EXPECT_LT(figures["keys"].get<int>(), figures["all_keys"].get<int>());
-  const samples::Model a = samples::read_gltf(whole), b = samples::read_gltf(few);
-  const samples::FlatMesh mesh = samples::flatten(a);
+  const hf_gltf::Model a = hf_gltf::read_gltf(whole), b = hf_gltf::read_gltf(few);
+  const hf_gltf::FlatMesh mesh = hf_gltf::flatten(a);
   glm::dvec3 low(1e300), high(-1e300);
   for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-  for (const double time : samples::key_times(a.animations[0])) {
-    const std::vector<glm::dvec3> wanted = samples::posed_positions(a, mesh, a.animations[0], time),
-                                  got = samples::posed_positions(b, mesh, b.animations[0], time);
+  for (const double time : hf_gltf::key_times(a.animations[0])) {
+    const std::vector<glm::dvec3> wanted = hf_gltf::posed_positions(a, mesh, a.animations[0], time),
+                                  got = hf_gltf::posed_positions(b, mesh, b.animations[0], time);
     for (size_t v = 0; v < got.size(); ++v)
       ASSERT_LT(glm::distance(got[v], wanted[v]), 0.0005 * glm::length(high - low)) << v << " at " << time;
   }
@@ -273,7 +273,7 @@ TEST(TransferOutputs, ClipsOfARealAnimalTakeFewBytes) {
   if (!fs::exists(data() / "q_Horse.glb") || !fs::exists(data() / "q_Wolf.glb"))
     GTEST_SKIP() << "no q_Horse.glb or q_Wolf.glb under " << data();
   // what the wolf takes without the new clips
-  const size_t alone = samples::gltf_bytes(samples::read_gltf(data() / "q_Wolf.glb"), true).size();
+  const size_t alone = hf_gltf::gltf_bytes(hf_gltf::read_gltf(data() / "q_Wolf.glb"), true).size();
   const auto bytes = [&](const std::string& clip) {
     const fs::path out = folder() / "bytes.glb";
     std::string said;
@@ -292,14 +292,14 @@ TEST(TransferOutputs, ClipsOfARealAnimalTakeFewBytes) {
 
 // A body whose morph target moves few vertices keeps it sparse beside a new clip.
 TEST(TransferOutputs, SparseMorphTargetsStaySparse) {
-  samples::Model bull = samples::read_gltf(creature("bull"));
-  samples::Primitive& primitive = bull.meshes.front().primitives.front();
-  samples::MorphTarget blink;
+  hf_gltf::Model bull = hf_gltf::read_gltf(creature("bull"));
+  hf_gltf::Primitive& primitive = bull.meshes.front().primitives.front();
+  hf_gltf::MorphTarget blink;
   blink.positions.assign(primitive.positions.size(), glm::vec3(0));
   blink.positions[7] = glm::vec3(0.1f, 0, 0);
   primitive.targets.push_back(blink);
   const fs::path target = folder() / "sparse_bull.glb", out = folder() / "sparse_out.glb";
-  samples::write_gltf(bull, target);
+  hf_gltf::write_gltf(bull, target);
   std::string said;
   ASSERT_EQ(transfer(quoted(creature("horse")) + " " + quoted(target) + " --pairs " +
                          quoted(pairs("horse_to_bull.json")) + " -o " + quoted(out),
@@ -313,7 +313,7 @@ TEST(TransferOutputs, SparseMorphTargetsStaySparse) {
   const json root = json::parse(all.substr(20, length));
   const size_t accessor = root["meshes"][0]["primitives"][0]["targets"][0]["POSITION"];
   EXPECT_EQ(root["accessors"][accessor]["sparse"]["count"], 1);
-  EXPECT_EQ(samples::read_gltf(out).meshes.front().primitives.front().targets.front().positions[7], blink.positions[7]);
+  EXPECT_EQ(hf_gltf::read_gltf(out).meshes.front().primitives.front().targets.front().positions[7], blink.positions[7]);
 }
 
 TEST(TransferOutputs, FeetComeFromNamesAndBodiesWithoutFeetFromTheirEnds) {
@@ -357,8 +357,8 @@ TEST(TransferOutputs, TravelIsTakenOutAndSwayAndHeightStay) {
 
 TEST(TransferOutputs, InPlaceIsAnOptionOfTheProgram) {
   // The horse walks away: where its topmost joint is, is keyed anew.
-  samples::Model horse = samples::read_gltf(creature("horse"));
-  samples::Animation& walk = horse.animations[static_cast<size_t>(samples::find_animation(horse, "walk"))];
+  hf_gltf::Model horse = hf_gltf::read_gltf(creature("horse"));
+  hf_gltf::Animation& walk = horse.animations[static_cast<size_t>(hf_gltf::find_animation(horse, "walk"))];
   int top = horse.skins.front().joints.front();
   const auto is_joint = [&](int node) {
     const std::vector<int>& joints = horse.skins.front().joints;
@@ -366,18 +366,18 @@ TEST(TransferOutputs, InPlaceIsAnOptionOfTheProgram) {
   };
   while (is_joint(horse.nodes[static_cast<size_t>(top)].parent)) top = horse.nodes[static_cast<size_t>(top)].parent;
   walk.channels.erase(std::remove_if(walk.channels.begin(), walk.channels.end(),
-                                     [&](const samples::Channel& channel) {
-                                       return channel.node == top && channel.path == samples::Path::translation;
+                                     [&](const hf_gltf::Channel& channel) {
+                                       return channel.node == top && channel.path == hf_gltf::Path::translation;
                                      }),
                       walk.channels.end());
-  samples::Channel travels_on;
+  hf_gltf::Channel travels_on;
   travels_on.node = top;
-  travels_on.times = {0, static_cast<float>(samples::clip_duration(walk))};
+  travels_on.times = {0, static_cast<float>(hf_gltf::clip_duration(walk))};
   const glm::vec3 at = horse.nodes[static_cast<size_t>(top)].translation;
   travels_on.values = {at.x, at.y, at.z, at.x, at.y, at.z + 2};
   walk.channels.push_back(travels_on);
   const fs::path walker = folder() / "walks_away.glb";
-  samples::write_gltf(horse, walker);
+  hf_gltf::write_gltf(horse, walker);
   const auto travel = [&](const std::string& more, const char* name) {
     const fs::path out = folder() / name;
     std::string said;
@@ -386,12 +386,12 @@ TEST(TransferOutputs, InPlaceIsAnOptionOfTheProgram) {
                        said),
               0)
         << said;
-    const samples::Model model = samples::read_gltf(out);
-    const samples::FlatMesh mesh = samples::flatten(model);
-    const samples::Animation& clip = model.animations.front();
+    const hf_gltf::Model model = hf_gltf::read_gltf(out);
+    const hf_gltf::FlatMesh mesh = hf_gltf::flatten(model);
+    const hf_gltf::Animation& clip = model.animations.front();
     glm::dvec3 path(0);
-    const auto last = samples::posed_positions(model, mesh, clip, samples::clip_duration(clip)),
-               first = samples::posed_positions(model, mesh, clip, 0);
+    const auto last = hf_gltf::posed_positions(model, mesh, clip, hf_gltf::clip_duration(clip)),
+               first = hf_gltf::posed_positions(model, mesh, clip, 0);
     for (size_t v = 0; v < last.size(); ++v) path += (last[v] - first[v]) / static_cast<double>(last.size());
     return std::hypot(path.x, path.z);
   };
@@ -402,21 +402,21 @@ TEST(TransferOutputs, InPlaceIsAnOptionOfTheProgram) {
   // The travel as a motion of the root: the same body at every time, under two keys.
   const double moved = travel(" --root-motion", "root.glb");
   EXPECT_NEAR(moved, walks, 0.01 * walks);
-  const samples::Model there = samples::read_gltf(folder() / "root.glb"),
-                       plain = samples::read_gltf(folder() / "stays.glb");
-  const samples::FlatMesh mesh = samples::flatten(there);
+  const hf_gltf::Model there = hf_gltf::read_gltf(folder() / "root.glb"),
+                       plain = hf_gltf::read_gltf(folder() / "stays.glb");
+  const hf_gltf::FlatMesh mesh = hf_gltf::flatten(there);
   int root = there.skins.front().joints.front();
   while (there.nodes[static_cast<size_t>(root)].parent >= 0) root = there.nodes[static_cast<size_t>(root)].parent;
-  const samples::Animation &clip = there.animations.front(), &still = plain.animations.front();
-  const auto channel = std::find_if(clip.channels.begin(), clip.channels.end(), [&](const samples::Channel& c) {
-    return c.node == root && c.path == samples::Path::translation;
+  const hf_gltf::Animation &clip = there.animations.front(), &still = plain.animations.front();
+  const auto channel = std::find_if(clip.channels.begin(), clip.channels.end(), [&](const hf_gltf::Channel& c) {
+    return c.node == root && c.path == hf_gltf::Path::translation;
   });
   ASSERT_NE(channel, clip.channels.end());
   for (const double time : {0.0, 0.4, 1.0}) {
-    const auto a = samples::posed_positions(there, mesh, clip, time),
-               b = samples::posed_positions(plain, mesh, still, time);
+    const auto a = hf_gltf::posed_positions(there, mesh, clip, time),
+               b = hf_gltf::posed_positions(plain, mesh, still, time);
     const glm::dvec3 shift = a[0] - b[0];
-    EXPECT_NEAR(glm::length(shift), moved * time / samples::clip_duration(clip), 0.02 * moved);
+    EXPECT_NEAR(glm::length(shift), moved * time / hf_gltf::clip_duration(clip), 0.02 * moved);
     for (size_t v = 0; v < a.size(); ++v) ASSERT_LT(glm::distance(a[v] - b[v], shift), 1e-5);
   }
   std::string said;

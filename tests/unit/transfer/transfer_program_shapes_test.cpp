@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "assets/face_gltf.h"
-#include "common/animate.h"
+#include "gltf/animate.h"
 #include "unit/transfer/transfer_program_support.h"
 
 namespace {
@@ -13,26 +13,26 @@ struct Heads {
   samples::Face face = samples::make_face(110, 90, false), other = samples::make_face(110, 90, true);
   fs::path source = folder() / "face.glb", target = folder() / "face_other.glb";
   Heads() {
-    samples::write_gltf(samples::to_model(face, "face", true), source);
-    samples::Model model = samples::to_model(other, "face_other", false);
+    hf_gltf::write_gltf(samples::to_model(face, "face", true), source);
+    hf_gltf::Model model = samples::to_model(other, "face_other", false);
     // a target with a node that turns and scales, and a morph target and a clip of its own
     model.nodes[0].rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0)), model.nodes[0].scale = glm::vec3(1, 2, 1);
-    samples::Primitive& primitive = model.meshes[0].primitives[0];
+    hf_gltf::Primitive& primitive = model.meshes[0].primitives[0];
     for (glm::vec3& p : primitive.positions) {
       p = glm::conjugate(model.nodes[0].rotation) * p;
       p.y /= 2;
     }
-    samples::MorphTarget own;
+    hf_gltf::MorphTarget own;
     own.positions.assign(primitive.positions.size(), glm::vec3(0, 0.25f, 0));
     primitive.targets.push_back(own);
     model.meshes[0].target_names = {"blink_left"}, model.meshes[0].weights = {0};
-    samples::Animation clip;
+    hf_gltf::Animation clip;
     clip.name = "blink";
-    samples::Channel channel;
-    channel.node = 0, channel.path = samples::Path::weights, channel.width = 1;
+    hf_gltf::Channel channel;
+    channel.node = 0, channel.path = hf_gltf::Path::weights, channel.width = 1;
     channel.times = {0, 1}, channel.values = {0, 1};
     clip.channels.push_back(channel), model.animations.push_back(clip);
-    samples::write_gltf(model, target);
+    hf_gltf::write_gltf(model, target);
   }
 };
 
@@ -54,8 +54,8 @@ TEST(TransferProgramShapes, TheShapesOfAFaceStandBehindThoseThatTheOtherHas) {
     EXPECT_GT(to, 0.5 * from) << shape["name"];
     EXPECT_LT(to, 2 * from) << shape["name"];
   }
-  const samples::Model model = samples::read_gltf(out);
-  const samples::MeshData& mesh = model.meshes[0];
+  const hf_gltf::Model model = hf_gltf::read_gltf(out);
+  const hf_gltf::MeshData& mesh = model.meshes[0];
   ASSERT_EQ(mesh.target_names.size(), 53u);
   EXPECT_EQ(mesh.target_names[0], "blink_left");
   EXPECT_EQ(mesh.target_names[1], "blink_left (2)");
@@ -64,13 +64,13 @@ TEST(TransferProgramShapes, TheShapesOfAFaceStandBehindThoseThatTheOtherHas) {
   ASSERT_EQ(model.animations.size(), 2u);
   EXPECT_EQ(model.animations[0].name, "blink (2)");
   EXPECT_EQ(model.animations[1].name, "blink");
-  for (const samples::Animation& clip : model.animations) ASSERT_EQ(clip.channels[0].width, 53u);
+  for (const hf_gltf::Animation& clip : model.animations) ASSERT_EQ(clip.channels[0].width, 53u);
   EXPECT_EQ(model.animations[0].channels[0].values[53 + 1], 1);
   EXPECT_EQ(model.animations[1].channels[0].values[53], 1);
   EXPECT_EQ(model.animations[1].channels[0].values[53 + 1], 0);
   // where the file's blink puts the lids, in the world
-  const samples::FlatMesh flat = samples::flatten(model);
-  const std::vector<glm::dvec3> closed = samples::posed_positions(model, flat, model.animations[0], 0.15);
+  const hf_gltf::FlatMesh flat = hf_gltf::flatten(model);
+  const std::vector<glm::dvec3> closed = hf_gltf::posed_positions(model, flat, model.animations[0], 0.15);
   double gap = 0, open = 0;
   for (const auto& [upper, lower] : heads.other.lids) {
     gap = std::max(gap, glm::distance(closed[upper], closed[lower]));

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "assets/creature_gltf.h"
-#include "common/gltf_read.h"
-#include "common/gltf_write.h"
+#include "gltf/gltf_read.h"
+#include "gltf/gltf_write.h"
 #include "support/program_support.h"
 
 namespace transfer_program {
@@ -50,7 +50,7 @@ inline int transfer(const std::string& arguments, std::string& output) {
 inline fs::path creature(const std::string& name) {
   static std::set<std::string> made;
   const fs::path file = folder() / (name + ".glb");
-  if (made.insert(name).second) samples::write_gltf(samples::to_model(samples::make_creature(name, 1500)), file);
+  if (made.insert(name).second) hf_gltf::write_gltf(samples::to_model(samples::make_creature(name, 1500)), file);
   return file;
 }
 

@@ -13,19 +13,19 @@ using namespace transfer_program;
 
 // The target's surface and looks, a new skin, the clip.
 void check_output(const fs::path& file, const fs::path& target, size_t clips) {
-  const samples::Model made = samples::read_gltf(file), given = samples::read_gltf(target);
+  const hf_gltf::Model made = hf_gltf::read_gltf(file), given = hf_gltf::read_gltf(target);
   ASSERT_EQ(made.skins.size(), 1u);
   EXPECT_GT(made.skins[0].joints.size(), 20u);
   ASSERT_EQ(made.animations.size(), clips);
   EXPECT_EQ(made.animations[0].channels.size(), 2 * made.skins[0].joints.size());
-  std::vector<const samples::Primitive*> before, after;
-  for (const samples::Node& node : given.nodes) {
+  std::vector<const hf_gltf::Primitive*> before, after;
+  for (const hf_gltf::Node& node : given.nodes) {
     if (node.mesh < 0) continue;
-    for (const samples::Primitive& primitive : given.meshes[static_cast<size_t>(node.mesh)].primitives)
+    for (const hf_gltf::Primitive& primitive : given.meshes[static_cast<size_t>(node.mesh)].primitives)
       before.push_back(&primitive);
   }
-  for (const samples::MeshData& mesh : made.meshes) {
-    for (const samples::Primitive& primitive : mesh.primitives) after.push_back(&primitive);
+  for (const hf_gltf::MeshData& mesh : made.meshes) {
+    for (const hf_gltf::Primitive& primitive : mesh.primitives) after.push_back(&primitive);
   }
   ASSERT_EQ(before.size(), after.size());
   EXPECT_EQ(made.materials.size(), given.materials.size());

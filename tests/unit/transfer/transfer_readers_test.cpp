@@ -3,7 +3,7 @@
 // file. Each is skipped with a message where the program is absent.
 #include <gtest/gtest.h>
 
-#include "common/animate.h"
+#include "gltf/animate.h"
 #include "unit/transfer/transfer_program_support.h"
 
 namespace {
@@ -31,15 +31,15 @@ const char* const times_text = "0,0.25,0.5333333333333333";
 
 // Vertices in the reader's order against ours; the reader may leave copies of a vertex out, but not move any.
 void compare(const fs::path& file, const fs::path& answer, const std::string& who, double bound) {
-  const samples::Model model = samples::read_gltf(file);
-  const samples::FlatMesh mesh = samples::flatten(model);
+  const hf_gltf::Model model = hf_gltf::read_gltf(file);
+  const hf_gltf::FlatMesh mesh = hf_gltf::flatten(model);
   const nlohmann::json frames = nlohmann::json::parse(std::ifstream(answer))["frames"];
   ASSERT_EQ(frames.size(), times.size());
   glm::dvec3 low(1e300), high(-1e300);
   for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
   double worst = 0;
   for (size_t f = 0; f < times.size(); ++f) {
-    const std::vector<glm::dvec3> expected = samples::posed_positions(model, mesh, model.animations[0], times[f]);
+    const std::vector<glm::dvec3> expected = hf_gltf::posed_positions(model, mesh, model.animations[0], times[f]);
     const std::vector<double> got = frames[f].get<std::vector<double>>();
     ASSERT_EQ(got.size(), 3 * expected.size()) << who;
     for (size_t v = 0; v < expected.size(); ++v)
@@ -126,8 +126,8 @@ TEST(TransferReaders, GodotPosesTheVerticesAsWeDo) {
   run(settings + "timeout 12 godot3-server --path " + quoted(project) + " -e --quit", said);
   ASSERT_EQ(run(settings + "timeout 60 godot3-server --path " + quoted(project) + " -s read_godot.gd", said), 0)
       << said;
-  const samples::Model model = samples::read_gltf(file);
-  const samples::FlatMesh mesh = samples::flatten(model);
+  const hf_gltf::Model model = hf_gltf::read_gltf(file);
+  const hf_gltf::FlatMesh mesh = hf_gltf::flatten(model);
   const nlohmann::json frames = nlohmann::json::parse(std::ifstream(project / "posed.json"))["frames"];
   double worst = 0;
   glm::dvec3 low(1e300), high(-1e300);
@@ -135,7 +135,7 @@ TEST(TransferReaders, GodotPosesTheVerticesAsWeDo) {
   const double at[] = {0, 8.0 / 30, 16.0 / 30};
   ASSERT_EQ(frames.size(), 3u);
   for (size_t f = 0; f < 3; ++f) {
-    const std::vector<glm::dvec3> expected = samples::posed_positions(model, mesh, model.animations[0], at[f]);
+    const std::vector<glm::dvec3> expected = hf_gltf::posed_positions(model, mesh, model.animations[0], at[f]);
     const std::vector<double> got = frames[f].get<std::vector<double>>();
     ASSERT_EQ(got.size(), 3 * expected.size());
     for (size_t v = 0; v < expected.size(); ++v)

@@ -68,7 +68,7 @@ TEST(TransferRules, TurningTheSourceAboutTheVerticalWithItsAxesGivesTheSameClip)
   hf_inner::Transfer first(a.horse.core, a.bull.core, straight), second(other.core, a.bull.core, rotated);
   add(first, a.pairs.inputs()), add(second, a.pairs.inputs());
   for (const double time : {0.0, 0.2, 0.55, 0.9}) {
-    std::vector<glm::dvec3> posed = samples::posed_positions(a.horse.model, a.horse.mesh, a.walk, time), moved;
+    std::vector<glm::dvec3> posed = hf_gltf::posed_positions(a.horse.model, a.horse.mesh, a.walk, time), moved;
     for (const glm::dvec3& p : posed) moved.push_back(turned(p));
     EXPECT_LT(largest_distance(frame_of(first, a.horse.inner(posed)), frame_of(second, other.inner(moved))),
               1e-6 * a.box)

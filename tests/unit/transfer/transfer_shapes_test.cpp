@@ -14,7 +14,7 @@ TEST(TransferShapes, TheSameSurfaceRemeshedAndScaledFollowsWithinTwoPercentOfThe
   const double scale = 1.7;
   const Body plain = creature("horse", 3600, a.world);
   Body other = plain;
-  const samples::FlatMesh unscaled = other.mesh;
+  const hf_gltf::FlatMesh unscaled = other.mesh;
   other.move(a.world, [&](const glm::dvec3& p) { return scale * p; });
   Pairs pairs = find_pairs("horse_to_bull.json", a.horse, a.horse);
   pairs.target = find_pairs("horse_to_bull.json", plain, plain).target;
@@ -24,10 +24,10 @@ TEST(TransferShapes, TheSameSurfaceRemeshedAndScaledFollowsWithinTwoPercentOfThe
   EXPECT_NEAR(transfer.scale(), scale, 0.01 * scale);
   double sum = 0, worst = 0, largest = 0;
   int frames = 0;
-  for (const samples::Animation& clip : a.horse.model.animations) {
+  for (const hf_gltf::Animation& clip : a.horse.model.animations) {
     for (int k = 0; k < 8; ++k, ++frames) {
-      const double time = samples::clip_duration(clip) * k / 8;
-      std::vector<glm::dvec3> truth = samples::posed_positions(other.model, unscaled, clip, time);
+      const double time = hf_gltf::clip_duration(clip) * k / 8;
+      std::vector<glm::dvec3> truth = hf_gltf::posed_positions(other.model, unscaled, clip, time);
       for (glm::dvec3& p : truth) p *= scale;
       const std::vector<Vec3> expected = other.inner(truth), out = frame_of(transfer, a.horse.posed(clip, time));
       const double error = rms(*other.core, out, expected);
@@ -45,17 +45,17 @@ TEST(TransferShapes, TheSameSurfaceRemeshedAndScaledFollowsWithinTwoPercentOfThe
 }
 
 // The horse with its tail lifted at rest: joints below tail_1 turned by an angle about x.
-std::vector<glm::dvec3> with_lifted_tail(const Body& horse, samples::Pose pose, double angle) {
-  const int tail = samples::find_node(horse.model, "tail_1");
-  samples::NodePose& node = pose[static_cast<size_t>(tail)];
+std::vector<glm::dvec3> with_lifted_tail(const Body& horse, hf_gltf::Pose pose, double angle) {
+  const int tail = hf_gltf::find_node(horse.model, "tail_1");
+  hf_gltf::NodePose& node = pose[static_cast<size_t>(tail)];
   node.rotation = node.rotation * glm::angleAxis(angle, glm::dvec3(1, 0, 0));
-  return samples::posed_positions(horse.model, horse.mesh, pose);
+  return hf_gltf::posed_positions(horse.model, horse.mesh, pose);
 }
 
 TEST(TransferShapes, ACopyWithAnotherRestPoseOfTheTailMovesLikeTheSource) {
   const Animals& a = animals();
   Body lifted = a.horse;
-  lifted.mesh.positions = with_lifted_tail(a.horse, samples::rest_pose(a.horse.model), 1.2);
+  lifted.mesh.positions = with_lifted_tail(a.horse, hf_gltf::rest_pose(a.horse.model), 1.2);
   lifted.build(a.world);
   ASSERT_EQ(lifted.core->size(), a.horse.core->size());
   Pairs pairs = find_pairs("horse_to_bull.json", a.horse, a.horse);
@@ -84,7 +84,7 @@ TEST(TransferShapes, ACopyWithAnotherRestPoseOfTheTailMovesLikeTheSource) {
 TEST(TransferShapes, AnAlignmentSwitchedOffForAPairIsNotApplied) {
   const Animals& a = animals();
   Body lifted = a.horse;
-  lifted.mesh.positions = with_lifted_tail(a.horse, samples::rest_pose(a.horse.model), 1.2);
+  lifted.mesh.positions = with_lifted_tail(a.horse, hf_gltf::rest_pose(a.horse.model), 1.2);
   lifted.build(a.world);
   Pairs pairs = find_pairs("horse_to_bull.json", a.horse, a.horse);
   pairs.flags[1] |= HF_PAIR_NO_ALIGNMENT;
@@ -119,8 +119,8 @@ void add_loose_parts(Body& body, const glm::dvec3& eye, const glm::dvec3& strap,
 TEST(TransferShapes, LoosePartsFollowWhatTheyLieNextTo) {
   const Animals& a = animals();
   Body bull = a.bull;
-  const glm::dvec3 head = glm::dvec3(samples::global_matrices(
-      bull.model, samples::rest_pose(bull.model))[static_cast<size_t>(samples::find_node(bull.model, "head"))][3]);
+  const glm::dvec3 head = glm::dvec3(hf_gltf::global_matrices(
+      bull.model, hf_gltf::rest_pose(bull.model))[static_cast<size_t>(hf_gltf::find_node(bull.model, "head"))][3]);
   const size_t first = bull.mesh.positions.size();
   add_loose_parts(bull, head + glm::dvec3(0.1, 0.1, 0.15), {0, 1.45, -0.6}, a.world);
   ASSERT_EQ(bull.core->mesh.component_count(), 3);
@@ -227,7 +227,7 @@ TEST(TransferShapes, FeetFollowTheScaledPathsOfTheSourcesFeetWithoutSinkingOrJit
   const Animals& a = animals();
   hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
-  const double box = a.bull.core->mesh.scale, scale = transfer.scale(), duration = samples::clip_duration(a.walk);
+  const double box = a.bull.core->mesh.scale, scale = transfer.scale(), duration = hf_gltf::clip_duration(a.walk);
   const std::vector<Vec3> source_rest = a.horse.rest(), target_rest = a.bull.rest();
   constexpr int frames = 60;
   double sum = 0, largest = 0, sunk = 0, source_jerk = 0, target_jerk = 0;

@@ -18,7 +18,7 @@ struct Head {
 
   Head(uint32_t columns, uint32_t rows, bool second, const World& world)
       : face(samples::make_face(columns, rows, second)) {
-    core = make_core(samples::to_points(face.mesh.positions), face.mesh.triangles, world);
+    core = make_core(hf_gltf::to_points(face.mesh.positions), face.mesh.triangles, world);
   }
   std::vector<Vec3> inner(const std::vector<double>& xyz) const {
     std::vector<Vec3> out(static_cast<size_t>(core->size()));

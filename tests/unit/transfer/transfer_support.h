@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "assets/creature_gltf.h"
-#include "common/animate.h"
-#include "common/gltf_read.h"
-#include "transfer/pairs_file.h"
+#include "gltf/animate.h"
+#include "gltf/gltf_read.h"
+#include "gltf/pairs_file.h"
 #include "transfer/transfer.h"
 
 namespace transfer_test {
@@ -36,7 +36,7 @@ struct World {
 };
 
 inline std::shared_ptr<const hf_inner::Core> make_core(const std::vector<glm::dvec3>& positions,
-                                                 const std::vector<uint32_t>& triangles, const World& world) {
+                                                       const std::vector<uint32_t>& triangles, const World& world) {
   hf_inner::MeshInput input;
   input.vertex_count = static_cast<uint32_t>(positions.size()),
   input.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
@@ -45,11 +45,11 @@ inline std::shared_ptr<const hf_inner::Core> make_core(const std::vector<glm::dv
 }
 
 struct Body {
-  samples::Model model;
-  samples::FlatMesh mesh;
+  hf_gltf::Model model;
+  hf_gltf::FlatMesh mesh;
   std::shared_ptr<const hf_inner::Core> core;
 
-  Body(samples::Model from, const World& world) : model(std::move(from)), mesh(samples::flatten(model)) {
+  Body(hf_gltf::Model from, const World& world) : model(std::move(from)), mesh(hf_gltf::flatten(model)) {
     build(world);
   }
   // Moves the rest shape (and nothing else), p -> f(p), and makes the core anew.
@@ -70,8 +70,8 @@ struct Body {
     return out;
   }
   std::vector<hf_inner::Vec3> rest() const { return inner(mesh.positions); }
-  std::vector<hf_inner::Vec3> posed(const samples::Animation& clip, double time) const {
-    return inner(samples::posed_positions(model, mesh, clip, time));
+  std::vector<hf_inner::Vec3> posed(const hf_gltf::Animation& clip, double time) const {
+    return inner(hf_gltf::posed_positions(model, mesh, clip, time));
   }
   std::vector<int32_t> inner_of(const std::vector<uint32_t>& flat) const {
     std::vector<int32_t> out;
@@ -102,11 +102,11 @@ struct Pairs {
 
 // as_source: both sides take the source's selectors (self-transfer).
 inline Pairs find_pairs(const std::string& file, const Body& source, const Body& target, bool as_source = false) {
-  const samples::PairsFile pairs = samples::read_pairs(pairs_path(file));
-  const samples::RegionFinder on_source(source.model, source.mesh, pairs.source_axes),
+  const hf_gltf::PairsFile pairs = hf_gltf::read_pairs(pairs_path(file));
+  const hf_gltf::RegionFinder on_source(source.model, source.mesh, pairs.source_axes),
       on_target(target.model, target.mesh, pairs.target_axes);
-  std::vector<samples::Region> a, b;
-  for (const samples::PairEntry& entry : pairs.pairs)
+  std::vector<hf_gltf::Region> a, b;
+  for (const hf_gltf::PairEntry& entry : pairs.pairs)
     a.push_back(on_source.find(entry.source)), b.push_back(on_target.find(as_source ? entry.source : entry.target));
   if (on_source.separate(a) >= 0 || on_target.separate(b) >= 0)
     throw std::runtime_error("a region is covered by others");
@@ -123,8 +123,8 @@ struct Animals {
   World world;
   Body horse = creature("horse", 2500, world), bull = creature("bull", 1600, world);
   Pairs pairs = find_pairs("horse_to_bull.json", horse, bull);
-  const samples::Animation& walk =
-      horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
+  const hf_gltf::Animation& walk =
+      horse.model.animations[static_cast<size_t>(hf_gltf::find_animation(horse.model, "walk"))];
   double box = bull.core->mesh.scale;
   size_t pair(const std::string& name) const {
     return static_cast<size_t>(std::find(pairs.names.begin(), pairs.names.end(), name) - pairs.names.begin());
@@ -158,7 +158,8 @@ inline double lowest_of(const std::vector<hf_inner::Vec3>& points) {
   return low;
 }
 
-inline void add(hf_inner::Transfer& transfer, const std::vector<hf_inner::PairInput>& inputs, uint32_t* numbers = nullptr) {
+inline void add(hf_inner::Transfer& transfer, const std::vector<hf_inner::PairInput>& inputs,
+                uint32_t* numbers = nullptr) {
   transfer.add_pairs({inputs.data(), inputs.size()}, numbers);
 }
 
@@ -175,8 +176,8 @@ inline double largest_distance(const std::vector<hf_inner::Vec3>& a, const std::
 }
 
 // Area-weighted root mean square over the box diagonal; centred: the mean difference is taken out.
-inline double rms(const hf_inner::Core& core, const std::vector<hf_inner::Vec3>& a, const std::vector<hf_inner::Vec3>& b,
-                  bool centred = false) {
+inline double rms(const hf_inner::Core& core, const std::vector<hf_inner::Vec3>& a,
+                  const std::vector<hf_inner::Vec3>& b, bool centred = false) {
   hf_inner::Memory memory;
   const auto area = hf_inner::area_shares(core.mesh, memory);
   hf_inner::Vec3 mean;

@@ -6,6 +6,11 @@ import { drawQuads, dropQuads, placeQuads } from '../quad_lines.js';
 
 /** Length of an edge as part of the size of the body: the library's own default. */
 const EDGE = 0.022;
+/**
+ * A body whose surface is large for its box (many pieces, folds) starts with larger quads, so that there are no more than
+ * these. Half as many are rough on a creature; twice as many take twice as long.
+ */
+const MOST_QUADS = 4000;
 /** A stroke has a place every so many pixels: a fine body has a triangle about there. */
 const STEP_PIXELS = 6;
 /** Fewer places say no direction. */
@@ -15,6 +20,18 @@ const INK = 0xd8452e;
 const DOTS = { 3: '#1f78b4', 5: '#7b3fa0' };
 /** An arrow key moves a pole by so many pixels. */
 const NUDGE_PIXELS = 8;
+
+/** The length to start with, as part of the size: that of the library, or what gives MOST_QUADS. */
+function startOf({ positions: p, triangles }, size) {
+  let area = 0;
+  for (let i = 0; i < triangles.length; i += 3) {
+    const [a, b, c] = [3 * triangles[i], 3 * triangles[i + 1], 3 * triangles[i + 2]];
+    const [ux, uy, uz] = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
+    const [vx, vy, vz] = [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
+    area += Math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
+  }
+  return Math.min(0.06, Math.max(EDGE, Math.ceil(1000 * (Math.sqrt(area / MOST_QUADS) / size)) / 1000));
+}
 
 /** `kit`: what the page has loaded already (studio.js). */
 export const tool = (kit) => {
@@ -39,6 +56,7 @@ export const tool = (kit) => {
     opened() {
       this.cancel();
       this.#end();
+      this.edge = startOf(this.app.body, this.app.opened.report.boundingBoxDiagonal);
       this.result = null;
       this.chosen = null;
       this.shown = {};
@@ -285,7 +303,12 @@ export const tool = (kit) => {
         if (clock) clock.textContent = `${((performance.now() - begin) / 1000).toFixed(0)} s`;
       }, 250);
       try {
-        await this.#ask(true);
+        // evening out and fitting take most of the time: what they start from is shown at once
+        if (await this.#ask(false)) {
+          if (app.tool === this) this.dress();
+          app.panel();
+          await this.#ask(true);
+        }
       } catch (error) {
         if (!mine.cancelled) this.error = error.message;
       } finally {
@@ -302,6 +325,7 @@ export const tool = (kit) => {
       this.busy.cancelled = true;
       this.#end();
       this.busy = null;
+      this.relaxed = true; // the first form stays, where there is one
       if (this.app.tool === this) this.app.refresh();
     }
     #clear() {
@@ -312,6 +336,7 @@ export const tool = (kit) => {
       this.#clear();
       this.lines = drawQuads(kit, this.result.mesh);
       this.app.view.extras.add(this.lines);
+      this.lines.visible = this.app.tool === this; // they can come when another tool is open
       this.#place();
     }
     #place() {
@@ -386,6 +411,7 @@ export const tool = (kit) => {
             { class: 'row', role: 'status' },
             make('progress', { 'aria-label': 'making quads' }),
             make('span', { id: 'quads-clock' }, '0 s'),
+            result && make('span', {}, 'The quads are evened out and fitted now.'),
           ),
         this.error && make('p', { class: 'warn' }, this.error),
         result &&

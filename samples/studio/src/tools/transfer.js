@@ -16,7 +16,7 @@ const DIALS = [
 
 /** `kit`: what the page has loaded already (studio.js). */
 export const tool = (kit) => {
-  const { readModel, smoothNormals, lengthOf, localsOf, playedAt, skinnedGlb } = kit;
+  const { readModel, writeGlb, smoothNormals, lengthOf, localsOf, playedAt, skinnedGlb } = kit;
   const { $, button, choice, facts, make, ms, say, slider } = kit;
   return class {
     static key = 'transfer';
@@ -84,7 +84,7 @@ export const tool = (kit) => {
       return this.pairs.flatMap((pair, i) => {
         const shown = { offer: pair.off, colour: this.colour(i), chosen: this.chosenPair === i };
         const at = pair.source.position.map((x, k) => x + this.source.offset[k]);
-        const name = `pair ${i + 1}, ${pair.kind}${pair.off ? ', left out' : ''}`;
+        const name = `pair ${i + 1}, ${pair.name ? `${pair.name}, ` : ''}${pair.kind}${pair.off ? ', left out' : ''}`;
         return [
           { id: `a${i}`, place: at, label: `${name}, source`, pair: i, ...shown },
           { id: `b${i}`, place: pair.target.position, label: `${name}, target`, pair: i, ...shown },
@@ -142,7 +142,9 @@ export const tool = (kit) => {
           );
         this.#drop();
         const { positions, triangles } = body;
-        const pairs = await app.client.ask('transferOpen', { positions, triangles });
+        const [of, target] = [body, app.body].map(({ document }) => writeGlb(document));
+        const glb = { source: await of, target: await target };
+        const pairs = await app.client.ask('transferOpen', { positions, triangles, glb });
         const beside = await openBeside(kit, app, body);
         const { skin } = beside;
         this.source = {

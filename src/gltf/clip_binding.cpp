@@ -1,0 +1,170 @@
+// See clip_binding.h.
+#include "gltf/clip_binding.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "gltf/animate.h"
+
+namespace hf_gltf {
+namespace {
+
+// Less of the animated joints, and the skeletons are not the same. A library's rig has a few joints of its own (hand
+// slots, twist joints); another body has none of the names.
+constexpr double least_shared = 0.5;
+
+// What stands behind the last bar: exporters write "Armature|Walk".
+std::string tail_of(const std::string& name) {
+  const size_t bar = name.rfind('|');
+  return bar == std::string::npos ? name : name.substr(bar + 1);
+}
+
+std::string plain(const std::string& name) { return name.substr(name.rfind(':') + 1); }
+
+// By the name without a prefix, the first node of each name.
+std::map<std::string, int> nodes_by_name(const Model& model) {
+  std::map<std::string, int> out;
+  for (size_t n = 0; n < model.nodes.size(); ++n) out.emplace(plain(model.nodes[n].name), static_cast<int>(n));
+  return out;
+}
+
+glm::vec3 rest_translation(const Node& node) { return node.matrix ? glm::vec3((*node.matrix)[3]) : node.translation; }
+
+// Lengths of the model's bones over those of the clips' skeleton, over the joints that both have below a joint.
+double length_ratio(const Model& model, const Model& clips, const std::map<int, int>& found) {
+  double own = 0, other = 0;
+  for (const auto& [from, to] : found) {
+    const Node &a = clips.nodes[static_cast<size_t>(from)], &b = model.nodes[static_cast<size_t>(to)];
+    if (found.count(a.parent) == 0 || b.parent < 0) continue;
+    other += static_cast<double>(glm::length(rest_translation(a))),
+        own += static_cast<double>(glm::length(rest_translation(b)));
+  }
+  return own > 0 && other > 0 ? own / other : 1.0;
+}
+
+void move_translations(Channel& channel, const glm::vec3& from, const glm::vec3& to, float scale) {
+  const bool cubic = channel.interpolation == Interpolation::cubic_spline;
+  for (size_t i = 0; i + 2 < channel.values.size(); i += 3) {
+    const bool tangent = cubic && (i / 3) % 3 != 1;
+    for (size_t c = 0; c < 3; ++c) {
+      const auto axis = static_cast<int>(c);
+      float& x = channel.values[i + c];
+      x = tangent ? scale * x : to[axis] + scale * (x - from[axis]);
+    }
+  }
+}
+
+}  // namespace
+
+bool has_surface(const Model& model) {
+  return std::any_of(model.meshes.begin(), model.meshes.end(), [](const MeshData& mesh) {
+    return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                       [](const Primitive& primitive) { return !primitive.indices.empty(); });
+  });
+}
+
+bool has_skin(const Model& model) {
+  return std::any_of(model.nodes.begin(), model.nodes.end(), [&](const Node& node) {
+    if (node.skin < 0 || node.mesh < 0) return false;
+    const std::vector<Primitive>& primitives = model.meshes[static_cast<size_t>(node.mesh)].primitives;
+    return std::any_of(primitives.begin(), primitives.end(),
+                       [](const Primitive& primitive) { return !primitive.influences.empty(); });
+  });
+}
+
+void insert_clip(Model& model, size_t place, Animation clip) {
+  const std::string name = clip.name;
+  for (int copy = 2; find_animation(model, clip.name) >= 0; ++copy)
+    clip.name = name + " (" + std::to_string(copy) + ")";
+  for (const Channel& channel : clip.channels) split_matrix(model.nodes[static_cast<size_t>(channel.node)]);
+  model.animations.insert(model.animations.begin() + static_cast<std::ptrdiff_t>(place), std::move(clip));
+}
+
+void split_matrix(Node& node) {
+  if (!node.matrix) return;
+  const glm::mat4 m = *node.matrix;
+  node.matrix.reset(), node.translation = glm::vec3(m[3]);
+  for (int c = 0; c < 3; ++c) node.scale[c] = glm::length(glm::vec3(m[c]));
+  if (glm::determinant(glm::mat3(m)) < 0) node.scale = -node.scale;
+  glm::mat3 turn(m);
+  for (int c = 0; c < 3; ++c) turn[c] /= node.scale[c];
+  node.rotation = glm::normalize(glm::quat_cast(turn));
+}
+
+std::vector<const Animation*> choose_clips(const Model& model, const std::string& wanted) {
+  if (model.animations.empty()) throw std::runtime_error(model.name + " has no clip to transfer");
+  std::vector<const Animation*> out;
+  if (wanted == "all") {
+    for (const Animation& animation : model.animations) out.push_back(&animation);
+    return out;
+  }
+  if (wanted.empty()) return {&model.animations.front()};
+  for (const Animation& animation : model.animations) {
+    if (animation.name == wanted) return {&animation};
+  }
+  for (const Animation& animation : model.animations) {
+    if (tail_of(animation.name) == wanted) return {&animation};
+  }
+  char* end = nullptr;
+  const unsigned long index = std::strtoul(wanted.c_str(), &end, 10);
+  if (*end == 0 && index < model.animations.size()) return {&model.animations[index]};
+  std::string names;
+  for (size_t i = 0; i < model.animations.size(); ++i)
+    names += (i ? ", " : "") + std::to_string(i) + " \"" + model.animations[i].name + "\"";
+  throw std::runtime_error("--clip: " + model.name + " has no clip \"" + wanted + "\"; it has " + names);
+}
+
+BoundClips bind_clips(const Model& model, const Model& clips, const std::string& wanted) {
+  const std::vector<const Animation*> chosen = choose_clips(clips, wanted);
+  const std::map<std::string, int> names = nodes_by_name(model);
+  std::set<int> moved;
+  for (const Animation* clip : chosen) {
+    for (const Channel& channel : clip->channels)
+      if (channel.path != Path::weights) moved.insert(channel.node);
+  }
+  BoundClips out;
+  out.model = model, out.clips = chosen.size(), out.animated = moved.size();
+  std::set<int> taken;
+  std::map<int, int> found;  // from the clips' nodes to the model's
+  for (const int node : moved) {
+    const std::string& name = clips.nodes[static_cast<size_t>(node)].name;
+    const auto here = names.find(plain(name));
+    // two joints that differ in a prefix alone cannot both move one joint
+    if (here == names.end() || !taken.insert(here->second).second) {
+      out.missing.push_back(name);
+    } else {
+      found[node] = here->second;
+    }
+  }
+  out.joints = found.size();
+  if (moved.empty() || static_cast<double>(out.joints) < least_shared * static_cast<double>(moved.size())) {
+    throw std::runtime_error(clips.name + " has no surface, and " + model.name + " has " + std::to_string(out.joints) +
+                             " of the " + std::to_string(moved.size()) +
+                             " joints that its clips move: the skeletons differ. Give a model of its skeleton as the "
+                             "source, and the clips with --clips");
+  }
+  out.scale = length_ratio(model, clips, found);
+  size_t done = 0;
+  for (const Animation* clip : chosen) {
+    Animation bound;
+    bound.name = clip->name;
+    for (const Channel& channel : clip->channels) {
+      const auto here = found.find(channel.node);
+      if (channel.path == Path::weights || here == found.end()) continue;
+      const Node& from = clips.nodes[static_cast<size_t>(channel.node)];
+      Node& to = out.model.nodes[static_cast<size_t>(here->second)];
+      split_matrix(to);
+      bound.channels.push_back(channel);
+      bound.channels.back().node = here->second;
+      if (channel.path == Path::translation)
+        move_translations(bound.channels.back(), rest_translation(from), rest_translation(to),
+                          static_cast<float>(out.scale));
+    }
+    insert_clip(out.model, done++, std::move(bound));
+  }
+  return out;
+}
+
+}  // namespace hf_gltf

@@ -1,0 +1,182 @@
+// Animations of a glTF file. See gltf_convert_parts.h.
+//
+// Channels are resolved to their sampler's keys. Times must be finite, not negative and must not decrease; of keys at
+// one time the last one counts and the others are dropped with a warning. The number of values must be exactly what
+// keys, path and interpolation ask for. A node that is animated and given by a matrix is taken apart into TRS.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "gltf/gltf_convert_parts.h"
+
+namespace hf_gltf {
+namespace {
+
+class ChannelReader {
+ public:
+  ChannelReader(Conversion& in, const tinygltf::Animation& animation, std::string where)
+      : in_(in), animation_(animation), where_(std::move(where)) {}
+
+  // False: skipped.
+  bool run(const tinygltf::AnimationChannel& from, Channel& to) {
+    if (!read_target(from, to)) return false;
+    if (from.sampler < 0 || static_cast<size_t>(from.sampler) >= animation_.samplers.size()) {
+      in_.fail(where_, "names no sampler");
+    }
+    const tinygltf::AnimationSampler& sampler = animation_.samplers[static_cast<size_t>(from.sampler)];
+    to.interpolation = sampler.interpolation == "STEP"          ? Interpolation::step
+                       : sampler.interpolation == "CUBICSPLINE" ? Interpolation::cubic_spline
+                                                                : Interpolation::linear;
+    to.times = in_.reader.floats(sampler.input, TINYGLTF_TYPE_SCALAR, Stored::floats, where_ + " (key times)");
+    read_values(sampler, to);
+    drop_equal_times(to);
+    if (to.path == Path::rotation) normalize_rotations(to);
+    return true;
+  }
+
+ private:
+  bool read_target(const tinygltf::AnimationChannel& from, Channel& to) {
+    if (from.target_node < 0) {
+      in_.warn(where_ + " has no target node and is skipped");
+      return false;
+    }
+    if (static_cast<size_t>(from.target_node) >= in_.model.nodes.size()) in_.fail(where_, "names no node");
+    to.node = from.target_node;
+    const std::string& path = from.target_path;
+    if (path == "translation" || path == "scale" || path == "rotation") {
+      to.path = path == "translation" ? Path::translation : path == "scale" ? Path::scale : Path::rotation;
+      to.width = path == "rotation" ? 4 : 3;
+      return true;
+    }
+    const Node& node = in_.model.nodes[static_cast<size_t>(to.node)];
+    to.path = Path::weights;
+    to.width = node.mesh < 0 ? 0 : target_count(in_.model.meshes[static_cast<size_t>(node.mesh)]);
+    if (path == "weights" && to.width > 0) return true;
+    in_.warn(where_ +
+             (path == "weights" ? " animates morph weights of a node without morph targets"
+                                : " animates \"" + path.substr(0, 40) + "\"") +
+             " and is skipped");
+    return false;
+  }
+
+  void read_values(const tinygltf::AnimationSampler& sampler, Channel& to) {
+    const std::string where = where_ + " (key values)";
+    const size_t keys = to.times.size();
+    const size_t groups = to.interpolation == Interpolation::cubic_spline ? 3 : 1;
+    const bool scalars = to.path == Path::weights;
+    const size_t expected = keys * groups * (scalars ? to.width : 1);
+    const size_t found = in_.reader.count(sampler.output, where);
+    if (found != expected) {
+      in_.fail(where, "has " + std::to_string(found) + " elements where " + std::to_string(keys) + " keys ask for " +
+                          std::to_string(expected));
+    }
+    const int type = scalars ? TINYGLTF_TYPE_SCALAR : to.width == 4 ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3;
+    const bool integers = to.path == Path::rotation || to.path == Path::weights;
+    to.values = in_.reader.floats(sampler.output, type, integers ? Stored::signed_normalized : Stored::floats, where);
+  }
+
+  void drop_equal_times(Channel& to) {
+    const size_t keys = to.times.size();
+    const size_t block = to.values.size() / keys;
+    size_t kept = 0;
+    for (size_t k = 0; k < keys; ++k) {
+      if (to.times[k] < 0) in_.fail(where_, "has the negative key time " + std::to_string(to.times[k]));
+      if (k > 0 && to.times[k] < to.times[k - 1]) {
+        in_.fail(where_, "has key times that decrease at key " + std::to_string(k) + " (" +
+                             std::to_string(to.times[k - 1]) + " s, " + std::to_string(to.times[k]) + " s)");
+      }
+      if (k + 1 < keys && to.times[k + 1] == to.times[k]) continue;
+      if (kept != k) {
+        to.times[kept] = to.times[k];
+        std::copy_n(to.values.begin() + static_cast<std::ptrdiff_t>(k * block), block,
+                    to.values.begin() + static_cast<std::ptrdiff_t>(kept * block));
+      }
+      ++kept;
+    }
+    if (kept == keys) return;
+    in_.warn(where_ + ": of keys at one time the last is kept, " + std::to_string(keys - kept) + " are dropped");
+    to.times.resize(kept);
+    to.values.resize(kept * block);
+  }
+
+  void normalize_rotations(Channel& to) {
+    const size_t groups = to.interpolation == Interpolation::cubic_spline ? 3 : 1;
+    for (size_t k = 0; k < to.times.size(); ++k) {
+      float* q = to.values.data() + (k * groups + (groups == 3 ? 1 : 0)) * 4;
+      const double length = std::sqrt(static_cast<double>(q[0]) * q[0] + static_cast<double>(q[1]) * q[1] +
+                                      static_cast<double>(q[2]) * q[2] + static_cast<double>(q[3]) * q[3]);
+      if (!(length > 1e-6)) in_.fail(where_, "has a rotation of length 0 at key " + std::to_string(k));
+      for (int c = 0; c < 4; ++c) q[c] = static_cast<float>(q[c] / length);
+    }
+  }
+
+  Conversion& in_;
+  const tinygltf::Animation& animation_;
+  const std::string where_;
+};
+
+// Makes axes of length 0 perpendicular to the others, so that a collapsed node has a rotation. Any one is right.
+void complete_axes(glm::dmat3& axes, const glm::dvec3& scale) {
+  const auto empty = [&](int c) { return scale[c % 3] == 0; };
+  const int empty_count = empty(0) + empty(1) + empty(2);
+  if (empty_count == 3) axes = glm::dmat3(1);
+  for (int c = 0; empty_count == 2 && c < 3; ++c) {
+    if (empty(c)) continue;
+    const glm::dvec3 other = std::abs(axes[c].x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    axes[(c + 1) % 3] = glm::normalize(glm::cross(axes[c], other));
+    axes[(c + 2) % 3] = glm::cross(axes[c], axes[(c + 1) % 3]);
+  }
+  for (int c = 0; empty_count == 1 && c < 3; ++c) {
+    if (empty(c)) axes[c] = glm::normalize(glm::cross(axes[(c + 1) % 3], axes[(c + 2) % 3]));
+  }
+}
+
+// matrix = T R S for an animated node. What a shear leaves over is lost, with a warning.
+void take_apart(Conversion& in, size_t n) {
+  Node& node = in.model.nodes[n];
+  const glm::mat4 matrix = *node.matrix;
+  node.matrix.reset();
+  glm::dmat3 axes{glm::dmat4(matrix)};
+  glm::dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
+  if (glm::determinant(axes) < 0) scale.x = -scale.x;
+  const std::string where = "nodes[" + std::to_string(n) + "]";
+  for (int c = 0; c < 3; ++c) {
+    if (scale[c] != 0) axes[c] /= scale[c];
+  }
+  complete_axes(axes, scale);
+  const glm::dmat3 gram = glm::transpose(axes) * axes;
+  for (int c = 0; c < 3; ++c) {
+    if (std::abs(gram[c][(c + 1) % 3]) > 1e-3) in.warn(where + " is animated; the shear of its matrix is lost");
+  }
+  node.translation = glm::vec3(matrix[3]);
+  node.rotation = glm::quat(glm::normalize(glm::quat_cast(axes)));
+  node.scale = glm::vec3(scale);
+}
+
+}  // namespace
+
+void convert_animations(Conversion& in) {
+  const auto& animations = in.source.gltf.animations;
+  for (size_t a = 0; a < animations.size(); ++a) {
+    const std::string where = "animations[" + std::to_string(a) + "]";
+    Animation to;
+    to.name = animations[a].name;
+    std::set<std::pair<int, Path>> seen;
+    for (size_t c = 0; c < animations[a].channels.size(); ++c) {
+      const std::string inner = where + ".channels[" + std::to_string(c) + "]";
+      Channel channel;
+      if (!ChannelReader(in, animations[a], inner).run(animations[a].channels[c], channel)) continue;
+      if (!seen.insert({channel.node, channel.path}).second) {
+        in.warn(inner + " animates what an earlier channel does and is skipped");
+        continue;
+      }
+      if (channel.path != Path::weights && in.model.nodes[static_cast<size_t>(channel.node)].matrix) {
+        take_apart(in, static_cast<size_t>(channel.node));
+      }
+      to.channels.push_back(std::move(channel));
+    }
+    in.model.animations.push_back(std::move(to));
+  }
+}
+
+}  // namespace hf_gltf

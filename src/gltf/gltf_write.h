@@ -1,0 +1,32 @@
+// glTF 2.0 out: .glb (one binary chunk) or .gltf (one text file with the buffer embedded), chosen by the extension.
+//
+// Written: scenes, node hierarchy, meshes with all attributes of the model, line primitives, vertex colours, skins,
+// morph targets, animations, and the looks carried through (image bytes are embedded; an image whose bytes were not
+// read keeps its URI). Cameras, instances, extras and extensions that were carried past the reader come back. Floats
+// are written as floats, joints as bytes or shorts, indices as shorts or ints. The output has no errors under the
+// Khronos validator; tests/unit/samples checks that.
+//
+// The model is checked first (index ranges, array lengths, finite numbers, increasing key times): a fault is a
+// std::runtime_error naming the element and the file is not touched. The file appears under its name only when
+// complete.
+#ifndef HF_GLTF_GLTF_WRITE_H
+#define HF_GLTF_GLTF_WRITE_H
+
+#include <filesystem>
+#include <string>
+
+#include "gltf/model.h"
+
+namespace hf_gltf {
+
+void write_gltf(const Model& model, const std::filesystem::path& file);
+
+// The bytes of the file, binary or text.
+std::string gltf_bytes(const Model& model, bool binary);
+
+// Throws std::runtime_error naming the first element that cannot be written.
+void check_model(const Model& model);
+
+}  // namespace hf_gltf
+
+#endif

@@ -1,0 +1,86 @@
+// The search behind find_landmarks (landmarks.h), shared by its files: landmarks.cpp has head, tail and hands,
+// landmark_feet.cpp axes and feet, landmark_trunk.cpp the trunk.
+#ifndef HF_GLTF_LANDMARK_FINDER_H
+#define HF_GLTF_LANDMARK_FINDER_H
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "gltf/landmarks.h"
+
+namespace hf_gltf {
+
+// Words of a joint's name: "b_LeftHand_011" -> b left hand.
+std::vector<std::string> words_of(const std::string& name);
+bool has_word(const std::string& name, const std::vector<std::string>& wanted);
+
+constexpr double same_foot = 0.05;  // of the diagonal
+constexpr double ball = 0.03, trunk_ball = 0.04;
+
+// A place at which a body stands.
+struct Foot {
+  glm::dvec3 place{0, 0, 0};  // lowest vertex nearest to the middle
+  uint32_t vertex = 0;
+  double forward = 0, side = 0;
+};
+
+class Finder {
+ public:
+  explicit Finder(const Body& body)
+      : model_(body.model), mesh_(body.mesh), first_(body.mesh.welded_count, 0), tips_(body.tips) {
+    for (uint32_t v = mesh_.vertex_count(); v-- > 0;) first_[mesh_.welded[v]] = v;
+    low_ = glm::dvec3(std::numeric_limits<double>::infinity()), high_ = -low_;
+    for (const glm::dvec3& p : mesh_.positions) low_ = glm::min(low_, p), high_ = glm::max(high_, p);
+    diagonal_ = glm::length(high_ - low_);
+  }
+  Landmarks find(const Axes* axes);
+
+ private:
+  double up(uint32_t v) const { return glm::dot(mesh_.positions[v], axes_.up) - ground_; }
+  double forward(uint32_t v) const { return glm::dot(mesh_.positions[v], axes_.forward); }
+  double side(uint32_t v) const { return glm::dot(mesh_.positions[v], axes_.right) - middle_; }
+  void measure();
+  double asymmetry(int axis) const;
+  void find_axes();
+  double toes() const;
+  void find_named_feet();
+  void merge_feet();
+  void find_feet(double reach, double slack);
+  // The feet on either side of the middle, by names first, then by shape. Returns the number of pairs.
+  size_t search_feet(std::vector<Foot>& left, std::vector<Foot>& right);
+  size_t split_feet(std::vector<Foot>& left, std::vector<Foot>& right) const;
+  std::vector<uint32_t> named(const std::vector<std::string>& words) const;
+  template <class Value>
+  uint32_t best_of(const std::vector<uint32_t>& among, Value value) const;
+  Selector express(uint32_t vertex, double radius, const std::vector<std::string>& directions) const;
+  void add(const std::string& name, uint32_t vertex, const std::vector<std::string>& directions, double confidence,
+           const std::string& found, double radius = ball);
+  void add_place(const std::string& name, const glm::dvec3& place, double confidence, const std::string& found);
+  std::vector<double> hits(const glm::dvec3& start, const glm::dvec3& direction) const;
+  bool top_of_back(double at_forward, glm::dvec3& place) const;
+  bool back_at(double height, glm::dvec3& place) const;
+  double neck_height(double crotch) const;
+  void add_head(), add_ears(), add_tail(), add_hands(), add_fins(), add_trunk();
+
+  const Model& model_;
+  const FlatMesh& mesh_;
+  const RegionFinder* regions_ = nullptr;
+  Axes axes_;
+  std::vector<uint32_t> first_;  // one vertex per welded one
+  glm::dvec3 low_, high_;
+  double diagonal_ = 0, ground_ = 0, height_ = 0, middle_ = 0, front_ = 0, back_ = 0;
+  std::vector<Foot> feet_, raised_;  // raised_: ends of named limbs that do not reach the ground
+  bool named_feet_ = false, first_try_ = true;
+  std::vector<uint32_t> tips_;  // extremities
+  Landmarks out_;
+};
+
+template <class Value>
+uint32_t Finder::best_of(const std::vector<uint32_t>& among, Value value) const {
+  return *std::max_element(among.begin(), among.end(), [&](uint32_t a, uint32_t b) { return value(a) < value(b); });
+}
+
+}  // namespace hf_gltf
+
+#endif

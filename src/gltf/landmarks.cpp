@@ -1,0 +1,237 @@
+// Head, tail and hands of a creature, and the order of the search. See landmarks.h.
+#include "gltf/landmarks.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "gltf/landmark_finder.h"
+
+namespace hf_gltf {
+
+void Finder::measure() {
+  ground_ = front_ = middle_ = 0;
+  double low = 1e300, high = -1e300, left = -1e300, right = 1e300;
+  front_ = -1e300, back_ = 1e300;
+  for (const glm::dvec3& p : mesh_.positions) {
+    low = std::min(low, glm::dot(p, axes_.up)), high = std::max(high, glm::dot(p, axes_.up));
+    left = std::max(left, glm::dot(p, axes_.right)), right = std::min(right, glm::dot(p, axes_.right));
+    front_ = std::max(front_, glm::dot(p, axes_.forward)), back_ = std::min(back_, glm::dot(p, axes_.forward));
+  }
+  ground_ = low, height_ = high - low, middle_ = 0.5 * (left + right);
+}
+
+std::vector<uint32_t> Finder::named(const std::vector<std::string>& words) const {
+  std::vector<uint32_t> out;
+  for (const uint32_t v : first_) {
+    if (regions_ && has_word(regions_->owner_name(v), words)) out.push_back(v);
+  }
+  return out;
+}
+
+// A selector that finds the vertex: by its joint when one of the directions leads there, else by its place.
+Selector Finder::express(uint32_t vertex, double radius, const std::vector<std::string>& directions) const {
+  Selector out;
+  out.radius = radius, out.has_radius = true, out.where = "a proposed place";
+  const std::string joint = regions_->owner_name(vertex);
+  if (!joint.empty() && regions_->is_joint(joint)) {
+    out.joints = {joint};
+    for (const std::string& direction : directions) {
+      out.extreme = direction;
+      if (glm::distance(regions_->find({out}).seed, mesh_.positions[vertex]) < 0.025 * diagonal_) return out;
+    }
+  }
+  out.joints.clear(), out.extreme.clear();
+  out.has_position = true, out.position = mesh_.positions[vertex];
+  return out;
+}
+
+void Finder::add(const std::string& name, uint32_t vertex, const std::vector<std::string>& directions,
+                 double confidence, const std::string& found, double radius) {
+  Landmark landmark;
+  landmark.name = name, landmark.place = express(vertex, radius, directions),
+  landmark.position = mesh_.positions[vertex];
+  landmark.confidence = confidence, landmark.found = found;
+  out_.list.push_back(landmark);
+}
+
+void Finder::add_place(const std::string& name, const glm::dvec3& place, double confidence, const std::string& found) {
+  Landmark landmark;
+  landmark.name = name, landmark.position = place, landmark.confidence = confidence, landmark.found = found;
+  landmark.place.has_position = landmark.place.has_radius = true, landmark.place.position = place;
+  landmark.place.radius = trunk_ball;
+  out_.list.push_back(landmark);
+}
+
+void Finder::add_head() {
+  std::vector<uint32_t> head = named({"head", "jaw", "nose", "snout", "muzzle", "beak"});
+  const bool by_name = !head.empty();
+  if (out_.upright) {
+    if (head.empty()) {
+      for (const uint32_t v : first_)
+        if (std::abs(side(v)) < 0.12 * diagonal_) head.push_back(v);
+    }
+    if (head.empty()) head = first_;
+    double mean = 0;
+    for (const uint32_t v : head) mean += forward(v) / static_cast<double>(head.size());
+    const auto value = [&](uint32_t v) { return up(v) - 0.3 * std::hypot(side(v), forward(v) - mean); };
+    add("head", best_of(head, value), {"up"}, by_name ? 0.9 : 0.7, by_name ? "top of the head joint" : "highest place",
+        0.05);
+    return;
+  }
+  if (head.empty()) {
+    for (const uint32_t v : first_)
+      if (up(v) > 0.25 * height_) head.push_back(v);
+  }
+  if (head.empty()) head = first_;
+  add("nose", best_of(head, [&](uint32_t v) { return forward(v) - 0.3 * std::abs(side(v)); }), {"forward"},
+      by_name ? 0.9 : 0.5, by_name ? "front of the head joint" : "foremost place");
+}
+
+// Ears by their joints only: their shapes say nothing that horns do not.
+void Finder::add_ears() {
+  const std::vector<uint32_t> ears = named({"ear"});
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<uint32_t> own;
+    glm::dvec3 base(0);
+    for (const uint32_t v : ears)
+      if (sign * side(v) > 0) own.push_back(v);
+    if (own.empty()) continue;
+    // the end that is furthest from where the ear meets the head
+    const uint32_t low = best_of(own, [&](uint32_t v) { return -up(v) - sign * side(v); });
+    base = mesh_.positions[low];
+    const auto reach = [&](uint32_t v) { return glm::distance(mesh_.positions[v], base); };
+    add(sign > 0 ? "ear left" : "ear right", best_of(own, reach), {"away", "up"}, 0.8, "tip of the ear joints", 0.02);
+  }
+}
+
+void Finder::add_tail() {
+  const std::vector<uint32_t> tail = named({"tail"});
+  if (!tail.empty()) {
+    // the end that is furthest from where the tail meets the body
+    const uint32_t base = best_of(tail, [&](uint32_t v) { return forward(v); });
+    const uint32_t tip =
+        best_of(tail, [&](uint32_t v) { return glm::distance(mesh_.positions[v], mesh_.positions[base]); });
+    add("tail", tip, {"away", "back", "down", "up"}, 0.9, "tip of the tail joints");
+    return;
+  }
+  if (out_.upright) return;
+  std::vector<uint32_t> rear;
+  for (const uint32_t v : tips_) {
+    const bool is_foot = std::any_of(feet_.begin(), feet_.end(), [&](const Foot& foot) {
+      return glm::distance(foot.place, mesh_.positions[v]) < 2 * same_foot * diagonal_;
+    });
+    if (!is_foot && forward(v) < back_ + 0.35 * (front_ - back_) && std::abs(side(v)) < 0.1 * diagonal_)
+      rear.push_back(v);
+  }
+  if (!rear.empty()) {
+    add("tail", rear.front(), {"away", "back", "down", "up"}, 0.6, "extremity behind");
+    return;
+  }
+  for (const uint32_t v : first_)
+    if (up(v) > 0.3 * height_) rear.push_back(v);
+  if (rear.empty()) rear = first_;
+  add("tail", best_of(rear, [&](uint32_t v) { return -forward(v) - 0.3 * std::abs(side(v)); }), {"back"}, 0.3,
+      "rearmost place");
+}
+
+void Finder::add_hands() {
+  const std::vector<uint32_t> hands = named({"hand", "palm", "wrist", "finger", "fist"});
+  const glm::dvec3 chest =
+      middle_ * axes_.right + 0.5 * (front_ + back_) * axes_.forward + (ground_ + 0.8 * height_) * axes_.up;
+  for (const double sign : {1.0, -1.0}) {
+    const std::string name = sign > 0 ? "hand left" : "hand right";
+    std::vector<uint32_t> own, tips, wide;
+    for (const uint32_t v : hands)
+      if (sign * side(v) > 0) own.push_back(v);
+    const auto is_hand = [&](uint32_t v) {
+      return sign * side(v) > 0.1 * height_ && up(v) > 0.05 * height_ && up(v) < 0.85 * height_;
+    };
+    for (const uint32_t v : tips_)
+      if (is_hand(v)) tips.push_back(v);
+    for (const uint32_t v : first_)
+      if (is_hand(v)) wide.push_back(v);
+    const auto reach = [&](uint32_t v) { return glm::distance(mesh_.positions[v], chest); };
+    const auto width = [&](uint32_t v) { return sign * side(v); };
+    const std::vector<std::string> directions = {"down", "away", sign > 0 ? "right" : "left", "forward"};
+    const auto raised =
+        std::find_if(raised_.begin(), raised_.end(), [&](const Foot& foot) { return sign * foot.side > 0; });
+    if (!own.empty()) {
+      add(name, best_of(own, reach), directions, 0.9, "end of the hand joints");
+    } else if (raised != raised_.end()) {
+      add(name, raised->vertex, directions, 0.8, "end of the arm joints");
+    } else if (!tips.empty()) {
+      add(name, best_of(tips, width), directions, 0.7, "extremity at the side");
+    } else if (!wide.empty() && out_.upright) {
+      add(name, best_of(wide, width), directions, 0.4, "widest place");
+    }
+  }
+}
+
+// Fins and wings of a body without feet: the widest places, if they are far from the middle.
+void Finder::add_fins() {
+  for (const double sign : {1.0, -1.0}) {
+    const uint32_t tip = best_of(first_, [&](uint32_t v) { return sign * side(v); });
+    if (sign * side(tip) > 0.15 * diagonal_)
+      add(sign > 0 ? "fin left" : "fin right", tip, {sign > 0 ? "right" : "left", "away"}, 0.5, "widest place");
+  }
+}
+
+Landmarks Finder::find(const Axes* axes) {
+  const RegionFinder first(model_, mesh_, Axes());
+  regions_ = &first;
+  if (axes) {
+    axes_ = *axes, measure();
+  } else {
+    find_axes();
+  }
+  const RegionFinder finder(model_, mesh_, axes_);
+  regions_ = &finder;
+  std::vector<Foot> left, right;
+  const size_t pairs = search_feet(left, right);
+  // ears and hands may hang unevenly at rest; feet rarely do
+  double shift = 0;
+  for (const Foot& foot : left) shift += 0.5 * foot.side / static_cast<double>(left.size());
+  for (const Foot& foot : right) shift += 0.5 * foot.side / static_cast<double>(right.size());
+  if (pairs > 0 && left.size() == right.size() && std::abs(shift) < 0.05 * diagonal_) middle_ += shift;
+  out_.axes = axes_, out_.leg_pairs = pairs;
+  out_.upright = pairs == 1 && height_ > 1.1 * (front_ - back_);
+  add_head(), add_ears(), add_tail();
+  feet_.clear();
+  for (std::vector<Foot>* feet : {&left, &right}) {
+    std::sort(feet->begin(), feet->end(), [](const Foot& a, const Foot& b) { return a.forward > b.forward; });
+    const char* word = feet == &left ? " left" : " right";
+    for (size_t i = 0; i < pairs; ++i) {
+      // the foremost and the last ones when one side has more
+      const Foot& foot = i + 1 == pairs ? feet->back() : (*feet)[i];
+      const std::string name = pairs == 1       ? "foot"
+                               : i == 0         ? "front foot"
+                               : i + 1 == pairs ? "hind foot"
+                                                : "middle foot " + std::to_string(i);
+      const bool even = left.size() == right.size();
+      add(name + word, foot.vertex, {"down"},
+          !even                       ? 0.5
+          : named_feet_ || first_try_ ? 0.9
+                                      : 0.7,
+          !even         ? "one of an odd number on the ground"
+          : named_feet_ ? "end of the leg joints"
+          : first_try_  ? "stands on the ground"
+                        : "reaches lowest on its side");
+      feet_.push_back(foot);
+    }
+  }
+  if (pairs == 1) add_hands();
+  if (pairs == 0) add_fins();
+  add_trunk();
+  return out_;
+}
+
+const Landmark* Landmarks::get(const std::string& name) const {
+  for (const Landmark& landmark : list)
+    if (landmark.name == name) return &landmark;
+  return nullptr;
+}
+
+Landmarks find_landmarks(const Body& body) { return Finder(body).find(body.axes); }
+
+}  // namespace hf_gltf

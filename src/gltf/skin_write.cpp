@@ -1,0 +1,212 @@
+// See skin_write.h.
+#include "gltf/skin_write.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace hf_gltf {
+namespace {
+
+[[noreturn]] void fail(const std::string& message) {
+  throw std::runtime_error("the skin cannot be made: " + message + ".");
+}
+
+bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void check(const FlatMesh& mesh, const SkinDescription& skin) {
+  const size_t joints = skin.joints.size(), k = skin.influences_per_vertex;
+  if (joints == 0 || joints > 65535) fail("it needs 1 to 65535 joints, not " + std::to_string(joints));
+  if (k < 1 || k > 8) fail("a vertex may have 1 to 8 influences, not " + std::to_string(k));
+  const size_t slots = mesh.positions.size() * k;
+  if (skin.vertex_joints.size() != slots || skin.vertex_weights.size() != slots) {
+    fail(std::to_string(mesh.positions.size()) + " vertices with " + std::to_string(k) + " influences need " +
+         std::to_string(slots) + " joints and weights");
+  }
+  for (size_t j = 0; j < joints; ++j) {
+    if (!is_finite(skin.joints[j].pivot)) fail("the pivot of joint " + std::to_string(j) + " is not finite");
+    if (!(std::abs(glm::length(skin.joints[j].axes) - 1) < 1e-3))
+      fail("the axes of joint " + std::to_string(j) + " are no rotation of unit length");
+  }
+  for (size_t i = 0; i < slots; ++i) {
+    const float weight = skin.vertex_weights[i];
+    if (!(weight >= 0) || !std::isfinite(weight)) fail("vertex " + std::to_string(i / k) + " has a bad weight");
+    if (weight > 0 && skin.vertex_joints[i] >= joints) {
+      fail("vertex " + std::to_string(i / k) + " names joint " + std::to_string(skin.vertex_joints[i]) + " of " +
+           std::to_string(joints));
+    }
+  }
+  for (const SkinClip& clip : skin.clips) {
+    const std::string name = "clip \"" + clip.name + "\"";
+    const size_t motions = clip.times.size() * joints;
+    if (clip.times.empty()) fail(name + " has no frames");
+    if (clip.rotations.size() != motions || clip.translations.size() != motions) {
+      fail(name + " needs " + std::to_string(motions) + " rotations and translations");
+    }
+    if (!clip.scales.empty() && clip.scales.size() != motions)
+      fail(name + " needs " + std::to_string(motions) + " scales or none");
+    for (size_t i = 0; i < clip.scales.size(); ++i) {
+      if (!is_finite(clip.scales[i]))
+        fail(name + ", frame " + std::to_string(i / joints) + ", joint " + std::to_string(i % joints) +
+             ": the scale is not finite");
+    }
+    for (size_t i = 0; i < motions; ++i) {
+      const double length = glm::length(clip.rotations[i]);
+      if (!(std::abs(length - 1) < 1e-3) || !is_finite(clip.translations[i])) {
+        fail(name + ", frame " + std::to_string(i / joints) + ", joint " + std::to_string(i % joints) +
+             ": the rotation is not of unit length or the translation is not finite");
+      }
+    }
+  }
+}
+
+Influences influences_of(const SkinDescription& skin, uint32_t vertex) {
+  const uint32_t k = skin.influences_per_vertex;
+  Influences out;
+  double sum = 0;
+  for (uint32_t i = 0; i < k; ++i) sum += static_cast<double>(skin.vertex_weights[static_cast<size_t>(vertex) * k + i]);
+  if (!(sum > 0)) fail("vertex " + std::to_string(vertex) + " has no weight");
+  for (uint32_t i = 0; i < k; ++i) {
+    const size_t slot = static_cast<size_t>(vertex) * k + i;
+    out.weights[i] = static_cast<float>(static_cast<double>(skin.vertex_weights[slot]) / sum);
+    out.joints[i] = out.weights[i] > 0 ? static_cast<uint16_t>(skin.vertex_joints[slot]) : uint16_t{0};
+  }
+  return out;
+}
+
+// A primitive and the one before it that look the same and have the same kinds of numbers become one, which a player
+// draws at once. Vertices keep their order. Indices stay below 65,536, so that they are written as shorts.
+void join_neighbours(std::vector<Primitive>& primitives) {
+  constexpr size_t most_vertices = 65535;
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  const auto joins = [&](const Primitive& a, const Primitive& b) {
+    return a.topology == b.topology && a.material == b.material && a.texcoords.size() == b.texcoords.size() &&
+           a.colors.empty() == b.colors.empty() && a.normals.empty() == b.normals.empty() &&
+           a.positions.size() + b.positions.size() <= most_vertices;
+  };
+  std::vector<Primitive> joined;
+  for (Primitive& primitive : primitives) {
+    if (joined.empty() || !joins(joined.back(), primitive)) {
+      joined.push_back(std::move(primitive));
+      continue;
+    }
+    Primitive& to = joined.back();
+    const auto first = static_cast<uint32_t>(to.positions.size());
+    for (const uint32_t index : primitive.indices) to.indices.push_back(first + index);
+    append(to.positions, primitive.positions), append(to.normals, primitive.normals);
+    append(to.colors, primitive.colors), append(to.influences, primitive.influences);
+    for (size_t set = 0; set < to.texcoords.size(); ++set) append(to.texcoords[set], primitive.texcoords[set]);
+    primitive = {};
+  }
+  primitives = std::move(joined);
+}
+
+void add_mesh(const FlatMesh& mesh, const SkinDescription& skin, Model& out) {
+  // bake() left one mesh per node; here all their primitives become one mesh
+  MeshData all;
+  all.name = "skinned";
+  for (MeshData& part : out.meshes) {
+    for (Primitive& primitive : part.primitives) all.primitives.push_back(std::move(primitive));
+  }
+  for (size_t p = 0; p < mesh.parts.size(); ++p) {
+    const FlatPart& part = mesh.parts[p];
+    Primitive& primitive = all.primitives[p];
+    for (uint32_t v = 0; v < part.vertex_count; ++v) {
+      primitive.influences.push_back(influences_of(skin, part.first_vertex + v));
+    }
+    // normals of the file at rest, where it has them all
+    const auto first = mesh.normals.begin() + part.first_vertex, last = first + part.vertex_count;
+    if (std::none_of(first, last, [](const glm::vec3& n) { return n == glm::vec3(0); })) {
+      primitive.normals.assign(first, last);
+    }
+  }
+  join_neighbours(all.primitives);
+  out.meshes.clear();
+  out.meshes.push_back(std::move(all));
+}
+
+void add_joints(const SkinDescription& skin, Model& out) {
+  out.nodes.clear();
+  Node root;
+  root.name = "root";
+  Node body;
+  body.name = "body";
+  body.mesh = 0;
+  body.skin = 0;
+  Skin to;
+  to.name = "skin";
+  to.skeleton = 0;
+  out.nodes.push_back(root);
+  for (size_t j = 0; j < skin.joints.size(); ++j) {
+    Node joint;
+    joint.name = skin.joints[j].name.empty() ? "joint_" + std::to_string(j) : skin.joints[j].name;
+    joint.parent = 0;
+    // the pivot as the file holds it, so that node and inverse bind matrix cancel exactly at rest
+    joint.translation = glm::vec3(skin.joints[j].pivot);
+    const int number = static_cast<int>(out.nodes.size());
+    out.nodes[0].children.push_back(number);
+    to.joints.push_back(number);
+    glm::mat4 inverse_bind(1);
+    inverse_bind[3] = glm::vec4(-joint.translation, 1);
+    if (skin.joints[j].axes != glm::dquat(1, 0, 0, 0)) {
+      joint.rotation = glm::quat(glm::normalize(skin.joints[j].axes));
+      inverse_bind = glm::mat4_cast(glm::conjugate(joint.rotation)) * inverse_bind;
+    }
+    to.inverse_bind.push_back(inverse_bind);
+    out.nodes.push_back(std::move(joint));
+  }
+  out.scene_roots = {0, static_cast<int>(out.nodes.size())};
+  out.nodes.push_back(body);
+  out.skins = {to};
+}
+
+Animation make_clip(const SkinDescription& skin, const SkinClip& clip) {
+  Animation animation;
+  animation.name = clip.name;
+  const size_t joints = skin.joints.size();
+  const std::vector<float> times(clip.times.begin(), clip.times.end());
+  for (size_t j = 0; j < joints; ++j) {
+    Channel rotation, translation, scale;
+    rotation.node = translation.node = scale.node = static_cast<int>(j) + 1;
+    rotation.path = Path::rotation;
+    rotation.width = 4;
+    scale.path = Path::scale;
+    rotation.times = translation.times = scale.times = times;
+    const glm::dquat axes = glm::normalize(skin.joints[j].axes);
+    const glm::dvec3 pivot = float_rounded(skin.joints[j].pivot);
+    glm::dquat before(1, 0, 0, 0);
+    for (size_t f = 0; f < times.size(); ++f) {
+      glm::dquat q = glm::normalize(clip.rotations[f * joints + j]);
+      const glm::dvec3 t = q * pivot + clip.translations[f * joints + j];
+      q = glm::normalize(q * axes);
+      if (glm::dot(q, before) < 0) q = -q;
+      before = q;
+      for (const double value : {q.x, q.y, q.z, q.w}) rotation.values.push_back(static_cast<float>(value));
+      for (int c = 0; c < 3; ++c) translation.values.push_back(static_cast<float>(t[c]));
+      for (int c = 0; c < 3 && !clip.scales.empty(); ++c)
+        scale.values.push_back(static_cast<float>(clip.scales[f * joints + j][c]));
+    }
+    animation.channels.push_back(std::move(translation));
+    animation.channels.push_back(std::move(rotation));
+    if (!clip.scales.empty()) animation.channels.push_back(std::move(scale));
+  }
+  return animation;
+}
+
+}  // namespace
+
+Model skin_model(const Model& source, const FlatMesh& mesh, const SkinDescription& skin) {
+  check(mesh, skin);
+  if (mesh.positions.empty()) fail("the surface is empty");
+  Model out = bake(source, mesh, mesh.positions);
+  add_mesh(mesh, skin, out);
+  add_joints(skin, out);
+  for (const SkinClip& clip : skin.clips) out.animations.push_back(make_clip(skin, clip));
+  return out;
+}
+
+void keep_carried(const Model& from, Model& out) {
+  out.asset = from.asset, out.carried = from.carried, out.required_extensions = from.required_extensions;
+}
+
+}  // namespace hf_gltf
