@@ -269,7 +269,7 @@ class Writer : AccessorWriter {
   void add_nodes() {
     for (size_t n = 0; n < model_.nodes.size(); ++n) out_.nodes.push_back(make_node(model_.nodes[n], n));
     for (const Node& node : model_.nodes) numbers_.instances.push_back(add_instances(node));
-    if (out_.nodes.empty()) return;
+    if (out_.nodes.empty() && model_.scenes.empty()) return;
     std::vector<Scene> scenes = model_.scenes;
     if (scenes.empty()) scenes.resize(1);
     const size_t shown = model_.shown_scene < scenes.size() ? model_.shown_scene : 0;

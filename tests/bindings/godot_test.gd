@@ -437,7 +437,10 @@ func lifetime():
 		else:
 			b.share_from(a)
 		a.add_handles([[0, 1, 2], [280, 281]])
-		expect(a.transfer_to(b, [[0, 1], [280]], [[0, 1], [280]]) == true, "transfer_to: " + str(a.get_error()))
+		expect(a.transfer_sinking() == null and a.get_error()["name"] == "HF_ERROR_INVALID_HANDLE", "no transfer sinks")
+		expect(a.transfer_to(b, [[0, 1], [280]], [[0, 1], [280]], [1 + 32, 1]) == true, "transfer_to: " + str(a.get_error()))
+		var sinking = a.transfer_sinking()
+		expect(sinking.size() * 3 == bar.positions.size() and sinking[0] == 1 and sinking[280] == 0, "the first end may sink")
 		expect(a.transfer_set_dials(1.5, 0.25) == true and a.transfer_dials()["stride"] == 1.5 and a.transfer_dials()["arm_space"] == 0, "transfer_set_dials")
 		expect(a.transfer_set_dials(9) == null and a.transfer_dials()["hip_height"] == 0.25, "a refused dial")
 		expect(a.transfer_set_dials() == true and a.transfer_dials()["hip_height"] == 0, "neutral dials")

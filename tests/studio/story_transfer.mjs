@@ -59,6 +59,30 @@ export default async function story(host) {
     await studio.picture('transfer_walk');
     return `a foot travels ${travel.map((x) => x.toFixed(3))} of the picture, up and along`;
   });
+  await check('gaps between pieces are measured in every frame and said in a sentence, and again none for other pairs', async () => {
+    const said = await page.evaluate(async () => {
+      const { transfer } = window.hfStudio.tools;
+      const line = () => {
+        const found = document.getElementById('transfer-gap');
+        return found.hidden ? '' : found.textContent;
+      };
+      const whole = [transfer.gap, line()]; // a bull of one piece
+      transfer.gap = 0.0234;
+      await transfer.seek(0.4);
+      const open = line();
+      transfer.app.refresh();
+      const kept = line();
+      await transfer.set(transfer.pairs);
+      return [...whole, open, kept, line()];
+    });
+    assert.deepEqual(said, [
+      0,
+      '',
+      'Pieces stand apart by up to 2.3 % of the box.',
+      'Pieces stand apart by up to 2.3 % of the box.',
+      '',
+    ]);
+  });
   await check('dials: a longer stride moves a foot farther, the tail follows, and neutral dials give the same picture', async () => {
     await page.click('#dials summary');
     const names = await page.evaluate(() => [...document.querySelectorAll('#dials input')].map(({ id }) => id).join());

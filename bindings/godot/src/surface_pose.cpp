@@ -233,6 +233,13 @@ Value transfer_dials(Surface& s, const Arguments&) {
                 {"arm_space", dials.arm_space}});
 }
 
+// A number for every vertex of the target: 1 where it may sink into the ground.
+Value transfer_sinking(Surface& s, const Arguments&) {
+  std::vector<uint8_t> sinking(s.target_count + 1);
+  check(hf_transfer_get_sinking(s.transfer.get(), sinking.data()));
+  return numbers(Numbers(sinking.begin(), sinking.end() - 1));
+}
+
 Value transfer_apply(Surface& s, const Arguments& a) {
   auto frame = make<hf_transfer_frame>();
   frame.source_positions_f64 = doubles(at(a, 0), 3 * s.vertex_count, "positions");
@@ -266,6 +273,7 @@ const std::vector<Entry>& pose_methods() {
       {"transfer_to", 3, 5, transfer_to},
       {"transfer_set_dials", 0, 5, transfer_set_dials},
       {"transfer_dials", 0, 0, transfer_dials},
+      {"transfer_sinking", 0, 0, transfer_sinking},
       {"transfer_apply", 1, 1, transfer_apply},
   };
   return all;

@@ -160,7 +160,9 @@ const tasks = {
     const posed = body.transfer.apply(positions);
     const normals = new Float32Array(posed.length);
     smoothNormals(posed, body.sums, normals);
-    return [{ positions: posed, normals, milliseconds: performance.now() - begin }, [posed.buffer, normals.buffer]];
+    const milliseconds = performance.now() - begin;
+    const gap = body.surface.measureGaps(posed).worst / body.surface.report.boundingBoxDiagonal;
+    return [{ positions: posed, normals, milliseconds, gap }, [posed.buffer, normals.buffer]];
   },
   transferSkin({ positions }) {
     body.transfer.apply(positions);

@@ -49,6 +49,15 @@ TEST(Carried, EverySceneComesBackWithItsNameAndTheOneShown) {
   EXPECT_EQ(out["scenes"][2]["name"], "nothing");
 }
 
+TEST(Carried, ASceneOfAFileWithoutNodesIsAnObject) {
+  GlbBuilder b;
+  b.document["scenes"] = {json::object()};
+  b.document["scene"] = 0;
+  const json out = round_trip(b);
+  ASSERT_EQ(out["scenes"].size(), 1u);
+  EXPECT_TRUE(out["scenes"][0].is_object());
+}
+
 TEST(Carried, ExtrasAndExtensionsOfEveryElementComeBack) {
   GlbBuilder b = one_triangle();
   const json extras = {{"id", 12345678901ull}, {"list", {1, nullptr, "x", 0.5}}, {"none", nullptr}};

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -127,6 +128,20 @@ inline std::filesystem::path shared_data() {
   const char* given = std::getenv("HF_SHARED_DATA");
   const std::filesystem::path folder = given ? given : HF_SOURCE_DIR "/../shared/data";
   return std::filesystem::is_directory(folder) ? folder : std::filesystem::path();
+}
+
+// The glTF files of HF_GLTF_FOLDER and its folders: samples without errors of their own, such as Khronos'.
+// None without it.
+inline std::vector<std::filesystem::path> given_models() {
+  std::vector<std::filesystem::path> out;
+  const char* folder = std::getenv("HF_GLTF_FOLDER");
+  if (!folder) return out;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const auto kind = entry.path().extension();
+    if (kind == ".glb" || kind == ".gltf") out.push_back(entry.path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 }  // namespace samples_test

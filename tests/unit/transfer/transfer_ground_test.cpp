@@ -83,6 +83,28 @@ TEST(TransferGround, FeetThatTurnWithTheBodyComeRoundWithIt) {
   }
 }
 
+TEST(TransferGround, ABodyThatTurnsFastDoesNotSwingOut) {
+  // Offsets of trunk and feet turn by a share of the body's angle; a share that grows fast makes them run ahead of it.
+  const Animals& a = animals();
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  add(transfer, a.pairs.inputs());
+  const double nod = 0.05 * a.horse.core->mesh.scale;  // so that the motion is not rigid
+  const std::vector<Vec3> rest = a.horse.rest();
+  double fastest = 0;
+  Vec3 before;
+  for (int step = 0; step <= 36; ++step) {
+    std::vector<Vec3> posed = twisted(a.horse, step * pi / 72, 0);
+    for (size_t v = 0; v < posed.size(); ++v) posed[v].y -= nod * smooth(0.5, 1.5, rest[v].z);
+    const std::vector<Vec3> out = frame_of(transfer, posed);
+    const size_t k = a.pair("withers");
+    const Vec3 offset = centre_of(a.pairs.target[k], out) - transfer.scale() * centre_of(a.pairs.source[k], posed);
+    if (step > 0) fastest = std::max(fastest, hf_inner::norm(offset - before) / a.box);
+    before = offset;
+  }
+  std::printf("an offset moves by up to %.5f boxes in 2.5 degrees\n", fastest);
+  EXPECT_LT(fastest, 0.0051);
+}
+
 // Deepest vertex of the bull under the ground, beyond what the source sinks, in boxes. Thin parts do not count.
 double sunk(const Animals& a, const std::vector<Vec3>& posed, const std::vector<Vec3>& out,
             hf_inner::Transfer& transfer) {

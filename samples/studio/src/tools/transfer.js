@@ -3,6 +3,8 @@ import { lookAtBoth, openBeside, takeRow } from '../beside.js';
 
 /** Frames a second of the saved walk: of animation files. */
 const FRAME_RATE = 30;
+/** Gaps between pieces below this part of the box are not said: a newcomer does not see them. */
+const GAP_SAID = 0.005;
 /** Hues of neighbouring pairs are this part of the circle apart. */
 const HUE_STEP = 0.61803398875;
 /** What is turned without a new preparation: name, neutral, least and most value, and the part of the body that it needs. */
@@ -34,6 +36,7 @@ export const tool = (kit) => {
       this.source = null;
       this.info = null;
       this.time = 0;
+      this.gap = 0;
       this.dials = {};
     }
     ready() {
@@ -123,6 +126,7 @@ export const tool = (kit) => {
         this.info = await this.app.client.ask('transferPairs', { pairs: pairs.filter(({ off }) => !off) });
         this.pairs = pairs;
         this.good = pairs;
+        this.gap = 0;
         say('');
       } catch (error) {
         this.pairs = this.good;
@@ -177,8 +181,17 @@ export const tool = (kit) => {
       source.skin.set({ positions: source.posed, normals: source.normals });
       app.skin.set(answer);
       this.milliseconds = answer.milliseconds;
+      this.gap = Math.max(this.gap, answer.gap);
+      this.sayGap($('transfer-gap'));
       const scrub = $('transfer-time');
       if (scrub) scrub.value = time;
+    }
+    /** The largest gap of the frames that were shown. The panel stays, so that a dragged slider does. */
+    sayGap(line) {
+      if (!line) return line;
+      line.hidden = !(this.gap > GAP_SAID);
+      line.textContent = `Pieces stand apart by up to ${(100 * this.gap).toFixed(1)} % of the box.`;
+      return line;
     }
     /** Sets one dial and shows the frame again. */
     async turn(name, value) {
@@ -266,7 +279,7 @@ export const tool = (kit) => {
               'Clip of the source',
               source.body.clips.map((clip, i) => [i, clip.getName() || `clip ${i + 1}`]),
               source.body.clips.indexOf(this.clip),
-              (i) => (this.clip = source.body.clips[Number(i)]),
+              (i) => ((this.clip = source.body.clips[Number(i)]), (this.gap = 0)),
               { id: 'transfer-clip' },
             ),
           ),
@@ -300,6 +313,7 @@ export const tool = (kit) => {
             make('summary', {}, 'Dials'),
             ...this.dialRows(),
           ),
+        this.info && this.sayGap(make('p', { class: 'warn', id: 'transfer-gap' })),
         take,
         facts([['pairs', `${active} of ${this.pairs.length}`], this.milliseconds && ['frame', ms(this.milliseconds)]]),
       ];
