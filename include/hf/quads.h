@@ -80,12 +80,12 @@ typedef struct hf_quads_info {
  * Errors: HF_ERROR_INVALID_ARGUMENT (face_count, edge_length, crease_angle, relax_count, an array without its count, an
  * isolated vertex, symmetry_plane without a normal; index = crease, that is no edge of the surface; index = guide, that
  * is 0, stands on the surface or has a weight outside 0 to 1; index = pole, of other than 3 or 5 quads, or where the
- * surface has no normal), HF_ERROR_NON_FINITE (edge_length, crease_angle,
- * symmetry_plane, index = guide or pole), HF_ERROR_OUT_OF_RANGE (index = crease or guide), HF_ERROR_UNSUPPORTED (a
- * surface that must be parted at more than 5 % of its edges, because they have three triangles or cannot be oriented,
- * index = a vertex; a surface that symmetry_plane does not mirror, index = the vertex that is off most; no triangle on
- * the side of the normal), HF_ERROR_TOO_LARGE (more than a million quads of the default edge length, more creases than
- * edges), HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check fails. Thread safety: reads `surface`. Since 0.1. */
+ * surface has no normal), HF_ERROR_NON_FINITE (edge_length, crease_angle, symmetry_plane, index = guide or pole),
+ * HF_ERROR_OUT_OF_RANGE (index = crease or guide), HF_ERROR_UNSUPPORTED (more than 5 % of the edges have three
+ * triangles or cannot be oriented, index = a vertex; a surface that symmetry_plane does not mirror, index = the vertex
+ * that is off most; no triangle on the side of the normal), HF_ERROR_TOO_LARGE (more than a million quads of the
+ * default edge length, more creases than edges), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_INTERNAL
+ * when the check fails. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 
 /* Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The result is that

@@ -323,8 +323,8 @@ typedef struct hf_gaps_info {
 
 /* Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends are
  * apart than at rest, and 0 if they are nearer. out_gaps: NULL, or double[capacity], in the order of
- * hf_surface_get_links. out_info: NULL, or a struct. Errors: HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads
- * `surface`. Since 0.1. */
+ * hf_surface_get_links. out_info: NULL, or a struct. Set one of the two at least. Errors: HF_ERROR_NON_FINITE (index =
+ * vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_measure_gaps(hf_surface surface, const hf_gaps_desc* desc, uint32_t capacity,
                                          double* out_gaps, hf_gaps_info* out_info);
 

@@ -172,12 +172,12 @@ ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
   return decision;
 }
 
-// Tries one route (way to carry out an edit). Returns false if the edit needs a new order of the dense rows. The route
-// `fresh` always makes one, so it never returns false.
+// Tries one route (way to carry out an edit). Returns false if the edit needs a new order of the dense rows, or a base.
+// last: no other route follows, so `fresh` gives a result or refuses the edit.
 bool ConstraintSystem::try_route(EditRoute route, const SiteEdit& edit, JobRunner& jobs,
-                                 const ConstraintState::Decision& decision) {
+                                 const ConstraintState::Decision& decision, bool last) {
   ConstraintState next(state_, memory());
-  ConstraintEdit change(operator_, jobs, edit, next);
+  ConstraintEdit change(operator_, jobs, edit, next, last);
   try {
     if (route == EditRoute::dense) {
       change.go_on();
@@ -198,10 +198,14 @@ void ConstraintSystem::edit(const SiteEdit& edit) {
   JobRunner& jobs = *operator_.jobs;
   if (try_route(decision.route, edit, jobs, decision)) {
     dense_edits_ += decision.route == EditRoute::dense;
-  } else if (decision.route != EditRoute::dense || !decision.eliminate ||
-             !try_route(EditRoute::rebase, edit, jobs, decision)) {
-    try_route(EditRoute::fresh, edit, jobs, decision);
+    return;
   }
+  ConstraintState::Decision whole = decision;
+  whole.end = ConstraintState::index_end;
+  const bool again = decision.route == EditRoute::dense && decision.eliminate;
+  if (again && try_route(EditRoute::rebase, edit, jobs, decision)) return;
+  if (decision.route != EditRoute::fresh && try_route(EditRoute::fresh, edit, jobs, decision)) return;
+  if (!try_route(EditRoute::rebase, edit, jobs, whole)) try_route(EditRoute::fresh, edit, jobs, decision, true);
 }
 
 void ConstraintSystem::rebase(JobRunner& jobs) {

@@ -123,7 +123,8 @@ class ConstraintSystem {
   Index first_row(const SiteEdit& edit, const SiteCost& cost) const;
   bool has_base(const SiteEdit& edit, Index end) const;
   double again_ns(const SiteEdit& edit, const SiteCost& cost) const;
-  bool try_route(EditRoute route, const SiteEdit& edit, JobRunner& jobs, const ConstraintState::Decision& decision);
+  bool try_route(EditRoute route, const SiteEdit& edit, JobRunner& jobs, const ConstraintState::Decision& decision,
+                 bool last = false);
   void base_forward(const double* values, Index channels, Index first, Index count, const Answer& answer,
                     double* z) const;
   void add_base_terms(const double* values, Index channels, Index first, Index count, Answer& answer) const;

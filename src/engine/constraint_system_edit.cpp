@@ -390,11 +390,18 @@ void ConstraintEdit::append_rows(const Batch& batch) {
     if (!blocks[c]) continue;
     const Index failed = blocks[c]->factorise(jobs_);
     // A pivot failed after sites were eliminated in the factor. The order of the dense rows may be the reason, so try a
-    // new order.
-    if (failed >= 0 && state_.base) throw NeedsNewLayout{};
+    // new order. Vertices are independent, so without a base rounding is the reason: a base has no rows of them.
+    if (failed >= 0 && (state_.base || (!last_ && are_vertices(static_cast<Index>(c))))) throw NeedsNewLayout{};
     refuse_dependent(*blocks[c], static_cast<Index>(c), failed);
     state_.blocks[c] = blocks[c];
   }
+}
+
+// Whether all sites of a component are hard ones at vertices.
+bool ConstraintEdit::are_vertices(Index component) const {
+  return std::all_of(state_.entries.begin(), state_.entries.end(), [&](const ConstraintState::Entry& entry) {
+    return !entry.used() || entry.site.component != component || entry.site.is_hard_vertex();
+  });
 }
 
 void ConstraintEdit::refuse_dependent(const DenseBlock& block, Index component, Index failed) const {

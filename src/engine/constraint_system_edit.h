@@ -10,10 +10,10 @@ class ConstraintEdit {
   // left, or a pivot failed and the order of the rows may be the reason.
   struct NeedsNewLayout {};
 
-  // Prepares one edit of the sites. state: a copy of the system's state, which the edit changes in place. After an
-  // exception this copy is useless.
-  ConstraintEdit(const PinnedOperator& a, JobRunner& jobs, const SiteEdit& edit, ConstraintState& state)
-      : operator_(a), jobs_(jobs), edit_(edit), state_(state) {}
+  // Prepares one edit of the sites. state: a copy of the system's state, which the edit changes in place. last: no
+  // other layout follows. After an exception this copy is useless.
+  ConstraintEdit(const PinnedOperator& a, JobRunner& jobs, const SiteEdit& edit, ConstraintState& state, bool last)
+      : operator_(a), jobs_(jobs), edit_(edit), state_(state), last_(last) {}
 
   void go_on();                // edits the present rows
   void start_over(Index end);  // adds every site again; hard vertex sites of slots below end leave the matrix
@@ -41,6 +41,7 @@ class ConstraintEdit {
   void take_couplings(Batch& batch) const;
   void append_rows(const Batch& batch);
   void refuse_dependent(const DenseBlock& block, Index component, Index failed) const;
+  bool are_vertices(Index component) const;
   Index dependent_slot(const DenseBlock& block, Index component) const;
   void drop_empty_groups();
   void repack();
@@ -52,6 +53,7 @@ class ConstraintEdit {
   JobRunner& jobs_;
   const SiteEdit& edit_;
   ConstraintState& state_;
+  bool last_;
   std::uint32_t path_solves_ = 0, factorisations_ = 0;
 };
 

@@ -88,6 +88,12 @@ void corner_cotangents(const Mesh& mesh, Index t, double cotangent[3]) noexcept 
   corner_cotangents(p, cotangent);
 }
 
+void widened_cotangents(const Vec3 p[3], double cotangent[3]) noexcept {
+  const Vec3 e[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};
+  const double squared[3] = {dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])};
+  thin_cotangents(squared, cotangent);
+}
+
 void corner_cotangents(const Vec3 p[3], double cotangent[3]) noexcept {
   const Vec3 e[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};  // opposite to corner k
   const double squared[3] = {dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])};

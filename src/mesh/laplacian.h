@@ -24,6 +24,8 @@ bool is_widened(const Mesh& mesh, std::int32_t t) noexcept;
 void corner_cotangents(const Mesh& mesh, std::int32_t t, double cotangent[3]) noexcept;
 // The same for a triangle with these corners.
 void corner_cotangents(const Vec3 p[3], double cotangent[3]) noexcept;
+// The same for a thin triangle, which is widened first.
+void widened_cotangents(const Vec3 p[3], double cotangent[3]) noexcept;
 // Returns four times the area of a triangle with these edge lengths. Lengths that violate the triangle inequality count
 // as a very thin triangle.
 double quadruple_area(const double length[3]) noexcept;

@@ -185,7 +185,9 @@ static void all_engines_agree_after_edits(void** state) {
       seed = seed * 1664525u + 1013904223u;
       if (count == 12 || (count > 3 && seed >> 31)) {
         assert_ok(hf_remove_sites(solver, 1, &live[0]));
-        memmove(live, live + 1, --count * sizeof *live);
+        /* no memmove: valgrind takes its fortified form for memcpy, and reports that the ranges overlap */
+        --count;
+        for (uint32_t i = 0; i < count; ++i) live[i] = live[i + 1];
       } else {
         const uint32_t vertex = (seed >> 8) % VERTICES;
         const double value = (double)(step % 7);

@@ -1,8 +1,9 @@
 #!/bin/sh
 # Runs the fuzzers under libFuzzer with AddressSanitizer and UndefinedBehaviorSanitizer: 1,000,000 sequences of API calls,
-# and 100,000 glTF files of at most 512 MB and 1 s each. Workers share one folder of inputs and halve the executions.
+# 100,000 glTF files of at most 512 MB and 1 s each, and 20,000 small meshes with quads, regions, transfers, weights and
+# links of them. Workers share one folder of inputs and halve the executions.
 # Needs clang; exits with 77 (skipped) without it.
-# Usage: fuzz.sh [--short] [--workers N] [FOLDER_TO_BUILD_IN [SEQUENCES [FILES]]]
+# Usage: fuzz.sh [--short] [--workers N] [FOLDER_TO_BUILD_IN [SEQUENCES [FILES [SHAPES]]]]
 #   --short      a minute each instead of a number of executions; says how long the long form takes at that rate
 #   --workers N  processes at once, 2 without it
 set -eu
@@ -21,6 +22,7 @@ done
 build=${1:-$root/build/fuzz}
 sequences=${2:-1000000}
 files=${3:-100000}
+shapes=${4:-20000}
 if ! command -v clang++ >/dev/null; then
   echo "no clang++ here (Debian package clang): libFuzzer is skipped"
   exit 77
@@ -29,7 +31,7 @@ mkdir -p "$build"
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang \
   -DCMAKE_CXX_COMPILER=clang++ -DHF_WITH_GPL=ON -DHF_BUILD_SAMPLES=ON -DHF_BUILD_TESTS=ON -DHF_SANITIZE=fuzzer-no-link,address,undefined \
   >"$build.log" || { cat "$build.log"; exit 1; }
-cmake --build "$build" --target fuzz_sequences fuzz_gltf
+cmake --build "$build" --target fuzz_sequences fuzz_gltf fuzz_shapes
 status=0
 # The sum of a figure that libFuzzer or the fuzzer prints at its end, over the logs of all workers.
 sum() { # NAME FIGURE
@@ -65,6 +67,7 @@ export ASAN_OPTIONS="quarantine_size_mb=8:malloc_context_size=5${ASAN_OPTIONS:+:
 # No entropic schedule: counting how rare each feature is takes more than half of the time, and in equal time it reaches
 # fewer edges (10,738 beside 11,428 in 25 s from nothing).
 run sequences "$sequences" -max_len=96 -timeout=10 -entropic=0
+run shapes "$shapes" -max_len=96 -timeout=30 -entropic=0
 # files are long from the start, because short ones are refused at once
 run gltf "$files" -max_len=16384 -len_control=0 -timeout=1 -rss_limit_mb=512
 solved=$(sum gltf number_of_solved_units)

@@ -1,31 +1,18 @@
 // The player of a sequence (sequence_player.h). sequence_calls.cpp makes the calls, sequence_compare.cpp compares.
 #pragma once
 #include <memory>
-#include <stdexcept>
 
-#include "hf/hf.h"
+#include "play.h"
 #include "sequence_model.h"
 #include "sequence_player.h"
 
 namespace sequences {
 
-struct Failure : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-[[noreturn]] inline void fail(const std::string& what) {
-  hf_error_detail detail;
-  hf_error_get_detail(&detail);
-  throw Failure(what + " (last detail: " + detail.function + ": " + detail.message + ")");
-}
-
-inline void expect(hf_result expected, hf_result got, const char* call) {
-  if (got != expected)
-    fail(std::string(call) + ": expected " + hf_result_get_name(expected) + ", got " + hf_result_get_name(got));
-}
-inline void hold(bool condition, const std::string& what) {
-  if (!condition) fail(what);
-}
+using play::Bytes;
+using play::expect;
+using play::fail;
+using play::Failure;
+using play::hold;
 
 // A surface that is destroyed with the last branch that names it.
 struct Owned {
@@ -35,16 +22,6 @@ struct Owned {
   Owned(const Owned&) = delete;
   Owned& operator=(const Owned&) = delete;
   ~Owned() { hf_surface_destroy(handle); }
-};
-
-class Bytes {
- public:
-  Bytes(const std::uint8_t* bytes, std::size_t size) : next_(bytes), end_(bytes + size) {}
-  bool done() const { return next_ == end_; }
-  unsigned take() { return done() ? 0u : *next_++; }
-
- private:
-  const std::uint8_t *next_, *end_;
 };
 
 // A solver, its surface and the model of both. Branches share surfaces; a surface may be destroyed before its solvers.

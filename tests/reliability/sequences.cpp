@@ -4,82 +4,28 @@
 #include <algorithm>
 #include <chrono>
 #include <cinttypes>
-#include <fstream>
-#include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "byte_inputs.h"
 #include "report.h"
 #include "sequence_player.h"
 
-namespace {
-
-using Input = std::vector<std::uint8_t>;
-
-std::string hex_of(const Input& input) {
-  std::string text;
-  char digits[3];
-  for (const std::uint8_t b : input) std::snprintf(digits, sizeof digits, "%02x", b), text += digits;
-  return text;
-}
-
-Input bytes_of(const std::string& hex) {
-  Input input;
-  for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
-    input.push_back(static_cast<std::uint8_t>(std::stoul(hex.substr(i, 2), nullptr, 16)));
-  return input;
-}
-
-// Sequence number i: 6 bytes of set-up and up to 60 bytes of calls.
-Input sequence(std::uint64_t i) {
-  std::mt19937_64 random(i * 0x9E3779B97F4A7C15u + 1);
-  Input input(8 + random() % 60);
-  for (std::uint8_t& b : input) b = static_cast<std::uint8_t>(random() >> 32);
-  return input;
-}
-
-// Removes the bytes that the failure does not need.
-Input smaller(Input input) {
-  for (std::size_t piece = input.size() / 2; piece > 0; piece /= 2) {
-    for (std::size_t at = 0; at + piece <= input.size();) {
-      Input less = input;
-      less.erase(less.begin() + static_cast<std::ptrdiff_t>(at),
-                 less.begin() + static_cast<std::ptrdiff_t>(at + piece));
-      if (sequences::play(less.data(), less.size()).passed)
-        at += piece;
-      else
-        input = less;
-    }
-  }
-  for (std::uint8_t& b : input) {
-    const std::uint8_t before = std::exchange(b, std::uint8_t{0});
-    if (sequences::play(input.data(), input.size()).passed) b = before;
-  }
-  return input;
-}
-
-}  // namespace
-
 int main(int argc, char** argv) {
   std::uint64_t count = report_full(argc, argv) ? 1000000 : 100000, first = 0;
-  std::vector<Input> given;
+  std::vector<play::Input> given;
   for (int i = 1; i + 1 < argc; ++i) {
     const std::string option = argv[i];
     if (option == "--count") count = std::stoull(argv[i + 1]);
     if (option == "--first") first = std::stoull(argv[i + 1]);
-    if (option == "--hex") given.push_back(bytes_of(argv[i + 1])), count = 0;
+    if (option == "--hex") given.push_back(play::bytes_of(argv[i + 1])), count = 0;
   }
-  // every input that ever failed
-  std::ifstream kept(HF_SOURCE_DIR "/tests/reliability/inputs/sequences.hex");
-  for (std::string line; std::getline(kept, line);) {
-    if (!line.empty() && line[0] != '#') given.push_back(bytes_of(line));
-  }
+  play::append_kept(HF_SOURCE_DIR "/tests/reliability/inputs/sequences.hex", given);
   double worst[3] = {0, 0, 0};
   std::uint64_t calls = 0, on_surfaces = 0, edits = 0, refused = 0, failures = 0, executions = 0;
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t i = 0; i < given.size() + count; ++i) {
-    const Input input = i < given.size() ? given[i] : sequence(first + i - given.size());
+    const play::Input input = i < given.size() ? given[i] : play::random_input(first + i - given.size());
     const sequences::Outcome outcome = sequences::play(input.data(), input.size());
     ++executions;
     for (std::size_t e = 0; e < 3; ++e) worst[e] = std::max(worst[e], outcome.worst[e]);
@@ -92,8 +38,9 @@ int main(int argc, char** argv) {
     else
       std::fprintf(stderr, "sequence %" PRIu64 ": %s\n", first + i - given.size(), outcome.failure.c_str());
     if (++failures > 10) break;
-    const Input least = smaller(input);
-    std::fprintf(stderr, "  --hex %s: %s\n", hex_of(least).c_str(),
+    const play::Input least = play::smaller(
+        input, [](const play::Input& bytes) { return sequences::play(bytes.data(), bytes.size()).passed; });
+    std::fprintf(stderr, "  --hex %s: %s\n", play::hex_of(least).c_str(),
                  sequences::play(least.data(), least.size()).failure.c_str());
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
