@@ -40,7 +40,8 @@ class QuadSource {
   bool released_ = false;
   Memory& memory_;
   QuadComplex substitute_;
-  Table<std::uint8_t> of_substitute_;  // by component: whether substitute_ has it
+  static constexpr std::uint8_t least = 1, shortened = 2;
+  Table<std::uint8_t> of_substitute_;  // by component: what substitute_ has of it, or 0
   Table<double> area_;                 // by component
   Table<std::uint8_t> creased_;        // by component: a few quads would not keep its creases
 };

@@ -52,6 +52,7 @@ struct CutBase {
   SurfacePoint in_whole(const SurfacePoint& point) const noexcept;
 
   double length, quads;
+  double facet;  // of the options for quads of `core`; inner units of `whole`
   CutMesh cut;
   std::shared_ptr<const Core> core;
   QuadKeeper kept;

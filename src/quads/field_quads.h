@@ -42,7 +42,8 @@ struct FieldQuadOptions {
   double edge_length = default_edge_length;  // inner units
   std::int32_t faces = 0;                    // wanted number of quads, which replaces the edge length; 0: none
   std::int32_t relax = default_relax_rounds;
-  double crease = 0;               // degrees: edges that bend more are kept; 0: none
+  double facet = 0;   // inner units: facets of about this size are no shape that crosses follow; 0: triangles
+  double crease = 0;  // degrees: edges that bend more are kept; 0: none
   Span<const Index> crease_edges;  // edges that are kept whatever their angle
   Span<const QuadGuide> guides;
   Span<const QuadPole> poles;        // whose guides are among the guides
@@ -57,7 +58,8 @@ struct FieldQuadReport {
   std::int32_t removed = 0;      // quads of folds
   std::int32_t added = 0;        // quads around thin parts
   std::int32_t chords = 0;       // that were removed
-  std::int32_t substitutes = 0;  // components with quads of shorter edges
+  std::int32_t substitutes = 0;  // components with other quads than those of the map
+  std::int32_t shortened = 0;    // of these, those with quads of shorter edges or of their triangles
   std::int32_t split = 0;        // components with quads of their triangles
   std::int32_t tries = 0;
   double edge_length = 0;
@@ -76,8 +78,8 @@ struct QuadBase {
   explicit QuadBase(std::shared_ptr<const Core> core);
   QuadBase(const QuadBase&) = delete;
   QuadBase& operator=(const QuadBase&) = delete;
-  // Makes the curvature and the factor of the crosses for an edge length.
-  void prepare(double edge_length);
+  // Makes the curvature and the factor of the crosses for an edge length. facet: as in the options.
+  void prepare(double edge_length, double facet);
   // Returns samples of the surface that are so far apart.
   const QuadDistance& distance(double spacing);
 
