@@ -274,16 +274,13 @@ QuadBase::QuadBase(std::shared_ptr<const Core> given)
 
 void QuadBase::prepare(double edge_length, double facet) {
   if (!system) system.emplace(core, 4);
-  facet = std::max(facet, mean_edge);
-  const double radius = smooth_radius * std::max(edge_length, facet);
+  const double radius = smooth_radius * std::max({edge_length, mean_edge, facet});
   if (!smoother || smoother->radius() != radius) {
     smoother.reset();
     smoother.emplace(*system, radius);
   }
-  // A pass evens out over one edge, and the square of how many over several.
-  const double rings = curvature_radius * edge_length / facet, edges = facet / mean_edge;
-  const double rounds = std::min<double>(most_passes, std::max<double>(least_passes, rings * rings));
-  const Index wanted = static_cast<Index>(edges * edges * rounds);
+  const double rings = curvature_radius * edge_length / mean_edge;
+  const Index wanted = static_cast<Index>(std::min<double>(most_passes, std::max<double>(least_passes, rings * rings)));
   if (passes == wanted) return;
   passes = -1;
   curvature = curvature_crosses(*core, system->connection, wanted);
