@@ -11,7 +11,7 @@
 #include "shape_player.h"
 
 int main(int argc, char** argv) {
-  std::uint64_t count = report_full(argc, argv) ? 50000 : 1000, first = 0;
+  std::uint64_t count = report_full(argc, argv) ? 50000 : 100, first = 0;
   std::vector<play::Input> given;
   for (int i = 1; i + 1 < argc; ++i) {
     const std::string option = argv[i];
