@@ -11,17 +11,8 @@ export LC_ALL=C
 status=0
 complain() { printf 'error: %s\n' "$1"; status=1; }
 
-exported=$("$nm" -D --defined-only "$library" | awk '{print $NF}' | sed 's/@.*//' | sort -u)
-[ -n "$exported" ] || complain "nm lists no exported symbol of $library"
-if ! changes=$(diff <(sort -u "$here/exports.txt") <(printf '%s\n' "$exported")); then
-  complain "the exported symbols differ from tests/api/exports.txt (< expected, > in the library):"
-  printf '%s\n' "$changes"
-fi
-declared=$(cat "$headers"/*.h | grep -E '^HF_API ' | grep -oE 'hf_[a-z0-9_]+\(' | tr -d '(' | sort -u)
-if ! changes=$(diff <(printf '%s\n' "$declared") <(printf '%s\n' "$exported")); then
-  complain "the exported symbols are not those the headers declare (< declared, > exported):"
-  printf '%s\n' "$changes"
-fi
+. "$here/../support/exports.sh"
+check_exported "$library" "$headers" "$here/exports.txt" HF_API hf_
 
 # snprintf and vsnprintf write into our own message buffer and are allowed
 called=$("$nm" -D --undefined-only "$library" | awk '{print $NF}' | sed 's/@.*//' | sort -u)

@@ -34,6 +34,22 @@ inline void append_kept(const char* path, std::vector<Input>& inputs) {
   }
 }
 
+// What a player is asked to play: kept inputs, inputs of --hex, then `count` random ones from number `first` on.
+struct Arguments {
+  std::vector<Input> given;
+  std::uint64_t count, first = 0;
+
+  Arguments(int argc, char** argv, std::uint64_t usual, const char* kept) : count(usual) {
+    for (int i = 1; i + 1 < argc; ++i) {
+      const std::string option = argv[i];
+      if (option == "--count") count = std::stoull(argv[i + 1]);
+      if (option == "--first") first = std::stoull(argv[i + 1]);
+      if (option == "--hex") given.push_back(bytes_of(argv[i + 1])), count = 0;
+    }
+    append_kept(kept, given);
+  }
+};
+
 // Input number i, of 8 to 67 bytes.
 inline Input random_input(std::uint64_t i) {
   std::mt19937_64 random(i * 0x9E3779B97F4A7C15u + 1);

@@ -12,15 +12,8 @@
 #include "sequence_player.h"
 
 int main(int argc, char** argv) {
-  std::uint64_t count = report_full(argc, argv) ? 1000000 : 100000, first = 0;
-  std::vector<play::Input> given;
-  for (int i = 1; i + 1 < argc; ++i) {
-    const std::string option = argv[i];
-    if (option == "--count") count = std::stoull(argv[i + 1]);
-    if (option == "--first") first = std::stoull(argv[i + 1]);
-    if (option == "--hex") given.push_back(play::bytes_of(argv[i + 1])), count = 0;
-  }
-  play::append_kept(HF_SOURCE_DIR "/tests/reliability/inputs/sequences.hex", given);
+  const auto [given, count, first] = play::Arguments(argc, argv, report_full(argc, argv) ? 1000000 : 100000,
+                                                     HF_SOURCE_DIR "/tests/reliability/inputs/sequences.hex");
   double worst[3] = {0, 0, 0};
   std::uint64_t calls = 0, on_surfaces = 0, edits = 0, refused = 0, failures = 0, executions = 0;
   const auto start = std::chrono::steady_clock::now();
