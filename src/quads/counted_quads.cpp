@@ -60,11 +60,12 @@ double area_of(const FluxSurface& surface) {
 double miss_of(double ratio) noexcept { return std::max(ratio, 1 / std::max(ratio, 1e-9)) - 1; }
 
 QuadSource::QuadSource(const FluxSurface& surface, GridMapper& mapper, const Table<std::uint8_t>& features, bool once,
-                       Memory& memory)
+                       bool strict, Memory& memory)
     : surface_(surface),
       mapper_(mapper),
       features_(features),
       once_(once),
+      strict_(strict),
       memory_(memory),
       substitute_(memory),
       of_substitute_(surface.component_count, 0, memory),
@@ -107,7 +108,7 @@ QuadSource::Found QuadSource::find(double length, bool untangled, FieldQuadRepor
 }
 
 QuadComplex QuadSource::make(double length, bool untangled, FieldQuadReport& report) {
-  report.substitutes = report.shortened = 0;
+  report.substitutes = 0;
   Found found = find(length, untangled, report);
   Table<std::uint8_t>& sound = found.sound;
   Table<std::uint8_t> missing(sound.size(), 0, memory_), small(sound.size(), 0, memory_);
@@ -120,13 +121,13 @@ QuadComplex QuadSource::make(double length, bool untangled, FieldQuadReport& rep
   substitute_.append(least_quads(surface_, area_, small, memory_), memory_);
   bool any = false, all = true;
   for (std::int32_t c = 0; c < sound.size(); ++c) {
-    if (small[c]) of_substitute_[c] = least;
+    of_substitute_[c] |= small[c];
     report.substitutes += !sound[c];
     missing[c] = !sound[c] && !of_substitute_[c], any |= missing[c] != 0;
     sound[c] = sound[c] && !(count[c] == 1 && of_substitute_[c]), all = all && sound[c];
   }
+  if (any && strict_) throw LostComponent{};
   if (any) substitute(length, untangled, missing, report);
-  for (std::int32_t c = 0; c < sound.size(); ++c) report.shortened += !sound[c] && of_substitute_[c] == shortened;
   if (all) return std::move(found.quads);
   return joined(found.quads, found.component, sound, substitute_, components_of(surface_, substitute_, memory_),
                 memory_);
@@ -144,7 +145,7 @@ void QuadSource::substitute(double length, bool untangled, Table<std::uint8_t>& 
     substitute_.append(found.quads, take, memory_);
     bool open = false;
     for (std::int32_t c = 0; c < missing.size(); ++c) {
-      if (missing[c] && found.sound[c]) of_substitute_[c] = shortened;
+      of_substitute_[c] |= missing[c] && found.sound[c];
       missing[c] = missing[c] && !found.sound[c], open |= missing[c] != 0;
     }
     if (!open) return;
@@ -153,7 +154,7 @@ void QuadSource::substitute(double length, bool untangled, Table<std::uint8_t>& 
   const QuadComplex split = split_triangles(surface_, features_, missing, memory_);
   substitute_.append(split, memory_);
   for (std::int32_t c = 0; c < missing.size(); ++c) {
-    if (missing[c]) of_substitute_[c] = shortened, ++report.split;
+    of_substitute_[c] |= missing[c], report.split += missing[c];
   }
 }
 

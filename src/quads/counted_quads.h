@@ -14,9 +14,12 @@ double miss_of(double ratio) noexcept;
 // shorter edges, and at last quads of their triangles.
 class QuadSource {
  public:
-  // once: make is called once if need be, so the map's factor may go before its end.
+  // A component that would get quads of shorter edges, thrown where that is not wanted.
+  struct LostComponent {};
+
+  // once: make is called once if need be, so the map's factor may go before its end. strict: make throws LostComponent.
   QuadSource(const FluxSurface& surface, GridMapper& mapper, const Table<std::uint8_t>& features, bool once,
-             Memory& memory);
+             bool strict, Memory& memory);
   // Returns valid quads. untangled: which map is taken; components that have no valid quads there take the other one.
   QuadComplex make(double length, bool untangled, FieldQuadReport& report);
   // Whether make can be called once more.
@@ -36,12 +39,11 @@ class QuadSource {
   const FluxSurface& surface_;
   GridMapper& mapper_;
   const Table<std::uint8_t>& features_;
-  const bool once_;
+  const bool once_, strict_;
   bool released_ = false;
   Memory& memory_;
   QuadComplex substitute_;
-  static constexpr std::uint8_t least = 1, shortened = 2;
-  Table<std::uint8_t> of_substitute_;  // by component: what substitute_ has of it, or 0
+  Table<std::uint8_t> of_substitute_;  // by component: whether substitute_ has it
   Table<double> area_;                 // by component
   Table<std::uint8_t> creased_;        // by component: a few quads would not keep its creases
 };

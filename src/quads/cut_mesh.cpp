@@ -10,20 +10,20 @@ namespace {
 
 // A surface is cut if at least this share of its area lies in triangles with an edge of more than so many edges of
 // quads. Cutting others changes more than it mends. At 3,000 quads, every second one of 36 character models: 18 models,
-// by a twentieth or more, better and worse: with 0.5 and 4 irregular vertices 6 and 2, angles 7 and 1, distances 4 and
+// by a twentieth or more, better and worse (before most_facet): with 0.5 and 4 irregular vertices 6 and 2, angles 7 and
+// 1, distances 4 and
 // 2. With 0.1 and 4: 7 and 5, 9 and 5, 8 and 2. With 0.5 and 2: 7 and 6, 9 and 5, 8 and 2.
 constexpr double coarse_share = 0.5, coarse_length = 4;
-// Then it is cut until no edge is longer than so many edges of quads. Chosen on the five meshes that are coarse at
-// 5,000 quads (mpi_triang, eight, double-torus, oblong, boeing). 1 loses a handle of boeing, 2 and 3 a limb of oblong;
-// the others differ little.
+// Then it is cut until no edge is longer than so many edges of quads. Chosen on mpi_triang, eight, double-torus and
+// oblong at 5,000 quads, before most_facet: 2 and 3 lose a limb of oblong; with 1 all four are as good, in more time.
 constexpr double cut_length = 1.5;
 // Crosses even out over four times the facets of the surface, which count up to so many edges of quads: less follows
 // the facets of a scan, more forgets the shape of few long triangles. Irregular vertices over those without cutting, as
 // geometric means: six scans at 50,000 quads 1.33 with 1 and 0.79 with 4, 18 characters at 3,000 quads 0.91 and 0.92.
 // With 4 for the curvature too, 0.95 and 0.98.
 constexpr double most_facet = 4;
-// Cutting ends where there would be so many more triangles for each quad: needles have many pieces. The five meshes
-// above get up to 7.
+// Cutting ends where there would be so many more triangles for each quad: needles have many pieces. Half and double
+// change none of mpi_triang, eight, double-torus and oblong at 5,000 quads.
 constexpr double most_cut = 16;
 
 double longest_edge(const Core& core) noexcept {

@@ -93,11 +93,6 @@ constexpr double nearer_share = 0.99;
 // times. Without the square, a boot of 5,000 quads gets 22.8 instead of 9.1 % to be a tenth nearer.
 constexpr std::int32_t most_irregular = 3;
 
-// A mesh with fewer irregular vertices than this share counts as if it had so many: one that lost a limb has lost the
-// limb's too. Without it an oblong whose triangles are cut to two edges of quads loses a part, 20 % of the box, with
-// 0.6 % of its 5,000 vertices irregular.
-constexpr double few_irregular = 0.01;
-
 // Its edges may be stretched so many times as much. Chords that are removed around a leg leave long quads: without a
 // limit a man of 5,000 quads has ratios of 6.3 instead of 1.8 (95 %), and is 0.5 instead of 1.3 % of the box away.
 // With 1.3 another man has 1.8 instead of 2.5, and is 1.1 instead of 0.8 % away. With 1.7 a triceratops has 2.8 instead
@@ -356,7 +351,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
   FieldQuadReport chosen;
   result.euler_characteristic = surface.euler_characteristic;
   const double wanted = options.faces > 0 ? options.faces : base.area / (edge_length * edge_length);
-  QuadSource source(surface, mapper, features, options.faces == 0, memory);
+  QuadSource source(surface, mapper, features, options.faces == 0, options.strict, memory);
   double aim = wanted, best = -1;
   std::int32_t chosen_irregular = 0, finer_left = finer_tries;
   float from = field_progress.mapped;
@@ -382,7 +377,13 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
       done = (done + 1) / 2;
       FieldQuadReport tried = made;
       Timer turn_timer;
-      QuadMesh found = i == 0 ? counted.make(untangled, tried) : counted.make_finer(share, untangled, tried);
+      QuadMesh found(memory);
+      try {
+        found = i == 0 ? counted.make(untangled, tried) : counted.make_finer(share, untangled, tried);
+      } catch (const QuadSource::LostComponent&) {
+        if (turn == 0 && i == 0) throw;
+        break;
+      }
       check_quads(found, surface.euler_characteristic, memory);
       hold_poles(surface, options.poles, tried.edge_length, found, memory);
       made.quads_ms += turn_timer.milliseconds();
@@ -403,9 +404,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
       const double stretched = stretch_of(found, memory);
       if (i == 0) first = away, irregular = count, stretch = stretched;
       const double nearer = away > 0 ? first / away : HUGE_VAL;
-      const bool better = away < off &&
-                          count <= std::max<double>(irregular, few_irregular * found.position.size()) *
-                                       std::min<double>(most_irregular, nearer * nearer) &&
+      const bool better = away < off && count <= irregular * std::min<double>(most_irregular, nearer * nearer) &&
                           stretched <= most_stretched * stretch;
       const bool enough = away <= lost_limb * aimed || !better || away > nearer_share * off;
       if (better) {
@@ -415,6 +414,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
       if (enough) break;
     }
     hf_inner::report(1.0f);  // tries that were not needed are passed over
+    if (mesh.face_count() == 0) break;
     const double ratio = mesh.face_count() / wanted, error = miss_of(ratio);
     const std::int32_t count = count_irregular(mesh, memory);
     if (best < 0 || (error < best && count <= most_irregular * chosen_irregular)) {
@@ -457,26 +457,24 @@ QuadResult make_cut_quads(const FieldQuadOptions& options, double area, double l
   }
   for (const QuadPole& pole : options.poles) own.add_pole(pole);
   own.add_pole_guides();
-  std::optional<ProgressRange> part(std::in_place, field_progress.cut, field_progress.cut_done);
-  FieldQuadReport found;
   FieldQuadOptions cut_options = own.get();
-  cut_options.facet = base->facet / base->core->mesh.scale;
-  QuadResult result = make_quads_here(cut_options, &found, kept ? &base->kept : nullptr);
-  for (Vec3& p : result.mesh.position) p = base->core->mesh.to_given(p);
-  for (SurfacePoint& point : result.mesh.location) point = base->in_whole(point);
-  found.edge_length *= base->core->mesh.scale;
-  part.emplace(field_progress.cut_done, 1.0f);
-  if (found.shortened > 0) {
-    // A component lost a handle, say, and has quads of shorter edges. Whether it does is luck, so the surface as it is
-    // may need less of them: boeing has 7 instead of 62 % irregular vertices at 5,000 quads.
-    FieldQuadReport other;
-    QuadResult uncut = make_quads_here(options, &other, kept);
-    if (count_irregular(uncut.mesh, *whole.memory) < count_irregular(result.mesh, *whole.memory))
-      result = std::move(uncut), found = other;
+  cut_options.facet = base->facet / base->core->mesh.scale, cut_options.strict = true;
+  FieldQuadReport found;
+  try {
+    const ProgressRange part(field_progress.cut, field_progress.cut_done);
+    QuadResult result = make_quads_here(cut_options, &found, kept ? &base->kept : nullptr);
+    for (Vec3& p : result.mesh.position) p = base->core->mesh.to_given(p);
+    for (SurfacePoint& point : result.mesh.location) point = base->in_whole(point);
+    found.edge_length *= base->core->mesh.scale;
+    if (out_report) *out_report = found;
+    hf_inner::report(1.0f);
+    return result;
+  } catch (const QuadSource::LostComponent&) {
+    // Whether a component loses a handle, say, is luck. The surface as it is may keep it, and has fewer triangles to
+    // split if not: boeing has 7 instead of 62 % irregular vertices at 5,000 quads.
+    const ProgressRange part(field_progress.cut_done, 1.0f);
+    return make_quads_here(options, out_report, kept);
   }
-  hf_inner::report(1.0f);
-  if (out_report) *out_report = found;
-  return result;
 }
 
 }  // namespace

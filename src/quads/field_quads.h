@@ -42,8 +42,9 @@ struct FieldQuadOptions {
   double edge_length = default_edge_length;  // inner units
   std::int32_t faces = 0;                    // wanted number of quads, which replaces the edge length; 0: none
   std::int32_t relax = default_relax_rounds;
-  double facet = 0;   // inner units: facets of about this size are no shape that crosses follow; 0: triangles
-  double crease = 0;  // degrees: edges that bend more are kept; 0: none
+  bool strict = false;  // throws QuadSource::LostComponent where a component needs shorter edges (counted_quads.h)
+  double facet = 0;     // inner units: facets of about this size are no shape that crosses follow; 0: triangles
+  double crease = 0;    // degrees: edges that bend more are kept; 0: none
   Span<const Index> crease_edges;  // edges that are kept whatever their angle
   Span<const QuadGuide> guides;
   Span<const QuadPole> poles;        // whose guides are among the guides
@@ -59,7 +60,6 @@ struct FieldQuadReport {
   std::int32_t added = 0;        // quads around thin parts
   std::int32_t chords = 0;       // that were removed
   std::int32_t substitutes = 0;  // components with other quads than those of the map
-  std::int32_t shortened = 0;    // of these, those with quads of shorter edges or of their triangles
   std::int32_t split = 0;        // components with quads of their triangles
   std::int32_t tries = 0;
   double edge_length = 0;

@@ -13,10 +13,10 @@ namespace {
 constexpr double least_share = 0.4;
 
 // A corner whose sine is at most this is no corner: the outline is a triangle. Less leaves quads that are triangles,
-// more makes three quads of blunt ones. 0.17 is 10 degrees.
+// more makes three quads of blunt ones. 0.17 is 10 degrees. Half and double change nothing on b9, which has a dozen.
 constexpr double flat_corner = 0.17;
 // The other three corners must have this share of the area. Less takes bent outlines for triangles, whose sides the
-// three quads do not follow.
+// three quads do not follow. 0.95 changes nothing on b9, 0.8 makes one more triangle.
 constexpr double straight_share = 0.9;
 
 // The vertices and triangles of one component, and a half-edge of its border.

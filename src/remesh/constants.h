@@ -60,10 +60,11 @@ constexpr std::int32_t unfold_returns = 4;
 // A place lies on the border, or at its vertex, if the weights of the other corners are below this: rounding.
 constexpr double on_border = 1e-9;
 // Vertices on borders slide along them as far as the cosine of the border's turn stays above this: 18 degrees. More
-// rounds the border off, less keeps vertices where they are.
+// rounds the border off, less keeps vertices where they are. On b9, blobby, the elephant and the plane with holes 18
+// corners stay turned over at 5,000 quads; with 26 degrees 18, with 13 19.
 constexpr double straight_border = 0.95;
 // They keep at least this share of an edge, or of the old distance, from the other corners of their quads: else edges
-// would vanish.
+// would vanish. With half 18 corners stay turned over there, with double 19.
 constexpr double unfold_apart = 0.25;
 
 // --- quad_distance.cpp ---

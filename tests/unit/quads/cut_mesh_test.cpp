@@ -183,6 +183,36 @@ TEST(CutQuads, of_an_update_are_those_of_a_new_mesh) {
   same("with a plane");
 }
 
+// A ring too thin for the quads needs shorter edges. Then the surface as it is gets them, not its cut triangles.
+TEST(CutQuads, of_a_component_that_needs_shorter_edges_come_from_the_surface_as_it_is) {
+  hf_test::PlainMesh mesh = box(1, 1.5, 0.7);
+  const std::uint32_t first = static_cast<std::uint32_t>(mesh.positions.size() / 3), around = 16, across = 3;
+  for (std::uint32_t i = 0; i < around; ++i) {
+    for (std::uint32_t j = 0; j < across; ++j) {
+      const double a = 2 * 3.14159265358979 * i / around, b = 2 * 3.14159265358979 * j / across;
+      const double r = 1 + 0.02 * std::cos(b);
+      for (const double x : {4 + r * std::cos(a), r * std::sin(a), 0.02 * std::sin(b)}) mesh.positions.push_back(x);
+      const auto at = [&](std::uint32_t k, std::uint32_t l) { return first + (k % around) * across + l % across; };
+      for (const std::uint32_t v : {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)})
+        mesh.triangles.push_back(v);
+    }
+  }
+  const auto core = hf_test::make_core(mesh);
+  FieldQuadOptions options;
+  options.core = core, options.faces = 300, options.relax = 5;
+  const double length = 0.14 / core->mesh.scale;
+  ASSERT_TRUE(is_coarse(*core, length));
+  FieldQuadReport report;
+  QuadKeeper kept;
+  const QuadResult result = make_field_quads(options, &report), again = make_field_quads(options, nullptr, &kept);
+  EXPECT_GT(report.substitutes, 0);
+  hf_test::expect_manifold(*core, result.mesh, "ring");
+  ASSERT_TRUE(kept.cut && kept.whole);  // both were tried
+  ASSERT_EQ(again.mesh.face_count(), result.mesh.face_count());
+  for (Index v = 0; v < result.mesh.position.size(); ++v)
+    ASSERT_EQ(norm(result.mesh.position[v] - again.mesh.position[v]), 0);
+}
+
 // A pole gets a ring of small triangles, where the surface has long ones.
 TEST(CutQuads, hold_poles_on_long_triangles) {
   const auto core = hf_test::make_core(box(1, 1.5, 0.7));
