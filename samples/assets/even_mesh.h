@@ -27,8 +27,9 @@ struct TriangleMesh {
   std::vector<Triangle> triangles;
 };
 
-// The set where the field is `level`, on a grid of the given spacing, anywhere inside body.lower..upper.
-TriangleMesh polygonise(const ImplicitBody& body, double spacing, double level = 0);
+// The set where the field is `level`, on a grid of the given spacing, anywhere inside body.lower..upper. Its vertices
+// keep `margin` of a grid edge away from the edge's ends; less gives slivers, as scanners write them.
+TriangleMesh polygonise(const ImplicitBody& body, double spacing, double level = 0, double margin = 0.02);
 
 // A closed manifold with exactly `count` vertices, evenly spread relative to body.detail().
 TriangleMesh remesh(const ImplicitBody& body, const TriangleMesh& start, uint32_t count);

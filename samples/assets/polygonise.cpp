@@ -79,7 +79,7 @@ class Grid {
 
 }  // namespace
 
-TriangleMesh polygonise(const ImplicitBody& body, double spacing, double level) {
+TriangleMesh polygonise(const ImplicitBody& body, double spacing, double level, double margin) {
   Grid grid(body, spacing, level);
   TriangleMesh mesh;
   std::unordered_map<uint64_t, uint32_t> on_edge;
@@ -96,7 +96,8 @@ TriangleMesh polygonise(const ImplicitBody& body, double spacing, double level) 
     const auto [entry, fresh] = on_edge.emplace(key, static_cast<uint32_t>(mesh.points.size()));
     if (fresh) {
       const double t = corner_value[i] / (corner_value[i] - corner_value[j]);
-      mesh.points.push_back(mix(grid.point(corner_index[i]), grid.point(corner_index[j]), std::clamp(t, 0.02, 0.98)));
+      mesh.points.push_back(
+          mix(grid.point(corner_index[i]), grid.point(corner_index[j]), std::clamp(t, margin, 1 - margin)));
     }
     return entry->second;
   };

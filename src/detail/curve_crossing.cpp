@@ -29,7 +29,7 @@ class Fan {
       if (triangles(e) > 2) return false;
       if (triangles(e) == 1) first = e;
     }
-    Index edge = first, triangle = topology_.edge_triangle[at(topology_.edge_triangle_start[at(edge)])];
+    Index edge = first, triangle = topology_.triangle(topology_.edge_triangle_start[at(edge)]);
     while (true) {
       order_.push_back(other(edge));
       if (triangle == nowhere || order_.size() > at(end - begin)) break;
@@ -74,7 +74,7 @@ class Fan {
   }
   Index beyond(Index e, Index triangle) const noexcept {
     for (Index i = topology_.edge_triangle_start[at(e)]; i < topology_.edge_triangle_start[at(e) + 1]; ++i)
-      if (topology_.edge_triangle[at(i)] != triangle) return topology_.edge_triangle[at(i)];
+      if (topology_.triangle(i) != triangle) return topology_.triangle(i);
     return nowhere;
   }
   const Mesh& mesh_;

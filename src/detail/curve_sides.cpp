@@ -118,8 +118,8 @@ class CurveSides {
   Index beyond(Index e, Index triangle) const noexcept {
     const Index begin = topology_.edge_triangle_start[at(e)];
     if (topology_.edge_triangle_start[at(e) + 1] - begin != 2) return Mesh::none;
-    const Index first = topology_.edge_triangle[at(begin)];
-    return first == triangle ? topology_.edge_triangle[at(begin + 1)] : first;
+    const Index first = topology_.triangle(begin);
+    return first == triangle ? topology_.triangle(begin + 1) : first;
   }
 
   // Walks around v from one triangle to another, first over the edge to w. Returns false, and counts nothing, if that

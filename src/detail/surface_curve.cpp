@@ -138,7 +138,7 @@ class CurveTracer {
       for (Index i = topology_.neighbour_start[at(v)]; i < topology_.neighbour_start[at(v) + 1]; ++i) {
         const Index e = topology_.neighbour_edge[at(i)];
         for (Index j = topology_.edge_triangle_start[at(e)]; j < topology_.edge_triangle_start[at(e) + 1]; ++j) {
-          const Index t = topology_.edge_triangle[at(j)];
+          const Index t = topology_.triangle(j);
           poller.due();
           if (taken_[at(t)] || !reaches(t, p, q, length)) continue;
           taken_[at(t)] = 1, triangles_.push_back(t);
@@ -208,7 +208,7 @@ class CurveTracer {
                                  : topology_.edge_between(p.a, q.a);
     if (e == Mesh::none) return Mesh::none;
     for (Index k = topology_.edge_triangle_start[at(e)]; k < topology_.edge_triangle_start[at(e) + 1]; ++k) {
-      const Index t = topology_.edge_triangle[at(k)];
+      const Index t = topology_.triangle(k);
       if (holds(t, i) && holds(t, j)) return t;
     }
     return Mesh::none;
@@ -238,7 +238,7 @@ Index triangle_of(const Mesh& mesh, const Topology& topology, const Index corner
   const Index e = topology.edge_between(corners[0], corners[1]);
   if (e == Mesh::none) return Mesh::none;
   for (Index i = topology.edge_triangle_start[at(e)]; i < topology.edge_triangle_start[at(e) + 1]; ++i) {
-    const Index t = topology.edge_triangle[at(i)];
+    const Index t = topology.triangle(i);
     if (has(mesh.triangle(t), corners[2])) return t;
   }
   return Mesh::none;

@@ -62,7 +62,7 @@ std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorK
   if (operator_kind == OperatorKind::clamped || operator_kind == OperatorKind::uniform)
     shape->weights = edge_weights(shape->mesh, shape->topology, operator_kind, pool, runner);
   if (shape->mesh.faces.empty())
-    count_edges(shape->mesh, shape->topology, found);
+    count_edges(shape->topology, found);
   else
     count_face_sides(shape->mesh.faces, shape->topology, found, pool);
   count_inside_out(shape->mesh, pool);

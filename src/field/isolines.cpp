@@ -23,7 +23,7 @@ class Tracer {
         line_(&memory) {
     for (Index e = 0; e < topology.edge_count(); ++e) {
       for (Index i = begin(e); i < end(e); ++i) {
-        const Index t = topology.edge_triangle[at(i)];
+        const Index t = topology.triangle(i);
         const Index* v = mesh.triangle(t);
         std::size_t k = 0;
         while (k < 2 && (v[k] == topology.first(e) || v[k] == topology.second(e))) ++k;
@@ -42,7 +42,7 @@ class Tracer {
     for (const bool open : {true, false}) {
       for (const Index e : crossed) {
         for (Index i = begin(e); i < end(e); ++i) {
-          const Index t = topology_.edge_triangle[at(i)];
+          const Index t = topology_.triangle(i);
           if (!usable_[at(t)] || visited_[at(t)] == stamp_) continue;
           if (open && partner(e, i) != Mesh::none) continue;
           follow(e, i, !open);
@@ -62,7 +62,7 @@ class Tracer {
   Index partner(Index e, Index i) const noexcept {
     Index before = Mesh::none;
     for (Index j = begin(e); j < end(e); ++j) {
-      if (!usable_[at(topology_.edge_triangle[at(j)])]) continue;
+      if (!usable_[at(topology_.triangle(j))]) continue;
       if (before == Mesh::none) {
         before = j;
       } else {
@@ -76,7 +76,7 @@ class Tracer {
 
   Index entry_of(Index e, Index t) const noexcept {
     Index i = begin(e);
-    while (topology_.edge_triangle[at(i)] != t) ++i;
+    while (topology_.triangle(i) != t) ++i;
     return i;
   }
 
@@ -113,9 +113,9 @@ class Tracer {
   // Follows a line from triangle entry i of edge e to its end, or once around if it is closed.
   void follow(Index e, Index i, bool closed) {
     line_.clear();
-    const bool turn = backward(e, topology_.edge_triangle[at(i)]);
+    const bool turn = backward(e, topology_.triangle(i));
     for (;;) {
-      const Index t = topology_.edge_triangle[at(i)];
+      const Index t = topology_.triangle(i);
       if (visited_[at(t)] == stamp_) break;  // the line is closed
       append(e);
       visited_[at(t)] = stamp_;

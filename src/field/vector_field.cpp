@@ -24,7 +24,7 @@ Vec3 vertex_normal(const Mesh& mesh, const Topology& topology, std::int32_t vert
   for (std::int32_t i = topology.neighbour_start[at(vertex)]; i < topology.neighbour_start[at(vertex) + 1]; ++i) {
     const std::int32_t e = topology.neighbour_edge[at(i)], next = topology.neighbour[at(i)];
     for (std::int32_t s = topology.edge_triangle_start[at(e)]; s < topology.edge_triangle_start[at(e) + 1]; ++s) {
-      const std::int32_t* t = mesh.triangle(topology.edge_triangle[at(s)]);
+      const std::int32_t* t = mesh.triangle(topology.triangle(s));
       const int k = t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
       if (t[(k + 1) % 3] != next) continue;  // every triangle from the edge that leaves the vertex
       const Vec3 a = mesh.positions[at(vertex)];

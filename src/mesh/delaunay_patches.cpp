@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/index.h"
 #include "mesh/laplacian.h"
@@ -14,8 +13,6 @@ namespace {
 // Number of triangles or edges that one thread's job takes. Half and twice the value take the same time within 10 %,
 // the noise of the measurement (two threads). No result depends on this number.
 constexpr std::size_t patch_piece = 16384;
-// A length that divides counts as at least this, so that triangles with three equal positions do not divide by zero.
-constexpr double least_length = 1e-300;
 // Only patches (groups of triangles around edges that are not Delaunay) are retriangulated. After this many attempts to
 // grow them, the whole mesh becomes one patch. It bounds the cost; no result depends on it. Half and double change no
 // bit on eight shapes with needles, loose pieces and a long ribbon.
@@ -30,9 +27,6 @@ constexpr int patch_rings = 2;
 constexpr std::size_t patch_share = 4;
 // An edge is not Delaunay if its weight, half of a sum of two cotangents, is below minus this number.
 constexpr double rounding = 0.5 * delaunay_rounding;
-// A triangle whose sides miss a flat triangle's by less than this share may be too thin. This is twice the limit below
-// which MollifiedLengths lengthens edges, so rounding hides no such triangle.
-constexpr double safe_closing = 2 * mollify_closing;
 
 std::uint32_t pieces_of(std::size_t count) noexcept {
   return static_cast<std::uint32_t>((count + patch_piece - 1) / patch_piece);
@@ -44,29 +38,21 @@ struct Thinness {
 };
 
 Thinness find_thin(const Mesh& mesh, const Topology& topology, Memory& memory, JobRunner* jobs) {
-  struct Found {
-    double sum = 0, share = std::numeric_limits<double>::infinity(), gap = std::numeric_limits<double>::infinity();
-  };
   const std::size_t triangles = at(mesh.triangle_count());
-  Vector<Found> found(pieces_of(triangles), &memory);
+  Vector<ThinCheck> checks(pieces_of(triangles), &memory);
   for_each(jobs, pieces_of(triangles), [&](std::uint32_t p) {
-    Found own;
+    ThinCheck own;
     for (std::size_t t = p * patch_piece; t < std::min(triangles, (p + std::size_t{1}) * patch_piece); ++t) {
       const Index* v = mesh.triangle(static_cast<Index>(t));
       const Vec3 a = mesh.positions[at(v[0])], b = mesh.positions[at(v[1])], c = mesh.positions[at(v[2])];
-      const double x = norm(b - a), y = norm(c - b), z = norm(a - c);
-      const double longest = std::max({x, y, z}), gap = x + y + z - 2 * longest;
-      own.sum += x + y + z;
-      own.gap = std::min(own.gap, gap), own.share = std::min(own.share, gap / std::max(longest, least_length));
+      own.add(norm(b - a), norm(c - b), norm(a - c));
     }
-    found[p] = own;
+    checks[p] = own;
   });
-  Found all;
-  for (const Found& own : found)
-    all.sum += own.sum, all.gap = std::min(all.gap, own.gap), all.share = std::min(all.share, own.share);
-  const double mean = all.sum / std::max(1, topology.edge_count());
+  ThinCheck all;
+  for (const ThinCheck& own : checks) all.add(own);
   Thinness thin;
-  thin.any = !(all.share > safe_closing && all.gap > safe_closing * mollify_floor * mean);
+  thin.any = all.may_be_thin(topology.edge_count());
   for (Index t = 0; thin.any && !thin.widened && t < mesh.triangle_count(); ++t) thin.widened = is_widened(mesh, t);
   return thin;
 }
@@ -91,7 +77,7 @@ Vector<Index> broken_edges(const Mesh& mesh, const Topology& topology, const Vec
       const Index begin = topology.edge_triangle_start[e], end = topology.edge_triangle_start[e + 1];
       bool broken = weights[e] < -rounding;
       for (Index i = begin; end - begin > 2 && i < end && !broken; ++i)
-        broken = cotangent_opposite(mesh, topology.edge_triangle[at(i)], topology.first(static_cast<Index>(e)),
+        broken = cotangent_opposite(mesh, topology.triangle(i), topology.first(static_cast<Index>(e)),
                                     topology.second(static_cast<Index>(e))) < -rounding;
       if (broken) lists[p].push_back(static_cast<Index>(e));
     }
@@ -149,7 +135,7 @@ class Patches {
                     topology_.edge_triangle_start[at(whole) + 1] - topology_.edge_triangle_start[at(whole)];
     }
     surface_ = IntrinsicTriangulation::make(sub_, edges_, memory_, jobs, &held);
-    surface_.flip_to_delaunay();
+    surface_.flip_to_delaunay(0, jobs);
   }
 
   // Lists those border edges of the patches (groups of retriangulated triangles) that are not Delaunay together with
@@ -175,7 +161,7 @@ class Patches {
   double outer_weight(Index e, const Vector<double>& weights, Index& count) const noexcept {
     count = 0;
     const Index begin = topology_.edge_triangle_start[at(e)], end = topology_.edge_triangle_start[at(e) + 1];
-    for (Index i = begin; i < end; ++i) count += !holds(topology_.edge_triangle[at(i)]);
+    for (Index i = begin; i < end; ++i) count += !holds(topology_.triangle(i));
     return count == end - begin ? weights[at(e)] : 0.5 * outer_cotangent(e);
   }
 
@@ -183,7 +169,7 @@ class Patches {
   double outer_cotangent(Index e) const noexcept {
     double sum = 0;
     for (Index i = topology_.edge_triangle_start[at(e)]; i < topology_.edge_triangle_start[at(e) + 1]; ++i) {
-      const Index t = topology_.edge_triangle[at(i)];
+      const Index t = topology_.triangle(i);
       if (!holds(t)) sum += cotangent_opposite(mesh_, t, topology_.first(e), topology_.second(e));
     }
     return sum;
@@ -193,7 +179,7 @@ class Patches {
 
   void take_edge(Index e) {
     for (Index i = topology_.edge_triangle_start[at(e)]; i < topology_.edge_triangle_start[at(e) + 1]; ++i) {
-      const Index t = topology_.edge_triangle[at(i)];
+      const Index t = topology_.triangle(i);
       if (holds(t)) continue;
       in_patch_[at(t)] = 1, triangles_.push_back(t);
     }
@@ -364,17 +350,19 @@ void add_areas(const Mesh& mesh, const Patches& patches, Memory& memory, Vector<
 DelaunayOperator delaunay_operator(const Mesh& mesh, const Topology& topology, const Vector<double>& weights,
                                    bool with_areas, Memory& memory, JobRunner* jobs) {
   DelaunayOperator out(memory);
-  const Thinness thin = find_thin(mesh, topology, memory, jobs);
-  bool whole = thin.widened;
-  if (!whole) {
+  {
     Patches patches(mesh, topology, memory);
     Vector<Index> broken = broken_edges(mesh, topology, weights, memory, jobs);
-    whole = thin.any && !broken.empty();  // thin triangles that are Delaunay as they stand keep their cotangents
-    for (int attempt = 0; !broken.empty() && !whole; ++attempt) {
-      whole = attempt == most_attempts || !patches.grow(broken);
-      if (whole) break;
+    bool whole = !broken.empty() && !patches.grow(broken);
+    if (!whole) {
+      // thin triangles that are Delaunay as they stand keep their cotangents
+      const Thinness thin = find_thin(mesh, topology, memory, jobs);
+      whole = thin.widened || (thin.any && !broken.empty());
+    }
+    for (int attempt = 1; !broken.empty() && !whole; ++attempt) {
       patches.triangulate(jobs);
       broken = patches.broken_border();
+      whole = !broken.empty() && (attempt == most_attempts || !patches.grow(broken));
     }
     if (!whole) {
       const PatchRows rows(patches, topology, weights, memory);
@@ -385,7 +373,7 @@ DelaunayOperator delaunay_operator(const Mesh& mesh, const Topology& topology, c
     }
   }
   IntrinsicTriangulation surface = IntrinsicTriangulation::make(mesh, topology, memory, jobs);
-  surface.flip_to_delaunay();
+  surface.flip_to_delaunay(0, jobs);
   out.laplacian = surface.laplacian(mesh.vertex_count(), memory, jobs);
   if (with_areas) out.areas = surface.vertex_areas(mesh.vertex_count(), memory);
   out.changed.assign(surface.changed().begin(), surface.changed().end());

@@ -58,7 +58,7 @@ TriangleSides::TriangleSides(const Mesh& given, const Topology& edges, Memory& m
                 count = edges.edge_triangle_start[at(e) + 1] - begin;
     Index sides[2] = {-1, -1};
     for (Index i = 0; i < count; ++i) {
-      const Index t = edges.edge_triangle[at(begin + i)];
+      const Index t = edges.triangle(begin + i);
       const Index* v = mesh.triangle(t);
       for (Index k = 0; k < 3; ++k) {
         const Index a = v[k], b = v[(k + 1) % 3];
@@ -114,7 +114,7 @@ double TriangleSides::opposite_angle(Index side) const noexcept {
 
 Index TriangleSides::side_between(Index v, Index w) const noexcept {
   const Index e = topology.edge_between(v, w);
-  const Index t = topology.edge_triangle[at(topology.edge_triangle_start[at(e)])];
+  const Index t = topology.triangle(topology.edge_triangle_start[at(e)]);
   for (Index s = 3 * t; s < 3 * t + 2; ++s) {
     if (edge[at(s)] == e) return s;
   }
@@ -384,7 +384,7 @@ class Propagation {
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
       const Index e = topology.neighbour_edge[at(i)];
       for (Index k = topology.edge_triangle_start[at(e)]; k < topology.edge_triangle_start[at(e) + 1]; ++k) {
-        const Index t = topology.edge_triangle[at(k)];
+        const Index t = topology.triangle(k);
         for (Index s = 3 * t; s < 3 * t + 3; ++s) {
           if (mesh_.corners[at(s)] == v && sides_.edge[at(s)] == e) visit(s);
         }
@@ -444,7 +444,7 @@ class Propagation {
     const Topology& topology = sides_.topology;
     const Index e = sides_.edge[at(side)];
     for (Index i = topology.edge_triangle_start[at(e)]; i < topology.edge_triangle_start[at(e) + 1]; ++i) {
-      const Index t = topology.edge_triangle[at(i)];
+      const Index t = topology.triangle(i);
       for (Index s = 3 * t; s < 3 * t + 3; ++s) {
         if (sides_.edge[at(s)] == e && s != side) visit(s);
       }
@@ -579,7 +579,7 @@ GeodesicPoint::GeodesicPoint(const TriangleSides& sides, const Index* corners, c
   double sum = 0;
   for (Index k = 0; k < count; ++k) sum += weights[support[k]];
   for (Index i = topology.edge_triangle_start[at(e)]; i < topology.edge_triangle_start[at(e) + 1]; ++i) {
-    Place place{topology.edge_triangle[at(i)], {0, 0, 0}};
+    Place place{topology.triangle(i), {0, 0, 0}};
     Index matched = 0;
     for (Index c = 0; c < 3; ++c) {
       for (Index k = 0; k < count; ++k) {

@@ -82,7 +82,7 @@ class PathTracer {
     const Topology& topology = sides_.topology;
     const std::size_t before = path_.points.size();
     for (Index i = topology.edge_triangle_start[at(e)]; i < topology.edge_triangle_start[at(e) + 1]; ++i) {
-      const Index t = topology.edge_triangle[at(i)];
+      const Index t = topology.triangle(i);
       for (Index s = 3 * t; s < 3 * t + 3; ++s) {
         if (sides_.edge[at(s)] != e || s == line.side) continue;
         Line next = line;

@@ -23,7 +23,7 @@ FrontDistance::FrontDistance(const Mesh& mesh, const Topology& topology, Memory&
     : memory_(&memory), start_(mesh.positions.size() + 1, 0, &memory), corner_(&memory) {
   IntrinsicTriangulation cover = IntrinsicTriangulation::make(mesh, topology, memory, jobs);
   poll();
-  cover.flip_to_delaunay();
+  cover.flip_to_delaunay(0, jobs);
   const Index halves = 3 * cover.face_count();
   poll();
   for (Index h = 0; h < halves; ++h) ++start_[at(cover.tail(h)) + 1];

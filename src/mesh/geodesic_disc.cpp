@@ -69,7 +69,7 @@ class Front {
       const double other = distance(w);
       // a straight path through the edge v w may reach the third corner
       for (Index k = topology_.edge_triangle_start[at(e)]; k < topology_.edge_triangle_start[at(e) + 1]; ++k) {
-        const Index* corner = mesh_.triangle(topology_.edge_triangle[at(k)]);
+        const Index* corner = mesh_.triangle(topology_.triangle(k));
         Index third = Mesh::none;
         for (int c = 0; c < 3; ++c) {
           if (corner[c] != v && corner[c] != w) third = corner[c];

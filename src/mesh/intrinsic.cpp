@@ -26,39 +26,28 @@ constexpr double least_sum = 1e-300;
 // shapes with needles, loose pieces and a long ribbon.
 constexpr std::size_t least_trim = 65536;
 
-// A triangle at an edge of the mesh, and the side with which it lies there.
+// A side of an edge of three triangles and more.
 struct Side {
-  Index triangle, corner;  // from this corner to the next
-  bool forward;            // runs from the edge's first vertex to its second
-  double angle;            // about the edge, for edges of three and more
+  Index side;  // its number in the topology
+  double angle;
 };
 
-Side side_of(const Mesh& mesh, Index triangle, Index first, Index second) noexcept {
-  const Index* v = mesh.triangle(triangle);
-  for (Index k = 0; k < 3; ++k) {
-    const Index a = v[k], b = v[(k + 1) % 3];
-    if (a == first && b == second) return {triangle, k, true, 0};
-    if (a == second && b == first) return {triangle, k, false, 0};
-  }
-  return {triangle, 0, true, 0};
-}
-
 // Sorts the sides by their angle about the edge, counter-clockwise for a viewer at whom the edge points.
-void sort_by_angle(const Mesh& mesh, Index first, Index second, Vector<Side>& sides) {
-  const Vec3 origin = mesh.positions[at(first)];
-  Vec3 axis = mesh.positions[at(second)] - origin;
+void sort_by_angle(const Mesh& mesh, const Topology& topology, Index edge, Vector<Side>& sides) {
+  const Vec3 origin = mesh.positions[at(topology.first(edge))];
+  Vec3 axis = mesh.positions[at(topology.second(edge))] - origin;
   const double length = norm(axis);
   if (length > 0) axis = (1 / length) * axis;
   Vec3 x, y;
   for (Side& side : sides) {
-    const Vec3 p = mesh.positions[at(mesh.triangle(side.triangle)[(side.corner + 2) % 3])] - origin;
+    const Index k = topology.corner(side.side) % 3;
+    const Vec3 p = mesh.positions[at(mesh.triangle(topology.triangle(side.side))[(k + 2) % 3])] - origin;
     const Vec3 radius = p - dot(p, axis) * axis;
     if (!(norm(x) > 0)) x = radius, y = cross(axis, radius);
     side.angle = arc_tangent(dot(y, radius), dot(x, radius));
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.angle != b.angle ? a.angle < b.angle : a.triangle < b.triangle;
-  });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return a.angle != b.angle ? a.angle < b.angle : a.side < b.side; });
 }
 
 // Marks the components where every edge joins two triangles that run through it in opposite directions.
@@ -70,11 +59,8 @@ Vector<std::uint8_t> plain_components(const Mesh& mesh, const Topology& topology
     for (std::size_t e = p * cover_piece; e < std::min(edges, (p + std::size_t{1}) * cover_piece); ++e) {
       const Index begin = topology.edge_triangle_start[e], end = topology.edge_triangle_start[e + 1];
       if (held && (*held)[e]) continue;
-      const Index i = topology.first(static_cast<Index>(e)), j = topology.second(static_cast<Index>(e));
-      if (end - begin == 2 && side_of(mesh, topology.edge_triangle[at(begin)], i, j).forward !=
-                                  side_of(mesh, topology.edge_triangle[at(begin) + 1], i, j).forward)
-        continue;
-      const Index component = mesh.component[at(i)];
+      if (end - begin == 2 && topology.forward(begin) != topology.forward(begin + 1)) continue;
+      const Index component = mesh.component[at(topology.first(static_cast<Index>(e)))];
       if (broken[p].empty() || broken[p].back() != component) broken[p].push_back(component);
     }
   });
@@ -102,10 +88,10 @@ IntrinsicTriangulation IntrinsicTriangulation::make(const Mesh& mesh, const Topo
     cover.doubled_.assign(at(faces), 1);
     for (std::size_t t = 0; t < triangles; ++t) cover.doubled_[t] = back[t] != static_cast<Index>(t);
   }
-  cover.tail_.resize(3 * at(faces)), cover.twin_.resize(3 * at(faces));
-  cover.length_.resize(3 * at(faces)), cover.cotangent_.resize(3 * at(faces));
+  cover.tail_.allocate(memory, 3 * at(faces)), cover.twin_.allocate(memory, 3 * at(faces));
+  cover.length_.allocate(memory, 3 * at(faces)), cover.cotangent_.allocate(memory, 3 * at(faces));
   cover.glue(mesh, topology, back, held, jobs);
-  cover.measure(mesh, topology, back, jobs);
+  if (cover.measure(mesh, topology, back, jobs)) cover.measure_mollified(mesh, topology, back, jobs);
   return cover;
 }
 
@@ -125,44 +111,81 @@ void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, co
       }
     }
   });
+  // A side of a triangle as half-edge of its front and of its back face.
+  const auto front = [&](Index side) { return topology.corner(side); };
+  const auto reverse = [&](Index side) {
+    const Index corner = topology.corner(side);
+    return 3 * back[at(corner / 3)] + 2 - corner % 3;
+  };
+  const auto covered = [&](Index side) { return back[at(topology.triangle(side))] != topology.triangle(side); };
   for_each(jobs, pieces(edges), [&](std::uint32_t p) {
     Vector<Side> sides(memory_);
     for (std::size_t e = p * cover_piece; e < std::min(edges, (p + std::size_t{1}) * cover_piece); ++e) {
-      const Index first = topology.first(static_cast<Index>(e)), second = topology.second(static_cast<Index>(e));
-      sides.clear();
-      for (Index i = topology.edge_triangle_start[e]; i < topology.edge_triangle_start[e + 1]; ++i)
-        sides.push_back(side_of(mesh, topology.edge_triangle[at(i)], first, second));
-      if (sides.size() > 2) sort_by_angle(mesh, first, second, sides);
-      const auto front = [](const Side& s) { return 3 * s.triangle + s.corner; };
-      const auto reverse = [&](const Side& s) { return 3 * back[at(s.triangle)] + 2 - s.corner; };
+      const Index begin = topology.edge_triangle_start[e], end = topology.edge_triangle_start[e + 1];
       if (held && (*held)[e]) {
-        for (const Side& side : sides) {
-          twin_[at(front(side))] = front(side);
-          if (back[at(side.triangle)] != side.triangle) twin_[at(reverse(side))] = reverse(side);
+        for (Index i = begin; i < end; ++i) {
+          twin_[at(front(i))] = front(i);
+          if (covered(i)) twin_[at(reverse(i))] = reverse(i);
         }
         continue;
       }
-      if (back[at(sides[0].triangle)] == sides[0].triangle) {
-        twin_[at(front(sides[0]))] = front(sides[1]), twin_[at(front(sides[1]))] = front(sides[0]);
+      if (!covered(begin)) {
+        twin_[at(front(begin))] = front(begin + 1), twin_[at(front(begin + 1))] = front(begin);
         continue;
       }
+      sides.clear();
+      for (Index i = begin; i < end; ++i) sides.push_back({i, 0});
+      if (sides.size() > 2) sort_by_angle(mesh, topology, static_cast<Index>(e), sides);
       for (std::size_t s = 0; s < sides.size(); ++s) {
         // Triangles at an edge are sorted around it. If a triangle's side runs along the edge's direction, its normal
         // points towards the next triangle.
-        const Side &here = sides[s], &there = sides[(s + 1) % sides.size()];
-        const Index a = here.forward ? front(here) : reverse(here), b = there.forward ? reverse(there) : front(there);
+        const Index here = sides[s].side, there = sides[(s + 1) % sides.size()].side;
+        const Index a = topology.forward(here) ? front(here) : reverse(here),
+                    b = topology.forward(there) ? reverse(there) : front(there);
         twin_[at(a)] = b, twin_[at(b)] = a;
       }
     }
   });
 }
 
-// Computes edge lengths, mollified where a triangle is degenerate, and the cotangents of the original triangles.
-void IntrinsicTriangulation::measure(const Mesh& mesh, const Topology& topology, const Vector<Index>& back,
+void IntrinsicTriangulation::set_face(const double length[3], const double cotangent[3], std::size_t face,
+                                      std::size_t back) noexcept {
+  for (std::size_t k = 0; k < 3; ++k) {
+    length_[3 * face + k] = length[k], cotangent_[3 * face + k] = cotangent[k];
+    if (back != face) length_[3 * back + 2 - k] = length[k], cotangent_[3 * back + 2 - k] = cotangent[k];
+  }
+}
+
+bool IntrinsicTriangulation::measure(const Mesh& mesh, const Topology& topology, const Vector<Index>& back,
                                      JobRunner* jobs) {
+  const std::size_t triangles = back.size(), pieces = (triangles + cover_piece - 1) / cover_piece;
+  Vector<ThinCheck> checks(pieces, memory_);
+  for_each(jobs, static_cast<std::uint32_t>(pieces), [&](std::uint32_t p) {
+    ThinCheck own;
+    for (std::size_t t = p * cover_piece; t < std::min(triangles, (p + std::size_t{1}) * cover_piece); ++t) {
+      const Index* v = mesh.triangle(static_cast<Index>(t));
+      double length[3], corner[3];
+      for (std::size_t k = 0; k < 3; ++k)
+        length[k] = norm(mesh.positions[at(v[(k + 1) % 3])] - mesh.positions[at(v[k])]);
+      own.add(length[0], length[1], length[2]);
+      corner_cotangents(mesh, static_cast<Index>(t), corner);
+      const double cotangent[3] = {corner[2], corner[0], corner[1]};  // side k is opposite corner k + 2
+      set_face(length, cotangent, t, at(back[t]));
+    }
+    checks[p] = own;
+  });
+  ThinCheck all;
+  for (const ThinCheck& own : checks) all.add(own);
+  return all.may_be_thin(topology.edge_count());
+}
+
+// Writes lengths and cotangents of the triangles again where edges had to grow.
+void IntrinsicTriangulation::measure_mollified(const Mesh& mesh, const Topology& topology, const Vector<Index>& back,
+                                               JobRunner* jobs) {
   const MollifiedLengths lengths = MollifiedLengths::make(mesh, topology, *memory_, jobs);
   mollified_ = lengths.thin_count;
-  if (!lengths.changed.empty()) changed_.assign(mesh.positions.size(), 0);
+  if (lengths.changed.empty()) return;
+  changed_.assign(mesh.positions.size(), 0);
   for (Index e = 0; e < static_cast<Index>(lengths.changed.size()); ++e) {
     if (lengths.changed[at(e)]) changed_[at(topology.first(e))] = changed_[at(topology.second(e))] = 1;
   }
@@ -174,20 +197,11 @@ void IntrinsicTriangulation::measure(const Mesh& mesh, const Topology& topology,
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t e = at(lengths.edge_of_side[3 * t + k]);
         length[k] = lengths.length[e];
-        changed = changed || (!lengths.changed.empty() && lengths.changed[e]);
+        changed = changed || lengths.changed[e];
       }
-      if (changed) {
-        cotangents_of_lengths(length, cotangent);
-      } else {
-        double corner[3];
-        corner_cotangents(mesh, static_cast<Index>(t), corner);
-        for (std::size_t k = 0; k < 3; ++k) cotangent[k] = corner[(k + 2) % 3];
-      }
-      for (std::size_t k = 0; k < 3; ++k) {
-        length_[3 * t + k] = length[k], cotangent_[3 * t + k] = cotangent[k];
-        if (at(back[t]) == t) continue;
-        length_[3 * at(back[t]) + 2 - k] = length[k], cotangent_[3 * at(back[t]) + 2 - k] = cotangent[k];
-      }
+      if (!changed) continue;
+      cotangents_of_lengths(length, cotangent);
+      set_face(length, cotangent, t, at(back[t]));
     }
   });
 }
@@ -238,15 +252,19 @@ void IntrinsicTriangulation::flip(Index half) noexcept {
   measure_face(h0 / 3), measure_face(g0 / 3);
 }
 
-std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit) {
-  const Index halves = static_cast<Index>(twin_.size());
-  if (flip_limit == 0) flip_limit = flips_per_half * twin_.size();
+std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit, JobRunner* jobs) {
+  const std::size_t halves = twin_.size(), pieces = (halves + cover_piece - 1) / cover_piece;
+  if (flip_limit == 0) flip_limit = flips_per_half * halves;
+  Vector<Vector<Index>> found(pieces, memory_);
+  for_each(jobs, static_cast<std::uint32_t>(pieces), [&](std::uint32_t p) {
+    for (std::size_t h = p * cover_piece; h < std::min(halves, (p + std::size_t{1}) * cover_piece); ++h) {
+      if (static_cast<Index>(h) < twin_[h] && !is_delaunay(static_cast<Index>(h)))
+        found[p].push_back(static_cast<Index>(h));
+    }
+  });
   Vector<Index> queue(memory_);
+  for (const auto& list : found) queue.insert(queue.end(), list.begin(), list.end());
   Poller poller;
-  for (Index h = 0; h < halves; ++h) {
-    poller.due();
-    if (h < twin_[at(h)] && !is_delaunay(h)) queue.push_back(h);
-  }
   std::uint64_t flips = 0;
   for (std::size_t head = 0; head < queue.size() && flips < flip_limit; ++head) {
     poller.due();
@@ -278,69 +296,101 @@ Vector<double> IntrinsicTriangulation::vertex_areas(Index vertex_count, Memory& 
   return areas;
 }
 
+namespace {
+
+// Rows of at most this many entries are sorted by insertion. Longer ones would take quadratic time.
+constexpr std::size_t short_row = 32;
+
+// Sorts the entries of a row by column and adds up those of one column. Equal columns are added from the smallest
+// weight on, so that both rows of parallel edges get the same sum. Returns the number of entries that are left.
+std::size_t sort_row(Index* column, double* weight, std::size_t count, Memory& memory) {
+  if (count <= short_row) {
+    for (std::size_t i = 1; i < count; ++i) {
+      const Index c = column[i];
+      const double w = weight[i];
+      std::size_t k = i;
+      for (; k > 0 && (column[k - 1] > c || (column[k - 1] == c && weight[k - 1] > w)); --k)
+        column[k] = column[k - 1], weight[k] = weight[k - 1];
+      column[k] = c, weight[k] = w;
+    }
+  } else {
+    Vector<std::pair<Index, double>> entries(count, &memory);
+    for (std::size_t i = 0; i < count; ++i) entries[i] = {column[i], weight[i]};
+    std::sort(entries.begin(), entries.end());
+    for (std::size_t i = 0; i < count; ++i) column[i] = entries[i].first, weight[i] = entries[i].second;
+  }
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (left > 0 && column[left - 1] == column[i])
+      weight[left - 1] += weight[i];
+    else
+      column[left] = column[i], weight[left++] = weight[i];
+  }
+  return left;
+}
+
+}  // namespace
+
+// Every row is written where it stays, with one place for the diagonal at its end, then sorted there. Only where edges
+// are parallel do rows become shorter and move up.
 SymmetricMatrix IntrinsicTriangulation::laplacian(Index vertex_count, Memory& memory, JobRunner* jobs) const {
-  const std::size_t n = at(vertex_count);
-  struct Entry {
-    Index column, half;  // ascending: sums of parallel edges run in the same order in both rows
-    bool operator<(const Entry& o) const noexcept { return column != o.column ? column < o.column : half < o.half; }
-  };
-  Vector<Index> start(n + 1, 0, &memory);
-  const Index halves = static_cast<Index>(twin_.size());
-  const auto ends = [&](Index h) { return std::make_pair(tail_[at(h)], tail_[at(twin_[at(h)])]); };
-  for (Index h = 0; h < halves; ++h) start[at(tail_[at(h)]) + 1] += tail_[at(h)] != tail_[at(twin_[at(h)])];
+  const std::size_t n = at(vertex_count), halves = twin_.size();
+  SymmetricMatrix matrix(memory);
+  Vector<Index>& start = matrix.column_start;
+  start.assign(n + 1, 1);  // the diagonals
+  start[0] = 0;
+  const auto head_of = [&](std::size_t h) { return tail_[at(twin_[h])]; };
+  for (std::size_t h = 0; h < halves; ++h) start[at(tail_[h]) + 1] += tail_[h] != head_of(h);
   for (std::size_t v = 0; v < n; ++v) start[v + 1] += start[v];
   poll();
-  Buffer<Entry> entries(memory, at(start[n]));
-  Vector<Index> cursor(start.begin(), start.end() - 1, &memory);
-  for (Index h = 0; h < halves; ++h) {
-    const auto [i, j] = ends(h);
-    if (i != j) entries[at(cursor[at(i)]++)] = {j, std::min(h, twin_[at(h)])};
-  }
+  matrix.row.resize(at(start[n])), matrix.value.resize(at(start[n]));
   poll();
-  // Sorts each row and merges its entries in place. Afterwards row_length is the number of off-diagonal entries of each
-  // row.
-  Vector<Index> row_length(n, 0, &memory);
-  Buffer<double> value(memory, entries.size());
+  Vector<Index> cursor(start.begin(), start.end() - 1, &memory);
+  // Each thread reads all half-edges and writes the rows of its own vertices, in the same order for any number of them.
+  const std::size_t ranges = jobs ? jobs->thread_count() : 1;
+  for_each(jobs, static_cast<std::uint32_t>(ranges), [&](std::uint32_t r) {
+    const Index first = static_cast<Index>(n * r / ranges), end = static_cast<Index>(n * (r + 1) / ranges);
+    for (std::size_t h = 0; h < halves; ++h) {
+      const Index i = tail_[h];
+      if (i < first || i >= end) continue;
+      const Index j = head_of(h);
+      if (i == j) continue;
+      const std::size_t to = at(cursor[at(i)]++);
+      matrix.row[to] = j;
+      matrix.value[to] = share(static_cast<Index>(h / 3)) * std::max(0.0, edge_weight(static_cast<Index>(h)));
+    }
+  });
+  poll();
   const std::uint32_t pieces = static_cast<std::uint32_t>((n + cover_piece - 1) / cover_piece);
   for_each(jobs, pieces, [&](std::uint32_t p) {
     for (std::size_t v = p * cover_piece; v < std::min(n, (p + std::size_t{1}) * cover_piece); ++v) {
-      Entry* const begin = entries.data() + start[v];
-      Entry* const end = entries.data() + start[v + 1];
-      std::sort(begin, end);
-      double* const weight = value.data() + start[v];
-      Index count = 0;
-      for (const Entry* entry = begin; entry != end; ++entry) {
-        const double w = share(entry->half / 3) * std::max(0.0, edge_weight(entry->half));
-        if (count > 0 && begin[count - 1].column == entry->column) {
-          weight[count - 1] += w;
-        } else {
-          begin[count].column = entry->column, weight[count++] = w;
-        }
-      }
-      row_length[v] = count;
-    }
-  });
-  poll();
-  SymmetricMatrix matrix(memory);
-  matrix.column_start.assign(n + 1, 0);
-  for (std::size_t v = 0; v < n; ++v) matrix.column_start[v + 1] = matrix.column_start[v] + row_length[v] + 1;
-  matrix.row.resize(at(matrix.column_start[n])), matrix.value.resize(at(matrix.column_start[n]));
-  poll();
-  for_each(jobs, pieces, [&](std::uint32_t p) {
-    for (std::size_t v = p * cover_piece; v < std::min(n, (p + std::size_t{1}) * cover_piece); ++v) {
-      std::size_t to = at(matrix.column_start[v]), diagonal = to;
-      bool placed = false;
+      Index* const column = matrix.row.data() + start[v];
+      double* const value = matrix.value.data() + start[v];
+      const std::size_t count = sort_row(column, value, at(start[v + 1] - start[v]) - 1, memory);
+      cursor[v] = static_cast<Index>(count) + 1;  // the length of the row
       double sum = 0;
-      const auto place = [&] { diagonal = to, matrix.row[to++] = static_cast<Index>(v), placed = true; };
-      for (std::size_t i = at(start[v]); i < at(start[v]) + at(row_length[v]); ++i) {
-        if (!placed && at(entries[i].column) > v) place();
-        matrix.row[to] = entries[i].column, matrix.value[to++] = -value[i];
-        sum += value[i];
-      }
-      if (!placed) place();
-      matrix.value[diagonal] = sum;
+      for (std::size_t i = 0; i < count; ++i) sum += value[i], value[i] = -value[i];
+      std::size_t diagonal = count;
+      for (; diagonal > 0 && at(column[diagonal - 1]) > v; --diagonal)
+        column[diagonal] = column[diagonal - 1], value[diagonal] = value[diagonal - 1];
+      column[diagonal] = static_cast<Index>(v), value[diagonal] = sum;
     }
   });
+  poll();
+  std::size_t to = 0;
+  for (std::size_t v = 0; v < n; ++v) {
+    const std::size_t from = at(start[v]), count = at(cursor[v]);
+    start[v] = static_cast<Index>(to);
+    if (to != from) {
+      std::copy_n(matrix.row.begin() + static_cast<std::ptrdiff_t>(from), count,
+                  matrix.row.begin() + static_cast<std::ptrdiff_t>(to));
+      std::copy_n(matrix.value.begin() + static_cast<std::ptrdiff_t>(from), count,
+                  matrix.value.begin() + static_cast<std::ptrdiff_t>(to));
+    }
+    to += count;
+  }
+  start[n] = static_cast<Index>(to);
+  matrix.row.resize(to), matrix.value.resize(to);
   return matrix;
 }
 

@@ -33,14 +33,7 @@ constexpr double delaunay_rounding = 1e-10;
 class IntrinsicTriangulation {
  public:
   // Makes an empty triangulation.
-  explicit IntrinsicTriangulation(Memory& memory)
-      : memory_(&memory),
-        tail_(&memory),
-        twin_(&memory),
-        length_(&memory),
-        cotangent_(&memory),
-        doubled_(&memory),
-        changed_(&memory) {}
+  explicit IntrinsicTriangulation(Memory& memory) : memory_(&memory), doubled_(&memory), changed_(&memory) {}
   // Makes the tufted cover (see above) of a mesh, with the mesh's own edges. held: null, or for each edge whether more
   // of the surface lies beyond it. A held edge is no border and is never flipped; each of its half-edges is its own
   // twin. Throws std::bad_alloc.
@@ -50,7 +43,7 @@ class IntrinsicTriangulation {
   // Flips edges until every edge is Delaunay. Returns the number of flips. After flip_limit flips (0: 64 per edge) it
   // stops, and weights that are still negative count as zero. The field then still keeps within its site values, but
   // loses accuracy.
-  std::uint64_t flip_to_delaunay(std::uint64_t flip_limit = 0);
+  std::uint64_t flip_to_delaunay(std::uint64_t flip_limit = 0, JobRunner* jobs = nullptr);
 
   std::int32_t face_count() const noexcept { return static_cast<std::int32_t>(tail_.size() / 3); }
   // The half-edge 3 f + k of face f runs from its corner k to its next corner.
@@ -85,14 +78,18 @@ class IntrinsicTriangulation {
   // triangle's own number where the component needs no cover.
   void glue(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back,
             const Vector<std::uint8_t>* held, JobRunner* jobs);
-  void measure(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back, JobRunner* jobs);
+  // Computes lengths and cotangents of the faces as they stand in the mesh. Returns whether a triangle may be so thin
+  // that its edges must grow; then measure_mollified is to be called.
+  bool measure(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back, JobRunner* jobs);
+  void measure_mollified(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back, JobRunner* jobs);
+  void set_face(const double length[3], const double cotangent[3], std::size_t face, std::size_t back) noexcept;
   bool is_delaunay(std::int32_t half) const noexcept;
   void flip(std::int32_t half) noexcept;
   void measure_face(std::int32_t face) noexcept;
 
   Memory* memory_;
-  Vector<std::int32_t> tail_, twin_;
-  Vector<double> length_, cotangent_;
+  Buffer<std::int32_t> tail_, twin_;
+  Buffer<double> length_, cotangent_;
   Vector<std::uint8_t> doubled_;  // by face: 1 if its component has front and back faces; empty: none has
   Vector<std::uint8_t> changed_;
   std::uint32_t mollified_ = 0;

@@ -114,12 +114,8 @@ Vector<double> cotangent_weights(const Mesh& mesh, const Topology& topology, Mem
   in_pieces(jobs, weights.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       for (Index i = topology.edge_triangle_start[e]; i < topology.edge_triangle_start[e + 1]; ++i) {
-        const Index t = topology.edge_triangle[at(i)];
-        const Index* v = mesh.triangle(t);
-        for (std::size_t k = 0; k < 3; ++k) {
-          if (v[k] != topology.first(static_cast<Index>(e)) && v[k] != topology.second(static_cast<Index>(e)))
-            weights[e] += 0.5 * corner[std::size_t{3} * at(t) + k];
-        }
+        const std::size_t c = at(topology.corner(i));
+        weights[e] += 0.5 * corner[c % 3 == 0 ? c + 2 : c - 1];  // the corner opposite the side
       }
     }
   });

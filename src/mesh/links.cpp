@@ -171,7 +171,7 @@ Topology linked_topology(const Topology& topology, const Links& links, Span<cons
   }
   while (e < topology.edge_count()) copy_edge(e++);
   out.edge_triangle_start.push_back(topology.edge_triangle_start.back());
-  out.edge_triangle.assign(topology.edge_triangle.begin(), topology.edge_triangle.end());
+  out.edge_side.assign(topology.edge_side.begin(), topology.edge_side.end());
   weights.assign(merged.begin(), merged.end());
   out.fill_neighbours(topology.neighbour_start.size() - 1, memory);
   return out;

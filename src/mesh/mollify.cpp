@@ -24,15 +24,8 @@ void find_lengths(const Mesh& mesh, const Topology& topology, MollifiedLengths& 
     for (std::size_t e = p * mollify_piece; e < std::min(edges, (p + std::size_t{1}) * mollify_piece); ++e) {
       const Index first = topology.first(static_cast<Index>(e)), second = topology.second(static_cast<Index>(e));
       out.length[e] = norm(mesh.positions[at(second)] - mesh.positions[at(first)]);
-      for (Index i = topology.edge_triangle_start[e]; i < topology.edge_triangle_start[e + 1]; ++i) {
-        const Index t = topology.edge_triangle[at(i)];
-        const Index* v = mesh.triangle(t);
-        for (std::size_t k = 0; k < 3; ++k) {
-          const Index a = v[k], b = v[(k + 1) % 3];
-          if ((a == first && b == second) || (a == second && b == first))
-            out.edge_of_side[3 * at(t) + k] = static_cast<Index>(e);
-        }
-      }
+      for (Index i = topology.edge_triangle_start[e]; i < topology.edge_triangle_start[e + 1]; ++i)
+        out.edge_of_side[at(topology.corner(i))] = static_cast<Index>(e);
     }
   });
 }

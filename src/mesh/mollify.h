@@ -7,6 +7,9 @@
 // Crane 2020, Section 4.5). The result does not depend on the numbering. Cost: O(n) for each round. A mesh without thin
 // triangles needs one round.
 #pragma once
+#include <cstdint>
+#include <limits>
+
 #include "mesh/topology.h"
 
 namespace hf_inner {
@@ -20,6 +23,33 @@ constexpr double mollify_closing = 1e-8;
 // positions a size. It is a guard. Half and double change no bit on eight shapes with needles, loose pieces and a long
 // ribbon.
 constexpr double mollify_floor = 1e-3;
+
+// Tells from the lengths of all triangles whether some edge may have to grow. It is on the safe side: the limits are
+// twice those above, so rounding hides no thin triangle.
+class ThinCheck {
+ public:
+  void add(double a, double b, double c) noexcept {
+    const double longest = a > b ? (a > c ? a : c) : (b > c ? b : c), gap = a + b + c - 2 * longest;
+    sum_ += a + b + c;
+    gap_ = gap < gap_ ? gap : gap_;
+    const double share = gap / (longest > least_length ? longest : least_length);
+    share_ = share < share_ ? share : share_;
+  }
+  void add(const ThinCheck& part) noexcept {
+    sum_ += part.sum_;
+    gap_ = part.gap_ < gap_ ? part.gap_ : gap_, share_ = part.share_ < share_ ? part.share_ : share_;
+  }
+  // edge_count: of the mesh. An edge between two triangles was added twice, so the mean is on the safe side too.
+  bool may_be_thin(std::int32_t edge_count) const noexcept {
+    const double mean = sum_ / (edge_count > 0 ? edge_count : 1), closing = 2 * mollify_closing;
+    return !(share_ > closing && gap_ > closing * mollify_floor * mean);
+  }
+
+ private:
+  // A length that divides counts as at least this, so that triangles with three equal positions do not divide by zero.
+  static constexpr double least_length = 1e-300;
+  double sum_ = 0, share_ = std::numeric_limits<double>::infinity(), gap_ = std::numeric_limits<double>::infinity();
+};
 
 struct MollifiedLengths {
   explicit MollifiedLengths(Memory& memory) : length(&memory), edge_of_side(&memory), changed(&memory) {}

@@ -21,7 +21,7 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
 
   // Half-edges are put into buckets by their smaller vertex, then sorted by their larger vertex.
   struct Half {
-    Index second, triangle;
+    Index second, side;  // the side as in edge_side
   };
   Vector<Index> start(n + 1, 0, &memory);
   for (std::size_t c = 0; c < corner_count; ++c) {
@@ -35,15 +35,15 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
   for (std::size_t c = 0; c < corner_count; ++c) {
     const std::size_t t = c / 3, k = c % 3;
     const Index a = mesh.corners[c], b = mesh.corners[3 * t + (k + 1) % 3];
-    halves[at(cursor[at(std::min(a, b))]++)] = {std::max(a, b), static_cast<Index>(t)};
+    halves[at(cursor[at(std::min(a, b))]++)] = {std::max(a, b), static_cast<Index>(2 * c + (a < b))};
   }
   poll();
   topology.edges.reserve(corner_count);
   topology.edge_triangle_start.reserve(corner_count / 2);
-  topology.edge_triangle.resize(corner_count);
+  topology.edge_side.resize(corner_count);
   const auto sort_bucket = [&](std::size_t v) {
     std::sort(halves.begin() + start[v], halves.begin() + start[v + 1], [](const Half& a, const Half& b) {
-      return a.second != b.second ? a.second < b.second : a.triangle < b.triangle;
+      return a.second != b.second ? a.second < b.second : a.side < b.side;
     });
   };
   for_each(jobs, static_cast<std::uint32_t>((n + bucket_piece - 1) / bucket_piece), [&](std::uint32_t p) {
@@ -57,7 +57,7 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
         topology.edges.push_back(static_cast<Index>(v));
         topology.edges.push_back(half->second);
       }
-      topology.edge_triangle[static_cast<std::size_t>(half - halves.begin())] = half->triangle;
+      topology.edge_side[static_cast<std::size_t>(half - halves.begin())] = half->side;
     }
   }
   topology.edge_triangle_start.push_back(static_cast<Index>(corner_count));
@@ -91,7 +91,7 @@ std::int32_t Topology::edge_between(std::int32_t a, std::int32_t b) const noexce
   return neighbour_edge[static_cast<std::size_t>(found - neighbour.begin())];
 }
 
-void count_edges(const Mesh& mesh, const Topology& topology, MeshReport& report) noexcept {
+void count_edges(const Topology& topology, MeshReport& report) noexcept {
   const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
   report.boundary_edge_count = report.non_manifold_edge_count = report.flipped_edge_count = 0;
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
@@ -99,10 +99,7 @@ void count_edges(const Mesh& mesh, const Topology& topology, MeshReport& report)
     report.boundary_edge_count += end - begin == 1;
     report.non_manifold_edge_count += end - begin > 2;
     std::int32_t forward = 0;
-    for (std::int32_t i = begin; i < end; ++i) {
-      const std::int32_t* v = mesh.triangle(topology.edge_triangle[at(i)]);
-      for (int k = 0; k < 3; ++k) forward += v[k] == topology.first(e) && v[(k + 1) % 3] == topology.second(e);
-    }
+    for (std::int32_t i = begin; i < end; ++i) forward += topology.forward(i);
     report.flipped_edge_count += forward > 1 || end - begin - forward > 1;
   }
 }

@@ -10,7 +10,7 @@ struct Topology {
   explicit Topology(Memory& memory)
       : edges(&memory),
         edge_triangle_start(&memory),
-        edge_triangle(&memory),
+        edge_side(&memory),
         neighbour_start(&memory),
         neighbour(&memory),
         neighbour_edge(&memory) {}
@@ -23,19 +23,28 @@ struct Topology {
   std::int32_t first(std::int32_t e) const noexcept { return edges[std::size_t{2} * static_cast<std::size_t>(e)]; }
   std::int32_t second(std::int32_t e) const noexcept { return edges[std::size_t{2} * static_cast<std::size_t>(e) + 1]; }
 
+  // Side i is an edge of a triangle: it runs from corner c = 3 t + k of triangle t to the triangle's next corner. It is
+  // forward if it runs from the edge's first vertex to its second.
+  std::int32_t triangle(std::int32_t i) const noexcept { return side(i) / 6; }
+  std::int32_t corner(std::int32_t i) const noexcept { return side(i) / 2; }
+  bool forward(std::int32_t i) const noexcept { return (side(i) & 1) != 0; }
+
   // The edge between two vertices, or Mesh::none.
   std::int32_t edge_between(std::int32_t a, std::int32_t b) const noexcept;
 
   Vector<std::int32_t> edges;                // 2 per edge
-  Vector<std::int32_t> edge_triangle_start;  // triangles of edge e: edge_triangle[start[e] .. start[e+1])
-  Vector<std::int32_t> edge_triangle;
-  Vector<std::int32_t> neighbour_start;  // neighbours of vertex v, ascending: neighbour[start[v] .. start[v+1])
+  Vector<std::int32_t> edge_triangle_start;  // sides of edge e: edge_side[start[e] .. start[e+1]), by triangle
+  Vector<std::int32_t> edge_side;            // 2 c + 1 if the side runs from the edge's first vertex, else 2 c
+  Vector<std::int32_t> neighbour_start;      // neighbours of vertex v, ascending: neighbour[start[v] .. start[v+1])
   Vector<std::int32_t> neighbour;
   Vector<std::int32_t> neighbour_edge;  // the edge to that neighbour
+
+ private:
+  std::int32_t side(std::int32_t i) const noexcept { return edge_side[static_cast<std::size_t>(i)]; }
 };
 
 // Counts boundary, non-manifold and flipped edges in the report. An edge is flipped when two triangles run through it
 // in the same direction.
-void count_edges(const Mesh& mesh, const Topology& topology, MeshReport& report) noexcept;
+void count_edges(const Topology& topology, MeshReport& report) noexcept;
 
 }  // namespace hf_inner

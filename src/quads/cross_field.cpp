@@ -42,7 +42,7 @@ Vector<Complex> curvature_crosses(const Core& core, const Connection& connection
     const Index first = topology.edge_triangle_start[at(e)];
     if (topology.edge_triangle_start[at(e) + 1] - first != 2) continue;
     const Index a = topology.first(e), b = topology.second(e);
-    const Index s = topology.edge_triangle[at(first)], t = topology.edge_triangle[at(first) + 1];
+    const Index s = topology.triangle(first), t = topology.triangle(first + 1);
     const Vec3 edge = mesh.positions[at(b)] - mesh.positions[at(a)], p = triangle_normal(mesh, s),
                q = triangle_normal(mesh, t);
     const double length = norm(edge);

@@ -46,7 +46,7 @@ void for_triangles(const Topology& topology, Index v, Use&& use) {
   for (Index k = topology.neighbour_start[at(v)]; k < topology.neighbour_start[at(v) + 1]; ++k) {
     const std::size_t e = at(topology.neighbour_edge[at(k)]);
     for (Index i = topology.edge_triangle_start[e]; i < topology.edge_triangle_start[e + 1]; ++i)
-      use(topology.edge_triangle[at(i)]);
+      use(topology.triangle(i));
   }
 }
 

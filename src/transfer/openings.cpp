@@ -23,8 +23,7 @@ Border::Border(const Core& core, Memory& memory)
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     const std::int32_t from = topology.edge_triangle_start[at(e)];
     if (topology.edge_triangle_start[at(e) + 1] - from != 1) continue;
-    const std::int32_t *c = core.mesh.triangle(topology.edge_triangle[at(from)]), a = topology.first(e),
-                       b = topology.second(e);
+    const std::int32_t *c = core.mesh.triangle(topology.triangle(from)), a = topology.first(e), b = topology.second(e);
     const std::int32_t third = c[0] != a && c[0] != b ? c[0] : c[1] != a && c[1] != b ? c[1] : c[2];
     const Vec3 along = unit_vector(p[b] - p[a]), inward = p[third] - p[a];
     const Vec3 outward = unit_vector(dot(along, inward) * along - inward);

@@ -7,6 +7,8 @@
 #include <mutex>
 
 #include "assets/creature.h"
+#include "assets/creature_design.h"
+#include "assets/even_mesh.h"
 #include "assets/shapes.h"
 #include "common/mesh_file.h"
 
@@ -53,6 +55,22 @@ std::shared_ptr<const Mesh> make_mesh(Family family, Size size, bool small) {
 std::shared_ptr<const Mesh> make_mesh(Family family, uint32_t vertices) {
   const uint32_t side = static_cast<uint32_t>(std::lround(std::sqrt(static_cast<double>(vertices))));
   return stored(family, side, side);
+}
+
+std::shared_ptr<const Mesh> make_scan(uint32_t vertices) {
+  const samples::Design horse = samples::design_horse();
+  // the number of vertices grows with the inverse square of the spacing
+  double spacing = 0.02;
+  samples::TriangleMesh scan;
+  for (int round = 0; round < 3; ++round) {
+    scan = samples::polygonise(horse.body, spacing, 0, 1e-5);
+    spacing *= std::sqrt(static_cast<double>(scan.points.size()) / vertices);
+  }
+  auto mesh = std::make_shared<Mesh>();
+  mesh->name = std::to_string(std::lround(vertices / 1000.0)) + "K_scan";
+  for (const glm::dvec3& p : scan.points) mesh->positions.insert(mesh->positions.end(), {p.x, p.y, p.z});
+  for (const samples::Triangle& t : scan.triangles) mesh->triangles.insert(mesh->triangles.end(), t.begin(), t.end());
+  return mesh;
 }
 
 std::vector<std::shared_ptr<const Mesh>> real_meshes() {

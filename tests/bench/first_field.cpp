@@ -16,11 +16,11 @@ struct Ours {
   hf_surface_statistics statistics;
 };
 
-Ours our_first_field(const Mesh& mesh, const std::vector<uint32_t>& sites, uint32_t threads) {
+Ours our_first_field(const Mesh& mesh, const std::vector<uint32_t>& sites, SolverOptions options) {
   Ours ours;
   std::vector<float> field(mesh.vertex_count());
   const Clock clock;
-  const Solver solver(mesh, {HF_ENGINE_GREEN, threads});
+  const Solver solver(mesh, options);
   Sites(solver).edit(sites, {});
   solver.solve(field);
   ours.total = clock.milliseconds();
@@ -28,15 +28,17 @@ Ours our_first_field(const Mesh& mesh, const std::vector<uint32_t>& sites, uint3
   return ours;
 }
 
-nlohmann::json run_mesh(const Mesh& mesh, const Run& run, Report& report) {
+nlohmann::json run_mesh(const Mesh& mesh, int operator_kind, const Run& run, Report& report) {
   const std::vector<uint32_t> sites = scattered_vertices(mesh.vertex_count(), 10, 5);
   const std::unique_ptr<CholmodPeer> peer = CholmodPeer::make(cotangent_matrix(mesh), run.threads);
   if (peer) peer->set_sites(sites);
   std::vector<double> ours, analyse, factorise, solve, theirs;
   double cold_ours = 0, cold_theirs = 0;
   hf_surface_statistics phases{};
+  SolverOptions options;
+  options.threads = run.threads, options.operator_kind = operator_kind;
   for (uint32_t r = 0; r < run.repetitions + 1; ++r) {
-    const Ours own = our_first_field(mesh, sites, run.threads);
+    const Ours own = our_first_field(mesh, sites, options);
     phases = own.statistics;
     double total = 0;
     if (peer) {
@@ -81,7 +83,14 @@ Rows run_first_field(const Run& run, Report& report) {
   Rows rows = Rows::array();
   for (const Family family : families) {
     const auto mesh = make_mesh(family, Size::k304, run.small);
-    if (run.wants(mesh->name)) rows.push_back(run_mesh(*mesh, run, report));
+    if (run.wants(mesh->name)) rows.push_back(run_mesh(*mesh, HF_OPERATOR_COTANGENT, run, report));
+  }
+  // slivers, by the operator that hosts get unless they ask for another one
+  const uint32_t sizes[] = {437000, 2000000};
+  for (const uint32_t vertices : sizes) {
+    const std::string name = std::to_string(vertices / 1000) + "K_scan";
+    if (run.small || !run.wants(name)) continue;
+    rows.push_back(run_mesh(*make_scan(vertices), HF_OPERATOR_INTRINSIC_DELAUNAY, run, report));
   }
   return rows;
 }

@@ -78,7 +78,7 @@ double crease(const RegionSurface& surface, const RegionState& state) {
   for (std::size_t e = 0; e < static_cast<std::size_t>(topology.edge_count()); ++e) {
     const std::size_t first = static_cast<std::size_t>(topology.edge_triangle_start[e]);
     if (topology.edge_triangle_start[e + 1] - topology.edge_triangle_start[e] != 2) continue;
-    const std::int32_t a = topology.edge_triangle[first], b = topology.edge_triangle[first + 1];
+    const std::int32_t a = topology.triangle(first), b = topology.triangle(first + 1);
     if (moves(a) == moves(b)) continue;
     sum += std::acos(std::min(1.0, std::max(-1.0, dot(normal(a), normal(b))))) * 180 / 3.14159265358979, count += 1;
   }
