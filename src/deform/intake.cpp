@@ -94,11 +94,14 @@ VertexRange read_range(const hf_deform_desc& desc, std::uint32_t vertex_count) {
 }
 
 DeformRequest read_request(const hf_deform_desc& desc) {
-  check_flag(desc.restart, "restart"), check_flag(desc.refine, "refine");
+  check_flag(desc.restart, "restart");
+  if (desc.refine < 0 || desc.refine > static_cast<std::int32_t>(most_refine_steps))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "refine is %d; it must be 0 to %u steps", desc.refine,
+         most_refine_steps);
   DeformRequest request;
   request.normals = desc.normals != nullptr;
   request.iteration_count = desc.iteration_count;
-  request.restart = desc.restart != 0, request.refine = desc.refine == 1;
+  request.restart = desc.restart != 0, request.refine = static_cast<std::uint32_t>(desc.refine);
   return request;
 }
 

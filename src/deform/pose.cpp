@@ -269,7 +269,7 @@ void Pose::keep_in_place(const Layout& layout, State& state) {
   Buffer<Vec3> fresh(memory(), n);
   blend(core_->mesh, layout.weights, state.transforms.data(), state.columns.data(), core_->mesh.centre,
         core_->mesh.scale, fresh.data(), nullptr, *core_->jobs);
-  if (refined_) make_refinement(layout), refine(layout, state, fresh.data());
+  if (refined_ > 0) make_refinement(layout, refined_), refine(layout, state, refined_, fresh.data());
   auto crossfade = make_shared_in<Crossfade>(memory(), n, memory());
   const Span<const RigidMotion> now = placed(state);
   crossfade->placed.assign(now.begin(), now.end());

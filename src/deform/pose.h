@@ -53,7 +53,7 @@ struct DeformRequest {
   bool normals = false;
   std::uint32_t iteration_count = 0;  // 0: the pose's own
   bool restart = false;               // forget the last pose, also full turns beyond 180 degrees
-  bool refine = false;                // one full-mesh step on top (refine.h); needs a second-order operator
+  std::uint32_t refine = 0;           // full-mesh steps on top (refine.h); need a second-order operator
   bool surface = true;                // false: no vertices are written; ask blended() for those wanted
   float* packed_positions = nullptr;  // three per inner vertex, or null
   Normal* packed_normals = nullptr;   // per inner vertex, or null; if given, normals are written here
@@ -182,8 +182,8 @@ class Pose {
   void place_handles(const Layout& layout, State& state) const noexcept;
   Span<const RigidMotion> placed(const State& state) const noexcept;
   double crossfade_share() const noexcept;
-  void make_refinement(const Layout& layout);
-  void refine(const Layout& layout, const State& state, Vec3* positions);
+  void make_refinement(const Layout& layout, std::uint32_t steps);
+  void refine(const Layout& layout, const State& state, std::uint32_t steps, Vec3* positions);
   void install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept;
   bool restore_previous(const Handles& remaining);
   void solve_smooth(std::uint32_t iterations) noexcept;
@@ -206,7 +206,7 @@ class Pose {
   Buffer<Vec3> turns_;                      // scratch for handle_limit handles
   mutable Vector<RigidMotion> placed_;      // the same
   bool posed_ = false;                      // there is a last pose
-  bool refined_ = false;                    // it had the full-mesh step
+  std::uint32_t refined_ = 0;               // full-mesh steps it had
   mutable bool stale_ = false;              // positions_ are older than the last pose, which only wrote transforms
   std::shared_ptr<Refinement> refinement_;  // made at the first refined frame
   GroupStart start_;

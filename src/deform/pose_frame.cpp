@@ -97,13 +97,13 @@ void Pose::solve_paper(std::uint32_t iterations) noexcept {
                              state_->transforms.data());
 }
 
-void Pose::make_refinement(const Layout& layout) {
+void Pose::make_refinement(const Layout& layout, std::uint32_t steps) {
   // one that is too small is replaced, so that it can be put back
   const std::int32_t slots = layout.sites->slot_count();
-  const std::shared_ptr<Refinement> refinement = refinement_ && refinement_->has_room(slots)
+  const std::shared_ptr<Refinement> refinement = refinement_ && refinement_->has_room(slots, steps)
                                                      ? refinement_
                                                      : make_shared_in<Refinement>(memory(), *core_, memory());
-  refinement->fit(slots);
+  refinement->fit(slots, steps);
   refinement_ = refinement;
 }
 
@@ -117,7 +117,7 @@ void Pose::prepare(const DeformRequest& request) {
   const bool own_normals = request.normals && !request.packed_normals;
   if (request.normals && normal_sums_.size() < n) sums.allocate(memory(), n);
   if (own_normals && normals_.size() < n) normals.allocate(memory(), n);
-  if (request.refine) make_refinement(*layout_);
+  if (request.refine > 0) make_refinement(*layout_, request.refine);
   if (!sums.empty()) normal_sums_ = std::move(sums);
   if (!normals.empty()) normals_ = std::move(normals);
 }
@@ -126,7 +126,8 @@ struct Pose::Kept {
   std::shared_ptr<State> state;
   Buffer<Vec3> positions;
   std::shared_ptr<Refinement> refinement;
-  bool posed = false, stale = false, refined = false, whole = false;
+  bool posed = false, stale = false, whole = false;
+  std::uint32_t refined = 0;
   SolveReport report;
 };
 
@@ -164,8 +165,8 @@ double Pose::crossfade_share() const noexcept {
   return state_->crossfade ? share_left(*state_->crossfade, placed(*state_)) : 0;
 }
 
-// Takes the full-mesh step.
-void Pose::refine(const Layout& layout, const State& state, Vec3* positions) {
+// Takes the full-mesh steps.
+void Pose::refine(const Layout& layout, const State& state, std::uint32_t steps, Vec3* positions) {
   const RefineInput input{*core_,
                           *rest_,
                           layout.reach,
@@ -175,7 +176,7 @@ void Pose::refine(const Layout& layout, const State& state, Vec3* positions) {
                           layout.groups.get(),
                           layout.smooth ? &state.smooth.rotation : nullptr,
                           state.transforms.data()};
-  refinement_->apply(input, positions);
+  refinement_->apply(input, steps, positions);
 }
 
 Vec3 Pose::blended(std::int32_t vertex) const noexcept {
@@ -198,14 +199,14 @@ void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
   const Timer blend_timer;
   const double share = crossfade_share();
   if (!(share > 0)) state_->crossfade.reset();  // it comes back to nothing
-  float* packed = request.refine || share > 0 ? nullptr : request.packed_positions;
+  float* packed = request.refine > 0 || share > 0 ? nullptr : request.packed_positions;
   blend(mesh, layout_->weights, state_->transforms.data(), state_->columns.data(), mesh.centre, mesh.scale,
         positions_.data(), packed, *core_->jobs);
   report.packed_positions = packed != nullptr;
   report.blend_ms = blend_timer.milliseconds();
-  if (request.refine) {
+  if (request.refine > 0) {
     const Timer refine_timer;
-    refine(*layout_, *state_, positions_.data());
+    refine(*layout_, *state_, request.refine, positions_.data());
     report.refine_ms = refine_timer.milliseconds();
   }
   if (share > 0) add_crossfade(*state_->crossfade, share, positions_.data(), *core_->jobs);

@@ -313,7 +313,7 @@ void PoseStack::combine(Layer& layer, Span<const Vec3> below) noexcept {
 DeformReport PoseStack::deform(const DeformRequest& request) {
   check_request(request);
   if (entries_.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
-  if (!request.refine) return deform_all(request);
+  if (request.refine == 0) return deform_all(request);
   // the full-mesh step takes memory after poses were solved: they are put back when there is none
   Vector<Entry> entries(entries_, &memory());
   Vector<std::pair<Pose*, std::shared_ptr<Pose::Kept>>> kept(&memory());

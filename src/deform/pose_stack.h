@@ -94,7 +94,8 @@ class PoseStack {
   Buffer<Vec3> rest_;
   Buffer<Normal> normals_;
   Buffer<NormalSum> normal_sums_;
-  bool base_stale_ = true, refined_ = false;
+  bool base_stale_ = true;
+  std::uint32_t refined_ = 0;  // full-mesh steps of the last frame
 };
 
 }  // namespace hf_inner

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deform/constants.h"
 #include "deform/rotation_batch.h"
 
 namespace hf_inner {
@@ -25,12 +26,18 @@ void add_ring(const Core& core, const Rest& rest, const Vec3* positions, std::in
 }
 
 Refinement::Refinement(const Core& core, Memory& memory)
-    : rotation_(static_cast<std::size_t>(core.size()), Mat3::Zero(), &memory),
+    : memory_(&memory),
+      rotation_(static_cast<std::size_t>(core.size()), Mat3::Zero(), &memory),
       field_(memory, 3 * static_cast<std::size_t>(core.size())),
       values_(&memory),
       elastic_(core.mesh.component_count(), 0, &memory) {}
 
-void Refinement::fit(std::int32_t slot_count) { values_.resize(3 * static_cast<std::size_t>(slot_count)); }
+void Refinement::fit(std::int32_t slot_count, std::uint32_t steps) {
+  values_.resize(3 * static_cast<std::size_t>(slot_count));
+  if (steps < 2) return;
+  before_.reserve_at_least(*memory_, rotation_.size());
+  last_.reserve_at_least(*memory_, rotation_.size());
+}
 
 void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) {
   const Core& core = input.core;
@@ -94,12 +101,28 @@ void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* posit
   });
 }
 
-void Refinement::apply(const RefineInput& input, Vec3* positions) {
+void Refinement::apply(const RefineInput& input, std::uint32_t steps, Vec3* positions) {
   if (input.weights.elastic_components.empty()) return;
-  const Core& core = input.core;
-  const Mesh& mesh = core.mesh;
   std::fill(elastic_.begin(), elastic_.end(), std::uint8_t{0});
   for (const std::int32_t c : input.weights.elastic_components) elastic_[c] = 1;
+  const std::int32_t n = input.core.size();
+  double weight = 1;
+  for (std::uint32_t k = 0; k < steps; ++k) {
+    if (steps > 1) std::copy(positions, positions + n, last_.data());
+    step(input, positions);
+    if (k > 0) {
+      weight = k == 1 ? 2 / (2 - refine_radius * refine_radius) : 4 / (4 - refine_radius * refine_radius * weight);
+      for_vertex_pieces(*input.core.jobs, n, [&](std::int32_t first, std::int32_t last) {
+        for (std::int32_t v = first; v < last; ++v) positions[v] = before_[v] + weight * (positions[v] - before_[v]);
+      });
+    }
+    before_.swap(last_);
+  }
+}
+
+void Refinement::step(const RefineInput& input, Vec3* positions) {
+  const Core& core = input.core;
+  const Mesh& mesh = core.mesh;
   fit_rotations(input, positions);
   const std::size_t n = static_cast<std::size_t>(core.size());
   Workspace z(core.workspaces, 3 * n);

@@ -1,4 +1,4 @@
-// Improves a blended pose by one full-mesh step (Refinement), and starts one pose from another's surface (GroupStart).
+// Improves a blended pose by full-mesh steps (Refinement), and starts one pose from another's surface (GroupStart).
 //
 // Refinement is one as-rigid-as-possible step of the whole surface against its rest shape (Sorkine and Alexa 2007).
 // From the blended positions x and the rest positions p it solves
@@ -7,8 +7,12 @@
 // R_v is the rotation of vertex v, and y are the new positions. The weights w are those of the operator K, and u runs
 // over the neighbours of v in its triangulation. So y = x + K^-1 (b - K x), where b is the right side, and the existing
 // factor is used. With these weights the energy never grows. Cotangents of the mesh's own edges would be larger at
-// obtuse triangles, and the step would overshoot there. Several steps would approach the collapsed minima of this
-// energy. Cost: a rotation per vertex, and three sweeps for three coordinates.
+// obtuse triangles, and the step would overshoot there. Cost of a step: a rotation per vertex, and three sweeps for
+// three coordinates.
+//
+// Several steps approach the minimum of this energy, which keeps lengths best but lets volume shrink and bends sharpen.
+// With x_k before step k and y_k after it, the next positions are x_k+1 = x_k-1 + w_k (y_k - x_k-1), where w_1 = 1, w_2
+// = 2 / (2 - r^2), w_k+1 = 4 / (4 - r^2 w_k) (Chebyshev's semi-iterative method for local and global steps, Wang 2015).
 //
 // GroupStart finds the rotation of every rotation group on a given surface, from the edges at some of its vertices.
 //
@@ -36,22 +40,25 @@ struct RefineInput {
 class Refinement {
  public:
   Refinement(const Core& core, Memory& memory);
-  // Makes room for the values of this many sites.
-  void fit(std::int32_t slot_count);
-  bool has_room(std::int32_t slot_count) const noexcept {
-    return 3 * static_cast<std::size_t>(slot_count) <= values_.capacity();
+  // Makes room for the values of this many sites, and for this many steps.
+  void fit(std::int32_t slot_count, std::uint32_t steps);
+  bool has_room(std::int32_t slot_count, std::uint32_t steps) const noexcept {
+    return 3 * static_cast<std::size_t>(slot_count) <= values_.capacity() && (steps < 2 || !last_.empty());
   }
-  // Improves the blended `positions` in place. They are in the given unit and frame. Vertices of handles and of
-  // components without free clusters keep their positions.
-  void apply(const RefineInput& input, Vec3* positions);
+  // Improves the blended `positions` in place by this many steps. They are in the given unit and frame. Vertices of
+  // handles and of components without free clusters keep their positions.
+  void apply(const RefineInput& input, std::uint32_t steps, Vec3* positions);
 
  private:
+  void step(const RefineInput& input, Vec3* positions);
   void fit_rotations(const RefineInput& input, const Vec3* positions);
   void set_right_hand_side(const RefineInput& input, const Vec3* positions, double* z);
 
+  Memory* memory_;
   Vector<Mat3> rotation_;         // by vertex
   Buffer<double> field_;          // correction by vertex: x, y, z
   Vector<double> values_;         // x, y, z by site
+  Buffer<Vec3> before_, last_;    // positions before this step and the one before; several steps only
   Vector<std::uint8_t> elastic_;  // by component: 1 if vertices can move without a handle
 };
 

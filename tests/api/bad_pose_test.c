@@ -260,7 +260,7 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   DEFORM("normal stride 4", HF_ERROR_TOO_SMALL, (deform.normals = normals, deform.normal_stride = 4));
   DEFORM("1001 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = 1001);
   DEFORM("2^32 - 1 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = UINT32_MAX);
-  DEFORM("refine 2", HF_ERROR_INVALID_ARGUMENT, deform.refine = 2);
+  DEFORM("refine 65", HF_ERROR_INVALID_ARGUMENT, deform.refine = 65);
   DEFORM("refine -1", HF_ERROR_INVALID_ARGUMENT, deform.refine = -1);
   DEFORM("a range from beyond the end", HF_ERROR_OUT_OF_RANGE, deform.first_vertex = TUBE_VERTICES + 1);
   DEFORM("a range to beyond the end", HF_ERROR_OUT_OF_RANGE,

@@ -130,7 +130,7 @@ static void a_refused_full_mesh_step_leaves_the_pose_where_it_was(void** state) 
     const hf_pose pose = posed(surface, layered), twin = posed(surface, layered);
     float frame[3 * COUNT], expected[3 * COUNT];
     hf_deform_desc desc = HF_INIT(hf_deform_desc);
-    desc.positions = frame, desc.refine = 1;
+    desc.positions = frame, desc.refine = 1 + 2 * layered; /* several steps keep more */
     size_t n = 1;
     for (; n < 2000; ++n) {
       refuse(&memory, n);

@@ -404,7 +404,7 @@ class Scene
             case "set_transforms": pose.SetTransforms(Numbers(Get(step, "handles")), Doubles(step, "rotations"),
                 Doubles(step, "translations")); return null;
             case "deform": { var o = Options(step, "restart", "iteration_count", "refine");
-                return pose.DeformDouble((uint)o["iteration_count"], o["restart"] != 0, o["refine"] != 0); }
+                return pose.DeformDouble((uint)o["iteration_count"], o["restart"] != 0, (int)o["refine"]); }
             case "handle_field": return pose.HandleField(Whole(step, "handle")).Select(x => (double)x).ToArray();
             case "handle_info": return Fields(pose.HandleInfo(Whole(step, "handle")));
             case "handle_place": return Place(pose.HandleInfo(Whole(step, "handle")));

@@ -24,14 +24,22 @@ class ArapOracle {
     factor_ = core.factor->refactor(core.laplacian, {fixed_.data(), fixed_.size()}, *core.memory, *core.jobs);
   }
 
+  // Smooth rotations (Levi and Gotsman 2015): the energy has share * area * sum_vu w_vu |R_v - R_u|^2 besides, area in
+  // square units of the mesh. 0: none.
+  void set_smoothness(double area_share) { smoothness_ = area_share; }
+
   // One iteration on positions in the mesh's own unit; the fixed ones stay.
   void iterate(std::vector<hf_inner::Vec3>& x) {
     const hf_inner::Topology& topology = core_.topology;
     const auto& p = core_.mesh.positions;
+    before_ = rotation_;
     hf_inner::for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
       for (std::int32_t v = first; v < last; ++v) {
         hf_inner::Mat3 s;
         hf_inner::add_ring(core_, rest_, x.data(), v, s);
+        for (std::int32_t k = topology.neighbour_start[v]; smoothness_ > 0 && k < topology.neighbour_start[v + 1]; ++k)
+          s = s + smoothness_ * core_.weights[topology.neighbour_edge[k]] *
+                      before_[topology.neighbour[k]].toRotationMatrix();
         rotation_[v] = hf_inner::best_rotation_from(s, rotation_[v]);
       }
     });
@@ -81,7 +89,8 @@ class ArapOracle {
   hf_inner::Rest rest_;
   std::vector<std::uint8_t> fixed_;
   std::shared_ptr<const hf_inner::Factor> factor_;
-  std::vector<hf_inner::Quaternion> rotation_;
+  double smoothness_ = 0;
+  std::vector<hf_inner::Quaternion> rotation_, before_;
   std::vector<double> z_;
 };
 

@@ -182,7 +182,7 @@ namespace Hf
 
         /// <summary>The same with normals (or an empty span) and options.</summary>
         public void Deform(Span<float> positions, Span<float> normals, uint iterationCount = 0,
-            bool restart = false, bool refine = false)
+            bool restart = false, int refine = 0)
         {
             Pins.Need(positions.Length, 3 * VertexCount, "positions");
             if (normals.Length > 0) Pins.Need(normals.Length, 3 * VertexCount, "normals");
@@ -194,12 +194,12 @@ namespace Hf
                 if (normals.Length > 0) desc.normals = (IntPtr)upright;
                 desc.iteration_count = iterationCount;
                 desc.restart = restart ? 1 : 0;
-                desc.refine = refine ? 1 : 0;
+                desc.refine = refine;
                 Check(Functions.hf_pose_deform(Handle, &desc, null));
             }
         }
 
-        public double[] DeformDouble(uint iterationCount = 0, bool restart = false, bool refine = false)
+        public double[] DeformDouble(uint iterationCount = 0, bool restart = false, int refine = 0)
         {
             var positions = new double[3 * VertexCount];
             fixed (double* place = positions)
@@ -208,7 +208,7 @@ namespace Hf
                 desc.positions_f64 = (IntPtr)place;
                 desc.iteration_count = iterationCount;
                 desc.restart = restart ? 1 : 0;
-                desc.refine = refine ? 1 : 0;
+                desc.refine = refine;
                 Check(Functions.hf_pose_deform(Handle, &desc, null));
             }
             return positions;

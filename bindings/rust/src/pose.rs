@@ -24,7 +24,7 @@ options!(
         iteration_count: u32,
         /// 1: start from rest, not from the last frame
         restart: i32,
-        /// 1: refine every vertex
+        /// full-mesh steps, 0 to 64
         refine: i32,
     }
 );

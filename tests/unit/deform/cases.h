@@ -46,7 +46,9 @@ inline std::vector<std::uint32_t> add(hf_inner::Pose& pose, const std::vector<st
   return numbers;
 }
 
-inline hf_inner::Quaternion about(Vec3 axis, double angle) { return hf_inner::exponential((angle / hf_inner::norm(axis)) * axis); }
+inline hf_inner::Quaternion about(Vec3 axis, double angle) {
+  return hf_inner::exponential((angle / hf_inner::norm(axis)) * axis);
+}
 
 inline void place(hf_inner::Pose& pose, std::uint32_t handle, const hf_inner::HandleTransform& transform) {
   pose.set_transforms({&handle, 1}, {&transform, 1});
@@ -152,7 +154,7 @@ inline Case scan_reach(const hf_test::PlainMesh& mesh) {
                [=](Vec3 p) { return norm(p - hand) < 0.13 * height; }};
   c.motion = [=](std::size_t handle, double t, Vec3) {
     return handle == 2 ? hf_inner::HandleTransform{about({0, 1, 1}, t * 0.7),
-                                             {-0.12 * t * height, 0.03 * t * height, -0.1 * t * height}}
+                                                   {-0.12 * t * height, 0.03 * t * height, -0.1 * t * height}}
                        : hf_inner::HandleTransform{};
   };
   return c;
@@ -176,9 +178,10 @@ inline Case scan_hands(const hf_test::PlainMesh& mesh) {
   c.regions = {[=](Vec3 p) { return p.y < floor; }, [=](Vec3 p) { return norm(p - raised) < 0.13 * height; },
                [=](Vec3 p) { return norm(p - lowered) < 0.13 * height; }};
   c.motion = [=](std::size_t handle, double t, Vec3) {
-    return handle == 1 ? hf_inner::HandleTransform{about({0, 0, -1}, t * 0.4), {-0.08 * t * height, 0.05 * t * height, 0}}
-                       : hf_inner::HandleTransform{about({0, 0, -1}, t * 0.9),
-                                             {-0.1 * t * height, -0.3 * t * height, 0.05 * t * height}};
+    return handle == 1
+               ? hf_inner::HandleTransform{about({0, 0, -1}, t * 0.4), {-0.08 * t * height, 0.05 * t * height, 0}}
+               : hf_inner::HandleTransform{about({0, 0, -1}, t * 0.9),
+                                           {-0.1 * t * height, -0.3 * t * height, 0.05 * t * height}};
   };
   return c;
 }
@@ -235,10 +238,12 @@ inline double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec
 struct Quality {
   double energy = 0;      // spokes-and-rims-free ARAP, one best rotation per vertex
   double edge_share = 0;  // per cent of edges whose length ratio lies in [0.8, 1.25]
+  double near_share = 0;  // per cent of edges within 10 % of their length
   double edge_min = 1, edge_max = 1, p01 = 1, p99 = 1;
   double volume = 0;            // change in per cent
   double smallest_stretch = 1;  // smallest singular value of any triangle's map
   double dihedral_max = 0;      // largest change, degrees
+  double dihedral_p99 = 0;      // 99 % of the edges change by at most this much
   double roughness =
       0;  // area-weighted jump between neighbours of the change of mean curvature, times the box diagonal
 };
@@ -274,7 +279,8 @@ inline std::vector<double> mean_curvature(const hf_inner::Mesh& mesh, const std:
   return h;
 }
 
-inline double arap_energy(const hf_inner::Core& core, const std::vector<Vec3>& rest_positions, const std::vector<Vec3>& x) {
+inline double arap_energy(const hf_inner::Core& core, const std::vector<Vec3>& rest_positions,
+                          const std::vector<Vec3>& x) {
   const hf_inner::Topology& topology = core.topology;
   double sum = 0;
   for (std::int32_t v = 0; v < core.size(); ++v) {
@@ -282,7 +288,7 @@ inline double arap_energy(const hf_inner::Core& core, const std::vector<Vec3>& r
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
       const std::int32_t u = topology.neighbour[k];
       hf_inner::add_outer(s, std::max(core.weights[topology.neighbour_edge[k]], 0.01), x[v] - x[u],
-                    rest_positions[v] - rest_positions[u]);
+                          rest_positions[v] - rest_positions[u]);
     }
     const hf_inner::Quaternion r = hf_inner::best_rotation(s, {});
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
@@ -301,14 +307,16 @@ inline Quality measure(const hf_inner::Core& core, const std::vector<Vec3>& x) {
   Quality q;
   q.energy = arap_energy(core, p, x);
   std::vector<double> ratios;
-  int inside = 0;
+  int inside = 0, near = 0;
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     const std::int32_t i = topology.first(e), j = topology.second(e);
     ratios.push_back(hf_inner::norm(x[i] - x[j]) / hf_inner::norm(p[i] - p[j]));
     inside += ratios.back() >= 0.8 && ratios.back() <= 1.25;
+    near += ratios.back() >= 0.9 && ratios.back() <= 1.1;
   }
   std::sort(ratios.begin(), ratios.end());
   q.edge_share = 100.0 * inside / static_cast<double>(ratios.size());
+  q.near_share = 100.0 * near / static_cast<double>(ratios.size());
   q.edge_min = ratios.front(), q.edge_max = ratios.back(), q.p01 = ratios[ratios.size() / 100],
   q.p99 = ratios[ratios.size() * 99 / 100];
   q.volume = 100 * (signed_volume(mesh, x) / signed_volume(mesh, p) - 1);
@@ -316,7 +324,8 @@ inline Quality measure(const hf_inner::Core& core, const std::vector<Vec3>& x) {
     const std::int32_t* k = mesh.triangle(t);
     const Vec3 a = p[k[1]] - p[k[0]], b = p[k[2]] - p[k[0]], c = x[k[1]] - x[k[0]], d = x[k[2]] - x[k[0]];
     // J = [c d] [a b]^-1 in the triangle's own plane; its singular values from J'J
-    const double length = hf_inner::norm(a), bx = hf_inner::dot(a, b) / length, by = hf_inner::norm(hf_inner::cross(a, b)) / length;
+    const double length = hf_inner::norm(a), bx = hf_inner::dot(a, b) / length,
+                 by = hf_inner::norm(hf_inner::cross(a, b)) / length;
     if (!(by > 0)) continue;
     const Vec3 u = (1 / length) * c, v = (1 / by) * (d - bx * u);
     const double uu = hf_inner::dot(u, u), vv = hf_inner::dot(v, v), uv = hf_inner::dot(u, v);
@@ -327,17 +336,22 @@ inline Quality measure(const hf_inner::Core& core, const std::vector<Vec3>& x) {
     const std::int32_t first = topology.edge_triangle_start[e];
     Vec3 n[2];
     for (int s = 0; s < 2; ++s) {
-      const std::int32_t* k = mesh.triangle(topology.edge_triangle[first + s]);
+      const std::int32_t* k = mesh.triangle(topology.triangle(first + s));
       n[s] = hf_inner::cross(y[k[1]] - y[k[0]], y[k[2]] - y[k[0]]);
     }
     const Vec3 edge = y[topology.second(e)] - y[topology.first(e)];
-    return std::atan2(hf_inner::dot(hf_inner::cross(n[0], n[1]), edge) / hf_inner::norm(edge), hf_inner::dot(n[0], n[1])) * 180 / pi;
+    return std::atan2(hf_inner::dot(hf_inner::cross(n[0], n[1]), edge) / hf_inner::norm(edge),
+                      hf_inner::dot(n[0], n[1])) *
+           180 / pi;
   };
+  std::vector<double> changes;
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     if (topology.edge_triangle_start[e + 1] - topology.edge_triangle_start[e] != 2) continue;
-    double change = std::fabs(dihedral(x, e) - dihedral(p, e));
-    q.dihedral_max = std::max(q.dihedral_max, std::min(change, 360 - change));
+    const double change = std::fabs(dihedral(x, e) - dihedral(p, e));
+    changes.push_back(std::min(change, 360 - change));
   }
+  std::sort(changes.begin(), changes.end());
+  if (!changes.empty()) q.dihedral_max = changes.back(), q.dihedral_p99 = changes[changes.size() * 99 / 100];
   std::vector<double> change = mean_curvature(mesh, x);
   const std::vector<double> before = mean_curvature(mesh, p);
   for (std::size_t v = 0; v < change.size(); ++v) change[v] -= before[v];

@@ -119,7 +119,7 @@ void add_to(PoseStack& pose, Placed& handle) {
 
 std::vector<double> restarted(PoseStack& pose, bool refine) {
   hf_inner::DeformRequest request;
-  request.restart = true, request.refine = refine;
+  request.restart = true, request.refine = refine ? 3 : 0;
   std::vector<double> out;
   for (const Vec3& p : pose.deform(request).positions) out.insert(out.end(), {p.x, p.y, p.z});
   return out;
