@@ -193,7 +193,7 @@ typedef struct hf_deform_desc {
                                pose with the same handles, added in the same order, and the same transforms. Without
                                restart a frame continues from the last one, so it also depends on that */
   int32_t refine; /* 0 to 64: adds so many as-rigid-as-possible steps of the whole surface, with the same factor. Each
-                     costs three sweeps, about 0.3 us a vertex. One keeps the pose smooth. With eight, edges keep their
+                     costs two sweeps, about 0.2 us a vertex. One keeps the pose smooth. With eight, edges keep their
                      lengths nearly as in the converged as-rigid-as-possible pose, and bends get as sharp as there */
   uint32_t
       first_vertex; /* outputs hold vertex_count vertices from this one on; 0 and 0: all. Positions of a range cost */

@@ -78,11 +78,10 @@ void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) 
   });
 }
 
-// Computes the right-hand side b - K x in the order of the factor, in the unit of the scaled mesh.
-void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* positions, double* z) {
+// Computes the right-hand side b - K x, in the unit of the scaled mesh.
+void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* positions, double* load) {
   const Core& core = input.core;
   const SymmetricMatrix& k = core.laplacian;
-  const Span<const std::int32_t> position = core.factor->position();
   const double own_unit = 2.0 / core.mesh.scale;  // contains the 1/2 of the two rotations
   for_vertex_pieces(*core.jobs, core.size(), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t v = first; v < last; ++v) {
@@ -95,7 +94,7 @@ void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* posit
           sum = sum - 0.5 * k.value[e] * missing;  // the diagonal adds nothing
         }
       }
-      double* row = z + 3 * static_cast<std::size_t>(position[v]);
+      double* row = load + 3 * static_cast<std::size_t>(v);
       row[0] = sum.x, row[1] = sum.y, row[2] = sum.z;
     }
   });
@@ -124,29 +123,15 @@ void Refinement::step(const RefineInput& input, Vec3* positions) {
   const Core& core = input.core;
   const Mesh& mesh = core.mesh;
   fit_rotations(input, positions);
-  const std::size_t n = static_cast<std::size_t>(core.size());
-  Workspace z(core.workspaces, 3 * n);
-  set_right_hand_side(input, positions, z.data());
-  core.factor->solve_in_order(z.data(), 3, *core.jobs);
-
-  // The vertices around the handles already are where they belong. A harmonic field therefore cancels the change that
-  // the step made there.
-  const Span<const std::int32_t> position = core.factor->position();
-  std::fill(values_.begin(), values_.end(), 0.0);
-  double* value = values_.data();
-  for (const Handle& handle : input.handles) {
-    for (const std::int32_t v : handle.region->sites) {
-      const double* y = z.data() + 3 * static_cast<std::size_t>(position[v]);
-      for (int c = 0; c < 3; ++c) *value++ = -y[c];
-    }
-  }
-  input.sites.solve(values_.data(), 3, field_.data(), nullptr);
+  // The vertices around the handles already are where they belong, so the change is zero there.
+  Workspace load(core.workspaces, 3 * static_cast<std::size_t>(core.size()));
+  set_right_hand_side(input, positions, load.data());
+  input.sites.respond(load.data(), nullptr, 3, field_.data(), values_.data());
   for_vertex_pieces(*core.jobs, core.size(), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t v = first; v < last; ++v) {
       if (input.reach.owner[v] >= 0 || !elastic_[mesh.component[v]]) continue;
-      const double* y = z.data() + 3 * static_cast<std::size_t>(position[v]);
       const double* u = field_.data() + 3 * static_cast<std::size_t>(v);
-      positions[v] = positions[v] + mesh.scale * Vec3{y[0] + u[0], y[1] + u[1], y[2] + u[2]};
+      positions[v] = positions[v] + mesh.scale * Vec3{u[0], u[1], u[2]};
     }
   });
 }

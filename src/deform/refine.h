@@ -5,10 +5,10 @@
 //     R_v = argmax tr(R' sum_u w_vu (x_v - x_u)(p_v - p_u)'),
 //     sum_u w_vu (y_v - y_u) = sum_u w_vu / 2 (R_v + R_u)(p_v - p_u),   y = x on the handles.
 // R_v is the rotation of vertex v, and y are the new positions. The weights w are those of the operator K, and u runs
-// over the neighbours of v in its triangulation. So y = x + K^-1 (b - K x), where b is the right side, and the existing
-// factor is used. With these weights the energy never grows. Cotangents of the mesh's own edges would be larger at
-// obtuse triangles, and the step would overshoot there. Cost of a step: a rotation per vertex, and three sweeps for
-// three coordinates.
+// over the neighbours of v in its triangulation. So y = x + u with K u = b - K x and u = 0 on the handles, where b is
+// the right side, and the existing factor is used. With these weights the energy never grows. Cotangents of the mesh's
+// own edges would be larger at obtuse triangles, and the step would overshoot there. Cost of a step: a rotation per
+// vertex, and two sweeps for three coordinates.
 //
 // Several steps approach the minimum of this energy, which keeps lengths best but lets volume shrink and bends sharpen.
 // With x_k before step k and y_k after it, the next positions are x_k+1 = x_k-1 + w_k (y_k - x_k-1), where w_1 = 1, w_2

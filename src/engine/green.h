@@ -34,10 +34,8 @@ class GreenSolver final : public SiteSolver {
   bool correct(const double* values, std::int32_t channels, const double* field, const double* flux, double* change,
                double* flux_change) const override;
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<GreenSolver>(core_->memory, *this); }
-  // Solves K u = load + W lambda with W'u + D lambda = values by two sweeps, without corrections. refine solves its
-  // changes so. load is by vertex. values are by slot, 0 at hard vertex sites; null means all 0. There are at most
-  // ConstraintSystem::channel_block channels. field must not be load. If it is null, one sweep gives the flux alone.
-  void respond(const double* load, const double* values, std::int32_t channels, double* field, double* flux) const;
+  void respond(const double* load, const double* values, std::int32_t channels, double* field,
+               double* flux) const override;
   // Smallest and largest site value by component and channel; low above high where there is none.
   void value_extent(const double* values, Index channels, Index first, Index count, Vector<double>& low,
                     Vector<double>& high) const;

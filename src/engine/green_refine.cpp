@@ -182,10 +182,12 @@ void GreenSolver::respond(const double* load, const double* values, Index channe
   if (needs_field) field = own.data();
   Answer next(memory());
   clear_answer(channels, next);
-  for (std::size_t v = 0; v < n; ++v) {
-    const bool in_reach = reached(at(core_->mesh.component[v]));
-    for (std::size_t q = 0; q < m; ++q) z[at(position[v]) * m + q] = in_reach ? load[v * m + q] : 0.0;
-  }
+  for_ranges(*core_->jobs, n, piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const bool in_reach = reached(at(core_->mesh.component[v]));
+      for (std::size_t q = 0; q < m; ++q) z[at(position[v]) * m + q] = in_reach ? load[v * m + q] : 0.0;
+    }
+  });
   for (std::size_t slot = 0; values && slot < state().entries.size(); ++slot) {
     if (state().entries[slot].used() && state().entries[slot].eliminated < 0)
       std::copy_n(values + slot * m, m, &next.slot[slot * m]);

@@ -13,6 +13,10 @@ void SiteSolver::rebase(JobRunner&) {
        "only engine green keeps its sites outside the factor; there is nothing to rebase");
 }
 
+void SiteSolver::respond(const double*, const double*, std::int32_t, double*, double*) const {
+  fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "loads need the engine green");
+}
+
 std::shared_ptr<SiteSolver> SiteSolver::make(EngineKind kind, std::shared_ptr<const Core> core, double penalty) {
   const std::shared_ptr<Memory> memory = core->memory;
   if (core->root) {

@@ -89,6 +89,13 @@ class SiteSolver {
     return false;
   }
 
+  // Solves K u = load + W lambda with W'u + D lambda = values by two sweeps, without corrections. load is by vertex.
+  // values are by slot, 0 at hard vertex sites; null means all 0. There are at most ConstraintSystem::channel_block
+  // channels. field must not be load. If it is null, one sweep gives the flux alone. The engine green has it; others
+  // throw HF_ERROR_UNSUPPORTED.
+  virtual void respond(const double* load, const double* values, std::int32_t channels, double* field,
+                       double* flux) const;
+
   // Returns a copy that shares all immutable parts.
   virtual std::shared_ptr<SiteSolver> clone() const = 0;
 

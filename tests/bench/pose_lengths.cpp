@@ -144,6 +144,10 @@ int main(int count, char** arguments) {
     for (const auto& region : c.regions) {
       for (const int32_t v : select(*d.core, region)) fixed[static_cast<size_t>(v)] = 1;
     }
+    // components that no handle holds stay
+    std::vector<uint8_t> held(static_cast<size_t>(d.core->mesh.component_count()), 0);
+    for (size_t v = 0; v < fixed.size(); ++v) held[static_cast<size_t>(d.core->mesh.component[v])] |= fixed[v];
+    for (size_t v = 0; v < fixed.size(); ++v) fixed[v] |= !held[static_cast<size_t>(d.core->mesh.component[v])];
     const std::vector<Vec3> p = rest(*d.core);
     const auto given = [&](const std::vector<Vec3>& x) {
       std::vector<Vec3> out;

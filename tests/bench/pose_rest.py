@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures how poses come back to rest, and how far they creep when a drag stops: pose_rest.py [--paper] [MESH ...]
+"""Measures how poses come back to rest, and how far they creep when a drag stops: pose_rest.py [--paper] [--iterations=N] [MESH ...]
 
 MESH: .obj or .off. Without one: a generated plane and tube. Handles are discs of 0.05 of the box at two, three or five
 places far from each other; the second one moves, out and back in 30 frames each. Needs the Python binding (HF_LIBRARY)."""
@@ -42,7 +42,7 @@ def far_places(positions, count):
     return places
 
 
-def measure(surface, positions, mode, count):
+def measure(surface, positions, mode, iterations, count):
     """Creep, distance from rest at once and after more calls: largest over the vertices, over the box."""
     box = np.linalg.norm(np.ptp(positions, axis=0))
     pose = hf.Pose(surface, mode=mode)
@@ -54,11 +54,11 @@ def measure(surface, positions, mode, count):
     def frame(share):
         pose.set_transform(handles[1], rotation=np.r_[axis * np.sin(share / 2), np.cos(share / 2)],
                            translation=np.array([0.1, 0.25, -0.1]) * box * share)
-        return pose.deform(dtype=np.float64).copy()
+        return pose.deform(dtype=np.float64, iteration_count=iterations).copy()
 
     def again(calls):
         for _ in range(calls):
-            out = pose.deform(dtype=np.float64)
+            out = pose.deform(dtype=np.float64, iteration_count=iterations)
         return out.copy()
 
     far = lambda a, b: np.linalg.norm(a - b, axis=1).max() / box
@@ -72,6 +72,7 @@ def measure(surface, positions, mode, count):
 
 def main():
     mode = hf.DeformMode.PAPER if "--paper" in sys.argv else hf.DeformMode.SMOOTH
+    iterations = next((int(name[13:]) for name in sys.argv if name.startswith("--iterations=")), 0)
     files = [name for name in sys.argv[1:] if not name.startswith("-")]
     shapes = [(name, read(name)) for name in files] or [
         ("plane", sheet(80, 80, lambda u, v: (u * 2, v * 2, 0.05 * np.sin(9 * u) * np.cos(7 * v)))),
@@ -81,7 +82,7 @@ def main():
         surface = hf.Surface(positions, triangles.astype(np.uint32))
         for count in (2, 3, 5):
             print("| %s | %d | %.1e | %.1e | %.1e |" % (name.split("/")[-1], count,
-                                                       *measure(surface, positions, mode, count)), flush=True)
+                                                       *measure(surface, positions, mode, iterations, count)), flush=True)
     return 0
 
 

@@ -28,7 +28,7 @@ struct Given {
     input.positions = hf_inner::ConstRows(positions.data(), 3 * sizeof(double));
     input.triangles = triangles.data(), input.weld = weld, input.weld_tolerance = tolerance;
     hf_inner::Mesh mesh = hf_inner::Mesh::make(input, memory);
-    hf_inner::count_edges(mesh, hf_inner::Topology::make(mesh, memory), mesh.report);
+    hf_inner::count_edges(hf_inner::Topology::make(mesh, memory), mesh.report);
     return mesh;
   }
   hf_result code(std::uint32_t* index = nullptr) const {
