@@ -304,10 +304,10 @@ constexpr int most_attempts = 12;
 // its length; double changes no bit of twelve poses.
 constexpr std::int32_t samples_per_group = 24;
 // Several full-mesh steps go on in the direction of the steps before (Chebyshev's semi-iterative method, as in Wang
-// 2015). This is the spectral radius that it assumes of one step. Eight steps lower the energy over converged ARAP's
-// from 2.06 to 1.18 (median of three scans); without it to 1.42. With 0.9 to 1.21, with 0.98 to 1.26. Larger values
-// overshoot in the first steps: three end at 1.57, 1.67 and 1.81 for 0.9, 0.95 and 0.98.
-constexpr double refine_radius = 0.95;
+// 2015). It assumes that one step has the spectral radius 1 - refine_gap / steps: few steps must not overshoot, many
+// may go far. Eight steps lower the energy over converged ARAP's from 2.06 to 1.18 (median of three scans), 64
+// to 1.005; eight without it to 1.42. Half and double: eight steps 1.26 and 1.21, four 1.52 and 1.55 (1.44 now).
+constexpr double refine_gap = 0.4;
 
 // ---- rotation.cpp, rotation_batch.cpp ----
 

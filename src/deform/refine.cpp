@@ -105,12 +105,13 @@ void Refinement::apply(const RefineInput& input, std::uint32_t steps, Vec3* posi
   std::fill(elastic_.begin(), elastic_.end(), std::uint8_t{0});
   for (const std::int32_t c : input.weights.elastic_components) elastic_[c] = 1;
   const std::int32_t n = input.core.size();
+  const double radius = 1 - refine_gap / steps;
   double weight = 1;
   for (std::uint32_t k = 0; k < steps; ++k) {
     if (steps > 1) std::copy(positions, positions + n, last_.data());
     step(input, positions);
     if (k > 0) {
-      weight = k == 1 ? 2 / (2 - refine_radius * refine_radius) : 4 / (4 - refine_radius * refine_radius * weight);
+      weight = k == 1 ? 2 / (2 - radius * radius) : 4 / (4 - radius * radius * weight);
       for_vertex_pieces(*input.core.jobs, n, [&](std::int32_t first, std::int32_t last) {
         for (std::int32_t v = first; v < last; ++v) positions[v] = before_[v] + weight * (positions[v] - before_[v]);
       });

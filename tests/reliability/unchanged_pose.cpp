@@ -165,11 +165,11 @@ hf_result fill(hf_pose fresh, const Branch& b, bool batches) {
 // A frame with restart has the bits of a fresh pose with the same handles and transforms (hf/pose.h).
 std::string Poses::compare_fresh(const Branch& b) const {
   if (b.handles.empty()) return {};
-  for (const std::int32_t refine : {0, 1}) {
+  for (const std::int32_t refine : {0, 3}) {
     hf_pose fresh = nullptr, copy = nullptr;
     std::vector<double> here, there;
     hf_result result = hf_pose_create(world.surface, &desc_, &fresh);
-    if (result == HF_OK) result = fill(fresh, b, refine == 1);
+    if (result == HF_OK) result = fill(fresh, b, refine > 0);
     if (result == HF_OK) result = frame_of(fresh, refine, there);
     if (result == HF_OK) result = hf_pose_clone(b.handle, &copy);
     if (result == HF_OK) result = frame_of(copy, refine, here);
@@ -294,7 +294,7 @@ struct Calls {
     desc.positions_f64 = positions.data();
     if (random.one_in(2)) desc.normals = normals.data();
     desc.iteration_count = random.pick({0u, 0u, 1u, 7u, 2000u}), desc.restart = random.pick({0, 0, 0, 1, 2});
-    desc.refine = random.pick({0, 0, 1}), desc.first_vertex = random.pick({0u, 0u, 0u, 3u, 5000u});
+    desc.refine = random.pick({0, 0, 1, 3}), desc.first_vertex = random.pick({0u, 0u, 0u, 3u, 5000u});
     if (random.one_in(10)) desc.position_stride = 7;
     if (random.one_in(5)) return hf_deform(b.handle, normals.data(), random.spoiled(info));
     return hf_pose_deform(b.handle, random.spoiled(desc), random.spoiled(info));
