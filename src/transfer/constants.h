@@ -6,11 +6,11 @@
 // of slack.cpp it is 0.0030. The foot error is how far feet end from their scaled paths. Edge stretch is the 95th
 // percentile over all edges; it is 0.32 on a wolf and 0.35 on a deer.
 //
-// "The sample" is hf_transfer_table --half choosing --sample 4, 377 runs. Most lines were measured with a kernel width of
-// 0.04 and without levers: 8 frames spike, 89.4 % of the runs accelerate at most 1.1 times as much as their source, 41
-// step more than 1.5 times as far, 28 open by more than 0.5 % of the box, the deepest sinks 0.0042 boxes, and 22 of 33
-// clips on their own model are within 0.010 and 0.025. Those of levers.cpp and of the kernel width were measured with
-// both: 1, 95.0 %, 11, 25 and 0.0044.
+// "The sample" is hf_transfer_table --half choosing --sample 4, 377 runs. Most lines were measured with a kernel width
+// of 0.04 and without levers: 8 frames spike, 89.4 % of the runs accelerate at most 1.1 times as much as their source,
+// 41 step more than 1.5 times as far, 28 open by more than 0.5 % of the box, the deepest sinks 0.0042 boxes, and 22 of
+// 33 clips on their own model are within 0.010 and 0.025. Those of levers.cpp and of the kernel width were measured
+// with both: 1, 95.0 %, 11, 25 and 0.0044.
 //
 // "Five runs" are first clips: horse on wolf, wolf on deer, horse on fox, tyrannosaur on velociraptor, cow on fox. The
 // third has the dials stride 1.2, neck_follow 1 and tail_follow -0.5. "Falls" are six runs of the same models that
@@ -251,9 +251,9 @@ constexpr double least_weight_share = 1e-3;
 
 // --- levers.cpp ---
 
-// A cluster of the source counts as at least this wide (in boxes): coarse meshes have clusters of one vertex. With half,
-// 98.7 instead of 98.4 % of the sample's runs accelerate at most 1.3 times as much as their source. With double, 94.4
-// instead of 95.0 % do so at most 1.1 times, and 3 runs instead of 1 move beside a still source.
+// A cluster of the source counts as at least this wide (in boxes): coarse meshes have clusters of one vertex. With
+// half, 98.7 instead of 98.4 % of the sample's runs accelerate at most 1.3 times as much as their source. With
+// double, 94.4 instead of 95.0 % do so at most 1.1 times, and 3 runs instead of 1 move beside a still source.
 constexpr double least_reach = 0.01;
 // A cluster hangs on one that overlaps it by this share of the smaller of the two: less finds ways over vertices that
 // hardly belong to both. With a tenth, 93.6 instead of 95.0 % of the sample's runs are calm.

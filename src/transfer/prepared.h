@@ -118,7 +118,7 @@ struct Transfer::Prepared {
   Translations translations;
   Refit refit;
   Slack slack;
-  Levers levers;  // HF_TRANSFER_FIELDS only
+  Levers levers;        // HF_TRANSFER_FIELDS only
   Gradients gradients;  // HF_TRANSFER_STRETCH only
   Vector<Anchor> anchors;
   double scale = 1;  // target lengths over source lengths, in inner units
