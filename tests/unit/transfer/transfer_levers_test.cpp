@@ -53,9 +53,9 @@ struct Bar {
   }
 };
 
-Levers levers(const Bar& from, const Bar& to, hf_inner::Memory& memory) {
+Levers levers(const Bar& from, const Bar& to, hf_inner::Memory& memory, double end = 1) {
   Levers out(memory);
-  const double limb[3] = {0, 1, 1};
+  const double limb[3] = {0, 1, end};
   // lengths that are not the limb's: both bars in units of the first part
   const double scale = from.core->mesh.scale / to.core->mesh.scale;
   out.prepare(from.surface(), to.surface(), {limb, 3}, scale, to.core->mesh.to_inner({0, 0, 0}), memory);
@@ -76,15 +76,26 @@ TEST(TransferLevers, APartThatReachesThreeTimesAsFarFollowsAThird) {
 }
 
 TEST(TransferLevers, WhatHangsOnSuchAPartKeepsToIt) {
-  const Bar from({1, 1, 1}), to({1, 3, 1});
+  const Bar from({1, 1, 1}), to({1, 3, 0.3});
   hf_inner::Memory memory;
   Levers found = levers(from, to, memory);
   ASSERT_LT(found.follow(1), 0.5);
+  ASSERT_EQ(found.follow(2), 1);
   const Quaternion both = hf_inner::exponential({0, 0.3, 0});
   Quaternion turned[3] = {Quaternion(), both, both};
   found.turn(Quaternion(), turned);
   EXPECT_LT(turned[1].angularDistance(Quaternion()), 0.2);
   EXPECT_LT(turned[2].angularDistance(turned[1]), 1e-12) << "an ear keeps to its head";
+}
+
+TEST(TransferLevers, AFootBehindSuchAPartTurnsAsItsSource) {
+  const Bar from({1, 1, 1}), to({1, 3, 1});
+  hf_inner::Memory memory;
+  Levers found = levers(from, to, memory, 0);
+  const Quaternion foot = hf_inner::exponential({0.1, 0.2, 0});
+  Quaternion turned[3] = {Quaternion(), hf_inner::exponential({0, 0.3, 0}), foot};
+  found.turn(Quaternion(), turned);
+  EXPECT_TRUE(turned[2].coeffs() == foot.coeffs());
 }
 
 TEST(TransferLevers, NoTurnMakesAPartJump) {
