@@ -3,7 +3,8 @@
  * You pair regions of the source surface with regions of the target surface. From the pairs both surfaces get the same
  * harmonic coordinates, and places of equal coordinates correspond. The vertices around such a place form a cluster.
  * The target takes over the rotations of the source's clusters. Its translations follow from its own shape (Xu, Zhang,
- * Cohen-Or and Xiong 2009, Section 6), and from where the source's clusters turn about one another. */
+ * Cohen-Or and Xiong 2009, Section 6), and from where the source's clusters turn about one another. A limb whose parts
+ * reach farther than the source's turns less, so that it moves as far: a held sword, a long tail, a large head. */
 #ifndef HF_TRANSFER_H
 #define HF_TRANSFER_H
 
@@ -52,7 +53,7 @@ typedef struct hf_transfer_desc {
   uint32_t struct_size;
   int32_t mode;           /* HF_TRANSFER_* */
   uint32_t cluster_count; /* 1 to 512; 0 = 80, or 5 for each pair if that is more */
-  float kernel_width;     /* width of a cluster, in field values, 0.005 to 0.5; 0 = 0.04, or 0.004 for each pair if that
+  float kernel_width;     /* width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that
                              is more, up to 0.12 */
   float scale; /* lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when
                   no pair is a foot */

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "transfer/gradients.h"
+#include "transfer/levers.h"
 #include "transfer/transfer.h"
 
 namespace hf_inner {
@@ -56,6 +57,7 @@ struct Transfer::Prepared {
         translations(memory),
         refit(memory),
         slack(memory),
+        levers(memory),
         gradients(memory),
         anchors(&memory),
         posed(&memory),
@@ -116,6 +118,7 @@ struct Transfer::Prepared {
   Translations translations;
   Refit refit;
   Slack slack;
+  Levers levers;        // HF_TRANSFER_FIELDS only
   Gradients gradients;  // HF_TRANSFER_STRETCH only
   Vector<Anchor> anchors;
   double scale = 1;  // target lengths over source lengths, in inner units

@@ -11,45 +11,6 @@
 namespace hf_inner {
 namespace {
 
-// The overlaps of all pairs of clusters on one surface, clusters x clusters, and each cluster's own area and centroid.
-struct Overlaps {
-  Overlaps(std::size_t count, Memory& memory)
-      : mass(count * count, 0.0, &memory),
-        sum(count * count, &memory),
-        own(count, 0.0, &memory),
-        centroid(count, &memory) {}
-  Vector<double> mass;  // sum_v a_v W_vc W_vd
-  Vector<Vec3> sum;     // sum_v a_v W_vc W_vd p_v
-  Vector<double> own;
-  Vector<Vec3> centroid;
-};
-
-Overlaps overlaps_of(std::size_t count, const Slack::Side& side, Memory& memory) {
-  Overlaps out(count, memory);
-  Poller poller;
-  for (std::size_t v = 0; v < side.area.size(); ++v) {
-    poller.due();
-    const std::int32_t* joint = side.joint + v * blend_count;
-    const float* weight = side.weight + v * blend_count;
-    const Vec3 place = side.core->mesh.positions[v];
-    for (std::int32_t i = 0; i < blend_count; ++i) {
-      if (!(weight[i] > 0)) continue;
-      const double own = side.area[v] * static_cast<double>(weight[i]);
-      const std::size_t c = at(joint[i]);
-      out.own[c] += own, out.centroid[c] = out.centroid[c] + own * place;
-      for (std::int32_t j = 0; j < blend_count; ++j) {
-        if (!(weight[j] > 0)) continue;
-        const double w = own * static_cast<double>(weight[j]);
-        const std::size_t entry = c * count + at(joint[j]);
-        out.mass[entry] += w, out.sum[entry] = out.sum[entry] + w * place;
-      }
-    }
-  }
-  for (std::size_t c = 0; c < count; ++c)
-    if (out.own[c] > 0) out.centroid[c] = (1 / out.own[c]) * out.centroid[c];
-  return out;
-}
-
 // 1 for equal numbers, less the more they differ. Both are above 0.
 double likeness(double a, double b) noexcept { return std::min(a, b) / std::max(a, b); }
 

@@ -31,6 +31,7 @@
 #include "deform/rotation.h"
 #include "engine/core.h"
 #include "transfer/clusters.h"
+#include "transfer/overlaps.h"
 #include "transfer/translations.h"
 
 namespace hf_inner {
@@ -63,12 +64,7 @@ class Slack {
     double reach = 0;                                  // d: distance of the clusters on the source
     double factor = 0;                                 // k
   };
-  struct Side {
-    const Core* core = nullptr;
-    Span<const double> area;
-    const std::int32_t* joint = nullptr;  // blend_count for each vertex
-    const float* weight = nullptr;
-  };
+  using Side = WeightedSurface;
 
   // axes: from the source's axes to the target's. scale: lengths of the target over those of the source.
   void prepare(std::int32_t cluster_count, const Side& source, const Side& target, const Translations& translations,

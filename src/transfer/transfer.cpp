@@ -296,6 +296,18 @@ void Transfer::prepare_ground(Prepared& p) const {
   }
 }
 
+void Transfer::prepare_levers(Prepared& p, const WeightedSurface& source, const WeightedSurface& target) const {
+  const std::size_t width = numbers_.size();
+  Vector<double> limb(at(p.clusters.count), 0.0, target_core_->memory.get());
+  for (std::size_t c = 0; c < limb.size(); ++c) {
+    const double* row = p.clusters.centre.data() + c * width;
+    const auto h = static_cast<std::size_t>(std::max_element(row, row + width) - row);
+    if (!(flags_[numbers_[h]] & (HF_PAIR_FOOT | HF_PAIR_TRUNK)))
+      limb[c] = std::clamp((row[h] - fade_from) / fade_width, 0.0, 1.0);
+  }
+  p.levers.prepare(source, target, {limb.data(), limb.size()}, p.scale, p.target_centroid, *target_core_->memory);
+}
+
 void Transfer::prepare_gradients(Prepared& p) const {
   Vector<Vec3> source_means(target_core_->memory.get()), target_means(target_core_->memory.get());
   for (const std::uint32_t number : numbers_) {
@@ -345,17 +357,18 @@ Transfer::Prepared& Transfer::prepare() {
   prepare_anchors(p);
   p.source_rotations.prepare(source_core_->mesh, source_area_);
   p.refit.prepare(target_core_->mesh, target_area_, p.clusters, memory);
+  p.target_centroid = area_mean(target_core_->mesh, target_area_);
   if (options_.mode == HF_TRANSFER_FIELDS) {
     const SourceWeights weights = weigh_source(
         p.clusters, kernel_width(), {p.source_field.data(), p.source_field.size()}, memory, *target_core_->jobs);
-    p.slack.prepare(p.clusters.count, {source_core_.get(), source_area_, weights.joint.data(), weights.weight.data()},
-                    {target_core_.get(), target_area_, p.clusters.joint.data(), p.clusters.weight.data()},
-                    p.translations, axes_.toRotationMatrix(), p.scale, memory);
+    const WeightedSurface source{source_core_.get(), source_area_, weights.joint.data(), weights.weight.data()},
+        target{target_core_.get(), target_area_, p.clusters.joint.data(), p.clusters.weight.data()};
+    p.slack.prepare(p.clusters.count, source, target, p.translations, axes_.toRotationMatrix(), p.scale, memory);
+    prepare_levers(p, source, target);
   } else {
     p.slack.prepare_none(p.clusters.count);
   }
   p.refit.take_pairs(p.slack.pairs());
-  p.target_centroid = area_mean(target_core_->mesh, target_area_);
   poll();
   prepare_ground(p);
   if (has_ground()) find_sinking(p);

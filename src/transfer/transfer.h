@@ -25,6 +25,7 @@
 #include "hf/transfer.h"
 #include "transfer/alignment.h"
 #include "transfer/clusters.h"
+#include "transfer/overlaps.h"
 #include "transfer/pair_fields.h"
 #include "transfer/refit.h"
 #include "transfer/source_rotations.h"
@@ -131,6 +132,7 @@ class Transfer {
   void prepare_ground(Prepared& p) const;
   void find_sinking(Prepared& p);
   void prepare_gradients(Prepared& p) const;
+  void prepare_levers(Prepared& p, const WeightedSurface& source, const WeightedSurface& target) const;
   void prepare_dials(Prepared& p) const;  // the limbs that dials turn
   void turn_dials(Prepared& p) const noexcept;
   void stiffen(Prepared& p) const noexcept;

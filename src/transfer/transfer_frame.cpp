@@ -196,7 +196,10 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
     return;
   }
   p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), *target_core_->jobs);
-  if (options_.mode == HF_TRANSFER_FIELDS) p.slack.measure(p.given.data(), p.posed.data(), axes_, *target_core_->jobs);
+  if (options_.mode == HF_TRANSFER_FIELDS) {
+    p.slack.measure(p.given.data(), p.posed.data(), axes_, *target_core_->jobs);
+    p.levers.turn(whole.rotation, p.given.data());
+  }
 
   // Takes the rotations of the source's clusters into the target's axes and rest directions.
   const Quaternion turn = normalised(axes_ * whole.rotation * axes_.conjugate());

@@ -76,6 +76,7 @@ struct Loaded {
   Model model;
   FlatMesh flat;
   double box = 1;
+  std::vector<double> areas;               // by vertex, as shares
   std::vector<std::vector<double>> times;  // per clip
   std::vector<Frames> frames;
 };
@@ -86,11 +87,27 @@ double box_of(const std::vector<glm::dvec3>& points) {
   return glm::length(high - low);
 }
 
+// The area around each vertex, as shares of the whole.
+std::vector<double> areas_of(const FlatMesh& flat) {
+  std::vector<double> out(flat.vertex_count(), 0.0);
+  double sum = 0;
+  for (size_t t = 0; t < flat.triangles.size(); t += 3) {
+    const uint32_t* corner = flat.triangles.data() + t;
+    const glm::dvec3 a = flat.positions[corner[0]], b = flat.positions[corner[1]], c = flat.positions[corner[2]];
+    const double area = glm::length(glm::cross(b - a, c - a));
+    for (int k = 0; k < 3; ++k) out[corner[k]] += area;
+    sum += 3 * area;
+  }
+  for (double& x : out) x /= sum;
+  return out;
+}
+
 Loaded load(const std::filesystem::path& folder, const Listed& from) {
   Loaded out;
   out.name = from.name, out.judging = from.judging;
   out.model = read_gltf(folder / (std::string(from.name) + ".glb"));
   out.flat = flatten(out.model), out.box = box_of(out.flat.positions);
+  out.areas = areas_of(out.flat);
   return out;
 }
 
@@ -103,13 +120,15 @@ void sample_clips(Loaded& model) {
   }
 }
 
-// Motion of one clip, per inner frame: the largest second difference and step of a vertex, and the sum of squares.
+// Motion of one clip, per inner frame: the largest second difference and step of a vertex, and the sum of squares over
+// vertices, and over the area. A mesh that is finer at its head counts the head more often in the first.
 struct Motion {
   std::vector<double> jerk, step;
-  double squares = 0;
+  double squares = 0, area_squares = 0;
 };
 
-Motion motion_of(const Frames& frames, double unit) {
+// area: of each vertex.
+Motion motion_of(const Frames& frames, double unit, const std::vector<double>& area) {
   Motion out;
   const size_t n = frames.front().size();
   for (size_t f = 0; f + 1 < frames.size(); ++f) {
@@ -124,6 +143,7 @@ Motion motion_of(const Frames& frames, double unit) {
         j += e * e;
       }
       step = std::max(step, s), jerk = std::max(jerk, j), squares += j;
+      out.area_squares += j * area[i / 3];
     }
     out.step.push_back(std::sqrt(step)), out.jerk.push_back(std::sqrt(jerk));
     out.squares += 3 * squares / static_cast<double>(n);
@@ -136,8 +156,8 @@ struct Run {
   size_t spikes = 0, frames = 0;
   double confidence = 0, stretch = 0;
   size_t lost = 0;
-  double acceleration = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, source_gap = 0, self_mean = -1,
-         self_max = -1, ms = 0;
+  double by_area = 0, acceleration = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, source_gap = 0,
+         self_mean = -1, self_max = -1, ms = 0;
 };
 
 // The largest gap between linked pieces; 0 without links.
@@ -157,8 +177,9 @@ Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target
   Run out;
   out.name = played.clip.name, out.frames = played.source_frames.size();
   const double scale = std::max(session.scale(), target.box / source.box);
-  const Motion from = motion_of(played.source_frames, scale / target.box),
-               to = motion_of(played.target_frames, 1 / target.box);
+  const Motion from = motion_of(played.source_frames, scale / target.box, source.areas),
+               to = motion_of(played.target_frames, 1 / target.box, target.areas);
+  out.by_area = from.squares > 1e-10 ? std::sqrt(to.area_squares / from.area_squares) : 0;
   for (size_t f = 0; f < to.step.size(); ++f) {
     if (to.jerk[f] > spike_share && to.jerk[f] > spike_ratio * from.jerk[f]) ++out.spikes;
     if (from.step[f] < still_step) out.still = std::max(out.still, to.step[f] / std::max(from.step[f], least_step));
@@ -188,7 +209,7 @@ Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target
 void say_where(const PlayedClip& played, const Loaded& source, const Loaded& target, Session& session) {
   const RegionFinder finder(target.model, target.flat, Axes());
   const double scale = std::max(session.scale(), target.box / source.box);
-  const Motion from = motion_of(played.source_frames, scale / target.box);
+  const Motion from = motion_of(played.source_frames, scale / target.box, source.areas);
   for (size_t f = 1; f + 1 < played.target_frames.size(); ++f) {
     double most = 0;
     size_t vertex = 0;
@@ -208,6 +229,43 @@ void say_where(const PlayedClip& played, const Loaded& source, const Loaded& tar
                 finder.owner_name(static_cast<uint32_t>(vertex)).c_str(), p[0] / target.box, p[1] / target.box,
                 p[2] / target.box);
   }
+}
+
+// The joints that accelerate most in a run, with their shares of the sum of squares, and the vertices of the largest
+// step and of the largest step beside a still source.
+void say_fastest(const PlayedClip& played, const Loaded& source, const Loaded& target, Session& session) {
+  const RegionFinder finder(target.model, target.flat, Axes());
+  const double scale = std::max(session.scale(), target.box / source.box);
+  const Motion from = motion_of(played.source_frames, scale / target.box, source.areas);
+  std::map<std::string, double> squares;
+  double total = 0, most_step = 0, most_still = 0;
+  size_t stepper = 0, restless = 0, frame = 0, still_frame = 0;
+  const auto& frames = played.target_frames;
+  for (size_t f = 0; f + 1 < frames.size(); ++f) {
+    for (size_t i = 0; i < frames[f].size(); i += 3) {
+      double s = 0, j = 0;
+      for (size_t c = i; c < i + 3; ++c) {
+        const double d = (frames[f + 1][c] - frames[f][c]) / target.box;
+        s += d * d;
+        if (f == 0) continue;
+        const double e = (frames[f + 1][c] - 2 * frames[f][c] + frames[f - 1][c]) / target.box;
+        j += e * e;
+      }
+      squares[finder.owner_name(static_cast<uint32_t>(i / 3))] += j, total += j;
+      const double ratio = std::sqrt(s) / std::max(from.step[f], least_step);
+      if (from.step[f] > moving_step && ratio > most_step) most_step = ratio, stepper = i / 3, frame = f;
+      if (from.step[f] < still_step && ratio > most_still) most_still = ratio, restless = i / 3, still_frame = f;
+    }
+  }
+  std::vector<std::pair<double, std::string>> order;
+  for (const auto& [name, sum] : squares) order.emplace_back(sum / std::max(total, 1e-300), name);
+  std::sort(order.rbegin(), order.rend());
+  std::printf("      %s accelerates by", played.clip.name.c_str());
+  for (size_t i = 0; i < std::min<size_t>(order.size(), 4); ++i)
+    std::printf(" %s %.0f %%", order[i].second.c_str(), 100 * order[i].first);
+  std::printf("; step %.2f frame %zu vertex %zu of %s; still %.1f frame %zu vertex %zu of %s\n", most_step, frame,
+              stepper, finder.owner_name(static_cast<uint32_t>(stepper)).c_str(), most_still, still_frame, restless,
+              finder.owner_name(static_cast<uint32_t>(restless)).c_str());
 }
 
 // Whether a run is one of the sample: by its names, so that the sample never changes.
@@ -338,14 +396,15 @@ void print_confidence(const std::vector<Run>& runs) {
 
 void print_runs(const char* heading, const std::vector<Run>& runs) {
   std::vector<double> ratios;
-  size_t spikes = 0, spiked = 0, calm = 0, near = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, opened = 0,
-         selves = 0, good = 0;
+  size_t calm_area = 0, near_area = 0, spikes = 0, spiked = 0, calm = 0, near = 0, still = 0, step = 0, slide = 0,
+         sunk = 0, gap = 0, opened = 0, selves = 0, good = 0;
   double worst_still = 0, worst_step = 0, worst_slide = 0, worst_sunk = 0, worst_gap = 0, worst_self = 0, mean_self = 0,
          ms = 0, frames = 0;
   for (const Run& run : runs) {
     spikes += run.spikes, spiked += run.spikes > 0;
     if (run.acceleration > 0)
       ratios.push_back(run.acceleration), calm += run.acceleration <= 1.1, near += run.acceleration <= 1.3;
+    if (run.acceleration > 0) calm_area += run.by_area <= 1.1, near_area += run.by_area <= 1.3;
     still += run.still > 2, worst_still = std::max(worst_still, run.still);
     step += run.step > 1.5, worst_step = std::max(worst_step, run.step);
     slide += run.slide > 0.001, worst_slide = std::max(worst_slide, run.slide);
@@ -367,6 +426,9 @@ void print_runs(const char* heading, const std::vector<Run>& runs) {
               100.0 * static_cast<double>(calm) / static_cast<double>(std::max<size_t>(ratios.size(), 1)),
               100.0 * static_cast<double>(near) / static_cast<double>(std::max<size_t>(ratios.size(), 1)), part(0.5),
               part(0.95), part(1));
+  std::printf("  acceleration by area    %.1f %% <= 1.1, %.1f %% <= 1.3\n",
+              100.0 * static_cast<double>(calm_area) / static_cast<double>(std::max<size_t>(ratios.size(), 1)),
+              100.0 * static_cast<double>(near_area) / static_cast<double>(std::max<size_t>(ratios.size(), 1)));
   std::printf("  still source            %zu runs step > 2 times; largest %.1f\n", still, worst_still);
   std::printf("  step / source's         %zu runs > 1.5; largest %.2f\n", step, worst_step);
   std::printf("  planted feet slide      %zu runs > 0.001; largest %.4f\n", slide, worst_slide);
@@ -420,6 +482,8 @@ int table(const Options& options) {
           const PlayedClip played = session.play(source.model.animations[c].name, source.times[c], frames, bar);
           runs.push_back(measure(played, source, target, session));
           if (options.where && runs.back().spikes > 0) say_where(played, source, target, session);
+          if (options.where && (runs.back().acceleration > 1.1 || runs.back().step > 1.5 || runs.back().still > 2))
+            say_fastest(played, source, target, session);
           if (options.where && runs.back().sunk > 0.01) say_deepest(played, source, target, session);
           if (options.where && runs.back().gap > 0.005) say_widest(played, target, session);
         }

@@ -1,0 +1,72 @@
+// See levers.h.
+#include "transfer/levers.h"
+
+#include <algorithm>
+
+#include "base/elementary.h"
+#include "base/index.h"
+#include "transfer/constants.h"
+
+namespace hf_inner {
+namespace {
+
+// The turn q, of which a part of the share `follow` is taken.
+Quaternion part_of(const Quaternion& q, double follow) noexcept {
+  const Vec3 turn = logarithm(q);
+  const double angle = norm(turn);
+  if (!(angle > 0)) return q;
+  const double less =
+      follow >= 0.5 ? angle - (1 - follow) * sine(angle) : follow * (4.0 / 3 * sine(angle) - sine(2 * angle) / 6);
+  return exponential((less / angle) * turn);
+}
+
+}  // namespace
+
+void Levers::prepare(const WeightedSurface& source, const WeightedSurface& target, Span<const double> limb,
+                     double scale, Vec3 centre, Memory& memory) {
+  const std::size_t count = limb.size();
+  const Overlaps from = overlaps_of(count, source, memory), to = overlaps_of(count, target, memory);
+  follow_.assign(count, 1.0), own_.assign(count, Quaternion()), bent_.assign(count, std::uint8_t{0});
+  for (std::size_t c = 0; c < count; ++c) {
+    const double reach = std::max(scale * from.spread[c], least_reach);
+    if (to.spread[c] > reach) follow_[c] = 1 - limb[c] * (1 - reach / to.spread[c]);
+  }
+  // The shortest ways (Dijkstra 1959), from the cluster that is nearest to the centre.
+  order_.reserve(count), before_.assign(count, -1);
+  Vector<double> way(count, no_height, &memory);
+  Vector<std::uint8_t> done(count, std::uint8_t{0}, &memory);
+  std::size_t root = 0;
+  for (std::size_t c = 0; c < count; ++c)
+    if (norm(to.centroid[c] - centre) < norm(to.centroid[root] - centre)) root = c;
+  way[root] = 0;
+  for (std::size_t step = 0; step < count; ++step) {
+    std::size_t next = count;
+    for (std::size_t c = 0; c < count; ++c)
+      if (!done[c] && (next == count || way[c] < way[next])) next = c;
+    done[next] = 1, order_.push_back(static_cast<std::int32_t>(next));
+    if (way[next] == no_height) continue;
+    for (std::size_t c = 0; c < count; ++c) {
+      if (done[c] || !(to.mass[next * count + c] > least_hinge * std::min(to.own[next], to.own[c]))) continue;
+      const double length = way[next] + norm(to.centroid[next] - to.centroid[c]);
+      if (length < way[c]) way[c] = length, before_[c] = static_cast<std::int32_t>(next);
+    }
+  }
+  // What stands or carries keeps its rotation, whatever lies before it.
+  for (std::size_t c = 0; c < count; ++c)
+    if (!(limb[c] > 0)) before_[c] = -1;
+}
+
+void Levers::turn(const Quaternion& body, Quaternion* rotations) noexcept {
+  std::copy_n(rotations, own_.size(), own_.begin());
+  for (const std::int32_t i : order_) {
+    const std::size_t c = at(i);
+    const bool hangs = before_[c] >= 0 && bent_[at(before_[c])];
+    bent_[c] = hangs || follow_[c] < 1;
+    if (!bent_[c]) continue;
+    const Quaternion before = before_[c] >= 0 ? own_[at(before_[c])] : body,
+                     now = before_[c] >= 0 ? rotations[before_[c]] : body;
+    rotations[c] = normalised(now * part_of(before.conjugate() * own_[c], follow_[c]));
+  }
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,128 @@
+// Parts that reach farther than their source's turn less: on bars of three clusters whose turns are known.
+#include <gtest/gtest.h>
+
+#include "transfer/levers.h"
+#include "transfer_support.h"
+
+namespace {
+
+using namespace transfer_test;
+using hf_inner::Levers;
+using hf_inner::Quaternion;
+using hf_inner::Vec3;
+
+constexpr double pi = 3.14159265358979323846;
+
+// A square tube along x of three parts, one cluster each, that overlap at their ends. lengths: of the parts.
+struct Bar {
+  World world;
+  std::shared_ptr<const hf_inner::Core> core;
+  std::vector<double> area;
+  std::vector<int32_t> joint;
+  std::vector<float> weight;
+
+  explicit Bar(const glm::dvec3& lengths) {
+    const int rings = 31;
+    std::vector<glm::dvec3> positions;
+    std::vector<uint32_t> triangles;
+    std::vector<double> place;  // from 0 to 3: the part
+    double x = 0;
+    for (int i = 0; i < rings; ++i) {
+      place.push_back(3.0 * i / (rings - 1));
+      if (i > 0) x += lengths[std::min(2, (i - 1) / 10)] / 10;
+      for (int k = 0; k < 4; ++k) positions.push_back({x, k < 2 ? 0.05 : -0.05, k % 3 == 0 ? 0.05 : -0.05});
+    }
+    for (int i = 0; i + 1 < rings; ++i)
+      for (int k = 0; k < 4; ++k) {
+        const auto a = static_cast<uint32_t>(4 * i + k), b = static_cast<uint32_t>(4 * i + (k + 1) % 4);
+        triangles.insert(triangles.end(), {a, b, a + 4, b, b + 4, a + 4});
+      }
+    core = make_core(positions, triangles, world);
+    area.assign(static_cast<size_t>(core->size()), 1.0 / core->size());
+    for (const int32_t given : core->mesh.given_of_inner) {
+      const double at = place[static_cast<size_t>(given) / 4];
+      const int part = std::min(2, static_cast<int>(at));
+      const double beyond = part < 2 ? std::max(0.0, (at - part - 0.8) / 0.4) : 0.0;
+      const float next = static_cast<float>(std::floor(beyond * 1024) / 1024);
+      joint.insert(joint.end(), {part, std::min(2, part + 1), 0, 0});
+      weight.insert(weight.end(), {1 - next, next, 0, 0});
+    }
+  }
+  hf_inner::WeightedSurface surface() const {
+    return {core.get(), {area.data(), area.size()}, joint.data(), weight.data()};
+  }
+};
+
+Levers levers(const Bar& from, const Bar& to, hf_inner::Memory& memory, double end = 1) {
+  Levers out(memory);
+  const double limb[3] = {0, 1, end};
+  // lengths that are not the limb's: both bars in units of the first part
+  const double scale = from.core->mesh.scale / to.core->mesh.scale;
+  out.prepare(from.surface(), to.surface(), {limb, 3}, scale, to.core->mesh.to_inner({0, 0, 0}), memory);
+  return out;
+}
+
+TEST(TransferLevers, APartThatReachesThreeTimesAsFarFollowsAThird) {
+  const Bar from({1, 1, 1}), to({1, 1, 3});
+  hf_inner::Memory memory;
+  Levers found = levers(from, to, memory);
+  EXPECT_EQ(found.follow(0), 1) << "the trunk turns as its source";
+  EXPECT_NEAR(found.follow(1), 1, 0.1);
+  EXPECT_NEAR(found.follow(2), 1.0 / 3, 0.05);
+  Quaternion turned[3] = {Quaternion(), Quaternion(), hf_inner::exponential({0, 0, 0.2})};
+  found.turn(Quaternion(), turned);
+  EXPECT_NEAR(turned[2].angularDistance(Quaternion()), found.follow(2) * 0.2, 0.001);
+  EXPECT_LT(turned[1].angularDistance(Quaternion()), 1e-12);
+}
+
+TEST(TransferLevers, WhatHangsOnSuchAPartKeepsToIt) {
+  const Bar from({1, 1, 1}), to({1, 3, 0.3});
+  hf_inner::Memory memory;
+  Levers found = levers(from, to, memory);
+  ASSERT_LT(found.follow(1), 0.5);
+  ASSERT_EQ(found.follow(2), 1);
+  const Quaternion both = hf_inner::exponential({0, 0.3, 0});
+  Quaternion turned[3] = {Quaternion(), both, both};
+  found.turn(Quaternion(), turned);
+  EXPECT_LT(turned[1].angularDistance(Quaternion()), 0.2);
+  EXPECT_LT(turned[2].angularDistance(turned[1]), 1e-12) << "an ear keeps to its head";
+}
+
+TEST(TransferLevers, AFootBehindSuchAPartTurnsAsItsSource) {
+  const Bar from({1, 1, 1}), to({1, 3, 1});
+  hf_inner::Memory memory;
+  Levers found = levers(from, to, memory, 0);
+  const Quaternion foot = hf_inner::exponential({0.1, 0.2, 0});
+  Quaternion turned[3] = {Quaternion(), hf_inner::exponential({0, 0.3, 0}), foot};
+  found.turn(Quaternion(), turned);
+  EXPECT_TRUE(turned[2].coeffs() == foot.coeffs());
+}
+
+TEST(TransferLevers, NoTurnMakesAPartJump) {
+  const Bar from({1, 1, 1});
+  hf_inner::Memory memory;
+  for (const double length : {1.3, 1.8, 2.2, 3.0, 8.0}) {
+    Levers found = levers(from, Bar({1, 1, length}), memory);
+    Quaternion last;
+    const double step = 0.01;
+    for (double angle = 0; angle < 2 * pi + step; angle += step) {
+      Quaternion turned[3] = {Quaternion(), Quaternion(), hf_inner::exponential({0.6 * angle, 0, 0.8 * angle})};
+      found.turn(Quaternion(), turned);
+      EXPECT_LT(turned[2].angularDistance(last), 2 * step) << length << " times as long at " << angle;
+      last = turned[2];
+    }
+  }
+}
+
+TEST(TransferLevers, TheSameBodyKeepsItsRotationsToTheLastBit) {
+  const Bar bar({1, 2, 1});
+  hf_inner::Memory memory;
+  Levers found = levers(bar, bar, memory);
+  const Quaternion given[3] = {hf_inner::exponential({1, 0, 0}), hf_inner::exponential({0, 2, 1}),
+                               hf_inner::exponential({0.4, -1, 3})};
+  Quaternion turned[3] = {given[0], given[1], given[2]};
+  found.turn(hf_inner::exponential({0.1, 0, 0}), turned);
+  for (int c = 0; c < 3; ++c) EXPECT_TRUE(turned[c].coeffs() == given[c].coeffs()) << c;
+}
+
+}  // namespace
