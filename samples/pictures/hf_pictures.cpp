@@ -88,8 +88,12 @@ void run(const Command& options) {
 
   const int tile = pixels(350), upper = pixels(270), lower = pixels(210);
   std::vector<Picture> frames;
-  for (uint32_t i = 0; i < options.frames; i += options.every) {
+  for (uint32_t i = 0; i < options.frames; ++i) {
     const double phase = static_cast<double>(i) / options.frames;
+    if (i % options.every != 0) {
+      pose.pull(pull_at(phase));
+      continue;
+    }
     Picture page{2 * tile, upper + lower, {}};
     page.rgb.resize(3 * size_t(page.width) * size_t(page.height));
     paste(page, pose.draw(tile, upper, pull_at(phase)), 0, 0);
