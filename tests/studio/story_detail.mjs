@@ -14,7 +14,20 @@ export function loopAround(studio, beside = false) {
       const mine = own.pick(view.ray(a, b));
       return beside ? !mine && source.pick(view.ray(a, b)) : mine;
     };
-    const { components } = window.hfStudio.opened;
+    // pieces, where vertices at one place are one; the library's components have the links between pieces
+    const { positions, triangles } = window.hfStudio.body;
+    const first = new Map();
+    const up = Array.from({ length: positions.length / 3 }, (_, v) => {
+      const place = positions.subarray(3 * v, 3 * v + 3).join();
+      if (!first.has(place)) first.set(place, v);
+      return first.get(place);
+    });
+    const piece = (v) => {
+      while (up[v] !== v) v = up[v] = up[up[v]];
+      return v;
+    };
+    for (let t = 0; t < triangles.length; t += 3)
+      for (const k of [1, 2]) up[piece(triangles[t + k])] = piece(triangles[t]);
     for (const radius of [46, 38, 30, 24, 18, 13, 9])
       for (let y = 60; y < box.height - 60; y += 8)
         for (let x = 60; x < box.width - 60; x += 8) {
@@ -25,10 +38,13 @@ export function loopAround(studio, beside = false) {
           const pieces = new Set();
           const on = ([a, b]) => {
             const hit = document.elementFromPoint(box.x + a, box.y + b)?.id === 'canvas' && meets(a, b);
-            if (hit) pieces.add(beside ? 0 : components[hit.vertex]);
+            if (hit) pieces.add(beside ? 0 : piece(hit.vertex));
             return hit && pieces.size === 1;
           };
-          if (path.every(on))
+          if (!path.every(on)) continue;
+          // a vertex inside that the path does not touch
+          const touched = new Set(path.map(([a, b]) => meets(a, b).vertex));
+          if (!touched.has(meets(x, y)?.vertex) && on([x, y]))
             return path.map(([a, b]) => [box.x + a, box.y + b]);
         }
     return null;
