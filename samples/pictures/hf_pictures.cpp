@@ -13,16 +13,17 @@ namespace samples {
 namespace {
 
 const char* const usage =
-    "usage: hf_pictures OUT --pairs FILE.json [--vertices N] [--frames N] [--percent N]\n"
+    "usage: hf_pictures OUT --pairs FILE.json [--vertices N] [--frames N] [--every N] [--percent N]\n"
     "  Writes hf.png (an animated PNG: pose, field, and a walk on another body) and ability_*.png to the folder OUT.\n"
     "  --pairs FILE   pairs of the horse and the bull, as hf_transfer takes them\n"
     "  --vertices N   of a creature (16000)\n"
     "  --frames N     of the animation, a multiple of 3 (48)\n"
+    "  --every N      draws one of N frames: as they are in the whole animation (1)\n"
     "  --percent N    size of the pictures; 100 is 700 pixels wide (100)\n";
 
 struct Command {
   std::filesystem::path out, pairs;
-  uint32_t vertices = 16000, frames = 48, percent = 100;
+  uint32_t vertices = 16000, frames = 48, every = 1, percent = 100;
   bool help = false;
 };
 
@@ -40,6 +41,8 @@ Command parse(Words words) {
       out.vertices = words.whole(500, 300000);
     } else if (words.is("--frames")) {
       out.frames = words.whole(3, 300);
+    } else if (words.is("--every")) {
+      out.every = words.whole(1, 300);
     } else if (words.is("--percent")) {
       out.percent = words.whole(5, 400);
     } else {
@@ -66,7 +69,7 @@ void run(const Command& options) {
   const auto pixels = [&](int full) { return std::max(8, full * static_cast<int>(options.percent) / 100); };
   const auto write = [&](const std::string& name, const std::vector<Picture>& frames) {
     const std::filesystem::path file = options.out / name;
-    write_frames(file.string(), frames, static_cast<uint32_t>(1000 * seconds / options.frames));
+    write_frames(file.string(), frames, static_cast<uint32_t>(1000 * seconds * options.every / options.frames));
     std::printf("wrote %s (%zu frames, %ju bytes)\n", file.string().c_str(), frames.size(),
                 static_cast<uintmax_t>(std::filesystem::file_size(file)));
     std::fflush(stdout);
@@ -87,6 +90,10 @@ void run(const Command& options) {
   std::vector<Picture> frames;
   for (uint32_t i = 0; i < options.frames; ++i) {
     const double phase = static_cast<double>(i) / options.frames;
+    if (i % options.every != 0) {
+      pose.pull(pull_at(phase));
+      continue;
+    }
     Picture page{2 * tile, upper + lower, {}};
     page.rgb.resize(3 * size_t(page.width) * size_t(page.height));
     paste(page, pose.draw(tile, upper, pull_at(phase)), 0, 0);

@@ -72,11 +72,16 @@ PoseScene::PoseScene(const Body& body) : body_(body), pose_(body.surface), handl
   box_ = {{-0.15, 0, -1.25}, {0.15, 2.35, 1.5}};
 }
 
-Picture PoseScene::draw(int width, int height, double pull) {
+void PoseScene::pull(double pull) {
   const glm::dquat turn = glm::angleAxis(-0.7 * pull, glm::dvec3(1, 0, 0));
   const hf_transform transform = {{turn.x, turn.y, turn.z, turn.w}, {0, 0.5 * pull, -0.42 * pull}};
   pose_.set_transform(head_, transform);
-  Surface drawn = body_.drawn(pose_.deform());
+  posed_ = pose_.deform();
+}
+
+Picture PoseScene::draw(int width, int height, double pull) {
+  this->pull(pull);
+  Surface drawn = body_.drawn(posed_);
   for (size_t v = 0; v < handle_of_.size(); ++v)
     for (size_t c = 0; c < 3; ++c)
       if (handle_of_[v]) drawn.colors[3 * v + c] = handle_of_[v] == 2 ? orange[c] : blue[c];

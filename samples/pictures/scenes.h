@@ -41,12 +41,14 @@ View side_view(int width, int height);
 class PoseScene {
  public:
   explicit PoseScene(const Body& body);
-  // pull: 0 at rest, 1 farthest.
+  // pull: 0 at rest, 1 farthest. A pose goes on from the last one, so frames that are not drawn are pulled too.
+  void pull(double pull);
   Picture draw(int width, int height, double pull);
 
  private:
   const Body& body_;
   hf::Pose pose_;
+  std::vector<float> posed_;
   uint32_t head_ = 0;
   std::vector<uint8_t> handle_of_;  // 0 none, 1 stays, 2 is dragged
   Box box_;

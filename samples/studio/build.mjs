@@ -3,11 +3,11 @@
 import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { dirname, join } from 'node:path';
+import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { split } from './split.mjs';
 
-const out = process.argv[2];
+const out = resolve(process.argv[2]);
 const here = dirname(fileURLToPath(import.meta.url));
 const { build } = createRequire(join(process.env.HF_MODULES, 'x.js'))('esbuild');
 
@@ -36,6 +36,8 @@ await build({
   bundle: true,
   splitting: true,
   chunkNames: 'shared-[hash]',
+  // the names hold a hash of the paths of files as seen from here: the same bytes wherever the page is built from
+  absWorkingDir: here,
   format: 'esm',
   target: 'es2022',
   minify: true,

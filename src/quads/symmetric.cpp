@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/progress.h"
 #include "quads/numbers.h"
@@ -262,9 +261,11 @@ void prepare_at_plane(QuadMesh& mesh, Table<std::uint8_t>& on_plane, const Mirro
 
 HalfBase::HalfBase(const Core& whole, const MirrorPlane& given)
     : plane(given), nearest(whole.mesh.positions, whole.mesh.corners, *whole.memory), half(*whole.memory) {
-  std::optional<ProgressRange> part(std::in_place, 0.0f, compared);
-  check_symmetry(whole, nearest, plane);
-  part.emplace(compared, cut);
+  {
+    const ProgressRange part(0.0f, compared);
+    check_symmetry(whole, nearest, plane);
+  }
+  const ProgressRange part(compared, cut);
   half = HalfSurface::make(whole, plane);
   if (half.corner.empty())
     fail(
@@ -310,10 +311,11 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
   }
   FieldQuadOptions half_options = own.get();
   if (options.faces > 0) half_options.faces = std::max(1, (options.faces + 1) / 2);
-  std::optional<ProgressRange> part(std::in_place, cut, made);
   FieldQuadReport found;
-  QuadResult result = make_field_quads(half_options, &found, kept ? &base->kept : nullptr);
-  part.reset();
+  QuadResult result = [&] {
+    const ProgressRange part(cut, made);
+    return make_field_quads(half_options, &found, kept ? &base->kept : nullptr);
+  }();
   Table<std::uint8_t> on_plane(memory);
   for (Index v = 0; v < result.mesh.position.size(); ++v) {
     Vec3& p = result.mesh.position[v];

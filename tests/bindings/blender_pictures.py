@@ -4,6 +4,7 @@ The sidebar shows the tab hf alone. Three states: bound with proposed handles; t
 quads that follow a stroke, which simulated events drag as a user would.
 """
 
+import importlib
 import math
 import os
 import sys
@@ -19,6 +20,16 @@ numpy.bool = bool  # Blender 3.4's own glTF importer still asks newer numpy for 
 bpy.context.preferences.view.show_splash = False
 bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
 bpy.ops.preferences.addon_enable(module="hf_blender")
+quads = importlib.import_module("hf_blender.quads")
+
+
+def done(made, state, *rest, shown=quads.done):
+    """What was made, without the times of this machine: it draws by its processor, beside other tests."""
+    shown(made, state, *rest)
+    state.line = state.line.split(",")[0]
+
+
+quads.done = done
 
 
 def view():

@@ -12,6 +12,8 @@ ROOT = HERE.parents[1]
 faults = []
 
 packages = 0
+# the list with a reason for each
+table = [line for line in (ROOT / "samples" / "studio" / "README.md").read_text().splitlines() if line.startswith("| ")]
 for folder in (HERE, ROOT / "samples" / "studio"):
     at = folder.relative_to(ROOT)
     wanted = json.loads((folder / "package.json").read_text())["dependencies"]
@@ -20,6 +22,8 @@ for folder in (HERE, ROOT / "samples" / "studio"):
     for name, version in wanted.items():
         if not re.fullmatch(r"\d+\.\d+\.\d+(-[\w.]+)?", version):
             faults.append(f"{at}/package.json: {name} is {version}, which is no single version")
+        if not any(name in row and version in row for row in table):
+            faults.append(f"samples/studio/README.md: its table has no row of {name} {version}")
         if lock.get(f"node_modules/{name}", {}).get("version") != version:
             faults.append(f"{at}/package-lock.json: {name} is not {version}")
     for path, entry in lock.items():

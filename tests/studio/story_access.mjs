@@ -2,7 +2,8 @@
 // light and dark.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { Studio, check, require } from './harness.mjs';
+import { join } from 'node:path';
+import { Studio, check, folder, require } from './harness.mjs';
 
 const tools = ['pose', 'field', 'transfer', 'weights', 'quads', 'detail'];
 
@@ -35,6 +36,29 @@ const line = (from, to, count = 8) =>
     from[0] + ((to[0] - from[0]) * i) / count,
     from[1] + ((to[1] - from[1]) * i) / count,
   ]);
+
+/** What a finger cannot take: controls smaller than 44 pixels. A checkbox has its label. */
+const tooSmall = (page) =>
+  page.$$eval('button, select, input, summary', (all) =>
+    all
+      .map((e) => (e.type === 'checkbox' ? e.closest('label') : e))
+      .filter((e) => e.offsetWidth && (e.offsetHeight < 44 || e.offsetWidth < 44))
+      .map((e) => `${e.id || e.textContent} is ${e.offsetWidth}x${e.offsetHeight}`),
+  );
+
+/** What a screen reader is told: roles and names of the page, from the browser's own tree. */
+async function heard(page) {
+  const session = await page.context().newCDPSession(page);
+  const { nodes } = await session.send('Accessibility.getFullAXTree');
+  await session.detach();
+  return nodes
+    .filter(({ ignored, role }) => !ignored && role)
+    .map(({ role, name, properties }) => ({
+      role: role.value,
+      name: name?.value ?? '',
+      live: properties?.find((one) => one.name === 'live')?.value.value,
+    }));
+}
 
 export default async function story(host) {
   for (const [where, size, more] of [
@@ -69,6 +93,7 @@ export default async function story(host) {
               ) - innerWidth,
           );
           if (wide > 0) found.push(`${key}: the page is ${wide} pixels too wide`);
+          if (more.isMobile) found.push(...(await tooSmall(studio.page)).map((text) => `${key}: ${text}`));
         }
         await studio.page.click('#help');
         found.push(...(await axe(studio.page)).map((text) => `help: ${text}`));
@@ -114,6 +139,43 @@ export default async function story(host) {
     },
   );
 
+  await check('a screen reader hears every control by its name, the handles one by one, and what was done', async () => {
+    const studio = await Studio.open(host);
+    const { page } = studio;
+    const controls = /^(button|tab|slider|checkbox|radio|combobox|textbox|spinbutton)$/i;
+    for (const key of tools) {
+      await studio.tool(key);
+      const nameless = (await heard(page)).filter(({ role, name }) => controls.test(role) && !/\w/.test(name));
+      assert.deepEqual(nameless, [], key);
+    }
+    await studio.tool('pose');
+    const buttons = (await heard(page)).filter(({ role }) => role === 'button').map(({ name }) => name);
+    const marks = (await studio.marks()).map(({ label }) => label);
+    assert.ok(marks.length >= 5 && new Set(marks).size === marks.length, marks.join('; '));
+    for (const label of marks) assert.ok(buttons.includes(label), label);
+    assert.equal((await heard(page)).filter(({ role, live }) => role === 'status' && live === 'polite').length, 1);
+    const box = await page.locator('.mark.pulse').boundingBox();
+    await studio.drag(box.x + 22, box.y + 22, 30, -60);
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction(() => /^taken back: \w/.test(document.getElementById('told').textContent));
+    await studio.close();
+    return `${marks.length} handles: ${marks.join('; ')}`;
+  });
+
+  await check('a file that is dropped on the page opens', async () => {
+    const studio = await Studio.open(host);
+    const { page } = studio;
+    const session = await page.context().newCDPSession(page);
+    const data = { items: [], files: [join(folder, 'samples/bull.glb')], dragOperationsMask: 1 };
+    for (const type of ['dragEnter', 'dragOver']) await session.send('Input.dispatchDragEvent', { type, x: 500, y: 400, data });
+    await page.waitForSelector('#drop:not([hidden])');
+    await session.send('Input.dispatchDragEvent', { type: 'drop', x: 500, y: 400, data });
+    await page.waitForFunction(() => window.hfStudio.body?.name === 'bull.glb');
+    await studio.ready();
+    assert.ok(await page.locator('#drop').isHidden());
+    await studio.close();
+  });
+
   await check('by touch alone on a phone: pull, add a handle, turn and pinch the view, put a site', async () => {
     const studio = await Studio.open(host, { size: [390, 844], hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
     const { page } = studio;
@@ -149,12 +211,7 @@ export default async function story(host) {
     await page.touchscreen.tap(spots[3][0], spots[3][1]);
     await studio.settle();
     assert.equal(await page.evaluate(() => window.hfStudio.state.sites.length), 1);
-    const small = await page.$$eval('button:not([hidden]), select', (all) =>
-      all
-        .filter((e) => e.offsetWidth && (e.offsetHeight < 40 || e.offsetWidth < 40))
-        .map((e) => `${e.id} ${e.offsetWidth}x${e.offsetHeight}`),
-    );
-    assert.deepEqual(small, []);
+    assert.deepEqual(await tooSmall(page), []);
     await studio.picture('touch_phone', { kept: false });
     await studio.close();
   });

@@ -4,26 +4,47 @@ import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { Studio, check } from './harness.mjs';
 
-/** A closed path of pixels around a spot that stays on the body (or on the one beside it), or null. */
+/** A closed path of pixels around a spot that stays on one piece of the body (or on the one beside it), or null. */
 export function loopAround(studio, beside = false) {
   return studio.page.evaluate((beside) => {
     const { view, tools, skin: own } = window.hfStudio;
     const source = tools.detail?.source;
     const box = document.getElementById('canvas').getBoundingClientRect();
     const meets = (a, b) => {
-      const ray = view.ray(a, b);
-      if (!beside) return own.pick(ray);
-      ray.origin.sub(source.skin.group.position);
-      return !own.pick(view.ray(a, b)) && source.skin.pick(ray);
+      const mine = own.pick(view.ray(a, b));
+      return beside ? !mine && source.pick(view.ray(a, b)) : mine;
     };
-    for (const radius of [46, 38, 30, 24])
+    // pieces, where vertices at one place are one; the library's components have the links between pieces
+    const { positions, triangles } = window.hfStudio.body;
+    const first = new Map();
+    const up = Array.from({ length: positions.length / 3 }, (_, v) => {
+      const place = positions.subarray(3 * v, 3 * v + 3).join();
+      if (!first.has(place)) first.set(place, v);
+      return first.get(place);
+    });
+    const piece = (v) => {
+      while (up[v] !== v) v = up[v] = up[up[v]];
+      return v;
+    };
+    for (let t = 0; t < triangles.length; t += 3)
+      for (const k of [1, 2]) up[piece(triangles[t + k])] = piece(triangles[t]);
+    for (const radius of [46, 38, 30, 24, 18, 13, 9])
       for (let y = 60; y < box.height - 60; y += 8)
         for (let x = 60; x < box.width - 60; x += 8) {
           const path = Array.from({ length: 33 }, (_, i) => [
             x + radius * Math.cos((2 * Math.PI * i) / 32),
             y + radius * Math.sin((2 * Math.PI * i) / 32),
           ]);
-          if (path.every(([a, b]) => document.elementFromPoint(box.x + a, box.y + b)?.id === 'canvas' && meets(a, b)))
+          const pieces = new Set();
+          const on = ([a, b]) => {
+            const hit = document.elementFromPoint(box.x + a, box.y + b)?.id === 'canvas' && meets(a, b);
+            if (hit) pieces.add(beside ? 0 : piece(hit.vertex));
+            return hit && pieces.size === 1;
+          };
+          if (!path.every(on)) continue;
+          // a vertex inside that the path does not touch
+          const touched = new Set(path.map(([a, b]) => meets(a, b).vertex));
+          if (!touched.has(meets(x, y)?.vertex) && on([x, y]))
             return path.map(([a, b]) => [box.x + a, box.y + b]);
         }
     return null;

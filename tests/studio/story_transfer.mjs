@@ -151,6 +151,47 @@ export default async function story(host) {
     await studio.tool('pose');
     assert.equal(await page.evaluate(() => window.hfStudio.tools.transfer.source.skin.group.visible), false);
   });
+  await check('a source thirty times smaller is drawn as large as the body, with its dots on it', async () => {
+    const obj = await page.evaluate(() => {
+      const { positions, triangles } = window.hfStudio.body;
+      const rows = (letter, list) =>
+        Array.from({ length: list.length / 3 }, (_, i) => `${letter} ${list.slice(3 * i, 3 * i + 3).join(' ')}`);
+      return [...rows('v', Array.from(positions, (x) => 30 * x)), ...rows('f', Array.from(triangles, (v) => v + 1))].join('\n');
+    });
+    await page.setInputFiles('#file', { name: 'large.obj', mimeType: 'text/plain', buffer: Buffer.from(obj) });
+    await page.waitForFunction(() => window.hfStudio.body.name === 'large.obj');
+    await studio.ready();
+    await studio.tool('transfer');
+    await page.click('#take-horse');
+    await page.waitForFunction(() => window.hfStudio.tools.transfer.info && window.hfStudio.tools.transfer.source.skin.bvh);
+    await studio.settle();
+    const { high, off, away } = await page.evaluate(() => {
+      const { tools, view, skin } = window.hfStudio;
+      const { source, pairs } = tools.transfer;
+      const heights = [skin, source.skin].map((one) => {
+        const box = one.box();
+        return (box.max.y - box.min.y) * one.group.scale.y;
+      });
+      // the middle of the dots lies on the body, and a dot is no farther from what is picked beside it than a few pixels
+      let away = 0;
+      let off = 0;
+      for (const { source: place } of pairs) {
+        const at = view.onScreen(source.shown(place.position));
+        const hit = source.pick(view.ray(at.x, at.y));
+        if (!hit) ++off;
+        else {
+          const there = view.onScreen(source.shown(hit.position));
+          away = Math.max(away, Math.hypot(there.x - at.x, there.y - at.y));
+        }
+      }
+      return { high: heights[1] / heights[0], off: off / pairs.length, away };
+    });
+    assert.ok(high > 0.5 && high < 2, `${high} times as high`);
+    // tips of horns and tails may lie a pixel beside the body
+    assert.ok(off < 0.5 && away < 1, `${off} of the dots lie beside the body, ${away} pixels`);
+    await studio.picture('transfer_small_source', { kept: false });
+    return `${high.toFixed(2)} times as high`;
+  });
   await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
   await studio.close();
 }

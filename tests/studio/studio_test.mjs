@@ -16,6 +16,7 @@ const stories = [
   'broken',
   'access',
   'bodies',
+  'smooth',
   'figures',
 ];
 const wanted = process.argv.slice(4);

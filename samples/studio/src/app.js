@@ -198,6 +198,14 @@ export class App {
   }
   /** A state from outside: of a session that was kept. The history begins anew. */
   async take(state) {
+    document.body.setAttribute('aria-busy', 'true');
+    try {
+      await this.#take(state);
+    } finally {
+      document.body.removeAttribute('aria-busy');
+    }
+  }
+  async #take(state) {
     const before = this.history.state;
     const from = state.detail?.carry?.from;
     if (from) await this.#source(from).catch(() => {}); // the tool says that it is missing

@@ -98,11 +98,15 @@ export const tool = (kit) => {
       for (const curve of this.curves) {
         const points = found[curve.side];
         curve.visible = Boolean(points?.length);
+        if (curve.side === 'source' && this.source) {
+          const { position, scale } = this.source.skin.group;
+          curve.position.copy(position);
+          curve.scale.copy(scale);
+        }
         if (!points || curve.points === points) continue;
         curve.points = points;
         curve.geometry.dispose();
         curve.geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(points, 3));
-        if (curve.side === 'source') curve.position.set(...this.source.offset);
       }
     }
     tinted(vertexCount, { inside, rim }) {
@@ -150,10 +154,8 @@ export const tool = (kit) => {
       const own = side !== 'source' && app.skin.pick(app.view.ray(...at));
       if (own) return { side: 'body', vertex: own.vertex, position: own.position };
       if (!source || side === 'body') return null;
-      const ray = app.view.ray(...at);
-      ray.origin.sub(source.skin.group.position);
-      const hit = source.skin.pick(ray);
-      return hit && { side: 'source', vertex: hit.vertex, position: hit.position.map((x, k) => x + source.offset[k]) };
+      const hit = source.pick(app.view.ray(...at));
+      return hit && { side: 'source', vertex: hit.vertex, position: source.shown(hit.position) };
     }
     strokeStart(at) {
       const hit = this.under(at);

@@ -356,6 +356,21 @@ export const tool = (kit) => {
               ? `Click on the body: ${this.placing} quads meet there. Drag the dot, and the quads follow.`
               : 'Covers the body with quads that follow its shape. A finer size takes longer.',
         ),
+        make(
+          'div',
+          { class: 'row' },
+          button('Make quads', () => this.run(), { class: 'main', id: 'make', disabled }),
+          busy && button('Cancel', () => this.cancel(), { id: 'cancel' }),
+        ),
+        busy &&
+          make(
+            'div',
+            { class: 'row', role: 'status' },
+            make('progress', { 'aria-label': 'making quads' }),
+            make('span', { id: 'quads-clock' }, '0 s'),
+            result && make('span', {}, 'The quads are evened out and fitted now.'),
+          ),
+        this.error && make('p', { class: 'warn' }, this.error),
         slider(
           'Size of a quad',
           { value: this.edge, low: 0.01, high: 0.06, step: 0.001, digits: 3, id: 'edge', disabled },
@@ -399,21 +414,6 @@ export const tool = (kit) => {
           this.poles.length > 0 &&
             button('Remove poles', () => this.#set({ poles: [] }, 'remove all poles'), { id: 'clear-poles', disabled }),
         ),
-        make(
-          'div',
-          { class: 'row' },
-          button('Make quads', () => this.run(), { class: 'main', id: 'make', disabled }),
-          busy && button('Cancel', () => this.cancel(), { id: 'cancel' }),
-        ),
-        busy &&
-          make(
-            'div',
-            { class: 'row', role: 'status' },
-            make('progress', { 'aria-label': 'making quads' }),
-            make('span', { id: 'quads-clock' }, '0 s'),
-            result && make('span', {}, 'The quads are evened out and fitted now.'),
-          ),
-        this.error && make('p', { class: 'warn' }, this.error),
         result &&
           facts([
             ['quads', whole(result.info.faceCount)],

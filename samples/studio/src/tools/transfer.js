@@ -86,7 +86,7 @@ export const tool = (kit) => {
       if (!this.source || this.playing || this.time) return [];
       return this.pairs.flatMap((pair, i) => {
         const shown = { offer: pair.off, colour: this.colour(i), chosen: this.chosenPair === i };
-        const at = pair.source.position.map((x, k) => x + this.source.offset[k]);
+        const at = this.source.shown(pair.source.position);
         const name = `pair ${i + 1}, ${pair.name ? `${pair.name}, ` : ''}${pair.kind}${pair.off ? ', left out' : ''}`;
         return [
           { id: `a${i}`, place: at, label: `${name}, source`, pair: i, ...shown },
@@ -109,10 +109,8 @@ export const tool = (kit) => {
     }
     drag({ id, pair }, [x, y]) {
       const side = id.startsWith('a') ? 'source' : 'target';
-      const { skin } = side === 'source' ? this.source : this.app;
-      const ray = this.app.view.ray(x, y);
-      if (side === 'source') ray.origin.sub(skin.group.position);
-      const hit = skin.pick(ray);
+      const { pick } = side === 'source' ? this.source : { pick: (ray) => this.app.skin.pick(ray) };
+      const hit = pick(this.app.view.ray(x, y));
       if (!hit) return;
       this.moved = { pair, side, place: hit.position };
       this.pairs = this.pairs.map((other, i) =>
