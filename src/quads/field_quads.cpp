@@ -8,6 +8,7 @@
 #include "base/timer.h"
 #include "quads/counted_quads.h"
 #include "quads/cut_mesh.h"
+#include "quads/feature_crosses.h"
 #include "quads/numbers.h"
 #include "quads/other_core.h"
 #include "quads/poles.h"
@@ -30,20 +31,6 @@ constexpr double sample_spacing = 0.33;
 // A place farther than this from the surface is fitted; in edge lengths. On the same quads, at edges of 2.2 % of the
 // box, it gives distances of 0.86 % of the box. Half the value: up to 18 % more faces. Twice: distances up to 2.9 %.
 constexpr double fit_tolerance = 0.39;
-// Radius over which crosses are evened out, in edge lengths of the quads, or of the surface where those are longer.
-// Half changes means by at most 4 %. At twice the value aspects and angles fall by 5 %, and distances grow by 15 %.
-constexpr double smooth_radius = 4;
-// Radius in edge lengths over which the curvature is evened out: trades details for calm crosses. Half changes 5 of 15
-// runs; distances grow by 4 %. At twice the value irregular vertices fall by 4 % and aspects by 5 %.
-constexpr double curvature_radius = 1;
-// The limits of its rounds; one evens out over one edge of the surface. With at least 1 there are 7 % more
-// singularities; with at least 4, distances grow by 8 %. On six meshes of 200 or 300 quads, at most 10 gives 8 % more
-// irregular vertices, and at most 40 gives 12 % fewer. Neither changes any of the 15 runs.
-constexpr std::int32_t least_passes = 2, most_passes = 20;
-// The feature edges of a vertex agree if their crosses sum to more than this share of their number. Else the cross at
-// the vertex is free. It matters at creases and borders only. At 0.25 aspects fall by 5 %, with 5 % more singularities.
-// At 0.9 means change by at most 2 %.
-constexpr double agreement = 0.5;
 // A guide whose part along the surface is shorter than this share of it has no direction; it refuses mistakes.
 constexpr double least_tangent = 1e-9;
 constexpr double degrees = half_turn / 180;
@@ -104,55 +91,6 @@ constexpr double most_stretched = 1.5;
 // more on 5, distances smaller on 11 and larger on 7; at 50,000 9 and 7, 5 and 9, and one more mesh is valid; at 1,500
 // quads 13 and 4, 11 and 7; at 500 quads 11 and 12, 5 and 17.
 constexpr double untangled_from = 1000;
-
-// In a pass that evens out the crosses of a border, each of the two neighbours counts this times the cross itself, and
-// the sum is scaled back. Less keeps ragged borders, more rounds corners. At 5 % edges half changes a sheet with holes
-// from 4.2 % of the box to 5.9 % and a blob of three pieces from 2.7 to 2.5 %; double to 7.2 and 2.4 %. An elephant
-// with holes stays the same.
-constexpr double border_neighbour = 0.5, border_scale = 1 / (1 + 2 * border_neighbour);
-
-// Crosses at feature edges lie along them. Along borders they are evened out over `passes` edges: the fourth degree
-// keeps right angles, and ragged borders get their mean direction.
-Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, const Connection& connection,
-                                  const Table<std::uint8_t>& features, Index passes) {
-  Memory& memory = *core.memory;
-  Vector<Complex> sum(at(core.size()), Complex(0, 0), &memory);
-  Vector<double> count(at(core.size()), 0.0, &memory);
-  Vector<HardCross> out(&memory);
-  for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
-    const std::int32_t g = surface.twin[h];
-    if (!features[h] || (surface.is_real(g) && g < h)) continue;
-    const Vec3 edge = surface.position[surface.head(h)] - surface.position[surface.tail[h]];
-    for (const Index v : {surface.mesh_vertex[surface.tail[h]], surface.mesh_vertex[surface.head(h)]}) {
-      Complex z = connection.to_frame(v, edge);
-      if (!(length_of(z) > 0)) continue;
-      z /= length_of(z), z *= z, z *= z;
-      sum[at(v)] += z, count[at(v)] += 1;
-    }
-  }
-  const Topology& topology = core.topology;
-  const auto is_border = [&](Index e) {
-    return topology.edge_triangle_start[at(e) + 1] - topology.edge_triangle_start[at(e)] == 1;
-  };
-  Vector<Complex> next(sum.begin(), sum.end(), &memory);
-  for (Index pass = 0; pass < passes; ++pass) {
-    for (Index v = 0; v < core.size(); ++v) {
-      if (count[at(v)] == 0) continue;
-      Complex total = sum[at(v)];
-      for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
-        const Index w = topology.neighbour[at(i)], e = topology.neighbour_edge[at(i)];
-        if (is_border(e)) total += border_neighbour * sum[at(w)] * at_angle(1.0, 4 * connection.turn(topology, e, v));
-      }
-      next[at(v)] = border_scale * total;
-    }
-    sum.swap(next);
-  }
-  for (Index v = 0; v < core.size(); ++v) {
-    const double length = length_of(sum[at(v)]);
-    if (count[at(v)] > 0 && length > agreement * count[at(v)]) out.push_back({v, sum[at(v)] / length});
-  }
-  return out;
-}
 
 // What the guides say by vertex: the mean of their crosses, to the fourth degree, and the largest weight.
 struct Guided {
@@ -256,41 +194,6 @@ void check_expected(const FieldQuadOptions& options, double area) {
          expected);
 }
 
-QuadBase::QuadBase(std::shared_ptr<const Core> given)
-    : core(std::move(given)),
-      surface(FluxSurface::make(core->mesh, core->topology, *core->memory)),
-      area(area_of(surface)),
-      curvature(core->memory.get()) {
-  const Topology& topology = core->topology;
-  for (Index e = 0; e < topology.edge_count(); ++e)
-    mean_edge += norm(core->mesh.positions[at(topology.second(e))] - core->mesh.positions[at(topology.first(e))]);
-  mean_edge /= std::max(topology.edge_count(), 1);
-}
-
-void QuadBase::prepare(double edge_length, double facet) {
-  if (!system) system.emplace(core, 4);
-  const double radius = smooth_radius * std::max({edge_length, mean_edge, facet});
-  if (!smoother || smoother->radius() != radius) {
-    smoother.reset();
-    smoother.emplace(*system, radius);
-  }
-  const double rings = curvature_radius * edge_length / mean_edge;
-  const Index wanted = static_cast<Index>(std::min<double>(most_passes, std::max<double>(least_passes, rings * rings)));
-  if (passes == wanted) return;
-  passes = -1;
-  curvature = curvature_crosses(*core, system->connection, wanted);
-  passes = wanted;
-}
-
-const QuadDistance& QuadBase::distance(double spacing) {
-  if (!distance_ || spacing_ != spacing) {
-    distance_.reset();
-    distance_.emplace(surface, spacing, *core->memory, core->jobs.get());
-    spacing_ = spacing;
-  }
-  return *distance_;
-}
-
 namespace {
 
 // Quads of a surface whose triangles are short enough.
@@ -364,11 +267,11 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
     CountedQuads counted(surface, source, aim, aimed, options.faces > 0, memory);
     QuadMesh mesh(memory);
     FieldQuadReport now;
-    bool too_many = false;
-    double off = HUGE_VAL, done = 0;  // the distance to the surface; the progress of this turn
-    double share = 1;                 // of the edges
-    std::int32_t irregular = 0;       // irregular vertices of the first mesh
-    double first = 0, stretch = 0;    // distance and stretch of the first mesh
+    bool too_many = false, fewest = false;  // fewest: nothing more can be removed
+    double off = HUGE_VAL, done = 0;        // the distance to the surface; the progress of this turn
+    double share = 1;                       // of the edges
+    std::int32_t irregular = 0;             // irregular vertices of the first mesh
+    double first = 0, stretch = 0;          // distance and stretch of the first mesh
     const bool untangled = wanted >= untangled_from;
     for (std::int32_t i = 0; i == 0 || (finer_left > 0 && source.is_open()); ++i) {
       if (i > 0) --finer_left, share *= finer_share;
@@ -384,6 +287,9 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
         if (turn == 0 && i == 0) throw;
         break;
       }
+      // Where every component has a substitute, its quads are those of the try before.
+      if (i > 0 && tried.substitutes == surface.component_count && now.substitutes == surface.component_count) break;
+      if (i == 0) fewest = found.face_count() > (1 + fitted_error) * aim;
       check_quads(found, surface.euler_characteristic, memory);
       hold_poles(surface, options.poles, tried.edge_length, found, memory);
       made.quads_ms += turn_timer.milliseconds();
@@ -424,7 +330,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
       chosen = now;
     }
     // Fitting adds quads, so the next turn aims at less.
-    if (options.faces == 0 || error <= fitted_error || too_many) break;
+    if (options.faces == 0 || error <= fitted_error || too_many || fewest) break;
     aim /= ratio;
   }
   made = chosen;

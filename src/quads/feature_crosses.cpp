@@ -1,0 +1,57 @@
+#include "quads/feature_crosses.h"
+
+#include "quads/numbers.h"
+
+namespace hf_inner {
+namespace {
+
+// In a pass that evens out the crosses of a border, each of the two neighbours counts this times the cross itself, and
+// the sum is scaled back. Less keeps ragged borders, more rounds corners. At 5 % edges half changes a sheet with holes
+// from 4.2 % of the box to 5.9 % and a blob of three pieces from 2.7 to 2.5 %; double to 7.2 and 2.4 %. An elephant
+// with holes stays the same.
+constexpr double border_neighbour = 0.5, border_scale = 1 / (1 + 2 * border_neighbour);
+
+}  // namespace
+
+Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, const Connection& connection,
+                                  const Table<std::uint8_t>& features, Index passes) {
+  Memory& memory = *core.memory;
+  Vector<Complex> sum(at(core.size()), Complex(0, 0), &memory);
+  Vector<double> count(at(core.size()), 0.0, &memory);
+  Vector<HardCross> out(&memory);
+  for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
+    const std::int32_t g = surface.twin[h];
+    if (!features[h] || (surface.is_real(g) && g < h)) continue;
+    const Vec3 edge = surface.position[surface.head(h)] - surface.position[surface.tail[h]];
+    for (const Index v : {surface.mesh_vertex[surface.tail[h]], surface.mesh_vertex[surface.head(h)]}) {
+      Complex z = connection.to_frame(v, edge);
+      if (!(length_of(z) > 0)) continue;
+      z /= length_of(z), z *= z, z *= z;
+      sum[at(v)] += z, count[at(v)] += 1;
+    }
+  }
+  const Topology& topology = core.topology;
+  const auto is_border = [&](Index e) {
+    return topology.edge_triangle_start[at(e) + 1] - topology.edge_triangle_start[at(e)] == 1;
+  };
+  Vector<Complex> next(sum.begin(), sum.end(), &memory);
+  for (Index pass = 0; pass < passes; ++pass) {
+    for (Index v = 0; v < core.size(); ++v) {
+      if (count[at(v)] == 0) continue;
+      Complex total = sum[at(v)];
+      for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
+        const Index w = topology.neighbour[at(i)], e = topology.neighbour_edge[at(i)];
+        if (is_border(e)) total += border_neighbour * sum[at(w)] * at_angle(1.0, 4 * connection.turn(topology, e, v));
+      }
+      next[at(v)] = border_scale * total;
+    }
+    sum.swap(next);
+  }
+  for (Index v = 0; v < core.size(); ++v) {
+    const double length = length_of(sum[at(v)]);
+    if (count[at(v)] > 0 && length > agreement * count[at(v)]) out.push_back({v, sum[at(v)] / length});
+  }
+  return out;
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <cmath>
+
+#include "quads/counted_quads.h"
+#include "quads/feature_crosses.h"
+#include "quads/field_quads.h"
+#include "quads/opposite_pairs.h"
+
+namespace hf_inner {
+namespace {
+
+// field_quads.cpp says what the other values below were tried on.
+
+// Radius over which crosses are evened out, in edge lengths of the quads, or of the surface where those are longer.
+// Less follows the principal directions, more has fewer singularities. The crosses of 41 meshes at 5,000 quads have at
+// most 1.2 times the singularities of Instant Meshes on 36, 37, 37 and 36 of 40 with 2.8, 3, 3.4 and 4, and are at most
+// 11 degrees off on 31, 31, 31 and 28. Quads of 2.8 have angles 4 % worse than those of 4, those of 3.4 1 %.
+constexpr double smooth_radius = 3.4;
+// Radius in edge lengths over which the curvature is evened out: trades details for calm crosses. Half changes 5 of 15
+// runs; distances grow by 4 %. At twice the value irregular vertices fall by 4 % and aspects by 5 %.
+constexpr double curvature_radius = 1;
+// The limits of its rounds; one evens out over one edge of the surface. With at least 1 there are 7 % more
+// singularities; with at least 4, distances grow by 8 %. On six meshes of 200 or 300 quads, at most 10 gives 8 % more
+// irregular vertices, and at most 40 gives 12 % fewer. Neither changes any of the 15 runs.
+constexpr std::int32_t least_passes = 2, most_passes = 20;
+
+}  // namespace
+
+QuadBase::QuadBase(std::shared_ptr<const Core> given)
+    : core(std::move(given)),
+      surface(FluxSurface::make(core->mesh, core->topology, *core->memory)),
+      area(area_of(surface)),
+      curvature(core->memory.get()) {
+  const Topology& topology = core->topology;
+  for (Index e = 0; e < topology.edge_count(); ++e)
+    mean_edge += norm(core->mesh.positions[at(topology.second(e))] - core->mesh.positions[at(topology.first(e))]);
+  mean_edge /= std::max(topology.edge_count(), 1);
+}
+
+void QuadBase::prepare(double edge_length, double facet) {
+  if (!system) system.emplace(core, 4);
+  const double length = std::max({edge_length, mean_edge, facet}), radius = smooth_radius * length;
+  if (!smoother || smoother->radius() != radius) {
+    smoother.reset(), passes = -1;
+    smoother.emplace(*system, radius);
+  }
+  const double rings = curvature_radius * edge_length / mean_edge;
+  const Index wanted = static_cast<Index>(std::min<double>(most_passes, std::max<double>(least_passes, rings * rings)));
+  if (passes == wanted) return;
+  passes = -1;
+  curvature = curvature_crosses(*core, system->connection, wanted);
+  const Table<std::uint8_t> borders = find_features(surface, HUGE_VAL, *core->memory);
+  const Vector<HardCross> hard = feature_crosses(*core, surface, system->connection, borders, wanted);
+  leave_out_pairs(surface, *system, *smoother, hard, borders, length, curvature);
+  passes = wanted;
+}
+
+const QuadDistance& QuadBase::distance(double spacing) {
+  if (!distance_ || spacing_ != spacing) {
+    distance_.reset();
+    distance_.emplace(surface, spacing, *core->memory, core->jobs.get());
+    spacing_ = spacing;
+  }
+  return *distance_;
+}
+
+}  // namespace hf_inner
