@@ -2,9 +2,7 @@
 #include <cmath>
 
 #include "quads/counted_quads.h"
-#include "quads/feature_crosses.h"
 #include "quads/field_quads.h"
-#include "quads/opposite_pairs.h"
 
 namespace hf_inner {
 namespace {
@@ -12,10 +10,9 @@ namespace {
 // field_quads.cpp says what the other values below were tried on.
 
 // Radius over which crosses are evened out, in edge lengths of the quads, or of the surface where those are longer.
-// Less follows the principal directions, more has fewer singularities. The crosses of 41 meshes at 5,000 quads have at
-// most 1.2 times the singularities of Instant Meshes on 36, 37, 37 and 36 of 40 with 2.8, 3, 3.4 and 4, and are at most
-// 11 degrees off on 31, 31, 31 and 28. Quads of 2.8 have angles 4 % worse than those of 4, those of 3.4 1 %.
-constexpr double smooth_radius = 3.4;
+// Half changes means by at most 4 %. At twice the value aspects and angles fall by 5 %, and distances grow by 15 %. It
+// trades the angle to the principal directions for the number of singularities (docs/studies/quads_field.md).
+constexpr double smooth_radius = 4;
 // Radius in edge lengths over which the curvature is evened out: trades details for calm crosses. Half changes 5 of 15
 // runs; distances grow by 4 %. At twice the value irregular vertices fall by 4 % and aspects by 5 %.
 constexpr double curvature_radius = 1;
@@ -39,9 +36,9 @@ QuadBase::QuadBase(std::shared_ptr<const Core> given)
 
 void QuadBase::prepare(double edge_length, double facet) {
   if (!system) system.emplace(core, 4);
-  const double length = std::max({edge_length, mean_edge, facet}), radius = smooth_radius * length;
+  const double radius = smooth_radius * std::max({edge_length, mean_edge, facet});
   if (!smoother || smoother->radius() != radius) {
-    smoother.reset(), passes = -1;
+    smoother.reset();
     smoother.emplace(*system, radius);
   }
   const double rings = curvature_radius * edge_length / mean_edge;
@@ -49,9 +46,6 @@ void QuadBase::prepare(double edge_length, double facet) {
   if (passes == wanted) return;
   passes = -1;
   curvature = curvature_crosses(*core, system->connection, wanted);
-  const Table<std::uint8_t> borders = find_features(surface, HUGE_VAL, *core->memory);
-  const Vector<HardCross> hard = feature_crosses(*core, surface, system->connection, borders, wanted);
-  leave_out_pairs(surface, *system, *smoother, hard, borders, length, curvature);
   passes = wanted;
 }
 

@@ -57,10 +57,6 @@ constexpr double unfold_least = 0.02;
 // How often vertices near places that lie too far go back, each time a ring more; then all do. Half and double give the
 // same figures.
 constexpr std::int32_t unfold_returns = 4;
-// Unfolded vertices go back where the mesh then lies farther from the surface than this times the distance before. At
-// 5,000 quads the last corners of nefertiti, scorpion and human_man unfold with 1.05 already, none of the elephant,
-// boot or elephant with holes with 1.2; with 1 none does.
-constexpr double unfold_slack = 1.05;
 // A place lies on the border, or at its vertex, if the weights of the other corners are below this: rounding.
 constexpr double on_border = 1e-9;
 // Vertices on borders slide along them as far as the cosine of the border's turn stays above this: 18 degrees. More

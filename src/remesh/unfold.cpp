@@ -206,16 +206,14 @@ class Unfolder {
     return take(best);
   }
 
-  // Takes back what lies much farther from the surface than before.
+  // Takes back what lies farther from the surface than before.
   double held(double away) {
     Vector<QuadMiss> misses(&memory_);
     for (std::int32_t round = 0; round < unfold_returns; ++round) {
       distance_.turn_quads(mesh_);
       misses.clear();
       const double now = distance_.measure(mesh_, away, &misses);
-      const auto is_near = [&](const QuadMiss& miss) { return miss.distance <= unfold_slack * away; };
-      misses.erase(std::remove_if(misses.begin(), misses.end(), is_near), misses.end());
-      if (misses.empty()) return now;
+      if (misses.empty()) return std::min(now, away);
       Table<std::uint8_t> back(mesh_.position.size(), 0, memory_);
       for (const QuadMiss& miss : misses) {
         for (std::int32_t k = 0; k < 4; ++k) back[mesh_.quad(miss.face)[k]] = 1;

@@ -13,8 +13,7 @@
 
 namespace hf_inner {
 
-// away: the distance between the mesh and the surface. Returns that of the new mesh; it is at most unfold_slack times
-// `away`.
+// away: the distance between the mesh and the surface. Returns that of the new mesh; it is at most `away`.
 double unfold_quads(const FluxSurface& surface, const QuadDistance& distance, double edge_length, double away,
                     QuadMesh& mesh, Memory& memory);
 

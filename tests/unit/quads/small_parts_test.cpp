@@ -138,7 +138,7 @@ TEST(SmallParts, limbs_that_few_lines_run_round_are_kept) {
     hf_test::expect_manifold(*core, mesh, "horse");
     const double off = distance.measure(mesh, 0, nullptr) / length;
     std::printf("edges of %.3f: %d quads, %.2f edges off\n", length, mesh.face_count(), off);
-    EXPECT_LT(off, 1.2) << length;
+    EXPECT_LT(off, 1.1) << length;
     EXPECT_NEAR(report.edge_length, length, 1e-12);
   }
 }
