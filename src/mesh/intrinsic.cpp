@@ -298,7 +298,8 @@ Vector<double> IntrinsicTriangulation::vertex_areas(Index vertex_count, Memory& 
 
 namespace {
 
-// Rows of at most this many entries are sorted by insertion. Longer ones would take quadratic time.
+// Rows of at most this many entries are sorted by insertion, which is quick for the usual seven. Longer ones would take
+// quadratic time. No result depends on it.
 constexpr std::size_t short_row = 32;
 
 // Sorts the entries of a row by column and adds up those of one column. Equal columns are added from the smallest
