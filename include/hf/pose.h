@@ -192,9 +192,9 @@ typedef struct hf_deform_desc {
   int32_t restart;          /* 1: forget the last pose and start from the fields. The frame then has the bits of a fresh
                                pose with the same handles, added in the same order, and the same transforms. Without
                                restart a frame continues from the last one, so it also depends on that */
-  int32_t refine; /* 0 to 64: adds so many as-rigid-as-possible steps of the whole surface, with the same factor. Each
-                     costs two sweeps, about 0.2 us a vertex. One keeps the pose smooth. With eight, edges keep their
-                     lengths nearly as in the converged as-rigid-as-possible pose, and bends get as sharp as there */
+  int32_t refine; /* 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
+                     about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
+                     sharper */
   uint32_t
       first_vertex; /* outputs hold vertex_count vertices from this one on; 0 and 0: all. Positions of a range cost */
   uint32_t vertex_count; /* only the range, if there are no higher layers, no refine and no normals */

@@ -351,7 +351,9 @@ SymmetricMatrix IntrinsicTriangulation::laplacian(Index vertex_count, Memory& me
   const std::size_t ranges = jobs ? jobs->thread_count() : 1;
   for_each(jobs, static_cast<std::uint32_t>(ranges), [&](std::uint32_t r) {
     const Index first = static_cast<Index>(n * r / ranges), end = static_cast<Index>(n * (r + 1) / ranges);
+    Poller poller;
     for (std::size_t h = 0; h < halves; ++h) {
+      poller.due();
       const Index i = tail_[h];
       if (i < first || i >= end) continue;
       const Index j = head_of(h);

@@ -22,10 +22,9 @@ Quaternion part_of(const Quaternion& q, double follow) noexcept {
 
 }  // namespace
 
-void Levers::prepare(const WeightedSurface& source, const WeightedSurface& target, Span<const double> limb,
-                     double scale, Vec3 centre, Memory& memory) {
+void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, double scale, Vec3 centre,
+                     Memory& memory) {
   const std::size_t count = limb.size();
-  const Overlaps from = overlaps_of(count, source, memory), to = overlaps_of(count, target, memory);
   follow_.assign(count, 1.0), own_.assign(count, Quaternion()), bent_.assign(count, std::uint8_t{0});
   for (std::size_t c = 0; c < count; ++c) {
     const double reach = std::max(scale * from.spread[c], least_reach);

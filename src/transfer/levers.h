@@ -4,9 +4,9 @@
 // length; its hand follows a hoof that flips by 90 degrees in two frames. So a cluster whose vertices spread k > 1
 // times as wide as those of its source's cluster follows a k-th part of the turn:
 //     R'_c = R'_b f(R_b^-1 R_c).
-// R are the rotations of the source's clusters, R' those that the target takes, and b is the cluster before c on the
-// shortest way from the middle of the target over clusters that overlap. So an ear keeps to its head. f keeps the axis
-// of a turn and changes its angle a. With w = 1/k:
+// R are the rotations of the source's clusters, R' those that the target takes. b is the cluster before c on the
+// shortest way from the middle of the target; the way goes over clusters that overlap. So an ear keeps to its head. f
+// keeps the axis of a turn and changes its angle a. With w = 1/k:
 //     w >= 1/2: a - (1 - w) sin a,     w < 1/2: w (4/3 sin a - 1/6 sin 2a).
 // Small angles become w a. Half a turn to the left is half a turn to the right, so pi becomes pi or 0: no turn makes a
 // part jump. Where k <= 1 rotations stay, to the last bit if they stay on the whole way; so on a body that plays its
@@ -25,10 +25,11 @@ class Levers {
   explicit Levers(Memory& memory)
       : order_(&memory), before_(&memory), follow_(&memory), own_(&memory), bent_(&memory) {}
 
-  // limb: by cluster, from 0 to 1, how far it belongs to a limb that can turn less. scale: lengths of the target over
-  // those of the source. centre: of the target. Without this call nothing turns.
-  void prepare(const WeightedSurface& source, const WeightedSurface& target, Span<const double> limb, double scale,
-               Vec3 centre, Memory& memory);
+  // from, to: of the clusters on the source and on the target. limb: by cluster, from 0 to 1, how far it belongs to a
+  // limb that can turn less. scale: lengths of the target over those of the source. centre: of the target. Without this
+  // call nothing turns.
+  void prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, double scale, Vec3 centre,
+               Memory& memory);
 
   // Changes the rotations of the source's clusters. body: the rotation of the whole source, for clusters that overlap
   // no other.

@@ -52,10 +52,9 @@ void Slack::prepare_fit(std::size_t count, const Side& source, Span<const double
   matrix_.assign(count, Mat3()), scratch_.assign(4 * count, 0.0);
 }
 
-void Slack::prepare(std::int32_t cluster_count, const Side& source, const Side& target,
-                    const Translations& translations, const Mat3& axes, double scale, Memory& memory) {
-  const std::size_t count = at(cluster_count);
-  const Overlaps from = overlaps_of(count, source, memory), to = overlaps_of(count, target, memory);
+void Slack::prepare(const Side& source, const Overlaps& from, const Overlaps& to, const Translations& translations,
+                    const Mat3& axes, double scale, Memory& memory) {
+  const std::size_t count = from.own.size();
   const SpreadTies ties = spread_ties(*source.core, source.joint, source.weight, count, memory);
   prepare_fit(count, source, {from.mass.data(), from.mass.size()}, from.sum.data(), memory);
   own_ = from.own, centroid_ = from.centroid, near_.assign(count, Vec3());

@@ -66,8 +66,9 @@ class Slack {
   };
   using Side = WeightedSurface;
 
-  // axes: from the source's axes to the target's. scale: lengths of the target over those of the source.
-  void prepare(std::int32_t cluster_count, const Side& source, const Side& target, const Translations& translations,
+  // from, to: of the clusters on the source and on the target. axes: from the source's axes to the target's. scale:
+  // lengths of the target over those of the source.
+  void prepare(const Side& source, const Overlaps& from, const Overlaps& to, const Translations& translations,
                const Mat3& axes, double scale, Memory& memory);
   // Without slides, all forces are zero.
   void prepare_none(std::int32_t cluster_count) { force_.assign(static_cast<std::size_t>(cluster_count), Vec3()); }

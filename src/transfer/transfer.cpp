@@ -296,7 +296,7 @@ void Transfer::prepare_ground(Prepared& p) const {
   }
 }
 
-void Transfer::prepare_levers(Prepared& p, const WeightedSurface& source, const WeightedSurface& target) const {
+void Transfer::prepare_levers(Prepared& p, const Overlaps& from, const Overlaps& to) const {
   const std::size_t width = numbers_.size();
   Vector<double> limb(at(p.clusters.count), 0.0, target_core_->memory.get());
   for (std::size_t c = 0; c < limb.size(); ++c) {
@@ -305,7 +305,7 @@ void Transfer::prepare_levers(Prepared& p, const WeightedSurface& source, const 
     if (!(flags_[numbers_[h]] & (HF_PAIR_FOOT | HF_PAIR_TRUNK)))
       limb[c] = std::clamp((row[h] - fade_from) / fade_width, 0.0, 1.0);
   }
-  p.levers.prepare(source, target, {limb.data(), limb.size()}, p.scale, p.target_centroid, *target_core_->memory);
+  p.levers.prepare(from, to, {limb.data(), limb.size()}, p.scale, p.target_centroid, *target_core_->memory);
 }
 
 void Transfer::prepare_gradients(Prepared& p) const {
@@ -363,8 +363,10 @@ Transfer::Prepared& Transfer::prepare() {
         p.clusters, kernel_width(), {p.source_field.data(), p.source_field.size()}, memory, *target_core_->jobs);
     const WeightedSurface source{source_core_.get(), source_area_, weights.joint.data(), weights.weight.data()},
         target{target_core_.get(), target_area_, p.clusters.joint.data(), p.clusters.weight.data()};
-    p.slack.prepare(p.clusters.count, source, target, p.translations, axes_.toRotationMatrix(), p.scale, memory);
-    prepare_levers(p, source, target);
+    const Overlaps from = overlaps_of(at(p.clusters.count), source, memory),
+                   to = overlaps_of(at(p.clusters.count), target, memory);
+    p.slack.prepare(source, from, to, p.translations, axes_.toRotationMatrix(), p.scale, memory);
+    prepare_levers(p, from, to);
   } else {
     p.slack.prepare_none(p.clusters.count);
   }

@@ -132,7 +132,7 @@ class Transfer {
   void prepare_ground(Prepared& p) const;
   void find_sinking(Prepared& p);
   void prepare_gradients(Prepared& p) const;
-  void prepare_levers(Prepared& p, const WeightedSurface& source, const WeightedSurface& target) const;
+  void prepare_levers(Prepared& p, const Overlaps& from, const Overlaps& to) const;
   void prepare_dials(Prepared& p) const;  // the limbs that dials turn
   void turn_dials(Prepared& p) const noexcept;
   void stiffen(Prepared& p) const noexcept;

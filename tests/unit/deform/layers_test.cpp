@@ -11,6 +11,7 @@
 #include "cases.h"
 #include "deform/pose_stack.h"
 #include "deform/skin.h"
+#include "support/arap_oracle.h"
 
 namespace {
 
@@ -257,6 +258,24 @@ TEST(Refine, StepsLowerTheEnergyAndKeepTheHandlesInPlace) {
       }
     }
   }
+}
+
+TEST(Refine, EightStepsGetFartherThanTwelvePlainIterations) {
+  const Case c = small_cactus();
+  Dragged d = drag(c, {}, 30, 5);
+  const std::vector<Vec3> p = rest(*d.core);
+  std::vector<std::uint8_t> fixed(static_cast<std::size_t>(d.core->size()), 0);
+  for (const auto& region : c.regions) {
+    for (const std::int32_t v : select(*d.core, region)) fixed[v] = 1;
+  }
+  std::vector<Vec3> x;
+  for (const Vec3& q : positions(d.pose->deform({}))) x.push_back(d.core->mesh.to_inner(q));
+  hf_test::ArapOracle oracle(*d.core, fixed);
+  for (int i = 0; i < 12; ++i) oracle.iterate(x);
+  for (Vec3& q : x) q = d.core->mesh.to_given(q);
+  DeformRequest request;
+  request.refine = 8;
+  EXPECT_LT(arap_energy(*d.core, p, positions(d.pose->deform(request))), arap_energy(*d.core, p, x));
 }
 
 TEST(Refine, RestAndCommonRigidMotionsAreLeftAlone) {

@@ -1,5 +1,4 @@
 // Intrinsic Delaunay triangulations: identities of the operator, on clean, obtuse, open and non-manifold surfaces.
-#include "base/index.h"
 #include "mesh/intrinsic.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/index.h"
 #include "mesh/delaunay_patches.h"
 #include "support/dirty_meshes.h"
 #include "support/meshes.h"
@@ -61,6 +61,25 @@ double energy(const hf_inner::SymmetricMatrix& k, const std::vector<double>& u) 
   for (const auto& [ij, value] : entries_of(k))
     sum += value * u[static_cast<std::size_t>(ij.first)] * u[static_cast<std::size_t>(ij.second)];
   return sum;
+}
+
+TEST(Topology, sides_name_their_corner_and_direction) {
+  for (const PlainMesh& mesh : {hf_test::turned_over(hf_test::grid(5, 4), 3), hf_test::book(3, 4, 3, 0.2)}) {
+    const std::shared_ptr<const hf_inner::Core> core = Surface::core_of(mesh, 1);
+    const hf_inner::Topology& topology = core->topology;
+    std::vector<int> seen(core->mesh.corners.size(), 0);
+    for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
+      for (std::int32_t i = topology.edge_triangle_start[at(e)]; i < topology.edge_triangle_start[at(e) + 1]; ++i) {
+        const std::int32_t c = topology.corner(i), t = topology.triangle(i);
+        const std::int32_t from = core->mesh.triangle(t)[c % 3], to = core->mesh.triangle(t)[(c + 1) % 3];
+        EXPECT_EQ(t, c / 3);
+        EXPECT_EQ(from, topology.forward(i) ? topology.first(e) : topology.second(e));
+        EXPECT_EQ(to, topology.forward(i) ? topology.second(e) : topology.first(e));
+        ++seen[at(c)];
+      }
+    }
+    EXPECT_EQ(seen, std::vector<int>(seen.size(), 1)) << "every side of every triangle once";
+  }
 }
 
 TEST(Intrinsic, weights_are_never_negative_and_every_edge_is_delaunay) {
@@ -124,7 +143,8 @@ TEST(Intrinsic, flips_keep_the_area) {
     SCOPED_TRACE(name);
     Surface surface(mesh);
     const auto area = [&] {
-      const hf_inner::Vector<double> areas = surface.triangulation->vertex_areas(surface.core->size(), *surface.core->memory);
+      const hf_inner::Vector<double> areas =
+          surface.triangulation->vertex_areas(surface.core->size(), *surface.core->memory);
       return std::accumulate(areas.begin(), areas.end(), 0.0);
     };
     const double whole = area();
@@ -193,6 +213,45 @@ TEST(Intrinsic, gives_the_same_bits_for_any_number_of_threads) {
   }
 }
 
+// Two cones of many triangles, one on the other; without the lower one: an open fan, whose edges are parallel in pairs.
+PlainMesh cones(std::uint32_t count, bool closed) {
+  PlainMesh mesh;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / count;
+    mesh.positions.insert(mesh.positions.end(), {std::cos(angle), 0.02 * (i % 7), std::sin(angle)});
+    const std::uint32_t next = (i + 1) % count;
+    mesh.triangles.insert(mesh.triangles.end(), {next, i, count});
+    if (closed) mesh.triangles.insert(mesh.triangles.end(), {i, next, count + 1});
+  }
+  mesh.positions.insert(mesh.positions.end(), {0, 1, 0});
+  if (closed) mesh.positions.insert(mesh.positions.end(), {0, -1, 0});
+  return mesh;
+}
+
+TEST(Intrinsic, laplacian_is_the_sum_over_its_edges_in_short_and_long_rows) {
+  for (int i = 0; i < 6; ++i) {
+    Surface surface(i < 2 ? hf_test::grid(9, 7, 1, 0.3) : cones(100, i < 4), 2);
+    if (i % 2 == 0) surface.triangulation->flip_to_delaunay();
+    const hf_inner::IntrinsicTriangulation& t = *surface.triangulation;
+    Entries wanted;
+    for (std::int32_t h = 0; h < 3 * t.face_count(); ++h) {
+      const double w = t.share(h / 3) * std::max(0.0, t.edge_weight(h));
+      if (t.tail(h) == t.head(h)) continue;
+      wanted[{t.tail(h), t.head(h)}] -= w, wanted[{t.tail(h), t.tail(h)}] += w;
+    }
+    const hf_inner::SymmetricMatrix k = surface.laplacian();
+    const Entries found = entries_of(k);
+    EXPECT_LT(largest_difference(found, wanted), 1e-12);
+    for (std::int32_t v = 0; v < k.size(); ++v) {
+      const auto end = k.row.begin() + k.column_start[at(v) + 1];
+      EXPECT_EQ(std::adjacent_find(k.row.begin() + k.column_start[at(v)], end, std::greater_equal<>()), end)
+          << "a column twice, or not in order, in row " << v;
+      for (std::int32_t i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i)
+        EXPECT_EQ(k.value[at(i)], value_of(found, k.row[at(i)], v)) << "not symmetric";
+    }
+  }
+}
+
 TEST(Intrinsic, takes_a_closed_surface_once_and_an_open_one_twice) {
   const Surface closed(hf_test::torus(10, 8)), open(hf_test::grid(5, 4));
   EXPECT_EQ(closed.triangulation->face_count(), closed.core->mesh.triangle_count());
@@ -215,7 +274,8 @@ TEST(Intrinsic, stopped_early_it_still_has_no_negative_weight) {
 struct TwoWays {
   explicit TwoWays(const PlainMesh& mesh, std::uint32_t threads = 1) : surface(mesh, threads) {
     const hf_inner::Core& core = *surface.core;
-    patches.emplace(hf_inner::delaunay_operator(core.mesh, core.topology, core.weights, true, *core.memory, core.jobs.get()));
+    patches.emplace(
+        hf_inner::delaunay_operator(core.mesh, core.topology, core.weights, true, *core.memory, core.jobs.get()));
     flips = surface.triangulation->flip_to_delaunay();
   }
   double share() const { return patches->patch_triangles / static_cast<double>(surface.core->mesh.triangle_count()); }

@@ -58,7 +58,8 @@ Levers levers(const Bar& from, const Bar& to, hf_inner::Memory& memory, double e
   const double limb[3] = {0, 1, end};
   // lengths that are not the limb's: both bars in units of the first part
   const double scale = from.core->mesh.scale / to.core->mesh.scale;
-  out.prepare(from.surface(), to.surface(), {limb, 3}, scale, to.core->mesh.to_inner({0, 0, 0}), memory);
+  out.prepare(hf_inner::overlaps_of(3, from.surface(), memory), hf_inner::overlaps_of(3, to.surface(), memory),
+              {limb, 3}, scale, to.core->mesh.to_inner({0, 0, 0}), memory);
   return out;
 }
 

@@ -52,7 +52,8 @@ struct Bar {
   Slack slack(double scale) {
     Slack out(*world.memory);
     const Slack::Side side{core.get(), {area.data(), area.size()}, clusters.joint.data(), clusters.weight.data()};
-    out.prepare(2, side, side, translations, Mat3::Identity(), scale, *world.memory);
+    const hf_inner::Overlaps overlaps = hf_inner::overlaps_of(2, side, *world.memory);
+    out.prepare(side, overlaps, overlaps, translations, Mat3::Identity(), scale, *world.memory);
     return out;
   }
   std::vector<Vec3> pose(const Quaternion (&turn)[2], const Vec3 (&shift)[2]) const {
@@ -121,9 +122,10 @@ TEST(TransferSlack, ClustersThatDoNotCorrespondGetLess) {
   Bar bar;
   const Slack::Side side{
       bar.core.get(), {bar.area.data(), bar.area.size()}, bar.clusters.joint.data(), bar.clusters.weight.data()};
+  const hf_inner::Overlaps overlaps = hf_inner::overlaps_of(2, side, *bar.world.memory);
   const auto factor = [&](const Vec3& axis, double angle) {
     Slack slack(*bar.world.memory);
-    slack.prepare(2, side, side, bar.translations, hf_inner::exponential(angle * axis).toRotationMatrix(), 1,
+    slack.prepare(side, overlaps, overlaps, bar.translations, hf_inner::exponential(angle * axis).toRotationMatrix(), 1,
                   *bar.world.memory);
     return slack.pairs().empty() ? 0.0 : slack.pairs()[0].factor;
   };
