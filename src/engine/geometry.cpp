@@ -61,12 +61,18 @@ std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorK
   found.negative_edge_count = count_negative(shape->weights);
   if (operator_kind == OperatorKind::clamped || operator_kind == OperatorKind::uniform)
     shape->weights = edge_weights(shape->mesh, shape->topology, operator_kind, pool, runner);
-  if (shape->mesh.faces.empty())
-    count_edges(shape->topology, found);
-  else
-    count_face_sides(shape->mesh.faces, shape->topology, found, pool);
-  count_inside_out(shape->mesh, pool);
-  count_given(*shape);
+  shape->jobs->for_each(3, [&](std::uint32_t i) {  // they write different members
+    if (i == 0) {
+      count_inside_out(shape->mesh, pool);
+    } else if (i == 1) {
+      if (shape->mesh.faces.empty())
+        count_edges(shape->topology, found);
+      else
+        count_face_sides(shape->mesh.faces, shape->topology, found, pool);
+    } else {
+      count_given(*shape);
+    }
+  });
   shape->weights_ms = weights_timer.milliseconds();
   report(weighted);
   return shape;

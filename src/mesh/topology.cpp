@@ -1,7 +1,9 @@
 #include "mesh/topology.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "base/index.h"
 #include "base/progress.h"
 
 namespace hf_inner {
@@ -10,12 +12,39 @@ namespace {
 // Number of vertices that one thread's job takes. Half and twice the value take the same time within 10 %, the
 // noise of the measurement (two threads). No result depends on this number.
 constexpr std::size_t bucket_piece = 16384;
+// Fewer items are put into rows by one thread, and at most so many threads work: every part has a counter for each row.
+// No result depends on these numbers. With half of the first, the topology of a torus of 20,000 vertices takes TODO.
+constexpr std::size_t least_part = 65536, most_parts = 4;
+
+// Puts the items 0 .. count into rows. Row r gets the slots start[r] .. start[r + 1], which hold its items in ascending
+// order. row_of(i) is the row of an item, put(slot, i) stores it. Each thread counts and puts one part of the items.
+template <class RowOf, class Put>
+void put_into_rows(std::size_t rows, std::size_t count, Vector<Index>& start, Memory& memory, JobRunner* jobs,
+                   RowOf&& row_of, Put&& put) {
+  const std::size_t threads = jobs ? jobs->thread_count() : 1;
+  const std::size_t parts = std::max<std::size_t>(1, std::min({threads, most_parts, count / least_part}));
+  Vector<Index> cursor(parts * rows, 0, &memory);
+  const auto for_parts = [&](auto&& use) {
+    for_each(jobs, static_cast<std::uint32_t>(parts), [&](std::uint32_t p) {
+      Index* const own = cursor.data() + p * rows;
+      for (std::size_t i = count * p / parts; i < count * (p + 1) / parts; ++i) use(own[row_of(i)], i);
+    });
+    poll();
+  };
+  for_parts([](Index& place, std::size_t) { ++place; });
+  start.resize(rows + 1);
+  Index next = 0;
+  for (std::size_t r = 0; r < rows; ++r) {
+    start[r] = next;
+    for (std::size_t p = 0; p < parts; ++p) next += std::exchange(cursor[p * rows + r], next);
+  }
+  start[rows] = next;
+  for_parts([&](Index& place, std::size_t i) { put(at(place++), i); });
+}
 
 }  // namespace
 
 Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
-  using Index = std::int32_t;
-  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
   Topology topology(memory);
   const std::size_t n = mesh.positions.size(), corner_count = mesh.corners.size();
 
@@ -23,64 +52,67 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
   struct Half {
     Index second, side;  // the side as in edge_side
   };
-  Vector<Index> start(n + 1, 0, &memory);
-  for (std::size_t c = 0; c < corner_count; ++c) {
-    const std::size_t t = c / 3, k = c % 3;
-    ++start[at(std::min(mesh.corners[c], mesh.corners[3 * t + (k + 1) % 3])) + 1];
-  }
-  for (std::size_t v = 0; v < n; ++v) start[v + 1] += start[v];
-  poll();
-  Vector<Half> halves(corner_count, &memory);
-  Vector<Index> cursor(start.begin(), start.end() - 1, &memory);
-  for (std::size_t c = 0; c < corner_count; ++c) {
-    const std::size_t t = c / 3, k = c % 3;
-    const Index a = mesh.corners[c], b = mesh.corners[3 * t + (k + 1) % 3];
-    halves[at(cursor[at(std::min(a, b))]++)] = {std::max(a, b), static_cast<Index>(2 * c + (a < b))};
-  }
-  poll();
-  topology.edges.reserve(corner_count);
-  topology.edge_triangle_start.reserve(corner_count / 2);
-  topology.edge_side.resize(corner_count);
-  const auto sort_bucket = [&](std::size_t v) {
-    std::sort(halves.begin() + start[v], halves.begin() + start[v + 1], [](const Half& a, const Half& b) {
-      return a.second != b.second ? a.second < b.second : a.side < b.side;
-    });
-  };
-  for_each(jobs, static_cast<std::uint32_t>((n + bucket_piece - 1) / bucket_piece), [&](std::uint32_t p) {
-    for (std::size_t v = p * bucket_piece; v < std::min(n, (p + std::size_t{1}) * bucket_piece); ++v) sort_bucket(v);
-  });
-  for (std::size_t v = 0; v < n; ++v) {
-    const auto begin = halves.begin() + start[v], end = halves.begin() + start[v + 1];
-    for (auto half = begin; half != end; ++half) {
-      if (half == begin || half->second != (half - 1)->second) {
-        topology.edge_triangle_start.push_back(static_cast<Index>(half - halves.begin()));
-        topology.edges.push_back(static_cast<Index>(v));
-        topology.edges.push_back(half->second);
-      }
-      topology.edge_side[static_cast<std::size_t>(half - halves.begin())] = half->side;
+  const auto next_corner = [&](std::size_t c) { return mesh.corners[c % 3 == 2 ? c - 2 : c + 1]; };
+  Vector<Index> start(&memory);
+  Buffer<Half> halves(memory, corner_count);
+  put_into_rows(
+      n, corner_count, start, memory, jobs,
+      [&](std::size_t c) { return at(std::min(mesh.corners[c], next_corner(c))); },
+      [&](std::size_t slot, std::size_t c) {
+        const Index a = mesh.corners[c], b = next_corner(c);
+        halves[slot] = {std::max(a, b), static_cast<Index>(2 * c + (a < b))};
+      });
+  // use(half, first, is_new): is_new marks the first half-edge of an edge
+  const auto for_halves = [&](std::size_t piece, auto&& use) {
+    for (std::size_t v = piece * bucket_piece; v < std::min(n, (piece + 1) * bucket_piece); ++v) {
+      for (Index h = start[v]; h < start[v + 1]; ++h)
+        use(h, static_cast<Index>(v), h == start[v] || halves[at(h)].second != halves[at(h) - 1].second);
     }
-  }
-  topology.edge_triangle_start.push_back(static_cast<Index>(corner_count));
+  };
+  const std::size_t pieces = (n + bucket_piece - 1) / bucket_piece;
+  Vector<Index> edge_start(pieces + 1, 0, &memory);  // by piece
+  for_each(jobs, static_cast<std::uint32_t>(pieces), [&](std::uint32_t p) {
+    for (std::size_t v = p * bucket_piece; v < std::min(n, (p + std::size_t{1}) * bucket_piece); ++v) {
+      std::sort(halves.data() + start[v], halves.data() + start[v + 1], [](const Half& a, const Half& b) {
+        return a.second != b.second ? a.second < b.second : a.side < b.side;
+      });
+    }
+    for_halves(p, [&](Index, Index, bool is_new) { edge_start[p + 1] += is_new; });
+  });
+  for (std::size_t p = 0; p < pieces; ++p) edge_start[p + 1] += edge_start[p];
+  topology.edges.resize(2 * at(edge_start[pieces]));
+  topology.edge_triangle_start.resize(at(edge_start[pieces]) + 1);
+  topology.edge_side.resize(corner_count);
+  for_each(jobs, static_cast<std::uint32_t>(pieces), [&](std::uint32_t p) {
+    std::size_t e = at(edge_start[p]);
+    for_halves(p, [&](Index h, Index v, bool is_new) {
+      if (is_new) {
+        topology.edge_triangle_start[e] = h;
+        topology.edges[2 * e] = v, topology.edges[2 * e + 1] = halves[at(h)].second;
+        ++e;
+      }
+      topology.edge_side[at(h)] = halves[at(h)].side;
+    });
+  });
+  topology.edge_triangle_start.back() = static_cast<Index>(corner_count);
   poll();
-  topology.fill_neighbours(n, memory);
+  topology.fill_neighbours(n, memory, jobs);
   return topology;
 }
 
-// Edges are ordered by (first, second), so both passes fill every row in ascending order.
-void Topology::fill_neighbours(std::size_t vertex_count, Memory& memory) {
-  neighbour_start.assign(vertex_count + 1, 0);
-  for (const std::int32_t v : edges) ++neighbour_start[static_cast<std::size_t>(v) + 1];
-  for (std::size_t v = 0; v < vertex_count; ++v) neighbour_start[v + 1] += neighbour_start[v];
-  neighbour.resize(edges.size());
-  neighbour_edge.resize(edges.size());
-  Vector<std::int32_t> cursor(neighbour_start.begin(), neighbour_start.end() - 1, &memory);
-  const auto add = [&](std::int32_t from, std::int32_t to, std::int32_t edge) {
-    const std::size_t slot = static_cast<std::size_t>(cursor[static_cast<std::size_t>(from)]++);
-    neighbour[slot] = to, neighbour_edge[slot] = edge;
-  };
-  for (std::int32_t e = 0; e < edge_count(); ++e) add(second(e), first(e), e);
-  poll();
-  for (std::int32_t e = 0; e < edge_count(); ++e) add(first(e), second(e), e);
+// Edges are ordered by (first, second). So a row gets its smaller neighbours first, then the larger ones, all
+// ascending.
+void Topology::fill_neighbours(std::size_t vertex_count, Memory& memory, JobRunner* jobs) {
+  const std::size_t count = edges.size() / 2;
+  neighbour.resize(2 * count);
+  neighbour_edge.resize(2 * count);
+  put_into_rows(
+      vertex_count, 2 * count, neighbour_start, memory, jobs,
+      [&](std::size_t i) { return at(edges[i < count ? 2 * i + 1 : 2 * (i - count)]); },
+      [&](std::size_t slot, std::size_t i) {
+        const std::size_t e = i < count ? i : i - count;
+        neighbour[slot] = edges[i < count ? 2 * e : 2 * e + 1], neighbour_edge[slot] = static_cast<Index>(e);
+      });
 }
 
 std::int32_t Topology::edge_between(std::int32_t a, std::int32_t b) const noexcept {
@@ -92,7 +124,6 @@ std::int32_t Topology::edge_between(std::int32_t a, std::int32_t b) const noexce
 }
 
 void count_edges(const Topology& topology, MeshReport& report) noexcept {
-  const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
   report.boundary_edge_count = report.non_manifold_edge_count = report.flipped_edge_count = 0;
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     const std::int32_t begin = topology.edge_triangle_start[at(e)], end = topology.edge_triangle_start[at(e) + 1];

@@ -16,7 +16,7 @@ struct Topology {
         neighbour_edge(&memory) {}
   static Topology make(const Mesh& mesh, Memory& memory, JobRunner* jobs = nullptr);
   // Fills the rows of neighbours from the list of edges. vertex_count: rows to make.
-  void fill_neighbours(std::size_t vertex_count, Memory& memory);
+  void fill_neighbours(std::size_t vertex_count, Memory& memory, JobRunner* jobs = nullptr);
 
   std::int32_t edge_count() const noexcept { return static_cast<std::int32_t>(edges.size() / 2); }
   // first and second are the end vertices of edge e, the smaller one first. Edges are ordered by (first, second).

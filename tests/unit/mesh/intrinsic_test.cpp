@@ -82,6 +82,36 @@ TEST(Topology, sides_name_their_corner_and_direction) {
   }
 }
 
+// Large enough that every thread puts a part of the sides into rows.
+TEST(Topology, is_the_same_on_several_threads_and_lists_neighbours_in_order) {
+  const PlainMesh mesh = hf_test::torus(250, 200);
+  const std::shared_ptr<const hf_inner::Core> core = Surface::core_of(mesh, 1);
+  const auto make = [&](std::uint32_t threads) {
+    hf_inner::JobRunner jobs(threads);
+    return hf_inner::Topology::make(core->mesh, *core->memory, &jobs);
+  };
+  const hf_inner::Topology one = make(1);
+  EXPECT_EQ(one.edge_count(), 3 * 50000);
+  for (const std::uint32_t threads : {2u, 3u, 8u}) {
+    const hf_inner::Topology other = make(threads);
+    EXPECT_EQ(one.edges, other.edges);
+    EXPECT_EQ(one.edge_triangle_start, other.edge_triangle_start);
+    EXPECT_EQ(one.edge_side, other.edge_side);
+    EXPECT_EQ(one.neighbour_start, other.neighbour_start);
+    EXPECT_EQ(one.neighbour, other.neighbour);
+    EXPECT_EQ(one.neighbour_edge, other.neighbour_edge);
+  }
+  std::int32_t wrong = 0;
+  for (std::int32_t v = 0; v < core->size(); ++v) {
+    for (std::int32_t k = one.neighbour_start[at(v)]; k < one.neighbour_start[at(v) + 1]; ++k) {
+      const std::int32_t u = one.neighbour[at(k)], e = one.neighbour_edge[at(k)];
+      wrong += one.first(e) != std::min(u, v) || one.second(e) != std::max(u, v);
+      wrong += k > one.neighbour_start[at(v)] && one.neighbour[at(k) - 1] >= u;
+    }
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST(Intrinsic, weights_are_never_negative_and_every_edge_is_delaunay) {
   for (const auto& [name, mesh] : hf_test::dirty_meshes()) {
     SCOPED_TRACE(name);
