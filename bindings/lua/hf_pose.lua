@@ -94,7 +94,7 @@ function Pose:deform(out, options)
   local single = ffi.istype('float[?]', out)
   if ffi.sizeof(out) ~= 3 * self.vertex_count * (single and 4 or 8) then
     fail('out has the wrong length', 'HF_ERROR_TOO_SMALL') end
-  local desc = options_into(make('hf_deform_desc'), options, set('iteration_count restart refine'))
+  local desc = options_into(make('hf_deform_desc'), options, set('iteration_count restart refine refine_from_last'))
   desc[single and 'positions' or 'positions_f64'] = out
   check(C.hf_pose_deform(self.raw, desc, nil))
   return out

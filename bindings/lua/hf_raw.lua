@@ -488,8 +488,10 @@ typedef struct hf_deform_desc {
   uint32_t iteration_count;
   int32_t restart;
   int32_t refine;
+  int32_t refine_from_last;
   uint32_t first_vertex;
   uint32_t vertex_count;
+  uint32_t reserved;
 } hf_deform_desc;
 typedef struct hf_skin_info {
   uint32_t struct_size;

@@ -195,9 +195,13 @@ typedef struct hf_deform_desc {
   int32_t refine; /* 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
                      about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
                      sharper */
-  uint32_t
-      first_vertex; /* outputs hold vertex_count vertices from this one on; 0 and 0: all. Positions of a range cost */
-  uint32_t vertex_count; /* only the range, if there are no higher layers, no refine and no normals */
+  int32_t refine_from_last; /* 1: the steps go on from the surface of the last call, instead of starting at the smooth
+                               pose. One step a frame then keeps lengths in a drag as well as 8 steps of its own would.
+                               While handles stand still, each call comes nearer to the minimum. Needs a refine of 1 or
+                               more. Higher layers start at the smooth pose */
+  uint32_t first_vertex;    /* outputs hold vertex_count vertices from this one on; 0 and 0: all */
+  uint32_t vertex_count;    /* positions of a range cost only the range, without higher layers, refine and normals */
+  uint32_t reserved;        /* 0 */
 } hf_deform_desc;
 
 /* Does the same as hf_deform, with the options of a desc. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_OUT_OF_RANGE

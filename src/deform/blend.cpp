@@ -7,6 +7,18 @@
 
 namespace hf_inner {
 
+Quaternion blended_rotation(const ClusterWeights& weights, const Vector<Quaternion>& by_cluster,
+                            std::int32_t v) noexcept {
+  const std::int32_t row = weights.start[v], end = weights.start[v + 1];
+  Quaternion sum({}, row == end ? 1.0 : 0.0);
+  for (std::int32_t k = row; k < end; ++k) {
+    const Quaternion& q = by_cluster[weights.cluster[k]];
+    const double w = q.dot(sum) < 0 ? -weights.weight[k] : weights.weight[k];
+    sum.coeffs() += w * q.coeffs();
+  }
+  return normalised(sum);
+}
+
 Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, std::int32_t v) noexcept {
   const Vec3 p = mesh.positions[v];
   const std::int32_t first = weights.start[v], last = weights.start[v + 1];

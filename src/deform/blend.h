@@ -5,6 +5,7 @@
 // every machine.
 #pragma once
 #include "deform/bands.h"
+#include "deform/rotation.h"
 
 namespace hf_inner {
 
@@ -26,6 +27,10 @@ inline std::size_t column_count(const ClusterWeights& weights) noexcept {
 }
 void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, double* columns, Vec3 offset,
            double scale, Vec3* positions, float* packed, JobRunner& jobs);
+
+// Returns the mean of the clusters' rotations at one vertex, by its weights.
+Quaternion blended_rotation(const ClusterWeights& weights, const Vector<Quaternion>& by_cluster,
+                            std::int32_t v) noexcept;
 
 // Returns the blended position of one vertex, in the unit of the scaled mesh.
 Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, std::int32_t v) noexcept;

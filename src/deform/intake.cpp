@@ -94,14 +94,19 @@ VertexRange read_range(const hf_deform_desc& desc, std::uint32_t vertex_count) {
 }
 
 DeformRequest read_request(const hf_deform_desc& desc) {
+  require_zero(desc.reserved);
   check_flag(desc.restart, "restart");
   if (desc.refine < 0 || desc.refine > static_cast<std::int32_t>(most_refine_steps))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "refine is %d; it must be 0 to %u steps", desc.refine,
          most_refine_steps);
+  check_flag(desc.refine_from_last, "refine_from_last");
+  if (desc.refine_from_last && desc.refine == 0)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "refine_from_last needs steps; set refine to 1 or more");
   DeformRequest request;
   request.normals = desc.normals != nullptr;
   request.iteration_count = desc.iteration_count;
   request.restart = desc.restart != 0, request.refine = static_cast<std::uint32_t>(desc.refine);
+  request.refine_from_last = desc.refine_from_last != 0;
   return request;
 }
 

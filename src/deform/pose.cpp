@@ -269,7 +269,10 @@ void Pose::keep_in_place(const Layout& layout, State& state) {
   Buffer<Vec3> fresh(memory(), n);
   blend(core_->mesh, layout.weights, state.transforms.data(), state.columns.data(), core_->mesh.centre,
         core_->mesh.scale, fresh.data(), nullptr, *core_->jobs);
-  if (refined_ > 0) make_refinement(layout, refined_), refine(layout, state, refined_, fresh.data());
+  if (state.followed) state.followed->lead(fresh.data(), positions_.data());
+  if (refined_ > 0)
+    make_refinement(layout, refined_, state.followed.get()),
+        refine(layout, state, state.followed ? 0 : refined_, fresh.data());
   auto crossfade = make_shared_in<Crossfade>(memory(), n, memory());
   const Span<const RigidMotion> now = placed(state);
   crossfade->placed.assign(now.begin(), now.end());
@@ -301,6 +304,11 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
     state->handles.push_back(carried);
   }
   state->started = state_ && state_->started;
+  if (state_ && state_->followed) {
+    state->followed = make_shared_in<Followed>(memory(), core_->size(), layout.weights.cluster_count, memory());
+    const Buffer<float>& correction = state_->followed->correction;
+    std::copy(correction.begin(), correction.end(), state->followed->correction.begin());
+  }
   if (layout.paper) {
     state->paper.fit(*layout.paper);
     if (posed_) {

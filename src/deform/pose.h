@@ -54,6 +54,7 @@ struct DeformRequest {
   std::uint32_t iteration_count = 0;  // 0: the pose's own
   bool restart = false;               // forget the last pose, also full turns beyond 180 degrees
   std::uint32_t refine = 0;           // full-mesh steps on top (refine.h); need a second-order operator
+  bool refine_from_last = false;      // the steps go on from the last frame's surface (Followed)
   bool surface = true;                // false: no vertices are written; ask blended() for those wanted
   float* packed_positions = nullptr;  // three per inner vertex, or null
   Normal* packed_normals = nullptr;   // per inner vertex, or null; if given, normals are written here
@@ -155,7 +156,9 @@ class Pose {
           changed(other.changed),
           last_change(other.last_change),
           idle_iterations(other.idle_iterations),
-          crossfade(other.crossfade) {}
+          crossfade(other.crossfade) {
+      if (other.followed) followed = make_shared_in<Followed>(memory, *other.followed, memory);
+    }
     Vector<HandleState> handles;  // like Layout::handles
     Vector<Affine> transforms;    // per cluster (handle or overlapping band of vertices)
     Buffer<double> columns;       // scratch of the blend
@@ -166,6 +169,7 @@ class Pose {
     double last_change = 0;
     std::uint32_t idle_iterations = 0;           // iterations since the last change
     std::shared_ptr<const Crossfade> crossfade;  // null: the surface is that of the transforms
+    std::shared_ptr<Followed> followed;          // null: full-mesh steps begin at the blended pose
   };
 
   Memory& memory() const noexcept { return *core_->memory; }
@@ -182,7 +186,7 @@ class Pose {
   void place_handles(const Layout& layout, State& state) const noexcept;
   Span<const RigidMotion> placed(const State& state) const noexcept;
   double crossfade_share() const noexcept;
-  void make_refinement(const Layout& layout, std::uint32_t steps);
+  void make_refinement(const Layout& layout, std::uint32_t steps, const Followed* followed);
   void refine(const Layout& layout, const State& state, std::uint32_t steps, Vec3* positions);
   void install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept;
   bool restore_previous(const Handles& remaining);

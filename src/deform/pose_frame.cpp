@@ -80,6 +80,7 @@ void Pose::solve_smooth(std::uint32_t iterations) noexcept {
     largest = std::max(largest, norm(turns_[i]));
   }
   if (!state.started || largest > jump_turn) {
+    if (state.followed) state.followed->forget();
     for (std::size_t i = 0; i < count; ++i) turns_[i] = state.handles[i].turn;
     start_rotations(*layout_->smooth, *layout_->groups, -1, {turns_.data(), count}, state.smooth);
   } else if (largest > 0) {
@@ -97,13 +98,13 @@ void Pose::solve_paper(std::uint32_t iterations) noexcept {
                              state_->transforms.data());
 }
 
-void Pose::make_refinement(const Layout& layout, std::uint32_t steps) {
+void Pose::make_refinement(const Layout& layout, std::uint32_t steps, const Followed* followed) {
   // one that is too small is replaced, so that it can be put back
   const std::int32_t slots = layout.sites->slot_count();
-  const std::shared_ptr<Refinement> refinement = refinement_ && refinement_->has_room(slots, steps)
+  const std::shared_ptr<Refinement> refinement = refinement_ && refinement_->has_room(slots, steps, followed)
                                                      ? refinement_
                                                      : make_shared_in<Refinement>(memory(), *core_, memory());
-  refinement->fit(slots, steps);
+  refinement->fit(slots, steps, followed);
   refinement_ = refinement;
 }
 
@@ -117,7 +118,11 @@ void Pose::prepare(const DeformRequest& request) {
   const bool own_normals = request.normals && !request.packed_normals;
   if (request.normals && normal_sums_.size() < n) sums.allocate(memory(), n);
   if (own_normals && normals_.size() < n) normals.allocate(memory(), n);
-  if (request.refine > 0) make_refinement(*layout_, request.refine);
+  std::shared_ptr<Followed> followed = request.refine_from_last ? state_->followed : nullptr;
+  if (request.refine_from_last && !followed)
+    followed = make_shared_in<Followed>(memory(), n, layout_->weights.cluster_count, memory());
+  if (request.refine > 0) make_refinement(*layout_, request.refine, followed.get());
+  state_->followed = std::move(followed);
   if (!sums.empty()) normal_sums_ = std::move(sums);
   if (!normals.empty()) normals_ = std::move(normals);
 }
@@ -176,7 +181,7 @@ void Pose::refine(const Layout& layout, const State& state, std::uint32_t steps,
                           layout.groups.get(),
                           layout.smooth ? &state.smooth.rotation : nullptr,
                           state.transforms.data()};
-  refinement_->apply(input, steps, positions);
+  refinement_->apply(input, steps, state.followed.get(), positions);
 }
 
 Vec3 Pose::blended(std::int32_t vertex) const noexcept {
@@ -206,7 +211,8 @@ void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
   report.blend_ms = blend_timer.milliseconds();
   if (request.refine > 0) {
     const Timer refine_timer;
-    refine(*layout_, *state_, request.refine, positions_.data());
+    const bool stays = state_->followed && share == 1;  // handles were added in place, and nothing moved since
+    refine(*layout_, *state_, stays ? 0 : request.refine, positions_.data());
     report.refine_ms = refine_timer.milliseconds();
   }
   if (share > 0) add_crossfade(*state_->crossfade, share, positions_.data(), *core_->jobs);
@@ -228,6 +234,7 @@ DeformReport Pose::deform(const DeformRequest& request) {
     for (RigidMotion& motion : state.paper.motion) motion = RigidMotion();
     state.started = false, state.changed = true;
     state.crossfade.reset();
+    if (state.followed) state.followed->forget();
   }
 
   DeformReport report;

@@ -246,6 +246,7 @@ bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_chang
   if (!layer.edited_stale) return false;
   DeformRequest own = request;
   own.normals = false, own.restart = false, own.surface = true, own.packed_positions = nullptr;
+  own.refine_from_last = false;  // X_k depends only on what is below it
   if (own.iteration_count == 0) own.iteration_count = base_->options().iteration_count;
   own.iteration_count = std::max(own.iteration_count, least_layer_iterations);
 
@@ -298,14 +299,8 @@ void PoseStack::combine(Layer& layer, Span<const Vec3> below) noexcept {
   const Span<const Vec3> plain = layer.plain->surface(), edited = layer.edited->surface();
   for_vertex_pieces(*core_->jobs, core_->size(), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t v = first; v < last; ++v) {
-      const std::int32_t row = weights.start[v], end = weights.start[v + 1];
-      Quaternion sum({}, row == end ? 1.0 : 0.0);
-      for (std::int32_t k = row; k < end; ++k) {
-        const Quaternion& q = layer.relative[weights.cluster[k]];
-        const double w = q.dot(sum) < 0 ? -weights.weight[k] : weights.weight[k];
-        sum.coeffs() += w * q.coeffs();
-      }
-      layer.surface[v] = edited[v] + rotate(normalised(sum), below[v] - plain[v]);
+      const Quaternion turn = blended_rotation(weights, layer.relative, v);
+      layer.surface[v] = edited[v] + rotate(turn, below[v] - plain[v]);
     }
   });
 }
@@ -359,13 +354,13 @@ DeformReport PoseStack::deform_all(const DeformRequest& request) {
   }
   DeformReport report;
   Span<const Vec3> surface;
-  bool changed = base_stale_ || request.restart || request.refine != refined_;
+  bool changed = base_stale_ || request.restart || request.refine != refined_ || request.refine_from_last != followed_;
   if (base_->handle_count() > 0) {
     DeformRequest own = request;
     own.normals = false, own.surface = true, own.packed_positions = nullptr;
     report = base_->deform(own);
     surface = report.positions;
-    changed = changed || report.iteration_count > 0;
+    changed = changed || report.iteration_count > 0 || request.refine_from_last;
   } else {
     surface = {rest_.data(), n};
   }
@@ -380,7 +375,7 @@ DeformReport PoseStack::deform_all(const DeformRequest& request) {
     report.unreached_vertex_count = static_cast<std::uint32_t>(layers_[k]->plain->weights()->unreached_vertex_count);
     surface = {layers_[k]->surface.data(), n};
   }
-  base_stale_ = false, refined_ = request.refine;
+  base_stale_ = false, refined_ = request.refine, followed_ = request.refine_from_last;
   report.positions = surface;
   report.normals = {};
   if (request.normals) {

@@ -96,6 +96,7 @@ class PoseStack {
   Buffer<NormalSum> normal_sums_;
   bool base_stale_ = true;
   std::uint32_t refined_ = 0;  // full-mesh steps of the last frame
+  bool followed_ = false;      // they went on from the frame before
 };
 
 }  // namespace hf_inner

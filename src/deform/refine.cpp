@@ -7,6 +7,19 @@
 #include "deform/rotation_batch.h"
 
 namespace hf_inner {
+namespace {
+
+Vec3 vec3_at(const Buffer<float>& list, std::int32_t v) noexcept {
+  const float* x = list.data() + 3 * static_cast<std::size_t>(v);
+  return {x[0], x[1], x[2]};
+}
+
+void set_vec3(Buffer<float>& list, std::int32_t v, Vec3 p) noexcept {
+  float* x = list.data() + 3 * static_cast<std::size_t>(v);
+  x[0] = static_cast<float>(p.x), x[1] = static_cast<float>(p.y), x[2] = static_cast<float>(p.z);
+}
+
+}  // namespace
 
 Mat3 linear_part(const Affine& affine) noexcept {
   Mat3 m;
@@ -30,10 +43,25 @@ Refinement::Refinement(const Core& core, Memory& memory)
       rotation_(static_cast<std::size_t>(core.size()), Mat3::Zero(), &memory),
       field_(memory, 3 * static_cast<std::size_t>(core.size())),
       values_(&memory),
+      relative_(&memory),
+      along_(&memory),
       elastic_(core.mesh.component_count(), 0, &memory) {}
 
-void Refinement::fit(std::int32_t slot_count, std::uint32_t steps) {
+void Followed::lead(const Vec3* blended, const Vec3* surface) noexcept {
+  forget();
+  turned = false;
+  for (std::size_t v = 0; 3 * v < correction.size(); ++v)
+    set_vec3(correction, static_cast<std::int32_t>(v), surface[v] - blended[v]);
+}
+
+void Refinement::fit(std::int32_t slot_count, std::uint32_t steps, const Followed* followed) {
   values_.resize(3 * static_cast<std::size_t>(slot_count));
+  if (followed) {
+    blended_.reserve_at_least(*memory_, rotation_.size());
+    begin_.reserve_at_least(*memory_, rotation_.size());
+    relative_.resize(followed->rotation.size());
+    along_.resize((rotation_.size() + vertex_piece - 1) / vertex_piece);
+  }
   if (steps < 2) return;
   before_.reserve_at_least(*memory_, rotation_.size());
   last_.reserve_at_least(*memory_, rotation_.size());
@@ -100,10 +128,63 @@ void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* posit
   });
 }
 
-void Refinement::apply(const RefineInput& input, std::uint32_t steps, Vec3* positions) {
+void Refinement::begin_from_last(const RefineInput& input, Followed& followed, Vec3* positions) {
+  const std::int32_t n = input.core.size();
+  relative_.resize(followed.rotation.size());
+  for (std::size_t c = 0; c < relative_.size(); ++c) {
+    const Quaternion now = best_rotation(linear_part(input.transforms[c]), Quaternion());
+    relative_[c] = followed.turned ? Quaternion(now * followed.rotation[c].conjugate()) : Quaternion();
+    followed.rotation[c] = now;
+  }
+  followed.turned = true;
+  for_vertex_pieces(*input.core.jobs, n, [&](std::int32_t first, std::int32_t last) {
+    for (std::int32_t v = first; v < last; ++v) {
+      blended_[v] = positions[v];
+      if (input.reach.owner[v] >= 0 || !elastic_[input.core.mesh.component[v]]) {  // after new handles
+        set_vec3(followed.correction, v, {}), set_vec3(followed.change, v, {});
+        continue;
+      }
+      const Quaternion q = blended_rotation(input.weights, relative_, v);
+      const Vec3 c = rotate(q, vec3_at(followed.correction, v)), m = rotate(q, vec3_at(followed.change, v));
+      set_vec3(followed.correction, v, c), set_vec3(followed.change, v, m);
+      positions[v] = positions[v] + c;
+    }
+  });
+}
+
+void Refinement::note_correction(const RefineInput& input, Followed& followed, const Vec3* positions) {
+  const std::int32_t n = input.core.size();
+  for_vertex_pieces(*input.core.jobs, n, [&](std::int32_t first, std::int32_t last) {
+    double sum = 0;
+    for (std::int32_t v = first; v < last; ++v) {
+      const Vec3 c = positions[v] - blended_[v], m = c - vec3_at(followed.correction, v);
+      sum += dot(positions[v] - begin_[v], m);
+      set_vec3(followed.correction, v, c), set_vec3(followed.change, v, m);
+    }
+    along_[first / vertex_piece] = sum;
+  });
+  double along = 0;
+  for (const double sum : along_) along += sum;
+  if (along < 0) std::fill(followed.change.begin(), followed.change.end(), 0.0f);
+}
+
+void Refinement::apply(const RefineInput& input, std::uint32_t steps, Followed* followed, Vec3* positions) {
   if (input.weights.elastic_components.empty()) return;
   std::fill(elastic_.begin(), elastic_.end(), std::uint8_t{0});
   for (const std::int32_t c : input.weights.elastic_components) elastic_[c] = 1;
+  if (!followed) return take_steps(input, steps, positions);
+  begin_from_last(input, *followed, positions);
+  for (std::uint32_t k = 0; k < steps; ++k) {
+    for_vertex_pieces(*input.core.jobs, input.core.size(), [&](std::int32_t first, std::int32_t last) {
+      for (std::int32_t v = first; v < last; ++v)
+        begin_[v] = positions[v] = positions[v] + refine_momentum * vec3_at(followed->change, v);
+    });
+    step(input, positions);
+    note_correction(input, *followed, positions);
+  }
+}
+
+void Refinement::take_steps(const RefineInput& input, std::uint32_t steps, Vec3* positions) {
   const std::int32_t n = input.core.size();
   const double radius = 1 - refine_gap / steps;
   double weight = 1;

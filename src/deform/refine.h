@@ -15,6 +15,13 @@
 // = 2 / (2 - r^2), w_k+1 = 4 / (4 - r^2 w_k) (Chebyshev's semi-iterative method for local and global steps, Wang 2015),
 // and r is 1 - 0.4 / steps.
 //
+// Steps can also go on from the last frame's surface (Followed). With x the blended pose and y the refined surface, the
+// correction c = y - x of the last frame turns with the pose, and the first step begins at
+//     x_v + q_v (c_v + refine_momentum m_v),
+// where q_v is the rotation from the last blended pose to this one, blended from the clusters, and m is how c changed
+// in the last step. So the steps of all frames are one iteration (with Nesterov's momentum), which goes to the minimum
+// while handles stand still. The momentum is dropped when a step goes against it (O'Donoghue and Candes 2015).
+//
 // GroupStart finds the rotation of every rotation group on a given surface, from the edges at some of its vertices.
 //
 // Both keep their memory from frame to frame. A failed call changes nothing.
@@ -38,19 +45,49 @@ struct RefineInput {
   const Affine* transforms;                  // by cluster, handles first
 };
 
+// What the steps of one frame leave for the next.
+struct Followed {
+  Followed(std::size_t vertices, std::size_t clusters, Memory& memory)
+      : correction(memory, 3 * vertices), change(memory, 3 * vertices), rotation(clusters, Quaternion(), &memory) {
+    forget();
+  }
+  Followed(const Followed& other, Memory& memory)
+      : correction(memory, other.correction.size()),
+        change(memory, other.change.size()),
+        rotation(other.rotation, &memory),
+        turned(other.turned) {
+    std::copy(other.correction.begin(), other.correction.end(), correction.begin());
+    std::copy(other.change.begin(), other.change.end(), change.begin());
+  }
+  void forget() noexcept {
+    std::fill(correction.begin(), correction.end(), 0.0f);
+    std::fill(change.begin(), change.end(), 0.0f);
+  }
+  // The next steps begin at this surface, if the blended pose stays.
+  void lead(const Vec3* blended, const Vec3* surface) noexcept;
+  Buffer<float> correction, change;  // three per vertex, in the unit and frame of the mesh as given
+  Vector<Quaternion> rotation;       // by cluster, in the frame of the correction
+  bool turned = false;               // `rotation` is known; otherwise the correction is taken as it is
+};
+
 class Refinement {
  public:
   Refinement(const Core& core, Memory& memory);
-  // Makes room for the values of this many sites, and for this many steps.
-  void fit(std::int32_t slot_count, std::uint32_t steps);
-  bool has_room(std::int32_t slot_count, std::uint32_t steps) const noexcept {
-    return 3 * static_cast<std::size_t>(slot_count) <= values_.capacity() && (steps < 2 || !last_.empty());
+  // Makes room for the values of this many sites, for this many steps, and for `followed`, which may be null.
+  void fit(std::int32_t slot_count, std::uint32_t steps, const Followed* followed);
+  bool has_room(std::int32_t slot_count, std::uint32_t steps, const Followed* followed) const noexcept {
+    return 3 * static_cast<std::size_t>(slot_count) <= values_.capacity() && (steps < 2 || !last_.empty()) &&
+           (!followed || (!blended_.empty() && followed->rotation.size() <= relative_.capacity()));
   }
   // Improves the blended `positions` in place by this many steps. They are in the given unit and frame. Vertices of
-  // handles and of components without free clusters keep their positions.
-  void apply(const RefineInput& input, std::uint32_t steps, Vec3* positions);
+  // handles and of components without free clusters keep their positions. followed: null, or where the steps go on
+  // from, which this call renews.
+  void apply(const RefineInput& input, std::uint32_t steps, Followed* followed, Vec3* positions);
 
  private:
+  void take_steps(const RefineInput& input, std::uint32_t steps, Vec3* positions);
+  void begin_from_last(const RefineInput& input, Followed& followed, Vec3* positions);
+  void note_correction(const RefineInput& input, Followed& followed, const Vec3* positions);
   void step(const RefineInput& input, Vec3* positions);
   void fit_rotations(const RefineInput& input, const Vec3* positions);
   void set_right_hand_side(const RefineInput& input, const Vec3* positions, double* z);
@@ -60,6 +97,9 @@ class Refinement {
   Buffer<double> field_;          // correction by vertex: x, y, z
   Vector<double> values_;         // x, y, z by site
   Buffer<Vec3> before_, last_;    // positions before this step and the one before; several steps only
+  Buffer<Vec3> blended_, begin_;  // positions without and with the last correction; steps from the last frame only
+  Vector<Quaternion> relative_;   // by cluster: how it turned since the last frame
+  Vector<double> along_;          // by piece of vertices: how far the steps went along the momentum
   Vector<std::uint8_t> elastic_;  // by component: 1 if vertices can move without a handle
 };
 

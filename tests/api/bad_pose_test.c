@@ -262,6 +262,9 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   DEFORM("2^32 - 1 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = UINT32_MAX);
   DEFORM("refine 65", HF_ERROR_INVALID_ARGUMENT, deform.refine = 65);
   DEFORM("refine -1", HF_ERROR_INVALID_ARGUMENT, deform.refine = -1);
+  DEFORM("no steps from the last surface", HF_ERROR_INVALID_ARGUMENT, deform.refine_from_last = 1);
+  DEFORM("reserved set", HF_ERROR_INVALID_DESC, deform.reserved = 1);
+  DEFORM("refine_from_last 2", HF_ERROR_INVALID_ARGUMENT, (deform.refine = 1, deform.refine_from_last = 2));
   DEFORM("a range from beyond the end", HF_ERROR_OUT_OF_RANGE, deform.first_vertex = TUBE_VERTICES + 1);
   DEFORM("a range to beyond the end", HF_ERROR_OUT_OF_RANGE,
          (deform.first_vertex = 5, deform.vertex_count = TUBE_VERTICES));

@@ -192,7 +192,7 @@ static void print_pose(void) {
 #define T hf_deform_desc
   STRUCT(hf_deform_desc);
   F(struct_size), F(position_stride), F(positions), F(positions_f64), F(normals), F(normal_stride), F(iteration_count),
-      F(restart), F(refine), F(first_vertex), F(vertex_count);
+      F(restart), F(refine), F(refine_from_last), F(first_vertex), F(vertex_count), F(reserved);
 #undef T
 #define T hf_skin_info
   STRUCT(hf_skin_info);

@@ -28,6 +28,8 @@ struct Options {
   std::uint32_t iterations = 5;
   std::uint32_t steps = 1;
   std::vector<double> smoothness;
+  bool from_last = false;  // the steps of the refined rows go on from frame to frame
+  int more = 0;            // such frames after the drag
 };
 
 struct Row {
@@ -114,6 +116,10 @@ int main(int count, char** arguments) {
       options.iterations = number();
     else if (word == "--steps")
       options.steps = number();
+    else if (word == "--from-last")
+      options.from_last = true;
+    else if (word == "--more")
+      options.more = static_cast<int>(number());
     else if (word == "--smooth")
       options.smoothness = {3e-5, 1e-4, 3e-4, 1e-3};
     else {
@@ -136,6 +142,17 @@ int main(int count, char** arguments) {
     hf_inner::DeformRequest request;
     request.iteration_count = 1, request.refine = options.steps;
     refined = positions(d.pose->deform(request));
+    if (options.from_last) {
+      Dragged e = set_up(c, options.pose, 1);
+      e.pose->deform({});
+      hf_inner::DeformRequest q;
+      q.iteration_count = options.iterations, q.refine = options.steps, q.refine_from_last = true;
+      for (int frame = 1; frame <= frames; ++frame) {
+        move_to(c, e, static_cast<double>(frame) / frames);
+        refined = positions(e.pose->deform(q));
+      }
+      for (int frame = 0; frame < options.more; ++frame) refined = positions(e.pose->deform(q));
+    }
 
     hf_inner::CoreOptions own_edges;
     own_edges.operator_kind = hf_inner::OperatorKind::cotangent;

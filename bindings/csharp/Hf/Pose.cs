@@ -182,7 +182,7 @@ namespace Hf
 
         /// <summary>The same with normals (or an empty span) and options.</summary>
         public void Deform(Span<float> positions, Span<float> normals, uint iterationCount = 0,
-            bool restart = false, int refine = 0)
+            bool restart = false, int refine = 0, bool refineFromLast = false)
         {
             Pins.Need(positions.Length, 3 * VertexCount, "positions");
             if (normals.Length > 0) Pins.Need(normals.Length, 3 * VertexCount, "normals");
@@ -195,11 +195,12 @@ namespace Hf
                 desc.iteration_count = iterationCount;
                 desc.restart = restart ? 1 : 0;
                 desc.refine = refine;
+                desc.refine_from_last = refineFromLast ? 1 : 0;
                 Check(Functions.hf_pose_deform(Handle, &desc, null));
             }
         }
 
-        public double[] DeformDouble(uint iterationCount = 0, bool restart = false, int refine = 0)
+        public double[] DeformDouble(uint iterationCount = 0, bool restart = false, int refine = 0, bool refineFromLast = false)
         {
             var positions = new double[3 * VertexCount];
             fixed (double* place = positions)
@@ -209,6 +210,7 @@ namespace Hf
                 desc.iteration_count = iterationCount;
                 desc.restart = restart ? 1 : 0;
                 desc.refine = refine;
+                desc.refine_from_last = refineFromLast ? 1 : 0;
                 Check(Functions.hf_pose_deform(Handle, &desc, null));
             }
             return positions;

@@ -748,8 +748,10 @@ namespace Hf.Native
         public uint iteration_count;
         public int restart;
         public int refine;
+        public int refine_from_last;
         public uint first_vertex;
         public uint vertex_count;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -124,8 +124,10 @@ Value handle_field(Surface& s, const Arguments& a) {
 
 Value deform(Surface& s, const Arguments& a) {
   auto desc = make<hf_deform_desc>();
-  read_options(at(a, 0),
-               {{"iteration_count", &desc.iteration_count}, {"restart", &desc.restart}, {"refine", &desc.refine}});
+  read_options(at(a, 0), {{"iteration_count", &desc.iteration_count},
+                          {"restart", &desc.restart},
+                          {"refine", &desc.refine},
+                          {"refine_from_last", &desc.refine_from_last}});
   Value value;
   value.kind = Value::vectors, value.floats.resize(3 * s.vertex_count + 1);
   std::vector<float> normals(3 * s.vertex_count + 1);

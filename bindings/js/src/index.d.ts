@@ -354,6 +354,7 @@ export interface Pose extends Handle {
       iterationCount?: number;
       restart?: number;
       refine?: number;
+      refineFromLast?: number;
     },
   ): T;
   skin(weightCount?: number): Skin;

@@ -608,7 +608,7 @@ export const layouts = {
     normal_ms: ['f64', [40, 40], 0],
     refine_ms: ['f64', [48, 48], 0],
   } },
-  hf_deform_desc: { size: [44, 56], fields: {
+  hf_deform_desc: { size: [52, 64], fields: {
     struct_size: ['u32', [0, 0], 0],
     position_stride: ['u32', [4, 4], 0],
     positions: ['ptr', [8, 8], 0],
@@ -618,8 +618,10 @@ export const layouts = {
     iteration_count: ['u32', [24, 36], 0],
     restart: ['i32', [28, 40], 0],
     refine: ['i32', [32, 44], 0],
-    first_vertex: ['u32', [36, 48], 0],
-    vertex_count: ['u32', [40, 52], 0],
+    refine_from_last: ['i32', [36, 48], 0],
+    first_vertex: ['u32', [40, 52], 0],
+    vertex_count: ['u32', [44, 56], 0],
+    reserved: ['u32', [48, 60], 0],
   } },
   hf_skin_info: { size: [52, 80], fields: {
     struct_size: ['u32', [0, 0], 0],

@@ -1191,8 +1191,10 @@ class hf_deform_desc(Structure):
     iteration_count: int
     restart: int
     refine: int
+    refine_from_last: int
     first_vertex: int
     vertex_count: int
+    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("position_stride", c_uint32),
@@ -1203,8 +1205,10 @@ class hf_deform_desc(Structure):
         ("iteration_count", c_uint32),
         ("restart", c_int32),
         ("refine", c_int32),
+        ("refine_from_last", c_int32),
         ("first_vertex", c_uint32),
         ("vertex_count", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 

@@ -164,7 +164,7 @@ class Pose(Object):
                info: Optional[_raw.hf_deform_info] = None, **options: Any) -> np.ndarray:
         """Solves the pose: (n, 3) positions, into out when given (float32 or float64, strided rows).
 
-        normals: (n, 3) float32 to fill. Options: iteration_count, restart, refine.
+        normals: (n, 3) float32 to fill. Options: iteration_count, restart, refine, refine_from_last.
         """
         out, stride = output(out, (self.vertex_count, 3), dtype if out is None else (np.float32, np.float64))
         desc = make(_raw.hf_deform_desc, position_stride=stride)

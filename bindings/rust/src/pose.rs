@@ -26,6 +26,8 @@ options!(
         restart: i32,
         /// full-mesh steps, 0 to 64
         refine: i32,
+        /// 1: the steps go on from the last frame's surface
+        refine_from_last: i32,
     }
 );
 options!(

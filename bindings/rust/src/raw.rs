@@ -1435,8 +1435,10 @@ pub struct hf_deform_desc {
     pub iteration_count: u32,
     pub restart: i32,
     pub refine: i32,
+    pub refine_from_last: i32,
     pub first_vertex: u32,
     pub vertex_count: u32,
+    pub reserved: u32,
 }
 impl Default for hf_deform_desc {
     fn default() -> Self {

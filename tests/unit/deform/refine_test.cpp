@@ -81,4 +81,134 @@ TEST(Refine, OneStepLeadsToTheMinimumForItsRotationsOnObtuseTrianglesToo) {
   EXPECT_LT(largest, 1e-10 * d.core->mesh.scale);
 }
 
+// ---- steps that go on from the last frame's surface ----
+
+DeformRequest steps(std::uint32_t count, bool from_last) {
+  DeformRequest request;
+  request.refine = count, request.refine_from_last = from_last;
+  return request;
+}
+
+Case bent_tube() {
+  Case c = cylinder_bend(90, 4, 40);
+  const auto bend = c.motion;
+  c.motion = [=](std::size_t handle, double t, Vec3 middle) {
+    if (handle == 0) return HandleTransform{};
+    HandleTransform moved = bend(handle, t, middle);
+    moved.rotation = moved.rotation * about({0, 1, 0}, 0.8 * t);
+    return moved;
+  };
+  return c;
+}
+
+Dragged drag_with(const Case& c, const DeformRequest& request, int frames, std::uint32_t threads = 1) {
+  Dragged d = set_up(c, {}, threads);
+  for (int frame = 0; frame <= frames; ++frame) {
+    move_to(c, d, static_cast<double>(frame) / frames);
+    d.report = d.pose->deform(request);
+  }
+  return d;
+}
+
+double energy_of(const Dragged& d, const std::vector<Vec3>& x) { return arap_energy(*d.core, rest(*d.core), x); }
+
+// The smallest energy that steps of their own find from the blended pose.
+double least_energy(Dragged& d) {
+  double least = 1e300;
+  for (int k = 0; k < 3; ++k) least = std::min(least, energy_of(d, positions(d.pose->deform(steps(64, false)))));
+  return least;
+}
+
+TEST(RefineFromLast, OneStepAFrameKeepsLengthsInADragAsManyStepsDo) {
+  const Case c = bent_tube();
+  Dragged one = drag_with(c, steps(1, false), 30), follows = drag_with(c, steps(1, true), 30);
+  const double plain = energy_of(one, positions(one.report)), followed = energy_of(follows, positions(follows.report)),
+               eight = energy_of(one, positions(one.pose->deform(steps(8, false)))), least = least_energy(one);
+  std::printf("energy over the least: one step %.4f, eight %.4f, one from the last frame %.4f\n", plain / least,
+              eight / least, followed / least);
+  EXPECT_LT(followed, 1.1 * eight);
+  EXPECT_LT(followed - least, 0.5 * (plain - least));
+}
+
+TEST(RefineFromLast, StandsStillAtTheMinimum) {
+  const Case c = bent_tube();
+  Dragged d = drag_with(c, steps(1, true), 10);
+  std::vector<Vec3> last, now;
+  for (int frame = 0; frame < 300; ++frame) last.swap(now), now = positions(d.pose->deform(steps(1, true)));
+  EXPECT_LT(largest_distance(last, now), 1e-4 * d.core->mesh.scale);
+  Dragged other = drag_with(c, steps(1, false), 10);
+  EXPECT_LT(energy_of(d, now), 1.001 * least_energy(other));
+  // the handles are where their transforms put them
+  for (std::size_t h = 0; h < c.regions.size(); ++h) {
+    const Vec3 middle = d.pose->handle(d.handles[h]).centroid;
+    const HandleTransform m = c.motion(h, 1, middle);
+    double off = 0;
+    for (const std::int32_t v : select(*d.core, c.regions[h])) {
+      const Vec3 p = d.core->mesh.to_given(d.core->mesh.positions[v]);
+      off = std::max(off, norm(now[v] - (rotate(normalised(m.rotation), p - middle) + middle + m.translation)));
+    }
+    EXPECT_LT(off, 1e-12 * d.core->mesh.scale);
+  }
+}
+
+TEST(RefineFromLast, TurnsWithThePose) {
+  // both handles turn together by half a turn in few frames: a correction in the frame of the world would be wrong
+  Case c = bent_tube();
+  const auto bend = c.motion;
+  c.motion = [=](std::size_t handle, double t, Vec3 middle) {
+    const HandleTransform bent = bend(handle, 1, middle);
+    const Quaternion turn = about({0.36, 0.48, 0.8}, 3 * t);
+    const Vec3 moved = rotate(turn, middle + bent.translation) - middle;
+    return HandleTransform{turn * normalised(bent.rotation), moved};
+  };
+  Dragged d = set_up(c, {}, 1);
+  move_to(c, d, 0);
+  for (int frame = 0; frame < 200; ++frame) d.pose->deform(steps(1, true));
+  const double before = energy_of(d, positions(d.pose->deform(steps(1, true))));
+  double worst = 0;
+  for (int frame = 1; frame <= 12; ++frame) {
+    for (std::size_t i = 0; i < 2; ++i)  // move_to() leaves the first one
+      place(*d.pose, d.handles[i], c.motion(i, frame / 12.0, d.pose->handle(d.handles[i]).centroid));
+    worst = std::max(worst, energy_of(d, positions(d.pose->deform(steps(1, true)))));
+  }
+  std::printf("turned by 172 degrees: energy at most %.5f of that before\n", worst / before);
+  EXPECT_LT(worst, 1.001 * before);
+}
+
+TEST(RefineFromLast, RestartsClonesAndThreadsGiveTheirBits) {
+  const Case c = bent_tube();
+  Dragged d = drag_with(c, steps(2, true), 6), two = drag_with(c, steps(2, true), 6, 2);
+  EXPECT_EQ(largest_distance(positions(d.report), positions(two.report)), 0);
+  const std::shared_ptr<Pose> copy = d.pose->clone();
+  EXPECT_EQ(largest_distance(positions(copy->deform(steps(1, true))), positions(d.pose->deform(steps(1, true)))), 0);
+  DeformRequest again = steps(1, true);
+  again.restart = true;
+  Dragged fresh = set_up(c, {}, 1);
+  move_to(c, fresh, 1);
+  EXPECT_EQ(largest_distance(positions(d.pose->deform(again)), positions(fresh.pose->deform(steps(1, true)))), 0);
+  // a frame without it forgets
+  d.pose->deform(steps(1, false));
+  const std::shared_ptr<Pose> forgot = d.pose->clone();
+  again.restart = false;
+  const std::vector<Vec3> plain = positions(d.pose->deform(steps(1, false)));
+  EXPECT_EQ(largest_distance(positions(forgot->deform(again)), plain), 0);
+}
+
+TEST(RefineFromLast, HandlesAddedAndRemovedKeepTheSurface) {
+  const Case c = bent_tube();
+  Dragged d = drag_with(c, steps(1, true), 30);
+  for (int frame = 0; frame < 300; ++frame) d.report = d.pose->deform(steps(1, true));
+  const std::vector<Vec3> before = positions(d.report);
+  const std::vector<std::int32_t> middle = select(*d.core, [](Vec3 p) { return norm(p - Vec3{0.5, 3, 0}) < 0.35; });
+  const std::uint32_t start[] = {0, static_cast<std::uint32_t>(middle.size())};
+  std::uint32_t number = 0;
+  d.pose->add_handles({start, 2}, {middle.data(), middle.size()}, {&number, 1}, true);
+  const std::vector<Vec3> placed = positions(d.pose->deform(steps(1, true)));
+  EXPECT_LT(largest_distance(before, placed), 1e-6 * d.core->mesh.scale);  // corrections are in single precision
+  EXPECT_LT(largest_distance(placed, positions(d.pose->deform(steps(1, true)))), 1e-6 * d.core->mesh.scale);
+  d.pose->remove_handles({&number, 1});
+  const std::vector<Vec3> removed = positions(d.pose->deform(steps(1, true)));
+  EXPECT_LT(largest_distance(before, removed), 1e-4 * d.core->mesh.scale);
+}
+
 }  // namespace
