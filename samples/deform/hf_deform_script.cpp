@@ -35,6 +35,7 @@ const char* usage =
     "  --mode MODE        smooth or paper, instead of the script's\n"
     "  --no-links         pieces of the surface stay apart; otherwise links join them\n"
     "  --refine           one full-mesh step on every frame\n"
+    "  --lengths          keeps lengths: the full-mesh steps go on from frame to frame\n"
     "  --threads N        threads the library may use (default 1)\n"
     "  --work-limit N     refuse a factorisation of more than N * 10^9 operations (default: by the size)\n"
     "  --memory-limit N   refuse a surface that holds more than N MiB (default: by the size)\n"
@@ -46,7 +47,7 @@ struct Command {
   double keys = 8;
   uint32_t tiles = 7, threads = 1;
   glm::dvec3 up{0, 1, 0};
-  bool propose = false, refine = false, links = true, quiet = false, help = false;
+  bool propose = false, refine = false, lengths = false, links = true, quiet = false, help = false;
 };
 
 glm::dvec3 axis_of(const std::string& word) {
@@ -86,6 +87,8 @@ Command parse(Words words) {
       out.up = axis_of(words.value());
     } else if (words.is("--refine")) {
       out.refine = true;
+    } else if (words.is("--lengths")) {
+      out.lengths = true;
     } else if (words.is("--no-links")) {
       out.links = false;
     } else if (words.is("--quiet")) {
@@ -132,7 +135,9 @@ std::vector<Key> play(const ScriptFile& script, const Command& command, Posable&
     if (!keys.empty() && time <= keys.back().time) time = keys.back().time + 1e-3;
     keys.push_back({time, sheet_frame(posable, positions, label), normals});
   };
-  const bool refine = script.refine || command.refine;
+  const Refine refine = command.lengths                   ? Refine::from_last
+                        : script.refine || command.refine ? Refine::one_step
+                                                          : Refine::none;
   for (size_t s = 0; s < script.steps.size(); ++s) {
     const Step& step = script.steps[s];
     bar.begin("step " + std::to_string(s + 1) + " of " + std::to_string(script.steps.size()));

@@ -163,7 +163,7 @@ void run(const Command& command) {
     posed.emplace_back();
     const auto frame = [&](double time) {
       posed.back().emplace_back();
-      player.deform(false, posed.back().back(), normals, 12);
+      player.deform(Refine::none, posed.back().back(), normals, 12);
       clip.times.push_back(time);
       append_frame(player, command.weights, pivots, clip);
     };

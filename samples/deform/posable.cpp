@@ -192,11 +192,12 @@ void Posable::drag(double t) {
   }
 }
 
-void Posable::deform(bool refine, std::vector<double>& positions, std::vector<float>& normals, uint32_t iterations) {
+void Posable::deform(Refine refine, std::vector<double>& positions, std::vector<float>& normals, uint32_t iterations) {
   positions.resize(3 * mesh_.positions.size()), normals.resize(positions.size());
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
   desc.positions_f64 = positions.data(), desc.normals = normals.data();
-  desc.refine = refine ? 1 : 0, desc.iteration_count = iterations;
+  desc.refine = refine != Refine::none, desc.refine_from_last = refine == Refine::from_last;
+  desc.iteration_count = iterations;
   expect_ok(hf_pose_deform(pose_, &desc, nullptr), "a frame");
 }
 

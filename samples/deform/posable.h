@@ -35,6 +35,8 @@ struct HandlePlace {
   glm::dvec3 translation{0};
 };
 
+enum class Refine { none, one_step, from_last };  // full-mesh steps of a frame: hf_deform_desc
+
 class Posable {
  public:
   struct Options {
@@ -65,8 +67,8 @@ class Posable {
       frame(f, count);
     }
   }
-  // Returns vertices (xyz) and normals. refine: with the full-mesh step.
-  void deform(bool refine, std::vector<double>& positions, std::vector<float>& normals, uint32_t iterations = 0);
+  // Returns vertices (xyz) and normals.
+  void deform(Refine refine, std::vector<double>& positions, std::vector<float>& normals, uint32_t iterations = 0);
 
   hf_pose pose() const { return pose_; }
   double diagonal() const { return diagonal_; }
