@@ -2,7 +2,6 @@
 // objects until they hold that list. The main thread sends the newest list only, so a slow answer never queues.
 import createHf from 'hf-glue';
 import { load } from '../../../bindings/js/src/web.js';
-import { buildBvh } from './bvh.js';
 import { readMesh } from './mesh_files.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { poseOf } from './worker_pose.js';
@@ -35,6 +34,16 @@ async function makePlain() {
   built.rest = parts.rest;
   return make(() => parts.make(createHf), true);
 }
+/** The build without threads. What could not be loaded is tried again by the next body. */
+function plain() {
+  built.plain ??= makePlain().catch((error) => {
+    built.plain = null;
+    throw error;
+  });
+  return built.plain;
+}
+/** What the build without threads lacks at first. */
+const rest = () => (body?.hf && body.hf === built.threads ? null : built.rest?.());
 
 /** The library for a body, and the threads that a surface of it may take. */
 async function ready(vertexCount) {
@@ -49,8 +58,7 @@ async function ready(vertexCount) {
       // not there, or no room: one thread does the same
     }
   }
-  built.plain ??= await makePlain();
-  return [built.plain, {}];
+  return [await plain(), {}];
 }
 
 const tasks = {
@@ -81,8 +89,7 @@ const tasks = {
   },
   /** The tree for picking, made here so that the page never stops for it: of the body, or of given arrays. */
   tree({ positions = body.positions, triangles = body.triangles }) {
-    const { answer, buffers } = buildBvh(positions, triangles);
-    return [answer, buffers];
+    return treeOf(positions, triangles);
   },
   /** Positions and normals of the body under handles and detail. */
   shape({ handles, detail, way }) {
@@ -106,8 +113,7 @@ const tasks = {
   /** Another body whose detail can be taken, and the tree for picking on it. */
   detailSource({ name, positions, triangles }) {
     body.detail.addSource(name, positions, triangles);
-    const { answer, buffers } = buildBvh(positions, triangles);
-    return [answer, buffers];
+    return treeOf(positions, triangles);
   },
   field({ sites, at }) {
     const begin = performance.now();
@@ -169,12 +175,11 @@ const tasks = {
     return [body.transfer.skin(), []];
   },
   sourceTree() {
-    const { answer, buffers } = buildBvh(body.sourcePositions, body.sourceTriangles);
-    return [answer, buffers];
+    return treeOf(body.sourcePositions, body.sourceTriangles);
   },
   /** What a pull and a tool will need: code that is compiled well, and the rest of the library. Nothing waits for it. */
   rest({ handles }) {
-    built.rest?.().catch(() => {}); // the tool that needs it says so
+    rest()?.catch(() => {}); // the tool that needs it says so
     const mine = body;
     warm(body.hf)
       .then(() => body === mine && prepare(mine, handles ?? []))
@@ -186,6 +191,13 @@ const tasks = {
     return [{ held: body?.surface.statistics.memoryBytes ?? 0, heap, threads: body?.threads.threadCount ?? 1 }, []];
   },
 };
+
+/** The tree for picking. three.js comes with it, which the first picture needs nothing of in a Worker. */
+async function treeOf(positions, triangles) {
+  const { buildBvh } = await import('./bvh.js');
+  const { answer, buffers } = buildBvh(positions, triangles);
+  return [answer, buffers];
+}
 
 function closeBody() {
   if (!body) return;
@@ -199,9 +211,10 @@ const early = new Set(['read', 'open', 'tree', 'shape', 'grab', 'field', 'extrem
 // Requests are answered in the order they came, also where one of them waits.
 let last = Promise.resolve();
 self.onmessage = ({ data: { id, task, args } }) => {
+  if (task === 'begin') return void plain().catch(() => {}); // the first body says what is wrong
   last = last.then(async () => {
     try {
-      if (!early.has(task) || args?.detail) await built.rest?.();
+      if (!early.has(task) || args?.detail) await rest();
       const [answer, buffers] = await tasks[task](args ?? {});
       self.postMessage({ id, answer }, buffers);
     } catch (error) {

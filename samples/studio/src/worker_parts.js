@@ -3,12 +3,16 @@
 /** Loads hf.wasm of a folder: { make, rest }. make goes to the glue of emscripten, rest() loads the other file. */
 export async function inTwo(folder) {
   const at = (name) => new URL(name, folder);
-  const fetched = async (name) => {
+  // Streams are compiled while they come, and a browser keeps the code for the next start. A host that sends the file as
+  // something else gives bytes.
+  const compiled = async (name) => {
     const answer = await fetch(at(name));
     if (!answer.ok) throw new Error(`${name} could not be loaded (${answer.status}).`);
-    return answer.arrayBuffer();
+    return answer.headers.get('content-type') === 'application/wasm'
+      ? WebAssembly.compileStreaming(answer)
+      : WebAssembly.compile(await answer.arrayBuffer());
   };
-  const first = await WebAssembly.compile(await fetched('hf.wasm'));
+  const first = await compiled('hf.wasm');
   const whole = !WebAssembly.Module.imports(first).some(({ module }) => module === 'placeholder');
   let primary = null;
   let filled = whole;
@@ -50,8 +54,7 @@ export async function inTwo(folder) {
       }),
     rest() {
       if (filled) return Promise.resolve();
-      coming ??= fetched('rest.wasm')
-        .then((bytes) => WebAssembly.compile(bytes))
+      coming ??= compiled('rest.wasm')
         .then(fill)
         .catch(() => {
           coming = null; // the next call tries again
