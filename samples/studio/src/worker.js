@@ -31,7 +31,7 @@ function make(create, wasmBinary) {
 }
 async function makePlain() {
   const parts = await inTwo(self.location);
-  built.rest = parts.rest;
+  Object.assign(built, { rest: parts.rest, missed: parts.missed });
   return make(() => parts.make(createHf), true);
 }
 /** The build without threads. What could not be loaded is tried again by the next body. */
@@ -181,14 +181,19 @@ const tasks = {
   rest({ handles }) {
     rest()?.catch(() => {}); // the tool that needs it says so
     const mine = body;
-    warm(body.hf)
-      .then(() => body === mine && prepare(mine, handles ?? []))
-      .catch(() => {}); // no room: the first pull is slower, and no more
+    // another body may be opened meanwhile
+    const myTurn = async () => {
+      await turn();
+      if (body !== mine) throw new Error('closed');
+    };
+    warm(body.hf, turn)
+      .then(() => prepare(mine, handles ?? [], myTurn))
+      .catch(() => {}); // closed, or no room: the first pull is slower, and no more
     return [null, []];
   },
   memory() {
     const heap = memory.reduce((sum, bytes) => sum + bytes(), 0);
-    return [{ held: body?.surface.statistics.memoryBytes ?? 0, heap, threads: body?.threads.threadCount ?? 1 }, []];
+    return [{ held: body?.surface.statistics.memoryBytes ?? 0, heap, threads: body?.threads.threadCount ?? 1, missed: built.missed }, []];
   },
 };
 
@@ -205,6 +210,14 @@ function closeBody() {
   body = null;
 }
 
+/** Work that nobody asked for starts when the page has asked for nothing for so long: longer than between two frames. */
+const QUIET_MS = 60;
+let asked = 0;
+async function turn() {
+  do await new Promise((done) => setTimeout(done, asked + QUIET_MS - performance.now()));
+  while (performance.now() - asked < QUIET_MS);
+}
+
 /** What the first file of the library does; all other tasks wait for the rest of it. */
 const early = new Set(['read', 'open', 'tree', 'shape', 'grab', 'field', 'extremities', 'memory', 'rest', 'quadsOpen']);
 
@@ -213,10 +226,12 @@ let last = Promise.resolve();
 self.onmessage = ({ data: { id, task, args } }) => {
   if (task === 'begin') return void plain().catch(() => {}); // the first body says what is wrong
   last = last.then(async () => {
+    asked = performance.now();
     try {
       if (!early.has(task) || args?.detail) await rest();
       const [answer, buffers] = await tasks[task](args ?? {});
       self.postMessage({ id, answer }, buffers);
+      asked = performance.now();
     } catch (error) {
       // the library's own sentence, without the name of the function and the code
       const { codeName = null, index = null, functionName = '', advice } = error;

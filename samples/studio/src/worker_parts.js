@@ -17,6 +17,7 @@ export async function inTwo(folder) {
   let primary = null;
   let filled = whole;
   let coming = null;
+  const missed = []; // functions that the Worker had to wait for
   // the rest writes its functions into the table of the first, over the calls to JavaScript
   const fill = (module) => {
     if (!filled) new WebAssembly.Instance(module, { primary });
@@ -36,13 +37,17 @@ export async function inTwo(folder) {
       get:
         (_, index) =>
         (...given) => {
-          if (!filled) fillNow();
+          if (!filled) {
+            missed.push(index);
+            fillNow();
+          }
           const table = Object.values(primary).find((thing) => thing instanceof WebAssembly.Table);
           return table.get(Number(index))(...given);
         },
     },
   );
   return {
+    missed,
     make: (createHf) =>
       createHf({
         instantiateWasm(imports, done) {
