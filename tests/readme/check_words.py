@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The add-on for Blender and the studio use the same words: names of tools, of dials, and of what both have."""
+"""check_words.py SOURCE_DIR: the add-on for Blender and the studio use the same words: tools, dials, what both have."""
 
 import re
 import sys
 from pathlib import Path
 
-root = Path(__file__).resolve().parents[2]
+root = Path(sys.argv[1])
 addon = {path.name: path.read_text() for path in sorted((root / "bindings/blender/hf_blender").glob("*.py"))}
 studio = {path.name: path.read_text() for path in sorted((root / "samples/studio/src").rglob("*.js"))}
 everywhere = ["\n".join(addon.values()), "\n".join(studio.values())]
