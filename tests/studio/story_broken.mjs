@@ -133,7 +133,7 @@ export default async function story(host) {
     await bare.close();
   });
   for (const late of [0, 1000])
-    await check(`without worker.js a card says so, ${late ? 'also where the page comes later' : 'and soon'}`, async () => {
+    await check(`without worker.js a card says so, ${late ? 'also before the page comes' : 'and soon'}`, async () => {
       const bare = await Studio.open(host, {
         wait: false,
         before: async (other) => {

@@ -86,8 +86,8 @@ export default async function story(host) {
         seen
           .filter(({ protocol }) => protocol.startsWith('http'))
           .map(({ pathname }) => (pathname === '/' ? 'index.html' : pathname.slice(1)))
-          // Asked for when the body can be pulled; the next check shows that nothing needs it before. And what finds the
-          // triangle under the pointer, which comes after the first picture.
+          // Asked for when the body can be pulled; the next check shows that nothing needs it before. And what finds
+          // the triangle under the pointer, which comes after the first picture.
           .filter((name) => name !== 'rest.wasm' && !isTree(name)),
       ),
     ];
@@ -279,7 +279,11 @@ export default async function story(host) {
       await studio.picture(`figures_${vertices}`, { kept: false });
       await studio.close();
       assert.ok(perSecond > 60 / SLOW, `${perSecond} poses a second`);
-      return `open ${time} ms, a handle more ${handle.busiest.toFixed(0)} ms of the busiest processor (${Math.round(added)} ms passed), ${Math.round(perSecond)} poses a second, long tasks ${JSON.stringify(long)}`;
+      return [
+        `open ${time} ms`,
+        `a handle more ${handle.busiest.toFixed(0)} ms of the busiest processor (${Math.round(added)} ms passed)`,
+        `${Math.round(perSecond)} poses a second, long tasks ${JSON.stringify(long)}`,
+      ].join(', ');
     });
   }
   if (!existsSync(join(folder, 'threads'))) passOver('threads', 'the page was built without');

@@ -206,7 +206,7 @@ export default async function story(host) {
     await studio.picture('transfer_small_source', { kept: false });
     return `${high.toFixed(2)} times as high`;
   });
-  await check('a posed body stands at rest beside the source, with its dots on it, and is posed again after', async () => {
+  await check('a posed body stands at rest beside the source, its dots on it, and is posed again after', async () => {
     const posed = await Studio.open(host, { query: 'fresh&sample=bull' });
     try {
       const { page } = posed;

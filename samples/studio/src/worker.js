@@ -193,7 +193,8 @@ const tasks = {
   },
   memory() {
     const heap = memory.reduce((sum, bytes) => sum + bytes(), 0);
-    return [{ held: body?.surface.statistics.memoryBytes ?? 0, heap, threads: body?.threads.threadCount ?? 1, missed: built.missed }, []];
+    const held = body?.surface.statistics.memoryBytes ?? 0;
+    return [{ held, heap, threads: body?.threads.threadCount ?? 1, missed: built.missed }, []];
   },
 };
 
