@@ -51,6 +51,15 @@ function body(faults) {
   return { positions: Float32Array.from(positions), triangles: Uint32Array.from(triangles) };
 }
 
+function refused(act) {
+  try {
+    act();
+  } catch {
+    return;
+  }
+  throw new Error('nothing was refused');
+}
+
 /** What the Worker asks for before any other tool is opened. */
 function firstMinute(hf, faults) {
   const { positions, triangles } = body(faults);
@@ -70,6 +79,17 @@ function firstMinute(hf, faults) {
   pose.deform(handles, 'follow');
   pose.deform(handles, 'exact');
   pose.deform(handles.slice(1), 'rest');
+  // so many sites that the library factorises the rest of the body: a handle around each twelfth ring of the first tube
+  const middle = (ring) =>
+    [0, 1, 2].map((k) => {
+      let sum = 0;
+      for (let v = 33 * ring; v < 33 * ring + 32; ++v) sum += positions[3 * v + k];
+      return sum / 32;
+    });
+  const crowd = [6, 18, 30, 42, 54, 66, 76].map((ring) => place({ position: middle(ring), radius: 0.35 }, ring));
+  pose.deform(crowd, 'exact');
+  pose.deform(crowd.slice(1), 'rest');
+  pose.deform(crowd.slice(1, 4), 'rest');
 
   const site = (triangle, id, soft = false) => ({
     id,
@@ -83,7 +103,13 @@ function firstMinute(hf, faults) {
   field.solve([site(0, 0), site(700, 1, true)], false);
   field.solve([site(0, 0)], false);
   surface.findExtremities();
+  // what is refused is said in a sentence
+  refused(() => pose.deform([...handles, { ...handles[0], id: 'twice' }], 'follow'));
+  refused(() => field.solve([site(0, 0), { ...site(0, 1), barycentrics: [NaN, 0, 0] }], true));
+  refused(() => new hf.Surface(positions.slice(3), triangles, { linkPieces: true }));
+  refused(() => new hf.Surface(positions.map(() => NaN), triangles, {}));
   for (const part of [pose, field, surface]) part.close();
+  refused(() => surface.report);
 }
 
 /** The functions of a module that some of them reach by calls that name a function. */

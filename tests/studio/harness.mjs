@@ -1,6 +1,6 @@
 // Drives the studio in headless Chromium: a server for the folder, pages, real pointers and keys, counted checks, pictures.
 import { spawn } from 'node:child_process';
-import { existsSync, mkdirSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -68,6 +68,36 @@ export async function start() {
   });
   const kept = new Pictures(browser, pictures);
   return { address, browser, kept, close: async () => (await browser.close(), server.kill()) };
+}
+
+/**
+ * Processor time that each Worker of the open pages has taken, in milliseconds: other work beside does not count. Null where
+ * the system does not tell (all but Linux).
+ */
+export function workerTimes() {
+  if (!existsSync('/proc/self/schedstat')) return null;
+  const read = (path) => readFileSync(path, 'utf8');
+  const times = new Map();
+  const parentOf = (id) => read(`/proc/${id}/stat`).split(') ').pop().split(' ')[1];
+  const ours = (id) => id === String(process.pid) || (Number(id) > 1 && ours(parentOf(id)));
+  for (const id of readdirSync('/proc').filter((name) => /^\d+$/.test(name)))
+    try {
+      if (!read(`/proc/${id}/cmdline`).includes('--type=renderer') || !ours(id)) continue;
+      for (const thread of readdirSync(`/proc/${id}/task`))
+        if (/^Dedicated/.test(read(`/proc/${id}/task/${thread}/comm`)))
+          times.set(thread, Number(read(`/proc/${id}/task/${thread}/schedstat`).split(' ')[0]) / 1e6);
+    } catch {
+      // it has ended
+    }
+  return times;
+}
+/** What act() takes of a processor: { all, busiest } of the Workers, in milliseconds, and what it answers. */
+export async function processor(act) {
+  const before = workerTimes();
+  const answer = await act();
+  const after = workerTimes();
+  const each = after ? Array.from(after, ([thread, time]) => time - (before.get(thread) ?? 0)) : [NaN];
+  return { answer, all: each.reduce((sum, time) => sum + time, 0), busiest: Math.max(...each) };
 }
 
 export class Studio {

@@ -132,6 +132,33 @@ export default async function story(host) {
     assert.ok((await bare.page.textContent('#card')).length > 40);
     await bare.close();
   });
+  for (const late of [0, 1000])
+    await check(`without worker.js a card says so, ${late ? 'also before the page comes' : 'and soon'}`, async () => {
+      const bare = await Studio.open(host, {
+        wait: false,
+        before: async (other) => {
+          await other.route('**/worker.js', (route) => route.abort());
+          // the Worker is asked for before the page's own scripts: its failure may come first
+          await other.route('**/studio.js', async (route) => {
+            await new Promise((done) => setTimeout(done, late));
+            await route.continue();
+          });
+        },
+      });
+      await bare.page.waitForSelector('#card[open]', { timeout: 5000 });
+      assert.match(await bare.page.textContent('#card'), /Worker could not start/);
+      await bare.close();
+    });
+  await check('a host that sends hf.wasm as some other type is taken', async () => {
+    const bare = await Studio.open(host, {
+      before: (other) =>
+        other.route('**/*.wasm', async (route) =>
+          route.fulfill({ response: await route.fetch(), headers: { 'content-type': 'application/octet-stream' } }),
+        ),
+    });
+    assert.deepEqual(bare.complaints, []);
+    await bare.close();
+  });
   await check('without WebGL a card says so', async () => {
     const bare = await Studio.open(host, {
       wait: false,

@@ -4,11 +4,13 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { brotliCompressSync } from 'node:zlib';
-import { Studio, check, folder, passOver, shared } from './harness.mjs';
+import { Studio, check, folder, passOver, processor, shared } from './harness.mjs';
 
 /** Bounds: what the goal of the design says, and what this test refuses on a busy machine without a graphics card. */
 const [BYTES, REQUESTS] = [0.9e6, 6];
 const SLOW = 10;
+/** A first call beside a later one. */
+const FIRST = 1.5;
 
 const longTasks = (page) =>
   page.addInitScript(() => {
@@ -19,6 +21,31 @@ const longTasks = (page) =>
       ),
     ).observe({ type: 'longtask', buffered: true });
   });
+
+/** The part of the Worker that builds the tree for picking: it passes on a function of the page's own files, and no more. */
+const isTree = (name) => {
+  const text = /^shared-/.test(name) ? readFileSync(join(folder, name), 'utf8') : '';
+  return text.length < 200 && /^import\{[^}]*\}from"[^"]*";export\{[^}]* as buildBvh[^}]*\};?\s*$/.test(text);
+};
+
+/** In the page: a handle more, a pose of it, a field of two sites, or the pose at rest. The Worker's milliseconds. */
+const ask = async (what) => {
+  const { client, state, tools, body, view } = window.hfStudio;
+  if (what === 'field') {
+    const sites = [0, 900].map((triangle, id) => ({
+      id,
+      corners: Array.from(body.triangles.subarray(3 * triangle, 3 * triangle + 3)),
+      barycentrics: [1, 0, 0],
+      value: id,
+      soft: false,
+    }));
+    return (await client.ask('field', { sites, at: true })).told.milliseconds;
+  }
+  const offer = tools.pose.offers.find(({ id }) => !state.handles.some((handle) => handle.id === id));
+  const x = { more: 0.01, pose: 0.02 }[what];
+  const handles = x ? [...state.handles, { ...offer, translation: [0, x * view.size, 0] }] : state.handles;
+  return (await client.ask('shape', { handles, detail: null, way: x ? 'follow' : 'exact' })).told.milliseconds;
+};
 
 /** Poses a second of the Worker and time of the main thread for each. */
 const poses = (page, count) =>
@@ -59,8 +86,9 @@ export default async function story(host) {
         seen
           .filter(({ protocol }) => protocol.startsWith('http'))
           .map(({ pathname }) => (pathname === '/' ? 'index.html' : pathname.slice(1)))
-          // asked for when the body can be pulled; the next check shows that nothing needs it before
-          .filter((name) => name !== 'rest.wasm'),
+          // Asked for when the body can be pulled; the next check shows that nothing needs it before. And what finds
+          // the triangle under the pointer, which comes after the first picture.
+          .filter((name) => name !== 'rest.wasm' && !isTree(name)),
       ),
     ];
     const bytes = files.reduce((sum, name) => sum + brotliCompressSync(readFileSync(join(folder, name))).length, 0);
@@ -93,6 +121,19 @@ export default async function story(host) {
       }
       assert.equal((await page.evaluate(() => window.hfStudio.state.sites)).length, 2);
       assert.equal(await studio.told(), '');
+      // a refused call says why, and what is done for a body ends with it
+      const refusal = await page.evaluate(async () => {
+        const { client, state } = window.hfStudio;
+        const twice = [state.handles[0], { ...state.handles[0], id: 'twice' }];
+        const said = client.ask('shape', { handles: twice, detail: null, way: 'exact' }).catch(({ message }) => message);
+        await window.hfStudio.openSample('bull');
+        return said;
+      });
+      assert.match(refusal, /overlaps another handle/);
+      await studio.ready();
+      await page.waitForTimeout(500);
+      const { missed } = await page.evaluate(() => window.hfStudio.client.ask('memory'));
+      assert.deepEqual(missed, []);
       const ask = () =>
         page.evaluate(() =>
           window.hfStudio.client.ask('skin', { handles: window.hfStudio.state.handles }).then(
@@ -185,8 +226,8 @@ export default async function story(host) {
     return `${Math.round(first)} ms, and then ${later.map(Math.round).join(', ')} ms`;
   });
   const meshes = [
-    ['meshes/armadillo_50k.obj', 50000],
-    ['meshes/armadillo_200k_loop.ply', 200000],
+    ['meshes/armadillo_50k.obj', 50000, 50],
+    ['meshes/armadillo_200k_loop.ply', 200000, 150],
   ];
   const middle = join(shared, 'data', meshes[0][0]);
   for (const path of [null, middle]) {
@@ -195,44 +236,30 @@ export default async function story(host) {
       passOver(`${of}: first calls`, 'the shared meshes are not here');
       continue;
     }
-    await check(`${of}: first calls take about as long as later ones`, async () => {
+    await check(`${of}: first calls take at most ${FIRST} times a later one, of a processor`, async () => {
       const studio = await Studio.open(host);
       if (path) await studio.open(path);
       await studio.page.waitForTimeout(2000); // the Worker warms up
-      const times = await studio.page.evaluate(async () => {
-        const { client, state, tools, body, view } = window.hfStudio;
-        const offer = tools.pose.offers.find(({ id }) => !state.handles.some((handle) => handle.id === id));
-        const corners = (triangle) => Array.from(body.triangles.subarray(3 * triangle, 3 * triangle + 3));
-        const found = { more: [], pose: [], field: [] };
-        for (let round = 0; round < 9; ++round) {
-          const shape = async (list, way) =>
-            (await client.ask('shape', { handles: list, detail: null, way })).told.milliseconds;
-          const pulled = (x) => [...state.handles, { ...offer, translation: [0, x * view.size, 0] }];
-          found.more.push(await shape(pulled(0.01), 'follow'));
-          found.pose.push(await shape(pulled(0.02), 'follow'));
-          await shape(state.handles, 'exact');
-          const sites = [0, 900].map((triangle, id) => ({
-            id,
-            corners: corners(triangle),
-            barycentrics: [1, 0, 0],
-            value: id,
-            soft: false,
-          }));
-          found.field.push((await client.ask('field', { sites, at: true })).told.milliseconds);
+      const found = { more: [], pose: [], field: [] };
+      for (let round = 0; round < 9; ++round)
+        for (const name of Object.keys(found)) {
+          found[name].push(await processor(() => studio.page.evaluate(ask, name)));
+          if (name === 'pose') await studio.page.evaluate(ask, 'rest');
         }
-        return found;
-      });
       await studio.close();
-      const told = Object.entries(times).map(([name, [first, ...later]]) => {
-        later.sort((a, b) => a - b);
-        const median = later[later.length >> 1];
-        assert.ok(first < 1.5 * SLOW * median, `${name}: ${first} and then ${median} ms`);
-        return `${name} ${first.toFixed(1)}, then ${median.toFixed(1)} ms (least ${later[0].toFixed(1)})`;
+      const told = Object.entries(found).map(([name, [first, ...later]]) => {
+        const median = (of) => later.map(of).sort((a, b) => a - b)[later.length >> 1];
+        const wall = median(({ answer }) => answer);
+        assert.ok(first.answer < FIRST * SLOW * wall, `${name}: ${first.answer} and then ${wall} ms`);
+        const all = median(({ all }) => all);
+        // calls of less than a millisecond are measured with the messages around them
+        assert.ok(!(first.all > FIRST * all + 1), `${name}: ${first.all} and then ${all} ms of a processor`);
+        return `${name} ${first.all.toFixed(1)}, then ${all.toFixed(1)} ms of a processor (${first.answer.toFixed(1)}, then ${wall.toFixed(1)} ms passed)`;
       });
-      return told.join(', ');
+      return told.join('; ');
     });
   }
-  for (const [name, vertices] of meshes) {
+  for (const [name, vertices, more] of meshes) {
     const path = join(shared, 'data', name);
     if (!existsSync(path)) {
       passOver(`${vertices} vertices`, 'the shared meshes are not here');
@@ -243,13 +270,20 @@ export default async function story(host) {
       const begin = Date.now();
       await studio.open(path);
       const time = Date.now() - begin;
+      const handle = await processor(() => studio.page.evaluate(ask, 'more'));
+      await studio.page.evaluate(ask, 'rest');
+      assert.ok(!(handle.busiest > more), `a handle more takes ${handle.busiest} ms of a processor`);
       const start = await studio.page.evaluate(() => performance.now());
       const { perSecond, added } = await poses(studio.page, 40);
       const long = await studio.page.evaluate((start) => window.longTasks.filter(([time]) => time > start), start);
       await studio.picture(`figures_${vertices}`, { kept: false });
       await studio.close();
       assert.ok(perSecond > 60 / SLOW, `${perSecond} poses a second`);
-      return `open ${time} ms, a handle more ${Math.round(added)} ms, ${Math.round(perSecond)} poses a second, long tasks ${JSON.stringify(long)}`;
+      return [
+        `open ${time} ms`,
+        `a handle more ${handle.busiest.toFixed(0)} ms of the busiest processor (${Math.round(added)} ms passed)`,
+        `${Math.round(perSecond)} poses a second, long tasks ${JSON.stringify(long)}`,
+      ].join(', ');
     });
   }
   if (!existsSync(join(folder, 'threads'))) passOver('threads', 'the page was built without');

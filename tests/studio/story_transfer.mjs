@@ -3,6 +3,20 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { Studio, check, require } from './harness.mjs';
 
+/** How far the dots of the body are off it, and how far it is from rest, as parts of its size. */
+const shown = () => {
+  const { body, skin, tools, view } = window.hfStudio;
+  const far = (place) => {
+    let least = Infinity;
+    for (let v = 0; v < body.vertexCount; ++v)
+      least = Math.min(least, Math.hypot(...[0, 1, 2].map((k) => place[k] - skin.positions[3 * v + k])));
+    return least / view.size;
+  };
+  const dots = (tools.transfer?.marks() ?? []).filter(({ id }) => id.startsWith('b'));
+  const moved = skin.positions.reduce((most, x, i) => Math.max(most, Math.abs(x - body.positions[i])), 0) / view.size;
+  return { off: Math.max(0, ...dots.map(({ place }) => far(place))), moved };
+};
+
 export default async function story(host) {
   const studio = await Studio.open(host, { query: 'fresh&sample=bull' });
   const { page } = studio;
@@ -191,6 +205,29 @@ export default async function story(host) {
     assert.ok(off < 0.5 && away < 1, `${off} of the dots lie beside the body, ${away} pixels`);
     await studio.picture('transfer_small_source', { kept: false });
     return `${high.toFixed(2)} times as high`;
+  });
+  await check('a posed body stands at rest beside the source, its dots on it, and is posed again after', async () => {
+    const posed = await Studio.open(host, { query: 'fresh&sample=bull' });
+    try {
+      const { page } = posed;
+      const box = await page.locator('.mark.pulse').boundingBox();
+      await posed.drag(box.x + 22, box.y + 22, 30, -90);
+      assert.ok((await page.evaluate(shown)).moved > 0.03);
+      await posed.tool('transfer');
+      await page.click('#take-horse');
+      await page.waitForFunction(() => window.hfStudio.tools.transfer?.info, null, { timeout: 30000 });
+      await posed.settle();
+      for (const act of [null, '#undo', '#redo']) {
+        if (act) await page.click(act);
+        await posed.settle();
+        const { off, moved } = await page.evaluate(shown);
+        assert.ok(off < 0.01 && moved === 0, `${act}: dots are ${off} off, the body moved by ${moved}`);
+      }
+      await posed.tool('pose');
+      assert.ok((await page.evaluate(shown)).moved > 0.03);
+    } finally {
+      await posed.close();
+    }
   });
   await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
   await studio.close();

@@ -99,9 +99,9 @@ def register():
     bpy.types.Scene.hf_live = bpy.props.BoolProperty(name="Live", default=True,
         description="Follow the handles while they are dragged")
     bpy.types.Object.hf_quads = bpy.props.PointerProperty(type=quad_operators.HF_PG_quads)
-    for name, (neutral, least, most, description) in operators.DIALS.items():
+    for name, (label, neutral, least, most, description) in operators.DIALS.items():
         unit = {"subtype": "ANGLE"} if name == "arm_space" else {}
-        setattr(bpy.types.Scene, f"hf_{name}", bpy.props.FloatProperty(name=name.replace("_", " ").capitalize(),
+        setattr(bpy.types.Scene, f"hf_{name}", bpy.props.FloatProperty(name=label,
             default=neutral, min=least, max=most, description=description, **unit))
     for name, function in HANDLERS:
         getattr(bpy.app.handlers, name).append(function)

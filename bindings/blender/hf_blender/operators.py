@@ -226,7 +226,7 @@ class HF_OT_field(bpy.types.Operator):
 class HF_OT_weights(bpy.types.Operator):
     """Write the pose as vertex groups and an armature with one bone per cluster, standing as the pose stands"""
     bl_idname, bl_label, bl_options = "hf.weights", "Weights and armature", {"REGISTER", "UNDO"}
-    count: bpy.props.EnumProperty(name="Bones per vertex", items=[("4", "4", ""), ("8", "8", "")])
+    count: bpy.props.EnumProperty(name="Bones for each vertex", items=[("4", "4", ""), ("8", "8", "")])
 
     @guarded
     def execute(self, context):
@@ -263,12 +263,14 @@ class HF_OT_transfer(bpy.types.Operator):
         context.scene.hf_live = False
 
 
-DIALS = {  # of hf_transfer_dials: neutral value, range, what it does
-    "stride": (1.0, 0.1, 4.0, "How many times the paths of feet and trunk along the ground count"),
-    "hip_height": (0.0, -0.5, 0.5, "Raises the trunk by this share of its height at rest"),
-    "neck_follow": (0.0, -1.0, 1.0, "1: the neck points where the source's points; -1: it does not move against the trunk"),
-    "tail_follow": (0.0, -1.0, 1.0, "1: the tail points where the source's points; -1: it does not move against the trunk"),
-    "arm_space": (0.0, -1.5707, 1.5707, "Turns the arms away from the body"),
+DIALS = {  # of hf_transfer_dials: label, neutral value, range, what it does
+    "stride": ("Stride", 1.0, 0.1, 4.0, "How many times the paths of feet and trunk along the ground count"),
+    "hip_height": ("Hip height", 0.0, -0.5, 0.5, "Raises the trunk by this share of its height at rest"),
+    "neck_follow": ("Neck follows", 0.0, -1.0, 1.0,
+        "1: the neck points where the source's points; -1: it does not move against the trunk"),
+    "tail_follow": ("Tail follows", 0.0, -1.0, 1.0,
+        "1: the tail points where the source's points; -1: it does not move against the trunk"),
+    "arm_space": ("Room at the arms", 0.0, -1.5707, 1.5707, "Turns the arms away from the body"),
 }
 
 
@@ -300,8 +302,8 @@ def mesh_and_armature(context):
 
 class HF_OT_weights_from_bones(bpy.types.Operator):
     """Skin weights for every vertex of the selected mesh from the deforming bones of the selected armature"""
-    bl_idname, bl_label, bl_options = "hf.weights_from_bones", "Weights from bones", {"REGISTER", "UNDO"}
-    count: bpy.props.EnumProperty(name="Bones per vertex", items=[("4", "4", ""), ("8", "8", "")])
+    bl_idname, bl_label, bl_options = "hf.weights_from_bones", "Compute weights", {"REGISTER", "UNDO"}
+    count: bpy.props.EnumProperty(name="Bones for each vertex", items=[("4", "4", ""), ("8", "8", "")])
 
     @guarded
     def execute(self, context):

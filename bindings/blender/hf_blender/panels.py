@@ -143,13 +143,13 @@ class HF_PT_quads(Tool, bpy.types.Panel):
         column = self.layout.column(align=True)
         for name in ("faces", "crease", "sharp"):
             column.prop(group, name)
-        column.label(text="Symmetry")
+        column.label(text="Mirror")
         column.row(align=True).prop(group, "symmetry", expand=True)
         column = self.layout.column(align=True)
         column.operator("hf.draw_strokes")
         row = column.row(align=True)
         for count in "35":
-            row.operator("hf.add_pole", text=f"Add pole of {count}").count = count
+            row.operator("hf.add_pole", text=f"Pole of {count}").count = count
         column.operator("hf.update_quads")
         if state and state.line:
             say(self.layout, context, state.line)

@@ -13,11 +13,11 @@ SYMMETRY = [("NONE", "None", ""), ("X", "X", ""), ("Y", "Y", ""), ("Z", "Z", "")
 QUAD_OPTIONS = {  # of Make quads, and of the object that it makes
     "faces": (bpy.props.IntProperty, {"name": "Quads", "default": 5000, "min": 1, "max": 10000000,
         "description": "How many are wanted"}),
-    "crease": (bpy.props.FloatProperty, {"name": "Crease", "default": 0.0, "min": 0.0, "max": math.pi, "subtype": "ANGLE",
+    "crease": (bpy.props.FloatProperty, {"name": "Creases from", "default": 0.0, "min": 0.0, "max": math.pi, "subtype": "ANGLE",
         "description": "Edges that bend by more are kept; 0: none"}),
     "sharp": (bpy.props.BoolProperty, {"name": "Keep sharp edges", "default": False,
         "description": "Edges that are marked as sharp are kept"}),
-    "symmetry": (bpy.props.EnumProperty, {"name": "Symmetry", "items": SYMMETRY,
+    "symmetry": (bpy.props.EnumProperty, {"name": "Mirror", "items": SYMMETRY,
         "description": "The positive side of the object's axis, mirrored"}),
 }
 

@@ -8,9 +8,11 @@ export class HfFailure extends Error {
   }
 }
 
+const failureOf = ({ message }) => new HfFailure({ message: message || 'the Worker could not start' });
+
 class Line {
-  constructor() {
-    this.worker = new Worker(new URL('worker.js', document.baseURI), { type: 'module' });
+  constructor(worker = new Worker(new URL('worker.js', document.baseURI), { type: 'module' })) {
+    this.worker = worker;
     this.waiting = new Map();
     this.next = 0;
     this.worker.onmessage = ({ data: { id, answer, error } }) => {
@@ -20,14 +22,15 @@ class Line {
       else resolve(answer);
     };
     this.worker.onerror = (event) => {
-      const failure = new HfFailure({ message: event.message || 'the Worker could not start' });
-      for (const { reject } of this.waiting.values()) reject(failure);
+      if (!event.message) worker.failed = event; // its file did not come: nothing will be answered
+      for (const { reject } of this.waiting.values()) reject(failureOf(event));
       this.waiting.clear();
     };
   }
   ask(task, args, transfer = []) {
     const id = ++this.next;
     return new Promise((resolve, reject) => {
+      if (this.worker.failed) return reject(failureOf(this.worker.failed));
       this.waiting.set(id, { resolve, reject });
       this.worker.postMessage({ id, task, args }, transfer);
     });
@@ -41,7 +44,7 @@ class Line {
 }
 
 export class Client {
-  #line = new Line();
+  #line = new Line(window.hfWorker); // index.html has started it
   #frames = new Map(); // task -> { busy, next }
 
   ask(task, args, transfer) {

@@ -20,6 +20,13 @@ function store(mode, act) {
   });
 }
 
+/** The kept file and state, in one transaction: each takes its way through the browser. */
+async function both() {
+  const found = [];
+  await store('readonly', (kept) => void found.push(kept.get('body'), kept.get('state')));
+  return found.map(({ result }) => result);
+}
+
 export class Session {
   #timer = 0;
   #writing = 0;
@@ -70,8 +77,7 @@ export class Session {
   /** Opens what was kept; false if there is nothing. */
   async restore() {
     try {
-      const body = await store('readonly', (kept) => kept.get('body'));
-      const state = await store('readonly', (kept) => kept.get('state'));
+      const [body, state] = await both();
       if (!body) return false;
       this.#able = false;
       await this.app.open(body.bytes, body.name);

@@ -2,7 +2,6 @@
 // objects until they hold that list. The main thread sends the newest list only, so a slow answer never queues.
 import createHf from 'hf-glue';
 import { load } from '../../../bindings/js/src/web.js';
-import { buildBvh } from './bvh.js';
 import { readMesh } from './mesh_files.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { poseOf } from './worker_pose.js';
@@ -32,9 +31,19 @@ function make(create, wasmBinary) {
 }
 async function makePlain() {
   const parts = await inTwo(self.location);
-  built.rest = parts.rest;
+  Object.assign(built, { rest: parts.rest, missed: parts.missed });
   return make(() => parts.make(createHf), true);
 }
+/** The build without threads. What could not be loaded is tried again by the next body. */
+function plain() {
+  built.plain ??= makePlain().catch((error) => {
+    built.plain = null;
+    throw error;
+  });
+  return built.plain;
+}
+/** What the build without threads lacks at first. */
+const rest = () => (body?.hf && body.hf === built.threads ? null : built.rest?.());
 
 /** The library for a body, and the threads that a surface of it may take. */
 async function ready(vertexCount) {
@@ -49,8 +58,7 @@ async function ready(vertexCount) {
       // not there, or no room: one thread does the same
     }
   }
-  built.plain ??= await makePlain();
-  return [built.plain, {}];
+  return [await plain(), {}];
 }
 
 const tasks = {
@@ -81,8 +89,7 @@ const tasks = {
   },
   /** The tree for picking, made here so that the page never stops for it: of the body, or of given arrays. */
   tree({ positions = body.positions, triangles = body.triangles }) {
-    const { answer, buffers } = buildBvh(positions, triangles);
-    return [answer, buffers];
+    return treeOf(positions, triangles);
   },
   /** Positions and normals of the body under handles and detail. */
   shape({ handles, detail, way }) {
@@ -106,8 +113,7 @@ const tasks = {
   /** Another body whose detail can be taken, and the tree for picking on it. */
   detailSource({ name, positions, triangles }) {
     body.detail.addSource(name, positions, triangles);
-    const { answer, buffers } = buildBvh(positions, triangles);
-    return [answer, buffers];
+    return treeOf(positions, triangles);
   },
   field({ sites, at }) {
     const begin = performance.now();
@@ -169,28 +175,48 @@ const tasks = {
     return [body.transfer.skin(), []];
   },
   sourceTree() {
-    const { answer, buffers } = buildBvh(body.sourcePositions, body.sourceTriangles);
-    return [answer, buffers];
+    return treeOf(body.sourcePositions, body.sourceTriangles);
   },
   /** What a pull and a tool will need: code that is compiled well, and the rest of the library. Nothing waits for it. */
   rest({ handles }) {
-    built.rest?.().catch(() => {}); // the tool that needs it says so
+    rest()?.catch(() => {}); // the tool that needs it says so
     const mine = body;
-    warm(body.hf)
-      .then(() => body === mine && prepare(mine, handles ?? []))
-      .catch(() => {}); // no room: the first pull is slower, and no more
+    // another body may be opened meanwhile
+    const myTurn = async () => {
+      await turn();
+      if (body !== mine) throw new Error('closed');
+    };
+    warm(body.hf, turn)
+      .then(() => prepare(mine, handles ?? [], myTurn))
+      .catch(() => {}); // closed, or no room: the first pull is slower, and no more
     return [null, []];
   },
   memory() {
     const heap = memory.reduce((sum, bytes) => sum + bytes(), 0);
-    return [{ held: body?.surface.statistics.memoryBytes ?? 0, heap, threads: body?.threads.threadCount ?? 1 }, []];
+    const held = body?.surface.statistics.memoryBytes ?? 0;
+    return [{ held, heap, threads: body?.threads.threadCount ?? 1, missed: built.missed }, []];
   },
 };
+
+/** The tree for picking. three.js comes with it, which the first picture needs nothing of in a Worker. */
+async function treeOf(positions, triangles) {
+  const { buildBvh } = await import('./bvh.js');
+  const { answer, buffers } = buildBvh(positions, triangles);
+  return [answer, buffers];
+}
 
 function closeBody() {
   if (!body) return;
   for (const part of [body.transfer, body.pose, body.field, body.detail, body.surface]) part?.close();
   body = null;
+}
+
+/** Work that nobody asked for starts when the page has asked for nothing for so long: longer than between two frames. */
+const QUIET_MS = 60;
+let asked = 0;
+async function turn() {
+  do await new Promise((done) => setTimeout(done, asked + QUIET_MS - performance.now()));
+  while (performance.now() - asked < QUIET_MS);
 }
 
 /** What the first file of the library does; all other tasks wait for the rest of it. */
@@ -199,11 +225,14 @@ const early = new Set(['read', 'open', 'tree', 'shape', 'grab', 'field', 'extrem
 // Requests are answered in the order they came, also where one of them waits.
 let last = Promise.resolve();
 self.onmessage = ({ data: { id, task, args } }) => {
+  if (task === 'begin') return void plain().catch(() => {}); // the first body says what is wrong
   last = last.then(async () => {
+    asked = performance.now();
     try {
-      if (!early.has(task) || args?.detail) await built.rest?.();
+      if (!early.has(task) || args?.detail) await rest();
       const [answer, buffers] = await tasks[task](args ?? {});
       self.postMessage({ id, answer }, buffers);
+      asked = performance.now();
     } catch (error) {
       // the library's own sentence, without the name of the function and the code
       const { codeName = null, index = null, functionName = '', advice } = error;

@@ -3,16 +3,21 @@
 /** Loads hf.wasm of a folder: { make, rest }. make goes to the glue of emscripten, rest() loads the other file. */
 export async function inTwo(folder) {
   const at = (name) => new URL(name, folder);
-  const fetched = async (name) => {
+  // Streams are compiled while they come, and a browser keeps the code for the next start. A host that sends the file as
+  // something else gives bytes.
+  const compiled = async (name) => {
     const answer = await fetch(at(name));
     if (!answer.ok) throw new Error(`${name} could not be loaded (${answer.status}).`);
-    return answer.arrayBuffer();
+    return answer.headers.get('content-type') === 'application/wasm'
+      ? WebAssembly.compileStreaming(answer)
+      : WebAssembly.compile(await answer.arrayBuffer());
   };
-  const first = await WebAssembly.compile(await fetched('hf.wasm'));
+  const first = await compiled('hf.wasm');
   const whole = !WebAssembly.Module.imports(first).some(({ module }) => module === 'placeholder');
   let primary = null;
   let filled = whole;
   let coming = null;
+  const missed = []; // functions that the Worker had to wait for
   // the rest writes its functions into the table of the first, over the calls to JavaScript
   const fill = (module) => {
     if (!filled) new WebAssembly.Instance(module, { primary });
@@ -32,13 +37,17 @@ export async function inTwo(folder) {
       get:
         (_, index) =>
         (...given) => {
-          if (!filled) fillNow();
+          if (!filled) {
+            missed.push(index);
+            fillNow();
+          }
           const table = Object.values(primary).find((thing) => thing instanceof WebAssembly.Table);
           return table.get(Number(index))(...given);
         },
     },
   );
   return {
+    missed,
     make: (createHf) =>
       createHf({
         instantiateWasm(imports, done) {
@@ -50,8 +59,7 @@ export async function inTwo(folder) {
       }),
     rest() {
       if (filled) return Promise.resolve();
-      coming ??= fetched('rest.wasm')
-        .then((bytes) => WebAssembly.compile(bytes))
+      coming ??= compiled('rest.wasm')
         .then(fill)
         .catch(() => {
           coming = null; // the next call tries again

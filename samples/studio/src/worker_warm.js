@@ -1,5 +1,5 @@
 // A browser compiles WebAssembly fast first and well later, function by function, once they have run for a while. Poses and
-// fields of a small body make it compile what the first pull needs, between the requests of the page.
+// fields of a small body make it compile what the first pull needs, while the page asks for nothing.
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { fieldOf } from './worker_field.js';
 import { poseOf } from './worker_pose.js';
@@ -39,8 +39,8 @@ const sitesOf = (triangles) => (id, triangle) => ({
 });
 
 const warmed = new Set();
-/** Once for each build of the library. Lets other work go before each round. */
-export async function warm(hf) {
+/** Once for each build of the library. turn: resolves when the page asks for nothing; awaited before every call. */
+export async function warm(hf, turn) {
   if (warmed.has(hf)) return;
   warmed.add(hf);
   const { positions, triangles } = tube();
@@ -57,15 +57,20 @@ export async function warm(hf) {
   }));
   const site = sitesOf(triangles);
   for (let round = 0; round < ROUNDS; ++round) {
-    await new Promise((done) => setTimeout(done));
     const pulled = (x) => [ends[0], { ...ends[1], translation: [0, x, 0] }];
-    pose.deform(ends.slice(0, 1), 'exact');
-    pose.deform(pulled(0.5), 'follow');
-    // the page's own code runs slowly at first too
-    for (const x of [0.7, 0.9]) smoothNormals(pose.deform(pulled(x), 'follow'), sums, normals);
-    pose.deform(pulled(0.9), 'rest');
-    field.solve([site(0, 0), site(1, 900)], true);
-    field.solve([site(0, 0), site(1, 500 + 10 * round)], false);
+    const calls = [
+      () => pose.deform(ends.slice(0, 1), 'exact'),
+      () => pose.deform(pulled(0.5), 'follow'),
+      // the page's own code runs slowly at first too
+      ...[0.7, 0.9].map((x) => () => smoothNormals(pose.deform(pulled(x), 'follow'), sums, normals)),
+      () => pose.deform(pulled(0.9), 'rest'),
+      () => field.solve([site(0, 0), site(1, 900)], true),
+      () => field.solve([site(0, 0), site(1, 500 + 10 * round)], false),
+    ];
+    for (const call of calls) {
+      await turn();
+      call();
+    }
   }
   for (const part of [pose, field, surface]) part.close();
 }
@@ -77,15 +82,16 @@ const PREPARED_VERTICES = 30000;
  * Does once what the first pull and the first field of a body do, on objects of its own: code and memory of that size are
  * ready then. handles: those that the library proposes.
  */
-export async function prepare({ hf, surface, positions, triangles }, handles) {
+export async function prepare({ hf, surface, positions, triangles }, handles, turn) {
   if (positions.length > 3 * PREPARED_VERTICES || !handles.length) return;
+  await turn();
   const [pose, field] = [poseOf, fieldOf].map((make) => make({ hf, surface, positions }));
   const sums = normalSums(triangles, normalGroups(positions, null));
   const normals = new Float32Array(positions.length);
   const site = sitesOf(triangles);
   try {
     for (let round = 0; round < PREPARE_ROUNDS; ++round) {
-      await new Promise((done) => setTimeout(done));
+      await turn();
       pose.deform(handles.slice(0, -1), 'exact');
       for (const list of [handles, handles]) smoothNormals(pose.deform(list, 'follow'), sums, normals);
       field.solve([site(0, 0), site(1, Math.floor(triangles.length / 6))], true);

@@ -63,8 +63,14 @@ export const tool = (kit) => {
     }
     enter() {
       this.app.skin.wear('own');
-      if (this.source) this.source.skin.group.visible = true;
-      if (this.source) this.look();
+      if (!this.source) return;
+      this.source.skin.group.visible = true;
+      this.#rest();
+      this.look();
+    }
+    /** The body at rest, where the places of the pairs are: a walk begins there, whatever the pose is. */
+    #rest() {
+      this.app.skin.set({ positions: this.app.body.positions, normals: this.app.opened.normals });
     }
     leave() {
       this.playing = false;
@@ -75,6 +81,12 @@ export const tool = (kit) => {
     }
     look() {
       lookAtBoth(kit, this.app, this.source);
+    }
+    /** The pose has changed: an act was taken back. What is shown here does not follow it. */
+    shaped() {
+      if (!this.source || this.playing) return;
+      if (this.time) this.seek(this.time);
+      else this.#rest();
     }
     refresh() {
       this.app.panel();
@@ -161,6 +173,7 @@ export const tool = (kit) => {
         this.clip = clip;
         this.pairs = this.good = pairs;
         this.time = 0;
+        this.#rest();
         this.look();
         if (pairs.length) await this.set(pairs);
       } catch (error) {
@@ -232,7 +245,7 @@ export const tool = (kit) => {
       source.posed.set(source.body.positions);
       smoothNormals(source.posed, source.sums, source.normals);
       source.skin.set({ positions: source.posed, normals: source.normals });
-      this.app.skin.set(this.app.shape);
+      this.#rest();
       this.app.refresh();
     }
     /** This body with a skin whose joints replay the transferred clip. */
