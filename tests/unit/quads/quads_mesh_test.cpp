@@ -161,7 +161,7 @@ TEST(Quads, OfTheSharedMeshesAreValidAndNear) {
                       {"cat_low_resolution.obj", 0.022, 0.7, 1.4, true},
                       {"hand_closed.obj", 0.01, 0.7, 1.4, true},
                       {"cgal_knot1.off", 0.005, 0.7, 1.4, true},
-                      {"skull.obj", 0.016, 0.7, 1.4, false},
+                      {"skull.obj", 0.014, 0.7, 1.4, false},
                       {"cgal_elephant.off", 0.014, 0.7, 1.4, false},
                       {"boot.obj", 0.027, 0.4, 1.9, false},
                       {"cgal_blobby_3cc.off", 0.022, 0.7, 1.4, false},
