@@ -13,7 +13,7 @@ namespace {
 
 // For at least so many quads, pairs of opposite singularities are left out (opposite_pairs.h). Below, limbs and thin
 // parts hang on them: at 500 quads aspects are a twentieth worse on 8 of 18 meshes and better on 2, and a bunny of
-// 2,400 quads is 1.21 instead of 1.04 % of the box away. At 5,000 quads the crosses have at most 1.2 times the
+// 1,800 quads is 1.21 instead of 1.04 % of the box away. At 5,000 quads the crosses have at most 1.2 times the
 // singularities of Instant Meshes on 37 instead of 30 of 40 meshes. Numbers between were not tried.
 constexpr double paired_below = 3000;
 // Radius over which crosses are evened out, in edge lengths of the quads, or of the surface where those are longer,
