@@ -129,9 +129,9 @@ TEST(SmallParts, limbs_that_few_lines_run_round_are_kept) {
   const auto core = hf_test::make_core({shape.positions, shape.triangles});
   const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, *core->memory);
   const QuadDistance distance(surface, 0.01, *core->memory);
-  for (const double length : {0.026, 0.03}) {
+  for (const auto& [length, rounds] : {std::pair(0.026, 20), {0.03, 20}, {0.03, 60}}) {
     FieldQuadOptions options;
-    options.core = core, options.edge_length = length, options.relax = 20;
+    options.core = core, options.edge_length = length, options.relax = rounds;
     FieldQuadReport report;
     const QuadMesh mesh = make_field_quads(options, &report).mesh;
     hf_test::expect_manifold(*core, mesh, "horse");
