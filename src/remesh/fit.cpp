@@ -6,8 +6,10 @@
 #include "base/stable_sort.h"
 #include "remesh/coarsen.h"
 #include "remesh/constants.h"
+#include "remesh/quad_faults.h"
 #include "remesh/refine.h"
 #include "remesh/relax.h"
+#include "remesh/unfold.h"
 
 namespace hf_inner {
 namespace {
@@ -20,25 +22,13 @@ struct Place {
   QuadMiss miss;
   std::int32_t vertex = none;  // the vertex that the step changes
   double before = 0, after = 0;
-  std::int32_t folds_before = 0, folds_after = 0;
+  QuadFaults faults_before, faults_after;
 };
 
 struct Tried {
   Vec3 point;
   std::int32_t step;  // the step (release, snap, ...) to try next
 };
-
-// Returns the sum of the triangle normals around each vertex, weighted by area. At a crease, the normal of one triangle
-// alone would be arbitrary.
-Table<Vec3> vertex_normals(const FluxSurface& s, Memory& memory) {
-  Table<Vec3> normals(s.vertex_count(), Vec3{}, memory);
-  for (std::int32_t t = 0; t < s.real_triangles; ++t) {
-    const std::int32_t* c = s.tail.data() + 3 * t;
-    const Vec3 n = cross(s.position[c[1]] - s.position[c[0]], s.position[c[2]] - s.position[c[0]]);
-    for (int k = 0; k < 3; ++k) normals[c[k]] = normals[c[k]] + n;
-  }
-  return normals;
-}
 
 class Fitter {
  public:
@@ -52,7 +42,6 @@ class Fitter {
         misses_(&memory),
         after_(&memory),
         tried_(&memory),
-        normals_(vertex_normals(surface, memory)),
         known_(memory),
         most_faces_(static_cast<std::int32_t>(fit_most_faces * mesh.face_count())) {}
 
@@ -66,10 +55,12 @@ class Fitter {
       if (chosen.empty()) continue;
       QuadMesh trial = mesh_;
       take(step, chosen, trial);
+      unfold_corners(surface_, options_.edge_length, trial, memory_);
       double now = measure(trial, after_);
       compare(trial, chosen);
       const auto helped = [&](const Place& place) {
-        return place.after < fit_gain * place.before && place.folds_after <= place.folds_before;
+        return place.after < fit_gain * place.before && place.faults_after.turned <= place.faults_before.turned &&
+               place.faults_after.crossing <= place.faults_before.crossing;
       };
       const auto failed = chosen.begin() + static_cast<std::ptrdiff_t>(stable_partition(chosen, helped, memory_));
       for (auto place = failed; place != chosen.end(); ++place) next_step(place->miss.point, step + 1);
@@ -79,6 +70,7 @@ class Fitter {
         chosen.erase(failed, chosen.end());
         trial = mesh_;
         take(step, chosen, trial);
+        unfold_corners(surface_, options_.edge_length, trial, memory_);
         now = measure(trial, after_);
         if (total(after_) >= total(misses_)) {
           for (const Place& place : chosen) next_step(place.miss.point, step + 1);
@@ -269,25 +261,6 @@ class Fitter {
     }
   }
 
-  // Counts the corners around `point` that are turned over against the mean normal of the surface there.
-  std::int32_t folds(const QuadMesh& mesh, const Vec3& point) const {
-    std::int32_t count = 0;
-    const double radius = fit_reach * options_.edge_length;
-    for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
-      const std::int32_t* c = mesh.quad(f);
-      if (norm(mesh.position[c[0]] - point) > radius) continue;
-      for (std::int32_t k = 0; k < 4; ++k) {
-        const Vec3 p = mesh.position[c[k]], x = mesh.position[c[(k + 1) % 4]] - p,
-                   y = mesh.position[c[(k + 3) % 4]] - p;
-        const SurfacePoint& at = mesh.location[c[k]];
-        Vec3 normal;
-        for (int j = 0; j < 3; ++j) normal = normal + at.weight[j] * normals_[surface_.tail[3 * at.triangle + j]];
-        count += dot(cross(x, y), normal) <= 0;
-      }
-    }
-    return count;
-  }
-
   void compare(const QuadMesh& trial, Vector<Place>& places) const {
     for (Place& place : places) {
       const double radius = fit_reach * options_.edge_length;
@@ -295,7 +268,8 @@ class Fitter {
         if (norm(miss.point - place.miss.point) < radius) place.before += excess(miss);
       for (const QuadMiss& miss : after_)
         if (norm(miss.point - place.miss.point) < radius) place.after += excess(miss);
-      place.folds_before = folds(mesh_, place.miss.point), place.folds_after = folds(trial, place.miss.point);
+      place.faults_before = faults_near(mesh_, place.miss.point, radius, memory_);
+      place.faults_after = faults_near(trial, place.miss.point, radius, memory_);
     }
   }
 
@@ -306,7 +280,6 @@ class Fitter {
   Memory& memory_;
   Vector<QuadMiss> misses_, after_;  // places too far from the surface, in mesh_ and in the trial
   Vector<Tried> tried_;
-  Table<Vec3> normals_;
   NearFaces known_;
   std::int32_t most_faces_;
 };

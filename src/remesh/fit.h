@@ -12,10 +12,11 @@
 // - collapse: The quad collapses along a diagonal (coarsen.h), because it lies across a fold or in a tangle.
 //
 // A step moves only vertices within a few quads of its place, so distant places can be judged separately. A step stays
-// if the misses around it shrink; they are measured by the sum of d^2 - tolerance^2 over samples at distance d. A step
-// may not turn corners over against the mean normal of the surface. Otherwise it is undone, and the next step is tried.
-// So the mesh never gets worse, and it stays a mesh of quads with its Euler characteristic. Cost: O(n + faces) for
-// every round of steps, mostly one or two dozen rounds.
+// if the misses around it shrink; they are measured by the sum of d^2 - tolerance^2 over samples at distance d. Corners
+// that it turned over are unfolded first (unfold.h). It may leave no more turned corners and no more quads that run
+// through others than before (quad_faults.h). Otherwise it is undone, and the next step is tried. So the mesh never
+// gets worse, and it stays a mesh of quads with its Euler characteristic. Cost: O(n + faces) for every round of steps,
+// mostly one or two dozen rounds.
 #pragma once
 #include "remesh/quad_distance.h"
 

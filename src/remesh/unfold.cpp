@@ -14,9 +14,8 @@ Vec3 area_vector(const Vec3* p) noexcept { return cross(p[2] - p[0], p[3] - p[1]
 
 class Unfolder {
  public:
-  Unfolder(const FluxSurface& surface, const QuadDistance& distance, double edge_length, QuadMesh& mesh, Memory& memory)
+  Unfolder(const FluxSurface& surface, double edge_length, QuadMesh& mesh, Memory& memory)
       : surface_(surface),
-        distance_(distance),
         edge_length_(edge_length),
         mesh_(mesh),
         memory_(memory),
@@ -26,7 +25,8 @@ class Unfolder {
     old_position_ = mesh.position, old_location_ = mesh.location;
   }
 
-  double run(double away) {
+  // Returns whether any vertex moved.
+  bool run() {
     Table<std::int32_t> todo(memory_);
     bool moved = false;
     for (std::int32_t round = 0; round < unfold_rounds; ++round) {
@@ -38,7 +38,29 @@ class Unfolder {
       moved = moved || any;
       if (!any) break;
     }
-    return moved ? held(away) : away;
+    return moved;
+  }
+
+  // Takes back what lies farther from the surface than before.
+  double hold(const QuadDistance& distance, double away) {
+    Vector<QuadMiss> misses(&memory_);
+    for (std::int32_t round = 0; round < unfold_returns; ++round) {
+      distance.turn_quads(mesh_);
+      misses.clear();
+      const double now = distance.measure(mesh_, away, &misses);
+      if (misses.empty()) return std::min(now, away);
+      Table<std::uint8_t> back(mesh_.position.size(), 0, memory_);
+      for (const QuadMiss& miss : misses) {
+        for (std::int32_t k = 0; k < 4; ++k) back[mesh_.quad(miss.face)[k]] = 1;
+      }
+      grow_marks(mesh_, round, back);
+      for (std::int32_t v = 0; v < mesh_.position.size(); ++v) {
+        if (back[v]) restore(v);
+      }
+    }
+    for (std::int32_t v = 0; v < mesh_.position.size(); ++v) restore(v);
+    distance.turn_quads(mesh_);
+    return away;
   }
 
  private:
@@ -206,31 +228,9 @@ class Unfolder {
     return take(best);
   }
 
-  // Takes back what lies farther from the surface than before.
-  double held(double away) {
-    Vector<QuadMiss> misses(&memory_);
-    for (std::int32_t round = 0; round < unfold_returns; ++round) {
-      distance_.turn_quads(mesh_);
-      misses.clear();
-      const double now = distance_.measure(mesh_, away, &misses);
-      if (misses.empty()) return std::min(now, away);
-      Table<std::uint8_t> back(mesh_.position.size(), 0, memory_);
-      for (const QuadMiss& miss : misses) {
-        for (std::int32_t k = 0; k < 4; ++k) back[mesh_.quad(miss.face)[k]] = 1;
-      }
-      grow_marks(mesh_, round, back);
-      for (std::int32_t v = 0; v < mesh_.position.size(); ++v) {
-        if (back[v]) restore(v);
-      }
-    }
-    for (std::int32_t v = 0; v < mesh_.position.size(); ++v) restore(v);
-    distance_.turn_quads(mesh_);
-    return away;
-  }
   void restore(std::int32_t v) { mesh_.position[v] = old_position_[v], mesh_.location[v] = old_location_[v]; }
 
   const FluxSurface& surface_;
-  const QuadDistance& distance_;
   double edge_length_;
   QuadMesh& mesh_;
   Memory& memory_;
@@ -241,9 +241,14 @@ class Unfolder {
 
 }  // namespace
 
+void unfold_corners(const FluxSurface& surface, double edge_length, QuadMesh& mesh, Memory& memory) {
+  Unfolder(surface, edge_length, mesh, memory).run();
+}
+
 double unfold_quads(const FluxSurface& surface, const QuadDistance& distance, double edge_length, double away,
                     QuadMesh& mesh, Memory& memory) {
-  return Unfolder(surface, distance, edge_length, mesh, memory).run(away);
+  Unfolder unfolder(surface, edge_length, mesh, memory);
+  return unfolder.run() ? unfolder.hold(distance, away) : away;
 }
 
 }  // namespace hf_inner

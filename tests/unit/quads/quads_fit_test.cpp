@@ -11,6 +11,7 @@
 #include "quads/field_quads.h"
 #include "remesh/coarsen.h"
 #include "remesh/fit.h"
+#include "remesh/quad_faults.h"
 #include "remesh/refine.h"
 #include "remesh/relax.h"
 #include "support/meshes.h"
@@ -153,6 +154,36 @@ TEST(FitQuads, BringsTheMeshNearAndItStaysClosedAndOfQuads) {
   EXPECT_LT(mesh.face_count(), 1.05 * faces);  // one quad at a time, where one is enough
   expect_closed_quads(mesh, made.result.euler_characteristic);
   expect_on_surface(made.surface, mesh);
+}
+
+// Two parallel quads, one of them on its edge and through the other, or with a corner turned over.
+TEST(QuadFaults, AreTurnedCornersAndQuadsThatRunThroughOthersNearThePlace) {
+  const auto core = hf_test::make_core(hf_test::grid(2, 2));
+  Memory& memory = *core->memory;
+  const auto pair_of = [&](const Vec3(&second)[4]) {
+    QuadMesh mesh(memory);
+    for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}}) mesh.position.push_back(p);
+    for (const Vec3& p : second) mesh.position.push_back(p);
+    for (std::int32_t v = 0; v < 8; ++v) mesh.corner.push_back(v);
+    return mesh;
+  };
+  const auto expect = [&](const QuadMesh& mesh, const Vec3& place, std::int32_t turned, bool crossing) {
+    const QuadFaults found = faults_near(mesh, place, 0.7, memory);
+    EXPECT_EQ(found.turned, turned);
+    EXPECT_EQ(found.crossing > 0, crossing);
+  };
+  const Vec3 beside[4] = {{0, 0, 0.1}, {1, 0, 0.1}, {1, 1, 0.1}, {0, 1, 0.1}};
+  expect(pair_of(beside), {0, 0, 0}, 0, false);
+  const Vec3 through[4] = {{0.5, 0.2, -0.5}, {0.5, 0.8, -0.5}, {0.5, 0.8, 0.5}, {0.5, 0.2, 0.5}};
+  expect(pair_of(through), {0.5, 0, 0}, 0, true);
+  expect(pair_of(through), {-1, 0, 0}, 0, false);  // too far
+  QuadMesh neighbours = pair_of(through);
+  neighbours.corner[4] = 0;  // they share a vertex
+  EXPECT_EQ(faults_near(neighbours, {0.5, 0, 0}, 0.7, memory).crossing, 0);
+  const Vec3 turned[4] = {{0, 0, 0.1}, {1, 0, 0.1}, {0.2, 0.2, 0.1}, {0, 1, 0.1}};
+  expect(pair_of(turned), {0, 0, 0}, 1, false);
+  const Vec3 flat[4] = {{0, 0, 0.1}, {1, 0, 0.1}, {1, 0, 0.1}, {0, 0, 0.1}};
+  expect(pair_of(flat), {0, 0, 0}, 4, false);
 }
 
 // What is left out because it was found near changes nothing, and neither does the number of threads.

@@ -131,8 +131,9 @@ TEST(Quads, OfASheetWithManyHolesHaveAllOfThem) {
 }
 
 TEST(Quads, OfTheCreaturesAreValidEvenAndNear) {
-  // Distances over the box diagonal; an edge length is 0.022.
-  for (const auto& [name, most] : {std::pair("biped", 0.01), {"horse", 0.022}, {"bull", 0.01}}) {
+  // Distances over the box diagonal; an edge length is 0.022. The horse was 0.019 away while steps of fitting were
+  // undone for corners that unfolding mends.
+  for (const auto& [name, most] : {std::pair("biped", 0.01), {"horse", 0.014}, {"bull", 0.01}}) {
     const hf_test::PlainMesh mesh = plain(samples::welded_surface(samples::make_creature(name, 6000)));
     const auto core = hf_test::make_core(mesh);
     const QuadResult result = make(core);
@@ -160,7 +161,7 @@ TEST(Quads, OfTheSharedMeshesAreValidAndNear) {
                       {"cat_low_resolution.obj", 0.022, 0.7, 1.4, true},
                       {"hand_closed.obj", 0.01, 0.7, 1.4, true},
                       {"cgal_knot1.off", 0.005, 0.7, 1.4, true},
-                      {"skull.obj", 0.016, 0.7, 1.4, false},
+                      {"skull.obj", 0.014, 0.7, 1.4, false},
                       {"cgal_elephant.off", 0.014, 0.7, 1.4, false},
                       {"boot.obj", 0.027, 0.4, 1.9, false},
                       {"cgal_blobby_3cc.off", 0.022, 0.7, 1.4, false},

@@ -123,16 +123,15 @@ struct Extent {
   }
 };
 
-// A ball with a rod and a speck beside it, a ball that faces inwards, and a leaf with a border.
 // Three lines or less would run round the legs, which then are two quads back to back, or none.
 TEST(SmallParts, limbs_that_few_lines_run_round_are_kept) {
   const samples::ShapeMesh shape = samples::welded_surface(samples::make_creature("horse", 3000));
   const auto core = hf_test::make_core({shape.positions, shape.triangles});
   const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, *core->memory);
   const QuadDistance distance(surface, 0.01, *core->memory);
-  for (const double length : {0.026, 0.03}) {
+  for (const auto& [length, rounds] : {std::pair(0.026, 20), {0.03, 20}, {0.03, 60}}) {
     FieldQuadOptions options;
-    options.core = core, options.edge_length = length, options.relax = 20;
+    options.core = core, options.edge_length = length, options.relax = rounds;
     FieldQuadReport report;
     const QuadMesh mesh = make_field_quads(options, &report).mesh;
     hf_test::expect_manifold(*core, mesh, "horse");
@@ -179,6 +178,20 @@ TEST(SmallParts, lone_triangles_become_three_quads) {
   }
 }
 
+// A prism of height and radius 1.
+samples::ShapeMesh coin(std::uint32_t sides) {
+  samples::ShapeMesh mesh;
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const double a = 2 * std::acos(-1.0) * i / sides;
+    for (const double z : {0.0, 1.0}) mesh.positions.insert(mesh.positions.end(), {std::cos(a), std::sin(a), z});
+    const std::uint32_t low = 2 * i, next = 2 * ((i + 1) % sides);
+    mesh.triangles.insert(mesh.triangles.end(), {low, next, next + 1, low, next + 1, low + 1});
+    if (i > 0 && i + 1 < sides) mesh.triangles.insert(mesh.triangles.end(), {0, next, low, 1, low + 1, next + 1});
+  }
+  return mesh;
+}
+
+// A ball with a rod and a speck beside it, a ball that faces inwards, a coin, and a leaf with a border.
 TEST(SmallParts, rods_and_specks_keep_their_extent) {
   samples::ShapeMesh mesh = samples::sphere(16);
   std::vector<Extent> extents(1);
@@ -198,6 +211,7 @@ TEST(SmallParts, rods_and_specks_keep_their_extent) {
   append(samples::sphere(6), {0.8, 0.03, 0.02}, {2.2, 0, 0}, false);
   append(samples::sphere(4), {0.05, 0.05, 0.05}, {0, 1.5, 0}, false);
   append(samples::sphere(4), {0.05, 0.06, 0.05}, {0, -1.5, 0}, true);
+  append(coin(20), {0.106, 0.106, 0.03}, {-2.2, 0, 0}, false);  // shrank to a point when it was evened out
   append(samples::plane(5, 4), {0.06, 1, 0.05}, {0, 0, 1.6}, false);
   const auto core = hf_test::make_core({mesh.positions, mesh.triangles});
   for (const std::int32_t faces : {60, 200, 800}) {
