@@ -20,6 +20,9 @@ constexpr double degree = 3.14159265358979323846 / 180;
 
 // Heights of a foot (in boxes) below which it stands, and above which it is free, as in the library.
 constexpr double foot_stands = 0.01, foot_flies = 0.05;
+// A foot stands only in frames in which its path along the ground bends by less than this (second difference, in boxes):
+// as far as a planted foot may slide. Of the choosing half, LOW runs slide with any bend.
+constexpr double foot_bends = 0.001;
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -136,6 +139,7 @@ void Session::set_dials(const TransferDials& dials) {
   set.stride = static_cast<float>(dials.stride), set.hip_height = static_cast<float>(dials.hip_height);
   set.neck_follow = static_cast<float>(dials.neck_follow), set.tail_follow = static_cast<float>(dials.tail_follow);
   set.arm_space = static_cast<float>(dials.arm_space_degrees * degree);
+  set.long_follow = static_cast<float>(dials.long_follow);
   check(hf_transfer_set_dials(transfer_, &set), "the dials");
   file_.dials = dials;
 }
@@ -363,11 +367,28 @@ FootReport Session::feet_of(const PlayedClip& played) const {
   for (const Live& live : live_) {
     if (!live.entry.foot) continue;
     const Region source = without_copies(live.source, source_flat_), target = without_copies(live.target, target_flat_);
-    bool stood = false;
-    glm::dvec3 began(0);
-    for (size_t f = 0; f < played.source_frames.size(); ++f) {
-      glm::dvec3 path =
-          scale_ * (to_target * (centre_of(source, played.source_frames[f]) - centre_of(source, source_rest)));
+    const size_t frames = played.source_frames.size();
+    std::vector<glm::dvec3> paths;
+    for (const std::vector<double>& posed : played.source_frames)
+      paths.push_back(scale_ * (to_target * (centre_of(source, posed) - centre_of(source, source_rest))));
+    // The sole: what lies on the ground at rest, or is not higher than the lowest vertex by more.
+    const double sole_top = lowest_of(source, source_rest, file_.source_axes.up) + foot_stands * box / scale_;
+    Region sole;
+    for (const uint32_t v : source.vertices) {
+      const glm::dvec3 p(source_rest[3 * v], source_rest[3 * v + 1], source_rest[3 * v + 2]);
+      if (glm::dot(file_.source_axes.up, p) <= sole_top) sole.vertices.push_back(v);
+    }
+    const auto even = [&](size_t f) {
+      if (frames < 3) return true;
+      const size_t at = std::clamp<size_t>(f, 1, frames - 2);
+      glm::dvec3 bend = paths[at + 1] - 2.0 * paths[at] + paths[at - 1];
+      bend -= glm::dot(bend, file_.target_axes.up) * file_.target_axes.up;
+      return glm::length(bend) < foot_bends * box;
+    };
+    bool was_low = false, stood = false;
+    glm::dvec3 low_from(0), stood_from(0);
+    for (size_t f = 0; f < frames; ++f) {
+      glm::dvec3 path = paths[f];
       const glm::dvec3 rise = glm::dot(path, file_.target_axes.up) * file_.target_axes.up;
       path = rise + file_.dials.stride * (path - rise);
       const glm::dvec3 off = centre_of(target, played.target_frames[f]) - centre_of(target, target_rest) - path;
@@ -376,12 +397,18 @@ FootReport Session::feet_of(const PlayedClip& played) const {
       const glm::dvec3 along = off - glm::dot(off, file_.target_axes.up) * file_.target_axes.up;
       feet.path_mean += miss, feet.path_max = std::max(feet.path_max, miss), ++count;
       const double ground = lowest_of(source_rest, file_.source_axes.up);
+      const bool is_low =
+          scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < foot_stands * box;
       const bool stands =
-          scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < 0.01 * box;
-      if (stands && !stood) began = along;
-      stood = stands;
+          is_low && even(f) &&
+          scale_ * (glm::dot(file_.source_axes.up, centre_of(sole, played.source_frames[f])) - ground) <
+              foot_stands * box;
+      if (is_low && !was_low) low_from = along;
+      if (stands && !stood) stood_from = along;
+      was_low = is_low, stood = stands;
+      if (is_low) feet.low_max = std::max(feet.low_max, glm::length(along - low_from) / box);
       if (stands) {
-        const double slide = glm::length(along - began) / box;
+        const double slide = glm::length(along - stood_from) / box;
         feet.planted_mean += slide, feet.planted_max = std::max(feet.planted_max, slide), ++feet.planted;
       }
       const double from = scale_ * std::min(0.0, lowest_of(source, played.source_frames[f], file_.source_axes.up) -

@@ -10,14 +10,14 @@
 namespace hf_inner {
 namespace {
 
-// The turn q, of which a part of the share `follow` is taken.
-Quaternion part_of(const Quaternion& q, double follow) noexcept {
+// The turn q, of which a part of the share `follow` is taken. whole: from 0 to 1, from that part to q.
+Quaternion part_of(const Quaternion& q, double follow, double whole) noexcept {
   const Vec3 turn = logarithm(q);
   const double angle = norm(turn);
   if (!(angle > 0)) return q;
   const double less =
       follow >= 0.5 ? angle - (1 - follow) * sine(angle) : follow * (4.0 / 3 * sine(angle) - sine(2 * angle) / 6);
-  return exponential((less / angle) * turn);
+  return exponential(((less + whole * (angle - less)) / angle) * turn);
 }
 
 }  // namespace
@@ -55,7 +55,8 @@ void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double
     if (!(limb[c] > 0)) before_[c] = -1;
 }
 
-void Levers::turn(const Quaternion& body, Quaternion* rotations) noexcept {
+void Levers::turn(const Quaternion& body, double whole, Quaternion* rotations) noexcept {
+  if (whole == 1) return;
   std::copy_n(rotations, own_.size(), own_.begin());
   for (const std::int32_t i : order_) {
     const std::size_t c = at(i);
@@ -64,7 +65,7 @@ void Levers::turn(const Quaternion& body, Quaternion* rotations) noexcept {
     if (!bent_[c]) continue;
     const Quaternion before = before_[c] >= 0 ? own_[at(before_[c])] : body,
                      now = before_[c] >= 0 ? rotations[before_[c]] : body;
-    rotations[c] = normalised(now * part_of(before.conjugate() * own_[c], follow_[c]));
+    rotations[c] = normalised(now * part_of(before.conjugate() * own_[c], follow_[c], whole));
   }
 }
 

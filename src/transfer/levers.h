@@ -12,6 +12,9 @@
 // part jump. Where k <= 1 rotations stay, to the last bit if they stay on the whole way; so on a body that plays its
 // own motion. Feet and the trunk stay too: they stand on the ground, and carry the rest.
 //
+// A dial (long_follow) takes the angle from that to the whole one. Between them, w < 1/2 cannot keep half a turn from
+// jumping: pi goes to 0 at one end and to pi at the other.
+//
 // A frame reads no vertex, depends on no other frame and allocates nothing.
 #pragma once
 #include "deform/rotation.h"
@@ -32,8 +35,8 @@ class Levers {
                Memory& memory);
 
   // Changes the rotations of the source's clusters. body: the rotation of the whole source, for clusters that overlap
-  // no other.
-  void turn(const Quaternion& body, Quaternion* rotations) noexcept;
+  // no other. whole: 0, or how far turns are made in full; 1 changes no bit.
+  void turn(const Quaternion& body, double whole, Quaternion* rotations) noexcept;
 
   double follow(std::size_t cluster) const noexcept { return follow_[cluster]; }  // w
 

@@ -75,27 +75,30 @@ void blend_vertices(const BlendInput& in, std::size_t first, std::size_t last, V
 void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
   const Twist round = about(turn, up);
-  const double rigid = rigid_share(whole), fallen = std::max(rigid, fallen_share(turn, up)), upright = 1 - fallen,
-               share = std::max(fallen, round.certain * turned_share(round.turn));
-  const Mat3 carried = power(turn, share).toRotationMatrix();
+  const double rigid = rigid_share(whole), fallen = std::max(rigid, fallen_share(turn, up)),
+               yaw = round.certain * turned_share(round.turn);
+  const Mat3 carried = power(turn, std::max(fallen, yaw)).toRotationMatrix();
   if (dials_.moves_paths()) {
     const Vec3 travel = p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
     p.body_rise = (1 - fallen_share(turn, up)) * dials_.hip_height * p.hip_height;
     p.body_excess = (dials_.stride - 1) * (travel - dot(up, travel) * up) + p.body_rise * up;
   }
   for (std::size_t k = 0; k < p.anchors.size(); ++k) {
-    const Prepared::Anchor& anchor = p.anchors[k];
+    Prepared::Anchor& anchor = p.anchors[k];
     const Span<const std::int32_t> from = source_.region(anchor.number), to = target_.region(anchor.number);
     const Vec3 path = p.scale * rotate(axes_, region_mean(from, p.posed.data()) - anchor.source_rest);
     const Vec3 offset =
         anchor.target_rest - p.target_centroid - p.scale * rotate(axes_, anchor.source_rest - whole.rest_centroid);
     Twist own{Quaternion(), 0};
+    const auto c = static_cast<std::size_t>(anchor.cluster);
+    const Quaternion own_turn = p.given[c] * p.dialled_turn[c].conjugate();
+    anchor.fallen = anchor.is_foot ? std::max(rigid, std::min(fallen, fallen_share(own_turn, up))) : fallen;
+    const double upright = 1 - anchor.fallen;
     const bool steps = anchor.is_foot && upright > 0;
     const double height = p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground),
                  own_share = upright * (1 - smooth_step(stands, turns_freely, height));
     if (steps) {
-      const auto c = static_cast<std::size_t>(anchor.cluster);
-      own = about(p.given[c] * p.dialled_turn[c].conjugate(), up);
+      own = about(own_turn, up);
       own.turn = power(own.turn, turned_share(own.turn));
     }
     const auto turned = [&](Vec3 arm) {
@@ -119,7 +122,7 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     for (const std::int32_t v : to)
       low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - anchor.target_rest)));
     const double lift = allowed - (dot(up, p.goals[k]) + low);
-    if (lift > 0) p.goals[k] = p.goals[k] + (1 - share) * lift * up;
+    if (lift > 0) p.goals[k] = p.goals[k] + (1 - std::max(anchor.fallen, yaw)) * lift * up;
   }
 }
 
@@ -198,7 +201,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), *target_core_->jobs);
   if (options_.mode == HF_TRANSFER_FIELDS) {
     p.slack.measure(p.given.data(), p.posed.data(), axes_, *target_core_->jobs);
-    p.levers.turn(whole.rotation, p.given.data());
+    p.levers.turn(whole.rotation, dials_.long_follow, p.given.data());
   }
 
   // Takes the rotations of the source's clusters into the target's axes and rest directions.
@@ -217,7 +220,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   hold_regions(p, share);
   const bool over_ground = has_ground() && !p.anchors.empty();
   const double lies = over_ground ? (1 - rigid) * lying_share(p) : 0.0;
-  if (lies > 0) lie_down(p, centroid, lies, fallen, share);
+  if (lies > 0) lie_down(p, centroid, lies, share);
   // If no region follows its source and no constraint is set, no goal pulls the clusters. Then they need no turn
   // towards their neighbours.
   const std::int32_t rounds =
@@ -227,7 +230,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
     settle(p, centroid);
     hold_regions(p, share);
   }
-  if (lies > 0) lie_down(p, centroid, lies, fallen, share);
+  if (lies > 0) lie_down(p, centroid, lies, share);
   blend(p);
   if (over_ground) keep_above_ground(p, turn, centroid, rigid);
   target_core_->jobs->for_each(

@@ -156,7 +156,7 @@ struct Run {
   size_t spikes = 0, frames = 0;
   double confidence = 0, stretch = 0;
   size_t lost = 0;
-  double by_area = 0, acceleration = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, source_gap = 0,
+  double by_area = 0, acceleration = 0, still = 0, step = 0, slide = 0, low = 0, sunk = 0, gap = 0, source_gap = 0,
          self_mean = -1, self_max = -1, ms = 0;
 };
 
@@ -186,7 +186,7 @@ Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target
     if (from.step[f] > moving_step) out.step = std::max(out.step, to.step[f] / from.step[f]);
   }
   out.acceleration = from.squares > 1e-10 ? std::sqrt(to.squares / from.squares) : 0;
-  out.slide = played.feet.planted_max, out.sunk = played.feet.surface_sunk, out.ms = played.frame_ms;
+  out.slide = played.feet.planted_max, out.low = played.feet.low_max, out.sunk = played.feet.surface_sunk, out.ms = played.frame_ms;
   out.gap = largest_gap(session.target_surface(), played.target_frames) / target.box;
   out.source_gap = largest_gap(session.source_surface(), played.source_frames) / source.box;
   const ClipFaults faults = find_faults(session, played);
@@ -396,7 +396,7 @@ void print_confidence(const std::vector<Run>& runs) {
 
 void print_runs(const char* heading, const std::vector<Run>& runs) {
   std::vector<double> ratios;
-  size_t calm_area = 0, near_area = 0, spikes = 0, spiked = 0, calm = 0, near = 0, still = 0, step = 0, slide = 0,
+  size_t calm_area = 0, near_area = 0, spikes = 0, spiked = 0, calm = 0, near = 0, still = 0, step = 0, slide = 0, low = 0,
          sunk = 0, gap = 0, opened = 0, selves = 0, good = 0;
   double worst_still = 0, worst_step = 0, worst_slide = 0, worst_sunk = 0, worst_gap = 0, worst_self = 0, mean_self = 0,
          ms = 0, frames = 0;
@@ -407,7 +407,7 @@ void print_runs(const char* heading, const std::vector<Run>& runs) {
     if (run.acceleration > 0) calm_area += run.by_area <= 1.1, near_area += run.by_area <= 1.3;
     still += run.still > 2, worst_still = std::max(worst_still, run.still);
     step += run.step > 1.5, worst_step = std::max(worst_step, run.step);
-    slide += run.slide > 0.001, worst_slide = std::max(worst_slide, run.slide);
+    low += run.low > 0.001, slide += run.slide > 0.001, worst_slide = std::max(worst_slide, run.slide);
     sunk += run.sunk > 0.01, worst_sunk = std::max(worst_sunk, run.sunk);
     opened += run.gap > std::max(0.005, run.source_gap), gap += run.gap > 0.005,
         worst_gap = std::max(worst_gap, run.gap);
@@ -431,7 +431,7 @@ void print_runs(const char* heading, const std::vector<Run>& runs) {
               100.0 * static_cast<double>(near_area) / static_cast<double>(std::max<size_t>(ratios.size(), 1)));
   std::printf("  still source            %zu runs step > 2 times; largest %.1f\n", still, worst_still);
   std::printf("  step / source's         %zu runs > 1.5; largest %.2f\n", step, worst_step);
-  std::printf("  planted feet slide      %zu runs > 0.001; largest %.4f\n", slide, worst_slide);
+  std::printf("  planted feet slide      %zu runs > 0.001; largest %.4f; %zu with all low feet\n", slide, worst_slide, low);
   std::printf("  penetration             %zu runs > 0.01; largest %.4f\n", sunk, worst_sunk);
   std::printf("  gaps                    %zu runs > 0.005, %zu of them more than the source's own; largest %.4f\n", gap,
               opened, worst_gap);
@@ -500,9 +500,9 @@ int table(const Options& options) {
       for (const Run& run : runs) {
         if (options.runs)
           std::printf(
-              "    %-36s spikes %2zu accel %.2f still %5.1f step %5.2f slide %.4f sunk %.4f gap %.4f (%.4f) self "
+              "    %-36s spikes %2zu accel %.2f still %5.1f step %5.2f slide %.4f (%.4f) sunk %.4f gap %.4f (%.4f) self "
               "%.4f %.4f confidence %.3f stretch %.2f lost %zu\n",
-              run.name.c_str(), run.spikes, run.acceleration, run.still, run.step, run.slide, run.sunk, run.gap,
+              run.name.c_str(), run.spikes, run.acceleration, run.still, run.step, run.slide, run.low, run.sunk, run.gap,
               run.source_gap, run.self_mean, run.self_max, run.confidence, run.stretch, run.lost);
         all.push_back(run);
         if (run.name.find("Death") != std::string::npos) deaths.push_back(run);

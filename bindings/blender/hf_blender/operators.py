@@ -269,6 +269,7 @@ DIALS = {  # of hf_transfer_dials: neutral value, range, what it does
     "neck_follow": (0.0, -1.0, 1.0, "1: the neck points where the source's points; -1: it does not move against the trunk"),
     "tail_follow": (0.0, -1.0, 1.0, "1: the tail points where the source's points; -1: it does not move against the trunk"),
     "arm_space": (0.0, -1.5707, 1.5707, "Turns the arms away from the body"),
+    "long_follow": (0.0, 0.0, 1.0, "1: a long sword, tail or head makes the source's whole turn"),
 }
 
 

@@ -1649,6 +1649,7 @@ class hf_transfer_dials(Structure):
     neck_follow: float
     tail_follow: float
     arm_space: float
+    long_follow: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("stride", c_float),
@@ -1656,6 +1657,7 @@ class hf_transfer_dials(Structure):
         ("neck_follow", c_float),
         ("tail_follow", c_float),
         ("arm_space", c_float),
+        ("long_follow", c_float),
     ]
 
 
