@@ -92,8 +92,8 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     Twist own{Quaternion(), 0};
     const auto c = static_cast<std::size_t>(anchor.cluster);
     const Quaternion own_turn = p.given[c] * p.dialled_turn[c].conjugate();
-    anchor.fallen = anchor.is_foot ? std::max(rigid, std::min(fallen, fallen_share(own_turn, up))) : fallen;
-    const double upright = 1 - anchor.fallen;
+    anchor.fallen = std::min(fallen_share(turn, up), anchor.is_foot ? fallen_share(own_turn, up) : 1.0);
+    const double upright = 1 - std::max(rigid, anchor.fallen);
     const bool steps = anchor.is_foot && upright > 0;
     const double height = p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground),
                  own_share = upright * (1 - smooth_step(stands, turns_freely, height));
@@ -122,7 +122,7 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     for (const std::int32_t v : to)
       low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - anchor.target_rest)));
     const double lift = allowed - (dot(up, p.goals[k]) + low);
-    if (lift > 0) p.goals[k] = p.goals[k] + (1 - std::max(anchor.fallen, yaw)) * lift * up;
+    if (lift > 0) p.goals[k] = p.goals[k] + (1 - std::max({rigid, anchor.fallen, yaw})) * lift * up;
   }
 }
 
@@ -217,10 +217,10 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   const double rigid = rigid_share(whole), fallen = fallen_share(turn, up_of(target_axes_));
   const double share = std::max(rigid, fallen);
   settle(p, centroid);
-  hold_regions(p, share);
+  hold_regions(p, rigid, share);
   const bool over_ground = has_ground() && !p.anchors.empty();
   const double lies = over_ground ? (1 - rigid) * lying_share(p) : 0.0;
-  if (lies > 0) lie_down(p, centroid, lies, share);
+  if (lies > 0) lie_down(p, centroid, lies, rigid, share);
   // If no region follows its source and no constraint is set, no goal pulls the clusters. Then they need no turn
   // towards their neighbours.
   const std::int32_t rounds =
@@ -228,9 +228,9 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   for (std::int32_t round = 0; round < rounds; ++round) {
     turn_clusters(p);
     settle(p, centroid);
-    hold_regions(p, share);
+    hold_regions(p, rigid, share);
   }
-  if (lies > 0) lie_down(p, centroid, lies, share);
+  if (lies > 0) lie_down(p, centroid, lies, rigid, share);
   blend(p);
   if (over_ground) keep_above_ground(p, turn, centroid, rigid);
   target_core_->jobs->for_each(
