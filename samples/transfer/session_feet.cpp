@@ -14,41 +14,6 @@ constexpr double foot_stands = 0.01, foot_flies = 0.05;
 constexpr double foot_bends = 0.001;
 // The cosine of the angle by which a foot that stands may tip, 20 degrees: from there on a body counts as falling.
 constexpr double foot_upright = 0.94;
-// Steps of the power iteration below. A step halves the error at least where a region turns rigidly.
-constexpr int turn_steps = 60;
-
-// The cosine of the angle by which a region has tipped over: of `up` and of its image under the rotation that fits the
-// region best (Horn 1987: the quaternion is the eigenvector of the largest eigenvalue).
-double upright_of(const Region& region, const std::vector<double>& rest, const std::vector<double>& posed,
-                  const glm::dvec3& up) {
-  const glm::dvec3 from = centre_of(region, rest), to = centre_of(region, posed);
-  double n[4][4] = {};
-  for (const uint32_t v : region.vertices) {
-    const glm::dvec3 a = glm::dvec3(rest[3 * v], rest[3 * v + 1], rest[3 * v + 2]) - from,
-                     b = glm::dvec3(posed[3 * v], posed[3 * v + 1], posed[3 * v + 2]) - to, c = glm::cross(a, b);
-    const double same = glm::dot(a, b);
-    n[0][0] += same;
-    for (int i = 0; i < 3; ++i) {
-      n[0][i + 1] += c[i], n[i + 1][0] += c[i], n[i + 1][i + 1] -= same;
-      for (int j = 0; j < 3; ++j) n[i + 1][j + 1] += a[i] * b[j] + a[j] * b[i];
-    }
-  }
-  double size = 0;
-  for (const auto& row : n)
-    for (const double x : row) size += x * x;
-  if (!(size > 0)) return 1;
-  for (int i = 0; i < 4; ++i) n[i][i] += std::sqrt(size);  // so that the largest eigenvalue has the largest size
-  double q[4] = {1, 0, 0, 0};
-  for (int step = 0; step < turn_steps; ++step) {
-    double next[4] = {}, square = 0;
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j) next[i] += n[i][j] * q[j];
-      square += next[i] * next[i];
-    }
-    for (int i = 0; i < 4; ++i) q[i] = next[i] / std::sqrt(square);
-  }
-  return glm::dot(up, glm::dquat(q[0], q[1], q[2], q[3]) * up);
-}
 
 }  // namespace
 
@@ -94,7 +59,8 @@ FootReport Session::feet_of(const PlayedClip& played) const {
           scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < foot_stands * box;
       const bool stands =
           is_low && even(f) &&
-          upright_of(source, source_rest, played.source_frames[f], file_.source_axes.up) > foot_upright;
+          glm::dot(file_.source_axes.up, turn_of(source, source_rest, played.source_frames[f]) * file_.source_axes.up) >
+              foot_upright;
       if (is_low && !was_low) low_from = along;
       if (stands && !stood) stood_from = along;
       was_low = is_low, stood = stands;

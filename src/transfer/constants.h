@@ -255,6 +255,9 @@ constexpr double least_weight_share = 1e-3;
 // half, 98.7 instead of 98.4 % of the sample's runs accelerate at most 1.3 times as much as their source. With
 // double, 94.4 instead of 95.0 % do so at most 1.1 times, and 3 runs instead of 1 move beside a still source.
 constexpr double least_reach = 0.01;
+// The length from a cluster of the source to the end of its limb counts as at least this (in boxes): at the end it is
+// nearly none. SHORTEST
+constexpr double shortest_reach = 0.02;
 // A cluster hangs on one that overlaps it by this share of the smaller of the two: less finds ways over vertices that
 // hardly belong to both. With a tenth, 93.6 instead of 95.0 % of the sample's runs are calm.
 constexpr double least_hinge = 1e-3;
@@ -384,6 +387,9 @@ constexpr double rigid_residual = 1e-5;
 // most 1.29 times as much as their source. With 50 as the second it is 20 and 1.93, with 80 9 and 1.66, with 140 6
 // and 1.24, with 0 and 80 7 and 1.63, with 10 and 100 8 and 1.43 (a body that turned had the same range then).
 constexpr double fall_low = 20 * degree, fall_high = 110 * degree;
+// Up to this angle of the body a foot falls as far as it tips itself, so that a body may lean over feet that stand; from
+// fall_high on it falls with the body. LEAN
+constexpr double lean_high = 60 * degree;
 // Between these angles a body, or a foot, counts as turned about the vertical by a share from 0 to 1: a narrow range
 // makes what turns fast swing out, a wide one leaves bodies that turned around half behind. Of the 1,508 runs of the
 // choosing half of tests/bench/transfer_table.cpp 23 frames spike and 270 feet slide. With 50 as the second it is 36

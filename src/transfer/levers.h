@@ -1,8 +1,9 @@
 // Turns parts of the target less that reach farther than their source's.
 //
 // Rotations go over, so a part that is k times as long moves k times as far. A robot holds a sword of half a body's
-// length; its hand follows a hoof that flips by 90 degrees in two frames. So a cluster whose vertices spread k > 1
-// times as wide as those of its source's cluster follows a k-th part of the turn:
+// length; its hand follows a hoof that flips by 90 degrees in two frames. A cow's tail follows a deer's short one. So a
+// cluster follows a k-th part of the turn. k is how many times as wide its vertices spread as those of its source's
+// cluster, or how many times as far it is to the end of its limb, whichever is more and above 1:
 //     R'_c = R'_b f(R_b^-1 R_c).
 // R are the rotations of the source's clusters, R' those that the target takes. b is the cluster before c on the
 // shortest way from the middle of the target; the way goes over clusters that overlap. So an ear keeps to its head. f
@@ -31,8 +32,9 @@ class Levers {
   // from, to: of the clusters on the source and on the target. limb: by cluster, from 0 to 1, how far it belongs to a
   // limb that can turn less. scale: lengths of the target over those of the source. centre: of the target. Without this
   // call nothing turns.
-  void prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, double scale, Vec3 centre,
-               Memory& memory);
+  // ends: by cluster, the length from its centroid to the end of its limb on the target, over that on the source.
+  void prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, Span<const double> ends, double scale,
+               Vec3 centre, Memory& memory);
 
   // Changes the rotations of the source's clusters. body: the rotation of the whole source, for clusters that overlap
   // no other. whole: 0, or how far turns are made in full; 1 changes no bit.

@@ -21,9 +21,14 @@ double turned_share(const Quaternion& turn) noexcept {
   return smooth_step(turn_low, turn_high, angle_between(turn, Quaternion()));
 }
 
-// Tells how far the body has fallen over, from 0 to 1. Turns about the vertical do not count.
+// The angle by which a turn tips what stands upright. Turns about the vertical do not count.
+double tilt(const Quaternion& turn, Vec3 up) noexcept {
+  return arc_cosine(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0));
+}
+
+// Tells how far the body, or a foot, has fallen over, from 0 to 1.
 double fallen_share(const Quaternion& turn, Vec3 up) noexcept {
-  return smooth_step(fall_low, fall_high, arc_cosine(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0)));
+  return smooth_step(fall_low, fall_high, tilt(turn, up));
 }
 
 // Returns the part of the rotation q that turns about the axis, and how certain that part is: it has no meaning for a
@@ -92,7 +97,10 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     Twist own{Quaternion(), 0};
     const auto c = static_cast<std::size_t>(anchor.cluster);
     const Quaternion own_turn = p.given[c] * p.dialled_turn[c].conjugate();
-    anchor.fallen = std::min(fallen_share(turn, up), anchor.is_foot ? fallen_share(own_turn, up) : 1.0);
+    // A body leans over feet that stand, and falls with those that tip.
+    anchor.fallen = fallen_share(turn, up);
+    if (anchor.is_foot)
+      anchor.fallen *= 1 - (1 - fallen_share(own_turn, up)) * (1 - smooth_step(lean_high, fall_high, tilt(turn, up)));
     const double upright = 1 - std::max(rigid, anchor.fallen);
     const bool steps = anchor.is_foot && upright > 0;
     const double height = p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground),
