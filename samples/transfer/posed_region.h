@@ -36,8 +36,8 @@ inline double lowest_of(const Region& region, const std::vector<double>& xyz, co
   return low;
 }
 
-// The rotation that takes a region best from one pose to another (Horn 1987): as a quaternion it is the eigenvector of the
-// largest eigenvalue of a matrix of 4 x 4, found by power iteration.
+// The rotation that takes a region best from one pose to another (Horn 1987): as a quaternion it is the eigenvector of
+// the largest eigenvalue of a matrix of 4 x 4, found by power iteration.
 inline glm::dquat turn_of(const Region& region, const std::vector<double>& rest, const std::vector<double>& posed) {
   constexpr int steps = 60;  // a step halves the error at least where a region turns rigidly
   const glm::dvec3 from = centre_of(region, rest), to = centre_of(region, posed);

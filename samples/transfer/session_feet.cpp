@@ -9,8 +9,8 @@ namespace {
 
 // Heights of a foot (in boxes) below which it stands, and above which it is free, as in the library.
 constexpr double foot_stands = 0.01, foot_flies = 0.05;
-// A foot stands only in frames in which its path along the ground bends by less than this (second difference, in boxes):
-// as far as a planted foot may slide. BEND
+// A foot stands only in frames in which its path along the ground bends by less than this (second difference, in
+// boxes): as far as a planted foot may slide. BEND
 constexpr double foot_bends = 0.001;
 // The cosine of the angle by which a foot that stands may tip, 20 degrees: from there on a body counts as falling.
 constexpr double foot_upright = 0.94;
@@ -57,10 +57,9 @@ FootReport Session::feet_of(const PlayedClip& played) const {
       const double ground = lowest_of(source_rest, file_.source_axes.up);
       const bool is_low =
           scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < foot_stands * box;
-      const bool stands =
-          is_low && even(f) &&
-          glm::dot(file_.source_axes.up, turn_of(source, source_rest, played.source_frames[f]) * file_.source_axes.up) >
-              foot_upright;
+      const bool stands = is_low && even(f) &&
+                          glm::dot(file_.source_axes.up, turn_of(source, source_rest, played.source_frames[f]) *
+                                                             file_.source_axes.up) > foot_upright;
       if (is_low && !was_low) low_from = along;
       if (stands && !stood) stood_from = along;
       was_low = is_low, stood = stands;

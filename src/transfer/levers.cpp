@@ -22,13 +22,14 @@ Quaternion part_of(const Quaternion& q, double follow, double whole) noexcept {
 
 }  // namespace
 
-void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, Span<const double> ends,
-                     double scale, Vec3 centre, Memory& memory) {
+void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, Span<const double> outer,
+                     Span<const double> ends, double scale, Vec3 centre, Memory& memory) {
   const std::size_t count = limb.size();
   follow_.assign(count, 1.0), own_.assign(count, Quaternion()), bent_.assign(count, std::uint8_t{0});
   for (std::size_t c = 0; c < count; ++c) {
-    const double longer = std::max(to.spread[c] / std::max(scale * from.spread[c], least_reach), ends[c]);
-    if (longer > 1) follow_[c] = 1 - limb[c] * (1 - 1 / longer);
+    const double wider = to.spread[c] / std::max(scale * from.spread[c], least_reach);
+    if (wider > 1) follow_[c] = 1 - outer[c] * (1 - 1 / wider);
+    if (ends[c] > 1) follow_[c] = std::min(follow_[c], 1 - limb[c] * (1 - 1 / ends[c]));
   }
   // The shortest ways (Dijkstra 1959), from the cluster that is nearest to the centre.
   order_.reserve(count), before_.assign(count, -1);

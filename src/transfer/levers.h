@@ -30,11 +30,11 @@ class Levers {
       : order_(&memory), before_(&memory), follow_(&memory), own_(&memory), bent_(&memory) {}
 
   // from, to: of the clusters on the source and on the target. limb: by cluster, from 0 to 1, how far it belongs to a
-  // limb that can turn less. scale: lengths of the target over those of the source. centre: of the target. Without this
-  // call nothing turns.
-  // ends: by cluster, the length from its centroid to the end of its limb on the target, over that on the source.
-  void prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, Span<const double> ends, double scale,
-               Vec3 centre, Memory& memory);
+  // limb that can turn less; its own width counts as far as `outer` says. scale: lengths of the target over those of
+  // the source. centre: of the target. Without this call nothing turns. ends: by cluster, the length from its centroid
+  // to the end of its limb on the target, over that on the source.
+  void prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, Span<const double> outer,
+               Span<const double> ends, double scale, Vec3 centre, Memory& memory);
 
   // Changes the rotations of the source's clusters. body: the rotation of the whole source, for clusters that overlap
   // no other. whole: 0, or how far turns are made in full; 1 changes no bit.

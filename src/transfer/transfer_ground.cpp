@@ -33,7 +33,8 @@ void Transfer::hold_regions(Prepared& p, double rigid, double share) const {
     Hold hold;
     hold.row = row;
     if (pair.is_foot) {
-      hold.goal = p.goals[row], hold.share = rigid + (1 - rigid) * (1 - pair.fallen) * (1 - smooth_step(stands, flies, p.scale * height));
+      hold.goal = p.goals[row],
+      hold.share = rigid + (1 - rigid) * (1 - pair.fallen) * (1 - smooth_step(stands, flies, p.scale * height));
       if (hold.share > 0) p.holds.push_back(hold);
       continue;
     }

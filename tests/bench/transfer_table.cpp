@@ -159,8 +159,8 @@ struct Run {
   size_t spikes = 0, frames = 0;
   double confidence = 0, stretch = 0;
   size_t lost = 0;
-  double by_area = 0, acceleration = 0, rigid = 0, still = 0, step = 0, slide = 0, low = 0, sunk = 0, gap = 0, source_gap = 0,
-         self_mean = -1, self_max = -1, ms = 0;
+  double by_area = 0, acceleration = 0, rigid = 0, still = 0, step = 0, slide = 0, low = 0, sunk = 0, gap = 0,
+         source_gap = 0, self_mean = -1, self_max = -1, ms = 0;
 };
 
 // The largest gap between linked pieces; 0 without links.
@@ -214,9 +214,10 @@ Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target
   }
   out.acceleration = from.squares > 1e-10 ? std::sqrt(to.squares / from.squares) : 0;
   if (out.acceleration > calm)
-    out.rigid = std::sqrt(motion_of(rigid_frames(played, source, target, session), 1 / target.box, target.areas).squares /
-                          from.squares);
-  out.slide = played.feet.planted_max, out.low = played.feet.low_max, out.sunk = played.feet.surface_sunk, out.ms = played.frame_ms;
+    out.rigid = std::sqrt(
+        motion_of(rigid_frames(played, source, target, session), 1 / target.box, target.areas).squares / from.squares);
+  out.slide = played.feet.planted_max, out.low = played.feet.low_max, out.sunk = played.feet.surface_sunk,
+  out.ms = played.frame_ms;
   out.gap = largest_gap(session.target_surface(), played.target_frames) / target.box;
   out.source_gap = largest_gap(session.source_surface(), played.source_frames) / source.box;
   const ClipFaults faults = find_faults(session, played);
@@ -426,14 +427,15 @@ void print_confidence(const std::vector<Run>& runs) {
 
 void print_runs(const char* heading, const std::vector<Run>& runs) {
   std::vector<double> ratios;
-  size_t calm_area = 0, near_area = 0, spikes = 0, spiked = 0, calm_runs = 0, near = 0, stiff = 0, stiff_near = 0, still = 0, step = 0, slide = 0, low = 0,
-         sunk = 0, gap = 0, opened = 0, selves = 0, good = 0;
+  size_t calm_area = 0, near_area = 0, spikes = 0, spiked = 0, calm_runs = 0, near = 0, stiff = 0, stiff_near = 0,
+         still = 0, step = 0, slide = 0, low = 0, sunk = 0, gap = 0, opened = 0, selves = 0, good = 0;
   double worst_still = 0, worst_step = 0, worst_slide = 0, worst_sunk = 0, worst_gap = 0, worst_self = 0, mean_self = 0,
          ms = 0, frames = 0;
   for (const Run& run : runs) {
     spikes += run.spikes, spiked += run.spikes > 0;
     if (run.acceleration > 0)
-      ratios.push_back(run.acceleration), calm_runs += run.acceleration <= calm, near += run.acceleration <= nearly_calm;
+      ratios.push_back(run.acceleration), calm_runs += run.acceleration <= calm,
+          near += run.acceleration <= nearly_calm;
     if (run.acceleration > 0) calm_area += run.by_area <= calm, near_area += run.by_area <= nearly_calm;
     stiff += run.rigid > calm, stiff_near += run.acceleration > nearly_calm && run.rigid > nearly_calm;
     still += run.still > 2, worst_still = std::max(worst_still, run.still);
@@ -463,7 +465,8 @@ void print_runs(const char* heading, const std::vector<Run>& runs) {
   std::printf("  more, also if rigid     %zu runs > 1.1, %zu runs > 1.3\n", stiff, stiff_near);
   std::printf("  still source            %zu runs step > 2 times; largest %.1f\n", still, worst_still);
   std::printf("  step / source's         %zu runs > 1.5; largest %.2f\n", step, worst_step);
-  std::printf("  planted feet slide      %zu runs > 0.001; largest %.4f; %zu with all low feet\n", slide, worst_slide, low);
+  std::printf("  planted feet slide      %zu runs > 0.001; largest %.4f; %zu with all low feet\n", slide, worst_slide,
+              low);
   std::printf("  penetration             %zu runs > 0.01; largest %.4f\n", sunk, worst_sunk);
   std::printf("  gaps                    %zu runs > 0.005, %zu of them more than the source's own; largest %.4f\n", gap,
               opened, worst_gap);
@@ -532,10 +535,11 @@ int table(const Options& options) {
       for (const Run& run : runs) {
         if (options.runs)
           std::printf(
-              "    %-36s spikes %2zu accel %.2f (%.2f) still %5.1f step %5.2f slide %.4f (%.4f) sunk %.4f gap %.4f (%.4f) self "
+              "    %-36s spikes %2zu accel %.2f (%.2f) still %5.1f step %5.2f slide %.4f (%.4f) sunk %.4f gap %.4f "
+              "(%.4f) self "
               "%.4f %.4f confidence %.3f stretch %.2f lost %zu\n",
-              run.name.c_str(), run.spikes, run.acceleration, run.rigid, run.still, run.step, run.slide, run.low, run.sunk, run.gap,
-              run.source_gap, run.self_mean, run.self_max, run.confidence, run.stretch, run.lost);
+              run.name.c_str(), run.spikes, run.acceleration, run.rigid, run.still, run.step, run.slide, run.low,
+              run.sunk, run.gap, run.source_gap, run.self_mean, run.self_max, run.confidence, run.stretch, run.lost);
         all.push_back(run);
         if (run.name.find("Death") != std::string::npos) deaths.push_back(run);
       }

@@ -53,14 +53,15 @@ struct Bar {
   }
 };
 
-// end: how far the last part is a limb. longer: how many times as far it is from the second part to the end of its limb.
+// end: how far the last part is a limb. longer: how many times as far it is from the second part to the end of its
+// limb.
 Levers levers(const Bar& from, const Bar& to, hf_inner::Memory& memory, double end = 1, double longer = 1) {
   Levers out(memory);
   const double limb[3] = {0, 1, end}, ends[3] = {1, longer, 1};
   // lengths that are not the limb's: both bars in units of the first part
   const double scale = from.core->mesh.scale / to.core->mesh.scale;
   out.prepare(hf_inner::overlaps_of(3, from.surface(), memory), hf_inner::overlaps_of(3, to.surface(), memory),
-              {limb, 3}, {ends, 3}, scale, to.core->mesh.to_inner({0, 0, 0}), memory);
+              {limb, 3}, {limb, 3}, {ends, 3}, scale, to.core->mesh.to_inner({0, 0, 0}), memory);
   return out;
 }
 
@@ -152,7 +153,8 @@ TEST(TransferLevers, APartWhoseLimbEndsFartherAwayFollowsLess) {
   EXPECT_NEAR(levers(bar, bar, memory, 1, 2.5).follow(1), 0.4, 1e-12);
   EXPECT_EQ(levers(bar, bar, memory, 1, 0.4).follow(1), 1) << "no part turns more than its source";
   // the larger of both counts
-  EXPECT_NEAR(levers(bar, Bar({1, 3, 1}), memory, 1, 1.5).follow(1), levers(bar, Bar({1, 3, 1}), memory).follow(1), 1e-12);
+  EXPECT_NEAR(levers(bar, Bar({1, 3, 1}), memory, 1, 1.5).follow(1), levers(bar, Bar({1, 3, 1}), memory).follow(1),
+              1e-12);
 }
 
 }  // namespace
