@@ -151,9 +151,9 @@ typedef struct hf_transfer_dials {
   float tail_follow; /* pairs flagged HF_PAIR_TAIL, together one limb */
   float arm_space;   /* turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2
                         radians; 0 = neutral */
-  float long_follow; /* how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less, so
-                        that they move as far. 1: they make the whole turn. Between, a part may jump that turns by half
-                        a turn against the part before it */
+  float long_follow; /* how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less,
+                        so that they move as far. 1: they make the whole turn. Between, a part may jump that turns by
+                        half a turn against the part before it */
 } hf_transfer_dials;
 
 /* Sets the dials of a transfer for the next frames. dials: NULL for neutral ones. Does not factorise and computes no

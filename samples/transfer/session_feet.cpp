@@ -10,7 +10,7 @@ namespace {
 // Heights of a foot (in boxes) below which it stands, and above which it is free, as in the library.
 constexpr double foot_stands = 0.01, foot_flies = 0.05;
 // A foot stands only in frames in which its path along the ground bends by less than this (second difference, in
-// boxes): as far as a planted foot may slide. BEND
+// boxes): as far as a planted foot may slide.
 constexpr double foot_bends = 0.001;
 // The cosine of the angle by which a foot that stands may tip, 20 degrees: from there on a body counts as falling.
 constexpr double foot_upright = 0.94;

@@ -44,7 +44,7 @@ PairEntry read_pair(const JsonReader& json) {
 
 struct DialKey {
   const char* name;
-  double TransferDials::*value;
+  double TransferDials::* value;
   double least, most;
 };
 constexpr DialKey dial_keys[] = {{"stride", &TransferDials::stride, 0.1, 4},
