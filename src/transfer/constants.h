@@ -392,9 +392,9 @@ constexpr double rigid_residual = 1e-5;
 // most 1.29 times as much as their source. With 50 as the second it is 20 and 1.93, with 80 9 and 1.66, with 140 6
 // and 1.24, with 0 and 80 7 and 1.63, with 10 and 100 8 and 1.43 (a body that turned had the same range then).
 constexpr double fall_low = 20 * degree, fall_high = 110 * degree;
-// Up to this angle of the body a foot falls as far as it tips itself, so that a body may lean over feet that stand; from
-// fall_high on it falls with the body. In the judging half of tests/bench/transfer_table.cpp no planted foot slides, 9
-// runs are restless and 44 frames spike. With 40 degrees it is 19, 8 and 45, without the rule 0, 26 and 58.
+// Up to this angle of the body a foot falls as far as it tips itself, so that a body may lean over feet that stand;
+// from fall_high on it falls with the body. In the judging half of tests/bench/transfer_table.cpp no planted foot
+// slides, 9 runs are restless and 44 frames spike. With 40 degrees it is 19, 8 and 45, without the rule 0, 26 and 58.
 constexpr double lean_high = 60 * degree;
 // Between these angles a body, or a foot, counts as turned about the vertical by a share from 0 to 1: a narrow range
 // makes what turns fast swing out, a wide one leaves bodies that turned around half behind. Of the 1,508 runs of the
