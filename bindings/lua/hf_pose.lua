@@ -128,10 +128,10 @@ function Transfer:pair_info(pair) return query('hf_pair_info', C.hf_transfer_get
 function Transfer:info()
   return query('hf_transfer_info', C.hf_transfer_get_info, self.raw)
 end
--- stride, hip_height, neck_follow, tail_follow, arm_space of the next frames; the others become neutral
+-- stride, hip_height, neck_follow, tail_follow, arm_space, long_follow of the next frames; the others become neutral
 function Transfer:set_dials(dials)
   check(C.hf_transfer_set_dials(self.raw, options_into(make('hf_transfer_dials'), dials,
-    set('stride hip_height neck_follow tail_follow arm_space'))))
+    set('stride hip_height neck_follow tail_follow arm_space long_follow'))))
 end
 function Transfer:dials() return query('hf_transfer_dials', C.hf_transfer_get_dials, self.raw) end
 function Transfer:sinking()

@@ -701,6 +701,7 @@ typedef struct hf_transfer_dials {
   float neck_follow;
   float tail_follow;
   float arm_space;
+  float long_follow;
 } hf_transfer_dials;
 typedef struct hf_transfer_frame {
   uint32_t struct_size;

@@ -4,7 +4,8 @@
  * harmonic coordinates, and places of equal coordinates correspond. The vertices around such a place form a cluster.
  * The target takes over the rotations of the source's clusters. Its translations follow from its own shape (Xu, Zhang,
  * Cohen-Or and Xiong 2009, Section 6), and from where the source's clusters turn about one another. A limb whose parts
- * reach farther than the source's turns less, so that it moves as far: a held sword, a long tail, a large head. */
+ * reach farther than the source's turns less, so that it moves as far: a held sword, a long tail, a large head. The
+ * dial long_follow gives it the whole turn. */
 #ifndef HF_TRANSFER_H
 #define HF_TRANSFER_H
 
@@ -150,6 +151,9 @@ typedef struct hf_transfer_dials {
   float tail_follow; /* pairs flagged HF_PAIR_TAIL, together one limb */
   float arm_space;   /* turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2
                         radians; 0 = neutral */
+  float long_follow; /* how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less,
+                        so that they move as far. 1: they make the whole turn. Between, a part may jump that turns by
+                        half a turn against the part before it */
 } hf_transfer_dials;
 
 /* Sets the dials of a transfer for the next frames. dials: NULL for neutral ones. Does not factorise and computes no

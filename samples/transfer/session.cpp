@@ -10,6 +10,7 @@
 
 #include "common/links.h"
 #include "gltf/animate.h"
+#include "transfer/posed_region.h"
 
 namespace samples {
 
@@ -17,9 +18,6 @@ using namespace hf_gltf;
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
-
-// Heights of a foot (in boxes) below which it stands, and above which it is free, as in the library.
-constexpr double foot_stands = 0.01, foot_flies = 0.05;
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -30,37 +28,6 @@ void copy_axes(const Axes& axes, float (&rows)[9]) {
     rows[c] = static_cast<float>(axes.right[c]), rows[3 + c] = static_cast<float>(axes.up[c]),
     rows[6 + c] = static_cast<float>(axes.forward[c]);
   }
-}
-
-// The region with one of each set of copies at a place, as the library counts.
-Region without_copies(const Region& region, const FlatMesh& mesh) {
-  Region out;
-  std::vector<char> taken(mesh.welded_count, 0);
-  for (const uint32_t v : region.vertices)
-    if (!taken[mesh.welded[v]]) taken[mesh.welded[v]] = 1, out.vertices.push_back(v);
-  return out;
-}
-
-glm::dvec3 centre_of(const Region& region, const std::vector<double>& xyz) {
-  glm::dvec3 sum(0);
-  for (const uint32_t v : region.vertices) sum += glm::dvec3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]);
-  return sum / static_cast<double>(region.vertices.size());
-}
-
-double lowest_of(const Region& region, const std::vector<double>& xyz, const glm::dvec3& up) {
-  double low = std::numeric_limits<double>::infinity();
-  for (const uint32_t v : region.vertices)
-    low = std::min(low, glm::dot(up, glm::dvec3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2])));
-  return low;
-}
-
-// sinking: empty, or 1 for vertices that do not count.
-double lowest_of(const std::vector<double>& xyz, const glm::dvec3& up, const std::vector<uint8_t>& sinking = {}) {
-  double low = std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < xyz.size(); i += 3)
-    if (sinking.empty() || !sinking[i / 3])
-      low = std::min(low, glm::dot(up, glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2])));
-  return low;
 }
 
 }  // namespace
@@ -136,6 +103,7 @@ void Session::set_dials(const TransferDials& dials) {
   set.stride = static_cast<float>(dials.stride), set.hip_height = static_cast<float>(dials.hip_height);
   set.neck_follow = static_cast<float>(dials.neck_follow), set.tail_follow = static_cast<float>(dials.tail_follow);
   set.arm_space = static_cast<float>(dials.arm_space_degrees * degree);
+  set.long_follow = static_cast<float>(dials.long_follow);
   check(hf_transfer_set_dials(transfer_, &set), "the dials");
   file_.dials = dials;
 }
@@ -345,76 +313,6 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
   out.frame_ms = inside / static_cast<double>(times.size());
   out.feet = feet_of(out), out.gap = largest_gap(out.target_frames);
   bar.end(std::to_string(times.size()) + " frames");
-  return out;
-}
-
-FootReport Session::feet_of(const PlayedClip& played) const {
-  FootReport feet;
-  const double box = target_mesh().bounding_box_diagonal;
-  const std::vector<double> source_rest = double_positions(source_flat_.positions),
-                            target_rest = double_positions(target_flat_.positions);
-  glm::dmat3 to_target;  // right, up, forward of the source to those of the target
-  {
-    const glm::dmat3 source(file_.source_axes.right, file_.source_axes.up, file_.source_axes.forward);
-    const glm::dmat3 target(file_.target_axes.right, file_.target_axes.up, file_.target_axes.forward);
-    to_target = target * glm::transpose(source);
-  }
-  size_t count = 0;
-  for (const Live& live : live_) {
-    if (!live.entry.foot) continue;
-    const Region source = without_copies(live.source, source_flat_), target = without_copies(live.target, target_flat_);
-    bool stood = false;
-    glm::dvec3 began(0);
-    for (size_t f = 0; f < played.source_frames.size(); ++f) {
-      glm::dvec3 path =
-          scale_ * (to_target * (centre_of(source, played.source_frames[f]) - centre_of(source, source_rest)));
-      const glm::dvec3 rise = glm::dot(path, file_.target_axes.up) * file_.target_axes.up;
-      path = rise + file_.dials.stride * (path - rise);
-      const glm::dvec3 off = centre_of(target, played.target_frames[f]) - centre_of(target, target_rest) - path;
-      const double miss = glm::length(off) / box;
-      // along the ground, from where the foot began to stand: what would be seen as sliding
-      const glm::dvec3 along = off - glm::dot(off, file_.target_axes.up) * file_.target_axes.up;
-      feet.path_mean += miss, feet.path_max = std::max(feet.path_max, miss), ++count;
-      const double ground = lowest_of(source_rest, file_.source_axes.up);
-      const bool stands =
-          scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < 0.01 * box;
-      if (stands && !stood) began = along;
-      stood = stands;
-      if (stands) {
-        const double slide = glm::length(along - began) / box;
-        feet.planted_mean += slide, feet.planted_max = std::max(feet.planted_max, slide), ++feet.planted;
-      }
-      const double from = scale_ * std::min(0.0, lowest_of(source, played.source_frames[f], file_.source_axes.up) -
-                                                     lowest_of(source, source_rest, file_.source_axes.up));
-      const double to = lowest_of(target, played.target_frames[f], file_.target_axes.up) -
-                        lowest_of(target, target_rest, file_.target_axes.up);
-      feet.sunk = std::max(feet.sunk, (from - to) / box);
-    }
-  }
-  if (count > 0) feet.path_mean /= static_cast<double>(count);
-  if (feet.planted > 0) feet.planted_mean /= static_cast<double>(feet.planted);
-  const double source_ground = lowest_of(source_rest, file_.source_axes.up),
-               ground = lowest_of(target_rest, file_.target_axes.up);
-  for (size_t f = 0; f < played.source_frames.size(); ++f) {
-    const double allowed =
-        ground + scale_ * std::min(0.0, lowest_of(played.source_frames[f], file_.source_axes.up) - source_ground);
-    feet.surface_sunk = std::max(feet.surface_sunk,
-                                 (allowed - lowest_of(played.target_frames[f], file_.target_axes.up, sinking_)) / box);
-  }
-  return feet;
-}
-
-std::vector<double> Session::standing(const PlayedClip& played, size_t frame) const {
-  const double box = target_mesh().bounding_box_diagonal;
-  const glm::dvec3& up = file_.source_axes.up;
-  const double ground = lowest_of(double_positions(source_flat_.positions), up);
-  std::vector<double> out(target_flat_.positions.size(), 0.0);
-  for (const Live& live : live_) {
-    if (!live.entry.foot) continue;
-    const double height = scale_ * (lowest_of(live.source, played.source_frames[frame], up) - ground) / box;
-    const double t = std::clamp((foot_flies - height) / (foot_flies - foot_stands), 0.0, 1.0);
-    for (const uint32_t v : live.target.vertices) out[v] = t * t * (3 - 2 * t);
-  }
   return out;
 }
 

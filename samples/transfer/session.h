@@ -34,9 +34,11 @@ struct PairReport {
 struct FootReport {
   double path_mean = 0, path_max = 0;  // from the scaled path of the source's foot
   double sunk = 0;                     // deeper under the rest ground than the source's foot, scaled
-  // along the ground while the source's foot stands, from where it began to stand, beside its scaled path; and how deep
-  // a vertex of the surface sinks that may not
-  double planted_mean = 0, planted_max = 0, surface_sunk = 0;
+  // Along the ground while the source's foot stands, from where it began to stand, beside its scaled path. It stands if
+  // it is low, upright, and still or moves evenly as on a treadmill. A foot that rolls, kicks or falls may be low and
+  // does not stand. low_max: the same of all low feet.
+  double planted_mean = 0, planted_max = 0, low_max = 0;
+  double surface_sunk = 0;  // how deep a vertex of the surface sinks that may not
   size_t planted = 0;
 };
 

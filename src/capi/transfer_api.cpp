@@ -137,7 +137,7 @@ hf_result hf_transfer_get_dials(hf_transfer handle, hf_transfer_dials* out_dials
     hf_transfer_dials dials{};
     dials.stride = static_cast<float>(set.stride), dials.hip_height = static_cast<float>(set.hip_height);
     dials.neck_follow = static_cast<float>(set.neck_follow), dials.tail_follow = static_cast<float>(set.tail_follow);
-    dials.arm_space = static_cast<float>(set.arm_space);
+    dials.arm_space = static_cast<float>(set.arm_space), dials.long_follow = static_cast<float>(set.long_follow);
     write_struct(out_dials, dials);
   });
 }

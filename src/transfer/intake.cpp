@@ -22,6 +22,7 @@ Dials read_dials(const hf_transfer_dials& desc) {
   out.stride = desc.stride == 0 ? 1.0 : static_cast<double>(desc.stride);
   out.hip_height = static_cast<double>(desc.hip_height), out.neck_follow = static_cast<double>(desc.neck_follow);
   out.tail_follow = static_cast<double>(desc.tail_follow), out.arm_space = static_cast<double>(desc.arm_space);
+  out.long_follow = static_cast<double>(desc.long_follow);
   return out;
 }
 

@@ -10,25 +10,26 @@
 namespace hf_inner {
 namespace {
 
-// The turn q, of which a part of the share `follow` is taken.
-Quaternion part_of(const Quaternion& q, double follow) noexcept {
+// The turn q, of which a part of the share `follow` is taken. whole: from 0 to 1, from that part to q.
+Quaternion part_of(const Quaternion& q, double follow, double whole) noexcept {
   const Vec3 turn = logarithm(q);
   const double angle = norm(turn);
   if (!(angle > 0)) return q;
   const double less =
       follow >= 0.5 ? angle - (1 - follow) * sine(angle) : follow * (4.0 / 3 * sine(angle) - sine(2 * angle) / 6);
-  return exponential((less / angle) * turn);
+  return exponential(((less + whole * (angle - less)) / angle) * turn);
 }
 
 }  // namespace
 
-void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, double scale, Vec3 centre,
-                     Memory& memory) {
+void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, Span<const double> outer,
+                     Span<const double> ends, double scale, Vec3 centre, Memory& memory) {
   const std::size_t count = limb.size();
   follow_.assign(count, 1.0), own_.assign(count, Quaternion()), bent_.assign(count, std::uint8_t{0});
   for (std::size_t c = 0; c < count; ++c) {
-    const double reach = std::max(scale * from.spread[c], least_reach);
-    if (to.spread[c] > reach) follow_[c] = 1 - limb[c] * (1 - reach / to.spread[c]);
+    const double wider = to.spread[c] / std::max(scale * from.spread[c], least_reach);
+    if (wider > 1) follow_[c] = 1 - outer[c] * (1 - 1 / wider);
+    if (ends[c] > 1) follow_[c] = std::min(follow_[c], 1 - limb[c] * (1 - 1 / ends[c]));
   }
   // The shortest ways (Dijkstra 1959), from the cluster that is nearest to the centre.
   order_.reserve(count), before_.assign(count, -1);
@@ -55,7 +56,8 @@ void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double
     if (!(limb[c] > 0)) before_[c] = -1;
 }
 
-void Levers::turn(const Quaternion& body, Quaternion* rotations) noexcept {
+void Levers::turn(const Quaternion& body, double whole, Quaternion* rotations) noexcept {
+  if (whole == 1) return;
   std::copy_n(rotations, own_.size(), own_.begin());
   for (const std::int32_t i : order_) {
     const std::size_t c = at(i);
@@ -64,7 +66,7 @@ void Levers::turn(const Quaternion& body, Quaternion* rotations) noexcept {
     if (!bent_[c]) continue;
     const Quaternion before = before_[c] >= 0 ? own_[at(before_[c])] : body,
                      now = before_[c] >= 0 ? rotations[before_[c]] : body;
-    rotations[c] = normalised(now * part_of(before.conjugate() * own_[c], follow_[c]));
+    rotations[c] = normalised(now * part_of(before.conjugate() * own_[c], follow_[c], whole));
   }
 }
 

@@ -1,8 +1,9 @@
 // Turns parts of the target less that reach farther than their source's.
 //
 // Rotations go over, so a part that is k times as long moves k times as far. A robot holds a sword of half a body's
-// length; its hand follows a hoof that flips by 90 degrees in two frames. So a cluster whose vertices spread k > 1
-// times as wide as those of its source's cluster follows a k-th part of the turn:
+// length; its hand follows a hoof that flips by 90 degrees in two frames. A cow's tail follows a deer's short one. So a
+// cluster follows a k-th part of the turn. k is how many times as wide its vertices spread as those of its source's
+// cluster, or how many times as far it is to the end of its limb, whichever is more and above 1:
 //     R'_c = R'_b f(R_b^-1 R_c).
 // R are the rotations of the source's clusters, R' those that the target takes. b is the cluster before c on the
 // shortest way from the middle of the target; the way goes over clusters that overlap. So an ear keeps to its head. f
@@ -11,6 +12,9 @@
 // Small angles become w a. Half a turn to the left is half a turn to the right, so pi becomes pi or 0: no turn makes a
 // part jump. Where k <= 1 rotations stay, to the last bit if they stay on the whole way; so on a body that plays its
 // own motion. Feet and the trunk stay too: they stand on the ground, and carry the rest.
+//
+// A dial (long_follow) takes the angle from that to the whole one. Between them, w < 1/2 cannot keep half a turn from
+// jumping: pi goes to 0 at one end and to pi at the other.
 //
 // A frame reads no vertex, depends on no other frame and allocates nothing.
 #pragma once
@@ -26,14 +30,15 @@ class Levers {
       : order_(&memory), before_(&memory), follow_(&memory), own_(&memory), bent_(&memory) {}
 
   // from, to: of the clusters on the source and on the target. limb: by cluster, from 0 to 1, how far it belongs to a
-  // limb that can turn less. scale: lengths of the target over those of the source. centre: of the target. Without this
-  // call nothing turns.
-  void prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, double scale, Vec3 centre,
-               Memory& memory);
+  // limb that can turn less; its own width counts as far as `outer` says. scale: lengths of the target over those of
+  // the source. centre: of the target. Without this call nothing turns. ends: by cluster, the length from its centroid
+  // to the end of its limb on the target, over that on the source.
+  void prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, Span<const double> outer,
+               Span<const double> ends, double scale, Vec3 centre, Memory& memory);
 
   // Changes the rotations of the source's clusters. body: the rotation of the whole source, for clusters that overlap
-  // no other.
-  void turn(const Quaternion& body, Quaternion* rotations) noexcept;
+  // no other. whole: 0, or how far turns are made in full; 1 changes no bit.
+  void turn(const Quaternion& body, double whole, Quaternion* rotations) noexcept;
 
   double follow(std::size_t cluster) const noexcept { return follow_[cluster]; }  // w
 

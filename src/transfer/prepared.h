@@ -88,6 +88,7 @@ struct Transfer::Prepared {
     std::uint32_t number = 0, flags = 0;
     bool is_foot = false;
     std::int32_t cluster = 0;  // cluster of vertices with the largest weight on the region
+    double fallen = 0;         // of the last frame, from 0 to 1: with the body, and as far as a foot itself
     Vec3 source_rest, target_rest;
   };
 

@@ -298,14 +298,21 @@ void Transfer::prepare_ground(Prepared& p) const {
 
 void Transfer::prepare_levers(Prepared& p, const Overlaps& from, const Overlaps& to) const {
   const std::size_t width = numbers_.size();
-  Vector<double> limb(at(p.clusters.count), 0.0, target_core_->memory.get());
+  Vector<double> limb(at(p.clusters.count), 0.0, target_core_->memory.get()), outer(limb, target_core_->memory.get()),
+      ends(at(p.clusters.count), 1.0, target_core_->memory.get());
   for (std::size_t c = 0; c < limb.size(); ++c) {
     const double* row = p.clusters.centre.data() + c * width;
     const auto h = static_cast<std::size_t>(std::max_element(row, row + width) - row);
-    if (!(flags_[numbers_[h]] & (HF_PAIR_FOOT | HF_PAIR_TRUNK)))
-      limb[c] = std::clamp((row[h] - fade_from) / fade_width, 0.0, 1.0);
+    if (flags_[numbers_[h]] & (HF_PAIR_FOOT | HF_PAIR_TRUNK)) continue;
+    limb[c] = std::clamp((row[h] - root_from) / root_width, 0.0, 1.0);
+    outer[c] = std::clamp((row[h] - fade_from) / fade_width, 0.0, 1.0);
+    const Vec3 source_end = region_mean(source_.region(numbers_[h]), source_core_->mesh.positions.data()),
+               target_end = region_mean(target_.region(numbers_[h]), target_core_->mesh.positions.data());
+    const double reach = std::max(p.scale * norm(source_end - from.centroid[c]), shortest_reach);
+    ends[c] = norm(target_end - to.centroid[c]) / (ends_alike * reach);
   }
-  p.levers.prepare(from, to, {limb.data(), limb.size()}, p.scale, p.target_centroid, *target_core_->memory);
+  p.levers.prepare(from, to, {limb.data(), limb.size()}, {outer.data(), outer.size()}, {ends.data(), ends.size()},
+                   p.scale, p.target_centroid, *target_core_->memory);
 }
 
 void Transfer::prepare_gradients(Prepared& p) const {

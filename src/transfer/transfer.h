@@ -48,7 +48,7 @@ struct TransferOptions {
 
 // What an animator turns without a new preparation; these values change nothing (hf_transfer_dials).
 struct Dials {
-  double stride = 1, hip_height = 0, neck_follow = 0, tail_follow = 0, arm_space = 0;
+  double stride = 1, hip_height = 0, neck_follow = 0, tail_follow = 0, arm_space = 0, long_follow = 0;
   bool moves_paths() const noexcept { return stride != 1 || hip_height != 0; }
   bool turns_limbs() const noexcept { return neck_follow != 0 || tail_follow != 0 || arm_space != 0; }
 };
@@ -140,12 +140,12 @@ class Transfer {
   bool is_crossed(std::uint32_t number) const;
   void place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const;
   void read_holds(Prepared& p, Span<const PairHold> holds) const;
-  void hold_regions(Prepared& p, double share) const;
+  void hold_regions(Prepared& p, double rigid, double share) const;
   void settle(Prepared& p, Vec3 centroid) const;  // finds translations for the present rotations and goals
   void turn_clusters(Prepared& p) const;
   void blend(Prepared& p) const;
   double lying_share(Prepared& p) const noexcept;
-  void lie_down(Prepared& p, Vec3 centroid, double lies, double fallen, double share) const;
+  void lie_down(Prepared& p, Vec3 centroid, double lies, double rigid, double share) const;
   void keep_above_ground(Prepared& p, const Quaternion& turn, Vec3 centroid, double rigid) const;
   bool raise_sunk(Prepared& p, Vec3 up, double allowed, double share) const;
 

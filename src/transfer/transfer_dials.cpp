@@ -10,6 +10,8 @@
 // rises from 0 at the root to 1. follow > 0 moves the cluster's rest turn towards D^w, where D takes the limb's rest
 // direction to the source's. follow < 0 moves the cluster's rotation towards that of the cluster at the root. Arms turn
 // by w times the angle about the forward axis, at rest.
+//
+// Long parts: long_follow goes to levers.h.
 #include <cmath>
 
 #include "base/arguments.h"
@@ -45,6 +47,7 @@ void Transfer::set_dials(const Dials& dials) {
   check_dial(dials.neck_follow, -most_follow, most_follow, "neck_follow");
   check_dial(dials.tail_follow, -most_follow, most_follow, "tail_follow");
   check_dial(dials.arm_space, -most_arm_space, most_arm_space, "arm_space");
+  check_dial(dials.long_follow, 0, most_follow, "long_follow");
   dials_ = dials;
   if (prepared_) turn_dials(*prepared_);
 }

@@ -21,9 +21,14 @@ double turned_share(const Quaternion& turn) noexcept {
   return smooth_step(turn_low, turn_high, angle_between(turn, Quaternion()));
 }
 
-// Tells how far the body has fallen over, from 0 to 1. Turns about the vertical do not count.
+// The angle by which a turn tips what stands upright. Turns about the vertical do not count.
+double tilt(const Quaternion& turn, Vec3 up) noexcept {
+  return arc_cosine(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0));
+}
+
+// Tells how far the body, or a foot, has fallen over, from 0 to 1.
 double fallen_share(const Quaternion& turn, Vec3 up) noexcept {
-  return smooth_step(fall_low, fall_high, arc_cosine(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0)));
+  return smooth_step(fall_low, fall_high, tilt(turn, up));
 }
 
 // Returns the part of the rotation q that turns about the axis, and how certain that part is: it has no meaning for a
@@ -75,27 +80,33 @@ void blend_vertices(const BlendInput& in, std::size_t first, std::size_t last, V
 void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
   const Twist round = about(turn, up);
-  const double rigid = rigid_share(whole), fallen = std::max(rigid, fallen_share(turn, up)), upright = 1 - fallen,
-               share = std::max(fallen, round.certain * turned_share(round.turn));
-  const Mat3 carried = power(turn, share).toRotationMatrix();
+  const double rigid = rigid_share(whole), fallen = std::max(rigid, fallen_share(turn, up)),
+               yaw = round.certain * turned_share(round.turn);
+  const Mat3 carried = power(turn, std::max(fallen, yaw)).toRotationMatrix();
   if (dials_.moves_paths()) {
     const Vec3 travel = p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
     p.body_rise = (1 - fallen_share(turn, up)) * dials_.hip_height * p.hip_height;
     p.body_excess = (dials_.stride - 1) * (travel - dot(up, travel) * up) + p.body_rise * up;
   }
   for (std::size_t k = 0; k < p.anchors.size(); ++k) {
-    const Prepared::Anchor& anchor = p.anchors[k];
+    Prepared::Anchor& anchor = p.anchors[k];
     const Span<const std::int32_t> from = source_.region(anchor.number), to = target_.region(anchor.number);
     const Vec3 path = p.scale * rotate(axes_, region_mean(from, p.posed.data()) - anchor.source_rest);
     const Vec3 offset =
         anchor.target_rest - p.target_centroid - p.scale * rotate(axes_, anchor.source_rest - whole.rest_centroid);
     Twist own{Quaternion(), 0};
+    const auto c = static_cast<std::size_t>(anchor.cluster);
+    const Quaternion own_turn = p.given[c] * p.dialled_turn[c].conjugate();
+    // A body leans over feet that stand, and falls with those that tip.
+    anchor.fallen = fallen_share(turn, up);
+    if (anchor.is_foot)
+      anchor.fallen *= 1 - (1 - fallen_share(own_turn, up)) * (1 - smooth_step(lean_high, fall_high, tilt(turn, up)));
+    const double upright = 1 - std::max(rigid, anchor.fallen);
     const bool steps = anchor.is_foot && upright > 0;
     const double height = p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground),
                  own_share = upright * (1 - smooth_step(stands, turns_freely, height));
     if (steps) {
-      const auto c = static_cast<std::size_t>(anchor.cluster);
-      own = about(p.given[c] * p.dialled_turn[c].conjugate(), up);
+      own = about(own_turn, up);
       own.turn = power(own.turn, turned_share(own.turn));
     }
     const auto turned = [&](Vec3 arm) {
@@ -119,7 +130,7 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     for (const std::int32_t v : to)
       low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - anchor.target_rest)));
     const double lift = allowed - (dot(up, p.goals[k]) + low);
-    if (lift > 0) p.goals[k] = p.goals[k] + (1 - share) * lift * up;
+    if (lift > 0) p.goals[k] = p.goals[k] + (1 - std::max({rigid, anchor.fallen, yaw})) * lift * up;
   }
 }
 
@@ -198,7 +209,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), *target_core_->jobs);
   if (options_.mode == HF_TRANSFER_FIELDS) {
     p.slack.measure(p.given.data(), p.posed.data(), axes_, *target_core_->jobs);
-    p.levers.turn(whole.rotation, p.given.data());
+    p.levers.turn(whole.rotation, dials_.long_follow, p.given.data());
   }
 
   // Takes the rotations of the source's clusters into the target's axes and rest directions.
@@ -214,10 +225,10 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   const double rigid = rigid_share(whole), fallen = fallen_share(turn, up_of(target_axes_));
   const double share = std::max(rigid, fallen);
   settle(p, centroid);
-  hold_regions(p, share);
+  hold_regions(p, rigid, share);
   const bool over_ground = has_ground() && !p.anchors.empty();
   const double lies = over_ground ? (1 - rigid) * lying_share(p) : 0.0;
-  if (lies > 0) lie_down(p, centroid, lies, fallen, share);
+  if (lies > 0) lie_down(p, centroid, lies, rigid, share);
   // If no region follows its source and no constraint is set, no goal pulls the clusters. Then they need no turn
   // towards their neighbours.
   const std::int32_t rounds =
@@ -225,9 +236,9 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   for (std::int32_t round = 0; round < rounds; ++round) {
     turn_clusters(p);
     settle(p, centroid);
-    hold_regions(p, share);
+    hold_regions(p, rigid, share);
   }
-  if (lies > 0) lie_down(p, centroid, lies, fallen, share);
+  if (lies > 0) lie_down(p, centroid, lies, rigid, share);
   blend(p);
   if (over_ground) keep_above_ground(p, turn, centroid, rigid);
   target_core_->jobs->for_each(

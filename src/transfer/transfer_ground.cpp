@@ -16,24 +16,25 @@
 
 namespace hf_inner {
 // Constrains (holds) the regions that stand or touch, and those that the caller places. share: how far the
-// frame is a rigid motion, or the body has fallen over. At share 1 only the caller's constraints remain.
-void Transfer::hold_regions(Prepared& p, double share) const {
+// frame is a rigid motion, or the body has fallen over. At share 1 only the caller's constraints remain, and feet that
+// have not fallen over themselves.
+void Transfer::hold_regions(Prepared& p, double rigid, double share) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
-  const bool by_itself = has_ground() && share < 1;
   p.holds.clear();
   for (std::size_t row = 0; row < p.given_hold.size(); ++row) {
     if (p.given_hold[row].share > 0) {
       p.holds.push_back(p.given_hold[row]);
       continue;
     }
-    if (!by_itself || row == p.anchors.size()) continue;
+    if (!has_ground() || row == p.anchors.size()) continue;
     const bool anchored = row < p.anchors.size();
     const Prepared::Anchor& pair = anchored ? p.anchors[row] : p.loose[row - p.anchors.size() - 1];
     const double height = lowest(source_.region(pair.number), p.posed.data(), source_up) - p.source_ground;
     Hold hold;
     hold.row = row;
     if (pair.is_foot) {
-      hold.goal = p.goals[row], hold.share = (1 - share) * (1 - smooth_step(stands, flies, p.scale * height));
+      hold.goal = p.goals[row],
+      hold.share = rigid + (1 - rigid) * (1 - pair.fallen) * (1 - smooth_step(stands, flies, p.scale * height));
       if (hold.share > 0) p.holds.push_back(hold);
       continue;
     }
@@ -78,7 +79,7 @@ double Transfer::lying_share(Prepared& p) const noexcept {
 
 // Lowers or raises the goals of regions that follow their source (anchors). Then a cluster of the target's vertices
 // touches the ground if the same cluster of the source does.
-void Transfer::lie_down(Prepared& p, Vec3 centroid, double lies, double fallen, double share) const {
+void Transfer::lie_down(Prepared& p, Vec3 centroid, double lies, double rigid, double share) const {
   const Vec3 up = up_of(target_axes_);
   blend(p);
   std::fill(p.target_lows.begin(), p.target_lows.end(), no_height);
@@ -93,9 +94,9 @@ void Transfer::lie_down(Prepared& p, Vec3 centroid, double lies, double fallen, 
   }
   if (!(mass > 0)) return;
   for (std::size_t k = 0; k < p.anchors.size(); ++k)
-    p.goals[k] = p.goals[k] - lies * (p.anchors[k].is_foot ? fallen : 1.0) * (sum / mass) * up;
+    p.goals[k] = p.goals[k] - lies * (p.anchors[k].is_foot ? p.anchors[k].fallen : 1.0) * (sum / mass) * up;
   settle(p, centroid);
-  hold_regions(p, share);
+  hold_regions(p, rigid, share);
 }
 
 // Raises what sinks so that the energies rise least. The rises z of the clusters minimise

@@ -429,6 +429,9 @@ static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
   DIALS("tail follow NaN", HF_ERROR_NON_FINITE, dials.tail_follow = (float)NAN);
   DIALS("arm space in degrees", HF_ERROR_INVALID_ARGUMENT, dials.arm_space = 20);
   DIALS("arm space NaN", HF_ERROR_NON_FINITE, dials.arm_space = (float)NAN);
+  DIALS("long follow 1.1", HF_ERROR_INVALID_ARGUMENT, dials.long_follow = 1.1f);
+  DIALS("long follow -0.1", HF_ERROR_INVALID_ARGUMENT, dials.long_follow = -0.1f);
+  DIALS("long follow NaN", HF_ERROR_NON_FINITE, dials.long_follow = (float)NAN);
 
   SKIN("5 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = 5);
   SKIN("no room for the joints", HF_ERROR_TOO_SMALL, skin.pivots = doubles);

@@ -362,7 +362,7 @@ static void print_transfer(void) {
 #undef T
 #define T hf_transfer_dials
   STRUCT(hf_transfer_dials);
-  F(struct_size), F(stride), F(hip_height), F(neck_follow), F(tail_follow), F(arm_space);
+  F(struct_size), F(stride), F(hip_height), F(neck_follow), F(tail_follow), F(arm_space), F(long_follow);
 #undef T
   CONSTANT(HF_TRANSFER_FIELDS), CONSTANT(HF_TRANSFER_PAPER), CONSTANT(HF_TRANSFER_STRETCH), CONSTANT(HF_PAIR_ANCHOR),
       CONSTANT(HF_PAIR_FOOT), CONSTANT(HF_PAIR_TRUNK), CONSTANT(HF_PAIR_NO_ALIGNMENT), CONSTANT(HF_PAIR_CONTACT),

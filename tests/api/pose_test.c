@@ -408,9 +408,9 @@ static void dials_are_read_back_and_neutral_ones_change_no_bit(void** state) {
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
   assert_ok(hf_transfer_get_dials(transfer, &dials));
   assert_true(dials.stride == 1 && dials.hip_height == 0 && dials.neck_follow == 0 && dials.tail_follow == 0 &&
-              dials.arm_space == 0);
+              dials.arm_space == 0 && dials.long_follow == 0);
   dials.stride = 1.5f, dials.hip_height = 0.25f, dials.neck_follow = -0.5f, dials.tail_follow = 1,
-  dials.arm_space = 0.5f;
+  dials.arm_space = 0.5f, dials.long_follow = 0.75f;
   assert_ok(hf_transfer_set_dials(transfer, &dials));
   hf_transfer_dials read = HF_INIT(hf_transfer_dials);
   assert_ok(hf_transfer_get_dials(transfer, &read));

@@ -22,6 +22,7 @@
 #include "gltf/gltf_read.h"
 #include "gltf/suggest_pairs.h"
 #include "transfer/faults.h"
+#include "transfer/posed_region.h"
 #include "transfer/session.h"
 
 namespace {
@@ -67,6 +68,8 @@ constexpr Listed listed[] = {{"farm_Cow", false},
 constexpr double spike_share = 0.02, spike_ratio = 4;
 // A source stands still in a frame in which no vertex moves further (in boxes). Smaller steps count as the second.
 constexpr double still_step = 0.002, least_step = 1e-4;
+// A run is calm if it accelerates at most this many times as much as its source, and nearly so up to the second.
+constexpr double calm = 1.1, nearly_calm = 1.3;
 // A source's step counts for the ratio of steps if it is longer (in boxes).
 constexpr double moving_step = 0.005;
 
@@ -156,8 +159,8 @@ struct Run {
   size_t spikes = 0, frames = 0;
   double confidence = 0, stretch = 0;
   size_t lost = 0;
-  double by_area = 0, acceleration = 0, still = 0, step = 0, slide = 0, sunk = 0, gap = 0, source_gap = 0,
-         self_mean = -1, self_max = -1, ms = 0;
+  double by_area = 0, acceleration = 0, rigid = 0, still = 0, step = 0, slide = 0, low = 0, sunk = 0, gap = 0,
+         source_gap = 0, self_mean = -1, self_max = -1, ms = 0;
 };
 
 // The largest gap between linked pieces; 0 without links.
@@ -169,6 +172,30 @@ double largest_gap(hf_surface surface, const Frames& frames) {
     hf_gaps_info info = HF_INIT(hf_gaps_info);
     if (hf_surface_measure_gaps(surface, &posed, 0, nullptr, &info) != HF_OK || info.link_count == 0) return 0;
     out = std::max(out, info.worst);
+  }
+  return out;
+}
+
+// The target at rest, moved as one rigid body by the turn and the path of the whole source. No transfer that goes and
+// faces as its source can do much better than this where the two bodies are of other shapes.
+Frames rigid_frames(const PlayedClip& played, const Loaded& source, const Loaded& target, const Session& session) {
+  const Axes &from = session.source_axes(), &to = session.target_axes();
+  const glm::dmat3 axes =
+      glm::dmat3(to.right, to.up, to.forward) * glm::transpose(glm::dmat3(from.right, from.up, from.forward));
+  Region all;
+  for (uint32_t v = 0; v < source.flat.vertex_count(); ++v) all.vertices.push_back(v);
+  const std::vector<double> rest = double_positions(source.flat.positions);
+  glm::dvec3 middle(0);
+  for (const glm::dvec3& p : target.flat.positions) middle += p / static_cast<double>(target.flat.positions.size());
+  Frames out;
+  for (const std::vector<double>& posed : played.source_frames) {
+    const glm::dmat3 turn = axes * glm::mat3_cast(turn_of(all, rest, posed)) * glm::transpose(axes);
+    const glm::dvec3 place = middle + session.scale() * (axes * (centre_of(all, posed) - centre_of(all, rest)));
+    out.emplace_back();
+    for (const glm::dvec3& p : target.flat.positions) {
+      const glm::dvec3 moved = place + turn * (p - middle);
+      for (int c = 0; c < 3; ++c) out.back().push_back(moved[c]);
+    }
   }
   return out;
 }
@@ -186,7 +213,11 @@ Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target
     if (from.step[f] > moving_step) out.step = std::max(out.step, to.step[f] / from.step[f]);
   }
   out.acceleration = from.squares > 1e-10 ? std::sqrt(to.squares / from.squares) : 0;
-  out.slide = played.feet.planted_max, out.sunk = played.feet.surface_sunk, out.ms = played.frame_ms;
+  if (out.acceleration > calm)
+    out.rigid = std::sqrt(
+        motion_of(rigid_frames(played, source, target, session), 1 / target.box, target.areas).squares / from.squares);
+  out.slide = played.feet.planted_max, out.low = played.feet.low_max, out.sunk = played.feet.surface_sunk,
+  out.ms = played.frame_ms;
   out.gap = largest_gap(session.target_surface(), played.target_frames) / target.box;
   out.source_gap = largest_gap(session.source_surface(), played.source_frames) / source.box;
   const ClipFaults faults = find_faults(session, played);
@@ -396,18 +427,20 @@ void print_confidence(const std::vector<Run>& runs) {
 
 void print_runs(const char* heading, const std::vector<Run>& runs) {
   std::vector<double> ratios;
-  size_t calm_area = 0, near_area = 0, spikes = 0, spiked = 0, calm = 0, near = 0, still = 0, step = 0, slide = 0,
-         sunk = 0, gap = 0, opened = 0, selves = 0, good = 0;
+  size_t calm_area = 0, near_area = 0, spikes = 0, spiked = 0, calm_runs = 0, near = 0, stiff = 0, stiff_near = 0,
+         still = 0, step = 0, slide = 0, low = 0, sunk = 0, gap = 0, opened = 0, selves = 0, good = 0;
   double worst_still = 0, worst_step = 0, worst_slide = 0, worst_sunk = 0, worst_gap = 0, worst_self = 0, mean_self = 0,
          ms = 0, frames = 0;
   for (const Run& run : runs) {
     spikes += run.spikes, spiked += run.spikes > 0;
     if (run.acceleration > 0)
-      ratios.push_back(run.acceleration), calm += run.acceleration <= 1.1, near += run.acceleration <= 1.3;
-    if (run.acceleration > 0) calm_area += run.by_area <= 1.1, near_area += run.by_area <= 1.3;
+      ratios.push_back(run.acceleration), calm_runs += run.acceleration <= calm,
+          near += run.acceleration <= nearly_calm;
+    if (run.acceleration > 0) calm_area += run.by_area <= calm, near_area += run.by_area <= nearly_calm;
+    stiff += run.rigid > calm, stiff_near += run.acceleration > nearly_calm && run.rigid > nearly_calm;
     still += run.still > 2, worst_still = std::max(worst_still, run.still);
     step += run.step > 1.5, worst_step = std::max(worst_step, run.step);
-    slide += run.slide > 0.001, worst_slide = std::max(worst_slide, run.slide);
+    low += run.low > 0.001, slide += run.slide > 0.001, worst_slide = std::max(worst_slide, run.slide);
     sunk += run.sunk > 0.01, worst_sunk = std::max(worst_sunk, run.sunk);
     opened += run.gap > std::max(0.005, run.source_gap), gap += run.gap > 0.005,
         worst_gap = std::max(worst_gap, run.gap);
@@ -423,15 +456,17 @@ void print_runs(const char* heading, const std::vector<Run>& runs) {
   std::printf("%s: %zu runs, %.3f ms a frame\n", heading, runs.size(), frames > 0 ? ms / frames : 0.0);
   std::printf("  spikes                  %zu in %zu runs\n", spikes, spiked);
   std::printf("  acceleration / source's %.1f %% <= 1.1, %.1f %% <= 1.3; median %.2f, 95 %% %.2f, largest %.2f\n",
-              100.0 * static_cast<double>(calm) / static_cast<double>(std::max<size_t>(ratios.size(), 1)),
+              100.0 * static_cast<double>(calm_runs) / static_cast<double>(std::max<size_t>(ratios.size(), 1)),
               100.0 * static_cast<double>(near) / static_cast<double>(std::max<size_t>(ratios.size(), 1)), part(0.5),
               part(0.95), part(1));
   std::printf("  acceleration by area    %.1f %% <= 1.1, %.1f %% <= 1.3\n",
               100.0 * static_cast<double>(calm_area) / static_cast<double>(std::max<size_t>(ratios.size(), 1)),
               100.0 * static_cast<double>(near_area) / static_cast<double>(std::max<size_t>(ratios.size(), 1)));
+  std::printf("  more, also if rigid     %zu runs > 1.1, %zu runs > 1.3\n", stiff, stiff_near);
   std::printf("  still source            %zu runs step > 2 times; largest %.1f\n", still, worst_still);
   std::printf("  step / source's         %zu runs > 1.5; largest %.2f\n", step, worst_step);
-  std::printf("  planted feet slide      %zu runs > 0.001; largest %.4f\n", slide, worst_slide);
+  std::printf("  planted feet slide      %zu runs > 0.001; largest %.4f; %zu with all low feet\n", slide, worst_slide,
+              low);
   std::printf("  penetration             %zu runs > 0.01; largest %.4f\n", sunk, worst_sunk);
   std::printf("  gaps                    %zu runs > 0.005, %zu of them more than the source's own; largest %.4f\n", gap,
               opened, worst_gap);
@@ -500,10 +535,11 @@ int table(const Options& options) {
       for (const Run& run : runs) {
         if (options.runs)
           std::printf(
-              "    %-36s spikes %2zu accel %.2f still %5.1f step %5.2f slide %.4f sunk %.4f gap %.4f (%.4f) self "
+              "    %-36s spikes %2zu accel %.2f (%.2f) still %5.1f step %5.2f slide %.4f (%.4f) sunk %.4f gap %.4f "
+              "(%.4f) self "
               "%.4f %.4f confidence %.3f stretch %.2f lost %zu\n",
-              run.name.c_str(), run.spikes, run.acceleration, run.still, run.step, run.slide, run.sunk, run.gap,
-              run.source_gap, run.self_mean, run.self_max, run.confidence, run.stretch, run.lost);
+              run.name.c_str(), run.spikes, run.acceleration, run.rigid, run.still, run.step, run.slide, run.low,
+              run.sunk, run.gap, run.source_gap, run.self_mean, run.self_max, run.confidence, run.stretch, run.lost);
         all.push_back(run);
         if (run.name.find("Death") != std::string::npos) deaths.push_back(run);
       }

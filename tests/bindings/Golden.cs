@@ -416,10 +416,12 @@ class Scene
                 Lists(Get(step, "target_regions")), Numbers(Get(step, "flags")));
             case "remove_pairs": transfer.RemovePairs(Numbers(Get(step, "pairs"))); return null;
             case "transfer_info": return Fields(transfer.Info);
-            case "set_dials": { var o = Options(step, "stride", "hip_height", "neck_follow", "tail_follow", "arm_space");
+            case "set_dials": { var o = Options(step, "stride", "hip_height", "neck_follow", "tail_follow", "arm_space",
+                "long_follow");
                 transfer.Dials = new hf_transfer_dials { stride = (float)o["stride"],
                     hip_height = (float)o["hip_height"], neck_follow = (float)o["neck_follow"],
-                    tail_follow = (float)o["tail_follow"], arm_space = (float)o["arm_space"] }; return null; }
+                    tail_follow = (float)o["tail_follow"], arm_space = (float)o["arm_space"],
+                    long_follow = (float)o["long_follow"] }; return null; }
             case "dials": return Fields(transfer.Dials);
             case "apply": return transfer.Apply(Doubles(step, "positions"));
             default: throw new InvalidOperationException("unknown step " + what);

@@ -442,6 +442,8 @@ func lifetime():
 		var sinking = a.transfer_sinking()
 		expect(sinking.size() * 3 == bar.positions.size() and sinking[0] == 1 and sinking[280] == 0, "the first end may sink")
 		expect(a.transfer_set_dials(1.5, 0.25) == true and a.transfer_dials()["stride"] == 1.5 and a.transfer_dials()["arm_space"] == 0, "transfer_set_dials")
+		expect(a.transfer_set_dials(1, 0, 0, 0, 0, 1) == true and a.transfer_dials()["long_follow"] == 1, "the dial of long parts")
+		expect(a.transfer_set_dials(1.5, 0.25) == true, "dials again")
 		expect(a.transfer_set_dials(9) == null and a.transfer_dials()["hip_height"] == 0.25, "a refused dial")
 		expect(a.transfer_set_dials() == true and a.transfer_dials()["hip_height"] == 0, "neutral dials")
 		var pair = [a, b]

@@ -110,21 +110,21 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
                  {"hip_height", &dials.hip_height},
                  {"neck_follow", &dials.neck_follow},
                  {"tail_follow", &dials.tail_follow},
-                 {"arm_space", &dials.arm_space}},
+                 {"arm_space", &dials.arm_space},
+                 {"long_follow", &dials.long_follow}},
                 {{"stride", false},
                  {"hip_height", false},
                  {"neck_follow", false},
                  {"tail_follow", false},
-                 {"arm_space", false}});
+                 {"arm_space", false},
+                 {"long_follow", false}});
     check(hf_transfer_set_dials(on.transfer.get(), &dials));
   } else if (what == "dials") {
     auto dials = make<hf_transfer_dials>();
     check(hf_transfer_get_dials(on.transfer.get(), &dials));
-    result.fields = {{"stride", dials.stride},
-                     {"hip_height", dials.hip_height},
-                     {"neck_follow", dials.neck_follow},
-                     {"tail_follow", dials.tail_follow},
-                     {"arm_space", dials.arm_space}};
+    result.fields = {{"stride", dials.stride},           {"hip_height", dials.hip_height},
+                     {"neck_follow", dials.neck_follow}, {"tail_follow", dials.tail_follow},
+                     {"arm_space", dials.arm_space},     {"long_follow", dials.long_follow}};
   } else if (what == "transfer_info") {
     auto info = make<hf_transfer_info>();
     check(hf_transfer_get_info(on.transfer.get(), &info));

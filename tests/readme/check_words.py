@@ -20,7 +20,7 @@ wrong += [f"the panel {name} is no tool of the studio" for name in panels if nam
 
 dials = re.findall(r"\['\w+', '(.*?)', ", studio["transfer.js"].split("const DIALS")[1].split("];")[0])
 labels = re.findall(r'"\w+": \("(.*?)", ', addon["operators.py"].split("DIALS = {")[1].split("\n}")[0])
-if len(dials) != 5 or dials != labels:
+if len(dials) != 6 or dials != labels:
     wrong.append(f"dials of the studio are {dials}, those of the add-on {labels}")
 
 for word in ("Make quads", "Draw strokes", "Pole of ", "Creases from", "Mirror", "Compute weights", "Bones for each vertex"):

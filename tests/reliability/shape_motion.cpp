@@ -75,10 +75,12 @@ bool Player::transfer() {
   hf_transfer_info info = HF_INIT(hf_transfer_info);
   expect(HF_OK, hf_transfer_get_info(transfer.handle, &info), "hf_transfer_get_info");
   // aligned limbs take the direction of the source's
-  hold(info.aligned_count > 0 || off <= 1e-4 * size, "a source at rest gives a target that is off by " + std::to_string(off / size));
+  hold(info.aligned_count > 0 || off <= 1e-4 * size,
+       "a source at rest gives a target that is off by " + std::to_string(off / size));
   hold(frame(posed()) == moved, "hf_transfer_apply: other bits of the same frame");
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
-  dials.stride = 0.5f, dials.hip_height = how & 64 ? 0.2f : -0.2f, dials.tail_follow = 1, dials.arm_space = 0.5f;
+  dials.stride = 0.5f, dials.hip_height = how & 64 ? 0.2f : -0.2f, dials.tail_follow = 1, dials.arm_space = 0.5f,
+  dials.long_follow = 0.5f;
   expect(HF_OK, hf_transfer_set_dials(transfer.handle, &dials), "hf_transfer_set_dials");
   frame(posed());
   expect(HF_OK, hf_transfer_set_dials(transfer.handle, nullptr), "hf_transfer_set_dials");

@@ -196,6 +196,7 @@ struct Calls {
     if (random.one_in(2)) dials.hip_height = value(-0.5, 0.5);
     if (random.one_in(2)) dials.neck_follow = value(-1, 1), dials.tail_follow = value(-1, 1);
     if (random.one_in(2)) dials.arm_space = value(-1.5, 1.5);
+    if (random.one_in(2)) dials.long_follow = value(0, 1);
     const hf_transfer_dials* given = random.spoiled(dials);
     const hf_result result = hf_transfer_set_dials(s.handle_, given);
     if (result == HF_OK) s.dials_ = given ? dials : HF_INIT(hf_transfer_dials);  // NULL: neutral ones

@@ -271,6 +271,7 @@ DIALS = {  # of hf_transfer_dials: label, neutral value, range, what it does
     "tail_follow": ("Tail follows", 0.0, -1.0, 1.0,
         "1: the tail points where the source's points; -1: it does not move against the trunk"),
     "arm_space": ("Room at the arms", 0.0, -1.5707, 1.5707, "Turns the arms away from the body"),
+    "long_follow": ("Long parts follow", 0.0, 0.0, 1.0, "1: a long sword, tail or head makes the source's whole turn"),
 }
 
 

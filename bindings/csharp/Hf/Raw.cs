@@ -1015,6 +1015,7 @@ namespace Hf.Native
         public float neck_follow;
         public float tail_follow;
         public float arm_space;
+        public float long_follow;
     }
 
     [StructLayout(LayoutKind.Sequential)]

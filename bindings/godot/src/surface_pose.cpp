@@ -216,10 +216,11 @@ Value transfer_to(Surface& s, const Arguments& a) {
   return done();
 }
 
-// transfer_set_dials(stride = 1, hip height = 0, neck follow = 0, tail follow = 0, arm space = 0)
+// transfer_set_dials(stride = 1, hip height = 0, neck follow = 0, tail follow = 0, arm space = 0, long follow = 0)
 Value transfer_set_dials(Surface& s, const Arguments& a) {
   auto dials = make<hf_transfer_dials>();
-  float* const fields[] = {&dials.stride, &dials.hip_height, &dials.neck_follow, &dials.tail_follow, &dials.arm_space};
+  float* const fields[] = {&dials.stride,      &dials.hip_height, &dials.neck_follow,
+                           &dials.tail_follow, &dials.arm_space,  &dials.long_follow};
   for (size_t i = 0; i < a.size(); ++i) *fields[i] = static_cast<float>(a[i].number);
   check(hf_transfer_set_dials(s.transfer.get(), &dials));
   return done();
@@ -232,7 +233,8 @@ Value transfer_dials(Surface& s, const Arguments&) {
                 {"hip_height", dials.hip_height},
                 {"neck_follow", dials.neck_follow},
                 {"tail_follow", dials.tail_follow},
-                {"arm_space", dials.arm_space}});
+                {"arm_space", dials.arm_space},
+                {"long_follow", dials.long_follow}});
 }
 
 // A number for every vertex of the target: 1 where it may sink into the ground.
@@ -273,7 +275,7 @@ const std::vector<Entry>& pose_methods() {
       {"skin_bones", 0, 1, skin_bones},
       {"skin_weights", 0, 1, skin_weights},
       {"transfer_to", 3, 5, transfer_to},
-      {"transfer_set_dials", 0, 5, transfer_set_dials},
+      {"transfer_set_dials", 0, 6, transfer_set_dials},
       {"transfer_dials", 0, 0, transfer_dials},
       {"transfer_sinking", 0, 0, transfer_sinking},
       {"transfer_apply", 1, 1, transfer_apply},

@@ -205,7 +205,7 @@ export function poseClasses(tools) {
     get info() {
       return query('hf_transfer_info', 'hf_transfer_get_info', this._handle);
     }
-    /** stride, hipHeight, neckFollow, tailFollow, armSpace of the next frames; the others become neutral. */
+    /** stride, hipHeight, neckFollow, tailFollow, armSpace, longFollow of the next frames; the others become neutral. */
     setDials(dials = {}) {
       call('hf_transfer_set_dials', this._handle, make('hf_transfer_dials').options(dials));
     }

@@ -824,13 +824,14 @@ export const layouts = {
     target_factorisation_count: ['u32', [28, 28], 0],
     scale: ['f64', [32, 32], 0],
   } },
-  hf_transfer_dials: { size: [24, 24], fields: {
+  hf_transfer_dials: { size: [28, 28], fields: {
     struct_size: ['u32', [0, 0], 0],
     stride: ['f32', [4, 4], 0],
     hip_height: ['f32', [8, 8], 0],
     neck_follow: ['f32', [12, 12], 0],
     tail_follow: ['f32', [16, 16], 0],
     arm_space: ['f32', [20, 20], 0],
+    long_follow: ['f32', [24, 24], 0],
   } },
   hf_transfer_frame: { size: [52, 80], fields: {
     struct_size: ['u32', [0, 0], 0],

@@ -1653,6 +1653,7 @@ class hf_transfer_dials(Structure):
     neck_follow: float
     tail_follow: float
     arm_space: float
+    long_follow: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("stride", c_float),
@@ -1660,6 +1661,7 @@ class hf_transfer_dials(Structure):
         ("neck_follow", c_float),
         ("tail_follow", c_float),
         ("arm_space", c_float),
+        ("long_follow", c_float),
     ]
 
 

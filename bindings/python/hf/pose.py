@@ -242,7 +242,7 @@ class Transfer(Object):
         return self._read("hf_transfer_get_info", _raw.hf_transfer_info)
 
     def set_dials(self, **dials: float) -> None:
-        """stride, hip_height, neck_follow, tail_follow, arm_space of the next frames; the others become neutral."""
+        """stride, hip_height, neck_follow, tail_follow, arm_space, long_follow of the next frames; the others become neutral."""
         desc = make(_raw.hf_transfer_dials)
         options_into(desc, dials)
         call("hf_transfer_set_dials", self._raw_handle, ctypes.byref(desc))

@@ -58,6 +58,8 @@ options!(
         tail_follow: f32,
         /// radians by which arms turn away from the body
         arm_space: f32,
+        /// how far parts that reach farther than the source's make its whole turn, 0 to 1
+        long_follow: f32,
     }
 );
 

@@ -1928,6 +1928,7 @@ pub struct hf_transfer_dials {
     pub neck_follow: f32,
     pub tail_follow: f32,
     pub arm_space: f32,
+    pub long_follow: f32,
 }
 impl Default for hf_transfer_dials {
     fn default() -> Self {
@@ -1947,6 +1948,7 @@ impl hf_transfer_dials {
             "neck_follow" => f64::from(self.neck_follow),
             "tail_follow" => f64::from(self.tail_follow),
             "arm_space" => f64::from(self.arm_space),
+            "long_follow" => f64::from(self.long_follow),
             _ => return None,
         })
     }

@@ -59,7 +59,7 @@ TEST(TransferDials, NeutralDialsGiveTheBitsOfNoDials) {
   Dialled d;
   hf_inner::Transfer plain(d.a.horse.core, d.a.bull.core, {});
   add(plain, d.a.pairs.inputs());
-  const Dials turned{1.3, 0.1, 0.5, -0.5, 0.3};
+  const Dials turned{1.3, 0.1, 0.5, -0.5, 0.3, 1};
   for (const double time : {0.0, 0.3, 0.7}) {
     const std::vector<Vec3> posed = d.a.horse.posed(d.a.walk, time);
     const std::vector<Vec3> expected = frame_of(plain, posed);
@@ -74,7 +74,7 @@ TEST(TransferDials, NeutralDialsGiveTheBitsOfNoDials) {
 
 TEST(TransferDials, DialsSetBeforeThePairsAreThoseSetAfterThem) {
   Dialled d;
-  const Dials turned{1.2, -0.1, 0.7, -0.4, 0.2};
+  const Dials turned{1.2, -0.1, 0.7, -0.4, 0.2, 0.6};
   hf_inner::Transfer before(d.a.horse.core, d.a.bull.core, {});
   before.set_dials(turned), add(before, d.pairs.inputs());
   d.transfer.set_dials(turned);
@@ -249,17 +249,37 @@ TEST(TransferDials, ArmSpaceTurnsTheArmOfEachSideAwayByItsAngle) {
   EXPECT_NEAR(hf_inner::angle_between(turns[joints[0]], {}), 0.4, 1e-6);
 }
 
+TEST(TransferDials, LongPartsMakeTheWholeTurnAndNothingElseChanges) {
+  Dialled d;
+  const auto farthest = [&](double follow) {
+    Dials dials;
+    dials.long_follow = follow;
+    d.transfer.set_dials(dials);
+    return frame_of(d.transfer, d.a.horse.posed(d.a.walk, 0.35));
+  };
+  const std::vector<Vec3> none = farthest(0), half = farthest(0.5), whole = farthest(1);
+  EXPECT_GT(largest_distance(none, whole) / d.a.box, 5e-4);
+  EXPECT_LT(largest_distance(none, half), largest_distance(none, whole));
+  for (const char* foot : feet)
+    EXPECT_LT(hf_inner::norm(d.place(foot, none) - d.place(foot, whole)) / d.a.box, 0.002) << foot;
+  const std::vector<Vec3> rest = d.a.horse.rest();
+  Dials dials;
+  const std::vector<Vec3> still = (d.transfer.set_dials(dials), frame_of(d.transfer, rest));
+  dials.long_follow = 1, d.transfer.set_dials(dials);
+  EXPECT_LT(largest_distance(frame_of(d.transfer, rest), still) / d.a.box, 1e-6) << "at rest";
+}
+
 TEST(TransferDials, ResultsAreContinuousInEveryDial) {
   Dialled d;
   Dialled arms(HF_PAIR_ARM);
   const std::vector<Vec3> posed = d.a.horse.posed(d.a.walk, 0.35);
-  for (int which = 0; which < 5; ++which) {
+  for (int which = 0; which < 6; ++which) {
     Dialled& body = which == 4 ? arms : d;
     const auto frame = [&](double x) {
       Dials dials;
-      double* const values[] = {&dials.stride, &dials.hip_height, &dials.neck_follow, &dials.tail_follow,
-                                &dials.arm_space};
-      *values[which] += x;
+      double* const values[] = {&dials.stride,      &dials.hip_height, &dials.neck_follow,
+                                &dials.tail_follow, &dials.arm_space,  &dials.long_follow};
+      *values[which] += which == 5 ? 0.5 + x : x;
       body.transfer.set_dials(dials);
       return frame_of(body.transfer, posed);
     };
@@ -292,9 +312,9 @@ TEST(TransferDials, ARefusedDialLeavesTheOthers) {
   const Dials set{1.2, 0.1, 0.2, 0.3, 0.1};
   d.transfer.set_dials(set);
   const std::vector<Vec3> posed = d.a.horse.posed(d.a.walk, 0.2), before = frame_of(d.transfer, posed);
-  for (const Dials& bad :
-       {Dials{0.09, 0, 0, 0, 0}, Dials{4.1, 0, 0, 0, 0}, Dials{1, 0.6, 0, 0, 0}, Dials{1, 0, -1.1, 0, 0},
-        Dials{1, 0, 0, 1.1, 0}, Dials{1, 0, 0, 0, 1.6}, Dials{std::nan(""), 0, 0, 0, 0}})
+  for (const Dials& bad : {Dials{0.09, 0, 0, 0, 0}, Dials{4.1, 0, 0, 0, 0}, Dials{1, 0.6, 0, 0, 0},
+                           Dials{1, 0, -1.1, 0, 0}, Dials{1, 0, 0, 1.1, 0}, Dials{1, 0, 0, 0, 1.6},
+                           Dials{1, 0, 0, 0, 0, 1.1}, Dials{1, 0, 0, 0, 0, -0.1}, Dials{std::nan(""), 0, 0, 0, 0}})
     EXPECT_ANY_THROW(d.transfer.set_dials(bad));
   EXPECT_EQ(d.transfer.dials().stride, 1.2);
   EXPECT_EQ(largest_distance(frame_of(d.transfer, posed), before), 0);

@@ -53,13 +53,15 @@ struct Bar {
   }
 };
 
-Levers levers(const Bar& from, const Bar& to, hf_inner::Memory& memory, double end = 1) {
+// end: how far the last part is a limb. longer: how many times as far it is from the second part to the end of its
+// limb.
+Levers levers(const Bar& from, const Bar& to, hf_inner::Memory& memory, double end = 1, double longer = 1) {
   Levers out(memory);
-  const double limb[3] = {0, 1, end};
+  const double limb[3] = {0, 1, end}, ends[3] = {1, longer, 1};
   // lengths that are not the limb's: both bars in units of the first part
   const double scale = from.core->mesh.scale / to.core->mesh.scale;
   out.prepare(hf_inner::overlaps_of(3, from.surface(), memory), hf_inner::overlaps_of(3, to.surface(), memory),
-              {limb, 3}, scale, to.core->mesh.to_inner({0, 0, 0}), memory);
+              {limb, 3}, {limb, 3}, {ends, 3}, scale, to.core->mesh.to_inner({0, 0, 0}), memory);
   return out;
 }
 
@@ -71,7 +73,7 @@ TEST(TransferLevers, APartThatReachesThreeTimesAsFarFollowsAThird) {
   EXPECT_NEAR(found.follow(1), 1, 0.1);
   EXPECT_NEAR(found.follow(2), 1.0 / 3, 0.05);
   Quaternion turned[3] = {Quaternion(), Quaternion(), hf_inner::exponential({0, 0, 0.2})};
-  found.turn(Quaternion(), turned);
+  found.turn(Quaternion(), 0, turned);
   EXPECT_NEAR(turned[2].angularDistance(Quaternion()), found.follow(2) * 0.2, 0.001);
   EXPECT_LT(turned[1].angularDistance(Quaternion()), 1e-12);
 }
@@ -84,7 +86,7 @@ TEST(TransferLevers, WhatHangsOnSuchAPartKeepsToIt) {
   ASSERT_EQ(found.follow(2), 1);
   const Quaternion both = hf_inner::exponential({0, 0.3, 0});
   Quaternion turned[3] = {Quaternion(), both, both};
-  found.turn(Quaternion(), turned);
+  found.turn(Quaternion(), 0, turned);
   EXPECT_LT(turned[1].angularDistance(Quaternion()), 0.2);
   EXPECT_LT(turned[2].angularDistance(turned[1]), 1e-12) << "an ear keeps to its head";
 }
@@ -95,7 +97,7 @@ TEST(TransferLevers, AFootBehindSuchAPartTurnsAsItsSource) {
   Levers found = levers(from, to, memory, 0);
   const Quaternion foot = hf_inner::exponential({0.1, 0.2, 0});
   Quaternion turned[3] = {Quaternion(), hf_inner::exponential({0, 0.3, 0}), foot};
-  found.turn(Quaternion(), turned);
+  found.turn(Quaternion(), 0, turned);
   EXPECT_TRUE(turned[2].coeffs() == foot.coeffs());
 }
 
@@ -108,7 +110,7 @@ TEST(TransferLevers, NoTurnMakesAPartJump) {
     const double step = 0.01;
     for (double angle = 0; angle < 2 * pi + step; angle += step) {
       Quaternion turned[3] = {Quaternion(), Quaternion(), hf_inner::exponential({0.6 * angle, 0, 0.8 * angle})};
-      found.turn(Quaternion(), turned);
+      found.turn(Quaternion(), 0, turned);
       EXPECT_LT(turned[2].angularDistance(last), 2 * step) << length << " times as long at " << angle;
       last = turned[2];
     }
@@ -122,8 +124,37 @@ TEST(TransferLevers, TheSameBodyKeepsItsRotationsToTheLastBit) {
   const Quaternion given[3] = {hf_inner::exponential({1, 0, 0}), hf_inner::exponential({0, 2, 1}),
                                hf_inner::exponential({0.4, -1, 3})};
   Quaternion turned[3] = {given[0], given[1], given[2]};
-  found.turn(hf_inner::exponential({0.1, 0, 0}), turned);
+  found.turn(hf_inner::exponential({0.1, 0, 0}), 0, turned);
   for (int c = 0; c < 3; ++c) EXPECT_TRUE(turned[c].coeffs() == given[c].coeffs()) << c;
+}
+
+TEST(TransferLevers, ADialTakesThePartToTheWholeTurn) {
+  const Bar from({1, 1, 1}), to({1, 1, 3});
+  hf_inner::Memory memory;
+  Levers found = levers(from, to, memory);
+  const Quaternion given = hf_inner::exponential({0.3, 0, 1.9});
+  double before = 0;
+  for (const double whole : {0.0, 0.25, 0.5, 1.0}) {
+    Quaternion turned[3] = {Quaternion(), Quaternion(), given};
+    found.turn(Quaternion(), whole, turned);
+    const double angle = turned[2].angularDistance(Quaternion()), all = given.angularDistance(Quaternion());
+    if (whole == 0) before = angle;
+    EXPECT_LT(before, 0.7 * all);
+    EXPECT_NEAR(angle, before + whole * (all - before), 1e-9) << whole;
+    if (whole == 1) {
+      EXPECT_TRUE(turned[2].coeffs() == given.coeffs());
+    }
+  }
+}
+
+TEST(TransferLevers, APartWhoseLimbEndsFartherAwayFollowsLess) {
+  const Bar bar({1, 1, 1});
+  hf_inner::Memory memory;
+  EXPECT_NEAR(levers(bar, bar, memory, 1, 2.5).follow(1), 0.4, 1e-12);
+  EXPECT_EQ(levers(bar, bar, memory, 1, 0.4).follow(1), 1) << "no part turns more than its source";
+  // the larger of both counts
+  EXPECT_NEAR(levers(bar, Bar({1, 3, 1}), memory, 1, 1.5).follow(1), levers(bar, Bar({1, 3, 1}), memory).follow(1),
+              1e-12);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ const DIALS = [
   ['neckFollow', 'Neck follows', 0, -1, 1, 'neck'],
   ['tailFollow', 'Tail follows', 0, -1, 1, 'tail'],
   ['armSpace', 'Room at the arms', 0, -0.8, 0.8, 'arm'],
+  ['longFollow', 'Long parts follow', 0, 0, 1, null],
 ];
 
 /** `kit`: what the page has loaded already (studio.js). */
