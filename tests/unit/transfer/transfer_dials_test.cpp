@@ -324,7 +324,7 @@ TEST(TransferFeet, StandUnderABodyThatLeans) {
   Dialled d;
   const std::vector<Vec3> rest = d.a.horse.rest(), still = frame_of(d.transfer, rest);
   const double ground = lowest_of(rest), size = d.a.horse.core->mesh.scale;
-  for (const double lean : {0.5, 0.8}) {
+  for (const double lean : {0.7, 1.0}) {
     // all but the feet turns about an axis through the ground
     std::vector<Vec3> posed = rest;
     for (Vec3& p : posed) {
@@ -335,7 +335,7 @@ TEST(TransferFeet, StandUnderABodyThatLeans) {
     const std::vector<Vec3> out = frame_of(d.transfer, posed);
     for (const char* foot : feet) {
       const Vec3 moved = d.place(foot, out) - d.place(foot, still);
-      EXPECT_LT(std::hypot(moved.x, moved.z) / d.a.box, 0.002) << foot << " at " << lean;
+      EXPECT_LT(std::hypot(moved.x, moved.z) / d.a.box, 1e-4) << foot << " at " << lean;
     }
   }
 }
