@@ -320,4 +320,24 @@ TEST(TransferDials, ARefusedDialLeavesTheOthers) {
   EXPECT_EQ(largest_distance(frame_of(d.transfer, posed), before), 0);
 }
 
+TEST(TransferFeet, StandUnderABodyThatLeans) {
+  Dialled d;
+  const std::vector<Vec3> rest = d.a.horse.rest(), still = frame_of(d.transfer, rest);
+  const double ground = lowest_of(rest), size = d.a.horse.core->mesh.scale;
+  for (const double lean : {0.7, 1.0}) {
+    // all but the feet turns about an axis through the ground
+    std::vector<Vec3> posed = rest;
+    for (Vec3& p : posed) {
+      const double share = std::min(1.0, std::max(0.0, (p.y - ground) / size - 0.06) / 0.2), angle = lean * share;
+      const double y = p.y - ground, x = p.x;
+      p.x = x * std::cos(angle) - y * std::sin(angle), p.y = ground + x * std::sin(angle) + y * std::cos(angle);
+    }
+    const std::vector<Vec3> out = frame_of(d.transfer, posed);
+    for (const char* foot : feet) {
+      const Vec3 moved = d.place(foot, out) - d.place(foot, still);
+      EXPECT_LT(std::hypot(moved.x, moved.z) / d.a.box, 1e-4) << foot << " at " << lean;
+    }
+  }
+}
+
 }  // namespace
