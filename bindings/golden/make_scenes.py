@@ -273,6 +273,7 @@ def scenes(meshes):
           pose(do="deform", options={"restart": 1, "iteration_count": 20}, keep="bent",
               expect={**expect_rows(about(turn, p[high].mean(0), p[high]) + [1, 0, 0], high)}),
           pose(do="deform", options={"restart": 1, "iteration_count": 20}, same_as="bent", expect=agree()),
+          pose(do="deform", options={"refine": 2, "refine_from_last": 1}, expect=agree()),
           pose(do="handle_field", handle=1, expect=agree(2e-6)), pose(do="skin", weight_count=4, expect=agree(2e-6)),
           pose(do="add_handles", regions=[middle], layer=1, numbers=[2]), pose(do="handle_info", handle=2,
               expect={"layer": 1}),

@@ -403,8 +403,8 @@ class Scene
             case "remove_handles": pose.RemoveHandles(Numbers(Get(step, "handles"))); return null;
             case "set_transforms": pose.SetTransforms(Numbers(Get(step, "handles")), Doubles(step, "rotations"),
                 Doubles(step, "translations")); return null;
-            case "deform": { var o = Options(step, "restart", "iteration_count", "refine");
-                return pose.DeformDouble((uint)o["iteration_count"], o["restart"] != 0, (int)o["refine"]); }
+            case "deform": { var o = Options(step, "restart", "iteration_count", "refine", "refine_from_last");
+                return pose.DeformDouble((uint)o["iteration_count"], o["restart"] != 0, (int)o["refine"], o["refine_from_last"] != 0); }
             case "handle_field": return pose.HandleField(Whole(step, "handle")).Select(x => (double)x).ToArray();
             case "handle_info": return Fields(pose.HandleInfo(Whole(step, "handle")));
             case "handle_place": return Place(pose.HandleInfo(Whole(step, "handle")));

@@ -63,7 +63,11 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
   } else if (what == "deform") {
     auto desc = make<hf_deform_desc>();
     set_options(step, desc,
-                {{"restart", &desc.restart}, {"iteration_count", &desc.iteration_count}, {"refine", &desc.refine}}, {});
+                {{"restart", &desc.restart},
+                 {"iteration_count", &desc.iteration_count},
+                 {"refine", &desc.refine},
+                 {"refine_from_last", &desc.refine_from_last}},
+                {});
     result.array.emplace(3 * on.vertex_count);
     desc.positions_f64 = result.array->data();
     check(hf_pose_deform(pose, &desc, nullptr));
