@@ -196,9 +196,10 @@ typedef struct hf_deform_desc {
                      about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
                      sharper */
   int32_t refine_from_last; /* 1: the steps go on from the surface of the last call, instead of starting at the smooth
-                               pose. One step a frame then keeps lengths in a drag as well as 8 steps of its own would.
-                               While handles stand still, each call comes nearer to the minimum. Needs a refine of 1 or
-                               more. Higher layers start at the smooth pose */
+                               pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the
+                               handles stand still, more calls go on to the minimum. A restart, or a call without it,
+                               forgets that surface. Needs a refine of 1 or more. Higher layers start at the smooth
+                               pose. Memory: 72 bytes a vertex */
   uint32_t first_vertex;    /* outputs hold vertex_count vertices from this one on; 0 and 0: all */
   uint32_t vertex_count;    /* positions of a range cost only the range, without higher layers, refine and normals */
   uint32_t reserved;        /* 0 */

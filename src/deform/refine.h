@@ -15,12 +15,13 @@
 // = 2 / (2 - r^2), w_k+1 = 4 / (4 - r^2 w_k) (Chebyshev's semi-iterative method for local and global steps, Wang 2015),
 // and r is 1 - 0.4 / steps.
 //
-// Steps can also go on from the last frame's surface (Followed). With x the blended pose and y the refined surface, the
-// correction c = y - x of the last frame turns with the pose, and the first step begins at
-//     x_v + q_v (c_v + refine_momentum m_v),
-// where q_v is the rotation from the last blended pose to this one, blended from the clusters, and m is how c changed
-// in the last step. So the steps of all frames are one iteration (with Nesterov's momentum), which goes to the minimum
-// while handles stand still. The momentum is dropped when a step goes against it (O'Donoghue and Candes 2015).
+// Steps can also go on from the last frame's surface (Followed). Let x be the blended pose and y the refined surface.
+// The correction of the last frame is c = y - x. It turns with the pose, and the first step begins at
+//     x_v + q_v (c_v + refine_momentum m_v).
+// The rotation q_v leads from the last blended pose to this one; it is blended from the clusters. m is how c changed in
+// the last step (Nesterov's momentum, 1983). So the steps of all frames are one iteration. While handles stand still,
+// it goes to the minimum. The momentum is dropped when a step goes against it (O'Donoghue and Candes 2015). With
+// it, the energy may still grow for a step.
 //
 // GroupStart finds the rotation of every rotation group on a given surface, from the edges at some of its vertices.
 //
@@ -47,6 +48,7 @@ struct RefineInput {
 
 // What the steps of one frame leave for the next.
 struct Followed {
+  // No correction yet.
   Followed(std::size_t vertices, std::size_t clusters, Memory& memory)
       : correction(memory, 3 * vertices), change(memory, 3 * vertices), rotation(clusters, Quaternion(), &memory) {
     forget();
@@ -59,6 +61,7 @@ struct Followed {
     std::copy(other.correction.begin(), other.correction.end(), correction.begin());
     std::copy(other.change.begin(), other.change.end(), change.begin());
   }
+  // Drops the correction: the next steps begin at the blended pose.
   void forget() noexcept {
     std::fill(correction.begin(), correction.end(), 0.0f);
     std::fill(change.begin(), change.end(), 0.0f);

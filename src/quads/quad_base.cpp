@@ -16,11 +16,11 @@ namespace {
 // 1,800 quads is 1.21 instead of 1.04 % of the box away. At 5,000 quads the crosses have at most 1.2 times the
 // singularities of Instant Meshes on 37 instead of 30 of 40 meshes. Numbers between were not tried.
 constexpr double paired_below = 3000;
-// Radius over which crosses are evened out, in edge lengths of the quads, or of the surface where those are longer,
-// with pairs and without. Less follows the principal directions, more has fewer singularities. With pairs, half changes
-// means by at most 4 %. At twice the value aspects and angles fall by 5 %, and distances grow by 15 %. Without, the
-// crosses of 41 meshes at 5,000 quads have at most 1.2 times the singularities of Instant Meshes on 36, 37, 37 and 36
-// of 40 with 2.8, 3, 3.4 and 4, and are at most 11 degrees off on 31, 31, 31 and 28.
+// Radius over which crosses are evened out, in edge lengths of the quads, or of the surface where those are longer. The
+// second number is for quads that leave pairs out. Less follows the principal directions, more has fewer singularities.
+// First number: half changes means by at most 4 %; at twice the value aspects and angles fall by 5 %, and distances
+// grow by 15 %. Second number: with 2.8, 3, 3.4 and 4 the crosses have at most 1.2 times the singularities of Instant
+// Meshes on 36, 37, 37 and 36 of 40 meshes at 5,000 quads, and are at most 11 degrees off on 31, 31, 31 and 28 of 41.
 constexpr double smooth_radius = 4, smooth_radius_fine = 3.4;
 // Radius in edge lengths over which the curvature is evened out: trades details for calm crosses. Half changes 5 of 15
 // runs; distances grow by 4 %. At twice the value irregular vertices fall by 4 % and aspects by 5 %.

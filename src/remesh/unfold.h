@@ -13,6 +13,7 @@
 
 namespace hf_inner {
 
+// Unfolds. The mesh may then lie farther from the surface; the caller judges that.
 void unfold_corners(const FluxSurface& surface, double edge_length, QuadMesh& mesh, Memory& memory);
 
 // Unfolds, and where the mesh then lies farther from the surface than before, the moved vertices go back.

@@ -94,14 +94,20 @@ class Poses final : public Subject {
     state.begin("the next frame of a pose");
     state.add(hf_pose_clone(b.handle, &copy));
     state.add(hf_pose_deform(copy, &frame, nullptr)), state.add(positions), state.add(normals);
+    hf_pose_destroy(copy), copy = nullptr;
+    state.begin("full-mesh steps from the last frame of a pose");
+    frame.refine = frame.refine_from_last = 1;
+    state.add(hf_pose_clone(b.handle, &copy));
+    state.add(hf_pose_deform(copy, &frame, nullptr)), state.add(positions), state.add(normals);
     hf_pose_destroy(copy);
   }
   std::string compare_fresh(const Branch& b) const;
   // The frame of a pose that starts from its fields.
-  hf_result frame_of(hf_pose pose, std::int32_t refine, std::vector<double>& out) const {
+  hf_result frame_of(hf_pose pose, std::int32_t refine, std::int32_t from_last, std::vector<double>& out) const {
     out.assign(3 * world.shape->vertices(), 0.0);
     hf_deform_desc frame = HF_INIT(hf_deform_desc);
     frame.positions_f64 = out.data(), frame.restart = 1, frame.iteration_count = 5, frame.refine = refine;
+    frame.refine_from_last = from_last;
     return hf_pose_deform(pose, &frame, nullptr);
   }
 
@@ -165,14 +171,14 @@ hf_result fill(hf_pose fresh, const Branch& b, bool batches) {
 // A frame with restart has the bits of a fresh pose with the same handles and transforms (hf/pose.h).
 std::string Poses::compare_fresh(const Branch& b) const {
   if (b.handles.empty()) return {};
-  for (const std::int32_t refine : {0, 3}) {
+  for (const auto& [refine, from_last] : {std::pair{0, 0}, std::pair{3, 0}, std::pair{2, 1}}) {
     hf_pose fresh = nullptr, copy = nullptr;
     std::vector<double> here, there;
     hf_result result = hf_pose_create(world.surface, &desc_, &fresh);
     if (result == HF_OK) result = fill(fresh, b, refine > 0);
-    if (result == HF_OK) result = frame_of(fresh, refine, there);
+    if (result == HF_OK) result = frame_of(fresh, refine, from_last, there);
     if (result == HF_OK) result = hf_pose_clone(b.handle, &copy);
-    if (result == HF_OK) result = frame_of(copy, refine, here);
+    if (result == HF_OK) result = frame_of(copy, refine, from_last, here);
     hf_pose_destroy(fresh), hf_pose_destroy(copy);
     if (result != HF_OK) return std::string("a fresh pose: ") + hf_result_get_name(result);
     if (here != there) return "a fresh pose differs by " + text(difference(here, there));
@@ -294,7 +300,8 @@ struct Calls {
     desc.positions_f64 = positions.data();
     if (random.one_in(2)) desc.normals = normals.data();
     desc.iteration_count = random.pick({0u, 0u, 1u, 7u, 2000u}), desc.restart = random.pick({0, 0, 0, 1, 2});
-    desc.refine = random.pick({0, 0, 1, 3}), desc.first_vertex = random.pick({0u, 0u, 0u, 3u, 5000u});
+    desc.refine = random.pick({0, 0, 1, 3}), desc.refine_from_last = random.pick({0, 0, 0, 1, 1, 2});
+    desc.first_vertex = random.pick({0u, 0u, 0u, 3u, 5000u});
     if (random.one_in(10)) desc.position_stride = 7;
     if (random.one_in(5)) return hf_deform(b.handle, normals.data(), random.spoiled(info));
     return hf_pose_deform(b.handle, random.spoiled(desc), random.spoiled(info));
