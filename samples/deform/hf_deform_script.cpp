@@ -184,7 +184,6 @@ Model animated(const PosableMesh& mesh, const std::vector<Key>& keys) {
   for (size_t p = 0; p < primitives.size(); ++p) {
     const FlatPart& part = mesh.flat.parts[p];
     Primitive& primitive = *primitives[p];
-    primitive.tangents.clear();
     for (const Key& key : keys) {
       MorphTarget target;
       for (uint32_t i = 0; i < part.vertex_count; ++i) {

@@ -263,13 +263,20 @@ void Session::change(const Edit& edit) {
   }
 }
 
-std::vector<bool> Session::reached() const {
-  std::vector<uint32_t> component(vertex_count_), served(hf_solver_get_site_count(solver_));
+std::vector<bool> Session::reached(const std::vector<double>& field) const {
+  std::vector<uint32_t> component(vertex_count_);
   check(hf_surface_get_components(surface_, vertex_count_, component.data(), nullptr));
-  hf_sites_info info = HF_INIT(hf_sites_info);
-  info.capacity = static_cast<uint32_t>(served.size()), info.components = served.data();
-  check(hf_solver_get_sites(solver_, &info));
-  const std::set<uint32_t> found(served.begin(), served.end());
+  std::set<uint32_t> found;
+  if (direction_) {  // vectors are 0 where no site reaches
+    for (size_t i = 0; i < field.size(); ++i)
+      if (field[i] != 0) found.insert(component[i / 3]);
+  } else {
+    std::vector<uint32_t> served(hf_solver_get_site_count(solver_));
+    hf_sites_info info = HF_INIT(hf_sites_info);
+    info.capacity = static_cast<uint32_t>(served.size()), info.components = served.data();
+    check(hf_solver_get_sites(solver_, &info));
+    found.insert(served.begin(), served.end());
+  }
   std::vector<bool> reached(vertex_count_);
   for (uint32_t v = 0; v < vertex_count_; ++v) reached[v] = found.count(component[v]) > 0;
   return reached;

@@ -46,7 +46,7 @@ class Session {
   std::vector<glm::dvec3> positions(const SurfaceMesh& mesh) const;
 
   // Tells for each vertex whether its component has a site.
-  std::vector<bool> reached() const;
+  std::vector<bool> reached(const std::vector<double>& field) const;
 
   std::vector<hf_extremity> extremities(int kind) const;
   // Geodesic distance of every vertex to the nearest source, or -1 where there is no path.

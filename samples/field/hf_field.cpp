@@ -73,8 +73,7 @@ FieldView view_of(const Session& session, const SurfaceMesh& mesh, const std::ve
       for (size_t k = 0; k < 3; ++k) view.values[i + k] = length > 0 ? view.values[i + k] / length : 0;
     }
   }
-  if (options.kind == FieldType::direction) return view;
-  const std::vector<bool> reached = session.reached();
+  const std::vector<bool> reached = session.reached(field);
   for (size_t i = 0; i < field.size(); ++i) {
     if (!reached[i / session.components()]) view.values[i] = std::nan("");
   }

@@ -150,6 +150,8 @@ class Carrier {
   Carrier(const Primitive& from, Primitive& to) : from_(from), to_(to) {
     to_.topology = from.topology, to_.material = from.material, to_.carried = from.carried;
     to_.texcoords.resize(from.texcoords.size()), to_.targets.resize(from.targets.size());
+    to_.carried_attributes = from.carried_attributes;
+    for (auto& item : to_.carried_attributes) item.second.count = 0, item.second.bytes.clear();
     size_t most = 4;
     for (const Influences& given : from.influences) most = given.weights[4] > 0 ? 8 : most;
     slots_ = most;
@@ -161,12 +163,26 @@ class Carrier {
     to_.positions.push_back(mix(look, from_.positions));
     for (size_t s = 0; s < from_.texcoords.size(); ++s) to_.texcoords[s].push_back(mix(look, from_.texcoords[s]));
     if (!from_.colors.empty()) to_.colors.push_back(mix(look, from_.colors));
+    // the side is that of the nearest corner
+    const int nearest = static_cast<int>(std::max_element(&look.weights[0], &look.weights[0] + 3) - &look.weights[0]);
+    if (!from_.tangents.empty()) {
+      to_.tangents.push_back(mix(look, from_.tangents));
+      to_.tangents.back().w = from_.tangents[look.vertex[nearest]].w;
+    }
     for (size_t t = 0; t < from_.targets.size(); ++t) {
       const MorphTarget &own = from_.targets[t], &target = motion.primitive->targets[t];
       if (!own.positions.empty()) to_.targets[t].positions.push_back(mix(motion, target.positions));
       if (!own.normals.empty()) to_.targets[t].normals.push_back(mix(motion, target.normals));
     }
     if (!from_.influences.empty()) to_.influences.push_back(influences(motion));
+    // numbers of unknown meaning have no mean: those of the nearest corner
+    for (size_t a = 0; a < from_.carried_attributes.size(); ++a) {
+      const CarriedNumbers& own = from_.carried_attributes[a].second;
+      CarriedNumbers& to = to_.carried_attributes[a].second;
+      const size_t row = own.bytes.size() / own.count;
+      const auto at = own.bytes.begin() + static_cast<std::ptrdiff_t>(row * look.vertex[nearest]);
+      to.bytes.insert(to.bytes.end(), at, at + static_cast<std::ptrdiff_t>(row)), ++to.count;
+    }
     return static_cast<uint32_t>(to_.positions.size() - 1);
   }
 

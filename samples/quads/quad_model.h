@@ -5,7 +5,7 @@
 // from one chart, that of its middle. At a seam a corner has a copy for each chart; where it lies beyond its chart, the
 // nearest point of the chart gives its texture coordinates and colours. All copies move alike, so no seam opens.
 // Numbers are interpolated in the triangle of the surface where the corner lies. Normals are those of the quads, smooth
-// over all of them; tangents go.
+// over all of them.
 //
 // glTF has triangles only. Each face becomes a fan, and FB_ngon_encoding says so: triangles one after the other with
 // the same first corner are one face. Cost: O(n log n).

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "gltf/animate.h"
+#include "gltf/gltf_carried.h"
 
 namespace hf_gltf {
 namespace {
@@ -219,12 +220,23 @@ void straighten_tangents(Primitive& primitive) {
     glm::vec3 t(primitive.tangents[v]);
     t -= n * glm::dot(n, t);
     const float length = glm::length(t);
-    if (!(length > 1e-6f)) {
+    // relative: a node may scale a tangent
+    if (!(length > 1e-6f * glm::length(glm::vec3(primitive.tangents[v])))) {
       primitive.tangents.clear();
       return;
     }
     primitive.tangents[v] = glm::vec4(t / length, primitive.tangents[v].w < 0 ? -1.0f : 1.0f);
   }
+}
+
+// Tangents of the stored primitive in the frame of the scene.
+void bake_tangents(const Primitive& from, const std::vector<glm::dmat4>& matrices, Primitive& to) {
+  for (size_t v = 0; v < from.tangents.size(); ++v) {
+    const glm::dmat3 linear(matrices[v]);
+    const float side = glm::determinant(linear) < 0 ? -1.0f : 1.0f;
+    to.tangents.emplace_back(glm::vec3(linear * glm::dvec3(glm::vec3(from.tangents[v]))), side * from.tangents[v].w);
+  }
+  straighten_tangents(to);
 }
 
 // Returns the vertices that stay as stored, because their rest transform is singular.
@@ -355,6 +367,9 @@ Model bake(const Model& model, const FlatMesh& mesh, const std::vector<glm::dvec
   out.name = model.name;
   out.materials = model.materials;
   out.appearance = model.appearance;
+  out.asset = model.asset, out.carried = carried_without_nodes(model.carried);
+  out.required_extensions = model.required_extensions;
+  const std::vector<glm::dmat4> globals = global_matrices(model, rest_pose(model));
   std::map<int, size_t> node_of;
   for (const FlatPart& part : mesh.parts) {
     const Primitive& from = primitive_of(model, part);
@@ -372,6 +387,7 @@ Model bake(const Model& model, const FlatMesh& mesh, const std::vector<glm::dvec
     to.texcoords = from.texcoords;
     to.colors = from.colors;
     to.material = from.material;
+    to.carried_attributes = from.carried_attributes, to.carried = from.carried;
     for (size_t v = 0; v < part.vertex_count; ++v) {
       to.positions.push_back(glm::vec3(positions[part.first_vertex + v]));
       to.normals.push_back(normals[part.first_vertex + v]);
@@ -379,6 +395,7 @@ Model bake(const Model& model, const FlatMesh& mesh, const std::vector<glm::dvec
     for (size_t i = 0; i < 3 * static_cast<size_t>(part.triangle_count); ++i) {
       to.indices.push_back(mesh.triangles[3 * static_cast<size_t>(part.first_triangle) + i] - part.first_vertex);
     }
+    bake_tangents(from, vertex_matrices(model, globals, part.node, from), to);
     out.meshes[found.first->second].primitives.push_back(std::move(to));
   }
   return out;

@@ -135,16 +135,11 @@ AccessorReader::Range AccessorReader::range(int view, uint64_t offset, uint64_t 
   return {data.data() + o.byteOffset + offset, static_cast<size_t>(stride)};
 }
 
-template <typename T>
-void AccessorReader::decode(const tinygltf::Accessor& accessor, size_t components, const std::string& where,
-                            std::vector<T>& out) const {
-  const int type = accessor.componentType;
-  const auto size = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(type)));
-  const auto copy = [&](const unsigned char* bytes, size_t element) {
-    for (size_t c = 0; c < components; ++c) {
-      out[element * components + c] = component<T>(bytes + c * size, type, accessor.normalized);
-    }
-  };
+template <typename Copy>
+void AccessorReader::each(const tinygltf::Accessor& accessor, size_t components, const std::string& where,
+                          const Copy& copy) const {
+  const auto size =
+      static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(accessor.componentType)));
   if (accessor.bufferView >= 0) {
     const Range from = range(accessor.bufferView, accessor.byteOffset, accessor.count, components * size, where);
     for (size_t i = 0; i < accessor.count; ++i) copy(from.first + i * from.stride, i);
@@ -174,6 +169,41 @@ void AccessorReader::decode(const tinygltf::Accessor& accessor, size_t component
     before = element;
     copy(values.first + i * values.stride, element);
   }
+}
+
+template <typename T>
+void AccessorReader::decode(const tinygltf::Accessor& accessor, size_t components, const std::string& where,
+                            std::vector<T>& out) const {
+  const int type = accessor.componentType;
+  const auto size = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(type)));
+  each(accessor, components, where, [&](const unsigned char* bytes, size_t element) {
+    for (size_t c = 0; c < components; ++c) {
+      out[element * components + c] = component<T>(bytes + c * size, type, accessor.normalized);
+    }
+  });
+}
+
+CarriedNumbers AccessorReader::stored(int accessor, const std::string& where) {
+  const tinygltf::Accessor& o = at(accessor, where);
+  CarriedNumbers out;
+  const bool known = is_small(o.componentType) || o.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT ||
+                     o.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+  const auto components = static_cast<size_t>(components_of(accessor, where));
+  if (!known || components > 4 || o.type == TINYGLTF_TYPE_MAT2) return out;
+  const size_t row =
+      components * static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(o.componentType)));
+  charge(static_cast<uint64_t>(o.count) * row, where);
+  out.component = o.componentType, out.type = static_cast<int>(components), out.normalized = o.normalized;
+  out.count = o.count;
+  out.bytes.resize(o.count * row);
+  each(o, components, where,
+       [&](const unsigned char* bytes, size_t element) { std::memcpy(out.bytes.data() + element * row, bytes, row); });
+  for (size_t i = 0; o.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT && i < out.bytes.size(); i += sizeof(float)) {
+    if (!std::isfinite(load<float>(out.bytes.data() + i))) {
+      fail(where, "has a NaN or infinity in element " + std::to_string(i / row));
+    }
+  }
+  return out;
 }
 
 std::vector<float> AccessorReader::floats(int accessor, int type, Stored stored, const std::string& where, Stored base,

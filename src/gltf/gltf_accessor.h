@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "gltf/model.h"
+
 namespace hf_gltf {
 
 // What a use allows besides 32-bit floats.
@@ -33,6 +35,9 @@ class AccessorReader {
   // Whole numbers. wide: 32 bits are allowed too (indices), otherwise 8 and 16 (joints).
   std::vector<uint32_t> integers(int accessor, int type, bool wide, const std::string& where);
 
+  // The elements as they are stored. Matrices and numbers of more than 32 bits have no elements.
+  CarriedNumbers stored(int accessor, const std::string& where);
+
   size_t count(int accessor, const std::string& where) const { return at(accessor, where).count; }
   int components_of(int accessor, const std::string& where) const;
 
@@ -47,6 +52,9 @@ class AccessorReader {
 
   const tinygltf::Accessor& at(int accessor, const std::string& where) const;
   Range range(int view, uint64_t offset, uint64_t count, uint64_t element_bytes, const std::string& where) const;
+  // Calls copy(bytes, element) for each element that is stored; a sparse one comes after the one it replaces.
+  template <typename Copy>
+  void each(const tinygltf::Accessor& accessor, size_t components, const std::string& where, const Copy& copy) const;
   template <typename T>
   void decode(const tinygltf::Accessor& accessor, size_t components, const std::string& where,
               std::vector<T>& out) const;

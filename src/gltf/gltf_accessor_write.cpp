@@ -83,6 +83,22 @@ int AccessorWriter::add_short_keys(const int16_t* values, size_t count, int type
   return static_cast<int>(out_.accessors.size()) - 1;
 }
 
+int AccessorWriter::add_carried(const CarriedNumbers& values, int target) {
+  constexpr int types[] = {0, TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4};
+  const size_t row = values.bytes.size() / values.count;
+  // glTF wants the elements of vertices on four bytes
+  const size_t stride = target == TINYGLTF_TARGET_ARRAY_BUFFER ? (row + 3) / 4 * 4 : row;
+  std::vector<uint8_t> spaced(values.count * stride, 0);
+  for (size_t i = 0; i < values.count; ++i) std::copy_n(values.bytes.data() + i * row, row, spaced.data() + i * stride);
+  tinygltf::Accessor accessor;
+  accessor.bufferView = add_view(spaced.data(), spaced.size(), target);
+  if (stride != row) out_.bufferViews.back().byteStride = stride;
+  accessor.count = values.count, accessor.type = types[values.type];
+  accessor.componentType = values.component, accessor.normalized = values.normalized;
+  out_.accessors.push_back(accessor);
+  return static_cast<int>(out_.accessors.size()) - 1;
+}
+
 int AccessorWriter::add_indices(const std::vector<uint32_t>& indices) {
   const uint32_t highest = *std::max_element(indices.begin(), indices.end());
   if (highest < 65535) {

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "gltf/model.h"
+
 namespace hf_gltf {
 
 class AccessorWriter {
@@ -25,6 +27,7 @@ class AccessorWriter {
   void begin_keys() { keys_ = -1; }
   int add_keys(const float* values, size_t count, int type, bool bounds = false);
   int add_short_keys(const int16_t* values, size_t count, int type);  // normalized
+  int add_carried(const CarriedNumbers& values, int target);
   int add_indices(const std::vector<uint32_t>& indices);
   // Displacements of a morph target: most move few vertices, so zeros are left out where that halves the bytes.
   int add_displacements(const std::vector<glm::vec3>& values, bool bounds = false);

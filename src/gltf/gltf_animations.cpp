@@ -153,6 +153,30 @@ void take_apart(Conversion& in, size_t n) {
   node.scale = glm::vec3(scale);
 }
 
+// Channels without a node, which move materials, lights or cameras.
+void convert_carried(Conversion& in, const nlohmann::json& from, const std::string& where, Animation& to) {
+  for (const nlohmann::json& item : from) {
+    const nlohmann::json& sampler = item["sampler"];
+    CarriedChannel channel;
+    channel.target = item["target"].dump();
+    const std::string mode = sampler.value("interpolation", "LINEAR");
+    channel.interpolation = mode == "STEP"          ? Interpolation::step
+                            : mode == "CUBICSPLINE" ? Interpolation::cubic_spline
+                                                    : Interpolation::linear;
+    const std::string inner = where + " (" + channel.target.substr(0, 100) + ")";
+    channel.times = in.reader.floats(sampler["input"].get<int>(), TINYGLTF_TYPE_SCALAR, Stored::floats, inner);
+    channel.values = in.reader.stored(sampler["output"].get<int>(), inner);
+    const size_t keys = channel.times.size() * (mode == "CUBICSPLINE" ? 3 : 1);
+    bool good = channel.values.count > 0 && channel.values.count % keys == 0 && channel.times[0] >= 0;
+    for (size_t k = 1; k < channel.times.size(); ++k) good = good && channel.times[k] > channel.times[k - 1];
+    if (good) {
+      to.carried_channels.push_back(std::move(channel));
+    } else {
+      in.warn(inner + " has keys that do not fit and is skipped");
+    }
+  }
+}
+
 }  // namespace
 
 void convert_animations(Conversion& in) {
@@ -175,6 +199,8 @@ void convert_animations(Conversion& in) {
       }
       to.channels.push_back(std::move(channel));
     }
+    const auto& carried = in.source.carried.animation_channels;
+    if (a < carried.size()) convert_carried(in, carried[a], where, to);
     in.model.animations.push_back(std::move(to));
   }
 }

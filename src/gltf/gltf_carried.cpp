@@ -29,6 +29,16 @@ bool names_data(const json& value) {
   return false;
 }
 
+}  // namespace
+
+bool extension_names_data(const std::string& extension, const json& value) {
+  // the tables of EXT_structural_metadata name views as "values", a key that others use for numbers
+  if (extension == "EXT_structural_metadata" && value.contains("propertyTables")) return true;
+  return names_data(value);
+}
+
+namespace {
+
 void collect(const json& value, std::set<std::string>& names) {
   if (value.is_array()) {
     for (const json& element : value) collect(element, names);
@@ -54,7 +64,7 @@ Carried take_carried(json& object, std::vector<std::string>& dropped) {
     json kept = json::object();
     for (auto& item : extensions->items()) {
       if (is_consumed(item.key())) continue;
-      if (item.value().is_object() && !names_data(item.value())) {
+      if (item.value().is_object() && !extension_names_data(item.key(), item.value())) {
         kept[item.key()] = item.value();
       } else {
         dropped.push_back(item.key());
@@ -64,6 +74,19 @@ Carried take_carried(json& object, std::vector<std::string>& dropped) {
   }
   object.erase("extras");
   object.erase("extensions");
+  return out;
+}
+
+Carried carried_without_nodes(const Carried& carried) {
+  Carried out;
+  out.extras = carried.extras;
+  if (carried.extensions.empty()) return out;
+  json kept = json::object();
+  const json extensions = json::parse(carried.extensions);
+  for (const char* name : {"KHR_materials_variants", "KHR_xmp_json_ld", "EXT_structural_metadata"}) {
+    if (extensions.contains(name)) kept[name] = extensions[name];
+  }
+  if (!kept.empty()) out.extensions = kept.dump();
   return out;
 }
 

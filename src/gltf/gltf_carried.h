@@ -19,7 +19,8 @@ struct CarriedDocument {
   std::string asset;
   std::vector<std::string> cameras;
   std::vector<Carried> scenes, nodes, meshes, skins, animations;
-  std::vector<std::vector<Carried>> primitives;  // by mesh
+  std::vector<std::vector<Carried>> primitives;    // by mesh
+  std::vector<nlohmann::json> animation_channels;  // by animation: those without a node, {target, sampler}
   std::vector<int> node_cameras;
   std::vector<nlohmann::json> node_instances;  // attributes of EXT_mesh_gpu_instancing, name to accessor; or null
   std::vector<std::string> required;
@@ -27,6 +28,12 @@ struct CarriedDocument {
 
 // Takes extras and extensions out of an object. `dropped` gets the names of extensions that cannot be kept.
 Carried take_carried(nlohmann::json& object, std::vector<std::string>& dropped);
+
+// Whether an extension names accessors, views or samplers.
+bool extension_names_data(const std::string& extension, const nlohmann::json& value);
+
+// What stays of a document's extras and extensions in a model of other nodes: extensions that name none.
+Carried carried_without_nodes(const Carried& carried);
 
 // Adds them to an object that is written. Members of the object stay.
 void put_carried(const Carried& carried, nlohmann::json& object);

@@ -393,6 +393,7 @@ class DocumentCheck : private TreeCheck {
       keep_only(sampler, {"input", "output", "interpolation"});
     }
     json* channels = array(o, "channels", where, true);
+    json kept = json::array(), carried = json::array();
     for (size_t i = 0; i < channels->size(); ++i) {
       const std::string inner = where + ".channels[" + std::to_string(i) + "]";
       json& channel = (*channels)[i];
@@ -401,9 +402,25 @@ class DocumentCheck : private TreeCheck {
       json* target = object(channel, "target", inner, true);
       text(*target, "path", inner + ".target", true);
       index(*target, "node", inner + ".target", "nodes", false);
+      if (!target->contains("node")) {
+        const auto extensions = target->find("extensions");
+        const bool pointer = has_extension(*target, "KHR_animation_pointer") &&
+                             std::none_of(extensions->items().begin(), extensions->items().end(), [](const auto& item) {
+                               return extension_names_data(item.key(), item.value());
+                             });
+        if (pointer) {
+          carried.push_back({{"target", *target}, {"sampler", (*samplers)[channel["sampler"].get<size_t>()]}});
+        } else if (warnings_.size() < 100) {
+          warnings_.push_back(inner + " has no target node and is skipped");
+        }
+        continue;
+      }
       keep_only(*target, {"node", "path"});
       keep_only(channel, {"sampler", "target"});
+      kept.push_back(std::move(channel));
     }
+    *channels = std::move(kept);
+    carried_.animation_channels.push_back(std::move(carried));
     carried_.animations.push_back(take(o));
     keep_only(o, {"name", "samplers", "channels"});
   }

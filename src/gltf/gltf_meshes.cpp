@@ -35,10 +35,6 @@ class PrimitiveReader {
       in_.warn(where_ + " has no POSITION and is skipped");
       return false;
     }
-    if (from_.mode == TINYGLTF_MODE_POINTS) {
-      in_.warn(where_ + " is a point cloud and is skipped");
-      return false;
-    }
     count_ = in_.reader.count(position, where_ + ".POSITION");
     if (count_ >= 0xffffffffu) in_.fail(where_, "has too many vertices");
     in_.reader.charge(static_cast<uint64_t>(count_) * sizeof(glm::vec3), where_);
@@ -87,10 +83,47 @@ class PrimitiveReader {
     for (const auto& item : from_.attributes) {
       const std::string& name = item.first;
       const bool known = name == "POSITION" || name == "NORMAL" || name == "TANGENT" || name == "COLOR_0" ||
-                         name.compare(0, 7, "JOINTS_") == 0 || name.compare(0, 8, "WEIGHTS_") == 0 ||
-                         name.compare(0, 9, "TEXCOORD_") == 0;
-      if (!known) in_.warn(where_ + ": attribute " + name.substr(0, 60) + " is not kept");
+                         name.compare(0, 7, "JOINTS_") == 0 || name.compare(0, 8, "WEIGHTS_") == 0;
+      const bool read = name.compare(0, 9, "TEXCOORD_") == 0 && is_below(name.substr(9), to.texcoords.size());
+      if (known || read) continue;
+      if (!carry_attribute(name, item.second, to))
+        in_.warn(where_ + ": attribute " + name.substr(0, 60) + " is not kept");
     }
+  }
+
+  static bool is_below(const std::string& number, size_t count) {
+    for (size_t i = 0; i < count; ++i)
+      if (number == std::to_string(i)) return true;
+    return false;
+  }
+
+  // Attributes of a host's own, and colours and texture coordinates beyond those that are read. What glTF does not
+  // allow is not kept: sets with gaps, other types, own attributes of 32-bit integers.
+  bool carry_attribute(const std::string& name, int accessor, Primitive& to) {
+    const bool own = name[0] == '_', color = name.compare(0, 6, "COLOR_") == 0;
+    const bool texcoord = name.compare(0, 9, "TEXCOORD_") == 0;
+    if (!own && !color && !texcoord) return false;
+    if (color && (to.colors.empty() || !has_sets_before(name, 6))) return false;
+    if (texcoord && !has_sets_before(name, 9)) return false;
+    const std::string where = where_ + "." + name.substr(0, 60);
+    CarriedNumbers values = in_.reader.stored(accessor, where);
+    if (values.count != count_ || values.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) return false;
+    const bool fraction = values.component == TINYGLTF_COMPONENT_TYPE_FLOAT ||
+                          (values.normalized && (values.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                                                 values.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT));
+    if (!own && (!fraction || (texcoord ? values.type != 2 : values.type < 3))) return false;
+    to.carried_attributes.emplace_back(name, std::move(values));
+    return true;
+  }
+
+  // Whether NAME_0 to NAME_n - 1 are there too, for NAME_n.
+  bool has_sets_before(const std::string& name, size_t prefix) const {
+    for (size_t i = 0; i < from_.attributes.size(); ++i) {
+      const std::string before = name.substr(0, prefix) + std::to_string(i);
+      if (before == name) return true;
+      if (attribute(before) < 0) return false;
+    }
+    return false;
   }
 
   void read_colors(int accessor, Primitive& to) {
@@ -204,7 +237,8 @@ class PrimitiveReader {
       stored.resize(count_);
       for (size_t i = 0; i < count_; ++i) stored[i] = static_cast<uint32_t>(i);
     }
-    if (from_.mode != TINYGLTF_MODE_TRIANGLES && from_.mode != TINYGLTF_MODE_LINE) {
+    if (from_.mode != TINYGLTF_MODE_TRIANGLES && from_.mode != TINYGLTF_MODE_LINE &&
+        from_.mode != TINYGLTF_MODE_POINTS) {
       in_.reader.charge(static_cast<uint64_t>(stored.size()) * 3 * sizeof(uint32_t), where_);
     }
     expand(stored, to);
@@ -217,7 +251,7 @@ class PrimitiveReader {
       const uint32_t i = stored[a], j = stored[b], k = stored[c];
       if (i != j && j != k && k != i) to.indices.insert(to.indices.end(), {i, j, k});
     };
-    const size_t group_size = from_.mode == TINYGLTF_MODE_LINE ? 2 : 3;
+    const size_t group_size = from_.mode == TINYGLTF_MODE_POINTS ? 1 : from_.mode == TINYGLTF_MODE_LINE ? 2 : 3;
     switch (from_.mode) {
       case TINYGLTF_MODE_LINE_LOOP:
       case TINYGLTF_MODE_LINE_STRIP:
@@ -235,6 +269,7 @@ class PrimitiveReader {
         break;
       default:
         if (from_.mode == TINYGLTF_MODE_LINE) to.topology = Topology::lines;
+        if (from_.mode == TINYGLTF_MODE_POINTS) to.topology = Topology::points;
         if (n % group_size != 0) {
           in_.warn(where_ + ": " + std::to_string(n % group_size) + " indices at the end are left over");
           stored.resize(n - n % group_size);
@@ -252,6 +287,8 @@ class PrimitiveReader {
           target.positions = group<glm::vec3, 3>(floats(item.second, name, TINYGLTF_TYPE_VEC3, Stored::quantized));
         } else if (item.first == "NORMAL") {
           target.normals = group<glm::vec3, 3>(floats(item.second, name, TINYGLTF_TYPE_VEC3, Stored::quantized));
+        } else if (item.first == "TANGENT" && !to.tangents.empty()) {
+          target.tangents = group<glm::vec3, 3>(floats(item.second, name, TINYGLTF_TYPE_VEC3, Stored::quantized));
         } else {
           in_.warn(where_ + "." + name + " is not kept");
         }

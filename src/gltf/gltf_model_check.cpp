@@ -1,4 +1,6 @@
 // What a Model must satisfy before it is written. See gltf_write.h.
+#include <tiny_gltf.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -79,7 +81,8 @@ class ModelCheck {
       if (set.size() != count) fail(where, "has a texture coordinate set of another length");
       attribute(set, count, where + " (texture coordinates)");
     }
-    const size_t corners = o.topology == Topology::lines ? 2 : 3;
+    for (const auto& item : o.carried_attributes) check_carried(item.second, count, where + " (" + item.first + ")");
+    const size_t corners = o.topology == Topology::points ? 1 : o.topology == Topology::lines ? 2 : 3;
     if (o.indices.size() % corners != 0) fail(where, "has indices left over");
     for (const uint32_t v : o.indices) {
       if (v >= count) fail(where, "names vertex " + std::to_string(v) + " of " + std::to_string(count));
@@ -87,10 +90,18 @@ class ModelCheck {
     for (const MorphTarget& target : o.targets) {
       attribute(target.positions, count, where + " (morph target)");
       attribute(target.normals, count, where + " (morph target normals)");
+      attribute(target.tangents, count, where + " (morph target tangents)");
     }
     check_influences(o, where);
     const size_t carried = model_.appearance ? model_.appearance->materials.size() : 0;
     index(o.material, std::max(carried, model_.materials.size()), where + "'s material");
+  }
+
+  void check_carried(const CarriedNumbers& o, size_t count, const std::string& where) const {
+    const int size = tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(o.component));
+    if (o.count == 0 || o.count != count || o.type < 1 || o.type > 4 || size <= 0 ||
+        o.bytes.size() != o.count * static_cast<size_t>(o.type * size))
+      fail(where, "has bytes that do not fit");
   }
 
   void check_influences(const Primitive& o, const std::string& where) const {
@@ -212,6 +223,12 @@ class ModelCheck {
       const Node& node = model_.nodes[static_cast<size_t>(channel.node)];
       if (node.matrix && channel.path != Path::weights) fail(inner, "moves a node that is given by a matrix");
       check_keys(channel, inner);
+    }
+    for (const CarriedChannel& channel : animation.carried_channels) {
+      const size_t keys = channel.times.size() * (channel.interpolation == Interpolation::cubic_spline ? 3 : 1);
+      if (keys == 0 || channel.values.count % keys != 0) fail(where, "has a carried channel whose keys do not fit");
+      check_carried(channel.values, channel.values.count, where + " (carried)");
+      finite(channel.times, where + " (times)");
     }
   }
 

@@ -60,7 +60,16 @@ void put_all(const Model& model, const WrittenNumbers& numbers, json& document) 
   }
   for (size_t a = 0; a < model.animations.size(); ++a) {
     if (numbers.animations[a] < 0) continue;
-    put_carried(model.animations[a].carried, document["animations"][static_cast<size_t>(numbers.animations[a])]);
+    json& animation = document["animations"][static_cast<size_t>(numbers.animations[a])];
+    put_carried(model.animations[a].carried, animation);
+    for (size_t c = 0; c < model.animations[a].carried_channels.size(); ++c) {
+      const WrittenNumbers::CarriedKeys& keys = numbers.carried_keys[a][c];
+      animation["channels"].push_back({{"sampler", animation["samplers"].size()},
+                                       {"target", json::parse(model.animations[a].carried_channels[c].target)}});
+      animation["samplers"].push_back(
+          {{"input", keys.input}, {"output", keys.output}, {"interpolation", keys.interpolation}});
+    }
+    if (!model.animations[a].name.empty()) animation["name"] = model.animations[a].name;
   }
 }
 

@@ -18,6 +18,11 @@ namespace hf_gltf {
 struct WrittenNumbers {
   std::vector<int> meshes, animations;
   std::vector<std::vector<int>> primitives;  // by mesh of the model
+  struct CarriedKeys {
+    int input, output;
+    const char* interpolation;
+  };
+  std::vector<std::vector<CarriedKeys>> carried_keys;  // by animation of the model and carried channel
   // By node: accessors of its instances, -1 where there are none.
   struct InstanceAccessors {
     int translations = -1, rotations = -1, scales = -1;

@@ -146,8 +146,9 @@ class Writer : AccessorWriter {
     size_t arrays = 0;
     for (const MeshData& mesh : model_.meshes) {
       for (const Primitive& primitive : mesh.primitives) {
-        arrays += 1 + !primitive.normals.empty() + primitive.texcoords.size();
-        for (const MorphTarget& target : primitive.targets) arrays += 1 + !target.normals.empty();
+        arrays += 1 + !primitive.normals.empty() + primitive.texcoords.size() + primitive.carried_attributes.size();
+        for (const MorphTarget& target : primitive.targets)
+          arrays += 1 + !target.normals.empty() + !target.tangents.empty();
       }
     }
     if (arrays <= max_vertex_arrays) return;
@@ -184,7 +185,9 @@ class Writer : AccessorWriter {
 
   tinygltf::Primitive add_primitive(const Primitive& from) {
     tinygltf::Primitive to;
-    to.mode = from.topology == Topology::lines ? TINYGLTF_MODE_LINE : TINYGLTF_MODE_TRIANGLES;
+    to.mode = from.topology == Topology::points  ? TINYGLTF_MODE_POINTS
+              : from.topology == Topology::lines ? TINYGLTF_MODE_LINE
+                                                 : TINYGLTF_MODE_TRIANGLES;
     to.material = from.material;
     to.attributes["POSITION"] = add_vectors(from.positions, true);
     if (!from.normals.empty()) {
@@ -202,8 +205,11 @@ class Writer : AccessorWriter {
       to.attributes["COLOR_0"] = add_vectors(colors);
     }
     if (!from.influences.empty()) add_influences(from, to);
+    for (const auto& item : from.carried_attributes)
+      to.attributes[item.first] = add_carried(item.second, TINYGLTF_TARGET_ARRAY_BUFFER);
     to.indices = add_indices(from.indices);
-    for (const MorphTarget& target : from.targets) to.targets.push_back(add_target(from, target));
+    const bool tangents = to.attributes.count("TANGENT") != 0;
+    for (const MorphTarget& target : from.targets) to.targets.push_back(add_target(from, target, tangents));
     return to;
   }
 
@@ -252,11 +258,12 @@ class Writer : AccessorWriter {
     }
   }
 
-  std::map<std::string, int> add_target(const Primitive& from, const MorphTarget& target) {
+  std::map<std::string, int> add_target(const Primitive& from, const MorphTarget& target, bool tangents) {
     std::map<std::string, int> to;
     const std::vector<glm::vec3> none(target.positions.empty() ? from.positions.size() : 0, glm::vec3(0));
     to["POSITION"] = add_displacements(target.positions.empty() ? none : target.positions, true);
     if (!target.normals.empty() && !from.normals.empty()) to["NORMAL"] = add_displacements(target.normals);
+    if (!target.tangents.empty() && tangents) to["TANGENT"] = add_displacements(target.tangents);
     return to;
   }
 
@@ -395,9 +402,21 @@ class Writer : AccessorWriter {
         to.samplers.push_back(sampler);
         to.channels.push_back(target);
       }
-      numbers_.animations.push_back(to.channels.empty() ? -1 : static_cast<int>(out_.animations.size()));
+      add_carried_keys(from);
+      const bool empty = to.channels.empty() && from.carried_channels.empty();
+      numbers_.animations.push_back(empty ? -1 : static_cast<int>(out_.animations.size()));
       // glTF has no empty animation
-      if (!to.channels.empty()) out_.animations.push_back(std::move(to));
+      if (!empty) out_.animations.push_back(std::move(to));
+    }
+  }
+
+  // Their keys. gltf_pack.cpp adds samplers and channels: tinygltf leaves out an animation that moves no node.
+  void add_carried_keys(const Animation& from) {
+    auto& numbers = numbers_.carried_keys.emplace_back();
+    for (const CarriedChannel& channel : from.carried_channels) {
+      const int input = add_accessor(channel.times.data(), channel.times.size(), TINYGLTF_TYPE_SCALAR,
+                                     TINYGLTF_COMPONENT_TYPE_FLOAT, 0, true);
+      numbers.push_back({input, add_carried(channel.values, 0), interpolation_name(channel.interpolation)});
     }
   }
 

@@ -32,6 +32,15 @@ struct Instances {
   std::vector<glm::vec4> rotations;  // x y z w
 };
 
+// Numbers that no program reads, as the file stores them: `count` elements without gaps. component and type are those
+// of glTF; type is the number of components, 1 to 4.
+struct CarriedNumbers {
+  int component = 0, type = 0;
+  bool normalized = false;
+  size_t count = 0;
+  std::vector<uint8_t> bytes;
+};
+
 // A node of the hierarchy. Indices are into the model's arrays, -1 = none. Local transform = matrix where given (an
 // animated node never has one), otherwise translation * rotation * scale.
 struct Node {
@@ -56,10 +65,11 @@ struct Scene {
   Carried carried;
 };
 
-// Displacements added to a primitive, scaled by the target's weight. normals may be empty, positions too.
+// Displacements added to a primitive, scaled by the target's weight. Each list may be empty.
 struct MorphTarget {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
+  std::vector<glm::vec3> tangents;  // written where the primitive has tangents
 };
 
 // Joints and weights of a vertex. Weights are not negative and sum to 1; unused slots have weight 0 and joint 0.
@@ -68,7 +78,7 @@ struct Influences {
   std::array<float, 8> weights{};
 };
 
-enum class Topology { triangles, lines };
+enum class Topology { triangles, lines, points };
 
 // Per-vertex arrays are empty or as long as positions.
 struct Primitive {
@@ -82,6 +92,8 @@ struct Primitive {
   std::vector<uint32_t> indices;                  // three per triangle, two per line; below positions.size()
   std::vector<MorphTarget> targets;               // as many in every primitive of a mesh
   int material = -1;
+  // COLOR_1, TEXCOORD_8, _FEATURE_ID_0 and others, an element for each vertex.
+  std::vector<std::pair<std::string, CarriedNumbers>> carried_attributes;
   Carried carried;
 };
 
@@ -116,9 +128,18 @@ struct Channel {
   bool shorts = false;  // a rotation whose values are multiples of 1 / 32767 and are written as such
 };
 
+// A channel that moves something else than a node, such as a colour (KHR_animation_pointer).
+struct CarriedChannel {
+  std::string target;  // JSON
+  Interpolation interpolation = Interpolation::linear;
+  std::vector<float> times;
+  CarriedNumbers values;
+};
+
 struct Animation {
   std::string name;
   std::vector<Channel> channels;  // at most one per node and path
+  std::vector<CarriedChannel> carried_channels;
   Carried carried;
 };
 

@@ -92,7 +92,7 @@ def fans(faces, shift):
     sizes, corners = faces
     out, at = [], 0
     for s in sizes:
-        f = np.roll(corners[at:at + s], -(shift * s // 2))
+        f = np.roll(corners[at:at + s], -(shift * int(s) // 2))
         out += [[f[0], f[k], f[k + 1]] for k in range(1, s - 1)]
         at += s
     return np.array(out, np.uint32)

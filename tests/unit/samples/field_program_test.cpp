@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "assets/shapes.h"
@@ -143,6 +144,39 @@ TEST(FieldProgram, writes_every_kind_of_field_as_text_glb_and_picture) {
                               hf_test::quoted(glbs) + " > " + hf_test::quoted(folder.path / "report.txt") + " 2>&1";
   std::ifstream report(folder.path / "report.txt");
   EXPECT_EQ(std::system(command.c_str()), 0) << std::string(std::istreambuf_iterator<char>(report), {});
+}
+
+// Two bodies, a site on one: the other is said and hatched in two greys, whatever the kind of field.
+TEST(FieldProgram, hatches_what_no_site_reaches) {
+  TemporaryFolder folder;
+  const fs::path mesh_file = folder.path / "two.obj", glb = folder.path / "two.glb";
+  SurfaceMesh mesh = surface(sphere(8));
+  const auto count = static_cast<uint32_t>(mesh.positions.size());
+  const std::vector<uint32_t> first = mesh.triangles;
+  for (uint32_t v = 0; v < count; ++v) mesh.positions.push_back(mesh.positions[v] + glm::dvec3(5, 0, 0));
+  for (const uint32_t v : first) mesh.triangles.push_back(v + count);
+  mesh.normals.clear();
+  write_mesh_file(mesh, mesh_file);
+  for (const std::string kind :
+       {"harmonic --site 0=1", "biharmonic --site 0=1", "vector --site 0=0,1,0", "direction --site 0=1,0.5,0"}) {
+    const Result result =
+        run(hf_test::quoted(mesh_file) + " --no-links --kind " + kind + " --glb " + hf_test::quoted(glb));
+    ASSERT_EQ(result.status, 0) << result.output;
+    EXPECT_NE(result.output.find(std::to_string(count) + " vertices are reached by no site"), std::string::npos)
+        << kind << result.output;
+    const Model model = read_gltf(glb);
+    std::set<float> greys[2];
+    for (const MeshData& data : model.meshes) {
+      for (const Primitive& primitive : data.primitives) {
+        for (size_t v = 0; v < primitive.colors.size(); ++v) {
+          const glm::vec4& c = primitive.colors[v];
+          if (c.r == c.g && c.g == c.b) greys[primitive.positions[v].x > 2.5f].insert(c.r);
+        }
+      }
+    }
+    EXPECT_EQ(greys[0].size(), 0u) << kind;
+    EXPECT_EQ(greys[1].size(), 2u) << kind;
+  }
 }
 
 TEST(FieldProgram, draws_iso_lines_that_lie_on_their_levels) {

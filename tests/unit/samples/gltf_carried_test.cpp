@@ -94,6 +94,141 @@ TEST(Carried, ExtrasAndExtensionsOfEveryElementComeBack) {
   EXPECT_EQ(out["extensionsUsed"], json({"KHR_lights_punctual", "KHR_materials_variants", "VENDOR_empty"}));
 }
 
+TEST(Carried, ChannelsThatMoveNoNodeComeBackBitForBit) {
+  GlbBuilder b = one_triangle();
+  b.document["materials"] = {{{"name", "m"}}};
+  const int times = b.floats({0, 1, 3}, "SCALAR"), colors = b.floats({1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1}, "VEC4");
+  const int shown = b.accessor(b.view(std::vector<uint8_t>{1, 0, 1}), 3, "SCALAR", 5121);
+  const int back = b.floats({0, 2, 1}, "SCALAR");
+  const auto pointer = [](const char* to) {
+    return json{{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", to}}}}}};
+  };
+  const json color = pointer("/materials/0/pbrMetallicRoughness/baseColorFactor");
+  const json seen = pointer("/nodes/0/extensions/KHR_node_visibility/visible");
+  b.document["animations"] = {{{"name", "dusk"},
+                               {"samplers",
+                                {{{"input", times}, {"output", colors}},
+                                 {{"input", times}, {"output", shown}, {"interpolation", "STEP"}},
+                                 {{"input", back}, {"output", shown}}}},
+                               {"channels",
+                                {{{"sampler", 0}, {"target", color}},
+                                 {{"sampler", 1}, {"target", seen}},
+                                 {{"sampler", 2}, {"target", seen}},
+                                 {{"sampler", 0}, {"target", {{"path", "rotation"}}}}}}}};
+  std::vector<std::string> warnings;
+  const json out = round_trip(b, &warnings);
+  ASSERT_EQ(warnings.size(), 2u);  // the keys that go back, the target that is none
+  ASSERT_EQ(out["animations"].size(), 1u);
+  const json& animation = out["animations"][0];
+  EXPECT_EQ(animation["name"], "dusk");
+  ASSERT_EQ(animation["channels"].size(), 2u);
+  EXPECT_EQ(animation["channels"][0]["target"], color);
+  EXPECT_EQ(animation["channels"][1]["target"], seen);
+  const json& sampler = animation["samplers"][animation["channels"][1]["sampler"].get<size_t>()];
+  EXPECT_EQ(sampler["interpolation"], "STEP");
+  const json& accessor = out["accessors"][sampler["output"].get<size_t>()];
+  EXPECT_EQ(accessor["componentType"], 5121);
+  std::vector<uint8_t> data;
+  std::string type;
+  ASSERT_TRUE(decode_data_uri(out["buffers"][0]["uri"], data, type));
+  const size_t first = out["bufferViews"][accessor["bufferView"].get<size_t>()].value("byteOffset", size_t{0});
+  EXPECT_EQ(std::vector<uint8_t>(data.begin() + static_cast<std::ptrdiff_t>(first),
+                                 data.begin() + static_cast<std::ptrdiff_t>(first) + 3),
+            (std::vector<uint8_t>{1, 0, 1}));
+  EXPECT_EQ(out["extensionsUsed"], json({"KHR_animation_pointer"}));
+}
+
+TEST(Carried, AttributesThatNoProgramReadsComeBack) {
+  GlbBuilder b;
+  const auto shorts = [&](const std::vector<uint16_t>& values, const char* type, size_t count) {
+    return b.accessor(b.view(values), count, type, 5123, true);
+  };
+  const int ids = b.accessor(b.view(std::vector<uint8_t>{7, 8, 9}), 3, "SCALAR", 5121);
+  const int color = b.floats({1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
+  b.triangle_mesh({{"POSITION", b.floats(unit_triangle(), "VEC3")},
+                   {"COLOR_0", color},
+                   {"COLOR_1", shorts({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, "VEC4", 3)},
+                   {"TEXCOORD_1", b.floats({0, 0, 1, 0, 0, 1}, "VEC2")},
+                   {"_FEATURE_ID_0", ids},
+                   {"_WIDE", b.accessor(b.view(std::vector<uint32_t>{1, 2, 3}), 3, "SCALAR", 5125)}});
+  std::vector<std::string> warnings;
+  const json out = round_trip(b, &warnings);
+  // a set without the one before, and a type that glTF does not allow there
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].find("TEXCOORD_1"), std::string::npos);
+  EXPECT_NE(warnings[1].find("_WIDE"), std::string::npos);
+  const json& attributes = out["meshes"][0]["primitives"][0]["attributes"];
+  EXPECT_EQ(attributes.size(), 4u);
+  const Model model = b.read();
+  const auto& carried = model.meshes[0].primitives[0].carried_attributes;
+  ASSERT_EQ(carried.size(), 2u);
+  EXPECT_EQ(carried[1].second.bytes, (std::vector<uint8_t>{7, 8, 9}));
+  // glTF wants a byte for each vertex on four of them
+  const json& view =
+      out["bufferViews"][out["accessors"][attributes["_FEATURE_ID_0"].get<size_t>()]["bufferView"].get<size_t>()];
+  EXPECT_EQ(view["byteStride"], 4);
+  // and a still copy has them too
+  const FlatMesh mesh = flatten(model);
+  EXPECT_EQ(bake(model, mesh, mesh.positions).meshes[0].primitives[0].carried_attributes.size(), 2u);
+}
+
+TEST(Carried, PointsComeBackAndAreNoSurface) {
+  GlbBuilder b = one_triangle();
+  b.triangle_mesh({{"POSITION", b.floats({0, 0, 0, 1, 2, 3}, "VEC3")}})["mode"] = 0;
+  const Model model = b.read();
+  EXPECT_TRUE(model.warnings.empty());
+  EXPECT_EQ(flatten(model).vertex_count(), 3u);
+  const json out = round_trip(b);
+  ASSERT_EQ(out["meshes"].size(), 2u);
+  EXPECT_EQ(out["meshes"][1]["primitives"][0]["mode"], 0);
+  EXPECT_EQ(out["accessors"][out["meshes"][1]["primitives"][0]["attributes"]["POSITION"].get<size_t>()]["count"], 2);
+}
+
+TEST(Carried, TangentsOfMorphTargetsComeBackWhereThereAreTangents) {
+  GlbBuilder b;
+  const int moved = b.floats({0, 0, 0, 0, 0, 1, 0, 0, 0}, "VEC3");
+  json& primitive = b.triangle_mesh({{"POSITION", b.floats(unit_triangle(), "VEC3")},
+                                     {"NORMAL", b.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3")},
+                                     {"TANGENT", b.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4")}});
+  primitive["targets"] = {{{"POSITION", moved}, {"TANGENT", moved}}};
+  EXPECT_TRUE(b.read().warnings.empty());
+  EXPECT_TRUE(round_trip(b)["meshes"][0]["primitives"][0]["targets"][0].contains("TANGENT"));
+  primitive["attributes"].erase("TANGENT");
+  EXPECT_EQ(b.read().warnings.size(), 1u);
+  EXPECT_FALSE(round_trip(b)["meshes"][0]["primitives"][0]["targets"][0].contains("TANGENT"));
+}
+
+// A node that mirrors turns the side of a tangent: n x t of the picture is that of the mirrored surface.
+TEST(Carried, TangentsOfAStillCopyLieInTheScene) {
+  for (const float side : {1.0f, -1.0f}) {
+    GlbBuilder b;
+    b.triangle_mesh({{"POSITION", b.floats(unit_triangle(), "VEC3")},
+                     {"NORMAL", b.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3")},
+                     {"TANGENT", b.floats({0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1}, "VEC4")}});
+    b.document["nodes"][0]["rotation"] = {0, 0, 0.70710678, 0.70710678};  // x to y, y to -x
+    b.document["nodes"][0]["scale"] = {side * 1e-5, 1e-5, 1e-5};
+    const Model model = b.read();
+    const FlatMesh mesh = flatten(model);
+    const Primitive still = bake(model, mesh, mesh.positions).meshes[0].primitives[0];
+    ASSERT_EQ(still.tangents.size(), 3u);
+    EXPECT_LT(glm::distance(still.tangents[1], glm::vec4(-1, 0, 0, side)), 1e-5f);
+    // the picture's second direction: the node's matrix times n x t = -x
+    const glm::vec3 second = glm::cross(still.normals[1], glm::vec3(still.tangents[1])) * still.tangents[1].w;
+    EXPECT_LT(glm::distance(second, glm::vec3(0, -side, 0)), 1e-5f);
+  }
+}
+
+TEST(Carried, TablesThatNameViewsAreDroppedByName) {
+  GlbBuilder b = one_triangle();
+  b.document["extensions"] = {
+      {"EXT_structural_metadata",
+       {{"schema", json::object()}, {"propertyTables", {{{"properties", {{"a", {{"values", 0}}}}}}}}}}};
+  std::vector<std::string> warnings;
+  EXPECT_FALSE(round_trip(b, &warnings).contains("extensions"));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("EXT_structural_metadata"), std::string::npos);
+}
+
 // Accessors and views get new numbers, so such an extension would name others.
 TEST(Carried, AnExtensionThatNamesAnAccessorIsDroppedByName) {
   GlbBuilder b = one_triangle();

@@ -109,15 +109,6 @@ TEST(GltfRead, StripsAndFansBecomeTheTrianglesTheSpecificationLists) {
   EXPECT_EQ(read(2), (std::vector<uint32_t>{0, 1, 1, 2, 2, 3, 3, 4, 4, 0}));
 }
 
-TEST(GltfRead, PointsAreSkippedWithAWarning) {
-  GlbBuilder b;
-  b.triangle_mesh({{"POSITION", b.floats(unit_triangle(), "VEC3")}})["mode"] = 0;
-  const Model model = b.read();
-  EXPECT_TRUE(model.meshes.at(0).primitives.empty());
-  ASSERT_EQ(model.warnings.size(), 1u);
-  EXPECT_NE(model.warnings[0].find("point"), std::string::npos);
-}
-
 // Two joints and a triangle; the weights are what the test varies.
 struct SkinnedTriangle : GlbBuilder {
   SkinnedTriangle(const std::vector<uint8_t>& joints, const std::vector<float>& weights) {

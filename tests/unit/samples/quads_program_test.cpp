@@ -312,6 +312,45 @@ TEST(QuadsProgram, AModelKeepsItsMotionAndLook) {
   EXPECT_LT(most_stretched(horse.after, horse.flat), 2 * most_stretched(horse.before, horse.old_flat));
 }
 
+// Tangents lie along the quads. Numbers of a host's own come from the nearest corner: a mean of two is neither.
+TEST(QuadsProgram, TangentsAndNumbersOfTheHostStay) {
+  constexpr uint32_t side = 24;
+  std::vector<glm::dvec3> positions;
+  std::vector<uint32_t> triangles;
+  for (uint32_t i = 0; i <= side; ++i) {
+    for (uint32_t j = 0; j <= side; ++j) {
+      positions.emplace_back(1.0 * i / side, 1.0 * j / side, 0.1 * std::sin(4.0 * i / side));
+      const uint32_t v = i * (side + 1) + j;
+      if (i < side && j < side)
+        triangles.insert(triangles.end(), {v, v + side + 1, v + 1, v + 1, v + side + 1, v + side + 2});
+    }
+  }
+  Model model = make_model("sheet", positions, triangles);
+  Primitive& p = model.meshes[0].primitives[0];
+  CarriedNumbers ids;
+  ids.component = 5121, ids.type = 1, ids.count = positions.size();
+  for (const glm::dvec3& at : positions) {
+    p.tangents.emplace_back(1, 0, 0, -1);
+    ids.bytes.push_back(at.x < 0.5 ? 10 : 200);
+  }
+  p.carried_attributes.emplace_back("_ID", ids);
+  const Remade sheet(model, 200);
+  ASSERT_FALSE(sheet.after.meshes.empty()) << sheet.text;
+  const Primitive& quads = sheet.after.meshes[0].primitives[0];
+  ASSERT_EQ(quads.tangents.size(), quads.positions.size());
+  ASSERT_EQ(quads.carried_attributes.size(), 1u);
+  const CarriedNumbers& out = quads.carried_attributes[0].second;
+  ASSERT_EQ(out.bytes.size(), quads.positions.size());
+  for (size_t v = 0; v < quads.positions.size(); ++v) {
+    EXPECT_NEAR(glm::dot(glm::vec3(quads.tangents[v]), quads.normals[v]), 0, 1e-5f) << v;
+    EXPECT_NEAR(quads.tangents[v].y, 0, 0.02f) << v;
+    EXPECT_EQ(quads.tangents[v].w, -1);
+    if (std::abs(quads.positions[v].x - 0.5f) > 1.0f / side) {
+      EXPECT_EQ(out.bytes[v], quads.positions[v].x < 0.5f ? 10 : 200) << v;
+    }
+  }
+}
+
 // A face as quads: each of its 52 shapes moves it as before.
 TEST(QuadsProgram, AFaceKeepsItsShapes) {
   const Remade face(to_model(make_face(80, 60, false), "face", true), 4000);
