@@ -82,6 +82,8 @@ void join_neighbours(std::vector<Primitive>& primitives) {
   const auto joins = [&](const Primitive& a, const Primitive& b) {
     return a.topology == b.topology && a.material == b.material && a.texcoords.size() == b.texcoords.size() &&
            a.colors.empty() == b.colors.empty() && a.normals.empty() == b.normals.empty() &&
+           a.tangents.empty() == b.tangents.empty() && a.carried_attributes.empty() && b.carried_attributes.empty() &&
+           a.carried.extras == b.carried.extras && a.carried.extensions == b.carried.extensions &&
            a.positions.size() + b.positions.size() <= most_vertices;
   };
   std::vector<Primitive> joined;
@@ -95,6 +97,7 @@ void join_neighbours(std::vector<Primitive>& primitives) {
     for (const uint32_t index : primitive.indices) to.indices.push_back(first + index);
     append(to.positions, primitive.positions), append(to.normals, primitive.normals);
     append(to.colors, primitive.colors), append(to.influences, primitive.influences);
+    append(to.tangents, primitive.tangents);
     for (size_t set = 0; set < to.texcoords.size(); ++set) append(to.texcoords[set], primitive.texcoords[set]);
     primitive = {};
   }

@@ -353,6 +353,45 @@ TEST(SkinModel, NeighboursOfOneLookBecomeOnePrimitive) {
     EXPECT_LT(glm::distance(flat.positions[v], mesh.positions[v]), 1e-5);
 }
 
+// Tangents are joined too; numbers of the host's own and what a primitive carries keep primitives apart.
+TEST(SkinModel, NeighboursWithTangentsJoinAndThoseThatCarryMoreStay) {
+  Model source = split_cube();
+  source.asset = R"({"copyright":"somebody"})";
+  Primitive& own = source.meshes[0].primitives[0];
+  const auto count = own.positions.size();
+  for (const glm::vec3& n : own.normals)
+    own.tangents.emplace_back(
+        glm::normalize(glm::cross(n, std::abs(n.x) < 0.6f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0))), 1);
+  if (own.normals.empty()) {
+    own.normals.assign(count, {0, 0, 1}), own.tangents.assign(count, {1, 0, 0, 1});
+  }
+  source.meshes.resize(3, source.meshes[0]);
+  CarriedNumbers ids;
+  ids.component = 5121, ids.type = 1, ids.count = count, ids.bytes.assign(count, 7);
+  source.meshes[1].primitives[0].carried_attributes.emplace_back("_ID", ids);
+  source.meshes[2].primitives[0].carried.extras = "3";
+  source.nodes.clear(), source.scene_roots.clear();
+  for (const int mesh : {0, 0, 1, 1, 2, 2}) {
+    Node node;
+    node.mesh = mesh, node.translation.x = 3 * static_cast<float>(source.nodes.size());
+    source.scene_roots.push_back(static_cast<int>(source.nodes.size())), source.nodes.push_back(node);
+  }
+  const FlatMesh mesh = flatten(source);
+  SkinDescription skin;
+  skin.influences_per_vertex = 1;
+  skin.joints.push_back({"all", {0, 0, 0}});
+  skin.vertex_joints.assign(mesh.positions.size(), 0), skin.vertex_weights.assign(mesh.positions.size(), 1);
+  const Model model = skin_model(source, mesh, skin);
+  EXPECT_NO_THROW(check_model(model));
+  EXPECT_EQ(model.asset, source.asset);
+  const std::vector<Primitive>& made = model.meshes[0].primitives;
+  ASSERT_EQ(made.size(), 4u);
+  for (const Primitive& primitive : made) EXPECT_EQ(primitive.tangents.size(), primitive.positions.size());
+  EXPECT_EQ(made[0].positions.size(), 2 * count);
+  EXPECT_EQ(made[1].carried_attributes[0].second.bytes, ids.bytes);
+  EXPECT_EQ(made[3].carried.extras, "3");
+}
+
 TEST(SkinModel, WrongDescriptionsAreRefusedByName) {
   const Model source = split_cube();
   const FlatMesh mesh = flatten(source);
