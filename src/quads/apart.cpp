@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
+
 namespace hf_inner {
 
 Apart::Apart(FluxSurface& surface, Memory& memory) : offset_(surface.component_count, Vec3(), memory) {
