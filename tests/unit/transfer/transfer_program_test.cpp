@@ -204,6 +204,14 @@ TEST(TransferProgram, WhatIsWrongIsNamedWithFileAndKeyPath) {
                      said),
             1);
   EXPECT_NE(said.find("\"walk\""), std::string::npos) << said;
+  // a wrong rest pose is said under its own option
+  for (const auto& [choice, expected] : {std::pair<const char*, const char*>("dance@0", "--source-rest: "),
+                                         {"walk@99", "must lie within it"},
+                                         {"walk", "CLIP@TIME"}}) {
+    EXPECT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " -o never.glb --source-rest " + choice, said), 1);
+    EXPECT_NE(said.find(expected), std::string::npos) << said;
+    EXPECT_EQ(said.find("--clip:"), std::string::npos) << said;
+  }
 }
 
 // What is written has no errors under the Khronos validator: new skins, the target's own, morph targets.
