@@ -249,6 +249,8 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
   part.reset();
   Vector<Complex> wish(base.curvature.begin(), base.curvature.end(), &memory);
   const Guided guided = read_guides(options.guides, connection, core.size(), memory);
+  Vector<QuadPole> poles(options.poles.begin(), options.poles.end(), &memory);
+  for (QuadPole& pole : poles) pole.place = base.apart.moved(surface, pole.place);
   for (std::size_t v = 0; v < guided.weight.size(); ++v)
     wish[v] = (1 - guided.weight[v]) * wish[v] + guided.weight[v] * guided.cross[v];
   Table<std::uint8_t> features =
@@ -325,7 +327,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
       if (i > 0 && tried.substitutes == surface.component_count && now.substitutes == surface.component_count) break;
       if (i == 0) fewest = found.face_count() > (1 + fitted_error) * aim;
       check_quads(found, surface.euler_characteristic, memory);
-      hold_poles(surface, options.poles, tried.edge_length, found, memory);
+      hold_poles(surface, poles, tried.edge_length, found, memory);
       made.quads_ms += turn_timer.milliseconds();
       hf_inner::report(field_progress.extracted);
       Timer fit_timer;
@@ -368,6 +370,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
     aim /= ratio;
   }
   made = chosen;
+  base.apart.bring_home(surface, core.mesh, result.mesh);
   locate_in_mesh(surface, core.mesh, result.mesh);
   if (out_report) *out_report = made;
   hf_inner::report(1.0f);

@@ -8,6 +8,7 @@
 
 #include "engine/core.h"
 #include "mesh/mirror_plane.h"
+#include "quads/apart.h"
 #include "quads/chords.h"
 #include "quads/cross_field.h"
 #include "quads/extract.h"
@@ -84,7 +85,8 @@ struct QuadBase {
   const QuadDistance& distance(double spacing);
 
   std::shared_ptr<const Core> core;
-  FluxSurface surface;
+  FluxSurface surface;  // its components stand apart
+  Apart apart;
   double area = 0, mean_edge = 0;
   std::optional<DirectionMatrix> system;
   std::optional<CrossSmoother> smoother;

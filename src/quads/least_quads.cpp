@@ -12,6 +12,9 @@ namespace {
 // 0.02, and drew the hand back into it. 0.1 to 0.3 change two of six coarse models of many parts, by 4 % at most.
 constexpr double least_share = 0.4;
 
+// Of vertices that are equally far up to rounding the first one counts, so that a moved ball keeps its box.
+constexpr double same_length = 1 + 1e-9;
+
 // A corner whose sine is at most this is no corner: the outline is a triangle. Less leaves quads that are triangles,
 // more makes three quads of blunt ones. 0.17 is 10 degrees. Half and double change nothing on b9, which has a dozen.
 constexpr double flat_corner = 0.17;
@@ -41,7 +44,7 @@ class Maker {
       for (const std::int32_t v : part.vertices) {
         Vec3 way = s_.position[v] - centre;
         for (int j = 0; j < k; ++j) way = way - dot(way, axis[j]) * axis[j];
-        if (norm(way) > most) most = norm(way), axis[k] = way;
+        if (norm(way) > same_length * most) most = norm(way), axis[k] = way;
       }
       axis[k] = unit_vector(axis[k]);
     }

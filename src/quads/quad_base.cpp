@@ -35,6 +35,7 @@ constexpr std::int32_t least_passes = 2, most_passes = 20;
 QuadBase::QuadBase(std::shared_ptr<const Core> given)
     : core(std::move(given)),
       surface(FluxSurface::make(core->mesh, core->topology, *core->memory)),
+      apart(surface, *core->memory),
       area(area_of(surface)),
       curvature(core->memory.get()) {
   const Topology& topology = core->topology;

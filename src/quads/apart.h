@@ -1,0 +1,24 @@
+// Components of a surface, moved apart while its quads are made.
+//
+// Quads are fitted where they are too far from the surface. Where two components lie beside each other, the quads of
+// one hide what the quads of the other miss: a thin limb inside a sleeve could lose its half. So the components stand
+// in a row along x meanwhile, each farther from all others than it is long.
+#pragma once
+#include "remesh/quad_mesh.h"
+
+namespace hf_inner {
+
+class Apart {
+ public:
+  // Moves the positions of the surface. The first component stays where it is.
+  Apart(FluxSurface& surface, Memory& memory);
+  // Returns where a place beside the surface as it was has gone: it moves with the nearest vertex.
+  Vec3 moved(const FluxSurface& surface, Vec3 place) const noexcept;
+  // Moves quads back to the surface as it was. Vertices that are exactly on it before are so afterwards.
+  void bring_home(const FluxSurface& surface, const Mesh& mesh, QuadMesh& quads) const noexcept;
+
+ private:
+  Table<Vec3> offset_;  // by component
+};
+
+}  // namespace hf_inner
