@@ -40,7 +40,10 @@ void list_joints(const std::filesystem::path& file) {
   const Model model = read_gltf(file);
   const FlatMesh mesh = flatten(model);
   const RegionFinder finder(model, mesh, {});
-  std::printf("%s: %u vertices, box diagonal %.4f\n", file.string().c_str(), mesh.vertex_count(), finder.diagonal());
+  if (mesh.vertex_count() > 0)
+    std::printf("%s: %u vertices, box diagonal %.4f\n", file.string().c_str(), mesh.vertex_count(), finder.diagonal());
+  else
+    std::printf("%s: joints and clips without a surface\n", file.string().c_str());
   for (const std::string& line : finder.describe_joints()) std::printf("  %s\n", line.c_str());
   for (const Animation& clip : model.animations)
     std::printf("  clip \"%s\", %.2f s\n", clip.name.c_str(), clip_duration(clip));
@@ -68,7 +71,13 @@ Model rested(const Model& model, const std::string& choice, const std::string& o
   const double time = cut == std::string::npos ? 0 : std::strtod(choice.c_str() + cut + 1, &end);
   if (cut == std::string::npos || end == choice.c_str() + cut + 1 || *end != 0)
     throw std::runtime_error(option + " takes CLIP@TIME with the time in seconds, not \"" + choice + "\"");
-  const Animation& clip = *choose_clips(model, choice.substr(0, cut)).front();
+  const Animation& clip = [&]() -> const Animation& {
+    try {
+      return *choose_clips(model, choice.substr(0, cut)).front();
+    } catch (const std::exception& error) {
+      throw std::runtime_error(option + ": " + error.what());
+    }
+  }();
   if (!(time >= 0 && time <= clip_duration(clip)))
     throw std::runtime_error(option + ": clip \"" + clip.name + "\" lasts " + std::to_string(clip_duration(clip)) +
                              " s; the time must lie within it");
@@ -95,6 +104,9 @@ struct Motion {
 Motion read_motion(const Model& source, const TransferCommand& command) {
   Motion out;
   if (command.poses.empty()) {
+    if (source.animations.empty())
+      throw std::runtime_error(source.name +
+                               " has no clip; --clips FILE takes those of another file with its skeleton");
     out.clips = choose_clips(source, command.clip);  // a wrong name should not cost a factorisation
     return out;
   }
@@ -158,7 +170,7 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
       SkinDescription skin = session.skin();
       for (const PlayedClip& clip : clips) skin.clips.push_back(clip.clip);
       Model model = skin_model(target, session.target_flat(), skin);
-      keep_carried(target, model);
+      keep_carried(target, model), keep_shapes(target, session.target_flat(), model);
       reduce_clips(model, flatten(model), clips.size(), command.key_tolerance * box, figures);
       write_gltf(model, output);
       report.replay = measure_replay(read_gltf(output), clips, box);
@@ -174,6 +186,17 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
     report.faults.push_back(find_faults(session, clip));
     for (const std::string& sentence : fault_sentences(report.faults.back(), clip.clip.name, clip.target_frames.size()))
       report.warnings.push_back(sentence);
+  }
+  if (report.written_as == "skin" || report.written_as == "morph") {
+    const char* const advice = has_skin(target) ? "; --as own-skin keeps them" : "";
+    if (!target.animations.empty())
+      report.warnings.push_back("clips of the target that are not in the file, as it lacks what they move: " +
+                                std::to_string(target.animations.size()) + advice);
+    size_t shapes = 0;
+    for (const MeshData& mesh : target.meshes) shapes += mesh.primitives.front().targets.size();
+    if (report.written_as == "morph" && shapes > 0)
+      report.warnings.push_back(
+          "morph targets of the target that gave way to those of the clips: " + std::to_string(shapes) + advice);
   }
   report.written_rms = figures.rms, report.written_max = figures.max, report.written_parts = figures.parts;
   report.keys = figures.keys, report.all_keys = figures.all_keys;

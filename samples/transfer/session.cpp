@@ -426,6 +426,18 @@ std::vector<std::string> Session::warnings() {
       out.emplace_back(text);
     }
   }
+  const struct {
+    double value;
+    uint32_t flag;
+    const char *dial, *kind;
+  } turned[] = {{file_.dials.hip_height, HF_PAIR_TRUNK, "hip_height", "a trunk pair"},
+                {file_.dials.neck_follow, HF_PAIR_NECK, "neck_follow", "of the limb \"neck\""},
+                {file_.dials.tail_follow, HF_PAIR_TAIL, "tail_follow", "of the limb \"tail\""},
+                {file_.dials.arm_space_degrees, HF_PAIR_ARM, "arm_space_degrees", "of the limb \"arm\""}};
+  for (const auto& dial : turned)
+    if (dial.value != 0 && std::none_of(live_.begin(), live_.end(),
+                                        [&](const Live& live) { return (live.entry.flags() & dial.flag) != 0; }))
+      out.push_back(std::string("dial ") + dial.dial + " turns nothing: no pair is " + dial.kind);
   if (crossed > 1)
     out.push_back(std::to_string(crossed) +
                   " pairs are crossed: exchange their sides, or look at source_axes and target_axes (forward)");

@@ -67,8 +67,8 @@ std::vector<std::string> words_between_commas(const std::string& list) {
 }  // namespace
 
 const char* usage() {
-  return "usage: hf_transfer SOURCE.glb TARGET.glb --pairs PAIRS.json -o OUT.glb [options]\n"
-         "       hf_transfer --source REF.obj --poses P1.ply P2.obj ... --target REF.obj --pairs PAIRS.json "
+  return "usage: hf_transfer SOURCE.glb TARGET.glb [--pairs PAIRS.json] -o OUT.glb [options]\n"
+         "       hf_transfer --source REF.obj --poses P1.ply P2.obj ... --target REF.obj [--pairs PAIRS.json] "
          "--out-poses DIR\n"
          "       hf_transfer SOURCE.glb TARGET.glb --suggest-pairs PAIRS.json\n"
          "       hf_transfer CLIPS.glb TARGET.glb -o OUT.glb  (CLIPS has no surface, TARGET has its skeleton)\n"
@@ -76,7 +76,9 @@ const char* usage() {
          "       hf_transfer --batch LIST [--jobs N]\n"
          "       hf_transfer --joints FILE.glb\n"
          "Plays the motion of SOURCE on TARGET: pairs of places say what corresponds, the rotations go over, the\n"
-         "target keeps its own shape. OUT.glb holds TARGET's surface and looks with a new skin and the clips.\n"
+         "target keeps its own shape. OUT.glb is TARGET as it was, with the new clips before its own; a TARGET "
+         "without\n"
+         "a skin gets a new one.\n"
          "  --pairs FILE    which places correspond (format in samples/transfer/README.md); without\n"
          "                  it pairs are proposed from shapes and joint names, and said\n"
          "  --suggest-pairs FILE  write the proposal, to be edited, and stop\n"
@@ -105,7 +107,7 @@ const char* usage() {
          "  --no-ground     no feet stand and nothing is kept above the ground\n"
          "  --source-rest CLIP@TIME, --target-rest CLIP@TIME  a pose of a clip, in seconds, is the rest pose\n"
          "  --up AXIS, --forward AXIS  for proposals: +y, -z, ...; --source-up, --target-up, --source-forward and\n"
-         "                  --target-forward say it for one model\n"
+         "                  --target-forward say it for one model (else found by the bones of the legs, and said)\n"
          "  --sheet FILE    a picture: source above, target below, over the clip\n"
          "  --report FILE   what was done and how well, as text\n"
          "  --json FILE     the same as JSON\n"

@@ -113,7 +113,7 @@ std::vector<const Animation*> choose_clips(const Model& model, const std::string
   std::string names;
   for (size_t i = 0; i < model.animations.size(); ++i)
     names += (i ? ", " : "") + std::to_string(i) + " \"" + model.animations[i].name + "\"";
-  throw std::runtime_error("--clip: " + model.name + " has no clip \"" + wanted + "\"; it has " + names);
+  throw std::runtime_error(model.name + " has no clip \"" + wanted + "\"; it has " + names);
 }
 
 BoundClips bind_clips(const Model& model, const Model& clips, const std::string& wanted) {

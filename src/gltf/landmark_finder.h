@@ -42,6 +42,7 @@ class Finder {
   double side(uint32_t v) const { return glm::dot(mesh_.positions[v], axes_.right) - middle_; }
   void measure();
   double asymmetry(int axis) const;
+  void find_up();
   void find_axes();
   double toes() const;
   void find_named_feet();

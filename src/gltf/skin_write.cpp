@@ -5,6 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "gltf/animate.h"
+#include "gltf/clip_binding.h"
+
 namespace hf_gltf {
 namespace {
 
@@ -210,6 +213,75 @@ Model skin_model(const Model& source, const FlatMesh& mesh, const SkinDescriptio
 
 void keep_carried(const Model& from, Model& out) {
   out.asset = from.asset, out.carried = from.carried, out.required_extensions = from.required_extensions;
+  out.cameras = from.cameras;
+  if (from.shown_scene < from.scenes.size()) {
+    out.scenes = {from.scenes[from.shown_scene]}, out.shown_scene = 0;
+  }
+  const std::vector<glm::dmat4> globals = global_matrices(from, rest_pose(from));
+  for (size_t n = 0; n < from.nodes.size(); ++n) {
+    const Node& node = from.nodes[n];
+    const bool carries = node.camera >= 0 || !node.carried.extras.empty() || !node.carried.extensions.empty();
+    int top = static_cast<int>(n);
+    while (from.nodes[static_cast<size_t>(top)].parent >= 0) top = from.nodes[static_cast<size_t>(top)].parent;
+    if (!carries || std::find(from.scene_roots.begin(), from.scene_roots.end(), top) == from.scene_roots.end())
+      continue;
+    const auto own = std::find_if(out.nodes.begin(), out.nodes.end(), [&](const Node& other) {
+      return node.mesh >= 0 && other.mesh >= 0 && other.skin < 0 && other.name == node.name;
+    });
+    if (own != out.nodes.end()) {
+      own->carried = node.carried;
+      continue;
+    }
+    Node kept;
+    kept.name = node.name, kept.camera = node.camera, kept.carried = node.carried;
+    kept.matrix = glm::mat4(globals[n]);
+    split_matrix(kept);
+    out.scene_roots.push_back(static_cast<int>(out.nodes.size()));
+    out.nodes.push_back(std::move(kept));
+  }
+  if (!out.scenes.empty()) out.scenes.front().roots = out.scene_roots;
+}
+
+void keep_shapes(const Model& from, const FlatMesh& mesh, Model& out) {
+  const Pose rest = rest_pose(from);
+  const std::vector<glm::dvec3> still = posed_positions(from, mesh, rest);
+  const std::vector<glm::vec3> still_normals = welded_normals(mesh, still);
+  MeshData& to = out.meshes.front();
+  if (std::all_of(mesh.parts.begin(), mesh.parts.end(),
+                  [&](const FlatPart& part) { return part.mesh == mesh.parts.front().mesh; }))
+    to.carried = from.meshes[static_cast<size_t>(mesh.parts.front().mesh)].carried;
+  std::vector<std::string> names;
+  std::vector<std::vector<int>> nodes;  // of each name, those whose mesh has it
+  std::vector<std::vector<size_t>> numbers;
+  for (const FlatPart& part : mesh.parts) {
+    const MeshData& own = from.meshes[static_cast<size_t>(part.mesh)];
+    for (size_t k = 0; k < own.primitives.front().targets.size(); ++k) {
+      const std::string name = k < own.target_names.size() ? own.target_names[k] : "shape " + std::to_string(k);
+      const auto at = static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+      if (at == names.size()) names.push_back(name), nodes.emplace_back(), numbers.emplace_back();
+      if (std::find(nodes[at].begin(), nodes[at].end(), part.node) != nodes[at].end()) continue;
+      nodes[at].push_back(part.node), numbers[at].push_back(k);
+    }
+  }
+  for (size_t t = 0; t < names.size(); ++t) {
+    // where the shape takes the surface at rest: a difference of poses, so it holds under joints and nodes too
+    Pose pose = rest;
+    for (size_t i = 0; i < nodes[t].size(); ++i) pose[static_cast<size_t>(nodes[t][i])].weights[numbers[t][i]] += 1;
+    const double weight = rest[static_cast<size_t>(nodes[t].front())].weights[numbers[t].front()];
+    const std::vector<glm::dvec3> moved = posed_positions(from, mesh, pose);
+    const std::vector<glm::vec3> normals = welded_normals(mesh, moved);
+    size_t v = 0;
+    for (Primitive& primitive : to.primitives) {
+      MorphTarget target;
+      for (glm::vec3& place : primitive.positions) {
+        target.positions.push_back(glm::vec3(moved[v] - still[v]));
+        target.normals.push_back(normals[v] - still_normals[v]);
+        place -= static_cast<float>(weight) * target.positions.back(), ++v;
+      }
+      primitive.targets.push_back(std::move(target));
+    }
+    to.target_names.push_back(names[t]), to.weights.push_back(static_cast<float>(weight));
+  }
 }
 
 }  // namespace hf_gltf

@@ -47,8 +47,13 @@ struct SkinDescription {
 // Throws std::runtime_error naming the joint, vertex or frame that does not fit.
 Model skin_model(const Model& source, const FlatMesh& mesh, const SkinDescription& skin);
 
-// What a file says beside its shape: copyright, extras, lights of the top level.
+// What a file says beside its shape: copyright, extras, cameras, lights. Nodes that carry them stand where they stood
+// at rest, at the top of the scene.
 void keep_carried(const Model& from, Model& out);
+
+// Gives the only mesh of `out`, the flat mesh of `from` vertex by vertex, the morph targets of `from`. Targets of equal
+// names in several meshes are one.
+void keep_shapes(const Model& from, const FlatMesh& mesh, Model& out);
 
 }  // namespace hf_gltf
 

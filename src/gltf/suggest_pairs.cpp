@@ -178,6 +178,7 @@ Suggestion suggest_pairs(const Body& source_body, const Body& target_body) {
   for (const auto& [model, side] : {std::pair<const Model*, const Landmarks*>(&source, &from), {&target, &to}}) {
     out.notes.push_back(
         short_name(*model) + " seems to face " + axis_name(side->axes.forward) +
+        (side->axes.up.y > 0 ? "" : ", with " + axis_name(side->axes.up) + " up") +
         (side->upright ? " and stands upright" : "") +
         (side->leg_pairs > 0 ? " on " + std::to_string(2 * side->leg_pairs) + " legs" : " without feet"));
   }

@@ -6,6 +6,7 @@
 #include "base/elementary.h"
 #include "base/index.h"
 #include "transfer/constants.h"
+#include "transfer/prepared.h"
 
 namespace hf_inner {
 namespace {
@@ -22,13 +23,19 @@ Quaternion part_of(const Quaternion& q, double follow, double whole) noexcept {
 
 }  // namespace
 
+double counted_ratio(double ratio, double from, double to) noexcept {
+  return ratio > 1 ? 1 + (ratio - 1) * smooth_step(from, to, ratio) : 1.0;
+}
+
 void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, Span<const double> outer,
                      Span<const double> ends, double scale, Vec3 centre, Memory& memory) {
   const std::size_t count = limb.size();
   follow_.assign(count, 1.0), own_.assign(count, Quaternion()), bent_.assign(count, std::uint8_t{0});
   for (std::size_t c = 0; c < count; ++c) {
     const double wider = to.spread[c] / std::max(scale * from.spread[c], least_reach);
-    if (wider > 1) follow_[c] = 1 - outer[c] * (1 - 1 / wider);
+    if (wider > 1)
+      follow_[c] =
+          1 - outer[c] * (1 - 1 / wider) - (limb[c] - outer[c]) * (1 - 1 / counted_ratio(wider, wider_from, wider_to));
     if (ends[c] > 1) follow_[c] = std::min(follow_[c], 1 - limb[c] * (1 - 1 / ends[c]));
   }
   // The shortest ways (Dijkstra 1959), from the cluster that is nearest to the centre.

@@ -24,13 +24,17 @@
 
 namespace hf_inner {
 
+// A ratio of lengths, 1 up to `from` and itself from `to` on: clusters of bodies that are alike lie a little elsewhere.
+double counted_ratio(double ratio, double from, double to) noexcept;
+
 class Levers {
  public:
   explicit Levers(Memory& memory)
       : order_(&memory), before_(&memory), follow_(&memory), own_(&memory), bent_(&memory) {}
 
   // from, to: of the clusters on the source and on the target. limb: by cluster, from 0 to 1, how far it belongs to a
-  // limb that can turn less; its own width counts as far as `outer` says. scale: lengths of the target over those of
+  // limb that can turn less, at least `outer`. Its own width counts as far as `outer` says; beyond that only where it
+  // clearly differs. scale: lengths of the target over those of
   // the source. centre: of the target. Without this call nothing turns. ends: by cluster, the length from its centroid
   // to the end of its limb on the target, over that on the source.
   void prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, Span<const double> outer,

@@ -309,7 +309,8 @@ void Transfer::prepare_levers(Prepared& p, const Overlaps& from, const Overlaps&
     const Vec3 source_end = region_mean(source_.region(numbers_[h]), source_core_->mesh.positions.data()),
                target_end = region_mean(target_.region(numbers_[h]), target_core_->mesh.positions.data());
     const double reach = std::max(p.scale * norm(source_end - from.centroid[c]), shortest_reach);
-    ends[c] = norm(target_end - to.centroid[c]) / (ends_alike * reach);
+    const double unsure = ends_unsure * std::max(0.0, kernel_width() / default_kernel_width - 1) * to.spread[c];
+    ends[c] = counted_ratio((norm(target_end - to.centroid[c]) - unsure) / reach, ends_from, ends_to);
   }
   p.levers.prepare(from, to, {limb.data(), limb.size()}, {outer.data(), outer.size()}, {ends.data(), ends.size()},
                    p.scale, p.target_centroid, *target_core_->memory);

@@ -404,12 +404,13 @@ double spearman(const std::vector<double>& a, const std::vector<double>& b) {
   return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
 }
 
-// How the confidence falls with each measured fault, and with the worst rank of all.
+// How the confidence falls with each measured fault, and with the worst rank of all. Acceleration is a fault beyond the
+// source's only.
 void print_confidence(const std::vector<Run>& runs) {
   std::vector<double> confidence, spikes, acceleration, sunk, gap, stretch, lost;
   for (const Run& run : runs) {
     confidence.push_back(run.confidence), spikes.push_back(static_cast<double>(run.spikes));
-    acceleration.push_back(run.acceleration), sunk.push_back(run.sunk), gap.push_back(run.gap);
+    acceleration.push_back(std::max(run.acceleration, 1.0)), sunk.push_back(run.sunk), gap.push_back(run.gap);
     stretch.push_back(run.stretch), lost.push_back(static_cast<double>(run.lost));
   }
   std::vector<double> worst(runs.size(), 0.0);

@@ -20,8 +20,8 @@ else:
     bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
     bpy.ops.preferences.addon_enable(module=MODULE)
 import hf  # noqa: E402  (the package inside the add-on)
-carriers, mesh_data, panels, session = (importlib.import_module(f"{MODULE}.{name}")
-    for name in ("carriers", "mesh_data", "panels", "session"))
+carriers, mesh_data, panels, rigs, session = (importlib.import_module(f"{MODULE}.{name}")
+    for name in ("carriers", "mesh_data", "panels", "rig", "session"))
 
 sys.path.insert(0, os.environ["HF_TESTS"])
 import golden  # noqa: E402
@@ -318,6 +318,21 @@ bpy.context.scene.hf_stride = 1
 assert bpy.ops.hf.dials() == {"FINISHED"}
 np.testing.assert_allclose(far_end(10), before, atol=1e-5)
 assert len([o for o in bpy.data.objects if o.name.startswith("long motion")]) == 1
+# a dial without a pair of its kind is said, and turns nothing
+assert rigs.idle_dials(other, stride=2, neck_follow=0, tail_follow=0.5) == [("tail_follow", "tail")]
+bpy.context.scene.hf_tail_follow = 0.5
+assert bpy.ops.hf.dials() == {"FINISHED"}
+np.testing.assert_allclose(far_end(10), before, atol=1e-5)
+bpy.context.scene.hf_tail_follow = 0
+name = next(g.name for g in bar.vertex_groups if g.name.startswith("hf ") and other.vertex_groups.get(g.name))
+for obj in (bar, other):
+    obj.vertex_groups[name].name = name + " [tail]"
+active(other)
+bar.select_set(True)
+assert bpy.ops.hf.transfer(start=1, end=2, prefix="hf ") == {"FINISHED"}
+assert rigs.idle_dials(other, tail_follow=0.5) == []
+for obj in (bar, other):
+    obj.vertex_groups[name + " [tail]"].name = name
 
 # ---- bones as handles: an armature of three bones in a third tube, posed, animated, taken away
 arm, arm_points = cylinder("arm", 4.0, 0.4, 81, 48, (-4, 0, 0))

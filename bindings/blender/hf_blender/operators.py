@@ -261,6 +261,7 @@ class HF_OT_transfer(bpy.types.Operator):
         rig.transfer_animation(source, target, range(self.start, self.end + 1), self.prefix, context.window_manager,
             self.scale, **dials_of(context.scene))
         context.scene.hf_live = False
+        say_idle_dials(self, target, context.scene)
 
 
 DIALS = {  # of hf_transfer_dials: label, neutral value, range, what it does
@@ -279,6 +280,11 @@ def dials_of(scene):
     return {name: getattr(scene, f"hf_{name}") for name in DIALS}
 
 
+def say_idle_dials(operator, target, scene):
+    for dial, kind in rig.idle_dials(target, **dials_of(scene)):
+        operator.report({"WARNING"}, f"{DIALS[dial][0]} turns nothing: no pair is a [{kind}]")
+
+
 class HF_OT_dials(bpy.types.Operator):
     """Play the last transfer to the active mesh again, with the dials as they are now; nothing is prepared again"""
     bl_idname, bl_label, bl_options = "hf.dials", "Turn dials", {"REGISTER", "UNDO"}
@@ -289,6 +295,7 @@ class HF_OT_dials(bpy.types.Operator):
         if target is None or target.type != "MESH":
             raise hf.InvalidArgumentError("select the target mesh")
         rig.turn_dials(target, context.window_manager, **dials_of(context.scene))
+        say_idle_dials(self, target, context.scene)
 
 
 def mesh_and_armature(context):

@@ -73,6 +73,7 @@ class Motion:
     def __init__(self, source_surface, transfer):
         self.source_surface, self.transfer, self.armature = source_surface, transfer, None
         self.frames = []  # (number, positions of the source)
+        self.flags = 0  # of all pairs
 
     def close(self):
         self.transfer.close()
@@ -98,6 +99,15 @@ class Motion:
 
 
 motions = {}  # by the name of the target
+
+DIALLED = {"hip_height": "trunk", "neck_follow": "neck", "tail_follow": "tail", "arm_space": "arm"}  # the kind each turns
+
+
+def idle_dials(target, **dials):
+    """[(dial, kind)]: dials that are turned, but no pair of the last transfer to this mesh is of the kind they turn."""
+    motion = motions.get(target.name)
+    return [(dial, kind) for dial, kind in DIALLED.items()
+        if motion and dials.get(dial) and not motion.flags & int(KINDS[kind])]
 
 
 def forget_motions():
@@ -131,6 +141,8 @@ def transfer_animation(source, target, frames, prefix="hf ", window_manager=None
     motion = Motion(source_surface, transfer)
     try:
         transfer.add_pairs([group_vertices(source, n) for n in names], [group_vertices(target, n) for n in names], flags)
+        for own in flags:
+            motion.flags |= own
         scene = bpy.context.scene
         now = scene.frame_current
         for frame in frames:

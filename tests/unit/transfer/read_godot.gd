@@ -1,5 +1,6 @@
 # Posed vertices of an imported glTF as Godot 3 plays it: godot3-server --path PROJECT -s read_godot.gd
-# PROJECT holds creature.glb (imported before) and times.txt; posed.json is written there.
+# PROJECT holds creature.glb (imported before), times.txt and clip.txt (the clip's name as Godot has it); posed.json is
+# written there.
 extends SceneTree
 
 func find(node, kind):
@@ -25,11 +26,14 @@ func _init():
 	file.open("res://times.txt", File.READ)
 	var times = file.get_as_text().split(",")
 	file.close()
+	file.open("res://clip.txt", File.READ)
+	var name = file.get_as_text()
+	file.close()
 	var found = []
 	meshes(scene, found)
 	var frames = []
 	for time in times:
-		var clip = player.get_animation(player.get_animation_list()[0])
+		var clip = player.get_animation(name)
 		var skeleton = find(scene, "Skeleton")
 		# the tracks by hand: a player moves nothing before the first idle frame
 		for track in range(clip.get_track_count()):

@@ -55,13 +55,15 @@ struct Bar {
 
 // end: how far the last part is a limb. longer: how many times as far it is from the second part to the end of its
 // limb.
-Levers levers(const Bar& from, const Bar& to, hf_inner::Memory& memory, double end = 1, double longer = 1) {
+// outer: how far the width of parts counts as it is.
+Levers levers(const Bar& from, const Bar& to, hf_inner::Memory& memory, double end = 1, double longer = 1,
+              double outer = 1) {
   Levers out(memory);
-  const double limb[3] = {0, 1, end}, ends[3] = {1, longer, 1};
+  const double limb[3] = {0, 1, end}, ends[3] = {1, longer, 1}, outers[3] = {0, outer, outer * end};
   // lengths that are not the limb's: both bars in units of the first part
   const double scale = from.core->mesh.scale / to.core->mesh.scale;
   out.prepare(hf_inner::overlaps_of(3, from.surface(), memory), hf_inner::overlaps_of(3, to.surface(), memory),
-              {limb, 3}, {limb, 3}, {ends, 3}, scale, to.core->mesh.to_inner({0, 0, 0}), memory);
+              {limb, 3}, {outers, 3}, {ends, 3}, scale, to.core->mesh.to_inner({0, 0, 0}), memory);
   return out;
 }
 
@@ -76,6 +78,29 @@ TEST(TransferLevers, APartThatReachesThreeTimesAsFarFollowsAThird) {
   found.turn(Quaternion(), 0, turned);
   EXPECT_NEAR(turned[2].angularDistance(Quaternion()), found.follow(2) * 0.2, 0.001);
   EXPECT_LT(turned[1].angularDistance(Quaternion()), 1e-12);
+}
+
+// At the root of a limb a part that is a little wider turns as its source; one that is clearly wider turns less.
+TEST(TransferLevers, AtItsRootALimbFollowsLessWhereItIsClearlyWider) {
+  const Bar from({1, 1, 1});
+  hf_inner::Memory memory;
+  EXPECT_EQ(levers(from, Bar({1, 1, 1.2}), memory, 1, 1, 0).follow(2), 1);
+  EXPECT_LT(levers(from, Bar({1, 1, 1.2}), memory).follow(2), 0.95) << "farther out every width counts";
+  const Bar to({1, 1, 3});
+  EXPECT_NEAR(levers(from, to, memory, 1, 1, 0).follow(2), levers(from, to, memory).follow(2), 1e-12);
+  double last = 1;
+  for (double ratio = 0.5; ratio < 4; ratio += 0.01) {
+    const double now = hf_inner::counted_ratio(ratio, 1.3, 1.8);
+    EXPECT_GE(now, last) << ratio;
+    EXPECT_LT(now - last, 0.04) << ratio;
+    if (ratio < 1.3) {
+      EXPECT_EQ(now, 1) << ratio;
+    }
+    if (ratio > 1.81) {
+      EXPECT_NEAR(now, ratio, 1e-12) << ratio;
+    }
+    last = now;
+  }
 }
 
 TEST(TransferLevers, WhatHangsOnSuchAPartKeepsToIt) {

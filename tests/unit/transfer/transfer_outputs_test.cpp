@@ -427,6 +427,157 @@ TEST(TransferOutputs, InPlaceIsAnOptionOfTheProgram) {
   EXPECT_NE(said.find("--root-motion"), std::string::npos) << said;
 }
 
+// A node turns the whole model: then its z is up, it lies on its side or on its back. The motion is the same.
+TEST(TransferOutputs, AModelThatLiesOrWhoseZIsUpIsFoundByItsLegs) {
+  const hf_gltf::Model horse = hf_gltf::read_gltf(creature("horse"));
+  std::string said;
+  const auto frames = [&](const fs::path& source, const char* name) {
+    const fs::path place = folder() / name;
+    fs::remove_all(place);
+    EXPECT_EQ(
+        transfer(quoted(source) + " " + quoted(creature("bull")) + " --fps 10 --out-poses " + quoted(place), said), 0)
+        << said;
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(place)) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::vector<glm::dvec3> out;
+    for (const fs::path& file : files)
+      for (const glm::dvec3& p : samples::read_mesh_file(file).positions) out.push_back(p);
+    return out;
+  };
+  const std::vector<glm::dvec3> upright = frames(creature("horse"), "upright");
+  ASSERT_FALSE(upright.empty());
+  struct Turn {
+    glm::vec3 axis;
+    float angle;
+    const char* up;
+  };
+  const float half = 1.57079632679f;
+  for (const Turn& turn : {Turn{{1, 0, 0}, half, "+z"}, Turn{{0, 0, 1}, half, "-x"}, Turn{{0, 0, 1}, 2 * half, "-y"}}) {
+    hf_gltf::Model turned = horse;
+    hf_gltf::Node top;
+    top.name = "top", top.rotation = glm::angleAxis(turn.angle, turn.axis), top.children = turned.scene_roots;
+    const int number = static_cast<int>(turned.nodes.size());
+    for (const int root : turned.scene_roots) turned.nodes[static_cast<size_t>(root)].parent = number;
+    turned.nodes.push_back(top), turned.scene_roots = {number};
+    if (!turned.scenes.empty()) turned.scenes[turned.shown_scene].roots = {number};
+    const fs::path file = folder() / "turned_horse.glb";
+    hf_gltf::write_gltf(turned, file);
+    const std::vector<glm::dvec3> got = frames(file, "turned");
+    EXPECT_NE(said.find(std::string("with ") + turn.up + " up"), std::string::npos) << said;
+    ASSERT_EQ(got.size(), upright.size());
+    double worst = 0;
+    for (size_t v = 0; v < got.size(); ++v) worst = std::max(worst, glm::distance(got[v], upright[v]));
+    EXPECT_LT(worst, 1e-3) << turn.up;  // boxes of some 3; joints are floats
+  }
+}
+
+// The bull with a morph target, a camera, a lamp, extras and copyright.
+hf_gltf::Model rich_bull() {
+  hf_gltf::Model bull = hf_gltf::read_gltf(creature("bull"));
+  hf_gltf::MeshData& mesh = bull.meshes.front();
+  for (hf_gltf::Primitive& primitive : mesh.primitives) {
+    hf_gltf::MorphTarget blink;
+    blink.positions.assign(primitive.positions.size(), glm::vec3(0));
+    blink.positions[7] = glm::vec3(0.1f, 0, 0);
+    primitive.targets.push_back(blink);
+  }
+  mesh.target_names = {"blink"}, mesh.weights = {0.5f};
+  bull.asset = R"({"copyright":"somebody","extras":{"seen":true}})";
+  bull.cameras = {R"({"type":"perspective","perspective":{"yfov":0.7,"znear":0.1}})"};
+  bull.carried.extensions = R"({"KHR_lights_punctual":{"lights":[{"type":"point","name":"lamp"}]}})";
+  hf_gltf::Node camera, lamp;
+  camera.name = "eye", camera.camera = 0, camera.translation = {0, 0.5f, 0}, camera.carried.extras = R"({"lens":35})";
+  const int head = hf_gltf::find_node(bull, "head");
+  camera.parent = head;
+  bull.nodes[static_cast<size_t>(head)].children.push_back(static_cast<int>(bull.nodes.size()));
+  bull.nodes.push_back(camera);
+  lamp.name = "lamp", lamp.translation = {0, 9, 0};
+  lamp.carried.extensions = R"({"KHR_lights_punctual":{"light":0}})";
+  const int number = static_cast<int>(bull.nodes.size());
+  bull.scene_roots.push_back(number);
+  for (hf_gltf::Scene& scene : bull.scenes) scene.roots.push_back(number);
+  bull.nodes.push_back(lamp);
+  return bull;
+}
+
+TEST(TransferOutputs, WhatAFileHoldsBesideItsShapeStaysOrIsNamed) {
+  const fs::path target = folder() / "rich_bull.glb";
+  hf_gltf::write_gltf(rich_bull(), target);
+  const hf_gltf::Model given = hf_gltf::read_gltf(target);
+  const auto place_of = [](const hf_gltf::Model& model, const char* name) {
+    const int node = hf_gltf::find_node(model, name);
+    EXPECT_GE(node, 0) << name;
+    return node < 0
+               ? glm::dvec3(0)
+               : glm::dvec3(hf_gltf::global_matrices(model, hf_gltf::rest_pose(model))[static_cast<size_t>(node)][3]);
+  };
+  for (const std::string kind : {"own-skin", "skin", "morph"}) {
+    const fs::path out = folder() / ("rich_" + kind + ".glb");
+    std::string said;
+    ASSERT_EQ(transfer(quoted(creature("horse")) + " " + quoted(target) + " --pairs " + quoted(horse_to_bull()) +
+                           " --as " + kind + " -o " + quoted(out),
+                       said),
+              0)
+        << said;
+    const hf_gltf::Model made = hf_gltf::read_gltf(out);
+    EXPECT_EQ(json::parse(made.asset)["copyright"], "somebody") << kind;
+    EXPECT_EQ(json::parse(made.asset)["extras"]["seen"], true) << kind;
+    EXPECT_EQ(made.cameras, given.cameras) << kind;
+    EXPECT_EQ(json::parse(made.carried.extensions), json::parse(given.carried.extensions)) << kind;
+    for (const char* name : {"eye", "lamp"})
+      EXPECT_LT(glm::distance(place_of(made, name), place_of(given, name)), 1e-5) << kind << " " << name;
+    const hf_gltf::Node& eye = made.nodes[static_cast<size_t>(hf_gltf::find_node(made, "eye"))];
+    EXPECT_EQ(eye.camera, 0) << kind;
+    EXPECT_EQ(json::parse(eye.carried.extras)["lens"], 35) << kind;
+    const bool clips_stay = made.animations.size() == 1 + given.animations.size();
+    EXPECT_EQ(clips_stay, said.find("--as own-skin keeps them") == std::string::npos) << kind << said;
+    if (kind == "morph") continue;
+    // the same surface at rest under every weight of the morph target
+    const hf_gltf::FlatMesh a = hf_gltf::flatten(given), b = hf_gltf::flatten(made);
+    ASSERT_EQ(made.meshes.front().target_names, given.meshes.front().target_names) << kind;
+    for (const double weight : {0.0, 0.5, 1.0}) {
+      hf_gltf::Pose wanted = hf_gltf::rest_pose(given), got = hf_gltf::rest_pose(made);
+      for (hf_gltf::Pose* pose : {&wanted, &got})
+        for (hf_gltf::NodePose& node : *pose)
+          if (!node.weights.empty()) node.weights = {weight};
+      const auto from = hf_gltf::posed_positions(given, a, wanted), to = hf_gltf::posed_positions(made, b, got);
+      ASSERT_EQ(from.size(), to.size());
+      for (size_t v = 0; v < from.size(); ++v) ASSERT_LT(glm::distance(from[v], to[v]), 1e-5) << kind << " " << v;
+    }
+  }
+}
+
+// All weights on one joint: the own skin can only move the bull as a whole, so its sheet is another.
+TEST(TransferOutputs, TheSheetDrawsWhatWasWritten) {
+  hf_gltf::Model stiff = hf_gltf::read_gltf(creature("bull"));
+  for (hf_gltf::Primitive& primitive : stiff.meshes.front().primitives)
+    for (hf_gltf::Influences& influences : primitive.influences) {
+      influences = {};
+      influences.weights[0] = 1;
+    }
+  const fs::path target = folder() / "stiff_bull.glb", list = folder() / "stiff.json";
+  hf_gltf::write_gltf(stiff, target);
+  std::string said;
+  const std::string files = quoted(creature("horse")) + " " + quoted(target);
+  // places, since the joints own nothing now
+  ASSERT_EQ(transfer(files + " --suggest-pairs " + quoted(list), said), 0) << said;
+  const auto sheet = [&](const std::string& kind) {
+    const fs::path picture = folder() / ("stiff_" + kind + ".png");
+    EXPECT_EQ(transfer(files + " --pairs " + quoted(list) + " --fps 10 --as " + kind + " -o " +
+                           quoted(folder() / "stiff_out.glb") + " --sheet " + quoted(picture),
+                       said),
+              0)
+        << said;
+    std::ifstream bytes(picture, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(bytes), {});
+  };
+  const std::string own = sheet("own-skin"), skin = sheet("skin");
+  EXPECT_GT(own.size(), 500u);
+  EXPECT_NE(own, skin);
+  EXPECT_EQ(skin, sheet("skin"));
+}
+
 TEST(TransferOutputs, TheLiveSampleRunsWhileItsHandlesChange) {
   std::string said;
   ASSERT_EQ(run(quoted(HF_LIVE_TRANSFER_PROGRAM), said), 0) << said;

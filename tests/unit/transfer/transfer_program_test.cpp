@@ -144,6 +144,10 @@ TEST(TransferProgram, DialsOfTheFileAndOfTheCommandLineAreTheSame) {
   EXPECT_EQ(of_file, of_line);
   EXPECT_EQ(neutral, plain);
   EXPECT_NE(of_file, plain);
+  // what turns nothing is said: neither has arms
+  play(file, " --dials arm_space_degrees=10", "armless.glb");
+  EXPECT_NE(said.find("dial arm_space_degrees turns nothing"), std::string::npos) << said;
+  EXPECT_EQ(said.find("neck_follow turns nothing"), std::string::npos) << said;
   EXPECT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " -o never.glb --dials stride=9", said), 1);
   EXPECT_NE(said.find("stride is 9"), std::string::npos) << said;
   EXPECT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " -o never.glb --dials speed=1", said), 1);
@@ -204,6 +208,14 @@ TEST(TransferProgram, WhatIsWrongIsNamedWithFileAndKeyPath) {
                      said),
             1);
   EXPECT_NE(said.find("\"walk\""), std::string::npos) << said;
+  // a wrong rest pose is said under its own option
+  for (const auto& [choice, expected] : {std::pair<const char*, const char*>("dance@0", "--source-rest: "),
+                                         {"walk@99", "must lie within it"},
+                                         {"walk", "CLIP@TIME"}}) {
+    EXPECT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " -o never.glb --source-rest " + choice, said), 1);
+    EXPECT_NE(said.find(expected), std::string::npos) << said;
+    EXPECT_EQ(said.find("--clip:"), std::string::npos) << said;
+  }
 }
 
 // What is written has no errors under the Khronos validator: new skins, the target's own, morph targets.
