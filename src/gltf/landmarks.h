@@ -5,11 +5,10 @@
 // the pieces of the surface below 12 % of the height that stand on the ground. The limit is lower for shorter legs, and
 // a piece may be farther off the ground if the model rests in mid-stride. A body without feet (a fish, a snake) has its
 // ends and fins. Up is +y, unless the bones of the legs point down another axis. The side axis is the one with the best
-// symmetry. Forward is where toes, head
-// and eyes point (+z when in doubt, as in glTF). Head, tail and hands come from joint names first, else from the
-// extremities of the surface that the caller gives (hf_surface_find_extremities). Ears come from joint names only. The
-// trunk places lie where a line through the belly, or through the back of an upright body, leaves the body. Every
-// landmark says how it was found and how reliable it is.
+// symmetry. Forward is where toes, head and eyes point (+z when in doubt, as in glTF). Head, tail and hands come from
+// joint names first, else from the extremities of the surface that the caller gives (hf_surface_find_extremities). Ears
+// come from joint names only. The trunk places lie where a line through the belly, or through the back of an upright
+// body, leaves the body. Every landmark says how it was found and how reliable it is.
 #ifndef HF_GLTF_LANDMARKS_H
 #define HF_GLTF_LANDMARKS_H
 

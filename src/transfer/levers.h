@@ -34,9 +34,9 @@ class Levers {
 
   // from, to: of the clusters on the source and on the target. limb: by cluster, from 0 to 1, how far it belongs to a
   // limb that can turn less, at least `outer`. Its own width counts as far as `outer` says; beyond that only where it
-  // clearly differs. scale: lengths of the target over those of
-  // the source. centre: of the target. Without this call nothing turns. ends: by cluster, the length from its centroid
-  // to the end of its limb on the target, over that on the source.
+  // clearly differs. scale: lengths of the target over those of the source. centre: of the target. Without this call
+  // nothing turns. ends: by cluster, the length from its centroid to the end of its limb on the target, over that on
+  // the source.
   void prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, Span<const double> outer,
                Span<const double> ends, double scale, Vec3 centre, Memory& memory);
 
