@@ -321,9 +321,7 @@ TEST(GltfRead, BuffersAreReadFromTheFilesOwnFolderOnly) {
   // from bytes without a folder nothing is read at all
   const std::string text =
       json{{"asset", {{"version", "2.0"}}}, {"buffers", {{{"byteLength", 1}, {"uri", "a.bin"}}}}}.dump();
-  EXPECT_NE(message_of([&] {
-              read_gltf_bytes({text.begin(), text.end()}, "x.gltf");
-            }).find("not read"),
+  EXPECT_NE(message_of([&] { read_gltf_bytes({text.begin(), text.end()}, "x.gltf"); }).find("not read"),
             std::string::npos);
 }
 
