@@ -331,7 +331,7 @@ TEST(QuadsProgram, TangentsAndNumbersOfTheHostStay) {
   ids.component = 5121, ids.type = 1, ids.count = positions.size();
   for (const glm::dvec3& at : positions) {
     p.tangents.emplace_back(1, 0, 0, -1);
-    ids.bytes.push_back(at.x < 0.5 ? 10 : 200);
+    ids.bytes.push_back(std::lround(side * at.x) % 2 == 0 ? 10 : 200);
   }
   p.carried_attributes.emplace_back("_ID", ids);
   const Remade sheet(model, 200);
@@ -341,14 +341,21 @@ TEST(QuadsProgram, TangentsAndNumbersOfTheHostStay) {
   ASSERT_EQ(quads.carried_attributes.size(), 1u);
   const CarriedNumbers& out = quads.carried_attributes[0].second;
   ASSERT_EQ(out.bytes.size(), quads.positions.size());
+  int near_column = 0;
   for (size_t v = 0; v < quads.positions.size(); ++v) {
     EXPECT_NEAR(glm::dot(glm::vec3(quads.tangents[v]), quads.normals[v]), 0, 1e-5f) << v;
     EXPECT_NEAR(quads.tangents[v].y, 0, 0.02f) << v;
     EXPECT_EQ(quads.tangents[v].w, -1);
-    if (std::abs(quads.positions[v].x - 0.5f) > 1.0f / side) {
-      EXPECT_EQ(out.bytes[v], quads.positions[v].x < 0.5f ? 10 : 200) << v;
+    // corners of one column have one number, those of the next the other; near a column its own counts
+    EXPECT_TRUE(out.bytes[v] == 10 || out.bytes[v] == 200) << v;
+    const float place = side * quads.positions[v].x;
+    const long column = std::lround(place);
+    if (std::abs(place - static_cast<float>(column)) < 0.25f) {
+      EXPECT_EQ(out.bytes[v], column % 2 == 0 ? 10 : 200) << v;
+      ++near_column;
     }
   }
+  EXPECT_GT(near_column, 50);
 }
 
 // A face as quads: each of its 52 shapes moves it as before.
