@@ -176,11 +176,11 @@ typedef struct hf_path {
 
 /* Finds the shortest path between two points, exact up to rounding, whatever the method of the object. If several are
  * as short, it writes one of them. The path is straight where its triangles are unfolded; it bends at vertices only.
- * Cost: exact distances up to the length of the path. An object of HF_GEODESICS_EXACT has their tables; for others the
- * call makes them in a pass over the triangles. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (isolated
- * vertex, barycentrics, corners of no triangle), HF_ERROR_NON_FINITE, each with index 0 for `from` and 1 for `to`;
- * HF_ERROR_TOO_SMALL (point_capacity; the counts are written), HF_ERROR_CANCELLED. Thread safety: as
- * hf_geodesics_solve. Since 0.1. */
+ * Cost: exact distances, but only where a path no longer than one along edges can run. An object of HF_GEODESICS_EXACT
+ * has their tables; for others the call makes them in a pass over the triangles. Errors: HF_ERROR_OUT_OF_RANGE,
+ * HF_ERROR_INVALID_ARGUMENT (isolated vertex, barycentrics, corners of no triangle), HF_ERROR_NON_FINITE, each with
+ * index 0 for `from` and 1 for `to`; HF_ERROR_TOO_SMALL (point_capacity; the counts are written), HF_ERROR_CANCELLED.
+ * Thread safety: as hf_geodesics_solve. Since 0.1. */
 HF_API hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_surface_point* from,
                                         const hf_surface_point* to, hf_path* inout_path);
 

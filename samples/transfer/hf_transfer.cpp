@@ -327,8 +327,8 @@ int transfer(TransferCommand command, nlohmann::json& json) {
   if (command.shapes) return transfer_shapes(command, source, target, pairs, bar, json);
   if (pairs.settings.stretch && (command.kind == "skin" || (command.kind.empty() && !has_skin(target))))
     throw std::runtime_error("mode \"stretch\" gives no skin: take --as own-skin, --as morph or --out-poses");
+  const Motion motion = read_motion(source, command);  // a model without a clip is refused before surfaces are made
   if (command.pairs.empty()) pairs = parse_pairs(propose(source, target, command).file, "the proposed pairs");
-  const Motion motion = read_motion(source, command);
 
   for (const auto& [key, value] : command.dials) set_dial(pairs.dials, key, value);
   for (PairEntry& pair : pairs.pairs)

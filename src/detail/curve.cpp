@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
-#include "detail/edge_paths.h"
+#include "mesh/edge_paths.h"
 
 namespace hf_inner {
 namespace {
@@ -50,7 +50,7 @@ Pieces cut(const Core& core, Span<const Index> curve, Memory& memory) {
 
 ClosedCurve closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory) {
   ClosedCurve curve(memory);
-  EdgePaths paths(core, memory);
+  EdgePaths paths(core.mesh, core.geometry->unlinked().topology, memory);
   for (std::size_t i = 0; i < points.size(); ++i) {
     paths.append(points[i], points[(i + 1) % points.size()], curve.vertices);
     curve.point_of.resize(curve.vertices.size(), static_cast<Index>(i));

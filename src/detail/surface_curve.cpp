@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "base/progress.h"
-#include "detail/edge_paths.h"
+#include "mesh/edge_paths.h"
 
 namespace hf_inner {
 namespace {
@@ -55,7 +55,7 @@ class CurveTracer {
         points_(points),
         curve_(curve),
         memory_(memory),
-        edges_(core, memory),
+        edges_(mesh_, topology_, memory),
         way_(&memory),
         local_(at(core.size()), Mesh::none, &memory),
         taken_(at(mesh_.triangle_count()), 0, &memory),
@@ -123,7 +123,7 @@ class CurveTracer {
     for (const Index t : triangles_) {
       for (int k = 0; k < 3; ++k) part.corners.push_back(local_[at(mesh_.triangle(t)[k])]);
     }
-    const bool found = path_in(part, from, to);
+    const bool found = path_in(part, from, to, length);
     for (const Index v : vertices_) local_[at(v)] = Mesh::none;
     for (const Index t : triangles_) taken_[at(t)] = 0;
     return found;
@@ -161,7 +161,7 @@ class CurveTracer {
     return norm(centre - p) + norm(centre - q) - 2 * radius <= length * (1 + place_tolerance);
   }
 
-  bool path_in(const Mesh& part, const CurvePoint& from, const CurvePoint& to) {
+  bool path_in(const Mesh& part, const CurvePoint& from, const CurvePoint& to, double length) {
     const Topology topology = Topology::make(part, memory_);
     const TriangleSides sides(part, topology, memory_);
     const auto here = [&](const CurvePoint& point) {
@@ -171,7 +171,7 @@ class CurveTracer {
     };
     const GeodesicPoint begin = here(from), end = here(to);
     if (!begin.found() || !end.found()) return false;
-    const SurfacePath path = shortest_path(sides, begin, end, memory_);
+    const SurfacePath path = shortest_path(sides, begin, end, memory_, length);
     for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
       const PathPoint& point = path.points[i];
       put(snapped(PathPoint{vertices_[at(point.a)], vertices_[at(point.b)], point.t}));

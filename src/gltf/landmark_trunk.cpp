@@ -11,14 +11,16 @@ std::vector<double> Finder::hits(const glm::dvec3& start, const glm::dvec3& dire
   for (size_t t = 0; t < mesh_.triangles.size(); t += 3) {
     const glm::dvec3 a = mesh_.positions[mesh_.triangles[t]], u = mesh_.positions[mesh_.triangles[t + 1]] - a,
                      w = mesh_.positions[mesh_.triangles[t + 2]] - a;
-    const glm::dvec3 n = glm::cross(u, w);
-    const double slope = glm::dot(n, direction);
-    if (std::abs(slope) < 1e-12 * diagonal_ * diagonal_) continue;
-    const double s = glm::dot(n, a - start) / slope;
-    const glm::dvec3 p = start + s * direction - a;
-    const double nn = glm::dot(n, n), beta = glm::dot(glm::cross(p, w), n) / nn,
-                 gamma = glm::dot(glm::cross(u, p), n) / nn;
-    if (beta >= -1e-9 && gamma >= -1e-9 && beta + gamma <= 1 + 1e-9) out.push_back(s);
+    // Moeller and Trumbore 1997: the weights of two corners, each times the determinant; most lines end at the first
+    const glm::dvec3 across = glm::cross(direction, w), from = start - a;
+    const double determinant = glm::dot(u, across), size = std::abs(determinant);
+    if (size < 1e-12 * diagonal_ * diagonal_) continue;
+    const double sign = determinant > 0 ? 1 : -1, beta = sign * glm::dot(from, across);
+    if (beta < -1e-9 * size || beta > (1 + 1e-9) * size) continue;
+    const glm::dvec3 normal = glm::cross(from, u);
+    const double gamma = sign * glm::dot(direction, normal);
+    if (gamma < -1e-9 * size || beta + gamma > (1 + 1e-9) * size) continue;
+    out.push_back(glm::dot(w, normal) / determinant);
   }
   std::sort(out.begin(), out.end());
   // a line through an edge meets both its triangles

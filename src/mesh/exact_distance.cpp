@@ -29,6 +29,9 @@ constexpr double saddle_rounding = 1e-11;
 // The wedge behind a pseudo-source is wider by this angle on both sides. Narrower ones lose paths to rounding, wider
 // ones cost windows. Half and double change no bit of the distances on seven shapes.
 constexpr double shadow_rounding = 1e-7;
+// A window is left out where its paths to the target are longer than a known one by this share. A smaller one loses
+// the path itself to rounding, a larger one keeps windows that lead past it.
+constexpr double path_rounding = 1e-9;
 // Width of a step of the queue in mean edges. Smaller steps make fewer windows, larger ones read nearer memory. On a
 // torus, a sphere and a plane of 100,000 vertices a quarter takes 9 to 36 % longer.
 constexpr double queue_step = 1;
@@ -153,6 +156,8 @@ class Propagation {
     result_.distance.assign(n, infinite), result_.end.assign(n, PathEnd());
     if (task.directions) result_.direction.assign(n, 0.0);
     step_ = queue_step * std::max(sides.mean_length, least_step);
+    if (task.to) target_ = task.to->position(mesh_);
+    if (task.to && task.at_most > 0) longest_ = (1 + path_rounding) * task.at_most;
   }
 
   ExactDistance run() {
@@ -244,6 +249,7 @@ class Propagation {
   }
   void offer_target(double d, const PathEnd& end, std::size_t place) {
     if (result_.to_distance >= 0 && !(d < result_.to_distance)) return;
+    longest_ = std::min(longest_, (1 + path_rounding) * d);
     result_.to_distance = d, result_.to_end = end, result_.to_place = static_cast<Index>(place);
   }
 
@@ -332,6 +338,7 @@ class Propagation {
     ++live_, ++result_.window_count;
   }
   void push_vertex(Index v) {
+    if (distance(v) + norm(mesh_.positions[at(v)] - target_) > longest_) return;
     Window w{};
     w.side = -1 - v, w.sigma = distance(v);
     push(w, w.sigma);
@@ -340,6 +347,7 @@ class Propagation {
   void reach(Index v, double d, const PathEnd& end, double direction = 0) {
     if (!(d < distance(v))) return;
     result_.distance[at(v)] = d, result_.end[at(v)] = end;
+    if (task_.to && task_.to->vertex == v) longest_ = std::min(longest_, (1 + path_rounding) * d);
     if (task_.directions) result_.direction[at(v)] = direction;
     push_vertex(v);
   }
@@ -458,12 +466,24 @@ class Propagation {
     const double length = sides_.frame[at(side)].length;
     if (!(end - begin > least_window * length)) return;
     const Index start = mesh_.corners[at(side)];
+    Window w{begin, end, x, y, sigma, side, from, Mesh::none};
+    if (longest_ < infinite && leads_past(w)) return;
     for_twins(side, [&](Index twin) {
-      Window w{begin, end, x, y, sigma, twin, from, Mesh::none};
+      w = {begin, end, x, y, sigma, twin, from, Mesh::none};
       if (mesh_.corners[at(twin)] == start) return push(w, key(w), turn);
       w.begin = length - end, w.end = length - begin, w.x = length - x;
       push(w, key(w), {turn.angle + turn.sign * pi, -turn.sign});
     });
+  }
+
+  // Tells whether every path through a window is longer than one that is known. What is left of the path is no shorter
+  // than the straight line from the window to the target.
+  bool leads_past(const Window& w) const noexcept {
+    const Vec3 start = mesh_.positions[at(mesh_.corners[at(w.side)])];
+    const Vec3 along = (1 / sides_.frame[at(w.side)].length) *
+                       (mesh_.positions[at(mesh_.corners[at(TriangleSides::next(w.side))])] - start);
+    const double foot = std::min(std::max(dot(target_ - start, along), w.begin), w.end);
+    return key(w) + norm(start + foot * along - target_) > longest_;
   }
 
   // Returns whether the rays of a window come from the source itself, not from a vertex where paths bend.
@@ -555,7 +575,8 @@ class Propagation {
   Vector<Index> lists_;
   Vector<Best> best_;
   ExactDistance result_;
-  double step_ = 1, base_ = 0;
+  double step_ = 1, base_ = 0, longest_ = infinite;
+  Vec3 target_;
   std::size_t step_now_ = 0, live_ = 0, visited_ = 0;
   Poller poller_;
 };
@@ -590,6 +611,14 @@ GeodesicPoint::GeodesicPoint(const TriangleSides& sides, const Index* corners, c
     if (matched == count) places.push_back(place);
   }
   if (count == 3 && places.size() > 1) places.resize(1);
+}
+
+Vec3 GeodesicPoint::position(const Mesh& mesh) const noexcept {
+  if (vertex >= 0) return mesh.positions[at(vertex)];
+  Vec3 sum;
+  for (Index k = 0; k < 3; ++k)
+    sum = sum + places[0].weight[k] * mesh.positions[at(mesh.triangle(places[0].triangle)[k])];
+  return sum;
 }
 
 ExactDistance exact_distance(const TriangleSides& sides, const ExactTask& task, Memory& memory) {

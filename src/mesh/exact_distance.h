@@ -67,6 +67,7 @@ struct GeodesicPoint {
   // corners: those of a triangle; one of weight 0 may be Mesh::none. Without such a triangle, found() is false.
   GeodesicPoint(const TriangleSides& sides, const std::int32_t* corners, const double* weights, Memory& memory);
   bool found() const noexcept { return vertex >= 0 || !places.empty(); }
+  Vec3 position(const Mesh& mesh) const noexcept;
 
   std::int32_t vertex = -1;
   Vector<Place> places;
@@ -79,6 +80,7 @@ struct ExactTask {
   const GeodesicPoint* to = nullptr;    // with `from`: stops when the path to this point is known
   bool directions = false;              // with `from`: fills ExactDistance::direction
   double reach = 0;                     // above 0: stops beyond this distance
+  double at_most = 0;                   // with `to`, above 0: a path of this length to it is known
 };
 
 struct ExactDistance {

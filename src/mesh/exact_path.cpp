@@ -5,6 +5,7 @@
 
 #include "base/index.h"
 #include "base/progress.h"
+#include "mesh/edge_paths.h"
 
 namespace hf_inner {
 namespace {
@@ -167,6 +168,19 @@ PathPoint end_point(const GeodesicPoint& point, const TriangleSides& sides) {
   return {Mesh::none, Mesh::none, 0};
 }
 
+// Returns the length of a path by edges from near one point to near another.
+double length_by_edges(const TriangleSides& sides, const GeodesicPoint& from, const GeodesicPoint& to, Memory& memory) {
+  Vector<Index> way(&memory);
+  const auto corner = [&](const GeodesicPoint& point) {
+    return point.vertex >= 0 ? point.vertex : sides.mesh.triangle(point.places[0].triangle)[0];
+  };
+  const auto to_corner = [&](const GeodesicPoint& point) {
+    return norm(point.position(sides.mesh) - sides.mesh.positions[at(corner(point))]);
+  };
+  const double edges = EdgePaths(sides.mesh, sides.topology, memory).append(corner(from), corner(to), way);
+  return to_corner(from) + edges + to_corner(to);
+}
+
 }  // namespace
 
 Vec3 position_of(const Mesh& mesh, const PathPoint& point) noexcept {
@@ -174,9 +188,10 @@ Vec3 position_of(const Mesh& mesh, const PathPoint& point) noexcept {
 }
 
 SurfacePath shortest_path(const TriangleSides& sides, const GeodesicPoint& from, const GeodesicPoint& to,
-                          Memory& memory) {
+                          Memory& memory, double at_most) {
   ExactTask task;
   task.from = &from, task.to = &to;
+  task.at_most = at_most > 0 ? at_most : length_by_edges(sides, from, to, memory);
   const ExactDistance found = exact_distance(sides, task, memory);
   SurfacePath path(memory);
   path.length = to.vertex >= 0 ? found.distance[at(to.vertex)] : found.to_distance;

@@ -20,8 +20,9 @@ struct SurfacePath {
   double length = 0;         // the exact distance; -1: no path
 };
 
-// Computes the shortest path. If several are as short, one of them. Throws HF_ERROR_CANCELLED or std::bad_alloc.
+// Computes the shortest path. If several are as short, one of them. at_most: the length of a path that is known, or 0:
+// the call finds one along edges. Throws HF_ERROR_CANCELLED or std::bad_alloc.
 SurfacePath shortest_path(const TriangleSides& sides, const GeodesicPoint& from, const GeodesicPoint& to,
-                          Memory& memory);
+                          Memory& memory, double at_most = 0);
 
 }  // namespace hf_inner

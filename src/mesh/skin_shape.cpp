@@ -42,9 +42,9 @@ SkinShape::SkinShape(const Mesh& mesh, Memory& memory)
   }
 }
 
-bool SkinShape::blocked(const Vec3& from, const Vec3& to, Index island, Index own) const noexcept {
+bool SkinShape::crosses(const Vec3& from, const Vec3& to, Index island, Index own, bool outwards) const noexcept {
   const Vec3 way = to - from;
-  const bool turned = side_[at(island)] < 0;
+  const bool turned = (side_[at(island)] < 0) != outwards;
   return tree_.along(from, to, [&](Index t) {
     const Index* v = mesh_.triangle(t);
     if (mesh_.component[at(v[0])] != island || v[0] == own || v[1] == own || v[2] == own) return false;
@@ -55,11 +55,10 @@ bool SkinShape::blocked(const Vec3& from, const Vec3& to, Index island, Index ow
   });
 }
 
-double SkinShape::way_out(const Vec3& from, const Vec3& direction, double most, Index island) const noexcept {
+double SkinShape::way_out(const Vec3& from, const Vec3& direction, double most) const noexcept {
   double nearest = most;
   tree_.along(from, from + most * direction, [&](Index t) {
     const Index* v = mesh_.triangle(t);
-    if (island != Mesh::none && mesh_.component[at(v[0])] != island) return false;
     bool entering = false;
     const double where = most * crossing(from, most * direction, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])],
                                          mesh_.positions[at(v[2])], entering);

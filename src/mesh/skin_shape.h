@@ -9,11 +9,10 @@ namespace hf_inner {
 class SkinShape {
  public:
   SkinShape(const Mesh& mesh, Memory& memory);
-  // Whether a segment enters the front of a triangle of this island. Triangles of the vertex `own` do not count.
-  bool blocked(const Vec3& from, const Vec3& to, Index island, Index own) const noexcept;
-  // The distance from a point along a unit direction to the first place where it leaves the skin, or `most`. island:
-  // only the skin of this one counts, or that of all.
-  double way_out(const Vec3& from, const Vec3& direction, double most, Index island = Mesh::none) const noexcept;
+  // Whether a segment enters the skin of an island or, outwards, leaves it. Triangles of the vertex `own` do not count.
+  bool crosses(const Vec3& from, const Vec3& to, Index island, Index own, bool outwards) const noexcept;
+  // The distance from a point along a unit direction to the first place where it leaves the skin, or `most`.
+  double way_out(const Vec3& from, const Vec3& direction, double most) const noexcept;
   // Whether a point is inside: a ray from it leaves the skin more often than it enters.
   bool inside(const Vec3& point) const noexcept;
   // Writes the islands whose triangles a segment crosses, each once.

@@ -17,8 +17,8 @@ Vector<std::uint8_t> thin_vertices(const Geometry& geometry, Memory& memory, Job
   Vector<std::uint8_t> shallow(n, std::uint8_t{0}, &memory);
   for_ranges(jobs, n, owner_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      const Vec3 inwards = -1 * shape.normals()[v];
-      shallow[v] = shape.way_out(mesh.positions[v], inwards, thin_width, mesh.component[v]) < thin_width;
+      const Vec3 through = mesh.positions[v] - thin_width * shape.normals()[v];
+      shallow[v] = shape.crosses(mesh.positions[v], through, mesh.component[v], Mesh::none, true);
     }
   });
   // The normals of a rim point along the sheet: there a neighbour tells.

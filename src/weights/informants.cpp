@@ -72,7 +72,7 @@ class Search {
     for (const Candidate& candidate : candidates_) {
       if (candidate.distance > best * equal_distance || out.count == most_informants) continue;
       if (out.count > 0 && out.bone[out.count - 1] == candidate.bone) continue;
-      if (!see_through && skin_.blocked(p, candidate.place, mesh_.component[at(v)], v)) continue;
+      if (!see_through && skin_.crosses(p, candidate.place, mesh_.component[at(v)], v, false)) continue;
       out.bone[out.count++] = candidate.bone;
     }
     return out;

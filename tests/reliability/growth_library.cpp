@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <random>
 
 #include "exact_shapes.h"
 #include "growth.h"
@@ -63,6 +64,21 @@ MeshArrays lone_triangles(std::size_t triangles) {
   return mesh;
 }
 
+// Triangles between random vertices, 90 for each, all through each other.
+MeshArrays soup(std::size_t triangles) {
+  MeshArrays mesh;
+  std::mt19937 random(1);
+  const auto vertices = static_cast<std::uint32_t>(triangles / 90);
+  for (std::uint32_t i = 0; i < 3 * vertices; ++i)
+    mesh.positions.push_back(1e-3 * static_cast<double>(random() % 1000));
+  while (mesh.triangles.size() < 3 * triangles) {
+    const auto a = static_cast<std::uint32_t>(random() % vertices), b = static_cast<std::uint32_t>(random() % vertices),
+               c = static_cast<std::uint32_t>(random() % vertices);
+    if (a != b && b != c && c != a) mesh.triangles.insert(mesh.triangles.end(), {a, b, c});
+  }
+  return mesh;
+}
+
 hf_surface surface_of(const MeshArrays& mesh, std::int32_t field_kind = HF_FIELD_HARMONIC) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.field_kind = field_kind;
@@ -115,6 +131,23 @@ Run create(MeshArrays (*make)(std::size_t)) {
   return [=](std::size_t size) {
     const auto mesh = std::make_shared<MeshArrays>(make(size));
     return [=] { hf_surface_destroy(surface_of(*mesh)); };
+  };
+}
+
+// A transfer of a soup to itself up to its clusters.
+std::function<void()> transfer_soup(std::size_t size) {
+  const std::shared_ptr<hf_surface_object> surface(surface_of(soup(size)), hf_surface_destroy);
+  return [=] {
+    hf_transfer transfer = nullptr;
+    check(hf_transfer_create(surface.get(), surface.get(), nullptr, &transfer), "hf_transfer_create");
+    const std::uint32_t counts[3] = {1, 1, 1}, vertices[3] = {0, 1, 2};
+    hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
+    pairs.pair_count = 3, pairs.source_counts = pairs.target_counts = counts;
+    pairs.source_vertices = pairs.target_vertices = vertices;
+    check(hf_transfer_add_pairs(transfer, &pairs, nullptr), "hf_transfer_add_pairs");
+    hf_transfer_info info = HF_INIT(hf_transfer_info);
+    check(hf_transfer_get_info(transfer, &info), "hf_transfer_get_info");
+    hf_transfer_destroy(transfer);
   };
 }
 
@@ -252,6 +285,7 @@ std::vector<Structure> library_structures(bool full) {
       {"sites", doubled(full ? 250 : 125), 3, sites},
       // every edit works on a copy of the lists of sites, so that a refused one changes nothing: 60 ns for each site
       {"component_sites", doubled(1000), 2, component_sites},
+      {"transfer_soup", doubled(40000), 1.25, transfer_soup},
       {"undo_records", doubled(5000 * large), 1.25, records},
       {"handle_create", many, 1.25, create_handles, most_microseconds},
       {"handle_find", many, 1.25, find_handles, most_microseconds},

@@ -1,16 +1,17 @@
 // Finds shortest paths along the edges of a surface (Dijkstra's algorithm).
 #pragma once
-#include "engine/core.h"
+#include "mesh/mesh.h"
+#include "mesh/topology.h"
 
 namespace hf_inner {
 
 // All paths share the same arrays. A path costs O(d log d) for the d vertices nearer than its end.
 class EdgePaths {
  public:
-  EdgePaths(const Core& core, Memory& memory);
+  EdgePaths(const Mesh& mesh, const Topology& topology, Memory& memory);
 
-  // Appends the vertices of the shortest path from `from` to `to`, which lies in the same component; `to` itself is
-  // left out. Returns the length of the path.
+  // Appends the vertices of the shortest path from `from` to `to`; `to` itself is left out. Returns the length of the
+  // path: infinite, and nothing is appended, where no path leads there.
   double append(std::int32_t from, std::int32_t to, Vector<std::int32_t>& out);
 
  private:
@@ -23,7 +24,8 @@ class EdgePaths {
                                     : before > o.before;
     }
   };
-  const Core& core_;
+  const Mesh& mesh_;
+  const Topology& topology_;
   Vector<std::int32_t> before_;
   Vector<std::uint8_t> done_;
   Vector<std::int32_t> touched_;
