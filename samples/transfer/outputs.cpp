@@ -98,6 +98,20 @@ Directions directions_of(const std::vector<std::vector<double>>& rows, double ve
   return out;
 }
 
+// The links between pieces of a surface.
+std::vector<RigTie> ties_of(hf_surface surface) {
+  uint32_t count = 0;
+  check(hf_surface_get_links(surface, 0, nullptr, &count), "the links");
+  std::vector<hf_link> links(count);
+  if (count > 0) check(hf_surface_get_links(surface, count, links.data(), nullptr), "the links");
+  std::vector<RigTie> out(count);
+  for (size_t i = 0; i < links.size(); ++i) {
+    out[i].vertex = links[i].vertex;
+    for (int c = 0; c < 3; ++c) out[i].corners[c] = links[i].corners[c], out[i].shares[c] = links[i].barycentrics[c];
+  }
+  return out;
+}
+
 std::string safe_name(const std::string& name) {
   std::string out = name.empty() ? "pose" : name;
   for (char& c : out)
@@ -170,13 +184,13 @@ std::vector<PlayedClip> written_clips(const Model& written, const Session& sessi
 Model own_skin_model(const Model& target, const Session& session, const std::vector<PlayedClip>& clips, double box,
                      double key_tolerance, OutputFigures& figures) {
   const FlatMesh& mesh = session.target_flat();
-  const RigFit rig(target, mesh);
+  const RigFit rig(target, mesh, ties_of(session.target_surface()));
   Model out = target;
   double sum = 0;
   size_t frames = 0, done = 0;
   for (const PlayedClip& clip : clips) {
     const std::vector<Pose> poses =
-        rig.fit_all(clip.target_frames, [&](size_t f) { return session.standing(clip, f); });
+        rig.fit_all(clip.clip.times, clip.target_frames, [&](size_t f) { return session.standing(clip, f); });
     for (size_t f = 0; f < poses.size(); ++f, ++frames)
       measure(posed_positions(target, mesh, poses[f]), clip.target_frames[f], box, sum, figures);
     insert_clip(out, done++, rig.clip(clip.clip.name, clip.clip.times, poses));

@@ -259,7 +259,7 @@ hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_frames_desc*
     std::vector<std::vector<double>> wanted;
     for (size_t f = 0; f < frames; ++f) wanted.push_back(frame_of(given.positions, vertices, f));
     const RigFit rig(object->model, object->mesh);
-    const std::vector<Pose> poses = rig.fit_all(wanted, [&](size_t f) -> std::vector<double> {
+    const std::vector<Pose> poses = rig.fit_all(times, wanted, [&](size_t f) -> std::vector<double> {
       if (!given.firm) return {};
       return {given.firm + vertices * f, given.firm + vertices * (f + 1)};
     });

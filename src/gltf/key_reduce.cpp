@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gltf/animate.h"
 
@@ -15,6 +16,12 @@ constexpr double first_part = 2;
 constexpr int most_halvings = 9;
 // Then larger parts are tried, between the last that was too large and the first that was not.
 constexpr int more_parts = 3;
+// Straight lines between few keys bend at the keys: a calm motion then accelerates more than it did. The root mean
+// square acceleration may be this many times as large. If it is larger, a left out key may miss by less, the fewer
+// keys lie beside it: half of the tolerance for each key at first, and then half of that, so many times. If that is not
+// enough, rotations are not rounded to 16 bits.
+constexpr double most_acceleration = 1.03;
+constexpr int most_calming = 10;
 // A vertex belongs to a joint with a larger weight.
 constexpr float least_weight = 0.01f;
 
@@ -65,7 +72,8 @@ double miss(const Channel& channel, size_t a, size_t between, size_t b, double r
   return std::sqrt(sum) * (channel.path == Path::scale ? reach : unit);
 }
 
-Channel reduced(const Channel& from, double reach, double unit, double tolerance) {
+// bend: the bound for each key of a gap, a length.
+Channel reduced(const Channel& from, double reach, double unit, double tolerance, double bend) {
   Channel out = from;
   out.times.clear(), out.values.clear();
   const auto keep = [&](size_t key) {
@@ -79,7 +87,8 @@ Channel reduced(const Channel& from, double reach, double unit, double tolerance
     size_t b = a + 1;
     while (b < last) {
       bool good = true;
-      for (size_t k = a + 1; k <= b && good; ++k) good = miss(from, a, k, b + 1, reach, unit) <= tolerance;
+      const double most = std::min(tolerance, bend * static_cast<double>(b - a));
+      for (size_t k = a + 1; k <= b && good; ++k) good = miss(from, a, k, b + 1, reach, unit) <= most;
       if (!good) break;
       ++b;
     }
@@ -115,21 +124,37 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
   std::vector<std::vector<glm::dvec3>> wanted;
   for (const double time : times) wanted.push_back(posed_positions(model, mesh, animation, time));
   // The clip with a part of the tolerance for each channel, and how far a vertex moves at most.
+  double squares = 0;  // of accelerations
+  const auto squares_at = [](const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b,
+                             const std::vector<glm::dvec3>& c) {
+    double sum = 0;
+    for (size_t v = 0; v < a.size(); ++v) {
+      const glm::dvec3 bend = a[v] - 2.0 * b[v] + c[v];
+      sum += glm::dot(bend, bend);
+    }
+    return sum;
+  };
+  for (size_t f = 1; f + 1 < times.size(); ++f) squares += squares_at(wanted[f - 1], wanted[f], wanted[f + 1]);
+  double bend = std::numeric_limits<double>::infinity(), got_squares = 0;
+  bool shorts = true;
   const auto reduce = [&](double part, Animation& fresh) {
-    fresh = animation;
+    fresh = animation, got_squares = 0;
     for (Channel& channel : fresh.channels) {
       if (channel.interpolation != Interpolation::linear || channel.path == Path::weights || channel.times.size() < 3)
         continue;
       const auto node = static_cast<size_t>(channel.node);
       const int up = model.nodes[node].parent;
       const double unit = up < 0 ? 1 : glm::length(glm::dvec3(globals[static_cast<size_t>(up)][0]));
-      channel = reduced(channel, reach[node], unit, part * tolerance);
-      if (channel.path == Path::rotation) to_shorts(channel);
+      channel = reduced(channel, reach[node], unit, part * tolerance, bend);
+      if (channel.path == Path::rotation && shorts) to_shorts(channel);
     }
     double worst = 0;
+    std::vector<glm::dvec3> before, last;
     for (size_t f = 0; f < times.size() && worst <= tolerance; ++f) {
-      const std::vector<glm::dvec3> got = posed_positions(model, mesh, fresh, times[f]);
+      std::vector<glm::dvec3> got = posed_positions(model, mesh, fresh, times[f]);
       for (size_t v = 0; v < got.size(); ++v) worst = std::max(worst, glm::distance(got[v], wanted[f][v]));
+      if (f > 1) got_squares += squares_at(before, last, got);
+      before = std::move(last), last = std::move(got);
     }
     return worst;
   };
@@ -145,6 +170,17 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
     const double moved = reduce(part + step, fresh);
     if (moved > tolerance) continue;
     part += step, worst = moved, best = fresh;
+  }
+  const double most = most_acceleration * most_acceleration * squares;
+  reduce(part, fresh);
+  for (const bool rounded : {true, false}) {
+    if (got_squares <= most) break;
+    shorts = rounded, bend = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < most_calming && got_squares > most; ++k) {
+      bend = k == 0 ? tolerance / 2 : bend / 2;
+      const double moved = reduce(part, fresh);
+      if (moved <= tolerance) worst = moved, best = fresh;
+    }
   }
   animation = std::move(best);
   return worst;

@@ -9,10 +9,26 @@
 namespace hf_gltf {
 namespace {
 
-constexpr double keep_rest = 2e-4;   // k, over the mean diagonal of the normal matrix
-constexpr double damping = 1e-3;     // of each diagonal entry
-constexpr double foot_weight = 300;  // of a vertex of a standing foot, beside 1: planted feet do not slide
-constexpr double moved = 1e-3;       // of the diagonal: a clip that moves a joint less does not move it
+// Weights were chosen on every 25th run of the choosing half of hf_transfer_table --own-skin.
+// k, over the mean diagonal of the normal matrix at rest. 2e-4 and 5e-3 give the same spikes.
+constexpr double keep_rest = 1e-3;
+// The same for the difference from the frames beside: 0, 0.05 and 0.1 give 21, 2 and 1 spikes instead of 5. But from
+// 0.05 on 5 runs instead of 1 move beside a still source.
+constexpr double keep_even = 0.01;
+constexpr int even_rounds = 3;  // over the clip; a frame's turns go so many frames far
+// Of all ties, beside 1 for all vertices: pieces stay together, and feet slide more. 0, 1, 100: gaps of a knight's runs
+// on a robot of .096, .076, .016 of the box instead of .026, and slides of .0010, .0012, .0021 instead of .0015.
+constexpr double tie_weight = 10;
+// Of a vertex of a standing foot, beside 1: planted feet do not slide. 3000 halves slides and gives four times the
+// spikes.
+constexpr double foot_weight = 300;
+constexpr double moved = 1e-3;  // of the diagonal: a clip that moves a joint less does not move it
+// Levenberg's and Marquardt's damping, of each diagonal entry. A step that raises the energy is damped more.
+constexpr double first_damping = 1e-3, least_damping = 1e-6, more_damping = 8, less_damping = 0.2;
+constexpr int most_steps = 40, most_attempts = 8;  // frames from their neighbours take some 5
+constexpr double still_enough = 1e-6;              // a step that lowers the energy by a smaller share ends the fit
+constexpr double most_turn = 0.7;                  // of a joint in a step, in radians
+constexpr double lift = 1e-9;                      // of the mean diagonal: joints that move nothing stay
 
 // The rotation of a matrix whose columns may be scaled.
 glm::dquat rotation_of(const glm::dmat4& matrix) {
@@ -74,14 +90,68 @@ Pose decomposed(Pose pose) {
 
 }  // namespace
 
-RigFit::RigFit(const Model& model, const FlatMesh& mesh) : model_(model), joint_of_node_(model.nodes.size(), -1) {
+// Sums of the rows over pairs of slots: what energy, gradient and matrix need of the vertices.
+class RigFit::Moments {
+ public:
+  explicit Moments(size_t slots) : slots_(slots), number_(slots * slots, -1), goal_(slots, glm::dmat3x4(0.0)) {}
+  // The matrix part of a row.
+  void add(const Row& row, double weight) {
+    for (const Term& a : row.terms)
+      for (const Term& b : row.terms) {
+        if (b.slot < a.slot) continue;
+        int& number = number_[a.slot * slots_ + b.slot];
+        if (number < 0) number = static_cast<int>(pairs_.size()), pairs_.push_back({a.slot, b.slot, glm::dmat4(0)});
+        glm::dmat4& sum = pairs_[static_cast<size_t>(number)].sum;
+        for (int c = 0; c < 4; ++c) sum[c] += weight * b.at[c] * a.at;
+      }
+  }
+  // What it must come to.
+  void want(const Row& row, double weight, const glm::dvec3& goal) {
+    for (const Term& a : row.terms)
+      for (int c = 0; c < 3; ++c) goal_[a.slot][c] += weight * goal[c] * a.at;
+    squares_ += weight * glm::dot(goal, goal);
+  }
+  struct Pair {
+    size_t first, second;  // first <= second
+    glm::dmat4 sum;        // of weight * first's place * second's place
+  };
+  const std::vector<Pair>& pairs() const { return pairs_; }
+  const glm::dmat3x4& goal(size_t slot) const { return goal_[slot]; }
+  double squares() const { return squares_; }
+
+ private:
+  size_t slots_;
+  std::vector<int> number_;
+  std::vector<Pair> pairs_;
+  std::vector<glm::dmat3x4> goal_;  // of weight * place * goal
+  double squares_ = 0;
+};
+
+// One linear system of the fit.
+struct RigFit::System {
+  std::vector<double> matrix, rhs;
+};
+
+RigFit::RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTie>& ties)
+    : model_(model), rest_(decomposed(rest_pose(model))), joint_of_node_(model.nodes.size(), -1) {
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
   for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
   diagonal_ = glm::length(high - low);
   find_joints();
-  find_vertices(mesh);
   if (joints_.empty())
     throw std::runtime_error(model.name + " has no skin to keep: leave --onto-skin out, and it gets a new one");
+  find_vertices(mesh), find_ties(mesh, ties);
+  Moments moments(slots_.size());
+  for (const Row& row : vertices_) moments.add(row, row.weight);
+  for (const Tie& tie : ties_) moments.add(tie.row, tie.row.weight);
+  const System at_rest = system(moments, rest_, glm::dvec3(0), nullptr);
+  double mean = 0;
+  for (const Joint& joint : joints_)
+    for (int c = 0; c < 3; ++c)
+      mean += at_rest.matrix[static_cast<size_t>(joint.rotation + c) * (unknowns_ + 1)] /
+              (3 * static_cast<double>(joints_.size()));
+  stiffness_ = keep_rest * mean, evenness_ = keep_even * mean;
+  still_ = std::make_shared<const Moments>(std::move(moments));
 }
 
 // Joints at or above an influence, parents first; which of them shift.
@@ -103,7 +173,7 @@ void RigFit::find_joints() {
       }
     }
   }
-  const Pose rest = decomposed(rest_pose(model_));
+  const Pose& rest = rest_;
   std::vector<int> order;
   for (size_t n = 0; n < model_.nodes.size(); ++n)
     if (model_.nodes[n].parent < 0) order.push_back(static_cast<int>(n));
@@ -139,6 +209,18 @@ void RigFit::find_joints() {
   }
 }
 
+// The slots: joints of skins, and nodes that carry a part without a skin.
+size_t RigFit::slot_of(int node, const glm::dmat4& bind, int key) {
+  const auto known = slot_number_.find({node, key});
+  if (known != slot_number_.end()) return known->second;
+  Slot slot;
+  slot.node = node, slot.bind = bind;
+  for (int n = node; n >= 0 && slot.joint < 0; n = model_.nodes[static_cast<size_t>(n)].parent)
+    slot.joint = joint_of_node_[static_cast<size_t>(n)];
+  slots_.push_back(slot);
+  return slot_number_[{node, key}] = slots_.size() - 1;
+}
+
 void RigFit::find_vertices(const FlatMesh& mesh) {
   std::vector<double> area(mesh.welded_count, 0.0);
   std::vector<uint32_t> copies(mesh.welded_count, 0);
@@ -151,133 +233,267 @@ void RigFit::find_vertices(const FlatMesh& mesh) {
   }
   double total = 0;
   for (const double a : area) total += a;
+  vertices_.resize(mesh.positions.size());
   for (const FlatPart& part : mesh.parts) {
     const int skin = model_.nodes[static_cast<size_t>(part.node)].skin;
     const Primitive& primitive =
         model_.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
-    if (skin < 0 || primitive.influences.empty()) continue;
     for (uint32_t i = 0; i < part.vertex_count; ++i) {
-      Vertex vertex;
-      vertex.flat = part.first_vertex + i;
-      const uint32_t w = mesh.welded[vertex.flat];
+      const uint32_t flat = part.first_vertex + i, w = mesh.welded[flat];
+      Row& row = vertices_[flat];
       // half by area and half by count, so that small feet matter
-      vertex.area = (0.5 * area[w] / total + 0.5 / mesh.welded_count) / copies[w];
+      row.weight = (0.5 * area[w] / std::max(total, 1e-300) + 0.5 / mesh.welded_count) / copies[w];
+      const glm::dvec4 place(glm::dvec3(primitive.positions[i]), 1);
+      if (skin < 0 || primitive.influences.empty()) {
+        row.terms.push_back({slot_of(part.node, glm::dmat4(1), -1), place});
+        continue;
+      }
+      const Skin& from = model_.skins[static_cast<size_t>(skin)];
       const Influences& influences = primitive.influences[i];
       for (size_t k = 0; k < influences.weights.size(); ++k) {
         if (!(influences.weights[k] > 0)) continue;
-        const Skin& from = model_.skins[static_cast<size_t>(skin)];
-        Influence influence;
-        influence.node = from.joints[influences.joints[k]],
-        influence.weight = static_cast<double>(influences.weights[k]);
-        influence.rest = glm::dvec3(glm::dmat4(from.inverse_bind[influences.joints[k]]) *
-                                    glm::dvec4(glm::dvec3(primitive.positions[i]), 1));
-        influence.joint = -1;
-        for (int n = influence.node; n >= 0 && influence.joint < 0; n = model_.nodes[static_cast<size_t>(n)].parent)
-          influence.joint = joint_of_node_[static_cast<size_t>(n)];
-        vertex.influences.push_back(influence);
+        const uint16_t joint = influences.joints[k];
+        row.terms.push_back({slot_of(from.joints[joint], glm::dmat4(from.inverse_bind[joint]), skin),
+                             static_cast<double>(influences.weights[k]) * place});
       }
-      vertices_.push_back(vertex);
     }
   }
 }
 
-Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, int iterations,
-                 const std::vector<double>& firm) const {
-  const Pose rest = decomposed(rest_pose(model_));
-  Pose pose = decomposed(start);
-  const size_t n = unknowns_;
-  std::vector<double> matrix(n * n), rhs(n);
-  std::vector<int> slot(joints_.size(), -1), active;
-  std::vector<glm::dvec3> sum(joints_.size());
-  std::vector<double> weight(joints_.size());
-  for (int round = 0; round < iterations; ++round) {
-    const std::vector<glm::dmat4> globals = global_matrices(model_, pose);
-    std::fill(matrix.begin(), matrix.end(), 0.0), std::fill(rhs.begin(), rhs.end(), 0.0);
-    for (const Vertex& vertex : vertices_) {
-      glm::dvec3 at(0);
-      active.clear();
-      for (const Influence& influence : vertex.influences) {
-        const glm::dvec3 x = glm::dvec3(globals[static_cast<size_t>(influence.node)] * glm::dvec4(influence.rest, 1));
-        at += influence.weight * x;
-        for (int j = influence.joint; j >= 0; j = joints_[static_cast<size_t>(j)].parent) {
-          const auto k = static_cast<size_t>(j);
-          if (slot[k] < 0)
-            slot[k] = static_cast<int>(active.size()), active.push_back(j), sum[k] = glm::dvec3(0), weight[k] = 0;
-          sum[k] += influence.weight * x, weight[k] += influence.weight;
-        }
-      }
-      const glm::dvec3 miss = glm::dvec3(frame[3 * size_t{vertex.flat}], frame[3 * size_t{vertex.flat} + 1],
-                                         frame[3 * size_t{vertex.flat} + 2]) -
-                              at;
-      // columns of the Jacobian: three of the turn, three of the shift
-      struct Column {
-        size_t index;
-        glm::dvec3 value;
-      };
-      Column columns[6 * 64];
-      size_t used = 0;
-      for (const int j : active) {
-        const auto k = static_cast<size_t>(j);
-        slot[k] = -1;
-        if (used + 6 > 6 * 64) continue;
-        const glm::dvec3 arm = sum[k] - weight[k] * glm::dvec3(globals[static_cast<size_t>(joints_[k].node)][3]);
+// The rows of ties: from the point of the triangle to the vertex.
+void RigFit::find_ties(const FlatMesh& mesh, const std::vector<RigTie>& ties) {
+  for (const RigTie& tie : ties) {
+    Tie out;
+    out.tie = tie;
+    out.row = vertices_[tie.vertex], out.row.weight = tie_weight / static_cast<double>(ties.size());
+    glm::dvec3 apart = mesh.positions[tie.vertex];
+    for (int c = 0; c < 3; ++c) {
+      if (!(tie.shares[c] > 0)) continue;
+      apart -= tie.shares[c] * mesh.positions[tie.corners[c]];
+      for (Term term : vertices_[tie.corners[c]].terms) term.at *= -tie.shares[c], out.row.terms.push_back(term);
+    }
+    out.length = glm::length(apart);
+    ties_.push_back(std::move(out));
+  }
+}
+
+std::vector<glm::dmat4x3> RigFit::slot_matrices(const std::vector<glm::dmat4>& globals,
+                                                const glm::dvec3& centre) const {
+  std::vector<glm::dmat4x3> out;
+  for (const Slot& slot : slots_) {
+    out.emplace_back(globals[static_cast<size_t>(slot.node)] * slot.bind);
+    out.back()[3] -= centre;
+  }
+  return out;
+}
+
+glm::dvec3 RigFit::turned(const Pose& pose, const Pose& from, const std::vector<glm::dmat4>& globals,
+                          const Joint& joint) const {
+  const auto node = static_cast<size_t>(joint.node);
+  const int up = model_.nodes[node].parent;
+  const glm::dquat parent = up < 0 ? glm::dquat(1, 0, 0, 0) : rotation_of(globals[static_cast<size_t>(up)]);
+  return parent * rotation_vector(pose[node].rotation * glm::conjugate(from[node].rotation));
+}
+
+double RigFit::energy(const Moments& moments, const Pose& pose, const glm::dvec3& centre, const Pose* middle) const {
+  const std::vector<glm::dmat4> globals = global_matrices(model_, pose);
+  const std::vector<glm::dmat4x3> at = slot_matrices(globals, centre);
+  double out = moments.squares();
+  for (const Moments::Pair& pair : moments.pairs()) {
+    const glm::dmat4x3 product = at[pair.first] * pair.sum;
+    double sum = 0;
+    for (int c = 0; c < 4; ++c) sum += glm::dot(product[c], at[pair.second][c]);
+    out += pair.first == pair.second ? sum : 2 * sum;
+  }
+  for (size_t s = 0; s < slots_.size(); ++s) {
+    const glm::dmat3x4& goal = moments.goal(s);
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < 4; ++k) out -= 2 * at[s][k][c] * goal[c][k];
+  }
+  for (const Joint& joint : joints_) {
+    const glm::dvec3 turn = turned(pose, rest_, globals, joint);
+    out += stiffness_ * glm::dot(turn, turn);
+    if (!middle) continue;
+    const glm::dvec3 off = turned(pose, *middle, globals, joint);
+    out += evenness_ * glm::dot(off, off);
+  }
+  return out;
+}
+
+// The normal equations: sums over the tree of the moments.
+RigFit::System RigFit::system(const Moments& moments, const Pose& pose, const glm::dvec3& centre,
+                              const Pose* middle) const {
+  const std::vector<glm::dmat4> globals = global_matrices(model_, pose);
+  const std::vector<glm::dmat4x3> at = slot_matrices(globals, centre);
+  const size_t count = joints_.size(), n = unknowns_;
+  struct Block {
+    glm::dmat3 product{0.0};  // of places
+    glm::dvec3 first{0.0};    // place of the first times the weight of the second
+    double weight = 0;
+  };
+  std::vector<Block> blocks(count * count);
+  std::vector<glm::dmat4x3> left(slots_.size());
+  for (size_t s = 0; s < slots_.size(); ++s) left[s] = glm::transpose(moments.goal(s));
+  const auto add = [&](size_t a, size_t b, const glm::dmat4& sum) {
+    const int i = slots_[a].joint, j = slots_[b].joint;
+    const glm::dmat4x3 moved = at[a] * sum;
+    left[b] -= moved;
+    if (i < 0 || j < 0) return;
+    Block& block = blocks[static_cast<size_t>(i) * count + static_cast<size_t>(j)];
+    block.product += moved * glm::transpose(at[b]), block.first += moved[3], block.weight += sum[3][3];
+  };
+  for (const Moments::Pair& pair : moments.pairs()) {
+    add(pair.first, pair.second, pair.sum);
+    if (pair.first != pair.second) add(pair.second, pair.first, glm::transpose(pair.sum));
+  }
+  const auto sum_up = [](Block& into, const Block& from) {
+    into.product += from.product, into.first += from.first, into.weight += from.weight;
+  };
+  for (size_t a = count; a-- > 0;)
+    if (joints_[a].parent >= 0)
+      for (size_t b = 0; b < count; ++b)
+        sum_up(blocks[static_cast<size_t>(joints_[a].parent) * count + b], blocks[a * count + b]);
+  for (size_t b = count; b-- > 0;)
+    if (joints_[b].parent >= 0)
+      for (size_t a = 0; a < count; ++a)
+        sum_up(blocks[a * count + static_cast<size_t>(joints_[b].parent)], blocks[a * count + b]);
+  std::vector<glm::dvec3> torque(count, glm::dvec3(0)), force(count, glm::dvec3(0));
+  for (size_t s = 0; s < slots_.size(); ++s) {
+    if (slots_[s].joint < 0) continue;
+    const auto j = static_cast<size_t>(slots_[s].joint);
+    for (int c = 0; c < 4; ++c) torque[j] += glm::cross(at[s][c], left[s][c]);
+    force[j] += left[s][3];
+  }
+  for (size_t a = count; a-- > 0;)
+    if (joints_[a].parent >= 0)
+      torque[static_cast<size_t>(joints_[a].parent)] += torque[a],
+          force[static_cast<size_t>(joints_[a].parent)] += force[a];
+  System out;
+  out.matrix.assign(n * n, 0.0), out.rhs.assign(n, 0.0);
+  const auto entry = [&](int row, int column) -> double& {
+    return out.matrix[static_cast<size_t>(row) * n + static_cast<size_t>(column)];
+  };
+  for (size_t a = 0; a < count; ++a) {
+    const glm::dvec3 from = glm::dvec3(globals[static_cast<size_t>(joints_[a].node)][3]) - centre;
+    const glm::dvec3 turn = torque[a] - glm::cross(from, force[a]), rest = turned(pose, rest_, globals, joints_[a]),
+                     off = middle ? turned(pose, *middle, globals, joints_[a]) : glm::dvec3(0);
+    for (int c = 0; c < 3; ++c) {
+      out.rhs[static_cast<size_t>(joints_[a].rotation + c)] = turn[c] - stiffness_ * rest[c] - evenness_ * off[c];
+      if (joints_[a].translation >= 0) out.rhs[static_cast<size_t>(joints_[a].translation + c)] = force[a][c];
+    }
+    for (size_t b = 0; b < count; ++b) {
+      const Block &here = blocks[a * count + b], &there = blocks[b * count + a];
+      const glm::dvec3 to = glm::dvec3(globals[static_cast<size_t>(joints_[b].node)][3]) - centre;
+      const glm::dmat3 arms = here.product - glm::outerProduct(from, there.first) - glm::outerProduct(here.first, to) +
+                              here.weight * glm::outerProduct(from, to);
+      const double trace = arms[0][0] + arms[1][1] + arms[2][2];
+      const glm::dvec3 arm = here.first - here.weight * from;
+      for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c)
+          entry(joints_[a].rotation + r, joints_[b].rotation + c) = (r == c ? trace : 0.0) - arms[r][c];
+        if (joints_[b].translation < 0) continue;
         for (int c = 0; c < 3; ++c) {
           glm::dvec3 axis(0);
           axis[c] = 1;
-          columns[used++] = {static_cast<size_t>(joints_[k].rotation + c), glm::cross(axis, arm)};
-          if (joints_[k].translation >= 0)
-            columns[used++] = {static_cast<size_t>(joints_[k].translation + c), weight[k] * axis};
+          const double value = glm::cross(arm, axis)[r];
+          entry(joints_[a].rotation + r, joints_[b].translation + c) = value;
+          entry(joints_[b].translation + c, joints_[a].rotation + r) = value;
         }
-      }
-      const double area = vertex.area * (firm.empty() ? 1.0 : 1 + foot_weight * firm[vertex.flat]);
-      for (size_t a = 0; a < used; ++a) {
-        rhs[columns[a].index] += area * glm::dot(columns[a].value, miss);
-        for (size_t b = 0; b < used; ++b)
-          if (columns[b].index <= columns[a].index)
-            matrix[columns[a].index * n + columns[b].index] += area * glm::dot(columns[a].value, columns[b].value);
+        if (joints_[a].translation >= 0) entry(joints_[a].translation + r, joints_[b].translation + r) = here.weight;
       }
     }
+  }
+  return out;
+}
+
+// A step of the pose; turns of more than 0.7 radians are cut.
+Pose RigFit::stepped(const Pose& pose, const std::vector<double>& step) const {
+  const std::vector<glm::dmat4> globals = global_matrices(model_, pose);
+  Pose out = pose;
+  for (const Joint& joint : joints_) {
+    const auto node = static_cast<size_t>(joint.node);
+    const int up = model_.nodes[node].parent;
+    const glm::dmat4 above = up < 0 ? glm::dmat4(1) : globals[static_cast<size_t>(up)];
+    const glm::dquat parent = rotation_of(above);
+    const auto r = static_cast<size_t>(joint.rotation);
+    glm::dvec3 turn(step[r], step[r + 1], step[r + 2]);
+    if (glm::length(turn) > most_turn) turn *= most_turn / glm::length(turn);
+    out[node].rotation = glm::normalize(glm::conjugate(parent) * exponential(turn) * parent * pose[node].rotation);
+    if (joint.translation < 0) continue;
+    const auto t = static_cast<size_t>(joint.translation);
+    out[node].translation += glm::inverse(glm::dmat3(above)) * glm::dvec3(step[t], step[t + 1], step[t + 2]);
+  }
+  return out;
+}
+
+Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, const std::vector<double>& firm,
+                 const Pose* middle) const {
+  const auto place = [&](uint32_t v) {
+    return glm::dvec3(frame[3 * size_t{v}], frame[3 * size_t{v} + 1], frame[3 * size_t{v} + 2]);
+  };
+  // places count from the middle, so that sums keep their digits far from the origin
+  glm::dvec3 centre(0);
+  for (uint32_t v = 0; v < vertices_.size(); ++v) centre += place(v) / static_cast<double>(vertices_.size());
+  Moments moments = *still_;
+  for (uint32_t v = 0; v < vertices_.size(); ++v) {
+    const Row& row = vertices_[v];
+    const double more = firm.empty() ? 0.0 : row.weight * foot_weight * firm[v];
+    if (more > 0) moments.add(row, more);
+    moments.want(row, row.weight + more, place(v) - centre);
+  }
+  for (const Tie& tie : ties_) {
+    glm::dvec3 apart = place(tie.tie.vertex);
+    for (int c = 0; c < 3; ++c)
+      if (tie.tie.shares[c] > 0) apart -= tie.tie.shares[c] * place(tie.tie.corners[c]);
+    const double length = glm::length(apart);
+    moments.want(tie.row, tie.row.weight, length > tie.length ? tie.length / length * apart : apart);
+  }
+  Pose pose = decomposed(start);
+  double now = energy(moments, pose, centre, middle), damping = first_damping;
+  const size_t n = unknowns_;
+  for (int round = 0; round < most_steps; ++round) {
+    const System to = system(moments, pose, centre, middle);
     double mean = 0;
-    for (const Joint& joint : joints_)
-      for (int c = 0; c < 3; ++c)
-        mean += matrix[static_cast<size_t>(joint.rotation + c) * (n + 1)] / (3 * static_cast<double>(joints_.size()));
-    for (const Joint& joint : joints_) {
-      const int up = model_.nodes[static_cast<size_t>(joint.node)].parent;
-      const glm::dquat parent = up < 0 ? glm::dquat(1, 0, 0, 0) : rotation_of(globals[static_cast<size_t>(up)]);
-      const auto node = static_cast<size_t>(joint.node);
-      // turn from rest as a world vector
-      const glm::dvec3 turned = parent * rotation_vector(pose[node].rotation * glm::conjugate(rest[node].rotation));
-      for (int c = 0; c < 3; ++c) {
-        const auto i = static_cast<size_t>(joint.rotation + c);
-        matrix[i * (n + 1)] += keep_rest * mean, rhs[i] -= keep_rest * mean * turned[c];
-      }
+    for (size_t i = 0; i < n; ++i) mean += to.matrix[i * (n + 1)] / static_cast<double>(n);
+    const double before = now;
+    for (int attempt = 0; attempt < most_attempts && now == before; ++attempt) {
+      std::vector<double> matrix = to.matrix, step = to.rhs;
+      for (size_t i = 0; i < n; ++i) matrix[i * (n + 1)] += damping * matrix[i * (n + 1)] + lift * mean;
+      for (const Joint& joint : joints_)
+        for (int c = 0; c < 3; ++c)
+          matrix[static_cast<size_t>(joint.rotation + c) * (n + 1)] += stiffness_ + (middle ? evenness_ : 0);
+      solve(matrix, step);
+      Pose next = stepped(pose, step);
+      const double then = energy(moments, next, centre, middle);
+      if (then < now)
+        pose = std::move(next), now = then, damping = std::max(damping * less_damping, least_damping);
+      else
+        damping *= more_damping;
     }
-    for (size_t i = 0; i < n; ++i) matrix[i * (n + 1)] += damping * matrix[i * (n + 1)] + 1e-12 * mean;
-    solve(matrix, rhs);
-    for (const Joint& joint : joints_) {
-      const auto node = static_cast<size_t>(joint.node);
-      const int up = model_.nodes[node].parent;
-      const glm::dmat4 above = up < 0 ? glm::dmat4(1) : globals[static_cast<size_t>(up)];
-      const glm::dquat parent = rotation_of(above);
-      const auto r = static_cast<size_t>(joint.rotation);
-      glm::dvec3 turn(rhs[r], rhs[r + 1], rhs[r + 2]);
-      if (glm::length(turn) > 0.7) turn *= 0.7 / glm::length(turn);
-      pose[node].rotation = glm::normalize(glm::conjugate(parent) * exponential(turn) * parent * pose[node].rotation);
-      if (joint.translation < 0) continue;
-      const auto t = static_cast<size_t>(joint.translation);
-      pose[node].translation += glm::inverse(glm::dmat3(above)) * glm::dvec3(rhs[t], rhs[t + 1], rhs[t + 2]);
-    }
+    if (before - now < still_enough * before) break;
   }
   return pose;
 }
 
-std::vector<Pose> RigFit::fit_all(const std::vector<std::vector<double>>& frames,
+std::vector<Pose> RigFit::fit_all(const std::vector<double>& times, const std::vector<std::vector<double>>& frames,
                                   const std::function<std::vector<double>(size_t)>& firm) const {
-  constexpr int first_steps = 30, steps = 6;  // from rest, and from the frame before, which is near
   std::vector<Pose> out;
-  const Pose rest = rest_pose(model_);
-  for (size_t f = 0; f < frames.size(); ++f)
-    out.push_back(fit(frames[f], f == 0 ? rest : out.back(), f == 0 ? first_steps : steps, firm(f)));
+  for (size_t f = 0; f < frames.size(); ++f) out.push_back(fit(frames[f], f == 0 ? rest_ : out.back(), firm(f)));
+  // Then turns that the frames leave open follow those of the frames beside.
+  for (int round = 0; round < even_rounds && frames.size() > 1; ++round) {
+    const std::vector<Pose> before = out;
+    for (size_t f = 0; f < frames.size(); ++f) {
+      const Pose &left = f > 0 ? out[f - 1] : before[1], &right = f + 1 < frames.size() ? before[f + 1] : left;
+      const bool inner = f > 0 && f + 1 < frames.size() && times[f + 1] > times[f - 1];
+      const double share = inner ? (times[f] - times[f - 1]) / (times[f + 1] - times[f - 1]) : 0.5;
+      Pose middle = before[f];
+      for (const Joint& joint : joints_) {
+        const auto node = static_cast<size_t>(joint.node);
+        middle[node].rotation = glm::slerp(left[node].rotation, right[node].rotation, share);
+      }
+      out[f] = fit(frames[f], before[f], firm(f), &middle);
+    }
+  }
   return out;
 }
 

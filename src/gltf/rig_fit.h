@@ -1,32 +1,43 @@
 // Fits joint rotations of a model's own rig, so that its skin comes nearest to given vertex positions.
 //
 // For each frame it minimises sum_v a_v |sum_j w_vj G_j B_j p_v - y_v|^2 + k sum_j |turn of j from rest|^2 over the
-// local rotations, by damped Gauss-Newton from the frame before. Let x_j = G_j B_j p_v, and o_a be the origin of joint
-// a. A small world turn w of a moves v by w x (sum_{j below a} w_vj (x_j - o_a)). So a vertex only involves the joints
-// above those that influence it, and an iteration costs O(V d^2 + J^3). Joints that the model's own clips move (roots,
-// and feet that a rig places by inverse kinematics) may shift too. All others keep the lengths of their bones.
-// Positions are in world space, in double.
+// local rotations, by Levenberg's and Marquardt's steps from the frame before: a step that raises the sum is taken back
+// and damped. Let x_j = G_j B_j p_v, and o_a be the origin of joint a. A small world turn w of a moves v by
+// w x (sum_{j below a} w_vj (x_j - o_a)). The sums over vertices are quadratic in the matrices G_j B_j. So they are
+// added up once for each pair of joints, and a step costs O(J^3), whatever the number of vertices.
+// Joints that the model's own clips move (roots, and feet that a rig places by inverse kinematics) may shift too. All
+// others keep the lengths of their bones. Positions are in world space, in double.
 #ifndef HF_GLTF_RIG_FIT_H
 #define HF_GLTF_RIG_FIT_H
 
+#include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "gltf/animate.h"
 
 namespace hf_gltf {
 
+// A vertex that belongs to a point of a triangle, such as a link between two pieces.
+struct RigTie {
+  uint32_t vertex = 0, corners[3] = {0, 0, 0};
+  double shares[3] = {0, 0, 0};  // barycentric
+};
+
 class RigFit {
  public:
   // Throws std::runtime_error when no mesh of the model has a skin.
-  RigFit(const Model& model, const FlatMesh& mesh);
+  RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTie>& ties = {});
 
-  // Finds the pose of the frame (x y z of every flat vertex), starting from `start`. iterations: number of Gauss-Newton
-  // steps. firm: empty, or per flat vertex from 0 to 1 how firmly it must be met: a foot that stands.
-  Pose fit(const std::vector<double>& frame, const Pose& start, int iterations,
-           const std::vector<double>& firm = {}) const;
-  // The poses of frames, each from the one before. firm: of a frame's number.
-  std::vector<Pose> fit_all(const std::vector<std::vector<double>>& frames,
+  // Finds the pose of the frame (x y z of every flat vertex), starting from `start`. firm: empty, or per flat vertex
+  // from 0 to 1 how firmly it must be met: a foot that stands. middle: NULL, or a pose whose turns it shall be near.
+  Pose fit(const std::vector<double>& frame, const Pose& start, const std::vector<double>& firm = {},
+           const Pose* middle = nullptr) const;
+  // The poses of frames, each from the one before, then from those beside it. firm: of a frame's number.
+  std::vector<Pose> fit_all(const std::vector<double>& times, const std::vector<std::vector<double>>& frames,
                             const std::function<std::vector<double>(size_t)>& firm) const;
   // Returns a copy of the given model whose only clip has the poses at the times.
   Animation clip(const std::string& name, const std::vector<double>& times, const std::vector<Pose>& poses) const;
@@ -39,25 +50,46 @@ class RigFit {
     int node = -1, parent = -1;           // parent: in joints_, -1 at the top
     int rotation = -1, translation = -1;  // first unknown
   };
-  struct Influence {
-    int joint;  // in joints_, the lowest that may move; -1 when none above does
-    double weight;
-    glm::dvec3 rest;  // B p, in the space of `node`
-    int node;
+  struct Slot {                 // what moves vertices: a joint of a skin, or a node
+    int node = -1, joint = -1;  // joint: in joints_, the lowest that may move; -1 when none above does
+    glm::dmat4 bind{1};
   };
-  struct Vertex {
-    double area = 0;
-    uint32_t flat = 0;
-    std::vector<Influence> influences;
+  struct Term {
+    size_t slot;
+    glm::dvec4 at;  // weight times place, before `bind`
   };
-  void find_joints(), find_vertices(const FlatMesh&mesh);
+  struct Row {  // a sum over slots that shall come to a goal
+    double weight = 0;
+    std::vector<Term> terms;
+  };
+  struct Tie {
+    RigTie tie;
+    Row row;
+    double length = 0;  // at rest
+  };
+  class Moments;
+  struct System;
+  void find_joints(), find_vertices(const FlatMesh& mesh);
+  void find_ties(const FlatMesh& mesh, const std::vector<RigTie>& ties);
+  size_t slot_of(int node, const glm::dmat4& bind, int key);
+  std::vector<glm::dmat4x3> slot_matrices(const std::vector<glm::dmat4>& globals, const glm::dvec3& centre) const;
+  glm::dvec3 turned(const Pose& pose, const Pose& from, const std::vector<glm::dmat4>& globals,
+                    const Joint& joint) const;
+  double energy(const Moments& moments, const Pose& pose, const glm::dvec3& centre, const Pose* middle) const;
+  System system(const Moments& moments, const Pose& pose, const glm::dvec3& centre, const Pose* middle) const;
+  Pose stepped(const Pose& pose, const std::vector<double>& step) const;
 
   const Model& model_;
+  Pose rest_;
   std::vector<Joint> joints_;
   std::vector<int> joint_of_node_;
-  std::vector<Vertex> vertices_;
+  std::vector<Slot> slots_;
+  std::map<std::pair<int, int>, size_t> slot_number_;
+  std::vector<Row> vertices_;  // one for each flat vertex
+  std::vector<Tie> ties_;
+  std::shared_ptr<const Moments> still_;  // of all rows that have the same weight in every frame
   size_t unknowns_ = 0, shifting_ = 0;
-  double diagonal_ = 1;
+  double diagonal_ = 1, stiffness_ = 0, evenness_ = 0;
 };
 
 }  // namespace hf_gltf

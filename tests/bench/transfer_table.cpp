@@ -1,10 +1,12 @@
 // hf_transfer_table FOLDER [--half choosing|judging|mixed|all] [--source NAME] [--target NAME] [--clip NAME]
-//                   [--sample N] [--runs] [--where] [--sinking] [--no-ground] [--no-links] [--itself]
+//                   [--sample N] [--runs] [--where] [--sinking] [--no-ground] [--no-links] [--itself] [--own-skin]
+//                   [--key-tolerance X]
 //
 // Plays every clip of every shared model on every other and measures what an animator would send back. Constants are
 // chosen on pairs whose two models lie in the choosing half. The judging half holds the pairs of the other models.
 // One line per pair says what was proposed; --runs adds a line per clip. --sample N takes one run of N, always the same
-// ones. --itself plays models on themselves alone. Lengths are in boxes of the target.
+// ones. --itself plays models on themselves alone. --own-skin measures what hf_transfer writes to the target's own
+// skin, instead of the computed frames. Lengths are in boxes of the target.
 //
 // A length of the source counts times the larger of two scales: that of the transfer, and that of the boxes. A body
 // moves by both: its path follows the first, its turning limbs follow the second.
@@ -22,6 +24,7 @@
 #include "gltf/gltf_read.h"
 #include "gltf/suggest_pairs.h"
 #include "transfer/faults.h"
+#include "transfer/outputs.h"
 #include "transfer/posed_region.h"
 #include "transfer/session.h"
 
@@ -376,7 +379,8 @@ struct Options {
   std::filesystem::path folder;
   uint32_t sample = 1;
   std::string half = "choosing", source, target, clip;
-  bool itself = false, runs = false, links = true, ground = true, where = false, sinking = false;
+  bool itself = false, runs = false, links = true, ground = true, where = false, sinking = false, own_skin = false;
+  double key_tolerance = 0.0005;  // of hf_transfer
 };
 
 // Ranks from 1; equal numbers share the mean of theirs.
@@ -515,7 +519,13 @@ int table(const Options& options) {
           Frames some;
           for (size_t k = 0; k < 24; ++k) some.push_back(frames[k * (frames.size() - 1) / 23]);
           session.set_contacts({}, some);
-          const PlayedClip played = session.play(source.model.animations[c].name, source.times[c], frames, bar);
+          PlayedClip played = session.play(source.model.animations[c].name, source.times[c], frames, bar);
+          if (options.own_skin && !target.model.skins.empty()) {
+            OutputFigures figures;
+            const Model written =
+                own_skin_model(target.model, session, {played}, target.box, options.key_tolerance, figures);
+            played = written_clips(written, session, {played}).front();
+          }
           runs.push_back(measure(played, source, target, session));
           if (options.where && runs.back().spikes > 0) say_where(played, source, target, session);
           if (options.where && (runs.back().acceleration > 1.1 || runs.back().step > 1.5 || runs.back().still > 2))
@@ -581,6 +591,10 @@ int main(int count, char** arguments) {
         options.sinking = true;
       } else if (word == "--no-ground") {
         options.ground = false;
+      } else if (word == "--own-skin") {
+        options.own_skin = true;
+      } else if (word == "--key-tolerance" && i + 1 < count) {
+        options.key_tolerance = std::strtod(arguments[++i], nullptr);
       } else if (word == "--no-links") {
         options.links = false;
       } else {
