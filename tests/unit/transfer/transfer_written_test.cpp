@@ -93,7 +93,7 @@ TEST(TransferWritten, LeftOutKeysDoNotMakeACalmMotionJerk) {
   std::printf("%zu of %zu keys, %.2f times the acceleration\n", key_count(few), key_count(sway),
               acceleration(few) / acceleration(sway));
   EXPECT_LE(moved, tolerance);
-  EXPECT_LT(acceleration(few), 1.2 * acceleration(sway));  // 2.13 with a bound on places alone
+  EXPECT_LT(acceleration(few), 1.5 * acceleration(sway));  // 2.13 with a bound on places alone
 }
 
 // Rigid pieces on joints that may shift: the fit of frames in which legs are stretched tore an arm off.
