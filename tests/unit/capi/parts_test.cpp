@@ -176,6 +176,45 @@ TEST(Parts, a_plate_of_armour_follows_the_chest_and_a_sword_the_hand) {
   EXPECT_LT(stretch, 0.01);
 }
 
+// The tips among the handles that are proposed for the linked surface.
+std::vector<hf_handle_proposal> tips_of(const PlainMesh& mesh) {
+  hf_links_desc links = HF_INIT(hf_links_desc);
+  links.mode = HF_LINK_PIECES;
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
+  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
+  desc.positions_f64 = mesh.positions.data(), desc.triangles = mesh.triangles.data();
+  desc.weld = HF_WELD_EXACT, desc.links = &links;
+  hf_surface surface = nullptr;
+  EXPECT_EQ(hf_surface_create(&desc, &surface), HF_OK);
+  std::uint32_t count = 0;
+  std::vector<hf_handle_proposal> out(HF_HANDLE_LIMIT);
+  EXPECT_EQ(hf_propose_handles(surface, nullptr, HF_HANDLE_LIMIT, out.data(), &count), HF_OK);
+  out.resize(count);
+  out.erase(std::remove_if(out.begin(), out.end(),
+                           [](const hf_handle_proposal& p) { return p.reason != HF_HANDLE_REASON_TIP; }),
+            out.end());
+  hf_surface_destroy(surface);
+  return out;
+}
+
+TEST(Parts, a_light_piece_is_no_tip_and_leaves_those_of_the_body) {
+  const std::pair<Scene, Scene> scenes[] = {{hf_test::cloth(), hf_test::limb()},
+                                            {hf_test::hair_cards(), hf_test::bust()}};
+  for (const auto& [dressed, bare] : scenes) {
+    const auto with = tips_of(dressed.mesh), without = tips_of(bare.mesh);
+    ASSERT_EQ(with.size(), without.size());
+    for (std::size_t i = 0; i < with.size(); ++i) {
+      // The length counts from the middle, half way in edges: a sheet moves it a little.
+      EXPECT_NEAR(with[i].length, without[i].length, 0.25 * without[i].length);
+      double least = 1e300;
+      for (const hf_handle_proposal& tip : without)
+        least = std::min(least,
+                         norm(point(dressed.mesh.positions, with[i].vertex) - point(bare.mesh.positions, tip.vertex)));
+      EXPECT_LT(least, 0.02 * diagonal(bare.mesh));
+    }
+  }
+}
+
 // Two bodies touch and must not link: the host says so by tags.
 TEST(Parts, a_rider_turns_and_the_horse_stays) {
   const Scene scene = hf_test::rider();
