@@ -353,7 +353,7 @@ def plain_calls(scene, mesh, surface, solver):
           {"do": "pose", "on": "m", "as": "p"},
           {"do": "add_handle_at", "on": "p", "point": far, "radius": 0.9, "numbers": [0]},
           {"do": "add_handle_at", "on": "p", "point": near, "radius": 0.9, "numbers": [1]},
-          {"do": "pose_info", "on": "p", "expect": {"band_count": 10, "iteration_count": 5, "group_count": 250,
+          {"do": "pose_info", "on": "p", "expect": {"band_count": 10, "iteration_count": 10, "group_count": 250,
               "handle_count": 2, "vertex_count": 288}},
           {"do": "deform_f32", "on": "p", "expect": {**expect(p), "tolerance": 1e-5}},
           {"do": "set_transform", "on": "p", "handle": 0, "rotation": [0.0, 0.0, 0.0, 1.0],

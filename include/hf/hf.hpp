@@ -148,7 +148,7 @@ class Surface {
     check(hf_surface_get_components(get(), vertices_, components.data(), nullptr));
     return components;
   }
-  // Returns the links between pieces. You can edit them and give them back through relinked().
+  // Returns the links between pieces. You can edit them and give them back through relinked(), with light_vertices.
   std::vector<hf_link> links() const {
     uint32_t count = 0;
     check(hf_surface_get_links(get(), 0, nullptr, &count));

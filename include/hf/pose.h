@@ -35,7 +35,7 @@ typedef struct hf_pose_desc {
   uint32_t struct_size;
   int32_t mode;              /* HF_DEFORM_* */
   uint32_t band_count;       /* bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper) */
-  uint32_t iteration_count;  /* iterations of a pose solve, 1 to 1000; 0 = 5 (smooth) or 200 (paper) */
+  uint32_t iteration_count;  /* iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper) */
   uint32_t samples_per_ring; /* sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens" */
   uint32_t group_count;      /* rotation groups of the smooth mode, 1 to 2000; 0 = 250 */
 } hf_pose_desc;

@@ -68,7 +68,7 @@ enum {
   HF_LINK_NONE = 0,   /* pieces stay apart. The default, because a scan or a scene may hold bodies that do not belong
                          together; the programs and bindings for characters link by default */
   HF_LINK_PIECES = 1, /* automatic: a tree over the pieces by smallest distance, and all pieces that touch */
-  HF_LINK_LIST = 2    /* the links you give, and no others */
+  HF_LINK_LIST = 2    /* the links you give, and no others; only light_vertices name light pieces then */
 };
 
 /* A spring from a vertex to a point of a triangle. hf_surface_get_links writes it, hf_links_desc reads it. */
@@ -85,14 +85,14 @@ typedef struct hf_link {
  * piece is a sheet over a larger one, such as cloth: it follows the surface below and hardly pulls it. */
 typedef struct hf_links_desc {
   uint32_t struct_size;
-  int32_t mode;             /* HF_LINK_* */
-  float distance;           /* longest link, in the unit of the positions; 0 = 5 % of the bounding box diagonal */
-  float stiffness;          /* of all links, times each one's weight; 0 = 1 */
-  float overlay_distance;   /* a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 % of the
-                               diagonal, below 0: no piece is light unless light_vertices say so */
+  int32_t mode;    /* HF_LINK_* */
+  float distance;  /* longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal */
+  float stiffness; /* of all links, times each one's weight; 0 = 1 */
+  float overlay_distance;   /* automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 %
+                               of the diagonal, below 0: no piece is light unless light_vertices say so */
   uint32_t influence_count; /* joints per vertex, 0 to 64 */
   const uint16_t* joints;   /* [vertex_count][influence_count] of a skin: pieces of one joint rather link */
-  const float* weights;     /* [vertex_count][influence_count] */
+  const float* weights;     /* [vertex_count][influence_count] of sum 1; a vertex of sum 0 is like no other */
   const uint32_t* tags;     /* [vertex_count]: pieces with different tags do not link, as a rider and a horse. The
                                first vertex of a piece counts */
   uint32_t link_count;      /* for HF_LINK_LIST */
@@ -201,8 +201,8 @@ typedef struct hf_graph_desc {
 /* Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the graph.
  * Solvers with sites at vertices, fields, previews, certificates, clones, undo, saved factors, components and reports
  * work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions, directions, geodesics,
- * iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, and sites in triangles or on
- * discs.
+ * iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening, and sites in
+ * triangles or on discs.
  *
  * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
  * median of their component are limited; hf_surface_report counts their vertices as changed. Bi-harmonic fields limit
@@ -292,8 +292,10 @@ HF_API hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity
 
 /* ---- links ---- */
 
-/* Writes the links of a surface. You can edit them and give them back with HF_LINK_LIST. out_links: NULL, or
- * hf_link[capacity]. out_count: NULL, or receives the count. Thread safety: reads `surface`. Since 0.1. */
+/* Writes the links of a surface. You can edit them and give them back with HF_LINK_LIST. A list does not say which
+ * pieces are light: name them in light_vertices, as hf_surface_get_pieces marks them. Then the list alone gives the
+ * same surface, bit for bit, without a search. out_links: NULL, or hf_link[capacity]. out_count: NULL, or receives the
+ * count. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_links(hf_surface surface, uint32_t capacity, hf_link* out_links, uint32_t* out_count);
 
 /* Writes the piece of every vertex of your mesh, and HF_NO_INDEX for isolated vertices. Pieces are numbered in the

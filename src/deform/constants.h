@@ -52,9 +52,10 @@ constexpr float shortest_sum = 1e-15f, longest_sum = 1e15f;
 // Level bands per handle's field, in smooth and paper mode. With 5 smooth bands, the elastic energy of a scanned mesh
 // is 8 to 18 % larger. With 20 it is 6 % smaller, but the largest edge stretch grows from 1.29 to 1.42.
 constexpr std::uint32_t default_bands_smooth = 10, default_bands_paper = 12;
-// Iterations per frame. After five in smooth mode, the elastic energy is within 0.3 % of its minimum. In paper mode,
-// motion moves on by only one level band per iteration.
-constexpr std::uint32_t default_iterations_smooth = 5, default_iterations_paper = 200;
+// Iterations per frame. They trade time for a surface that stands still when a drag stops. On 36 poses of 12 shapes,
+// dragged as in tests/bench/pose_rest.py, it creeps on by 6.5e-5 of the box in the mean, with 8 by 1.1e-4, with 6 by
+// 5.1e-4. Each costs about 0.06 ms. In paper mode, motion moves on by only one level band per iteration.
+constexpr std::uint32_t default_iterations_smooth = 10, default_iterations_paper = 200;
 // Groups of vertices that share a rotation: more of them fit better but make each iteration slower. With 125, the
 // smallest edge stretch of a pulled scan falls from 0.74 to 0.68. Ten times the groups with twice the bands lower the
 // elastic energy of a bent cylinder and a twisted bar by 0.3 %. The full-mesh step (refine.h) lowers these two energies
@@ -83,9 +84,11 @@ constexpr double rigid_tolerance = 1e-4;
 
 // ---- pose_solver.cpp ----
 
-// Steps that the acceleration of rotations learns from (anderson.h). Of 18 poses dragged out and back, the geometric
-// mean of the largest distance from rest is 2.0e-4 of the box. With 6 steps: 3.8e-4. With 16: 2.2e-4, and slower.
-constexpr std::size_t anderson_steps = 10;
+// Steps that the acceleration of rotations learns from (anderson.h). They are to reach back beyond the iterations of a
+// frame: steps of earlier frames know the slow motions. With ten iterations a frame, 12 poses of four shapes creep by
+// 1.3e-5 of the box in the geometric mean when a drag stops. With 10, 16 and 20 steps: 1.4e-4, 8.6e-5 and 2.3e-5; with
+// 32: 7e-6, for a third more memory.
+constexpr std::size_t anderson_steps = 24;
 // A residual whose square grows by this factor makes the acceleration forget its steps. With 100 the mean is 2.1e-4,
 // but the worst pose is 3.1e-2 off instead of 1.6e-2.
 constexpr double anderson_growth = 4;

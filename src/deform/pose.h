@@ -26,7 +26,7 @@ enum class DeformMode : std::int32_t { smooth = 0, paper = 1 };
 struct PoseOptions {
   DeformMode mode = DeformMode::smooth;
   std::uint32_t band_count = 0;        // 2 to 64; 10 (smooth) or 12 (paper)
-  std::uint32_t iteration_count = 0;   // 1 to 1000; 5 or 200
+  std::uint32_t iteration_count = 0;   // 1 to 1000; 10 or 200
   std::uint32_t samples_per_ring = 0;  // sites per handle on its boundary ring; 0: all its vertices
   std::uint32_t group_count = 0;       // 1 to 2000; 250
 };

@@ -44,6 +44,7 @@ void SiteSet::check_site(std::uint32_t position, std::uint32_t site) const {
 
 Site SiteSet::locate(const Mesh& mesh, const Places& places, std::uint32_t i) const {
   if (places.vertices) return Site::at_vertex(mesh, usable_vertex(mesh, places.vertices[i], i));
+  require_triangles(mesh, "a point in a triangle", i);
   const double* weight = places.barycentrics + std::size_t{3} * i;
   const SurfacePlace place = places.triangles ? place_in_triangle(mesh, places.triangles[i], weight, i)
                                               : place_between(mesh, places.corners + std::size_t{3} * i, weight, i);

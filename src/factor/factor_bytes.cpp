@@ -298,8 +298,7 @@ std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, const 
   }
   if (header.matrix_hash != options.matrix_hash) {
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "the saved factor belongs to another mesh, to other positions of this one, or to another operator; save it "
-         "again for this mesh");
+         "the saved factor is of another mesh, or of other positions, links, weights or operator; save it again");
   }
   const std::uint8_t* given = bytes.data();
   if (options.borrow && reinterpret_cast<std::uintptr_t>(given) % saved_factor_alignment != 0) {

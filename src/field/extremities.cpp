@@ -7,6 +7,7 @@
 
 #include "base/index.h"
 #include "field/peaks.h"
+#include "mesh/link_constants.h"
 
 namespace hf_inner {
 namespace {
@@ -21,12 +22,18 @@ void for_runs(const Core& core, Work&& work) {
   }
 }
 
+// A light piece counts as its edges do, so that no tip of a sheet rises above the body: the field falls as much there.
+double area_of(const Core& core, std::size_t v) noexcept {
+  const Links* const links = core.geometry->links.get();
+  return links && links->light[at(links->piece[v])] ? light_share * core.areas[v] : core.areas[v];
+}
+
 // Returns the area of every component.
 Vector<double> component_areas(const Core& core) {
   Vector<double> total(core.ground.size(), 0.0, core.memory.get());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
     double sum = total[c];
-    for (std::size_t v = begin; v < end; ++v) sum += core.areas[v];
+    for (std::size_t v = begin; v < end; ++v) sum += area_of(core, v);
     total[c] = sum;
   });
   return total;
@@ -40,7 +47,7 @@ Vector<Index> farthest_vertices(const Core& core, const Vector<double>& total) {
   Vector<Index> farthest(core.ground.begin(), core.ground.end(), core.memory.get());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
     Vec3 sum = centre[c];
-    for (std::size_t v = begin; v < end; ++v) sum = sum + core.areas[v] * core.mesh.positions[v];
+    for (std::size_t v = begin; v < end; ++v) sum = sum + area_of(core, v) * core.mesh.positions[v];
     centre[c] = sum;
   });
   for (std::size_t c = 0; c < components; ++c) {
@@ -121,14 +128,14 @@ void solve_poisson(const Core& core, const Vector<double>& total, Vector<double>
   mark_middles(core, total, middle);
   Vector<double> taken(total.size(), 0.0, core.memory.get());
   for (std::size_t v = 0; v < u.size(); ++v) {
-    if (middle[v]) taken[at(core.mesh.component[v])] += core.areas[v];
+    if (middle[v]) taken[at(core.mesh.component[v])] += area_of(core, v);
   }
   Workspace z(core.workspaces, u.size());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
     // A middle ring without area takes nothing in. The right side of its component is then 0, so nothing flows into the
     // vertex that makes the matrix regular.
     const double outside = taken[c] > 0 ? 1 : 0, inside = taken[c] > 0 ? 1 - total[c] / taken[c] : 0.0;
-    for (std::size_t v = begin; v < end; ++v) u[v] = core.areas[v] * (middle[v] ? inside : outside);
+    for (std::size_t v = begin; v < end; ++v) u[v] = area_of(core, v) * (middle[v] ? inside : outside);
   });
   core.factor->solve(u.data(), u.data(), 1, z.data(), *core.jobs);
 }
@@ -146,7 +153,7 @@ void propose(const Core& core, const Vector<double>& total, double least_length,
   Vector<double> base(total.size(), 0.0, core.memory.get());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
     double sum = base[c];
-    for (std::size_t v = begin; v < end; ++v) sum += core.areas[v] * u[v];
+    for (std::size_t v = begin; v < end; ++v) sum += area_of(core, v) * u[v];
     base[c] = sum;
   });
   for (std::size_t c = 0; c < total.size(); ++c) base[c] = total[c] > 0 ? base[c] / total[c] : 0.0;

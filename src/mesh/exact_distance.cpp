@@ -35,7 +35,10 @@ constexpr double path_rounding = 1e-9;
 // Width of a step of the queue in mean edges. Smaller steps make fewer windows, larger ones read nearer memory. On a
 // torus, a sphere and a plane of 100,000 vertices a quarter takes 9 to 36 % longer.
 constexpr double queue_step = 1;
-// Steps of the queue that have lists of their own; what lies farther waits in one more list, which is sorted in when
+// Windows in a block of the queue. Larger ones waste memory in steps of few windows, smaller ones are read in no row: a
+// window alone waits for memory, which took a third of the time.
+constexpr std::size_t block_windows = 16;
+// Steps of the queue that have stacks of their own; what lies farther waits in one more stack, which is sorted in when
 // they are used up. It trades memory for that sorting. Half and double, and 4, give the same bits on seven shapes.
 constexpr std::size_t queue_steps = 4096;
 // Width of a step of the queue at least, in box diagonals: meshes without lengths would have steps of 0. It is a guard:
@@ -132,7 +135,6 @@ struct Window {
   double sigma;       // distance of the pseudo-source
   Index side;         // it enters the triangle of this side; for a vertex: -1 - vertex
   Index from;         // pseudo-source; -1: the source point
-  Index after;        // in its list
 };
 
 // The frame of a side at the source: a ray at angle a in the frame leaves the source at angle + sign a.
@@ -149,7 +151,8 @@ class Propagation {
         memory_(memory),
         windows_(&memory),
         turns_(&memory),
-        lists_(queue_steps + 1, Mesh::none, &memory),
+        below_(&memory),
+        stacks_(queue_steps + 1, Stack(), &memory),
         best_(sides.frame.size(), Best{infinite, 0}, &memory),
         result_(memory) {
     const std::size_t n = mesh_.positions.size();
@@ -165,15 +168,12 @@ class Propagation {
     if (task_.from && task_.from->vertex >= 0) start_at(task_.from->vertex);
     if (task_.from && task_.from->vertex < 0) start_at(*task_.from);
     while (live_ > 0 && !finished()) {
-      Index i = lists_[step_now_];
-      if (i == Mesh::none) {
+      if (stacks_[step_now_].block == Mesh::none) {
         advance();
         continue;
       }
-      lists_[step_now_] = windows_[at(i)].after;
-      const Window w = windows_[at(i)];
-      const Turn turn = task_.directions ? turns_[at(i)] : Turn{0, 1};
-      windows_[at(i)].after = free_, free_ = i, --live_;
+      const auto [w, turn] = pop(stacks_[step_now_]);
+      --live_;
       poller_.due();
       if (w.side < 0)
         visit_vertex(-1 - w.side, w.sigma);
@@ -300,16 +300,30 @@ class Propagation {
   };
   double distance(Index v) const noexcept { return result_.distance[at(v)]; }
 
-  // The lists hold steps of the queue from base_. The last list holds what lies beyond.
+  // A stack holds the windows of a step of the queue, from base_ on; the last one holds what lies beyond. Windows that
+  // follow each other lie in one block, so that the processor reads ahead.
+  struct Stack {
+    Index block = Mesh::none, count = 0;  // the one on top, and its windows
+  };
+
+  std::pair<Window, Turn> pop(Stack& stack) noexcept {
+    const std::size_t i = at(stack.block) * block_windows + at(--stack.count);
+    if (stack.count == 0) {
+      const Index below = below_[at(stack.block)];
+      below_[at(stack.block)] = free_, free_ = stack.block;
+      stack = {below, below == Mesh::none ? 0 : static_cast<Index>(block_windows)};
+    }
+    return {windows_[i], task_.directions ? turns_[i] : Turn{0, 1}};
+  }
+
   void advance() {
     if (++step_now_ < queue_steps) return;
-    Index i = lists_[queue_steps];
-    std::fill(lists_.begin(), lists_.end(), Mesh::none);
+    Stack beyond = stacks_[queue_steps];
+    stacks_[queue_steps] = Stack();
     base_ += step_ * queue_steps, step_now_ = 0;
-    while (i != Mesh::none) {
-      const Index after = windows_[at(i)].after;
-      put(i, key(windows_[at(i)]));
-      i = after;
+    while (beyond.block != Mesh::none) {
+      const auto [w, turn] = pop(beyond);
+      put(w, key(w), turn);
     }
   }
   static double key(const Window& w) noexcept {
@@ -317,24 +331,29 @@ class Propagation {
     const double x = std::min(std::max(w.x, w.begin), w.end) - w.x;
     return w.sigma + std::sqrt(x * x + w.y * w.y);
   }
-  void put(Index i, double key) {
+  void put(const Window& w, double key, const Turn& turn) {
     const double place = (key - base_) / step_;
-    const std::size_t step = place < static_cast<double>(queue_steps)
-                                 ? std::max(step_now_, static_cast<std::size_t>(std::max(0.0, place)))
-                                 : queue_steps;
-    windows_[at(i)].after = lists_[step], lists_[step] = i;
+    Stack& stack = stacks_[place < static_cast<double>(queue_steps)
+                               ? std::max(step_now_, static_cast<std::size_t>(std::max(0.0, place)))
+                               : queue_steps];
+    if (stack.block == Mesh::none || at(stack.count) == block_windows) {
+      Index block = free_;
+      if (block == Mesh::none) {
+        block = static_cast<Index>(below_.size());
+        windows_.resize(windows_.size() + block_windows);
+        if (task_.directions) turns_.resize(windows_.size());
+        below_.push_back(Mesh::none);
+      } else {
+        free_ = below_[at(block)];
+      }
+      below_[at(block)] = stack.block, stack = {block, 0};
+    }
+    const std::size_t i = at(stack.block) * block_windows + at(stack.count++);
+    windows_[i] = w;
+    if (task_.directions) turns_[i] = turn;
   }
   void push(const Window& w, double key, const Turn& turn = {0, 1}) {
-    Index i = free_;
-    if (i != Mesh::none) {
-      free_ = windows_[at(i)].after, windows_[at(i)] = w;
-    } else {
-      i = static_cast<Index>(windows_.size());
-      windows_.push_back(w);
-      if (task_.directions) turns_.push_back(turn);
-    }
-    if (task_.directions) turns_[at(i)] = turn;
-    put(i, key);
+    put(w, key, turn);
     ++live_, ++result_.window_count;
   }
   void push_vertex(Index v) {
@@ -466,10 +485,10 @@ class Propagation {
     const double length = sides_.frame[at(side)].length;
     if (!(end - begin > least_window * length)) return;
     const Index start = mesh_.corners[at(side)];
-    Window w{begin, end, x, y, sigma, side, from, Mesh::none};
+    Window w{begin, end, x, y, sigma, side, from};
     if (longest_ < infinite && leads_past(w)) return;
     for_twins(side, [&](Index twin) {
-      w = {begin, end, x, y, sigma, twin, from, Mesh::none};
+      w = {begin, end, x, y, sigma, twin, from};
       if (mesh_.corners[at(twin)] == start) return push(w, key(w), turn);
       w.begin = length - end, w.end = length - begin, w.x = length - x;
       push(w, key(w), {turn.angle + turn.sign * pi, -turn.sign});
@@ -571,8 +590,9 @@ class Propagation {
   Memory& memory_;
   Vector<Window> windows_;
   Vector<Turn> turns_;       // by window, if directions are asked for
-  Index free_ = Mesh::none;  // first of the records that no window uses
-  Vector<Index> lists_;
+  Vector<Index> below_;      // by block: the next one in its stack, or of those that no stack uses
+  Index free_ = Mesh::none;  // the first of these
+  Vector<Stack> stacks_;
   Vector<Best> best_;
   ExactDistance result_;
   double step_ = 1, base_ = 0, longest_ = infinite;

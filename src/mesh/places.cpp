@@ -44,7 +44,6 @@ void check_weights(const double* weights, std::size_t position, const char* list
 
 SurfacePlace place_in_triangle(const Mesh& mesh, std::uint32_t triangle, const double* weights, std::size_t position) {
   const std::uint32_t index = static_cast<std::uint32_t>(position);
-  require_triangles(mesh, "a point in a triangle", index);
   const char* const noun = mesh.faces.empty() ? "triangle" : "face";
   if (triangle >= mesh.triangle_of_given.size())
     fail(HF_ERROR_OUT_OF_RANGE, index, "entry %zu of the list: %s %u, but there are %zu %ss", position, noun, triangle,

@@ -138,6 +138,59 @@ static void the_list_read_back_makes_the_same_bits(void** state) {
   for (uint32_t v = CUT_ISLAND; v < CUT_ISOLATED; ++v) assert_true(fabs(field[v] - 3) < 1e-12);
   free(field), free(links);
   hf_surface_destroy(again);
+  /* Shares whose rounded sum is not 1 come back as they were given. */
+  const uint32_t corners[3] = {CUT_RIGHT, CUT_LEFT, CUT_ISLAND + 1};
+  const double shares[3] = {0.7, 0.2, 0.1};
+  assert_true(shares[0] + shares[1] + shares[2] < 1);
+  memcpy(one.corners, corners, sizeof corners), memcpy(one.barycentrics, shares, sizeof shares);
+  again = surface_with(&list);
+  hf_link* own = links_of(again, &count);
+  assert_true(same_bits(own[0].barycentrics, shares, sizeof shares));
+  free(own);
+  hf_surface_destroy(again);
+}
+
+static double* list_field(const hf_links_desc* list, const hf_factor_desc* factor) {
+  hf_surface_desc desc = options_of(&mesh).surface;
+  desc.links = list, desc.saved_factor = factor;
+  hf_surface surface = NULL;
+  assert_ok(hf_surface_create(&desc, &surface));
+  hf_surface_statistics s = HF_INIT(hf_surface_statistics);
+  assert_ok(hf_surface_get_statistics(surface, &s));
+  assert_int_equal(s.factor_loaded, factor != NULL);
+  double* field = field_on(surface);
+  hf_surface_destroy(surface);
+  return field;
+}
+
+/* A list alone makes a light piece heavy; with the vertices that hf_surface_get_pieces marks it makes the same bits,
+ * and takes the same saved factor. */
+static void a_list_with_its_light_pieces_makes_the_same_bits(void** state) {
+  (void)state;
+  hf_links_desc links = automatic();
+  links.overlay_distance = 100;
+  hf_surface light = surface_with(&links);
+  assert_int_equal(report_of(light).light_piece_count, 1);
+  int32_t marks[CUT_VERTICES];
+  uint32_t named[CUT_VERTICES], count = 0;
+  assert_ok(hf_surface_get_pieces(light, CUT_VERTICES, NULL, marks, NULL));
+  for (uint32_t v = 0; v < CUT_VERTICES; ++v) {
+    if (marks[v]) named[count++] = v;
+  }
+  size_t size = 0;
+  unsigned char* bytes = saved_bytes(light, HF_FIELD_HARMONIC, &size);
+  hf_factor_desc factor = HF_INIT(hf_factor_desc);
+  factor.bytes = bytes, factor.byte_count = size;
+  hf_links_desc list = HF_INIT(hf_links_desc);
+  hf_link* given = links_of(light, &list.link_count);
+  list.mode = HF_LINK_LIST, list.links = given;
+  double *a = field_on(light), *b = list_field(&list, NULL);
+  assert_false(same_bits(a, b, CUT_VERTICES * sizeof *a));
+  list.light_count = count, list.light_vertices = named;
+  double *c = list_field(&list, NULL), *d = list_field(&list, &factor);
+  assert_true(same_bits(a, c, CUT_VERTICES * sizeof *a) && same_bits(a, d, CUT_VERTICES * sizeof *a));
+  free(a), free(b), free(c), free(d), free(given), free(bytes);
+  hf_surface_destroy(light);
 }
 
 static void a_saved_factor_needs_its_links(void** state) {
@@ -324,6 +377,7 @@ int main(void) {
       cmocka_unit_test(fields_span_linked_pieces),
       cmocka_unit_test(what_works_on_triangles_does_not_see_links),
       cmocka_unit_test(the_list_read_back_makes_the_same_bits),
+      cmocka_unit_test(a_list_with_its_light_pieces_makes_the_same_bits),
       cmocka_unit_test(a_saved_factor_needs_its_links),
       cmocka_unit_test(other_links_keep_the_ordering_where_the_pattern_allows),
       cmocka_unit_test(a_pose_takes_linked_pieces_along_and_gaps_are_measured),

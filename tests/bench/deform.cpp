@@ -2,7 +2,7 @@
 // full mesh with a prefactored system and beside making fields and bands anew; allocations while dragging; exactness.
 //
 // The surface is the jittered torus with handles round it; a drag turns and lifts one of them. Times are user visible:
-// hf_pose_deform with positions in single precision and normals, the default 5 iterations a frame.
+// hf_pose_deform with positions in single precision and normals, the default ten iterations a frame.
 #include <cmath>
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-// Quality of poses: the classic cases and a scan, dragged in 30 frames of 5 iterations, in the smooth mode, with the
+// Quality of poses: the classic cases and a scan, dragged in 30 frames of ten iterations, in the smooth mode, with the
 // full-mesh step, by the paper's scheme (10 iterations a frame, and converged) and by converged as-rigid-as-possible
 // iterations of the full mesh. The bars are those of the design study; on cylinder and bar the oracle collapses and its
 // energy is only a unit.
@@ -117,7 +117,7 @@ Rows run_deform_quality(const Run& run, Report& report) {
   Rows rows = Rows::array();
   for (const Study& study : studies(run)) {
     const Case& c = study.scene;
-    Dragged d = drag(c, {}, 30, 5, run.threads);
+    Dragged d = drag(c, {}, 30, 10, run.threads);
     const std::vector<Vec3> smooth = positions(d.report);
     hf_inner::DeformRequest request;
     request.iteration_count = 1, request.refine = true;
@@ -162,7 +162,7 @@ Rows run_deform_quality(const Run& run, Report& report) {
     const Quality q_smooth = measure(*d.core, smooth), q_refined = measure(*d.core, refined),
                   q_early = measure(*d.core, early), q_late = measure(*d.core, late), q_best = measure(*d.core, best);
     print("paper, 10 a frame", q_early, unit, c.closed), print("paper, converged", q_late, unit, c.closed);
-    print("smooth, 5 a frame", q_smooth, unit, c.closed), print("smooth, refined", q_refined, unit, c.closed);
+    print("smooth, 10 a frame", q_smooth, unit, c.closed), print("smooth, refined", q_refined, unit, c.closed);
     print("ARAP, converged", q_best, unit, c.closed);
     const int missed = judge(study, q_smooth, q_refined, q_late, unit);
     report.measure("deform_quality", c.name, run.threads, missed);

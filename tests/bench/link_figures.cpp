@@ -180,19 +180,36 @@ double false_share(const LinkScene& scene, const std::vector<hf_link>& links) {
   return wrong / double(links.size());
 }
 
-// Leaves out contacts that the artist's clips open by more than 3 % of the box: these pieces do not belong together.
-void drop_false_contacts(const LinkScene& scene, std::vector<Contact>& contacts) {
+// Frames of the artist: samples of the clips; of a skin without clips, every joint turned about each axis by 60
+// degrees.
+std::vector<std::vector<double>> artist_frames(const LinkScene& scene) {
+  std::vector<std::vector<double>> out;
   for (const Animation& clip : scene.model.animations) {
     for (int i = 0; i < clip_samples; ++i) {
       const double time = clip_duration(clip) * i / (clip_samples - 1);
-      const std::vector<double> xyz = double_positions(posed_positions(scene.model, scene.flat, clip, time));
-      contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
-                                    [&](const Contact& c) {
-                                      return apart(c.vertex, c.corner, c.share, xyz) - c.distance >
-                                             false_link * scene.diagonal;
-                                    }),
-                     contacts.end());
+      out.push_back(double_positions(posed_positions(scene.model, scene.flat, clip, time)));
     }
+  }
+  if (!out.empty()) return out;
+  for (const Skin& skin : scene.model.skins) {
+    for (const int joint : skin.joints) {
+      const std::vector<glm::dmat4> world = global_matrices(scene.model, rest_pose(scene.model));
+      for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
+        out.push_back(turned_by_skin(scene, joint, turn_about(world[size_t(joint)][3], axis, turn_degrees)));
+    }
+  }
+  return out;
+}
+
+// Leaves out contacts that the artist's frames open by more than 3 % of the box: these pieces do not belong together.
+void drop_false_contacts(const LinkScene& scene, std::vector<Contact>& contacts) {
+  for (const std::vector<double>& xyz : artist_frames(scene)) {
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
+                                  [&](const Contact& c) {
+                                    return apart(c.vertex, c.corner, c.share, xyz) - c.distance >
+                                           false_link * scene.diagonal;
+                                  }),
+                   contacts.end());
   }
 }
 
@@ -217,6 +234,24 @@ std::vector<float> field_of(hf_surface surface, const LinkScene& scene, uint32_t
 uint32_t unreached_by_sites(hf_surface surface, const LinkScene& scene, uint32_t first, uint32_t second) {
   uint32_t out = 0;
   field_of(surface, scene, first, second, &out);
+  return out;
+}
+
+// The surface with its links but those of light pieces.
+hf_surface without_light(hf_surface linked, const LinkScene& scene, const std::vector<hf_link>& links) {
+  std::vector<int32_t> light(scene.flat.vertex_count());
+  ok(hf_surface_get_pieces(linked, scene.flat.vertex_count(), nullptr, light.data(), nullptr));
+  std::vector<hf_link> kept;
+  for (const hf_link& link : links) {
+    bool heavy = !light[link.vertex];
+    for (int k = 0; k < 3; ++k) heavy = heavy && (link.barycentrics[k] <= 0 || !light[link.corners[k]]);
+    if (heavy) kept.push_back(link);
+  }
+  hf_links_desc desc = HF_INIT(hf_links_desc);
+  desc.mode = HF_LINK_LIST, desc.link_count = uint32_t(kept.size()), desc.links = kept.data();
+  desc.overlay_distance = -1;  // the links of the others are kept, and no other edge of a body depends on it
+  hf_surface out = nullptr;
+  ok(hf_surface_relink(linked, kept.empty() ? nullptr : &desc, nullptr, &out));
   return out;
 }
 
@@ -411,16 +446,18 @@ void report(const std::string& file, const std::string& pictures, Extent extent)
   char hash_text[24] = "";
   if (quick) std::snprintf(hash_text, sizeof hash_text, " %016llx |", static_cast<unsigned long long>(hash_of(list)));
   const std::string hash = hash_text;
+  hf_surface heavy = without_light(linked, scene, list);
   std::printf(
       "| %-26s | %5u | %3u | %3u | %4u | %2u | %5.2f | %5.2f / %5.1f | %6.3f / %5.2f | %4.2f | %5.2f | %5.2f | %+3.0f "
-      "%% | %4u | %s | %s | %.3f |%s\n",
+      "%% | %4u | %s | %s | %.3f | %.5f |%s\n",
       name.c_str(), found.welded_vertex_count, found.piece_count, found.component_count, found.link_count,
       found.light_piece_count, 100 * found.longest_tree_link / scene.diagonal, gap[0].p95, gap[0].worst, gap[1].p95,
       gap[1].worst, after.factor_entries / before.factor_entries, after.links_ms, plain_ms,
       100 * (linked_ms / plain_ms - 1), unreached_by_sites(linked, scene, ends[0], ends[1]),
       or_dash(wrong < 0, "%5.1f %%", 100 * wrong).c_str(),
       or_dash(played[1] < 0, "%5.2f / %5.2f", played[0], played[1]).c_str(), body_change(plain, linked, scene, piece),
-      hash.c_str());
+      body_change(heavy, linked, scene, piece), hash.c_str());
+  hf_surface_destroy(heavy);
   if (extent == Extent::causes) list_false(scene, links, list, piece);
   std::fflush(stdout);
   if (!pictures.empty())
@@ -437,16 +474,17 @@ int main(int count, char** arguments) {
     if (std::strcmp(arguments[i], "--quick") == 0) extent = Extent::quick;
     if (std::strcmp(arguments[i], "--causes") == 0) extent = Extent::causes;
     if (std::strcmp(arguments[i], "--surfaces") == 0) extent = Extent::surfaces;
+    if (std::strcmp(arguments[i], "--pictures") == 0 && i + 1 < count) pictures = arguments[i + 1];
   }
   if (extent != Extent::surfaces)
     std::printf(
         "| model | vertices | pieces | groups | links | light | tree | gap without: 95 %% / worst | with | entries | "
         "search ms | surface ms | making | unreached | false "
-        "| on itself: without / with | body "
-        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+        "| on itself: without / with | body | by light pieces "
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int i = 1; i < count; ++i) {
-    if (std::strcmp(arguments[i], "--pictures") == 0 && i + 1 < count) {
-      pictures = arguments[++i];
+    if (std::strcmp(arguments[i], "--pictures") == 0) {
+      ++i;
       continue;
     }
     if (std::strncmp(arguments[i], "--", 2) == 0) continue;

@@ -1,5 +1,6 @@
-// hf_link_pictures MODEL.glb ... --out FOLDER: poses of characters of parts, four pictures each: at rest, posed without
-// links, posed with links, and by the artist's skin.
+// hf_link_pictures MODEL.glb ... [--parts] --out FOLDER: poses of characters of parts, four pictures each: at rest,
+// posed without links, posed with links, and by the artist's skin. --parts draws the scenes of parts_test too, without
+// a skin: from the front, and from the side to which the turned end goes.
 //
 // A pose turns one limb of the skeleton by 60 degrees. The skin follows the joint. The library gets the outer half of
 // the limb as a handle, of its largest piece, and pins far from it. The program prints how far both poses are from the
@@ -12,7 +13,7 @@
 
 #include "bench/link_scene.h"
 #include "common/picture.h"
-#include "gltf/animate.h"
+#include "support/part_scenes.h"
 
 namespace {
 
@@ -86,15 +87,6 @@ std::vector<Limb> limbs_of(const LinkScene& scene, const ModelLinks& links, cons
 
 glm::dvec3 point(const std::vector<double>& xyz, size_t v) { return {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]}; }
 
-glm::dmat4 turn_about(const glm::dvec3& p, const glm::dvec3& axis) {
-  const double half = turn_degrees / 360 * 3.14159265358979323846;
-  const glm::dmat4 rotation = glm::mat4_cast(
-      glm::dquat(std::cos(half), std::sin(half) * axis.x, std::sin(half) * axis.y, std::sin(half) * axis.z));
-  glm::dmat4 to(1), from(1);
-  to[3] = glm::dvec4(p, 1), from[3] = glm::dvec4(-p, 1);
-  return to * rotation * from;
-}
-
 // The outer half of the limb, on the piece that has most of it.
 std::vector<uint32_t> handle_of(const LinkScene& scene, const Limb& limb, const glm::dvec3& joint) {
   std::vector<double> far;
@@ -157,21 +149,12 @@ std::vector<double> pose_with(hf_surface surface, const LinkScene& scene, const 
   return out;
 }
 
-std::vector<double> by_skin(const LinkScene& scene, int joint, const glm::dmat4& turn) {
-  Pose pose = rest_pose(scene.model);
-  const std::vector<glm::dmat4> world = global_matrices(scene.model, pose);
-  const int parent = scene.model.nodes[size_t(joint)].parent;
-  NodePose& moved = pose[size_t(joint)];
-  moved.fixed = true;
-  moved.matrix = (parent < 0 ? glm::dmat4(1) : glm::inverse(world[size_t(parent)])) * turn * world[size_t(joint)];
-  return double_positions(posed_positions(scene.model, scene.flat, pose));
-}
-
 Picture tile(const LinkScene& scene, const std::vector<double>& xyz, const Box& box,
-             const std::vector<uint32_t>& region, const std::vector<uint32_t>& pins) {
+             const std::vector<uint32_t>& region, const std::vector<uint32_t>& pins,
+             const Point& direction = {0.45, 0.2, 1.0}) {
   Surface surface = make_surface(xyz, scene.flat.triangles);
   View view;
-  view.width = 460, view.height = 460, view.direction = {0.45, 0.2, 1.0}, view.fixed_box = true, view.box = box;
+  view.width = 460, view.height = 460, view.direction = direction, view.fixed_box = true, view.box = box;
   SurfaceLook look;
   look.fill = Fill::colors;
   surface.colors.reserve(xyz.size());
@@ -220,8 +203,8 @@ void draw(const std::string& file, const std::string& folder) {
     for (const uint32_t v : region) middle += point(scene.xyz, v) / double(region.size());
     // About the axis across the limb that the camera sees best.
     const glm::dvec3 along = glm::normalize(middle - joint), seen = glm::normalize(glm::dvec3(0.45, 0.2, 1.0));
-    const glm::dmat4 turn = turn_about(joint, glm::normalize(seen - glm::dot(seen, along) * along));
-    const std::vector<double> skin = by_skin(scene, limb.joint, turn);
+    const glm::dmat4 turn = turn_about(joint, glm::normalize(seen - glm::dot(seen, along) * along), turn_degrees);
+    const std::vector<double> skin = turned_by_skin(scene, limb.joint, turn);
     const std::vector<double> without = pose_with(plain, scene, region, pins, turn),
                               with = pose_with(linked, scene, region, pins, turn);
     Box box;
@@ -241,6 +224,66 @@ void draw(const std::string& file, const std::string& folder) {
   if (!tiles.empty()) write_png(folder + "/" + name + ".png", contact_sheet(tiles, 4, labels, name));
 }
 
+// A row of a scene of parts_test: rest, without links, with links, and with tags. Where there are no tags, the fourth
+// picture is the third from the other side.
+void add_parts(const hf_test::PartScene& parts, const Point& view, std::vector<Picture>& tiles,
+               std::vector<std::string>& labels) {
+  LinkScene scene;
+  scene.xyz = parts.mesh.positions, scene.flat.triangles = parts.mesh.triangles;
+  for (size_t v = 0; v < parts.mesh.vertex_count(); ++v) scene.flat.positions.push_back(point(scene.xyz, v));
+  scene.piece.resize(parts.mesh.vertex_count());
+  const auto pose = [&](const hf_links_desc* links) {
+    hf_surface surface = make_linked(scene, links);
+    hf_pose pose = nullptr;
+    uint32_t handle = 0, count = 0;
+    ok(hf_surface_get_pieces(surface, parts.mesh.vertex_count(), scene.piece.data(), nullptr, &count));
+    ok(hf_pose_create(surface, nullptr, &pose));
+    ok(hf_pose_add_handle_at(pose, parts.turned.data(), parts.radius, &handle));
+    ok(hf_pose_add_handle_at(pose, parts.held.data(), parts.radius, nullptr));
+    const glm::dvec3 pivot(parts.pivot[0], parts.pivot[1], parts.pivot[2]);
+    const glm::dmat4 matrix = turn_about(pivot, {0, 1, 0}, turn_degrees);
+    ok(hf_pose_set_matrices(pose, 1, &handle, &matrix[0][0]));
+    std::vector<double> out(scene.xyz.size());
+    hf_deform_desc frame = HF_INIT(hf_deform_desc);
+    frame.positions_f64 = out.data();
+    for (int i = 0; i < 20; ++i) ok(hf_pose_deform(pose, &frame, nullptr));
+    hf_pose_destroy(pose), hf_surface_destroy(surface);
+    return out;
+  };
+  hf_links_desc links = HF_INIT(hf_links_desc);
+  links.mode = HF_LINK_PIECES;
+  const std::vector<double> without = pose(nullptr), with = pose(&links);
+  links.tags = parts.tags.empty() ? nullptr : parts.tags.data();
+  const std::vector<double> last = links.tags ? pose(&links) : with;
+  std::vector<uint32_t> turned, held;
+  for (uint32_t v = 0; v < parts.mesh.vertex_count(); ++v) {
+    const auto near = [&](const std::array<double, 3>& p) {
+      return glm::length(point(scene.xyz, v) - glm::dvec3(p[0], p[1], p[2])) <= parts.radius;
+    };
+    if (near(parts.turned)) turned.push_back(v);
+    if (near(parts.held) && v % 3 == 0) held.push_back(v);
+  }
+  Box box;
+  bool empty = true;
+  extend(box, empty, scene.xyz), extend(box, empty, without), extend(box, empty, with), extend(box, empty, last);
+  const Point other{-view[0], view[1], -view[2]};
+  tiles.push_back(tile(scene, scene.xyz, box, turned, held, view)), labels.push_back("rest");
+  tiles.push_back(tile(scene, without, box, {}, {}, view)), labels.push_back("without links");
+  tiles.push_back(tile(scene, with, box, {}, {}, view)), labels.push_back("with links");
+  tiles.push_back(tile(scene, last, box, {}, {}, links.tags ? view : other));
+  labels.push_back(links.tags ? "with links and tags" : "with links, from the other side");
+}
+
+void draw_parts(const std::string& folder) {
+  std::vector<Picture> tiles;
+  std::vector<std::string> labels;
+  const Point side{0.4, -0.8, 0.5}, face{0.5, -0.4, 0.8}, back{0.6, 0.5, -0.7};
+  add_parts(hf_test::cloth(), side, tiles, labels), add_parts(hf_test::eyes_and_teeth(), face, tiles, labels);
+  add_parts(hf_test::hair_cards(), back, tiles, labels), add_parts(hf_test::armour_and_sword(), side, tiles, labels);
+  add_parts(hf_test::rider(), side, tiles, labels);
+  write_png(folder + "/parts.png", contact_sheet(tiles, 4, labels, "characters of parts"));
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -255,7 +298,10 @@ int main(int count, char** arguments) {
       continue;
     }
     try {
-      draw(arguments[i], folder);
+      if (std::strcmp(arguments[i], "--parts") == 0)
+        draw_parts(folder);
+      else
+        draw(arguments[i], folder);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "hf_link_pictures: %s: %s\n", arguments[i], error.what());
       return 1;

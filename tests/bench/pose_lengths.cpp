@@ -25,7 +25,7 @@ constexpr int smooth_iterations = 400;  // of the oracle with smooth rotations
 
 struct Options {
   hf_inner::PoseOptions pose;
-  std::uint32_t iterations = 5;
+  std::uint32_t iterations = 10;
   std::uint32_t steps = 1;
   std::vector<double> smoothness;
   bool from_last = false;  // the steps of the refined rows go on from frame to frame

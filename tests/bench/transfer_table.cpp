@@ -166,7 +166,19 @@ struct Run {
          source_gap = 0, self_mean = -1, self_max = -1, ms = 0;
 };
 
-// The largest gap between linked pieces; 0 without links.
+// The surface, or with --no-links one of the same mesh with links, so that gaps are measured at the same places.
+hf_surface with_links(hf_surface surface, const Loaded& loaded) {
+  static std::map<std::string, hf_surface> made;
+  hf_surface_report report = HF_INIT(hf_surface_report);
+  if (hf_surface_get_report(surface, &report) != HF_OK || report.piece_count < 2 || report.link_count > 0)
+    return surface;
+  hf_surface& linked = made[loaded.name];
+  const ModelLinks links(&loaded.model, loaded.flat);
+  if (!linked && hf_surface_relink(surface, &links.desc, nullptr, &linked) != HF_OK) return surface;
+  return linked;
+}
+
+// The largest gap between linked pieces; 0 where there is one piece.
 double largest_gap(hf_surface surface, const Frames& frames) {
   double out = 0;
   for (const std::vector<double>& frame : frames) {
@@ -221,8 +233,8 @@ Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target
         motion_of(rigid_frames(played, source, target, session), 1 / target.box, target.areas).squares / from.squares);
   out.slide = played.feet.planted_max, out.low = played.feet.low_max, out.sunk = played.feet.surface_sunk,
   out.ms = played.frame_ms;
-  out.gap = largest_gap(session.target_surface(), played.target_frames) / target.box;
-  out.source_gap = largest_gap(session.source_surface(), played.source_frames) / source.box;
+  out.gap = largest_gap(with_links(session.target_surface(), target), played.target_frames) / target.box;
+  out.source_gap = largest_gap(with_links(session.source_surface(), source), played.source_frames) / source.box;
   const ClipFaults faults = find_faults(session, played);
   out.confidence = faults.confidence, out.stretch = faults.stretch, out.lost = faults.lost.size();
   if (&source != &target) return out;

@@ -3,8 +3,6 @@
 // A handle at one end turns by 60 degrees and the other end is held. Contacts are measured apart from the library's
 // links: every vertex of a part, and the vertices of a triangle of the body that are nearest at rest. The bars are
 // those of links.md: gaps of 0.5 % of the box for 95 % of the contacts and 3 % at worst.
-#include "support/parts.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,22 +10,14 @@
 
 #include "hf/hf.h"
 #include "mesh/nearest_triangle.h"
+#include "support/part_scenes.h"
 
 namespace {
 
-using hf_test::ball;
-using hf_test::box;
 using hf_test::PlainMesh;
-using hf_test::tube;
+using Scene = hf_test::PartScene;
 
 constexpr double turn_degrees = 60, gap_95 = 0.005, gap_worst = 0.03;
-
-struct Scene {
-  PlainMesh mesh;
-  std::uint32_t body = 0;  // its vertices come first
-  std::array<double, 3> turned{}, held{}, pivot{};
-  double radius = 0;  // of both handles
-};
 
 double diagonal(const PlainMesh& mesh) {
   double sum = 0;
@@ -141,26 +131,14 @@ void expect_parts_follow(const Scene& scene, double range, std::uint32_t pieces,
   EXPECT_EQ(held.through, 0);
 }
 
-// A limb along x that bends at its middle.
-Scene limb() {
-  Scene scene;
-  scene.mesh = tube(60, 20, 0, 2, 0, 0, [](double s) { return 0.12 - 0.04 * s; }, true);
-  scene.body = scene.mesh.vertex_count();
-  scene.turned = {2, 0, 0}, scene.held = {0, 0, 0}, scene.pivot = {1, 0, 0}, scene.radius = 0.25;
-  return scene;
-}
-
 TEST(Parts, a_sleeve_over_an_elbow_and_a_trouser_leg_over_a_knee_follow_and_stay_outside) {
   for (const double sign : {1.0, -1.0}) {
-    Scene scene = limb();
-    const double first = 0.5, last = 1.6;
-    const auto radius = [&](double s) { return 0.12 - 0.04 * (first + s * (last - first)) / 2 + 0.015; };
-    hf_test::append(scene.mesh, tube(33, 22, first, last, 0, 0, radius, false), 0);
+    Scene scene = hf_test::cloth();
     if (sign < 0) std::swap(scene.turned, scene.held);  // the body turns, the hand is held
     expect_parts_follow(scene, 0.02, 2, 1);
     // The cloth hardly pulls the arm.
     const Posed with = pose_of(scene, true);
-    Scene bare = limb();
+    Scene bare = hf_test::limb();
     if (sign < 0) std::swap(bare.turned, bare.held);
     const Posed alone = pose_of(bare, false);
     double moved = 0;
@@ -170,63 +148,25 @@ TEST(Parts, a_sleeve_over_an_elbow_and_a_trouser_leg_over_a_knee_follow_and_stay
   }
 }
 
-// A head that turns on a body, both of one piece, along x: the head is the end of it.
-Scene bust() {
-  Scene scene;
-  const auto radius = [](double s) {
-    const double head = s > 0.6 ? std::sqrt(std::max(0.0, 1 - std::pow((s - 0.8) / 0.2, 2))) : 0;
-    return std::max(0.3 * head, s < 0.5 ? 0.35 : 0.12);
-  };
-  scene.mesh = tube(80, 32, 0, 2, 0, 0, radius, true);
-  scene.body = scene.mesh.vertex_count();
-  scene.turned = {2, 0, 0}, scene.held = {0, 0, 0}, scene.pivot = {1.2, 0, 0}, scene.radius = 0.3;
-  return scene;
-}
-
 TEST(Parts, eyes_and_teeth_follow_the_head) {
-  Scene scene = bust();
-  for (const double side : {-0.1, 0.1}) hf_test::append(scene.mesh, ball(5, 0.05, {1.65, side, 0.27}), 0);
-  for (int i = 0; i < 6; ++i) {  // two rows of three, half in the skin
-    const double y = -0.06 + 0.05 * (i % 3), x = i < 3 ? 1.50 : 1.46;
-    hf_test::append(scene.mesh, box(2, {0.03, 0.04, 0.03}, {x, y, 0.255}), 0);
-  }
+  const Scene scene = hf_test::eyes_and_teeth();
   expect_parts_follow(scene, 0.01, 9, 8);  // small and near the skin: they follow and do not pull
 }
 
 TEST(Parts, hair_cards_follow_the_head) {
-  Scene scene = bust();
-  for (int i = 0; i < 6; ++i) {  // strips from the crown towards the back, off the skin at their ends
-    PlainMesh card = hf_test::grid(8, 2, 0.05);
-    const double angle = 0.4 * i - 1.0;
-    for (std::size_t v = 0; v < card.vertex_count(); ++v) {
-      double* p = &card.positions[3 * v];
-      const double along = p[0], across = p[1] - 0.05, x = 1.78 - along;
-      const double skin = 0.3 * std::sqrt(std::max(0.0, 1 - std::pow((x - 1.6) / 0.4, 2)));
-      const double r = skin + 0.01 + 0.05 * along, a = angle + across / 0.3;
-      p[0] = x, p[1] = r * std::sin(a), p[2] = -r * std::cos(a);
-    }
-    hf_test::append(scene.mesh, card, 0);
-  }
+  const Scene scene = hf_test::hair_cards();
   const Posed with = pose_of(scene, true);
   EXPECT_GE(with.light, 1u);
   expect_parts_follow(scene, 0.02, 7, with.light);
 }
 
 TEST(Parts, a_plate_of_armour_follows_the_chest_and_a_sword_the_hand) {
-  Scene scene = limb();
-  PlainMesh plate = hf_test::grid(10, 6, 0.04);
-  for (std::size_t v = 0; v < plate.vertex_count(); ++v) {
-    double* p = &plate.positions[3 * v];
-    const double x = 1.2 + p[0], r = 0.12 - 0.02 * x + 0.012, a = (p[1] - 0.12) / 0.12;
-    p[0] = x, p[1] = r * std::sin(a), p[2] = r * std::cos(a);
-  }
-  hf_test::append(scene.mesh, plate, 0);
-  hf_test::append(scene.mesh, box(6, {0.04, 1.2, 0.04}, {1.85, -0.3, 0.06}), 0);  // through the end of the limb
+  const Scene scene = hf_test::armour_and_sword();
   expect_parts_follow(scene, 0.01, 3, 1);
   // The sword keeps its shape.
   const Posed with = pose_of(scene, true);
   const std::vector<double>& rest = scene.mesh.positions;
-  const std::size_t first = scene.body + plate.vertex_count(), last = scene.mesh.vertex_count() - 1;
+  const std::size_t first = scene.body + hf_test::plate_vertices, last = scene.mesh.vertex_count() - 1;
   double stretch = 0;
   for (std::size_t v = first; v <= last; ++v) {
     const double before = norm(point(rest, v) - point(rest, first)),
@@ -236,17 +176,49 @@ TEST(Parts, a_plate_of_armour_follows_the_chest_and_a_sword_the_hand) {
   EXPECT_LT(stretch, 0.01);
 }
 
+// The tips among the handles that are proposed for the linked surface.
+std::vector<hf_handle_proposal> tips_of(const PlainMesh& mesh) {
+  hf_links_desc links = HF_INIT(hf_links_desc);
+  links.mode = HF_LINK_PIECES;
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
+  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
+  desc.positions_f64 = mesh.positions.data(), desc.triangles = mesh.triangles.data();
+  desc.weld = HF_WELD_EXACT, desc.links = &links;
+  hf_surface surface = nullptr;
+  EXPECT_EQ(hf_surface_create(&desc, &surface), HF_OK);
+  std::uint32_t count = 0;
+  std::vector<hf_handle_proposal> out(HF_HANDLE_LIMIT);
+  EXPECT_EQ(hf_propose_handles(surface, nullptr, HF_HANDLE_LIMIT, out.data(), &count), HF_OK);
+  out.resize(count);
+  out.erase(std::remove_if(out.begin(), out.end(),
+                           [](const hf_handle_proposal& p) { return p.reason != HF_HANDLE_REASON_TIP; }),
+            out.end());
+  hf_surface_destroy(surface);
+  return out;
+}
+
+TEST(Parts, a_light_piece_is_no_tip_and_leaves_those_of_the_body) {
+  const std::pair<Scene, Scene> scenes[] = {{hf_test::cloth(), hf_test::limb()},
+                                            {hf_test::hair_cards(), hf_test::bust()}};
+  for (const auto& [dressed, bare] : scenes) {
+    const auto with = tips_of(dressed.mesh), without = tips_of(bare.mesh);
+    ASSERT_EQ(with.size(), without.size());
+    for (std::size_t i = 0; i < with.size(); ++i) {
+      // The length counts from the middle, half way in edges: a sheet moves it a little.
+      EXPECT_NEAR(with[i].length, without[i].length, 0.25 * without[i].length);
+      double least = 1e300;
+      for (const hf_handle_proposal& tip : without)
+        least = std::min(least,
+                         norm(point(dressed.mesh.positions, with[i].vertex) - point(bare.mesh.positions, tip.vertex)));
+      EXPECT_LT(least, 0.02 * diagonal(bare.mesh));
+    }
+  }
+}
+
 // Two bodies touch and must not link: the host says so by tags.
 TEST(Parts, a_rider_turns_and_the_horse_stays) {
-  Scene scene;
-  scene.mesh = tube(40, 24, 0, 2, 0, 0, [](double) { return 0.3; }, true);  // the horse
-  scene.body = scene.mesh.vertex_count();
-  hf_test::append(scene.mesh, box(6, {0.3, 0.3, 1}, {0.85, -0.15, 0.295}), 0);  // the rider
-  hf_test::append(scene.mesh, box(3, {0.1, 0.1, 0.1}, {1.15, -0.05, 1}), 0);    // what the rider holds
-  scene.turned = {1, 0, 0.295}, scene.held = {1, 0, 1.295}, scene.pivot = {1, 0, 0.8}, scene.radius = 0.2;
-  std::vector<std::uint32_t> tags(scene.mesh.vertex_count(), 2);
-  std::fill(tags.begin(), tags.begin() + scene.body, 1u);
-  const Posed apart = pose_of(scene, true, tags), together = pose_of(scene, true);
+  const Scene scene = hf_test::rider();
+  const Posed apart = pose_of(scene, true, scene.tags), together = pose_of(scene, true);
   EXPECT_EQ(apart.groups, 2u);
   EXPECT_EQ(together.groups, 1u);
   EXPECT_EQ(apart.unreached, scene.body) << "no handle holds the horse, and the library says so";
