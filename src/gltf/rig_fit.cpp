@@ -12,8 +12,8 @@ namespace {
 // Weights were chosen on every 25th run of the choosing half of hf_transfer_table --own-skin.
 // k, over the mean diagonal of the normal matrix at rest. 2e-4 and 5e-3 give as many spikes.
 constexpr double keep_rest = 1e-3;
-// The same for the difference from the frames beside: 0, 0.05 and 0.1 give 21, 2 and 1 spikes instead of 5. But from
-// 0.05 on 5 runs instead of 1 move beside a still source.
+// The same for the difference from the frames beside: 0.05 and 0.1 give 2 and 1 spikes instead of 5. But 5 runs instead
+// of 1 move beside a still source then.
 constexpr double keep_even = 0.01;
 constexpr int even_rounds = 3;  // over the clip; a frame's turns go so many frames far
 // Of all ties, beside 1 for all vertices: pieces stay together, and feet slide more. 0, 1, 100: gaps of a knight's runs
