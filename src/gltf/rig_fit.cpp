@@ -479,13 +479,14 @@ std::vector<Pose> RigFit::fit_all(const std::vector<double>& times, const std::v
                                   const std::function<std::vector<double>(size_t)>& firm) const {
   std::vector<Pose> out;
   for (size_t f = 0; f < frames.size(); ++f) out.push_back(fit(frames[f], f == 0 ? rest_ : out.back(), firm(f)));
-  // Then turns that the frames leave open follow those of the frames beside.
+  // Then turns that the frames leave open follow those of the frames beside. Of two frames neither lies between others:
+  // each would lag behind the other.
   for (int round = 0; round < even_rounds && frames.size() > 2; ++round) {
     const std::vector<Pose> before = out;
-    // the first and the last have no middle: pulled to the frame beside, they would lag behind
-    for (size_t f = 1; f + 1 < frames.size(); ++f) {
-      const Pose &left = out[f - 1], &right = before[f + 1];
-      const double span = times[f + 1] - times[f - 1], share = span > 0 ? (times[f] - times[f - 1]) / span : 0.5;
+    for (size_t f = 0; f < frames.size(); ++f) {
+      const Pose &left = f > 0 ? out[f - 1] : before[1], &right = f + 1 < frames.size() ? before[f + 1] : left;
+      const bool inner = f > 0 && f + 1 < frames.size() && times[f + 1] > times[f - 1];
+      const double share = inner ? (times[f] - times[f - 1]) / (times[f + 1] - times[f - 1]) : 0.5;
       Pose middle = before[f];
       for (const Joint& joint : joints_) {
         const auto node = static_cast<size_t>(joint.node);
