@@ -242,9 +242,12 @@ RunReport run(Session& session, const Model& source, const Model& target, const 
 Suggestion propose(const Model& source, const Model& target, const TransferCommand& command) {
   const FlatMesh source_mesh = flatten(source), target_mesh = flatten(target);
   const auto axes = [](const std::optional<Axes>& given) { return given ? &*given : nullptr; };
-  const Suggestion suggestion =
-      suggest_pairs({source, source_mesh, tips_of(source_mesh, source.name), axes(command.source_axes)},
-                    {target, target_mesh, tips_of(target_mesh, target.name), axes(command.target_axes)});
+  // a model on itself has its tips found once
+  const bool same = source_mesh.positions == target_mesh.positions && source_mesh.triangles == target_mesh.triangles;
+  const std::vector<uint32_t> source_tips = tips_of(source_mesh, source.name);
+  const Suggestion suggestion = suggest_pairs(
+      {source, source_mesh, source_tips, axes(command.source_axes)},
+      {target, target_mesh, same ? source_tips : tips_of(target_mesh, target.name), axes(command.target_axes)});
   std::printf("proposed pairs            confidence  on the source; on the target\n");
   for (const SuggestedPair& pair : suggestion.pairs) {
     std::printf("  %-22s %11.2f  %s; %s\n", pair.name.c_str(), pair.confidence, pair.source_found.c_str(),
