@@ -17,8 +17,8 @@ constexpr int most_halvings = 9;
 // Then larger parts are tried, between the last that was too large and the first that was not.
 constexpr int more_parts = 3;
 // Straight lines between few keys bend at the keys: a calm motion then accelerates more than it did. The root mean
-// square acceleration may be this many times as large. If it is larger, a left out key may miss by less, the fewer
-// keys lie beside it: half of the tolerance for each key at first, and then half of that, so many times. If that is not
+// square acceleration may be this many times as large. If it is larger, a key is left out only where it misses by less:
+// by half of the tolerance for each key in the gap. This half is halved again most_calming times. If that is not
 // enough, rotations are not rounded to 16 bits.
 constexpr double most_acceleration = 1.03;
 constexpr int most_calming = 10;
@@ -62,7 +62,9 @@ double miss(const Channel& channel, size_t a, size_t between, size_t b, double r
   if (channel.path == Path::rotation) {
     const auto q = [&](size_t key) { return glm::dquat(value(key, 3), value(key, 0), value(key, 1), value(key, 2)); };
     const glm::dquat line = glm::slerp(q(a), q(b), s);
-    return 2 * std::sqrt(std::max(0.0, 1 - std::abs(glm::dot(line, q(between))))) * std::sqrt(2.0) * reach;
+    // twice the chord; 1 minus the product of two rotations in floats loses angles below 7e-4
+    const double sign = glm::dot(line, q(between)) < 0 ? -1 : 1;
+    return 2 * glm::length(line - sign * q(between)) * reach;
   }
   double sum = 0;
   for (size_t c = 0; c < channel.width; ++c) {
@@ -123,7 +125,6 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
   const std::vector<glm::dmat4> globals = global_matrices(model, rest_pose(model));
   std::vector<std::vector<glm::dvec3>> wanted;
   for (const double time : times) wanted.push_back(posed_positions(model, mesh, animation, time));
-  // The clip with a part of the tolerance for each channel, and how far a vertex moves at most.
   double squares = 0;  // of accelerations
   const auto squares_at = [](const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b,
                              const std::vector<glm::dvec3>& c) {
@@ -137,6 +138,7 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
   for (size_t f = 1; f + 1 < times.size(); ++f) squares += squares_at(wanted[f - 1], wanted[f], wanted[f + 1]);
   double bend = std::numeric_limits<double>::infinity(), got_squares = 0;
   bool shorts = true;
+  // Makes the clip with a part of the tolerance for each channel. Returns how far a vertex moves at most.
   const auto reduce = [&](double part, Animation& fresh) {
     fresh = animation, got_squares = 0;
     for (Channel& channel : fresh.channels) {
@@ -156,6 +158,7 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
       if (f > 1) got_squares += squares_at(before, last, got);
       before = std::move(last), last = std::move(got);
     }
+    if (worst > tolerance) got_squares = std::numeric_limits<double>::infinity();  // not all frames were added
     return worst;
   };
   Animation fresh, best;

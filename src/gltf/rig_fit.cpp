@@ -5,23 +5,31 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <unordered_map>
 
 namespace hf_gltf {
 namespace {
 
 // Weights were chosen on every 25th run of the choosing half of hf_transfer_table --own-skin.
-// k, over the mean diagonal of the normal matrix at rest. 2e-4 and 5e-3 give as many spikes.
+// The weight k of turns from rest (rig_fit.h), over the mean diagonal of the normal matrix there. 2e-4 and 5e-3 give as
+// many spikes.
 constexpr double keep_rest = 1e-3;
 // The same for the difference from the frames beside: 0.05 and 0.1 give 2 and 1 spikes instead of 5. But 5 runs instead
 // of 1 move beside a still source then.
 constexpr double keep_even = 0.01;
-constexpr int even_rounds = 3;  // over the clip; a frame's turns go so many frames far
-// Of all ties, beside 1 for all vertices: pieces stay together, and feet slide more. 0, 1, 100: gaps of a knight's runs
-// on a robot of .096, .076, .016 of the box instead of .026, and slides of .0010, .0012, .0021 instead of .0015.
+// Passes over the clip. A pass carries a turn one frame on.
+constexpr int even_rounds = 3;
+// The weight of all ties together, beside 1 for all vertices. It trades feet that slide for pieces that stay together.
+// With 0, 1, 10 and 100 a knight's run on a robot opens by .096, .076, .026 and .016 of the box, and its feet slide by
+// .0010, .0012, .0015 and .0021.
 constexpr double tie_weight = 10;
-// Of a vertex of a standing foot, beside 1: planted feet do not slide. 3000 halves slides and gives four times the
-// spikes.
+// The weight of a vertex of a foot that stands, beside 1, so that it does not slide. 3000 halves slides, and makes four
+// times as many spikes.
 constexpr double foot_weight = 300;
+// A system has up to six unknowns a joint, so memory grows as their square and a step as their cube. This many joints
+// take 250 MB, or 700 if all of them shift. Characters have 20 to 500.
+constexpr size_t most_joints = 1000;
 constexpr double moved = 1e-3;  // of the diagonal: a clip that moves a joint less does not move it
 // Levenberg's and Marquardt's damping, of each diagonal entry. A step that raises the energy is damped more.
 constexpr double first_damping = 1e-3, least_damping = 1e-6, more_damping = 8, less_damping = 0.2;
@@ -93,19 +101,19 @@ Pose decomposed(Pose pose) {
 // Sums of the rows over pairs of slots: what energy, gradient and matrix need of the vertices.
 class RigFit::Moments {
  public:
-  explicit Moments(size_t slots) : slots_(slots), number_(slots * slots, -1), goal_(slots, glm::dmat3x4(0.0)) {}
+  explicit Moments(size_t slots) : slots_(slots), goal_(slots, glm::dmat3x4(0.0)) {}
   // The matrix part of a row.
   void add(const Row& row, double weight) {
     for (const Term& a : row.terms)
       for (const Term& b : row.terms) {
         if (b.slot < a.slot) continue;
-        int& number = number_[a.slot * slots_ + b.slot];
-        if (number < 0) number = static_cast<int>(pairs_.size()), pairs_.push_back({a.slot, b.slot, glm::dmat4(0)});
-        glm::dmat4& sum = pairs_[static_cast<size_t>(number)].sum;
+        const auto [known, fresh] = number_.try_emplace(a.slot * slots_ + b.slot, pairs_.size());
+        if (fresh) pairs_.push_back({a.slot, b.slot, glm::dmat4(0)});
+        glm::dmat4& sum = pairs_[known->second].sum;
         for (int c = 0; c < 4; ++c) sum[c] += weight * b.at[c] * a.at;
       }
   }
-  // What it must come to.
+  // The goal of a row.
   void want(const Row& row, double weight, const glm::dvec3& goal) {
     for (const Term& a : row.terms)
       for (int c = 0; c < 3; ++c) goal_[a.slot][c] += weight * goal[c] * a.at;
@@ -121,7 +129,7 @@ class RigFit::Moments {
 
  private:
   size_t slots_;
-  std::vector<int> number_;
+  std::unordered_map<size_t, size_t> number_;  // of a pair of slots: its place in pairs_
   std::vector<Pair> pairs_;
   std::vector<glm::dmat3x4> goal_;  // of weight * place * goal
   double squares_ = 0;
@@ -140,6 +148,9 @@ RigFit::RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTi
   find_joints();
   if (joints_.empty())
     throw std::runtime_error(model.name + " has no skin to keep: leave --onto-skin out, and it gets a new one");
+  if (joints_.size() > most_joints)
+    throw std::runtime_error(model.name + " has " + std::to_string(joints_.size()) + " joints, and at most " +
+                             std::to_string(most_joints) + " can be fitted: take --as skin or --as morph");
   find_vertices(mesh), find_ties(mesh, ties);
   Moments moments(slots_.size());
   for (const Row& row : vertices_) moments.add(row, row.weight);

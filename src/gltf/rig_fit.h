@@ -29,11 +29,12 @@ struct RigTie {
 
 class RigFit {
  public:
-  // Throws std::runtime_error when no mesh of the model has a skin.
+  // Throws std::runtime_error when no mesh of the model has a skin, or when its skins have too many joints.
   RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTie>& ties = {});
 
-  // Finds the pose of the frame (x y z of every flat vertex), starting from `start`. firm: empty, or per flat vertex
-  // from 0 to 1 how firmly it must be met: a foot that stands. middle: NULL, or a pose whose turns it shall be near.
+  // Finds the pose of a frame, starting from `start`. frame: x y z of every flat vertex. firm: empty, or for every flat
+  // vertex how firmly it is to be met, 0 to 1; a foot that stands has 1. middle: NULL, or a pose that the turns are to
+  // be near.
   Pose fit(const std::vector<double>& frame, const Pose& start, const std::vector<double>& firm = {},
            const Pose* middle = nullptr) const;
   // The poses of frames, each from the one before, then from those beside it. firm: of a frame's number.

@@ -35,8 +35,8 @@ constexpr double path_rounding = 1e-9;
 // Width of a step of the queue in mean edges. Smaller steps make fewer windows, larger ones read nearer memory. On a
 // torus, a sphere and a plane of 100,000 vertices a quarter takes 9 to 36 % longer.
 constexpr double queue_step = 1;
-// Windows in a block of the queue. Larger ones waste memory in steps of few windows, smaller ones are read in no row: a
-// window alone waits for memory, which took a third of the time.
+// Windows in a block of the queue. Larger blocks waste memory in steps of few windows. In smaller ones the processor
+// reads less ahead: windows that lay alone waited for memory, a third of the time.
 constexpr std::size_t block_windows = 16;
 // Steps of the queue that have stacks of their own; what lies farther waits in one more stack, which is sorted in when
 // they are used up. It trades memory for that sorting. Half and double, and 4, give the same bits on seven shapes.
@@ -495,8 +495,8 @@ class Propagation {
     });
   }
 
-  // Tells whether every path through a window is longer than one that is known. What is left of the path is no shorter
-  // than the straight line from the window to the target.
+  // Tells whether every path through a window is longer than one that is known. The rest of such a path is no
+  // shorter than the straight line from the window to the target.
   bool leads_past(const Window& w) const noexcept {
     const Vec3 start = mesh_.positions[at(mesh_.corners[at(w.side)])];
     const Vec3 along = (1 / sides_.frame[at(w.side)].length) *

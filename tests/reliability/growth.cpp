@@ -124,11 +124,11 @@ void judge(const Structure& structure, bool full) {
 
 // ---- files of 1 MB given to the programs ----
 
-// The seconds are those of the machine on which they were promised. A fixed piece of work, measured beside each program
-// that takes longer, tells how much slower this one is, or how busy: a walk through 64 MB in random order and the
-// sorting of a million numbers, since the programs wait for memory as much as they compute. Programs that took 1.6 and
-// 1.8 s in a quiet minute took 2.1 and 2.5 in one in which it took 0.43 s; reference_seconds is on the safe side of
-// these ratios. Nothing is promised to be faster on faster machines.
+// The seconds are those of the machine on which they were promised. A program that takes longer is judged by a fixed
+// piece of work, measured beside it: how much slower is this machine, or how busy? The work is a walk through 64 MB in
+// random order and the sorting of a million numbers, since programs wait for memory as much as they compute. In a quiet
+// minute two programs took 1.6 and 1.8 s. They took 2.1 and 2.5 s in a minute in which the work took 0.43 s. So
+// reference_seconds is on the safe side. Nothing is promised to be faster on faster machines.
 constexpr double most_seconds = 2, most_megabytes = 200, reference_seconds = 0.35;
 
 double machine_seconds(double seconds) {

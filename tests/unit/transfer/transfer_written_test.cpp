@@ -34,6 +34,37 @@ TEST(TransferWritten, AFitThatStartsAtItsResultStaysThere) {
   EXPECT_NEAR(miss(again), miss(once), 0.01 * miss(once));
 }
 
+// A file of a chain of 1,001 joints, each with a vertex: its system would take gigabytes.
+TEST(TransferWritten, AModelOfTooManyJointsIsRefused) {
+  constexpr uint16_t joints = 1001;
+  Model model;
+  model.name = "chain";
+  Primitive primitive;
+  Skin skin;
+  for (uint16_t j = 0; j < joints; ++j) {
+    Node node;
+    node.parent = j == 0 ? -1 : j - 1;
+    if (j + 1 < joints) node.children = {j + 1};
+    model.nodes.push_back(node);
+    skin.joints.push_back(j), skin.inverse_bind.emplace_back(1);
+    primitive.positions.emplace_back(j, j % 2, 0);
+    Influences influences;
+    influences.joints[0] = j, influences.weights[0] = 1;
+    primitive.influences.push_back(influences);
+    if (j >= 2) primitive.indices.insert(primitive.indices.end(), {uint32_t(j - 2), uint32_t(j - 1), uint32_t(j)});
+  }
+  Node body;
+  body.mesh = 0, body.skin = 0;
+  model.nodes.push_back(body);
+  model.skins = {skin}, model.meshes.emplace_back(), model.meshes[0].primitives = {primitive};
+  try {
+    const RigFit rig(model, flatten(model));
+    FAIL() << "1,001 joints were taken";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "chain has 1001 joints, and at most 1000 can be fitted: take --as skin or --as morph");
+  }
+}
+
 // Frames of the rig itself, turned over as a whole: every frame is met.
 TEST(TransferWritten, ASomersaultIsMet) {
   const Model horse = read_gltf(creature("horse"));
@@ -57,43 +88,67 @@ TEST(TransferWritten, ASomersaultIsMet) {
       worst = std::max(worst, glm::distance(got[v], {frames[f][3 * v], frames[f][3 * v + 1], frames[f][3 * v + 2]}));
   }
   std::printf("a somersault is missed by %.4f\n", worst);
-  EXPECT_LT(worst, 0.1);  // of a body some 5 long: small bones keep near their rest
+  EXPECT_LT(worst, 0.05);  // of a body some 5 long: small bones keep near their rest
 }
 
-// A clip of few keys is made of straight lines. A slow sway must not jerk at their ends.
+// A clip of few keys is made of straight lines. A slow sway must not jerk at their ends: neither of one joint, nor of
+// all, whose misses add up.
 TEST(TransferWritten, LeftOutKeysDoNotMakeACalmMotionJerk) {
   const Model horse = read_gltf(creature("horse"));
   const FlatMesh mesh = flatten(horse);
-  Animation sway;
-  Channel turn;
-  turn.node = horse.skins[0].joints[0], turn.path = Path::rotation, turn.width = 4;
-  for (int f = 0; f < 120; ++f) {
-    const double angle = 0.1 * std::sin(f * 0.05);
-    turn.times.push_back(static_cast<float>(f / 30.0));
-    for (const double x : {0.0, 0.0, std::sin(angle / 2), std::cos(angle / 2)})
-      turn.values.push_back(static_cast<float>(x));
-  }
-  sway.channels.push_back(turn);
   glm::dvec3 low(1e300), high(-1e300);
   for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
   const double tolerance = 0.0005 * glm::length(high - low);
-  const auto acceleration = [&](const Animation& clip) {
-    double sum = 0;
-    std::vector<std::vector<glm::dvec3>> frames;
-    for (const float time : turn.times) frames.push_back(posed_positions(horse, mesh, clip, static_cast<double>(time)));
-    for (size_t f = 1; f + 1 < frames.size(); ++f)
-      for (size_t v = 0; v < frames[f].size(); ++v) {
-        const glm::dvec3 bend = frames[f - 1][v] - 2.0 * frames[f][v] + frames[f + 1][v];
-        sum += glm::dot(bend, bend);
+  for (const size_t joints : {size_t{1}, horse.skins[0].joints.size()}) {
+    Animation sway;
+    for (size_t j = 0; j < joints; ++j) {
+      Channel turn;
+      turn.node = horse.skins[0].joints[j], turn.path = Path::rotation, turn.width = 4;
+      for (int f = 0; f < 120; ++f) {
+        const double angle =
+            0.1 / std::sqrt(static_cast<double>(joints)) * std::sin(f * 0.05 + 0.7 * static_cast<double>(j));
+        turn.times.push_back(static_cast<float>(f / 30.0));
+        for (const double x : {0.0, 0.0, std::sin(angle / 2), std::cos(angle / 2)})
+          turn.values.push_back(static_cast<float>(x));
       }
-    return std::sqrt(sum);
-  };
-  Animation few = sway;
-  const double moved = reduce_keys(horse, mesh, few, tolerance);
-  std::printf("%zu of %zu keys, %.2f times the acceleration\n", key_count(few), key_count(sway),
-              acceleration(few) / acceleration(sway));
-  EXPECT_LE(moved, tolerance);
-  EXPECT_LT(acceleration(few), 1.5 * acceleration(sway));  // 2.13 with a bound on places alone
+      sway.channels.push_back(turn);
+    }
+    const auto acceleration = [&](const Animation& clip) {
+      double sum = 0;
+      std::vector<std::vector<glm::dvec3>> frames;
+      for (const float time : sway.channels[0].times)
+        frames.push_back(posed_positions(horse, mesh, clip, static_cast<double>(time)));
+      for (size_t f = 1; f + 1 < frames.size(); ++f)
+        for (size_t v = 0; v < frames[f].size(); ++v) {
+          const glm::dvec3 bend = frames[f - 1][v] - 2.0 * frames[f][v] + frames[f + 1][v];
+          sum += glm::dot(bend, bend);
+        }
+      return std::sqrt(sum);
+    };
+    Animation few = sway;
+    const double moved = reduce_keys(horse, mesh, few, tolerance);
+    std::printf("%zu of %zu keys, %.2f times the acceleration\n", key_count(few), key_count(sway),
+                acceleration(few) / acceleration(sway));
+    EXPECT_LE(moved, tolerance);
+    EXPECT_LT(key_count(few), key_count(sway));
+    // of one joint: 2.13 with a bound on places alone, 1.29 while small angles were lost to rounding
+    EXPECT_LT(acceleration(few), 1.05 * acceleration(sway)) << joints;
+  }
+}
+
+// Trials whose misses add up beyond the bound are not measured to their end, and seemed calm.
+TEST(TransferWritten, ACalmIdleStaysCalm) {
+  if (!fs::exists(data() / "q_CyberCharacter.glb") || !fs::exists(data() / "q_Man_Casual.glb"))
+    GTEST_SKIP() << "no q_CyberCharacter.glb or q_Man_Casual.glb under " << data();
+  const fs::path report = folder() / "idle.json";
+  std::string said;
+  ASSERT_EQ(transfer(quoted(data() / "q_CyberCharacter.glb") + " " + quoted(data() / "q_Man_Casual.glb") +
+                         " --clip \"CharacterArmature|Idle_Neutral\" -o " + quoted(folder() / "idle.glb") + " --json " +
+                         quoted(report),
+                     said),
+            0)
+      << said;
+  EXPECT_LT(read_json(report)["clips"][0]["faults"]["acceleration"].get<double>(), 0.9);  // .61; 1.22 before
 }
 
 // Rigid pieces on joints that may shift: the fit of frames in which legs are stretched tore an arm off.
