@@ -91,8 +91,8 @@ typedef struct hf_links_desc {
   float overlay_distance;   /* automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 %
                                of the diagonal, below 0: no piece is light unless light_vertices say so */
   uint32_t influence_count; /* joints per vertex, 0 to 64 */
-  const uint16_t* joints;   /* [vertex_count][influence_count] of a skin: pieces of one joint rather link */
-  const float* weights;     /* [vertex_count][influence_count] of sum 1; a vertex of sum 0 is like no other */
+  const uint16_t* joints;   /* [vertex_count][influence_count] of a skin: pieces of the same joint link sooner */
+  const float* weights;     /* [vertex_count][influence_count] of sum 1; where all are 0, a vertex shares no joint */
   const uint32_t* tags;     /* [vertex_count]: pieces with different tags do not link, as a rider and a horse. The
                                first vertex of a piece counts */
   uint32_t link_count;      /* for HF_LINK_LIST */
