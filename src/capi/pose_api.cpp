@@ -228,8 +228,9 @@ hf_result hf_pose_get_field(hf_pose handle, uint32_t number, float* out_values, 
     require(out_values, "out_values");
     const Rows out(out_values, stride_of(value_stride, sizeof(float), "value_stride"));
     const Reading reading(*pose);
-    const Span<const double> field = pose->pose->field(number);
-    write_vertices(pose->pose->core(), 1, out, nullptr, [&](std::size_t v, double* values) { values[0] = field[v]; });
+    const FieldColumn<const double> field = pose->pose->field(number);
+    write_vertices(pose->pose->core(), 1, out, nullptr,
+                   [&](std::size_t v, double* values) { values[0] = field[static_cast<Index>(v)]; });
   });
 }
 

@@ -12,16 +12,17 @@ void read_vertex(const BandSource& source, std::int32_t v, PieceBands& out) {
   const std::int32_t begin = source.part_start[component], end = source.part_start[component + 1];
   if (begin == end || source.reach.owner[v] >= 0) return;
   const bool several = source.reach.handles_of(component).size() > 2;
+  const double* const fields = source.fields.at(v);
   double floor = 0;
   if (several) {
     for (std::int32_t p = begin; p < end; ++p) {
-      const double phi = source.fields.of(source.parts[p].handle)[v];
+      const double phi = fields[source.parts[p].handle];
       floor += phi * phi;
     }
     floor = field_prune * std::sqrt(floor);
   }
   for (std::int32_t p = begin; p < end; ++p) {
-    const double phi = source.fields.of(source.parts[p].handle)[v], share = several ? phi - floor : 1.0;
+    const double phi = fields[source.parts[p].handle], share = several ? phi - floor : 1.0;
     if (!(share > 0)) continue;  // this field does not count here
     double level = source.levels[p](phi);
     if (several && source.degree == 2) level = eased_level(level, source.band_count);

@@ -45,7 +45,7 @@ class RowMaker {
   Span<const Weight> by_fields(std::int32_t v) noexcept {
     count_ = 0;
     for (const std::int32_t j : source_.reach.handles_of(source_.core.mesh.component[v])) {
-      if (source_.fields.of(j)[v] > 0) row_[count_++] = {j, source_.fields.of(j)[v]};
+      if (const double phi = source_.fields.of(j)[v]; phi > 0) row_[count_++] = {j, phi};
     }
     return {row_.data(), count_};
   }
@@ -55,12 +55,13 @@ class RowMaker {
   // where the row begins.
   std::size_t add_handles(std::int32_t v, Span<const BandSlot> slots) noexcept {
     const std::int32_t top = source_.band_count + 1;
+    const double* const fields = source_.fields.at(v);
     count_ = 0;
     double others = 0;  // sum over fields phi of share times B_0 / (1 - phi), B_0 the first band
     for (const BandSlot& slot : slots) {
       const std::int32_t handle = source_.parts[slot.part].handle;
       double own = top - slot.first <= source_.degree ? slot.share * slot.value[top - slot.first] : 0.0;
-      const double phi = slot.first == 0 ? source_.fields.of(handle)[v] : 1.0;
+      const double phi = slot.first == 0 ? fields[handle] : 1.0;
       if (phi < 1) {
         // The sum below gives the handle a part of its own first band, which is taken off here.
         const double part = slot.share * slot.value[0] / (1.0 - phi);
@@ -74,7 +75,7 @@ class RowMaker {
     const std::size_t first = count_;
     std::size_t next = 0;
     for (const std::int32_t j : source_.reach.handles_of(source_.core.mesh.component[v])) {
-      const double weight = others * source_.fields.of(j)[v];
+      const double weight = others * fields[j];
       const bool own = next < first && row_[next].cluster == j;
       if (!own && !(weight > 0)) continue;
       const double before = own ? row_[next++].weight : 0.0;

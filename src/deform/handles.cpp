@@ -49,21 +49,21 @@ std::int32_t solved_channels(std::size_t handle_count) noexcept {
 void finish_vertex(std::int32_t v, const double* solved, std::int32_t channels, std::int32_t owner,
                    Span<const std::int32_t> present, HandleFields& fields) {
   const std::int32_t handle_count = static_cast<std::int32_t>(fields.leak.size());
-  for (std::int32_t i = 0; i < handle_count; ++i) fields.of(i)[v] = 0;
+  double* const out = fields.at(v);
+  std::fill_n(out, handle_count, 0.0);
   if (present.empty()) return;
   if (owner >= 0 || present.size() == 1) {
-    fields.of(owner >= 0 ? owner : present[0])[v] = 1;
+    out[owner >= 0 ? owner : present[0]] = 1;
     return;
   }
   double sum = 0, others = 0;
   for (std::int32_t i = 0; i < channels; ++i) others += solved[i];
   for (const std::int32_t i : present) {
     const double value = std::clamp(i < channels ? solved[i] : 1.0 - others, 0.0, 1.0);
-    fields.of(i)[v] = value;
+    out[i] = value;
     sum += value;
   }
-  for (const std::int32_t i : present)
-    fields.of(i)[v] = sum > 0 ? fields.of(i)[v] / sum : 1.0 / static_cast<double>(present.size());
+  for (const std::int32_t i : present) out[i] = sum > 0 ? out[i] / sum : 1.0 / static_cast<double>(present.size());
 }
 
 }  // namespace

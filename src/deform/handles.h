@@ -66,19 +66,24 @@ struct Reach {
   }
 };
 
+// The field of one handle: one number per vertex, `stride` numbers apart.
+template <class Number>
+struct FieldColumn {
+  Number* first;
+  std::size_t stride;
+  Number& operator[](std::int32_t v) const noexcept { return first[stride * static_cast<std::size_t>(v)]; }
+};
+
 struct HandleFields {
   HandleFields(std::int32_t vertex_count, std::int32_t handle_count, Memory& memory)
-      : vertices(vertex_count),
-        values(memory, static_cast<std::size_t>(vertex_count) * static_cast<std::size_t>(handle_count)),
+      : values(memory, static_cast<std::size_t>(vertex_count) * static_cast<std::size_t>(handle_count)),
         leak(handle_count, 0.0, &memory) {}
-  const double* of(std::int32_t handle) const noexcept {
-    return values.data() + static_cast<std::size_t>(handle) * static_cast<std::size_t>(vertices);
-  }
-  double* of(std::int32_t handle) noexcept {
-    return values.data() + static_cast<std::size_t>(handle) * static_cast<std::size_t>(vertices);
-  }
-  std::int32_t vertices;
-  Buffer<double> values;  // field values, handle by handle
+  FieldColumn<const double> of(std::int32_t handle) const noexcept { return {values.data() + handle, leak.size()}; }
+  FieldColumn<double> of(std::int32_t handle) noexcept { return {values.data() + handle, leak.size()}; }
+  // The values of all handles at a vertex. Fields are read vertex by vertex, so they lie side by side.
+  const double* at(std::int32_t v) const noexcept { return values.data() + leak.size() * static_cast<std::size_t>(v); }
+  double* at(std::int32_t v) noexcept { return values.data() + leak.size() * static_cast<std::size_t>(v); }
+  Buffer<double> values;  // vertex by vertex
   Vector<double> leak;    // largest error of the field on the regions, per handle
 };
 

@@ -15,8 +15,7 @@ struct Histogram {
 
 // Adds a triangle to the histogram of a field. The gradient on it is n x (sum of phi_k times the edge opposite k) / (2
 // area), with the normal n.
-void add_triangle(const Rest::SampledTriangle& t, const double* phi, Histogram& histogram) noexcept {
-  const double values[3] = {phi[t.corner[0]], phi[t.corner[1]], phi[t.corner[2]]};
+void add_triangle(const Rest::SampledTriangle& t, const double (&values)[3], Histogram& histogram) noexcept {
   const double low = std::min({values[0], values[1], values[2]}), high = std::max({values[0], values[1], values[2]});
   if (!(high > low)) return;
   const Vec3 sum = values[0] * t.opposite[0] + values[1] * t.opposite[1] + values[2] * t.opposite[2];
@@ -93,8 +92,12 @@ Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleField
     for (std::int32_t k = rest.sampled_start[share]; k < rest.sampled_start[share + 1]; ++k) {
       const Rest::SampledTriangle& triangle = rest.sampled[k];
       const std::int32_t c = mesh.component[triangle.corner[0]];
-      for (std::int32_t p = part_start[c]; p < part_start[c + 1]; ++p)
-        add_triangle(triangle, fields.of(parts[p].handle), histograms[share * parts.size() + p]);
+      const double* phi[3];
+      for (int j = 0; j < 3; ++j) phi[j] = fields.at(triangle.corner[j]);
+      for (std::int32_t p = part_start[c]; p < part_start[c + 1]; ++p) {
+        const std::int32_t handle = parts[p].handle;
+        add_triangle(triangle, {phi[0][handle], phi[1][handle], phi[2][handle]}, histograms[share * parts.size() + p]);
+      }
     }
   });
   for (std::size_t share = 1; share < histogram_shares; ++share) {

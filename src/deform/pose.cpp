@@ -350,9 +350,9 @@ HandleTransform Pose::transform(std::uint32_t number) const {
   return {handle.rotation, core_->mesh.scale * handle.translation};
 }
 
-Span<const double> Pose::field(std::uint32_t number) const {
+FieldColumn<const double> Pose::field(std::uint32_t number) const {
   const std::int32_t handle = require(number, HF_NO_INDEX);  // first: without a handle there is no field
-  return {layout_->fields.of(handle), static_cast<std::size_t>(core_->size())};
+  return static_cast<const Layout&>(*layout_).fields.of(handle);
 }
 
 const ClusterWeights* Pose::weights() const noexcept { return layout_ ? &layout_->weights : nullptr; }

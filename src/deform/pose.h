@@ -94,8 +94,8 @@ class Pose {
   DeformReport deform(const DeformRequest& request);
 
   std::uint32_t handle_count() const noexcept;
-  HandleReport handle(std::uint32_t number) const;       // HF_ERROR_NO_SUCH_HANDLE
-  Span<const double> field(std::uint32_t number) const;  // per inner vertex
+  HandleReport handle(std::uint32_t number) const;              // HF_ERROR_NO_SUCH_HANDLE
+  FieldColumn<const double> field(std::uint32_t number) const;  // per inner vertex
   const Core& core() const noexcept { return *core_; }
   const PoseOptions& options() const noexcept { return options_; }
   // The clusters (overlapping bands of vertices) as joints: their weights, and their transforms as of the last

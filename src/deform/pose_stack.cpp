@@ -211,7 +211,7 @@ HandleReport PoseStack::handle_at(std::uint32_t number, std::uint32_t index) con
   return handle(number);
 }
 
-Span<const double> PoseStack::field(std::uint32_t number) const {
+FieldColumn<const double> PoseStack::field(std::uint32_t number) const {
   const Entry& entry = entries_[require(number, HF_NO_INDEX)];
   return (entry.layer == 0 ? *base_ : *layers_[entry.layer]->plain).field(entry.inner[entry.layer]);
 }

@@ -44,7 +44,7 @@ class PoseStack {
   HandleReport handle(std::uint32_t number) const;
   // Returns the report of a handle like handle(), but an error carries this index.
   HandleReport handle_at(std::uint32_t number, std::uint32_t index) const;
-  Span<const double> field(std::uint32_t number) const;  // of the pose of the handle's own layer
+  FieldColumn<const double> field(std::uint32_t number) const;  // of the pose of the handle's own layer
   // Returns the motion from rest to where the handle was in the last deform().
   HandleTransform placed(std::uint32_t number) const;
   const Core& core() const noexcept { return *core_; }

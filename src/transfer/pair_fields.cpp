@@ -81,12 +81,8 @@ void PairFields::solve(Span<const std::uint32_t> numbers, double* field, double*
   const Reach reach(core_->mesh, handles, memory);
   const HandleFields fields = solve_handle_fields(*core_, *solver_, handles, reach, memory);
   const std::size_t count = numbers.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    poll();
-    const double* column = fields.of(static_cast<std::int32_t>(i));
-    for (std::size_t v = 0; v < owner_.size(); ++v) field[v * count + i] = column[v];
-    leaks[i] = fields.leak[i];
-  }
+  std::copy(fields.values.begin(), fields.values.end(), field);
+  std::copy(fields.leak.begin(), fields.leak.end(), leaks);
   Vector<std::uint8_t> reached(at(core_->mesh.component_count()), std::uint8_t{0}, &memory);
   bool any_island = false;
   for (std::size_t c = 0; c < reached.size(); ++c) {

@@ -172,7 +172,9 @@ TEST(Bands, EqualLengthLevelsFollowTheLengthOfATubeOfChangingWidth) {
   Memory memory;
   const Rest rest_surface(*core, memory);
   HandleFields fields(core->size(), 2, memory);
-  for (int i = 0; i < 2; ++i) std::copy(pose->field(numbers[i]).begin(), pose->field(numbers[i]).end(), fields.of(i));
+  for (std::int32_t v = 0; v < core->size(); ++v) {
+    for (int i = 0; i < 2; ++i) fields.at(v)[i] = pose->field(numbers[i])[v];
+  }
   const Vector<FieldPart> parts({{0, 1}}, &memory);
   const Vector<std::int32_t> part_start({0, static_cast<std::int32_t>(parts.size())}, &memory);
   const Vector<Levels> length =
