@@ -239,9 +239,9 @@ typedef struct hf_skin_info {
  * vertex are its 4 or 8 largest, scaled so that their sum is exactly 1 in single precision. Weights and pivots change
  * only when handles are added or removed.
  *
- * The joint motions bring the skin as near as possible to the last hf_deform. With scales, classic bends, twists and
- * lifts replay within 0.5 per cent of the box. Without scales, bends and twists replay within 1 per cent and stretched
- * surfaces within about 2.5 per cent. Errors: HF_ERROR_INVALID_ARGUMENT (weight_count), HF_ERROR_EMPTY (no handle),
+ * The joint motions bring the skin as near as possible to the last hf_deform, as it is without refine. With scales,
+ * classic bends, twists and lifts replay within 0.5 per cent of the box. Without scales, bends and twists replay within
+ * 1 per cent and stretched surfaces within about 2.5 per cent. Errors: HF_ERROR_INVALID_ARGUMENT (weight_count), HF_ERROR_EMPTY (no handle),
  * HF_ERROR_UNSUPPORTED (handles on higher layers: their surface is not a blend of clusters). Thread safety: reads
  * `pose`. Since 0.1. */
 HF_API hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* inout_skin);

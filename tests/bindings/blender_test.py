@@ -207,6 +207,21 @@ np.testing.assert_allclose(posed[region], wanted, atol=2e-5)
 np.testing.assert_allclose(posed[mesh_data.group_vertices(bar, "hf low")],
     points[mesh_data.group_vertices(bar, "hf low")], atol=1e-5)
 
+# ---- with Keep lengths edges stay nearer to their length; without it the pose is as before
+def edge_change():
+    ends = mesh_data.column(bar.data.edges, "vertices", 2).reshape(-1, 2)
+    length = lambda at: np.linalg.norm(at[ends[:, 0]] - at[ends[:, 1]], axis=1)
+    return np.abs(length(mesh_data.positions_of(bar.data)) / length(points) - 1).mean()
+
+
+for _ in range(40):
+    bpy.ops.hf.update()
+smooth, changed = mesh_data.positions_of(bar.data), edge_change()
+bpy.context.scene.hf_lengths = True
+assert edge_change() < 0.9 * changed, (edge_change(), changed)
+bpy.context.scene.hf_lengths = False
+np.testing.assert_allclose(mesh_data.positions_of(bar.data), smooth, atol=1e-4)
+
 # ---- a handle added while posing: no factorisation, and on a layer above nothing moves
 for _ in range(40):  # each update goes on from the last: let it come to rest
     bpy.ops.hf.update()

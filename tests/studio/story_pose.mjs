@@ -137,6 +137,51 @@ export default async function story(host) {
     });
     assert.ok(went > 1e-3 && far < 1e-3, `the handle is ${went} off rest, the body moved by ${far}`);
   });
+  await check('with "Keep lengths" edges stay nearer to their length, and a handle that is added moves nothing', async () => {
+    const { before, kept, smooth, pressed } = await page.evaluate(async () => {
+      const app = window.hfStudio;
+      const { pose } = app.tools;
+      const { view, skin, body } = app;
+      const length = (at, a, b) => Math.hypot(...[0, 1, 2].map((k) => at[3 * a + k] - at[3 * b + k]));
+      // the mean change of an edge
+      const change = () => {
+        const { triangles, positions } = body;
+        let sum = 0;
+        for (let t = 0; t < triangles.length; t += 3) {
+          const rest = length(positions, triangles[t], triangles[t + 1]);
+          if (rest) sum += Math.abs(length(skin.positions, triangles[t], triangles[t + 1]) / rest - 1);
+        }
+        return (3 * sum) / triangles.length;
+      };
+      await app.commit(
+        pose.with(app.state.handles.at(-1).id, { translation: [0, 0.15 * view.size, 0] }),
+        'move a handle',
+      );
+      const [smooth, before] = [[...skin.positions], change()];
+      const button = document.getElementById('lengths');
+      await Promise.all([button.onclick(), app.client.ask('memory')]);
+      return { before, smooth, kept: change(), pressed: document.getElementById('lengths').ariaPressed };
+    });
+    await studio.picture('pose_lengths');
+    const { far, back } = await page.evaluate(async (smooth) => {
+      const app = window.hfStudio;
+      const { pose } = app.tools;
+      const far = (from) =>
+        app.skin.positions.reduce((most, x, i) => Math.max(most, Math.abs(x - from[i])), 0) / app.view.size;
+      const shown = app.skin.positions.slice();
+      await pose.add(pose.offers.find((offer) => !app.state.handles.some(({ id }) => id === offer.id)));
+      const added = far(shown);
+      await app.step('undo');
+      await app.step('undo');
+      const back = far(smooth);
+      await app.step('undo');
+      return { far: added, back };
+    }, smooth);
+    const told = `edges change by ${(100 * before).toFixed(2)} and ${(100 * kept).toFixed(2)} % in the mean`;
+    assert.ok(pressed === 'true' && kept < 0.9 * before, told);
+    assert.ok(far < 1e-3 && back < 1e-5, `the body moved by ${far} of the view, and stands ${back} off after undo`);
+    return told;
+  });
   await check('a handle that overlaps another is refused by a sentence, and nothing changes', async () => {
     await page.evaluate(() => (window.hfStudio.tools.pose.radius = 0.2));
     const before = await studio.bits();

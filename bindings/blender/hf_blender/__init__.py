@@ -69,6 +69,11 @@ def on_frame(scene, *_):
         follow(scene)
 
 
+def on_lengths(scene, context):
+    if scene.hf_live:
+        follow(scene)
+
+
 @persistent
 def on_undo(*_):
     skinning.groups_changed()
@@ -98,6 +103,8 @@ def register():
         bpy.utils.register_class(cls)
     bpy.types.Scene.hf_live = bpy.props.BoolProperty(name="Live", default=True,
         description="Follow the handles while they are dragged")
+    bpy.types.Scene.hf_lengths = bpy.props.BoolProperty(name="Keep lengths", default=False, update=on_lengths,
+        description="Limbs keep their length and thickness; bends get sharper, and a pose takes longer")
     bpy.types.Object.hf_quads = bpy.props.PointerProperty(type=quad_operators.HF_PG_quads)
     for name, (label, neutral, least, most, description) in operators.DIALS.items():
         unit = {"subtype": "ANGLE"} if name == "arm_space" else {}
@@ -119,6 +126,7 @@ def unregister():
     session.sessions.clear()
     del bpy.types.Object.hf_quads
     del bpy.types.Scene.hf_live
+    del bpy.types.Scene.hf_lengths
     for name in operators.DIALS:
         delattr(bpy.types.Scene, f"hf_{name}")
     for cls in reversed(CLASSES):

@@ -95,6 +95,7 @@ class HF_PT_pose(Tool, bpy.types.Panel):
     def draw(self, context):
         super().draw(context)
         self.layout.prop(context.scene, "hf_live")
+        self.layout.prop(context.scene, "hf_lengths")
 
 
 class HF_PT_field(Tool, bpy.types.Panel):

@@ -15,7 +15,7 @@ const TREE_APART = 30000;
 /** A drag that pauses for so long comes to rest. Shorter asks between two moves of a hand, longer is seen. */
 const PAUSE_MS = 80;
 
-const empty = { handles: [], sites: [], detail: null, keys: [], pins: [] };
+const empty = { handles: [], lengths: false, sites: [], detail: null, keys: [], pins: [] };
 
 export class App {
   constructor(toolClasses, samples) {
@@ -247,10 +247,11 @@ export class App {
     this.shownState = state;
     const wanted = [];
     const moving = this.moving && way !== 'follow';
-    if (exact || moving || !shown || shown.handles !== state.handles || shown.detail !== state.detail) {
+    const same = ['handles', 'lengths', 'detail'].every((part) => shown?.[part] === state[part]);
+    if (exact || moving || !same) {
       this.moving = way === 'follow';
       wanted.push(
-        this.client.frame('shape', { handles: state.handles, detail: state.detail, way }).then((answer) => {
+        this.client.frame('shape', { handles: state.handles, lengths: state.lengths, detail: state.detail, way }).then((answer) => {
           if (!answer || this.skin !== skin) return;
           this.shape = { positions: answer.positions, normals: answer.normals };
           this.told = answer.told;

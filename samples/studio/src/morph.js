@@ -95,7 +95,7 @@ export async function morphGlb(app, kit) {
   const shapes = [];
   for (const { time } of timeline.keys) {
     const handles = timeline.handlesAt(time);
-    const { positions, normals } = await app.client.ask('shape', { handles, detail: state.detail, way: 'exact' });
+    const { positions, normals } = await app.client.ask('shape', { handles, lengths: state.lengths, detail: state.detail, way: 'exact' });
     shapes.push({ name: `key ${shapes.length + 1}`, time, positions, normals });
   }
   return morphedGlb(app, kit, shapes, 'keys');

@@ -92,9 +92,9 @@ const tasks = {
     return treeOf(positions, triangles);
   },
   /** Positions and normals of the body under handles and detail. */
-  shape({ handles, detail, way }) {
+  shape({ handles, detail, way, lengths }) {
     const begin = performance.now();
-    const positions = body.pose.deform(handles, way);
+    const positions = body.pose.deform(handles, way, lengths);
     const told = body.pose.told();
     told.detail = detail ? body.detail.apply(positions, detail) : null;
     const normals = new Float32Array(positions.length);
@@ -107,8 +107,8 @@ const tasks = {
     return [{ positions, normals, told }, [positions.buffer, normals.buffer]];
   },
   /** Where handles stand that are added in mid-pose. */
-  grab({ handles, added }) {
-    return [body.pose.grab(handles, added), []];
+  grab({ handles, added, lengths }) {
+    return [body.pose.grab(handles, added, lengths), []];
   },
   /** Another body whose detail can be taken, and the tree for picking on it. */
   detailSource({ name, positions, triangles }) {
@@ -229,7 +229,7 @@ self.onmessage = ({ data: { id, task, args } }) => {
   last = last.then(async () => {
     asked = performance.now();
     try {
-      if (!early.has(task) || args?.detail) await rest();
+      if (!early.has(task) || args?.detail || args?.lengths) await rest();
       const [answer, buffers] = await tasks[task](args ?? {});
       self.postMessage({ id, answer }, buffers);
       asked = performance.now();

@@ -4,6 +4,13 @@
 // leave 1e-7 and 7e-5 of the box, 100 leave 6e-8 and 3e-8, and cost 5 and 8 ms (native).
 const REST_ITERATIONS = 100;
 
+// Keeping lengths takes so many steps of as-rigid-as-possible on the whole surface, from the smooth pose on. 8 is the least
+// that hf_deform_desc gives for it; more make bends sharper. The same handles give the same body, so a drag ends without a
+// jump. A step takes about 0.6 us a vertex here, so larger bodies take one a frame while they are dragged, from the last
+// frame on.
+const LENGTH_STEPS = 8;
+const LIVE_VERTICES = 20000;
+
 const sameRegion = (a, b) => a.id === b.id && a.radius === b.radius && a.position.every((x, k) => x === b.position[k]);
 
 export function poseOf(body) {
@@ -43,6 +50,12 @@ export function poseOf(body) {
     }
   };
 
+  const lengthSteps = (lengths, way) => {
+    if (!lengths) return {};
+    const live = way === 'follow' && body.positions.length / 3 > LIVE_VERTICES;
+    return { refine: live ? 1 : LENGTH_STEPS, refineFromLast: Number(live) };
+  };
+
   const place = (handles) => {
     change(handles);
     pose.setTransforms(
@@ -59,10 +72,10 @@ export function poseOf(body) {
      * Adds handles where the posed body stands, so that it stays. Returns the rotation and translation of each. The next
      * deform gets them in its list.
      */
-    grab(handles, added) {
+    grab(handles, added, lengths = false) {
       // a skin may have been asked for since the last frame, at another time
       place(handles);
-      pose.deform(null, { iterationCount: REST_ITERATIONS });
+      pose.deform(null, { iterationCount: REST_ITERATIONS, ...lengthSteps(lengths, 'rest') });
       change([...handles, ...added], true);
       grabbed = true;
       return held.slice(handles.length).map(({ number }) => {
@@ -72,9 +85,10 @@ export function poseOf(body) {
     },
     /**
      * Positions of every vertex. way: 'follow' goes a frame on from the last pose, as a drag needs; 'rest' goes on until
-     * nothing moves; 'exact' starts anew and comes to rest, so that its bits depend on these handles alone.
+     * nothing moves; 'exact' starts anew and comes to rest, so that its bits depend on these handles alone. lengths: edges
+     * keep their lengths.
      */
-    deform(handles, way) {
+    deform(handles, way, lengths = false) {
       if (!handles.length) {
         if (held.length) change([]);
         told = { unreachedVertexCount: 0, handles: [] };
@@ -87,6 +101,7 @@ export function poseOf(body) {
       const positions = pose.deform(null, {
         restart: Number(way === 'exact'),
         iterationCount: way === 'follow' ? 0 : REST_ITERATIONS,
+        ...lengthSteps(lengths, way),
       });
       told = pose.deformInfo;
       told.added = added;

@@ -179,7 +179,8 @@ export class PoseTool {
   /** New handles, placed where the body stands. A refusal is left to the step that adds them. */
   async placed(added) {
     if (!this.posed()) return added;
-    const places = await this.app.client.ask('grab', { handles: this.handles, added }).catch(() => []);
+    const { app } = this;
+    const places = await app.client.ask('grab', { handles: this.handles, added, lengths: app.state.lengths }).catch(() => []);
     return added.map((handle, i) => ({ ...handle, ...places[i] }));
   }
   /** What is added with some handles: with a mirror their twins too. */
@@ -396,6 +397,15 @@ export class PoseTool {
             'aria-pressed': String(this.ghost),
             disabled: !moved,
             title: 'Shows the body at rest around the pose',
+          },
+        ),
+        button(
+          'Keep lengths',
+          () => app.commit({ ...app.state, lengths: !app.state.lengths }, 'keep lengths'),
+          {
+            id: 'lengths',
+            'aria-pressed': String(Boolean(app.state.lengths)),
+            title: 'Limbs keep their length and thickness; bends get sharper, and a pose takes longer',
           },
         ),
       ),
