@@ -13,6 +13,7 @@
 #include "gltf/file_name.h"
 #include "gltf/key_reduce.h"
 #include "gltf/rig_fit.h"
+#include "transfer/posed_region.h"
 
 namespace samples {
 
@@ -112,6 +113,15 @@ std::vector<RigTie> ties_of(hf_surface surface) {
   return out;
 }
 
+// The ground that the computed frames keep. Where they lie deeper, so does the ground.
+RigGround ground_of(const Session& session, const PlayedClip& clip) {
+  RigGround out;
+  out.up = session.target_axes().up, out.heights = session.grounds(clip), out.sinking = session.sinking();
+  for (size_t f = 0; f < out.heights.size(); ++f)
+    out.heights[f] = std::min(out.heights[f], lowest_of(clip.target_frames[f], out.up, out.sinking));
+  return out;
+}
+
 std::string safe_name(const std::string& name) {
   std::string out = name.empty() ? "pose" : name;
   for (char& c : out)
@@ -189,8 +199,9 @@ Model own_skin_model(const Model& target, const Session& session, const std::vec
   double sum = 0;
   size_t frames = 0, done = 0;
   for (const PlayedClip& clip : clips) {
+    const RigGround ground = ground_of(session, clip);
     const std::vector<Pose> poses =
-        rig.fit_all(clip.clip.times, clip.target_frames, [&](size_t f) { return session.standing(clip, f); });
+        rig.fit_all(clip.clip.times, clip.target_frames, [&](size_t f) { return session.standing(clip, f); }, &ground);
     for (size_t f = 0; f < poses.size(); ++f, ++frames)
       measure(posed_positions(target, mesh, poses[f]), clip.target_frames[f], box, sum, figures);
     insert_clip(out, done++, rig.clip(clip.clip.name, clip.clip.times, poses));

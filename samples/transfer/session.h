@@ -96,6 +96,8 @@ class Session {
   // How firmly each flat vertex of the target belongs to a foot that stands in a frame, 0 to 1. It comes in
   // continuously with the height of the source's foot.
   std::vector<double> standing(const PlayedClip& played, size_t frame) const;
+  // How high each frame's ground is along the target's up: as deep as the source sinks, scaled.
+  std::vector<double> grounds(const PlayedClip& played) const;
   // Of all pairs that are no part of the trunk.
   std::vector<LimbMotion> limbs_of(const PlayedClip& played) const;
   // The largest gap between linked pieces of the target over all frames, in box diagonals; 0 without links.

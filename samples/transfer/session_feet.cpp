@@ -77,15 +77,20 @@ FootReport Session::feet_of(const PlayedClip& played) const {
   }
   if (count > 0) feet.path_mean /= static_cast<double>(count);
   if (feet.planted > 0) feet.planted_mean /= static_cast<double>(feet.planted);
-  const double source_ground = lowest_of(source_rest, file_.source_axes.up),
-               ground = lowest_of(target_rest, file_.target_axes.up);
-  for (size_t f = 0; f < played.source_frames.size(); ++f) {
-    const double allowed =
-        ground + scale_ * std::min(0.0, lowest_of(played.source_frames[f], file_.source_axes.up) - source_ground);
-    feet.surface_sunk = std::max(feet.surface_sunk,
-                                 (allowed - lowest_of(played.target_frames[f], file_.target_axes.up, sinking_)) / box);
-  }
+  const std::vector<double> ground = grounds(played);
+  for (size_t f = 0; f < played.source_frames.size(); ++f)
+    feet.surface_sunk = std::max(
+        feet.surface_sunk, (ground[f] - lowest_of(played.target_frames[f], file_.target_axes.up, sinking_)) / box);
   return feet;
+}
+
+std::vector<double> Session::grounds(const PlayedClip& played) const {
+  const double source_ground = lowest_of(double_positions(source_flat_.positions), file_.source_axes.up),
+               ground = lowest_of(double_positions(target_flat_.positions), file_.target_axes.up);
+  std::vector<double> out;
+  for (const std::vector<double>& posed : played.source_frames)
+    out.push_back(ground + scale_ * std::min(0.0, lowest_of(posed, file_.source_axes.up) - source_ground));
+  return out;
 }
 
 std::vector<double> Session::standing(const PlayedClip& played, size_t frame) const {

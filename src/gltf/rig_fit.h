@@ -7,6 +7,8 @@
 // added up once for each pair of joints, and a step costs O(J^3), whatever the number of vertices.
 // Joints that the model's own clips move (roots, and feet that a rig places by inverse kinematics) may shift too. All
 // others keep the lengths of their bones. Positions are in world space, in double.
+// A ground (RigGround) adds k_g sum_v a_v d_v^2, where v lies d_v under it. It comes in without a step: neither the sum
+// nor its slope jumps where a vertex touches the ground. A vertex under it adds a row to the system.
 #ifndef HF_GLTF_RIG_FIT_H
 #define HF_GLTF_RIG_FIT_H
 
@@ -27,6 +29,13 @@ struct RigTie {
   double shares[3] = {0, 0, 0};  // barycentric
 };
 
+// The ground under frames. A vertex that lies deeper is raised.
+struct RigGround {
+  glm::dvec3 up{0, 1, 0};        // a unit vector
+  std::vector<double> heights;   // along `up`, of each frame
+  std::vector<uint8_t> sinking;  // by flat vertex: 1 if it may sink; empty: none may
+};
+
 class RigFit {
  public:
   // Throws std::runtime_error when no mesh of the model has a skin, or when its skins have too many joints.
@@ -34,12 +43,13 @@ class RigFit {
 
   // Finds the pose of a frame, starting from `start`. frame: x y z of every flat vertex. firm: empty, or for every flat
   // vertex how firmly it is to be met, 0 to 1; a foot that stands has 1. middle: NULL, or a pose that the turns are to
-  // be near.
+  // be near. ground: NULL, or the ground, whose height with this number counts.
   Pose fit(const std::vector<double>& frame, const Pose& start, const std::vector<double>& firm = {},
-           const Pose* middle = nullptr) const;
+           const Pose* middle = nullptr, const RigGround* ground = nullptr, size_t number = 0) const;
   // The poses of frames, each from the one before, then from those beside it. firm: of a frame's number.
   std::vector<Pose> fit_all(const std::vector<double>& times, const std::vector<std::vector<double>>& frames,
-                            const std::function<std::vector<double>(size_t)>& firm) const;
+                            const std::function<std::vector<double>(size_t)>& firm,
+                            const RigGround* ground = nullptr) const;
   // Returns a copy of the given model whose only clip has the poses at the times.
   Animation clip(const std::string& name, const std::vector<double>& times, const std::vector<Pose>& poses) const;
 
@@ -70,14 +80,24 @@ class RigFit {
   };
   class Moments;
   struct System;
+  struct Task {  // what a frame asks of a pose
+    const Moments& moments;
+    glm::dvec3 centre;
+    const Pose* middle;
+    const RigGround* ground;
+    double floor;  // height of the ground over the centre
+  };
   void find_joints(), find_vertices(const FlatMesh& mesh);
   void find_ties(const FlatMesh& mesh, const std::vector<RigTie>& ties);
   size_t slot_of(int node, const glm::dmat4& bind, int key);
   std::vector<glm::dmat4x3> slot_matrices(const std::vector<glm::dmat4>& globals, const glm::dvec3& centre) const;
   glm::dvec3 turned(const Pose& pose, const Pose& from, const std::vector<glm::dmat4>& globals,
                     const Joint& joint) const;
-  double energy(const Moments& moments, const Pose& pose, const glm::dvec3& centre, const Pose* middle) const;
-  System system(const Moments& moments, const Pose& pose, const glm::dvec3& centre, const Pose* middle) const;
+  double depth(const Task& task, const std::vector<glm::dmat4x3>& at, size_t vertex) const;
+  double energy(const Task& task, const Pose& pose) const;
+  System system(const Task& task, const Pose& pose) const;
+  void add_ground(const Task& task, const std::vector<glm::dmat4>& globals, const std::vector<glm::dmat4x3>& at,
+                  System& to) const;
   Pose stepped(const Pose& pose, const std::vector<double>& step) const;
 
   const Model& model_;

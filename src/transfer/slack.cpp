@@ -11,8 +11,8 @@
 namespace hf_inner {
 namespace {
 
-// 1 for equal numbers, less the more they differ. Both are above 0.
-double likeness(double a, double b) noexcept { return std::min(a, b) / std::max(a, b); }
+// 1 for equal numbers, less the more they differ. Both are above 0, or both below.
+double likeness(double a, double b) noexcept { return std::min(a / b, b / a); }
 
 }  // namespace
 
@@ -64,24 +64,27 @@ void Slack::prepare(const Side& source, const Overlaps& from, const Overlaps& to
   for (std::size_t c = 0; c < count; ++c) {
     for (std::size_t d = c + 1; d < count; ++d) {
       const std::size_t entry = c * count + d;
-      if (!(from.mass[entry] > least) || !(to.mass[entry] > 0)) continue;
+      // Where the edges of E_spread cancel, their centroid has no meaning.
+      const double tie = -ties.matrix[entry], other_tie = translations.spread_tie(c, d);
+      const bool tied = std::abs(tie) > certain_tie * ties.size[entry],
+                 overlaps = from.mass[entry] > least && to.mass[entry] > 0;
+      if (!overlaps && !(tied && tie * other_tie > 0)) continue;
       const Vec3 here = axes * (from.centroid[c] - from.centroid[d]), there = to.centroid[c] - to.centroid[d];
       const double far = norm(there), cosine = dot(here, there);
       Pair pair;
       pair.reach = norm(here);
       if (!(pair.reach > 0) || !(cosine > 0)) continue;
       pair.first = static_cast<std::int32_t>(c), pair.second = static_cast<std::int32_t>(d);
-      const double alike = likeness(far, scale * pair.reach) *
-                           likeness(from.mass[entry] / std::sqrt(from.own[c] * from.own[d]),
-                                    to.mass[entry] / std::sqrt(to.own[c] * to.own[d])) *
-                           (cosine / (pair.reach * far)) * (cosine / (pair.reach * far));
+      const double common = overlaps ? likeness(from.mass[entry] / std::sqrt(from.own[c] * from.own[d]),
+                                                to.mass[entry] / std::sqrt(to.own[c] * to.own[d]))
+                                     : likeness(tie, other_tie);
+      const double alike =
+          likeness(far, scale * pair.reach) * common * (cosine / (pair.reach * far)) * (cosine / (pair.reach * far));
       pair.factor = scale * alike * alike;
-      pair.overlap_point = pair.spread_point = (1 / from.mass[entry]) * from.sum[entry];
-      // Where the edges of E_spread cancel, their centroid has no meaning.
-      const double tie = -ties.matrix[entry];
-      if (std::abs(tie) > certain_tie * ties.size[entry])
-        pair.spread_point =
-            (1 / tie) * Vec3{ties.table[3 * entry], ties.table[3 * entry + 1], ties.table[3 * entry + 2]};
+      const Vec3 tie_point =
+          tied ? (1 / tie) * Vec3{ties.table[3 * entry], ties.table[3 * entry + 1], ties.table[3 * entry + 2]} : Vec3();
+      pair.overlap_point = overlaps ? (1 / from.mass[entry]) * from.sum[entry] : tie_point;
+      pair.spread_point = tied ? tie_point : pair.overlap_point;
       pair.overlap_coupling = translations.overlap_coupling(c, d);
       pair.spread_coupling = translations.spread_coupling(c, d);
       pairs_.push_back(pair);

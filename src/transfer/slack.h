@@ -10,7 +10,8 @@
 //     min sum_v a_v |sum_c W_vc (R_c p_v + t_c) - q_v|^2.
 // a_v is the area of vertex v, W_vc its weight in cluster c: on the source, weights follow from the fields as they do
 // on the target. The target's energies then ask for the slide k_cd s_cd instead of none. E_spread ties the clusters at
-// another point than E_overlap, and gets the slide of that point.
+// another point than E_overlap, and gets the slide of that point. On a coarse mesh edges also tie clusters that have no
+// vertex in common. These slide too, as far as E_spread ties them alike on both bodies.
 //
 // The factor k_cd is the scale where both bodies are alike around the overlap, as on a body that plays its own motion.
 // It is smaller where the overlaps are not alike: by their share of the clusters, by the distance of the clusters, and
@@ -56,7 +57,7 @@ class Slack {
         matrix_(&memory),
         scratch_(&memory) {}
 
-  // Two clusters that overlap on the source and on the target, first < second.
+  // Two clusters that overlap, or that edges tie, on the source and on the target, first < second.
   struct Pair {
     std::int32_t first = 0, second = 0;
     Vec3 overlap_point, spread_point;                  // where the energies tie them, on the source

@@ -129,6 +129,7 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
   overlap_coupling_.resize(count * count), spread_coupling_.assign(count * count, 0.0);
   for (std::size_t i = 0; i < matrix.size(); ++i) overlap_coupling_[i] = -matrix[i];
   if (options.spread_share > 0) {
+    spread_share_ = options.spread_share;
     const SpreadTies ties = spread_ties(target, clusters.joint.data(), clusters.weight.data(), count, memory);
     for (std::size_t i = 0; i < matrix.size(); ++i) {
       matrix[i] += options.spread_share * ties.matrix[i], spread_coupling_[i] = -options.spread_share * ties.matrix[i];

@@ -96,6 +96,9 @@ class Translations {
   double overlap_coupling(std::size_t c, std::size_t d) const noexcept { return overlap_coupling_[c * at(count_) + d]; }
   double spread_coupling(std::size_t c, std::size_t d) const noexcept { return spread_coupling_[c * at(count_) + d]; }
 
+  // The same for E_spread of trace 1.
+  double spread_tie(std::size_t c, std::size_t d) const noexcept { return spread_coupling(c, d) / spread_share_; }
+
   // Changes the translations t so that the constraints (holds) are met and the energies rise least (Woodbury formula):
   //     t += A^-1 R^T m,     (R A^-1 R^T + diag(s_k (1 - share) / share)) m = goal - place.
   // A is the matrix of the energies. R holds the rows of the held regions, s the diagonal of R A^-1 R^T. A row
@@ -136,7 +139,7 @@ class Translations {
 
   std::int32_t count_ = 0;
   std::size_t anchored_ = 0, region_rows_ = 0;
-  double anchor_ = 0, root_ = 0, whole_ = 0;
+  double anchor_ = 0, root_ = 0, whole_ = 0, spread_share_ = 1;
   DenseFactor factor_;
   Vector<double> scratch_;  // right-hand side and solution, four numbers per cluster
   Vector<std::int32_t> table_start_, table_column_;

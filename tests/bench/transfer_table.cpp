@@ -322,27 +322,19 @@ bool in_sample(const std::string& source, const std::string& target, const std::
   return hash % one_of == 0;
 }
 
-// The deepest vertex under the ground of a run.
-void say_deepest(const PlayedClip& played, const Loaded& source, const Loaded& target, Session& session) {
+// The deepest vertex under the ground of a run, of those that may not sink.
+void say_deepest(const PlayedClip& played, const Loaded& target, const Session& session) {
   const RegionFinder finder(target.model, target.flat, Axes());
-  const glm::dvec3 &up = session.target_axes().up, &from_up = session.source_axes().up;
-  const auto low_of = [](const std::vector<double>& xyz, const glm::dvec3& axis, size_t& vertex) {
-    double low = 1e300;
-    for (size_t i = 0; i < xyz.size(); i += 3) {
-      const double height = glm::dot(axis, glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2]));
-      if (height < low) low = height, vertex = i / 3;
-    }
-    return low;
-  };
-  size_t vertex = 0, deepest = 0, frame = 0;
-  const double ground = low_of(double_positions(target.flat.positions), up, vertex),
-               source_ground = low_of(double_positions(source.flat.positions), from_up, vertex);
+  const std::vector<double> grounds = session.grounds(played);
+  size_t deepest = 0, frame = 0;
   double most = 0;
   for (size_t f = 0; f < played.target_frames.size(); ++f) {
-    const double allowed =
-        session.scale() * std::min(0.0, low_of(played.source_frames[f], from_up, vertex) - source_ground);
-    const double depth = ground + allowed - low_of(played.target_frames[f], up, vertex);
-    if (depth > most) most = depth, deepest = vertex, frame = f;
+    const std::vector<double>& xyz = played.target_frames[f];
+    for (size_t v = 0; v < session.sinking().size(); ++v) {
+      const double depth =
+          grounds[f] - glm::dot(session.target_axes().up, glm::dvec3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]));
+      if (!session.sinking()[v] && depth > most) most = depth, deepest = v, frame = f;
+    }
   }
   std::printf("      %s frame %zu: %.4f of the box under the ground, vertex %zu of %s\n", played.clip.name.c_str(),
               frame, most / target.box, deepest, finder.owner_name(static_cast<uint32_t>(deepest)).c_str());
@@ -542,7 +534,7 @@ int table(const Options& options) {
           if (options.where && runs.back().spikes > 0) say_where(played, source, target, session);
           if (options.where && (runs.back().acceleration > 1.1 || runs.back().step > 1.5 || runs.back().still > 2))
             say_fastest(played, source, target, session);
-          if (options.where && runs.back().sunk > 0.01) say_deepest(played, source, target, session);
+          if (options.where && runs.back().sunk > 0.01) say_deepest(played, target, session);
           if (options.where && runs.back().gap > 0.005) say_widest(played, target, session);
         }
       } catch (const std::exception& error) {

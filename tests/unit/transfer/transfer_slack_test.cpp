@@ -12,7 +12,8 @@ using hf_inner::Quaternion;
 using hf_inner::Slack;
 using hf_inner::Vec3;
 
-// A square tube along x from -1 to 1. Cluster 1 takes over from cluster 0 between -0.2 and 0.4.
+// A square tube along x from -1 to 1. Cluster 1 takes over from cluster 0 between -0.2 and 0.4, or between two rings if
+// it is coarse. Then no vertex belongs to both.
 struct Bar {
   World world;
   std::shared_ptr<const hf_inner::Core> core;
@@ -20,7 +21,7 @@ struct Bar {
   hf_inner::Clusters clusters{*world.memory};
   hf_inner::Translations translations{*world.memory};
 
-  Bar() {
+  explicit Bar(bool coarse = false) {
     const int rings = 41;
     std::vector<glm::dvec3> positions;
     std::vector<uint32_t> triangles;
@@ -39,7 +40,7 @@ struct Bar {
     clusters.count = 2, clusters.field_count = 1;
     for (size_t v = 0; v < n; ++v) {
       const double share = std::clamp((given(core->mesh.positions[v]).x + 0.2) / 0.6, 0.0, 1.0);
-      const auto far = static_cast<float>(std::floor(share * 1024) / 1024);
+      const auto far = static_cast<float>(coarse ? std::round(share) : std::floor(share * 1024) / 1024);
       for (int k = 0; k < hf_inner::blend_count; ++k) {
         clusters.joint.push_back(k == 1 ? 1 : 0);
         clusters.weight.push_back(k == 0 ? 1 - far : k == 1 ? far : 0.0f);
@@ -116,6 +117,22 @@ TEST(TransferSlack, RigidMotionsAndStretchHaveNone) {
   std::vector<Vec3> doubled;
   for (const Vec3& p : bar.core->mesh.positions) doubled.push_back(2.0 * p);
   EXPECT_LT(hf_inner::norm(bar.slide(none, doubled)), 1e-12);
+}
+
+// Two rigid halves that only edges tie: played on itself, the bar takes its own pose.
+TEST(TransferSlack, ClustersWithoutACommonVertexSlideToo) {
+  Bar bar(true);
+  const Mat3 turn[2] = {bent[0].toRotationMatrix(), bent[1].toRotationMatrix()};
+  const Vec3 shift[2] = {Vec3(), Vec3{0.01, -0.05, 0.02}};
+  const std::vector<Vec3> posed = bar.pose(bent, shift);
+  Slack slack = bar.slack(1);
+  ASSERT_EQ(slack.pairs().size(), 1u);
+  slack.measure(bent, posed.data(), Quaternion(), *bar.world.jobs);
+  Vec3 centroid, found[2];
+  for (size_t v = 0; v < posed.size(); ++v) centroid = centroid + bar.area[v] * posed[v];
+  bar.translations.solve(bar.clusters, turn, {}, centroid, shift, slack.forces(), found);
+  // without slides the halves meet in the middle between the rings, 0.06 away
+  EXPECT_LT(hf_inner::norm(found[1] - found[0] - (shift[1] - shift[0])), 0.001);
 }
 
 TEST(TransferSlack, ClustersThatDoNotCorrespondGetLess) {

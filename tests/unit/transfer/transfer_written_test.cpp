@@ -91,6 +91,35 @@ TEST(TransferWritten, ASomersaultIsMet) {
   EXPECT_LT(worst, 0.05);  // of a body some 5 long: small bones keep near their rest
 }
 
+// Legs that the frames shorten by a third stand on the ground there. Bones keep their lengths, so the nearest pose
+// would sink. With a ground it bends its legs, and parts that may sink stay where they were.
+TEST(TransferWritten, BonesThatAreTooLongStayAboveTheGround) {
+  const Model horse = read_gltf(creature("horse"));
+  const FlatMesh mesh = flatten(horse);
+  const RigFit rig(horse, mesh);
+  double ground = 1e300, top = -1e300;
+  for (const glm::dvec3& p : mesh.positions) ground = std::min(ground, p.y), top = std::max(top, p.y);
+  const double hip = 0.5 * (ground + top);
+  std::vector<double> frame;
+  for (const glm::dvec3& p : posed_positions(horse, mesh, horse.animations[0], 0.3))
+    for (const double x : {p.x, p.y > hip ? p.y - (hip - ground) / 3 : ground + (p.y - ground) * 2 / 3, p.z})
+      frame.push_back(x);
+  const auto depth = [&](const RigGround* given) {
+    double low = 1e300;
+    for (const glm::dvec3& p : posed_positions(horse, mesh, rig.fit(frame, rest_pose(horse), {}, nullptr, given)))
+      low = std::min(low, p.y);
+    return (ground - low) / (top - ground);
+  };
+  const RigGround all = {{0, 1, 0}, {ground}, {}},
+                  none = {{0, 1, 0}, {ground}, std::vector<uint8_t>(mesh.positions.size(), 1)},
+                  far = {{0, 1, 0}, {ground - top}, {}};
+  std::printf("the deepest sinks by %.4f, with a ground by %.4f\n", depth(nullptr), depth(&all));
+  EXPECT_GT(depth(nullptr), 0.03);
+  EXPECT_LT(depth(&all), 0.01);
+  EXPECT_EQ(depth(&none), depth(nullptr));
+  EXPECT_EQ(depth(&far), depth(nullptr));
+}
+
 // A clip of few keys is made of straight lines. A slow sway must not jerk at their ends: neither of one joint, nor of
 // all, whose misses add up.
 TEST(TransferWritten, LeftOutKeysDoNotMakeACalmMotionJerk) {
@@ -149,6 +178,20 @@ TEST(TransferWritten, ACalmIdleStaysCalm) {
             0)
       << said;
   EXPECT_LT(read_json(report)["clips"][0]["faults"]["acceleration"].get<double>(), 0.9);  // .61; 1.22 before
+}
+
+// Computed frames keep their feet on the ground; those of the file sank by .03.
+TEST(TransferWritten, FeetOfTheFileDoNotSink) {
+  if (!fs::exists(data() / "khr_Fox.glb") || !fs::exists(data() / "CesiumMan.glb"))
+    GTEST_SKIP() << "no khr_Fox.glb or CesiumMan.glb under " << data();
+  const fs::path report = folder() / "sinks.json";
+  std::string said;
+  ASSERT_EQ(transfer(quoted(data() / "khr_Fox.glb") + " " + quoted(data() / "CesiumMan.glb") + " --clip Walk -o " +
+                         quoted(folder() / "sinks.glb") + " --json " + quoted(report),
+                     said),
+            0)
+      << said;
+  EXPECT_LT(read_json(report)["clips"][0]["faults"]["sunk"].get<double>(), 0.01);  // .003; .028 before
 }
 
 // Rigid pieces on joints that may shift: the fit of frames in which legs are stretched tore an arm off.
