@@ -19,6 +19,15 @@ void set_vec3(Buffer<float>& list, std::int32_t v, Vec3 p) noexcept {
   x[0] = static_cast<float>(p.x), x[1] = static_cast<float>(p.y), x[2] = static_cast<float>(p.z);
 }
 
+// Returns (a + b) v.
+inline Vec3 times_sum(const Mat3& a, const Mat3& b, Vec3 v) noexcept {
+  const double *m = a.data(), *n = b.data();
+  const auto row = [&](int i) {
+    return (m[i] + n[i]) * v.x + ((m[i + 3] + n[i + 3]) * v.y + (m[i + 6] + n[i + 6]) * v.z);
+  };
+  return {row(0), row(1), row(2)};
+}
+
 }  // namespace
 
 Mat3 linear_part(const Affine& affine) noexcept {
@@ -118,7 +127,7 @@ void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* posit
         for (std::int32_t e = k.column_start[v]; e < k.column_start[v + 1]; ++e) {
           const std::int32_t u = k.row[e];
           const Vec3 edge = core.mesh.positions[v] - core.mesh.positions[u];
-          const Vec3 missing = (rotation_[v] + rotation_[u]) * edge - own_unit * (positions[v] - positions[u]);
+          const Vec3 missing = times_sum(rotation_[v], rotation_[u], edge) - own_unit * (positions[v] - positions[u]);
           sum = sum - 0.5 * k.value[e] * missing;  // the diagonal adds nothing
         }
       }
