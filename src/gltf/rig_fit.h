@@ -41,9 +41,9 @@ class RigFit {
   // Throws std::runtime_error when no mesh of the model has a skin, or when its skins have too many joints.
   RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTie>& ties = {});
 
-  // Finds the pose of a frame, starting from `start`. frame: x y z of every flat vertex. firm: empty, or for every flat
-  // vertex how firmly it is to be met, 0 to 1; a foot that stands has 1. middle: NULL, or a pose that the turns are to
-  // be near. ground: NULL, or the ground, whose height with this number counts.
+  // Finds the pose of a frame, starting from `start`. frame: x y z of every flat vertex. firm: empty, or 0 to 1 for
+  // every flat vertex. At 1 the vertex is met as exactly as a foot that stands. middle: NULL, or a pose; turns that the
+  // frame leaves open follow it. ground: NULL, or the ground; heights[number] counts.
   Pose fit(const std::vector<double>& frame, const Pose& start, const std::vector<double>& firm = {},
            const Pose* middle = nullptr, const RigGround* ground = nullptr, size_t number = 0) const;
   // The poses of frames, each from the one before, then from those beside it. firm: of a frame's number.

@@ -58,7 +58,7 @@ class ColumnMaker {
         const Index w = row[j];
         const double product = weight * (own * value[j]);
         if (stamp[w] != v) {
-          stamp[w] = v, sum[w] = 0.0 + product, found[count++] = w;
+          stamp[w] = v, sum[w] = 0.0 + product, found[count++] = w;  // never -0.0
         } else {
           sum[w] += product;
         }

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "base/progress.h"
+#include "deform/rest.h"
 
 namespace hf_inner {
 namespace {
@@ -81,7 +82,9 @@ void PairFields::solve(Span<const std::uint32_t> numbers, double* field, double*
   const Reach reach(core_->mesh, handles, memory);
   const HandleFields fields = solve_handle_fields(*core_, *solver_, handles, reach, memory);
   const std::size_t count = numbers.size();
-  std::copy(fields.values.begin(), fields.values.end(), field);
+  for_vertex_pieces(*core_->jobs, core_->size(), [&](std::int32_t first, std::int32_t last) {
+    std::copy(fields.at(first), fields.at(last), field + count * at(first));
+  });
   std::copy(fields.leak.begin(), fields.leak.end(), leaks);
   Vector<std::uint8_t> reached(at(core_->mesh.component_count()), std::uint8_t{0}, &memory);
   bool any_island = false;

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # What a plain configure asks for and what it would make; nothing is compiled.
-# usage: run_configure.sh bare|shared_only|static_only SOURCE_DIR BUILD_DIR
+# usage: run_configure.sh bare|shared_only|static_only|add_subdirectory SOURCE_DIR BUILD_DIR
 set -eu
 kind=$1 source=$2 build=$3
 work="$build/consumer/$kind"
 rm -rf "$work"
 mkdir -p "$work"
 configure() { cmake -S "$source" -B "$work/build" -G Ninja "$@" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }; }
-# the libraries that `cmake --build` would make, and those an installation would hold
-made() { ninja -C "$work/build" -n | sed -n 's/.*Linking .* library .*\(libhf\.[a-z]*\).*/\1/p' | sort -u | paste -sd' '; }
+# the libraries that `cmake --build` (of a target) would make, and those an installation would hold
+made() { ninja -C "$work/build" -n "$@" | sed -n 's/.*Linking .* library .*\(libhf\.[a-z]*\).*/\1/p' | sort -u | paste -sd' '; }
 installed() { grep -oE 'libhf\.(so|a)"' "$work/build/src/cmake_install.cmake" | sed 's/.*://' | tr -d '"' | sort -u | paste -sd' '; }
 expect() { [ "$2" = "$3" ] || { echo "$1: expected \"$3\", got \"$2\""; exit 1; }; }
 
@@ -38,6 +38,10 @@ case "$kind" in
     expect "libraries" "$(made)" "libhf.a"
     expect "installed" "$(installed)" "libhf.a"
     grep -q -- '-lhf .*-lstdc++' "$work/build/hf.pc" || { echo "hf.pc does not name what the archive needs"; exit 1; }
+    ;;
+  add_subdirectory)  # what FetchContent does, which run_consumer.sh builds; here the project has C++
+    cmake -S "$source/tests/consumer/add_subdirectory" -B "$work/build" -G Ninja -DHF_SOURCE_DIR="$source" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+    expect "libraries of the consumer" "$(made shared_consumer)" "libhf.so"
     ;;
   *) echo "unknown kind $kind"; exit 1 ;;
 esac

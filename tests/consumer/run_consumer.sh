@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds and runs one consumer project the way its author would.
-# usage: run_consumer.sh find_package|pkg_config|add_subdirectory|fetch_content SOURCE_DIR BUILD_DIR
+# usage: run_consumer.sh find_package|pkg_config|fetch_content SOURCE_DIR BUILD_DIR
 set -eu
 kind=$1 source=$2 build=$3
 work="$build/consumer/$kind"
@@ -28,13 +28,8 @@ case "$kind" in
     PKG_CONFIG_PATH=$(dirname "$pc") quiet make -C "$here/pkg_config" OUT="$work/consumer" "${targets[@]}"
     for program in "${targets[@]}"; do "$program"; done
     ;;
-  add_subdirectory)
-    # the files of a room compiled together: names of two files must not meet
-    quiet cmake -S "$here/add_subdirectory" -B "$work/build" -G Ninja -DHF_SOURCE_DIR="$source" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_UNITY_BUILD=ON
-    quiet cmake --build "$work/build" -j 2 --target shared_consumer
-    "$work/build/shared_consumer"
-    ;;
   fetch_content)
+    # the files of a room compiled together: names of two files must not meet
     quiet cmake -S "$here/fetch_content" -B "$work/build" -G Ninja -DHF_SOURCE_DIR="$source" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_UNITY_BUILD=ON
     quiet cmake --build "$work/build" -j 2 --target static_consumer shared_consumer
     "$work/build/static_consumer"

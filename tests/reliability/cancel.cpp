@@ -127,6 +127,7 @@ Waits cancel_at_random(const Case& c, hf_progress progress, double total_ms, int
 struct World {
   World(bool full, Mesh given_big, Mesh given_small) : big(std::move(given_big)), small(std::move(given_small)) {
     soup = full ? make_soup(20000, 40000) : make_soup(600, 1200);
+    dense = full ? make_soup(1800, 160000) : make_soup(300, 6000);
     hf_surface_desc d = surface_desc(small);
     surface = make_surface(d);
     size_t size = 0;
@@ -145,7 +146,7 @@ struct World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  Mesh big, small, soup;
+  Mesh big, small, soup, dense;
   std::uint32_t small_around = 0;  // vertices around the small torus
   hf_surface surface = nullptr, big_surface = nullptr;
   std::vector<unsigned char> saved;
@@ -174,6 +175,13 @@ void add_surface_cases(World& w, std::vector<Case>& cases) {
   cases.push_back({"create_biharmonic",
                    [&](hf_progress p) {
                      hf_surface_desc d = surface_desc(w.small);
+                     d.field_kind = HF_FIELD_BIHARMONIC;
+                     return make_and_destroy(d, p);
+                   },
+                   {}});
+  cases.push_back({"create_biharmonic_soup",
+                   [&](hf_progress p) {
+                     hf_surface_desc d = surface_desc(w.dense);
                      d.field_kind = HF_FIELD_BIHARMONIC;
                      return make_and_destroy(d, p);
                    },

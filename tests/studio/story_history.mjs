@@ -68,6 +68,7 @@ export default async function story(host) {
             });
           else if (kind < 0.58 && state.handles.length > 1)
             await app.tools.pose.remove(state.handles[Math.floor(b * state.handles.length)]);
+          else if (kind < 0.62) await app.commit({ ...state, lengths: !state.lengths }, 'keep lengths');
           else if (kind < 0.7)
             await app.commit(
               { ...state, detail: state.detail ? null : { curve: app.loop, seedVertex: 0, rings: 0, weight: b } },

@@ -247,11 +247,12 @@ export class App {
     this.shownState = state;
     const wanted = [];
     const moving = this.moving && way !== 'follow';
+    const { handles, lengths, detail } = state;
     const same = ['handles', 'lengths', 'detail'].every((part) => shown?.[part] === state[part]);
     if (exact || moving || !same) {
       this.moving = way === 'follow';
       wanted.push(
-        this.client.frame('shape', { handles: state.handles, lengths: state.lengths, detail: state.detail, way }).then((answer) => {
+        this.client.frame('shape', { handles, lengths, detail, way }).then((answer) => {
           if (!answer || this.skin !== skin) return;
           this.shape = { positions: answer.positions, normals: answer.normals };
           this.told = answer.told;

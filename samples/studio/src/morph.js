@@ -95,7 +95,8 @@ export async function morphGlb(app, kit) {
   const shapes = [];
   for (const { time } of timeline.keys) {
     const handles = timeline.handlesAt(time);
-    const { positions, normals } = await app.client.ask('shape', { handles, lengths: state.lengths, detail: state.detail, way: 'exact' });
+    const { lengths, detail } = state;
+    const { positions, normals } = await app.client.ask('shape', { handles, lengths, detail, way: 'exact' });
     shapes.push({ name: `key ${shapes.length + 1}`, time, positions, normals });
   }
   return morphedGlb(app, kit, shapes, 'keys');

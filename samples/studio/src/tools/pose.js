@@ -179,8 +179,9 @@ export class PoseTool {
   /** New handles, placed where the body stands. A refusal is left to the step that adds them. */
   async placed(added) {
     if (!this.posed()) return added;
-    const { app } = this;
-    const places = await app.client.ask('grab', { handles: this.handles, added, lengths: app.state.lengths }).catch(() => []);
+    const { client, state } = this.app;
+    const { handles, lengths } = state;
+    const places = await client.ask('grab', { handles, added, lengths }).catch(() => []);
     return added.map((handle, i) => ({ ...handle, ...places[i] }));
   }
   /** What is added with some handles: with a mirror their twins too. */
@@ -399,15 +400,11 @@ export class PoseTool {
             title: 'Shows the body at rest around the pose',
           },
         ),
-        button(
-          'Keep lengths',
-          () => app.commit({ ...app.state, lengths: !app.state.lengths }, 'keep lengths'),
-          {
-            id: 'lengths',
-            'aria-pressed': String(Boolean(app.state.lengths)),
-            title: 'Limbs keep their length and thickness; bends get sharper, and a pose takes longer',
-          },
-        ),
+        button('Keep lengths', () => app.commit({ ...app.state, lengths: !app.state.lengths }, 'keep lengths'), {
+          id: 'lengths',
+          'aria-pressed': String(Boolean(app.state.lengths)),
+          title: 'Limbs keep their length and thickness; bends get sharper, and a pose takes longer',
+        }),
       ),
       mirrorChoice(this.mirror.axis, (axis) => {
         this.mirror.set(axis);
