@@ -247,7 +247,7 @@ static void damaged_bytes_are_refused_and_never_crash(void** state) {
           length = at;
           break;
         default:
-          memmove(damaged + at, damaged, size - at);
+          memcpy(damaged + at, bytes, size - at);
           if (at == 0) damaged[8] ^= 1;
           break;
       }
