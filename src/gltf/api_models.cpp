@@ -259,10 +259,15 @@ hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_frames_desc*
     std::vector<std::vector<double>> wanted;
     for (size_t f = 0; f < frames; ++f) wanted.push_back(frame_of(given.positions, vertices, f));
     const RigFit rig(object->model, object->mesh);
-    const std::vector<Pose> poses = rig.fit_all(times, wanted, [&](size_t f) -> std::vector<double> {
+    // nobody says where the ground is: no pose goes lower than the frames do
+    double lowest = given.positions[1];
+    for (size_t v = 0; v < vertices * frames; ++v) lowest = std::min(lowest, given.positions[3 * v + 1]);
+    const RigGround ground = {{0, 1, 0}, std::vector<double>(frames, lowest), {}};
+    const auto firm = [&](size_t f) -> std::vector<double> {
       if (!given.firm) return {};
       return {given.firm + vertices * f, given.firm + vertices * (f + 1)};
-    });
+    };
+    const std::vector<Pose> poses = rig.fit_all(times, wanted, firm, &ground);
     double sum = 0, most = 0;
     for (size_t f = 0; f < frames; ++f) {
       const std::vector<glm::dvec3> got = posed_positions(object->model, object->mesh, poses[f]);

@@ -85,9 +85,14 @@ Channel reduced(const Channel& from, double reach, double unit, double tolerance
   };
   keep(0);
   const size_t last = from.times.size() - 1;
+  const auto holds = [&](size_t key) {  // until the next key
+    const auto value = from.values.begin() + static_cast<std::ptrdiff_t>(key * from.width);
+    return std::equal(value, value + static_cast<std::ptrdiff_t>(from.width),
+                      value + static_cast<std::ptrdiff_t>(from.width));
+  };
   for (size_t a = 0; a < last;) {
     size_t b = a + 1;
-    while (b < last) {
+    while (b < last && holds(b - 1) == holds(b)) {  // what stands still stays so
       bool good = true;
       const double most = std::min(tolerance, bend * static_cast<double>(b - a));
       for (size_t k = a + 1; k <= b && good; ++k) good = miss(from, a, k, b + 1, reach, unit) <= most;

@@ -15,11 +15,18 @@ namespace {
 // The weight k of turns from rest (rig_fit.h), over the mean diagonal of the normal matrix there. 2e-4 and 5e-3 give as
 // many spikes.
 constexpr double keep_rest = 1e-3;
-// The same for the difference from the frames beside: 0.05 and 0.1 give 2 and 1 spikes instead of 5. But 5 runs instead
-// of 1 move beside a still source then.
+// The same for the difference from the frames beside. With 0 a robot's jump and a fox's gallop have a spike each.
 constexpr double keep_even = 0.01;
-// Passes over the clip. A pass carries a turn one frame on.
-constexpr int even_rounds = 3;
+// The weight k_m of misses that change from frame to frame, beside 1 for misses (rig_fit.h): trades places that are met
+// for motion without jumps. Twelve runs have 36 spikes with 0, 5 with 1, and none with 3. 10 holds the largest
+// accelerations down more, and needs more passes.
+constexpr double keep_miss = 3;
+// Passes over the clip, there and back, at most. A frame is left out of a pass if neither it nor those beside it moved
+// a vertex by more than this share of the box before.
+constexpr int most_rounds = 10;
+constexpr double settled = 2e-5;
+// Frames in which no vertex moves by more than this share of the box are one.
+constexpr double hold_step = 1e-5;
 // The weight of all ties together, beside 1 for all vertices. It trades feet that slide for pieces that stay together.
 // With 0, 1, 10 and 100 a knight's run on a robot opens by .096, .076, .026 and .016 of the box, and its feet slide by
 // .0010, .0012, .0015 and .0021.
@@ -61,6 +68,51 @@ glm::dquat exponential(const glm::dvec3& w) {
   const double angle = glm::length(w);
   return angle < 1e-12 ? glm::normalize(glm::dquat(1, 0.5 * w.x, 0.5 * w.y, 0.5 * w.z))
                        : glm::angleAxis(angle, w / angle);
+}
+
+glm::dvec3 place_of(const std::vector<double>& frame, size_t vertex) {
+  return {frame[3 * vertex], frame[3 * vertex + 1], frame[3 * vertex + 2]};
+}
+
+// The furthest that a vertex moves.
+double step_between(const std::vector<double>& from, const std::vector<double>& to) {
+  double out = 0;
+  for (size_t v = 0; 3 * v < from.size(); ++v) {
+    const glm::dvec3 step = place_of(to, v) - place_of(from, v);
+    out = std::max(out, glm::dot(step, step));
+  }
+  return std::sqrt(out);
+}
+
+// A hold: frames beside each other that are alike. They get one pose, and so do the first and the last of a loop.
+struct Hold {
+  size_t frame = 0;             // its first
+  double count = 0, pause = 0;  // frames, and time to the next hold
+  Pose pose;
+  std::vector<double> miss;  // x y z of every flat vertex: from its place in the frame to that in the pose
+  double changed = std::numeric_limits<double>::infinity();  // by how much that changed last, at most
+};
+struct Holds {
+  std::vector<Hold> all;
+  std::vector<size_t> of_frame;
+  bool loop = false;
+};
+
+Holds holds_of(const std::vector<double>& times, const std::vector<std::vector<double>>& frames, double most_step) {
+  Holds out;
+  const auto alike = [&](size_t a, size_t b) { return step_between(frames[a], frames[b]) < most_step; };
+  for (size_t f = 0; f < frames.size(); ++f) {
+    if (f == 0 || !alike(out.all.back().frame, f)) {
+      if (f > 0) out.all.back().pause = times[f] - times[f - 1];
+      out.all.emplace_back().frame = f;
+    }
+    ++out.all.back().count, out.of_frame.push_back(out.all.size() - 1);
+  }
+  out.loop = out.all.size() > 3 && alike(0, frames.size() - 1);
+  if (!out.loop) return out;
+  out.all.front().count += out.all.back().count, out.all.pop_back();
+  for (size_t& hold : out.of_frame) hold %= out.all.size();
+  return out;
 }
 
 // Solves the positive definite system in place by Cholesky.
@@ -158,15 +210,15 @@ RigFit::RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTi
   find_vertices(mesh), find_ties(mesh, ties);
   Moments moments(slots_.size());
   for (const Row& row : vertices_) moments.add(row, row.weight);
+  still_ = std::make_shared<const Moments>(moments);
   for (const Tie& tie : ties_) moments.add(tie.row, tie.row.weight);
-  const System at_rest = system({moments, glm::dvec3(0), nullptr, nullptr, 0}, rest_);
+  const System at_rest = system({moments, glm::dvec3(0), nullptr, nullptr, 0, 0, 0, 0}, rest_);
   double mean = 0;
   for (const Joint& joint : joints_)
     for (int c = 0; c < 3; ++c)
       mean += at_rest.matrix[static_cast<size_t>(joint.rotation + c) * (unknowns_ + 1)] /
               (3 * static_cast<double>(joints_.size()));
   stiffness_ = keep_rest * mean, evenness_ = keep_even * mean;
-  still_ = std::make_shared<const Moments>(std::move(moments));
 }
 
 // Joints at or above an influence, parents first; which of them shift.
@@ -336,14 +388,14 @@ double RigFit::energy(const Task& task, const Pose& pose) const {
   }
   for (const Joint& joint : joints_) {
     const glm::dvec3 turn = turned(pose, rest_, globals, joint);
-    out += stiffness_ * glm::dot(turn, turn);
+    out += task.stiffness * glm::dot(turn, turn);
     if (!task.middle) continue;
     const glm::dvec3 off = turned(pose, *task.middle, globals, joint);
-    out += evenness_ * glm::dot(off, off);
+    out += task.evenness * glm::dot(off, off);
   }
   for (size_t v = 0; task.ground && v < vertices_.size(); ++v) {
     const double deep = depth(task, at, v);
-    out += ground_weight * vertices_[v].weight * deep * deep;
+    out += task.lifting * vertices_[v].weight * deep * deep;
   }
   return out;
 }
@@ -354,7 +406,7 @@ void RigFit::add_ground(const Task& task, const std::vector<glm::dmat4>& globals
   std::vector<glm::dvec4> moved(joints_.size(), glm::dvec4(0));  // weight times place, and the weight
   std::vector<std::pair<size_t, double>> row;
   for (size_t v = 0; v < vertices_.size(); ++v) {
-    const double deep = depth(task, at, v), weight = ground_weight * vertices_[v].weight;
+    const double deep = depth(task, at, v), weight = task.lifting * vertices_[v].weight;
     if (!(deep > 0)) continue;
     std::fill(moved.begin(), moved.end(), glm::dvec4(0));
     for (const Term& term : vertices_[v].terms)
@@ -439,7 +491,8 @@ RigFit::System RigFit::system(const Task& task, const Pose& pose) const {
     const glm::dvec3 turn = torque[a] - glm::cross(from, force[a]), rest = turned(pose, rest_, globals, joints_[a]),
                      off = middle ? turned(pose, *middle, globals, joints_[a]) : glm::dvec3(0);
     for (int c = 0; c < 3; ++c) {
-      out.rhs[static_cast<size_t>(joints_[a].rotation + c)] = turn[c] - stiffness_ * rest[c] - evenness_ * off[c];
+      out.rhs[static_cast<size_t>(joints_[a].rotation + c)] =
+          turn[c] - task.stiffness * rest[c] - task.evenness * off[c];
       if (joints_[a].translation >= 0) out.rhs[static_cast<size_t>(joints_[a].translation + c)] = force[a][c];
     }
     for (size_t b = 0; b < count; ++b) {
@@ -489,29 +542,36 @@ Pose RigFit::stepped(const Pose& pose, const std::vector<double>& step) const {
 }
 
 Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, const std::vector<double>& firm,
-                 const Pose* middle, const RigGround* ground, size_t number) const {
-  const auto place = [&](uint32_t v) {
-    return glm::dvec3(frame[3 * size_t{v}], frame[3 * size_t{v} + 1], frame[3 * size_t{v} + 2]);
-  };
+                 const Beside& beside, const RigGround* ground, size_t number) const {
+  const Pose* middle = beside.middle;
+  const auto place = [&](uint32_t v) { return place_of(frame, v); };
   // places count from the middle, so that sums keep their digits far from the origin
   glm::dvec3 centre(0);
   for (uint32_t v = 0; v < vertices_.size(); ++v) centre += place(v) / static_cast<double>(vertices_.size());
   Moments moments = *still_;
   for (uint32_t v = 0; v < vertices_.size(); ++v) {
     const Row& row = vertices_[v];
-    const double more = firm.empty() ? 0.0 : row.weight * foot_weight * firm[v];
-    if (more > 0) moments.add(row, more);
-    moments.want(row, row.weight + more, place(v) - centre);
+    const double more = firm.empty() ? 0.0 : row.weight * beside.firm * foot_weight * firm[v];
+    if (more > 0) moments.add(row, more), moments.want(row, more, place(v) - centre);
+    moments.want(row, row.weight, (beside.moved ? place_of(*beside.moved, v) : place(v)) - centre);
   }
   for (const Tie& tie : ties_) {
     glm::dvec3 apart = place(tie.tie.vertex);
     for (int c = 0; c < 3; ++c)
       if (tie.tie.shares[c] > 0) apart -= tie.tie.shares[c] * place(tie.tie.corners[c]);
     const double length = glm::length(apart);
-    moments.want(tie.row, tie.row.weight, length > tie.length ? tie.length / length * apart : apart);
+    const double weight = beside.rest * tie.row.weight;
+    moments.add(tie.row, weight);
+    moments.want(tie.row, weight, length > tie.length ? tie.length / length * apart : apart);
   }
-  const Task task = {moments, centre, middle, ground,
-                     ground ? ground->heights[number] - glm::dot(ground->up, centre) : 0.0};
+  const Task task = {moments,
+                     centre,
+                     middle,
+                     ground,
+                     ground ? ground->heights[number] - glm::dot(ground->up, centre) : 0.0,
+                     beside.rest * stiffness_,
+                     beside.rest * evenness_,
+                     beside.firm * ground_weight};
   Pose pose = decomposed(start);
   double now = energy(task, pose), damping = first_damping;
   const size_t n = unknowns_;
@@ -525,7 +585,7 @@ Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, const std:
       for (size_t i = 0; i < n; ++i) matrix[i * (n + 1)] += damping * matrix[i * (n + 1)] + lift * mean;
       for (const Joint& joint : joints_)
         for (int c = 0; c < 3; ++c)
-          matrix[static_cast<size_t>(joint.rotation + c) * (n + 1)] += stiffness_ + (middle ? evenness_ : 0);
+          matrix[static_cast<size_t>(joint.rotation + c) * (n + 1)] += task.stiffness + (middle ? task.evenness : 0);
       solve(matrix, step);
       Pose next = stepped(pose, step);
       const double then = energy(task, next);
@@ -539,28 +599,62 @@ Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, const std:
   return pose;
 }
 
+// How far the vertices of a pose lie from those of a frame.
+std::vector<double> RigFit::missed(const Pose& pose, const std::vector<double>& frame) const {
+  const std::vector<glm::dmat4x3> at = slot_matrices(global_matrices(model_, pose), glm::dvec3(0));
+  std::vector<double> out;
+  out.reserve(frame.size());
+  for (size_t v = 0; v < vertices_.size(); ++v) {
+    glm::dvec3 miss = -place_of(frame, v);
+    for (const Term& term : vertices_[v].terms) miss += at[term.slot] * term.at;
+    out.insert(out.end(), {miss.x, miss.y, miss.z});
+  }
+  return out;
+}
+
 std::vector<Pose> RigFit::fit_all(const std::vector<double>& times, const std::vector<std::vector<double>>& frames,
                                   const std::function<std::vector<double>(size_t)>& firm,
                                   const RigGround* ground) const {
-  std::vector<Pose> out;
-  for (size_t f = 0; f < frames.size(); ++f)
-    out.push_back(fit(frames[f], f == 0 ? rest_ : out.back(), firm(f), nullptr, ground, f));
-  // Then turns that the frames leave open follow those of the frames beside. Of two frames neither lies between others:
-  // each would lag behind the other.
-  for (int round = 0; round < even_rounds && frames.size() > 2; ++round) {
-    const std::vector<Pose> before = out;
-    for (size_t f = 0; f < frames.size(); ++f) {
-      const Pose &left = f > 0 ? out[f - 1] : before[1], &right = f + 1 < frames.size() ? before[f + 1] : left;
-      const bool inner = f > 0 && f + 1 < frames.size() && times[f + 1] > times[f - 1];
-      const double share = inner ? (times[f] - times[f - 1]) / (times[f + 1] - times[f - 1]) : 0.5;
-      Pose middle = before[f];
+  Holds holds = holds_of(times, frames, hold_step * diagonal_);
+  const size_t count = holds.all.size();
+  const auto meet = [&](Hold& hold, const Pose& start, const Beside& beside) {
+    hold.pose = fit(frames[hold.frame], start, firm(hold.frame), beside, ground, hold.frame);
+    const std::vector<double> before = std::move(hold.miss);
+    hold.miss = missed(hold.pose, frames[hold.frame]);
+    if (!before.empty()) hold.changed = step_between(before, hold.miss);
+  };
+  for (size_t h = 0; h < count; ++h) meet(holds.all[h], h == 0 ? rest_ : holds.all[h - 1].pose, {});
+  // Then each follows those beside it, there and back, until it and they stay where they are. Of two neither lies
+  // between others: each would lag behind the other.
+  for (int round = 0; round < most_rounds && count > 2; ++round) {
+    for (size_t k = 0; k < count; ++k) {
+      const size_t h = round % 2 == 0 ? k : count - 1 - k;
+      Hold& hold = holds.all[h];
+      const Hold *left = h > 0        ? &holds.all[h - 1]
+                         : holds.loop ? &holds.all.back()
+                                      : nullptr,
+                 *right = h + 1 < count ? &holds.all[h + 1]
+                          : holds.loop  ? &holds.all.front()
+                                        : nullptr;
+      const double changed = std::max({hold.changed, left ? left->changed : 0, right ? right->changed : 0});
+      if (changed < settled * diagonal_) continue;
+      const double pull = keep_miss / (hold.count + keep_miss * ((left ? 1 : 0) + (right ? 1 : 0))),
+                   own = hold.count / keep_miss * pull;
+      std::vector<double> moved = frames[hold.frame];
+      for (const Hold* beside : {left, right})
+        for (size_t i = 0; beside && i < moved.size(); ++i) moved[i] += pull * beside->miss[i];
+      const double share = left && right ? left->pause / std::max(left->pause + hold.pause, 1e-300) : 0.5;
+      const Pose &first = (left ? left : right)->pose, &last = (right ? right : left)->pose;
+      Pose middle = hold.pose;
       for (const Joint& joint : joints_) {
         const auto node = static_cast<size_t>(joint.node);
-        middle[node].rotation = glm::slerp(left[node].rotation, right[node].rotation, share);
+        middle[node].rotation = glm::slerp(first[node].rotation, last[node].rotation, share);
       }
-      out[f] = fit(frames[f], before[f], firm(f), &middle, ground, f);
+      meet(hold, hold.pose, {&middle, &moved, own, (1 + 2 * keep_miss) * own});
     }
   }
+  std::vector<Pose> out;
+  for (const size_t hold : holds.of_frame) out.push_back(holds.all[hold].pose);
   return out;
 }
 

@@ -9,6 +9,11 @@
 // others keep the lengths of their bones. Positions are in world space, in double.
 // A ground (RigGround) adds k_g sum_v a_v d_v^2, where v lies d_v under it. It comes in without a step: neither the sum
 // nor its slope jumps where a vertex touches the ground. A vertex under it adds a row to the system.
+// Over a clip, misses change evenly. Let r_f be what the fit of frame f misses: place minus goal, of each vertex. The
+// sum over the clip has k_m |r_f - r_g|^2 for each two frames f and g beside each other. For one frame with n others
+// beside it this is the fit above with the goals y_f + k_m (sum_g r_g) / (1 + n k_m), where the other terms count by
+// 1 / (1 + n k_m). Feet that stand and the ground keep their full weight. So a leg that is shorter in the frames than
+// its bones does not snap from one bend of its knee to the other, and where the frames stand still, so does the fit.
 #ifndef HF_GLTF_RIG_FIT_H
 #define HF_GLTF_RIG_FIT_H
 
@@ -41,12 +46,19 @@ class RigFit {
   // Throws std::runtime_error when no mesh of the model has a skin, or when its skins have too many joints.
   RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTie>& ties = {});
 
+  // What a frame asks of a pose beside its own places.
+  struct Beside {
+    const Pose* middle = nullptr;                // turns that the frame leaves open follow it
+    const std::vector<double>* moved = nullptr;  // x y z of every flat vertex that is not met firmly, instead
+    double rest = 1, firm = 1;  // factors of weights: of rest pose, middle and ties, and of feet and ground
+  };
   // Finds the pose of a frame, starting from `start`. frame: x y z of every flat vertex. firm: empty, or 0 to 1 for
-  // every flat vertex. At 1 the vertex is met as exactly as a foot that stands. middle: NULL, or a pose; turns that the
-  // frame leaves open follow it. ground: NULL, or the ground; heights[number] counts.
-  Pose fit(const std::vector<double>& frame, const Pose& start, const std::vector<double>& firm = {},
-           const Pose* middle = nullptr, const RigGround* ground = nullptr, size_t number = 0) const;
-  // The poses of frames, each from the one before, then from those beside it. firm: of a frame's number.
+  // every flat vertex. At 1 the vertex is met as exactly as a foot that stands. ground: NULL, or the ground;
+  // heights[number] counts.
+  Pose fit(const std::vector<double>& frame, const Pose& start, const std::vector<double>& firm, const Beside& beside,
+           const RigGround* ground = nullptr, size_t number = 0) const;
+  // The poses of frames, each from the one before, then from those beside it. Frames beside each other that are alike
+  // get one pose, and so do the first and the last of a loop. firm: of a frame's number.
   std::vector<Pose> fit_all(const std::vector<double>& times, const std::vector<std::vector<double>>& frames,
                             const std::function<std::vector<double>(size_t)>& firm,
                             const RigGround* ground = nullptr) const;
@@ -85,7 +97,8 @@ class RigFit {
     glm::dvec3 centre;
     const Pose* middle;
     const RigGround* ground;
-    double floor;  // height of the ground over the centre
+    double floor;                         // height of the ground over the centre
+    double stiffness, evenness, lifting;  // weights of the rest pose, of the middle and of the ground
   };
   void find_joints(), find_vertices(const FlatMesh& mesh);
   void find_ties(const FlatMesh& mesh, const std::vector<RigTie>& ties);
@@ -99,6 +112,7 @@ class RigFit {
   void add_ground(const Task& task, const std::vector<glm::dmat4>& globals, const std::vector<glm::dmat4x3>& at,
                   System& to) const;
   Pose stepped(const Pose& pose, const std::vector<double>& step) const;
+  std::vector<double> missed(const Pose& pose, const std::vector<double>& frame) const;
 
   const Model& model_;
   Pose rest_;
@@ -108,7 +122,7 @@ class RigFit {
   std::map<std::pair<int, int>, size_t> slot_number_;
   std::vector<Row> vertices_;  // one for each flat vertex
   std::vector<Tie> ties_;
-  std::shared_ptr<const Moments> still_;  // of all rows that have the same weight in every frame
+  std::shared_ptr<const Moments> still_;  // of all vertices, none of them firm
   size_t unknowns_ = 0, shifting_ = 0;
   double diagonal_ = 1, stiffness_ = 0, evenness_ = 0;
 };

@@ -138,6 +138,30 @@ static void a_skin_follows_frames(void** state) {
   hf_gltf_model_destroy(model), hf_gltf_model_destroy(still);
 }
 
+/* Frames that are shorter than the bones: half of the rest would stick out at each end. It sticks out above. */
+static void a_fitted_skin_does_not_sink_under_the_frames(void** state) {
+  (void)state;
+  hf_gltf_model still = strip(), model = swinging(still);
+  double frames[3 * 3 * VERTICES], times[3] = {0, 0.5, 1}, posed[3 * VERTICES];
+  for (uint32_t i = 0; i < 3 * 3 * VERTICES; ++i) {
+    const uint32_t vertex = i / 3 % VERTICES;
+    frames[i] = i % 3 == 0 ? vertex % 2 : i % 3 == 1 ? 0.9 * (vertex / 2) : 0;
+  }
+  hf_gltf_frames_desc desc = HF_INIT(hf_gltf_frames_desc);
+  desc.frame_count = 3, desc.times = times, desc.positions = frames;
+  assert_int_equal(hf_gltf_model_add_clip(model, &desc, NULL), HF_OK);
+  for (int f = 0; f < 3; ++f) {
+    double lowest = 1, highest = 0;
+    assert_int_equal(hf_gltf_model_pose(model, 0, times[f], posed), HF_OK);
+    for (uint32_t v = 0; v < VERTICES; ++v) {
+      if (posed[3 * v + 1] < lowest) lowest = posed[3 * v + 1];
+      if (posed[3 * v + 1] > highest) highest = posed[3 * v + 1];
+    }
+    assert_true(lowest > -0.01 && highest > 3.6); /* without a ground -0.2 and 3.8 */
+  }
+  hf_gltf_model_destroy(model), hf_gltf_model_destroy(still);
+}
+
 static void clips_go_to_a_skeleton_of_the_same_names(void** state) {
   (void)state;
   hf_gltf_model still = strip(), model = swinging(still), other = swinging(still);
@@ -258,6 +282,7 @@ int main(void) {
                                      cmocka_unit_test(a_written_clip_plays_as_it_was_given),
                                      cmocka_unit_test(keys_between_straight_ones_are_left_out),
                                      cmocka_unit_test(a_skin_follows_frames),
+                                     cmocka_unit_test(a_fitted_skin_does_not_sink_under_the_frames),
                                      cmocka_unit_test(clips_go_to_a_skeleton_of_the_same_names),
                                      cmocka_unit_test(pairs_give_regions_and_come_back),
                                      cmocka_unit_test(refused_calls_change_nothing),

@@ -22,7 +22,7 @@ TEST(TransferWritten, AFitThatStartsAtItsResultStaysThere) {
   std::vector<double> frame;
   for (const glm::dvec3& p : posed_positions(horse, mesh, horse.animations[0], 0.3))
     for (const double x : {-p.x, p.y > 1 ? -p.y : -1.5 * p.y, p.z}) frame.push_back(x);
-  const Pose once = rig.fit(frame, rest_pose(horse)), again = rig.fit(frame, once);
+  const Pose once = rig.fit(frame, rest_pose(horse), {}, {}), again = rig.fit(frame, once, {}, {});
   const auto miss = [&](const Pose& pose) {
     const std::vector<glm::dvec3> got = posed_positions(horse, mesh, pose);
     double sum = 0;
@@ -106,7 +106,7 @@ TEST(TransferWritten, BonesThatAreTooLongStayAboveTheGround) {
       frame.push_back(x);
   const auto depth = [&](const RigGround* given) {
     double low = 1e300;
-    for (const glm::dvec3& p : posed_positions(horse, mesh, rig.fit(frame, rest_pose(horse), {}, nullptr, given)))
+    for (const glm::dvec3& p : posed_positions(horse, mesh, rig.fit(frame, rest_pose(horse), {}, {}, given)))
       low = std::min(low, p.y);
     return (ground - low) / (top - ground);
   };
@@ -118,6 +118,108 @@ TEST(TransferWritten, BonesThatAreTooLongStayAboveTheGround) {
   EXPECT_LT(depth(&all), 0.01);
   EXPECT_EQ(depth(&none), depth(nullptr));
   EXPECT_EQ(depth(&far), depth(nullptr));
+}
+
+// A body on one leg: a strip of rows from 0 to 5, with a hip at 2 and a knee at 1.
+Model one_leg() {
+  Model model;
+  model.name = "one leg";
+  Skin skin;
+  const double heights[3] = {3, 2, 1};
+  for (int j = 0; j < 3; ++j) {
+    Node node;
+    node.parent = j - 1, node.translation = {0, j == 0 ? heights[0] : -1, 0};
+    if (j < 2) node.children = {j + 1};
+    model.nodes.push_back(node), skin.joints.push_back(j);
+    glm::dmat4 bind(1);
+    bind[3][1] = -heights[j];
+    skin.inverse_bind.emplace_back(bind);
+  }
+  Primitive primitive;
+  for (uint32_t row = 0; row <= 20; ++row) {
+    for (const double x : {-0.1, 0.1}) {
+      primitive.positions.emplace_back(x, 0.25 * row, 0);
+      Influences influences;
+      influences.joints[0] = row >= 8 ? 0 : row >= 4 ? 1 : 2, influences.weights[0] = 1;
+      primitive.influences.push_back(influences);
+    }
+    const uint32_t a = 2 * row;
+    if (row < 20) primitive.indices.insert(primitive.indices.end(), {a, a + 1, a + 2, a + 2, a + 1, a + 3});
+  }
+  Node body;
+  body.mesh = 0, body.skin = 0;
+  model.nodes.push_back(body);
+  model.skins = {skin}, model.meshes.emplace_back(), model.meshes[0].primitives = {primitive};
+  return model;
+}
+
+// The leg is `length` times as long, and its knee stands out by `bend`.
+std::vector<double> frame_of_leg(const FlatMesh& mesh, double length, double bend) {
+  std::vector<double> out;
+  for (const glm::dvec3& p : mesh.positions) {
+    const double share = std::min(p.y / 2, 1.0);  // of the leg, from the foot up
+    out.insert(out.end(), {p.x + 4 * bend * share * (1 - share), p.y - 2 * share * (1 - length), p.z});
+  }
+  return out;
+}
+
+// A standing leg that the frames shorten bends slowly from one side to the other. Bones keep their lengths, so the
+// nearest pose of a frame has a bent knee, and snaps where the leg is straight. Over a clip the body rises instead.
+TEST(TransferWritten, AKneeDoesNotSnapWhereTheLegIsStraight) {
+  const Model model = one_leg();
+  const FlatMesh mesh = flatten(model);
+  const RigFit rig(model, mesh);
+  std::vector<double> times, foot(mesh.positions.size(), 0.0);
+  foot[0] = foot[1] = 1;
+  std::vector<std::vector<double>> frames;
+  std::vector<Pose> alone;
+  for (int f = 0; f < 30; ++f) {
+    times.push_back(f / 30.0), frames.push_back(frame_of_leg(mesh, 0.88, 0.5 - f / 29.0));
+    alone.push_back(rig.fit(frames.back(), f == 0 ? rest_pose(model) : alone.back(), foot, {}));
+  }
+  const auto jerk = [&](const std::vector<Pose>& poses) {
+    std::vector<std::vector<glm::dvec3>> got;
+    for (const Pose& pose : poses) got.push_back(posed_positions(model, mesh, pose));
+    double out = 0;
+    for (size_t f = 1; f + 1 < got.size(); ++f)
+      for (size_t v = 0; v < got[f].size(); ++v)
+        out = std::max(out, glm::length(got[f - 1][v] - 2.0 * got[f][v] + got[f + 1][v]));
+    return out;
+  };
+  const std::vector<Pose> poses = rig.fit_all(times, frames, [&](size_t) { return foot; });
+  double slide = 0;
+  for (const Pose& pose : poses)
+    slide = std::max(slide, std::abs(posed_positions(model, mesh, pose)[0].x - mesh.positions[0].x));
+  std::printf("a knee jerks by %.3f where frames are alone, by %.3f in a clip; the foot slides by %.4f\n", jerk(alone),
+              jerk(poses), slide);
+  EXPECT_GT(jerk(alone), 0.3);
+  EXPECT_LT(jerk(poses), 0.05);
+  EXPECT_LT(slide, 0.005);
+}
+
+// What stands still is written as one pose, and a loop closes, however badly the frames are met.
+TEST(TransferWritten, HeldFramesAndTheEndsOfALoopHaveOnePose) {
+  const Model model = one_leg();
+  const FlatMesh mesh = flatten(model);
+  const RigFit rig(model, mesh);
+  std::vector<double> times;
+  std::vector<std::vector<double>> frames;
+  for (int f = 0; f <= 40; ++f) {
+    const double angle = 2 * 3.14159265358979 * (f <= 10 ? f : f <= 20 ? 10 : f - 10) / 30;
+    times.push_back(f / 30.0),
+        frames.push_back(frame_of_leg(mesh, 0.9 + 0.08 * std::cos(angle), 0.2 * std::sin(angle)));
+  }
+  const std::vector<Pose> poses = rig.fit_all(times, frames, [](size_t) { return std::vector<double>(); });
+  ASSERT_EQ(poses.size(), frames.size());
+  const auto expect_equal = [&](size_t a, size_t b) {
+    for (size_t n = 0; n < 3; ++n) {
+      EXPECT_EQ(poses[a][n].rotation, poses[b][n].rotation) << a << " " << b;
+      EXPECT_EQ(poses[a][n].translation, poses[b][n].translation) << a << " " << b;
+    }
+  };
+  for (size_t f = 11; f <= 20; ++f) expect_equal(10, f);
+  expect_equal(0, 40);
+  EXPECT_NE(poses[10][2].rotation, poses[21][2].rotation);
 }
 
 // A clip of few keys is made of straight lines. A slow sway must not jerk at their ends: neither of one joint, nor of
@@ -163,6 +265,26 @@ TEST(TransferWritten, LeftOutKeysDoNotMakeACalmMotionJerk) {
     // of one joint: 2.13 with a bound on places alone, 1.29 while small angles were lost to rounding
     EXPECT_LT(acceleration(few), 1.05 * acceleration(sway)) << joints;
   }
+}
+
+// A joint that turns, stands still, and turns back: its keys move within the tolerance, but where it stood it stands.
+TEST(TransferWritten, LeftOutKeysDoNotMoveWhatStandsStill) {
+  const Model horse = read_gltf(creature("horse"));
+  const FlatMesh mesh = flatten(horse);
+  Animation clip;
+  Channel turn;
+  turn.node = horse.skins[0].joints[3], turn.path = Path::rotation, turn.width = 4;
+  for (int f = 0; f < 30; ++f) {
+    const double angle = 0.0004 * (f < 12 ? f : f < 20 ? 12 : 32 - f);
+    turn.times.push_back(static_cast<float>(f / 30.0));
+    for (const double x : {0.0, 0.0, std::sin(angle / 2), std::cos(angle / 2)})
+      turn.values.push_back(static_cast<float>(x));
+  }
+  clip.channels.push_back(turn);
+  const auto at = [&](int f) { return posed_positions(horse, mesh, clip, static_cast<double>(turn.times[size_t(f)])); };
+  reduce_keys(horse, mesh, clip, 0.01);
+  EXPECT_LT(key_count(clip), 8U);
+  for (int f = 13; f < 20; ++f) EXPECT_TRUE(at(12) == at(f)) << f;
 }
 
 // Trials whose misses add up beyond the bound are not measured to their end, and seemed calm.
