@@ -113,7 +113,12 @@ Vector<Complex> CrossSmoother::smooth(Span<const Complex> wish, Span<const HardC
   const std::size_t n = at(core.size());
   const double t = 1 / (radius_ * radius_);
   DefiniteSystem& solver = *solver_;
-  solver.set_scale(1);  // without the sites of the call before
+  solver.set_scale(1);
+  // Nothing of the call stays, also when it is cancelled: updates of quads keep the solver.
+  const struct Forget {
+    DefiniteSystem& solver;
+    ~Forget() { solver.forget(); }
+  } forget{solver};
   double most = 0;
   for (const Complex& w : wish) most = std::max(most, length_of(w));
   Vector<Complex> field(n, Complex(0, 0), &memory), target(wish.begin(), wish.end(), &memory);

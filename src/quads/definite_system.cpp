@@ -43,6 +43,12 @@ void DefiniteSystem::set_scale(double factor) {
   clear();
 }
 
+void DefiniteSystem::forget() noexcept {
+  system_.reset();
+  Vector<Index>(fixed_.get_allocator()).swap(fixed_);
+  Vector<double>(values_.get_allocator()).swap(values_);
+}
+
 void DefiniteSystem::fix(Span<const Index> unknowns, Span<const double> values) {
   Vector<Index> slots(&memory_);
   Vector<Site> sites(&memory_);

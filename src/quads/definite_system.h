@@ -24,6 +24,8 @@ class DefiniteSystem {
   void set_right(Span<const double> right);
   // From now on the right-hand side counts `factor` times. Removes all given values. Costs no sweep.
   void set_scale(double factor);
+  // Removes all given values and the memory that they took. Call set_scale() before anything else then.
+  void forget() noexcept;
   // Gives unknowns their values. Each unknown must be without one.
   void fix(Span<const Index> unknowns, Span<const double> values);
   // Computes some unknowns of x, or all of them.
