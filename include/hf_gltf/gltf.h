@@ -157,9 +157,10 @@ typedef struct hf_gltf_fit_info {
 } hf_gltf_fit_info;
 
 /* Adds a clip, as the first, whose joints follow the frames: each joint of the model's own skin turns so that the skin
- * comes nearest. The lowest y of all frames is the ground: bones that are longer than in the frames bend, and do not
- * sink under it. Frames that are alike get one pose. out_info: NULL is allowed. Errors: HF_ERROR_UNSUPPORTED (no skin),
- * HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (times). Thread safety: changes the model. Since 0.1. */
+ * comes nearest. Bones keep their lengths. The lowest y of all frames is the ground: a leg that is too long for a frame
+ * bends, and stays above it to 0.01 of the box or so. Frames beside each other that are alike get one pose. out_info:
+ * NULL is allowed. Errors: HF_ERROR_UNSUPPORTED (no skin), HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (times).
+ * Thread safety: changes the model. Since 0.1. */
 HF_GLTF_API hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_frames_desc* desc,
                                              hf_gltf_fit_info* out_info);
 

@@ -259,7 +259,7 @@ hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_frames_desc*
     std::vector<std::vector<double>> wanted;
     for (size_t f = 0; f < frames; ++f) wanted.push_back(frame_of(given.positions, vertices, f));
     const RigFit rig(object->model, object->mesh);
-    // nobody says where the ground is: no pose goes lower than the frames do
+    // The caller does not say where the ground is. glTF has y up, so it is where the frames are lowest.
     double lowest = given.positions[1];
     for (size_t v = 0; v < vertices * frames; ++v) lowest = std::min(lowest, given.positions[3 * v + 1]);
     const RigGround ground = {{0, 1, 0}, std::vector<double>(frames, lowest), {}};

@@ -21,9 +21,11 @@ constexpr double keep_even = 0.01;
 // for motion without jumps. Twelve runs have 36 spikes with 0, 5 with 1, and none with 3. 10 holds the largest
 // accelerations down more, and needs more passes.
 constexpr double keep_miss = 3;
-// Passes over the clip, there and back, at most. A frame is left out of a pass if neither it nor those beside it moved
-// a vertex by more than this share of the box before.
+// Passes over the clip, there and back, at most. With 20, a man who walks like a wolf accelerates 1.26 instead of 1.28
+// times as much as his source.
 constexpr int most_rounds = 10;
+// A frame is left out of a pass if neither it nor those beside it moved a vertex by more than this share of the box
+// before.
 constexpr double settled = 2e-5;
 // Frames in which no vertex moves by more than this share of the box are one.
 constexpr double hold_step = 1e-5;
@@ -44,7 +46,7 @@ constexpr size_t most_joints = 1000;
 constexpr double moved = 1e-3;  // of the diagonal: a clip that moves a joint less does not move it
 // Levenberg's and Marquardt's damping, of each diagonal entry. A step that raises the energy is damped more.
 constexpr double first_damping = 1e-3, least_damping = 1e-6, more_damping = 8, less_damping = 0.2;
-constexpr int most_steps = 40, most_attempts = 8;  // frames from their neighbours take some 5
+constexpr int most_steps = 40, most_attempts = 8;  // a frame takes some 5 from the one before
 constexpr double still_enough = 1e-6;              // a step that lowers the energy by a smaller share ends the fit
 constexpr double most_turn = 0.7;                  // of a joint in a step, in radians
 constexpr double lift = 1e-9;                      // of the mean diagonal: joints that move nothing stay

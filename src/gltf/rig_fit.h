@@ -1,8 +1,8 @@
 // Fits joint rotations of a model's own rig, so that its skin comes nearest to given vertex positions.
 //
 // For each frame it minimises sum_v a_v |sum_j w_vj G_j B_j p_v - y_v|^2 + k sum_j |turn of j from rest|^2 over the
-// local rotations, by Levenberg's and Marquardt's steps from the frame before: a step that raises the sum is taken back
-// and damped. Let x_j = G_j B_j p_v, and o_a be the origin of joint a. A small world turn w of a moves v by
+// local rotations. It takes steps of Levenberg and Marquardt from the frame before. A step that raises the sum is taken
+// back and damped. Let x_j = G_j B_j p_v, and o_a be the origin of joint a. A small world turn w of a moves v by
 // w x (sum_{j below a} w_vj (x_j - o_a)). The sums over vertices are quadratic in the matrices G_j B_j. So they are
 // added up once for each pair of joints, and a step costs O(J^3), whatever the number of vertices.
 // Joints that the model's own clips move (roots, and feet that a rig places by inverse kinematics) may shift too. All
@@ -13,7 +13,7 @@
 // sum over the clip has k_m |r_f - r_g|^2 for each two frames f and g beside each other. For one frame with n others
 // beside it this is the fit above with the goals y_f + k_m (sum_g r_g) / (1 + n k_m), where the other terms count by
 // 1 / (1 + n k_m). Feet that stand and the ground keep their full weight. So a leg that is shorter in the frames than
-// its bones does not snap from one bend of its knee to the other, and where the frames stand still, so does the fit.
+// its bones does not snap from one bend of its knee to the other.
 #ifndef HF_GLTF_RIG_FIT_H
 #define HF_GLTF_RIG_FIT_H
 

@@ -39,7 +39,7 @@ case "$kind" in
     expect "installed" "$(installed)" "libhf.a"
     grep -q -- '-lhf .*-lstdc++' "$work/build/hf.pc" || { echo "hf.pc does not name what the archive needs"; exit 1; }
     ;;
-  add_subdirectory)  # what FetchContent does, which run_consumer.sh builds; here the project has C++
+  add_subdirectory)  # FetchContent calls it, and run_consumer.sh builds that; so this configures only, in a project with C++
     cmake -S "$source/tests/consumer/add_subdirectory" -B "$work/build" -G Ninja -DHF_SOURCE_DIR="$source" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
     expect "libraries of the consumer" "$(made shared_consumer)" "libhf.so"
     ;;
