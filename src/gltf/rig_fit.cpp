@@ -25,9 +25,11 @@ constexpr double keep_miss = 3;
 // times as much as his source.
 constexpr int most_rounds = 10;
 // A frame is left out of a pass if neither it nor those beside it moved a vertex by more than this share of the box
-// before.
+// before: trades passes for misses that are not quite even. Of every 60th run half takes 7 % more fits and double 9 %
+// fewer. No figure changes.
 constexpr double settled = 2e-5;
-// Frames in which no vertex moves by more than this share of the box are one.
+// Frames in which no vertex moves by more than this share of the box are one: trades still poses for slow motion. Half
+// and double change no figure there.
 constexpr double hold_step = 1e-5;
 // The weight of all ties together, beside 1 for all vertices. It trades feet that slide for pieces that stay together.
 // With 0, 1, 10 and 100 a knight's run on a robot opens by .096, .076, .026 and .016 of the box, and its feet slide by
