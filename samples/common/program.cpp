@@ -18,6 +18,8 @@
 #include <malloc.h>
 #endif
 
+#include "gltf/file_write.h"
+
 namespace samples {
 namespace {
 
@@ -31,6 +33,7 @@ std::string text_of(double number) {
 }  // namespace
 
 CommandLine::CommandLine(int count, char** arguments) {
+  remove_unfinished_on_signals();
 #ifdef __GLIBC__
   // Freed blocks of this size go back to the system at once. By default glibc keeps them: its threshold rises to the
   // largest block freed, up to 32 MB. hf_quads on a comb of 64,000 corners then takes 300 MB for 172 in use. With 1 MB

@@ -66,10 +66,20 @@ await build({
 });
 const style = (await build({ entryPoints: [join(here, 'src/studio.css')], minify: true, write: false })).outputFiles[0]
   .text;
-writeFileSync(
-  join(out, 'index.html'),
-  readFileSync(join(here, 'index.html'), 'utf8').replace('/*STYLE*/', () => style.trim()),
-);
+const page = readFileSync(join(here, 'index.html'), 'utf8').replace('/*STYLE*/', () => style.trim());
+const [, inline] = /<script>([^]*?)<\/script>/.exec(page);
+// nothing runs that is not the page's own, and the page talks to its own host alone; three.js reads textures of a glb as blob:
+const policy = [
+  "default-src 'none'",
+  `script-src 'self' 'wasm-unsafe-eval' 'sha256-${createHash('sha256').update(inline).digest('base64')}'`,
+  "style-src 'unsafe-inline'",
+  "img-src 'self' data: blob:",
+  "connect-src 'self' data: blob:",
+  "worker-src 'self'",
+  "base-uri 'none'",
+  "form-action 'none'",
+].join('; ');
+writeFileSync(join(out, 'index.html'), page.replace('<!--POLICY-->', () => `<meta http-equiv="Content-Security-Policy" content="${policy}">`));
 await split(process.env.HF_WASM, out);
 copyFileSync(join(process.env.HF_WASM, 'hf_gltf.wasm'), join(out, 'gltf.wasm'));
 // what is bundled is under the MIT licence, which goes along

@@ -95,6 +95,7 @@ void write_through(const fs::path& file, int descriptor, const void* data, size_
 
 constexpr int ending_signals[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXFSZ};
 
+std::atomic<bool> takes_signals;     // the program called remove_unfinished_on_signals
 std::mutex one_writer;               // guards what follows; the handler reads it only while it stands
 std::atomic<int> unfinished_folder;  // descriptor + 1 of the folder that holds unfinished_name; 0: there is none
 char unfinished_name[64];
@@ -119,6 +120,8 @@ class SignalGuard {
  public:
   SignalGuard() {
     is_interrupted = false;
+    std::fill(std::begin(is_replaced), std::end(is_replaced), false);
+    if (!takes_signals) return;
     struct sigaction action {};
     sigfillset(&action.sa_mask);
     for (size_t i = 0; i < std::size(ending_signals); ++i) {
@@ -243,6 +246,8 @@ void check_link(const fs::path& file, const fs::path& link) {
     refuse_file(file, link.string() + " is a link of another user in a shared folder");
   }
 }
+
+void remove_unfinished_on_signals() { takes_signals = true; }
 
 void write_bytes(const fs::path& file, const void* data, size_t size) {
   if (file.empty()) throw std::runtime_error("a file cannot be written: its name is empty.");

@@ -105,6 +105,8 @@ void replace(const fs::path& file, const fs::path& target, bool present, const v
 
 void check_link(const fs::path&, const fs::path&) {}  // making a link needs a right of its own here
 
+void remove_unfinished_on_signals() {}  // Windows has none: the system removes the new file with the process
+
 void write_bytes(const fs::path& file, const void* data, size_t size) {
   if (file.empty()) throw std::runtime_error("a file cannot be written: its name is empty.");
   std::error_code error;

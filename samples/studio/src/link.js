@@ -2,7 +2,7 @@
 // a sample is named, and a file has to be opened by who has it.
 
 const MARK = '#s=';
-/** Longer links are cut by mail programs and browsers. */
+/** Longer links are cut by mail programs and browsers. A link of this length cannot inflate beyond 1,032 times its bytes. */
 const LONGEST = 30000;
 
 async function through(stream, bytes) {
@@ -75,6 +75,7 @@ export async function showLink(app) {
 export async function settingsOf(hash, { say }) {
   if (!hash.startsWith(MARK)) return null;
   try {
+    if (hash.length > LONGEST) throw new Error('no link of the studio is so long');
     const text = await through(new DecompressionStream('deflate-raw'), decode(hash.slice(MARK.length)));
     return JSON.parse(new TextDecoder().decode(text));
   } catch {

@@ -23,7 +23,7 @@ std::string synced;  // "f" for a file, "d" for a folder, in the order of the ca
 
 // Stands for the C library's fsync in this program.
 extern "C" int fsync(int descriptor) {
-  struct stat status{};
+  struct stat status {};
   if (::fstat(descriptor, &status) == 0) synced += S_ISDIR(status.st_mode) ? 'd' : 'f';
   return static_cast<int>(::syscall(SYS_fsync, descriptor));
 }
@@ -59,6 +59,7 @@ TEST_P(FileWriteSignal, AnInterruptLeavesTheOldFileAlone) {
   write_text(file, "old");
   const pid_t child = start_child([&] {
     ::signal(GetParam(), SIG_DFL);
+    remove_unfinished_on_signals();
     const rlimit no_core{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core);
     write_bytes(file, long_text());
@@ -82,6 +83,7 @@ TEST(FileWriteFaults, AHandlerOfTheProgramIsCalledAndStays) {
   write_text(file, "old");
   const pid_t child = start_child([&] {
     ::signal(SIGINT, [](int) { handled = handled + 1; });
+    remove_unfinished_on_signals();
     const std::string message = message_of([&] { write_bytes(file, long_text()); });
     ::raise(SIGINT);
     return handled == 2 && says(message, file.string() + ": cannot be written: a signal interrupted it") ? 0 : 1;
@@ -97,6 +99,7 @@ TEST(FileWriteFaults, AnIgnoredSignalStaysIgnored) {
   const fs::path file = folder.path / "file";
   const pid_t child = start_child([&] {
     ::signal(SIGHUP, SIG_IGN);
+    remove_unfinished_on_signals();
     write_bytes(file, long_text());
     return ::signal(SIGHUP, SIG_DFL) == SIG_IGN ? 0 : 1;
   });
@@ -105,12 +108,24 @@ TEST(FileWriteFaults, AnIgnoredSignalStaysIgnored) {
   EXPECT_EQ(fs::file_size(file), long_text().size());
 }
 
+TEST(FileWriteFaults, AHostThatDidNotAskKeepsItsHandlersDuringAWrite) {
+  TemporaryFolder folder;
+  const pid_t child = start_child([&] {
+    ::signal(SIGINT, [](int) { handled = handled + 1; });
+    write_bytes(folder.path / "file", long_text());
+    return handled == 1 ? 0 : 1;
+  });
+  ASSERT_TRUE(signal_during_write(child, folder.path, SIGINT));
+  EXPECT_EQ(wait_for(child), 0);
+  EXPECT_EQ(fs::file_size(folder.path / "file"), long_text().size());
+}
+
 TEST(FileWriteFaults, SignalsAreAsBeforeAfterEveryWrite) {
   TemporaryFolder folder;
   write_bytes(folder.path / "file", "new");
   EXPECT_FALSE(refusal(folder.path / "missing" / "file").empty());
   for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXFSZ}) {
-    struct sigaction now{};
+    struct sigaction now {};
     ASSERT_EQ(::sigaction(signal, nullptr, &now), 0);
     EXPECT_EQ(now.sa_handler, SIG_DFL) << signal;
   }
@@ -126,6 +141,7 @@ TEST(FileWriteFaults, ALimitOnTheSizeLeavesTheOldFileAlone) {
   EXPECT_EQ(in_child([&] {
               const rlimit limit{10000, 10000};
               ::setrlimit(RLIMIT_FSIZE, &limit);
+              remove_unfinished_on_signals();
               const std::string message = message_of([&] { write_bytes(file, std::string(20000, 'n')); });
               return says(message, file.string() + ": cannot be written: File too large") ? 0 : 1;
             }),

@@ -23,6 +23,7 @@
 namespace file_write_test {
 
 namespace fs = std::filesystem;
+using hf_gltf::remove_unfinished_on_signals;
 using hf_gltf::write_bytes;
 using samples_test::message_of;
 using samples_test::TemporaryFolder;
