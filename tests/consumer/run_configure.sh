@@ -42,6 +42,15 @@ case "$kind" in
   add_subdirectory)  # FetchContent calls it, and run_consumer.sh builds that; so this configures only, in a project with C++
     cmake -S "$source/tests/consumer/add_subdirectory" -B "$work/build" -G Ninja -DHF_SOURCE_DIR="$source" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
     expect "libraries of the consumer" "$(made shared_consumer)" "libhf.so"
+    # no build type: the library is optimised all the same, the consumer's own code is as it asks, and it is told
+    grep -q 'no build type is set' "$work/log" || { echo "nothing is said of the missing build type"; exit 1; }
+    ninja -C "$work/build" -t commands hf/src/libhf.so | grep -- ' -c ' | grep -vq -- ' -O2 ' && { echo "a file of the library is compiled without -O2"; exit 1; }
+    ninja -C "$work/build" -t commands shared_consumer | grep -- 'use_hf.c.o -c' | grep -q -- ' -O2 ' && { echo "-O2 reaches the consumer's own code"; exit 1; }
+    cmake -S "$source/tests/consumer/add_subdirectory" -B "$work/typed" -G Ninja -DHF_SOURCE_DIR="$source" -DCMAKE_BUILD_TYPE=Debug >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+    grep -q 'no build type is set' "$work/log" && { echo "a build type is set, and its lack is told"; exit 1; }
+    # bytes_hash.cpp has -O2 in every build
+    ninja -C "$work/typed" -t commands hf/src/libhf.so | grep -v bytes_hash.cpp | grep -q -- ' -O2 ' && { echo "-O2 stands beside the build type Debug"; exit 1; }
+    true
     ;;
   *) echo "unknown kind $kind"; exit 1 ;;
 esac
