@@ -30,6 +30,8 @@ def files():
         raise parse_headers.HeaderError(f"base.h: HF_VERSION_* are not the version of CMakeLists.txt, {version}")
     api = {"version": version, **api}
     result = {"api.json": parse_headers.to_text(api)}
+    # the functions by name, one a line: packages and tests read it
+    result["functions.txt"] = "".join(f["name"] + "\n" for f in api["functions"])
     for layer in (layer_python, layer_js, layer_csharp, layer_lua, layer_rust):
         result.update(layer.write(api))
     return result

@@ -1,4 +1,4 @@
-"""bindings/js/src/raw.js: constants, struct layouts for both pointer sizes, signatures; and the exports of the wasm build."""
+"""bindings/js/src/raw.js: constants, struct layouts for both pointer sizes, signatures."""
 
 import json
 
@@ -37,5 +37,4 @@ def write(api):
             for p in function["parameters"])
         out.append(f"  {function['name']}: ['{result}', [{parameters}]],")
     out += ["};"]
-    exports = ",".join(["_malloc", "_free"] + ["_" + f["name"] for f in api["functions"]])
-    return {"js/src/raw.js": "\n".join(out) + "\n", "js/wasm/exports.txt": exports + "\n"}
+    return {"js/src/raw.js": "\n".join(out) + "\n"}

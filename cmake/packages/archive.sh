@@ -23,7 +23,7 @@ archive_make() {
 # For compilers other than MinGW: hf.lib, made of the names of the DLL.
 archive_import_library() {
   local version
-  { printf 'LIBRARY hf.dll\nEXPORTS\n'; cat "$hf_root/tests/api/exports.txt"; } >"$1/lib/hf.def"
+  { printf 'LIBRARY hf.dll\nEXPORTS\n'; cat "$hf_root/bindings/functions.txt"; } >"$1/lib/hf.def"
   for version in 19 18 17 16; do
     command -v "llvm-dlltool-$version" >/dev/null || continue
     hf_quiet "llvm-dlltool-$version" -m i386:x86-64 -d "$1/lib/hf.def" -l "$1/lib/hf.lib"

@@ -64,7 +64,7 @@ deb_make() {
   printf 'libhf 0 libhf0 (>= %s)\n' "$hf_version" >"$folder/run/DEBIAN/shlibs"
   {
     printf 'libhf.so.0 libhf0 #MINVER#\n* Build-Depends-Package: libhf-dev\n'
-    sort "$hf_root/tests/api/exports.txt" | sed "s/.*/ &@Base $hf_version/"
+    sort "$hf_root/bindings/functions.txt" | sed "s/.*/ &@Base $hf_version/"
   } >"$folder/run/DEBIAN/symbols"
   printf 'activate-noawait ldconfig\n' >"$folder/run/DEBIAN/triggers"
   deb_control "$folder/run" libhf0 libs "$depends" 'dynamic harmonic fields on surfaces (shared library)' ''

@@ -53,7 +53,7 @@ constexpr float shortest_sum = 1e-15f, longest_sum = 1e15f;
 // is 8 to 18 % larger. With 20 it is 6 % smaller, but the largest edge stretch grows from 1.29 to 1.42.
 constexpr std::uint32_t default_bands_smooth = 10, default_bands_paper = 12;
 // Iterations per frame. They trade time for a surface that stands still when a drag stops. On 36 poses of 12 shapes,
-// dragged as in tests/bench/pose_rest.py, it creeps on by 6.5e-5 of the box in the mean, with 8 by 1.1e-4, with 6 by
+// dragged as in docs/studies/poses.md, it creeps on by 6.5e-5 of the box in the mean, with 8 by 1.1e-4, with 6 by
 // 5.1e-4. Each takes 0.16 ms with five handles. In paper mode, motion moves on by only one level band per iteration.
 constexpr std::uint32_t default_iterations_smooth = 10, default_iterations_paper = 200;
 // Groups of vertices that share a rotation: more of them fit better but make each iteration slower. With 125, the

@@ -7,13 +7,7 @@
 namespace hf_inner {
 
 void require_ordering(Ordering ordering) {
-#if !defined(HF_WITH_GPL)
-  if (ordering == Ordering::metis)
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-         "HF_ORDERING_METIS needs a build with HF_WITH_GPL; use HF_ORDERING_NESTED_DISSECTION");
-#else
-  static_cast<void>(ordering);
-#endif
+  if (ordering == Ordering::metis) require_metis();
 }
 
 void order_by_minimum_degree(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::int32_t>& order) {
@@ -29,11 +23,7 @@ void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering
     case Ordering::minimum_degree:
       return order_by_minimum_degree(matrix, memory, order);
     case Ordering::metis:
-#if defined(HF_WITH_GPL)
       return order_by_metis(matrix, memory, order);
-#else
-      break;
-#endif
     case Ordering::natural:
       order.allocate(memory, static_cast<std::size_t>(matrix.size()));
       for (std::int32_t k = 0; k < matrix.size(); ++k) order[k] = k;

@@ -21,9 +21,9 @@ void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering
 // Approximate minimum degree of the whole matrix (minimum_degree.h).
 void order_by_minimum_degree(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::int32_t>& order);
 
-#if defined(HF_WITH_GPL)
-// METIS through CHOLMOD. It uses rand(), so the host's random sequence is saved and restored.
+// METIS through CHOLMOD, in src/peers. Both throw HF_ERROR_UNSUPPORTED in builds without HF_WITH_GPL. METIS uses
+// rand(), so the host's random sequence is saved and restored.
+void require_metis();
 void order_by_metis(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::int32_t>& order);
-#endif
 
 }  // namespace hf_inner

@@ -396,12 +396,9 @@ static void previews_of_tiny_huge_and_shifted_values_are_as_close(void** state) 
 static void solvers_without_a_preview_answer_with_the_exact_field(void** state) {
   (void)state;
   Surface tube = surface_tube(AROUND, RINGS);
-  int32_t engines[] = {HF_ENGINE_REFACTOR, HF_ENGINE_GREEN,
-#ifdef HF_WITH_GPL
-                       HF_ENGINE_UPDOWN
-#endif
-  };
-  for (size_t e = 0; e < COUNT_OF(engines); ++e) {
+  const int32_t engines[] = {HF_ENGINE_REFACTOR, HF_ENGINE_GREEN, HF_ENGINE_UPDOWN};
+  const size_t engine_count = has_peers() ? 3 : 2;
+  for (size_t e = 0; e < engine_count; ++e) {
     Options desc = options_of(&tube);
     desc.solver.engine = engines[e];
     hf_solver solver = NULL;

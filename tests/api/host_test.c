@@ -83,9 +83,7 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
 static void work(Work* w) {
   memset(w, 0, sizeof *w);
   work_with(w, HF_ENGINE_REFACTOR, HF_ORDERING_MINIMUM_DEGREE, 1, NULL);
-#ifdef HF_WITH_GPL
-  work_with(w, HF_ENGINE_UPDOWN, HF_ORDERING_METIS, 1, NULL);
-#endif
+  if (has_peers()) work_with(w, HF_ENGINE_UPDOWN, HF_ORDERING_METIS, 1, NULL);
   work_with(w, HF_ENGINE_GREEN, HF_ORDERING_NESTED_DISSECTION, 1, NULL);
 }
 
@@ -399,24 +397,24 @@ static void a_large_surface_gives_the_same_bits_on_any_threads(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rounding_modes_are_kept_and_do_not_matter),
+    cmocka_unit_test(rounding_modes_are_kept_and_do_not_matter),
 #if defined(__SSE2__)
-      cmocka_unit_test(flush_to_zero_is_kept_and_does_not_matter),
-      cmocka_unit_test(sticky_flags_are_kept),
+    cmocka_unit_test(flush_to_zero_is_kept_and_does_not_matter),
+    cmocka_unit_test(sticky_flags_are_kept),
 #endif
 #if LINUX && defined(__SSE2__)
-      cmocka_unit_test(floating_point_traps_of_the_host_do_not_strike),
+    cmocka_unit_test(floating_point_traps_of_the_host_do_not_strike),
 #endif
-      cmocka_unit_test(random_numbers_of_the_host_are_not_drawn),
+    cmocka_unit_test(random_numbers_of_the_host_are_not_drawn),
 #if LINUX
-      cmocka_unit_test(signals_locale_descriptors_and_threads_are_as_before),
-      cmocka_unit_test(no_thread_is_started_that_was_not_granted),
-      cmocka_unit_test(granted_threads_end_with_their_solver),
-      cmocka_unit_test(nothing_is_printed),
+    cmocka_unit_test(signals_locale_descriptors_and_threads_are_as_before),
+    cmocka_unit_test(no_thread_is_started_that_was_not_granted),
+    cmocka_unit_test(granted_threads_end_with_their_solver),
+    cmocka_unit_test(nothing_is_printed),
 #endif
-      cmocka_unit_test(a_stack_of_256_kilobytes_is_enough),
-      cmocka_unit_test(threads_and_job_runners_give_the_same_bits),
-      cmocka_unit_test(a_large_surface_gives_the_same_bits_on_any_threads),
+    cmocka_unit_test(a_stack_of_256_kilobytes_is_enough),
+    cmocka_unit_test(threads_and_job_runners_give_the_same_bits),
+    cmocka_unit_test(a_large_surface_gives_the_same_bits_on_any_threads),
   };
   return cmocka_run_group_tests(tests, create_expected, NULL);
 }

@@ -29,27 +29,6 @@ const wrongCalls = scenes.flatMap((scene) => scene.steps).filter((step) => step.
 console.log(`${hf.backend}: ${scenes.length} scenes agree, ${wrongCalls} wrong calls answered`);
 assert.ok(wrongCalls >= 100);
 
-// ---- layout (native): the offsets the package computes are those the C compiler pinned
-if (kind === 'native') {
-  const { layouts } = await import(pathToFileURL(join(js, 'raw.js')));
-  const pinned = readFileSync(join(here, '../api/layout.txt'), 'utf8').split('\n');
-  let struct = null;
-  let checked = 0;
-  for (const line of pinned) {
-    const [, name, size] = line.match(/^(hf_\w+) size (\d+)/) ?? [];
-    if (name) {
-      struct = layouts[name];
-      assert.equal(struct.size[1], Number(size), name);
-    }
-    const [, field, offset] = line.match(/^  (\w+) at (\d+),/) ?? [];
-    if (field && struct) {
-      assert.equal(struct.fields[field][1][1], Number(offset), field);
-      ++checked;
-    }
-  }
-  assert.ok(checked > 200);
-}
-
 // ---- wrong arguments
 const { positions, triangles } = meshes.torus;
 const n = positions.length / 3;

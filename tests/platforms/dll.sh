@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The binary gate of Windows: dll.sh HF.DLL EXPORTS.TXT OBJDUMP
-#   the DLL exports exactly tests/api/exports.txt, and needs DLLs of the system alone.
+#   the DLL exports exactly bindings/functions.txt, and needs DLLs of the system alone.
 set -u
 library=$1 exports=$2 objdump=$3
 export LC_ALL=C
@@ -8,7 +8,7 @@ status=0
 exported=$("$objdump" -p "$library" | sed -n '/\[Ordinal\/Name Pointer\] Table/,/^$/s/^\t\[ *[0-9]*\] //p' | sort -u)
 [ -n "$exported" ] || { printf 'error: %s exports nothing\n' "$library"; exit 1; }
 if ! changes=$(diff <(sort -u "$exports") <(printf '%s\n' "$exported")); then
-  printf 'error: the exports differ from tests/api/exports.txt (< expected, > in the DLL):\n%s\n' "$changes"
+  printf 'error: the exports differ from bindings/functions.txt (< expected, > in the DLL):\n%s\n' "$changes"
   status=1
 fi
 needed=$("$objdump" -p "$library" | sed -n 's/^\tDLL Name: //p' | sort -u)

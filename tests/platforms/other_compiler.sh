@@ -26,7 +26,7 @@ cxx=("${mingw[@]}" -std=c++17 -pthread -isystem "$gcc/include/c++" -isystem "$gc
 must "$(tool clang++)" "${cxx[@]}" -o throws.exe "$root/tests/platforms/throwing_host.cpp" "$import"
 must "$@" ./throws.exe
 if command -v "$(tool llvm-dlltool)" >/dev/null && command -v "$(tool lld-link)" >/dev/null; then
-  { printf 'LIBRARY hf.dll\nEXPORTS\n'; cat "$root/tests/api/exports.txt"; } >hf.def
+  { printf 'LIBRARY hf.dll\nEXPORTS\n'; cat "$root/bindings/functions.txt"; } >hf.def
   must "$(tool llvm-dlltool)" -m i386:x86-64 -d hf.def -l hf.lib
   printf 'LIBRARY kernel32.dll\nEXPORTS\nExitProcess\n' >kernel32.def
   must "$(tool llvm-dlltool)" -m i386:x86-64 -d kernel32.def -l kernel32.lib

@@ -1,4 +1,4 @@
-# Sourced by tests/run: the parts windows, arm64, small, clang, macos, wasm, bevy, godot4 and packages. Each builds in build/NAME, runs its tests and
+# Sourced by tests/run: the parts windows, arm64, small, clang, macos, wasm, bevy, godot4, alone and packages. Each builds in build/NAME, runs its tests and
 # prints `NAME: N passed, N failed, N skipped`. CMAKE_BUILD_PARALLEL_LEVEL and CTEST_PARALLEL_LEVEL: jobs, else all cores.
 
 # hf_configure NAME CMAKE_ARGUMENTS... and hf_make NAME TARGETS...: the log is build/NAME.log.
@@ -42,7 +42,7 @@ hf_count() {
 # Windows: the DLL by MinGW, the tests of the public ABI, the golden hashes and the sample programs under Wine.
 test_windows() {
   hf_configure windows -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/windows.cmake" -DHF_BUILD_SAMPLES=ON &&
-    hf_make windows hf hf_api_tests hf_layout_print reliability_golden platform_throwing_host hf_field hf_transfer hf_make_assets || return 1
+    hf_make windows hf hf_api_tests reliability_golden platform_throwing_host hf_field hf_transfer hf_make_assets || return 1
   # Wine has its settings in the build folder, no window, and ends with the tests
   export WINEPREFIX="$hf_root/build/windows/wine" WINEDEBUG=-all WINEDLLOVERRIDES='mscoree,mshtml=' LC_ALL=C.UTF-8
   wine wineboot -i >/dev/null 2>&1
@@ -55,7 +55,7 @@ test_windows() {
 # 64-bit ARM under qemu: the tests of the public ABI, the golden hashes, and the instructions of the kernels for NEON.
 test_arm64() {
   hf_configure arm64 -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/arm64.cmake" &&
-    hf_make arm64 hf hf_api_tests hf_layout_print reliability_golden platform_throwing_host kernel_work &&
+    hf_make arm64 hf hf_api_tests reliability_golden platform_throwing_host kernel_work &&
     hf_count arm64 '^(api_|platform_|reliability_golden$)'
 }
 
@@ -64,7 +64,7 @@ test_small() {
   local system code=0
   for system in i686 armhf riscv64 s390x; do
     { hf_configure "$system" -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/$system.cmake" &&
-      hf_make "$system" hf hf_api_tests hf_layout_print reliability_golden &&
+      hf_make "$system" hf hf_api_tests reliability_golden &&
       hf_count "$system" '^(api_|reliability_golden$)'; } || code=1
   done
   return "$code"
@@ -77,11 +77,11 @@ test_clang() {
   command -v "clang++-$version" >/dev/null || { hf_say "no clang from 16 on here"; return 77; }
   local compilers=(-DCMAKE_C_COMPILER="clang-$version" -DCMAKE_CXX_COMPILER="clang++-$version" -DHF_BUILD_UNIT_TESTS=OFF)
   { hf_configure clang "${compilers[@]}" &&
-    hf_make clang hf hf_api_tests hf_layout_print reliability_golden &&
+    hf_make clang hf hf_api_tests reliability_golden &&
     hf_count clang '^(api_|reliability_golden$)'; } || code=1
   { hf_configure clang-libc++ "${compilers[@]}" -DCMAKE_CXX_FLAGS=-stdlib=libc++ &&
-    hf_make clang-libc++ hf hf_api_tests hf_layout_print reliability_golden &&
-    hf_count clang-libc++ '^(api_test|api_.*_test|api_layout|reliability_golden$)'; } || code=1
+    hf_make clang-libc++ hf hf_api_tests reliability_golden &&
+    hf_count clang-libc++ '^(api_test|api_.*_test|reliability_golden$)'; } || code=1
   "$hf_root/tests/platforms/languages.sh" "$hf_root" "clang-$version" "clang++-$version" || code=1
   return "$code"
 }
@@ -104,13 +104,13 @@ test_macos() {
     name=macos-$processor
     if hf_configure "$name" -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/macos.cmake" -DHF_ZIG="$zig" \
       -DHF_MACOS_PROCESSOR="$processor" -DHF_BUILD_SAMPLES=ON &&
-      hf_make "$name" hf hf_static hf_api_tests hf_layout_print reliability_golden platform_throwing_host hf_field hf_transfer; then
+      hf_make "$name" hf hf_static hf_api_tests reliability_golden platform_throwing_host hf_field hf_transfer; then
       passed=$((passed + 1))
     else
       failed=$((failed + 1))
       continue
     fi
-    if "$hf_root/tests/platforms/dylib.sh" "$hf_root/build/$name/src/libhf.dylib" "$hf_root/tests/api/exports.txt" "$processor"; then
+    if "$hf_root/tests/platforms/dylib.sh" "$hf_root/build/$name/src/libhf.dylib" "$hf_root/bindings/functions.txt" "$processor"; then
       passed=$((passed + 1))
     else
       failed=$((failed + 1))
@@ -144,8 +144,8 @@ test_wasm() {
   export HF_NODE_MODULES="$hf_root/build/npm/node_modules" HF_WASM="$wasm" HF_SCENES="$scenes"
   hf_say "building (wasm)"
   HF_JOBS=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)} "$hf_root/bindings/js/wasm/build.sh" "$wasm" || return 1
-  (hf_build release-tests hf bindings_golden) || return 1
-  "$hf_root/build/release/bin/bindings_golden" "$hf_root/bindings/golden/meshes" "$hf_root/bindings/golden/scenes.json" --fill "$scenes" >/dev/null || return 1
+  (hf_build dev hf bindings_golden) || return 1
+  "$hf_root/build/dev/bin/bindings_golden" "$hf_root/bindings/golden/meshes" "$hf_root/bindings/golden/scenes.json" --fill "$scenes" >/dev/null || return 1
   hf_say "testing (wasm)"
   for name in package races chromium; do
     case "$name" in
@@ -172,10 +172,10 @@ test_bevy() {
   # what was fetched before is enough
   (cd "$crate" && { cargo fetch --offline || cargo fetch; }) >"$log" 2>&1 || { hf_say "skipped: the crates of Bevy could not be fetched; the log is build/bevy.log"; return 77; }
   export CARGO_NET_OFFLINE=true
-  (hf_build release-tests hf hf_make_assets) || return 1
+  (hf_build dev hf hf_make_assets) || return 1
   # Mesa asks for the last one
-  export HF_LIBRARY_DIR="$hf_root/build/release/src" XDG_RUNTIME_DIR="${XDG_RUNTIME_DIR:-$pictures}" LD_LIBRARY_PATH="$hf_root/build/release/src"
-  "$hf_root/build/release/bin/hf_make_assets" "$pictures" --vertices 20000 --creature horse >/dev/null || return 1
+  export HF_LIBRARY_DIR="$hf_root/build/dev/src" XDG_RUNTIME_DIR="${XDG_RUNTIME_DIR:-$pictures}" LD_LIBRARY_PATH="$hf_root/build/dev/src"
+  "$hf_root/build/dev/bin/hf_make_assets" "$pictures" --vertices 20000 --creature horse >/dev/null || return 1
   hf_say "building Bevy (some minutes the first time)"
   (cd "$crate" && cargo build --tests --examples) >>"$log" 2>&1 || {
     grep -A8 '^error' "$log" | head -40 >&2
@@ -209,12 +209,12 @@ test_godot4() {
   local log="$hf_root/build/godot4/tests.log"
   HF_GODOT4=$("$hf_root/tests/platforms/godot4_program.sh" --make) || return $?
   export HF_GODOT4 HF_SCENES="$folder/scenes.json" HF_PICTURE="$folder/picture.png"
-  (hf_build release-tests hf_static bindings_golden hf_make_assets) || return 1
+  (hf_build dev hf_static bindings_golden hf_make_assets) || return 1
   rm -rf "$folder"
   mkdir -p "$assets"
-  "$hf_root/build/release/bin/hf_make_assets" "$assets" --vertices 20000 --creature horse >/dev/null &&
-    "$hf_root/build/release/bin/bindings_golden" "$hf_root/bindings/golden/meshes" "$hf_root/bindings/golden/scenes.json" --fill "$HF_SCENES" >/dev/null &&
-    CXX="$compiler" "$hf_root/bindings/godot/build4.sh" "$hf_root/build/release/src/libhf.a" "$folder" || return 1
+  "$hf_root/build/dev/bin/hf_make_assets" "$assets" --vertices 20000 --creature horse >/dev/null &&
+    "$hf_root/build/dev/bin/bindings_golden" "$hf_root/bindings/golden/meshes" "$hf_root/bindings/golden/scenes.json" --fill "$HF_SCENES" >/dev/null &&
+    CXX="$compiler" "$hf_root/bindings/godot/build4.sh" "$hf_root/build/dev/src/libhf.a" "$folder" || return 1
   hf_say "testing (godot4: $("$HF_GODOT4" --version))"
   run=("$bindings/run_godot4.sh" "$folder/addons" "$folder")
   {
@@ -245,4 +245,28 @@ hf_godot4_case() {
   else
     printf '%s\nfailed: %s\n' "$said" "$name"
   fi
+}
+
+# The README's first build, in an empty root that holds the packages which the README names and what they depend on.
+test_alone() {
+  local root="$hf_root/build/alone/root" log="$hf_root/build/alone.log" packages build passed=0 failed=0
+  command -v mmdebstrap >/dev/null || { hf_say "skipped: no mmdebstrap here"; return 77; }
+  packages=$(sed -n 's/.*(Debian: `\([^`]*\)`).*/\1/p' "$hf_root/README.md" | head -1)
+  build=$(sed -n '/^## In a program/,/^    cmake/s/^    //p' "$hf_root/README.md" | head -1)
+  [ -n "$packages" ] && [ -n "$build" ] || hf_fail "README.md has lost its first build"
+  rm -rf "$hf_root/build/alone"
+  mkdir -p "$hf_root/build/alone"
+  hf_say "an empty root with $packages"
+  mmdebstrap --variant=apt --include="${packages// /,}" "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$root" >"$log" 2>&1 ||
+    { tail -20 "$log" >&2; hf_fail "the root was not made; the log is build/alone.log"; }
+  mkdir "$root/hf" "$root/app"
+  (cd "$hf_root" && git ls-files -z | xargs -0 cp --parents -t "$root/hf") || return 1
+  cp "$hf_root/samples/minimal/minimal.c" "$root/app/"
+  printf '%s\n' 'cmake_minimum_required(VERSION 3.22)' 'project(app C)' 'find_package(hf REQUIRED)' 'add_executable(app minimal.c)' \
+    'target_link_libraries(app PRIVATE hf::hf)' >"$root/app/CMakeLists.txt"
+  for step in "cd /hf && $build" 'cd /app && cmake -B build && cmake --build build && build/app'; do
+    if chroot "$root" /bin/bash -ec "$step" >>"$log" 2>&1; then passed=$((passed + 1)); else failed=$((failed + 1)); tail -20 "$log" >&2; fi
+  done
+  printf 'alone: %s passed, %s failed\n' "$passed" "$failed"
+  [ "$failed" -eq 0 ]
 }

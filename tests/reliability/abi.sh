@@ -12,6 +12,11 @@ command -v abidiff >/dev/null && command -v abidw >/dev/null || {
   echo "skipped: no abidiff here; the Debian package is abigail-tools"
   exit 77
 }
+[ "$accept" = --accept ] || [ -e "$here/abi/libhf.abi" ] || {
+  echo "skipped: no interface was accepted yet, since nothing is released; --accept writes the present one"
+  exit 77
+}
+mkdir -p "$here/abi"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 compiler=${CC:-cc}

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sequence_play.h"
+#include "support/peers.h"
 
 namespace sequences {
 namespace {
@@ -63,9 +64,8 @@ void Player::begin() {
   field_kind_ = fields[bytes_.take() % 4];
   const unsigned engine = bytes_.take() % 8;
   setting_.engine = engine < 6 ? HF_ENGINE_GREEN : HF_ENGINE_REFACTOR;
-#ifdef HF_WITH_GPL
-  if (engine == 7) setting_.engine = HF_ENGINE_UPDOWN;
-#endif
+  static const bool peers = has_peers();
+  if (engine == 7 && peers) setting_.engine = HF_ENGINE_UPDOWN;
   ordering_ = static_cast<int>(bytes_.take() % 2);
   setting_.channels = 1 + bytes_.take() % 3;
   setting_.surface = surface_;

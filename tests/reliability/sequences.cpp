@@ -10,6 +10,7 @@
 #include "byte_inputs.h"
 #include "report.h"
 #include "sequence_player.h"
+#include "support/peers.h"
 
 int main(int argc, char** argv) {
   const auto [given, count, first] = play::Arguments(argc, argv, report_full(argc, argv) ? 1000000 : 100000,
@@ -44,8 +45,6 @@ int main(int argc, char** argv) {
   report_at_most("sequences_failed", static_cast<double>(failures), 0);
   report_at_most("sequences_error_green", worst[0], sequences::exact_tolerance);
   report_at_most("sequences_error_refactor", worst[2], sequences::baseline_tolerance);
-#ifdef HF_WITH_GPL
-  report_at_most("sequences_error_penalty", worst[1], sequences::penalty_tolerance);
-#endif
+  if (has_peers()) report_at_most("sequences_error_penalty", worst[1], sequences::penalty_tolerance);
   return report_status();
 }

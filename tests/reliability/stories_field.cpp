@@ -2,9 +2,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 
 #include "headed_blocks.h"
 #include "stories.h"
+#include "support/peers.h"
 
 namespace refusal {
 namespace {
@@ -104,13 +106,11 @@ void refactor(Story& s, const Tube& tube, Allocator& memory) {
   desc.engine = HF_ENGINE_REFACTOR;
   edits(s, tube.desc(memory), desc);
 }
-#ifdef HF_WITH_GPL
 void updown(Story& s, const Tube& tube, Allocator& memory) {
   hf_solver_desc desc = HF_INIT(hf_solver_desc);
   desc.engine = HF_ENGINE_UPDOWN;
   edits(s, tube.desc(memory), desc);
 }
-#endif
 void biharmonic(Story& s, const Tube& tube, Allocator& memory) {
   hf_surface_desc on = tube.desc(memory);
   hf_solver_desc desc = HF_INIT(hf_solver_desc);
@@ -326,18 +326,19 @@ hf_surface_desc Tube::desc(Allocator& memory) const {
 }
 
 std::vector<Chapter> field_chapters() {
-  return {{"green", green},
-          {"refactor", refactor},
-#ifdef HF_WITH_GPL
-          {"updown", updown},
-#endif
-          {"biharmonic", biharmonic},
-          {"points_and_discs", points_and_discs},
-          {"rebase", rebase},
-          {"bytes", bytes},
-          {"vectors", vectors},
-          {"shared", shared},
-          {"missing_kinds", missing_kinds}};
+  std::vector<Chapter> chapters;
+  if (has_peers()) chapters.push_back({"updown", updown});
+  const Chapter others[] = {{"green", green},
+                            {"refactor", refactor},
+                            {"biharmonic", biharmonic},
+                            {"points_and_discs", points_and_discs},
+                            {"rebase", rebase},
+                            {"bytes", bytes},
+                            {"vectors", vectors},
+                            {"shared", shared},
+                            {"missing_kinds", missing_kinds}};
+  chapters.insert(chapters.end(), std::begin(others), std::end(others));
+  return chapters;
 }
 
 }  // namespace refusal

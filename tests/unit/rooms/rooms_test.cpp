@@ -1,7 +1,7 @@
 // Reads the #include lines of the project and fails on a wrong arrow:
 //   base <- {mesh, factor} <- engine <- field <- {deform, detail} <- transfer <- capi
 //                             engine <- remesh, {remesh, field} <- quads <- capi
-//                             engine <- weights <- capi
+//                             engine <- weights <- capi, engine <- peers
 // A room may include itself, the public headers, and the rooms to its left. mesh and factor do not see each other, nor
 // do deform, detail and quads, nor weights and the rooms above the engine. gltf is a library beside the core: it sees
 // only itself and the public headers, and no room sees it. Bindings see only public headers, samples see gltf besides;
@@ -75,6 +75,8 @@ const std::map<std::string, Names>& arrows() {
     a["factor"] = {"base", "factor"};
     a["engine"] = {"base", "mesh", "factor", "engine"};
     a["field"] = {"base", "mesh", "factor", "engine", "field"};
+    a["peers"] = a["engine"];
+    a["peers"].insert("peers");
     for (const char* room : {"deform", "detail"}) {
       a[room] = a["field"];
       a[room].insert(room);

@@ -1,16 +1,14 @@
 #include "engine/updown.h"
 
-#include "base/error.h"
-#include "base/index.h"
-
-#ifdef HF_WITH_GPL
-
 #include <cholmod.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <mutex>
+
+#include "base/error.h"
+#include "base/index.h"
 
 namespace hf_inner {
 namespace {
@@ -352,21 +350,3 @@ std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core> core,
 }
 
 }  // namespace hf_inner
-
-#else
-
-namespace hf_inner {
-
-void require_updown() {
-  fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-       "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
-}
-
-std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core>, double) {
-  require_updown();
-  return nullptr;
-}
-
-}  // namespace hf_inner
-
-#endif

@@ -1,0 +1,25 @@
+// Stands in place of updown.cpp and metis_ordering.cpp in builds without HF_WITH_GPL: asking for them is refused.
+#include "base/error.h"
+#include "engine/updown.h"
+#include "factor/ordering.h"
+
+namespace hf_inner {
+
+void require_updown() {
+  fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+       "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
+}
+
+std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core>, double) {
+  require_updown();
+  return nullptr;
+}
+
+void require_metis() {
+  fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+       "HF_ORDERING_METIS needs a build with HF_WITH_GPL; use HF_ORDERING_NESTED_DISSECTION");
+}
+
+void order_by_metis(const SymmetricMatrix&, Memory&, Buffer<std::int32_t>&) { require_metis(); }
+
+}  // namespace hf_inner
