@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "gltf/flat_mesh.h"
 #include "unit/transfer/transfer_program_support.h"
 
 namespace {
@@ -74,6 +75,61 @@ TEST(TransferProgram, TheHorsesWalkGoesToTheBullAndPairsAreEditedInTheSameSessio
     EXPECT_GT(fs::file_size(folder() / name), 500u) << name;
   // no temporary file is left behind, and the two runs differ
   EXPECT_NE(read_json(report)["pairs"], figures["edited"]["pairs"]);
+}
+
+// A model with one more vertex in no triangle.
+fs::path with_stray(const std::string& name, const glm::dvec3& place, const std::string& suffix) {
+  hf_gltf::Model model = hf_gltf::read_gltf(creature(name));
+  hf_gltf::Primitive& to = model.meshes.at(0).primitives.at(0);
+  const auto again = [](auto& list) {
+    if (!list.empty()) list.push_back(list.back());
+  };
+  again(to.positions), again(to.normals), again(to.tangents), again(to.colors), again(to.influences);
+  for (auto& set : to.texcoords) again(set);
+  for (auto& target : to.targets) again(target.positions), again(target.normals);
+  to.positions.back() = glm::vec3(place);
+  const fs::path file = folder() / (name + suffix + ".glb");
+  hf_gltf::write_gltf(model, file);
+  return file;
+}
+
+// Far away, before the nose and under a foot, of the source and of the target: pairs are proposed and taken as without.
+TEST(TransferProgram, AVertexInNoTriangleChangesNothing) {
+  const auto figures_of = [&](const fs::path& source, const fs::path& target, const std::string& name) {
+    std::string said;
+    const fs::path report = folder() / (name + ".json");
+    EXPECT_EQ(transfer(quoted(source) + " " + quoted(target) + " -o " + quoted(folder() / (name + ".glb")) +
+                           " --json " + quoted(report),
+                       said),
+              0)
+        << name << ": " << said;
+    json out = read_json(report);
+    for (json& clip : out["clips"]) clip.erase("frame_ms"), clip.erase("ms_per_frame");
+    return out;
+  };
+  const hf_gltf::Model horse = hf_gltf::read_gltf(creature("horse"));
+  const hf_gltf::FlatMesh mesh = hf_gltf::flatten(horse);
+  glm::dvec3 nose = mesh.positions[0], foot = nose;
+  for (const glm::dvec3& p : mesh.positions) {
+    if (p.z > nose.z) nose = p;
+    if (p.y < foot.y) foot = p;
+  }
+  const json plain = figures_of(creature("horse"), creature("bull"), "no_stray");
+  ASSERT_GT(plain["pairs"].size(), 5u);
+  const struct {
+    const char* name;
+    glm::dvec3 place;
+  } strays[] = {
+      {"_far", {1e5, 2e4, -3e4}}, {"_nose", nose + glm::dvec3(0, 0, 0.01)}, {"_foot", foot - glm::dvec3(0, 0.02, 0)}};
+  for (const auto& stray : strays) {
+    for (const bool source : {true, false}) {
+      const fs::path changed = with_stray(source ? "horse" : "bull", stray.place, stray.name);
+      const json found = figures_of(source ? changed : creature("horse"), source ? creature("bull") : changed,
+                                    std::string("stray") + stray.name + (source ? "_source" : "_target"));
+      EXPECT_EQ(found["pairs"], plain["pairs"]) << stray.name << source;
+      EXPECT_EQ(found["clips"], plain["clips"]) << stray.name << source;
+    }
+  }
 }
 
 // Every clip of a source on a target: whole outputs, feet and ground within the bars.
