@@ -1,6 +1,7 @@
 // Models and clips of hf_gltf/gltf.h.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gltf/animate.h"
 #include "gltf/api_objects.h"
@@ -43,11 +44,17 @@ size_t numbered(uint32_t index, size_t count, const char* what) {
   return index;
 }
 
+// Finite, and no larger than the floats of a file.
 void need_finite(const double* values, size_t count, size_t row, const char* what) {
-  for (size_t i = 0; i < count; ++i)
-    if (!std::isfinite(values[i]))
-      throw Failure(HF_ERROR_NON_FINITE, std::string(what) + " " + std::to_string(i / row) + " is not finite",
-                    static_cast<uint32_t>(i / row));
+  constexpr double most = std::numeric_limits<float>::max();
+  for (size_t i = 0; i < count; ++i) {
+    if (std::fabs(values[i]) <= most) continue;
+    const bool finite = std::isfinite(values[i]);
+    throw Failure(finite ? HF_ERROR_TOO_LARGE : HF_ERROR_NON_FINITE,
+                  std::string(what) + " " + std::to_string(i / row) +
+                      (finite ? " holds a number that is no float, as files have it; scale it down" : " is not finite"),
+                  static_cast<uint32_t>(i / row));
+  }
 }
 
 // The times of a clip: finite, increasing, from 0 on.
