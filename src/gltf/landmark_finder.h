@@ -29,6 +29,8 @@ class Finder {
  public:
   explicit Finder(const Body& body)
       : model_(body.model), mesh_(body.mesh), box_(body.mesh), diagonal_(box_.diagonal()), tips_(body.tips) {
+    const auto is_loose = [&](uint32_t v) { return mesh_.loose[v] != 0; };
+    tips_.erase(std::remove_if(tips_.begin(), tips_.end(), is_loose), tips_.end());
     std::vector<char> taken(mesh_.welded_count, 0);
     for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
       char& known = taken[mesh_.welded[v]];
