@@ -76,8 +76,8 @@ typedef struct hf_handles_desc {
   const uint32_t* region_counts; /* [handle_count] vertices of each region, >= 1; repeats are allowed, up to four times
                                     the vertices of the mesh in all */
   const uint32_t* region_vertices; /* all regions one after the other; vertices as given */
-  const double* points; /* [handle_count][3] at rest. The region is the vertex nearest to the point and what */
-  const double* radii;  /* is edge-connected to it within [handle_count] radii >= 0 of the point */
+  const double* points; /* [handle_count][3] at rest. The region is the vertex nearest to the point and what is */
+  const double* radii;  /* edge-connected to it within [handle_count] radii; below 1 % of the box 2 or more */
   uint32_t layer;       /* 0 to HF_LAYER_COUNT - 1, for the whole batch */
   int32_t in_place;     /* 1: handles of layer 0 start where the posed surface stands, not at rest; see below */
   hf_progress progress; /* NULL, or an object to poll and cancel through */
@@ -94,8 +94,8 @@ typedef struct hf_handles_desc {
  * the handles to a clone in another thread and pose the old one meanwhile. Then set the transforms of the clone. No two
  * regions may overlap, on any layer; welded copies count as one vertex. Errors: HF_ERROR_OUT_OF_RANGE and
  * HF_ERROR_OVERLAP (index = position in region_vertices, or handle when given by points), HF_ERROR_INVALID_ARGUMENT
- * (isolated vertex, layer, in_place, regions and points at once), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE
- * (HF_HANDLE_LIMIT). Thread safety: changes `pose`. Since 0.1. */
+ * (isolated vertex, layer, in_place, a radius, regions and points at once), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE
+ * (HF_HANDLE_LIMIT, a point two boxes or more away). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handles, uint32_t* out_handles);
 
 /* Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, double[3], and all vertices that are
@@ -206,7 +206,7 @@ typedef struct hf_deform_desc {
 } hf_deform_desc;
 
 /* Does the same as hf_deform, with the options of a desc. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_OUT_OF_RANGE
- * (the range), HF_ERROR_INVALID_ARGUMENT. Thread safety: changes `pose`. Since 0.1. */
+ * (the range), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE (for floats). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_info* out_info);
 
 /* ---- skins ---- */

@@ -84,8 +84,8 @@ typedef struct hf_quads_info {
  * HF_ERROR_OUT_OF_RANGE (index = crease or guide), HF_ERROR_UNSUPPORTED (more than 5 % of the edges have three
  * triangles or cannot be oriented, index = a vertex; a surface that symmetry_plane does not mirror, index = the vertex
  * that is off most; no triangle on the side of the normal), HF_ERROR_TOO_LARGE (more than a million quads of the
- * default edge length, more creases than edges), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_INTERNAL
- * when the check fails. Thread safety: reads `surface`. Since 0.1. */
+ * default edge length, more creases than edges, index = pole that is two boxes or more away), HF_ERROR_CANCELLED,
+ * HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_INTERNAL when the check fails. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 
 /* Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The result is that

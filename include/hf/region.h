@@ -172,8 +172,8 @@ typedef struct hf_morph_desc {
 /* Morphs the region. A vertex of the region moves from p to p + weight (base - p), with p its position in
  * hf_region_desc. All other vertices stay at p. Weight 0 gives p bit for bit, and weight 1 gives the base. A weight
  * below 0 exaggerates detail, and a weight above 1 turns it inside out. An empty region gives p. The call solves
- * nothing. Errors: HF_ERROR_INVALID_ARGUMENT (both positions set), HF_ERROR_NON_FINITE (weight). Thread safety: reads
- * `region`. Since 0.1. */
+ * nothing. Errors: HF_ERROR_INVALID_ARGUMENT (both positions set), HF_ERROR_NON_FINITE (weight), HF_ERROR_TOO_LARGE
+ * (index = vertex that does not fit the output). Thread safety: reads `region`. Since 0.1. */
 HF_API hf_result hf_region_morph(hf_region region, const hf_morph_desc* desc);
 
 /* ---- detail carried to another region ---- */

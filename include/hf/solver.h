@@ -190,7 +190,7 @@ typedef struct hf_solve_info {
  * value_stride bytes apart (0 = packed). The field is 0 on components without a site; out_info counts them, or is NULL.
  * Hard sites hold their values exactly. Cost: one backward sweep through the factor, or three sweeps for bi-harmonic
  * fields; 30 to 700 sweeps for these, by the number of sites, where a vertex has more than 1,000 neighbours. Errors:
- * HF_ERROR_NO_SITES. Thread safety: reads `solver`. Since 0.1. */
+ * HF_ERROR_NO_SITES, HF_ERROR_TOO_LARGE (index = vertex, no float). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
 /* Does the same as hf_solve, in double. Thread safety: reads `solver`. Since 0.1. */

@@ -262,7 +262,7 @@ typedef struct hf_surface_report {
   uint32_t boundary_edge_count;
   uint32_t negative_edge_count;  /* edges of negative cotangent weight, before any clamping */
   float smallest_angle;          /* radians, over the usable triangles */
-  double bounding_box_diagonal;  /* in the unit of the positions */
+  double bounding_box_diagonal;  /* in the unit of the positions, without isolated vertices */
   uint32_t changed_vertex_count; /* welded vertices with a weight that is not the mesh's, in the operator of field_kind:
                                     of triangles too thin for it, or cut to the digits that there are. A certificate
                                     holds for the weights used; near such vertices the field may be another's */
@@ -325,8 +325,8 @@ typedef struct hf_gaps_info {
 
 /* Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends are
  * apart than at rest, and 0 if they are nearer. out_gaps: NULL, or double[capacity], in the order of
- * hf_surface_get_links. out_info: NULL, or a struct. Set one of the two at least. Errors: HF_ERROR_NON_FINITE (index =
- * vertex). Thread safety: reads `surface`. Since 0.1. */
+ * hf_surface_get_links. out_info: NULL, or a struct. Set one of the two at least. Errors: HF_ERROR_NON_FINITE,
+ * HF_ERROR_TOO_LARGE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_measure_gaps(hf_surface surface, const hf_gaps_desc* desc, uint32_t capacity,
                                          double* out_gaps, hf_gaps_info* out_info);
 
@@ -409,9 +409,9 @@ HF_API hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, c
                                      const hf_pick_desc* desc, hf_hit* out_hit);
 
 /* Finds the vertex nearest to a point. point: double[3] in the frame of the positions. desc: NULL for the rest
- * positions. The call ignores isolated vertices. If several vertices are at the same distance, such as welded copies,
- * the one with the lowest index counts. out_distance: NULL, or receives the distance. Cost: a pass over the vertices.
- * Errors: HF_ERROR_NON_FINITE (point, or a position: index = vertex). Thread safety: reads `surface`. Since 0.1. */
+ * positions. The call ignores isolated vertices. Of several at one distance, such as welded copies,
+ * the lowest index counts. out_distance: NULL, or receives the distance. Cost: a pass over the vertices. Errors:
+ * HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (1e15 boxes). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_find_vertex(hf_surface surface, const double* point, const hf_pick_desc* desc,
                                         uint32_t* out_vertex, double* out_distance);
 

@@ -75,8 +75,8 @@ typedef struct hf_transfer_desc {
 } hf_transfer_desc;
 
 /* Creates a transfer between two surfaces; both may be the same. Sets *out_transfer to NULL first. desc: NULL for
- * defaults. Errors: HF_ERROR_INVALID_HANDLE (index 0 source, 1 target), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE
- * (index = vertex of a rest pose). Thread safety: reads the surfaces. Since 0.1. */
+ * defaults. Errors: HF_ERROR_INVALID_HANDLE (index 0 source, 1 target), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+ * HF_ERROR_TOO_LARGE (index = vertex of a rest pose). Thread safety: reads the surfaces. Since 0.1. */
 HF_API hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,
                                     hf_transfer* out_transfer);
 /* Destroys a transfer. Ignores NULL and destroyed handles. Since 0.1. */
@@ -196,9 +196,9 @@ typedef struct hf_transfer_frame {
  * hf_transfer_get_sinking. What would sink bends up. The ground does not move regions that you hold. A lying target
  * rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules of the
  * ground come in continuously. HF_GROUND_OFF switches them off. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE
- * (index = source vertex, or position in the holds), HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held
- * twice), HF_ERROR_TOO_LARGE (holds), HF_ERROR_UNSUPPORTED (holds with HF_TRANSFER_STRETCH). Thread safety: changes
- * `transfer`. Since 0.1. */
+ * or HF_ERROR_TOO_LARGE (index = source vertex, or position in the holds; 1e15 boxes away), HF_ERROR_TOO_LARGE (holds),
+ * HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held twice), HF_ERROR_UNSUPPORTED (holds with
+ * HF_TRANSFER_STRETCH). Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
 /* Writes 1 for every target vertex that may sink into the ground, else 0: uint8_t[target vertex_count]. These are limbs

@@ -108,8 +108,8 @@ typedef struct hf_gltf_surface {
 HF_GLTF_API hf_result hf_gltf_model_get_surface(hf_gltf_model model, const hf_gltf_surface* out_surface);
 
 /* Puts the vertices of the surface at new places at rest. Rig, clips and looks stay; normals follow. positions:
- * [vertex_count][3]. Errors: HF_ERROR_EMPTY, HF_ERROR_NON_FINITE (index = vertex). Thread safety: changes the model.
- * Since 0.1. */
+ * [vertex_count][3]. Errors: HF_ERROR_EMPTY, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (for floats; index = vertex).
+ * Thread safety: changes the model. Since 0.1. */
 HF_GLTF_API hf_result hf_gltf_model_set_positions(hf_gltf_model model, const double* positions);
 
 /* Writes the file. format: HF_GLTF_GLB or HF_GLTF_TEXT. bytes: NULL asks for the count alone. Errors:
@@ -159,8 +159,8 @@ typedef struct hf_gltf_fit_info {
 /* Adds a clip, as the first, whose joints follow the frames: each joint of the model's own skin turns so that the skin
  * comes nearest. Bones keep their lengths. The lowest y of all frames is the ground: a leg that is too long for a frame
  * bends, and stays above it to 0.01 of the box or so. Frames beside each other that are alike get one pose. out_info:
- * NULL is allowed. Errors: HF_ERROR_UNSUPPORTED (no skin), HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (times).
- * Thread safety: changes the model. Since 0.1. */
+ * NULL is allowed. Errors: HF_ERROR_UNSUPPORTED (no skin), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (for floats; index =
+ * frame), HF_ERROR_INVALID_ARGUMENT (times). Thread safety: changes the model. Since 0.1. */
 HF_GLTF_API hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_frames_desc* desc,
                                              hf_gltf_fit_info* out_info);
 

@@ -18,7 +18,7 @@ Model to_model(const Face& face, const std::string& name, bool shapes) {
   if (!shapes) return model;
   FlatMesh flat;
   flat.positions = to_points(face.mesh.positions), flat.triangles = face.mesh.triangles;
-  flat.welded_count = weld_positions(flat.positions, flat.welded);
+  flat.weld();
   mesh.target_names = face.shape_names, mesh.weights.assign(face.shapes.size(), 0.0f);
   for (const std::vector<double>& shape : face.shapes) {
     const std::vector<glm::dvec3> posed = to_points(shape);

@@ -115,7 +115,8 @@ std::string unreached_sentence(hf_surface surface, const std::vector<uint32_t>& 
     out += " " + std::to_string(without) + " in " + std::to_string(bare) + (bare == 1 ? " component" : " components") +
            " without one (at " + around + ")";
   if (isolated > 0)
-    out += (without > 0 ? std::string(",") : std::string()) + " " + std::to_string(isolated) + " without a triangle";
+    out += (without > 0 ? std::string(",") : std::string()) + " " + std::to_string(isolated) +
+           " without a triangle (left out)";
   return out;
 }
 

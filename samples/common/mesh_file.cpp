@@ -211,7 +211,7 @@ FlatMesh to_flat_mesh(const SurfaceMesh& mesh) {
   part.vertex_count = flat.vertex_count();
   part.triangle_count = flat.triangle_count();
   flat.parts.push_back(part);
-  flat.welded_count = weld_positions(flat.positions, flat.welded);
+  flat.weld();
   return flat;
 }
 

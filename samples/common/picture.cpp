@@ -342,17 +342,22 @@ void check_view(const View& view) {
   }
 }
 
+void extend(Box& box, bool& empty, const double* point) {
+  for (size_t k = 0; k < 3; ++k) {
+    box.lower[k] = empty ? point[k] : std::min(box.lower[k], point[k]);
+    box.upper[k] = empty ? point[k] : std::max(box.upper[k], point[k]);
+  }
+  empty = false;
+}
+
 }  // namespace
 
 void extend(Box& box, bool& empty, const std::vector<double>& positions) {
-  for (size_t i = 0; i + 2 < positions.size(); i += 3) {
-    for (size_t k = 0; k < 3; ++k) {
-      const double x = positions[i + k];
-      box.lower[k] = empty ? x : std::min(box.lower[k], x);
-      box.upper[k] = empty ? x : std::max(box.upper[k], x);
-    }
-    empty = false;
-  }
+  for (size_t i = 0; i + 2 < positions.size(); i += 3) extend(box, empty, &positions[i]);
+}
+
+void extend(Box& box, bool& empty, const std::vector<double>& positions, const std::vector<uint32_t>& triangles) {
+  for (const uint32_t v : triangles) extend(box, empty, &positions[3 * size_t{v}]);
 }
 
 Color palette_color(Palette palette, double t) {

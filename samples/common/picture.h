@@ -111,8 +111,10 @@ struct Box {
   Point lower{}, upper{};
 };
 
-// The box of one or more position arrays, for frames of a clip that share one scale.
+// The box of one or more position arrays, for frames of a clip that share one scale. With triangles, the box of their
+// corners: what no triangle shows does not count.
 void extend(Box& box, bool& empty, const std::vector<double>& positions);
+void extend(Box& box, bool& empty, const std::vector<double>& positions, const std::vector<uint32_t>& triangles);
 
 // The camera and the page.
 struct View {

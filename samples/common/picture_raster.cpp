@@ -16,7 +16,8 @@ dvec3 to_dvec(const Point& p) { return {p[0], p[1], p[2]}; }
 
 bool finite(const dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// The points the camera must show: all vertices, or the corners of the fixed box.
+// The points the camera must show: the corners of all triangles, all points where there are none, or the corners of the
+// fixed box.
 std::vector<dvec3> points_to_fit(const View& view, const std::vector<Layer>& layers) {
   std::vector<dvec3> points;
   if (view.fixed_box) {
@@ -27,7 +28,10 @@ std::vector<dvec3> points_to_fit(const View& view, const std::vector<Layer>& lay
   } else {
     for (const Layer& layer : layers) {
       const std::vector<double>& p = layer.surface.positions;
-      for (size_t i = 0; i + 2 < p.size(); i += 3) points.push_back({p[i], p[i + 1], p[i + 2]});
+      std::vector<char> shown(p.size() / 3, layer.surface.triangles.empty());
+      for (const uint32_t v : layer.surface.triangles) shown[v] = 1;
+      for (size_t v = 0; v < shown.size(); ++v)
+        if (shown[v]) points.push_back({p[3 * v], p[3 * v + 1], p[3 * v + 2]});
     }
   }
   points.erase(std::remove_if(points.begin(), points.end(), [](const dvec3& p) { return !finite(p); }), points.end());

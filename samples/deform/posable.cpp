@@ -51,9 +51,8 @@ PosableMesh read_posable(const std::filesystem::path& file) {
 }
 
 Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
-  lower_ = upper_ = mesh.positions.front();
-  for (const glm::dvec3& p : mesh.positions) lower_ = glm::min(lower_, p), upper_ = glm::max(upper_, p);
-  diagonal_ = glm::length(upper_ - lower_);
+  const SurfaceBox box(mesh);
+  lower_ = box.low, upper_ = box.high, diagonal_ = box.diagonal();
   own_ = !options.on;
   if (own_)
     make_surface(mesh, options);

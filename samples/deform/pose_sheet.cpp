@@ -19,7 +19,7 @@ void write_pose_sheet(const std::filesystem::path& file, const PosableMesh& mesh
   view.direction = {script.view.x, script.view.y, script.view.z}, view.up = {script.up.x, script.up.y, script.up.z};
   view.fixed_box = true;
   bool empty = true;
-  for (const SheetFrame& frame : frames) extend(view.box, empty, frame.positions);
+  for (const SheetFrame& frame : frames) extend(view.box, empty, frame.positions, mesh.flat.triangles);
   std::vector<Picture> tiles;
   std::vector<std::string> labels;
   const auto draw = [&](const SheetFrame& frame, Fill fill, const std::string& label) {

@@ -110,11 +110,11 @@ static hf_surface mesh_surface(const Mesh* mesh) {
   return surface;
 }
 
-/* The lowest and the highest vertex along y. */
+/* The lowest and the highest corner of a triangle along y. */
 static void mesh_ends(const Mesh* mesh, double low[3], double high[3]) {
-  const float *lowest = mesh->positions, *highest = mesh->positions;
-  for (size_t v = 0; v < mesh->vertex_count; ++v) {
-    const float* p = mesh->positions + 3 * v;
+  const float *lowest = mesh->positions + 3 * (size_t)mesh->triangles[0], *highest = lowest;
+  for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; ++i) {
+    const float* p = mesh->positions + 3 * (size_t)mesh->triangles[i];
     if (p[1] < lowest[1]) lowest = p;
     if (p[1] > highest[1]) highest = p;
   }

@@ -51,12 +51,13 @@ void add_row(const Row& row, const std::vector<std::vector<double>>& frames, std
   view.fixed_box = true, view.ground = true, view.ground_height = 1e300;
   const std::vector<double> rest = double_positions(row.mesh->positions);
   for (size_t v = 0; v < row.mesh->positions.size(); ++v)
-    view.ground_height = std::min(view.ground_height, glm::dot(row.mesh->positions[v], row.axes.up));
+    if (!row.mesh->loose[v])
+      view.ground_height = std::min(view.ground_height, glm::dot(row.mesh->positions[v], row.axes.up));
   std::vector<const std::vector<double>*> shown = {&rest};
   for (int k = 0; k < columns; ++k)
     shown.push_back(&frames[static_cast<size_t>(k) * (frames.size() - 1) / static_cast<size_t>(columns)]);
   bool empty = true;
-  for (const std::vector<double>* positions : shown) extend(view.box, empty, *positions);
+  for (const std::vector<double>* positions : shown) extend(view.box, empty, *positions, row.mesh->triangles);
   SurfaceLook look;
   look.fill = Fill::colors;
   for (const std::vector<double>* positions : shown) {
@@ -78,7 +79,7 @@ void add_shapes(const Row& row, const std::vector<std::vector<double>>& frames, 
   shown.push_back(&rest);
   for (const size_t f : chosen) shown.push_back(&frames[f]);
   bool empty = true;
-  for (const std::vector<double>* positions : shown) extend(view.box, empty, *positions);
+  for (const std::vector<double>* positions : shown) extend(view.box, empty, *positions, row.mesh->triangles);
   SurfaceLook look;
   look.fill = Fill::colors;
   for (const std::vector<double>* positions : shown) {

@@ -35,11 +35,12 @@ struct Jerks {
   double squares = 0;
 };
 
-Jerks jerks_of(const Frames& frames, double unit) {
+Jerks jerks_of(const Frames& frames, const std::vector<uint8_t>& loose, double unit) {
   Jerks out;
   for (size_t f = 1; f + 1 < frames.size(); ++f) {
     double largest = 0, sum = 0;
     for (size_t i = 0; i < frames[f].size(); i += 3) {
+      if (loose[i / 3]) continue;
       double square = 0;
       for (size_t c = i; c < i + 3; ++c) {
         const double d = unit * (frames[f + 1][c] - 2 * frames[f][c] + frames[f - 1][c]);
@@ -48,7 +49,7 @@ Jerks jerks_of(const Frames& frames, double unit) {
       largest = std::max(largest, square), sum += square;
     }
     out.largest.push_back(std::sqrt(largest));
-    out.squares += 3 * sum / static_cast<double>(std::max<size_t>(frames[f].size(), 1));
+    out.squares += sum / static_cast<double>(std::max<std::ptrdiff_t>(std::count(loose.begin(), loose.end(), 0), 1));
   }
   return out;
 }
@@ -92,7 +93,8 @@ ClipFaults find_faults(const Session& session, const PlayedClip& played) {
   const double box = session.target_mesh().bounding_box_diagonal,
                source_box = session.source_mesh().bounding_box_diagonal,
                scale = std::max(session.scale(), box / source_box);
-  const Jerks from = jerks_of(played.source_frames, scale / box), to = jerks_of(played.target_frames, 1 / box);
+  const Jerks from = jerks_of(played.source_frames, session.source_flat().loose, scale / box),
+              to = jerks_of(played.target_frames, session.target_flat().loose, 1 / box);
   for (size_t f = 0; f < to.largest.size(); ++f)
     if (to.largest[f] > spike_share && to.largest[f] > spike_ratio * from.largest[f]) ++out.spikes;
   if (from.squares > least_squares) out.acceleration = std::sqrt(to.squares / from.squares);

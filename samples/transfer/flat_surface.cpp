@@ -2,7 +2,6 @@
 #include "transfer/flat_surface.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include "common/limits.h"
@@ -33,9 +32,8 @@ std::vector<uint32_t> tips_of(const FlatMesh& mesh, const std::string& name) {
 FlatSurface::FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper,
                          const hf_links_desc* links) {
   const std::vector<double> positions = double_positions(mesh.positions);
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-  const glm::dvec3 extent = high - low;
+  const SurfaceBox box(mesh);
+  const glm::dvec3 extent = box.high - box.low;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
   desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();

@@ -20,11 +20,13 @@ namespace samples {
 using namespace hf_gltf;
 namespace {
 
-void measure(const std::vector<glm::dvec3>& got, const std::vector<double>& wanted, double box, double& sum,
-             OutputFigures& figures) {
+void measure(const std::vector<glm::dvec3>& got, const std::vector<double>& wanted, const std::vector<uint8_t>& loose,
+             double box, double& sum, OutputFigures& figures) {
+  const auto count = static_cast<double>(std::count(loose.begin(), loose.end(), 0));
   for (size_t v = 0; v < got.size(); ++v) {
+    if (loose[v]) continue;
     const double miss = glm::distance(got[v], glm::dvec3(wanted[3 * v], wanted[3 * v + 1], wanted[3 * v + 2])) / box;
-    sum += miss * miss / static_cast<double>(got.size());
+    sum += miss * miss / count;
     figures.max = std::max(figures.max, miss);
   }
 }
@@ -200,10 +202,10 @@ Model own_skin_model(const Model& target, const Session& session, const std::vec
   size_t frames = 0, done = 0;
   for (const PlayedClip& clip : clips) {
     const RigGround ground = ground_of(session, clip);
-    const std::vector<Pose> poses =
-        rig.fit_all(clip.clip.times, clip.target_frames, [&](size_t f) { return session.standing(clip, f); }, &ground);
+    const std::vector<Pose> poses = rig.fit_all(
+        clip.clip.times, clip.target_frames, [&](size_t f) { return session.standing(clip, f); }, &ground);
     for (size_t f = 0; f < poses.size(); ++f, ++frames)
-      measure(posed_positions(target, mesh, poses[f]), clip.target_frames[f], box, sum, figures);
+      measure(posed_positions(target, mesh, poses[f]), clip.target_frames[f], mesh.loose, box, sum, figures);
     insert_clip(out, done++, rig.clip(clip.clip.name, clip.clip.times, poses));
   }
   figures.rms = frames > 0 ? std::sqrt(sum / static_cast<double>(frames)) : 0;
@@ -310,8 +312,8 @@ Model morph_model(const Model& target, const FlatMesh& mesh, const std::vector<P
   double sum = 0;
   for (size_t c = 0; c < clips.size(); ++c) {
     for (size_t f = 0; f < clips[c].target_frames.size(); ++f)
-      measure(posed_positions(out, again, out.animations[c], clips[c].clip.times[f]), clips[c].target_frames[f], box,
-              sum, figures);
+      measure(posed_positions(out, again, out.animations[c], clips[c].clip.times[f]), clips[c].target_frames[f],
+              again.loose, box, sum, figures);
   }
   figures.rms = std::sqrt(sum / static_cast<double>(std::max<size_t>(n, 1)));
   return out;

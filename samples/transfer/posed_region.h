@@ -29,6 +29,18 @@ inline glm::dvec3 centre_of(const Region& region, const std::vector<double>& xyz
   return sum / static_cast<double>(region.vertices.size());
 }
 
+// The mean of all vertices that are not loose.
+inline glm::dvec3 middle_of(const std::vector<double>& xyz, const std::vector<uint8_t>& loose) {
+  glm::dvec3 sum(0);
+  size_t count = 0;
+  for (size_t v = 0; v < loose.size(); ++v) {
+    if (loose[v]) continue;
+    sum += glm::dvec3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]);
+    ++count;
+  }
+  return sum / static_cast<double>(std::max<size_t>(count, 1));
+}
+
 inline double lowest_of(const Region& region, const std::vector<double>& xyz, const glm::dvec3& up) {
   double low = std::numeric_limits<double>::infinity();
   for (const uint32_t v : region.vertices)
@@ -69,13 +81,11 @@ inline glm::dquat turn_of(const Region& region, const std::vector<double>& rest,
   return glm::dquat(q[0], q[1], q[2], q[3]);
 }
 
-// sinking: empty, or 1 for vertices that do not count.
-inline double lowest_of(const std::vector<double>& xyz, const glm::dvec3& up,
-                        const std::vector<uint8_t>& sinking = {}) {
+// left_out: 1 for vertices that do not count, such as loose ones.
+inline double lowest_of(const std::vector<double>& xyz, const glm::dvec3& up, const std::vector<uint8_t>& left_out) {
   double low = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < xyz.size(); i += 3)
-    if (sinking.empty() || !sinking[i / 3])
-      low = std::min(low, glm::dot(up, glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2])));
+    if (!left_out[i / 3]) low = std::min(low, glm::dot(up, glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2])));
   return low;
 }
 

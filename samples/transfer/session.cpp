@@ -32,15 +32,10 @@ void copy_axes(const Axes& axes, float (&rows)[9]) {
 
 }  // namespace
 
-glm::dvec3 take_travel(const std::vector<double>& times, const glm::dvec3& up,
+glm::dvec3 take_travel(const std::vector<double>& times, const glm::dvec3& up, const std::vector<uint8_t>& loose,
                        std::vector<std::vector<double>>& poses) {
   if (poses.size() < 2 || !(times.back() > times.front())) return glm::dvec3(0);
-  const auto mean = [](const std::vector<double>& xyz) {
-    glm::dvec3 sum(0);
-    for (size_t i = 0; i < xyz.size(); i += 3) sum += glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2]);
-    return sum / static_cast<double>(std::max<size_t>(xyz.size() / 3, 1));
-  };
-  glm::dvec3 travel = mean(poses.back()) - mean(poses.front());
+  glm::dvec3 travel = middle_of(poses.back(), loose) - middle_of(poses.front(), loose);
   travel -= glm::dot(travel, up) * up;
   for (size_t f = 0; f < poses.size(); ++f) {
     const glm::dvec3 part = (times[f] - times.front()) / (times.back() - times.front()) * travel;
@@ -166,6 +161,7 @@ void Session::prepare() {
   scale_ = info.scale;
   sinking_.resize(target_flat_.vertex_count());
   check(hf_transfer_get_sinking(transfer_, sinking_.data()), "the parts that sink");
+  for (size_t v = 0; v < sinking_.size(); ++v) sinking_[v] |= target_flat_.loose[v];
 }
 
 void Session::apply(const std::vector<double>& posed, std::vector<double>& out) {
@@ -200,7 +196,8 @@ std::vector<PairEntry> Session::found_contacts(const std::vector<std::vector<dou
   const std::vector<double> source_rest = double_positions(source_flat_.positions),
                             target_rest = double_positions(target_flat_.positions);
   const glm::dvec3 &up = file_.source_axes.up, &target_up = file_.target_axes.up;
-  const double ground = lowest_of(source_rest, up), target_ground = lowest_of(target_rest, target_up);
+  const double ground = lowest_of(source_rest, up, source_flat_.loose),
+               target_ground = lowest_of(target_rest, target_up, target_flat_.loose);
   const bool has_feet = std::any_of(live_.begin(), live_.end(), [](const Live& live) { return live.entry.foot; });
   std::vector<PairEntry> out;
   for (const Live& live : live_) {
@@ -248,7 +245,7 @@ std::vector<PairEntry> Session::named_contacts(const std::vector<std::string>& n
     PairEntry entry = found->entry;
     // what stands at rest is a foot
     const double rest = lowest_of(found->source, double_positions(source_flat_.positions), file_.source_axes.up) -
-                        lowest_of(double_positions(source_flat_.positions), file_.source_axes.up);
+                        lowest_of(double_positions(source_flat_.positions), file_.source_axes.up, source_flat_.loose);
     (rest < 0.02 * source_finder_.diagonal() ? entry.foot : entry.contact) = true;
     out.push_back(entry);
   }
@@ -284,7 +281,7 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
   if (in_place_) {
     const glm::dmat3 source(file_.source_axes.right, file_.source_axes.up, file_.source_axes.forward),
         target(file_.target_axes.right, file_.target_axes.up, file_.target_axes.forward);
-    const glm::dvec3 travel = take_travel(times, file_.source_axes.up, poses);
+    const glm::dvec3 travel = take_travel(times, file_.source_axes.up, source_flat_.loose, poses);
     out.travel = file_.dials.stride * scale_ * (target * glm::transpose(source) * travel);
   }
   const uint32_t joints = stretches() ? 0 : cluster_count();
@@ -321,16 +318,13 @@ std::vector<LimbMotion> Session::limbs_of(const PlayedClip& played) const {
   const glm::dmat3 source_axes(file_.source_axes.right, file_.source_axes.up, file_.source_axes.forward),
       target_axes(file_.target_axes.right, file_.target_axes.up, file_.target_axes.forward);
   const glm::dmat3 to_target = target_axes * glm::transpose(source_axes);
-  const auto centre = [](const std::vector<double>& xyz) {
-    glm::dvec3 sum(0);
-    for (size_t i = 0; i < xyz.size(); i += 3) sum += glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2]);
-    return sum / static_cast<double>(std::max<size_t>(xyz.size() / 3, 1));
-  };
   std::vector<LimbMotion> out;
   const size_t frames = played.source_frames.size();
   std::vector<glm::dvec3> source_body, target_body;
-  for (size_t f = 0; f < frames; ++f)
-    source_body.push_back(centre(played.source_frames[f])), target_body.push_back(centre(played.target_frames[f]));
+  for (size_t f = 0; f < frames; ++f) {
+    source_body.push_back(middle_of(played.source_frames[f], source_flat_.loose));
+    target_body.push_back(middle_of(played.target_frames[f], target_flat_.loose));
+  }
   for (const Live& live : live_) {
     if (live.entry.trunk || frames == 0) continue;
     std::vector<glm::dvec3> from, to;

@@ -59,9 +59,10 @@ struct LimbMotion {
 };
 
 // Takes the straight travel along the ground out of posed copies of a surface, x y z of every vertex: the mean of the
-// vertices ends over the place where it began. Sway and steps stay. Returns the travel. up: a unit vector; times: one
-// for each pose.
-glm::dvec3 take_travel(const std::vector<double>& times, const glm::dvec3& up, std::vector<std::vector<double>>& poses);
+// vertices that are not loose ends over the place where it began. Sway and steps stay. Returns the travel. up: a unit
+// vector; times: one for each pose.
+glm::dvec3 take_travel(const std::vector<double>& times, const glm::dvec3& up, const std::vector<uint8_t>& loose,
+                       std::vector<std::vector<double>>& poses);
 
 class Session {
  public:
@@ -108,7 +109,7 @@ class Session {
   std::vector<PairReport> pairs();
   std::vector<std::string> warnings();
   double scale() const { return scale_; }
-  // By flat vertex of the target: 1 if it may sink into the ground.
+  // By flat vertex of the target: 1 if it may sink into the ground, as loose ones may.
   const std::vector<uint8_t>& sinking() const { return sinking_; }
   uint32_t cluster_count() const { return info().cluster_count; }
   bool stretches() const { return file_.settings.stretch; }  // no skin, no ground, no dials

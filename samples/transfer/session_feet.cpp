@@ -54,7 +54,7 @@ FootReport Session::feet_of(const PlayedClip& played) const {
       // along the ground, from where the foot began to stand: what would be seen as sliding
       const glm::dvec3 along = off - glm::dot(off, file_.target_axes.up) * file_.target_axes.up;
       feet.path_mean += miss, feet.path_max = std::max(feet.path_max, miss), ++count;
-      const double ground = lowest_of(source_rest, file_.source_axes.up);
+      const double ground = lowest_of(source_rest, file_.source_axes.up, source_flat_.loose);
       const bool is_low =
           scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < foot_stands * box;
       const bool stands = is_low && even(f) &&
@@ -85,18 +85,19 @@ FootReport Session::feet_of(const PlayedClip& played) const {
 }
 
 std::vector<double> Session::grounds(const PlayedClip& played) const {
-  const double source_ground = lowest_of(double_positions(source_flat_.positions), file_.source_axes.up),
-               ground = lowest_of(double_positions(target_flat_.positions), file_.target_axes.up);
+  const std::vector<uint8_t>& loose = source_flat_.loose;
+  const double source_ground = lowest_of(double_positions(source_flat_.positions), file_.source_axes.up, loose),
+               ground = lowest_of(double_positions(target_flat_.positions), file_.target_axes.up, target_flat_.loose);
   std::vector<double> out;
   for (const std::vector<double>& posed : played.source_frames)
-    out.push_back(ground + scale_ * std::min(0.0, lowest_of(posed, file_.source_axes.up) - source_ground));
+    out.push_back(ground + scale_ * std::min(0.0, lowest_of(posed, file_.source_axes.up, loose) - source_ground));
   return out;
 }
 
 std::vector<double> Session::standing(const PlayedClip& played, size_t frame) const {
   const double box = target_mesh().bounding_box_diagonal;
   const glm::dvec3& up = file_.source_axes.up;
-  const double ground = lowest_of(double_positions(source_flat_.positions), up);
+  const double ground = lowest_of(double_positions(source_flat_.positions), up, source_flat_.loose);
   std::vector<double> out(target_flat_.positions.size(), 0.0);
   for (const Live& live : live_) {
     if (!live.entry.foot) continue;

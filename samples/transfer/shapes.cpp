@@ -47,10 +47,11 @@ std::vector<std::string> shape_names(const Model& model, const FlatMesh& flat) {
   return out;
 }
 
-double largest_move(const std::vector<double>& rest, const std::vector<double>& posed) {
+double largest_move(const FlatMesh& mesh, const std::vector<double>& rest, const std::vector<double>& posed) {
   double out = 0;
   for (size_t i = 0; i < rest.size(); i += 3)
-    out = std::max(out, std::hypot(posed[i] - rest[i], posed[i + 1] - rest[i + 1], posed[i + 2] - rest[i + 2]));
+    if (!mesh.loose[i / 3])
+      out = std::max(out, std::hypot(posed[i] - rest[i], posed[i + 1] - rest[i + 1], posed[i + 2] - rest[i + 2]));
   return out;
 }
 
@@ -166,8 +167,9 @@ CarriedShapes carry_shapes(Session& session, const Model& source, const Model& t
                             target_rest = double_positions(to.positions);
   for (size_t s = 0; s < names.size(); ++s)
     out.shapes.push_back(
-        {names[s], largest_move(source_rest, out.frames.source_frames[s]) / session.source_mesh().bounding_box_diagonal,
-         largest_move(target_rest, out.frames.target_frames[s]) / session.target_mesh().bounding_box_diagonal});
+        {names[s],
+         largest_move(from, source_rest, out.frames.source_frames[s]) / session.source_mesh().bounding_box_diagonal,
+         largest_move(to, target_rest, out.frames.target_frames[s]) / session.target_mesh().bounding_box_diagonal});
 
   out.model = target;
   const std::vector<size_t> own = add_room(out.model, to, names);

@@ -42,6 +42,7 @@ ReplayReport measure_replay(const Model& written, const std::vector<PlayedClip>&
       const std::vector<glm::dvec3> keys = posed_positions(written, mesh, animation, clip.clip.times[f]);
       const std::vector<double>& expected = clip.target_frames[f];
       for (size_t v = 0; v < keys.size(); ++v) {
+        if (mesh.loose[v]) continue;
         out.key_max = std::max(
             out.key_max,
             glm::distance(keys[v], glm::dvec3(expected[3 * v], expected[3 * v + 1], expected[3 * v + 2])) / box);
@@ -51,10 +52,11 @@ ReplayReport measure_replay(const Model& written, const std::vector<PlayedClip>&
       if (f + 2 >= clip.clip.times.size()) continue;
       const std::vector<double>&next = clip.target_frames[f + 1], &after = clip.target_frames[f + 2];
       for (size_t i = 0; i < expected.size(); ++i) {
+        if (mesh.loose[i / 3]) continue;
         const double d = (next[i] - 0.5 * (expected[i] + after[i])) / 4 / box;
         sum += d * d;
       }
-      count += keys.size();
+      count += static_cast<size_t>(std::count(mesh.loose.begin(), mesh.loose.end(), 0));
     }
   }
   if (count > 0) out.half_rms = std::sqrt(sum / static_cast<double>(count));

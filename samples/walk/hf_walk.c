@@ -50,9 +50,10 @@ static Body body_of(const char* file) {
   good(hf_gltf_model_get_surface(body.model, &shape));
 
   double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300}, sum = 0;
-  for (size_t i = 0; i < 3 * vertices; ++i) {
-    if (body.rest[i] < low[i % 3]) low[i % 3] = body.rest[i];
-    if (body.rest[i] > high[i % 3]) high[i % 3] = body.rest[i];
+  for (size_t i = 0; i < 9 * (size_t)body.info.triangle_count; ++i) { /* a vertex without a triangle does not count */
+    const double x = body.rest[3 * (size_t)shape.triangles[i / 3] + i % 3];
+    if (x < low[i % 3]) low[i % 3] = x;
+    if (x > high[i % 3]) high[i % 3] = x;
   }
   for (int c = 0; c < 3; ++c) sum += (high[c] - low[c]) * (high[c] - low[c]);
   body.diagonal = sqrt(sum);

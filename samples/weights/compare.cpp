@@ -32,10 +32,8 @@ void append_stretch(const Rig& rig, const std::vector<glm::dvec3>& posed, size_t
 }
 
 // The diagonal of the box of a pose: the unit of distances. Joints may carry another scale than the bind space.
-double diagonal_of(const std::vector<glm::dvec3>& points) {
-  glm::dvec3 low = points[0], high = low;
-  for (const glm::dvec3& p : points) low = glm::min(low, p), high = glm::max(high, p);
-  return glm::length(high - low);
+double diagonal_of(const Rig& rig, const std::vector<glm::dvec3>& points) {
+  return SurfaceBox(points, rig.loose).diagonal();
 }
 
 // A colour per joint, spread over the hues; neighbours in number differ most.
@@ -88,18 +86,20 @@ Comparison compare(const Model& model, const Rig& rig, const std::vector<Pose>& 
   double sum = 0, worst_mean = -1;
   out.of_vertex.assign(rig.positions.size(), 0.0);
   const size_t stride = 1 + rig.triangles.size() * poses.size() / most_edges;
+  const auto count = static_cast<double>(std::count(rig.loose.begin(), rig.loose.end(), 0));
   for (size_t f = 0; f < poses.size(); ++f) {
     const std::vector<glm::dmat4> globals = global_matrices(model, poses[f]);
     const std::vector<glm::dvec3> given = pose_rig(rig, globals, rig.given), own = pose_rig(rig, globals, weights);
-    const double unit = 100 / diagonal_of(pose_rig(rig, global_matrices(model, rest_pose(model)), rig.given));
+    const double unit = 100 / diagonal_of(rig, pose_rig(rig, global_matrices(model, rest_pose(model)), rig.given));
     double mean = 0;
     std::vector<double> here(own.size());
     for (size_t v = 0; v < own.size(); ++v) {
+      if (rig.loose[v]) continue;
       here[v] = unit * glm::length(own[v] - given[v]);
       out.of_vertex[v] += here[v] / static_cast<double>(poses.size());
-      mean += here[v] / static_cast<double>(own.size()), out.worst = std::max(out.worst, here[v]);
+      mean += here[v] / count, out.worst = std::max(out.worst, here[v]);
+      all.push_back(here[v]);
     }
-    all.insert(all.end(), here.begin(), here.end());
     sum += mean;
     if (mean > worst_mean) worst_mean = mean, out.worst_pose = f, out.of_worst_pose = here;
     append_stretch(rig, own, stride, stretch), append_stretch(rig, given, stride, given_stretch);

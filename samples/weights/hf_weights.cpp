@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 #include "common/program.h"
@@ -225,12 +226,16 @@ nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weigh
   return out;
 }
 
-// The model, with the skeleton of another if it has none. given: whether the file has weights.
-Model read_model(const Command& options, Rig& rig, bool& given) {
+// The model, with the skeleton of another if it has none. given: whether the file has weights. rigs: one a skeleton.
+Model read_model(const Command& options, std::vector<Rig>& rigs, bool& given) {
   Model model = read_gltf(options.mesh);
   const std::filesystem::path& other = options.skeleton.empty() ? options.carry : options.skeleton;
   if (other.empty() || (options.skeleton.empty() && !model.skins.empty())) {
-    rig = read_rig(model);
+    for (const std::vector<int>& skins : skeletons_of(model)) {
+      rigs.push_back(read_rig(model, skins));
+      if (rigs.back().positions.empty()) rigs.pop_back();
+    }
+    if (rigs.empty()) throw std::runtime_error(model.name + ": no triangle has joints");
     return model;
   }
   given = false;
@@ -244,16 +249,22 @@ Model read_model(const Command& options, Rig& rig, bool& given) {
   // Weights are carried between models in one place, so the joints stay where they are.
   if (options.skeleton.empty()) landmarks = {};
   TakenSkeleton taken = take_skeleton(source, model, landmarks, options.skeleton.empty());
-  rig = read_rig(taken.model);
+  rigs.push_back(read_rig(taken.model));
+  Rig& rig = rigs.back();
   for (size_t j = 0; j < rig.names.size(); ++j)
     rig.bones.deforms[j] = std::count(taken.deforming.begin(), taken.deforming.end(), rig.names[j]) > 0;
   return std::move(taken.model);
 }
 
-void run(const Command& options) {
-  Rig rig;
-  bool given = true;
-  Model model = read_model(options, rig, given);
+// What is made of one skeleton and the parts that it moves.
+struct Made {
+  RigWeights weights;
+  nlohmann::json report;
+};
+
+// name: of the rig, in what is printed. sheet: the picture, or empty.
+Made make_weights(const Command& options, const Model& model, Rig& rig, bool given, const std::string& name,
+                  const std::filesystem::path& sheet) {
   if (options.all) std::fill_n(rig.bones.deforms.begin(), static_cast<std::ptrdiff_t>(rig.joint_count()), 1);
   if (!options.bones.empty()) read_bones(options.bones, rig);
   const auto begin = std::chrono::steady_clock::now();
@@ -271,11 +282,11 @@ void run(const Command& options) {
   CarriedWeights carried;
   if (!options.carry.empty()) carried = carry_from(read_gltf(options.carry), model, rig, options.weights);
   if (options.mirror >= 0) carried = mirror_given(surface, rig, options.mirror, options.weights);
-  const RigWeights own = carried.line.empty() ? weights_of(weights) : carried.weights;
+  Made made;
+  made.weights = carried.line.empty() ? weights_of(weights) : carried.weights;
   if (options.helpers) print_helpers(rig, weights);
-  const Comparison found = compare(model, rig, poses, own);
+  const Comparison found = compare(model, rig, poses, made.weights);
   const hf_weights_info info = weights.info();
-  const std::string name = options.mesh.stem().string();
   if (options.table) {
     std::printf("%-26s %6u %4zu %7.3f %7.3f %6.3f %4u %5u %5u %7.1f %7.1f\n", name.c_str(), info.vertex_count,
                 rig.joint_count(), found.mean, found.high, found.stretch, found.bare,
@@ -301,13 +312,12 @@ void run(const Command& options) {
     std::printf("time         surface %.1f ms, weights %.1f ms\n", surface_ms, weights_ms);
   }
   if (!options.report.empty()) {
-    nlohmann::json report = report_of(options, rig, weights, found, surface_ms, weights_ms);
-    if (!options.carry.empty()) report["carry"] = carried.report;
-    if (options.mirror >= 0) report["mirror"] = carried.report;
-    if (!given) report["distance"] = nullptr, report["stretch"] = nullptr;
-    write_json(options.report, report);
+    made.report = report_of(options, rig, weights, found, surface_ms, weights_ms);
+    if (!options.carry.empty()) made.report["carry"] = carried.report;
+    if (options.mirror >= 0) made.report["mirror"] = carried.report;
+    if (!given) made.report["distance"] = nullptr, made.report["stretch"] = nullptr;
   }
-  if (!options.sheet.empty()) {
+  if (!sheet.empty()) {
     char title[200];
     if (given) {
       std::snprintf(title, sizeof title, "%s: mean %.2f %%, 95 %% below %.2f %% of the box", name.c_str(), found.mean,
@@ -315,12 +325,35 @@ void run(const Command& options) {
     } else {
       std::snprintf(title, sizeof title, "%s: a skeleton taken from another model", name.c_str());
     }
-    write_weight_sheet(options.sheet.string(), model, rig, poses, own, found, title);
+    write_weight_sheet(sheet.string(), model, rig, poses, made.weights, found, title);
   }
-  if (!options.out.empty()) {
-    write_weights(model, rig, own);
-    write_gltf(model, options.out);
+  return made;
+}
+
+// Each skeleton is computed by itself: what one moves hides no bone of another and follows none.
+void run(const Command& options) {
+  std::vector<Rig> rigs;
+  bool given = true;
+  Model model = read_model(options, rigs, given);
+  std::vector<Made> made;
+  for (size_t r = 0; r < rigs.size(); ++r) {
+    const std::string number = "-" + std::to_string(r + 1), stem = options.mesh.stem().string();
+    std::filesystem::path sheet = options.sheet;
+    if (r > 0 && !sheet.empty()) sheet.replace_filename(sheet.stem().string() + number + sheet.extension().string());
+    made.push_back(make_weights(options, model, rigs[r], given, rigs.size() > 1 ? stem + number : stem, sheet));
   }
+  if (!options.report.empty()) {
+    nlohmann::json report = made.front().report;
+    if (made.size() > 1) {
+      report = {{"model", report["model"]}, {"skeletons", nlohmann::json::array()}};
+      for (const Made& one : made) report["skeletons"].push_back(one.report);
+    }
+    write_json(options.report, report);
+  }
+  if (options.out.empty()) return;
+  std::set<int> written;
+  for (size_t r = 0; r < rigs.size(); ++r) write_weights(model, rigs[r], made[r].weights, written);
+  write_gltf(model, options.out);
 }
 
 }  // namespace

@@ -4,10 +4,22 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
 namespace samples {
 namespace {
+
+// The skins that meshes use, in the order of their nodes.
+std::vector<int> used_skins(const Model& model) {
+  std::vector<int> out;
+  for (const Node& node : model.nodes) {
+    if (node.mesh >= 0 && node.skin >= 0 && std::find(out.begin(), out.end(), node.skin) == out.end())
+      out.push_back(node.skin);
+  }
+  if (out.empty()) throw std::runtime_error(model.name + ": the model has no skin");
+  return out;
+}
 
 // The joints of all skins, with their inverse bind matrices in the space of the first skin. to_first[s] takes the space
 // of skin s there.
@@ -47,6 +59,26 @@ void add_primitive(const Primitive& primitive, const Skin& skin, const glm::dmat
     }
   }
   for (const uint32_t v : primitive.indices) rig.triangles.push_back(first + v);
+}
+
+// The weights of a part, by joint of its skin.
+std::vector<Influences> influences_of(const Model& model, const Rig& rig, const RigPart& part,
+                                      const RigWeights& weights, size_t vertices) {
+  const std::vector<int>& joints = model.skins[static_cast<size_t>(part.skin)].joints;
+  std::vector<uint16_t> local(rig.joints.size(), 0);
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const auto there = std::find(rig.joints.begin(), rig.joints.end(), joints[j]);
+    local[static_cast<size_t>(there - rig.joints.begin())] = static_cast<uint16_t>(j);
+  }
+  std::vector<Influences> out(vertices);
+  for (size_t v = 0; v < vertices; ++v) {
+    const size_t row = (part.first_vertex + v) * weights.per_vertex;
+    for (size_t k = 0; k < weights.per_vertex; ++k) {
+      if (weights.weights[row + k] > 0)
+        out[v].joints[k] = local[weights.joints[row + k]], out[v].weights[k] = weights.weights[row + k];
+    }
+  }
+  return out;
 }
 
 // Whether a node says where a joint ends: it carries nothing, and its name says so. Blender writes arm_end below arm.
@@ -123,19 +155,51 @@ void point_at_ends(Rig& rig) {
 
 }  // namespace
 
-Rig read_rig(const Model& model) {
-  Rig rig;
-  std::vector<int> skins;
-  for (const Node& node : model.nodes) {
-    if (node.mesh >= 0 && node.skin >= 0 && std::find(skins.begin(), skins.end(), node.skin) == skins.end())
-      skins.push_back(node.skin);
+std::vector<std::vector<int>> skeletons_of(const Model& model) {
+  const std::vector<int> skins = used_skins(model);
+  std::vector<int> skin_of(model.nodes.size(), -1), skeleton(model.skins.size());
+  std::iota(skeleton.begin(), skeleton.end(), 0);
+  const auto unite = [&](int a, int b) {
+    const int from = skeleton[static_cast<size_t>(b)], to = skeleton[static_cast<size_t>(a)];
+    if (from != to) std::replace(skeleton.begin(), skeleton.end(), from, to);
+  };
+  for (const int s : skins) {
+    for (const int joint : model.skins[static_cast<size_t>(s)].joints) {
+      int& known = skin_of[static_cast<size_t>(joint)];
+      if (known < 0) known = s;
+      unite(known, s);
+    }
   }
-  if (skins.empty()) throw std::runtime_error(model.name + ": the model has no skin");
+  for (const int s : skins) {
+    for (const int joint : model.skins[static_cast<size_t>(s)].joints) {
+      int up = model.nodes[static_cast<size_t>(joint)].parent;
+      while (up >= 0 && skin_of[static_cast<size_t>(up)] < 0) up = model.nodes[static_cast<size_t>(up)].parent;
+      if (up >= 0) unite(skin_of[static_cast<size_t>(up)], s);
+    }
+  }
+  std::vector<std::vector<int>> out;
+  std::map<int, size_t> place;
+  for (const int s : skins) {
+    const auto at = place.emplace(skeleton[static_cast<size_t>(s)], out.size());
+    if (at.second) out.emplace_back();
+    out[at.first->second].push_back(s);
+  }
+  return out;
+}
+
+Rig read_rig(const Model& model) {
+  Rig rig = read_rig(model, used_skins(model));
+  if (rig.positions.empty()) throw std::runtime_error(model.name + ": no triangle has joints");
+  return rig;
+}
+
+Rig read_rig(const Model& model, const std::vector<int>& skins) {
+  Rig rig;
   std::map<int, uint32_t> number;
   const std::vector<glm::dmat4> to_first = collect_joints(model, skins, rig, number);
   for (size_t n = 0; n < model.nodes.size(); ++n) {
     const Node& node = model.nodes[n];
-    if (node.mesh < 0 || node.skin < 0) continue;
+    if (node.mesh < 0 || std::find(skins.begin(), skins.end(), node.skin) == skins.end()) continue;
     const MeshData& mesh = model.meshes[static_cast<size_t>(node.mesh)];
     for (size_t p = 0; p < mesh.primitives.size(); ++p) {
       const Primitive& primitive = mesh.primitives[p];
@@ -146,7 +210,6 @@ Rig read_rig(const Model& model) {
                     number, rig);
     }
   }
-  if (rig.positions.empty()) throw std::runtime_error(model.name + ": no triangle has joints");
   rig.bones.deforms.assign(rig.joints.size(), 0);
   for (size_t i = 0; i < rig.given.joints.size(); ++i) {
     if (rig.given.weights[i] > 0) rig.bones.deforms[rig.given.joints[i]] = 1;
@@ -161,9 +224,8 @@ Rig read_rig(const Model& model) {
   add_ends(model, number, rig);
   find_axes(rig);
   point_at_ends(rig);
-  glm::dvec3 low = rig.positions[0], high = low;
-  for (const glm::dvec3& p : rig.positions) low = glm::min(low, p), high = glm::max(high, p);
-  rig.diagonal = glm::length(high - low);
+  rig.loose = loose_vertices(rig.positions, rig.triangles);
+  rig.diagonal = SurfaceBox(rig.positions, rig.loose).diagonal();
   return rig;
 }
 
@@ -235,23 +297,25 @@ Pose bent_pose(const Model& model, const Rig& rig, const std::vector<std::string
   return pose;
 }
 
-void write_weights(Model& model, const Rig& rig, const RigWeights& weights) {
-  for (const RigPart& part : rig.parts) {
-    Primitive& primitive = model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
-    const std::vector<int>& joints = model.skins[static_cast<size_t>(part.skin)].joints;
-    std::vector<uint16_t> local(rig.joints.size(), 0);
-    for (size_t j = 0; j < joints.size(); ++j) {
-      const auto there = std::find(rig.joints.begin(), rig.joints.end(), joints[j]);
-      local[static_cast<size_t>(there - rig.joints.begin())] = static_cast<uint16_t>(j);
+void write_weights(Model& model, const Rig& rig, const RigWeights& weights, std::set<int>& written) {
+  for (size_t first = 0, last = 0; first < rig.parts.size(); first = last) {
+    while (last < rig.parts.size() && rig.parts[last].node == rig.parts[first].node) ++last;
+    int& mesh = model.nodes[static_cast<size_t>(rig.parts[first].node)].mesh;
+    MeshData own = model.meshes[static_cast<size_t>(mesh)];
+    bool same = true;
+    for (size_t p = first; p < last; ++p) {
+      std::vector<Influences>& influences = own.primitives[static_cast<size_t>(rig.parts[p].primitive)].influences;
+      std::vector<Influences> made = influences_of(model, rig, rig.parts[p], weights, influences.size());
+      same = same && std::equal(made.begin(), made.end(), influences.begin(), [](const auto& a, const auto& b) {
+               return a.joints == b.joints && a.weights == b.weights;
+             });
+      influences = std::move(made);
     }
-    for (size_t v = 0; v < primitive.positions.size(); ++v) {
-      Influences& out = primitive.influences[v];
-      out = Influences{};
-      const size_t row = (part.first_vertex + v) * weights.per_vertex;
-      for (size_t k = 0; k < weights.per_vertex; ++k) {
-        if (weights.weights[row + k] > 0)
-          out.joints[k] = local[weights.joints[row + k]], out.weights[k] = weights.weights[row + k];
-      }
+    if (written.insert(mesh).second) {
+      model.meshes[static_cast<size_t>(mesh)] = std::move(own);
+    } else if (!same) {
+      mesh = static_cast<int>(model.meshes.size());
+      written.insert(mesh), model.meshes.push_back(std::move(own));
     }
   }
 }

@@ -2,10 +2,12 @@
 #ifndef HF_SAMPLES_WEIGHTS_RIG_H
 #define HF_SAMPLES_WEIGHTS_RIG_H
 
+#include <set>
 #include <string>
 #include <vector>
 
 #include "gltf/animate.h"
+#include "gltf/flat_mesh.h"
 #include "hf/hf.hpp"
 
 namespace samples {
@@ -30,16 +32,22 @@ struct Rig {
   std::vector<RigPart> parts;
   std::vector<glm::dvec3> positions;  // bind space of the first skin
   std::vector<uint32_t> triangles;
-  std::vector<int> joints;  // nodes; the joints of all skins, each once, then the ends
-  size_t end_count = 0;     // nodes in no skin that say where their parents end, as exporters write tails
+  std::vector<uint8_t> loose;  // 1 for vertices that no triangle has
+  std::vector<int> joints;     // nodes; the joints of all skins, each once, then the ends
+  size_t end_count = 0;        // nodes in no skin that say where their parents end, as exporters write tails
   std::vector<std::string> names;
   std::vector<glm::dmat4> inverse_bind;  // from the bind space of the first skin
   hf::Bones bones;                       // heads and parents of the joints; a joint deforms if a vertex has it
   RigWeights given;                      // the weights of the file
-  double diagonal = 0;                   // of the box of positions
+  double diagonal = 0;                   // of the box of positions that are not loose
 };
 
-// Throws std::runtime_error if the model has no skin.
+// The skins that meshes use, by skeleton. Skins are of one skeleton if they share a joint, or if the next joint above
+// one of a skin's joints belongs to the other. Throws std::runtime_error if the model has no skin.
+std::vector<std::vector<int>> skeletons_of(const Model& model);
+// The rig of some skins; without vertices if no triangle has their joints.
+Rig read_rig(const Model& model, const std::vector<int>& skins);
+// The rig of all skins. Throws std::runtime_error if no triangle has their joints.
 Rig read_rig(const Model& model);
 
 // Moves the vertices: sum of w J B p, J the world matrices of the joints.
@@ -52,8 +60,9 @@ std::vector<Pose> clip_poses(const Model& model, const Rig& rig);
 // std::runtime_error naming what is wrong with a text.
 Pose bent_pose(const Model& model, const Rig& rig, const std::vector<std::string>& bends);
 
-// Puts weights into the primitives.
-void write_weights(Model& model, const Rig& rig, const RigWeights& weights);
+// Puts weights into the primitives. A mesh that another node has with other weights is copied. written: the meshes that
+// have new weights already, for a model of several skeletons.
+void write_weights(Model& model, const Rig& rig, const RigWeights& weights, std::set<int>& written);
 
 }  // namespace samples
 

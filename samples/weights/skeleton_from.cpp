@@ -12,13 +12,6 @@ namespace samples {
 using namespace hf_gltf;
 namespace {
 
-struct Box {
-  glm::dvec3 low, high;
-  explicit Box(const FlatMesh& mesh) : low(mesh.positions.at(0)), high(low) {
-    for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-  }
-};
-
 // The way of a point from one model to the other.
 class Fit {
  public:
@@ -45,7 +38,7 @@ class Fit {
     }
     return out;
   }
-  Box from_, to_;
+  SurfaceBox from_, to_;
   const std::vector<Landmark>& landmarks_;
 };
 

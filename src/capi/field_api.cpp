@@ -19,6 +19,17 @@ hf_solve_info unreached(const SolverObject& solver) {
   return unreached_by(*solver.field.core().geometry, [&](std::int32_t c) { return engine.site_count(c); });
 }
 
+// Writes a field of `width` numbers a vertex. Throws as Overflow.
+void write_checked(const Core& core, std::size_t width, const Rows& out, bool is_double, const double* field) {
+  Overflow overflow(is_double);
+  write_vertices(core, width, out, nullptr, [&](std::size_t v, double* values) {
+    std::copy_n(field + v * width, width, values);
+    const std::size_t given = given_vertex(core.mesh, static_cast<std::int32_t>(v));
+    for (std::size_t c = 0; c < width; ++c) overflow.look(given, values[c]);
+  });
+  overflow.check();
+}
+
 void solve(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride, hf_solve_info* out_info) {
   const auto solver = get<SolverObject>(handle, "solver");
   require(f32 ? static_cast<const void*>(f32) : f64, "out_values");
@@ -28,6 +39,7 @@ void solve(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride
   const std::size_t stride = stride_of(value_stride, m * (f64 ? sizeof(double) : sizeof(float)), "value_stride");
   FieldWriter writer(solver->field.core(), f64 ? static_cast<void*>(f64) : f32, f64 != nullptr, stride);
   solver->field.solve_into(writer);
+  writer.check();
   if (out_info) write_struct(out_info, unreached(*solver));
 }
 
@@ -44,8 +56,7 @@ void solve_vectors(hf_solver handle, float* f32, double* f64, std::uint32_t stri
   solver->field.solve(field.data());
   const Vector<Vec3> normals = vertex_normals(core.mesh, *solver->memory);
   project_on_tangent_planes(normals, field.data());
-  write_vertices(core, 3, out, nullptr,
-                 [&](std::size_t v, double* values) { std::copy_n(field.data() + v * 3, 3, values); });
+  write_checked(core, 3, out, f64 != nullptr, field.data());
   if (out_normals)
     write_vertices(core, 3, Rows(out_normals, 3 * sizeof(double)), nullptr,
                    [&](std::size_t v, double* values) { put(normals[v], values); });
@@ -64,8 +75,7 @@ void solve_preview(hf_solver handle, float* f32, double* f64, std::uint32_t valu
   const Rows out = rows_of(f32, f64, m, value_stride, "value_stride");
   Workspace field(core.workspaces, static_cast<std::size_t>(core.size()) * m);
   const PreviewInfo found = solver->field.solve_preview(corrections, field.data());
-  write_vertices(core, m, out, nullptr,
-                 [&](std::size_t v, double* values) { std::copy_n(field.data() + v * m, m, values); });
+  write_checked(core, m, out, f64 != nullptr, field.data());
   if (!out_info) return;
   hf_preview_info info{};
   info.exact = found.exact, info.correction_count = static_cast<std::uint32_t>(found.corrections);

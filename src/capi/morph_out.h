@@ -10,16 +10,17 @@ namespace hf_inner::capi {
 
 struct MorphOut : PointsOut {
   double weight;
+  bool is_double;  // positions_f64
 };
 
 inline MorphOut read_morph(const hf_morph_desc* given) {
   const hf_morph_desc desc = read_struct(given, "desc");
   const double weight = read_morph_weight(desc);
-  return {read_points_out(desc), weight};
+  return {read_points_out(desc), weight, desc.positions_f64 != nullptr};
 }
 
 // moved(given, i) returns the morphed position of the i-th vertex inside the region; `given` is its number in the mesh
-// as the caller passed it.
+// as the caller passed it. Throws as Overflow.
 template <class Moved>
 void write_morph(const RegionSurface& surface, const RegionState& state, const MorphOut& out, Moved&& moved) {
   const Core& core = *surface.core;
@@ -35,13 +36,17 @@ void write_morph(const RegionSurface& surface, const RegionState& state, const M
     for (const std::int32_t v : shape.rim) local.push_back(surface.scaled_position(v));
     normal_sums = local_normal_sums(state, local, *core.memory);
   }
+  Overflow overflow(out.is_double);
   for_each_given(core, 0, surface.positions.size(), [&](std::size_t v, std::int32_t inner) {
     double row[3];
     const std::int32_t local = inner == Mesh::none ? -1 : shape.local[static_cast<std::size_t>(inner)];
     const std::size_t i = static_cast<std::size_t>(local);
     if (out.positions) {
       put(local >= 0 && i < shape.inside.size() ? moved(v, i) : surface.positions[v], row);
-      for (std::size_t c = 0; c < 3; ++c) out.positions.set(v, c, row[c]);
+      for (std::size_t c = 0; c < 3; ++c) {
+        overflow.look(v, row[c]);
+        out.positions.set(v, c, row[c]);
+      }
     }
     if (out.normals) {
       put(inner == Mesh::none
@@ -51,6 +56,7 @@ void write_morph(const RegionSurface& surface, const RegionState& state, const M
       for (std::size_t c = 0; c < 3; ++c) out.normals.set(v, c, row[c]);
     }
   });
+  overflow.check();
 }
 
 }  // namespace hf_inner::capi

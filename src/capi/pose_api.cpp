@@ -86,6 +86,7 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   read_points_out(desc);
   const Changing changing(*pose);
   const Core& core = pose->pose->core();
+  if (desc.positions) require_float_positions(core.mesh);
   const VertexRange range = read_range(desc, core.mesh.report.vertex_count);
   request.surface = range.whole || request.normals || request.refine > 0 || pose->pose->has_layers();
   // The library's and the caller's vertices have the same order.

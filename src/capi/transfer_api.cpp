@@ -150,6 +150,7 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
     PairHold holds[HF_PAIR_LIMIT];
     const Span<const PairHold> held = read_holds(frame, holds);
     const Changing changing(*object);
+    if (frame.target_positions) require_float_positions(object->transfer.target().mesh);
     const Mesh& source = object->transfer.source().mesh;
     for (std::size_t v = 0; v < source.given_of_inner.size(); ++v) {
       const std::size_t row = static_cast<std::size_t>(source.given_of_inner[v]);

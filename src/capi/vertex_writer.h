@@ -1,9 +1,13 @@
 // Writes the values of welded vertices to the vertices of the caller. Every welded copy gets the row of its vertex.
 #pragma once
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "base/compiler.h"
+#include "base/error.h"
 #include "base/span.h"
 #include "engine/site_solver.h"
 #include "mesh/places.h"
@@ -31,6 +35,53 @@ void for_each_given(const Shape& core, std::size_t first, std::size_t count, Vis
 }
 
 inline void put(Vec3 p, double* values) noexcept { values[0] = p.x, values[1] = p.y, values[2] = p.z; }
+
+// Finds the first vertex, as given, with a number that is too large for the caller's array. All threads look at once.
+class Overflow {
+ public:
+  explicit Overflow(bool is_double) noexcept
+      : most_(is_double ? std::numeric_limits<double>::max() : static_cast<double>(std::numeric_limits<float>::max())) {
+  }
+  void look(std::size_t v, double value) noexcept {
+    if (!(std::fabs(value) > most_)) return;
+    std::size_t known = first_.load(std::memory_order_relaxed);
+    while (v < known && !first_.compare_exchange_weak(known, v, std::memory_order_relaxed)) continue;
+  }
+  // Throws HF_ERROR_TOO_LARGE (index = vertex).
+  void check() const {
+    const std::size_t v = first_.load(std::memory_order_relaxed);
+    if (v == none) return;
+    const bool is_float = most_ < std::numeric_limits<double>::max();
+    fail(HF_ERROR_TOO_LARGE, static_cast<std::uint32_t>(v), "the result at vertex %zu is beyond %g: %s", v, most_,
+         is_float ? "take doubles, or scale the input down" : "scale the input down");
+  }
+
+ private:
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  const double most_;
+  std::atomic<std::size_t> first_{none};
+};
+
+// A pose takes the surface up to farthest_pose box diagonals away, and what bends between its handles may go some times
+// as far: a larger factor would refuse float positions of meshes that fit.
+constexpr double float_room = 1e3 * farthest_pose;
+// Refuses float positions of poses of a mesh that may leave the range of floats. It is asked before the frame, since a
+// refused call changes no pose. Throws HF_ERROR_TOO_LARGE (index = an isolated vertex, or none).
+inline void require_float_positions(const Mesh& mesh) {
+  constexpr double most = static_cast<double>(std::numeric_limits<float>::max());
+  const Vec3 c = mesh.centre;
+  const double reach = std::max({std::fabs(c.x), std::fabs(c.y), std::fabs(c.z)}) + float_room * mesh.scale;
+  if (!(reach <= most))
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "the mesh is %g wide; floats may not hold poses of it: take positions as doubles, or scale the mesh down",
+         mesh.scale);
+  Overflow overflow(false);
+  for (const Mesh::Isolated& entry : mesh.isolated) {
+    for (const double x : {entry.position.x, entry.position.y, entry.position.z})
+      overflow.look(static_cast<std::size_t>(entry.given), x);
+  }
+  overflow.check();
+}
 
 // Fills the row of an isolated vertex. A null function pointer stands for a row of zeros.
 using IsolatedRow = void (*)(const Mesh::Isolated& entry, double* values);
@@ -94,7 +145,7 @@ void write_points(const Core& core, bool keeps_order, Span<const Point> points, 
   }
 }
 
-// Receives the field of a solver from the engine and writes it to the caller's array.
+// Receives the field of a solver from the engine and writes it to the caller's array. Call check() at the end.
 class FieldWriter final : public FieldSink {
  public:
   FieldWriter(const Core& core, void* out, bool is_double, std::size_t stride) noexcept
@@ -103,10 +154,12 @@ class FieldWriter final : public FieldSink {
     if (is_double_) return write<double>(first, count, z, row);
     write<float>(first, count, z, row);
   }
+  // Throws as Overflow.
+  void check() const { overflow_.check(); }
 
  private:
   template <class T>
-  void write(std::int32_t first, std::int32_t count, const double* z, const std::int32_t* row) const {
+  void write(std::int32_t first, std::int32_t count, const double* z, const std::int32_t* row) {
     switch (count) {
       case 1:
         return write_rows<T, 1>(first, 1, z, row);
@@ -122,7 +175,7 @@ class FieldWriter final : public FieldSink {
   // Copies the field z of the engine to the caller's rows. M is the number of channels if the compiler knows it, else
   // 0. The rows of z are read in random order, so the loop prefetches rows some vertices ahead.
   template <class T, std::size_t M>
-  void write_rows(std::int32_t first, std::size_t count, const double* z, const std::int32_t* row) const {
+  void write_rows(std::int32_t first, std::size_t count, const double* z, const std::int32_t* row) {
     const std::size_t vertices = core_.mesh.report.vertex_count, m = M > 0 ? M : count;
     const std::int32_t* inner = core_.mesh.inner_of_given.data();
     const auto source_of = [&](std::int32_t i) { return z + static_cast<std::size_t>(row ? row[i] : i) * m; };
@@ -138,6 +191,9 @@ class FieldWriter final : public FieldSink {
           continue;
         }
         const double* source = source_of(inner[v]);
+        if (sizeof(T) == sizeof(float)) {  // doubles hold every field
+          for (std::size_t c = 0; c < m; ++c) overflow_.look(v, source[c]);
+        }
         if (M > 0) {
           for (std::size_t c = 0; c < M; ++c) values[c] = static_cast<T>(source[c]);
           std::memcpy(target, values, M * sizeof(T));
@@ -155,6 +211,7 @@ class FieldWriter final : public FieldSink {
   char* out_;
   bool is_double_;
   std::size_t stride_;
+  Overflow overflow_{false};
 };
 
 }  // namespace hf_inner::capi

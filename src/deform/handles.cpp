@@ -5,8 +5,10 @@
 #include <limits>
 
 #include "base/error.h"
+#include "deform/constants.h"
 #include "deform/rest.h"
 #include "engine/rim.h"
+#include "mesh/places.h"
 
 namespace hf_inner {
 namespace {
@@ -129,17 +131,33 @@ Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Me
   return region;
 }
 
+// How far a point is from the nearest neighbour of a vertex.
+double neighbour_distance(const Core& core, std::int32_t v, Vec3 point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t k = core.topology.neighbour_start[v]; k < core.topology.neighbour_start[v + 1]; ++k)
+    least = std::min(least, norm(core.mesh.positions[core.topology.neighbour[k]] - point));
+  return least;
+}
+
+bool is_spike(Span<const std::int32_t> region, double radius) noexcept {
+  return region.size() == 1 && radius < least_radius;
+}
+
 void regions_near(const Core& core, Span<const double> points, Span<const double> radii, Vector<std::uint32_t>& start,
                   Vector<std::int32_t>& vertices) {
   start.push_back(0);
   for (std::uint32_t r = 0; r < radii.size(); ++r) {
-    const double* p = points.data() + 3 * std::size_t{r};
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-      fail(HF_ERROR_NON_FINITE, r, "point %u is not finite", r);
-    if (!std::isfinite(radii[r])) fail(HF_ERROR_NON_FINITE, r, "radius %u is not finite", r);
-    if (radii[r] < 0) fail(HF_ERROR_INVALID_ARGUMENT, r, "radius %u is %g; it must not be negative", r, radii[r]);
-    const Vector<std::int32_t> region =
-        region_near(core, core.mesh.to_inner({p[0], p[1], p[2]}), radii[r] / core.mesh.scale, *core.memory);
+    const Vec3 place = read_place(core.mesh, points.data() + 3 * std::size_t{r}, "point", r);
+    if (!std::isfinite(radii[r])) fail(HF_ERROR_NON_FINITE, r, "the radius of point %u is not finite", r);
+    if (radii[r] < 0)
+      fail(HF_ERROR_INVALID_ARGUMENT, r, "the radius of point %u is %g; it must not be negative", r, radii[r]);
+    const double radius = radii[r] / core.mesh.scale;
+    const Vector<std::int32_t> region = region_near(core, place, radius, *core.memory);
+    if (is_spike(region, radius))
+      fail(HF_ERROR_INVALID_ARGUMENT, r,
+           "the radius of point %u is %g and holds one vertex, which pulls a spike. Make it larger (the next vertex is "
+           "%.3g away), or name the vertex in region_vertices",
+           r, radii[r], core.mesh.scale * neighbour_distance(core, region.front(), place));
     vertices.insert(vertices.end(), region.begin(), region.end());
     start.push_back(static_cast<std::uint32_t>(vertices.size()));
   }

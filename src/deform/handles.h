@@ -47,9 +47,12 @@ std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int3
 // that are edge-connected to that vertex inside the radius.
 Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Memory& memory);
 
+// Whether a radius is so small that its region is one vertex, which pulls a spike. One vertex of a coarse mesh is none.
+bool is_spike(Span<const std::int32_t> region, double radius) noexcept;
+
 // Does the same as region_near for a list of points (xyz) and radii, in the unit of the mesh as given. Region r is
-// vertices[start[r] .. start[r + 1]). Throws HF_ERROR_NON_FINITE, or HF_ERROR_INVALID_ARGUMENT for a negative radius;
-// index: r.
+// vertices[start[r] .. start[r + 1]). Throws as read_place (mesh/places.h) does, HF_ERROR_NON_FINITE, or
+// HF_ERROR_INVALID_ARGUMENT for a radius that is negative, or makes a spike; index: r.
 void regions_near(const Core& core, Span<const double> points, Span<const double> radii, Vector<std::uint32_t>& start,
                   Vector<std::int32_t>& vertices);
 

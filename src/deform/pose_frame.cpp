@@ -9,22 +9,44 @@
 
 namespace hf_inner {
 
-HandleTransform rigid_transform(const double* m, Vec3 centroid, std::uint32_t index) {
-  for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(m[i])) fail(HF_ERROR_NON_FINITE, index, "matrix %u holds a number that is not finite", index);
+namespace {
+
+// How far a matrix, column by column, is from the rigid motion of a rotation.
+double off_rigid(const double* m, const Quaternion& rotation) {
+  const Mat3 exact = rotation.toRotationMatrix();
+  double off = std::fabs(m[3]) + std::fabs(m[7]) + std::fabs(m[11]) + std::fabs(m[15] - 1);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) off = std::max(off, std::fabs(m[4 * j + i] - exact(i, j)));
   }
+  return off;
+}
+
+Quaternion rotation_of(const double* m) {
   Mat3 linear;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) linear(i, j) = m[4 * j + i];
   }
-  const Quaternion rotation = best_rotation(linear, Quaternion());
-  const Mat3 exact = rotation.toRotationMatrix();
-  double off = std::fabs(m[3]) + std::fabs(m[7]) + std::fabs(m[11]) + std::fabs(m[15] - 1);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) off = std::max(off, std::fabs(linear(i, j) - exact(i, j)));
+  return best_rotation(linear, Quaternion());
+}
+
+}  // namespace
+
+HandleTransform rigid_transform(const double* m, Vec3 centroid, std::uint32_t index) {
+  double turned[16];
+  for (int i = 0; i < 16; ++i) {
+    if (!std::isfinite(m[i])) fail(HF_ERROR_NON_FINITE, index, "matrix %u holds a number that is not finite", index);
+    turned[i] = m[4 * (i % 4) + i / 4];
   }
-  if (!(off <= rigid_tolerance))
+  const Quaternion rotation = rotation_of(m);
+  if (!(off_rigid(m, rotation) <= rigid_tolerance)) {
+    if (off_rigid(turned, rotation_of(turned)) <= rigid_tolerance)
+      fail(
+          HF_ERROR_INVALID_ARGUMENT, index,
+          "matrix %u has its translation in elements 3, 7 and 11: is it transposed? Matrices go column by column, with "
+          "the translation in elements 12 to 14",
+          index);
     fail(HF_ERROR_INVALID_ARGUMENT, index, "matrix %u is no rigid motion; scale and shear are not taken", index);
+  }
   return {rotation, rotate(rotation, centroid) + Vec3{m[12], m[13], m[14]} - centroid};
 }
 

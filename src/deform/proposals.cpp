@@ -268,8 +268,10 @@ class Proposer {
     bool shrunk = false;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
       proposal.radius = mesh_.scale * radius;
-      const Vector<Index> region = region_near(core_, place, proposal.radius / mesh_.scale, memory_);
+      const double own = proposal.radius / mesh_.scale;
+      const Vector<Index> region = region_near(core_, place, own, memory_);
       const bool overlaps = std::any_of(region.begin(), region.end(), [&](Index v) { return owned[at(v)] != 0; });
+      if (shrunk && is_spike(region, own)) return false;
       if (!overlaps && (shrunk || region.size() >= least_region || radius * radius_growth > most_radius)) {
         for (const Index v : region) owned[at(v)] = 1;
         return true;

@@ -1,6 +1,7 @@
 // Models and clips of hf_gltf/gltf.h.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gltf/animate.h"
 #include "gltf/api_objects.h"
@@ -43,11 +44,17 @@ size_t numbered(uint32_t index, size_t count, const char* what) {
   return index;
 }
 
+// Finite, and no larger than the floats of a file.
 void need_finite(const double* values, size_t count, size_t row, const char* what) {
-  for (size_t i = 0; i < count; ++i)
-    if (!std::isfinite(values[i]))
-      throw Failure(HF_ERROR_NON_FINITE, std::string(what) + " " + std::to_string(i / row) + " is not finite",
-                    static_cast<uint32_t>(i / row));
+  constexpr double most = std::numeric_limits<float>::max();
+  for (size_t i = 0; i < count; ++i) {
+    if (std::fabs(values[i]) <= most) continue;
+    const bool finite = std::isfinite(values[i]);
+    throw Failure(finite ? HF_ERROR_TOO_LARGE : HF_ERROR_NON_FINITE,
+                  std::string(what) + " " + std::to_string(i / row) +
+                      (finite ? " holds a number that is no float, as files have it; scale it down" : " is not finite"),
+                  static_cast<uint32_t>(i / row));
+  }
 }
 
 // The times of a clip: finite, increasing, from 0 on.
@@ -260,18 +267,23 @@ hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_frames_desc*
     for (size_t f = 0; f < frames; ++f) wanted.push_back(frame_of(given.positions, vertices, f));
     const RigFit rig(object->model, object->mesh);
     // The caller does not say where the ground is. glTF has y up, so it is where the frames are lowest.
-    double lowest = given.positions[1];
-    for (size_t v = 0; v < vertices * frames; ++v) lowest = std::min(lowest, given.positions[3 * v + 1]);
+    const std::vector<uint8_t>& loose = object->mesh.loose;
+    double lowest = std::numeric_limits<double>::infinity();
+    for (size_t v = 0; v < vertices * frames; ++v)
+      if (!loose[v % vertices]) lowest = std::min(lowest, given.positions[3 * v + 1]);
     const RigGround ground = {{0, 1, 0}, std::vector<double>(frames, lowest), {}};
     const auto firm = [&](size_t f) -> std::vector<double> {
       if (!given.firm) return {};
       return {given.firm + vertices * f, given.firm + vertices * (f + 1)};
     };
     const std::vector<Pose> poses = rig.fit_all(times, wanted, firm, &ground);
+    const auto count =
+        static_cast<double>(std::count(loose.begin(), loose.end(), 0) * static_cast<std::ptrdiff_t>(frames));
     double sum = 0, most = 0;
     for (size_t f = 0; f < frames; ++f) {
       const std::vector<glm::dvec3> got = posed_positions(object->model, object->mesh, poses[f]);
       for (size_t v = 0; v < vertices; ++v) {
+        if (loose[v]) continue;
         const double* to = wanted[f].data() + 3 * v;
         const double off = glm::distance(got[v], glm::dvec3(to[0], to[1], to[2]));
         sum += off * off, most = std::max(most, off);
@@ -280,7 +292,7 @@ hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_frames_desc*
     insert_clip(object->model, 0, rig.clip(given.name ? given.name : "", times, poses));
     if (!out_info) return;
     out_info->joint_count = static_cast<uint32_t>(rig.turning());
-    out_info->rms = std::sqrt(sum / static_cast<double>(vertices * frames)), out_info->max = most;
+    out_info->rms = std::sqrt(sum / count), out_info->max = most;
   });
 }
 

@@ -134,15 +134,11 @@ void append_part(const Model& model, const Pose& pose, const std::vector<glm::dm
 }
 
 // See the head of flat_mesh.h. Only meshes with one skin share the space their positions are stored in; what is moved
-// by its node alone comes out bit-equal anyway.
-void join_copies(const Model& model, FlatMesh& mesh) {
-  glm::dvec3 low(std::numeric_limits<double>::max()), high(-std::numeric_limits<double>::max());
-  for (const glm::dvec3& p : mesh.positions) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  const double same_place = 1e-6 * glm::distance(low, high);  // windows.h takes the name near
-  std::map<int, std::vector<const FlatPart*>> spaces;         // by skin
+// by its node alone comes out bit-equal anyway. Returns whether a vertex moved.
+bool join_copies(const Model& model, FlatMesh& mesh) {
+  bool moved = false;
+  const double same_place = 1e-6 * SurfaceBox(mesh).diagonal();  // windows.h takes the name near
+  std::map<int, std::vector<const FlatPart*>> spaces;            // by skin
   for (const FlatPart& part : mesh.parts) {
     const int skin = model.nodes[static_cast<size_t>(part.node)].skin;
     const bool skinned = skin >= 0 && !primitive_of(model, part).influences.empty();
@@ -163,9 +159,12 @@ void join_copies(const Model& model, FlatMesh& mesh) {
       uint32_t& f = first[copies[i]];
       if (f == UINT32_MAX) f = vertices[i];
       glm::dvec3& p = mesh.positions[vertices[i]];
-      if (glm::distance(p, mesh.positions[f]) <= same_place) p = mesh.positions[f];
+      if (!(glm::distance(p, mesh.positions[f]) <= same_place)) continue;
+      moved = moved || p != mesh.positions[f];
+      p = mesh.positions[f];
     }
   }
+  return moved;
 }
 
 // A mesh that other nodes use too is copied, so that each flattened node has its own.
@@ -299,8 +298,8 @@ FlatMesh flatten(const Model& model, const FlattenOptions& options) {
       std::copy(colors.begin(), colors.end(), mesh.colors.begin() + part.first_vertex);
     }
   }
-  join_copies(model, mesh);
-  mesh.welded_count = weld_positions(mesh.positions, mesh.welded);
+  mesh.weld();
+  if (join_copies(model, mesh)) mesh.weld();
   return mesh;
 }
 
@@ -445,11 +444,11 @@ Model make_model(const std::string& name, const std::vector<glm::dvec3>& positio
   FlatMesh flat;
   flat.positions = positions;
   flat.triangles = triangles;
-  flat.welded_count = weld_positions(flat.positions, flat.welded);
   Primitive primitive;
   for (const uint32_t v : triangles) {
     if (v >= positions.size()) throw std::runtime_error(name + ": a triangle names vertex " + std::to_string(v) + ".");
   }
+  flat.weld();
   primitive.normals = welded_normals(flat, positions);
   for (const glm::dvec3& p : positions) primitive.positions.push_back(glm::vec3(p));
   primitive.indices = triangles;

@@ -39,6 +39,12 @@ struct FlatMesh {
   // welded[v] is the index of v's position among the welded vertices, first copy first.
   std::vector<uint32_t> welded;
   uint32_t welded_count = 0;
+  // 1 for vertices that no triangle of three welded corners has. They are carried along and are no part of the surface:
+  // not of its box, its ground or its limbs. All 0 where every triangle is collapsed.
+  std::vector<uint8_t> loose;
+
+  // Fills the three above from positions and triangles.
+  void weld();
 
   uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size()); }
   uint32_t triangle_count() const { return static_cast<uint32_t>(triangles.size() / 3); }
@@ -57,6 +63,16 @@ struct FlattenOptions {
 };
 
 FlatMesh flatten(const Model& model, const FlattenOptions& options = {});
+
+// The box of the vertices that are not loose.
+struct SurfaceBox {
+  explicit SurfaceBox(const FlatMesh& mesh) : SurfaceBox(mesh.positions, mesh.loose) {}
+  SurfaceBox(const std::vector<glm::dvec3>& positions, const std::vector<uint8_t>& loose);
+  double diagonal() const { return glm::length(high - low); }
+  glm::dvec3 low, high;
+};
+// By vertex: 1 for those that no triangle of three different places has, or all 0, as FlatMesh::loose.
+std::vector<uint8_t> loose_vertices(const std::vector<glm::dvec3>& positions, const std::vector<uint32_t>& triangles);
 
 // Vertices at bit-equal positions (0 and -0 are equal) get one number, counted in order of first appearance. With a
 // tolerance > 0 vertices of one cell-neighbourhood closer than it are joined, transitively. Returns the count.

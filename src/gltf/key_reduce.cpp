@@ -40,6 +40,7 @@ std::vector<double> reach_of(const Model& model, const FlatMesh& mesh) {
     const Primitive& primitive =
         model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
     for (uint32_t i = 0; i < part.vertex_count; ++i) {
+      if (mesh.loose[part.first_vertex + i]) continue;
       const glm::dvec3& place = mesh.positions[part.first_vertex + i];
       if (skin < 0 || primitive.influences.empty()) {
         add(part.node, place);
@@ -131,10 +132,11 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
   std::vector<std::vector<glm::dvec3>> wanted;
   for (const double time : times) wanted.push_back(posed_positions(model, mesh, animation, time));
   double squares = 0;  // of accelerations
-  const auto squares_at = [](const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b,
+  const auto squares_at = [&](const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b,
                              const std::vector<glm::dvec3>& c) {
     double sum = 0;
     for (size_t v = 0; v < a.size(); ++v) {
+      if (mesh.loose[v]) continue;
       const glm::dvec3 bend = a[v] - 2.0 * b[v] + c[v];
       sum += glm::dot(bend, bend);
     }
@@ -159,7 +161,8 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
     std::vector<glm::dvec3> before, last;
     for (size_t f = 0; f < times.size() && worst <= tolerance; ++f) {
       std::vector<glm::dvec3> got = posed_positions(model, mesh, fresh, times[f]);
-      for (size_t v = 0; v < got.size(); ++v) worst = std::max(worst, glm::distance(got[v], wanted[f][v]));
+      for (size_t v = 0; v < got.size(); ++v)
+        if (!mesh.loose[v]) worst = std::max(worst, glm::distance(got[v], wanted[f][v]));
       if (f > 1) got_squares += squares_at(before, last, got);
       before = std::move(last), last = std::move(got);
     }

@@ -67,7 +67,7 @@ double Finder::asymmetry(int axis) const {
   size_t count = 0;
   for (size_t i = 0; i < first_.size(); i += step, ++count) {
     glm::dvec3 p = mesh_.positions[first_[i]];
-    p[axis] = low_[axis] + high_[axis] - p[axis];
+    p[axis] = box_.low[axis] + box_.high[axis] - p[axis];
     double nearest = 1e300;
     for (const uint32_t v : first_) {
       const glm::dvec3 d = mesh_.positions[v] - p;
@@ -237,11 +237,11 @@ void Finder::find_feet(double reach, double slack) {
     glm::dvec3 mean() const { return sum / count; }
   };
   std::vector<Piece> of_root(mesh_.welded_count), pieces;
-  for (uint32_t w = 0; w < mesh_.welded_count; ++w) {
-    if (!is_low(first_[w])) continue;
-    Piece& piece = of_root[root(w)];
-    piece.sum += mesh_.positions[first_[w]], piece.count += 1, piece.lowest = std::min(piece.lowest, up(first_[w]));
-    piece.vertices.push_back(first_[w]);
+  for (const uint32_t v : first_) {
+    if (!is_low(v)) continue;
+    Piece& piece = of_root[root(mesh_.welded[v])];
+    piece.sum += mesh_.positions[v], piece.count += 1, piece.lowest = std::min(piece.lowest, up(v));
+    piece.vertices.push_back(v);
   }
   for (Piece& piece : of_root) {
     if (piece.count < 1 || piece.lowest > slack * height_) continue;

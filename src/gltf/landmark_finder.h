@@ -28,11 +28,14 @@ struct Foot {
 class Finder {
  public:
   explicit Finder(const Body& body)
-      : model_(body.model), mesh_(body.mesh), first_(body.mesh.welded_count, 0), tips_(body.tips) {
-    for (uint32_t v = mesh_.vertex_count(); v-- > 0;) first_[mesh_.welded[v]] = v;
-    low_ = glm::dvec3(std::numeric_limits<double>::infinity()), high_ = -low_;
-    for (const glm::dvec3& p : mesh_.positions) low_ = glm::min(low_, p), high_ = glm::max(high_, p);
-    diagonal_ = glm::length(high_ - low_);
+      : model_(body.model), mesh_(body.mesh), box_(body.mesh), diagonal_(box_.diagonal()), tips_(body.tips) {
+    const auto is_loose = [&](uint32_t v) { return mesh_.loose[v] != 0; };
+    tips_.erase(std::remove_if(tips_.begin(), tips_.end(), is_loose), tips_.end());
+    std::vector<char> taken(mesh_.welded_count, 0);
+    for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
+      char& known = taken[mesh_.welded[v]];
+      if (!mesh_.loose[v] && !known) known = 1, first_.push_back(v);
+    }
   }
   Landmarks find(const Axes* axes);
 
@@ -68,9 +71,9 @@ class Finder {
   const FlatMesh& mesh_;
   const RegionFinder* regions_ = nullptr;
   Axes axes_;
-  std::vector<uint32_t> first_;  // one vertex per welded one
-  glm::dvec3 low_, high_;
-  double diagonal_ = 0, ground_ = 0, height_ = 0, middle_ = 0, front_ = 0, back_ = 0;
+  std::vector<uint32_t> first_;  // one vertex per welded one of the surface
+  SurfaceBox box_;
+  double diagonal_, ground_ = 0, height_ = 0, middle_ = 0, front_ = 0, back_ = 0;
   std::vector<Foot> feet_, raised_;  // raised_: ends of named limbs that do not reach the ground
   bool named_feet_ = false, first_try_ = true;
   std::vector<uint32_t> tips_;  // extremities

@@ -13,7 +13,8 @@ void Finder::measure() {
   ground_ = front_ = middle_ = 0;
   double low = 1e300, high = -1e300, left = -1e300, right = 1e300;
   front_ = -1e300, back_ = 1e300;
-  for (const glm::dvec3& p : mesh_.positions) {
+  for (const uint32_t v : first_) {
+    const glm::dvec3& p = mesh_.positions[v];
     low = std::min(low, glm::dot(p, axes_.up)), high = std::max(high, glm::dot(p, axes_.up));
     left = std::max(left, glm::dot(p, axes_.right)), right = std::min(right, glm::dot(p, axes_.right));
     front_ = std::max(front_, glm::dot(p, axes_.forward)), back_ = std::min(back_, glm::dot(p, axes_.forward));

@@ -100,9 +100,7 @@ RegionFinder::RegionFinder(const Model& model, const FlatMesh& mesh, const Axes&
       if (a != b) neighbours_[a].push_back(b), neighbours_[b].push_back(a);
     }
   }
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-  diagonal_ = glm::length(high - low);
+  diagonal_ = SurfaceBox(mesh).diagonal();
 }
 
 std::vector<uint32_t> RegionFinder::owned_by(const Selector& selector) const {
@@ -135,7 +133,7 @@ std::vector<uint32_t> RegionFinder::owned_by(const Selector& selector) const {
   }
   std::vector<uint32_t> out;
   for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
-    if (owner_[v] >= 0 && wanted[static_cast<size_t>(owner_[v])]) out.push_back(v);
+    if (!mesh_.loose[v] && owner_[v] >= 0 && wanted[static_cast<size_t>(owner_[v])]) out.push_back(v);
   }
   if (out.empty()) {
     throw std::runtime_error(selector.where + ": no vertex of " + model_.name + " has its largest weight on " +
@@ -206,8 +204,9 @@ Region RegionFinder::find(const std::vector<Selector>& selectors) const {
       if (!selector.joints.empty()) {
         vertices = owned_by(selector);
       } else {
-        vertices.resize(mesh_.vertex_count());
-        for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) vertices[v] = v;
+        for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
+          if (!mesh_.loose[v]) vertices.push_back(v);
+        }
       }
       if (selector.has_radius || selector.has_position || !selector.extreme.empty()) {
         const uint32_t seed = seed_of(selector, vertices);
@@ -277,7 +276,7 @@ std::vector<std::string> RegionFinder::describe_joints() const {
   };
   std::vector<Owned> owned(model_.nodes.size());
   for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
-    if (owner_[v] < 0) continue;
+    if (owner_[v] < 0 || mesh_.loose[v]) continue;
     Owned& own = owned[static_cast<size_t>(owner_[v])];
     own.low = glm::min(own.low, mesh_.positions[v]), own.high = glm::max(own.high, mesh_.positions[v]), ++own.count;
   }

@@ -202,9 +202,7 @@ struct RigFit::System {
 
 RigFit::RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTie>& ties)
     : model_(model), rest_(decomposed(rest_pose(model))), joint_of_node_(model.nodes.size(), -1) {
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-  diagonal_ = glm::length(high - low);
+  diagonal_ = SurfaceBox(mesh).diagonal();
   find_joints();
   if (joints_.empty())
     throw std::runtime_error(model.name + " has no skin to keep: leave --onto-skin out, and it gets a new one");
@@ -295,7 +293,10 @@ size_t RigFit::slot_of(int node, const glm::dmat4& bind, int key) {
 void RigFit::find_vertices(const FlatMesh& mesh) {
   std::vector<double> area(mesh.welded_count, 0.0);
   std::vector<uint32_t> copies(mesh.welded_count, 0);
-  for (const uint32_t w : mesh.welded) ++copies[w];
+  uint32_t count = 0;  // of welded vertices on the surface
+  for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (copies[mesh.welded[v]]++ == 0) count += !mesh.loose[v];
+  }
   for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
     const glm::dvec3 &a = mesh.positions[mesh.triangles[t]], &b = mesh.positions[mesh.triangles[t + 1]],
                      &c = mesh.positions[mesh.triangles[t + 2]];
@@ -311,9 +312,10 @@ void RigFit::find_vertices(const FlatMesh& mesh) {
         model_.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
     for (uint32_t i = 0; i < part.vertex_count; ++i) {
       const uint32_t flat = part.first_vertex + i, w = mesh.welded[flat];
+      if (mesh.loose[flat]) continue;
       Row& row = vertices_[flat];
       // half by area and half by count, so that small feet matter
-      row.weight = (0.5 * area[w] / std::max(total, 1e-300) + 0.5 / mesh.welded_count) / copies[w];
+      row.weight = (0.5 * area[w] / std::max(total, 1e-300) + 0.5 / count) / copies[w];
       const glm::dvec4 place(glm::dvec3(primitive.positions[i]), 1);
       if (skin < 0 || primitive.influences.empty()) {
         row.terms.push_back({slot_of(part.node, glm::dmat4(1), -1), place});
@@ -551,7 +553,10 @@ Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, const std:
   const auto place = [&](uint32_t v) { return place_of(frame, v); };
   // places count from the middle, so that sums keep their digits far from the origin
   glm::dvec3 centre(0);
-  for (uint32_t v = 0; v < vertices_.size(); ++v) centre += place(v) / static_cast<double>(vertices_.size());
+  const auto counts = [](const Row& row) { return row.weight > 0; };  // what is loose does not
+  const auto count = static_cast<double>(std::count_if(vertices_.begin(), vertices_.end(), counts));
+  for (uint32_t v = 0; v < vertices_.size(); ++v)
+    if (counts(vertices_[v])) centre += place(v) / count;
   Moments moments = *still_;
   for (uint32_t v = 0; v < vertices_.size(); ++v) {
     const Row& row = vertices_[v];

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <unordered_map>
@@ -104,6 +105,32 @@ uint32_t weld_positions(const std::vector<glm::dvec3>& positions, std::vector<ui
     welded[v] = known.emplace(key, static_cast<uint32_t>(known.size())).first->second;
   }
   return static_cast<uint32_t>(known.size());
+}
+
+void FlatMesh::weld() {
+  welded_count = weld_positions(positions, welded);
+  std::vector<char> used(welded_count, 0);
+  for (size_t t = 0; t + 2 < triangles.size(); t += 3) {
+    const uint32_t a = welded[triangles[t]], b = welded[triangles[t + 1]], c = welded[triangles[t + 2]];
+    if (a != b && b != c && c != a) used[a] = used[b] = used[c] = 1;
+  }
+  const bool any = std::find(used.begin(), used.end(), 1) != used.end();
+  loose.assign(positions.size(), 0);
+  for (size_t v = 0; any && v < loose.size(); ++v) loose[v] = !used[welded[v]];
+}
+
+std::vector<uint8_t> loose_vertices(const std::vector<glm::dvec3>& positions, const std::vector<uint32_t>& triangles) {
+  FlatMesh mesh;
+  mesh.positions = positions, mesh.triangles = triangles;
+  mesh.weld();
+  return std::move(mesh.loose);
+}
+
+SurfaceBox::SurfaceBox(const std::vector<glm::dvec3>& positions, const std::vector<uint8_t>& loose)
+    : low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity()) {
+  for (size_t v = 0; v < positions.size(); ++v) {
+    if (!loose[v]) low = glm::min(low, positions[v]), high = glm::max(high, positions[v]);
+  }
 }
 
 uint32_t count_components(const std::vector<uint32_t>& triangles, const std::vector<uint32_t>* numbers,

@@ -88,6 +88,16 @@ void take_cut(const FaceCutter& cutter, Vector<Index>& corner, Vector<Index>& tr
 
 }  // namespace
 
+void mark_corners(const MeshInput& input, const Vector<Index>& representative, Vector<std::uint8_t>& is_corner,
+                  Memory& memory) {
+  Vector<Index> corner(&memory);
+  input.faces.each([&](std::uint32_t f, std::int64_t start, std::int64_t size) {
+    if (f % faces_per_poll == 0) poll();
+    read_corners(input, representative, start, size, corner);
+    for (std::size_t k = 0; corner.size() >= 3 && k < corner.size(); ++k) is_corner[at(corner[k])] = 1;
+  });
+}
+
 void take_faces(const MeshInput& input, const Vector<Index>& representative, Mesh& mesh, Memory& memory) {
   Faces& out = mesh.faces;
   mesh.triangle_of_given.assign(input.faces.face_count, Mesh::none);

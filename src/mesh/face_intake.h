@@ -12,6 +12,10 @@ std::uint64_t count_cut_triangles(const FaceRows& faces);
 // Throws HF_ERROR_OUT_OF_RANGE (index = face) for a corner that is no vertex.
 void check_face_corners(const FaceRows& faces, std::uint32_t vertex_count);
 
+// Marks the corners of the faces that have three or more after welding, by given vertex.
+void mark_corners(const MeshInput& input, const Vector<std::int32_t>& representative, Vector<std::uint8_t>& is_corner,
+                  Memory& memory);
+
 // Cuts the faces and fills mesh.corners, mesh.triangle_of_given and mesh.faces with numbers of given vertices.
 // representative: by given vertex, the one it is welded with. The mesh has its frame already.
 void take_faces(const MeshInput& input, const Vector<std::int32_t>& representative, Mesh& mesh, Memory& memory);

@@ -239,6 +239,10 @@ void measure_gaps(const Mesh& mesh, const Links& links, const ConstRows& posed, 
       if (link.corner[k] != Mesh::none) apart = apart - link.share[k] * place(link.corner[k]);
     }
     gaps[i] = std::max(0.0, norm(apart) - mesh.scale * link.length);
+    if (!std::isfinite(gaps[i]))
+      fail(HF_ERROR_TOO_LARGE, static_cast<std::uint32_t>(mesh.given_of_inner[at(link.vertex)]),
+           "the gap at vertex %d is no number: give positions in the unit of the surface",
+           mesh.given_of_inner[at(link.vertex)]);
   }
 }
 

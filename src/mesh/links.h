@@ -100,7 +100,7 @@ struct GapSummary {
 GapSummary summarise_gaps(Span<double> gaps);
 
 // Writes for every link how much farther its ends are apart than at rest, or 0. posed: positions by vertex as given, in
-// the unit of the mesh. Throws HF_ERROR_NON_FINITE (index = vertex as given).
+// the unit of the mesh. Throws HF_ERROR_NON_FINITE or HF_ERROR_TOO_LARGE (index = vertex as given).
 void measure_gaps(const Mesh& mesh, const Links& links, const ConstRows& posed, Span<double> gaps);
 
 }  // namespace hf_inner

@@ -58,17 +58,30 @@ void check_triangles(const MeshInput& input) {
   }
 }
 
-// Computes centre and scale from the bounding box of the caller's vertices, and refuses positions that are not finite.
-void find_frame(const MeshInput& input, Mesh& mesh) {
+void check_positions(const MeshInput& input) {
+  for (std::uint32_t v = 0; v < input.vertex_count; ++v) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!std::isfinite(input.positions.get(v, k)))
+        fail(HF_ERROR_NON_FINITE, v, "vertex %u: coordinate %zu is not a finite number", v, k);
+    }
+  }
+}
+
+// Computes centre and scale from the bounding box of the vertices that are welded to the corners of triangles or faces.
+// Others do not count: a vertex that is left over in a file, far away or near, changes no result. is_corner: by
+// representative.
+void find_frame(const MeshInput& input, const Vector<Index>& representative, const Vector<std::uint8_t>& is_corner,
+                Mesh& mesh) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double low[3] = {infinity, infinity, infinity}, high[3] = {-infinity, -infinity, -infinity};
   for (std::uint32_t v = 0; v < input.vertex_count; ++v) {
+    if (!is_corner[at(representative[v])]) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const double x = input.positions.get(v, k);
-      if (!std::isfinite(x)) fail(HF_ERROR_NON_FINITE, v, "vertex %u: coordinate %zu is not a finite number", v, k);
       low[k] = std::min(low[k], x), high[k] = std::max(high[k], x);
     }
   }
+  if (low[0] > high[0]) return;  // no corner: the mesh is refused as empty
   double size = 0;
   double centre[3];
   for (std::size_t k = 0; k < 3; ++k) {
@@ -200,7 +213,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   Mesh mesh(memory);
   mesh.report.vertex_count = input.vertex_count, mesh.report.triangle_count = triangles;
   poll();
-  find_frame(input, mesh);
+  check_positions(input);
   poll();
 
   // representative[v] is the first vertex of the caller that vertex v is welded with
@@ -209,10 +222,16 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
     mesh.report.welded_vertex_count += representative[v] == static_cast<Index>(v);
 
   poll();
-  if (input.faces.face_count > 0)
+  Vector<std::uint8_t> is_corner(input.vertex_count, 0, &memory);
+  if (input.faces.face_count > 0) {
+    mark_corners(input, representative, is_corner, memory);
+    find_frame(input, representative, is_corner, mesh);
     take_faces(input, representative, mesh, memory);
-  else
+  } else {
     take_triangles(input, representative, mesh);
+    for (const Index corner : mesh.corners) is_corner[at(corner)] = 1;
+    find_frame(input, representative, is_corner, mesh);
+  }
   if (mesh.corners.empty())
     fail(HF_ERROR_EMPTY, HF_NO_INDEX, "every %s has equal corners%s; nothing is left of the mesh",
          input.faces.face_count > 0 ? "face" : "triangle", input.weld == Weld::none ? "" : " after welding");

@@ -4,8 +4,8 @@
 // Mesh::make checks the input, welds vertices, cuts faces, drops triangles with two equal corners, numbers the
 // components and counts faults of the mesh. An inner vertex is a welded vertex of at least one usable triangle. Maps
 // lead from inner vertices back to the vertices of the caller. An inner position is p' = (p - centre) / scale, with the
-// diagonal of the bounding box as scale. So no result depends on the unit or the offset of the input. Cost: O(n log n)
-// for the weld, O(n) for the rest. After a failure no memory stays allocated.
+// diagonal of the box of all inner vertices as scale. So no result depends on the unit or the offset of the input.
+// Cost: O(n log n) for the weld, O(n) for the rest. After a failure no memory stays allocated.
 #pragma once
 #include <cmath>
 #include <cstdint>

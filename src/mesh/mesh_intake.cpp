@@ -4,6 +4,28 @@
 #include "mesh/face_intake.h"
 
 namespace hf_inner {
+namespace {
+
+// Refuses indices that are twice as wide as the array they are given in. Every second number is then the high half of
+// an index: 0, or at most `most`. In a mesh that is meant, half of the triangles cannot lie between so few vertices.
+// Indices that are out of range and meshes without a usable triangle are refused as such, later.
+void check_width(const MeshInput& input, std::uint32_t most, const char* name, const char* advice) {
+  if (input.triangle_count < 2 || input.triangle_count / 2 <= most * (most + 1)) return;
+  bool are_low[2] = {true, true};  // high halves come second, or first on a big-endian machine
+  for (std::uint32_t t = 0; t < input.triangle_count && (are_low[0] || are_low[1]); ++t) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = input.triangles.get(t, k);
+      if (v >= input.vertex_count) return;
+      bool& low = are_low[(t + k) % 2];
+      low = low && v <= most;
+    }
+  }
+  if (are_low[0] == are_low[1]) return;
+  fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "every second number of %s is %s: %s", name,
+       most == 0 ? "0" : "the high half of an index", advice);
+}
+
+}  // namespace
 
 FaceRows read_faces(const hf_surface_desc& desc) {
   FaceRows faces;
@@ -44,6 +66,11 @@ MeshInput read_mesh(const hf_surface_desc& desc, const FaceRows& faces) {
   else
     input.triangles = {desc.triangles_u16,
                        stride_of(desc.triangle_stride, 3 * sizeof(std::uint16_t), "triangle_stride")};
+  const std::uint32_t stride = desc.triangle_stride;
+  if (desc.triangles_u16 && desc.vertex_count > 0 && (stride == 0 || stride == 3 * sizeof(std::uint16_t)))
+    check_width(input, (desc.vertex_count - 1) >> 16, "triangles_u16", "give 32-bit indices as triangles");
+  if (desc.triangles && (stride == 0 || stride == 3 * sizeof(std::uint32_t)))
+    check_width(input, 0, "triangles", "64-bit indices are not taken, copy them to 32 bits");
   input.weld = static_cast<Weld>(desc.weld);
   input.weld_tolerance = static_cast<double>(desc.weld_tolerance);
   return input;

@@ -167,6 +167,9 @@ NearestVertex nearest_vertex(const PickTarget& target, Vec3 point, JobRunner& jo
     if (candidate.distance < best.distance || earlier) best = candidate;
   }
   best.distance = places.length_out(best.distance);
+  if (best.vertex == Mesh::none || !(best.distance <= farthest_pose * mesh.scale))
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "every vertex is more than %g box diagonals from the point; give a nearer one",
+         farthest_pose);
   return best;
 }
 

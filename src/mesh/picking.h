@@ -37,7 +37,8 @@ struct NearestVertex {
   double distance = 0;               // in the caller's unit
 };
 
-// Returns the vertex nearest to `point`. Throws as cast_ray does.
+// Returns the vertex nearest to `point`. Throws as cast_ray does, and HF_ERROR_TOO_LARGE where all vertices are farther
+// than farthest_pose (places.h).
 NearestVertex nearest_vertex(const PickTarget& target, Vec3 point, JobRunner& jobs, Memory& memory);
 
 }  // namespace hf_inner

@@ -124,6 +124,17 @@ Vec3 read_point(const double* p, const char* name) {
   return {p[0], p[1], p[2]};
 }
 
+Vec3 read_place(const Mesh& mesh, const double* p, const char* name, std::uint32_t i) {
+  if (!is_finite_point(p)) fail(HF_ERROR_NON_FINITE, i, "%s %u is not finite", name, i);
+  const Vec3 place = mesh.to_inner({p[0], p[1], p[2]});
+  if (const double away = norm(place); !(away <= farthest_point))
+    fail(HF_ERROR_TOO_LARGE, i,
+         "%s %u is %.3g box diagonals from the middle of the surface; at most %g are taken. Give points in the unit of "
+         "the positions",
+         name, i, away, farthest_point);
+  return place;
+}
+
 void require_triangles(const Mesh& mesh, const char* purpose, std::uint32_t index) {
   if (mesh.is_graph())
     fail(HF_ERROR_UNSUPPORTED, index, "this call needs triangles for %s; the surface was made of a graph", purpose);

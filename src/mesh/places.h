@@ -73,6 +73,19 @@ Vector<std::uint32_t> given_triangles(const Mesh& mesh, Memory& memory);
 // Returns a point of the caller: xyz. Throws HF_ERROR_NULL_POINTER or HF_ERROR_NON_FINITE.
 Vec3 read_point(const double* p, const char* name);
 
+// A point that names a part of the surface lies up to this many box diagonals from the middle of the box: one that lies
+// farther has another unit than the mesh. The surface ends half a diagonal from there; half and double take other
+// mistakes for meant.
+constexpr double farthest_point = 2;
+// Returns the inner place of such a point: xyz. name, i: the point in the text of errors. Throws HF_ERROR_NON_FINITE
+// or HF_ERROR_TOO_LARGE (index i).
+Vec3 read_place(const Mesh& mesh, const double* p, const char* name, std::uint32_t i);
+
+// A posed vertex, or where one shall go, lies up to this many box diagonals away. Farther, a double holds nothing of
+// the shape any more, and squares leave the range.
+constexpr double farthest_pose = 1e15;
+inline bool is_too_far(Vec3 inner) noexcept { return !(norm(inner) <= farthest_pose); }
+
 // Throws HF_ERROR_UNSUPPORTED for a surface that was made of a graph. purpose: what the call needs triangles for.
 void require_triangles(const Mesh& mesh, const char* purpose, std::uint32_t index = HF_NO_INDEX);
 

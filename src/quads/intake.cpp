@@ -1,6 +1,7 @@
 #include "quads/intake.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/arguments.h"
 #include "mesh/vertex_lists.h"
@@ -25,6 +26,9 @@ constexpr double least_normal = 1e-150, most_normal = 1e150;
 double read_edge_length(const Mesh& mesh, float given) {
   const double length = static_cast<double>(given);
   check_finite(length, "edge_length");
+  if (mesh.scale > static_cast<double>(std::numeric_limits<float>::max()))
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "the mesh is %g wide; scale it below 3e38, so that floats hold its edge lengths", mesh.scale);
   if (length == 0) return default_edge_length;
   const double share = length / mesh.scale;
   if (share < least_edge_length || share > most_edge_length)
@@ -82,7 +86,7 @@ void read_poles(const Core& core, const hf_quads_desc& desc, const FieldQuadOpti
     if (desc.pole_quads[i] != 3 && desc.pole_quads[i] != 5)
       fail(HF_ERROR_INVALID_ARGUMENT, i, "pole_quads[%u] is %u; it must be 3 or 5", i, desc.pole_quads[i]);
     QuadPole pole;
-    pole.place = core.mesh.to_inner({point[0], point[1], point[2]});
+    pole.place = read_place(core.mesh, point, "pole", i);
     pole.quads = static_cast<std::int32_t>(desc.pole_quads[i]);
     if (desc.pole_directions) {
       const double* direction = desc.pole_directions + std::size_t{3} * i;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/places.h"
 #include "transfer/gradients.h"
 #include "transfer/levers.h"
 #include "transfer/transfer.h"

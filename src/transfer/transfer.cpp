@@ -59,6 +59,11 @@ std::shared_ptr<const Core> with_rest(const std::shared_ptr<const Core>& core, S
       fail(HF_ERROR_NON_FINITE, given, "vertex %u of the %s's rest pose is not finite", given, side);
     }
     geometry->mesh.positions[v] = from.mesh.to_inner(rest[v]);
+    if (is_too_far(geometry->mesh.positions[v])) {
+      const std::uint32_t given = given_vertex(from.mesh, static_cast<std::int32_t>(v));
+      fail(HF_ERROR_TOO_LARGE, given, "vertex %u of the %s's rest pose is more than %g box diagonals from the surface",
+           given, side, farthest_pose);
+    }
   }
   return make_shared_in<Core>(*core->memory, std::shared_ptr<const Geometry>(std::move(geometry)));
 }

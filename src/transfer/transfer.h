@@ -74,8 +74,8 @@ struct PairHold {
 
 class Transfer {
  public:
-  // Throws HF_ERROR_INVALID_ARGUMENT or HF_ERROR_NON_FINITE for bad options (index: the caller's vertex of a rest
-  // pose).
+  // Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE or HF_ERROR_TOO_LARGE for bad options (index: the caller's
+  // vertex of a rest pose).
   Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target, const TransferOptions& options);
   ~Transfer();
   Transfer(const Transfer&) = delete;
@@ -100,8 +100,9 @@ class Transfer {
 
   // Poses the target like the posed source. source, out: inner vertices of source and target, in the caller's units.
   // holds: regions of the target whose mean goes to a given place in this frame. Throws HF_ERROR_EMPTY without a pair,
-  // and HF_ERROR_NON_FINITE (index: inner vertex of the source). For bad holds it throws HF_ERROR_NO_SUCH_PAIR,
-  // HF_ERROR_NON_FINITE, or HF_ERROR_INVALID_ARGUMENT for a pair named twice (index: position in the list).
+  // and HF_ERROR_NON_FINITE or HF_ERROR_TOO_LARGE (index: given vertex of the source). For bad holds it throws
+  // HF_ERROR_NO_SUCH_PAIR, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE, or HF_ERROR_INVALID_ARGUMENT for a pair named twice
+  // (index: position in the list).
   void apply(const Vec3* source, Vec3* out, Span<const PairHold> holds = {});
 
   // The number of clusters (joints) in the skin of the last frame. Before the first frame, the skin is at rest.

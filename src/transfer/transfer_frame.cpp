@@ -143,6 +143,9 @@ void Transfer::read_holds(Prepared& p, Span<const PairHold> holds) const {
       fail(HF_ERROR_NO_SUCH_PAIR, index, "entry %zu of the holds: the transfer has no pair %u", i, number);
     if (!is_finite(holds[i].place))
       fail(HF_ERROR_NON_FINITE, index, "entry %zu of the holds: the place of pair %u is not finite", i, number);
+    if (is_too_far(target_core_->mesh.to_inner(holds[i].place)))
+      fail(HF_ERROR_TOO_LARGE, index, "entry %zu of the holds: the place of pair %u is more than %g box diagonals away",
+           i, number, farthest_pose);
     const auto row_in = [&](const Vector<Prepared::Anchor>& list) {
       std::size_t k = 0;
       while (k < list.size() && list[k].number != number) ++k;
@@ -189,6 +192,10 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
     if (!is_finite(source[v]))
       fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(given), "vertex %d of the posed source is not finite",
            given);
+    if (is_too_far(source_core_->mesh.to_inner(source[v])))
+      fail(HF_ERROR_TOO_LARGE, static_cast<std::uint32_t>(given),
+           "vertex %d of the posed source is more than %g box diagonals from the surface at rest", given,
+           farthest_pose);
   }
   Prepared& p = prepare();
   if (options_.mode == HF_TRANSFER_STRETCH && !holds.empty())

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/union_find.h"
 #include "weights/constants.h"
 #include "weights/piece_bones.h"
 #include "weights/piece_contacts.h"
@@ -25,15 +26,37 @@ struct Mean {
 
 enum class Kind { other, robot, creature };
 
+// The families of the bones that islands hold: each belongs to the next one above that an island holds. Without
+// parents all are one family.
+UnionFind bone_families(const Bones& bones, const Vector<std::uint8_t>& held, Memory& memory) {
+  UnionFind out(held.size(), memory);
+  const bool has_parents =
+      std::any_of(bones.parent.begin(), bones.parent.end(), [](Index parent) { return parent >= 0; });
+  constexpr Index unknown = -2;
+  Vector<Index> above(held.size(), unknown, &memory);  // the next held one, -1 without one
+  Index before = -1;
+  for (Index b = 0; b < bones.count(); ++b) {
+    if (!held[at(b)]) continue;
+    Index top = has_parents ? bones.parent[at(b)] : before;
+    while (top >= 0 && !held[at(top)] && above[at(top)] == unknown) top = bones.parent[at(top)];
+    const Index found = top < 0 || held[at(top)] ? top : above[at(top)];
+    for (Index i = bones.parent[at(b)]; has_parents && i != top; i = bones.parent[at(i)]) above[at(i)] = found;
+    if (found >= 0) out.unite(b, found);
+    before = b;
+  }
+  return out;
+}
+
 class RigidPieces {
  public:
-  RigidPieces(const Solution& solution, const Vector<BoneSegment>& segments)
+  RigidPieces(const Solution& solution, const Bones& bones, const Vector<BoneSegment>& segments)
       : solution_(solution),
         core_(*solution.surface->core),
         mesh_(core_.mesh),
         memory_(*core_.memory),
         column(at(mesh_.component_count()), -1, &memory_),
         held_(find_piece_bones(mesh_, solution.surface->skin, segments, memory_, *core_.jobs)),
+        bends_(find_bending(bones)),
         shapes_(column.size(), &memory_),
         waits_(column.size(), 0, &memory_),
         mean_(column.size(), &memory_) {}
@@ -60,7 +83,28 @@ class RigidPieces {
   std::size_t width() const noexcept { return solution_.width(); }
   std::ptrdiff_t holds(std::size_t island) const noexcept {
     const Span<const HeldBone> held = held_.of(static_cast<Index>(island));
-    return std::count_if(held.begin(), held.end(), [](const HeldBone& h) { return h.share >= held_share; });
+    return std::count_if(held.begin(), held.end(), is_held);
+  }
+  static bool is_held(const HeldBone& h) noexcept { return h.share >= held_share; }
+
+  // Finds the islands that bend: those that hold many bones, and those that hold a whole family of several, as an arm
+  // of two bones does.
+  Vector<std::uint8_t> find_bending(const Bones& bones) const {
+    Vector<std::uint8_t> held(bones.head.size(), 0, &memory_), out(column.size(), 0, &memory_);
+    for (const HeldBone& h : held_.bones) held[at(h.bone)] |= is_held(h);
+    UnionFind families = bone_families(bones, held, memory_);
+    Vector<Index> size(held.size(), 0, &memory_), own(held.size(), 0, &memory_);
+    for (Index b = 0; b < bones.count(); ++b) size[at(families.find(b))] += held[at(b)];
+    for (std::size_t c = 0; c < out.size(); ++c) {
+      const Span<const HeldBone> here = held_.of(static_cast<Index>(c));
+      out[c] = holds(c) >= bending_bones;
+      for (const HeldBone& h : here) {
+        const std::size_t family = at(families.find(h.bone));
+        if (is_held(h) && ++own[family] == size[family] && size[family] > 1) out[c] = 1;
+      }
+      for (const HeldBone& h : here) own[at(families.find(h.bone))] = 0;
+    }
+    return out;
   }
 
   void measure() {
@@ -84,7 +128,7 @@ class RigidPieces {
     for (std::size_t c = 0; c < shapes_.size(); ++c) {
       const Shape& shape = shapes_[c];
       all += shape.area;
-      if (holds(c) >= bending_bones) bends += shape.area;
+      if (bends_[c]) bends += shape.area;
       if (norm(shape.open) <= solid_openness * shape.area) solid += shape.area;
     }
     if (bends >= robot_bends * all) return Kind::creature;
@@ -119,7 +163,7 @@ class RigidPieces {
     for (std::size_t c = 0; c < islands; ++c) {
       const ItemBox& box = shapes_[c].box;
       const std::ptrdiff_t held = holds(c);
-      const bool candidate = robot() ? held < bending_bones : held == 0 && norm(box.high - box.low) < small_piece;
+      const bool candidate = robot() ? !bends_[c] : held == 0 && norm(box.high - box.low) < small_piece;
       if (!candidate || solution_.informants.by_island[c] == 0) continue;
       std::fill(mean.begin(), mean.end(), 0.0);
       double area = 0;
@@ -211,6 +255,7 @@ class RigidPieces {
   }
 
   PieceBones held_;
+  Vector<std::uint8_t> bends_;  // by island
   Vector<Shape> shapes_;
   Vector<std::uint8_t> waits_;  // by island: it takes a bone from others
   Vector<Mean> mean_;           // by island that waits
@@ -219,11 +264,11 @@ class RigidPieces {
 
 }  // namespace
 
-Vector<Index> rigid_columns(const Solution& solution, const Vector<BoneSegment>& segments) {
+Vector<Index> rigid_columns(const Solution& solution, const Bones& bones, const Vector<BoneSegment>& segments) {
   const Mesh& mesh = solution.surface->core->mesh;
   if (mesh.component_count() < 2)
     return Vector<Index>(at(mesh.component_count()), -1, solution.surface->core->memory.get());
-  RigidPieces pieces(solution, segments);
+  RigidPieces pieces(solution, bones, segments);
   pieces.run();
   return std::move(pieces.column);
 }

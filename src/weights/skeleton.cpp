@@ -113,14 +113,17 @@ class Tails {
     return found;
   }
   // Where a joint ends that no child continues.
-  Vec3 end_of(Index j, const Vec3& axis) const {
-    const bool has_axis = dot(axis, axis) > 0, leaf = first_child_[at(j)] < 0;
-    const Index end = leaf && has_axis ? end_among(first_end_[at(j)], j, axis) : -1;
-    if (end >= 0) return head[at(end)];
+  Vec3 end_of(Index j, const Vec3& given) const {
+    const bool has_axis = dot(given, given) > 0, leaf = first_child_[at(j)] < 0;
     const Index parent = bones_.parent[at(j)];
     const Vec3 from_parent = parent < 0 ? Vec3{} : head[at(j)] - head[at(parent)];
     const double length = norm(from_parent);
     const bool has_length = length >= no_length;
+    // A mirrored joint has its axis the wrong way round: no leaf lies on the bone above it.
+    const bool back = leaf && has_axis && has_length && cosine(from_parent, given) < -axis_cosine;
+    const Vec3 axis = back ? (1 / length) * from_parent : given;
+    const Index end = leaf && has_axis ? end_among(first_end_[at(j)], j, axis) : -1;
+    if (end >= 0) return head[at(end)];
     if (!has_axis && !has_length) return head[at(j)];
     const Vec3 direction = has_axis ? axis : (1 / length) * from_parent;
     const Index other = met(j, direction);

@@ -123,7 +123,7 @@ std::shared_ptr<const Solution> Solution::make(std::shared_ptr<const SkinSurface
                             if (column >= 0 && column < count) p[column] = 1.0 / static_cast<double>(own.size());
                           }
                         });
-  make_rigid(*made, rigid_columns(*made, segments));
+  make_rigid(*made, rigid_columns(*made, bones, segments));
   return made;
 }
 

@@ -114,7 +114,7 @@ static hf_result call_add_handles(World* w) {
 static hf_result call_add_layer(World* w) {
   const double point[3] = {(double)w->tube.positions[3 * 4 * AROUND], (double)w->tube.positions[3 * 4 * AROUND + 1],
                            (double)w->tube.positions[3 * 4 * AROUND + 2]};
-  const double radius = 0;
+  const double radius = 0.2; /* one vertex */
   hf_handles_desc desc = HF_INIT(hf_handles_desc);
   desc.handle_count = 1, desc.points = point, desc.radii = &radius, desc.layer = 1;
   return hf_pose_add_handles(w->pose, &desc, NULL);

@@ -11,6 +11,7 @@ static float positions[3 * CUT_VERTICES];
 static double positions_f64[3 * CUT_VERTICES];
 static uint32_t triangles[3 * CUT_TRIANGLES];
 static uint16_t triangles_u16[3 * CUT_TRIANGLES];
+static uint64_t triangles_u64[3 * CUT_TRIANGLES];
 static uint32_t face_starts[CUT_TRIANGLES + 1], face_sizes[CUT_TRIANGLES];
 static hf_surface out;
 static hf_solver out_solver;
@@ -37,6 +38,10 @@ static int nothing_exists(void) {
 
 static void no_position_array(void) { desc.positions = NULL; }
 static void in_double(void) { desc.positions = NULL, desc.positions_f64 = positions_f64; }
+
+static void in_64_bits(void) {
+  for (size_t i = 0; i < 3 * CUT_TRIANGLES; ++i) triangles_u64[i] = triangles[i];
+}
 
 static void in_16_bits(void) { desc.triangles = NULL, desc.triangles_u16 = triangles_u16; }
 
@@ -108,6 +113,10 @@ static void hf_surface_create_refuses_bad_meshes(void** state) {
   CREATE("triangle stride below a row", HF_ERROR_TOO_SMALL, NO_INDEX, desc.triangle_stride = 11);
   CREATE("triangle stride of one byte", HF_ERROR_TOO_SMALL, NO_INDEX, desc.triangle_stride = 1);
   CREATE("16-bit triangle stride below a row", HF_ERROR_TOO_SMALL, NO_INDEX, (in_16_bits(), desc.triangle_stride = 5));
+  CREATE("32-bit indices as 16-bit ones", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+         (desc.triangles_u16 = (const uint16_t*)triangles, desc.triangles = NULL));
+  CREATE("64-bit indices as 32-bit ones", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+         (in_64_bits(), desc.triangles = (const uint32_t*)triangles_u64));
   CREATE("16-bit corner = vertex_count", HF_ERROR_OUT_OF_RANGE, 5, (in_16_bits(), triangles_u16[16] = CUT_VERTICES));
   CREATE("16-bit corner 2^16 - 1", HF_ERROR_OUT_OF_RANGE, 72, (in_16_bits(), triangles_u16[3 * 72] = UINT16_MAX));
 

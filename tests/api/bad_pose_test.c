@@ -38,7 +38,7 @@ static void good_input(void) {
   memset(matrices, 0, sizeof matrices);
   for (int i = 0; i < 4; ++i) matrices[5 * i] = matrices[16 + 5 * i] = 1;
   for (int i = 0; i < 6; ++i) points[i] = (double)scene.tube.positions[3 * (5 * TUBE_AROUND + i / 3 * 20) + i % 3];
-  radii[0] = radii[1] = 0;
+  radii[0] = radii[1] = 0.2;
   transforms[0].rotation[3] = transforms[1].rotation[3] = 1, transforms[0].translation[0] = 3;
   deform.positions = floats;
   memcpy(source, scene.posed, sizeof source);
@@ -120,6 +120,10 @@ static void bad_handles_are_not_added(void** state) {
   NEAR("point NaN", HF_ERROR_NON_FINITE, 1, points[4] = (double)NAN);
   NEAR("radius infinite", HF_ERROR_NON_FINITE, 0, radii[0] = HUGE_VAL);
   NEAR("radius negative", HF_ERROR_INVALID_ARGUMENT, 1, radii[1] = -1);
+  NEAR("a radius of 0", HF_ERROR_INVALID_ARGUMENT, 1, radii[1] = 0);
+  NEAR("a radius that holds one vertex", HF_ERROR_INVALID_ARGUMENT, 0, radii[0] = 1e-6);
+  NEAR("a point 1,000 boxes away", HF_ERROR_TOO_LARGE, 1, points[3] = 14000);
+  NEAR("a point 1e300 away", HF_ERROR_TOO_LARGE, 0, points[2] = -1e300);
   NEAR("a point in a handle that is there", HF_ERROR_OVERLAP, 1,
        memcpy(points + 3,
               (double[3]){(double)scene.tube.positions[0], (double)scene.tube.positions[1],
@@ -130,6 +134,7 @@ static void bad_handles_are_not_added(void** state) {
   NEAR_ONE("point NaN", HF_ERROR_NON_FINITE, 0, points[1] = (double)NAN);
   NEAR_ONE("radius NaN", HF_ERROR_NON_FINITE, 0, radii[0] = (double)NAN);
   NEAR_ONE("radius negative", HF_ERROR_INVALID_ARGUMENT, 0, radii[0] = -1);
+  NEAR_ONE("a point 1,000 boxes away", HF_ERROR_TOO_LARGE, 0, points[0] = 14000);
   NEAR_ONE("a radius that reaches a handle", HF_ERROR_OVERLAP, 0, radii[0] = 1000);
   ROW("point NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_add_handle_at(scene.pose, NULL, 0, out_numbers));
   scene_destroy(&scene);
@@ -282,6 +287,8 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   MATRICES("sheared", HF_ERROR_INVALID_ARGUMENT, 1, matrices[16 + 4] = 0.1);
   MATRICES("mirrored", HF_ERROR_INVALID_ARGUMENT, 1, matrices[16] = -1);
   MATRICES("projective", HF_ERROR_INVALID_ARGUMENT, 0, matrices[3] = 0.5);
+  MATRICES("row by row", HF_ERROR_INVALID_ARGUMENT, 1,
+           (matrices[16 + 3] = 1, matrices[16 + 7] = 2, matrices[16 + 12] = matrices[16 + 13] = matrices[16 + 14] = 0));
   MATRICES("too far", HF_ERROR_NON_FINITE, 0, matrices[12] = 1e300);
 
 #define POSE_SKIN(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_pose_get_skin(scene.pose, &skin))
@@ -329,6 +336,9 @@ static void bad_transfers_are_not_made(void** state) {
   CREATE_TRANSFER("ground 2", HF_ERROR_INVALID_ARGUMENT, transfer_desc.ground = 2);
   CREATE_TRANSFER("reserved set", HF_ERROR_INVALID_DESC, transfer_desc.reserved = 1);
   static float rest[3 * TUBE_AROUND * (TUBE_RINGS + 2)];
+  rest[3 * 5 + 1] = 1e30f;
+  ROW("rest of the source 1e29 boxes away", HF_ERROR_TOO_LARGE, 5, transfer_desc.source_rest = rest,
+      hf_transfer_create(scene.body, scene.body, &transfer_desc, &out_transfer));
   rest[3 * 5 + 1] = (float)NAN;
   ROW("rest of the source NaN", HF_ERROR_NON_FINITE, 5, transfer_desc.source_rest = rest,
       hf_transfer_create(scene.body, scene.body, &transfer_desc, &out_transfer));
@@ -413,6 +423,7 @@ static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
   APPLY("target stride 8", HF_ERROR_TOO_SMALL, NO_INDEX, frame.target_stride = 8);
   APPLY("normal stride 1", HF_ERROR_TOO_SMALL, NO_INDEX, (frame.target_normals = normals, frame.normal_stride = 1));
   APPLY("source NaN", HF_ERROR_NON_FINITE, 17, source[3 * 17 + 2] = (float)NAN);
+  APPLY("source 1e30 boxes away", HF_ERROR_TOO_LARGE, 17, source[3 * 17] = 1e31f);
   APPLY("source infinite", HF_ERROR_NON_FINITE, TUBE_VERTICES - 1, source[3 * TUBE_VERTICES - 1] = (float)INFINITY);
 
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);

@@ -186,7 +186,8 @@ static void quads_refuse_bad_descs(void** state) {
       hf_quads_create(surface, &good_quads, &made));
   ROW("a weight that is NaN", HF_ERROR_NON_FINITE, 1, (GUIDES, good_quads.guide_weights = nan_weight),
       hf_quads_create(surface, &good_quads, &made));
-  const double places[6] = {0, 0, 0, 0.1, 0.1, 0}, nan_place[6] = {0, 0, 0, 0, NAN, 0};
+  const double places[6] = {0, 0, 0, 0.1, 0.1, 0}, nan_place[6] = {0, 0, 0, 0, NAN, 0},
+               far_place[6] = {0, 0, 0, 1e155, 0, 0};
   const uint32_t three_five[2] = {3, 5}, three_four[2] = {3, 4};
 #define POLES good_quads.pole_count = 2, good_quads.pole_points = places, good_quads.pole_quads = three_five
   ROW("poles without a count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.pole_points = places,
@@ -200,6 +201,8 @@ static void quads_refuse_bad_descs(void** state) {
   ROW("a pole of four quads", HF_ERROR_INVALID_ARGUMENT, 1, (POLES, good_quads.pole_quads = three_four),
       hf_quads_create(surface, &good_quads, &made));
   ROW("a pole that is NaN", HF_ERROR_NON_FINITE, 1, (POLES, good_quads.pole_points = nan_place),
+      hf_quads_create(surface, &good_quads, &made));
+  ROW("a pole far away", HF_ERROR_TOO_LARGE, 1, (POLES, good_quads.pole_points = far_place),
       hf_quads_create(surface, &good_quads, &made));
   ROW("a direction of a pole that is NaN", HF_ERROR_NON_FINITE, 1, (POLES, good_quads.pole_directions = nan_place),
       hf_quads_create(surface, &good_quads, &made));

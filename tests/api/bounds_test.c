@@ -138,8 +138,199 @@ static void a_surface_takes_357913941_vertices(void** state) {
   }
 }
 
+/* Fields and morphs are refused at the first vertex whose number does not fit, and doubles take what floats do not. */
+static void numbers_that_are_no_floats_are_named(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(4, 4);
+  hf_surface surface = surface_on(&sheet);
+  hf_error_detail detail;
+  float* floats = calloc(3 * sheet.vertex_count, sizeof *floats);
+  double* doubles = calloc(3 * sheet.vertex_count, sizeof *doubles);
+  hf_solver solver = solver_on(surface);
+  add_site(solver, 3, 1e30), add_site(solver, 24, 1e199);
+  assert_ok(hf_solver_solve_f64(solver, doubles, 0, NULL));
+  uint32_t first = 0;
+  while (doubles[first] <= 3.4028234663852886e38) ++first;
+  assert_code(HF_ERROR_TOO_LARGE, hf_solve(solver, floats, 0, NULL));
+  assert_named("beyond 3.40282e+38");
+  assert_ok(hf_error_get_detail(&detail));
+  assert_int_equal(detail.index, first);
+  assert_code(HF_ERROR_TOO_LARGE, hf_solver_solve_preview(solver, floats, 0, 1, NULL));
+  assert_ok(hf_error_get_detail(&detail));
+  assert_int_equal(detail.index, first);
+  hf_solver_destroy(solver);
+  hf_solver_desc three = HF_INIT(hf_solver_desc);
+  three.channel_count = 3;
+  const double vector[3] = {1e100, 1e100, 0};
+  assert_ok(hf_create(surface, &three, &solver));
+  assert_ok(hf_solver_add_site(solver, 7, vector, NULL));
+  assert_code(HF_ERROR_TOO_LARGE, hf_solver_solve_vectors(solver, floats, 0, NULL, NULL));
+  assert_ok(hf_error_get_detail(&detail));
+  assert_int_equal(detail.index, 0);
+  assert_ok(hf_solver_solve_vectors_f64(solver, doubles, 0, NULL, NULL));
+  hf_solver_destroy(solver);
+  hf_region region;
+  assert_ok(hf_region_create(surface, NULL, &region));
+  const uint32_t inside[] = {12};
+  hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
+  edit.add_count = 1, edit.add_vertices = inside;
+  assert_ok(hf_region_edit(region, &edit));
+  hf_morph_desc morph = HF_INIT(hf_morph_desc);
+  morph.weight = 1e60, morph.positions = floats;
+  assert_code(HF_ERROR_TOO_LARGE, hf_region_morph(region, &morph));
+  assert_ok(hf_error_get_detail(&detail));
+  assert_int_equal(detail.index, 12);
+  morph.positions = NULL, morph.positions_f64 = doubles;
+  assert_ok(hf_region_morph(region, &morph));
+  hf_region_destroy(region), hf_surface_destroy(surface);
+  free(floats), free(doubles), surface_free(&sheet);
+}
+
+/* A mesh whose poses may leave the range of floats, or with a vertex in no triangle beyond it, is posed in doubles. The
+ * refused frame leaves the pose as it was. */
+static void poses_of_huge_meshes_are_doubles(void** state) {
+  (void)state;
+  enum { AROUND = 8, RINGS = 9, COUNT = AROUND * RINGS + 1 };
+  Surface tube = surface_tube(AROUND, RINGS);
+  static double positions[3 * COUNT], frame[3 * COUNT], expected[3 * COUNT];
+  static float floats[3 * COUNT];
+  for (int huge = 0; huge < 2; ++huge) {
+    const double unit = huge ? 1e25 : 1;
+    for (size_t i = 0; i < 3 * (COUNT - 1); ++i) positions[i] = unit * (double)tube.positions[i];
+    for (size_t i = 3 * (COUNT - 1); i < 3 * COUNT; ++i) positions[i] = huge ? 0 : 1e39;
+    hf_surface_desc desc = options_of(&tube).surface;
+    desc.vertex_count = COUNT, desc.positions = NULL, desc.positions_f64 = positions;
+    hf_surface surface;
+    hf_pose pose, other;
+    uint32_t handles[2];
+    const hf_transform turn = {{0, 0.3, 0.1, 0.9}, {0.5 * unit, 0.2 * unit, 0}};
+    assert_ok(hf_surface_create(&desc, &surface));
+    pose = tube_pose(surface, AROUND, RINGS, handles);
+    assert_ok(hf_pose_set_transform(pose, handles[1], &turn));
+    assert_ok(hf_pose_clone(pose, &other));
+    assert_code(HF_ERROR_TOO_LARGE, hf_deform(pose, floats, NULL));
+    hf_error_detail detail;
+    assert_ok(hf_error_get_detail(&detail));
+    assert_int_equal(detail.index, huge ? HF_NO_INDEX : COUNT - 1);
+    hf_deform_desc deform = HF_INIT(hf_deform_desc);
+    deform.positions_f64 = frame;
+    assert_ok(hf_pose_deform(pose, &deform, NULL));
+    deform.positions_f64 = expected;
+    assert_ok(hf_pose_deform(other, &deform, NULL));
+    assert_true(same_bits(frame, expected, sizeof frame));
+    hf_transfer transfer;
+    const uint32_t ones[2] = {1, 1}, ends[2] = {0, COUNT - 2};
+    hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
+    pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = ones;
+    pairs.source_vertices = pairs.target_vertices = ends;
+    assert_ok(hf_transfer_create(surface, surface, NULL, &transfer));
+    assert_ok(hf_transfer_add_pairs(transfer, &pairs, NULL));
+    hf_transfer_frame apply = HF_INIT(hf_transfer_frame);
+    apply.source_positions_f64 = expected, apply.target_positions = floats;
+    assert_code(HF_ERROR_TOO_LARGE, hf_transfer_apply(transfer, &apply));
+    apply.target_positions = NULL, apply.target_positions_f64 = frame;
+    assert_ok(hf_transfer_apply(transfer, &apply));
+    hf_transfer_destroy(transfer), hf_pose_destroy(pose), hf_pose_destroy(other), hf_surface_destroy(surface);
+  }
+  surface_free(&tube);
+}
+
+/* A frame of the source that is finite and far away would leave the range of double in a square. */
+static void frames_beyond_1e15_boxes_are_refused_in_every_mode(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(7, 7);
+  hf_surface surface = surface_on(&sheet);
+  double* source = calloc(3 * sheet.vertex_count, sizeof *source);
+  double* out = calloc(3 * sheet.vertex_count, sizeof *out);
+  const uint32_t ones[2] = {1, 1}, ends[2] = {0, 63};
+  for (int32_t mode = 0; mode < 3; ++mode) {
+    hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
+    hf_transfer transfer;
+    desc.mode = mode;
+    assert_ok(hf_transfer_create(surface, surface, &desc, &transfer));
+    hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
+    pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = ones;
+    pairs.source_vertices = pairs.target_vertices = ends;
+    assert_ok(hf_transfer_add_pairs(transfer, &pairs, NULL));
+    const double far[] = {1e14, 1e15, -1e18, 1e60, 1e160, 1e305};
+    for (size_t f = 0; f < COUNT_OF(far); ++f) {
+      for (size_t i = 0; i < 3 * (size_t)sheet.vertex_count; ++i) source[i] = (double)sheet.positions[i];
+      source[30] = far[f];
+      hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
+      frame.source_positions_f64 = source, frame.target_positions_f64 = out;
+      const hf_result result = hf_transfer_apply(transfer, &frame);
+      if (f < 2) {
+        assert_int_equal(result, HF_OK);
+        for (size_t i = 0; i < 3 * (size_t)sheet.vertex_count; ++i) assert_true(isfinite(out[i]));
+        continue;
+      }
+      hf_error_detail detail;
+      assert_int_equal(result, HF_ERROR_TOO_LARGE);
+      assert_ok(hf_error_get_detail(&detail));
+      assert_int_equal(detail.index, 10);
+      if (mode == HF_TRANSFER_STRETCH) continue;
+      const uint32_t pair = 0;
+      const double place[3] = {far[f], 0, 0};
+      source[30] = (double)sheet.positions[30];
+      frame.hold_count = 1, frame.hold_pairs = &pair, frame.hold_positions = place;
+      assert_code(HF_ERROR_TOO_LARGE, hf_transfer_apply(transfer, &frame));
+    }
+    hf_transfer_destroy(transfer);
+  }
+  hf_surface_destroy(surface), free(source), free(out), surface_free(&sheet);
+}
+
+static void refused_handles_say_what_to_do(void** state) {
+  (void)state;
+  Surface tube = surface_tube(12, 20);
+  hf_surface surface = surface_on(&tube);
+  hf_pose pose;
+  assert_ok(hf_pose_create(surface, NULL, &pose));
+  const double at[3] = {1, 4, 0}, far[3] = {1, 19000, 0};
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_pose_add_handle_at(pose, at, -1, NULL));
+  assert_named("the radius of point 0 is -1");
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_pose_add_handle_at(pose, at, 1e-6, NULL));
+  assert_named("the next vertex is 0.5");
+  assert_code(HF_ERROR_TOO_LARGE, hf_pose_add_handle_at(pose, far, 1, NULL));
+  assert_named("unit of the positions");
+  uint32_t handle;
+  assert_ok(hf_pose_add_handle_at(pose, at, 0.4, &handle)); /* a coarse mesh: one vertex of a radius that is meant */
+  const double rows[16] = {0, -1, 0, 2, 1, 0, 0, 3, 0, 0, 1, 4, 0, 0, 0, 1};
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_pose_set_matrices(pose, 1, &handle, rows));
+  assert_named("is it transposed?");
+  const double scaled[16] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1};
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_pose_set_matrices(pose, 1, &handle, scaled));
+  assert_named("scale and shear");
+  hf_pose_destroy(pose), hf_surface_destroy(surface), surface_free(&tube);
+}
+
+/* Half of the triangles would be empty: every second 16-bit number is the high half of an index. */
+static void indices_of_another_width_are_refused(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(6, 6);
+  hf_surface_desc desc = options_of(&sheet).surface;
+  hf_surface surface = NULL;
+  desc.triangles = NULL, desc.triangles_u16 = (const uint16_t*)sheet.triangles;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &surface));
+  assert_named("give 32-bit indices as triangles");
+  desc.triangle_stride = 3 * sizeof(uint16_t);
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &surface));
+  uint64_t* wide = calloc(3 * sheet.triangle_count, sizeof *wide);
+  for (size_t i = 0; i < 3 * (size_t)sheet.triangle_count; ++i) wide[i] = sheet.triangles[i];
+  desc.triangle_stride = 0, desc.triangles_u16 = NULL, desc.triangles = (const uint32_t*)wide;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &surface));
+  assert_named("64-bit indices");
+  assert_null(surface);
+  free(wide), surface_free(&sheet);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(numbers_that_are_no_floats_are_named),
+      cmocka_unit_test(poses_of_huge_meshes_are_doubles),
+      cmocka_unit_test(frames_beyond_1e15_boxes_are_refused_in_every_mode),
+      cmocka_unit_test(refused_handles_say_what_to_do),
+      cmocka_unit_test(indices_of_another_width_are_refused),
       cmocka_unit_test(axes_hold_within_1e_3),
       cmocka_unit_test(a_mirror_takes_1048576_bones),
       cmocka_unit_test(a_curve_passes_a_vertex_8_times),

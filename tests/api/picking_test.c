@@ -339,6 +339,11 @@ static void bad_input_is_named(void** state) {
   o[1] = 1, d[2] = HUGE_VAL;
   BAD("direction infinite", HF_ERROR_NON_FINITE, NO_INDEX, hf_surface_cast_ray(s, o, d, NULL, &hit));
   d[2] = -1;
+  const double away[] = {1e20, 1e155, -1e200, 1.7e308}; /* so far that no vertex is nearer than another */
+  for (size_t i = 0; i < COUNT_OF(away); ++i) {
+    const double far[3] = {away[i], 0, 0};
+    BAD("a point far away", HF_ERROR_TOO_LARGE, NO_INDEX, hf_surface_find_vertex(s, far, NULL, &vertex, NULL));
+  }
 #define PICK(what, expected, index, change)                              \
   pick = HF_INIT(hf_pick_desc), pick.positions_f64 = doubles, change;    \
   BAD(what, expected, index, hf_surface_cast_ray(s, o, d, &pick, &hit)); \
@@ -349,6 +354,10 @@ static void bad_input_is_named(void** state) {
   PICK("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, pick.reserved = 1);
   PICK("a posed vertex NaN", HF_ERROR_NON_FINITE, 13, doubles[3 * 13 + 1] = (double)NAN);
   PICK("a posed vertex infinite", HF_ERROR_NON_FINITE, 13, doubles[3 * 13 + 1] = HUGE_VAL);
+  pick = HF_INIT(hf_pick_desc), pick.positions_f64 = doubles;
+  for (size_t i = 0; i < COUNT_OF(doubles); ++i) doubles[i] = 1e200;
+  BAD("all posed vertices far away", HF_ERROR_TOO_LARGE, NO_INDEX,
+      hf_surface_find_vertex(s, zero, &pick, &vertex, NULL));
   assert_true(same_bits(&hit, &before, sizeof hit));
   assert_int_equal(vertex, 777);
   finish_rows("picking");

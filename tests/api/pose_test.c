@@ -632,7 +632,7 @@ static void a_point_and_a_radius_make_a_handle(void** state) {
   hf_pose pose = NULL;
   assert_ok(hf_pose_create(surface, NULL, &pose));
   const uint32_t at = 5 * AROUND;
-  double points[6], radii[2] = {0, 0};
+  double points[6], radii[2] = {0.3, 0.3};
   for (uint32_t i = 0; i < 3; ++i)
     points[i] = (double)tube.positions[3 * at + i], points[3 + i] = (double)tube.positions[i];
   hf_handles_desc desc = HF_INIT(hf_handles_desc);

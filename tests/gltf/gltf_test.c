@@ -216,6 +216,47 @@ static void pairs_give_regions_and_come_back(void** state) {
   free(text), hf_gltf_pairs_destroy(pairs), hf_gltf_pairs_destroy(again), hf_gltf_model_destroy(model);
 }
 
+/* It lies nearest to the places of both pairs, or so far away that the box would be another. */
+static void a_vertex_without_a_triangle_is_in_no_region(void** state) {
+  (void)state;
+  static const char text[] =
+      "{\"pairs\": [{\"name\": \"low\", \"both\": {\"position\": [0.5, -0.4, 0], \"radius\": 0.2}},"
+      " {\"name\": \"high\", \"both\": {\"position\": [0.5, 9, 0], \"radius\": 0.1}}]}";
+  hf_gltf_model plain = strip();
+  const float strays[3][3] = {{0.5f, -0.4f, 0}, {0.5f, 9, 0}, {1e5f, 0, 0}};
+  for (int s = 0; s < 3; ++s) {
+    float positions[3 * (VERTICES + 1)] = {0};
+    uint32_t triangles[3 * TRIANGLES];
+    for (uint32_t v = 0; v < VERTICES; ++v) positions[3 * v] = (float)(v % 2), positions[3 * v + 1] = (float)(v / 2);
+    memcpy(positions + 3 * VERTICES, strays[s], sizeof strays[s]);
+    for (uint32_t r = 0; r + 1 < ROWS; ++r) {
+      const uint32_t a = 2 * r, corners[6] = {a, a + 1, a + 2, a + 2, a + 1, a + 3};
+      memcpy(triangles + 6 * r, corners, sizeof corners);
+    }
+    hf_gltf_mesh_desc desc = HF_INIT(hf_gltf_mesh_desc);
+    desc.vertex_count = VERTICES + 1, desc.triangle_count = TRIANGLES;
+    desc.positions = positions, desc.triangles = triangles;
+    hf_gltf_model model;
+    hf_gltf_pairs pairs, expected;
+    assert_int_equal(hf_gltf_model_create(&desc, &model), HF_OK);
+    assert_int_equal(hf_gltf_pairs_read(model, plain, text, sizeof text - 1, &pairs), HF_OK);
+    assert_int_equal(hf_gltf_pairs_read(plain, plain, text, sizeof text - 1, &expected), HF_OK);
+    for (uint32_t p = 0; p < 2; ++p) {
+      hf_gltf_pair found = HF_INIT(hf_gltf_pair), wanted = HF_INIT(hf_gltf_pair);
+      assert_int_equal(hf_gltf_pairs_get_pair(pairs, p, &found), HF_OK);
+      assert_int_equal(hf_gltf_pairs_get_pair(expected, p, &wanted), HF_OK);
+      assert_int_equal(found.source_count, wanted.source_count);
+      assert_true(found.source_radius == wanted.source_radius);
+      uint32_t vertices[VERTICES], others[VERTICES];
+      assert_int_equal(hf_gltf_pairs_get_regions(pairs, p, VERTICES, vertices, 0, NULL), HF_OK);
+      assert_int_equal(hf_gltf_pairs_get_regions(expected, p, VERTICES, others, 0, NULL), HF_OK);
+      assert_memory_equal(vertices, others, found.source_count * sizeof *vertices);
+    }
+    hf_gltf_pairs_destroy(pairs), hf_gltf_pairs_destroy(expected), hf_gltf_model_destroy(model);
+  }
+  hf_gltf_model_destroy(plain);
+}
+
 static void refused_calls_change_nothing(void** state) {
   (void)state;
   hf_gltf_model still = strip(), model = swinging(still), other = still;
@@ -237,6 +278,12 @@ static void refused_calls_change_nothing(void** state) {
   assert_int_equal(hf_gltf_model_add_clip(model, &desc, NULL), HF_ERROR_INVALID_ARGUMENT);
   times[1] = 1, frames[6 * VERTICES - 1] = NAN;
   assert_int_equal(hf_gltf_model_add_clip(model, &desc, NULL), HF_ERROR_NON_FINITE);
+  frames[6 * VERTICES - 1] = 1e200; /* files hold floats */
+  assert_int_equal(hf_gltf_model_add_clip(model, &desc, NULL), HF_ERROR_TOO_LARGE);
+  assert_int_equal(hf_gltf_error_get_detail(&detail), HF_OK);
+  assert_int_equal(detail.index, 1);
+  positions[7] = -1e39;
+  assert_int_equal(hf_gltf_model_set_positions(model, positions), HF_ERROR_TOO_LARGE);
   assert_int_equal(hf_gltf_model_write(model, 2, 0, NULL, &same), HF_ERROR_INVALID_ARGUMENT);
   assert_int_equal(hf_gltf_model_write(model, HF_GLTF_GLB, count - 1, bytes, &same), HF_ERROR_TOO_SMALL);
   void* after = written(model, HF_GLTF_GLB, &same);
@@ -285,6 +332,7 @@ int main(void) {
                                      cmocka_unit_test(a_fitted_skin_does_not_sink_under_the_frames),
                                      cmocka_unit_test(clips_go_to_a_skeleton_of_the_same_names),
                                      cmocka_unit_test(pairs_give_regions_and_come_back),
+                                     cmocka_unit_test(a_vertex_without_a_triangle_is_in_no_region),
                                      cmocka_unit_test(refused_calls_change_nothing),
                                      cmocka_unit_test(moved_vertices_stay_in_the_file)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -84,10 +84,11 @@ void Player::pose() {
   } owner;
   expect(HF_OK, hf_pose_create(surface, nullptr, &owner.pose), "hf_pose_create");
   if (bytes_.take() % 2) drop_surface();
-  const float* const at = &s.positions[std::size_t{3} * v];
-  const double point[3] = {at[0], at[1], at[2]};
+  const std::uint32_t one = 1;
   std::uint32_t handle = 0;
-  expect(HF_OK, hf_pose_add_handle_at(owner.pose, point, 0, &handle), "hf_pose_add_handle_at");
+  hf_handles_desc region = HF_INIT(hf_handles_desc);
+  region.handle_count = 1, region.region_counts = &one, region.region_vertices = &v;
+  expect(HF_OK, hf_pose_add_handles(owner.pose, &region, &handle), "hf_pose_add_handles");
   std::vector<float> posed(s.positions.size());
   for (const float by : {0.0f, 0.5f}) {
     const hf_transform moved = {{0, 0, 0, 1}, {by, -by, 2.0 * by}};

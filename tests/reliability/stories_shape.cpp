@@ -107,7 +107,7 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   s.call("hf_pose_deform", [&] { return hf_pose_deform(pose, &deform, nullptr); });
   s.take(posed.data(), posed.size());
   s.make("hf_pose_clone", copy, [&] { return hf_pose_clone(pose, &copy); });
-  const double radius = 0;
+  const double radius = 0.2;  // one vertex
   layer.handle_count = 1, layer.points = tube.positions.data() + 3 * 4 * Tube::around, layer.radii = &radius,
   layer.layer = 1;
   s.call("hf_pose_add_handles", [&] { return hf_pose_add_handles(copy, &layer, &above); });

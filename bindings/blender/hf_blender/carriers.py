@@ -13,6 +13,8 @@ from mathutils import Matrix
 
 import hf
 
+from . import mesh_data
+
 PROPERTIES = ("hf_key", "hf_id", "hf_layer", "hf_vertices", "hf_rest")
 OFFERED = "hf_offered"  # where an offered empty was put
 
@@ -123,8 +125,9 @@ def mark_bones(obj, armature, rest_positions, groups, layer, share):
     ends = np.array(ends, np.float64)
     near = bone_regions(rest_positions.astype(np.float64), ends[:, 0], ends[:, 1], share)
     marked = []
+    shown = mesh_data.on_surface(obj.data)
     for bone, region in zip(bones, near):
-        region = groups.get(bone.name, region)
+        region = groups.get(bone.name, region[shown[region]])
         if len(region):
             place, turn, _ = (to_local @ bone.bone.matrix_local).decompose()
             mark(bone, obj, region, Matrix.Translation(place) @ turn.to_matrix().to_4x4(), layer)

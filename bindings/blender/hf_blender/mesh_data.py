@@ -25,6 +25,12 @@ def rest_of(mesh):
     return positions_of(mesh)
 
 
+def size_of(mesh):
+    """The diagonal of the box of the surface at rest."""
+    corners = rest_of(mesh)[on_surface(mesh)]
+    return float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) else 0.0
+
+
 def keep_rest(mesh, rest):
     if REST not in mesh.attributes:
         mesh.attributes.new(REST, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", rest.ravel())
@@ -42,8 +48,15 @@ def faces_of(mesh):
             column(mesh.loops, "vertex_index"))
 
 
+def on_surface(mesh):
+    """A mask of the vertices that a face has. The others are no part of the surface."""
+    out = np.zeros(len(mesh.vertices), bool)
+    out[faces_of(mesh)[2]] = True
+    return out
+
+
 def groups_vertices(obj, names, least=0.5):
-    """Vertices of each vertex group with at least that weight, in one pass over the mesh."""
+    """Vertices on the surface of each vertex group with at least that weight, in one pass over the mesh."""
     found = {}
     for name in names:
         group = obj.vertex_groups.get(name)
@@ -51,8 +64,9 @@ def groups_vertices(obj, names, least=0.5):
             raise hf.InvalidArgumentError(f"{obj.name} has no vertex group '{name}'")
         found[group.index] = []
     lists = {index: vertices.append for index, vertices in found.items()}
+    shown = on_surface(obj.data)
     for number, vertex in enumerate(obj.data.vertices):
-        for g in vertex.groups:
+        for g in vertex.groups if shown[number] else ():
             add = lists.get(g.group)
             if add and g.weight >= least:
                 add(number)
@@ -81,7 +95,7 @@ def selected_vertices(obj):
         obj.update_from_editmode()
     picked = np.empty(len(obj.data.vertices), bool)
     obj.data.vertices.foreach_get("select", picked)
-    return np.flatnonzero(picked).tolist()
+    return np.flatnonzero(picked & on_surface(obj.data)).tolist()
 
 
 def write_group(obj, name, values):

@@ -402,12 +402,10 @@ def add_stroke(made):
 def add_pole(made, count, place):
     """An empty on the source, where 3 or 5 quads are to meet."""
     source = source_of(made, bpy.context.scene)
-    points = session.session_of(source).rest
     at = np.array((source.matrix_world.inverted_safe() @ place)[:])
-    away = np.einsum("ij,ij->i", points - at, points - at)
-    vertex = source.data.vertices[int(away.argmin())]
+    vertex = source.data.vertices[session.session_of(source).surface.find_vertex(at)[0]]
     obj = bpy.data.objects.new(f"{made.name} pole {count}", None)
-    obj.empty_display_type, obj.empty_display_size = "ARROWS", 0.05 * max(source.dimensions)
+    obj.empty_display_type, obj.empty_display_size = "ARROWS", 0.05 * mesh_data.size_of(source.data)
     for collection in made.users_collection:
         collection.objects.link(obj)
     obj[POLE] = count

@@ -5,7 +5,7 @@ import numpy as np
 
 import hf
 
-from .mesh_data import faces_of, group_vertices, positions_of, rest_of
+from .mesh_data import faces_of, group_vertices, positions_of, rest_of, size_of
 from .session import make_surface, session_of
 
 
@@ -17,7 +17,7 @@ def write_skin(obj, skin, name):
     view, active = bpy.context.view_layer, bpy.context.view_layer.objects.active
     view.objects.active = armature
     bpy.ops.object.mode_set(mode="EDIT")
-    size = 0.03 * float(np.linalg.norm(np.ptp(rest_of(obj.data), axis=0)))
+    size = 0.03 * size_of(obj.data)
     names = [f"hf{j:03d}" for j in range(len(skin.pivots))]
     for bone_name, pivot in zip(names, skin.pivots):
         bone = armature.data.edit_bones.new(bone_name)

@@ -111,7 +111,7 @@ class Session:
 
     def remarks_of(self, found):
         """What the pose leaves behind: vertices that no handle reaches, gaps between pieces, handles on light pieces."""
-        out, diagonal = [], float(np.linalg.norm(np.ptp(self.rest, axis=0))) or 1.0
+        out, diagonal = [], self.surface.report.bounding_box_diagonal or 1.0
         if self.info.unreached_vertex_count:
             out.append(f"{self.info.unreached_vertex_count} vertices are reached by no handle and stay at rest")
         gaps = self.surface.measure_gaps(self.posed)

@@ -8,7 +8,7 @@ from mathutils import Matrix
 
 import hf
 
-from .mesh_data import faces_of, positions_of
+from .mesh_data import faces_of, on_surface, positions_of, size_of
 from .session import make_surface
 
 NOTE = "hf_weights_note"  # what was guessed, for the panel
@@ -101,7 +101,7 @@ def add_pin(obj, armature, bone):
         raise hf.EmptyError(f"select a vertex of {obj.name} for the pin")
     obj[KEY] = obj.get(KEY) or uuid.uuid4().hex
     empty = bpy.data.objects.new(f"{obj.name} pin {bone}", None)
-    empty.empty_display_type, empty.empty_display_size = "PLAIN_AXES", 0.05 * max(obj.dimensions)
+    empty.empty_display_type, empty.empty_display_size = "PLAIN_AXES", 0.05 * size_of(obj.data)
     (obj.users_collection or (bpy.context.scene.collection,))[0].objects.link(empty)
     empty[KEY], empty[PIN] = obj[KEY], bone
     empty.matrix_world = Matrix.Translation(obj.matrix_world @ obj.data.vertices[vertex].co)
@@ -109,8 +109,9 @@ def add_pin(obj, armature, bone):
 
 
 def pin_places(obj, names):
-    """Vertex and bone of every pin: the vertex nearest to the empty."""
+    """Vertex and bone of every pin: the vertex of the surface nearest to the empty."""
     points, inverse = positions_of(obj.data).astype(np.float64), obj.matrix_world.inverted()
+    points[~on_surface(obj.data)] = np.inf
     places = {}
     for pin in pins_of(obj):
         if pin[PIN] not in names:

@@ -16,11 +16,11 @@ export const mirrorChoice = (value, onchange, attributes) =>
   });
 
 /** Where the plane across the middle of a body meets its axis. */
-export function middleOf(positions, axis) {
+export function middleOf({ positions, triangles }, axis) {
   let [low, high] = [Infinity, -Infinity];
-  for (let i = axis; i < positions.length; i += 3) {
-    low = Math.min(low, positions[i]);
-    high = Math.max(high, positions[i]);
+  for (const v of triangles) {
+    low = Math.min(low, positions[3 * v + axis]);
+    high = Math.max(high, positions[3 * v + axis]);
   }
   return (low + high) / 2;
 }
@@ -52,13 +52,12 @@ function twinOf(handle, handles, axis, middle) {
   return twin;
 }
 
-/** The vertex nearest to a place, and how far it is. */
-function nearestVertex(positions, place) {
+/** The vertex of a triangle nearest to a place, and how far it is. */
+function nearestVertex({ positions, triangles }, place) {
   let [least, vertex] = [Infinity, 0];
-  for (let v = 0; v < positions.length; v += 3) {
-    const away =
-      (positions[v] - place[0]) ** 2 + (positions[v + 1] - place[1]) ** 2 + (positions[v + 2] - place[2]) ** 2;
-    if (away < least) [least, vertex] = [away, v / 3];
+  for (const v of triangles) {
+    const away = [0, 1, 2].reduce((sum, k) => sum + (positions[3 * v + k] - place[k]) ** 2, 0);
+    if (away < least || (away === least && v < vertex)) [least, vertex] = [away, v];
   }
   return { vertex, away: Math.sqrt(least) };
 }
@@ -95,7 +94,7 @@ export class Mirror {
     this.axis = axis;
     const { body } = this.app;
     if (axis !== '' && body) {
-      this.middle = middleOf(body.positions, axis);
+      this.middle = middleOf(body, axis);
       const { min, max } = this.app.skin.box(body.positions);
       const [low, high] = [min.toArray(), max.toArray()];
       const [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
@@ -147,7 +146,7 @@ export class Mirror {
     this.alone = null;
     const { axis, middle } = this;
     if (axis === '') return added;
-    const { positions } = this.app.body;
+    const { body } = this.app;
     const all = added.slice();
     for (const handle of added) {
       if (inMiddle(handle, axis, middle) || this.twin(handle, [...handles, ...all])) continue;
@@ -157,7 +156,7 @@ export class Mirror {
         continue;
       }
       const position = imageOfPlace(handle.position, axis, middle);
-      const { vertex, away } = nearestVertex(positions, position);
+      const { vertex, away } = nearestVertex(body, position);
       if (away < handle.radius) all.push(fresh({ position, radius: handle.radius, vertex }));
       else this.alone = handle.id;
     }

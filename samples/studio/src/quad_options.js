@@ -35,7 +35,7 @@ function polesOf({ skin, body: { positions } }, poles, plane) {
 export function quadOptions({ middleOf }, { app, edge, crease, mirror, strokes, poles }, relaxed) {
   const options = { edgeLength: edge * app.opened.report.boundingBoxDiagonal };
   if (mirror !== '')
-    options.symmetryPlane = [0, 1, 2].map((k) => Number(k === mirror)).concat(middleOf(app.body.positions, mirror));
+    options.symmetryPlane = [0, 1, 2].map((k) => Number(k === mirror)).concat(middleOf(app.body, mirror));
   Object.assign(options, guidesOf(app, strokes), polesOf(app, poles, options.symmetryPlane));
   return { ...options, creaseAngle: crease, relaxCount: relaxed ? 0 : NO_RELAXATION };
 }

@@ -310,8 +310,11 @@ export class Skin {
   at({ corners, barycentrics }, positions = this.positions) {
     return [0, 1, 2].map((k) => corners.reduce((sum, v, i) => sum + barycentrics[i] * positions[3 * v + k], 0));
   }
+  /** The box of what triangles show: vertices that are left over in a file may lie anywhere. */
   box(positions = this.positions) {
-    return new THREE.Box3().setFromArray(positions);
+    const [box, corner] = [new THREE.Box3(), new THREE.Vector3()];
+    for (const v of this.body.triangles) box.expandByPoint(corner.fromArray(positions, 3 * v));
+    return box;
   }
   dispose() {
     this.view.bodies.remove(this.group);

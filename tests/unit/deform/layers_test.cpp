@@ -454,7 +454,7 @@ TEST(RigidTransform, RefusesWhatIsNotRigidWithItsPosition) {
 
 TEST(RegionsNear, ListsARegionForEachPoint) {
   const auto core = hf_test::make_core(hf_test::grid(10, 10));
-  const double points[] = {0, 0, 0, 5, 5, 0.2}, radii[] = {0, 1.1};
+  const double points[] = {0, 0, 0, 5, 5, 0.2}, radii[] = {0.5, 1.1};
   Vector<std::uint32_t> start(core->memory.get());
   Vector<std::int32_t> vertices(core->memory.get());
   regions_near(*core, {points, 6}, {radii, 2}, start, vertices);
@@ -462,7 +462,7 @@ TEST(RegionsNear, ListsARegionForEachPoint) {
   EXPECT_EQ(start[1], 1u);
   EXPECT_EQ(start[2], 6u);  // the middle and its four neighbours
   EXPECT_EQ(core->mesh.given_of_inner[vertices[0]], 0);
-  const double bad[] = {0, -1};
+  const double bad[] = {0.5, -1};
   try {
     regions_near(*core, {points, 6}, {bad, 2}, start, vertices);
     ADD_FAILURE();

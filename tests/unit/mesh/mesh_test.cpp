@@ -155,6 +155,74 @@ TEST(Mesh, refuses_what_it_cannot_take_and_names_it) {
   EXPECT_EQ(given.code(), HF_ERROR_EMPTY);
 }
 
+// A vertex that is left over in a file: far away or near, first or last, in no triangle or in one of equal corners.
+TEST(Mesh, a_vertex_without_a_triangle_changes_nothing) {
+  hf_inner::Memory memory;
+  const hf_test::PlainMesh plain = hf_test::torus(12, 8);
+  const hf_inner::Mesh first = Given{plain.positions, plain.triangles}.make(memory);
+  for (const double far : {1e5, -3.0, 0.01, 1.7e308}) {
+    for (const bool in_front : {true, false}) {
+      for (const bool collapsed : {true, false}) {
+        Given given{plain.positions, plain.triangles};
+        const std::uint32_t stray = in_front ? 0 : plain.vertex_count();
+        const double place[3] = {far, -far, far};
+        given.positions.insert(given.positions.begin() + 3 * static_cast<std::ptrdiff_t>(stray), place, place + 3);
+        for (std::uint32_t& corner : given.triangles) corner += in_front;
+        if (collapsed) given.triangles.insert(given.triangles.end(), {stray, stray, given.triangles[0]});
+        const hf_inner::Mesh mesh = given.make(memory);
+        ASSERT_EQ(mesh.positions.size(), first.positions.size());
+        EXPECT_EQ(
+            std::memcmp(mesh.positions.data(), first.positions.data(), sizeof(hf_inner::Vec3) * mesh.positions.size()),
+            0);
+        EXPECT_EQ(std::memcmp(&mesh.centre, &first.centre, sizeof mesh.centre), 0);
+        EXPECT_EQ(mesh.scale, first.scale);
+        EXPECT_EQ(mesh.report.bounding_box_diagonal, first.report.bounding_box_diagonal);
+        EXPECT_EQ(mesh.report.isolated_vertex_count, 1u);
+        EXPECT_EQ(mesh.isolated.at(0).given, static_cast<std::int32_t>(stray));
+        EXPECT_EQ(mesh.isolated.at(0).position.x, far);
+      }
+    }
+  }
+}
+
+// Squares of numbers of 1e200 leave the range of double: faces are cut in the frame of the surface, and a vertex that
+// no face has is no part of it.
+TEST(Mesh, faces_are_cut_alike_in_any_unit_and_beside_a_vertex_that_no_face_has) {
+  std::vector<double> positions;
+  std::vector<std::uint32_t> corners, sizes;
+  constexpr std::uint32_t columns = 6;
+  for (std::uint32_t i = 0; i < columns; ++i) {
+    positions.insert(positions.end(), {1.0 * i, 0.1 * i * i, 0.3 * (i % 2)});
+    positions.insert(positions.end(), {1.1 * i, 1.0 + 0.2 * i, 0});
+    if (i > 0) corners.insert(corners.end(), {2 * i - 2, 2 * i, 2 * i + 1, 2 * i - 1}), sizes.push_back(4);
+  }
+  std::vector<std::int32_t> expected;
+  std::uint32_t bent = 0;
+  for (const double unit : {1.0, 1e200, 1e-200}) {
+    for (const double stray : {0.5, 1e5, 1e300}) {
+      std::vector<double> moved = positions;
+      for (double& x : moved) x *= unit;
+      moved.insert(moved.end(), {stray, stray, stray});
+      hf_inner::MeshInput input;
+      input.vertex_count = static_cast<std::uint32_t>(moved.size() / 3);
+      input.positions = hf_inner::ConstRows(moved.data(), 3 * sizeof(double));
+      input.faces.face_count = static_cast<std::uint32_t>(sizes.size());
+      input.faces.corner_count = static_cast<std::uint32_t>(corners.size());
+      input.faces.sizes = sizes.data(), input.faces.corners = corners.data();
+      input.faces.face_stride = input.faces.corner_stride = sizeof(std::uint32_t);
+      hf_inner::Memory memory;
+      const hf_inner::Mesh mesh = hf_inner::Mesh::make(input, memory);
+      if (expected.empty())
+        expected.assign(mesh.corners.begin(), mesh.corners.end()), bent = mesh.faces.non_planar_count;
+      EXPECT_EQ(std::vector<std::int32_t>(mesh.corners.begin(), mesh.corners.end()), expected) << unit << " " << stray;
+      EXPECT_EQ(mesh.faces.non_planar_count, bent);
+      EXPECT_EQ(mesh.report.isolated_vertex_count, 1u);
+      EXPECT_LT(mesh.scale, 10 * unit);
+    }
+  }
+  EXPECT_GT(bent, 0u);
+}
+
 TEST(Mesh, is_the_same_at_any_scale_and_place) {
   hf_inner::Memory memory;
   const hf_test::PlainMesh plain = hf_test::torus(12, 8);

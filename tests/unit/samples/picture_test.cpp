@@ -91,6 +91,16 @@ TEST(Picture, AutomaticFitTouchesTheMarginWithAndWithoutPerspective) {
   }
 }
 
+TEST(Picture, AVertexInNoTriangleDoesNotMoveTheCamera) {
+  Surface stray = square(0);
+  stray.positions.insert(stray.positions.end(), {1e5, 2e5, 3});
+  EXPECT_EQ(render(stray, front()).rgb, render(square(0), front()).rgb);
+  Box box, plain;
+  bool empty = true, nothing = true;
+  extend(box, empty, stray.positions, stray.triangles), extend(plain, nothing, square(0).positions);
+  EXPECT_EQ(box.upper, plain.upper);
+}
+
 TEST(Picture, IsoStripsChangeColourExactlyAtTheirValues) {
   Surface surface = square(0);
   surface.scalars = {0, 1, 1, 0};  // grows with x

@@ -2,6 +2,7 @@
 // is answered.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -87,6 +88,63 @@ TEST(WeightsProgram, ComputesComparesAndKeeps) {
   EXPECT_EQ(pinned.meshes[0].primitives[0].influences[24].weights[0], 1.0f);
   ASSERT_EQ(run(path("in.glb") + " --guide 3", text), 0) << text;
   EXPECT_NE(text.find("3 pinned"), std::string::npos) << text;
+}
+
+// A second node has the cylinder's mesh, with joints and a skin of its own.
+Model two_skins(bool reversed) {
+  Model model = bent();
+  const std::vector<int> joints = model.skins[0].joints;
+  Skin second = model.skins[0];
+  for (size_t j = 0; j < joints.size(); ++j) {
+    Node node = model.nodes[static_cast<size_t>(joints[j])];
+    node.name += " 2", node.parent = -1, node.children.clear();
+    second.joints[j] = static_cast<int>(model.nodes.size());
+    model.scene_roots.push_back(second.joints[j]);
+    model.nodes.push_back(node);
+  }
+  if (reversed) {
+    std::reverse(second.joints.begin(), second.joints.end());
+    std::reverse(second.inverse_bind.begin(), second.inverse_bind.end());
+  }
+  const auto first =
+      std::find_if(model.nodes.begin(), model.nodes.end(), [](const Node& node) { return node.mesh >= 0; });
+  Node other = *first;
+  other.name = "other", other.skin = 1, other.parent = -1, other.children.clear();
+  model.scene_roots.push_back(static_cast<int>(model.nodes.size()));
+  model.nodes.push_back(other), model.skins.push_back(second);
+  return model;
+}
+
+// Each skin by itself: the weights are those of the cylinder alone, though joints and surfaces lie on one another. The
+// mesh is copied where the skins count their joints in another order.
+TEST(WeightsProgram, OneMeshUnderTwoSkinsIsComputedForEach) {
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return "\"" + (folder.path / name).string() + "\""; };
+  std::string text;
+  write_gltf(bent(), folder.path / "alone.glb");
+  ASSERT_EQ(run(path("alone.glb") + " -o " + path("alone_out.glb"), text), 0) << text;
+  const Model alone = read_gltf(folder.path / "alone_out.glb");
+  const std::vector<Influences>& expected = alone.meshes[0].primitives[0].influences;
+  for (const bool reversed : {false, true}) {
+    write_gltf(two_skins(reversed), folder.path / "two.glb");
+    ASSERT_EQ(run(path("two.glb") + " -o " + path("out.glb") + " --report " + path("report.json"), text), 0) << text;
+    EXPECT_EQ(text.find("1 coincident"), std::string::npos) << text;
+    EXPECT_EQ(JsonFile(folder.path / "report.json").root().at("skeletons").size(), 2u);
+    const Model out = read_gltf(folder.path / "out.glb");
+    EXPECT_EQ(out.meshes.size(), reversed ? 2u : 1u);
+    for (const Node& node : out.nodes) {
+      if (node.mesh < 0) continue;
+      const std::vector<Influences>& got = out.meshes[static_cast<size_t>(node.mesh)].primitives[0].influences;
+      ASSERT_EQ(got.size(), expected.size());
+      for (size_t v = 0; v < got.size(); ++v) {
+        for (size_t k = 0; k < 4; ++k) {
+          EXPECT_EQ(got[v].weights[k], expected[v].weights[k]) << node.name << v;
+          if (!(got[v].weights[k] > 0)) continue;
+          EXPECT_EQ(got[v].joints[k], reversed && node.skin == 1 ? 1 - expected[v].joints[k] : expected[v].joints[k]);
+        }
+      }
+    }
+  }
 }
 
 // A sleeve without joints takes those of the cylinder, and its weights; the cylinder's halves mirror each other.

@@ -345,13 +345,13 @@ TEST(TransferOutputs, TravelIsTakenOutAndSwayAndHeightStay) {
   for (const double t : times) {
     const double sway = 0.2 * std::sin(3.14159265358979323846 * t), rise = 0.5 * t;
     still.push_back({sway, rise, 0, sway + 1, rise, 2});
-    travels.push_back({sway + 3 * t, rise, -4 * t, sway + 1 + 3 * t, rise, 2 - 4 * t});
+    travels.push_back({sway + 3 * t, rise, -4 * t, sway + 1 + 3 * t, rise, 2 - 4 * t, 1e5 * t, 0, 0});
   }
-  samples::take_travel(times, up, travels);
+  samples::take_travel(times, up, {0, 0, 1}, travels);  // the third vertex is loose and does not count
   for (size_t f = 0; f < times.size(); ++f)
     for (size_t i = 0; i < 6; ++i) EXPECT_NEAR(travels[f][i], still[f][i], 1e-12) << f << " " << i;
   std::vector<std::vector<double>> one = {{1, 2, 3}};
-  samples::take_travel({0}, up, one);
+  samples::take_travel({0}, up, {0}, one);
   EXPECT_EQ(one[0], (std::vector<double>{1, 2, 3}));
 }
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "gltf/flat_mesh.h"
 #include "unit/transfer/transfer_program_support.h"
 
 namespace {
@@ -74,6 +75,62 @@ TEST(TransferProgram, TheHorsesWalkGoesToTheBullAndPairsAreEditedInTheSameSessio
     EXPECT_GT(fs::file_size(folder() / name), 500u) << name;
   // no temporary file is left behind, and the two runs differ
   EXPECT_NE(read_json(report)["pairs"], figures["edited"]["pairs"]);
+}
+
+// A creature, read and written again, with one more vertex in no triangle if stray is set.
+fs::path rewritten(const std::string& name, const glm::dvec3* stray, const std::string& suffix) {
+  hf_gltf::Model model = hf_gltf::read_gltf(creature(name));
+  hf_gltf::Primitive& to = model.meshes.at(0).primitives.at(0);
+  const auto again = [&](auto& list) {
+    if (stray && !list.empty()) list.push_back(list.back());
+  };
+  again(to.positions), again(to.normals), again(to.tangents), again(to.colors), again(to.influences);
+  for (auto& set : to.texcoords) again(set);
+  for (auto& target : to.targets) again(target.positions), again(target.normals);
+  if (stray) to.positions.back() = glm::vec3(*stray);
+  const fs::path file = folder() / (name + suffix + ".glb");
+  hf_gltf::write_gltf(model, file);
+  return file;
+}
+
+// Far away, before the nose and under a foot, of the source and of the target: pairs are proposed and taken as without.
+TEST(TransferProgram, AVertexInNoTriangleChangesNothing) {
+  const auto figures_of = [&](const fs::path& source, const fs::path& target, const std::string& name) {
+    std::string said;
+    const fs::path report = folder() / (name + ".json");
+    EXPECT_EQ(transfer(quoted(source) + " " + quoted(target) + " -o " + quoted(folder() / (name + ".glb")) +
+                           " --json " + quoted(report),
+                       said),
+              0)
+        << name << ": " << said;
+    json out = read_json(report);
+    for (json& clip : out["clips"]) clip.erase("frame_ms"), clip.erase("ms_per_frame");
+    return out;
+  };
+  const hf_gltf::Model horse = hf_gltf::read_gltf(creature("horse"));
+  const hf_gltf::FlatMesh mesh = hf_gltf::flatten(horse);
+  glm::dvec3 nose = mesh.positions[0], foot = nose;
+  for (const glm::dvec3& p : mesh.positions) {
+    if (p.z > nose.z) nose = p;
+    if (p.y < foot.y) foot = p;
+  }
+  const fs::path source = rewritten("horse", nullptr, "_as_is"), target = rewritten("bull", nullptr, "_as_is");
+  const json plain = figures_of(source, target, "no_stray");
+  ASSERT_GT(plain["pairs"].size(), 5u);
+  const struct {
+    const char* name;
+    glm::dvec3 place;
+  } strays[] = {
+      {"_far", {1e5, 2e4, -3e4}}, {"_nose", nose + glm::dvec3(0, 0, 0.01)}, {"_foot", foot - glm::dvec3(0, 0.02, 0)}};
+  for (const auto& stray : strays) {
+    for (const bool of_source : {true, false}) {
+      const fs::path changed = rewritten(of_source ? "horse" : "bull", &stray.place, stray.name);
+      const json found = figures_of(of_source ? changed : source, of_source ? target : changed,
+                                    std::string("stray") + stray.name + (of_source ? "_source" : "_target"));
+      EXPECT_EQ(found["pairs"], plain["pairs"]) << stray.name << of_source;
+      EXPECT_EQ(found["clips"], plain["clips"]) << stray.name << of_source;
+    }
+  }
 }
 
 // Every clip of a source on a target: whole outputs, feet and ground within the bars.

@@ -12,8 +12,8 @@ using hf_inner::Vec3;
 using hf_inner::Weights;
 
 // A closed tube from `low` to `high` along x, around the line at height y.
-PlainMesh part(double low, double high, double radius, double y = 0) {
-  PlainMesh out = tube(10, 6, 1);
+PlainMesh part(double low, double high, double radius, double y = 0, std::uint32_t rings = 6) {
+  PlainMesh out = tube(10, rings, 1);
   for (std::size_t i = 0; i < out.positions.size(); i += 3) {
     out.positions[i] = low + (high - low) * out.positions[i];
     out.positions[i + 1] = y + radius * out.positions[i + 1], out.positions[i + 2] *= radius;
@@ -123,6 +123,49 @@ TEST(RigidPieces, AButtonOnACreatureTakesOneBoneWhereThatIsClear) {
   EXPECT_EQ(least, 1);
   EXPECT_LT(largest, 0.9);
   EXPECT_NEAR(weight_of(weights, 12 * 16, 1), 0.5, 0.05) << "the body bends at its joints";
+}
+
+// An arm of two bones is a whole family of bones, whatever lies on it: it bends as it does alone. A second arm is a
+// family of its own under a root that no part holds, and bones without parents are one family.
+TEST(RigidPieces, AButtonACuffAndASleeveChangeNothingOfAnArmOfTwoBones) {
+  const PlainMesh arm = part(0, 10, 1, 0, 21), button = part(3.8, 4.2, 0.2, 1.1), cuff = part(6.8, 8, 1.2),
+                  sleeve = part(0.5, 9.5, 1.3), other = part(0, 10, 1, 8, 21);
+  const auto weights_of = [](const PlainMesh& mesh, int arms, bool parents) {
+    const auto skin = skin_of(mesh);
+    Bones bones(*skin->core->memory);
+    bones.has_tails = true;
+    const auto add = [&](Vec3 head, Vec3 tail, Index parent) {
+      bones.head.push_back(head), bones.tail.push_back(tail);
+      bones.parent.push_back(parents ? parent : -1), bones.deforms.push_back(1);
+    };
+    add({-4, 4, 0}, {-3, 4, 0}, -1);
+    for (int a = 0; a < arms; ++a) {
+      const double y = 8.0 * a;
+      add({0, y, 0}, {5, y, 0}, 0), add({5, y, 0}, {10, y, 0}, 2 * a + 1);
+    }
+    return Weights(skin, 4, bones);
+  };
+  const auto with = [&](std::vector<PlainMesh> more) {
+    PlainMesh out = arm;
+    for (const PlainMesh& one : more) append(out, one, 0);
+    return out;
+  };
+  const Weights alone = weights_of(arm, 1, true);
+  const auto expect_same = [&](const Weights& dressed, const char* what) {
+    double most = 0;
+    for (Index v = 0; at(v) < arm.vertex_count(); ++v)
+      most = std::max(most, std::fabs(weight_of(dressed, v, 1) - weight_of(alone, v, 1)));
+    EXPECT_LT(most, 0.02) << what;
+  };
+  double bent = 1;
+  for (Index v = 0; at(v) < arm.vertex_count(); ++v)
+    bent = std::min(bent, std::max(weight_of(alone, v, 1), weight_of(alone, v, 2)));
+  EXPECT_LT(bent, 0.7) << "the arm bends";
+  expect_same(weights_of(with({button}), 1, true), "button");
+  expect_same(weights_of(with({button}), 1, false), "button, no parents");
+  expect_same(weights_of(with({cuff}), 1, true), "cuff");
+  expect_same(weights_of(with({sleeve}), 1, true), "sleeve");
+  expect_same(weights_of(with({button, other}), 2, true), "two arms and a button");
 }
 
 // Neither half of the tube is solid, and none holds a bone.

@@ -58,6 +58,24 @@ TEST(Skeleton, JointsEndAtTheirChildrenAlongTheirAxisOrInTheSkin) {
   expect_near(tail(9), bones.head[11], "child along the axis");
 }
 
+// The axes of a leaf of scale -1 point back along the bone above it, and so does that of one turned a little.
+TEST(Skeleton, ALeafDoesNotLieOnTheBoneAboveIt) {
+  const auto skin = skin_of(tube(12, 31, length));
+  hf_inner::Memory& memory = *skin->core->memory;
+  for (const double slant : {0.0, 0.05}) {
+    Bones bones(memory);
+    for (const double x : {0.0, 4.5}) {
+      bones.head.push_back({x, 0, 0}), bones.parent.push_back(x > 0 ? 0 : -1);
+      bones.axis.push_back(x > 0 ? hf_inner::unit_vector({-1, slant, 0}) : Vec3{1, 0, 0}), bones.deforms.push_back(1);
+    }
+    const auto segments = hf_inner::bone_segments(bones, skin->core->mesh, skin->skin, memory);
+    ASSERT_EQ(segments.size(), 2u);
+    expect_near(skin->core->mesh.to_given(segments[0].tail), {4.5, 0, 0}, "the bone above");
+    expect_near(skin->core->mesh.to_given(segments[1].tail), {length, 0, 0}, "the leaf");
+    EXPECT_EQ(hf_inner::bone_faults(2, segments, skin->skin, memory)[1] & hf_inner::bone_coincident, 0u);
+  }
+}
+
 TEST(Skeleton, AnInsideOutTubeHasTheWeightsOfTheTube) {
   PlainMesh turned = tube(12, 31, length);
   for (std::size_t t = 0; t < turned.triangles.size(); t += 3)

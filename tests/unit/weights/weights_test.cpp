@@ -309,7 +309,7 @@ TEST(Weights, ALeafEndsAtTheJointThatItMeets) {
   // Farther than 1.5 lengths of the parent, the leaf ends on its own.
   EXPECT_NEAR(segments_of({1, 2, 4, 7.5}, {1, 1, 1, 1}, {-1, 0, 1, -1}, {1, 1, 1, 0})[2].tail.x, 7, 1e-6);
   // A joint that the leaf hangs from is no end.
-  EXPECT_NEAR(segments_of({1, 2, 4, 3}, {1, 1, -1, 1}, {3, 0, 1, -1}, {1, 1, 1, 0})[2].tail.x, 1, 1e-6);
+  EXPECT_NEAR(segments_of({1, 5, 4, 3}, {1, 1, -1, 1}, {3, 0, 1, -1}, {1, 1, 1, 0})[2].tail.x, 2.5, 1e-6);
 }
 
 TEST(Weights, ALeafEndsAtAChildThatDoesNotDeform) {
