@@ -87,12 +87,17 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
       g = s.turn_left(g);
       if (g == begin) break;
     }
-    // The flow line is traced down from the seed and reversed; then it is traced up from the seed.
+    // The flow line is traced down from the seed and reversed; then it is traced up from the seed. Where the field is
+    // flat around the seed, no edge carries flux: the line is the seed alone.
     std::int32_t low = v, high = v;
     const std::size_t first = out.point.size();
-    FluxPoint p;
-    if (best_up >= 0) p = {best_up, 0.5 * field.flux(best_up)};
-    const FluxPoint below = best_up >= 0 ? field.down(p) : FluxPoint{best_down, 0.5 * field.flux(best_down)};
+    FluxPoint p, below;
+    if (best_up >= 0) {
+      p = {best_up, 0.5 * field.flux(best_up)};
+      below = field.down(p);
+    } else if (best_down >= 0) {
+      below = {best_down, 0.5 * field.flux(best_down)};
+    }
     follow(field, below, false, out, low);
     if (low != v) vertex(low);
     std::reverse(out.point.begin() + static_cast<std::ptrdiff_t>(first), out.point.end());
