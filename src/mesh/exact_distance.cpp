@@ -46,6 +46,9 @@ constexpr std::size_t queue_steps = 4096;
 // Width of a step of the queue at least, in box diagonals: meshes without lengths would have steps of 0. It is a guard:
 // half and double give the same bits on seven shapes.
 constexpr double least_step = 1e-6;
+// Triangles are at least so high, in box diagonals, so that a point inside one without area lies on neither of its
+// sides and its rays leave by both. Larger moves rays by as much; a smaller one is lost where it is added to the sides.
+constexpr double least_height = 1e-15;
 // Reports of progress, each after this many vertices. Less reports more often than a host draws, more makes bars jump:
 // it is a hundredth of 100,000 vertices.
 constexpr std::size_t report_every = 1024;
@@ -80,8 +83,10 @@ TriangleSides::TriangleSides(const Mesh& given, const Topology& edges, Memory& m
     for (Index i = edges.edge_triangle_start[at(e)]; count > 2 && i < edges.edge_triangle_start[at(e) + 1]; ++i) {
       if (edge[at(edges.corner(i))] == e) twin[at(edges.corner(i))] = several;
     }
-    if (count != 2) angle[at(first)] = angle[at(second)] = infinite;
-    mean_length += norm(mesh.positions[at(first)] - mesh.positions[at(second)]);
+    const double length = norm(mesh.positions[at(first)] - mesh.positions[at(second)]);
+    // Angles beside an edge of length 0 are not known, so paths may bend at its ends.
+    if (count != 2 || !(length > 0)) angle[at(first)] = angle[at(second)] = infinite;
+    mean_length += length;
   }
   mean_length /= std::max(1, edges.edge_count());
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
@@ -92,7 +97,9 @@ TriangleSides::TriangleSides(const Mesh& given, const Topology& edges, Memory& m
       const Vec3 a = mesh.positions[at(v[k])], ab = mesh.positions[at(v[(k + 1) % 3])] - a,
                  ac = mesh.positions[at(v[(k + 2) % 3])] - a;
       const double length = norm(ab), scale = length > 0 ? 1 / length : 0.0;
-      const double x = scale * dot(ab, ac), y = scale * norm(cross(ab, ac));
+      // beside a side of length 0 the corner lies at its distance, in no direction
+      const double height = length > 0 ? scale * norm(cross(ab, ac)) : norm(ac);
+      const double x = scale * dot(ab, ac), y = std::max(height, least_height);
       frame[at(3 * t + k)] = {length, x, y};
       angle[at(v[k])] += arc_tangent(y, x);
     }
