@@ -141,11 +141,13 @@ HF_API void hf_geodesics_destroy(hf_geodesics geodesics);
 /* Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
  * out_distances: float[vertex_count], value_stride bytes apart (0 = packed). The distance is 0 at the sources, and -1
  * at vertices that no source can reach. sources: uint32_t[source_count] vertices of your mesh; repeats are allowed.
- * Paths follow the triangles and ignore links. EXACT is right up to rounding. The error of FRONT falls with the edge
- * length. HEAT rounds the distance off at corners and where two shortest paths meet. Cost: O(n log n) for FRONT, about
+ * Paths follow the triangles and ignore links. Triangles with the same corners count once: a two-sided sheet measures
+ * as a single one. No distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up
+ * to rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and where two shortest paths meet. Cost: O(n log n) for FRONT, about
  * n^1.5 for EXACT, two solves for HEAT. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (isolated vertex),
- * HF_ERROR_TOO_LARGE (more sources than vertices), HF_ERROR_CANCELLED (nothing is written). Thread safety: reads
- * `geodesics`; calls on several threads share its progress. Since 0.1. */
+ * HF_ERROR_TOO_LARGE (more sources than vertices; EXACT: more windows than 20 t^1.5 + 10^6 for t triangles),
+ * HF_ERROR_CANCELLED (nothing is written). Thread safety: reads `geodesics`; calls on several threads share its
+ * progress. Since 0.1. */
 HF_API hf_result hf_geodesics_solve(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources,
                                     float* out_distances, uint32_t value_stride);
 
@@ -179,8 +181,8 @@ typedef struct hf_path {
  * Cost: exact distances, but only where a path no longer than one along edges can run. An object of HF_GEODESICS_EXACT
  * has their tables; for others the call makes them in a pass over the triangles. Errors: HF_ERROR_OUT_OF_RANGE,
  * HF_ERROR_INVALID_ARGUMENT (isolated vertex, barycentrics, corners of no triangle), HF_ERROR_NON_FINITE, each with
- * index 0 for `from` and 1 for `to`; HF_ERROR_TOO_SMALL (point_capacity; the counts are written), HF_ERROR_CANCELLED.
- * Thread safety: as hf_geodesics_solve. Since 0.1. */
+ * index 0 for `from` and 1 for `to`; HF_ERROR_TOO_SMALL (point_capacity; the counts are written), HF_ERROR_TOO_LARGE
+ * (as EXACT of hf_geodesics_solve), HF_ERROR_CANCELLED. Thread safety: as hf_geodesics_solve. Since 0.1. */
 HF_API hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_surface_point* from,
                                         const hf_surface_point* to, hf_path* inout_path);
 

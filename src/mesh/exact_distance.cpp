@@ -5,8 +5,10 @@
 #include <limits>
 
 #include "base/elementary.h"
+#include "base/error.h"
 #include "base/index.h"
 #include "base/progress.h"
+#include "mesh/shortest_on_edges.h"
 
 namespace hf_inner {
 namespace {
@@ -44,49 +46,60 @@ constexpr std::size_t queue_steps = 4096;
 // Width of a step of the queue at least, in box diagonals: meshes without lengths would have steps of 0. It is a guard:
 // half and double give the same bits on seven shapes.
 constexpr double least_step = 1e-6;
+// Triangles are at least so high, in box diagonals, so that a point inside one without area lies on neither of its
+// sides and its rays leave by both. Larger moves rays by as much; a smaller one is lost where it is added to the sides.
+constexpr double least_height = 1e-15;
 // Reports of progress, each after this many vertices. Less reports more often than a host draws, more makes bars jump:
 // it is a hundredth of 100,000 vertices.
 constexpr std::size_t report_every = 1024;
+// A call makes at most this many windows times t sqrt(t), for t triangles, and at least the number below. Ordinary
+// meshes take up to 1.5. Less refuses meshes of many needles, more lets a call run on where windows do not end.
+constexpr double most_windows = 20, least_most_windows = 1e6;
 
 }  // namespace
 
 TriangleSides::TriangleSides(const Mesh& given, const Topology& edges, Memory& memory)
     : mesh(given),
       topology(edges),
-      edge(given.corners.size(), &memory),
+      edge(given.corners.size(), Mesh::none, &memory),
       twin(given.corners.size(), border, &memory),
       frame(given.corners.size(), &memory),
       angle(given.positions.size(), 0.0, &memory) {
   Poller poller;
+  Vector<Index> seen(given.positions.size(), Mesh::none, &memory);  // by vertex: the last edge with a triangle to it
   for (Index e = 0; e < edges.edge_count(); ++e) {
     poller.due();
-    const Index first = edges.first(e), begin = edges.edge_triangle_start[at(e)],
-                count = edges.edge_triangle_start[at(e) + 1] - begin;
-    Index sides[2] = {-1, -1};
-    for (Index i = 0; i < count; ++i) {
-      const Index t = edges.triangle(begin + i);
-      const Index* v = mesh.triangle(t);
-      for (Index k = 0; k < 3; ++k) {
-        const Index a = v[k], b = v[(k + 1) % 3];
-        if (std::min(a, b) != first || std::max(a, b) != edges.second(e)) continue;
-        edge[at(3 * t + k)] = e;
-        if (count > 2) twin[at(3 * t + k)] = several;
-        if (i < 2) sides[i] = 3 * t + k;
-      }
+    const Index first = edges.first(e), second = edges.second(e);
+    Index sides[2] = {-1, -1}, count = 0;
+    for (Index i = edges.edge_triangle_start[at(e)]; i < edges.edge_triangle_start[at(e) + 1]; ++i) {
+      const Index side = edges.corner(i);
+      Index& other = seen[at(start(last(side)))];
+      if (other == e) continue;  // a copy of an earlier triangle
+      other = e, edge[at(side)] = e;
+      if (count < 2) sides[count] = side;
+      ++count;
     }
     if (count == 2) twin[at(sides[0])] = sides[1], twin[at(sides[1])] = sides[0];
-    if (count != 2) angle[at(first)] = angle[at(edges.second(e))] = infinite;
-    mean_length += norm(mesh.positions[at(first)] - mesh.positions[at(edges.second(e))]);
+    for (Index i = edges.edge_triangle_start[at(e)]; count > 2 && i < edges.edge_triangle_start[at(e) + 1]; ++i) {
+      if (edge[at(edges.corner(i))] == e) twin[at(edges.corner(i))] = several;
+    }
+    const double length = norm(mesh.positions[at(first)] - mesh.positions[at(second)]);
+    // Angles beside an edge of length 0 are not known, so paths may bend at its ends.
+    if (count != 2 || !(length > 0)) angle[at(first)] = angle[at(second)] = infinite;
+    mean_length += length;
   }
   mean_length /= std::max(1, edges.edge_count());
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     poller.due();
+    if (is_copy(t)) continue;
     const Index* v = mesh.triangle(t);
     for (Index k = 0; k < 3; ++k) {
       const Vec3 a = mesh.positions[at(v[k])], ab = mesh.positions[at(v[(k + 1) % 3])] - a,
                  ac = mesh.positions[at(v[(k + 2) % 3])] - a;
       const double length = norm(ab), scale = length > 0 ? 1 / length : 0.0;
-      const double x = scale * dot(ab, ac), y = scale * norm(cross(ab, ac));
+      // beside a side of length 0 the corner lies at its distance, in no direction
+      const double height = length > 0 ? scale * norm(cross(ab, ac)) : norm(ac);
+      const double x = scale * dot(ab, ac), y = std::max(height, least_height);
       frame[at(3 * t + k)] = {length, x, y};
       angle[at(v[k])] += arc_tangent(y, x);
     }
@@ -98,7 +111,9 @@ TriangleSides::TriangleSides(const Mesh& given, const Topology& edges, Memory& m
 void TriangleSides::mark_several_fans(Memory& memory) {
   const std::size_t n = mesh.positions.size();
   Vector<Index> count(n, 0, &memory), first(n, Index{-1}, &memory);
-  for (Index s = 0; s < static_cast<Index>(mesh.corners.size()); ++s) ++count[at(start(s))], first[at(start(s))] = s;
+  for (Index s = 0; s < static_cast<Index>(mesh.corners.size()); ++s) {
+    if (!is_copy(s / 3)) ++count[at(start(s))], first[at(start(s))] = s;
+  }
   Poller poller;
   for (Index v = 0; v < static_cast<Index>(n); ++v) {
     poller.due();
@@ -154,10 +169,15 @@ class Propagation {
         below_(&memory),
         stacks_(queue_steps + 1, Stack(), &memory),
         best_(sides.frame.size(), Best{infinite, 0}, &memory),
+        shortest_(sides.topology.edge_count(), memory),
+        parts_(&memory),
         result_(memory) {
     const std::size_t n = mesh_.positions.size();
     result_.distance.assign(n, infinite), result_.end.assign(n, PathEnd());
     if (task.directions) result_.direction.assign(n, 0.0);
+    const double t = static_cast<double>(sides.frame.size()) / 3;
+    most_ = task.most_windows > 0 ? task.most_windows
+                                  : static_cast<std::uint64_t>(most_windows * t * std::sqrt(t) + least_most_windows);
     step_ = queue_step * std::max(sides.mean_length, least_step);
     if (task.to) target_ = task.to->position(mesh_);
     if (task.to && task.at_most > 0) longest_ = (1 + path_rounding) * task.at_most;
@@ -353,8 +373,15 @@ class Propagation {
     if (task_.directions) turns_[i] = turn;
   }
   void push(const Window& w, double key, const Turn& turn = {0, 1}) {
+    if (++result_.window_count > most_) refuse_count();
     put(w, key, turn);
-    ++live_, ++result_.window_count;
+    ++live_;
+  }
+  [[noreturn]] void refuse_count() const {
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "exact paths take more than %llu windows on these %zu triangles; take HF_GEODESICS_FRONT for distances, or "
+         "leave out triangles where many share an edge",
+         static_cast<unsigned long long>(most_), sides_.frame.size() / 3);
   }
   void push_vertex(Index v) {
     if (distance(v) + norm(mesh_.positions[at(v)] - target_) > longest_) return;
@@ -484,13 +511,27 @@ class Propagation {
             const Turn& turn = {0, 1}) {
     const double length = sides_.frame[at(side)].length;
     if (!(end - begin > least_window * length)) return;
-    const Index start = mesh_.corners[at(side)];
-    Window w{begin, end, x, y, sigma, side, from};
+    const Window w{begin, end, x, y, sigma, side, from};
     if (longest_ < infinite && leads_past(w)) return;
-    for_twins(side, [&](Index twin) {
-      w = {begin, end, x, y, sigma, twin, from};
-      if (mesh_.corners[at(twin)] == start) return push(w, key(w), turn);
-      w.begin = length - end, w.end = length - begin, w.x = length - x;
+    if (sides_.twin[at(side)] != TriangleSides::several) return pass(w, turn);
+    const Index e = sides_.edge[at(side)];
+    const bool along = sides_.start(side) == sides_.topology.first(e);
+    const auto turned = [&](Interval i) { return along ? i : Interval{length - i.end, length - i.begin}; };
+    shortest_.keep(e, {turned({begin, end}), along ? x : length - x, y, sigma}, parts_);
+    for (const Interval& part : parts_) {
+      const Interval here = turned(part);
+      if (here.end - here.begin > least_window * length) pass({here.begin, here.end, x, y, sigma, side, from}, turn);
+    }
+  }
+
+  // Passes a window on to the other triangles of its side.
+  void pass(const Window& window, const Turn& turn) {
+    const double length = sides_.frame[at(window.side)].length;
+    for_twins(window.side, [&](Index twin) {
+      Window w = window;
+      w.side = twin;
+      if (sides_.start(twin) == sides_.start(window.side)) return push(w, key(w), turn);
+      w.begin = length - window.end, w.end = length - window.begin, w.x = length - window.x;
       push(w, key(w), {turn.angle + turn.sign * pi, -turn.sign});
     });
   }
@@ -594,10 +635,13 @@ class Propagation {
   Index free_ = Mesh::none;  // the first of these
   Vector<Stack> stacks_;
   Vector<Best> best_;
+  ShortestOnEdges shortest_;
+  Vector<Interval> parts_;  // of the window that is emitted
   ExactDistance result_;
   double step_ = 1, base_ = 0, longest_ = infinite;
   Vec3 target_;
   std::size_t step_now_ = 0, live_ = 0, visited_ = 0;
+  std::uint64_t most_ = 0;
   Poller poller_;
 };
 
@@ -605,27 +649,31 @@ class Propagation {
 
 GeodesicPoint::GeodesicPoint(const TriangleSides& sides, const Index* corners, const double* weights, Memory& memory)
     : places(&memory) {
-  Index support[3], count = 0;  // corners of weight above 0
+  // Distinct corners of weight above 0. Two corners of a collapsed triangle can be one vertex; their weights add up.
+  Index support[3], count = 0;
+  double weight[3], sum = 0;
   for (Index k = 0; k < 3; ++k) {
-    if (weights[k] > 0) support[count++] = k;
+    if (!(weights[k] > 0)) continue;
+    const Index same = static_cast<Index>(std::find(support, support + count, corners[k]) - support);
+    if (same == count) support[count] = corners[k], weight[count] = 0, ++count;
+    weight[same] += weights[k], sum += weights[k];
   }
   if (count == 1) {
-    vertex = corners[support[0]];
+    vertex = support[0];
     return;
   }
   if (count < 2) return;
   const Topology& topology = sides.topology;
-  const Index e = topology.edge_between(corners[support[0]], corners[support[1]]);
+  const Index e = topology.edge_between(support[0], support[1]);
   if (e == Mesh::none) return;
-  double sum = 0;
-  for (Index k = 0; k < count; ++k) sum += weights[support[k]];
   for (Index i = topology.edge_triangle_start[at(e)]; i < topology.edge_triangle_start[at(e) + 1]; ++i) {
     Place place{topology.triangle(i), {0, 0, 0}};
+    if (sides.is_copy(place.triangle)) continue;
     Index matched = 0;
     for (Index c = 0; c < 3; ++c) {
       for (Index k = 0; k < count; ++k) {
-        if (sides.start(3 * place.triangle + c) != corners[support[k]]) continue;
-        place.weight[c] = weights[support[k]] / sum, ++matched;
+        if (sides.start(3 * place.triangle + c) != support[k]) continue;
+        place.weight[c] = weight[k] / sum, ++matched;
       }
     }
     if (matched == count) places.push_back(place);

@@ -9,6 +9,9 @@
 //   - A path by a corner of the triangle is shorter to every point of the window (Xin and Wang 2009).
 //   - Behind a vertex, only directions at an angle of at least pi to both sides of the incoming path are of use.
 //
+// At edges of three and more triangles a fourth rule holds (shortest_on_edges.h): a window goes on only where it is
+// shorter than those before. Triangles with the same corners count once, so a two-sided sheet is a single one.
+//
 // The result is exact up to rounding on every set of triangles: with borders, edges of three triangles and slivers.
 // Memory: 100 bytes a triangle for the tables of sides, 64 for each call, and 56 for each window of the front.
 #pragma once
@@ -26,6 +29,8 @@ struct TriangleSides {
 
   static std::int32_t next(std::int32_t side) noexcept { return side % 3 == 2 ? side - 2 : side + 1; }
   static std::int32_t last(std::int32_t side) noexcept { return side % 3 == 0 ? side + 2 : side - 1; }
+  // Tells whether an earlier triangle has the same corners, as those of two-sided sheets. Paths ignore copies.
+  bool is_copy(std::int32_t triangle) const noexcept { return edge[3 * static_cast<std::size_t>(triangle)] < 0; }
   // Returns the vertex where the side starts.
   std::int32_t start(std::int32_t side) const noexcept { return mesh.corners[static_cast<std::size_t>(side)]; }
   // Returns the angle of the corner opposite the side.
@@ -35,7 +40,7 @@ struct TriangleSides {
 
   const Mesh& mesh;
   const Topology& topology;
-  Vector<std::int32_t> edge;  // by side
+  Vector<std::int32_t> edge;  // by side; Mesh::none: its triangle is a copy
   Vector<std::int32_t> twin;  // by side: the side of the other triangle; `border`; `several` where there are more
   struct Frame {
     double length, x, y;  // if the side runs from 0 along the x axis, the opposite corner lies at (x, y)
@@ -81,6 +86,7 @@ struct ExactTask {
   bool directions = false;              // with `from`: fills ExactDistance::direction
   double reach = 0;                     // above 0: stops beyond this distance
   double at_most = 0;                   // with `to`, above 0: a path of this length to it is known
+  std::uint64_t most_windows = 0;       // that a call may make; 0: about 20 t sqrt(t) for t triangles
 };
 
 struct ExactDistance {
@@ -99,7 +105,8 @@ struct ExactDistance {
   std::uint64_t window_count = 0;  // windows that were made
 };
 
-// Computes the distance from the nearest source. Reports progress and can be cancelled. Throws std::bad_alloc.
+// Computes the distance from the nearest source. Reports progress and can be cancelled. Throws HF_ERROR_TOO_LARGE for
+// more windows than the task allows, and std::bad_alloc.
 ExactDistance exact_distance(const TriangleSides& sides, const ExactTask& task, Memory& memory);
 inline ExactDistance exact_distance(const TriangleSides& sides, Span<const std::int32_t> sources, Memory& memory) {
   ExactTask task;

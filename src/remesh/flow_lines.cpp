@@ -16,6 +16,17 @@ bool carries(const FluxField& field, std::int32_t h) {
   return s.weight[h] > 0 && field.value(s.head(h)) > field.value(s.tail[h]);
 }
 
+// Values below this power of two pass as they are, so that their fluxes and sums stay finite. It is far above ordinary
+// values and far below the largest double.
+constexpr int most_exponent = 400;
+
+// Returns the power of two that values are divided by: 0 for ordinary ones.
+int spare_exponent(Span<const double> values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::fabs(value));
+  return largest > 0 ? std::max(0, std::ilogb(largest) - most_exponent) : 0;
+}
+
 }  // namespace
 
 FlowTracer::FlowTracer(std::shared_ptr<const Core> core)
@@ -64,8 +75,14 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
     const std::int32_t w = s.is_apex(v) ? s.head(s.out[v]) : v;
     values.push_back(u[static_cast<std::size_t>(s.mesh_vertex[w])]);
   }
+  const int exponent = spare_exponent(values);
+  for (double& value : values) value = std::ldexp(value, -exponent);
   const FluxField field(s, values, memory);
   FlowLineSet out(memory);
+  const auto finished = [&]() -> FlowLineSet&& {
+    for (double& value : out.value) value = std::ldexp(value, exponent);
+    return std::move(out);
+  };
   out.start.push_back(0);
   auto vertex = [&](std::int32_t v) {
     out.point.push_back(s.position[v]), out.value.push_back(field.value(v));
@@ -87,12 +104,17 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
       g = s.turn_left(g);
       if (g == begin) break;
     }
-    // The flow line is traced down from the seed and reversed; then it is traced up from the seed.
+    // The flow line is traced down from the seed and reversed; then it is traced up from the seed. Where the field is
+    // flat around the seed, no edge carries flux: the line is the seed alone.
     std::int32_t low = v, high = v;
     const std::size_t first = out.point.size();
-    FluxPoint p;
-    if (best_up >= 0) p = {best_up, 0.5 * field.flux(best_up)};
-    const FluxPoint below = best_up >= 0 ? field.down(p) : FluxPoint{best_down, 0.5 * field.flux(best_down)};
+    FluxPoint p, below;
+    if (best_up >= 0) {
+      p = {best_up, 0.5 * field.flux(best_up)};
+      below = field.down(p);
+    } else if (best_down >= 0) {
+      below = {best_down, 0.5 * field.flux(best_down)};
+    }
     follow(field, below, false, out, low);
     if (low != v) vertex(low);
     std::reverse(out.point.begin() + static_cast<std::ptrdiff_t>(first), out.point.end());
@@ -102,7 +124,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
     if (high != v) vertex(high);
     finish(s.mesh_vertex[low], s.mesh_vertex[high]);
   }
-  if (!seeds.empty()) return out;
+  if (!seeds.empty()) return finished();
 
   // Finds the minima, also those on plateaus, with the flux that leaves them.
   struct Source {
@@ -148,7 +170,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
       if (g == begin) break;
     }
   }
-  return out;
+  return finished();
 }
 
 }  // namespace hf_inner

@@ -148,7 +148,7 @@ void expect_as_all_sequences(const PlainMesh& mesh, const char* name, std::uint3
 }
 
 TEST(ExactDistance, is_the_shortest_over_all_edge_sequences_of_tiny_meshes) {
-  PlainMesh octahedron, pages, open = hf_test::grid(2, 2), soup, hourglass;
+  PlainMesh octahedron, pages, open = hf_test::grid(2, 2), soup, hourglass, card;
   octahedron.positions.resize(18);
   octahedron.triangles = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1, 5, 2, 1, 5, 3, 2, 5, 4, 3, 5, 1, 4};
   pages.positions.resize(24);  // three pages of two triangles on one spine, one of them turned over
@@ -157,7 +157,10 @@ TEST(ExactDistance, is_the_shortest_over_all_edge_sequences_of_tiny_meshes) {
   soup.triangles = {0, 1, 2, 0, 1, 3, 0, 1, 4, 1, 2, 3, 1, 2, 5, 2, 0, 4, 2, 0, 5, 3, 4, 5};
   hourglass.positions.resize(21);  // two tetrahedra that share a vertex
   hourglass.triangles = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2, 0, 4, 5, 0, 5, 6, 0, 6, 4, 4, 6, 5};
+  card.positions.resize(18);  // two quads, each twice and cut along its other diagonal the second time
+  card.triangles = {0, 1, 3, 1, 4, 3, 1, 2, 4, 2, 5, 4, 0, 4, 1, 0, 3, 4, 1, 5, 2, 1, 4, 5};
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+    expect_as_all_sequences(with_random_places(card, seed), "card", seed);
     expect_as_all_sequences(with_random_places(octahedron, seed), "octahedron", seed);
     expect_as_all_sequences(with_random_places(pages, seed), "pages", seed);
     expect_as_all_sequences(with_random_places(open, seed), "grid", seed);

@@ -206,4 +206,25 @@ TEST(FlowLines, OfAHeightAreStraightUpAndEvenInFlux) {
   EXPECT_GE(lines.point.size(), 20u);
 }
 
+TEST(FlowLines, WhereTheFieldIsFlatAreTheSeedAlone) {
+  const auto core = hf_test::make_core(hf_test::grid(8, 8));
+  const FlowTracer tracer(core);
+  std::vector<double> flat(81, 2.5), plateau;
+  for (const Vec3& p : core->mesh.positions) plateau.push_back(std::max(0.0, p.x - core->mesh.positions[0].x - 0.4));
+  const std::vector<std::int32_t> seeds = {0, 40, 80};
+  const FlowLineSet alone = tracer.trace(flat, 0, seeds);
+  ASSERT_EQ(alone.point.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(alone.from[k], seeds[k]);
+    EXPECT_EQ(alone.to[k], seeds[k]);
+    EXPECT_EQ(alone.value[k], 2.5);
+    EXPECT_EQ(norm(alone.point[k] - core->mesh.positions[static_cast<std::size_t>(seeds[k])]), 0);
+  }
+  EXPECT_EQ(tracer.trace(flat, 10, {}).from.size(), 0u);
+  const FlowLineSet lines = tracer.trace(plateau, 0, seeds);
+  ASSERT_EQ(lines.from.size(), 3u);
+  EXPECT_EQ(lines.start[1], 1u);                       // the seed on the plateau
+  EXPECT_GT(lines.point.size() - lines.start[2], 1u);  // the seed at the top
+}
+
 }  // namespace
