@@ -148,7 +148,7 @@ static void print_solver(void) {
 #define T hf_certificate
   STRUCT(hf_certificate);
   F(struct_size), F(overshoot_checked), F(tolerance), F(value_range), F(residual), F(site_error), F(overshoot),
-      F(worst_vertex), F(reserved), F(error_estimate);
+      F(worst_vertex), F(changed_vertex_count), F(error_estimate);
 #undef T
 #define T hf_solver_statistics
   STRUCT(hf_solver_statistics);
