@@ -299,7 +299,7 @@ typedef struct hf_certificate {
   double site_error;
   double overshoot;
   uint32_t worst_vertex;
-  uint32_t reserved;
+  uint32_t changed_vertex_count;
   double error_estimate;
 } hf_certificate;
 typedef struct hf_solver_statistics {

@@ -165,15 +165,15 @@ HF_API hf_result hf_solver_get_sites(hf_solver solver, hf_sites_info* inout_info
 /* ---- screening ---- */
 
 /* Screens the field: (K + A H) u = A H p + W lambda, with A the vertex areas. The field follows p where H is large, and
- * the influence of a site fades over a distance of about 1 / sqrt(H). Such a field needs no site on a component where
- * some H is above 0. screening: double[vertex_count] H >= 0, in 1 / length^2 with the unit of the mesh; NULL removes
- * the screening. targets: double[vertex_count][channel_count] p, or NULL for 0. Both are copied; welded copies of a
- * vertex take the values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores
- * the screening with the sites. Cost: a numeric factorisation with the ordering of the surface, a sweep and the
- * paths of the sites. Errors: HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (H below 0) and HF_ERROR_TOO_LARGE (above
- * 1e200), index = vertex; HF_ERROR_NOT_POSITIVE_DEFINITE (all H of a component are lost in rounding), and
- * HF_ERROR_UNSUPPORTED (a graph, another engine than HF_ENGINE_GREEN, a bi-harmonic field). hf_solver_certify returns
- * HF_ERROR_UNSUPPORTED for a screened field. Thread safety: changes `solver`. Since 0.1. */
+ * the influence of a site fades over a distance of about 1 / sqrt(H). A H is at most 1e12 times the mean diagonal of K.
+ * Such a field needs no site on a component where some H is above 0. screening: double[vertex_count] H >= 0, in
+ * 1 / length^2 with the unit of the mesh; NULL removes the screening. targets: double[vertex_count][channel_count] p,
+ * or NULL for 0. Both are copied; welded copies of a vertex take the values of the first. Sites stay. A site with a
+ * radius holds the rim of its disc only. Undo restores the screening with the sites. Cost: a numeric factorisation with
+ * the ordering of the surface, two sweeps and the paths of the sites. Errors: HF_ERROR_NON_FINITE,
+ * HF_ERROR_INVALID_ARGUMENT (H below 0) and HF_ERROR_TOO_LARGE (A H, or p above 1e200), index = vertex;
+ * HF_ERROR_NOT_POSITIVE_DEFINITE (all H of a component are lost in rounding), and HF_ERROR_UNSUPPORTED (a graph,
+ * another engine than HF_ENGINE_GREEN, a bi-harmonic field). Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_set_screening(hf_solver solver, const double* screening, const double* targets);
 
 /* ---- fields ---- */
@@ -231,15 +231,16 @@ typedef struct hf_preview_info {
   double value_range;                 /* largest less smallest site value, the widest over components and channels */
   double largest_correction;          /* largest change of a value by the last correction: about the error before it */
   double error_estimate; /* of the largest error, in the unit of the values: measured when corrections were made, else
-                            1e-5 of value_range; 0 when exact */
+                            1e-5 of value_range; 0 when exact; infinite where only corrections tell: bi-harmonic
+                            fields, long shapes, crowded sites */
   double preview_bytes;  /* memory of the single-precision copy, shared by the surface */
 } hf_preview_info;
 
 /* Solves with a single-precision copy of the factor. This reads half the bytes of hf_solve; use it while the user drags
- * a value or a site. The error is about 1e-6 of the value range for harmonic fields. It is up to 1e-5 for bi-harmonic
- * fields and for crowded sites. Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963)
- * takes the error below 1e-9, a second one below 1e-12. Each correction costs as much as two to three calls of
- * hf_solve.
+ * a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic fields, long shapes and
+ * crowded sites can have an error of any size: ask for corrections there and read error_estimate. Hard sites at vertices
+ * are exact. One correction (iterative refinement, Wilkinson 1963) of a harmonic field takes the error below 1e-9, a
+ * second one below 1e-12. Each correction costs as much as two to three calls of hf_solve.
  *
  * The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on the
  * surface share the copy. It is freed with the last of these solvers, or by hf_solver_release_preview. Engines other
@@ -278,19 +279,21 @@ HF_API hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count,
 /* ---- how right a field is ---- */
 
 /* The certificate says how accurate a field is. Each error is relative to the range of the site values of its component
- * and channel. Where all site values are equal, it is relative to their size. A value that is not finite counts as
+ * and channel, and of its targets where it is screened. Where all are equal, it is relative to their size. A value that is not finite counts as
  * infinitely wrong. */
 typedef struct hf_certificate {
   uint32_t struct_size;
   int32_t overshoot_checked; /* out: 1 where a field must keep to the range of its sites: harmonic, intrinsic Delaunay
                                 or clamped operator, all sites at vertices */
   double tolerance;          /* in: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5; out: the one used */
-  double value_range;        /* out: largest less smallest site value, the widest over components and channels */
+  double value_range;        /* out: largest less smallest value (or target), the widest over components and channels */
   double residual;   /* out: largest |(K u - W lambda)_v| / K_vv, how far a value is from the mean of its neighbours */
   double site_error; /* out: largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by */
   double overshoot;  /* out: how far the field leaves the range of its sites; 0 when not checked */
   uint32_t worst_vertex; /* out: as given, where the largest of the three is */
-  uint32_t reserved;     /* 0 */
+  uint32_t changed_vertex_count; /* out: welded vertices with a weight that a rule set (hf_surface_report). On a mesh,
+                                    and for bi-harmonic fields, the errors hold for the weights used; on a graph for
+                                    your own, within 1e30 of their median */
   double error_estimate; /* out: how far a value may be from the exact field: a bound by K alone where no weight is
                             negative and the field harmonic, else an estimate by corrections */
 } hf_certificate;

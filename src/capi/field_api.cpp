@@ -155,13 +155,13 @@ hf_result hf_solver_certify(hf_solver handle, hf_certificate* inout_certificate)
   return guarded("hf_solver_certify", [&] {
     const auto solver = get<SolverObject>(handle, "solver");
     hf_certificate report = read_struct(inout_certificate, "inout_certificate");
-    require_zero(report.reserved);
     const Reading reading(*solver);
     const double tolerance = certificate_tolerance(report.tolerance, solver->field.engine().kind());
     const Certificate found = certify(solver->field);
     report.overshoot_checked = found.overshoot_checked, report.tolerance = tolerance;
     report.value_range = found.value_range, report.residual = found.residual;
     report.site_error = found.site_error, report.overshoot = found.overshoot, report.error_estimate = found.error;
+    report.changed_vertex_count = solver->field.core().changed_count;
     report.worst_vertex = given_vertex(solver->field.core().mesh, found.vertex);
     write_struct(inout_certificate, report);
     require_accuracy(found, tolerance, report.worst_vertex);

@@ -60,6 +60,11 @@ void ConstraintSystem::add_counts(const ConstraintCounts& more) noexcept {
   rebases_ += more.rebases, dense_edits_ += more.dense_edits;
 }
 
+bool ConstraintSystem::is_crowded(double share) const noexcept {
+  return std::any_of(state_.blocks.begin(), state_.blocks.end(),
+                     [&](const auto& block) { return block && block->least_pivot() < share; });
+}
+
 double ConstraintSystem::row_bytes() const noexcept {
   double sum = 0;
   for (const auto& group : state_.groups) sum += group.paths->bytes();

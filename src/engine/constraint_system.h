@@ -71,6 +71,8 @@ class ConstraintSystem {
 
   ConstraintCounts counts() const noexcept;
   void add_counts(const ConstraintCounts& more) noexcept;
+  // True if a dense block has a pivot below this share of its diagonal: fields may then lose digits.
+  bool is_crowded(double share) const noexcept;
   double row_bytes() const noexcept;   // bytes of elimination paths and dense blocks
   double base_bytes() const noexcept;  // bytes of the factor with sites eliminated
   // Returns the factor that paths and sweeps of the present state use.

@@ -9,10 +9,11 @@
 namespace hf_inner {
 namespace {
 
-// A site depends on others if less than this share of its weight vector's length is orthogonal to theirs. Rounding
-// leaves 1e-15. A larger number would refuse points that lie close to, but not on, a line through other sites. Half and
-// double change no bit on eight shapes with needles, loose pieces and a long ribbon.
-constexpr double dependence = 1e-9;
+// A site depends on others if its weight vector is closer than this to what theirs span. A pivot of the dense system is
+// about the square, in any order of the sites, and should not fall below pivot_floor (dense_block.cpp): the order would
+// then decide. A larger number refuses points that lie close to, but not on, a line through other sites. Half and double
+// change no bit on eight shapes with needles, loose pieces and a long ribbon.
+constexpr double dependence = 1e-5;
 
 struct Corner {
   Index vertex, row;
@@ -23,13 +24,33 @@ Index root_of(Vector<Index>& parent, Index i) noexcept {
   return i;
 }
 
-// Returns the first of the sites `rows` whose weight vector depends on those before it, or -1. It orthogonalises every
-// vector twice (Gram-Schmidt).
-Index first_dependent(Span<const HardSite> sites, Span<const Index> rows, const Vector<Index>& columns,
+// The distances of every vector to what all others span, by L of the factorisation W = L Q: their inverse squares are the
+// diagonal of (L L')^-1. Returns the last row that is closer than `dependence`, or -1.
+Index last_close(const Vector<double>& l, std::size_t count, Memory& memory) {
+  Vector<double> column(count, 0.0, &memory), inverse_square(count, 0.0, &memory);
+  for (std::size_t i = 0; i < count; ++i) {
+    // column i of the inverse of L
+    for (std::size_t r = i; r < count; ++r) {
+      double sum = r == i ? 1.0 : 0.0;
+      for (std::size_t j = i; j < r; ++j) sum -= l[r * count + j] * column[j];
+      column[r] = sum / l[r * count + r];
+      inverse_square[i] += column[r] * column[r];
+    }
+  }
+  for (std::size_t i = count; i-- > 0;)
+    if (!(inverse_square[i] * dependence * dependence < 1)) return static_cast<Index>(i);
+  return -1;
+}
+
+// Returns a site of `rows` whose weight vector depends on those of the others, or -1: the first that depends on those
+// before it, else the last that depends on all others. So the order does not decide whether there is one. It
+// orthogonalises every vector twice (Gram-Schmidt).
+Index dependent_row(Span<const HardSite> sites, Span<const Index> rows, const Vector<Index>& columns,
                       Memory& memory) {
   const std::size_t width = columns.size();
-  Vector<double> basis(rows.size() * width, 0.0, &memory);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  const std::size_t count = rows.size();
+  Vector<double> basis(count * width, 0.0, &memory), l(count * count, 0.0, &memory);
+  for (std::size_t i = 0; i < count; ++i) {
     const Site& site = *sites[at(rows[i])].site;
     double* row = basis.data() + i * width;
     for (int k = 0; k < 3; ++k) {
@@ -40,15 +61,18 @@ Index first_dependent(Span<const HardSite> sites, Span<const Index> rows, const 
       for (std::size_t j = 0; j < i; ++j) {
         const double* other = basis.data() + j * width;
         const double share = std::inner_product(row, row + width, other, 0.0);
+        l[i * count + j] += share;
         for (std::size_t c = 0; c < width; ++c) row[c] -= share * other[c];
       }
     }
     const double length = std::sqrt(std::inner_product(row, row + width, row, 0.0));
     // A site's weights sum to 1, so their vector had a length of at least 1 / sqrt(3) before it was orthogonalised.
     if (!(length > dependence)) return rows[i];
+    l[i * count + i] = length;
     for (std::size_t c = 0; c < width; ++c) row[c] /= length;
   }
-  return -1;
+  const Index close = last_close(l, count, memory);
+  return close < 0 ? -1 : rows[at(close)];
 }
 
 }  // namespace
@@ -89,7 +113,7 @@ Index dependent_site(Span<const HardSite> sites, Memory& memory) {
     }
     std::sort(columns.begin(), columns.end());
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-    const Index lost = first_dependent(sites, {rows.data(), rows.size()}, columns, memory);
+    const Index lost = dependent_row(sites, {rows.data(), rows.size()}, columns, memory);
     if (lost >= 0) return sites[at(lost)].slot;
   }
   return -1;

@@ -3,7 +3,8 @@
 // A hard site demands w'u = s with its barycentric weights w. Linear dependence occurs with four points in a triangle,
 // three points on a line in a triangle, or a point on an edge whose two end vertices are sites. The dense system shows
 // dependence only by a pivot of rounding size. But independent points at a small distance d also have small pivots, of
-// size d^2. The weights w themselves distinguish the two cases, down to distances of 1e-9 of a triangle.
+// size d^2, and so have hard sites beside stiff soft ones. The weights w themselves distinguish these cases, down to
+// distances of 1e-5 of a triangle. The set of sites decides, not their order.
 #pragma once
 #include <cstdint>
 
@@ -25,9 +26,9 @@ struct HardSite {
   bool suspect = false;  // has a small pivot, so its group of sites is examined
 };
 
-// Returns the number (slot) of the first site whose weights depend linearly on those of the sites before it, or -1.
-// sites: all hard sites of one component; their order decides which site is reported. The function orthogonalises one
-// group of sites with common vertices at a time, in O(sites^2 vertices) of the group.
+// Returns the number (slot) of a site whose weights depend linearly on those of the others, or -1.
+// sites: all hard sites of one component; their order decides which site is reported, but not whether one is. The
+// function orthogonalises one group of sites with common vertices at a time, in O(sites^2 vertices) of the group.
 std::int32_t dependent_site(Span<const HardSite> sites, Memory& memory);
 
 }  // namespace hf_inner

@@ -47,12 +47,8 @@ void GreenSolver::succeed(const SiteSolver& predecessor) noexcept {
                       now.rebases - cloned_at_.rebases, now.dense_edits - cloned_at_.dense_edits});
 }
 
-Index GreenSolver::refinements() const noexcept {
-  if (core_->refinements > 0) return core_->refinements;
-  for (const auto& block : state().blocks) {
-    if (block && block->least_pivot() < crowded_) return 1;
-  }
-  return 0;
+bool GreenSolver::is_refined() const noexcept {
+  return core_->refinements > 0 || core_->is_long || system_.is_crowded(crowded_);
 }
 
 void GreenSolver::value_extent(const double* values, Index channels, Index first, Index count, Vector<double>& low,
@@ -144,16 +140,9 @@ void GreenSolver::solve(const double* values, Index channels, double* field, dou
     write_flux();
     write_field(z.data(), channels, first, count, answer, field);
     copy_hard_values(values, channels, first, count, [&](Index v) { return field + at(v) * stride + at(first); });
-    if (core_->is_long && core_->refinements == 0) {
-      refine_until_small(values, channels, first, count, z.data(), answer, field);
-      write_flux();
-      continue;
-    }
-    for (Index step = 0; step < refinements(); ++step) {
-      Step plain;
-      refine(values, channels, first, count, z.data(), answer, field, plain);
-      write_flux();
-    }
+    if (!is_refined()) continue;
+    refine_until_small(values, channels, first, count, z.data(), answer, field);
+    write_flux();
   }
   if (field && state().base && flux) base_flux(channels, field, flux);
 }

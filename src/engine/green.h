@@ -3,20 +3,10 @@
 // class adds channels, refinement, partial fields, previews and fluxes.
 #pragma once
 #include "engine/constraint_system.h"
+#include "engine/corrections.h"
 #include "engine/site_solver.h"
 
 namespace hf_inner {
-
-// If the dense system of the sites has a pivot below this share of its diagonal, its solution may have fewer than ten
-// correct digits. The field then takes one refinement step with the true operator, which costs two sweeps more. A
-// larger number would add steps that do not change the field. Half and double change no bit on eight shapes with three
-// points in one triangle.
-constexpr double crowded_share = 1e-4;
-
-// Corrections of a field end when one is larger than this share of the one before: it no longer helps. A larger share
-// adds corrections that are all rounding, a smaller one could stop too early. A quarter and 1 change no bit on eight
-// shapes, one of them a long ribbon.
-constexpr double least_progress = 0.5;
 
 class GreenSolver final : public SiteSolver {
  public:
@@ -49,9 +39,8 @@ class GreenSolver final : public SiteSolver {
  private:
   using Answer = ConstraintSystem::Answer;
   static constexpr Index channel_block = ConstraintSystem::channel_block;
-  // Steps with the true operator that a field takes at least.
-  Index refinements() const noexcept;
-  bool is_refined() const noexcept { return core_->is_long || refinements() > 0; }
+  // True if the field takes corrections with the true operator.
+  bool is_refined() const noexcept;
   bool reached(std::size_t component) const noexcept { return state().sites_of[component] > 0; }
   // Copies channels first .. first + count - 1 of the hard vertex sites into the field, bit for bit. row_of(vertex)
   // returns where the row of the vertex is.

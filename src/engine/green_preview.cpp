@@ -10,6 +10,9 @@
 // Each correction reduces the error by the relative error of the two sweeps. So the error that remains is about the
 // size of the last correction times that factor. If sites are inside the factor after a rebase, a preview is the exact
 // field. A correction costs a product with K and two single-precision sweeps.
+//
+// A field that takes corrections in double (bi-harmonic, long, crowded) may have no digit in single precision. Nothing is
+// known of the error of its preview without a correction. With corrections, the last one measures it.
 #include <algorithm>
 #include <cmath>
 
@@ -51,6 +54,7 @@ void GreenSolver::solve_preview(const double* values, Index channels, Index corr
   }
   const std::shared_ptr<const PreviewFactor> single = core_->preview.get(*core_->factor, memory(), *core_->jobs);
   info.bytes = single->bytes();
+  const bool is_measured = is_refined();
   info.corrections = corrections;
   const std::size_t n = at(core_->size()), stride = at(channels), widest = at(std::min(channels, channel_block));
   Workspace z(core_->workspaces, n * widest);
@@ -71,10 +75,10 @@ void GreenSolver::solve_preview(const double* values, Index channels, Index corr
     write_field(z.data(), channels, first, count, answer, field);
     copy_hard_values(values, channels, first, count, [&](Index v) { return field + at(v) * stride + at(first); });
 
-    double error = sweep_error * range, last = 0;
+    double error = is_measured ? HUGE_VAL : sweep_error * range, last = 0;
     for (Index step = 0; step < corrections; ++step) {
       refine(values, channels, first, count, z.data(), answer, field, sweeps);
-      const double shrinks = last > 0 ? std::min(1.0, sweeps.largest / last) : first_shrink;
+      const double shrinks = is_measured ? 1.0 : last > 0 ? std::min(1.0, sweeps.largest / last) : first_shrink;
       error = sweeps.largest * shrinks, last = sweeps.largest;
     }
     if (corrections > 0) info.largest_correction = std::max(info.largest_correction, sweeps.largest);

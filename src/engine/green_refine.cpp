@@ -22,13 +22,6 @@ namespace hf_inner {
 namespace {
 
 constexpr std::size_t piece = 16384;  // matrix rows of one thread's job: the figures of green.cpp hold
-// Share of the range that the last correction of a long shape may still change. Smaller adds sweeps that move the last
-// digits, larger shows on chains of 500,000 triangles. Half and double change no bit on eight shapes with needles,
-// loose pieces and a long ribbon.
-constexpr double small_change = 1e-12;
-// Corrections of one field: a chain of 500,000 triangles takes two, a damaged factor uses them all. Half and double
-// change no bit on eight shapes with needles, loose pieces and a long ribbon.
-constexpr int most_steps = 6;
 
 }  // namespace
 
@@ -153,7 +146,7 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
   }
 }
 
-// Corrects a field of a long shape until the last correction is small, or none is smaller than half the one before.
+// Corrects a field until the next correction would be small, or none helps.
 void GreenSolver::refine_until_small(const double* values, Index channels, Index first, Index count, double* z,
                                      Answer& answer, double* field) const {
   Vector<double> unit(&memory()), high(&memory());
@@ -164,12 +157,10 @@ void GreenSolver::refine_until_small(const double* values, Index channels, Index
   }
   Step step;
   step.unit = unit.data();
-  double last = HUGE_VAL;
-  for (int i = 0; i < most_steps; ++i) {
+  Corrections corrections;
+  do {
     refine(values, channels, first, count, z, answer, field, step);
-    if (step.largest <= small_change || !(step.largest <= least_progress * last)) break;
-    last = step.largest;
-  }
+  } while (corrections.go_on(step.largest));
 }
 
 void GreenSolver::respond(const double* load, const double* values, Index channels, double* field, double* flux) const {

@@ -22,12 +22,6 @@ constexpr int most_gradient_steps = 300;
 // Lumped masses of the preconditioner count as at least this, the least mass of a vertex. Obtuse triangles can make
 // them smaller, even negative. Half and double pass the 16 tests of this solver.
 constexpr double least_lumped = 1e-4;
-// A correction can be this much larger than the ratio of the two before it says. With 1, a field stopped at 8e-12 of
-// its range; a larger number adds corrections that change nothing.
-constexpr double unlike_shrink = 10;
-// Share of the range that the last correction may still change, and most corrections, as in green_refine.cpp.
-constexpr double small_correction = 1e-12;
-constexpr int most_corrections = 6;
 
 }  // namespace
 
@@ -222,11 +216,12 @@ void MixedSolver::solve(const double* values, Index channels, double* field, dou
       });
     };
     solve_block(block, nullptr, own.data(), u.data(), lambda), hold();
-    double last = 1;  // the first solve changes the field by its whole range
-    for (int i = 0; i < most_corrections; ++i) {
+    Corrections corrections;
+    double largest = 0;
+    do {
       find_residual(block, own.data(), u.data(), lambda, right.data(), gap);
       solve_block(block, right.data(), gap.data(), du.data(), change);
-      double largest = 0;
+      largest = 0;
       for (std::size_t v = 0; v < n; ++v) {
         for (std::size_t q = 0; q < m; ++q) {
           u[v * m + q] += du[v * m + q];
@@ -235,11 +230,7 @@ void MixedSolver::solve(const double* values, Index channels, double* field, dou
       }
       for (std::size_t k = 0; k < block.size; ++k) lambda[k] += change[k];
       hold();
-      // Corrections shrink alike, since each ends at the same share of its residual; one more would be this large.
-      const double expected = unlike_shrink * largest * (largest / last);
-      if (expected <= small_correction || !(largest <= least_progress * last)) break;
-      last = largest;
-    }
+    } while (corrections.go_on(largest));
     for (std::size_t v = 0; field && v < n; ++v) std::copy_n(u.data() + v * m, m, field + v * stride + at(first));
     for (std::size_t s = 0; flux && s < slots; ++s) std::copy_n(&lambda[s * m], m, flux + s * stride + at(first));
   }

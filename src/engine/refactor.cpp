@@ -1,20 +1,14 @@
 #include "engine/refactor.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/index.h"
+#include "engine/corrections.h"
 #include "engine/dependence.h"
 
 namespace hf_inner {
-namespace {
-
-// Corrections of a field on a long shape. The second one leaves rounding on chains of 500,000
-// triangles; one leaves 1e-9.
-constexpr int refinement_steps = 2;
-
-}  // namespace
-
 RefactorSolver::RefactorSolver(std::shared_ptr<const Core> core) : core_(std::move(core)), state_(*core_->memory) {
   state_.count.assign(at(core_->mesh.component_count()), 0);
   state_.factor = core_->factor;
@@ -178,6 +172,17 @@ void RefactorSolver::solve_system(const Vector<double>& right, Index channels, d
   }
 }
 
+// A soft site far stiffer or softer than the mesh hides the numbers of K on its diagonal, and crowded points have small
+// pivots.
+bool RefactorSolver::loses_digits() const noexcept {
+  const bool is_soft = std::any_of(state_.sites.begin(), state_.sites.end(), [](const Site& site) {
+    return site.component >= 0 && site.is_vertex() && site.compliance > 0;
+  });
+  return core_->is_long || is_soft || std::any_of(state_.dense.begin(), state_.dense.end(), [](const auto& block) {
+           return block && block->least_pivot() < crowded_share;
+         });
+}
+
 double RefactorSolver::softness(const Site& site) const noexcept {
   return site.compliance / core_->mean_diagonal[at(site.component)];
 }
@@ -269,7 +274,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
                            : 0.0;
     }
   }
-  const bool is_refined = core_->is_long;
+  const bool is_refined = loses_digits();
   if (is_refined && !flux) own.resize(state_.sites.size() * m), flux = own.data();
   const auto hold = [&] {
     for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
@@ -285,12 +290,26 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
   hold();
   if (!is_refined) return;
   Vector<double> change(n * m, &memory), flux_change(state_.sites.size() * m, &memory);
-  for (int step = 0; step < refinement_steps; ++step) {
+  Vector<double> range(centre.size(), 0.0, &memory);
+  for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
+    for (std::size_t c = 0; state_.sites[slot].component >= 0 && c < m; ++c) {
+      double& widest = range[at(state_.sites[slot].component) * m + c];
+      widest = std::max(widest, std::fabs(centred(slot, c)));
+    }
+  }
+  Corrections corrections;
+  double largest = 0;
+  do {
     correct(values, channels, out, flux, change.data(), flux_change.data());
-    for (std::size_t i = 0; i < n * m; ++i) out[i] += change[i];
+    largest = 0;
+    for (std::size_t i = 0; i < n * m; ++i) {
+      out[i] += change[i];
+      const double widest = range[at(core_->mesh.component[i / m]) * m + i % m];
+      if (widest > 0) largest = std::max(largest, std::fabs(change[i]) / widest);
+    }
     for (std::size_t i = 0; i < flux_change.size(); ++i) flux[i] += flux_change[i];
     hold();
-  }
+  } while (corrections.go_on(largest));
 }
 
 // right = W lambda - K u, and what the sites miss: K du - W dlambda = right, w'du + D dlambda = missed.

@@ -65,6 +65,7 @@ class RefactorSolver final : public SiteSolver {
                     Vector<double>& constant, const Vector<double>* total) const;
   void write_vertex_flux(const double* u, std::int32_t channels, const double* right, const double* missed,
                          double* flux) const;
+  bool loses_digits() const noexcept;  // then a field takes corrections
   double softness(const Site& site) const noexcept;
 
   std::shared_ptr<const Core> core_;

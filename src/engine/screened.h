@@ -33,9 +33,30 @@ struct ScreenedOperator {
   void solve(Index channels, double* u, std::size_t stride, Wish&& wish) const;
   // Adds to u what the sites of a system on this operator change. values: by slot of the system and channel. Hard
   // vertex sites get their values to the bit. flux: null, or receives lambda, [slot][channels]; sites that the factor
-  // eliminates get none.
+  // eliminates get none. The field takes corrections where
+  // it may lose digits.
   void add_sites(const ConstraintSystem& system, const double* values, Index channels, double* u, std::size_t stride,
                  double* flux = nullptr) const;
+  // Channels of a solve, in arrays with strides of their own. values and flux are by slot, u by vertex.
+  struct Block {
+    Index count;  // at most ConstraintSystem::channel_block
+    const double* values;
+    std::size_t value_stride;
+    double* u;
+    std::size_t stride;
+    double* flux;
+    std::size_t flux_stride;
+    std::size_t m() const noexcept { return at(count); }
+    double* row(Index v) const noexcept { return u + at(v) * stride; }
+  };
+  // One step of refinement from the field and the fluxes of a block, as a change of both: change[vertex][count] and
+  // flux_change[slot][count]. wish: p, [vertex][count]; null: 0. plain: null, or a field that is subtracted first.
+  void correct(const ConstraintSystem& system, const Block& block, const double* plain, const double* wish,
+               double* change, Vector<double>& flux_change) const;
+  // out = K u + A H (u - p), by differences of u. [vertex][channels]; wish: p, or null for 0. out must not be u.
+  void multiply(const double* u, const double* wish, Index channels, double* out) const;
+  // right <- A^-1 right, with A the factorised matrix. [vertex][channels], at most ConstraintSystem::channel_block.
+  void solve_right(Index channels, double* right) const;
 
   std::shared_ptr<const Core> core;  // first member: its memory outlives the rest
   SymmetricMatrix matrix;            // K + A H
@@ -43,10 +64,16 @@ struct ScreenedOperator {
   Vector<Index> pins;                // by component: its pinned vertex, or -1 where it is screened
   PinPaths paths;
   std::shared_ptr<const Factor> factor;
+  bool is_weak = false;  // rounding of K hides digits of A H: fields take corrections
 
  private:
+  void place_sites(const ConstraintSystem& system, const Block& block) const;
+  void correct_sites(const ConstraintSystem& system, const Block& block, const double* plain) const;
+  void balance(const ConstraintSystem& system, Index channels, double* right, Vector<double>& gap,
+               Vector<double>& flux) const;
   void copy_operator(const ScreenedOptions& options);
   void find_paths();
+  void measure();
 };
 
 template <class Wish>

@@ -1,11 +1,35 @@
 #include "engine/screened_solver.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "engine/corrections.h"
 
 namespace hf_inner {
+namespace {
+
+// A H of a vertex may be this multiple of the mean diagonal, which is what the stiffness of a site may be. The field
+// follows p to about its inverse. A larger number leaves sites beside such vertices no digits.
+constexpr double largest_mass = 1e12;
+
+void check_sizes(const Core& core, Span<const double> strength) {
+  for (Index v = 0; v < core.size(); ++v) {
+    if (core.areas[at(v)] * strength[at(v)] <= largest_mass * core.mean_diagonal[at(core.mesh.component[at(v)])]) continue;
+    const std::uint32_t vertex = static_cast<std::uint32_t>(core.mesh.given_of_inner[at(v)]);
+    fail(HF_ERROR_TOO_LARGE, vertex,
+         "the screening of vertex %u times its area is more than %g times the mean diagonal of K; make it smaller, or hold "
+         "the vertex with a site",
+         vertex, largest_mass);
+  }
+}
+
+}  // namespace
 
 std::shared_ptr<const Screening> Screening::make(std::shared_ptr<const Core> core, Span<const double> strength,
                                                  const double* target, Index channels) {
+  check_sizes(*core, strength);
   const std::shared_ptr<Memory> memory = core->memory;
   const std::size_t n = at(core->size()), m = at(channels);
   const auto made =
@@ -19,7 +43,68 @@ std::shared_ptr<const Screening> Screening::make(std::shared_ptr<const Core> cor
   screened.solve(channels, made->field.data(), m, [&](Index v, Index first, Index count, double* p) {
     if (target) std::copy_n(target + at(v) * m + at(first), at(count), p);
   });
+  if (target) {
+    made->target.assign(target, target + n * m);
+    if (screened.is_weak) made->correct_field(channels);
+  }
   return made;
+}
+
+// Corrects the field without sites. Where A H is small beside K, rounding in the factor hides its last digits.
+void Screening::correct_field(Index channels) {
+  const Core& core = *screened->core;
+  const std::size_t n = at(core.size()), stride = at(channels);
+  Vector<double> low(reaches.size(), core.memory.get()), unit(reaches.size(), core.memory.get());
+  for (std::size_t c = 0; c < stride; ++c) {
+    // The unit of changes is the range of the targets, or their size if the range is 0.
+    low.assign(reaches.size(), HUGE_VAL), unit.assign(reaches.size(), -HUGE_VAL);
+    for (std::size_t v = 0; v < n; ++v) {
+      if (!(screened->mass[v] > 0)) continue;
+      const std::size_t component = at(core.mesh.component[v]);
+      low[component] = std::min(low[component], target[v * stride + c]);
+      unit[component] = std::max(unit[component], target[v * stride + c]);
+    }
+    for (std::size_t i = 0; i < unit.size(); ++i)
+      unit[i] = unit[i] > low[i] ? unit[i] - low[i] : std::max(std::fabs(low[i]), std::numeric_limits<double>::min());
+    Workspace u(core.workspaces, n), wish(core.workspaces, n), change(core.workspaces, n);
+    for (std::size_t v = 0; v < n; ++v) u[v] = field[v * stride + c], wish[v] = target[v * stride + c];
+    Corrections corrections;
+    double largest = 0;
+    do {
+      screened->multiply(u.data(), wish.data(), 1, change.data());
+      for (std::size_t v = 0; v < n; ++v) change[v] = reaches[at(core.mesh.component[v])] ? -change[v] : 0.0;
+      screened->solve_right(1, change.data());
+      largest = 0;
+      for (std::size_t v = 0; v < n; ++v) {
+        u[v] += change[v];
+        largest = std::max(largest, std::fabs(change[v]) / unit[at(core.mesh.component[v])]);
+      }
+    } while (corrections.go_on(largest));
+    for (std::size_t v = 0; v < n; ++v) field[v * stride + c] = u[v];
+  }
+}
+
+bool ScreenedSolver::correct(const double* values, Index channels, const double* field, const double* flux,
+                             double* change, double* flux_change) const {
+  const std::size_t n = at(core().size()), slots = system_.state().entries.size(), stride = at(channels);
+  Memory& memory = *core().memory;
+  const Vector<double>& target = screening_->target;
+  Vector<double> lambda(flux, flux + slots * stride, &memory), more(&memory);
+  Workspace u(core().workspaces, n * stride);
+  std::copy_n(field, n * stride, u.data());
+  for (Index first = 0; first < channels; first += ConstraintSystem::channel_block) {
+    const Index count = std::min(ConstraintSystem::channel_block, channels - first);
+    const std::size_t m = at(count);
+    Workspace own(core().workspaces, n * m), wish(core().workspaces, target.empty() ? 0 : n * m);
+    for (std::size_t v = 0; !target.empty() && v < n; ++v)
+      std::copy_n(target.data() + v * stride + at(first), m, wish.data() + v * m);
+    screening_->screened->correct(
+        system_, {count, values + at(first), stride, u.data() + at(first), stride, lambda.data() + at(first), stride},
+        nullptr, target.empty() ? nullptr : wish.data(), own.data(), more);
+    for (std::size_t v = 0; v < n; ++v) std::copy_n(own.data() + v * m, m, change + v * stride + at(first));
+    for (std::size_t s = 0; s < slots; ++s) std::copy_n(more.data() + s * m, m, flux_change + s * stride + at(first));
+  }
+  return true;
 }
 
 void ScreenedSolver::solve(const double* values, Index channels, double* field, double* flux) const {

@@ -10,15 +10,20 @@ namespace hf_inner {
 // The screening of a solver and the field that it gives without sites. Immutable.
 struct Screening {
   Screening(std::shared_ptr<const ScreenedOperator> made, Memory& memory)
-      : screened(std::move(made)), reaches(&memory) {}
+      : screened(std::move(made)), reaches(&memory), target(&memory) {}
   // strength: H by inner vertex, in 1 / (inner unit)^2, at least 0. target: p, [vertex][channels]; null: 0. Throws
-  // HF_ERROR_NOT_POSITIVE_DEFINITE if H of a component is so small that rounding hides it.
+  // HF_ERROR_TOO_LARGE (index = vertex as given), and HF_ERROR_NOT_POSITIVE_DEFINITE if H of a component is so small
+  // that rounding hides it.
   static std::shared_ptr<const Screening> make(std::shared_ptr<const Core> core, Span<const double> strength,
                                                const double* target, Index channels);
   std::shared_ptr<const ScreenedOperator> screened;  // first member: its memory outlives the rest
   Vector<std::uint8_t> reaches;                      // by component: 1 if some H in it is above 0
   bool reaches_any = false;
-  Buffer<double> field;  // [vertex][channels] without sites; 0 on components without screening
+  Vector<double> target;  // p, [vertex][channels]; empty: 0
+  Buffer<double> field;   // [vertex][channels] without sites; 0 on components without screening
+
+ private:
+  void correct_field(Index channels);
 };
 
 class ScreenedSolver final : public SiteSolver {
@@ -33,6 +38,8 @@ class ScreenedSolver final : public SiteSolver {
   }
   void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices,
                 double* out) const override;
+  bool correct(const double* values, std::int32_t channels, const double* field, const double* flux, double* change,
+               double* flux_change) const override;
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<ScreenedSolver>(core().memory, *this); }
   void rebase(JobRunner& jobs) override { system_.rebase(jobs); }
   EngineKind kind() const noexcept override { return EngineKind::green; }

@@ -6,7 +6,10 @@
 //     overshoot    max_v max(u_v - max s, min s - u_v) / r
 //     error        max_v |u_v - exact| / r, estimated
 //
-// Here r is the range of the site values of the component and channel. The sums use the differences u_j - u_v, so a
+// A screened field has A H (p - u) on the right-hand side too, and K with A H on its diagonal below. The weights of a
+// graph are those of the caller, also where the operator has others because they span more digits than there are.
+//
+// Here r is the range of the site values (and targets) of the component and channel. The sums use the differences u_j - u_v, so a
 // large constant in u costs no digits. The check uses K itself, but neither the factor nor the dense system of the
 // sites, so it finds a fault in either. A small residual does not bound the error of u on meshes of bad quality. But a
 // damaged factor, a missing site or a number that is not finite cannot pass.
@@ -24,6 +27,7 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "field/flow_bound.h"
+#include "mesh/laplacian.h"
 
 namespace hf_inner {
 namespace {
@@ -32,17 +36,26 @@ namespace {
 // penalties, which meet their values only to about 1 / penalty.
 constexpr double exact_tolerance = 1e-8, penalty_tolerance = 1e-5;
 
-// The smallest and largest site value of each component and channel.
+// The smallest and largest site value of each component and channel, and target where the field is screened.
 struct Ranges {
-  Ranges(const SiteSet& sites, std::size_t components, std::size_t channels, Memory& memory)
+  Ranges(const ScalarField& field, std::size_t components, std::size_t channels, Memory& memory)
       : low(components * channels, HUGE_VAL, &memory), high(components * channels, -HUGE_VAL, &memory) {
-    for (std::size_t slot = 0; slot < sites.slots().size(); ++slot) {
-      if (!sites.slots()[slot].used()) continue;
-      const std::size_t c = at(sites.slots()[slot].site.component) * channels;
+    const SiteSet& sites = field.sites();
+    const auto take = [&](std::int32_t component, const double* values) {
       for (std::size_t q = 0; q < channels; ++q) {
-        const double value = sites.values()[slot * channels + q];
-        low[c + q] = std::min(low[c + q], value), high[c + q] = std::max(high[c + q], value);
+        const std::size_t i = at(component) * channels + q;
+        const double value = values ? values[q] : 0.0;
+        low[i] = std::min(low[i], value), high[i] = std::max(high[i], value);
       }
+    };
+    for (std::size_t slot = 0; slot < sites.slots().size(); ++slot) {
+      if (sites.slots()[slot].used()) take(sites.slots()[slot].site.component, sites.values() + slot * channels);
+    }
+    const Screening* screening = field.screening();
+    for (std::size_t v = 0; screening && v < screening->screened->mass.size(); ++v) {
+      if (screening->screened->mass[v] > 0)
+        take(field.core().mesh.component[v],
+             screening->target.empty() ? nullptr : screening->target.data() + v * channels);
     }
   }
   double range(std::size_t i) const noexcept { return high[i] - low[i]; }
@@ -85,6 +98,20 @@ bool is_m_matrix(const SymmetricMatrix& k) noexcept {
   return true;
 }
 
+// A vertex that a soft condition holds: how far a flow of 1 moves it.
+struct SoftRoot {
+  Index vertex = -1;
+  double softness = 0;
+};
+
+// The Laplacian of a graph's own weights if the operator has others; else empty.
+SymmetricMatrix given_weights(const Core& core) {
+  const Geometry& plain = core.geometry->unlinked();
+  if (!core.mesh.is_graph() || core.field_kind != FieldKind::harmonic || core.changed_count == 0)
+    return SymmetricMatrix(*core.memory);
+  return laplacian(plain.topology, plain.weights, *core.memory, core.jobs.get());
+}
+
 // The checks of one field.
 class Check {
  public:
@@ -95,13 +122,16 @@ class Check {
         sites_(field.sites()),
         n_(at(core_.size())),
         m_(at(sites_.channels())),
-        ranges_(sites_, at(core_.mesh.component_count()), m_, memory_),
+        screening_(field.screening()),
+        given_(given_weights(core_)),
+        k_(screening_ ? screening_->screened->matrix : given_.size() > 0 ? given_ : core_.laplacian),
+        ranges_(field, at(core_.mesh.component_count()), m_, memory_),
         u_(core_.workspaces, n_ * m_),
         left_(core_.workspaces, n_ * m_),
         flux_(&memory_),
         site_error_(ranges_.low.size(), 0.0, &memory_) {
     flux_.resize(std::max(sites_.slots().size(), at(field.engine().slot_count())) * m_);
-    found_.overshoot_checked = core_.refinements == 0 && is_m_matrix(core_.laplacian);
+    found_.overshoot_checked = core_.refinements == 0 && is_m_matrix(k_);
     bounded_ = found_.overshoot_checked;
   }
 
@@ -158,11 +188,15 @@ class Check {
       }
     });
   }
-  // left -= K u
-  void subtract_product(const double* u) {
-    if (core_.root) {
+  // left -= K u, and A H (u - p) where the field is screened. wish: p, or null for 0.
+  void subtract_product(const double* u, const double* wish) {
+    if (core_.root || screening_) {
       Workspace product(core_.workspaces, n_ * m_);
-      apply_operator(core_, u, static_cast<std::int32_t>(m_), product.data());
+      const Index channels = static_cast<Index>(m_);
+      if (screening_)
+        screening_->screened->multiply(u, wish, channels, product.data());
+      else
+        apply_operator(core_, u, channels, product.data());
       for (std::size_t v = 0; v < n_; ++v) {
         for (std::size_t q = 0; reached(v) && q < m_; ++q) left_[v * m_ + q] -= product[v * m_ + q];
       }
@@ -171,15 +205,17 @@ class Check {
     Vector<double> row(m_, &memory_);
     for (std::size_t v = 0; v < n_; ++v) {
       if (!reached(v)) continue;
-      row_of(core_.laplacian, v, u, m_, row.data());
+      row_of(k_, v, u, m_, row.data());
       for (std::size_t q = 0; q < m_; ++q) left_[v * m_ + q] -= row[q];
     }
   }
 
   void check_residual() {
-    const Vector<double> diagonals = operator_diagonal(core_);
+    Vector<double> diagonals = operator_diagonal(core_);
+    for (std::size_t v = 0; !core_.root && v < n_; ++v) diagonals[v] = k_.value[k_.diagonal(static_cast<Index>(v))];
     std::fill_n(left_.data(), n_ * m_, 0.0);
-    add_flux(flux_), subtract_product(u_.data());
+    add_flux(flux_);
+    subtract_product(u_.data(), screening_ && !screening_->target.empty() ? screening_->target.data() : nullptr);
     for (std::size_t v = 0; v < n_; ++v) {
       if (!reached(v)) continue;
       const double diagonal = std::fabs(diagonals[v]);
@@ -229,7 +265,7 @@ class Check {
     if (!std::isfinite(found_.residual) || !std::isfinite(first)) {
       error = HUGE_VAL;
     } else if (bounded_) {
-      if (corrected) add_flux(flux_change), subtract_product(change.data());
+      if (corrected) add_flux(flux_change), subtract_product(change.data(), nullptr);
       error = bounded(size);
     } else if (corrected) {
       for (std::size_t i = 0; i < n_ * m_; ++i) u_[i] += change[i];
@@ -245,21 +281,30 @@ class Check {
 
   // The bound of what is left of the residual, onto the sizes of the correction: the largest of them.
   double bounded(Vector<double>& size) {
-    // e is 0 at hard vertex sites. A component without one has its hardest site as its root.
+    // e is 0 at hard vertex sites. A component without one has its hardest site as its root; screening holds a vertex as
+    // a soft site does.
     const std::size_t components = at(core_.mesh.component_count());
-    Vector<Index> roots(&memory_), hardest(components, -1, &memory_);
+    Vector<Index> roots(&memory_);
     Vector<std::uint8_t> held(components, 0, &memory_);
-    each_site([&](std::size_t slot, const Site& site) {
-      Index& best = hardest[at(site.component)];
+    Vector<SoftRoot> hardest(components, &memory_);
+    const auto offer = [&](Index component, const SoftRoot& root) {
+      SoftRoot& best = hardest[at(component)];
+      if (best.vertex < 0 || root.softness < best.softness) best = root;
+    };
+    each_site([&](std::size_t, const Site& site) {
       if (site.is_hard_vertex()) {
         roots.push_back(site.vertex[0]), held[at(site.component)] = 1;
         std::fill_n(left_.data() + at(site.vertex[0]) * m_, m_, 0.0);  // lambda is free there
-      } else if (best < 0 || site.compliance < sites_.slots()[at(best)].site.compliance) {
-        best = static_cast<Index>(slot);
+      } else {
+        offer(site.component, {site.vertex[0], compliance(site)});
       }
     });
+    for (std::size_t v = 0; screening_ && v < n_; ++v) {
+      const double mass = screening_->screened->mass[v];
+      if (mass > 0) offer(core_.mesh.component[v], {static_cast<Index>(v), 1 / mass});
+    }
     for (std::size_t c = 0; c < components; ++c) {
-      if (!held[c] && hardest[c] >= 0) roots.push_back(sites_.slots()[at(hardest[c])].site.vertex[0]);
+      if (!held[c] && hardest[c].vertex >= 0) roots.push_back(hardest[c].vertex);
     }
     for (std::size_t v = 0; v < n_; ++v) {
       for (std::size_t q = 0; q < m_; ++q) {
@@ -267,16 +312,15 @@ class Check {
         r = reached(v) ? r / ranges_.unit(unit_of(v, q)) : 0.0;
       }
     }
-    const Vector<double> bound = FlowBound(core_, roots).bound(left_.data(), m_);
+    const Vector<double> bound = FlowBound(core_, k_, roots).bound(left_.data(), m_);
     double largest = 0;
     for (std::size_t c = 0; c < components; ++c) {
-      if (!held[c] && hardest[c] < 0) continue;
+      if (!held[c] && hardest[c].vertex < 0) continue;
       for (std::size_t q = 0; q < m_; ++q) {
         double error = size[c * m_ + q] + bound[c * m_ + q];
         if (!held[c]) {
           // what flows out of a soft root moves it by its compliance; a point moves as far as its corners differ
-          const Site& site = sites_.slots()[at(hardest[c])].site;
-          error += bound[c * m_ + q] + compliance(site) * std::fabs(left_[at(site.vertex[0]) * m_ + q]);
+          error += bound[c * m_ + q] + hardest[c].softness * std::fabs(left_[at(hardest[c].vertex) * m_ + q]);
         }
         raise(largest, error);
       }
@@ -289,6 +333,9 @@ class Check {
   Memory& memory_;
   const SiteSet& sites_;
   std::size_t n_, m_;
+  const Screening* screening_;   // null: none
+  const SymmetricMatrix given_;  // of a graph's own weights, where the operator has others
+  const SymmetricMatrix& k_;
   Ranges ranges_;
   Workspace u_, left_;  // the field, and what is left of its residual
   Vector<double> flux_, site_error_;
@@ -308,10 +355,7 @@ double certificate_tolerance(double asked, EngineKind engine) {
 }
 
 Certificate certify(const ScalarField& field) {
-  if (field.is_screened())
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a screened field has no certificate; remove the screening first");
-  if (field.sites().count() == 0)
-    fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; there is no field to certify");
+  field.require_sites();
   return Check(field).run();
 }
 

@@ -6,8 +6,8 @@
 
 namespace hf_inner {
 
-// The errors of a field. Each error is relative to the range of the site values of its component and channel. If all
-// site values are equal, it is relative to their size.
+// The errors of a field. Each error is relative to the range of the site values of its component and channel, and of its
+// targets where it is screened. If all are equal, it is relative to their size.
 struct Certificate {
   double value_range = 0;  // widest range of the site values of a component and channel
   double residual = 0;     // distance of a vertex from the weighted mean of its neighbours
@@ -22,8 +22,7 @@ struct Certificate {
 // unless the tolerance is above 0 and finite.
 double certificate_tolerance(double asked, EngineKind engine);
 
-// Solves the field and measures its errors. A value that is not finite has an infinite error. Throws HF_ERROR_NO_SITES,
-// and HF_ERROR_UNSUPPORTED for a screened field.
+// Solves the field and measures its errors. A value that is not finite has an infinite error. Throws HF_ERROR_NO_SITES.
 Certificate certify(const ScalarField& field);
 
 // Throws HF_ERROR_INACCURATE if an error is above the tolerance. vertex: its vertex as given.

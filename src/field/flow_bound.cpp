@@ -19,14 +19,13 @@ struct Edge {
 
 }  // namespace
 
-FlowBound::FlowBound(const Core& core, Span<const Index> roots)
+FlowBound::FlowBound(const Core& core, const SymmetricMatrix& k, Span<const Index> roots)
     : core_(core),
       order_(core.memory.get()),
       parent_(at(core.size()), not_reached, core.memory.get()),
       resistance_(at(core.size()), 0.0, core.memory.get()),
       path_(at(core.mesh.component_count()), 0.0, core.memory.get()) {
   Memory& memory = *core.memory;
-  const SymmetricMatrix& k = core.laplacian;
   Vector<double> distance(at(core.size()), 0.0, &memory);
   int highest = 0;
   std::frexp(*std::max_element(k.value.begin(), k.value.end()), &highest);

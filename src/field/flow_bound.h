@@ -17,8 +17,9 @@ namespace hf_inner {
 
 class FlowBound {
  public:
-  // roots: vertices where e is 0, at least one in every component that is asked about. Cost: a pass over the edges.
-  FlowBound(const Core& core, Span<const Index> roots);
+  // k: K, or a matrix with its weights off the diagonal. roots: vertices where e is 0, at least one in every component
+  // that is asked about. Cost: a pass over the edges.
+  FlowBound(const Core& core, const SymmetricMatrix& k, Span<const Index> roots);
 
   // The bound of every component and channel; r: vertex * channels + c, overwritten with the flows. Where r has a part
   // that no root is reached from, the bound is infinite.

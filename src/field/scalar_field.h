@@ -57,7 +57,10 @@ class ScalarField {
   const SiteSet& sites() const noexcept { return sites_; }
   const SiteSolver& engine() const noexcept { return *engine_; }
   bool is_screened() const noexcept { return screening_ != nullptr; }
+  const Screening* screening() const noexcept { return screening_.get(); }  // null: none
 
+  // Throws HF_ERROR_NO_SITES if the field has neither a site nor screening.
+  void require_sites() const;
   // Solve functions; they throw HF_ERROR_NO_SITES if the field has neither a site nor screening. field: welded vertex *
   // channels + c.
   void solve(double* field) const;
@@ -81,7 +84,6 @@ class ScalarField {
   };
   bool adopt(const SiteSet& next) noexcept;
   Record present() const;
-  void require_sites() const;
   void restore(Record& record);
   Memory& memory() const noexcept { return *core_->memory; }
 

@@ -499,7 +499,7 @@ namespace Hf.Native
         public double site_error;
         public double overshoot;
         public uint worst_vertex;
-        public uint reserved;
+        public uint changed_vertex_count;
         public double error_estimate;
     }
 

@@ -429,7 +429,7 @@ export const layouts = {
     site_error: ['f64', [32, 32], 0],
     overshoot: ['f64', [40, 40], 0],
     worst_vertex: ['u32', [48, 48], 0],
-    reserved: ['u32', [52, 52], 0],
+    changed_vertex_count: ['u32', [52, 52], 0],
     error_estimate: ['f64', [56, 56], 0],
   } },
   hf_solver_statistics: { size: [72, 72], fields: {

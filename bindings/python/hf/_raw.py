@@ -777,7 +777,7 @@ class hf_certificate(Structure):
     site_error: float
     overshoot: float
     worst_vertex: int
-    reserved: int
+    changed_vertex_count: int
     error_estimate: float
     _fields_ = [
         ("struct_size", c_uint32),
@@ -788,7 +788,7 @@ class hf_certificate(Structure):
         ("site_error", c_double),
         ("overshoot", c_double),
         ("worst_vertex", c_uint32),
-        ("reserved", c_uint32),
+        ("changed_vertex_count", c_uint32),
         ("error_estimate", c_double),
     ]
 

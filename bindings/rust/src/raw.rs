@@ -891,7 +891,7 @@ pub struct hf_certificate {
     pub site_error: f64,
     pub overshoot: f64,
     pub worst_vertex: u32,
-    pub reserved: u32,
+    pub changed_vertex_count: u32,
     pub error_estimate: f64,
 }
 impl Default for hf_certificate {
@@ -914,7 +914,7 @@ impl hf_certificate {
             "site_error" => self.site_error,
             "overshoot" => self.overshoot,
             "worst_vertex" => f64::from(self.worst_vertex),
-            "reserved" => f64::from(self.reserved),
+            "changed_vertex_count" => f64::from(self.changed_vertex_count),
             "error_estimate" => self.error_estimate,
             _ => return None,
         })

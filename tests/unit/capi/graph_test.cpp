@@ -274,6 +274,44 @@ TEST(Graph, weights_of_any_spread_give_fields_within_their_sites) {
   }
 }
 
+// A path between two sites: the field is the share of the resistance behind it, whatever the weights span. A rule changes
+// weights that no factor can hold, and a certificate must not speak for the changed ones.
+TEST(Graph, a_certificate_holds_for_the_weights_given) {
+  int certified = 0, refused = 0, changed = 0;
+  for (const double spread : {2.0, 5.0, 8.0, 11.0, 14.0}) {
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+      std::mt19937 random(seed);
+      Graph graph;
+      graph.vertex_count = 12;
+      std::vector<long double> behind(1, 0);
+      for (std::uint32_t v = 0; v + 1 < 12; ++v) {
+        graph.add(v, v + 1, std::pow(10.0, (static_cast<double>(random() % 2001) / 1000 - 1) * spread));
+        behind.push_back(behind.back() + 1 / static_cast<long double>(graph.weights.back()));
+      }
+      const Surface surface(graph);
+      const Solver solver(surface.handle, HF_FIELD_HARMONIC);
+      add(solver.handle, {{0, 11}, {0, 1}, {}});
+      const std::vector<double> u = field(solver.handle, 12);
+      long double error = 0;
+      for (std::size_t v = 0; v < 12; ++v) error = std::max(error, std::fabs(behind[v] / behind.back() - u[v]));
+      hf_certificate certificate = HF_INIT(hf_certificate);
+      const hf_result result = hf_solver_certify(solver.handle, &certificate);
+      EXPECT_EQ(certificate.changed_vertex_count, report_of(surface.handle).changed_vertex_count);
+      changed += certificate.changed_vertex_count > 0;
+      if (result == HF_OK) {
+        EXPECT_LE(error, 1e-7) << "spread " << spread << ", seed " << seed;
+      } else {
+        EXPECT_EQ(result, HF_ERROR_INACCURATE);
+        EXPECT_GE(certificate.error_estimate, error) << "spread " << spread << ", seed " << seed;
+      }
+      (result == HF_OK ? certified : refused)++;
+    }
+  }
+  EXPECT_GE(certified, 20);
+  EXPECT_GT(changed, 5);
+  EXPECT_GT(refused, 0);
+}
+
 // Weights of rounding size between all vertices do not count for the median that caps the weights of L M^-1 L.
 TEST(Graph, weights_of_rounding_size_leave_bi_harmonic_fields_alone) {
   Graph graph;

@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <vector>
 
+#include "base/index.h"
 #include "base/memory.h"
 
 namespace {
 
+using hf_inner::at;
 using hf_inner::HardSite;
 using hf_inner::Site;
 
@@ -58,11 +62,29 @@ TEST(Dependence, triangles_share_what_their_common_edge_takes) {
 }
 
 TEST(Dependence, crowded_points_are_independent_and_far_ones_have_nothing_to_do_with_them) {
-  const double d = 1e-6;
+  const double d = 1e-4;
   EXPECT_EQ(lost_of({point(0, 0.3, 0.3), point(0, 0.3 + d, 0.3), point(0, 0.3, 0.3 + d)}), -1);
   EXPECT_EQ(lost_of({point(0, 0.3, 0.3), point(0, 0.3 + d, 0.3), point(0, 0.3, 0.3 + d), point(0, 0.3 + d, 0.3 + d)}), 3);
   EXPECT_EQ(lost_of({point(0, 0.3, 0.3), point(10, 0.3, 0.3), corner(20), corner(0)}), -1);
   EXPECT_EQ(lost_of({}), -1);
+}
+
+// Three points near a line, at distances from far above to far below what counts as dependent. Their order changes what
+// each finds before it, and must not change whether the set is taken.
+TEST(Dependence, the_set_decides_and_not_its_order) {
+  int taken = 0, refused = 0;
+  for (int step = 0; step <= 60; ++step) {
+    const double d = 1e-3 * std::pow(10.0, -step / 15.0);
+    std::vector<Site> sites = {point(0, 0.2, 0.2), point(0, 0.2 + 0.01, 0.2), point(0, 0.7, 0.2 + d)};
+    const bool first = lost_of(sites) < 0;
+    (first ? taken : refused)++;
+    for (const auto& order : {std::array<int, 3>{0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}) {
+      const std::vector<Site> other = {sites[at(order[0])], sites[at(order[1])], sites[at(order[2])]};
+      EXPECT_EQ(lost_of(other) < 0, first) << "d " << d;
+    }
+  }
+  EXPECT_GT(taken, 5);
+  EXPECT_GT(refused, 5);
 }
 
 }  // namespace
