@@ -159,6 +159,11 @@ typedef struct hf_surface_desc {
  * counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices and components.
  * hf_surface_get_report gives these counts.
  *
+ * A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are doubled if
+ * they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf, hair or a cape,
+ * is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the second
+ * side alone get opposite normals from poses, and a ray with front_only hits both sides.
+ *
  * out_surface: receives NULL at the start of the call and the new handle on success. Cost: about 2 us a vertex for
  * 300,000 vertices, one thread. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY (no vertex or no triangle),
  * HF_ERROR_OUT_OF_RANGE (index = triangle or face; a face of fewer than three corners is
@@ -256,7 +261,8 @@ typedef struct hf_surface_report {
   uint32_t isolated_vertex_count;     /* given vertices in no usable triangle (or edge); fields are 0 there */
   uint32_t degenerate_triangle_count; /* zero area to working precision */
   uint32_t collapsed_triangle_count;  /* two or three equal corners after welding; left out */
-  uint32_t duplicate_triangle_count;  /* the same three corners again */
+  uint32_t duplicate_triangle_count;  /* the same corners again after welding, in either direction; they do not count
+                                         in the edges below */
   uint32_t non_manifold_edge_count;   /* edges of three or more triangles */
   uint32_t flipped_edge_count;        /* edges that two triangles run through in the same direction */
   uint32_t boundary_edge_count;

@@ -56,6 +56,21 @@ void place_handles(hf_pose handle, std::uint32_t count, const std::uint32_t* han
   pose->pose->set_transforms({handles, count}, {placed, count});
 }
 
+// Turns the normals of vertices on the second side of a two-sided sheet round.
+void turn_normals(const Mesh& mesh, const VertexRange& range, const hf_deform_desc& desc) {
+  if (!desc.normals) return;
+  const std::size_t stride = desc.normal_stride ? desc.normal_stride : 3 * sizeof(float);
+  for (const std::int32_t v : mesh.turned) {
+    const std::size_t row = static_cast<std::size_t>(v) - range.first;
+    if (static_cast<std::size_t>(v) < range.first || row >= range.count) continue;
+    char* const place = reinterpret_cast<char*>(desc.normals) + row * stride;
+    float normal[3];
+    std::memcpy(normal, place, sizeof normal);
+    for (float& x : normal) x = -x;
+    std::memcpy(place, normal, sizeof normal);
+  }
+}
+
 // Writes the vertices of `range` to the arrays of the desc. straight_normals: the pose has written the normals.
 void write_deformed(const PoseObject& object, const VertexRange& range, const hf_deform_desc& desc, bool surface,
                     bool straight_normals, const DeformReport& report) {
@@ -97,6 +112,7 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   if (straight_normals) request.packed_normals = reinterpret_cast<Normal*>(desc.normals);
   const DeformReport report = pose->pose->deform(request);
   write_deformed(*pose, range, desc, request.surface, straight_normals, report);
+  turn_normals(core.mesh, range, desc);
   if (!out_info) return;
   hf_deform_info info{};
   info.iteration_count = report.iteration_count, info.cluster_count = report.cluster_count;

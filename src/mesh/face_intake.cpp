@@ -15,8 +15,6 @@ constexpr std::int64_t most_corners = 65535;
 // A face counts as not planar if a corner is farther than this share of its diameter from the mean plane. It is a count
 // for the report alone. Of 576 quads of a bumpy sheet it counts 330, half of it 454, the double 170.
 constexpr double report_bend = 0.01;
-// Odd number that mixes corners into a hash: 2^64 over the golden ratio. No result depends on it.
-constexpr std::uint64_t hash_factor = 0x9e3779b97f4a7c15u;
 // Faces between two looks at a cancel.
 constexpr std::uint32_t faces_per_poll = 65536;
 
@@ -135,38 +133,6 @@ void take_faces(const MeshInput& input, const Vector<Index>& representative, Mes
     out.second_cut.push_back(cutter.second_cut);
     out.non_planar_count += cutter.bend > report_bend;
   });
-}
-
-// Faces are sorted by a hash of their sorted corners. Those of one hash are then compared.
-std::uint32_t count_duplicate_faces(const Faces& faces, Memory& memory) {
-  struct Key {
-    std::uint64_t hash;
-    Index face;
-  };
-  Vector<Index> sorted(faces.corner.begin(), faces.corner.end(), &memory);
-  Vector<Key> keys(at(faces.count()), &memory);
-  const auto corners = [&](Index f) {
-    return FaceCorners(sorted.data() + faces.corner_start[at(f)],
-                       at(faces.corner_start[at(f) + 1] - faces.corner_start[at(f)]));
-  };
-  for (Index f = 0; f < faces.count(); ++f) {
-    std::sort(sorted.begin() + faces.corner_start[at(f)], sorted.begin() + faces.corner_start[at(f) + 1]);
-    std::uint64_t hash = 0;
-    for (const Index v : corners(f)) hash = (hash ^ static_cast<std::uint64_t>(v)) * hash_factor, hash ^= hash >> 32;
-    keys[at(f)] = {hash, f};
-  }
-  std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
-    if (a.hash != b.hash) return a.hash < b.hash;
-    const FaceCorners x = corners(a.face), y = corners(b.face);
-    return std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
-  });
-  std::uint32_t count = 0;
-  for (std::size_t i = 1; i < keys.size(); ++i) {
-    if (keys[i].hash != keys[i - 1].hash) continue;
-    const FaceCorners x = corners(keys[i - 1].face), y = corners(keys[i].face);
-    count += std::equal(x.begin(), x.end(), y.begin(), y.end());
-  }
-  return count;
 }
 
 namespace {

@@ -20,9 +20,6 @@ void mark_corners(const MeshInput& input, const Vector<std::int32_t>& representa
 // representative: by given vertex, the one it is welded with. The mesh has its frame already.
 void take_faces(const MeshInput& input, const Vector<std::int32_t>& representative, Mesh& mesh, Memory& memory);
 
-// Counts faces with the same corners as an earlier one.
-std::uint32_t count_duplicate_faces(const Faces& faces, Memory& memory);
-
 // By edge of the cut, whether it is a side of a face and not only a line of the cut.
 Vector<std::uint8_t> face_sides(const Faces& faces, const Topology& topology, Memory& memory);
 

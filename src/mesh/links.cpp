@@ -137,6 +137,8 @@ Mesh linked_mesh(const Mesh& mesh, const Links& links, Memory& memory) {
   out.inner_of_given.assign(mesh.inner_of_given.begin(), mesh.inner_of_given.end());
   out.given_of_inner.assign(mesh.given_of_inner.begin(), mesh.given_of_inner.end());
   out.triangle_of_given.assign(mesh.triangle_of_given.begin(), mesh.triangle_of_given.end());
+  out.doubled.assign(mesh.doubled.begin(), mesh.doubled.end());
+  out.turned.assign(mesh.turned.begin(), mesh.turned.end());
   out.isolated.assign(mesh.isolated.begin(), mesh.isolated.end());
   out.centre = mesh.centre, out.scale = mesh.scale, out.report = mesh.report;
   // Pieces are numbered by their lowest vertices, so groups are too.

@@ -10,6 +10,7 @@
 #include "base/hypotenuse.h"
 #include "base/index.h"
 #include "base/progress.h"
+#include "mesh/doubled_faces.h"
 #include "mesh/face_intake.h"
 #include "mesh/union_find.h"
 #include "mesh/vertex_order.h"
@@ -95,38 +96,6 @@ void find_frame(const MeshInput& input, const Vector<Index>& representative, con
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the mesh is %g wide; scale it below 1e300", mesh.scale);
 }
 
-// Counts triangles with the same three corners as an earlier one. They are sorted into buckets by the smallest corner
-// and compared inside a bucket.
-void count_duplicates(Mesh& mesh, Memory& memory) {
-  struct Key {
-    Index middle, largest;
-    bool operator<(const Key& o) const noexcept { return middle != o.middle ? middle < o.middle : largest < o.largest; }
-    bool operator==(const Key& o) const noexcept { return middle == o.middle && largest == o.largest; }
-  };
-  Vector<Index> start(mesh.positions.size() + 1, 0, &memory);
-  for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    const Index* v = mesh.triangle(t);
-    ++start[at(std::min({v[0], v[1], v[2]})) + 1];
-  }
-  for (std::size_t v = 0; v + 1 < start.size(); ++v) start[v + 1] += start[v];
-  Vector<Key> keys(at(mesh.triangle_count()), &memory);
-  for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    const Index* v = mesh.triangle(t);
-    const Index least = std::min({v[0], v[1], v[2]}), most = std::max({v[0], v[1], v[2]});
-    const Index middle = std::max(std::min(v[0], v[1]), std::min(std::max(v[0], v[1]), v[2]));
-    keys[at(start[at(least)]++)] = {middle, most};
-  }
-  std::size_t begin = 0;  // start[v] is now the end of the triangles with smallest corner v
-  for (std::size_t v = 0; v + 1 < start.size(); ++v) {
-    const std::size_t end = at(start[v]);
-    if (end - begin > 1) {
-      std::sort(keys.begin() + static_cast<std::ptrdiff_t>(begin), keys.begin() + static_cast<std::ptrdiff_t>(end));
-      for (std::size_t i = begin + 1; i < end; ++i) mesh.report.duplicate_triangle_count += keys[i] == keys[i - 1];
-    }
-    begin = end;
-  }
-}
-
 // Finds the smallest angle, which has the largest cotangent, and counts triangles of zero area.
 void measure_triangles(Mesh& mesh, JobRunner* jobs, Memory& memory) {
   struct Found {
@@ -179,6 +148,15 @@ void take_triangles(const MeshInput& input, const Vector<Index>& representative,
   }
 }
 
+// Gives the corners of all faces new numbers.
+void number_corners(const Vector<Index>& number, Mesh& mesh) {
+  for (Index& corner : mesh.corners) corner = number[at(corner)];
+  for (Index& corner : mesh.faces.corner) corner = number[at(corner)];
+  for (Mesh::Doubled& entry : mesh.doubled) {
+    for (Index& corner : entry.corner) corner = number[at(corner)];
+  }
+}
+
 // Gives the inner vertices other numbers: the i-th is the one that had the number order[i].
 void renumber(const Vector<Index>& order, Mesh& mesh, Memory& memory) {
   Vector<Index> number(order.size(), &memory);
@@ -191,8 +169,7 @@ void renumber(const Vector<Index>& order, Mesh& mesh, Memory& memory) {
   for (Index& v : mesh.inner_of_given) {
     if (v != Mesh::none) v = number[at(v)];
   }
-  for (Index& corner : mesh.corners) corner = number[at(corner)];
-  for (Index& corner : mesh.faces.corner) corner = number[at(corner)];
+  number_corners(number, mesh);
 }
 
 }  // namespace
@@ -237,6 +214,9 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
          input.faces.face_count > 0 ? "face" : "triangle", input.weld == Weld::none ? "" : " after welding");
 
   poll();
+  set_doubled_aside(mesh, input.vertex_count, memory);
+
+  poll();
   // The inner vertices are the welded vertices of usable triangles. They are numbered in the caller's order at first.
   Vector<Index> inner(input.vertex_count, none, &memory);
   for (Index& corner : mesh.corners) inner[at(corner)] = 0;
@@ -253,8 +233,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
     mesh.isolated.push_back(
         {static_cast<Index>(v), {input.positions.get(v, 0), input.positions.get(v, 1), input.positions.get(v, 2)}});
   }
-  for (Index& corner : mesh.corners) corner = inner[at(corner)];
-  for (Index& corner : mesh.faces.corner) corner = inner[at(corner)];
+  number_corners(inner, mesh);
 
   const std::size_t count = mesh.given_of_inner.size();
   mesh.positions.resize(count);
@@ -265,6 +244,9 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   }
   poll();
   if (!is_local(mesh.corners, count)) renumber(curve_order(mesh.positions, jobs, memory), mesh, memory);
+
+  poll();
+  turn_two_sided(input, mesh, memory, jobs);
 
   poll();
   UnionFind sets(count, memory);
@@ -282,10 +264,6 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   }
 
   poll();
-  if (mesh.faces.empty())
-    count_duplicates(mesh, memory);
-  else
-    mesh.report.duplicate_triangle_count = count_duplicate_faces(mesh.faces, memory);
   measure_triangles(mesh, jobs, memory);
   return mesh;
 }

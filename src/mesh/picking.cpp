@@ -83,6 +83,18 @@ void test_triangle(const Vec3* corner, bool front_only, std::uint32_t triangle, 
   best.weight[0] = u / determinant, best.weight[1] = v / determinant, best.weight[2] = w / determinant;
 }
 
+// Returns the first of the caller's triangles that lie on usable triangle t. along: the first that runs as t does.
+std::uint32_t given_of(const Mesh& mesh, Index t, bool along) noexcept {
+  const std::uint32_t first = mesh.given_of_triangle(t);
+  bool against = false;
+  for (const Mesh::Doubled& entry : mesh.doubled) {
+    if (!along || mesh.triangle_of_given[at(entry.given)] != mesh.triangle_of_given[first]) continue;
+    if (!entry.mirrored && against) return static_cast<std::uint32_t>(entry.given);
+    if (static_cast<std::uint32_t>(entry.given) == first) against = entry.mirrored;
+  }
+  return first;
+}
+
 }  // namespace
 
 PickTarget read_target(const Mesh& mesh, const hf_pick_desc& desc) {
@@ -105,10 +117,16 @@ RayHit cast_ray(const PickTarget& target, Vec3 origin, Vec3 direction, JobRunner
   const Places places(target);
   const Shear shear(places.point_in(origin), places.direction_in(direction));
   const std::size_t triangles = at(mesh.triangle_count());
-  Vector<Candidate> found(pieces_of(triangles), &memory);
-  jobs.for_each(pieces_of(triangles), [&](std::uint32_t p) {
-    for (std::size_t t = p * piece; t < std::min(triangles, (p + std::size_t{1}) * piece); ++t) {
-      const Index* v = mesh.triangle(static_cast<Index>(t));
+  // Numbers from `triangles` on stand for sides set aside. A mirrored one faces where its usable triangle does not.
+  const std::size_t sides = triangles + (target.front_only ? mesh.doubled.size() : 0);
+  Vector<Candidate> found(pieces_of(sides), &memory);
+  const auto corners_of = [&](std::size_t t) {
+    return t < triangles ? mesh.triangle(static_cast<Index>(t)) : mesh.doubled[t - triangles].corner;
+  };
+  jobs.for_each(pieces_of(sides), [&](std::uint32_t p) {
+    for (std::size_t t = p * piece; t < std::min(sides, (p + std::size_t{1}) * piece); ++t) {
+      if (t >= triangles && !mesh.doubled[t - triangles].mirrored) continue;
+      const Index* v = corners_of(t);
       Vec3 corner[3];
       for (int k = 0; k < 3; ++k) {
         const Vec3 place = places.of(v[k]);
@@ -124,9 +142,11 @@ RayHit cast_ray(const PickTarget& target, Vec3 origin, Vec3 direction, JobRunner
   }
   RayHit hit;
   if (best.triangle == HF_NO_INDEX) return hit;
-  hit.triangle = mesh.given_of_triangle(static_cast<Index>(best.triangle)), hit.distance = best.distance;
+  hit.triangle = best.triangle < triangles ? given_of(mesh, static_cast<Index>(best.triangle), target.front_only)
+                                           : static_cast<std::uint32_t>(mesh.doubled[best.triangle - triangles].given);
+  hit.distance = best.distance;
   std::copy_n(best.weight, 3, hit.weight);
-  const Index* v = mesh.triangle(static_cast<Index>(best.triangle));
+  const Index* v = corners_of(best.triangle);
   std::copy_n(v, 3, hit.corner);
   Vec3 p;
   for (int k = 0; k < 3; ++k) p = p + best.weight[k] * places.of(v[k]);

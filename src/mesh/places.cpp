@@ -1,5 +1,6 @@
 #include "mesh/places.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/arguments.h"
@@ -57,7 +58,11 @@ SurfacePlace place_in_triangle(const Mesh& mesh, std::uint32_t triangle, const d
     fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of the list: %s %u has equal corners; choose another", position,
          noun, triangle);
   check_weights(weights, position);
-  const std::int32_t* v = mesh.triangle(inner);
+  // The weights belong to the corners in the caller's order.
+  const auto entry = std::lower_bound(mesh.doubled.begin(), mesh.doubled.end(), static_cast<std::int32_t>(triangle),
+                                      [](const Mesh::Doubled& e, std::int32_t given) { return e.given < given; });
+  const bool aside = entry != mesh.doubled.end() && entry->given == static_cast<std::int32_t>(triangle);
+  const std::int32_t* v = aside ? entry->corner : mesh.triangle(inner);
   return {{v[0], v[1], v[2]}, weights};
 }
 
@@ -110,8 +115,10 @@ bool keeps_vertices(const Mesh& mesh) noexcept {
 Vector<std::uint32_t> given_triangles(const Mesh& mesh, Memory& memory) {
   Vector<std::uint32_t> given(static_cast<std::size_t>(mesh.triangle_count()), HF_NO_INDEX, &memory);
   for (std::size_t t = 0; mesh.faces.empty() && t < mesh.triangle_of_given.size(); ++t) {
-    if (mesh.triangle_of_given[t] != Mesh::none)
-      given[static_cast<std::size_t>(mesh.triangle_of_given[t])] = static_cast<std::uint32_t>(t);
+    const std::int32_t inner = mesh.triangle_of_given[t];
+    if (inner == Mesh::none) continue;
+    std::uint32_t& first = given[static_cast<std::size_t>(inner)];
+    first = std::min(first, static_cast<std::uint32_t>(t));
   }
   for (std::size_t t = 0; !mesh.faces.empty() && t < given.size(); ++t)
     given[t] = mesh.given_of_triangle(static_cast<std::int32_t>(t));

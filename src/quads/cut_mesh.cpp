@@ -65,7 +65,7 @@ Index find_middle(const Vector<CutMesh::Middle>& list, Index a, Index b) noexcep
 
 }  // namespace
 
-bool is_coarse(const Core& core, double length) noexcept {
+double coarse_part(const Core& core, double length) noexcept {
   const Mesh& mesh = core.mesh;
   double coarse = 0, all = 0;
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
@@ -75,8 +75,10 @@ bool is_coarse(const Core& core, double length) noexcept {
     all += area;
     if (std::max({norm(q - p), norm(r - q), norm(p - r)}) > coarse_length * length) coarse += area;
   }
-  return coarse >= coarse_share * all;
+  return all > 0 ? coarse / all : 1;
 }
+
+bool is_coarse(double coarse_part) noexcept { return coarse_part >= coarse_share; }
 
 Index CutMesh::middle_of(Index a, Index b) const noexcept { return find_middle(middle, a, b); }
 

@@ -10,8 +10,10 @@
 
 namespace hf_inner {
 
-// Whether much of a surface lies in triangles that are longer than several quads. length: of their edges.
-bool is_coarse(const Core& core, double length) noexcept;
+// Returns the share of a surface that lies in triangles longer than several quads. length: of their edges.
+double coarse_part(const Core& core, double length) noexcept;
+// Whether much of a surface lies in such triangles.
+bool is_coarse(double coarse_part) noexcept;
 
 struct CutMesh {
   explicit CutMesh(Memory& memory)

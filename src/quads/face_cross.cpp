@@ -4,6 +4,7 @@
 
 #include "base/progress.h"
 #include "quads/numbers.h"
+#include "quads/sharp_corners.h"
 
 namespace hf_inner {
 namespace {
@@ -13,10 +14,10 @@ namespace {
 // vertices, and 60 corners turned over instead of 44.
 constexpr double least_agreement = 0.5;
 
-double corner_angle(const FluxSurface& s, std::int32_t h) noexcept {
-  const Vec3 p = s.position[s.tail[h]], a = s.position[s.head(h)] - p,
-             b = s.position[s.tail[FluxSurface::previous(h)]] - p;
-  return arc_tangent(norm(cross(a, b)), dot(a, b));
+// The whole number nearest to a measured index that fits the turns around the vertex: index + turns is a multiple of 4.
+// Angles of triangles without area are noise, and the nearest whole number would not fit the seams.
+std::int32_t nearest_index(double measured, int turns) noexcept {
+  return 4 * static_cast<std::int32_t>(std::lround((measured + turns) / 4)) - turns;
 }
 
 }  // namespace
@@ -57,6 +58,7 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
   const std::int32_t triangles = surface.real_triangles, halves = surface.half_count();
   out.edge.assign(halves, Complex(0, 0)), out.direction.assign(triangles, Complex(1, 0));
   out.turn.assign(halves, 0), out.index.assign(surface.vertex_count(), 0);
+  const SharpCorners corners = SharpCorners::find(surface, features, memory);
   Poller poller;
   for (std::int32_t t = 0; t < triangles; ++t) {
     poller.due();
@@ -81,12 +83,17 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
       sum += size * d;
     }
     Complex along = 0;
-    for (int k = 0; k < 3; ++k) {
-      if (!features[3 * t + k] || !surface.is_real(surface.twin[3 * t + k])) continue;
-      Complex d = unit_of(out.edge[3 * t + k], 1);
+    const auto add_along = [&](std::int32_t h, double turn) {
+      Complex d = unit_of(out.edge[h], 1) * at_angle(1.0, turn);
       d *= d, d *= d;
       along += d;
+    };
+    for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      const double turn = corners.empty() ? 0 : corners.turn[h];
+      if (features[h] && (surface.is_real(surface.twin[h]) || turn != 0)) add_along(h, turn);
     }
+    if (!corners.empty() && along == 0.0 && corners.inside[t].half != none)
+      add_along(corners.inside[t].half, corners.inside[t].turn);
     if (length_of(along) > least_agreement) sum = along;
     out.direction[t] = at_angle(1.0, angle_of(sum) / 4);
   }
@@ -103,16 +110,17 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
   for (std::int32_t v = 0; v < surface.first_apex; ++v) {
     poller.due();
     double sum = 2 * half_turn;
+    int turns = 0;
     bool closed = true;
     const std::int32_t begin = surface.out[v];
     for (std::int32_t h = begin;;) {
       closed &= surface.is_real(h);
       if (!closed) break;
-      sum += rest[h] - corner_angle(surface, h);
+      sum += rest[h] - corner_angle(surface, h), turns += out.turn[h];
       h = surface.turn_left(h);
       if (h == begin) break;
     }
-    if (closed) out.index[v] = static_cast<std::int32_t>(std::lround(sum / (half_turn / 2)));
+    if (closed) out.index[v] = nearest_index(sum / (half_turn / 2), turns);
   }
   return out;
 }

@@ -1,6 +1,7 @@
 #include "quads/feature_crosses.h"
 
 #include "quads/numbers.h"
+#include "quads/sharp_corners.h"
 
 namespace hf_inner {
 namespace {
@@ -19,14 +20,21 @@ Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, 
   Vector<Complex> sum(at(core.size()), Complex(0, 0), &memory);
   Vector<double> count(at(core.size()), 0.0, &memory);
   Vector<HardCross> out(&memory);
+  const SharpCorners corners = SharpCorners::find(surface, features, memory);
   for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
     const std::int32_t g = surface.twin[h];
     if (!features[h] || (surface.is_real(g) && g < h)) continue;
     const Vec3 edge = surface.position[surface.head(h)] - surface.position[surface.tail[h]];
-    for (const Index v : {surface.mesh_vertex[surface.tail[h]], surface.mesh_vertex[surface.head(h)]}) {
+    // Crosses of sharp corners are turned from the edge: on the left, or on the right by the other half-edge. Between two
+    // corners a crease takes the mean of its sides.
+    const double left = corners.empty() ? 0 : corners.turn[h], right = corners.empty() ? 0 : corners.turn[g];
+    const double mean = surface.is_real(g) ? (left + right) / 2 : left;
+    for (const std::int32_t end : {surface.tail[h], surface.head(h)}) {
+      const Index v = surface.mesh_vertex[end];
       Complex z = connection.to_frame(v, edge);
       if (!(length_of(z) > 0)) continue;
-      z /= length_of(z), z *= z, z *= z;
+      const double turn = !corners.empty() && corners.passed[end] ? mean : left != 0 ? left : right;
+      z /= length_of(z), z *= at_angle(1.0, turn), z *= z, z *= z;
       sum[at(v)] += z, count[at(v)] += 1;
     }
   }

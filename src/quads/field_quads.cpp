@@ -427,8 +427,20 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   const double area = area_of(*options.core);
   check_expected(options, area);
   const double length = options.faces > 0 ? std::sqrt(area / options.faces) : options.edge_length;
-  if (!is_coarse(*options.core, length)) return make_quads_here(options, out_report, kept);
-  return make_cut_quads(options, area, length, out_report, kept);
+  const double coarse = coarse_part(*options.core, length);
+  if (is_coarse(coarse)) return make_cut_quads(options, area, length, out_report, kept);
+  const bool creased = options.crease > 0 || !options.crease_edges.empty();
+  if (!creased || coarse == 0) return make_quads_here(options, out_report, kept);
+  // A patch between creases may be a single fan of long triangles. All its singularities then fall on one vertex.
+  FieldQuadOptions own = options;
+  own.strict = true;
+  try {
+    const ProgressRange part(0.0f, field_progress.cut_done);
+    return make_quads_here(own, out_report, kept);
+  } catch (const QuadSource::LostComponent&) {
+    const ProgressRange part(field_progress.cut_done, 1.0f);
+    return make_cut_quads(options, area, length, out_report, kept);
+  }
 }
 
 }  // namespace hf_inner

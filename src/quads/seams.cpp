@@ -141,7 +141,10 @@ class Cutter {
         const std::int32_t number = seams_.size();
         Seam seam{key(node), none, out_.transition[start], false};
         for (std::int32_t h = start;;) {
-          if (out_.transition[h] != seam.transition) fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "a seam changes its turn");
+          if (out_.transition[h] != seam.transition)
+            fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+                 "the angles of some triangles are lost in rounding; remove triangles without area, or weld with a "
+                 "tolerance");
           seam_[h] = number, seam_[s_.twin[h]] = number, forward_[h] = 1;
           ++out_.cut_edges;
           const std::int32_t v = s_.head(h);

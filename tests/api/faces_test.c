@@ -274,12 +274,16 @@ static void sides_of_faces_are_counted_not_cuts(void** state) {
   assert_true(report.boundary_edge_count == 0 && report.flipped_edge_count == 0 && report.non_manifold_edge_count == 0);
   desc.face_count = 5;
   assert_int_equal(report_of(&desc).boundary_edge_count, 4);
-  /* two sides of a card on the same four vertices: closed, though both are cut along one diagonal */
+  /* two sides of a card on the same four vertices are one sheet with a border */
   const uint32_t card[] = {0, 1, 2, 3, 3, 2, 1, 0};
   desc.vertex_count = 4, desc.face_count = 2, desc.corner_count = 8, desc.corners = card;
   report = report_of(&desc);
-  assert_true(report.boundary_edge_count == 0 && report.flipped_edge_count == 0 && report.non_manifold_edge_count == 0);
+  assert_true(report.boundary_edge_count == 4 && report.flipped_edge_count == 0 && report.non_manifold_edge_count == 0);
   assert_int_equal(report.duplicate_triangle_count, 1);
+  /* a bow tie on the four vertices is another face */
+  const uint32_t tie[] = {0, 1, 2, 3, 0, 2, 1, 3};
+  desc.corners = tie;
+  assert_int_equal(report_of(&desc).duplicate_triangle_count, 0);
 }
 
 /* A cap of many corners on a ring of quads: a field over it is exact for a linear function. */

@@ -105,7 +105,7 @@ TEST(CutQuads, lie_on_the_triangles_they_name) {
     FieldQuadOptions options;
     options.core = core, options.faces = 600, options.crease = 40;
     if (symmetric) options.plane = MirrorPlane{{1, 0, 0}, 0};
-    ASSERT_TRUE(is_coarse(*core, 0.05));
+    ASSERT_TRUE(is_coarse(coarse_part(*core, 0.05)));
     const QuadResult result = make_field_quads(options);
     hf_test::expect_manifold(*core, result.mesh, "box");
     EXPECT_NEAR(result.mesh.face_count(), 600, 30);
@@ -201,7 +201,7 @@ TEST(CutQuads, of_a_component_that_needs_shorter_edges_come_from_the_surface_as_
   FieldQuadOptions options;
   options.core = core, options.faces = 300, options.relax = 5;
   const double length = 0.14 / core->mesh.scale;
-  ASSERT_TRUE(is_coarse(*core, length));
+  ASSERT_TRUE(is_coarse(coarse_part(*core, length)));
   FieldQuadReport report;
   QuadKeeper kept;
   const QuadResult result = make_field_quads(options, &report), again = make_field_quads(options, nullptr, &kept);
