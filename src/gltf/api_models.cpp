@@ -267,10 +267,10 @@ hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_frames_desc*
       if (!given.firm) return {};
       return {given.firm + vertices * f, given.firm + vertices * (f + 1)};
     };
-    const std::vector<Pose> poses = rig.fit_all(times, wanted, firm, &ground);
+    const std::vector<RigPose> poses = rig.fit_all(times, wanted, firm, &ground);
     double sum = 0, most = 0;
     for (size_t f = 0; f < frames; ++f) {
-      const std::vector<glm::dvec3> got = posed_positions(object->model, object->mesh, poses[f]);
+      const std::vector<glm::dvec3> got = posed_positions(object->model, object->mesh, rig.whole(poses[f]));
       for (size_t v = 0; v < vertices; ++v) {
         const double* to = wanted[f].data() + 3 * v;
         const double off = glm::distance(got[v], glm::dvec3(to[0], to[1], to[2]));
