@@ -11,6 +11,7 @@
 #include "common/face_triangles.h"
 #include "common/picture.h"
 #include "common/program.h"
+#include "gltf/file_kind.h"
 #include "gltf/flat_mesh.h"
 #include "gltf/gltf_read.h"
 #include "gltf/gltf_write.h"
@@ -246,7 +247,7 @@ void write(const Command& options, const std::optional<Model>& model, const Surf
 
 void run(const Command& options) {
   std::optional<Model> model;  // only if its motion and look are asked for
-  if (is_gltf(options.mesh) && is_gltf(options.out)) model = read_gltf(options.mesh);
+  if (kind_of_file(options.mesh) == FileKind::gltf && is_gltf(options.out)) model = read_gltf(options.mesh);
   const SurfaceMesh input = model ? to_surface_mesh(flatten(*model)) : read_mesh_file(options.mesh);
   const std::vector<double> positions = double_positions(input.positions);
   auto create = hf::make<hf_surface_desc>();

@@ -245,8 +245,7 @@ Model read_model(const Command& options, Rig& rig, bool& given) {
   if (options.skeleton.empty()) landmarks = {};
   TakenSkeleton taken = take_skeleton(source, model, landmarks, options.skeleton.empty());
   rig = read_rig(taken.model);
-  for (size_t j = 0; j < rig.names.size(); ++j)
-    rig.bones.deforms[j] = std::count(taken.deforming.begin(), taken.deforming.end(), rig.names[j]) > 0;
+  std::copy_n(taken.deforms.begin(), std::min(taken.deforms.size(), rig.bones.deforms.size()), rig.bones.deforms.begin());
   return std::move(taken.model);
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <stdexcept>
 
 #include "gltf/animate.h"
@@ -218,15 +220,19 @@ void keep_carried(const Model& from, Model& out) {
     out.scenes = {from.scenes[from.shown_scene]}, out.shown_scene = 0;
   }
   const std::vector<glm::dmat4> globals = global_matrices(from, rest_pose(from));
+  std::map<std::string, size_t> given;  // how many nodes of a name, with a mesh, have come
   for (size_t n = 0; n < from.nodes.size(); ++n) {
     const Node& node = from.nodes[n];
+    const size_t number = node.mesh >= 0 ? given[node.name]++ : 0;
     const bool carries = node.camera >= 0 || !node.carried.extras.empty() || !node.carried.extensions.empty();
     int top = static_cast<int>(n);
     while (from.nodes[static_cast<size_t>(top)].parent >= 0) top = from.nodes[static_cast<size_t>(top)].parent;
     if (!carries || std::find(from.scene_roots.begin(), from.scene_roots.end(), top) == from.scene_roots.end())
       continue;
+    size_t before = 0;
     const auto own = std::find_if(out.nodes.begin(), out.nodes.end(), [&](const Node& other) {
-      return node.mesh >= 0 && other.mesh >= 0 && other.skin < 0 && other.name == node.name;
+      const bool same = node.mesh >= 0 && other.mesh >= 0 && other.skin < 0 && other.name == node.name;
+      return same && before++ == number;
     });
     if (own != out.nodes.end()) {
       own->carried = node.carried;
@@ -255,8 +261,11 @@ void keep_shapes(const Model& from, const FlatMesh& mesh, Model& out) {
   std::vector<std::vector<size_t>> numbers;
   for (const FlatPart& part : mesh.parts) {
     const MeshData& own = from.meshes[static_cast<size_t>(part.mesh)];
+    std::set<std::string> of_mesh;
     for (size_t k = 0; k < own.primitives.front().targets.size(); ++k) {
-      const std::string name = k < own.target_names.size() ? own.target_names[k] : "shape " + std::to_string(k);
+      const std::string given = k < own.target_names.size() ? own.target_names[k] : "shape " + std::to_string(k);
+      std::string name = given;  // two shapes of one mesh are two, whatever their names
+      for (int copy = 2; !of_mesh.insert(name).second; ++copy) name = given + " (" + std::to_string(copy) + ")";
       const auto at = static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
       if (at == names.size()) names.push_back(name), nodes.emplace_back(), numbers.emplace_back();
       if (std::find(nodes[at].begin(), nodes[at].end(), part.node) != nodes[at].end()) continue;
