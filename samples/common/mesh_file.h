@@ -1,5 +1,5 @@
-// Surfaces from and to .obj, .off, .ply (text and both binary orders), from .stl (text and binary), and from glTF by way
-// of flatten(). What a file is, its first bytes say (gltf/file_kind.h).
+// Surfaces from and to .obj, .off, .ply (text and both binary orders), from .stl (text and binary), and from glTF by
+// way of flatten(). What a file is, its first bytes say (gltf/file_kind.h).
 //
 // The file's own vertex order is kept, isolated vertices too, so that vertex numbers from other tools fit. Polygons are
 // kept as they are and cut into size - 2 triangles (face_triangles.h). Faces with fewer than three corners are left out

@@ -49,7 +49,8 @@ class StlReader {
   }
 
   void read_binary() {
-    if (bytes_.size() < header_bytes) fail("the header of a binary .stl has 84 bytes, the file " + std::to_string(bytes_.size()));
+    if (bytes_.size() < header_bytes)
+      fail("the header of a binary .stl has 84 bytes, the file " + std::to_string(bytes_.size()));
     const uint64_t count = load_u32(bytes_.data() + 80), held = (bytes_.size() - header_bytes) / triangle_bytes;
     if (count > held) {
       fail("the header says " + std::to_string(count) + " triangles, but the file holds " + std::to_string(held) +
@@ -102,7 +103,8 @@ class StlReader {
     SurfaceMesh mesh;
     std::vector<uint32_t> number;
     const uint32_t count = weld_positions(corners_, number);
-    if (count > limits_.max_vertices) fail("the file has more than " + std::to_string(limits_.max_vertices) + " vertices");
+    if (count > limits_.max_vertices)
+      fail("the file has more than " + std::to_string(limits_.max_vertices) + " vertices");
     mesh.positions.resize(count);
     for (size_t i = corners_.size(); i-- > 0;) mesh.positions[number[i]] = corners_[i];
     FaceCollector faces(mesh, limits_);

@@ -254,9 +254,7 @@ void run(const Command& options) {
   create.vertex_count = static_cast<uint32_t>(input.positions.size());
   create.triangle_count = static_cast<uint32_t>(input.triangles.size() / 3);
   create.positions_f64 = positions.data(), create.triangles = input.triangles.data();
-  // A surface with a thousand singularities needs three times the memory of others: their whole numbers share a full
-  // matrix.
-  limit_surface(create, options.faces > 0 ? 2 * create.vertex_count + options.faces : 0);
+  limit_quads(create, options.faces);
   const hf::Surface surface(create);
   const double diagonal = surface.report().bounding_box_diagonal;
   std::printf("mesh        %u vertices, %u triangles, box diagonal %.6g\n", create.vertex_count, create.triangle_count,

@@ -85,7 +85,7 @@ Model rested(const Model& model, const std::string& choice, const std::string& o
       for (size_t k = 0; k < node.weights.size(); ++k) node.weights[k] = static_cast<float>(pose[n].weights[k]);
     if (pose[n].fixed) continue;
     node.matrix.reset();
-    node.translation = glm::vec3(pose[n].translation), node.rotation = glm::quat(pose[n].rotation);
+    node.translation = pose[n].translation, node.rotation = glm::quat(pose[n].rotation);
     node.scale = glm::vec3(pose[n].scale);
   }
   return out;
@@ -275,9 +275,14 @@ nlohmann::json put_clips(const Model& clips, const Model& target, const Transfer
   for (const std::string& name : bound.missing) all += "  note: the model has no joint \"" + name + "\"\n";
   std::fputs(all.c_str(), stdout);
   if (!command.report.empty()) write_bytes(command.report, all);
-  return {
-      {"output", command.output.string()}, {"written_as", "own-skin"}, {"clips", names},      {"joints", bound.joints},
-      {"animated", bound.animated},        {"missing", bound.missing}, {"shared_names", bound.shared}, {"scale", bound.scale}};
+  return {{"output", command.output.string()},
+          {"written_as", "own-skin"},
+          {"clips", names},
+          {"joints", bound.joints},
+          {"animated", bound.animated},
+          {"missing", bound.missing},
+          {"shared_names", bound.shared},
+          {"scale", bound.scale}};
 }
 
 // Morph targets in, morph targets out.

@@ -159,7 +159,7 @@ void add_root_motion(Model& model, const std::vector<PlayedClip>& clips) {
       channel.node = root;
       channel.times = {static_cast<float>(times.front()), static_cast<float>(times.back())};
       for (int k = 0; k < 2; ++k)
-        for (int i = 0; i < 3; ++i) channel.values.push_back(node.translation[i]);
+        for (int i = 0; i < 3; ++i) channel.values.push_back(static_cast<float>(node.translation[i]));
       channels.insert(channels.begin(), std::move(channel));
     }
     Channel& channel = channels[number];
@@ -201,8 +201,8 @@ Model own_skin_model(const Model& target, const Session& session, const std::vec
   size_t frames = 0, done = 0;
   for (const PlayedClip& clip : clips) {
     const RigGround ground = ground_of(session, clip);
-    const std::vector<RigPose> poses =
-        rig.fit_all(clip.clip.times, clip.target_frames, [&](size_t f) { return session.standing(clip, f); }, &ground);
+    const std::vector<RigPose> poses = rig.fit_all(
+        clip.clip.times, clip.target_frames, [&](size_t f) { return session.standing(clip, f); }, &ground);
     for (size_t f = 0; f < poses.size(); ++f, ++frames)
       measure(posed_positions(target, mesh, rig.whole(poses[f])), clip.target_frames[f], box, sum, figures);
     insert_clip(out, done++, rig.clip(clip.clip.name, clip.clip.times, poses));

@@ -245,7 +245,8 @@ Model read_model(const Command& options, Rig& rig, bool& given) {
   if (options.skeleton.empty()) landmarks = {};
   TakenSkeleton taken = take_skeleton(source, model, landmarks, options.skeleton.empty());
   rig = read_rig(taken.model);
-  std::copy_n(taken.deforms.begin(), std::min(taken.deforms.size(), rig.bones.deforms.size()), rig.bones.deforms.begin());
+  std::copy_n(taken.deforms.begin(), std::min(taken.deforms.size(), rig.bones.deforms.size()),
+              rig.bones.deforms.begin());
   return std::move(taken.model);
 }
 

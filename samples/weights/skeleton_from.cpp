@@ -101,6 +101,10 @@ TakenSkeleton take_skeleton(const Model& source, const Model& target, const std:
   const std::vector<glm::dmat4> globals = global_matrices(source, rest_pose(source));
   TakenSkeleton out{bake(target, to, to.positions), {}};
   Model& model = out.model;
+  // the nodes of a skinned mesh do not move it, so the bind matrices take the offset of the positions
+  glm::dmat4 offset(1);
+  offset[3] = glm::dvec4(model.nodes.front().translation, 1);
+  for (Node& node : model.nodes) node.translation = glm::dvec3(0);
   const int first = static_cast<int>(model.nodes.size());
   Skin skin;
   skin.name = "skeleton";
@@ -112,7 +116,7 @@ TakenSkeleton take_skeleton(const Model& source, const Model& target, const std:
     world.back()[3] = glm::dvec4(place, 1.0);
     if (j < rig.joint_count()) {
       skin.joints.push_back(first + static_cast<int>(j));
-      skin.inverse_bind.push_back(glm::mat4(glm::inverse(world.back())));
+      skin.inverse_bind.push_back(glm::mat4(glm::inverse(world.back()) * offset));
     }
     out.deforms.push_back(rig.bones.deforms[j]);
   }
@@ -121,7 +125,7 @@ TakenSkeleton take_skeleton(const Model& source, const Model& target, const std:
     node.name = rig.names[j];
     const uint32_t parent = rig.bones.parents[j];
     const glm::dmat4 local = parent == HF_NO_INDEX ? world[j] : glm::inverse(world[parent]) * world[j];
-    node.translation = glm::vec3(local[3]), node.rotation = glm::quat(turn_of(local));
+    node.translation = glm::dvec3(local[3]), node.rotation = glm::quat(turn_of(local));
     if (parent != HF_NO_INDEX) node.parent = first + static_cast<int>(parent);
     model.nodes.push_back(node);
   }

@@ -24,7 +24,7 @@ std::vector<Landmark> pair_landmarks(const std::filesystem::path& file, const Mo
 std::vector<Landmark> name_landmarks(const Model& source, const Model& target);
 
 struct TakenSkeleton {
-  Model model;                         // the target, baked, with joints and all vertices on the first of them
+  Model model;                   // the target, baked, with joints and all vertices on the first of them
   std::vector<uint8_t> deforms;  // by joint: 1 if it has weights in the source
 };
 

@@ -69,7 +69,7 @@ Pose rest_pose(const Model& model) {
     pose[n].rotation = glm::normalize(glm::dquat(node.rotation));
     pose[n].scale = node.scale;
     pose[n].fixed = node.matrix.has_value();
-    if (node.matrix) pose[n].matrix = glm::dmat4(*node.matrix);
+    if (node.matrix) pose[n].matrix = *node.matrix;
     pose[n].weights = morph_weights(model, node);
   }
   return pose;

@@ -1,6 +1,7 @@
 // Models and clips of hf_gltf/gltf.h.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gltf/animate.h"
 #include "gltf/api_objects.h"
@@ -137,8 +138,9 @@ hf_result hf_gltf_model_create(const hf_gltf_mesh_desc* desc, hf_gltf_model* out
       need(mesh.positions, "positions"), need(mesh.triangles, "triangles");
       std::vector<glm::dvec3> positions(mesh.vertex_count);
       for (size_t v = 0; v < positions.size(); ++v) {
-        const float* p = mesh.positions + 3 * v;
-        if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+        const double* p = mesh.positions + 3 * v;
+        constexpr double most = std::numeric_limits<float>::max();  // what a file can hold
+        if (!(std::abs(p[0]) <= most && std::abs(p[1]) <= most && std::abs(p[2]) <= most))
           throw Failure(HF_ERROR_NON_FINITE, "vertex " + std::to_string(v) + " is not finite",
                         static_cast<uint32_t>(v));
         positions[v] = {p[0], p[1], p[2]};

@@ -28,20 +28,21 @@ double length_ratio(const Model& model, const Model& clips, const std::map<int, 
   for (const auto& [from, to] : found) {
     const Node &a = clips.nodes[static_cast<size_t>(from)], &b = model.nodes[static_cast<size_t>(to)];
     if (found.count(a.parent) == 0 || b.parent < 0) continue;
-    other += static_cast<double>(glm::length(rest_translation(a))),
-        own += static_cast<double>(glm::length(rest_translation(b)));
+    other += glm::length(rest_translation(a));
+    own += glm::length(rest_translation(b));
   }
   return own > 0 && other > 0 ? own / other : 1.0;
 }
 
-void move_translations(Channel& channel, const glm::vec3& from, const glm::vec3& to, float scale) {
+void move_translations(Channel& channel, const glm::dvec3& from, const glm::dvec3& to, double scale) {
   const bool cubic = channel.interpolation == Interpolation::cubic_spline;
   for (size_t i = 0; i + 2 < channel.values.size(); i += 3) {
     const bool tangent = cubic && (i / 3) % 3 != 1;
     for (size_t c = 0; c < 3; ++c) {
       const auto axis = static_cast<int>(c);
       float& x = channel.values[i + c];
-      x = tangent ? scale * x : to[axis] + scale * (x - from[axis]);
+      const auto was = static_cast<double>(x);
+      x = static_cast<float>(tangent ? scale * was : to[axis] + scale * (was - from[axis]));
     }
   }
 }
@@ -74,8 +75,10 @@ void insert_clip(Model& model, size_t place, Animation clip) {
 
 void split_matrix(Node& node) {
   if (!node.matrix) return;
-  const glm::mat4 m = *node.matrix;
-  node.matrix.reset(), node.translation = glm::vec3(m[3]);
+  const glm::dmat4 whole = *node.matrix;
+  const glm::mat4 m(whole);
+  node.matrix.reset();
+  node.translation = glm::dvec3(whole[3]);
   for (int c = 0; c < 3; ++c) node.scale[c] = glm::length(glm::vec3(m[c]));
   if (glm::determinant(glm::mat3(m)) < 0) node.scale = -node.scale;
   glm::mat3 turn(m);
@@ -151,8 +154,7 @@ BoundClips bind_clips(const Model& model, const Model& clips, const std::string&
       bound.channels.push_back(channel);
       bound.channels.back().node = here->second;
       if (channel.path == Path::translation)
-        move_translations(bound.channels.back(), rest_translation(from), rest_translation(to),
-                          static_cast<float>(out.scale));
+        move_translations(bound.channels.back(), rest_translation(from), rest_translation(to), out.scale);
     }
     insert_clip(out.model, done++, std::move(bound));
   }

@@ -31,9 +31,9 @@ struct BoundClips {
   double scale = 1;                  // lengths of the model's skeleton over those of the clips'
 };
 
-// Joints are found by name and, where several have it, by the tree (node_match.h). Rotations are taken as they are. Translations count
-// from the rest pose of their own file, scaled, so that the model keeps the lengths of its bones. wanted: as for
-// choose_clips. Throws std::runtime_error if the model has less than half of the joints.
+// Joints are found by name and, where several have it, by the tree (node_match.h). Rotations are taken as they are.
+// Translations count from the rest pose of their own file, scaled, so that the model keeps the lengths of its bones.
+// wanted: as for choose_clips. Throws std::runtime_error if the model has less than half of the joints.
 BoundClips bind_clips(const Model& model, const Model& clips, const std::string& wanted);
 
 // A node's matrix as translation, rotation and scale: a node that is animated may not have a matrix.

@@ -20,11 +20,11 @@ struct Ending {
   const char* text;
   FileKind kind;
 };
-constexpr Ending endings[] = {
-    {".glb", FileKind::gltf},   {".gltf", FileKind::gltf}, {".vrm", FileKind::gltf}, {".obj", FileKind::obj},
-    {".off", FileKind::off},    {".ply", FileKind::ply},   {".stl", FileKind::stl},  {".fbx", FileKind::fbx},
-    {".dae", FileKind::dae},    {".bvh", FileKind::bvh},   {".usd", FileKind::usd},  {".usda", FileKind::usd},
-    {".usdc", FileKind::usd},   {".usdz", FileKind::usd},  {".blend", FileKind::blend}};
+constexpr Ending endings[] = {{".glb", FileKind::gltf}, {".gltf", FileKind::gltf}, {".vrm", FileKind::gltf},
+                              {".obj", FileKind::obj},  {".off", FileKind::off},   {".ply", FileKind::ply},
+                              {".stl", FileKind::stl},  {".fbx", FileKind::fbx},   {".dae", FileKind::dae},
+                              {".bvh", FileKind::bvh},  {".usd", FileKind::usd},   {".usda", FileKind::usd},
+                              {".usdc", FileKind::usd}, {".usdz", FileKind::usd},  {".blend", FileKind::blend}};
 
 FileKind by_ending(const std::string& name) {
   std::string text = name.substr(std::min(name.rfind('.'), name.size()));
@@ -93,8 +93,8 @@ FileKind kind_of_file(const std::filesystem::path& file) {
 }
 
 const char* name_of(FileKind kind) {
-  constexpr const char* names[] = {"of no known format", "glTF", "OBJ", "OFF", "PLY", "STL", "FBX", "COLLADA", "BVH", "USD",
-                                   "a Blender file"};
+  constexpr const char* names[] = {
+      "of no known format", "glTF", "OBJ", "OFF", "PLY", "STL", "FBX", "COLLADA", "BVH", "USD", "a Blender file"};
   return names[static_cast<size_t>(kind)];
 }
 

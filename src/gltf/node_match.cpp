@@ -170,7 +170,8 @@ class Matcher {
     for (size_t i = 0; i < nodes.size(); ++i)
       for (size_t k = 0; k < others.size(); ++k)
         choices.push_back({apart(node_of(nodes[i]), node_there(others[k])), i, k});
-    std::stable_sort(choices.begin(), choices.end(), [](const Choice& a, const Choice& b) { return a.apart < b.apart; });
+    std::stable_sort(choices.begin(), choices.end(),
+                     [](const Choice& a, const Choice& b) { return a.apart < b.apart; });
     for (const Choice& choice : choices)
       if (there(nodes[choice.node]) < 0 && !taken_[static_cast<size_t>(others[choice.other])])
         take(nodes[choice.node], others[choice.other]);
@@ -194,7 +195,7 @@ class Matcher {
 
 }  // namespace
 
-glm::vec3 rest_translation(const Node& node) { return node.matrix ? glm::vec3((*node.matrix)[3]) : node.translation; }
+glm::dvec3 rest_translation(const Node& node) { return node.matrix ? glm::dvec3((*node.matrix)[3]) : node.translation; }
 
 NodeMatch match_nodes(const Model& from, const std::vector<int>& nodes, const Model& to) {
   return Matcher(from, nodes, to).run();

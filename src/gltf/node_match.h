@@ -14,7 +14,7 @@
 namespace hf_gltf {
 
 struct NodeMatch {
-  std::vector<int> there;  // by node of the first model: the node of the second, or -1
+  std::vector<int> there;    // by node of the first model: the node of the second, or -1
   std::vector<char> shared;  // by node of the first model: 1 if another node of either model has its name
 };
 
@@ -29,7 +29,7 @@ std::string several_joints(const std::string& name, const std::vector<int>& node
 int node_number(const std::string& name);
 
 // Where a node is at rest below its parent.
-glm::vec3 rest_translation(const Node& node);
+glm::dvec3 rest_translation(const Node& node);
 
 }  // namespace hf_gltf
 

@@ -301,11 +301,11 @@ std::vector<std::string> RegionFinder::describe_joints() const {
     if (shown[name] > 1) name += " (#" + std::to_string(n) + ")";
     char line[256];
     if (count > 0) {
-      std::snprintf(line, sizeof line, "%-24s %6zu vertices, x %.3f..%.3f y %.3f..%.3f z %.3f..%.3f",
-                    name.c_str(), count, low.x, high.x, low.y, high.y, low.z, high.z);
+      std::snprintf(line, sizeof line, "%-24s %6zu vertices, x %.3f..%.3f y %.3f..%.3f z %.3f..%.3f", name.c_str(),
+                    count, low.x, high.x, low.y, high.y, low.z, high.z);
     } else {
-      std::snprintf(line, sizeof line, "%-24s      - at %.3f %.3f %.3f", name.c_str(), node_place_[n].x, node_place_[n].y,
-                    node_place_[n].z);
+      std::snprintf(line, sizeof line, "%-24s      - at %.3f %.3f %.3f", name.c_str(), node_place_[n].x,
+                    node_place_[n].y, node_place_[n].z);
     }
     lines.emplace_back(line);
   }

@@ -570,7 +570,8 @@ RigPose RigFit::stepped(const RigPose& pose, const std::vector<double>& step) co
     const auto r = static_cast<size_t>(joint.rotation);
     glm::dvec3 turn(step[r], step[r + 1], step[r + 2]);
     if (glm::length(turn) > most_turn) turn *= most_turn / glm::length(turn);
-    out.nodes[node].rotation = glm::normalize(glm::conjugate(parent) * exponential(turn) * parent * pose.nodes[node].rotation);
+    out.nodes[node].rotation =
+        glm::normalize(glm::conjugate(parent) * exponential(turn) * parent * pose.nodes[node].rotation);
     if (joint.translation < 0) continue;
     const auto t = static_cast<size_t>(joint.translation);
     out.nodes[node].translation += glm::inverse(glm::dmat3(above)) * glm::dvec3(step[t], step[t + 1], step[t + 2]);

@@ -112,7 +112,7 @@ class RigFit {
   struct Kept {
     int of_model = -1, parent = -1;  // parent: in nodes_, -1 at the top
   };
-  void find_joints(), find_vertices(const FlatMesh& mesh), keep_moving_nodes();
+  void find_joints(), find_vertices(const FlatMesh&mesh), keep_moving_nodes();
   void find_ties(const FlatMesh& mesh, const std::vector<RigTie>& ties);
   size_t slot_of(int node, const glm::dmat4& bind, int key);
   std::vector<glm::dmat4x3> slot_matrices(const std::vector<glm::dmat4>& globals, const glm::dvec3& centre) const;

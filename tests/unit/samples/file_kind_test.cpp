@@ -84,10 +84,12 @@ TEST(FileKinds, WhatShouldBeGltfAndIsNotIsNamed) {
   EXPECT_EQ(gltf("Kaydara FBX Binary  ", "a.fbx"),
             "a.fbx is FBX; a glTF file is needed here (.glb, .gltf or .vrm): open it in Blender (File > Import) and "
             "export it as glTF 2.0 (.glb)");
-  EXPECT_EQ(message_of([] { read("HIERARCHY\n", ".bvh"); }),
-            "a.bvh is BVH, which is not read; .obj, .off, .ply, .stl, .gltf, .glb and .vrm are: open it in Blender (File "
-            "> Import) and export it as glTF 2.0 (.glb)");
-  EXPECT_NE(message_of([] { read("<?xml?><COLLADA>", ".dae"); }).find("assimp export IN.dae OUT.glb"), std::string::npos);
+  EXPECT_EQ(
+      message_of([] { read("HIERARCHY\n", ".bvh"); }),
+      "a.bvh is BVH, which is not read; .obj, .off, .ply, .stl, .gltf, .glb and .vrm are: open it in Blender (File "
+      "> Import) and export it as glTF 2.0 (.glb)");
+  EXPECT_NE(message_of([] { read("<?xml?><COLLADA>", ".dae"); }).find("assimp export IN.dae OUT.glb"),
+            std::string::npos);
 }
 
 // The content is read whatever the ending says.
@@ -135,11 +137,11 @@ TEST(FileKinds, ADamagedStlIsRefused) {
 // Strips in a .ply: every second triangle is turned round, and -1 begins a new strip.
 TEST(FileKinds, APlyOfStripsIsRead) {
   for (const char* list : {"list int int vertex_indices", "list uchar int vertex_index"}) {
-    const SurfaceMesh mesh = read(std::string("ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
-                                              "property float z\nelement tristrips 1\nproperty ") +
-                                      list +
-                                      "\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 2 0\n8 0 1 2 3 -1 1 4 3\n",
-                                  ".ply");
+    const SurfaceMesh mesh =
+        read(std::string("ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+                         "property float z\nelement tristrips 1\nproperty ") +
+                 list + "\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 2 0\n8 0 1 2 3 -1 1 4 3\n",
+             ".ply");
     EXPECT_EQ(mesh.triangles, (std::vector<uint32_t>{0, 1, 2, 1, 3, 2, 1, 4, 3})) << list;
   }
 }
