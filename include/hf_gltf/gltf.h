@@ -63,7 +63,7 @@ typedef struct hf_gltf_mesh_desc {
   uint32_t vertex_count, triangle_count;
   uint32_t reserved;         /* 0 */
   const char* name;          /* UTF-8, or NULL */
-  const float* positions;    /* [vertex_count][3] */
+  const double* positions;   /* [vertex_count][3]; far from 0 the model has a node that stands there */
   const uint32_t* triangles; /* [triangle_count][3] */
 } hf_gltf_mesh_desc;
 

@@ -20,6 +20,9 @@ constexpr double least_work_gflop = 4, most_work_gflop = 100000;
 // Memory of the surface and all that is made on it. The shared meshes take 0.4 to 2.0 KiB a vertex, lattices of 400,000
 // vertices 4.6, and 19 with a bi-harmonic field. Half refuses larger ones; twice leaves the refusal to the work limit.
 constexpr double least_memory_mib = 128, kib_of_vertex = 32;
+// Matrices of whole numbers, for the square of the genus: a genus of 133 has 3,200 whole numbers, and with 20 KiB gets
+// 345 MiB, of which it takes 300. Half refuses it. Triangles at random have a large genus, so the most is bounded.
+constexpr double kib_of_genus_square = 20, most_for_genus = 2;
 // What the desc can say.
 constexpr double largest_limit = 4294967295.0;
 
@@ -32,6 +35,11 @@ uint32_t whole(double number) { return static_cast<uint32_t>(std::min(std::ceil(
 double size_of(const hf_surface_desc& desc) {
   const double vertices = desc.vertex_count, triangles = desc.triangle_count, corners = desc.corner_count;
   return std::min(vertices, std::max(triangles, corners - 2.0 * desc.face_count));
+}
+
+// Of a closed surface with these counts. Borders, pieces and copies of vertices make it less.
+double genus_of(const hf_surface_desc& desc) {
+  return std::max(0.0, 0.5 * (0.5 * desc.triangle_count - desc.vertex_count) + 1);
 }
 
 }  // namespace
@@ -52,6 +60,13 @@ void limit_surface(hf_surface_desc& desc, uint32_t made) {
   const double n = size_of(desc), work = 1e-9 * work_of_square * n * n;
   desc.work_limit_gflop = given_work ? given_work : whole(std::clamp(work, least_work_gflop, most_work_gflop));
   desc.memory_limit_mb = given_memory ? given_memory : whole(least_memory_mib + kib_of_vertex / 1024 * (n + made));
+}
+
+void limit_quads(hf_surface_desc& desc, uint32_t faces) {
+  limit_surface(desc, faces > 0 ? 2 * desc.vertex_count + faces : 0);
+  if (given_memory) return;
+  const double limit = desc.memory_limit_mb, genus = genus_of(desc);
+  desc.memory_limit_mb = whole(limit + std::min(kib_of_genus_square / 1024 * genus * genus, most_for_genus * limit));
 }
 
 std::string with_limit_option(const std::string& message) {

@@ -20,6 +20,10 @@ bool take_limit(const std::string& option, const std::function<std::string()>& v
 // too.
 void limit_surface(hf_surface_desc& desc, uint32_t made = 0);
 
+// The same for a surface that quads are made of. Each handle brings singularities whose whole numbers share a full
+// matrix, so its size is the square of the genus.
+void limit_quads(hf_surface_desc& desc, uint32_t faces);
+
 // The library's message with the option that raises the limit it names; other messages as they are.
 std::string with_limit_option(const std::string& message);
 

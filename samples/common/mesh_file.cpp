@@ -1,5 +1,5 @@
 // See mesh_file.h. Choice of the format, text tokens, faces. Readers: obj_file.cpp, off_file.cpp,
-// ply_file.cpp; writers: mesh_write.cpp.
+// ply_file.cpp, stl_file.cpp; writers: mesh_write.cpp.
 #include "common/mesh_file.h"
 
 #include <algorithm>
@@ -10,19 +10,13 @@
 #include "common/face_triangles.h"
 #include "common/mesh_file_parts.h"
 #include "gltf/file_bytes.h"
+#include "gltf/file_kind.h"
 #include "gltf/gltf_read.h"
 
 namespace samples {
 
 using namespace hf_gltf;
 namespace {
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
@@ -168,23 +162,28 @@ void FaceCollector::finish() {
 SurfaceMesh read_mesh_bytes(const std::vector<uint8_t>& bytes, const std::string& extension, const std::string& name,
                             const MeshLimits& limits) {
   SurfaceMesh mesh;
-  if (extension == ".obj") {
+  const FileKind kind = kind_of(bytes.data(), bytes.size(), bytes.size(), extension);
+  if (kind == FileKind::obj) {
     mesh = read_obj(bytes, name, limits);
-  } else if (extension == ".off") {
+  } else if (kind == FileKind::off) {
     mesh = read_off(bytes, name, limits);
-  } else if (extension == ".ply") {
+  } else if (kind == FileKind::ply) {
     mesh = read_ply(bytes, name, limits);
+  } else if (kind == FileKind::stl) {
+    mesh = read_stl(bytes, name, limits);
   } else {
-    throw std::runtime_error(name + ": the format \"" + extension +
-                             "\" is not read; .obj, .off, .ply, .gltf and .glb are.");
+    const std::string advice = advice_on(kind);
+    throw std::runtime_error(name + " is " + name_of(kind) +
+                             ", which is not read; .obj, .off, .ply, .stl, .gltf, .glb and .vrm are" +
+                             (advice.empty() ? "" : ": " + advice));
   }
   check_positions(mesh, name);
   return mesh;
 }
 
 SurfaceMesh read_mesh_file(const std::filesystem::path& file, const MeshLimits& limits) {
-  const std::string extension = lower_extension(file);
-  if (extension == ".glb" || extension == ".gltf") {
+  const FileKind kind = kind_of_file(file);
+  if (kind == FileKind::gltf) {
     Model model = read_gltf(file);
     FlattenOptions options;
     options.max_vertices = std::min(options.max_vertices, limits.max_vertices);
@@ -193,10 +192,11 @@ SurfaceMesh read_mesh_file(const std::filesystem::path& file, const MeshLimits& 
     mesh.warnings = std::move(model.warnings);
     return mesh;
   }
-  if (extension != ".obj" && extension != ".off" && extension != ".ply") {
-    return read_mesh_bytes({}, extension, file.string(), limits);
-  }
-  return read_mesh_bytes(read_bytes(file, limits.max_file_bytes), extension, file.string(), limits);
+  const bool is_read = kind == FileKind::obj || kind == FileKind::off || kind == FileKind::ply || kind == FileKind::stl;
+  // a file that is not there is refused by name
+  const bool reads = is_read || !std::filesystem::exists(file);
+  return read_mesh_bytes(reads ? read_bytes(file, limits.max_file_bytes) : std::vector<uint8_t>(),
+                         file.extension().string(), file.string(), limits);
 }
 
 FlatMesh to_flat_mesh(const SurfaceMesh& mesh) {

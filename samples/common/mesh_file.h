@@ -1,4 +1,5 @@
-// Surfaces from and to .obj, .off, .ply (text and both binary orders), and from .gltf/.glb by way of flatten().
+// Surfaces from and to .obj, .off, .ply (text and both binary orders), from .stl (text and binary), and from glTF by
+// way of flatten(). What a file is, its first bytes say (gltf/file_kind.h).
 //
 // The file's own vertex order is kept, isolated vertices too, so that vertex numbers from other tools fit. Polygons are
 // kept as they are and cut into size - 2 triangles (face_triangles.h). Faces with fewer than three corners are left out
@@ -42,9 +43,8 @@ struct MeshLimits {
   uint32_t max_triangles = 40000000;
 };
 
-// Format by the extension, in any case.
 SurfaceMesh read_mesh_file(const std::filesystem::path& file, const MeshLimits& limits = {});
-// The same from bytes; extension is ".obj", ".off" or ".ply".
+// The same from bytes, but for glTF; extension is ".obj", ".off", ".ply" or ".stl", for bytes that do not tell.
 SurfaceMesh read_mesh_bytes(const std::vector<uint8_t>& bytes, const std::string& extension, const std::string& name,
                             const MeshLimits& limits = {});
 

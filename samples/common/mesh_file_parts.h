@@ -69,6 +69,7 @@ class FaceCollector {
 SurfaceMesh read_obj(const std::vector<uint8_t>& bytes, const std::string& name, const MeshLimits& limits);
 SurfaceMesh read_off(const std::vector<uint8_t>& bytes, const std::string& name, const MeshLimits& limits);
 SurfaceMesh read_ply(const std::vector<uint8_t>& bytes, const std::string& name, const MeshLimits& limits);
+SurfaceMesh read_stl(const std::vector<uint8_t>& bytes, const std::string& name, const MeshLimits& limits);
 
 }  // namespace samples
 

@@ -301,7 +301,8 @@ class PlyReader {
   void read_others(const Element& element) {
     for (uint64_t row = 0; row < element.count; ++row) {
       for (const Property& o : element.properties) {
-        if (element.name == "tristrips" && o.count_type != Type::none && o.name == "vertex_indices") {
+        const bool corners = o.count_type != Type::none && (o.name == "vertex_indices" || o.name == "vertex_index");
+        if (element.name == "tristrips" && corners) {
           add_strip(read_list(o, element, row));
         } else {
           pass_over(o, element, row);

@@ -175,6 +175,7 @@ std::vector<Key> play(const ScriptFile& script, const Command& command, Posable&
 // A still model with one shape key per key frame and a clip that goes from one to the next.
 Model animated(const PosableMesh& mesh, const std::vector<Key>& keys) {
   Model out = bake(mesh.model, mesh.flat, mesh.flat.positions);
+  const glm::dvec3 offset = out.nodes.front().translation;  // of all its nodes
   std::vector<Primitive*> primitives;
   for (MeshData& data : out.meshes) {
     data.weights.assign(keys.size(), 0.0f);
@@ -190,7 +191,7 @@ Model animated(const PosableMesh& mesh, const std::vector<Key>& keys) {
         const size_t v = 3 * static_cast<size_t>(part.first_vertex + i);
         const std::vector<double>& x = key.frame.positions;
         target.positions.push_back(
-            glm::vec3(glm::dvec3(x[v], x[v + 1], x[v + 2]) - glm::dvec3(primitive.positions[i])));
+            glm::vec3(glm::dvec3(x[v], x[v + 1], x[v + 2]) - offset - glm::dvec3(primitive.positions[i])));
         if (!primitive.normals.empty())
           target.normals.push_back(glm::vec3(key.normals[v], key.normals[v + 1], key.normals[v + 2]) -
                                    primitive.normals[i]);

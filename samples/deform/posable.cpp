@@ -9,6 +9,7 @@
 
 #include "common/limits.h"
 #include "common/links.h"
+#include "gltf/file_kind.h"
 #include "gltf/gltf_read.h"
 
 namespace samples {
@@ -17,11 +18,6 @@ using namespace hf_gltf;
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
-}
 
 }  // namespace
 
@@ -34,8 +30,7 @@ void expect_ok(hf_result result, const std::string& what) {
 
 PosableMesh read_posable(const std::filesystem::path& file) {
   PosableMesh out;
-  const std::string extension = lower_case(file.extension().string());
-  if (extension == ".glb" || extension == ".gltf") {
+  if (kind_of_file(file) == FileKind::gltf) {
     out.model = read_gltf(file);
     out.flat = flatten(out.model);
     out.surface = to_surface_mesh(out.flat);

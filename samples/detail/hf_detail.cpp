@@ -82,11 +82,17 @@ double seconds_of(const std::chrono::steady_clock::time_point& begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+std::vector<glm::dvec3> moved(std::vector<glm::dvec3> points, const glm::dvec3& by) {
+  for (glm::dvec3& p : points) p += by;
+  return points;
+}
+
 // A mesh, its solver, and the region that a curve encloses.
 struct Subject {
   Subject(const std::filesystem::path& file, const std::filesystem::path& curve_name, bool thin_plate, int32_t grow)
       : mesh(read_mesh_file(file)),
-        positions(float_positions(mesh.positions)),
+        offset(node_offset(mesh.positions)),
+        positions(float_positions(moved(mesh.positions, -offset))),
         curve(read_curve_file(curve_name, mesh)),
         surface(make_surface(thin_plate)),
         region(*surface, positions, thin_plate ? HF_BASE_THIN_PLATE : HF_BASE_MEMBRANE) {
@@ -124,7 +130,8 @@ struct Subject {
   }
   double create_seconds = 0, edit_seconds = 0, grow_seconds = -1;  // first: set while the surface is made
   SurfaceMesh mesh;
-  std::vector<float> positions;
+  glm::dvec3 offset;             // the region works on floats: it stands at 0 where the mesh is far from there
+  std::vector<float> positions;  // without the offset
   CurveFile curve;
   std::optional<hf::Surface> surface;
   hf::Region region;
@@ -159,7 +166,7 @@ void run(const Command& options) {
   const std::vector<float> result = detail ? detail->morph(options.weight) : subject.region.morph(options.weight);
   if (!options.out.empty()) {
     SurfaceMesh written;
-    written.positions = to_points(result), written.triangles = shown.mesh.triangles;
+    written.positions = moved(to_points(result), shown.offset), written.triangles = shown.mesh.triangles;
     write_mesh_file(written, options.out);
     std::printf("wrote       %s\n", options.out.c_str());
   }

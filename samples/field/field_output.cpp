@@ -227,7 +227,8 @@ void write_field_text(const std::string& file, const std::vector<double>& field,
 void write_field_glb(const std::string& file, const FieldView& view) {
   const Strips strips = cut_into_strips(view);
   Primitive surface;
-  for (const glm::dvec3& p : strips.positions) surface.positions.push_back(glm::vec3(p));
+  const glm::dvec3 offset = node_offset(strips.positions);
+  for (const glm::dvec3& p : strips.positions) surface.positions.push_back(glm::vec3(p - offset));
   for (const glm::dvec3& n : strips.normals) surface.normals.push_back(glm::vec3(n));
   for (const Color& c : strips.colors) surface.colors.push_back({linear(c.r), linear(c.g), linear(c.b), 1.0f});
   surface.indices = strips.triangles;
@@ -243,6 +244,7 @@ void write_field_glb(const std::string& file, const FieldView& view) {
   model.meshes.push_back(std::move(data));
   Node node;
   node.name = "field", node.mesh = 0;
+  node.translation = offset;
   model.nodes.push_back(node);
   model.scene_roots = {0};
   std::vector<glm::dvec3> ends;

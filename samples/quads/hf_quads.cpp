@@ -11,6 +11,7 @@
 #include "common/face_triangles.h"
 #include "common/picture.h"
 #include "common/program.h"
+#include "gltf/file_kind.h"
 #include "gltf/flat_mesh.h"
 #include "gltf/gltf_read.h"
 #include "gltf/gltf_write.h"
@@ -246,16 +247,14 @@ void write(const Command& options, const std::optional<Model>& model, const Surf
 
 void run(const Command& options) {
   std::optional<Model> model;  // only if its motion and look are asked for
-  if (is_gltf(options.mesh) && is_gltf(options.out)) model = read_gltf(options.mesh);
+  if (kind_of_file(options.mesh) == FileKind::gltf && is_gltf(options.out)) model = read_gltf(options.mesh);
   const SurfaceMesh input = model ? to_surface_mesh(flatten(*model)) : read_mesh_file(options.mesh);
   const std::vector<double> positions = double_positions(input.positions);
   auto create = hf::make<hf_surface_desc>();
   create.vertex_count = static_cast<uint32_t>(input.positions.size());
   create.triangle_count = static_cast<uint32_t>(input.triangles.size() / 3);
   create.positions_f64 = positions.data(), create.triangles = input.triangles.data();
-  // A surface with a thousand singularities needs three times the memory of others: their whole numbers share a full
-  // matrix.
-  limit_surface(create, options.faces > 0 ? 2 * create.vertex_count + options.faces : 0);
+  limit_quads(create, options.faces);
   const hf::Surface surface(create);
   const double diagonal = surface.report().bounding_box_diagonal;
   std::printf("mesh        %u vertices, %u triangles, box diagonal %.6g\n", create.vertex_count, create.triangle_count,

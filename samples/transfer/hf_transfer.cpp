@@ -13,6 +13,7 @@
 #include "common/program.h"
 #include "gltf/animate.h"
 #include "gltf/clip_binding.h"
+#include "gltf/file_kind.h"
 #include "gltf/file_write.h"
 #include "gltf/gltf_read.h"
 #include "gltf/gltf_write.h"
@@ -49,14 +50,9 @@ void list_joints(const std::filesystem::path& file) {
     std::printf("  clip \"%s\", %.2f s\n", clip.name.c_str(), clip_duration(clip));
 }
 
-bool is_mesh(const std::filesystem::path& file) {
-  const std::string extension = file.extension().string();
-  return extension == ".obj" || extension == ".ply" || extension == ".off";
-}
-
 // A model of a file; a mesh file is a model without a skin, in its own vertex order.
 Model read_model(const std::filesystem::path& file) {
-  if (!is_mesh(file)) return read_gltf(file);
+  if (kind_of_file(file) == FileKind::gltf) return read_gltf(file);
   const SurfaceMesh mesh = read_mesh_file(file);
   Model model = make_model(file.string(), mesh.positions, mesh.triangles);
   model.warnings = mesh.warnings;
@@ -89,7 +85,7 @@ Model rested(const Model& model, const std::string& choice, const std::string& o
       for (size_t k = 0; k < node.weights.size(); ++k) node.weights[k] = static_cast<float>(pose[n].weights[k]);
     if (pose[n].fixed) continue;
     node.matrix.reset();
-    node.translation = glm::vec3(pose[n].translation), node.rotation = glm::quat(pose[n].rotation);
+    node.translation = pose[n].translation, node.rotation = glm::quat(pose[n].rotation);
     node.scale = glm::vec3(pose[n].scale);
   }
   return out;
@@ -124,9 +120,9 @@ Motion read_motion(const Model& source, const TransferCommand& command) {
 
 // Some poses of a clip, to look for contacts.
 std::vector<std::vector<double>> some_poses(const Model& source, const FlatMesh& mesh, const Animation& clip) {
+  SurfacePoser surface(source, mesh);
   std::vector<std::vector<double>> out;
-  for (int k = 0; k < 24; ++k)
-    out.push_back(double_positions(posed_positions(source, mesh, clip, clip_duration(clip) * k / 23)));
+  for (int k = 0; k < 24; ++k) out.push_back(double_positions(surface.at(clip, clip_duration(clip) * k / 23)));
   return out;
 }
 
@@ -153,9 +149,10 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
   report.written_as = command.kind.empty() ? (has_skin(target) ? "own-skin" : "skin") : command.kind;
   std::vector<PlayedClip> written;
   if (report.written_as == "frames") {
-    const bool mesh = is_mesh(command.target);
+    const FileKind kind = kind_of_file(command.target);
+    const bool mesh = kind != FileKind::gltf;
     const SurfaceMesh rest = mesh ? read_mesh_file(command.target) : to_surface_mesh(session.target_flat());
-    write_frames(output, mesh ? command.target.extension().string() : ".ply", rest, clips);
+    write_frames(output, mesh && kind != FileKind::stl ? command.target.extension().string() : ".ply", rest, clips);
     written = clips;
   } else {
     if (command.root_motion && report.written_as != "own-skin")
@@ -272,12 +269,20 @@ nlohmann::json put_clips(const Model& clips, const Model& target, const Transfer
   std::snprintf(text, sizeof text, "%zu clips of a skeleton on %s: %zu of %zu joints, lengths times %.4g\n",
                 bound.clips, target.name.c_str(), bound.joints, bound.animated, bound.scale);
   std::string all = text;
+  if (bound.shared > 0)
+    all += "  note: " + std::to_string(bound.shared) +
+           " joints share a name with another; they were found by their parents and places\n";
   for (const std::string& name : bound.missing) all += "  note: the model has no joint \"" + name + "\"\n";
   std::fputs(all.c_str(), stdout);
   if (!command.report.empty()) write_bytes(command.report, all);
-  return {
-      {"output", command.output.string()}, {"written_as", "own-skin"}, {"clips", names},      {"joints", bound.joints},
-      {"animated", bound.animated},        {"missing", bound.missing}, {"scale", bound.scale}};
+  return {{"output", command.output.string()},
+          {"written_as", "own-skin"},
+          {"clips", names},
+          {"joints", bound.joints},
+          {"animated", bound.animated},
+          {"missing", bound.missing},
+          {"shared_names", bound.shared},
+          {"scale", bound.scale}};
 }
 
 // Morph targets in, morph targets out.

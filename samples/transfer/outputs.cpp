@@ -161,7 +161,7 @@ void add_root_motion(Model& model, const std::vector<PlayedClip>& clips) {
       channel.node = root;
       channel.times = {static_cast<float>(times.front()), static_cast<float>(times.back())};
       for (int k = 0; k < 2; ++k)
-        for (int i = 0; i < 3; ++i) channel.values.push_back(node.translation[i]);
+        for (int i = 0; i < 3; ++i) channel.values.push_back(static_cast<float>(node.translation[i]));
       channels.insert(channels.begin(), std::move(channel));
     }
     Channel& channel = channels[number];
@@ -180,13 +180,14 @@ void add_root_motion(Model& model, const std::vector<PlayedClip>& clips) {
 std::vector<PlayedClip> written_clips(const Model& written, const Session& session,
                                       const std::vector<PlayedClip>& clips) {
   const FlatMesh mesh = flatten(written);
+  SurfacePoser surface(written, mesh);
   std::vector<PlayedClip> out;
   for (size_t c = 0; c < clips.size(); ++c) {
     PlayedClip played;
     played.clip.name = clips[c].clip.name, played.clip.times = clips[c].clip.times;
     played.source_frames = clips[c].source_frames, played.frame_ms = clips[c].frame_ms;
     for (const double time : played.clip.times)
-      played.target_frames.push_back(double_positions(posed_positions(written, mesh, written.animations[c], time)));
+      played.target_frames.push_back(double_positions(surface.at(written.animations[c], time)));
     played.feet = session.feet_of(played), played.gap = session.largest_gap(played.target_frames);
     out.push_back(std::move(played));
   }
@@ -202,10 +203,10 @@ Model own_skin_model(const Model& target, const Session& session, const std::vec
   size_t frames = 0, done = 0;
   for (const PlayedClip& clip : clips) {
     const RigGround ground = ground_of(session, clip);
-    const std::vector<Pose> poses = rig.fit_all(
+    const std::vector<RigPose> poses = rig.fit_all(
         clip.clip.times, clip.target_frames, [&](size_t f) { return session.standing(clip, f); }, &ground);
     for (size_t f = 0; f < poses.size(); ++f, ++frames)
-      measure(posed_positions(target, mesh, poses[f]), clip.target_frames[f], mesh.loose, box, sum, figures);
+      measure(posed_positions(target, mesh, rig.whole(poses[f])), clip.target_frames[f], mesh.loose, box, sum, figures);
     insert_clip(out, done++, rig.clip(clip.clip.name, clip.clip.times, poses));
   }
   figures.rms = frames > 0 ? std::sqrt(sum / static_cast<double>(frames)) : 0;
@@ -309,11 +310,11 @@ Model morph_model(const Model& target, const FlatMesh& mesh, const std::vector<P
     out.animations.push_back(std::move(animation));
   }
   const FlatMesh again = flatten(out);
+  SurfacePoser surface(out, again);
   double sum = 0;
   for (size_t c = 0; c < clips.size(); ++c) {
     for (size_t f = 0; f < clips[c].target_frames.size(); ++f)
-      measure(posed_positions(out, again, out.animations[c], clips[c].clip.times[f]), clips[c].target_frames[f],
-              again.loose, box, sum, figures);
+      measure(surface.at(out.animations[c], clips[c].clip.times[f]), clips[c].target_frames[f], again.loose, box, sum, figures);
   }
   figures.rms = std::sqrt(sum / static_cast<double>(std::max<size_t>(n, 1)));
   return out;

@@ -268,9 +268,9 @@ std::vector<std::string> Session::set_contacts(const std::vector<std::string>& n
 
 PlayedClip Session::play(const Animation& animation, double rate, ProgressBar& bar) {
   const std::vector<double> times = rate < 0 ? key_times(animation) : frame_times(animation, rate);
+  SurfacePoser surface(source_, source_flat_);
   std::vector<std::vector<double>> poses;
-  for (const double time : times)
-    poses.push_back(double_positions(posed_positions(source_, source_flat_, animation, time)));
+  for (const double time : times) poses.push_back(double_positions(surface.at(animation, time)));
   return play(animation.name, times, std::move(poses), bar);
 }
 

@@ -18,9 +18,18 @@ size_t shape_count(const MeshData& mesh) {
   return mesh.primitives.empty() ? 0 : mesh.primitives.front().targets.size();
 }
 
-std::string shape_name(const MeshData& mesh, size_t k) {
-  return k < mesh.target_names.size() && !mesh.target_names[k].empty() ? mesh.target_names[k]
-                                                                       : "shape_" + std::to_string(k);
+// Two shapes of one mesh that have a name are two: the second gets a number.
+std::vector<std::string> names_of(const MeshData& mesh) {
+  std::vector<std::string> out;
+  std::set<std::string> taken;
+  for (size_t k = 0; k < shape_count(mesh); ++k) {
+    const bool named = k < mesh.target_names.size() && !mesh.target_names[k].empty();
+    const std::string given = named ? mesh.target_names[k] : "shape_" + std::to_string(k);
+    std::string name = given;
+    for (int copy = 2; !taken.insert(name).second; ++copy) name = given + " (" + std::to_string(copy) + ")";
+    out.push_back(name);
+  }
+  return out;
 }
 
 // The nodes of a flat mesh, each once.
@@ -38,11 +47,8 @@ const MeshData& mesh_of(const Model& model, int node) {
 std::vector<std::string> shape_names(const Model& model, const FlatMesh& flat) {
   std::vector<std::string> out;
   for (const int node : mesh_nodes(flat)) {
-    const MeshData& mesh = mesh_of(model, node);
-    for (size_t k = 0; k < shape_count(mesh); ++k) {
-      const std::string name = shape_name(mesh, k);
+    for (const std::string& name : names_of(mesh_of(model, node)))
       if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
-    }
   }
   return out;
 }
@@ -74,10 +80,9 @@ std::vector<size_t> add_room(Model& model, const FlatMesh& flat, const std::vect
     const int index = model.nodes[static_cast<size_t>(node)].mesh;
     if (!done.insert(index).second) continue;
     MeshData& mesh = model.meshes[static_cast<size_t>(index)];
-    const size_t before = own[static_cast<size_t>(index)] = shape_count(mesh);
-    std::set<std::string> taken;
-    std::vector<std::string> all;
-    for (size_t k = 0; k < before; ++k) all.push_back(shape_name(mesh, k)), taken.insert(all.back());
+    own[static_cast<size_t>(index)] = shape_count(mesh);
+    std::vector<std::string> all = names_of(mesh);
+    std::set<std::string> taken(all.begin(), all.end());
     for (const std::string& name : names) {
       std::string free = name;
       for (int copy = 2; !taken.insert(free).second; ++copy) free = name + " (" + std::to_string(copy) + ")";
@@ -110,11 +115,10 @@ Animation weights_clip(const Model& source, const FlatMesh& source_flat, const A
     std::vector<float> row(names.size(), 0.0f);
     std::set<std::string> found;
     for (const int node : mesh_nodes(source_flat)) {
-      const MeshData& mesh = mesh_of(source, node);
-      for (size_t k = 0; k < shape_count(mesh); ++k) {
-        const std::string name = shape_name(mesh, k);
-        if (!found.insert(name).second) continue;
-        row[static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin())] =
+      const std::vector<std::string> own_names = names_of(mesh_of(source, node));
+      for (size_t k = 0; k < own_names.size(); ++k) {
+        if (!found.insert(own_names[k]).second) continue;
+        row[static_cast<size_t>(std::find(names.begin(), names.end(), own_names[k]) - names.begin())] =
             static_cast<float>(pose[static_cast<size_t>(node)].weights[k]);
       }
     }
@@ -154,9 +158,9 @@ CarriedShapes carry_shapes(Session& session, const Model& source, const Model& t
   for (const std::string& name : names) {
     Pose pose = rest;
     for (const int node : mesh_nodes(from)) {
-      const MeshData& mesh = mesh_of(source, node);
-      for (size_t k = 0; k < shape_count(mesh); ++k)
-        if (shape_name(mesh, k) == name) pose[static_cast<size_t>(node)].weights[k] += 1;
+      const std::vector<std::string> own_names = names_of(mesh_of(source, node));
+      for (size_t k = 0; k < own_names.size(); ++k)
+        if (own_names[k] == name) pose[static_cast<size_t>(node)].weights[k] += 1;
     }
     times.push_back(static_cast<double>(times.size()));
     poses.push_back(double_positions(posed_positions(source, from, pose)));

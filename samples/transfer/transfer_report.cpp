@@ -32,6 +32,7 @@ void print(std::string& out, const char* format, ...) {
 ReplayReport measure_replay(const Model& written, const std::vector<PlayedClip>& clips, double box) {
   ReplayReport out;
   const FlatMesh mesh = flatten(written);
+  SurfacePoser surface(written, mesh);
   double sum = 0;
   size_t count = 0;
   for (size_t c = 0; c < clips.size(); ++c) {
@@ -39,7 +40,7 @@ ReplayReport measure_replay(const Model& written, const std::vector<PlayedClip>&
     const Animation& animation = written.animations[c];
     const size_t step = std::max<size_t>(1, clip.clip.times.size() / 8);
     for (size_t f = 0; f < clip.clip.times.size(); f += step) {
-      const std::vector<glm::dvec3> keys = posed_positions(written, mesh, animation, clip.clip.times[f]);
+      const std::vector<glm::dvec3> keys = surface.at(animation, clip.clip.times[f]);
       const std::vector<double>& expected = clip.target_frames[f];
       for (size_t v = 0; v < keys.size(); ++v) {
         if (mesh.loose[v]) continue;

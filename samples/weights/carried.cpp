@@ -6,6 +6,7 @@
 
 #include "common/limits.h"
 #include "gltf/flat_mesh.h"
+#include "gltf/node_match.h"
 
 namespace samples {
 
@@ -43,12 +44,14 @@ CarriedWeights carry_from(const Model& from, const Model& model, const Rig& rig,
     return surface_of(own, pose_rig(own, global_matrices(whose, rest_pose(whose)), own.given));
   };
   const Rig source = read_rig(from);
+  const NodeMatch match = match_nodes(from, source.joints, model);
   std::vector<uint32_t> number;
   for (size_t j = 0; j < source.names.size(); ++j) {
-    const auto there = std::find(rig.names.begin(), rig.names.end(), source.names[j]);
-    if (there == rig.names.end() && source.bones.deforms[j])
+    const auto there =
+        std::find(rig.joints.begin(), rig.joints.end(), match.there[static_cast<size_t>(source.joints[j])]);
+    if (there == rig.joints.end() && source.bones.deforms[j])
       throw std::runtime_error("the model has no joint \"" + source.names[j] + "\", which has weights in " + from.name);
-    number.push_back(static_cast<uint32_t>(there - rig.names.begin()));
+    number.push_back(static_cast<uint32_t>(there - rig.joints.begin()));
   }
   hf::VertexWeights given = given_of(source);
   for (size_t i = 0; i < given.joints.size(); ++i) given.joints[i] = given.weights[i] > 0 ? number[given.joints[i]] : 0;

@@ -12,12 +12,6 @@ namespace samples {
 
 using namespace hf_gltf;
 
-uint32_t joint_named(const Rig& rig, const std::string& name) {
-  const auto there = std::find(rig.names.begin(), rig.names.end(), name);
-  if (there == rig.names.end()) throw std::runtime_error("the model has no joint \"" + name + "\"");
-  return static_cast<uint32_t>(there - rig.names.begin());
-}
-
 void add_given(const Rig& rig, size_t vertex, double radius, PinFile& out) {
   out.vertices.push_back(static_cast<uint32_t>(vertex)), out.radii.push_back(radius);
   for (size_t k = 0; k < rig.given.per_vertex; ++k) {

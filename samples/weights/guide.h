@@ -10,9 +10,6 @@
 
 namespace samples {
 
-// Throws std::runtime_error if the rig has no joint of this name.
-uint32_t joint_named(const Rig& rig, const std::string& name);
-
 // Pins with weights for every joint that any of them names.
 struct PinFile {
   std::vector<uint32_t> vertices, joints;

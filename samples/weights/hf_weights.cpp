@@ -251,8 +251,8 @@ Model read_model(const Command& options, std::vector<Rig>& rigs, bool& given) {
   TakenSkeleton taken = take_skeleton(source, model, landmarks, options.skeleton.empty());
   rigs.push_back(read_rig(taken.model));
   Rig& rig = rigs.back();
-  for (size_t j = 0; j < rig.names.size(); ++j)
-    rig.bones.deforms[j] = std::count(taken.deforming.begin(), taken.deforming.end(), rig.names[j]) > 0;
+  std::copy_n(taken.deforms.begin(), std::min(taken.deforms.size(), rig.bones.deforms.size()),
+              rig.bones.deforms.begin());
   return std::move(taken.model);
 }
 

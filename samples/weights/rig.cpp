@@ -7,6 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "gltf/node_match.h"
+
 namespace samples {
 namespace {
 
@@ -229,6 +231,22 @@ Rig read_rig(const Model& model, const std::vector<int>& skins) {
   return rig;
 }
 
+uint32_t joint_named(const Rig& rig, const std::string& name, const std::string& where) {
+  std::vector<int> nodes;
+  size_t found = 0;
+  const int number = node_number(name);
+  for (size_t j = 0; j < rig.names.size(); ++j) {
+    if (rig.names[j] != name) continue;
+    nodes.push_back(rig.joints[j]);
+    found = j;
+  }
+  for (size_t j = 0; j < rig.names.size() && nodes.empty(); ++j)
+    if (rig.joints[j] == number) return static_cast<uint32_t>(j);
+  if (nodes.empty()) throw std::runtime_error(where + "the model has no joint \"" + name + "\"");
+  if (nodes.size() > 1) throw std::runtime_error(where + "the model has " + several_joints(name, nodes));
+  return static_cast<uint32_t>(found);
+}
+
 std::vector<glm::dvec3> pose_rig(const Rig& rig, const std::vector<glm::dmat4>& globals, const RigWeights& weights) {
   std::vector<glm::dmat4> joints;
   for (size_t j = 0; j < rig.joints.size(); ++j)
@@ -282,15 +300,14 @@ Pose bent_pose(const Model& model, const Rig& rig, const std::vector<std::string
     if (middle == std::string::npos || last != middle + 2 || bend[middle + 1] < 'x' || bend[middle + 1] > 'z')
       throw std::runtime_error("--bend: JOINT,AXIS,DEGREES with x, y or z is needed, not " + bend);
     const std::string name = bend.substr(0, middle), angle = bend.substr(last + 1);
-    const auto joint = std::find(rig.names.begin(), rig.names.end(), name);
-    if (joint == rig.names.end()) throw std::runtime_error("--bend: the model has no joint \"" + name + "\"");
+    const uint32_t joint = joint_named(rig, name, "--bend: ");
     char* end = nullptr;
     const double degrees = std::strtod(angle.c_str(), &end);
     if (angle.empty() || *end != '\0' || !std::isfinite(degrees))
       throw std::runtime_error("--bend: \"" + angle + "\" is no angle");
     glm::dvec3 axis(0);
     axis[bend[middle + 1] - 'x'] = 1;
-    NodePose& node = pose[static_cast<size_t>(rig.joints[static_cast<size_t>(joint - rig.names.begin())])];
+    NodePose& node = pose[static_cast<size_t>(rig.joints[joint])];
     if (node.fixed) throw std::runtime_error("--bend: " + name + " has a matrix; it cannot be turned");
     node.rotation = node.rotation * glm::angleAxis(glm::radians(degrees), axis);
   }

@@ -50,6 +50,10 @@ Rig read_rig(const Model& model, const std::vector<int>& skins);
 // The rig of all skins. Throws std::runtime_error if no triangle has their joints.
 Rig read_rig(const Model& model);
 
+// The joint of a name, or of a node's number ("#34"). Throws std::runtime_error, behind `where`, if there is none, or
+// if several joints have the name.
+uint32_t joint_named(const Rig& rig, const std::string& name, const std::string& where = "");
+
 // Moves the vertices: sum of w J B p, J the world matrices of the joints.
 std::vector<glm::dvec3> pose_rig(const Rig& rig, const std::vector<glm::dmat4>& globals, const RigWeights& weights);
 

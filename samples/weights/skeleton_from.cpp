@@ -1,9 +1,9 @@
 #include "weights/skeleton_from.h"
 
-#include <map>
 #include <stdexcept>
 
 #include "gltf/animate.h"
+#include "gltf/node_match.h"
 #include "gltf/pairs_file.h"
 #include "weights/rig.h"
 
@@ -73,14 +73,15 @@ std::vector<Landmark> pair_landmarks(const std::filesystem::path& file, const Mo
 std::vector<Landmark> name_landmarks(const Model& source, const Model& target) {
   const std::vector<glm::dmat4> from = global_matrices(source, rest_pose(source)),
                                 to = global_matrices(target, rest_pose(target));
-  std::map<std::string, size_t> named;
-  for (size_t n = 0; n < target.nodes.size(); ++n) named.emplace(target.nodes[n].name, n);
+  const std::vector<int> joints = read_rig(source).joints;
+  const NodeMatch match = match_nodes(source, joints, target);
   std::vector<Landmark> out;
-  for (const int joint : read_rig(source).joints) {
+  for (const int joint : joints) {
     const auto node = static_cast<size_t>(joint);
-    const auto there = named.find(source.nodes[node].name);
-    if (there == named.end() || there->first.empty() || target.nodes[there->second].mesh >= 0) continue;
-    out.push_back({glm::dvec3(from[node][3]), glm::dvec3(to[there->second][3])});
+    if (match.there[node] < 0) continue;
+    const auto there = static_cast<size_t>(match.there[node]);
+    if (source.nodes[node].name.empty() || target.nodes[there].mesh >= 0) continue;
+    out.push_back({glm::dvec3(from[node][3]), glm::dvec3(to[there][3])});
   }
   return out;
 }
@@ -93,6 +94,10 @@ TakenSkeleton take_skeleton(const Model& source, const Model& target, const std:
   const std::vector<glm::dmat4> globals = global_matrices(source, rest_pose(source));
   TakenSkeleton out{bake(target, to, to.positions), {}};
   Model& model = out.model;
+  // the nodes of a skinned mesh do not move it, so the bind matrices take the offset of the positions
+  glm::dmat4 offset(1);
+  offset[3] = glm::dvec4(model.nodes.front().translation, 1);
+  for (Node& node : model.nodes) node.translation = glm::dvec3(0);
   const int first = static_cast<int>(model.nodes.size());
   Skin skin;
   skin.name = "skeleton";
@@ -104,16 +109,16 @@ TakenSkeleton take_skeleton(const Model& source, const Model& target, const std:
     world.back()[3] = glm::dvec4(place, 1.0);
     if (j < rig.joint_count()) {
       skin.joints.push_back(first + static_cast<int>(j));
-      skin.inverse_bind.push_back(glm::mat4(glm::inverse(world.back())));
+      skin.inverse_bind.push_back(glm::mat4(glm::inverse(world.back()) * offset));
     }
-    if (rig.bones.deforms[j]) out.deforming.push_back(rig.names[j]);
+    out.deforms.push_back(rig.bones.deforms[j]);
   }
   for (size_t j = 0; j < rig.joints.size(); ++j) {
     Node node;
     node.name = rig.names[j];
     const uint32_t parent = rig.bones.parents[j];
     const glm::dmat4 local = parent == HF_NO_INDEX ? world[j] : glm::inverse(world[parent]) * world[j];
-    node.translation = glm::vec3(local[3]), node.rotation = glm::quat(turn_of(local));
+    node.translation = glm::dvec3(local[3]), node.rotation = glm::quat(turn_of(local));
     if (parent != HF_NO_INDEX) node.parent = first + static_cast<int>(parent);
     model.nodes.push_back(node);
   }

@@ -24,8 +24,8 @@ std::vector<Landmark> pair_landmarks(const std::filesystem::path& file, const Mo
 std::vector<Landmark> name_landmarks(const Model& source, const Model& target);
 
 struct TakenSkeleton {
-  Model model;                         // the target, baked, with joints and all vertices on the first of them
-  std::vector<std::string> deforming;  // joints that have weights in the source
+  Model model;                   // the target, baked, with joints and all vertices on the first of them
+  std::vector<uint8_t> deforms;  // by joint: 1 if it has weights in the source
 };
 
 // in_place: the joints stay where they are. Else they stand where the box of the source leads to in the box of the

@@ -69,7 +69,7 @@ Pose rest_pose(const Model& model) {
     pose[n].rotation = glm::normalize(glm::dquat(node.rotation));
     pose[n].scale = node.scale;
     pose[n].fixed = node.matrix.has_value();
-    if (node.matrix) pose[n].matrix = glm::dmat4(*node.matrix);
+    if (node.matrix) pose[n].matrix = *node.matrix;
     pose[n].weights = morph_weights(model, node);
   }
   return pose;
@@ -263,8 +263,8 @@ std::vector<glm::dvec3> posed_primitive(const Model& model, const Pose& pose, co
   return out;
 }
 
-std::vector<glm::dvec3> posed_positions(const Model& model, const FlatMesh& mesh, const Pose& pose) {
-  const std::vector<glm::dmat4> globals = global_matrices(model, pose);
+static std::vector<glm::dvec3> positions_of(const Model& model, const FlatMesh& mesh, const Pose& pose,
+                                            const std::vector<glm::dmat4>& globals) {
   std::vector<glm::dvec3> out(mesh.positions.size());
   for (const FlatPart& part : mesh.parts) {
     const bool good =
@@ -281,9 +281,70 @@ std::vector<glm::dvec3> posed_positions(const Model& model, const FlatMesh& mesh
   return out;
 }
 
+std::vector<glm::dvec3> posed_positions(const Model& model, const FlatMesh& mesh, const Pose& pose) {
+  return positions_of(model, mesh, pose, global_matrices(model, pose));
+}
+
 std::vector<glm::dvec3> posed_positions(const Model& model, const FlatMesh& mesh, const Animation& animation,
                                         double time) {
   return posed_positions(model, mesh, sample(model, animation, time));
+}
+
+std::vector<int> with_parents(const Model& model, const std::vector<int>& nodes) {
+  std::vector<char> taken(model.nodes.size(), 0);
+  std::vector<int> out, path;
+  for (const int node : nodes) {
+    for (int n = node; n >= 0 && !taken[static_cast<size_t>(n)]; n = model.nodes[static_cast<size_t>(n)].parent) {
+      taken[static_cast<size_t>(n)] = 1;
+      path.push_back(n);
+    }
+    out.insert(out.end(), path.rbegin(), path.rend());
+    path.clear();
+  }
+  return out;
+}
+
+SurfacePoser::SurfacePoser(const Model& model, const FlatMesh& mesh)
+    : model_(model),
+      mesh_(mesh),
+      moves_(model.nodes.size(), 0),
+      rest_(rest_pose(model)),
+      pose_(rest_),
+      globals_(model.nodes.size()) {
+  std::vector<int> movers;
+  const auto add = [&](int node) {
+    if (!moves_[static_cast<size_t>(node)]) movers.push_back(node);
+    moves_[static_cast<size_t>(node)] = 1;
+  };
+  for (const FlatPart& part : mesh.parts) {
+    add(part.node);
+    const int skin = model.nodes[static_cast<size_t>(part.node)].skin;
+    if (skin < 0) continue;
+    const std::vector<int>& joints = model.skins[static_cast<size_t>(skin)].joints;
+    for (const Influences& influences :
+         model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)].influences) {
+      for (size_t k = 0; k < influences.weights.size(); ++k)
+        if (influences.weights[k] != 0) add(joints[influences.joints[k]]);
+    }
+  }
+  nodes_ = with_parents(model, movers);
+  for (const int node : nodes_) moves_[static_cast<size_t>(node)] = 1;
+}
+
+std::vector<glm::dvec3> SurfacePoser::at(const Animation& animation, double time) {
+  for (const int node : nodes_) pose_[static_cast<size_t>(node)] = rest_[static_cast<size_t>(node)];
+  for (const Channel& channel : animation.channels) {
+    const auto node = static_cast<size_t>(channel.node);
+    if (node >= moves_.size()) fail(model_, "animation \"" + animation.name + "\" moves a node that does not exist");
+    if (!channel.times.empty() && moves_[node]) apply(channel, sample_channel(channel, time), pose_[node]);
+  }
+  for (const int n : nodes_) {
+    const auto node = static_cast<size_t>(n);
+    const int parent = model_.nodes[node].parent;
+    const glm::dmat4 local = local_matrix(pose_[node]);
+    globals_[node] = parent < 0 ? local : globals_[static_cast<size_t>(parent)] * local;
+  }
+  return positions_of(model_, mesh_, pose_, globals_);
 }
 
 int find_node(const Model& model, const std::string& name) {

@@ -55,6 +55,26 @@ std::vector<glm::dvec3> posed_positions(const Model& model, const FlatMesh& mesh
 std::vector<glm::dvec3> posed_positions(const Model& model, const FlatMesh& mesh, const Animation& animation,
                                         double time);
 
+// The given nodes and all above them, parents first.
+std::vector<int> with_parents(const Model& model, const std::vector<int>& nodes);
+
+// Poses a surface at many times. Nodes that move none of its vertices cost nothing: a file can have 30,000 of them.
+// Keeps references to the model and the mesh.
+class SurfacePoser {
+ public:
+  SurfacePoser(const Model& model, const FlatMesh& mesh);
+  // What posed_positions() gives.
+  std::vector<glm::dvec3> at(const Animation& animation, double time);
+
+ private:
+  const Model& model_;
+  const FlatMesh& mesh_;
+  std::vector<int> nodes_;  // those that move a vertex, and all above them
+  std::vector<char> moves_;
+  Pose rest_, pose_;
+  std::vector<glm::dmat4> globals_;
+};
+
 // The same for one primitive; normals (may be null) are moved by the inverse transposed of the same blend.
 std::vector<glm::dvec3> posed_primitive(const Model& model, const Pose& pose, const std::vector<glm::dmat4>& globals,
                                         int node, const Primitive& primitive, std::vector<glm::vec3>* normals);

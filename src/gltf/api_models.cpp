@@ -144,8 +144,9 @@ hf_result hf_gltf_model_create(const hf_gltf_mesh_desc* desc, hf_gltf_model* out
       need(mesh.positions, "positions"), need(mesh.triangles, "triangles");
       std::vector<glm::dvec3> positions(mesh.vertex_count);
       for (size_t v = 0; v < positions.size(); ++v) {
-        const float* p = mesh.positions + 3 * v;
-        if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+        const double* p = mesh.positions + 3 * v;
+        constexpr double most = std::numeric_limits<float>::max();  // what a file can hold
+        if (!(std::abs(p[0]) <= most && std::abs(p[1]) <= most && std::abs(p[2]) <= most))
           throw Failure(HF_ERROR_NON_FINITE, "vertex " + std::to_string(v) + " is not finite",
                         static_cast<uint32_t>(v));
         positions[v] = {p[0], p[1], p[2]};
@@ -276,12 +277,12 @@ hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_frames_desc*
       if (!given.firm) return {};
       return {given.firm + vertices * f, given.firm + vertices * (f + 1)};
     };
-    const std::vector<Pose> poses = rig.fit_all(times, wanted, firm, &ground);
+    const std::vector<RigPose> poses = rig.fit_all(times, wanted, firm, &ground);
     const auto count =
         static_cast<double>(std::count(loose.begin(), loose.end(), 0) * static_cast<std::ptrdiff_t>(frames));
     double sum = 0, most = 0;
     for (size_t f = 0; f < frames; ++f) {
-      const std::vector<glm::dvec3> got = posed_positions(object->model, object->mesh, poses[f]);
+      const std::vector<glm::dvec3> got = posed_positions(object->model, object->mesh, rig.whole(poses[f]));
       for (size_t v = 0; v < vertices; ++v) {
         if (loose[v]) continue;
         const double* to = wanted[f].data() + 3 * v;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "gltf/animate.h"
+#include "gltf/node_match.h"
 
 namespace hf_gltf {
 namespace {
@@ -21,37 +22,27 @@ std::string tail_of(const std::string& name) {
   return bar == std::string::npos ? name : name.substr(bar + 1);
 }
 
-std::string plain(const std::string& name) { return name.substr(name.rfind(':') + 1); }
-
-// By the name without a prefix, the first node of each name.
-std::map<std::string, int> nodes_by_name(const Model& model) {
-  std::map<std::string, int> out;
-  for (size_t n = 0; n < model.nodes.size(); ++n) out.emplace(plain(model.nodes[n].name), static_cast<int>(n));
-  return out;
-}
-
-glm::vec3 rest_translation(const Node& node) { return node.matrix ? glm::vec3((*node.matrix)[3]) : node.translation; }
-
 // Lengths of the model's bones over those of the clips' skeleton, over the joints that both have below a joint.
 double length_ratio(const Model& model, const Model& clips, const std::map<int, int>& found) {
   double own = 0, other = 0;
   for (const auto& [from, to] : found) {
     const Node &a = clips.nodes[static_cast<size_t>(from)], &b = model.nodes[static_cast<size_t>(to)];
     if (found.count(a.parent) == 0 || b.parent < 0) continue;
-    other += static_cast<double>(glm::length(rest_translation(a))),
-        own += static_cast<double>(glm::length(rest_translation(b)));
+    other += glm::length(rest_translation(a));
+    own += glm::length(rest_translation(b));
   }
   return own > 0 && other > 0 ? own / other : 1.0;
 }
 
-void move_translations(Channel& channel, const glm::vec3& from, const glm::vec3& to, float scale) {
+void move_translations(Channel& channel, const glm::dvec3& from, const glm::dvec3& to, double scale) {
   const bool cubic = channel.interpolation == Interpolation::cubic_spline;
   for (size_t i = 0; i + 2 < channel.values.size(); i += 3) {
     const bool tangent = cubic && (i / 3) % 3 != 1;
     for (size_t c = 0; c < 3; ++c) {
       const auto axis = static_cast<int>(c);
       float& x = channel.values[i + c];
-      x = tangent ? scale * x : to[axis] + scale * (x - from[axis]);
+      const auto was = static_cast<double>(x);
+      x = static_cast<float>(tangent ? scale * was : to[axis] + scale * (was - from[axis]));
     }
   }
 }
@@ -84,8 +75,10 @@ void insert_clip(Model& model, size_t place, Animation clip) {
 
 void split_matrix(Node& node) {
   if (!node.matrix) return;
-  const glm::mat4 m = *node.matrix;
-  node.matrix.reset(), node.translation = glm::vec3(m[3]);
+  const glm::dmat4 whole = *node.matrix;
+  const glm::mat4 m(whole);
+  node.matrix.reset();
+  node.translation = glm::dvec3(whole[3]);
   for (int c = 0; c < 3; ++c) node.scale[c] = glm::length(glm::vec3(m[c]));
   if (glm::determinant(glm::mat3(m)) < 0) node.scale = -node.scale;
   glm::mat3 turn(m);
@@ -101,12 +94,19 @@ std::vector<const Animation*> choose_clips(const Model& model, const std::string
     return out;
   }
   if (wanted.empty()) return {&model.animations.front()};
-  for (const Animation& animation : model.animations) {
-    if (animation.name == wanted) return {&animation};
+  std::vector<size_t> same, tails;
+  for (size_t i = 0; i < model.animations.size(); ++i) {
+    if (model.animations[i].name == wanted) same.push_back(i);
+    if (tail_of(model.animations[i].name) == wanted) tails.push_back(i);
   }
-  for (const Animation& animation : model.animations) {
-    if (tail_of(animation.name) == wanted) return {&animation};
+  const std::vector<size_t>& named = same.empty() ? tails : same;
+  if (named.size() > 1) {
+    std::string numbers;
+    for (const size_t i : named) numbers += (numbers.empty() ? "" : ", ") + std::to_string(i);
+    throw std::runtime_error(model.name + " has " + std::to_string(named.size()) + " clips \"" + wanted +
+                             "\"; give the index of one: " + numbers);
   }
+  if (named.size() == 1) return {&model.animations[named.front()]};
   char* end = nullptr;
   const unsigned long index = std::strtoul(wanted.c_str(), &end, 10);
   if (*end == 0 && index < model.animations.size()) return {&model.animations[index]};
@@ -118,7 +118,6 @@ std::vector<const Animation*> choose_clips(const Model& model, const std::string
 
 BoundClips bind_clips(const Model& model, const Model& clips, const std::string& wanted) {
   const std::vector<const Animation*> chosen = choose_clips(clips, wanted);
-  const std::map<std::string, int> names = nodes_by_name(model);
   std::set<int> moved;
   for (const Animation* clip : chosen) {
     for (const Channel& channel : clip->channels)
@@ -126,17 +125,13 @@ BoundClips bind_clips(const Model& model, const Model& clips, const std::string&
   }
   BoundClips out;
   out.model = model, out.clips = chosen.size(), out.animated = moved.size();
-  std::set<int> taken;
+  const NodeMatch match = match_nodes(clips, {moved.begin(), moved.end()}, model);
   std::map<int, int> found;  // from the clips' nodes to the model's
   for (const int node : moved) {
-    const std::string& name = clips.nodes[static_cast<size_t>(node)].name;
-    const auto here = names.find(plain(name));
-    // two joints that differ in a prefix alone cannot both move one joint
-    if (here == names.end() || !taken.insert(here->second).second) {
-      out.missing.push_back(name);
-    } else {
-      found[node] = here->second;
-    }
+    const auto n = static_cast<size_t>(node);
+    if (match.there[n] >= 0) found[node] = match.there[n];
+    if (match.there[n] < 0) out.missing.push_back(clips.nodes[n].name);
+    out.shared += match.shared[n] ? 1u : 0u;
   }
   out.joints = found.size();
   if (moved.empty() || static_cast<double>(out.joints) < least_shared * static_cast<double>(moved.size())) {
@@ -159,8 +154,7 @@ BoundClips bind_clips(const Model& model, const Model& clips, const std::string&
       bound.channels.push_back(channel);
       bound.channels.back().node = here->second;
       if (channel.path == Path::translation)
-        move_translations(bound.channels.back(), rest_translation(from), rest_translation(to),
-                          static_cast<float>(out.scale));
+        move_translations(bound.channels.back(), rest_translation(from), rest_translation(to), out.scale);
     }
     insert_clip(out.model, done++, std::move(bound));
   }

@@ -13,6 +13,10 @@
 namespace hf_gltf {
 namespace {
 
+// A surface that stands so many of its diagonals from 0 gets an offset. Floats round there by 5e-7 of its diagonal:
+// half gives files of more rooms a node of their own, double lets seams of flat parts open.
+constexpr double far_boxes = 8;
+
 [[noreturn]] void fail(const Model& model, const std::string& message) {
   throw std::runtime_error((model.name.empty() ? "the model" : model.name) + ": " + message + ".");
 }
@@ -310,6 +314,20 @@ double float_rounded(double value) {
 
 glm::dvec3 float_rounded(const glm::dvec3& p) { return {float_rounded(p.x), float_rounded(p.y), float_rounded(p.z)}; }
 
+glm::dvec3 node_offset(const std::vector<glm::dvec3>& positions) {
+  glm::dvec3 low(std::numeric_limits<double>::max()), high(-std::numeric_limits<double>::max());
+  bool exact = true;
+  for (const glm::dvec3& p : positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+    exact = exact && float_rounded(p) == p;
+  }
+  if (exact) return glm::dvec3(0);
+  const glm::dvec3 middle = low + 0.5 * (high - low);
+  const bool far = glm::length(middle) > far_boxes * glm::distance(low, high);
+  return far ? float_rounded(middle) : glm::dvec3(0);
+}
+
 std::vector<float> float_positions(const std::vector<glm::dvec3>& positions) {
   std::vector<float> out;
   out.reserve(positions.size() * 3);
@@ -362,6 +380,7 @@ Model bake(const Model& model, const FlatMesh& mesh, const std::vector<glm::dvec
   check_fit(model, mesh, positions.size());
   check_finite(model, positions);
   const std::vector<glm::vec3> normals = welded_normals(mesh, positions, options.creases);
+  const glm::dvec3 offset = node_offset(positions);
   Model out;
   out.name = model.name;
   out.materials = model.materials;
@@ -376,6 +395,7 @@ Model bake(const Model& model, const FlatMesh& mesh, const std::vector<glm::dvec
     if (found.second) {
       Node node;
       node.name = model.nodes[static_cast<size_t>(part.node)].name;
+      node.translation = offset;
       node.mesh = static_cast<int>(out.meshes.size());
       out.scene_roots.push_back(static_cast<int>(out.nodes.size()));
       out.nodes.push_back(node);
@@ -388,7 +408,7 @@ Model bake(const Model& model, const FlatMesh& mesh, const std::vector<glm::dvec
     to.material = from.material;
     to.carried_attributes = from.carried_attributes, to.carried = from.carried;
     for (size_t v = 0; v < part.vertex_count; ++v) {
-      to.positions.push_back(glm::vec3(positions[part.first_vertex + v]));
+      to.positions.push_back(glm::vec3(positions[part.first_vertex + v] - offset));
       to.normals.push_back(normals[part.first_vertex + v]);
     }
     for (size_t i = 0; i < 3 * static_cast<size_t>(part.triangle_count); ++i) {
@@ -418,18 +438,20 @@ void add_lines(Model& model, const std::string& name, const std::vector<glm::dve
   material.name = name;
   material.base_color = color;
   material.unlit = true;
+  const glm::dvec3 offset = node_offset(segment_ends);
   Primitive primitive;
   primitive.topology = Topology::lines;
   primitive.material = static_cast<int>(model.materials.size());
   for (const glm::dvec3& p : segment_ends) {
     primitive.indices.push_back(static_cast<uint32_t>(primitive.positions.size()));
-    primitive.positions.push_back(glm::vec3(p));
+    primitive.positions.push_back(glm::vec3(p - offset));
   }
   MeshData mesh;
   mesh.name = name;
   mesh.primitives.push_back(std::move(primitive));
   Node node;
   node.name = name;
+  node.translation = offset;
   node.mesh = static_cast<int>(model.meshes.size());
   model.materials.push_back(material);
   model.meshes.push_back(std::move(mesh));
@@ -450,7 +472,8 @@ Model make_model(const std::string& name, const std::vector<glm::dvec3>& positio
   }
   flat.weld();
   primitive.normals = welded_normals(flat, positions);
-  for (const glm::dvec3& p : positions) primitive.positions.push_back(glm::vec3(p));
+  const glm::dvec3 offset = node_offset(positions);
+  for (const glm::dvec3& p : positions) primitive.positions.push_back(glm::vec3(p - offset));
   primitive.indices = triangles;
   Model model;
   model.name = name;
@@ -460,6 +483,7 @@ Model make_model(const std::string& name, const std::vector<glm::dvec3>& positio
   model.meshes.push_back(std::move(mesh));
   Node node;
   node.name = name;
+  node.translation = offset;
   node.mesh = 0;
   model.nodes.push_back(node);
   model.scene_roots.push_back(0);

@@ -92,6 +92,11 @@ std::vector<glm::vec3> welded_normals(const FlatMesh& mesh, const std::vector<gl
 double float_rounded(double value);
 glm::dvec3 float_rounded(const glm::dvec3& p);
 
+// Where a node stands whose positions are written as floats: far from 0 these lose digits that the surface needs, so
+// the way there goes into the node's translation, which a file holds in double. 0 where nothing is lost, and where it
+// is little. Each coordinate is a float.
+glm::dvec3 node_offset(const std::vector<glm::dvec3>& positions);
+
 // Positions as the library takes them: x y z of every vertex.
 std::vector<float> float_positions(const std::vector<glm::dvec3>& positions);
 std::vector<double> double_positions(const std::vector<glm::dvec3>& positions);
@@ -118,6 +123,7 @@ void scatter(Model& model, const FlatMesh& mesh, const std::vector<glm::dvec3>& 
              const ScatterOptions& options = {});
 
 // A still model with the given world positions: the same primitives and looks, no skins, animations or morph targets.
+// Every node stands at the offset of the whole (node_offset).
 Model bake(const Model& model, const FlatMesh& mesh, const std::vector<glm::dvec3>& positions,
            const ScatterOptions& options = {});
 

@@ -134,9 +134,9 @@ void complete_axes(glm::dmat3& axes, const glm::dvec3& scale) {
 // matrix = T R S for an animated node. What a shear leaves over is lost, with a warning.
 void take_apart(Conversion& in, size_t n) {
   Node& node = in.model.nodes[n];
-  const glm::mat4 matrix = *node.matrix;
+  const glm::dmat4 matrix = *node.matrix;
   node.matrix.reset();
-  glm::dmat3 axes{glm::dmat4(matrix)};
+  glm::dmat3 axes(matrix);
   glm::dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
   if (glm::determinant(axes) < 0) scale.x = -scale.x;
   const std::string where = "nodes[" + std::to_string(n) + "]";
@@ -148,7 +148,7 @@ void take_apart(Conversion& in, size_t n) {
   for (int c = 0; c < 3; ++c) {
     if (std::abs(gram[c][(c + 1) % 3]) > 1e-3) in.warn(where + " is animated; the shear of its matrix is lost");
   }
-  node.translation = glm::vec3(matrix[3]);
+  node.translation = glm::dvec3(matrix[3]);
   node.rotation = glm::quat(glm::normalize(glm::quat_cast(axes)));
   node.scale = glm::vec3(scale);
 }

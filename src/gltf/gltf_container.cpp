@@ -2,6 +2,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "gltf/file_kind.h"
 #include "gltf/gltf_check.h"
 #include "gltf/json_file.h"
 
@@ -63,6 +64,8 @@ GltfContainer open_container(const std::vector<uint8_t>& bytes, const std::strin
     text_offset = 3;
     text_size -= 3;
   }
+  const FileKind kind = kind_of(bytes.data(), bytes.size(), bytes.size(), name);
+  if (kind != FileKind::gltf && kind != FileKind::unknown) throw std::runtime_error(not_gltf(name, kind));
   if (text_size > limits.max_json_bytes) {
     fail("the JSON has " + std::to_string(text_size) + " bytes, above the limit of " +
          std::to_string(limits.max_json_bytes));

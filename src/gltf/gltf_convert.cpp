@@ -71,9 +71,9 @@ class Converter {
     to.weights = to_floats(from.weights);
     const bool trs = !from.translation.empty() || !from.rotation.empty() || !from.scale.empty();
     if (from.matrix.size() == 16) {
-      glm::mat4 matrix(1);
+      glm::dmat4 matrix(1);
       for (int c = 0; c < 4; ++c) {
-        for (int r = 0; r < 4; ++r) matrix[c][r] = static_cast<float>(from.matrix[static_cast<size_t>(4 * c + r)]);
+        for (int r = 0; r < 4; ++r) matrix[c][r] = from.matrix[static_cast<size_t>(4 * c + r)];
       }
       if (matrix[0][3] != 0 || matrix[1][3] != 0 || matrix[2][3] != 0 || matrix[3][3] != 1) {
         in_.fail(where + ".matrix", "is not affine: its last row is not 0 0 0 1");
@@ -82,7 +82,7 @@ class Converter {
       if (trs) in_.warn(where + " has a matrix and TRS; the matrix counts");
       return;
     }
-    if (from.translation.size() == 3) to.translation = to_vec3(from.translation);
+    if (from.translation.size() == 3) to.translation = {from.translation[0], from.translation[1], from.translation[2]};
     if (from.scale.size() == 3) to.scale = to_vec3(from.scale);
     if (from.rotation.size() == 4) {
       const auto& r = from.rotation;
@@ -240,7 +240,7 @@ class Converter {
   void say_up() {
     for (const int root : in_.model.scene_roots) {
       const Node& node = in_.model.nodes[static_cast<size_t>(root)];
-      const glm::mat3 turn = node.matrix ? glm::mat3(*node.matrix) : glm::mat3_cast(node.rotation);
+      const glm::mat3 turn = node.matrix ? glm::mat3(glm::dmat3(*node.matrix)) : glm::mat3_cast(node.rotation);
       const float length = glm::length(turn[2]);
       // its z axis points up to a degree
       if (!(length > 0) || turn[2].y < 0.9998f * length) continue;

@@ -128,10 +128,10 @@ class ModelCheck {
       if (child < 0 || model_.nodes[static_cast<size_t>(child)].parent != n)
         fail(where, "has a child with another parent");
     }
-    finite(std::vector<glm::vec3>{node.translation, node.scale}, where);
+    finite(std::vector<glm::vec3>{glm::vec3(node.translation), node.scale}, where);
     if (!(std::abs(glm::length(node.rotation) - 1) < 0.01f)) fail(where, "has a rotation that is not of unit length");
     if (node.matrix) {
-      for (int c = 0; c < 4; ++c) finite(std::vector<glm::vec4>{(*node.matrix)[c]}, where + " (matrix)");
+      for (int c = 0; c < 4; ++c) finite(std::vector<glm::vec4>{glm::vec4((*node.matrix)[c])}, where + " (matrix)");
     }
     finite(node.weights, where + " (weights)");
     index(node.camera, model_.cameras.size(), where + "'s camera");

@@ -322,7 +322,7 @@ class Writer : AccessorWriter {
       }
       return to;
     }
-    if (from.translation != glm::vec3(0)) {
+    if (from.translation != glm::dvec3(0)) {
       to.translation = {from.translation.x, from.translation.y, from.translation.z};
     }
     const glm::dquat q = glm::normalize(glm::dquat(from.rotation));

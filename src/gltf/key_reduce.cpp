@@ -129,8 +129,9 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
   if (!(tolerance > 0)) return 0;
   const std::vector<double> reach = reach_of(model, mesh), times = key_times(animation);
   const std::vector<glm::dmat4> globals = global_matrices(model, rest_pose(model));
+  SurfacePoser surface(model, mesh);
   std::vector<std::vector<glm::dvec3>> wanted;
-  for (const double time : times) wanted.push_back(posed_positions(model, mesh, animation, time));
+  for (const double time : times) wanted.push_back(surface.at(animation, time));
   double squares = 0;  // of accelerations
   const auto squares_at = [&](const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b,
                              const std::vector<glm::dvec3>& c) {
@@ -160,7 +161,7 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
     double worst = 0;
     std::vector<glm::dvec3> before, last;
     for (size_t f = 0; f < times.size() && worst <= tolerance; ++f) {
-      std::vector<glm::dvec3> got = posed_positions(model, mesh, fresh, times[f]);
+      std::vector<glm::dvec3> got = surface.at(fresh, times[f]);
       for (size_t v = 0; v < got.size(); ++v)
         if (!mesh.loose[v]) worst = std::max(worst, glm::distance(got[v], wanted[f][v]));
       if (f > 1) got_squares += squares_at(before, last, got);

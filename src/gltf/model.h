@@ -47,10 +47,10 @@ struct Node {
   std::string name;
   int parent = -1;
   std::vector<int> children;
-  glm::vec3 translation{0, 0, 0};
-  glm::quat rotation{1, 0, 0, 0};  // w, x, y, z; unit length
+  glm::dvec3 translation{0, 0, 0};  // in double: places can lie far from 0
+  glm::quat rotation{1, 0, 0, 0};   // w, x, y, z; unit length
   glm::vec3 scale{1, 1, 1};
-  std::optional<glm::mat4> matrix;
+  std::optional<glm::dmat4> matrix;
   int mesh = -1;
   int skin = -1;               // its own transform is ignored then, as glTF says
   std::vector<float> weights;  // of the morph targets; empty: the mesh's

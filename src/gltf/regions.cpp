@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <queue>
 #include <stdexcept>
 
 #include "gltf/animate.h"
+#include "gltf/node_match.h"
 
 namespace hf_gltf {
 namespace {
@@ -103,20 +105,24 @@ RegionFinder::RegionFinder(const Model& model, const FlatMesh& mesh, const Axes&
   diagonal_ = SurfaceBox(mesh).diagonal();
 }
 
+// The one node of a name. The first of several would be a guess.
+int RegionFinder::node_of(const Selector& selector, const std::string& name) const {
+  const std::vector<int> nodes = nodes_named(model_, name);
+  if (nodes.size() == 1) return nodes.front();
+  if (nodes.empty()) {
+    std::vector<std::string> names;
+    for (const Skin& skin : model_.skins) {
+      for (const int joint : skin.joints) names.push_back(model_.nodes[static_cast<size_t>(joint)].name);
+    }
+    throw std::runtime_error(selector.where + ": " + model_.name + " has no joint \"" + name + "\"; it has " +
+                             listed(names, 60));
+  }
+  throw std::runtime_error(selector.where + ": " + model_.name + " has " + several_joints(name, nodes));
+}
+
 std::vector<uint32_t> RegionFinder::owned_by(const Selector& selector) const {
   std::vector<char> wanted(model_.nodes.size(), 0);
-  for (const std::string& name : selector.joints) {
-    const int node = find_node(model_, name);
-    if (node < 0) {
-      std::vector<std::string> names;
-      for (const Skin& skin : model_.skins) {
-        for (const int joint : skin.joints) names.push_back(model_.nodes[static_cast<size_t>(joint)].name);
-      }
-      throw std::runtime_error(selector.where + ": " + model_.name + " has no joint \"" + name + "\"; it has " +
-                               listed(names, 60));
-    }
-    wanted[static_cast<size_t>(node)] = 1;
-  }
+  for (const std::string& name : selector.joints) wanted[static_cast<size_t>(node_of(selector, name))] = 1;
   if (selector.with_children) {
     std::vector<int> open;
     for (size_t n = 0; n < wanted.size(); ++n) {
@@ -144,7 +150,7 @@ std::vector<uint32_t> RegionFinder::owned_by(const Selector& selector) const {
 
 glm::dvec3 RegionFinder::place_of(const Selector& selector) const {
   return selector.joints.empty() ? selector.position
-                                 : node_place_[static_cast<size_t>(find_node(model_, selector.joints.front()))];
+                                 : node_place_[static_cast<size_t>(node_of(selector, selector.joints.front()))];
 }
 
 // The vertex a ball grows from.
@@ -283,16 +289,21 @@ std::vector<std::string> RegionFinder::describe_joints() const {
   for (const Skin& skin : model_.skins) {
     for (const int joint : skin.joints) owned[static_cast<size_t>(joint)].is_joint = true;
   }
+  std::map<std::string, size_t> shown;  // how many lines have a name
+  for (size_t n = 0; n < owned.size(); ++n)
+    if (owned[n].count > 0 || owned[n].is_joint) ++shown[model_.nodes[n].name];
   std::vector<std::string> lines;
   for (size_t n = 0; n < model_.nodes.size(); ++n) {
     const auto& [low, high, count, is_joint] = owned[n];
     if (count == 0 && !is_joint) continue;
+    std::string name = model_.nodes[n].name;
+    if (shown[name] > 1) name += " (#" + std::to_string(n) + ")";
     char line[256];
     if (count > 0) {
-      std::snprintf(line, sizeof line, "%-24s %6zu vertices, x %.3f..%.3f y %.3f..%.3f z %.3f..%.3f",
-                    model_.nodes[n].name.c_str(), count, low.x, high.x, low.y, high.y, low.z, high.z);
+      std::snprintf(line, sizeof line, "%-24s %6zu vertices, x %.3f..%.3f y %.3f..%.3f z %.3f..%.3f", name.c_str(),
+                    count, low.x, high.x, low.y, high.y, low.z, high.z);
     } else {
-      std::snprintf(line, sizeof line, "%-24s      - at %.3f %.3f %.3f", model_.nodes[n].name.c_str(), node_place_[n].x,
+      std::snprintf(line, sizeof line, "%-24s      - at %.3f %.3f %.3f", name.c_str(), node_place_[n].x,
                     node_place_[n].y, node_place_[n].z);
     }
     lines.emplace_back(line);

@@ -55,7 +55,7 @@ class RegionFinder {
   // keep all their vertices. Returns the index of a region that is left empty, or -1.
   int separate(std::vector<Region>& regions, size_t first = 0) const;
 
-  // One line per joint: name, vertices owned, place.
+  // One line per joint: name, vertices owned, place. A name that several have is followed by the number of the node.
   std::vector<std::string> describe_joints() const;
   double diagonal() const { return diagonal_; }
   // Returns the joint (or mesh node) to which a vertex belongs; empty without a name.
@@ -64,6 +64,7 @@ class RegionFinder {
   bool is_joint(const std::string& name) const;
 
  private:
+  int node_of(const Selector& selector, const std::string& name) const;
   std::vector<uint32_t> owned_by(const Selector& selector) const;
   std::vector<uint32_t> ball(uint32_t seed, double radius) const;
   uint32_t seed_of(const Selector& selector, const std::vector<uint32_t>& owned) const;

@@ -92,7 +92,7 @@ double step_between(const std::vector<double>& from, const std::vector<double>& 
 struct Hold {
   size_t frame = 0;             // its first
   double count = 0, pause = 0;  // frames, and time to the next hold
-  Pose pose;
+  RigPose pose;
   std::vector<double> miss;  // x y z of every flat vertex: from its place in the frame to that in the pose
   double changed = std::numeric_limits<double>::infinity();  // by how much that changed last, at most
 };
@@ -201,7 +201,7 @@ struct RigFit::System {
 };
 
 RigFit::RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTie>& ties)
-    : model_(model), rest_(decomposed(rest_pose(model))), joint_of_node_(model.nodes.size(), -1) {
+    : model_(model), whole_rest_(decomposed(rest_pose(model))), joint_of_node_(model.nodes.size(), -1) {
   diagonal_ = SurfaceBox(mesh).diagonal();
   find_joints();
   if (joints_.empty())
@@ -210,6 +210,7 @@ RigFit::RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTi
     throw std::runtime_error(model.name + " has " + std::to_string(joints_.size()) + " joints, and at most " +
                              std::to_string(most_joints) + " can be fitted: take --as skin or --as morph");
   find_vertices(mesh), find_ties(mesh, ties);
+  keep_moving_nodes();
   Moments moments(slots_.size());
   for (const Row& row : vertices_) moments.add(row, row.weight);
   still_ = std::make_shared<const Moments>(moments);
@@ -242,7 +243,7 @@ void RigFit::find_joints() {
       }
     }
   }
-  const Pose& rest = rest_;
+  const Pose& rest = whole_rest_;
   std::vector<int> order;
   for (size_t n = 0; n < model_.nodes.size(); ++n)
     if (model_.nodes[n].parent < 0) order.push_back(static_cast<int>(n));
@@ -276,6 +277,38 @@ void RigFit::find_joints() {
     joint_of_node_[n] = static_cast<int>(joints_.size());
     joints_.push_back(joint);
   }
+}
+
+// The nodes of joints and slots, and all above them. Until here, joints and slots name nodes of the model.
+void RigFit::keep_moving_nodes() {
+  std::vector<int> movers, number(model_.nodes.size(), -1);
+  for (const Joint& joint : joints_) movers.push_back(joint.node);
+  for (const Slot& slot : slots_) movers.push_back(slot.node);
+  for (const int node : with_parents(model_, movers)) {
+    const int parent = model_.nodes[static_cast<size_t>(node)].parent;
+    number[static_cast<size_t>(node)] = static_cast<int>(nodes_.size());
+    nodes_.push_back({node, parent < 0 ? -1 : number[static_cast<size_t>(parent)]});
+    rest_.nodes.push_back(whole_rest_[static_cast<size_t>(node)]);
+  }
+  for (Joint& joint : joints_) joint.node = number[static_cast<size_t>(joint.node)];
+  for (Slot& slot : slots_) slot.node = number[static_cast<size_t>(slot.node)];
+}
+
+Pose RigFit::whole(const RigPose& pose) const {
+  Pose out = whole_rest_;
+  for (size_t n = 0; n < nodes_.size(); ++n) out[static_cast<size_t>(nodes_[n].of_model)] = pose.nodes[n];
+  return out;
+}
+
+std::vector<glm::dmat4> RigFit::globals_of(const RigPose& pose) const {
+  std::vector<glm::dmat4> out;
+  out.reserve(nodes_.size());
+  for (size_t n = 0; n < nodes_.size(); ++n) {
+    const glm::dmat4 local = local_matrix(pose.nodes[n]);
+    const int up = nodes_[n].parent;
+    out.push_back(up < 0 ? local : out[static_cast<size_t>(up)] * local);
+  }
+  return out;
 }
 
 // The slots: joints of skins, and nodes that carry a part without a skin.
@@ -360,12 +393,12 @@ std::vector<glm::dmat4x3> RigFit::slot_matrices(const std::vector<glm::dmat4>& g
   return out;
 }
 
-glm::dvec3 RigFit::turned(const Pose& pose, const Pose& from, const std::vector<glm::dmat4>& globals,
+glm::dvec3 RigFit::turned(const RigPose& pose, const RigPose& from, const std::vector<glm::dmat4>& globals,
                           const Joint& joint) const {
   const auto node = static_cast<size_t>(joint.node);
-  const int up = model_.nodes[node].parent;
+  const int up = nodes_[node].parent;
   const glm::dquat parent = up < 0 ? glm::dquat(1, 0, 0, 0) : rotation_of(globals[static_cast<size_t>(up)]);
-  return parent * rotation_vector(pose[node].rotation * glm::conjugate(from[node].rotation));
+  return parent * rotation_vector(pose.nodes[node].rotation * glm::conjugate(from.nodes[node].rotation));
 }
 
 // How deep a vertex lies under the ground, 0 or more.
@@ -376,9 +409,9 @@ double RigFit::depth(const Task& task, const std::vector<glm::dmat4x3>& at, size
   return std::max(out, 0.0);
 }
 
-double RigFit::energy(const Task& task, const Pose& pose) const {
+double RigFit::energy(const Task& task, const RigPose& pose) const {
   const Moments& moments = task.moments;
-  const std::vector<glm::dmat4> globals = global_matrices(model_, pose);
+  const std::vector<glm::dmat4> globals = globals_of(pose);
   const std::vector<glm::dmat4x3> at = slot_matrices(globals, task.centre);
   double out = moments.squares();
   for (const Moments::Pair& pair : moments.pairs()) {
@@ -438,11 +471,11 @@ void RigFit::add_ground(const Task& task, const std::vector<glm::dmat4>& globals
 }
 
 // The normal equations: sums over the tree of the moments.
-RigFit::System RigFit::system(const Task& task, const Pose& pose) const {
+RigFit::System RigFit::system(const Task& task, const RigPose& pose) const {
   const Moments& moments = task.moments;
   const glm::dvec3& centre = task.centre;
-  const Pose* middle = task.middle;
-  const std::vector<glm::dmat4> globals = global_matrices(model_, pose);
+  const RigPose* middle = task.middle;
+  const std::vector<glm::dmat4> globals = globals_of(pose);
   const std::vector<glm::dmat4x3> at = slot_matrices(globals, centre);
   const size_t count = joints_.size(), n = unknowns_;
   struct Block {
@@ -528,28 +561,29 @@ RigFit::System RigFit::system(const Task& task, const Pose& pose) const {
 }
 
 // A step of the pose; turns of more than 0.7 radians are cut.
-Pose RigFit::stepped(const Pose& pose, const std::vector<double>& step) const {
-  const std::vector<glm::dmat4> globals = global_matrices(model_, pose);
-  Pose out = pose;
+RigPose RigFit::stepped(const RigPose& pose, const std::vector<double>& step) const {
+  const std::vector<glm::dmat4> globals = globals_of(pose);
+  RigPose out = pose;
   for (const Joint& joint : joints_) {
     const auto node = static_cast<size_t>(joint.node);
-    const int up = model_.nodes[node].parent;
+    const int up = nodes_[node].parent;
     const glm::dmat4 above = up < 0 ? glm::dmat4(1) : globals[static_cast<size_t>(up)];
     const glm::dquat parent = rotation_of(above);
     const auto r = static_cast<size_t>(joint.rotation);
     glm::dvec3 turn(step[r], step[r + 1], step[r + 2]);
     if (glm::length(turn) > most_turn) turn *= most_turn / glm::length(turn);
-    out[node].rotation = glm::normalize(glm::conjugate(parent) * exponential(turn) * parent * pose[node].rotation);
+    out.nodes[node].rotation =
+        glm::normalize(glm::conjugate(parent) * exponential(turn) * parent * pose.nodes[node].rotation);
     if (joint.translation < 0) continue;
     const auto t = static_cast<size_t>(joint.translation);
-    out[node].translation += glm::inverse(glm::dmat3(above)) * glm::dvec3(step[t], step[t + 1], step[t + 2]);
+    out.nodes[node].translation += glm::inverse(glm::dmat3(above)) * glm::dvec3(step[t], step[t + 1], step[t + 2]);
   }
   return out;
 }
 
-Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, const std::vector<double>& firm,
-                 const Beside& beside, const RigGround* ground, size_t number) const {
-  const Pose* middle = beside.middle;
+RigPose RigFit::fit(const std::vector<double>& frame, const RigPose& start, const std::vector<double>& firm,
+                    const Beside& beside, const RigGround* ground, size_t number) const {
+  const RigPose* middle = beside.middle;
   const auto place = [&](uint32_t v) { return place_of(frame, v); };
   // places count from the middle, so that sums keep their digits far from the origin
   glm::dvec3 centre(0);
@@ -581,7 +615,7 @@ Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, const std:
                      beside.rest * stiffness_,
                      beside.rest * evenness_,
                      beside.firm * ground_weight};
-  Pose pose = decomposed(start);
+  RigPose pose = start;
   double now = energy(task, pose), damping = first_damping;
   const size_t n = unknowns_;
   for (int round = 0; round < most_steps; ++round) {
@@ -596,7 +630,7 @@ Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, const std:
         for (int c = 0; c < 3; ++c)
           matrix[static_cast<size_t>(joint.rotation + c) * (n + 1)] += task.stiffness + (middle ? task.evenness : 0);
       solve(matrix, step);
-      Pose next = stepped(pose, step);
+      RigPose next = stepped(pose, step);
       const double then = energy(task, next);
       if (then < now)
         pose = std::move(next), now = then, damping = std::max(damping * less_damping, least_damping);
@@ -609,8 +643,8 @@ Pose RigFit::fit(const std::vector<double>& frame, const Pose& start, const std:
 }
 
 // How far the vertices of a pose lie from those of a frame.
-std::vector<double> RigFit::missed(const Pose& pose, const std::vector<double>& frame) const {
-  const std::vector<glm::dmat4x3> at = slot_matrices(global_matrices(model_, pose), glm::dvec3(0));
+std::vector<double> RigFit::missed(const RigPose& pose, const std::vector<double>& frame) const {
+  const std::vector<glm::dmat4x3> at = slot_matrices(globals_of(pose), glm::dvec3(0));
   std::vector<double> out;
   out.reserve(frame.size());
   for (size_t v = 0; v < vertices_.size(); ++v) {
@@ -621,12 +655,12 @@ std::vector<double> RigFit::missed(const Pose& pose, const std::vector<double>& 
   return out;
 }
 
-std::vector<Pose> RigFit::fit_all(const std::vector<double>& times, const std::vector<std::vector<double>>& frames,
-                                  const std::function<std::vector<double>(size_t)>& firm,
-                                  const RigGround* ground) const {
+std::vector<RigPose> RigFit::fit_all(const std::vector<double>& times, const std::vector<std::vector<double>>& frames,
+                                     const std::function<std::vector<double>(size_t)>& firm,
+                                     const RigGround* ground) const {
   Holds holds = holds_of(times, frames, hold_step * diagonal_);
   const size_t count = holds.all.size();
-  const auto meet = [&](Hold& hold, const Pose& start, const Beside& beside) {
+  const auto meet = [&](Hold& hold, const RigPose& start, const Beside& beside) {
     hold.pose = fit(frames[hold.frame], start, firm(hold.frame), beside, ground, hold.frame);
     const std::vector<double> before = std::move(hold.miss);
     hold.miss = missed(hold.pose, frames[hold.frame]);
@@ -653,37 +687,37 @@ std::vector<Pose> RigFit::fit_all(const std::vector<double>& times, const std::v
       for (const Hold* beside : {left, right})
         for (size_t i = 0; beside && i < moved.size(); ++i) moved[i] += pull * beside->miss[i];
       const double share = left && right ? left->pause / std::max(left->pause + hold.pause, 1e-300) : 0.5;
-      const Pose &first = (left ? left : right)->pose, &last = (right ? right : left)->pose;
-      Pose middle = hold.pose;
+      const RigPose &first = (left ? left : right)->pose, &last = (right ? right : left)->pose;
+      RigPose middle = hold.pose;
       for (const Joint& joint : joints_) {
         const auto node = static_cast<size_t>(joint.node);
-        middle[node].rotation = glm::slerp(first[node].rotation, last[node].rotation, share);
+        middle.nodes[node].rotation = glm::slerp(first.nodes[node].rotation, last.nodes[node].rotation, share);
       }
       meet(hold, hold.pose, {&middle, &moved, own, (1 + 2 * keep_miss) * own});
     }
   }
-  std::vector<Pose> out;
+  std::vector<RigPose> out;
   for (const size_t hold : holds.of_frame) out.push_back(holds.all[hold].pose);
   return out;
 }
 
 Animation RigFit::clip(const std::string& name, const std::vector<double>& times,
-                       const std::vector<Pose>& poses) const {
+                       const std::vector<RigPose>& poses) const {
   Animation out;
   out.name = name;
   for (const Joint& joint : joints_) {
     const auto node = static_cast<size_t>(joint.node);
     Channel rotation, translation;
-    rotation.node = translation.node = joint.node;
+    rotation.node = translation.node = nodes_[node].of_model;
     rotation.path = Path::rotation, rotation.width = 4;
     rotation.times.assign(times.begin(), times.end()), translation.times = rotation.times;
     glm::dquat before(1, 0, 0, 0);
-    for (const Pose& pose : poses) {
-      glm::dquat q = pose[node].rotation;
+    for (const RigPose& pose : poses) {
+      glm::dquat q = pose.nodes[node].rotation;
       if (glm::dot(q, before) < 0) q = -q;
       before = q;
       for (const double value : {q.x, q.y, q.z, q.w}) rotation.values.push_back(static_cast<float>(value));
-      for (int c = 0; c < 3; ++c) translation.values.push_back(static_cast<float>(pose[node].translation[c]));
+      for (int c = 0; c < 3; ++c) translation.values.push_back(static_cast<float>(pose.nodes[node].translation[c]));
     }
     out.channels.push_back(std::move(rotation));
     if (joint.translation >= 0) out.channels.push_back(std::move(translation));

@@ -41,6 +41,11 @@ struct RigGround {
   std::vector<uint8_t> sinking;  // by flat vertex: 1 if it may sink; empty: none may
 };
 
+// A pose of the nodes that move vertices, and of those above them. Others move nothing, and there can be many.
+struct RigPose {
+  Pose nodes;
+};
+
 class RigFit {
  public:
   // Throws std::runtime_error when no mesh of the model has a skin, or when its skins have too many joints.
@@ -48,33 +53,37 @@ class RigFit {
 
   // What a frame asks of a pose beside its own places.
   struct Beside {
-    const Pose* middle = nullptr;                // turns that the frame leaves open follow it
+    const RigPose* middle = nullptr;             // turns that the frame leaves open follow it
     const std::vector<double>* moved = nullptr;  // x y z of every flat vertex that is not met firmly, instead
     double rest = 1, firm = 1;  // factors of weights: of rest pose, middle and ties, and of feet and ground
   };
+  // The model at rest.
+  const RigPose& rest() const { return rest_; }
+  // The pose of every node of the model.
+  Pose whole(const RigPose& pose) const;
   // Finds the pose of a frame, starting from `start`. frame: x y z of every flat vertex. firm: empty, or 0 to 1 for
   // every flat vertex. At 1 the vertex is met as exactly as a foot that stands. ground: NULL, or the ground;
   // heights[number] counts.
-  Pose fit(const std::vector<double>& frame, const Pose& start, const std::vector<double>& firm, const Beside& beside,
-           const RigGround* ground = nullptr, size_t number = 0) const;
+  RigPose fit(const std::vector<double>& frame, const RigPose& start, const std::vector<double>& firm,
+              const Beside& beside, const RigGround* ground = nullptr, size_t number = 0) const;
   // The poses of frames, each from the one before, then from those beside it. Frames beside each other that are alike
   // get one pose, and so do the first and the last of a loop. firm: of a frame's number.
-  std::vector<Pose> fit_all(const std::vector<double>& times, const std::vector<std::vector<double>>& frames,
-                            const std::function<std::vector<double>(size_t)>& firm,
-                            const RigGround* ground = nullptr) const;
+  std::vector<RigPose> fit_all(const std::vector<double>& times, const std::vector<std::vector<double>>& frames,
+                               const std::function<std::vector<double>(size_t)>& firm,
+                               const RigGround* ground = nullptr) const;
   // Returns a copy of the given model whose only clip has the poses at the times.
-  Animation clip(const std::string& name, const std::vector<double>& times, const std::vector<Pose>& poses) const;
+  Animation clip(const std::string& name, const std::vector<double>& times, const std::vector<RigPose>& poses) const;
 
   size_t turning() const { return joints_.size(); }
   size_t shifting() const { return shifting_; }
 
  private:
   struct Joint {
-    int node = -1, parent = -1;           // parent: in joints_, -1 at the top
+    int node = -1, parent = -1;           // node: in nodes_; parent: in joints_, -1 at the top
     int rotation = -1, translation = -1;  // first unknown
   };
   struct Slot {                 // what moves vertices: a joint of a skin, or a node
-    int node = -1, joint = -1;  // joint: in joints_, the lowest that may move; -1 when none above does
+    int node = -1, joint = -1;  // node: in nodes_; joint: in joints_, the lowest that may move; -1 when none above does
     glm::dmat4 bind{1};
   };
   struct Term {
@@ -95,27 +104,33 @@ class RigFit {
   struct Task {  // what a frame asks of a pose
     const Moments& moments;
     glm::dvec3 centre;
-    const Pose* middle;
+    const RigPose* middle;
     const RigGround* ground;
     double floor;                         // height of the ground over the centre
     double stiffness, evenness, lifting;  // weights of the rest pose, of the middle and of the ground
   };
-  void find_joints(), find_vertices(const FlatMesh& mesh);
+  struct Kept {
+    int of_model = -1, parent = -1;  // parent: in nodes_, -1 at the top
+  };
+  void find_joints(), find_vertices(const FlatMesh&mesh), keep_moving_nodes();
   void find_ties(const FlatMesh& mesh, const std::vector<RigTie>& ties);
   size_t slot_of(int node, const glm::dmat4& bind, int key);
   std::vector<glm::dmat4x3> slot_matrices(const std::vector<glm::dmat4>& globals, const glm::dvec3& centre) const;
-  glm::dvec3 turned(const Pose& pose, const Pose& from, const std::vector<glm::dmat4>& globals,
+  std::vector<glm::dmat4> globals_of(const RigPose& pose) const;
+  glm::dvec3 turned(const RigPose& pose, const RigPose& from, const std::vector<glm::dmat4>& globals,
                     const Joint& joint) const;
   double depth(const Task& task, const std::vector<glm::dmat4x3>& at, size_t vertex) const;
-  double energy(const Task& task, const Pose& pose) const;
-  System system(const Task& task, const Pose& pose) const;
+  double energy(const Task& task, const RigPose& pose) const;
+  System system(const Task& task, const RigPose& pose) const;
   void add_ground(const Task& task, const std::vector<glm::dmat4>& globals, const std::vector<glm::dmat4x3>& at,
                   System& to) const;
-  Pose stepped(const Pose& pose, const std::vector<double>& step) const;
-  std::vector<double> missed(const Pose& pose, const std::vector<double>& frame) const;
+  RigPose stepped(const RigPose& pose, const std::vector<double>& step) const;
+  std::vector<double> missed(const RigPose& pose, const std::vector<double>& frame) const;
 
   const Model& model_;
-  Pose rest_;
+  Pose whole_rest_;          // of every node of the model
+  std::vector<Kept> nodes_;  // those of RigPose, parents first
+  RigPose rest_;
   std::vector<Joint> joints_;
   std::vector<int> joint_of_node_;
   std::vector<Slot> slots_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <stdexcept>
 
 #include "gltf/animate.h"
@@ -131,10 +133,12 @@ void add_mesh(const FlatMesh& mesh, const SkinDescription& skin, Model& out) {
   out.meshes.push_back(std::move(all));
 }
 
-void add_joints(const SkinDescription& skin, Model& out) {
+// offset: where the root stands, so that positions and joints are small numbers below it.
+void add_joints(const SkinDescription& skin, const glm::dvec3& offset, Model& out) {
   out.nodes.clear();
   Node root;
   root.name = "root";
+  root.translation = offset;
   Node body;
   body.name = "body";
   body.mesh = 0;
@@ -148,12 +152,13 @@ void add_joints(const SkinDescription& skin, Model& out) {
     joint.name = skin.joints[j].name.empty() ? "joint_" + std::to_string(j) : skin.joints[j].name;
     joint.parent = 0;
     // the pivot as the file holds it, so that node and inverse bind matrix cancel exactly at rest
-    joint.translation = glm::vec3(skin.joints[j].pivot);
+    const glm::vec3 pivot(skin.joints[j].pivot - offset);
+    joint.translation = glm::dvec3(pivot);
     const int number = static_cast<int>(out.nodes.size());
     out.nodes[0].children.push_back(number);
     to.joints.push_back(number);
     glm::mat4 inverse_bind(1);
-    inverse_bind[3] = glm::vec4(-joint.translation, 1);
+    inverse_bind[3] = glm::vec4(-pivot, 1);
     if (skin.joints[j].axes != glm::dquat(1, 0, 0, 0)) {
       joint.rotation = glm::quat(glm::normalize(skin.joints[j].axes));
       inverse_bind = glm::mat4_cast(glm::conjugate(joint.rotation)) * inverse_bind;
@@ -166,7 +171,7 @@ void add_joints(const SkinDescription& skin, Model& out) {
   out.skins = {to};
 }
 
-Animation make_clip(const SkinDescription& skin, const SkinClip& clip) {
+Animation make_clip(const SkinDescription& skin, const glm::dvec3& offset, const SkinClip& clip) {
   Animation animation;
   animation.name = clip.name;
   const size_t joints = skin.joints.size();
@@ -179,11 +184,11 @@ Animation make_clip(const SkinDescription& skin, const SkinClip& clip) {
     scale.path = Path::scale;
     rotation.times = translation.times = scale.times = times;
     const glm::dquat axes = glm::normalize(skin.joints[j].axes);
-    const glm::dvec3 pivot = float_rounded(skin.joints[j].pivot);
+    const glm::dvec3 pivot = float_rounded(skin.joints[j].pivot - offset) + offset;
     glm::dquat before(1, 0, 0, 0);
     for (size_t f = 0; f < times.size(); ++f) {
       glm::dquat q = glm::normalize(clip.rotations[f * joints + j]);
-      const glm::dvec3 t = q * pivot + clip.translations[f * joints + j];
+      const glm::dvec3 t = q * pivot + clip.translations[f * joints + j] - offset;
       q = glm::normalize(q * axes);
       if (glm::dot(q, before) < 0) q = -q;
       before = q;
@@ -205,9 +210,10 @@ Model skin_model(const Model& source, const FlatMesh& mesh, const SkinDescriptio
   check(mesh, skin);
   if (mesh.positions.empty()) fail("the surface is empty");
   Model out = bake(source, mesh, mesh.positions);
+  const glm::dvec3 offset = out.nodes.front().translation;
   add_mesh(mesh, skin, out);
-  add_joints(skin, out);
-  for (const SkinClip& clip : skin.clips) out.animations.push_back(make_clip(skin, clip));
+  add_joints(skin, offset, out);
+  for (const SkinClip& clip : skin.clips) out.animations.push_back(make_clip(skin, offset, clip));
   return out;
 }
 
@@ -218,15 +224,19 @@ void keep_carried(const Model& from, Model& out) {
     out.scenes = {from.scenes[from.shown_scene]}, out.shown_scene = 0;
   }
   const std::vector<glm::dmat4> globals = global_matrices(from, rest_pose(from));
+  std::map<std::string, size_t> given;  // how many nodes of a name, with a mesh, have come
   for (size_t n = 0; n < from.nodes.size(); ++n) {
     const Node& node = from.nodes[n];
+    const size_t number = node.mesh >= 0 ? given[node.name]++ : 0;
     const bool carries = node.camera >= 0 || !node.carried.extras.empty() || !node.carried.extensions.empty();
     int top = static_cast<int>(n);
     while (from.nodes[static_cast<size_t>(top)].parent >= 0) top = from.nodes[static_cast<size_t>(top)].parent;
     if (!carries || std::find(from.scene_roots.begin(), from.scene_roots.end(), top) == from.scene_roots.end())
       continue;
+    size_t before = 0;
     const auto own = std::find_if(out.nodes.begin(), out.nodes.end(), [&](const Node& other) {
-      return node.mesh >= 0 && other.mesh >= 0 && other.skin < 0 && other.name == node.name;
+      const bool same = node.mesh >= 0 && other.mesh >= 0 && other.skin < 0 && other.name == node.name;
+      return same && before++ == number;
     });
     if (own != out.nodes.end()) {
       own->carried = node.carried;
@@ -234,7 +244,7 @@ void keep_carried(const Model& from, Model& out) {
     }
     Node kept;
     kept.name = node.name, kept.camera = node.camera, kept.carried = node.carried;
-    kept.matrix = glm::mat4(globals[n]);
+    kept.matrix = globals[n];
     split_matrix(kept);
     out.scene_roots.push_back(static_cast<int>(out.nodes.size()));
     out.nodes.push_back(std::move(kept));
@@ -255,8 +265,11 @@ void keep_shapes(const Model& from, const FlatMesh& mesh, Model& out) {
   std::vector<std::vector<size_t>> numbers;
   for (const FlatPart& part : mesh.parts) {
     const MeshData& own = from.meshes[static_cast<size_t>(part.mesh)];
+    std::set<std::string> of_mesh;
     for (size_t k = 0; k < own.primitives.front().targets.size(); ++k) {
-      const std::string name = k < own.target_names.size() ? own.target_names[k] : "shape " + std::to_string(k);
+      const std::string given = k < own.target_names.size() ? own.target_names[k] : "shape " + std::to_string(k);
+      std::string name = given;  // two shapes of one mesh are two, whatever their names
+      for (int copy = 2; !of_mesh.insert(name).second; ++copy) name = given + " (" + std::to_string(copy) + ")";
       const auto at = static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
       if (at == names.size()) names.push_back(name), nodes.emplace_back(), numbers.emplace_back();
       if (std::find(nodes[at].begin(), nodes[at].end(), part.node) != nodes[at].end()) continue;

@@ -14,10 +14,10 @@
 enum { ROWS = 5, VERTICES = 2 * ROWS, TRIANGLES = 2 * (ROWS - 1), FRAMES = 5 };
 
 static hf_gltf_model strip(void) {
-  static float positions[3 * VERTICES];
+  static double positions[3 * VERTICES];
   static uint32_t triangles[3 * TRIANGLES];
   for (uint32_t r = 0; r < ROWS; ++r)
-    for (uint32_t s = 0; s < 2; ++s) positions[3 * (2 * r + s)] = (float)s, positions[3 * (2 * r + s) + 1] = (float)r;
+    for (uint32_t s = 0; s < 2; ++s) positions[3 * (2 * r + s)] = s, positions[3 * (2 * r + s) + 1] = r;
   for (uint32_t r = 0; r + 1 < ROWS; ++r) {
     const uint32_t a = 2 * r, corners[6] = {a, a + 1, a + 2, a + 2, a + 1, a + 3};
     memcpy(triangles + 6 * r, corners, sizeof corners);
@@ -28,6 +28,39 @@ static hf_gltf_model strip(void) {
   hf_gltf_model model;
   assert_int_equal(hf_gltf_model_create(&desc, &model), HF_OK);
   return model;
+}
+
+/* The strip on the earth: a file holds floats, which round by 0.25 there, so a node has the place. */
+static void a_mesh_far_from_0_keeps_its_digits(void** state) {
+  (void)state;
+  static const double at[3] = {-2487001.29, -4684680.17, 3529644.7};
+  double positions[3 * VERTICES], got[3 * VERTICES];
+  uint32_t triangles[3 * (VERTICES - 2)];
+  for (uint32_t v = 0; v < VERTICES; ++v)
+    for (uint32_t c = 0; c < 3; ++c) positions[3 * v + c] = at[c] + sin(1.7 * (v + 1) * (c + 1));
+  for (uint32_t t = 0; t < VERTICES - 2; ++t)
+    for (uint32_t c = 0; c < 3; ++c) triangles[3 * t + c] = t + c;
+  hf_gltf_mesh_desc desc = HF_INIT(hf_gltf_mesh_desc);
+  desc.vertex_count = VERTICES, desc.triangle_count = VERTICES - 2;
+  desc.positions = positions, desc.triangles = triangles;
+  hf_gltf_model model, again;
+  assert_int_equal(hf_gltf_model_create(&desc, &model), HF_OK);
+  uint64_t count;
+  assert_int_equal(hf_gltf_model_write(model, HF_GLTF_GLB, 0, NULL, &count), HF_OK);
+  void* bytes = malloc((size_t)count);
+  assert_int_equal(hf_gltf_model_write(model, HF_GLTF_GLB, count, bytes, &count), HF_OK);
+  hf_gltf_read_desc read = HF_INIT(hf_gltf_read_desc);
+  read.bytes = bytes, read.byte_count = count;
+  assert_int_equal(hf_gltf_model_read(&read, &again), HF_OK);
+  hf_gltf_surface surface = HF_INIT(hf_gltf_surface);
+  surface.positions = got;
+  assert_int_equal(hf_gltf_model_get_surface(again, &surface), HF_OK);
+  for (uint32_t i = 0; i < 3 * VERTICES; ++i) assert_true(fabs(got[i] - positions[i]) < 1e-6);
+  free(bytes);
+  hf_gltf_model_destroy(again), hf_gltf_model_destroy(model);
+  positions[4] = 1e40; /* no file can hold it */
+  assert_int_equal(hf_gltf_model_create(&desc, &model), HF_ERROR_NON_FINITE);
+  assert_null(model);
 }
 
 /* The upper half of the strip turns about its middle row, by a right angle in a second. */
@@ -326,6 +359,7 @@ static void moved_vertices_stay_in_the_file(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(a_mesh_gives_its_surface_back),
+                                     cmocka_unit_test(a_mesh_far_from_0_keeps_its_digits),
                                      cmocka_unit_test(a_written_clip_plays_as_it_was_given),
                                      cmocka_unit_test(keys_between_straight_ones_are_left_out),
                                      cmocka_unit_test(a_skin_follows_frames),

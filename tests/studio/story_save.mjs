@@ -1,6 +1,8 @@
 // Save: every glb has no error in the Khronos validator, and opens again as it was.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
+import { meshFile } from '../../samples/studio/src/mesh_save.js';
+import { readMesh } from '../../samples/studio/src/mesh_files.js';
 import { Studio, check, require } from './harness.mjs';
 
 async function validated(path) {
@@ -25,7 +27,34 @@ function floats({ json, bytes, start }, number) {
   );
 }
 
+/** A sheet of triangles, as the text of an obj. */
+function sheetObj(side) {
+  const lines = [];
+  for (let y = 0; y <= side; ++y) for (let x = 0; x <= side; ++x) lines.push(`v ${x / side} ${0.1 * Math.sin(x)} ${y / side}`);
+  for (let y = 0; y < side; ++y)
+    for (let x = 0; x < side; ++x) {
+      const a = y * (side + 1) + x + 1;
+      lines.push(`f ${a} ${a + side + 1} ${a + 1}`, `f ${a + 1} ${a + side + 1} ${a + side + 2}`);
+    }
+  return `${lines.join('\n')}\n`;
+}
+
 export default async function story(host) {
+  await check('obj, off and ply are written so that they read back bit for bit, strips are read too', async () => {
+    const positions = Float32Array.from([0, 0, 0, 1, 0, 0.5, 0, 1.1, 0, 1e-9, 2, -3]);
+    const triangles = Uint32Array.from([0, 1, 2, 2, 1, 3]);
+    for (const format of ['obj', 'off', 'ply']) {
+      const data = meshFile(format, positions, triangles);
+      const back = readMesh(typeof data === 'string' ? new TextEncoder().encode(data) : data, `a.${format}`);
+      assert.deepEqual([back.positions, back.triangles], [positions, triangles], format);
+    }
+    const strips =
+      'ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n' +
+      'property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 2 0\n8 0 1 2 3 -1 1 4 3\n';
+    const read = readMesh(new TextEncoder().encode(strips), 'strips.ply');
+    assert.deepEqual([...read.triangles], [0, 1, 2, 1, 3, 2, 1, 4, 3]);
+    return '3 formats';
+  });
   const studio = await Studio.open(host);
   const { page } = studio;
   const box = await page.locator('.mark.pulse').boundingBox();
@@ -67,6 +96,16 @@ export default async function story(host) {
     const worst = posed.reduce((most, x, i) => Math.max(most, Math.abs(x - after[1][i])), 0);
     assert.ok(worst < 1e-5 * after[2], `a place differs by ${worst}`);
     return `largest difference ${(worst / after[2]).toExponential(1)} of the body`;
+  });
+  await check('a body that came as an obj is saved as an obj, with its vertices in their order', async () => {
+    const text = sheetObj(12);
+    await page.setInputFiles('#file', { name: 'sheet.obj', mimeType: 'text/plain', buffer: Buffer.from(text) });
+    await page.waitForFunction(() => window.hfStudio.body.name === 'sheet.obj' && window.hfStudio.skin.bvh);
+    const back = readMesh(readFileSync(await studio.save('save-mesh')), 'back.obj');
+    const given = readMesh(Buffer.from(text), 'given.obj');
+    assert.deepEqual(back.triangles, given.triangles);
+    assert.deepEqual(back.positions, await page.evaluate(() => Array.from(window.hfStudio.shape.positions)).then((x) => Float32Array.from(x)));
+    return `${given.positions.length / 3} vertices`;
   });
   await check('the rig by handles is valid, and its clip ends in the pose', async () => {
     await page.selectOption('#sample', 'horse');

@@ -1,4 +1,4 @@
-// Reader of ply files, as scanners write them: text or binary, vertices with any properties, faces as lists.
+// Reader of ply files, as scanners write them: text or binary, vertices with any properties, faces as lists or strips.
 import { ModelError } from './model_error.js';
 
 const kinds = {
@@ -60,6 +60,16 @@ function numbersOf(bytes, header) {
   };
 }
 
+/** Strips of triangles: -1 begins a new one, and every second triangle is turned round. */
+function addStrips(list, corners) {
+  let start = 0;
+  list.forEach((v, k) => {
+    if (v === -1) start = k + 1;
+    else if (k >= start + 2)
+      corners.push(list[k - 2], ...((k - start) % 2 ? [v, list[k - 1]] : [list[k - 1], v]));
+  });
+}
+
 export function readPly(bytes, name) {
   const header = headerOf(bytes, name);
   const next = numbersOf(bytes, header);
@@ -84,11 +94,13 @@ export function readPly(bytes, name) {
         if (!(size >= 0)) throw new ModelError(`${name} ends within its data.`);
         list.length = 0;
         for (let k = 0; k < size; ++k) list.push(next(kind));
-        if (element.name !== 'face' || !/^vertex_ind/.test(property)) return;
+        const strips = element.name === 'tristrips';
+        if (!(strips || element.name === 'face') || !/^vertex_ind/.test(property)) return;
         for (const v of list)
-          if (!(v >= 0 && 3 * v < (positions?.length ?? 0)))
+          if (!(strips && v === -1) && !(v >= 0 && 3 * v < (positions?.length ?? 0)))
             throw new ModelError(`A face of ${name} names vertex ${v}; there are ${(positions?.length ?? 0) / 3}.`);
-        for (let k = 2; k < size; ++k) corners.push(list[0], list[k - 1], list[k]);
+        if (strips) addStrips(list, corners);
+        else for (let k = 2; k < size; ++k) corners.push(list[0], list[k - 1], list[k]);
       });
   }
   if (!positions?.length) throw new ModelError(`${name} holds no vertices.`);

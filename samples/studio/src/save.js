@@ -1,6 +1,7 @@
 // What the user takes away: a glb with the new shape, a glb rigged by the handles, quads, weights, a picture.
 import { Matrix3, Matrix4, Vector3 } from 'three';
 import { localsOf } from './timeline.js';
+import { meshFile, meshFormat } from './mesh_save.js';
 import { readModel, writeGlb } from './model.js';
 import { button, card, download, make, say } from './ui.js';
 
@@ -230,7 +231,17 @@ export function saveMenu(app) {
   const name = stem(app.body.name);
   const glb = 'model/gltf-binary';
   const { weights, quads, transfer } = app.tools;
+  const format = meshFormat(app.body.name);
+  const ownFormat = [
+    `Shape (${format})`,
+    'the posed shape as the kind of file it came in, in triangles',
+    async () =>
+      download(meshFile(format, app.shape.positions, app.body.triangles), `${name}_posed.${format}`, format === 'ply' ? 'model/ply' : 'text/plain'),
+    true,
+    'save-mesh',
+  ];
   const choices = [
+    ...(format ? [ownFormat] : []),
     [
       'Shape (glb)',
       'the posed shape; materials, skin and clips of the file stay',

@@ -272,6 +272,24 @@ TEST(Limits, let_sound_meshes_through_by_the_size_that_triangles_give_them) {
   EXPECT_EQ(faces.work_limit_gflop, 162u);
 }
 
+// A surface of many holes makes many whole numbers. The sizes are those of a cheese of genus 133 that takes 650 MiB.
+TEST(Limits, of_quads_know_the_genus_and_stay_bounded) {
+  const auto memory = [](uint32_t vertices, uint32_t triangles, bool quads) {
+    auto desc = hf_surface_desc();
+    desc.vertex_count = vertices, desc.triangle_count = triangles;
+    if (quads) {
+      limit_quads(desc, 0);
+    } else {
+      limit_surface(desc);
+    }
+    return desc.memory_limit_mb;
+  };
+  EXPECT_EQ(memory(10000, 19996, true), memory(10000, 19996, false));  // a sphere
+  EXPECT_EQ(memory(10000, 15000, true), memory(10000, 15000, false));  // one with a border
+  EXPECT_GT(memory(8629, 17786, true), 700u);
+  EXPECT_LE(memory(30000, 200000, true), 3 * memory(30000, 200000, false));  // triangles at random
+}
+
 TEST(FieldProgram, is_finite_with_every_kind_of_field_on_every_mesh) {
   TemporaryFolder folder;
   std::string list;

@@ -22,9 +22,9 @@ TEST(TransferWritten, AFitThatStartsAtItsResultStaysThere) {
   std::vector<double> frame;
   for (const glm::dvec3& p : posed_positions(horse, mesh, horse.animations[0], 0.3))
     for (const double x : {-p.x, p.y > 1 ? -p.y : -1.5 * p.y, p.z}) frame.push_back(x);
-  const Pose once = rig.fit(frame, rest_pose(horse), {}, {}), again = rig.fit(frame, once, {}, {});
-  const auto miss = [&](const Pose& pose) {
-    const std::vector<glm::dvec3> got = posed_positions(horse, mesh, pose);
+  const RigPose once = rig.fit(frame, rig.rest(), {}, {}), again = rig.fit(frame, once, {}, {});
+  const auto miss = [&](const RigPose& pose) {
+    const std::vector<glm::dvec3> got = posed_positions(horse, mesh, rig.whole(pose));
     double sum = 0;
     for (size_t v = 0; v < got.size(); ++v)
       sum += std::pow(glm::distance(got[v], {frame[3 * v], frame[3 * v + 1], frame[3 * v + 2]}), 2);
@@ -80,10 +80,10 @@ TEST(TransferWritten, ASomersaultIsMet) {
       for (int c = 0; c < 3; ++c) frames.back().push_back(q[c]);
     }
   }
-  const std::vector<Pose> poses = rig.fit_all(times, frames, [](size_t) { return std::vector<double>(); });
+  const std::vector<RigPose> poses = rig.fit_all(times, frames, [](size_t) { return std::vector<double>(); });
   double worst = 0;
   for (size_t f = 0; f < frames.size(); ++f) {
-    const std::vector<glm::dvec3> got = posed_positions(horse, mesh, poses[f]);
+    const std::vector<glm::dvec3> got = posed_positions(horse, mesh, rig.whole(poses[f]));
     for (size_t v = 0; v < got.size(); ++v)
       worst = std::max(worst, glm::distance(got[v], {frames[f][3 * v], frames[f][3 * v + 1], frames[f][3 * v + 2]}));
   }
@@ -106,7 +106,7 @@ TEST(TransferWritten, BonesThatAreTooLongStayAboveTheGround) {
       frame.push_back(x);
   const auto depth = [&](const RigGround* given) {
     double low = 1e300;
-    for (const glm::dvec3& p : posed_positions(horse, mesh, rig.fit(frame, rest_pose(horse), {}, {}, given)))
+    for (const glm::dvec3& p : posed_positions(horse, mesh, rig.whole(rig.fit(frame, rig.rest(), {}, {}, given))))
       low = std::min(low, p.y);
     return (ground - low) / (top - ground);
   };
@@ -172,24 +172,24 @@ TEST(TransferWritten, AKneeDoesNotSnapWhereTheLegIsStraight) {
   std::vector<double> times, foot(mesh.positions.size(), 0.0);
   foot[0] = foot[1] = 1;
   std::vector<std::vector<double>> frames;
-  std::vector<Pose> alone;
+  std::vector<RigPose> alone;
   for (int f = 0; f < 30; ++f) {
     times.push_back(f / 30.0), frames.push_back(frame_of_leg(mesh, 0.88, 0.5 - f / 29.0));
-    alone.push_back(rig.fit(frames.back(), f == 0 ? rest_pose(model) : alone.back(), foot, {}));
+    alone.push_back(rig.fit(frames.back(), f == 0 ? rig.rest() : alone.back(), foot, {}));
   }
-  const auto jerk = [&](const std::vector<Pose>& poses) {
+  const auto jerk = [&](const std::vector<RigPose>& poses) {
     std::vector<std::vector<glm::dvec3>> got;
-    for (const Pose& pose : poses) got.push_back(posed_positions(model, mesh, pose));
+    for (const RigPose& pose : poses) got.push_back(posed_positions(model, mesh, rig.whole(pose)));
     double out = 0;
     for (size_t f = 1; f + 1 < got.size(); ++f)
       for (size_t v = 0; v < got[f].size(); ++v)
         out = std::max(out, glm::length(got[f - 1][v] - 2.0 * got[f][v] + got[f + 1][v]));
     return out;
   };
-  const std::vector<Pose> poses = rig.fit_all(times, frames, [&](size_t) { return foot; });
+  const std::vector<RigPose> poses = rig.fit_all(times, frames, [&](size_t) { return foot; });
   double slide = 0;
-  for (const Pose& pose : poses)
-    slide = std::max(slide, std::abs(posed_positions(model, mesh, pose)[0].x - mesh.positions[0].x));
+  for (const RigPose& pose : poses)
+    slide = std::max(slide, std::abs(posed_positions(model, mesh, rig.whole(pose))[0].x - mesh.positions[0].x));
   std::printf("a knee jerks by %.3f where frames are alone, by %.3f in a clip; the foot slides by %.4f\n", jerk(alone),
               jerk(poses), slide);
   EXPECT_GT(jerk(alone), 0.3);
@@ -209,17 +209,17 @@ TEST(TransferWritten, HeldFramesAndTheEndsOfALoopHaveOnePose) {
     times.push_back(f / 30.0),
         frames.push_back(frame_of_leg(mesh, 0.9 + 0.08 * std::cos(angle), 0.2 * std::sin(angle)));
   }
-  const std::vector<Pose> poses = rig.fit_all(times, frames, [](size_t) { return std::vector<double>(); });
+  const std::vector<RigPose> poses = rig.fit_all(times, frames, [](size_t) { return std::vector<double>(); });
   ASSERT_EQ(poses.size(), frames.size());
   const auto expect_equal = [&](size_t a, size_t b) {
     for (size_t n = 0; n < 3; ++n) {
-      EXPECT_EQ(poses[a][n].rotation, poses[b][n].rotation) << a << " " << b;
-      EXPECT_EQ(poses[a][n].translation, poses[b][n].translation) << a << " " << b;
+      EXPECT_EQ(poses[a].nodes[n].rotation, poses[b].nodes[n].rotation) << a << " " << b;
+      EXPECT_EQ(poses[a].nodes[n].translation, poses[b].nodes[n].translation) << a << " " << b;
     }
   };
   for (size_t f = 11; f <= 20; ++f) expect_equal(10, f);
   expect_equal(0, 40);
-  EXPECT_NE(poses[10][2].rotation, poses[21][2].rotation);
+  EXPECT_NE(poses[10].nodes[2].rotation, poses[21].nodes[2].rotation);
 }
 
 // A clip of few keys is made of straight lines. A slow sway must not jerk at their ends: neither of one joint, nor of

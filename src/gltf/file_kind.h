@@ -1,0 +1,27 @@
+// What a file is, by its first bytes; only where they do not tell, by the ending of its name.
+#ifndef HF_GLTF_FILE_KIND_H
+#define HF_GLTF_FILE_KIND_H
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace hf_gltf {
+
+enum class FileKind { unknown, gltf, obj, off, ply, stl, fbx, dae, bvh, usd, blend };
+
+// bytes: the first `count` of a file of `size` bytes, 512 are enough. name: for the ending, in any case.
+FileKind kind_of(const uint8_t* bytes, size_t count, uint64_t size, const std::string& name);
+// The same for a file. FileKind::unknown for one that cannot be read.
+FileKind kind_of_file(const std::filesystem::path& file);
+
+// "glTF", "OBJ", ...
+const char* name_of(FileKind kind);
+// A clause for formats that nothing here reads: which tool makes glTF of one. "" for the others.
+std::string advice_on(FileKind kind);
+// What to say where `name` should be glTF and is not: "a.obj is OBJ; a glTF file is needed here ...".
+std::string not_gltf(const std::string& name, FileKind kind);
+
+}  // namespace hf_gltf
+
+#endif
