@@ -30,9 +30,8 @@ Vec bent(const Body& body, const Vec& p) {
 std::vector<double> frame_of(const Setting& s) {
   std::vector<double> out;
   for (std::size_t v = 0; v < s.copy.points.size(); ++v) {
-    const std::uint32_t origin = s.copy.origin[v];
-    // what is not the body's stays where it is
-    const Vec p = origin == none ? s.copy.points[v] : s.place(bent(s.body, s.body.points[origin]));
+    // a button moves with the body
+    const Vec p = s.place(bent(s.body, s.back(s.copy.points[v])));
     out.insert(out.end(), p.begin(), p.end());
   }
   return out;
