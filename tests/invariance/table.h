@@ -7,12 +7,14 @@
 
 namespace invariance {
 
-// A cell of the table that is not held to the tolerance of its noun.
+// A cell of the table that is not held to the tolerance of its noun. It is so by design, or until a fault is mended.
 struct Exception {
-  const char* change;  // nullptr: every change
-  const char* noun;
-  double tolerance;    // infinity: it may differ
-  const char* reason;  // "by design: ...", or "until ROW: ..." for a fault that is being mended
+  const char* change;  // nullptr: every change but other forms of the same arrays
+  const char* noun;    // nullptr: every noun
+  double tolerance;    // infinity: it may differ by anything
+  const char* reason;
+  bool until = false;  // a fault that is being mended: the reason begins with its row
+  bool skip = false;   // not even measured
 };
 const std::vector<Exception>& exceptions();
 
