@@ -54,6 +54,18 @@ class Model:
         self.json["accessors"].append(a)
         return len(self.json["accessors"]) - 1
 
+    def corners(self, primitive):
+        """Its indices; a primitive without them uses its vertices in order."""
+        if "indices" in primitive:
+            return [r[0] for r in self.rows(primitive["indices"])]
+        return list(range(self.json["accessors"][primitive["attributes"]["POSITION"]]["count"]))
+
+    def add_indices(self, corners, component):
+        self.json["accessors"].append({"componentType": component, "type": "SCALAR"})
+        number = self.add(len(self.json["accessors"]) - 1, corners, target=INDEX_TARGET)
+        del self.json["accessors"][number - 1]
+        return number - 1
+
     def primitives(self):
         """(primitive, its first vertex among those of all) in the order of the scene."""
         out, first = [], 0
@@ -102,14 +114,14 @@ class Copy:
         for primitive, old_first in self.model.primitives():
             rows = {name: self.model.rows(a) for name, a in primitive["attributes"].items()}
             count = len(rows["POSITION"])
-            corners = [r[0] for r in self.model.rows(primitive["indices"])]
+            corners = self.model.corners(primitive)
             triangles = [tuple(corners[i:i + 3]) for i in range(0, len(corners), 3)]
             rows, triangles, place = edit(rows, triangles)
             for name, a in primitive["attributes"].items():
                 primitive["attributes"][name] = self.model.add(a, rows[name], target=ARRAY_TARGET)
             corners = [(c,) for t in triangles for c in t]
             component = 5125 if len(rows["POSITION"]) > 65535 else 5123
-            primitive["indices"] = self.model.add(primitive["indices"], corners, component, INDEX_TARGET)
+            primitive["indices"] = self.model.add_indices(corners, component)
             for v in range(count):
                 self.vertex[old_first + v] = first + place[v]
             first += len(rows["POSITION"])
@@ -178,9 +190,9 @@ def split_corners(model):
 def long_indices(model):
     out = Copy(model)
     for primitive, _ in out.model.primitives():
-        rows = out.model.rows(primitive["indices"])
-        old = out.model.json["accessors"][primitive["indices"]]["componentType"]
-        primitive["indices"] = out.model.add(primitive["indices"], rows, 5125 if old != 5125 else 5123, INDEX_TARGET)
+        old = out.model.json["accessors"][primitive["indices"]]["componentType"] if "indices" in primitive else None
+        corners = [(v,) for v in out.model.corners(primitive)]
+        primitive["indices"] = out.model.add_indices(corners, 5125 if old != 5125 else 5123)
     return out
 
 

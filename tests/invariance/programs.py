@@ -10,6 +10,7 @@ import json
 import math
 import os
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -83,7 +84,8 @@ class Run:
 
     def __init__(self, bins, folder, model_file, copy, other_file):
         self.bins, self.folder, self.copy, self.other = bins, folder, copy, other_file
-        os.makedirs(folder, exist_ok=True)
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(folder)
         self.file = os.path.join(folder, "model.glb")
         copy.model.write(self.file)
         self.original = gltf_copy.Model(model_file)
@@ -161,19 +163,17 @@ def quads(r):
     return [(math.log(count),)] + box
 
 
-def transfer(source, target, r):
-    run(r.program("hf_transfer"), source, target, "--as", "frames", "--fps", 2, "--out-poses", r.path("poses"),
-        "--quiet")
-    frames = sorted(os.listdir(r.path("poses")))
-    return [read_ply(os.path.join(r.path("poses"), f)) for f in frames]
+def transfer(source, target, folder, r):
+    run(r.program("hf_transfer"), source, target, "--as", "frames", "--fps", 2, "--out-poses", folder, "--quiet")
+    return [read_ply(os.path.join(folder, f)) for f in sorted(os.listdir(folder))]
 
 
 def transfer_from(r):
-    return [p for frame in transfer(r.file, r.other, r) for p in frame]
+    return [p for frame in transfer(r.file, r.other, r.path("from"), r) for p in frame]
 
 
 def transfer_to(r):
-    return [p for frame in transfer(r.other, r.file, r) for p in in_body(r.copy, frame)]
+    return [p for frame in transfer(r.other, r.file, r.path("to"), r) for p in in_body(r.copy, frame)]
 
 
 # name, function, tolerance in boxes (or shares of a weight), where: "horse" has the script's places, "full" is slow
