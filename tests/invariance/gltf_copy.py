@@ -67,7 +67,7 @@ class Model:
         return number - 1
 
     def primitives(self):
-        """(primitive, its first vertex among those of all) in the order of the scene."""
+        """(primitive, its first vertex among those of all) in the order of hf."""
         out, first = [], 0
         for node in self.mesh_nodes():
             for primitive in self.json["meshes"][self.json["nodes"][node]["mesh"]]["primitives"]:
@@ -76,16 +76,13 @@ class Model:
         return out
 
     def mesh_nodes(self):
-        out = []
-
-        def walk(node):
-            if "mesh" in self.json["nodes"][node]:
-                out.append(node)
-            for child in self.json["nodes"][node].get("children", []):
-                walk(child)
-        for root in self.json["scenes"][self.json.get("scene", 0)]["nodes"]:
-            walk(root)
-        return out
+        """Nodes with a mesh that the scene reaches, by their numbers: so hf takes them."""
+        reached, waiting = set(), list(self.json["scenes"][self.json.get("scene", 0)]["nodes"])
+        while waiting:
+            node = waiting.pop()
+            reached.add(node)
+            waiting += self.json["nodes"][node].get("children", [])
+        return [n for n in sorted(reached) if "mesh" in self.json["nodes"][n]]
 
     def write(self, file):
         self.json["buffers"] = [{"byteLength": len(self.bytes)}]
@@ -102,6 +99,8 @@ class Copy:
 
     def __init__(self, model):
         self.model = model.clone()
+        for i, node in enumerate(self.model.json["nodes"]):
+            node.setdefault("name", "node %d" % i)
         self.count = sum(self.model.json["accessors"][p["attributes"]["POSITION"]]["count"]
                          for p, _ in self.model.primitives())
         self.vertex = list(range(self.count))
@@ -112,13 +111,15 @@ class Copy:
         """edit(primitive rows by attribute, triangles) gives both anew, and where each old vertex is."""
         first = 0
         for primitive, old_first in self.model.primitives():
-            rows = {name: self.model.rows(a) for name, a in primitive["attributes"].items()}
+            lists = [("", primitive["attributes"])] + [(str(i), t) for i, t in enumerate(primitive.get("targets", []))]
+            rows = {key + name: self.model.rows(a) for key, accessors in lists for name, a in accessors.items()}
             count = len(rows["POSITION"])
             corners = self.model.corners(primitive)
             triangles = [tuple(corners[i:i + 3]) for i in range(0, len(corners), 3)]
             rows, triangles, place = edit(rows, triangles)
-            for name, a in primitive["attributes"].items():
-                primitive["attributes"][name] = self.model.add(a, rows[name], target=ARRAY_TARGET)
+            for key, accessors in lists:
+                for name, a in accessors.items():
+                    accessors[name] = self.model.add(a, rows[key + name], target=ARRAY_TARGET)
             corners = [(c,) for t in triangles for c in t]
             component = 5125 if len(rows["POSITION"]) > 65535 else 5123
             primitive["indices"] = self.model.add_indices(corners, component)
@@ -210,6 +211,12 @@ def node_order(model):
     order = list(range(len(j["nodes"])))
     random.Random(7).shuffle(order)
     place = {old: new for new, old in enumerate(order)}
+    count_of = {n: sum(j["accessors"][p["attributes"]["POSITION"]]["count"]
+                       for p in j["meshes"][j["nodes"][n]["mesh"]]["primitives"]) for n in out.model.mesh_nodes()}
+    first = {}
+    for n in sorted(count_of, key=place.get):
+        first[n] = sum(count_of[m] for m in first)
+    out.vertex = [first[n] + k for n in sorted(count_of) for k in range(count_of[n])]
     j["nodes"] = [j["nodes"][old] for old in order]
     for node in j["nodes"]:
         if "children" in node:
@@ -257,7 +264,7 @@ def renamed(rename):
     def change(model):
         out = Copy(model)
         for i, node in enumerate(out.model.json["nodes"]):
-            old = node.get("name", "node %d" % i)
+            old = node["name"]
             node["name"] = rename(i, old)
             out.joint[node["name"]] = old
         return out
