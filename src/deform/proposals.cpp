@@ -187,10 +187,10 @@ class Proposer {
     for (const std::uint32_t parent : options_.parents) {
       if (parent != no_joint) ++children[parent];
     }
-    for (std::size_t j = 0; j < count; ++j) {
+    for (const std::uint32_t joint : joint_order()) {
+      const std::size_t j = at(joint);
       if (children[j] == 1) continue;
-      const double* p = options_.joints.data() + 3 * j;
-      const Vec3 place = mesh_.to_inner({p[0], p[1], p[2]});
+      const Vec3 place = joint_place(joint);
       const bool end = children[j] == 0;
       Candidate* near = nullptr;
       double least = end ? joint_reach : least_radius;
@@ -199,11 +199,44 @@ class Proposer {
         if (d <= least) least = d, near = &candidate;
       }
       if (near) {
-        if (end && near->joint == no_joint) near->joint = static_cast<std::uint32_t>(j);
+        if (end && near->joint == no_joint) near->joint = joint;
         continue;
       }
-      add_joint(static_cast<std::uint32_t>(j), place);
+      add_joint(joint, place);
     }
+  }
+
+  Vec3 joint_place(std::uint32_t joint) const {
+    const double* p = options_.joints.data() + 3 * at(joint);
+    return mesh_.to_inner({p[0], p[1], p[2]});
+  }
+
+  // The joints from the roots outwards, of one depth the longest bone first. Of two joints at one place the first is
+  // proposed, so the order must not be that of the list.
+  Vector<std::uint32_t> joint_order() const {
+    const std::size_t count = options_.parents.size();
+    Vector<std::uint32_t> order(count, 0, &memory_), depth(count, 0, &memory_), path(&memory_);
+    Vector<double> bone(count, 0.0, &memory_);
+    for (std::uint32_t j = 0; j < count; ++j) {
+      order[j] = j;
+      const std::uint32_t parent = options_.parents[j];
+      if (parent != no_joint) bone[j] = distance(joint_place(j), joint_place(parent));
+      // up to a joint whose depth is known; a circle of parents ends where it began
+      path.clear();
+      for (std::uint32_t at_joint = j; at_joint != no_joint && depth[at_joint] == 0;
+           at_joint = options_.parents[at_joint]) {
+        depth[at_joint] = 1;
+        path.push_back(at_joint);
+      }
+      const std::uint32_t above = options_.parents[path.empty() ? j : path.back()];
+      std::uint32_t reached = above == no_joint ? 0 : depth[above];
+      for (std::size_t k = path.size(); k-- > 0;) depth[path[k]] = ++reached;
+    }
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      if (depth[a] != depth[b]) return depth[a] < depth[b];
+      return bone[a] != bone[b] ? bone[a] > bone[b] : a < b;
+    });
+    return order;
   }
 
   void add_joint(std::uint32_t joint, Vec3 place) {

@@ -151,6 +151,27 @@ class Search {
   double step_ = 1;
 };
 
+// Finds the patch of every component that is farthest from the middle of its area. It does not depend on the order of
+// the vertices.
+void find_outermost(const Patches& patches, const Vector<Vec3>& positions, std::size_t components,
+                    Vector<Index>& outermost, Memory& memory) {
+  Vector<Vec3> middle(components, &memory);
+  Vector<double> area(components, 0.0, &memory), most(components, -1.0, &memory);
+  for (std::size_t p = 0; p < patches.middle.size(); ++p) {
+    const std::size_t c = at(patches.component[p]);
+    middle[c] = middle[c] + patches.area[p] * positions[at(patches.middle[p])];
+    area[c] += patches.area[p];
+  }
+  for (std::size_t p = 0; p < patches.middle.size(); ++p) {
+    const std::size_t c = at(patches.component[p]);
+    const Vec3 centre = area[c] > 0 ? (1 / area[c]) * middle[c] : Vec3();
+    const double distance = norm(positions[at(patches.middle[p])] - centre);
+    if (!(distance > most[c])) continue;
+    most[c] = distance;
+    outermost[c] = static_cast<Index>(p);
+  }
+}
+
 }  // namespace
 
 SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, const Vector<double>& areas, Index count,
@@ -162,7 +183,7 @@ SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, const V
   samples.share.assign(components * at(count), 0.0);
   const Patches patches = make_patches(mesh, topology, areas, count, memory);
   Search search(patches, memory);
-  Vector<Index> farthest(components, &memory);
+  Vector<Index> farthest(components, Mesh::none, &memory);
   const auto find_farthest = [&] {
     std::fill(farthest.begin(), farthest.end(), Mesh::none);
     for (std::size_t p = 0; p < patches.middle.size(); ++p) {
@@ -170,10 +191,7 @@ SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, const V
       if (best == Mesh::none || search.distance[p] > search.distance[at(best)]) best = static_cast<Index>(p);
     }
   };
-  find_farthest();  // all distances are infinite: finds the first vertex of each component
-  for (const Index p : farthest) search.grow(p, 0);
-  find_farthest();
-  std::fill(search.distance.begin(), search.distance.end(), far);
+  find_outermost(patches, mesh.positions, components, farthest, memory);
   for (Index round = 0; round < count; ++round) {
     for (std::size_t c = 0; c < components; ++c) {
       const Index p = farthest[c];

@@ -1,8 +1,8 @@
 // Chooses sample vertices that lie far apart, in every component at once (farthest point sampling over the edge graph).
 //
-// The first sample of a component is the vertex farthest from its first vertex. Each further sample is the vertex
-// farthest from all samples so far (Gonzalez 1985). Distances are lengths of edge paths. A search stops where an
-// earlier sample is nearer.
+// The first sample of a component is the vertex farthest from the middle of its area. Each further sample is the vertex
+// farthest from all samples so far (Gonzalez 1985). Distances between samples are lengths of edge paths. A search stops
+// where an earlier sample is nearer. So samples do not depend on the order of the vertices.
 //
 // If a component has more than 384 vertices for every sample, patches are sampled instead of vertices. A patch has at
 // most 24 vertices, all within two edges of its middle vertex. The distance between neighbouring patches is the

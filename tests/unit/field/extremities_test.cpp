@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <map>
 #include <numeric>
+#include <random>
 
 #include "analysis_support.h"
 #include "assets/creature.h"
@@ -142,6 +143,24 @@ TEST_P(CreatureTips, stay_in_place_when_the_mesh_is_turned_scaled_and_renumbered
         EXPECT_NEAR(match->length, tip.length, 0.1 * tip.length + 0.005) << name;
       }
     }
+  }
+}
+
+// The mean distance is that to a few samples: they must be the same places, whichever vertex comes first.
+TEST_P(CreatureTips, have_the_same_lengths_in_another_order_of_the_vertices) {
+  const PlainMesh& mesh = creature("biped", 600);
+  const std::vector<Found> one = search(mesh, GetParam());
+  std::vector<std::uint32_t> order(mesh.vertex_count());
+  std::iota(order.begin(), order.end(), 0u);
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    std::shuffle(order.begin(), order.end(), std::mt19937(seed));
+    PlainMesh shuffled = mesh;
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+      std::copy_n(&mesh.positions[3 * std::size_t{v}], 3, &shuffled.positions[3 * std::size_t{order[v]}]);
+    for (std::uint32_t& v : shuffled.triangles) v = order[v];
+    const std::vector<Found> other = search(shuffled, GetParam());
+    ASSERT_EQ(one.size(), other.size());
+    for (std::size_t i = 0; i < one.size(); ++i) EXPECT_NEAR(one[i].length, other[i].length, 1e-9) << i;
   }
 }
 

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
+#include <random>
 
+#include "assets/creature.h"
 #include "gltf/animate.h"
 #include "gltf/flat_mesh.h"
 #include "gltf_support.h"
@@ -124,6 +127,41 @@ TEST(Proposals, AllCanBeAddedAsHandlesAndTheFeetStayWhenATipIsDragged) {
       }
     }
     hf_pose_destroy(all), hf_pose_destroy(some);
+  }
+}
+
+// Of two joints beside each other one is proposed: which one must not follow from their order in the skin.
+TEST(Proposals, OfAGivenSkeletonDoNotDependOnTheOrderOfItsJoints) {
+  const samples::Creature horse = samples::make_creature("horse", 600);
+  const std::vector<double> world = samples::rest_pose(horse);
+  const auto count = static_cast<uint32_t>(horse.skeleton.size());
+  Body body;
+  body.positions.assign(horse.positions.begin(), horse.positions.end());
+  body.triangles = horse.triangles;
+  const hf::Surface surface = surface_of(body);
+  std::vector<uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  Proposals first;
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    std::vector<double> joints(3 * size_t{count});
+    std::vector<uint32_t> parents(count);
+    for (uint32_t j = 0; j < count; ++j) {
+      std::copy_n(&world[16 * size_t{j} + 12], 3, &joints[3 * size_t{order[j]}]);
+      const int32_t parent = horse.skeleton[j].parent;
+      parents[order[j]] = parent < 0 ? HF_NO_INDEX : order[static_cast<size_t>(parent)];
+    }
+    hf_propose_desc desc = HF_INIT(hf_propose_desc);
+    desc.joint_count = count;
+    desc.joints = joints.data();
+    desc.parents = parents.data();
+    Proposals list(HF_HANDLE_LIMIT);
+    uint32_t found = 0;
+    ASSERT_EQ(hf_propose_handles(surface.get(), &desc, HF_HANDLE_LIMIT, list.data(), &found), HF_OK);
+    list.resize(found);
+    if (seed == 0) first = list;
+    EXPECT_GT(count_of(list, HF_HANDLE_REASON_JOINT), 1u);
+    expect_same_places(first, list, 1, glm::dvec3(0), 1e-9);
+    std::shuffle(order.begin(), order.end(), std::mt19937(seed));
   }
 }
 
