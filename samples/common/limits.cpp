@@ -57,9 +57,10 @@ bool take_limit(const std::string& option, const std::function<std::string()>& v
 }
 
 void limit_surface(hf_surface_desc& desc, uint32_t made) {
-  const double n = size_of(desc), work = 1e-9 * work_of_square * n * n;
+  // what is made of the mesh is factorised too
+  const double n = size_of(desc) + made, work = 1e-9 * work_of_square * n * n;
   desc.work_limit_gflop = given_work ? given_work : whole(std::clamp(work, least_work_gflop, most_work_gflop));
-  desc.memory_limit_mb = given_memory ? given_memory : whole(least_memory_mib + kib_of_vertex / 1024 * (n + made));
+  desc.memory_limit_mb = given_memory ? given_memory : whole(least_memory_mib + kib_of_vertex / 1024 * n);
 }
 
 void limit_quads(hf_surface_desc& desc, uint32_t faces) {

@@ -16,8 +16,8 @@ namespace samples {
 // every surface that the program makes. Throws std::runtime_error naming the option.
 bool take_limit(const std::string& option, const std::function<std::string()>& value);
 
-// Sets the limits of a surface whose sizes are in the desc. made: vertices of what is made of it, which need memory
-// too.
+// Sets the limits of a surface whose sizes are in the desc. made: vertices of what is made of it, which need work and
+// memory too.
 void limit_surface(hf_surface_desc& desc, uint32_t made = 0);
 
 // The same for a surface that quads are made of. Each handle brings singularities whose whole numbers share a full

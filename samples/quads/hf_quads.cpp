@@ -63,6 +63,13 @@ struct Command {
   bool help = false;
 };
 
+constexpr double most_faces = 10000000;  // of --faces: the most that it takes
+// Of more quads --edge does not raise the limits, so they are refused at once. A length that is meant for another unit
+// asks for any number; half refuses what is made in seconds, twice lets minutes through.
+constexpr double most_by_edge = 100000;
+// A mesh with fewer than this share of the quads that an edge length asks for is warned of. Borders take up to a third.
+constexpr double too_few = 0.5;
+
 // A length, or with a percent sign a share of the box diagonal, which comes back below 0.
 double read_edge(const std::string& text) {
   char* end = nullptr;
@@ -92,7 +99,7 @@ Command parse(Words words) {
     } else if (words.is("--edge")) {
       out.edge = read_edge(words.value());
     } else if (words.is("--faces")) {
-      out.faces = words.whole(1, 10000000);
+      out.faces = words.whole(1, static_cast<uint32_t>(most_faces));
     } else if (words.is("--crease")) {
       out.crease = words.whole(1, 180);
     } else if (words.is("--strokes")) {
@@ -117,6 +124,22 @@ Command parse(Words words) {
   }
   if (!out.help && out.mesh.empty()) throw std::runtime_error("no mesh is named; see --help");
   return out;
+}
+
+// About how many quads are asked for: of an edge length as many as squares of it cover the surface. 0: nothing is
+// asked.
+double wanted_faces(const Command& options, const SurfaceMesh& mesh) {
+  if (options.faces > 0 || options.edge == 0) return options.faces;
+  glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
+  double area = 0;
+  for (size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    const glm::dvec3 &a = mesh.positions[mesh.triangles[i]], &b = mesh.positions[mesh.triangles[i + 1]],
+                     &c = mesh.positions[mesh.triangles[i + 2]];
+    area += 0.5 * length(cross(b - a, c - a));
+    low = min(min(low, a), min(b, c)), high = max(max(high, a), max(b, c));
+  }
+  const double edge = options.edge < 0 ? -options.edge * length(high - low) : options.edge;
+  return area / (edge * edge);
 }
 
 double mean_edge(const SurfaceMesh& mesh) {
@@ -254,7 +277,9 @@ void run(const Command& options) {
   create.vertex_count = static_cast<uint32_t>(input.positions.size());
   create.triangle_count = static_cast<uint32_t>(input.triangles.size() / 3);
   create.positions_f64 = positions.data(), create.triangles = input.triangles.data();
-  limit_quads(create, options.faces);
+  const double wanted = wanted_faces(options, input);
+  const bool paid = wanted > 0 && wanted <= (options.faces > 0 ? most_faces : most_by_edge);
+  limit_quads(create, paid ? static_cast<uint32_t>(wanted) : 0);
   const hf::Surface surface(create);
   const double diagonal = surface.report().bounding_box_diagonal;
   std::printf("mesh        %u vertices, %u triangles, box diagonal %.6g\n", create.vertex_count, create.triangle_count,
@@ -266,6 +291,7 @@ void run(const Command& options) {
   desc.crease_angle = static_cast<float>(options.crease);
   desc.relax_count = options.relax ? options.relax : HF_NO_INDEX;
   desc.edge_length = static_cast<float>(options.edge < 0 ? -options.edge * diagonal : options.edge);
+  if (options.edge != 0 && desc.edge_length == 0) throw std::runtime_error("--edge is too short for any mesh");
   Guides guides;
   if (!options.strokes.empty()) guides = read_strokes(options.strokes, surface, mean_edge(input));
   desc.guide_count = static_cast<uint32_t>(guides.vertices.size());
@@ -298,6 +324,11 @@ void run(const Command& options) {
               report.faces, seconds, static_cast<double>(quads.info.edge_length),
               100 * static_cast<double>(quads.info.edge_length) / diagonal);
   print_figures(input, diagonal, mesh, report, quads.info.euler_characteristic);
+  if (options.edge != 0 && report.faces < too_few * wanted)
+    std::printf(
+        "warning     %u faces where the edge length asks for about %.0f: corners of the border are too sharp, or parts "
+        "too thin\n",
+        report.faces, wanted);
   if (!options.out.empty()) {
     write(options, model, input, mesh, quads);
     std::printf("wrote       %s\n", options.out.c_str());
