@@ -9,6 +9,8 @@ namespace hf_inner {
 constexpr double common_word = 0.8;
 // A joint nearer to the plane of symmetry than this is central.
 constexpr double central = 0.02;
+// Joints nearer than this are in one place.
+constexpr double one_place = 0.1 * central;
 // A mirrored joint is found within this.
 constexpr double mirrored = 0.04;
 // A side axis with a larger cosine to a coordinate axis is that axis: 14 degrees.
@@ -28,7 +30,7 @@ constexpr double customary_up = 0.5;
 
 // Bounds on work, which no character of ours comes near. Samples of the skin that are reflected, vertices among which
 // they are sought, joints that vote for a plane, joints that are tested for lying inside.
-constexpr std::size_t skin_samples = 1000, skin_targets = 30000, plane_voters = 250, inside_tests = 64;
+constexpr std::size_t skin_samples = 1000, skin_targets = 30000, plane_voters = 120, inside_tests = 64;
 constexpr std::uint32_t most_joints = 1u << 16;
 
 }  // namespace hf_inner

@@ -8,7 +8,7 @@
 namespace hf_inner {
 namespace {
 
-using Touch = std::pair<Index, Index>;  // the lower joint first
+using Touch = std::pair<Index, Index>;
 
 Touch touch(Index a, Index b) noexcept { return {std::min(a, b), std::max(a, b)}; }
 
@@ -35,7 +35,7 @@ void add_meeting(const Body& body, Vector<Touch>& touches) {
   }
 }
 
-// Pairs of joints whose vertices share an edge or a place.
+// Pairs of joints whose vertices share an edge or a place, both ways round.
 Vector<Touch> find_touches(const Body& body) {
   Vector<Touch> touches(&body.memory);
   for (std::size_t t = 0; t < body.input.triangle_count; ++t) {
@@ -48,6 +48,9 @@ Vector<Touch> find_touches(const Body& body) {
   add_meeting(body, touches);
   std::sort(touches.begin(), touches.end());
   touches.erase(std::unique(touches.begin(), touches.end()), touches.end());
+  const std::size_t count = touches.size();
+  for (std::size_t k = 0; k < count; ++k) touches.push_back({touches[k].second, touches[k].first});
+  std::sort(touches.begin(), touches.end());
   return touches;
 }
 
@@ -73,7 +76,8 @@ class Adoption {
         next_(at(body.count), -1, &body.memory),
         last_(at(body.count), -1, &body.memory),
         offers_(at(body.count), Offer{}, &body.memory),
-        done_(at(body.count), 0, &body.memory) {
+        done_(at(body.count), 0, &body.memory),
+        touching_(at(body.count), -1, &body.memory) {
     for (const Index j : body.order) {
       if (!body.kept[at(j)]) continue;
       const Index p = body.carriers[at(j)], root = roots_[at(j)] = p < 0 ? j : roots_[at(p)];
@@ -112,8 +116,9 @@ class Adoption {
 
   // Whether the rules allow it: never across the plane, the middle never on a limb, a limb never on its like below one
   // helper.
-  bool may_hang(Index joint, Index carrier, double side, Index parent) const {
-    const double other = body_.lateral(carrier);
+  bool may_hang(Index joint, Index carrier) const {
+    const double side = body_.lateral(joint), other = body_.lateral(carrier);
+    const Index parent = body_.parents[at(joint)];
     if (side * other < 0 && std::min(std::fabs(side), std::fabs(other)) > central) return false;
     if (std::fabs(side) < central && !body_.is_central(carrier)) return false;
     const Index root = roots_[at(joint)], other_root = roots_[at(carrier)];
@@ -122,23 +127,28 @@ class Adoption {
   }
 
   void join(Index island) {
-    done_[at(island)] = 1;
     for (Index j = island; j >= 0; j = next_[at(j)]) done_[at(j)] = 1;
-    for (const Index root : todo_) {
-      for (Index i = root; i >= 0; i = next_[at(i)]) {
-        const double side = body_.lateral(i);
-        for (Index j = island; j >= 0; j = next_[at(j)]) offer(root, i, j, side);
+    for (Index j = island; j >= 0; j = next_[at(j)]) {
+      mark_touching(j);
+      for (const Index root : todo_) {
+        for (Index i = root; i >= 0; i = next_[at(i)]) offer(root, i, j);
       }
     }
   }
 
-  void offer(Index root, Index i, Index j, double side) {
+  void mark_touching(Index joint) {
+    const auto first = std::lower_bound(touches_.begin(), touches_.end(), Touch{joint, -1});
+    for (auto k = first; k != touches_.end() && k->first == joint; ++k) touching_[at(k->second)] = joint;
+  }
+
+  void offer(Index root, Index i, Index j) {
     Offer made;
-    made.touches = std::binary_search(touches_.begin(), touches_.end(), touch(i, j));
+    made.touches = touching_[at(i)] == j;
     Offer& best = offers_[at(root)];
-    if (made.touches < best.touches || !may_hang(i, j, side, body_.parents[at(i)])) return;
+    if (made.touches < best.touches) return;
     made.on_middle = made.touches && body_.is_central(j);
     made.distance = body_.boxes[at(j)].distance(body_.pivots[at(i)]);
+    if (!(best < made) || !may_hang(i, j)) return;
     if (!made.touches) made.distance += body_.boxes[at(i)].distance(body_.boxes[at(j)]);
     made.joint = i, made.carrier = j;
     if (best < made) best = made;
@@ -170,6 +180,7 @@ class Adoption {
   Vector<Index> roots_, todo_, next_, last_;  // islands as lists of joints
   Vector<Offer> offers_;                      // the best for each island that is left
   Vector<std::uint8_t> done_;
+  Vector<Index> touching_;  // the joint that was last found to touch one
 };
 
 double distance_to_line(Vec3 p, Vec3 a, Vec3 b, double& along) noexcept {
@@ -178,10 +189,12 @@ double distance_to_line(Vec3 p, Vec3 a, Vec3 b, double& along) noexcept {
   return norm(p - a - along * d);
 }
 
-// A leaf on the line to a brother that goes on is a twist joint: it follows that bone.
+// A leaf on the line to a brother that goes on is a twist joint: it follows that bone. So does one in the place of a
+// parent that owns nothing.
 bool is_twist(const Body& body, Index joint, Index parent) {
   constexpr double on_line = 0.1;  // of the bone's length
   const Vec3 p = body.pivots[at(joint)], a = body.pivots[at(parent)];
+  if (body.owned_count(parent) == 0 && norm(p - a) < one_place) return true;
   for (const Index brother : body.children_of(parent)) {
     if (brother == joint || body.children_of(brother).empty()) continue;
     const Vec3 b = body.pivots[at(brother)];

@@ -122,7 +122,10 @@ Plane MirrorSearch::look(Vec3 left, bool with_skin, bool all) {
   const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
   std::nth_element(along.begin(), middle, along.end());
   Plane best(body_.memory);
-  for (const double offset : {*middle, 0.0, dot(pivots_[at(main_)], left)}) {  // 0: the middle of the box
+  const double offsets[] = {*middle, 0.0, dot(pivots_[at(main_)], left)};  // 0: the middle of the box
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double offset = offsets[k];
+    if (std::any_of(offsets, offsets + k, [&](double o) { return std::fabs(o - offset) < one_place; })) continue;
     Plane plane(body_.memory);
     plane.left = left, plane.offset = offset;
     plane.score = count_pairs(plane, all);

@@ -204,6 +204,7 @@ int side_of(Text text, Text& rest) noexcept {
   if (is_one_of(text, left_words)) return 1;
   if (is_one_of(text, right_words)) return -1;
   rest = text;
+  if (text.is("rear")) return 0;
   if (find_word(text) && !text.begins("left") && !text.begins("right")) return 0;
   for (const auto& [word, sign] :
        {std::pair{"left", 1}, std::pair{"right", -1}, std::pair{"l", 1}, std::pair{"r", -1}}) {

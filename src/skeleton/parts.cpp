@@ -37,11 +37,13 @@ std::size_t find_foot(const Body& body, const Vector<Index>& path, std::size_t f
   return ankle > first ? ankle : path.size();
 }
 
-// A collar bone: by its name, else a first bone below .6 of the second.
+// A collar bone: by its name, else the first of three bones before the hand, or of more if it is below .6 of the
+// second.
 bool has_collar(const Body& body, const Vector<Index>& path, std::size_t hand) {
   const JointName& first = body.names[at(path[0])];
   if (body.named && path.size() > 2 && (first.named == NameClass::trunk || first.collar)) return true;
-  return first.named == NameClass::none && hand >= 3 && bone(body, path, 0) < 0.6 * bone(body, path, 1);
+  if (first.named != NameClass::none || hand < 3) return false;
+  return hand == 3 || bone(body, path, 0) < 0.6 * bone(body, path, 1);
 }
 
 // The hand: the first with its name, else the last joint before fingers; the length of the path: the arm ends without.
@@ -57,7 +59,7 @@ std::size_t find_hand(const Body& body, const Vector<Index>& path) {
   if (!fingers.empty() && path.size() > 1) {
     double nearest = 1e300;
     for (const Index c : fingers) nearest = std::min(nearest, norm(body.pivots[at(c)] - body.pivots[at(last)]));
-    if (nearest > 0.3 * bone(body, path, path.size() - 2)) return path.size();
+    if (nearest > branching * bone(body, path, path.size() - 2)) return path.size();
   }
   return path.size() - 1;
 }

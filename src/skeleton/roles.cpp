@@ -193,7 +193,8 @@ void assign_rest(Body& body, Vector<std::uint8_t>& given) {
   }
 }
 
-// Declared roles win; joints along a bone take its role.
+// Declared roles win; joints along a bone take its role. Sides of pairs are those of their places: a declaration may be
+// that of the body before it was mirrored.
 void take_declared(Body& body) {
   for (Index j = 0; j < body.count; ++j) {
     const Index p = body.carriers[at(j)];
@@ -203,7 +204,7 @@ void take_declared(Body& body) {
   for (std::size_t j = 0; body.input.roles && j < at(body.count); ++j) {
     if (body.input.roles[j] < 0) continue;
     body.roles[j] = static_cast<Role>(body.input.roles[j]);
-    if (body.input.sides) body.sides[j] = static_cast<Side>(body.input.sides[j]);
+    if (body.input.sides && body.mates[j] < 0) body.sides[j] = static_cast<Side>(body.input.sides[j]);
   }
 }
 

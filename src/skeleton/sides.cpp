@@ -159,7 +159,8 @@ void add_round(Vec3 a, Vec3 b, MirrorSearch& search, const Body& body, const Vec
   for (int k = 0; k < 12; ++k) {
     const double angle = k * 0.26179938779914944;
     const Vec3 v = cosine(angle) * a + sine(angle) * b;
-    const double score = search.look(v, false).score;
+    // By pairs alone: an axis that joints hardly leave has none that lack one.
+    const double score = static_cast<double>(count_mates(search.look(v, false).mates));
     if (score > best[0].first)
       best[1] = best[0], best[0] = {score, v};
     else if (score > best[1].first)
@@ -170,20 +171,32 @@ void add_round(Vec3 a, Vec3 b, MirrorSearch& search, const Body& body, const Vec
       const Plane plane = search.look(v, false);
       if (count_mates(plane.mates) > 1) v = refined(body, plane, pivots, level);
     }
-    if (norm(snap(v) - v) > 0) candidates.push_back(v);
+    if (norm(snap(v) - v) == 0) candidates.push_back(v);
   }
 }
 
-Vec3 narrowest(const Body& body, const Vector<Vec3>& candidates) {
+// Across the direction in which the joints spread most; along the level, where up is known.
+Vec3 narrowest(const Body& body, const Vector<Vec3>& candidates, bool level) {
+  Vec3 sum;
+  double count = 0;
+  for (Index j = 0; j < body.count; ++j) {
+    if (body.kept[at(j)]) sum = sum + body.pivots[at(j)], count += 1;
+  }
+  const Vec3 mean = (1 / count) * sum;
+  Mat3 moments = Mat3::Zero();
+  for (Index j = 0; j < body.count; ++j) {
+    Vec3 d = body.pivots[at(j)] - mean;
+    if (level) d = d - dot(d, body.up) * body.up;
+    const hf_eigen::Vector3d v(d.x, d.y, d.z);
+    if (body.kept[at(j)]) moments += v * v.transpose();
+  }
+  Mat3 axes = principal_axes(moments).axes;
+  fix_signs(axes);
+  const Vec3 longest{axes(0, 0), axes(1, 0), axes(2, 0)};
+  if (level && moments.trace() > 0) return snap(unit_vector(cross(body.up, longest)));
   Vec3 best = candidates[0];
-  double least = 1e300;
   for (const Vec3& c : candidates) {
-    double low = 1e300, high = -1e300;
-    for (Index j = 0; j < body.count; ++j) {
-      if (!body.kept[at(j)]) continue;
-      low = std::min(low, dot(body.pivots[at(j)], c)), high = std::max(high, dot(body.pivots[at(j)], c));
-    }
-    if (high - low < least) least = high - low, best = c;
+    if (std::fabs(dot(c, longest)) < std::fabs(dot(best, longest))) best = c;
   }
   return best;
 }
@@ -226,7 +239,7 @@ void find_plane(Body& body, MirrorSearch& search) {
   }
   Choice choice = best_of(candidates, search, true);
   if (choice.pairs < 4) {
-    choice.left = narrowest(body, candidates);
+    choice.left = narrowest(body, candidates, level);
     body.say("No joints mirror each other: the side is where the joints spread least.");
   }
   body.left = choice.left, body.mirror_score = choice.score, body.mirror_margin = choice.margin;
@@ -318,7 +331,7 @@ void find_mirror(Body& body) {
   pair_declared(body);
   MirrorSearch search(body, body.root, body.pivots, body.means);
   const NamedSides sides = sum_sides(body);
-  body.sides_named = sides.pairs > 1 && norm(sides.all) > central;
+  body.sides_named = sides.pairs > 0 && norm(sides.all) > central;
   if (body.sides_named) {
     find_named_plane(body, sides, search);
     body.say("%zu pairs of names have sides; %zu of them lie the other way round.", sides.pairs, sides.against);

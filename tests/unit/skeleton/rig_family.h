@@ -76,4 +76,7 @@ struct BodyShape {
 extern const std::vector<std::string> biped_conventions;
 Rig make_biped(const std::string& convention, const BodyShape& shape);
 
+extern const std::vector<std::string> beasts;
+Rig make_beast(const std::string& kind, bool named);
+
 }  // namespace hf_test
