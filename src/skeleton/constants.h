@@ -1,0 +1,36 @@
+// All chosen numbers of this folder. Lengths are shares of the diagonal of the bounding box, if nothing else is said.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace hf_inner {
+
+// A word in more than this share of the names is a prefix or a suffix and says nothing (mixamorig, Bip01, _jnt).
+constexpr double common_word = 0.8;
+// A joint nearer to the plane of symmetry than this is central.
+constexpr double central = 0.02;
+// Joints nearer than this are in one place.
+constexpr double one_place = 0.1 * central;
+// A mirrored joint is found within this.
+constexpr double mirrored = 0.04;
+// A side axis with a larger cosine to a coordinate axis is that axis: 14 degrees.
+constexpr double snapped = 0.97;
+// A plane of symmetry that is so little better than the next is not sure.
+constexpr double unsure = 0.1;
+// A limb stands if its lowest vertex is within this of the ground, as a share of the height.
+constexpr double standing = 0.06;
+// A limb ends, in a hand or a paw, where the second child is at least this long against the first.
+constexpr double branching = 0.5;
+// The foot of a leg is its last joint below this share of the height of the hip.
+constexpr double ankle_height = 0.5;
+// The trunk is upright above this cosine of hips to head against up.
+constexpr double upright_trunk = 0.6;
+// What +y and +z are ahead of other axes as up, where nothing is declared: half of what legs that are known say.
+constexpr double customary_up = 0.5;
+
+// Bounds on work, which no character of ours comes near. Samples of the skin that are reflected, vertices among which
+// they are sought, joints that vote for a plane, joints that are tested for lying inside.
+constexpr std::size_t skin_samples = 1000, skin_targets = 30000, plane_voters = 120, inside_tests = 64;
+constexpr std::uint32_t most_joints = 1u << 16;
+
+}  // namespace hf_inner

@@ -1,0 +1,13 @@
+// Legs, as forward and roles both need them.
+#pragma once
+#include "skeleton/body.h"
+
+namespace hf_inner {
+
+// Limbs that stand, else those with the name of legs.
+Vector<const Limb*> standing_limbs(const Body& body);
+// The place of the ankle in the path of a leg: the last joint below half the hip that is clear of the ground, else the
+// first one; 0: none.
+std::size_t ankle_of(const Body& body, const Vector<Index>& path);
+
+}  // namespace hf_inner

@@ -1,0 +1,139 @@
+// Limbs: paired subtrees on a central joint, and the path of each from its root to a foot, a hand or a tip.
+#include <algorithm>
+#include <cmath>
+
+#include "skeleton/body.h"
+
+namespace hf_inner {
+namespace {
+
+// The class that most joints of a limb have; that of its root if at least half as many have it.
+class ClassCount {
+ public:
+  void add(NameClass c) noexcept { ++counts_[static_cast<std::size_t>(c)]; }
+  NameClass most(NameClass root) noexcept {
+    counts_[0] = 0;
+    std::size_t best = 0;
+    for (std::size_t c = 2; c < class_count; ++c) {  // 1: a limb with fingers is no finger
+      if (counts_[c] > counts_[best]) best = c;
+    }
+    if (counts_[best] == 0) best = counts_[1] > 0 ? 1 : 0;
+    const std::size_t r = static_cast<std::size_t>(root);
+    const bool strong = root == NameClass::leg || root == NameClass::arm || root == NameClass::wing;
+    return static_cast<NameClass>(strong && 2 * counts_[r] >= counts_[best] ? r : best);
+  }
+
+ private:
+  std::size_t counts_[class_count] = {};
+};
+
+bool reaches_ground(const Body& body, Index joint) {
+  return body.lowest_below(joint, body.up) - body.ground < standing * body.height;
+}
+
+// A leg follows the ground: skirts, sleeves and straps fall away.
+void follow_ground(const Body& body, Vector<Index>& path) {
+  for (;;) {
+    Index next = -1;
+    std::size_t low = 0;
+    for (const Index c : body.children_of(path.back())) {
+      if (reaches_ground(body, c)) next = c, ++low;
+    }
+    if (low != 1) return;
+    path.push_back(next);
+  }
+}
+
+double way(const Body& body, Index from, Index to) {
+  return norm(body.pivots[at(to)] - body.pivots[at(from)]) + body.reaches[at(to)];
+}
+
+// The one child of the joint's own class, if the limb branches.
+Index child_of_class(const Body& body, Index joint) {
+  const NameClass own = body.names[at(joint)].named;
+  Index found = -1;
+  if (own != NameClass::leg && own != NameClass::arm && own != NameClass::tail && own != NameClass::wing) return -1;
+  for (const Index c : body.children_of(joint)) {
+    if (body.names[at(c)].named != own) continue;
+    if (found >= 0) return -1;
+    found = c;
+  }
+  return found;
+}
+
+// The longest child, up to where the second one is half as long (a hand), or to a finger's name.
+void follow_longest(const Body& body, Vector<Index>& path) {
+  for (;;) {
+    const Index j = path.back();
+    Index longest = -1;
+    double first = 0, second = 0;
+    for (const Index c : body.children_of(j)) {
+      const double length = way(body, j, c);
+      if (longest < 0 || length > first)
+        second = first, first = length, longest = c;
+      else
+        second = std::max(second, length);
+    }
+    if (longest < 0 || body.names[at(longest)].named == NameClass::digit) return;
+    if (second > branching * first) longest = child_of_class(body, j);
+    if (longest < 0) return;
+    path.push_back(longest);
+  }
+}
+
+NameClass class_of_subtrees(const Body& body, const Limb& limb) {
+  ClassCount count;
+  for (const Index root : limb.roots) {
+    for (const Index j : body.subtree(root)) count.add(body.names[at(j)].named);
+  }
+  return count.most(NameClass::none);
+}
+
+NameClass class_of_paths(const Body& body, const Limb& limb) {
+  ClassCount count;
+  for (const auto& path : limb.paths) {
+    for (const Index j : path) count.add(body.names[at(j)].named);
+  }
+  const NameClass found = count.most(body.names[at(limb.roots[0])].named);
+  return found == NameClass::none ? limb.named : found;
+}
+
+}  // namespace
+
+void find_limbs(Body& body) {
+  Vector<std::uint8_t> seen(at(body.count), 0, &body.memory);
+  for (const Index j : body.tree) {
+    const Index mate = body.mates[at(j)], carrier = body.carriers[at(j)];
+    if (mate < 0 || seen[at(j)] || body.places[at(mate)] < 0) continue;
+    if (j == body.root || !body.is_central(carrier)) continue;
+    seen[at(j)] = seen[at(mate)] = 1;
+    Limb limb(body.memory);
+    const bool j_is_left = body.lateral(j) >= body.lateral(mate);
+    limb.roots[0] = j_is_left ? j : mate, limb.roots[1] = j_is_left ? mate : j;
+    limb.carrier = carrier;
+    limb.named = class_of_subtrees(body, limb);
+    limb.length = 0.5 * (body.reaches[at(j)] + body.reaches[at(mate)]);
+    body.limbs.push_back(std::move(limb));
+  }
+}
+
+void follow_limbs(Body& body) {
+  for (Limb& limb : body.limbs) {
+    limb.low = 1e300;
+    for (int side = 0; side < 2; ++side) {
+      const Index root = limb.roots[side];
+      limb.paths[side].assign(1, root);
+      if (reaches_ground(body, root) && body.height_of(body.pivots[at(root)]) > 2 * standing * body.height)
+        follow_ground(body, limb.paths[side]);
+      else
+        follow_longest(body, limb.paths[side]);
+      limb.low = std::min(limb.low, (body.lowest_below(root, body.up) - body.ground) / body.height);
+    }
+    limb.named = class_of_paths(body, limb);
+    const double root_height =
+        body.height_of(0.5 * (body.pivots[at(limb.roots[0])] + body.pivots[at(limb.roots[1])])) / body.height;
+    limb.stands = limb.low < standing && root_height > limb.low + standing;
+  }
+}
+
+}  // namespace hf_inner

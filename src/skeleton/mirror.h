@@ -1,0 +1,37 @@
+// Tries planes of symmetry: how many joints find their mirror image, and how well the skin lies on itself.
+#pragma once
+#include "skeleton/body.h"
+
+namespace hf_inner {
+
+struct Plane {
+  Vec3 left;
+  double offset = 0, score = -1;
+  Vector<Index> mates;  // of each joint, -1: none
+  explicit Plane(Memory& memory) : mates(&memory) {}
+};
+
+class MirrorSearch {
+ public:
+  // Joints are compared by their pivots and by the means of what they own. pivots may be others than the body's.
+  MirrorSearch(const Body& body, Index main, const Vector<Vec3>& pivots, const Vector<Vec3>& means);
+  // with_skin: the reflected skin counts too. all: every joint votes and gets its mate.
+  Plane look(Vec3 left, bool with_skin, bool all = false);
+
+ private:
+  Index nearest(Vec3 pivot, Vec3 mean, Index self) const;
+  void sort_along(Vec3 left);
+  double count_pairs(Plane& plane, bool all);
+  double skin_distance(const Plane& plane);
+
+  const Body& body_;
+  const Index main_;
+  const Vector<Vec3>& pivots_;
+  const Vector<Vec3>& means_;
+  Vector<Index> joints_;
+  Vector<std::pair<double, Index>> sorted_;  // along a direction in the plane, which a reflection does not change
+  Vec3 across_;
+  Vector<Vec3> cloud_;  // a tree: the middle of each range splits it along one axis in turn
+};
+
+}  // namespace hf_inner

@@ -1,0 +1,93 @@
+#include "skeleton/parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "skeleton/legs.h"
+
+namespace hf_inner {
+namespace {
+
+double bone(const Body& body, const Vector<Index>& path, std::size_t k) {
+  return norm(body.pivots[at(path[k + 1])] - body.pivots[at(path[k])]);
+}
+
+void set_from(Body& body, const Vector<Index>& path, std::size_t first, std::size_t last, Role role) {
+  for (std::size_t k = first; k < last && k < path.size(); ++k) body.roles[at(path[k])] = role;
+}
+
+// What hangs on a limb but is not on its path: fingers or toes.
+void set_digits(Body& body, const Limb& limb, int side, Role role) {
+  const auto& path = limb.paths[side];
+  for (const Index j : body.subtree(limb.roots[side])) {
+    if (std::find(path.begin(), path.end(), j) == path.end())
+      body.roles[at(j)] = body.names[at(j)].named == NameClass::loose ? Role::other : role;
+  }
+}
+
+// The place of the foot: its name, else the ankle; the length of the path: there is none.
+std::size_t find_foot(const Body& body, const Vector<Index>& path, std::size_t first) {
+  const auto is_foot = [&](Index j) { return body.named && body.names[at(j)].foot; };
+  if (!std::all_of(path.begin(), path.end(), is_foot)) {  // "foot" in every name: it is the limb's
+    for (std::size_t k = first + 1; k < path.size(); ++k) {
+      if (is_foot(path[k])) return k;
+    }
+  }
+  const std::size_t ankle = ankle_of(body, path);
+  return ankle > first ? ankle : path.size();
+}
+
+// A collar bone: by its name, else the first of three bones before the hand, or of more if it is below .6 of the
+// second.
+bool has_collar(const Body& body, const Vector<Index>& path, std::size_t hand) {
+  const JointName& first = body.names[at(path[0])];
+  if (body.named && path.size() > 2 && (first.named == NameClass::trunk || first.collar)) return true;
+  if (first.named != NameClass::none || hand < 3) return false;
+  return hand == 3 || bone(body, path, 0) < 0.6 * bone(body, path, 1);
+}
+
+// The hand: the first with its name, else the last joint before fingers; the length of the path: the arm ends without.
+std::size_t find_hand(const Body& body, const Vector<Index>& path) {
+  for (std::size_t k = 0; k < path.size() && body.named; ++k) {
+    if (body.names[at(path[k])].hand) return k;
+  }
+  const Index last = path.back();
+  const auto fingers = body.children_of(last);
+  if (body.named && body.names[at(last)].lower) return path.size();
+  if (fingers.empty() && path.size() <= 2) return path.size();
+  // Fingers that start far from the last joint start at a wrist without a joint.
+  if (!fingers.empty() && path.size() > 1) {
+    double nearest = 1e300;
+    for (const Index c : fingers) nearest = std::min(nearest, norm(body.pivots[at(c)] - body.pivots[at(last)]));
+    if (nearest > branching * bone(body, path, path.size() - 2)) return path.size();
+  }
+  return path.size() - 1;
+}
+
+}  // namespace
+
+void assign_leg(Body& body, const Limb& limb, int side) {
+  const auto& path = limb.paths[side];
+  const JointName& first_name = body.names[at(path[0])];
+  // A joint of the pelvis or a shoulder blade above the leg.
+  const std::size_t first =
+      path.size() > 2 && (first_name.named == NameClass::trunk || (first_name.collar && body.named)) ? 1 : 0;
+  const std::size_t foot = find_foot(body, path, first);
+  set_digits(body, limb, side, Role::toe);
+  set_from(body, path, 0, first, Role::shoulder);
+  set_from(body, path, first, foot, Role::leg);
+  set_from(body, path, foot, foot + 1, Role::foot);
+  set_from(body, path, foot + 1, path.size(), Role::toe);
+}
+
+void assign_arm(Body& body, const Limb& limb, int side) {
+  const auto& path = limb.paths[side];
+  const std::size_t hand = find_hand(body, path), first = has_collar(body, path, hand) ? 1 : 0;
+  set_digits(body, limb, side, Role::finger);
+  set_from(body, path, 0, first, Role::shoulder);
+  set_from(body, path, first, hand, Role::arm);
+  set_from(body, path, hand, hand + 1, Role::hand);
+  set_from(body, path, hand + 1, path.size(), Role::finger);
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,231 @@
+// Gives every joint of the body its role and side.
+#include <algorithm>
+#include <cmath>
+
+#include "base/principal_axes.h"
+#include "base/stable_sort.h"
+#include "skeleton/body.h"
+#include "skeleton/parts.h"
+
+namespace hf_inner {
+namespace {
+
+// The third extent of a limb's vertices against the second: of a wing or a fin it is small.
+double flatness(const Body& body, const Limb& limb) {
+  Mat3 moments = Mat3::Zero();
+  for (const Index root : limb.roots) {
+    hf_eigen::Vector3d sum = hf_eigen::Vector3d::Zero();
+    Mat3 squares = Mat3::Zero();
+    double count = 0;
+    body.for_points_below(root, [&](Vec3 p) {
+      const hf_eigen::Vector3d v(p.x, p.y, p.z);
+      sum += v, squares += v * v.transpose(), count += 1;
+    });
+    if (count > 0) moments += squares - sum * sum.transpose() / count;
+  }
+  const hf_eigen::Vector3d m = principal_axes(moments).moment;
+  return m[1] > 0 ? std::sqrt(std::max(0.0, m[2]) / m[1]) : 1;
+}
+
+bool is_below(const Body& body, Index joint, Index above) {
+  const Index p = body.places[at(joint)], a = body.places[at(above)];
+  return p >= a && p < body.ends[at(a)];
+}
+
+Role role_on_head(const Limb& limb) {
+  switch (limb.named) {
+    case NameClass::eye:
+      return Role::eye;
+    case NameClass::antenna:
+      return Role::antenna;
+    case NameClass::ear:
+      return Role::ear;
+    case NameClass::jaw:
+      return Role::jaw;
+    default:
+      return Role::other;
+  }
+}
+
+Role role_of_limb(const Body& body, const Limb& limb, std::size_t standing_count) {
+  if (body.head >= 0 && body.head != body.root && is_below(body, limb.carrier, body.head)) return role_on_head(limb);
+  const bool large = limb.length > 0.1 * body.height, upright = body.trunk > upright_trunk;
+  switch (limb.named) {
+    case NameClass::wing:
+      return Role::wing;
+    case NameClass::fin:
+      return Role::fin;
+    case NameClass::ear:
+      return Role::ear;
+    case NameClass::eye:
+      return Role::eye;
+    case NameClass::antenna:
+      return Role::antenna;
+    case NameClass::leg:
+      return Role::leg;
+    // On four legs what stands is a leg, whatever its name: the front legs of a fox have hands.
+    case NameClass::arm:
+      return limb.stands && !upright && standing_count > 1 ? Role::leg : Role::arm;
+    case NameClass::none:
+    case NameClass::digit:
+      break;
+    default:
+      return Role::other;
+  }
+  if (!large) return Role::other;
+  if (limb.stands) return Role::leg;
+  if (flatness(body, limb) < 0.15 && limb.length > 0.3 && limb.paths[0].size() < 4) return Role::wing;
+  return Role::arm;
+}
+
+// A limb with the name of a leg that does not stand while longer ones do is an arm: the front legs of a tyrannosaur.
+bool is_raised_leg(const Body& body, const Limb& limb) {
+  if (limb.role != Role::leg || limb.stands || limb.low < 2 * standing) return false;
+  double longest = 0;
+  for (const Limb& other : body.limbs) {
+    if (other.stands && other.named == NameClass::leg) longest = std::max(longest, other.length);
+  }
+  return limb.length < 0.8 * longest;
+}
+
+void assign_limb_roles(Body& body) {
+  const std::size_t standing_count = static_cast<std::size_t>(
+      std::count_if(body.limbs.begin(), body.limbs.end(), [](const Limb& l) { return l.stands; }));
+  for (Limb& limb : body.limbs) limb.role = role_of_limb(body, limb, standing_count);
+  for (Limb& limb : body.limbs) {
+    if (is_raised_leg(body, limb)) limb.role = Role::arm;
+  }
+  double longest_arm = 0;
+  for (const Limb& limb : body.limbs) {
+    if (limb.role == Role::arm) longest_arm = std::max(longest_arm, limb.length);
+  }
+  for (Limb& limb : body.limbs) {
+    if (limb.role == Role::arm && 2 * limb.length < longest_arm) limb.role = Role::other;
+  }
+  stable_sort(
+      body.limbs, [](const Limb& a, const Limb& b) { return a.place > b.place; }, body.memory);
+}
+
+void set(Body& body, Index joint, Role role) { body.roles[at(joint)] = role; }
+
+// The hips' side: sides by place, since names may be those of the viewer.
+void assign_sides(Body& body) {
+  for (const Limb& limb : body.limbs) {
+    for (int side = 0; side < 2; ++side) {
+      for (const Index j : body.subtree(limb.roots[side])) body.sides[at(j)] = side == 0 ? Side::left : Side::right;
+    }
+  }
+}
+
+// From the root of the tree to the head: spine, and neck after the last arm or front leg, or by its name.
+void assign_trunk(Body& body, Vector<std::uint8_t>& given) {
+  if (body.head < 0) return;
+  Vector<Index> path(&body.memory);
+  for (Index j = body.head; j >= 0; j = body.carriers[at(j)]) path.push_back(j);
+  std::reverse(path.begin(), path.end());
+  const Limb* hind = nullptr;
+  for (const Limb& limb : body.limbs) {
+    if (limb.role == Role::leg) hind = &limb;  // sorted from the front
+  }
+  std::size_t chest = 0;
+  for (const Limb& limb : body.limbs) {
+    const bool fore = limb.role == Role::arm || limb.role == Role::wing || (limb.role == Role::leg && &limb != hind);
+    const auto place = std::find(path.begin(), path.end(), limb.carrier);
+    if (fore && place != path.end() && *place != body.head)
+      chest = std::max(chest, static_cast<std::size_t>(place - path.begin()));
+  }
+  const auto is_neck = [&](Index j) { return body.names[at(j)].named == NameClass::neck; };
+  const auto named = std::find_if(path.begin(), path.end(), is_neck);
+  const std::size_t first_neck = named != path.end() ? static_cast<std::size_t>(named - path.begin()) : chest + 1;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    if (given[at(path[k])]) continue;
+    given[at(path[k])] = 1;
+    set(body, path[k], path[k] == body.head ? Role::head : k >= first_neck ? Role::neck : Role::spine);
+  }
+}
+
+Role central_role(const Body& body, Index joint, double hind_place) {
+  const bool on_head = body.head >= 0 && body.head != body.root && is_below(body, joint, body.head);
+  switch (body.names[at(joint)].named) {
+    case NameClass::jaw:
+      return Role::jaw;
+    case NameClass::tail:
+      return Role::tail;
+    case NameClass::neck:
+      return Role::neck;
+    case NameClass::trunk:
+      return on_head ? Role::other : Role::spine;
+    case NameClass::wing:
+      return Role::wing;
+    case NameClass::fin:
+      return Role::fin;
+    case NameClass::eye:
+      return Role::eye;
+    case NameClass::ear:
+      return Role::ear;
+    case NameClass::antenna:
+      return Role::antenna;
+    case NameClass::none:
+      break;
+    default:
+      return Role::other;
+  }
+  if (on_head || !body.is_central(joint)) return Role::other;
+  const Index p = body.carriers[at(joint)];
+  if (p >= 0 && (body.roles[at(p)] == Role::tail)) return Role::tail;
+  if (body.head == body.root) return Role::spine;
+  const Index tip = body.tree[at(body.ends[at(body.places[at(joint)])]) - 1];
+  const bool behind = dot(body.means[at(tip)], body.forward) < hind_place - 1.5 * central;
+  return behind && std::fabs(body.lateral(body.pivots[at(tip)])) < 2 * central ? Role::tail : Role::other;
+}
+
+void assign_rest(Body& body, Vector<std::uint8_t>& given) {
+  double hind = dot(body.pivots[at(body.root)], body.forward);
+  for (const Limb& limb : body.limbs) {
+    if (limb.role == Role::leg) hind = limb.place;
+  }
+  for (const Index j : body.tree) {
+    if (given[at(j)]) continue;
+    given[at(j)] = 1;
+    const Index p = body.carriers[at(j)];
+    const bool loose_parent = p >= 0 && body.roles[at(p)] == Role::other && body.names[at(j)].named == NameClass::none;
+    set(body, j, j == body.root ? Role::spine : loose_parent ? Role::other : central_role(body, j, hind));
+  }
+}
+
+// Declared roles win; joints along a bone take its role. Sides of pairs are those of their places: a declaration may be
+// that of the body before it was mirrored.
+void take_declared(Body& body) {
+  for (Index j = 0; j < body.count; ++j) {
+    const Index p = body.carriers[at(j)];
+    if (body.kinds[at(j)] == JointKind::twist && p >= 0)
+      body.roles[at(j)] = body.roles[at(p)], body.sides[at(j)] = body.sides[at(p)];
+  }
+  for (std::size_t j = 0; body.input.roles && j < at(body.count); ++j) {
+    if (body.input.roles[j] < 0) continue;
+    body.roles[j] = static_cast<Role>(body.input.roles[j]);
+    if (body.input.sides && body.mates[j] < 0) body.sides[j] = static_cast<Side>(body.input.sides[j]);
+  }
+}
+
+}  // namespace
+
+void assign_roles(Body& body) {
+  const std::size_t n = at(body.count);
+  body.roles.assign(n, Role::other), body.sides.assign(n, Side::middle);
+  Vector<std::uint8_t> given(n, 0, &body.memory);
+  assign_limb_roles(body);
+  assign_sides(body);
+  for (const Limb& limb : body.limbs) {
+    for (int side = 0; side < 2; ++side) {
+      for (const Index j : body.subtree(limb.roots[side])) set(body, j, limb.role), given[at(j)] = 1;
+      if (limb.role == Role::leg) assign_leg(body, limb, side);
+      if (limb.role == Role::arm) assign_arm(body, limb, side);
+    }
+  }
+  assign_trunk(body, given);
+  assign_rest(body, given);
+  take_declared(body);
+}
+
+}  // namespace hf_inner
