@@ -31,6 +31,7 @@ std::vector<Row> read_table() {
     for (std::string cell; std::getline(in, cell, '|');) cells.push_back(cell);
     Row row;
     row.name = cells.at(1).substr(6, cells[1].size() - 7);
+    if (cells.size() < 11) continue;  // a later table of the README, which counts nothing
     if (cells.at(3).find('-') == std::string::npos) {
       row.vertices = std::stoul(cells[3]);
       row.triangles = std::stoul(cells.at(4));
