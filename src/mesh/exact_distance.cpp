@@ -514,6 +514,7 @@ class Propagation {
     const Window w{begin, end, x, y, sigma, side, from};
     if (longest_ < infinite && leads_past(w)) return;
     if (sides_.twin[at(side)] != TriangleSides::several) return pass(w, turn);
+    if (is_shorter_along(w)) return;
     const Index e = sides_.edge[at(side)];
     const bool along = sides_.start(side) == sides_.topology.first(e);
     const auto turned = [&](Interval i) { return along ? i : Interval{length - i.end, length - i.begin}; };
@@ -524,10 +525,20 @@ class Propagation {
     }
   }
 
+  // Tells whether a path along the side from one of its ends is shorter to every point of a window.
+  bool is_shorter_along(const Window& w) const noexcept {
+    const Index right = TriangleSides::next(w.side);
+    const double length = sides_.frame[at(w.side)].length;
+    return distance(sides_.start(w.side)) + w.end < w.sigma + length_of(w.end - w.x, w.y) - equal_distance ||
+           distance(sides_.start(right)) + (length - w.begin) <
+               w.sigma + length_of(w.begin - w.x, w.y) - equal_distance;
+  }
+
   // Passes a window on to the other triangles of its side.
   void pass(const Window& window, const Turn& turn) {
     const double length = sides_.frame[at(window.side)].length;
     for_twins(window.side, [&](Index twin) {
+      poller_.due();
       Window w = window;
       w.side = twin;
       if (sides_.start(twin) == sides_.start(window.side)) return push(w, key(w), turn);
@@ -565,9 +576,7 @@ class Propagation {
       if (through >= w.begin - corner_rounding * f.length && through <= w.end + corner_rounding * f.length)
         offer_target(w.sigma + length_of(x - w.x, y + w.y), {s, w.from, w.x, w.y}, p);
     }
-    // the vertices of the side may have shorter distances now than when the window was made
-    if (distance(v0) + w.end < w.sigma + length_of(w.end - w.x, w.y) - equal_distance) return;
-    if (distance(v1) + (f.length - w.begin) < w.sigma + length_of(w.begin - w.x, w.y) - equal_distance) return;
+    if (is_shorter_along(w)) return;  // now; not when the window was made
     const double rounding = corner_rounding * f.length;
     double left_end = std::min(w.end, crossing), right_begin = std::max(w.begin, crossing);
     Best& best = best_[at(s)];

@@ -188,6 +188,22 @@ TEST(ExactDistance, of_a_book_and_of_cells_takes_few_windows) {
   }
 }
 
+TEST(ExactDistance, on_a_thousand_pages_takes_some_windows_a_page) {
+  PlainMesh book;
+  book.positions = {0, 0, 0, 0, 0, 1};
+  for (std::uint32_t page = 0; page < 1000; ++page) {
+    const double angle = 0.006 * page, height = 0.5 + 0.4 * std::sin(7.0 * page);
+    book.positions.insert(book.positions.end(), {std::cos(angle), std::sin(angle), height});
+    book.triangles.insert(book.triangles.end(), {0, 1, 2 + page});
+  }
+  Shape shape(book);
+  for (const Index s : {0, 1, 2, 500}) {
+    const auto found = shape.exact({s});
+    EXPECT_LT(found.window_count, 20000u) << s;
+    for (Index v = 0; v < shape.mesh.vertex_count(); ++v) ASSERT_GE(found.distance[at(v)], shape.line(v, {s}) - 1e-14);
+  }
+}
+
 TEST(ExactDistance, beyond_the_windows_of_a_task_is_refused_by_name_with_nothing_left_allocated) {
   Shape shape(bumpy_sheet(20));
   const std::uint64_t before = shape.memory.live_bytes(), enough = shape.exact({0}).window_count;
