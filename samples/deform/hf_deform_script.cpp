@@ -21,7 +21,7 @@ using namespace hf_gltf;
 const char* usage =
     "usage: hf_deform_script MESH --script POSE.json | --propose [-o OUT.glb] [--sheet S.png] [--frames-obj DIR] "
     "[options]\n"
-    "Plays a script of handle insertions, removals and drags on a surface (.glb, .gltf, .obj, .off, .ply).\n"
+    "Plays a script of handle insertions, removals and drags on a surface (glTF, .obj, .off, .ply, .stl).\n"
     "  --script FILE      the script (format in samples/deform/README.md)\n"
     "  --propose          lists the handles the library proposes and adds what holds, feet for example; without a "
     "script\n"

@@ -22,7 +22,7 @@ using namespace hf_gltf;
 
 const char* usage =
     "usage: hf_rig MESH --handles H.json -o OUT.glb [options]\n"
-    "Makes a skinned model of a surface (.glb, .gltf, .obj, .off, .ply): the handles' clusters are its joints, the "
+    "Makes a skinned model of a surface (glTF, .obj, .off, .ply, .stl): the handles' clusters are its joints, the "
     "clips\n"
     "of H.json are its clips. Beside OUT.glb a JSON of handles, joints and weights is written for tools.\n"
     "  --handles FILE   handles and clips (format in samples/deform/README.md)\n"

@@ -17,7 +17,7 @@ namespace {
 const char* const usage =
     "usage: hf_detail MESH --curve C.json --weight W [--membrane] [--grow N] [--onto MESH2 --onto-curve C2.json]\n"
     "                 [-o OUT] [--sheet FILE.png]\n"
-    "  Morphs a region of a .obj, .off, .ply, .gltf or .glb surface towards its smooth base surface.\n"
+    "  Morphs a region of a .obj, .off, .ply, .stl or glTF surface towards its smooth base surface.\n"
     "  --curve FILE       closed curve round the region: {\"points\": [{\"near\": [x, y, z]}, {\"vertex\": 12}, ...],\n"
     "                     \"side\": \"smaller\" or \"larger\", or \"seed\": vertex inside, \"grow\": rings,\n"
     "                     \"edges\": true joins the points along edges, else straight through triangles}\n"

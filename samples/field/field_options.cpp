@@ -18,7 +18,7 @@ using namespace hf_gltf;
 const char* const field_usage =
     "usage: hf_field MESH --site PLACE=VALUE[@STIFFNESS] ... [options]\n"
     "       hf_field --sheet MESH ... --png START\n"
-    "  Solves a field on a .obj, .off, .ply, .gltf or .glb surface, edits it, and prints the time of every edit.\n"
+    "  Solves a field on a .obj, .off, .ply, .stl or glTF surface, edits it, and prints the time of every edit.\n"
     "  PLACE is a vertex number (from 0, as in the file), or TRIANGLE:B0,B1,B2 for a point inside a triangle.\n"
     "  VALUE is a number, with --kind vector and direction three with commas.\n"
     "  STIFFNESS makes a soft site (relative to the mean diagonal); without it the site is exact.\n"

@@ -32,7 +32,7 @@ const char* const usage =
     "usage: hf_quads MESH [--faces N] [--edge LENGTH] [--crease DEG] [--strokes FILE.json]\n"
     "                [--poles FILE.json] [--symmetry x|y|z] [-o OUT] [--sheet FILE.png]\n"
     "       hf_quads MESH --measure QUADS [--sheet FILE.png]\n"
-    "  Makes a quad mesh of a .obj, .off, .ply, .gltf or .glb surface, and prints what it is worth.\n"
+    "  Makes a quad mesh of a .obj, .off, .ply, .stl or glTF surface, and prints what it is worth.\n"
     "  Edges follow smooth crosses along the curvature.\n"
     "  --faces N      number of quads aimed at, instead of --edge\n"
     "  --edge LENGTH  edge length aimed at, in the unit of the mesh, or as a share of its box diagonal: 2% (2.2%)\n"

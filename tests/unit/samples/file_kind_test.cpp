@@ -134,6 +134,14 @@ TEST(FileKinds, ADamagedStlIsRefused) {
   EXPECT_THROW(read(infinite, ".stl"), std::runtime_error);
 }
 
+TEST(FileKinds, AGltfWithoutIndicesIsRead) {
+  samples_test::GlbBuilder b;
+  b.triangle_mesh({{"POSITION", b.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0}, "VEC3")}});
+  const Model model = read_gltf_bytes(b.glb(), "a.glb");
+  EXPECT_EQ(model.meshes[0].primitives[0].indices, (std::vector<uint32_t>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(flatten(model).welded_count, 4u);
+}
+
 // Strips in a .ply: every second triangle is turned round, and -1 begins a new strip.
 TEST(FileKinds, APlyOfStripsIsRead) {
   for (const char* list : {"list int int vertex_indices", "list uchar int vertex_index"}) {
