@@ -6,8 +6,8 @@ namespace hf_inner {
 
 // If the dense system of the sites has a pivot below this share of its diagonal, its solution may have fewer than ten
 // correct digits. The field then takes corrections with the true operator, each of two sweeps or more. A larger number
-// would add corrections that do not change the field. Half and double change no bit on eight shapes with three points in
-// one triangle.
+// would add corrections that do not change the field. Half and double change no bit on eight shapes with three points
+// in one triangle.
 constexpr double crowded_share = 1e-4;
 
 class Corrections {
@@ -27,8 +27,8 @@ class Corrections {
 
  private:
   // Share of the range that the next correction may still change. Smaller adds sweeps that move the last digits, larger
-  // shows on chains of 500,000 triangles. Half and double change no bit on eight shapes with needles, loose pieces and a
-  // long ribbon.
+  // shows on chains of 500,000 triangles. Half and double change no bit on eight shapes with needles, loose pieces and
+  // a long ribbon.
   static constexpr double small_change = 1e-12;
   // A correction can be this much larger than the ratio of the two before it says. With 1, a bi-harmonic field around a
   // hub stopped at 8e-12 of its range; a larger number adds corrections that change nothing.

@@ -26,10 +26,10 @@ constexpr std::int32_t rotated_together = 4;
 constexpr std::int32_t block_columns = 64;
 
 // A pivot of the sites' dense system below this share of its diagonal entry has too few digits left: corrections of the
-// field no longer help. Independent vertices stay above 1e-9 even on small meshes with a bi-harmonic operator, and points
-// that are no closer than dependence.h allows above 1e-11. A hard point between soft sites of a stiffness near 1e12 falls
-// below. At a tenth of the value, fields of such sites are off by their whole range. At twice the value, three points in
-// one triangle of a finely refined cylinder are refused in a bi-harmonic field; half changes nothing on eight shapes.
+// field no longer help. Independent vertices stay above 1e-9 even on small meshes with a bi-harmonic operator, and
+// points that are no closer than dependence.h allows above 1e-11. A hard point between soft sites of a stiffness near
+// 1e12 falls below. At a tenth of the value, more fields of such sites are wrong. At twice the value, three points in one
+// triangle of a finely refined cylinder are refused in a bi-harmonic field; half changes nothing on eight shapes.
 constexpr double pivot_floor = 1e-11;
 
 // Rates for removing a site's row from the dense factor: the nanoseconds of one rotation for one number behind the row,

@@ -11,8 +11,8 @@ namespace {
 
 // A site depends on others if its weight vector is closer than this to what theirs span. A pivot of the dense system is
 // about the square, in any order of the sites, and should not fall below pivot_floor (dense_block.cpp): the order would
-// then decide. A larger number refuses points that lie close to, but not on, a line through other sites. Half and double
-// change no bit on eight shapes with needles, loose pieces and a long ribbon.
+// then decide. A larger number refuses points that lie close to, but not on, a line through other sites. At a tenth,
+// the pivots are as small as pivot_floor.
 constexpr double dependence = 1e-5;
 
 struct Corner {
@@ -24,8 +24,8 @@ Index root_of(Vector<Index>& parent, Index i) noexcept {
   return i;
 }
 
-// The distances of every vector to what all others span, by L of the factorisation W = L Q: their inverse squares are the
-// diagonal of (L L')^-1. Returns the last row that is closer than `dependence`, or -1.
+// The distances of every vector to what all others span, by L of the factorisation W = L Q: their inverse squares are
+// the diagonal of (L L')^-1. Returns the last row that is closer than `dependence`, or -1.
 Index last_close(const Vector<double>& l, std::size_t count, Memory& memory) {
   Vector<double> column(count, 0.0, &memory), inverse_square(count, 0.0, &memory);
   for (std::size_t i = 0; i < count; ++i) {
@@ -45,8 +45,7 @@ Index last_close(const Vector<double>& l, std::size_t count, Memory& memory) {
 // Returns a site of `rows` whose weight vector depends on those of the others, or -1: the first that depends on those
 // before it, else the last that depends on all others. So the order does not decide whether there is one. It
 // orthogonalises every vector twice (Gram-Schmidt).
-Index dependent_row(Span<const HardSite> sites, Span<const Index> rows, const Vector<Index>& columns,
-                      Memory& memory) {
+Index dependent_row(Span<const HardSite> sites, Span<const Index> rows, const Vector<Index>& columns, Memory& memory) {
   const std::size_t width = columns.size();
   const std::size_t count = rows.size();
   Vector<double> basis(count * width, 0.0, &memory), l(count * count, 0.0, &memory);

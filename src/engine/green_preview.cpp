@@ -11,8 +11,8 @@
 // size of the last correction times that factor. If sites are inside the factor after a rebase, a preview is the exact
 // field. A correction costs a product with K and two single-precision sweeps.
 //
-// A field that takes corrections in double (bi-harmonic, long, crowded) may have no digit in single precision. Nothing is
-// known of the error of its preview without a correction. With corrections, the last one measures it.
+// A field that takes corrections in double (bi-harmonic, long, crowded) may have no digit in single precision. Nothing
+// is known of the error of its preview without a correction. With corrections, the last one measures it.
 #include <algorithm>
 #include <cmath>
 

@@ -10,8 +10,8 @@
 namespace hf_inner {
 namespace {
 
-// The solution for p = 1 is 1. It may be off by this much: corrections still help. More says that A H is lost in rounding
-// beside K. A larger number gives wrong fields, a smaller one refuses fields that are right.
+// The solution for p = 1 is 1. It may be off by this much: corrections still help. More says that A H is lost in
+// rounding beside K. A larger number gives wrong fields, a smaller one refuses fields that are right.
 constexpr double lost_share = 1e-2;
 // Where it is off by more than this, fields take corrections. A larger number loses digits of weak screening, a smaller
 // one adds corrections that are all rounding.
@@ -137,7 +137,7 @@ void ScreenedOperator::add_sites(const ConstraintSystem& system, const double* v
   Vector<double> own(&memory);
   for (Index first = 0; first < channels; first += ConstraintSystem::channel_block) {
     const Index count = std::min(ConstraintSystem::channel_block, channels - first);
-    Block block{count, values + at(first), at(channels), u + at(first), stride, flux ? flux + at(first) : nullptr,
+    Block block{count,       values + at(first), at(channels), u + at(first), stride, flux ? flux + at(first) : nullptr,
                 at(channels)};
     const std::size_t m = block.m(), n = at(core->size());
     Workspace plain(core->workspaces, is_corrected ? n * m : 0);
@@ -194,8 +194,8 @@ void ScreenedOperator::place_sites(const ConstraintSystem& system, const Block& 
   }
 }
 
-// Corrects a field with its sites until it no longer helps. plain: the field before the sites, [vertex][count], which is
-// taken to be right.
+// Corrects a field with its sites until it no longer helps. plain: the field before the sites, [vertex][count], which
+// is taken to be right.
 void ScreenedOperator::correct_sites(const ConstraintSystem& system, const Block& block, const double* plain) const {
   const ConstraintState& state = system.state();
   const std::size_t n = at(core->size()), m = block.m();

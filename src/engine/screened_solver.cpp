@@ -16,10 +16,12 @@ constexpr double largest_mass = 1e12;
 
 void check_sizes(const Core& core, Span<const double> strength) {
   for (Index v = 0; v < core.size(); ++v) {
-    if (core.areas[at(v)] * strength[at(v)] <= largest_mass * core.mean_diagonal[at(core.mesh.component[at(v)])]) continue;
+    if (core.areas[at(v)] * strength[at(v)] <= largest_mass * core.mean_diagonal[at(core.mesh.component[at(v)])])
+      continue;
     const std::uint32_t vertex = static_cast<std::uint32_t>(core.mesh.given_of_inner[at(v)]);
     fail(HF_ERROR_TOO_LARGE, vertex,
-         "the screening of vertex %u times its area is more than %g times the mean diagonal of K; make it smaller, or hold "
+         "the screening of vertex %u times its area is more than %g times the mean diagonal of K; make it smaller, or "
+         "hold "
          "the vertex with a site",
          vertex, largest_mass);
   }

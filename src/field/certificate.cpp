@@ -9,10 +9,10 @@
 // A screened field has A H (p - u) on the right-hand side too, and K with A H on its diagonal below. The weights of a
 // graph are those of the caller, also where the operator has others because they span more digits than there are.
 //
-// Here r is the range of the site values (and targets) of the component and channel. The sums use the differences u_j - u_v, so a
-// large constant in u costs no digits. The check uses K itself, but neither the factor nor the dense system of the
-// sites, so it finds a fault in either. A small residual does not bound the error of u on meshes of bad quality. But a
-// damaged factor, a missing site or a number that is not finite cannot pass.
+// Here r is the range of the site values (and targets) of the component and channel. The sums use the differences u_j -
+// u_v, so a large constant in u costs no digits. The check uses K itself, but neither the factor nor the dense system
+// of the sites, so it finds a fault in either. A small residual does not bound the error of u on meshes of bad quality.
+// But a damaged factor, a missing site or a number that is not finite cannot pass.
 //
 // Overshoot is how far the field leaves the range of its site values. It is checked only if K has no positive entry off
 // its diagonal (an M-matrix) and every site is a vertex. The maximum principle then forbids overshoot. In other cases,
@@ -124,7 +124,9 @@ class Check {
         m_(at(sites_.channels())),
         screening_(field.screening()),
         given_(given_weights(core_)),
-        k_(screening_ ? screening_->screened->matrix : given_.size() > 0 ? given_ : core_.laplacian),
+        k_(screening_          ? screening_->screened->matrix
+           : given_.size() > 0 ? given_
+                               : core_.laplacian),
         ranges_(field, at(core_.mesh.component_count()), m_, memory_),
         u_(core_.workspaces, n_ * m_),
         left_(core_.workspaces, n_ * m_),
@@ -281,8 +283,8 @@ class Check {
 
   // The bound of what is left of the residual, onto the sizes of the correction: the largest of them.
   double bounded(Vector<double>& size) {
-    // e is 0 at hard vertex sites. A component without one has its hardest site as its root; screening holds a vertex as
-    // a soft site does.
+    // e is 0 at hard vertex sites. A component without one has its hardest site as its root; screening holds a vertex
+    // as a soft site does.
     const std::size_t components = at(core_.mesh.component_count());
     Vector<Index> roots(&memory_);
     Vector<std::uint8_t> held(components, 0, &memory_);

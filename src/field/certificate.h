@@ -6,8 +6,8 @@
 
 namespace hf_inner {
 
-// The errors of a field. Each error is relative to the range of the site values of its component and channel, and of its
-// targets where it is screened. If all are equal, it is relative to their size.
+// The errors of a field. Each error is relative to the range of the site values of its component and channel, and of
+// its targets where it is screened. If all are equal, it is relative to their size.
 struct Certificate {
   double value_range = 0;  // widest range of the site values of a component and channel
   double residual = 0;     // distance of a vertex from the weighted mean of its neighbours

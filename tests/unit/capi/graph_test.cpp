@@ -274,8 +274,8 @@ TEST(Graph, weights_of_any_spread_give_fields_within_their_sites) {
   }
 }
 
-// A path between two sites: the field is the share of the resistance behind it, whatever the weights span. A rule changes
-// weights that no factor can hold, and a certificate must not speak for the changed ones.
+// A path between two sites: the field is the share of the resistance behind it, whatever the weights span. A rule
+// changes weights that no factor can hold, and a certificate must not speak for the changed ones.
 TEST(Graph, a_certificate_holds_for_the_weights_given) {
   int certified = 0, refused = 0, changed = 0;
   for (const double spread : {2.0, 5.0, 8.0, 11.0, 14.0}) {

@@ -64,7 +64,8 @@ TEST(Dependence, triangles_share_what_their_common_edge_takes) {
 TEST(Dependence, crowded_points_are_independent_and_far_ones_have_nothing_to_do_with_them) {
   const double d = 1e-4;
   EXPECT_EQ(lost_of({point(0, 0.3, 0.3), point(0, 0.3 + d, 0.3), point(0, 0.3, 0.3 + d)}), -1);
-  EXPECT_EQ(lost_of({point(0, 0.3, 0.3), point(0, 0.3 + d, 0.3), point(0, 0.3, 0.3 + d), point(0, 0.3 + d, 0.3 + d)}), 3);
+  EXPECT_EQ(lost_of({point(0, 0.3, 0.3), point(0, 0.3 + d, 0.3), point(0, 0.3, 0.3 + d), point(0, 0.3 + d, 0.3 + d)}),
+            3);
   EXPECT_EQ(lost_of({point(0, 0.3, 0.3), point(10, 0.3, 0.3), corner(20), corner(0)}), -1);
   EXPECT_EQ(lost_of({}), -1);
 }

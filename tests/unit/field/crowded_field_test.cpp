@@ -175,7 +175,8 @@ TEST(CrowdedField, three_points_fix_their_triangle_under_any_screening) {
 // The error of a preview is measured where single precision may have no digit, or nothing is said of it.
 TEST(CrowdedField, previews_say_their_error) {
   for (const auto kind : {hf_inner::FieldKind::harmonic, hf_inner::FieldKind::biharmonic}) {
-    for (const auto& mesh : {hf_test::grid(200, 1, 1, 0.1), hf_test::grid(40, 40, 1, 0.3), hf_test::grid(600, 2, 1, 0)}) {
+    for (const auto& mesh :
+         {hf_test::grid(200, 1, 1, 0.1), hf_test::grid(40, 40, 1, 0.3), hf_test::grid(600, 2, 1, 0)}) {
       hf_inner::CoreOptions options;
       options.field_kind = kind;
       const auto core = hf_test::make_core(mesh, 1, options);
