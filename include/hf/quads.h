@@ -18,7 +18,8 @@ typedef struct hf_quads_desc {
   uint32_t face_count;   /* wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts */
   float edge_length;     /* wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it */
   float crease_angle;    /* edges of the surface that bend by more degrees, up to 180, become edges of quads; 0 = none.
-                            If there are more than 1,024 lines of creases and borders, only the longest are kept */
+                            If there are more than 1,024 lines of creases and borders, only the longest are kept.
+                            Creases nearer to each other than an edge may be released */
   uint32_t relax_count;  /* rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none, and the mesh is
                             not fitted to the surface either */
   uint32_t crease_count; /* edges of the surface that become edges of quads whatever their angle */

@@ -17,6 +17,7 @@
 #include "gltf/gltf_write.h"
 #include "gltf/json_file.h"
 #include "hf/hf.hpp"
+#include "quads/crease_report.h"
 #include "quads/crossings.h"
 #include "quads/quad_model.h"
 #include "quads/quad_report.h"
@@ -36,7 +37,8 @@ const char* const usage =
     "  Edges follow smooth crosses along the curvature.\n"
     "  --faces N      number of quads aimed at, instead of --edge\n"
     "  --edge LENGTH  edge length aimed at, in the unit of the mesh, or as a share of its box diagonal: 2% (2.2%)\n"
-    "  --crease DEG   edges of the surface that bend by more degrees become edges of quads\n"
+    "  --crease DEG   edges of the surface that bend by more degrees become edges of quads; those that the quads are\n"
+    "                 too large for are released and counted\n"
     "  --strokes FILE {\"strokes\": [{\"points\": [[0, 1, 0.2], [0.1, 1, 0.3]], \"weight\": 1}]}: edges follow these "
     "lines,\n"
     "                 in the frame of the mesh; below 1 the curvature has a say\n"
@@ -217,6 +219,17 @@ void print_figures(const SurfaceMesh& input, double diagonal, const SurfaceMesh&
   }
 }
 
+// Creases that the edge length cannot carry, such as two that run nearer than an edge, are released. They are named
+// here.
+void print_creases(const CreaseReport& creases) {
+  std::printf("creases     %u of %u edges are edges of quads\n", creases.edges - creases.released, creases.edges);
+  if (creases.released == 0) return;
+  std::printf(
+      "            %u are released: the quads are too large for them; the farthest is %.2f edges away at "
+      "%.4g %.4g %.4g\n",
+      creases.released, creases.farthest, creases.place.x, creases.place.y, creases.place.z);
+}
+
 void draw_sheet(const Command& options, const SurfaceMesh& mesh, const std::string& title) {
   if (options.sheet.empty()) return;
   write_png(options.sheet,
@@ -329,6 +342,8 @@ void run(const Command& options) {
         "warning     %u faces where the edge length asks for about %.0f: corners of the border are too sharp, or parts "
         "too thin\n",
         report.faces, wanted);
+  if (options.crease > 0)
+    print_creases(measure_creases(input, options.crease, mesh, static_cast<double>(quads.info.edge_length)));
   if (!options.out.empty()) {
     write(options, model, input, mesh, quads);
     std::printf("wrote       %s\n", options.out.c_str());

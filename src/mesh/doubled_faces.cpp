@@ -196,8 +196,7 @@ void remove_faces(const Vector<First>& first, Mesh& mesh) {
 
 void set_doubled_aside(Mesh& mesh, std::size_t vertex_count, Memory& memory) {
   const bool of_faces = !mesh.faces.empty();
-  const Vector<First> first =
-      of_faces ? first_faces(mesh.faces, memory) : first_triangles(mesh, vertex_count, memory);
+  const Vector<First> first = of_faces ? first_faces(mesh.faces, memory) : first_triangles(mesh, vertex_count, memory);
   if (first.empty()) return;
   poll();
   // By face: its new first triangle.

@@ -2,10 +2,10 @@
 // known.
 //
 // Mesh::make checks the input, welds vertices, cuts faces, drops triangles with two equal corners, sets doubled faces
-// aside, numbers the components and counts faults of the mesh. An inner vertex is a welded vertex of at least one usable triangle. Maps
-// lead from inner vertices back to the vertices of the caller. An inner position is p' = (p - centre) / scale, with the
-// diagonal of the box of all inner vertices as scale. So no result depends on the unit or the offset of the input.
-// Cost: O(n log n) for the weld, O(n) for the rest. After a failure no memory stays allocated.
+// aside, numbers the components and counts faults of the mesh. An inner vertex is a welded vertex of at least one
+// usable triangle. Maps lead from inner vertices back to the vertices of the caller. An inner position is p' = (p -
+// centre) / scale, with the diagonal of the box of all inner vertices as scale. So no result depends on the unit or the
+// offset of the input. Cost: O(n log n) for the weld, O(n) for the rest. After a failure no memory stays allocated.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -144,8 +144,8 @@ struct Mesh {
   // By inner vertex: the first of the caller's vertices that were welded to it. Ascending, unless the caller's order
   // is bad for the cache (vertex_order.h).
   Vector<std::int32_t> given_of_inner;
-  // By given triangle: its usable triangle, or none. By given face: the first triangle of its cut, or none. A doubled one
-  // has the triangle of the first.
+  // By given triangle: its usable triangle, or none. By given face: the first triangle of its cut, or none. A doubled
+  // one has the triangle of the first.
   Vector<std::int32_t> triangle_of_given;
   // A given triangle, or one of the cut of a given face, that lies on a usable triangle and was set aside
   // (doubled_faces.h). A first one whose usable triangle was turned round is listed too.

@@ -25,8 +25,8 @@ Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, 
     const std::int32_t g = surface.twin[h];
     if (!features[h] || (surface.is_real(g) && g < h)) continue;
     const Vec3 edge = surface.position[surface.head(h)] - surface.position[surface.tail[h]];
-    // Crosses of sharp corners are turned from the edge: on the left, or on the right by the other half-edge. Between two
-    // corners a crease takes the mean of its sides.
+    // Crosses of sharp corners are turned from the edge: on the left, or on the right by the other half-edge. Between
+    // two corners a crease takes the mean of its sides.
     const double left = corners.empty() ? 0 : corners.turn[h], right = corners.empty() ? 0 : corners.turn[g];
     const double mean = surface.is_real(g) ? (left + right) / 2 : left;
     for (const std::int32_t end : {surface.tail[h], surface.head(h)}) {

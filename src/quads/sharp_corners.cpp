@@ -13,8 +13,8 @@ constexpr double right_angle = half_turn / 2;
 // straight on.
 constexpr double sharp = right_angle / 2, straight_from = 1.5 * right_angle, straight_to = 2.5 * right_angle;
 
-// A corner between two feature edges: the triangles on the left of `first`, which leaves the vertex, up to `last`, which
-// comes in.
+// A corner between two feature edges: the triangles on the left of `first`, which leaves the vertex, up to `last`,
+// which comes in.
 struct Corner {
   std::int32_t first, last;
   double angle;

@@ -559,6 +559,40 @@ static void a_non_manifold_edge_is_parted(void** state) {
   hf_flow_destroy(flow), hf_surface_destroy(surface);
 }
 
+/* One vertex is so far away that two others, at 4e-19 from each other, become one place inside: their triangles have no
+ * angles. The indices of the crosses still fit the seams. */
+static void triangles_whose_angles_are_lost_in_rounding_get_quads(void** state) {
+  (void)state;
+  enum { ROWS = 4, COLUMNS = 7 };
+  static const struct {
+    int vertex;
+    double place[3];
+  } moved[] = {{11, {1, 5, -4e-19}}, {18, {2e8, 4e8, 0}}, {1, {-.95, .6, .05}},    {3, {2.5, 3.1, -.67}},
+               {5, {0, 1.33, -.42}}, {8, {.2, 1, .63}},   {9, {-.75, 1.54, -.47}}, {24, {3.05, 2.4, .69}}};
+  double positions[ROWS * COLUMNS][3];
+  uint32_t triangles[6 * (ROWS - 1) * (COLUMNS - 1)], count = 0;
+  for (uint32_t v = 0; v < ROWS * COLUMNS; ++v) {
+    positions[v][0] = v / COLUMNS, positions[v][1] = v % COLUMNS, positions[v][2] = 0;
+    if (v / COLUMNS + 1 == ROWS || v % COLUMNS + 1 == COLUMNS) continue;
+    const uint32_t square[] = {v, v + COLUMNS, v + COLUMNS + 1, v, v + COLUMNS + 1, v + 1};
+    for (int k = 0; k < 6; ++k) triangles[count++] = square[k];
+  }
+  for (size_t i = 0; i < COUNT_OF(moved); ++i) memcpy(positions[moved[i].vertex], moved[i].place, sizeof positions[0]);
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
+  desc.vertex_count = ROWS * COLUMNS, desc.positions_f64 = &positions[0][0];
+  desc.triangle_count = count / 3, desc.triangles = triangles;
+  hf_surface surface = NULL;
+  assert_ok(hf_surface_create(&desc, &surface));
+  hf_quads_desc options = HF_INIT(hf_quads_desc);
+  options.face_count = 21, options.relax_count = NO_INDEX;
+  hf_quads quads = NULL;
+  assert_ok(hf_quads_create(surface, &options, &quads));
+  hf_quads_info info = HF_INIT(hf_quads_info);
+  assert_ok(hf_quads_get_info(quads, &info));
+  assert_int_equal(info.euler_characteristic, 1);
+  hf_quads_destroy(quads), hf_surface_destroy(surface);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_tube_becomes_a_closed_net_of_quads),
@@ -573,6 +607,7 @@ int main(void) {
       cmocka_unit_test(mostly_non_manifold_triangles_are_refused_with_a_vertex),
       cmocka_unit_test(very_many_quads_must_be_asked_for),
       cmocka_unit_test(a_non_manifold_edge_is_parted),
+      cmocka_unit_test(triangles_whose_angles_are_lost_in_rounding_get_quads),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,12 @@
 // Creases that meet in corners too sharp for the grid: the tips of saw blades.
+#include "quads/sharp_corners.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "quads/field_quads.h"
-#include "quads/sharp_corners.h"
 #include "support/meshes.h"
 #include "support/quad_oracle.h"
 

@@ -46,6 +46,30 @@ TEST(QuadsProgram, CountsFacesThatCross) {
   EXPECT_NE(text.find("crossing    3 faces"), std::string::npos) << text;
 }
 
+// A box keeps its twelve creases. Two ridges nearer than an edge are too near for large quads, and are named.
+TEST(QuadsProgram, NamesCreasesThatAreReleased) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path / "plate.obj").string();
+  const int count = 40;  // ridges along y, of a plate of 1 by 1 with 80 strips
+  {
+    std::ofstream plate(file);
+    for (int i = 0; i <= 2 * count; ++i) {
+      for (const double y : {0.0, 1.0})
+        plate << "v " << 0.5 * i / count << " " << y << " " << (i % 2 ? 0.02 : 0) << "\n";
+    }
+    for (int i = 0; i < 2 * count; ++i)
+      plate << "f " << 2 * i + 1 << " " << 2 * i + 3 << " " << 2 * i + 4 << "\n"
+            << "f " << 2 * i + 1 << " " << 2 * i + 4 << " " << 2 * i + 2 << "\n";
+  }
+  std::string text;
+  ASSERT_EQ(run("\"" + file + "\" --faces 100 --crease 30 --relax 0", text), 0) << text;
+  EXPECT_EQ(text.find("creases     79 of 79"), std::string::npos) << text;
+  EXPECT_NE(text.find("are released"), std::string::npos) << text;
+  ASSERT_EQ(run("\"" + file + "\" --faces 100 --crease 120 --relax 0", text), 0) << text;
+  EXPECT_NE(text.find("creases     0 of 0 edges"), std::string::npos) << text;
+  EXPECT_EQ(text.find("are released"), std::string::npos) << text;
+}
+
 // A disc without a vertex inside: its triangles are long and thin, and each place lies in the boxes of thousands.
 TEST(QuadsProgram, SaysWhatItDoesNotMeasure) {
   const TemporaryFolder folder;
