@@ -88,9 +88,21 @@ std::size_t search_levels(const Topology& topology, Index from, Index* level, In
   return tail;
 }
 
+// Returns the vertex of the last level that is farthest from the start in space. Many may have that level, and which of
+// them the search finds last follows from the order of the vertices.
+Index last_vertex(const Vector<Vec3>& positions, Index from, const Index* level, const Index* queue,
+                  std::size_t count) {
+  Index best = queue[count - 1];
+  for (std::size_t i = count; i-- > 0 && level[at(queue[i])] == level[at(best)];) {
+    const Vec3 here = positions[at(queue[i])] - positions[at(from)], there = positions[at(best)] - positions[at(from)];
+    if (dot(here, here) > dot(there, there)) best = queue[i];
+  }
+  return best;
+}
+
 // Marks a ring of vertices around the middle of each component. A breadth-first search starts at the farthest vertex.
-// The ring is about half as many edges away from there as the last vertex that the search finds. The ring is
-// edge-connected.
+// The ring is about half as many edges away from there as the last vertex that the search finds, on the way to the
+// farthest of these. The ring is edge-connected.
 void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uint8_t>& middle) {
   const Topology& topology = core.topology;
   const std::size_t n = middle.size();
@@ -98,13 +110,18 @@ void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uin
   Index *const level = levels.data(), *const queue = waiting.data();
   const Index *const start = topology.neighbour_start.data(), *const neighbour = topology.neighbour.data();
   for (const Index from : farthest_vertices(core, total)) {
+    const auto away = [&](Index v) { return norm(core.mesh.positions[at(v)] - core.mesh.positions[at(from)]); };
     std::size_t head = 0, tail = search_levels(topology, from, level, queue);
-    Index v = queue[tail - 1];
+    Index v = last_vertex(core.mesh.positions, from, level, queue, tail);
     const Index half = level[at(v)] / 2;
     while (level[at(v)] > half) {
-      Index i = start[at(v)];
-      while (level[at(neighbour[at(i)])] + 1 != level[at(v)]) ++i;
-      v = neighbour[at(i)];
+      Index below = Mesh::none;
+      for (Index i = start[at(v)]; i < start[at(v) + 1]; ++i) {
+        const Index w = neighbour[at(i)];
+        if (level[at(w)] + 1 != level[at(v)]) continue;
+        if (below == Mesh::none || away(w) < away(below)) below = w;
+      }
+      v = below;
     }
     // The ring takes two neighbouring levels of the search, because the vertices of one level need not be
     // edge-connected.
