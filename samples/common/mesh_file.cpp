@@ -20,6 +20,14 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
+// Whether CR alone ends the lines. The first line tells; with another end CR is a blank.
+bool has_cr_lines(std::string_view text) {
+  const size_t end = text.find_first_of("\r\n");
+  if (end == std::string_view::npos || text[end] == '\n') return false;
+  const size_t behind = text.find_first_not_of('\r', end);
+  return behind == std::string_view::npos || text[behind] != '\n';
+}
+
 void check_positions(const SurfaceMesh& mesh, const std::string& name) {
   for (size_t v = 0; v < mesh.positions.size(); ++v) {
     const glm::dvec3& p = mesh.positions[v];
@@ -36,22 +44,41 @@ TextCursor::TextCursor(const uint8_t* bytes, size_t size, std::string name, char
       size_(size),
       name_(std::move(name)),
       comment_(comment),
-      continued_lines_(continued_lines) {}
+      continued_lines_(continued_lines) {
+  const std::string_view text(text_, size_);
+  at_ = text_begin(text, name_);
+  cr_lines_ = has_cr_lines(text);
+}
+
+bool TextCursor::is_line_end(size_t at) const { return text_[at] == '\n' || (cr_lines_ && text_[at] == '\r'); }
+
+size_t TextCursor::behind_blanks(size_t at) const {
+  while (at < size_ && is_blank(text_[at]) && !is_line_end(at)) ++at;
+  return at;
+}
+
+// A backslash that only blanks and a line end follow.
+bool TextCursor::is_continued() const {
+  if (!continued_lines_ || text_[at_] != '\\') return false;
+  const size_t end = behind_blanks(at_ + 1);
+  return end >= size_ || is_line_end(end);
+}
+
+void TextCursor::skip_to_line_end() {
+  while (at_ < size_ && !is_line_end(at_)) ++at_;
+}
 
 // Stops before a line end or a token; false at a line end or the end of the text.
 bool TextCursor::skip_blanks() {
   for (;;) {
-    while (at_ < size_ && is_blank(text_[at_])) ++at_;
-    if (at_ >= size_ || text_[at_] == '\n') return false;
+    at_ = behind_blanks(at_);
+    if (at_ >= size_ || is_line_end(at_)) return false;
     if (comment_ != 0 && text_[at_] == comment_) {
-      while (at_ < size_ && text_[at_] != '\n') ++at_;
+      skip_to_line_end();
       return false;
     }
-    if (!continued_lines_ || text_[at_] != '\\') return true;
-    size_t end = at_ + 1;
-    while (end < size_ && is_blank(text_[end])) ++end;
-    if (end < size_ && text_[end] != '\n') return true;
-    at_ = std::min(end + 1, size_);
+    if (!is_continued()) return true;
+    at_ = std::min(behind_blanks(at_ + 1) + 1, size_);
     ++line_;
   }
 }
@@ -59,7 +86,10 @@ bool TextCursor::skip_blanks() {
 std::string_view TextCursor::token_on_line() {
   if (!skip_blanks()) return {};
   const size_t start = at_;
-  while (at_ < size_ && !is_blank(text_[at_]) && text_[at_] != '\n' && (comment_ == 0 || text_[at_] != comment_)) ++at_;
+  const auto ends = [&](size_t at) {
+    return is_blank(text_[at]) || is_line_end(at) || (comment_ != 0 && text_[at] == comment_) || is_continued();
+  };
+  while (at_ < size_ && !ends(at_)) ++at_;
   return {text_ + start, at_ - start};
 }
 
@@ -73,8 +103,7 @@ std::string_view TextCursor::token() {
 }
 
 void TextCursor::skip_line() {
-  while (!token_on_line().empty()) {
-  }
+  skip_to_line_end();
   if (at_ < size_) {
     ++at_;
     ++line_;
@@ -91,11 +120,12 @@ bool TextCursor::next_line() {
 }
 
 std::string_view TextCursor::rest_of_line() {
-  if (!skip_blanks()) return {};
-  const size_t start = at_;
-  size_t end = at_;
-  while (!token_on_line().empty()) end = at_;
-  return {text_ + start, end - start};
+  const size_t start = behind_blanks(at_);
+  skip_to_line_end();
+  std::string_view rest(text_ + start, at_ - start);
+  if (comment_ != 0) rest = rest.substr(0, rest.find(comment_));
+  while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
+  return rest;
 }
 
 void TextCursor::fail(const std::string& message) const {

@@ -12,6 +12,7 @@
 namespace samples {
 
 // Tokens of a text, with line numbers for messages. '#' (or the character given) starts a comment to the end of a line.
+// Lines end with LF, CR LF or CR. A byte order mark is passed over; UTF-16 is refused.
 class TextCursor {
  public:
   TextCursor(const uint8_t* bytes, size_t size, std::string name, char comment, bool continued_lines = false);
@@ -22,8 +23,10 @@ class TextCursor {
   std::string_view token();
   // To the first token of the next line that has one; false at the end.
   bool next_line();
+  // To behind the line's end. Only tokens take a continued line into account: what a backslash ends, a name or a path
+  // perhaps, must not swallow the line below.
   void skip_line();
-  // The rest of the line, without surrounding blanks.
+  // The rest of the line, without surrounding blanks; a backslash belongs to it.
   std::string_view rest_of_line();
 
   bool at_end() const { return at_ >= size_; }
@@ -33,13 +36,17 @@ class TextCursor {
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
+  bool is_line_end(size_t at) const;
+  size_t behind_blanks(size_t at) const;
+  bool is_continued() const;
+  void skip_to_line_end();
   bool skip_blanks();
 
   const char* text_;
   size_t size_, at_ = 0, line_ = 1;
   std::string name_;
   char comment_;
-  bool continued_lines_;
+  bool continued_lines_, cr_lines_ = false;
 };
 
 // Whole tokens only, independent of the locale; "+1" is a number, "1x" is none.

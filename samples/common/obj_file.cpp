@@ -1,4 +1,4 @@
-// Wavefront .obj: v (with colours), f in all forms (v, v/vt, v//vn, v/vt/vn), negative indices, lines continued with a
+// Wavefront .obj: v (with colours), f in all forms (v, v/vt, v//vn, v/vt/vn), negative indices, both continued with a
 // backslash, g and o. Materials, normals, texture coordinates, lines, points and curves are passed over; indices of vt
 // and vn are checked all the same. A face may stand before its vertices. See mesh_file.h.
 #include <algorithm>

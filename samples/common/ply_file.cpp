@@ -104,8 +104,12 @@ class PlyReader {
   void read_header() {
     if (in_.token() != "ply") fail("the file does not begin with \"ply\"");
     bool formatted = false;
-    for (;;) {
-      in_.skip_line();
+    in_.skip_line();
+    // header lines of LF CR: the CR of the last one is not data
+    const size_t second = in_.position();
+    const bool lf_cr = bytes_[second - 1] == '\n' && second + 1 < bytes_.size() && bytes_[second] == '\r' &&
+                       bytes_[second + 1] != '\n';
+    for (;; in_.skip_line()) {
       if (!in_.next_line()) fail("the header has no end_header");
       const std::string word(in_.token_on_line());
       if (word == "end_header") break;
@@ -123,6 +127,7 @@ class PlyReader {
     if (!formatted) fail("the header has no format");
     in_.skip_line();
     at_ = in_.position();
+    if (lf_cr && at_ < bytes_.size() && bytes_[at_] == '\r') ++at_;
   }
 
   void read_format() {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/limits.h"
+#include "gltf/file_bytes.h"
 #include "gltf/file_name.h"
 #include "hf/hf.h"
 
@@ -218,6 +219,7 @@ std::vector<Edit> read_edit_script(const std::string& file, size_t components) {
   std::vector<Edit> edits;
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
+    if (number == 1) line.erase(0, hf_gltf::text_begin(line, file));
     if (const size_t hash = line.find('#'); hash != std::string::npos) line.resize(hash);
     std::istringstream words(line);
     std::string word;

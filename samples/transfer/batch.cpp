@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "gltf/file_bytes.h"
 #include "gltf/json_file.h"
 #include "transfer/child_process.h"
 
@@ -95,6 +96,7 @@ std::vector<BatchLine> read_batch(const fs::path& list) {
   std::vector<BatchLine> out;
   std::string text;
   for (size_t number = 1; std::getline(file, text); ++number) {
+    if (number == 1) text.erase(0, hf_gltf::text_begin(text, list.string()));
     const std::string where = list.filename().string() + ", line " + std::to_string(number);
     if (text.size() > longest_line || number > most_lines)
       throw std::runtime_error(where + ": a list has at most " + std::to_string(most_lines) + " lines of " +

@@ -21,7 +21,7 @@ from pathlib import Path
 def read_list(path: Path) -> list:
     """[(number, words)]: blanks part words, double quotes keep them together, # starts a line that says nothing."""
     lines = []
-    for number, text in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+    for number, text in enumerate(path.read_text(encoding="utf-8-sig").splitlines(), 1):
         lexer = shlex.shlex(text, posix=True, punctuation_chars=False)
         lexer.whitespace, lexer.whitespace_split, lexer.quotes, lexer.commenters = " \t\r", True, '"', ""
         try:

@@ -190,7 +190,8 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
       report.warnings.push_back("clips of the target that are not in the file, as it lacks what they move: " +
                                 std::to_string(target.animations.size()) + advice);
     size_t shapes = 0;
-    for (const MeshData& mesh : target.meshes) shapes += mesh.primitives.front().targets.size();
+    for (const MeshData& mesh : target.meshes)
+      if (!mesh.primitives.empty()) shapes += mesh.primitives.front().targets.size();
     if (report.written_as == "morph" && shapes > 0)
       report.warnings.push_back(
           "morph targets of the target that gave way to those of the clips: " + std::to_string(shapes) + advice);

@@ -151,12 +151,9 @@ std::vector<uint8_t> read_bytes(const fs::path& file, uint64_t max_bytes) {
   return bytes;
 }
 
-fs::path resolve_below(const fs::path& file, const std::string& uri, std::string& reason) {
-  std::string name;
-  if (!percent_decode(uri, name)) {
-    reason = "the percent-encoding is broken";
-    return {};
-  }
+namespace {
+
+fs::path resolve_name(const fs::path& file, const std::string& name, std::string& reason) {
   reason = name_fault(name);
   if (!reason.empty()) return {};
   std::error_code error;
@@ -179,6 +176,19 @@ fs::path resolve_below(const fs::path& file, const std::string& uri, std::string
     return {};
   }
   return target;
+}
+
+}  // namespace
+
+fs::path resolve_below(const fs::path& file, const std::string& uri, std::string& reason) {
+  std::string name;
+  const bool decoded = percent_decode(uri, name);
+  fs::path target = decoded ? resolve_name(file, name, reason) : fs::path();
+  if (!decoded) reason = "the percent-encoding is broken, and no such file is next to it as the name stands";
+  if (!target.empty() || (decoded && name == uri)) return target;
+  // some exporters write the file's name as it is
+  std::string ignored;
+  return resolve_name(file, uri, ignored);
 }
 
 bool decode_data_uri(const std::string& uri, std::vector<uint8_t>& bytes, std::string& mime_type) {
@@ -234,6 +244,14 @@ std::string image_mime_type(const std::vector<uint8_t>& bytes) {
   if (starts(0, "RIFF", 4) && starts(8, "WEBP", 4)) return "image/webp";
   if (starts(0, "\xabKTX 20\xbb\r\n\x1a\n", 12)) return "image/ktx2";
   return "";
+}
+
+size_t text_begin(std::string_view text, const std::string& name) {
+  const std::string_view mark = text.substr(0, 2);
+  const bool half = mark.size() == 2 && (mark[0] == 0) != (mark[1] == 0);
+  if (half || mark == "\xff\xfe" || mark == "\xfe\xff")
+    throw std::runtime_error(name + ": the text is UTF-16; save it as UTF-8.");
+  return text.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0;
 }
 
 std::string printable(std::string text) {

@@ -1,12 +1,14 @@
 // Animations of a glTF file. See gltf_convert_parts.h.
 //
-// Channels are resolved to their sampler's keys. Times must be finite, not negative and must not decrease; of keys at
-// one time the last one counts and the others are dropped with a warning. The number of values must be exactly what
-// keys, path and interpolation ask for. A node that is animated and given by a matrix is taken apart into TRS.
+// Channels are resolved to their sampler's keys. Times must be finite and must not decrease; of keys at one time the
+// last one counts and the others are dropped with a warning. A clip begins at 0 s: keys before give way to one there.
+// The number of values must be exactly what keys, path and interpolation ask for. A node that is animated and given by
+// a matrix is taken apart into TRS.
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "gltf/animate.h"
 #include "gltf/gltf_convert_parts.h"
 
 namespace hf_gltf {
@@ -29,6 +31,10 @@ class ChannelReader {
                                                                 : Interpolation::linear;
     to.times = in_.reader.floats(sampler.input, TINYGLTF_TYPE_SCALAR, Stored::floats, where_ + " (key times)");
     read_values(sampler, to);
+    if (to.times.empty()) {
+      in_.warn(where_ + " has no keys and is skipped");
+      return false;
+    }
     drop_equal_times(to);
     if (to.path == Path::rotation) normalize_rotations(to);
     return true;
@@ -80,7 +86,6 @@ class ChannelReader {
     const size_t block = to.values.size() / keys;
     size_t kept = 0;
     for (size_t k = 0; k < keys; ++k) {
-      if (to.times[k] < 0) in_.fail(where_, "has the negative key time " + std::to_string(to.times[k]));
       if (k > 0 && to.times[k] < to.times[k - 1]) {
         in_.fail(where_, "has key times that decrease at key " + std::to_string(k) + " (" +
                              std::to_string(to.times[k - 1]) + " s, " + std::to_string(to.times[k]) + " s)");
@@ -114,6 +119,52 @@ class ChannelReader {
   const tinygltf::Animation& animation_;
   const std::string where_;
 };
+
+// The derivative at 0 s of a cubic between the keys next - 1 and next; of a rotation that of the unit quaternion, but
+// for what lies along it.
+std::vector<double> slope_at_zero(const Channel& from, size_t next) {
+  const double start = from.times[next - 1], d = static_cast<double>(from.times[next]) - start;
+  const double s = -start / d, s2 = s * s, s3 = s2 * s;
+  const auto part = [&](size_t key, size_t group, size_t c) {
+    return static_cast<double>(from.values[(3 * key + group) * from.width + c]);
+  };
+  std::vector<double> out(from.width);
+  double squares = 0;
+  for (size_t c = 0; c < from.width; ++c) {
+    const double a = part(next - 1, 1, c), b = part(next, 1, c);
+    const double out_a = d * part(next - 1, 2, c), in_b = d * part(next, 0, c);
+    out[c] = ((6 * s2 - 6 * s) * (a - b) + (3 * s2 - 4 * s + 1) * out_a + (3 * s2 - 2 * s) * in_b) / d;
+    const double at = (2 * s3 - 3 * s2 + 1) * a + (s3 - 2 * s2 + s) * out_a + (3 * s2 - 2 * s3) * b + (s3 - s2) * in_b;
+    squares += at * at;
+  }
+  if (from.path != Path::rotation || !(squares > 0)) return out;
+  for (double& o : out) o /= std::sqrt(squares);
+  return out;
+}
+
+// Cuts off what lies before 0 s, where others begin to play. The curve behind is the same: a part of a cubic is a
+// cubic, and its tangents are slopes per second. False: nothing lies before.
+bool begin_at_zero(Channel& channel) {
+  if (!(channel.times.front() < 0)) return false;
+  const auto next =
+      static_cast<size_t>(std::upper_bound(channel.times.begin(), channel.times.end(), 0.0f) - channel.times.begin());
+  const size_t block = channel.values.size() / channel.times.size();
+  const bool cubic = channel.interpolation == Interpolation::cubic_spline;
+  std::vector<double> first = sample_channel(channel, 0);
+  if (cubic) {
+    first.insert(first.begin(), channel.width, 0.0);
+    const bool ends = next == channel.times.size();
+    const std::vector<double> slope = ends ? std::vector<double>(channel.width, 0.0) : slope_at_zero(channel, next);
+    first.insert(first.end(), slope.begin(), slope.end());
+  }
+  // the last of the keys before makes room
+  const auto gone = static_cast<std::ptrdiff_t>(next - 1), width = static_cast<std::ptrdiff_t>(block);
+  channel.times.erase(channel.times.begin(), channel.times.begin() + gone);
+  channel.values.erase(channel.values.begin(), channel.values.begin() + gone * width);
+  channel.times[0] = 0;
+  std::transform(first.begin(), first.end(), channel.values.begin(), [](double o) { return static_cast<float>(o); });
+  return true;
+}
 
 // Makes axes of length 0 perpendicular to the others, so that a collapsed node has a rotation. Any one is right.
 void complete_axes(glm::dmat3& axes, const glm::dvec3& scale) {
@@ -167,7 +218,7 @@ void convert_carried(Conversion& in, const nlohmann::json& from, const std::stri
     channel.times = in.reader.floats(sampler["input"].get<int>(), TINYGLTF_TYPE_SCALAR, Stored::floats, inner);
     channel.values = in.reader.stored(sampler["output"].get<int>(), inner);
     const size_t keys = channel.times.size() * (mode == "CUBICSPLINE" ? 3 : 1);
-    bool good = channel.values.count > 0 && channel.values.count % keys == 0 && channel.times[0] >= 0;
+    bool good = keys > 0 && channel.values.count > 0 && channel.values.count % keys == 0 && channel.times[0] >= 0;
     for (size_t k = 1; k < channel.times.size(); ++k) good = good && channel.times[k] > channel.times[k - 1];
     if (good) {
       to.carried_channels.push_back(std::move(channel));
@@ -186,6 +237,7 @@ void convert_animations(Conversion& in) {
     Animation to;
     to.name = animations[a].name;
     std::set<std::pair<int, Path>> seen;
+    size_t cut = 0;
     for (size_t c = 0; c < animations[a].channels.size(); ++c) {
       const std::string inner = where + ".channels[" + std::to_string(c) + "]";
       Channel channel;
@@ -197,10 +249,18 @@ void convert_animations(Conversion& in) {
       if (channel.path != Path::weights && in.model.nodes[static_cast<size_t>(channel.node)].matrix) {
         take_apart(in, static_cast<size_t>(channel.node));
       }
+      cut += begin_at_zero(channel);
       to.channels.push_back(std::move(channel));
     }
-    const auto& carried = in.source.carried.animation_channels;
-    if (a < carried.size()) convert_carried(in, carried[a], where, to);
+    if (cut > 0)
+      in.warn(where + " has keys before 0 s in " + std::to_string(cut) + " channels; the clip begins at 0 s");
+    CarriedDocument& carried = in.source.carried;
+    if (a < carried.animation_channels.size()) convert_carried(in, carried.animation_channels[a], where, to);
+    if (to.channels.empty() && to.carried_channels.empty()) {
+      in.warn(where + " moves nothing and is skipped");
+      continue;
+    }
+    if (a < carried.animations.size()) to.carried = std::move(carried.animations[a]);
     in.model.animations.push_back(std::move(to));
   }
 }

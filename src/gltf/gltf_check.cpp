@@ -65,6 +65,7 @@ class DocumentCheck : private TreeCheck {
     each("materials", [&](json& o, const std::string& w) { check_textures_in(o, w); });
     each("meshes", [&](json& o, const std::string& w) { check_mesh(o, w); });
     each("nodes", [&](json& o, const std::string& w) { check_node(o, w); });
+    drop_empty_skins();
     each("skins", [&](json& o, const std::string& w) { check_skin(o, w); });
     each("animations", [&](json& o, const std::string& w) { check_animation(o, w); });
     each("scenes", [&](json& o, const std::string& w) { check_scene(o, w); });
@@ -79,6 +80,10 @@ class DocumentCheck : private TreeCheck {
   using Where = TreeCheck::Where;
 
   Carried take(json& o) { return take_carried(o, dropped_); }
+
+  void warn(const std::string& message) {
+    if (warnings_.size() < 100) warnings_.push_back(message);
+  }
 
   void warn_dropped() {
     std::sort(dropped_.begin(), dropped_.end());
@@ -149,7 +154,7 @@ class DocumentCheck : private TreeCheck {
   }
 
   void check_buffer(json& o, Where where) {
-    whole(o, "byteLength", where, 1, limits_.max_total_bytes, true);
+    whole(o, "byteLength", where, 0, limits_.max_total_bytes, true);
     text(o, "uri", where, false);
     const bool fallback = has_extension(o, "EXT_meshopt_compression") || has_extension(o, "KHR_meshopt_compression");
     stored_.push_back(!fallback || o.contains("uri"));
@@ -158,7 +163,8 @@ class DocumentCheck : private TreeCheck {
 
   void check_view(json& o, Where where) {
     const int buffer = index(o, "buffer", where, "buffers", true);
-    const uint64_t length = whole(o, "byteLength", where, 1, max_json_integer, true);
+    const uint64_t length = whole(o, "byteLength", where, 0, max_json_integer, true);
+    if (length == 0) o.erase("byteOffset");  // nothing can read from it
     const uint64_t offset = whole(o, "byteOffset", where, 0, max_json_integer, false);
     whole(o, "byteStride", where, 0, 65535, false);
     const uint64_t available = document_["buffers"][static_cast<size_t>(buffer)]["byteLength"].get<uint64_t>();
@@ -224,7 +230,8 @@ class DocumentCheck : private TreeCheck {
     const uint64_t components = component_count(o["type"].get<std::string>());
     if (components == 0) fail(where + ".type", "is " + shown(o["type"]) + ", which glTF does not know");
     // every element becomes at least one float or index
-    const uint64_t count = whole(o, "count", where, 1, limits_.max_decoded_bytes / 4, true);
+    const uint64_t count = whole(o, "count", where, 0, limits_.max_decoded_bytes / 4, true);
+    if (count == 0) keep_only(o, {"componentType", "type", "count"});  // where its bytes would be does not matter
     const uint64_t offset = whole(o, "byteOffset", where, 0, max_json_integer, false);
     const int view = index(o, "bufferView", where, "bufferViews", false);
     if (o.contains("normalized") && !o["normalized"].is_boolean()) fail(where + ".normalized", "is not true or false");
@@ -259,8 +266,10 @@ class DocumentCheck : private TreeCheck {
 
   void check_image(json& o, Where where) {
     const bool has_uri = text(o, "uri", where, false);
-    const bool has_view = index(o, "bufferView", where, "bufferViews", false) >= 0;
-    if (has_uri == has_view) fail(where, "must have either \"uri\" or \"bufferView\"");
+    const int view = index(o, "bufferView", where, "bufferViews", false);
+    if (has_uri == (view >= 0)) fail(where, "must have either \"uri\" or \"bufferView\"");
+    if (view >= 0 && document_["bufferViews"][static_cast<size_t>(view)]["byteLength"] == 0)
+      fail(where, "lies in a view without bytes");
     text(o, "mimeType", where, false);
     keep_only(o, {"name", "uri", "bufferView", "mimeType", "extensions", "extras"});
   }
@@ -295,9 +304,10 @@ class DocumentCheck : private TreeCheck {
   }
 
   void check_mesh(json& o, Where where) {
-    json* primitives = array(o, "primitives", where, true);
+    json* primitives = array(o, "primitives", where, false);
     carried_.primitives.emplace_back();
-    for (size_t i = 0; i < primitives->size(); ++i) {
+    if (!primitives || primitives->empty()) warn(where + " has no primitives and shows nothing");
+    for (size_t i = 0; primitives && i < primitives->size(); ++i) {
       const std::string inner = where + ".primitives[" + std::to_string(i) + "]";
       json& primitive = (*primitives)[i];
       if (!primitive.is_object()) fail(inner, "is not an object");
@@ -327,6 +337,12 @@ class DocumentCheck : private TreeCheck {
       }
     }
     check_draco(*this, o, where);
+    const auto is_empty = [&](const json& from, const char* key) {
+      const auto found = from.find(key);
+      return found != from.end() && document_["accessors"][found->get<size_t>()]["count"] == 0;
+    };
+    if (is_empty(o, "indices") || is_empty(o["attributes"], "POSITION")) o["attributes"] = json::object();
+    if (o["attributes"].empty()) keep_only(o, {"attributes"});
     carried_.primitives.back().push_back(take(o));
     keep_only(o, {"attributes", "indices", "material", "mode", "targets", "draco"});
   }
@@ -363,6 +379,27 @@ class DocumentCheck : private TreeCheck {
     return *attributes;
   }
 
+  // Skins without joints move nothing: nodes lose them, the others move up.
+  void drop_empty_skins() {
+    json kept = json::array();
+    std::vector<int> number;
+    each("skins", [&](json& o, const std::string& where) {
+      const bool empty = array(o, "joints", where, false) && o["joints"].empty();
+      if (empty) warn(where + " has no joints and is skipped");
+      number.push_back(empty ? -1 : static_cast<int>(kept.size()));
+      if (!empty) kept.push_back(std::move(o));
+    });
+    if (number.empty()) return;
+    document_["skins"] = std::move(kept);
+    each("nodes", [&](json& o, const std::string&) {
+      const auto skin = o.find("skin");
+      if (skin == o.end()) return;
+      const int to = number[skin->get<size_t>()];
+      if (to >= 0) *skin = to;
+      if (to < 0) o.erase(skin);
+    });
+  }
+
   void check_skin(json& o, Where where) {
     json* joints = array(o, "joints", where, true);
     std::set<int> seen;
@@ -377,7 +414,11 @@ class DocumentCheck : private TreeCheck {
   }
 
   void check_animation(json& o, Where where) {
-    json* samplers = array(o, "samplers", where, true);
+    json* channels = array(o, "channels", where, false);
+    // what a clip without channels has besides does not matter
+    if (!channels || channels->empty()) o["samplers"] = o["channels"] = json::array();
+    channels = &o["channels"];
+    json* samplers = array(o, "samplers", where, !channels->empty());
     for (size_t i = 0; i < samplers->size(); ++i) {
       const std::string inner = where + ".samplers[" + std::to_string(i) + "]";
       json& sampler = (*samplers)[i];
@@ -392,7 +433,6 @@ class DocumentCheck : private TreeCheck {
       }
       keep_only(sampler, {"input", "output", "interpolation"});
     }
-    json* channels = array(o, "channels", where, true);
     json kept = json::array(), carried = json::array();
     for (size_t i = 0; i < channels->size(); ++i) {
       const std::string inner = where + ".channels[" + std::to_string(i) + "]";
@@ -410,8 +450,8 @@ class DocumentCheck : private TreeCheck {
                              });
         if (pointer) {
           carried.push_back({{"target", *target}, {"sampler", (*samplers)[channel["sampler"].get<size_t>()]}});
-        } else if (warnings_.size() < 100) {
-          warnings_.push_back(inner + " has no target node and is skipped");
+        } else {
+          warn(inner + " has no target node and is skipped");
         }
         continue;
       }

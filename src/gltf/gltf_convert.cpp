@@ -196,7 +196,7 @@ class Converter {
       for (size_t i = 0; i < to.size() && i < carried.size(); ++i) to[i].carried = std::move(carried[i]);
     };
     give(from.scenes, model.scenes), give(from.nodes, model.nodes), give(from.meshes, model.meshes);
-    give(from.skins, model.skins), give(from.animations, model.animations);
+    give(from.skins, model.skins);
     for (size_t n = 0; n < model.nodes.size(); ++n) {
       if (n < from.node_cameras.size()) model.nodes[n].camera = from.node_cameras[n];
       if (n < from.node_instances.size() && !from.node_instances[n].is_null())

@@ -32,7 +32,7 @@ class PrimitiveReader {
   bool run(Primitive& to) {
     const int position = attribute("POSITION");
     if (position < 0) {
-      in_.warn(where_ + " has no POSITION and is skipped");
+      in_.warn(where_ + " has no POSITION, or no elements, and is skipped");
       return false;
     }
     count_ = in_.reader.count(position, where_ + ".POSITION");
@@ -316,6 +316,20 @@ std::vector<size_t> joint_limits(const Conversion& in) {
   return limits;
 }
 
+// A target that a primitive lacks and another one has does not move it.
+void complete_targets(Conversion& in, MeshData& mesh, const std::string& where) {
+  size_t most = 0;
+  for (const Primitive& primitive : mesh.primitives) most = std::max(most, primitive.targets.size());
+  bool lacking = false;
+  for (Primitive& primitive : mesh.primitives) {
+    lacking = lacking || primitive.targets.size() < most;
+    in.reader.charge((most - primitive.targets.size()) * sizeof(MorphTarget), where);
+    primitive.targets.resize(most);
+  }
+  if (lacking)
+    in.warn(where + " has primitives with different numbers of morph targets; those that lack one do not move");
+}
+
 }  // namespace
 
 void convert_meshes(Conversion& in) {
@@ -333,10 +347,8 @@ void convert_meshes(Conversion& in) {
       if (m < carried.size() && p < carried[m].size()) primitive.carried = carried[m][p];
       to.primitives.push_back(std::move(primitive));
     }
+    complete_targets(in, to, where);
     const size_t targets = target_count(to);
-    for (const Primitive& primitive : to.primitives) {
-      if (primitive.targets.size() != targets) in.fail(where, "has primitives with different numbers of morph targets");
-    }
     to.weights.assign(meshes[m].weights.begin(), meshes[m].weights.end());
     if (!to.weights.empty() && to.weights.size() != targets) {
       if (targets > 0) {

@@ -98,8 +98,9 @@ class Loader {
       json& o = (*found)[i];
       const auto length = o["byteLength"].get<uint64_t>();
       const std::string what = element("buffers", i);
-      if (!o.contains("uri") && !(i == 0 && container.has_binary_chunk) && !viewed[i]) {
-        // a placeholder for an extension: there is nothing to read, but the parser wants bytes
+      const bool stored = o.contains("uri") || (i == 0 && container.has_binary_chunk);
+      if (length == 0 || (!stored && !viewed[i])) {
+        // empty, or a placeholder for an extension: there is nothing to read, but the parser wants bytes
         o["byteLength"] = 1;
         o["uri"] = "buffer" + std::to_string(i);
         files_["buffer" + std::to_string(i)] = {0};

@@ -14,8 +14,8 @@
 // COLOR_0. It reads any number of sets of joints and weights and keeps the eight heaviest joints of a vertex. It reads
 // morph targets, skins and animations, also from sparse accessors and with KHR_mesh_quantization. It carries through
 // scenes, cameras, instances (EXT_mesh_gpu_instancing), other attributes, channels of KHR_animation_pointer, extras,
-// and extensions that name no accessor. It mends skin weights. What is mended or not kept, it says. It refuses required
-// extensions that it does not know, by name.
+// and extensions that name no accessor. It mends skin weights. It skips clips, meshes and skins without elements, and
+// keys before 0 s. What is mended or not kept, it says. It refuses required extensions that it does not know, by name.
 //
 // The cost is linear in the size of the file. On failure it throws std::runtime_error with a sentence that names the
 // file and the element, and keeps nothing.

@@ -52,10 +52,11 @@ std::string scan_json(const char* text, size_t size, size_t max_depth, size_t ma
 }
 
 json parse_json(const char* text, size_t size, const std::string& what, size_t max_depth, size_t max_values) {
-  const std::string fault = scan_json(text, size, max_depth, max_values);
+  const size_t begin = text_begin({text, size}, what);
+  const std::string fault = scan_json(text + begin, size - begin, max_depth, max_values);
   if (!fault.empty()) throw std::runtime_error(what + ": " + fault + ".");
   try {
-    return json::parse(text, text + size);
+    return json::parse(text + begin, text + size);
   } catch (const json::exception& error) {
     // "[json.exception.parse_error.101] parse error at line 1, column 2: ..." -> what stands behind the bracket
     const std::string message = error.what();

@@ -223,6 +223,13 @@ TEST(FieldProgram, refuses_what_does_not_fit_together_with_a_sentence) {
     EXPECT_EQ(result.status, 1) << row.arguments;
     EXPECT_NE(result.output.find(row.says), std::string::npos) << row.arguments << ": " << result.output;
   }
+  const auto script = [&](const std::string& text) {
+    samples_test::write_text(folder.path / "edits.txt", text);
+    return run(hf_test::quoted(mesh_file) + " --site 0=1 --script " + hf_test::quoted(folder.path / "edits.txt"))
+        .output;
+  };
+  EXPECT_NE(script("\xef\xbb\xbf add\n").find("edits.txt:1: no place given"), std::string::npos);
+  EXPECT_NE(script("\xff\xfe# add\n").find("the text is UTF-16; save it as UTF-8"), std::string::npos);
 }
 
 TEST(FieldProgram, refuses_a_soup_by_its_size_and_names_the_option_that_lets_it_through) {

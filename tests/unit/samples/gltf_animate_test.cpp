@@ -5,6 +5,7 @@
 #include <random>
 
 #include "gltf/animate.h"
+#include "gltf/gltf_write.h"
 #include "gltf_support.h"
 
 namespace {
@@ -100,6 +101,52 @@ TEST(Animate, CubicSplineRotationsAreNormalised) {
   const auto q = sample_channel(c, 0.5);
   // tangents 0: the mean of both quaternions, which is 45 degrees
   expect_near(q, {0, 0, std::sin(M_PI / 8), std::cos(M_PI / 8)}, 1e-7);
+}
+
+// What a file holds before 0 s, where glTF allows no key, is cut off: the same motion from 0 s on, and a valid file.
+TEST(Animate, KeysBeforeZeroGiveWayToOneThere) {
+  using samples_test::json;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> number(-1, 1);
+  const std::vector<std::vector<float>> all_times = {{-1, -0.25f, 0.5f, 2}, {-1, 0, 2}, {-0.001f, 1}, {-2, -1}};
+  for (const std::vector<float>& times : all_times) {
+    for (const char* path : {"translation", "rotation", "scale"}) {
+      for (const char* mode : {"STEP", "LINEAR", "CUBICSPLINE"}) {
+        const bool turn = std::string(path) == "rotation", cubic = std::string(mode) == "CUBICSPLINE";
+        const Interpolation how = cubic                         ? Interpolation::cubic_spline
+                                  : std::string(mode) == "STEP" ? Interpolation::step
+                                                                : Interpolation::linear;
+        std::vector<float> values(times.size() * (cubic ? 3 : 1) * (turn ? 4 : 3));
+        for (float& value : values) value = number(random);
+        Channel whole = channel_of(turn ? Path::rotation : Path::scale, how, times, values);
+        const size_t groups = cubic ? 3 : 1;
+        for (size_t k = 0; turn && k < times.size(); ++k) {
+          float* q = whole.values.data() + 4 * (k * groups + groups / 2);
+          const float length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+          for (int c = 0; c < 4; ++c) q[c] /= length;
+        }
+        samples_test::GlbBuilder b;
+        b.document["nodes"] = {{{"name", "a"}}};
+        const int input = b.floats(times, "SCALAR"), output = b.floats(whole.values, turn ? "VEC4" : "VEC3");
+        b.document["animations"] = {{{"samplers", {{{"input", input}, {"output", output}, {"interpolation", mode}}}},
+                                     {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}}};
+        const Model model = b.read();
+        ASSERT_EQ(model.warnings.size(), 1u);
+        EXPECT_NE(model.warnings[0].find("begins at 0 s"), std::string::npos);
+        const std::string written = gltf_bytes(model, true);
+        const Model again = read_gltf_bytes({written.begin(), written.end()}, "again.glb");
+        EXPECT_TRUE(again.warnings.empty());
+        const Channel& cut = again.animations.at(0).channels.at(0);
+        ASSERT_EQ(cut.times[0], 0.0f);
+        for (const double t : {0.0, 1e-4, 0.2, 0.5, 0.7, 1.5, 2.0, 9.0}) {
+          // the first part of a normalised cubic keeps its ends and their slopes only
+          const bool near =
+              turn && cubic && t > 0 && t < static_cast<double>(cut.times[std::min<size_t>(1, cut.times.size() - 1)]);
+          if (!near || t < 1e-3) expect_near(sample_channel(cut, t), sample_channel(whole, t), near ? 1e-5 : 2e-6);
+        }
+      }
+    }
+  }
 }
 
 TEST(Animate, OfKeysAtOneTimeTheLastCounts) {

@@ -43,6 +43,17 @@ TEST(JsonFile, TextIsBoundedBeforeItIsParsed) {
   EXPECT_NE(message_of([] { parse_json("[1,]", 4, "x.json"); }).find("x.json"), std::string::npos);
 }
 
+TEST(JsonFile, AByteOrderMarkIsPassedOverAndUtf16IsSaid) {
+  TemporaryFolder folder;
+  write_text(folder.path / "marked.json", "\xef\xbb\xbf[1]");
+  EXPECT_EQ(JsonFile(folder.path / "marked.json").root().value(), json::array({1}));
+  const std::string little("\xff\xfe[\0001\0]\0", 8), plain("[\0001\0]\0", 6);
+  for (const std::string& text : {little, plain}) {
+    EXPECT_EQ(message_of([&] { parse_json(text.data(), text.size(), "x.json"); }),
+              "x.json: the text is UTF-16; save it as UTF-8.");
+  }
+}
+
 TEST(JsonFile, WhatIsWrittenReadsBack) {
   TemporaryFolder folder;
   const json value = {{"a", {1, 2.5, "x"}}, {"b", nullptr}};

@@ -1,4 +1,5 @@
-// Sizes that multiply are refused with file, count and limit, before memory is taken.
+// Sizes at both ends. Those that multiply are refused with file, count and limit, before memory is taken; lists without
+// elements, which converters write, are skipped with a sentence.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -101,6 +102,154 @@ TEST(GltfLimits, BuffersWithoutBytes) {
   };
   EXPECT_NO_THROW(read(text(0)));
   expect_refused(message_of([&] { read(text(1234)); }), "buffers[1234]", "no uri");
+}
+
+// How many primitives lack how many targets is bounded too.
+TEST(GltfLimits, TargetsThatPrimitivesLack) {
+  const std::string mesh = R"({"attributes":{"POSITION":0}})";
+  std::string text = zeros(3, R"({"mesh":0})");
+  text.replace(text.find(mesh), mesh.size(),
+               times(2000, mesh) + R"(,{"attributes":{"POSITION":0},"targets":[)" + times(20000, "{}") + "]}");
+  expect_refused(message_of([&] { read(text); }), "meshes[0] takes", "limit");
+}
+
+Model again(const Model& model) {
+  const std::string written = gltf_bytes(model, true);
+  Model out = read_gltf_bytes({written.begin(), written.end()}, "again");
+  EXPECT_TRUE(out.warnings.empty());
+  return out;
+}
+
+bool warns(const Model& model, const std::string& sentence) {
+  for (const std::string& warning : model.warnings)
+    if (warning.find(sentence) != std::string::npos) return true;
+  return false;
+}
+
+const char* const moving = R"({"name":"walk","extras":{"id":7},"samplers":[{"input":1,"output":0}],)"
+                           R"("channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]})";
+
+// The triangle of zeros(), times for its three elements, three accessors without elements, two clips.
+std::string with_empties(const std::string& clip, const std::string& nodes = R"({"mesh":0})") {
+  std::string text = zeros(3, nodes, R"(,"animations":[)" + clip + "," + moving + "]");
+  const size_t end = text.find("}],\"meshes\"") + 1;
+  const std::string buffer = R"("buffers":[{"byteLength":12,"uri":"data:;base64,AAAAAAAAgD8AAABA"}],)"
+                             R"("bufferViews":[{"buffer":0,"byteLength":12}],)";
+  text.insert(end, R"(,{"componentType":5126,"type":"SCALAR","count":3,"bufferView":0})"
+                   R"(,{"componentType":5126,"type":"VEC3","count":0,"bufferView":0,"byteOffset":500})"
+                   R"(,{"componentType":5126,"type":"SCALAR","count":0})"
+                   R"(,{"componentType":5125,"type":"SCALAR","count":0,"sparse":{"count":0}})");
+  return text.insert(1, buffer);
+}
+
+TEST(GltfEmpty, AClipThatMovesNothingIsSkipped) {
+  for (const char* clip :
+       {R"({"channels":[],"name":"Take 001","samplers":[]})", "{}", R"({"channels":[]})",
+        R"({"channels":[],"samplers":[{"input":77,"output":-1}]})",
+        R"({"samplers":[{"input":1,"output":0}],"channels":[{"sampler":0,"target":{"path":"scale"}}]})",
+        R"({"samplers":[{"input":3,"output":2}],"channels":[{"sampler":0,"target":{"node":0,"path":"scale"}}]})"}) {
+    const Model model = read(with_empties(clip));
+    EXPECT_TRUE(warns(model, "animations[0] moves nothing and is skipped")) << clip;
+    ASSERT_EQ(model.animations.size(), 1u) << clip;
+    EXPECT_EQ(model.animations[0].name, "walk");
+    EXPECT_EQ(model.animations[0].carried.extras, R"({"id":7})");
+    const Model back = again(model);
+    ASSERT_EQ(back.animations.size(), 1u);
+    EXPECT_EQ(back.animations[0].carried.extras, R"({"id":7})");
+  }
+  EXPECT_NE(message_of([] { read(with_empties(R"({"channels":[{"sampler":0,"target":{}}]})")); }).find("samplers"),
+            std::string::npos);
+}
+
+TEST(GltfEmpty, AMeshWithoutPrimitivesShowsNothing) {
+  for (const char* mesh : {R"({"primitives":[]})", R"({"name":"a"})", R"({"primitives":[],"weights":[1]})",
+                           R"({"primitives":[{"attributes":{"POSITION":2}}]})"}) {
+    std::string text = with_empties("{}", R"({"mesh":0},{"mesh":1,"name":"none"})");
+    text.insert(text.find("],\"nodes\""), std::string(",") + mesh);
+    const Model model = read(text);
+    EXPECT_TRUE(warns(model, "meshes[1]")) << mesh;
+    ASSERT_EQ(model.meshes.size(), 2u);
+    EXPECT_TRUE(model.meshes[1].primitives.empty());
+    EXPECT_EQ(flatten(model).vertex_count(), 3u);
+    const Model back = again(model);
+    EXPECT_EQ(back.meshes.size(), 1u);
+    EXPECT_EQ(back.nodes[1].mesh, -1);
+  }
+}
+
+TEST(GltfEmpty, AnAccessorWithoutElementsIsReadWhereItFits) {
+  const auto primitive = [](const std::string& json, const std::string& more = "") {
+    std::string text = with_empties("{}");
+    const std::string plain = R"({"attributes":{"POSITION":0}})";
+    text.replace(text.find(plain), plain.size(), json);
+    return text.insert(text.size() - 1, more);
+  };
+  const Model model = read(primitive(R"({"attributes":{"POSITION":0},"indices":4,"targets":[{"POSITION":2}]})"));
+  EXPECT_TRUE(warns(model, "meshes[0].primitives[0] has no POSITION, or no elements, and is skipped"));
+  EXPECT_TRUE(again(model).meshes.empty());
+  EXPECT_NE(message_of([&] { read(primitive(R"({"attributes":{"POSITION":0,"NORMAL":2}})")); }).find("0 elements"),
+            std::string::npos);
+  EXPECT_NE(
+      message_of([&] {
+        read(primitive(R"({"attributes":{"POSITION":0}})", R"(,"skins":[{"joints":[0],"inverseBindMatrices":2}])"));
+      }).find("0 matrices"),
+      std::string::npos);
+  // keys of what moves no node
+  const Model pointed = read(with_empties(
+      R"({"samplers":[{"input":3,"output":0}],"channels":[{"sampler":0,"target":{"path":"pointer","extensions":)"
+      R"({"KHR_animation_pointer":{"pointer":"/materials/0/x"}}}}]})"));
+  EXPECT_TRUE(warns(pointed, "keys that do not fit"));
+}
+
+TEST(GltfEmpty, BuffersAndViewsWithoutBytesAreRead) {
+  for (const char* buffer : {R"({"byteLength":0})", R"({"byteLength":0,"uri":"data:;base64,"})"}) {
+    const std::string text = std::string(R"({"asset":{"version":"2.0"},"buffers":[)") + buffer +
+                             R"(],"bufferViews":[{"buffer":0,"byteLength":0,"byteOffset":9}])";
+    EXPECT_NO_THROW(read(text + "}")) << buffer;
+    EXPECT_NE(
+        message_of([&] { read(text + R"(,"images":[{"bufferView":0,"mimeType":"image/png"}]})"); }).find("images[0]"),
+        std::string::npos);
+    EXPECT_NE(message_of([&] {
+                read(text + R"(,"accessors":[{"componentType":5126,"type":"VEC3","count":1,"bufferView":0}]})");
+              }).find("needs 12 bytes"),
+              std::string::npos);
+  }
+}
+
+TEST(GltfEmpty, ASkinWithoutJointsIsSkippedAndTheOthersMoveUp) {
+  const Model model = read(zeros(3, R"({"mesh":0,"skin":0},{"skin":1},{"mesh":0,"skin":2})",
+                                 R"(,"skins":[{"joints":[]},{"joints":[0],"name":"a"},{"joints":[1],"name":"b"}])"));
+  EXPECT_TRUE(warns(model, "skins[0] has no joints and is skipped"));
+  ASSERT_EQ(model.skins.size(), 2u);
+  EXPECT_EQ(model.nodes[0].skin, -1);
+  EXPECT_EQ(model.skins[static_cast<size_t>(model.nodes[1].skin)].name, "a");
+  EXPECT_EQ(model.skins[static_cast<size_t>(model.nodes[2].skin)].name, "b");
+  again(model);
+}
+
+// As Blender reads them: a target that a primitive lacks does not move it.
+TEST(GltfEmpty, PrimitivesWithUnlikeMorphTargetsMoveByTheirOwn) {
+  samples_test::GlbBuilder b;
+  const int at = b.floats(samples_test::unit_triangle(), "VEC3"), by = b.floats({1, 2, 3, 4, 5, 6, 7, 8, 9}, "VEC3");
+  b.triangle_mesh({{"POSITION", at}});
+  auto& primitives = b.document["meshes"][0]["primitives"];
+  primitives.push_back({{"attributes", {{"POSITION", at}}}, {"targets", {{{"POSITION", by}}, {{"POSITION", at}}}}});
+  b.document["meshes"][0]["weights"] = {0.5, 0};
+  const int keys = b.floats({0, 1}, "SCALAR"), values = b.floats({0, 0, 1, 2}, "SCALAR");
+  b.document["animations"] = {{{"samplers", {{{"input", keys}, {"output", values}}}},
+                               {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
+  const Model model = b.read();
+  EXPECT_TRUE(warns(model, "different numbers of morph targets"));
+  for (const Model& o : {model, again(model)}) {
+    const FlatMesh mesh = flatten(o);
+    const std::vector<glm::dvec3> moved = posed_positions(o, mesh, o.animations.at(0), 1);
+    ASSERT_EQ(moved.size(), 6u);
+    for (size_t v = 0; v < 3; ++v) {
+      const glm::dvec3 place(o.meshes[0].primitives[0].positions[v]), way(3 * v + 1, 3 * v + 2, 3 * v + 3);
+      EXPECT_EQ(moved[v], place);
+      EXPECT_EQ(moved[3 + v], place + way + 2.0 * place);
+    }
+  }
 }
 
 // A small primitive of a large skin computes the joints it names only: the same bits.

@@ -34,6 +34,27 @@ TEST(ObjFile, AllCornerFormsAndNegativeIndicesNameTheSameVertices) {
   }
 }
 
+TEST(ObjFile, ABackslashRightBehindATokenContinuesTheLine) {
+  for (const char* end : {"\n", " \n", "\r\n"}) {
+    const std::string text =
+        std::string("v 0 0\\") + end + "0\nv 1 0 0\nv 0 1 0\nf 1/1/1 2\\" + end + " 3\\" + end + "\n";
+    EXPECT_EQ(read_text(text, ".obj").triangles, (Indices{0, 1, 2})) << text;
+  }
+  // one inside of a token ends nothing
+  EXPECT_NE(fault("v 0 0 0\nf 1\\1 1 1\n", ".obj").find("line 2"), std::string::npos);
+}
+
+// Names and paths can end with a backslash.
+TEST(ObjFile, ABackslashBehindANameSwallowsNoLine) {
+  for (const char* line : {"g body\\", "o body \\", "usemtl skin\\", "mtllib C:\\models\\", "# left \\", "g \\"}) {
+    const SurfaceMesh mesh =
+        read_text(std::string("v 0 0 0\nv 1 0 0\n") + line + "\nv 0 1 0\n" + line + "\nf 1 2 3\n", ".obj");
+    EXPECT_EQ(mesh.triangles, (Indices{0, 1, 2})) << line;
+  }
+  const std::string groups = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng head\nf 1 2 3\ng body\\ # left\nf 3 2 1\n";
+  EXPECT_EQ(read_text(groups, ".obj").group_names, (std::vector<std::string>{"head", "body\\"}));
+}
+
 TEST(ObjFile, NegativeIndicesCountFromTheFaceNotFromTheEnd) {
   const SurfaceMesh mesh =
       read_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf -3 -2 -1\n", ".obj");
@@ -180,6 +201,76 @@ TEST(PlyFile, CountsListsAndTypesAreCheckedBeforeAllocation) {
             std::string::npos);
   // an element without properties takes no bytes and no time, whatever its count
   EXPECT_EQ(fault(ply("ascii", "element nothing 9000000000000000000\nend_header\n"), ".ply"), "");
+}
+
+// The line's end behind end_header decides where the data begin: LF CR does in files whose first line ends so.
+TEST(PlyFile, BinaryDataBeginBehindTheHeadersOwnLineEnd) {
+  for (const std::string end : {"\n", "\r\n", "\n\r", "\r"}) {
+    for (const char first : {'\n', '\r', 'a'}) {
+      std::string text;
+      for (const char* line : {"ply", "format binary_little_endian 1.0", "comment a", "element vertex 3",
+                               "property float x", "property float y", "property float z", "element face 1",
+                               "property list uchar uchar vertex_index", "end_header"})
+        text += line + end;
+      std::string x(4, '\x3f');
+      x[0] = first;
+      float expected = 0;
+      std::memcpy(&expected, x.data(), 4);
+      text += x;
+      for (const float o : {0, 0, 1, 0, 0, 0, 1, 0}) put(text, o, false);
+      text += std::string("\3\0\1\2", 4);
+      const SurfaceMesh mesh = read_text(text, ".ply");
+      EXPECT_EQ(mesh.positions[0], glm::dvec3(static_cast<double>(expected), 0, 0));
+      EXPECT_EQ(mesh.positions[2], glm::dvec3(0, 1, 0));
+      EXPECT_EQ(mesh.triangles, (Indices{0, 1, 2}));
+    }
+  }
+}
+
+struct NamedText {
+  const char* extension;
+  std::string text;
+};
+
+const NamedText (&text_forms())[3] {
+  static const NamedText forms[] = {
+      {".obj", "v 0 0 0\nv 1 0 0\n\nv 0 1 0 # last\nv 1 1 0\ng a b\nf 1 2 \\\n3\nf 2 4 3\n"},
+      {".off", "OFF # text\n4 2 0\n\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2 255 0 0\n3 1 3 2\n"},
+      {".ply",
+       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+       "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n"
+       "3 1 3 2\n"}};
+  return forms;
+}
+
+void expect_two_triangles(const SurfaceMesh& mesh, const std::string& what) {
+  EXPECT_EQ(mesh.positions, (std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}})) << what;
+  EXPECT_EQ(mesh.triangles, (Indices{0, 1, 2, 1, 3, 2})) << what;
+}
+
+TEST(MeshText, LinesEndWithLfOrCrOrBothInAnyOrder) {
+  for (const NamedText& form : text_forms()) {
+    for (const char* end : {"\n", "\r\n", "\r\r\n", "\n\r", "\r"}) {
+      std::string text;
+      for (const char c : form.text) text += c == '\n' ? std::string(end) : std::string(1, c);
+      expect_two_triangles(read_text(text, form.extension), form.extension + std::to_string(end[0]));
+    }
+  }
+  // lines count the same, and a CR that ends no line is a blank
+  EXPECT_NE(fault("v 0 0 0\rv 1 0 x\r", ".obj").find("line 2"), std::string::npos);
+  EXPECT_NE(fault("v 0 0 0\r\nv 1 0 x\r\n", ".obj").find("line 2"), std::string::npos);
+  EXPECT_NO_THROW(read_text("v 0 0 0\nv 1\r0 0\n", ".obj"));
+}
+
+TEST(MeshText, AByteOrderMarkIsPassedOverAndUtf16IsSaid) {
+  for (const NamedText& form : text_forms()) {
+    expect_two_triangles(read_text("\xef\xbb\xbf" + form.text, form.extension), form.extension);
+    std::string little, big;
+    for (const char c : form.text) little += {c, '\0'}, big += {'\0', c};
+    for (const std::string& text : {"\xff\xfe" + little, "\xfe\xff" + big, little, big})
+      EXPECT_EQ(fault(text, form.extension),
+                std::string("test") + form.extension + ": the text is UTF-16; save it as UTF-8.");
+  }
 }
 
 TEST(Triangulate, AConcavePolygonIsCutIntoTrianglesThatCoverItOnce) {

@@ -78,6 +78,8 @@ TEST(TransferBatch, AWrongListIsNamed) {
   };
   refused("", "no line");
   refused("# nothing\n", "no line");
+  refused("\xef\xbb\xbf# a byte order mark\n", "no line");
+  refused("\xff\xfe# UTF-16\n", "save it as UTF-8");
   refused("a.glb \"b.glb\n", "line 1: a quote is not closed");
   refused("a.glb b.glb\n--batch other.txt\n", "line 2: --batch");
   EXPECT_EQ(transfer("--batch absent.txt", said), 1);
