@@ -19,8 +19,15 @@ struct Box {
   void add(Vec3 p) noexcept;
   void add(const Box& other) noexcept;
   Vec3 middle() const noexcept { return 0.5 * (low + high); }
-  double distance(Vec3 p) const noexcept;
-  double distance(const Box& other) const noexcept;
+  double distance(Vec3 p) const noexcept { return distance(Box{p, p}); }
+  double distance(const Box& other) const noexcept {
+    const auto gap = [](double a_low, double a_high, double b_low, double b_high) {
+      const double gap = a_low - b_high > b_low - a_high ? a_low - b_high : b_low - a_high;
+      return gap > 0 ? gap : 0.0;
+    };
+    return norm(Vec3{gap(low.x, high.x, other.low.x, other.high.x), gap(low.y, high.y, other.low.y, other.high.y),
+                     gap(low.z, high.z, other.low.z, other.high.z)});
+  }
 };
 
 // A pair of subtrees that mirror each other and hang on a central joint.

@@ -29,8 +29,9 @@ constexpr double upright_trunk = 0.6;
 constexpr double customary_up = 0.5;
 
 // Bounds on work, which no character of ours comes near. Samples of the skin that are reflected, vertices among which
-// they are sought, joints that vote for a plane, joints that are tested for lying inside.
-constexpr std::size_t skin_samples = 1000, skin_targets = 30000, plane_voters = 120, inside_tests = 64;
+// they are sought, joints that vote for a plane where there are four times as many, joints that are tested for lying
+// inside.
+constexpr std::size_t skin_samples = 1000, skin_targets = 30000, plane_voters = 60, inside_tests = 64;
 constexpr std::uint32_t most_joints = 1u << 16;
 
 }  // namespace hf_inner

@@ -38,10 +38,11 @@ struct Facts {
     each([&](const Fact&) { ++total; });
     return total;
   }
+  // Three facts, or two that are clear.
   bool all_against() const {
     bool all = true;
     each([&](const Fact& f) { all &= f.vote() < 0; });
-    return all && count() > 2;
+    return all && (count() > 2 || sum() < -1.5);
   }
 };
 
@@ -167,7 +168,7 @@ void judge_shape(Body& body, const Facts& facts) {
 }
 
 // A declared forward holds unless it lies across.
-void take_declared(Body& body) {
+void take_declared_forward(Body& body) {
   const Vec3 given = unit_vector({body.input.forward[0], body.input.forward[1], body.input.forward[2]});
   const double along = dot(given, body.forward);
   if (std::fabs(along) < 0.5) {
@@ -218,7 +219,7 @@ void find_forward(Body& body) {
     judge_named(body, facts);
   else
     judge_shape(body, facts);
-  if (body.input.forward) take_declared(body);
+  if (body.input.forward) take_declared_forward(body);
   for (Limb& limb : body.limbs)
     limb.place = 0.5 * dot(body.pivots[at(limb.roots[0])] + body.pivots[at(limb.roots[1])], body.forward);
 }

@@ -20,16 +20,6 @@ void Box::add(const Box& other) noexcept {
   add(other.high);
 }
 
-double Box::distance(Vec3 p) const noexcept { return distance(Box{p, p}); }
-
-double Box::distance(const Box& other) const noexcept {
-  const auto gap = [](double a_low, double a_high, double b_low, double b_high) {
-    return std::max({0.0, a_low - b_high, b_low - a_high});
-  };
-  return norm(Vec3{gap(low.x, high.x, other.low.x, other.high.x), gap(low.y, high.y, other.low.y, other.high.y),
-                   gap(low.z, high.z, other.low.z, other.high.z)});
-}
-
 Body::Body(const CharacterInput& given, Memory& m)
     : input(given),
       memory(m),

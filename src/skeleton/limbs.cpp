@@ -44,6 +44,24 @@ void follow_ground(const Body& body, Vector<Index>& path) {
   }
 }
 
+// From high above the ground to it.
+bool comes_down(const Body& body, Index root) {
+  return reaches_ground(body, root) && body.height_of(body.pivots[at(root)]) > 2 * standing * body.height;
+}
+
+// Gives the side with the shorter path the mates of the longer one, if they are a path.
+void even_paths(const Body& body, Limb& limb) {
+  const int longer = limb.paths[0].size() > limb.paths[1].size() ? 0 : 1;
+  if (limb.paths[0].size() == limb.paths[1].size()) return;
+  Vector<Index> path(&body.memory);
+  for (const Index j : limb.paths[longer]) {
+    const Index mate = body.mates[at(j)];
+    if (mate < 0 || body.places[at(mate)] < 0 || (!path.empty() && body.carriers[at(mate)] != path.back())) return;
+    path.push_back(mate);
+  }
+  limb.paths[1 - longer] = path;
+}
+
 double way(const Body& body, Index from, Index to) {
   return norm(body.pivots[at(to)] - body.pivots[at(from)]) + body.reaches[at(to)];
 }
@@ -120,15 +138,18 @@ void find_limbs(Body& body) {
 void follow_limbs(Body& body) {
   for (Limb& limb : body.limbs) {
     limb.low = 1e300;
+    const bool on_ground = comes_down(body, limb.roots[0]) && comes_down(body, limb.roots[1]);
     for (int side = 0; side < 2; ++side) {
       const Index root = limb.roots[side];
       limb.paths[side].assign(1, root);
-      if (reaches_ground(body, root) && body.height_of(body.pivots[at(root)]) > 2 * standing * body.height)
+      if (on_ground) {
         follow_ground(body, limb.paths[side]);
-      else
+      } else {
         follow_longest(body, limb.paths[side]);
+      }
       limb.low = std::min(limb.low, (body.lowest_below(root, body.up) - body.ground) / body.height);
     }
+    even_paths(body, limb);
     limb.named = class_of_paths(body, limb);
     const double root_height =
         body.height_of(0.5 * (body.pivots[at(limb.roots[0])] + body.pivots[at(limb.roots[1])])) / body.height;

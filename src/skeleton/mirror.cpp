@@ -64,8 +64,9 @@ void MirrorSearch::sort_along(Vec3 left) {
     if (norm(along) > 0 && extent > longest) longest = extent, across_ = along;
   }
   sorted_.clear();
-  for (const Index j : joints_) sorted_.push_back({dot(means_[at(j)], across_), j});
-  std::sort(sorted_.begin(), sorted_.end());
+  for (const Index j : joints_) sorted_.push_back({dot(means_[at(j)], across_), j, means_[at(j)]});
+  std::sort(sorted_.begin(), sorted_.end(),
+            [](const Place& a, const Place& b) { return a.along != b.along ? a.along < b.along : a.joint < b.joint; });
 }
 
 // The joint whose pivot and mean are nearest to the given ones, if it is near enough. No joint mirrors its own
@@ -74,10 +75,13 @@ Index MirrorSearch::nearest(Vec3 pivot, Vec3 mean, Index self) const {
   const double s = dot(mean, across_);
   double least = 2 * mirrored;
   Index best = -1;
-  for (auto k = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<double, Index>{s - least, -1});
-       k != sorted_.end() && k->first <= s + least; ++k) {
-    const Index j = k->second;
-    const double d = norm(means_[at(j)] - mean) + norm(pivots_[at(j)] - pivot);
+  const auto first = std::lower_bound(sorted_.begin(), sorted_.end(), s - least,
+                                      [](const Place& p, double along) { return p.along < along; });
+  for (auto k = first; k != sorted_.end() && k->along <= s + least; ++k) {
+    const Vec3 apart = k->mean - mean;
+    if (dot(apart, apart) > least * least) continue;
+    const Index j = k->joint;
+    const double d = norm(apart) + norm(pivots_[at(j)] - pivot);
     if (d > least || (d == least && best >= 0 && best < j)) continue;
     if (j != self && (body_.is_ancestor(j, self) || body_.is_ancestor(self, j))) continue;
     least = d, best = j;
@@ -87,7 +91,7 @@ Index MirrorSearch::nearest(Vec3 pivot, Vec3 mean, Index self) const {
 
 // Joints off the plane that find each other, less those that do not, as a share.
 double MirrorSearch::count_pairs(Plane& plane, bool all) {
-  const std::size_t step = all ? 1 : joints_.size() / plane_voters + 1;
+  const std::size_t step = all || joints_.size() < 4 * plane_voters ? 1 : joints_.size() / plane_voters;
   plane.mates.assign(at(body_.count), -1);
   std::ptrdiff_t paired = 0, off = 0, asked = 0;
   for (std::size_t k = 0; k < joints_.size(); k += step, ++asked) {

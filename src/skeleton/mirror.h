@@ -29,7 +29,12 @@ class MirrorSearch {
   const Vector<Vec3>& pivots_;
   const Vector<Vec3>& means_;
   Vector<Index> joints_;
-  Vector<std::pair<double, Index>> sorted_;  // along a direction in the plane, which a reflection does not change
+  struct Place {
+    double along;
+    Index joint;
+    Vec3 mean;
+  };
+  Vector<Place> sorted_;  // along a direction in the plane, which a reflection does not change
   Vec3 across_;
   Vector<Vec3> cloud_;  // a tree: the middle of each range splits it along one axis in turn
 };

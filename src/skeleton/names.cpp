@@ -417,7 +417,7 @@ NameClass class_of(Role role) noexcept {
   return NameClass::none;
 }
 
-void take_declared(Body& body) {
+void name_declared(Body& body) {
   std::uint32_t declared = 0;
   for (std::size_t j = 0; body.input.roles && j < at(body.count); ++j) {
     if (body.input.roles[j] < 0) continue;
@@ -440,7 +440,7 @@ void read_names(Body& body) {
   const Tokens tokens(body);
   const Vector<std::uint64_t> common = common_words(body, tokens);
   for (Index j = 0; j < body.count; ++j) body.names[at(j)] = read_name(tokens.of(j), common);
-  take_declared(body);
+  name_declared(body);
   std::size_t kept = 0, classed = 0;
   for (std::size_t j = 0; j < at(body.count); ++j) {
     kept += body.kept[j];

@@ -195,7 +195,7 @@ void assign_rest(Body& body, Vector<std::uint8_t>& given) {
 
 // Declared roles win; joints along a bone take its role. Sides of pairs are those of their places: a declaration may be
 // that of the body before it was mirrored.
-void take_declared(Body& body) {
+void take_declared_roles(Body& body) {
   for (Index j = 0; j < body.count; ++j) {
     const Index p = body.carriers[at(j)];
     if (body.kinds[at(j)] == JointKind::twist && p >= 0)
@@ -225,7 +225,7 @@ void assign_roles(Body& body) {
   }
   assign_trunk(body, given);
   assign_rest(body, given);
-  take_declared(body);
+  take_declared_roles(body);
 }
 
 }  // namespace hf_inner

@@ -21,6 +21,11 @@ Vec3 snap(Vec3 v) noexcept {
   return v;
 }
 
+bool is_straight(Vec3 v) noexcept {
+  return std::any_of(std::begin(coordinate_axes), std::end(coordinate_axes),
+                     [&](Vec3 axis) { return std::fabs(dot(v, axis)) == 1; });
+}
+
 // Joints with one name but for the side, one on each side.
 void pair_names(Body& body) {
   Vector<std::pair<std::uint64_t, Index>> keys(&body.memory);
@@ -120,8 +125,7 @@ void find_named_plane(Body& body, const NamedSides& sides, MirrorSearch& search)
   }
   double best = -1e300;
   for (const Vec3& candidate : candidates) {
-    const bool straight = norm(snap(candidate) - candidate) == 0;
-    const double score = search.look(candidate, true).score + (straight ? central : 0);
+    const double score = search.look(candidate, true).score + (is_straight(candidate) ? central : 0);
     if (score > best) best = score, body.left = candidate;
   }
   body.left = snap(body.left);
@@ -212,9 +216,9 @@ Choice best_of(const Vector<Vec3>& candidates, MirrorSearch& search, bool with_s
   Vector<double> scores(candidates.size(), 0.0, candidates.get_allocator());
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const Plane plane = search.look(candidates[k], with_skin);
-    scores[k] = plane.score;
+    scores[k] = plane.score + (is_straight(candidates[k]) ? central : 0);
     best.pairs = std::max(best.pairs, count_mates(plane.mates));
-    if (plane.score > best.score) best.score = plane.score, best.left = candidates[k];
+    if (scores[k] > best.score) best.score = scores[k], best.left = candidates[k];
   }
   double next = -1e300;
   for (std::size_t k = 0; k < candidates.size(); ++k) {

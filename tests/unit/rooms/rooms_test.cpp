@@ -2,6 +2,7 @@
 //   base <- {mesh, factor} <- engine <- field <- {deform, detail} <- transfer <- capi
 //                             engine <- remesh, {remesh, field} <- quads <- capi
 //                             engine <- weights <- capi, engine <- peers
+//           mesh <- skeleton <- capi
 // A room may include itself, the public headers, and the rooms to its left. mesh and factor do not see each other, nor
 // do deform, detail and quads, nor weights and the rooms above the engine. gltf is a library beside the core: it sees
 // only itself and the public headers, and no room sees it. Bindings see only public headers, samples see gltf besides;
@@ -89,9 +90,11 @@ const std::map<std::string, Names>& arrows() {
     a["transfer"].insert({"deform", "detail", "transfer"});
     a["weights"] = a["engine"];
     a["weights"].insert("weights");
+    a["skeleton"] = a["mesh"];
+    a["skeleton"].insert("skeleton");
     a["gltf"] = {"gltf"};
     a["capi"] = a["transfer"];
-    a["capi"].insert({"capi", "remesh", "quads", "weights"});
+    a["capi"].insert({"capi", "remesh", "quads", "weights", "skeleton"});
     return a;
   }();
   return allowed;
@@ -196,6 +199,9 @@ TEST(Rooms, WrongArrowsAreFound) {
   EXPECT_NE(fault("src/mesh/mesh.cpp", "../factor/factor.h"), "");
   EXPECT_NE(fault("src/attic/a.cpp", "base/error.h"), "");
   EXPECT_NE(fault("src/mesh/mesh.cpp", "no_such_neighbour.h"), "");
+  EXPECT_NE(fault("src/skeleton/character.h", "engine/core.h"), "");
+  EXPECT_NE(fault("src/weights/weights.h", "skeleton/character.h"), "");
+  EXPECT_EQ(fault("src/skeleton/character.h", "mesh/mesh.h"), "");
   EXPECT_NE(fault("src/gltf/model.h", "mesh/mesh.h"), "");
   EXPECT_NE(fault("src/transfer/transfer.cpp", "gltf/model.h"), "");
   EXPECT_NE(fault("src/capi/field_api.cpp", "hf_gltf/gltf.h"), "");

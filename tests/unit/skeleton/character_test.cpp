@@ -60,5 +60,94 @@ INSTANTIATE_TEST_SUITE_P(Conventions, Biped, testing::ValuesIn(biped_conventions
   return name;
 });
 
+// Names whose left is the viewer's: each joint bears the name of its mate.
+TEST(Doubt, SidesOfTheViewerAreOverruledByTheShapeAndSaidSo) {
+  Rig rig = make_biped("mixamo", {});
+  for (RigJoint& joint : rig.joints) {
+    for (const auto& [from, to] : {std::pair{"Left", "Right"}, std::pair{"Right", "Left"}}) {
+      const auto at = joint.name.find(from);
+      if (at == std::string::npos) continue;
+      joint.name.replace(at, std::string(from).size(), to);
+      break;
+    }
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(placed.faults(found), "");
+  EXPECT_LE(found.forward_confidence, 0.5);
+  EXPECT_NE(why(found).find("viewer"), std::string::npos) << why(found);
+}
+
+TEST(Doubt, ABodyThatLiesAtRestHasItsOwnUp) {
+  const Rig rig = make_biped("unreal", {});
+  Memory memory;
+  const PlacedRig placed(rig, Placing{1, 0, true, false, {}});  // on its back, in a file whose up is y
+  hf_inner::CharacterInput in = placed.input();
+  const double up[] = {0, 1, 0};
+  in.up = up;
+  const Character found = know_character(in, memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+  EXPECT_LE(found.up_confidence, 0.6);
+}
+
+TEST(Doubt, ADeclaredForwardIsTakenAndADisagreementSaid) {
+  const Rig rig = make_biped("unity", {});
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  hf_inner::CharacterInput in = placed.input();
+  const double back[] = {0, 0, -1}, across[] = {1, 0, 0};
+  in.forward = back;
+  const Character turned = know_character(in, memory);
+  EXPECT_LT(turned.forward.z, -0.99);
+  EXPECT_LE(turned.forward_confidence, 0.6);
+  in.forward = across;
+  const Character kept = know_character(in, memory);
+  EXPECT_GT(kept.forward.z, 0.99);
+  EXPECT_LE(kept.forward_confidence, 0.5);
+}
+
+// What the generator knows of lengths.
+TEST(Lengths, AreThoseOfTheBodyInItsUnit) {
+  for (const double scale : {0.01, 1.0, 100.0}) {
+    const Rig rig = make_biped("mixamo", {});
+    Memory memory;
+    const PlacedRig placed(rig, Placing{scale, 90, true, false, {}});
+    const Character found = know_character(placed.input(), memory);
+    const double thigh = std::hypot(0.45, 0.02), shin = std::hypot(0.42, 0.04);
+    EXPECT_NEAR(found.leg_length, scale * (thigh + shin + 0.08), 1e-6 * scale);
+    EXPECT_NEAR(found.hip_height, scale * 0.95, 1e-6 * scale);
+    EXPECT_NEAR(found.arm_length, scale * (std::hypot(0.27, 0.01) + std::hypot(0.25, 0.01)), 1e-6 * scale);
+  }
+}
+
+// Every joint of the body is in one chain, after its carrier if that is in the same one; frames are rotations.
+TEST(Chains, HoldEveryJointOnceFromRootToTip) {
+  for (const std::string& convention : biped_conventions) {
+    const Rig rig = make_biped(convention, {});
+    Memory memory;
+    const PlacedRig placed(rig, {});
+    const Character c = know_character(placed.input(), memory);
+    std::vector<int> seen(rig.joints.size(), 0);
+    for (std::size_t k = 0; k < c.chains.size(); ++k) {
+      const auto& chain = c.chains[k];
+      EXPECT_LT(chain.parent, static_cast<int>(k));
+      for (std::uint32_t i = 0; i < chain.count; ++i) {
+        const std::uint32_t j = c.chain_joints[chain.first + i];
+        ++seen[j];
+        EXPECT_EQ(c.joint_chains[j], static_cast<int>(k));
+        EXPECT_TRUE(i == 0 || c.carriers[j] == static_cast<int>(c.chain_joints[chain.first + i - 1]));
+        EXPECT_TRUE(c.mates[j] < 0 || c.mates[static_cast<std::size_t>(c.mates[j])] == static_cast<int>(j));
+      }
+    }
+    for (std::size_t j = 0; j < seen.size(); ++j) {
+      EXPECT_EQ(seen[j], c.kinds[j] == hf_inner::JointKind::body ? 1 : 0) << convention << " " << j;
+      const auto& f = c.frames[j];
+      EXPECT_NEAR(hf_inner::dot(hf_inner::cross(f.x, f.y), f.z), 1, 1e-9);
+      EXPECT_NEAR(hf_inner::norm(f.origin - placed.placing(rig.joints[j].pivot)), 0, 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hf_test
