@@ -192,10 +192,6 @@ PROGRAMS = [
 # (change, program, tolerance, reason); None: all. The first that fits a cell counts. "until ROW: ..." is a fault that is
 # being mended; the entry goes with its row.
 EXCEPTIONS = [
-    ("far vertex", None, INFINITY, "until L1: the box takes vertices in no triangle"),
-    ("near vertex", None, INFINITY, "until L1: the box takes vertices in no triangle"),
-    ("foot vertex", None, INFINITY, "until L1: the box takes vertices in no triangle"),
-    ("doubled faces", None, INFINITY, "until L6: doubled faces count twice"),
     ("vertex order", "hf_field", 0.1, "where pieces touch at places of one distance, rounding chooses the links"),
     ("face order", "hf_field", 0.1, "where pieces touch at places of one distance, rounding chooses the links"),
     ("node order", "hf_field", 0.1, "meshes come in another order, and so do their vertices"),
