@@ -107,6 +107,51 @@ TEST(Doubt, ADeclaredForwardIsTakenAndADisagreementSaid) {
   EXPECT_LE(kept.forward_confidence, 0.5);
 }
 
+// A word in every name says nothing, even if it is a word of the table.
+TEST(Names, APrefixOfAllNamesIsDropped) {
+  Rig rig = make_biped("unity", {});
+  for (RigJoint& joint : rig.joints) joint.name = "tail_" + joint.name;
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+}
+
+// A pad on the shin does not end the leg.
+TEST(Limbs, ALegFollowsTheGroundPastWhatHangsOnIt) {
+  Rig rig = make_biped("none", {});
+  const std::size_t count = rig.joints.size();
+  for (std::size_t j = 0; j < count; ++j) {
+    const RigJoint shin = rig.joints[j];
+    if (shin.role != Role::leg || shin.pivot.y > 0.6) continue;
+    const int pad = rig.add("", static_cast<int>(j), shin.pivot + Vec3{0, -0.05, 0.06}, Role::other, shin.side);
+    rig.joints.back().judged = false;
+    rig.add_box(pad, shin.pivot + Vec3{0, -0.05, 0.06}, shin.pivot + Vec3{0, -0.1, 0.5}, 0.03);
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+}
+
+// Head and tail of a worm mirror each other; they are no pair, since one carries the other.
+TEST(Mirror, NoJointMirrorsItsAncestor) {
+  Rig rig;
+  for (int k = 0; k < 8; ++k) {
+    const double z = 0.3 * (3.5 - k);
+    const int joint = rig.add("", k - 1, {0, 0, z}, Role::spine);
+    rig.add_box(joint, {0, 0, z - 0.15}, {0, 0, z + 0.15}, 0.1);
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  hf_inner::CharacterInput in = placed.input();
+  const double up[] = {0, 1, 0};
+  in.up = up;
+  const Character found = know_character(in, memory);
+  EXPECT_GT(std::fabs(found.left.x), 0.99) << why(found);
+  for (const std::int32_t mate : found.mates) EXPECT_EQ(mate, -1);
+}
+
 // What the generator knows of lengths.
 TEST(Lengths, AreThoseOfTheBodyInItsUnit) {
   for (const double scale : {0.01, 1.0, 100.0}) {

@@ -25,7 +25,7 @@ const char* axis_name(Vec3 v, char* text) {
   return text;
 }
 
-void print_chains(const Character& c, const hf_test::GltfCharacter& g, bool names) {
+void print_chains(const Character& c, const hf_test::GltfCharacter& g) {
   for (const Chain& chain : c.chains) {
     if (chain.role == Role::other || chain.role == Role::finger) continue;
     std::printf("    %s%s%u %.3g:", role_name(chain.role),
@@ -35,7 +35,7 @@ void print_chains(const Character& c, const hf_test::GltfCharacter& g, bool name
                 chain.number, chain.length);
     for (std::uint32_t k = 0; k < chain.count; ++k) {
       const std::uint32_t j = c.chain_joints[chain.first + k];
-      std::printf(" %s", names ? g.names[j] : g.names[j]);
+      std::printf(" %s", g.names[j]);
     }
     std::printf("\n");
   }
@@ -67,7 +67,7 @@ void print_file(const char* file, bool names, bool up, bool declared, bool why) 
       failed.empty() ? axis_name({axes.forward.x, axes.forward.y, axes.forward.z}, e) : "failed", ms);
   if (!why) return;
   std::printf("%.*s", static_cast<int>(c.why.size()), c.why.data());
-  print_chains(c, g, names);
+  print_chains(c, g);
 }
 
 }  // namespace
