@@ -17,7 +17,7 @@ constexpr double kept_distance = 0.1;
 // Points of each crease edge that are measured.
 constexpr int samples_of_edge = 4;
 
-using Place = std::array<double, 3>;
+using CornerKey = std::array<double, 3>;
 
 // The triangles at an edge of the welded surface, one of each direction at most.
 struct Sides {
@@ -28,10 +28,10 @@ struct Sides {
 }  // namespace
 
 CreaseReport measure_creases(const SurfaceMesh& surface, double degrees, const SurfaceMesh& quads, double edge_length) {
-  std::map<Place, uint32_t> number;
+  std::map<CornerKey, uint32_t> number;
   std::vector<uint32_t> welded;
   for (const glm::dvec3& p : surface.positions)
-    welded.push_back(number.emplace(Place{p.x, p.y, p.z}, static_cast<uint32_t>(number.size())).first->second);
+    welded.push_back(number.emplace(CornerKey{p.x, p.y, p.z}, static_cast<uint32_t>(number.size())).first->second);
   std::map<std::pair<uint32_t, uint32_t>, Sides> edges;
   for (size_t t = 0; t + 2 < surface.triangles.size(); t += 3) {
     const uint32_t* c = &surface.triangles[t];
