@@ -79,7 +79,8 @@ class Progress {
   Progress() {
     hf_progress raw = nullptr;
     check(hf_progress_create(&raw));
-    handle_ = Handle<hf_progress, hf_progress_destroy>(raw);
+    handle_ = Handle < hf_progress;
+    hf_progress_destroy > (raw);
   }
   float fraction() const {
     float value = 0;
@@ -100,21 +101,25 @@ class Surface {
   explicit Surface(const hf_surface_desc& desc) : vertices_(desc.vertex_count) {
     hf_surface raw = nullptr;
     check(hf_surface_create(&desc, &raw));
-    handle_ = Handle<hf_surface, hf_surface_destroy>(raw);
+    handle_ = Handle < hf_surface;
+    hf_surface_destroy > (raw);
   }
   // Makes a surface of a graph: two vertices for each edge, and its weight. Fields work on it; what needs triangles
   // does not (hf_surface_create_graph).
   explicit Surface(const hf_graph_desc& desc) : vertices_(desc.vertex_count) {
     hf_surface raw = nullptr;
     check(hf_surface_create_graph(&desc, &raw));
-    handle_ = Handle<hf_surface, hf_surface_destroy>(raw);
+    handle_ = Handle < hf_surface;
+    hf_surface_destroy > (raw);
   }
   static Surface from_graph(uint32_t vertex_count, const std::vector<uint32_t>& edges,
                             const std::vector<double>& weights) {
     if (edges.size() != 2 * weights.size()) throw std::invalid_argument("edges hold two vertices for each weight");
     auto desc = make<hf_graph_desc>();
-    desc.vertex_count = vertex_count, desc.edge_count = static_cast<uint32_t>(weights.size());
-    desc.edges = edges.data(), desc.weights = weights.data();
+    desc.vertex_count = vertex_count;
+    desc.edge_count = static_cast<uint32_t>(weights.size());
+    desc.edges = edges.data();
+    desc.weights = weights.data();
     return Surface(desc);
   }
   // Makes a surface. positions: x, y, z of each vertex. triangles: three vertices each.
@@ -205,7 +210,8 @@ class Surface {
       throw std::invalid_argument("positions and triangles hold three numbers each");
     desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
     desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
-    desc.positions = positions.data(), desc.triangles = triangles.data();
+    desc.positions = positions.data();
+    desc.triangles = triangles.data();
     return desc;
   }
   static hf_surface_desc mesh(const std::vector<float>& positions, const std::vector<uint32_t>& offsets,
@@ -216,7 +222,9 @@ class Surface {
     desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
     desc.face_count = static_cast<uint32_t>(offsets.size() - 1);
     desc.corner_count = static_cast<uint32_t>(corners.size());
-    desc.positions = positions.data(), desc.face_starts = offsets.data(), desc.corners = corners.data();
+    desc.positions = positions.data();
+    desc.face_starts = offsets.data();
+    desc.corners = corners.data();
     return desc;
   }
   Handle<hf_surface, hf_surface_destroy> handle_;
@@ -231,7 +239,8 @@ class Solver {
       : channels_(desc.channel_count ? desc.channel_count : 1), vertices_(surface.vertex_count()) {
     hf_solver raw = nullptr;
     check(hf_create(surface.get(), &desc, &raw));
-    handle_ = Handle<hf_solver, hf_solver_destroy>(raw);
+    handle_ = Handle < hf_solver;
+    hf_solver_destroy > (raw);
   }
 
   hf_solver get() const noexcept { return handle_.get(); }
@@ -245,7 +254,9 @@ class Solver {
   std::vector<uint32_t> add_sites(const std::vector<uint32_t>& vertices, const std::vector<double>& values) {
     need(values.size(), vertices.size() * channels_, "values");
     auto desc = make<hf_sites_desc>();
-    desc.site_count = size(vertices), desc.vertices = vertices.data(), desc.values = values.data();
+    desc.site_count = size(vertices);
+    desc.vertices = vertices.data();
+    desc.values = values.data();
     return add_sites(desc);
   }
   std::vector<uint32_t> add_sites(const hf_sites_desc& desc) {
@@ -263,7 +274,8 @@ class Solver {
   void remove_sites(const std::vector<uint32_t>& sites) { check(hf_remove_sites(get(), size(sites), sites.data())); }
   void move_sites(const std::vector<uint32_t>& sites, const std::vector<uint32_t>& vertices) {
     auto to = make<hf_sites_desc>();
-    to.site_count = size(vertices), to.vertices = vertices.data();
+    to.site_count = size(vertices);
+    to.vertices = vertices.data();
     check(hf_solver_move_sites(get(), size(sites), sites.data(), &to));
   }
   void set_values(const std::vector<uint32_t>& sites, const std::vector<double>& values) {
@@ -351,14 +363,17 @@ class Direction {
     desc.degree = degree;
     hf_direction raw = nullptr;
     check(hf_direction_create(surface.get(), &desc, &raw));
-    handle_ = Handle<hf_direction, hf_direction_destroy>(raw);
+    handle_ = Handle < hf_direction;
+    hf_direction_destroy > (raw);
   }
   // Makes a copy with the same constraints. The copy shares the factor.
   Direction clone() const {
     hf_direction raw = nullptr;
     check(hf_direction_clone(get(), &raw));
     Direction made;
-    made.handle_ = Handle<hf_direction, hf_direction_destroy>(raw), made.vertices_ = vertices_;
+    made.handle_ = Handle < hf_direction;
+    hf_direction_destroy > (raw);
+    made.vertices_ = vertices_;
     return made;
   }
   hf_direction get() const noexcept { return handle_.get(); }
@@ -435,13 +450,20 @@ inline Isolines trace_isolines(const Surface& surface, const std::vector<double>
   auto raw = make<hf_isolines>();
   check(hf_surface_trace_isolines(surface.get(), &desc, level_count, levels.data(), &raw));
   Isolines lines;
-  lines.point_edges.resize(size_t{raw.point_count} * 2), lines.parameters.resize(raw.point_count);
-  lines.positions.resize(size_t{raw.point_count} * 3), lines.line_starts.resize(size_t{raw.line_count} + 1);
-  lines.line_levels.resize(raw.line_count), lines.line_closed.resize(raw.line_count);
-  raw.point_capacity = raw.point_count, raw.line_capacity = raw.line_count;
-  raw.point_edges = lines.point_edges.data(), raw.parameters = lines.parameters.data();
-  raw.positions = lines.positions.data(), raw.line_starts = lines.line_starts.data();
-  raw.line_levels = lines.line_levels.data(), raw.line_closed = lines.line_closed.data();
+  lines.point_edges.resize(size_t{raw.point_count} * 2);
+  lines.parameters.resize(raw.point_count);
+  lines.positions.resize(size_t{raw.point_count} * 3);
+  lines.line_starts.resize(size_t{raw.line_count} + 1);
+  lines.line_levels.resize(raw.line_count);
+  lines.line_closed.resize(raw.line_count);
+  raw.point_capacity = raw.point_count;
+  raw.line_capacity = raw.line_count;
+  raw.point_edges = lines.point_edges.data();
+  raw.parameters = lines.parameters.data();
+  raw.positions = lines.positions.data();
+  raw.line_starts = lines.line_starts.data();
+  raw.line_levels = lines.line_levels.data();
+  raw.line_closed = lines.line_closed.data();
   check(hf_surface_trace_isolines(surface.get(), &desc, level_count, levels.data(), &raw));
   return lines;
 }
@@ -487,7 +509,8 @@ class Geodesics {
       : vertices_(surface.vertex_count()) {
     hf_geodesics raw = nullptr;
     check(hf_geodesics_create(surface.get(), desc, &raw));
-    handle_ = Handle<hf_geodesics, hf_geodesics_destroy>(raw);
+    handle_ = Handle < hf_geodesics;
+    hf_geodesics_destroy > (raw);
   }
   hf_geodesics get() const noexcept { return handle_.get(); }
   std::vector<double> distance(const std::vector<uint32_t>& sources) const {
@@ -500,7 +523,8 @@ class Geodesics {
     hf_path path = HF_INIT(hf_path);
     check(hf_geodesics_find_path(get(), &from, &to, &path));
     std::vector<double> positions(size_t{3} * path.point_count);
-    path.point_capacity = path.point_count, path.positions = positions.data();
+    path.point_capacity = path.point_count;
+    path.positions = positions.data();
     check(hf_geodesics_find_path(get(), &from, &to, &path));
     return positions;
   }
@@ -530,7 +554,8 @@ class Quads {
   explicit Quads(const Surface& surface, const hf_quads_desc* desc = nullptr) {
     hf_quads raw = nullptr;
     check(hf_quads_create(surface.get(), desc, &raw));
-    handle_ = Handle<hf_quads, hf_quads_destroy>(raw);
+    handle_ = Handle < hf_quads;
+    hf_quads_destroy > (raw);
   }
   hf_quads get() const noexcept { return handle_.get(); }
   // When it throws, the mesh is what it was.
@@ -543,13 +568,19 @@ class Quads {
   QuadMesh mesh() const {
     QuadMesh mesh;
     mesh.info = info();
-    mesh.positions.resize(size_t{mesh.info.vertex_count} * 3), mesh.barycentrics.resize(mesh.positions.size());
-    mesh.triangles.resize(mesh.info.vertex_count), mesh.corners.resize(mesh.positions.size());
+    mesh.positions.resize(size_t{mesh.info.vertex_count} * 3);
+    mesh.barycentrics.resize(mesh.positions.size());
+    mesh.triangles.resize(mesh.info.vertex_count);
+    mesh.corners.resize(mesh.positions.size());
     mesh.faces.resize(size_t{mesh.info.face_count} * 4);
     auto out = make<hf_quads_mesh>();
-    out.vertex_capacity = mesh.info.vertex_count, out.face_capacity = mesh.info.face_count;
-    out.positions = mesh.positions.data(), out.faces = mesh.faces.data(), out.triangles = mesh.triangles.data();
-    out.barycentrics = mesh.barycentrics.data(), out.corners = mesh.corners.data();
+    out.vertex_capacity = mesh.info.vertex_count;
+    out.face_capacity = mesh.info.face_count;
+    out.positions = mesh.positions.data();
+    out.faces = mesh.faces.data();
+    out.triangles = mesh.triangles.data();
+    out.barycentrics = mesh.barycentrics.data();
+    out.corners = mesh.corners.data();
     check(hf_quads_get_mesh(get(), &out));
     return mesh;
   }
@@ -571,7 +602,8 @@ class Flow {
   explicit Flow(const Surface& surface) {
     hf_flow raw = nullptr;
     check(hf_flow_create(surface.get(), &raw));
-    handle_ = Handle<hf_flow, hf_flow_destroy>(raw);
+    handle_ = Handle < hf_flow;
+    hf_flow_destroy > (raw);
   }
   hf_flow get() const noexcept { return handle_.get(); }
   // Traces `wanted` lines, or one line through every seed. It traces a second time only when the lines need more room
@@ -580,23 +612,33 @@ class Flow {
                   const std::vector<uint32_t>& seeds = {}) {
     const hf_scalars values = scalars(surface, field);
     auto out = make<hf_flow_lines>();
-    out.wanted_count = wanted, out.seed_count = static_cast<uint32_t>(seeds.size()), out.seeds = seeds.data();
+    out.wanted_count = wanted;
+    out.seed_count = static_cast<uint32_t>(seeds.size());
+    out.seeds = seeds.data();
     FlowLines lines;
     for (uint32_t points = points_, count = lines_;;) {
-      lines.positions.resize(size_t{points} * 3), lines.values.resize(points);
-      lines.line_starts.resize(size_t{count} + 1), lines.line_ends.resize(size_t{count} * 2);
-      out.point_capacity = points, out.line_capacity = count;
-      out.positions = lines.positions.data(), out.values = lines.values.data();
-      out.line_starts = lines.line_starts.data(), out.line_ends = lines.line_ends.data();
+      lines.positions.resize(size_t{points} * 3);
+      lines.values.resize(points);
+      lines.line_starts.resize(size_t{count} + 1);
+      lines.line_ends.resize(size_t{count} * 2);
+      out.point_capacity = points;
+      out.line_capacity = count;
+      out.positions = lines.positions.data();
+      out.values = lines.values.data();
+      out.line_starts = lines.line_starts.data();
+      out.line_ends = lines.line_ends.data();
       const hf_result result = hf_flow_trace(get(), &values, &out);
       if (result != HF_ERROR_TOO_SMALL) {
         check(result);
         break;
       }
-      points = points_ = out.point_count + out.point_count / 4, count = lines_ = out.line_count;
+      points = points_ = out.point_count + out.point_count / 4;
+      count = lines_ = out.line_count;
     }
-    lines.positions.resize(size_t{out.point_count} * 3), lines.values.resize(out.point_count);
-    lines.line_starts.resize(size_t{out.line_count} + 1), lines.line_ends.resize(size_t{out.line_count} * 2);
+    lines.positions.resize(size_t{out.point_count} * 3);
+    lines.values.resize(out.point_count);
+    lines.line_starts.resize(size_t{out.line_count} + 1);
+    lines.line_ends.resize(size_t{out.line_count} * 2);
     return lines;
   }
 
@@ -619,7 +661,8 @@ class Region {
     if (!positions.empty()) desc.positions = positions.data();
     hf_region raw = nullptr;
     check(hf_region_create(surface.get(), &desc, &raw));
-    handle_ = Handle<hf_region, hf_region_destroy>(raw);
+    handle_ = Handle < hf_region;
+    hf_region_destroy > (raw);
   }
   hf_region get() const noexcept { return handle_.get(); }
   Region clone() const {
@@ -632,8 +675,11 @@ class Region {
   void enclose(const std::vector<uint32_t>& points, int32_t side = HF_SIDE_SMALLER, uint32_t seed_vertex = 0,
                int32_t kind = HF_CURVE_STRAIGHT) {
     auto curve = make<hf_curve_desc>();
-    curve.point_count = static_cast<uint32_t>(points.size()), curve.vertices = points.data();
-    curve.side = side, curve.seed_vertex = seed_vertex, curve.kind = kind;
+    curve.point_count = static_cast<uint32_t>(points.size());
+    curve.vertices = points.data();
+    curve.side = side;
+    curve.seed_vertex = seed_vertex;
+    curve.kind = kind;
     auto desc = make<hf_region_edit_desc>();
     desc.curve = &curve;
     edit(desc);
@@ -646,12 +692,14 @@ class Region {
   }
   void add_vertices(const std::vector<uint32_t>& vertices) {
     auto desc = make<hf_region_edit_desc>();
-    desc.add_count = static_cast<uint32_t>(vertices.size()), desc.add_vertices = vertices.data();
+    desc.add_count = static_cast<uint32_t>(vertices.size());
+    desc.add_vertices = vertices.data();
     edit(desc);
   }
   void remove_vertices(const std::vector<uint32_t>& vertices) {
     auto desc = make<hf_region_edit_desc>();
-    desc.remove_count = static_cast<uint32_t>(vertices.size()), desc.remove_vertices = vertices.data();
+    desc.remove_count = static_cast<uint32_t>(vertices.size());
+    desc.remove_vertices = vertices.data();
     edit(desc);
   }
   void record() { check(hf_region_record(get())); }
@@ -691,8 +739,12 @@ class Region {
   static std::vector<float> morphed(uint32_t vertices, double weight, std::vector<float>* out_normals, Write&& write) {
     std::vector<float> positions(size_t{vertices} * 3);
     auto desc = make<hf_morph_desc>();
-    desc.weight = weight, desc.positions = positions.data();
-    if (out_normals) out_normals->resize(positions.size()), desc.normals = out_normals->data();
+    desc.weight = weight;
+    desc.positions = positions.data();
+    if (out_normals) {
+      out_normals->resize(positions.size());
+      desc.normals = out_normals->data();
+    }
     check(write(&desc));
     return positions;
   }
@@ -707,7 +759,8 @@ class Detail {
       : vertices_(target.vertices_) {
     hf_detail raw = nullptr;
     check(hf_detail_create(source.get(), target.get(), desc, &raw));
-    handle_ = Handle<hf_detail, hf_detail_destroy>(raw);
+    handle_ = Handle < hf_detail;
+    hf_detail_destroy > (raw);
   }
   hf_detail get() const noexcept { return handle_.get(); }
   std::vector<float> morph(double weight, std::vector<float>* out_normals = nullptr) const {
@@ -725,7 +778,8 @@ class Pose {
   explicit Pose(const Surface& surface, const hf_pose_desc* desc = nullptr) : vertices_(surface.vertex_count()) {
     hf_pose raw = nullptr;
     check(hf_pose_create(surface.get(), desc, &raw));
-    handle_ = Handle<hf_pose, hf_pose_destroy>(raw);
+    handle_ = Handle < hf_pose;
+    hf_pose_destroy > (raw);
   }
   hf_pose get() const noexcept { return handle_.get(); }
   Pose clone() const {
@@ -742,8 +796,11 @@ class Pose {
       vertices.insert(vertices.end(), region.begin(), region.end());
     }
     auto desc = make<hf_handles_desc>();
-    desc.handle_count = static_cast<uint32_t>(regions.size()), desc.layer = layer, desc.in_place = in_place;
-    desc.region_counts = counts.data(), desc.region_vertices = vertices.data();
+    desc.handle_count = static_cast<uint32_t>(regions.size());
+    desc.layer = layer;
+    desc.in_place = in_place;
+    desc.region_counts = counts.data();
+    desc.region_vertices = vertices.data();
     check(hf_pose_add_handles(get(), &desc, numbers.data()));
     return numbers;
   }
@@ -757,7 +814,11 @@ class Pose {
   // point. in_place: as in add_handles.
   uint32_t add_handle(const double (&point)[3], double radius, uint32_t layer = 0, bool in_place = false) {
     auto desc = make<hf_handles_desc>();
-    desc.handle_count = 1, desc.points = point, desc.radii = &radius, desc.layer = layer, desc.in_place = in_place;
+    desc.handle_count = 1;
+    desc.points = point;
+    desc.radii = &radius;
+    desc.layer = layer;
+    desc.in_place = in_place;
     uint32_t number = 0;
     check(hf_pose_add_handles(get(), &desc, &number));
     return number;
@@ -795,16 +856,20 @@ class Transfer {
       : source_vertices_(source.vertex_count()), target_vertices_(target.vertex_count()) {
     hf_transfer raw = nullptr;
     check(hf_transfer_create(source.get(), target.get(), desc, &raw));
-    handle_ = Handle<hf_transfer, hf_transfer_destroy>(raw);
+    handle_ = Handle < hf_transfer;
+    hf_transfer_destroy > (raw);
   }
   hf_transfer get() const noexcept { return handle_.get(); }
   uint32_t add_pair(const std::vector<uint32_t>& source, const std::vector<uint32_t>& target, uint32_t flags = 0) {
     const uint32_t source_count = static_cast<uint32_t>(source.size()),
                    target_count = static_cast<uint32_t>(target.size());
     auto desc = make<hf_pairs_desc>();
-    desc.pair_count = 1, desc.flags = &flags;
-    desc.source_counts = &source_count, desc.source_vertices = source.data();
-    desc.target_counts = &target_count, desc.target_vertices = target.data();
+    desc.pair_count = 1;
+    desc.flags = &flags;
+    desc.source_counts = &source_count;
+    desc.source_vertices = source.data();
+    desc.target_counts = &target_count;
+    desc.target_vertices = target.data();
     uint32_t number = HF_NO_INDEX;
     check(hf_transfer_add_pairs(get(), &desc, &number));
     return number;
@@ -834,7 +899,8 @@ class Transfer {
       throw std::invalid_argument("source_positions: three numbers for each vertex of the source are needed");
     std::vector<float> positions(size_t{target_vertices_} * 3);
     auto frame = make<hf_transfer_frame>();
-    frame.source_positions = source_positions.data(), frame.target_positions = positions.data();
+    frame.source_positions = source_positions.data();
+    frame.target_positions = positions.data();
     check(hf_transfer_apply(get(), &frame));
     return positions;
   }
@@ -878,7 +944,8 @@ class Weights {
     const hf_bones_desc desc = describe(bones);
     hf_weights raw = nullptr;
     check(hf_weights_create(surface.get(), &desc, weight_count, &raw));
-    handle_ = Handle<hf_weights, hf_weights_destroy>(raw);
+    handle_ = Handle < hf_weights;
+    hf_weights_destroy > (raw);
   }
   hf_weights get() const noexcept { return handle_.get(); }
   Weights clone() const {
@@ -904,9 +971,13 @@ class Weights {
     VertexWeights found;
     found.weight_count = out.weight_count;
     const size_t vertices = out.vertex_count, entries = vertices * out.weight_count;
-    found.joints.resize(entries), found.weights.resize(entries), found.origins.resize(vertices);
+    found.joints.resize(entries);
+    found.weights.resize(entries);
+    found.origins.resize(vertices);
     out.vertex_capacity = out.vertex_count;
-    out.joints = found.joints.data(), out.weights = found.weights.data(), out.origins = found.origins.data();
+    out.joints = found.joints.data();
+    out.weights = found.weights.data();
+    out.origins = found.origins.data();
     check(hf_weights_get(get(), &out));
     return found;
   }
@@ -946,7 +1017,8 @@ class Weights {
         !fits(bones.parents.size(), 1) || !fits(bones.deforms.size(), 1) || !fits(bones.sources.size(), 1))
       throw std::invalid_argument("bones: all lists need as many bones as heads");
     auto desc = make<hf_bones_desc>();
-    desc.bone_count = static_cast<uint32_t>(count), desc.heads = bones.heads.data();
+    desc.bone_count = static_cast<uint32_t>(count);
+    desc.heads = bones.heads.data();
     if (!bones.tails.empty()) desc.tails = bones.tails.data();
     if (!bones.axes.empty()) desc.axes = bones.axes.data();
     if (!bones.parents.empty()) desc.parents = bones.parents.data();
@@ -962,10 +1034,14 @@ namespace detail {
 inline hf_weights_out room_for(VertexWeights& found, uint32_t vertices, uint32_t weight_count) {
   found.weight_count = weight_count == 0 ? 4 : weight_count;
   const size_t entries = size_t{vertices} * found.weight_count;
-  found.joints.resize(entries), found.weights.resize(entries), found.origins.resize(vertices);
+  found.joints.resize(entries);
+  found.weights.resize(entries);
+  found.origins.resize(vertices);
   auto out = make<hf_weights_out>();
   out.vertex_capacity = vertices;
-  out.joints = found.joints.data(), out.weights = found.weights.data(), out.origins = found.origins.data();
+  out.joints = found.joints.data();
+  out.weights = found.weights.data();
+  out.origins = found.origins.data();
   return out;
 }
 inline uint32_t influences_of(const VertexWeights& given, const Surface& surface) {
@@ -980,7 +1056,8 @@ inline uint32_t influences_of(const VertexWeights& given, const Surface& surface
 inline VertexWeights carry_weights(const Surface& source, const VertexWeights& given, const Surface& target,
                                    hf_carry_desc options = make<hf_carry_desc>(), hf_carry_info* info = nullptr) {
   options.influence_count = detail::influences_of(given, source);
-  options.joints = given.joints.data(), options.weights = given.weights.data();
+  options.joints = given.joints.data();
+  options.weights = given.weights.data();
   VertexWeights found;
   hf_weights_out out = detail::room_for(found, target.vertex_count(), options.weight_count);
   check(hf_weights_carry(source.get(), target.get(), &options, &out, info));
@@ -995,10 +1072,12 @@ inline VertexWeights mirror_weights(const Surface& surface, const VertexWeights&
                                     std::vector<uint32_t>* partners = nullptr,
                                     std::vector<uint32_t>* pairings = nullptr) {
   const std::string lines = bone_lines(names);
-  options.bone_count = static_cast<uint32_t>(heads.size() / 3), options.heads = heads.data();
+  options.bone_count = static_cast<uint32_t>(heads.size() / 3);
+  options.heads = heads.data();
   options.names = names.empty() ? nullptr : lines.c_str();
   options.influence_count = detail::influences_of(given, surface);
-  options.joints = given.joints.data(), options.weights = given.weights.data();
+  options.joints = given.joints.data();
+  options.weights = given.weights.data();
   if (partners) partners->resize(options.bone_count);
   if (pairings) pairings->resize(options.bone_count);
   VertexWeights found;

@@ -303,12 +303,24 @@ uint64_t creature_hash(const Creature& creature) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(array.data());
     for (size_t i = 0; i < array.size() * sizeof(array[0]); ++i) hash = (hash ^ bytes[i]) * 0x100000001B3ull;
   };
-  add(creature.positions), add(creature.normals), add(creature.texcoords), add(creature.colors);
-  add(creature.joints), add(creature.weights), add(creature.triangles), add(creature.surface_vertex);
-  for (const Joint& joint : creature.skeleton) add(joint.name), add(joint.translation);
+  add(creature.positions);
+  add(creature.normals);
+  add(creature.texcoords);
+  add(creature.colors);
+  add(creature.joints);
+  add(creature.weights);
+  add(creature.triangles);
+  add(creature.surface_vertex);
+  for (const Joint& joint : creature.skeleton) {
+    add(joint.name);
+    add(joint.translation);
+  }
   for (const Clip& clip : creature.clips) {
     add(clip.times);
-    for (const JointKeys& keys : clip.joints) add(keys.rotations), add(keys.translations);
+    for (const JointKeys& keys : clip.joints) {
+      add(keys.rotations);
+      add(keys.translations);
+    }
   }
   return hash;
 }

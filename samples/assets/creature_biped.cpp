@@ -145,7 +145,8 @@ Leg leg_of(const Design& d, const Gait& gait, bool left, bool walking) {
   leg.heel = {0.115 * mirror, 0, -0.095};
   leg.heel_strike = true;
   leg.phase = left ? 0 : 0.5;
-  leg.bend_lower = 1, leg.bend_cannon = 0;
+  leg.bend_lower = 1;
+  leg.bend_cannon = 0;
   if (!walking) return leg;
   const double on = gait.duty, air = 1 - gait.duty;
   leg.stance_shift = 0.01;
@@ -182,11 +183,18 @@ Gait walk(const Design& d) {
   const double quarter = 0.25, middle = 0.5 * gait.duty;
   gait.translations.push_back({d.joint("hips"), 1, -0.035, 0, 0, 0.018, 0.125 - middle});
   gait.translations.push_back({d.joint("hips"), 0, 0, 0.018, quarter - middle, 0, 0});
-  turn("hips", 1, 0, 0.10, -quarter), turn("hips", 2, 0, 0.045, quarter - middle), turn("hips", 0, 0.03, 0, 0);
-  turn("spine_1", 1, 0, -0.08, -quarter), turn("spine_1", 2, 0, -0.035, quarter - middle);
-  turn("spine_2", 1, 0, -0.08, -quarter), turn("spine_2", 2, 0, -0.02, quarter - middle);
-  turn("chest", 1, 0, -0.06, -quarter), turn("chest", 0, 0.01, 0, 0, 0.015, 0.1);
-  turn("neck", 1, 0, 0.05, -quarter), turn("head", 1, 0, 0.06, -quarter), turn("head", 0, -0.03, 0, 0, -0.015, 0.1);
+  turn("hips", 1, 0, 0.10, -quarter);
+  turn("hips", 2, 0, 0.045, quarter - middle);
+  turn("hips", 0, 0.03, 0, 0);
+  turn("spine_1", 1, 0, -0.08, -quarter);
+  turn("spine_1", 2, 0, -0.035, quarter - middle);
+  turn("spine_2", 1, 0, -0.08, -quarter);
+  turn("spine_2", 2, 0, -0.02, quarter - middle);
+  turn("chest", 1, 0, -0.06, -quarter);
+  turn("chest", 0, 0.01, 0, 0, 0.015, 0.1);
+  turn("neck", 1, 0, 0.05, -quarter);
+  turn("head", 1, 0, 0.06, -quarter);
+  turn("head", 0, -0.03, 0, 0, -0.015, 0.1);
   // arms hang down and swing against the legs of their side
   for (bool left : {true, false}) {
     const std::string side = left ? "_L" : "_R";
@@ -214,9 +222,14 @@ Gait idle(const Design& d) {
   };
   gait.translations.push_back({d.joint("hips"), 1, -0.014, 0, 0, 0.004, 0});
   gait.translations.push_back({d.joint("hips"), 0, 0, 0.022, 0, 0, 0});
-  turn("hips", 2, 0, 0.03, 0), turn("spine_1", 2, 0, -0.02, 0), turn("spine_2", 0, 0, 0, 0, 0.012, 0.05);
-  turn("chest", 0, 0, 0, 0, -0.018, 0), turn("chest", 1, 0, 0.05, 0.2);
-  turn("neck", 1, 0, 0.12, 0.15), turn("head", 1, 0, 0.20, 0.12), turn("head", 0, 0.04, 0.05, 0.6, 0.04, 0);
+  turn("hips", 2, 0, 0.03, 0);
+  turn("spine_1", 2, 0, -0.02, 0);
+  turn("spine_2", 0, 0, 0, 0, 0.012, 0.05);
+  turn("chest", 0, 0, 0, 0, -0.018, 0);
+  turn("chest", 1, 0, 0.05, 0.2);
+  turn("neck", 1, 0, 0.12, 0.15);
+  turn("head", 1, 0, 0.20, 0.12);
+  turn("head", 0, 0.04, 0.05, 0.6, 0.04, 0);
   for (bool left : {true, false}) {
     const std::string side = left ? "_L" : "_R";
     const double mirror = left ? 1 : -1;

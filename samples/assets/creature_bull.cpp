@@ -160,14 +160,16 @@ Design design_bull() {
   style.duration = 1.28;
   style.stride = 1.14;
   style.duty = 0.66;
-  style.front_lift = 0.075, style.hind_lift = 0.06;
+  style.front_lift = 0.075;
+  style.hind_lift = 0.06;
   style.front_fold = 0.85;
   style.sink = 0.028;
   style.bob = 0.010;
   style.sway = 1.25;
   style.nod = 0.8;
   style.tail = 1.3;
-  style.front_shift = 0.02, style.hind_shift = 0.07;
+  style.front_shift = 0.02;
+  style.hind_shift = 0.07;
   style.front_tip = {0.190, 0, 0.605};
   style.hind_tip = {0.185, 0, -0.612};
   add_quadruped_clips(d, style);

@@ -43,7 +43,10 @@ bool right_side(const Design& design, const ChartGroup& group, const dvec3& p) {
   dvec3 nearest(0);
   double best = 1e300;
   const auto offer = [&](const dvec3& q) {
-    if (dot(p - q, p - q) < best) best = dot(p - q, p - q), nearest = q;
+    if (dot(p - q, p - q) < best) {
+      best = dot(p - q, p - q);
+      nearest = q;
+    }
   };
   // the first joint tells the plane of the group: shoulder blades do not split the trunk's middle
   const double plane = design.rest[group.joints.front()].x;
@@ -106,7 +109,8 @@ std::vector<uint32_t> charts_of_labels(const std::vector<uint32_t>& twin, std::v
           if (label[other] != label[seed]) {
             ++border[label[other]];
           } else if (chart[other] == none) {
-            chart[other] = chart_count, members.push_back(other);
+            chart[other] = chart_count;
+            members.push_back(other);
           }
         }
       }
@@ -166,7 +170,10 @@ std::vector<std::vector<uint32_t>> border_loops(const ChartMesh& cut, const std:
   for (uint32_t v = 0; v < following.size(); ++v) {
     if (following[v] == none || seen[v]) continue;
     loops.emplace_back();
-    for (uint32_t w = v; w != none && !seen[w]; w = following[w]) seen[w] = true, loops.back().push_back(w);
+    for (uint32_t w = v; w != none && !seen[w]; w = following[w]) {
+      seen[w] = true;
+      loops.back().push_back(w);
+    }
   }
   return loops;
 }
@@ -219,7 +226,10 @@ void embed(const TriangleMesh& mesh, ChartMesh& cut, const std::vector<std::vect
       if (fixed[v] || links[v].empty()) continue;
       dvec3 sum(0);
       double total = 0;
-      for (const Link& link : links[v]) sum += link.weight * cut.flat.points[link.to], total += link.weight;
+      for (const Link& link : links[v]) {
+        sum += link.weight * cut.flat.points[link.to];
+        total += link.weight;
+      }
       cut.flat.points[v] += (round < 145 ? over : 1.0) * (sum / total - cut.flat.points[v]);
     }
   }
@@ -285,7 +295,10 @@ void pack(ChartMesh& cut, const std::vector<uint32_t>& chart_of_point, uint32_t 
     double shelf = 0;
     for (uint32_t c : order) {
       const dvec2 size = scale * (high[c] - low[c]);
-      if (cursor.x + size.x + gap > 1) cursor = {gap, cursor.y + shelf + gap}, shelf = 0;
+      if (cursor.x + size.x + gap > 1) {
+        cursor = {gap, cursor.y + shelf + gap};
+        shelf = 0;
+      }
       if (cursor.x + size.x + gap > 1 || cursor.y + size.y + gap > 1) return false;
       origin[c] = cursor;
       cursor.x += size.x + gap;

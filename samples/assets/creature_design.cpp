@@ -10,7 +10,8 @@ dvec3 mirrored(const dvec3& p) { return {-p.x, p.y, p.z}; }
 
 Blob mirrored(const Blob& blob) {
   Blob result = blob;
-  result.a = mirrored(blob.a), result.b = mirrored(blob.b);
+  result.a = mirrored(blob.a);
+  result.b = mirrored(blob.b);
   const dmat3 mirror(dvec3(-1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1));
   result.to_local = mirror * blob.to_local * mirror;
   return result;

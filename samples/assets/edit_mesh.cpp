@@ -43,7 +43,8 @@ EditMesh::EditMesh(const TriangleMesh& mesh) : points(mesh.points) {
 uint32_t EditMesh::valence(uint32_t v) const {
   uint32_t count = 0, h = outgoing[v];
   do {
-    ++count, h = rotate(h);
+    ++count;
+    h = rotate(h);
   } while (h != outgoing[v]);
   return count;
 }
@@ -69,11 +70,17 @@ uint32_t EditMesh::split(uint32_t h, const dvec3& p) {
   const uint32_t outer_bc = twin[hn], outer_ad = twin[gn];
   corner[hn] = m;  // (a m c): h = a-m, hn = m-c, hp = c-a
   corner[gn] = m;  // (b m d): g = b-m, gn = m-d, gp = d-b
-  pair(t + 1, outer_bc), pair(u + 1, outer_ad);
-  pair(h, u), pair(g, t);
-  pair(hn, t + 2), pair(gn, u + 2);
+  pair(t + 1, outer_bc);
+  pair(u + 1, outer_ad);
+  pair(h, u);
+  pair(g, t);
+  pair(hn, t + 2);
+  pair(gn, u + 2);
   outgoing.push_back(t);
-  outgoing[a] = h, outgoing[b] = g, outgoing[c] = hp, outgoing[d] = gp;
+  outgoing[a] = h;
+  outgoing[b] = g;
+  outgoing[c] = hp;
+  outgoing[d] = gp;
   ++live_vertices;
   return m;
 }
@@ -116,8 +123,12 @@ bool EditMesh::collapse(uint32_t h, const dvec3& p) {
   } while (e != outgoing[a]);
   const uint32_t hn = next(h), hp = previous(h), gn = next(g), gp = previous(g);
   const uint32_t outer_bc = twin[hn], outer_ca = twin[hp], outer_ad = twin[gn], outer_db = twin[gp];
-  pair(outer_bc, outer_ca), pair(outer_ad, outer_db);
-  for (uint32_t dead : {h, hn, hp, g, gn, gp}) corner[dead] = no_index, twin[dead] = no_index;
+  pair(outer_bc, outer_ca);
+  pair(outer_ad, outer_db);
+  for (uint32_t dead : {h, hn, hp, g, gn, gp}) {
+    corner[dead] = no_index;
+    twin[dead] = no_index;
+  }
   outgoing[a] = no_index;
   // outer_ca runs a(now b)-c ... : pick half-edges by their start
   for (uint32_t live : {outer_bc, outer_ca, outer_ad, outer_db}) outgoing[from(live)] = live;
@@ -138,12 +149,21 @@ bool EditMesh::flip(uint32_t h) {
   if (!(dot(before, one) > least * length(one)) || !(dot(before, two) > least * length(two))) return false;
   // (a b c) becomes (c d b), (b a d) becomes (d c a); half-edges keep their triangle
   const uint32_t outer_bc = twin[hn], outer_ca = twin[hp], outer_ad = twin[gn], outer_db = twin[gp];
-  corner[h] = c, corner[hn] = d, corner[hp] = b;
-  corner[g] = d, corner[gn] = c, corner[gp] = a;
+  corner[h] = c;
+  corner[hn] = d;
+  corner[hp] = b;
+  corner[g] = d;
+  corner[gn] = c;
+  corner[gp] = a;
   pair(h, g);
-  pair(hn, outer_db), pair(hp, outer_bc);
-  pair(gn, outer_ca), pair(gp, outer_ad);
-  outgoing[a] = gp, outgoing[b] = hp, outgoing[c] = h, outgoing[d] = g;
+  pair(hn, outer_db);
+  pair(hp, outer_bc);
+  pair(gn, outer_ca);
+  pair(gp, outer_ad);
+  outgoing[a] = gp;
+  outgoing[b] = hp;
+  outgoing[c] = h;
+  outgoing[d] = g;
   return true;
 }
 

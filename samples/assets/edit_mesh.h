@@ -50,7 +50,10 @@ class EditMesh {
   bool stays_upright(uint32_t moved, const dvec3& p, uint32_t skip) const;
 
  private:
-  void pair(uint32_t a, uint32_t b) { twin[a] = b, twin[b] = a; }
+  void pair(uint32_t a, uint32_t b) {
+    twin[a] = b;
+    twin[b] = a;
+  }
 };
 
 }  // namespace samples

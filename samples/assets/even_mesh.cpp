@@ -190,7 +190,10 @@ class Remesher {
         const dvec3 centre = (mesh_.points[v[0]] + mesh_.points[v[1]] + mesh_.points[v[2]]) / 3.0;
         const double detail = (detail_[v[0]] + detail_[v[1]] + detail_[v[2]]) / 3;
         const double w = glm::length(mesh_.face_area(t)) / (detail * detail);
-        for (int k = 0; k < 3; ++k) sum[v[k]] += w * centre, weight[v[k]] += w;
+        for (int k = 0; k < 3; ++k) {
+          sum[v[k]] += w * centre;
+          weight[v[k]] += w;
+        }
       }
       for (size_t v = 0; v < mesh_.points.size(); ++v) {
         if (mesh_.outgoing[v] == no_index || !(weight[v] > 0)) continue;
@@ -222,7 +225,8 @@ class Remesher {
         split(h);
         uint32_t e = mesh_.outgoing.back();
         do {
-          offer(e), e = mesh_.rotate(e);
+          offer(e);
+          e = mesh_.rotate(e);
         } while (e != mesh_.outgoing.back());
       }
       return;
@@ -243,14 +247,18 @@ class Remesher {
         uint32_t e = mesh_.outgoing[b];
         do {
           const uint32_t least = std::min(e, mesh_.twin[e]);
-          shortest.push({relative(least), least}), e = mesh_.rotate(e);
+          shortest.push({relative(least), least});
+          e = mesh_.rotate(e);
         } while (e != mesh_.outgoing[b]);
       }
       if (mesh_.live_vertices == before && ++stalled > 3) {
         throw std::runtime_error("remesh: cannot go down to " + std::to_string(count) +
                                  " vertices without changing the topology; ask for more");
       }
-      if (mesh_.live_vertices > count) flip_for_angles(), relax_tangentially(1);
+      if (mesh_.live_vertices > count) {
+        flip_for_angles();
+        relax_tangentially(1);
+      }
     }
   }
 
@@ -328,7 +336,10 @@ void relax(const ImplicitBody& body, TriangleMesh& mesh, int rounds, double step
       // the root of the area keeps the grading of the base mesh
       const double w = std::sqrt(glm::length(cross(b - a, c - a)));
       const dvec3 centre = w / 3 * (a + b + c);
-      for (uint32_t v : t) sum[v] += centre, weight[v] += w;
+      for (uint32_t v : t) {
+        sum[v] += centre;
+        weight[v] += w;
+      }
     }
     for (size_t v = 0; v < mesh.points.size(); ++v) {
       if (!(weight[v] > 0)) continue;
@@ -371,7 +382,10 @@ MeshPlan plan_mesh(uint32_t count) {
   if (count < 500 || count > 2000000) throw std::runtime_error("the vertex count must lie in 500..2000000");
   // a refinement step turns V vertices into 4 V - 6
   MeshPlan plan{count, 0};
-  while (plan.base > 24000) plan.base = (plan.base + 6 + 2) / 4, ++plan.levels;
+  while (plan.base > 24000) {
+    plan.base = (plan.base + 6 + 2) / 4;
+    ++plan.levels;
+  }
   return plan;
 }
 
@@ -405,7 +419,10 @@ TriangleMesh refine(const ImplicitBody& body, const TriangleMesh& mesh, std::vec
 
 std::vector<uint32_t> spatial_order(const std::vector<dvec3>& points) {
   dvec3 low(1e300), high(-1e300);
-  for (const dvec3& p : points) low = min(low, p), high = max(high, p);
+  for (const dvec3& p : points) {
+    low = min(low, p);
+    high = max(high, p);
+  }
   const double scale = 2097151.0 / std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1e-300});
   std::vector<std::pair<uint64_t, uint32_t>> key(points.size());
   for (uint32_t v = 0; v < points.size(); ++v) {

@@ -54,7 +54,8 @@ FacePoint shape_point(const FaceSpot& p, int shape) {
     return {(1 + 0.08 * b) * q.x, (1 + 0.08 * b) * q.y, (1 + 0.08 * b) * q.z};
   }
   FaceSpot moved = p;
-  moved.u += 0.08 * b, moved.v += 0.05 * b;
+  moved.u += 0.08 * b;
+  moved.v += 0.05 * b;
   return head_point(moved, 0, 0);
 }
 
@@ -84,8 +85,10 @@ Face make_face(uint32_t columns, uint32_t rows, bool second_head) {
     above[c] = lower;
     FaceSpot spot = spots[lower];
     if (!(opening(spot.u) > 0)) continue;
-    spot.side = 1, above[c] = static_cast<uint32_t>(spots.size());
-    face.lids.emplace_back(above[c], lower), face.lid_azimuth.push_back(spot.u);
+    spot.side = 1;
+    above[c] = static_cast<uint32_t>(spots.size());
+    face.lids.emplace_back(above[c], lower);
+    face.lid_azimuth.push_back(spot.u);
     spots.push_back(spot);
   }
   for (uint32_t r = 0; r + 1 < rows; ++r) {
@@ -121,16 +124,24 @@ Face make_face(uint32_t columns, uint32_t rows, bool second_head) {
       double best = 1e300;
       for (uint32_t i = 0; i < spots.size(); ++i) {
         const double d = std::hypot(spots[i].u - u, spots[i].v - v);
-        if ((side == 0 || spots[i].side == side) && d < best) best = d, out.vertices = {i};
+        if ((side == 0 || spots[i].side == side) && d < best) {
+          best = d;
+          out.vertices = {i};
+        }
       }
     }
     face.marks.push_back(std::move(out));
   };
   const double wide = 0.06;
-  mark("nose", 0, 0, 0, wide), mark("chin", 0, -0.9, 0, wide), mark("forehead", 0, 0.8, 0, wide);
-  mark("ear left", 1.4, 0, 0, wide), mark("ear right", -1.4, 0, 0, wide);
-  mark("back of the head", 3, 0.3, 0, wide), mark("nape", 3, -0.8, 0, wide);
-  mark("mouth left", 0.35, -0.5, 0, wide), mark("mouth right", -0.35, -0.5, 0, wide);
+  mark("nose", 0, 0, 0, wide);
+  mark("chin", 0, -0.9, 0, wide);
+  mark("forehead", 0, 0.8, 0, wide);
+  mark("ear left", 1.4, 0, 0, wide);
+  mark("ear right", -1.4, 0, 0, wide);
+  mark("back of the head", 3, 0.3, 0, wide);
+  mark("nape", 3, -0.8, 0, wide);
+  mark("mouth left", 0.35, -0.5, 0, wide);
+  mark("mouth right", -0.35, -0.5, 0, wide);
   for (const double side : {1.0, -1.0}) {
     const std::string name = side > 0 ? " left" : " right";
     mark("inner corner" + name, side * (eye_side - eye_half - 0.05), eye_height, 0, 0.04);

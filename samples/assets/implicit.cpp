@@ -61,8 +61,10 @@ double Blob::distance(const dvec3& p, dvec3& gradient) const {
 Blob capsule(const dvec3& a, const dvec3& b, double radius_a, double radius_b, double blend, double flatten,
              const dvec3& side) {
   Blob blob;
-  blob.a = a, blob.b = b;
-  blob.radius_a = radius_a, blob.radius_b = radius_b;
+  blob.a = a;
+  blob.b = b;
+  blob.radius_a = radius_a;
+  blob.radius_b = radius_b;
   blob.blend = blend;
   if (flatten != 1) {
     const dvec3 axis = length(b - a) > 0 ? normalize(b - a) : dvec3(0, 0, 1);
@@ -86,7 +88,8 @@ Blob ellipsoid(const dvec3& centre, const dvec3& radii, double blend, const dvec
 }
 
 void ImplicitBody::finish() {
-  lower = dvec3(1e300), upper = dvec3(-1e300);
+  lower = dvec3(1e300);
+  upper = dvec3(-1e300);
   for (const Blob& blob : blobs) {
     // a flattened direction may also be widened: bound by the inverse map's stretch
     const dmat3 back = inverse(blob.to_local);
@@ -96,7 +99,8 @@ void ImplicitBody::finish() {
   }
   if (cut_at_ground) lower.y = std::max(lower.y, 0.0);
   const double border = 0.03 * length(upper - lower);
-  lower -= border, upper += border;
+  lower -= border;
+  upper += border;
   cell_ = length(upper - lower) / 72;
   cells_ = glm::ivec3(ceil((upper - lower) / cell_)) + 1;
   ranges_.assign(size_t(cells_.x) * size_t(cells_.y) * size_t(cells_.z), {});
@@ -156,9 +160,11 @@ double ImplicitBody::value(const dvec3& p, dvec3& gradient) const {
     fold_min(field, gradient, d, own, blob.blend);
   });
   if (cut_at_ground) {
-    field = -field, gradient = -gradient;
+    field = -field;
+    gradient = -gradient;
     fold_min(field, gradient, p.y, dvec3(0, 1, 0), ground_edge);
-    field = -field, gradient = -gradient;
+    field = -field;
+    gradient = -gradient;
   }
   return field;
 }
@@ -187,7 +193,8 @@ double ImplicitBody::detail(const dvec3& p) const {
   const double nearest = value(p), reach = 0.45 * cell_;
   for_each_near(p, [&](const Blob& blob) {
     const double w = std::exp(-std::max(0.0, blob.distance(p) - nearest) / reach);
-    sum += w * std::log(blob.detail), weight += w;
+    sum += w * std::log(blob.detail);
+    weight += w;
   });
   return weight > 0 ? std::exp(sum / weight) : 1.0;
 }
@@ -197,7 +204,10 @@ uint32_t ImplicitBody::nearest_joint(const dvec3& p) const {
   uint32_t joint = 0;
   for_each_near(p, [&](const Blob& blob) {
     const double d = blob.distance(p);
-    if (d < nearest) nearest = d, joint = blob.joint;
+    if (d < nearest) {
+      nearest = d;
+      joint = blob.joint;
+    }
   });
   return joint;
 }

@@ -138,7 +138,8 @@ TriangleMesh polygonise(const ImplicitBody& body, double spacing, double level, 
         const uint32_t a = vertex(inside[0], outside[0]), b = vertex(inside[0], outside[1]),
                        c = vertex(inside[1], outside[1]), d = vertex(inside[1], outside[0]);
         const bool outward = orientation(inside[0], outside[0], outside[1], inside[1]) > 0;
-        emit(outward, a, b, c), emit(outward, a, c, d);
+        emit(outward, a, b, c);
+        emit(outward, a, c, d);
       }
     }
   });

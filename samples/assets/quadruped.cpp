@@ -75,7 +75,8 @@ Gait walk(const Design& d, const QuadrupedStyle& style) {
   turn("neck_3", 0, 0, 0, 0, -0.012 * style.nod, 0.04);
   turn("head", 0, -0.02, 0, 0, -0.040 * style.nod, 0.04);
   turn("head", 1, 0, 0.020 * sway, -quarter);
-  turn("ear_L", 0, 0, 0.06, 0.1), turn("ear_R", 0, 0, 0.06, 0.35);
+  turn("ear_L", 0, 0, 0.06, 0.1);
+  turn("ear_R", 0, 0, 0.06, 0.35);
   // tail, each part later than the one above
   const char* tail[4] = {"tail_1", "tail_2", "tail_3", "tail_4"};
   const double swing[4] = {0.05, 0.09, 0.12, 0.14};
@@ -107,15 +108,19 @@ Gait idle(const Design& d, const QuadrupedStyle& style) {
   // weight from side to side, breathing, a slow nod and a look around
   gait.translations.push_back({d.joint("hips"), 1, -0.012, 0, 0, 0.004, 0});
   gait.translations.push_back({d.joint("hips"), 0, 0, 0.016, 0, 0, 0});
-  turn("hips", 2, 0, 0.014, 0), turn("spine_1", 2, 0, -0.008, 0);
+  turn("hips", 2, 0, 0.014, 0);
+  turn("spine_1", 2, 0, -0.008, 0);
   turn("chest", 0, 0, 0, 0, 0.006, 0.1);
   turn("neck_1", 0, 0.10 * style.nod, 0.10 * style.nod, -quarter);
   turn("neck_2", 0, 0.07 * style.nod, 0.07 * style.nod, -quarter - 0.03);
   turn("neck_3", 0, 0, 0.03 * style.nod, -quarter - 0.05);
   turn("head", 0, -0.03, -0.09 * style.nod, -quarter - 0.08);
-  turn("neck_1", 1, 0, 0.05, 0.1), turn("neck_2", 1, 0, 0.08, 0.07), turn("head", 1, 0, 0.08, 0.04);
+  turn("neck_1", 1, 0, 0.05, 0.1);
+  turn("neck_2", 1, 0, 0.08, 0.07);
+  turn("head", 1, 0, 0.08, 0.04);
   turn("jaw", 0, 0.02, 0, 0, 0.02, 0);
-  turn("ear_L", 1, 0, 0.25, 0, 0.12, 0.2), turn("ear_R", 1, 0, 0.12, 0.3, 0.22, 0);
+  turn("ear_L", 1, 0, 0.25, 0, 0.12, 0.2);
+  turn("ear_R", 1, 0, 0.12, 0.3, 0.22, 0);
   const char* tail[4] = {"tail_1", "tail_2", "tail_3", "tail_4"};
   for (int i = 0; i < 4; ++i) turn(tail[i], 2, 0, 0.03 * style.tail, -0.07 * i, 0.07 * style.tail, -0.05 * i);
   return gait;

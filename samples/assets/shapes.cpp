@@ -40,9 +40,11 @@ double distance2(const ShapeMesh& mesh, uint32_t a, uint32_t b) {
 // Corners counter-clockwise; cut along the shorter diagonal.
 void quad(ShapeMesh& mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
   if (distance2(mesh, a, c) <= distance2(mesh, b, d)) {
-    triangle(mesh, a, b, c), triangle(mesh, a, c, d);
+    triangle(mesh, a, b, c);
+    triangle(mesh, a, c, d);
   } else {
-    triangle(mesh, a, b, d), triangle(mesh, b, c, d);
+    triangle(mesh, a, b, d);
+    triangle(mesh, b, c, d);
   }
 }
 
@@ -63,9 +65,11 @@ ShapeMesh height_field(uint32_t columns, uint32_t rows, Height height) {
       const uint32_t a = j * columns + i;
       // alternate the diagonals, so that the mesh prefers no direction
       if ((i + j) % 2 == 0) {
-        triangle(mesh, a, a + columns, a + 1), triangle(mesh, a + 1, a + columns, a + columns + 1);
+        triangle(mesh, a, a + columns, a + 1);
+        triangle(mesh, a + 1, a + columns, a + columns + 1);
       } else {
-        triangle(mesh, a, a + columns, a + columns + 1), triangle(mesh, a, a + columns + 1, a + 1);
+        triangle(mesh, a, a + columns, a + columns + 1);
+        triangle(mesh, a, a + columns + 1, a + 1);
       }
     }
   }
@@ -141,7 +145,10 @@ ShapeMesh sphere(uint32_t frequency) {
     if (step == 0) return a;
     if (step == f) return b;
     const bool swapped = a > b;
-    if (swapped) std::swap(a, b), step = f - step;
+    if (swapped) {
+      std::swap(a, b);
+      step = f - step;
+    }
     const auto [entry, fresh] = edge_start.emplace(std::make_pair(a, b), mesh.vertex_count());
     if (fresh) {
       for (uint32_t i = 1; i < f; ++i) {
@@ -196,9 +203,11 @@ ShapeMesh box(double x, double y, double z, uint32_t nx, uint32_t ny, uint32_t n
   };
   const auto cell = [&](uint32_t parity, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
     if (parity % 2 == 0) {
-      triangle(mesh, a, b, c), triangle(mesh, a, c, d);
+      triangle(mesh, a, b, c);
+      triangle(mesh, a, c, d);
     } else {
-      triangle(mesh, a, b, d), triangle(mesh, b, c, d);
+      triangle(mesh, a, b, d);
+      triangle(mesh, b, c, d);
     }
   };
   for (uint32_t j = 0; j < ny; ++j) {
@@ -240,9 +249,11 @@ ShapeMesh cylinder(uint32_t m, uint32_t rows) {
     for (uint32_t i = 0; i < around; ++i) {
       const uint32_t i1 = (i + 1) % around, low = j * around, high = low + around;
       if (j % 2 == 0) {
-        triangle(mesh, low + i, low + i1, high + i), triangle(mesh, low + i1, high + i1, high + i);
+        triangle(mesh, low + i, low + i1, high + i);
+        triangle(mesh, low + i1, high + i1, high + i);
       } else {
-        triangle(mesh, low + i, low + i1, high + i1), triangle(mesh, low + i, high + i1, high + i);
+        triangle(mesh, low + i, low + i1, high + i1);
+        triangle(mesh, low + i, high + i1, high + i);
       }
     }
   }

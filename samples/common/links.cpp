@@ -26,7 +26,8 @@ ModelLinks::ModelLinks(const Model* model, const FlatMesh& mesh) {
     for (uint32_t i = 0; i < part.vertex_count; ++i) {
       const size_t row = size_t{slots} * (part.first_vertex + i);
       if (skin < 0 || primitive.influences.empty()) {  // moves with its node, like a joint
-        found[row] = static_cast<uint16_t>(part.node), shares[row] = 1;
+        found[row] = static_cast<uint16_t>(part.node);
+        shares[row] = 1;
         continue;
       }
       any = true;
@@ -40,8 +41,11 @@ ModelLinks::ModelLinks(const Model* model, const FlatMesh& mesh) {
     }
   }
   if (!any) return;
-  joints = std::move(found), weights = std::move(shares);
-  desc.influence_count = slots, desc.joints = joints.data(), desc.weights = weights.data();
+  joints = std::move(found);
+  weights = std::move(shares);
+  desc.influence_count = slots;
+  desc.joints = joints.data();
+  desc.weights = weights.data();
 }
 
 namespace {
@@ -71,7 +75,9 @@ std::string gaps_sentence(hf_surface surface, const std::vector<double>& positio
 void WidestGap::take(const std::vector<double>& positions, const std::string& place) {
   const hf_gaps_info info = measure(surface_, positions);
   if (info.link_count == 0 || info.worst <= worst_) return;
-  worst_ = info.worst, place_ = place, positions_ = positions;
+  worst_ = info.worst;
+  place_ = place;
+  positions_ = positions;
 }
 
 std::string WidestGap::sentence(double diagonal) const {
@@ -102,7 +108,8 @@ std::string unreached_sentence(hf_surface surface, const std::vector<uint32_t>& 
     }
     without += !has[c];
     if (seen[c]) continue;
-    seen[c] = 1, ++bare;
+    seen[c] = 1;
+    ++bare;
     constexpr uint32_t most_listed = 5;
     if (listed++ < most_listed) around += (around.empty() ? "" : ", ") + std::to_string(v);
     if (listed == most_listed + 1) around += ", ...";

@@ -125,7 +125,8 @@ ShadedLayer prepare(const Layer& layer, const Camera& camera) {
     }
     for (dvec3& n : result.normals) n = {dot(n, camera.right), dot(n, camera.up), dot(n, camera.back)};
   }
-  result.low = layer.look.scalar_low, result.high = layer.look.scalar_high;
+  result.low = layer.look.scalar_low;
+  result.high = layer.look.scalar_high;
   if (result.low == result.high) {
     bool first = true;
     for (double value : s.scalars) {
@@ -307,7 +308,8 @@ std::vector<float> occlusion(const SampleBuffer& buffer, const Camera& camera, c
           const int px = x + dx, py = y + dy;
           if (px < 0 || py < 0 || px >= width || py >= height) continue;
           if (std::abs(depth_at((px + 0.5) * n, (py + 0.5) * n) - here) > same) continue;
-          sum += double(raw[size_t(py) * size_t(width) + size_t(px)]), weight += 1;
+          sum += double(raw[size_t(py) * size_t(width) + size_t(px)]);
+          weight += 1;
         }
       }
       open[size_t(y) * size_t(width) + size_t(x)] = float(sum / weight);

@@ -66,7 +66,9 @@ void put_flat(SampleBuffer& buffer, int x, int y, double depth, const Color& col
   if (depth <= sample.depth) return;
   sample.depth = depth;
   sample.layer = -2;
-  sample.r = float(color.r), sample.g = float(color.g), sample.b = float(color.b);
+  sample.r = float(color.r);
+  sample.g = float(color.g);
+  sample.b = float(color.b);
 }
 
 // A straight stroke with round ends between two page points.
@@ -112,8 +114,12 @@ void draw_dot(SampleBuffer& buffer, const Camera& camera, const Dot& mark) {
       if (depth <= sample.depth) continue;
       sample.depth = depth;
       sample.layer = -3;
-      sample.r = float(mark.color.r), sample.g = float(mark.color.g), sample.b = float(mark.color.b);
-      sample.nx = float(nx), sample.ny = float(ny), sample.nz = float(nz);
+      sample.r = float(mark.color.r);
+      sample.g = float(mark.color.g);
+      sample.b = float(mark.color.b);
+      sample.nx = float(nx);
+      sample.ny = float(ny);
+      sample.nz = float(nz);
     }
   }
 }
@@ -168,8 +174,10 @@ Camera fit_camera(const View& view, const std::vector<Layer>& layers) {
   dvec3 low(infinity), high(-infinity), world_low(infinity), world_high(-infinity);
   for (const dvec3& p : points) {
     const dvec3 q{dot(p, camera.right), dot(p, camera.up), dot(p, camera.back)};
-    low = min(low, q), high = max(high, q);
-    world_low = min(world_low, p), world_high = max(world_high, p);
+    low = min(low, q);
+    high = max(high, q);
+    world_low = min(world_low, p);
+    world_high = max(world_high, p);
   }
   const dvec3 centre = 0.5 * (low + high);
   camera.target = centre.x * camera.right + centre.y * camera.up + centre.z * camera.back;
@@ -226,7 +234,8 @@ void draw_triangles(SampleBuffer& buffer, const Camera& camera, const std::vecto
                       sample.depth = depth;
                       sample.layer = layer;
                       sample.triangle = static_cast<uint32_t>(t);
-                      sample.b1 = float(c1 / sum), sample.b2 = float(c2 / sum);
+                      sample.b1 = float(c1 / sum);
+                      sample.b2 = float(c2 / sum);
                     });
   }
 }

@@ -72,7 +72,9 @@ class OutlineFont {
     float pen = 0, widest = 0, base = size * static_cast<float>(ascent);
     for (size_t i = 0; i < text.size(); ++i) {
       if (text[i] == '\n') {
-        widest = std::max(widest, pen), pen = 0, base += line_pixels * static_cast<float>(scale);
+        widest = std::max(widest, pen);
+        pen = 0;
+        base += line_pixels * static_cast<float>(scale);
         continue;
       }
       const int letter = text[i];

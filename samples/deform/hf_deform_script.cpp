@@ -115,7 +115,8 @@ struct Key {
 
 SheetFrame sheet_frame(const Posable& posable, const std::vector<double>& positions, const std::string& label) {
   SheetFrame out;
-  out.positions = positions, out.label = label;
+  out.positions = positions;
+  out.label = label;
   out.layer.assign(positions.size() / 3, 0);
   for (const Posable::Live& live : posable.handles()) {
     const auto colour = static_cast<uint8_t>(1 + live.entry.layer + (live.entry.offered ? 1 : 0));
@@ -156,7 +157,9 @@ std::vector<Key> play(const ScriptFile& script, const Command& command, Posable&
     posable.play(step, step.drag.empty() ? 0 : script.frame_rate, [&](int f, int count) {
       const auto start = std::chrono::steady_clock::now();
       posable.deform(refine, positions, normals);
-      frame_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(), ++frames;
+      frame_ms += std::chrono::duration < double;
+      std::milli > (std::chrono::steady_clock::now() - start).count();
+      ++frames;
       if (!step.drag.empty()) time += step.seconds / count;
       if (f == count || time >= next_key) {
         keep(f == count ? step.label : "");
@@ -164,7 +167,10 @@ std::vector<Key> play(const ScriptFile& script, const Command& command, Posable&
       }
       bar.update(static_cast<double>(f) / count);
     });
-    if (step.drag.empty() && step.seconds > 0) time += step.seconds, keep("");
+    if (step.drag.empty() && step.seconds > 0) {
+      time += step.seconds;
+      keep("");
+    }
     bar.end(std::to_string(posable.handles().size()) + " handles");
   }
   std::printf("%u frames, %.2f ms each; handles inserted on higher layers moved the surface by %.1e of the box\n",
@@ -205,7 +211,9 @@ Model animated(const PosableMesh& mesh, const std::vector<Key>& keys) {
     if (out.nodes[n].mesh < 0) continue;
     out.nodes[n].weights.clear();
     Channel channel;
-    channel.node = static_cast<int>(n), channel.path = Path::weights, channel.width = keys.size();
+    channel.node = static_cast<int>(n);
+    channel.path = Path::weights;
+    channel.width = keys.size();
     for (size_t k = 0; k < keys.size(); ++k) {
       channel.times.push_back(static_cast<float>(keys[k].time));
       for (size_t i = 0; i < keys.size(); ++i) channel.values.push_back(i == k ? 1.0f : 0.0f);
@@ -241,8 +249,10 @@ void run(const Command& command) {
   const PosableMesh mesh = read_posable(command.mesh);
   bar.begin("factorising");
   Posable::Options options;
-  options.paper = script.paper, options.threads = command.threads;
-  options.links = command.links, options.model = mesh.model.skins.empty() ? nullptr : &mesh.model;
+  options.paper = script.paper;
+  options.threads = command.threads;
+  options.links = command.links;
+  options.model = mesh.model.skins.empty() ? nullptr : &mesh.model;
   Posable posable(mesh.flat, options);
   bar.end(std::to_string(mesh.flat.vertex_count()) + " vertices");
   if (const std::string sentence = links_sentence(posable.surface()); !sentence.empty())

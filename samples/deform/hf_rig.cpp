@@ -80,15 +80,19 @@ void append_frame(const Posable& posable, uint32_t weight_count, const std::vect
   const size_t joints = pivots.size() / 3;
   std::vector<double> rotations(4 * joints), places(3 * joints), scales(3 * joints);
   hf_skin_info info = HF_INIT(hf_skin_info);
-  info.weight_count = weight_count, info.joint_capacity = static_cast<uint32_t>(joints);
-  info.rotations = rotations.data(), info.translations = places.data(), info.scales = scales.data();
+  info.weight_count = weight_count;
+  info.joint_capacity = static_cast<uint32_t>(joints);
+  info.rotations = rotations.data();
+  info.translations = places.data();
+  info.scales = scales.data();
   expect_ok(hf_pose_get_skin(posable.pose(), &info), "the skin");
   for (size_t j = 0; j < joints; ++j) {
     const double* q = &rotations[4 * j];
     const glm::dquat rotation(q[3], q[0], q[1], q[2]);
     const glm::dvec3 pivot(pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]),
         place(places[3 * j], places[3 * j + 1], places[3 * j + 2]);
-    clip.rotations.push_back(rotation), clip.translations.push_back(place - rotation * pivot);
+    clip.rotations.push_back(rotation);
+    clip.translations.push_back(place - rotation * pivot);
     clip.scales.push_back({scales[3 * j], scales[3 * j + 1], scales[3 * j + 2]});
   }
 }
@@ -108,7 +112,8 @@ nlohmann::json describe(const Posable& posable, const SkinDescription& skin, uin
   for (const SkinJoint& joint : skin.joints)
     out["joints"].push_back({{"name", joint.name}, {"pivot", {joint.pivot.x, joint.pivot.y, joint.pivot.z}}});
   out["weights_per_vertex"] = weight_count;
-  out["vertex_joints"] = skin.vertex_joints, out["vertex_weights"] = skin.vertex_weights;
+  out["vertex_joints"] = skin.vertex_joints;
+  out["vertex_weights"] = skin.vertex_weights;
   for (const SkinClip& clip : skin.clips)
     out["clips"].push_back({{"name", clip.name}, {"frames", clip.times.size()}, {"seconds", clip.times.back()}});
   return out;
@@ -121,8 +126,10 @@ void run(const Command& command) {
   const PosableMesh mesh = read_posable(command.mesh);
   bar.begin("factorising");
   Posable::Options options;
-  options.bands = rig.bands, options.threads = command.threads;
-  options.links = command.links, options.model = mesh.model.skins.empty() ? nullptr : &mesh.model;
+  options.bands = rig.bands;
+  options.threads = command.threads;
+  options.links = command.links;
+  options.model = mesh.model.skins.empty() ? nullptr : &mesh.model;
   Posable posable(mesh.flat, options);
   bar.begin("handles");
   posable.add(rig.handles);
@@ -136,12 +143,16 @@ void run(const Command& command) {
   const size_t joints = info.joint_count;
   SkinDescription skin;
   skin.influences_per_vertex = command.weights;
-  skin.vertex_joints.resize(mesh.flat.positions.size() * command.weights),
-      skin.vertex_weights.resize(skin.vertex_joints.size());
+  skin.vertex_joints.resize(mesh.flat.positions.size() * command.weights);
+  skin.vertex_weights.resize(skin.vertex_joints.size());
   std::vector<double> pivots(3 * joints), axes(4 * joints);
-  info.joint_capacity = info.joint_count, info.vertex_capacity = info.vertex_count;
-  info.weight_count = command.weights, info.pivots = pivots.data(), info.axes = axes.data();
-  info.vertex_joints = skin.vertex_joints.data(), info.vertex_weights = skin.vertex_weights.data();
+  info.joint_capacity = info.joint_count;
+  info.vertex_capacity = info.vertex_count;
+  info.weight_count = command.weights;
+  info.pivots = pivots.data();
+  info.axes = axes.data();
+  info.vertex_joints = skin.vertex_joints.data();
+  info.vertex_weights = skin.vertex_weights.data();
   expect_ok(hf_pose_get_skin(posable.pose(), &info), "the skin");
   for (size_t j = 0; j < joints; ++j) {
     const std::string name = j < posable.handles().size() ? posable.handles()[j].name : "cluster_" + std::to_string(j);
@@ -197,7 +208,9 @@ void run(const Command& command) {
       for (size_t v = 0; v < played.size(); ++v) {
         const double off =
             glm::length(played[v] - glm::dvec3(posed[c][f][3 * v], posed[c][f][3 * v + 1], posed[c][f][3 * v + 2]));
-        worst = std::max(worst, off), squares += off * off, count += 1;
+        worst = std::max(worst, off);
+        squares += off * off;
+        count += 1;
       }
     }
     std::printf(

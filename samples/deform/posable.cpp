@@ -47,14 +47,17 @@ PosableMesh read_posable(const std::filesystem::path& file) {
 
 Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   const SurfaceBox box(mesh);
-  lower_ = box.low, upper_ = box.high, diagonal_ = box.diagonal();
+  lower_ = box.low;
+  upper_ = box.high;
+  diagonal_ = box.diagonal();
   own_ = !options.on;
   if (own_)
     make_surface(mesh, options);
   else
     surface_ = options.on->surface_;
   hf_pose_desc pose = HF_INIT(hf_pose_desc);
-  pose.mode = options.paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH, pose.band_count = options.bands;
+  pose.mode = options.paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH;
+  pose.band_count = options.bands;
   const hf_result result = hf_pose_create(surface_, &pose, &pose_);
   if (result != HF_OK) {
     if (own_) hf_surface_destroy(surface_);
@@ -65,8 +68,10 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
 void Posable::make_surface(const FlatMesh& mesh, const Options& options) {
   const std::vector<double> positions = double_positions(mesh.positions);
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
-  desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
+  desc.vertex_count = mesh.vertex_count();
+  desc.triangle_count = mesh.triangle_count();
+  desc.positions_f64 = positions.data();
+  desc.triangles = mesh.triangles.data();
   desc.thread_count = options.threads;
   if (options.paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
   const ModelLinks links(options.model, mesh);
@@ -102,18 +107,22 @@ void Posable::add(const std::vector<HandleEntry>& handles) {
       if (live.name == entry.name) throw std::runtime_error("there is a handle \"" + entry.name + "\" already");
     }
     Live live;
-    live.name = entry.name, live.entry = entry;
+    live.name = entry.name;
+    live.entry = entry;
     hf_handles_desc desc = HF_INIT(hf_handles_desc);
-    desc.handle_count = 1, desc.layer = entry.layer;
+    desc.handle_count = 1;
+    desc.layer = entry.layer;
     const glm::dvec3 point = entry.absolute ? entry.point : at(entry.point);
     const double xyz[3] = {point.x, point.y, point.z}, radius = entry.radius * (entry.absolute ? 1 : diagonal_);
     uint32_t count = 0;
     if (entry.has_point) {
-      desc.points = xyz, desc.radii = &radius;
+      desc.points = xyz;
+      desc.radii = &radius;
     } else {
       live.vertices = vertices_of(entry);
       count = static_cast<uint32_t>(live.vertices.size());
-      desc.region_counts = &count, desc.region_vertices = live.vertices.data();
+      desc.region_counts = &count;
+      desc.region_vertices = live.vertices.data();
     }
     expect_ok(hf_pose_add_handles(pose_, &desc, &live.number), "handle \"" + entry.name + "\"");
     hf_handle_info info = HF_INIT(hf_handle_info);
@@ -157,8 +166,10 @@ void Posable::begin(const Step& step) {
   for (const auto& [name, motion] : step.drag) {
     const auto found = std::find_if(live_.begin(), live_.end(), [&](const Live& live) { return live.name == name; });
     if (found == live_.end()) throw std::runtime_error("there is no handle \"" + name + "\" to drag");
-    found->before = found->motion, found->motion = motion;
-    found->from = found->now, found->moving = true;
+    found->before = found->motion;
+    found->motion = motion;
+    found->from = found->now;
+    found->moving = true;
   }
 }
 
@@ -170,7 +181,8 @@ void Posable::drag(double t) {
       live.now = place(live, b, t);
     } else if (a.axis == b.axis && a.bend == b.bend && a.has_pivot == b.has_pivot && a.pivot == b.pivot) {
       MotionEntry between = b;
-      between.degrees = (1 - t) * a.degrees + t * b.degrees, between.move = (1 - t) * a.move + t * b.move;
+      between.degrees = (1 - t) * a.degrees + t * b.degrees;
+      between.move = (1 - t) * a.move + t * b.move;
       live.now = place(live, between, 1);
     } else {
       const HandlePlace to = place(live, b, 1);
@@ -181,16 +193,20 @@ void Posable::drag(double t) {
     const glm::dquat& q = live.now.rotation;
     const glm::dvec3& m = live.now.translation;
     const double rotation[4] = {q.x, q.y, q.z, q.w}, translation[3] = {m.x, m.y, m.z};
-    std::copy_n(rotation, 4, transform.rotation), std::copy_n(translation, 3, transform.translation);
+    std::copy_n(rotation, 4, transform.rotation);
+    std::copy_n(translation, 3, transform.translation);
     expect_ok(hf_pose_set_transforms(pose_, 1, &live.number, &transform), "moving \"" + live.name + "\"");
   }
 }
 
 void Posable::deform(Refine refine, std::vector<double>& positions, std::vector<float>& normals, uint32_t iterations) {
-  positions.resize(3 * mesh_.positions.size()), normals.resize(positions.size());
+  positions.resize(3 * mesh_.positions.size());
+  normals.resize(positions.size());
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
-  desc.positions_f64 = positions.data(), desc.normals = normals.data();
-  desc.refine = refine != Refine::none, desc.refine_from_last = refine == Refine::from_last;
+  desc.positions_f64 = positions.data();
+  desc.normals = normals.data();
+  desc.refine = refine != Refine::none;
+  desc.refine_from_last = refine == Refine::from_last;
   desc.iteration_count = iterations;
   expect_ok(hf_pose_deform(pose_, &desc, nullptr), "a frame");
 }

@@ -15,8 +15,10 @@ constexpr float colors[][3] = {
 void write_pose_sheet(const std::filesystem::path& file, const PosableMesh& mesh, const std::vector<SheetFrame>& frames,
                       const ScriptFile& script, const std::string& title) {
   View view;
-  view.width = 300, view.height = 300;
-  view.direction = {script.view.x, script.view.y, script.view.z}, view.up = {script.up.x, script.up.y, script.up.z};
+  view.width = 300;
+  view.height = 300;
+  view.direction = {script.view.x, script.view.y, script.view.z};
+  view.up = {script.up.x, script.up.y, script.up.z};
   view.fixed_box = true;
   bool empty = true;
   for (const SheetFrame& frame : frames) extend(view.box, empty, frame.positions, mesh.flat.triangles);

@@ -65,7 +65,8 @@ std::vector<ProposedHandle> propose(const PosableMesh& mesh, const Posable& posa
   const Skeleton skeleton = skeleton_of(mesh.model);
   hf_propose_desc desc = HF_INIT(hf_propose_desc);
   desc.joint_count = static_cast<uint32_t>(skeleton.parents.size());
-  desc.joints = skeleton.places.data(), desc.parents = skeleton.parents.data();
+  desc.joints = skeleton.places.data();
+  desc.parents = skeleton.parents.data();
   for (int c = 0; c < 3; ++c) desc.up[c] = up[c];
   std::vector<hf_handle_proposal> found(HF_HANDLE_LIMIT);
   uint32_t count = 0;
@@ -75,7 +76,8 @@ std::vector<ProposedHandle> propose(const PosableMesh& mesh, const Posable& posa
   std::vector<ProposedHandle> out;
   for (const hf_handle_proposal& proposal : found) {
     ProposedHandle handle;
-    handle.proposal = proposal, handle.pinned = proposal.pinned != 0;
+    handle.proposal = proposal;
+    handle.pinned = proposal.pinned != 0;
     if (proposal.joint != HF_NO_INDEX) handle.joint = skeleton.names[proposal.joint];
     handle.entry.name = std::string(reason_name(proposal.reason)) + " " + std::to_string(++numbers[proposal.reason]);
     handle.entry.has_point = handle.entry.absolute = true;
@@ -138,8 +140,11 @@ ScriptFile propose_script(const std::vector<ProposedHandle>& handles, const glm:
     MotionEntry motion;
     motion.move = rise * up;
     if (glm::length(away) > 0) motion.move += outward * glm::normalize(away);
-    drag.drag[handle.entry.name] = motion, drag.seconds = 1, drag.label = handle.entry.name + " dragged";
-    back.drag[handle.entry.name] = MotionEntry(), back.seconds = 0.5;
+    drag.drag[handle.entry.name] = motion;
+    drag.seconds = 1;
+    drag.label = handle.entry.name + " dragged";
+    back.drag[handle.entry.name] = MotionEntry();
+    back.seconds = 0.5;
     leave.remove.push_back(handle.entry.name);
     script.steps.insert(script.steps.end(), {add, drag, back, leave});
   }

@@ -28,13 +28,16 @@ HandleEntry read_handle(const JsonReader& json) {
     if (out.vertices.empty()) list.fail("a region has at least one vertex");
   }
   if (json.has("point")) {
-    out.has_point = true, out.point = point_of(json.at("point"));
+    out.has_point = true;
+    out.point = point_of(json.at("point"));
     out.radius = json.at("radius").number(0, 1);
   }
   if (json.has("box")) {
     const JsonReader box = json.at("box");
     if (box.size() != 2) box.fail("expected two corners, [[x, y, z], [x, y, z]]");
-    out.has_box = true, out.lower = point_of(box.at(0)), out.upper = point_of(box.at(1));
+    out.has_box = true;
+    out.lower = point_of(box.at(0));
+    out.upper = point_of(box.at(1));
     out.outside = json.boolean_or("outside", false);
   }
   if (int(!out.vertices.empty()) + int(out.has_point) + int(out.has_box) != 1)
@@ -51,10 +54,15 @@ MotionEntry read_motion(const JsonReader& json) {
     out.axis = glm::normalize(out.axis);
     out.degrees = json.at("degrees").number(-3600, 3600);
   }
-  if (json.has("about")) out.has_pivot = true, out.pivot = point_of(json.at("about"));
+  if (json.has("about")) {
+    out.has_pivot = true;
+    out.pivot = point_of(json.at("about"));
+  }
   if (json.has("move")) out.move = point_of(json.at("move"));
   if (json.has("bend_from") || json.has("bend_to")) {
-    out.bend = true, out.bend_from = point_of(json.at("bend_from")), out.bend_to = point_of(json.at("bend_to"));
+    out.bend = true;
+    out.bend_from = point_of(json.at("bend_from"));
+    out.bend_to = point_of(json.at("bend_to"));
     if (!json.has("turn")) json.fail("a bend needs turn (the axis) and degrees");
     if (out.has_pivot) json.fail("a bend has no \"about\"");
   }
@@ -102,7 +110,8 @@ ScriptFile read_script(const std::filesystem::path& file) {
   ScriptFile out;
   const std::string mode = root.string_or("mode", "smooth");
   if (mode != "smooth" && mode != "paper") root.at("mode").fail("expected \"smooth\" or \"paper\"");
-  out.paper = mode == "paper", out.refine = root.boolean_or("refine", false);
+  out.paper = mode == "paper";
+  out.refine = root.boolean_or("refine", false);
   out.frame_rate = rate_of(root, 24);
   if (root.has("view")) out.view = point_of(root.at("view"));
   if (root.has("up")) out.up = point_of(root.at("up"));

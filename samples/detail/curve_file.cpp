@@ -55,11 +55,16 @@ void enclose(hf::Region& region, const CurveFile& curve, int32_t grow) {
   auto desc = hf::make<hf_curve_desc>();
   desc.point_count = static_cast<uint32_t>(curve.vertices.size() + curve.triangles.size());
   if (!curve.vertices.empty()) desc.vertices = curve.vertices.data();
-  if (!curve.triangles.empty()) desc.triangles = curve.triangles.data(), desc.barycentrics = curve.barycentrics.data();
-  desc.side = curve.side, desc.seed_vertex = curve.seed;
+  if (!curve.triangles.empty()) {
+    desc.triangles = curve.triangles.data();
+    desc.barycentrics = curve.barycentrics.data();
+  }
+  desc.side = curve.side;
+  desc.seed_vertex = curve.seed;
   desc.kind = curve.edges ? HF_CURVE_EDGES : HF_CURVE_STRAIGHT;
   auto edit = hf::make<hf_region_edit_desc>();
-  edit.curve = &desc, edit.ring_count = curve.grow + grow;
+  edit.curve = &desc;
+  edit.ring_count = curve.grow + grow;
   region.edit(edit);
 }
 

@@ -44,7 +44,9 @@ void write_sheet(const std::string& file, const SheetScene& scene, const std::ve
   for (const uint32_t v : scene.inside) chosen[welded[v]] = 1;
   for (size_t v = 0; v < in.size(); ++v) in[v] = chosen[welded[v]];
   View view;
-  view.width = 520, view.height = 460, view.direction = direction_of(scene, in);
+  view.width = 520;
+  view.height = 460;
+  view.direction = direction_of(scene, in);
   view.fixed_box = true;
   bool empty = true;
   std::vector<double> region;
@@ -56,7 +58,8 @@ void write_sheet(const std::string& file, const SheetScene& scene, const std::ve
   for (size_t k = 0; k < 3; ++k) {
     const double middle = (view.box.lower[k] + view.box.upper[k]) / 2;
     const double half = (view.box.upper[k] - view.box.lower[k]) / 2 * scene.zoom;
-    view.box.lower[k] = middle - half, view.box.upper[k] = middle + half;
+    view.box.lower[k] = middle - half;
+    view.box.upper[k] = middle + half;
   }
   std::vector<Picture> pictures;
   std::vector<std::string> labels;
@@ -74,7 +77,8 @@ void write_sheet(const std::string& file, const SheetScene& scene, const std::ve
         marks.dots.push_back({point_of(tile.positions, v), 0.009, {0.86, 0.1, 0.1}});
     if (pictures.empty() && !scene.curve.empty()) {
       Polyline line;
-      line.color = {0.86, 0.1, 0.1}, line.width = 2;
+      line.color = {0.86, 0.1, 0.1};
+      line.width = 2;
       for (size_t i = 0; i <= scene.curve.size(); i += 3) {
         const double* p = &scene.curve[i % scene.curve.size()];
         line.points.push_back({p[0], p[1], p[2]});

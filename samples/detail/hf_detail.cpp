@@ -109,7 +109,8 @@ struct Subject {
     auto create = hf::make<hf_surface_desc>();
     create.vertex_count = static_cast<uint32_t>(mesh.positions.size());
     create.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
-    create.positions = positions.data(), create.triangles = mesh.triangles.data();
+    create.positions = positions.data();
+    create.triangles = mesh.triangles.data();
     create.field_kind = thin_plate ? HF_FIELD_BIHARMONIC : HF_FIELD_HARMONIC;
     limit_surface(create);
     std::optional<hf::Surface> made(create);
@@ -147,8 +148,11 @@ hf::Detail carry(const Subject& from, const Subject& onto) {
       if (!std::binary_search(rim.begin(), rim.end(), v)) return false;
     return true;
   };
-  if (!a.empty() && a.size() == b.size() && on_rim(from) && on_rim(onto))
-    desc.pair_count = static_cast<uint32_t>(a.size()), desc.source_vertices = a.data(), desc.target_vertices = b.data();
+  if (!a.empty() && a.size() == b.size() && on_rim(from) && on_rim(onto)) {
+    desc.pair_count = static_cast<uint32_t>(a.size());
+    desc.source_vertices = a.data();
+    desc.target_vertices = b.data();
+  }
   return hf::Detail(from.region, onto.region, &desc);
 }
 
@@ -166,14 +170,17 @@ void run(const Command& options) {
   const std::vector<float> result = detail ? detail->morph(options.weight) : subject.region.morph(options.weight);
   if (!options.out.empty()) {
     SurfaceMesh written;
-    written.positions = moved(to_points(result), shown.offset), written.triangles = shown.mesh.triangles;
+    written.positions = moved(to_points(result), shown.offset);
+    written.triangles = shown.mesh.triangles;
     write_mesh_file(written, options.out);
     std::printf("wrote       %s\n", options.out.c_str());
   }
   if (!options.sheet.empty()) {
     SheetScene scene;
-    scene.triangles = shown.mesh.triangles, scene.surface = shown.positions;
-    scene.inside = shown.region.vertices(), scene.points = shown.curve.vertices;
+    scene.triangles = shown.mesh.triangles;
+    scene.surface = shown.positions;
+    scene.inside = shown.region.vertices();
+    scene.points = shown.curve.vertices;
     scene.curve = shown.region.curve();
     const std::string name = options.mesh.filename().string();
     std::vector<SheetTile> tiles;

@@ -11,7 +11,10 @@ int main(int argc, char** argv) {
   double low[3], high[3];
   const double down[3] = {0, 0, -1};
   mesh_ends(&mesh, low, high);
-  low[2] += 100, high[2] += 100, low[1] += 0.01, high[1] -= 0.01;
+  low[2] += 100;
+  high[2] += 100;
+  low[1] += 0.01;
+  high[1] -= 0.01;
   hf_hit first = HF_INIT(hf_hit), second = HF_INIT(hf_hit);
   ok(hf_surface_cast_ray(surface, low, down, NULL, &first));
   ok(hf_surface_cast_ray(surface, high, down, NULL, &second));
@@ -26,8 +29,11 @@ int main(int argc, char** argv) {
   hf_sites_desc third = HF_INIT(hf_sites_desc);
   const uint32_t triangle = mesh.triangle_count / 2;
   const double weights[3] = {1.0 / 3, 1.0 / 3, 1.0 / 3}, half = 0.5, stiffness = 0.1;
-  third.site_count = 1, third.triangles = &triangle, third.barycentrics = weights;
-  third.values = &half, third.stiffness = &stiffness;
+  third.site_count = 1;
+  third.triangles = &triangle;
+  third.barycentrics = weights;
+  third.values = &half;
+  third.stiffness = &stiffness;
   ok(hf_add_sites(solver, &third, NULL));
 
   float* field = malloc(sizeof(float) * mesh.vertex_count);
@@ -47,7 +53,9 @@ int main(int argc, char** argv) {
   ok(hf_surface_trace_isolines(surface, &scalars, 5, levels, &lines)); /* NULL arrays: the counts alone */
   printf("%u lines of %u points\n", lines.line_count, lines.point_count);
 
-  free(field), mesh_free(&mesh);
-  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  free(field);
+  mesh_free(&mesh);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   return 0;
 }

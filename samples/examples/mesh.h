@@ -32,13 +32,17 @@ static void* grown(void* block, size_t bytes) {
 static void mesh_add_vertex(Mesh* mesh, float x, float y, float z) {
   mesh->positions = grown(mesh->positions, sizeof(float) * 3 * ((size_t)mesh->vertex_count + 1));
   float* p = mesh->positions + 3 * (size_t)mesh->vertex_count++;
-  p[0] = x, p[1] = y, p[2] = z;
+  p[0] = x;
+  p[1] = y;
+  p[2] = z;
 }
 
 static void mesh_add_triangle(Mesh* mesh, uint32_t a, uint32_t b, uint32_t c) {
   mesh->triangles = grown(mesh->triangles, sizeof(uint32_t) * 3 * ((size_t)mesh->triangle_count + 1));
   uint32_t* corner = mesh->triangles + 3 * (size_t)mesh->triangle_count++;
-  corner[0] = a, corner[1] = b, corner[2] = c;
+  corner[0] = a;
+  corner[1] = b;
+  corner[2] = c;
 }
 
 /* A leg along y from 0 to 4, open at both ends: 32 vertices on each of 81 rings, thicker in the middle. */
@@ -55,7 +59,8 @@ static Mesh mesh_leg(void) {
   for (uint32_t r = 0; r + 1 < rings; ++r) {
     for (uint32_t i = 0; i < around; ++i) {
       const uint32_t a = r * around + i, b = r * around + (i + 1) % around;
-      mesh_add_triangle(&mesh, a, a + around, b), mesh_add_triangle(&mesh, b, a + around, b + around);
+      mesh_add_triangle(&mesh, a, a + around, b);
+      mesh_add_triangle(&mesh, b, a + around, b + around);
     }
   }
   return mesh;
@@ -67,7 +72,10 @@ static Mesh mesh_load(int argc, char** argv) {
   char line[1024];
   if (argc < 2) return mesh_leg();
   FILE* file = fopen(argv[1], "r");
-  if (!file) fprintf(stderr, "cannot open %s\n", argv[1]), exit(1);
+  if (!file) {
+    fprintf(stderr, "cannot open %s\n", argv[1]);
+    exit(1);
+  }
   while (fgets(line, sizeof line, file)) {
     float x, y, z;
     if (sscanf(line, "v %f %f %f", &x, &y, &z) == 3) mesh_add_vertex(&mesh, x, y, z);
@@ -86,7 +94,10 @@ static Mesh mesh_load(int argc, char** argv) {
 
 static void mesh_save(const Mesh* mesh, const float* positions, const char* name) {
   FILE* file = fopen(name, "w");
-  if (!file) fprintf(stderr, "cannot write %s\n", name), exit(1);
+  if (!file) {
+    fprintf(stderr, "cannot write %s\n", name);
+    exit(1);
+  }
   for (size_t v = 0; v < mesh->vertex_count; ++v)
     fprintf(file, "v %g %g %g\n", (double)positions[3 * v], (double)positions[3 * v + 1], (double)positions[3 * v + 2]);
   for (size_t t = 0; t < mesh->triangle_count; ++t) {
@@ -94,18 +105,26 @@ static void mesh_save(const Mesh* mesh, const float* positions, const char* name
     fprintf(file, "f %u %u %u\n", corner[0] + 1, corner[1] + 1, corner[2] + 1);
   }
   const int failed = ferror(file);
-  if (fclose(file) != 0 || failed) fprintf(stderr, "cannot write %s\n", name), exit(1);
+  if (fclose(file) != 0 || failed) {
+    fprintf(stderr, "cannot write %s\n", name);
+    exit(1);
+  }
   printf("wrote %s\n", name);
 }
 
-static void mesh_free(Mesh* mesh) { free(mesh->positions), free(mesh->triangles); }
+static void mesh_free(Mesh* mesh) {
+  free(mesh->positions);
+  free(mesh->triangles);
+}
 
 /* The surface of a mesh. */
 static hf_surface mesh_surface(const Mesh* mesh) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   hf_surface surface;
-  desc.vertex_count = mesh->vertex_count, desc.positions = mesh->positions;
-  desc.triangle_count = mesh->triangle_count, desc.triangles = mesh->triangles;
+  desc.vertex_count = mesh->vertex_count;
+  desc.positions = mesh->positions;
+  desc.triangle_count = mesh->triangle_count;
+  desc.triangles = mesh->triangles;
   ok(hf_surface_create(&desc, &surface));
   return surface;
 }
@@ -118,7 +137,10 @@ static void mesh_ends(const Mesh* mesh, double low[3], double high[3]) {
     if (p[1] < lowest[1]) lowest = p;
     if (p[1] > highest[1]) highest = p;
   }
-  for (int k = 0; k < 3; ++k) low[k] = (double)lowest[k], high[k] = (double)highest[k];
+  for (int k = 0; k < 3; ++k) {
+    low[k] = (double)lowest[k];
+    high[k] = (double)highest[k];
+  }
 }
 
 #endif

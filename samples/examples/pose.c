@@ -17,8 +17,10 @@ int main(int argc, char** argv) {
   float* posed = malloc(sizeof(float) * 3 * mesh.vertex_count);
   const double quarter = 0.70710678118654752;
   hf_transform turned = {{0, 0, 0, 1}, {0, 0, 0}};
-  turned.rotation[2] = -quarter, turned.rotation[3] = quarter; /* 90 degrees about z */
-  turned.translation[0] = 0.5 * size, turned.translation[1] = -0.4 * size;
+  turned.rotation[2] = -quarter;
+  turned.rotation[3] = quarter; /* 90 degrees about z */
+  turned.translation[0] = 0.5 * size;
+  turned.translation[1] = -0.4 * size;
   ok(hf_pose_set_transform(pose, at_hip, &turned));
   hf_deform_info info = HF_INIT(hf_deform_info);
   ok(hf_deform(pose, posed, &info));
@@ -29,7 +31,10 @@ int main(int argc, char** argv) {
   for (int k = 0; k < 3; ++k) knee[k] = 0.5 * (foot[k] + hip[k]);
   hf_handles_desc finer = HF_INIT(hf_handles_desc);
   const double radius = 0.05 * size;
-  finer.handle_count = 1, finer.points = knee, finer.radii = &radius, finer.layer = 1;
+  finer.handle_count = 1;
+  finer.points = knee;
+  finer.radii = &radius;
+  finer.layer = 1;
   ok(hf_pose_add_handles(pose, &finer, &at_knee));
   hf_transform pulled = {{0, 0, 0, 1}, {0, 0, 0}};
   pulled.translation[0] = 0.1 * size;
@@ -41,7 +46,9 @@ int main(int argc, char** argv) {
   ok(hf_pose_remove_handles(pose, 1, &at_knee));
   ok(hf_deform(pose, posed, NULL));
 
-  free(posed), mesh_free(&mesh);
-  hf_pose_destroy(pose), hf_surface_destroy(surface);
+  free(posed);
+  mesh_free(&mesh);
+  hf_pose_destroy(pose);
+  hf_surface_destroy(surface);
   return 0;
 }

@@ -15,7 +15,8 @@ static hf_region band(hf_surface surface, const Mesh* mesh, double from, double 
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   desc.positions = mesh->positions; /* weight 0 gives these back, bit for bit */
   ok(hf_region_create(surface, &desc, &region));
-  edit.add_count = count, edit.add_vertices = vertices;
+  edit.add_count = count;
+  edit.add_vertices = vertices;
   ok(hf_region_edit(region, &edit));
   free(vertices);
   return region;
@@ -51,7 +52,10 @@ int main(int argc, char** argv) {
   desc.base = HF_BASE_MEMBRANE;
   ok(hf_region_create(surface, &desc, &membrane));
 
-  free(out), mesh_free(&mesh);
-  hf_region_destroy(membrane), hf_region_destroy(region), hf_surface_destroy(surface);
+  free(out);
+  mesh_free(&mesh);
+  hf_region_destroy(membrane);
+  hf_region_destroy(region);
+  hf_surface_destroy(surface);
   return 0;
 }

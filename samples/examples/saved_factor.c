@@ -20,10 +20,13 @@ int main(int argc, char** argv) {
   if (!file || fread(read, 1, size, file) != size) return fprintf(stderr, "cannot read\n"), 1;
   fclose(file);
   hf_factor_desc saved = HF_INIT(hf_factor_desc);
-  saved.bytes = read, saved.byte_count = size; /* copied; borrow = 1 reads a mapped file in place */
+  saved.bytes = read;
+  saved.byte_count = size; /* copied; borrow = 1 reads a mapped file in place */
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count, desc.positions = mesh.positions;
-  desc.triangle_count = mesh.triangle_count, desc.triangles = mesh.triangles;
+  desc.vertex_count = mesh.vertex_count;
+  desc.positions = mesh.positions;
+  desc.triangle_count = mesh.triangle_count;
+  desc.triangles = mesh.triangles;
   desc.saved_factor = &saved;
   hf_surface loaded;
   ok(hf_surface_create(&desc, &loaded)); /* refuses bytes of another mesh */
@@ -49,7 +52,11 @@ int main(int argc, char** argv) {
   const int same = memcmp(fields[0], fields[1], sizeof(float) * mesh.vertex_count) == 0;
   printf("the fields are %s\n", same ? "the same bits" : "different");
 
-  free(fields[0]), free(fields[1]), free(read), mesh_free(&mesh);
-  hf_surface_destroy(made), hf_surface_destroy(loaded);
+  free(fields[0]);
+  free(fields[1]);
+  free(read);
+  mesh_free(&mesh);
+  hf_surface_destroy(made);
+  hf_surface_destroy(loaded);
   return same ? 0 : 1;
 }

@@ -30,7 +30,9 @@ int main(int argc, char** argv) {
 
   hf_skin_info skin = HF_INIT(hf_skin_info);
   ok(hf_pose_get_skin(pose, &skin)); /* NULL arrays: the counts alone */
-  skin.joint_capacity = skin.joint_count, skin.vertex_capacity = skin.vertex_count, skin.weight_count = 4;
+  skin.joint_capacity = skin.joint_count;
+  skin.vertex_capacity = skin.vertex_count;
+  skin.weight_count = 4;
   skin.pivots = malloc(sizeof(double) * 3 * skin.joint_count);
   skin.rotations = malloc(sizeof(double) * 4 * skin.joint_count);
   skin.translations = malloc(sizeof(double) * 3 * skin.joint_count);
@@ -50,8 +52,14 @@ int main(int argc, char** argv) {
   }
   printf("%u joints; the skin is at most %.2f %% of the height off the pose\n", skin.joint_count, 100 * worst / size);
 
-  free(skin.pivots), free(skin.rotations), free(skin.translations), free(skin.vertex_joints);
-  free(skin.vertex_weights), free(posed), mesh_free(&mesh);
-  hf_pose_destroy(pose), hf_surface_destroy(surface);
+  free(skin.pivots);
+  free(skin.rotations);
+  free(skin.translations);
+  free(skin.vertex_joints);
+  free(skin.vertex_weights);
+  free(posed);
+  mesh_free(&mesh);
+  hf_pose_destroy(pose);
+  hf_surface_destroy(surface);
   return worst < 0.05 * size ? 0 : 1;
 }

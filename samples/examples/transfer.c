@@ -6,15 +6,20 @@ static void bend(const Mesh* mesh, float amount, float* out) {
   for (size_t v = 0; v < mesh->vertex_count; ++v) {
     const float *p = mesh->positions + 3 * v, angle = amount * p[1], c = cosf(angle), s = sinf(angle);
     const float x = amount == 0.0f ? 0.0f : (1 - c) / amount, y = amount == 0.0f ? p[1] : s / amount;
-    out[3 * v] = x + c * p[0], out[3 * v + 1] = y - s * p[0], out[3 * v + 2] = p[2];
+    out[3 * v] = x + c * p[0];
+    out[3 * v + 1] = y - s * p[0];
+    out[3 * v + 2] = p[2];
   }
 }
 
 int main(int argc, char** argv) {
   Mesh source = mesh_leg(), target = mesh_load(argc, argv);
   if (argc < 2) { /* twice as tall, half as thick: lengths differ, joints do not */
-    for (size_t v = 0; v < target.vertex_count; ++v)
-      target.positions[3 * v] *= 0.5f, target.positions[3 * v + 1] *= 2, target.positions[3 * v + 2] *= 0.5f;
+    for (size_t v = 0; v < target.vertex_count; ++v) {
+      target.positions[3 * v] *= 0.5f;
+      target.positions[3 * v + 1] *= 2;
+      target.positions[3 * v + 2] *= 0.5f;
+    }
   }
   hf_surface from = mesh_surface(&source), to = mesh_surface(&target);
   hf_transfer transfer;
@@ -34,17 +39,22 @@ int main(int argc, char** argv) {
       }
     }
     hf_pairs_desc pair = HF_INIT(hf_pairs_desc);
-    pair.pair_count = 1, pair.flags = &flags;
-    pair.source_counts = &counts[0], pair.source_vertices = lists[0];
-    pair.target_counts = &counts[1], pair.target_vertices = lists[1];
+    pair.pair_count = 1;
+    pair.flags = &flags;
+    pair.source_counts = &counts[0];
+    pair.source_vertices = lists[0];
+    pair.target_counts = &counts[1];
+    pair.target_vertices = lists[1];
     ok(hf_transfer_add_pairs(transfer, &pair, NULL)); /* no factorisation on either side */
-    free(lists[0]), free(lists[1]);
+    free(lists[0]);
+    free(lists[1]);
   }
 
   float* posed = malloc(sizeof(float) * 3 * source.vertex_count);
   float* played = malloc(sizeof(float) * 3 * target.vertex_count);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = posed, frame.target_positions = played;
+  frame.source_positions = posed;
+  frame.target_positions = played;
   for (int f = 0; f <= 20; ++f) {
     bend(&source, 0.02f * (float)f, posed);
     ok(hf_transfer_apply(transfer, &frame));
@@ -52,7 +62,12 @@ int main(int argc, char** argv) {
   mesh_save(&source, posed, "transfer_source.obj");
   mesh_save(&target, played, "transfer_target.obj");
 
-  free(posed), free(played), mesh_free(&source), mesh_free(&target);
-  hf_transfer_destroy(transfer), hf_surface_destroy(from), hf_surface_destroy(to);
+  free(posed);
+  free(played);
+  mesh_free(&source);
+  mesh_free(&target);
+  hf_transfer_destroy(transfer);
+  hf_surface_destroy(from);
+  hf_surface_destroy(to);
   return 0;
 }

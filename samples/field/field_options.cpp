@@ -184,9 +184,11 @@ FieldOptions read_field_options(int argc, char** argv) {
       continue;
     else if (name == "--operator")
       options.operator_kind = read_choice(next(), {"delaunay", "clamped", "uniform", "cotangent"}, name);
-    else if (name == "--paper")
-      options.engine = HF_ENGINE_UPDOWN, options.operator_kind = HF_OPERATOR_COTANGENT, options.links = false;
-    else if (name == "--weld")
+    else if (name == "--paper") {
+      options.engine = HF_ENGINE_UPDOWN;
+      options.operator_kind = HF_OPERATOR_COTANGENT;
+      options.links = false;
+    } else if (name == "--weld")
       options.weld = read_choice(next(), {"exact", "none"}, name);
     else if (name.rfind("--", 0) == 0)
       throw std::runtime_error("unknown option " + name + "; see --help");

@@ -60,8 +60,10 @@ std::vector<glm::vec3> normals_of(const SurfaceMesh& mesh) {
 
 double diagonal_of(const SurfaceMesh& mesh) {
   glm::dvec3 low(1e300), high(-1e300);
-  for (const uint32_t v : mesh.triangles)
-    low = glm::min(low, mesh.positions[v]), high = glm::max(high, mesh.positions[v]);
+  for (const uint32_t v : mesh.triangles) {
+    low = glm::min(low, mesh.positions[v]);
+    high = glm::max(high, mesh.positions[v]);
+  }
   return mesh.triangles.empty() ? 1 : glm::length(high - low);
 }
 
@@ -71,7 +73,8 @@ void hatch(std::vector<Corner> triangle, double width, Strips& strips) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (Corner& corner : triangle) {
     corner.value = glm::dot(corner.position, across) / width;
-    low = std::min(low, corner.value), high = std::max(high, corner.value);
+    low = std::min(low, corner.value);
+    high = std::max(high, corner.value);
   }
   for (double stripe = std::floor(low); stripe < high || stripe == std::floor(low); ++stripe) {
     std::vector<Corner> part = triangle;
@@ -200,8 +203,10 @@ std::vector<Arrow> arrows_of(const FieldView& view) {
     const glm::dvec3 along = 0.95 * gap * std::sqrt(length / longest) / length * vectors[i];
     const glm::dvec3 from = at(mesh, spots[i]) + 0.006 * diagonal * normal - 0.5 * along, to = from + along;
     Arrow arrow;
-    arrow.from = {from.x, from.y, from.z}, arrow.to = {to.x, to.y, to.z};
-    arrow.color = {0.08, 0.20, 0.55}, arrow.width = 1.5;
+    arrow.from = {from.x, from.y, from.z};
+    arrow.to = {to.x, to.y, to.z};
+    arrow.color = {0.08, 0.20, 0.55};
+    arrow.width = 1.5;
     arrows.push_back(arrow);
   }
   return arrows;
@@ -235,7 +240,10 @@ void write_field_glb(const std::string& file, const FieldView& view) {
   Model model;
   model.name = file;
   Material material;
-  material.name = "strips", material.metallic = 0, material.roughness = 0.9f, material.double_sided = true;
+  material.name = "strips";
+  material.metallic = 0;
+  material.roughness = 0.9f;
+  material.double_sided = true;
   surface.material = 0;
   model.materials.push_back(material);
   MeshData data;
@@ -243,7 +251,8 @@ void write_field_glb(const std::string& file, const FieldView& view) {
   data.primitives.push_back(std::move(surface));
   model.meshes.push_back(std::move(data));
   Node node;
-  node.name = "field", node.mesh = 0;
+  node.name = "field";
+  node.mesh = 0;
   node.translation = offset;
   model.nodes.push_back(node);
   model.scene_roots = {0};
@@ -295,7 +304,10 @@ Picture field_picture(const FieldView& view) {
   for (const glm::dvec3& p : view.sites) {
     Dot dot;
     dot.position = {p.x, p.y, p.z};
-    if (critical) dot.radius = 0.006, dot.color = {0.05, 0.05, 0.05};
+    if (critical) {
+      dot.radius = 0.006;
+      dot.color = {0.05, 0.05, 0.05};
+    }
     marks.dots.push_back(dot);
   }
   for (const hf_critical_point& point : view.critical) {
@@ -317,7 +329,9 @@ Picture field_picture(const FieldView& view) {
   }
   if (view.components == 3) marks.arrows = arrows_of(view);
   View page;
-  page.width = view.width, page.height = view.height, page.direction = view.direction;
+  page.width = view.width;
+  page.height = view.height;
+  page.direction = view.direction;
   return render(surface, page, look, marks);
 }
 

@@ -34,7 +34,10 @@ struct Batch {
       soft = soft || site.stiffness > 0;
     }
     (points ? desc.triangles : desc.vertices) = vertices.data();
-    if (!corners.empty()) desc.triangles = nullptr, desc.corners = corners.data();
+    if (!corners.empty()) {
+      desc.triangles = nullptr;
+      desc.corners = corners.data();
+    }
     if (points) desc.barycentrics = barycentrics.data();
     if (with_values) desc.values = values.data();
     if (with_values && soft) desc.stiffness = stiffness.data();
@@ -97,24 +100,31 @@ Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
     desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
     desc.triangles = mesh.triangles.data();
   } else {
-    desc.face_count = static_cast<uint32_t>(mesh.face_sizes.size()), desc.face_sizes = mesh.face_sizes.data();
-    desc.corner_count = static_cast<uint32_t>(mesh.face_vertices.size()), desc.corners = mesh.face_vertices.data();
+    desc.face_count = static_cast<uint32_t>(mesh.face_sizes.size());
+    desc.face_sizes = mesh.face_sizes.data();
+    desc.corner_count = static_cast<uint32_t>(mesh.face_vertices.size());
+    desc.corners = mesh.face_vertices.data();
     triangles_ = mesh.triangles;
   }
-  desc.operator_kind = options.operator_kind, desc.weld = options.weld;
+  desc.operator_kind = options.operator_kind;
+  desc.weld = options.weld;
   desc.thread_count = options.threads;
   hf_links_desc links = HF_INIT(hf_links_desc);
   links.mode = HF_LINK_PIECES;
   if (options.links) desc.links = &links;
   hf_solver_desc sites = HF_INIT(hf_solver_desc);
-  sites.engine = options.engine, sites.channel_count = options.kind == FieldType::vector ? 3 : 1;
+  sites.engine = options.engine;
+  sites.channel_count = options.kind == FieldType::vector ? 3 : 1;
   if (options.kind == FieldType::biharmonic) desc.field_kind = sites.field_kind = HF_FIELD_BIHARMONIC;
   limit_surface(desc);
   check(hf_surface_create(&desc, &surface_));
   hf_result result = hf_create(surface_, &sites, &solver_);
   if (result == HF_OK && options.kind == FieldType::direction)
     result = hf_direction_create(surface_, nullptr, &direction_);
-  if (result != HF_OK) hf_solver_destroy(solver_), hf_surface_destroy(surface_);
+  if (result != HF_OK) {
+    hf_solver_destroy(solver_);
+    hf_surface_destroy(surface_);
+  }
   check(result);
 }
 
@@ -134,7 +144,10 @@ void Session::change_directions(const Edit& edit) {
     for (size_t i = 0; i < count; ++i) sites_[edit.sites[i].place] = numbers[i];
   } else if (edit.kind == Edit::Kind::move) {
     std::vector<uint32_t> to;
-    for (size_t i = 0; i < count; i += 2) numbers.push_back(number(edit.sites[i].place)), to.push_back(vertices[i + 1]);
+    for (size_t i = 0; i < count; i += 2) {
+      numbers.push_back(number(edit.sites[i].place));
+      to.push_back(vertices[i + 1]);
+    }
     check(hf_direction_move_sites(direction_, count / 2, numbers.data(), to.data()));
     for (size_t i = 0; i < count; i += 2) sites_.erase(edit.sites[i].place);
     for (size_t i = 0; i < count; i += 2) sites_[edit.sites[i + 1].place] = numbers[i / 2];
@@ -240,8 +253,10 @@ void Session::change(const Edit& edit) {
       break;
     case Edit::Kind::move: {
       std::vector<SiteArgument> to;
-      for (size_t i = 0; i < edit.sites.size(); i += 2)
-        numbers.push_back(number(edit.sites[i].place)), to.push_back(edit.sites[i + 1]);
+      for (size_t i = 0; i < edit.sites.size(); i += 2) {
+        numbers.push_back(number(edit.sites[i].place));
+        to.push_back(edit.sites[i + 1]);
+      }
       const Batch batch(to, false, triangles_);
       check(hf_solver_move_sites(solver_, static_cast<uint32_t>(numbers.size()), numbers.data(), &batch.desc));
       for (size_t i = 0; i < edit.sites.size(); i += 2) sites_.erase(edit.sites[i].place);
@@ -273,7 +288,8 @@ std::vector<bool> Session::reached(const std::vector<double>& field) const {
   } else {
     std::vector<uint32_t> served(hf_solver_get_site_count(solver_));
     hf_sites_info info = HF_INIT(hf_sites_info);
-    info.capacity = static_cast<uint32_t>(served.size()), info.components = served.data();
+    info.capacity = static_cast<uint32_t>(served.size());
+    info.components = served.data();
     check(hf_solver_get_sites(solver_, &info));
     found.insert(served.begin(), served.end());
   }
@@ -318,13 +334,17 @@ std::vector<IsoLine> Session::isolines(const std::vector<double>& field, const s
   std::vector<uint32_t> starts(size_t(lines.line_count) + 1), of_level(lines.line_count);
   std::vector<int32_t> closed(lines.line_count);
   if (lines.line_count == 0) return {};
-  lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
-  lines.positions = positions.data(), lines.line_starts = starts.data(), lines.line_levels = of_level.data();
+  lines.point_capacity = lines.point_count;
+  lines.line_capacity = lines.line_count;
+  lines.positions = positions.data();
+  lines.line_starts = starts.data();
+  lines.line_levels = of_level.data();
   lines.line_closed = closed.data();
   check(hf_surface_trace_isolines(surface_, &desc, level_count, levels.data(), &lines));
   std::vector<IsoLine> found(lines.line_count);
   for (size_t l = 0; l < found.size(); ++l) {
-    found[l].level = of_level[l], found[l].closed = closed[l] != 0;
+    found[l].level = of_level[l];
+    found[l].closed = closed[l] != 0;
     for (size_t i = starts[l]; i < starts[l + 1]; ++i)
       found[l].points.push_back({positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]});
   }
@@ -352,7 +372,10 @@ std::vector<SiteArgument> propose_sites(const SurfaceMesh& mesh, const Session& 
   }
   for (uint32_t v = 0; v < component.size(); ++v) {
     int& there = count[component[v]];
-    if (there == 0) vertices.push_back(v), there = 1;
+    if (there == 0) {
+      vertices.push_back(v);
+      there = 1;
+    }
   }
   // where there is only one, the vertex farthest from it
   const std::vector<double> distance = session.distance(vertices);

@@ -27,7 +27,8 @@ class Session {
   Session(const SurfaceMesh& mesh, const FieldOptions& options);
   ~Session() {
     hf_direction_destroy(direction_);
-    hf_solver_destroy(solver_), hf_surface_destroy(surface_);
+    hf_solver_destroy(solver_);
+    hf_surface_destroy(surface_);
   }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

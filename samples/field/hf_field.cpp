@@ -62,7 +62,9 @@ void describe(hf_surface surface, double create_ms) {
 FieldView view_of(const Session& session, const SurfaceMesh& mesh, const std::vector<double>& field,
                   const FieldOptions& options) {
   FieldView view;
-  view.mesh = &mesh, view.values = field, view.components = session.components();
+  view.mesh = &mesh;
+  view.values = field;
+  view.components = session.components();
   view.direction = options.direction;
   view.sites = session.positions(mesh);
   view.singular = session.singularities();
@@ -80,7 +82,10 @@ FieldView view_of(const Session& session, const SurfaceMesh& mesh, const std::ve
   if (session.components() != 1) return view;
   double low = INFINITY, high = -INFINITY;
   for (const double value : view.values) {
-    if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+    if (std::isfinite(value)) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
   }
   if (!(high > low)) return view;  // one strip
   if (options.strips > 1) view.levels = session.levels(view.values, options.levels, options.strips - 1);
@@ -210,7 +215,8 @@ Picture sheet_tile(const SurfaceMesh& mesh, const FieldOptions& options, const s
                                std::to_string(i / session.components()));
   }
   FieldView view = view_of(session, mesh, field, options);
-  view.width = 300, view.height = 250;
+  view.width = 300;
+  view.height = 250;
   return field_picture(view);
 }
 
@@ -227,8 +233,12 @@ int run_sheet(const FieldOptions& given) {
       {"isolines", FieldType::harmonic, 1, 2, 1, 24, false}, {"critical", FieldType::harmonic, 1, 1, 12, 0, true}};
   for (const Kind& kind : kinds) {
     FieldOptions options = given;
-    options.kind = kind.type, options.extremities = kind.extremities, options.levels = kind.levels;
-    options.strips = kind.strips, options.isolines = kind.isolines, options.critical_points = kind.critical;
+    options.kind = kind.type;
+    options.extremities = kind.extremities;
+    options.levels = kind.levels;
+    options.strips = kind.strips;
+    options.isolines = kind.isolines;
+    options.critical_points = kind.critical;
     std::vector<Picture> tiles;
     std::vector<std::string> labels;
     for (const std::string& file : given.sheet) {

@@ -19,7 +19,8 @@ int draw_dots(const char* path, const Dots* dots, double dot_radius) {
           {{p[0], p[1], p[2]}, dot_radius, samples::palette_color(samples::Palette::blue_yellow, t)});
     }
     samples::View view;
-    view.width = 480, view.height = 640;
+    view.width = 480;
+    view.height = 640;
     samples::write_png(path, samples::render({layer}, view));
     return 0;
   } catch (const std::exception& error) {

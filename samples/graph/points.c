@@ -27,7 +27,9 @@ static void leg(float* positions, uint32_t* triangles) {
     const double y = length * (v / AROUND) / (RINGS - 1), angle = 6.283185307179586 * (v % AROUND) / AROUND;
     const double radius = 0.35 + 0.15 * sin(0.8 * y);
     float* p = positions + 3 * (size_t)v;
-    p[0] = (float)(radius * cos(angle)), p[1] = (float)y, p[2] = (float)(radius * sin(angle));
+    p[0] = (float)(radius * cos(angle));
+    p[1] = (float)y;
+    p[2] = (float)(radius * sin(angle));
   }
   for (uint32_t q = 0; q < AROUND * (RINGS - 1); ++q) {
     const uint32_t ring = q / AROUND * AROUND, next = ring + (q + 1) % AROUND;
@@ -39,8 +41,10 @@ static void leg(float* positions, uint32_t* triangles) {
 /* The field of the mesh: x at the lower end, 1 at the upper end. */
 static void mesh_field(const float* positions, const uint32_t* triangles, double* out_field) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = AROUND * RINGS, desc.triangle_count = 2 * AROUND * (RINGS - 1);
-  desc.positions = positions, desc.triangles = triangles;
+  desc.vertex_count = AROUND * RINGS;
+  desc.triangle_count = 2 * AROUND * (RINGS - 1);
+  desc.positions = positions;
+  desc.triangles = triangles;
   hf_surface surface;
   hf_solver solver;
   ok(hf_surface_create(&desc, &surface));
@@ -51,12 +55,16 @@ static void mesh_field(const float* positions, const uint32_t* triangles, double
     ok(hf_solver_add_site(solver, AROUND * (RINGS - 1) + i, &high, NULL));
   }
   ok(hf_solver_solve_f64(solver, out_field, 0, NULL));
-  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
 }
 
 static double area_of(const float* a, const float* b, const float* c) {
   double u[3], v[3];
-  for (int k = 0; k < 3; ++k) u[k] = (double)b[k] - (double)a[k], v[k] = (double)c[k] - (double)a[k];
+  for (int k = 0; k < 3; ++k) {
+    u[k] = (double)b[k] - (double)a[k];
+    v[k] = (double)c[k] - (double)a[k];
+  }
   const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
   return 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
 }
@@ -77,7 +85,10 @@ static Cloud sample(const float* positions, const uint32_t* triangles, const dou
       done += area_of(a, b, c);
       while (cloud.count < count && (cloud.count + 0.5) / count * area <= done) {
         double s = noise(2 * cloud.count) + 0.5, r = noise(2 * cloud.count + 1) + 0.5;
-        if (s + r > 1) s = 1 - s, r = 1 - r;
+        if (s + r > 1) {
+          s = 1 - s;
+          r = 1 - r;
+        }
         const size_t i = cloud.count++;
         for (int k = 0; k < 3; ++k)
           cloud.positions[3 * i + (size_t)k] = (1 - s - r) * (double)a[k] + s * (double)b[k] + r * (double)c[k];
@@ -126,15 +137,21 @@ static double difference(const Cloud* cloud, const Graph* graph, double* field, 
   double* values = need(malloc(sizeof(double) * cloud->count));
   for (uint32_t i = 0; i < cloud->count; ++i) {
     const double y = cloud->positions[3 * (size_t)i + 1], band = reach * cloud->spacing;
-    if (y < band || y > length - band) sites[count] = i, values[count++] = cloud->mesh[i];
+    if (y < band || y > length - band) {
+      sites[count] = i;
+      values[count++] = cloud->mesh[i];
+    }
   }
   graph_field(graph, cloud->count, 0, count, sites, values, field);
-  free(sites), free(values);
+  free(sites);
+  free(values);
   double sum = 0;
   *out_largest = 0;
   for (uint32_t i = 0; i < cloud->count; ++i) {
     const double apart = fabs(field[i] - cloud->mesh[i]);
-    sum += apart, free_count += apart > 0, *out_largest = fmax(*out_largest, apart);
+    sum += apart;
+    free_count += apart > 0;
+    *out_largest = fmax(*out_largest, apart);
   }
   return sum / free_count;
 }
@@ -144,7 +161,8 @@ int points(Dots* out_dots) {
   float* positions = need(malloc(sizeof(float) * 3 * AROUND * RINGS));
   uint32_t* triangles = need(malloc(sizeof(uint32_t) * 6 * AROUND * (RINGS - 1)));
   double* field = need(malloc(sizeof(double) * AROUND * RINGS));
-  leg(positions, triangles), mesh_field(positions, triangles, field);
+  leg(positions, triangles);
+  mesh_field(positions, triangles, field);
   double mean = 0, largest = 0;
   for (int s = 0; s < 3; ++s) {
     Cloud cloud = sample(positions, triangles, field, counts[s]);
@@ -154,13 +172,19 @@ int points(Dots* out_dots) {
     mean = difference(&cloud, &graph, values, &largest);
     printf("points %9u: %u edges, %.4f from the field of the mesh in the mean, %.4f at most\n", cloud.count,
            graph.edge_count, mean, largest);
-    graph_free(&graph), free(cloud.mesh);
+    graph_free(&graph);
+    free(cloud.mesh);
     if (s == 2 && out_dots) {
-      out_dots->count = cloud.count, out_dots->positions = cloud.positions, out_dots->values = values;
+      out_dots->count = cloud.count;
+      out_dots->positions = cloud.positions;
+      out_dots->values = values;
       continue;
     }
-    free(cloud.positions), free(values);
+    free(cloud.positions);
+    free(values);
   }
-  free(positions), free(triangles), free(field);
+  free(positions);
+  free(triangles);
+  free(field);
   return !(mean <= 0.002 && largest <= 0.02);
 }

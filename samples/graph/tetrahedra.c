@@ -22,14 +22,20 @@ static void subtract(const double* a, const double* b, double* out) {
 }
 static double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 static void cross(const double* a, const double* b, double* out) {
-  out[0] = a[1] * b[2] - a[2] * b[1], out[1] = a[2] * b[0] - a[0] * b[2], out[2] = a[0] * b[1] - a[1] * b[0];
+  out[0] = a[1] * b[2] - a[2] * b[1];
+  out[1] = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
 /* The weight that the tetrahedron ijkl adds to its edge ij. */
 static double cotangent_weight(const double* i, const double* j, const double* k, const double* l) {
   double edge[3], to_i[3], to_j[3], normal_i[3], normal_j[3], sine[3];
-  subtract(l, k, edge), subtract(i, k, to_i), subtract(j, k, to_j);
-  cross(edge, to_i, normal_i), cross(edge, to_j, normal_j), cross(normal_i, normal_j, sine);
+  subtract(l, k, edge);
+  subtract(i, k, to_i);
+  subtract(j, k, to_j);
+  cross(edge, to_i, normal_i);
+  cross(edge, to_j, normal_j);
+  cross(normal_i, normal_j, sine);
   return sqrt(dot(edge, edge)) * dot(normal_i, normal_j) / sqrt(dot(sine, sine)) / 6;
 }
 
@@ -89,14 +95,19 @@ static double error_of(const Box* box, const Graph* graph, double (*exact)(const
   uint32_t* sites = need(malloc(sizeof(uint32_t) * box->vertex_count));
   double* values = need(malloc(sizeof(double) * box->vertex_count));
   for (uint32_t v = 0; v < box->vertex_count; ++v) {
-    if (on_boundary(box, v)) sites[count] = v, values[count++] = exact(box->positions + 3 * (size_t)v);
+    if (on_boundary(box, v)) {
+      sites[count] = v;
+      values[count++] = exact(box->positions + 3 * (size_t)v);
+    }
   }
   graph_field(graph, box->vertex_count, 1, count, sites, values, out_field);
-  free(sites), free(values);
+  free(sites);
+  free(values);
   double largest = 0, squares = 0;
   for (uint32_t v = 0; v < box->vertex_count; ++v) {
     const double error = out_field[v] - exact(box->positions + 3 * (size_t)v);
-    largest = fmax(largest, fabs(error)), squares += error * error;
+    largest = fmax(largest, fabs(error));
+    squares += error * error;
   }
   *out_mean = sqrt(squares / (box->vertex_count - count));
   return largest;
@@ -112,7 +123,8 @@ int tetrahedra(Dots* out_dots) {
     double* field = need(malloc(sizeof(double) * box.vertex_count));
     const double exact = error_of(&box, &graph, linear, field, &mean);
     const double error = error_of(&box, &graph, saddle, field, &mean);
-    order = before > 0 ? log2(before / mean) : 0, before = mean;
+    order = before > 0 ? log2(before / mean) : 0;
+    before = mean;
     printf("tetrahedra %5u: linear field off by %.1e, x^2 - y^2 by %.1e, %.1e in the mean",
            6 * sides[s] * sides[s] * sides[s], exact, error, mean);
     if (s > 0) printf(", order %.2f", order);
@@ -120,10 +132,13 @@ int tetrahedra(Dots* out_dots) {
     failed |= !(exact <= 1e-12);
     graph_free(&graph);
     if (s == 2 && out_dots) {
-      out_dots->count = box.vertex_count, out_dots->positions = box.positions, out_dots->values = field;
+      out_dots->count = box.vertex_count;
+      out_dots->positions = box.positions;
+      out_dots->values = field;
       continue;
     }
-    free(box.positions), free(field);
+    free(box.positions);
+    free(field);
   }
   return failed | !(order >= 1.7);
 }

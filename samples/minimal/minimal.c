@@ -12,13 +12,17 @@ int main(void) {
   hf_solver solver;
 
   hf_surface_desc mesh = HF_INIT(hf_surface_desc);
-  mesh.vertex_count = 6, mesh.triangle_count = 4;
-  mesh.positions = positions, mesh.triangles = triangles;
+  mesh.vertex_count = 6;
+  mesh.triangle_count = 4;
+  mesh.positions = positions;
+  mesh.triangles = triangles;
   if (hf_surface_create(&mesh, &surface) != HF_OK) return 1;
   if (hf_create(surface, NULL, &solver) != HF_OK) return 1;
 
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
-  sites.site_count = 4, sites.vertices = vertices, sites.values = values;
+  sites.site_count = 4;
+  sites.vertices = vertices;
+  sites.values = values;
   if (hf_add_sites(solver, &sites, NULL) != HF_OK) return 1;
   if (hf_solve(solver, field, 0, NULL) != HF_OK) return 1;
   for (int v = 0; v < 6; ++v) printf("%.3f\n", (double)field[v]);

@@ -18,10 +18,14 @@ namespace {
 using Bytes = std::vector<uint8_t>;
 
 void put16(Bytes& out, uint32_t value) {
-  out.push_back(static_cast<uint8_t>(value >> 8 & 255)), out.push_back(static_cast<uint8_t>(value & 255));
+  out.push_back(static_cast<uint8_t>(value >> 8 & 255));
+  out.push_back(static_cast<uint8_t>(value & 255));
 }
 
-void put32(Bytes& out, uint32_t value) { put16(out, value >> 16), put16(out, value & 0xffff); }
+void put32(Bytes& out, uint32_t value) {
+  put16(out, value >> 16);
+  put16(out, value & 0xffff);
+}
 
 void put_chunk(Bytes& out, const char (&type)[5], const Bytes& data) {
   put32(out, static_cast<uint32_t>(data.size()));
@@ -41,7 +45,8 @@ Rectangle changed(const Bytes& before, const Bytes& now, int width) {
   for (size_t p = 0; p < now.size(); ++p) {
     if (before[p] == now[p]) continue;
     const int x = static_cast<int>(p % size_t(width)), y = static_cast<int>(p / size_t(width));
-    left = std::min(left, x), right = std::max(right, x);
+    left = std::min(left, x);
+    right = std::max(right, x);
     if (top < 0) top = y;
     bottom = y;
   }
@@ -70,9 +75,12 @@ Bytes compressed(const Bytes& now, const Bytes* before, int width, const Rectang
 Bytes frame_control(uint32_t number, const Rectangle& part, uint32_t delay_ms, bool over) {
   Bytes out;
   put32(out, number);
-  put32(out, static_cast<uint32_t>(part.width)), put32(out, static_cast<uint32_t>(part.height));
-  put32(out, static_cast<uint32_t>(part.x)), put32(out, static_cast<uint32_t>(part.y));
-  put16(out, delay_ms), put16(out, 1000);
+  put32(out, static_cast<uint32_t>(part.width));
+  put32(out, static_cast<uint32_t>(part.height));
+  put32(out, static_cast<uint32_t>(part.x));
+  put32(out, static_cast<uint32_t>(part.y));
+  put16(out, delay_ms);
+  put16(out, 1000);
   out.push_back(0);  // the frame stays for the next one
   out.push_back(over ? 1 : 0);
   return out;
@@ -104,12 +112,14 @@ std::vector<uint8_t> encode_frames(const std::vector<Picture>& frames, uint32_t 
   const bool moves = frames.size() > 1;
   const IndexedPictures indexed = to_palette(frames);
   Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}, header;
-  put32(header, static_cast<uint32_t>(width)), put32(header, static_cast<uint32_t>(height));
+  put32(header, static_cast<uint32_t>(width));
+  put32(header, static_cast<uint32_t>(height));
   header.insert(header.end(), {8, 3, 0, 0, 0});  // eight bits, palette, no interlace
   put_chunk(out, "IHDR", header);
   if (moves) {
     Bytes control;
-    put32(control, static_cast<uint32_t>(frames.size())), put32(control, 0);  // for ever
+    put32(control, static_cast<uint32_t>(frames.size()));
+    put32(control, 0);  // for ever
     put_chunk(out, "acTL", control);
   }
   put_chunk(out, "PLTE", palette_bytes(indexed));

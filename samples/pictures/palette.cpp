@@ -35,7 +35,8 @@ std::vector<Cell> cells_of(const std::vector<Picture>& pictures) {
     Cell cell = all[key];
     if (!(cell.weight > 0)) continue;
     for (double& mean : cell.mean) mean /= cell.weight;
-    cell.weight = std::pow(cell.weight, 0.8), cell.key = key;
+    cell.weight = std::pow(cell.weight, 0.8);
+    cell.key = key;
     used.push_back(cell);
   }
   return used;
@@ -62,7 +63,10 @@ Run measured(const std::vector<Cell>& cells, size_t first, size_t last) {
       const double off = cells[i].mean[c] - run.mean[c];
       spread += cells[i].weight * off * off;
     }
-    if (spread > run.spread) run.spread = spread, run.channel = c;
+    if (spread > run.spread) {
+      run.spread = spread;
+      run.channel = c;
+    }
   }
   return run;
 }
@@ -91,7 +95,10 @@ size_t nearest(const std::vector<std::array<uint8_t, 3>>& palette, const std::ar
   for (size_t i = 0; i < palette.size(); ++i) {
     double distance = 0;
     for (size_t c = 0; c < 3; ++c) distance += (palette[i][c] - color[c]) * (palette[i][c] - color[c]);
-    if (distance < least) least = distance, best = i;
+    if (distance < least) {
+      least = distance;
+      best = i;
+    }
   }
   return best;
 }
@@ -109,7 +116,8 @@ Mixture mixture_of(const std::vector<std::array<uint8_t, 3>>& palette, const std
   double along = 0, length = 0;
   for (size_t c = 0; c < 3; ++c) {
     const double step = double(palette[second][c]) - palette[first][c];
-    along += step * (color[c] - palette[first][c]), length += step * step;
+    along += step * (color[c] - palette[first][c]);
+    length += step * step;
   }
   // far apart they would be seen as dots
   const bool mixed = length > 0 && length < 24 * 24 && along > 0;

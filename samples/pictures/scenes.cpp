@@ -39,11 +39,13 @@ Surface Body::drawn(const std::vector<float>& posed) const {
 
 View side_view(int width, int height) {
   View view;
-  view.width = width, view.height = height;
+  view.width = width;
+  view.height = height;
   view.direction = {-1, 0.22, 0.45};
   view.background_top = view.background_bottom = {0.965, 0.97, 0.98};
   view.margin = 0.04;
-  view.fixed_box = true, view.ground = true;
+  view.fixed_box = true;
+  view.ground = true;
   return view;
 }
 
@@ -100,7 +102,10 @@ FieldScene::FieldScene(const Body& body) : body_(body), solver_(body.surface) {
   auto site = hf::make<hf_sites_desc>();
   const uint32_t vertex = body.vertex_at(-0.4, 1.2, 0.3);
   const double value = 1, radius = 0.09;
-  site.site_count = 1, site.vertices = &vertex, site.values = &value, site.radii = &radius;
+  site.site_count = 1;
+  site.vertices = &vertex;
+  site.values = &value;
+  site.radii = &radius;
   dragged_ = solver_.add_sites(site)[0];
 }
 
@@ -121,7 +126,9 @@ Picture FieldScene::draw(int width, int height, double phase) {
   view.fixed_box = false;
   SurfaceLook look;
   look.fill = Fill::iso_strips;
-  look.scalar_low = 0, look.scalar_high = 1, look.strips = 20;
+  look.scalar_low = 0;
+  look.scalar_high = 1;
+  look.strips = 20;
   return render(drawn, view, look, marks);
 }
 

@@ -24,7 +24,8 @@ Picture draw_quads(const Body& body, int width, int height) {
   for (size_t i = 0; i < quads.faces.size(); i += 4) {
     cut.append(places, &quads.faces[i], 4, drawn.triangles);
     Polyline outline;
-    outline.width = 0.7, outline.color = {0.16, 0.22, 0.36};
+    outline.width = 0.7;
+    outline.color = {0.16, 0.22, 0.36};
     for (uint32_t k = 0; k <= 4; ++k) outline.points.push_back(point_of(quads.positions, quads.faces[i + k % 4]));
     marks.lines.push_back(outline);
   }
@@ -62,7 +63,9 @@ Picture draw_detail(const Body& body, int width, int height) {
       for (size_t c = 0; c < 3; ++c) drawn.colors[3 * v + c] = in[v] ? blue[c] : plain[c];
     }
     View view = side_view(width / 2, height);
-    view.box = box, view.margin = 0.08, view.ground = false;
+    view.box = box;
+    view.margin = 0.08;
+    view.ground = false;
     SurfaceLook look;
     look.fill = Fill::colors;
     paste(page, render(drawn, view, look), column * (width / 2), 0);
@@ -90,9 +93,10 @@ Picture draw_direction(const Body& body, int width, int height) {
     taken.push_back(p);
     along = 0.45 * spacing * glm::normalize(along);
     Arrow arrow;
-    arrow.from = {p.x - along.x, p.y - along.y, p.z - along.z},
+    arrow.from = {p.x - along.x, p.y - along.y, p.z - along.z};
     arrow.to = {p.x + along.x, p.y + along.y, p.z + along.z};
-    arrow.width = 1.5, arrow.color = {0.10, 0.22, 0.45};
+    arrow.width = 1.5;
+    arrow.color = {0.10, 0.22, 0.45};
     marks.arrows.push_back(arrow);
   }
   for (const uint32_t site : sites) marks.dots.push_back({point_of(body.mesh.positions, site), 0.013});

@@ -40,7 +40,8 @@ CreaseReport measure_creases(const SurfaceMesh& surface, double degrees, const S
     for (int k = 0; k < 3; ++k) {
       const uint32_t from = c[k], to = c[(k + 1) % 3];
       Sides& edge = edges[std::minmax(welded[from], welded[to])];
-      edge.a = surface.positions[from], edge.b = surface.positions[to];
+      edge.a = surface.positions[from];
+      edge.b = surface.positions[to];
       if (edge.count < 2) edge.normal[edge.count] = normal;
       ++edge.count;
     }
@@ -66,9 +67,13 @@ CreaseReport measure_creases(const SurfaceMesh& surface, double degrees, const S
       const glm::dvec3 point = edge.a + ((i + 0.5) / samples_of_edge) * (edge.b - edge.a);
       const double distance = nearest.distance(point) / edge_length;
       far = std::max(far, distance);
-      if (distance > out.farthest) out.farthest = distance, out.place = point;
+      if (distance > out.farthest) {
+        out.farthest = distance;
+        out.place = point;
+      }
     }
-    ++out.edges, out.released += far > kept_distance;
+    ++out.edges;
+    out.released += far > kept_distance;
   }
   return out;
 }

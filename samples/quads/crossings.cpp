@@ -70,7 +70,8 @@ std::optional<uint32_t> count_crossing_faces(const SurfaceMesh& mesh) {
       piece.face = f;
       pieces.push_back(piece);
     }
-    first += size, start.push_back(first);
+    first += size;
+    start.push_back(first);
   }
   const auto share_a_vertex = [&](uint32_t f, uint32_t g) {
     for (size_t i = start[f]; i < start[f + 1]; ++i)

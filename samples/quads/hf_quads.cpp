@@ -90,7 +90,8 @@ void read_symmetry(const std::string& text, double* plane) {
   if (text.empty() || axis > 2 || (text.size() > 1 && (text[1] != '=' || !end || *end != 0)) || !std::isfinite(place))
     throw std::runtime_error("--symmetry takes x, y or z, or a place on that axis as in x=0.25, not \"" + text + "\"");
   std::fill(plane, plane + 4, 0.0);  // the last --symmetry counts
-  plane[axis] = 1, plane[3] = place;
+  plane[axis] = 1;
+  plane[3] = place;
 }
 
 Command parse(Words words) {
@@ -138,7 +139,8 @@ double wanted_faces(const Command& options, const SurfaceMesh& mesh) {
     const glm::dvec3 &a = mesh.positions[mesh.triangles[i]], &b = mesh.positions[mesh.triangles[i + 1]],
                      &c = mesh.positions[mesh.triangles[i + 2]];
     area += 0.5 * length(cross(b - a, c - a));
-    low = min(min(low, a), min(b, c)), high = max(max(high, a), max(b, c));
+    low = min(min(low, a), min(b, c));
+    high = max(max(high, a), max(b, c));
   }
   const double edge = options.edge < 0 ? -options.edge * length(high - low) : options.edge;
   return area / (edge * edge);
@@ -178,7 +180,8 @@ Picture draw(const SurfaceMesh& mesh, const Point& direction) {
     first += size;
   }
   View view;
-  view.width = view.height = 720, view.direction = direction;
+  view.width = view.height = 720;
+  view.direction = direction;
   SurfaceLook look;
   look.flat = true;
   std::vector<Layer> layers{{surface, look, marks}};
@@ -240,8 +243,10 @@ void draw_sheet(const Command& options, const SurfaceMesh& mesh, const std::stri
 // The figures of quads that another program made. L is the square root of a face's mean area.
 void measure(const Command& options, const SurfaceMesh& input, double diagonal) {
   SurfaceMesh mesh = read_mesh_file(options.measured);
-  if (mesh.face_sizes.empty())
-    mesh.face_sizes.assign(mesh.triangles.size() / 3, 3), mesh.face_vertices = mesh.triangles;
+  if (mesh.face_sizes.empty()) {
+    mesh.face_sizes.assign(mesh.triangles.size() / 3, 3);
+    mesh.face_vertices = mesh.triangles;
+  }
   FaceTriangles cut;
   size_t first = 0;
   mesh.triangles.clear();
@@ -257,7 +262,8 @@ void measure(const Command& options, const SurfaceMesh& input, double diagonal) 
   const double faces = std::max(1.0, static_cast<double>(mesh.face_count()));
   const QuadReport report = measure_quads(mesh, std::sqrt(area / faces));
   SurfaceMesh triangles = input;
-  triangles.face_sizes.assign(input.triangles.size() / 3, 3), triangles.face_vertices = input.triangles;
+  triangles.face_sizes.assign(input.triangles.size() / 3, 3);
+  triangles.face_vertices = input.triangles;
   std::printf("quads       %u vertices, %u faces; %s\n", report.vertices, report.faces,
               options.measured.filename().string().c_str());
   print_figures(input, diagonal, mesh, report, measure_quads(triangles, 1).euler_characteristic);
@@ -289,7 +295,8 @@ void run(const Command& options) {
   auto create = hf::make<hf_surface_desc>();
   create.vertex_count = static_cast<uint32_t>(input.positions.size());
   create.triangle_count = static_cast<uint32_t>(input.triangles.size() / 3);
-  create.positions_f64 = positions.data(), create.triangles = input.triangles.data();
+  create.positions_f64 = positions.data();
+  create.triangles = input.triangles.data();
   const double wanted = wanted_faces(options, input);
   const bool paid = wanted > 0 && wanted <= (options.faces > 0 ? most_faces : most_by_edge);
   limit_quads(create, paid ? static_cast<uint32_t>(wanted) : 0);
@@ -308,15 +315,19 @@ void run(const Command& options) {
   Guides guides;
   if (!options.strokes.empty()) guides = read_strokes(options.strokes, surface, mean_edge(input));
   desc.guide_count = static_cast<uint32_t>(guides.vertices.size());
-  if (desc.guide_count)
-    desc.guide_vertices = guides.vertices.data(), desc.guide_vectors = guides.vectors.data(),
+  if (desc.guide_count) {
+    desc.guide_vertices = guides.vertices.data();
+    desc.guide_vectors = guides.vectors.data();
     desc.guide_weights = guides.weights.data();
+  }
   Poles poles;
   if (!options.poles.empty()) poles = read_poles(options.poles);
   desc.pole_count = static_cast<uint32_t>(poles.quads.size());
-  if (desc.pole_count)
-    desc.pole_points = poles.points.data(), desc.pole_quads = poles.quads.data(),
+  if (desc.pole_count) {
+    desc.pole_points = poles.points.data();
+    desc.pole_quads = poles.quads.data();
     desc.pole_directions = poles.directions.data();
+  }
   std::copy(options.plane, options.plane + 4, desc.symmetry_plane);
 
   const auto begin = std::chrono::steady_clock::now();
@@ -328,7 +339,8 @@ void run(const Command& options) {
   FaceTriangles cut;
   for (size_t i = 0; i < quads.faces.size(); i += 4)
     append_measured(cut, mesh.positions, &quads.faces[i], 4, mesh.triangles);
-  mesh.face_sizes.assign(quads.info.face_count, 4), mesh.face_vertices = quads.faces;
+  mesh.face_sizes.assign(quads.info.face_count, 4);
+  mesh.face_vertices = quads.faces;
 
   const QuadReport report = measure_quads(mesh, static_cast<double>(quads.info.edge_length));
   const bool valid = report.each_directed_edge_once && report.no_repeated_corner &&

@@ -103,7 +103,8 @@ class Charts {
     return t;
   }
   void join(uint32_t s, uint32_t t) {
-    s = find(s), t = find(t);
+    s = find(s);
+    t = find(t);
     of_[std::max(s, t)] = std::min(s, t);
   }
   // The weights of the point of a triangle's plane nearest to p, with those below 0 cut off.
@@ -113,7 +114,8 @@ class Charts {
     const double xx = dot(x, x), xy = dot(x, y), yy = dot(y, y), area = xx * yy - xy * xy;
     glm::dvec3 w(1, 0, 0);
     if (area > 0) {
-      w.y = (yy * dot(d, x) - xy * dot(d, y)) / area, w.z = (xx * dot(d, y) - xy * dot(d, x)) / area;
+      w.y = (yy * dot(d, x) - xy * dot(d, y)) / area;
+      w.z = (xx * dot(d, y) - xy * dot(d, x)) / area;
       w.x = 1 - w.y - w.z;
       w = glm::max(w, 0.0);
     }
@@ -148,10 +150,16 @@ bool moves_alike(const Primitive& x, const Primitive& y) {
 class Carrier {
  public:
   Carrier(const Primitive& from, Primitive& to) : from_(from), to_(to) {
-    to_.topology = from.topology, to_.material = from.material, to_.carried = from.carried;
-    to_.texcoords.resize(from.texcoords.size()), to_.targets.resize(from.targets.size());
+    to_.topology = from.topology;
+    to_.material = from.material;
+    to_.carried = from.carried;
+    to_.texcoords.resize(from.texcoords.size());
+    to_.targets.resize(from.targets.size());
     to_.carried_attributes = from.carried_attributes;
-    for (auto& item : to_.carried_attributes) item.second.count = 0, item.second.bytes.clear();
+    for (auto& item : to_.carried_attributes) {
+      item.second.count = 0;
+      item.second.bytes.clear();
+    }
     size_t most = 4;
     for (const Influences& given : from.influences) most = given.weights[4] > 0 ? 8 : most;
     slots_ = most;
@@ -181,7 +189,8 @@ class Carrier {
       CarriedNumbers& to = to_.carried_attributes[a].second;
       const size_t row = own.bytes.size() / own.count;
       const auto at = own.bytes.begin() + static_cast<std::ptrdiff_t>(row * look.vertex[nearest]);
-      to.bytes.insert(to.bytes.end(), at, at + static_cast<std::ptrdiff_t>(row)), ++to.count;
+      to.bytes.insert(to.bytes.end(), at, at + static_cast<std::ptrdiff_t>(row));
+      ++to.count;
     }
     return static_cast<uint32_t>(to_.positions.size() - 1);
   }
@@ -209,7 +218,8 @@ class Carrier {
     Influences out;
     for (size_t i = 0; i < order.size(); ++i) {
       if (!(total > 0)) break;
-      out.joints[i] = order[i].first, out.weights[i] = static_cast<float>(order[i].second / total);
+      out.joints[i] = order[i].first;
+      out.weights[i] = static_cast<float>(order[i].second / total);
     }
     return out;
   }
@@ -322,7 +332,8 @@ Model quad_model(const Model& model, const FlatMesh& flat, const SurfaceMesh& qu
   for (size_t n = 0; n < out.nodes.size(); ++n) {
     Node& node = out.nodes[n];
     if (node.mesh < 0 || !out.meshes[static_cast<size_t>(node.mesh)].primitives.empty()) continue;
-    node.mesh = node.skin = -1, node.weights.clear();
+    node.mesh = node.skin = -1;
+    node.weights.clear();
     for (Animation& animation : out.animations) {
       auto& list = animation.channels;
       list.erase(

@@ -36,13 +36,17 @@ QuadReport measure_quads(const SurfaceMesh& mesh, double edge_length) {
       const glm::dvec3 x = mesh.positions[b] - mesh.positions[a], y = mesh.positions[before] - mesh.positions[a];
       const double length = glm::length(x), other = glm::length(y);
       report.turned_over += dot(cross(x, y), normal) <= 0;
-      low = std::min(low, length), high = std::max(high, length);
+      low = std::min(low, length);
+      high = std::max(high, length);
       if (size == 4 && length > 0 && other > 0) {
         const double cosine = std::min(std::max(dot(x, y) / (length * other), -1.0), 1.0);
         angles.push_back(std::fabs(std::acos(cosine) * 180 / std::acos(-1.0) - 90));
       }
     }
-    if (size == 4) ++report.quads, aspects.push_back(low > 0 ? high / low : INFINITY);
+    if (size == 4) {
+      ++report.quads;
+      aspects.push_back(low > 0 ? high / low : INFINITY);
+    }
     first += size;
   }
   std::sort(directed.begin(), directed.end());
@@ -58,9 +62,13 @@ QuadReport measure_quads(const SurfaceMesh& mesh, double edge_length) {
   report.edges = static_cast<uint32_t>(lengths.size());
   report.euler_characteristic =
       static_cast<int>(report.vertices) - static_cast<int>(report.edges) + static_cast<int>(report.faces);
-  for (size_t v = 0; v < valence.size(); ++v)
-    ++report.valences[valence[v]], report.irregular += valence[v] != (border[v] ? 2u : 4u);
-  percentiles(lengths, report.edge), percentiles(aspects, report.aspect), percentiles(angles, report.angle);
+  for (size_t v = 0; v < valence.size(); ++v) {
+    ++report.valences[valence[v]];
+    report.irregular += valence[v] != (border[v] ? 2u : 4u);
+  }
+  percentiles(lengths, report.edge);
+  percentiles(aspects, report.aspect);
+  percentiles(angles, report.angle);
   return report;
 }
 

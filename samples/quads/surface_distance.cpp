@@ -66,7 +66,8 @@ uint32_t NearestPoint::build(uint32_t first, uint32_t count) {
   for (uint32_t i = first; i < first + count; ++i)
     for (uint32_t k = 0; k < 3; ++k) {
       const glm::dvec3 p = corner(order_[i], k);
-      box.low = glm::min(box.low, p), box.high = glm::max(box.high, p);
+      box.low = glm::min(box.low, p);
+      box.high = glm::max(box.high, p);
     }
   boxes_.push_back(box);
   if (count <= 6) return number;
@@ -110,7 +111,8 @@ double NearestPoint::distance(const glm::dvec3& p, uint32_t* triangle) const {
     uint32_t near = number + 1, far = box.right;
     if (to_box(p, boxes_[far].low, boxes_[far].high) < to_box(p, boxes_[near].low, boxes_[near].high))
       std::swap(near, far);
-    stack[top++] = far, stack[top++] = near;
+    stack[top++] = far;
+    stack[top++] = near;
   }
   return std::sqrt(best);
 }
@@ -127,7 +129,9 @@ SurfaceDistance surface_distance(const TriangleSoup& a, const TriangleSoup& b, u
       if (nearest.tries() > SurfaceDistance::more_tries + SurfaceDistance::most_tries * points++) out.measured = false;
       if (!out.measured) return;
       if (d < 0) d = nearest.distance(p);
-      worst = std::max(worst, d), total += d, count += 1;
+      worst = std::max(worst, d);
+      total += d;
+      count += 1;
     };
     std::vector<double> of_vertex(from.positions.size(), -1);  // until it is known
     for (size_t t = 0; t < triangles; ++t)
@@ -140,7 +144,10 @@ SurfaceDistance surface_distance(const TriangleSoup& a, const TriangleSoup& b, u
       // the points of a low-discrepancy sequence (Roberts 2018), folded into the triangle
       for (uint32_t i = 1; carried >= 1; carried -= 1, ++i) {
         double u = std::fmod(0.5 + i * 0.7548776662466927, 1.0), v = std::fmod(0.5 + i * 0.5698402909980532, 1.0);
-        if (u + v > 1) u = 1 - u, v = 1 - v;
+        if (u + v > 1) {
+          u = 1 - u;
+          v = 1 - v;
+        }
         double d = -1;
         visit(p + u * x + v * y, d);
       }

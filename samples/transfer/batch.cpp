@@ -34,7 +34,10 @@ std::vector<std::string> words_of(const std::string& line, const std::string& wh
       inside = false;
       continue;
     }
-    if (!inside) out.emplace_back(), inside = true;
+    if (!inside) {
+      out.emplace_back();
+      inside = true;
+    }
     if (c == '"') {
       open = !open;
     } else if (c == '\\' && i + 1 < line.size() && (line[i + 1] == '"' || line[i + 1] == '\\')) {

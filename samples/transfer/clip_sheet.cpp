@@ -46,9 +46,13 @@ Point point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 
 void add_row(const Row& row, const std::vector<std::vector<double>>& frames, std::vector<Picture>& tiles) {
   View view;
-  view.width = 300, view.height = 250;
-  view.direction = point(row.axes.right + 0.22 * row.axes.up + 0.45 * row.axes.forward), view.up = point(row.axes.up);
-  view.fixed_box = true, view.ground = true, view.ground_height = 1e300;
+  view.width = 300;
+  view.height = 250;
+  view.direction = point(row.axes.right + 0.22 * row.axes.up + 0.45 * row.axes.forward);
+  view.up = point(row.axes.up);
+  view.fixed_box = true;
+  view.ground = true;
+  view.ground_height = 1e300;
   const std::vector<double> rest = double_positions(row.mesh->positions);
   for (size_t v = 0; v < row.mesh->positions.size(); ++v)
     if (!row.mesh->loose[v])
@@ -71,8 +75,10 @@ void add_row(const Row& row, const std::vector<std::vector<double>>& frames, std
 void add_shapes(const Row& row, const std::vector<std::vector<double>>& frames, const std::vector<size_t>& chosen,
                 std::vector<Picture>& tiles) {
   View view;
-  view.width = 300, view.height = 300;
-  view.direction = point(row.axes.forward + 0.12 * row.axes.up - 0.3 * row.axes.right), view.up = point(row.axes.up);
+  view.width = 300;
+  view.height = 300;
+  view.direction = point(row.axes.forward + 0.12 * row.axes.up - 0.3 * row.axes.right);
+  view.up = point(row.axes.up);
   view.fixed_box = true;
   std::vector<const std::vector<double>*> shown;
   const std::vector<double> rest = double_positions(row.mesh->positions);
@@ -100,7 +106,8 @@ void write_shape_sheet(const std::filesystem::path& file, const Session& session
   for (size_t k = 0; k < shown; ++k) chosen.push_back(shown < 2 ? 0 : k * (count - 1) / (shown - 1));
   std::vector<Picture> tiles;
   std::vector<std::string> labels;
-  add_shapes(from, shapes.source_frames, chosen, tiles), add_shapes(to, shapes.target_frames, chosen, tiles);
+  add_shapes(from, shapes.source_frames, chosen, tiles);
+  add_shapes(to, shapes.target_frames, chosen, tiles);
   for (const std::string& name : {short_name(source), short_name(target)}) {
     labels.push_back(name + ", rest");
     for (const size_t f : chosen) labels.push_back(names[f]);
@@ -116,7 +123,8 @@ void write_clip_sheet(const std::filesystem::path& file, const Session& session,
   std::vector<Picture> tiles;
   std::vector<std::string> labels;
   for (const PlayedClip& clip : clips) {
-    add_row(from, clip.source_frames, tiles), add_row(to, clip.target_frames, tiles);
+    add_row(from, clip.source_frames, tiles);
+    add_row(to, clip.target_frames, tiles);
     for (const std::string& name : {short_name(source), short_name(target)}) {
       labels.push_back(name + ", rest");
       for (int k = 0; k < columns; ++k) {

@@ -46,7 +46,8 @@ Jerks jerks_of(const Frames& frames, const std::vector<uint8_t>& loose, double u
         const double d = unit * (frames[f + 1][c] - 2 * frames[f][c] + frames[f - 1][c]);
         square += d * d;
       }
-      largest = std::max(largest, square), sum += square;
+      largest = std::max(largest, square);
+      sum += square;
     }
     out.largest.push_back(std::sqrt(largest));
     out.squares += sum / static_cast<double>(std::max<std::ptrdiff_t>(std::count(loose.begin(), loose.end(), 0), 1));
@@ -100,7 +101,8 @@ ClipFaults find_faults(const Session& session, const PlayedClip& played) {
   if (from.squares > least_squares) out.acceleration = std::sqrt(to.squares / from.squares);
   out.stretch = std::max(0.0, stretch_of(session.target_flat(), played.target_frames, box) -
                                   stretch_of(session.source_flat(), played.source_frames, source_box));
-  out.sunk = session.stretches() ? 0 : std::max(0.0, played.feet.surface_sunk), out.gap = played.gap;
+  out.sunk = session.stretches() ? 0 : std::max(0.0, played.feet.surface_sunk);
+  out.gap = played.gap;
   size_t moving = 0;
   for (const LimbMotion& limb : session.limbs_of(played)) {
     if (limb.source_moved < moving_limb) continue;

@@ -35,11 +35,14 @@ FlatSurface::FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t
   const SurfaceBox box(mesh);
   const glm::dvec3 extent = box.high - box.low;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
-  desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
-  desc.weld = HF_WELD_TOLERANCE,
+  desc.vertex_count = mesh.vertex_count();
+  desc.triangle_count = mesh.triangle_count();
+  desc.positions_f64 = positions.data();
+  desc.triangles = mesh.triangles.data();
+  desc.weld = HF_WELD_TOLERANCE;
   desc.weld_tolerance = static_cast<float>(1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20}));
-  desc.thread_count = threads, desc.links = links;
+  desc.thread_count = threads;
+  desc.links = links;
   if (paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
   limit_surface(desc);
   check(hf_surface_create(&desc, &surface_), name);

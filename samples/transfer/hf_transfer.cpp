@@ -85,7 +85,8 @@ Model rested(const Model& model, const std::string& choice, const std::string& o
       for (size_t k = 0; k < node.weights.size(); ++k) node.weights[k] = static_cast<float>(pose[n].weights[k]);
     if (pose[n].fixed) continue;
     node.matrix.reset();
-    node.translation = pose[n].translation, node.rotation = glm::quat(pose[n].rotation);
+    node.translation = pose[n].translation;
+    node.rotation = glm::quat(pose[n].rotation);
     node.scale = glm::vec3(pose[n].scale);
   }
   return out;
@@ -167,7 +168,8 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
       SkinDescription skin = session.skin();
       for (const PlayedClip& clip : clips) skin.clips.push_back(clip.clip);
       Model model = skin_model(target, session.target_flat(), skin);
-      keep_carried(target, model), keep_shapes(target, session.target_flat(), model);
+      keep_carried(target, model);
+      keep_shapes(target, session.target_flat(), model);
       reduce_clips(model, flatten(model), clips.size(), command.key_tolerance * box, figures);
       write_gltf(model, output);
       report.replay = measure_replay(read_gltf(output), clips, box);
@@ -179,7 +181,8 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
     }
   }
   for (const PlayedClip& clip : written) {
-    report.written_feet.push_back(clip.feet), report.gaps.push_back(clip.gap);
+    report.written_feet.push_back(clip.feet);
+    report.gaps.push_back(clip.gap);
     report.faults.push_back(find_faults(session, clip));
     for (const std::string& sentence : fault_sentences(report.faults.back(), clip.clip.name, clip.target_frames.size()))
       report.warnings.push_back(sentence);
@@ -196,8 +199,11 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
       report.warnings.push_back(
           "morph targets of the target that gave way to those of the clips: " + std::to_string(shapes) + advice);
   }
-  report.written_rms = figures.rms, report.written_max = figures.max, report.written_parts = figures.parts;
-  report.keys = figures.keys, report.all_keys = figures.all_keys;
+  report.written_rms = figures.rms;
+  report.written_max = figures.max;
+  report.written_parts = figures.parts;
+  report.keys = figures.keys;
+  report.all_keys = figures.all_keys;
   return written;
 }
 
@@ -289,7 +295,8 @@ nlohmann::json put_clips(const Model& clips, const Model& target, const Transfer
 // Morph targets in, morph targets out.
 int transfer_shapes(const TransferCommand& command, const Model& source, const Model& target, PairsFile pairs,
                     ProgressBar& bar, nlohmann::json& json) {
-  pairs.settings.stretch = true, pairs.settings.paper = false;
+  pairs.settings.stretch = true;
+  pairs.settings.paper = false;
   std::vector<const Animation*> clips;
   if (!command.clip.empty()) clips = choose_clips(source, command.clip);
   Session session(source, target, pairs, command.threads, command.links, bar, false);
@@ -327,7 +334,8 @@ int transfer(TransferCommand command, nlohmann::json& json) {
   if (!command.clips.empty()) {
     BoundClips bound = bind_clips(source, read_gltf(command.clips), command.clip);
     bound.model.animations.resize(bound.clips);
-    source = std::move(bound.model), command.clip = "all";
+    source = std::move(bound.model);
+    command.clip = "all";
   }
   if (!command.suggest.empty()) {
     write_json(command.suggest, propose(source, target, command).file);

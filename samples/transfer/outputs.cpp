@@ -50,13 +50,16 @@ void eigen(std::vector<double> a, size_t n, std::vector<double>& values, std::ve
                      c = 1 / std::sqrt(t * t + 1), s = t * c;
         for (size_t k = 0; k < n; ++k) {
           const double x = a[k * n + p], y = a[k * n + q];
-          a[k * n + p] = c * x - s * y, a[k * n + q] = s * x + c * y;
+          a[k * n + p] = c * x - s * y;
+          a[k * n + q] = s * x + c * y;
         }
         for (size_t k = 0; k < n; ++k) {
           const double x = a[p * n + k], y = a[q * n + k];
-          a[p * n + k] = c * x - s * y, a[q * n + k] = s * x + c * y;
+          a[p * n + k] = c * x - s * y;
+          a[q * n + k] = s * x + c * y;
           const double f = u[k * n + p], g = u[k * n + q];
-          u[k * n + p] = c * f - s * g, u[k * n + q] = s * f + c * g;
+          u[k * n + p] = c * f - s * g;
+          u[k * n + q] = s * f + c * g;
         }
       }
     }
@@ -64,7 +67,8 @@ void eigen(std::vector<double> a, size_t n, std::vector<double>& values, std::ve
   std::vector<size_t> order(n);
   std::iota(order.begin(), order.end(), size_t{0});
   std::sort(order.begin(), order.end(), [&](size_t i, size_t j) { return a[i * n + i] > a[j * n + j]; });
-  values.resize(n), vectors.resize(n * n);
+  values.resize(n);
+  vectors.resize(n * n);
   for (size_t k = 0; k < n; ++k) {
     values[k] = a[order[k] * n + order[k]];
     for (size_t i = 0; i < n; ++i) vectors[i * n + k] = u[i * n + order[k]];
@@ -110,7 +114,10 @@ std::vector<RigTie> ties_of(hf_surface surface) {
   std::vector<RigTie> out(count);
   for (size_t i = 0; i < links.size(); ++i) {
     out[i].vertex = links[i].vertex;
-    for (int c = 0; c < 3; ++c) out[i].corners[c] = links[i].corners[c], out[i].shares[c] = links[i].barycentrics[c];
+    for (int c = 0; c < 3; ++c) {
+      out[i].corners[c] = links[i].corners[c];
+      out[i].shares[c] = links[i].barycentrics[c];
+    }
   }
   return out;
 }
@@ -118,7 +125,9 @@ std::vector<RigTie> ties_of(hf_surface surface) {
 // The ground that the computed frames keep. Where they lie deeper, so does the ground.
 RigGround ground_of(const Session& session, const PlayedClip& clip) {
   RigGround out;
-  out.up = session.target_axes().up, out.heights = session.grounds(clip), out.sinking = session.sinking();
+  out.up = session.target_axes().up;
+  out.heights = session.grounds(clip);
+  out.sinking = session.sinking();
   for (size_t f = 0; f < out.heights.size(); ++f)
     out.heights[f] = std::min(out.heights[f], lowest_of(clip.target_frames[f], out.up, out.sinking));
   return out;
@@ -184,11 +193,14 @@ std::vector<PlayedClip> written_clips(const Model& written, const Session& sessi
   std::vector<PlayedClip> out;
   for (size_t c = 0; c < clips.size(); ++c) {
     PlayedClip played;
-    played.clip.name = clips[c].clip.name, played.clip.times = clips[c].clip.times;
-    played.source_frames = clips[c].source_frames, played.frame_ms = clips[c].frame_ms;
+    played.clip.name = clips[c].clip.name;
+    played.clip.times = clips[c].clip.times;
+    played.source_frames = clips[c].source_frames;
+    played.frame_ms = clips[c].frame_ms;
     for (const double time : played.clip.times)
       played.target_frames.push_back(double_positions(surface.at(written.animations[c], time)));
-    played.feet = session.feet_of(played), played.gap = session.largest_gap(played.target_frames);
+    played.feet = session.feet_of(played);
+    played.gap = session.largest_gap(played.target_frames);
     out.push_back(std::move(played));
   }
   return out;
@@ -298,7 +310,9 @@ Model morph_model(const Model& target, const FlatMesh& mesh, const std::vector<P
     for (size_t node = 0; node < out.nodes.size(); ++node) {
       if (out.nodes[node].mesh < 0) continue;
       Channel channel;
-      channel.node = static_cast<int>(node), channel.path = Path::weights, channel.width = parts.size();
+      channel.node = static_cast<int>(node);
+      channel.path = Path::weights;
+      channel.width = parts.size();
       channel.times.assign(clip.clip.times.begin(), clip.clip.times.end());
       for (size_t f = row; f < row + clip.target_frames.size(); ++f) {
         for (const Part& part : parts)
@@ -314,7 +328,8 @@ Model morph_model(const Model& target, const FlatMesh& mesh, const std::vector<P
   double sum = 0;
   for (size_t c = 0; c < clips.size(); ++c) {
     for (size_t f = 0; f < clips[c].target_frames.size(); ++f)
-      measure(surface.at(out.animations[c], clips[c].clip.times[f]), clips[c].target_frames[f], again.loose, box, sum, figures);
+      measure(surface.at(out.animations[c], clips[c].clip.times[f]), clips[c].target_frames[f], again.loose, box, sum,
+              figures);
   }
   figures.rms = std::sqrt(sum / static_cast<double>(std::max<size_t>(n, 1)));
   return out;

@@ -19,7 +19,10 @@ inline Region without_copies(const Region& region, const FlatMesh& mesh) {
   Region out;
   std::vector<char> taken(mesh.welded_count, 0);
   for (const uint32_t v : region.vertices)
-    if (!taken[mesh.welded[v]]) taken[mesh.welded[v]] = 1, out.vertices.push_back(v);
+    if (!taken[mesh.welded[v]]) {
+      taken[mesh.welded[v]] = 1;
+      out.vertices.push_back(v);
+    }
   return out;
 }
 
@@ -60,7 +63,9 @@ inline glm::dquat turn_of(const Region& region, const std::vector<double>& rest,
     const double same = glm::dot(a, b);
     n[0][0] += same;
     for (int i = 0; i < 3; ++i) {
-      n[0][i + 1] += c[i], n[i + 1][0] += c[i], n[i + 1][i + 1] -= same;
+      n[0][i + 1] += c[i];
+      n[i + 1][0] += c[i];
+      n[i + 1][i + 1] -= same;
       for (int j = 0; j < 3; ++j) n[i + 1][j + 1] += a[i] * b[j] + a[j] * b[i];
     }
   }

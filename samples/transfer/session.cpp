@@ -25,7 +25,8 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 void copy_axes(const Axes& axes, float (&rows)[9]) {
   for (int c = 0; c < 3; ++c) {
-    rows[c] = static_cast<float>(axes.right[c]), rows[3 + c] = static_cast<float>(axes.up[c]),
+    rows[c] = static_cast<float>(axes.right[c]);
+    rows[3 + c] = static_cast<float>(axes.up[c]);
     rows[6 + c] = static_cast<float>(axes.forward[c]);
   }
 }
@@ -81,10 +82,12 @@ void Session::create(uint32_t threads, bool links, ProgressBar& bar) {
   hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
   desc.mode = settings.paper ? HF_TRANSFER_PAPER : settings.stretch ? HF_TRANSFER_STRETCH : HF_TRANSFER_FIELDS;
   desc.cluster_count = settings.clusters;
-  desc.kernel_width = static_cast<float>(settings.width), desc.scale = static_cast<float>(settings.scale);
+  desc.kernel_width = static_cast<float>(settings.width);
+  desc.scale = static_cast<float>(settings.scale);
   desc.alignment_angle = static_cast<float>(settings.alignment_degrees * degree);
   desc.ground = ground_ ? HF_GROUND_KEEP : HF_GROUND_OFF;
-  copy_axes(file_.source_axes, desc.source_axes), copy_axes(file_.target_axes, desc.target_axes);
+  copy_axes(file_.source_axes, desc.source_axes);
+  copy_axes(file_.target_axes, desc.target_axes);
   check(hf_transfer_create(source_surface_->get(), target_surface_->get(), &desc, &transfer_), "the transfer");
   set_dials(file_.dials);
   bar.begin("pairs, fields and clusters");
@@ -95,8 +98,10 @@ void Session::create(uint32_t threads, bool links, ProgressBar& bar) {
 
 void Session::set_dials(const TransferDials& dials) {
   hf_transfer_dials set = HF_INIT(hf_transfer_dials);
-  set.stride = static_cast<float>(dials.stride), set.hip_height = static_cast<float>(dials.hip_height);
-  set.neck_follow = static_cast<float>(dials.neck_follow), set.tail_follow = static_cast<float>(dials.tail_follow);
+  set.stride = static_cast<float>(dials.stride);
+  set.hip_height = static_cast<float>(dials.hip_height);
+  set.neck_follow = static_cast<float>(dials.neck_follow);
+  set.tail_follow = static_cast<float>(dials.tail_follow);
   set.arm_space = static_cast<float>(dials.arm_space_degrees * degree);
   set.long_follow = static_cast<float>(dials.long_follow);
   check(hf_transfer_set_dials(transfer_, &set), "the dials");
@@ -107,7 +112,10 @@ void Session::add(const std::vector<PairEntry>& entries) {
   if (entries.empty()) return;
   const size_t before = live_.size();
   std::vector<Region> source, target;
-  for (const Live& live : live_) source.push_back(live.source), target.push_back(live.target);
+  for (const Live& live : live_) {
+    source.push_back(live.source);
+    target.push_back(live.target);
+  }
   for (const PairEntry& entry : entries) {
     for (const Live& live : live_) {
       if (live.entry.name == entry.name) throw std::runtime_error("there is a pair \"" + entry.name + "\" already");
@@ -117,15 +125,18 @@ void Session::add(const std::vector<PairEntry>& entries) {
   std::vector<uint32_t> source_counts, target_counts, source_vertices, target_vertices, flags, numbers(entries.size());
   for (size_t i = 0; i < entries.size(); ++i) {
     const auto &a = source[before + i].vertices, &b = target[before + i].vertices;
-    source_counts.push_back(static_cast<uint32_t>(a.size())), target_counts.push_back(static_cast<uint32_t>(b.size()));
-    source_vertices.insert(source_vertices.end(), a.begin(), a.end()),
-        target_vertices.insert(target_vertices.end(), b.begin(), b.end());
+    source_counts.push_back(static_cast<uint32_t>(a.size()));
+    target_counts.push_back(static_cast<uint32_t>(b.size()));
+    source_vertices.insert(source_vertices.end(), a.begin(), a.end());
+    target_vertices.insert(target_vertices.end(), b.begin(), b.end());
     flags.push_back(entries[i].flags());
   }
   hf_pairs_desc desc = HF_INIT(hf_pairs_desc);
   desc.pair_count = static_cast<uint32_t>(entries.size());
-  desc.source_counts = source_counts.data(), desc.source_vertices = source_vertices.data();
-  desc.target_counts = target_counts.data(), desc.target_vertices = target_vertices.data();
+  desc.source_counts = source_counts.data();
+  desc.source_vertices = source_vertices.data();
+  desc.target_counts = target_counts.data();
+  desc.target_vertices = target_vertices.data();
   desc.flags = flags.data();
   check(hf_transfer_add_pairs(transfer_, &desc, numbers.data()), "the pairs");
   for (size_t i = 0; i < entries.size(); ++i)
@@ -167,7 +178,8 @@ void Session::prepare() {
 void Session::apply(const std::vector<double>& posed, std::vector<double>& out) {
   out.resize(3 * target_flat_.positions.size());
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed.data(), frame.target_positions_f64 = out.data();
+  frame.source_positions_f64 = posed.data();
+  frame.target_positions_f64 = out.data();
   check(hf_transfer_apply(transfer_, &frame), "a frame");
 }
 
@@ -183,11 +195,15 @@ void Session::change_flags(const std::vector<PairEntry>& entries) {
                target_count = static_cast<uint32_t>(live->target.vertices.size());
     const uint32_t flags = entry.flags();
     hf_pairs_desc desc = HF_INIT(hf_pairs_desc);
-    desc.pair_count = 1, desc.flags = &flags;
-    desc.source_counts = &source_count, desc.source_vertices = live->source.vertices.data();
-    desc.target_counts = &target_count, desc.target_vertices = live->target.vertices.data();
+    desc.pair_count = 1;
+    desc.flags = &flags;
+    desc.source_counts = &source_count;
+    desc.source_vertices = live->source.vertices.data();
+    desc.target_counts = &target_count;
+    desc.target_vertices = live->target.vertices.data();
     check(hf_transfer_add_pairs(transfer_, &desc, &live->number), "pair \"" + entry.name + "\"");
-    live->entry = entry, changed = true;
+    live->entry = entry;
+    changed = true;
   }
   if (changed) prepare();
 }
@@ -206,7 +222,10 @@ std::vector<PairEntry> Session::found_contacts(const std::vector<std::vector<dou
     const double rest = lowest_of(live.source, source_rest, up) - ground,
                  target = lowest_of(live.target, target_rest, target_up) - target_ground;
     if (rest < 0.02 * source_finder_.diagonal() && target < 0.02 * target_finder_.diagonal()) {
-      if (!has_feet) entry.foot = true, out.push_back(entry);
+      if (!has_feet) {
+        entry.foot = true;
+        out.push_back(entry);
+      }
       continue;
     }
     entry.contact = rest >= 0.1 * source_finder_.diagonal() &&
@@ -288,7 +307,9 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
   std::vector<double> pivots(3 * joints), rotations(4 * joints), places(3 * joints), target;
   hf_skin_info info = HF_INIT(hf_skin_info);
   info.joint_capacity = joints;
-  info.pivots = pivots.data(), info.rotations = rotations.data(), info.translations = places.data();
+  info.pivots = pivots.data();
+  info.rotations = rotations.data();
+  info.translations = places.data();
   bar.begin("transferring \"" + name + "\"");
   double inside = 0;
   for (size_t f = 0; f < times.size(); ++f) {
@@ -302,13 +323,16 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
       const glm::dquat rotation(q[3], q[0], q[1], q[2]);
       const glm::dvec3 pivot(pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]),
           place(places[3 * j], places[3 * j + 1], places[3 * j + 2]);
-      out.clip.rotations.push_back(rotation), out.clip.translations.push_back(place - rotation * pivot);
+      out.clip.rotations.push_back(rotation);
+      out.clip.translations.push_back(place - rotation * pivot);
     }
-    out.source_frames.push_back(std::move(poses[f])), out.target_frames.push_back(target);
+    out.source_frames.push_back(std::move(poses[f]));
+    out.target_frames.push_back(target);
     bar.update(static_cast<double>(f + 1) / static_cast<double>(times.size()));
   }
   out.frame_ms = inside / static_cast<double>(times.size());
-  out.feet = feet_of(out), out.gap = largest_gap(out.target_frames);
+  out.feet = feet_of(out);
+  out.gap = largest_gap(out.target_frames);
   bar.end(std::to_string(times.size()) + " frames");
   return out;
 }
@@ -332,12 +356,15 @@ std::vector<LimbMotion> Session::limbs_of(const PlayedClip& played) const {
     for (size_t f = 0; f < frames; ++f) {
       from.push_back(scale_ * (to_target * (centre_of(live.source, played.source_frames[f]) - source_body[f])));
       to.push_back(centre_of(live.target, played.target_frames[f]) - target_body[f]);
-      from_mean += from.back() / static_cast<double>(frames), to_mean += to.back() / static_cast<double>(frames);
+      from_mean += from.back() / static_cast<double>(frames);
+      to_mean += to.back() / static_cast<double>(frames);
     }
     double ff = 0, tt = 0, ft = 0;
     for (size_t f = 0; f < frames; ++f) {
       const glm::dvec3 a = from[f] - from_mean, b = to[f] - to_mean;
-      ff += glm::dot(a, a), tt += glm::dot(b, b), ft += glm::dot(a, b);
+      ff += glm::dot(a, a);
+      tt += glm::dot(b, b);
+      ft += glm::dot(a, b);
     }
     out.push_back({live.entry.name, std::sqrt(ff / static_cast<double>(frames)) / box,
                    std::sqrt(tt / static_cast<double>(frames)) / box,
@@ -362,11 +389,14 @@ SkinDescription Session::skin() {
   const uint32_t joints = cluster_count();
   SkinDescription out;
   std::vector<double> pivots(3 * joints);
-  out.vertex_joints.resize(size_t{4} * target_flat_.vertex_count()),
-      out.vertex_weights.resize(out.vertex_joints.size());
+  out.vertex_joints.resize(size_t{4} * target_flat_.vertex_count());
+  out.vertex_weights.resize(out.vertex_joints.size());
   hf_skin_info info = HF_INIT(hf_skin_info);
-  info.weight_count = 4, info.joint_capacity = joints, info.vertex_capacity = target_flat_.vertex_count();
-  info.pivots = pivots.data(), info.vertex_joints = out.vertex_joints.data(),
+  info.weight_count = 4;
+  info.joint_capacity = joints;
+  info.vertex_capacity = target_flat_.vertex_count();
+  info.pivots = pivots.data();
+  info.vertex_joints = out.vertex_joints.data();
   info.vertex_weights = out.vertex_weights.data();
   check(hf_transfer_get_skin(transfer_, &info), "the skin");
   for (uint32_t j = 0; j < joints; ++j)
@@ -381,11 +411,17 @@ std::vector<PairReport> Session::pairs() {
     check(hf_transfer_get_pair(transfer_, live.number, &info), "pair \"" + live.entry.name + "\"");
     PairReport report;
     report.name = live.entry.name;
-    report.source_vertices = live.source.vertices.size(), report.target_vertices = live.target.vertices.size();
-    report.anchor = live.entry.anchor || live.entry.foot, report.foot = live.entry.foot,
-    report.trunk = live.entry.trunk, report.contact = live.entry.contact, report.alignment_share = info.alignment_share,
+    report.source_vertices = live.source.vertices.size();
+    report.target_vertices = live.target.vertices.size();
+    report.anchor = live.entry.anchor || live.entry.foot;
+    report.foot = live.entry.foot;
+    report.trunk = live.entry.trunk;
+    report.contact = live.entry.contact;
+    report.alignment_share = info.alignment_share;
     report.crossed = info.crossed != 0;
-    report.source_leak = info.source_leak, report.target_leak = info.target_leak, report.confidence = info.confidence;
+    report.source_leak = info.source_leak;
+    report.target_leak = info.target_leak;
+    report.confidence = info.confidence;
     report.alignment_degrees = info.alignment_angle < 0 ? -1 : info.alignment_angle / degree;
     out.push_back(report);
   }
@@ -400,7 +436,8 @@ std::vector<std::string> Session::warnings() {
   bool feet = false, trunk = false;
   size_t crossed = 0;
   for (const PairReport& pair : pairs()) {
-    feet = feet || pair.foot, trunk = trunk || (pair.trunk && pair.anchor);
+    feet = feet || pair.foot;
+    trunk = trunk || (pair.trunk && pair.anchor);
     if (pair.confidence < 0.3 && !stretches())
       out.push_back("pair \"" + pair.name +
                     "\": few source vertices stand behind its clusters; the motion there may be coarse");

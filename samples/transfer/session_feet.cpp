@@ -53,7 +53,9 @@ FootReport Session::feet_of(const PlayedClip& played) const {
       const double miss = glm::length(off) / box;
       // along the ground, from where the foot began to stand: what would be seen as sliding
       const glm::dvec3 along = off - glm::dot(off, file_.target_axes.up) * file_.target_axes.up;
-      feet.path_mean += miss, feet.path_max = std::max(feet.path_max, miss), ++count;
+      feet.path_mean += miss;
+      feet.path_max = std::max(feet.path_max, miss);
+      ++count;
       const double ground = lowest_of(source_rest, file_.source_axes.up, source_flat_.loose);
       const bool is_low =
           scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < foot_stands * box;
@@ -62,11 +64,14 @@ FootReport Session::feet_of(const PlayedClip& played) const {
                                                              file_.source_axes.up) > foot_upright;
       if (is_low && !was_low) low_from = along;
       if (stands && !stood) stood_from = along;
-      was_low = is_low, stood = stands;
+      was_low = is_low;
+      stood = stands;
       if (is_low) feet.low_max = std::max(feet.low_max, glm::length(along - low_from) / box);
       if (stands) {
         const double slide = glm::length(along - stood_from) / box;
-        feet.planted_mean += slide, feet.planted_max = std::max(feet.planted_max, slide), ++feet.planted;
+        feet.planted_mean += slide;
+        feet.planted_max = std::max(feet.planted_max, slide);
+        ++feet.planted;
       }
       const double from = scale_ * std::min(0.0, lowest_of(source, played.source_frames[f], file_.source_axes.up) -
                                                      lowest_of(source, source_rest, file_.source_axes.up));

@@ -69,7 +69,8 @@ void widen(Channel& channel, size_t more) {
                   channel.values.begin() + static_cast<std::ptrdiff_t>(i + channel.width));
     values.insert(values.end(), more, 0.0f);
   }
-  channel.values.swap(values), channel.width += more;
+  channel.values.swap(values);
+  channel.width += more;
 }
 
 // Gives the meshes of the flat surface room for the new shapes, behind their own. Returns how many each had.
@@ -88,7 +89,8 @@ std::vector<size_t> add_room(Model& model, const FlatMesh& flat, const std::vect
       for (int copy = 2; !taken.insert(free).second; ++copy) free = name + " (" + std::to_string(copy) + ")";
       all.push_back(free);
     }
-    mesh.target_names = all, mesh.weights.resize(all.size(), 0.0f);
+    mesh.target_names = all;
+    mesh.weights.resize(all.size(), 0.0f);
     for (Primitive& primitive : mesh.primitives) primitive.targets.resize(all.size());
   }
   for (size_t n = 0; n < model.nodes.size(); ++n) {
@@ -126,7 +128,8 @@ Animation weights_clip(const Model& source, const FlatMesh& source_flat, const A
   }
   for (const int node : nodes) {
     Channel channel;
-    channel.node = node, channel.path = Path::weights;
+    channel.node = node;
+    channel.path = Path::weights;
     const size_t before = own[static_cast<size_t>(target.nodes[static_cast<size_t>(node)].mesh)];
     channel.width = before + names.size();
     channel.times.assign(times.begin(), times.end());
@@ -194,7 +197,8 @@ CarriedShapes carry_shapes(Session& session, const Model& source, const Model& t
       const glm::dmat3 m(matrix);
       const bool flat = !(std::abs(glm::determinant(m)) > 0);
       collapsed += flat;
-      back.push_back(flat ? glm::dmat3(0) : glm::inverse(m)), turn.push_back(glm::transpose(m));
+      back.push_back(flat ? glm::dmat3(0) : glm::inverse(m));
+      turn.push_back(glm::transpose(m));
     }
     const auto unit = [](const glm::dvec3& n) { return glm::length(n) > 0 ? glm::normalize(n) : glm::dvec3(0); };
     for (size_t s = 0; s < names.size(); ++s) {

@@ -172,7 +172,8 @@ TransferCommand parse_command(int count, char** arguments) {
       if (out.kind != "skin" && out.kind != "own-skin" && out.kind != "morph" && out.kind != "frames")
         throw std::runtime_error("--as takes skin, own-skin, morph or frames, not \"" + out.kind + "\"");
     } else if (word == "--out-poses") {
-      out.frames = file_named(value()), out.kind = "frames";
+      out.frames = file_named(value());
+      out.kind = "frames";
     } else if (word == "--source") {
       out.source = file_named(value());
     } else if (word == "--target") {
@@ -231,7 +232,8 @@ TransferCommand parse_command(int count, char** arguments) {
       files.push_back(word);
     }
   }
-  out.source_axes = axes_of(of_source, both, "source"), out.target_axes = axes_of(of_target, both, "target");
+  out.source_axes = axes_of(of_source, both, "source");
+  out.target_axes = axes_of(of_target, both, "target");
   if (out.help || !out.joints.empty()) return out;
   if (!out.batch.empty()) {
     if (!files.empty()) throw std::runtime_error("--batch takes its models from the list, not " + files[0]);
@@ -255,7 +257,8 @@ TransferCommand parse_command(int count, char** arguments) {
     files = {out.source.string(), out.target.string()};
   }
   if (files.size() != 2) throw std::runtime_error("two models are needed, the source and the target; see --help");
-  out.source = file_named(files[0]), out.target = file_named(files[1]);
+  out.source = file_named(files[0]);
+  out.target = file_named(files[1]);
   if (!out.suggest.empty()) return out;
   if (out.kind == "frames") {
     if (out.frames.empty()) throw std::runtime_error("--out-poses is needed: the folder for the frames; see --help");

@@ -67,14 +67,20 @@ ReplayReport measure_replay(const Model& written, const std::vector<PlayedClip>&
 RunReport make_report(Session& session, const std::vector<PlayedClip>& clips, const std::string& output) {
   RunReport out;
   out.output = output;
-  out.pairs = session.pairs(), out.warnings = session.warnings();
+  out.pairs = session.pairs();
+  out.warnings = session.warnings();
   for (const PlayedClip& clip : clips) {
-    out.clip_names.push_back(clip.clip.name), out.frames.push_back(clip.clip.times.size());
-    out.feet.push_back(clip.feet), out.frame_ms.push_back(clip.frame_ms);
+    out.clip_names.push_back(clip.clip.name);
+    out.frames.push_back(clip.clip.times.size());
+    out.feet.push_back(clip.feet);
+    out.frame_ms.push_back(clip.frame_ms);
   }
-  out.clusters = session.cluster_count(), out.scale = session.scale();
-  out.setup_ms = session.setup_ms(), out.prepare_ms = session.prepare_ms(), out.edit_ms = session.edit_ms();
-  out.source_factorisations = session.info().source_factorisation_count,
+  out.clusters = session.cluster_count();
+  out.scale = session.scale();
+  out.setup_ms = session.setup_ms();
+  out.prepare_ms = session.prepare_ms();
+  out.edit_ms = session.edit_ms();
+  out.source_factorisations = session.info().source_factorisation_count;
   out.target_factorisations = session.info().target_factorisation_count;
   return out;
 }

@@ -13,11 +13,17 @@ static void end(const hf_error_detail* detail) {
 }
 static void ok(hf_result result) { /* of hf */
   hf_error_detail detail;
-  if (result != HF_OK) hf_error_get_detail(&detail), end(&detail);
+  if (result != HF_OK) {
+    hf_error_get_detail(&detail);
+    end(&detail);
+  }
 }
 static void good(hf_result result) { /* of hf_gltf */
   hf_error_detail detail;
-  if (result != HF_OK) hf_gltf_error_get_detail(&detail), end(&detail);
+  if (result != HF_OK) {
+    hf_gltf_error_get_detail(&detail);
+    end(&detail);
+  }
 }
 static void* space(size_t bytes) {
   void* block = malloc(bytes + 1);
@@ -46,7 +52,8 @@ static Body body_of(const char* file) {
   hf_gltf_surface shape = HF_INIT(hf_gltf_surface);
   body.rest = shape.positions = space(sizeof(double) * 3 * vertices);
   shape.triangles = space(sizeof(uint32_t) * 3 * body.info.triangle_count);
-  shape.joints = space(sizeof(uint16_t) * 8 * vertices), shape.weights = space(sizeof(float) * 8 * vertices);
+  shape.joints = space(sizeof(uint16_t) * 8 * vertices);
+  shape.weights = space(sizeof(float) * 8 * vertices);
   good(hf_gltf_model_get_surface(body.model, &shape));
 
   double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300}, sum = 0;
@@ -58,11 +65,19 @@ static Body body_of(const char* file) {
   for (int c = 0; c < 3; ++c) sum += (high[c] - low[c]) * (high[c] - low[c]);
   body.diagonal = sqrt(sum);
   hf_links_desc links = HF_INIT(hf_links_desc);
-  if (body.info.has_skin) links.influence_count = 8, links.joints = shape.joints, links.weights = shape.weights;
+  if (body.info.has_skin) {
+    links.influence_count = 8;
+    links.joints = shape.joints;
+    links.weights = shape.weights;
+  }
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = body.info.vertex_count, desc.triangle_count = body.info.triangle_count;
-  desc.positions_f64 = body.rest, desc.triangles = shape.triangles, desc.links = &links;
-  desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = (float)(1e-6 * body.diagonal);
+  desc.vertex_count = body.info.vertex_count;
+  desc.triangle_count = body.info.triangle_count;
+  desc.positions_f64 = body.rest;
+  desc.triangles = shape.triangles;
+  desc.links = &links;
+  desc.weld = HF_WELD_TOLERANCE;
+  desc.weld_tolerance = (float)(1e-6 * body.diagonal);
   ok(hf_surface_create(&desc, &body.surface));
 
   hf_extremity found[TIPS];
@@ -70,39 +85,53 @@ static Body body_of(const char* file) {
   far.kind = HF_EXTREMITIES_GEODESIC;
   ok(hf_surface_find_extremities(body.surface, &far, TIPS, found, &body.tip_count));
   for (uint32_t i = 0; i < body.tip_count; ++i) body.tips[i] = found[i].vertex;
-  free(shape.triangles), free(shape.joints), free(shape.weights);
+  free(shape.triangles);
+  free(shape.joints);
+  free(shape.weights);
   return body;
 }
 
 static void body_free(Body* body) {
-  hf_surface_destroy(body->surface), hf_gltf_model_destroy(body->model), free(body->rest);
+  hf_surface_destroy(body->surface);
+  hf_gltf_model_destroy(body->model);
+  free(body->rest);
 }
 
 /* Takes the proposed pairs into a transfer. */
 static hf_transfer transfer_of(const Body* source, const Body* target) {
   hf_gltf_pairs pairs;
   hf_gltf_propose_desc propose = HF_INIT(hf_gltf_propose_desc);
-  propose.source_tips = source->tips, propose.source_tip_count = source->tip_count;
-  propose.target_tips = target->tips, propose.target_tip_count = target->tip_count;
+  propose.source_tips = source->tips;
+  propose.source_tip_count = source->tip_count;
+  propose.target_tips = target->tips;
+  propose.target_tip_count = target->tip_count;
   good(hf_gltf_pairs_propose(source->model, target->model, &propose, &pairs));
   hf_gltf_pairs_info info = HF_INIT(hf_gltf_pairs_info);
   good(hf_gltf_pairs_get_info(pairs, &info));
   hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
-  for (int i = 0; i < 9; ++i) desc.source_axes[i] = info.source_axes[i], desc.target_axes[i] = info.target_axes[i];
+  for (int i = 0; i < 9; ++i) {
+    desc.source_axes[i] = info.source_axes[i];
+    desc.target_axes[i] = info.target_axes[i];
+  }
   hf_transfer transfer;
   ok(hf_transfer_create(source->surface, target->surface, &desc, &transfer));
   for (uint32_t p = 0; p < info.pair_count; ++p) {
     hf_gltf_pair pair = HF_INIT(hf_gltf_pair);
     good(hf_gltf_pairs_get_pair(pairs, p, &pair));
-    uint32_t *from = space(sizeof(uint32_t) * pair.source_count), *to = space(sizeof(uint32_t) * pair.target_count);
+    uint32_t* from = space(sizeof(uint32_t) * pair.source_count);
+    *to = space(sizeof(uint32_t) * pair.target_count);
     good(hf_gltf_pairs_get_regions(pairs, p, pair.source_count, from, pair.target_count, to));
     hf_pairs_desc add = HF_INIT(hf_pairs_desc);
-    add.pair_count = 1, add.flags = &pair.flags;
-    add.source_counts = &pair.source_count, add.source_vertices = from;
-    add.target_counts = &pair.target_count, add.target_vertices = to;
+    add.pair_count = 1;
+    add.flags = &pair.flags;
+    add.source_counts = &pair.source_count;
+    add.source_vertices = from;
+    add.target_counts = &pair.target_count;
+    add.target_vertices = to;
     ok(hf_transfer_add_pairs(transfer, &add, NULL));
     printf("pair %-18s confidence %.2f\n", pair.name, pair.confidence);
-    free(from), free(to);
+    free(from);
+    free(to);
   }
   hf_gltf_pairs_destroy(pairs);
   return transfer;
@@ -122,11 +151,15 @@ int main(int argc, char** argv) {
     times[f] = clip.duration * (double)f / (double)(frames - 1);
     good(hf_gltf_model_pose(source.model, 0, times[f], posed));
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions_f64 = posed, frame.target_positions_f64 = played + row * f;
+    frame.source_positions_f64 = posed;
+    frame.target_positions_f64 = played + row * f;
     ok(hf_transfer_apply(transfer, &frame));
   }
   hf_gltf_frames_desc motion = HF_INIT(hf_gltf_frames_desc);
-  motion.name = clip.name, motion.frame_count = (uint32_t)frames, motion.times = times, motion.positions = played;
+  motion.name = clip.name;
+  motion.frame_count = (uint32_t)frames;
+  motion.times = times;
+  motion.positions = played;
   hf_gltf_fit_info fit = HF_INIT(hf_gltf_fit_info);
   good(hf_gltf_model_add_clip(target.model, &motion, &fit));
   good(hf_gltf_model_get_clip(target.model, 0, &clip));
@@ -137,7 +170,11 @@ int main(int argc, char** argv) {
          frames, fit.joint_count, clip.key_count, all_keys, fit.rms / target.diagonal);
 
   good(hf_gltf_model_save(target.model, argv[3]));
-  free(times), free(posed), free(played);
-  hf_transfer_destroy(transfer), body_free(&source), body_free(&target);
+  free(times);
+  free(posed);
+  free(played);
+  hf_transfer_destroy(transfer);
+  body_free(&source);
+  body_free(&target);
   return 0;
 }

@@ -15,7 +15,9 @@ namespace {
 
 hf::VertexWeights given_of(const Rig& rig) {
   hf::VertexWeights out;
-  out.weight_count = rig.given.per_vertex, out.joints = rig.given.joints, out.weights = rig.given.weights;
+  out.weight_count = rig.given.per_vertex;
+  out.joints = rig.given.joints;
+  out.weights = rig.given.weights;
   return out;
 }
 
@@ -33,7 +35,8 @@ hf::Surface surface_of(const Rig& rig, const std::vector<glm::dvec3>& points) {
   auto desc = hf::make<hf_surface_desc>();
   desc.vertex_count = static_cast<uint32_t>(points.size());
   desc.triangle_count = static_cast<uint32_t>(rig.triangles.size() / 3);
-  desc.positions_f64 = positions.data(), desc.triangles = rig.triangles.data();
+  desc.positions_f64 = positions.data();
+  desc.triangles = rig.triangles.data();
   limit_surface(desc);
   return hf::Surface(desc);
 }
@@ -76,7 +79,8 @@ CarriedWeights carry_from(const Model& from, const Model& model, const Rig& rig,
 
 CarriedWeights mirror_given(const hf::Surface& surface, const Rig& rig, int32_t to, uint32_t weight_count) {
   auto options = hf::make<hf_mirror_desc>();
-  options.weight_count = weight_count, options.to = to;
+  options.weight_count = weight_count;
+  options.to = to;
   auto info = hf::make<hf_mirror_info>();
   std::vector<uint32_t> partners, pairings;
   CarriedWeights out;

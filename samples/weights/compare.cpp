@@ -72,7 +72,8 @@ std::vector<double> differences(const RigWeights& a, const RigWeights& b, size_t
         row[w.joints[i]] += sign * static_cast<double>(w.weights[i]);
       }
     };
-    add(a, 1), add(b, -1);
+    add(a, 1);
+    add(b, -1);
     for (const double d : row) out[v] += std::fabs(d) / 2;
   }
   return out;
@@ -97,12 +98,18 @@ Comparison compare(const Model& model, const Rig& rig, const std::vector<Pose>& 
       if (rig.loose[v]) continue;
       here[v] = unit * glm::length(own[v] - given[v]);
       out.of_vertex[v] += here[v] / static_cast<double>(poses.size());
-      mean += here[v] / count, out.worst = std::max(out.worst, here[v]);
+      mean += here[v] / count;
+      out.worst = std::max(out.worst, here[v]);
       all.push_back(here[v]);
     }
     sum += mean;
-    if (mean > worst_mean) worst_mean = mean, out.worst_pose = f, out.of_worst_pose = here;
-    append_stretch(rig, own, stride, stretch), append_stretch(rig, given, stride, given_stretch);
+    if (mean > worst_mean) {
+      worst_mean = mean;
+      out.worst_pose = f;
+      out.of_worst_pose = here;
+    }
+    append_stretch(rig, own, stride, stretch);
+    append_stretch(rig, given, stride, given_stretch);
   }
   constexpr double most = 0.95;
   out.mean = poses.empty() ? 0 : sum / static_cast<double>(poses.size());
@@ -132,11 +139,14 @@ void write_weight_sheet(const std::string& file, const Model& model, const Rig& 
       look.fill = Fill::colors;
     } else {
       surface.scalars = *scalar;
-      look.fill = Fill::palette, look.palette = Palette::blue_yellow;
-      look.scalar_low = 0, look.scalar_high = high;
+      look.fill = Fill::palette;
+      look.palette = Palette::blue_yellow;
+      look.scalar_low = 0;
+      look.scalar_high = high;
     }
     View view;
-    view.width = 460, view.height = 420;
+    view.width = 460;
+    view.height = 420;
     tiles.push_back(render(surface, view, look));
     labels.push_back(label);
   };

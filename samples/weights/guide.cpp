@@ -13,7 +13,8 @@ namespace samples {
 using namespace hf_gltf;
 
 void add_given(const Rig& rig, size_t vertex, double radius, PinFile& out) {
-  out.vertices.push_back(static_cast<uint32_t>(vertex)), out.radii.push_back(radius);
+  out.vertices.push_back(static_cast<uint32_t>(vertex));
+  out.radii.push_back(radius);
   for (size_t k = 0; k < rig.given.per_vertex; ++k) {
     out.joints.push_back(rig.given.joints[vertex * rig.given.per_vertex + k]);
     out.weights.push_back(rig.given.weights[vertex * rig.given.per_vertex + k]);
@@ -44,7 +45,10 @@ PinFile read_pins(const std::filesystem::path& file, const Rig& rig) {
     }
     if (own.size() > width) entry.fail("more than 8 weights");
     own.resize(width, {own.empty() ? 0u : own[0].first, 0.0f});
-    for (const auto& [joint, weight] : own) out.joints.push_back(joint), out.weights.push_back(weight);
+    for (const auto& [joint, weight] : own) {
+      out.joints.push_back(joint);
+      out.weights.push_back(weight);
+    }
   }
   return out;
 }
@@ -52,8 +56,11 @@ PinFile read_pins(const std::filesystem::path& file, const Rig& rig) {
 void set_pins(hf::Weights& weights, const PinFile& pins) {
   auto desc = hf::make<hf_pins_desc>();
   desc.pin_count = static_cast<uint32_t>(pins.vertices.size());
-  desc.vertices = pins.vertices.data(), desc.radii = pins.radii.data();
-  desc.joint_count = 8, desc.joints = pins.joints.data(), desc.weights = pins.weights.data();
+  desc.vertices = pins.vertices.data();
+  desc.radii = pins.radii.data();
+  desc.joint_count = 8;
+  desc.joints = pins.joints.data();
+  desc.weights = pins.weights.data();
   weights.set_pins(desc);
 }
 
@@ -101,7 +108,9 @@ std::vector<PinPlace> pin_places(const Rig& rig, const std::vector<double>& of_v
   for (const size_t v : order) {
     const glm::dvec3 at = rig.positions[v] / (apart * rig.diagonal);
     Cell& cell = cells[{std::llround(at.x), std::llround(at.y), std::llround(at.z)}];
-    cell.sum += of_vertex[v], cell.middle += of_vertex[v] * rig.positions[v], cell.vertices.push_back(v);
+    cell.sum += of_vertex[v];
+    cell.middle += of_vertex[v] * rig.positions[v];
+    cell.vertices.push_back(v);
   }
   std::vector<const Cell*> heavy;
   for (const auto& entry : cells) heavy.push_back(&entry.second);
@@ -144,10 +153,14 @@ void guide(const Model& model, const Rig& rig, const std::vector<Pose>& poses, u
       add_given(rig, place.vertex, place.radius, tried);
       if (!try_pins(weights, tried)) continue;
       Comparison found = compare(model, rig, poses, weights_of(weights));
-      if (best.vertices.empty() || found.mean < least.mean) least = std::move(found), best = std::move(tried);
+      if (best.vertices.empty() || found.mean < least.mean) {
+        least = std::move(found);
+        best = std::move(tried);
+      }
     }
     if (best.vertices.empty()) break;
-    pins = std::move(best), now = std::move(least);
+    pins = std::move(best);
+    now = std::move(least);
     set_pins(weights, pins);
   }
 }

@@ -129,7 +129,8 @@ void read_bones(const std::filesystem::path& file, Rig& rig) {
       const std::vector<double> p = entry.at(key).numbers(3);
       std::copy(p.begin(), p.end(), points.begin() + static_cast<std::ptrdiff_t>(3 * joint));
     };
-    place("head", rig.bones.heads), place("tail", rig.bones.tails);
+    place("head", rig.bones.heads);
+    place("tail", rig.bones.tails);
     if (!rig.bones.tails.empty()) rig.bones.axes.clear();
     rig.bones.deforms[joint] = entry.boolean_or("deforms", rig.bones.deforms[joint] != 0);
   }
@@ -194,19 +195,24 @@ nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weigh
   hf::Bones moved = rig.bones;
   moved.heads[0] += 0.01 * rig.diagonal;
   const auto begin = std::chrono::steady_clock::now();
-  edited.set_bones(moved), edited.weights();
+  edited.set_bones(moved);
+  edited.weights();
   const double bone_ms = milliseconds(begin);
   PinFile pin;
   add_given(rig, rig.positions.size() / 2, 0, pin);
   const auto middle = std::chrono::steady_clock::now();
-  set_pins(edited, pin), edited.weights();
+  set_pins(edited, pin);
+  edited.weights();
   const double pin_ms = milliseconds(middle);
   const hf_weights_info info = weights.info();
   nlohmann::json out;
   out["model"] = options.mesh.filename().string();
-  out["vertices"] = info.vertex_count, out["joints"] = rig.joint_count(), out["ends"] = rig.end_count;
+  out["vertices"] = info.vertex_count;
+  out["joints"] = rig.joint_count();
+  out["ends"] = rig.end_count;
   out["distance"] = {{"mean", found.mean}, {"high", found.high}, {"worst", found.worst}};
-  out["stretch"] = found.stretch, out["bare"] = found.bare;
+  out["stretch"] = found.stretch;
+  out["bare"] = found.bare;
   out["milliseconds"] = {{"surface", surface_ms}, {"weights", weights_ms}, {"bone", bone_ms}, {"pin", pin_ms}};
   out["found"] = {
       {"informed", info.informed_count},      {"solved", info.solved_count}, {"pinned", info.pinned_count},
@@ -315,7 +321,10 @@ Made make_weights(const Command& options, const Model& model, Rig& rig, bool giv
     made.report = report_of(options, rig, weights, found, surface_ms, weights_ms);
     if (!options.carry.empty()) made.report["carry"] = carried.report;
     if (options.mirror >= 0) made.report["mirror"] = carried.report;
-    if (!given) made.report["distance"] = nullptr, made.report["stretch"] = nullptr;
+    if (!given) {
+      made.report["distance"] = nullptr;
+      made.report["stretch"] = nullptr;
+    }
   }
   if (!sheet.empty()) {
     char title[200];

@@ -76,8 +76,10 @@ std::vector<Influences> influences_of(const Model& model, const Rig& rig, const 
   for (size_t v = 0; v < vertices; ++v) {
     const size_t row = (part.first_vertex + v) * weights.per_vertex;
     for (size_t k = 0; k < weights.per_vertex; ++k) {
-      if (weights.weights[row + k] > 0)
-        out[v].joints[k] = local[weights.joints[row + k]], out[v].weights[k] = weights.weights[row + k];
+      if (weights.weights[row + k] > 0) {
+        out[v].joints[k] = local[weights.joints[row + k]];
+        out[v].weights[k] = weights.weights[row + k];
+      }
     }
   }
   return out;
@@ -103,10 +105,13 @@ void add_ends(const Model& model, const std::map<int, uint32_t>& number, Rig& ri
       const Node& node = model.nodes[static_cast<size_t>(child)];
       if (number.count(child) || !is_end(node)) continue;
       const glm::dmat4 bind = glm::inverse(rig.inverse_bind[j]) * local_matrix(rest[static_cast<size_t>(child)]);
-      rig.joints.push_back(child), rig.names.push_back(node.name), ++rig.end_count;
+      rig.joints.push_back(child);
+      rig.names.push_back(node.name);
+      ++rig.end_count;
       rig.inverse_bind.push_back(glm::inverse(bind));
       rig.bones.heads.insert(rig.bones.heads.end(), {bind[3].x, bind[3].y, bind[3].z});
-      rig.bones.parents.push_back(static_cast<uint32_t>(j)), rig.bones.deforms.push_back(0);
+      rig.bones.parents.push_back(static_cast<uint32_t>(j));
+      rig.bones.deforms.push_back(0);
     }
   }
 }
@@ -257,7 +262,10 @@ std::vector<glm::dvec3> pose_rig(const Rig& rig, const std::vector<glm::dmat4>& 
     double sum = 0;
     for (size_t k = 0; k < weights.per_vertex; ++k) {
       const double w = static_cast<double>(weights.weights[v * weights.per_vertex + k]);
-      if (w > 0) blend += joints[weights.joints[v * weights.per_vertex + k]] * w, sum += w;
+      if (w > 0) {
+        blend += joints[weights.joints[v * weights.per_vertex + k]] * w;
+        sum += w;
+      }
     }
     out[v] = sum > 0 ? glm::dvec3(blend * glm::dvec4(rig.positions[v], 1.0)) / sum : rig.positions[v];
   }
@@ -332,7 +340,8 @@ void write_weights(Model& model, const Rig& rig, const RigWeights& weights, std:
       model.meshes[static_cast<size_t>(mesh)] = std::move(own);
     } else if (!same) {
       mesh = static_cast<int>(model.meshes.size());
-      written.insert(mesh), model.meshes.push_back(std::move(own));
+      written.insert(mesh);
+      model.meshes.push_back(std::move(own));
     }
   }
 }

@@ -23,7 +23,8 @@ class Fit {
     for (const Landmark& mark : landmarks_) {
       const double squared = glm::dot(p - mark.from, p - mark.from);
       if (squared == 0) return mark.to;
-      shift += (mark.to - boxed(mark.from)) / squared, sum += 1 / squared;
+      shift += (mark.to - boxed(mark.from)) / squared;
+      sum += 1 / squared;
     }
     return sum > 0 ? boxed(p) + shift / sum : boxed(p);
   }
@@ -118,7 +119,8 @@ TakenSkeleton take_skeleton(const Model& source, const Model& target, const std:
     node.name = rig.names[j];
     const uint32_t parent = rig.bones.parents[j];
     const glm::dmat4 local = parent == HF_NO_INDEX ? world[j] : glm::inverse(world[parent]) * world[j];
-    node.translation = glm::dvec3(local[3]), node.rotation = glm::quat(turn_of(local));
+    node.translation = glm::dvec3(local[3]);
+    node.rotation = glm::quat(turn_of(local));
     if (parent != HF_NO_INDEX) node.parent = first + static_cast<int>(parent);
     model.nodes.push_back(node);
   }

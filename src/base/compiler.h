@@ -76,7 +76,8 @@ namespace {
 // Reads CPUID, and from XCR0 whether the operating system saves the registers.
 inline bool processor_has(const char* name) noexcept {
   int first[4], seventh[4];
-  __cpuidex(first, 1, 0), __cpuidex(seventh, 7, 0);
+  __cpuidex(first, 1, 0);
+  __cpuidex(seventh, 7, 0);
   const bool saved = (first[2] >> 27 & 1) != 0;
   const unsigned long long kept = saved ? _xgetbv(0) : 0;
   const bool wide = (kept & 0x6) == 0x6, widest = (kept & 0xe6) == 0xe6;
@@ -164,7 +165,10 @@ inline int trailing_zeros(std::uint64_t bits) noexcept {
 #else
   int count = 0;
   for (int half = 32; half > 0; half /= 2) {
-    if ((bits & ((std::uint64_t{1} << half) - 1)) == 0) bits >>= half, count += half;
+    if ((bits & ((std::uint64_t{1} << half) - 1)) == 0) {
+      bits >>= half;
+      count += half;
+    }
   }
   return count;
 #endif

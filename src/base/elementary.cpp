@@ -153,7 +153,10 @@ double cosine(double angle) noexcept {
 double arc_tangent(double y, double x) noexcept {
   if (std::isnan(x) || std::isnan(y)) return nan;
   double a = std::fabs(x), b = std::fabs(y);
-  if (std::isinf(a) || std::isinf(b)) a = std::isinf(a) ? 1 : 0, b = std::isinf(b) ? 1 : 0;
+  if (std::isinf(a) || std::isinf(b)) {
+    a = std::isinf(a) ? 1 : 0;
+    b = std::isinf(b) ? 1 : 0;
+  }
   const bool steep = b > a;
   double large = steep ? b : a, small = steep ? a : b;
   Pair angle = {0, 0};
@@ -161,7 +164,8 @@ double arc_tangent(double y, double x) noexcept {
     // Products of numbers of this size neither overflow nor underflow, unless the quotient is tiny.
     if (large > 0x1p+500 || large < 0x1p-400) {
       const int exponent = -std::ilogb(large);
-      large = std::ldexp(large, exponent), small = std::ldexp(small, exponent);
+      large = std::ldexp(large, exponent);
+      small = std::ldexp(small, exponent);
     }
     const double ratio = small / large;
     if (ratio < 0x1p-60) {
@@ -222,7 +226,10 @@ double logarithm(double x) noexcept {
   if (std::isinf(x)) return x;
   int exponent = 0;
   double m = std::frexp(x, &exponent);
-  if (m < 0.70710678118654752) m *= 2, --exponent;
+  if (m < 0.70710678118654752) {
+    m *= 2;
+    --exponent;
+  }
   // ln m = 2 (s + s^3 / 3 + s^5 / 5 + ...) with s = (m - 1) / (m + 1), which is below 0.172
   const double f = m - 1;
   const Pair s = quotient({f, 0}, sum(2, f));

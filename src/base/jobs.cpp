@@ -170,7 +170,10 @@ JobRunner::~JobRunner() {
 
 void JobRunner::run(std::uint32_t count, Call call, void* context) {
   Batch batch;
-  batch.count = count, batch.call = call, batch.context = context, batch.progress = current_progress();
+  batch.count = count;
+  batch.call = call;
+  batch.context = context;
+  batch.progress = current_progress();
   if (host_.run && in_host_job) {
     batch.work();
   } else if (host_.run) {

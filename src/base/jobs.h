@@ -33,7 +33,10 @@ class JobRunner {
   void for_each(std::uint32_t count, Job&& job) {
     if (count == 0) return;
     if (thread_count_ == 1 || count == 1) {
-      for (std::uint32_t i = 0; i < count; ++i) poll(), job(i);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        poll();
+        job(i);
+      }
       return;
     }
     run(
@@ -56,7 +59,10 @@ class JobRunner {
 template <class Job>
 void for_each(JobRunner* jobs, std::uint32_t count, Job&& job) {
   if (jobs) return jobs->for_each(count, job);
-  for (std::uint32_t i = 0; i < count; ++i) poll(), job(i);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    poll();
+    job(i);
+  }
 }
 
 // Cuts the range 0 .. count into pieces of `piece` numbers and calls work(begin, end) for each piece.

@@ -118,12 +118,16 @@ class Buffer {
     if (size > most_bytes / sizeof(T)) throw std::bad_alloc();
     T* fresh = size ? static_cast<T*>(memory.allocate(size * sizeof(T), alignment)) : nullptr;
     release();
-    memory_ = &memory, data_ = fresh, size_ = size;
+    memory_ = &memory;
+    data_ = fresh;
+    size_ = size;
   }
   // Makes the buffer a read-only view of `size` elements at `data`. The caller keeps these elements alive.
   void borrow(const T* data, std::size_t size) noexcept {
     release();
-    memory_ = nullptr, data_ = const_cast<T*>(data), size_ = size;
+    memory_ = nullptr;
+    data_ = const_cast<T*>(data);
+    size_ = size;
   }
   // Makes room for `size` elements. It keeps the present block if that is large enough. The contents are not preserved.
   void reserve_at_least(Memory& memory, std::size_t size) {
@@ -131,10 +135,13 @@ class Buffer {
   }
   void release() noexcept {
     if (memory_ && data_) memory_->deallocate(data_, size_ * sizeof(T), alignment);
-    data_ = nullptr, size_ = 0;
+    data_ = nullptr;
+    size_ = 0;
   }
   void swap(Buffer& other) noexcept {
-    std::swap(memory_, other.memory_), std::swap(data_, other.data_), std::swap(size_, other.size_);
+    std::swap(memory_, other.memory_);
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
   }
   T* data() noexcept { return data_; }
   const T* data() const noexcept { return data_; }

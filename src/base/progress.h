@@ -86,11 +86,16 @@ class ProgressRange {
  public:
   ProgressRange(float from, float to) noexcept : progress_(current_progress()) {
     if (!progress_) return;
-    low_ = progress_->low_, high_ = progress_->high_;
-    progress_->low_ = low_ + (high_ - low_) * from, progress_->high_ = low_ + (high_ - low_) * to;
+    low_ = progress_->low_;
+    high_ = progress_->high_;
+    progress_->low_ = low_ + (high_ - low_) * from;
+    progress_->high_ = low_ + (high_ - low_) * to;
   }
   ~ProgressRange() {
-    if (progress_) progress_->low_ = low_, progress_->high_ = high_;
+    if (progress_) {
+      progress_->low_ = low_;
+      progress_->high_ = high_;
+    }
   }
   ProgressRange(const ProgressRange&) = delete;
   ProgressRange& operator=(const ProgressRange&) = delete;

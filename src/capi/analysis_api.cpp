@@ -54,7 +54,8 @@ void find_path(const GeodesicsObject& object, const hf_surface_point* from, cons
   const SurfacePath path = object.distances.with_sides([&](const TriangleSides& sides) {
     const PointOnSurface begin = read_surface_point(sides, from, "from", 0, memory);
     const PointOnSurface end = read_surface_point(sides, to, "to", 1, memory);
-    first = begin.place, last = end.place;
+    first = begin.place;
+    last = end.place;
     return with_progress(object.progress, [&] { return shortest_path(sides, begin.point, end.point, memory); });
   });
   out.point_count = static_cast<std::uint32_t>(path.points.size());
@@ -91,8 +92,14 @@ void log_map(const GeodesicsObject& object, const hf_surface_point* centre, doub
   write_vertices(
       shape, 2, Rows(out_map, 2 * sizeof(double)),
       [](const Mesh::Isolated&, double* values) { values[0] = values[1] = std::numeric_limits<double>::quiet_NaN(); },
-      [&](std::size_t v, double* values) { values[0] = scale * map[2 * v], values[1] = scale * map[2 * v + 1]; });
-  if (out_frame) put(frame[0], out_frame), put(frame[1], out_frame + 3);
+      [&](std::size_t v, double* values) {
+        values[0] = scale * map[2 * v];
+        values[1] = scale * map[2 * v + 1];
+      });
+  if (out_frame) {
+    put(frame[0], out_frame);
+    put(frame[1], out_frame + 3);
+  }
 }
 
 Extremities search(const std::shared_ptr<const Core>& core, const hf_extremities_desc& desc) {
@@ -141,7 +148,8 @@ hf_result hf_surface_trace_isolines(hf_surface handle, const hf_scalars* given, 
     const Vector<double> field = read_scalars(shape, read_struct(given, "field"));
     const Isolines lines =
         trace_isolines(shape.mesh, shape.topology, field, Span<const double>(levels, level_count), *shape.memory);
-    out.point_count = static_cast<std::uint32_t>(lines.points.size()), out.line_count = lines.line_count();
+    out.point_count = static_cast<std::uint32_t>(lines.points.size());
+    out.line_count = lines.line_count();
     write_struct(inout_lines, out);
     const bool points = out.point_edges || out.parameters || out.positions;
     const bool per_line = out.line_starts || out.line_levels || out.line_closed;
@@ -178,8 +186,11 @@ hf_result hf_surface_find_critical_points(hf_surface handle, const hf_scalars* g
     const CriticalPoints found = find_critical_points(shape.mesh, shape.topology, field, *shape.memory);
     hf_critical_info info{};
     info.point_count = static_cast<std::uint32_t>(found.points.size());
-    info.minimum_count = found.minima, info.maximum_count = found.maxima, info.saddle_count = found.saddles;
-    info.index_sum = found.index_sum, info.euler_characteristic = found.euler_characteristic;
+    info.minimum_count = found.minima;
+    info.maximum_count = found.maxima;
+    info.saddle_count = found.saddles;
+    info.index_sum = found.index_sum;
+    info.euler_characteristic = found.euler_characteristic;
     if (out_info) write_struct(out_info, info);
     check_capacity(out_points, capacity, info.point_count, "capacity");
     for (std::size_t i = 0; out_points && i < found.points.size(); ++i) {
@@ -252,7 +263,8 @@ hf_result hf_surface_find_extremities(hf_surface handle, const hf_extremities_de
     for (std::uint32_t i = 0; out_extremities && i < count; ++i) {
       const Extremity& point = found.points[i];
       hf_extremity& out = out_extremities[i];
-      out.vertex = given_vertex(core.mesh, point.vertex), out.component = static_cast<std::uint32_t>(point.component);
+      out.vertex = given_vertex(core.mesh, point.vertex);
+      out.component = static_cast<std::uint32_t>(point.component);
       out.length = scale * point.length;
       put(core.mesh.to_given(core.mesh.positions[static_cast<std::size_t>(point.vertex)]), out.position);
     }

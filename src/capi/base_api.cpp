@@ -14,7 +14,8 @@ thread_local hf_error_detail last_failure;
 }  // namespace
 
 hf_result record_failure(hf_result code, std::uint32_t index, const char* function, const char* message) noexcept {
-  last_failure.code = code, last_failure.index = index;
+  last_failure.code = code;
+  last_failure.index = index;
   std::snprintf(last_failure.function, sizeof last_failure.function, "%s", function);
   std::snprintf(last_failure.message, sizeof last_failure.message, "%s", message);
   return code;

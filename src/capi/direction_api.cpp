@@ -197,7 +197,8 @@ hf_result hf_direction_get_statistics(hf_direction handle, hf_direction_statisti
     statistics.path_solve_count = counters.path_solves;
     statistics.sweep_count = counters.sweeps;
     statistics.irregular_vertex_count = solver.connection().irregular_count;
-    statistics.degree = static_cast<std::uint32_t>(solver.degree()), statistics.site_limit = direction->site_limit;
+    statistics.degree = static_cast<std::uint32_t>(solver.degree());
+    statistics.site_limit = direction->site_limit;
     statistics.eliminated_count = static_cast<std::uint32_t>(solver.eliminated_count());
     statistics.operator_ms = solver.operator_ms();
     statistics.numeric_ms = solver.statistics().numeric_ms;

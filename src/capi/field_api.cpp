@@ -78,10 +78,13 @@ void solve_preview(hf_solver handle, float* f32, double* f64, std::uint32_t valu
   write_checked(core, m, out, f64 != nullptr, field.data());
   if (!out_info) return;
   hf_preview_info info{};
-  info.exact = found.exact, info.correction_count = static_cast<std::uint32_t>(found.corrections);
+  info.exact = found.exact;
+  info.correction_count = static_cast<std::uint32_t>(found.corrections);
   info.unreached_component_count = unreached(*solver).unreached_component_count;
-  info.value_range = found.value_range, info.largest_correction = found.largest_correction;
-  info.error_estimate = found.error_estimate, info.preview_bytes = found.bytes;
+  info.value_range = found.value_range;
+  info.largest_correction = found.largest_correction;
+  info.error_estimate = found.error_estimate;
+  info.preview_bytes = found.bytes;
   write_struct(out_info, info);
 }
 
@@ -104,7 +107,8 @@ hf_result hf_solver_solve_f64(hf_solver solver, double* out_values, uint32_t val
 hf_result hf_solver_solve_at(hf_solver handle, uint32_t count, const uint32_t* vertices, double* out_values) {
   return guarded("hf_solver_solve_at", [&] {
     const auto solver = get<SolverObject>(handle, "solver");
-    require_list(count, vertices, "vertex_count", "vertices"), require(out_values, "out_values");
+    require_list(count, vertices, "vertex_count", "vertices");
+    require(out_values, "out_values");
     const Reading reading(*solver);
     const Mesh& mesh = solver->field.core().mesh;
     const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
@@ -158,9 +162,13 @@ hf_result hf_solver_certify(hf_solver handle, hf_certificate* inout_certificate)
     const Reading reading(*solver);
     const double tolerance = certificate_tolerance(report.tolerance, solver->field.engine().kind());
     const Certificate found = certify(solver->field);
-    report.overshoot_checked = found.overshoot_checked, report.tolerance = tolerance;
-    report.value_range = found.value_range, report.residual = found.residual;
-    report.site_error = found.site_error, report.overshoot = found.overshoot, report.error_estimate = found.error;
+    report.overshoot_checked = found.overshoot_checked;
+    report.tolerance = tolerance;
+    report.value_range = found.value_range;
+    report.residual = found.residual;
+    report.site_error = found.site_error;
+    report.overshoot = found.overshoot;
+    report.error_estimate = found.error;
     report.changed_vertex_count = solver->field.core().changed_count;
     report.worst_vertex = given_vertex(solver->field.core().mesh, found.vertex);
     write_struct(inout_certificate, report);

@@ -30,7 +30,8 @@ class HandleSlots {
     do last_ = (last_ + 1) & mask;
     while (last_ == 0 || slot_of(last_).object);
     Slot& slot = slot_of(last_);
-    slot.object = std::move(object), slot.number = last_;
+    slot.object = std::move(object);
+    slot.number = last_;
     ++used_;
     return last_;
   }
@@ -46,7 +47,8 @@ class HandleSlots {
     slot_of(number).object.reset();
     if (--used_ == 0) {
       delete[] slots_;
-      slots_ = nullptr, capacity_ = 0;
+      slots_ = nullptr;
+      capacity_ = 0;
     }
     return object;
   }
@@ -70,7 +72,8 @@ class HandleSlots {
       if (slots_[i].object) slots[slots_[i].number & (capacity - 1)] = std::move(slots_[i]);
     }
     delete[] slots_;
-    slots_ = slots, capacity_ = capacity;
+    slots_ = slots;
+    capacity_ = capacity;
   }
 
   Slot* slots_ = nullptr;

@@ -11,9 +11,13 @@ namespace {
 hf_link written(const Link& link, const Mesh& mesh) noexcept {
   hf_link out{};
   out.vertex = given_vertex(mesh, link.vertex);
-  for (std::size_t k = 0; k < 3; ++k)
-    out.corners[k] = given_vertex(mesh, link.corner[k]), out.barycentrics[k] = link.share[k];
-  out.length = mesh.scale * link.length, out.weight = static_cast<float>(link.weight), out.in_tree = link.tree;
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.corners[k] = given_vertex(mesh, link.corner[k]);
+    out.barycentrics[k] = link.share[k];
+  }
+  out.length = mesh.scale * link.length;
+  out.weight = static_cast<float>(link.weight);
+  out.in_tree = link.tree;
   return out;
 }
 
@@ -66,14 +70,17 @@ hf_result hf_surface_measure_gaps(hf_surface surface, const hf_gaps_desc* given,
     const Geometry& shape = object->surface.geometry();
     const std::size_t count = shape.links ? shape.links->links.size() : 0;
     hf_gaps_info info{};
-    info.link_count = static_cast<std::uint32_t>(count), info.worst_link = HF_NO_INDEX;
+    info.link_count = static_cast<std::uint32_t>(count);
+    info.worst_link = HF_NO_INDEX;
     if (out_gaps && capacity < count && out_info) write_struct(out_info, info);
     check_capacity(out_gaps, capacity, count, "capacity");
     Vector<double> gaps(count, 0.0, object->memory.get());
     if (count > 0) measure_gaps(shape.mesh, *shape.links, posed, gaps);
     if (out_gaps) std::copy(gaps.begin(), gaps.end(), out_gaps);
     const GapSummary found = summarise_gaps(gaps);
-    info.worst = found.worst, info.worst_link = found.worst_link, info.percentile_95 = found.percentile_95;
+    info.worst = found.worst;
+    info.worst_link = found.worst_link;
+    info.percentile_95 = found.percentile_95;
     if (out_info) write_struct(out_info, info);
   });
 }

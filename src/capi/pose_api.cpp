@@ -49,7 +49,8 @@ template <class Read>
 void place_handles(hf_pose handle, std::uint32_t count, const std::uint32_t* handles, const void* places,
                    const char* name, Read&& read) {
   const auto pose = get<PoseObject>(handle, "pose");
-  check_handles(count, handles), require(places, name);
+  check_handles(count, handles);
+  require(places, name);
   const Changing changing(*pose);
   HandleTransform placed[HF_HANDLE_LIMIT];
   for (std::uint32_t i = 0; i < count; ++i) placed[i] = read(*pose->pose, i);
@@ -115,10 +116,13 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   turn_normals(core.mesh, range, desc);
   if (!out_info) return;
   hf_deform_info info{};
-  info.iteration_count = report.iteration_count, info.cluster_count = report.cluster_count;
+  info.iteration_count = report.iteration_count;
+  info.cluster_count = report.cluster_count;
   info.unreached_vertex_count = report.unreached_vertex_count + core.mesh.report.isolated_vertex_count;
   info.last_change = report.last_change;
-  info.solve_ms = report.solve_ms, info.blend_ms = report.blend_ms, info.normal_ms = report.normal_ms,
+  info.solve_ms = report.solve_ms;
+  info.blend_ms = report.blend_ms;
+  info.normal_ms = report.normal_ms;
   info.refine_ms = report.refine_ms;
   write_struct(out_info, info);
 }
@@ -136,8 +140,10 @@ hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* given, hf_pose*
     const std::shared_ptr<const Core> core = harmonic_core(surface, "a pose");
     const hf_pose_desc desc = read_optional(given, "desc");
     PoseOptions options;
-    options.mode = static_cast<DeformMode>(desc.mode), options.band_count = desc.band_count;
-    options.iteration_count = desc.iteration_count, options.samples_per_ring = desc.samples_per_ring;
+    options.mode = static_cast<DeformMode>(desc.mode);
+    options.band_count = desc.band_count;
+    options.iteration_count = desc.iteration_count;
+    options.samples_per_ring = desc.samples_per_ring;
     options.group_count = desc.group_count;
     return make_object(PoseStack::make(core, options));
   });
@@ -161,8 +167,10 @@ hf_result hf_pose_get_info(hf_pose handle, hf_pose_info* out_info) {
     const PoseOptions& options = pose->pose->options();
     hf_pose_info info{};
     info.mode = options.mode == DeformMode::paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH;
-    info.band_count = options.band_count, info.iteration_count = options.iteration_count;
-    info.samples_per_ring = options.samples_per_ring, info.group_count = options.group_count;
+    info.band_count = options.band_count;
+    info.iteration_count = options.iteration_count;
+    info.samples_per_ring = options.samples_per_ring;
+    info.group_count = options.group_count;
     info.handle_count = pose->pose->handle_count();
     info.vertex_count = pose->pose->core().mesh.report.vertex_count;
     write_struct(out_info, info);
@@ -181,7 +189,9 @@ hf_result hf_pose_add_handle_at(hf_pose pose, const double* point, double radius
     get<PoseObject>(pose, "pose");
     require(point, "point");
     hf_handles_desc desc = HF_INIT(hf_handles_desc);
-    desc.handle_count = 1, desc.points = point, desc.radii = &radius;
+    desc.handle_count = 1;
+    desc.points = point;
+    desc.radii = &radius;
     add_handles(pose, desc, out_handle);
   });
 }
@@ -226,7 +236,9 @@ hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* ou
     const Reading reading(*pose);
     const HandleReport report = pose->pose->handle(number);
     hf_handle_info info{};
-    info.vertex_count = report.vertex_count, info.site_count = report.site_count, info.component = report.component;
+    info.vertex_count = report.vertex_count;
+    info.site_count = report.site_count;
+    info.component = report.component;
     put(report.centroid, info.centroid);
     info.leak = report.leak;
     const HandleTransform placed = pose->pose->placed(number);

@@ -24,8 +24,11 @@ extern "C" hf_result hf_propose_handles(hf_surface handle, const hf_propose_desc
       hf_handle_proposal out{};
       out.vertex = given_vertex(core.mesh, from.vertex);
       out.component = static_cast<std::uint32_t>(core.mesh.component[static_cast<std::size_t>(from.vertex)]);
-      out.reason = static_cast<std::int32_t>(from.reason), out.pinned = from.pinned ? 1 : 0;
-      out.joint = from.joint, out.radius = from.radius, out.length = from.length;
+      out.reason = static_cast<std::int32_t>(from.reason);
+      out.pinned = from.pinned ? 1 : 0;
+      out.joint = from.joint;
+      out.radius = from.radius;
+      out.length = from.length;
       put(from.position, out.position);
       out_proposals[i] = out;
     }

@@ -93,7 +93,8 @@ hf_result hf_quads_get_mesh(hf_quads handle, hf_quads_mesh* inout_mesh) {
     require_zero(out.reserved);
     const Reading reading(*object);
     const hf_quads_info info = info_of(*object);
-    out.vertex_count = info.vertex_count, out.face_count = info.face_count;
+    out.vertex_count = info.vertex_count;
+    out.face_count = info.face_count;
     write_struct(inout_mesh, out);
     check_capacity(out.positions || out.triangles || out.barycentrics || out.corners, out.vertex_capacity,
                    out.vertex_count, "vertex_capacity");

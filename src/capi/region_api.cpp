@@ -80,13 +80,16 @@ hf_result hf_region_get_info(hf_region region, hf_region_info* out_info) {
     info.vertex_count = static_cast<std::uint32_t>(state.shape->inside.size());
     info.rim_count = static_cast<std::uint32_t>(state.shape->rim.size());
     info.site_count = static_cast<std::uint32_t>(state.shape->sites.size());
-    info.inserted_count = state.inserted, info.removed_count = state.removed, info.kept_count = state.kept;
+    info.inserted_count = state.inserted;
+    info.removed_count = state.removed;
+    info.kept_count = state.kept;
     info.factorisation_count = counters.factorisations - 1;  // the surface's own factor counts as one
     info.path_solve_count = counters.path_solves;
     info.last_route = static_cast<std::uint32_t>(counters.last_route);
     info.whole_sweep = state.whole_sweep;
     const double scale = object->region.core().mesh.scale;
-    info.area = state.area * scale * scale, info.base_area = state.base_area * scale * scale;
+    info.area = state.area * scale * scale;
+    info.base_area = state.base_area * scale * scale;
     write_struct(out_info, info);
   });
 }

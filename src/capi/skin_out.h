@@ -20,7 +20,8 @@ class SkinOut {
 
   // Call this first. Throws HF_ERROR_TOO_SMALL if the caller's arrays are too small.
   void write_counts(std::size_t joints, std::uint32_t vertices) {
-    out_.joint_count = static_cast<std::uint32_t>(joints), out_.vertex_count = vertices;
+    out_.joint_count = static_cast<std::uint32_t>(joints);
+    out_.vertex_count = vertices;
     write_struct(inout_, out_);
     const bool per_joint = out_.pivots || out_.rotations || out_.translations || out_.axes || out_.scales;
     check_capacity(per_joint, out_.joint_capacity, joints, "joint_capacity");

@@ -34,7 +34,8 @@ hf_result change_vectors(const char* function, hf_solver handle, std::uint32_t c
                          const void* list, const char* name, Work&& work) {
   return guarded(function, [&] {
     get<SolverObject>(handle, "solver");
-    require_list(count, sites, "site_count", "sites"), require(list, name);
+    require_list(count, sites, "site_count", "sites");
+    require(list, name);
     change(handle, [&](SolverObject& solver) { work(solver.field); });
   });
 }
@@ -73,8 +74,10 @@ hf_result hf_solver_get_info(hf_solver handle, hf_solver_info* out_info) {
     info.field_kind = static_cast<std::int32_t>(solver->field.core().field_kind);
     info.engine = static_cast<std::int32_t>(solver->field.engine().kind());
     info.channel_count = static_cast<std::uint32_t>(solver->field.sites().channels());
-    info.site_limit = solver->site_limit, info.site_count = solver->field.sites().count();
-    info.penalty = solver->penalty, info.vertex_count = solver->field.core().mesh.report.vertex_count;
+    info.site_limit = solver->site_limit;
+    info.site_count = solver->field.sites().count();
+    info.penalty = solver->penalty;
+    info.vertex_count = solver->field.core().mesh.report.vertex_count;
     write_struct(out_info, info);
   });
 }
@@ -85,14 +88,18 @@ hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* o
 }
 
 hf_result hf_solver_add_site(hf_solver solver, uint32_t vertex, const double* values, uint32_t* out_site) {
-  return apply("hf_solver_add_site", solver, out_site,
-               [&](FieldEdit& edit) { edit.add.count = 1, edit.add.vertices = &vertex, edit.add_values = values; });
+  return apply("hf_solver_add_site", solver, out_site, [&](FieldEdit& edit) {
+    edit.add.count = 1;
+    edit.add.vertices = &vertex;
+    edit.add_values = values;
+  });
 }
 
 hf_result hf_remove_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites) {
   return apply("hf_remove_sites", solver, nullptr, [&](FieldEdit& edit) {
     require_list(site_count, sites, "site_count", "sites");
-    edit.remove_count = site_count, edit.remove_sites = sites;
+    edit.remove_count = site_count;
+    edit.remove_sites = sites;
   });
 }
 
@@ -103,8 +110,11 @@ hf_result hf_solver_move_sites(hf_solver solver, uint32_t site_count, const uint
 
 hf_result hf_solver_set_values(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* values) {
   return apply("hf_solver_set_values", solver, nullptr, [&](FieldEdit& edit) {
-    require_list(site_count, sites, "site_count", "sites"), require(values, "values");
-    edit.set_count = site_count, edit.set_sites = sites, edit.set_values = values;
+    require_list(site_count, sites, "site_count", "sites");
+    require(values, "values");
+    edit.set_count = site_count;
+    edit.set_sites = sites;
+    edit.set_values = values;
   });
 }
 
@@ -112,10 +122,16 @@ hf_result hf_solver_edit_sites(hf_solver solver, const hf_edit_desc* given, uint
   return apply("hf_solver_edit_sites", solver, out_sites, [&](FieldEdit& edit) {
     const hf_edit_desc desc = read_struct(given, "edit");
     if (desc.remove_count) require(desc.remove_sites, "remove_sites");
-    edit.remove_count = desc.remove_count, edit.remove_sites = desc.remove_sites;
+    edit.remove_count = desc.remove_count;
+    edit.remove_sites = desc.remove_sites;
     if (desc.move_count) read_move(desc.move_count, desc.move_sites, read_struct(desc.move_to, "to"), edit);
-    if (desc.set_count) require(desc.set_sites, "set_sites"), require(desc.set_values, "set_values");
-    edit.set_count = desc.set_count, edit.set_sites = desc.set_sites, edit.set_values = desc.set_values;
+    if (desc.set_count) {
+      require(desc.set_sites, "set_sites");
+      require(desc.set_values, "set_values");
+    }
+    edit.set_count = desc.set_count;
+    edit.set_sites = desc.set_sites;
+    edit.set_values = desc.set_values;
     if (desc.add) read_addition(read_struct(desc.add, "sites"), edit);
   });
 }
@@ -207,13 +223,17 @@ hf_result hf_solver_get_statistics(hf_solver handle, hf_solver_statistics* out_s
     statistics.factorisation_count = counters.factorisations;
     // The engine green counts the factor of the surface as its first factorisation, so one is subtracted.
     if (solver->field.engine().kind() == EngineKind::green) --statistics.factorisation_count;
-    statistics.path_solve_count = counters.path_solves, statistics.sweep_count = counters.sweeps;
+    statistics.path_solve_count = counters.path_solves;
+    statistics.sweep_count = counters.sweeps;
     statistics.last_route = static_cast<std::uint32_t>(counters.last_route);
-    statistics.rebase_count = counters.rebases, statistics.dense_edit_count = counters.dense_edits;
-    statistics.dense_row_count = counters.dense_rows, statistics.eliminated_count = counters.eliminated;
+    statistics.rebase_count = counters.rebases;
+    statistics.dense_edit_count = counters.dense_edits;
+    statistics.dense_row_count = counters.dense_rows;
+    statistics.eliminated_count = counters.eliminated;
     statistics.rebase_advised = counters.rebase_advised;
     statistics.site_memory_bytes = counters.bytes;
-    statistics.predicted_dense_ms = counters.dense_ms, statistics.predicted_rebase_ms = counters.rebase_ms;
+    statistics.predicted_dense_ms = counters.dense_ms;
+    statistics.predicted_rebase_ms = counters.rebase_ms;
     write_struct(out_statistics, statistics);
   });
 }

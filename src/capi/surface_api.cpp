@@ -75,7 +75,8 @@ hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_repor
     }
     const Faces& faces = core.mesh.faces;
     report.face_count = static_cast<std::uint32_t>(faces.given_size.size());
-    report.polygon_count = faces.polygon_count, report.non_planar_count = faces.non_planar_count;
+    report.polygon_count = faces.polygon_count;
+    report.non_planar_count = faces.non_planar_count;
     report.largest_face = faces.largest_size;
     const MeshReport& unlinked = object->surface.geometry().unlinked().mesh.report;
     report.inside_out_count = unlinked.inside_out_count;
@@ -105,14 +106,19 @@ hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statistics* o
     const FactorStatistics& factor = core.factor->statistics();
     hf_surface_statistics statistics{};
     statistics.unknown_count = static_cast<std::uint32_t>(core.size());
-    statistics.weld_ms = core.times.weld_ms, statistics.operator_ms = core.times.operator_ms;
-    statistics.ordering_ms = factor.ordering_ms, statistics.symbolic_ms = factor.symbolic_ms;
-    statistics.numeric_ms = factor.numeric_ms, statistics.load_ms = factor.load_ms;
-    statistics.factor_entries = factor.entries, statistics.factor_bytes = factor.bytes;
+    statistics.weld_ms = core.times.weld_ms;
+    statistics.operator_ms = core.times.operator_ms;
+    statistics.ordering_ms = factor.ordering_ms;
+    statistics.symbolic_ms = factor.symbolic_ms;
+    statistics.numeric_ms = factor.numeric_ms;
+    statistics.load_ms = factor.load_ms;
+    statistics.factor_entries = factor.entries;
+    statistics.factor_bytes = factor.bytes;
     statistics.factor_flops = factor.flops;
     statistics.memory_bytes = static_cast<double>(object->memory->live_bytes());
     statistics.peak_memory_bytes = static_cast<double>(object->memory->peak_bytes());
-    statistics.factor_loaded = factor.loaded, statistics.factor_borrowed = factor.borrowed;
+    statistics.factor_loaded = factor.loaded;
+    statistics.factor_borrowed = factor.borrowed;
     statistics.links_ms = core.geometry->links_ms;
     write_struct(out_statistics, statistics);
   });
@@ -147,7 +153,8 @@ hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const do
     const RayHit found = cast_ray(target, from, along, *shape.jobs, *shape.memory);
     hf_hit hit{};
     hit.found = found.triangle != HF_NO_INDEX;
-    hit.triangle = found.triangle, hit.vertex = given_vertex(shape.mesh, found.vertex);
+    hit.triangle = found.triangle;
+    hit.vertex = given_vertex(shape.mesh, found.vertex);
     std::copy_n(found.weight, 3, hit.barycentrics);
     for (int k = 0; k < 3; ++k) hit.corners[k] = given_vertex(shape.mesh, found.corner[k]);
     if (hit.found) put(found.position, hit.position);

@@ -47,7 +47,8 @@ extern "C" {
 hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,
                              hf_transfer* out_transfer) {
   return create("hf_transfer_create", out_transfer, "out_transfer", [&] {
-    get<SurfaceObject>(source, "source", 0), get<SurfaceObject>(target, "target", 1);
+    get<SurfaceObject>(source, "source", 0);
+    get<SurfaceObject>(target, "target", 1);
     const hf_transfer_desc given = read_optional(desc, "desc");
     TransferOptions options = read_transfer_options(given);
     const auto from = harmonic_core(source, "a transfer", "source", 0),
@@ -90,10 +91,13 @@ hf_result hf_transfer_get_pair(hf_transfer handle, uint32_t pair, hf_pair_info* 
     const PairInfo found = object->transfer.pair_info(pair);
     hf_pair_info info{};
     info.flags = found.flags;
-    info.source_leak = found.source_leak, info.target_leak = found.target_leak;
-    info.alignment_angle = found.alignment_angle, info.confidence = found.confidence;
+    info.source_leak = found.source_leak;
+    info.target_leak = found.target_leak;
+    info.alignment_angle = found.alignment_angle;
+    info.confidence = found.confidence;
     info.alignment_share = found.alignment_share;
-    info.aligned = found.alignment_share > 0 ? 1 : 0, info.crossed = found.crossed ? 1 : 0;
+    info.aligned = found.alignment_share > 0 ? 1 : 0;
+    info.crossed = found.crossed ? 1 : 0;
     write_struct(out_info, info);
   });
 }
@@ -109,12 +113,14 @@ hf_result hf_transfer_get_info(hf_transfer handle, hf_transfer_info* out_info) {
     info.pair_count = object->transfer.pair_count();
     for (const std::uint32_t pair : object->transfer.pairs()) {
       const PairInfo found = object->transfer.pair_info(pair);
-      info.aligned_count += found.alignment_share > 0 ? 1u : 0u, info.crossed_count += found.crossed ? 1u : 0u;
+      info.aligned_count += found.alignment_share > 0 ? 1u : 0u;
+      info.crossed_count += found.crossed ? 1u : 0u;
     }
     // The counter includes the surface's own factor as its first factorisation, so one is subtracted.
     info.source_factorisation_count = object->transfer.source_counters().factorisations - 1;
     info.target_factorisation_count = object->transfer.target_counters().factorisations - 1;
-    info.scale = object->transfer.scale(), info.scale_found = object->transfer.scale_found() ? 1 : 0;
+    info.scale = object->transfer.scale();
+    info.scale_found = object->transfer.scale_found() ? 1 : 0;
     write_struct(out_info, info);
   });
 }
@@ -135,9 +141,12 @@ hf_result hf_transfer_get_dials(hf_transfer handle, hf_transfer_dials* out_dials
     const Reading reading(*object);
     const Dials& set = object->transfer.dials();
     hf_transfer_dials dials{};
-    dials.stride = static_cast<float>(set.stride), dials.hip_height = static_cast<float>(set.hip_height);
-    dials.neck_follow = static_cast<float>(set.neck_follow), dials.tail_follow = static_cast<float>(set.tail_follow);
-    dials.arm_space = static_cast<float>(set.arm_space), dials.long_follow = static_cast<float>(set.long_follow);
+    dials.stride = static_cast<float>(set.stride);
+    dials.hip_height = static_cast<float>(set.hip_height);
+    dials.neck_follow = static_cast<float>(set.neck_follow);
+    dials.tail_follow = static_cast<float>(set.tail_follow);
+    dials.arm_space = static_cast<float>(set.arm_space);
+    dials.long_follow = static_cast<float>(set.long_follow);
     write_struct(out_dials, dials);
   });
 }

@@ -34,7 +34,11 @@ void for_each_given(const Shape& core, std::size_t first, std::size_t count, Vis
   });
 }
 
-inline void put(Vec3 p, double* values) noexcept { values[0] = p.x, values[1] = p.y, values[2] = p.z; }
+inline void put(Vec3 p, double* values) noexcept {
+  values[0] = p.x;
+  values[1] = p.y;
+  values[2] = p.z;
+}
 
 // Finds the first vertex, as given, with a number that is too large for the caller's array. All threads look at once.
 class Overflow {

@@ -115,20 +115,26 @@ hf_result hf_weights_get_info(hf_weights handle, hf_weights_info* out_info) {
     const WeightCounts& counts = state.counts;
     hf_weights_info info{};
     info.vertex_count = object->weights.surface().core->mesh.report.vertex_count;
-    info.bone_count = bone_count(*object), info.pin_count = static_cast<std::uint32_t>(state.inputs->pins.count());
+    info.bone_count = bone_count(*object);
+    info.pin_count = static_cast<std::uint32_t>(state.inputs->pins.count());
     info.lock_count = state.inputs->locks ? static_cast<std::uint32_t>(state.inputs->locks->bones.size()) : 0;
-    info.informed_count = counts.by_origin[HF_WEIGHTS_INFORMED],
+    info.informed_count = counts.by_origin[HF_WEIGHTS_INFORMED];
     info.solved_count = counts.by_origin[HF_WEIGHTS_SOLVED];
-    info.pinned_count = counts.by_origin[HF_WEIGHTS_PINNED], info.carried_count = counts.by_origin[HF_WEIGHTS_CARRIED];
-    info.rigid_count = counts.by_origin[HF_WEIGHTS_RIGID], info.isolated_count = counts.by_origin[HF_WEIGHTS_ISOLATED];
+    info.pinned_count = counts.by_origin[HF_WEIGHTS_PINNED];
+    info.carried_count = counts.by_origin[HF_WEIGHTS_CARRIED];
+    info.rigid_count = counts.by_origin[HF_WEIGHTS_RIGID];
+    info.isolated_count = counts.by_origin[HF_WEIGHTS_ISOLATED];
     info.carried_island_count = counts.islands_carried + counts.islands_rigid;
     info.rigid_island_count = counts.islands_rigid;
     info.blind = counts.blind;
     const BoneFlagCounts bones = count_bone_flags(state.solution->faults);
-    info.no_length_count = bones.no_length, info.coincident_count = bones.coincident;
-    info.informs_none_count = bones.informs_none, info.outside_count = bones.outside;
+    info.no_length_count = bones.no_length;
+    info.coincident_count = bones.coincident;
+    info.informs_none_count = bones.informs_none;
+    info.outside_count = bones.outside;
     info.helper_count = bones.helper;
-    info.factorisation_count = counts.factorisations, info.path_solve_count = counts.path_solves;
+    info.factorisation_count = counts.factorisations;
+    info.path_solve_count = counts.path_solves;
     write_struct(out_info, info);
   });
 }

@@ -16,8 +16,10 @@ void write_filled(const FilledWeights& filled, const Mesh& mesh, const hf_weight
 
 template <class Info>
 void count_vertices(const FilledWeights& filled, Info& info) {
-  info.matched_count = filled.by_origin[HF_WEIGHTS_MATCHED], info.solved_count = filled.by_origin[HF_WEIGHTS_SOLVED];
-  info.carried_count = filled.by_origin[HF_WEIGHTS_CARRIED], info.rigid_count = filled.by_origin[HF_WEIGHTS_RIGID];
+  info.matched_count = filled.by_origin[HF_WEIGHTS_MATCHED];
+  info.solved_count = filled.by_origin[HF_WEIGHTS_SOLVED];
+  info.carried_count = filled.by_origin[HF_WEIGHTS_CARRIED];
+  info.rigid_count = filled.by_origin[HF_WEIGHTS_RIGID];
   info.isolated_count = filled.by_origin[HF_WEIGHTS_ISOLATED];
 }
 
@@ -27,16 +29,25 @@ void write_mirror_info(const MirroredWeights& made, const Mesh& mesh, hf_mirror_
   info.plane_from = static_cast<std::int32_t>(made.plane.from);
   info.worst_vertex = given_vertex(mesh, made.worst);
   const BoneMisses bones = bone_misses(made.pairs, mesh.scale);
-  info.bone_off = bones.mean, info.worst_bone_off = bones.worst, info.worst_bone = bones.worst_bone;
-  info.alone_count = bones.by[HF_MIRROR_BONE_ALONE], info.named_count = bones.by[HF_MIRROR_BONE_NAMED];
-  info.placed_count = bones.by[HF_MIRROR_BONE_PLACED], info.centre_count = bones.by[HF_MIRROR_BONE_CENTRE];
+  info.bone_off = bones.mean;
+  info.worst_bone_off = bones.worst;
+  info.worst_bone = bones.worst_bone;
+  info.alone_count = bones.by[HF_MIRROR_BONE_ALONE];
+  info.named_count = bones.by[HF_MIRROR_BONE_NAMED];
+  info.placed_count = bones.by[HF_MIRROR_BONE_PLACED];
+  info.centre_count = bones.by[HF_MIRROR_BONE_CENTRE];
   info.given_count = bones.by[HF_MIRROR_BONE_GIVEN];
   count_vertices(made.filled, info);
   info.kept_count = made.filled.by_origin[HF_WEIGHTS_KEPT];
   const Vec3 point = mesh.to_given(made.plane.offset * made.plane.normal), normal = made.plane.normal;
-  info.point[0] = point.x, info.point[1] = point.y, info.point[2] = point.z;
-  info.normal[0] = normal.x, info.normal[1] = normal.y, info.normal[2] = normal.z;
-  info.vertex_off = mesh.scale * made.mean_off, info.worst_vertex_off = mesh.scale * made.worst_off;
+  info.point[0] = point.x;
+  info.point[1] = point.y;
+  info.point[2] = point.z;
+  info.normal[0] = normal.x;
+  info.normal[1] = normal.y;
+  info.normal[2] = normal.z;
+  info.vertex_off = mesh.scale * made.mean_off;
+  info.worst_vertex_off = mesh.scale * made.worst_off;
   write_struct(out_info, info);
 }
 
@@ -86,7 +97,8 @@ hf_result hf_weights_carry(hf_surface source, hf_surface target, const hf_carry_
     write_filled(filled, to->surface.geometry().mesh, out);
     if (!out_info) return;
     hf_carry_info info{};
-    info.vertex_count = out.vertex_count, info.guessed_island_count = filled.islands_guessed;
+    info.vertex_count = out.vertex_count;
+    info.guessed_island_count = filled.islands_guessed;
     count_vertices(filled, info);
     write_struct(out_info, info);
   });

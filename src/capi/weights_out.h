@@ -14,7 +14,8 @@ inline bool wants_weights(const hf_weights_out& out) noexcept {
 // Writes the counts, and then checks that the arrays of the caller are long enough.
 inline hf_weights_out read_weights_out(hf_weights_out* inout, const Mesh& mesh, std::int32_t influences) {
   hf_weights_out out = read_struct(inout, "inout_weights");
-  out.vertex_count = mesh.report.vertex_count, out.weight_count = static_cast<std::uint32_t>(influences);
+  out.vertex_count = mesh.report.vertex_count;
+  out.weight_count = static_cast<std::uint32_t>(influences);
   write_struct(inout, out);
   check_capacity(wants_weights(out), out.vertex_capacity, out.vertex_count, "vertex_capacity");
   return out;

@@ -48,7 +48,8 @@ void Anderson::keep_difference(Span<const double> z, Span<const double> f) noexc
     to_both[i] = (z[i] - from_z[i]) + to_f[i];
   }
   const std::size_t place = next_;
-  count_ = std::min(count_ + 1, anderson_steps), next_ = (next_ + 1) % anderson_steps;
+  count_ = std::min(count_ + 1, anderson_steps);
+  next_ = (next_ + 1) % anderson_steps;
   // f is the last residual plus this difference, so dF' f changes by the new row of dF' dF
   for (std::size_t k = 0; k < count_; ++k) {
     gram_[place][k] = gram_[k][place] = product(to_f, df(k), size_);
@@ -66,7 +67,8 @@ void Anderson::step(Span<double> z, Span<const double> f, std::size_t block, dou
     for (std::size_t k = 0; k < count_; ++k) right_[k] = product(df(k), f.data(), size_);
   std::copy(z.begin(), z.end(), last_z());
   std::copy(f.begin(), f.end(), last_f());
-  last_residual_ = residual, open_ = true;
+  last_residual_ = residual;
+  open_ = true;
 
   // Columns of length 1, so that damping trades directions and not sizes. What is not kept yet is a row of the
   // identity.
@@ -93,7 +95,11 @@ void Anderson::step(Span<double> z, Span<const double> f, std::size_t block, dou
     for (std::size_t j = i; j < i + block; ++j) square += extra[j] * extra[j];
     largest = std::max(largest, square);
   }
-  if (!std::isfinite(largest)) std::fill(extra, extra + size_, 0.0), largest = 0, forget();
+  if (!std::isfinite(largest)) {
+    std::fill(extra, extra + size_, 0.0);
+    largest = 0;
+    forget();
+  }
   const double kept = largest > longest * longest ? longest / std::sqrt(largest) : 1.0;
   for (std::size_t i = 0; i < size_; ++i) z[i] += f[i] + kept * extra[i];
 }

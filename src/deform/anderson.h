@@ -30,7 +30,10 @@ class Anderson {
         open_(other.open_) {}
   // Makes room for an iterate of `size` numbers and forgets all steps.
   void fit(std::size_t size);
-  void forget() noexcept { count_ = next_ = 0, open_ = false; }
+  void forget() noexcept {
+    count_ = next_ = 0;
+    open_ = false;
+  }
   // The map changes: what the iterate does until the next step tells nothing. Steps before count on.
   void break_off() noexcept { open_ = false; }
   // Replaces the iterate z by the next one. f: its residual. Both have the size of fit(), a multiple of `block`. What

@@ -49,7 +49,8 @@ std::int32_t find(std::int32_t* parent, std::int32_t x) noexcept {
 // Joins two bands. The smaller number becomes the root, so that results do not depend on the order.
 void join(std::int32_t* parent, std::int32_t a, std::int32_t b) noexcept {
   if (parent[a] == parent[b]) return;  // most pairs
-  a = find(parent, a), b = find(parent, b);
+  a = find(parent, a);
+  b = find(parent, b);
   if (a < b) parent[b] = a;
   if (b < a) parent[a] = b;
 }
@@ -72,7 +73,8 @@ void join_edge(const PieceBands& bands, std::int32_t v, std::int32_t u, std::int
     if (own.part == other.part && !joined(own, other, parent + own_band, parent + other_band))
       for_common_bands(own, other, [&](int a, int b) { join(parent, own_band + a, other_band + b); });
     const std::int32_t step = own.part - other.part;
-    i += step <= 0, k += step >= 0;
+    i += step <= 0;
+    k += step >= 0;
   }
 }
 

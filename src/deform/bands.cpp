@@ -40,7 +40,9 @@ class ClusterNumbers {
       for (const PieceBands::Patch& own : piece.patch) band_.push_back(own.band);
       base_.push_back(static_cast<std::int32_t>(band_.size()));
     }
-    parent_.resize(band_.size()), area_.assign(band_.size(), 0.0), cluster_.resize(band_.size());
+    parent_.resize(band_.size());
+    area_.assign(band_.size(), 0.0);
+    cluster_.resize(band_.size());
     for (std::size_t i = 0; i < parent_.size(); ++i) parent_[i] = static_cast<std::int32_t>(i);
     for (const PieceBands& piece : pieces) {
       poll();
@@ -60,7 +62,8 @@ class ClusterNumbers {
       Vector<double> band_area(source_.band_count + 2, 0.0, &memory), largest(band_area, &memory);
       for (const std::int32_t root : roots) {
         const std::int32_t band = band_[root];
-        band_area[band] += area_[root], largest[band] = std::max(largest[band], area_[root]);
+        band_area[band] += area_[root];
+        largest[band] = std::max(largest[band], area_[root]);
       }
       for (const std::int32_t root : roots) {
         const std::int32_t band = band_[root];
@@ -180,7 +183,8 @@ ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Re
     read_bands(source, first, last, pieces[first / vertex_piece], memory);
   });
   ClusterWeights weights(memory);
-  weights.handle_count = handle_count, weights.band_count = band_count;
+  weights.handle_count = handle_count;
+  weights.band_count = band_count;
   ClusterNumbers numbers(source, pieces, memory);
   for (double area = smallest_area;; area *= area_growth) {
     weights.cluster_count = numbers.number(handle_count, area, memory);

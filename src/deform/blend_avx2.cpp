@@ -86,7 +86,8 @@ void blend_rows_avx2(const BlendRows& rows, std::int32_t first, std::int32_t las
   std::int32_t v = first;
   for (; rows.block_start && v + 8 <= last; v += 8) {
     if (rows.block_start[v / 8] < rows.block_start[v / 8 + 1]) {
-      blend_half(rows, v / 8, 0), blend_half(rows, v / 8, 1);
+      blend_half(rows, v / 8, 0);
+      blend_half(rows, v / 8, 1);
     } else {
       blend_vertices(rows, v, v + 8);
     }

@@ -18,9 +18,12 @@ void blend_half(const BlendRows& rows, std::int32_t block, std::size_t half) noe
     const float64x2_t w0 = vcvt_f64_f32(vget_low_f32(w)), w1 = vcvt_high_f64_f32(w);
     for (int j = 0; j < 4; ++j) {
       const float64x2_t xy = vld1q_f64(a + 4 * j), z = vld1q_f64(a + 4 * j + 2);
-      join(low[3 * j], vmulq_laneq_f64(w0, xy, 0)), join(high[3 * j], vmulq_laneq_f64(w1, xy, 0));
-      join(low[3 * j + 1], vmulq_laneq_f64(w0, xy, 1)), join(high[3 * j + 1], vmulq_laneq_f64(w1, xy, 1));
-      join(low[3 * j + 2], vmulq_laneq_f64(w0, z, 0)), join(high[3 * j + 2], vmulq_laneq_f64(w1, z, 0));
+      join(low[3 * j], vmulq_laneq_f64(w0, xy, 0));
+      join(high[3 * j], vmulq_laneq_f64(w1, xy, 0));
+      join(low[3 * j + 1], vmulq_laneq_f64(w0, xy, 1));
+      join(high[3 * j + 1], vmulq_laneq_f64(w1, xy, 1));
+      join(low[3 * j + 2], vmulq_laneq_f64(w0, z, 0));
+      join(high[3 * j + 2], vmulq_laneq_f64(w1, z, 0));
     }
   };
   add(begin, [](float64x2_t& to, float64x2_t part) { to = part; });
@@ -39,7 +42,8 @@ void blend_half(const BlendRows& rows, std::int32_t block, std::size_t half) noe
     }
     vst3q_f64(rows.positions + at + first, out);
   };
-  finish(low, 0), finish(high, 6);
+  finish(low, 0);
+  finish(high, 6);
 }
 
 void blend_vertices(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept {
@@ -57,13 +61,17 @@ void blend_vertices(const BlendRows& rows, std::int32_t first, std::int32_t last
       float64x2_t w = vdupq_n_f64(static_cast<double>(rows.weight[begin]));
       for (int j = 0; j < 8; ++j) sum[j] = vmulq_f64(w, vld1q_f64(a + 2 * j));
       for (std::int32_t k = begin + 1; k < end; ++k) {
-        a = column(k), w = vdupq_n_f64(static_cast<double>(rows.weight[k]));
+        a = column(k);
+        w = vdupq_n_f64(static_cast<double>(rows.weight[k]));
         for (int j = 0; j < 8; ++j) sum[j] = vaddq_f64(sum[j], vmulq_f64(w, vld1q_f64(a + 2 * j)));
       }
       float64x2_t low = vmulq_n_f64(sum[0], p[0]), high = vmulq_n_f64(sum[1], p[0]);
-      low = vaddq_f64(low, vmulq_n_f64(sum[2], p[1])), high = vaddq_f64(high, vmulq_n_f64(sum[3], p[1]));
-      low = vaddq_f64(low, vmulq_n_f64(sum[4], p[2])), high = vaddq_f64(high, vmulq_n_f64(sum[5], p[2]));
-      xy = vaddq_f64(low, sum[6]), z = vgetq_lane_f64(vaddq_f64(high, sum[7]), 0);
+      low = vaddq_f64(low, vmulq_n_f64(sum[2], p[1]));
+      high = vaddq_f64(high, vmulq_n_f64(sum[3], p[1]));
+      low = vaddq_f64(low, vmulq_n_f64(sum[4], p[2]));
+      high = vaddq_f64(high, vmulq_n_f64(sum[5], p[2]));
+      xy = vaddq_f64(low, sum[6]);
+      z = vgetq_lane_f64(vaddq_f64(high, sum[7]), 0);
     }
     vst1q_f64(out, vaddq_f64(offset, vmulq_n_f64(xy, rows.scale)));
     out[2] = rows.offset[2] + rows.scale * z;
@@ -76,7 +84,8 @@ void blend_rows_neon(const BlendRows& rows, std::int32_t first, std::int32_t las
   std::int32_t v = first;
   for (; rows.block_start && v + 8 <= last; v += 8) {
     if (rows.block_start[v / 8] < rows.block_start[v / 8 + 1]) {
-      blend_half(rows, v / 8, 0), blend_half(rows, v / 8, 1);
+      blend_half(rows, v / 8, 0);
+      blend_half(rows, v / 8, 1);
     } else {
       blend_vertices(rows, v, v + 8);
     }

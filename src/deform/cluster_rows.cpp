@@ -120,7 +120,8 @@ struct PieceRows {
     std::size_t largest = 0;
     for (std::size_t k = 1; k < row.size(); ++k) largest = row[k].weight > row[largest].weight ? k : largest;
     const std::size_t first = weight.size();
-    cluster.resize(first + row.size()), weight.resize(first + row.size());
+    cluster.resize(first + row.size());
+    weight.resize(first + row.size());
     for (std::size_t k = 0; k < row.size(); ++k) {
       const double whole = std::max(1, static_cast<std::int32_t>(steps * row[k].weight + 0.5));
       left -= whole;
@@ -138,7 +139,8 @@ void make_rows(const BandSource& source, std::int32_t first, std::int32_t last, 
   RowMaker maker(source, memory);
   const std::size_t room = static_cast<std::size_t>(last - first) + (source.degree + 1) * bands.slot.size();
   out.length.reserve(static_cast<std::size_t>(last - first));
-  out.cluster.reserve(room), out.weight.reserve(room);
+  out.cluster.reserve(room);
+  out.weight.reserve(room);
   for (std::int32_t v = first; v < last; ++v) {
     const std::size_t before = out.cluster.size();
     const Span<const std::int32_t> present = source.reach.handles_of(source.core.mesh.component[v]);
@@ -174,7 +176,8 @@ void write_rows(const BandSource& source, const Vector<PieceBands>& pieces,
   for (std::int32_t v = 0; v < n; ++v)
     out.start[v + 1] = out.start[v] + rows[v / vertex_piece].length[v % vertex_piece];
   poll();
-  out.cluster.resize(out.start[n]), out.weight.resize(out.start[n]);
+  out.cluster.resize(out.start[n]);
+  out.weight.resize(out.start[n]);
   for_vertex_pieces(jobs, n, [&](std::int32_t first, std::int32_t) {
     const PieceRows& own = rows[first / vertex_piece];
     std::copy(own.cluster.begin(), own.cluster.end(), out.cluster.begin() + out.start[first]);

@@ -17,10 +17,18 @@ void dot_four(const double* a, const double* b0, const double* b1, const double*
   for (; k + 2 <= count; k += 2) {
     for (int u = 0; u < 2; ++u) {
       const double x = a[k + u];
-      s[0][u] += x * b0[k + u], s[1][u] += x * b1[k + u], s[2][u] += x * b2[k + u], s[3][u] += x * b3[k + u];
+      s[0][u] += x * b0[k + u];
+      s[1][u] += x * b1[k + u];
+      s[2][u] += x * b2[k + u];
+      s[3][u] += x * b3[k + u];
     }
   }
-  if (k < count) s[0][0] += a[k] * b0[k], s[1][0] += a[k] * b1[k], s[2][0] += a[k] * b2[k], s[3][0] += a[k] * b3[k];
+  if (k < count) {
+    s[0][0] += a[k] * b0[k];
+    s[1][0] += a[k] * b1[k];
+    s[2][0] += a[k] * b2[k];
+    s[3][0] += a[k] * b3[k];
+  }
   for (int r = 0; r < 4; ++r) out[r] = s[r][0] + s[r][1];
 }
 
@@ -79,7 +87,8 @@ void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size, Memory& m
   inverse_pivot_.allocate(memory, static_cast<std::size_t>(size));
   std::fill(inverse_pivot_.begin(), inverse_pivot_.end(), 0.0);
   lower_ = std::move(lower);
-  size_ = size, dropped_ = 0;
+  size_ = size;
+  dropped_ = 0;
   const std::size_t stride = static_cast<std::size_t>(size);
   for (std::int32_t i = 0; i < size; ++i) {
     double* row = lower_.data() + stride * static_cast<std::size_t>(i);

@@ -49,12 +49,15 @@ class Spreading {
     }
     step_ = ends > 0 ? total / static_cast<double>(ends) : 0.0;
     const std::size_t blocks = (vertices.size() + block - 1) / block;
-    best_.assign(blocks, 0), stale_.assign(blocks, 1);
+    best_.assign(blocks, 0);
+    stale_.assign(blocks, 1);
   }
 
   void add(std::int32_t group, std::int32_t seed) {
     const auto reach = [&](Node& node, double distance) {
-      node.distance = distance, node.group = group, stale_[node.block] = 1;
+      node.distance = distance;
+      node.group = group;
+      stale_[node.block] = 1;
     };
     reach(node_[seed], 0.0);
     near_.assign(1, Front{0.0, seed});
@@ -137,8 +140,11 @@ std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups,
 
   auto grown = make_shared_in<Groups>(memory, memory);
   if (groups) {
-    grown->group_of = groups->group_of, grown->seed = groups->seed, grown->component = groups->component;
-    grown->component_start = groups->component_start, grown->component_end = groups->component_end;
+    grown->group_of = groups->group_of;
+    grown->seed = groups->seed;
+    grown->component = groups->component;
+    grown->component_start = groups->component_start;
+    grown->component_end = groups->component_end;
   } else {
     grown->group_of.assign(core.size(), -1);
     grown->component_start.assign(core.mesh.component_count(), 0);
@@ -159,7 +165,8 @@ std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups,
       const std::int32_t seed = spreading.farthest();
       if (k > 0 && !(spreading.distance(seed) > 0)) break;  // every vertex is a seed or coincides with one
       spreading.add(grown->count(), seed);
-      grown->seed.push_back(seed), grown->component.push_back(c);
+      grown->seed.push_back(seed);
+      grown->component.push_back(c);
     }
     grown->component_end[c] = grown->count();
     for (const std::int32_t v : vertices) grown->group_of[v] = spreading.group(v);

@@ -114,17 +114,22 @@ Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Me
   double least = std::numeric_limits<double>::infinity();
   for (std::int32_t v = 0; v < core.size(); ++v) {
     const Vec3 d = mesh.positions[v] - point;
-    if (dot(d, d) < least) least = dot(d, d), nearest = v;
+    if (dot(d, d) < least) {
+      least = dot(d, d);
+      nearest = v;
+    }
   }
   Vector<std::int32_t> region(&memory);
   Vector<std::uint8_t> seen(static_cast<std::size_t>(core.size()), 0, &memory);
-  region.push_back(nearest), seen[nearest] = 1;
+  region.push_back(nearest);
+  seen[nearest] = 1;
   for (std::size_t at = 0; at < region.size(); ++at) {
     const std::int32_t v = region[at];
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
       const std::int32_t u = topology.neighbour[k];
       if (seen[u] || !(norm(mesh.positions[u] - point) <= radius)) continue;
-      region.push_back(u), seen[u] = 1;
+      region.push_back(u);
+      seen[u] = 1;
     }
   }
   std::sort(region.begin(), region.end());
@@ -211,7 +216,10 @@ void set_handle_sites(const Core& core, SiteSolver& solver, const Handles& befor
   }
   if (remove.empty() && add.empty()) return;
   SiteEdit edit;
-  edit.remove = remove, edit.add = add, edit.sites = sites, edit.history_free = true;
+  edit.remove = remove;
+  edit.add = add;
+  edit.sites = sites;
+  edit.history_free = true;
   solver.edit(edit);
 }
 

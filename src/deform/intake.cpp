@@ -29,7 +29,8 @@ void check_skeleton(const hf_propose_desc& desc) {
   if (desc.joint_count > most_skeleton_joints)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "joint_count is %u; it must be at most %u", desc.joint_count,
          most_skeleton_joints);
-  require(desc.joints, "joints"), require(desc.parents, "parents");
+  require(desc.joints, "joints");
+  require(desc.parents, "parents");
   for (std::uint32_t j = 0; j < desc.joint_count; ++j) {
     const double* p = desc.joints + 3 * std::size_t{j};
     if (!is_finite_point(p)) fail(HF_ERROR_NON_FINITE, j, "joint %u is not finite", j);
@@ -45,16 +46,20 @@ HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& 
   check_region_count(0, desc.handle_count, "handle");  // before lists of that length are read
   check_flag(desc.in_place, "in_place");
   HandleInput input(&memory);
-  input.layer = desc.layer, input.in_place = desc.in_place != 0, input.by_points = desc.points || desc.radii;
+  input.layer = desc.layer;
+  input.in_place = desc.in_place != 0;
+  input.by_points = desc.points || desc.radii;
   if (input.by_points) {
     if (desc.region_counts || desc.region_vertices)
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "regions and points are both set; set one");
-    require(desc.points, "points"), require(desc.radii, "radii");
+    require(desc.points, "points");
+    require(desc.radii, "radii");
     const std::size_t count = desc.handle_count;
     regions_near(core, {desc.points, 3 * count}, {desc.radii, count}, input.start, input.vertices);
     return input;
   }
-  require(desc.region_counts, "region_counts"), require(desc.region_vertices, "region_vertices");
+  require(desc.region_counts, "region_counts");
+  require(desc.region_vertices, "region_vertices");
   append_starts(desc.handle_count, desc.region_counts, core.mesh.report.vertex_count, input.start);
   append_inner(core.mesh, input.start.back(), desc.region_vertices, "region_vertices", input.vertices);
   return input;
@@ -105,7 +110,8 @@ DeformRequest read_request(const hf_deform_desc& desc) {
   DeformRequest request;
   request.normals = desc.normals != nullptr;
   request.iteration_count = desc.iteration_count;
-  request.restart = desc.restart != 0, request.refine = static_cast<std::uint32_t>(desc.refine);
+  request.restart = desc.restart != 0;
+  request.refine = static_cast<std::uint32_t>(desc.refine);
   request.refine_from_last = desc.refine_from_last != 0;
   return request;
 }

@@ -9,7 +9,10 @@ namespace {
 struct Histogram {
   double cubed[Levels::bins], squared[Levels::bins];
   void add(const Histogram& other) noexcept {
-    for (int b = 0; b < Levels::bins; ++b) cubed[b] += other.cubed[b], squared[b] += other.squared[b];
+    for (int b = 0; b < Levels::bins; ++b) {
+      cubed[b] += other.cubed[b];
+      squared[b] += other.squared[b];
+    }
   }
 };
 
@@ -24,7 +27,10 @@ void add_triangle(const Rest::SampledTriangle& t, const double (&values)[3], His
   const int first = std::min(static_cast<int>(low * Levels::bins), Levels::bins - 1);
   const int last = std::min(static_cast<int>(high * Levels::bins), Levels::bins - 1);
   const double squared = area * length * length, cubed = squared * length;
-  for (int b = first; b <= last; ++b) histogram.squared[b] += squared, histogram.cubed[b] += cubed;
+  for (int b = first; b <= last; ++b) {
+    histogram.squared[b] += squared;
+    histogram.cubed[b] += cubed;
+  }
 }
 
 void set_equal_value(Levels& levels) noexcept {
@@ -123,7 +129,8 @@ BandValues band_values(double level, std::int32_t band_count, int degree) noexce
   BandValues b{span, {0, 0, 0}};
   const double u = x - span;
   if (degree == 1) {
-    b.value[0] = 1 - u, b.value[1] = u;
+    b.value[0] = 1 - u;
+    b.value[1] = u;
     return b;
   }
   const double low = span == 0 ? 1.0 : 2.0,

@@ -18,7 +18,10 @@ void add_border_normals(const NormalRows& rows, const std::int32_t* corners, std
     const double* p[3];
     for (int k = 0; k < 3; ++k) p[k] = rows.positions + 3 * static_cast<std::size_t>(corner[k]);
     double a[3], b[3];
-    for (int c = 0; c < 3; ++c) a[c] = rows.unit * (p[1][c] - p[0][c]), b[c] = rows.unit * (p[2][c] - p[0][c]);
+    for (int c = 0; c < 3; ++c) {
+      a[c] = rows.unit * (p[1][c] - p[0][c]);
+      b[c] = rows.unit * (p[2][c] - p[0][c]);
+    }
     const float n[3] = {static_cast<float>(a[1] * b[2] - a[2] * b[1]), static_cast<float>(a[2] * b[0] - a[0] * b[2]),
                         static_cast<float>(a[0] * b[1] - a[1] * b[0])};
     for (int k = 0; k < 3; ++k) {
@@ -48,9 +51,11 @@ void add_face_normals(const NormalRows& rows, const Faces& faces, const Rest& re
       Vec3 normal, before = side(1);
       for (std::size_t k = 2; k < corner.size(); ++k) {
         const Vec3 next = side(k);
-        normal = normal + cross(before, next), before = next;
+        normal = normal + cross(before, next);
+        before = next;
       }
-      sum[0] += static_cast<float>(normal.x), sum[1] += static_cast<float>(normal.y);
+      sum[0] += static_cast<float>(normal.x);
+      sum[1] += static_cast<float>(normal.y);
       sum[2] += static_cast<float>(normal.z);
     }
   }
@@ -63,13 +68,16 @@ void normalise(const NormalRows& rows, std::int32_t first, std::int32_t last) no
     const float x = sum[0], y = sum[1], z = sum[2], square = x * x + y * y + z * z;
     if (square > shortest_sum * shortest_sum && square < longest_sum * longest_sum) {
       const float s = 1.0f / std::sqrt(square);
-      normal[0] = s * x, normal[1] = s * y, normal[2] = s * z;
+      normal[0] = s * x;
+      normal[1] = s * y;
+      normal[2] = s * z;
       continue;
     }
     const double dx = x, dy = y, dz = z, length = std::sqrt(dx * dx + dy * dy + dz * dz);
     const bool directed = length > least_normal_sum && std::isfinite(length);
     const double s = directed ? 1.0 / length : 0.0;
-    normal[0] = static_cast<float>(s * dx), normal[1] = static_cast<float>(s * dy);
+    normal[0] = static_cast<float>(s * dx);
+    normal[1] = static_cast<float>(s * dy);
     normal[2] = directed ? static_cast<float>(s * dz) : 1.0f;
     if (!directed) normal[0] = normal[1] = 0;
   }
@@ -85,10 +93,14 @@ void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, N
   auto* add_inner = &add_inner_normals;
   auto* add_border = &add_border_normals;
 #ifdef HF_DEFORM_AVX2
-  if (HF_PROCESSOR_HAS("avx2")) add_inner = &add_inner_normals_avx2, add_border = &add_border_normals_avx2;
+  if (HF_PROCESSOR_HAS("avx2")) {
+    add_inner = &add_inner_normals_avx2;
+    add_border = &add_border_normals_avx2;
+  }
 #endif
 #ifdef HF_DEFORM_NEON
-  add_inner = &add_inner_normals_neon, add_border = &add_border_normals_neon;
+  add_inner = &add_inner_normals_neon;
+  add_border = &add_border_normals_neon;
 #endif
   for_vertex_pieces(jobs, mesh.vertex_count(), [&](std::int32_t first, std::int32_t last) {
     const std::int32_t piece = first / vertex_piece, begin = rest.piece_start[piece], border = rest.piece_border[piece],

@@ -25,9 +25,13 @@ struct Members {
     };
     for_entries([&](std::int32_t, std::int32_t f, double) { ++start[f + 1]; });
     for (std::size_t f = 0; f + 1 < start.size(); ++f) start[f + 1] += start[f];
-    vertex.resize(start.back()), weight.resize(start.back());
+    vertex.resize(start.back());
+    weight.resize(start.back());
     Vector<std::int32_t> next(start, &memory);
-    for_entries([&](std::int32_t v, std::int32_t f, double w) { vertex[next[f]] = v, weight[next[f]++] = w; });
+    for_entries([&](std::int32_t v, std::int32_t f, double w) {
+      vertex[next[f]] = v;
+      weight[next[f]++] = w;
+    });
   }
 };
 
@@ -41,11 +45,12 @@ RigidMotion match_shape(const PaperSystem& system, const Mesh& mesh, std::int32_
   for (std::int32_t k = system.cluster_start[f]; k < system.cluster_start[f + 1]; ++k) {
     const PaperSystem::Member& m = system.member[k];
     sum += m.weight;
-    rest_centre = rest_centre + m.weight * mesh.positions[system.sample[m.sample]],
+    rest_centre = rest_centre + m.weight * mesh.positions[system.sample[m.sample]];
     centre = centre + m.weight * position_of(m.sample);
   }
   if (!(sum > 0)) return {near, {}};
-  rest_centre = (1.0 / sum) * rest_centre, centre = (1.0 / sum) * centre;
+  rest_centre = (1.0 / sum) * rest_centre;
+  centre = (1.0 / sum) * centre;
   Mat3 s;
   for (std::int32_t k = system.cluster_start[f]; k < system.cluster_start[f + 1]; ++k) {
     const PaperSystem::Member& m = system.member[k];
@@ -61,11 +66,17 @@ RigidMotion match_shape(const PaperSystem& system, const Mesh& mesh, std::int32_
 void note_motion(const RigidMotion& now, const RigidMotion& fit, std::size_t f, PaperState& state) noexcept {
   double *z = state.iterate.data() + 7 * f, *r = state.residual.data() + 7 * f;
   const double sign = fit.rotation.dot(now.rotation) < 0 ? -1.0 : 1.0;
-  for (int i = 0; i < 4; ++i)
-    z[i] = now.rotation.coeffs()[i], r[i] = sign * fit.rotation.coeffs()[i] - now.rotation.coeffs()[i];
+  for (int i = 0; i < 4; ++i) {
+    z[i] = now.rotation.coeffs()[i];
+    r[i] = sign * fit.rotation.coeffs()[i] - now.rotation.coeffs()[i];
+  }
   const Vec3 t = now.translation, step = fit.translation - now.translation;
-  z[4] = t.x, z[5] = t.y, z[6] = t.z;
-  r[4] = step.x, r[5] = step.y, r[6] = step.z;
+  z[4] = t.x;
+  z[5] = t.y;
+  z[6] = t.z;
+  r[4] = step.x;
+  r[5] = step.y;
+  r[6] = step.z;
 }
 
 RigidMotion noted_motion(const PaperState& state, std::size_t f) noexcept {
@@ -81,7 +92,9 @@ Affine to_affine(const RigidMotion& motion) noexcept {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) affine.a[i][j] = r(i, j);
   }
-  affine.a[0][3] = motion.translation.x, affine.a[1][3] = motion.translation.y, affine.a[2][3] = motion.translation.z;
+  affine.a[0][3] = motion.translation.x;
+  affine.a[1][3] = motion.translation.y;
+  affine.a[2][3] = motion.translation.z;
   return affine;
 }
 
@@ -104,7 +117,10 @@ PaperSystem::PaperSystem(const Core& core, const ClusterWeights& weights, Memory
                 (members.weight.begin() + first);
     for (std::int32_t taken = 0; taken < std::min(count, samples_per_cluster); ++taken) {
       const std::int32_t v = members.vertex[first + next];
-      if (number[v] < 0) number[v] = static_cast<std::int32_t>(sample.size()), sample.push_back(v);
+      if (number[v] < 0) {
+        number[v] = static_cast<std::int32_t>(sample.size());
+        sample.push_back(v);
+      }
       member.push_back({number[v], members.weight[first + next]});
       for (std::int32_t k = 0; k < count; ++k) {
         const Vec3 d = mesh.positions[members.vertex[first + k]] - mesh.positions[v];
@@ -121,7 +137,9 @@ void PaperState::fit(const PaperSystem& system) {
   motion.assign(system.free_count, RigidMotion());
   position.assign(system.sample.size(), Vec3());
   const std::size_t size = 7 * static_cast<std::size_t>(system.free_count);
-  iterate.assign(size, 0.0), residual.assign(size, 0.0), anderson.fit(size);
+  iterate.assign(size, 0.0);
+  residual.assign(size, 0.0);
+  anderson.fit(size);
 }
 
 void fit_motions(const PaperSystem& system, const Mesh& mesh, const Vec3* positions, PaperState& state) noexcept {
@@ -138,7 +156,8 @@ SolveReport solve_paper_pose(const PaperSystem& system, const Mesh& mesh, const 
   if (system.free_count == 0) return report;
   state.anderson.forget();
   while (report.iterations < iterations) {
-    ++report.iterations, report.last_change = 0;
+    ++report.iterations;
+    report.last_change = 0;
     for (std::size_t s = 0; s < system.sample.size(); ++s)
       state.position[s] = blend_vertex(mesh, weights, transforms, system.sample[s]);
     double moved = 0;

@@ -56,14 +56,17 @@ std::shared_ptr<Pose> Pose::make(std::shared_ptr<const Core> core, const PoseOpt
 std::shared_ptr<Pose> Pose::clone() const {
   auto copy = make_owner_in<Pose>(core_->memory, core_, options_, rest_);
   copy->groups_ = groups_;
-  copy->layout_ = layout_, copy->previous_layout_ = previous_layout_;
+  copy->layout_ = layout_;
+  copy->previous_layout_ = previous_layout_;
   if (state_) copy->state_ = make_shared_in<State>(memory(), *state_, memory());
   copy->previous_state_ = previous_state_;
   if (posed_) {
     ensure_surface();
     std::memcpy(copy->positions_.data(), positions_.data(), positions_.size() * sizeof(Vec3));
   }
-  copy->posed_ = posed_, copy->refined_ = refined_, copy->report_ = report_;
+  copy->posed_ = posed_;
+  copy->refined_ = refined_;
+  copy->report_ = report_;
   return copy;
 }
 
@@ -133,7 +136,8 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
   std::shared_ptr<const Layout> layout = make_layout(handles);
   std::shared_ptr<State> state = carry_over(*layout);
   if (in_place && posed_) keep_in_place(*layout, *state);
-  previous_layout_ = layout_, previous_state_ = state_;
+  previous_layout_ = layout_;
+  previous_state_ = state_;
   install(std::move(layout), std::move(state));
   for (std::size_t r = 0; r < out_numbers.size(); ++r) out_numbers[r] = layout_->handles[first + r].number;
 }
@@ -150,14 +154,16 @@ void Pose::remove_handles(Span<const std::uint32_t> numbers) {
     if (!leaving[i]) remaining.push_back(layout_->handles[i]);
   }
   if (remaining.empty()) {
-    previous_layout_.reset(), previous_state_.reset();
+    previous_layout_.reset();
+    previous_state_.reset();
     install(nullptr, nullptr);
     return;
   }
   if (restore_previous(remaining)) return;
   std::shared_ptr<const Layout> layout = make_layout(remaining);
   std::shared_ptr<State> state = carry_over(*layout);
-  previous_layout_.reset(), previous_state_.reset();
+  previous_layout_.reset();
+  previous_state_.reset();
   install(std::move(layout), std::move(state));
 }
 
@@ -177,18 +183,25 @@ bool Pose::restore_previous(const Handles& remaining) {
     const bool same = std::memcmp(&now.rotation, &then.rotation, sizeof now.rotation) == 0 &&
                       std::memcmp(&now.translation, &then.translation, sizeof now.translation) == 0;
     state->changed = state->changed || !same;
-    then.rotation = now.rotation, then.translation = now.translation, then.turn = now.turn;
+    then.rotation = now.rotation;
+    then.translation = now.translation;
+    then.turn = now.turn;
   }
   std::shared_ptr<const Layout> layout = std::move(previous_layout_);
-  previous_layout_.reset(), previous_state_.reset();
+  previous_layout_.reset();
+  previous_state_.reset();
   install(std::move(layout), std::move(state));
   return true;
 }
 
 void Pose::install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept {
-  layout_ = std::move(layout), state_ = std::move(state);
+  layout_ = std::move(layout);
+  state_ = std::move(state);
   if (layout_ && layout_->groups) groups_ = layout_->groups;
-  if (!layout_) posed_ = false, stale_ = false;
+  if (!layout_) {
+    posed_ = false;
+    stale_ = false;
+  }
 }
 
 // Makes the groups of vertices that share a rotation, in components with at least two handles. This needs no field, so
@@ -226,7 +239,10 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) co
   }
   BandOptions bands;
   bands.band_count = static_cast<std::int32_t>(options_.band_count);
-  if (options_.mode == DeformMode::paper) bands.degree = 1, bands.spacing = BandSpacing::equal_value;
+  if (options_.mode == DeformMode::paper) {
+    bands.degree = 1;
+    bands.spacing = BandSpacing::equal_value;
+  }
   layout->weights = make_cluster_weights(*core_, *rest_, layout->reach, layout->fields, bands, memory());
   list_blocks(layout->weights, *core_->jobs);
   if (options_.mode == DeformMode::smooth) {
@@ -242,8 +258,10 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) co
 RigidMotion Pose::fit_region(const Handle& handle) const {
   ensure_surface();
   Vector<Vec3> rest(&memory()), posed(&memory());
-  for (const std::int32_t v : handle.region->vertices)
-    rest.push_back(core_->mesh.positions[v]), posed.push_back(core_->mesh.to_inner(positions_[v]));
+  for (const std::int32_t v : handle.region->vertices) {
+    rest.push_back(core_->mesh.positions[v]);
+    posed.push_back(core_->mesh.to_inner(positions_[v]));
+  }
   return fit_rigid(rest, posed, {}, Quaternion());
 }
 
@@ -255,8 +273,10 @@ void Pose::keep_in_place(const Layout& layout, State& state) {
     const RigidMotion motion = fit_region(layout.handles[i]);
     HandleState& handle = state.handles[i];
     const Vec3 centroid = layout.handles[i].region->centroid;
-    handle.rotation = motion.rotation, handle.translation = apply(motion, centroid) - centroid;
-    handle.turn = handle.solved_turn = logarithm(motion.rotation), handle.solved = motion.rotation;
+    handle.rotation = motion.rotation;
+    handle.translation = apply(motion, centroid) - centroid;
+    handle.turn = handle.solved_turn = logarithm(motion.rotation);
+    handle.solved = motion.rotation;
   }
   if (!layout.smooth) return;
   place_handles(layout, state);
@@ -264,15 +284,17 @@ void Pose::keep_in_place(const Layout& layout, State& state) {
   for (const HandleState& handle : state.handles) turns.push_back(handle.turn);
   set_turn_limit(*layout.smooth, turns, state.smooth);
   solve_pose(*layout.smooth, crossfade_iterations, settled_change, state.smooth, state.transforms.data());
-  state.started = true, state.changed = false;  // no frame solves again before a handle moves
+  state.started = true;
+  state.changed = false;  // no frame solves again before a handle moves
   const std::size_t n = positions_.size();
   Buffer<Vec3> fresh(memory(), n);
   blend(core_->mesh, layout.weights, state.transforms.data(), state.columns.data(), core_->mesh.centre,
         core_->mesh.scale, fresh.data(), nullptr, *core_->jobs);
   if (state.followed) state.followed->lead(fresh.data(), positions_.data());
-  if (refined_ > 0)
-    make_refinement(layout, refined_, state.followed.get()),
-        refine(layout, state, state.followed ? 0 : refined_, fresh.data());
+  if (refined_ > 0) {
+    make_refinement(layout, refined_, state.followed.get());
+    refine(layout, state, state.followed ? 0 : refined_, fresh.data());
+  }
   auto crossfade = make_shared_in<Crossfade>(memory(), n, memory());
   const Span<const RigidMotion> now = placed(state);
   crossfade->placed.assign(now.begin(), now.end());
@@ -281,7 +303,9 @@ void Pose::keep_in_place(const Layout& layout, State& state) {
   for (std::size_t v = 0; v < n; ++v) {
     const Vec3 d = positions_[v] - fresh[v];
     float* offset = crossfade->offset.data() + 3 * v;
-    offset[0] = static_cast<float>(d.x), offset[1] = static_cast<float>(d.y), offset[2] = static_cast<float>(d.z);
+    offset[0] = static_cast<float>(d.x);
+    offset[1] = static_cast<float>(d.y);
+    offset[2] = static_cast<float>(d.z);
   }
   state.crossfade = std::move(crossfade);
 }

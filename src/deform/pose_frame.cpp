@@ -72,7 +72,8 @@ void Pose::set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTr
     const bool same = std::memcmp(&rotation, &handle.rotation, sizeof rotation) == 0 &&
                       std::memcmp(&translation, &handle.translation, sizeof translation) == 0;
     handle.turn = continued_logarithm(rotation, handle.turn);
-    handle.rotation = rotation, handle.translation = translation;
+    handle.rotation = rotation;
+    handle.translation = translation;
     state_->changed = state_->changed || !same;
   }
 }
@@ -110,12 +111,18 @@ void Pose::solve_smooth(std::uint32_t iterations) noexcept {
   }
   for (std::size_t i = 0; i < count; ++i) turns_[i] = state.handles[i].turn;
   set_turn_limit(*layout_->smooth, {turns_.data(), count}, state.smooth);
-  for (HandleState& handle : state.handles) handle.solved = handle.rotation, handle.solved_turn = handle.turn;
+  for (HandleState& handle : state.handles) {
+    handle.solved = handle.rotation;
+    handle.solved_turn = handle.turn;
+  }
   report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
 }
 
 void Pose::solve_paper(std::uint32_t iterations) noexcept {
-  for (HandleState& handle : state_->handles) handle.solved = handle.rotation, handle.solved_turn = handle.turn;
+  for (HandleState& handle : state_->handles) {
+    handle.solved = handle.rotation;
+    handle.solved_turn = handle.turn;
+  }
   report_ = solve_paper_pose(*layout_->paper, core_->mesh, layout_->weights, iterations, settled_change, state_->paper,
                              state_->transforms.data());
 }
@@ -160,7 +167,8 @@ struct Pose::Kept {
 
 std::shared_ptr<Pose::Kept> Pose::keep(bool whole) {
   auto kept = make_shared_in<Kept>(memory());
-  kept->refinement = refinement_, kept->whole = whole;
+  kept->refinement = refinement_;
+  kept->whole = whole;
   if (!whole) return kept;
   kept->positions.allocate(memory(), positions_.size());
   std::memcpy(kept->positions.data(), positions_.data(), positions_.size() * sizeof(Vec3));
@@ -168,15 +176,22 @@ std::shared_ptr<Pose::Kept> Pose::keep(bool whole) {
     kept->state = make_shared_in<State>(memory(), *state_, memory());
     kept->state.swap(state_);
   }
-  kept->posed = posed_, kept->stale = stale_, kept->refined = refined_, kept->report = report_;
+  kept->posed = posed_;
+  kept->stale = stale_;
+  kept->refined = refined_;
+  kept->report = report_;
   return kept;
 }
 
 void Pose::put_back(Kept& kept) noexcept {
   refinement_.swap(kept.refinement);
   if (!kept.whole) return;
-  state_.swap(kept.state), positions_.swap(kept.positions);
-  posed_ = kept.posed, stale_ = kept.stale, refined_ = kept.refined, report_ = kept.report;
+  state_.swap(kept.state);
+  positions_.swap(kept.positions);
+  posed_ = kept.posed;
+  stale_ = kept.stale;
+  refined_ = kept.refined;
+  report_ = kept.report;
 }
 
 void Pose::ensure_surface() const {
@@ -217,7 +232,8 @@ Vec3 Pose::blended(std::int32_t vertex) const noexcept {
 // Vertices and normals from the transforms.
 void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
   const Mesh& mesh = core_->mesh;
-  posed_ = true, refined_ = request.refine;
+  posed_ = true;
+  refined_ = request.refine;
   stale_ = !request.surface;
   report.cluster_count = static_cast<std::uint32_t>(layout_->weights.cluster_count);
   report.unreached_vertex_count = static_cast<std::uint32_t>(layout_->weights.unreached_vertex_count);
@@ -254,7 +270,8 @@ DeformReport Pose::deform(const DeformRequest& request) {
   if (request.restart) {
     for (HandleState& handle : state.handles) handle.turn = logarithm(handle.rotation);
     for (RigidMotion& motion : state.paper.motion) motion = RigidMotion();
-    state.started = false, state.changed = true;
+    state.started = false;
+    state.changed = true;
     state.crossfade.reset();
     if (state.followed) state.followed->forget();
   }
@@ -273,7 +290,9 @@ DeformReport Pose::deform(const DeformRequest& request) {
     }
     report.iteration_count = report_.iterations;
     state.idle_iterations += report_.iterations;
-    state.started = true, state.changed = false, state.last_change = report_.last_change;
+    state.started = true;
+    state.changed = false;
+    state.last_change = report_.last_change;
   }
   report.solve_ms = solve_timer.milliseconds();
   write_surface(request, report);
@@ -325,7 +344,9 @@ DeformReport Pose::deform_from(const Pose& start, Span<const Vec3> turns, const 
                                state.transforms.data());
   }
   report.iteration_count = report_.iterations;
-  state.started = true, state.changed = true, state.last_change = report_.last_change;
+  state.started = true;
+  state.changed = true;
+  state.last_change = report_.last_change;
   report.solve_ms = solve_timer.milliseconds();
   write_surface(request, report);
   return report;

@@ -138,12 +138,18 @@ void set_right_hand_side(const SmoothSystem& system, SmoothState& state) noexcep
     std::int32_t nearest = 0;
     mean_of_groups(s, first, last, state.columns.data(), sum);
     for (std::int32_t k = first; k < last; ++k) {
-      if (s.mean[k].area > heaviest) heaviest = s.mean[k].area, nearest = s.mean[k].group;
+      if (s.mean[k].area > heaviest) {
+        heaviest = s.mean[k].area;
+        nearest = s.mean[k].group;
+      }
     }
     batch.set_columns(count, sum);
     batch.set_rotation(count, state.rotation[s.group[nearest]]);
     cluster[count++] = f;
-    if (count == RotationBatch::lanes) add_means(system, batch, cluster, count, free_rows), count = 0;
+    if (count == RotationBatch::lanes) {
+      add_means(system, batch, cluster, count, free_rows);
+      count = 0;
+    }
   }
   if (count > 0) add_means(system, batch, cluster, count, free_rows);
 }
@@ -196,12 +202,17 @@ double note_group(const SmoothSystem& system, std::size_t g, Quaternion fit, con
   double square = 0;
   for (int i = 0; i < 4; ++i) {
     const double change = fit.coeffs()[i] - q.coeffs()[i];
-    z[i] = quaternion_weight * q.coeffs()[i], f[i] = quaternion_weight * change, square += change * change;
+    z[i] = quaternion_weight * q.coeffs()[i];
+    f[i] = quaternion_weight * change;
+    square += change * change;
   }
   const Stress& stress = state.stress[g];
   const double share = strain_limits[system.sheet[g].limits].follow;
-  z[4] = stress.along, z[5] = root_of_two * stress.across, z[6] = stress.beside;
-  f[4] = share * (wanted.along - stress.along), f[5] = root_of_two * share * (wanted.across - stress.across),
+  z[4] = stress.along;
+  z[5] = root_of_two * stress.across;
+  z[6] = stress.beside;
+  f[4] = share * (wanted.along - stress.along);
+  f[5] = root_of_two * share * (wanted.across - stress.across);
   f[6] = share * (wanted.beside - stress.beside);
   return std::max(8.0 * square * (1.0 - 0.25 * square), f[4] * f[4] + f[5] * f[5] + f[6] * f[6]);
 }
@@ -241,7 +252,10 @@ double fit_rotations(const SmoothSystem& system, SmoothState& state) noexcept {
     }
   }
   state.anderson.step(state.iterate, state.residual, 7, longest_leap);
-  for (std::size_t g = 0; g < s.group.size(); ++g) take_group(system, g, state), set_target(system, g, state);
+  for (std::size_t g = 0; g < s.group.size(); ++g) {
+    take_group(system, g, state);
+    set_target(system, g, state);
+  }
   return std::sqrt(largest);
 }
 

@@ -113,7 +113,8 @@ void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int
       return std::any_of(entries.begin(), entries.end(), [&](const Entry& e) { return e.number == candidate; });
     });
     entries.push_back({});
-    entries.back().number = number, entries.back().layer = layer;
+    entries.back().number = number;
+    entries.back().layer = layer;
   }
   Vector<std::uint32_t> inner(added, 0u, &memory());
   const auto enter = [&](Pose& pose, std::uint32_t k) {
@@ -245,7 +246,10 @@ bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_chang
   layer.report = DeformReport();
   if (!layer.edited_stale) return false;
   DeformRequest own = request;
-  own.normals = false, own.restart = false, own.surface = true, own.packed_positions = nullptr;
+  own.normals = false;
+  own.restart = false;
+  own.surface = true;
+  own.packed_positions = nullptr;
   own.refine_from_last = false;  // X_k depends only on what is below it
   if (own.iteration_count == 0) own.iteration_count = base_->options().iteration_count;
   own.iteration_count = std::max(own.iteration_count, least_layer_iterations);
@@ -357,7 +361,9 @@ DeformReport PoseStack::deform_all(const DeformRequest& request) {
   bool changed = base_stale_ || request.restart || request.refine != refined_ || request.refine_from_last != followed_;
   if (base_->handle_count() > 0) {
     DeformRequest own = request;
-    own.normals = false, own.surface = true, own.packed_positions = nullptr;
+    own.normals = false;
+    own.surface = true;
+    own.packed_positions = nullptr;
     report = base_->deform(own);
     surface = report.positions;
     changed = changed || report.iteration_count > 0 || request.refine_from_last;
@@ -369,13 +375,17 @@ DeformReport PoseStack::deform_all(const DeformRequest& request) {
     changed = update(k, surface, changed, request) || changed;
     const DeformReport& own = layers_[k]->report;
     report.iteration_count += own.iteration_count;
-    report.solve_ms += own.solve_ms, report.blend_ms += own.blend_ms, report.refine_ms += own.refine_ms;
+    report.solve_ms += own.solve_ms;
+    report.blend_ms += own.blend_ms;
+    report.refine_ms += own.refine_ms;
     report.last_change = std::max(report.last_change, own.last_change);
     report.cluster_count = static_cast<std::uint32_t>(layers_[k]->plain->weights()->cluster_count);
     report.unreached_vertex_count = static_cast<std::uint32_t>(layers_[k]->plain->weights()->unreached_vertex_count);
     surface = {layers_[k]->surface.data(), n};
   }
-  base_stale_ = false, refined_ = request.refine, followed_ = request.refine_from_last;
+  base_stale_ = false;
+  refined_ = request.refine;
+  followed_ = request.refine_from_last;
   report.positions = surface;
   report.normals = {};
   if (request.normals) {

@@ -57,9 +57,11 @@ class Proposer {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (std::size_t v = 0; v < height_.size(); ++v) {
       height_[v] = dot(options_.up, mesh_.positions[v]);
-      lowest = std::min(lowest, height_[v]), highest = std::max(highest, height_[v]);
+      lowest = std::min(lowest, height_[v]);
+      highest = std::max(highest, height_[v]);
     }
-    ground_ = lowest, tall_ = highest - lowest;
+    ground_ = lowest;
+    tall_ = highest - lowest;
     if (tall_ < least_tall) return;
     Vector<double> top(at(mesh_.component_count()), lowest, &memory_);
     Vector<double> depth(height_.size(), &memory_);
@@ -84,20 +86,23 @@ class Proposer {
     const double level = height_[at(lowest)] + sole_share * tall_;
     Vector<Index> sole(&memory_);
     Vector<std::uint8_t> seen(height_.size(), 0, &memory_);
-    sole.push_back(lowest), seen[at(lowest)] = 1;
+    sole.push_back(lowest);
+    seen[at(lowest)] = 1;
     for (std::size_t i = 0; i < sole.size(); ++i) {
       const Index v = sole[i];
       for (Index k = core_.topology.neighbour_start[at(v)]; k < core_.topology.neighbour_start[at(v) + 1]; ++k) {
         const Index u = core_.topology.neighbour[at(k)];
         if (seen[at(u)] || height_[at(u)] > level) continue;
-        sole.push_back(u), seen[at(u)] = 1;
+        sole.push_back(u);
+        seen[at(u)] = 1;
       }
     }
     std::sort(sole.begin(), sole.end());
     Vec3 sum, plain;
     double area = 0;
     for (const Index v : sole) {
-      sum = sum + core_.areas[at(v)] * mesh_.positions[at(v)], area += core_.areas[at(v)];
+      sum = sum + core_.areas[at(v)] * mesh_.positions[at(v)];
+      area += core_.areas[at(v)];
       plain = plain + mesh_.positions[at(v)];
     }
     const Vec3 middle = area > 0 ? (1 / area) * sum : (1 / static_cast<double>(sole.size())) * plain;
@@ -106,7 +111,8 @@ class Proposer {
     out.position = mesh_.positions[at(out.vertex)];
     double farthest = 0;
     for (const Index v : sole) farthest = std::max(farthest, distance(mesh_.positions[at(v)], out.position));
-    out.reason = HandleReason::foot, out.pinned = true;
+    out.reason = HandleReason::foot;
+    out.pinned = true;
     out.radius = std::min(std::max(sole_margin * farthest, least_radius), most_sole_radius);
     out.length = leg;
     return out;
@@ -117,7 +123,10 @@ class Proposer {
     double least = std::numeric_limits<double>::infinity();
     for (const Index v : list) {
       const double d = distance(mesh_.positions[at(v)], point);
-      if (d < least) least = d, best = v;
+      if (d < least) {
+        least = d;
+        best = v;
+      }
     }
     return best;
   }
@@ -135,7 +144,9 @@ class Proposer {
       }
       if (taken) continue;
       Candidate out;
-      out.vertex = tip.vertex, out.position = p, out.length = tip.length;
+      out.vertex = tip.vertex;
+      out.position = p;
+      out.length = tip.length;
       out.radius = std::min(std::max(tip_share * tip.length, least_radius), most_tip_radius);
       found_.push_back(out);
     }
@@ -150,7 +161,8 @@ class Proposer {
     Vector<double> count(components, 0.0, &memory_);
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
       const std::size_t c = at(mesh_.component[v]);
-      from[c] = from[c] + mesh_.positions[v], count[c] += 1;
+      from[c] = from[c] + mesh_.positions[v];
+      count[c] += 1;
     }
     for (std::size_t c = 0; c < components; ++c) from[c] = (1 / count[c]) * from[c];
     Vector<Index> first(components, 0, &memory_), second(components, 0, &memory_);
@@ -162,8 +174,11 @@ class Proposer {
       if (has[c] || size < least_piece) continue;
       for (const Index v : {first[c], second[c]}) {
         Candidate out;
-        out.vertex = v, out.position = mesh_.positions[at(v)], out.reason = HandleReason::end;
-        out.length = size / 2, out.radius = std::min(std::max(tip_share * out.length, least_radius), most_tip_radius);
+        out.vertex = v;
+        out.position = mesh_.positions[at(v)];
+        out.reason = HandleReason::end;
+        out.length = size / 2;
+        out.radius = std::min(std::max(tip_share * out.length, least_radius), most_tip_radius);
         found_.push_back(out);
       }
     }
@@ -174,7 +189,10 @@ class Proposer {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
       const std::size_t c = at(mesh_.component[v]);
       const double d = distance(mesh_.positions[v], from[c]);
-      if (d > most[c]) most[c] = d, out[c] = static_cast<Index>(v);
+      if (d > most[c]) {
+        most[c] = d;
+        out[c] = static_cast<Index>(v);
+      }
     }
   }
 
@@ -196,7 +214,10 @@ class Proposer {
       double least = end ? joint_reach : least_radius;
       for (Candidate& candidate : found_) {
         const double d = distance(candidate.position, place);
-        if (d <= least) least = d, near = &candidate;
+        if (d <= least) {
+          least = d;
+          near = &candidate;
+        }
       }
       if (near) {
         if (end && near->joint == no_joint) near->joint = joint;
@@ -244,11 +265,17 @@ class Proposer {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
       const double d = distance(mesh_.positions[v], place);
-      if (d < least) least = d, vertex = static_cast<Index>(v);
+      if (d < least) {
+        least = d;
+        vertex = static_cast<Index>(v);
+      }
     }
     if (least > joint_reach) return;  // a helper away from the surface
     Candidate out;
-    out.vertex = vertex, out.position = place, out.reason = HandleReason::joint, out.joint = joint;
+    out.vertex = vertex;
+    out.position = place;
+    out.reason = HandleReason::joint;
+    out.joint = joint;
     out.radius = std::max(around_joint * least, least_radius);
     out.length = least;
     found_.push_back(out);
@@ -265,7 +292,9 @@ class Proposer {
         vertex = static_cast<Index>(v);
     }
     Candidate out;
-    out.vertex = vertex, out.position = mesh_.positions[at(vertex)], out.reason = HandleReason::middle;
+    out.vertex = vertex;
+    out.position = mesh_.positions[at(vertex)];
+    out.reason = HandleReason::middle;
     out.radius = most_tip_radius;
     out.pinned = std::none_of(found_.begin(), found_.end(), [](const Candidate& c) { return c.pinned; });
     found_.push_back(out);
@@ -285,8 +314,11 @@ class Proposer {
     for (const Candidate& candidate : found_) {
       if (out.size() == options_.limit) break;
       HandleProposal proposal;
-      proposal.reason = candidate.reason, proposal.pinned = candidate.pinned, proposal.joint = candidate.joint;
-      proposal.vertex = candidate.vertex, proposal.length = mesh_.scale * candidate.length;
+      proposal.reason = candidate.reason;
+      proposal.pinned = candidate.pinned;
+      proposal.joint = candidate.joint;
+      proposal.vertex = candidate.vertex;
+      proposal.length = mesh_.scale * candidate.length;
       proposal.position = mesh_.to_given(candidate.position);
       if (claim(candidate.radius, owned, proposal)) out.push_back(proposal);
       poll();

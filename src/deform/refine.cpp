@@ -16,7 +16,9 @@ Vec3 vec3_at(const Buffer<float>& list, std::int32_t v) noexcept {
 
 void set_vec3(Buffer<float>& list, std::int32_t v, Vec3 p) noexcept {
   float* x = list.data() + 3 * static_cast<std::size_t>(v);
-  x[0] = static_cast<float>(p.x), x[1] = static_cast<float>(p.y), x[2] = static_cast<float>(p.z);
+  x[0] = static_cast<float>(p.x);
+  x[1] = static_cast<float>(p.y);
+  x[2] = static_cast<float>(p.z);
 }
 
 // Returns (a + b) v.
@@ -100,8 +102,11 @@ void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) 
           const double w = std::fmax(-k.value[e], 0.0);  // the diagonal has weight 0
           const Vec3 moved = w * (x - positions[u]), edge = p - core.mesh.positions[u];
           const double along[3] = {edge.x, edge.y, edge.z};
-          for (int j = 0; j < 3; ++j)
-            s[j][0] += moved.x * along[j], s[j][1] += moved.y * along[j], s[j][2] += moved.z * along[j];
+          for (int j = 0; j < 3; ++j) {
+            s[j][0] += moved.x * along[j];
+            s[j][1] += moved.y * along[j];
+            s[j][2] += moved.z * along[j];
+          }
         }
         batch.set_columns(count, s);
         batch.set_rotation(count, input.groups ? (*input.group_rotation)[input.groups->group_of[v]] : Quaternion());
@@ -132,7 +137,9 @@ void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* posit
         }
       }
       double* row = load + 3 * static_cast<std::size_t>(v);
-      row[0] = sum.x, row[1] = sum.y, row[2] = sum.z;
+      row[0] = sum.x;
+      row[1] = sum.y;
+      row[2] = sum.z;
     }
   });
 }
@@ -150,12 +157,14 @@ void Refinement::begin_from_last(const RefineInput& input, Followed& followed, V
     for (std::int32_t v = first; v < last; ++v) {
       blended_[v] = positions[v];
       if (input.reach.owner[v] >= 0 || !elastic_[input.core.mesh.component[v]]) {  // after new handles
-        set_vec3(followed.correction, v, {}), set_vec3(followed.change, v, {});
+        set_vec3(followed.correction, v, {});
+        set_vec3(followed.change, v, {});
         continue;
       }
       const Quaternion q = blended_rotation(input.weights, relative_, v);
       const Vec3 c = rotate(q, vec3_at(followed.correction, v)), m = rotate(q, vec3_at(followed.change, v));
-      set_vec3(followed.correction, v, c), set_vec3(followed.change, v, m);
+      set_vec3(followed.correction, v, c);
+      set_vec3(followed.change, v, m);
       positions[v] = positions[v] + c;
     }
   });
@@ -168,7 +177,8 @@ void Refinement::note_correction(const RefineInput& input, Followed& followed, c
     for (std::int32_t v = first; v < last; ++v) {
       const Vec3 c = positions[v] - blended_[v], m = c - vec3_at(followed.correction, v);
       sum += dot(positions[v] - begin_[v], m);
-      set_vec3(followed.correction, v, c), set_vec3(followed.change, v, m);
+      set_vec3(followed.correction, v, c);
+      set_vec3(followed.change, v, m);
     }
     along_[first / vertex_piece] = sum;
   });

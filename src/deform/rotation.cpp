@@ -22,8 +22,12 @@ Quadratic expand(const Mat3& s, const Mat3& r) noexcept {
   const Mat3 b = s * r.transpose();
   Quadratic q;
   q.a = {b(2, 1) - b(1, 2), b(0, 2) - b(2, 0), b(1, 0) - b(0, 1)};
-  q.h00 = b(1, 1) + b(2, 2), q.h11 = b(0, 0) + b(2, 2), q.h22 = b(0, 0) + b(1, 1);
-  q.h01 = -0.5 * (b(0, 1) + b(1, 0)), q.h02 = -0.5 * (b(0, 2) + b(2, 0)), q.h12 = -0.5 * (b(1, 2) + b(2, 1));
+  q.h00 = b(1, 1) + b(2, 2);
+  q.h11 = b(0, 0) + b(2, 2);
+  q.h22 = b(0, 0) + b(1, 1);
+  q.h01 = -0.5 * (b(0, 1) + b(1, 0));
+  q.h02 = -0.5 * (b(0, 2) + b(2, 0));
+  q.h12 = -0.5 * (b(1, 2) + b(2, 1));
   return q;
 }
 
@@ -98,9 +102,15 @@ Quaternion best_rotation(const Mat3& matrix, const Quaternion& near) noexcept {
   const Mat3 m = matrix / largest;
   // Horn's matrix for the order (x, y, z, w). Eigen reads its lower triangle.
   hf_eigen::Matrix4d n;
-  n(0, 0) = m(0, 0) - m(1, 1) - m(2, 2), n(1, 1) = m(1, 1) - m(0, 0) - m(2, 2), n(2, 2) = m(2, 2) - m(0, 0) - m(1, 1);
-  n(1, 0) = m(0, 1) + m(1, 0), n(2, 0) = m(0, 2) + m(2, 0), n(2, 1) = m(1, 2) + m(2, 1);
-  n(3, 0) = m(2, 1) - m(1, 2), n(3, 1) = m(0, 2) - m(2, 0), n(3, 2) = m(1, 0) - m(0, 1);
+  n(0, 0) = m(0, 0) - m(1, 1) - m(2, 2);
+  n(1, 1) = m(1, 1) - m(0, 0) - m(2, 2);
+  n(2, 2) = m(2, 2) - m(0, 0) - m(1, 1);
+  n(1, 0) = m(0, 1) + m(1, 0);
+  n(2, 0) = m(0, 2) + m(2, 0);
+  n(2, 1) = m(1, 2) + m(2, 1);
+  n(3, 0) = m(2, 1) - m(1, 2);
+  n(3, 1) = m(0, 2) - m(2, 0);
+  n(3, 2) = m(1, 0) - m(0, 1);
   n(3, 3) = m.trace();
   const hf_eigen::SelfAdjointEigenSolver<hf_eigen::Matrix4d> eigen(n);
   const Vec4& value = eigen.eigenvalues();  // ascending
@@ -140,10 +150,13 @@ RigidMotion fit_rigid(Span<const Vec3> rest, Span<const Vec3> posed, Span<const 
   Vec3 rest_centre, posed_centre;
   for (std::size_t i = 0; i < count; ++i) {
     const double w = weights.empty() ? 1.0 : weights[i];
-    sum += w, rest_centre = rest_centre + w * rest[i], posed_centre = posed_centre + w * posed[i];
+    sum += w;
+    rest_centre = rest_centre + w * rest[i];
+    posed_centre = posed_centre + w * posed[i];
   }
   if (!(sum > 0)) return {near, {}};
-  rest_centre = (1.0 / sum) * rest_centre, posed_centre = (1.0 / sum) * posed_centre;
+  rest_centre = (1.0 / sum) * rest_centre;
+  posed_centre = (1.0 / sum) * posed_centre;
   Mat3 s;
   for (std::size_t i = 0; i < count; ++i)
     add_outer(s, weights.empty() ? 1.0 : weights[i], posed[i] - posed_centre, rest[i] - rest_centre);

@@ -10,9 +10,15 @@ inline void find_step(const Lane (&s)[9], const Lane (&q)[4], Lane (&u)[3], Lane
   const Lane xy = q[0] * q[1], xz = q[0] * q[2], yz = q[1] * q[2], xw = q[0] * q[3], yw = q[1] * q[3], zw = q[2] * q[3];
   const Lane unit = 1.0 / ((xx + yy) + (zz + ww)), twice = 2.0 * unit;
   Lane r[3][3];
-  r[0][0] = unit * ((ww + xx) - (yy + zz)), r[0][1] = twice * (xy - zw), r[0][2] = twice * (xz + yw);
-  r[1][0] = twice * (xy + zw), r[1][1] = unit * ((ww + yy) - (xx + zz)), r[1][2] = twice * (yz - xw);
-  r[2][0] = twice * (xz - yw), r[2][1] = twice * (yz + xw), r[2][2] = unit * ((ww + zz) - (xx + yy));
+  r[0][0] = unit * ((ww + xx) - (yy + zz));
+  r[0][1] = twice * (xy - zw);
+  r[0][2] = twice * (xz + yw);
+  r[1][0] = twice * (xy + zw);
+  r[1][1] = unit * ((ww + yy) - (xx + zz));
+  r[1][2] = twice * (yz - xw);
+  r[2][0] = twice * (xz - yw);
+  r[2][1] = twice * (yz + xw);
+  r[2][2] = unit * ((ww + zz) - (xx + yy));
   Lane b[3][3];
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) b[i][j] = s[3 * i] * r[j][0] + s[3 * i + 1] * r[j][1] + s[3 * i + 2] * r[j][2];
@@ -64,7 +70,10 @@ inline void step_lanes(const double* s, double* q, RotationStep& step, bool take
       Lane matrix[9], pivot[3];
       for (int k = 0; k < 9; ++k) matrix[k] = load(s + 8 * k + l);
       find_step(matrix, here, u, pivot);
-      for (int k = 0; k < 3; ++k) store(step.u[k] + l, u[k]), store(step.pivot[k] + l, pivot[k]);
+      for (int k = 0; k < 3; ++k) {
+        store(step.u[k] + l, u[k]);
+        store(step.pivot[k] + l, pivot[k]);
+      }
       store(step.square + l, u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
     }
   }

@@ -103,10 +103,12 @@ class JointFit {
       const Item& item = row_[k];
       const double w = area_[item.vertex] * item.weight;
       total += w * item.weight;
-      from = from + w * item.weight * rest_[item.vertex], to = to + -w * residual_[item.vertex];
+      from = from + w * item.weight * rest_[item.vertex];
+      to = to + -w * residual_[item.vertex];
     }
     if (!(total > 0)) return present;
-    from = (1.0 / total) * from, to = (1.0 / total) * to;
+    from = (1.0 / total) * from;
+    to = (1.0 / total) * to;
     Mat3 target, rest;
     for (std::int32_t k = start_[j]; k < start_[j + 1]; ++k) {
       const Item& item = row_[k];
@@ -199,23 +201,28 @@ Skin make_skin(const Pose& pose, std::uint32_t weight_count, bool stretching, Me
     const Mat3 linear = linear_part(motion[c], skin.axes[c].toRotationMatrix());
     skin.place.push_back(mesh.to_given(linear * skin.pivot[c] + motion[c].translation));
     skin.pivot[c] = mesh.to_given(skin.pivot[c]);
-    skin.rotation.push_back(motion[c].rotation), skin.stretch.push_back(motion[c].stretch);
+    skin.rotation.push_back(motion[c].rotation);
+    skin.stretch.push_back(motion[c].stretch);
   }
   skin.rest_joint = weights.unreached_vertex_count > 0 || mesh.report.isolated_vertex_count > 0;
   if (skin.rest_joint) {
-    skin.pivot.push_back(mesh.centre), skin.place.push_back(mesh.centre);
+    skin.pivot.push_back(mesh.centre);
+    skin.place.push_back(mesh.centre);
     skin.rotation.push_back(Quaternion());
-    skin.axes.push_back(Quaternion()), skin.stretch.push_back({1, 1, 1});
+    skin.axes.push_back(Quaternion());
+    skin.stretch.push_back({1, 1, 1});
   }
   return skin;
 }
 
 void skin_weights(const Pose& pose, std::int32_t vertex, std::uint32_t count, std::uint32_t* joints, float* weights) {
   const ClusterWeights& table = *pose.weights();
-  std::fill_n(joints, count, 0u), std::fill_n(weights, count, 0.0f);
+  std::fill_n(joints, count, 0u);
+  std::fill_n(weights, count, 0.0f);
   const std::int32_t first = vertex < 0 ? 0 : table.start[vertex], last = vertex < 0 ? 0 : table.start[vertex + 1];
   if (first == last) {
-    joints[0] = static_cast<std::uint32_t>(table.cluster_count), weights[0] = 1;
+    joints[0] = static_cast<std::uint32_t>(table.cluster_count);
+    weights[0] = 1;
     return;
   }
   // Insertion sort keeps the largest weights; a vertex has only a few.
@@ -227,8 +234,12 @@ void skin_weights(const Pose& pose, std::int32_t vertex, std::uint32_t count, st
       if (table.weight[k] <= kept[count - 1]) continue;
       at = count - 1;
     }
-    for (; at > 0 && kept[at - 1] < table.weight[k]; --at) kept[at] = kept[at - 1], joints[at] = joints[at - 1];
-    kept[at] = table.weight[k], joints[at] = static_cast<std::uint32_t>(table.cluster[k]);
+    for (; at > 0 && kept[at - 1] < table.weight[k]; --at) {
+      kept[at] = kept[at - 1];
+      joints[at] = joints[at - 1];
+    }
+    kept[at] = table.weight[k];
+    joints[at] = static_cast<std::uint32_t>(table.cluster[k]);
   }
   double sum = 0;
   for (std::uint32_t i = 0; i < used; ++i) sum += kept[i];

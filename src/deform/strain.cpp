@@ -10,9 +10,11 @@ Sheet make_sheet(const Mat3& moments, std::int32_t limits) noexcept {
   sheet.limits = limits;
   const PrincipalAxes axes = principal_axes(moments);
   const hf_eigen::Vector3d& moment = axes.moment;
-  sheet.axis[0] = to_vec3(axes.axes.col(0)), sheet.axis[1] = to_vec3(axes.axes.col(1));
+  sheet.axis[0] = to_vec3(axes.axes.col(0));
+  sheet.axis[1] = to_vec3(axes.axes.col(1));
   if (!(moment(1) > thinnest_sheet * moment(0)) || !(moment(0) > 0)) return sheet;
-  sheet.inverse_moment[0] = 1 / moment(0), sheet.inverse_moment[1] = 1 / moment(1);
+  sheet.inverse_moment[0] = 1 / moment(0);
+  sheet.inverse_moment[1] = 1 / moment(1);
   return sheet;
 }
 
@@ -51,7 +53,9 @@ double follow(const Sheet& sheet, const Stress& wanted, Stress& stress) noexcept
   const double share = strain_limits[sheet.limits].follow;
   const double along = share * (wanted.along - stress.along), across = share * (wanted.across - stress.across),
                beside = share * (wanted.beside - stress.beside);
-  stress.along += along, stress.across += across, stress.beside += beside;
+  stress.along += along;
+  stress.across += across;
+  stress.beside += beside;
   return std::sqrt(along * along + 2 * across * across + beside * beside);
 }
 

@@ -52,7 +52,8 @@ inline void fill_row(const BlendRows& rows, std::int32_t i, std::int32_t j, Edge
     row.cluster[row.count] = std::min(ca, cb);
     for (int k = 0; k < 4; ++k) row.z[row.count].x[k] = wa * pi[k] - wb * pj[k];
     ++row.count;
-    a += ca <= cb, b += cb <= ca;
+    a += ca <= cb;
+    b += cb <= ca;
   }
 }
 
@@ -189,8 +190,10 @@ class Assembly {
     // are listed by component.
     for (std::size_t k = 0; k < weights_.elastic_components.size(); ++k) {
       const std::int32_t c = weights_.elastic_components[k];
-      for (std::int32_t g = groups_.component_start[c]; g < groups_.component_end[c]; ++g)
-        out_.group.push_back(g), out_.shared.push_back(weights_.shared[k]);
+      for (std::int32_t g = groups_.component_start[c]; g < groups_.component_end[c]; ++g) {
+        out_.group.push_back(g);
+        out_.shared.push_back(weights_.shared[k]);
+      }
     }
   }
 
@@ -226,15 +229,20 @@ class Assembly {
     });
     Counts total(clusters, memory_);
     for (const Counts& own : counts) {
-      total.all += own.all, widest_ = std::max(widest_, own.widest);
+      total.all += own.all;
+      widest_ = std::max(widest_, own.widest);
       for (std::size_t c = 0; c < clusters; ++c) total.by_cluster[c] += own.by_cluster[c];
     }
-    if (total.all > 0)
-      probability_ = edge_samples / (0.5 * static_cast<double>(total.all)), sampled_weight_ = 1 / probability_;
+    if (total.all > 0) {
+      probability_ = edge_samples / (0.5 * static_cast<double>(total.all));
+      sampled_weight_ = 1 / probability_;
+    }
     Vector<std::uint8_t> few(clusters, 0, &memory_);
     bool any = false;
-    for (std::size_t c = static_cast<std::size_t>(weights_.handle_count); c < clusters; ++c)
-      few[c] = total.by_cluster[c] < few_edges, any = any || few[c];
+    for (std::size_t c = static_cast<std::size_t>(weights_.handle_count); c < clusters; ++c) {
+      few[c] = total.by_cluster[c] < few_edges;
+      any = any || few[c];
+    }
     needs_all_.assign(core_.size(), 0);
     if (!any) return;
     core_.jobs->for_each(count_shares, [&](std::uint32_t share) {
@@ -268,7 +276,10 @@ class Assembly {
     const Topology& topology = core_.topology;
     for (const std::int32_t e : groups_.border_edge) {
       const std::int32_t i = topology.first(e), j = topology.second(e);
-      if (is_elastic(i)) mark(groups_.group_of[i], j), mark(groups_.group_of[j], i);
+      if (is_elastic(i)) {
+        mark(groups_.group_of[i], j);
+        mark(groups_.group_of[j], i);
+      }
     }
     for (std::int32_t v = 0; v < core_.size(); ++v) {
       if (is_elastic(v)) mark(groups_.group_of[v], v);

@@ -47,7 +47,8 @@ Vector<Frame> base_frames(const RegionSurface& surface, const RegionState& state
   Vec3 whole_normal, whole_direction;
   double largest = 0;
   for (std::size_t i = 0; i < shape.inside.size(); ++i) {
-    whole_normal = whole_normal + normal[i], whole_direction = whole_direction + direction[i];
+    whole_normal = whole_normal + normal[i];
+    whole_direction = whole_direction + direction[i];
     largest = std::max(largest, norm(normal[i]));
   }
   Vector<Frame> frames(&memory);

@@ -31,14 +31,17 @@ Pieces cut(const Core& core, Span<const Index> curve, Memory& memory) {
     if (pieces.piece[at(start)] != none || piece_of[at(start)] != component) continue;
     const Index number = static_cast<Index>(pieces.area.size());
     double area = 0;
-    queue.clear(), queue.push_back(start), pieces.piece[at(start)] = number;
+    queue.clear();
+    queue.push_back(start);
+    pieces.piece[at(start)] = number;
     for (std::size_t head = 0; head < queue.size(); ++head) {
       const Index v = queue[head];
       area += areas[at(v)];
       for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
         const Index other = topology.neighbour[at(i)];
         if (pieces.piece[at(other)] != none) continue;
-        pieces.piece[at(other)] = number, queue.push_back(other);
+        pieces.piece[at(other)] = number;
+        queue.push_back(other);
       }
     }
     pieces.area.push_back(area);
@@ -55,7 +58,10 @@ ClosedCurve closed_curve(const Core& core, Span<const std::int32_t> points, Memo
     paths.append(points[i], points[(i + 1) % points.size()], curve.vertices);
     curve.point_of.resize(curve.vertices.size(), static_cast<Index>(i));
   }
-  if (curve.vertices.empty()) curve.vertices.push_back(points[0]), curve.point_of.push_back(0);
+  if (curve.vertices.empty()) {
+    curve.vertices.push_back(points[0]);
+    curve.point_of.push_back(0);
+  }
   return curve;
 }
 

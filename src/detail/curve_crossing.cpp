@@ -21,7 +21,9 @@ class Fan {
 
   bool make(Index vertex) {
     if (vertex == vertex_) return !order_.empty();
-    vertex_ = vertex, closed_ = false, order_.clear();
+    vertex_ = vertex;
+    closed_ = false;
+    order_.clear();
     const Index begin = topology_.neighbour_start[at(vertex)], end = topology_.neighbour_start[at(vertex) + 1];
     Index first = topology_.neighbour_edge[at(begin)];
     for (Index i = begin; i < end; ++i) {
@@ -94,16 +96,19 @@ class Strands {
       : core_(core), fan_(core, memory), vertex_(&memory), point_(&memory) {
     for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
       if (vertex_.size() >= 2 && vertex_[vertex_.size() - 2] == curve.vertices[i]) {
-        vertex_.pop_back(), point_.pop_back();
+        vertex_.pop_back();
+        point_.pop_back();
       } else {
-        vertex_.push_back(curve.vertices[i]), point_.push_back(curve.point_of[i]);
+        vertex_.push_back(curve.vertices[i]);
+        point_.push_back(curve.point_of[i]);
       }
     }
     // A way out and back can end where the list does.
     std::size_t first = 0, last = vertex_.size();
     while (last - first > 2) {
       if (vertex_[first + 1] == vertex_[last - 1]) {
-        ++first, --last;
+        ++first;
+        --last;
       } else if (vertex_[last - 2] == vertex_[first]) {
         last -= 2;
       } else {
@@ -137,8 +142,10 @@ class Strands {
       }
       for (Index a = begin; a < end; ++a) {
         for (Index b = a + 1; b < end && visits[at(b)] < worst; ++b) {
-          if (cross(visits[at(a)], visits[at(b)]) || cross(visits[at(b)], visits[at(a)]))
-            worst = visits[at(b)], with = visits[at(a)];
+          if (cross(visits[at(a)], visits[at(b)]) || cross(visits[at(b)], visits[at(a)])) {
+            worst = visits[at(b)];
+            with = visits[at(a)];
+          }
         }
       }
     }

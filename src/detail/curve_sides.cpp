@@ -37,7 +37,8 @@ class CurveSides {
         winding_(at(core.size()), unseen, &memory) {
     for (const PathPoint& place : curve.place) {
       if (place.a == Mesh::none || place.a != place.b) continue;
-      on_[at(place.a)] = 1, vertices_.push_back(place.a);
+      on_[at(place.a)] = 1;
+      vertices_.push_back(place.a);
     }
   }
 
@@ -51,7 +52,8 @@ class CurveSides {
     bool any[2] = {false, false};
     for (Index v = 0; v < core_.size(); ++v) {
       if (!off(v)) continue;
-      area[class_of(v)] += areas[at(v)], any[class_of(v)] = true;
+      area[class_of(v)] += areas[at(v)];
+      any[class_of(v)] = true;
     }
     if (any[0] && any[1] && oriented_) check_crossing(area[0] < area[1] ? 1 : 0);
     int chosen = area[0] < area[1] ? 1 : 0;
@@ -134,7 +136,8 @@ class CurveSides {
         return false;
       }
       cross(e, t, place);
-      t = next, w = third(mesh_.triangle(t), v, w);
+      t = next;
+      w = third(mesh_.triangle(t), v, w);
     }
     return true;
   }
@@ -161,7 +164,8 @@ class CurveSides {
         const Index w = topology_.neighbour[at(i)], e = topology_.neighbour_edge[at(i)];
         const Index there = winding_[at(v)] + (topology_.first(e) == v ? sum_[at(e)] : -sum_[at(e)]);
         if (winding_[at(w)] == unseen) {
-          winding_[at(w)] = there, queue.push_back(w);
+          winding_[at(w)] = there;
+          queue.push_back(w);
         } else if (winding_[at(w)] != there) {
           oriented_ = false;
           if ((winding_[at(w)] ^ there) & 1)
@@ -179,7 +183,8 @@ class CurveSides {
     for (Index v = 0; v < core_.size(); ++v) {
       if (!off(v)) continue;
       if (usual == unseen) low = high = winding_[at(v)];
-      low = std::min(low, winding_[at(v)]), high = std::max(high, winding_[at(v)]);
+      low = std::min(low, winding_[at(v)]);
+      high = std::max(high, winding_[at(v)]);
       if (usual == unseen || class_of(v) == larger) usual = winding_[at(v)];
     }
     if (high - low <= 1) return;
@@ -305,7 +310,9 @@ class CurveSides {
       double t = place.t;
       if (p == Mesh::none) {
         const Index* corners = mesh_.triangle(curve_.triangle[line]);
-        p = corners[0] == v ? corners[1] : corners[0], q = third(corners, v, p), t = 0.5;
+        p = corners[0] == v ? corners[1] : corners[0];
+        q = third(corners, v, p);
+        t = 0.5;
       }
       double begin = static_cast<double>(std::find(fan.begin(), fan.end(), p) - fan.begin());
       double past = static_cast<double>(std::find(fan.begin(), fan.end(), q) - fan.begin());
@@ -327,7 +334,8 @@ class CurveSides {
     for (Index t = triangle, w = first; t != Mesh::none;) {
       w = third(mesh_.triangle(t), v, w);
       if (w == first) return fan;
-      fan.push_back(w), t = beyond(topology_.edge_between(v, w), t);
+      fan.push_back(w);
+      t = beyond(topology_.edge_between(v, w), t);
     }
     Index t = beyond(topology_.edge_between(v, first), triangle);  // the other way round, up to a border
     for (Index w = first; t != Mesh::none; t = beyond(topology_.edge_between(v, w), t)) {
@@ -358,7 +366,10 @@ class CurveSides {
         const Index e = topology_.neighbour_edge[at(i)];
         // A border counts as the world outside.
         if (topology_.edge_triangle_start[at(e) + 1] - topology_.edge_triangle_start[at(e)] != 2) count += 2;
-        if (!in[at(topology_.neighbour[at(i)])]) ++count, last = topology_.neighbour[at(i)];
+        if (!in[at(topology_.neighbour[at(i)])]) {
+          ++count;
+          last = topology_.neighbour[at(i)];
+        }
       }
       return count;
     };

@@ -27,8 +27,10 @@ struct HalfEdge {
 // Returns the cotangent weights of these edges, each raised to a small positive number (disc_least_weight).
 Vector<double> positive_weights(const Core& core, Span<const Index> edges, Memory& memory) {
   Vector<double> weights(&memory), magnitude(&memory);
-  for (const Index e : edges)
-    weights.push_back(core.geometry->unlinked().weights[at(e)]), magnitude.push_back(std::fabs(weights.back()));
+  for (const Index e : edges) {
+    weights.push_back(core.geometry->unlinked().weights[at(e)]);
+    magnitude.push_back(std::fabs(weights.back()));
+  }
   if (weights.empty()) return weights;
   const auto middle = magnitude.begin() + static_cast<std::ptrdiff_t>(magnitude.size() / 2);
   std::nth_element(magnitude.begin(), middle, magnitude.end());
@@ -64,7 +66,10 @@ double nearest(const DiscPoint c[3], DiscPoint p, double weights[3]) noexcept {
     const double t = along(c[k], c[l], p);
     const double d = squared(p, {c[k].u + t * (c[l].u - c[k].u), c[k].v + t * (c[l].v - c[k].v)});
     if (best >= 0 && d >= best) continue;
-    best = d, weights[k] = 1 - t, weights[l] = t, weights[(k + 2) % 3] = 0;
+    best = d;
+    weights[k] = 1 - t;
+    weights[l] = t;
+    weights[(k + 2) % 3] = 0;
   }
   return best;
 }
@@ -88,11 +93,14 @@ DiscBoundary::DiscBoundary(const RegionSurface& surface, const RegionState& stat
   for (const HalfEdge& h : half) {
     if (std::binary_search(half.begin(), half.end(), HalfEdge{h.to, h.from})) continue;
     if (next[at(h.from)] >= 0) no_disc(surface, state, h.from, "the rim touches itself");
-    next[at(h.from)] = h.to, start = h.from, ++open;
+    next[at(h.from)] = h.to;
+    start = h.from;
+    ++open;
   }
   if (start < 0) no_disc(surface, state, 0, "no rim");
   for (Index v = start; place_[at(v)] < 0; v = next[at(v)]) {
-    place_[at(v)] = static_cast<Index>(loop.size()), loop.push_back(v);
+    place_[at(v)] = static_cast<Index>(loop.size());
+    loop.push_back(v);
   }
   if (loop.size() != open) {
     for (Index v = 0; v < shape.local_count(); ++v)
@@ -138,7 +146,10 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
   // The unknowns are all vertices that are not on the boundary loop.
   Vector<Index> number(at(shape.local_count()), -1, &memory), unknown(&memory), edges(&memory);
   for (Index l = 0; l < shape.local_count(); ++l)
-    if (boundary.place(l) < 0) number[at(l)] = static_cast<Index>(unknown.size()), unknown.push_back(l);
+    if (boundary.place(l) < 0) {
+      number[at(l)] = static_cast<Index>(unknown.size());
+      unknown.push_back(l);
+    }
   if (unknown.empty()) return points;
   const Topology& topology = core.geometry->unlinked().topology;
   for (const Index l : unknown) {
@@ -169,18 +180,23 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
       if (number[at(l)] >= 0) {
         column.push_back({number[at(l)], -w});
       } else {
-        right[2 * c] += w * points[at(l)].u, right[2 * c + 1] += w * points[at(l)].v;
+        right[2 * c] += w * points[at(l)].u;
+        right[2 * c + 1] += w * points[at(l)].v;
       }
     }
     column.push_back({static_cast<Index>(c), diagonal});
     std::sort(column.begin(), column.end(), [](const Entry& a, const Entry& b) { return a.row < b.row; });
-    for (const Entry& entry : column) matrix.row.push_back(entry.row), matrix.value.push_back(entry.value);
+    for (const Entry& entry : column) {
+      matrix.row.push_back(entry.row);
+      matrix.value.push_back(entry.value);
+    }
     matrix.column_start.push_back(static_cast<Index>(matrix.row.size()));
     const Vec3 p = core.mesh.positions[at(v)];
     for (const double x : {p.x, p.y, p.z}) coordinates.push_back(static_cast<float>(x));
   }
   FactorOptions options;
-  options.ordering = core.ordering, options.flop_limit = core.flop_limit;
+  options.ordering = core.ordering;
+  options.flop_limit = core.flop_limit;
   const std::shared_ptr<const Factor> factor = Factor::make(matrix, coordinates, options, memory, *core.jobs);
   Vector<double> z(right.size(), &memory);
   factor->solve(right.data(), right.data(), 2, z.data(), *core.jobs);
@@ -196,9 +212,11 @@ DiscSearch::DiscSearch(Span<const std::int32_t> corners, Span<const DiscPoint> p
     DiscPoint sum;
     for (std::size_t k = 0; k < 3; ++k) {
       const DiscPoint p = points[at(corners[3 * at(t) + k])];
-      sum.u += p.u, sum.v += p.v;
+      sum.u += p.u;
+      sum.v += p.v;
     }
-    centre.push_back(sum), order_.push_back(t);
+    centre.push_back(sum);
+    order_.push_back(t);
   }
   boxes_.push_back(box_of(0, triangles));
   for (std::size_t b = 0; b < boxes_.size(); ++b) split(static_cast<Index>(b), centre);
@@ -210,7 +228,10 @@ DiscSearch::Box DiscSearch::box_of(std::int32_t first, std::int32_t count) const
     for (std::size_t k = 0; k < 3; ++k) {
       const DiscPoint p = points_[at(corners_[3 * at(order_[at(i)]) + k])];
       const double x[2] = {p.u, p.v};
-      for (int d = 0; d < 2; ++d) box.low[d] = std::min(box.low[d], x[d]), box.high[d] = std::max(box.high[d], x[d]);
+      for (int d = 0; d < 2; ++d) {
+        box.low[d] = std::min(box.low[d], x[d]);
+        box.high[d] = std::max(box.high[d], x[d]);
+      }
     }
   }
   return box;
@@ -224,7 +245,8 @@ void DiscSearch::split(std::int32_t number, Vector<DiscPoint>& centre) {
   const auto begin = order_.begin() + box.first, middle = begin + box.count / 2;
   std::nth_element(begin, middle, begin + box.count,
                    [&](Index a, Index b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-  boxes_[at(number)].first = static_cast<Index>(boxes_.size()), boxes_[at(number)].count = 0;
+  boxes_[at(number)].first = static_cast<Index>(boxes_.size());
+  boxes_[at(number)].count = 0;
   boxes_.push_back(box_of(box.first, box.count / 2));
   boxes_.push_back(box_of(box.first + box.count / 2, box.count - box.count / 2));
 }
@@ -249,7 +271,8 @@ std::int32_t DiscSearch::find(DiscPoint point, double weights[3]) const {
     if (box.count == 0) {
       // The search visits the nearer half first.
       const bool swap = distance(box.first) > distance(box.first + 1);
-      stack[depth++] = box.first + (swap ? 0 : 1), stack[depth++] = box.first + (swap ? 1 : 0);
+      stack[depth++] = box.first + (swap ? 0 : 1);
+      stack[depth++] = box.first + (swap ? 1 : 0);
       continue;
     }
     for (Index i = box.first; i < box.first + box.count; ++i) {
@@ -258,7 +281,9 @@ std::int32_t DiscSearch::find(DiscPoint point, double weights[3]) const {
       double w[3] = {0, 0, 0};
       const double d = nearest(c, point, w);
       if (best >= 0 && d >= least) continue;
-      best = order_[at(i)], least = d, std::copy(w, w + 3, weights);
+      best = order_[at(i)];
+      least = d;
+      std::copy(w, w + 3, weights);
       if (d == 0) return best;
     }
   }

@@ -33,7 +33,8 @@ double read_morph_weight(const hf_morph_desc& desc) {
 void read_curve(const Core& core, const hf_curve_desc& curve, RegionEditInput& input) {
   const Mesh& mesh = core.geometry->unlinked().mesh;
   RegionEdit& edit = input.edit;
-  check_choice(curve.side, 3, "side"), check_choice(curve.kind, 2, "kind");
+  check_choice(curve.side, 3, "side");
+  check_choice(curve.kind, 2, "kind");
   require_zero(curve.reserved);
   if (curve.vertices && curve.barycentrics)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and barycentrics are both set; set one");
@@ -53,7 +54,8 @@ void read_curve(const Core& core, const hf_curve_desc& curve, RegionEditInput& i
     const SurfacePlace place = curve.triangles ? place_in_triangle(mesh, curve.triangles[i], weights, i)
                                                : place_between(mesh, curve.corners + first, weights, i);
     CurvePoint point = at_vertex(Mesh::none);
-    std::copy_n(place.vertex, 3, point.corner), std::copy_n(place.weight, 3, point.weight);
+    std::copy_n(place.vertex, 3, point.corner);
+    std::copy_n(place.weight, 3, point.weight);
     const double sum = point.weight[0] + point.weight[1] + point.weight[2];
     for (double& w : point.weight) w /= sum;
     if (edit.kind == CurveKind::straight && !is_on_triangle(mesh, core.geometry->unlinked().topology, point))
@@ -64,7 +66,8 @@ void read_curve(const Core& core, const hf_curve_desc& curve, RegionEditInput& i
     input.points.push_back(point);
   }
   require_one_component(mesh, input.points);
-  edit.curve = input.points, edit.side = static_cast<CurveSide>(curve.side);
+  edit.curve = input.points;
+  edit.side = static_cast<CurveSide>(curve.side);
   if (edit.side == CurveSide::seed)
     edit.seed = usable_vertex(mesh, curve.seed_vertex, curve.seed_vertex, "seed_vertex");
 }
@@ -74,7 +77,9 @@ void read_region_lists(const Core& core, const hf_region_edit_desc& desc, Region
     read_list(core.mesh, desc.remove_count, desc.remove_vertices, "remove_vertices", "remove_vertices", input.remove);
   if (desc.add_count)
     read_list(core.mesh, desc.add_count, desc.add_vertices, "add_vertices", "add_vertices", input.add);
-  input.edit.rings = desc.ring_count, input.edit.remove = input.remove, input.edit.add = input.add;
+  input.edit.rings = desc.ring_count;
+  input.edit.remove = input.remove;
+  input.edit.add = input.add;
 }
 
 CarryInput read_carry(const Region& source, const Region& target, const hf_detail_desc& desc) {

@@ -81,20 +81,25 @@ void place_sites(const RegionState& from, RegionState& to, const Core& core, Mem
     } else if (i == old.size() || now[k] < old[i]) {
       coming.push_back(static_cast<Index>(k++));
     } else {
-      used[at(from.slot[i])] = 1, to.slot[k++] = from.slot[i++];
+      used[at(from.slot[i])] = 1;
+      to.slot[k++] = from.slot[i++];
     }
   }
   for (const Index c : coming) {
     const auto next = numbers.take([&](std::uint32_t slot) { return slot < used.size() && used[slot]; });
     to.slot[at(c)] = static_cast<Index>(next);
-    slots.push_back(to.slot[at(c)]), places.push_back(Site::at_vertex(core.mesh, now[at(c)]));
+    slots.push_back(to.slot[at(c)]);
+    places.push_back(Site::at_vertex(core.mesh, now[at(c)]));
   }
   if (!leaving.empty() || !coming.empty()) {
     SiteEdit edit;
-    edit.remove = leaving, edit.add = slots, edit.sites = places;
+    edit.remove = leaving;
+    edit.add = slots;
+    edit.sites = places;
     engine->edit(edit);
   }
-  to.inserted = static_cast<std::uint32_t>(coming.size()), to.removed = static_cast<std::uint32_t>(leaving.size());
+  to.inserted = static_cast<std::uint32_t>(coming.size());
+  to.removed = static_cast<std::uint32_t>(leaving.size());
   to.kept = static_cast<std::uint32_t>(now.size() - coming.size());
   to.engine = engine;
 }
@@ -106,7 +111,9 @@ void solve_base(const RegionSurface& surface, RegionState& state, Memory& memory
   for (std::size_t i = 0; i < shape.sites.size(); ++i) {
     const Vec3 p = surface.scaled_position(shape.sites[i]);
     double* value = &values[at(state.slot[i]) * 3];
-    value[0] = p.x, value[1] = p.y, value[2] = p.z;
+    value[0] = p.x;
+    value[1] = p.y;
+    value[2] = p.z;
   }
   const auto take = [&](std::size_t i, const double* u) { state.base[i] = core.mesh.to_given({u[0], u[1], u[2]}); };
   state.base.resize(shape.inside.size());
@@ -212,7 +219,8 @@ void Region::edit(const RegionEdit& edit) {
   report(placed);
   solve_base(*surface_, *next, memory());
   next->base_area = morphed_area(*surface_, *next, 1.0, memory());
-  next->first = state_->first, next->curve = state_->curve;
+  next->first = state_->first;
+  next->curve = state_->curve;
   if (!edit.curve.empty()) {
     next->first = nearest_of(*surface_, shape->rim, surface_->position(edit.curve[0]));
     next->curve = make_shared_in<Vector<Vec3>>(memory(), std::move(enclosing.line));

@@ -46,7 +46,10 @@ RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memor
   for (std::size_t i = 0; i < inside.size(); ++i) local[at(inside[i])] = static_cast<Index>(i);
   constexpr Index taken = -2;
   const auto take = [&](Index v, Vector<Index>& list) {
-    if (local[at(v)] == -1) local[at(v)] = taken, list.push_back(v);
+    if (local[at(v)] == -1) {
+      local[at(v)] = taken;
+      list.push_back(v);
+    }
   };
   const Topology& surface = core.geometry->unlinked().topology;
   for (const Index v : inside) for_neighbours(surface, v, [&](Index u) { take(u, rim); });
@@ -67,7 +70,8 @@ RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memor
     for (const Index v : inside) for_entries(core.laplacian, v, [&](Index u) { take(u, sites); });
   }
   for (const Index v : sites) local[at(v)] = -1;
-  std::sort(rim.begin(), rim.end()), std::sort(sites.begin(), sites.end());
+  std::sort(rim.begin(), rim.end());
+  std::sort(sites.begin(), sites.end());
   for (std::size_t i = 0; i < rim.size(); ++i) local[at(rim[i])] = static_cast<Index>(inside.size() + i);
   if (inside.empty()) return;
   const Index inside_count = static_cast<Index>(inside.size());
@@ -76,7 +80,8 @@ RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memor
     const Index l[3] = {local[at(v[0])], local[at(v[1])], local[at(v[2])]};
     const auto moves = [&](Index i) { return i >= 0 && i < inside_count; };
     if (!moves(l[0]) && !moves(l[1]) && !moves(l[2])) continue;
-    triangles.push_back(t), corners.insert(corners.end(), l, l + 3);
+    triangles.push_back(t);
+    corners.insert(corners.end(), l, l + 3);
   }
 }
 
@@ -91,7 +96,10 @@ Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, st
   for (const Index v : inside) {
     if (joins) {
       for_neighbours(surface, v, [&](Index u) {
-        if (!in[at(u)]) in[at(u)] = 1, front.push_back(u);
+        if (!in[at(u)]) {
+          in[at(u)] = 1;
+          front.push_back(u);
+        }
       });
     } else {
       bool edge = false;
@@ -106,7 +114,10 @@ Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, st
     next.clear();
     for (const Index v : front) {
       for_neighbours(surface, v, [&](Index u) {
-        if (in[at(u)] != joins) in[at(u)] = joins, next.push_back(u);
+        if (in[at(u)] != joins) {
+          in[at(u)] = joins;
+          next.push_back(u);
+        }
       });
     }
     front.swap(next);

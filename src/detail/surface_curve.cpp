@@ -73,11 +73,14 @@ class CurveTracer {
       const std::size_t before = curve_.place.size();
       if (exact(from, to) && holds_together(before - 1, to)) continue;
       // A path that rounding loses is replaced by the one along edges.
-      curve_.place.resize(before), curve_.point_of.resize(before);
+      curve_.place.resize(before);
+      curve_.point_of.resize(before);
       for (const Index v : way_) put({v, v, 0});
     }
-    while (curve_.place.size() > 1 && equal(curve_.place.front(), curve_.place.back()))
-      curve_.place.pop_back(), curve_.point_of.pop_back();
+    while (curve_.place.size() > 1 && equal(curve_.place.front(), curve_.place.back())) {
+      curve_.place.pop_back();
+      curve_.point_of.pop_back();
+    }
     const std::size_t size = curve_.place.size();
     for (std::size_t i = 0; size > 1 && i < size; ++i) curve_.triangle.push_back(triangle_between(i, (i + 1) % size));
   }
@@ -93,7 +96,8 @@ class CurveTracer {
     if (!curve_.place.empty() && equal(curve_.place.back(), place)) {
       curve_.point_of.back() = point_;
     } else {
-      curve_.place.push_back(place), curve_.point_of.push_back(point_);
+      curve_.place.push_back(place);
+      curve_.point_of.push_back(point_);
     }
   }
 
@@ -105,7 +109,8 @@ class CurveTracer {
       if ((p.weight[1] > 0 && p.corner[1] == q.corner[k]) || (p.weight[2] > 0 && p.corner[2] == q.corner[k])) continue;
       while (c < 3 && both.weight[c] > 0) ++c;
       if (c == 3) return false;
-      both.corner[c] = q.corner[k], both.weight[c] = 1;
+      both.corner[c] = q.corner[k];
+      both.weight[c] = 1;
     }
     return is_on_triangle(mesh_, topology_, both);
   }
@@ -131,7 +136,9 @@ class CurveTracer {
 
   // Gathers the triangles around `first` that a path of this length from p to q can reach.
   void gather(Index first, Vec3 p, Vec3 q, double length) {
-    vertices_.assign(1, first), local_[at(first)] = 0, triangles_.clear();
+    vertices_.assign(1, first);
+    local_[at(first)] = 0;
+    triangles_.clear();
     Poller poller;
     for (std::size_t head = 0; head < vertices_.size(); ++head) {
       const Index v = vertices_[head];
@@ -141,11 +148,14 @@ class CurveTracer {
           const Index t = topology_.triangle(j);
           poller.due();
           if (taken_[at(t)] || !reaches(t, p, q, length)) continue;
-          taken_[at(t)] = 1, triangles_.push_back(t);
+          taken_[at(t)] = 1;
+          triangles_.push_back(t);
           for (int k = 0; k < 3; ++k) {
             Index& number = local_[at(mesh_.triangle(t)[k])];
-            if (number == Mesh::none)
-              number = static_cast<Index>(vertices_.size()), vertices_.push_back(mesh_.triangle(t)[k]);
+            if (number == Mesh::none) {
+              number = static_cast<Index>(vertices_.size());
+              vertices_.push_back(mesh_.triangle(t)[k]);
+            }
           }
         }
       }
@@ -182,12 +192,14 @@ class CurveTracer {
   // Tells whether each two places in a row, from number `first` on, and the point after them share a triangle.
   bool holds_together(std::size_t first, const CurvePoint& next) {
     const PathPoint place = place_of(next);
-    curve_.place.push_back(place), curve_.point_of.push_back((point_ + 1) % static_cast<Index>(points_.size()));
+    curve_.place.push_back(place);
+    curve_.point_of.push_back((point_ + 1) % static_cast<Index>(points_.size()));
     bool holds = true;
     for (std::size_t i = first; i + 1 < curve_.place.size(); ++i) {
       holds = holds && (equal(curve_.place[i], curve_.place[i + 1]) || triangle_between(i, i + 1) != Mesh::none);
     }
-    curve_.place.pop_back(), curve_.point_of.pop_back();
+    curve_.place.pop_back();
+    curve_.point_of.pop_back();
     return holds;
   }
 

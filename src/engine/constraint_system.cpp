@@ -25,9 +25,14 @@ constexpr double later_share = 0.5;
 }  // namespace
 
 void ConstraintState::swap(ConstraintState& other) noexcept {
-  entries.swap(other.entries), base.swap(other.base), freed.swap(other.freed), groups.swap(other.groups),
-      blocks.swap(other.blocks), sites_of.swap(other.sites_of);
-  std::swap(rows, other.rows), std::swap(decision, other.decision);
+  entries.swap(other.entries);
+  base.swap(other.base);
+  freed.swap(other.freed);
+  groups.swap(other.groups);
+  blocks.swap(other.blocks);
+  sites_of.swap(other.sites_of);
+  std::swap(rows, other.rows);
+  std::swap(decision, other.decision);
 }
 
 void ConstraintState::put(Index slot, const Site& site) {
@@ -56,8 +61,10 @@ void ConstraintSystem::restore(const ConstraintState& state) {
 ConstraintCounts ConstraintSystem::counts() const noexcept { return {path_solves_, sweeps_, rebases_, dense_edits_}; }
 
 void ConstraintSystem::add_counts(const ConstraintCounts& more) noexcept {
-  path_solves_ += more.path_solves, sweeps_ += more.sweeps;
-  rebases_ += more.rebases, dense_edits_ += more.dense_edits;
+  path_solves_ += more.path_solves;
+  sweeps_ += more.sweeps;
+  rebases_ += more.rebases;
+  dense_edits_ += more.dense_edits;
 }
 
 bool ConstraintSystem::is_crowded(double share) const noexcept {
@@ -109,13 +116,16 @@ Index ConstraintSystem::first_row(const SiteEdit& edit, const SiteCost& cost) co
   const auto close = [&] {
     const double rebase = cost.rebase_ns(soft);
     if (hard > 0 && cost.dense_ns(0, soft + hard) - (end > 0 ? cost.dense_ns(0, soft) : 0.0) >
-                        (end > 0 ? later_share : restart_margin) * rebase)
-      end = slot_end, hard = 0;
+                        (end > 0 ? later_share : restart_margin) * rebase) {
+      end = slot_end;
+      hard = 0;
+    }
   };
   const auto take = [&](Index slot, const Site& site) {
     if (site.part != part) close();
     (site.is_hard_vertex() ? hard : soft) += 1;
-    part = site.part, slot_end = slot + 1;
+    part = site.part;
+    slot_end = slot + 1;
   };
   for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
     if (state_.entries[slot].used() && !leaves[slot]) take(static_cast<Index>(slot), state_.entries[slot].site);
@@ -147,7 +157,8 @@ ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
   double sites = 0, hard = 0, rows_removed = 0, freed = 0;
   for (const auto& entry : state_.entries) {
     if (!entry.used()) continue;
-    ++sites, hard += entry.site.is_hard_vertex();
+    ++sites;
+    hard += entry.site.is_hard_vertex();
   }
   for (const Index slot : edit.remove) {
     const auto& entry = state_.entries[at(slot)];
@@ -163,10 +174,12 @@ ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
   const double plain = cost.dense_ns(0, sites), rebase = cost.rebase_ns(sites - hard);
   ConstraintState::Decision decision;
   decision.eliminate = hard > 0 && rebase < plain;
-  decision.dense_ms = std::min(going_on, plain) / 1e6, decision.rebase_ms = hard > 0 ? rebase / 1e6 : 0;
+  decision.dense_ms = std::min(going_on, plain) / 1e6;
+  decision.rebase_ms = hard > 0 ? rebase / 1e6 : 0;
   const double expected = going_on + (expected_repeats - 1) * again;
   if (edit.history_free) {  // the sites alone decide, as if they were all new
-    decision.end = first_row(edit, cost), decision.eliminate = decision.end > 0;
+    decision.end = first_row(edit, cost);
+    decision.eliminate = decision.end > 0;
     const bool keeps_base = decision.eliminate ? has_base(edit, decision.end) : !state_.base;
     decision.route = keeps_base ? EditRoute::dense : decision.eliminate ? EditRoute::rebase : EditRoute::fresh;
   } else if (!(expected > restart_margin * (decision.eliminate ? rebase : plain))) {
@@ -192,8 +205,10 @@ bool ConstraintSystem::try_route(EditRoute route, const SiteEdit& edit, JobRunne
   } catch (const ConstraintEdit::NeedsNewLayout&) {
     return false;
   }
-  path_solves_ += change.path_solves(), rebases_ += change.factorisations();
-  next.decision = decision, next.decision.route = route;
+  path_solves_ += change.path_solves();
+  rebases_ += change.factorisations();
+  next.decision = decision;
+  next.decision.route = route;
   state_.swap(next);
   return true;
 }

@@ -69,12 +69,14 @@ void ConstraintEdit::start_over(Index end) {
   Vector<Row> rows(&memory());
   for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
     auto& entry = state_.entries[slot];
-    entry.path = {}, entry.eliminated = -1;
+    entry.path = {};
+    entry.eliminated = -1;
     if (!entry.used()) continue;
     ++state_.sites_of[at(entry.site.component)];
     if (static_cast<Index>(slot) < end && entry.site.is_hard_vertex()) {
       entry.eliminated = static_cast<Index>(unknowns.size());
-      unknowns.push_back(entry.site.vertex[0]), components.push_back(entry.site.component);
+      unknowns.push_back(entry.site.vertex[0]);
+      components.push_back(entry.site.component);
     } else {
       rows.push_back({static_cast<Index>(slot), entry.site.component});
     }
@@ -173,7 +175,8 @@ void ConstraintEdit::remove_rows(Span<const Row> rows) {
   for (const Row& row : rows) {
     auto& path = state_.path_of(row.row);
     auto& group = state_.groups[at(path.group)];
-    group.row[path.column] = no_row, --group.used;
+    group.row[path.column] = no_row;
+    --group.used;
     path = {};
     --state_.rows;
   }
@@ -202,7 +205,10 @@ void ConstraintEdit::repack() {
   for (auto& group : state_.groups) {
     if (stored_share * group.used > group.paths->count()) continue;
     for (Index& row : group.row) {
-      if (row != no_row) moving.push_back(row), row = no_row;
+      if (row != no_row) {
+        moving.push_back(row);
+        row = no_row;
+      }
     }
     group.used = 0;
   }
@@ -242,7 +248,8 @@ void ConstraintEdit::solve_part(Part& part) const {
       columns.append_free(state_.base->vertex[at(ConstraintState::base_index(row))], *operator_.matrix, *state_.base);
     }
   }
-  part.group.resize(part.rows.size()), part.column.resize(part.rows.size());
+  part.group.resize(part.rows.size());
+  part.column.resize(part.rows.size());
   factor().solve_paths(columns.view(), memory(), jobs_, part.groups, part.group, part.column);
 }
 
@@ -258,7 +265,8 @@ void ConstraintEdit::take_part(Part& part) {
     const Index row = part.rows[i], group = first + part.group[i], column = part.column[i];
     state_.path_of(row) = {group, column};
     auto& owner = state_.groups[at(group)];
-    owner.row[column] = row, ++owner.used;
+    owner.row[column] = row;
+    ++owner.used;
   }
 }
 

@@ -114,7 +114,9 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
   const Mesh& mesh = plain.mesh;
   if (options.operator_kind == OperatorKind::intrinsic_delaunay && mesh.faces.empty()) {
     DelaunayOperator made = delaunay_operator(mesh, plain.topology, plain.weights, with_areas, pool, core.jobs.get());
-    core.laplacian = std::move(made.laplacian), areas = std::move(made.areas), changed = std::move(made.changed);
+    core.laplacian = std::move(made.laplacian);
+    areas = std::move(made.areas);
+    changed = std::move(made.changed);
   } else if (mesh.faces.empty()) {
     if (options.operator_kind == OperatorKind::graph)
       changed.assign(core.geometry->limited.begin(), core.geometry->limited.end());
@@ -124,7 +126,8 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
   } else {
     DelaunayOperator made =
         face_operator(mesh, plain.topology, plain.weights, options.operator_kind, with_areas, pool, core.jobs.get());
-    core.laplacian = std::move(made.laplacian), areas = std::move(made.areas);
+    core.laplacian = std::move(made.laplacian);
+    areas = std::move(made.areas);
     changed = std::move(made.changed);
   }
   if (with_areas && areas.empty()) areas.assign(core.areas.begin(), core.areas.end());
@@ -165,12 +168,18 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
 // Makes the core of a bi-harmonic operator that is not formed, on the finished core of its Laplacian.
 std::shared_ptr<const Core> on_root(std::shared_ptr<Core> root) {
   const std::shared_ptr<Core> core = make_owner_in<Core>(root->memory, root->geometry);
-  core->field_kind = root->field_kind, core->ordering = root->ordering, core->times = root->times;
-  core->flop_limit = root->flop_limit, core->formed_valence = root->formed_valence;
-  core->changed_count = root->changed_count, core->first_changed = root->first_changed;
-  core->factor = root->factor, core->refinements = 1;
+  core->field_kind = root->field_kind;
+  core->ordering = root->ordering;
+  core->times = root->times;
+  core->flop_limit = root->flop_limit;
+  core->formed_valence = root->formed_valence;
+  core->changed_count = root->changed_count;
+  core->first_changed = root->first_changed;
+  core->factor = root->factor;
+  core->refinements = 1;
   core->inverse_mass.swap(root->inverse_mass);
-  root->field_kind = FieldKind::harmonic, root->is_long = false;  // the corrections of the whole field are enough
+  root->field_kind = FieldKind::harmonic;
+  root->is_long = false;  // the corrections of the whole field are enough
   core->root = std::move(root);
   find_grounds(*core);
   return core;
@@ -215,7 +224,8 @@ bool has_negative_weights(const Core& core) noexcept {
 
 FactorOptions factor_options(const Core& core, const CoreOptions& options) noexcept {
   FactorOptions out;
-  out.ordering = options.ordering, out.flop_limit = options.flop_limit;
+  out.ordering = options.ordering;
+  out.flop_limit = options.flop_limit;
   if (core.refinements == 0) out.lost_share = harmonic_lost_share;
   return out;
 }
@@ -231,7 +241,9 @@ void make_factor(Core& core, const CoreOptions& options) {
   Memory& pool = *core.memory;
   if (!options.saved_factor.empty()) {
     LoadOptions load;
-    load.unknowns = core.size(), load.matrix_hash = grounded_hash(core), load.borrow = options.borrow_factor;
+    load.unknowns = core.size();
+    load.matrix_hash = grounded_hash(core);
+    load.borrow = options.borrow_factor;
     core.factor = load_factor(options.saved_factor, load, pool, *core.jobs);
   } else if (options.need_factor) {
     const Vector<float> coordinates = ordering_coordinates(core.mesh, pool);
@@ -262,7 +274,8 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
   core->times.weld_ms = shape->weld_ms;
   Vector<std::uint8_t> confined(&pool);
   make_operator(*core, options, 0, confined);
-  core->ordering = options.ordering, core->flop_limit = options.flop_limit;
+  core->ordering = options.ordering;
+  core->flop_limit = options.flop_limit;
   core->formed_valence = options.formed_valence;
   core->times.operator_ms = shape->weights_ms + shape->links_ms + operator_timer.milliseconds();
   report(progress_operator);

@@ -28,8 +28,8 @@ constexpr std::int32_t block_columns = 64;
 // A pivot of the sites' dense system below this share of its diagonal entry has too few digits left: corrections of the
 // field no longer help. Independent vertices stay above 1e-9 even on small meshes with a bi-harmonic operator, and
 // points that are no closer than dependence.h allows above 1e-11. A hard point between soft sites of a stiffness near
-// 1e12 falls below. At a tenth of the value, more fields of such sites are wrong. At twice the value, three points in one
-// triangle of a finely refined cylinder are refused in a bi-harmonic field; half changes nothing on eight shapes.
+// 1e12 falls below. At a tenth of the value, more fields of such sites are wrong. At twice the value, three points in
+// one triangle of a finely refined cylinder are refused in a bi-harmonic field; half changes nothing on eight shapes.
 constexpr double pivot_floor = 1e-11;
 
 // Rates for removing a site's row from the dense factor: the nanoseconds of one rotation for one number behind the row,
@@ -142,11 +142,14 @@ void DenseBlock::keep_rows(Span<const std::int32_t> rows) {
   }
   negative_ = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    ids_[i] = ids_[at(rows[i])], sign_[i] = sign_[at(rows[i])];
+    ids_[i] = ids_[at(rows[i])];
+    sign_[i] = sign_[at(rows[i])];
     negative_ += sign_[i] < 0;
     for (std::size_t p = 0; p < border_; ++p) n_[i * border_ + p] = n_[at(rows[i]) * border_ + p];
   }
-  ids_.resize(rows.size()), sign_.resize(rows.size()), n_.resize(rows.size() * border_);
+  ids_.resize(rows.size());
+  sign_.resize(rows.size());
+  n_.resize(rows.size() * border_);
 }
 
 void DenseBlock::remove(Span<const std::int32_t> ids) {
@@ -168,7 +171,10 @@ void DenseBlock::remove(Span<const std::int32_t> ids) {
     // behind it.
     for (std::int32_t r = count() - 1; r >= 0; --r) {
       if (!leaves(ids_[static_cast<std::size_t>(r)])) continue;
-      if (r < valid_) update_without(r), --valid_;
+      if (r < valid_) {
+        update_without(r);
+        --valid_;
+      }
       kept.clear();
       for (std::int32_t i = 0; i < count(); ++i) {
         if (i != r) kept.push_back(i);
@@ -267,8 +273,12 @@ std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
     }
   });
   FrontView front;
-  front.panel = panel.data(), front.update = nullptr;
-  front.columns = k, front.below = 0, front.triangle_tiles = tiles, front.below_tiles = 0;
+  front.panel = panel.data();
+  front.update = nullptr;
+  front.columns = k;
+  front.below = 0;
+  front.triangle_tiles = tiles;
+  front.below_tiles = 0;
   Vector<double> floor(static_cast<std::size_t>(k), memory_);
   for (std::int32_t i = 0; i < k; ++i)
     floor[static_cast<std::size_t>(i)] = pivot_floor * std::fabs(m_[row(i) + static_cast<std::size_t>(i)]);

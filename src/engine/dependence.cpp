@@ -102,7 +102,8 @@ Index dependent_site(Span<const HardSite> sites, Memory& memory) {
   Vector<Index> rows(&memory), columns(&memory);
   for (std::size_t group = 0; group < sites.size(); ++group) {
     if (!suspect[group]) continue;
-    rows.clear(), columns.clear();
+    rows.clear();
+    columns.clear();
     for (std::size_t i = 0; i < sites.size(); ++i) {
       if (root_of(parent, static_cast<Index>(i)) == static_cast<Index>(group)) rows.push_back(static_cast<Index>(i));
     }

@@ -11,7 +11,8 @@ std::shared_ptr<const EliminatedBase> EliminatedBase::make(const PinnedOperator&
   base->floating.assign(a.component_count(), 1);
   Vector<std::uint8_t> eliminated(at(a.size()), 0, &memory);
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
-    eliminated[at(unknowns[i])] = 1, base->index_of[at(unknowns[i])] = static_cast<Index>(i);
+    eliminated[at(unknowns[i])] = 1;
+    base->index_of[at(unknowns[i])] = static_cast<Index>(i);
     base->floating[at(components[i])] = 0;
   }
   SymmetricMatrix pinned(memory);

@@ -85,9 +85,12 @@ std::shared_ptr<const Geometry> Geometry::make(const GraphInput& input, std::sha
   report(0.0f);
   Timer timer;
   WeightedGraph graph = WeightedGraph::make(input, *memory);
-  shape->mesh = std::move(graph.mesh), shape->topology = std::move(graph.topology);
-  shape->areas = std::move(graph.masses), shape->weights = std::move(graph.weights);
-  shape->weight_units = std::move(graph.weight_unit), shape->limited = std::move(graph.limited);
+  shape->mesh = std::move(graph.mesh);
+  shape->topology = std::move(graph.topology);
+  shape->areas = std::move(graph.masses);
+  shape->weights = std::move(graph.weights);
+  shape->weight_units = std::move(graph.weight_unit);
+  shape->limited = std::move(graph.limited);
   count_given(*shape);
   shape->weights_ms = timer.milliseconds();
   report(weighted);
@@ -107,8 +110,11 @@ std::shared_ptr<const Geometry> Geometry::linked(std::shared_ptr<const Geometry>
   shape->topology =
       linked_topology(plain->topology, *links, link_edges(*links, plain->operator_kind, pool), shape->weights, pool);
   count_given(*shape);
-  shape->weld_ms = plain->weld_ms, shape->weights_ms = plain->weights_ms, shape->links_ms = timer.milliseconds();
-  shape->links = std::move(links), shape->plain = std::move(plain);
+  shape->weld_ms = plain->weld_ms;
+  shape->weights_ms = plain->weights_ms;
+  shape->links_ms = timer.milliseconds();
+  shape->links = std::move(links);
+  shape->plain = std::move(plain);
   return shape;
 }
 

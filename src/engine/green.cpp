@@ -12,9 +12,12 @@ namespace {
 constexpr std::size_t piece = 16384;
 PinnedOperator operator_of(const Core& core) {
   PinnedOperator a;
-  a.matrix = &core.laplacian, a.factor = core.factor.get();
-  a.pins = core.ground, a.pin_weight = core.mean_diagonal;
-  a.memory = core.memory.get(), a.jobs = core.jobs.get();
+  a.matrix = &core.laplacian;
+  a.factor = core.factor.get();
+  a.pins = core.ground;
+  a.pin_weight = core.mean_diagonal;
+  a.memory = core.memory.get();
+  a.jobs = core.jobs.get();
   return a;
 }
 
@@ -30,14 +33,17 @@ EngineCounters GreenSolver::counters() const noexcept {
   const ConstraintCounts counts = system_.counts();
   EngineCounters counters;
   counters.factorisations = 1 + counts.rebases;  // one of the core, and one per rebase (sites taken into the factor)
-  counters.path_solves = counts.path_solves, counters.sweeps = counts.sweeps;
+  counters.path_solves = counts.path_solves;
+  counters.sweeps = counts.sweeps;
   counters.bytes = system_.row_bytes() + system_.base_bytes();
   counters.rebase_advised = system_.row_bytes() > core_->factor->statistics().bytes;
-  counters.rebases = counts.rebases, counters.dense_edits = counts.dense_edits;
+  counters.rebases = counts.rebases;
+  counters.dense_edits = counts.dense_edits;
   counters.dense_rows = static_cast<std::uint32_t>(state().rows);
   for (const auto& entry : state().entries) counters.eliminated += entry.used() && entry.eliminated >= 0;
   counters.last_route = state().decision.route;
-  counters.dense_ms = state().decision.dense_ms, counters.rebase_ms = state().decision.rebase_ms;
+  counters.dense_ms = state().decision.dense_ms;
+  counters.rebase_ms = state().decision.rebase_ms;
   return counters;
 }
 
@@ -54,13 +60,15 @@ bool GreenSolver::is_refined() const noexcept {
 void GreenSolver::value_extent(const double* values, Index channels, Index first, Index count, Vector<double>& low,
                                Vector<double>& high) const {
   const std::size_t m = at(count), components = state().sites_of.size();
-  low.assign(components * m, HUGE_VAL), high.assign(components * m, -HUGE_VAL);
+  low.assign(components * m, HUGE_VAL);
+  high.assign(components * m, -HUGE_VAL);
   for (std::size_t slot = 0; slot < state().entries.size(); ++slot) {
     if (!state().entries[slot].used()) continue;
     const std::size_t c = at(state().entries[slot].site.component);
     for (std::size_t q = 0; q < m; ++q) {
       const double value = values[slot * at(channels) + at(first) + q];
-      low[c * m + q] = std::min(low[c * m + q], value), high[c * m + q] = std::max(high[c * m + q], value);
+      low[c * m + q] = std::min(low[c * m + q], value);
+      high[c * m + q] = std::max(high[c * m + q], value);
     }
   }
 }

@@ -69,7 +69,8 @@ void GreenSolver::solve_preview(const double* values, Index channels, Index corr
     system_.solve_dense(values, channels, first, count, nullptr, answer);
     system_.combine(answer, count, z.data());
     Step sweeps;
-    sweeps.single = single.get(), sweeps.scratch = reinterpret_cast<float*>(scratch.data());
+    sweeps.single = single.get();
+    sweeps.scratch = reinterpret_cast<float*>(scratch.data());
     single->backward(z.data(), count, sweeps.scratch, *core_->jobs);
     system_.count_sweeps(1);
     write_field(z.data(), channels, first, count, answer, field);
@@ -79,7 +80,8 @@ void GreenSolver::solve_preview(const double* values, Index channels, Index corr
     for (Index step = 0; step < corrections; ++step) {
       refine(values, channels, first, count, z.data(), answer, field, sweeps);
       const double shrinks = is_measured ? 1.0 : last > 0 ? std::min(1.0, sweeps.largest / last) : first_shrink;
-      error = sweeps.largest * shrinks, last = sweeps.largest;
+      error = sweeps.largest * shrinks;
+      last = sweeps.largest;
     }
     if (corrections > 0) info.largest_correction = std::max(info.largest_correction, sweeps.largest);
     info.value_range = std::max(info.value_range, range);

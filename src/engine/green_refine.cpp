@@ -27,8 +27,10 @@ constexpr std::size_t piece = 16384;  // matrix rows of one thread's job: the fi
 
 void GreenSolver::clear_answer(Index count, Answer& next) const {
   const std::size_t m = at(count);
-  next.slot.assign(state().entries.size() * m, 0.0), next.freed.assign(state().freed.size() * m, 0.0);
-  next.constant.assign(state().sites_of.size() * m, 0.0), next.total.assign(state().sites_of.size() * m, 0.0);
+  next.slot.assign(state().entries.size() * m, 0.0);
+  next.freed.assign(state().freed.size() * m, 0.0);
+  next.constant.assign(state().sites_of.size() * m, 0.0);
+  next.total.assign(state().sites_of.size() * m, 0.0);
 }
 
 // Replaces the right-hand side z of the field, in the order of the factor, and that of the sites in `next` by their
@@ -129,7 +131,8 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
       double most = 0;
       for (std::size_t q = 0; q < m; ++q) {
         const double more = change[q] + next.constant[c * m + q];
-        own[q] += more, most = std::max(most, std::fabs(step.unit ? more / step.unit[c * m + q] : more));
+        own[q] += more;
+        most = std::max(most, std::fabs(step.unit ? more / step.unit[c * m + q] : more));
       }
       largest[begin / piece] = std::max(largest[begin / piece], most);
     }
@@ -219,7 +222,8 @@ bool GreenSolver::correct(const double* values, Index channels, const double* fi
     for (std::size_t slot = 0; slot < state().entries.size(); ++slot)
       std::copy_n(flux + slot * stride + at(first), m, answer.slot.data() + slot * m);
     Step step;
-    step.change = change, step.flux_change = flux_change;
+    step.change = change;
+    step.flux_change = flux_change;
     refine(values, channels, first, count, z.data(), answer, copy.data(), step);
   }
   return true;

@@ -24,10 +24,12 @@ Vector<std::uint8_t> lost_components(const Core& core, const FactorOptions& opti
   Vector<Index> next(start.begin(), start.end() - 1, &memory);
   for (std::size_t v = 0; v < n; ++v) {
     const std::size_t c = at(component[v]);
-    place[v] = next[c] - start[c], vertex[at(next[c]++)] = static_cast<Index>(v);
+    place[v] = next[c] - start[c];
+    vertex[at(next[c]++)] = static_cast<Index>(v);
   }
   FactorOptions used;
-  used.ordering = options.ordering, used.lost_share = margin * options.lost_share;
+  used.ordering = options.ordering;
+  used.lost_share = margin * options.lost_share;
   Vector<std::uint8_t> lost(components, 0, &memory);
   const SymmetricMatrix& k = core.laplacian;
   for (std::size_t c = 0; c < components; ++c) {
@@ -37,7 +39,8 @@ Vector<std::uint8_t> lost_components(const Core& core, const FactorOptions& opti
       const Index v = vertex[at(i)];
       for (std::size_t e = at(k.column_start[at(v)]); e < at(k.column_start[at(v) + 1]); ++e) {
         const double beta = k.row[e] == v && v == core.ground[c] ? core.mean_diagonal[c] : 0.0;
-        block.row.push_back(place[at(k.row[e])]), block.value.push_back(k.value[e] + beta);
+        block.row.push_back(place[at(k.row[e])]);
+        block.value.push_back(k.value[e] + beta);
       }
       block.column_start.push_back(static_cast<Index>(block.row.size()));
     }

@@ -116,7 +116,8 @@ void MixedSolver::find_values(Block& block, Vector<double>& residual, Vector<dou
     each_site([&](std::size_t slot, const Site& site) {
       for (std::size_t q = 0; q < m; ++q) {
         const double length = next[at(site.component) * m + q];
-        values[slot * m + q] -= length * step[slot * m + q], residual[slot * m + q] -= length * image[slot * m + q];
+        values[slot * m + q] -= length * step[slot * m + q];
+        residual[slot * m + q] -= length * image[slot * m + q];
       }
     });
     // A group without a step is done: small, or without an energy.
@@ -125,7 +126,9 @@ void MixedSolver::find_values(Block& block, Vector<double>& residual, Vector<dou
     is_open = false;
     for (std::size_t g = 0; g < groups; ++g) {
       const double ratio = next[g] > goal[g] ? next[g] / rate[g] : 0.0;
-      rate[g] = next[g], next[g] = ratio, is_open = is_open || ratio > 0;
+      rate[g] = next[g];
+      next[g] = ratio;
+      is_open = is_open || ratio > 0;
     }
     each_site([&](std::size_t slot, const Site& site) {
       for (std::size_t q = 0; q < m; ++q) {
@@ -156,7 +159,8 @@ void MixedSolver::solve_block(Block& block, const double* right, const double* g
   }
   inner_.solve(missed.data(), channels, nullptr, residual.data());
   if (right) {
-    std::copy_n(v, n, load), multiply_mass(load, m);
+    std::copy_n(v, n, load);
+    multiply_mass(load, m);
     inner_.respond(load, nullptr, channels, nullptr, more.data());
     for (std::size_t i = 0; i < block.size; ++i) residual[i] += more[i];
   }
@@ -215,7 +219,8 @@ void MixedSolver::solve(const double* values, Index channels, double* field, dou
         if (site.is_hard_vertex()) std::copy_n(&own[slot * m], m, u.data() + at(site.vertex[0]) * m);
       });
     };
-    solve_block(block, nullptr, own.data(), u.data(), lambda), hold();
+    solve_block(block, nullptr, own.data(), u.data(), lambda);
+    hold();
     Corrections corrections;
     double largest = 0;
     do {
@@ -252,7 +257,8 @@ bool MixedSolver::correct(const double* values, Index channels, const double* fi
     Block block(*core_, slots, std::min(ConstraintSystem::channel_block, channels - first));
     const std::size_t m = block.m;
     find_scale(block);
-    own.assign(block.size, 0.0), lambda.assign(block.size, 0.0);
+    own.assign(block.size, 0.0);
+    lambda.assign(block.size, 0.0);
     each_site([&](std::size_t slot, const Site&) {
       std::copy_n(values + slot * stride + at(first), m, &own[slot * m]);
       std::copy_n(flux + slot * stride + at(first), m, &lambda[slot * m]);

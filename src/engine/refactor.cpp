@@ -22,7 +22,8 @@ RefactorSolver::RefactorSolver(const RefactorSolver& other)
 
 EngineCounters RefactorSolver::counters() const noexcept {
   EngineCounters counters;
-  counters.factorisations = factorisations_, counters.sweeps = sweeps_;
+  counters.factorisations = factorisations_;
+  counters.sweeps = sweeps_;
   counters.bytes = state_.factor == core_->factor ? 0.0 : state_.factor->statistics().bytes;
   return counters;
 }
@@ -242,7 +243,8 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
     const std::size_t v = at(site.vertex[0]);
     for (std::size_t c = 0; c < m; ++c) {
       if (site.compliance == 0) {
-        fixed[v] = 1, hard[v * m + c] = centred(slot, c);
+        fixed[v] = 1;
+        hard[v * m + c] = centred(slot, c);
       } else {
         right[at(position[v]) * m + c] += core_->mean_diagonal[at(site.component)] / site.compliance * centred(slot, c);
       }
@@ -265,7 +267,10 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
 
   Vector<double> whole(&memory), own(&memory);
   double* out = field;
-  if (!out) whole.resize(n * m), out = whole.data();
+  if (!out) {
+    whole.resize(n * m);
+    out = whole.data();
+  }
   for (std::size_t v = 0; v < n; ++v) {
     const std::size_t component = at(core_->mesh.component[v]);
     for (std::size_t c = 0; c < m; ++c) {
@@ -275,7 +280,10 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
     }
   }
   const bool is_refined = loses_digits();
-  if (is_refined && !flux) own.resize(state_.sites.size() * m), flux = own.data();
+  if (is_refined && !flux) {
+    own.resize(state_.sites.size() * m);
+    flux = own.data();
+  }
   const auto hold = [&] {
     for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
       const Site& site = state_.sites[slot];

@@ -39,7 +39,8 @@ void ScreenedOperator::copy_operator(const ScreenedOptions& options) {
     for (std::size_t i = at(k.column_start[at(v)]); i < at(k.column_start[at(v) + 1]); ++i) {
       if (k.row[i] == v) continue;
       const double weight = std::max(-k.value[i], least);
-      matrix.value[i] = -weight, sum += weight;
+      matrix.value[i] = -weight;
+      sum += weight;
     }
     matrix.value[matrix.diagonal(v)] = sum;
   }
@@ -66,7 +67,8 @@ std::shared_ptr<const ScreenedOperator> ScreenedOperator::make(std::shared_ptr<c
   for (std::size_t c = 0; c < made->pins.size(); ++c) {
     if (made->pins[c] < 0) continue;
     double& diagonal = matrix.value[matrix.diagonal(made->pins[c])];
-    plain.push_back(diagonal), diagonal += core.mean_diagonal[c];
+    plain.push_back(diagonal);
+    diagonal += core.mean_diagonal[c];
   }
   made->factor = core.factor->refactor(matrix, {}, *memory, *core.jobs);
   std::size_t next = 0;
@@ -100,9 +102,13 @@ void ScreenedOperator::find_paths() {
   Memory& memory = *core->memory;
   Vector<Index> start(1, 0, &memory), row(&memory);
   for (const Index pin : pins) {
-    if (pin >= 0) row.push_back(pin), start.push_back(static_cast<Index>(row.size()));
+    if (pin >= 0) {
+      row.push_back(pin);
+      start.push_back(static_cast<Index>(row.size()));
+    }
   }
-  paths.group.assign(pins.size(), -1), paths.column.assign(pins.size(), 0);
+  paths.group.assign(pins.size(), -1);
+  paths.column.assign(pins.size(), 0);
   paths.corner.resize(pins.size());
   for (std::size_t c = 0; c < pins.size(); ++c) paths.corner[c] = -1 / core->mean_diagonal[c];
   if (row.empty()) return;
@@ -121,10 +127,13 @@ void ScreenedOperator::find_paths() {
 
 PinnedOperator ScreenedOperator::view() const noexcept {
   PinnedOperator a;
-  a.matrix = &matrix, a.factor = factor.get();
-  a.pins = pins, a.pin_weight = core->mean_diagonal;
+  a.matrix = &matrix;
+  a.factor = factor.get();
+  a.pins = pins;
+  a.pin_weight = core->mean_diagonal;
   a.paths = &paths;
-  a.memory = core->memory.get(), a.jobs = core->jobs.get();
+  a.memory = core->memory.get();
+  a.jobs = core->jobs.get();
   return a;
 }
 
@@ -143,7 +152,8 @@ void ScreenedOperator::add_sites(const ConstraintSystem& system, const double* v
     Workspace plain(core->workspaces, is_corrected ? n * m : 0);
     if (is_corrected && !flux) {
       own.assign(state.entries.size() * m, 0.0);
-      block.flux = own.data(), block.flux_stride = m;
+      block.flux = own.data();
+      block.flux_stride = m;
     }
     for (std::size_t v = 0; is_corrected && v < n; ++v) std::copy_n(block.u + v * stride, m, plain.data() + v * m);
     place_sites(system, block);
@@ -316,7 +326,8 @@ void ScreenedOperator::balance(const ConstraintSystem& system, Index channels, d
     const double soft = site.compliance / core->mean_diagonal[at(site.component)];
     for (std::size_t c = 0; c < m; ++c) {
       const double sum = total[at(site.component) * m + c];
-      flux[slot * m + c] = -sum, gap[slot * m + c] += soft * sum;
+      flux[slot * m + c] = -sum;
+      gap[slot * m + c] += soft * sum;
       for (int k = 0; k < 3; ++k) {
         if (site.vertex[k] >= 0) right[at(site.vertex[k]) * m + c] -= site.weight[k] * sum;
       }

@@ -59,7 +59,8 @@ void Screening::correct_field(Index channels) {
   Vector<double> low(reaches.size(), core.memory.get()), unit(reaches.size(), core.memory.get());
   for (std::size_t c = 0; c < stride; ++c) {
     // The unit of changes is the range of the targets, or their size if the range is 0.
-    low.assign(reaches.size(), HUGE_VAL), unit.assign(reaches.size(), -HUGE_VAL);
+    low.assign(reaches.size(), HUGE_VAL);
+    unit.assign(reaches.size(), -HUGE_VAL);
     for (std::size_t v = 0; v < n; ++v) {
       if (!(screened->mass[v] > 0)) continue;
       const std::size_t component = at(core.mesh.component[v]);
@@ -69,7 +70,10 @@ void Screening::correct_field(Index channels) {
     for (std::size_t i = 0; i < unit.size(); ++i)
       unit[i] = unit[i] > low[i] ? unit[i] - low[i] : std::max(std::fabs(low[i]), std::numeric_limits<double>::min());
     Workspace u(core.workspaces, n), wish(core.workspaces, n), change(core.workspaces, n);
-    for (std::size_t v = 0; v < n; ++v) u[v] = field[v * stride + c], wish[v] = target[v * stride + c];
+    for (std::size_t v = 0; v < n; ++v) {
+      u[v] = field[v * stride + c];
+      wish[v] = target[v * stride + c];
+    }
     Corrections corrections;
     double largest = 0;
     do {
@@ -161,14 +165,17 @@ EngineCounters ScreenedSolver::counters() const noexcept {
   const ConstraintCounts counts = system_.counts();
   EngineCounters out;
   out.factorisations = 2 + counts.rebases;  // one of the core, one of the screening, and one per rebase
-  out.path_solves = counts.path_solves, out.sweeps = counts.sweeps;
-  out.rebases = counts.rebases, out.dense_edits = counts.dense_edits;
+  out.path_solves = counts.path_solves;
+  out.sweeps = counts.sweeps;
+  out.rebases = counts.rebases;
+  out.dense_edits = counts.dense_edits;
   out.bytes = system_.row_bytes() + system_.base_bytes() + screening_->screened->factor->statistics().bytes;
   out.rebase_advised = system_.row_bytes() > core().factor->statistics().bytes;
   out.dense_rows = static_cast<std::uint32_t>(system_.state().rows);
   for (const auto& entry : system_.state().entries) out.eliminated += entry.used() && entry.eliminated >= 0;
   out.last_route = system_.state().decision.route;
-  out.dense_ms = system_.state().decision.dense_ms, out.rebase_ms = system_.state().decision.rebase_ms;
+  out.dense_ms = system_.state().decision.dense_ms;
+  out.rebase_ms = system_.state().decision.rebase_ms;
   return out;
 }
 

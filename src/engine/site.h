@@ -20,7 +20,9 @@ struct Site {
   bool is_hard_vertex() const noexcept { return is_vertex() && compliance == 0; }
   static Site at_unknown(Index unknown, Index component, double compliance = 0) noexcept {
     Site site;
-    site.vertex[0] = unknown, site.weight[0] = 1, site.compliance = compliance;
+    site.vertex[0] = unknown;
+    site.weight[0] = 1;
+    site.compliance = compliance;
     site.component = component;
     return site;
   }

@@ -31,8 +31,12 @@ void check_site_count(std::uint32_t count, std::uint32_t there) {
 }
 
 void SiteSet::swap(SiteSet& other) noexcept {
-  slots_.swap(other.slots_), values_.swap(other.values_), by_vertex_.swap(other.by_vertex_);
-  std::swap(channels_, other.channels_), std::swap(count_, other.count_), std::swap(hidden_, other.hidden_);
+  slots_.swap(other.slots_);
+  values_.swap(other.values_);
+  by_vertex_.swap(other.by_vertex_);
+  std::swap(channels_, other.channels_);
+  std::swap(count_, other.count_);
+  std::swap(hidden_, other.hidden_);
   std::swap(numbers_, other.numbers_);
 }
 
@@ -51,7 +55,8 @@ Site SiteSet::locate(const Mesh& mesh, const Places& places, std::uint32_t i) co
   const double sum = weight[0] + weight[1] + weight[2];
   Site site;
   for (int k = 0; k < 3; ++k) {
-    site.vertex[k] = place.vertex[k], site.weight[k] = weight[k] / sum;
+    site.vertex[k] = place.vertex[k];
+    site.weight[k] = weight[k] / sum;
     if (site.weight[k] > 1 - corner_share) return Site::at_vertex(mesh, site.vertex[k]);  // a corner is a vertex site
   }
   site.component = mesh.component[at(site.vertex[0])];
@@ -123,8 +128,10 @@ void SiteSet::set_value(std::int32_t slot, const double* values) noexcept {
 // Gives a site its vertices under the number `slot`. A disc also takes hidden sites.
 void SiteSet::place(const Core& core, const Arrival& arrival, std::int32_t slot, std::uint32_t limit) {
   Slot own;
-  own.site = arrival.site, own.given_vertex = arrival.given_vertex;
-  own.stiffness = arrival.stiffness, own.radius = arrival.radius;
+  own.site = arrival.site;
+  own.given_vertex = arrival.given_vertex;
+  own.stiffness = arrival.stiffness;
+  own.radius = arrival.radius;
   const double compliance = arrival.stiffness > 0 ? 1 / arrival.stiffness : 0.0;
   own.site.compliance = compliance;
   if (!(arrival.radius > 0)) {
@@ -161,7 +168,8 @@ void SiteSet::place(const Core& core, const Arrival& arrival, std::int32_t slot,
     const std::int32_t member = free_slot();
     Slot& other = slots_[at(member)];
     other.site = Site::at_vertex(core.mesh, held[i], share);
-    other.stiffness = arrival.stiffness, other.owner = slot;
+    other.stiffness = arrival.stiffness;
+    other.owner = slot;
     set_value(member, arrival.values);
     ++hidden_;
   }
@@ -282,7 +290,10 @@ SiteDifference::SiteDifference(const SiteSet& from, const SiteSet& to, Memory& m
     const bool was = s < before.size() && before[s].used(), is = s < after.size() && after[s].used();
     if (was && is && same_site(before[s].site, after[s].site)) continue;
     if (was) remove.push_back(static_cast<std::int32_t>(s));
-    if (is) add.push_back(static_cast<std::int32_t>(s)), sites.push_back(after[s].site);
+    if (is) {
+      add.push_back(static_cast<std::int32_t>(s));
+      sites.push_back(after[s].site);
+    }
   }
 }
 

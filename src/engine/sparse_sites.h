@@ -11,7 +11,8 @@ struct SiteColumns {
   void append(const Site& site, const EliminatedBase* base) {
     for (int k = 0; k < 3; ++k) {
       if (site.vertex[k] < 0 || site.weight[k] == 0 || (base && base->eliminated(site.vertex[k]))) continue;
-      row.push_back(site.vertex[k]), value.push_back(site.weight[k]);
+      row.push_back(site.vertex[k]);
+      value.push_back(site.weight[k]);
     }
     start.push_back(static_cast<std::int32_t>(row.size()));
   }
@@ -21,7 +22,10 @@ struct SiteColumns {
     for (std::int32_t i = k.column_start[static_cast<std::size_t>(r)];
          i < k.column_start[static_cast<std::size_t>(r) + 1]; ++i) {
       const std::int32_t v = k.row[static_cast<std::size_t>(i)];
-      if (!base.eliminated(v)) row.push_back(v), value.push_back(-k.value[static_cast<std::size_t>(i)]);
+      if (!base.eliminated(v)) {
+        row.push_back(v);
+        value.push_back(-k.value[static_cast<std::size_t>(i)]);
+      }
     }
     start.push_back(static_cast<std::int32_t>(row.size()));
   }

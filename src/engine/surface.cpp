@@ -12,7 +12,8 @@ struct Surface::Forget {
       const std::lock_guard<std::mutex> lock(made->guard);
       if (made->core[kind].expired()) made->core[kind].reset();
     }
-    made.reset(), core.reset();  // the operator last: it can hold the memory of all this
+    made.reset();
+    core.reset();  // the operator last: it can hold the memory of all this
   }
 };
 
@@ -40,8 +41,11 @@ std::shared_ptr<const Core> Surface::make_core(std::size_t slot, std::shared_ptr
     if (std::shared_ptr<const Core> found = made_->core[slot].lock()) return found;
   }
   CoreOptions options;
-  options.operator_kind = geometry->operator_kind, options.field_kind = kind, options.ordering = own_->ordering;
-  options.flop_limit = own_->flop_limit, options.formed_valence = own_->formed_valence;
+  options.operator_kind = geometry->operator_kind;
+  options.field_kind = kind;
+  options.ordering = own_->ordering;
+  options.flop_limit = own_->flop_limit;
+  options.formed_valence = own_->formed_valence;
   const std::shared_ptr<const Core> core = Core::make(std::move(geometry), options);
   const std::shared_ptr<const Core> counted(core.get(), Forget{core, made_, slot},
                                             OwningAllocator<Core>(geometry_->memory));

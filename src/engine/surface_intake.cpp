@@ -29,11 +29,18 @@ void check_limit(std::uint32_t count, std::uint32_t limit, const char* noun, con
 
 hf_surface_desc options_of(const hf_graph_desc& desc) {
   hf_surface_desc out{};
-  out.vertex_count = desc.vertex_count, out.weld = HF_WELD_NONE;
-  out.field_kind = desc.field_kind, out.ordering = desc.ordering, out.thread_count = desc.thread_count;
-  out.vertex_limit = desc.vertex_limit, out.memory_limit_mb = desc.memory_limit_mb;
-  out.work_limit_gflop = desc.work_limit_gflop, out.reserved = desc.reserved;
-  out.allocator = desc.allocator, out.job_runner = desc.job_runner, out.progress = desc.progress;
+  out.vertex_count = desc.vertex_count;
+  out.weld = HF_WELD_NONE;
+  out.field_kind = desc.field_kind;
+  out.ordering = desc.ordering;
+  out.thread_count = desc.thread_count;
+  out.vertex_limit = desc.vertex_limit;
+  out.memory_limit_mb = desc.memory_limit_mb;
+  out.work_limit_gflop = desc.work_limit_gflop;
+  out.reserved = desc.reserved;
+  out.allocator = desc.allocator;
+  out.job_runner = desc.job_runner;
+  out.progress = desc.progress;
   out.saved_factor = desc.saved_factor;
   return out;
 }
@@ -50,14 +57,20 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
   read_field_kind(desc.field_kind);
   check_choice(desc.ordering, 3, "ordering");
   require_ordering(ordering_of(desc.ordering));
-  info.vertex_count = desc.vertex_count, info.triangle_count = desc.triangle_count;
-  info.weld = desc.weld, info.weld_tolerance = desc.weld_tolerance;
-  info.operator_kind = desc.operator_kind, info.field_kind = desc.field_kind, info.ordering = desc.ordering;
+  info.vertex_count = desc.vertex_count;
+  info.triangle_count = desc.triangle_count;
+  info.weld = desc.weld;
+  info.weld_tolerance = desc.weld_tolerance;
+  info.operator_kind = desc.operator_kind;
+  info.field_kind = desc.field_kind;
+  info.ordering = desc.ordering;
   info.thread_count = count_of(desc.thread_count, 1, 1, most_threads, "thread_count");
   info.vertex_limit = desc.vertex_limit ? desc.vertex_limit : default_vertex_limit;
-  info.triangle_limit = desc.triangle_limit, info.memory_limit_mb = desc.memory_limit_mb;
+  info.triangle_limit = desc.triangle_limit;
+  info.memory_limit_mb = desc.memory_limit_mb;
   info.work_limit_gflop = desc.work_limit_gflop ? desc.work_limit_gflop : default_work_limit_gflop;
-  info.face_count = desc.face_count, info.corner_count = desc.corner_count;
+  info.face_count = desc.face_count;
+  info.corner_count = desc.corner_count;
   require_zero(desc.reserved);
   if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
     fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
@@ -93,8 +106,11 @@ CoreOptions core_options(const hf_surface_info& info) {
 
 CoreOptions options_like(const Surface& other) {
   CoreOptions options;
-  options.operator_kind = other.own().geometry->operator_kind, options.field_kind = other.field_kind();
-  options.ordering = other.own().ordering, options.flop_limit = other.own().flop_limit, options.like = &other.own();
+  options.operator_kind = other.own().geometry->operator_kind;
+  options.field_kind = other.field_kind();
+  options.ordering = other.own().ordering;
+  options.flop_limit = other.own().flop_limit;
+  options.like = &other.own();
   return options;
 }
 

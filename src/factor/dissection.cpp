@@ -128,7 +128,8 @@ class Dissection {
     part.allocate(memory_, n, matrix_.row.size() - static_cast<std::size_t>(n), !coordinates_.empty());
     std::int32_t k = 0;
     for (std::int32_t v = 0; v < n; ++v) {
-      part.id()[v] = v, part.start()[v] = k;
+      part.id()[v] = v;
+      part.start()[v] = k;
       for (std::int32_t e = matrix_.column_start[v]; e < matrix_.column_start[v + 1]; ++e) {
         if (matrix_.row[e] != v) part.neighbour()[k++] = matrix_.row[e];
       }
@@ -155,7 +156,8 @@ class Dissection {
       workspace.number[v] = size[side[v]]++;
       edges[side[v]] += static_cast<std::size_t>(part.start()[v + 1] - part.start()[v]);
     }
-    left.begin = part.begin, right.begin = part.begin + size[side_left];
+    left.begin = part.begin;
+    right.begin = part.begin + size[side_left];
     extract(part, workspace, side_left, size[side_left], edges[side_left], left);
     extract(part, workspace, side_right, size[side_right], edges[side_right], right);
     std::int32_t* last = order_ + part.begin + size[side_left] + size[side_right];
@@ -196,13 +198,16 @@ class Dissection {
     const std::uint8_t* side_of = workspace.side.data();
     const std::int32_t* number = workspace.number.data();
     const std::int32_t *start = part.start(), *neighbour = part.neighbour(), *id = part.id();
-    std::int32_t *out_start = out.start(), *out_neighbour = out.neighbour(), *out_id = out.id();
+    std::int32_t* out_start = out.start();
+    *out_neighbour = out.neighbour();
+    *out_id = out.id();
     const float* point = part.point.data();
     float* out_point = out.point.data();
     std::int32_t k = 0, v = 0;
     for (std::int32_t u = 0; u < part.size; ++u) {
       if (side_of[u] != side) continue;
-      out_id[v] = id[u], out_start[v] = k;
+      out_id[v] = id[u];
+      out_start[v] = k;
       if (point)
         std::copy(point + 3 * static_cast<std::size_t>(u), point + 3 * static_cast<std::size_t>(u) + 3,
                   out_point + 3 * static_cast<std::size_t>(v));
@@ -278,9 +283,10 @@ class Dissection {
     std::shared_ptr<Workspace> workspace;
     {
       std::lock_guard<std::mutex> lock(mutex_);
-      if (!free_.empty())
-        workspace = free_.back(), free_.pop_back();
-      else
+      if (!free_.empty()) {
+        workspace = free_.back();
+        free_.pop_back();
+      } else
         free_.reserve(++made_);
     }
     if (!workspace) workspace = make_shared_in<Workspace>(memory_, memory_, matrix_.size());

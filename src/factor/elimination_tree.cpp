@@ -22,7 +22,8 @@ void link_tree(const SymmetricMatrix& matrix, const std::int32_t* order, const s
   for (std::int32_t i = 0; i < n; ++i) {
     poller.due();
     if (i + columns_ahead < n) HF_PREFETCH(row + start[order[i + columns_ahead]]);
-    parent[i] = -1, ancestor[i] = -1;
+    parent[i] = -1;
+    ancestor[i] = -1;
     const std::int32_t unknown = order[i];
     for (std::int32_t e = start[unknown]; e < start[unknown + 1]; ++e) {
       std::int32_t k = position[row[e]];
@@ -32,7 +33,10 @@ void link_tree(const SymmetricMatrix& matrix, const std::int32_t* order, const s
         ancestor[k] = i;
         k = next;
       }
-      if (ancestor[k] == -1) ancestor[k] = i, parent[k] = i;
+      if (ancestor[k] == -1) {
+        ancestor[k] = i;
+        parent[k] = i;
+      }
     }
   }
 }
@@ -115,12 +119,15 @@ void count_columns(EliminationTree& tree, std::int32_t n, Memory& memory) {
   }
   for (std::int32_t j = 0; j < n; ++j) first[j] = -1;
   for (std::int32_t j = 0; j < n; ++j) {
-    if (first[j] < 0)
-      first[j] = j, count[j] = 1;  // j is a leaf of the tree
+    if (first[j] < 0) {
+      first[j] = j;
+      count[j] = 1;
+    }  // j is a leaf of the tree
     else
       count[j] = 0;
     if (parent[j] >= 0 && first[parent[j]] < 0) first[parent[j]] = first[j];
-    previous_leaf[j] = -1, set[j] = j;
+    previous_leaf[j] = -1;
+    set[j] = j;
   }
   Poller poller;
   for (std::int32_t j = 0; j < n; ++j) {
@@ -165,8 +172,13 @@ void make_elimination_tree(const SymmetricMatrix& matrix, Span<const std::int32_
   for (std::int32_t k = 0; k < n; ++k) position[order[k]] = k;
   link_tree(matrix, order.data(), position, n, parent, head);
   make_postorder(parent, n, post, head, next);
-  out.label.allocate(memory, size), out.parent.allocate(memory, size), out.count.allocate(memory, size);
-  for (std::int32_t k = 0; k < n; ++k) out.label[k] = order[post[k]], head[post[k]] = k;
+  out.label.allocate(memory, size);
+  out.parent.allocate(memory, size);
+  out.count.allocate(memory, size);
+  for (std::int32_t k = 0; k < n; ++k) {
+    out.label[k] = order[post[k]];
+    head[post[k]] = k;
+  }
   for (std::int32_t k = 0; k < n; ++k) {
     out.parent[k] = parent[post[k]] < 0 ? -1 : head[parent[post[k]]];
     position[out.label[k]] = k;

@@ -108,7 +108,8 @@ std::shared_ptr<Analysis> make_analysis(const SymmetricMatrix& matrix, const Fac
   }
   order.release();
   make_plan(analysis->symbolic, memory, analysis->plan);
-  analysis->pattern_hash = hash_pattern(matrix), analysis->ordering = options.ordering;
+  analysis->pattern_hash = hash_pattern(matrix);
+  analysis->ordering = options.ordering;
   return analysis;
 }
 
@@ -131,7 +132,10 @@ void require_within_limits(const Analysis& analysis, double flop_limit, const Me
 
 std::uint64_t hash_pattern(const SymmetricMatrix& matrix) noexcept {
   std::uint64_t hash = 1469598103934665603ull ^ matrix.row.size();
-  const auto mix = [&](std::uint64_t word) { hash = (hash ^ word) * 0x9E3779B97F4A7C15ull, hash ^= hash >> 29; };
+  const auto mix = [&](std::uint64_t word) {
+    hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
+    hash ^= hash >> 29;
+  };
   for (const std::int32_t start : matrix.column_start) mix(static_cast<std::uint32_t>(start));
   const std::size_t count = matrix.row.size();
   const std::int32_t* row = matrix.row.data();
@@ -170,7 +174,8 @@ void SupernodalFactor::measure_paths() {
     total.rows += columns * path[static_cast<std::size_t>(s)].rows;
   }
   if (pattern.size == 0) return;
-  statistics_.path_entries = total.entries / pattern.size, statistics_.path_rows = total.rows / pattern.size;
+  statistics_.path_entries = total.entries / pattern.size;
+  statistics_.path_rows = total.rows / pattern.size;
 }
 
 double SupernodalFactor::commute_time(Span<const std::int32_t> component, Span<const double> diagonal) const {

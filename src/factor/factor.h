@@ -87,7 +87,8 @@ class Factor {
 
   // Runs both sweeps: z <- (G G')^-1 z. This multiplies by the inverse of the matrix, with rows in factor order.
   void solve_in_order(double* z, std::int32_t channels, JobRunner& jobs) const {
-    forward(z, channels, jobs), backward(z, channels, jobs);
+    forward(z, channels, jobs);
+    backward(z, channels, jobs);
   }
   // Computes x <- A^-1 right in the caller's numbering, at number * channels + channel. right may be x. scratch: as
   // many numbers as x.

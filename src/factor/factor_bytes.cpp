@@ -122,12 +122,20 @@ bool finite_numbers(const std::uint8_t* bytes, std::uint64_t count) noexcept {
 
 void read_lists(const std::uint8_t* bytes, const Layout& layout, const Header& header, Memory& memory, Symbolic& out) {
   const std::size_t n = static_cast<std::size_t>(header.unknowns), count = static_cast<std::size_t>(header.supernodes);
-  out.size = header.unknowns, out.supernodes = header.supernodes;
-  out.entries = header.entries, out.flops = header.flops;
-  out.order.allocate(memory, n), out.position.allocate(memory, n), out.supernode.allocate(memory, n);
-  out.first.allocate(memory, count + 1), out.parent.allocate(memory, count), out.subtree.allocate(memory, count);
-  out.row_start.allocate(memory, count + 1), out.rows.allocate(memory, header.row_count + Symbolic::row_slack);
-  out.value_start.allocate(memory, count), out.work.allocate(memory, count);
+  out.size = header.unknowns;
+  out.supernodes = header.supernodes;
+  out.entries = header.entries;
+  out.flops = header.flops;
+  out.order.allocate(memory, n);
+  out.position.allocate(memory, n);
+  out.supernode.allocate(memory, n);
+  out.first.allocate(memory, count + 1);
+  out.parent.allocate(memory, count);
+  out.subtree.allocate(memory, count);
+  out.row_start.allocate(memory, count + 1);
+  out.rows.allocate(memory, header.row_count + Symbolic::row_slack);
+  out.value_start.allocate(memory, count);
+  out.work.allocate(memory, count);
   if (n > 0) std::memcpy(out.order.data(), bytes + layout.order, 4 * n);
   std::memcpy(out.first.data(), bytes + layout.first, 4 * (count + 1));
   if (header.row_count > 0) std::memcpy(out.rows.data(), bytes + layout.rows, 4 * header.row_count);
@@ -247,13 +255,18 @@ void save_factor(const Factor& factor, std::uint64_t matrix_hash, Span<std::uint
          static_cast<unsigned long long>(layout.length), out.size());
   }
   Header header{};
-  header.magic = magic, header.version = version, header.byte_order = byte_order;
-  header.unknowns = symbolic.size, header.supernodes = symbolic.supernodes;
+  header.magic = magic;
+  header.version = version;
+  header.byte_order = byte_order;
+  header.unknowns = symbolic.size;
+  header.supernodes = symbolic.supernodes;
   header.ordering = static_cast<std::int32_t>(full.analysis()->ordering);
   header.row_count = static_cast<std::uint64_t>(symbolic.row_start[symbolic.supernodes]);
   header.value_count = static_cast<std::uint64_t>(symbolic.stored_entries);
-  header.pattern_hash = full.analysis()->pattern_hash, header.matrix_hash = matrix_hash;
-  header.entries = symbolic.entries, header.flops = symbolic.flops;
+  header.pattern_hash = full.analysis()->pattern_hash;
+  header.matrix_hash = matrix_hash;
+  header.entries = symbolic.entries;
+  header.flops = symbolic.flops;
   header.length = layout.length;
   std::uint8_t* bytes = out.data();
   const auto put = [&](std::uint64_t from, std::uint64_t to, const void* data, std::uint64_t length) {

@@ -96,7 +96,8 @@ inline void panel_multiply(double* panel, std::int64_t tile_stride, std::int32_t
     double* c[gemm_rows];
     for (int r = 0; r < gemm_rows; ++r) {
       double* row = vector_row(panel, v + r, tile_stride);
-      a[r] = row, c[r] = row + shift;
+      a[r] = row;
+      c[r] = row + shift;
     }
     multiply_tile<gemm_rows, false>(a, b, k_count, c, 8);
   }
@@ -219,7 +220,10 @@ void update_block(const FrontView& front, std::int32_t tile_begin, std::int32_t 
     for (; v + gemm_rows <= v_end; v += gemm_rows) {
       const double* a[gemm_rows];
       double* c[gemm_rows];
-      for (int r = 0; r < gemm_rows; ++r) a[r] = vector_row(rows, v + r, stride), c[r] = target + (v + r) * D::width;
+      for (int r = 0; r < gemm_rows; ++r) {
+        a[r] = vector_row(rows, v + r, stride);
+        c[r] = target + (v + r) * D::width;
+      }
       multiply_tile<gemm_rows, Fresh>(a, b, k_count, c, step);
     }
     if (gemm_rows == 3 && v + 2 <= v_end) {

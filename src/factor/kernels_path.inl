@@ -79,7 +79,8 @@ void path_triangle(const double* triangle, std::int32_t columns, double* x, std:
     double* target[step];
     for (std::int32_t r = 0; r < count; ++r) {
       const std::int64_t at = begin + r;
-      a[r] = triangle + at * (at + 1) / 2, target[r] = x + at * lanes;
+      a[r] = triangle + at * (at + 1) / 2;
+      target[r] = x + at * lanes;
     }
     lane_rows_any<false>(a, 1, x, lanes, lanes, begin, target, count);
     for (std::int32_t j = 0; j < count; ++j) {
@@ -107,8 +108,10 @@ void path_rows(const double* below, std::int32_t row_count, std::int32_t columns
     const std::int32_t count = row_count - begin < step ? row_count - begin : step;
     const double* a[step];
     double* out[step];
-    for (std::int32_t r = 0; r < count; ++r)
-      a[r] = below + static_cast<std::int64_t>(begin + r) * columns, out[r] = base + target[begin + r];
+    for (std::int32_t r = 0; r < count; ++r) {
+      a[r] = below + static_cast<std::int64_t>(begin + r) * columns;
+      out[r] = base + target[begin + r];
+    }
     lane_rows_any<false>(a, 1, x, lanes, lanes, columns, out, count);
   }
 }
@@ -117,7 +120,10 @@ void gram(const double* a, std::int32_t a_lanes, std::int32_t a_count, const dou
           std::int32_t b_count, std::int32_t rows, double* out, std::int32_t stride) {
   const double* left[32];
   double* target[32];
-  for (std::int32_t i = 0; i < a_count; ++i) left[i] = a + i, target[i] = out + static_cast<std::int64_t>(i) * stride;
+  for (std::int32_t i = 0; i < a_count; ++i) {
+    left[i] = a + i;
+    target[i] = out + static_cast<std::int64_t>(i) * stride;
+  }
   if (b_lanes == 1) {
     for (std::int32_t i = 0; i < a_count; ++i) {
       double total = target[i][0];

@@ -338,7 +338,10 @@ inline void backward_triangle_lanes(const T* triangle, std::int32_t columns, T* 
   const auto take_rows = [&](std::int32_t from, std::int32_t to) {
     HF_UNROLL
     for (std::int64_t k = 0; k < block; ++k) row[k] = triangle + (from + k) * (from + k + 1) / 2;
-    for (std::int32_t k = to - from; k < block; ++k) row[k] = row[0], x[k] = S::zero();
+    for (std::int32_t k = to - from; k < block; ++k) {
+      row[k] = row[0];
+      x[k] = S::zero();
+    }
   };
   std::int32_t left = (columns - 1) / segment * segment;
   for (std::int32_t right = columns; right > 0; right = left, left -= segment) {

@@ -34,7 +34,10 @@ void LeafOrder::run(std::int32_t* out) {
     for (std::int32_t w = 0; w < words_; ++w) bits += count_bits(row(v)[w]);
     return bits;
   };
-  for (std::int32_t v = 0; v < inner_; ++v) degree_[v] = count(v), left_[v] = v;
+  for (std::int32_t v = 0; v < inner_; ++v) {
+    degree_[v] = count(v);
+    left_[v] = v;
+  }
   std::int32_t remaining = inner_;
   for (std::int32_t k = 0; k < inner_; ++k) {
     std::int32_t at = 0;
@@ -42,7 +45,9 @@ void LeafOrder::run(std::int32_t* out) {
       if (degree_[left_[i]] < degree_[left_[at]]) at = i;
     }
     const std::int32_t v = left_[at];
-    left_.erase(left_.begin() + at), left_.push_back(0), --remaining;
+    left_.erase(left_.begin() + at);
+    left_.push_back(0);
+    --remaining;
     out[k] = v;
     // The neighbours of the eliminated vertex become a clique.
     const std::uint64_t* own = row(v);

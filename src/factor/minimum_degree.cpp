@@ -74,8 +74,11 @@ class QuotientGraph {
         if (neighbour[e] != v) lists_[free_++] = neighbour[e];
       }
       length_[v] = degree_[v] = free_ - start_[v];
-      elements_[v] = 0, weight_[v] = 1, mark_[v] = 1;
-      last_[v] = v, next_member_[v] = none;
+      elements_[v] = 0;
+      weight_[v] = 1;
+      mark_[v] = 1;
+      last_[v] = v;
+      next_member_[v] = none;
       bucket_[v] = hashed_[v] = none;
     }
     left_ = size_;
@@ -88,10 +91,12 @@ class QuotientGraph {
     for (Index v = 0; v < size_; ++v) {
       if (degree_[v] == 0) {
         order_[ordered_++] = v;
-        weight_[v] = mark_[v] = 0, --left_;
+        weight_[v] = mark_[v] = 0;
+        --left_;
       } else if (degree_[v] > limit) {
         last_[v] = dense_mark;
-        weight_[v] = mark_[v] = length_[v] = 0, --left_;
+        weight_[v] = mark_[v] = length_[v] = 0;
+        --left_;
       } else {
         file(v, degree_[v]);
       }
@@ -102,7 +107,8 @@ class QuotientGraph {
 
   void file(Index v, Index degree) noexcept {
     const Index first = bucket_[degree];
-    next_[v] = first, previous_[v] = none;
+    next_[v] = first;
+    previous_[v] = none;
     if (first != none) previous_[first] = v;
     bucket_[degree] = v;
     least_ = std::min(least_, degree);
@@ -155,7 +161,8 @@ class QuotientGraph {
       free_ = end;
     }
     eliminate(pivot);
-    start_[pivot] = begin, length_[pivot] = end - begin;
+    start_[pivot] = begin;
+    length_[pivot] = end - begin;
     pivot_end_ = end;
     elements_[pivot] = none;  // marks it as an element
   }
@@ -199,7 +206,8 @@ class QuotientGraph {
       start_[owner] = to;
       lists_[at(to)] = first;
       for (Index k = 1; k < count; ++k) lists_[at(to + k)] = lists_[at(from + k)];
-      to += count, from += count;
+      to += count;
+      from += count;
     }
     free_ = to;
   }
@@ -241,7 +249,8 @@ class QuotientGraph {
       const Index outside = shorten(v, pivot, hash);
       if (outside == 0) {
         const Index weight = -weight_[v];
-        pivot_degree_ -= weight, left_ -= weight;
+        pivot_degree_ -= weight;
+        left_ -= weight;
         eliminate(v);
         weight_[v] = mark_[v] = length_[v] = 0;
         elements_[v] = none;
@@ -249,7 +258,8 @@ class QuotientGraph {
       }
       degree_[v] = std::min(degree_[v], outside);
       hash_[v] = static_cast<Index>(hash % static_cast<std::uint32_t>(size_));
-      next_[v] = hashed_[hash_[v]], hashed_[hash_[v]] = v;
+      next_[v] = hashed_[hash_[v]];
+      hashed_[hash_[v]] = v;
       lists_[at(kept++)] = v;
     }
     length_[pivot] = kept - begin;
@@ -267,7 +277,8 @@ class QuotientGraph {
       const Index e = lists_[at(p)], rest = mark_[e] - tag_;
       if (mark_[e] == 0) continue;
       if (rest > 0) {
-        outside += rest, hash += static_cast<std::uint32_t>(e);
+        outside += rest;
+        hash += static_cast<std::uint32_t>(e);
         lists_[at(to++)] = e;
       } else {
         mark_[e] = length_[e] = 0;  // the element lies inside the pivot's list and is absorbed
@@ -277,7 +288,8 @@ class QuotientGraph {
     for (Index p = variables; p < stop; ++p) {
       const Index u = lists_[at(p)], weight = weight_[u];
       if (weight <= 0) continue;
-      outside += weight, hash += static_cast<std::uint32_t>(u);
+      outside += weight;
+      hash += static_cast<std::uint32_t>(u);
       lists_[at(to++)] = u;
     }
     // The pivot becomes the first element; the first entry moves behind the other elements.
@@ -319,7 +331,8 @@ class QuotientGraph {
       weight_[v] += weight_[u];
       weight_[u] = mark_[u] = length_[u] = 0;
       elements_[u] = none;
-      next_member_[last_[v]] = u, last_[v] = last_[u];
+      next_member_[last_[v]] = u;
+      last_[v] = last_[u];
       next_[before] = next_[u];
     }
     ++tag_;

@@ -96,7 +96,9 @@ void MultilevelBisection::coarsen(const GraphView& fine, Level& coarse) {
     float sum[3] = {0, 0, 0};
     for (std::int32_t k = member_start[c]; k < member_start[c + 1]; ++k) {
       const float* p = fine.point + 3 * static_cast<std::size_t>(member[k]);
-      sum[0] += p[0], sum[1] += p[1], sum[2] += p[2];
+      sum[0] += p[0];
+      sum[1] += p[1];
+      sum[2] += p[2];
     }
     const float members = static_cast<float>(member_start[c + 1] - member_start[c]);
     for (int x = 0; x < 3; ++x) point[3 * static_cast<std::size_t>(c) + x] = sum[x] / members;
@@ -135,7 +137,8 @@ void MultilevelBisection::widen(const GraphView& graph, std::uint8_t* side, int 
       side[u] = keep ? static_cast<std::uint8_t>(side_between) : static_cast<std::uint8_t>(side[u] - side_between - 1);
     }
     if (!keep) return;
-    left[0] -= lost[0], left[1] -= lost[1];
+    left[0] -= lost[0];
+    left[1] -= lost[1];
     begin = end;
   }
 }

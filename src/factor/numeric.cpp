@@ -132,9 +132,12 @@ class Factorisation {
  private:
   FrontView open_front(std::int32_t s, Workspace& workspace, double* update) const noexcept {
     FrontView front;
-    front.columns = symbolic_.columns(s), front.below = symbolic_.below(s);
-    front.triangle_tiles = (front.columns + 7) / 8, front.below_tiles = (front.below + 7) / 8;
-    front.panel = workspace.panel.data(), front.update = update;
+    front.columns = symbolic_.columns(s);
+    front.below = symbolic_.below(s);
+    front.triangle_tiles = (front.columns + 7) / 8;
+    front.below_tiles = (front.below + 7) / 8;
+    front.panel = workspace.panel.data();
+    front.update = update;
     return front;
   }
 
@@ -162,7 +165,8 @@ class Factorisation {
       }
       run[runs++] = size;
       workspace.children[count++] = {update_[c], (size + 7) / 8, size, into_panel, place, run};
-      place += size, run += runs;
+      place += size;
+      run += runs;
     }
     workspace.child_count = count;
     load_columns(s, front, workspace);
@@ -282,8 +286,10 @@ class Factorisation {
   void run_wave(std::int32_t wave, WorkspacePool& pool) {
     const std::int32_t begin = plan_.wave_start[wave], end = plan_.wave_start[wave + 1];
     double total = 0, largest = 0;
-    for (std::int32_t k = begin; k < end; ++k)
-      total += symbolic_.work[plan_.top[k]], largest = std::max(largest, symbolic_.work[plan_.top[k]]);
+    for (std::int32_t k = begin; k < end; ++k) {
+      total += symbolic_.work[plan_.top[k]];
+      largest = std::max(largest, symbolic_.work[plan_.top[k]]);
+    }
     const bool whole =
         jobs_.thread_count() == 1 || largest * jobs_.thread_count() <= even_fronts * total || total < small_wave_flops;
     const auto update_of = [&](std::int32_t s) { return shared_.data() + plan_.shared_update[s]; };

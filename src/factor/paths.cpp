@@ -113,7 +113,8 @@ void SupernodalFactor::solve_paths(const SparseColumns& columns, Memory& memory,
   Buffer<std::int32_t> members(memory, static_cast<std::size_t>(count));
   Buffer<std::int32_t> key(memory, static_cast<std::size_t>(count));
   for (std::int32_t i = 0; i < count; ++i) {
-    members[i] = i, key[i] = INT32_MAX;
+    members[i] = i;
+    key[i] = INT32_MAX;
     for (std::int32_t e = columns.start[i]; e < columns.start[i + 1]; ++e)
       key[i] = std::min(key[i], symbolic().position[columns.row[e]]);
   }
@@ -133,8 +134,10 @@ void SupernodalFactor::solve_paths(const SparseColumns& columns, Memory& memory,
     made[g] = solve_group(*this, columns, {members.data() + begin, static_cast<std::size_t>(end - begin)}, memory);
   });
   for (std::int32_t g = 0; g < groups; ++g) {
-    for (std::int32_t k = begin_of(g); k < begin_of(g + 1); ++k)
-      out_group[members[k]] = g, out_column[members[k]] = k - begin_of(g);
+    for (std::int32_t k = begin_of(g); k < begin_of(g + 1); ++k) {
+      out_group[members[k]] = g;
+      out_column[members[k]] = k - begin_of(g);
+    }
   }
   out_groups.assign(made.begin(), made.end());
 }
@@ -155,7 +158,8 @@ void SupernodalFactor::gram(const PathGroup& a, const PathGroup& b, double* gram
     } else {
       kernels().gram(left.values.data() + p.at, p.lanes, p.used, right.values.data() + q.at, q.lanes, q.used,
                      symbolic().columns(p.supernode), tile + p.low * gram_stride + q.low, gram_stride);
-      ++i, ++j;
+      ++i;
+      ++j;
     }
   }
   for (std::int32_t r = 0; r < left.sites; ++r) {

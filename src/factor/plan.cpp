@@ -19,7 +19,9 @@ constexpr double whole_work = 4e6;
 
 void link_children(const Symbolic& symbolic, Memory& memory, Plan& plan) {
   const std::int32_t count = symbolic.supernodes;
-  plan.child.allocate(memory, count), plan.sibling.allocate(memory, count), plan.parity.allocate(memory, count);
+  plan.child.allocate(memory, count);
+  plan.sibling.allocate(memory, count);
+  plan.parity.allocate(memory, count);
   std::fill(plan.child.begin(), plan.child.end(), -1);
   for (std::int32_t s = count - 1; s >= 0; --s) {
     const std::int32_t parent = symbolic.parent[s];
@@ -104,7 +106,10 @@ void grow(const Symbolic& symbolic, const Plan& plan, std::int32_t s, Plan::Size
   sizes.columns = std::max(sizes.columns, symbolic.columns(s));
   std::int32_t children = 0;
   std::int64_t rows = 0;
-  for (std::int32_t c = plan.child[s]; c >= 0; c = plan.sibling[c]) ++children, rows += (symbolic.below(c) + 7) / 8 * 8;
+  for (std::int32_t c = plan.child[s]; c >= 0; c = plan.sibling[c]) {
+    ++children;
+    rows += (symbolic.below(c) + 7) / 8 * 8;
+  }
   sizes.children = std::max(sizes.children, children);
   sizes.child_rows = std::max(sizes.child_rows, rows);
 }
@@ -152,10 +157,14 @@ void place_shared(const Symbolic& symbolic, Memory& memory, Plan& plan) {
     std::size_t g = 0;
     while (g < gaps.size() && gaps[g].begin < end) ++g;
     gaps.insert(gaps.begin() + static_cast<std::ptrdiff_t>(g), {begin, end});
-    if (g + 1 < gaps.size() && gaps[g + 1].begin == end)
-      gaps[g].end = gaps[g + 1].end, gaps.erase(gaps.begin() + static_cast<std::ptrdiff_t>(g) + 1);
-    if (g > 0 && gaps[g - 1].end == begin)
-      gaps[g - 1].end = gaps[g].end, gaps.erase(gaps.begin() + static_cast<std::ptrdiff_t>(g));
+    if (g + 1 < gaps.size() && gaps[g + 1].begin == end) {
+      gaps[g].end = gaps[g + 1].end;
+      gaps.erase(gaps.begin() + static_cast<std::ptrdiff_t>(g) + 1);
+    }
+    if (g > 0 && gaps[g - 1].end == begin) {
+      gaps[g - 1].end = gaps[g].end;
+      gaps.erase(gaps.begin() + static_cast<std::ptrdiff_t>(g));
+    }
   };
   plan.shared_update.allocate(memory, symbolic.supernodes);
   std::fill(plan.shared_update.begin(), plan.shared_update.end(), -1);

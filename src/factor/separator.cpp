@@ -70,7 +70,10 @@ void SeparatorSearch::collect_band(const GraphView& graph, const std::uint8_t* s
   band_.clear();
   if (slot_.size() < static_cast<std::size_t>(graph.size)) slot_.resize(static_cast<std::size_t>(graph.size));
   for (std::int32_t v = 0; v < graph.size; ++v) {
-    if (side[v] == side_between) slot_[v] = static_cast<std::int32_t>(band_.size()), band_.push_back(v);
+    if (side[v] == side_between) {
+      slot_[v] = static_cast<std::int32_t>(band_.size());
+      band_.push_back(v);
+    }
   }
   const std::size_t count = band_.size();
   flags_.assign(count, 0);
@@ -91,7 +94,8 @@ void SeparatorSearch::collect_band(const GraphView& graph, const std::uint8_t* s
     }
   }
   band_start_[count] = k;
-  previous_.assign(count, none), next_.assign(count, none);
+  previous_.assign(count, none);
+  next_.assign(count, none);
 }
 
 // Finds the breadth-first levels of the flow problem's residual graph from the source. State 2 b is the entry of vertex
@@ -109,7 +113,8 @@ bool SeparatorSearch::label_phase() {
   for (std::size_t b = 0; b < count; ++b) {
     if (!(flags[b] & touches_left)) continue;
     const std::int32_t state = entry_of(static_cast<std::int32_t>(b));
-    level_of[state] = 0, queue[tail++] = state;
+    level_of[state] = 0;
+    queue[tail++] = state;
   }
   std::int32_t last = INT32_MAX;
   for (std::size_t head = 0; head < tail; ++head) {
@@ -117,15 +122,24 @@ bool SeparatorSearch::label_phase() {
     if (level > last) break;
     if ((state & 1) == 0) {
       const std::int32_t to = 2 * previous_[b] + 1;
-      if (previous_[b] >= 0 && level_of[to] == none) level_of[to] = level, queue[tail++] = to;
+      if (previous_[b] >= 0 && level_of[to] == none) {
+        level_of[to] = level;
+        queue[tail++] = to;
+      }
       continue;
     }
     if (flags[b] & touches_right) last = level;
     for (std::int32_t e = band_start_[b]; e < band_start_[b + 1]; ++e) {
       const std::int32_t to = entry_of(band_neighbour_[e]);
-      if (level_of[to] == none) level_of[to] = level, queue[tail++] = to;
+      if (level_of[to] == none) {
+        level_of[to] = level;
+        queue[tail++] = to;
+      }
     }
-    if ((flags[b] & on_path) && level_of[state - 1] == none) level_of[state - 1] = level, queue[tail++] = state - 1;
+    if ((flags[b] & on_path) && level_of[state - 1] == none) {
+      level_of[state - 1] = level;
+      queue[tail++] = state - 1;
+    }
   }
   return last != INT32_MAX;
 }
@@ -190,7 +204,10 @@ void SeparatorSearch::apply_path() {
       }
       continue;
     }
-    if (!(flags_[b] & on_path)) flags_[b] |= on_path, previous_[b] = from;
+    if (!(flags_[b] & on_path)) {
+      flags_[b] |= on_path;
+      previous_[b] = from;
+    }
     if (k + 1 == stack_.size())
       next_[b] = sink;
     else if (stack_[k + 1] >> 1 != b)
@@ -241,7 +258,8 @@ Cut SeparatorSearch::choose_cut(const GraphView& graph, std::uint8_t* side) {
     else if (side[v] == side_right)
       right += graph.weight_of(v);
   }
-  near_source.left = near_sink.left = left, near_source.right = near_sink.right = right;
+  near_source.left = near_sink.left = left;
+  near_source.right = near_sink.right = right;
   for (std::size_t b = 0; b < band_.size(); ++b) {
     const std::int32_t weight = graph.weight_of(band_[b]);
     const bool entered = level_[2 * b] != none, left_by = level_[2 * b + 1] != none;
@@ -275,7 +293,9 @@ Cut SeparatorSearch::refine(const GraphView& graph, std::uint8_t* side) {
   collect_band(graph, side);
   for (std::size_t b = 0; b < band_.size(); ++b) {
     if ((flags_[b] & (touches_left | touches_right)) == (touches_left | touches_right)) {
-      flags_[b] |= on_path, previous_[b] = source, next_[b] = sink;
+      flags_[b] |= on_path;
+      previous_[b] = source;
+      next_[b] = sink;
     }
   }
   while (label_phase() && augment_phase() > 0) poll();
@@ -343,13 +363,17 @@ void SeparatorSearch::breadth_first_keys(const GraphView& graph) {
     std::int32_t root = first;
     for (const std::uint8_t mark : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3}}) {
       queue_.clear();
-      queue_.push_back(root), reach_[root] = mark;
+      queue_.push_back(root);
+      reach_[root] = mark;
       for (std::size_t head = 0; head < queue_.size(); ++head) {
         const std::int32_t v = queue_[head];
         if (mark == 3) key_[v] = static_cast<float>(visited++);
         for (std::int32_t e = graph.start[v]; e < graph.start[v + 1]; ++e) {
           const std::int32_t u = graph.neighbour[e];
-          if (reach_[u] != mark) reach_[u] = mark, queue_.push_back(u);
+          if (reach_[u] != mark) {
+            reach_[u] = mark;
+            queue_.push_back(u);
+          }
         }
       }
       root = queue_.back();

@@ -26,7 +26,11 @@ struct Double4 {
   static void store_first(double* p, Type v, int count) noexcept {
     if (count >= 4) return store(p, v);
     __m128d rest = _mm256_castpd256_pd128(v);
-    if (count & 2) _mm_storeu_pd(p, rest), rest = _mm256_extractf128_pd(v, 1), p += 2;
+    if (count & 2) {
+      _mm_storeu_pd(p, rest);
+      rest = _mm256_extractf128_pd(v, 1);
+      p += 2;
+    }
     if (count & 1) _mm_store_sd(p, rest);
   }
   static Type add(Type a, Type b) noexcept { return _mm256_add_pd(a, b); }
@@ -50,8 +54,16 @@ struct Float8 {
   static void store_first(float* p, Type v, int count) noexcept {
     if (count >= 8) return store(p, v);
     __m128 rest = _mm256_castps256_ps128(v);
-    if (count & 4) _mm_storeu_ps(p, rest), rest = _mm256_extractf128_ps(v, 1), p += 4;
-    if (count & 2) _mm_storel_pi(reinterpret_cast<__m64*>(p), rest), rest = _mm_movehl_ps(rest, rest), p += 2;
+    if (count & 4) {
+      _mm_storeu_ps(p, rest);
+      rest = _mm256_extractf128_ps(v, 1);
+      p += 4;
+    }
+    if (count & 2) {
+      _mm_storel_pi(reinterpret_cast<__m64*>(p), rest);
+      rest = _mm_movehl_ps(rest, rest);
+      p += 2;
+    }
     if (count & 1) _mm_store_ss(p, rest);
   }
   static Type add(Type a, Type b) noexcept { return _mm256_add_ps(a, b); }

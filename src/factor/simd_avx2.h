@@ -47,10 +47,14 @@ inline void store_transposed(const double* tile, double* const* out, std::int64_
       __m256d in[4], pair[4], row[4];
       for (int k = 0; k < 4; ++k)
         in[k] = c + k < columns ? _mm256_loadu_pd(tile + 8 * (c + k) + r) : _mm256_setzero_pd();
-      pair[0] = _mm256_unpacklo_pd(in[0], in[1]), pair[1] = _mm256_unpackhi_pd(in[0], in[1]);
-      pair[2] = _mm256_unpacklo_pd(in[2], in[3]), pair[3] = _mm256_unpackhi_pd(in[2], in[3]);
-      row[0] = _mm256_permute2f128_pd(pair[0], pair[2], 0x20), row[1] = _mm256_permute2f128_pd(pair[1], pair[3], 0x20);
-      row[2] = _mm256_permute2f128_pd(pair[0], pair[2], 0x31), row[3] = _mm256_permute2f128_pd(pair[1], pair[3], 0x31);
+      pair[0] = _mm256_unpacklo_pd(in[0], in[1]);
+      pair[1] = _mm256_unpackhi_pd(in[0], in[1]);
+      pair[2] = _mm256_unpacklo_pd(in[2], in[3]);
+      pair[3] = _mm256_unpackhi_pd(in[2], in[3]);
+      row[0] = _mm256_permute2f128_pd(pair[0], pair[2], 0x20);
+      row[1] = _mm256_permute2f128_pd(pair[1], pair[3], 0x20);
+      row[2] = _mm256_permute2f128_pd(pair[0], pair[2], 0x31);
+      row[3] = _mm256_permute2f128_pd(pair[1], pair[3], 0x31);
       for (int k = 0; k < 4; ++k) {
         if (r + k >= rows) break;
         if (c + 4 <= columns)

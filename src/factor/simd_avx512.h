@@ -110,9 +110,10 @@ inline void store_transposed(const double* tile, double* const* out, std::int64_
                              std::int32_t columns) noexcept {
   __m512d in[8], pair[8], quad[8], row[8];
   for (int k = 0; k < 8; ++k) in[k] = k < columns ? _mm512_loadu_pd(tile + 8 * k) : _mm512_setzero_pd();
-  for (int k = 0; k < 8; k += 2)
-    pair[k] = _mm512_maskz_unpacklo_pd(0xff, in[k], in[k + 1]),
+  for (int k = 0; k < 8; k += 2) {
+    pair[k] = _mm512_maskz_unpacklo_pd(0xff, in[k], in[k + 1]);
     pair[k + 1] = _mm512_maskz_unpackhi_pd(0xff, in[k], in[k + 1]);
+  }
   for (int k = 0; k < 8; k += 4) {
     for (int h = 0; h < 2; ++h) {
       quad[k + h] = _mm512_maskz_shuffle_f64x2(0xff, pair[k + h], pair[k + 2 + h], 0x88);

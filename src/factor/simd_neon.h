@@ -58,7 +58,11 @@ struct Float4 {
   static void store_first(float* p, Type v, int count) noexcept {
     if (count >= 4) return store(p, v);
     float32x2_t rest = vget_low_f32(v);
-    if (count & 2) vst1_f32(p, rest), rest = vget_high_f32(v), p += 2;
+    if (count & 2) {
+      vst1_f32(p, rest);
+      rest = vget_high_f32(v);
+      p += 2;
+    }
     if (count & 1) vst1_lane_f32(p, rest, 0);
   }
   static Type add(Type a, Type b) noexcept { return vaddq_f32(a, b); }
@@ -80,13 +84,17 @@ struct NeonPair {
     return {both, both};
   }
   static Type load(const T* p) noexcept { return {Half::load(p), Half::load(p + half)}; }
-  static void store(T* p, Type v) noexcept { Half::store(p, v.low), Half::store(p + half, v.high); }
+  static void store(T* p, Type v) noexcept {
+    Half::store(p, v.low);
+    Half::store(p + half, v.high);
+  }
   static Type load_part(const T* p, int count) noexcept { return neon_load_part<NeonPair>(p, count); }
   static void store_part(T* p, Type v, int count) noexcept { neon_store_part<NeonPair>(p, v, count); }
   // Stores the first `count` numbers. It is meant for counts that are known at compile time.
   static void store_first(T* p, Type v, int count) noexcept {
     if (count <= half) return Half::store_first(p, v.low, count);
-    Half::store(p, v.low), Half::store_first(p + half, v.high, count - half);
+    Half::store(p, v.low);
+    Half::store_first(p + half, v.high, count - half);
   }
   static Type add(Type a, Type b) noexcept { return {Half::add(a.low, b.low), Half::add(a.high, b.high)}; }
   static Type multiply(Type a, Type b) noexcept {
@@ -164,9 +172,13 @@ inline void store_transposed(const double* tile, double* const* out, std::int64_
     std::int32_t c = 0;
     for (; c + 2 <= columns; c += 2) {
       const float64x2_t left = vld1q_f64(tile + 8 * c + r), right = vld1q_f64(tile + 8 * (c + 1) + r);
-      vst1q_f64(upper + c, vzip1q_f64(left, right)), vst1q_f64(lower + c, vzip2q_f64(left, right));
+      vst1q_f64(upper + c, vzip1q_f64(left, right));
+      vst1q_f64(lower + c, vzip2q_f64(left, right));
     }
-    if (c < columns) upper[c] = tile[8 * c + r], lower[c] = tile[8 * c + r + 1];
+    if (c < columns) {
+      upper[c] = tile[8 * c + r];
+      lower[c] = tile[8 * c + r + 1];
+    }
   }
   if (r < rows) {
     for (std::int32_t c = 0; c < columns; ++c) out[r][at + c] = tile[8 * c + r];

@@ -81,10 +81,13 @@ class SupernodalFactor final : public Factor {
   // Factorises the matrix into values(), which it allocates.
   void compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, double lost_share, JobRunner& jobs);
   void set_timings(double ordering_ms, double symbolic_ms) noexcept {
-    statistics_.ordering_ms = ordering_ms, statistics_.symbolic_ms = symbolic_ms;
+    statistics_.ordering_ms = ordering_ms;
+    statistics_.symbolic_ms = symbolic_ms;
   }
   void set_loaded(bool borrowed, double load_ms) noexcept {
-    statistics_.loaded = true, statistics_.borrowed = borrowed, statistics_.load_ms = load_ms;
+    statistics_.loaded = true;
+    statistics_.borrowed = borrowed;
+    statistics_.load_ms = load_ms;
   }
   // Sets another set of kernels, for tests that compare them.
   void use_kernels(const Kernels& kernels) noexcept { kernels_ = &kernels; }

@@ -95,7 +95,8 @@ struct BackwardPass {
     for (std::int32_t k = begin; k < end; ++k) {
       const double width = symbolic.columns(top[k]);
       const double entries = width * (0.5 * width + symbolic.below(top[k]));
-      total += entries, largest = std::max(largest, entries);
+      total += entries;
+      largest = std::max(largest, entries);
       pieces += pieces_of(top[k]);
     }
     const std::uint32_t count = static_cast<std::uint32_t>(end - begin);
@@ -157,8 +158,10 @@ class ForwardPass {
     for (std::int32_t s = 0; s < symbolic.supernodes; ++s) longest_ = std::max(longest_, symbolic.below(s));
     start_.allocate(memory, plan.task_root.size() + 1);
     std::int64_t total = 0;
-    for (std::size_t r = 0; r < plan.task_root.size(); ++r)
-      start_[r] = total, total += symbolic.below(plan.task_root[r]);
+    for (std::size_t r = 0; r < plan.task_root.size(); ++r) {
+      start_[r] = total;
+      total += symbolic.below(plan.task_root[r]);
+    }
     start_[plan.task_root.size()] = total;
     above_.allocate(memory, static_cast<std::size_t>(total * channels));
   }
@@ -312,8 +315,10 @@ Vector<std::int32_t> SupernodalFactor::path_union(Span<const std::int32_t> unkno
   const std::size_t starts = nodes.size();
   for (std::size_t i = 0; i < starts; ++i) {
     for (std::int32_t s = pattern.parent[nodes[i]]; s >= 0 && !marked[static_cast<std::size_t>(s)];
-         s = pattern.parent[s])
-      marked[static_cast<std::size_t>(s)] = 1, nodes.push_back(s);
+         s = pattern.parent[s]) {
+      marked[static_cast<std::size_t>(s)] = 1;
+      nodes.push_back(s);
+    }
   }
   std::sort(nodes.begin(), nodes.end());
   return nodes;

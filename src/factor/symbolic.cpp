@@ -64,13 +64,15 @@ void merge_children(Merging& m, std::int32_t f, Vector<std::pair<std::int64_t, s
   std::int32_t kept = -1;
   for (const auto& [unused, c] : trial) {
     if (m.into[c] < 0) {
-      m.next[c] = kept, kept = c;
+      m.next[c] = kept;
+      kept = c;
       continue;
     }
     for (std::int32_t g = m.head[c]; g >= 0;) {
       const std::int32_t following = m.next[g];
       m.parent[g] = f;
-      m.next[g] = kept, kept = g;
+      m.next[g] = kept;
+      kept = g;
       g = following;
     }
   }
@@ -96,10 +98,14 @@ void number_supernodes(const Merging& m, std::int32_t fundamental, Memory& memor
       // order.
       std::int32_t root = m.into[s];
       while (m.into[root] >= 0) root = m.into[root];
-      member_next[s] = member_head[root], member_head[root] = s;
+      member_next[s] = member_head[root];
+      member_head[root] = s;
     } else {
       ++supernodes;
-      if (m.parent[s] >= 0) child_next[s] = child_head[m.parent[s]], child_head[m.parent[s]] = s;
+      if (m.parent[s] >= 0) {
+        child_next[s] = child_head[m.parent[s]];
+        child_head[m.parent[s]] = s;
+      }
     }
   }
   out.supernodes = supernodes;
@@ -195,7 +201,9 @@ void analyse(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memo
   EliminationTree tree;
   make_elimination_tree(matrix, order, memory, tree);
   out.size = n;
-  out.position.allocate(memory, size), out.order.allocate(memory, size), out.supernode.allocate(memory, size);
+  out.position.allocate(memory, size);
+  out.order.allocate(memory, size);
+  out.supernode.allocate(memory, size);
   Buffer<std::int32_t> final_of(memory, size);
   Buffer<std::int32_t> label_at(memory, size);
   {
@@ -207,7 +215,9 @@ void analyse(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memo
       const std::int32_t last = merging.first[s + 1] - 1;
       const std::int32_t up = tree.parent[last];
       merging.parent[s] = up < 0 ? -1 : out.supernode[up];
-      merging.into[s] = -1, merging.head[s] = -1, merging.next[s] = -1;
+      merging.into[s] = -1;
+      merging.head[s] = -1;
+      merging.next[s] = -1;
       merging.width[s] = last + 1 - merging.first[s];
       merging.below[s] = tree.count[last] - 1;
     }
@@ -216,13 +226,17 @@ void analyse(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memo
     for (std::int32_t s = 0; s < fundamental; ++s) {
       merge_children(merging, s, trial);
       const std::int32_t up = merging.parent[s];
-      if (up >= 0) merging.next[s] = merging.head[up], merging.head[up] = s;
+      if (up >= 0) {
+        merging.next[s] = merging.head[up];
+        merging.head[up] = s;
+      }
     }
     number_supernodes(merging, fundamental, memory, out, final_of.data());
   }
   for (std::int32_t j = 0; j < n; ++j) {
     const double count = tree.count[j];
-    out.entries += count, out.flops += count * count;
+    out.entries += count;
+    out.flops += count * count;
     label_at[final_of[j]] = j;
     out.order[final_of[j]] = tree.label[j];
     out.position[tree.label[j]] = final_of[j];
@@ -243,7 +257,8 @@ FillEstimate estimate_fill(const SymmetricMatrix& matrix, Span<const std::int32_
   FillEstimate estimate;
   for (std::int32_t j = 0; j < matrix.size(); ++j) {
     const double count = tree.count[j];
-    estimate.entries += count, estimate.flops += count * count;
+    estimate.entries += count;
+    estimate.flops += count * count;
   }
   return estimate;
 }

@@ -34,7 +34,10 @@ bool is_random(const SymmetricMatrix& matrix, Memory& memory) {
       for (const std::int32_t v : level) {
         for (std::int32_t e = matrix.column_start[v]; e < matrix.column_start[v + 1]; ++e) {
           const std::int32_t w = matrix.row[e];
-          if (seen[w] != k) seen[w] = k, next.push_back(w);
+          if (seen[w] != k) {
+            seen[w] = k;
+            next.push_back(w);
+          }
         }
       }
       if (static_cast<double>(next.size()) > most) return true;

@@ -45,7 +45,8 @@ struct Ranges {
       for (std::size_t q = 0; q < channels; ++q) {
         const std::size_t i = at(component) * channels + q;
         const double value = values ? values[q] : 0.0;
-        low[i] = std::min(low[i], value), high[i] = std::max(high[i], value);
+        low[i] = std::min(low[i], value);
+        high[i] = std::max(high[i], value);
       }
     };
     for (std::size_t slot = 0; slot < sites.slots().size(); ++slot) {
@@ -267,7 +268,10 @@ class Check {
     if (!std::isfinite(found_.residual) || !std::isfinite(first)) {
       error = HUGE_VAL;
     } else if (bounded_) {
-      if (corrected) add_flux(flux_change), subtract_product(change.data(), nullptr);
+      if (corrected) {
+        add_flux(flux_change);
+        subtract_product(change.data(), nullptr);
+      }
       error = bounded(size);
     } else if (corrected) {
       for (std::size_t i = 0; i < n_ * m_; ++i) u_[i] += change[i];
@@ -295,7 +299,8 @@ class Check {
     };
     each_site([&](std::size_t, const Site& site) {
       if (site.is_hard_vertex()) {
-        roots.push_back(site.vertex[0]), held[at(site.component)] = 1;
+        roots.push_back(site.vertex[0]);
+        held[at(site.component)] = 1;
         std::fill_n(left_.data() + at(site.vertex[0]) * m_, m_, 0.0);  // lambda is free there
       } else {
         offer(site.component, {site.vertex[0], compliance(site)});

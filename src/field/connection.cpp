@@ -94,7 +94,8 @@ class FanMaker {
                                            [](const Corner& a, Index w) { return a.first < w; });
       if (corner == corners_.end() || corner->first != here || (steps > 0 && here == start)) return fan;
       angles[place_of(v, here)] = angle;
-      angle += corner->angle, here = corner->second;
+      angle += corner->angle;
+      here = corner->second;
     }
     if (fan.closed != (here == start) || !(angle > least_angle)) return fan;
     if (!fan.closed) angles[place_of(v, here)] = angle;
@@ -127,7 +128,8 @@ void plane_of(Vec3 n, Vec3& x, Vec3& y) noexcept {
 
 // Turns the vertex's frame in its tangent plane, so that the angles of the edges fit the projected edges best.
 void fit_frame(const Mesh& mesh, const Topology& topology, Index v, const double* angles, Connection& out) {
-  Vec3 &x = out.x[at(v)], &y = out.y[at(v)];
+  Vec3& x = out.x[at(v)];
+  &y = out.y[at(v)];
   std::complex<double> sum = 0;
   for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
     const Vec3 edge = mesh.positions[at(topology.neighbour[at(i)])] - mesh.positions[at(v)];
@@ -160,7 +162,9 @@ Connection Connection::make(const Mesh& mesh, const Topology& topology, Memory& 
   Connection out(memory);
   const std::size_t n = mesh.positions.size();
   out.normal = vertex_normals(mesh, memory);
-  out.x.resize(n), out.y.resize(n), out.regular.assign(n, 0);
+  out.x.resize(n);
+  out.y.resize(n);
+  out.regular.assign(n, 0);
   out.closed.assign(at(mesh.component_count()), 1);
   Vector<double> angle(topology.neighbour.size(), 0.0, &memory), scale(n, 1.0, &memory);
   FanMaker fans(mesh, topology, memory);
@@ -173,7 +177,9 @@ Connection Connection::make(const Mesh& mesh, const Topology& topology, Memory& 
     plane_of(normal, out.x[at(v)], out.y[at(v)]);
     double* angles = angle.data() + topology.neighbour_start[at(v)];
     const Fan fan = length > 0 ? fans.make(v, angles) : Fan{};
-    out.regular[at(v)] = fan.regular, out.irregular_count += !fan.regular, scale[at(v)] = fan.scale;
+    out.regular[at(v)] = fan.regular;
+    out.irregular_count += !fan.regular;
+    scale[at(v)] = fan.scale;
     if (!fan.regular || !fan.closed) out.closed[at(mesh.component[at(v)])] = 0;
     if (fan.regular) fit_frame(mesh, topology, v, angles, out);
   }
@@ -240,7 +246,8 @@ Vector<Index> edge_path(const Mesh& mesh, const Topology& topology, Index from, 
     const Reached here = heap.back();
     heap.pop_back();
     if (done[at(here.vertex)]) continue;
-    done[at(here.vertex)] = 1, by[at(here.vertex)] = here.edge;
+    done[at(here.vertex)] = 1;
+    by[at(here.vertex)] = here.edge;
     if (here.vertex == to) break;
     for (Index i = topology.neighbour_start[at(here.vertex)]; i < topology.neighbour_start[at(here.vertex) + 1]; ++i) {
       const Index w = topology.neighbour[at(i)];

@@ -27,15 +27,20 @@ CriticalPoints find_critical_points(const Mesh& mesh, const Topology& topology, 
     const Index a = topology.first(e), b = topology.second(e);
     if (!has_value(a) || !has_value(b)) continue;
     const bool rises = less(a, b);
-    ++links[at(rises ? b : a)].below, ++links[at(rises ? a : b)].above;
+    ++links[at(rises ? b : a)].below;
+    ++links[at(rises ? a : b)].above;
     --found.euler_characteristic;
   }
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     const Index* v = mesh.triangle(t);
     if (!has_value(v[0]) || !has_value(v[1]) || !has_value(v[2])) continue;
     Index low = v[0], high = v[0];
-    for (int k = 1; k < 3; ++k) low = less(v[k], low) ? v[k] : low, high = less(high, v[k]) ? v[k] : high;
-    ++links[at(high)].edges_below, ++links[at(low)].edges_above;
+    for (int k = 1; k < 3; ++k) {
+      low = less(v[k], low) ? v[k] : low;
+      high = less(high, v[k]) ? v[k] : high;
+    }
+    ++links[at(high)].edges_below;
+    ++links[at(low)].edges_above;
     ++found.euler_characteristic;
   }
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -44,9 +49,11 @@ CriticalPoints find_critical_points(const Mesh& mesh, const Topology& topology, 
     const VertexLink& link = links[at(v)];
     CriticalPoint point{v, CriticalKind::saddle, 1 - (link.below - link.edges_below)};
     if (link.below == 0) {
-      point.kind = CriticalKind::minimum, ++found.minima;
+      point.kind = CriticalKind::minimum;
+      ++found.minima;
     } else if (link.above == 0) {
-      point.kind = CriticalKind::maximum, ++found.maxima;
+      point.kind = CriticalKind::maximum;
+      ++found.maxima;
     } else {
       if (point.index == 0 && link.above - link.edges_above == 1) continue;  // regular
       ++found.saddles;

@@ -12,7 +12,6 @@
 namespace hf_inner {
 namespace {
 
-using Index = std::int32_t;
 using Complex = std::complex<double>;
 
 constexpr double two_pi = 6.283185307179586476925286766559;
@@ -134,10 +133,13 @@ void DirectionField::add(std::uint32_t count, const std::uint32_t* vertices, con
     const Index v = usable_vertex(solver_.core().mesh, vertices[i], i);
     next[free] = {v, vertices[i], projected(i, v, vectors + std::size_t{3} * i)};
     if (taken[at(v)]) check_free(next, i, free);
-    taken[at(v)] = 1, slots.push_back(static_cast<Index>(free)), inner.push_back(v);
+    taken[at(v)] = 1;
+    slots.push_back(static_cast<Index>(free));
+    inner.push_back(v);
   }
   DirectionSolver::Edit edit;
-  edit.add = slots, edit.vertices = inner;
+  edit.add = slots;
+  edit.vertices = inner;
   solver_.edit(edit);
   accept(next);
   count_ += count;
@@ -150,7 +152,8 @@ void DirectionField::remove(std::uint32_t count, const std::uint32_t* sites) {
   Vector<Index> slots(&memory());
   for (std::uint32_t i = 0; i < count; ++i) {
     check_site(next, i, sites[i]);
-    next[sites[i]] = DirectionConstraint{}, slots.push_back(static_cast<Index>(sites[i]));
+    next[sites[i]] = DirectionConstraint{};
+    slots.push_back(static_cast<Index>(sites[i]));
   }
   DirectionSolver::Edit edit;
   edit.remove = slots;
@@ -183,11 +186,14 @@ void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const
       turn += solver_.connection().turn(core.topology, e, here);
     }
     site = {to, vertices[i], site.vector * at_angle(1.0, turn)};
-    slots.push_back(static_cast<Index>(sites[i])), inner.push_back(to);
+    slots.push_back(static_cast<Index>(sites[i]));
+    inner.push_back(to);
   }
   for (std::uint32_t i = 0; i < count; ++i) check_free(next, i, sites[i]);
   DirectionSolver::Edit edit;
-  edit.remove = slots, edit.add = slots, edit.vertices = inner;
+  edit.remove = slots;
+  edit.add = slots;
+  edit.vertices = inner;
   solver_.edit(edit);
   accept(next);
 }

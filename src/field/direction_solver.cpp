@@ -17,7 +17,8 @@ DirectionCounters DirectionSolver::counters() const noexcept {
   DirectionCounters counters;
   // One of the system, and one per rebase (constraints taken into the factor).
   counters.factorisations = 1 + counts.rebases;
-  counters.path_solves = counts.path_solves, counters.sweeps = counts.sweeps;
+  counters.path_solves = counts.path_solves;
+  counters.sweeps = counts.sweeps;
   counters.bytes = constraints_.row_bytes() + constraints_.base_bytes();
   return counters;
 }
@@ -25,7 +26,10 @@ DirectionCounters DirectionSolver::counters() const noexcept {
 void DirectionSolver::edit(const Edit& edit) {
   Vector<Index> remove(&memory()), add(&memory());
   Vector<Site> sites(&memory());
-  for (const Index slot : edit.remove) remove.push_back(2 * slot), remove.push_back(2 * slot + 1);
+  for (const Index slot : edit.remove) {
+    remove.push_back(2 * slot);
+    remove.push_back(2 * slot + 1);
+  }
   for (std::size_t i = 0; i < edit.add.size(); ++i) {
     for (Index part = 0; part < 2; ++part) {
       const Index v = edit.vertices[i];

@@ -71,9 +71,13 @@ DirectionSystem::DirectionSystem(std::shared_ptr<const Core> given, Index n)
 
 PinnedOperator DirectionSystem::pinned_operator() const noexcept {
   PinnedOperator a;
-  a.matrix = &matrix, a.factor = factor.get();
-  a.pins = pins, a.pin_weight = beta, a.paths = &pin_paths;
-  a.memory = core->memory.get(), a.jobs = core->jobs.get();
+  a.matrix = &matrix;
+  a.factor = factor.get();
+  a.pins = pins;
+  a.pin_weight = beta;
+  a.paths = &pin_paths;
+  a.memory = core->memory.get();
+  a.jobs = core->jobs.get();
   return a;
 }
 
@@ -123,7 +127,8 @@ void DirectionMatrix::make_matrix() {
       double sum = 0;
       for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
         const Index w = topology.neighbour[at(i)], e = topology.neighbour_edge[at(i)];
-        ring.push_back({position[at(w)], w, e}), sum += weights[at(e)];
+        ring.push_back({position[at(w)], w, e});
+        sum += weights[at(e)];
       }
       std::sort(ring.begin(), ring.end(),
                 [](const Neighbour& a, const Neighbour& b) { return a.position < b.position; });
@@ -133,7 +138,8 @@ void DirectionMatrix::make_matrix() {
         if (other.edge >= 0) {
           const double w = weights[at(other.edge)], turn = degree * connection.turn(topology, other.edge, other.vertex);
           block[0][0] = block[1][1] = -w * cosine(turn);
-          block[0][1] = w * sine(turn), block[1][0] = -block[0][1];
+          block[0][1] = w * sine(turn);
+          block[1][0] = -block[0][1];
         }
         for (std::size_t column = 0; column < 2; ++column) {
           for (std::size_t row = 0; row < 2; ++row) {
@@ -157,7 +163,8 @@ void DirectionSystem::make_pins() {
   for (Index v = 0; v < core->size(); ++v) {
     poller.due();
     const std::size_t c = at(core->mesh.component[at(v)]);
-    beta[c] += matrix.value[matrix.diagonal(unknown(v, 0))], count[c] += 1;
+    beta[c] += matrix.value[matrix.diagonal(unknown(v, 0))];
+    count[c] += 1;
   }
   SymmetricMatrix a(*core->memory);
   a.column_start.assign(matrix.column_start.begin(), matrix.column_start.end());
@@ -169,13 +176,15 @@ void DirectionSystem::make_pins() {
   for (std::size_t c = 0; c < components; ++c) {
     beta[c] = beta[c] > 0 ? beta[c] / count[c] : 1.0;
     for (Index part = 0; part < 2; ++part) {
-      pins.push_back(unknown(core->ground[c], part)), start.push_back(static_cast<Index>(pins.size()));
+      pins.push_back(unknown(core->ground[c], part));
+      start.push_back(static_cast<Index>(pins.size()));
       a.value[a.diagonal(pins.back())] += beta[c];
     }
   }
   factor = factorise(a);
   const Vector<double> ones(pins.size(), 1.0, &*core->memory);
-  pin_paths.group.resize(pins.size()), pin_paths.column.resize(pins.size());
+  pin_paths.group.resize(pins.size());
+  pin_paths.column.resize(pins.size());
   factor->solve_paths({start, pins, ones}, *core->memory, *core->jobs, pin_paths.groups, pin_paths.group,
                       pin_paths.column);
   double tile[PathGroup::capacity * PathGroup::capacity];

@@ -35,22 +35,28 @@ inline void add_lanes(const hf_inner::TriangleFrame& frame, const double* u0, co
                       const double* weights, double* sums) noexcept {
   constexpr std::int64_t magnitude = 0x7fffffffffffffff, exponent = 0x7ff0000000000000, largest = 0x7fe0000000000000;
   Number a, d1, d2, weight;
-  get(u0, a), get(u1, d1), get(u2, d2), get(weights, weight);
-  d1 -= a, d2 -= a;
+  get(u0, a);
+  get(u1, d1);
+  get(u2, d2);
+  get(weights, weight);
+  d1 -= a;
+  d2 -= a;
   // Scales the differences d1 and d2 of the heat by a power of two, so that |d1| + |d2| is in [1, 2). Far from the
   // source the square of the heat would underflow to zero.
   Bits bits, other;
   Number scale, second;
   std::memcpy(&bits, &d1, sizeof(bits));
   std::memcpy(&other, &d2, sizeof(bits));
-  bits &= magnitude, other &= magnitude;
+  bits &= magnitude;
+  other &= magnitude;
   std::memcpy(&scale, &bits, sizeof(bits));
   std::memcpy(&second, &other, sizeof(bits));
   scale += second;
   std::memcpy(&bits, &scale, sizeof(bits));
   bits = largest - (bits & exponent);
   std::memcpy(&scale, &bits, sizeof(bits));
-  d1 *= scale, d2 *= scale;
+  d1 *= scale;
+  d2 *= scale;
   // (x, y) is the gradient of the heat times twice the area. With the normal n it is d1 n x (p0 - p2) + d2 n x (p1 -
   // p0), and n x (x, y) = (-y, x).
   Number x = d1 * frame.py, y = d2 * frame.along - d1 * frame.px;
@@ -66,8 +72,10 @@ inline void add_lanes(const hf_inner::TriangleFrame& frame, const double* u0, co
   root = root * (1.5 - half * (root * root));
   root = root * (1.5 - half * (root * root));
   root *= weight;
-  x *= root, y *= root;
-  sums[0] -= sum_of(x), sums[1] -= sum_of(y);
+  x *= root;
+  y *= root;
+  sums[0] -= sum_of(x);
+  sums[1] -= sum_of(y);
 }
 
 void add_directions_range(const hf_inner::DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept {

@@ -41,7 +41,9 @@ void Distances::log_map(const TriangleSides& sides, const GeodesicPoint& from, d
                         Vec3 frame[2]) const {
   const Mesh& mesh = geometry_->mesh;
   ExactTask task;
-  task.from = &from, task.directions = true, task.reach = reach;
+  task.from = &from;
+  task.directions = true;
+  task.reach = reach;
   const ExactDistance found = exact_distance(sides, task, *geometry_->memory);
   // Around a vertex that is no flat place the angles are scaled to 2 pi in all.
   const double scale = found.closed_fan && from.vertex >= 0 ? full_turn / found.fan_angle : 1.0;
@@ -60,7 +62,8 @@ void Distances::log_map(const TriangleSides& sides, const GeodesicPoint& from, d
     if (corner[k] != from.vertex && corner[k] != found.first_corner) third = corner[k];
   }
   const Vec3 z = cross(x, mesh.positions[at(third)] - origin);
-  frame[0] = unit_vector(x), frame[1] = unit_vector(cross(z, x));
+  frame[0] = unit_vector(x);
+  frame[1] = unit_vector(cross(z, x));
 }
 
 }  // namespace hf_inner

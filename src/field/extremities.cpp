@@ -60,9 +60,13 @@ Vector<Index> farthest_vertices(const Core& core, const Vector<double>& total) {
     for (std::size_t v = begin; v < end; ++v) {
       const Vec3 d = core.mesh.positions[v] - middle;
       const double squared = dot(d, d);
-      if (squared > best) best = squared, where = static_cast<Index>(v);
+      if (squared > best) {
+        best = squared;
+        where = static_cast<Index>(v);
+      }
     }
-    most[c] = best, farthest[c] = where;
+    most[c] = best;
+    farthest[c] = where;
   });
   return farthest;
 }
@@ -75,13 +79,15 @@ constexpr Index unseen = std::numeric_limits<Index>::max();
 std::size_t search_levels(const Topology& topology, Index from, Index* level, Index* queue) {
   const Index *const start = topology.neighbour_start.data(), *const neighbour = topology.neighbour.data();
   std::size_t head = 0, tail = 0;
-  queue[tail++] = from, level[at(from)] = 0;
+  queue[tail++] = from;
+  level[at(from)] = 0;
   while (head < tail) {
     const Index v = queue[head++], next = level[at(v)] + 1, end = start[at(v) + 1];
     for (Index i = start[at(v)]; i < end; ++i) {
       // The loop has no branch, because the processor would mispredict it half of the time.
       const Index w = neighbour[at(i)], old = level[at(w)];
-      queue[tail] = w, tail += old > next;
+      queue[tail] = w;
+      tail += old > next;
       level[at(w)] = std::min(old, next);
     }
   }
@@ -126,13 +132,15 @@ void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uin
     // The ring takes two neighbouring levels of the search, because the vertices of one level need not be
     // edge-connected.
     head = tail = 0;
-    queue[tail++] = v, middle[at(v)] = 1;
+    queue[tail++] = v;
+    middle[at(v)] = 1;
     while (head < tail) {
       const Index w = queue[head++];
       for (Index i = start[at(w)]; i < start[at(w) + 1]; ++i) {
         const Index x = neighbour[at(i)];
         if (middle[at(x)] || level[at(x)] < half || level[at(x)] > half + 1) continue;
-        middle[at(x)] = 1, queue[tail++] = x;
+        middle[at(x)] = 1;
+        queue[tail++] = x;
       }
     }
   }

@@ -41,24 +41,31 @@ FlowBound::FlowBound(const Core& core, const SymmetricMatrix& k, Span<const Inde
       int exponent = 0;
       std::frexp(weight, &exponent);
       const int kind = std::max(0, std::min(classes - 1, (highest - exponent) / 2));
-      waiting[at(kind)].push_back({v, k.row[i], weight}), first = std::min(first, kind);
+      waiting[at(kind)].push_back({v, k.row[i], weight});
+      first = std::min(first, kind);
     }
   };
   Vector<Index> starts(&memory);
   for (const Index v : roots) {
-    if (parent_[at(v)] == not_reached) parent_[at(v)] = root, starts.push_back(v);
+    if (parent_[at(v)] == not_reached) {
+      parent_[at(v)] = root;
+      starts.push_back(v);
+    }
   }
   for (const Index v : starts) take(v);
   while (first < classes) {
     Vector<Edge>& edges = waiting[at(first)];
     std::size_t& done = next[at(first)];
     if (done == edges.size()) {
-      edges.clear(), done = 0, ++first;
+      edges.clear();
+      done = 0;
+      ++first;
       continue;
     }
     const Edge edge = edges[done++];
     if (parent_[at(edge.to)] != not_reached) continue;
-    parent_[at(edge.to)] = edge.from, resistance_[at(edge.to)] = 1 / edge.weight;
+    parent_[at(edge.to)] = edge.from;
+    resistance_[at(edge.to)] = 1 / edge.weight;
     double& far = distance[at(edge.to)];
     far = distance[at(edge.from)] + 1 / edge.weight;
     double& longest = path_[at(core.mesh.component[at(edge.to)])];
@@ -75,7 +82,8 @@ Vector<double> FlowBound::bound(double* r, std::size_t channels) const {
     double* above = r + at(parent_[v]) * channels;
     for (std::size_t q = 0; q < channels; ++q) {
       const double flow = r[v * channels + q];
-      above[q] += flow, out[c * channels + q] += flow * flow * resistance_[v];
+      above[q] += flow;
+      out[c * channels + q] += flow * flow * resistance_[v];
     }
   }
   for (std::size_t v = 0; v < parent_.size(); ++v) {

@@ -133,7 +133,8 @@ void Geodesics::distance(Span<const Index> sources, double* out) const {
   // Shifts the distance of each component so that its mean over the sources is zero.
   Vector<double> offset(components, 0.0, core.memory.get()), count(components, 0.0, core.memory.get());
   for (const Index s : sources) {
-    offset[at(core.mesh.component[at(s)])] += out[s], count[at(core.mesh.component[at(s)])] += 1;
+    offset[at(core.mesh.component[at(s)])] += out[s];
+    count[at(core.mesh.component[at(s)])] += 1;
   }
   for (std::size_t v = 0; v < n; ++v) {
     const std::size_t c = at(core.mesh.component[v]);
@@ -159,7 +160,8 @@ void Geodesics::average(Index count, double* out) const {
       for (std::size_t c = 0; c < components; ++c) {
         const std::size_t i = c * at(count) + at(first + k);
         if (samples.vertex[i] == Mesh::none) continue;
-        row.push_back(samples.vertex[i]), value.push_back(1);
+        row.push_back(samples.vertex[i]);
+        value.push_back(1);
         weights[c * at(channels) + at(k)] = samples.share[i];
       }
       start.push_back(static_cast<Index>(row.size()));

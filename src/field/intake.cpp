@@ -34,9 +34,12 @@ Places read_places(const hf_sites_desc& desc) {
   if (desc.site_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
   check_places(desc.vertices, desc.triangles, desc.corners, desc.barycentrics);
   Places places;
-  places.count = desc.site_count, places.vertices = desc.vertices, places.triangles = desc.triangles;
+  places.count = desc.site_count;
+  places.vertices = desc.vertices;
+  places.triangles = desc.triangles;
   places.corners = desc.corners;
-  places.barycentrics = desc.barycentrics, places.radii = desc.radii;
+  places.barycentrics = desc.barycentrics;
+  places.radii = desc.radii;
   return places;
 }
 
@@ -54,7 +57,8 @@ SolverOptions read_solver_options(const hf_solver_desc& desc) {
   if (desc.engine == HF_ENGINE_UPDOWN) require_updown();
   require_zero(desc.reserved);
   SolverOptions options;
-  options.field_kind = kind, options.engine = static_cast<EngineKind>(desc.engine);
+  options.field_kind = kind;
+  options.engine = static_cast<EngineKind>(desc.engine);
   options.channels = static_cast<std::int32_t>(count_of(desc.channel_count, 1, 1, most_channels, "channel_count"));
   if (desc.penalty != 0 && !(desc.penalty > 0 && desc.penalty <= largest_penalty))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0 and at most %g, or 0 for %g",
@@ -66,7 +70,8 @@ SolverOptions read_solver_options(const hf_solver_desc& desc) {
 
 void read_addition(const hf_sites_desc& desc, FieldEdit& edit) {
   edit.add = read_places(desc);
-  edit.add_values = desc.values, edit.add_stiffness = desc.stiffness;
+  edit.add_values = desc.values;
+  edit.add_stiffness = desc.stiffness;
 }
 
 void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_desc& to, FieldEdit& edit) {
@@ -74,7 +79,9 @@ void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_d
   if (to.values || to.stiffness || to.radii)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
          "moving keeps values, stiffness and radius: set them to NULL in the desc");
-  edit.move_count = count, edit.move_sites = sites, edit.move_to = read_places(to);
+  edit.move_count = count;
+  edit.move_sites = sites;
+  edit.move_to = read_places(to);
   if (edit.move_to.count != count)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
 }

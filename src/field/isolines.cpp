@@ -37,7 +37,9 @@ class Tracer {
 
   // Traces all lines of one level. crossed: the edges with one end below the level and the other end not below it.
   void trace(double level, std::uint32_t number, Span<const Index> crossed) {
-    level_ = level, number_ = number, ++stamp_;
+    level_ = level;
+    number_ = number;
+    ++stamp_;
     // Traces the open lines first. All lines that are left are closed.
     for (const bool open : {true, false}) {
       for (const Index e : crossed) {
@@ -125,7 +127,8 @@ class Tracer {
         if (other != e && crossed(other)) next = other;
       }
       const Index entry = entry_of(next, t);
-      e = next, i = partner(e, entry);
+      e = next;
+      i = partner(e, entry);
       if (i == Mesh::none) {
         append(e);
         break;

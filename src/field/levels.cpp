@@ -35,7 +35,8 @@ Vector<Part> parts_of(const Mesh& mesh, Span<const double> field, double& low, d
       if (std::isnan(u[0]) || std::isnan(u[1]) || std::isnan(u[2])) continue;
       if (measure) {
         for (const double value : u) {
-          low = first ? value : std::min(low, value), high = first ? value : std::max(high, value);
+          low = first ? value : std::min(low, value);
+          high = first ? value : std::max(high, value);
           first = false;
         }
         continue;
@@ -48,7 +49,9 @@ Vector<Part> parts_of(const Mesh& mesh, Span<const double> field, double& low, d
       // does not change lengths in the plane, so it is left out.
       part.rise = 0.5 * norm((u[2] - u[0]) * e1 - (u[1] - u[0]) * e2);
       std::sort(u, u + 3);
-      part.low = u[0], part.middle = u[1], part.high = u[2];
+      part.low = u[0];
+      part.middle = u[1];
+      part.high = u[2];
       parts.push_back(part);
     }
     if (first) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no triangle has a value at each of its corners");
@@ -71,7 +74,8 @@ void equal_areas(const Vector<Part>& parts, Span<double> out, Memory& memory) {
       whole(count + 1, &memory);
   for (int pass = 0; pass < bisections; ++pass) {
     for (std::size_t k = 0; k < count; ++k) out[k] = 0.5 * (below[k] + above[k]);
-    std::fill(partial.begin(), partial.end(), 0.0), std::fill(whole.begin(), whole.end(), 0.0);
+    std::fill(partial.begin(), partial.end(), 0.0);
+    std::fill(whole.begin(), whole.end(), 0.0);
     for (const Part& part : parts) {
       const double* level = std::upper_bound(out.begin(), out.end(), part.low);
       for (; level != out.end() && *level < part.high; ++level)

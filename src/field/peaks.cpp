@@ -32,7 +32,8 @@ Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memo
     changed = 0;
     for (std::size_t v = 0; v < n; ++v) {
       const Index next = basin[v], beyond = basin[at(next)];
-      basin[v] = beyond, changed |= next ^ beyond;
+      basin[v] = beyond;
+      changed |= next ^ beyond;
     }
   }
 

@@ -11,7 +11,8 @@ namespace {
 void check_counts(const FieldEdit& edit, std::uint32_t there) {
   check_site_count(edit.remove_count, there);
   const std::uint32_t left = there - edit.remove_count;
-  check_site_count(edit.move_count, left), check_site_count(edit.set_count, left);
+  check_site_count(edit.move_count, left);
+  check_site_count(edit.set_count, left);
 }
 
 }  // namespace
@@ -138,7 +139,8 @@ void ScalarField::set_screening(Span<const double> strength, const double* targe
   const SiteDifference difference(SiteSet(memory(), sites_.channels()), sites_, memory());
   if (!difference.empty()) engine->edit(difference.edit());
   prepared_.reset();
-  engine_ = std::move(engine), screening_ = std::move(screening);
+  engine_ = std::move(engine);
+  screening_ = std::move(screening);
   history_.clear_redo();
 }
 

@@ -37,7 +37,8 @@ void grow_patch(const Topology& topology, Index patch, std::size_t begin, Vector
       for (Index i = topology.neighbour_start[at(list[ring])]; i < topology.neighbour_start[at(list[ring]) + 1]; ++i) {
         const Index w = topology.neighbour[at(i)];
         if (patch_of[at(w)] != Mesh::none) continue;
-        patch_of[at(w)] = patch, list.push_back(w);
+        patch_of[at(w)] = patch;
+        list.push_back(w);
         if (list.size() - begin == at(patch_size)) return;
       }
     }
@@ -56,8 +57,11 @@ Patches make_patches(const Mesh& mesh, const Topology& topology, const Vector<do
     if (patch_of[v] != Mesh::none) continue;
     const Index patch = static_cast<Index>(patches.middle.size());
     const std::size_t begin = list.size();
-    patches.middle.push_back(static_cast<Index>(v)), patches.component.push_back(mesh.component[v]);
-    patch_of[v] = patch, list_start.push_back(static_cast<Index>(begin)), list.push_back(static_cast<Index>(v));
+    patches.middle.push_back(static_cast<Index>(v));
+    patches.component.push_back(mesh.component[v]);
+    patch_of[v] = patch;
+    list_start.push_back(static_cast<Index>(begin));
+    list.push_back(static_cast<Index>(v));
     const bool coarse = vertices[at(mesh.component[v])] > std::int64_t{patch_size} * patches_per_sample * count;
     if (coarse) grow_patch(topology, patch, begin, patch_of, list);
     double area = 0;
@@ -104,8 +108,10 @@ class Search {
   // Gives the sample `name` all patches (groups of vertices) that are nearer to its patch `source` than to all earlier
   // samples.
   void grow(Index source, Index name) {
-    distance[at(source)] = 0, owner[at(source)] = name;
-    near_.assign(1, source), waiting_.clear();
+    distance[at(source)] = 0;
+    owner[at(source)] = name;
+    near_.assign(1, source);
+    waiting_.clear();
     for (double limit = step_; !near_.empty(); limit = work_off(limit, name)) {
     }
   }
@@ -124,7 +130,8 @@ class Search {
         const Index w = patches_.neighbour[at(i)];
         const double through = here + patches_.length[at(i)];
         if (!(through < distance[at(w)])) continue;
-        distance[at(w)] = through, owner[at(w)] = name;
+        distance[at(w)] = through;
+        owner[at(w)] = name;
         (through < limit ? near_ : waiting_).push_back(w);
       }
     }

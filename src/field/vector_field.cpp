@@ -41,7 +41,9 @@ void project_on_tangent_planes(const Vector<Vec3>& normals, double* vectors) noe
     const Vec3 n = normals[v];
     for (int pass = 0; pass < 2; ++pass) {
       const double along = n.x * p[0] + n.y * p[1] + n.z * p[2];
-      p[0] -= along * n.x, p[1] -= along * n.y, p[2] -= along * n.z;
+      p[0] -= along * n.x;
+      p[1] -= along * n.y;
+      p[2] -= along * n.z;
     }
   }
 }

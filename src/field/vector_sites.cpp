@@ -45,7 +45,8 @@ void require_vectors(const ScalarField& field) {
 }
 
 void move_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* sites, const std::uint32_t* vertices) {
-  require_vectors(field), check_site_count(count, field.sites().count());
+  require_vectors(field);
+  check_site_count(count, field.sites().count());
   const Core& core = field.core();
   const Geometry& surface = core.geometry->unlinked();  // vectors are carried along triangles
   const Mesh& mesh = surface.mesh;
@@ -69,13 +70,19 @@ void move_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* 
     for (const double x : {vector.x, vector.y, vector.z}) values.push_back(x);
   }
   FieldEdit edit;
-  edit.move_count = count, edit.move_sites = sites, edit.move_to.count = count, edit.move_to.vertices = vertices;
-  edit.set_count = count, edit.set_sites = sites, edit.set_values = values.data();
+  edit.move_count = count;
+  edit.move_sites = sites;
+  edit.move_to.count = count;
+  edit.move_to.vertices = vertices;
+  edit.set_count = count;
+  edit.set_sites = sites;
+  edit.set_values = values.data();
   field.edit(edit, nullptr);
 }
 
 void rotate_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* sites, const double* angles) {
-  require_vectors(field), check_site_count(count, field.sites().count());
+  require_vectors(field);
+  check_site_count(count, field.sites().count());
   const Core& core = field.core();
   Vector<double> values(field.core().memory.get());
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -86,7 +93,9 @@ void rotate_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t
     for (const double x : {vector.x, vector.y, vector.z}) values.push_back(x);
   }
   FieldEdit edit;
-  edit.set_count = count, edit.set_sites = sites, edit.set_values = values.data();
+  edit.set_count = count;
+  edit.set_sites = sites;
+  edit.set_values = values.data();
   field.edit(edit, nullptr);
 }
 

@@ -82,7 +82,10 @@ void write_positions(const std::vector<glm::dvec3>& from, double* to) {
 void write_influences(const ModelObject& object, uint16_t* joints, float* weights) {
   std::vector<size_t> first;
   size_t count = 0;
-  for (const Skin& skin : object.model.skins) first.push_back(count), count += skin.joints.size();
+  for (const Skin& skin : object.model.skins) {
+    first.push_back(count);
+    count += skin.joints.size();
+  }
   if (joints && count > 65536)
     throw Failure(HF_ERROR_TOO_LARGE, std::to_string(count) + " joints; joints holds numbers below 65536");
   const size_t total = size_t{8} * object.mesh.positions.size();
@@ -141,7 +144,8 @@ hf_result hf_gltf_model_create(const hf_gltf_mesh_desc* desc, hf_gltf_model* out
       const hf_gltf_mesh_desc& mesh = sized(desc, "desc");
       if (mesh.vertex_count == 0 || mesh.triangle_count == 0)
         throw Failure(HF_ERROR_EMPTY, "there are no vertices or no triangles");
-      need(mesh.positions, "positions"), need(mesh.triangles, "triangles");
+      need(mesh.positions, "positions");
+      need(mesh.triangles, "triangles");
       std::vector<glm::dvec3> positions(mesh.vertex_count);
       for (size_t v = 0; v < positions.size(); ++v) {
         const double* p = mesh.positions + 3 * v;
@@ -170,12 +174,14 @@ hf_result hf_gltf_model_get_info(hf_gltf_model model, hf_gltf_model_info* out_in
     const Reading<ModelObject> object(model, "model");
     hf_gltf_model_info& info = sized(out_info, "out_info");
     const Model& of = object->model;
-    info.vertex_count = object->mesh.vertex_count(), info.triangle_count = object->mesh.triangle_count();
+    info.vertex_count = object->mesh.vertex_count();
+    info.triangle_count = object->mesh.triangle_count();
     info.clip_count = static_cast<uint32_t>(of.animations.size());
     info.joint_count = 0;
     for (const Skin& skin : of.skins) info.joint_count += static_cast<uint32_t>(skin.joints.size());
     info.note_count = static_cast<uint32_t>(of.notes.size() + of.warnings.size());
-    info.has_skin = has_skin(of), info.reserved = 0;
+    info.has_skin = has_skin(of);
+    info.reserved = 0;
   });
 }
 
@@ -204,13 +210,15 @@ hf_result hf_gltf_model_get_surface(hf_gltf_model model, const hf_gltf_surface* 
 hf_result hf_gltf_model_set_positions(hf_gltf_model model, const double* positions) {
   return guarded(__func__, [&] {
     const Changing<ModelObject> object(model, "model");
-    need_surface(*object), need(positions, "positions");
+    need_surface(*object);
+    need(positions, "positions");
     const size_t count = object->mesh.positions.size();
     need_finite(positions, 3 * count, 3, "vertex");
     Model changed = object->model;
     scatter(changed, object->mesh, to_points(frame_of(positions, count, 0)));
     FlatMesh mesh = flatten(changed);
-    std::swap(object->model, changed), std::swap(object->mesh, mesh);
+    std::swap(object->model, changed);
+    std::swap(object->mesh, mesh);
   });
 }
 
@@ -238,7 +246,8 @@ hf_result hf_gltf_model_get_clip(hf_gltf_model model, uint32_t clip, hf_gltf_cli
     const Reading<ModelObject> object(model, "model");
     hf_gltf_clip_info& info = sized(out_info, "out_info");
     const Animation& of = object->model.animations[numbered(clip, object->model.animations.size(), "clip")];
-    info.key_count = static_cast<uint32_t>(key_count(of)), info.duration = clip_duration(of);
+    info.key_count = static_cast<uint32_t>(key_count(of));
+    info.duration = clip_duration(of);
     copy_text(of.name.c_str(), info.name, sizeof info.name);
   });
 }
@@ -247,7 +256,9 @@ hf_result hf_gltf_model_pose(hf_gltf_model model, uint32_t clip, double time, do
   return guarded(__func__, [&] {
     const Reading<ModelObject> object(model, "model");
     const size_t at = numbered(clip, object->model.animations.size(), "clip");
-    need_surface(*object), need(positions, "positions"), need_finite(&time, 1, 1, "time");
+    need_surface(*object);
+    need(positions, "positions");
+    need_finite(&time, 1, 1, "time");
     write_positions(posed_positions(object->model, object->mesh, object->model.animations[at], time), positions);
   });
 }
@@ -257,7 +268,8 @@ hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_frames_desc*
     const Changing<ModelObject> object(model, "model");
     const hf_gltf_frames_desc& given = sized(desc, "desc");
     if (out_info) sized(out_info, "out_info");
-    need_surface(*object), need(given.positions, "positions");
+    need_surface(*object);
+    need(given.positions, "positions");
     if (!has_skin(object->model))
       throw Failure(HF_ERROR_UNSUPPORTED, "the model has no skin; hf_gltf_model_create_skinned makes one");
     const std::vector<double> times = times_of(given.times, given.frame_count);
@@ -287,13 +299,15 @@ hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_frames_desc*
         if (loose[v]) continue;
         const double* to = wanted[f].data() + 3 * v;
         const double off = glm::distance(got[v], glm::dvec3(to[0], to[1], to[2]));
-        sum += off * off, most = std::max(most, off);
+        sum += off * off;
+        most = std::max(most, off);
       }
     }
     insert_clip(object->model, 0, rig.clip(given.name ? given.name : "", times, poses));
     if (!out_info) return;
     out_info->joint_count = static_cast<uint32_t>(rig.turning());
-    out_info->rms = std::sqrt(sum / count), out_info->max = most;
+    out_info->rms = std::sqrt(sum / count);
+    out_info->max = most;
   });
 }
 
@@ -303,11 +317,15 @@ hf_result hf_gltf_model_create_skinned(hf_gltf_model model, const hf_gltf_skin_d
       const Reading<ModelObject> object(model, "model");
       const hf_gltf_skin_desc& given = sized(desc, "desc");
       need_surface(*object);
-      need(given.pivots, "pivots"), need(given.joints, "joints"), need(given.weights, "weights");
-      need(given.rotations, "rotations"), need(given.translations, "translations");
+      need(given.pivots, "pivots");
+      need(given.joints, "joints");
+      need(given.weights, "weights");
+      need(given.rotations, "rotations");
+      need(given.translations, "translations");
       SkinDescription skin;
       SkinClip clip;
-      clip.name = given.name ? given.name : "", clip.times = times_of(given.times, given.frame_count);
+      clip.name = given.name ? given.name : "";
+      clip.times = times_of(given.times, given.frame_count);
       const size_t joints = given.joint_count;
       for (size_t j = 0; j < joints; ++j) {
         const double* p = given.pivots + 3 * j;

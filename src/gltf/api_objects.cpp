@@ -52,7 +52,8 @@ void copy_text(const char* from, char* to, size_t capacity) {
 }
 
 hf_result record(hf_result code, uint32_t index, const char* function, const char* message) noexcept {
-  last.code = code, last.index = index;
+  last.code = code;
+  last.index = index;
   copy_text(function, last.function, sizeof last.function);
   copy_text(message, last.message, sizeof last.message);
   return code;

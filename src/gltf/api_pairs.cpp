@@ -19,7 +19,8 @@ std::shared_ptr<PairsObject> pairs_of(const ModelObject& source, const ModelObje
   const RegionFinder source_finder(source.model, source.mesh, out->pairs.source_axes),
       target_finder(target.model, target.mesh, out->pairs.target_axes);
   add_regions(out->pairs.pairs, source_finder, target_finder, out->source, out->target);
-  out->source_diagonal = source_finder.diagonal(), out->target_diagonal = target_finder.diagonal();
+  out->source_diagonal = source_finder.diagonal();
+  out->target_diagonal = target_finder.diagonal();
   out->confidence.assign(out->pairs.pairs.size(), 1.0);
   out->text = json.dump(2);
   return out;
@@ -87,7 +88,8 @@ hf_result hf_gltf_pairs_read(hf_gltf_model source, hf_gltf_model target, const c
   return guarded(__func__, [&] {
     create(out_pairs, "out_pairs", [&] {
       const Reading<ModelObject> from(source, "source"), to(target, "target");
-      need(text, "text"), need_surfaces(*from, *to);
+      need(text, "text");
+      need_surfaces(*from, *to);
       return pairs_of(*from, *to, parse_json(text, static_cast<size_t>(byte_count), "the pairs"), "the pairs");
     });
   });
@@ -100,7 +102,8 @@ hf_result hf_gltf_pairs_get_info(hf_gltf_pairs pairs, hf_gltf_pairs_info* out_in
     const Reading<PairsObject> object(pairs, "pairs");
     hf_gltf_pairs_info& info = sized(out_info, "out_info");
     info.pair_count = static_cast<uint32_t>(object->pairs.pairs.size());
-    write_axes(object->pairs.source_axes, info.source_axes), write_axes(object->pairs.target_axes, info.target_axes);
+    write_axes(object->pairs.source_axes, info.source_axes);
+    write_axes(object->pairs.target_axes, info.target_axes);
   });
 }
 
@@ -110,10 +113,14 @@ hf_result hf_gltf_pairs_get_pair(hf_gltf_pairs pairs, uint32_t index, hf_gltf_pa
     hf_gltf_pair& out = sized(out_pair, "out_pair");
     const PairEntry& entry = entry_of(*object, index);
     const Region &source = object->source[index], &target = object->target[index];
-    out.flags = entry.flags(), out.confidence = object->confidence[index];
+    out.flags = entry.flags();
+    out.confidence = object->confidence[index];
     out.source_count = static_cast<uint32_t>(source.vertices.size());
     out.target_count = static_cast<uint32_t>(target.vertices.size());
-    for (int c = 0; c < 3; ++c) out.source_place[c] = source.seed[c], out.target_place[c] = target.seed[c];
+    for (int c = 0; c < 3; ++c) {
+      out.source_place[c] = source.seed[c];
+      out.target_place[c] = target.seed[c];
+    }
     out.source_radius = entry.source.front().radius * object->source_diagonal;
     out.target_radius = entry.target.front().radius * object->target_diagonal;
     copy_text(entry.name.c_str(), out.name, sizeof out.name);

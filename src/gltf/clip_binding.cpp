@@ -124,7 +124,9 @@ BoundClips bind_clips(const Model& model, const Model& clips, const std::string&
       if (channel.path != Path::weights) moved.insert(channel.node);
   }
   BoundClips out;
-  out.model = model, out.clips = chosen.size(), out.animated = moved.size();
+  out.model = model;
+  out.clips = chosen.size();
+  out.animated = moved.size();
   const NodeMatch match = match_nodes(clips, {moved.begin(), moved.end()}, model);
   std::map<int, int> found;  // from the clips' nodes to the model's
   for (const int node : moved) {

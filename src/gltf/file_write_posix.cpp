@@ -33,7 +33,8 @@ class OpenFile {
     if (number_ < 0 || number_ > 2) return;
     const int moved = ::fcntl(number_, F_DUPFD_CLOEXEC, 3), reason = errno;
     ::close(number_);
-    number_ = moved, errno = reason;
+    number_ = moved;
+    errno = reason;
   }
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;

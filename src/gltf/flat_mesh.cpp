@@ -385,7 +385,8 @@ Model bake(const Model& model, const FlatMesh& mesh, const std::vector<glm::dvec
   out.name = model.name;
   out.materials = model.materials;
   out.appearance = model.appearance;
-  out.asset = model.asset, out.carried = carried_without_nodes(model.carried);
+  out.asset = model.asset;
+  out.carried = carried_without_nodes(model.carried);
   out.required_extensions = model.required_extensions;
   const std::vector<glm::dmat4> globals = global_matrices(model, rest_pose(model));
   std::map<int, size_t> node_of;
@@ -406,7 +407,8 @@ Model bake(const Model& model, const FlatMesh& mesh, const std::vector<glm::dvec
     to.texcoords = from.texcoords;
     to.colors = from.colors;
     to.material = from.material;
-    to.carried_attributes = from.carried_attributes, to.carried = from.carried;
+    to.carried_attributes = from.carried_attributes;
+    to.carried = from.carried;
     for (size_t v = 0; v < part.vertex_count; ++v) {
       to.positions.push_back(glm::vec3(positions[part.first_vertex + v] - offset));
       to.normals.push_back(normals[part.first_vertex + v]);

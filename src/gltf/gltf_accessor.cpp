@@ -193,7 +193,9 @@ CarriedNumbers AccessorReader::stored(int accessor, const std::string& where) {
   const size_t row =
       components * static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(o.componentType)));
   charge(static_cast<uint64_t>(o.count) * row, where);
-  out.component = o.componentType, out.type = static_cast<int>(components), out.normalized = o.normalized;
+  out.component = o.componentType;
+  out.type = static_cast<int>(components);
+  out.normalized = o.normalized;
   out.count = o.count;
   out.bytes.resize(o.count * row);
   each(o, components, where,

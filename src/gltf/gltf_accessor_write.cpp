@@ -60,8 +60,11 @@ tinygltf::Accessor AccessorWriter::keys(const void* data, size_t count, int type
   if (keys_ < 0) keys_ = add_view(nullptr, 0, 0);
   tinygltf::BufferView& view = out_.bufferViews[static_cast<size_t>(keys_)];
   tinygltf::Accessor out;
-  out.bufferView = keys_, out.byteOffset = view.byteLength;
-  out.count = count, out.type = type, out.componentType = component;
+  out.bufferView = keys_;
+  out.byteOffset = view.byteLength;
+  out.count = count;
+  out.type = type;
+  out.componentType = component;
   const size_t size = count * static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type)) *
                                                   tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(component)));
   append(data, size);
@@ -93,8 +96,10 @@ int AccessorWriter::add_carried(const CarriedNumbers& values, int target) {
   tinygltf::Accessor accessor;
   accessor.bufferView = add_view(spaced.data(), spaced.size(), target);
   if (stride != row) out_.bufferViews.back().byteStride = stride;
-  accessor.count = values.count, accessor.type = types[values.type];
-  accessor.componentType = values.component, accessor.normalized = values.normalized;
+  accessor.count = values.count;
+  accessor.type = types[values.type];
+  accessor.componentType = values.component;
+  accessor.normalized = values.normalized;
   out_.accessors.push_back(accessor);
   return static_cast<int>(out_.accessors.size()) - 1;
 }
@@ -114,16 +119,24 @@ int AccessorWriter::add_displacements(const std::vector<glm::vec3>& values, bool
   std::vector<uint32_t> indices;
   std::vector<glm::vec3> moved;
   for (size_t v = 0; v < values.size(); ++v)
-    if (values[v] != glm::vec3(0)) indices.push_back(static_cast<uint32_t>(v)), moved.push_back(values[v]);
+    if (values[v] != glm::vec3(0)) {
+      indices.push_back(static_cast<uint32_t>(v));
+      moved.push_back(values[v]);
+    }
   constexpr size_t row = sizeof(uint32_t) + sizeof(glm::vec3);
   if (2 * row * indices.size() > sizeof(glm::vec3) * values.size() || values.empty())
     return add_vectors(values, bounds);
-  if (indices.empty()) indices.push_back(0), moved.emplace_back(0.0f);
+  if (indices.empty()) {
+    indices.push_back(0);
+    moved.emplace_back(0.0f);
+  }
   tinygltf::Accessor accessor;
-  accessor.count = values.size(), accessor.type = TINYGLTF_TYPE_VEC3;
+  accessor.count = values.size();
+  accessor.type = TINYGLTF_TYPE_VEC3;
   accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
   if (bounds) add_bounds(&values[0].x, values.size(), 3, accessor);
-  accessor.sparse.isSparse = true, accessor.sparse.count = static_cast<int>(indices.size());
+  accessor.sparse.isSparse = true;
+  accessor.sparse.count = static_cast<int>(indices.size());
   accessor.sparse.indices.byteOffset = accessor.sparse.values.byteOffset = 0;
   accessor.sparse.indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
   accessor.sparse.indices.bufferView = add_view(indices.data(), indices.size() * sizeof(uint32_t), 0);

@@ -190,12 +190,16 @@ class Converter {
 
   // The lists of the carried document are as long as those of the model: both count the checked document.
   void carry(Model& model, CarriedDocument& from) {
-    model.carried = std::move(from.top), model.asset = std::move(from.asset);
-    model.cameras = std::move(from.cameras), model.required_extensions = std::move(from.required);
+    model.carried = std::move(from.top);
+    model.asset = std::move(from.asset);
+    model.cameras = std::move(from.cameras);
+    model.required_extensions = std::move(from.required);
     const auto give = [](std::vector<Carried>& carried, auto& to) {
       for (size_t i = 0; i < to.size() && i < carried.size(); ++i) to[i].carried = std::move(carried[i]);
     };
-    give(from.scenes, model.scenes), give(from.nodes, model.nodes), give(from.meshes, model.meshes);
+    give(from.scenes, model.scenes);
+    give(from.nodes, model.nodes);
+    give(from.meshes, model.meshes);
     give(from.skins, model.skins);
     for (size_t n = 0; n < model.nodes.size(); ++n) {
       if (n < from.node_cameras.size()) model.nodes[n].camera = from.node_cameras[n];

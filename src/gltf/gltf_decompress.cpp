@@ -40,8 +40,10 @@ void decompress_view(json& view, const BufferStore& store, const std::string& wh
   const json from = std::move(view["meshopt"]);
   view.erase("meshopt");
   MeshoptView stream;
-  stream.count = from["count"].get<size_t>(), stream.stride = from["byteStride"].get<size_t>();
-  stream.mode = from["mode"].get<std::string>(), stream.filter = from["filter"].get<std::string>();
+  stream.count = from["count"].get<size_t>();
+  stream.stride = from["byteStride"].get<size_t>();
+  stream.mode = from["mode"].get<std::string>();
+  stream.filter = from["filter"].get<std::string>();
   store.charge(stream.count * stream.stride, where);
   const std::vector<uint8_t>& buffer = store.bytes_of(from["buffer"].get<size_t>());
   std::vector<uint8_t> out;

@@ -334,7 +334,8 @@ class Writer : AccessorWriter {
   // Numbers every node in depth-first order: those below a node lie between its own number and its last.
   void number_nodes() {
     const size_t count = model_.nodes.size();
-    enter_.assign(count, 0), last_.assign(count, 0);
+    enter_.assign(count, 0);
+    last_.assign(count, 0);
     int next = 0;
     std::vector<std::pair<size_t, size_t>> path;  // node, children done
     for (size_t root = 0; root < count; ++root) {

@@ -78,7 +78,8 @@ double miss(const Channel& channel, size_t a, size_t between, size_t b, double r
 // bend: the bound for each key of a gap, a length.
 Channel reduced(const Channel& from, double reach, double unit, double tolerance, double bend) {
   Channel out = from;
-  out.times.clear(), out.values.clear();
+  out.times.clear();
+  out.values.clear();
   const auto keep = [&](size_t key) {
     out.times.push_back(from.times[key]);
     out.values.insert(out.values.end(), from.values.begin() + static_cast<std::ptrdiff_t>(key * from.width),
@@ -100,13 +101,17 @@ Channel reduced(const Channel& from, double reach, double unit, double tolerance
       if (!good) break;
       ++b;
     }
-    keep(b), a = b;
+    keep(b);
+    a = b;
   }
   // a channel that stays where it starts needs one key
   if (out.times.size() == 2 && from.times.size() > 2) {
     bool still = true;
     for (size_t c = 0; c < out.width; ++c) still = still && out.values[c] == out.values[out.width + c];
-    if (still) out.times.resize(1), out.values.resize(out.width);
+    if (still) {
+      out.times.resize(1);
+      out.values.resize(out.width);
+    }
   }
   return out;
 }
@@ -134,7 +139,7 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
   for (const double time : times) wanted.push_back(surface.at(animation, time));
   double squares = 0;  // of accelerations
   const auto squares_at = [&](const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b,
-                             const std::vector<glm::dvec3>& c) {
+                              const std::vector<glm::dvec3>& c) {
     double sum = 0;
     for (size_t v = 0; v < a.size(); ++v) {
       if (mesh.loose[v]) continue;
@@ -148,7 +153,8 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
   bool shorts = true;
   // Makes the clip with a part of the tolerance for each channel. Returns how far a vertex moves at most.
   const auto reduce = [&](double part, Animation& fresh) {
-    fresh = animation, got_squares = 0;
+    fresh = animation;
+    got_squares = 0;
     for (Channel& channel : fresh.channels) {
       if (channel.interpolation != Interpolation::linear || channel.path == Path::weights || channel.times.size() < 3)
         continue;
@@ -165,7 +171,8 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
       for (size_t v = 0; v < got.size(); ++v)
         if (!mesh.loose[v]) worst = std::max(worst, glm::distance(got[v], wanted[f][v]));
       if (f > 1) got_squares += squares_at(before, last, got);
-      before = std::move(last), last = std::move(got);
+      before = std::move(last);
+      last = std::move(got);
     }
     if (worst > tolerance) got_squares = std::numeric_limits<double>::infinity();  // not all frames were added
     return worst;
@@ -174,24 +181,31 @@ double reduce_keys(const Model& model, const FlatMesh& mesh, Animation& animatio
   double part = first_part, worst = reduce(part, fresh);
   for (int halving = 0; worst > tolerance; ++halving) {
     if (halving == most_halvings) return 0;
-    part /= 2, worst = reduce(part, fresh);
+    part /= 2;
+    worst = reduce(part, fresh);
   }
   best = fresh;
   double step = part == first_part ? 0 : part / 2;
   for (int k = 0; k < more_parts && step > 0; ++k, step /= 2) {
     const double moved = reduce(part + step, fresh);
     if (moved > tolerance) continue;
-    part += step, worst = moved, best = fresh;
+    part += step;
+    worst = moved;
+    best = fresh;
   }
   const double most = most_acceleration * most_acceleration * squares;
   reduce(part, fresh);
   for (const bool rounded : {true, false}) {
     if (got_squares <= most) break;
-    shorts = rounded, bend = std::numeric_limits<double>::infinity();
+    shorts = rounded;
+    bend = std::numeric_limits<double>::infinity();
     for (int k = 0; k < most_calming && got_squares > most; ++k) {
       bend = k == 0 ? tolerance / 2 : bend / 2;
       const double moved = reduce(part, fresh);
-      if (moved <= tolerance) worst = moved, best = fresh;
+      if (moved <= tolerance) {
+        worst = moved;
+        best = fresh;
+      }
     }
   }
   animation = std::move(best);

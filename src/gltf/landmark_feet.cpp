@@ -82,8 +82,14 @@ double Finder::asymmetry(int axis) const {
 double Finder::toes() const {
   double sole = 0, ankle = 0, soles = 0, ankles = 0;
   for (const uint32_t v : first_) {
-    if (up(v) < 0.04 * height_) sole += forward(v), soles += 1;
-    if (up(v) > 0.07 * height_ && up(v) < 0.13 * height_) ankle += forward(v), ankles += 1;
+    if (up(v) < 0.04 * height_) {
+      sole += forward(v);
+      soles += 1;
+    }
+    if (up(v) > 0.07 * height_ && up(v) < 0.13 * height_) {
+      ankle += forward(v);
+      ankles += 1;
+    }
   }
   return soles > 0 && ankles > 0 ? (sole / soles - ankle / ankles) / height_ : 0;
 }
@@ -103,7 +109,8 @@ void Finder::find_up() {
   }
   for (int c = 0; c < 3; ++c) {
     if (std::abs(down[c]) <= clearly_down * glm::length(down)) continue;
-    axes_.up = glm::dvec3(0), axes_.up[c] = down[c] > 0 ? -1 : 1;
+    axes_.up = glm::dvec3(0);
+    axes_.up[c] = down[c] > 0 ? -1 : 1;
   }
 }
 
@@ -114,8 +121,10 @@ void Finder::find_axes() {
   if (axes_.up.z != 0) axes_.forward = {0, -axes_.up.z, 0};
   axes_.right = glm::cross(axes_.up, axes_.forward);
   // along the side a creature is symmetric; x of a model whose y is up, unless z is clearly the one
-  if (asymmetry(axis_of(axes_.forward)) < 0.5 * asymmetry(axis_of(axes_.right)))
-    axes_.forward = axes_.right, axes_.right = glm::cross(axes_.up, axes_.forward);
+  if (asymmetry(axis_of(axes_.forward)) < 0.5 * asymmetry(axis_of(axes_.right))) {
+    axes_.forward = axes_.right;
+    axes_.right = glm::cross(axes_.up, axes_.forward);
+  }
   measure();
   double evidence = std::clamp(toes(), -0.1, 0.1);  // a rest in mid-stride says nothing
   const std::vector<uint32_t> head = named({"head", "jaw", "nose", "snout", "muzzle"});
@@ -124,12 +133,19 @@ void Finder::find_axes() {
     double mean = 0, under = 0, low = 0;
     for (const uint32_t v : head) mean += forward(v) / static_cast<double>(head.size());
     for (const uint32_t v : first_)
-      if (up(v) < 0.1 * height_) under += forward(v), low += 1;
+      if (up(v) < 0.1 * height_) {
+        under += forward(v);
+        low += 1;
+      }
     evidence += 0.5 * (mean - under / low) / height_;
     const std::vector<uint32_t> eyes = named({"eye"});
     for (const uint32_t v : eyes) evidence += (forward(v) - mean) / height_ / static_cast<double>(eyes.size());
   }
-  if (evidence < -0.03) axes_.forward = -axes_.forward, axes_.right = -axes_.right, measure();
+  if (evidence < -0.03) {
+    axes_.forward = -axes_.forward;
+    axes_.right = -axes_.right;
+    measure();
+  }
 }
 
 // Limbs by the names of their joints. "FrontUpLeg.L", "FrontLowLeg.L" and "FrontFoot.L" are one limb: the words that do
@@ -163,7 +179,8 @@ void Finder::find_named_feet() {
     }
     limbs[key].push_back(v);
   }
-  feet_.clear(), raised_.clear();
+  feet_.clear();
+  raised_.clear();
   for (const auto& [key, vertices] : limbs) {
     for (const double sign : {1.0, -1.0}) {
       double low = 1e300;
@@ -173,8 +190,10 @@ void Finder::find_named_feet() {
       std::vector<uint32_t> end;
       glm::dvec3 mean(0);
       for (const uint32_t v : vertices)
-        if (sign * side(v) > 0.01 * diagonal_ && up(v) < low + sole_height * height_)
-          end.push_back(v), mean += mesh_.positions[v];
+        if (sign * side(v) > 0.01 * diagonal_ && up(v) < low + sole_height * height_) {
+          end.push_back(v);
+          mean += mesh_.positions[v];
+        }
       mean /= static_cast<double>(end.size());
       const uint32_t vertex =
           best_of(end, [&](uint32_t v) { return -up(v) - 0.3 * glm::distance(mesh_.positions[v], mean); });
@@ -201,7 +220,8 @@ void Finder::merge_feet() {
 }
 
 size_t Finder::search_feet(std::vector<Foot>& left, std::vector<Foot>& right) {
-  find_named_feet(), merge_feet();
+  find_named_feet();
+  merge_feet();
   size_t pairs = split_feet(left, right);
   if (pairs > 0 && left.size() == right.size()) {
     named_feet_ = true;
@@ -240,7 +260,9 @@ void Finder::find_feet(double reach, double slack) {
   for (const uint32_t v : first_) {
     if (!is_low(v)) continue;
     Piece& piece = of_root[root(mesh_.welded[v])];
-    piece.sum += mesh_.positions[v], piece.count += 1, piece.lowest = std::min(piece.lowest, up(v));
+    piece.sum += mesh_.positions[v];
+    piece.count += 1;
+    piece.lowest = std::min(piece.lowest, up(v));
     piece.vertices.push_back(v);
   }
   for (Piece& piece : of_root) {
@@ -251,7 +273,8 @@ void Finder::find_feet(double reach, double slack) {
     if (near == pieces.end()) {
       pieces.push_back(piece);
     } else {
-      near->sum += piece.sum, near->count += piece.count;
+      near->sum += piece.sum;
+      near->count += piece.count;
       near->vertices.insert(near->vertices.end(), piece.vertices.begin(), piece.vertices.end());
     }
   }
@@ -266,7 +289,8 @@ void Finder::find_feet(double reach, double slack) {
 
 // Those on either side of the middle; the number of pairs.
 size_t Finder::split_feet(std::vector<Foot>& left, std::vector<Foot>& right) const {
-  left.clear(), right.clear();
+  left.clear();
+  right.clear();
   for (const Foot& foot : feet_) {
     if (std::abs(foot.side) > 0.01 * diagonal_) (foot.side > 0 ? left : right).push_back(foot);
   }

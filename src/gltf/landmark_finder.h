@@ -34,7 +34,10 @@ class Finder {
     std::vector<char> taken(mesh_.welded_count, 0);
     for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
       char& known = taken[mesh_.welded[v]];
-      if (!mesh_.loose[v] && !known) known = 1, first_.push_back(v);
+      if (!mesh_.loose[v] && !known) {
+        known = 1;
+        first_.push_back(v);
+      }
     }
   }
   Landmarks find(const Axes* axes);

@@ -66,14 +66,20 @@ double Finder::neck_height(double crotch) const {
       const double s = (level - up(a)) / (up(b) - up(a));
       widest = std::max(widest, std::abs(side(a) + s * (side(b) - side(a))));
     }
-    if (widest > 0 && widest < narrowest) narrowest = widest, best = level;
+    if (widest > 0 && widest < narrowest) {
+      narrowest = widest;
+      best = level;
+    }
   }
   return best;
 }
 
 void Finder::add_trunk() {
   double front = -1e300, hind = 1e300;
-  for (const Foot& foot : feet_) front = std::max(front, foot.forward), hind = std::min(hind, foot.forward);
+  for (const Foot& foot : feet_) {
+    front = std::max(front, foot.forward);
+    hind = std::min(hind, foot.forward);
+  }
   glm::dvec3 place;
   if (out_.upright) {
     const glm::dvec3 start = (middle_ + 1e-4 * diagonal_) * axes_.right + 0.5 * (front + hind) * axes_.forward +
@@ -88,7 +94,8 @@ void Finder::add_trunk() {
     return;
   }
   if (feet_.empty()) {
-    front = back_ + 0.7 * (front_ - back_), hind = back_ + 0.4 * (front_ - back_);
+    front = back_ + 0.7 * (front_ - back_);
+    hind = back_ + 0.4 * (front_ - back_);
   } else if (out_.leg_pairs < 2) {
     // two legs under a long body: the second place lies towards the head
     front = hind + 0.35 * (front_ - hind);

@@ -12,14 +12,20 @@ namespace hf_gltf {
 void Finder::measure() {
   ground_ = front_ = middle_ = 0;
   double low = 1e300, high = -1e300, left = -1e300, right = 1e300;
-  front_ = -1e300, back_ = 1e300;
+  front_ = -1e300;
+  back_ = 1e300;
   for (const uint32_t v : first_) {
     const glm::dvec3& p = mesh_.positions[v];
-    low = std::min(low, glm::dot(p, axes_.up)), high = std::max(high, glm::dot(p, axes_.up));
-    left = std::max(left, glm::dot(p, axes_.right)), right = std::min(right, glm::dot(p, axes_.right));
-    front_ = std::max(front_, glm::dot(p, axes_.forward)), back_ = std::min(back_, glm::dot(p, axes_.forward));
+    low = std::min(low, glm::dot(p, axes_.up));
+    high = std::max(high, glm::dot(p, axes_.up));
+    left = std::max(left, glm::dot(p, axes_.right));
+    right = std::min(right, glm::dot(p, axes_.right));
+    front_ = std::max(front_, glm::dot(p, axes_.forward));
+    back_ = std::min(back_, glm::dot(p, axes_.forward));
   }
-  ground_ = low, height_ = high - low, middle_ = 0.5 * (left + right);
+  ground_ = low;
+  height_ = high - low;
+  middle_ = 0.5 * (left + right);
 }
 
 std::vector<uint32_t> Finder::named(const std::vector<std::string>& words) const {
@@ -33,7 +39,9 @@ std::vector<uint32_t> Finder::named(const std::vector<std::string>& words) const
 // A selector that finds the vertex: by its joint when one of the directions leads there, else by its place.
 Selector Finder::express(uint32_t vertex, double radius, const std::vector<std::string>& directions) const {
   Selector out;
-  out.radius = radius, out.has_radius = true, out.where = "a proposed place";
+  out.radius = radius;
+  out.has_radius = true;
+  out.where = "a proposed place";
   const std::string joint = regions_->owner_name(vertex);
   if (!joint.empty() && regions_->is_joint(joint)) {
     out.joints = {joint};
@@ -42,24 +50,32 @@ Selector Finder::express(uint32_t vertex, double radius, const std::vector<std::
       if (glm::distance(regions_->find({out}).seed, mesh_.positions[vertex]) < 0.025 * diagonal_) return out;
     }
   }
-  out.joints.clear(), out.extreme.clear();
-  out.has_position = true, out.position = mesh_.positions[vertex];
+  out.joints.clear();
+  out.extreme.clear();
+  out.has_position = true;
+  out.position = mesh_.positions[vertex];
   return out;
 }
 
 void Finder::add(const std::string& name, uint32_t vertex, const std::vector<std::string>& directions,
                  double confidence, const std::string& found, double radius) {
   Landmark landmark;
-  landmark.name = name, landmark.place = express(vertex, radius, directions),
+  landmark.name = name;
+  landmark.place = express(vertex, radius, directions);
   landmark.position = mesh_.positions[vertex];
-  landmark.confidence = confidence, landmark.found = found;
+  landmark.confidence = confidence;
+  landmark.found = found;
   out_.list.push_back(landmark);
 }
 
 void Finder::add_place(const std::string& name, const glm::dvec3& place, double confidence, const std::string& found) {
   Landmark landmark;
-  landmark.name = name, landmark.position = place, landmark.confidence = confidence, landmark.found = found;
-  landmark.place.has_position = landmark.place.has_radius = true, landmark.place.position = place;
+  landmark.name = name;
+  landmark.position = place;
+  landmark.confidence = confidence;
+  landmark.found = found;
+  landmark.place.has_position = landmark.place.has_radius = true;
+  landmark.place.position = place;
   landmark.place.radius = trunk_ball;
   out_.list.push_back(landmark);
 }
@@ -182,7 +198,8 @@ Landmarks Finder::find(const Axes* axes) {
   const RegionFinder first(model_, mesh_, Axes());
   regions_ = &first;
   if (axes) {
-    axes_ = *axes, measure();
+    axes_ = *axes;
+    measure();
   } else {
     find_axes();
   }
@@ -195,9 +212,12 @@ Landmarks Finder::find(const Axes* axes) {
   for (const Foot& foot : left) shift += 0.5 * foot.side / static_cast<double>(left.size());
   for (const Foot& foot : right) shift += 0.5 * foot.side / static_cast<double>(right.size());
   if (pairs > 0 && left.size() == right.size() && std::abs(shift) < 0.05 * diagonal_) middle_ += shift;
-  out_.axes = axes_, out_.leg_pairs = pairs;
+  out_.axes = axes_;
+  out_.leg_pairs = pairs;
   out_.upright = pairs == 1 && height_ > 1.1 * (front_ - back_);
-  add_head(), add_ears(), add_tail();
+  add_head();
+  add_ears();
+  add_tail();
   feet_.clear();
   for (std::vector<Foot>* feet : {&left, &right}) {
     std::sort(feet->begin(), feet->end(), [](const Foot& a, const Foot& b) { return a.forward > b.forward; });

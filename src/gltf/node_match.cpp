@@ -33,7 +33,8 @@ class Matcher {
  public:
   Matcher(const Model& from, const std::vector<int>& nodes, const Model& to)
       : from_(from), to_(to), order_(with_parents(from, nodes)), taken_(to.nodes.size(), 0) {
-    match_.there.assign(from.nodes.size(), -1), match_.shared.assign(from.nodes.size(), 0);
+    match_.there.assign(from.nodes.size(), -1);
+    match_.shared.assign(from.nodes.size(), 0);
   }
 
   NodeMatch run() {

@@ -32,10 +32,13 @@ PairEntry read_pair(const JsonReader& json) {
     pair.source = read_selectors(json.at("source"));
     pair.target = read_selectors(json.at("target"));
   }
-  pair.anchor = json.boolean_or("anchor", false), pair.foot = json.boolean_or("foot", false);
-  pair.trunk = json.boolean_or("trunk", false), pair.align = json.boolean_or("align", true);
+  pair.anchor = json.boolean_or("anchor", false);
+  pair.foot = json.boolean_or("foot", false);
+  pair.trunk = json.boolean_or("trunk", false);
+  pair.align = json.boolean_or("align", true);
   pair.contact_given = json.has("contact");
-  pair.contact = json.boolean_or("contact", false), pair.sinks = json.boolean_or("sinks", false);
+  pair.contact = json.boolean_or("contact", false);
+  pair.sinks = json.boolean_or("sinks", false);
   pair.limb = json.string_or("limb", limb_of(pair.name));
   if (!pair.limb.empty() && pair.limb != "neck" && pair.limb != "tail" && pair.limb != "arm" && pair.limb != "none")
     json.at("limb").fail("expected \"neck\", \"tail\", \"arm\" or \"none\", found \"" + pair.limb + "\"");
@@ -44,7 +47,7 @@ PairEntry read_pair(const JsonReader& json) {
 
 struct DialKey {
   const char* name;
-  double TransferDials::* value;
+  double TransferDials::*value;
   double least, most;
 };
 constexpr DialKey dial_keys[] = {{"stride", &TransferDials::stride, 0.1, 4},
@@ -121,7 +124,8 @@ PairsFile pairs_from(const JsonReader& root, const std::filesystem::path& file) 
     const std::string mode = settings.string_or("mode", "fields");
     if (mode != "fields" && mode != "paper" && mode != "stretch")
       settings.at("mode").fail("expected \"fields\", \"paper\" or \"stretch\", found \"" + mode + "\"");
-    out.settings.paper = mode == "paper", out.settings.stretch = mode == "stretch";
+    out.settings.paper = mode == "paper";
+    out.settings.stretch = mode == "stretch";
     out.settings.clusters = static_cast<uint32_t>(settings.integer_or("clusters", 1, 512, 0));
     if (settings.has("width")) out.settings.width = settings.at("width").number(0.005, 0.5);
     if (settings.has("scale")) out.settings.scale = settings.at("scale").number(1e-6, 1e6);
@@ -149,8 +153,10 @@ PairsFile parse_pairs(const nlohmann::json& value, const std::string& what) {
 void add_regions(const std::vector<PairEntry>& pairs, const RegionFinder& source_finder,
                  const RegionFinder& target_finder, std::vector<Region>& source, std::vector<Region>& target) {
   const size_t before = source.size();
-  for (const PairEntry& pair : pairs)
-    source.push_back(source_finder.find(pair.source)), target.push_back(target_finder.find(pair.target));
+  for (const PairEntry& pair : pairs) {
+    source.push_back(source_finder.find(pair.source));
+    target.push_back(target_finder.find(pair.target));
+  }
   const int covered_source = source_finder.separate(source, before),
             covered_target = target_finder.separate(target, before);
   for (const int covered : {covered_source, covered_target}) {

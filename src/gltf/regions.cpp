@@ -60,10 +60,14 @@ Selector read_selector(const JsonReader& json) {
   }
   if (json.has("position")) {
     const std::vector<double> p = json.at("position").numbers(3);
-    out.position = {p[0], p[1], p[2]}, out.has_position = true;
+    out.position = {p[0], p[1], p[2]};
+    out.has_position = true;
     if (!out.joints.empty()) json.fail("give \"position\" or a joint, not both");
   }
-  if (json.has("radius")) out.radius = json.at("radius").number(0, 1), out.has_radius = true;
+  if (json.has("radius")) {
+    out.radius = json.at("radius").number(0, 1);
+    out.has_radius = true;
+  }
   if (json.has("vertices")) {
     const JsonReader list = json.at("vertices");
     for (size_t i = 0; i < list.size(); ++i)
@@ -94,12 +98,16 @@ RegionFinder::RegionFinder(const Model& model, const FlatMesh& mesh, const Axes&
       owner = model.skins[static_cast<size_t>(skin)].joints[influences.joints[best]];
     }
   }
-  neighbours_.resize(mesh.welded_count), copies_.resize(mesh.welded_count);
+  neighbours_.resize(mesh.welded_count);
+  copies_.resize(mesh.welded_count);
   for (uint32_t v = 0; v < mesh.vertex_count(); ++v) copies_[mesh.welded[v]].push_back(v);
   for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t a = mesh.welded[mesh.triangles[t + k]], b = mesh.welded[mesh.triangles[t + (k + 1) % 3]];
-      if (a != b) neighbours_[a].push_back(b), neighbours_[b].push_back(a);
+      if (a != b) {
+        neighbours_[a].push_back(b);
+        neighbours_[b].push_back(a);
+      }
     }
   }
   diagonal_ = SurfaceBox(mesh).diagonal();
@@ -133,7 +141,8 @@ std::vector<uint32_t> RegionFinder::owned_by(const Selector& selector) const {
       open.pop_back();
       for (const int child : node.children) {
         if (wanted[static_cast<size_t>(child)]) continue;
-        wanted[static_cast<size_t>(child)] = 1, open.push_back(child);
+        wanted[static_cast<size_t>(child)] = 1;
+        open.push_back(child);
       }
     }
   }
@@ -169,7 +178,10 @@ uint32_t RegionFinder::seed_of(const Selector& selector, const std::vector<uint3
     if (selector.extreme == "away") value = -value;
     // ties (a flat top, a left and a right twin) go to the middle of the owned vertices
     if (direction != glm::dvec3(0)) value = glm::dot(p, direction) - 0.05 * glm::distance(p, place);
-    if (value > best_value) best_value = value, best = v;
+    if (value > best_value) {
+      best_value = value;
+      best = v;
+    }
   }
   return best;
 }
@@ -179,14 +191,16 @@ std::vector<uint32_t> RegionFinder::ball(uint32_t seed, double radius) const {
   std::vector<char> taken(mesh_.welded_count, 0);
   std::vector<uint32_t> out;
   std::queue<uint32_t> open;
-  open.push(mesh_.welded[seed]), taken[mesh_.welded[seed]] = 1;
+  open.push(mesh_.welded[seed]);
+  taken[mesh_.welded[seed]] = 1;
   while (!open.empty()) {
     const uint32_t w = open.front();
     open.pop();
     out.insert(out.end(), copies_[w].begin(), copies_[w].end());
     for (const uint32_t next : neighbours_[w]) {
       if (taken[next] || glm::distance(mesh_.positions[copies_[next].front()], centre) > radius) continue;
-      taken[next] = 1, open.push(next);
+      taken[next] = 1;
+      open.push(next);
     }
   }
   return out;
@@ -217,7 +231,10 @@ Region RegionFinder::find(const std::vector<Selector>& selectors) const {
       if (selector.has_radius || selector.has_position || !selector.extreme.empty()) {
         const uint32_t seed = seed_of(selector, vertices);
         vertices = ball(seed, selector.radius * diagonal_);
-        if (!has_seed) out.seed = mesh_.positions[seed], has_seed = true;
+        if (!has_seed) {
+          out.seed = mesh_.positions[seed];
+          has_seed = true;
+        }
       } else {
         // the copies of an owned vertex may lean to another joint: take them along
         std::vector<uint32_t> all;
@@ -284,7 +301,9 @@ std::vector<std::string> RegionFinder::describe_joints() const {
   for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
     if (owner_[v] < 0 || mesh_.loose[v]) continue;
     Owned& own = owned[static_cast<size_t>(owner_[v])];
-    own.low = glm::min(own.low, mesh_.positions[v]), own.high = glm::max(own.high, mesh_.positions[v]), ++own.count;
+    own.low = glm::min(own.low, mesh_.positions[v]);
+    own.high = glm::max(own.high, mesh_.positions[v]);
+    ++own.count;
   }
   for (const Skin& skin : model_.skins) {
     for (const int joint : skin.joints) owned[static_cast<size_t>(joint)].is_joint = true;

@@ -110,11 +110,13 @@ Holds holds_of(const std::vector<double>& times, const std::vector<std::vector<d
       if (f > 0) out.all.back().pause = times[f] - times[f - 1];
       out.all.emplace_back().frame = f;
     }
-    ++out.all.back().count, out.of_frame.push_back(out.all.size() - 1);
+    ++out.all.back().count;
+    out.of_frame.push_back(out.all.size() - 1);
   }
   out.loop = out.all.size() > 3 && alike(0, frames.size() - 1);
   if (!out.loop) return out;
-  out.all.front().count += out.all.back().count, out.all.pop_back();
+  out.all.front().count += out.all.back().count;
+  out.all.pop_back();
   for (size_t& hold : out.of_frame) hold %= out.all.size();
   return out;
 }
@@ -209,7 +211,8 @@ RigFit::RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTi
   if (joints_.size() > most_joints)
     throw std::runtime_error(model.name + " has " + std::to_string(joints_.size()) + " joints, and at most " +
                              std::to_string(most_joints) + " can be fitted: take --as skin or --as morph");
-  find_vertices(mesh), find_ties(mesh, ties);
+  find_vertices(mesh);
+  find_ties(mesh, ties);
   keep_moving_nodes();
   Moments moments(slots_.size());
   for (const Row& row : vertices_) moments.add(row, row.weight);
@@ -221,7 +224,8 @@ RigFit::RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTi
     for (int c = 0; c < 3; ++c)
       mean += at_rest.matrix[static_cast<size_t>(joint.rotation + c) * (unknowns_ + 1)] /
               (3 * static_cast<double>(joints_.size()));
-  stiffness_ = keep_rest * mean, evenness_ = keep_even * mean;
+  stiffness_ = keep_rest * mean;
+  evenness_ = keep_even * mean;
 }
 
 // Joints at or above an influence, parents first; which of them shift.
@@ -258,7 +262,8 @@ void RigFit::find_joints() {
     for (int up = model_.nodes[n].parent; up >= 0 && joint.parent < 0;
          up = model_.nodes[static_cast<size_t>(up)].parent)
       joint.parent = joint_of_node_[static_cast<size_t>(up)];
-    joint.rotation = static_cast<int>(unknowns_), unknowns_ += 3;
+    joint.rotation = static_cast<int>(unknowns_);
+    unknowns_ += 3;
     // in world units: the clip's path under the parent's rest transform
     const int up = model_.nodes[n].parent;
     const double unit = up < 0 ? 1.0 : glm::length(glm::dvec3(globals[static_cast<size_t>(up)][0]));
@@ -273,7 +278,11 @@ void RigFit::find_joints() {
         }
       }
     }
-    if (shifts) joint.translation = static_cast<int>(unknowns_), unknowns_ += 3, ++shifting_;
+    if (shifts) {
+      joint.translation = static_cast<int>(unknowns_);
+      unknowns_ += 3;
+      ++shifting_;
+    }
     joint_of_node_[n] = static_cast<int>(joints_.size());
     joints_.push_back(joint);
   }
@@ -316,7 +325,8 @@ size_t RigFit::slot_of(int node, const glm::dmat4& bind, int key) {
   const auto known = slot_number_.find({node, key});
   if (known != slot_number_.end()) return known->second;
   Slot slot;
-  slot.node = node, slot.bind = bind;
+  slot.node = node;
+  slot.bind = bind;
   for (int n = node; n >= 0 && slot.joint < 0; n = model_.nodes[static_cast<size_t>(n)].parent)
     slot.joint = joint_of_node_[static_cast<size_t>(n)];
   slots_.push_back(slot);
@@ -371,12 +381,16 @@ void RigFit::find_ties(const FlatMesh& mesh, const std::vector<RigTie>& ties) {
   for (const RigTie& tie : ties) {
     Tie out;
     out.tie = tie;
-    out.row = vertices_[tie.vertex], out.row.weight = tie_weight / static_cast<double>(ties.size());
+    out.row = vertices_[tie.vertex];
+    out.row.weight = tie_weight / static_cast<double>(ties.size());
     glm::dvec3 apart = mesh.positions[tie.vertex];
     for (int c = 0; c < 3; ++c) {
       if (!(tie.shares[c] > 0)) continue;
       apart -= tie.shares[c] * mesh.positions[tie.corners[c]];
-      for (Term term : vertices_[tie.corners[c]].terms) term.at *= -tie.shares[c], out.row.terms.push_back(term);
+      for (Term term : vertices_[tie.corners[c]].terms) {
+        term.at *= -tie.shares[c];
+        out.row.terms.push_back(term);
+      }
     }
     out.length = glm::length(apart);
     ties_.push_back(std::move(out));
@@ -492,14 +506,18 @@ RigFit::System RigFit::system(const Task& task, const RigPose& pose) const {
     left[b] -= moved;
     if (i < 0 || j < 0) return;
     Block& block = blocks[static_cast<size_t>(i) * count + static_cast<size_t>(j)];
-    block.product += moved * glm::transpose(at[b]), block.first += moved[3], block.weight += sum[3][3];
+    block.product += moved * glm::transpose(at[b]);
+    block.first += moved[3];
+    block.weight += sum[3][3];
   };
   for (const Moments::Pair& pair : moments.pairs()) {
     add(pair.first, pair.second, pair.sum);
     if (pair.first != pair.second) add(pair.second, pair.first, glm::transpose(pair.sum));
   }
   const auto sum_up = [](Block& into, const Block& from) {
-    into.product += from.product, into.first += from.first, into.weight += from.weight;
+    into.product += from.product;
+    into.first += from.first;
+    into.weight += from.weight;
   };
   for (size_t a = count; a-- > 0;)
     if (joints_[a].parent >= 0)
@@ -517,11 +535,13 @@ RigFit::System RigFit::system(const Task& task, const RigPose& pose) const {
     force[j] += left[s][3];
   }
   for (size_t a = count; a-- > 0;)
-    if (joints_[a].parent >= 0)
-      torque[static_cast<size_t>(joints_[a].parent)] += torque[a],
-          force[static_cast<size_t>(joints_[a].parent)] += force[a];
+    if (joints_[a].parent >= 0) {
+      torque[static_cast<size_t>(joints_[a].parent)] += torque[a];
+      force[static_cast<size_t>(joints_[a].parent)] += force[a];
+    }
   System out;
-  out.matrix.assign(n * n, 0.0), out.rhs.assign(n, 0.0);
+  out.matrix.assign(n * n, 0.0);
+  out.rhs.assign(n, 0.0);
   const auto entry = [&](int row, int column) -> double& {
     return out.matrix[static_cast<size_t>(row) * n + static_cast<size_t>(column)];
   };
@@ -595,7 +615,10 @@ RigPose RigFit::fit(const std::vector<double>& frame, const RigPose& start, cons
   for (uint32_t v = 0; v < vertices_.size(); ++v) {
     const Row& row = vertices_[v];
     const double more = firm.empty() ? 0.0 : row.weight * beside.firm * foot_weight * firm[v];
-    if (more > 0) moments.add(row, more), moments.want(row, more, place(v) - centre);
+    if (more > 0) {
+      moments.add(row, more);
+      moments.want(row, more, place(v) - centre);
+    }
     moments.want(row, row.weight, (beside.moved ? place_of(*beside.moved, v) : place(v)) - centre);
   }
   for (const Tie& tie : ties_) {
@@ -632,9 +655,11 @@ RigPose RigFit::fit(const std::vector<double>& frame, const RigPose& start, cons
       solve(matrix, step);
       RigPose next = stepped(pose, step);
       const double then = energy(task, next);
-      if (then < now)
-        pose = std::move(next), now = then, damping = std::max(damping * less_damping, least_damping);
-      else
+      if (then < now) {
+        pose = std::move(next);
+        now = then;
+        damping = std::max(damping * less_damping, least_damping);
+      } else
         damping *= more_damping;
     }
     if (before - now < still_enough * before) break;
@@ -709,8 +734,10 @@ Animation RigFit::clip(const std::string& name, const std::vector<double>& times
     const auto node = static_cast<size_t>(joint.node);
     Channel rotation, translation;
     rotation.node = translation.node = nodes_[node].of_model;
-    rotation.path = Path::rotation, rotation.width = 4;
-    rotation.times.assign(times.begin(), times.end()), translation.times = rotation.times;
+    rotation.path = Path::rotation;
+    rotation.width = 4;
+    rotation.times.assign(times.begin(), times.end());
+    translation.times = rotation.times;
     glm::dquat before(1, 0, 0, 0);
     for (const RigPose& pose : poses) {
       glm::dquat q = pose.nodes[node].rotation;

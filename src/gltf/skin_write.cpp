@@ -100,8 +100,10 @@ void join_neighbours(std::vector<Primitive>& primitives) {
     Primitive& to = joined.back();
     const auto first = static_cast<uint32_t>(to.positions.size());
     for (const uint32_t index : primitive.indices) to.indices.push_back(first + index);
-    append(to.positions, primitive.positions), append(to.normals, primitive.normals);
-    append(to.colors, primitive.colors), append(to.influences, primitive.influences);
+    append(to.positions, primitive.positions);
+    append(to.normals, primitive.normals);
+    append(to.colors, primitive.colors);
+    append(to.influences, primitive.influences);
     append(to.tangents, primitive.tangents);
     for (size_t set = 0; set < to.texcoords.size(); ++set) append(to.texcoords[set], primitive.texcoords[set]);
     primitive = {};
@@ -218,10 +220,13 @@ Model skin_model(const Model& source, const FlatMesh& mesh, const SkinDescriptio
 }
 
 void keep_carried(const Model& from, Model& out) {
-  out.asset = from.asset, out.carried = from.carried, out.required_extensions = from.required_extensions;
+  out.asset = from.asset;
+  out.carried = from.carried;
+  out.required_extensions = from.required_extensions;
   out.cameras = from.cameras;
   if (from.shown_scene < from.scenes.size()) {
-    out.scenes = {from.scenes[from.shown_scene]}, out.shown_scene = 0;
+    out.scenes = {from.scenes[from.shown_scene]};
+    out.shown_scene = 0;
   }
   const std::vector<glm::dmat4> globals = global_matrices(from, rest_pose(from));
   std::map<std::string, size_t> given;  // how many nodes of a name, with a mesh, have come
@@ -243,7 +248,9 @@ void keep_carried(const Model& from, Model& out) {
       continue;
     }
     Node kept;
-    kept.name = node.name, kept.camera = node.camera, kept.carried = node.carried;
+    kept.name = node.name;
+    kept.camera = node.camera;
+    kept.carried = node.carried;
     kept.matrix = globals[n];
     split_matrix(kept);
     out.scene_roots.push_back(static_cast<int>(out.nodes.size()));
@@ -271,9 +278,14 @@ void keep_shapes(const Model& from, const FlatMesh& mesh, Model& out) {
       std::string name = given;  // two shapes of one mesh are two, whatever their names
       for (int copy = 2; !of_mesh.insert(name).second; ++copy) name = given + " (" + std::to_string(copy) + ")";
       const auto at = static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-      if (at == names.size()) names.push_back(name), nodes.emplace_back(), numbers.emplace_back();
+      if (at == names.size()) {
+        names.push_back(name);
+        nodes.emplace_back();
+        numbers.emplace_back();
+      }
       if (std::find(nodes[at].begin(), nodes[at].end(), part.node) != nodes[at].end()) continue;
-      nodes[at].push_back(part.node), numbers[at].push_back(k);
+      nodes[at].push_back(part.node);
+      numbers[at].push_back(k);
     }
   }
   for (size_t t = 0; t < names.size(); ++t) {
@@ -289,11 +301,13 @@ void keep_shapes(const Model& from, const FlatMesh& mesh, Model& out) {
       for (glm::vec3& place : primitive.positions) {
         target.positions.push_back(glm::vec3(moved[v] - still[v]));
         target.normals.push_back(normals[v] - still_normals[v]);
-        place -= static_cast<float>(weight) * target.positions.back(), ++v;
+        place -= static_cast<float>(weight) * target.positions.back();
+        ++v;
       }
       primitive.targets.push_back(std::move(target));
     }
-    to.target_names.push_back(names[t]), to.weights.push_back(static_cast<float>(weight));
+    to.target_names.push_back(names[t]);
+    to.weights.push_back(static_cast<float>(weight));
   }
 }
 

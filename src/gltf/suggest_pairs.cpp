@@ -93,14 +93,17 @@ void keep_accepted(const RegionFinder& source, const RegionFinder& target, std::
     std::vector<Region> a = sources, b = targets;
     bool good = false;
     try {
-      a.push_back(source.find({candidate.source})), b.push_back(target.find({candidate.target}));
+      a.push_back(source.find({candidate.source}));
+      b.push_back(target.find({candidate.target}));
       std::vector<Region> left = a, right = b;
       good = source.separate(left) < 0 && target.separate(right) < 0;
     } catch (const std::runtime_error&) {
       good = false;
     }
     if (good) {
-      sources.swap(a), targets.swap(b), kept.push_back(candidate.said.name);
+      sources.swap(a);
+      targets.swap(b);
+      kept.push_back(candidate.said.name);
     } else {
       notes.push_back("\"" + candidate.said.name + "\" lies inside other places on one of the two; it is left out");
     }
@@ -134,7 +137,8 @@ Suggestion suggest_pairs(const Body& source_body, const Body& target_body) {
     if (first == second) {
       pair["both"] = first;
     } else {
-      pair["source"] = first, pair["target"] = second;
+      pair["source"] = first;
+      pair["target"] = second;
     }
     const bool same_kind = other == a.name;
     // a hand is no foot
@@ -148,7 +152,10 @@ Suggestion suggest_pairs(const Body& source_body, const Body& target_body) {
     // a tail that is carried low is no contact: drawn to the ground in a jump it whips
     if (a.name == "tail") pair["contact"] = false;
     // an ear is thin all along; held above the ground it would lift the head
-    if (a.name.rfind("ear ", 0) == 0) pair["contact"] = false, pair["sinks"] = true;
+    if (a.name.rfind("ear ", 0) == 0) {
+      pair["contact"] = false;
+      pair["sinks"] = true;
+    }
     // a fin points to the side and a leg down: each keeps its own direction
     const auto is_fin = [](const std::string& name) { return name.rfind("fin ", 0) == 0; };
     if (is_fin(a.name) != is_fin(other)) pair["align"] = false;
@@ -161,8 +168,10 @@ Suggestion suggest_pairs(const Body& source_body, const Body& target_body) {
   json pairs = json::array();
   bool trunk = false, feet = false;
   for (const Candidate& candidate : candidates) {
-    pairs.push_back(candidate.pair), out.pairs.push_back(candidate.said);
-    trunk = trunk || candidate.pair.contains("trunk"), feet = feet || candidate.pair.contains("foot");
+    pairs.push_back(candidate.pair);
+    out.pairs.push_back(candidate.said);
+    trunk = trunk || candidate.pair.contains("trunk");
+    feet = feet || candidate.pair.contains("foot");
   }
   for (const Landmark& b : to.list) {
     const std::string other = counterpart(b.name, to, from);

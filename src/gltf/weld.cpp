@@ -121,7 +121,8 @@ void FlatMesh::weld() {
 
 std::vector<uint8_t> loose_vertices(const std::vector<glm::dvec3>& positions, const std::vector<uint32_t>& triangles) {
   FlatMesh mesh;
-  mesh.positions = positions, mesh.triangles = triangles;
+  mesh.positions = positions;
+  mesh.triangles = triangles;
   mesh.weld();
   return std::move(mesh.loose);
 }
@@ -129,7 +130,10 @@ std::vector<uint8_t> loose_vertices(const std::vector<glm::dvec3>& positions, co
 SurfaceBox::SurfaceBox(const std::vector<glm::dvec3>& positions, const std::vector<uint8_t>& loose)
     : low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity()) {
   for (size_t v = 0; v < positions.size(); ++v) {
-    if (!loose[v]) low = glm::min(low, positions[v]), high = glm::max(high, positions[v]);
+    if (!loose[v]) {
+      low = glm::min(low, positions[v]);
+      high = glm::max(high, positions[v]);
+    }
   }
 }
 

@@ -49,7 +49,8 @@ class ColumnMaker {
     const Index *row = l_.row.data(), *start = l_.column_start.data();
     const double* value = l_.value.data();
     double* sum = sum_.data();
-    Index *stamp = stamp_.data(), *found = found_.data();
+    Index* stamp = stamp_.data();
+    *found = found_.data();
     std::size_t count = 0;
     for (Index i = start[v]; i < start[v + 1]; ++i) {
       const Index k = row[i];
@@ -58,7 +59,9 @@ class ColumnMaker {
         const Index w = row[j];
         const double product = weight * (own * value[j]);
         if (stamp[w] != v) {
-          stamp[w] = v, sum[w] = 0.0 + product, found[count++] = w;  // never -0.0
+          stamp[w] = v;
+          sum[w] = 0.0 + product;
+          found[count++] = w;  // never -0.0
         } else {
           sum[w] += product;
         }
@@ -66,7 +69,10 @@ class ColumnMaker {
     }
     sort_rows(v, count);
     sum[v] = 0;
-    for (std::size_t i = 0; i < count; ++i) out.row.push_back(found[i]), out.value.push_back(sum[found[i]]);
+    for (std::size_t i = 0; i < count; ++i) {
+      out.row.push_back(found[i]);
+      out.value.push_back(sum[found[i]]);
+    }
     return static_cast<Index>(count);
   }
 
@@ -95,7 +101,10 @@ Vector<std::size_t> cut_columns(const SymmetricMatrix& l, Memory& memory) {
   for (std::size_t v = 0; v < at(l.size()); ++v) {
     std::size_t own = 0;
     for (Index i = l.column_start[v]; i < l.column_start[v + 1]; ++i) own += length(at(l.row[at(i)]));
-    if (products > 0 && products + own > piece_products) first.push_back(v), products = 0;
+    if (products > 0 && products + own > piece_products) {
+      first.push_back(v);
+      products = 0;
+    }
     products += own;
   }
   first.push_back(at(l.size()));
@@ -107,8 +116,10 @@ Vector<std::size_t> cut_columns(const SymmetricMatrix& l, Memory& memory) {
 Vector<double> inverse_masses(const Mesh& mesh, Vector<double> areas) {
   const std::size_t components = at(mesh.component_count());
   Vector<double> mean(components, 0.0, areas.get_allocator()), count(components, 0.0, areas.get_allocator());
-  for (std::size_t v = 0; v < areas.size(); ++v)
-    mean[at(mesh.component[v])] += areas[v], count[at(mesh.component[v])] += 1;
+  for (std::size_t v = 0; v < areas.size(); ++v) {
+    mean[at(mesh.component[v])] += areas[v];
+    count[at(mesh.component[v])] += 1;
+  }
   for (std::size_t c = 0; c < components; ++c) mean[c] = mean[c] > 0 ? mean[c] / count[c] : 1.0;
   for (std::size_t v = 0; v < areas.size(); ++v) {
     const double whole = mean[at(mesh.component[v])];
@@ -137,7 +148,8 @@ std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memor
   std::int32_t cut = 0;
   each_column([&](Index v, std::size_t i) {
     if (laplacian.row[i] == v || std::fabs(laplacian.value[i]) <= most) return;
-    laplacian.value[i] = std::copysign(most, laplacian.value[i]), ++cut;
+    laplacian.value[i] = std::copysign(most, laplacian.value[i]);
+    ++cut;
     if (changed) (*changed)[at(v)] = 1;
   });
   if (cut == 0) return 0;
@@ -190,7 +202,8 @@ SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double
     above[v] -= 1;  // without the diagonal entry
     matrix.column_start[v + 1] = matrix.column_start[v] + above[v] + below[v];
   }
-  matrix.row.resize(total), matrix.value.resize(total);
+  matrix.row.resize(total);
+  matrix.value.resize(total);
   // The part before the diagonal: columns in ascending order append their row number to the columns of their rows.
   Vector<Index> next(matrix.column_start.begin(), matrix.column_start.end() - 1, &memory);
   for (std::size_t p = 0; p < pieces; ++p) {
@@ -199,7 +212,8 @@ SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double
     for (std::size_t v = first[p]; v < first[p + 1]; ++v) {
       for (const std::size_t end = i + at(below[v]); i < end; ++i) {
         const std::size_t w = at(part[p].row[i]), place = at(next[w]++);
-        matrix.row[place] = static_cast<Index>(v), matrix.value[place] = part[p].value[i];
+        matrix.row[place] = static_cast<Index>(v);
+        matrix.value[place] = part[p].value[i];
       }
     }
   }
@@ -209,8 +223,10 @@ SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double
     for (std::size_t v = first[p]; v < first[p + 1]; ++v) {
       const std::size_t begin = at(matrix.column_start[v]), middle = begin + at(above[v]),
                         end = at(matrix.column_start[v + 1]);
-      for (std::size_t j = middle; j < end; ++j, ++i)
-        matrix.row[j] = part[p].row[i], matrix.value[j] = part[p].value[i];
+      for (std::size_t j = middle; j < end; ++j, ++i) {
+        matrix.row[j] = part[p].row[i];
+        matrix.value[j] = part[p].value[i];
+      }
       double rest = 0;
       for (std::size_t j = begin; j < end; ++j) rest += j == middle ? 0 : matrix.value[j];
       matrix.value[middle] = -rest;

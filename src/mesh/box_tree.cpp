@@ -20,7 +20,8 @@ Vector<ItemBox> triangle_boxes(Span<const Vec3> positions, Span<const Index> cor
   boxes.reserve(corners.size() / 3);
   for (std::size_t c = 0; c + 2 < corners.size(); c += 3) {
     ItemBox box = ItemBox::of(positions[at(corners[c])]);
-    box.take(positions[at(corners[c + 1])]), box.take(positions[at(corners[c + 2])]);
+    box.take(positions[at(corners[c + 1])]);
+    box.take(positions[at(corners[c + 2])]);
     boxes.push_back(box);
   }
   return boxes;
@@ -62,7 +63,10 @@ Index BoxTree::build(Span<const ItemBox> items, Entry* entries, Index first, Ind
   if (count <= leaf_items) {
     std::sort(begin, begin + count, [](const Entry& a, const Entry& b) { return a.item < b.item; });
     ItemBox box = items[at(begin->item)];
-    for (Index i = 0; i < count; ++i) order_[at(first + i)] = begin[i].item, box.take(items[at(begin[i].item)]);
+    for (Index i = 0; i < count; ++i) {
+      order_[at(first + i)] = begin[i].item;
+      box.take(items[at(begin[i].item)]);
+    }
     nodes_[at(here)].box = box;
     return here;
   }
@@ -70,8 +74,10 @@ Index BoxTree::build(Span<const ItemBox> items, Entry* entries, Index first, Ind
   double low[3], high[3];
   for (int k = 0; k < 3; ++k) low[k] = high[k] = begin->key[k];
   for (Index i = 1; i < count; ++i) {
-    for (int k = 0; k < 3; ++k)
-      low[k] = std::min(low[k], begin[i].key[k]), high[k] = std::max(high[k], begin[i].key[k]);
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], begin[i].key[k]);
+      high[k] = std::max(high[k], begin[i].key[k]);
+    }
   }
   const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
   const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
@@ -83,7 +89,8 @@ Index BoxTree::build(Span<const ItemBox> items, Entry* entries, Index first, Ind
   const Index right = build(items, entries, first + count / 2, count - count / 2);
   ItemBox box = nodes_[at(here) + 1].box;
   box.take(nodes_[at(right)].box);
-  nodes_[at(here)].box = box, nodes_[at(here)].right = right;
+  nodes_[at(here)].box = box;
+  nodes_[at(here)].right = right;
   return here;
 }
 
@@ -102,7 +109,8 @@ bool BoxTree::touches(const ItemBox& box, const Segment& segment) noexcept {
       continue;
     }
     const double s = (low[k] - p) * inverse, t = (high[k] - p) * inverse;
-    enter = std::max(enter, std::min(s, t)), leave = std::min(leave, std::max(s, t));
+    enter = std::max(enter, std::min(s, t));
+    leave = std::min(leave, std::max(s, t));
   }
   return enter <= leave + touch_slack;
 }

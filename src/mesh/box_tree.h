@@ -19,7 +19,10 @@ struct ItemBox {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  void take(const ItemBox& other) noexcept { take(other.low), take(other.high); }
+  void take(const ItemBox& other) noexcept {
+    take(other.low);
+    take(other.high);
+  }
   static ItemBox of(const Vec3& p) noexcept { return {p, p}; }
 };
 
@@ -105,7 +108,8 @@ void BoxTree::near(Index group, const Vec3& p, Reach&& reach, Item&& item) const
     Open left{next.node + 1, squared_distance(p, nodes_[at(next.node) + 1].box)};
     Open right{node.right, squared_distance(p, nodes_[at(node.right)].box)};
     if (right.squared < left.squared) std::swap(left, right);
-    stack[open++] = right, stack[open++] = left;
+    stack[open++] = right;
+    stack[open++] = left;
   }
 }
 
@@ -121,7 +125,8 @@ bool BoxTree::along(const Vec3& from, const Vec3& to, Item&& item) const {
     const Node& node = nodes_[at(here)];
     if (!touches(node.box, segment)) continue;
     if (node.right >= 0) {
-      stack[open++] = node.right, stack[open++] = here + 1;
+      stack[open++] = node.right;
+      stack[open++] = here + 1;
       continue;
     }
     for (Index i = node.first; i < node.first + node.count; ++i) {

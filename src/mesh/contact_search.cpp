@@ -53,9 +53,13 @@ void ContactSearch::make_chunks() {
         const Index v = mesh_.triangle(t)[k], here = static_cast<Index>(chunk_vertex_.size());
         if (seen[at(v)]) continue;
         seen[at(v)] = 1;
-        if (left == 0) chunk_.push_back({ItemBox::of(mesh_.positions[at(v)]), here, here}), left = chunk_vertices;
+        if (left == 0) {
+          chunk_.push_back({ItemBox::of(mesh_.positions[at(v)]), here, here});
+          left = chunk_vertices;
+        }
         chunk_.back().box.take(mesh_.positions[at(v)]);
-        chunk_.back().last = here + 1, --left;
+        chunk_.back().last = here + 1;
+        --left;
         chunk_vertex_.push_back(v);
       }
     }
@@ -83,7 +87,10 @@ void ContactSearch::list_joints() {
       }
     }
     std::sort(seen.begin(), seen.end());
-    for (const std::uint16_t joint : seen) joint_.push_back({joint, largest[joint]}), largest[joint] = 0;
+    for (const std::uint16_t joint : seen) {
+      joint_.push_back({joint, largest[joint]});
+      largest[joint] = 0;
+    }
     seen.clear();
   }
   joint_start_.push_back(static_cast<Index>(joint_.size()));
@@ -97,7 +104,8 @@ double ContactSearch::least_skin_cost(Index a, Index b) const noexcept {
        i < joint_start_[at(a) + 1] && j < joint_start_[at(b) + 1];) {
     const JointWeight &x = joint_[at(i)], &y = joint_[at(j)];
     if (x.joint == y.joint) common += std::min(x.weight, y.weight);
-    i += x.joint <= y.joint, j += y.joint <= x.joint;
+    i += x.joint <= y.joint;
+    j += y.joint <= x.joint;
   }
   return skin_distance * std::max(1 - common, 0.0);
 }
@@ -118,7 +126,10 @@ double ContactSearch::nearest(Index piece, const Vec3& p, double within, double 
   triangle = -1;
   const auto test = [&](Index t) {
     const double d = squared(p, t);
-    if (d < found || (triangle >= 0 && t < triangle && d <= found)) found = d, triangle = t;
+    if (d < found || (triangle >= 0 && t < triangle && d <= found)) {
+      found = d;
+      triangle = t;
+    }
   };
   if (hint >= 0 && squared_distance(p, boxes_[at(hint)]) < found) test(hint);
   const auto reach = [&] { return triangle >= 0 && found <= enough ? -1.0 : found; };

@@ -20,7 +20,9 @@ void CornerTree::make(Span<const Vec3> points, Vec3 normal) {
                                                     : Vec3{0, 0, 1};
   const Vec3 across = cross(normal, axis), u = (1 / norm(across)) * across, along = cross(normal, u),
              v = (1 / norm(along)) * along;
-  place_.resize(n), order_.resize(n), leaf_.resize(n);
+  place_.resize(n);
+  order_.resize(n);
+  leaf_.resize(n);
   double extent = 0;
   for (std::size_t i = 0; i < n; ++i) {
     place_[i] = {dot(points[i] - points[0], u), dot(points[i] - points[0], v)};
@@ -40,9 +42,11 @@ void CornerTree::split(std::size_t node, std::size_t first_leaf, std::size_t las
   Place low = place_[at(*begin)], high = low;
   for (auto it = begin; it != end; ++it) {
     const Place p = place_[at(*it)];
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  nodes_[node].low = low, nodes_[node].high = high;
+  nodes_[node].low = low;
+  nodes_[node].high = high;
   if (last_leaf - first_leaf == 1) {
     for (auto it = begin; it != end; ++it) leaf_[at(*it)] = static_cast<Index>(first_leaf);
     return;
@@ -53,7 +57,8 @@ void CornerTree::split(std::size_t node, std::size_t first_leaf, std::size_t las
     const Place &p = place_[at(a)], &q = place_[at(b)];
     return by_x ? p.x < q.x : p.y < q.y;
   });
-  split(2 * node, first_leaf, middle), split(2 * node + 1, middle, last_leaf);
+  split(2 * node, first_leaf, middle);
+  split(2 * node + 1, middle, last_leaf);
 }
 
 CornerTree::Triangle::Triangle(Place a, Place b, Place c, double margin) noexcept {
@@ -64,7 +69,8 @@ CornerTree::Triangle::Triangle(Place a, Place b, Place c, double margin) noexcep
   for (int k = 0; k < 3; ++k) {
     const Place p = corner[k], q = corner[k + 1];
     Side& s = side_[k];
-    s.x = -turn * (q.y - p.y), s.y = turn * (q.x - p.x);
+    s.x = -turn * (q.y - p.y);
+    s.y = turn * (q.x - p.x);
     s.least = s.x * p.x + s.y * p.y - margin * (std::fabs(s.x) + std::fabs(s.y));
   }
 }

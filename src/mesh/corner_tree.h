@@ -38,7 +38,8 @@ class CornerTree {
       const std::size_t node = open[--depth];
       if (nodes_[node].count == 0 || triangle.misses(nodes_[node])) continue;
       if (node < leaves_) {
-        open[depth++] = 2 * node + 1, open[depth++] = 2 * node;
+        open[depth++] = 2 * node + 1;
+        open[depth++] = 2 * node;
         continue;
       }
       for (std::size_t i = first_of(node - leaves_); i < first_of(node - leaves_ + 1); ++i) {

@@ -181,7 +181,8 @@ class Patches {
     for (Index i = topology_.edge_triangle_start[at(e)]; i < topology_.edge_triangle_start[at(e) + 1]; ++i) {
       const Index t = topology_.triangle(i);
       if (holds(t)) continue;
-      in_patch_[at(t)] = 1, triangles_.push_back(t);
+      in_patch_[at(t)] = 1;
+      triangles_.push_back(t);
     }
   }
   void take_ring(Index vertex) {
@@ -192,13 +193,16 @@ class Patches {
   void number_vertices() {
     std::sort(triangles_.begin(), triangles_.end());
     for (const Index v : vertices_) local_[at(v)] = Mesh::none;
-    vertices_.clear(), sub_.positions.clear(), sub_.corners.clear();
+    vertices_.clear();
+    sub_.positions.clear();
+    sub_.corners.clear();
     for (const Index t : triangles_) {
       for (int k = 0; k < 3; ++k) {
         const Index v = mesh_.triangle(t)[k];
         if (local_[at(v)] == Mesh::none) {
           local_[at(v)] = static_cast<Index>(vertices_.size());
-          vertices_.push_back(v), sub_.positions.push_back(mesh_.positions[at(v)]);
+          vertices_.push_back(v);
+          sub_.positions.push_back(mesh_.positions[at(v)]);
         }
         sub_.corners.push_back(local_[at(v)]);
       }
@@ -262,8 +266,8 @@ class PatchRows {
         const Index i = surface.tail(h), j = surface.head(h);
         if (i == j) continue;
         const double weight = 0.5 * surface.share(h / 3) * surface.cotangent(h);
-        put(at(i), Entry{patches.vertices()[at(j)], h, weight}),
-            put(at(j), Entry{patches.vertices()[at(i)], h, weight});
+        put(at(i), Entry{patches.vertices()[at(j)], h, weight});
+        put(at(j), Entry{patches.vertices()[at(i)], h, weight});
       }
     };
     each([&](std::size_t i, const Entry&) { ++start_[i + 1]; });
@@ -304,17 +308,23 @@ SymmetricMatrix assemble(const Patches& patches, const PatchRows& rows, const To
                                              : static_cast<Index>(rows.row(local).size());
     matrix.column_start[v + 1] = matrix.column_start[v] + length + 1;
   }
-  matrix.row.resize(at(matrix.column_start[n])), matrix.value.resize(at(matrix.column_start[n]));
+  matrix.row.resize(at(matrix.column_start[n]));
+  matrix.value.resize(at(matrix.column_start[n]));
   for_each(jobs, pieces_of(n), [&](std::uint32_t p) {
     for (std::size_t v = p * patch_piece; v < std::min(n, (p + std::size_t{1}) * patch_piece); ++v) {
       std::size_t to = at(matrix.column_start[v]), diagonal = 0;
       double sum = 0;
       bool placed = false;
-      const auto place = [&] { diagonal = to, matrix.row[to++] = static_cast<Index>(v), placed = true; };
+      const auto place = [&] {
+        diagonal = to;
+        matrix.row[to++] = static_cast<Index>(v);
+        placed = true;
+      };
       const auto put = [&](Index column, double weight) {
         if (!placed && at(column) > v) place();
         const double w = std::max(weight, 0.0);
-        matrix.row[to] = column, matrix.value[to++] = -w;
+        matrix.row[to] = column;
+        matrix.value[to++] = -w;
         sum += w;
       };
       const Index local = patches.local(static_cast<Index>(v));

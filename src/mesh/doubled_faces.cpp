@@ -120,7 +120,8 @@ Vector<First> first_faces(const Faces& faces, Memory& memory) {
     std::uint64_t hash = own.size();
     for (std::size_t k = 0; k < own.size(); ++k) {
       canonical[at(faces.corner_start[at(f)]) + k] = best(k);
-      hash = (hash ^ static_cast<std::uint64_t>(best(k))) * hash_factor, hash ^= hash >> 32;
+      hash = (hash ^ static_cast<std::uint64_t>(best(k))) * hash_factor;
+      hash ^= hash >> 32;
     }
     keys[at(f)] = {hash, f};
   }
@@ -178,7 +179,8 @@ void remove_faces(const Vector<First>& first, Mesh& mesh) {
       const std::size_t size = own.size();
       std::copy(own.begin(), own.end(), faces.corner.begin() + static_cast<std::ptrdiff_t>(corner));
       corner += size;
-      faces.given[kept] = faces.given[f], faces.second_cut[kept] = faces.second_cut[f];
+      faces.given[kept] = faces.given[f];
+      faces.second_cut[kept] = faces.second_cut[f];
       // The old starts of the faces to come are still needed; kept + 1 <= f + 1 never reaches beyond this face.
       faces.triangle_start[kept] = static_cast<Index>(triangle - (end - begin));
       faces.corner_start[kept] = static_cast<Index>(corner - size);
@@ -187,9 +189,13 @@ void remove_faces(const Vector<First>& first, Mesh& mesh) {
   }
   mesh.corners.resize(3 * triangle);
   if (faces.empty()) return;
-  faces.corner.resize(corner), faces.given.resize(kept), faces.second_cut.resize(kept);
-  faces.triangle_start.resize(kept + 1), faces.corner_start.resize(kept + 1);
-  faces.triangle_start[kept] = static_cast<Index>(triangle), faces.corner_start[kept] = static_cast<Index>(corner);
+  faces.corner.resize(corner);
+  faces.given.resize(kept);
+  faces.second_cut.resize(kept);
+  faces.triangle_start.resize(kept + 1);
+  faces.corner_start.resize(kept + 1);
+  faces.triangle_start[kept] = static_cast<Index>(triangle);
+  faces.corner_start[kept] = static_cast<Index>(corner);
 }
 
 }  // namespace
@@ -204,7 +210,10 @@ void set_doubled_aside(Mesh& mesh, std::size_t vertex_count, Memory& memory) {
   Index next = 0;
   for (std::size_t f = 0; f < first.size(); ++f) {
     const Index face = static_cast<Index>(f), size = triangles_begin(mesh, face + 1) - triangles_begin(mesh, face);
-    if (first[f].face == face) number[f] = next, next += size;
+    if (first[f].face == face) {
+      number[f] = next;
+      next += size;
+    }
   }
   Index face = 0;
   for (std::size_t given = 0; given < mesh.triangle_of_given.size(); ++given) {
@@ -261,7 +270,10 @@ class Turning {
   Vector<std::uint8_t> turned;
 
  private:
-  void take(Index face) { seen_[at(face)] = 1, queue_.push_back(face); }
+  void take(Index face) {
+    seen_[at(face)] = 1;
+    queue_.push_back(face);
+  }
   void spread() {
     for (; next_ < queue_.size(); ++next_) {
       const Index face = queue_[next_];

@@ -29,7 +29,9 @@ double EdgePaths::append(Index from, Index to, Vector<Index>& out) {
     const Reached here = heap_.back();
     heap_.pop_back();
     if (done_[at(here.vertex)]) continue;
-    done_[at(here.vertex)] = 1, before_[at(here.vertex)] = here.before, touched_.push_back(here.vertex);
+    done_[at(here.vertex)] = 1;
+    before_[at(here.vertex)] = here.before;
+    touched_.push_back(here.vertex);
     if (here.vertex == from) {
       length = here.distance;
       break;

@@ -75,11 +75,15 @@ TriangleSides::TriangleSides(const Mesh& given, const Topology& edges, Memory& m
       const Index side = edges.corner(i);
       Index& other = seen[at(start(last(side)))];
       if (other == e) continue;  // a copy of an earlier triangle
-      other = e, edge[at(side)] = e;
+      other = e;
+      edge[at(side)] = e;
       if (count < 2) sides[count] = side;
       ++count;
     }
-    if (count == 2) twin[at(sides[0])] = sides[1], twin[at(sides[1])] = sides[0];
+    if (count == 2) {
+      twin[at(sides[0])] = sides[1];
+      twin[at(sides[1])] = sides[0];
+    }
     for (Index i = edges.edge_triangle_start[at(e)]; count > 2 && i < edges.edge_triangle_start[at(e) + 1]; ++i) {
       if (edge[at(edges.corner(i))] == e) twin[at(edges.corner(i))] = several;
     }
@@ -112,7 +116,10 @@ void TriangleSides::mark_several_fans(Memory& memory) {
   const std::size_t n = mesh.positions.size();
   Vector<Index> count(n, 0, &memory), first(n, Index{-1}, &memory);
   for (Index s = 0; s < static_cast<Index>(mesh.corners.size()); ++s) {
-    if (!is_copy(s / 3)) ++count[at(start(s))], first[at(start(s))] = s;
+    if (!is_copy(s / 3)) {
+      ++count[at(start(s))];
+      first[at(start(s))] = s;
+    }
   }
   Poller poller;
   for (Index v = 0; v < static_cast<Index>(n); ++v) {
@@ -121,7 +128,8 @@ void TriangleSides::mark_several_fans(Memory& memory) {
     Index side = first[at(v)], seen = 0;
     do {
       const Index leave = start(side) == v ? last(side) : next(side);
-      side = twin[at(leave)], ++seen;
+      side = twin[at(leave)];
+      ++seen;
     } while (side / 3 != first[at(v)] / 3 && seen <= count[at(v)]);
     if (seen != count[at(v)]) angle[at(v)] = infinite;
   }
@@ -173,7 +181,8 @@ class Propagation {
         parts_(&memory),
         result_(memory) {
     const std::size_t n = mesh_.positions.size();
-    result_.distance.assign(n, infinite), result_.end.assign(n, PathEnd());
+    result_.distance.assign(n, infinite);
+    result_.end.assign(n, PathEnd());
     if (task.directions) result_.direction.assign(n, 0.0);
     const double t = static_cast<double>(sides.frame.size()) / 3;
     most_ = task.most_windows > 0 ? task.most_windows
@@ -208,13 +217,15 @@ class Propagation {
 
  private:
   void start_at(Index v) {
-    result_.distance[at(v)] = 0, result_.end[at(v)].side = PathEnd::at_source;
+    result_.distance[at(v)] = 0;
+    result_.end[at(v)].side = PathEnd::at_source;
     push_vertex(v);
   }
 
   // Returns the angles of the sides of a triangle from its first.
   void side_angles(Index t, double* angle) const noexcept {
-    angle[0] = 0, angle[1] = pi - sides_.opposite_angle(3 * t + 2);
+    angle[0] = 0;
+    angle[1] = pi - sides_.opposite_angle(3 * t + 2);
     angle[2] = angle[1] + pi - sides_.opposite_angle(3 * t);
   }
 
@@ -228,7 +239,8 @@ class Propagation {
       double angle[3], base = 0, flip = 1;
       side_angles(t, angle);
       if (is_first) {
-        std::copy_n(angle, 3, first_angle), result_.first_triangle = t;
+        std::copy_n(angle, 3, first_angle);
+        result_.first_triangle = t;
         for (Index k = 0; k < 3; ++k) first_edge_side = place.weight[(k + 2) % 3] == 0 ? k : first_edge_side;
       } else {
         const Index shared = 3 * point.places[0].triangle + first_edge_side;
@@ -270,7 +282,9 @@ class Propagation {
   void offer_target(double d, const PathEnd& end, std::size_t place) {
     if (result_.to_distance >= 0 && !(d < result_.to_distance)) return;
     longest_ = std::min(longest_, (1 + path_rounding) * d);
-    result_.to_distance = d, result_.to_end = end, result_.to_place = static_cast<Index>(place);
+    result_.to_distance = d;
+    result_.to_end = end;
+    result_.to_place = static_cast<Index>(place);
   }
 
   bool finished() const noexcept {
@@ -294,7 +308,10 @@ class Propagation {
         const Index a = starts ? sides_.start(opposite) : sides_.start(entry);
         const Index b = starts ? sides_.start(TriangleSides::next(opposite)) : sides_.start(opposite);
         const TriangleSides::Frame& f = sides_.frame[at(opposite)];
-        if (result_.first_corner < 0) result_.first_corner = a, result_.first_triangle = entry / 3;
+        if (result_.first_corner < 0) {
+          result_.first_corner = a;
+          result_.first_triangle = entry / 3;
+        }
         reach(a, sides_.frame[at(entry)].length, {PathEnd::along_edge, v, 0, 0}, turned);
         const Turn turn =
             starts ? Turn{turned + arc_tangent(f.y, -f.x), -1.0} : Turn{turned - arc_tangent(f.y, f.length - f.x), 1.0};
@@ -312,7 +329,8 @@ class Propagation {
       if (sides_.twin[at(TriangleSides::last(s))] < 0) walk(TriangleSides::last(s));
     });
     for_corners(v, [&](Index s) { walk(s); });
-    result_.fan_angle = turned, result_.closed_fan = sides_.angle[at(v)] < infinite;
+    result_.fan_angle = turned;
+    result_.closed_fan = sides_.angle[at(v)] < infinite;
   }
 
   struct Best {
@@ -330,7 +348,8 @@ class Propagation {
     const std::size_t i = at(stack.block) * block_windows + at(--stack.count);
     if (stack.count == 0) {
       const Index below = below_[at(stack.block)];
-      below_[at(stack.block)] = free_, free_ = stack.block;
+      below_[at(stack.block)] = free_;
+      free_ = stack.block;
       stack = {below, below == Mesh::none ? 0 : static_cast<Index>(block_windows)};
     }
     return {windows_[i], task_.directions ? turns_[i] : Turn{0, 1}};
@@ -340,7 +359,8 @@ class Propagation {
     if (++step_now_ < queue_steps) return;
     Stack beyond = stacks_[queue_steps];
     stacks_[queue_steps] = Stack();
-    base_ += step_ * queue_steps, step_now_ = 0;
+    base_ += step_ * queue_steps;
+    step_now_ = 0;
     while (beyond.block != Mesh::none) {
       const auto [w, turn] = pop(beyond);
       put(w, key(w), turn);
@@ -366,7 +386,8 @@ class Propagation {
       } else {
         free_ = below_[at(block)];
       }
-      below_[at(block)] = stack.block, stack = {block, 0};
+      below_[at(block)] = stack.block;
+      stack = {block, 0};
     }
     const std::size_t i = at(stack.block) * block_windows + at(stack.count++);
     windows_[i] = w;
@@ -386,13 +407,15 @@ class Propagation {
   void push_vertex(Index v) {
     if (distance(v) + norm(mesh_.positions[at(v)] - target_) > longest_) return;
     Window w{};
-    w.side = -1 - v, w.sigma = distance(v);
+    w.side = -1 - v;
+    w.sigma = distance(v);
     push(w, w.sigma);
   }
 
   void reach(Index v, double d, const PathEnd& end, double direction = 0) {
     if (!(d < distance(v))) return;
-    result_.distance[at(v)] = d, result_.end[at(v)] = end;
+    result_.distance[at(v)] = d;
+    result_.end[at(v)] = end;
     if (task_.to && task_.to->vertex == v) longest_ = std::min(longest_, (1 + path_rounding) * d);
     if (task_.directions) result_.direction[at(v)] = direction;
     push_vertex(v);
@@ -485,7 +508,8 @@ class Propagation {
         else
           emit(opposite, f.length - stop, f.length - begin, f.x, f.y, d, v);
       }
-      turned += corner, side = leave;
+      turned += corner;
+      side = leave;
     }
   }
 
@@ -542,7 +566,9 @@ class Propagation {
       Window w = window;
       w.side = twin;
       if (sides_.start(twin) == sides_.start(window.side)) return push(w, key(w), turn);
-      w.begin = length - window.end, w.end = length - window.begin, w.x = length - window.x;
+      w.begin = length - window.end;
+      w.end = length - window.begin;
+      w.x = length - window.x;
       push(w, key(w), {turn.angle + turn.sign * pi, -turn.sign});
     });
   }
@@ -664,8 +690,13 @@ GeodesicPoint::GeodesicPoint(const TriangleSides& sides, const Index* corners, c
   for (Index k = 0; k < 3; ++k) {
     if (!(weights[k] > 0)) continue;
     const Index same = static_cast<Index>(std::find(support, support + count, corners[k]) - support);
-    if (same == count) support[count] = corners[k], weight[count] = 0, ++count;
-    weight[same] += weights[k], sum += weights[k];
+    if (same == count) {
+      support[count] = corners[k];
+      weight[count] = 0;
+      ++count;
+    }
+    weight[same] += weights[k];
+    sum += weights[k];
   }
   if (count == 1) {
     vertex = support[0];
@@ -682,7 +713,8 @@ GeodesicPoint::GeodesicPoint(const TriangleSides& sides, const Index* corners, c
     for (Index c = 0; c < 3; ++c) {
       for (Index k = 0; k < count; ++k) {
         if (sides.start(3 * place.triangle + c) != support[k]) continue;
-        place.weight[c] = weight[k] / sum, ++matched;
+        place.weight[c] = weight[k] / sum;
+        ++matched;
       }
     }
     if (matched == count) places.push_back(place);

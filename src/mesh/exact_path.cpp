@@ -100,7 +100,10 @@ class PathTracer {
   // Carries the line through the triangle of a side, to the side by which it leaves.
   Step enter(Line& line, Index side, Index from, double rounding) const {
     const TriangleSides::Frame& f = sides_.frame[at(side)];
-    if (sides_.start(side) != sides_.start(line.side)) line.at = f.length - line.at, line.x = f.length - line.x;
+    if (sides_.start(side) != sides_.start(line.side)) {
+      line.at = f.length - line.at;
+      line.x = f.length - line.x;
+    }
     const Index right = TriangleSides::next(side), left = TriangleSides::last(side);
     if (from >= 0) {
       const auto lies = [&](Index v, double x, double y) {
@@ -144,10 +147,14 @@ class PathTracer {
       for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
         const Index w = topology.neighbour[at(i)];
         const double way = found_.distance[at(w)] + norm(sides_.mesh.positions[at(w)] - sides_.mesh.positions[at(v)]);
-        if (found_.distance[at(w)] < found_.distance[at(v)] && (next == Mesh::none || way < best)) best = way, next = w;
+        if (found_.distance[at(w)] < found_.distance[at(v)] && (next == Mesh::none || way < best)) {
+          best = way;
+          next = w;
+        }
       }
       if (next == Mesh::none) return;
-      path_.points.push_back({next, next, 0}), v = next;
+      path_.points.push_back({next, next, 0});
+      v = next;
     }
   }
 
@@ -190,7 +197,8 @@ Vec3 position_of(const Mesh& mesh, const PathPoint& point) noexcept {
 SurfacePath shortest_path(const TriangleSides& sides, const GeodesicPoint& from, const GeodesicPoint& to,
                           Memory& memory, double at_most) {
   ExactTask task;
-  task.from = &from, task.to = &to;
+  task.from = &from;
+  task.to = &to;
   task.at_most = at_most > 0 ? at_most : length_by_edges(sides, from, to, memory);
   const ExactDistance found = exact_distance(sides, task, memory);
   SurfacePath path(memory);
@@ -211,7 +219,10 @@ SurfacePath shortest_path(const TriangleSides& sides, const GeodesicPoint& from,
       const double next = place.weight[(k + 1) % 3], opposite = place.weight[(k + 2) % 3];
       if (!tracer.straight(end, next * f.length + opposite * f.x, opposite * f.y)) v = sides.start(end.side);
     }
-    if (v >= 0) path.points.push_back({v, v, 0}), tracer.to_source(v);
+    if (v >= 0) {
+      path.points.push_back({v, v, 0});
+      tracer.to_source(v);
+    }
   }
   if (from.vertex < 0) path.points.push_back(end_point(from, sides));
   std::reverse(path.points.begin(), path.points.end());

@@ -137,8 +137,10 @@ SymmetricMatrix with_pairs(const Mesh& mesh, const SymmetricMatrix& matrix, cons
   Vector<Index> face(at(start[n]), 0, &memory), next(start.begin(), start.end() - 1, &memory);
   each_face_corner([&](Index v, Index f) { face[at(next[at(v)]++)] = f; });
   SymmetricMatrix out(memory);
-  out.column_start.reserve(n + 1), out.column_start.push_back(0);
-  out.row.reserve(matrix.row.size() + face.size()), out.value.reserve(matrix.row.size() + face.size());
+  out.column_start.reserve(n + 1);
+  out.column_start.push_back(0);
+  out.row.reserve(matrix.row.size() + face.size());
+  out.value.reserve(matrix.row.size() + face.size());
   Vector<Index> row(&memory);
   for (std::size_t v = 0; v < n; ++v) {
     const Index begin = matrix.column_start[v], end = matrix.column_start[v + 1];
@@ -152,7 +154,8 @@ SymmetricMatrix with_pairs(const Mesh& mesh, const SymmetricMatrix& matrix, cons
     Index from = begin;
     for (const Index r : row) {
       const bool there = from < end && matrix.row[at(from)] == r;
-      out.row.push_back(r), out.value.push_back(there ? matrix.value[at(from)] : 0.0);
+      out.row.push_back(r);
+      out.value.push_back(there ? matrix.value[at(from)] : 0.0);
       from += there;
     }
     out.column_start.push_back(static_cast<Index>(out.row.size()));
@@ -165,7 +168,8 @@ SymmetricMatrix with_pairs(const Mesh& mesh, const SymmetricMatrix& matrix, cons
 void quad_weights(const Vec3 p[4], double weights[6]) noexcept {
   const Vec3 first[3] = {p[0], p[1], p[2]}, second[3] = {p[2], p[3], p[0]};
   double a[3], b[3];
-  corner_cotangents(first, a), corner_cotangents(second, b);
+  corner_cotangents(first, a);
+  corner_cotangents(second, b);
   double w01 = a[2], w12 = a[0], w23 = b[2], w30 = b[0], w02 = a[1] + b[1], w13 = 0;
   if (w02 < 0) {
     // The other diagonal, where both triangles are unfolded into a plane: 0 at the origin, 2 on the x axis.
@@ -175,11 +179,18 @@ void quad_weights(const Vec3 p[4], double weights[6]) noexcept {
       y = norm(cross(q - p[0], p[2] - p[0])) / l;
     };
     double x1, y1, x3, y3;
-    unfold(p[1], x1, y1), unfold(p[3], x3, y3);
+    unfold(p[1], x1, y1);
+    unfold(p[3], x3, y3);
     const Vec3 q0, q1 = {x1, -y1, 0}, q2 = {l, 0, 0}, q3 = {x3, y3, 0};
     const Vec3 left[3] = {q1, q2, q3}, right[3] = {q3, q0, q1};
-    corner_cotangents(left, a), corner_cotangents(right, b);
-    w12 = a[2], w23 = a[0], w30 = b[2], w01 = b[0], w13 = a[1] + b[1], w02 = 0;
+    corner_cotangents(left, a);
+    corner_cotangents(right, b);
+    w12 = a[2];
+    w23 = a[0];
+    w30 = b[2];
+    w01 = b[0];
+    w13 = a[1] + b[1];
+    w02 = 0;
   }
   const double all[6] = {w01, w02, w30, w12, w13, w23};
   for (int k = 0; k < 6; ++k) weights[k] = 0.5 * all[k];
@@ -263,7 +274,10 @@ SymmetricMatrix corrected_by_polygons(const Mesh& mesh, const SymmetricMatrix& l
   SymmetricMatrix out = with_pairs(mesh, laplacian, gains, memory);
   poll();
   Sharing sharing(mesh, out, gains, memory, jobs);
-  for (int k = 0; k < share_rounds; ++k) sharing.round(), poll();
+  for (int k = 0; k < share_rounds; ++k) {
+    sharing.round();
+    poll();
+  }
   in_pieces_of(jobs, at(out.size()), [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       double sum = 0;

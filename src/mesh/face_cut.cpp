@@ -43,7 +43,9 @@ double cotangent_at(Vec3 corner, Vec3 a, Vec3 b) noexcept {
 }  // namespace
 
 void FaceCutter::cut(Span<const Index> vertices, Span<const Vec3> positions) {
-  triangles.clear(), second_cut = false, bend = 0;
+  triangles.clear();
+  second_cut = false;
+  bend = 0;
   if (vertices.size() == 3) {
     for (Index k = 0; k < 3; ++k) triangles.push_back(k);
     return;
@@ -67,10 +69,14 @@ void FaceCutter::put_in_order(Span<const Index> vertices, Span<const Vec3> posit
     if (vertices[i] < vertices[first] || (vertices[i] == vertices[first] && lower(i) < lower(first))) first = i;
   }
   reversed_ = before(first) < after(first);
-  order_.resize(n), point_.resize(n), key_.resize(n);
+  order_.resize(n);
+  point_.resize(n);
+  key_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t corner = reversed_ ? (first + n - i) % n : (first + i) % n;
-    order_[i] = static_cast<Index>(corner), point_[i] = positions[corner], key_[i] = vertices[corner];
+    order_[i] = static_cast<Index>(corner);
+    point_[i] = positions[corner];
+    key_[i] = vertices[corner];
   }
 }
 
@@ -111,10 +117,13 @@ void FaceCutter::cut_quad() {
   const double tie = equal_costs * (1 + std::fabs(first) + std::fabs(other));
   const bool take_other = other_valid && (!first_valid || other > first + tie);
   second_cut = first_valid && other_valid && bend > planar_bend;
-  if (take_other)
-    add(1, 2, 3), add(3, 0, 1);
-  else
-    add(0, 1, 2), add(2, 3, 0);
+  if (take_other) {
+    add(1, 2, 3);
+    add(3, 0, 1);
+  } else {
+    add(0, 1, 2);
+    add(2, 3, 0);
+  }
 }
 
 // Returns a reflex corner inside the triangle a b c, or -1. Copies of its corners do not count: the two sides of a
@@ -144,8 +153,10 @@ void FaceCutter::set_reflex(Index corner, bool reflex) noexcept {
     reflex_.push_back({point_[at(corner)], key_[at(corner)], corner});  // within its capacity
     return;
   }
-  reflex_[at(place)] = reflex_.back(), ears_[at(reflex_.back().corner)].reflex = place;
-  reflex_.pop_back(), place = -1;
+  reflex_[at(place)] = reflex_.back();
+  ears_[at(reflex_.back().corner)].reflex = place;
+  reflex_.pop_back();
+  place = -1;
 }
 
 void FaceCutter::set_blocker(Index corner, Index blocker) noexcept {
@@ -155,7 +166,9 @@ void FaceCutter::set_blocker(Index corner, Index blocker) noexcept {
     (ear.former >= 0 ? ears_[at(ear.former)].next : ears_[at(ear.blocker)].blocked) = ear.next;
     if (ear.next >= 0) ears_[at(ear.next)].former = ear.former;
   }
-  ear.blocker = blocker, ear.former = -1, ear.next = -1;
+  ear.blocker = blocker;
+  ear.former = -1;
+  ear.next = -1;
   if (blocker < 0) return;
   ear.next = ears_[at(blocker)].blocked;
   if (ear.next >= 0) ears_[at(ear.next)].former = corner;
@@ -182,7 +195,8 @@ void FaceCutter::find_ear(Index corner) noexcept {
     blocker = reflex_inside(a, corner, c);
     if (blocker < 0) cost = std::min(no_ear, roundness_cost(point_[at(a)], point_[at(corner)], point_[at(c)]));
   }
-  set_cost(corner, cost), set_blocker(corner, blocker);
+  set_cost(corner, cost);
+  set_blocker(corner, blocker);
   if (was_reflex && area > 0) free_from(corner);
 }
 
@@ -190,20 +204,24 @@ void FaceCutter::find_ear(Index corner) noexcept {
 void FaceCutter::free_from(Index blocker) noexcept {
   while (ears_[at(blocker)].blocked >= 0) {
     const Index ear = ears_[at(blocker)].blocked;
-    set_blocker(ear, -1), find_ear(ear);
+    set_blocker(ear, -1);
+    find_ear(ear);
   }
 }
 
 void FaceCutter::cut_ears() {
   const Index n = static_cast<Index>(point_.size());
-  ears_.assign(at(n), Ear()), reflex_.clear(), reflex_.reserve(at(n));
+  ears_.assign(at(n), Ear());
+  reflex_.clear();
+  reflex_.reserve(at(n));
   in_tree_ = at(n) >= least_in_tree && square_ > 0 && std::isfinite(square_);
   if (in_tree_) tree_.make(point_, normal_);
   for (leaves_ = 1; leaves_ < at(n);) leaves_ *= 2;
   costs_.assign(2 * leaves_, {cut_off, -1});
   for (Index i = 0; i < n; ++i) {
     Ear& ear = ears_[at(i)];
-    ear.before = (i + n - 1) % n, ear.after = (i + 1) % n;
+    ear.before = (i + n - 1) % n;
+    ear.after = (i + 1) % n;
     costs_[leaves_ + at(i)].corner = i;
     set_reflex(i, !(side(ear.before, i, ear.after) > 0));
   }
@@ -212,10 +230,13 @@ void FaceCutter::cut_ears() {
     const Index best = costs_[1].corner;
     const Ear ear = ears_[at(best)];
     add(ear.before, best, ear.after);
-    ears_[at(ear.before)].after = ear.after, ears_[at(ear.after)].before = ear.before;
-    set_cost(best, cut_off), set_blocker(best, -1);
+    ears_[at(ear.before)].after = ear.after;
+    ears_[at(ear.after)].before = ear.before;
+    set_cost(best, cut_off);
+    set_blocker(best, -1);
     set_reflex(best, false);  // no longer a corner
-    find_ear(ear.before), find_ear(ear.after);
+    find_ear(ear.before);
+    find_ear(ear.after);
     free_from(best);
   }
   const Index last = costs_[1].corner;

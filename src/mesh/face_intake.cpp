@@ -65,7 +65,10 @@ void read_corners(const MeshInput& input, const Vector<Index>& representative, s
       corner.push_back(v);
   }
   while (corner.size() > 1 && (corner.front() == corner.back() || spike(corner.front()))) corner.pop_back();
-  while (corner.size() > 2 && corner[1] == corner.back()) corner.erase(corner.begin()), corner.pop_back();
+  while (corner.size() > 2 && corner[1] == corner.back()) {
+    corner.erase(corner.begin());
+    corner.pop_back();
+  }
 }
 
 // Appends the triangles of a cut that have three different corners. Corners of none leave the face.
@@ -101,14 +104,16 @@ void take_faces(const MeshInput& input, const Vector<Index>& representative, Mes
   mesh.triangle_of_given.assign(input.faces.face_count, Mesh::none);
   mesh.corners.reserve(std::size_t{3} * mesh.report.triangle_count);
   out.given_size.reserve(input.faces.face_count);
-  out.corner_start.push_back(0), out.triangle_start.push_back(0);
+  out.corner_start.push_back(0);
+  out.triangle_start.push_back(0);
   FaceCutter cutter(memory);
   Vector<Index> corner(&memory);
   Vector<Vec3> point(&memory);
   input.faces.each([&](std::uint32_t f, std::int64_t start, std::int64_t size) {
     if (f % faces_per_poll == 0) poll();
     out.given_size.push_back(static_cast<std::uint32_t>(size));
-    out.polygon_count += size > 3, out.largest_size = std::max(out.largest_size, out.given_size.back());
+    out.polygon_count += size > 3;
+    out.largest_size = std::max(out.largest_size, out.given_size.back());
     const std::size_t first = mesh.corners.size();
     read_corners(input, representative, start, size, corner);
     if (corner.size() >= 3) {

@@ -32,8 +32,10 @@ Mesh with_second_cuts(const Mesh& mesh, Memory& memory) {
 // Returns the mean of two Laplacians. The diagonal is minus the sum of the rest of its row.
 SymmetricMatrix mean(const SymmetricMatrix& a, const SymmetricMatrix& b, Memory& memory) {
   SymmetricMatrix out(memory);
-  out.column_start.reserve(a.column_start.size()), out.column_start.push_back(0);
-  out.row.reserve(std::max(a.row.size(), b.row.size())), out.value.reserve(out.row.capacity());
+  out.column_start.reserve(a.column_start.size());
+  out.column_start.push_back(0);
+  out.row.reserve(std::max(a.row.size(), b.row.size()));
+  out.value.reserve(out.row.capacity());
   for (Index v = 0; v < a.size(); ++v) {
     std::size_t i = at(a.column_start[at(v)]), j = at(b.column_start[at(v)]), diagonal = 0;
     const std::size_t i_end = at(a.column_start[at(v) + 1]), j_end = at(b.column_start[at(v) + 1]);
@@ -43,12 +45,14 @@ SymmetricMatrix mean(const SymmetricMatrix& a, const SymmetricMatrix& b, Memory&
       const bool from_b = i == i_end || (j < j_end && b.row[j] <= a.row[i]);
       const Index row = from_a ? a.row[i] : b.row[j];
       const double value = 0.5 * ((from_a ? a.value[i] : 0.0) + (from_b ? b.value[j] : 0.0));
-      i += from_a, j += from_b;
+      i += from_a;
+      j += from_b;
       if (row == v)
         diagonal = out.row.size();
       else
         sum += value;
-      out.row.push_back(row), out.value.push_back(value);
+      out.row.push_back(row);
+      out.value.push_back(value);
     }
     out.value[diagonal] = -sum;
     out.column_start.push_back(static_cast<Index>(out.row.size()));

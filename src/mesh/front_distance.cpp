@@ -62,7 +62,8 @@ class FrontDistance::Fronts {
       for (Index i = shape_.start_[at(here.vertex)]; i < shape_.start_[at(here.vertex) + 1]; ++i) {
         const Corner& c = shape_.corner_[at(i)];
         const Index source = source_of_[at(here.vertex)];
-        offer(c.a, here.distance + c.to_a, source), offer(c.b, here.distance + c.to_b, source);
+        offer(c.a, here.distance + c.to_a, source);
+        offer(c.b, here.distance + c.to_b, source);
         cross(here.vertex, c.a, c.b, c.to_a, c.to_b, c.across);
         cross(here.vertex, c.b, c.a, c.to_b, c.to_a, c.across);
       }
@@ -84,7 +85,8 @@ class FrontDistance::Fronts {
     d = std::max(d, line(v, source));
     if (!(d < out_[v] * (1 - least_shortening))) return;
     reached_ += out_[v] == infinite;
-    out_[v] = d, source_of_[at(v)] = source;
+    out_[v] = d;
+    source_of_[at(v)] = source;
     heap_.push_back({d, v});
     std::push_heap(heap_.begin(), heap_.end());
   }

@@ -82,7 +82,8 @@ void sum_edges(const GraphInput& input, Memory& memory, WeightedGraph& graph) {
   Vector<Index> cursor(start.begin(), start.end() - 1, &memory);
   each_edge([&](std::uint32_t from, const Arc& arc) { arcs[at(cursor[from]++)] = arc; });
   poll();
-  graph.topology.edges.reserve(2 * arcs.size()), graph.weights.reserve(arcs.size());
+  graph.topology.edges.reserve(2 * arcs.size());
+  graph.weights.reserve(arcs.size());
   for (std::size_t v = 0; v < input.vertex_count; ++v) {
     if (v % polled_piece == 0) poll();
     const auto begin = arcs.begin() + start[v], end = arcs.begin() + start[v + 1];
@@ -92,7 +93,8 @@ void sum_edges(const GraphInput& input, Memory& memory, WeightedGraph& graph) {
       double sum = 0;
       for (; arc != end && arc->to == to; ++arc) sum += arc->weight;
       if (sum == 0) continue;
-      graph.topology.edges.push_back(static_cast<Index>(v)), graph.topology.edges.push_back(to);
+      graph.topology.edges.push_back(static_cast<Index>(v));
+      graph.topology.edges.push_back(to);
       graph.weights.push_back(sum);
     }
   }
@@ -129,13 +131,17 @@ void find_components(Memory& memory, WeightedGraph& graph) {
   for (Index first = 0; first < mesh.vertex_count(); ++first) {
     if (mesh.component[at(first)] != Mesh::none) continue;
     const Index number = static_cast<Index>(mesh.report.component_count++);
-    mesh.component[at(first)] = number, open.push_back(first);
+    mesh.component[at(first)] = number;
+    open.push_back(first);
     while (!open.empty()) {
       const std::size_t v = at(open.back());
       open.pop_back();
       for (Index i = topology.neighbour_start[v]; i < topology.neighbour_start[v + 1]; ++i) {
         const Index w = topology.neighbour[at(i)];
-        if (mesh.component[at(w)] == Mesh::none) mesh.component[at(w)] = number, open.push_back(w);
+        if (mesh.component[at(w)] == Mesh::none) {
+          mesh.component[at(w)] = number;
+          open.push_back(w);
+        }
       }
     }
   }
@@ -183,10 +189,16 @@ void scale_weights(Memory& memory, WeightedGraph& graph) {
 
 GraphInput read_graph(const hf_graph_desc& desc) {
   check_flag(desc.allow_negative, "allow_negative");
-  if (desc.edge_count > 0) require(desc.edges, "edges"), require(desc.weights, "weights");
+  if (desc.edge_count > 0) {
+    require(desc.edges, "edges");
+    require(desc.weights, "weights");
+  }
   GraphInput input;
-  input.vertex_count = desc.vertex_count, input.edge_count = desc.edge_count;
-  input.edges = desc.edges, input.weights = desc.weights, input.masses = desc.masses;
+  input.vertex_count = desc.vertex_count;
+  input.edge_count = desc.edge_count;
+  input.edges = desc.edges;
+  input.weights = desc.weights;
+  input.masses = desc.masses;
   input.allow_negative = desc.allow_negative == 1;
   return input;
 }

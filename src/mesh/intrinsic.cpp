@@ -43,7 +43,10 @@ void sort_by_angle(const Mesh& mesh, const Topology& topology, Index edge, Vecto
     const Index k = topology.corner(side.side) % 3;
     const Vec3 p = mesh.positions[at(mesh.triangle(topology.triangle(side.side))[(k + 2) % 3])] - origin;
     const Vec3 radius = p - dot(p, axis) * axis;
-    if (!(norm(x) > 0)) x = radius, y = cross(axis, radius);
+    if (!(norm(x) > 0)) {
+      x = radius;
+      y = cross(axis, radius);
+    }
     side.angle = arc_tangent(dot(y, radius), dot(x, radius));
   }
   std::sort(sides.begin(), sides.end(),
@@ -88,8 +91,10 @@ IntrinsicTriangulation IntrinsicTriangulation::make(const Mesh& mesh, const Topo
     cover.doubled_.assign(at(faces), 1);
     for (std::size_t t = 0; t < triangles; ++t) cover.doubled_[t] = back[t] != static_cast<Index>(t);
   }
-  cover.tail_.allocate(memory, 3 * at(faces)), cover.twin_.allocate(memory, 3 * at(faces));
-  cover.length_.allocate(memory, 3 * at(faces)), cover.cotangent_.allocate(memory, 3 * at(faces));
+  cover.tail_.allocate(memory, 3 * at(faces));
+  cover.twin_.allocate(memory, 3 * at(faces));
+  cover.length_.allocate(memory, 3 * at(faces));
+  cover.cotangent_.allocate(memory, 3 * at(faces));
   cover.glue(mesh, topology, back, held, jobs);
   if (cover.measure(mesh, topology, back, jobs)) cover.measure_mollified(mesh, topology, back, jobs);
   return cover;
@@ -130,7 +135,8 @@ void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, co
         continue;
       }
       if (!covered(begin)) {
-        twin_[at(front(begin))] = front(begin + 1), twin_[at(front(begin + 1))] = front(begin);
+        twin_[at(front(begin))] = front(begin + 1);
+        twin_[at(front(begin + 1))] = front(begin);
         continue;
       }
       sides.clear();
@@ -142,7 +148,8 @@ void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, co
         const Index here = sides[s].side, there = sides[(s + 1) % sides.size()].side;
         const Index a = topology.forward(here) ? front(here) : reverse(here),
                     b = topology.forward(there) ? reverse(there) : front(there);
-        twin_[at(a)] = b, twin_[at(b)] = a;
+        twin_[at(a)] = b;
+        twin_[at(b)] = a;
       }
     }
   });
@@ -151,8 +158,12 @@ void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, co
 void IntrinsicTriangulation::set_face(const double length[3], const double cotangent[3], std::size_t face,
                                       std::size_t back) noexcept {
   for (std::size_t k = 0; k < 3; ++k) {
-    length_[3 * face + k] = length[k], cotangent_[3 * face + k] = cotangent[k];
-    if (back != face) length_[3 * back + 2 - k] = length[k], cotangent_[3 * back + 2 - k] = cotangent[k];
+    length_[3 * face + k] = length[k];
+    cotangent_[3 * face + k] = cotangent[k];
+    if (back != face) {
+      length_[3 * back + 2 - k] = length[k];
+      cotangent_[3 * back + 2 - k] = cotangent[k];
+    }
   }
 }
 
@@ -236,7 +247,8 @@ void IntrinsicTriangulation::flip(Index half) noexcept {
   Index tails[4], twins[4];
   double lengths[4];
   for (int q = 0; q < 4; ++q) {
-    tails[q] = tail_[at(from[q])], lengths[q] = length_[at(from[q])];
+    tails[q] = tail_[at(from[q])];
+    lengths[q] = length_[at(from[q])];
     twins[q] = twin_[at(from[q])];
   }
   const Index k = tails[1], m = tails[3];
@@ -244,12 +256,16 @@ void IntrinsicTriangulation::flip(Index half) noexcept {
     // The four outer edges of the two faces get new numbers. Two of them may be the same edge.
     const Index* inside = std::find(from, from + 4, twins[q]);
     const Index twin = inside != from + 4 ? to[inside - from] : twins[q];
-    tail_[at(to[q])] = tails[q], length_[at(to[q])] = lengths[q];
-    twin_[at(to[q])] = twin, twin_[at(twin)] = to[q];
+    tail_[at(to[q])] = tails[q];
+    length_[at(to[q])] = lengths[q];
+    twin_[at(to[q])] = twin;
+    twin_[at(twin)] = to[q];
   }
-  tail_[at(h0)] = m, tail_[at(g0)] = k;
+  tail_[at(h0)] = m;
+  tail_[at(g0)] = k;
   length_[at(h0)] = length_[at(g0)] = diagonal;
-  measure_face(h0 / 3), measure_face(g0 / 3);
+  measure_face(h0 / 3);
+  measure_face(g0 / 3);
 }
 
 std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit, JobRunner* jobs) {
@@ -270,7 +286,8 @@ std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit,
     poller.due();
     const Index h = queue[head], g = twin_[at(h)];
     if (h / 3 == g / 3 || is_delaunay(h)) continue;  // not to flip; edges that must not flip are their own twins
-    flip(h), ++flips;
+    flip(h);
+    ++flips;
     for (const Index outer : {next(h), next(next(h)), next(g), next(next(g))}) {
       if (!is_delaunay(outer)) queue.push_back(outer);
     }
@@ -310,22 +327,30 @@ std::size_t sort_row(Index* column, double* weight, std::size_t count, Memory& m
       const Index c = column[i];
       const double w = weight[i];
       std::size_t k = i;
-      for (; k > 0 && (column[k - 1] > c || (column[k - 1] == c && weight[k - 1] > w)); --k)
-        column[k] = column[k - 1], weight[k] = weight[k - 1];
-      column[k] = c, weight[k] = w;
+      for (; k > 0 && (column[k - 1] > c || (column[k - 1] == c && weight[k - 1] > w)); --k) {
+        column[k] = column[k - 1];
+        weight[k] = weight[k - 1];
+      }
+      column[k] = c;
+      weight[k] = w;
     }
   } else {
     Vector<std::pair<Index, double>> entries(count, &memory);
     for (std::size_t i = 0; i < count; ++i) entries[i] = {column[i], weight[i]};
     std::sort(entries.begin(), entries.end());
-    for (std::size_t i = 0; i < count; ++i) column[i] = entries[i].first, weight[i] = entries[i].second;
+    for (std::size_t i = 0; i < count; ++i) {
+      column[i] = entries[i].first;
+      weight[i] = entries[i].second;
+    }
   }
   std::size_t left = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (left > 0 && column[left - 1] == column[i])
       weight[left - 1] += weight[i];
-    else
-      column[left] = column[i], weight[left++] = weight[i];
+    else {
+      column[left] = column[i];
+      weight[left++] = weight[i];
+    }
   }
   return left;
 }
@@ -344,7 +369,8 @@ SymmetricMatrix IntrinsicTriangulation::laplacian(Index vertex_count, Memory& me
   for (std::size_t h = 0; h < halves; ++h) start[at(tail_[h]) + 1] += tail_[h] != head_of(h);
   for (std::size_t v = 0; v < n; ++v) start[v + 1] += start[v];
   poll();
-  matrix.row.resize(at(start[n])), matrix.value.resize(at(start[n]));
+  matrix.row.resize(at(start[n]));
+  matrix.value.resize(at(start[n]));
   poll();
   Vector<Index> cursor(start.begin(), start.end() - 1, &memory);
   // Each thread reads all half-edges and writes the rows of its own vertices, in the same order for any number of them.
@@ -372,11 +398,17 @@ SymmetricMatrix IntrinsicTriangulation::laplacian(Index vertex_count, Memory& me
       const std::size_t count = sort_row(column, value, at(start[v + 1] - start[v]) - 1, memory);
       cursor[v] = static_cast<Index>(count) + 1;  // the length of the row
       double sum = 0;
-      for (std::size_t i = 0; i < count; ++i) sum += value[i], value[i] = -value[i];
+      for (std::size_t i = 0; i < count; ++i) {
+        sum += value[i];
+        value[i] = -value[i];
+      }
       std::size_t diagonal = count;
-      for (; diagonal > 0 && at(column[diagonal - 1]) > v; --diagonal)
-        column[diagonal] = column[diagonal - 1], value[diagonal] = value[diagonal - 1];
-      column[diagonal] = static_cast<Index>(v), value[diagonal] = sum;
+      for (; diagonal > 0 && at(column[diagonal - 1]) > v; --diagonal) {
+        column[diagonal] = column[diagonal - 1];
+        value[diagonal] = value[diagonal - 1];
+      }
+      column[diagonal] = static_cast<Index>(v);
+      value[diagonal] = sum;
     }
   });
   poll();
@@ -393,7 +425,8 @@ SymmetricMatrix IntrinsicTriangulation::laplacian(Index vertex_count, Memory& me
     to += count;
   }
   start[n] = static_cast<Index>(to);
-  matrix.row.resize(to), matrix.value.resize(to);
+  matrix.row.resize(to);
+  matrix.value.resize(to);
   return matrix;
 }
 

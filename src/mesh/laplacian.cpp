@@ -179,11 +179,16 @@ SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weight
       double sum = 0;
       std::size_t diagonal = 0;
       bool placed = false;
-      const auto place = [&] { diagonal = k, matrix.row[k++] = static_cast<Index>(v), placed = true; };
+      const auto place = [&] {
+        diagonal = k;
+        matrix.row[k++] = static_cast<Index>(v);
+        placed = true;
+      };
       for (Index i = topology.neighbour_start[v]; i < topology.neighbour_start[v + 1]; ++i) {
         if (!placed && at(topology.neighbour[at(i)]) > v) place();
         const double w = weights[at(topology.neighbour_edge[at(i)])];
-        matrix.row[k] = topology.neighbour[at(i)], matrix.value[k++] = -w;
+        matrix.row[k] = topology.neighbour[at(i)];
+        matrix.value[k++] = -w;
         sum += w;
       }
       if (!placed) place();

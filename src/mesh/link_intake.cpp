@@ -56,7 +56,8 @@ void read_skin_hint(const hf_links_desc& desc, const Mesh& mesh, SkinHint& out) 
     return;
   }
   check_choice(static_cast<std::int32_t>(desc.influence_count), most_skin_joints + 1, "influence_count");
-  require(desc.joints, "joints"), require(desc.weights, "weights");
+  require(desc.joints, "joints");
+  require(desc.weights, "weights");
   for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
     for (std::size_t i = 0; i < desc.influence_count; ++i) {
       const float w = desc.weights[std::size_t{v} * desc.influence_count + i];
@@ -89,7 +90,8 @@ void read_links(const hf_links_desc& desc, const Mesh& mesh, LinksIn& out) {
   if (desc.tags) options.tags = {desc.tags, mesh.report.vertex_count};
   read_pieces(mesh, desc.light_count, desc.light_vertices, "light_count", "light_vertices", out.light);
   read_pieces(mesh, desc.heavy_count, desc.heavy_vertices, "heavy_count", "heavy_vertices", out.heavy);
-  options.light = out.light, options.heavy = out.heavy;
+  options.light = out.light;
+  options.heavy = out.heavy;
   if (options.mode != LinkMode::list) {
     if (desc.link_count > 0)
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "link_count is %u, but mode is not HF_LINK_LIST", desc.link_count);

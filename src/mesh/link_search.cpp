@@ -142,7 +142,8 @@ void LinkSearch::list_pairs() {
   Vector<Index> order(&memory_);
   Vector<ItemBox> box(&memory_);
   for (std::size_t p = 0; p < pieces_; ++p) {
-    order.push_back(static_cast<Index>(p)), box.push_back(contacts_.box(static_cast<Index>(p)));
+    order.push_back(static_cast<Index>(p));
+    box.push_back(contacts_.box(static_cast<Index>(p)));
   }
   std::sort(order.begin(), order.end(), [&](Index a, Index b) {
     return box[at(a)].low.x != box[at(b)].low.x ? box[at(a)].low.x < box[at(b)].low.x : a < b;
@@ -151,9 +152,11 @@ void LinkSearch::list_pairs() {
     Vector<Near>& list = near[at(piece)];
     if (list.size() == pairs_a_piece) {
       if (!(found < list.front())) return;
-      std::pop_heap(list.begin(), list.end()), list.pop_back();
+      std::pop_heap(list.begin(), list.end());
+      list.pop_back();
     }
-    list.push_back(found), std::push_heap(list.begin(), list.end());
+    list.push_back(found);
+    std::push_heap(list.begin(), list.end());
   };
   for (std::size_t i = 0; i < pieces_; ++i) {
     const Index a = order[i];
@@ -162,7 +165,8 @@ void LinkSearch::list_pairs() {
       const double gap = squared_distance(box[at(a)], box[at(b)]);
       if (gap > range * range || tag_of(a) != tag_of(b)) continue;
       const Vec3 between = box[at(a)].low + box[at(a)].high - box[at(b)].low - box[at(b)].high;
-      keep(a, {gap, dot(between, between), b}), keep(b, {gap, dot(between, between), a});
+      keep(a, {gap, dot(between, between), b});
+      keep(b, {gap, dot(between, between), a});
     }
     if (i % pieces_per_poll == 0) poll();
   }
@@ -179,7 +183,8 @@ void LinkSearch::list_pairs() {
       pairs_.end());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     pairs_[i].skin = contacts_.least_skin_cost(pairs_[i].a, pairs_[i].b);
-    pairs_of_[at(pairs_[i].a)].push_back(i), pairs_of_[at(pairs_[i].b)].push_back(i);
+    pairs_of_[at(pairs_[i].a)].push_back(i);
+    pairs_of_[at(pairs_[i].b)].push_back(i);
   }
 }
 
@@ -188,9 +193,11 @@ void LinkSearch::list_pairs() {
 void LinkSearch::measure_pair(Pair& pair, double range) const {
   Vector<Contact> found(&memory_);
   double reach = std::min(range, least_above(pair.cost - pair.skin));
-  contacts_.find(pair.a, pair.b, 0, reach, found, SIZE_MAX), contacts_.find(pair.b, pair.a, 0, reach, found, SIZE_MAX);
+  contacts_.find(pair.a, pair.b, 0, reach, found, SIZE_MAX);
+  contacts_.find(pair.b, pair.a, 0, reach, found, SIZE_MAX);
   for (const Contact& contact : found) {
-    pair.cost = std::min(pair.cost, contact.cost), pair.distance = std::min(pair.distance, contact.distance);
+    pair.cost = std::min(pair.cost, contact.cost);
+    pair.distance = std::min(pair.distance, contact.distance);
   }
   pair.gap = std::max(pair.gap, range);
 }
@@ -235,7 +242,8 @@ bool LinkSearch::is_sheet(Index piece) const {
         near = true;
         if (found <= overlay) most = std::max(most, other.covered += area);
       }
-      seen += area, off += near ? 0 : area;
+      seen += area;
+      off += near ? 0 : area;
       if (whole - off < light_near * whole || most + std::max(whole - seen, 0.0) < light_cover * whole) return false;
     }
   }
@@ -278,8 +286,10 @@ void LinkSearch::grow_tree() {
     } else if (pair.gap < options_.distance) {
       // Most pairs are little farther apart than is known, so the range grows by steps.
       measure_pair(pair, std::min(pair.gap < touching ? touching : 2 * pair.gap, options_.distance));
-      if (pair.cost < unbounded || pair.gap < options_.distance)
-        heap.push_back(entry_of(entry.pair)), std::push_heap(heap.begin(), heap.end());
+      if (pair.cost < unbounded || pair.gap < options_.distance) {
+        heap.push_back(entry_of(entry.pair));
+        std::push_heap(heap.begin(), heap.end());
+      }
     }
   }
 }
@@ -288,7 +298,10 @@ void LinkSearch::grow_tree() {
 void LinkSearch::find_light() {
   Vector<Index> degree(pieces_, 0, &memory_), leaves(&memory_);
   for (const Pair& pair : pairs_) {
-    if (pair.in_tree) ++degree[at(pair.a)], ++degree[at(pair.b)];
+    if (pair.in_tree) {
+      ++degree[at(pair.a)];
+      ++degree[at(pair.b)];
+    }
   }
   for (std::size_t p = 0; p < pieces_; ++p) {
     if (forced_[p] == 1) out_.light[p] = 1;
@@ -298,7 +311,8 @@ void LinkSearch::find_light() {
     const Index p = leaves.back();
     leaves.pop_back();
     if (degree[at(p)] != 1) continue;  // the last of its group
-    out_.light[at(p)] = 1, degree[at(p)] = 0;
+    out_.light[at(p)] = 1;
+    degree[at(p)] = 0;
     for (const std::size_t i : pairs_of_[at(p)]) {
       const Index other = other_of(i, p);
       if (pairs_[i].in_tree && degree[at(other)] > 0 && --degree[at(other)] == 1 && sheet_[at(other)])
@@ -318,14 +332,21 @@ double LinkSearch::edge_length(const Link& link) const {
 
 void LinkSearch::add_link(const Contact& contact, bool in_tree) {
   Link link;
-  link.vertex = contact.vertex, link.tree = in_tree;
+  link.vertex = contact.vertex;
+  link.tree = in_tree;
   double share[3], sum = 0;
   contacts_.weights(contact, share);
   snap_to_corner(mesh_, mesh_.triangle(contact.triangle),
                  is_light(link.vertex) ? light_corner_distance : corner_distance, share);
-  for (double& s : share) s = s < least_share ? 0 : s, sum += s;
+  for (double& s : share) {
+    s = s < least_share ? 0 : s;
+    sum += s;
+  }
   for (std::size_t k = 0; k < 3; ++k) {
-    if (share[k] > 0) link.share[k] = share[k] / sum, link.corner[k] = mesh_.triangle(contact.triangle)[k];
+    if (share[k] > 0) {
+      link.share[k] = share[k] / sum;
+      link.corner[k] = mesh_.triangle(contact.triangle)[k];
+    }
   }
   link.length = rest_length(link, mesh_);
   double weight = std::max(1.0, edge_length(link) / spring_edge);
@@ -364,7 +385,8 @@ void LinkSearch::link_hinge(Vector<Contact>* sides) {
   for (int side = 0; side < 2; ++side) {
     for (const Contact& contact : sides[side]) {
       const double area = areas_[at(contact.vertex)];
-      middle = middle + area * mesh_.positions[at(contact.vertex)], sum += area;
+      middle = middle + area * mesh_.positions[at(contact.vertex)];
+      sum += area;
     }
   }
   if (sum > 0) middle = (1 / sum) * middle;

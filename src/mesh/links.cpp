@@ -140,7 +140,9 @@ Mesh linked_mesh(const Mesh& mesh, const Links& links, Memory& memory) {
   out.doubled.assign(mesh.doubled.begin(), mesh.doubled.end());
   out.turned.assign(mesh.turned.begin(), mesh.turned.end());
   out.isolated.assign(mesh.isolated.begin(), mesh.isolated.end());
-  out.centre = mesh.centre, out.scale = mesh.scale, out.report = mesh.report;
+  out.centre = mesh.centre;
+  out.scale = mesh.scale;
+  out.report = mesh.report;
   // Pieces are numbered by their lowest vertices, so groups are too.
   for (const Index piece : links.piece) out.component.push_back(links.group[at(piece)]);
   out.report.component_count = static_cast<std::uint32_t>(links.group_count);
@@ -152,7 +154,8 @@ Topology linked_topology(const Topology& topology, const Links& links, Span<cons
   Topology out(memory);
   Vector<double> merged(&memory);
   const auto copy_edge = [&](Index e) {
-    out.edges.push_back(topology.first(e)), out.edges.push_back(topology.second(e));
+    out.edges.push_back(topology.first(e));
+    out.edges.push_back(topology.second(e));
     out.edge_triangle_start.push_back(topology.edge_triangle_start[at(e)]);
     merged.push_back(weights[at(e)] * (is_light(links, topology.first(e)) ? light_share : 1.0));
   };
@@ -167,7 +170,8 @@ Topology linked_topology(const Topology& topology, const Links& links, Span<cons
       merged.back() += edge.weight;
       continue;
     }
-    out.edges.push_back(edge.first), out.edges.push_back(edge.second);
+    out.edges.push_back(edge.first);
+    out.edges.push_back(edge.second);
     out.edge_triangle_start.push_back(topology.edge_triangle_start[at(e)]);
     merged.push_back(edge.weight);
   }
@@ -183,7 +187,10 @@ void add_links(SymmetricMatrix& laplacian, const Links& links, Span<const LinkEd
   const std::size_t n = at(laplacian.size());
   // The links of every vertex, in ascending order of the other end.
   Vector<Index> start(n + 1, 0, &memory);
-  for (const LinkEdge& edge : edges) ++start[at(edge.first) + 1], ++start[at(edge.second) + 1];
+  for (const LinkEdge& edge : edges) {
+    ++start[at(edge.first) + 1];
+    ++start[at(edge.second) + 1];
+  }
   for (std::size_t v = 0; v < n; ++v) start[v + 1] += start[v];
   struct End {
     Index other;
@@ -195,7 +202,8 @@ void add_links(SymmetricMatrix& laplacian, const Links& links, Span<const LinkEd
   for (const LinkEdge& edge : edges) ends[at(next[at(edge.first)]++)] = {edge.second, edge.weight};
 
   SymmetricMatrix out(memory);
-  out.row.reserve(laplacian.row.size() + ends.size()), out.value.reserve(laplacian.row.size() + ends.size());
+  out.row.reserve(laplacian.row.size() + ends.size());
+  out.value.reserve(laplacian.row.size() + ends.size());
   for (std::size_t v = 0; v < n; ++v) {
     const double scale = is_light(links, static_cast<Index>(v)) ? light_share : 1.0;
     const std::size_t begin = out.row.size();
@@ -203,7 +211,9 @@ void add_links(SymmetricMatrix& laplacian, const Links& links, Span<const LinkEd
     double rest = 0;
     Index link = start[v];
     const auto put = [&](Index row, double value) {
-      out.row.push_back(row), out.value.push_back(value), rest += value;
+      out.row.push_back(row);
+      out.value.push_back(value);
+      rest += value;
     };
     for (std::size_t i = at(laplacian.column_start[v]); i < at(laplacian.column_start[v + 1]); ++i) {
       const Index row = laplacian.row[i];
@@ -211,7 +221,8 @@ void add_links(SymmetricMatrix& laplacian, const Links& links, Span<const LinkEd
         put(ends[at(link)].other, -ends[at(link)].weight);
       if (at(row) == v) {
         diagonal = out.row.size();
-        out.row.push_back(row), out.value.push_back(scale * laplacian.value[i]);
+        out.row.push_back(row);
+        out.value.push_back(scale * laplacian.value[i]);
         continue;
       }
       double value = scale * laplacian.value[i];
@@ -252,7 +263,8 @@ GapSummary summarise_gaps(Span<double> gaps) {
   GapSummary out;
   if (gaps.size() == 0) return out;
   const auto worst = std::max_element(gaps.begin(), gaps.end());
-  out.worst = *worst, out.worst_link = static_cast<std::uint32_t>(worst - gaps.begin());
+  out.worst = *worst;
+  out.worst_link = static_cast<std::uint32_t>(worst - gaps.begin());
   const auto share = gaps.begin() + static_cast<std::ptrdiff_t>((95 * gaps.size() + 99) / 100 - 1);
   std::nth_element(gaps.begin(), share, gaps.end());
   out.percentile_95 = *share;

@@ -20,8 +20,6 @@ namespace hf_inner {
 
 namespace {
 
-using Index = std::int32_t;
-
 // The diagonal of a mesh must be below this length. Sums of squares in inner coordinates must not overflow.
 constexpr double largest_scale = 1e300;
 // The report counts a triangle as zero-area if its area over the longest edge squared is below this number. Its height
@@ -79,7 +77,8 @@ void find_frame(const MeshInput& input, const Vector<Index>& representative, con
     if (!is_corner[at(representative[v])]) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const double x = input.positions.get(v, k);
-      low[k] = std::min(low[k], x), high[k] = std::max(high[k], x);
+      low[k] = std::min(low[k], x);
+      high[k] = std::max(high[k], x);
     }
   }
   if (low[0] > high[0]) return;  // no corner: the mesh is refused as empty
@@ -126,8 +125,10 @@ void measure_triangles(Mesh& mesh, JobRunner* jobs, Memory& memory) {
   };
   for_each(jobs, static_cast<std::uint32_t>(pieces), measure);
   Found all;
-  for (const Found& own : found)
-    all.cotangent = std::max(all.cotangent, own.cotangent), all.degenerate += own.degenerate;
+  for (const Found& own : found) {
+    all.cotangent = std::max(all.cotangent, own.cotangent);
+    all.degenerate += own.degenerate;
+  }
   mesh.report.smallest_angle = arc_tangent(1.0, all.cotangent);
   mesh.report.degenerate_triangle_count += all.degenerate;
 }
@@ -163,9 +164,12 @@ void renumber(const Vector<Index>& order, Mesh& mesh, Memory& memory) {
   for (std::size_t i = 0; i < order.size(); ++i) number[at(order[i])] = static_cast<Index>(i);
   Vector<Index> given(order.size(), &memory);
   Vector<Vec3> positions(order.size(), &memory);
-  for (std::size_t i = 0; i < order.size(); ++i)
-    given[i] = mesh.given_of_inner[at(order[i])], positions[i] = mesh.positions[at(order[i])];
-  mesh.given_of_inner = std::move(given), mesh.positions = std::move(positions);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    given[i] = mesh.given_of_inner[at(order[i])];
+    positions[i] = mesh.positions[at(order[i])];
+  }
+  mesh.given_of_inner = std::move(given);
+  mesh.positions = std::move(positions);
   for (Index& v : mesh.inner_of_given) {
     if (v != Mesh::none) v = number[at(v)];
   }
@@ -188,7 +192,8 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   const std::uint32_t triangles = check_sizes(input);
   check_triangles(input);
   Mesh mesh(memory);
-  mesh.report.vertex_count = input.vertex_count, mesh.report.triangle_count = triangles;
+  mesh.report.vertex_count = input.vertex_count;
+  mesh.report.triangle_count = triangles;
   poll();
   check_positions(input);
   poll();

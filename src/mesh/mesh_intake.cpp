@@ -38,8 +38,11 @@ FaceRows read_faces(const hf_surface_desc& desc) {
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "triangles and faces are both set; set one");
   require_either(desc.face_starts, desc.face_sizes, "face_starts and face_sizes");
   require(desc.corners, "corners");
-  faces.face_count = desc.face_count, faces.corner_count = desc.corner_count;
-  faces.starts = desc.face_starts, faces.sizes = desc.face_sizes, faces.corners = desc.corners;
+  faces.face_count = desc.face_count;
+  faces.corner_count = desc.corner_count;
+  faces.starts = desc.face_starts;
+  faces.sizes = desc.face_sizes;
+  faces.corners = desc.corners;
   faces.face_stride = stride_of(desc.face_stride, sizeof(std::uint32_t), "face_stride");
   faces.corner_stride = stride_of(desc.corner_stride, sizeof(std::uint32_t), "corner_stride");
   return faces;
@@ -59,7 +62,8 @@ MeshInput read_mesh(const hf_surface_desc& desc, const FaceRows& faces) {
   if (desc.triangle_count > 0) require_either(desc.triangles, desc.triangles_u16, "triangles and triangles_u16");
   MeshInput input;
   input.faces = faces;
-  input.vertex_count = desc.vertex_count, input.triangle_count = desc.triangle_count;
+  input.vertex_count = desc.vertex_count;
+  input.triangle_count = desc.triangle_count;
   input.positions = rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
   if (desc.triangles)
     input.triangles = {desc.triangles, stride_of(desc.triangle_stride, 3 * sizeof(std::uint32_t), "triangle_stride")};

@@ -45,7 +45,8 @@ double missing(const double length[3], double floor, std::size_t& longest) noexc
 MollifiedLengths MollifiedLengths::make(const Mesh& mesh, const Topology& topology, Memory& memory, JobRunner* jobs) {
   MollifiedLengths out(memory);
   const std::size_t edges = at(topology.edge_count()), triangles = at(mesh.triangle_count());
-  out.length.resize(edges), out.edge_of_side.resize(3 * triangles);
+  out.length.resize(edges);
+  out.edge_of_side.resize(3 * triangles);
   find_lengths(mesh, topology, out, jobs);
   double sum = 0;
   for (const double l : out.length) sum += l;
@@ -79,7 +80,10 @@ MollifiedLengths MollifiedLengths::make(const Mesh& mesh, const Topology& topolo
     }
     if (round == 0) out.thin_count = static_cast<std::uint32_t>(count);
     if (count == 0) return out;
-    if (out.changed.empty()) out.changed.assign(edges, 0), raise.assign(edges, 0.0);
+    if (out.changed.empty()) {
+      out.changed.assign(edges, 0);
+      raise.assign(edges, 0.0);
+    }
     if (round == most_rounds) {
       for (double& l : out.length) l += most;
       std::fill(out.changed.begin(), out.changed.end(), std::uint8_t{1});
@@ -89,7 +93,8 @@ MollifiedLengths MollifiedLengths::make(const Mesh& mesh, const Topology& topolo
       for (const Thin& t : list) {
         for (std::size_t k = 1; k < 3; ++k) {
           const std::size_t e = at(out.edge_of_side[3 * std::size_t{t.triangle} + (t.longest + k) % 3]);
-          raise[e] = std::max(raise[e], 0.5 * t.missing), out.changed[e] = 1;
+          raise[e] = std::max(raise[e], 0.5 * t.missing);
+          out.changed[e] = 1;
         }
       }
     }
@@ -97,7 +102,8 @@ MollifiedLengths MollifiedLengths::make(const Mesh& mesh, const Topology& topolo
       for (const Thin& t : list) {
         for (std::size_t k = 1; k < 3; ++k) {
           const std::size_t e = at(out.edge_of_side[3 * std::size_t{t.triangle} + (t.longest + k) % 3]);
-          out.length[e] += raise[e], raise[e] = 0;
+          out.length[e] += raise[e];
+          raise[e] = 0;
         }
       }
     }

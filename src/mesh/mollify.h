@@ -37,7 +37,8 @@ class ThinCheck {
   }
   void add(const ThinCheck& part) noexcept {
     sum_ += part.sum_;
-    gap_ = part.gap_ < gap_ ? part.gap_ : gap_, share_ = part.share_ < share_ ? part.share_ : share_;
+    gap_ = part.gap_ < gap_ ? part.gap_ : gap_;
+    share_ = part.share_ < share_ ? part.share_ : share_;
   }
   // edge_count: of the mesh. An edge between two triangles was added twice, so the mean is on the safe side too.
   bool may_be_thin(std::int32_t edge_count) const noexcept {

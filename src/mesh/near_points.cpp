@@ -28,8 +28,10 @@ Index PointTree::add(Index first, Index last) {
 Index PointTree::make_node(Index first, Index last) {
   poll();
   Node node{points_[at(first)], points_[at(first)], first, last};
-  for (Index i = first + 1; i < last; ++i)
-    node.low = smallest(node.low, points_[at(i)]), node.high = largest(node.high, points_[at(i)]);
+  for (Index i = first + 1; i < last; ++i) {
+    node.low = smallest(node.low, points_[at(i)]);
+    node.high = largest(node.high, points_[at(i)]);
+  }
   nodes_.push_back(node);
   return static_cast<Index>(nodes_.size()) - 1;
 }
@@ -51,7 +53,8 @@ void PointTree::split(Index node) {
   const Index child = make_node(whole.first, middle);
   make_node(middle, whole.last);
   nodes_[at(node)].child = child;
-  split(child), split(child + 1);
+  split(child);
+  split(child + 1);
 }
 
 void PointTree::add_frame(Node& node) {
@@ -61,8 +64,12 @@ void PointTree::add_frame(Node& node) {
   for (Index i = node.first; i < node.last; ++i) {
     const Vec3 d = nearness_.scaled(points_[at(i)] - node.low);
     mean = mean + d;
-    moments(0, 0) += d.x * d.x, moments(1, 0) += d.y * d.x, moments(1, 1) += d.y * d.y;
-    moments(2, 0) += d.z * d.x, moments(2, 1) += d.z * d.y, moments(2, 2) += d.z * d.z;
+    moments(0, 0) += d.x * d.x;
+    moments(1, 0) += d.y * d.x;
+    moments(1, 1) += d.y * d.y;
+    moments(2, 0) += d.z * d.x;
+    moments(2, 1) += d.z * d.y;
+    moments(2, 2) += d.z * d.z;
   }
   const hf_eigen::Vector3d m(mean.x, mean.y, mean.z);
   moments -= m * m.transpose() / static_cast<double>(node.last - node.first);
@@ -71,13 +78,15 @@ void PointTree::add_frame(Node& node) {
   for (int k = 0; k < 3; ++k) {
     const auto axis = principal.eigenvectors().col(k);
     frame.axis[k] = {axis(0), axis(1), axis(2)};
-    frame.low[k] = std::numeric_limits<double>::infinity(), frame.high[k] = -frame.low[k];
+    frame.low[k] = std::numeric_limits<double>::infinity();
+    frame.high[k] = -frame.low[k];
   }
   for (Index i = node.first; i < node.last; ++i) {
     const Vec3 d = nearness_.scaled(points_[at(i)] - node.low);
     for (int k = 0; k < 3; ++k) {
       const double height = dot(frame.axis[k], d);
-      frame.low[k] = std::min(frame.low[k], height), frame.high[k] = std::max(frame.high[k], height);
+      frame.low[k] = std::min(frame.low[k], height);
+      frame.high[k] = std::max(frame.high[k], height);
     }
   }
   node.frame = static_cast<Index>(frames_.size());
@@ -151,7 +160,8 @@ bool PointTree::half_near(Node& split, Node& whole) {
     }
     return false;
   }
-  Node &first = nodes_[at(split.child)], &second = nodes_[at(split.child + 1)];
+  Node& first = nodes_[at(split.child)];
+  &second = nodes_[at(split.child + 1)];
   const Vec3 first_gap = gap(first, whole), second_gap = gap(second, whole);
   if (dot(second_gap, second_gap) < dot(first_gap, first_gap)) return near(second, whole) || near(first, whole);
   return near(first, whole) || near(second, whole);

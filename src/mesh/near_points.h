@@ -20,7 +20,8 @@ class Nearness {
     std::frexp(tolerance, &exponent);
     constexpr int most = 1000;  // so that the scale is a number too
     scale_ = std::ldexp(1.0, -std::clamp(exponent, -most, most));
-    tolerance_ = scale_ * tolerance, square_ = tolerance_ * tolerance_;
+    tolerance_ = scale_ * tolerance;
+    square_ = tolerance_ * tolerance_;
   }
   Vec3 scaled(Vec3 difference) const noexcept { return scale_ * difference; }
   double scaled(double difference) const noexcept { return scale_ * difference; }

@@ -17,7 +17,11 @@ constexpr double needle = 3e-11;
 // By the regions of its corners, edges and face (Ericson 2005, Section 5.1.5).
 double squared_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, double* weights) noexcept {
   const auto take = [&](double s, double t, double rest, double distance) {
-    if (weights) weights[0] = s, weights[1] = t, weights[2] = rest;
+    if (weights) {
+      weights[0] = s;
+      weights[1] = t;
+      weights[2] = rest;
+    }
     return distance;
   };
   const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
@@ -55,7 +59,9 @@ double squared_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Ve
       const double distance = squared(away - w * side);
       if (best >= 0 && distance >= best) continue;
       best = distance;
-      at[k] = 1 - w, at[next] = w, at[(k + 2) % 3] = 0;
+      at[k] = 1 - w;
+      at[next] = w;
+      at[(k + 2) % 3] = 0;
     }
     return take(at[0], at[1], at[2], best);
   }

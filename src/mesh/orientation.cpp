@@ -21,10 +21,14 @@ Vector<std::int8_t> component_sides(const Mesh& mesh, Memory& memory) {
     const Index* v = mesh.triangle(t);
     const std::size_t c = at(mesh.component[at(v[0])]);
     const Vec3 a = mesh.positions[at(v[0])];
-    if (!seen[c]) seen[c] = 1, origin[c] = a;
+    if (!seen[c]) {
+      seen[c] = 1;
+      origin[c] = a;
+    }
     const Vec3 vector = cross(mesh.positions[at(v[1])] - a, mesh.positions[at(v[2])] - a);
     volume[c] += dot(a - origin[c], vector);
-    area[c] += norm(vector), open[c] = open[c] + vector;
+    area[c] += norm(vector);
+    open[c] = open[c] + vector;
   }
   Vector<std::int8_t> side(count, 1, &memory);
   for (std::size_t c = 0; c < count; ++c) {

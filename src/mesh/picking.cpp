@@ -50,9 +50,12 @@ struct Shear {
     const std::array<double, 3> d = {direction.x, direction.y, direction.z};
     axis[2] = 0;
     for (std::size_t k = 1; k < 3; ++k) axis[2] = std::fabs(d[k]) > std::fabs(d[axis[2]]) ? k : axis[2];
-    axis[0] = (axis[2] + 1) % 3, axis[1] = (axis[2] + 2) % 3;
+    axis[0] = (axis[2] + 1) % 3;
+    axis[1] = (axis[2] + 2) % 3;
     if (d[axis[2]] < 0) std::swap(axis[0], axis[1]);  // keeps the orientation of triangles
-    x = d[axis[0]] / d[axis[2]], y = d[axis[1]] / d[axis[2]], z = 1 / d[axis[2]];
+    x = d[axis[0]] / d[axis[2]];
+    y = d[axis[1]] / d[axis[2]];
+    z = 1 / d[axis[2]];
   }
   Vec3 of(Vec3 p) const noexcept {
     const std::array<double, 3> q = {p.x - from.x, p.y - from.y, p.z - from.z};
@@ -79,8 +82,11 @@ void test_triangle(const Vec3* corner, bool front_only, std::uint32_t triangle, 
   if (determinant == 0 || (front_only && !front)) return;
   const double distance = (u * a.z + v * b.z + w * c.z) / determinant;
   if (!(distance >= 0 && distance < best.distance)) return;
-  best.triangle = triangle, best.distance = distance;
-  best.weight[0] = u / determinant, best.weight[1] = v / determinant, best.weight[2] = w / determinant;
+  best.triangle = triangle;
+  best.distance = distance;
+  best.weight[0] = u / determinant;
+  best.weight[1] = v / determinant;
+  best.weight[2] = w / determinant;
 }
 
 // Returns the first of the caller's triangles that lie on usable triangle t. along: the first that runs as t does.
@@ -154,7 +160,10 @@ RayHit cast_ray(const PickTarget& target, Vec3 origin, Vec3 direction, JobRunner
   double nearest = infinity;
   for (int k = 0; k < 3; ++k) {
     const double distance = norm(places.of(v[k]) - p);
-    if (distance < nearest) nearest = distance, hit.vertex = v[k];
+    if (distance < nearest) {
+      nearest = distance;
+      hit.vertex = v[k];
+    }
   }
   return hit;
 }
@@ -188,8 +197,8 @@ NearestVertex nearest_vertex(const PickTarget& target, Vec3 point, JobRunner& jo
   }
   best.distance = places.length_out(best.distance);
   if (best.vertex == Mesh::none || !(best.distance <= farthest_pose * mesh.scale))
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "every vertex is more than %g box diagonals from the point; give a nearer one",
-         farthest_pose);
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "every vertex is more than %g box diagonals from the point; give a nearer one", farthest_pose);
   return best;
 }
 

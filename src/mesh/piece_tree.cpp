@@ -75,13 +75,19 @@ PieceTree::PieceTree(Span<const ItemBox> boxes, Span<const Index> piece, Index p
       std::size_t count = 0;
       for (std::size_t i = 0; i < around.size(); i += width, ++count) {
         Block block;
-        block.first = below + static_cast<Index>(i), block.level = level;
+        block.first = below + static_cast<Index>(i);
+        block.level = level;
         ItemBox box = around[i];
         for (Index child = 0; child < width; ++child) {
           const std::size_t c = i + at(child);
-          if (c < around.size()) put(block, child, around[c]), box.take(around[c]);
-          for (int k = 0; k < 3 && c >= around.size(); ++k)
-            block.low[k][child] = far_away, block.high[k][child] = -far_away;
+          if (c < around.size()) {
+            put(block, child, around[c]);
+            box.take(around[c]);
+          }
+          for (int k = 0; k < 3 && c >= around.size(); ++k) {
+            block.low[k][child] = far_away;
+            block.high[k][child] = -far_away;
+          }
         }
         block_.push_back(block);
         around[count] = box;
@@ -97,7 +103,8 @@ PieceTree::PieceTree(Span<const ItemBox> boxes, Span<const Index> piece, Index p
 
 bool PieceTree::is_near(Index piece, const ItemBox& box, double squared) const noexcept {
   Four low[3], high[3];
-  spread(box.low, low), spread(box.high, high);
+  spread(box.low, low);
+  spread(box.high, high);
   const float reach = reach_of(squared);
   Index stack[depth];
   std::size_t open = 0;

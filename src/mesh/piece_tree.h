@@ -95,7 +95,10 @@ void PieceTree::near(Index piece, const Vec3& p, Reach&& reach, Item&& item) con
     std::memcpy(squared, &four, sizeof squared);
     if (block.level == 0) {
       for (Index i = 0; i < width; ++i) {
-        if (squared[i] <= bound) item(order_[at(block.first + i)]), bound = reach_of(reach());
+        if (squared[i] <= bound) {
+          item(order_[at(block.first + i)]);
+          bound = reach_of(reach());
+        }
       }
       continue;
     }

@@ -89,7 +89,8 @@ void each_entry(const Mesh& mesh, bool with_values, Memory& memory, Put&& put) {
       if (with_values) corner_cotangents(mesh, t, cotangent);
       for (int k = 0; k < 3; ++k) {
         const Index a = v[(k + 1) % 3], b = v[(k + 2) % 3];
-        put(a, b, f, -0.5 * cotangent[k]), put(b, a, f, -0.5 * cotangent[k]);
+        put(a, b, f, -0.5 * cotangent[k]);
+        put(b, a, f, -0.5 * cotangent[k]);
       }
     }
   }
@@ -103,15 +104,19 @@ void PolygonMatrix::make(Span<const Vec3> corners) {
   Vec3 normal;
   for (std::size_t i = 0; i < n; ++i) normal = normal + cross(corners[i] - centre, corners[(i + 1) % n] - centre);
   const double least = least_triangle * dot(normal, normal);
-  value.assign(n * n, 0.0), spoke_.assign(n, 0.0), is_star = least > 0;
+  value.assign(n * n, 0.0);
+  spoke_.assign(n, 0.0);
+  is_star = least > 0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t j = (i + 1) % n;
     const Vec3 triangle[3] = {corners[i], corners[j], centre};
     is_star = is_star && dot(normal, cross(corners[i] - centre, corners[j] - centre)) > least;
     double cotangent[3];
     corner_cotangents(triangle, cotangent);
-    value[i * n + j] -= 0.5 * cotangent[2], value[j * n + i] -= 0.5 * cotangent[2];
-    spoke_[i] += 0.5 * cotangent[1], spoke_[j] += 0.5 * cotangent[0];
+    value[i * n + j] -= 0.5 * cotangent[2];
+    value[j * n + i] -= 0.5 * cotangent[2];
+    spoke_[i] += 0.5 * cotangent[1];
+    spoke_[j] += 0.5 * cotangent[0];
   }
   double sum = 0;
   for (const double w : spoke_) sum += w;
@@ -142,7 +147,8 @@ Vec3 face_point(Span<const Vec3> corners, Vector<double>& weights) {
     const Vector3 p = to_eigen(corners[i]) - mean, q = to_eigen(corners[(i + 1) % n]) - mean, side = q - p;
     matrix += side.squaredNorm() * Mat3::Identity() - side * side.transpose();
     const Vector3 area = p.cross(q);
-    right += side.cross(area), normal += area;
+    right += side.cross(area);
+    normal += area;
     spread += p * p.transpose();
   }
   const double length = normal.norm();
@@ -187,9 +193,13 @@ SymmetricMatrix polygon_laplacian(const Mesh& mesh, Memory& memory, JobRunner* j
   SymmetricMatrix out(memory);
   out.column_start.assign(n + 1, 0);
   for (std::size_t v = 0; v < n; ++v) out.column_start[v + 1] = out.column_start[v] + end[v] - start[v] + 1;
-  out.row.reserve(at(out.column_start[n])), out.value.reserve(at(out.column_start[n]));
+  out.row.reserve(at(out.column_start[n]));
+  out.value.reserve(at(out.column_start[n]));
   for (std::size_t v = 0; v < n; ++v) {
-    const auto put = [&](Index row, double value) { out.row.push_back(row), out.value.push_back(value); };
+    const auto put = [&](Index row, double value) {
+      out.row.push_back(row);
+      out.value.push_back(value);
+    };
     double sum = 0;
     std::size_t diagonal = out.row.size();
     Index i = start[v];

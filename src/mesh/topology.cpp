@@ -89,7 +89,8 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
     for_halves(p, [&](Index h, Index v, bool is_new) {
       if (is_new) {
         topology.edge_triangle_start[e] = h;
-        topology.edges[2 * e] = v, topology.edges[2 * e + 1] = halves[at(h)].second;
+        topology.edges[2 * e] = v;
+        topology.edges[2 * e + 1] = halves[at(h)].second;
         ++e;
       }
       topology.edge_side[at(h)] = halves[at(h)].side;
@@ -112,7 +113,8 @@ void Topology::fill_neighbours(std::size_t vertex_count, Memory& memory, JobRunn
       [&](std::size_t i) { return at(edges[i < count ? 2 * i + 1 : 2 * (i - count)]); },
       [&](std::size_t slot, std::size_t i) {
         const std::size_t e = i < count ? i : i - count;
-        neighbour[slot] = edges[i < count ? 2 * e : 2 * e + 1], neighbour_edge[slot] = static_cast<Index>(e);
+        neighbour[slot] = edges[i < count ? 2 * e : 2 * e + 1];
+        neighbour_edge[slot] = static_cast<Index>(e);
       });
 }
 

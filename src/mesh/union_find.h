@@ -18,7 +18,8 @@ struct UnionFind {
   }
   // Returns false if both are in one set already.
   bool unite(Index a, Index b) noexcept {
-    a = find(a), b = find(b);
+    a = find(a);
+    b = find(b);
     if (a < b) parent[at(b)] = a;
     if (b < a) parent[at(a)] = b;
     return a != b;

@@ -7,8 +7,6 @@
 namespace hf_inner {
 namespace {
 
-using Index = std::int32_t;
-
 // Vertices that lie together: the pieces in which loops over vertices run (deform/rest.h). No result of a mesh that
 // keeps its order depends on it.
 constexpr std::size_t near_vertices = 4096;
@@ -42,7 +40,8 @@ std::uint64_t hilbert_key(Vec3 p) noexcept {
     }
   }
   // The Gray code of the three coordinates.
-  x[1] ^= x[0], x[2] ^= x[1];
+  x[1] ^= x[0];
+  x[2] ^= x[1];
   std::uint32_t mirrored = 0;
   for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
     if (x[2] & bit) mirrored ^= bit - 1;

@@ -107,7 +107,10 @@ void ToleranceWeld::number_cells(const Vector<Vec3>& places, double Vec3::*axis,
   Index base = 0, number = 0;
   for (const Mark& mark : marks) {
     poller_.due();
-    if (nearness_.scaled(mark.x - before) > cell_reach * side) origin = mark.x, base = number + cell_reach + 1;
+    if (nearness_.scaled(mark.x - before) > cell_reach * side) {
+      origin = mark.x;
+      base = number + cell_reach + 1;
+    }
     number = base + static_cast<Index>(nearness_.scaled(mark.x - origin) / side);
     out[at(mark.place)].*cell = number;
     before = mark.x;
@@ -125,7 +128,8 @@ void ToleranceWeld::make_cells(const Vector<Vec3>& places) {
     poller_.due();
     return cell_before(a, b) || (!cell_before(b, a) && a.number < b.number);
   });
-  points_.resize(places.size()), cell_of_.resize(places.size());
+  points_.resize(places.size());
+  cell_of_.resize(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     poller_.due();
     const Place& place = order[i];
@@ -171,7 +175,10 @@ void ToleranceWeld::join_cells() {
                : o.y != y + cursor.dy ? o.y < y + cursor.dy
                                       : o.z < z - cell_reach;
       };
-      while (cursor.cell < count && before(cells_[at(cursor.cell)])) ++cursor.cell, poller_.due();
+      while (cursor.cell < count && before(cells_[at(cursor.cell)])) {
+        ++cursor.cell;
+        poller_.due();
+      }
       join_column(cursor.cell, x + cursor.dx, y + cursor.dy, z, c);
     }
   }

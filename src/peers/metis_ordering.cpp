@@ -39,8 +39,12 @@ void order_by_metis(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::i
   view.p = const_cast<std::int32_t*>(matrix.column_start.data());
   view.i = const_cast<std::int32_t*>(matrix.row.data());
   view.x = const_cast<double*>(matrix.value.data());
-  view.stype = 1, view.itype = CHOLMOD_INT, view.xtype = CHOLMOD_REAL, view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1, view.packed = 1;
+  view.stype = 1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
   int done = 0;
   {
     RandomState aside;

@@ -51,14 +51,13 @@ class UpdownSolver final : public SiteSolver {
       throw;
     }
   }
-  UpdownSolver(const UpdownSolver& other)
-      : core_(other.core_),
-        penalty_(other.penalty_),
-        sites_(other.sites_, core_->memory.get()),
-        count_(other.count_, core_->memory.get()),
-        edits_(other.edits_),
-        factorisations_(other.factorisations_),
-        sweeps_(other.sweeps_.load()) {
+  UpdownSolver(const UpdownSolver& other) : core_(other.core_);
+  penalty_(other.penalty_);
+  sites_(other.sites_, core_->memory.get());
+  count_(other.count_, core_->memory.get());
+  edits_(other.edits_);
+  factorisations_(other.factorisations_);
+  sweeps_(other.sweeps_.load()) {
     const std::lock_guard<std::mutex> lock(other.mutex_);
     position_.assign(other.position_.begin(), other.position_.end());
     factor_ = other.factor_ ? cholmod_copy_factor(other.factor_, &other.common_.c) : nullptr;
@@ -182,7 +181,8 @@ class UpdownSolver final : public SiteSolver {
   EngineKind kind() const noexcept override { return EngineKind::updown; }
   EngineCounters counters() const noexcept override {
     EngineCounters counters;
-    counters.factorisations = factorisations_, counters.sweeps = sweeps_;
+    counters.factorisations = factorisations_;
+    counters.sweeps = sweeps_;
     const std::lock_guard<std::mutex> lock(mutex_);
     if (factor_) counters.bytes = static_cast<double>(factor_->nzmax) * (sizeof(double) + sizeof(Index));
     return counters;
@@ -222,7 +222,8 @@ class UpdownSolver final : public SiteSolver {
       });
       for (const int k : order) {
         if (sites[j].vertex[k] < 0 || sites[j].weight[k] == 0) continue;
-        row[used] = position[at(sites[j].vertex[k])], value[used++] = root * sites[j].weight[k];
+        row[used] = position[at(sites[j].vertex[k])];
+        value[used++] = root * sites[j].weight[k];
       }
     }
     start[sites.size()] = used;
@@ -263,7 +264,8 @@ class UpdownSolver final : public SiteSolver {
       // went.
       position_.resize(at(n));
       for (Index r = 0; r < n; ++r) position_[at(static_cast<int*>(factor_->Perm)[r])] = r;
-      ++factorisations_, edits_ = 0;
+      ++factorisations_;
+      edits_ = 0;
       done = insert_present();
     }
     if (!done) {
@@ -286,8 +288,12 @@ class UpdownSolver final : public SiteSolver {
   // Solves into CHOLMOD's own array, which stays valid until the next call.
   const double* back_substitute(const double* right, std::size_t columns) const {
     cholmod_dense b{};
-    b.nrow = b.d = at(core_->size()), b.ncol = columns, b.nzmax = b.nrow * columns;
-    b.x = const_cast<double*>(right), b.xtype = CHOLMOD_REAL, b.dtype = CHOLMOD_DOUBLE;
+    b.nrow = b.d = at(core_->size());
+    b.ncol = columns;
+    b.nzmax = b.nrow * columns;
+    b.x = const_cast<double*>(right);
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
     if (!cholmod_solve2(CHOLMOD_A, factor_, &b, nullptr, &work_.x, nullptr, &work_.y, &work_.e, &common_.c))
       throw_status(common_.c);
     sweeps_ += 2;
@@ -333,7 +339,9 @@ class UpdownSolver final : public SiteSolver {
   mutable Common common_;
   cholmod_factor* factor_ = nullptr;
   struct Work {  // scratch of cholmod_solve2, kept from solve to solve
-    cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;
+    cholmod_dense* x = nullptr;
+    *y = nullptr;
+    *e = nullptr;
   };
   mutable Work work_;
   std::uint32_t edits_ = 0, factorisations_ = 0;

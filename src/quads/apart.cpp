@@ -13,7 +13,8 @@ Apart::Apart(FluxSurface& surface, Memory& memory) : offset_(surface.component_c
       high(surface.component_count, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, memory);
   for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
     const Vec3 p = surface.position[v];
-    Vec3 &l = low[surface.component[v]], &h = high[surface.component[v]];
+    Vec3& l = low[surface.component[v]];
+    &h = high[surface.component[v]];
     l = {std::min(l.x, p.x), std::min(l.y, p.y), std::min(l.z, p.z)};
     h = {std::max(h.x, p.x), std::max(h.y, p.y), std::max(h.z, p.z)};
   }
@@ -21,7 +22,8 @@ Apart::Apart(FluxSurface& surface, Memory& memory) : offset_(surface.component_c
   for (std::int32_t c = 1; c < surface.component_count; ++c) {
     const double length = norm(high[c] - low[c]);
     offset_[c].x = end + before + length - low[c].x;
-    end = high[c].x + offset_[c].x, before = length;
+    end = high[c].x + offset_[c].x;
+    before = length;
   }
   for (std::int32_t v = 0; v < surface.vertex_count(); ++v)
     surface.position[v] = surface.position[v] + offset_[surface.component[v]];
@@ -33,7 +35,10 @@ Vec3 Apart::moved(const FluxSurface& surface, Vec3 place) const noexcept {
   Vec3 offset;
   for (std::int32_t v = 0; v < surface.first_apex; ++v) {
     const Vec3 own = offset_[surface.component[v]];
-    if (const double d = norm(surface.position[v] - own - place); d < least) least = d, offset = own;
+    if (const double d = norm(surface.position[v] - own - place); d < least) {
+      least = d;
+      offset = own;
+    }
   }
   return place + offset;
 }

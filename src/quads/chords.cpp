@@ -92,7 +92,9 @@ class Collapser {
         if (dead_[chord.half / 4]) continue;
         walk(chord.half);
         if (alive - quads_ >= least && mean_length() <= later * chord.cost && collapse()) {
-          alive -= quads_, ++removed, changed = true;
+          alive -= quads_;
+          ++removed;
+          changed = true;
         }
         clear_walk();
       }
@@ -109,13 +111,19 @@ class Collapser {
     Table<std::int32_t> stack(memory_);
     for (std::int32_t f = 0; f < q_.quad_count(); ++f) {
       if (piece_[f] != none) continue;
-      piece_[f] = size_.size(), size_.push_back(0), stack.push_back(f);
+      piece_[f] = size_.size();
+      size_.push_back(0);
+      stack.push_back(f);
       while (!stack.empty()) {
         const std::int32_t g = stack.back();
-        stack.pop_back(), ++size_[piece_[g]];
+        stack.pop_back();
+        ++size_[piece_[g]];
         for (std::int32_t h = 4 * g; h < 4 * g + 4; ++h) {
           const std::int32_t next = q_.twin[h] == none ? none : q_.twin[h] / 4;
-          if (next != none && piece_[next] == none) piece_[next] = piece_[g], stack.push_back(next);
+          if (next != none && piece_[next] == none) {
+            piece_[next] = piece_[g];
+            stack.push_back(next);
+          }
         }
       }
     }
@@ -132,14 +140,16 @@ class Collapser {
         const std::int32_t v = ends[k];
         const Vec3 way = unit_vector(q_.vertices.position[ends[1 - k]] - q_.vertices.position[v]);
         if (has[v] && dot(before[v], way) > most_bend) corners_[v] = 1;
-        has[v] = 1, before[v] = way;
+        has[v] = 1;
+        before[v] = way;
       }
     }
   }
 
   // Collects the half-edges that the chord through h crosses, each edge with both; counts its quads.
   void walk(std::int32_t h) {
-    halves_.clear(), quads_ = 0;
+    halves_.clear();
+    quads_ = 0;
     stack_push(h);
     for (std::int32_t i = 0; i < halves_.size(); ++i) {
       const std::int32_t g = halves_[i];
@@ -173,7 +183,9 @@ class Collapser {
 
   // Removes the chord of the last walk if the mesh stays valid.
   bool collapse() {
-    classes_.clear(), joins_.clear(), moved_.clear();
+    classes_.clear();
+    joins_.clear();
+    moved_.clear();
     const bool good = plan();
     if (good) apply();
     for (const std::int32_t v : classes_) leader_[v] = hub_[v] = none;
@@ -186,7 +198,10 @@ class Collapser {
     const Table<std::uint8_t>&pinned = q_.vertices.pinned, &border = q_.vertices.border;
     for (const std::int32_t h : halves_) {
       for (const std::int32_t v : {q_.tail[h], q_.head(h)}) {
-        if (leader_[v] == none) leader_[v] = v, classes_.push_back(v);
+        if (leader_[v] == none) {
+          leader_[v] = v;
+          classes_.push_back(v);
+        }
       }
     }
     std::int32_t merged = 0, edges = 0, twice = 0;
@@ -200,7 +215,8 @@ class Collapser {
       if (border[v] && border[w] && q_.twin[h] != none) return false;
       const std::int32_t a = find(v), b = find(w);
       if (a == b) continue;
-      leader_[std::max(a, b)] = std::min(a, b), ++merged;
+      leader_[std::max(a, b)] = std::min(a, b);
+      ++merged;
     }
     if (!keeps_rings()) return false;
     // A circle of crossed edges may only be the sides of a quad that the chord crosses twice.
@@ -234,7 +250,8 @@ class Collapser {
       const std::int32_t first = QuadComplex::next(h);
       std::int32_t left = 0, quads = 0;
       for (std::int32_t g = first; g != none && quads < 2 * least_ring;) {
-        left += !crossed_[g / 4], ++quads;
+        left += !crossed_[g / 4];
+        ++quads;
         g = q_.twin[QuadComplex::opposite(g)];
         if (g == first && left < least_ring) return false;
         if (g == first) break;
@@ -254,12 +271,14 @@ class Collapser {
       if (!is_hub(v)) continue;
       std::int32_t& hub = hub_[find(v)];
       if (hub != none || twice > 0) return false;
-      hub = v, any = true;
+      hub = v;
+      any = true;
     }
     if (!any) return true;
     for (const std::int32_t v : classes_) gaps_[find(v)] += at_border_[v];
     for (const std::int32_t h : halves_) {
-      start_[q_.tail[h]] = h, start_[q_.head(h)] = QuadComplex::next(h);
+      start_[q_.tail[h]] = h;
+      start_[q_.head(h)] = QuadComplex::next(h);
       gaps_[find(q_.tail[h])] -= q_.twin[h] == none;
     }
     bool good = true;
@@ -267,7 +286,10 @@ class Collapser {
       const std::int32_t c = find(v);
       if (hub_[c] != none) good = good && gaps_[c] <= 1 && (v == hub_[c] ? keeps_quads(v) : check_around(v, c));
     }
-    for (const std::int32_t v : classes_) gaps_[v] = 0, start_[v] = none;
+    for (const std::int32_t v : classes_) {
+      gaps_[v] = 0;
+      start_[v] = none;
+    }
     return good;
   }
   bool keeps_quads(std::int32_t hub) const noexcept {
@@ -322,7 +344,8 @@ class Collapser {
     for (const Join& j : joins_) {
       for (const std::int32_t g : {j.a, j.b}) {
         if (g == none) continue;
-        start_[find(q_.tail[g])] = g, start_[find(q_.head(g))] = QuadComplex::next(g);
+        start_[find(q_.tail[g])] = g;
+        start_[find(q_.head(g))] = QuadComplex::next(g);
       }
     }
     bool good = true;
@@ -367,7 +390,9 @@ class Collapser {
     const bool border = q_.twin[first] == none;
     for (std::int32_t h = first; h != none;) {
       if (class_of(q_.tail[h]) != c || in_fan_[h]) return false;
-      in_fan_[h] = 1, fan_.push_back(h), ++corners;
+      in_fan_[h] = 1;
+      fan_.push_back(h);
+      ++corners;
       neighbours_.push_back(class_of(q_.head(h)));
       const std::int32_t far = class_of(q_.head(QuadComplex::next(h)));
       if (far == c) return false;
@@ -391,8 +416,13 @@ class Collapser {
     Table<std::int32_t> count(memory_);
     for (const std::int32_t v : classes_) {
       const std::int32_t c = find(v);
-      if (place_[c] == none) place_[c] = sum.size(), sum.push_back(Vec3{}), count.push_back(0);
-      sum[place_[c]] = sum[place_[c]] + all.position[v], ++count[place_[c]];
+      if (place_[c] == none) {
+        place_[c] = sum.size();
+        sum.push_back(Vec3{});
+        count.push_back(0);
+      }
+      sum[place_[c]] = sum[place_[c]] + all.position[v];
+      ++count[place_[c]];
     }
     Table<std::int32_t> best(sum.size(), none, memory_);
     const auto rank = [&](std::int32_t v) {
@@ -406,7 +436,8 @@ class Collapser {
     }
     for (const std::int32_t h : halves_) {
       if (dead_[h / 4]) continue;
-      dead_[h / 4] = 1, --size_[piece_[h / 4]];
+      dead_[h / 4] = 1;
+      --size_[piece_[h / 4]];
       for (std::int32_t k = 0; k < 4; ++k) --quads_at_[q_.tail[h / 4 * 4 + k]];
     }
     for (const Join& j : joins_) {
@@ -418,14 +449,16 @@ class Collapser {
     for (const std::int32_t v : classes_) {
       const std::int32_t to = best[place_[find(v)]];
       if (v == to) continue;
-      quads_at_[to] += quads_at_[v], quads_at_[v] = 0;
+      quads_at_[to] += quads_at_[v];
+      quads_at_[v] = 0;
       at_border_[to] |= at_border_[v];
     }
     // Half-edges around the classes are those of the joins' fans.
     for (const Join& j : joins_) {
       for (const std::int32_t g : {j.a, j.b}) {
         if (g == none) continue;
-        rename(g, best), rename(QuadComplex::next(g), best);
+        rename(g, best);
+        rename(QuadComplex::next(g), best);
       }
     }
     for (const std::int32_t v : classes_) place_[v] = none;
@@ -439,8 +472,11 @@ class Collapser {
       const std::int32_t c = find(v), hub = hub_[c];
       if (c != v || hub == none) continue;
       const std::int32_t from = best[place_[c]];
-      all.location[hub] = all.location[from], all.position[hub] = all.position[from];
-      all.pinned[hub] = all.pinned[from], all.border[hub] = all.border[from], all.scale[hub] = all.scale[from];
+      all.location[hub] = all.location[from];
+      all.position[hub] = all.position[from];
+      all.pinned[hub] = all.pinned[from];
+      all.border[hub] = all.border[from];
+      all.scale[hub] = all.scale[from];
       corners_[hub] = corners_[from];
       best[place_[c]] = hub;
     }

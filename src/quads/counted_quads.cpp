@@ -87,8 +87,11 @@ QuadSource::Found QuadSource::find_in_map(double length, bool untangled, FieldQu
   repair_quads(surface_, out.quads, repaired, memory_);
   out.component = components_of(surface_, out.quads, memory_);
   out.sound = find_sound(surface_, out.quads, out.component, area_, memory_);
-  report.turned_over = map.turned_over, report.roundings = map.roundings, report.backward = backward;
-  report.removed = repaired.removed, report.added = repaired.added;
+  report.turned_over = map.turned_over;
+  report.roundings = map.roundings;
+  report.backward = backward;
+  report.removed = repaired.removed;
+  report.added = repaired.added;
   return out;
 }
 
@@ -123,8 +126,10 @@ QuadComplex QuadSource::make(double length, bool untangled, FieldQuadReport& rep
   for (std::int32_t c = 0; c < sound.size(); ++c) {
     of_substitute_[c] |= small[c];
     report.substitutes += !sound[c];
-    missing[c] = !sound[c] && !of_substitute_[c], any |= missing[c] != 0;
-    sound[c] = sound[c] && !(count[c] == 1 && of_substitute_[c]), all = all && sound[c];
+    missing[c] = !sound[c] && !of_substitute_[c];
+    any |= missing[c] != 0;
+    sound[c] = sound[c] && !(count[c] == 1 && of_substitute_[c]);
+    all = all && sound[c];
   }
   if (any && strict_) throw LostComponent{};
   if (any) substitute(length, untangled, missing, report);
@@ -146,15 +151,20 @@ void QuadSource::substitute(double length, bool untangled, Table<std::uint8_t>& 
     bool open = false;
     for (std::int32_t c = 0; c < missing.size(); ++c) {
       of_substitute_[c] |= missing[c] && found.sound[c];
-      missing[c] = missing[c] && !found.sound[c], open |= missing[c] != 0;
+      missing[c] = missing[c] && !found.sound[c];
+      open |= missing[c] != 0;
     }
     if (!open) return;
   }
-  if (once_) mapper_.release(), released_ = true;
+  if (once_) {
+    mapper_.release();
+    released_ = true;
+  }
   const QuadComplex split = split_triangles(surface_, features_, missing, memory_);
   substitute_.append(split, memory_);
   for (std::int32_t c = 0; c < missing.size(); ++c) {
-    of_substitute_[c] |= missing[c], report.split += missing[c];
+    of_substitute_[c] |= missing[c];
+    report.split += missing[c];
   }
 }
 
@@ -165,7 +175,11 @@ QuadMesh CountedQuads::make(bool untangled, FieldQuadReport& made) {
     QuadComplex found = source_.make(length, untangled, made);
     const double ratio = found.quad_count() / wanted_, error = miss_of(ratio);
     const bool better = best < 0 || error < best;
-    if (better) best = error, quads = std::move(found), made.edge_length = length;
+    if (better) {
+      best = error;
+      quads = std::move(found);
+      made.edge_length = length;
+    }
     // A component that is shorter than the lines cannot come nearer.
     if (!by_count_ || error <= faces_error || (made.substitutes > 0 && (!better || ratio > 1))) break;
     length *= std::sqrt(ratio);

@@ -58,7 +58,8 @@ Vector<Complex> curvature_crosses(const Core& core, const Connection& connection
     for (const Index v : {a, b}) {
       const Complex along = unit_of(connection.to_frame(v, edge), 0);
       const double share = bend * length / 2 / core.areas[at(v)];
-      difference[at(v)] += share * along * along, sum[at(v)] += share;
+      difference[at(v)] += share * along * along;
+      sum[at(v)] += share;
     }
   }
   for (Index pass = 0; pass < passes; ++pass) {
@@ -71,11 +72,14 @@ Vector<Complex> curvature_crosses(const Core& core, const Connection& connection
         const Index w = topology.neighbour[at(i)], e = topology.neighbour_edge[at(i)];
         const double area = core.areas[at(w)];
         total += area * difference[at(w)] * at_angle(1.0, 2 * connection.turn(topology, e, v));
-        total_sum += area * sum[at(w)], weight += area;
+        total_sum += area * sum[at(w)];
+        weight += area;
       }
-      next[at(v)] = weight > 0 ? total / weight : Complex(0, 0), next_sum[at(v)] = weight > 0 ? total_sum / weight : 0;
+      next[at(v)] = weight > 0 ? total / weight : Complex(0, 0);
+      next_sum[at(v)] = weight > 0 ? total_sum / weight : 0;
     }
-    difference.swap(next), sum.swap(next_sum);
+    difference.swap(next);
+    sum.swap(next_sum);
   }
   const double size = std::sqrt(whole);
   for (std::size_t v = 0; v < n; ++v) {
@@ -139,7 +143,8 @@ Vector<Complex> CrossSmoother::smooth(Span<const Complex> wish, Span<const HardC
     report(static_cast<float>(round) / static_cast<float>(smooth_rounds + 1));
     for (Index v = 0; v < core.size(); ++v) {
       const Complex w = t * core.areas[at(v)] * target[at(v)];
-      right[at(system.unknown(v, 0))] = w.real(), right[at(system.unknown(v, 1))] = w.imag();
+      right[at(system.unknown(v, 0))] = w.real();
+      right[at(system.unknown(v, 1))] = w.imag();
     }
     solver.set_right(right);
     solver.solve(x.data());

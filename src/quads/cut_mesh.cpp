@@ -141,8 +141,10 @@ bool CutMesh::cut(double longest, Index most, Memory& memory) {
       place[3 + k] = is_long(place[k], place[next]) ? find_middle(cuts, place[k], place[next]) : Mesh::none;
       if (place[3 + k] == Mesh::none)
         whole = k;
-      else
-        ++count, single = k;
+      else {
+        ++count;
+        single = k;
+      }
       for (int j = 0; j < 3; ++j) weights[3 + k][j] = 0.5 * (old.of[k][j] + old.of[next][j]);
     }
     if (count == 0) continue;
@@ -154,25 +156,34 @@ bool CutMesh::cut(double longest, Index most, Memory& memory) {
       for (int k = 0; k < 3; ++k) std::copy(weights[corners[k]], weights[corners[k]] + 3, own.of[k]);
       if (first) {
         for (std::size_t k = 0; k < 3; ++k) corner[3 * t + k] = place[corners[k]];
-        weight[t] = own, first = false;
+        weight[t] = own;
+        first = false;
         return;
       }
       for (const int k : corners) corner.push_back(place[k]);
-      parent.push_back(of), weight.push_back(own);
+      parent.push_back(of);
+      weight.push_back(own);
     };
     if (count == 1) {
       const int k = single, next = (k + 1) % 3, last = (k + 2) % 3;
-      add(k, 3 + k, last), add(3 + k, next, last);
+      add(k, 3 + k, last);
+      add(3 + k, next, last);
     } else if (count == 2) {
       const int k = whole, next = (k + 1) % 3, last = (k + 2) % 3, p = 3 + next, q = 3 + last;
       add(p, last, q);
       const auto length = [&](int a, int b) { return norm(position[at(place[b])] - position[at(place[a])]); };
-      if (length(k, p) <= length(next, q))
-        add(k, next, p), add(k, p, q);
-      else
-        add(k, next, q), add(next, p, q);
+      if (length(k, p) <= length(next, q)) {
+        add(k, next, p);
+        add(k, p, q);
+      } else {
+        add(k, next, q);
+        add(next, p, q);
+      }
     } else {
-      add(0, 3, 5), add(3, 1, 4), add(5, 4, 2), add(3, 4, 5);
+      add(0, 3, 5);
+      add(3, 1, 4);
+      add(5, 4, 2);
+      add(3, 4, 5);
     }
   }
   return true;

@@ -25,7 +25,8 @@ struct CutMesh {
   void for_pieces(Index a, Index b, Use&& use) const {
     const Index m = middle_of(a, b);
     if (m == Mesh::none) return use(a, b);
-    for_pieces(a, m, use), for_pieces(m, b, use);
+    for_pieces(a, m, use);
+    for_pieces(m, b, use);
   }
 
   struct Weights {

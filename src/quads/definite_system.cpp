@@ -20,17 +20,24 @@ DefiniteSystem::DefiniteSystem(const SymmetricMatrix& matrix, std::shared_ptr<co
   for (Index i = 0; i < matrix.size(); ++i) sum += matrix.value[matrix.diagonal(i)];
   if (sum > 0) weight_ = sum / matrix.size();
   // One component without a pin: its corner is -1 / weight and its border 0, so that its unknown of the border is 0.
-  paths_.group.assign(1, -1), paths_.column.assign(1, 0), paths_.corner.assign(1, -1 / weight_);
+  paths_.group.assign(1, -1);
+  paths_.column.assign(1, 0);
+  paths_.corner.assign(1, -1 / weight_);
   clear();
 }
 
 void DefiniteSystem::clear() {
   PinnedOperator a;
-  a.matrix = &matrix_, a.factor = factor_.get();
-  a.pins = Span<const Index>(&pin_, 1), a.pin_weight = Span<const double>(&weight_, 1), a.paths = &paths_;
-  a.memory = &memory_, a.jobs = &jobs_;
+  a.matrix = &matrix_;
+  a.factor = factor_.get();
+  a.pins = Span<const Index>(&pin_, 1);
+  a.pin_weight = Span<const double>(&weight_, 1);
+  a.paths = &paths_;
+  a.memory = &memory_;
+  a.jobs = &jobs_;
   system_.emplace(a);
-  fixed_.clear(), values_.clear();
+  fixed_.clear();
+  values_.clear();
 }
 
 void DefiniteSystem::set_right(Span<const double> right) {
@@ -57,7 +64,8 @@ void DefiniteSystem::fix(Span<const Index> unknowns, Span<const double> values) 
     sites.push_back(Site::at_unknown(unknowns[i], 0));
   }
   SiteEdit edit;
-  edit.add = slots, edit.sites = sites;
+  edit.add = slots;
+  edit.sites = sites;
   system_->edit(edit);
   fixed_.insert(fixed_.end(), unknowns.begin(), unknowns.end());
   values_.insert(values_.end(), values.begin(), values.end());

@@ -68,7 +68,8 @@ class Extractor {
     return a;
   }
   static void unite(Table<std::int32_t>& parent, std::int32_t a, std::int32_t b) noexcept {
-    a = root(parent, a), b = root(parent, b);
+    a = root(parent, a);
+    b = root(parent, b);
     if (a != b) parent[std::max(a, b)] = std::min(a, b);
   }
   std::int32_t find(std::int32_t a) noexcept { return root(parent_, a); }
@@ -118,14 +119,18 @@ class Extractor {
       const auto [left, right] = std::minmax({map_.u[3 * t], map_.u[3 * t + 1], map_.u[3 * t + 2]});
       const std::int32_t u = cell_of(left), columns = cell_of(right) - u + 1;
       cells_[t] = {first_.size(), u, columns};
-      low.assign(columns, INT32_MAX), high.assign(columns, INT32_MIN);
+      low.assign(columns, INT32_MAX);
+      high.assign(columns, INT32_MIN);
       const auto touch = [&](std::int32_t i, std::int32_t j) {
-        low[i - u] = std::min(low[i - u], j), high[i - u] = std::max(high[i - u], j);
+        low[i - u] = std::min(low[i - u], j);
+        high[i - u] = std::max(high[i - u], j);
       };
       for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h)
-        walk(h, [&](std::int32_t i, std::int32_t j, int, std::int32_t) { touch(i, j); }, touch);
+        walk(
+            h, [&](std::int32_t i, std::int32_t j, int, std::int32_t) { touch(i, j); }, touch);
       for (std::int32_t c = 0; c < columns; ++c) {
-        first_.push_back(static_cast<std::int32_t>(total)), low_.push_back(low[c]);
+        first_.push_back(static_cast<std::int32_t>(total));
+        low_.push_back(low[c]);
         total += std::int64_t{high[c]} - low[c] + 1;
       }
       if (total > INT32_MAX / 2) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the quads are too many");
@@ -179,7 +184,8 @@ class Extractor {
       const std::int32_t g = s_.twin[h];
       if (!owns(h)) continue;
       const auto list = [&](std::int32_t half, Table<std::int32_t>& out, Table<std::int32_t>& pieces) {
-        out.clear(), pieces.clear();
+        out.clear();
+        pieces.clear();
         walk(
             half,
             [&](std::int32_t i, std::int32_t j, int kind, std::int32_t step) {
@@ -215,7 +221,8 @@ class Extractor {
       const Cells& cells = cells_[t];
       if (cells.columns < 2) continue;
       // By u-line: the row where the turn around the triangle crosses it towards larger and towards smaller u.
-      up.assign(cells.columns - 1, 0), down.assign(cells.columns - 1, 0);
+      up.assign(cells.columns - 1, 0);
+      down.assign(cells.columns - 1, 0);
       for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
         walk(
             h,
@@ -246,13 +253,17 @@ class Extractor {
   // Finds a place for every cell: where the map has its whole numbers, or else the middle of a piece of an edge.
   void place_vertices() {
     place_.assign(parent_.size(), SurfacePoint{});
-    quality_.assign(parent_.size(), 0), on_border_.assign(parent_.size(), 0);
+    quality_.assign(parent_.size(), 0);
+    on_border_.assign(parent_.size(), 0);
     Poller poller;
     for (std::int32_t t = 0; t < s_.real_triangles; ++t) {
       poller.due();
       const Cells& cells = cells_[t];
       std::int64_t u[3], v[3];
-      for (int k = 0; k < 3; ++k) u[k] = map_.u[3 * t + k], v[k] = map_.v[3 * t + k];
+      for (int k = 0; k < 3; ++k) {
+        u[k] = map_.u[3 * t + k];
+        v[k] = map_.v[3 * t + k];
+      }
       const std::int64_t area = (u[1] - u[0]) * (v[2] - v[0]) - (u[2] - u[0]) * (v[1] - v[0]);
       for (std::int32_t i = cells.u; area != 0 && i < cells.u + cells.columns; ++i) {
         const std::int32_t column = cells.column + (i - cells.u), rows = first_[column + 1] - first_[column];
@@ -281,7 +292,8 @@ class Extractor {
           SurfacePoint point;
           point.triangle = t;
           const double middle = (from + to) / 2;
-          point.weight[k] = 1 - middle, point.weight[(k + 1) % 3] = middle;
+          point.weight[k] = 1 - middle;
+          point.weight[(k + 1) % 3] = middle;
           const std::int32_t c = number(t, i, j);
           offer(c, point, border ? at_border_ : at_edge_);
           if (border) on_border_[find(c)] = 1;
@@ -301,7 +313,8 @@ class Extractor {
   void offer(std::int32_t cell, const SurfacePoint& point, std::uint8_t quality) {
     cell = find(cell);
     if (quality_[cell] >= quality) return;
-    quality_[cell] = quality, place_[cell] = point;
+    quality_[cell] = quality;
+    place_[cell] = point;
   }
 
   QuadComplex join_quads() {
@@ -310,7 +323,8 @@ class Extractor {
     for (std::int32_t p = 0; p < feature_.size(); ++p) {
       if (feature_[p]) feature_[root(piece_parent_, p)] = 1;
     }
-    out.twin.assign(corners_.size(), none), out.feature.assign(corners_.size(), 0);
+    out.twin.assign(corners_.size(), none);
+    out.feature.assign(corners_.size(), 0);
     for (std::int32_t h = 0; h < corners_.size(); ++h) {
       const std::int32_t cell = corners_[h];
       if (vertex[cell] == none)
@@ -390,10 +404,16 @@ class Extractor {
       if (!free) continue;
       const std::int32_t a = out.tail[leave[0]], b = out.tail[leave[1]], q = out.tail.size();
       for (const std::int32_t v :
-           {a, out.tail[enter[0]], out.head(leave[1]), b, a, b, out.tail[enter[1]], out.head(leave[0])})
-        out.tail.push_back(v), out.twin.push_back(none), out.feature.push_back(0);
-      out.join(q, enter[0]), out.join(q + 2, leave[1]), out.join(q + 3, q + 4);
-      out.join(q + 5, enter[1]), out.join(q + 7, leave[0]);
+           {a, out.tail[enter[0]], out.head(leave[1]), b, a, b, out.tail[enter[1]], out.head(leave[0])}) {
+        out.tail.push_back(v);
+        out.twin.push_back(none);
+        out.feature.push_back(0);
+      }
+      out.join(q, enter[0]);
+      out.join(q + 2, leave[1]);
+      out.join(q + 3, q + 4);
+      out.join(q + 5, enter[1]);
+      out.join(q + 7, leave[0]);
       out.feature[q + 1] = out.feature[q + 6] = 1;
       for (const std::int32_t h : sides) out.feature[h] = 0;
       out.vertices.pinned[a] = out.vertices.pinned[b] = QuadMesh::free;
@@ -412,7 +432,8 @@ class Extractor {
       if (seen[start] || s_.is_real(s_.twin[start])) continue;
       bool crossed = false;
       for (std::int32_t h = start; !seen[h];) {
-        seen[h] = 1, crossed |= reached[h] != 0;
+        seen[h] = 1;
+        crossed |= reached[h] != 0;
         h = FluxSurface::next(h);
         while (s_.is_real(s_.twin[h])) h = FluxSurface::next(s_.twin[h]);
       }

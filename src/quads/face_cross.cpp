@@ -56,8 +56,10 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
                           const Table<std::uint8_t>& features, Memory& memory) {
   FaceCross out(memory);
   const std::int32_t triangles = surface.real_triangles, halves = surface.half_count();
-  out.edge.assign(halves, Complex(0, 0)), out.direction.assign(triangles, Complex(1, 0));
-  out.turn.assign(halves, 0), out.index.assign(surface.vertex_count(), 0);
+  out.edge.assign(halves, Complex(0, 0));
+  out.direction.assign(triangles, Complex(1, 0));
+  out.turn.assign(halves, 0);
+  out.index.assign(surface.vertex_count(), 0);
   const SharpCorners corners = SharpCorners::find(surface, features, memory);
   Poller poller;
   for (std::int32_t t = 0; t < triangles; ++t) {
@@ -79,13 +81,15 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
       const Vec3 facing = dot(connection.normal[i], normal) < 0 ? -1.0 * normal : normal;
       const Vec3 carried = carry(space, connection.normal[i], facing);
       Complex d = unit_of(Complex(dot(carried, x), dot(carried, y)), 1);
-      d *= d, d *= d;
+      d *= d;
+      d *= d;
       sum += size * d;
     }
     Complex along = 0;
     const auto add_along = [&](std::int32_t h, double turn) {
       Complex d = unit_of(out.edge[h], 1) * at_angle(1.0, turn);
-      d *= d, d *= d;
+      d *= d;
+      d *= d;
       along += d;
     };
     for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
@@ -104,8 +108,10 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
     const Complex mine = out.direction[h / 3] * std::conj(unit_of(out.edge[h], 1)),
                   other = out.direction[g / 3] * std::conj(unit_of(-out.edge[g], 1));
     const double angle = angle_of(mine * std::conj(other)), quarters = std::nearbyint(angle / (half_turn / 2));
-    out.turn[h] = static_cast<std::int8_t>(quarters), out.turn[g] = static_cast<std::int8_t>(-quarters);
-    rest[h] = angle - quarters * (half_turn / 2), rest[g] = -rest[h];
+    out.turn[h] = static_cast<std::int8_t>(quarters);
+    out.turn[g] = static_cast<std::int8_t>(-quarters);
+    rest[h] = angle - quarters * (half_turn / 2);
+    rest[g] = -rest[h];
   }
   for (std::int32_t v = 0; v < surface.first_apex; ++v) {
     poller.due();
@@ -116,7 +122,8 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
     for (std::int32_t h = begin;;) {
       closed &= surface.is_real(h);
       if (!closed) break;
-      sum += rest[h] - corner_angle(surface, h), turns += out.turn[h];
+      sum += rest[h] - corner_angle(surface, h);
+      turns += out.turn[h];
       h = surface.turn_left(h);
       if (h == begin) break;
     }

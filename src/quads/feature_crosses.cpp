@@ -34,8 +34,12 @@ Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, 
       Complex z = connection.to_frame(v, edge);
       if (!(length_of(z) > 0)) continue;
       const double turn = !corners.empty() && corners.passed[end] ? mean : left != 0 ? left : right;
-      z /= length_of(z), z *= at_angle(1.0, turn), z *= z, z *= z;
-      sum[at(v)] += z, count[at(v)] += 1;
+      z /= length_of(z);
+      z *= at_angle(1.0, turn);
+      z *= z;
+      z *= z;
+      sum[at(v)] += z;
+      count[at(v)] += 1;
     }
   }
   const Topology& topology = core.topology;

@@ -67,9 +67,13 @@ FeatureLines::Place FeatureLines::find(std::int32_t slot) {
     const std::int32_t s = path_[i];
     RealSum& sum = sum_[static_cast<std::size_t>(s)];
     // x_s = sign_s x_parent + sum_s, and x_parent = sign x_line + sum
-    if (parent_[s] != none) add_to(sum, place.sum, sign_[s]), place.sign *= sign_[s];
+    if (parent_[s] != none) {
+      add_to(sum, place.sum, sign_[s]);
+      place.sign *= sign_[s];
+    }
     place.sum = sum;
-    parent_[s] = slot, sign_[s] = place.sign;
+    parent_[s] = slot;
+    sign_[s] = place.sign;
   }
   return place;
 }
@@ -131,7 +135,8 @@ void FeatureLines::add(std::int32_t h, Complex edge) {
 void FeatureLines::equate(const Place& a, const Place& b) {
   if (a.line == none && b.line != none) return equate(b, a);
   RealSum difference(&memory_);  // b - a
-  add_to(difference, b.sum, 1), add_to(difference, a.sum, -1);
+  add_to(difference, b.sum, 1);
+  add_to(difference, a.sum, -1);
   if (a.line == b.line) {
     if (a.line == none || a.sign == b.sign) return relate(std::move(difference));
     ++left_out_;  // 2 x = sum, and half a sum need not be whole
@@ -140,7 +145,8 @@ void FeatureLines::equate(const Place& a, const Place& b) {
   // x_a = sign_a (sign_b x_b + difference)
   RealSum sum(&memory_);
   add_to(sum, difference, a.sign);
-  parent_[a.line] = b.line, sign_[a.line] = a.sign * b.sign;
+  parent_[a.line] = b.line;
+  sign_[a.line] = a.sign * b.sign;
   sum_[static_cast<std::size_t>(a.line)].swap(sum);
 }
 

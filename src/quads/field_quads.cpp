@@ -109,7 +109,8 @@ struct Guided {
 Guided read_guides(Span<const QuadGuide> guides, const Connection& connection, Index vertices, Memory& memory) {
   Guided out(memory);
   if (guides.empty()) return out;
-  out.cross.assign(at(vertices), Complex(0, 0)), out.weight.assign(at(vertices), 0.0);
+  out.cross.assign(at(vertices), Complex(0, 0));
+  out.weight.assign(at(vertices), 0.0);
   Vector<double> sum(at(vertices), 0.0, &memory);
   for (std::size_t i = 0; i < guides.size(); ++i) {
     const QuadGuide& guide = guides[i];
@@ -119,8 +120,11 @@ Guided read_guides(Span<const QuadGuide> guides, const Connection& connection, I
     if (!(length_of(z) > least_tangent))
       fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(guide.given),
            "guide_vectors[%d] stands on the surface; give a direction along it", guide.given);
-    z /= length_of(z), z *= z, z *= z;
-    out.cross[v] += guide.weight * z, sum[v] += guide.weight;
+    z /= length_of(z);
+    z *= z;
+    z *= z;
+    out.cross[v] += guide.weight * z;
+    sum[v] += guide.weight;
     out.weight[v] = std::max(out.weight[v], guide.weight);
   }
   for (std::size_t v = 0; v < out.cross.size(); ++v) {
@@ -159,7 +163,8 @@ double stretch_of(const QuadMesh& mesh, Memory& memory) {
     double low = HUGE_VAL, high = 0;
     for (std::int32_t k = 0; k < 4; ++k) {
       const double side = norm(mesh.position[mesh.quad(f)[(k + 1) % 4]] - mesh.position[mesh.quad(f)[k]]);
-      low = std::min(low, side), high = std::max(high, side);
+      low = std::min(low, side);
+      high = std::max(high, side);
     }
     ratio.push_back(low > 0 ? high / low : HUGE_VAL);
   }
@@ -186,12 +191,16 @@ void even_out_components(const FluxSurface& surface, const RelaxOptions& options
   const Table<double> before = component_areas(surface, mesh, memory);
   Table<Vec3> position(memory);
   Table<SurfacePoint> location(memory);
-  position = mesh.position, location = mesh.location;
+  position = mesh.position;
+  location = mesh.location;
   relax_quads(surface, mesh, options, memory);
   const Table<double> after = component_areas(surface, mesh, memory);
   for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
     const std::int32_t c = surface.component[surface.tail[3 * location[v].triangle]];
-    if (after[c] < least_evened * before[c]) mesh.position[v] = position[v], mesh.location[v] = location[v];
+    if (after[c] < least_evened * before[c]) {
+      mesh.position[v] = position[v];
+      mesh.location[v] = location[v];
+    }
   }
 }
 
@@ -199,7 +208,8 @@ void even_out_components(const FluxSurface& surface, const RelaxOptions& options
 double even_out(const FluxSurface& surface, const QuadDistance& distance, std::int32_t rounds, double edge_length,
                 QuadMesh& mesh, Memory& memory) {
   RelaxOptions relax;
-  relax.rounds = rounds, relax.edge_length = edge_length;
+  relax.rounds = rounds;
+  relax.edge_length = edge_length;
   {
     const ProgressRange range(field_progress.extracted, field_progress.relaxed);
     even_out_components(surface, relax, mesh, memory);
@@ -207,7 +217,8 @@ double even_out(const FluxSurface& surface, const QuadDistance& distance, std::i
   const ProgressRange range(field_progress.relaxed, 1.0f);
   distance.turn_quads(mesh);
   FitOptions fit;
-  fit.edge_length = edge_length, fit.tolerance = fit_tolerance * edge_length;
+  fit.edge_length = edge_length;
+  fit.tolerance = fit_tolerance * edge_length;
   const double away = fit_quads(surface, distance, mesh, fit, memory);
   return unfold_quads(surface, distance, edge_length, away, mesh, memory);
 }
@@ -273,13 +284,17 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
     }
   }
   const Vector<Index> order(base.system->position.begin(), base.system->position.end(), &memory);
-  if (!kept) base.smoother.reset(), base.system.reset();  // their factor and matrices are a tenth of the memory
+  if (!kept) {
+    base.smoother.reset();
+    base.system.reset();
+  }  // their factor and matrices are a tenth of the memory
   made.field_ms = timer.milliseconds();
 
   Timer map_timer;
   part.emplace(field_progress.smoothed, field_progress.mapped);
   const Seams seams = Seams::make(surface, faces, memory);
-  made.singularities = seams.singularity_count, made.parameters = seams.parameter_count,
+  made.singularities = seams.singularity_count;
+  made.parameters = seams.parameter_count;
   made.cut_edges = seams.cut_edges;
   GridMapper mapper(surface, faces, seams, features, order, memory, *core.jobs);
   made.left_out = mapper.left_out();
@@ -310,7 +325,10 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
     double first = 0, stretch = 0;          // distance and stretch of the first mesh
     const bool untangled = wanted >= untangled_from;
     for (std::int32_t i = 0; i == 0 || (finer_left > 0 && source.is_open()); ++i) {
-      if (i > 0) --finer_left, share *= finer_share;
+      if (i > 0) {
+        --finer_left;
+        share *= finer_share;
+      }
       // One try is mostly enough.
       const ProgressRange try_range(done, (done + 1) / 2);
       done = (done + 1) / 2;
@@ -344,13 +362,19 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
       hf_inner::report(1.0f);
       const std::int32_t count = count_irregular(found, memory);
       const double stretched = stretch_of(found, memory);
-      if (i == 0) first = away, irregular = count, stretch = stretched;
+      if (i == 0) {
+        first = away;
+        irregular = count;
+        stretch = stretched;
+      }
       const double nearer = away > 0 ? first / away : HUGE_VAL;
       const bool better = away < off && count <= irregular * std::min<double>(most_irregular, nearer * nearer) &&
                           stretched <= most_stretched * stretch;
       const bool enough = away <= lost_limb * aimed || away > nearer_share * off;
       if (better) {
-        off = away, mesh = std::move(found), now = tried;
+        off = away;
+        mesh = std::move(found);
+        now = tried;
         if (i > 0) now.edge_length = aimed;  // with as many quads
       }
       if (enough) break;
@@ -360,9 +384,11 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
     const double ratio = mesh.face_count() / wanted, error = miss_of(ratio);
     const std::int32_t count = count_irregular(mesh, memory);
     if (best < 0 || (error < best && count <= most_irregular * chosen_irregular)) {
-      best = error, chosen_irregular = count;
+      best = error;
+      chosen_irregular = count;
       result.mesh = std::move(mesh);
-      now.quads_ms = made.quads_ms, now.fit_ms = made.fit_ms;
+      now.quads_ms = made.quads_ms;
+      now.fit_ms = made.fit_ms;
       chosen = now;
     }
     // Fitting adds quads, so the next turn aims at less.
@@ -401,7 +427,8 @@ QuadResult make_cut_quads(const FieldQuadOptions& options, double area, double l
   for (const QuadPole& pole : options.poles) own.add_pole(pole);
   own.add_pole_guides();
   FieldQuadOptions cut_options = own.get();
-  cut_options.facet = base->facet / base->core->mesh.scale, cut_options.strict = true;
+  cut_options.facet = base->facet / base->core->mesh.scale;
+  cut_options.strict = true;
   FieldQuadReport found;
   try {
     const ProgressRange part(field_progress.cut, field_progress.cut_done);

@@ -150,7 +150,8 @@ class EntryColumns {
         if (place >= first) {
           entries_[at(place)].value += entry.value;
         } else {
-          place = out, entries_[at(out++)] = entry;
+          place = out;
+          entries_[at(out++)] = entry;
         }
       }
       start_[c] = first;
@@ -255,7 +256,8 @@ void GridMapper::number(const Table<std::uint8_t>& features) {
   free_count_ = static_cast<std::int32_t>(free.size());
   for (std::int32_t i = 0; i < free_count_; ++i) unknown_[free[at(i)]] = i;
   std::int32_t count = free_count_;
-  of_parameter_.assign(2 * seams_.parameter_count, -1), of_line_.assign(lines.line_count(), -1);
+  of_parameter_.assign(2 * seams_.parameter_count, -1);
+  of_line_.assign(lines.line_count(), -1);
   for (std::int32_t p = 0; p < of_parameter_.size(); ++p) {
     if (!lines.is_solved(p)) of_parameter_[p] = count++;
   }
@@ -317,7 +319,10 @@ void GridMapper::assemble() {
         if (seams_.offset[corner] >= 0) terms[count++] = {n + seams_.offset[corner], Complex(sign, 0)};
       }
       // Both corners on one side of one seam: the offsets cancel.
-      if (count == 4 && terms[1].parameter == terms[3].parameter) terms[1] = terms[2], count = 2;
+      if (count == 4 && terms[1].parameter == terms[3].parameter) {
+        terms[1] = terms[2];
+        count = 2;
+      }
       if (counting) {
         for (int a = 0; a < count; ++a) sums.count(terms[a].parameter, count);
         continue;
@@ -395,10 +400,12 @@ void GridMapper::assemble() {
   }
   for (std::int32_t c = 0; c < size; ++c) start[at(c) + 1] += start[at(c)];
   Vector<std::int32_t> cursor(start.begin(), start.end(), &memory_);
-  matrix_.row.resize(at(start[at(size)])), matrix_.value.resize(matrix_.row.size());
+  matrix_.row.resize(at(start[at(size)]));
+  matrix_.value.resize(matrix_.row.size());
   const auto put = [&](std::int32_t row, std::int32_t column, double value) {
     const std::size_t i = at(cursor[at(column)]++);
-    matrix_.row[i] = row, matrix_.value[i] = value;
+    matrix_.row[i] = row;
+    matrix_.value[i] = value;
   };
   for (std::int32_t c = 0; c < size; ++c) {
     poller.due();
@@ -427,19 +434,26 @@ Vector<double> GridMapper::round(double edge_length, Vector<Index>* out_fixed, V
     for (std::size_t row = 0; row < c.count(); ++row) {
       const std::size_t i = at(c.unknown(row));
       const double away = std::fabs(x[i] - std::nearbyint(x[i]));
-      if (std::isnan(whole[i]) && away < least) least = away, best = row;
+      if (std::isnan(whole[i]) && away < least) {
+        least = away;
+        best = row;
+      }
     }
     const std::size_t chosen = at(c.unknown(best));
     whole[chosen] = std::nearbyint(x[chosen]);
     if (!std::isfinite(whole[chosen])) fail_too_large();
-    fixed.push_back(open[chosen]), values.push_back(whole[chosen]);
+    fixed.push_back(open[chosen]);
+    values.push_back(whole[chosen]);
     const double* column = c.hold(best);
     const double by = (whole[chosen] - x[chosen]) / column[best];
     for (std::size_t row = 0; row < c.count(); ++row) x[at(c.unknown(row))] += by * column[row];
     if (c.is_full()) c.update();
   }
   if (!fixed.empty()) system_->fix(fixed, values);
-  if (out_fixed) *out_fixed = fixed, *out_values = values;
+  if (out_fixed) {
+    *out_fixed = fixed;
+    *out_values = values;
+  }
   Vector<double> all(at(matrix_.size()), &memory_);
   system_->solve(all.data());
   return all;
@@ -448,7 +462,8 @@ Vector<double> GridMapper::round(double edge_length, Vector<Index>* out_fixed, V
 GridMap GridMapper::make(double edge_length, bool untangled) {
   if (made_.empty() || made_length_ != edge_length) {
     made_.clear();
-    made_ = round(edge_length, nullptr, nullptr), made_length_ = edge_length;
+    made_ = round(edge_length, nullptr, nullptr);
+    made_length_ = edge_length;
   }
   const Vector<double>& x = made_;
   const std::int32_t n = surface_.vertex_count();
@@ -499,7 +514,8 @@ GridMap GridMapper::make(double edge_length, bool untangled) {
     if (exact) return static_cast<std::int64_t>(value) * (std::int64_t{1} << map.bits);
     return 2 * static_cast<std::int64_t>(std::floor(std::ldexp(value, map.bits - 1))) + 1;
   };
-  map.u.assign(halves, 0), map.v.assign(halves, 0);
+  map.u.assign(halves, 0);
+  map.v.assign(halves, 0);
   for (std::int32_t h = 0; h < halves; ++h) {
     const std::int32_t v = surface_.tail[h];
     const std::int64_t a = fixed_point(z[v].real(), whole[2 * v] != 0),
@@ -522,7 +538,8 @@ GridMap GridMapper::make(double edge_length, bool untangled) {
 
 void GridMapper::release() noexcept {
   system_.reset();
-  Vector<double>(right_.get_allocator()).swap(right_), Vector<double>(inverse_.get_allocator()).swap(inverse_);
+  Vector<double>(right_.get_allocator()).swap(right_);
+  Vector<double>(inverse_.get_allocator()).swap(inverse_);
   Vector<double>(made_.get_allocator()).swap(made_);
   matrix_ = SymmetricMatrix(memory_);
 }

@@ -51,7 +51,8 @@ void read_guides(const Core& core, const hf_quads_desc& desc, Vector<QuadGuide>&
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "guide_count is 0, but arrays of guides are given");
     return;
   }
-  require(desc.guide_vertices, "guide_vertices"), require(desc.guide_vectors, "guide_vectors");
+  require(desc.guide_vertices, "guide_vertices");
+  require(desc.guide_vectors, "guide_vectors");
   if (desc.guide_count > most_elements)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "guide_count is %u; it must be up to %u", desc.guide_count, most_elements);
   Vector<Index> inner(core.memory.get());
@@ -76,7 +77,8 @@ void read_poles(const Core& core, const hf_quads_desc& desc, const FieldQuadOpti
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "pole_count is 0, but arrays of poles are given");
     return;
   }
-  require(desc.pole_points, "pole_points"), require(desc.pole_quads, "pole_quads");
+  require(desc.pole_points, "pole_points");
+  require(desc.pole_quads, "pole_quads");
   if (desc.pole_count > most_poles)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "pole_count is %u; it must be up to %u", desc.pole_count, most_poles);
   Vector<QuadPole>& poles = lists.poles;

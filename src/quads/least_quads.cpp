@@ -44,7 +44,10 @@ class Maker {
       for (const std::int32_t v : part.vertices) {
         Vec3 way = s_.position[v] - centre;
         for (int j = 0; j < k; ++j) way = way - dot(way, axis[j]) * axis[j];
-        if (norm(way) > same_length * most) most = norm(way), axis[k] = way;
+        if (norm(way) > same_length * most) {
+          most = norm(way);
+          axis[k] = way;
+        }
       }
       axis[k] = unit_vector(axis[k]);
     }
@@ -106,7 +109,10 @@ class Maker {
       for (std::int32_t i = begin + 1; i < end; ++i) {
         const Vec3 way = position(i) - position(from);
         const double away = norm(way - dot(way, line) * line);
-        if (away > most) most = away, best = at_tail(loop[i % count], 0);
+        if (away > most) {
+          most = away;
+          best = at_tail(loop[i % count], 0);
+        }
       }
       return best;
     };
@@ -133,14 +139,18 @@ class Maker {
     Vec3 middle{};
     for (int k = 0; k < 3; ++k) {
       const SurfacePoint& point = corner[(flat + 1 + k) % 4];
-      tip[k] = add_vertex(point, true), middle = middle + (1.0 / 3) * position_of(s_, point);
+      tip[k] = add_vertex(point, true);
+      middle = middle + (1.0 / 3) * position_of(s_, point);
     }
     for (int k = 0; k < 3; ++k) {
       side[k] = add_vertex(halfway(loop, corner[(flat + 1 + k) % 4], corner[(flat + 1 + (k + 1) % 3) % 4]), true);
     }
     const std::int32_t centre = add_vertex(nearest(part, middle), false), first = out_.tail.size();
     for (int k = 0; k < 3; ++k) {
-      add_half(tip[k], true), add_half(side[k], false), add_half(centre, false), add_half(side[(k + 2) % 3], true);
+      add_half(tip[k], true);
+      add_half(side[k], false);
+      add_half(centre, false);
+      add_half(side[(k + 2) % 3], true);
     }
     for (int k = 0; k < 3; ++k) out_.join(first + 4 * k + 1, first + 4 * ((k + 1) % 3) + 2);
   }
@@ -156,14 +166,19 @@ class Maker {
       if ((a < 0) == (b < 0)) continue;
       const SurfacePoint place = at_tail(h, a / (a - b));
       const double away = norm(position_of(s_, place) - middle);
-      if (away < least) least = away, best = place;
+      if (away < least) {
+        least = away;
+        best = place;
+      }
     }
     return best;
   }
   static constexpr double corner_share = 0.6;  // 1 / sqrt(3) on a sphere
   static SurfacePoint at_tail(std::int32_t h, double share) {
     SurfacePoint point;
-    point.triangle = h / 3, point.weight[h % 3] = 1 - share, point.weight[(h % 3 + 1) % 3] = share;
+    point.triangle = h / 3;
+    point.weight[h % 3] = 1 - share;
+    point.weight[(h % 3 + 1) % 3] = share;
     return point;
   }
   double area_of(const Part& part) const {
@@ -180,7 +195,11 @@ class Maker {
     for (const std::int32_t t : part.triangles) {
       const auto corner = [&](std::int32_t k) { return s_.position[s_.tail[3 * t + k]]; };
       const double squared = squared_to_triangle(p, corner(0), corner(1), corner(2), weight);
-      if (squared < best) best = squared, point.triangle = t, std::copy(weight, weight + 3, point.weight);
+      if (squared < best) {
+        best = squared;
+        point.triangle = t;
+        std::copy(weight, weight + 3, point.weight);
+      }
     }
     return point;
   }
@@ -189,7 +208,9 @@ class Maker {
                                     1);
   }
   void add_half(std::int32_t v, bool border) {
-    out_.tail.push_back(v), out_.twin.push_back(none), out_.feature.push_back(border);
+    out_.tail.push_back(v);
+    out_.twin.push_back(none);
+    out_.feature.push_back(border);
   }
 
   const FluxSurface& s_;
@@ -217,7 +238,10 @@ QuadComplex least_quads(const FluxSurface& surface, const Table<double>& areas, 
     const bool border = !surface.is_real(surface.twin[h]);
     part.euler -= border || h < surface.twin[h];
     if (border) part.border = h;
-    if (h % 3 == 0) part.triangles.push_back(h / 3), ++part.euler;
+    if (h % 3 == 0) {
+      part.triangles.push_back(h / 3);
+      ++part.euler;
+    }
   }
   Maker maker(surface, out, memory);
   for (std::int32_t c = 0; c < take.size(); ++c) {
@@ -232,7 +256,11 @@ QuadComplex least_quads(const FluxSurface& surface, const Table<double>& areas, 
     double area = 0;
     for (std::int32_t f = first / 4; f < out.quad_count(); ++f) area += out.area(f);
     take[c] = area > least_share * areas[c];
-    if (!take[c]) out.tail.resize(first, none), out.twin.resize(first, none), out.feature.resize(first, 0);
+    if (!take[c]) {
+      out.tail.resize(first, none);
+      out.twin.resize(first, none);
+      out.feature.resize(first, 0);
+    }
   }
   return out;
 }

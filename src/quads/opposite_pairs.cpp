@@ -48,7 +48,8 @@ Nearest find_nearest(const Core& core, const Table<std::int32_t>& index, double 
     const Reached here = heap.back();
     heap.pop_back();
     if (out.of[at(here.vertex)] != none) continue;
-    out.of[at(here.vertex)] = here.of, out.distance[at(here.vertex)] = here.distance;
+    out.of[at(here.vertex)] = here.of;
+    out.distance[at(here.vertex)] = here.distance;
     for (Index i = topology.neighbour_start[at(here.vertex)]; i < topology.neighbour_start[at(here.vertex) + 1]; ++i) {
       const Index next = topology.neighbour[at(i)];
       const double distance =
@@ -117,7 +118,8 @@ void leave_out_pairs(const FluxSurface& surface, const DirectionMatrix& system, 
   for (Index v = 0; v < core.size(); ++v) {
     const Index s = nearest.of[at(v)], i = s == none ? none : pair_of[s];
     if (i == none || nearest.distance[at(v)] > pairs[at(i)].distance / 2 + beyond) continue;
-    left_out[v] = i, wish[at(v)] = 0;
+    left_out[v] = i;
+    wish[at(v)] = 0;
   }
   const Table<std::int32_t> after = find_index(0.5f, 1.0f);
   Table<std::int32_t> gain(static_cast<std::int32_t>(pairs.size()), 0, memory);

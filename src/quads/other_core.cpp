@@ -14,7 +14,8 @@ std::shared_ptr<const Core> core_like(const Core& whole, Span<const Vec3> positi
   input.weld = Weld::none;
   CoreOptions options;
   options.operator_kind = whole.geometry->operator_kind;
-  options.ordering = whole.ordering, options.flop_limit = whole.flop_limit;
+  options.ordering = whole.ordering;
+  options.flop_limit = whole.flop_limit;
   options.formed_valence = whole.formed_valence;
   return Core::make(input, options, whole.memory, whole.jobs);
 }

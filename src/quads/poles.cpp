@@ -35,7 +35,10 @@ Index nearest_vertex(const Mesh& mesh, Vec3 place) noexcept {
   double least = -1;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3 d = mesh.positions[at(v)] - place;
-    if (const double square = dot(d, d); least < 0 || square < least) least = square, nearest = v;
+    if (const double square = dot(d, d); least < 0 || square < least) {
+      least = square;
+      nearest = v;
+    }
   }
   return nearest;
 }
@@ -66,7 +69,10 @@ Vec3 onto(const Core& core, Index vertex, Vec3 place) {
     }
     if (!(sum > 0)) return;
     const Vec3 point = (share[0] / sum) * p[0] + (share[1] / sum) * p[1] + (share[2] / sum) * p[2];
-    if (norm(point - place) < least) least = norm(point - place), nearest = point;
+    if (norm(point - place) < least) {
+      least = norm(point - place);
+      nearest = point;
+    }
   });
   return nearest;
 }
@@ -77,7 +83,8 @@ struct PoleRing {
       : inside(&memory), around(&memory) {
     const Topology& topology = core.topology;
     Vector<std::uint8_t> seen(at(core.size()), 0, &memory);
-    inside.push_back(first), seen[at(first)] = 1;
+    inside.push_back(first);
+    seen[at(first)] = 1;
     for (std::size_t i = 0; i < inside.size(); ++i) {
       const Index v = inside[i];
       for (Index k = topology.neighbour_start[at(v)]; k < topology.neighbour_start[at(v) + 1]; ++k) {
@@ -147,7 +154,10 @@ std::int32_t hold_poles(const FluxSurface& surface, Span<const QuadPole> poles, 
     double least = pole_reach * edge_length;
     for (std::int32_t v = 0; v < n; ++v) {
       if (valence[v] != pole.quads || mesh.pinned[v] || mesh.border[v]) continue;
-      if (const double d = norm(mesh.position[v] - pole.place); d < least) least = d, best = v;
+      if (const double d = norm(mesh.position[v] - pole.place); d < least) {
+        least = d;
+        best = v;
+      }
     }
     if (best < 0) continue;
     // Each walk along the surface ends nearer to the place: it starts in another tangent plane.
@@ -155,12 +165,16 @@ std::int32_t hold_poles(const FluxSurface& surface, Span<const QuadPole> poles, 
       mesh.location[best] = walk_surface(surface, mesh.location[best], pole.place - mesh.position[best]);
       mesh.position[best] = position_of(surface, mesh.location[best]);
     }
-    mesh.pinned[best] = QuadMesh::feature, moving[best] = 1, ++held;
+    mesh.pinned[best] = QuadMesh::feature;
+    moving[best] = 1;
+    ++held;
   }
   if (held == 0) return 0;
   grow_marks(mesh, pole_rings, moving);
   RelaxOptions relax;
-  relax.rounds = pole_rounds, relax.edge_length = edge_length, relax.moving = &moving;
+  relax.rounds = pole_rounds;
+  relax.edge_length = edge_length;
+  relax.moving = &moving;
   relax_quads(surface, mesh, relax, memory);
   return held;
 }

@@ -50,7 +50,8 @@ void QuadBase::prepare(double edge_length, double facet) {
   const double length = std::max({edge_length, mean_edge, facet}),
                radius = (fine ? smooth_radius_fine : smooth_radius) * length;
   if (!smoother || smoother->radius() != radius) {
-    smoother.reset(), passes = -1;
+    smoother.reset();
+    passes = -1;
     smoother.emplace(*system, radius);
   }
   const double rings = curvature_radius * edge_length / mean_edge;

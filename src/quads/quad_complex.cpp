@@ -58,11 +58,14 @@ void QuadComplex::remove(const Table<std::uint8_t>& dead, Memory& memory) {
     if (dead[f]) continue;
     for (std::int32_t k = 0; k < 4; ++k) {
       const std::int32_t from = 4 * f + k, to = 4 * place[f] + k, g = twin[from];
-      tail[to] = tail[from], feature[to] = feature[from];
+      tail[to] = tail[from];
+      feature[to] = feature[from];
       twin[to] = g == none ? none : 4 * place[g / 4] + g % 4;
     }
   }
-  tail.resize(4 * count, 0), feature.resize(4 * count, 0), twin.resize(4 * count, none);
+  tail.resize(4 * count, 0);
+  feature.resize(4 * count, 0);
+  twin.resize(4 * count, none);
 }
 
 void QuadComplex::append(const QuadComplex& other, const Table<std::uint8_t>& take, Memory& memory) {
@@ -78,7 +81,8 @@ void QuadComplex::append(const QuadComplex& other, const Table<std::uint8_t>& ta
     if (vertex[v] == none)
       vertex[v] =
           vertices.add_vertex(from.location[v], from.position[v], from.pinned[v], from.border[v] != 0, from.scale[v]);
-    tail.push_back(vertex[v]), feature.push_back(other.feature[h]);
+    tail.push_back(vertex[v]);
+    feature.push_back(other.feature[h]);
     twin.push_back(g == none ? none : 4 * place[g / 4] + g % 4);
   }
 }
@@ -138,7 +142,9 @@ Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& qu
   Table<std::int32_t> stack(memory);
   for (std::int32_t start = 0; start < quads.quad_count(); ++start) {
     if (reached[start]) continue;
-    ++pieces[component[start]], reached[start] = 1, stack.push_back(start);
+    ++pieces[component[start]];
+    reached[start] = 1;
+    stack.push_back(start);
     while (!stack.empty()) {
       const std::int32_t f = stack.back();
       stack.pop_back();
@@ -146,8 +152,14 @@ Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& qu
       for (std::int32_t h = 4 * f; h < 4 * f + 4; ++h) {
         const std::int32_t g = quads.twin[h];
         euler[component[f]] += g == none || h < g;
-        if (!seen[quads.tail[h]]) seen[quads.tail[h]] = 1, --euler[component[f]];
-        if (g != none && !reached[g / 4]) reached[g / 4] = 1, stack.push_back(g / 4);
+        if (!seen[quads.tail[h]]) {
+          seen[quads.tail[h]] = 1;
+          --euler[component[f]];
+        }
+        if (g != none && !reached[g / 4]) {
+          reached[g / 4] = 1;
+          stack.push_back(g / 4);
+        }
       }
     }
   }
@@ -173,7 +185,9 @@ QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t
   for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
     if (take[surface.component[surface.tail[3 * t]]]) place[t] = count++;
   }
-  out.twin.assign(12 * count, none), out.feature.assign(12 * count, 0), out.tail.reserve(12 * count);
+  out.twin.assign(12 * count, none);
+  out.feature.assign(12 * count, 0);
+  out.tail.reserve(12 * count);
   // Triangles share the points of their corners and sides. Fans that only touch are parted at the end.
   Table<std::int32_t> at_corner(surface.vertex_count(), none, memory),
       at_side(3 * surface.real_triangles, none, memory);
@@ -190,7 +204,9 @@ QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t
         if (vertex == none) {
           SurfacePoint point;
           point.triangle = t;
-          point.weight[k] = at_k, point.weight[(k + 1) % 3] = at_next, point.weight[before] = at_last;
+          point.weight[k] = at_k;
+          point.weight[(k + 1) % 3] = at_next;
+          point.weight[before] = at_last;
           vertex = out.vertices.add_vertex(point, position_of(surface, point),
                                            on_feature ? QuadMesh::feature : QuadMesh::free, false, 1);
         }
@@ -205,7 +221,8 @@ QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t
       add(side(h), 0.5, 0.5, 0, features[h] != 0);
       add(centre, 1.0 / 3, 1.0 / 3, 1.0 / 3, false);
       add(side(3 * t + before), 0.5, 0, 0.5, features[3 * t + before] != 0);
-      out.feature[4 * q] = features[h], out.feature[4 * q + 3] = features[3 * t + before];
+      out.feature[4 * q] = features[h];
+      out.feature[4 * q + 3] = features[3 * t + before];
       out.join(4 * q + 1, 4 * (3 * place[t] + (k + 1) % 3) + 2);
       if (surface.is_real(g)) out.join(4 * q, 4 * (3 * place[g / 3] + (g % 3 + 1) % 3) + 3);
     }

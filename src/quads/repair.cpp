@@ -38,9 +38,13 @@ std::int32_t remove_doublets(QuadComplex& quads, Memory& memory) {
       const std::int32_t a = quads.twin[next(h)], b = quads.twin[previous(last)];
       if (a == previous(last) || (a == none && b == none)) continue;
       quads.join(a, b);
-      dead[f] = 1, ++removed;
+      dead[f] = 1;
+      ++removed;
       for (const std::int32_t g : {a, b}) {
-        if (g != none) queue.push_back(g), queue.push_back(next(g));
+        if (g != none) {
+          queue.push_back(g);
+          queue.push_back(next(g));
+        }
       }
       continue;
     }
@@ -56,15 +60,23 @@ std::int32_t remove_doublets(QuadComplex& quads, Memory& memory) {
     };
     const std::int32_t vertex = quads.tail[farther];
     if (vertex == quads.head(next(h))) continue;  // s and q are one vertex
-    take(h, farther), take(last, far);
+    take(h, farther);
+    take(last, far);
     quads.tail[h] = vertex;
-    dead[k / 4] = 1, ++removed;
+    dead[k / 4] = 1;
+    ++removed;
     for (std::int32_t side = 4 * f; side < 4 * f + 4; ++side) queue.push_back(side);
     for (std::int32_t side = 4 * f; side < 4 * f + 4; ++side) {
-      if (quads.twin[side] != none) queue.push_back(next(quads.twin[side])), queue.push_back(quads.twin[side]);
+      if (quads.twin[side] != none) {
+        queue.push_back(next(quads.twin[side]));
+        queue.push_back(quads.twin[side]);
+      }
     }
   }
-  if (removed > 0) quads.remove(dead, memory), quads.split_fans(memory);
+  if (removed > 0) {
+    quads.remove(dead, memory);
+    quads.split_fans(memory);
+  }
   return removed;
 }
 
@@ -91,7 +103,8 @@ class Repairer {
       }
     }
     if (report.removed != removed) {
-      quads_.remove(dead_, memory_), quads_.split_fans(memory_);
+      quads_.remove(dead_, memory_);
+      quads_.split_fans(memory_);
       return true;
     }
     // Every quad gets one ring in a round.
@@ -118,14 +131,16 @@ class Repairer {
       if (pillow(h)) {
         const SurfacePoint from = [&] {
           SurfacePoint point;
-          point.triangle = hole.border / 3, point.weight[hole.border % 3] = 1;
+          point.triangle = hole.border / 3;
+          point.weight[hole.border % 3] = 1;
           return point;
         }();
         SurfacePoint thirds[2];
         points_between(from, from, true, thirds);
         quads_.twin[h] = quads_.twin[g] = none;
         quads_.feature[h] = quads_.feature[g] = 1;
-        place(quads_.tail[h], from), place(quads_.tail[g], thirds[0]);
+        place(quads_.tail[h], from);
+        place(quads_.tail[g], thirds[0]);
         return;
       }
       if (g == none) return;
@@ -137,8 +152,10 @@ class Repairer {
  private:
   void place(std::int32_t v, const SurfacePoint& point) {
     QuadMesh& all = quads_.vertices;
-    all.location[v] = point, all.position[v] = position_of(surface_, point);
-    all.pinned[v] = QuadMesh::feature, all.border[v] = 1;
+    all.location[v] = point;
+    all.position[v] = position_of(surface_, point);
+    all.pinned[v] = QuadMesh::feature;
+    all.border[v] = 1;
   }
   bool widen(std::int32_t h) { return quads_.twin[h] == none ? split_border(h) : pillow(h); }
   // A hole of one edge or two gets two edges more. Its quad (v, w, a, b), with the border side from v to w, becomes
@@ -171,15 +188,32 @@ class Repairer {
                                           quads_.vertices.scale[a]);
     const std::int32_t p = fresh[0], q = fresh[1], c = fresh[2], first = quads_.tail.size();
     const auto set = [&](std::int32_t half, std::int32_t tail, std::uint8_t is_feature) {
-      quads_.tail[half] = tail, quads_.feature[half] = is_feature, quads_.twin[half] = none;
+      quads_.tail[half] = tail;
+      quads_.feature[half] = is_feature;
+      quads_.twin[half] = none;
     };
-    quads_.tail.resize(first + 8, none), quads_.feature.resize(first + 8, 0), quads_.twin.resize(first + 8, none);
+    quads_.tail.resize(first + 8, none);
+    quads_.feature.resize(first + 8, 0);
+    quads_.twin.resize(first + 8, none);
     const std::int32_t own = 4 * f, right = first, left = first + 4;
-    set(own, v, 1), set(own + 1, p, 1), set(own + 2, q, 0), set(own + 3, c, 0);
-    set(right, q, 1), set(right + 1, w, feature[0]), set(right + 2, a, 0), set(right + 3, c, 0);
-    set(left, a, feature[1]), set(left + 1, b, feature[2]), set(left + 2, v, 0), set(left + 3, c, 0);
-    quads_.join(right + 1, outside[0]), quads_.join(left, outside[1]), quads_.join(left + 1, outside[2]);
-    quads_.join(own + 2, right + 3), quads_.join(right + 2, left + 3), quads_.join(left + 2, own + 3);
+    set(own, v, 1);
+    set(own + 1, p, 1);
+    set(own + 2, q, 0);
+    set(own + 3, c, 0);
+    set(right, q, 1);
+    set(right + 1, w, feature[0]);
+    set(right + 2, a, 0);
+    set(right + 3, c, 0);
+    set(left, a, feature[1]);
+    set(left + 1, b, feature[2]);
+    set(left + 2, v, 0);
+    set(left + 3, c, 0);
+    quads_.join(right + 1, outside[0]);
+    quads_.join(left, outside[1]);
+    quads_.join(left + 1, outside[2]);
+    quads_.join(own + 2, right + 3);
+    quads_.join(right + 2, left + 3);
+    quads_.join(left + 2, own + 3);
     return true;
   }
   // The border half-edge of the surface on which a point lies, or none.
@@ -192,7 +226,8 @@ class Repairer {
   }
   // Two points on the border, at a third and at two thirds of the way from one point to another, or right round.
   void points_between(const SurfacePoint& from, const SurfacePoint& to, bool round, SurfacePoint* out) const {
-    out[0] = from, out[1] = to;
+    out[0] = from;
+    out[1] = to;
     const std::int32_t begin = border_of(from), end = border_of(to);
     if (begin == none || end == none) return;
     const auto share = [](const SurfacePoint& point, std::int32_t h) { return point.weight[(h % 3 + 1) % 3]; };
@@ -207,9 +242,11 @@ class Repairer {
       const bool last = h == end && (round ? !way.empty() : share(to, end) >= at);
       const double stop = last ? share(to, end) : 1.0;
       const double length = norm(surface_.position[surface_.head(h)] - surface_.position[surface_.tail[h]]);
-      way.push_back({h, at, stop, (stop - at) * length}), whole += way.back().length;
+      way.push_back({h, at, stop, (stop - at) * length});
+      whole += way.back().length;
       if (last) break;
-      h = FluxSurface::next(h), at = 0;
+      h = FluxSurface::next(h);
+      at = 0;
       while (surface_.is_real(surface_.twin[h])) h = FluxSurface::next(surface_.twin[h]);
       if (h == begin && h != end) return;  // the other point lies on another border
     }
@@ -220,7 +257,8 @@ class Repairer {
         const double step = ((found + 1) * whole / 3 - passed) / piece.length,
                      place = piece.from + step * (piece.to - piece.from);
         SurfacePoint point;
-        point.triangle = piece.half / 3, point.weight[piece.half % 3] = 1 - place;
+        point.triangle = piece.half / 3;
+        point.weight[piece.half % 3] = 1 - place;
         point.weight[(piece.half % 3 + 1) % 3] = place;
         out[found] = point;
       }
@@ -252,8 +290,10 @@ class Repairer {
     const QuadMesh& old = quads_.vertices;
     std::int32_t corner[6], copy[6];
     Vec3 middle{};
-    for (int k = 0; k < count; ++k)
-      corner[k] = quads_.tail[rim[k]], middle = middle + 1.0 / count * old.position[corner[k]];
+    for (int k = 0; k < count; ++k) {
+      corner[k] = quads_.tail[rim[k]];
+      middle = middle + 1.0 / count * old.position[corner[k]];
+    }
     for (int k = 0; k < count; ++k) {
       const std::int32_t v = corner[k];
       const SurfacePoint point = walk_surface(surface_, old.location[v], pillow_share * (middle - old.position[v]));
@@ -280,7 +320,8 @@ class Repairer {
     if (inner != none) {
       // The ends of the inner edge belong to both quads.
       const std::int32_t g = quads_.twin[inner];
-      quads_.tail[inner] = copy[3], quads_.tail[g] = copy[0];
+      quads_.tail[inner] = copy[3];
+      quads_.tail[g] = copy[0];
     }
     for (int k = 0; k < count; ++k) quads_.tail[rim[k]] = copy[k];
   }
@@ -289,7 +330,8 @@ class Repairer {
   bool collect(std::int32_t start, std::int32_t e, std::int32_t f, Table<std::int32_t>& region) {
     ++stamp_;
     region.clear();
-    region.push_back(start / 4), mark_[start / 4] = stamp_;
+    region.push_back(start / 4);
+    mark_[start / 4] = stamp_;
     const auto barrier = [&](std::int32_t h) { return h == e || h == f || quads_.twin[h] == e || quads_.twin[h] == f; };
     std::int32_t inner_edges = 0;  // twice
     for (std::int32_t i = 0; i < region.size(); ++i) {
@@ -300,7 +342,8 @@ class Repairer {
         if (g == none) return false;
         ++inner_edges;
         if (mark_[g / 4] == stamp_) continue;
-        mark_[g / 4] = stamp_, region.push_back(g / 4);
+        mark_[g / 4] = stamp_;
+        region.push_back(g / 4);
       }
     }
     if (region.size() > most_fold_quads) return false;
@@ -325,7 +368,8 @@ class Repairer {
         const std::int32_t h = k == 0 ? e : f;
         for (const std::int32_t half : {h, quads_.twin[h]}) {
           if (half == none || mark_[half / 4] != stamp_) continue;
-          good &= of[k] == none, of[k] = half;
+          good &= of[k] == none;
+          of[k] = half;
         }
         good &= of[k] != none;
       }
@@ -362,8 +406,10 @@ std::int32_t remove_islands(const FluxSurface& surface, QuadComplex& quads, Memo
   for (std::int32_t start = 0; start < piece.size(); ++start) {
     if (piece[start] != none) continue;
     const std::int32_t number = size.push_back(0);
-    open.push_back(0), of.push_back(component[start]);
-    piece[start] = number, stack.push_back(start);
+    open.push_back(0);
+    of.push_back(component[start]);
+    piece[start] = number;
+    stack.push_back(start);
     while (!stack.empty()) {
       const std::int32_t f = stack.back();
       stack.pop_back();
@@ -373,7 +419,8 @@ std::int32_t remove_islands(const FluxSurface& surface, QuadComplex& quads, Memo
         if (g == none) {
           open[number] = 1;
         } else if (piece[g / 4] == none) {
-          piece[g / 4] = number, stack.push_back(g / 4);
+          piece[g / 4] = number;
+          stack.push_back(g / 4);
         }
       }
     }
@@ -387,7 +434,10 @@ std::int32_t remove_islands(const FluxSurface& surface, QuadComplex& quads, Memo
     dead[f] = p != largest[of[p]] && !open[p] && size[p] <= most_fold_quads;
     removed += dead[f];
   }
-  if (removed > 0) quads.remove(dead, memory), quads.split_fans(memory);
+  if (removed > 0) {
+    quads.remove(dead, memory);
+    quads.split_fans(memory);
+  }
   return removed;
 }
 

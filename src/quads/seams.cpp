@@ -75,19 +75,23 @@ class Cutter {
     const std::int32_t triangles = s_.real_triangles;
     Table<std::int8_t> rotation(triangles, 0, memory_);
     Table<std::uint8_t> seen(triangles, 0, memory_);
-    out_.cut.assign(s_.half_count(), 1), out_.transition.assign(s_.half_count(), 0);
+    out_.cut.assign(s_.half_count(), 1);
+    out_.transition.assign(s_.half_count(), 0);
     Table<std::int32_t> queue(memory_);
     Poller poller;
     for (std::int32_t start = 0; start < triangles; ++start) {
       if (seen[start]) continue;
-      queue.clear(), queue.push_back(start), seen[start] = 1;
+      queue.clear();
+      queue.push_back(start);
+      seen[start] = 1;
       for (std::int32_t next = 0; next < queue.size(); ++next) {
         poller.due();
         const std::int32_t f = queue[next];
         for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
           const std::int32_t g = s_.twin[h];
           if (!s_.is_real(g) || seen[g / 3]) continue;
-          seen[g / 3] = 1, out_.cut[h] = out_.cut[g] = 0;
+          seen[g / 3] = 1;
+          out_.cut[h] = out_.cut[g] = 0;
           // direction_g = i^turn[g] direction_f, and both are to be the same.
           rotation[g / 3] = static_cast<std::int8_t>(modulo(rotation[f] - crosses_.turn[g]));
           queue.push_back(g / 3);
@@ -102,7 +106,8 @@ class Cutter {
         out_.cut[h] = 0;
         if (s_.is_real(h)) {
           const std::int32_t apex = s_.tail[FluxSurface::previous(g)];
-          border_[s_.tail[h]] = apex, border_[s_.head(h)] = apex;
+          border_[s_.tail[h]] = apex;
+          border_[s_.head(h)] = apex;
         }
         continue;
       }
@@ -125,8 +130,10 @@ class Cutter {
       std::int32_t h = s_.out[v];
       while (!out_.cut[h]) h = s_.turn_left(h);
       const std::int32_t g = s_.twin[h], w = s_.head(h);
-      out_.cut[h] = out_.cut[g] = 0, out_.transition[h] = out_.transition[g] = 0;
-      --degree_[v], --degree_[w];
+      out_.cut[h] = out_.cut[g] = 0;
+      out_.transition[h] = out_.transition[g] = 0;
+      --degree_[v];
+      --degree_[w];
       if (dead_end(w)) stack.push_back(w);
     }
   }
@@ -145,7 +152,9 @@ class Cutter {
             fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
                  "the angles of some triangles are lost in rounding; remove triangles without area, or weld with a "
                  "tolerance");
-          seam_[h] = number, seam_[s_.twin[h]] = number, forward_[h] = 1;
+          seam_[h] = number;
+          seam_[s_.twin[h]] = number;
+          forward_[h] = 1;
           ++out_.cut_edges;
           const std::int32_t v = s_.head(h);
           if (at_node(v)) {
@@ -182,11 +191,16 @@ class Cutter {
   void grow_trees() {
     const std::int32_t n = s_.vertex_count();
     Table<std::int32_t> start(n + 1, 0, memory_), list(2 * seams_.size(), none, memory_);
-    for (const Seam& seam : seams_) ++start[seam.from + 1], ++start[seam.to + 1];
+    for (const Seam& seam : seams_) {
+      ++start[seam.from + 1];
+      ++start[seam.to + 1];
+    }
     for (std::int32_t v = 0; v < n; ++v) start[v + 1] += start[v];
     Table<std::int32_t> cursor = start;
-    for (std::int32_t i = 0; i < seams_.size(); ++i)
-      list[cursor[seams_[i].from]++] = i, list[cursor[seams_[i].to]++] = i;
+    for (std::int32_t i = 0; i < seams_.size(); ++i) {
+      list[cursor[seams_[i].from]++] = i;
+      list[cursor[seams_[i].to]++] = i;
+    }
     // By component: the best root. Borders first, then odd singularities, which never halve whole numbers.
     Table<std::int32_t> root(s_.component_count, none, memory_), singular(s_.component_count, 0, memory_),
         any(s_.component_count, none, memory_);
@@ -197,8 +211,10 @@ class Cutter {
     for (std::int32_t v = 0; v < n; ++v) {
       std::int32_t& best = root[s_.component[v]];
       // Without singularities, the sharpest corner of a border is held: it lies on the grid anyway.
-      if (!s_.is_apex(v) && sharpness(v) > corner[s_.component[v]])
-        any[s_.component[v]] = v, corner[s_.component[v]] = sharpness(v);
+      if (!s_.is_apex(v) && sharpness(v) > corner[s_.component[v]]) {
+        any[s_.component[v]] = v;
+        corner[s_.component[v]] = sharpness(v);
+      }
       if (!s_.is_apex(v)) singular[s_.component[v]] += !regular(v);
       if ((start[v + 1] > start[v] || s_.is_apex(v)) && rank(v) > rank(best)) best = v;
     }
@@ -207,14 +223,18 @@ class Cutter {
     for (std::int32_t c = 0; c < s_.component_count; ++c) {
       if (root[c] == none) continue;
       std::int32_t next = order_.size();
-      order_.push_back(root[c]), seen[root[c]] = 1;
+      order_.push_back(root[c]);
+      seen[root[c]] = 1;
       for (; next < order_.size(); ++next) {
         const std::int32_t v = order_[next];
         for (std::int32_t i = start[v]; i < start[v + 1]; ++i) {
           const Seam& seam = seams_[list[i]];
           const std::int32_t w = seam.from == v ? seam.to : seam.from;
           if (seen[w]) continue;
-          seen[w] = 1, tree[list[i]] = 1, parent_[w] = list[i], order_.push_back(w);
+          seen[w] = 1;
+          tree[list[i]] = 1;
+          parent_[w] = list[i];
+          order_.push_back(w);
         }
       }
     }
@@ -226,7 +246,8 @@ class Cutter {
       ++out_.singularity_count;
       if (v == root[c]) continue;
       if (!held[c]) {
-        held[c] = 1, out_.parameter[v] = Seams::depends;
+        held[c] = 1;
+        out_.parameter[v] = Seams::depends;
         out_.fixed.push_back({v, SeamSum(&memory_), true});
         continue;
       }
@@ -263,14 +284,17 @@ class Cutter {
   // Turns around a node, starting before the cut edge `first`. Writes product and sum of the turns; the seam `unknown`
   // counts as 0 and its factor is written.
   void around(std::int32_t first, std::int32_t unknown, int& product, SeamSum& sum, Complex& factor) {
-    product = 0, factor = 0;
+    product = 0;
+    factor = 0;
     sum.clear();
     std::int32_t h = first;
     do {
       if (out_.cut[h]) {
         const int k = out_.transition[h];
         const Complex step = quarter_turned(Complex(1, 0), k);
-        turn(sum, step), factor *= step, product = modulo(product + k);
+        turn(sum, step);
+        factor *= step;
+        product = modulo(product + k);
         if (seam_[h] == unknown) {
           factor += forward_[h] ? Complex(1, 0) : -step;
         } else {
@@ -308,7 +332,8 @@ class Cutter {
       add(right, sum, -1);
       if (length_of(factor) < no_factor) fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "a seam does not count at its own node");
       turn(right, 1.0 / factor);
-      sum_of(seam) = right, seams_[seam].known = true;
+      sum_of(seam) = right;
+      seams_[seam].known = true;
     }
   }
 
@@ -321,7 +346,8 @@ class Cutter {
   }
 
   void place_corners() {
-    out_.unit.assign(s_.half_count(), 0), out_.offset.assign(s_.half_count(), none);
+    out_.unit.assign(s_.half_count(), 0);
+    out_.offset.assign(s_.half_count(), none);
     Table<std::int32_t> of_seam(seams_.size(), none, memory_);
     const auto push = [&](const SeamSum& sum) {
       out_.offsets.push_back(sum);
@@ -355,7 +381,8 @@ class Cutter {
             offset = push(sum);
           }
         }
-        out_.unit[h] = static_cast<std::int8_t>(product), out_.offset[h] = offset;
+        out_.unit[h] = static_cast<std::int8_t>(product);
+        out_.offset[h] = offset;
         h = s_.turn_left(h);
       } while (h != first);
     }

@@ -35,7 +35,8 @@ class Opener {
   Corner corner_from(std::int32_t first, double most = HUGE_VAL) const {
     Corner out{first, none, 0};
     for (std::int32_t h = first; surface_.is_real(h); h = surface_.turn_left(h)) {
-      out.angle += corner_angle(surface_, h), out.last = FluxSurface::previous(h);
+      out.angle += corner_angle(surface_, h);
+      out.last = FluxSurface::previous(h);
       if (features_[out.last] || out.angle > most) break;
     }
     return out;
@@ -112,7 +113,8 @@ SharpCorners SharpCorners::find(const FluxSurface& surface, const Table<std::uin
   }
   out.count = static_cast<std::int32_t>(corners.size());
   if (out.empty()) return out;
-  out.turn.assign(surface.half_count(), 0.0), out.passed.assign(surface.vertex_count(), 0);
+  out.turn.assign(surface.half_count(), 0.0);
+  out.passed.assign(surface.vertex_count(), 0);
   out.inside.assign(surface.real_triangles, {});
   for (const Corner& corner : corners) opener.open(corner);
   opener.close();

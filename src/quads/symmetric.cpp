@@ -38,7 +38,10 @@ void check_symmetry(const Core& core, const NearestTriangle& nearest, const Mirr
   for (Index v = 0; v < core.size(); ++v) {
     poller.due();
     const double squared = nearest.find(plane.reflect(core.mesh.positions[at(v)]), Mesh::none, distance).squared;
-    if (squared > distance) distance = squared, worst = v;
+    if (squared > distance) {
+      distance = squared;
+      worst = v;
+    }
   }
   if (worst == Mesh::none) return;
   const std::uint32_t given = static_cast<std::uint32_t>(core.mesh.given_of_inner[at(worst)]);
@@ -112,9 +115,11 @@ HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
   for (Index e = 0; e < topology.edge_count(); ++e) {
     const std::size_t a = at(topology.first(e)), b = at(topology.second(e));
     const double length = norm(mesh.positions[b] - mesh.positions[a]);
-    shortest[a] = std::min(shortest[a], length), shortest[b] = std::min(shortest[b], length);
+    shortest[a] = std::min(shortest[a], length);
+    shortest[b] = std::min(shortest[b], length);
   }
-  out.of_vertex.assign(at(core.size()), Mesh::none), out.of_edge.assign(at(topology.edge_count()), Mesh::none);
+  out.of_vertex.assign(at(core.size()), Mesh::none);
+  out.of_edge.assign(at(topology.edge_count()), Mesh::none);
   for (std::size_t v = 0; v < height.size(); ++v) {
     if (std::fabs(height[v]) < snapped_share * shortest[v]) height[v] = 0;
   }
@@ -255,7 +260,8 @@ void prepare_at_plane(QuadMesh& mesh, Table<std::uint8_t>& on_plane, const Mirro
       add_rows(mesh, sides.at_border, on_plane, piece, marked, plane, place, memory);
       return;
     }
-    piece.resize(kept, none), mesh.corner.resize(4 * kept, none);
+    piece.resize(kept, none);
+    mesh.corner.resize(4 * kept, none);
   }
 }
 
@@ -327,7 +333,10 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
   // What lies on the plane counts once. Preparing keeps the Euler characteristic of the half.
   Table<std::uint8_t> shared(on_plane.size(), 0, memory);
   std::int32_t corners = 0;
-  for (const Index v : result.mesh.corner) corners += on_plane[v] && !shared[v], shared[v] = 1;
+  for (const Index v : result.mesh.corner) {
+    corners += on_plane[v] && !shared[v];
+    shared[v] = 1;
+  }
   result.euler_characteristic = 2 * result.euler_characteristic - corners + sides;
   add_image(nearest, plane, on_plane, result.mesh, memory);
   check_quads(result.mesh, result.euler_characteristic, memory);

@@ -96,7 +96,8 @@ class Untangler {
     Jacobian out;
     for (int k = 0; k < 3; ++k) {
       const Complex p = 0.5 * corner(3 * t + k);
-      out.a += p * std::conj(shape.gradient[k]), out.b += p * shape.gradient[k];
+      out.a += p * std::conj(shape.gradient[k]);
+      out.b += p * shape.gradient[k];
     }
     return out;
   }
@@ -110,7 +111,8 @@ class Untangler {
       const Shape shape = shape_of(t);
       if (!(shape.area > 0)) continue;
       const double d = jacobian(t, shape).d();
-      least = std::min(least, d), any = any || !(d > 0);
+      least = std::min(least, d);
+      any = any || !(d > 0);
       if (d >= untangle_least) continue;
       for (int k = 0; k < 3; ++k) marked[surface_.tail[3 * t + k]] = 1;
     }
@@ -181,7 +183,8 @@ class Untangler {
       // A direction of negative curvature counts as one of positive curvature.
       const double half = 0.5 * (xx - yy), radius = std::sqrt(half * half + xy * xy), mean = 0.5 * (xx + yy);
       const double low = mean - radius, wanted = std::max(std::fabs(low), least_curvature * (mean + radius));
-      xx += wanted - low, yy += wanted - low;
+      xx += wanted - low;
+      yy += wanted - low;
       const double determinant = xx * yy - xy * xy;
       step = {(xy * y - yy * x) / determinant, (xy * x - xx * y) / determinant};
     }

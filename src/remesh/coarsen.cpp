@@ -67,7 +67,8 @@ void collapse_quads(const FluxSurface& surface, QuadMesh& mesh, const Vector<Col
       mesh.position[a] = position_of(surface, mesh.location[a]);
     }
     mesh.scale[a] = std::max(mesh.scale[a], mesh.scale[b]);
-    becomes[b] = a, gone[collapse.face] = 1;
+    becomes[b] = a;
+    gone[collapse.face] = 1;
   }
   merged.clear();
   Table<std::int32_t> number(becomes.size(), none, memory);
@@ -78,9 +79,10 @@ void collapse_quads(const FluxSurface& surface, QuadMesh& mesh, const Vector<Col
     kept[becomes[c[collapse.corner]]] = 1;
   }
   for (std::int32_t v = 0; v < becomes.size(); ++v)
-    if (becomes[v] == v)
-      merged.push_back(kept[v]),
-          number[v] = out.add_vertex(mesh.location[v], mesh.position[v], mesh.pinned[v], mesh.border[v], mesh.scale[v]);
+    if (becomes[v] == v) {
+      merged.push_back(kept[v]);
+      number[v] = out.add_vertex(mesh.location[v], mesh.position[v], mesh.pinned[v], mesh.border[v], mesh.scale[v]);
+    }
   for (std::int32_t k = 0; k < mesh.corner.size(); ++k)
     if (!gone[k / 4]) out.corner.push_back(number[becomes[mesh.corner[k]]]);
   mesh = std::move(out);
@@ -160,7 +162,9 @@ void collapse_to_count(const FluxSurface& surface, QuadMesh& mesh, std::int32_t 
     collapse_quads(surface, mesh, taken, merged, memory);
     grow_marks(mesh, collapse_rings, merged);
     RelaxOptions relax;
-    relax.rounds = collapse_relax_rounds, relax.edge_length = edge_length, relax.moving = &merged;
+    relax.rounds = collapse_relax_rounds;
+    relax.edge_length = edge_length;
+    relax.moving = &merged;
     relax_quads(surface, mesh, relax, memory);
   }
 }

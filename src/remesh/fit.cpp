@@ -77,7 +77,9 @@ class Fitter {
           continue;
         }
       }
-      mesh_ = std::move(trial), misses_.swap(after_), deviation = now;
+      mesh_ = std::move(trial);
+      misses_.swap(after_);
+      deviation = now;
     }
     return deviation;
   }
@@ -193,18 +195,23 @@ class Fitter {
     if (miss.vertex < 0) return distance_.nearest(miss.point);
     std::int32_t h = surface_.out[miss.vertex];
     while (!surface_.is_real(h)) h = surface_.turn_left(h);
-    at.triangle = h / 3, at.weight[h % 3] = 1;
+    at.triangle = h / 3;
+    at.weight[h % 3] = 1;
     return at;
   }
 
   void put(QuadMesh& mesh, std::int32_t v, const SurfacePoint& at, std::uint8_t pin) const {
-    mesh.location[v] = at, mesh.position[v] = position_of(surface_, at), mesh.pinned[v] = pin;
+    mesh.location[v] = at;
+    mesh.position[v] = position_of(surface_, at);
+    mesh.pinned[v] = pin;
   }
 
   void relax(QuadMesh& mesh, std::int32_t rings, Table<std::uint8_t>& moving) const {
     grow_marks(mesh, rings, moving);
     RelaxOptions relax;
-    relax.rounds = fit_relax_rounds, relax.edge_length = options_.edge_length, relax.moving = &moving;
+    relax.rounds = fit_relax_rounds;
+    relax.edge_length = options_.edge_length;
+    relax.moving = &moving;
     relax_quads(surface_, mesh, relax, memory_);
   }
 
@@ -229,7 +236,10 @@ class Fitter {
       if (step == release) {
         const std::int32_t* c = mesh.quad(place.miss.face);
         for (std::int32_t k = 0; k < 4; ++k)
-          if (mesh.pinned[c[k]] == QuadMesh::snapped) mesh.pinned[c[k]] = QuadMesh::free, moving[c[k]] = 1;
+          if (mesh.pinned[c[k]] == QuadMesh::snapped) {
+            mesh.pinned[c[k]] = QuadMesh::free;
+            moving[c[k]] = 1;
+          }
         continue;
       }
       if (step == snap) {

@@ -58,7 +58,8 @@ void FlowTracer::follow(const FluxField& field, FluxPoint p, bool upward, FlowLi
   for (std::int32_t steps = 0; p.half >= 0 && steps < surface_.half_count(); ++steps) {
     const std::int32_t a = surface_.tail[p.half], b = surface_.head(p.half);
     if (!carries(field, p.half)) return;
-    out.point.push_back(place(field, p)), out.value.push_back(0.5 * (field.value(a) + field.value(b)));
+    out.point.push_back(place(field, p));
+    out.value.push_back(0.5 * (field.value(a) + field.value(b)));
     end = upward ? b : a;
     p = upward ? field.up(p) : field.down(p);
   }
@@ -85,12 +86,14 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
   };
   out.start.push_back(0);
   auto vertex = [&](std::int32_t v) {
-    out.point.push_back(s.position[v]), out.value.push_back(field.value(v));
+    out.point.push_back(s.position[v]);
+    out.value.push_back(field.value(v));
     return s.mesh_vertex[v];
   };
   auto finish = [&](std::int32_t from, std::int32_t to) {
     if (out.point.size() >= HF_NO_INDEX) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the lines have 2^32 points or more");
-    out.from.push_back(from), out.to.push_back(to);
+    out.from.push_back(from);
+    out.to.push_back(to);
     out.start.push_back(static_cast<std::uint32_t>(out.point.size()));
   };
 
@@ -143,7 +146,10 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
       g = s.turn_left(g);
       if (g == begin) break;
     }
-    if (minimum && flux > 0) sources.push_back({v, flux}), total += flux;
+    if (minimum && flux > 0) {
+      sources.push_back({v, flux});
+      total += flux;
+    }
   }
   double given = 0, passed = 0;
   for (const Source& source : sources) {

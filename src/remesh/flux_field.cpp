@@ -24,8 +24,12 @@ FluxField::FluxField(const FluxSurface& surface, Span<const double> u, Memory& m
       saddle_scale_(memory) {
   const std::int32_t n = surface.vertex_count();
   Table<std::int32_t> order(memory);
-  u_.reserve(n), order.reserve(n);
-  for (std::int32_t v = 0; v < n; ++v) u_.push_back(u[static_cast<std::size_t>(v)]), order.push_back(v);
+  u_.reserve(n);
+  order.reserve(n);
+  for (std::int32_t v = 0; v < n; ++v) {
+    u_.push_back(u[static_cast<std::size_t>(v)]);
+    order.push_back(v);
+  }
   std::sort(order.begin(), order.end(),
             [&](std::int32_t a, std::int32_t b) { return u_[a] != u_[b] ? u_[a] < u_[b] : a < b; });
   for (std::int32_t r = 0; r < n; ++r) rank_[order[r]] = r;
@@ -45,7 +49,8 @@ std::int32_t FluxField::sign_changes(std::int32_t v) const noexcept {
   bool before = rises(surface_->turn_right(begin));
   for (std::int32_t g = begin;;) {
     const bool now = rises(g);
-    changes += now != before, before = now;
+    changes += now != before;
+    before = now;
     g = surface_->turn_left(g);
     if (g == begin) return changes;
   }
@@ -87,14 +92,17 @@ void FluxField::match(std::int32_t v) {
     }
     if (step < 0) break;  // only incoming or only outgoing segments are left, with rounding errors
     for (std::size_t i = 0; i < size && step > 0; ++i) {
-      Segment &a = ring[i], &b = ring[(i + 1) % size];
+      Segment& a = ring[i];
+      &b = ring[(i + 1) % size];
       if (a.in == b.in) continue;
       if (a.in) {  // right end of the inflow beside the right end of the outflow
         matches_.push_back({v, a.half, b.half, a.high - step, b.high - step, step});
-        a.high -= step, b.high -= step;
+        a.high -= step;
+        b.high -= step;
       } else {  // left end beside left end
         matches_.push_back({v, b.half, a.half, b.low, a.low, step});
-        a.low += step, b.low += step;
+        a.low += step;
+        b.low += step;
       }
     }
     // Segments (parts of an edge's flux) that are fully matched are removed. Each round removes at least one, so the
@@ -124,7 +132,10 @@ FluxPoint FluxField::through_saddle(std::int32_t v, FluxPoint p, bool upward) co
     if ((upward ? m.in : m.out) != p.half) continue;
     const double from = upward ? m.in_offset : m.out_offset;
     const double miss = offset < from ? from - offset : offset > from + m.length ? offset - from - m.length : 0;
-    if (!best || miss < missed) best = &m, missed = miss;
+    if (!best || miss < missed) {
+      best = &m;
+      missed = miss;
+    }
     if (miss == 0) break;
   }
   if (!best) return {};  // the edge carries no flux
@@ -145,7 +156,8 @@ FluxPoint FluxField::up(FluxPoint p) const {
   for (; !rises(a); a = s.turn_right(a)) {
     if (a == g) return {};  // a maximum
     const double f = flux(s.twin[a]);
-    left += f, in += f;
+    left += f;
+    in += f;
   }
   for (std::int32_t b = s.turn_left(g); !rises(b); b = s.turn_left(b)) in += flux(s.twin[b]);
   // Clockwise from there, the outgoing edges again run from left to right.
@@ -168,7 +180,8 @@ FluxPoint FluxField::down(FluxPoint p) const {
   for (; rises(a); a = s.turn_left(a)) {
     if (a == p.half) return {};  // a minimum
     const double f = flux(a);
-    left += f, out += f;
+    left += f;
+    out += f;
   }
   for (std::int32_t b = s.turn_right(p.half); rises(b); b = s.turn_right(b)) out += flux(b);
   double in = 0;

@@ -64,7 +64,10 @@ struct Pairs {
   Table<std::int32_t> twin;
 
  private:
-  void join(std::int32_t g, std::int32_t h) { twin[g] = h, twin[h] = g; }
+  void join(std::int32_t g, std::int32_t h) {
+    twin[g] = h;
+    twin[h] = g;
+  }
 
   void part(const Mesh& mesh, const Table<std::int32_t>& halves, Memory& memory) {
     // The direction in which each triangle leaves the edge, and which way it runs along it.
@@ -85,7 +88,11 @@ struct Pairs {
         for (std::int32_t j = i + 1; j < count; ++j) {
           if (twin[halves[i]] != none || twin[halves[j]] != none) continue;
           const double bend = dot(away[i], away[j]) + (vertex(halves[i]) == vertex(halves[j]) ? 4 : 0);
-          if (bend < least) least = bend, first = i, second = j;
+          if (bend < least) {
+            least = bend;
+            first = i;
+            second = j;
+          }
         }
       }
       if (first == none) return;
@@ -148,12 +155,15 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, Memory
 
   // Puts the corners in their new order. A turned triangle (a, b, c) becomes (a, c, b), and its side k becomes side 2 -
   // k.
-  s.tail.assign(real_halves, none), s.twin.assign(real_halves, none);
+  s.tail.assign(real_halves, none);
+  s.twin.assign(real_halves, none);
   Table<std::int32_t> corner(real_halves, none, memory);
   auto moved = [&](std::int32_t h) { return turned[h / 3] ? 3 * (h / 3) + 2 - h % 3 : h; };
   for (std::int32_t t = 0; t < s.real_triangles; ++t) {
     const std::int32_t* c = mesh.triangle(t);
-    corner[3 * t] = c[0], corner[3 * t + 1] = c[turned[t] ? 2 : 1], corner[3 * t + 2] = c[turned[t] ? 1 : 2];
+    corner[3 * t] = c[0];
+    corner[3 * t + 1] = c[turned[t] ? 2 : 1];
+    corner[3 * t + 2] = c[turned[t] ? 1 : 2];
     for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h)
       if (pairs.twin[h] != none) s.twin[moved(h)] = moved(pairs.twin[h]);
   }
@@ -193,7 +203,10 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, Memory
   // Closes every border by a fan of triangles from an additional vertex, the apex. The border half-edge a -> b gets the
   // triangle (b, a, apex).
   std::int32_t edges = 0, border_edges = 0;
-  for (std::int32_t h = 0; h < real_halves; ++h) edges += s.twin[h] == none ? 2 : 1, border_edges += s.twin[h] == none;
+  for (std::int32_t h = 0; h < real_halves; ++h) {
+    edges += s.twin[h] == none ? 2 : 1;
+    border_edges += s.twin[h] == none;
+  }
   s.euler_characteristic = s.first_apex - edges / 2 + s.real_triangles;
   for (std::int32_t start = 0; start < real_halves; ++start) {
     if (s.twin[start] != none) continue;
@@ -204,22 +217,33 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, Memory
     std::int32_t last = none, first = none;
     for (std::int32_t h = start;;) {
       const std::int32_t a = s.tail[h], b = s.head(h), fresh = s.tail.size();
-      s.tail.push_back(b), s.tail.push_back(a), s.tail.push_back(apex);
-      s.twin.push_back(h), s.twin.push_back(none), s.twin.push_back(none);
-      s.weight.push_back(s.weight[h]), s.weight.push_back(0), s.weight.push_back(0);
+      s.tail.push_back(b);
+      s.tail.push_back(a);
+      s.tail.push_back(apex);
+      s.twin.push_back(h);
+      s.twin.push_back(none);
+      s.twin.push_back(none);
+      s.weight.push_back(s.weight[h]);
+      s.weight.push_back(0);
+      s.weight.push_back(0);
       s.twin[h] = fresh;
       // The edge a -> apex of this triangle is the edge apex -> b of the triangle before it on the border.
-      if (last != none) s.twin[last + 2] = fresh + 1, s.twin[fresh + 1] = last + 2;
+      if (last != none) {
+        s.twin[last + 2] = fresh + 1;
+        s.twin[fresh + 1] = last + 2;
+      }
       if (first == none) first = fresh;
       last = fresh;
-      middle_point = middle_point + s.position[a], count += 1;
+      middle_point = middle_point + s.position[a];
+      count += 1;
       // The next border half-edge leaves b. It is found by turning about b through its fan.
       std::int32_t g = next(h);
       while (s.twin[g] != none && s.twin[g] < real_halves) g = next(s.twin[g]);
       if (g == start || s.twin[g] != none) break;
       h = g;
     }
-    s.twin[last + 2] = first + 1, s.twin[first + 1] = last + 2;
+    s.twin[last + 2] = first + 1;
+    s.twin[first + 1] = last + 2;
     s.out[apex] = last + 2;
     s.position.push_back((1.0 / count) * middle_point);
   }
@@ -230,14 +254,18 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, Memory
   for (std::int32_t v = 0; v < s.vertex_count(); ++v) {
     if (s.component[v] != none) continue;
     const std::int32_t c = s.component_count++;
-    s.component[v] = c, stack.push_back(v);
+    s.component[v] = c;
+    stack.push_back(v);
     while (!stack.empty()) {
       const std::int32_t w = stack.back();
       stack.pop_back();
       const std::int32_t begin = s.out[w];
       for (std::int32_t g = begin;;) {
         const std::int32_t other = s.head(g);
-        if (s.component[other] == none) s.component[other] = c, stack.push_back(other);
+        if (s.component[other] == none) {
+          s.component[other] = c;
+          stack.push_back(other);
+        }
         g = s.turn_left(g);
         if (g == begin) break;
       }

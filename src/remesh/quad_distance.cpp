@@ -18,7 +18,10 @@ std::int32_t reflex_corners(const QuadMesh& mesh, const std::int32_t* c, std::in
   for (std::int32_t k = 0; k < 4; ++k) {
     const Vec3 p = mesh.position[c[k]];
     const Vec3 turn = cross(mesh.position[c[(k + 1) % 4]] - p, mesh.position[c[(k + 3) % 4]] - p);
-    if (dot(turn, normal) <= 0) last = k, ++count;
+    if (dot(turn, normal) <= 0) {
+      last = k;
+      ++count;
+    }
   }
   return count;
 }
@@ -30,13 +33,19 @@ struct Soup {
   Table<std::int32_t> corners, face;
   void make(const QuadMesh& mesh) {
     auto add = [&](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t f) {
-      corners.push_back(a), corners.push_back(b), corners.push_back(c), face.push_back(f);
+      corners.push_back(a);
+      corners.push_back(b);
+      corners.push_back(c);
+      face.push_back(f);
     };
     for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
       const std::int32_t* c = mesh.quad(f);
       for (std::int32_t k = 2; k < 4; ++k) add(c[0], c[k - 1], c[k], f);
       std::int32_t last = 0;
-      if (reflex_corners(mesh, c, last) > 1) add(c[1], c[2], c[3], f), add(c[3], c[0], c[1], f);
+      if (reflex_corners(mesh, c, last) > 1) {
+        add(c[1], c[2], c[3], f);
+        add(c[3], c[0], c[1], f);
+      }
     }
   }
 };
@@ -81,8 +90,9 @@ void QuadDistance::sample_surface() {
       samples_.push_back({s.position[c[k]], c[k], none, none});
     }
     if (s.real_triangles > most_spread) continue;
-    spread(s.position[c[0]], s.position[c[1]], s.position[c[2]], spacing_, surface_steps,
-           [&](const Vec3& p) { samples_.push_back({p, QuadMiss::of_surface, none, none}); });
+    spread(s.position[c[0]], s.position[c[1]], s.position[c[2]], spacing_, surface_steps, [&](const Vec3& p) {
+      samples_.push_back({p, QuadMiss::of_surface, none, none});
+    });
   }
 }
 
@@ -92,8 +102,9 @@ Table<QuadDistance::Sample> QuadDistance::sample_quads(const QuadMesh& mesh, con
   for (std::int32_t i = 0; i < faces.size(); ++i) {
     if (known && known->has(mesh, faces[i])) continue;
     const std::int32_t* c = corners.data() + 3 * i;
-    spread(mesh.position[c[0]], mesh.position[c[1]], mesh.position[c[2]], spacing_, quad_steps,
-           [&](const Vec3& p) { samples.push_back({p, QuadMiss::of_quads, faces[i], mesh.location[c[0]].triangle}); });
+    spread(mesh.position[c[0]], mesh.position[c[1]], mesh.position[c[2]], spacing_, quad_steps, [&](const Vec3& p) {
+      samples.push_back({p, QuadMiss::of_quads, faces[i], mesh.location[c[0]].triangle});
+    });
   }
   return samples;
 }
@@ -159,7 +170,8 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
   // of the same thread's job. All others are 0.
   auto measure_samples = [&](const NearestTriangle& tree, const Table<Sample>& samples,
                              const Table<std::int32_t>* faces) {
-    distance.assign(samples.size(), 0), nearest.assign(samples.size(), none);
+    distance.assign(samples.size(), 0);
+    nearest.assign(samples.size(), none);
     const std::int32_t pieces = (samples.size() + samples_a_piece - 1) / samples_a_piece;
     for_each(jobs_, static_cast<std::uint32_t>(pieces), [&](std::uint32_t piece) {
       const std::int32_t first = static_cast<std::int32_t>(piece) * samples_a_piece;
@@ -170,7 +182,8 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
         const NearestTriangle::Found found = tree.find(samples[i].point, hint, least);
         hint = found.triangle;
         if (found.squared <= least) continue;
-        distance[i] = std::sqrt(found.squared), nearest[i] = found.triangle;
+        distance[i] = std::sqrt(found.squared);
+        nearest[i] = found.triangle;
         if (!out_misses) least = found.squared;
       }
     });

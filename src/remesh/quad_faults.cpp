@@ -46,13 +46,17 @@ QuadFaults faults_near(const QuadMesh& mesh, const Vec3& place, double radius, M
     const std::int32_t* c = mesh.quad(f);
     Vec3 p[4];
     bool near = false;
-    for (int k = 0; k < 4; ++k) p[k] = mesh.position[c[k]], near = near || norm(p[k] - place) <= radius;
+    for (int k = 0; k < 4; ++k) {
+      p[k] = mesh.position[c[k]];
+      near = near || norm(p[k] - place) <= radius;
+    }
     if (!near) continue;
     const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
     for (int k = 0; k < 4; ++k) out.turned += !(dot(cross(p[(k + 1) % 4] - p[k], p[(k + 3) % 4] - p[k]), normal) > 0);
     for (int k = 1; k < 3; ++k) {
       HalfQuad half{c, {p[0], p[k], p[k + 1]}, ItemBox::of(p[0])};
-      half.box.take(p[k]), half.box.take(p[k + 1]);
+      half.box.take(p[k]);
+      half.box.take(p[k + 1]);
       halves.push_back(half);
     }
   }

@@ -31,7 +31,10 @@ struct QuadMesh {
     for (const std::int32_t v : {a, b, c, d}) corner.push_back(v);
   }
   std::int32_t add_vertex(const SurfacePoint& at, const Vec3& p, std::uint8_t pin, bool is_border, float size) {
-    location.push_back(at), pinned.push_back(pin), border.push_back(is_border), scale.push_back(size);
+    location.push_back(at);
+    pinned.push_back(pin);
+    border.push_back(is_border);
+    scale.push_back(size);
     return position.push_back(p);
   }
 };

@@ -37,7 +37,10 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
   };
   Table<std::int32_t> corners(memory);
   auto quad = [&](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
-    corners.push_back(a), corners.push_back(b), corners.push_back(c), corners.push_back(d);
+    corners.push_back(a);
+    corners.push_back(b);
+    corners.push_back(c);
+    corners.push_back(d);
   };
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
     const std::int32_t* q = mesh.quad(f);
@@ -50,7 +53,9 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
     }
     const std::int32_t v = q[at], a = q[(at + 1) % 4], b = q[(at + 2) % 4], c = q[(at + 3) % 4];
     const std::int32_t e_a = middle_of(v, a), e_c = middle_of(v, c), i = half_way(v, mesh.position[b]);
-    quad(v, e_a, i, e_c), quad(e_a, a, b, i), quad(i, b, c, e_c);
+    quad(v, e_a, i, e_c);
+    quad(e_a, a, b, i);
+    quad(i, b, c, e_c);
   }
   for (std::int32_t v = 0; v < marked.size(); ++v)
     if (marked[v]) mesh.scale[v] *= subdivided_scale;
@@ -65,13 +70,19 @@ std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, M
   for (std::int32_t f = 0; f < mesh.face_count(); ++f)
     for (std::int32_t k = 0; k < 4; ++k) {
       const std::int32_t* c = mesh.quad(f);
-      if (c[k] == v) faces.push_back(f), first.push_back(c[(k + 1) % 4]), last.push_back(c[(k + 3) % 4]);
+      if (c[k] == v) {
+        faces.push_back(f);
+        first.push_back(c[(k + 1) % 4]);
+        last.push_back(c[(k + 3) % 4]);
+      }
     }
   const std::int32_t n = faces.size();
   for (std::int32_t i = 0; i + 1 < n; ++i)
     for (std::int32_t j = i + 1; j < n; ++j)
       if (first[j] == last[i]) {
-        std::swap(first[j], first[i + 1]), std::swap(last[j], last[i + 1]), std::swap(faces[j], faces[i + 1]);
+        std::swap(first[j], first[i + 1]);
+        std::swap(last[j], last[i + 1]);
+        std::swap(faces[j], faces[i + 1]);
         break;
       }
   // A spoke is an edge at v. The new quad lies between two spokes that run across the direction `way`, with at least
@@ -87,7 +98,11 @@ std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, M
       const std::int32_t j = (i + count) % n;
       between += along[(i + count - 1) % n];
       const double sum = between / (count - 1) - std::fabs(along[i]) - std::fabs(along[j]);
-      if (from == none || sum > best) best = sum, from = i, to = j;
+      if (from == none || sum > best) {
+        best = sum;
+        from = i;
+        to = j;
+      }
     }
   }
   mesh.scale[v] *= split_scale;

@@ -68,7 +68,10 @@ SurfacePoint walk_surface(const FluxSurface& s, SurfacePoint at, Vec3 way) noexc
     for (int k = 0; k < 3; ++k) {
       if (rate[k] >= 0) continue;
       const double d = at.weight[k] / -rate[k];
-      if (d < length) length = d, leaves = k;
+      if (d < length) {
+        length = d;
+        leaves = k;
+      }
     }
     for (int k = 0; k < 3; ++k) at.weight[k] = std::max(0.0, at.weight[k] + length * rate[k]);
     const double sum = at.weight[0] + at.weight[1] + at.weight[2];
@@ -87,7 +90,8 @@ SurfacePoint walk_surface(const FluxSurface& s, SurfacePoint at, Vec3 way) noexc
     const Vec3 m = triangle_normal(s, beyond.triangle), own = unit(n);
     const double along = dot(direction, edge), across = dot(direction, cross(edge, own));
     const Vec3 turned = along * edge + across * cross(edge, m);
-    at = beyond, direction = unit(turned);
+    at = beyond;
+    direction = unit(turned);
   }
   return at;
 }
@@ -113,9 +117,14 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
     if (!options.moving || std::any_of(c, c + 4, [&](std::int32_t v) { return (*options.moving)[v] != 0; }))
       faces.push_back(f);
   }
-  old_position = mesh.position, old_location = mesh.location;
+  old_position = mesh.position;
+  old_location = mesh.location;
   for (std::int32_t round = 0; round < options.rounds; ++round) {
-    for (const std::int32_t v : vertices) sum[v] = centres[v] = Vec3{}, count[v] = 0, tangled[v] = 0;
+    for (const std::int32_t v : vertices) {
+      sum[v] = centres[v] = Vec3{};
+      count[v] = 0;
+      tangled[v] = 0;
+    }
     for (const std::int32_t f : faces) {
       const std::int32_t* c = mesh.quad(f);
       for (std::int32_t k = 0; k < 4; ++k) was_over[4 * f + k] = over(f, k);
@@ -129,13 +138,16 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
       propose(mesh, c, options.edge_length * scale, outward, proposal);
       const Vec3 centre = 0.25 * (proposal[0] + proposal[1] + proposal[2] + proposal[3]);
       for (int k = 0; k < 4; ++k) {
-        sum[c[k]] = sum[c[k]] + proposal[k], centres[c[k]] = centres[c[k]] + centre, count[c[k]] += 1;
+        sum[c[k]] = sum[c[k]] + proposal[k];
+        centres[c[k]] = centres[c[k]] + centre;
+        count[c[k]] += 1;
         if (was_over[4 * f + k])
           for (int j = 0; j < 4; ++j) tangled[c[j]] = 1;
       }
     }
     for (const std::int32_t v : vertices) {
-      old_position[v] = mesh.position[v], old_location[v] = mesh.location[v];
+      old_position[v] = mesh.position[v];
+      old_location[v] = mesh.location[v];
       if (mesh.pinned[v] || mesh.border[v] || count[v] == 0) continue;
       const Vec3 way = relax_step * ((1 / count[v]) * (tangled[v] ? centres[v] : sum[v]) - mesh.position[v]);
       mesh.location[v] = walk_surface(s, mesh.location[v], way);
@@ -154,7 +166,10 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
         }
       }
       for (const std::int32_t v : vertices)
-        if (back[v]) mesh.position[v] = old_position[v], mesh.location[v] = old_location[v];
+        if (back[v]) {
+          mesh.position[v] = old_position[v];
+          mesh.location[v] = old_location[v];
+        }
     }
     report(static_cast<float>(round + 1) / static_cast<float>(options.rounds));
   }

@@ -22,7 +22,8 @@ class Unfolder {
         fans_(mesh, memory),
         old_position_(memory),
         old_location_(memory) {
-    old_position_ = mesh.position, old_location_ = mesh.location;
+    old_position_ = mesh.position;
+    old_location_ = mesh.location;
   }
 
   // Returns whether any vertex moved.
@@ -117,11 +118,16 @@ class Unfolder {
   void offer(const SurfacePoint& place, Best& best) {
     mesh_.position[best.vertex] = position_of(surface_, place);
     const double e = energy(best.vertex);
-    if (e < best.energy) best.energy = e, best.place = place, best.position = mesh_.position[best.vertex];
+    if (e < best.energy) {
+      best.energy = e;
+      best.place = place;
+      best.position = mesh_.position[best.vertex];
+    }
   }
   // Moves the vertex to the best place. Returns whether it moved.
   bool take(const Best& best) {
-    mesh_.position[best.vertex] = best.position, mesh_.location[best.vertex] = best.place;
+    mesh_.position[best.vertex] = best.position;
+    mesh_.location[best.vertex] = best.place;
     return best.energy < best.before;
   }
 
@@ -140,7 +146,10 @@ class Unfolder {
       const Vec3 p[4] = {mesh_.position[c[0]], mesh_.position[c[1]], mesh_.position[c[2]], mesh_.position[c[3]]};
       normal = normal + area_vector(p);
       for (std::int32_t k = 0; k < 4; ++k) {
-        if (c[k] != v) centre = centre + mesh_.position[c[k]], ++count;
+        if (c[k] != v) {
+          centre = centre + mesh_.position[c[k]];
+          ++count;
+        }
       }
     }
     const Vec3 axis = std::fabs(normal.x) < std::fabs(normal.y) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
@@ -214,13 +223,17 @@ class Unfolder {
           if (rest >= left) {
             at += (forward ? left : -left) / size;
             SurfacePoint place;
-            place.triangle = h / 3, place.weight[h % 3] = 1 - at, place.weight[(h + 1) % 3] = at;
+            place.triangle = h / 3;
+            place.weight[h % 3] = 1 - at;
+            place.weight[(h + 1) % 3] = at;
             if (is_apart(v, position_of(surface_, place))) offer(place, best);
             break;
           }
           const std::int32_t g = forward ? next_border(h) : previous_border(h);
           if (!is_straight(h, g) || g == edge) break;
-          left -= rest, h = g, at = forward ? 0 : 1;
+          left -= rest;
+          h = g;
+          at = forward ? 0 : 1;
         }
       }
       if (best.energy < best.before) break;
@@ -228,7 +241,10 @@ class Unfolder {
     return take(best);
   }
 
-  void restore(std::int32_t v) { mesh_.position[v] = old_position_[v], mesh_.location[v] = old_location_[v]; }
+  void restore(std::int32_t v) {
+    mesh_.position[v] = old_position_[v];
+    mesh_.location[v] = old_location_[v];
+  }
 
   const FluxSurface& surface_;
   double edge_length_;

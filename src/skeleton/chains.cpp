@@ -44,14 +44,20 @@ void make_chains(const Body& body, Character& out) {
       continue;
     }
     Chain chain;
-    chain.role = body.roles[at(j)], chain.side = body.sides[at(j)], chain.count = 1;
+    chain.role = body.roles[at(j)];
+    chain.side = body.sides[at(j)];
+    chain.count = 1;
     chain.parent = chain_of(out, body.carriers[at(j)]);
     out.joint_chains[at(j)] = static_cast<Index>(out.chains.size());
     out.chains.push_back(chain);
   }
   std::uint32_t first = 0;
   Vector<std::uint32_t> next(&body.memory);
-  for (Chain& chain : out.chains) chain.first = first, first += chain.count, next.push_back(chain.first);
+  for (Chain& chain : out.chains) {
+    chain.first = first;
+    first += chain.count;
+    next.push_back(chain.first);
+  }
   out.chain_joints.resize(first);
   for (const Index j : body.tree) out.chain_joints[next[at(chain_of(out, j))]++] = static_cast<std::uint32_t>(j);
 }
@@ -113,12 +119,19 @@ void measure_limbs(const Body& body, Character& out) {
       for (const Index child : body.children_of(end)) {
         if (body.roles[at(child)] == Role::foot) sole = std::max(0.0, body.height_of(body.pivots[at(child)]));
       }
-      legs += leg->length + body.scale * sole, hips += body.scale * body.height_of(body.pivots[at(hip)]),
-          leg_count += 1;
+      legs += leg->length + body.scale * sole;
+      hips += body.scale * body.height_of(body.pivots[at(hip)]);
+      leg_count += 1;
     }
-    if (const Chain* arm = find_chain(out, Role::arm, side, false)) arms += arm->length, arm_count += 1;
+    if (const Chain* arm = find_chain(out, Role::arm, side, false)) {
+      arms += arm->length;
+      arm_count += 1;
+    }
   }
-  if (leg_count > 0) out.leg_length = legs / leg_count, out.hip_height = hips / leg_count;
+  if (leg_count > 0) {
+    out.leg_length = legs / leg_count;
+    out.hip_height = hips / leg_count;
+  }
   if (arm_count > 0) out.arm_length = arms / arm_count;
 }
 
@@ -135,11 +148,18 @@ double role_confidence(const Body& body, const Character& out) {
 }  // namespace
 
 void write_character(Body& body, Character& out) {
-  out.up = body.up, out.forward = body.forward, out.left = cross(body.up, body.forward);
-  out.up_confidence = body.up_confidence, out.forward_confidence = body.forward_confidence;
+  out.up = body.up;
+  out.forward = body.forward;
+  out.left = cross(body.up, body.forward);
+  out.up_confidence = body.up_confidence;
+  out.forward_confidence = body.forward_confidence;
   out.left_confidence = std::min(body.up_confidence, body.forward_confidence);
-  out.kinds = body.kinds, out.roles = body.roles, out.sides = body.sides;
-  out.carriers = body.carriers, out.mates = body.mates, out.frames = body.frames;
+  out.kinds = body.kinds;
+  out.roles = body.roles;
+  out.sides = body.sides;
+  out.carriers = body.carriers;
+  out.mates = body.mates;
+  out.frames = body.frames;
   make_chains(body, out);
   number_chains(body, out);
   measure_chains(body, out);

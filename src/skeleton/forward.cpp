@@ -14,7 +14,10 @@ struct Fact {
   const char* name;
   double sum = 0;
   int count = 0;
-  void add(double value) noexcept { sum += std::clamp(value, -1.0, 1.0), ++count; }
+  void add(double value) noexcept {
+    sum += std::clamp(value, -1.0, 1.0);
+    ++count;
+  }
   double vote() const noexcept { return count > 0 ? sum / count : 0; }
 };
 
@@ -61,7 +64,8 @@ void look_at_feet(const Body& body, const Limb& limb, Facts& facts) {
     body.for_points_below(limb.roots[side], [&](Vec3 p) { low = std::min(low, body.height_of(p)); });
     body.for_points_below(limb.roots[side], [&](Vec3 p) {
       if (body.height_of(p) >= low + 0.5 * standing * body.height) return;
-      front = std::max(front, dot(p, body.forward)), back = std::min(back, dot(p, body.forward));
+      front = std::max(front, dot(p, body.forward));
+      back = std::min(back, dot(p, body.forward));
     });
     if (front > back) facts.toes.add((front + back - 2 * dot(joint, body.forward)) / (front - back));
   }
@@ -97,8 +101,14 @@ void look_at_names(const Body& body, Facts& facts) {
   for (const Limb& limb : body.limbs) {
     const int along = body.named ? body.names[at(limb.roots[0])].along : 0;
     const Vec3 middle = 0.5 * (body.mean_below(limb.roots[0]) + body.mean_below(limb.roots[1]));
-    if (along > 0) front = front + middle, fronts += 1;
-    if (along < 0) back = back + middle, backs += 1;
+    if (along > 0) {
+      front = front + middle;
+      fronts += 1;
+    }
+    if (along < 0) {
+      back = back + middle;
+      backs += 1;
+    }
     if (limb.named == NameClass::eye && body.head >= 0)
       facts.eyes.add(dot(middle - body.means[at(body.head)], body.forward) > 0 ? 1 : -1);
   }
@@ -128,8 +138,10 @@ Facts collect(Body& body) {
   if (body.sides_named && !body.sides_doubtful && !legs.empty()) look_at_face(body, facts);
   if (body.head >= 0 && legs.empty()) {
     double low = 1e300, high = -1e300;
-    for (const Vec3& p : body.points)
-      low = std::min(low, dot(p, body.forward)), high = std::max(high, dot(p, body.forward));
+    for (const Vec3& p : body.points) {
+      low = std::min(low, dot(p, body.forward));
+      high = std::max(high, dot(p, body.forward));
+    }
     if (high > low)
       facts.ends.add(4 * (dot(body.means[at(body.head)], body.forward) - 0.5 * (low + high)) / (high - low));
   }
@@ -137,8 +149,13 @@ Facts collect(Body& body) {
 }
 
 void turn_round(Body& body) {
-  body.forward = -1.0 * body.forward, body.left = -1.0 * body.left, body.offset = -body.offset;
-  for (Limb& limb : body.limbs) std::swap(limb.roots[0], limb.roots[1]), std::swap(limb.paths[0], limb.paths[1]);
+  body.forward = -1.0 * body.forward;
+  body.left = -1.0 * body.left;
+  body.offset = -body.offset;
+  for (Limb& limb : body.limbs) {
+    std::swap(limb.roots[0], limb.roots[1]);
+    std::swap(limb.paths[0], limb.paths[1]);
+  }
 }
 
 void judge_named(Body& body, const Facts& facts) {

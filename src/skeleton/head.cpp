@@ -50,7 +50,11 @@ double likeness(const Body& body, Index end, Vec3 base) {
   Vec3 sum;
   double squares = 0;
   std::size_t count = 0;
-  const auto add = [&](Vec3 p) { sum = sum + p, squares += dot(p, p), ++count; };
+  const auto add = [&](Vec3 p) {
+    sum = sum + p;
+    squares += dot(p, p);
+    ++count;
+  };
   if (end == body.root) {
     for (const std::uint32_t v : body.owned_by(end)) add(body.points[v]);
   } else {
@@ -82,7 +86,10 @@ Vec3 base_of(const Body& body) {
   Vec3 sum;
   double count = 0;
   for (const Limb& limb : body.limbs) {
-    if (limb.stands) sum = sum + body.pivots[at(limb.carrier)], count += 1;
+    if (limb.stands) {
+      sum = sum + body.pivots[at(limb.carrier)];
+      count += 1;
+    }
   }
   return count > 0 ? (1 / count) * sum : body.pivots[at(body.root)];
 }
@@ -98,7 +105,10 @@ void find_head(Body& body) {
     if (!may_be_head(body, j) || !is_solid(body, j) || !(j == body.root ? root_is_end(body) : is_end(body, j)))
       continue;
     const double like = likeness(body, j, base);
-    if (like > best) best = like, body.head = j;
+    if (like > best) {
+      best = like;
+      body.head = j;
+    }
   }
   if (body.head >= 0) body.head = heaviest_above(body, body.head);
 }

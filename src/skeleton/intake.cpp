@@ -131,10 +131,12 @@ void sort_joints(Body& body) {
     if (p < 0) {
       stack.push_back(static_cast<Index>(j));
     } else {
-      next[j] = first[at(p)], first[at(p)] = static_cast<Index>(j);
+      next[j] = first[at(p)];
+      first[at(p)] = static_cast<Index>(j);
     }
   }
-  body.enter.assign(n, -1), body.leave.assign(n, 0);
+  body.enter.assign(n, -1);
+  body.leave.assign(n, 0);
   while (!stack.empty()) {
     const Index j = stack.back();
     stack.pop_back();
@@ -184,7 +186,10 @@ Index owner_of(const CharacterInput& in, std::size_t v, Vector<double>& weights)
         fail(HF_ERROR_OUT_OF_RANGE, k, "influence_joints[%u] is %u; there are %u joints", k, j, in.joint_count);
       if (!(w > 0) || !std::isfinite(w)) continue;
       weights[j] += w;
-      if (w > most) most = w, best = static_cast<Index>(j);
+      if (w > most) {
+        most = w;
+        best = static_cast<Index>(j);
+      }
     }
   }
   if (best >= 0 || !in.vertex_joints) return best;
@@ -254,7 +259,9 @@ void read_joints(Body& body) {
   }
   sort_joints(body);
   Vector<Transform> world(n, &body.memory);
-  body.pivots.resize(n), body.frames.resize(n), body.flipped.assign(n, 0);
+  body.pivots.resize(n);
+  body.frames.resize(n);
+  body.flipped.assign(n, 0);
   for (const Index j : body.order) {
     const Transform local = local_transform(in, at(j));
     const Index p = body.parents[at(j)];
@@ -274,7 +281,8 @@ void read_vertices(Body& body) {
   check_triangles(in);
   check_influences(in);
   const std::size_t n = at(body.count), vertices = in.vertex_count;
-  body.points.resize(vertices), body.owners.resize(vertices);
+  body.points.resize(vertices);
+  body.owners.resize(vertices);
   Vector<double> weights(n, 0.0, &body.memory);
   for (std::size_t v = 0; v < vertices; ++v) {
     const double* p = in.positions + 3 * v;
@@ -289,7 +297,10 @@ void read_vertices(Body& body) {
   for (const Index j : body.order) {
     const Index p = body.parents[at(j)];
     stands_for[at(j)] = in.bound && !in.bound[at(j)] && p >= 0 ? stands_for[at(p)] : j;
-    if (stands_for[at(j)] != j) weights[at(stands_for[at(j)])] += weights[at(j)], weights[at(j)] = 0;
+    if (stands_for[at(j)] != j) {
+      weights[at(stands_for[at(j)])] += weights[at(j)];
+      weights[at(j)] = 0;
+    }
   }
   for (Index& owner : body.owners) {
     if (owner < 0) continue;

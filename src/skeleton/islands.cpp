@@ -83,8 +83,10 @@ class Adoption {
       const Index p = body.carriers[at(j)], root = roots_[at(j)] = p < 0 ? j : roots_[at(p)];
       if (root == j)
         last_[at(j)] = j;
-      else
-        next_[at(last_[at(root)])] = j, last_[at(root)] = j;
+      else {
+        next_[at(last_[at(root)])] = j;
+        last_[at(root)] = j;
+      }
       if (root == j && root != body.root) todo_.push_back(j);
     }
   }
@@ -150,7 +152,8 @@ class Adoption {
     made.distance = body_.boxes[at(j)].distance(body_.pivots[at(i)]);
     if (!(best < made) || !may_hang(i, j)) return;
     if (!made.touches) made.distance += body_.boxes[at(i)].distance(body_.boxes[at(j)]);
-    made.joint = i, made.carrier = j;
+    made.joint = i;
+    made.carrier = j;
     if (best < made) best = made;
   }
 
@@ -230,7 +233,10 @@ void take_out_twists(Body& body) {
     const bool leaf = body.kinds[at(j)] == JointKind::body && p >= 0 && body.children_of(j).empty();
     if (leaf && !(body.input.roles && body.input.roles[at(j)] >= 0) && is_twist(body, j, p)) found.push_back(j);
   }
-  for (const Index j : found) body.kinds[at(j)] = JointKind::twist, ++twists;
+  for (const Index j : found) {
+    body.kinds[at(j)] = JointKind::twist;
+    ++twists;
+  }
   if (twists > 0) body.say("%u joints lie along a bone and follow it.", twists);
 }
 
@@ -249,7 +255,8 @@ void build_tree(Body& body) {
   take_out_twists(body);
   list_children(body);
   const std::size_t n = at(body.count);
-  body.places.assign(n, -1), body.reaches.assign(n, 0.0);
+  body.places.assign(n, -1);
+  body.reaches.assign(n, 0.0);
   Vector<Index> stack(&body.memory);
   if (body.root >= 0) stack.push_back(body.root);
   while (!stack.empty()) {

@@ -37,7 +37,10 @@ void follow_ground(const Body& body, Vector<Index>& path) {
     Index next = -1;
     std::size_t low = 0;
     for (const Index c : body.children_of(path.back())) {
-      if (reaches_ground(body, c)) next = c, ++low;
+      if (reaches_ground(body, c)) {
+        next = c;
+        ++low;
+      }
     }
     if (low != 1) return;
     path.push_back(next);
@@ -87,9 +90,11 @@ void follow_longest(const Body& body, Vector<Index>& path) {
     double first = 0, second = 0;
     for (const Index c : body.children_of(j)) {
       const double length = way(body, j, c);
-      if (longest < 0 || length > first)
-        second = first, first = length, longest = c;
-      else
+      if (longest < 0 || length > first) {
+        second = first;
+        first = length;
+        longest = c;
+      } else
         second = std::max(second, length);
     }
     if (longest < 0 || body.names[at(longest)].named == NameClass::digit) return;
@@ -127,7 +132,8 @@ void find_limbs(Body& body) {
     seen[at(j)] = seen[at(mate)] = 1;
     Limb limb(body.memory);
     const bool j_is_left = body.lateral(j) >= body.lateral(mate);
-    limb.roots[0] = j_is_left ? j : mate, limb.roots[1] = j_is_left ? mate : j;
+    limb.roots[0] = j_is_left ? j : mate;
+    limb.roots[1] = j_is_left ? mate : j;
     limb.carrier = carrier;
     limb.named = class_of_subtrees(body, limb);
     limb.length = 0.5 * (body.reaches[at(j)] + body.reaches[at(mate)]);

@@ -61,7 +61,10 @@ void MirrorSearch::sort_along(Vec3 left) {
     const Vec3 along = unit_vector(axis - dot(axis, left) * left);
     const double extent = dot(box.high - box.low, {std::fabs(axis.x), std::fabs(axis.y), std::fabs(axis.z)}) *
                           std::fabs(dot(along, axis));
-    if (norm(along) > 0 && extent > longest) longest = extent, across_ = along;
+    if (norm(along) > 0 && extent > longest) {
+      longest = extent;
+      across_ = along;
+    }
   }
   sorted_.clear();
   for (const Index j : joints_) sorted_.push_back({dot(means_[at(j)], across_), j, means_[at(j)]});
@@ -84,7 +87,8 @@ Index MirrorSearch::nearest(Vec3 pivot, Vec3 mean, Index self) const {
     const double d = norm(apart) + norm(pivots_[at(j)] - pivot);
     if (d > least || (d == least && best >= 0 && best < j)) continue;
     if (j != self && (body_.is_ancestor(j, self) || body_.is_ancestor(self, j))) continue;
-    least = d, best = j;
+    least = d;
+    best = j;
   }
   return best;
 }
@@ -101,7 +105,8 @@ double MirrorSearch::count_pairs(Plane& plane, bool all) {
     const Index mate = nearest(reflected(pivots_[at(j)], plane), reflected(means_[at(j)], plane), j);
     if (mate < 0 || mate == j) continue;
     if (nearest(reflected(pivots_[at(mate)], plane), reflected(means_[at(mate)], plane), mate) != j) continue;
-    plane.mates[at(j)] = mate, ++paired;
+    plane.mates[at(j)] = mate;
+    ++paired;
   }
   return static_cast<double>(2 * paired - off) / static_cast<double>(std::max<std::ptrdiff_t>(1, asked));
 }
@@ -131,7 +136,8 @@ Plane MirrorSearch::look(Vec3 left, bool with_skin, bool all) {
     const double offset = offsets[k];
     if (std::any_of(offsets, offsets + k, [&](double o) { return std::fabs(o - offset) < one_place; })) continue;
     Plane plane(body_.memory);
-    plane.left = left, plane.offset = offset;
+    plane.left = left;
+    plane.offset = offset;
     plane.score = count_pairs(plane, all);
     if (best.mates.empty() || plane.score > best.score) best = std::move(plane);
   }

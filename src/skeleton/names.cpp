@@ -184,8 +184,12 @@ Vector<std::uint64_t> common_words(const Body& body, const Tokens& tokens) {
 }
 
 void add_part(JointName& name, Part part) noexcept {
-  name.collar |= part == Part::collar, name.hand |= part == Part::hand, name.foot |= part == Part::foot;
-  name.toe |= part == Part::toe, name.lower |= part == Part::lower, name.hip |= part == Part::hip;
+  name.collar |= part == Part::collar;
+  name.hand |= part == Part::hand;
+  name.foot |= part == Part::foot;
+  name.toe |= part == Part::toe;
+  name.lower |= part == Part::lower;
+  name.hip |= part == Part::hip;
 }
 
 // The class of a name whose words are of several.
@@ -276,8 +280,11 @@ void name_declared(Body& body) {
     name.named = class_of(role);
     if (body.input.sides)
       name.side = static_cast<std::int8_t>(body.input.sides[j] == 1 ? 1 : body.input.sides[j] == 2 ? -1 : 0);
-    name.collar = role == Role::shoulder, name.hand = role == Role::hand;
-    name.foot = role == Role::foot, name.toe = role == Role::toe, name.lower = false;
+    name.collar = role == Role::shoulder;
+    name.hand = role == Role::hand;
+    name.foot = role == Role::foot;
+    name.toe = role == Role::toe;
+    name.lower = false;
     ++declared;
   }
   if (declared > 0) body.say("%u joints have declared roles.", declared);

@@ -42,7 +42,9 @@ bool between_skin(const Body& body, Vec3 p, int k) {
     double u[3], v[3], w[3];
     for (int c = 0; c < 3; ++c) {
       const Vec3 d = body.points[body.input.triangles[3 * t + static_cast<std::size_t>(c)]] - p;
-      u[c] = coordinate(d, a), v[c] = coordinate(d, b), w[c] = coordinate(d, k);
+      u[c] = coordinate(d, a);
+      v[c] = coordinate(d, b);
+      w[c] = coordinate(d, k);
     }
     const double d0 = u[0] * v[1] - v[0] * u[1], d1 = u[1] * v[2] - v[1] * u[2], d2 = u[2] * v[0] - v[2] * u[0];
     if (!((d0 >= 0 && d1 >= 0 && d2 >= 0) || (d0 <= 0 && d1 <= 0 && d2 <= 0))) continue;

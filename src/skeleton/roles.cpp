@@ -19,7 +19,9 @@ double flatness(const Body& body, const Limb& limb) {
     double count = 0;
     body.for_points_below(root, [&](Vec3 p) {
       const hf_eigen::Vector3d v(p.x, p.y, p.z);
-      sum += v, squares += v * v.transpose(), count += 1;
+      sum += v;
+      squares += v * v.transpose();
+      count += 1;
     });
     if (count > 0) moments += squares - sum * sum.transpose() / count;
   }
@@ -198,8 +200,10 @@ void assign_rest(Body& body, Vector<std::uint8_t>& given) {
 void take_declared_roles(Body& body) {
   for (Index j = 0; j < body.count; ++j) {
     const Index p = body.carriers[at(j)];
-    if (body.kinds[at(j)] == JointKind::twist && p >= 0)
-      body.roles[at(j)] = body.roles[at(p)], body.sides[at(j)] = body.sides[at(p)];
+    if (body.kinds[at(j)] == JointKind::twist && p >= 0) {
+      body.roles[at(j)] = body.roles[at(p)];
+      body.sides[at(j)] = body.sides[at(p)];
+    }
   }
   for (std::size_t j = 0; body.input.roles && j < at(body.count); ++j) {
     if (body.input.roles[j] < 0) continue;
@@ -212,13 +216,17 @@ void take_declared_roles(Body& body) {
 
 void assign_roles(Body& body) {
   const std::size_t n = at(body.count);
-  body.roles.assign(n, Role::other), body.sides.assign(n, Side::middle);
+  body.roles.assign(n, Role::other);
+  body.sides.assign(n, Side::middle);
   Vector<std::uint8_t> given(n, 0, &body.memory);
   assign_limb_roles(body);
   assign_sides(body);
   for (const Limb& limb : body.limbs) {
     for (int side = 0; side < 2; ++side) {
-      for (const Index j : body.subtree(limb.roots[side])) set(body, j, limb.role), given[at(j)] = 1;
+      for (const Index j : body.subtree(limb.roots[side])) {
+        set(body, j, limb.role);
+        given[at(j)] = 1;
+      }
       if (limb.role == Role::leg) assign_leg(body, limb, side);
       if (limb.role == Role::arm) assign_arm(body, limb, side);
     }

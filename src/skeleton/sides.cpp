@@ -55,8 +55,10 @@ void pair_declared(Body& body) {
       if (body.input.sides[at(j)] == 2) right.push_back(j);
     }
     if (left.size() != right.size()) continue;
-    for (std::size_t k = 0; k < left.size(); ++k)
-      body.mates[at(left[k])] = right[k], body.mates[at(right[k])] = left[k];
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      body.mates[at(left[k])] = right[k];
+      body.mates[at(right[k])] = left[k];
+    }
   }
 }
 
@@ -96,7 +98,10 @@ NamedSides sum_sides(const Body& body) {
 void take_plane(Body& body, const Plane& plane) {
   for (Index j = 0; j < body.count; ++j) {
     const Index m = plane.mates[at(j)];
-    if (m >= 0 && body.mates[at(j)] < 0 && body.mates[at(m)] < 0) body.mates[at(j)] = m, body.mates[at(m)] = j;
+    if (m >= 0 && body.mates[at(j)] < 0 && body.mates[at(m)] < 0) {
+      body.mates[at(j)] = m;
+      body.mates[at(m)] = j;
+    }
   }
 }
 
@@ -126,7 +131,10 @@ void find_named_plane(Body& body, const NamedSides& sides, MirrorSearch& search)
   double best = -1e300;
   for (const Vec3& candidate : candidates) {
     const double score = search.look(candidate, true).score + (is_straight(candidate) ? central : 0);
-    if (score > best) best = score, body.left = candidate;
+    if (score > best) {
+      best = score;
+      body.left = candidate;
+    }
   }
   body.left = snap(body.left);
   const Plane plane = search.look(body.left, false, true);
@@ -165,9 +173,10 @@ void add_round(Vec3 a, Vec3 b, MirrorSearch& search, const Body& body, const Vec
     const Vec3 v = cosine(angle) * a + sine(angle) * b;
     // By pairs alone: an axis that joints hardly leave has none that lack one.
     const double score = static_cast<double>(count_mates(search.look(v, false).mates));
-    if (score > best[0].first)
-      best[1] = best[0], best[0] = {score, v};
-    else if (score > best[1].first)
+    if (score > best[0].first) {
+      best[1] = best[0];
+      best[0] = {score, v};
+    } else if (score > best[1].first)
       best[1] = {score, v};
   }
   for (auto& [score, v] : best) {
@@ -184,7 +193,10 @@ Vec3 narrowest(const Body& body, const Vector<Vec3>& candidates, bool level) {
   Vec3 sum;
   double count = 0;
   for (Index j = 0; j < body.count; ++j) {
-    if (body.kept[at(j)]) sum = sum + body.pivots[at(j)], count += 1;
+    if (body.kept[at(j)]) {
+      sum = sum + body.pivots[at(j)];
+      count += 1;
+    }
   }
   const Vec3 mean = (1 / count) * sum;
   Mat3 moments = Mat3::Zero();
@@ -218,7 +230,10 @@ Choice best_of(const Vector<Vec3>& candidates, MirrorSearch& search, bool with_s
     const Plane plane = search.look(candidates[k], with_skin);
     scores[k] = plane.score + (is_straight(candidates[k]) ? central : 0);
     best.pairs = std::max(best.pairs, count_mates(plane.mates));
-    if (scores[k] > best.score) best.score = scores[k], best.left = candidates[k];
+    if (scores[k] > best.score) {
+      best.score = scores[k];
+      best.left = candidates[k];
+    }
   }
   double next = -1e300;
   for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -246,7 +261,9 @@ void find_plane(Body& body, MirrorSearch& search) {
     choice.left = narrowest(body, candidates, level);
     body.say("No joints mirror each other: the side is where the joints spread least.");
   }
-  body.left = choice.left, body.mirror_score = choice.score, body.mirror_margin = choice.margin;
+  body.left = choice.left;
+  body.mirror_score = choice.score;
+  body.mirror_margin = choice.margin;
   const Plane plane = search.look(body.left, false, true);
   take_plane(body, plane);
   body.offset = offset_of_pairs(body, plane.offset);
@@ -293,7 +310,8 @@ void look_at_bind_pose(Body& body, Index main) {
   take_plane(body, plane);
   body.left = snap(refined(body, plane, body.pivots, body.input.up != nullptr));
   body.offset = offset_of_pairs(body, body.offset);
-  body.mirror_score = choice.score, body.mirror_margin = choice.margin;
+  body.mirror_score = choice.score;
+  body.mirror_margin = choice.margin;
   body.say("The rest pose is not symmetric; the pose of binding has a plane with a score of %.2f.", choice.score);
 }
 

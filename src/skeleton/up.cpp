@@ -9,7 +9,10 @@ namespace {
 
 struct Extent {
   double low = 1e300, high = -1e300;
-  void add(double h) noexcept { low = std::min(low, h), high = std::max(high, h); }
+  void add(double h) noexcept {
+    low = std::min(low, h);
+    high = std::max(high, h);
+  }
   double size() const noexcept { return high - low; }
 };
 
@@ -38,12 +41,14 @@ double support(const Body& body, Vec3 up) {
   std::size_t low = 0, feet = 0, all = 0;
   Vec3 sum;
   for_mass(body, [&](Vec3 p, Index owner) {
-    sum = sum + p, ++all;
+    sum = sum + p;
+    ++all;
     if (dot(p, up) > height.low + standing * height.size()) return;
     ++low;
     if (owner < 0 || body.is_central(owner)) return;
     ++feet;
-    feet_width.add(dot(p, body.left)), feet_length.add(dot(p, along));
+    feet_width.add(dot(p, body.left));
+    feet_length.add(dot(p, along));
   });
   if (feet < 2) return 0;
   const double middle = dot((1.0 / static_cast<double>(all)) * sum, along), slack = 0.1 * length.size();
@@ -73,7 +78,10 @@ Vec3 direction_of(const Body& body, NameClass named) {
       double most = 0;
       for (const Index j : body.subtree(root)) {
         const double d = norm(body.means[at(j)] - body.pivots[at(root)]);
-        if (d > most) most = d, far = j;
+        if (d > most) {
+          most = d;
+          far = j;
+        }
       }
       sum = sum + (body.means[at(far)] - body.pivots[at(root)]);
     }
@@ -105,9 +113,11 @@ Vec3 best_axis(const Body& body, const Evidence& evidence, double& margin) {
   for (const Vec3& axis : axes) {
     if (std::fabs(dot(axis, body.left)) > 0.5) continue;
     const double score = support(body, axis) + evidence.of(axis) + (axis.y + axis.z > 0 ? customary_up : 0.0);
-    if (score > best + 1e-9)
-      next = best, best = score, up = axis;
-    else
+    if (score > best + 1e-9) {
+      next = best;
+      best = score;
+      up = axis;
+    } else
       next = std::max(next, score);
   }
   margin = best - std::max(next, 0.0);
@@ -119,7 +129,8 @@ void take_declared_up(Body& body, const Evidence& evidence, Vec3 found) {
   const bool lies = -dot(evidence.legs, found) > 1 - 2 * unsure && dot(evidence.head, found) > 1 - 2 * unsure &&
                     evidence.of(body.up) < 3 * unsure;
   if (lies || std::fabs(dot(body.up, body.left)) > 0.5) {
-    body.up = found, body.up_confidence = 0.6;
+    body.up = found;
+    body.up_confidence = 0.6;
     body.say(lies ? "Legs and head say the body lies at rest: up is its own."
                   : "Up as declared lies across the plane of symmetry: it is not taken.");
     return;
@@ -146,7 +157,8 @@ void find_up(Body& body) {
   }
   body.left = unit_vector(body.left - dot(body.left, body.up) * body.up);
   const Extent height = extent(body, body.up);
-  body.ground = height.low, body.height = std::max(height.size(), 1e-12);
+  body.ground = height.low;
+  body.height = std::max(height.size(), 1e-12);
 }
 
 }  // namespace hf_inner

@@ -34,7 +34,11 @@ Mat3 checked_axes(const double (&rows)[9], const char* side) {
          axes_tolerance);
   // Takes the rotation nearest to the caller's axes, so that they are exactly orthonormal.
   Mat3 axes;
-  for (int i = 0; i < 3; ++i) axes(i, 0) = row[i].x, axes(i, 1) = row[i].y, axes(i, 2) = row[i].z;
+  for (int i = 0; i < 3; ++i) {
+    axes(i, 0) = row[i].x;
+    axes(i, 1) = row[i].y;
+    axes(i, 2) = row[i].z;
+  }
   return best_rotation(axes, Quaternion()).toRotationMatrix();
 }
 
@@ -59,10 +63,12 @@ double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) n
         const double u = row[column];
         if (u <= window.low || u >= window.high || row_maximum(row, width) != static_cast<std::size_t>(column))
           continue;
-        height += side.area[v] * (dot(side.mesh->positions[v], up) - ground), area += side.area[v];
+        height += side.area[v] * (dot(side.mesh->positions[v], up) - ground);
+        area += side.area[v];
       }
       if (!(area > 0)) continue;
-      sum += height / area, ++legs;
+      sum += height / area;
+      ++legs;
       break;
     }
   }

@@ -27,8 +27,12 @@ struct NearestCentres {
   void insert(double d, std::int32_t c) noexcept {
     if (d >= distance[kept - 1]) return;
     std::int32_t i = kept - 1;
-    for (; i > 0 && distance[i - 1] > d; --i) distance[i] = distance[i - 1], cluster[i] = cluster[i - 1];
-    distance[i] = d, cluster[i] = c;
+    for (; i > 0 && distance[i - 1] > d; --i) {
+      distance[i] = distance[i - 1];
+      cluster[i] = cluster[i - 1];
+    }
+    distance[i] = d;
+    cluster[i] = c;
   }
 };
 
@@ -48,7 +52,10 @@ void sample_centres(const ClusterOptions& options, std::int32_t width, Span<cons
   for (std::size_t v = 0; v < n; ++v) {
     poller.due();
     const double m = *std::max_element(field.data() + v * at(width), field.data() + (v + 1) * at(width));
-    if (m > largest) largest = m, next = v;
+    if (m > largest) {
+      largest = m;
+      next = v;
+    }
   }
   const auto blocks = static_cast<std::uint32_t>((n + vertex_block - 1) / vertex_block);
   Vector<std::size_t> farthest(blocks, std::size_t{0}, &memory);
@@ -113,7 +120,10 @@ void weigh_by_bands(std::int32_t width, std::int32_t bands, Span<const double> f
       const auto low = std::min(bands - 2, static_cast<std::int32_t>(u * (bands - 1)));
       for (std::int32_t k = low; k <= low + 1; ++k) {
         const double w = band_weight(u, k, bands);
-        if (w > 0) candidates[at(count)].cluster = h * bands + k, candidates[at(count++)].weight = w;
+        if (w > 0) {
+          candidates[at(count)].cluster = h * bands + k;
+          candidates[at(count++)].weight = w;
+        }
       }
     }
     write_weights(candidates.data(), count, out.joint.data() + v * blend_count, out.weight.data() + v * blend_count);
@@ -132,9 +142,11 @@ void thin(KernelRow& row, std::size_t most) {
   if (size <= most) return;
   for (std::size_t i = 0; i < most; ++i) {
     const std::size_t from = i * size / most;
-    row.vertex[i] = row.vertex[from], row.weight[i] = row.weight[from];
+    row.vertex[i] = row.vertex[from];
+    row.weight[i] = row.weight[from];
   }
-  row.vertex.resize(most), row.weight.resize(most);
+  row.vertex.resize(most);
+  row.weight.resize(most);
 }
 
 void finish(KernelRow& row, std::size_t most, std::int32_t fallback) {
@@ -142,7 +154,8 @@ void finish(KernelRow& row, std::size_t most, std::int32_t fallback) {
   double sum = 0;
   for (const double w : row.weight) sum += w;
   if (!(sum > 0)) {
-    row.vertex.assign(1, fallback), row.weight.assign(1, 1.0);
+    row.vertex.assign(1, fallback);
+    row.weight.assign(1, 1.0);
     return;
   }
   for (double& w : row.weight) w /= sum;
@@ -174,7 +187,10 @@ void append_edges(const KernelRow& row, const Core& core, EdgeScratch& scratch, 
   Vector<double>& kernel = scratch.kernel;
   for (std::size_t i = 0; i < row.vertex.size(); ++i) kernel[at(row.vertex[i])] = row.weight[i];
   const auto add = [&](std::int32_t v, Vec3 g) {
-    if (!scratch.met[at(v)]) scratch.met[at(v)] = 1, scratch.list.push_back(v);
+    if (!scratch.met[at(v)]) {
+      scratch.met[at(v)] = 1;
+      scratch.list.push_back(v);
+    }
     scratch.slope[at(v)] = scratch.slope[at(v)] + g;
   };
   double trace = 0;
@@ -188,14 +204,17 @@ void append_edges(const KernelRow& row, const Core& core, EdgeScratch& scratch, 
           std::clamp(core.weights[at(core.topology.neighbour_edge[at(e)])], flattest_weight, steepest_weight) *
           (kernel[at(v)] + kernel[at(u)]);
       const Vec3 d = core.mesh.positions[at(v)] - core.mesh.positions[at(u)];
-      add(v, w * d), add(u, -w * d);
+      add(v, w * d);
+      add(u, -w * d);
       trace += w * dot(d, d);
     }
   }
   std::sort(scratch.list.begin(), scratch.list.end());
   for (const std::int32_t v : scratch.list) {
-    out.vertex.push_back(v), out.slope.push_back(scratch.slope[at(v)]);
-    scratch.slope[at(v)] = Vec3(), scratch.met[at(v)] = 0;
+    out.vertex.push_back(v);
+    out.slope.push_back(scratch.slope[at(v)]);
+    scratch.slope[at(v)] = Vec3();
+    scratch.met[at(v)] = 0;
   }
   scratch.list.clear();
   close_row(begin, trace, out);
@@ -210,7 +229,8 @@ void append_vertices(const KernelRow& row, const Core& core, SourceKernels& out)
   double trace = 0;
   for (std::size_t i = 0; i < row.vertex.size(); ++i) {
     const Vec3 p = core.mesh.positions[at(row.vertex[i])] - centroid;
-    out.vertex.push_back(row.vertex[i]), out.slope.push_back(row.weight[i] * p);
+    out.vertex.push_back(row.vertex[i]);
+    out.slope.push_back(row.weight[i] * p);
     trace += row.weight[i] * dot(p, p);
   }
   close_row(begin, trace, out);
@@ -250,7 +270,8 @@ void centre_rows(const ClusterOptions& options, const double* centre, std::int32
     if (distance[v] <= kernel_cut * base) ++out.support;
     if (distance[v] < distance[at(nearest)]) nearest = static_cast<std::int32_t>(v);
   }
-  finish(out.narrow, most_narrow, nearest), finish(out.broad, most_broad, nearest);
+  finish(out.narrow, most_narrow, nearest);
+  finish(out.broad, most_broad, nearest);
 }
 
 // Paper mode: the narrow kernel of a cluster (which gives its rotation) has the weights of one level band. The broad
@@ -264,15 +285,22 @@ void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32
     const double u = field[v * at(width) + at(h)];
     const double narrow = band_weight(u, band, bands);
     const double around = 1 - std::abs(u * (bands - 1) - band) / broad_bands;
-    if (narrow > 0)
-      out.narrow.vertex.push_back(static_cast<std::int32_t>(v)), out.narrow.weight.push_back(area[v] * narrow),
-          ++out.support;
-    if (around > 0)
-      out.broad.vertex.push_back(static_cast<std::int32_t>(v)),
-          out.broad.weight.push_back(area[v] * around * (u * u + broad_band_floor));
-    if (std::abs(u - level) < best) best = std::abs(u - level), nearest = static_cast<std::int32_t>(v);
+    if (narrow > 0) {
+      out.narrow.vertex.push_back(static_cast<std::int32_t>(v));
+      out.narrow.weight.push_back(area[v] * narrow);
+      ++out.support;
+    }
+    if (around > 0) {
+      out.broad.vertex.push_back(static_cast<std::int32_t>(v));
+      out.broad.weight.push_back(area[v] * around * (u * u + broad_band_floor));
+    }
+    if (std::abs(u - level) < best) {
+      best = std::abs(u - level);
+      nearest = static_cast<std::int32_t>(v);
+    }
   }
-  finish(out.narrow, most_narrow, nearest), finish(out.broad, most_broad, nearest);
+  finish(out.narrow, most_narrow, nearest);
+  finish(out.broad, most_broad, nearest);
 }
 
 // Computes mass and centroid of every cluster on the target. Clusters without mass are dropped, and the others
@@ -311,7 +339,10 @@ void write_weights(Candidate* candidates, std::int32_t count, std::int32_t* join
   double sum = 0;
   for (std::int32_t i = 0; i < count; ++i) sum += candidates[i].weight;
   if (!(sum > 0)) {  // the four nearest centres are as far away as the fifth
-    for (std::int32_t i = 0; i < count; ++i) candidates[i].weight = 1, sum += 1;
+    for (std::int32_t i = 0; i < count; ++i) {
+      candidates[i].weight = 1;
+      sum += 1;
+    }
   }
   split_units(
       blend_count, weight_units, sum, [&](std::int32_t i) { return i < count ? candidates[i].weight : 0.0; },
@@ -327,7 +358,10 @@ Vector<double> area_shares(const Mesh& mesh, Memory& memory) {
   for (const double a : area) sum += a;
   const double floor = sum > 0 ? least_area_share * sum / static_cast<double>(area.size()) : 1.0;
   sum = 0;
-  for (double& a : area) a = std::max(a, floor), sum += a;
+  for (double& a : area) {
+    a = std::max(a, floor);
+    sum += a;
+  }
   for (double& a : area) a /= sum;
   return area;
 }
@@ -338,7 +372,8 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
   Clusters out(memory);
   out.field_count = field_count;
   const std::size_t n = target_area.size();
-  out.joint.resize(n * blend_count), out.weight.resize(n * blend_count);
+  out.joint.resize(n * blend_count);
+  out.weight.resize(n * blend_count);
   std::int32_t bands = 0;
   if (options.paper_bands) {
     bands = options.cluster_count ? std::clamp(options.cluster_count / field_count, least_paper_bands, most_paper_bands)
@@ -386,13 +421,15 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
   out.centre.swap(centres);
   out.count = static_cast<std::int32_t>(kept.size());
   EdgeScratch scratch(source_area.size(), memory);
-  out.narrow.start.assign(1, 0), out.broad.start.assign(1, 0);
+  out.narrow.start.assign(1, 0);
+  out.broad.start.assign(1, 0);
   for (const ClusterRows& row : rows) {
     if (options.paper_bands) {
-      append_vertices(row.narrow, source_core, out.narrow), append_vertices(row.broad, source_core, out.broad);
+      append_vertices(row.narrow, source_core, out.narrow);
+      append_vertices(row.broad, source_core, out.broad);
     } else {
-      append_edges(row.narrow, source_core, scratch, out.narrow),
-          append_edges(row.broad, source_core, scratch, out.broad);
+      append_edges(row.narrow, source_core, scratch, out.narrow);
+      append_edges(row.broad, source_core, scratch, out.broad);
     }
     out.support.push_back(row.support);
   }
@@ -415,7 +452,8 @@ SourceWeights weigh_source(const Clusters& clusters, double kernel_width, Span<c
             squared_distance(source_field.data() + v * at(width), clusters.centre.data() + at(c * width), width), c);
   });
   SourceWeights out(memory);
-  out.joint.resize(n * blend_count), out.weight.resize(n * blend_count);
+  out.joint.resize(n * blend_count);
+  out.weight.resize(n * blend_count);
   weigh_by_distance(kernel_width, nearest, out.joint.data(), out.weight.data());
   return out;
 }

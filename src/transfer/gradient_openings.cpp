@@ -21,7 +21,10 @@ Mat3 Gradients::Place::of(const Mat3* matrices) const noexcept {
   return sum;
 }
 
-void Gradients::Place::add(std::int32_t v, double s) noexcept { vertex[count] = v, share[count++] = s; }
+void Gradients::Place::add(std::int32_t v, double s) noexcept {
+  vertex[count] = v;
+  share[count++] = s;
+}
 
 // Finds the pairs of places across openings that both surfaces have. A vertex at the far end of one starts no other.
 void Gradients::find_openings(const Core& source, const Core& target, const Border& from, const Border& to,
@@ -45,11 +48,13 @@ void Gradients::find_openings(const Core& source, const Core& target, const Bord
       for (std::size_t c = 3 * at(vertex); c < 3 * at(vertex) + 2; ++c)
         place.add(matches_.corner[c], share * matches_.share[c]);
     };
-    opening.target[0].add(vertices[i], 1), add_match(opening.source[0], vertices[i], 1);
+    opening.target[0].add(vertices[i], 1);
+    add_match(opening.source[0], vertices[i], 1);
     const double shares[2] = {1 - there.share, there.share};
     for (int k = 0; k < 2; ++k) {
       const std::int32_t vertex = k == 0 ? a : b;
-      opening.target[1].add(vertex, shares[k]), add_match(opening.source[1], vertex, shares[k]);
+      opening.target[1].add(vertex, shares[k]);
+      add_match(opening.source[1], vertex, shares[k]);
       add_match(opening.edge[k], vertex, 1);
     }
     // Both ends may have come to lie on one side of the source's border.
@@ -69,7 +74,8 @@ void Gradients::find_openings(const Core& source, const Core& target, const Bord
     for (std::size_t i = 0; step > 0 && i < list.size(); i += step) list[kept++] = list[i];
     list.resize(most > 0 ? kept : 0);
   };
-  thin(openings_, most_openings), thin(lone, most_openings - openings_.size());
+  thin(openings_, most_openings);
+  thin(lone, most_openings - openings_.size());
   const std::size_t matched = openings_.size();
   const Vec3* targets = target.mesh.positions.data();
   for (Opening& opening : lone) {
@@ -80,7 +86,8 @@ void Gradients::find_openings(const Core& source, const Core& target, const Bord
               target.mesh.component[at(opening.target[0].vertex[0])] ||
           !(dot(d, d) < nearest))
         continue;
-      nearest = dot(d, d), opening.like = static_cast<std::int32_t>(i);
+      nearest = dot(d, d);
+      opening.like = static_cast<std::int32_t>(i);
     }
     if (opening.like >= 0) openings_.push_back(opening);
   }
@@ -177,7 +184,10 @@ void Gradients::hold_openings(const Frame& frame, double* z) {
     };
     const Vec3 miss = opening_miss(opening, frame, axes, place(opening.target[0]) - place(far),
                                    unit_vector(at_vertex(1) - at_vertex(0)), open_share_[i]);
-    forces_[4 * i] = miss.x, forces_[4 * i + 1] = miss.y, forces_[4 * i + 2] = miss.z, forces_[4 * i + 3] = 0;
+    forces_[4 * i] = miss.x;
+    forces_[4 * i + 1] = miss.y;
+    forces_[4 * i + 2] = miss.z;
+    forces_[4 * i + 3] = 0;
   }
   opening_factor_.solve(forces_.data());
   const std::size_t numbers = 3 * at(factor.size());

@@ -46,9 +46,11 @@ void Gradients::prepare(const MatchSide& source, const MatchSide& target, const 
   }
 
   const std::size_t n = from.positions.size();
-  normal_.assign(n, Vec3()), now_normal_.assign(n, Vec3());
+  normal_.assign(n, Vec3());
+  now_normal_.assign(n, Vec3());
   find_normals(from, from.positions.data(), normal_);
-  inverse_.assign(n, Mat3::Identity()), gradient_.assign(n, Mat3::Identity());
+  inverse_.assign(n, Mat3::Identity());
+  gradient_.assign(n, Mat3::Identity());
   for (std::size_t v = 0; v < n; ++v) {
     Mat3 moment = Mat3::Zero();
     for (std::int32_t e = source.core->topology.neighbour_start[v]; e < source.core->topology.neighbour_start[v + 1];
@@ -64,7 +66,8 @@ void Gradients::prepare(const MatchSide& source, const MatchSide& target, const 
 
   // The operator's entries, with the length of each target edge over that of the matched points.
   const SymmetricMatrix& k = target_factor.laplacian;
-  matched_.assign(count, Vec3()), blended_.assign(count, Mat3::Identity());
+  matched_.assign(count, Vec3());
+  blended_.assign(count, Mat3::Identity());
   Vector<Vec3> rest(count, &memory);
   for (std::size_t v = 0; v < count; ++v)
     for (int c = 0; c < 3; ++c)
@@ -78,7 +81,9 @@ void Gradients::prepare(const MatchSide& source, const MatchSide& target, const 
     }
   }
   const std::size_t components = at(to.component_count());
-  mean_.assign(components, Vec3()), rest_mean_.assign(components, Vec3()), centre_.assign(components, Vec3());
+  mean_.assign(components, Vec3());
+  rest_mean_.assign(components, Vec3());
+  centre_.assign(components, Vec3());
   mass_.assign(components, 0.0);
   for (std::size_t v = 0; v < count; ++v) {
     const std::size_t c = at(to.component[v]);
@@ -86,8 +91,10 @@ void Gradients::prepare(const MatchSide& source, const MatchSide& target, const 
     rest_mean_[c] = rest_mean_[c] + target_area[v] * rest[v];
     centre_[c] = centre_[c] + target_area[v] * to.positions[v];
   }
-  for (std::size_t c = 0; c < components; ++c)
-    rest_mean_[c] = (1 / mass_[c]) * rest_mean_[c], centre_[c] = (1 / mass_[c]) * centre_[c];
+  for (std::size_t c = 0; c < components; ++c) {
+    rest_mean_[c] = (1 / mass_[c]) * rest_mean_[c];
+    centre_[c] = (1 / mass_[c]) * centre_[c];
+  }
 }
 
 void Gradients::find_gradients(const Frame& frame) {
@@ -134,7 +141,8 @@ void Gradients::apply(const Frame& frame, Vec3* out) {
       place = place + matches_.share[i] * frame.posed[at(matches_.corner[i])];
       gradient += matches_.share[i] * gradient_[at(matches_.corner[i])];
     }
-    matched_[v] = place, blended_[v] = gradient;
+    matched_[v] = place;
+    blended_[v] = gradient;
   });
   const auto rest_of = [&](std::size_t v) {
     Vec3 place;
@@ -160,7 +168,9 @@ void Gradients::apply(const Frame& frame, Vec3* out) {
       sum = sum - k.value[at(e)] * y;
     }
     double* row = z.data() + 3 * at(position[v]);
-    row[0] = sum.x, row[1] = sum.y, row[2] = sum.z;
+    row[0] = sum.x;
+    row[1] = sum.y;
+    row[2] = sum.z;
   });
   factor.factor->solve_in_order(z.data(), 3, *target.jobs);
   hold_openings(frame, z.data());

@@ -8,20 +8,26 @@ namespace hf_inner {
 
 TransferOptions read_transfer_options(const hf_transfer_desc& desc) {
   TransferOptions options;
-  options.mode = desc.mode, options.cluster_count = desc.cluster_count;
-  options.kernel_width = static_cast<double>(desc.kernel_width), options.scale = static_cast<double>(desc.scale);
+  options.mode = desc.mode;
+  options.cluster_count = desc.cluster_count;
+  options.kernel_width = static_cast<double>(desc.kernel_width);
+  options.scale = static_cast<double>(desc.scale);
   options.alignment_angle = static_cast<double>(desc.alignment_angle);
-  check_choice(desc.ground, 2, "ground"), require_zero(desc.reserved);
+  check_choice(desc.ground, 2, "ground");
+  require_zero(desc.reserved);
   options.keep_ground = desc.ground == HF_GROUND_KEEP;
-  std::copy_n(desc.source_axes, 9, options.source_axes), std::copy_n(desc.target_axes, 9, options.target_axes);
+  std::copy_n(desc.source_axes, 9, options.source_axes);
+  std::copy_n(desc.target_axes, 9, options.target_axes);
   return options;
 }
 
 Dials read_dials(const hf_transfer_dials& desc) {
   Dials out;
   out.stride = desc.stride == 0 ? 1.0 : static_cast<double>(desc.stride);
-  out.hip_height = static_cast<double>(desc.hip_height), out.neck_follow = static_cast<double>(desc.neck_follow);
-  out.tail_follow = static_cast<double>(desc.tail_follow), out.arm_space = static_cast<double>(desc.arm_space);
+  out.hip_height = static_cast<double>(desc.hip_height);
+  out.neck_follow = static_cast<double>(desc.neck_follow);
+  out.tail_follow = static_cast<double>(desc.tail_follow);
+  out.arm_space = static_cast<double>(desc.arm_space);
   out.long_follow = static_cast<double>(desc.long_follow);
   return out;
 }
@@ -38,8 +44,10 @@ Vector<Vec3> read_rest(const float* given, const Core& core) {
 
 PairsInput read_pairs(const Transfer& transfer, const hf_pairs_desc& desc, Memory& memory) {
   check_region_count(0, desc.pair_count, "pair");  // before lists of that length are read
-  require(desc.source_counts, "source_counts"), require(desc.source_vertices, "source_vertices");
-  require(desc.target_counts, "target_counts"), require(desc.target_vertices, "target_vertices");
+  require(desc.source_counts, "source_counts");
+  require(desc.source_vertices, "source_vertices");
+  require(desc.target_counts, "target_counts");
+  require(desc.target_vertices, "target_vertices");
   PairsInput input(Regions(transfer.source().mesh, desc.pair_count, desc.source_counts, desc.source_vertices,
                            "source_vertices", &memory),
                    Regions(transfer.target().mesh, desc.pair_count, desc.target_counts, desc.target_vertices,
@@ -64,7 +72,10 @@ Span<const PairHold> read_holds(const hf_transfer_frame& frame, PairHold* room) 
   if (frame.hold_count > HF_PAIR_LIMIT)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u holds in a frame; a transfer has at most %d pairs", frame.hold_count,
          HF_PAIR_LIMIT);
-  if (frame.hold_count > 0) require(frame.hold_pairs, "hold_pairs"), require(frame.hold_positions, "hold_positions");
+  if (frame.hold_count > 0) {
+    require(frame.hold_pairs, "hold_pairs");
+    require(frame.hold_positions, "hold_positions");
+  }
   for (std::uint32_t i = 0; i < frame.hold_count; ++i) {
     const double* place = frame.hold_positions + 3 * std::size_t{i};
     room[i] = {frame.hold_pairs[i], {place[0], place[1], place[2]}};

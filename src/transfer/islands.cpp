@@ -87,7 +87,10 @@ class PointGrid {
       const std::int32_t v = points_[at(i)];
       const Vec3 d = positions_[at(v)] - p;
       const double distance = dot(d, d);
-      if (distance < best || (distance == best && v < found)) best = distance, found = v;
+      if (distance < best || (distance == best && v < found)) {
+        best = distance;
+        found = v;
+      }
     }
   }
 

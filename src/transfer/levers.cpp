@@ -30,7 +30,9 @@ double counted_ratio(double ratio, double from, double to) noexcept {
 void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, Span<const double> outer,
                      Span<const double> ends, double scale, Vec3 centre, Memory& memory) {
   const std::size_t count = limb.size();
-  follow_.assign(count, 1.0), own_.assign(count, Quaternion()), bent_.assign(count, std::uint8_t{0});
+  follow_.assign(count, 1.0);
+  own_.assign(count, Quaternion());
+  bent_.assign(count, std::uint8_t{0});
   for (std::size_t c = 0; c < count; ++c) {
     const double wider = to.spread[c] / std::max(scale * from.spread[c], least_reach);
     if (wider > 1)
@@ -39,7 +41,8 @@ void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double
     if (ends[c] > 1) follow_[c] = std::min(follow_[c], 1 - limb[c] * (1 - 1 / ends[c]));
   }
   // The shortest ways (Dijkstra 1959), from the cluster that is nearest to the centre.
-  order_.reserve(count), before_.assign(count, -1);
+  order_.reserve(count);
+  before_.assign(count, -1);
   Vector<double> way(count, no_height, &memory);
   Vector<std::uint8_t> done(count, std::uint8_t{0}, &memory);
   std::size_t root = 0;
@@ -50,12 +53,16 @@ void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double
     std::size_t next = count;
     for (std::size_t c = 0; c < count; ++c)
       if (!done[c] && (next == count || way[c] < way[next])) next = c;
-    done[next] = 1, order_.push_back(static_cast<std::int32_t>(next));
+    done[next] = 1;
+    order_.push_back(static_cast<std::int32_t>(next));
     if (way[next] == no_height) continue;
     for (std::size_t c = 0; c < count; ++c) {
       if (done[c] || !(to.mass[next * count + c] > least_hinge * std::min(to.own[next], to.own[c]))) continue;
       const double length = way[next] + norm(to.centroid[next] - to.centroid[c]);
-      if (length < way[c]) way[c] = length, before_[c] = static_cast<std::int32_t>(next);
+      if (length < way[c]) {
+        way[c] = length;
+        before_[c] = static_cast<std::int32_t>(next);
+      }
     }
   }
   // What stands or carries keeps its rotation, whatever lies before it.

@@ -41,7 +41,12 @@ TrianglePoint nearest_point(const double* row, const double* a, const double* b,
   double ee = 0, ef = 0, ff = 0, ed = 0, fd = 0, dd = 0;
   for (std::size_t k = 0; k < width; ++k) {
     const double e = b[k] - a[k], f = c[k] - a[k], d = row[k] - a[k];
-    ee += e * e, ef += e * f, ff += f * f, ed += e * d, fd += f * d, dd += d * d;
+    ee += e * e;
+    ef += e * f;
+    ff += f * f;
+    ed += e * d;
+    fd += f * d;
+    dd += d * d;
   }
   const auto distance = [&](double s, double t) {
     return std::max(0.0, dd - 2 * (s * ed + t * fd) + s * s * ee + 2 * s * t * ef + t * t * ff);
@@ -79,7 +84,10 @@ void farthest_points(const Vector<Vec3>& places, Span<const std::int32_t> from, 
     for (std::size_t i = 0; i < from.size(); ++i) {
       const Vec3 d = places[at(from[i])] - at_next;
       distance[i] = std::min(distance[i], dot(d, d));
-      if (distance[i] > farthest) farthest = distance[i], next = i;
+      if (distance[i] > farthest) {
+        farthest = distance[i];
+        next = i;
+      }
     }
     if (!(farthest > 0)) return;
   }
@@ -109,14 +117,18 @@ class Matcher {
     for (std::size_t i = 0; i < mesh.corners.size(); ++i)
       list_[at(next[at(mesh.corners[i])]++)] = static_cast<std::int32_t>(i / 3);
     const std::size_t count = target_places_.size();
-    out.corner.assign(3 * count, 0), out.share.assign(3 * count, 0.0), out.on_border.assign(count, std::uint8_t{0});
+    out.corner.assign(3 * count, 0);
+    out.share.assign(3 * count, 0.0);
+    out.on_border.assign(count, std::uint8_t{0});
   }
 
   // The coordinates of a target vertex at a warped place. row: width numbers.
   void fill_row(std::size_t v, Vec3 place, double* row) const noexcept {
     const std::size_t pairs = width_ - 3;
     for (std::size_t h = 0; h < pairs; ++h) row[h] = match_field_weight * target_.field[v * pairs + h];
-    row[pairs] = place.x, row[pairs + 1] = place.y, row[pairs + 2] = place.z;
+    row[pairs] = place.x;
+    row[pairs + 1] = place.y;
+    row[pairs + 2] = place.z;
   }
 
   void match_inside(std::size_t v, const double* row) const noexcept {
@@ -125,7 +137,9 @@ class Matcher {
     const double* base = rows_.data() + at(nearest) * width_;
     std::int32_t* corner = out_.corner.data() + 3 * v;
     double* share = out_.share.data() + 3 * v;
-    corner[0] = corner[1] = corner[2] = nearest, share[0] = 1, share[1] = share[2] = 0;
+    corner[0] = corner[1] = corner[2] = nearest;
+    share[0] = 1;
+    share[1] = share[2] = 0;
     out_.on_border[v] = 0;
     double best = no_height;
     for (std::int32_t i = start_[at(nearest)]; i < start_[at(nearest) + 1]; ++i) {
@@ -137,8 +151,11 @@ class Matcher {
           nearest_point(row, base, rows_.data() + at(b) * width_, rows_.data() + at(d) * width_, width_);
       if (!(point.distance < best)) continue;
       best = point.distance;
-      corner[1] = b, corner[2] = d;
-      share[0] = 1 - point.second - point.third, share[1] = point.second, share[2] = point.third;
+      corner[1] = b;
+      corner[2] = d;
+      share[0] = 1 - point.second - point.third;
+      share[1] = point.second;
+      share[2] = point.third;
     }
   }
 
@@ -151,14 +168,20 @@ class Matcher {
       const double *a = rows_.data() + at(from_border_.first(e)) * width_,
                    *b = rows_.data() + at(from_border_.second(e)) * width_;
       double ee = 0, ed = 0, square = 0;
-      for (std::size_t k = 0; k < width_; ++k)
-        ee += (b[k] - a[k]) * (b[k] - a[k]), ed += (b[k] - a[k]) * (row[k] - a[k]);
+      for (std::size_t k = 0; k < width_; ++k) {
+        ee += (b[k] - a[k]) * (b[k] - a[k]);
+        ed += (b[k] - a[k]) * (row[k] - a[k]);
+      }
       const double share = ee > 0 ? std::clamp(ed / ee, 0.0, 1.0) : 0.0;
       for (std::size_t k = 0; k < width_; ++k) {
         const double d = a[k] + share * (b[k] - a[k]) - row[k];
         square += d * d;
       }
-      if (square < nearest) nearest = square, best = e, best_share = share;
+      if (square < nearest) {
+        nearest = square;
+        best = e;
+        best_share = share;
+      }
     }
     double free = 0;
     for (std::size_t k = 0; k < width_; ++k) {
@@ -171,7 +194,9 @@ class Matcher {
     out_.on_border[v] = 1;
     out_.corner[3 * v] = from_border_.first(best);
     out_.corner[3 * v + 1] = out_.corner[3 * v + 2] = from_border_.second(best);
-    out_.share[3 * v] = 1 - best_share, out_.share[3 * v + 1] = best_share, out_.share[3 * v + 2] = 0;
+    out_.share[3 * v] = 1 - best_share;
+    out_.share[3 * v + 1] = best_share;
+    out_.share[3 * v + 2] = 0;
   }
 
   Vec3 mix(std::size_t v, const Vector<Vec3>& by_vertex) const noexcept {
@@ -191,7 +216,9 @@ class Matcher {
     for (std::size_t v = 0; v < places.size(); ++v) {
       double* row = out.data() + v * width_;
       for (std::size_t h = 0; h < pairs; ++h) row[h] = match_field_weight * side.field[v * pairs + h];
-      row[pairs] = places[v].x, row[pairs + 1] = places[v].y, row[pairs + 2] = places[v].z;
+      row[pairs] = places[v].x;
+      row[pairs + 1] = places[v].y;
+      row[pairs + 2] = places[v].z;
     }
     return out;
   }
@@ -224,7 +251,8 @@ void find_matches(const MatchSide& source, const MatchSide& target, const Border
 
   Vector<Vec3> from(&memory), to(&memory);
   const auto add_pairs = [&] {
-    from.clear(), to.clear();
+    from.clear();
+    to.clear();
     for (std::size_t h = 0; h < source.means.size(); ++h) {
       from.push_back(target.axes * target.means[h]);
       to.push_back(source.unit * (source.axes * source.means[h]));
@@ -254,7 +282,8 @@ void find_matches(const MatchSide& source, const MatchSide& target, const Border
       if (is_border[v] && !out.on_border[v]) continue;
       if (norm(place - warped) > warp_reach) continue;
       if (dot(unit_vector(matcher.mix(v, source_normals)), target_normals[v]) < warp_cosine) continue;
-      from.push_back(x), to.push_back(place);
+      from.push_back(x);
+      to.push_back(place);
     }
     warp.fit({from.data(), from.size()}, {to.data(), to.size()}, warp_ridge);
   }

@@ -19,7 +19,8 @@ NearestRows::NearestRows(Span<const double> rows, std::size_t width, Memory& mem
 std::int32_t NearestRows::build(std::int32_t first, std::int32_t last) {
   const auto index = static_cast<std::int32_t>(nodes_.size());
   nodes_.emplace_back();
-  nodes_[at(index)].first = first, nodes_[at(index)].last = last;
+  nodes_[at(index)].first = first;
+  nodes_[at(index)].last = last;
   if (last - first <= rows_in_leaf) return index;
   std::int32_t axis = 0;
   double widest = 0;
@@ -27,9 +28,13 @@ std::int32_t NearestRows::build(std::int32_t first, std::int32_t last) {
     double low = no_height, high = -no_height;
     for (std::int32_t i = first; i < last; ++i) {
       const double x = rows_[at(order_[at(i)]) * width_ + k];
-      low = std::min(low, x), high = std::max(high, x);
+      low = std::min(low, x);
+      high = std::max(high, x);
     }
-    if (high - low > widest) widest = high - low, axis = static_cast<std::int32_t>(k);
+    if (high - low > widest) {
+      widest = high - low;
+      axis = static_cast<std::int32_t>(k);
+    }
   }
   if (!(widest > 0)) return index;  // equal rows
   const std::int32_t middle = first + (last - first) / 2;
@@ -39,7 +44,10 @@ std::int32_t NearestRows::build(std::int32_t first, std::int32_t last) {
   const double split = value(order_[at(middle)]);
   const std::int32_t left = build(first, middle), right = build(middle, last);
   Node& node = nodes_[at(index)];
-  node.left = left, node.right = right, node.axis = axis, node.split = split;
+  node.left = left;
+  node.right = right;
+  node.axis = axis;
+  node.split = split;
   return index;
 }
 
@@ -51,7 +59,10 @@ void NearestRows::search(std::int32_t index, const double* row, std::int32_t& be
       const double* other = rows_.data() + at(candidate) * width_;
       double d = 0;
       for (std::size_t k = 0; k < width_; ++k) d += (row[k] - other[k]) * (row[k] - other[k]);
-      if (d < distance || (d == distance && candidate < best)) distance = d, best = candidate;
+      if (d < distance || (d == distance && candidate < best)) {
+        distance = d;
+        best = candidate;
+      }
     }
     return;
   }

@@ -28,7 +28,8 @@ Border::Border(const Core& core, Memory& memory)
     const Vec3 along = unit_vector(p[b] - p[a]), inward = p[third] - p[a];
     const Vec3 outward = unit_vector(dot(along, inward) * along - inward);
     edges_.push_back({a, b, outward});
-    outward_[at(a)] = outward_[at(a)] + outward, outward_[at(b)] = outward_[at(b)] + outward;
+    outward_[at(a)] = outward_[at(a)] + outward;
+    outward_[at(b)] = outward_[at(b)] + outward;
     half_ = std::max(half_, 0.5 * norm(p[b] - p[a]));
   }
   const auto middle = [&](const Edge& edge) { return 0.5 * (p[edge.first].x + p[edge.second].x); };
@@ -38,15 +39,20 @@ Border::Border(const Core& core, Memory& memory)
   });
   for (const Edge& edge : edges_) {
     middle_.push_back(middle(edge));
-    vertices_.push_back(edge.first), vertices_.push_back(edge.second);
+    vertices_.push_back(edge.first);
+    vertices_.push_back(edge.second);
   }
   std::sort(vertices_.begin(), vertices_.end());
   vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
   const auto entry = [&](std::int32_t v) {
     return static_cast<std::size_t>(std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin());
   };
-  start_.assign(vertices_.size() + 1, 0), list_.assign(2 * edges_.size(), 0);
-  for (const Edge& edge : edges_) ++start_[entry(edge.first) + 1], ++start_[entry(edge.second) + 1];
+  start_.assign(vertices_.size() + 1, 0);
+  list_.assign(2 * edges_.size(), 0);
+  for (const Edge& edge : edges_) {
+    ++start_[entry(edge.first) + 1];
+    ++start_[entry(edge.second) + 1];
+  }
   for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
   Vector<std::int32_t> next(start_, &memory);
   for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -76,13 +82,16 @@ Border::Place Border::facing(Vec3 place, Vec3 outward, double reach) const noexc
       const Vec3 d = a + share * b;
       const double size = dot(d, d), along = dot(d, outward);
       if (!(size > least_gap * least_gap && along > 0 && size < smallest * along)) return;
-      smallest = size / along, square = size;
-      out.edge = static_cast<std::int32_t>(e), out.share = share;
+      smallest = size / along;
+      square = size;
+      out.edge = static_cast<std::int32_t>(e);
+      out.share = share;
       faces = along >= facing_cosine * std::sqrt(size) && -dot(d, edges_[e].outward) >= facing_cosine * std::sqrt(size);
     };
     // (A + 2 B t + C t^2) / (D + E t) is least at an end or where its derivative is zero.
     const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), d = dot(a, outward), along = dot(b, outward);
-    try_share(0), try_share(1);
+    try_share(0);
+    try_share(1);
     const double p = bb * along, q = bb * d, r = 2 * ab * d - along * aa, root = q * q - p * r;
     if (!(root > 0)) continue;
     // Both roots without cancellation; p may be zero.

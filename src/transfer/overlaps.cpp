@@ -21,12 +21,14 @@ Overlaps overlaps_of(std::size_t cluster_count, const WeightedSurface& side, Mem
       if (!(weight[i] > 0)) continue;
       const double own = side.area[v] * static_cast<double>(weight[i]);
       const std::size_t c = at(joint[i]);
-      out.own[c] += own, out.centroid[c] = out.centroid[c] + own * place;
+      out.own[c] += own;
+      out.centroid[c] = out.centroid[c] + own * place;
       for (std::int32_t j = 0; j < blend_count; ++j) {
         if (!(weight[j] > 0)) continue;
         const double w = own * static_cast<double>(weight[j]);
         const std::size_t entry = c * cluster_count + at(joint[j]);
-        out.mass[entry] += w, out.sum[entry] = out.sum[entry] + w * place;
+        out.mass[entry] += w;
+        out.sum[entry] = out.sum[entry] + w * place;
       }
     }
   }

@@ -27,7 +27,9 @@ void Refit::prepare(const Mesh& target, Span<const double> area, const Clusters&
       }
     }
   }
-  start_.assign(1, 0), spread_.assign(count, 0.0), centroid_.assign(count, Vec3());
+  start_.assign(1, 0);
+  spread_.assign(count, 0.0);
+  centroid_.assign(count, Vec3());
   for (std::size_t c = 0; c < count; ++c) {
     double total = 0;
     const std::size_t begin = other_.size();
@@ -35,7 +37,9 @@ void Refit::prepare(const Mesh& target, Span<const double> area, const Clusters&
       const double w = mass[c * count + d];
       if (!(w > 0)) continue;
       const Vec3 x = (1 / w) * sum[c * count + d];
-      other_.push_back(static_cast<std::int32_t>(d)), weight_.push_back(w), point_.push_back(x);
+      other_.push_back(static_cast<std::int32_t>(d));
+      weight_.push_back(w);
+      point_.push_back(x);
       centroid_[c] = centroid_[c] + w * x;
       total += w;
     }

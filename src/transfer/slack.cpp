@@ -25,7 +25,8 @@ void Slack::prepare_fit(std::size_t count, const Side& source, Span<const double
     if (source.weight[i] > 0) ++next[at(source.joint[i])];
   start_.assign(1, 0);
   for (const std::int32_t size : next) start_.push_back(start_.back() + size);
-  vertex_.resize(at(start_.back())), weight_.resize(at(start_.back()));
+  vertex_.resize(at(start_.back()));
+  weight_.resize(at(start_.back()));
   std::copy(start_.begin(), start_.end() - 1, next.begin());
   for (std::size_t i = 0; i < entries; ++i) {
     if (!(source.weight[i] > 0)) continue;
@@ -43,13 +44,15 @@ void Slack::prepare_fit(std::size_t count, const Side& source, Span<const double
     table_start_.push_back(static_cast<std::int32_t>(table_column_.size()));
     for (std::size_t d = 0; d < count; ++d) {
       if (!(mass[c * count + d] > 0)) continue;
-      table_column_.push_back(static_cast<std::int32_t>(d)), table_.push_back(sum[c * count + d]);
+      table_column_.push_back(static_cast<std::int32_t>(d));
+      table_.push_back(sum[c * count + d]);
       table_mass_.push_back(mass[c * count + d]);
     }
   }
   table_start_.push_back(static_cast<std::int32_t>(table_column_.size()));
   factor_.factorise(std::move(matrix), static_cast<std::int32_t>(count), memory);
-  matrix_.assign(count, Mat3()), scratch_.assign(4 * count, 0.0);
+  matrix_.assign(count, Mat3());
+  scratch_.assign(4 * count, 0.0);
 }
 
 void Slack::prepare(const Side& source, const Overlaps& from, const Overlaps& to, const Translations& translations,
@@ -57,7 +60,9 @@ void Slack::prepare(const Side& source, const Overlaps& from, const Overlaps& to
   const std::size_t count = from.own.size();
   const SpreadTies ties = spread_ties(*source.core, source.joint, source.weight, count, memory);
   prepare_fit(count, source, {from.mass.data(), from.mass.size()}, from.sum.data(), memory);
-  own_ = from.own, centroid_ = from.centroid, near_.assign(count, Vec3());
+  own_ = from.own;
+  centroid_ = from.centroid;
+  near_.assign(count, Vec3());
   double trace = 0;
   for (std::size_t c = 0; c < count; ++c) trace += from.mass[c * (count + 1)];
   const double least = least_common * trace / static_cast<double>(count);
@@ -74,7 +79,8 @@ void Slack::prepare(const Side& source, const Overlaps& from, const Overlaps& to
       Pair pair;
       pair.reach = norm(here);
       if (!(pair.reach > 0) || !(cosine > 0)) continue;
-      pair.first = static_cast<std::int32_t>(c), pair.second = static_cast<std::int32_t>(d);
+      pair.first = static_cast<std::int32_t>(c);
+      pair.second = static_cast<std::int32_t>(d);
       const double common = overlaps ? likeness(from.mass[entry] / std::sqrt(from.own[c] * from.own[d]),
                                                 to.mass[entry] / std::sqrt(to.own[c] * to.own[d]))
                                      : likeness(tie, other_tie);
@@ -90,7 +96,8 @@ void Slack::prepare(const Side& source, const Overlaps& from, const Overlaps& to
       pairs_.push_back(pair);
     }
   }
-  slide_.assign(pairs_.size(), Vec3()), force_.assign(count, Vec3());
+  slide_.assign(pairs_.size(), Vec3());
+  force_.assign(count, Vec3());
 }
 
 void Slack::measure(const Quaternion* rotations, const Vec3* posed, const Quaternion& axes, JobRunner& jobs) {
@@ -101,14 +108,19 @@ void Slack::measure(const Quaternion* rotations, const Vec3* posed, const Quater
     for (std::int32_t i = start_[c]; i < start_[c + 1]; ++i) sum = sum + weight_[at(i)] * posed[vertex_[at(i)]];
     near_[c] = own_[c] > 0 ? (1 / own_[c]) * sum - matrix_[c] * centroid_[c] : Vec3();
     double* to = scratch_.data() + 4 * std::size_t{c};
-    to[0] = sum.x, to[1] = sum.y, to[2] = sum.z, to[3] = 0;
+    to[0] = sum.x;
+    to[1] = sum.y;
+    to[2] = sum.z;
+    to[3] = 0;
   });
   for (std::size_t c = 0; c < count; ++c) {
     double* to = scratch_.data() + 4 * c;
     for (std::int32_t i = table_start_[c]; i < table_start_[c + 1]; ++i) {
       const std::size_t d = at(table_column_[at(i)]);
       const Vec3 less = matrix_[d] * table_[at(i)] + table_mass_[at(i)] * near_[d];
-      to[0] -= less.x, to[1] -= less.y, to[2] -= less.z;
+      to[0] -= less.x;
+      to[1] -= less.y;
+      to[2] -= less.z;
     }
   }
   factor_.solve(scratch_.data());

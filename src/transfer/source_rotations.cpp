@@ -24,9 +24,13 @@ void add_moments(const std::int32_t* vertex, const Vec3* slope, std::size_t coun
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 place = posed[vertex[i]], g = slope[i];
     const Four q = Four{place.x, place.y, place.z, 0} - from;
-    x += q * g.x, y += q * g.y, z += q * g.z;
+    x += q * g.x;
+    y += q * g.y;
+    z += q * g.z;
   }
-  std::memcpy(columns[0], &x, sizeof x), std::memcpy(columns[1], &y, sizeof y), std::memcpy(columns[2], &z, sizeof z);
+  std::memcpy(columns[0], &x, sizeof x);
+  std::memcpy(columns[1], &y, sizeof y);
+  std::memcpy(columns[2], &z, sizeof z);
 }
 
 // Returns the moment matrix M = sum_v q_v g_v' of cluster c: q are posed places, g the constant vectors of clusters.h.
@@ -50,7 +54,8 @@ void SourceRotations::prepare(const Mesh& mesh, Span<const double> area) {
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t v = i * area.size() / count;
-    sample_.push_back(static_cast<std::int32_t>(v)), sample_weight_.push_back(area[v]);
+    sample_.push_back(static_cast<std::int32_t>(v));
+    sample_weight_.push_back(area[v]);
     sum += area[v];
   }
   for (std::size_t i = 0; i < count; ++i) {

@@ -26,7 +26,8 @@ Vector<std::uint8_t> thin_vertices(const Geometry& geometry, Memory& memory, Job
   const Topology& topology = geometry.topology;
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     const std::size_t a = at(topology.first(e)), b = at(topology.second(e));
-    out[a] |= shallow[b], out[b] |= shallow[a];
+    out[a] |= shallow[b];
+    out[b] |= shallow[a];
   }
   return out;
 }

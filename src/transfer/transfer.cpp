@@ -51,8 +51,11 @@ std::shared_ptr<const Core> with_rest(const std::shared_ptr<const Core>& core, S
   if (rest.empty()) return core;
   auto geometry = make_shared_in<Geometry>(*core->memory, core->memory, core->jobs);
   const Geometry& from = *core->geometry;
-  geometry->mesh = from.mesh, geometry->topology = from.topology, geometry->areas = from.areas;
-  geometry->weights = from.weights, geometry->operator_kind = from.operator_kind;
+  geometry->mesh = from.mesh;
+  geometry->topology = from.topology;
+  geometry->areas = from.areas;
+  geometry->weights = from.weights;
+  geometry->operator_kind = from.operator_kind;
   for (std::size_t v = 0; v < rest.size(); ++v) {
     if (!is_finite(rest[v])) {
       const auto given = static_cast<std::uint32_t>(from.mesh.given_of_inner[v]);
@@ -72,20 +75,20 @@ std::shared_ptr<const Core> with_rest(const std::shared_ptr<const Core>& core, S
 
 Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target,
                    const TransferOptions& options)
-    : source_core_(with_rest(source, options.source_rest, "source")),
-      target_core_(with_rest(target, options.target_rest, "target")),
-      target_factor_(target),
-      options_(options),
-      source_axes_(checked_axes(options.source_axes, "source")),
-      target_axes_(checked_axes(options.target_axes, "target")),
-      axes_(Mat3(target_axes_.transpose() * source_axes_)),
-      source_(std::move(source)),
-      target_(std::move(target)),
-      numbers_(target_core_->memory.get()),
-      flags_(target_core_->memory.get()),
-      source_area_(area_shares(source_core_->mesh, *target_core_->memory)),
-      target_area_(area_shares(target_core_->mesh, *target_core_->memory)),
-      thin_(target_core_->memory.get()) {
+    : source_core_(with_rest(source, options.source_rest, "source"));
+target_core_(with_rest(target, options.target_rest, "target"));
+target_factor_(target);
+options_(options);
+source_axes_(checked_axes(options.source_axes, "source"));
+target_axes_(checked_axes(options.target_axes, "target"));
+axes_(Mat3(target_axes_.transpose() * source_axes_));
+source_(std::move(source));
+target_(std::move(target));
+numbers_(target_core_->memory.get());
+flags_(target_core_->memory.get());
+source_area_(area_shares(source_core_->mesh, *target_core_->memory));
+target_area_(area_shares(target_core_->mesh, *target_core_->memory));
+thin_(target_core_->memory.get()) {
   check_options(options);
   options_.source_rest = options_.target_rest = {};
   if (options_.alignment_angle == 0) options_.alignment_angle = default_alignment_angle;
@@ -109,8 +112,10 @@ void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs, 
     const std::uint32_t next = pool.take([&](std::uint32_t number) { return source_.in_use(number); });
     if (flags.size() <= next) flags.resize(next + 1, 0u);
     flags[next] = pair.flags;
-    numbers.push_back(next), fresh_numbers.push_back(next);
-    source_regions.push_back(pair.source), target_regions.push_back(pair.target);
+    numbers.push_back(next);
+    fresh_numbers.push_back(next);
+    source_regions.push_back(pair.source);
+    target_regions.push_back(pair.target);
   }
   std::sort(numbers.begin(), numbers.end());
   PairFields source(source_), target(target_);
@@ -119,8 +124,10 @@ void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs, 
 
   std::shared_ptr<Prepared> before = std::move(prepared_);
   const auto swap_pairs = [&]() noexcept {
-    std::swap(source_, source), std::swap(target_, target);
-    numbers_.swap(numbers), flags_.swap(flags);
+    std::swap(source_, source);
+    std::swap(target_, target);
+    numbers_.swap(numbers);
+    flags_.swap(flags);
   };
   swap_pairs();
   prepared_.reset();
@@ -146,8 +153,10 @@ void Transfer::remove_pairs(Span<const std::uint32_t> pairs) {
     numbers.erase(found);
   }
   PairFields source(source_), target(target_);
-  source.remove(pairs), target.remove(pairs);
-  source_ = std::move(source), target_ = std::move(target);
+  source.remove(pairs);
+  target.remove(pairs);
+  source_ = std::move(source);
+  target_ = std::move(target);
   numbers_.swap(numbers);
   prepared_.reset();
 }
@@ -160,7 +169,9 @@ void Transfer::prepare_alignment(Prepared& p) const {
       &source_core_->mesh, {p.source_field.data(), p.source_field.size()}, source_area_, source_axes_};
   const RestSide target{
       &target_core_->mesh, {p.target_field.data(), p.target_field.size()}, target_area_, target_axes_};
-  p.limb_angle.assign(width, -1.0), p.aligned.assign(width, 0.0), p.limb_turn.assign(width, Quaternion());
+  p.limb_angle.assign(width, -1.0);
+  p.aligned.assign(width, 0.0);
+  p.limb_turn.assign(width, Quaternion());
   Vector<std::int32_t> feet(target_core_->memory.get());
   for (std::size_t h = 0; h < width; ++h) {
     const std::uint32_t number = numbers_[h], flags = flags_[number];
@@ -196,7 +207,8 @@ void Transfer::prepare_alignment(Prepared& p) const {
   }
   for (std::size_t h = 0; h < width; ++h) p.confidence[h] = owned[h] > 0 ? p.confidence[h] / owned[h] : 0.0;
 
-  p.source_ground = ground_height(source), p.target_ground = ground_height(target);
+  p.source_ground = ground_height(source);
+  p.target_ground = ground_height(target);
   p.scale = 1;
   if (options_.scale > 0) {
     p.scale = options_.scale * source_core_->mesh.scale / target_core_->mesh.scale;
@@ -213,7 +225,9 @@ void Transfer::prepare_anchors(Prepared& p) const {
   Vector<Span<const std::int32_t>> loose(target_core_->memory.get());
   for (const std::uint32_t number : numbers_) {
     Prepared::Anchor anchor;
-    anchor.number = number, anchor.flags = flags_[number], anchor.is_foot = (flags_[number] & HF_PAIR_FOOT) != 0;
+    anchor.number = number;
+    anchor.flags = flags_[number];
+    anchor.is_foot = (flags_[number] & HF_PAIR_FOOT) != 0;
     anchor.source_rest = region_mean(source_.region(number), source_core_->mesh.positions.data());
     anchor.target_rest = region_mean(target_.region(number), target_core_->mesh.positions.data());
     const bool anchored = (flags_[number] & (HF_PAIR_ANCHOR | HF_PAIR_FOOT)) != 0;
@@ -229,7 +243,8 @@ void Transfer::prepare_anchors(Prepared& p) const {
   options.root = p.anchors.empty() ? root_alone : holds_trunk ? root_with_trunk : root_without_trunk;
   p.translations.prepare(*target_core_, target_area_, p.clusters, {regions.data(), regions.size()},
                          {loose.data(), loose.size()}, options);
-  p.holds.reserve(numbers_.size()), p.given_hold.assign(numbers_.size() + 1, Hold());
+  p.holds.reserve(numbers_.size());
+  p.given_hold.assign(numbers_.size() + 1, Hold());
   for (std::size_t k = 0; k < p.anchors.size(); ++k) p.anchors[k].cluster = p.translations.heaviest(k);
 
   // Finds the vertices that are raised with the region of a pair, because they blend from the same clusters.
@@ -277,8 +292,10 @@ void Transfer::prepare_ground(Prepared& p) const {
   const std::size_t width = numbers_.size(), count = at(p.clusters.count);
   const Mesh& mesh = source_core_->mesh;
   p.source_owner.assign(mesh.positions.size(), 0);
-  p.rest_lows.assign(count, no_height), p.source_lows.assign(count, 0.0), p.target_lows.assign(count, 0.0),
-      p.touch.assign(count, 0.0);
+  p.rest_lows.assign(count, no_height);
+  p.source_lows.assign(count, 0.0);
+  p.target_lows.assign(count, 0.0);
+  p.touch.assign(count, 0.0);
   target_core_->jobs->for_each(static_cast<std::uint32_t>((mesh.positions.size() + owner_block - 1) / owner_block),
                                [&](std::uint32_t b) {
                                  for (std::size_t v = std::size_t{b} * owner_block;
@@ -290,7 +307,10 @@ void Transfer::prepare_ground(Prepared& p) const {
                                      double d = 0;
                                      for (std::size_t h = 0; h < width; ++h)
                                        d += (row[h] - centre[h]) * (row[h] - centre[h]);
-                                     if (d < nearest) nearest = d, p.source_owner[v] = static_cast<std::int32_t>(c);
+                                     if (d < nearest) {
+                                       nearest = d;
+                                       p.source_owner[v] = static_cast<std::int32_t>(c);
+                                     }
                                    }
                                  }
                                });
@@ -328,9 +348,14 @@ void Transfer::prepare_gradients(Prepared& p) const {
     target_means.push_back(region_mean(target_.region(number), target_core_->mesh.positions.data()));
   }
   MatchSide source, target;
-  source.core = source_core_.get(), source.field = p.source_field.data(), source.axes = source_axes_;
-  source.means = {source_means.data(), source_means.size()}, source.unit = p.scale;
-  target.core = target_core_.get(), target.field = p.target_field.data(), target.axes = target_axes_;
+  source.core = source_core_.get();
+  source.field = p.source_field.data();
+  source.axes = source_axes_;
+  source.means = {source_means.data(), source_means.size()};
+  source.unit = p.scale;
+  target.core = target_core_.get();
+  target.field = p.target_field.data();
+  target.axes = target_axes_;
   target.means = {target_means.data(), target_means.size()};
   p.gradients.prepare(source, target, *target_factor_, target_area_, *target_core_->memory);
 }
@@ -349,9 +374,10 @@ Transfer::Prepared& Transfer::prepare() {
   auto fresh = make_shared_in<Prepared>(memory, memory);
   Prepared& p = *fresh;
   const std::size_t width = numbers_.size();
-  p.source_field.allocate(memory, at(source_core_->size()) * width),
-      p.target_field.allocate(memory, at(target_core_->size()) * width);
-  p.source_leak.resize(width), p.target_leak.resize(width);
+  p.source_field.allocate(memory, at(source_core_->size()) * width);
+  p.target_field.allocate(memory, at(target_core_->size()) * width);
+  p.source_leak.resize(width);
+  p.target_leak.resize(width);
   source_.solve({numbers_.data(), width}, p.source_field.data(), p.source_leak.data());
   target_.solve({numbers_.data(), width}, p.target_field.data(), p.target_leak.data());
   ClusterOptions cluster_options;
@@ -392,15 +418,23 @@ Transfer::Prepared& Transfer::prepare() {
   // The frame before the first one is the rest shape.
   const std::size_t count = at(p.clusters.count);
   p.posed.resize(at(source_core_->size()));
-  p.given.assign(count, Quaternion()), p.rotations.assign(count, Quaternion()),
-      p.matrices.assign(count, Mat3::Identity());
-  p.columns.assign(count, BlendColumns()), p.blended.resize(at(target_core_->size()));
+  p.given.assign(count, Quaternion());
+  p.rotations.assign(count, Quaternion());
+  p.matrices.assign(count, Mat3::Identity());
+  p.columns.assign(count, BlendColumns());
+  p.blended.resize(at(target_core_->size()));
   p.rises.assign(count, 0.0);
-  p.needs.assign(at(target_core_->size()), 0.0), p.forces.assign(at(target_core_->size()), 0.0),
-      p.block_needs.assign(p.needs.size() / rise_block + 1, 0.0), p.hold_forces.assign(numbers_.size() + 1, 0.0);
-  p.excess.assign(p.anchors.size(), Vec3()), p.dial_holds.reserve(numbers_.size() + 1);
-  prepare_dials(p), turn_dials(p);
-  p.shifts.assign(count, Vec3()), p.cluster_goals.assign(count, Vec3()), p.goals.assign(p.anchors.size(), Vec3());
+  p.needs.assign(at(target_core_->size()), 0.0);
+  p.forces.assign(at(target_core_->size()), 0.0);
+  p.block_needs.assign(p.needs.size() / rise_block + 1, 0.0);
+  p.hold_forces.assign(numbers_.size() + 1, 0.0);
+  p.excess.assign(p.anchors.size(), Vec3());
+  p.dial_holds.reserve(numbers_.size() + 1);
+  prepare_dials(p);
+  turn_dials(p);
+  p.shifts.assign(count, Vec3());
+  p.cluster_goals.assign(count, Vec3());
+  p.goals.assign(p.anchors.size(), Vec3());
   prepared_ = std::move(fresh);
   return p;
 }
@@ -412,8 +446,11 @@ PairInfo Transfer::pair_info(std::uint32_t pair) {
   const auto h = static_cast<std::size_t>(found - numbers_.begin());
   PairInfo info;
   info.flags = flags_[pair];
-  info.source_leak = p.source_leak[h], info.target_leak = p.target_leak[h];
-  info.alignment_angle = p.limb_angle[h], info.confidence = p.confidence[h], info.alignment_share = p.aligned[h];
+  info.source_leak = p.source_leak[h];
+  info.target_leak = p.target_leak[h];
+  info.alignment_angle = p.limb_angle[h];
+  info.confidence = p.confidence[h];
+  info.alignment_share = p.aligned[h];
   info.crossed = is_crossed(pair);
   return info;
 }

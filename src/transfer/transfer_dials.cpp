@@ -58,15 +58,18 @@ void Transfer::prepare_dials(Prepared& p) const {
   const Vec3 up = up_of(target_axes_), right{target_axes_(0, 0), target_axes_(0, 1), target_axes_(0, 2)};
   Vector<std::size_t> columns(&memory);
   const auto share_clusters = [&](Prepared::DialLimb& limb) {
-    limb.share.assign(count, 0.0), limb.root = -1;
+    limb.share.assign(count, 0.0);
+    limb.root = -1;
     if (columns.empty()) return;
     double nearest = no_height;
     for (std::size_t c = 0; c < count; ++c) {
       double field = 0;
       for (const std::size_t h : columns) field += p.clusters.centre[c * width + h];
       limb.share[c] = std::clamp((field - root_from) / root_width, 0.0, 1.0);
-      if (std::abs(field - root_from) < nearest)
-        nearest = std::abs(field - root_from), limb.root = static_cast<std::int32_t>(c);
+      if (std::abs(field - root_from) < nearest) {
+        nearest = std::abs(field - root_from);
+        limb.root = static_cast<std::int32_t>(c);
+      }
     }
   };
   for (const bool is_neck : {true, false}) {
@@ -83,7 +86,8 @@ void Transfer::prepare_dials(Prepared& p) const {
     limb.turn = Quaternion();
     if (columns.empty()) continue;
     Vector<double> source_sum(source_area_.size(), 0.0, &memory), target_sum(target_area_.size(), 0.0, &memory);
-    add_columns(p.source_field, width, columns, source_sum), add_columns(p.target_field, width, columns, target_sum);
+    add_columns(p.source_field, width, columns, source_sum);
+    add_columns(p.target_field, width, columns, target_sum);
     const RestSide source{&source_core_->mesh, {source_sum.data(), source_sum.size()}, source_area_, source_axes_},
         target{&target_core_->mesh, {target_sum.data(), target_sum.size()}, target_area_, target_axes_};
     const double part = 1.0 / static_cast<double>(columns.size());
@@ -107,14 +111,21 @@ void Transfer::prepare_dials(Prepared& p) const {
 
   double height = 0, trunks = 0;
   for (const Prepared::Anchor& anchor : p.anchors)
-    if (anchor.flags & HF_PAIR_TRUNK) height += dot(up, anchor.target_rest), trunks += 1;
+    if (anchor.flags & HF_PAIR_TRUNK) {
+      height += dot(up, anchor.target_rest);
+      trunks += 1;
+    }
   p.hip_height = (trunks > 0 ? height / trunks : dot(up, p.target_centroid)) - p.target_ground;
-  p.dialled_turn.assign(count, Quaternion()), p.stiff.assign(count, 0.0);
+  p.dialled_turn.assign(count, Quaternion());
+  p.stiff.assign(count, 0.0);
 }
 
 // Sets what follows from the dials alone.
 void Transfer::turn_dials(Prepared& p) const noexcept {
-  for (std::size_t c = 0; c < p.dialled_turn.size(); ++c) p.dialled_turn[c] = p.cluster_turn[c], p.stiff[c] = 0;
+  for (std::size_t c = 0; c < p.dialled_turn.size(); ++c) {
+    p.dialled_turn[c] = p.cluster_turn[c];
+    p.stiff[c] = 0;
+  }
   if (!dials_.turns_limbs()) return;
   for (const bool is_neck : {true, false}) {
     const Prepared::DialLimb& limb = is_neck ? p.neck : p.tail;
@@ -143,7 +154,8 @@ void Transfer::stiffen(Prepared& p) const noexcept {
     if (!(p.stiff[c] > 0)) continue;
     const Quaternion& root = p.given[at(p.neck.root >= 0 && p.neck.share[c] > 0 ? p.neck.root : p.tail.root)];
     p.given[c] = normalised(root * power(root.conjugate() * p.given[c], 1 - p.stiff[c]));
-    p.rotations[c] = p.given[c], p.matrices[c] = p.given[c].toRotationMatrix();
+    p.rotations[c] = p.given[c];
+    p.matrices[c] = p.given[c].toRotationMatrix();
   }
 }
 
@@ -154,7 +166,9 @@ void Transfer::move_paths(Prepared& p) const {
   bool has_trunk = false;
   const auto add = [&](std::size_t row, Vec3 moved, double share, bool vertical) {
     Hold hold;
-    hold.row = row, hold.share = share, hold.vertical = vertical;
+    hold.row = row;
+    hold.share = share;
+    hold.vertical = vertical;
     hold.goal = p.translations.place(row, p.matrices.data(), p.shifts.data()) + moved;
     p.dial_holds.push_back(hold);
   };

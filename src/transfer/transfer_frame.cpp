@@ -62,8 +62,10 @@ void blend_vertices(const BlendInput& in, std::size_t first, std::size_t last, V
       if (w <= 0) break;
       const BlendColumns& c = in.columns[in.joint[i]];
       Four along_x, along_y, along_z, shift;
-      std::memcpy(&along_x, c.m[0], sizeof along_x), std::memcpy(&along_y, c.m[1], sizeof along_y);
-      std::memcpy(&along_z, c.m[2], sizeof along_z), std::memcpy(&shift, c.m[3], sizeof shift);
+      std::memcpy(&along_x, c.m[0], sizeof along_x);
+      std::memcpy(&along_y, c.m[1], sizeof along_y);
+      std::memcpy(&along_z, c.m[2], sizeof along_z);
+      std::memcpy(&shift, c.m[3], sizeof shift);
       sum += w * (along_x * x.x + along_y * x.y + along_z * x.z + shift);
     }
     out[v] = {sum[0], sum[1], sum[2]};
@@ -156,7 +158,10 @@ void Transfer::read_holds(Prepared& p, Span<const PairHold> holds) const {
     Hold& hold = p.given_hold[row];
     if (hold.share > 0)
       fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of the holds: pair %u is held already", i, number);
-    hold.row = row, hold.goal = target_core_->mesh.to_inner(holds[i].place), hold.share = 1, hold.vertical = false;
+    hold.row = row;
+    hold.goal = target_core_->mesh.to_inner(holds[i].place);
+    hold.share = 1;
+    hold.vertical = false;
   }
 }
 
@@ -175,7 +180,9 @@ void Transfer::blend(Prepared& p) const {
     BlendColumns& to = p.columns[c];
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) to.m[j][i] = p.matrices[c](i, j);
-    to.m[3][0] = p.shifts[c].x, to.m[3][1] = p.shifts[c].y, to.m[3][2] = p.shifts[c].z;
+    to.m[3][0] = p.shifts[c].x;
+    to.m[3][1] = p.shifts[c].y;
+    to.m[3][2] = p.shifts[c].z;
   }
   const std::size_t n = p.blended.size();
   const BlendInput in = {p.columns.data(), p.clusters.joint.data(), p.clusters.weight.data(),

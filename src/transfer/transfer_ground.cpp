@@ -33,7 +33,7 @@ void Transfer::hold_regions(Prepared& p, double rigid, double share) const {
     Hold hold;
     hold.row = row;
     if (pair.is_foot) {
-      hold.goal = p.goals[row],
+      hold.goal = p.goals[row];
       hold.share = rigid + (1 - rigid) * (1 - pair.fallen) * (1 - smooth_step(stands, flies, p.scale * height));
       if (hold.share > 0) p.holds.push_back(hold);
       continue;
@@ -49,7 +49,8 @@ void Transfer::hold_regions(Prepared& p, double rigid, double share) const {
     for (const std::int32_t v : target_.region(pair.number))
       low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - pair.target_rest)));
     const Vec3 now = p.translations.place(row, p.matrices.data(), p.shifts.data());
-    hold.goal = now + (p.scale * height + p.target_ground - dot(up, now) - low) * up, hold.vertical = true;
+    hold.goal = now + (p.scale * height + p.target_ground - dot(up, now) - low) * up;
+    hold.vertical = true;
     p.holds.push_back(hold);
   }
   p.translations.hold({p.holds.data(), p.holds.size()}, up, p.matrices.data(), p.shifts.data());
@@ -90,7 +91,8 @@ void Transfer::lie_down(Prepared& p, Vec3 centroid, double lies, double rigid, d
   double sum = 0, mass = 0;
   for (std::size_t c = 0; c < p.target_lows.size(); ++c) {
     if (!(p.touch[c] > 0) || p.target_lows[c] == no_height) continue;
-    sum += p.touch[c] * (p.target_lows[c] - p.target_ground - p.source_lows[c]), mass += p.touch[c];
+    sum += p.touch[c] * (p.target_lows[c] - p.target_ground - p.source_lows[c]);
+    mass += p.touch[c];
   }
   if (!(mass > 0)) return;
   for (std::size_t k = 0; k < p.anchors.size(); ++k)

@@ -19,7 +19,9 @@ double trace(const Matrix& matrix, std::size_t count) noexcept {
 }
 
 void add_point(Vector<double>& table, std::size_t entry, double w, Vec3 p) noexcept {
-  table[3 * entry] += w * p.x, table[3 * entry + 1] += w * p.y, table[3 * entry + 2] += w * p.z;
+  table[3 * entry] += w * p.x;
+  table[3 * entry + 1] += w * p.y;
+  table[3 * entry + 2] += w * p.z;
 }
 
 }  // namespace
@@ -37,7 +39,8 @@ void Translations::add_overlap(Span<const double> area, const Core& target, cons
         if (joint[i] == joint[j] || weight[i] <= 0 || weight[j] <= 0) continue;
         const double w = area[v] * static_cast<double>(weight[i]) * static_cast<double>(weight[j]);
         const std::size_t c = at(joint[i]), d = at(joint[j]);
-        matrix[c * count + c] += w, matrix[c * count + d] -= w;
+        matrix[c * count + c] += w;
+        matrix[c * count + d] -= w;
         add_point(table, c * count + d, w, target.mesh.positions[v]);
         add_point(table, c * count + c, -w, target.mesh.positions[v]);
       }
@@ -65,7 +68,10 @@ SpreadTies spread_ties(const Core& core, const std::int32_t* joint, const float*
         const std::size_t c = at(joint[i]);
         std::size_t k = 0;
         while (k < used && cluster[k] != c) ++k;
-        if (k == used) cluster[used] = c, delta[used++] = 0;
+        if (k == used) {
+          cluster[used] = c;
+          delta[used++] = 0;
+        }
         delta[k] += (side ? -1.0 : 1.0) * static_cast<double>(weight[i]);
       }
     }
@@ -75,7 +81,8 @@ SpreadTies spread_ties(const Core& core, const std::int32_t* joint, const float*
       for (std::size_t j = 0; j < used; ++j) {
         const double product = w * delta[i] * delta[j];
         const std::size_t entry = cluster[i] * count + cluster[j];
-        out.matrix[entry] += product, out.size[entry] += std::abs(product);
+        out.matrix[entry] += product;
+        out.size[entry] += std::abs(product);
         add_point(out.table, entry, -product, middle);
       }
     }
@@ -106,7 +113,9 @@ void Translations::add_row(Span<const std::int32_t> vertices, Span<const double>
   }
   for (std::int32_t c = 0; c < count_; ++c) {
     if (!(weight[at(c)] > 0)) continue;
-    row_column_.push_back(c), row_weight_.push_back(weight[at(c)]), row_point_.push_back(point[at(c)]);
+    row_column_.push_back(c);
+    row_weight_.push_back(weight[at(c)]);
+    row_point_.push_back(point[at(c)]);
   }
   row_start_.push_back(static_cast<std::int32_t>(row_column_.size()));
 }
@@ -126,19 +135,23 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
     for (double& x : matrix) x /= sum;
     for (double& x : table) x /= sum;
   }
-  overlap_coupling_.resize(count * count), spread_coupling_.assign(count * count, 0.0);
+  overlap_coupling_.resize(count * count);
+  spread_coupling_.assign(count * count, 0.0);
   for (std::size_t i = 0; i < matrix.size(); ++i) overlap_coupling_[i] = -matrix[i];
   if (options.spread_share > 0) {
     spread_share_ = options.spread_share;
     const SpreadTies ties = spread_ties(target, clusters.joint.data(), clusters.weight.data(), count, memory);
     for (std::size_t i = 0; i < matrix.size(); ++i) {
-      matrix[i] += options.spread_share * ties.matrix[i], spread_coupling_[i] = -options.spread_share * ties.matrix[i];
+      matrix[i] += options.spread_share * ties.matrix[i];
+      spread_coupling_[i] = -options.spread_share * ties.matrix[i];
     }
     for (std::size_t i = 0; i < table.size(); ++i) table[i] += options.spread_share * ties.table[i];
   }
   const double total = trace(matrix, count);
   const double mean = total > 0 ? total / static_cast<double>(count) : 1.0;
-  anchor_ = options.anchor * mean, root_ = options.root * mean, whole_ = options.whole * mean;
+  anchor_ = options.anchor * mean;
+  root_ = options.root * mean;
+  whole_ = options.whole * mean;
 
   // A row gives a point as weights of clusters. Each anchored region counts by the mean of its vertices, the whole body
   // (root) by area.
@@ -175,7 +188,10 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
     table_start_.push_back(static_cast<std::int32_t>(table_column_.size()));
     for (std::size_t d = 0; d < count; ++d) {
       const Vec3 g{table[3 * (c * count + d)], table[3 * (c * count + d) + 1], table[3 * (c * count + d) + 2]};
-      if (g.x != 0 || g.y != 0 || g.z != 0) table_column_.push_back(static_cast<std::int32_t>(d)), table_.push_back(g);
+      if (g.x != 0 || g.y != 0 || g.z != 0) {
+        table_column_.push_back(static_cast<std::int32_t>(d));
+        table_.push_back(g);
+      }
     }
   }
   table_start_.push_back(static_cast<std::int32_t>(table_column_.size()));
@@ -184,8 +200,10 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
 void Translations::add_influences() {
   region_rows_ = row_start_.size() - 1;
   const std::size_t rows = row_start_.size() - 1;
-  influence_.assign(rows * at(count_), 0.0), gram_.assign(rows * rows, 0.0);
-  hold_matrix_.assign(rows * rows, 0.0), hold_rhs_.assign(rows, Vec3());
+  influence_.assign(rows * at(count_), 0.0);
+  gram_.assign(rows * rows, 0.0);
+  hold_matrix_.assign(rows * rows, 0.0);
+  hold_rhs_.assign(rows, Vec3());
   fill_influences(0, region_rows_);
   const std::size_t count = at(count_);
   compliance_.assign(count * count, 0.0);
@@ -322,8 +340,12 @@ void Translations::solve(const Clusters& clusters, const Mat3* rotations, Span<c
     for (std::int32_t i = row_start_[row]; i < row_start_[row + 1]; ++i)
       out[row_column_[at(i)]] = out[row_column_[at(i)]] + row_weight_[at(i)] * miss;
   }
-  for (std::size_t c = 0; c < at(count_); ++c)
-    scratch_[4 * c] = out[c].x, scratch_[4 * c + 1] = out[c].y, scratch_[4 * c + 2] = out[c].z, scratch_[4 * c + 3] = 0;
+  for (std::size_t c = 0; c < at(count_); ++c) {
+    scratch_[4 * c] = out[c].x;
+    scratch_[4 * c + 1] = out[c].y;
+    scratch_[4 * c + 2] = out[c].z;
+    scratch_[4 * c + 3] = 0;
+  }
   factor_.solve(scratch_.data());
   for (std::size_t c = 0; c < at(count_); ++c) out[c] = {scratch_[4 * c], scratch_[4 * c + 1], scratch_[4 * c + 2]};
 }

@@ -42,7 +42,10 @@ Vector<Site> choose_sites(const Fill& fill, const Vector<std::uint8_t>& known, S
   Index rows = 0;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const std::size_t c = at(mesh.component[at(v)]);
-    if (known[c] && !fill.known.has(v)) out.row_of[at(v)] = rows++, open[c] = 1;
+    if (known[c] && !fill.known.has(v)) {
+      out.row_of[at(v)] = rows++;
+      open[c] = 1;
+    }
   }
   Vector<Site> sites(&memory);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -141,7 +144,10 @@ Vector<double> island_sizes(const Mesh& mesh, Memory& memory) {
   Vector<std::uint8_t> seen(islands, 0, &memory);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const std::size_t c = at(mesh.component[at(v)]);
-    if (!seen[c]) box[c] = ItemBox::of(mesh.positions[at(v)]), seen[c] = 1;
+    if (!seen[c]) {
+      box[c] = ItemBox::of(mesh.positions[at(v)]);
+      seen[c] = 1;
+    }
     box[c].take(mesh.positions[at(v)]);
   }
   Vector<double> out(&memory);
@@ -192,7 +198,8 @@ FilledWeights fill_weights(const Fill& fill, const WeightRows& guessed, std::int
   const WeightRows means = island_means(fill, guessed, known, memory);
   out.islands_guessed = static_cast<std::uint32_t>(std::count(known.begin(), known.end(), 0));
   const std::size_t k = at(influences), width = solved.bone_of.size();
-  out.joints.resize(at(core.size()) * k), out.weights.resize(at(core.size()) * k);
+  out.joints.resize(at(core.size()) * k);
+  out.weights.resize(at(core.size()) * k);
   Vector<Share> shares(&memory);
   const Vector<Share> unlocked(&memory);
   Poller poller(filled_per_poll);

@@ -20,7 +20,8 @@ GivenWeights read_given(const Desc& desc, const Mesh& mesh, std::uint32_t limit)
   if (desc.influence_count < 1 || desc.influence_count > most_skin_joints)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "influence_count is %u; it must be 1 to %u", desc.influence_count,
          most_skin_joints);
-  require(desc.joints, "joints"), require(desc.weights, "weights");
+  require(desc.joints, "joints");
+  require(desc.weights, "weights");
   for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
     for (std::uint32_t k = 0; k < desc.influence_count; ++k) {
       const std::size_t i = std::size_t{v} * desc.influence_count + k;
@@ -40,7 +41,8 @@ GivenWeights read_given(const Desc& desc, const Mesh& mesh, std::uint32_t limit)
 template <class Desc>
 MatchOptions match_options(const Desc& desc, double scale) {
   require_zero(desc.reserved);
-  check_finite(desc.distance, "distance"), check_finite(desc.angle, "angle");
+  check_finite(desc.distance, "distance");
+  check_finite(desc.angle, "angle");
   if (desc.distance < 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "distance is below 0");
   if (desc.angle < 0 || desc.angle > most_angle)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "angle is %g; it must be 0 to %g radians", desc.angle, most_angle);
@@ -68,10 +70,14 @@ void read_partners(const hf_mirror_desc& desc, MirrorBones& bones) {
   const auto set = [&](std::uint32_t b, std::uint32_t partner) {
     const Index old = bones.partner[b];
     if (old >= 0 && at(old) != partner && bones.partner[at(old)] == static_cast<Index>(b)) bones.partner[at(old)] = -1;
-    bones.partner[b] = static_cast<Index>(partner), bones.given[b] = 1;
+    bones.partner[b] = static_cast<Index>(partner);
+    bones.given[b] = 1;
   };
   for (std::uint32_t b = 0; desc.partners && b < desc.bone_count; ++b) {
-    if (desc.partners[b] != HF_NO_INDEX) set(b, desc.partners[b]), set(desc.partners[b], b);
+    if (desc.partners[b] != HF_NO_INDEX) {
+      set(b, desc.partners[b]);
+      set(desc.partners[b], b);
+    }
   }
 }
 

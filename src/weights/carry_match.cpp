@@ -15,8 +15,10 @@ Vector<ItemBox> WeightedShape::collect(Memory& memory) {
     const Index* v = mesh_.triangle(t);
     if (!rows_.has(v[0]) && !rows_.has(v[1]) && !rows_.has(v[2])) continue;
     ItemBox box = ItemBox::of(mesh_.positions[at(v[0])]);
-    box.take(mesh_.positions[at(v[1])]), box.take(mesh_.positions[at(v[2])]);
-    boxes.push_back(box), triangle_.push_back(t);
+    box.take(mesh_.positions[at(v[1])]);
+    box.take(mesh_.positions[at(v[2])]);
+    boxes.push_back(box);
+    triangle_.push_back(t);
   }
   return boxes;
 }
@@ -40,7 +42,8 @@ Match WeightedShape::find(const Vec3& p, const Vec3& normal, double within, doub
           const double length = norm(there);
           if (!(length > 0) || !(dot(there, normal) >= cosine * length)) return;
         }
-        best.triangle = t, best.squared = squared;
+        best.triangle = t;
+        best.squared = squared;
         for (int k = 0; k < 3; ++k) best.weight[k] = w[k];
       });
   return best;

@@ -25,7 +25,10 @@ class WeightedShape {
     const Index* v = mesh_.triangle(match.triangle);
     double sum = 0, corners = 0;
     for (int k = 0; k < 3; ++k) {
-      if (rows_.has(v[k])) sum += match.weight[k], corners += 1;
+      if (rows_.has(v[k])) {
+        sum += match.weight[k];
+        corners += 1;
+      }
     }
     // A point at a corner without weights takes those of the other corners.
     for (int k = 0; k < 3; ++k) {

@@ -57,7 +57,9 @@ class Computation {
     carriers_ = find_carriers(core_.mesh, solved_, memory_, *core_.jobs);
     mean_of_rigid();
     const std::size_t n = at(core_.size()), k = at(influences_);
-    state_.joints.resize(n * k), state_.weights.resize(n * k), state_.origin.resize(n);
+    state_.joints.resize(n * k);
+    state_.weights.resize(n * k);
+    state_.origin.resize(n);
     for_ranges(*core_.jobs, n, vertex_piece, [&](std::size_t begin, std::size_t end) {
       Vector<Share> shares(&memory_), locked(&memory_);
       for (std::size_t v = begin; v < end; ++v) write(static_cast<Index>(v), shares, locked);
@@ -107,7 +109,8 @@ class Computation {
   }
 
   void write(Index v, Vector<Share>& shares, Vector<Share>& locked) const {
-    shares.clear(), locked.clear();
+    shares.clear();
+    locked.clear();
     const std::size_t island = at(core_.mesh.component[at(v)]);
     const Index pin = pin_of_[at(v)], rigid = rigid_of_[island], carrier = carriers_.of[at(v)];
     Origin origin = state_.solution->informants.screening[at(v)] > 0 ? Origin::informed : Origin::solved;
@@ -149,7 +152,8 @@ class Computation {
     WeightCounts& counts = state_.counts;
     for (const Index v : core_.mesh.inner_of_given)
       ++counts.by_origin[static_cast<std::size_t>(v < 0 ? Origin::isolated : state_.origin[at(v)])];
-    counts.islands_carried = carriers_.carried_islands, counts.islands_rigid = carriers_.rigid_islands;
+    counts.islands_carried = carriers_.carried_islands;
+    counts.islands_rigid = carriers_.rigid_islands;
     counts.blind = state_.solution->informants.blind;
   }
 

@@ -101,7 +101,8 @@ Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector
     });
     if (std::any_of(found.begin(), found.end(), [](const Found& f) { return f.count > 0; })) break;
   }
-  out.screening.assign(n, 0.0), out.by_island.assign(at(mesh.component_count()), 0);
+  out.screening.assign(n, 0.0);
+  out.by_island.assign(at(mesh.component_count()), 0);
   out.start.reserve(n + 1);
   out.start.push_back(0);
   for (std::size_t v = 0; v < n; ++v) {
@@ -109,7 +110,8 @@ Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector
     out.bone.insert(out.bone.end(), f.bone, f.bone + f.count);
     out.start.push_back(static_cast<Index>(out.bone.size()));
     if (f.count == 0) continue;
-    ++out.informed, ++out.by_island[at(mesh.component[v])];
+    ++out.informed;
+    ++out.by_island[at(mesh.component[v])];
     const double d = std::max(f.distance, least_distance);
     out.screening[v] = screening_strength * f.count / (d * d);
   }

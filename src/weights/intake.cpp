@@ -30,7 +30,10 @@ Site read_place(const Mesh& mesh, const hf_pins_desc& desc, std::uint32_t i) {
   Site site;
   int used = 0;
   for (int k = 0; k < 3; ++k) {
-    if (weights[k] > 0) site.vertex[used] = place.vertex[k], site.weight[used++] = weights[k];
+    if (weights[k] > 0) {
+      site.vertex[used] = place.vertex[k];
+      site.weight[used++] = weights[k];
+    }
   }
   if (used == 1) site.weight[0] = 1;
   site.component = mesh.component[at(place.vertex[0])];
@@ -57,7 +60,8 @@ void read_pin_weights(const hf_pins_desc& desc, std::uint32_t i, std::uint32_t b
     if (there < pins.bone.size()) {
       pins.share[there] += weight;
     } else {
-      pins.bone.push_back(static_cast<Index>(joint)), pins.share.push_back(weight);
+      pins.bone.push_back(static_cast<Index>(joint));
+      pins.share.push_back(weight);
     }
   }
   if (!(sum > 0)) fail(HF_ERROR_INVALID_ARGUMENT, i, "the weights of pin %u are all 0; one must be above 0", i);
@@ -145,7 +149,8 @@ void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, 
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
   require_either(desc.vertices, desc.triangles, "vertices and triangles");
   if (desc.triangles) require(desc.barycentrics, "barycentrics");
-  require(desc.joints, "joints"), require(desc.weights, "weights");
+  require(desc.joints, "joints");
+  require(desc.weights, "weights");
   if (desc.joint_count < 1 || desc.joint_count > most_influences)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joint_count is %u; it must be 1 to %d", desc.joint_count,
          most_influences);
@@ -190,8 +195,10 @@ BoneFlagCounts count_bone_flags(Span<const std::uint32_t> faults) noexcept {
   BoneFlagCounts out;
   for (const std::uint32_t of_bone : faults) {
     const std::uint32_t flags = bone_flags(of_bone);
-    out.no_length += (flags & HF_BONE_NO_LENGTH) != 0, out.coincident += (flags & HF_BONE_COINCIDENT) != 0;
-    out.informs_none += (flags & HF_BONE_INFORMS_NONE) != 0, out.outside += (flags & HF_BONE_OUTSIDE) != 0;
+    out.no_length += (flags & HF_BONE_NO_LENGTH) != 0;
+    out.coincident += (flags & HF_BONE_COINCIDENT) != 0;
+    out.informs_none += (flags & HF_BONE_INFORMS_NONE) != 0;
+    out.outside += (flags & HF_BONE_OUTSIDE) != 0;
     out.helper += (flags & HF_BONE_HELPER) != 0;
   }
   return out;

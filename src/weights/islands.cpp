@@ -24,7 +24,10 @@ class Cloud {
         [&](Index i) {
           const Vec3 away = mesh_.positions[at(vertices_[at(i)])] - p;
           const double squared = dot(away, away);
-          if (squared < best || (squared == best && vertices_[at(i)] < found)) best = squared, found = vertices_[at(i)];
+          if (squared < best || (squared == best && vertices_[at(i)] < found)) {
+            best = squared;
+            found = vertices_[at(i)];
+          }
         });
     return found;
   }
@@ -34,7 +37,10 @@ class Cloud {
   Vector<ItemBox> collect(Takes&& takes, Memory& memory) {
     Vector<ItemBox> boxes(&memory);
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      if (takes(v)) vertices_.push_back(v), boxes.push_back(ItemBox::of(mesh_.positions[at(v)]));
+      if (takes(v)) {
+        vertices_.push_back(v);
+        boxes.push_back(ItemBox::of(mesh_.positions[at(v)]));
+      }
     }
     return boxes;
   }
@@ -53,7 +59,8 @@ Vec3 clamped(const Vec3& p) noexcept {
 Carriers find_carriers(const Mesh& mesh, const Vector<std::uint8_t>& solved, Memory& memory, JobRunner& jobs) {
   const std::size_t n = at(mesh.vertex_count()), islands = solved.size();
   Carriers out(memory);
-  out.of.assign(n, -1), out.rigid.assign(islands, 0);
+  out.of.assign(n, -1);
+  out.rigid.assign(islands, 0);
   const auto is_solved = [&](Index v) { return solved[at(mesh.component[at(v)])] != 0; };
   for (Index v = 0; at(v) < n; ++v) out.of[at(v)] = is_solved(v) ? v : -1;
   const auto left = static_cast<std::size_t>(std::count(solved.begin(), solved.end(), 0));
@@ -68,13 +75,17 @@ Carriers find_carriers(const Mesh& mesh, const Vector<std::uint8_t>& solved, Mem
   Vector<std::uint8_t> seen(islands, 0, &memory);
   for (std::size_t v = 0; v < n; ++v) {
     const std::size_t c = at(mesh.component[v]);
-    if (!seen[c]) box[c] = ItemBox::of(mesh.positions[v]), seen[c] = 1;
+    if (!seen[c]) {
+      box[c] = ItemBox::of(mesh.positions[v]);
+      seen[c] = 1;
+    }
     box[c].take(mesh.positions[v]);
   }
   for (std::size_t c = 0; c < islands; ++c) {
     if (solved[c]) continue;
     out.rigid[c] = norm(box[c].high - box[c].low) < rigid_size;
-    out.rigid_islands += out.rigid[c], out.carried_islands += !out.rigid[c];
+    out.rigid_islands += out.rigid[c];
+    out.carried_islands += !out.rigid[c];
   }
   return out;
 }

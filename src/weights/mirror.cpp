@@ -22,8 +22,12 @@ void count_misses(const Vector<Match>& matches, MirroredWeights& out) {
   for (std::size_t v = 0; v < matches.size(); ++v) {
     if (matches[v].triangle < 0) continue;
     const double off = std::sqrt(matches[v].squared);
-    out.mean_off += off, ++count;
-    if (out.worst < 0 || off > out.worst_off) out.worst_off = off, out.worst = static_cast<Index>(v);
+    out.mean_off += off;
+    ++count;
+    if (out.worst < 0 || off > out.worst_off) {
+      out.worst_off = off;
+      out.worst = static_cast<Index>(v);
+    }
   }
   if (count > 0) out.mean_off /= static_cast<double>(count);
 }
@@ -37,9 +41,12 @@ BoneMisses bone_misses(const BonePairs& pairs, double scale) noexcept {
     ++out.by[static_cast<std::size_t>(pairs.by[b])];
     if (pairs.by[b] == PairedBy::none) continue;
     const double off = scale * pairs.off[b];
-    ++paired, out.mean += off;
-    if (out.worst_bone == HF_NO_INDEX || off > out.worst)
-      out.worst_bone = static_cast<std::uint32_t>(b), out.worst = off;
+    ++paired;
+    out.mean += off;
+    if (out.worst_bone == HF_NO_INDEX || off > out.worst) {
+      out.worst_bone = static_cast<std::uint32_t>(b);
+      out.worst = off;
+    }
   }
   if (paired > 0) out.mean /= paired;
   return out;

@@ -79,8 +79,10 @@ Vector<Index> pair_names(Span<const char> names, std::size_t count, Memory& memo
       // A key with more than one bone of a side says nothing.
       if (end == i + 2 && !keys[i].right && keys[i + 1].right) {
         const Index left = keys[i].bone, right = keys[i + 1].bone;
-        if (partner[at(left)] < 0 && partner[at(right)] < 0 && left != right)
-          partner[at(left)] = right, partner[at(right)] = left;
+        if (partner[at(left)] < 0 && partner[at(right)] < 0 && left != right) {
+          partner[at(left)] = right;
+          partner[at(right)] = left;
+        }
       }
       i = end;
     }
@@ -92,7 +94,9 @@ BonePairs pair_bones(const Vector<Vec3>& heads, const Vector<Index>& named, cons
                      const MirrorPlane& plane, Memory& memory) {
   const std::size_t count = heads.size();
   BonePairs out(memory);
-  out.partner.assign(count, -1), out.by.assign(count, PairedBy::none), out.off.assign(count, 0.0);
+  out.partner.assign(count, -1);
+  out.by.assign(count, PairedBy::none);
+  out.off.assign(count, 0.0);
   Vector<Index> rest(&memory);
   Vector<ItemBox> boxes(&memory);
   for (std::size_t b = 0; b < count; ++b) {
@@ -101,7 +105,8 @@ BonePairs pair_bones(const Vector<Vec3>& heads, const Vector<Index>& named, cons
       out.by[b] = given[b] ? PairedBy::given : PairedBy::name;
       continue;
     }
-    rest.push_back(static_cast<Index>(b)), boxes.push_back(ItemBox::of(heads[b]));
+    rest.push_back(static_cast<Index>(b));
+    boxes.push_back(ItemBox::of(heads[b]));
   }
   const BoxTree tree(boxes, memory);
   // The nearest bone without a partner to the reflection of each; of equal ones itself, then the lowest number.
@@ -117,14 +122,18 @@ BonePairs pair_bones(const Vector<Vec3>& heads, const Vector<Index>& named, cons
           const Vec3 away = heads[at(other)] - there;
           const double squared = dot(away, away);
           const bool tie = squared == best && (found < 0 || other == b || (found != b && other < found));
-          if (squared < best || tie) best = squared, found = other;
+          if (squared < best || tie) {
+            best = squared;
+            found = other;
+          }
         });
     nearest[at(b)] = found;
   }
   for (const Index b : rest) {
     const Index other = nearest[at(b)];
     if (other < 0 || nearest[at(other)] != b) continue;
-    out.partner[at(b)] = other, out.by[at(b)] = other == b ? PairedBy::centre : PairedBy::place;
+    out.partner[at(b)] = other;
+    out.by[at(b)] = other == b ? PairedBy::centre : PairedBy::place;
   }
   for (std::size_t b = 0; b < count; ++b) {
     if (out.partner[b] < 0) {

@@ -23,7 +23,10 @@ void settle(MirrorPlane& plane) noexcept {
   double n[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
   const int most =
       static_cast<int>(std::max_element(n, n + 3, [](double a, double b) { return std::fabs(a) < std::fabs(b); }) - n);
-  if (n[most] < 0) plane.normal = -1.0 * plane.normal, plane.offset = -plane.offset;
+  if (n[most] < 0) {
+    plane.normal = -1.0 * plane.normal;
+    plane.offset = -plane.offset;
+  }
   if (std::fabs(n[most]) < std::sqrt(1 - axis_slack * axis_slack)) return;
   plane.normal = {most == 0 ? 1.0 : 0.0, most == 1 ? 1.0 : 0.0, most == 2 ? 1.0 : 0.0};
 }
@@ -134,7 +137,8 @@ MirrorPlane plane_of_surface(const Core& core, Memory& memory) {
       // The middle of the box is the origin of the inner frame.
       plane.normal = {candidate == 0 ? 1.0 : 0.0, candidate == 1 ? 1.0 : 0.0, candidate == 2 ? 1.0 : 0.0};
     } else {
-      plane.normal = column_of(axes, candidate - 3), plane.offset = dot(plane.normal, centre);
+      plane.normal = column_of(axes, candidate - 3);
+      plane.offset = dot(plane.normal, centre);
       settle(plane);
     }
     double score = 0;
@@ -144,10 +148,15 @@ MirrorPlane plane_of_surface(const Core& core, Memory& memory) {
       double next_score = 0;
       Vector<PointPair> next_pairs = shape.pairs(next, next_score);
       if (!(next_score < mirror_gain * score)) break;
-      plane = next, score = next_score, pairs = std::move(next_pairs);
+      plane = next;
+      score = next_score;
+      pairs = std::move(next_pairs);
     }
     // Candidates of the frame come first, and another must be clearly better.
-    if (score < (best_score == HUGE_VAL ? HUGE_VAL : mirror_gain * best_score)) best = plane, best_score = score;
+    if (score < (best_score == HUGE_VAL ? HUGE_VAL : mirror_gain * best_score)) {
+      best = plane;
+      best_score = score;
+    }
   }
   best.from = PlaneFrom::surface;
   return best;

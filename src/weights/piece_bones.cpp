@@ -36,7 +36,8 @@ class Around {
         p, [] { return 0.0; },
         [&](Index island) {
           const ItemBox& box = boxes_[at(island)];
-          near_.push_back(island), length = std::max(length, 1.01 * norm(box.high - box.low));
+          near_.push_back(island);
+          length = std::max(length, 1.01 * norm(box.high - box.low));
         });
     std::sort(near_.begin(), near_.end());
     count_.assign(near_.size(), 0);
@@ -76,7 +77,10 @@ Vector<ItemBox> island_boxes(const Mesh& mesh, Memory& memory) {
   Vector<std::uint8_t> seen(out.size(), 0, &memory);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const std::size_t c = at(mesh.component[at(v)]);
-    if (!seen[c]) out[c] = ItemBox::of(mesh.positions[at(v)]), seen[c] = 1;
+    if (!seen[c]) {
+      out[c] = ItemBox::of(mesh.positions[at(v)]);
+      seen[c] = 1;
+    }
     out[c].take(mesh.positions[at(v)]);
   }
   return out;
@@ -114,7 +118,8 @@ PieceBones find_piece_bones(const Mesh& mesh, const SkinShape& skin, const Vecto
         entries[i].place == 0 ? held.has_head = true : (++inside, false);
       const BoneSegment& s = segments[at(segment)];
       const double share = static_cast<double>(inside) / bone_places;
-      held.share = std::max(held.share, share), held.length += share * norm(s.tail - s.head);
+      held.share = std::max(held.share, share);
+      held.length += share * norm(s.tail - s.head);
     }
     ++out.start[at(first.island) + 1];
     out.bones.push_back(held);

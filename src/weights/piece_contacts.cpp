@@ -37,7 +37,8 @@ class Finder {
     islands_.near(p, reach, [&](Index island) {
       if (island == own) return;
       Near found;
-      found.squared = reach(), found.island = island;
+      found.squared = reach();
+      found.island = island;
       triangles_.near(
           island, p, [&] { return found.squared; },
           [&](Index t) {
@@ -46,7 +47,8 @@ class Finder {
             const double squared = squared_to_triangle(p, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])],
                                                        mesh_.positions[at(v[2])], weight);
             if (!(squared < found.squared)) return;
-            found.squared = squared, found.vertex = v[std::max_element(weight, weight + 3) - weight];
+            found.squared = squared;
+            found.vertex = v[std::max_element(weight, weight + 3) - weight];
           });
       if (found.vertex < 0) return;
       for (Near& place : out) {

@@ -20,7 +20,8 @@ PinSites::PinSites(const Pins& pins, const Core& core, Memory& memory) : sites(&
              "pin %d covers a vertex of pin %d; leave one out or make its radius smaller", p, there);
       there = p;
     }
-    sites.push_back(site), pin.push_back(p);
+    sites.push_back(site);
+    pin.push_back(p);
   };
   for (std::size_t p = 0; p < pins.count(); ++p) {
     const Site& place = pins.places[p];
@@ -79,7 +80,8 @@ std::shared_ptr<const PinnedField> PinnedField::make(std::shared_ptr<const Solut
     made->system = before->system;
   } else {
     made->system = make_system(*solution->screened, made->sites);
-    made->path_solves = made->system->counts().path_solves, made->factorisations = made->system->counts().rebases;
+    made->path_solves = made->system->counts().path_solves;
+    made->factorisations = made->system->counts().rebases;
   }
   // A bone's field changes if it misses the weight of some pin.
   const std::size_t bones = solution->column_of.size(), width = solution->width(), sites = made->sites.sites.size();

@@ -37,7 +37,10 @@ void write_influences(Vector<Share>& shares, const Vector<Share>& locked, bool s
   double free_units = weight_units;
   for (const Share& share : locked) {
     const double units = std::min(share.weight, free_units);
-    if (units > 0 && used < count) out[used++] = {share.bone, units}, free_units -= units;
+    if (units > 0 && used < count) {
+      out[used++] = {share.bone, units};
+      free_units -= units;
+    }
   }
   if (small_drop) {
     const bool any = std::any_of(shares.begin(), shares.end(), [](const Share& s) { return pruned(s.weight) > 0; });

@@ -113,10 +113,14 @@ class RigidPieces {
       Shape& shape = shapes_[at(mesh_.component[at(v[0])])];
       const Vec3 a = mesh_.positions[at(v[0])];
       const Vec3 area = cross(mesh_.positions[at(v[1])] - a, mesh_.positions[at(v[2])] - a);
-      shape.open = shape.open + area, shape.area += norm(area);
+      shape.open = shape.open + area;
+      shape.area += norm(area);
       for (int k = 0; k < 3; ++k) {
         const Vec3& p = mesh_.positions[at(v[k])];
-        if (!shape.seen) shape.box = ItemBox::of(p), shape.seen = true;
+        if (!shape.seen) {
+          shape.box = ItemBox::of(p);
+          shape.seen = true;
+        }
         shape.box.take(p);
       }
     }
@@ -145,7 +149,10 @@ class RigidPieces {
     for (const HeldBone& held : held_.of(static_cast<Index>(island))) {
       const Index c = solution_.column_of[at(held.bone)];
       if (c < 0) continue;
-      if (held.share >= owned_share && held.length > length) longest = c, length = held.length;
+      if (held.share >= owned_share && held.length > length) {
+        longest = c;
+        length = held.length;
+      }
       if (held.has_head && norm(held.head - middle) < near && (joint < 0 || mean[at(c)] > mean[at(joint)])) joint = c;
     }
     return longest >= 0 ? longest : joint;
@@ -175,7 +182,10 @@ class RigidPieces {
       if (!(area > 0)) continue;
       for (double& m : mean) m /= area;
       if (robot()) column[c] = own_column(c, mean);
-      if (column[c] < 0) waits_[c] = 1, keep_largest(mean, mean_[c]);
+      if (column[c] < 0) {
+        waits_[c] = 1;
+        keep_largest(mean, mean_[c]);
+      }
     }
   }
 
@@ -186,7 +196,10 @@ class RigidPieces {
       double share = mean[k];
       Index place = static_cast<Index>(k);
       for (std::size_t i = 0; i < kept_shares; ++i) {
-        if (share > out.share[i]) std::swap(share, out.share[i]), std::swap(place, out.column[i]);
+        if (share > out.share[i]) {
+          std::swap(share, out.share[i]);
+          std::swap(place, out.column[i]);
+        }
       }
     }
   }
@@ -215,7 +228,10 @@ class RigidPieces {
       }
     };
     for (std::size_t c = 0; c < islands; ++c) {
-      if (waits_[c]) open.push_back({0, static_cast<Index>(c)}), std::push_heap(open.begin(), open.end());
+      if (waits_[c]) {
+        open.push_back({0, static_cast<Index>(c)});
+        std::push_heap(open.begin(), open.end());
+      }
     }
     for (std::size_t c = 0; c < islands; ++c) {
       if (!waits_[c] && solution_.informants.by_island[c] > 0) settle(static_cast<Index>(c));

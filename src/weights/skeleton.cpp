@@ -23,7 +23,9 @@ class Tails {
       : head(&memory), bones_(bones), skin_(skin), first_child_(&memory), first_end_(&memory), next_(&memory) {
     const std::size_t count = bones.head.size();
     for (const Vec3& p : bones.head) head.push_back(place_of(mesh, p));
-    first_child_.assign(count, -1), first_end_.assign(count, -1), next_.assign(count, -1);
+    first_child_.assign(count, -1);
+    first_end_.assign(count, -1);
+    next_.assign(count, -1);
     Vector<double> lengths(&memory);
     for (Index j = bones.count() - 1; j >= 0; --j) {
       const Index parent = bones.parent[at(j)];
@@ -33,7 +35,8 @@ class Tails {
       const bool deforms = bones.deforms[at(j)] != 0;
       if (deforms) lengths.push_back(length);
       Index& first = deforms ? first_child_[at(parent)] : first_end_[at(parent)];
-      next_[at(j)] = first, first = j;
+      next_[at(j)] = first;
+      first = j;
     }
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     if (!lengths.empty()) std::nth_element(lengths.begin(), middle, lengths.end());
@@ -68,7 +71,10 @@ class Tails {
     Index found = -1;
     for (Index c = first; c >= 0; c = next_[at(c)]) {
       const double found_cosine = cosine(head[at(c)] - head[at(j)], axis);
-      if (found_cosine > best) best = found_cosine, found = c;
+      if (found_cosine > best) {
+        best = found_cosine;
+        found = c;
+      }
     }
     return found;
   }
@@ -108,7 +114,8 @@ class Tails {
       const double distance = norm(way);
       if (!(distance >= no_length && distance < nearest) || !(cosine(way, direction) > axis_cosine)) continue;
       if (descends(j, k) || descends(k, j)) continue;
-      nearest = distance, found = k;
+      nearest = distance;
+      found = k;
     }
     return found;
   }
@@ -146,7 +153,10 @@ class Tails {
   Vec3 mean_of_children(Index j) const {
     Vec3 sum;
     double count = 0;
-    for (Index c = first_child_[at(j)]; c >= 0; c = next_[at(c)]) sum = sum + head[at(c)], ++count;
+    for (Index c = first_child_[at(j)]; c >= 0; c = next_[at(c)]) {
+      sum = sum + head[at(c)];
+      ++count;
+    }
     return (1 / count) * sum;
   }
 

@@ -46,7 +46,8 @@ void drop_massless(const Core& core, Informants& informants) {
     mass[at(core.mesh.component[v])] += core.areas[v] * informants.screening[v];
   for (std::size_t c = 0; c < mass.size(); ++c) {
     if (mass[c] > 0) continue;
-    informants.informed -= informants.by_island[c], informants.by_island[c] = 0;
+    informants.informed -= informants.by_island[c];
+    informants.by_island[c] = 0;
   }
   for (std::size_t v = 0; v < informants.screening.size(); ++v) {
     if (!(mass[at(core.mesh.component[v])] > 0)) informants.screening[v] = 0;
@@ -95,7 +96,8 @@ std::shared_ptr<const Solution> Solution::make(std::shared_ptr<const SkinSurface
   drop_massless(*core, made->informants);
   report(progress_informed);
 
-  made->informs.assign(at(bones.count()), 0), made->column_of.assign(at(bones.count()), -1);
+  made->informs.assign(at(bones.count()), 0);
+  made->column_of.assign(at(bones.count()), -1);
   for (Index v = 0; v < core->size(); ++v) {
     if (made->informants.screening[at(v)] > 0) {
       for (const Index b : made->informants.of(v)) ++made->informs[at(b)];

@@ -33,7 +33,8 @@ void Weights::set_bones(const Bones& bones, Span<const Index> sources) {
     if (source >= 0 && at(source) < now.size()) now[at(source)] = b;
   }
   const Pins& pins = present.pins;
-  next->pins.places = pins.places, next->pins.radius = pins.radius;
+  next->pins.places = pins.places;
+  next->pins.radius = pins.radius;
   for (std::size_t p = 0; p < pins.count(); ++p) {
     double sum = 0;
     for (Index i = pins.start[p]; i < pins.start[p + 1]; ++i) {
@@ -44,7 +45,10 @@ void Weights::set_bones(const Bones& bones, Span<const Index> sources) {
            "pin %zu has weights on removed bones only; change the pin first", p);
     for (Index i = pins.start[p]; i < pins.start[p + 1]; ++i) {
       const Index bone = now[at(pins.bone[at(i)])];
-      if (bone >= 0) next->pins.bone.push_back(bone), next->pins.share.push_back(pins.share[at(i)] / sum);
+      if (bone >= 0) {
+        next->pins.bone.push_back(bone);
+        next->pins.share.push_back(pins.share[at(i)] / sum);
+      }
     }
     next->pins.start.push_back(static_cast<Index>(next->pins.bone.size()));
   }
@@ -54,7 +58,10 @@ void Weights::set_bones(const Bones& bones, Span<const Index> sources) {
     Vector<std::size_t> from(&memory());
     for (std::size_t i = 0; i < old; ++i) {
       const Index bone = now[at(present.locks->bones[i])];
-      if (bone >= 0) locks->bones.push_back(bone), from.push_back(i);
+      if (bone >= 0) {
+        locks->bones.push_back(bone);
+        from.push_back(i);
+      }
     }
     locks->units.reserve(n * from.size());
     for (std::size_t v = 0; v < n; ++v) {

@@ -33,12 +33,14 @@ static hf_result call_surface_save(World* w) { /* makes the factor of another ki
 }
 static hf_result call_create(World* w) {
   hf_solver_desc desc = HF_INIT(hf_solver_desc);
-  desc.engine = w->engine, desc.channel_count = 2;
+  desc.engine = w->engine;
+  desc.channel_count = 2;
   return hf_create(w->surface, &desc, &w->made_solver);
 }
 static hf_result call_create_plate(World* w) {
   hf_solver_desc desc = HF_INIT(hf_solver_desc);
-  desc.engine = w->engine, desc.field_kind = HF_FIELD_BIHARMONIC;
+  desc.engine = w->engine;
+  desc.field_kind = HF_FIELD_BIHARMONIC;
   return hf_create(w->surface, &desc, &w->made_solver);
 }
 static hf_result call_add_site(World* w) {
@@ -86,8 +88,11 @@ static hf_result call_edit(World* w) {
   const double value = 6;
   const hf_sites_desc add = sites_at(1, &vertex, &value), to = sites_at(1, &place, NULL);
   hf_edit_desc edit = HF_INIT(hf_edit_desc);
-  edit.remove_count = 1, edit.remove_sites = w->sites;
-  edit.move_count = 1, edit.move_sites = w->sites + 1, edit.move_to = &to;
+  edit.remove_count = 1;
+  edit.remove_sites = w->sites;
+  edit.move_count = 1;
+  edit.move_sites = w->sites + 1;
+  edit.move_to = &to;
   edit.add = &add;
   return hf_solver_edit_sites(w->solver, &edit, NULL);
 }
@@ -98,7 +103,8 @@ static hf_result call_solve_at(World* w) {
 }
 static hf_result call_get_sites(World* w) {
   hf_sites_info info = HF_INIT(hf_sites_info);
-  info.capacity = 2, info.flux = w->field;
+  info.capacity = 2;
+  info.flux = w->field;
   return hf_solver_get_sites(w->solver, &info);
 }
 static hf_result call_record(World* w) { return hf_solver_record(w->solver); }
@@ -108,7 +114,9 @@ static hf_result call_pose_clone(World* w) { return hf_pose_clone(w->pose, &w->m
 static hf_result call_add_handles(World* w) {
   const uint32_t count = 2, region[2] = {5 * AROUND, 5 * AROUND + 1};
   hf_handles_desc desc = HF_INIT(hf_handles_desc);
-  desc.handle_count = 1, desc.region_counts = &count, desc.region_vertices = region;
+  desc.handle_count = 1;
+  desc.region_counts = &count;
+  desc.region_vertices = region;
   return hf_pose_add_handles(w->pose, &desc, NULL);
 }
 static hf_result call_add_layer(World* w) {
@@ -116,7 +124,10 @@ static hf_result call_add_layer(World* w) {
                            (double)w->tube.positions[3 * 4 * AROUND + 2]};
   const double radius = 0.2; /* one vertex */
   hf_handles_desc desc = HF_INIT(hf_handles_desc);
-  desc.handle_count = 1, desc.points = point, desc.radii = &radius, desc.layer = 1;
+  desc.handle_count = 1;
+  desc.points = point;
+  desc.radii = &radius;
+  desc.layer = 1;
   return hf_pose_add_handles(w->pose, &desc, NULL);
 }
 static hf_result call_pose_skin(World* w) {
@@ -126,7 +137,8 @@ static hf_result call_pose_skin(World* w) {
 static hf_result call_remove_handles(World* w) { return hf_pose_remove_handles(w->pose, 1, w->handles); }
 static hf_result deform_to(World* w, float* positions) {
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
-  desc.positions = positions, desc.restart = 1;
+  desc.positions = positions;
+  desc.restart = 1;
   return hf_pose_deform(w->pose, &desc, NULL);
 }
 static hf_result call_deform(World* w) { return deform_to(w, w->result); }
@@ -136,14 +148,17 @@ static hf_result call_transfer_create(World* w) {
 static hf_result call_add_pairs(World* w) {
   const uint32_t count = 2, region[2] = {5 * AROUND, 5 * AROUND + 1};
   hf_pairs_desc desc = HF_INIT(hf_pairs_desc);
-  desc.pair_count = 1, desc.source_counts = desc.target_counts = &count,
+  desc.pair_count = 1;
+  desc.source_counts = desc.target_counts = &count;
   desc.source_vertices = desc.target_vertices = region;
   return hf_transfer_add_pairs(w->transfer, &desc, NULL);
 }
 static hf_result call_remove_pairs(World* w) { return hf_transfer_remove_pairs(w->transfer, 1, w->pairs); }
 static hf_result apply_to(World* w, float* positions, float* normals) {
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = w->posed, frame.target_positions = positions, frame.target_normals = normals;
+  frame.source_positions = w->posed;
+  frame.target_positions = positions;
+  frame.target_normals = normals;
   return hf_transfer_apply(w->transfer, &frame);
 }
 static hf_result call_apply(World* w) {
@@ -185,9 +200,13 @@ static hf_result call_region_clone(World* w) { return hf_region_clone(w->region,
 static hf_result call_region_edit(World* w) {
   const uint32_t points[3] = {2 * AROUND, 2 * AROUND + 3, 2 * AROUND + 6};
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
-  curve.point_count = 3, curve.vertices = points;
+  curve.point_count = 3;
+  curve.vertices = points;
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-  edit.curve = &curve, edit.ring_count = 1, edit.remove_count = 1, edit.remove_vertices = points;
+  edit.curve = &curve;
+  edit.ring_count = 1;
+  edit.remove_count = 1;
+  edit.remove_vertices = points;
   return hf_region_edit(w->region, &edit);
 }
 static hf_result call_region_record(World* w) { return hf_region_record(w->region); }
@@ -195,7 +214,9 @@ static hf_result call_region_undo(World* w) { return hf_region_undo(w->region); 
 static hf_result morph_into(World* w, float* positions) {
   float normals[3 * VERTICES];
   hf_morph_desc desc = HF_INIT(hf_morph_desc);
-  desc.weight = 1, desc.positions = positions, desc.normals = normals;
+  desc.weight = 1;
+  desc.positions = positions;
+  desc.normals = normals;
   return hf_region_morph(w->region, &desc);
 }
 static hf_result call_region_morph(World* w) { return morph_into(w, w->result); }
@@ -203,7 +224,9 @@ static hf_result call_detail_create(World* w) { return hf_detail_create(w->regio
 static hf_result call_detail_morph(World* w) {
   float normals[3 * VERTICES];
   hf_morph_desc desc = HF_INIT(hf_morph_desc);
-  desc.weight = 2, desc.positions = w->result, desc.normals = normals;
+  desc.weight = 2;
+  desc.positions = w->result;
+  desc.normals = normals;
   return hf_detail_morph(w->detail, &desc);
 }
 
@@ -265,9 +288,11 @@ static const struct {
 
 static void create_world(World* w, int32_t engine) {
   memset(w, 0, sizeof *w);
-  w->tube = surface_tube(AROUND, RINGS), w->engine = engine;
+  w->tube = surface_tube(AROUND, RINGS);
+  w->engine = engine;
   Options desc = options_of(&w->tube);
-  desc.surface.allocator = counting_hooks(&w->memory), desc.solver.engine = engine;
+  desc.surface.allocator = counting_hooks(&w->memory);
+  desc.solver.engine = engine;
   assert_ok(make(&desc, &w->surface, &w->solver));
   w->sites[0] = add_site(w->solver, 0, 0);
   assert_ok(hf_solver_record(w->solver));
@@ -279,7 +304,8 @@ static void create_world(World* w, int32_t engine) {
   assert_ok(hf_direction_add_sites(w->direction, 2, constrained, vectors, w->constraints));
   const uint32_t inside[6] = {4 * AROUND, 4 * AROUND + 1, 4 * AROUND + 2, 5 * AROUND, 5 * AROUND + 1, 5 * AROUND + 2};
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-  edit.add_count = 6, edit.add_vertices = inside;
+  edit.add_count = 6;
+  edit.add_vertices = inside;
   assert_ok(hf_region_create(w->surface, NULL, &w->region));
   assert_ok(hf_region_record(w->region));
   assert_ok(hf_region_edit(w->region, &edit));
@@ -291,7 +317,8 @@ static void create_world(World* w, int32_t engine) {
   w->ends = tube_ends(AROUND, RINGS);
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
   hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts,
+  pairs.pair_count = 2;
+  pairs.source_counts = pairs.target_counts = counts;
   pairs.source_vertices = pairs.target_vertices = w->ends;
   assert_ok(hf_transfer_create(w->surface, w->surface, NULL, &w->transfer));
   assert_ok(hf_transfer_add_pairs(w->transfer, &pairs, w->pairs));
@@ -299,16 +326,25 @@ static void create_world(World* w, int32_t engine) {
 
 static void destroy_world(World* w) {
   w->memory.refuse_at = 0;
-  hf_surface_destroy(w->surface), hf_surface_destroy(w->made_surface);
-  hf_solver_destroy(w->solver), hf_pose_destroy(w->pose), hf_transfer_destroy(w->transfer);
-  hf_direction_destroy(w->direction), hf_direction_destroy(w->made_direction);
-  hf_region_destroy(w->region), hf_region_destroy(w->made_region);
-  hf_detail_destroy(w->detail), hf_detail_destroy(w->made_detail);
-  hf_solver_destroy(w->made_solver), hf_pose_destroy(w->made_pose), hf_transfer_destroy(w->made_transfer);
+  hf_surface_destroy(w->surface);
+  hf_surface_destroy(w->made_surface);
+  hf_solver_destroy(w->solver);
+  hf_pose_destroy(w->pose);
+  hf_transfer_destroy(w->transfer);
+  hf_direction_destroy(w->direction);
+  hf_direction_destroy(w->made_direction);
+  hf_region_destroy(w->region);
+  hf_region_destroy(w->made_region);
+  hf_detail_destroy(w->detail);
+  hf_detail_destroy(w->made_detail);
+  hf_solver_destroy(w->made_solver);
+  hf_pose_destroy(w->made_pose);
+  hf_transfer_destroy(w->made_transfer);
   assert_int_equal(w->memory.live_blocks, 0);
   assert_int_equal(w->memory.live_bytes, 0);
   assert_int_equal(w->memory.mismatches, 0);
-  surface_free(&w->tube), free(w->ends);
+  surface_free(&w->tube);
+  free(w->ends);
 }
 
 /* What a world computes: to be the same after a refused allocation as before. */
@@ -320,7 +356,8 @@ typedef struct Picture {
 
 static void take_picture(World* w, Picture* p) {
   memset(p, 0, sizeof *p);
-  p->site_count = hf_solver_get_site_count(w->solver), p->handle_count = hf_pose_get_handle_count(w->pose);
+  p->site_count = hf_solver_get_site_count(w->solver);
+  p->handle_count = hf_pose_get_handle_count(w->pose);
   assert_ok(hf_solver_solve_f64(w->solver, p->field, 0, NULL));
   if (!w->pose) return;
   assert_ok(deform_to(w, p->posed));
@@ -359,13 +396,18 @@ static unsigned refuse_each(size_t s, int32_t engine, int on) {
     create_world(&world, engine);
     take_picture(&world, &before);
     /* what the world computes lazily is computed again by some calls: start them from an untouched world */
-    if (scenarios[s].call == call_apply || scenarios[s].call == call_get_skin)
-      destroy_world(&world), create_world(&world, engine);
+    if (scenarios[s].call == call_apply || scenarios[s].call == call_get_skin) {
+      destroy_world(&world);
+      create_world(&world, engine);
+    }
     const size_t live = world.memory.live_blocks, bytes = world.memory.live_bytes;
-    world.memory.calls = 0, world.memory.refuse_at = n, world.memory.refuse_on = on;
+    world.memory.calls = 0;
+    world.memory.refuse_at = n;
+    world.memory.refuse_on = on;
     const hf_result result = scenarios[s].call(&world);
     const int reached = world.memory.calls >= n;
-    world.memory.refuse_at = 0, world.memory.refuse_on = 0;
+    world.memory.refuse_at = 0;
+    world.memory.refuse_on = 0;
     if (result != HF_OK) {
       if (result != HF_ERROR_OUT_OF_MEMORY)
         fail_msg("%s, engine %d, allocation %u: %s", scenarios[s].name, (int)engine, (unsigned)n,
@@ -422,7 +464,8 @@ static void dragging_allocates_nothing(void** state) {
   create_world(&world, HF_ENGINE_GREEN);
   float normals[3 * VERTICES];
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
-  desc.positions = world.result, desc.normals = normals;
+  desc.positions = world.result;
+  desc.normals = normals;
   assert_ok(hf_pose_deform(world.pose, &desc, NULL));
   world.memory.calls = 0;
   for (int i = 0; i < 20; ++i) {
@@ -485,20 +528,24 @@ static void a_callback_that_calls_back_is_refused(void** state) {
   memset(&r, 0, sizeof r);
   r.inner = counting_hooks(&r.memory);
   Options desc = options_of(&tube);
-  desc.surface.allocator.allocate = reentrant_allocate, desc.surface.allocator.release = reentrant_release,
+  desc.surface.allocator.allocate = reentrant_allocate;
+  desc.surface.allocator.release = reentrant_release;
   desc.surface.allocator.user = &r;
   assert_ok(make(&desc, NULL, &r.solver));
   add_site(r.solver, 0, 0);
-  r.armed = 1, r.expect_read = HF_ERROR_REENTRANT; /* inside a change nothing is allowed */
+  r.armed = 1;
+  r.expect_read = HF_ERROR_REENTRANT; /* inside a change nothing is allowed */
   add_site(r.solver, 50, 1);
   assert_int_equal(r.tried, 1);
   double values[2];
   const uint32_t vertices[2] = {7, 20};
-  r.armed = 1, r.expect_read = HF_OK; /* inside a read, reading is */
+  r.armed = 1;
+  r.expect_read = HF_OK; /* inside a read, reading is */
   assert_ok(hf_solver_solve_at(r.solver, 2, vertices, values));
   assert_int_equal(r.tried, 2);
   assert_int_equal(hf_solver_get_site_count(r.solver), 2);
-  hf_solver_destroy(r.solver), surface_free(&tube);
+  hf_solver_destroy(r.solver);
+  surface_free(&tube);
   assert_int_equal(r.memory.live_blocks, 0);
 }
 

@@ -28,7 +28,10 @@ static void tube_create(Tube* tube) {
   for (uint32_t v = 0; v < COUNT; ++v) tube->height[v] = (double)tube->mesh.positions[3 * v + 1];
   tube->field = scalars_f64(tube->height);
 }
-static void tube_destroy(Tube* tube) { hf_surface_destroy(tube->surface), surface_free(&tube->mesh); }
+static void tube_destroy(Tube* tube) {
+  hf_surface_destroy(tube->surface);
+  surface_free(&tube->mesh);
+}
 
 static void iso_lines_come_in_two_calls_with_points_on_edges(void** state) {
   (void)state;
@@ -46,9 +49,14 @@ static void iso_lines_come_in_two_calls_with_points_on_edges(void** state) {
   double* positions = calloc(lines.point_count, 3 * sizeof *positions);
   uint32_t starts[4], of_level[3];
   int32_t closed[3];
-  lines.point_capacity = lines.point_count, lines.line_capacity = 3;
-  lines.point_edges = edges, lines.parameters = parameters, lines.positions = positions;
-  lines.line_starts = starts, lines.line_levels = of_level, lines.line_closed = closed;
+  lines.point_capacity = lines.point_count;
+  lines.line_capacity = 3;
+  lines.point_edges = edges;
+  lines.parameters = parameters;
+  lines.positions = positions;
+  lines.line_starts = starts;
+  lines.line_levels = of_level;
+  lines.line_closed = closed;
   assert_ok(hf_surface_trace_isolines(tube.surface, &tube.field, 3, levels, &lines));
   assert_int_equal(starts[0], 0);
   assert_int_equal(starts[3], lines.point_count);
@@ -70,12 +78,15 @@ static void iso_lines_come_in_two_calls_with_points_on_edges(void** state) {
   }
   /* too small: the counts are told, the arrays are left alone */
   hf_isolines small = no_lines();
-  small.point_capacity = lines.point_count - 1, small.parameters = parameters;
+  small.point_capacity = lines.point_count - 1;
+  small.parameters = parameters;
   parameters[0] = 77;
   assert_code(HF_ERROR_TOO_SMALL, hf_surface_trace_isolines(tube.surface, &tube.field, 3, levels, &small));
   assert_int_equal(small.point_count, lines.point_count);
   assert_near(parameters[0], 77, 0);
-  free(edges), free(parameters), free(positions);
+  free(edges);
+  free(parameters);
+  free(positions);
   tube_destroy(&tube);
 }
 
@@ -154,7 +165,9 @@ static void extremities_of_a_tube_are_at_its_ends(void** state) {
   for (int way = 0; way < 3; ++way) {
     hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
     double field[COUNT];
-    desc.kind = way > 0, desc.geodesics = way == 2 ? geodesics : NULL, desc.least_length = 0.1f;
+    desc.kind = way > 0;
+    desc.geodesics = way == 2 ? geodesics : NULL;
+    desc.least_length = 0.1f;
     desc.out_field = field;
     hf_extremity found[8];
     uint32_t count = 0;
@@ -181,7 +194,8 @@ static void a_cancelled_search_leaves_the_outputs_alone_and_the_next_one_runs(vo
   assert_ok(hf_progress_create(&progress));
   for (int32_t kind = 0; kind < 2; ++kind) {
     hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
-    desc.kind = kind, desc.progress = progress;
+    desc.kind = kind;
+    desc.progress = progress;
     uint32_t count = 77;
     assert_ok(hf_progress_cancel(progress));
     assert_code(HF_ERROR_CANCELLED, hf_surface_find_extremities(tube.surface, &desc, 0, NULL, &count));
@@ -221,7 +235,8 @@ static void a_surface_of_another_kind_gives_the_same_distances_and_tips(void** s
   assert_true(same_bits(distances[0], distances[1], sizeof distances[0]));
   assert_int_equal(counts[0], counts[1]);
   assert_true(same_bits(tips[0], tips[1], sizeof tips[0]));
-  hf_surface_destroy(plate), tube_destroy(&tube);
+  hf_surface_destroy(plate);
+  tube_destroy(&tube);
 }
 
 /* A path over the tube and the map around its start: lengths agree with the distances, refused calls write nothing. */
@@ -244,12 +259,17 @@ static void paths_and_maps_agree_with_distances(void** state) {
   for (uint32_t v = 0; v < COUNT; v += 17) {
     const hf_surface_point to = {{HF_NO_INDEX, v, HF_NO_INDEX}, 0, {0, 1, 0}};
     assert_near(hypot(map[v][0], map[v][1]), distance[v], 1e-9);
-    path.point_capacity = 0, path.positions = NULL, path.parameters = NULL, path.point_edges = NULL;
+    path.point_capacity = 0;
+    path.positions = NULL;
+    path.parameters = NULL;
+    path.point_edges = NULL;
     assert_ok(hf_geodesics_find_path(geodesics, &from, &to, &path));
     assert_near(path.length, distance[v], 1e-9);
     assert_true(path.point_count <= COUNT);
     path.point_capacity = path.point_count;
-    path.positions = &positions[0][0], path.parameters = parameters, path.point_edges = &edges[0][0];
+    path.positions = &positions[0][0];
+    path.parameters = parameters;
+    path.point_edges = &edges[0][0];
     assert_ok(hf_geodesics_find_path(geodesics, &from, &to, &path));
     double sum = 0;
     for (uint32_t i = 1; i < path.point_count; ++i) {
@@ -295,10 +315,12 @@ static void paths_and_maps_agree_with_distances(void** state) {
   BAD("path NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_find_path(geodesics, &from, &from, NULL));
   path.reserved = 1;
   BAD("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, hf_geodesics_find_path(geodesics, &from, &from, &path));
-  path.reserved = 0, path.point_capacity = 1;
+  path.reserved = 0;
+  path.point_capacity = 1;
   const hf_surface_point far_end = {{COUNT - 1, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
   BAD("no room", HF_ERROR_TOO_SMALL, NO_INDEX, hf_geodesics_find_path(geodesics, &from, &far_end, &path));
-  hf_geodesics_destroy(geodesics), tube_destroy(&tube);
+  hf_geodesics_destroy(geodesics);
+  tube_destroy(&tube);
 }
 
 static void bad_input_is_named(void** state) {
@@ -319,9 +341,11 @@ static void bad_input_is_named(void** state) {
   hf_scalars f = tube.field;
   f.values = floats;
   BAD("both kinds of values", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &f, 0, 2, levels));
-  f.values = NULL, f.values_f64 = NULL;
+  f.values = NULL;
+  f.values_f64 = NULL;
   BAD("no values", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_trace_isolines(s, &f, 2, levels, &lines));
-  f = tube.field, f.value_stride = 4;
+  f = tube.field;
+  f.value_stride = 4;
   BAD("stride 4 for doubles", HF_ERROR_TOO_SMALL, NO_INDEX, hf_surface_find_critical_points(s, &f, 0, NULL, &info));
   tube.height[17] = HUGE_VAL;
   BAD("an infinite value", HF_ERROR_NON_FINITE, 17, hf_surface_space_levels(s, &tube.field, 0, 2, levels));
@@ -343,7 +367,8 @@ static void bad_input_is_named(void** state) {
   BAD("levels NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_trace_isolines(s, &tube.field, 2, NULL, &lines));
   levels[1] = (double)NAN;
   BAD("a level NaN", HF_ERROR_NON_FINITE, 1, hf_surface_trace_isolines(s, &tube.field, 2, levels, &lines));
-  levels[1] = 2, lines.reserved = 1;
+  levels[1] = 2;
+  lines.reserved = 1;
   BAD("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, hf_surface_trace_isolines(s, &tube.field, 2, levels, &lines));
   BAD("no output", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_find_critical_points(s, &tube.field, 0, NULL, NULL));
 
@@ -356,11 +381,13 @@ static void bad_input_is_named(void** state) {
   BAD("smoothing 20000", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
   g.smoothing = (float)NAN;
   BAD("smoothing NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
-  g.smoothing = 0, g.method = 4;
+  g.smoothing = 0;
+  g.method = 4;
   BAD("method 4", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
   g.method = -1;
   BAD("method -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
-  g.method = 0, g.reserved = 1;
+  g.method = 0;
+  g.reserved = 1;
   BAD("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, hf_geodesics_create(s, &g, &made));
   BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_create(s, NULL, NULL));
   uint32_t source[2] = {0, COUNT};
@@ -387,8 +414,10 @@ static void bad_input_is_named(void** state) {
   BAD("no output", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_find_extremities(s, NULL, 0, NULL, NULL));
 
   finish_rows("analysis");
-  hf_geodesics_destroy(geodesics), hf_geodesics_destroy(of_other);
-  hf_surface_destroy(other), surface_free(&cut);
+  hf_geodesics_destroy(geodesics);
+  hf_geodesics_destroy(of_other);
+  hf_surface_destroy(other);
+  surface_free(&cut);
   tube_destroy(&tube);
 }
 

@@ -8,7 +8,8 @@ static void* checked_malloc(size_t size) {
 
 static Surface surface_make(uint32_t vertex_count, uint32_t triangle_count) {
   Surface s;
-  s.vertex_count = vertex_count, s.triangle_count = triangle_count;
+  s.vertex_count = vertex_count;
+  s.triangle_count = triangle_count;
   s.positions = checked_malloc(sizeof(float) * 3 * vertex_count);
   s.triangles = checked_malloc(sizeof(uint32_t) * 3 * triangle_count);
   return s;
@@ -21,7 +22,9 @@ static uint32_t put_sheet(Surface* s, uint32_t vertex, uint32_t triangle, uint32
   for (uint32_t j = 0; j <= rows_; ++j) {
     for (uint32_t i = 0; i <= columns; ++i) {
       float* p = s->positions + 3 * (size_t)(vertex + j * width + i);
-      p[0] = x0 + (float)i, p[1] = (float)j, p[2] = 0.25f * sinf(1.3f * p[0]) * cosf(0.9f * p[1]);
+      p[0] = x0 + (float)i;
+      p[1] = (float)j;
+      p[2] = 0.25f * sinf(1.3f * p[0]) * cosf(0.9f * p[1]);
     }
   }
   for (uint32_t j = 0; j < rows_; ++j) {
@@ -48,7 +51,9 @@ Surface surface_tube(uint32_t around, uint32_t rings) {
     for (uint32_t i = 0; i < around; ++i) {
       const float angle = 6.2831853f * (float)i / (float)around;
       float* p = s.positions + 3 * (size_t)(r * around + i);
-      p[0] = cosf(angle), p[1] = (float)r, p[2] = sinf(angle);
+      p[0] = cosf(angle);
+      p[1] = (float)r;
+      p[2] = sinf(angle);
       if (r + 1 == rings) continue;
       const uint32_t a = r * around + i, b = r * around + (i + 1) % around, c = a + around, d = b + around;
       const uint32_t corners[6] = {a, c, b, b, c, d};
@@ -65,7 +70,9 @@ Surface surface_fan(uint32_t triangles) {
   for (uint32_t i = 0; i < triangles; ++i) {
     const float angle = 6.2831853f * (float)i / (float)triangles;
     float* p = s.positions + 3 * (size_t)(i + 1);
-    p[0] = cosf(angle), p[1] = sinf(angle), p[2] = 0;
+    p[0] = cosf(angle);
+    p[1] = sinf(angle);
+    p[2] = 0;
     const uint32_t corners[3] = {0, 1 + i, 1 + (i + 1) % triangles};
     memcpy(s.triangles + 3 * (size_t)i, corners, sizeof corners);
   }
@@ -77,9 +84,11 @@ Surface surface_cut(void) {
   uint32_t t = put_sheet(&s, 0, 0, 4, 4, 0.0f);
   t += put_sheet(&s, 25, t, 4, 4, 4.0f);
   t += put_sheet(&s, CUT_ISLAND, t, 2, 2, 20.0f);
-  s.triangles[3 * t] = s.triangles[3 * t + 1] = 0, s.triangles[3 * t + 2] = 1;
-  s.positions[3 * CUT_ISOLATED] = 30.0f, s.positions[3 * CUT_ISOLATED + 1] = 1.0f,
-                  s.positions[3 * CUT_ISOLATED + 2] = 2.0f;
+  s.triangles[3 * t] = s.triangles[3 * t + 1] = 0;
+  s.triangles[3 * t + 2] = 1;
+  s.positions[3 * CUT_ISOLATED] = 30.0f;
+  s.positions[3 * CUT_ISOLATED + 1] = 1.0f;
+  s.positions[3 * CUT_ISOLATED + 2] = 2.0f;
   return s;
 }
 
@@ -90,8 +99,10 @@ void surface_free(Surface* surface) {
 
 Options options_of(const Surface* surface) {
   Options o = {HF_INIT(hf_surface_desc), HF_INIT(hf_solver_desc)};
-  o.surface.vertex_count = surface->vertex_count, o.surface.triangle_count = surface->triangle_count;
-  o.surface.positions = surface->positions, o.surface.triangles = surface->triangles;
+  o.surface.vertex_count = surface->vertex_count;
+  o.surface.triangle_count = surface->triangle_count;
+  o.surface.positions = surface->positions;
+  o.surface.triangles = surface->triangles;
   return o;
 }
 
@@ -141,7 +152,9 @@ unsigned char* saved_bytes(hf_surface surface, int32_t field_kind, size_t* out_s
 
 hf_sites_desc sites_at(uint32_t count, const uint32_t* vertices, const double* values) {
   hf_sites_desc desc = HF_INIT(hf_sites_desc);
-  desc.site_count = count, desc.vertices = vertices, desc.values = values;
+  desc.site_count = count;
+  desc.vertices = vertices;
+  desc.values = values;
   return desc;
 }
 
@@ -175,7 +188,9 @@ hf_pose tube_pose(hf_surface surface, uint32_t around, uint32_t rings, uint32_t 
   uint32_t* vertices = tube_ends(around, rings);
   const uint32_t counts[2] = {2 * around, 2 * around};
   hf_handles_desc desc = HF_INIT(hf_handles_desc);
-  desc.handle_count = 2, desc.region_counts = counts, desc.region_vertices = vertices;
+  desc.handle_count = 2;
+  desc.region_counts = counts;
+  desc.region_vertices = vertices;
   assert_ok(hf_pose_add_handles(pose, &desc, out_handles));
   free(vertices);
   return pose;
@@ -198,7 +213,8 @@ static void* counting_allocate(void* user, size_t size, size_t alignment) {
   unsigned char* block = base + sizeof(BlockHead) + ((first + alignment - 1) / alignment * alignment - first);
   const BlockHead head = {base, size, alignment};
   memcpy(block - sizeof head, &head, sizeof head);
-  ++a->live_blocks, a->live_bytes += size;
+  ++a->live_blocks;
+  a->live_bytes += size;
   if (a->live_bytes > a->peak_bytes) a->peak_bytes = a->live_bytes;
   return block;
 }
@@ -208,13 +224,16 @@ static void counting_release(void* user, void* block, size_t size, size_t alignm
   BlockHead head;
   memcpy(&head, (unsigned char*)block - sizeof head, sizeof head);
   if (head.size != size || head.alignment != alignment) ++a->mismatches;
-  --a->live_blocks, a->live_bytes -= head.size;
+  --a->live_blocks;
+  a->live_bytes -= head.size;
   free(head.base);
 }
 
 hf_allocator counting_hooks(CountingAllocator* allocator) {
   hf_allocator hooks;
-  hooks.allocate = counting_allocate, hooks.release = counting_release, hooks.user = allocator;
+  hooks.allocate = counting_allocate;
+  hooks.release = counting_release;
+  hooks.user = allocator;
   return hooks;
 }
 

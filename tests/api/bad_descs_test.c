@@ -77,7 +77,8 @@ static hf_result move_sites(void* d) { return hf_solver_move_sites(scene.solver,
 static void fill_edit(void* d) {
   hf_edit_desc* edit = d;
   *edit = HF_INIT(hf_edit_desc);
-  edit->remove_count = 1, edit->remove_sites = scene.sites;
+  edit->remove_count = 1;
+  edit->remove_sites = scene.sites;
 }
 static hf_result edit_sites(void* d) { return hf_solver_edit_sites(scene.solver, d, NULL); }
 static hf_result edit_add(void* d) {
@@ -89,10 +90,15 @@ static hf_result edit_add(void* d) {
 static hf_result edit_move(void* d) {
   hf_edit_desc edit;
   fill_edit(&edit);
-  edit.move_count = 1, edit.move_sites = scene.sites + 1, edit.move_to = d;
+  edit.move_count = 1;
+  edit.move_sites = scene.sites + 1;
+  edit.move_to = d;
   return hf_solver_edit_sites(scene.solver, &edit, NULL);
 }
-static void fill_site_info(void* d) { *(hf_sites_info*)d = HF_INIT(hf_sites_info), ((hf_sites_info*)d)->capacity = 3; }
+static void fill_site_info(void* d) {
+  *(hf_sites_info*)d = HF_INIT(hf_sites_info);
+  ((hf_sites_info*)d)->capacity = 3;
+}
 static hf_result get_sites(void* d) { return hf_solver_get_sites(scene.solver, d); }
 static void fill_solve_info(void* d) { *(hf_solve_info*)d = HF_INIT(hf_solve_info); }
 static hf_result solve(void* d) { return hf_solve(scene.solver, floats, 0, d); }
@@ -126,13 +132,16 @@ static hf_result pose_create(void* d) {
 static void fill_handles(void* d) {
   hf_handles_desc* handles = d;
   *handles = HF_INIT(hf_handles_desc);
-  handles->handle_count = 1, handles->region_counts = &one, handles->region_vertices = &middle;
+  handles->handle_count = 1;
+  handles->region_counts = &one;
+  handles->region_vertices = &middle;
 }
 static hf_result pose_add_handles(void* d) { return hf_pose_add_handles(scene.pose, d, NULL); }
 static void fill_handle_info(void* d) { *(hf_handle_info*)d = HF_INIT(hf_handle_info); }
 static hf_result pose_get_handle(void* d) { return hf_pose_get_handle(scene.pose, scene.handles[0], d); }
 static void fill_deform(void* d) {
-  *(hf_deform_desc*)d = HF_INIT(hf_deform_desc), ((hf_deform_desc*)d)->positions = floats;
+  *(hf_deform_desc*)d = HF_INIT(hf_deform_desc);
+  ((hf_deform_desc*)d)->positions = floats;
 }
 static hf_result deform(void* d) { return hf_pose_deform(scene.pose, d, NULL); }
 static void fill_deform_info(void* d) { *(hf_deform_info*)d = HF_INIT(hf_deform_info); }
@@ -156,7 +165,8 @@ static hf_result transfer_create(void* d) {
 static void fill_pairs(void* d) {
   hf_pairs_desc* pairs = d;
   *pairs = HF_INIT(hf_pairs_desc);
-  pairs->pair_count = 1, pairs->source_counts = pairs->target_counts = &one,
+  pairs->pair_count = 1;
+  pairs->source_counts = pairs->target_counts = &one;
   pairs->source_vertices = pairs->target_vertices = &middle;
 }
 static hf_result transfer_add_pairs(void* d) { return hf_transfer_add_pairs(scene.transfer, d, NULL); }
@@ -170,7 +180,8 @@ static hf_result transfer_get_dials(void* d) { return hf_transfer_get_dials(scen
 static void fill_frame(void* d) {
   hf_transfer_frame* frame = d;
   *frame = HF_INIT(hf_transfer_frame);
-  frame->source_positions = scene.posed, frame->target_positions = floats;
+  frame->source_positions = scene.posed;
+  frame->target_positions = floats;
 }
 static hf_result transfer_apply(void* d) { return hf_transfer_apply(scene.transfer, d); }
 static void fill_skin(void* d) { *(hf_skin_info*)d = HF_INIT(hf_skin_info); }
@@ -178,7 +189,8 @@ static hf_result transfer_get_skin(void* d) { return hf_transfer_get_skin(scene.
 
 static void fill_scalars(void* d) {
   for (uint32_t v = 0; v < CUT_VERTICES; ++v) doubles[v] = v;
-  *(hf_scalars*)d = HF_INIT(hf_scalars), ((hf_scalars*)d)->values_f64 = doubles;
+  *(hf_scalars*)d = HF_INIT(hf_scalars);
+  ((hf_scalars*)d)->values_f64 = doubles;
 }
 static hf_result space_levels(void* d) {
   double level;
@@ -253,19 +265,22 @@ static hf_result region_create(void* d) {
 static void fill_region_edit(void* d) {
   hf_region_edit_desc* edit = d;
   *edit = HF_INIT(hf_region_edit_desc);
-  edit->add_count = 1, edit->add_vertices = &middle;
+  edit->add_count = 1;
+  edit->add_vertices = &middle;
 }
 static hf_result region_edit(void* d) { return hf_region_edit(scene.region, d); }
 static const uint32_t around[3] = {3 * TUBE_AROUND, 3 * TUBE_AROUND + 3, 3 * TUBE_AROUND + 6};
 static void fill_curve(void* d) {
   hf_curve_desc* curve = d;
   *curve = HF_INIT(hf_curve_desc);
-  curve->point_count = 3, curve->vertices = around;
+  curve->point_count = 3;
+  curve->vertices = around;
 }
 static hf_result region_curve(void* d) {
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   edit.curve = d;
-  edit.add_count = 1, edit.add_vertices = &middle;
+  edit.add_count = 1;
+  edit.add_vertices = &middle;
   return hf_region_edit(scene.region, &edit);
 }
 static void fill_region_info(void* d) { *(hf_region_info*)d = HF_INIT(hf_region_info); }
@@ -305,7 +320,9 @@ static void fill_carry(void* d) {
   for (int v = 0; v < TUBE_VERTICES; ++v) one_share[v] = 1;
   hf_carry_desc* desc = d;
   *desc = HF_INIT(hf_carry_desc);
-  desc->influence_count = 1, desc->joints = one_joint, desc->weights = one_share;
+  desc->influence_count = 1;
+  desc->joints = one_joint;
+  desc->weights = one_share;
 }
 static hf_result weights_carry(void* d) {
   hf_weights_out out = HF_INIT(hf_weights_out);
@@ -328,8 +345,11 @@ static void fill_mirror(void* d) {
   fill_carry(&given);
   hf_mirror_desc* desc = d;
   *desc = HF_INIT(hf_mirror_desc);
-  desc->bone_count = 1, desc->heads = one_head;
-  desc->influence_count = 1, desc->joints = one_joint, desc->weights = one_share;
+  desc->bone_count = 1;
+  desc->heads = one_head;
+  desc->influence_count = 1;
+  desc->joints = one_joint;
+  desc->weights = one_share;
 }
 static hf_result weights_mirror(void* d) {
   hf_weights_out out = HF_INIT(hf_weights_out);

@@ -19,8 +19,11 @@ static void good_input(void) {
   for (size_t e = 0; e < EDGES; ++e) weights[e] = 0.5 + (double)e;
   for (size_t v = 0; v < VERTICES; ++v) masses[v] = 1 + (double)v;
   desc = HF_INIT(hf_graph_desc);
-  desc.vertex_count = VERTICES, desc.edge_count = EDGES;
-  desc.edges = edges, desc.weights = weights, desc.masses = masses;
+  desc.vertex_count = VERTICES;
+  desc.edge_count = EDGES;
+  desc.edges = edges;
+  desc.weights = weights;
+  desc.masses = masses;
   desc.allocator = counting_hooks(&counter);
   out = scene.sheet; /* must become NULL */
 }
@@ -44,7 +47,8 @@ static void hf_surface_create_graph_refuses_bad_graphs(void** state) {
   scene_create(&scene);
   good_input();
   assert_ok(hf_surface_create_graph(&desc, &out)); /* the good input is good */
-  hf_surface_destroy(out), out = NULL;
+  hf_surface_destroy(out);
+  out = NULL;
   assert_true(nothing_exists());
 
   CREATE("no vertices", HF_ERROR_EMPTY, NO_INDEX, desc.vertex_count = 0);
@@ -92,7 +96,8 @@ static void hf_surface_create_graph_refuses_bad_options(void** state) {
   hf_factor_desc saved = HF_INIT(hf_factor_desc);
   size_t size;
   unsigned char* bytes = saved_bytes(scene.body, HF_FIELD_HARMONIC, &size);
-  saved.bytes = bytes, saved.byte_count = size;
+  saved.bytes = bytes;
+  saved.byte_count = size;
 
   CREATE("allow_negative 2", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.allow_negative = 2);
   CREATE("field kind -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.field_kind = -1);
@@ -128,7 +133,8 @@ static void hf_surface_create_graph_survives_every_refused_allocation(void** sta
   good_input();
   size_t at = 1;
   for (;; ++at) {
-    counter.calls = 0, counter.refuse_at = at;
+    counter.calls = 0;
+    counter.refuse_at = at;
     const hf_result result = hf_surface_create_graph(&desc, &out);
     if (result == HF_OK) break;
     assert_code(HF_ERROR_OUT_OF_MEMORY, result);
@@ -168,14 +174,16 @@ static void nothing(void) {}
   } while (0)
 
 static void make_graph_solvers(void) {
-  good_input(), out = NULL;
+  good_input();
+  out = NULL;
   assert_ok(hf_surface_create_graph(&desc, &graph));
   hf_solver_desc three = HF_INIT(hf_solver_desc);
   three.channel_count = 3;
   const double up[3] = {0, 0, 1};
   assert_ok(hf_create(graph, NULL, &solver));
   assert_ok(hf_create(graph, &three, &vectors));
-  add_site(solver, 0, 1), add_site(solver, 2, -1);
+  add_site(solver, 0, 1);
+  add_site(solver, 2, -1);
   assert_ok(hf_solver_add_site(vectors, 1, up, NULL));
   assert_ok(hf_solver_solve_f64(solver, before, 0, NULL));
 }
@@ -203,7 +211,8 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   hf_weights weights = NULL;
   const double head[3] = {0, 0, 0};
   hf_bones_desc bones = HF_INIT(hf_bones_desc);
-  bones.bone_count = 1, bones.heads = head;
+  bones.bone_count = 1;
+  bones.heads = head;
   hf_carry_desc carry = HF_INIT(hf_carry_desc);
   hf_mirror_desc mirror = HF_INIT(hf_mirror_desc);
   hf_weights_out skin = HF_INIT(hf_weights_out);
@@ -243,13 +252,20 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   const uint32_t triangle = 0, vertex[2] = {5, 1}, site = 0;
   const double weight[3] = {0.5, 0.25, 0.25}, radii[2] = {0, 0.5}, angle = 1;
   hf_sites_desc in_triangle = HF_INIT(hf_sites_desc), disc = HF_INIT(hf_sites_desc);
-  in_triangle.site_count = 1, in_triangle.triangles = &triangle, in_triangle.barycentrics = weight;
+  in_triangle.site_count = 1;
+  in_triangle.triangles = &triangle;
+  in_triangle.barycentrics = weight;
   hf_sites_desc between = in_triangle; /* three vertices of one component, as of a triangle */
   const uint32_t corners[3] = {0, 1, 2};
-  between.triangles = NULL, between.corners = corners;
-  disc.site_count = 2, disc.vertices = vertex, disc.radii = radii;
+  between.triangles = NULL;
+  between.corners = corners;
+  disc.site_count = 2;
+  disc.vertices = vertex;
+  disc.radii = radii;
   hf_edit_desc edit = HF_INIT(hf_edit_desc);
-  edit.remove_count = 1, edit.remove_sites = &site, edit.add = &disc;
+  edit.remove_count = 1;
+  edit.remove_sites = &site;
+  edit.add = &disc;
   const double screening[VERTICES] = {1};
   NEEDS("a point in a triangle", 0, hf_add_sites(solver, &in_triangle, NULL));
   NEEDS("a point between vertices", 0, hf_add_sites(solver, &between, NULL));
@@ -264,7 +280,9 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   ROW("a site at a vertex without an edge", HF_ERROR_INVALID_ARGUMENT, 0, (void)0,
       hf_solver_add_site(solver, 7, NULL, NULL));
   ROW("a vertex beyond the graph", HF_ERROR_OUT_OF_RANGE, 0, (void)0, hf_solver_add_site(solver, VERTICES, NULL, NULL));
-  hf_solver_destroy(solver), hf_solver_destroy(vectors), hf_surface_destroy(graph);
+  hf_solver_destroy(solver);
+  hf_solver_destroy(vectors);
+  hf_surface_destroy(graph);
   scene_destroy(&scene);
   finish_rows("calls that need triangles");
 }
@@ -319,10 +337,13 @@ static void surfaces_of_graphs_do_all_else(void** state) {
   assert_ok(hf_solver_clone(solver, &copy));
   hf_sites_desc to = HF_INIT(hf_sites_desc);
   const uint32_t place = 5;
-  to.site_count = 1, to.vertices = &place;
+  to.site_count = 1;
+  to.vertices = &place;
   const double value = 3;
   hf_edit_desc edit = HF_INIT(hf_edit_desc);
-  edit.set_count = 1, edit.set_sites = &other, edit.set_values = &value;
+  edit.set_count = 1;
+  edit.set_sites = &other;
+  edit.set_values = &value;
   assert_ok(hf_solver_record(copy));
   assert_ok(hf_solver_move_sites(copy, 1, &site, &to));
   assert_ok(hf_solver_set_values(copy, 1, &site, &value));
@@ -337,7 +358,9 @@ static void surfaces_of_graphs_do_all_else(void** state) {
   assert_int_equal(hf_solver_get_site_count(copy), 2);
   hf_solver_destroy(copy);
   assert_true(field_unchanged());
-  hf_solver_destroy(solver), hf_solver_destroy(vectors), hf_surface_destroy(graph);
+  hf_solver_destroy(solver);
+  hf_solver_destroy(vectors);
+  hf_surface_destroy(graph);
   assert_int_equal(counter.live_blocks, 0);
   scene_destroy(&scene);
 }

@@ -95,7 +95,8 @@ static hf_result set_site_values(void* h) {
 static hf_result set_screening(void* h) { return hf_solver_set_screening(h, NULL, NULL); }
 static hf_result edit_sites(void* h) {
   hf_edit_desc d = HF_INIT(hf_edit_desc);
-  d.remove_count = 1, d.remove_sites = scene.sites;
+  d.remove_count = 1;
+  d.remove_sites = scene.sites;
   return hf_solver_edit_sites(h, &d, NULL);
 }
 static hf_result get_sites(void* h) {
@@ -179,7 +180,8 @@ static hf_result find_extremities_with(void* h) {
   hf_extremities_desc d;
   uint32_t count;
   d = HF_INIT(hf_extremities_desc);
-  d.kind = HF_EXTREMITIES_GEODESIC, d.geodesics = h;
+  d.kind = HF_EXTREMITIES_GEODESIC;
+  d.geodesics = h;
   return h ? hf_surface_find_extremities(scene.body, &d, 0, NULL, &count)
            : hf_surface_find_extremities(NULL, &d, 0, NULL, &count); /* NULL there asks for one of its own */
 }
@@ -240,7 +242,9 @@ static hf_result pose_clone(void* h) {
 static hf_result pose_add_handles(void* h) {
   const uint32_t count = 1, vertex = 5 * TUBE_AROUND;
   hf_handles_desc d = HF_INIT(hf_handles_desc);
-  d.handle_count = 1, d.region_counts = &count, d.region_vertices = &vertex;
+  d.handle_count = 1;
+  d.region_counts = &count;
+  d.region_vertices = &vertex;
   return hf_pose_add_handles(h, &d, NULL);
 }
 static hf_result pose_remove_handles(void* h) { return hf_pose_remove_handles(h, 1, scene.handles); }
@@ -270,7 +274,9 @@ static hf_result deform(void* h) {
 static hf_result transfer_add_pairs(void* h) {
   const uint32_t count = 1, vertex = 5 * TUBE_AROUND;
   hf_pairs_desc d = HF_INIT(hf_pairs_desc);
-  d.pair_count = 1, d.source_counts = d.target_counts = &count, d.source_vertices = d.target_vertices = &vertex;
+  d.pair_count = 1;
+  d.source_counts = d.target_counts = &count;
+  d.source_vertices = d.target_vertices = &vertex;
   return hf_transfer_add_pairs(h, &d, NULL);
 }
 static hf_result transfer_remove_pairs(void* h) { return hf_transfer_remove_pairs(h, 1, scene.pairs); }
@@ -290,7 +296,8 @@ static hf_result transfer_get_dials(void* h) {
 static hf_result transfer_get_sinking(void* h) { return hf_transfer_get_sinking(h, (uint8_t*)numbers); }
 static hf_result transfer_apply(void* h) {
   hf_transfer_frame f = HF_INIT(hf_transfer_frame);
-  f.source_positions = scene.posed, f.target_positions = floats;
+  f.source_positions = scene.posed;
+  f.target_positions = floats;
   return hf_transfer_apply(h, &f);
 }
 static hf_result transfer_get_skin(void* h) {
@@ -327,7 +334,9 @@ static hf_carry_desc carried(void) {
   static float shares[TUBE_VERTICES];
   for (int v = 0; v < TUBE_VERTICES; ++v) shares[v] = 1;
   hf_carry_desc desc = HF_INIT(hf_carry_desc);
-  desc.influence_count = 1, desc.joints = joints, desc.weights = shares;
+  desc.influence_count = 1;
+  desc.joints = joints;
+  desc.weights = shares;
   return desc;
 }
 static hf_result weights_carry_from(void* h) {
@@ -344,8 +353,11 @@ static hf_result weights_mirror(void* h) {
   static const double head[3] = {0, 0, 0};
   const hf_carry_desc given = carried();
   hf_mirror_desc desc = HF_INIT(hf_mirror_desc);
-  desc.bone_count = 1, desc.heads = head;
-  desc.influence_count = 1, desc.joints = given.joints, desc.weights = given.weights;
+  desc.bone_count = 1;
+  desc.heads = head;
+  desc.influence_count = 1;
+  desc.joints = given.joints;
+  desc.weights = given.weights;
   hf_weights_out out = HF_INIT(hf_weights_out);
   return hf_weights_mirror(h, &desc, &out, NULL, NULL, NULL);
 }
@@ -504,8 +516,10 @@ static void every_function_refuses_every_handle_that_is_not_its_own(void** state
                              {"a pointer", &on_the_stack}};
     size_t count = 5;
     for (int other = 0; other < KIND_COUNT; ++other) {
-      if ((enum Kind)other != kind)
-        bad[count].what = "a live handle of another kind", bad[count++].handle = live[other];
+      if ((enum Kind)other != kind) {
+        bad[count].what = "a live handle of another kind";
+        bad[count++].handle = live[other];
+      }
     }
     for (size_t b = 0; b < count; ++b) {
       check_row(__LINE__, bad[b].what, functions[f].function, functions[f].call(bad[b].handle), HF_ERROR_INVALID_HANDLE,
@@ -533,8 +547,13 @@ static void destroying_what_is_no_handle_does_nothing(void** state) {
                        scene.stale_direction,
                        scene.stale_weights};
   for (size_t b = 0; b < COUNT_OF(bad); ++b) {
-    hf_solver_destroy(bad[b]), hf_pose_destroy(bad[b]), hf_transfer_destroy(bad[b]), hf_progress_destroy(bad[b]);
-    hf_geodesics_destroy(bad[b]), hf_direction_destroy(bad[b]), hf_surface_destroy(bad[b]);
+    hf_solver_destroy(bad[b]);
+    hf_pose_destroy(bad[b]);
+    hf_transfer_destroy(bad[b]);
+    hf_progress_destroy(bad[b]);
+    hf_geodesics_destroy(bad[b]);
+    hf_direction_destroy(bad[b]);
+    hf_surface_destroy(bad[b]);
     hf_weights_destroy(bad[b]);
   }
   void* const live[KIND_COUNT] = {scene.sheet,    scene.solver,    scene.pose,      scene.transfer,

@@ -20,13 +20,16 @@ static void good_input(void) {
   memcpy(positions, scene.cut.positions, sizeof positions);
   memcpy(triangles, scene.cut.triangles, sizeof triangles);
   for (size_t i = 0; i < 3 * CUT_VERTICES; ++i) positions_f64[i] = (double)positions[i];
-  desc = options_of(&scene.cut).surface, solver_desc = HF_INIT(hf_solver_desc);
-  desc.positions = positions, desc.triangles = triangles;
+  desc = options_of(&scene.cut).surface;
+  solver_desc = HF_INIT(hf_solver_desc);
+  desc.positions = positions;
+  desc.triangles = triangles;
   desc.allocator = counting_hooks(&counter);
   for (size_t i = 0; i < 3 * CUT_TRIANGLES; ++i) triangles_u16[i] = (uint16_t)triangles[i];
   for (uint32_t i = 0; i <= CUT_TRIANGLES; ++i) face_starts[i] = 3 * i;
   for (size_t i = 0; i < CUT_TRIANGLES; ++i) face_sizes[i] = 3;
-  out = scene.sheet, out_solver = scene.solver; /* must become NULL */
+  out = scene.sheet;
+  out_solver = scene.solver; /* must become NULL */
 }
 static int nothing_exists(void) {
   return out == NULL && counter.live_blocks == 0 && counter.mismatches == 0 && solver_unchanged(&scene);
@@ -37,28 +40,46 @@ static int nothing_exists(void) {
 #define CREATE(what, expected, index, change) ROW(what, expected, index, change, hf_surface_create(&desc, &out))
 
 static void no_position_array(void) { desc.positions = NULL; }
-static void in_double(void) { desc.positions = NULL, desc.positions_f64 = positions_f64; }
+static void in_double(void) {
+  desc.positions = NULL;
+  desc.positions_f64 = positions_f64;
+}
 
 static void in_64_bits(void) {
   for (size_t i = 0; i < 3 * CUT_TRIANGLES; ++i) triangles_u64[i] = triangles[i];
 }
 
-static void in_16_bits(void) { desc.triangles = NULL, desc.triangles_u16 = triangles_u16; }
+static void in_16_bits(void) {
+  desc.triangles = NULL;
+  desc.triangles_u16 = triangles_u16;
+}
 
 static void in_sizes(void) {
-  desc.triangles = NULL, desc.triangle_count = 0;
-  desc.face_count = CUT_TRIANGLES, desc.corner_count = 3 * CUT_TRIANGLES;
-  desc.face_sizes = face_sizes, desc.corners = triangles;
+  desc.triangles = NULL;
+  desc.triangle_count = 0;
+  desc.face_count = CUT_TRIANGLES;
+  desc.corner_count = 3 * CUT_TRIANGLES;
+  desc.face_sizes = face_sizes;
+  desc.corners = triangles;
 }
-static void in_offsets(void) { in_sizes(), desc.face_sizes = NULL, desc.face_starts = face_starts; }
-static void in_loops(void) { in_sizes(), desc.face_starts = face_starts; }
+static void in_offsets(void) {
+  in_sizes();
+  desc.face_sizes = NULL;
+  desc.face_starts = face_starts;
+}
+static void in_loops(void) {
+  in_sizes();
+  desc.face_starts = face_starts;
+}
 
 static void hf_surface_create_refuses_bad_faces(void** state) {
   (void)state;
   scene_create(&scene);
-  good_input(), in_offsets();
+  good_input();
+  in_offsets();
   assert_ok(hf_surface_create(&desc, &out)); /* the good faces are good */
-  hf_surface_destroy(out), out = NULL;
+  hf_surface_destroy(out);
+  out = NULL;
   assert_true(nothing_exists());
 
   CREATE("faces and triangles", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_sizes(), desc.triangles = triangles));
@@ -97,7 +118,8 @@ static void hf_surface_create_refuses_bad_meshes(void** state) {
   scene_create(&scene);
   good_input();
   assert_ok(hf_surface_create(&desc, &out)); /* the good input is good */
-  hf_surface_destroy(out), out = NULL;
+  hf_surface_destroy(out);
+  out = NULL;
   assert_true(nothing_exists());
 
   CREATE("no vertices", HF_ERROR_EMPTY, NO_INDEX, desc.vertex_count = 0);
@@ -306,8 +328,10 @@ static void every_code_has_its_name_and_others_are_unknown(void** state) {
   for (hf_result code = -400; code <= 400; ++code) {
     const char* name = hf_result_get_name(code);
     assert_non_null(name);
-    if (strcmp(name, "unknown") != 0)
-      ++named, assert_int_equal(strncmp(name, code ? "HF_ERROR_" : "HF_OK", code ? 9 : 5), 0);
+    if (strcmp(name, "unknown") != 0) {
+      ++named;
+      assert_int_equal(strncmp(name, code ? "HF_ERROR_" : "HF_OK", code ? 9 : 5), 0);
+    }
   }
   assert_int_equal(named, 26);
   assert_string_equal(hf_result_get_name(INT32_MIN), "unknown");

@@ -15,35 +15,47 @@ static void regions_name_points_that_are_no_surface(void** state) {
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   edit.curve = &curve;
   uint32_t points[4] = {1, 3, CUT_ISOLATED, 15};
-  curve.point_count = 4, curve.vertices = points;
+  curve.point_count = 4;
+  curve.vertices = points;
   REFUSED("a point in no triangle", HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
   points[2] = CUT_ISLAND;
   REFUSED("a point on the island", HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
   points[2] = 18;
-  curve.side = HF_SIDE_SEED, curve.seed_vertex = CUT_ISOLATED;
+  curve.side = HF_SIDE_SEED;
+  curve.seed_vertex = CUT_ISOLATED;
   REFUSED("a seed in no triangle", HF_ERROR_INVALID_ARGUMENT, CUT_ISOLATED, hf_region_edit(region, &edit));
   uint32_t triangles[3] = {0, 9, CUT_COLLAPSED};
   const double corners[9] = {1, 0, 0, 1, 0, 0, 1, 0, 0};
   curve = HF_INIT(hf_curve_desc);
-  curve.point_count = 3, curve.triangles = triangles, curve.barycentrics = corners;
+  curve.point_count = 3;
+  curve.triangles = triangles;
+  curve.barycentrics = corners;
   REFUSED("a triangle of equal corners", HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
   edit = HF_INIT(hf_region_edit_desc);
-  edit.add_count = 4, edit.add_vertices = points, points[3] = CUT_ISOLATED;
+  edit.add_count = 4;
+  edit.add_vertices = points;
+  points[3] = CUT_ISOLATED;
   REFUSED("added in no triangle", HF_ERROR_INVALID_ARGUMENT, 3, hf_region_edit(region, &edit));
 
   /* detail: pins */
-  points[3] = 12, edit.add_count = 1, edit.add_vertices = points + 3;
+  points[3] = 12;
+  edit.add_count = 1;
+  edit.add_vertices = points + 3;
   assert_ok(hf_region_edit(region, &edit));
   hf_detail_desc pins = HF_INIT(hf_detail_desc);
   hf_detail detail = NULL;
   const uint32_t good[1] = {11}, isolated[1] = {CUT_ISOLATED};
-  pins.pair_count = 1, pins.source_vertices = good, pins.target_vertices = isolated;
+  pins.pair_count = 1;
+  pins.source_vertices = good;
+  pins.target_vertices = isolated;
   REFUSED("a pin in no triangle", HF_ERROR_INVALID_ARGUMENT, 0, hf_detail_create(region, region, &pins, &detail));
-  pins.source_vertices = isolated, pins.target_vertices = good;
+  pins.source_vertices = isolated;
+  pins.target_vertices = good;
   REFUSED("a source pin in no triangle", HF_ERROR_INVALID_ARGUMENT, 0,
           hf_detail_create(region, region, &pins, &detail));
   assert_null(detail);
-  hf_region_destroy(region), hf_surface_destroy(surface);
+  hf_region_destroy(region);
+  hf_surface_destroy(surface);
   surface_free(&cut);
   finish_rows("regions");
 }
@@ -56,14 +68,18 @@ static void pairs_name_vertices_that_are_no_surface(void** state) {
   assert_ok(hf_transfer_create(surface, surface, NULL, &transfer));
   const uint32_t counts[1] = {3}, good[3] = {0, 1, 2}, bad[3] = {0, CUT_ISOLATED, 2};
   hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-  pairs.pair_count = 1, pairs.source_counts = pairs.target_counts = counts;
-  pairs.source_vertices = bad, pairs.target_vertices = good;
+  pairs.pair_count = 1;
+  pairs.source_counts = pairs.target_counts = counts;
+  pairs.source_vertices = bad;
+  pairs.target_vertices = good;
   REFUSED("a source vertex in no triangle", HF_ERROR_INVALID_ARGUMENT, 1,
           hf_transfer_add_pairs(transfer, &pairs, NULL));
-  pairs.source_vertices = good, pairs.target_vertices = bad;
+  pairs.source_vertices = good;
+  pairs.target_vertices = bad;
   REFUSED("a target vertex in no triangle", HF_ERROR_INVALID_ARGUMENT, 1,
           hf_transfer_add_pairs(transfer, &pairs, NULL));
-  hf_transfer_destroy(transfer), hf_surface_destroy(surface);
+  hf_transfer_destroy(transfer);
+  hf_surface_destroy(surface);
   surface_free(&cut);
   finish_rows("pairs");
 }
@@ -94,7 +110,9 @@ static void vectors_stay_on_their_component(void** state) {
   const double huge[3] = {0, 1e150, 0};
   REFUSED("1e150 long", HF_ERROR_TOO_LARGE, 0, hf_direction_add_sites(direction, 1, place, huge, NULL));
   assert_int_equal(hf_direction_get_site_count(direction), 0);
-  hf_direction_destroy(direction), hf_solver_destroy(solver), hf_surface_destroy(surface);
+  hf_direction_destroy(direction);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   surface_free(&cut);
   finish_rows("vectors");
 }
@@ -107,7 +125,11 @@ static void a_site_is_moved_once_in_a_list_of_any_length(void** state) {
   const hf_solver solver = surface_solver(&sheet);
   uint32_t places[MANY], sites[MANY], to[MANY];
   double values[MANY];
-  for (uint32_t i = 0; i < MANY; ++i) places[i] = 3 * i, to[i] = 3 * i + 1, values[i] = i % 5;
+  for (uint32_t i = 0; i < MANY; ++i) {
+    places[i] = 3 * i;
+    to[i] = 3 * i + 1;
+    values[i] = i % 5;
+  }
   const hf_sites_desc batch = sites_at(MANY, places, values);
   assert_ok(hf_add_sites(solver, &batch, sites));
   double* before = field_of(solver, sheet.vertex_count);
@@ -125,7 +147,8 @@ static void a_site_is_moved_once_in_a_list_of_any_length(void** state) {
   /* and the whole list, once each, is fine */
   const hf_sites_desc there = sites_at(MANY, to, NULL);
   assert_ok(hf_solver_move_sites(solver, MANY, sites, &there));
-  free(before), free(after);
+  free(before);
+  free(after);
   hf_solver_destroy(solver);
   surface_free(&sheet);
   finish_rows("lists");
@@ -152,7 +175,8 @@ static void singularities_need_their_room(void** state) {
     const uint32_t a = x, b = turned % 2 ? z : y, c = turned % 2 ? y : z;
     const uint32_t ab = middle[a][b], bc = middle[b][c], ca = middle[c][a];
     const uint32_t four[12] = {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca};
-    memcpy(triangles + 3 * count, four, sizeof four), count += 4;
+    memcpy(triangles + 3 * count, four, sizeof four);
+    count += 4;
   }
   const Surface ball = {vertices, count, positions, triangles};
   const hf_surface surface = surface_on(&ball);
@@ -171,7 +195,8 @@ static void singularities_need_their_room(void** state) {
   double sum = 0;
   for (uint32_t i = 0; i < found; ++i) sum += list[i].index;
   assert_true(fabs(sum - 2) < 1e-12);
-  hf_direction_destroy(direction), hf_surface_destroy(surface);
+  hf_direction_destroy(direction);
+  hf_surface_destroy(surface);
   finish_rows("singularities");
 }
 

@@ -24,29 +24,54 @@ static uint32_t parents[2], proposal_count;
 
 static void good_input(void) {
   for (uint32_t i = 0; i < 6; ++i) region[i] = target_region[i] = 5 * TUBE_AROUND + i;
-  counts[0] = target_counts[0] = 2, counts[1] = target_counts[1] = 4;
-  flags[0] = 0, flags[1] = HF_PAIR_ANCHOR, out_numbers[0] = 777;
-  numbers[0] = scene.handles[0], numbers[1] = scene.handles[1], numbers[2] = 0;
-  handles = HF_INIT(hf_handles_desc), pairs = HF_INIT(hf_pairs_desc), pose_desc = HF_INIT(hf_pose_desc),
-  transfer_desc = HF_INIT(hf_transfer_desc), deform = HF_INIT(hf_deform_desc), frame = HF_INIT(hf_transfer_frame),
+  counts[0] = target_counts[0] = 2;
+  counts[1] = target_counts[1] = 4;
+  flags[0] = 0;
+  flags[1] = HF_PAIR_ANCHOR;
+  out_numbers[0] = 777;
+  numbers[0] = scene.handles[0];
+  numbers[1] = scene.handles[1];
+  numbers[2] = 0;
+  handles = HF_INIT(hf_handles_desc);
+  pairs = HF_INIT(hf_pairs_desc);
+  pose_desc = HF_INIT(hf_pose_desc);
+  transfer_desc = HF_INIT(hf_transfer_desc);
+  deform = HF_INIT(hf_deform_desc);
+  frame = HF_INIT(hf_transfer_frame);
   skin = HF_INIT(hf_skin_info);
-  handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = region;
-  pairs.pair_count = 2, pairs.flags = flags;
-  pairs.source_counts = counts, pairs.source_vertices = region;
-  pairs.target_counts = target_counts, pairs.target_vertices = target_region;
+  handles.handle_count = 2;
+  handles.region_counts = counts;
+  handles.region_vertices = region;
+  pairs.pair_count = 2;
+  pairs.flags = flags;
+  pairs.source_counts = counts;
+  pairs.source_vertices = region;
+  pairs.target_counts = target_counts;
+  pairs.target_vertices = target_region;
   memset(transforms, 0, sizeof transforms);
   memset(matrices, 0, sizeof matrices);
   for (int i = 0; i < 4; ++i) matrices[5 * i] = matrices[16 + 5 * i] = 1;
   for (int i = 0; i < 6; ++i) points[i] = (double)scene.tube.positions[3 * (5 * TUBE_AROUND + i / 3 * 20) + i % 3];
   radii[0] = radii[1] = 0.2;
-  transforms[0].rotation[3] = transforms[1].rotation[3] = 1, transforms[0].translation[0] = 3;
+  transforms[0].rotation[3] = transforms[1].rotation[3] = 1;
+  transforms[0].translation[0] = 3;
   deform.positions = floats;
   memcpy(source, scene.posed, sizeof source);
-  frame.source_positions = source, frame.target_positions = floats;
-  propose = HF_INIT(hf_propose_desc), memset(joints, 0, sizeof joints), parents[0] = NO_INDEX, parents[1] = 0;
-  propose.joint_count = 2, propose.joints = joints, propose.parents = parents, proposal_count = 777;
-  floats[0] = 777, doubles[0] = 777, normals[0] = 777;
-  out_pose = scene.pose, out_transfer = scene.transfer;
+  frame.source_positions = source;
+  frame.target_positions = floats;
+  propose = HF_INIT(hf_propose_desc);
+  memset(joints, 0, sizeof joints);
+  parents[0] = NO_INDEX;
+  parents[1] = 0;
+  propose.joint_count = 2;
+  propose.joints = joints;
+  propose.parents = parents;
+  proposal_count = 777;
+  floats[0] = 777;
+  doubles[0] = 777;
+  normals[0] = 777;
+  out_pose = scene.pose;
+  out_transfer = scene.transfer;
 }
 
 static int outputs_unwritten(void) {
@@ -177,17 +202,21 @@ static void isolated_vertices_and_welded_copies_in_regions_are_found(void** stat
   assert_ok(hf_pose_create(scene.sheet, NULL, &pose));
   uint32_t sizes[2] = {2, 2}, vertices[4] = {0, 1, CUT_SEAM_LEFT, CUT_SEAM_RIGHT};
   hf_handles_desc d = HF_INIT(hf_handles_desc);
-  d.handle_count = 2, d.region_counts = sizes, d.region_vertices = vertices;
+  d.handle_count = 2;
+  d.region_counts = sizes;
+  d.region_vertices = vertices;
   assert_ok(hf_pose_add_handles(pose, &d, NULL)); /* two copies in one region are one vertex */
   hf_handle_info info = HF_INIT(hf_handle_info);
   assert_ok(hf_pose_get_handle(pose, 1, &info));
   assert_int_equal(info.vertex_count, 1);
   const uint32_t both[] = {0, 1};
   assert_ok(hf_pose_remove_handles(pose, 2, both));
-  vertices[1] = CUT_SEAM_RIGHT, vertices[3] = 9;
+  vertices[1] = CUT_SEAM_RIGHT;
+  vertices[3] = 9;
   check_row(__LINE__, "copies in two regions", "hf_pose_add_handles", hf_pose_add_handles(pose, &d, NULL),
             HF_ERROR_OVERLAP, 2);
-  vertices[1] = 1, vertices[3] = CUT_ISOLATED;
+  vertices[1] = 1;
+  vertices[3] = CUT_ISOLATED;
   check_row(__LINE__, "an isolated vertex", "hf_pose_add_handles", hf_pose_add_handles(pose, &d, NULL),
             HF_ERROR_INVALID_ARGUMENT, 3);
   assert_int_equal(hf_pose_get_handle_count(pose), 0);
@@ -203,15 +232,21 @@ static void a_pose_takes_256_handles_and_no_more(void** state) {
   hf_pose pose = NULL;
   assert_ok(hf_pose_create(surface, NULL, &pose));
   uint32_t sizes[200], vertices[200];
-  for (uint32_t i = 0; i < 200; ++i) sizes[i] = 1, vertices[i] = 3 * i;
+  for (uint32_t i = 0; i < 200; ++i) {
+    sizes[i] = 1;
+    vertices[i] = 3 * i;
+  }
   hf_handles_desc d = HF_INIT(hf_handles_desc);
-  d.handle_count = 200, d.region_counts = sizes, d.region_vertices = vertices;
+  d.handle_count = 200;
+  d.region_counts = sizes;
+  d.region_vertices = vertices;
   assert_ok(hf_pose_add_handles(pose, &d, NULL));
   for (uint32_t i = 0; i < 200; ++i) vertices[i] = 3 * i + 1;
   d.handle_count = 57;
   assert_code(HF_ERROR_TOO_LARGE, hf_pose_add_handles(pose, &d, NULL));
   assert_int_equal(hf_pose_get_handle_count(pose), 200);
-  hf_pose_destroy(pose), hf_surface_destroy(surface);
+  hf_pose_destroy(pose);
+  hf_surface_destroy(surface);
   surface_free(&tube);
 }
 

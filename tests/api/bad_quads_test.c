@@ -13,17 +13,22 @@ static uint32_t numbers[TUBE_VERTICES];
 
 static void setup_surface(void) {
   tube = surface_tube(TUBE_AROUND, TUBE_RINGS);
-  surface = surface_on(&tube), solver = solver_on(surface);
+  surface = surface_on(&tube);
+  solver = solver_on(surface);
   for (int v = 0; v < TUBE_VERTICES; ++v) height[v] = (double)tube.positions[3 * v + 1] + 0.01 * sin(2.3 * v);
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
-  desc.edge_length = 2, desc.relax_count = 2;
+  desc.edge_length = 2;
+  desc.relax_count = 2;
   assert_ok(hf_quads_create(surface, &desc, &quads));
   assert_ok(hf_flow_create(surface, &flow));
   assert_ok(hf_region_create(surface, NULL, &region));
 }
 
 static void teardown_surface(void) {
-  hf_quads_destroy(quads), hf_flow_destroy(flow), hf_region_destroy(region), hf_solver_destroy(solver);
+  hf_quads_destroy(quads);
+  hf_flow_destroy(flow);
+  hf_region_destroy(region);
+  hf_solver_destroy(solver);
   hf_surface_destroy(surface);
   surface_free(&tube);
 }
@@ -54,7 +59,8 @@ static hf_result flow_trace(void* h) {
   hf_flow_lines lines;
   field = HF_INIT(hf_scalars);
   lines = HF_INIT(hf_flow_lines);
-  field.values_f64 = height, lines.wanted_count = 4;
+  field.values_f64 = height;
+  lines.wanted_count = 4;
   return hf_flow_trace(h, &field, &lines);
 }
 static hf_result region_get_info(void* h) {
@@ -112,7 +118,8 @@ static hf_quads made;
 static const uint32_t two_vertices[2] = {0, TUBE_VERTICES - 1};
 static void refresh_quads(void) {
   good_quads = HF_INIT(hf_quads_desc);
-  good_quads.edge_length = 2, good_quads.relax_count = 2;
+  good_quads.edge_length = 2;
+  good_quads.relax_count = 2;
   made = (hf_quads)(uintptr_t)5;
 }
 static double sum_before;
@@ -121,7 +128,8 @@ static double sum_of_quads(void) {
   assert_ok(hf_quads_get_info(quads, &info));
   double* all = calloc(info.vertex_count, 3 * sizeof *all);
   hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
-  mesh.vertex_capacity = info.vertex_count, mesh.positions = all;
+  mesh.vertex_capacity = info.vertex_count;
+  mesh.positions = all;
   assert_ok(hf_quads_get_mesh(quads, &mesh));
   double sum = info.face_count;
   for (uint32_t i = 0; i < 3 * info.vertex_count; ++i) sum += (i % 7 + 1) * all[i];
@@ -265,7 +273,8 @@ static hf_flow_lines good_lines;
 static void refresh_flow(void) {
   good_field = HF_INIT(hf_scalars);
   good_lines = HF_INIT(hf_flow_lines);
-  good_field.values_f64 = height, good_lines.wanted_count = 4;
+  good_field.values_f64 = height;
+  good_lines.wanted_count = 4;
 }
 #undef GOOD
 #define GOOD() refresh_flow()

@@ -8,13 +8,15 @@ static void* copy_of(size_t size) {
 
 static hf_result deform_now(hf_pose pose, float* positions) {
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
-  desc.positions = positions, desc.restart = 1;
+  desc.positions = positions;
+  desc.restart = 1;
   return hf_pose_deform(pose, &desc, NULL);
 }
 
 static hf_result transfer_now(const Scene* scene, float* positions) {
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = scene->posed, frame.target_positions = positions;
+  frame.source_positions = scene->posed;
+  frame.target_positions = positions;
   return hf_transfer_apply(scene->transfer, &frame);
 }
 
@@ -44,13 +46,17 @@ hf_bones_desc scene_bones(void) {
   static const double heads[9] = {0, 0.5, 0, 0, 5, 0, 0, 9, 0}, tails[9] = {0, 5, 0, 0, 9, 0, 0, 12.5, 0};
   static const uint32_t parents[3] = {HF_NO_INDEX, 0, 1};
   hf_bones_desc desc = HF_INIT(hf_bones_desc);
-  desc.bone_count = 3, desc.heads = heads, desc.tails = tails, desc.parents = parents;
+  desc.bone_count = 3;
+  desc.heads = heads;
+  desc.tails = tails;
+  desc.parents = parents;
   return desc;
 }
 
 static hf_result weights_now(const Scene* s, float* weights) {
   hf_weights_out out = HF_INIT(hf_weights_out);
-  out.vertex_capacity = TUBE_VERTICES, out.weights = weights;
+  out.vertex_capacity = TUBE_VERTICES;
+  out.weights = weights;
   return hf_weights_get(s->weights, &out);
 }
 
@@ -66,10 +72,12 @@ static void create_weights(Scene* s) {
 
 void scene_create(Scene* s) {
   memset(s, 0, sizeof *s);
-  s->cut = surface_cut(), s->tube = surface_tube(TUBE_AROUND, TUBE_RINGS);
+  s->cut = surface_cut();
+  s->tube = surface_tube(TUBE_AROUND, TUBE_RINGS);
   s->ends = tube_ends(TUBE_AROUND, TUBE_RINGS);
 
-  s->sheet = surface_on(&s->cut), s->body = surface_on(&s->tube);
+  s->sheet = surface_on(&s->cut);
+  s->body = surface_on(&s->tube);
   s->solver = solver_on(s->sheet);
   s->sites[0] = add_site(s->solver, CUT_LEFT, 0.0);
   s->sites[1] = add_site(s->solver, CUT_RIGHT, 1.0);
@@ -100,30 +108,47 @@ void scene_create(Scene* s) {
   hf_direction_destroy(s->stale_direction);
   const uint32_t middle[2] = {5 * TUBE_AROUND, 5 * TUBE_AROUND + 1};
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-  edit.add_count = 2, edit.add_vertices = middle;
+  edit.add_count = 2;
+  edit.add_vertices = middle;
   assert_ok(hf_region_create(s->body, NULL, &s->region));
   assert_ok(hf_region_edit(s->region, &edit));
   assert_ok(hf_region_clone(s->region, &s->stale_region));
   hf_region_destroy(s->stale_region);
-  hf_solver_destroy(s->stale_solver), hf_pose_destroy(s->stale_pose);
-  hf_transfer_destroy(s->stale_transfer), hf_progress_destroy(s->stale_progress);
+  hf_solver_destroy(s->stale_solver);
+  hf_pose_destroy(s->stale_pose);
+  hf_transfer_destroy(s->stale_transfer);
+  hf_progress_destroy(s->stale_progress);
 }
 
 void scene_destroy(Scene* s) {
-  hf_solver_destroy(s->solver), hf_solver_destroy(s->three);
-  hf_surface_destroy(s->sheet), hf_surface_destroy(s->body), hf_region_destroy(s->region);
-  hf_weights_destroy(s->weights), free(s->skin);
-  hf_pose_destroy(s->pose), hf_transfer_destroy(s->transfer), hf_progress_destroy(s->progress);
-  hf_geodesics_destroy(s->geodesics), hf_direction_destroy(s->direction);
-  surface_free(&s->cut), surface_free(&s->tube);
-  free(s->ends), free(s->posed), free(s->field), free(s->deformed), free(s->transferred);
+  hf_solver_destroy(s->solver);
+  hf_solver_destroy(s->three);
+  hf_surface_destroy(s->sheet);
+  hf_surface_destroy(s->body);
+  hf_region_destroy(s->region);
+  hf_weights_destroy(s->weights);
+  free(s->skin);
+  hf_pose_destroy(s->pose);
+  hf_transfer_destroy(s->transfer);
+  hf_progress_destroy(s->progress);
+  hf_geodesics_destroy(s->geodesics);
+  hf_direction_destroy(s->direction);
+  surface_free(&s->cut);
+  surface_free(&s->tube);
+  free(s->ends);
+  free(s->posed);
+  free(s->field);
+  free(s->deformed);
+  free(s->transferred);
 }
 
 int solver_unchanged(const Scene* s) {
   double field[CUT_VERTICES];
   uint32_t sites[3] = {0}, vertices[3] = {0};
   hf_sites_info info = HF_INIT(hf_sites_info);
-  info.capacity = 3, info.sites = sites, info.vertices = vertices;
+  info.capacity = 3;
+  info.sites = sites;
+  info.vertices = vertices;
   if (hf_solver_get_site_count(s->solver) != 3 || hf_solver_get_site_count(s->three) != 0) return 0;
   if (hf_solver_get_sites(s->solver, &info) != HF_OK || !same_bits(sites, s->sites, sizeof sites)) return 0;
   if (vertices[0] != CUT_LEFT || vertices[1] != CUT_RIGHT || vertices[2] != CUT_SEAM_LEFT) return 0;

@@ -16,17 +16,26 @@ static double doubles[CUT_VERTICES];
 
 static void good_input(void) {
   const uint32_t free_vertices[3] = {6, 7, 8}, free_triangles[3] = {10, 11, 12};
-  memcpy(places, free_vertices, sizeof places), memcpy(corners, free_triangles, sizeof corners);
+  memcpy(places, free_vertices, sizeof places);
+  memcpy(corners, free_triangles, sizeof corners);
   for (int i = 0; i < 9; ++i) between[i] = scene.cut.triangles[3 * free_triangles[0] + i];
-  for (int i = 0; i < 9; ++i) weights[i] = i % 3 == 0 ? 0.5 : 0.25, values[i] = i + 10.0;
-  for (int i = 0; i < 3; ++i) stiffness[i] = i, out_sites[i] = 777, numbers[i] = scene.sites[i];
+  for (int i = 0; i < 9; ++i) {
+    weights[i] = i % 3 == 0 ? 0.5 : 0.25;
+    values[i] = i + 10.0;
+  }
+  for (int i = 0; i < 3; ++i) {
+    stiffness[i] = i;
+    out_sites[i] = 777;
+    numbers[i] = scene.sites[i];
+  }
   numbers[3] = 0;
   sites = sites_at(3, places, values);
   sites.stiffness = stiffness;
   to = sites_at(3, places, NULL);
   edit = HF_INIT(hf_edit_desc);
   info = HF_INIT(hf_sites_info);
-  info.capacity = 3, info.sites = info_sites;
+  info.capacity = 3;
+  info.sites = info_sites;
   info_sites[0] = floats[0] = doubles[0] = points[0] = 777;
 }
 
@@ -48,9 +57,17 @@ static int as_before(void) {
 #define EDIT(what, expected, index, change) \
   ROW(what, expected, index, change, hf_solver_edit_sites(scene.solver, &edit, out_sites))
 
-static void in_triangles(hf_sites_desc* d) { d->vertices = NULL, d->triangles = corners, d->barycentrics = weights; }
+static void in_triangles(hf_sites_desc* d) {
+  d->vertices = NULL;
+  d->triangles = corners;
+  d->barycentrics = weights;
+}
 
-static void in_corners(hf_sites_desc* d) { d->vertices = NULL, d->corners = between, d->barycentrics = weights; }
+static void in_corners(hf_sites_desc* d) {
+  d->vertices = NULL;
+  d->corners = between;
+  d->barycentrics = weights;
+}
 
 static void adding_bad_sites_is_refused(void** state) {
   (void)state;
@@ -129,20 +146,27 @@ static void linearly_dependent_points_are_refused(void** state) {
   assert_ok(hf_solver_solve_f64(solver, before, 0, NULL));
   GOOD();
   in_triangles(&sites);
-  sites.site_count = 1, sites.stiffness = NULL;
+  sites.site_count = 1;
+  sites.stiffness = NULL;
   check_row(__LINE__, "a point between three hard sites", "hf_add_sites", hf_add_sites(solver, &sites, NULL),
             HF_ERROR_CONFLICT, 0);
-  sites.site_count = 2, corners[0] = 20, corners[1] = 10;
+  sites.site_count = 2;
+  corners[0] = 20;
+  corners[1] = 10;
   check_row(__LINE__, "the second of a batch", "hf_add_sites", hf_add_sites(solver, &sites, NULL), HF_ERROR_CONFLICT,
             1);
   hf_sites_desc there = sites;
-  there.values = NULL, there.site_count = 1, there.triangles = corners + 1;
+  there.values = NULL;
+  there.site_count = 1;
+  there.triangles = corners + 1;
   check_row(__LINE__, "a move to such a point", "hf_solver_move_sites",
             hf_solver_move_sites(solver, 1, scene.sites, &there), HF_ERROR_CONFLICT, 0);
   assert_ok(hf_solver_solve_f64(solver, after, 0, NULL));
   assert_true(same_bits(before, after, sizeof before));
   const double soft = 3;
-  sites.site_count = 1, corners[0] = 10, sites.stiffness = &soft; /* soft points are never dependent */
+  sites.site_count = 1;
+  corners[0] = 10;
+  sites.stiffness = &soft; /* soft points are never dependent */
   assert_ok(hf_add_sites(solver, &sites, NULL));
   hf_solver_destroy(solver);
   scene_destroy(&scene);
@@ -203,7 +227,10 @@ static void removing_moving_and_setting_bad_sites_is_refused(void** state) {
 static double strengths[CUT_VERTICES], wishes[CUT_VERTICES];
 static void good_screening(void) {
   good_input();
-  for (int i = 0; i < CUT_VERTICES; ++i) strengths[i] = 1, wishes[i] = i;
+  for (int i = 0; i < CUT_VERTICES; ++i) {
+    strengths[i] = 1;
+    wishes[i] = i;
+  }
 }
 #undef GOOD
 #define GOOD good_screening
@@ -240,12 +267,18 @@ static void bad_screening_is_refused(void** state) {
 
 static void good_edit(void) {
   good_input();
-  edit.remove_count = 1, edit.remove_sites = numbers;
-  edit.move_count = 1, edit.move_sites = numbers + 1, edit.move_to = &to;
+  edit.remove_count = 1;
+  edit.remove_sites = numbers;
+  edit.move_count = 1;
+  edit.move_sites = numbers + 1;
+  edit.move_to = &to;
   to.site_count = 1;
-  edit.set_count = 1, edit.set_sites = numbers + 2, edit.set_values = values;
+  edit.set_count = 1;
+  edit.set_sites = numbers + 2;
+  edit.set_values = values;
   edit.add = &sites;
-  sites.site_count = 2, sites.vertices = places + 1;
+  sites.site_count = 2;
+  sites.vertices = places + 1;
 }
 #undef GOOD
 #define GOOD good_edit

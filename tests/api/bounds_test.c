@@ -46,14 +46,20 @@ static void a_mirror_takes_1048576_bones(void** state) {
   float* weights = calloc(sheet.vertex_count, sizeof *weights);
   hf_weights_out out = HF_INIT(hf_weights_out);
   hf_mirror_desc desc = HF_INIT(hf_mirror_desc);
-  desc.heads = heads, desc.joints = joints, desc.weights = weights, desc.influence_count = 1;
-  desc.bone_count = MOST, heads[3 * ((size_t)MOST - 1)] = NAN;
+  desc.heads = heads;
+  desc.joints = joints;
+  desc.weights = weights;
+  desc.influence_count = 1;
+  desc.bone_count = MOST;
+  heads[3 * ((size_t)MOST - 1)] = NAN;
   assert_code(HF_ERROR_NON_FINITE, hf_weights_mirror(surface, &desc, &out, NULL, NULL, NULL));
   assert_named("bone 1048575");
   desc.bone_count = MOST + 1;
   assert_code(HF_ERROR_TOO_LARGE, hf_weights_mirror(surface, &desc, &out, NULL, NULL, NULL));
   assert_named("bone_count is 1048577; the limit is 1048576");
-  free(heads), free(joints), free(weights);
+  free(heads);
+  free(joints);
+  free(weights);
   hf_surface_destroy(surface);
   surface_free(&sheet);
 }
@@ -73,10 +79,16 @@ static hf_surface make_disc(void) {
       positions[3 * disc_vertex(r, s)] = (float)(r * cos(angle));
       positions[3 * disc_vertex(r, s) + 1] = (float)(r * sin(angle));
     }
-    *t++ = 0, *t++ = disc_vertex(1, s), *t++ = disc_vertex(1, s + 1);
+    *t++ = 0;
+    *t++ = disc_vertex(1, s);
+    *t++ = disc_vertex(1, s + 1);
     for (uint32_t r = 1; r < RINGS; ++r) {
-      *t++ = disc_vertex(r, s), *t++ = disc_vertex(r + 1, s), *t++ = disc_vertex(r + 1, s + 1);
-      *t++ = disc_vertex(r, s), *t++ = disc_vertex(r + 1, s + 1), *t++ = disc_vertex(r, s + 1);
+      *t++ = disc_vertex(r, s);
+      *t++ = disc_vertex(r + 1, s);
+      *t++ = disc_vertex(r + 1, s + 1);
+      *t++ = disc_vertex(r, s);
+      *t++ = disc_vertex(r + 1, s + 1);
+      *t++ = disc_vertex(r, s + 1);
     }
   }
   const Surface disc = {DISC, (2 * RINGS - 1) * SPOKES, positions, triangles};
@@ -91,12 +103,18 @@ static void a_curve_passes_a_vertex_8_times(void** state) {
   uint32_t points[PETAL_POINTS * (MOST_PASSES + 1)], *p = points;
   for (uint32_t petal = 0; petal <= MOST_PASSES; ++petal) {
     const uint32_t s = 4 * petal;
-    *p++ = 0, *p++ = disc_vertex(1, s), *p++ = disc_vertex(2, s), *p++ = disc_vertex(2, s + 1);
-    *p++ = disc_vertex(2, s + 2), *p++ = disc_vertex(1, s + 2);
+    *p++ = 0;
+    *p++ = disc_vertex(1, s);
+    *p++ = disc_vertex(2, s);
+    *p++ = disc_vertex(2, s + 1);
+    *p++ = disc_vertex(2, s + 2);
+    *p++ = disc_vertex(1, s + 2);
   }
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-  edit.curve = &curve, curve.vertices = points, curve.point_count = PETAL_POINTS * MOST_PASSES;
+  edit.curve = &curve;
+  curve.vertices = points;
+  curve.point_count = PETAL_POINTS * MOST_PASSES;
   assert_ok(hf_region_edit(region, &edit));
   hf_region_info info = HF_INIT(hf_region_info);
   assert_ok(hf_region_get_info(region, &info));
@@ -116,22 +134,30 @@ static void a_surface_takes_357913941_vertices(void** state) {
   const uint32_t triangle[3] = {UINT32_MAX, 0, 0}, edge[2] = {UINT32_MAX, 0};
   const double weight = 1;
   hf_surface_desc mesh = HF_INIT(hf_surface_desc);
-  mesh.positions = positions, mesh.triangles = triangle, mesh.vertex_limit = mesh.triangle_limit = UINT32_MAX;
+  mesh.positions = positions;
+  mesh.triangles = triangle;
+  mesh.vertex_limit = mesh.triangle_limit = UINT32_MAX;
   hf_graph_desc graph = HF_INIT(hf_graph_desc);
-  graph.edges = edge, graph.weights = &weight, graph.vertex_limit = graph.edge_limit = UINT32_MAX;
+  graph.edges = edge;
+  graph.weights = &weight;
+  graph.vertex_limit = graph.edge_limit = UINT32_MAX;
   hf_surface surface = NULL;
   for (uint32_t more = 0; more < 2; ++more) {
     const hf_result expected = more ? HF_ERROR_TOO_LARGE : HF_ERROR_OUT_OF_RANGE;
-    mesh.vertex_count = MOST + more, mesh.triangle_count = 1;
+    mesh.vertex_count = MOST + more;
+    mesh.triangle_count = 1;
     assert_code(expected, hf_surface_create(&mesh, &surface));
     assert_named(more ? "357913942 vertices; at most 357913941 are supported" : "triangle 0");
-    mesh.vertex_count = 3, mesh.triangle_count = MOST + more;
+    mesh.vertex_count = 3;
+    mesh.triangle_count = MOST + more;
     assert_code(expected, hf_surface_create(&mesh, &surface));
     assert_named(more ? "357913942 triangles; at most 357913941 are supported" : "triangle 0");
-    graph.vertex_count = MOST + more, graph.edge_count = 1;
+    graph.vertex_count = MOST + more;
+    graph.edge_count = 1;
     assert_code(expected, hf_surface_create_graph(&graph, &surface));
     assert_named(more ? "357913942 vertices; at most 357913941 are supported" : "edge 0");
-    graph.vertex_count = 3, graph.edge_count = MOST + more;
+    graph.vertex_count = 3;
+    graph.edge_count = MOST + more;
     assert_code(expected, hf_surface_create_graph(&graph, &surface));
     assert_named(more ? "357913942 edges; at most 357913941 are supported" : "edge 0");
     assert_null(surface);
@@ -147,7 +173,8 @@ static void numbers_that_are_no_floats_are_named(void** state) {
   float* floats = calloc(3 * sheet.vertex_count, sizeof *floats);
   double* doubles = calloc(3 * sheet.vertex_count, sizeof *doubles);
   hf_solver solver = solver_on(surface);
-  add_site(solver, 3, 1e30), add_site(solver, 24, 1e199);
+  add_site(solver, 3, 1e30);
+  add_site(solver, 24, 1e199);
   assert_ok(hf_solver_solve_f64(solver, doubles, 0, NULL));
   uint32_t first = 0;
   while (doubles[first] <= 3.4028234663852886e38) ++first;
@@ -173,17 +200,23 @@ static void numbers_that_are_no_floats_are_named(void** state) {
   assert_ok(hf_region_create(surface, NULL, &region));
   const uint32_t inside[] = {12};
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-  edit.add_count = 1, edit.add_vertices = inside;
+  edit.add_count = 1;
+  edit.add_vertices = inside;
   assert_ok(hf_region_edit(region, &edit));
   hf_morph_desc morph = HF_INIT(hf_morph_desc);
-  morph.weight = 1e60, morph.positions = floats;
+  morph.weight = 1e60;
+  morph.positions = floats;
   assert_code(HF_ERROR_TOO_LARGE, hf_region_morph(region, &morph));
   assert_ok(hf_error_get_detail(&detail));
   assert_int_equal(detail.index, 12);
-  morph.positions = NULL, morph.positions_f64 = doubles;
+  morph.positions = NULL;
+  morph.positions_f64 = doubles;
   assert_ok(hf_region_morph(region, &morph));
-  hf_region_destroy(region), hf_surface_destroy(surface);
-  free(floats), free(doubles), surface_free(&sheet);
+  hf_region_destroy(region);
+  hf_surface_destroy(surface);
+  free(floats);
+  free(doubles);
+  surface_free(&sheet);
 }
 
 /* A mesh whose poses may leave the range of floats, or with a vertex in no triangle beyond it, is posed in doubles. The
@@ -199,7 +232,9 @@ static void poses_of_huge_meshes_are_doubles(void** state) {
     for (size_t i = 0; i < 3 * (COUNT - 1); ++i) positions[i] = unit * (double)tube.positions[i];
     for (size_t i = 3 * (COUNT - 1); i < 3 * COUNT; ++i) positions[i] = huge ? 0 : 1e39;
     hf_surface_desc desc = options_of(&tube).surface;
-    desc.vertex_count = COUNT, desc.positions = NULL, desc.positions_f64 = positions;
+    desc.vertex_count = COUNT;
+    desc.positions = NULL;
+    desc.positions_f64 = positions;
     hf_surface surface;
     hf_pose pose, other;
     uint32_t handles[2];
@@ -221,16 +256,22 @@ static void poses_of_huge_meshes_are_doubles(void** state) {
     hf_transfer transfer;
     const uint32_t ones[2] = {1, 1}, ends[2] = {0, COUNT - 2};
     hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-    pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = ones;
+    pairs.pair_count = 2;
+    pairs.source_counts = pairs.target_counts = ones;
     pairs.source_vertices = pairs.target_vertices = ends;
     assert_ok(hf_transfer_create(surface, surface, NULL, &transfer));
     assert_ok(hf_transfer_add_pairs(transfer, &pairs, NULL));
     hf_transfer_frame apply = HF_INIT(hf_transfer_frame);
-    apply.source_positions_f64 = expected, apply.target_positions = floats;
+    apply.source_positions_f64 = expected;
+    apply.target_positions = floats;
     assert_code(HF_ERROR_TOO_LARGE, hf_transfer_apply(transfer, &apply));
-    apply.target_positions = NULL, apply.target_positions_f64 = frame;
+    apply.target_positions = NULL;
+    apply.target_positions_f64 = frame;
     assert_ok(hf_transfer_apply(transfer, &apply));
-    hf_transfer_destroy(transfer), hf_pose_destroy(pose), hf_pose_destroy(other), hf_surface_destroy(surface);
+    hf_transfer_destroy(transfer);
+    hf_pose_destroy(pose);
+    hf_pose_destroy(other);
+    hf_surface_destroy(surface);
   }
   surface_free(&tube);
 }
@@ -249,7 +290,8 @@ static void frames_beyond_1e15_boxes_are_refused_in_every_mode(void** state) {
     desc.mode = mode;
     assert_ok(hf_transfer_create(surface, surface, &desc, &transfer));
     hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-    pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = ones;
+    pairs.pair_count = 2;
+    pairs.source_counts = pairs.target_counts = ones;
     pairs.source_vertices = pairs.target_vertices = ends;
     assert_ok(hf_transfer_add_pairs(transfer, &pairs, NULL));
     const double far[] = {1e14, 1e15, -1e18, 1e60, 1e160, 1e305};
@@ -257,7 +299,8 @@ static void frames_beyond_1e15_boxes_are_refused_in_every_mode(void** state) {
       for (size_t i = 0; i < 3 * (size_t)sheet.vertex_count; ++i) source[i] = (double)sheet.positions[i];
       source[30] = far[f];
       hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-      frame.source_positions_f64 = source, frame.target_positions_f64 = out;
+      frame.source_positions_f64 = source;
+      frame.target_positions_f64 = out;
       const hf_result result = hf_transfer_apply(transfer, &frame);
       if (f < 2) {
         assert_int_equal(result, HF_OK);
@@ -272,12 +315,17 @@ static void frames_beyond_1e15_boxes_are_refused_in_every_mode(void** state) {
       const uint32_t pair = 0;
       const double place[3] = {far[f], 0, 0};
       source[30] = (double)sheet.positions[30];
-      frame.hold_count = 1, frame.hold_pairs = &pair, frame.hold_positions = place;
+      frame.hold_count = 1;
+      frame.hold_pairs = &pair;
+      frame.hold_positions = place;
       assert_code(HF_ERROR_TOO_LARGE, hf_transfer_apply(transfer, &frame));
     }
     hf_transfer_destroy(transfer);
   }
-  hf_surface_destroy(surface), free(source), free(out), surface_free(&sheet);
+  hf_surface_destroy(surface);
+  free(source);
+  free(out);
+  surface_free(&sheet);
 }
 
 static void refused_handles_say_what_to_do(void** state) {
@@ -301,7 +349,9 @@ static void refused_handles_say_what_to_do(void** state) {
   const double scaled[16] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1};
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_pose_set_matrices(pose, 1, &handle, scaled));
   assert_named("scale and shear");
-  hf_pose_destroy(pose), hf_surface_destroy(surface), surface_free(&tube);
+  hf_pose_destroy(pose);
+  hf_surface_destroy(surface);
+  surface_free(&tube);
 }
 
 /* Half of the triangles would be empty: every second 16-bit number is the high half of an index. */
@@ -310,18 +360,22 @@ static void indices_of_another_width_are_refused(void** state) {
   Surface sheet = surface_sheet(6, 6);
   hf_surface_desc desc = options_of(&sheet).surface;
   hf_surface surface = NULL;
-  desc.triangles = NULL, desc.triangles_u16 = (const uint16_t*)sheet.triangles;
+  desc.triangles = NULL;
+  desc.triangles_u16 = (const uint16_t*)sheet.triangles;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &surface));
   assert_named("give 32-bit indices as triangles");
   desc.triangle_stride = 3 * sizeof(uint16_t);
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &surface));
   uint64_t* wide = calloc(3 * sheet.triangle_count, sizeof *wide);
   for (size_t i = 0; i < 3 * (size_t)sheet.triangle_count; ++i) wide[i] = sheet.triangles[i];
-  desc.triangle_stride = 0, desc.triangles_u16 = NULL, desc.triangles = (const uint32_t*)wide;
+  desc.triangle_stride = 0;
+  desc.triangles_u16 = NULL;
+  desc.triangles = (const uint32_t*)wide;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &surface));
   assert_named("64-bit indices");
   assert_null(surface);
-  free(wide), surface_free(&sheet);
+  free(wide);
+  surface_free(&sheet);
 }
 
 int main(void) {

@@ -28,7 +28,9 @@ static void every_engine_and_operator_passes_with_its_own_tolerance(void** state
     for (int32_t operator_kind = 0; operator_kind < 4; ++operator_kind) {
       for (int32_t field_kind = 0; field_kind < 3; ++field_kind) {
         Options desc = options_of(&tube);
-        desc.solver.engine = engine, desc.surface.operator_kind = operator_kind, desc.surface.field_kind = field_kind;
+        desc.solver.engine = engine;
+        desc.surface.operator_kind = operator_kind;
+        desc.surface.field_kind = field_kind;
         hf_solver solver = NULL;
         if (make(&desc, NULL, &solver) == HF_ERROR_UNSUPPORTED) continue; /* updown without HF_WITH_GPL */
         add_sites(solver, 9);
@@ -65,11 +67,15 @@ static void points_soft_sites_discs_and_a_single_site_pass(void** state) {
   assert_ok(hf_solver_certify(solver, &found));
   assert_int_equal(found.overshoot_checked, 1);
   const uint32_t more[2] = {300, 330};
-  sites = sites_at(2, more, values), sites.radii = radii;
+  sites = sites_at(2, more, values);
+  sites.radii = radii;
   assert_ok(hf_add_sites(solver, &sites, NULL));
   assert_ok(hf_solver_certify(solver, &found));
   sites = HF_INIT(hf_sites_desc);
-  sites.site_count = 1, sites.triangles = &triangle, sites.barycentrics = weights, sites.values = values;
+  sites.site_count = 1;
+  sites.triangles = &triangle;
+  sites.barycentrics = weights;
+  sites.values = values;
   assert_ok(hf_add_sites(solver, &sites, NULL));
   assert_ok(hf_solver_certify(solver, &found));
   assert_int_equal(found.overshoot_checked, 0); /* the corners of a point may lie beyond it */
@@ -111,11 +117,14 @@ static void a_factor_that_changed_behind_the_library_is_found_out(void** state) 
   assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, size, bytes, NULL));
   hf_surface_destroy(surface);
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
-  factor.borrow = 1, factor.bytes = bytes, factor.byte_count = size;
+  factor.borrow = 1;
+  factor.bytes = bytes;
+  factor.byte_count = size;
   Options desc = options_of(&tube);
   desc.surface.saved_factor = &factor;
   assert_ok(make(&desc, NULL, &loaded));
-  add_sites(solver, 6), add_sites(loaded, 6);
+  add_sites(solver, 6);
+  add_sites(loaded, 6);
   double* right = field_of(solver, VERTICES);
   hf_certificate found = HF_INIT(hf_certificate);
   assert_ok(hf_solver_certify(loaded, &found));
@@ -131,7 +140,8 @@ static void a_factor_that_changed_behind_the_library_is_found_out(void** state) 
       double number;
       memcpy(&number, bytes + i, sizeof number);
       if (number == 0 || !isfinite(number)) continue;
-      number *= scales[s], ++changed;
+      number *= scales[s];
+      ++changed;
       memcpy(bytes + i, &number, sizeof number);
     }
     assert_true(changed > 0);
@@ -149,10 +159,13 @@ static void a_factor_that_changed_behind_the_library_is_found_out(void** state) 
     memcpy(bytes, kept, size);
     found = HF_INIT(hf_certificate);
     assert_ok(hf_solver_certify(loaded, &found));
-    free(wrong), free(kept);
+    free(wrong);
+    free(kept);
   }
-  hf_solver_destroy(solver), hf_solver_destroy(loaded);
-  free(right), free(block);
+  hf_solver_destroy(solver);
+  hf_solver_destroy(loaded);
+  free(right);
+  free(block);
 }
 
 /* Values as large as they may be, on a mesh of needles, whose weights are large too. */
@@ -168,12 +181,15 @@ static void the_largest_values_stay_finite_on_needles(void** state) {
     desc.surface.operator_kind = operator_kind;
     hf_solver solver = NULL;
     assert_ok(make(&desc, NULL, &solver));
-    add_site(solver, 0, 1e200), add_site(solver, 9, -1e200), add_site(solver, VERTICES - 1, 1e200);
+    add_site(solver, 0, 1e200);
+    add_site(solver, 9, -1e200);
+    add_site(solver, VERTICES - 1, 1e200);
     double* field = field_of(solver, VERTICES);
     for (int v = 0; v < VERTICES; ++v) assert_true(isfinite(field[v]));
     hf_certificate found = HF_INIT(hf_certificate);
     assert_ok(hf_solver_certify(solver, &found));
-    free(field), hf_solver_destroy(solver);
+    free(field);
+    hf_solver_destroy(solver);
   }
   surface_free(&needles);
 }
@@ -184,21 +200,29 @@ static void a_long_chain_is_right_to_rounding(void** state) {
   enum { CHAIN = 20000 };
   double* positions = calloc(3 * (2 * CHAIN + 1), sizeof(double));
   uint32_t* triangles = malloc(3 * CHAIN * sizeof(uint32_t));
-  assert_non_null(positions), assert_non_null(triangles);
+  assert_non_null(positions);
+  assert_non_null(triangles);
   for (uint32_t i = 0; i <= CHAIN; ++i) positions[3 * i] = i;
   for (uint32_t i = 0; i < CHAIN; ++i) {
     const uint32_t apex = CHAIN + 1 + i;
-    positions[3 * apex] = i, positions[3 * apex + 1] = 1;
-    triangles[3 * i] = i, triangles[3 * i + 1] = i + 1, triangles[3 * i + 2] = apex;
+    positions[3 * apex] = i;
+    positions[3 * apex + 1] = 1;
+    triangles[3 * i] = i;
+    triangles[3 * i + 1] = i + 1;
+    triangles[3 * i + 2] = apex;
   }
   Options desc = options_of(&tube);
-  desc.surface.positions = NULL, desc.surface.positions_f64 = positions, desc.surface.vertex_count = 2 * CHAIN + 1;
-  desc.surface.triangles = triangles, desc.surface.triangle_count = CHAIN;
+  desc.surface.positions = NULL;
+  desc.surface.positions_f64 = positions;
+  desc.surface.vertex_count = 2 * CHAIN + 1;
+  desc.surface.triangles = triangles;
+  desc.surface.triangle_count = CHAIN;
   for (int32_t engine = HF_ENGINE_GREEN; engine <= HF_ENGINE_REFACTOR; engine += HF_ENGINE_REFACTOR) {
     hf_solver solver = NULL;
     desc.solver.engine = engine;
     assert_ok(make(&desc, NULL, &solver));
-    add_site(solver, 0, 0), add_site(solver, CHAIN, 1);
+    add_site(solver, 0, 0);
+    add_site(solver, CHAIN, 1);
     double* field = field_of(solver, 2 * CHAIN + 1);
     double worst = 0;
     for (int i = 0; i < CHAIN; ++i) { /* not with fmax: GCC 12 for ARM fails on that */
@@ -209,9 +233,11 @@ static void a_long_chain_is_right_to_rounding(void** state) {
     hf_certificate found = HF_INIT(hf_certificate);
     assert_ok(hf_solver_certify(solver, &found));
     assert_true(found.error_estimate < 1e-13);
-    free(field), hf_solver_destroy(solver);
+    free(field);
+    hf_solver_destroy(solver);
   }
-  free(positions), free(triangles);
+  free(positions);
+  free(triangles);
 }
 
 /* A bi-harmonic operator is not formed around a vertex of more than 1,000 neighbours. */
@@ -221,14 +247,18 @@ static void biharmonic_fans_are_right_and_cost_what_the_mesh_costs(void** state)
   Surface fan = surface_fan(FAN);
   Options desc = options_of(&fan);
   for (int32_t kind = HF_FIELD_BIHARMONIC; kind <= HF_FIELD_BIHARMONIC_GRAPH; ++kind) {
-    desc.surface.field_kind = kind, desc.surface.saved_factor = NULL, desc.solver.engine = HF_ENGINE_GREEN;
+    desc.surface.field_kind = kind;
+    desc.surface.saved_factor = NULL;
+    desc.solver.engine = HF_ENGINE_GREEN;
     hf_surface surface = NULL;
     hf_solver solver = NULL, loaded = NULL;
     assert_ok(make(&desc, &surface, &solver));
     hf_surface_statistics statistics = HF_INIT(hf_surface_statistics);
     assert_ok(hf_surface_get_statistics(surface, &statistics));
     assert_true(statistics.peak_memory_bytes < 5e6);
-    add_site(solver, 1, 1), add_site(solver, 1 + FAN / 3, 1e3), add_site(solver, 1 + FAN / 2, -2);
+    add_site(solver, 1, 1);
+    add_site(solver, 1 + FAN / 3, 1e3);
+    add_site(solver, 1 + FAN / 2, -2);
     double* field = field_of(solver, FAN + 1);
     hf_certificate found = HF_INIT(hf_certificate);
     assert_ok(hf_solver_certify(solver, &found));
@@ -237,17 +267,25 @@ static void biharmonic_fans_are_right_and_cost_what_the_mesh_costs(void** state)
     size_t size = 0;
     unsigned char* bytes = saved_bytes(surface, kind, &size);
     hf_factor_desc factor = HF_INIT(hf_factor_desc);
-    factor.bytes = bytes, factor.byte_count = size;
+    factor.bytes = bytes;
+    factor.byte_count = size;
     desc.surface.saved_factor = &factor;
     assert_ok(make(&desc, NULL, &loaded));
-    add_site(loaded, 1, 1), add_site(loaded, 1 + FAN / 3, 1e3), add_site(loaded, 1 + FAN / 2, -2);
+    add_site(loaded, 1, 1);
+    add_site(loaded, 1 + FAN / 3, 1e3);
+    add_site(loaded, 1 + FAN / 2, -2);
     double* again = field_of(loaded, FAN + 1);
     assert_memory_equal(field, again, (FAN + 1) * sizeof *field);
     hf_solver_destroy(loaded);
 
-    desc.solver.engine = HF_ENGINE_REFACTOR, desc.surface.saved_factor = NULL;
+    desc.solver.engine = HF_ENGINE_REFACTOR;
+    desc.surface.saved_factor = NULL;
     assert_code(HF_ERROR_UNSUPPORTED, make(&desc, NULL, &loaded));
-    free(field), free(again), free(bytes), hf_solver_destroy(solver), hf_surface_destroy(surface);
+    free(field);
+    free(again);
+    free(bytes);
+    hf_solver_destroy(solver);
+    hf_surface_destroy(surface);
   }
   surface_free(&fan);
 }
@@ -285,12 +323,19 @@ static void weights_that_a_rule_set_are_counted(void** state) {
   for (int w = 0; w < 2; ++w) {
     const double x[4] = {0, 1, 1 + widths[w], 2};
     double positions[24];
-    for (int i = 0; i < 8; ++i) positions[3 * i] = x[i % 4], positions[3 * i + 1] = i / 4, positions[3 * i + 2] = 0;
+    for (int i = 0; i < 8; ++i) {
+      positions[3 * i] = x[i % 4];
+      positions[3 * i + 1] = i / 4;
+      positions[3 * i + 2] = 0;
+    }
     const uint32_t triangles[18] = {0, 1, 4, 1, 5, 4, 1, 2, 5, 2, 6, 5, 2, 3, 6, 3, 7, 6};
     for (int32_t operator_kind = 0; operator_kind < 4; ++operator_kind) {
       Options desc = options_of(&tube);
-      desc.surface.positions = NULL, desc.surface.positions_f64 = positions, desc.surface.vertex_count = 8;
-      desc.surface.triangles = triangles, desc.surface.triangle_count = 6;
+      desc.surface.positions = NULL;
+      desc.surface.positions_f64 = positions;
+      desc.surface.vertex_count = 8;
+      desc.surface.triangles = triangles;
+      desc.surface.triangle_count = 6;
       desc.surface.operator_kind = operator_kind;
       assert_ok(hf_surface_create(&desc.surface, &surface));
       assert_ok(hf_surface_get_report(surface, &report));
@@ -311,7 +356,9 @@ static void nothing_is_changed(void** state) {
   assert_ok(hf_solver_certify(solver, &found));
   double* after = field_of(solver, VERTICES);
   assert_true(same_bits(before, after, sizeof(double) * VERTICES));
-  free(before), free(after), hf_solver_destroy(solver);
+  free(before);
+  free(after);
+  hf_solver_destroy(solver);
 }
 
 #define CERTIFY(what, expected, ...)                                                                       \

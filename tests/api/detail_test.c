@@ -10,13 +10,15 @@ static const uint32_t square[4] = {3 * ROW + 3, 3 * ROW + 12, 12 * ROW + 12, 12 
 
 static hf_curve_desc curve_of(uint32_t count, const uint32_t* vertices) {
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
-  curve.point_count = count, curve.vertices = vertices;
+  curve.point_count = count;
+  curve.vertices = vertices;
   return curve;
 }
 
 static hf_region_edit_desc edit_of(const hf_curve_desc* curve, int32_t rings) {
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-  edit.curve = curve, edit.ring_count = rings;
+  edit.curve = curve;
+  edit.ring_count = rings;
   return edit;
 }
 
@@ -42,7 +44,10 @@ static hf_region sheet_region(hf_surface surface, const Surface* sheet, int32_t 
 
 static void morph_to(hf_region region, double weight, float* positions, double* positions_f64, float* normals) {
   hf_morph_desc desc = HF_INIT(hf_morph_desc);
-  desc.weight = weight, desc.positions = positions, desc.positions_f64 = positions_f64, desc.normals = normals;
+  desc.weight = weight;
+  desc.positions = positions;
+  desc.positions_f64 = positions_f64;
+  desc.normals = normals;
   assert_ok(hf_region_morph(region, &desc));
 }
 
@@ -58,8 +63,9 @@ static void weight_0_gives_the_bits_and_1_the_base(void** state) {
   double base[3 * COUNT], half[3 * COUNT], other[3 * COUNT];
   morph_to(region, 0, p, NULL, NULL);
   assert_true(same_bits(p, sheet.positions, sizeof p));
-  morph_to(region, 1, NULL, base, NULL), morph_to(region, 0.5, NULL, half, normals),
-      morph_to(region, -2, NULL, other, NULL);
+  morph_to(region, 1, NULL, base, NULL);
+  morph_to(region, 0.5, NULL, half, normals);
+  morph_to(region, -2, NULL, other, NULL);
   morph_to(region, 1, q, NULL, NULL);
   double moved = 0;
   for (int i = 0; i < 3 * COUNT; ++i) {
@@ -89,13 +95,17 @@ static void weight_0_gives_the_bits_and_1_the_base(void** state) {
   } rows_of_four[COUNT];
   memset(rows_of_four, 0x5a, sizeof rows_of_four);
   hf_morph_desc desc = HF_INIT(hf_morph_desc);
-  desc.weight = 1, desc.positions = rows_of_four[0].p, desc.position_stride = sizeof rows_of_four[0];
+  desc.weight = 1;
+  desc.positions = rows_of_four[0].p;
+  desc.position_stride = sizeof rows_of_four[0];
   assert_ok(hf_region_morph(region, &desc));
   for (uint32_t v = 0; v < COUNT; ++v) {
     assert_true(same_bits(rows_of_four[v].p, q + 3 * v, 3 * sizeof(float)));
     assert_true(same_bits(&rows_of_four[v].guard, &rows_of_four[0].guard, sizeof(float)));
   }
-  hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
+  hf_region_destroy(region);
+  hf_surface_destroy(surface);
+  surface_free(&sheet);
 }
 
 static void edits_keep_the_factor_and_undo_brings_back_the_bits(void** state) {
@@ -119,7 +129,8 @@ static void edits_keep_the_factor_and_undo_brings_back_the_bits(void** state) {
   assert_int_equal(info.field_kind, HF_FIELD_HARMONIC);
   const uint32_t out = at(7, 7);
   edit = HF_INIT(hf_region_edit_desc);
-  edit.remove_count = 1, edit.remove_vertices = &out;
+  edit.remove_count = 1;
+  edit.remove_vertices = &out;
   assert_ok(hf_region_edit(region, &edit));
   assert_int_equal(info_of(region).vertex_count, info.vertex_count - 1);
   assert_int_equal(info_of(region).inserted_count, 1);
@@ -134,7 +145,10 @@ static void edits_keep_the_factor_and_undo_brings_back_the_bits(void** state) {
   assert_code(HF_ERROR_NO_RECORD, hf_region_undo(copy));
   assert_ok(hf_region_redo(region));
   assert_int_equal(info_of(region).vertex_count, info.vertex_count - 1);
-  hf_region_destroy(copy), hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
+  hf_region_destroy(copy);
+  hf_region_destroy(region);
+  hf_surface_destroy(surface);
+  surface_free(&sheet);
 }
 
 static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
@@ -155,16 +169,24 @@ static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
   }
   hf_region other = NULL;
   hf_region_desc desc = HF_INIT(hf_region_desc);
-  desc.positions = sheet.positions, desc.base = HF_BASE_MEMBRANE;
+  desc.positions = sheet.positions;
+  desc.base = HF_BASE_MEMBRANE;
   assert_ok(hf_region_create(surface, &desc, &other));
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
-  curve.point_count = 4, curve.triangles = triangles, curve.barycentrics = weights, curve.kind = HF_CURVE_EDGES;
+  curve.point_count = 4;
+  curve.triangles = triangles;
+  curve.barycentrics = weights;
+  curve.kind = HF_CURVE_EDGES;
   const hf_region_edit_desc edit = edit_of(&curve, 0);
   assert_ok(hf_region_edit(other, &edit));
   double a[3 * COUNT], b[3 * COUNT];
-  morph_to(region, 1, NULL, a, NULL), morph_to(other, 1, NULL, b, NULL);
+  morph_to(region, 1, NULL, a, NULL);
+  morph_to(other, 1, NULL, b, NULL);
   assert_true(same_bits(a, b, sizeof a));
-  hf_region_destroy(region), hf_region_destroy(other), hf_surface_destroy(surface), surface_free(&sheet);
+  hf_region_destroy(region);
+  hf_region_destroy(other);
+  hf_surface_destroy(surface);
+  surface_free(&sheet);
 }
 
 /* Points at vertices and in triangles, joined straight: a square turned by 45 degrees, whose corners lie on vertices.
@@ -214,14 +236,18 @@ static void a_straight_curve_cuts_through_triangles(void** state) {
   const uint32_t far[9] = {at(2, 2), at(3, 2), at(2, 9), at(9, 2), at(9, 3), at(8, 2), at(5, 9), at(6, 9), at(5, 10)};
   const double nearest[9] = {0.4, 0.3, 0.3, 1, 0, 0, 1, 0, 0};
   hf_curve_desc loose = HF_INIT(hf_curve_desc);
-  loose.point_count = 3, loose.corners = far, loose.barycentrics = nearest;
+  loose.point_count = 3;
+  loose.corners = far;
+  loose.barycentrics = nearest;
   const hf_region_edit_desc loose_edit = edit_of(&loose, 0);
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_region_edit(region, &loose_edit));
   hf_error_get_detail(&detail);
   assert_int_equal(detail.index, 0);
   loose.kind = HF_CURVE_EDGES;
   assert_ok(hf_region_edit(region, &loose_edit));
-  hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
+  hf_region_destroy(region);
+  hf_surface_destroy(surface);
+  surface_free(&sheet);
 }
 
 static void a_thin_plate_is_a_region_of_a_biharmonic_kind(void** state) {
@@ -241,7 +267,9 @@ static void a_thin_plate_is_a_region_of_a_biharmonic_kind(void** state) {
     while (k < info.site_count && sites[k] < rim[i]) ++k;
     assert_true(k < info.site_count && sites[k] == rim[i]);
   }
-  hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
+  hf_region_destroy(region);
+  hf_surface_destroy(surface);
+  surface_free(&sheet);
 }
 
 static void detail_onto_itself_is_the_surface_and_outlives_all_else(void** state) {
@@ -255,7 +283,8 @@ static void detail_onto_itself_is_the_surface_and_outlives_all_else(void** state
   assert_ok(hf_detail_create(region, region, NULL, &detail));
   const hf_region_edit_desc edit = edit_of(NULL, 1);
   assert_ok(hf_region_edit(region, &edit)); /* a later edit changes nothing */
-  hf_region_destroy(region), hf_surface_destroy(surface);
+  hf_region_destroy(region);
+  hf_surface_destroy(surface);
   hf_morph_desc desc = HF_INIT(hf_morph_desc);
   desc.positions_f64 = carried;
   assert_ok(hf_detail_morph(detail, &desc));
@@ -267,7 +296,8 @@ static void detail_onto_itself_is_the_surface_and_outlives_all_else(void** state
   assert_ok(hf_detail_morph(detail, &desc));
   for (int i = 0; i < 3 * COUNT; ++i)
     assert_true(fabs(carried[i] - (base[i] + 3 * ((double)sheet.positions[i] - base[i]))) < 1e-5);
-  hf_detail_destroy(detail), hf_detail_destroy(detail);
+  hf_detail_destroy(detail);
+  hf_detail_destroy(detail);
   assert_code(HF_ERROR_INVALID_HANDLE, hf_detail_morph(detail, &desc));
   surface_free(&sheet);
 }
@@ -287,7 +317,8 @@ static void an_empty_region_gives_the_surface(void** state) {
   /* both copies of a seam vertex go to one base */
   const uint32_t seam = CUT_SEAM_RIGHT;
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-  edit.add_count = 1, edit.add_vertices = &seam;
+  edit.add_count = 1;
+  edit.add_vertices = &seam;
   assert_ok(hf_region_edit(region, &edit));
   morph_to(region, 1, p, NULL, NULL);
   assert_true(same_bits(p + 3 * CUT_SEAM_LEFT, p + 3 * CUT_SEAM_RIGHT, 3 * sizeof(float)));
@@ -296,7 +327,9 @@ static void an_empty_region_gives_the_surface(void** state) {
   const uint32_t isolated = CUT_ISOLATED;
   edit.add_vertices = &isolated;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_region_edit(region, &edit));
-  hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
+  hf_region_destroy(region);
+  hf_surface_destroy(surface);
+  surface_free(&sheet);
 }
 
 static void cancelling_leaves_all_as_it_was_and_stops_one_call(void** state) {
@@ -322,7 +355,10 @@ static void cancelling_leaves_all_as_it_was_and_stops_one_call(void** state) {
   assert_code(HF_ERROR_CANCELLED, hf_detail_create(region, region, &desc, &detail));
   assert_null(detail);
   assert_ok(hf_detail_create(region, region, &desc, &detail));
-  hf_detail_destroy(detail), hf_progress_destroy(progress), hf_region_destroy(region), hf_surface_destroy(surface);
+  hf_detail_destroy(detail);
+  hf_progress_destroy(progress);
+  hf_region_destroy(region);
+  hf_surface_destroy(surface);
   surface_free(&sheet);
 }
 
@@ -346,16 +382,20 @@ static void bad_regions_are_named(void** state) {
   desc.struct_size = 4;
   BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_create(surface, &desc, &made));
   desc = HF_INIT(hf_region_desc);
-  desc.positions = sheet.positions, desc.positions_f64 = before;
+  desc.positions = sheet.positions;
+  desc.positions_f64 = before;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_create(surface, &desc, &made));
-  desc.positions = NULL, desc.position_stride = 8;
+  desc.positions = NULL;
+  desc.position_stride = 8;
   BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_create(surface, &desc, &made));
-  desc.position_stride = 0, before[3 * 40 + 1] = NAN;
+  desc.position_stride = 0;
+  before[3 * 40 + 1] = NAN;
   BAD(HF_ERROR_NON_FINITE, 40, hf_region_create(surface, &desc, &made));
   desc = HF_INIT(hf_region_desc);
   desc.base = 4;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_create(surface, &desc, &made));
-  desc.base = 0, desc.reserved = 1;
+  desc.base = 0;
+  desc.reserved = 1;
   BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_create(surface, &desc, &made));
   assert_null(made);
   morph_to(region, 1, NULL, before, NULL);
@@ -366,7 +406,8 @@ static void bad_regions_are_named(void** state) {
   BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_region_edit((hf_region)surface, &edit));
   edit.struct_size = 8;
   BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_edit(region, &edit));
-  edit = edit_of(NULL, 1), edit.progress = (hf_progress)region;
+  edit = edit_of(NULL, 1);
+  edit.progress = (hf_progress)region;
   BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_region_edit(region, &edit));
   edit = edit_of(NULL, -99);
   BAD(HF_ERROR_EMPTY, NO_INDEX, hf_region_edit(region, &edit));
@@ -379,35 +420,47 @@ static void bad_regions_are_named(void** state) {
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_edit(region, &edit));
   curve = curve_of(COUNT + 1, square);
   BAD(HF_ERROR_TOO_LARGE, NO_INDEX, hf_region_edit(region, &edit));
-  curve = curve_of(4, square), curve.side = 3;
+  curve = curve_of(4, square);
+  curve.side = 3;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
-  curve = curve_of(4, square), curve.kind = 2;
+  curve = curve_of(4, square);
+  curve.kind = 2;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
-  curve = curve_of(4, square), curve.reserved = 1;
+  curve = curve_of(4, square);
+  curve.reserved = 1;
   BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_edit(region, &edit));
-  curve = curve_of(4, square), curve.struct_size = 12;
+  curve = curve_of(4, square);
+  curve.struct_size = 12;
   BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_edit(region, &edit));
   const uint32_t beyond[4] = {square[0], square[1], COUNT, square[3]}, line[3] = {at(2, 2), at(9, 2), at(5, 2)};
   curve = curve_of(4, beyond);
   BAD(HF_ERROR_OUT_OF_RANGE, 2, hf_region_edit(region, &edit));
-  curve = curve_of(3, line), curve.kind = HF_CURVE_EDGES;
+  curve = curve_of(3, line);
+  curve.kind = HF_CURVE_EDGES;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
-  curve = curve_of(4, square), curve.kind = HF_CURVE_EDGES, curve.side = HF_SIDE_SEED, curve.seed_vertex = COUNT;
+  curve = curve_of(4, square);
+  curve.kind = HF_CURVE_EDGES;
+  curve.side = HF_SIDE_SEED;
+  curve.seed_vertex = COUNT;
   BAD(HF_ERROR_OUT_OF_RANGE, COUNT, hf_region_edit(region, &edit));
   curve.seed_vertex = at(3, 7);
   BAD(HF_ERROR_INVALID_ARGUMENT, at(3, 7), hf_region_edit(region, &edit));
   uint32_t triangles[3] = {0, 100, 300};
   double weights[9] = {1, 0, 0, 1, 0, 0, 1, 0, 0};
   curve = HF_INIT(hf_curve_desc);
-  curve.point_count = 3, curve.triangles = triangles;
+  curve.point_count = 3;
+  curve.triangles = triangles;
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_edit(region, &edit));
-  curve.barycentrics = weights, triangles[1] = sheet.triangle_count;
+  curve.barycentrics = weights;
+  triangles[1] = sheet.triangle_count;
   BAD(HF_ERROR_OUT_OF_RANGE, 1, hf_region_edit(region, &edit));
-  triangles[1] = 100, weights[7] = 0.5;
+  triangles[1] = 100;
+  weights[7] = 0.5;
   BAD(HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
   weights[7] = INFINITY;
   BAD(HF_ERROR_NON_FINITE, 2, hf_region_edit(region, &edit));
-  weights[6] = 2, weights[7] = -1;
+  weights[6] = 2;
+  weights[7] = -1;
   BAD(HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
   curve.vertices = square;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
@@ -417,7 +470,8 @@ static void bad_regions_are_named(void** state) {
   edit.add_vertices = beyond;
   BAD(HF_ERROR_OUT_OF_RANGE, 2, hf_region_edit(region, &edit));
   edit = HF_INIT(hf_region_edit_desc);
-  edit.remove_count = COUNT + 1, edit.remove_vertices = beyond;
+  edit.remove_count = COUNT + 1;
+  edit.remove_vertices = beyond;
   BAD(HF_ERROR_TOO_LARGE, NO_INDEX, hf_region_edit(region, &edit));
 
   uint32_t found[64] = {7};
@@ -429,13 +483,17 @@ static void bad_regions_are_named(void** state) {
   assert_int_equal(found[0], 7);
   hf_morph_desc morph = HF_INIT(hf_morph_desc);
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_morph(region, &morph));
-  morph.positions_f64 = after, morph.weight = INFINITY;
+  morph.positions_f64 = after;
+  morph.weight = INFINITY;
   BAD(HF_ERROR_NON_FINITE, NO_INDEX, hf_region_morph(region, &morph));
-  morph.weight = 1, morph.position_stride = 12;
+  morph.weight = 1;
+  morph.position_stride = 12;
   BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_morph(region, &morph));
-  morph.position_stride = 0, morph.reserved = 1;
+  morph.position_stride = 0;
+  morph.reserved = 1;
   BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_morph(region, &morph));
-  morph.reserved = 0, morph.positions = (float*)found;
+  morph.reserved = 0;
+  morph.positions = (float*)found;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_morph(region, &morph));
   hf_region_info info;
   memset(&info, 0, sizeof info);
@@ -446,7 +504,9 @@ static void bad_regions_are_named(void** state) {
   morph_to(region, 1, NULL, after, NULL);
   assert_true(same_bits(before, after, sizeof before)); /* whatever failed, the region is as it was */
   finish_rows("regions");
-  hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
+  hf_region_destroy(region);
+  hf_surface_destroy(surface);
+  surface_free(&sheet);
 }
 
 static void bad_details_are_named(void** state) {
@@ -468,7 +528,8 @@ static void bad_details_are_named(void** state) {
   desc.scale = NAN;
   BAD(HF_ERROR_NON_FINITE, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
   desc = HF_INIT(hf_detail_desc);
-  desc.pair_count = 2, desc.source_vertices = square;
+  desc.pair_count = 2;
+  desc.source_vertices = square;
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
   const uint32_t off[2] = {square[0], at(8, 8)}, beyond[2] = {square[0], COUNT}, twice[2] = {square[0], square[0]};
   desc.target_vertices = off;
@@ -482,12 +543,16 @@ static void bad_details_are_named(void** state) {
   /* with a square in its middle taken out it is no disc any more */
   const uint32_t hole[4] = {at(7, 7), at(8, 7), at(7, 8), at(8, 8)};
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-  edit.remove_count = 4, edit.remove_vertices = hole;
+  edit.remove_count = 4;
+  edit.remove_vertices = hole;
   assert_ok(hf_region_edit(region, &edit));
   assert_code(HF_ERROR_UNSUPPORTED, hf_detail_create(region, region, NULL, &detail));
   assert_null(detail);
   finish_rows("details");
-  hf_region_destroy(empty), hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
+  hf_region_destroy(empty);
+  hf_region_destroy(region);
+  hf_surface_destroy(surface);
+  surface_free(&sheet);
 }
 
 int main(void) {

@@ -7,10 +7,13 @@ static void constrain(hf_direction direction, uint32_t count, uint32_t step, uin
   double* vectors = malloc(3 * count * sizeof *vectors);
   for (uint32_t i = 0; i < count; ++i) {
     places[i] = first + i * step;
-    vectors[3 * i] = 1, vectors[3 * i + 1] = (double)(places[i] % 7) - 3, vectors[3 * i + 2] = 0.25;
+    vectors[3 * i] = 1;
+    vectors[3 * i + 1] = (double)(places[i] % 7) - 3;
+    vectors[3 * i + 2] = 0.25;
   }
   assert_ok(hf_direction_add_sites(direction, count, places, vectors, out_sites));
-  free(places), free(vectors);
+  free(places);
+  free(vectors);
 }
 
 /* Two sheets, the second flat: without constraints its operator is singular but for the ground. So many constraints
@@ -20,7 +23,8 @@ static void many_constraints_come_and_go_without_a_trace(void** state) {
   (void)state;
   enum { SIDE = 50, HALF = (SIDE + 1) * (SIDE + 1), ALL = 2 * HALF, MANY = 1000 };
   Surface sheet = surface_sheet(SIDE, SIDE), two = {ALL, 2 * sheet.triangle_count, NULL, NULL};
-  two.positions = malloc(sizeof(float) * 3 * ALL), two.triangles = malloc(sizeof(uint32_t) * 3 * two.triangle_count);
+  two.positions = malloc(sizeof(float) * 3 * ALL);
+  two.triangles = malloc(sizeof(uint32_t) * 3 * two.triangle_count);
   for (uint32_t i = 0; i < 3 * HALF; ++i) {
     two.positions[i] = sheet.positions[i];
     two.positions[3 * HALF + i] = i % 3 == 0   ? sheet.positions[i] + 2.0f * SIDE
@@ -41,7 +45,10 @@ static void many_constraints_come_and_go_without_a_trace(void** state) {
     hf_direction direction = NULL, fresh = NULL;
     assert_ok(hf_direction_create(surface, NULL, &direction));
     assert_ok(hf_direction_create(surface, NULL, &fresh));
-    if (round == 2) constrain(direction, 3, 700, HALF, NULL), constrain(fresh, 3, 700, HALF, NULL);
+    if (round == 2) {
+      constrain(direction, 3, 700, HALF, NULL);
+      constrain(fresh, 3, 700, HALF, NULL);
+    }
     constrain(direction, count, step, 0, sites);
     hf_direction_statistics statistics = HF_INIT(hf_direction_statistics);
     assert_ok(hf_direction_get_statistics(direction, &statistics));
@@ -58,11 +65,14 @@ static void many_constraints_come_and_go_without_a_trace(void** state) {
     assert_ok(hf_direction_solve_f64(fresh, right, 0, NULL));
     assert_int_equal(info.unreached_vertex_count, round == 2 ? 0 : HALF);
     for (uint32_t i = 0; i < 3 * ALL; ++i) assert_true(fabs(got[i] - right[i]) <= 1e-9);
-    hf_direction_destroy(direction), hf_direction_destroy(fresh);
+    hf_direction_destroy(direction);
+    hf_direction_destroy(fresh);
   }
-  free(got), free(right);
+  free(got);
+  free(right);
   hf_surface_destroy(surface);
-  surface_free(&sheet), surface_free(&two);
+  surface_free(&sheet);
+  surface_free(&two);
 }
 
 /* Single triangles beside a sheet whose constraints go into the factor: each is singular but for its ground, and half
@@ -71,13 +81,17 @@ static void triangles_that_nothing_reaches_do_not_matter(void** state) {
   (void)state;
   enum { SIDE = 50, HALF = (SIDE + 1) * (SIDE + 1), LOOSE = 24, ALL = HALF + 3 * LOOSE, MANY = 1000 };
   Surface sheet = surface_sheet(SIDE, SIDE), all = {ALL, sheet.triangle_count + LOOSE, NULL, NULL};
-  all.positions = calloc(3 * ALL, sizeof(float)), all.triangles = malloc(sizeof(uint32_t) * 3 * all.triangle_count);
+  all.positions = calloc(3 * ALL, sizeof(float));
+  all.triangles = malloc(sizeof(uint32_t) * 3 * all.triangle_count);
   memcpy(all.positions, sheet.positions, sizeof(float) * 3 * HALF);
   memcpy(all.triangles, sheet.triangles, sizeof(uint32_t) * 3 * sheet.triangle_count);
   for (uint32_t t = 0; t < LOOSE; ++t) {
     float* p = all.positions + 3 * (HALF + 3 * t);
     const float x = (float)(2 * SIDE + 3 * t), length = 1.0f + 0.1f * (float)t;
-    p[0] = x, p[3] = x + length, p[6] = x + 0.03f * (float)t, p[7] = 1;
+    p[0] = x;
+    p[3] = x + length;
+    p[6] = x + 0.03f * (float)t;
+    p[7] = 1;
     for (uint32_t k = 0; k < 3; ++k) all.triangles[3 * (sheet.triangle_count + t) + k] = HALF + 3 * t + k;
   }
   const hf_surface surface = surface_on(&all);
@@ -96,7 +110,8 @@ static void triangles_that_nothing_reaches_do_not_matter(void** state) {
   free(got);
   hf_direction_destroy(direction);
   hf_surface_destroy(surface);
-  surface_free(&sheet), surface_free(&all);
+  surface_free(&sheet);
+  surface_free(&all);
 }
 
 int main(void) {

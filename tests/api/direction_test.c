@@ -36,7 +36,8 @@ static void a_vector_of_three_channels_is_carried_and_turned_without_touching_th
   }
 
   hf_solver_statistics before, after;
-  before = HF_INIT(hf_solver_statistics), after = HF_INIT(hf_solver_statistics);
+  before = HF_INIT(hf_solver_statistics);
+  after = HF_INIT(hf_solver_statistics);
   assert_ok(hf_solver_get_statistics(solver, &before));
   const double quarter = acos(0.0);
   assert_ok(hf_solver_rotate_vectors(solver, 1, sites + 1, &quarter));
@@ -88,11 +89,13 @@ static void vectors_are_refused_with_their_place_in_the_list(void** state) {
   REFUSED("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_solver_rotate_vectors(flat, 1, sites, angles));
   double now[6];
   hf_sites_info info = HF_INIT(hf_sites_info);
-  info.capacity = 2, info.values = now;
+  info.capacity = 2;
+  info.values = now;
   assert_ok(hf_solver_get_sites(solver, &info));
   row_holds(__LINE__, "values", "are as they were", same_bits(now, values, sizeof now));
   finish_rows("vectors");
-  hf_solver_destroy(solver), hf_solver_destroy(flat);
+  hf_solver_destroy(solver);
+  hf_solver_destroy(flat);
   surface_free(&tube);
 }
 
@@ -135,7 +138,8 @@ static void a_direction_field_follows_its_constraints(void** state) {
       for (int k = 0; k < 3; ++k) assert_true(exact[3 * places[i] + (uint32_t)k] == vectors[3 * i + k]);
     }
     hf_direction_statistics before, after;
-    before = HF_INIT(hf_direction_statistics), after = HF_INIT(hf_direction_statistics);
+    before = HF_INIT(hf_direction_statistics);
+    after = HF_INIT(hf_direction_statistics);
     assert_ok(hf_direction_get_statistics(direction, &before));
     assert_int_equal(before.unknown_count, 2 * VERTICES);
     assert_int_equal(before.path_solve_count, 4);
@@ -188,12 +192,14 @@ static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** stat
   desc.degree = 3;
   check_row(__LINE__, "degree 3", "hf_direction_create", hf_direction_create(surface, &desc, &direction),
             HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
-  desc.degree = 0, desc.reserved = 1;
+  desc.degree = 0;
+  desc.reserved = 1;
   check_row(__LINE__, "reserved", "hf_direction_create", hf_direction_create(surface, &desc, &direction),
             HF_ERROR_INVALID_DESC, NO_INDEX);
   check_row(__LINE__, "NULL", "hf_direction_create", hf_direction_create(surface, NULL, NULL), HF_ERROR_NULL_POINTER,
             NO_INDEX);
-  desc.reserved = 0, desc.site_limit = 3;
+  desc.reserved = 0;
+  desc.site_limit = 3;
   assert_ok(hf_direction_create(surface, &desc, &direction));
   const uint32_t places[2] = {CUT_LEFT, CUT_SEAM_LEFT};
   const double vectors[12] = {1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 1, 0};
@@ -280,7 +286,8 @@ static void constraints_come_back_to_the_same_bits(void** state) {
       counts[step] = hf_direction_get_site_count(direction);
     }
     hf_direction_statistics before, after;
-    before = HF_INIT(hf_direction_statistics), after = HF_INIT(hf_direction_statistics);
+    before = HF_INIT(hf_direction_statistics);
+    after = HF_INIT(hf_direction_statistics);
     assert_ok(hf_direction_get_statistics(direction, &before));
     static double field[KEPT];
     int here = STEPS;
@@ -295,7 +302,10 @@ static void constraints_come_back_to_the_same_bits(void** state) {
     assert_ok(hf_direction_get_statistics(direction, &after));
     assert_int_equal(after.path_solve_count, before.path_solve_count);
     assert_int_equal(after.factorisation_count, before.factorisation_count);
-    while (here > 0) assert_ok(hf_direction_undo(direction)), --here;
+    while (here > 0) {
+      assert_ok(hf_direction_undo(direction));
+      --here;
+    }
     assert_code(HF_ERROR_NO_RECORD, hf_direction_undo(direction));
     /* a clone has the constraints, none of the records, and a life of its own */
     assert_ok(hf_direction_clone(direction, &clone));
@@ -371,24 +381,30 @@ static void a_biharmonic_solver_takes_the_same_edits_and_overshoots(void** state
     double* fields[2];
     for (int e = 0; e < 2; ++e) {
       Options desc = options_of(&sheet);
-      desc.surface.field_kind = kind, desc.solver.engine = engines[e];
+      desc.surface.field_kind = kind;
+      desc.solver.engine = engines[e];
       hf_solver solver;
       assert_ok(make(&desc, NULL, &solver));
       const uint32_t row = 10 * 21;
-      add_site(solver, row + 2, 0), add_site(solver, row + 6, 1);
+      add_site(solver, row + 2, 0);
+      add_site(solver, row + 6, 1);
       const uint32_t gone = add_site(solver, 5, 9);
-      add_site(solver, row + 10, 0), add_site(solver, 6 * 21 + 6, 1), add_site(solver, 14 * 21 + 6, 1);
+      add_site(solver, row + 10, 0);
+      add_site(solver, 6 * 21 + 6, 1);
+      add_site(solver, 14 * 21 + 6, 1);
       assert_ok(hf_remove_sites(solver, 1, &gone));
       fields[e] = field_of(solver, sheet.vertex_count);
       hf_solver_destroy(solver);
     }
     double low = 0, high = 0;
     for (uint32_t v = 0; v < sheet.vertex_count; ++v) {
-      low = fmin(low, fields[0][v]), high = fmax(high, fields[0][v]);
+      low = fmin(low, fields[0][v]);
+      high = fmax(high, fields[0][v]);
       assert_true(fabs(fields[0][v] - fields[1][v]) <= 1e-8);
     }
     assert_true(low < -0.05 || high > 1.05);
-    free(fields[0]), free(fields[1]);
+    free(fields[0]);
+    free(fields[1]);
   }
   surface_free(&sheet);
 }

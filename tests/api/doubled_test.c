@@ -10,7 +10,9 @@ typedef struct Soup {
 
 static void append_triangle(Soup* soup, const double* a, const double* b, const double* c) {
   double* out = &soup->positions[9 * soup->triangle_count++];
-  memcpy(out, a, 24), memcpy(out + 3, b, 24), memcpy(out + 6, c, 24);
+  memcpy(out, a, 24);
+  memcpy(out + 3, b, 24);
+  memcpy(out + 6, c, 24);
 }
 
 static void subdivide(Soup* soup, const double* a, const double* b, const double* c, int depth) {
@@ -28,8 +30,10 @@ static void subdivide(Soup* soup, const double* a, const double* b, const double
     }
     for (int k = 0; k < 3; ++k) middle[i][k] /= sqrt(square);
   }
-  subdivide(soup, a, middle[0], middle[2], depth - 1), subdivide(soup, b, middle[1], middle[0], depth - 1);
-  subdivide(soup, c, middle[2], middle[1], depth - 1), subdivide(soup, middle[0], middle[1], middle[2], depth - 1);
+  subdivide(soup, a, middle[0], middle[2], depth - 1);
+  subdivide(soup, b, middle[1], middle[0], depth - 1);
+  subdivide(soup, c, middle[2], middle[1], depth - 1);
+  subdivide(soup, middle[0], middle[1], middle[2], depth - 1);
 }
 
 /* 1,280 triangles on a sphere, made longer along x. */
@@ -62,8 +66,11 @@ static void append_doubles(Soup* soup, uint32_t count, int mirrored) {
 static hf_surface surface_of(const Soup* soup, uint32_t* triangles, int32_t operator_kind) {
   for (uint32_t i = 0; i < 3 * soup->triangle_count; ++i) triangles[i] = i;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 3 * soup->triangle_count, desc.positions_f64 = soup->positions;
-  desc.triangle_count = soup->triangle_count, desc.triangles = triangles, desc.operator_kind = operator_kind;
+  desc.vertex_count = 3 * soup->triangle_count;
+  desc.positions_f64 = soup->positions;
+  desc.triangle_count = soup->triangle_count;
+  desc.triangles = triangles;
+  desc.operator_kind = operator_kind;
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&desc, &surface));
   return surface;
@@ -88,7 +95,9 @@ typedef struct Results {
 static Results results_of(hf_surface surface, uint32_t vertices) {
   Results out = {0};
   hf_solver solver = solver_on(surface);
-  add_site(solver, 0, 0), add_site(solver, 1234, 1), add_site(solver, 3001, 3);
+  add_site(solver, 0, 0);
+  add_site(solver, 1234, 1);
+  add_site(solver, 3001, 3);
   out.field = field_of(solver, vertices);
   hf_solver_destroy(solver);
   hf_pose pose = NULL;
@@ -99,8 +108,11 @@ static Results results_of(hf_surface surface, uint32_t vertices) {
   const hf_transform turned = {{0, 0, 0.38268343, 0.92387953}, {0.2, 0.7, 0}};
   assert_ok(hf_pose_set_transform(pose, handles[1], &turned));
   hf_deform_desc deform = HF_INIT(hf_deform_desc);
-  out.posed = calloc(vertices, 3 * sizeof(double)), out.normals = calloc(vertices, 3 * sizeof(float));
-  deform.positions_f64 = out.posed, deform.normals = out.normals, deform.refine = 4;
+  out.posed = calloc(vertices, 3 * sizeof(double));
+  out.normals = calloc(vertices, 3 * sizeof(float));
+  deform.positions_f64 = out.posed;
+  deform.normals = out.normals;
+  deform.refine = 4;
   assert_ok(hf_pose_deform(pose, &deform, NULL));
   hf_pose_destroy(pose);
   hf_quads quads = NULL;
@@ -109,18 +121,26 @@ static Results results_of(hf_surface surface, uint32_t vertices) {
   assert_ok(hf_quads_create(surface, &desc, &quads));
   hf_quads_info info = HF_INIT(hf_quads_info);
   assert_ok(hf_quads_get_info(quads, &info));
-  out.quad_vertices = info.vertex_count, out.quad_faces = info.face_count;
-  out.quads = calloc(info.vertex_count, 3 * sizeof(double)), out.faces = calloc(info.face_count, 4 * sizeof(uint32_t));
+  out.quad_vertices = info.vertex_count;
+  out.quad_faces = info.face_count;
+  out.quads = calloc(info.vertex_count, 3 * sizeof(double));
+  out.faces = calloc(info.face_count, 4 * sizeof(uint32_t));
   hf_quads_mesh net = HF_INIT(hf_quads_mesh);
-  net.vertex_capacity = info.vertex_count, net.face_capacity = info.face_count;
-  net.positions = out.quads, net.faces = out.faces;
+  net.vertex_capacity = info.vertex_count;
+  net.face_capacity = info.face_count;
+  net.positions = out.quads;
+  net.faces = out.faces;
   assert_ok(hf_quads_get_mesh(quads, &net));
   hf_quads_destroy(quads);
   return out;
 }
 
 static void free_results(Results* results) {
-  free(results->field), free(results->posed), free(results->normals), free(results->quads), free(results->faces);
+  free(results->field);
+  free(results->posed);
+  free(results->normals);
+  free(results->quads);
+  free(results->faces);
 }
 
 static Soup plain, doubled;
@@ -135,7 +155,8 @@ static void fields_poses_and_quads_are_those_of_the_mesh_without_doubles(void** 
   const uint32_t counts[] = {1, 20, 100, 1280};
   for (size_t i = 0; i < COUNT_OF(counts); ++i) {
     for (int mirrored = 0; mirrored < 3; ++mirrored) {
-      make_ball(&doubled), append_doubles(&doubled, counts[i], mirrored);
+      make_ball(&doubled);
+      append_doubles(&doubled, counts[i], mirrored);
       const hf_surface surface = surface_of(&doubled, corners[1], HF_OPERATOR_INTRINSIC_DELAUNAY);
       const hf_surface_report report = report_of(surface);
       assert_int_equal(report.duplicate_triangle_count, counts[i]);
@@ -148,26 +169,34 @@ static void fields_poses_and_quads_are_those_of_the_mesh_without_doubles(void** 
       assert_int_equal(got.quad_vertices, expected.quad_vertices);
       assert_true(same_bits(got.quads, expected.quads, 3 * got.quad_vertices * sizeof(double)));
       assert_true(same_bits(got.faces, expected.faces, 4 * got.quad_faces * sizeof(uint32_t)));
-      free_results(&got), hf_surface_destroy(surface);
+      free_results(&got);
+      hf_surface_destroy(surface);
     }
   }
-  free_results(&expected), hf_surface_destroy(before);
+  free_results(&expected);
+  hf_surface_destroy(before);
 }
 
 static void every_operator_weighs_doubled_faces_once(void** state) {
   (void)state;
-  make_ball(&plain), make_ball(&doubled), append_doubles(&doubled, 37, 2);
+  make_ball(&plain);
+  make_ball(&doubled);
+  append_doubles(&doubled, 37, 2);
   for (int32_t kind = HF_OPERATOR_INTRINSIC_DELAUNAY; kind <= HF_OPERATOR_COTANGENT; ++kind) {
     double* field[2];
     for (int k = 0; k < 2; ++k) {
       const hf_surface surface = surface_of(k ? &doubled : &plain, corners[k], kind);
       hf_solver solver = solver_on(surface);
-      add_site(solver, 0, 0), add_site(solver, 1234, 1), add_site(solver, 3001, 3);
+      add_site(solver, 0, 0);
+      add_site(solver, 1234, 1);
+      add_site(solver, 3001, 3);
       field[k] = field_of(solver, 3 * (k ? doubled : plain).triangle_count);
-      hf_solver_destroy(solver), hf_surface_destroy(surface);
+      hf_solver_destroy(solver);
+      hf_surface_destroy(surface);
     }
     assert_true(same_bits(field[0], field[1], 9 * sizeof(double) * plain.triangle_count / 3));
-    free(field[0]), free(field[1]);
+    free(field[0]);
+    free(field[1]);
   }
 }
 
@@ -217,10 +246,14 @@ static void a_two_sided_sheet_is_one_sheet_with_opposite_normals_behind(void** s
       assert_true(fabs((double)normals[3 * v + 2] - (is_back(&doubled, v / 3) ? -1 : 1)) < 1e-6);
     /* a range in the middle, with a stride */
     float range[4 * 20];
-    deform.normals = range, deform.normal_stride = 4 * sizeof(float), deform.first_vertex = 5, deform.vertex_count = 20;
+    deform.normals = range;
+    deform.normal_stride = 4 * sizeof(float);
+    deform.first_vertex = 5;
+    deform.vertex_count = 20;
     assert_ok(hf_pose_deform(pose, &deform, NULL));
     for (uint32_t v = 5; v < 25; ++v) assert_true(same_bits(&range[4 * (v - 5)], &normals[3 * v], 3 * sizeof(float)));
-    free(normals), hf_pose_destroy(pose);
+    free(normals);
+    hf_pose_destroy(pose);
     /* rays from both sides hit the side that faces them */
     hf_pick_desc front = HF_INIT(hf_pick_desc);
     front.front_only = 1;
@@ -248,13 +281,15 @@ static void a_two_sided_sheet_is_one_sheet_with_opposite_normals_behind(void** s
     assert_ok(hf_quads_get_info(quads, &info));
     assert_int_equal(info.euler_characteristic, 1);
     assert_int_equal(info.face_count, SQUARES);
-    hf_quads_destroy(quads), hf_surface_destroy(surface);
+    hf_quads_destroy(quads);
+    hf_surface_destroy(surface);
   }
 }
 
 static void a_site_in_a_doubled_triangle_lies_where_its_own_corners_say(void** state) {
   (void)state;
-  make_ball(&doubled), append_doubles(&doubled, 20, 2);
+  make_ball(&doubled);
+  append_doubles(&doubled, 20, 2);
   const hf_surface surface = surface_of(&doubled, corners[1], HF_OPERATOR_INTRINSIC_DELAUNAY);
   for (uint32_t i = 0; i < 20; ++i) {
     const uint32_t triangle = 1280 + i;
@@ -264,7 +299,9 @@ static void a_site_in_a_doubled_triangle_lies_where_its_own_corners_say(void** s
       hf_solver solver = solver_on(surface);
       add_site(solver, i ? 0 : 3000, 0);
       hf_sites_desc site = HF_INIT(hf_sites_desc);
-      site.site_count = 1, site.barycentrics = weights, site.values = &value;
+      site.site_count = 1;
+      site.barycentrics = weights;
+      site.values = &value;
       if (named)
         site.triangles = &triangle;
       else
@@ -274,7 +311,8 @@ static void a_site_in_a_doubled_triangle_lies_where_its_own_corners_say(void** s
       hf_solver_destroy(solver);
     }
     assert_true(same_bits(field[0], field[1], sizeof(double) * 3 * doubled.triangle_count));
-    free(field[0]), free(field[1]);
+    free(field[0]);
+    free(field[1]);
   }
   hf_surface_destroy(surface);
 }

@@ -21,7 +21,8 @@ static Sheet bent_sheet(void) {
   for (uint32_t j = 0; j <= ROWS; ++j) {
     for (uint32_t i = 0; i <= COLUMNS; ++i) {
       double* p = sheet.positions + 3 * (j * (COLUMNS + 1) + i);
-      p[0] = 3.0 * i + 0.7 * j + 0.2 * sin(5.0 * i + j), p[1] = j + 0.1 * cos(3.0 * j + i);
+      p[0] = 3.0 * i + 0.7 * j + 0.2 * sin(5.0 * i + j);
+      p[1] = j + 0.1 * cos(3.0 * j + i);
       p[2] = sin(1.3 * i) * cos(0.9 * j);
     }
   }
@@ -29,7 +30,8 @@ static Sheet bent_sheet(void) {
     const uint32_t a = f / COLUMNS * (COLUMNS + 1) + f % COLUMNS;
     const uint32_t corners[4] = {a, a + 1, a + COLUMNS + 2, a + COLUMNS + 1};
     memcpy(sheet.corners + 4 * f, corners, sizeof corners);
-    sheet.sizes[f] = 4, sheet.offsets[f] = 4 * f;
+    sheet.sizes[f] = 4;
+    sheet.offsets[f] = 4 * f;
   }
   sheet.offsets[QUADS] = 4 * QUADS;
   return sheet;
@@ -37,9 +39,12 @@ static Sheet bent_sheet(void) {
 
 static hf_surface_desc desc_of(const Sheet* sheet) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = POINTS, desc.positions_f64 = sheet->positions;
-  desc.face_count = QUADS, desc.corner_count = 4 * QUADS;
-  desc.face_sizes = sheet->sizes, desc.corners = sheet->corners;
+  desc.vertex_count = POINTS;
+  desc.positions_f64 = sheet->positions;
+  desc.face_count = QUADS;
+  desc.corner_count = 4 * QUADS;
+  desc.face_sizes = sheet->sizes;
+  desc.corners = sheet->corners;
   return desc;
 }
 
@@ -53,9 +58,11 @@ static hf_surface made(const hf_surface_desc* desc) {
 static void field_on(const hf_surface_desc* desc, double* field) {
   hf_surface surface = made(desc);
   hf_solver solver = solver_on(surface);
-  add_site(solver, LEFT, 0), add_site(solver, desc->vertex_count - 1, 1);
+  add_site(solver, LEFT, 0);
+  add_site(solver, desc->vertex_count - 1, 1);
   assert_ok(hf_solver_solve_f64(solver, field, 0, NULL));
-  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
 }
 
 static double difference(const double* a, const double* b, uint32_t count) {
@@ -78,7 +85,8 @@ static void faces_are_taken_as_every_host_stores_them(void** state) {
   hf_surface_desc desc = desc_of(&sheet);
   double sizes[POINTS], other[POINTS];
   field_on(&desc, sizes);
-  desc.face_starts = sheet.offsets, desc.face_sizes = NULL;
+  desc.face_starts = sheet.offsets;
+  desc.face_sizes = NULL;
   field_on(&desc, other);
   assert_memory_equal(sizes, other, sizeof sizes);
   /* records of a host: start and size of a face, the vertex of a corner, among other things */
@@ -89,11 +97,16 @@ static void faces_are_taken_as_every_host_stores_them(void** state) {
     uint32_t vertex, edge;
   } loops[4 * QUADS];
   for (uint32_t f = 0; f < QUADS; ++f) {
-    polygons[f].start = 4 * (QUADS - 1 - f), polygons[f].size = 4, polygons[f].material = 77;
+    polygons[f].start = 4 * (QUADS - 1 - f);
+    polygons[f].size = 4;
+    polygons[f].material = 77;
     for (uint32_t k = 0; k < 4; ++k) loops[polygons[f].start + k].vertex = sheet.corners[4 * f + k];
   }
-  desc.face_starts = &polygons[0].start, desc.face_sizes = &polygons[0].size, desc.face_stride = sizeof polygons[0];
-  desc.corners = &loops[0].vertex, desc.corner_stride = sizeof loops[0];
+  desc.face_starts = &polygons[0].start;
+  desc.face_sizes = &polygons[0].size;
+  desc.face_stride = sizeof polygons[0];
+  desc.corners = &loops[0].vertex;
+  desc.corner_stride = sizeof loops[0];
   field_on(&desc, other);
   assert_memory_equal(sizes, other, sizeof sizes);
 }
@@ -108,9 +121,11 @@ static void no_field_depends_on_the_first_corner(void** state) {
   for (int32_t kind = 0; kind < 4; ++kind) {
     for (int32_t field = 0; field < 3; ++field) {
       hf_surface_desc a = desc_of(&sheet), b = desc_of(&turned);
-      a.operator_kind = b.operator_kind = kind, a.field_kind = b.field_kind = field;
+      a.operator_kind = b.operator_kind = kind;
+      a.field_kind = b.field_kind = field;
       double x[POINTS], y[POINTS];
-      field_on(&a, x), field_on(&b, y);
+      field_on(&a, x);
+      field_on(&b, y);
       assert_true(difference(x, y, POINTS) <= 1e-12);
     }
   }
@@ -128,7 +143,8 @@ static void a_mirrored_mesh_has_the_mirrored_field(void** state) {
     hf_surface_desc a = desc_of(&sheet), b = desc_of(&mirror);
     a.operator_kind = b.operator_kind = kind;
     double x[POINTS], y[POINTS];
-    field_on(&a, x), field_on(&b, y);
+    field_on(&a, x);
+    field_on(&b, y);
     assert_true(difference(x, y, POINTS) <= 1e-12);
   }
 }
@@ -143,30 +159,39 @@ static void faces_of_three_corners_are_triangles(void** state) {
   options.surface.vertex_count = CUT_VERTICES;
   hf_surface surface = surface_on(&cut);
   hf_solver solver = solver_on(surface);
-  add_site(solver, CUT_LEFT, 0), add_site(solver, CUT_RIGHT, 1);
+  add_site(solver, CUT_LEFT, 0);
+  add_site(solver, CUT_RIGHT, 1);
   assert_ok(hf_solver_solve_f64(solver, triangles, 0, NULL));
   const hf_surface_report before = report_of(&options.surface);
   hf_surface_desc desc = options.surface;
-  desc.triangles = NULL, desc.triangle_count = 0;
-  desc.face_count = CUT_TRIANGLES, desc.corner_count = 3 * CUT_TRIANGLES;
-  desc.face_sizes = sizes, desc.corners = cut.triangles;
+  desc.triangles = NULL;
+  desc.triangle_count = 0;
+  desc.face_count = CUT_TRIANGLES;
+  desc.corner_count = 3 * CUT_TRIANGLES;
+  desc.face_sizes = sizes;
+  desc.corners = cut.triangles;
   hf_surface same = made(&desc);
   hf_solver other = solver_on(same);
-  add_site(other, CUT_LEFT, 0), add_site(other, CUT_RIGHT, 1);
+  add_site(other, CUT_LEFT, 0);
+  add_site(other, CUT_RIGHT, 1);
   assert_ok(hf_solver_solve_f64(other, faces, 0, NULL));
   assert_memory_equal(triangles, faces, sizeof faces);
   hf_surface_report after = report_of(&desc);
   assert_int_equal(after.face_count, CUT_TRIANGLES);
   assert_int_equal(after.largest_face, 3);
   assert_int_equal(before.face_count, 0);
-  after.face_count = 0, after.largest_face = 0;
+  after.face_count = 0;
+  after.largest_face = 0;
   assert_memory_equal(&before, &after, sizeof before);
   hf_surface_info info = HF_INIT(hf_surface_info);
   assert_ok(hf_surface_get_info(same, &info));
   assert_int_equal(info.face_count, CUT_TRIANGLES);
   assert_int_equal(info.corner_count, 3 * CUT_TRIANGLES);
   assert_int_equal(info.triangle_count, CUT_TRIANGLES);
-  hf_solver_destroy(solver), hf_solver_destroy(other), hf_surface_destroy(surface), hf_surface_destroy(same);
+  hf_solver_destroy(solver);
+  hf_solver_destroy(other);
+  hf_surface_destroy(surface);
+  hf_surface_destroy(same);
   surface_free(&cut);
 }
 
@@ -204,7 +229,10 @@ static void a_hit_in_a_face_is_a_site(void** state) {
     hf_sites_desc site = HF_INIT(hf_sites_desc);
     const double value = 0.25 * f;
     uint32_t number = NO_INDEX;
-    site.site_count = 1, site.corners = hit.corners, site.barycentrics = hit.barycentrics, site.values = &value;
+    site.site_count = 1;
+    site.corners = hit.corners;
+    site.barycentrics = hit.barycentrics;
+    site.values = &value;
     assert_ok(hf_add_sites(solver, &site, &number));
     double* field = field_of(solver, POINTS);
     double there = 0;
@@ -212,10 +240,12 @@ static void a_hit_in_a_face_is_a_site(void** state) {
     assert_true(fabs(there - value) < 1e-11);
     free(field);
     /* the face alone does not say which triangle */
-    site.corners = NULL, site.triangles = &f;
+    site.corners = NULL;
+    site.triangles = &f;
     assert_code(HF_ERROR_INVALID_ARGUMENT, hf_add_sites(solver, &site, NULL));
   }
-  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
 }
 
 /* A letter C of eight corners with a hole bridged into its back, a triangle, and dirt. */
@@ -231,8 +261,12 @@ static void concave_faces_holes_and_dirt(void** state) {
                         6, 5,  2};                                    /* the third again, turned round */
   const uint32_t sizes[] = {14, 4, 4, 3, 3};
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 14, desc.positions = &positions[0][0];
-  desc.face_count = 5, desc.corner_count = (uint32_t)COUNT_OF(c), desc.face_sizes = sizes, desc.corners = c;
+  desc.vertex_count = 14;
+  desc.positions = &positions[0][0];
+  desc.face_count = 5;
+  desc.corner_count = (uint32_t)COUNT_OF(c);
+  desc.face_sizes = sizes;
+  desc.corners = c;
   const hf_surface_report report = report_of(&desc);
   assert_int_equal(report.face_count, 5);
   assert_int_equal(report.polygon_count, 3);
@@ -268,15 +302,22 @@ static void sides_of_faces_are_counted_not_cuts(void** state) {
   uint32_t corners[] = {0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};
   const uint32_t sizes[] = {4, 4, 4, 4, 4, 4};
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 8, desc.positions = &positions[0][0];
-  desc.face_count = 6, desc.corner_count = 24, desc.face_sizes = sizes, desc.corners = corners;
+  desc.vertex_count = 8;
+  desc.positions = &positions[0][0];
+  desc.face_count = 6;
+  desc.corner_count = 24;
+  desc.face_sizes = sizes;
+  desc.corners = corners;
   hf_surface_report report = report_of(&desc);
   assert_true(report.boundary_edge_count == 0 && report.flipped_edge_count == 0 && report.non_manifold_edge_count == 0);
   desc.face_count = 5;
   assert_int_equal(report_of(&desc).boundary_edge_count, 4);
   /* two sides of a card on the same four vertices are one sheet with a border */
   const uint32_t card[] = {0, 1, 2, 3, 3, 2, 1, 0};
-  desc.vertex_count = 4, desc.face_count = 2, desc.corner_count = 8, desc.corners = card;
+  desc.vertex_count = 4;
+  desc.face_count = 2;
+  desc.corner_count = 8;
+  desc.corners = card;
   report = report_of(&desc);
   assert_true(report.boundary_edge_count == 4 && report.flipped_edge_count == 0 && report.non_manifold_edge_count == 0);
   assert_int_equal(report.duplicate_triangle_count, 1);
@@ -296,17 +337,24 @@ static void linear_fields_are_exact_on_flat_faces(void** state) {
     const double turn = 2 * 3.14159265358979323846 * i / AROUND;
     for (uint32_t ring = 0; ring < 2; ++ring) {
       double* p = positions + 3 * (ring * AROUND + i);
-      p[0] = (1.0 + ring) * cos(turn), p[1] = (1.0 + ring) * sin(turn), p[2] = 0.5 * p[0];
+      p[0] = (1.0 + ring) * cos(turn);
+      p[1] = (1.0 + ring) * sin(turn);
+      p[2] = 0.5 * p[0];
     }
-    corners[i] = i, rim[i] = AROUND + i;
+    corners[i] = i;
+    rim[i] = AROUND + i;
     const uint32_t next = (i + 1) % AROUND, quad[4] = {i, AROUND + i, AROUND + next, next};
     memcpy(corners + AROUND + 4 * i, quad, sizeof quad);
     sizes[1 + i] = 4;
   }
   sizes[0] = AROUND;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = ALL, desc.positions_f64 = positions, desc.corners = corners, desc.face_sizes = sizes;
-  desc.face_count = 1 + AROUND, desc.corner_count = 5 * AROUND;
+  desc.vertex_count = ALL;
+  desc.positions_f64 = positions;
+  desc.corners = corners;
+  desc.face_sizes = sizes;
+  desc.face_count = 1 + AROUND;
+  desc.corner_count = 5 * AROUND;
   for (int32_t kind = HF_OPERATOR_INTRINSIC_DELAUNAY; kind <= HF_OPERATOR_COTANGENT; kind += 3) {
     desc.operator_kind = kind;
     hf_surface surface = made(&desc);
@@ -318,7 +366,8 @@ static void linear_fields_are_exact_on_flat_faces(void** state) {
     assert_ok(hf_solver_solve_f64(solver, field, 0, NULL));
     for (uint32_t v = 0; v < ALL; ++v)
       assert_true(fabs(field[v] - positions[3 * v] - 2 * positions[3 * v + 1]) < 1e-12);
-    hf_solver_destroy(solver), hf_surface_destroy(surface);
+    hf_solver_destroy(solver);
+    hf_surface_destroy(surface);
   }
 }
 
@@ -341,7 +390,8 @@ static void quads_and_singularities_name_faces(void** state) {
     assert_true(found[i].triangle < QUADS && found[i].index != 0);
     assert_true(i == 0 || found[i].triangle > found[i - 1].triangle);
   }
-  hf_direction_destroy(direction), hf_surface_destroy(surface);
+  hf_direction_destroy(direction);
+  hf_surface_destroy(surface);
 }
 
 static void a_pose_of_faces_follows_its_handles(void** state) {
@@ -352,13 +402,19 @@ static void a_pose_of_faces_follows_its_handles(void** state) {
   hf_pose pose = NULL;
   assert_ok(hf_pose_create(surface, NULL, &pose));
   uint32_t ends[2][ROWS + 1], counts[2] = {ROWS + 1, ROWS + 1}, handles[2];
-  for (uint32_t j = 0; j <= ROWS; ++j) ends[0][j] = j * (COLUMNS + 1), ends[1][j] = j * (COLUMNS + 1) + COLUMNS;
+  for (uint32_t j = 0; j <= ROWS; ++j) {
+    ends[0][j] = j * (COLUMNS + 1);
+    ends[1][j] = j * (COLUMNS + 1) + COLUMNS;
+  }
   hf_handles_desc regions = HF_INIT(hf_handles_desc);
-  regions.handle_count = 2, regions.region_counts = counts, regions.region_vertices = &ends[0][0];
+  regions.handle_count = 2;
+  regions.region_counts = counts;
+  regions.region_vertices = &ends[0][0];
   assert_ok(hf_pose_add_handles(pose, &regions, handles));
   float posed[3 * POINTS], normals[3 * POINTS];
   hf_deform_desc out = HF_INIT(hf_deform_desc);
-  out.positions = posed, out.normals = normals;
+  out.positions = posed;
+  out.normals = normals;
   assert_ok(hf_pose_deform(pose, &out, NULL));
   for (uint32_t i = 0; i < 3 * POINTS; ++i) assert_true(fabs(posed[i] - sheet.positions[i]) < 1e-5);
   /* the normal of a corner of the sheet is Newell's normal of its one face, wherever the cut runs */
@@ -374,7 +430,8 @@ static void a_pose_of_faces_follows_its_handles(void** state) {
     for (uint32_t c = 0; c < 3; ++c) length += n[c] * n[c];
     for (uint32_t c = 0; c < 3; ++c) assert_true(fabs(normals[3 * at[i] + c] - n[c] / sqrt(length)) < 1e-4);
   }
-  hf_pose_destroy(pose), hf_surface_destroy(surface);
+  hf_pose_destroy(pose);
+  hf_surface_destroy(surface);
 }
 
 static void the_triangle_limit_holds_for_cut_faces(void** state) {

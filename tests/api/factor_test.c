@@ -27,18 +27,25 @@ static Saved saved_tube(void) {
   hf_surface_destroy(surface);
   return saved;
 }
-static void saved_free(Saved* saved) { free(saved->block), surface_free(&saved->tube); }
+static void saved_free(Saved* saved) {
+  free(saved->block);
+  surface_free(&saved->tube);
+}
 
 static hf_result load(const Surface* surface, const void* bytes, size_t size, int borrow, hf_surface* out) {
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
-  factor.bytes = bytes, factor.byte_count = size, factor.borrow = borrow;
+  factor.bytes = bytes;
+  factor.byte_count = size;
+  factor.borrow = borrow;
   hf_surface_desc desc = options_of(surface).surface;
   desc.saved_factor = &factor;
   return hf_surface_create(&desc, out);
 }
 
 static double* some_field(hf_solver solver) {
-  add_site(solver, 3, 1), add_site(solver, VERTICES - 5, -2), add_site(solver, VERTICES / 2, 0.5);
+  add_site(solver, 3, 1);
+  add_site(solver, VERTICES - 5, -2);
+  add_site(solver, VERTICES / 2, 0.5);
   return field_of(solver, VERTICES);
 }
 
@@ -57,9 +64,12 @@ static void a_loaded_factor_gives_the_same_bits_as_a_made_one(void** state) {
   for (int borrow = 0; borrow < 2; ++borrow) {
     for (uint32_t threads = 1; threads <= 4; threads *= 2) {
       hf_factor_desc factor = HF_INIT(hf_factor_desc);
-      factor.bytes = saved.bytes, factor.byte_count = saved.size, factor.borrow = borrow;
+      factor.bytes = saved.bytes;
+      factor.byte_count = saved.size;
+      factor.borrow = borrow;
       Options desc = options_of(&saved.tube);
-      desc.surface.saved_factor = &factor, desc.surface.thread_count = threads;
+      desc.surface.saved_factor = &factor;
+      desc.surface.thread_count = threads;
       hf_surface surface = NULL;
       hf_solver loaded = NULL;
       assert_ok(make(&desc, &surface, &loaded));
@@ -78,11 +88,18 @@ static void a_loaded_factor_gives_the_same_bits_as_a_made_one(void** state) {
       unsigned char* again = saved_bytes(surface, HF_FIELD_HARMONIC, &size);
       assert_int_equal(size, saved.size);
       assert_true(same_bits(again, saved.bytes, size));
-      free(again), free(field), hf_solver_destroy(loaded), hf_surface_destroy(surface);
+      free(again);
+      free(field);
+      hf_solver_destroy(loaded);
+      hf_surface_destroy(surface);
     }
   }
   assert_true(same_bits(untouched, saved.bytes, saved.size));
-  free(untouched), free(expected), hf_solver_destroy(made), hf_surface_destroy(made_surface), saved_free(&saved);
+  free(untouched);
+  free(expected);
+  hf_solver_destroy(made);
+  hf_surface_destroy(made_surface);
+  saved_free(&saved);
 }
 
 static void borrowed_bytes_serve_clones_and_poses_until_the_last_is_gone(void** state) {
@@ -94,7 +111,8 @@ static void borrowed_bytes_serve_clones_and_poses_until_the_last_is_gone(void** 
   assert_ok(hf_solver_clone(first, &copy));
   uint32_t handles[2];
   hf_pose pose = tube_pose(surface, AROUND, RINGS, handles);
-  hf_solver_destroy(first), hf_surface_destroy(surface);
+  hf_solver_destroy(first);
+  hf_surface_destroy(surface);
   double* field = some_field(copy);
   hf_solver made = surface_solver(&saved.tube);
   double* expected = some_field(made);
@@ -106,7 +124,10 @@ static void borrowed_bytes_serve_clones_and_poses_until_the_last_is_gone(void** 
   assert_ok(hf_pose_deform(pose, &deform, NULL));
   hf_pose_destroy(pose);
   memset(saved.bytes, 0xFF, saved.size); /* no object reads them now */
-  hf_solver_destroy(made), free(field), free(expected), saved_free(&saved);
+  hf_solver_destroy(made);
+  free(field);
+  free(expected);
+  saved_free(&saved);
 }
 
 static void copied_bytes_may_go_at_once_and_need_no_alignment(void** state) {
@@ -124,7 +145,12 @@ static void copied_bytes_may_go_at_once_and_need_no_alignment(void** state) {
   hf_surface_destroy(surface);
   double *expected = some_field(made), *field = some_field(loaded);
   assert_true(same_bits(field, expected, sizeof(double) * VERTICES));
-  free(expected), free(field), free(block), hf_solver_destroy(made), hf_solver_destroy(loaded), saved_free(&saved);
+  free(expected);
+  free(field);
+  free(block);
+  hf_solver_destroy(made);
+  hf_solver_destroy(loaded);
+  saved_free(&saved);
 }
 
 static void a_factor_of_another_surface_is_refused(void** state) {
@@ -151,13 +177,16 @@ static void a_factor_of_another_surface_is_refused(void** state) {
   surface_free(&other);
   /* another operator */
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
-  factor.bytes = saved.bytes, factor.byte_count = saved.size;
+  factor.bytes = saved.bytes;
+  factor.byte_count = saved.size;
   hf_surface_desc desc = options_of(&saved.tube).surface;
-  desc.saved_factor = &factor, desc.operator_kind = HF_OPERATOR_UNIFORM;
+  desc.saved_factor = &factor;
+  desc.operator_kind = HF_OPERATOR_UNIFORM;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &out));
   assert_null(out);
   /* another ordering asked for */
-  desc.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY, desc.ordering = HF_ORDERING_MINIMUM_DEGREE;
+  desc.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY;
+  desc.ordering = HF_ORDERING_MINIMUM_DEGREE;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &out));
   desc.ordering = HF_ORDERING_NESTED_DISSECTION;
   assert_ok(hf_surface_create(&desc, &out));
@@ -182,12 +211,20 @@ static void an_ordering_is_saved_with_the_factor(void** state) {
   hf_solver loaded = solver_on(again);
   double *expected = some_field(solver), *field = some_field(loaded);
   assert_true(same_bits(field, expected, sizeof(double) * VERTICES));
-  hf_solver_destroy(loaded), hf_surface_destroy(again), hf_surface_destroy(surface);
+  hf_solver_destroy(loaded);
+  hf_surface_destroy(again);
+  hf_surface_destroy(surface);
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
-  factor.bytes = bytes, factor.byte_count = size;
+  factor.bytes = bytes;
+  factor.byte_count = size;
   desc.surface.saved_factor = &factor;
   assert_ok(make(&desc, NULL, &loaded));
-  free(expected), free(field), free(bytes), hf_solver_destroy(solver), hf_solver_destroy(loaded), surface_free(&tube);
+  free(expected);
+  free(field);
+  free(bytes);
+  hf_solver_destroy(solver);
+  hf_solver_destroy(loaded);
+  surface_free(&tube);
 }
 
 static void bad_arguments_are_answered(void** state) {
@@ -211,7 +248,9 @@ static void bad_arguments_are_answered(void** state) {
   assert_code(HF_ERROR_INVALID_ARGUMENT, load(&saved.tube, saved.bytes, saved.size - 1, 0, &out));
   assert_code(HF_ERROR_INVALID_ARGUMENT, load(&saved.tube, saved.bytes, 1, 0, &out));
   assert_null(out);
-  free(small), hf_surface_destroy(surface), saved_free(&saved);
+  free(small);
+  hf_surface_destroy(surface);
+  saved_free(&saved);
 }
 
 /* Thousands of damaged copies through the front door: flips, truncations, splices, bytes of another factor. */
@@ -231,7 +270,9 @@ static void damaged_bytes_are_refused_and_never_crash(void** state) {
     memcpy(damaged, bytes, size);
     size_t length = size;
     for (int change = 0; change <= round % 4; ++change) {
-      random ^= random << 13, random ^= random >> 7, random ^= random << 17;
+      random ^= random << 13;
+      random ^= random >> 7;
+      random ^= random << 17;
       const size_t at = (size_t)(random >> 8) % (round % 2 ? 128 : size);
       switch (round % 5) {
         case 0:
@@ -260,11 +301,15 @@ static void damaged_bytes_are_refused_and_never_crash(void** state) {
       assert_string_equal(hf_result_get_name(result), "HF_ERROR_EMPTY");
     } else {
       assert_true(result == HF_ERROR_INVALID_ARGUMENT || result == HF_ERROR_UNSUPPORTED);
-      refused += result == HF_ERROR_INVALID_ARGUMENT, unsupported += result == HF_ERROR_UNSUPPORTED;
+      refused += result == HF_ERROR_INVALID_ARGUMENT;
+      unsupported += result == HF_ERROR_UNSUPPORTED;
     }
   }
   assert_true(refused > 3000 && unsupported > 50);
-  free(bytes_block), free(damaged_block), hf_surface_destroy(surface), surface_free(&sheet);
+  free(bytes_block);
+  free(damaged_block);
+  hf_surface_destroy(surface);
+  surface_free(&sheet);
 }
 
 static void memory_that_runs_out_while_loading_or_saving_leaves_nothing(void** state) {
@@ -277,9 +322,12 @@ static void memory_that_runs_out_while_loading_or_saving_leaves_nothing(void** s
       memset(&memory, 0, sizeof memory);
       memory.refuse_at = n;
       hf_factor_desc factor = HF_INIT(hf_factor_desc);
-      factor.bytes = saved.bytes, factor.byte_count = saved.size, factor.borrow = borrow;
+      factor.bytes = saved.bytes;
+      factor.byte_count = saved.size;
+      factor.borrow = borrow;
       hf_surface_desc desc = options_of(&saved.tube).surface;
-      desc.saved_factor = &factor, desc.allocator = counting_hooks(&memory);
+      desc.saved_factor = &factor;
+      desc.allocator = counting_hooks(&memory);
       hf_surface surface = NULL;
       const hf_result result = hf_surface_create(&desc, &surface);
       if (result == HF_OK) {
@@ -368,7 +416,10 @@ static void a_preview_is_close_and_a_correction_makes_it_accurate(void** state) 
     double* again = malloc(sizeof(double) * LARGE);
     assert_ok(hf_solver_solve_preview_f64(solver, again, 0, 0, NULL));
     assert_true(same_bits(again, first[0], sizeof(double) * LARGE));
-    free(again), free(exact), hf_solver_destroy(solver), hf_surface_destroy(surface);
+    free(again);
+    free(exact);
+    hf_solver_destroy(solver);
+    hf_surface_destroy(surface);
   }
   for (int i = 0; i < 3; ++i) free(first[i]);
   surface_free(&tube);
@@ -388,7 +439,9 @@ static void previews_of_tiny_huge_and_shifted_values_are_as_close(void** state) 
       const double allowed = (corrections ? 1e-9 : 1e-5) * scale[k] + 1e-15 * shift[k];
       assert_true(worst_difference(field, exact, VERTICES) <= allowed);
     }
-    free(exact), free(field), hf_solver_destroy(solver);
+    free(exact);
+    free(field);
+    hf_solver_destroy(solver);
   }
   surface_free(&tube);
 }
@@ -407,13 +460,18 @@ static void solvers_without_a_preview_answer_with_the_exact_field(void** state) 
       /* enough sites at once to move them into the factor */
       uint32_t vertices[VERTICES / 2];
       double values[VERTICES / 2];
-      for (uint32_t i = 0; i < VERTICES / 2; ++i) vertices[i] = 2 * i, values[i] = cos(0.1 * i);
+      for (uint32_t i = 0; i < VERTICES / 2; ++i) {
+        vertices[i] = 2 * i;
+        values[i] = cos(0.1 * i);
+      }
       const hf_sites_desc sites = sites_at(VERTICES / 2, vertices, values);
       assert_ok(hf_add_sites(solver, &sites, NULL));
       assert_ok(hf_solver_prepare_rebase(solver));
-      add_site(solver, 1, 3), add_site(solver, 33, -2);
+      add_site(solver, 1, 3);
+      add_site(solver, 33, -2);
     } else {
-      add_site(solver, 1, 3), add_site(solver, 33, -2);
+      add_site(solver, 1, 3);
+      add_site(solver, 33, -2);
     }
     double *exact = field_of(solver, VERTICES), *field = malloc(sizeof(double) * VERTICES);
     hf_preview_info info = HF_INIT(hf_preview_info);
@@ -421,7 +479,9 @@ static void solvers_without_a_preview_answer_with_the_exact_field(void** state) 
     assert_int_equal(info.exact, 1);
     assert_true(info.error_estimate == 0 && info.correction_count == 0);
     assert_true(same_bits(field, exact, sizeof(double) * VERTICES));
-    free(exact), free(field), hf_solver_destroy(solver);
+    free(exact);
+    free(field);
+    hf_solver_destroy(solver);
   }
   surface_free(&tube);
 }
@@ -435,7 +495,8 @@ static void previews_report_what_no_site_reaches_and_check_their_arguments(void*
   hf_preview_info info = HF_INIT(hf_preview_info);
   memset(values, 0x5A, sizeof values);
   assert_code(HF_ERROR_NO_SITES, hf_solver_solve_preview(solver, values, 0, 0, &info));
-  add_site(solver, CUT_LEFT, 1), add_site(solver, CUT_RIGHT, 3);
+  add_site(solver, CUT_LEFT, 1);
+  add_site(solver, CUT_RIGHT, 3);
   assert_code(HF_ERROR_NULL_POINTER, hf_solver_solve_preview(solver, NULL, 0, 0, &info));
   assert_code(HF_ERROR_NULL_POINTER, hf_solver_solve_preview_f64(solver, NULL, 0, 0, &info));
   assert_code(HF_ERROR_TOO_SMALL, hf_solver_solve_preview(solver, values, 3, 0, &info));
@@ -448,7 +509,8 @@ static void previews_report_what_no_site_reaches_and_check_their_arguments(void*
   assert_true(values[2 * CUT_ISLAND] == 0 && values[2 * CUT_ISOLATED] == 0);
   assert_true(values[2 * CUT_SEAM_LEFT] == values[2 * CUT_SEAM_RIGHT]);
   assert_true(values[2 * CUT_LEFT] == 1 && values[2 * CUT_RIGHT] == 3);
-  hf_solver_destroy(solver), surface_free(&cut);
+  hf_solver_destroy(solver);
+  surface_free(&cut);
 }
 
 static void memory_that_runs_out_in_a_preview_changes_nothing(void** state) {
@@ -479,7 +541,8 @@ static void memory_that_runs_out_in_a_preview_changes_nothing(void** state) {
   assert_true(worst_difference(field, expected, VERTICES) < 1e-11);
   hf_solver_destroy(solver);
   assert_int_equal(memory.live_blocks, 0);
-  free(expected), surface_free(&tube);
+  free(expected);
+  surface_free(&tube);
 }
 
 int main(void) {

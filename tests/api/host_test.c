@@ -37,7 +37,9 @@ static void note(Work* w, hf_result result) {
 static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t threads, const hf_job_runner* runner) {
   Surface tube = surface_tube(AROUND, RINGS);
   Options desc = options_of(&tube);
-  desc.solver.engine = engine, desc.surface.ordering = ordering, desc.surface.thread_count = threads;
+  desc.solver.engine = engine;
+  desc.surface.ordering = ordering;
+  desc.surface.thread_count = threads;
   if (runner) desc.surface.job_runner = *runner;
   hf_surface surface = NULL;
   hf_solver solver = NULL, copy = NULL;
@@ -57,26 +59,34 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
     uint32_t* ends = tube_ends(AROUND, RINGS);
     const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
     hf_handles_desc regions = HF_INIT(hf_handles_desc);
-    regions.handle_count = 2, regions.region_counts = counts, regions.region_vertices = ends;
+    regions.handle_count = 2;
+    regions.region_counts = counts;
+    regions.region_vertices = ends;
     note(w, hf_pose_create(surface, NULL, &pose));
     note(w, hf_pose_add_handles(pose, &regions, handles));
     const hf_transform turned = {{0, 0.5, 0, 0.8660254}, {1, 2, 3}};
     note(w, hf_pose_set_transforms(pose, 1, &handles[1], &turned));
     hf_deform_desc deform = HF_INIT(hf_deform_desc);
-    deform.positions = w->posed, deform.normals = w->normals;
+    deform.positions = w->posed;
+    deform.normals = w->normals;
     note(w, hf_pose_deform(pose, &deform, NULL));
     hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-    pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts,
+    pairs.pair_count = 2;
+    pairs.source_counts = pairs.target_counts = counts;
     pairs.source_vertices = pairs.target_vertices = ends;
     note(w, hf_transfer_create(surface, surface, NULL, &transfer));
     note(w, hf_transfer_add_pairs(transfer, &pairs, NULL));
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions = w->posed, frame.target_positions = w->transferred;
+    frame.source_positions = w->posed;
+    frame.target_positions = w->transferred;
     note(w, hf_transfer_apply(transfer, &frame));
     free(ends);
   }
-  hf_pose_destroy(pose), hf_transfer_destroy(transfer);
-  hf_solver_destroy(copy), hf_solver_destroy(solver), hf_surface_destroy(surface);
+  hf_pose_destroy(pose);
+  hf_transfer_destroy(transfer);
+  hf_solver_destroy(copy);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   surface_free(&tube);
 }
 
@@ -132,10 +142,14 @@ static void rounding_modes_are_kept_and_do_not_matter(void** state) {
     hf_result results[3];
     int after[4];
     assert_int_equal(fesetround(modes[m]), 0);
-    results[0] = make(&desc, NULL, &solver), after[0] = fegetround();
-    results[1] = hf_add_sites(solver, &sites, NULL), after[1] = fegetround();
-    results[2] = hf_solver_solve_f64(solver, fields[m], 0, NULL), after[2] = fegetround();
-    hf_solver_destroy(solver), after[3] = fegetround();
+    results[0] = make(&desc, NULL, &solver);
+    after[0] = fegetround();
+    results[1] = hf_add_sites(solver, &sites, NULL);
+    after[1] = fegetround();
+    results[2] = hf_solver_solve_f64(solver, fields[m], 0, NULL);
+    after[2] = fegetround();
+    hf_solver_destroy(solver);
+    after[3] = fegetround();
     fesetround(FE_TONEAREST);
     for (int i = 0; i < 3; ++i) assert_int_equal(results[i], HF_OK);
     for (int i = 0; i < 4; ++i) assert_int_equal(after[i], modes[m]);
@@ -199,8 +213,11 @@ static void floating_point_traps_of_the_host_do_not_strike(void** state) {
   skip_where_float_settings_are_not_kept();
   Surface tube = surface_tube(AROUND, RINGS);
   /* needles and points: zero areas divide by zero inside */
-  for (int i = 0; i < 30; ++i)
-    tube.positions[3 * i + 90] = 0, tube.positions[3 * i + 91] = 1e-30f * (float)i, tube.positions[3 * i + 92] = 0;
+  for (int i = 0; i < 30; ++i) {
+    tube.positions[3 * i + 90] = 0;
+    tube.positions[3 * i + 91] = 1e-30f * (float)i;
+    tube.positions[3 * i + 92] = 0;
+  }
   Options desc = options_of(&tube);
   hf_solver solver = NULL;
   static double field[VERTICES];
@@ -219,7 +236,8 @@ static void floating_point_traps_of_the_host_do_not_strike(void** state) {
   assert_int_equal(solved, HF_OK);
   assert_int_equal(still, traps);
   for (int v = 0; v < VERTICES; ++v) assert_true(isfinite(field[v]));
-  hf_solver_destroy(solver), surface_free(&tube);
+  hf_solver_destroy(solver);
+  surface_free(&tube);
 }
 #endif
 
@@ -285,7 +303,8 @@ static void granted_threads_end_with_their_solver(void** state) {
   hf_solver solver = NULL;
   assert_ok(make(&desc, NULL, &solver));
   assert_true(entries("/proc/self/task") <= threads + 3);
-  hf_solver_destroy(solver), surface_free(&tube);
+  hf_solver_destroy(solver);
+  surface_free(&tube);
   for (int wait = 0; wait < 200 && entries("/proc/self/task") != threads; ++wait)
     usleep(5000); /* the kernel lists joined threads a moment longer */
   assert_int_equal(entries("/proc/self/task"), threads);
@@ -298,15 +317,24 @@ static void nothing_is_printed(void** state) {
   const int file = mkstemp(name), out = dup(1), err = dup(2);
   assert_true(file >= 0 && out >= 0 && err >= 0);
   unlink(name);
-  fflush(stdout), fflush(stderr);
-  dup2(file, 1), dup2(file, 2);
+  fflush(stdout);
+  fflush(stderr);
+  dup2(file, 1);
+  dup2(file, 2);
   work(&done);
   for (hf_result code = -400; code <= 0; ++code) hf_result_get_name(code);
-  hf_create(NULL, NULL, NULL), hf_surface_create(NULL, NULL), hf_solve(NULL, NULL, 0, NULL), hf_solver_destroy(NULL);
-  fflush(stdout), fflush(stderr);
-  dup2(out, 1), dup2(err, 2);
+  hf_create(NULL, NULL, NULL);
+  hf_surface_create(NULL, NULL);
+  hf_solve(NULL, NULL, 0, NULL);
+  hf_solver_destroy(NULL);
+  fflush(stdout);
+  fflush(stderr);
+  dup2(out, 1);
+  dup2(err, 2);
   const off_t printed = lseek(file, 0, SEEK_END);
-  close(file), close(out), close(err);
+  close(file);
+  close(out);
+  close(err);
   assert_int_equal(printed, 0);
 }
 #endif
@@ -347,7 +375,8 @@ static void host_run(void* user, uint32_t count, void (*job)(void*, uint32_t), v
   HostJobs* jobs = user;
   HostBatch batch = {count, job, data};
   pthread_t thread;
-  ++jobs->batches, jobs->jobs += count;
+  ++jobs->batches;
+  jobs->jobs += count;
   const int threaded = pthread_create(&thread, NULL, host_odd_jobs, &batch) == 0;
   for (uint32_t i = (count + 1) / 2; i-- > 0;) job(data, 2 * i);
   if (threaded)
@@ -380,19 +409,24 @@ static void a_large_surface_gives_the_same_bits_on_any_threads(void** state) {
   for (int variant = 0; variant < 4; ++variant) {
     Options desc = options_of(&sheet);
     desc.surface.thread_count = variant == 0 ? 1 : variant == 1 ? 2 : 5;
-    if (variant == 3) desc.surface.job_runner.run = host_run, desc.surface.job_runner.user = &jobs;
+    if (variant == 3) {
+      desc.surface.job_runner.run = host_run;
+      desc.surface.job_runner.user = &jobs;
+    }
     hf_solver solver = NULL;
     assert_ok(make(&desc, NULL, &solver));
     for (uint32_t i = 0; i < 25; ++i) add_site(solver, i * 1500, (double)(i % 6));
     double* field = field_of(solver, sheet.vertex_count);
-    if (reference)
-      assert_true(same_bits(field, reference, sizeof(double) * sheet.vertex_count)), free(field);
-    else
+    if (reference) {
+      assert_true(same_bits(field, reference, sizeof(double) * sheet.vertex_count));
+      free(field);
+    } else
       reference = field;
     hf_solver_destroy(solver);
   }
   assert_true(jobs.batches > 0 && jobs.jobs > jobs.batches);
-  free(reference), surface_free(&sheet);
+  free(reference);
+  surface_free(&sheet);
 }
 
 int main(void) {

@@ -28,10 +28,13 @@ static Found found_on(const Surface* body, uint32_t vertex_count) {
   out.face_count = info.face_count;
   hf_quads_destroy(quads);
   const hf_solver solver = solver_on(surface);
-  add_site(solver, 0, 1), add_site(solver, 50, 2);
+  add_site(solver, 0, 1);
+  add_site(solver, 50, 2);
   double* field = field_of(solver, body->vertex_count);
-  out.field = calloc(vertex_count, sizeof *out.field), memcpy(out.field, field, vertex_count * sizeof *field);
-  free(field), hf_solver_destroy(solver);
+  out.field = calloc(vertex_count, sizeof *out.field);
+  memcpy(out.field, field, vertex_count * sizeof *field);
+  free(field);
+  hf_solver_destroy(solver);
   hf_pose pose;
   assert_ok(hf_pose_create(surface, NULL, &pose));
   for (uint32_t i = 0; i < out.proposal_count; ++i)
@@ -40,9 +43,11 @@ static Found found_on(const Surface* body, uint32_t vertex_count) {
   assert_ok(hf_pose_set_transform(pose, 0, &turn));
   out.posed = calloc(3 * body->vertex_count, sizeof *out.posed);
   hf_deform_desc deform = HF_INIT(hf_deform_desc);
-  deform.positions_f64 = out.posed, deform.refine = 2;
+  deform.positions_f64 = out.posed;
+  deform.refine = 2;
   assert_ok(hf_pose_deform(pose, &deform, NULL));
-  hf_pose_destroy(pose), hf_surface_destroy(surface);
+  hf_pose_destroy(pose);
+  hf_surface_destroy(surface);
   return out;
 }
 
@@ -69,9 +74,12 @@ static void a_vertex_in_no_triangle_changes_no_result(void** state) {
     assert_true(same_bits(found.field, plain.field, count * sizeof *found.field));
     assert_true(same_bits(found.posed, plain.posed, 3 * count * sizeof *found.posed));
     for (int k = 0; k < 3; ++k) assert_true(found.posed[3 * count + (uint32_t)k] == (double)places[i]);
-    free(found.field), free(found.posed);
+    free(found.field);
+    free(found.posed);
   }
-  free(plain.field), free(plain.posed), surface_free(&tube);
+  free(plain.field);
+  free(plain.posed);
+  surface_free(&tube);
 }
 
 int main(void) {

@@ -26,8 +26,14 @@ static void clones_are_independent(void** state) {
   hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
   assert_ok(hf_solver_get_statistics(copy, &statistics));
   assert_int_equal(statistics.factorisation_count, 0);
-  free(before), free(same), free(after), free(copied), free(still);
-  hf_solver_destroy(original), hf_solver_destroy(copy), surface_free(&tube);
+  free(before);
+  free(same);
+  free(after);
+  free(copied);
+  free(still);
+  hf_solver_destroy(original);
+  hf_solver_destroy(copy);
+  surface_free(&tube);
 }
 
 /* A family: a surface, a solver, two clones, a pose and its clone, a transfer. Each member does its work after any
@@ -48,7 +54,8 @@ static void create_family(Family* f, const Surface* tube) {
   Options desc = options_of(tube);
   desc.surface.allocator = counting_hooks(&f->memory);
   assert_ok(make(&desc, &f->surface, &f->solvers[0]));
-  add_site(f->solvers[0], 0, 0), add_site(f->solvers[0], VERTICES - 1, 1);
+  add_site(f->solvers[0], 0, 0);
+  add_site(f->solvers[0], VERTICES - 1, 1);
   assert_ok(hf_solver_clone(f->solvers[0], &f->solvers[1]));
   assert_ok(hf_solver_clone(f->solvers[1], &f->solvers[2]));
   uint32_t handles[2];
@@ -58,7 +65,8 @@ static void create_family(Family* f, const Surface* tube) {
   uint32_t* ends = tube_ends(AROUND, RINGS);
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
   hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts,
+  pairs.pair_count = 2;
+  pairs.source_counts = pairs.target_counts = counts;
   pairs.source_vertices = pairs.target_vertices = ends;
   assert_ok(hf_transfer_add_pairs(f->transfer, &pairs, NULL));
   free(ends);
@@ -76,7 +84,9 @@ static void use_member(Family* f, int member, const Surface* tube) {
     const uint32_t count = 1, vertex = 5 * AROUND;
     uint32_t handle;
     hf_handles_desc more = HF_INIT(hf_handles_desc);
-    more.handle_count = 1, more.region_counts = &count, more.region_vertices = &vertex;
+    more.handle_count = 1;
+    more.region_counts = &count;
+    more.region_vertices = &vertex;
     assert_ok(hf_pose_add_handles(f->poses[member - POSE], &more, &handle));
     hf_deform_desc deform = HF_INIT(hf_deform_desc);
     deform.positions = positions;
@@ -88,7 +98,8 @@ static void use_member(Family* f, int member, const Surface* tube) {
     hf_solver_destroy(more);
   } else {
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions = tube->positions, frame.target_positions = positions;
+    frame.source_positions = tube->positions;
+    frame.target_positions = positions;
     assert_ok(hf_transfer_apply(f->transfer, &frame));
   }
 }
@@ -116,7 +127,8 @@ static void a_family_may_be_destroyed_in_any_order(void** state) {
     for (int i = MEMBERS - 1; i > 0; --i) {
       seed = seed * 1664525u + 1013904223u;
       const int j = (int)((seed >> 16) % (unsigned)(i + 1)), kept = order[i];
-      order[i] = order[j], order[j] = kept;
+      order[i] = order[j];
+      order[j] = kept;
     }
     for (int gone = 0; gone < MEMBERS; ++gone) {
       for (int i = gone; i < MEMBERS; ++i) use_member(&family, order[i], &tube);
@@ -144,8 +156,10 @@ typedef struct Canceller {
 static void* cancelling_allocate(void* user, size_t size, size_t alignment) {
   Canceller* c = user;
   void* block = c->inner.allocate(&c->memory, size, alignment);
-  if (c->memory.calls == c->at)
-    assert_ok(hf_progress_get_fraction(c->progress, &c->seen)), assert_ok(hf_progress_cancel(c->progress));
+  if (c->memory.calls == c->at) {
+    assert_ok(hf_progress_get_fraction(c->progress, &c->seen));
+    assert_ok(hf_progress_cancel(c->progress));
+  }
   return block;
 }
 static void cancelling_release(void* user, void* block, size_t size, size_t alignment) {
@@ -155,10 +169,12 @@ static void cancelling_release(void* user, void* block, size_t size, size_t alig
 
 static hf_result create_cancelled_at(size_t at, const Surface* surface, Canceller* c, hf_solver* solver) {
   memset(c, 0, sizeof *c);
-  c->inner = counting_hooks(&c->memory), c->at = at;
+  c->inner = counting_hooks(&c->memory);
+  c->at = at;
   assert_ok(hf_progress_create(&c->progress));
   Options desc = options_of(surface);
-  desc.surface.allocator.allocate = cancelling_allocate, desc.surface.allocator.release = cancelling_release,
+  desc.surface.allocator.allocate = cancelling_allocate;
+  desc.surface.allocator.release = cancelling_release;
   desc.surface.allocator.user = c;
   desc.surface.progress = c->progress;
   return make(&desc, NULL, solver);
@@ -174,7 +190,8 @@ static void a_cancel_in_the_middle_leaves_nothing_and_the_object_may_be_used_aga
   assert_ok(hf_progress_get_fraction(c.progress, &fraction));
   assert_true(fraction == 1.0f);
   const size_t calls = c.memory.calls;
-  hf_solver_destroy(solver), hf_progress_destroy(c.progress);
+  hf_solver_destroy(solver);
+  hf_progress_destroy(c.progress);
   assert_int_equal(c.memory.live_blocks, 0);
   float last = 0;
   for (size_t at = 1; at + 8 < calls; at += 1 + calls / 50) {
@@ -219,7 +236,8 @@ static void a_cancel_before_the_call_stops_one_call(void** state) {
   hf_progress_destroy(progress);
   add_site(solver, 0, 1);
   free(field_of(solver, VERTICES));
-  hf_solver_destroy(solver), surface_free(&tube);
+  hf_solver_destroy(solver);
+  surface_free(&tube);
 }
 
 int main(void) {

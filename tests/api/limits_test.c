@@ -20,7 +20,10 @@ static hf_surface_desc soup(void) {
     corners[i] = (random >> 8) % VERTICES;
   }
   hf_surface_desc desc = options_of(&places).surface;
-  desc.vertex_count = VERTICES, desc.triangle_count = TRIANGLES, desc.triangles = corners, desc.triangles_u16 = NULL;
+  desc.vertex_count = VERTICES;
+  desc.triangle_count = TRIANGLES;
+  desc.triangles = corners;
+  desc.triangles_u16 = NULL;
   desc.triangle_stride = 0;
   desc.allocator = counting_hooks(&counter);
   return desc;
@@ -76,7 +79,8 @@ static void a_work_limit_is_kept(void** state) {
   refused(HF_ERROR_TOO_LARGE, &desc);
   assert_ok(hf_progress_get_fraction(desc.progress, &fraction));
   assert_true(fraction <= 0.25f); /* the operator stands; after the ordering it is 0.56 */
-  hf_progress_destroy(desc.progress), desc.progress = NULL;
+  hf_progress_destroy(desc.progress);
+  desc.progress = NULL;
 #endif
   desc.work_limit_gflop = (uint32_t)ceil(flops);
   assert_ok(hf_surface_create(&desc, &surface));
@@ -134,7 +138,8 @@ static void a_work_limit_refuses_a_biharmonic_operator_before_it_is_formed(void*
   thin.field_kind = HF_FIELD_BIHARMONIC;
   assert_ok(hf_surface_create(&small, &surface));
   assert_ok(hf_create(surface, &thin, &solver));
-  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   surface_free(&sheet);
 }
 

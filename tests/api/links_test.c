@@ -15,7 +15,8 @@ static void bring_island_near(Surface* cut) {
 
 static hf_links_desc automatic(void) {
   hf_links_desc links = HF_INIT(hf_links_desc);
-  links.mode = HF_LINK_PIECES, links.overlay_distance = -1;
+  links.mode = HF_LINK_PIECES;
+  links.overlay_distance = -1;
   return links;
 }
 
@@ -43,7 +44,8 @@ static hf_link* links_of(hf_surface surface, uint32_t* out_count) {
 
 static double* field_on(hf_surface surface) {
   hf_solver solver = solver_on(surface);
-  add_site(solver, CUT_LEFT, 1), add_site(solver, CUT_RIGHT, 3);
+  add_site(solver, CUT_LEFT, 1);
+  add_site(solver, CUT_RIGHT, 3);
   double* field = field_of(solver, CUT_VERTICES);
   hf_solver_destroy(solver);
   return field;
@@ -54,37 +56,46 @@ static int set_up(void** state) {
   mesh = surface_cut();
   bring_island_near(&mesh);
   const hf_links_desc links = automatic();
-  linked = surface_with(&links), plain = surface_with(NULL);
+  linked = surface_with(&links);
+  plain = surface_with(NULL);
   return 0;
 }
 static int tear_down(void** state) {
   (void)state;
-  hf_surface_destroy(linked), hf_surface_destroy(plain), surface_free(&mesh);
+  hf_surface_destroy(linked);
+  hf_surface_destroy(plain);
+  surface_free(&mesh);
   return 0;
 }
 
 static void fields_span_linked_pieces(void** state) {
   (void)state;
   const hf_surface_report with = report_of(linked), without = report_of(plain);
-  assert_int_equal(with.piece_count, 2), assert_int_equal(with.component_count, 1);
-  assert_int_equal(with.lone_piece_count, 0), assert_int_equal(with.light_piece_count, 0);
+  assert_int_equal(with.piece_count, 2);
+  assert_int_equal(with.component_count, 1);
+  assert_int_equal(with.lone_piece_count, 0);
+  assert_int_equal(with.light_piece_count, 0);
   assert_true(with.link_count > 0);
   assert_true(with.longest_tree_link >= 0.1f && with.longest_tree_link < 0.3);
-  assert_int_equal(without.piece_count, 2), assert_int_equal(without.component_count, 2);
-  assert_int_equal(without.lone_piece_count, 2), assert_int_equal(without.link_count, 0);
+  assert_int_equal(without.piece_count, 2);
+  assert_int_equal(without.component_count, 2);
+  assert_int_equal(without.lone_piece_count, 2);
+  assert_int_equal(without.link_count, 0);
   double *across = field_on(linked), *apart = field_on(plain);
   for (uint32_t v = 0; v < CUT_VERTICES; ++v) {
     const int island = v >= CUT_ISLAND && v < CUT_ISOLATED;
     assert_true(v == CUT_ISOLATED ? across[v] == 0 : across[v] >= 1 - 1e-12 && across[v] <= 3 + 1e-12);
     if (island) assert_true(apart[v] == 0);
   }
-  free(across), free(apart);
+  free(across);
+  free(apart);
   uint32_t pieces[CUT_VERTICES], components[CUT_VERTICES], count = 0;
   int32_t light[CUT_VERTICES];
   assert_ok(hf_surface_get_pieces(linked, CUT_VERTICES, pieces, light, &count));
   assert_ok(hf_surface_get_components(linked, CUT_VERTICES, components, &count));
   assert_int_equal(count, CUT_VERTICES);
-  assert_int_equal(pieces[CUT_LEFT], 0), assert_int_equal(pieces[CUT_ISLAND], 1);
+  assert_int_equal(pieces[CUT_LEFT], 0);
+  assert_int_equal(pieces[CUT_ISLAND], 1);
   assert_int_equal(pieces[CUT_ISOLATED], HF_NO_INDEX);
   assert_int_equal(components[CUT_ISLAND], components[CUT_LEFT]);
   for (uint32_t v = 0; v < CUT_VERTICES; ++v) assert_int_equal(light[v], 0);
@@ -93,13 +104,15 @@ static void fields_span_linked_pieces(void** state) {
 static void what_works_on_triangles_does_not_see_links(void** state) {
   (void)state;
   hf_geodesics with = NULL, without = NULL;
-  assert_ok(hf_geodesics_create(linked, NULL, &with)), assert_ok(hf_geodesics_create(plain, NULL, &without));
+  assert_ok(hf_geodesics_create(linked, NULL, &with));
+  assert_ok(hf_geodesics_create(plain, NULL, &without));
   const uint32_t source = CUT_LEFT;
   double a[CUT_VERTICES], b[CUT_VERTICES];
-  assert_ok(hf_geodesics_solve_f64(with, 1, &source, a, 0)),
-      assert_ok(hf_geodesics_solve_f64(without, 1, &source, b, 0));
+  assert_ok(hf_geodesics_solve_f64(with, 1, &source, a, 0));
+  assert_ok(hf_geodesics_solve_f64(without, 1, &source, b, 0));
   assert_true(same_bits(a, b, sizeof a));
-  hf_geodesics_destroy(with), hf_geodesics_destroy(without);
+  hf_geodesics_destroy(with);
+  hf_geodesics_destroy(without);
   double* field = field_on(plain);
   hf_scalars scalars = HF_INIT(hf_scalars);
   scalars.values_f64 = field;
@@ -114,7 +127,8 @@ static void the_list_read_back_makes_the_same_bits(void** state) {
   (void)state;
   hf_links_desc list = HF_INIT(hf_links_desc);
   hf_link* links = links_of(linked, &list.link_count);
-  list.mode = HF_LINK_LIST, list.links = links;
+  list.mode = HF_LINK_LIST;
+  list.links = links;
   hf_surface again = surface_with(&list);
   double *a = field_on(linked), *b = field_on(again);
   assert_true(same_bits(a, b, CUT_VERTICES * sizeof *a));
@@ -125,24 +139,32 @@ static void the_list_read_back_makes_the_same_bits(void** state) {
     assert_int_equal(back[i].vertex, links[i].vertex);
     assert_true(fabs(back[i].length - links[i].length) < 1e-12);
   }
-  free(a), free(b), free(back);
+  free(a);
+  free(b);
+  free(back);
   hf_surface_destroy(again);
   /* Two vertices joined by hand: no corner but the first is looked at. */
   hf_link one;
   memset(&one, 0, sizeof one);
-  one.vertex = CUT_ISLAND, one.corners[0] = CUT_RIGHT, one.corners[1] = one.corners[2] = HF_NO_INDEX;
-  one.barycentrics[0] = 1, one.weight = 1;
-  list.link_count = 1, list.links = &one;
+  one.vertex = CUT_ISLAND;
+  one.corners[0] = CUT_RIGHT;
+  one.corners[1] = one.corners[2] = HF_NO_INDEX;
+  one.barycentrics[0] = 1;
+  one.weight = 1;
+  list.link_count = 1;
+  list.links = &one;
   again = surface_with(&list);
   double* field = field_on(again);
   for (uint32_t v = CUT_ISLAND; v < CUT_ISOLATED; ++v) assert_true(fabs(field[v] - 3) < 1e-12);
-  free(field), free(links);
+  free(field);
+  free(links);
   hf_surface_destroy(again);
   /* Shares whose rounded sum is not 1 come back as they were given. */
   const uint32_t corners[3] = {CUT_RIGHT, CUT_LEFT, CUT_ISLAND + 1};
   const double shares[3] = {0.7, 0.2, 0.1};
   assert_true(shares[0] + shares[1] + shares[2] < 1);
-  memcpy(one.corners, corners, sizeof corners), memcpy(one.barycentrics, shares, sizeof shares);
+  memcpy(one.corners, corners, sizeof corners);
+  memcpy(one.barycentrics, shares, sizeof shares);
   again = surface_with(&list);
   hf_link* own = links_of(again, &count);
   assert_true(same_bits(own[0].barycentrics, shares, sizeof shares));
@@ -152,7 +174,8 @@ static void the_list_read_back_makes_the_same_bits(void** state) {
 
 static double* list_field(const hf_links_desc* list, const hf_factor_desc* factor) {
   hf_surface_desc desc = options_of(&mesh).surface;
-  desc.links = list, desc.saved_factor = factor;
+  desc.links = list;
+  desc.saved_factor = factor;
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&desc, &surface));
   hf_surface_statistics s = HF_INIT(hf_surface_statistics);
@@ -180,16 +203,24 @@ static void a_list_with_its_light_pieces_makes_the_same_bits(void** state) {
   size_t size = 0;
   unsigned char* bytes = saved_bytes(light, HF_FIELD_HARMONIC, &size);
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
-  factor.bytes = bytes, factor.byte_count = size;
+  factor.bytes = bytes;
+  factor.byte_count = size;
   hf_links_desc list = HF_INIT(hf_links_desc);
   hf_link* given = links_of(light, &list.link_count);
-  list.mode = HF_LINK_LIST, list.links = given;
+  list.mode = HF_LINK_LIST;
+  list.links = given;
   double *a = field_on(light), *b = list_field(&list, NULL);
   assert_false(same_bits(a, b, CUT_VERTICES * sizeof *a));
-  list.light_count = count, list.light_vertices = named;
+  list.light_count = count;
+  list.light_vertices = named;
   double *c = list_field(&list, NULL), *d = list_field(&list, &factor);
   assert_true(same_bits(a, c, CUT_VERTICES * sizeof *a) && same_bits(a, d, CUT_VERTICES * sizeof *a));
-  free(a), free(b), free(c), free(d), free(given), free(bytes);
+  free(a);
+  free(b);
+  free(c);
+  free(d);
+  free(given);
+  free(bytes);
   hf_surface_destroy(light);
 }
 
@@ -198,7 +229,8 @@ static void a_saved_factor_needs_its_links(void** state) {
   size_t size = 0;
   unsigned char* bytes = saved_bytes(linked, HF_FIELD_HARMONIC, &size);
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
-  factor.bytes = bytes, factor.byte_count = size;
+  factor.bytes = bytes;
+  factor.byte_count = size;
   hf_surface_desc desc = options_of(&mesh).surface;
   desc.saved_factor = &factor;
   hf_surface surface = NULL;
@@ -212,7 +244,9 @@ static void a_saved_factor_needs_its_links(void** state) {
   assert_ok(hf_surface_create(&desc, &surface));
   double *a = field_on(linked), *b = field_on(surface);
   assert_true(same_bits(a, b, CUT_VERTICES * sizeof *a));
-  free(a), free(b), free(bytes);
+  free(a);
+  free(b);
+  free(bytes);
   hf_surface_destroy(surface);
 }
 
@@ -228,16 +262,21 @@ static void other_links_keep_the_ordering_where_the_pattern_allows(void** state)
   double *a = field_on(stiffer), *b = field_on(fresh), *old = field_on(linked);
   for (uint32_t v = 0; v < CUT_VERTICES; ++v) assert_true(fabs(a[v] - b[v]) < 1e-12);
   assert_false(same_bits(a, old, CUT_VERTICES * sizeof *a));
-  free(a), free(b), free(old);
+  free(a);
+  free(b);
+  free(old);
   hf_surface_destroy(fresh);
   /* None: the same as a surface made without. */
   hf_surface none = NULL;
   assert_ok(hf_surface_relink(stiffer, NULL, NULL, &none));
   assert_int_equal(report_of(none).link_count, 0);
-  a = field_on(none), b = field_on(plain);
+  a = field_on(none);
+  b = field_on(plain);
   for (uint32_t v = 0; v < CUT_VERTICES; ++v) assert_true(fabs(a[v] - b[v]) < 1e-12);
-  free(a), free(b);
-  hf_surface_destroy(none), hf_surface_destroy(stiffer);
+  free(a);
+  free(b);
+  hf_surface_destroy(none);
+  hf_surface_destroy(stiffer);
 }
 
 static void a_pose_takes_linked_pieces_along_and_gaps_are_measured(void** state) {
@@ -247,12 +286,15 @@ static void a_pose_takes_linked_pieces_along_and_gaps_are_measured(void** state)
     assert_ok(hf_pose_create(with ? linked : plain, NULL, &pose));
     const uint32_t counts[1] = {1}, vertices[1] = {CUT_LEFT};
     hf_handles_desc handles = HF_INIT(hf_handles_desc);
-    handles.handle_count = 1, handles.region_counts = counts, handles.region_vertices = vertices;
+    handles.handle_count = 1;
+    handles.region_counts = counts;
+    handles.region_vertices = vertices;
     uint32_t handle = 0;
     assert_ok(hf_pose_add_handles(pose, &handles, &handle));
     hf_transform move;
     memset(&move, 0, sizeof move);
-    move.rotation[3] = 1, move.translation[2] = 4;
+    move.rotation[3] = 1;
+    move.translation[2] = 4;
     assert_ok(hf_pose_set_transform(pose, handle, &move));
     float posed[3 * CUT_VERTICES];
     hf_deform_info info = HF_INIT(hf_deform_info);
@@ -267,7 +309,8 @@ static void a_pose_takes_linked_pieces_along_and_gaps_are_measured(void** state)
     assert_true(with ? gaps.worst < 1e-5 : gaps.worst > 3.5 && gaps.percentile_95 > 3.5);
     assert_true(gaps.worst == each[gaps.worst_link]);
     assert_ok(hf_surface_measure_gaps(plain, &desc, 0, NULL, &gaps));
-    assert_int_equal(gaps.link_count, 0), assert_int_equal(gaps.worst_link, HF_NO_INDEX);
+    assert_int_equal(gaps.link_count, 0);
+    assert_int_equal(gaps.worst_link, HF_NO_INDEX);
     hf_pose_destroy(pose);
   }
 }
@@ -286,14 +329,27 @@ static hf_gaps_info gaps_info;
 
 static void good_input(void) {
   memset(&one, 0, sizeof one);
-  one.vertex = CUT_ISLAND, one.corners[0] = 0, one.corners[1] = 1, one.corners[2] = 6;
-  one.barycentrics[0] = 0.5, one.barycentrics[1] = 0.25, one.barycentrics[2] = 0.25, one.weight = 1;
+  one.vertex = CUT_ISLAND;
+  one.corners[0] = 0;
+  one.corners[1] = 1;
+  one.corners[2] = 6;
+  one.barycentrics[0] = 0.5;
+  one.barycentrics[1] = 0.25;
+  one.barycentrics[2] = 0.25;
+  one.weight = 1;
   bad = HF_INIT(hf_links_desc);
-  bad.mode = HF_LINK_LIST, bad.link_count = 1, bad.links = &one;
-  vertex_list[0] = CUT_LEFT, vertex_list[1] = CUT_ISLAND;
-  for (int v = 0; v < CUT_VERTICES; ++v) joints[v] = 0, weights[v] = 1;
+  bad.mode = HF_LINK_LIST;
+  bad.link_count = 1;
+  bad.links = &one;
+  vertex_list[0] = CUT_LEFT;
+  vertex_list[1] = CUT_ISLAND;
+  for (int v = 0; v < CUT_VERTICES; ++v) {
+    joints[v] = 0;
+    weights[v] = 1;
+  }
   memcpy(posed, mesh.positions, sizeof posed);
-  gaps_desc = HF_INIT(hf_gaps_desc), gaps_info = HF_INIT(hf_gaps_info);
+  gaps_desc = HF_INIT(hf_gaps_desc);
+  gaps_info = HF_INIT(hf_gaps_info);
   gaps_desc.positions = posed;
   out = linked; /* must become NULL */
 }
@@ -304,12 +360,21 @@ static int nothing_changed(void) {
   return same && out != NULL ? out == linked : same;
 }
 static void automatic_with_skin(void) {
-  bad = automatic(), bad.influence_count = 1, bad.joints = joints, bad.weights = weights;
+  bad = automatic();
+  bad.influence_count = 1;
+  bad.joints = joints;
+  bad.weights = weights;
 }
 static uint32_t linked_vertex;
 static void spoil_linked_vertex(void) { posed[3 * linked_vertex] = NAN; }
-static void light_list(uint32_t count) { bad.light_count = count, bad.light_vertices = vertex_list; }
-static void heavy_list(uint32_t count) { bad.heavy_count = count, bad.heavy_vertices = vertex_list; }
+static void light_list(uint32_t count) {
+  bad.light_count = count;
+  bad.light_vertices = vertex_list;
+}
+static void heavy_list(uint32_t count) {
+  bad.heavy_count = count;
+  bad.heavy_vertices = vertex_list;
+}
 
 #define GOOD good_input
 #define UNCHANGED nothing_changed

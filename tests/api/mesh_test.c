@@ -11,7 +11,8 @@ static void welded_copies_get_the_same_value(void** state) {
   (void)state;
   Surface cut = surface_cut();
   hf_solver solver = surface_solver(&cut);
-  add_site(solver, CUT_LEFT, 0), add_site(solver, CUT_RIGHT, 1);
+  add_site(solver, CUT_LEFT, 0);
+  add_site(solver, CUT_RIGHT, 1);
   double* field = field_of(solver, CUT_VERTICES);
   for (uint32_t j = 0; j < 5; ++j) {
     const double left = field[CUT_SEAM_LEFT + 5 * j], right = field[CUT_SEAM_RIGHT + 5 * j];
@@ -23,7 +24,9 @@ static void welded_copies_get_the_same_value(void** state) {
   free(field);
   field = field_of(solver, CUT_VERTICES);
   assert_true(field[CUT_SEAM_LEFT + 10] == 7 && field[CUT_SEAM_RIGHT + 10] == 7);
-  free(field), hf_solver_destroy(solver), surface_free(&cut);
+  free(field);
+  hf_solver_destroy(solver);
+  surface_free(&cut);
 }
 
 static void the_report_counts_what_was_found(void** state) {
@@ -44,7 +47,8 @@ static void the_report_counts_what_was_found(void** state) {
   assert_int_equal(r.boundary_edge_count, 2 * (8 + 4) + 2 * (2 + 2));
   assert_true(r.smallest_angle > 0.1f && r.smallest_angle < 1.0472f);
   assert_true(r.bounding_box_diagonal > 22 && r.bounding_box_diagonal < 23); /* the isolated vertex lies at 30 */
-  hf_surface_destroy(surface), surface_free(&cut);
+  hf_surface_destroy(surface);
+  surface_free(&cut);
 }
 
 static void dirty_triangles_are_counted_and_the_field_is_finite(void** state) {
@@ -52,14 +56,14 @@ static void dirty_triangles_are_counted_and_the_field_is_finite(void** state) {
   Surface sheet = surface_sheet(4, 4);
   uint32_t dirty[3 * 36];
   memcpy(dirty, sheet.triangles, sizeof(uint32_t) * 3 * 32);
-  const uint32_t more[12] = {
-      dirty[0], dirty[1], dirty[2], /* a duplicate */
-      dirty[3], dirty[5], dirty[4], /* a duplicate turned round */
-      0,        1,        2,        /* three vertices on the border: zero area when flat */
-      0,        24,       12};      /* a flap across the sheet */
+  const uint32_t more[12] = {dirty[0], dirty[1], dirty[2], /* a duplicate */
+                             dirty[3], dirty[5], dirty[4], /* a duplicate turned round */
+                             0,        1,        2,        /* three vertices on the border: zero area when flat */
+                             0,        24,       12};      /* a flap across the sheet */
   memcpy(dirty + 96, more, sizeof more);
   Options desc = options_of(&sheet);
-  desc.surface.triangles = dirty, desc.surface.triangle_count = 36;
+  desc.surface.triangles = dirty;
+  desc.surface.triangle_count = 36;
   hf_surface surface = NULL;
   hf_solver solver = NULL;
   assert_ok(make(&desc, &surface, &solver));
@@ -67,10 +71,14 @@ static void dirty_triangles_are_counted_and_the_field_is_finite(void** state) {
   assert_int_equal(r.duplicate_triangle_count, 2);
   assert_true(r.flipped_edge_count > 0);
   assert_int_equal(r.non_manifold_edge_count, 0); /* doubled triangles do not count in edges */
-  add_site(solver, 0, 0), add_site(solver, 24, 1);
+  add_site(solver, 0, 0);
+  add_site(solver, 24, 1);
   double* field = field_of(solver, 25);
   for (int v = 0; v < 25; ++v) assert_true(isfinite(field[v]));
-  free(field), hf_solver_destroy(solver), hf_surface_destroy(surface), surface_free(&sheet);
+  free(field);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
+  surface_free(&sheet);
 }
 
 /* Two tetrahedra of their own vertices; either can be turned, and the second can lack a triangle. */
@@ -82,11 +90,14 @@ static hf_surface_report report_of_tetrahedra(int first_turned, int second_turne
   for (uint32_t t = 0; t < 8; ++t) {
     if (!(t < 4 ? first_turned : second_turned)) continue;
     const uint32_t v = triangles[3 * t];
-    triangles[3 * t] = triangles[3 * t + 1], triangles[3 * t + 1] = v;
+    triangles[3 * t] = triangles[3 * t + 1];
+    triangles[3 * t + 1] = v;
   }
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 8, desc.positions = positions;
-  desc.triangle_count = second_open ? 7 : 8, desc.triangles = triangles;
+  desc.vertex_count = 8;
+  desc.positions = positions;
+  desc.triangle_count = second_open ? 7 : 8;
+  desc.triangles = triangles;
   hf_surface surface;
   assert_ok(hf_surface_create(&desc, &surface));
   const hf_surface_report report = report_of(surface);
@@ -116,7 +127,8 @@ static void components_are_numbered_by_their_smallest_vertex(void** state) {
   assert_ok(hf_surface_get_components(surface, CUT_VERTICES, component, NULL));
   for (uint32_t v = 0; v < CUT_VERTICES; ++v)
     assert_int_equal(component[v], v == CUT_ISOLATED ? HF_NO_INDEX : v >= CUT_ISLAND);
-  hf_surface_destroy(surface), surface_free(&cut);
+  hf_surface_destroy(surface);
+  surface_free(&cut);
 }
 
 static void what_no_site_reaches_is_zero_and_counted(void** state) {
@@ -153,7 +165,8 @@ static void what_no_site_reaches_is_zero_and_counted(void** state) {
   const uint32_t ask[2] = {CUT_ISLAND, CUT_ISOLATED};
   assert_ok(hf_solver_solve_at(solver, 2, ask, at));
   assert_true(at[0] == 0 && at[1] == 0);
-  hf_solver_destroy(solver), surface_free(&cut);
+  hf_solver_destroy(solver);
+  surface_free(&cut);
 }
 
 static void weld_none_keeps_the_cut_and_a_tolerance_closes_a_gap(void** state) {
@@ -171,7 +184,8 @@ static void weld_none_keeps_the_cut_and_a_tolerance_closes_a_gap(void** state) {
   assert_ok(hf_surface_create(&desc, &surface));
   assert_int_equal(report_of(surface).component_count, 3);
   hf_surface_destroy(surface);
-  desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = 0.002f;
+  desc.weld = HF_WELD_TOLERANCE;
+  desc.weld_tolerance = 0.002f;
   assert_ok(hf_surface_create(&desc, &surface));
   assert_int_equal(report_of(surface).component_count, 2);
   assert_int_equal(report_of(surface).welded_vertex_count, CUT_VERTICES - 5);
@@ -186,7 +200,8 @@ static void minus_zero_and_zero_are_one_place(void** state) {
   for (uint32_t j = 0; j < 5; ++j) cut.positions[3 * (CUT_SEAM_RIGHT + 5 * j)] = -0.0f;
   hf_surface surface = surface_on(&cut);
   assert_int_equal(report_of(surface).component_count, 2);
-  hf_surface_destroy(surface), surface_free(&cut);
+  hf_surface_destroy(surface);
+  surface_free(&cut);
 }
 
 /* The field of the sheet at p -> scale p + offset, in double. */
@@ -194,16 +209,22 @@ static double* moved_field(const Surface* sheet, double scale, double offset, in
   const size_t n = 3 * (size_t)sheet->vertex_count;
   double* doubles = malloc(sizeof(double) * n);
   float* floats = malloc(sizeof(float) * n);
-  for (size_t i = 0; i < n; ++i)
-    doubles[i] = scale * (double)sheet->positions[i] + offset, floats[i] = (float)doubles[i];
+  for (size_t i = 0; i < n; ++i) {
+    doubles[i] = scale * (double)sheet->positions[i] + offset;
+    floats[i] = (float)doubles[i];
+  }
   Options desc = options_of(sheet);
-  desc.surface.positions = as_float ? floats : NULL, desc.surface.positions_f64 = as_float ? NULL : doubles;
+  desc.surface.positions = as_float ? floats : NULL;
+  desc.surface.positions_f64 = as_float ? NULL : doubles;
   hf_solver solver = NULL;
   assert_ok(make(&desc, NULL, &solver));
-  add_site(solver, 0, -1e6), add_site(solver, sheet->vertex_count - 1, 1e6),
-      add_site(solver, sheet->vertex_count / 2, 5e5);
+  add_site(solver, 0, -1e6);
+  add_site(solver, sheet->vertex_count - 1, 1e6);
+  add_site(solver, sheet->vertex_count / 2, 5e5);
   double* field = field_of(solver, sheet->vertex_count);
-  hf_solver_destroy(solver), free(doubles), free(floats);
+  hf_solver_destroy(solver);
+  free(doubles);
+  free(floats);
   return field;
 }
 
@@ -227,7 +248,8 @@ static void unit_and_offset_do_not_matter(void** state) {
                moves[m].as_float ? "float" : "double", worst);
     free(field);
   }
-  free(expected), surface_free(&sheet);
+  free(expected);
+  surface_free(&sheet);
 }
 
 static void interleaved_vertices_are_read_by_their_stride(void** state) {
@@ -239,15 +261,23 @@ static void interleaved_vertices_are_read_by_their_stride(void** state) {
   for (uint32_t v = 0; v < sheet.vertex_count; ++v) memcpy(records + (size_t)RECORD * v, sheet.positions + 3 * v, 12);
   Options desc = options_of(&sheet);
   hf_solver plain = surface_solver(&sheet), strided = NULL;
-  desc.surface.positions = (const float*)(const void*)records, desc.surface.position_stride = RECORD;
+  desc.surface.positions = (const float*)(const void*)records;
+  desc.surface.position_stride = RECORD;
   assert_ok(make(&desc, NULL, &strided));
   hf_solver both[2] = {plain, strided};
   double* field[2];
-  for (int i = 0; i < 2; ++i)
-    add_site(both[i], 0, 0), add_site(both[i], 20, 1), field[i] = field_of(both[i], sheet.vertex_count);
+  for (int i = 0; i < 2; ++i) {
+    add_site(both[i], 0, 0);
+    add_site(both[i], 20, 1);
+    field[i] = field_of(both[i], sheet.vertex_count);
+  }
   assert_true(same_bits(field[0], field[1], sizeof(double) * sheet.vertex_count));
-  free(field[0]), free(field[1]), free(records);
-  hf_solver_destroy(plain), hf_solver_destroy(strided), surface_free(&sheet);
+  free(field[0]);
+  free(field[1]);
+  free(records);
+  hf_solver_destroy(plain);
+  hf_solver_destroy(strided);
+  surface_free(&sheet);
 }
 
 static void triangles_of_16_bits_and_any_stride_give_the_same_bits(void** state) {
@@ -257,11 +287,12 @@ static void triangles_of_16_bits_and_any_stride_give_the_same_bits(void** state)
   unsigned char *wide = malloc((size_t)WIDE * sheet.triangle_count),
                 *narrow = malloc((size_t)NARROW * sheet.triangle_count);
   uint16_t* packed = malloc(sizeof(uint16_t) * 3 * sheet.triangle_count);
-  memset(wide, 0xEE, (size_t)WIDE * sheet.triangle_count), memset(narrow, 0xEE, (size_t)NARROW * sheet.triangle_count);
+  memset(wide, 0xEE, (size_t)WIDE * sheet.triangle_count);
+  memset(narrow, 0xEE, (size_t)NARROW * sheet.triangle_count);
   for (uint32_t t = 0; t < sheet.triangle_count; ++t) {
     for (uint32_t k = 0; k < 3; ++k) packed[3 * t + k] = (uint16_t)sheet.triangles[3 * t + k];
-    memcpy(wide + (size_t)WIDE * t, sheet.triangles + 3 * t, 12),
-        memcpy(narrow + (size_t)NARROW * t, packed + 3 * t, 6);
+    memcpy(wide + (size_t)WIDE * t, sheet.triangles + 3 * t, 12);
+    memcpy(narrow + (size_t)NARROW * t, packed + 3 * t, 6);
   }
   const struct {
     const void *triangles, *triangles_u16;
@@ -272,26 +303,37 @@ static void triangles_of_16_bits_and_any_stride_give_the_same_bits(void** state)
   size_t sizes[4];
   for (int i = 0; i < 4; ++i) {
     Options desc = options_of(&sheet);
-    desc.surface.triangles = forms[i].triangles, desc.surface.triangles_u16 = forms[i].triangles_u16;
+    desc.surface.triangles = forms[i].triangles;
+    desc.surface.triangles_u16 = forms[i].triangles_u16;
     desc.surface.triangle_stride = forms[i].stride;
     hf_surface surface = NULL;
     hf_solver solver = NULL;
     assert_ok(make(&desc, &surface, &solver));
-    add_site(solver, 0, 0), add_site(solver, 40, 1);
-    fields[i] = field_of(solver, sheet.vertex_count), factors[i] = saved_bytes(surface, HF_FIELD_HARMONIC, &sizes[i]);
+    add_site(solver, 0, 0);
+    add_site(solver, 40, 1);
+    fields[i] = field_of(solver, sheet.vertex_count);
+    factors[i] = saved_bytes(surface, HF_FIELD_HARMONIC, &sizes[i]);
     assert_true(same_bits(fields[i], fields[0], sizeof(double) * sheet.vertex_count));
     assert_true(sizes[i] == sizes[0] && same_bits(factors[i], factors[0], sizes[0]));
-    hf_solver_destroy(solver), hf_surface_destroy(surface);
+    hf_solver_destroy(solver);
+    hf_surface_destroy(surface);
   }
-  for (int i = 0; i < 4; ++i) free(fields[i]), free(factors[i]);
-  free(wide), free(narrow), free(packed), surface_free(&sheet);
+  for (int i = 0; i < 4; ++i) {
+    free(fields[i]);
+    free(factors[i]);
+  }
+  free(wide);
+  free(narrow);
+  free(packed);
+  surface_free(&sheet);
 }
 
 static void the_mesh_is_copied(void** state) {
   (void)state;
   Surface sheet = surface_sheet(5, 5);
   hf_solver solver = surface_solver(&sheet);
-  add_site(solver, 0, 0), add_site(solver, 35, 1);
+  add_site(solver, 0, 0);
+  add_site(solver, 35, 1);
   double* before = field_of(solver, 36);
   memset(sheet.positions, 0xFF, sizeof(float) * 3 * sheet.vertex_count);
   memset(sheet.triangles, 0xFF, sizeof(uint32_t) * 3 * sheet.triangle_count);
@@ -301,24 +343,30 @@ static void the_mesh_is_copied(void** state) {
   assert_ok(hf_remove_sites(solver, 1, &last));
   double* after = field_of(solver, 36);
   for (int v = 0; v < 36; ++v) assert_true(fabs(before[v] - after[v]) < 1e-12);
-  free(before), free(after), hf_solver_destroy(solver);
+  free(before);
+  free(after);
+  hf_solver_destroy(solver);
 }
 
 static void limits_that_are_just_met_are_no_obstacle(void** state) {
   (void)state;
   Surface cut = surface_cut();
   Options desc = options_of(&cut);
-  desc.surface.vertex_limit = CUT_VERTICES, desc.surface.triangle_limit = CUT_TRIANGLES;
-  desc.surface.memory_limit_mb = 64, desc.solver.site_limit = 2;
+  desc.surface.vertex_limit = CUT_VERTICES;
+  desc.surface.triangle_limit = CUT_TRIANGLES;
+  desc.surface.memory_limit_mb = 64;
+  desc.solver.site_limit = 2;
   hf_solver solver = NULL;
   assert_ok(make(&desc, NULL, &solver));
-  add_site(solver, CUT_LEFT, 0), add_site(solver, CUT_RIGHT, 1);
+  add_site(solver, CUT_LEFT, 0);
+  add_site(solver, CUT_RIGHT, 1);
   const uint32_t vertex = CUT_ISLAND;
   const double value = 2;
   const hf_sites_desc third = sites_at(1, &vertex, &value);
   assert_code(HF_ERROR_TOO_LARGE, hf_add_sites(solver, &third, NULL));
   assert_int_equal(hf_solver_get_site_count(solver), 2);
-  hf_solver_destroy(solver), surface_free(&cut);
+  hf_solver_destroy(solver);
+  surface_free(&cut);
 }
 
 int main(void) {

@@ -21,7 +21,9 @@ static void new_sites_may_be_written_over_the_list_of_vertices(void** state) {
   const uint32_t fresh[2] = {50, 60};
   hf_sites_desc add = sites_at(2, fresh, values);
   hf_edit_desc edit = HF_INIT(hf_edit_desc);
-  edit.remove_count = 2, edit.remove_sites = list, edit.add = &add;
+  edit.remove_count = 2;
+  edit.remove_sites = list;
+  edit.add = &add;
   assert_ok(hf_solver_edit_sites(solver, &edit, list));
   edit.remove_sites = numbers + 1;
   uint32_t made[2];
@@ -29,7 +31,11 @@ static void new_sites_may_be_written_over_the_list_of_vertices(void** state) {
   assert_memory_equal(list, made, sizeof made);
   double *one = field_of(solver, VERTICES), *other = field_of(apart, VERTICES);
   assert_true(same_bits(one, other, sizeof(double) * VERTICES));
-  free(one), free(other), hf_solver_destroy(solver), hf_solver_destroy(apart), surface_free(&tube);
+  free(one);
+  free(other);
+  hf_solver_destroy(solver);
+  hf_solver_destroy(apart);
+  surface_free(&tube);
 }
 
 static void values_may_be_written_over_the_list_they_were_asked_by(void** state) {
@@ -37,7 +43,8 @@ static void values_may_be_written_over_the_list_they_were_asked_by(void** state)
   tube = surface_tube(AROUND, RINGS);
   hf_surface surface = surface_on(&tube);
   hf_solver solver = solver_on(surface);
-  add_site(solver, 0, 0), add_site(solver, VERTICES - 1, 1);
+  add_site(solver, 0, 0);
+  add_site(solver, VERTICES - 1, 1);
   double* field = field_of(solver, VERTICES);
   union {
     uint32_t vertices[2 * 6];
@@ -55,8 +62,11 @@ static void values_may_be_written_over_the_list_they_were_asked_by(void** state)
   memcpy(over, sources, sizeof sources);
   assert_ok(hf_geodesics_solve_f64(geodesics, 2, (const uint32_t*)(const void*)over, over, 0));
   assert_true(same_bits(apart, over, sizeof over));
-  hf_geodesics_destroy(geodesics), free(field), hf_solver_destroy(solver), hf_surface_destroy(surface),
-      surface_free(&tube);
+  hf_geodesics_destroy(geodesics);
+  free(field);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
+  surface_free(&tube);
 }
 
 static void a_posed_source_may_become_the_target_in_place(void** state) {
@@ -68,7 +78,8 @@ static void a_posed_source_may_become_the_target_in_place(void** state) {
   uint32_t* ends = tube_ends(AROUND, RINGS);
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
   hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts;
+  pairs.pair_count = 2;
+  pairs.source_counts = pairs.target_counts = counts;
   pairs.source_vertices = pairs.target_vertices = ends;
   assert_ok(hf_transfer_add_pairs(transfer, &pairs, NULL));
   float posed[3 * VERTICES], apart[3 * VERTICES];
@@ -78,12 +89,16 @@ static void a_posed_source_may_become_the_target_in_place(void** state) {
     posed[3 * v] += 0.02f * y * y;
   }
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = posed, frame.target_positions = apart;
+  frame.source_positions = posed;
+  frame.target_positions = apart;
   assert_ok(hf_transfer_apply(transfer, &frame));
   frame.target_positions = posed;
   assert_ok(hf_transfer_apply(transfer, &frame));
   assert_true(same_bits(posed, apart, sizeof apart));
-  hf_transfer_destroy(transfer), hf_surface_destroy(surface), free(ends), surface_free(&tube);
+  hf_transfer_destroy(transfer);
+  hf_surface_destroy(surface);
+  free(ends);
+  surface_free(&tube);
 }
 
 static void absurd_stiffness_is_clamped_and_the_field_stays_finite(void** state) {
@@ -104,12 +119,15 @@ static void absurd_stiffness_is_clamped_and_the_field_stays_finite(void** state)
       assert_ok(hf_add_sites(solver, &sites, NULL));
       double held[2];
       hf_sites_info info = HF_INIT(hf_sites_info);
-      info.capacity = 2, info.stiffness = held;
+      info.capacity = 2;
+      info.stiffness = held;
       assert_ok(hf_solver_get_sites(solver, &info));
       for (int s = 0; s < 2; ++s) assert_true(held[s] == (stiffness[s] < 1 ? 1e-12 : 1e12));
       double* field = field_of(solver, VERTICES);
       for (int v = 0; v < VERTICES; ++v) assert_true(field[v] >= -1e-9 && field[v] <= 1 + 1e-9);
-      free(field), hf_solver_destroy(solver), surface_free(&tube);
+      free(field);
+      hf_solver_destroy(solver);
+      surface_free(&tube);
     }
   }
 }

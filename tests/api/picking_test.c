@@ -10,7 +10,8 @@ static const Surface ring = {RING, 2 * RING, ring_positions, ring_triangles};
 
 static uint64_t state_of_random = 88172645463325252ull;
 static double random_in(double low, double high) {
-  state_of_random ^= state_of_random << 13, state_of_random ^= state_of_random >> 7;
+  state_of_random ^= state_of_random << 13;
+  state_of_random ^= state_of_random >> 7;
   state_of_random ^= state_of_random << 17;
   return low + (high - low) * (double)(state_of_random >> 11) / 9007199254740992.0;
 }
@@ -22,11 +23,14 @@ static void make_ring(void) {
     for (uint32_t j = 0; j < ACROSS; ++j) {
       const double s = 6.283185307179586 * i / ALONG, t = 6.283185307179586 * j / ACROSS;
       float* p = ring_positions + 3 * (i * ACROSS + j);
-      p[0] = (float)((3 + cos(t)) * cos(s)), p[1] = (float)((3 + cos(t)) * sin(s)), p[2] = (float)sin(t);
+      p[0] = (float)((3 + cos(t)) * cos(s));
+      p[1] = (float)((3 + cos(t)) * sin(s));
+      p[2] = (float)sin(t);
       const uint32_t next = (i + 1) % ALONG * ACROSS, up = (j + 1) % ACROSS;
       const uint32_t a = i * ACROSS + j, b = next + j, c = i * ACROSS + up, d = next + up;
       const uint32_t corners[6] = {a, b, d, a, d, c};
-      memcpy(corner, corners, sizeof corners), corner += 6;
+      memcpy(corner, corners, sizeof corners);
+      corner += 6;
     }
   }
 }
@@ -86,7 +90,8 @@ static void a_flat_sheet_is_hit_where_its_plane_is(void** state) {
     const double direction[3] = {slope[0] * step, slope[1] * step, -step}, up[3] = {-direction[0], -direction[1], step};
     double above[3], below[3];
     for (int k = 0; k < 3; ++k) {
-      above[k] = target[k] - height * direction[k] / step, below[k] = target[k] + height * direction[k] / step;
+      above[k] = target[k] - height * direction[k] / step;
+      below[k] = target[k] + height * direction[k] / step;
     }
     const hf_hit hit = cast(surface, above, direction, i % 2 ? &front : NULL);
     const uint32_t column = (uint32_t)x, row = (uint32_t)y;
@@ -105,10 +110,12 @@ static void a_flat_sheet_is_hit_where_its_plane_is(void** state) {
     assert_int_equal(behind.triangle, hit.triangle);
     /* away from the plane, along it, and beside the sheet there is nothing */
     const double along[3] = {direction[0], direction[1], 0}, beside[3] = {COLUMNS + 0.001, y, 2}, down[3] = {0, 0, -1};
-    assert_missed(surface, above, up, NULL), assert_missed(surface, above, along, NULL);
+    assert_missed(surface, above, up, NULL);
+    assert_missed(surface, above, along, NULL);
     assert_missed(surface, beside, down, NULL);
   }
-  hf_surface_destroy(surface), surface_free(&sheet);
+  hf_surface_destroy(surface);
+  surface_free(&sheet);
 }
 
 static void a_tube_is_hit_at_its_polygon_and_on_the_near_side(void** state) {
@@ -132,7 +139,8 @@ static void a_tube_is_hit_at_its_polygon_and_on_the_near_side(void** state) {
     assert_consistent(&outside, tube.positions, tube.triangles, far, in, 1e-11);
     assert_missed(surface, axis, out, &front); /* seen from within, every triangle is */
   }
-  hf_surface_destroy(surface), surface_free(&tube);
+  hf_surface_destroy(surface);
+  surface_free(&tube);
 }
 
 /* Whether every triangle at a vertex of the ring is seen from its front (side 1) or from behind (side -1). */
@@ -143,7 +151,8 @@ static int all_face(uint32_t vertex, const double* origin, double side) {
     double p[3], q[3], d[3];
     for (uint32_t k = 0; k < 3; ++k) {
       const double a = (double)ring_positions[3 * v[0] + k];
-      p[k] = (double)ring_positions[3 * v[1] + k] - a, q[k] = (double)ring_positions[3 * v[2] + k] - a;
+      p[k] = (double)ring_positions[3 * v[1] + k] - a;
+      q[k] = (double)ring_positions[3 * v[2] + k] - a;
       d[k] = origin[k] - a;
     }
     const double volume =
@@ -200,8 +209,11 @@ static void rays_through_edges_and_vertices_never_slip_through(void** state) {
   double posed[3 * 25];
   hf_pick_desc stand = HF_INIT(hf_pick_desc);
   stand.positions_f64 = posed;
-  for (uint32_t v = 0; v < 25; ++v)
-    posed[3 * v] = 3 * (v % 5), posed[3 * v + 1] = 7 * (v / 5), posed[3 * v + 2] = sin(v);
+  for (uint32_t v = 0; v < 25; ++v) {
+    posed[3 * v] = 3 * (v % 5);
+    posed[3 * v + 1] = 7 * (v / 5);
+    posed[3 * v + 2] = sin(v);
+  }
   for (uint32_t v = 0; v < 25; ++v) {
     const double origin[3] = {posed[3 * v], posed[3 * v + 1], 8}, down[3] = {0, 0, -1};
     uint32_t first = 0;
@@ -210,7 +222,8 @@ static void rays_through_edges_and_vertices_never_slip_through(void** state) {
       ++first;
     assert_int_equal(cast(grid, origin, down, &stand).triangle, first);
   }
-  hf_surface_destroy(grid), surface_free(&sheet);
+  hf_surface_destroy(grid);
+  surface_free(&sheet);
 }
 
 static void a_posed_surface_is_hit_where_it_stands(void** state) {
@@ -231,7 +244,9 @@ static void a_posed_surface_is_hit_where_it_stands(void** state) {
   moved.positions = posed;
   const hf_surface there = surface_on(&moved);
   hf_pick_desc floats = HF_INIT(hf_pick_desc), wide = HF_INIT(hf_pick_desc);
-  floats.positions = posed, wide.positions_f64 = doubles, wide.position_stride = 4 * sizeof(double);
+  floats.positions = posed;
+  wide.positions_f64 = doubles;
+  wide.position_stride = 4 * sizeof(double);
   int hits = 0, others = 0;
   for (int i = 0; i < 1000; ++i) {
     const uint32_t aim = random_below(COUNT);
@@ -246,7 +261,8 @@ static void a_posed_surface_is_hit_where_it_stands(void** state) {
     assert_true(same_bits(&by_floats, &by_doubles, sizeof by_floats));
     assert_int_equal(by_floats.found, made.found);
     if (made.found) {
-      ++hits, others += rest.triangle != made.triangle;
+      ++hits;
+      others += rest.triangle != made.triangle;
       assert_int_equal(by_floats.triangle, made.triangle);
       assert_consistent(&by_floats, posed, tube.triangles, origin, direction, 1e-10);
     }
@@ -258,7 +274,10 @@ static void a_posed_surface_is_hit_where_it_stands(void** state) {
     assert_true(near_floats == near_doubles && distance == again && near_floats == near_made);
   }
   assert_true(hits > 500 && others > 300);
-  hf_surface_destroy(there), hf_surface_destroy(surface), hf_pose_destroy(pose), surface_free(&tube);
+  hf_surface_destroy(there);
+  hf_surface_destroy(surface);
+  hf_pose_destroy(pose);
+  surface_free(&tube);
 }
 
 static void triangles_of_16_bits_give_the_same_bits_on_any_thread_count(void** state) {
@@ -272,7 +291,9 @@ static void triangles_of_16_bits_give_the_same_bits_on_any_thread_count(void** s
     memcpy(narrow + (size_t)STRIDE * t, corners, sizeof corners);
   }
   hf_surface_desc desc = options_of(&ring).surface;
-  desc.triangles = NULL, desc.triangles_u16 = (const uint16_t*)(const void*)narrow, desc.triangle_stride = STRIDE;
+  desc.triangles = NULL;
+  desc.triangles_u16 = (const uint16_t*)(const void*)narrow;
+  desc.triangle_stride = STRIDE;
   desc.thread_count = 3;
   hf_surface small = NULL;
   assert_ok(hf_surface_create(&desc, &small));
@@ -283,7 +304,8 @@ static void triangles_of_16_bits_give_the_same_bits_on_any_thread_count(void** s
     const hf_hit a = cast(small, origin, direction, NULL), b = cast(large, origin, direction, NULL);
     assert_true(same_bits(&a, &b, sizeof a));
   }
-  hf_surface_destroy(small), hf_surface_destroy(large);
+  hf_surface_destroy(small);
+  hf_surface_destroy(large);
 }
 
 static void the_nearest_vertex_is_that_of_brute_force(void** state) {
@@ -297,7 +319,10 @@ static void the_nearest_vertex_is_that_of_brute_force(void** state) {
     for (uint32_t v = 0; v < CUT_ISOLATED; ++v) { /* the isolated vertex is passed over */
       double square = 0;
       for (uint32_t k = 0; k < 3; ++k) square += pow((double)cut.positions[3 * v + k] - point[k], 2);
-      if (square < least) least = square, expected = v;
+      if (square < least) {
+        least = square;
+        expected = v;
+      }
     }
     double distance = -1;
     assert_ok(hf_surface_find_vertex(surface, point, NULL, &found, &distance));
@@ -312,7 +337,8 @@ static void the_nearest_vertex_is_that_of_brute_force(void** state) {
   assert_ok(hf_surface_find_vertex(surface, seam, NULL, &vertex, &distance));
   assert_int_equal(vertex, CUT_SEAM_LEFT);
   assert_true(distance < 1e-12);
-  hf_surface_destroy(surface), surface_free(&cut);
+  hf_surface_destroy(surface);
+  surface_free(&cut);
 }
 
 #define BAD(what, expected, index, call) check_row(__LINE__, what, #call, (call), expected, index)
@@ -324,7 +350,8 @@ static void bad_input_is_named(void** state) {
   double o[3] = {1, 1, 9}, d[3] = {0, 0, -1}, doubles[3 * CUT_VERTICES] = {0};
   const double zero[3] = {0, 0, 0};
   hf_hit hit = HF_INIT(hf_hit), before;
-  hit.distance = 777, before = hit;
+  hit.distance = 777;
+  before = hit;
   hf_pick_desc pick = HF_INIT(hf_pick_desc);
   uint32_t vertex = 777;
   BAD("origin NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_cast_ray(s, NULL, d, NULL, &hit));
@@ -336,7 +363,8 @@ static void bad_input_is_named(void** state) {
   o[1] = (double)NAN;
   BAD("origin NaN", HF_ERROR_NON_FINITE, NO_INDEX, hf_surface_cast_ray(s, o, d, NULL, &hit));
   BAD("point NaN", HF_ERROR_NON_FINITE, NO_INDEX, hf_surface_find_vertex(s, o, NULL, &vertex, NULL));
-  o[1] = 1, d[2] = HUGE_VAL;
+  o[1] = 1;
+  d[2] = HUGE_VAL;
   BAD("direction infinite", HF_ERROR_NON_FINITE, NO_INDEX, hf_surface_cast_ray(s, o, d, NULL, &hit));
   d[2] = -1;
   const double away[] = {1e20, 1e155, -1e200, 1.7e308}; /* so far that no vertex is nearer than another */
@@ -354,14 +382,16 @@ static void bad_input_is_named(void** state) {
   PICK("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, pick.reserved = 1);
   PICK("a posed vertex NaN", HF_ERROR_NON_FINITE, 13, doubles[3 * 13 + 1] = (double)NAN);
   PICK("a posed vertex infinite", HF_ERROR_NON_FINITE, 13, doubles[3 * 13 + 1] = HUGE_VAL);
-  pick = HF_INIT(hf_pick_desc), pick.positions_f64 = doubles;
+  pick = HF_INIT(hf_pick_desc);
+  pick.positions_f64 = doubles;
   for (size_t i = 0; i < COUNT_OF(doubles); ++i) doubles[i] = 1e200;
   BAD("all posed vertices far away", HF_ERROR_TOO_LARGE, NO_INDEX,
       hf_surface_find_vertex(s, zero, &pick, &vertex, NULL));
   assert_true(same_bits(&hit, &before, sizeof hit));
   assert_int_equal(vertex, 777);
   finish_rows("picking");
-  hf_surface_destroy(s), surface_free(&cut);
+  hf_surface_destroy(s);
+  surface_free(&cut);
 }
 
 int main(void) {

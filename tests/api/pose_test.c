@@ -10,20 +10,24 @@ static hf_surface surface;
 static int create_tube(void** state) {
   (void)state;
   tube = surface_tube(AROUND, RINGS);
-  for (uint32_t v = 0; v < VERTICES; ++v)
-    tube.positions[3 * v] += 100.0f, tube.positions[3 * v + 2] -= 40.0f; /* not at the origin */
+  for (uint32_t v = 0; v < VERTICES; ++v) {
+    tube.positions[3 * v] += 100.0f;
+    tube.positions[3 * v + 2] -= 40.0f;
+  } /* not at the origin */
   surface = surface_on(&tube);
   return 0;
 }
 static int free_tube(void** state) {
   (void)state;
-  hf_surface_destroy(surface), surface_free(&tube);
+  hf_surface_destroy(surface);
+  surface_free(&tube);
   return 0;
 }
 
 static hf_deform_desc to_doubles(double* positions, float* normals) {
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
-  desc.positions_f64 = positions, desc.normals = normals;
+  desc.positions_f64 = positions;
+  desc.normals = normals;
   return desc;
 }
 
@@ -37,7 +41,9 @@ static hf_pose pose_of(int32_t mode, uint32_t out_handles[2]) {
   uint32_t* ends = tube_ends(AROUND, RINGS);
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
   hf_handles_desc handles = HF_INIT(hf_handles_desc);
-  handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = ends;
+  handles.handle_count = 2;
+  handles.region_counts = counts;
+  handles.region_vertices = ends;
   assert_ok(hf_pose_add_handles(pose, &handles, out_handles));
   free(ends);
   return pose;
@@ -109,7 +115,8 @@ static void handles_land_exactly_where_their_transforms_put_them(void** state) {
         }
       }
     }
-    free(ends), hf_pose_destroy(pose);
+    free(ends);
+    hf_pose_destroy(pose);
   }
 }
 
@@ -181,9 +188,12 @@ static void float_double_and_strided_outputs_agree(void** state) {
   hf_deform_desc desc = to_doubles(doubles, NULL);
   desc.restart = 1;
   assert_ok(hf_pose_deform(pose, &desc, NULL));
-  desc.positions_f64 = NULL, desc.positions = floats, desc.normals = normals;
+  desc.positions_f64 = NULL;
+  desc.positions = floats;
+  desc.normals = normals;
   assert_ok(hf_pose_deform(pose, &desc, NULL));
-  desc.positions = records[0].position, desc.normals = records[0].normal,
+  desc.positions = records[0].position;
+  desc.normals = records[0].normal;
   desc.position_stride = desc.normal_stride = sizeof(Record);
   assert_ok(hf_pose_deform(pose, &desc, NULL));
   for (uint32_t v = 0; v < VERTICES; ++v) {
@@ -211,7 +221,9 @@ static void handles_come_and_go_and_clones_are_independent(void** state) {
   uint32_t ring[AROUND];
   for (uint32_t i = 0; i < AROUND; ++i) ring[i] = 12 * AROUND + i;
   hf_handles_desc more = HF_INIT(hf_handles_desc);
-  more.handle_count = 1, more.region_counts = &count, more.region_vertices = ring;
+  more.handle_count = 1;
+  more.region_counts = &count;
+  more.region_vertices = ring;
   assert_ok(hf_pose_add_handles(pose, &more, &third));
   assert_int_equal(hf_pose_get_handle_count(pose), 3);
   assert_int_equal(hf_pose_get_handle_count(copy), 2);
@@ -222,7 +234,8 @@ static void handles_come_and_go_and_clones_are_independent(void** state) {
   assert_ok(hf_pose_remove_handles(pose, 1, &third));
   assert_ok(hf_pose_deform(pose, &desc, NULL));
   assert_true(same_bits(before, after, sizeof before));
-  hf_pose_destroy(pose), hf_pose_destroy(copy);
+  hf_pose_destroy(pose);
+  hf_pose_destroy(copy);
 }
 
 static void a_handle_in_place_moves_nothing(void** state) {
@@ -240,7 +253,10 @@ static void a_handle_in_place_moves_nothing(void** state) {
   uint32_t vertices[AROUND];
   for (uint32_t i = 0; i < AROUND; ++i) vertices[i] = start + i;
   hf_handles_desc desc = HF_INIT(hf_handles_desc);
-  desc.handle_count = 1, desc.region_counts = ring, desc.region_vertices = vertices, desc.in_place = 1;
+  desc.handle_count = 1;
+  desc.region_counts = ring;
+  desc.region_vertices = vertices;
+  desc.in_place = 1;
   assert_ok(hf_pose_add_handles(pose, &desc, &added));
   hf_handle_info info = HF_INIT(hf_handle_info);
   assert_ok(hf_pose_get_handle(pose, added, &info));
@@ -254,7 +270,9 @@ static void a_handle_in_place_moves_nothing(void** state) {
   assert_ok(hf_pose_set_transform(pose, added, &stands)); /* 1e-4 of the box: rounding makes it a motion */
   assert_ok(hf_pose_deform(pose, &second, NULL));
   for (uint32_t i = 0; i < 3 * count; ++i) assert_true(fabs(after[i] - before[i]) < 2e-3);
-  hf_pose_destroy(pose), free(before), free(after);
+  hf_pose_destroy(pose);
+  free(before);
+  free(after);
 }
 
 /* what a host does that must not lose a frame */
@@ -274,7 +292,10 @@ static void handles_come_to_a_clone_while_the_pose_is_dragged(void** state) {
   uint32_t vertices[AROUND];
   for (uint32_t i = 0; i < AROUND; ++i) vertices[i] = start + i;
   hf_handles_desc desc = HF_INIT(hf_handles_desc);
-  desc.handle_count = 1, desc.region_counts = ring, desc.region_vertices = vertices, desc.in_place = 1;
+  desc.handle_count = 1;
+  desc.region_counts = ring;
+  desc.region_vertices = vertices;
+  desc.in_place = 1;
   assert_ok(hf_pose_add_handles(next, &desc, &added)); /* in another thread */
   bent.translation[0] += 1e-4;
   assert_ok(hf_pose_set_transform(pose, handles[1], &bent));
@@ -282,7 +303,10 @@ static void handles_come_to_a_clone_while_the_pose_is_dragged(void** state) {
   assert_ok(hf_pose_set_transform(next, handles[1], &bent));
   assert_ok(hf_pose_deform(next, &second, NULL));
   for (uint32_t i = 0; i < 3 * count; ++i) assert_true(fabs(after[i] - before[i]) < 1e-2);
-  hf_pose_destroy(pose), hf_pose_destroy(next), free(before), free(after);
+  hf_pose_destroy(pose);
+  hf_pose_destroy(next);
+  free(before);
+  free(after);
 }
 
 static void what_no_handle_reaches_stays_at_rest(void** state) {
@@ -294,7 +318,9 @@ static void what_no_handle_reaches_stays_at_rest(void** state) {
   const uint32_t counts[2] = {5, 5}, vertices[10] = {0, 5, 10, 15, 20, 29, 34, 39, 44, 49};
   uint32_t handles[2];
   hf_handles_desc desc = HF_INIT(hf_handles_desc);
-  desc.handle_count = 2, desc.region_counts = counts, desc.region_vertices = vertices;
+  desc.handle_count = 2;
+  desc.region_counts = counts;
+  desc.region_vertices = vertices;
   assert_ok(hf_pose_add_handles(pose, &desc, handles));
   const hf_transform lifted = {{0, 0, 0, 1}, {0, 0, 3}};
   assert_ok(hf_pose_set_transforms(pose, 1, &handles[1], &lifted));
@@ -308,7 +334,9 @@ static void what_no_handle_reaches_stays_at_rest(void** state) {
   for (uint32_t j = 0; j < 5; ++j)
     assert_true(same_bits(positions + 3 * (CUT_SEAM_LEFT + 5 * j), positions + 3 * (CUT_SEAM_RIGHT + 5 * j), 24));
   assert_true(positions[3 * CUT_SEAM_LEFT + 2] > (double)cut.positions[3 * CUT_SEAM_LEFT + 2] + 0.1);
-  hf_pose_destroy(pose), hf_surface_destroy(both), surface_free(&cut);
+  hf_pose_destroy(pose);
+  hf_surface_destroy(both);
+  surface_free(&cut);
 }
 
 static hf_transfer transfer_of(int32_t mode, hf_surface source, hf_surface target, uint32_t source_around,
@@ -318,15 +346,19 @@ static hf_transfer transfer_of(int32_t mode, hf_surface source, hf_surface targe
   desc.mode = mode;
   hf_transfer transfer = NULL;
   assert_ok(hf_transfer_create(source, target, &desc, &transfer));
-  uint32_t *from = tube_ends(source_around, source_rings), *to = tube_ends(target_around, target_rings);
+  uint32_t* from = tube_ends(source_around, source_rings);
+  *to = tube_ends(target_around, target_rings);
   const uint32_t from_counts[2] = {2 * source_around, 2 * source_around},
                  to_counts[2] = {2 * target_around, 2 * target_around};
   hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
   pairs.pair_count = 2;
-  pairs.source_counts = from_counts, pairs.source_vertices = from;
-  pairs.target_counts = to_counts, pairs.target_vertices = to;
+  pairs.source_counts = from_counts;
+  pairs.source_vertices = from;
+  pairs.target_counts = to_counts;
+  pairs.target_vertices = to;
   assert_ok(hf_transfer_add_pairs(transfer, &pairs, out_pairs));
-  free(from), free(to);
+  free(from);
+  free(to);
   return transfer;
 }
 
@@ -340,7 +372,9 @@ static void the_rest_of_the_source_gives_the_rest_of_the_target(void** state) {
     hf_transfer transfer = transfer_of(transfer_modes[m], surface, target, AROUND, RINGS, 9, 17, pairs);
     static float positions[3 * 9 * 17], normals[3 * 9 * 17];
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions = tube.positions, frame.target_positions = positions, frame.target_normals = normals;
+    frame.source_positions = tube.positions;
+    frame.target_positions = positions;
+    frame.target_normals = normals;
     assert_ok(hf_transfer_apply(transfer, &frame));
     for (uint32_t i = 0; i < 3 * 9 * 17; ++i) assert_true(fabs((double)(positions[i] - other.positions[i])) < 1e-4);
     for (uint32_t v = 0; v < 9 * 17; ++v)
@@ -353,7 +387,8 @@ static void the_rest_of_the_source_gives_the_rest_of_the_target(void** state) {
                 info.confidence <= 1);
     hf_transfer_destroy(transfer);
   }
-  hf_surface_destroy(target), surface_free(&other);
+  hf_surface_destroy(target);
+  surface_free(&other);
 }
 
 static void a_transfer_of_stretch_swells_with_the_source_and_refuses_holds_and_skins(void** state) {
@@ -366,7 +401,8 @@ static void a_transfer_of_stretch_swells_with_the_source_and_refuses_holds_and_s
   static double posed[3 * VERTICES], made[3 * TARGET], before[3 * TARGET];
   for (uint32_t i = 0; i < 3 * VERTICES; ++i) posed[i] = 1.5 * (double)tube.positions[i];
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed, frame.target_positions_f64 = made;
+  frame.source_positions_f64 = posed;
+  frame.target_positions_f64 = made;
   assert_ok(hf_transfer_apply(transfer, &frame));
   double box = 0; /* without fmax: GCC 12 for ARM breaks down on a maximum in a loop */
   for (uint32_t i = 0; i < 3 * TARGET; ++i) {
@@ -379,7 +415,9 @@ static void a_transfer_of_stretch_swells_with_the_source_and_refuses_holds_and_s
   }
   memcpy(before, made, sizeof made);
   const double place[3] = {0, 0, 0};
-  frame.hold_count = 1, frame.hold_pairs = pairs, frame.hold_positions = place;
+  frame.hold_count = 1;
+  frame.hold_pairs = pairs;
+  frame.hold_positions = place;
   assert_int_equal(hf_transfer_apply(transfer, &frame), HF_ERROR_UNSUPPORTED);
   assert_memory_equal(made, before, sizeof made);
   hf_skin_info info = HF_INIT(hf_skin_info);
@@ -389,7 +427,8 @@ static void a_transfer_of_stretch_swells_with_the_source_and_refuses_holds_and_s
   assert_ok(hf_transfer_apply(transfer, &frame));
   assert_memory_equal(made, before, sizeof made);
   hf_transfer_destroy(transfer);
-  hf_surface_destroy(target), surface_free(&other);
+  hf_surface_destroy(target);
+  surface_free(&other);
 }
 
 static void dials_are_read_back_and_neutral_ones_change_no_bit(void** state) {
@@ -403,14 +442,19 @@ static void dials_are_read_back_and_neutral_ones_change_no_bit(void** state) {
   for (uint32_t v = 0; v < VERTICES; ++v)
     for (int c = 0; c < 3; ++c) posed[3 * v + c] = tube.positions[3 * v + c] + (c == 0 ? 2.0f : 0.0f);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = posed, frame.target_positions = plain;
+  frame.source_positions = posed;
+  frame.target_positions = plain;
   assert_ok(hf_transfer_apply(transfer, &frame));
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
   assert_ok(hf_transfer_get_dials(transfer, &dials));
   assert_true(dials.stride == 1 && dials.hip_height == 0 && dials.neck_follow == 0 && dials.tail_follow == 0 &&
               dials.arm_space == 0 && dials.long_follow == 0);
-  dials.stride = 1.5f, dials.hip_height = 0.25f, dials.neck_follow = -0.5f, dials.tail_follow = 1,
-  dials.arm_space = 0.5f, dials.long_follow = 0.75f;
+  dials.stride = 1.5f;
+  dials.hip_height = 0.25f;
+  dials.neck_follow = -0.5f;
+  dials.tail_follow = 1;
+  dials.arm_space = 0.5f;
+  dials.long_follow = 0.75f;
   assert_ok(hf_transfer_set_dials(transfer, &dials));
   hf_transfer_dials read = HF_INIT(hf_transfer_dials);
   assert_ok(hf_transfer_get_dials(transfer, &read));
@@ -431,7 +475,8 @@ static void dials_are_read_back_and_neutral_ones_change_no_bit(void** state) {
   assert_ok(hf_transfer_get_info(transfer, &info));
   assert_true(info.source_factorisation_count == 0 && info.target_factorisation_count == 0);
   hf_transfer_destroy(transfer);
-  hf_surface_destroy(target), surface_free(&other);
+  hf_surface_destroy(target);
+  surface_free(&other);
 }
 
 static void the_skin_replays_the_transfer(void** state) {
@@ -448,7 +493,8 @@ static void the_skin_replays_the_transfer(void** state) {
   assert_ok(hf_pose_deform(pose, &desc, NULL));
   hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, surface, target, AROUND, RINGS, 9, 17, pairs);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed, frame.target_positions_f64 = moved;
+  frame.source_positions_f64 = posed;
+  frame.target_positions_f64 = moved;
   assert_ok(hf_transfer_apply(transfer, &frame));
 
   hf_skin_info skin = HF_INIT(hf_skin_info);
@@ -458,8 +504,12 @@ static void the_skin_replays_the_transfer(void** state) {
   double *pivots = malloc(24 * (size_t)n), *rotations = malloc(32 * (size_t)n), *translations = malloc(24 * (size_t)n);
   static uint32_t joints[4 * TARGET];
   static float weights[4 * TARGET];
-  skin.joint_capacity = n, skin.vertex_capacity = TARGET;
-  skin.pivots = pivots, skin.rotations = rotations, skin.translations = translations, skin.vertex_joints = joints,
+  skin.joint_capacity = n;
+  skin.vertex_capacity = TARGET;
+  skin.pivots = pivots;
+  skin.rotations = rotations;
+  skin.translations = translations;
+  skin.vertex_joints = joints;
   skin.vertex_weights = weights;
   assert_ok(hf_transfer_get_skin(transfer, &skin));
   assert_int_equal(skin.joint_count, n);
@@ -487,8 +537,13 @@ static void the_skin_replays_the_transfer(void** state) {
   /* a frame without output moves the skin only */
   frame.target_positions_f64 = NULL;
   assert_ok(hf_transfer_apply(transfer, &frame));
-  free(pivots), free(rotations), free(translations);
-  hf_transfer_destroy(transfer), hf_pose_destroy(pose), hf_surface_destroy(target), surface_free(&other);
+  free(pivots);
+  free(rotations);
+  free(translations);
+  hf_transfer_destroy(transfer);
+  hf_pose_destroy(pose);
+  hf_surface_destroy(target);
+  surface_free(&other);
 }
 
 static void a_frame_may_be_transferred_in_place(void** state) {
@@ -502,13 +557,15 @@ static void a_frame_may_be_transferred_in_place(void** state) {
   assert_ok(hf_pose_deform(pose, &desc, NULL));
   hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, surface, surface, AROUND, RINGS, AROUND, RINGS, pairs);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed, frame.target_positions_f64 = apart;
+  frame.source_positions_f64 = posed;
+  frame.target_positions_f64 = apart;
   assert_ok(hf_transfer_apply(transfer, &frame));
   frame.target_positions_f64 = posed;
   assert_ok(hf_transfer_apply(transfer, &frame));
   assert_true(same_bits(posed, apart, sizeof posed));
   assert_ok(hf_transfer_remove_pairs(transfer, 1, pairs));
-  hf_transfer_destroy(transfer), hf_pose_destroy(pose);
+  hf_transfer_destroy(transfer);
+  hf_pose_destroy(pose);
 }
 
 static void a_transfer_says_its_scale_and_holds_regions_where_the_caller_wants_them(void** state) {
@@ -527,8 +584,11 @@ static void a_transfer_says_its_scale_and_holds_regions_where_the_caller_wants_t
   static float out[3 * VERTICES];
   const double place[3] = {1.5, -0.25, 7.0};
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = tube.positions, frame.target_positions = out;
-  frame.hold_count = 1, frame.hold_pairs = &pairs[1], frame.hold_positions = place;
+  frame.source_positions = tube.positions;
+  frame.target_positions = out;
+  frame.hold_count = 1;
+  frame.hold_pairs = &pairs[1];
+  frame.hold_positions = place;
   assert_ok(hf_transfer_apply(transfer, &frame));
   uint32_t* ends = tube_ends(AROUND, RINGS);
   double mean[3] = {0, 0, 0};
@@ -542,16 +602,21 @@ static void a_transfer_says_its_scale_and_holds_regions_where_the_caller_wants_t
   const uint32_t twice[2] = {pairs[0], pairs[0]}, missing[1] = {99};
   const double places[6] = {0};
   frame.hold_positions = places;
-  frame.hold_count = 2, frame.hold_pairs = twice;
+  frame.hold_count = 2;
+  frame.hold_pairs = twice;
   assert_int_equal(hf_transfer_apply(transfer, &frame), HF_ERROR_INVALID_ARGUMENT);
-  frame.hold_count = 1, frame.hold_pairs = missing;
+  frame.hold_count = 1;
+  frame.hold_pairs = missing;
   assert_int_equal(hf_transfer_apply(transfer, &frame), HF_ERROR_NO_SUCH_PAIR);
   frame.hold_pairs = NULL;
   assert_int_equal(hf_transfer_apply(transfer, &frame), HF_ERROR_NULL_POINTER);
-  frame.hold_pairs = pairs, frame.hold_count = 257;
+  frame.hold_pairs = pairs;
+  frame.hold_count = 257;
   assert_int_equal(hf_transfer_apply(transfer, &frame), HF_ERROR_TOO_LARGE);
   assert_true(same_bits(before, out, sizeof out));
-  hf_transfer_destroy(transfer), hf_surface_destroy(target), surface_free(&other);
+  hf_transfer_destroy(transfer);
+  hf_surface_destroy(target);
+  surface_free(&other);
 }
 
 /* Bent, and settled so that another hf_pose_deform gives the same bits. */
@@ -581,7 +646,10 @@ static void a_handle_on_a_layer_comes_without_a_jump_and_goes_without_a_trace(vo
     const uint32_t count = 3;
     for (uint32_t i = 0; i < count; ++i) region[i] = (RINGS / 2) * AROUND + i;
     hf_handles_desc desc = HF_INIT(hf_handles_desc);
-    desc.handle_count = 1, desc.region_counts = &count, desc.region_vertices = region, desc.layer = 1;
+    desc.handle_count = 1;
+    desc.region_counts = &count;
+    desc.region_vertices = region;
+    desc.layer = 1;
     assert_ok(hf_pose_add_handles(pose, &desc, &fine));
     const hf_deform_desc out = to_doubles(after, NULL);
     assert_ok(hf_pose_deform(pose, &out, NULL));
@@ -624,7 +692,8 @@ static void matrices_place_handles_like_transforms(void** state) {
   desc.positions_f64 = by_matrix;
   assert_ok(hf_pose_deform(other, &desc, NULL));
   assert_true(farthest_apart(by_transform, by_matrix) < 1e-9);
-  hf_pose_destroy(pose), hf_pose_destroy(other);
+  hf_pose_destroy(pose);
+  hf_pose_destroy(other);
 }
 
 static void a_point_and_a_radius_make_a_handle(void** state) {
@@ -633,10 +702,14 @@ static void a_point_and_a_radius_make_a_handle(void** state) {
   assert_ok(hf_pose_create(surface, NULL, &pose));
   const uint32_t at = 5 * AROUND;
   double points[6], radii[2] = {0.3, 0.3};
-  for (uint32_t i = 0; i < 3; ++i)
-    points[i] = (double)tube.positions[3 * at + i], points[3 + i] = (double)tube.positions[i];
+  for (uint32_t i = 0; i < 3; ++i) {
+    points[i] = (double)tube.positions[3 * at + i];
+    points[3 + i] = (double)tube.positions[i];
+  }
   hf_handles_desc desc = HF_INIT(hf_handles_desc);
-  desc.handle_count = 2, desc.points = points, desc.radii = radii;
+  desc.handle_count = 2;
+  desc.points = points;
+  desc.radii = radii;
   uint32_t handles[2];
   assert_ok(hf_pose_add_handles(pose, &desc, handles));
   hf_handle_info info = HF_INIT(hf_handle_info);
@@ -664,7 +737,8 @@ static void a_range_of_vertices_is_the_same_as_in_the_whole(void** state) {
   for (int with_normals = 0; with_normals < 2; ++with_normals) {
     part[3 * count] = 777;
     desc = to_doubles(part, with_normals ? part_normals : NULL);
-    desc.first_vertex = first, desc.vertex_count = count;
+    desc.first_vertex = first;
+    desc.vertex_count = count;
     assert_ok(hf_pose_deform(pose, &desc, NULL));
     for (uint32_t i = 0; i < 3 * count; ++i) {
       assert_true(fabs(part[i] - whole[3 * first + i]) < 1e-12);
@@ -724,10 +798,17 @@ static void the_skin_replays_the_pose(void** state) {
     double *axes = malloc(32 * (size_t)n), *scales = malloc(24 * (size_t)n);
     static uint32_t joints[8 * VERTICES];
     static float weights[8 * VERTICES];
-    skin.joint_capacity = n, skin.vertex_capacity = VERTICES;
-    skin.pivots = pivots, skin.rotations = rotations, skin.translations = places;
-    skin.vertex_joints = joints, skin.vertex_weights = weights;
-    if (stretching) skin.axes = axes, skin.scales = scales;
+    skin.joint_capacity = n;
+    skin.vertex_capacity = VERTICES;
+    skin.pivots = pivots;
+    skin.rotations = rotations;
+    skin.translations = places;
+    skin.vertex_joints = joints;
+    skin.vertex_weights = weights;
+    if (stretching) {
+      skin.axes = axes;
+      skin.scales = scales;
+    }
     assert_ok(hf_pose_get_skin(pose, &skin));
     assert_int_equal(skin.joint_count, n);
     for (uint32_t v = 0; v < VERTICES; ++v) {
@@ -750,7 +831,11 @@ static void the_skin_replays_the_pose(void** state) {
       assert_true(sum == 1.0f);
       for (uint32_t c = 0; c < 3; ++c) worst[stretching] = fmax(worst[stretching], fabs(blended[c] - posed[3 * v + c]));
     }
-    free(pivots), free(rotations), free(places), free(axes), free(scales);
+    free(pivots);
+    free(rotations);
+    free(places);
+    free(axes);
+    free(scales);
   }
   assert_true(worst[0] < 0.1 && worst[1] < 0.02); /* 1 % of the box, and much less with stretching joints */
   assert_true(worst[1] < 0.5 * worst[0]);
@@ -771,7 +856,9 @@ static void handles_one_by_one_give_the_bits_of_a_batch(void** state) {
     assert_ok(hf_pose_create(pieces, NULL, &pose));
     for (uint32_t i = 0; i < 4; i += batch ? 4 : 1) {
       hf_handles_desc handles = HF_INIT(hf_handles_desc);
-      handles.handle_count = batch ? 4 : 1, handles.region_counts = ones, handles.region_vertices = places + i;
+      handles.handle_count = batch ? 4 : 1;
+      handles.region_counts = ones;
+      handles.region_vertices = places + i;
       assert_ok(hf_pose_add_handles(pose, &handles, numbers + i));
     }
     for (uint32_t i = 0; i < 4; ++i) {
@@ -784,7 +871,8 @@ static void handles_one_by_one_give_the_bits_of_a_batch(void** state) {
     hf_pose_destroy(pose);
   }
   assert_memory_equal(positions[0], positions[1], sizeof positions[0]);
-  hf_surface_destroy(pieces), surface_free(&cut);
+  hf_surface_destroy(pieces);
+  surface_free(&cut);
 }
 
 int main(void) {

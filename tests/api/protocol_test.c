@@ -84,11 +84,17 @@ static hf_result trace_isolines(Call* c) {
   const hf_scalars field = heights();
   const double levels[2] = {3.5, 8.25};
   hf_isolines lines = HF_INIT(hf_isolines);
-  lines.point_capacity = (uint32_t)c->capacity[0], lines.line_capacity = (uint32_t)c->capacity[1];
-  lines.point_edges = c->array[0], lines.parameters = c->array[1], lines.positions = c->array[2];
-  lines.line_starts = c->array[3], lines.line_levels = c->array[4], lines.line_closed = c->array[5];
+  lines.point_capacity = (uint32_t)c->capacity[0];
+  lines.line_capacity = (uint32_t)c->capacity[1];
+  lines.point_edges = c->array[0];
+  lines.parameters = c->array[1];
+  lines.positions = c->array[2];
+  lines.line_starts = c->array[3];
+  lines.line_levels = c->array[4];
+  lines.line_closed = c->array[5];
   const hf_result r = hf_surface_trace_isolines(scene.body, &field, 2, levels, &lines);
-  c->count[0] = lines.point_count, c->count[1] = lines.line_count;
+  c->count[0] = lines.point_count;
+  c->count[1] = lines.line_count;
   return r;
 }
 static hf_result find_path(Call* c) {
@@ -96,7 +102,9 @@ static hf_result find_path(Call* c) {
   const hf_surface_point to = {{TUBE_VERTICES - 2, 0, 0}, 0, {1, 0, 0}};
   hf_path path = HF_INIT(hf_path);
   path.point_capacity = (uint32_t)c->capacity[0];
-  path.point_edges = c->array[0], path.parameters = c->array[1], path.positions = c->array[2];
+  path.point_edges = c->array[0];
+  path.parameters = c->array[1];
+  path.positions = c->array[2];
   const hf_result r = hf_geodesics_find_path(scene.geodesics, &from, &to, &path);
   c->count[0] = path.point_count;
   return r;
@@ -105,27 +113,41 @@ static hf_result flow_trace(Call* c) {
   const hf_scalars field = heights();
   hf_flow_lines lines = HF_INIT(hf_flow_lines);
   lines.wanted_count = 5;
-  lines.point_capacity = (uint32_t)c->capacity[0], lines.line_capacity = (uint32_t)c->capacity[1];
-  lines.positions = c->array[0], lines.values = c->array[1];
-  lines.line_starts = c->array[2], lines.line_ends = c->array[3];
+  lines.point_capacity = (uint32_t)c->capacity[0];
+  lines.line_capacity = (uint32_t)c->capacity[1];
+  lines.positions = c->array[0];
+  lines.values = c->array[1];
+  lines.line_starts = c->array[2];
+  lines.line_ends = c->array[3];
   const hf_result r = hf_flow_trace(flow, &field, &lines);
-  c->count[0] = lines.point_count, c->count[1] = lines.line_count;
+  c->count[0] = lines.point_count;
+  c->count[1] = lines.line_count;
   return r;
 }
 static hf_result quads_get_mesh(Call* c) {
   hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
-  mesh.vertex_capacity = (uint32_t)c->capacity[0], mesh.face_capacity = (uint32_t)c->capacity[1];
-  mesh.positions = c->array[0], mesh.triangles = c->array[1], mesh.barycentrics = c->array[2];
-  mesh.corners = c->array[3], mesh.faces = c->array[4];
+  mesh.vertex_capacity = (uint32_t)c->capacity[0];
+  mesh.face_capacity = (uint32_t)c->capacity[1];
+  mesh.positions = c->array[0];
+  mesh.triangles = c->array[1];
+  mesh.barycentrics = c->array[2];
+  mesh.corners = c->array[3];
+  mesh.faces = c->array[4];
   const hf_result r = hf_quads_get_mesh(quads, &mesh);
-  c->count[0] = mesh.vertex_count, c->count[1] = mesh.face_count;
+  c->count[0] = mesh.vertex_count;
+  c->count[1] = mesh.face_count;
   return r;
 }
 static hf_result get_sites(Call* c) {
   hf_sites_info info = HF_INIT(hf_sites_info);
   info.capacity = (uint32_t)c->capacity[0];
-  info.sites = c->array[0], info.vertices = c->array[1], info.components = c->array[2], info.values = c->array[3];
-  info.stiffness = c->array[4], info.flux = c->array[5], info.radii = c->array[6];
+  info.sites = c->array[0];
+  info.vertices = c->array[1];
+  info.components = c->array[2];
+  info.values = c->array[3];
+  info.stiffness = c->array[4];
+  info.flux = c->array[5];
+  info.radii = c->array[6];
   const hf_result r = hf_solver_get_sites(scene.solver, &info);
   c->count[0] = info.count;
   return r;
@@ -159,7 +181,10 @@ static hf_result region_get_curve(Call* c) {
 static hf_result weights_get(Call* c) {
   hf_weights_out out = HF_INIT(hf_weights_out);
   out.vertex_capacity = (uint32_t)c->capacity[0];
-  out.joints = c->array[0], out.joints_u16 = c->array[1], out.weights = c->array[2], out.origins = c->array[3];
+  out.joints = c->array[0];
+  out.joints_u16 = c->array[1];
+  out.weights = c->array[2];
+  out.origins = c->array[3];
   const hf_result r = hf_weights_get(scene.weights, &out);
   c->count[0] = out.vertex_count;
   return r;
@@ -182,13 +207,18 @@ static hf_weights_out to_weights(const Call* c) {
   for (int v = 0; v < TUBE_VERTICES; ++v) one_share[v] = 1;
   hf_weights_out out = HF_INIT(hf_weights_out);
   out.vertex_capacity = (uint32_t)c->capacity[0];
-  out.joints = c->array[0], out.joints_u16 = c->array[1], out.weights = c->array[2], out.origins = c->array[3];
+  out.joints = c->array[0];
+  out.joints_u16 = c->array[1];
+  out.weights = c->array[2];
+  out.origins = c->array[3];
   return out;
 }
 static hf_result weights_carry(Call* c) {
   hf_weights_out out = to_weights(c);
   hf_carry_desc desc = HF_INIT(hf_carry_desc);
-  desc.influence_count = 1, desc.joints = one_joint, desc.weights = one_share;
+  desc.influence_count = 1;
+  desc.joints = one_joint;
+  desc.weights = one_share;
   const hf_result r = hf_weights_carry(scene.body, scene.body, &desc, &out, NULL);
   c->count[0] = out.vertex_count;
   return r;
@@ -197,30 +227,40 @@ static hf_result weights_mirror(Call* c) {
   static const double head[3] = {0, 0, 0};
   hf_weights_out out = to_weights(c);
   hf_mirror_desc desc = HF_INIT(hf_mirror_desc);
-  desc.bone_count = 1, desc.heads = head;
-  desc.influence_count = 1, desc.joints = one_joint, desc.weights = one_share;
+  desc.bone_count = 1;
+  desc.heads = head;
+  desc.influence_count = 1;
+  desc.joints = one_joint;
+  desc.weights = one_share;
   const hf_result r = hf_weights_mirror(scene.body, &desc, &out, NULL, NULL, NULL);
   c->count[0] = out.vertex_count;
   return r;
 }
 static void to_skin(const Call* c, hf_skin_info* skin) {
-  skin->joint_capacity = (uint32_t)c->capacity[0], skin->vertex_capacity = (uint32_t)c->capacity[1];
-  skin->pivots = c->array[0], skin->rotations = c->array[1], skin->translations = c->array[2];
-  skin->axes = c->array[3], skin->scales = c->array[4];
-  skin->vertex_joints = c->array[5], skin->vertex_weights = c->array[6];
+  skin->joint_capacity = (uint32_t)c->capacity[0];
+  skin->vertex_capacity = (uint32_t)c->capacity[1];
+  skin->pivots = c->array[0];
+  skin->rotations = c->array[1];
+  skin->translations = c->array[2];
+  skin->axes = c->array[3];
+  skin->scales = c->array[4];
+  skin->vertex_joints = c->array[5];
+  skin->vertex_weights = c->array[6];
 }
 static hf_result pose_get_skin(Call* c) {
   hf_skin_info skin = HF_INIT(hf_skin_info);
   to_skin(c, &skin);
   const hf_result r = hf_pose_get_skin(scene.pose, &skin);
-  c->count[0] = skin.joint_count, c->count[1] = skin.vertex_count;
+  c->count[0] = skin.joint_count;
+  c->count[1] = skin.vertex_count;
   return r;
 }
 static hf_result transfer_get_skin(Call* c) {
   hf_skin_info skin = HF_INIT(hf_skin_info);
   to_skin(c, &skin);
   const hf_result r = hf_transfer_get_skin(scene.transfer, &skin);
-  c->count[0] = skin.joint_count, c->count[1] = skin.vertex_count;
+  c->count[0] = skin.joint_count;
+  c->count[1] = skin.vertex_count;
   return r;
 }
 
@@ -278,7 +318,10 @@ static void linked_create(void) {
   hf_links_desc links = HF_INIT(hf_links_desc);
   links.mode = HF_LINK_PIECES;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 12, desc.triangle_count = 16, desc.positions = corners, desc.triangles = faces;
+  desc.vertex_count = 12;
+  desc.triangle_count = 16;
+  desc.positions = corners;
+  desc.triangles = faces;
   desc.links = &links;
   assert_ok(hf_surface_create(&desc, &linked));
 }
@@ -299,16 +342,20 @@ static void scene_with_quads_create(void) {
   scene_create(&scene);
   for (int v = 0; v < TUBE_VERTICES; ++v) height[v] = (double)scene.tube.positions[3 * v + 1] + 0.01 * sin(2.3 * v);
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
-  desc.edge_length = 2, desc.relax_count = 2;
+  desc.edge_length = 2;
+  desc.relax_count = 2;
   assert_ok(hf_quads_create(scene.body, &desc, &quads));
   assert_ok(hf_flow_create(scene.body, &flow));
   const uint32_t round[3] = {5 * TUBE_AROUND, 5 * TUBE_AROUND + TUBE_AROUND / 3, 5 * TUBE_AROUND + 2 * TUBE_AROUND / 3};
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
   hf_region_edit_desc enclose = HF_INIT(hf_region_edit_desc);
-  curve.point_count = 3, curve.vertices = round, enclose.curve = &curve;
+  curve.point_count = 3;
+  curve.vertices = round;
+  enclose.curve = &curve;
   assert_ok(hf_region_create(scene.body, NULL, &curved));
   assert_ok(hf_region_edit(curved, &enclose));
-  round_field_create(), linked_create();
+  round_field_create();
+  linked_create();
 }
 
 /* Two entries behind what is needed, so that what is written there is seen. */
@@ -334,7 +381,10 @@ static hf_result call_with(size_t f, Call* c, const Call* asked, int only) {
   return functions[f].call(c);
 }
 static void free_call(Call* c) {
-  for (int i = 0; i < ARRAYS; ++i) free(c->array[i]), c->array[i] = NULL;
+  for (int i = 0; i < ARRAYS; ++i) {
+    free(c->array[i]);
+    c->array[i] = NULL;
+  }
 }
 static int dimensions_of(size_t f) {
   int most = 0;
@@ -404,7 +454,8 @@ static void enough_writes_what_is_there_and_no_more(size_t f, const Call* asked)
     HOLDS("nothing behind", all_bytes(alone.array[i], bytes, room_of(a, asked)));
     free_call(&alone);
   }
-  free_call(&exact), free_call(&more);
+  free_call(&exact);
+  free_call(&more);
 }
 
 static void every_function_with_a_capacity_keeps_the_protocol(void** state) {
@@ -417,7 +468,10 @@ static void every_function_with_a_capacity_keeps_the_protocol(void** state) {
     enough_writes_what_is_there_and_no_more(f, &asked);
   }
   finish_rows("arrays out");
-  hf_quads_destroy(quads), hf_flow_destroy(flow), hf_direction_destroy(round_field), hf_region_destroy(curved);
+  hf_quads_destroy(quads);
+  hf_flow_destroy(flow);
+  hf_direction_destroy(round_field);
+  hf_region_destroy(curved);
   hf_surface_destroy(linked);
   scene_destroy(&scene);
 }
@@ -437,7 +491,8 @@ static void nothing_to_write_is_a_count_of_zero(void** state) {
   assert_ok(hf_region_get_curve(empty, 0, NULL, &count));
   assert_int_equal(count, 0);
   hf_sites_info info = HF_INIT(hf_sites_info);
-  info.sites = vertices, info.count = 777;
+  info.sites = vertices;
+  info.count = 777;
   assert_ok(hf_solver_get_sites(scene.three, &info));
   assert_int_equal(info.count, 0);
   assert_int_equal(vertices[0], 777);

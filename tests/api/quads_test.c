@@ -32,8 +32,12 @@ static void a_tube_becomes_a_closed_net_of_quads(void** state) {
   uint32_t* corners = calloc(info.vertex_count, 3 * sizeof *corners);
   uint32_t* faces = calloc(info.face_count, 4 * sizeof *faces);
   hf_quads_mesh net = HF_INIT(hf_quads_mesh);
-  net.vertex_capacity = info.vertex_count, net.face_capacity = info.face_count;
-  net.positions = positions, net.triangles = triangles, net.barycentrics = weights, net.corners = corners;
+  net.vertex_capacity = info.vertex_count;
+  net.face_capacity = info.face_count;
+  net.positions = positions;
+  net.triangles = triangles;
+  net.barycentrics = weights;
+  net.corners = corners;
   net.faces = faces;
   assert_ok(hf_quads_get_mesh(quads, &net));
   assert_int_equal(net.vertex_count, info.vertex_count);
@@ -54,10 +58,15 @@ static void a_tube_becomes_a_closed_net_of_quads(void** state) {
     }
   }
   /* too small: nothing is written */
-  net.face_capacity = info.face_count - 1, faces[0] = faces[1] = 77777;
+  net.face_capacity = info.face_count - 1;
+  faces[0] = faces[1] = 77777;
   assert_code(HF_ERROR_TOO_SMALL, hf_quads_get_mesh(quads, &net));
   assert_true(faces[0] == 77777 && faces[1] == 77777);
-  free(positions), free(weights), free(triangles), free(corners), free(faces);
+  free(positions);
+  free(weights);
+  free(triangles);
+  free(corners);
+  free(faces);
   hf_quads_destroy(quads);
   assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_get_info(quads, &info));
   /* HF_INIT, and no desc at all, give quads of 0.022 box diagonals */
@@ -70,7 +79,8 @@ static void a_tube_becomes_a_closed_net_of_quads(void** state) {
   }
   assert_memory_equal(&plain[0], &plain[1], sizeof plain[0]);
   assert_true(fabsf(plain[0].edge_length / 0.022f - sqrtf(8 + (RINGS - 1) * (RINGS - 1))) < 1e-3f);
-  hf_surface_destroy(surface), surface_free(&mesh);
+  hf_surface_destroy(surface);
+  surface_free(&mesh);
 }
 
 static void a_tube_becomes_quads_along_its_curvature(void** state) {
@@ -90,13 +100,16 @@ static void a_tube_becomes_quads_along_its_curvature(void** state) {
   uint32_t* corners = calloc(info.face_count, 4 * sizeof *corners);
   uint32_t* valence = calloc(info.vertex_count, sizeof *valence);
   hf_quads_mesh net = HF_INIT(hf_quads_mesh);
-  net.face_capacity = info.face_count, net.faces = corners;
+  net.face_capacity = info.face_count;
+  net.faces = corners;
   assert_ok(hf_quads_get_mesh(quads, &net));
   for (uint32_t i = 0; i < 4 * info.face_count; ++i) ++valence[corners[i]];
   for (uint32_t v = 0; v < info.vertex_count; ++v) assert_true(valence[v] == 4 || valence[v] == 2);
-  free(corners), free(valence);
+  free(corners);
+  free(valence);
   hf_quads_destroy(quads);
-  hf_surface_destroy(surface), surface_free(&mesh);
+  hf_surface_destroy(surface);
+  surface_free(&mesh);
 }
 
 /* Guides wind around the tube at 45 degrees; the plane cuts it in the middle, so its other half winds the other way. */
@@ -109,16 +122,24 @@ static void a_tube_becomes_quads_along_guides_and_its_own_mirror_image(void** st
   for (uint32_t v = 0; v < COUNT; ++v) {
     const double x = (double)mesh.positions[3 * v], z = (double)mesh.positions[3 * v + 2];
     vertices[v] = v;
-    vectors[3 * v] = -z, vectors[3 * v + 1] = 1, vectors[3 * v + 2] = x;
+    vectors[3 * v] = -z;
+    vectors[3 * v + 1] = 1;
+    vectors[3 * v + 2] = x;
   }
   const uint32_t crease[4] = {0, AROUND, AROUND, 2 * AROUND};
   const double middle = (RINGS - 1) / 2.0;
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
   desc.face_count = 400;
-  desc.guide_count = COUNT, desc.guide_vertices = vertices, desc.guide_vectors = vectors;
-  desc.symmetry_plane[1] = 2, desc.symmetry_plane[3] = 2 * middle;
+  desc.guide_count = COUNT;
+  desc.guide_vertices = vertices;
+  desc.guide_vectors = vectors;
+  desc.symmetry_plane[1] = 2;
+  desc.symmetry_plane[3] = 2 * middle;
   for (int creased = 0; creased < 2; ++creased) {
-    if (creased) desc.crease_count = 2, desc.crease_edges = crease; /* on the side that is mirrored: not used */
+    if (creased) {
+      desc.crease_count = 2;
+      desc.crease_edges = crease;
+    } /* on the side that is mirrored: not used */
     hf_quads quads = NULL;
     assert_ok(hf_quads_create(surface, &desc, &quads));
     hf_quads_info info = HF_INIT(hf_quads_info);
@@ -127,8 +148,10 @@ static void a_tube_becomes_quads_along_guides_and_its_own_mirror_image(void** st
     double* positions = calloc(info.vertex_count, 3 * sizeof *positions);
     uint32_t* corners = calloc(info.face_count, 4 * sizeof *corners);
     hf_quads_mesh net = HF_INIT(hf_quads_mesh);
-    net.vertex_capacity = info.vertex_count, net.positions = positions;
-    net.face_capacity = info.face_count, net.faces = corners;
+    net.vertex_capacity = info.vertex_count;
+    net.positions = positions;
+    net.face_capacity = info.face_count;
+    net.faces = corners;
     assert_ok(hf_quads_get_mesh(quads, &net));
     uint32_t on_plane = 0;
     for (uint32_t v = 0; v < info.vertex_count; ++v) {
@@ -150,13 +173,18 @@ static void a_tube_becomes_quads_along_guides_and_its_own_mirror_image(void** st
                    along = sqrt((q[0] - p[0]) * (q[0] - p[0]) + (q[2] - p[2]) * (q[2] - p[2]));
       const double from = fabs((p[1] + q[1]) / 2 - middle);
       if (from < 3 || from > 7) continue;
-      slanting += fabs(atan2(rise, along) - atan(1.0)), sides += 1;
+      slanting += fabs(atan2(rise, along) - atan(1.0));
+      sides += 1;
     }
     assert_true(slanting / sides < 0.15); /* pi / 4 without guides */
-    free(positions), free(corners), hf_quads_destroy(quads);
+    free(positions);
+    free(corners);
+    hf_quads_destroy(quads);
   }
-  free(vertices), free(vectors);
-  hf_surface_destroy(surface), surface_free(&mesh);
+  free(vertices);
+  free(vectors);
+  hf_surface_destroy(surface);
+  surface_free(&mesh);
 }
 
 typedef struct Net {
@@ -171,8 +199,10 @@ static Net net_of(hf_quads quads) {
   net.positions = calloc(net.info.vertex_count, 3 * sizeof *net.positions);
   net.corners = calloc(net.info.face_count, 4 * sizeof *net.corners);
   hf_quads_mesh out = HF_INIT(hf_quads_mesh);
-  out.vertex_capacity = net.info.vertex_count, out.face_capacity = net.info.face_count;
-  out.positions = net.positions, out.faces = net.corners;
+  out.vertex_capacity = net.info.vertex_count;
+  out.face_capacity = net.info.face_count;
+  out.positions = net.positions;
+  out.faces = net.corners;
   assert_ok(hf_quads_get_mesh(quads, &out));
   return net;
 }
@@ -182,7 +212,10 @@ static int same_nets(Net a, Net b) {
   const int same = memcmp(&a.info, &b.info, sizeof a.info) == 0 &&
                    memcmp(a.positions, b.positions, 3 * a.info.vertex_count * sizeof *a.positions) == 0 &&
                    memcmp(a.corners, b.corners, 4 * a.info.face_count * sizeof *a.corners) == 0;
-  free(a.positions), free(a.corners), free(b.positions), free(b.corners);
+  free(a.positions);
+  free(a.corners);
+  free(b.positions);
+  free(b.corners);
   return same;
 }
 
@@ -195,8 +228,14 @@ static void a_pole_is_where_it_is_wanted(void** state) {
   const uint32_t three = 3;
   for (int with = 0; with < 2; ++with) {
     hf_quads_desc desc = HF_INIT(hf_quads_desc);
-    desc.face_count = 1200, desc.relax_count = HF_NO_INDEX;
-    if (with) desc.pole_count = 1, desc.pole_points = pole, desc.pole_quads = &three, desc.pole_directions = along;
+    desc.face_count = 1200;
+    desc.relax_count = HF_NO_INDEX;
+    if (with) {
+      desc.pole_count = 1;
+      desc.pole_points = pole;
+      desc.pole_quads = &three;
+      desc.pole_directions = along;
+    }
     hf_quads quads = NULL;
     assert_ok(hf_quads_create(surface, &desc, &quads));
     Net net = net_of(quads);
@@ -209,9 +248,13 @@ static void a_pole_is_where_it_is_wanted(void** state) {
     }
     const double edge = sqrt(6.2831853 * (RINGS - 1) / 1200);
     assert_true(with ? least < 1.5 * edge : least > 3 * edge);
-    free(around), free(net.positions), free(net.corners), hf_quads_destroy(quads);
+    free(around);
+    free(net.positions);
+    free(net.corners);
+    hf_quads_destroy(quads);
   }
-  hf_surface_destroy(surface), surface_free(&mesh);
+  hf_surface_destroy(surface);
+  surface_free(&mesh);
 }
 
 /* Every update gives what hf_quads_create gives, whatever came before; a refused one changes nothing. */
@@ -230,15 +273,35 @@ static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
   assert_ok(hf_quads_create(surface, &desc, &updated));
   for (uint32_t step = 0; step < 9; ++step) {
     for (uint32_t i = 0; i < 3; ++i) /* a stroke that turns */
-      vectors[3 * i] = 0.1 * step, vectors[3 * i + 1] = 0, vectors[3 * i + 2] = 1;
+    {
+      vectors[3 * i] = 0.1 * step;
+      vectors[3 * i + 1] = 0;
+      vectors[3 * i + 2] = 1;
+    }
     memset(&desc, 0, sizeof desc);
-    desc.struct_size = sizeof desc, desc.face_count = 300, desc.relax_count = step % 2 ? 3 : HF_NO_INDEX;
-    if (step > 0) desc.guide_count = 3, desc.guide_vertices = guided, desc.guide_vectors = vectors;
-    if (step == 3) desc.crease_count = 1, desc.crease_edges = creases;
-    if (step == 4) desc.face_count = 0, desc.edge_length = 0.8f;
+    desc.struct_size = sizeof desc;
+    desc.face_count = 300;
+    desc.relax_count = step % 2 ? 3 : HF_NO_INDEX;
+    if (step > 0) {
+      desc.guide_count = 3;
+      desc.guide_vertices = guided;
+      desc.guide_vectors = vectors;
+    }
+    if (step == 3) {
+      desc.crease_count = 1;
+      desc.crease_edges = creases;
+    }
+    if (step == 4) {
+      desc.face_count = 0;
+      desc.edge_length = 0.8f;
+    }
     if (step == 5 || step == 6) desc.symmetry_plane[2] = 1;
     if (step == 7) desc.symmetry_plane[0] = 1;
-    if (step == 2 || step == 8) desc.pole_count = 1, desc.pole_points = pole, desc.pole_quads = &three;
+    if (step == 2 || step == 8) {
+      desc.pole_count = 1;
+      desc.pole_points = pole;
+      desc.pole_quads = &three;
+    }
     assert_ok(hf_quads_update(updated, &desc));
     assert_ok(hf_quads_create(surface, &desc, &fresh));
     assert_true(same_nets(net_of(updated), net_of(fresh)));
@@ -248,14 +311,18 @@ static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
     hf_quads_desc bad = desc;
     bad.edge_length = -1;
     assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_update(updated, &bad));
-    bad = desc, bad.guide_count = 3, bad.guide_vertices = guided, bad.guide_vectors = vectors;
+    bad = desc;
+    bad.guide_count = 3;
+    bad.guide_vertices = guided;
+    bad.guide_vectors = vectors;
     const double none[9] = {0, 0, 1, 0, 0, 1, 0, 0, 0};
     bad.guide_vectors = none;
     assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_update(updated, &bad));
     hf_progress progress = NULL;
     assert_ok(hf_progress_create(&progress));
     assert_ok(hf_progress_cancel(progress));
-    bad = desc, bad.progress = progress;
+    bad = desc;
+    bad.progress = progress;
     assert_code(HF_ERROR_CANCELLED, hf_quads_update(updated, &bad));
     hf_progress_destroy(progress);
     assert_true(same_nets(before, net_of(updated)));
@@ -267,7 +334,8 @@ static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
   hf_surface_destroy(surface);
   desc.symmetry_plane[0] = 0;
   assert_ok(hf_quads_update(updated, &desc));
-  hf_quads_destroy(updated), surface_free(&mesh);
+  hf_quads_destroy(updated);
+  surface_free(&mesh);
 }
 
 static void flow_lines_rise_and_outlive_the_surface(void** state) {
@@ -285,14 +353,21 @@ static void flow_lines_rise_and_outlive_the_surface(void** state) {
   for (int pass = 0; pass < 2; ++pass) {
     hf_flow_lines lines = HF_INIT(hf_flow_lines);
     if (pass == 0) lines.wanted_count = 12;
-    if (pass == 1) lines.seed_count = 1, lines.seeds = &seed;
+    if (pass == 1) {
+      lines.seed_count = 1;
+      lines.seeds = &seed;
+    }
     assert_ok(hf_flow_trace(flow, &field, &lines));
     assert_int_equal(lines.line_count, pass == 0 ? 12 : 1);
     double* positions = calloc(lines.point_count, 3 * sizeof *positions);
     double* values = calloc(lines.point_count, sizeof *values);
     uint32_t starts[13], ends[24];
-    lines.positions = positions, lines.values = values, lines.line_starts = starts, lines.line_ends = ends;
-    lines.point_capacity = lines.point_count - 1, lines.line_capacity = 12;
+    lines.positions = positions;
+    lines.values = values;
+    lines.line_starts = starts;
+    lines.line_ends = ends;
+    lines.point_capacity = lines.point_count - 1;
+    lines.line_capacity = 12;
     assert_code(HF_ERROR_TOO_SMALL, hf_flow_trace(flow, &field, &lines));
     lines.point_capacity = lines.point_count;
     assert_ok(hf_flow_trace(flow, &field, &lines));
@@ -302,13 +377,15 @@ static void flow_lines_rise_and_outlive_the_surface(void** state) {
       assert_true(fabs(values[starts[l]] - height[ends[2 * l]]) < 1e-12);
       assert_true(fabs(values[starts[l + 1] - 1] - height[ends[2 * l + 1]]) < 1e-12);
     }
-    free(positions), free(values);
+    free(positions);
+    free(values);
   }
   height[5] = NAN;
   hf_flow_lines lines = HF_INIT(hf_flow_lines);
   lines.wanted_count = 3;
   assert_code(HF_ERROR_NON_FINITE, hf_flow_trace(flow, &field, &lines));
-  hf_flow_destroy(flow), hf_flow_destroy(flow);
+  hf_flow_destroy(flow);
+  hf_flow_destroy(flow);
   surface_free(&mesh);
 }
 
@@ -328,7 +405,10 @@ static void cancelling_leaves_nothing_and_stops_one_call(void** state) {
   float done = 0;
   assert_ok(hf_progress_get_fraction(progress, &done));
   assert_true(done == 1.0f);
-  hf_quads_destroy(quads), hf_progress_destroy(progress), hf_surface_destroy(surface), surface_free(&mesh);
+  hf_quads_destroy(quads);
+  hf_progress_destroy(progress);
+  hf_surface_destroy(surface);
+  surface_free(&mesh);
 }
 
 /* A host's allocator that looks at the progress whenever the library asks for memory. */
@@ -345,7 +425,8 @@ static void* watch(void* user, size_t size, size_t alignment) {
     if (now < watcher->last) ++watcher->falls;
     if (now > watcher->last) {
       if (now - watcher->last > watcher->largest_step) watcher->largest_step = now - watcher->last;
-      ++watcher->values, watcher->last = now;
+      ++watcher->values;
+      watcher->last = now;
     }
     if (now >= watcher->cancel_at) hf_progress_cancel(watcher->progress);
   }
@@ -378,22 +459,28 @@ static void progress_rises_in_small_steps_and_stops_where_it_is_cancelled(void**
     hf_quads_desc desc = quads_desc();
     desc.progress = watcher.progress;
     if (counted) desc.face_count = 300;
-    watcher.last = watcher.largest_step = 0, watcher.values = watcher.falls = 0, watcher.cancel_at = 2;
+    watcher.last = watcher.largest_step = 0;
+    watcher.values = watcher.falls = 0;
+    watcher.cancel_at = 2;
     hf_quads quads = NULL;
     assert_ok(hf_quads_create(surface, &desc, &quads));
     assert_int_equal(watcher.falls, 0);
     assert_true(watcher.values >= 10);
     assert_true(watcher.largest_step <= 0.4f); /* trials that are not needed are passed over */
-    hf_quads_destroy(quads), quads = NULL;
+    hf_quads_destroy(quads);
+    quads = NULL;
     for (float at = 0.05f; at < 0.5f; at += 0.2f) { /* it passes 0.6 in one step where nothing is left to fit */
-      watcher.last = 0, watcher.cancel_at = at;
+      watcher.last = 0;
+      watcher.cancel_at = at;
       assert_code(HF_ERROR_CANCELLED, hf_quads_create(surface, &desc, &quads));
       assert_null(quads);
       assert_true(watcher.last >= at);
     }
   }
-  hf_progress_destroy(watcher.progress), watcher.progress = NULL;
-  hf_surface_destroy(surface), surface_free(&mesh);
+  hf_progress_destroy(watcher.progress);
+  watcher.progress = NULL;
+  hf_surface_destroy(surface);
+  surface_free(&mesh);
 }
 
 static void bad_input_is_named(void** state) {
@@ -407,17 +494,24 @@ static void bad_input_is_named(void** state) {
   assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_create(NULL, &desc, &quads));
   desc.struct_size = 4;
   assert_code(HF_ERROR_INVALID_DESC, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.pole_count = 3;
+  desc = quads_desc();
+  desc.pole_count = 3;
   assert_code(HF_ERROR_NULL_POINTER, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.edge_length = -1;
+  desc = quads_desc();
+  desc.edge_length = -1;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.edge_length = NAN;
+  desc = quads_desc();
+  desc.edge_length = NAN;
   assert_code(HF_ERROR_NON_FINITE, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.edge_length = 1e9f;
+  desc = quads_desc();
+  desc.edge_length = 1e9f;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.relax_count = 1001;
+  desc = quads_desc();
+  desc.relax_count = 1001;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
-  desc = quads_desc(), desc.crease_count = 2, desc.crease_edges = edge;
+  desc = quads_desc();
+  desc.crease_count = 2;
+  desc.crease_edges = edge;
   assert_code(HF_ERROR_OUT_OF_RANGE, hf_quads_create(surface, &desc, &quads));
   hf_error_detail detail;
   assert_ok(hf_error_get_detail(&detail));
@@ -436,11 +530,14 @@ static void bad_input_is_named(void** state) {
   out.wanted_count = 1;
   assert_code(HF_ERROR_NULL_POINTER, hf_flow_trace(flow, &field, NULL));
   assert_code(HF_ERROR_NULL_POINTER, hf_flow_trace(flow, NULL, &out));
-  out.seed_count = 1, out.seeds = beyond;
+  out.seed_count = 1;
+  out.seeds = beyond;
   assert_code(HF_ERROR_OUT_OF_RANGE, hf_flow_trace(flow, &field, &out));
   out.reserved = 1;
   assert_code(HF_ERROR_INVALID_DESC, hf_flow_trace(flow, &field, &out));
-  hf_flow_destroy(flow), hf_surface_destroy(surface), surface_free(&mesh);
+  hf_flow_destroy(flow);
+  hf_surface_destroy(surface);
+  surface_free(&mesh);
 }
 
 static void mostly_non_manifold_triangles_are_refused_with_a_vertex(void** state) {
@@ -448,7 +545,10 @@ static void mostly_non_manifold_triangles_are_refused_with_a_vertex(void** state
   const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, -1};
   const uint32_t triangles[] = {0, 1, 2, 1, 0, 3, 0, 1, 4};
   hf_surface_desc create = HF_INIT(hf_surface_desc);
-  create.vertex_count = 5, create.triangle_count = 3, create.positions = positions, create.triangles = triangles;
+  create.vertex_count = 5;
+  create.triangle_count = 3;
+  create.positions = positions;
+  create.triangles = triangles;
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&create, &surface));
   hf_quads quads = NULL;
@@ -479,12 +579,16 @@ static void very_many_quads_must_be_asked_for(void** state) {
     const double angle = 6.283185307179586 * i / STEPS;
     for (uint32_t k = 0; k < 2; ++k) {
       float* p = positions + 3 * (2 * i + k);
-      p[0] = (float)((1 + 9 * k) * cos(angle)), p[1] = (float)((1 + 9 * k) * sin(angle)), p[2] = 1e-4f * (float)i;
+      p[0] = (float)((1 + 9 * k) * cos(angle));
+      p[1] = (float)((1 + 9 * k) * sin(angle));
+      p[2] = 1e-4f * (float)i;
     }
   }
   for (uint32_t i = 0; i < RIM; ++i) add_square(triangles, 6 * i, 2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3);
   hf_surface_desc create = HF_INIT(hf_surface_desc);
-  create.vertex_count = 2 * RIM + 2, create.triangle_count = 2 * RIM, create.positions = positions;
+  create.vertex_count = 2 * RIM + 2;
+  create.triangle_count = 2 * RIM;
+  create.positions = positions;
   create.triangles = triangles;
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&create, &surface));
@@ -502,11 +606,15 @@ static void a_non_manifold_edge_is_parted(void** state) {
   float positions[3 * (SHEET + N + 1)];
   uint32_t triangles[18 * N * N], count = 0;
   for (uint32_t v = 0; v < SHEET; ++v) {
-    positions[3 * v] = (float)(v % (N + 1)), positions[3 * v + 1] = (float)(v / (N + 1)), positions[3 * v + 2] = 0;
+    positions[3 * v] = (float)(v % (N + 1));
+    positions[3 * v + 1] = (float)(v / (N + 1));
+    positions[3 * v + 2] = 0;
   }
   for (uint32_t i = 0; i <= N; ++i) {
     float* p = positions + 3 * (SHEET + i);
-    p[0] = (float)i, p[1] = 6, p[2] = 2;
+    p[0] = (float)i;
+    p[1] = 6;
+    p[2] = 2;
   }
   for (uint32_t q = 0; q < N * N; ++q) {
     const uint32_t a = q / N * (N + 1) + q % N, c = a + N + 1;
@@ -517,8 +625,10 @@ static void a_non_manifold_edge_is_parted(void** state) {
     count = add_square(triangles, count, a, a + 1, c, c + 1);
   }
   hf_surface_desc create = HF_INIT(hf_surface_desc);
-  create.vertex_count = SHEET + N + 1, create.triangle_count = count / 3;
-  create.positions = positions, create.triangles = triangles;
+  create.vertex_count = SHEET + N + 1;
+  create.triangle_count = count / 3;
+  create.positions = positions;
+  create.triangles = triangles;
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&create, &surface));
   hf_surface_report report = HF_INIT(hf_surface_report);
@@ -537,7 +647,9 @@ static void a_non_manifold_edge_is_parted(void** state) {
   static double places[3 * MOST];
   static uint32_t corners[4 * MOST];
   hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
-  mesh.vertex_capacity = mesh.face_capacity = MOST, mesh.positions = places, mesh.faces = corners;
+  mesh.vertex_capacity = mesh.face_capacity = MOST;
+  mesh.positions = places;
+  mesh.faces = corners;
   assert_ok(hf_quads_get_mesh(quads, &mesh));
   uint32_t copies = 0;
   for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
@@ -547,7 +659,8 @@ static void a_non_manifold_edge_is_parted(void** state) {
       if (corners[c] != v) continue;
       double top = 0;
       for (uint32_t k = 0; k < 4; ++k) top = fmax(top, places[3 * corners[c / 4 * 4 + k] + 2]);
-      ++around, upright += top > 0.1;
+      ++around;
+      upright += top > 0.1;
     }
     assert_true((around == 4 && upright == 0) || (around == 2 && upright == 2));
     ++copies;
@@ -556,7 +669,8 @@ static void a_non_manifold_edge_is_parted(void** state) {
   hf_quads_destroy(quads);
   hf_flow flow = NULL;
   assert_ok(hf_flow_create(surface, &flow));
-  hf_flow_destroy(flow), hf_surface_destroy(surface);
+  hf_flow_destroy(flow);
+  hf_surface_destroy(surface);
 }
 
 /* One vertex is so far away that two others, at 4e-19 from each other, become one place inside: their triangles have no
@@ -572,25 +686,31 @@ static void triangles_whose_angles_are_lost_in_rounding_get_quads(void** state) 
   double positions[ROWS * COLUMNS][3];
   uint32_t triangles[6 * (ROWS - 1) * (COLUMNS - 1)], count = 0;
   for (uint32_t v = 0; v < ROWS * COLUMNS; ++v) {
-    positions[v][0] = v / COLUMNS, positions[v][1] = v % COLUMNS, positions[v][2] = 0;
+    positions[v][0] = v / COLUMNS;
+    positions[v][1] = v % COLUMNS;
+    positions[v][2] = 0;
     if (v / COLUMNS + 1 == ROWS || v % COLUMNS + 1 == COLUMNS) continue;
     const uint32_t square[] = {v, v + COLUMNS, v + COLUMNS + 1, v, v + COLUMNS + 1, v + 1};
     for (int k = 0; k < 6; ++k) triangles[count++] = square[k];
   }
   for (size_t i = 0; i < COUNT_OF(moved); ++i) memcpy(positions[moved[i].vertex], moved[i].place, sizeof positions[0]);
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = ROWS * COLUMNS, desc.positions_f64 = &positions[0][0];
-  desc.triangle_count = count / 3, desc.triangles = triangles;
+  desc.vertex_count = ROWS * COLUMNS;
+  desc.positions_f64 = &positions[0][0];
+  desc.triangle_count = count / 3;
+  desc.triangles = triangles;
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&desc, &surface));
   hf_quads_desc options = HF_INIT(hf_quads_desc);
-  options.face_count = 21, options.relax_count = NO_INDEX;
+  options.face_count = 21;
+  options.relax_count = NO_INDEX;
   hf_quads quads = NULL;
   assert_ok(hf_quads_create(surface, &options, &quads));
   hf_quads_info info = HF_INIT(hf_quads_info);
   assert_ok(hf_quads_get_info(quads, &info));
   assert_int_equal(info.euler_characteristic, 1);
-  hf_quads_destroy(quads), hf_surface_destroy(surface);
+  hf_quads_destroy(quads);
+  hf_surface_destroy(surface);
 }
 
 int main(void) {

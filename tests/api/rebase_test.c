@@ -37,7 +37,8 @@ static void edits_and_fields_go_on_while_a_rebase_is_prepared(void** state) {
   for (uint32_t i = 0; i < 100; ++i) add_site(solver, 31 * i, (double)(i % 7));
   double* before = field_of(solver, VERTICES);
   pthread_t thread;
-  prepared = HF_OK, finished = 0;
+  prepared = HF_OK;
+  finished = 0;
   assert_int_equal(pthread_create(&thread, NULL, prepare, solver), 0);
   for (uint32_t round = 0; !is_finished() && round < 3000; ++round) {
     const uint32_t site = add_site(solver, 31 * (round % 90) + 5, 2.5);
@@ -56,7 +57,8 @@ static void edits_and_fields_go_on_while_a_rebase_is_prepared(void** state) {
   assert_int_equal(statistics.last_route, HF_ROUTE_DENSE);
   double* after = field_of(solver, VERTICES);
   for (uint32_t v = 0; v < VERTICES; ++v) assert_true(fabs(before[v] - after[v]) <= 1e-11);
-  free(before), free(after);
+  free(before);
+  free(after);
   hf_solver_destroy(solver);
   surface_free(&sheet);
 }
@@ -94,7 +96,9 @@ static void a_disc_is_one_site(void** state) {
   free(field);
   double got_radii[2], flux[2];
   hf_sites_info info = HF_INIT(hf_sites_info);
-  info.capacity = 2, info.radii = got_radii, info.flux = flux;
+  info.capacity = 2;
+  info.radii = got_radii;
+  info.flux = flux;
   assert_ok(hf_solver_get_sites(solver, &info));
   assert_true(got_radii[0] == 4.5 && got_radii[1] == 0);
   assert_true(fabs(flux[0] + flux[1]) <= 1e-10 && flux[1] > 0.1);
@@ -132,7 +136,8 @@ static double memory_of(hf_surface surface) {
 static Seen look(hf_surface surface, hf_solver solver) {
   Seen seen;
   seen.field = field_of(solver, VERTICES); /* first: a solve counts as a sweep */
-  seen.statistics = statistics_of(solver), seen.memory_bytes = memory_of(surface);
+  seen.statistics = statistics_of(solver);
+  seen.memory_bytes = memory_of(surface);
   return seen;
 }
 
@@ -156,7 +161,10 @@ static void assert_unchanged(const Seen* before, hf_surface surface, hf_solver s
 
 static hf_result add_point(hf_solver solver, uint32_t triangle, const double* weights, double value) {
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
-  sites.site_count = 1, sites.triangles = &triangle, sites.barycentrics = weights, sites.values = &value;
+  sites.site_count = 1;
+  sites.triangles = &triangle;
+  sites.barycentrics = weights;
+  sites.values = &value;
   return hf_add_sites(solver, &sites, NULL);
 }
 
@@ -181,7 +189,8 @@ static void a_refused_edit_leaves_a_waiting_rebase_where_it_is(void** state) {
   REFUSED(HF_ERROR_NO_RECORD, hf_solver_undo(solver));
   assert_ok(hf_solver_set_values(solver, 1, &first, &value)); /* takes it over */
   assert_int_equal(statistics_of(solver).eliminated_count, 3);
-  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   surface_free(&sheet);
 }
 
@@ -222,7 +231,8 @@ static void a_point_and_its_corners_are_refused_on_every_route(void** state) {
   const hf_sites_desc two = sites_at(2, vertices, values);
   assert_ok(hf_add_sites(solver, &two, NULL));
   assert_int_equal(statistics_of(solver).eliminated_count, MANY - 3);
-  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   surface_free(&sheet);
 }
 

@@ -26,11 +26,13 @@ static void a_frame_without_pairs_keeps_no_normals(void** state) {
   assert_ok(hf_transfer_create(surface, surface, NULL, &transfer));
   float posed[3 * COUNT] = {0}, normals[3 * COUNT];
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = posed, frame.target_normals = normals;
+  frame.source_positions = posed;
+  frame.target_normals = normals;
   const size_t before = memory.live_bytes;
   assert_code(HF_ERROR_EMPTY, hf_transfer_apply(transfer, &frame));
   assert_int_equal(memory.live_bytes, before);
-  hf_transfer_destroy(transfer), hf_surface_destroy(surface);
+  hf_transfer_destroy(transfer);
+  hf_surface_destroy(surface);
   assert_int_equal(memory.live_blocks, 0);
 }
 
@@ -75,7 +77,8 @@ static void a_refused_undo_takes_no_room(void** state) {
   assert_ok(result);
   assert_true(n > 2);
   assert_int_equal(hf_direction_get_site_count(direction), 0);
-  hf_direction_destroy(direction), hf_surface_destroy(surface);
+  hf_direction_destroy(direction);
+  hf_surface_destroy(surface);
 }
 
 static void a_refused_edit_counts_no_factorisation(void** state) {
@@ -89,7 +92,9 @@ static void a_refused_edit_counts_no_factorisation(void** state) {
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
   const uint32_t triangle = 4;
   const double weights[3] = {0.25, 0.25, 0.5};
-  sites.site_count = 1, sites.triangles = &triangle, sites.barycentrics = weights;
+  sites.site_count = 1;
+  sites.triangles = &triangle;
+  sites.barycentrics = weights;
   assert_ok(hf_add_sites(solver, &sites, NULL));
   const uint32_t second = add_site(solver, 60, 1);
   hf_solver_statistics before = HF_INIT(hf_solver_statistics), now = HF_INIT(hf_solver_statistics);
@@ -102,7 +107,8 @@ static void a_refused_edit_counts_no_factorisation(void** state) {
     assert_memory_equal(&now, &before, sizeof now);
   }
   assert_int_equal(now.factorisation_count, before.factorisation_count + 1);
-  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
 }
 
 /* Two handles of two rings, the upper one turned; one on a layer above if asked. */
@@ -113,7 +119,10 @@ static hf_pose posed(hf_surface surface, int layered, uint32_t handles[2]) {
     hf_handles_desc above = HF_INIT(hf_handles_desc);
     const double point[3] = {1, 4, 0}, radius = 0.1;
     uint32_t number = 0;
-    above.handle_count = 1, above.points = point, above.radii = &radius, above.layer = 1;
+    above.handle_count = 1;
+    above.points = point;
+    above.radii = &radius;
+    above.layer = 1;
     assert_ok(hf_pose_add_handles(pose, &above, &number));
     assert_ok(hf_pose_set_transform(pose, number, &turn));
   }
@@ -131,11 +140,13 @@ static void a_refused_full_mesh_step_leaves_the_pose_where_it_was(void** state) 
     const hf_pose pose = posed(surface, layered, handles), twin = posed(surface, layered, others);
     float frame[3 * COUNT], expected[3 * COUNT];
     hf_deform_desc desc = HF_INIT(hf_deform_desc);
-    desc.positions = frame, desc.refine = 1 + 2 * layered; /* several steps keep more */
-    if (kind >= 2) {                                       /* the refused steps go on from another frame */
+    desc.positions = frame;
+    desc.refine = 1 + 2 * layered; /* several steps keep more */
+    if (kind >= 2) {               /* the refused steps go on from another frame */
       desc.refine_from_last = 1;
       const hf_transform more = {{0, 0.4, 0.1, 0.8}, {0.6, 0.3, 0}};
-      assert_ok(hf_pose_deform(pose, &desc, NULL)), assert_ok(hf_pose_deform(twin, &desc, NULL));
+      assert_ok(hf_pose_deform(pose, &desc, NULL));
+      assert_ok(hf_pose_deform(twin, &desc, NULL));
       assert_ok(hf_pose_set_transform(pose, handles[1], &more));
       assert_ok(hf_pose_set_transform(twin, others[1], &more));
     }
@@ -151,7 +162,9 @@ static void a_refused_full_mesh_step_leaves_the_pose_where_it_was(void** state) 
     desc.positions = expected;
     assert_ok(hf_pose_deform(twin, &desc, NULL)); /* the same frame, never refused */
     assert_memory_equal(frame, expected, sizeof frame);
-    hf_pose_destroy(pose), hf_pose_destroy(twin), hf_surface_destroy(surface);
+    hf_pose_destroy(pose);
+    hf_pose_destroy(twin);
+    hf_surface_destroy(surface);
     assert_int_equal(memory.live_blocks, 0);
   }
 }
@@ -168,7 +181,8 @@ static void a_batch_with_a_disc_keeps_to_the_limit(void** state) {
   hf_solver_desc desc = HF_INIT(hf_solver_desc);
   desc.site_limit = 12;
   hf_solver one = NULL, batch = NULL;
-  assert_ok(hf_create(surface, &desc, &one)), assert_ok(hf_create(surface, &desc, &batch));
+  assert_ok(hf_create(surface, &desc, &one));
+  assert_ok(hf_create(surface, &desc, &batch));
   hf_sites_desc sites = sites_at(1, vertices, NULL);
   sites.radii = radii;
   assert_ok(hf_add_sites(one, &sites, NULL));
@@ -180,7 +194,9 @@ static void a_batch_with_a_disc_keeps_to_the_limit(void** state) {
   assert_int_equal(hf_solver_get_site_count(batch), 0);
   sites.site_count = count;
   assert_ok(hf_add_sites(batch, &sites, NULL));
-  hf_solver_destroy(one), hf_solver_destroy(batch), hf_surface_destroy(surface);
+  hf_solver_destroy(one);
+  hf_solver_destroy(batch);
+  hf_surface_destroy(surface);
 }
 
 int main(void) {

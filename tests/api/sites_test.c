@@ -15,7 +15,8 @@ static double tolerance_of(int32_t engine) { return engine == HF_ENGINE_UPDOWN ?
 
 static hf_solver solver_of(int32_t engine, uint32_t channels) {
   Options desc = options_of(&sheet);
-  desc.solver.engine = engine, desc.solver.channel_count = channels;
+  desc.solver.engine = engine;
+  desc.solver.channel_count = channels;
   hf_solver solver = NULL;
   assert_ok(make(&desc, NULL, &solver));
   return solver;
@@ -49,7 +50,10 @@ static void a_linear_function_on_the_border_is_continued_inside(void** state) {
     for (uint32_t v = 0; v < VERTICES; ++v) {
       const uint32_t i = v % (COLUMNS + 1), j = v / (COLUMNS + 1);
       if (i != 0 && j != 0 && i != COLUMNS && j != ROWS_) continue;
-      border[n] = v, values[2 * n] = 3.0 * i - 2.0 * j, values[2 * n + 1] = 1e4 + 0.5 * j, ++n;
+      border[n] = v;
+      values[2 * n] = 3.0 * i - 2.0 * j;
+      values[2 * n + 1] = 1e4 + 0.5 * j;
+      ++n;
     }
     assert_int_equal(n, COUNT_OF(border));
     const hf_sites_desc sites = sites_at(n, border, values);
@@ -82,14 +86,19 @@ static void hard_sites_are_exact_and_soft_ones_give_way(void** state) {
   double flux[3], held[3], stiff[3];
   uint32_t at[3], component[3];
   hf_sites_info info = HF_INIT(hf_sites_info);
-  info.capacity = 3, info.flux = flux, info.values = held, info.stiffness = stiff, info.vertices = at,
+  info.capacity = 3;
+  info.flux = flux;
+  info.values = held;
+  info.stiffness = stiff;
+  info.vertices = at;
   info.components = component;
   assert_ok(hf_solver_get_sites(solver, &info));
   assert_true(fabs(flux[0] + flux[1] + flux[2]) < 1e-12);
   assert_true(same_bits(held, values, sizeof held) && same_bits(stiff, stiffness, sizeof stiff) &&
               same_bits(at, vertices, sizeof at));
   assert_true(component[0] == 0 && component[1] == 0 && component[2] == 0);
-  free(field), hf_solver_destroy(solver);
+  free(field);
+  hf_solver_destroy(solver);
 }
 
 static void sites_in_triangles_hold_at_their_point(void** state) {
@@ -99,7 +108,10 @@ static void sites_in_triangles_hold_at_their_point(void** state) {
     const uint32_t triangles[2] = {30, 200};
     const double weights[6] = {0.2, 0.3, 0.5, 0.6, 0.4, 0.0}, values[2] = {4, -3};
     hf_sites_desc sites = HF_INIT(hf_sites_desc);
-    sites.site_count = 2, sites.triangles = triangles, sites.barycentrics = weights, sites.values = values;
+    sites.site_count = 2;
+    sites.triangles = triangles;
+    sites.barycentrics = weights;
+    sites.values = values;
     uint32_t numbers[2], at[2];
     assert_ok(hf_add_sites(solver, &sites, numbers));
     double* field = field_of(solver, VERTICES);
@@ -109,10 +121,12 @@ static void sites_in_triangles_hold_at_their_point(void** state) {
       assert_true(fabs(value - values[s]) < 10 * tolerance_of(engines[e]));
     }
     hf_sites_info info = HF_INIT(hf_sites_info);
-    info.capacity = 2, info.vertices = at;
+    info.capacity = 2;
+    info.vertices = at;
     assert_ok(hf_solver_get_sites(solver, &info));
     assert_true(at[0] == HF_NO_INDEX && at[1] == HF_NO_INDEX);
-    free(field), hf_solver_destroy(solver);
+    free(field);
+    hf_solver_destroy(solver);
   }
 }
 
@@ -136,9 +150,14 @@ static void a_batch_is_the_same_as_its_single_calls(void** state) {
     assert_ok(hf_add_sites(one, &more, &added_one));
 
     hf_edit_desc edit = HF_INIT(hf_edit_desc);
-    edit.remove_count = 1, edit.remove_sites = &b[0];
-    edit.move_count = 1, edit.move_sites = &b[1], edit.move_to = &to;
-    edit.set_count = 1, edit.set_sites = &b[2], edit.set_values = &set_value;
+    edit.remove_count = 1;
+    edit.remove_sites = &b[0];
+    edit.move_count = 1;
+    edit.move_sites = &b[1];
+    edit.move_to = &to;
+    edit.set_count = 1;
+    edit.set_sites = &b[2];
+    edit.set_values = &set_value;
     edit.add = &more;
     assert_ok(hf_solver_edit_sites(many, &edit, &added_many));
     assert_int_equal(added_one, added_many);
@@ -147,20 +166,26 @@ static void a_batch_is_the_same_as_its_single_calls(void** state) {
     double *x = field_of(one, VERTICES), *y = field_of(many, VERTICES);
     for (int v = 0; v < VERTICES; ++v) assert_true(fabs(x[v] - y[v]) < 14 * tolerance_of(engines[e]));
     assert_true(fabs(x[99] - 2) < 14 * tolerance_of(engines[e]) && fabs(x[77] + 5) < 14 * tolerance_of(engines[e]));
-    free(x), free(y), hf_solver_destroy(one), hf_solver_destroy(many);
+    free(x);
+    free(y);
+    hf_solver_destroy(one);
+    hf_solver_destroy(many);
   }
 }
 
 static void an_empty_batch_changes_nothing(void** state) {
   (void)state;
   hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
-  add_site(solver, 3, 1), add_site(solver, 100, 2);
+  add_site(solver, 3, 1);
+  add_site(solver, 100, 2);
   double* before = field_of(solver, VERTICES);
   hf_edit_desc edit = HF_INIT(hf_edit_desc);
   assert_ok(hf_solver_edit_sites(solver, &edit, NULL));
   double* after = field_of(solver, VERTICES);
   assert_true(same_bits(before, after, sizeof(double) * VERTICES));
-  free(before), free(after), hf_solver_destroy(solver);
+  free(before);
+  free(after);
+  hf_solver_destroy(solver);
 }
 
 static void sites_may_swap_places_in_one_move(void** state) {
@@ -171,7 +196,8 @@ static void sites_may_swap_places_in_one_move(void** state) {
   assert_ok(hf_solver_move_sites(solver, 2, numbers, &to));
   double* field = field_of(solver, VERTICES);
   assert_true(field[20] == 2 && field[130] == 1);
-  free(field), hf_solver_destroy(solver);
+  free(field);
+  hf_solver_destroy(solver);
 }
 
 static void all_engines_agree_after_edits(void** state) {
@@ -231,7 +257,8 @@ static void solving_at_vertices_equals_solving_everywhere(void** state) {
 static void the_list_of_solve_at_may_lie_in_its_output(void** state) {
   (void)state;
   hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
-  add_site(solver, 3, 1), add_site(solver, 100, 2);
+  add_site(solver, 3, 1);
+  add_site(solver, 100, 2);
   const uint32_t ask[6] = {5, 50, 99, 100, 3, 7};
   double apart[6];
   union {
@@ -375,7 +402,8 @@ static void edits_never_factorise_again(void** state) {
   double* field = field_of(solver, VERTICES);
   assert_true(statistics_of(solver).sweep_count > edited.sweep_count);
   assert_int_equal(statistics_of(solver).factorisation_count, 0);
-  free(field), hf_solver_destroy(solver);
+  free(field);
+  hf_solver_destroy(solver);
 }
 
 static void values_may_be_set_without_the_factor_being_touched(void** state) {
@@ -390,17 +418,25 @@ static void values_may_be_set_without_the_factor_being_touched(void** state) {
   double* field = field_of(solver, VERTICES);
   for (int v = 0; v < VERTICES; ++v)
     assert_true(fabs(field[v] - (-4 + 20 * unit[v])) < 1e-11); /* fields are linear in the values */
-  free(unit), free(field), hf_solver_destroy(solver);
+  free(unit);
+  free(field);
+  hf_solver_destroy(solver);
 }
 
 static void values_around_a_million_lose_nothing(void** state) {
   (void)state;
   hf_solver solver = solver_of(HF_ENGINE_GREEN, 1), shifted = solver_of(HF_ENGINE_GREEN, 1);
   const uint32_t at[3] = {0, 80, VERTICES - 1};
-  for (int i = 0; i < 3; ++i) add_site(solver, at[i], i), add_site(shifted, at[i], 1e6 + i);
+  for (int i = 0; i < 3; ++i) {
+    add_site(solver, at[i], i);
+    add_site(shifted, at[i], 1e6 + i);
+  }
   double *x = field_of(solver, VERTICES), *y = field_of(shifted, VERTICES);
   for (int v = 0; v < VERTICES; ++v) assert_true(fabs(y[v] - 1e6 - x[v]) < 2e-8);
-  free(x), free(y), hf_solver_destroy(solver), hf_solver_destroy(shifted);
+  free(x);
+  free(y);
+  hf_solver_destroy(solver);
+  hf_solver_destroy(shifted);
 }
 
 int main(void) {

@@ -25,7 +25,9 @@ static hf_surface surface_of_kind(const Surface* mesh, int32_t kind, CountingAll
 }
 
 static void add_some(hf_solver solver) {
-  add_site(solver, 3, 1), add_site(solver, COUNT - 5, -2), add_site(solver, COUNT / 2, 0.5);
+  add_site(solver, 3, 1);
+  add_site(solver, COUNT - 5, -2);
+  add_site(solver, COUNT / 2, 0.5);
 }
 
 static double memory_of(hf_surface surface) {
@@ -53,14 +55,16 @@ typedef struct Household {
 static void create_all(Household* h, const Surface* tube) {
   memset(h, 0, sizeof *h);
   h->surface = surface_of_kind(tube, HF_FIELD_HARMONIC, &h->memory);
-  h->solver = solver_on(h->surface), h->plate = solver_of_kind(h->surface, HF_FIELD_BIHARMONIC);
+  h->solver = solver_on(h->surface);
+  h->plate = solver_of_kind(h->surface, HF_FIELD_BIHARMONIC);
   uint32_t handles[2];
   h->pose = tube_pose(h->surface, AROUND, RINGS, handles);
   assert_ok(hf_transfer_create(h->surface, h->surface, NULL, &h->transfer));
   uint32_t* ends = tube_ends(AROUND, RINGS);
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND}, inside[6] = {40, 41, 42, 52, 53, 54};
   hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts;
+  pairs.pair_count = 2;
+  pairs.source_counts = pairs.target_counts = counts;
   pairs.source_vertices = pairs.target_vertices = ends;
   assert_ok(hf_transfer_add_pairs(h->transfer, &pairs, NULL));
   free(ends);
@@ -68,13 +72,15 @@ static void create_all(Household* h, const Surface* tube) {
   assert_ok(hf_direction_create(h->surface, NULL, &h->direction));
   assert_ok(hf_direction_add_sites(h->direction, 1, inside, up, NULL));
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-  edit.add_count = 6, edit.add_vertices = inside;
+  edit.add_count = 6;
+  edit.add_vertices = inside;
   assert_ok(hf_region_create(h->surface, NULL, &h->region));
   assert_ok(hf_region_edit(h->region, &edit));
   assert_ok(hf_detail_create(h->region, h->region, NULL, &h->detail));
   assert_ok(hf_geodesics_create(h->surface, NULL, &h->geodesics));
   hf_quads_desc quads = HF_INIT(hf_quads_desc);
-  quads.edge_length = 2, quads.relax_count = 1;
+  quads.edge_length = 2;
+  quads.relax_count = 1;
   assert_ok(hf_quads_create(h->surface, &quads, &h->quads));
   assert_ok(hf_flow_create(h->surface, &h->flow));
 }
@@ -92,11 +98,13 @@ static void use_member(Household* h, int member, const Surface* tube) {
   double values[COUNT];
   const uint32_t vertex = 40;
   hf_morph_desc morph = HF_INIT(hf_morph_desc);
-  morph.positions = positions, morph.weight = 0.5;
+  morph.positions = positions;
+  morph.weight = 0.5;
   switch (member) {
     case SURFACE: {
       hf_solver more = solver_of_kind(h->surface, HF_FIELD_BIHARMONIC);
-      solve_with(more), hf_solver_destroy(more);
+      solve_with(more);
+      hf_solver_destroy(more);
       break;
     }
     case SOLVER:
@@ -110,7 +118,8 @@ static void use_member(Household* h, int member, const Surface* tube) {
       break;
     case TRANSFER: {
       hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-      frame.source_positions = tube->positions, frame.target_positions = positions;
+      frame.source_positions = tube->positions;
+      frame.target_positions = positions;
       assert_ok(hf_transfer_apply(h->transfer, &frame));
       break;
     }
@@ -135,7 +144,8 @@ static void use_member(Household* h, int member, const Surface* tube) {
       for (uint32_t v = 0; v < COUNT; ++v) values[v] = (double)tube->positions[3 * v + 1] + 1e-3 * (v % AROUND);
       hf_scalars field = HF_INIT(hf_scalars);
       hf_flow_lines lines = HF_INIT(hf_flow_lines);
-      field.values_f64 = values, lines.wanted_count = 4;
+      field.values_f64 = values;
+      lines.wanted_count = 4;
       assert_ok(hf_flow_trace(h->flow, &field, &lines));
     }
   }
@@ -190,7 +200,8 @@ static void all_that_is_made_on_a_surface_may_be_destroyed_in_any_order(void** s
     for (int i = MEMBERS - 1; i > 0; --i) {
       seed = seed * 1664525u + 1013904223u;
       const int j = (int)((seed >> 16) % (unsigned)(i + 1)), kept = order[i];
-      order[i] = order[j], order[j] = kept;
+      order[i] = order[j];
+      order[j] = kept;
     }
     if (round == 0) { /* the surface first */
       for (int i = 0; i < MEMBERS; ++i) order[i] = i;
@@ -226,17 +237,22 @@ static void a_kind_asked_for_later_gives_the_bits_of_a_surface_made_with_it(void
       hf_region region = NULL;
       const uint32_t inside[6] = {40, 41, 42, 52, 53, 54};
       hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-      edit.add_count = 6, edit.add_vertices = inside;
+      edit.add_count = 6;
+      edit.add_vertices = inside;
       assert_ok(hf_region_create(surfaces[i], &desc, &region));
       assert_ok(hf_region_edit(region, &edit));
       hf_morph_desc morph = HF_INIT(hf_morph_desc);
-      morph.weight = 1, morph.positions_f64 = bases[i];
+      morph.weight = 1;
+      morph.positions_f64 = bases[i];
       assert_ok(hf_region_morph(region, &morph));
-      hf_region_destroy(region), hf_solver_destroy(solver);
+      hf_region_destroy(region);
+      hf_solver_destroy(solver);
     }
     assert_true(same_bits(fields[0], fields[1], sizeof(double) * COUNT));
     assert_true(same_bits(bases[0], bases[1], sizeof bases[0]));
-    free(fields[0]), free(fields[1]), hf_surface_destroy(own);
+    free(fields[0]);
+    free(fields[1]);
+    hf_surface_destroy(own);
   }
   /* and poses, which take the harmonic factor, on a surface that was made without it */
   const hf_surface plate = surface_of_kind(&tube, HF_FIELD_BIHARMONIC, NULL);
@@ -251,7 +267,9 @@ static void a_kind_asked_for_later_gives_the_bits_of_a_surface_made_with_it(void
     hf_pose_destroy(pose);
   }
   assert_true(same_bits(posed[0], posed[1], sizeof posed[0]));
-  hf_surface_destroy(plate), hf_surface_destroy(harmonic), surface_free(&tube);
+  hf_surface_destroy(plate);
+  hf_surface_destroy(harmonic);
+  surface_free(&tube);
 }
 
 static void the_second_kind_is_made_once_and_shared(void** state) {
@@ -264,14 +282,17 @@ static void the_second_kind_is_made_once_and_shared(void** state) {
   hf_solver plates[3] = {solver_of_kind(surface, HF_FIELD_BIHARMONIC), NULL, NULL};
   const double with = memory_of(surface);
   assert_true(with - first > 5 * cheap + 1e5); /* a factor was made ... */
-  plates[1] = solver_of_kind(surface, HF_FIELD_BIHARMONIC), plates[2] = solver_of_kind(surface, HF_FIELD_BIHARMONIC);
+  plates[1] = solver_of_kind(surface, HF_FIELD_BIHARMONIC);
+  plates[2] = solver_of_kind(surface, HF_FIELD_BIHARMONIC);
   const double added = memory_of(surface) - with;
   assert_true(added < 0.2 * (with - first)); /* ... and two more solvers share it */
   size_t size = 0;
   assert_ok(hf_surface_save(surface, HF_FIELD_BIHARMONIC, NULL, 0, NULL, &size));
   assert_true(size > 0 && memory_of(surface) - with < 0.2 * (with - first));
   for (int i = 0; i < 3; ++i) hf_solver_destroy(plates[i]);
-  hf_solver_destroy(harmonic), hf_surface_destroy(surface), surface_free(&sheet);
+  hf_solver_destroy(harmonic);
+  hf_surface_destroy(surface);
+  surface_free(&sheet);
 }
 
 static void every_kind_is_saved_and_loaded(void** state) {
@@ -286,9 +307,11 @@ static void every_kind_is_saved_and_loaded(void** state) {
     assert_int_equal(size, own_size);
     assert_true(same_bits(bytes, own_bytes, size));
     hf_factor_desc factor = HF_INIT(hf_factor_desc);
-    factor.bytes = bytes, factor.byte_count = size;
+    factor.bytes = bytes;
+    factor.byte_count = size;
     hf_surface_desc desc = options_of(&tube).surface;
-    desc.saved_factor = &factor, desc.field_kind = kinds[k];
+    desc.saved_factor = &factor;
+    desc.field_kind = kinds[k];
     hf_surface loaded = NULL;
     assert_ok(hf_surface_create(&desc, &loaded));
     hf_surface_statistics s = HF_INIT(hf_surface_statistics);
@@ -297,7 +320,8 @@ static void every_kind_is_saved_and_loaded(void** state) {
     unsigned char* again = saved_bytes(loaded, kinds[k], &again_size);
     assert_true(again_size == size && same_bits(again, bytes, size));
     hf_solver a = solver_of_kind(own, kinds[k]), b = solver_of_kind(loaded, kinds[k]);
-    add_some(a), add_some(b);
+    add_some(a);
+    add_some(b);
     double *expected = field_of(a, COUNT), *field = field_of(b, COUNT);
     assert_true(same_bits(field, expected, sizeof(double) * COUNT));
     /* the factor of one kind is none of another */
@@ -305,10 +329,18 @@ static void every_kind_is_saved_and_loaded(void** state) {
     desc.field_kind = kinds[(k + 1) % 3];
     assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &out));
     assert_null(out);
-    free(expected), free(field), free(bytes), free(own_bytes), free(again);
-    hf_solver_destroy(a), hf_solver_destroy(b), hf_surface_destroy(own), hf_surface_destroy(loaded);
+    free(expected);
+    free(field);
+    free(bytes);
+    free(own_bytes);
+    free(again);
+    hf_solver_destroy(a);
+    hf_solver_destroy(b);
+    hf_surface_destroy(own);
+    hf_surface_destroy(loaded);
   }
-  hf_surface_destroy(surface), surface_free(&tube);
+  hf_surface_destroy(surface);
+  surface_free(&tube);
 }
 
 static void getters_tell_what_was_asked_for(void** state) {
@@ -324,9 +356,16 @@ static void getters_tell_what_was_asked_for(void** state) {
   assert_true(info.ordering == 0 && info.thread_count == 1 && info.vertex_limit == 20000000);
   assert_true(info.triangle_limit == 0 && info.memory_limit_mb == 0 && info.work_limit_gflop == 100000);
   hf_surface_destroy(surface);
-  desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = 0.01f, desc.operator_kind = HF_OPERATOR_CLAMPED;
-  desc.field_kind = HF_FIELD_BIHARMONIC, desc.ordering = HF_ORDERING_MINIMUM_DEGREE, desc.thread_count = 3;
-  desc.vertex_limit = 5000, desc.triangle_limit = 9000, desc.memory_limit_mb = 200, desc.work_limit_gflop = 7;
+  desc.weld = HF_WELD_TOLERANCE;
+  desc.weld_tolerance = 0.01f;
+  desc.operator_kind = HF_OPERATOR_CLAMPED;
+  desc.field_kind = HF_FIELD_BIHARMONIC;
+  desc.ordering = HF_ORDERING_MINIMUM_DEGREE;
+  desc.thread_count = 3;
+  desc.vertex_limit = 5000;
+  desc.triangle_limit = 9000;
+  desc.memory_limit_mb = 200;
+  desc.work_limit_gflop = 7;
   assert_ok(hf_surface_create(&desc, &surface));
   assert_ok(hf_surface_get_info(surface, &info));
   assert_true(info.weld == HF_WELD_TOLERANCE && info.weld_tolerance == desc.weld_tolerance);
@@ -342,8 +381,11 @@ static void getters_tell_what_was_asked_for(void** state) {
   assert_true(made.site_count == 0 && made.penalty == 1e8 && made.vertex_count == COUNT);
   hf_solver_destroy(solver);
   hf_solver_desc asked = HF_INIT(hf_solver_desc);
-  asked.field_kind = HF_FIELD_BIHARMONIC_GRAPH, asked.engine = HF_ENGINE_REFACTOR, asked.channel_count = 2;
-  asked.site_limit = 17, asked.penalty = 1e10;
+  asked.field_kind = HF_FIELD_BIHARMONIC_GRAPH;
+  asked.engine = HF_ENGINE_REFACTOR;
+  asked.channel_count = 2;
+  asked.site_limit = 17;
+  asked.penalty = 1e10;
   assert_ok(hf_create(surface, &asked, &solver));
   const double values[2] = {3, 4};
   uint32_t site = NO_INDEX;
@@ -371,14 +413,18 @@ static void getters_tell_what_was_asked_for(void** state) {
     assert_true(posed.samples_per_ring == 0 && posed.handle_count == 1 && posed.vertex_count == COUNT);
     if (mode == HF_DEFORM_SMOOTH) assert_int_equal(posed.group_count, 250);
     hf_pose_destroy(pose);
-    plain.band_count = 5, plain.iteration_count = 6, plain.samples_per_ring = 7, plain.group_count = 8;
+    plain.band_count = 5;
+    plain.iteration_count = 6;
+    plain.samples_per_ring = 7;
+    plain.group_count = 8;
     assert_ok(hf_pose_create(surface, &plain, &pose));
     assert_ok(hf_pose_get_info(pose, &posed));
     assert_true(posed.band_count == 5 && posed.iteration_count == 6 && posed.samples_per_ring == 7);
     assert_true(posed.group_count == 8 && posed.handle_count == 0);
     hf_pose_destroy(pose);
   }
-  hf_surface_destroy(surface), surface_free(&tube);
+  hf_surface_destroy(surface);
+  surface_free(&tube);
 }
 
 /* Holds threads until `missing` of them have come; macOS has no pthread_barrier_t. */
@@ -429,7 +475,9 @@ static void eight_threads_may_ask_for_a_missing_kind_at_once(void** state) {
     const hf_surface surface = surface_on(&tube);
     Start start = {PTHREAD_MUTEX_INITIALIZER, PTHREAD_COND_INITIALIZER, THREADS};
     for (int i = 0; i < THREADS; ++i) {
-      askers[i].start = &start, askers[i].surface = surface, askers[i].wrong = 0;
+      askers[i].start = &start;
+      askers[i].surface = surface;
+      askers[i].wrong = 0;
       askers[i].kind = round % 2 ? kinds[1 + i % 2] : kinds[1];
       assert_int_equal(pthread_create(&askers[i].thread, NULL, ask, &askers[i]), 0);
     }
@@ -440,9 +488,12 @@ static void eight_threads_may_ask_for_a_missing_kind_at_once(void** state) {
       add_some(solver);
       double* expected = field_of(solver, COUNT);
       assert_true(same_bits(askers[i].field, expected, sizeof(double) * COUNT));
-      free(expected), hf_solver_destroy(solver);
+      free(expected);
+      hf_solver_destroy(solver);
     }
-    pthread_cond_destroy(&start.complete), pthread_mutex_destroy(&start.mutex), hf_surface_destroy(surface);
+    pthread_cond_destroy(&start.complete);
+    pthread_mutex_destroy(&start.mutex);
+    hf_surface_destroy(surface);
   }
   surface_free(&tube);
 }

@@ -91,11 +91,15 @@ static void solvers_and_clones_work_on_their_own_threads(void** state) {
   for (size_t b = 0; b < COUNT_OF(bodies); ++b) {
     Worker workers[THREADS];
     memset(workers, 0, sizeof workers);
-    for (int i = 0; i < THREADS; ++i) workers[i].solver = shared, workers[i].expected = expected;
+    for (int i = 0; i < THREADS; ++i) {
+      workers[i].solver = shared;
+      workers[i].expected = expected;
+    }
     run_workers(workers, THREADS, bodies[b]);
     for (int i = 0; i < THREADS; ++i) assert_int_equal(workers[i].wrong, 0);
   }
-  hf_solver_destroy(shared), free(expected);
+  hf_solver_destroy(shared);
+  free(expected);
 }
 
 static void* reader(void* user) {
@@ -117,14 +121,19 @@ static void* reader(void* user) {
 static void many_threads_may_read_one_solver(void** state) {
   (void)state;
   hf_solver solver = surface_solver(&sheet);
-  add_site(solver, 0, 0), add_site(solver, VERTICES - 1, 1);
+  add_site(solver, 0, 0);
+  add_site(solver, VERTICES - 1, 1);
   double* expected = field_of(solver, VERTICES);
   Worker workers[THREADS];
   memset(workers, 0, sizeof workers);
-  for (int i = 0; i < THREADS; ++i) workers[i].solver = solver, workers[i].expected = expected;
+  for (int i = 0; i < THREADS; ++i) {
+    workers[i].solver = solver;
+    workers[i].expected = expected;
+  }
   run_workers(workers, THREADS, reader);
   for (int i = 0; i < THREADS; ++i) assert_int_equal(workers[i].wrong, 0);
-  free(expected), hf_solver_destroy(solver);
+  free(expected);
+  hf_solver_destroy(solver);
 }
 
 /* Odd workers change the site set, even ones read it. Every answer is HF_OK or HF_ERROR_BUSY, every field read is one
@@ -156,7 +165,8 @@ static void* contender(void* user) {
       pause_a_moment();
       w->wrong += result != HF_OK && result != HF_ERROR_BUSY;
       w->wrong += hf_solver_get_site_count(w->solver) % 2 != 0;
-      w->busy += result == HF_ERROR_BUSY, w->done += result == HF_OK;
+      w->busy += result == HF_ERROR_BUSY;
+      w->done += result == HF_OK;
       for (unsigned other = 1; result == HF_OK && other < THREADS; other += 2) {
         w->wrong += (field[other * 31] == 1) != (field[other * 31 + 200] == 1);
       }
@@ -169,7 +179,8 @@ static void* contender(void* user) {
 static void an_overlapping_change_is_busy_or_whole(void** state) {
   (void)state;
   hf_solver solver = surface_solver(&sheet);
-  add_site(solver, 8, 0), add_site(solver, VERTICES - 1, 0.5);
+  add_site(solver, 8, 0);
+  add_site(solver, VERTICES - 1, 0.5);
   double* before = field_of(solver, VERTICES);
   Worker workers[THREADS];
   memset(workers, 0, sizeof workers);
@@ -189,7 +200,9 @@ static void an_overlapping_change_is_busy_or_whole(void** state) {
   assert_int_equal(hf_solver_get_site_count(solver), 2);
   double* after = field_of(solver, VERTICES);
   for (int v = 0; v < VERTICES; ++v) assert_true(fabs(before[v] - after[v]) < 1e-12);
-  free(before), free(after), hf_solver_destroy(solver);
+  free(before);
+  free(after);
+  hf_solver_destroy(solver);
 }
 
 /* Busy for certain: the second thread calls while the first is held inside an allocation. */
@@ -204,7 +217,8 @@ static void* gate_allocate(void* user, size_t size, size_t alignment) {
   Gate* g = user;
   pthread_mutex_lock(&g->mutex);
   if (g->armed) {
-    g->armed = 0, g->inside = 1;
+    g->armed = 0;
+    g->inside = 1;
     pthread_cond_broadcast(&g->changed);
     while (!g->released) pthread_cond_wait(&g->changed, &g->mutex);
   }
@@ -233,7 +247,8 @@ static void* held_solve(void* user) {
 }
 
 static void hold_a_call(Gate* gate, Worker* w, void* (*body)(void*)) {
-  gate->armed = 1, gate->inside = gate->released = 0;
+  gate->armed = 1;
+  gate->inside = gate->released = 0;
   assert_int_equal(pthread_create(&w->thread, NULL, body, w), 0);
   pthread_mutex_lock(&gate->mutex);
   while (!gate->inside) pthread_cond_wait(&gate->changed, &gate->mutex);
@@ -253,9 +268,11 @@ static void calls_during_a_change_are_busy_and_destroy_waits_for_it(void** state
   Gate gate;
   memset(&gate, 0, sizeof gate);
   gate.inner = counting_hooks(&gate.memory);
-  pthread_mutex_init(&gate.mutex, NULL), pthread_cond_init(&gate.changed, NULL);
+  pthread_mutex_init(&gate.mutex, NULL);
+  pthread_cond_init(&gate.changed, NULL);
   Options desc = options_of(&sheet);
-  desc.surface.allocator.allocate = gate_allocate, desc.surface.allocator.release = gate_release,
+  desc.surface.allocator.allocate = gate_allocate;
+  desc.surface.allocator.release = gate_release;
   desc.surface.allocator.user = &gate;
   hf_solver solver = NULL, copy = NULL;
   assert_ok(make(&desc, NULL, &solver));
@@ -288,7 +305,8 @@ static void calls_during_a_change_are_busy_and_destroy_waits_for_it(void** state
   let_it_go(&gate, &w);
   assert_int_equal(gate.memory.live_blocks, 0);
   free(field);
-  pthread_mutex_destroy(&gate.mutex), pthread_cond_destroy(&gate.changed);
+  pthread_mutex_destroy(&gate.mutex);
+  pthread_cond_destroy(&gate.changed);
 }
 
 /* Handles are made and destroyed everywhere at once; the table stays whole. */
@@ -300,7 +318,8 @@ static void* maker(void* user) {
     float fraction;
     w->wrong += hf_solver_clone(w->solver, &copy) != HF_OK || hf_progress_create(&progress) != HF_OK;
     w->wrong += hf_solver_get_site_count(copy) != 1 || hf_progress_get_fraction(progress, &fraction) != HF_OK;
-    hf_solver_destroy(copy), hf_progress_destroy(progress);
+    hf_solver_destroy(copy);
+    hf_progress_destroy(progress);
     w->wrong +=
         hf_solver_record(copy) != HF_ERROR_INVALID_HANDLE || hf_progress_cancel(progress) != HF_ERROR_INVALID_HANDLE;
   }

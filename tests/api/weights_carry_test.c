@@ -18,21 +18,32 @@ static uint32_t reasons[3];
 
 static void good(void) {
   for (size_t v = 0; v < TUBE_VERTICES; ++v) {
-    joints[2 * v] = 0, joints[2 * v + 1] = 2;
-    weights[2 * v + 1] = (float)v / TUBE_VERTICES, weights[2 * v] = 1 - weights[2 * v + 1];
+    joints[2 * v] = 0;
+    joints[2 * v + 1] = 2;
+    weights[2 * v + 1] = (float)v / TUBE_VERTICES;
+    weights[2 * v] = 1 - weights[2 * v + 1];
   }
   const hf_bones_desc bones = scene_bones();
   memcpy(heads, bones.heads, sizeof heads);
   for (int b = 0; b < 3; ++b) partners[b] = HF_NO_INDEX;
   for (int i = 0; i < 6; ++i) plane[i] = i == 3;
   out = HF_INIT(hf_weights_out);
-  out.vertex_capacity = TUBE_VERTICES, out.joints = out_joints, out.weights = out_weights;
-  carry = HF_INIT(hf_carry_desc), mirror = HF_INIT(hf_mirror_desc);
-  carried = HF_INIT(hf_carry_info), mirrored = HF_INIT(hf_mirror_info);
+  out.vertex_capacity = TUBE_VERTICES;
+  out.joints = out_joints;
+  out.weights = out_weights;
+  carry = HF_INIT(hf_carry_desc);
+  mirror = HF_INIT(hf_mirror_desc);
+  carried = HF_INIT(hf_carry_info);
+  mirrored = HF_INIT(hf_mirror_info);
   carry.influence_count = mirror.influence_count = INFLUENCES;
-  carry.joints = mirror.joints = joints, carry.weights = mirror.weights = weights;
-  mirror.bone_count = 3, mirror.heads = heads, mirror.partners = partners, mirror.plane = plane;
-  memset(out_weights, 0x55, sizeof out_weights), memset(out_bones, 0x55, sizeof out_bones);
+  carry.joints = mirror.joints = joints;
+  carry.weights = mirror.weights = weights;
+  mirror.bone_count = 3;
+  mirror.heads = heads;
+  mirror.partners = partners;
+  mirror.plane = plane;
+  memset(out_weights, 0x55, sizeof out_weights);
+  memset(out_bones, 0x55, sizeof out_bones);
 }
 
 static int nothing_is_written(void) {
@@ -137,16 +148,20 @@ static void weights_are_carried_mirrored_and_helpers_named(void** state) {
   assert_int_equal(reasons[1], 0);
   assert_int_equal(reasons[2], HF_HELPER_NAME_CONTROL);
   /* the two ends of the tube are two sides */
-  plane[1] = 6.75, plane[3] = 0, plane[4] = 2;
+  plane[1] = 6.75;
+  plane[3] = 0;
+  plane[4] = 2;
   partners[0] = 2;
   carry.weight_count = 8;
   assert_ok(hf_weights_mirror(scene.body, &mirror, &out, out_bones, pairings, &mirrored));
-  assert_int_equal(out_bones[0], 2), assert_int_equal(out_bones[2], 0);
+  assert_int_equal(out_bones[0], 2);
+  assert_int_equal(out_bones[2], 0);
   assert_int_equal(pairings[0], HF_MIRROR_BONE_GIVEN);
   assert_int_equal(mirrored.plane_from, HF_MIRROR_PLANE_GIVEN);
   assert_true(fabs(mirrored.normal[1] - 1) < 1e-12);
   assert_int_equal(mirrored.given_count, 2);
-  mirror.plane = NULL, mirror.partners = NULL;
+  mirror.plane = NULL;
+  mirror.partners = NULL;
   assert_ok(hf_weights_mirror(scene.body, &mirror, &out, out_bones, pairings, &mirrored));
   assert_true(mirrored.plane_from == HF_MIRROR_PLANE_SURFACE);
   scene_destroy(&scene);

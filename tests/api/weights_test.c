@@ -11,22 +11,44 @@ static float weights[4], values[2 * TUBE_VERTICES];
 
 static void good(void) {
   bones = scene_bones();
-  memcpy(heads, bones.heads, sizeof heads), memcpy(tails, bones.tails, sizeof tails);
+  memcpy(heads, bones.heads, sizeof heads);
+  memcpy(tails, bones.tails, sizeof tails);
   memcpy(parents, bones.parents, sizeof parents);
-  bones.heads = heads, bones.tails = tails, bones.parents = parents, bones.deforms = deforms;
-  for (uint32_t b = 0; b < 3; ++b) deforms[b] = 1, sources[b] = b;
-  vertices[0] = 30, vertices[1] = 60, triangles[0] = 40, triangles[1] = 90;
-  locks[0] = 0, locks[1] = 2;
-  for (int i = 0; i < 4; ++i) joints[i] = (uint32_t)(i % 2), weights[i] = 0.5f;
+  bones.heads = heads;
+  bones.tails = tails;
+  bones.parents = parents;
+  bones.deforms = deforms;
+  for (uint32_t b = 0; b < 3; ++b) {
+    deforms[b] = 1;
+    sources[b] = b;
+  }
+  vertices[0] = 30;
+  vertices[1] = 60;
+  triangles[0] = 40;
+  triangles[1] = 90;
+  locks[0] = 0;
+  locks[1] = 2;
+  for (int i = 0; i < 4; ++i) {
+    joints[i] = (uint32_t)(i % 2);
+    weights[i] = 0.5f;
+  }
   for (int i = 0; i < 6; ++i) barycentrics[i] = i % 3 == 0 ? 0.5 : 0.25;
   radii[0] = radii[1] = 0;
   for (size_t i = 0; i < COUNT_OF(values); ++i) values[i] = 0.25f;
   pins = HF_INIT(hf_pins_desc);
-  pins.pin_count = 2, pins.joint_count = 2, pins.vertices = vertices, pins.joints = joints, pins.weights = weights;
+  pins.pin_count = 2;
+  pins.joint_count = 2;
+  pins.vertices = vertices;
+  pins.joints = joints;
+  pins.weights = weights;
   pins.radii = radii;
 }
 
-static void in_triangles(void) { pins.vertices = NULL, pins.triangles = triangles, pins.barycentrics = barycentrics; }
+static void in_triangles(void) {
+  pins.vertices = NULL;
+  pins.triangles = triangles;
+  pins.barycentrics = barycentrics;
+}
 
 static hf_weights made;
 
@@ -152,7 +174,8 @@ static void bad_outputs_are_refused(void** state) {
   scene_create(&scene);
   hf_weights_out out = HF_INIT(hf_weights_out);
   uint32_t count = 0, flags[3];
-  out.vertex_capacity = TUBE_VERTICES - 1, out.weights = values;
+  out.vertex_capacity = TUBE_VERTICES - 1;
+  out.weights = values;
   ROW("capacity too small", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_weights_get(scene.weights, &out));
   assert_int_equal(out.vertex_count, TUBE_VERTICES);
   ROW("bones: capacity too small", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
@@ -170,8 +193,11 @@ static void get_all(hf_weights object, uint32_t* out_joints, float* out_weights)
   static uint8_t origins[TUBE_VERTICES];
   hf_weights_out out = HF_INIT(hf_weights_out);
   assert_ok(hf_weights_get(object, &out));
-  out.vertex_capacity = out.vertex_count, out.joints = out_joints, out.joints_u16 = narrow;
-  out.weights = out_weights, out.origins = origins;
+  out.vertex_capacity = out.vertex_count;
+  out.joints = out_joints;
+  out.joints_u16 = narrow;
+  out.weights = out_weights;
+  out.origins = origins;
   assert_ok(hf_weights_get(object, &out));
   for (uint32_t v = 0; v < out.vertex_count; ++v) {
     float sum = 0;
@@ -209,7 +235,9 @@ static void every_vertex_gets_weights(void** state) {
   hf_weights cut = NULL;
   static const double head[6] = {1, 2, -0.5, 6, 2, -0.5}, tail[6] = {3, 2, -0.5, 7, 2, -0.5};
   hf_bones_desc two = HF_INIT(hf_bones_desc);
-  two.bone_count = 2, two.heads = head, two.tails = tail;
+  two.bone_count = 2;
+  two.heads = head;
+  two.tails = tail;
   assert_ok(hf_weights_create(scene.sheet, &two, 4, &cut));
   get_all(cut, list, shares);
   hf_weights_info info = HF_INIT(hf_weights_info);
@@ -238,7 +266,8 @@ static void pins_locks_and_undo_work(void** state) {
   scene_create(&scene);
   good();
   hf_weights w = scene.weights, copy = NULL;
-  weights[0] = 3, weights[1] = 1; /* scaled to the sum 1 */
+  weights[0] = 3;
+  weights[1] = 1; /* scaled to the sum 1 */
   assert_ok(hf_weights_set_pins(w, &pins));
   assert_true(weight_at(w, vertices[0], joints[0]) == 0.75f && weight_at(w, vertices[0], joints[1]) == 0.25f);
   assert_ok(hf_weights_clone(w, &copy));
@@ -256,7 +285,8 @@ static void pins_locks_and_undo_work(void** state) {
   assert_true(weight_at(w, 65, 0) == 0.25f && weight_at(w, 65, 2) == 0.25f && weight_at(w, 65, 1) == 0.5f);
   assert_ok(hf_weights_set_locks(scene.weights, 0, locks, NULL));
   assert_true(weights_unchanged(&scene));
-  bones.sources = sources, bones.bone_count = 2;
+  bones.sources = sources;
+  bones.bone_count = 2;
   assert_ok(hf_weights_set_bones(scene.weights, &bones));
   assert_true(weight_at(w, 130, 1) == 1.0f);
   hf_weights_info info = HF_INIT(hf_weights_info);

@@ -45,7 +45,8 @@ double interior_residual(const Mesh& mesh, const std::vector<double>& u, const s
     for (int i = k.start[v] + 1; i < k.start[v + 1]; ++i) {
       const size_t w = static_cast<size_t>(k.row[static_cast<size_t>(i)]);
       const double through = -k.value[static_cast<size_t>(i)] * (u[w] - u[v]);
-      flow[v] += through, flow[w] -= through;
+      flow[v] += through;
+      flow[w] -= through;
     }
   }
   double worst = 0;
@@ -64,11 +65,15 @@ json hard_sites(const Mesh& mesh, const Run& run, Report& report) {
   const std::vector<uint32_t> triangles = scattered_triangles(mesh, 100, taken);
   const double weights[3] = {0.2, 0.3, 0.5};
   std::vector<double> barycentrics, values;
-  for (const uint32_t t : triangles)
-    barycentrics.insert(barycentrics.end(), weights, weights + 3), values.push_back(value_of(t));
+  for (const uint32_t t : triangles) {
+    barycentrics.insert(barycentrics.end(), weights, weights + 3);
+    values.push_back(value_of(t));
+  }
   hf_sites_desc points = HF_INIT(hf_sites_desc);
-  points.site_count = static_cast<uint32_t>(triangles.size()), points.triangles = triangles.data();
-  points.barycentrics = barycentrics.data(), points.values = values.data();
+  points.site_count = static_cast<uint32_t>(triangles.size());
+  points.triangles = triangles.data();
+  points.barycentrics = barycentrics.data();
+  points.values = values.data();
   check(hf_add_sites(solver.handle(), &points, nullptr));
   std::vector<double> u;
   solver.solve(u);
@@ -125,14 +130,19 @@ double error_after_edits(const Mesh& mesh, const SolverOptions& options, uint32_
   hf_sites_info info = HF_INIT(hf_sites_info);
   std::vector<uint32_t> vertices(hf_solver_get_site_count(solver.handle()));
   std::vector<double> values(vertices.size());
-  info.capacity = static_cast<uint32_t>(vertices.size()), info.vertices = vertices.data(), info.values = values.data();
+  info.capacity = static_cast<uint32_t>(vertices.size());
+  info.vertices = vertices.data();
+  info.values = values.data();
   check(hf_solver_get_sites(solver.handle(), &info));
   const Solver exact(mesh, {HF_ENGINE_REFACTOR, options.threads});
   hf_sites_desc same = HF_INIT(hf_sites_desc);
-  same.site_count = info.capacity, same.vertices = vertices.data(), same.values = values.data();
+  same.site_count = info.capacity;
+  same.vertices = vertices.data();
+  same.values = values.data();
   check(hf_add_sites(exact.handle(), &same, nullptr));
   std::vector<double> u, v;
-  solver.solve(u), exact.solve(v);
+  solver.solve(u);
+  exact.solve(v);
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return largest_difference(u, v) / (*high - *low);
 }
@@ -141,16 +151,20 @@ json run_mesh(Family family, const Run& run, Report& report) {
   const auto mesh = make_mesh(family, Size::k304, run.small);
   if (!run.wants(mesh->name)) return nullptr;
   json row = hard_sites(*mesh, run, report);
-  row["name"] = mesh->name, row["n"] = mesh->vertex_count();
+  row["name"] = mesh->name;
+  row["n"] = mesh->vertex_count();
   const uint32_t count = run.small ? 500 : 10000;
   const double green = error_after_edits(*mesh, {HF_ENGINE_GREEN, run.threads}, count, 1e4);
-  row["edits"] = count, row["edits_error"] = green;
+  row["edits"] = count;
+  row["edits_error"] = green;
   std::printf("%-14s after %u random edits, values offset by 1e4: error / range %.1e\n", "", count, green);
   std::fflush(stdout);
   report.measure("edits_error", mesh->name, run.threads, green);
   const BiharmonicResult bent = biharmonic_refinement(*mesh, run.threads);
-  row["biharmonic_change"] = bent.change, row["biharmonic_residual"] = bent.residual;
-  row["biharmonic_create_ms"] = bent.create_ms, row["biharmonic_solve_ms"] = bent.solve_ms;
+  row["biharmonic_change"] = bent.change;
+  row["biharmonic_residual"] = bent.residual;
+  row["biharmonic_create_ms"] = bent.create_ms;
+  row["biharmonic_solve_ms"] = bent.solve_ms;
   std::printf(
       "%-14s bi-harmonic: a second refinement changes the field by %.1e of its range; residual / mean diagonal "
       "%.1e; create %.0f ms, field %.1f ms\n",
@@ -187,7 +201,8 @@ Rows run_accuracy(const Run& run, Report& report) {
 void plot_accuracy(const Runs& runs, const std::string& file) {
   BarPlot plot;
   plot.text = {"How exact", "largest errors; 10,000 random edits on values offset by 1e4", "", "error (logarithmic)"};
-  plot.log_y = true, plot.format = "%.0e";
+  plot.log_y = true;
+  plot.format = "%.0e";
   write_rows(plot,
              {{"hard sites: error", "/site_error"},
               {"hard sites: residual / mean diagonal", "/residual"},

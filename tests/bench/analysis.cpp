@@ -25,7 +25,8 @@ Rows run_analysis(const Run& run, Report& report) {
         check(hf_geodesics_create(solver.surface(), &heat, &geodesics));
       });
       hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
-      desc.kind = HF_EXTREMITIES_GEODESIC, desc.geodesics = geodesics;
+      desc.kind = HF_EXTREMITIES_GEODESIC;
+      desc.geodesics = geodesics;
       std::vector<double> field(mesh->vertex_count());
       const uint32_t vertex = 0;
       uint32_t tips = 0, far_tips = 0;
@@ -78,7 +79,8 @@ void plot_analysis(const Runs& runs, const std::string& file) {
       poisson.points.emplace_back(number_of(row, "/n"), number_of(row, "/poisson_ms") / sweep);
       average.points.emplace_back(number_of(row, "/n"), number_of(row, "/average_ms") / sweep);
     }
-    plot.curves.push_back(poisson), plot.curves.push_back(average);
+    plot.curves.push_back(poisson);
+    plot.curves.push_back(average);
   }
   write_svg(file, plot);
 }

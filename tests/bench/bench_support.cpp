@@ -51,12 +51,17 @@ Solver::Solver(const Mesh& mesh, const SolverOptions& options)
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = mesh.vertex_count();
   desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
-  desc.positions_f64 = mesh.positions.data(), desc.triangles = mesh.triangles.data();
-  desc.thread_count = options.threads, desc.ordering = options.ordering;
+  desc.positions_f64 = mesh.positions.data();
+  desc.triangles = mesh.triangles.data();
+  desc.thread_count = options.threads;
+  desc.ordering = options.ordering;
   desc.operator_kind = options.operator_kind;
-  desc.field_kind = options.field_kind, desc.saved_factor = options.saved_factor;
+  desc.field_kind = options.field_kind;
+  desc.saved_factor = options.saved_factor;
   hf_solver_desc sites = HF_INIT(hf_solver_desc);
-  sites.engine = options.engine, sites.channel_count = options.channels, sites.field_kind = options.field_kind;
+  sites.engine = options.engine;
+  sites.channel_count = options.channels;
+  sites.field_kind = options.field_kind;
   create_ms_ = time_ms([&] {
     check(hf_surface_create(&desc, &surface_));
     check(hf_create(surface_, &sites, &handle_));
@@ -94,9 +99,12 @@ double Sites::edit(const std::vector<uint32_t>& insert, const std::vector<uint32
     for (uint32_t c = 0; c < solver_.channels(); ++c) values.push_back(value_of(v) + c + offset_);
   }
   hf_sites_desc add = HF_INIT(hf_sites_desc);
-  add.site_count = static_cast<uint32_t>(insert.size()), add.vertices = insert.data(), add.values = values.data();
+  add.site_count = static_cast<uint32_t>(insert.size());
+  add.vertices = insert.data();
+  add.values = values.data();
   hf_edit_desc edit = HF_INIT(hf_edit_desc);
-  edit.remove_count = static_cast<uint32_t>(leaving.size()), edit.remove_sites = leaving.data();
+  edit.remove_count = static_cast<uint32_t>(leaving.size());
+  edit.remove_sites = leaving.data();
   if (!insert.empty()) edit.add = &add;
   const double ms = time_ms([&] { check(hf_solver_edit_sites(solver_.handle(), &edit, numbers.data())); });
   for (const uint32_t v : remove) number_.erase(v);
@@ -113,9 +121,11 @@ double Sites::clear() {
 void Sites::move(uint32_t from, uint32_t to) {
   const uint32_t number = number_.at(from);
   hf_sites_desc place = HF_INIT(hf_sites_desc);
-  place.site_count = 1, place.vertices = &to;
+  place.site_count = 1;
+  place.vertices = &to;
   check(hf_solver_move_sites(solver_.handle(), 1, &number, &place));
-  number_.erase(from), number_[to] = number;
+  number_.erase(from);
+  number_[to] = number;
 }
 
 void Sites::set_value(uint32_t vertex, double value) {

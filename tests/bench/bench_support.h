@@ -61,7 +61,8 @@ struct SolverOptions {
 // The library as it comes, for figures without a peer that factorises the same matrix.
 inline SolverOptions own_defaults(uint32_t threads) {
   SolverOptions options;
-  options.threads = threads, options.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY;
+  options.threads = threads;
+  options.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY;
   return options;
 }
 
@@ -69,7 +70,10 @@ inline SolverOptions own_defaults(uint32_t threads) {
 class Solver {
  public:
   Solver(const Mesh& mesh, const SolverOptions& options);
-  ~Solver() { hf_solver_destroy(handle_), hf_surface_destroy(surface_); }
+  ~Solver() {
+    hf_solver_destroy(handle_);
+    hf_surface_destroy(surface_);
+  }
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
   hf_solver handle() const { return handle_; }

@@ -11,7 +11,8 @@ namespace {
 // K du = right off the eliminated vertices, du = 0 on them; both in the core's vertex numbers.
 void solve_eliminated(const InnerSystem& system, const std::vector<uint8_t>& eliminated, std::vector<double>& right) {
   const hf_inner::SymmetricMatrix& k = system.core().laplacian;
-  const auto grounded = hf_inner::Factor::make(system.matrix(), system.coordinates(), {}, system.memory(), system.jobs());
+  const auto grounded =
+      hf_inner::Factor::make(system.matrix(), system.coordinates(), {}, system.memory(), system.jobs());
   // sites stand in for the grounds: K itself, pattern as it was
   const auto factor = grounded->refactor(k, {eliminated.data(), eliminated.size()}, system.memory(), system.jobs());
   std::vector<double> z(right.size());
@@ -46,7 +47,8 @@ BiharmonicResult biharmonic_refinement(const Mesh& mesh, uint32_t threads) {
   for (size_t v = 0; v < n; ++v) u[v] = given[static_cast<size_t>(inner.given_of_inner[v])];
   for (const uint32_t v : sites) {
     eliminated[static_cast<size_t>(inner.inner_of_given[v])] = 1;
-    low = std::min(low, value_of(v)), high = std::max(high, value_of(v));
+    low = std::min(low, value_of(v));
+    high = std::max(high, value_of(v));
   }
   double diagonal = 0;
   for (size_t v = 0; v < n; ++v) {

@@ -64,8 +64,10 @@ class Rig {
       vertices.insert(vertices.end(), region.begin(), region.end());
     }
     hf_handles_desc desc = HF_INIT(hf_handles_desc);
-    desc.handle_count = static_cast<uint32_t>(regions.size()), desc.layer = layer;
-    desc.region_counts = counts.data(), desc.region_vertices = vertices.data();
+    desc.handle_count = static_cast<uint32_t>(regions.size());
+    desc.layer = layer;
+    desc.region_counts = counts.data();
+    desc.region_vertices = vertices.data();
     check(hf_pose_add_handles(pose, &desc, out.data()));
     return out;
   }
@@ -75,7 +77,9 @@ class Rig {
   }
   hf_deform_info deform(bool refine = false) {
     hf_deform_desc desc = HF_INIT(hf_deform_desc);
-    desc.positions = positions.data(), desc.normals = normals.data(), desc.refine = refine;
+    desc.positions = positions.data();
+    desc.normals = normals.data();
+    desc.refine = refine;
     hf_deform_info info = HF_INIT(hf_deform_info);
     check(hf_pose_deform(pose, &desc, &info));
     return info;
@@ -98,7 +102,9 @@ FrameTimes drag(Rig& rig, uint32_t frames, bool refine) {
       rig.move(rig.handles[1], std::sin(0.1 * (f + 1)));
       info = rig.deform(refine);
     }));
-    out.solve.push_back(info.solve_ms), out.blend.push_back(info.blend_ms), out.normal.push_back(info.normal_ms);
+    out.solve.push_back(info.solve_ms);
+    out.blend.push_back(info.blend_ms);
+    out.normal.push_back(info.normal_ms);
     out.refine.push_back(info.refine_ms);
   }
   return out;
@@ -186,7 +192,9 @@ Exactness exactness(const Mesh& mesh, const std::vector<std::vector<uint32_t>>& 
     return numbers;
   };
   const std::vector<uint32_t> handles = add(0, regions.size() - 1, 0);
-  const auto put = [&](uint32_t handle, const hf_inner::HandleTransform& t) { pose->set_transforms({&handle, 1}, {&t, 1}); };
+  const auto put = [&](uint32_t handle, const hf_inner::HandleTransform& t) {
+    pose->set_transforms({&handle, 1}, {&t, 1});
+  };
   const double diagonal = core->mesh.scale;
   Exactness out;
   const hf_inner::HandleTransform moved{hf_inner::exponential({0.4, 0.2, 0}), {0.1, 0.3, 0}};
@@ -226,7 +234,8 @@ Exactness exactness(const Mesh& mesh, const std::vector<std::vector<uint32_t>>& 
   report = pose->deform(request);
   for (int32_t v = 0; v < core->size(); ++v) {
     const Vec3 p = core->mesh.to_given(core->mesh.positions[v]);
-    out.rigid = std::max(out.rigid, hf_inner::norm(report.positions[v] - hf_inner::rotate(turn, p) - Vec3{1, 2, 3}) / diagonal);
+    out.rigid =
+        std::max(out.rigid, hf_inner::norm(report.positions[v] - hf_inner::rotate(turn, p) - Vec3{1, 2, 3}) / diagonal);
   }
   return out;
 }
@@ -246,8 +255,12 @@ nlohmann::json run_paper_mode(const Mesh& mesh, const Solver& solver, const std:
       mesh.name.c_str(), frame, median(frames.solve), arap / frame, added.first_frame, exact.target, exact.jump,
       exact.rigid, static_cast<unsigned long long>(exact.allocations));
   std::fflush(stdout);
-  return {{"frame_ms", frame},        {"solve_ms", median(frames.solve)}, {"add_ms", added.first_frame},
-          {"target", exact.target},   {"jump", exact.jump},               {"rigid", exact.rigid},
+  return {{"frame_ms", frame},
+          {"solve_ms", median(frames.solve)},
+          {"add_ms", added.first_frame},
+          {"target", exact.target},
+          {"jump", exact.jump},
+          {"rigid", exact.rigid},
           {"allocations", exact.allocations}};
 }
 
@@ -295,7 +308,9 @@ Rows run_deform(const Run& run, Report& report) {
           mesh->name.c_str(), arap, arap / frame, added.first_frame, added.on_layer, scratch,
           scratch / added.first_frame);
       std::fflush(stdout);
-      row["arap_iteration_ms"] = arap, row["add_ms"] = added.first_frame, row["add_on_layer_ms"] = added.on_layer;
+      row["arap_iteration_ms"] = arap;
+      row["add_ms"] = added.first_frame;
+      row["add_on_layer_ms"] = added.on_layer;
       row["scratch_ms"] = scratch;
       if (size != Size::k84) continue;
       report.measure("deform_arap", mesh->name, run.threads, arap / frame);
@@ -309,7 +324,8 @@ Rows run_deform(const Run& run, Report& report) {
           mesh->name.c_str(), band_added, band_scratch, band_scratch / band_added);
       std::fflush(stdout);
       report.measure("deform_add", mesh->name + ", bands", run.threads, band_scratch / band_added);
-      row["bands_add_ms"] = band_added, row["bands_scratch_ms"] = band_scratch;
+      row["bands_add_ms"] = band_added;
+      row["bands_scratch_ms"] = band_scratch;
       const Exactness exact = exactness(*mesh, regions, run.threads);
       std::printf(
           "%-12s handles off target %.1e, insertion jump %.1e, common rigid motion %.1e of the box; %llu "
@@ -320,7 +336,9 @@ Rows run_deform(const Run& run, Report& report) {
       report.measure("deform_jump", mesh->name, run.threads, exact.jump);
       report.measure("deform_rigid", mesh->name, run.threads, exact.rigid);
       report.measure("deform_allocations", mesh->name, run.threads, static_cast<double>(exact.allocations));
-      row["target"] = exact.target, row["jump"] = exact.jump, row["rigid"] = exact.rigid;
+      row["target"] = exact.target;
+      row["jump"] = exact.jump;
+      row["rigid"] = exact.rigid;
       row["allocations"] = exact.allocations;
       row["paper"] = run_paper_mode(*mesh, solver, regions, run, arap);
     }
@@ -339,7 +357,8 @@ void plot_deform(const Runs& runs, const std::string& file) {
       frame.points.emplace_back(number_of(row, "/n"), number_of(row, "/handles_4/frame_ms"));
       refined.points.emplace_back(number_of(row, "/n"), number_of(row, "/handles_4/refined_frame_ms"));
     }
-    plot.curves.push_back(frame), plot.curves.push_back(refined);
+    plot.curves.push_back(frame);
+    plot.curves.push_back(refined);
   }
   write_svg(file, plot);
 }

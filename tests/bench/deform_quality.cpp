@@ -99,7 +99,8 @@ int judge(const Study& study, const Quality& smooth, const Quality& refined, con
   test("E/Eo", smooth.energy / unit, b.energy, false);
   test("refined E/Eo", refined.energy / unit, b.refined_energy, false);
   test("edges %", smooth.edge_share, b.edge_share, true);
-  test("volume %", smooth.volume, b.volume_low, true), test("volume %", smooth.volume, b.volume_high, false);
+  test("volume %", smooth.volume, b.volume_low, true);
+  test("volume %", smooth.volume, b.volume_high, false);
   test("s2", smooth.smallest_stretch, b.stretch, true);
   test("refined s2", refined.smallest_stretch, b.refined_stretch, true);
   test("dihedral", smooth.dihedral_max, b.dihedral, false);
@@ -120,7 +121,8 @@ Rows run_deform_quality(const Run& run, Report& report) {
     Dragged d = drag(c, {}, 30, 10, run.threads);
     const std::vector<Vec3> smooth = positions(d.report);
     hf_inner::DeformRequest request;
-    request.iteration_count = 1, request.refine = true;
+    request.iteration_count = 1;
+    request.refine = true;
     const std::vector<Vec3> refined = positions(d.pose->deform(request));
     std::printf("%s, %d vertices\n", c.name.c_str(), d.core->size());
 
@@ -157,12 +159,17 @@ Rows run_deform_quality(const Run& run, Report& report) {
                                                : 1400,
                       [&](const std::vector<Vec3>& y) { return arap_energy(*d.core, p, given(y)); });
       const double energy = arap_energy(*d.core, p, given(x));
-      if (energy < unit) unit = energy, best = given(x);
+      if (energy < unit) {
+        unit = energy;
+        best = given(x);
+      }
     }
     const Quality q_smooth = measure(*d.core, smooth), q_refined = measure(*d.core, refined),
                   q_early = measure(*d.core, early), q_late = measure(*d.core, late), q_best = measure(*d.core, best);
-    print("paper, 10 a frame", q_early, unit, c.closed), print("paper, converged", q_late, unit, c.closed);
-    print("smooth, 10 a frame", q_smooth, unit, c.closed), print("smooth, refined", q_refined, unit, c.closed);
+    print("paper, 10 a frame", q_early, unit, c.closed);
+    print("paper, converged", q_late, unit, c.closed);
+    print("smooth, 10 a frame", q_smooth, unit, c.closed);
+    print("smooth, refined", q_refined, unit, c.closed);
     print("ARAP, converged", q_best, unit, c.closed);
     const int missed = judge(study, q_smooth, q_refined, q_late, unit);
     report.measure("deform_quality", c.name, run.threads, missed);

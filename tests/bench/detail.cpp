@@ -29,7 +29,8 @@ class Region {
   }
   void add(const std::vector<uint32_t>& vertices) const {
     hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-    edit.add_count = static_cast<uint32_t>(vertices.size()), edit.add_vertices = vertices.data();
+    edit.add_count = static_cast<uint32_t>(vertices.size());
+    edit.add_vertices = vertices.data();
     check(hf_region_edit(handle_, &edit));
   }
   hf_region_info info() const {
@@ -47,7 +48,9 @@ class Region {
   }
   void morph(std::vector<float>& positions, std::vector<float>& normals) const {
     hf_morph_desc desc = HF_INIT(hf_morph_desc);
-    desc.weight = 0.5, desc.positions = positions.data(), desc.normals = normals.data();
+    desc.weight = 0.5;
+    desc.positions = positions.data();
+    desc.normals = normals.data();
     check(hf_region_morph(handle_, &desc));
   }
 
@@ -85,19 +88,25 @@ Growth measure(const Solver& solver, uint32_t vertex, uint32_t wanted, uint32_t 
     const Region copy(region);
     const double ms = time_ms([&] { copy.grow(step); });
     const double drawn = time_ms([&] { copy.morph(positions, normals); });
-    if (r > 0) update.push_back(ms), morph.push_back(drawn);  // the first one warms
-    growth.info = copy.info(), growth.after = copy.vertices(HF_REGION_RIM);
+    if (r > 0) {
+      update.push_back(ms);
+      morph.push_back(drawn);
+    }  // the first one warms
+    growth.info = copy.info();
+    growth.after = copy.vertices(HF_REGION_RIM);
     growth.inside = copy.vertices(HF_REGION_INSIDE);
   }
   growth.before = region.vertices(HF_REGION_RIM);
-  growth.update_ms = median(update), growth.morph_ms = median(morph);
+  growth.update_ms = median(update);
+  growth.morph_ms = median(morph);
   return growth;
 }
 
 // The sites of the grown rim by engine refactor: its edit factorises.
 double refactor_ms(const Mesh& mesh, const Growth& growth, uint32_t threads, uint32_t repetitions) {
   SolverOptions options = own_defaults(threads);
-  options.engine = HF_ENGINE_REFACTOR, options.channels = 3;
+  options.engine = HF_ENGINE_REFACTOR;
+  options.channels = 3;
   const Solver solver(mesh, options);
   std::vector<double> field, times;
   for (uint32_t r = 0; r < repetitions; ++r) {

@@ -41,7 +41,8 @@ ConnectionSystem connection_system(const Mesh& mesh, const std::vector<uint32_t>
     out.matrix.start.push_back(static_cast<int>(out.matrix.row.size()));
     for (int32_t i = a.column_start[v]; i < a.column_start[v + 1]; ++i) {
       if (a.row[i] < v) continue;
-      out.matrix.row.push_back(a.row[i]), out.matrix.value.push_back(a.value[i]);
+      out.matrix.row.push_back(a.row[i]);
+      out.matrix.value.push_back(a.value[i]);
     }
   }
   out.matrix.start.push_back(static_cast<int>(out.matrix.row.size()));
@@ -64,7 +65,8 @@ std::pair<double, double> peer_ms(PeerMatrix matrix, const std::vector<uint32_t>
                                   const Run& run) {
   const auto peer = CholmodPeer::make(std::move(matrix), run.threads);
   if (!peer) return {0, 0};
-  peer->analyse_ms(), peer->set_sites(constrained);
+  peer->analyse_ms();
+  peer->set_sites(constrained);
   std::vector<double> factorise, solve;
   for (uint32_t r = 0; r < run.repetitions; ++r) {
     factorise.push_back(peer->factorise_ms());
@@ -98,12 +100,15 @@ void report_way(const Way& way, const Mesh& mesh, const Run& run, Report& report
 
 Way by_channels(const Mesh& mesh, const std::vector<uint32_t>& sites, const Run& run) {
   SolverOptions options;
-  options.threads = run.threads, options.channels = 3;
+  options.threads = run.threads;
+  options.channels = 3;
   const Solver solver(mesh, options);
   std::vector<double> vectors = vectors_of(site_count);
   std::vector<uint32_t> numbers(site_count);
   hf_sites_desc batch = HF_INIT(hf_sites_desc);
-  batch.site_count = site_count, batch.vertices = sites.data(), batch.values = vectors.data();
+  batch.site_count = site_count;
+  batch.vertices = sites.data();
+  batch.values = vectors.data();
   check(hf_add_sites(solver.handle(), &batch, numbers.data()));
   std::vector<float> field(size_t{3} * mesh.vertex_count());
   const auto solve = [&] { check(hf_solver_solve_vectors(solver.handle(), field.data(), 0, nullptr, nullptr)); };

@@ -36,20 +36,25 @@ nlohmann::json run_mesh(const Mesh& mesh, int operator_kind, const Run& run, Rep
   double cold_ours = 0, cold_theirs = 0;
   hf_surface_statistics phases{};
   SolverOptions options;
-  options.threads = run.threads, options.operator_kind = operator_kind;
+  options.threads = run.threads;
+  options.operator_kind = operator_kind;
   for (uint32_t r = 0; r < run.repetitions + 1; ++r) {
     const Ours own = our_first_field(mesh, sites, options);
     phases = own.statistics;
     double total = 0;
     if (peer) {
-      analyse.push_back(peer->analyse_ms()), factorise.push_back(peer->factorise_ms());
+      analyse.push_back(peer->analyse_ms());
+      factorise.push_back(peer->factorise_ms());
       solve.push_back(peer->solve_ms());
       total = analyse.back() + factorise.back() + solve.back();
     }
-    if (r == 0)
-      cold_ours = own.total, cold_theirs = total;
-    else
-      ours.push_back(own.total), theirs.push_back(total);
+    if (r == 0) {
+      cold_ours = own.total;
+      cold_theirs = total;
+    } else {
+      ours.push_back(own.total);
+      theirs.push_back(total);
+    }
   }
   nlohmann::json row = {{"name", mesh.name},
                         {"n", mesh.vertex_count()},
@@ -65,8 +70,12 @@ nlohmann::json run_mesh(const Mesh& mesh, int operator_kind, const Run& run, Rep
               phases.symbolic_ms, phases.numeric_ms);
   if (peer) {
     const double ratio = median(theirs) / median(ours);
-    row["peer_ms"] = median(theirs), row["peer_cold_ms"] = cold_theirs, row["peer_analyse_ms"] = median(analyse);
-    row["peer_factorise_ms"] = median(factorise), row["peer_solve_ms"] = median(solve), row["ratio"] = ratio;
+    row["peer_ms"] = median(theirs);
+    row["peer_cold_ms"] = cold_theirs;
+    row["peer_analyse_ms"] = median(analyse);
+    row["peer_factorise_ms"] = median(factorise);
+    row["peer_solve_ms"] = median(solve);
+    row["ratio"] = ratio;
     std::printf("   METIS + CHOLMOD %7.1f (cold %7.1f; analyze %.0f factorize %.0f solve %.0f)  %.2fx, cold %.2fx",
                 median(theirs), cold_theirs, median(analyse), median(factorise), median(solve), ratio,
                 cold_theirs / cold_ours);

@@ -25,11 +25,14 @@ class Tracer {
     for (;;) {
       lines.point_capacity = static_cast<uint32_t>(positions_.size() / 3);
       lines.line_capacity = static_cast<uint32_t>(ends_.size() / 2);
-      lines.positions = positions_.data(), lines.line_starts = starts_.data(), lines.line_ends = ends_.data();
+      lines.positions = positions_.data();
+      lines.line_starts = starts_.data();
+      lines.line_ends = ends_.data();
       const hf_result result = hf_flow_trace(flow_, &field, &lines);
       if (result == HF_OK) return lines.line_count;
       if (result != HF_ERROR_TOO_SMALL) check(result);
-      positions_.resize(size_t{lines.point_count} * 6), starts_.resize(lines.line_count + 1u);
+      positions_.resize(size_t{lines.point_count} * 6);
+      starts_.resize(lines.line_count + 1u);
       ends_.resize(size_t{lines.line_count} * 2);
     }
   }
@@ -55,7 +58,8 @@ Rows run_flow(const Run& run, Report& report) {
       fresh.engine = HF_ENGINE_REFACTOR;
       const Solver solver(*mesh, own_defaults(run.threads)), again(*mesh, fresh);
       Sites live(solver), slow(again);
-      live.edit(sites, {}), slow.edit(sites, {});
+      live.edit(sites, {});
+      slow.edit(sites, {});
       Tracer tracer(solver);
       std::vector<double> field(mesh->vertex_count());
       uint32_t at = sites[0], at_slow = sites[0], lines = 0;
@@ -65,7 +69,9 @@ Rows run_flow(const Run& run, Report& report) {
                                 [&] {
                                   const uint32_t to = following(turn);
                                   return time_ms([&] {
-                                    live.move(at, to), solver.solve(field), lines = tracer.trace(field);
+                                    live.move(at, to);
+                                    solver.solve(field);
+                                    lines = tracer.trace(field);
                                     at = to;
                                   });
                                 }},
@@ -74,7 +80,9 @@ Rows run_flow(const Run& run, Report& report) {
                                 [&] {
                                   const uint32_t to = following(slow_turn);
                                   return time_ms([&] {
-                                    slow.move(at_slow, to), again.solve(field), lines = tracer.trace(field);
+                                    slow.move(at_slow, to);
+                                    again.solve(field);
+                                    lines = tracer.trace(field);
                                     at_slow = to;
                                   });
                                 }},
@@ -83,7 +91,8 @@ Rows run_flow(const Run& run, Report& report) {
                                   return time_ms([&] {
                                     const Solver made(*mesh, own_defaults(run.threads));
                                     Sites(made).edit(sites, {});
-                                    made.solve(field), lines = tracer.trace(field);
+                                    made.solve(field);
+                                    lines = tracer.trace(field);
                                   });
                                 }}},
                               run.repetitions);
@@ -115,7 +124,8 @@ void plot_flow(const Runs& runs, const std::string& file) {
       live.points.emplace_back(number_of(row, "/n"), number_of(row, "/live_ms"));
       fresh.points.emplace_back(number_of(row, "/n"), number_of(row, "/fresh_ms"));
     }
-    plot.curves.push_back(live), plot.curves.push_back(fresh);
+    plot.curves.push_back(live);
+    plot.curves.push_back(fresh);
   }
   write_svg(file, plot);
 }

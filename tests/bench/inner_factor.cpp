@@ -4,14 +4,16 @@ namespace bench {
 namespace {
 
 std::shared_ptr<const hf_inner::Core> make_core(const Mesh& mesh, const std::shared_ptr<hf_inner::Memory>& memory,
-                                          const std::shared_ptr<hf_inner::JobRunner>& jobs, hf_inner::FieldKind kind) {
+                                                const std::shared_ptr<hf_inner::JobRunner>& jobs,
+                                                hf_inner::FieldKind kind) {
   hf_inner::MeshInput input;
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   input.positions = {mesh.positions.data(), 3 * sizeof(double)};
   input.triangles = mesh.triangles.data();
   hf_inner::CoreOptions options;
-  options.need_factor = false, options.field_kind = kind;
+  options.need_factor = false;
+  options.field_kind = kind;
   options.operator_kind = hf_inner::OperatorKind::cotangent;  // the matrix the peers get
   return hf_inner::Core::make(input, options, memory, jobs);
 }
@@ -32,7 +34,8 @@ PeerMatrix InnerSystem::peer_matrix() const {
     out.start.push_back(static_cast<int>(out.row.size()));
     for (int32_t i = a.column_start[v]; i < a.column_start[v + 1]; ++i) {
       if (a.row[i] < v) continue;
-      out.row.push_back(a.row[i]), out.value.push_back(a.value[i]);
+      out.row.push_back(a.row[i]);
+      out.value.push_back(a.value[i]);
     }
   }
   out.start.push_back(static_cast<int>(out.row.size()));

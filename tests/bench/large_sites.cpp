@@ -82,7 +82,8 @@ void plot_large_sites(const Runs& runs, const std::string& file) {
         refactor.points.emplace_back(number_of(row, "/sites"), number_of(row, "/refactor_ms"));
       }
       if (green.points.empty()) continue;
-      plot.curves.push_back(green), plot.curves.push_back(refactor);
+      plot.curves.push_back(green);
+      plot.curves.push_back(refactor);
     }
   }
   write_svg(file, plot);

@@ -46,7 +46,11 @@ struct Contact {
 // The nearest point of a triangle, as barycentrics.
 void nearest_point(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double* w) {
   const glm::dvec3 ab = b - a, ac = c - a;
-  const auto set = [&](double x, double y, double z) { w[0] = x, w[1] = y, w[2] = z; };
+  const auto set = [&](double x, double y, double z) {
+    w[0] = x;
+    w[1] = y;
+    w[2] = z;
+  };
   const glm::dvec3 ap = p - a, bp = p - b, cp = p - c;
   const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap), d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp),
                d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
@@ -85,7 +89,8 @@ std::vector<Contact> find_contacts(const LinkScene& scene, const std::vector<uin
       nearest_point(p[v], p[c[0]], p[c[1]], p[c[2]], w);
       const double d = glm::length(p[v] - w[0] * p[c[0]] - w[1] * p[c[1]] - w[2] * p[c[2]]);
       if (d >= best.distance) continue;
-      best = {v, {c[0], c[1], c[2]}, {w[0], w[1], w[2]}, d}, found = true;
+      best = {v, {c[0], c[1], c[2]}, {w[0], w[1], w[2]}, d};
+      found = true;
     }
     if (found) out.push_back(best);
   }
@@ -221,7 +226,9 @@ std::vector<float> field_of(hf_surface surface, const LinkScene& scene, uint32_t
   const uint32_t vertices[2] = {first, second};
   const double values[2] = {1, 2};
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
-  sites.site_count = 2, sites.vertices = vertices, sites.values = values;
+  sites.site_count = 2;
+  sites.vertices = vertices;
+  sites.values = values;
   ok(hf_add_sites(solver, &sites, nullptr));
   std::vector<float> field(scene.flat.vertex_count());
   hf_solve_info info = HF_INIT(hf_solve_info);
@@ -248,7 +255,9 @@ hf_surface without_light(hf_surface linked, const LinkScene& scene, const std::v
     if (heavy) kept.push_back(link);
   }
   hf_links_desc desc = HF_INIT(hf_links_desc);
-  desc.mode = HF_LINK_LIST, desc.link_count = uint32_t(kept.size()), desc.links = kept.data();
+  desc.mode = HF_LINK_LIST;
+  desc.link_count = uint32_t(kept.size());
+  desc.links = kept.data();
   desc.overlay_distance = -1;  // the links of the others are kept, and no other edge of a body depends on it
   hf_surface out = nullptr;
   ok(hf_surface_relink(linked, kept.empty() ? nullptr : &desc, nullptr, &out));
@@ -285,7 +294,9 @@ double played_on_itself(hf_surface surface, const LinkScene& scene, const std::v
     for (uint32_t v = 0; v < scene.flat.vertex_count(); ++v) {
       if (piece[v] == HF_NO_INDEX || taken[scene.flat.welded[v]]) continue;
       if (glm::length(scene.flat.positions[v] - scene.flat.positions[centre]) > 0.03 * scene.diagonal) continue;
-      taken[scene.flat.welded[v]] = 1, vertices.push_back(v), ++count;
+      taken[scene.flat.welded[v]] = 1;
+      vertices.push_back(v);
+      ++count;
     }
     if (count > 0) counts.push_back(count);
   }
@@ -304,7 +315,8 @@ double played_on_itself(hf_surface surface, const LinkScene& scene, const std::v
       const std::vector<double> xyz = double_positions(
           posed_positions(scene.model, scene.flat, clip, clip_duration(clip) * i / (clip_samples - 1)));
       hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-      frame.source_positions_f64 = xyz.data(), frame.target_positions_f64 = out.data();
+      frame.source_positions_f64 = xyz.data();
+      frame.target_positions_f64 = out.data();
       ok(hf_transfer_apply(transfer, &frame));
       // The whole may lie elsewhere: the mean displacement does not count.
       glm::dvec3 mean(0);
@@ -324,7 +336,9 @@ double played_on_itself(hf_surface surface, const LinkScene& scene, const std::v
 Picture tile(const LinkScene& scene, const std::vector<double>& xyz, const std::vector<uint32_t>& marks) {
   Surface surface = make_surface(xyz, scene.flat.triangles);
   View view;
-  view.width = 520, view.height = 520, view.direction = {0.5, 0.25, 1.0};
+  view.width = 520;
+  view.height = 520;
+  view.direction = {0.5, 0.25, 1.0};
   Marks dots;
   for (const uint32_t v : marks)
     dots.dots.push_back({{xyz[3 * size_t{v}], xyz[3 * size_t{v} + 1], xyz[3 * size_t{v} + 2]}});
@@ -360,8 +374,10 @@ void list_false(const LinkScene& scene, const ModelLinks& skin, const std::vecto
     for (int k = 0; k < 3; ++k) other = links[l].barycentrics[k] > 0 ? piece[links[l].corners[k]] : other;
     const uint32_t own = piece[links[l].vertex];
     Pair& pair = pairs[{std::min(own, other), std::max(own, other)}];
-    pair.links += 1, pair.wrong += opened[l] > false_link, pair.tree += links[l].in_tree;
-    pair.widest = std::max(pair.widest, opened[l]),
+    pair.links += 1;
+    pair.wrong += opened[l] > false_link;
+    pair.tree += links[l].in_tree;
+    pair.widest = std::max(pair.widest, opened[l]);
     pair.nearest = std::min(pair.nearest, links[l].length / scene.diagonal);
   }
   for (const auto& [key, pair] : pairs) {
@@ -379,7 +395,8 @@ uint64_t hash_of(const std::vector<hf_link>& links) {
     for (size_t i = 0; i < size; ++i) hash = (hash ^ static_cast<const unsigned char*>(from)[i]) * 1099511628211u;
   };
   for (const hf_link& link : links) {
-    take(&link.vertex, sizeof link.vertex), take(link.corners, sizeof link.corners);
+    take(&link.vertex, sizeof link.vertex);
+    take(link.corners, sizeof link.corners);
     take(link.barycentrics, sizeof link.barycentrics);
     if (link.weight < 1 || link.weight > 1) take(&link.weight, sizeof link.weight);
   }
@@ -406,7 +423,8 @@ void report(const std::string& file, const std::string& pictures, Extent extent)
   hf_surface_report found = HF_INIT(hf_surface_report);
   ok(hf_surface_get_report(linked, &found));
   hf_surface_statistics before = HF_INIT(hf_surface_statistics), after = HF_INIT(hf_surface_statistics);
-  ok(hf_surface_get_statistics(plain, &before)), ok(hf_surface_get_statistics(linked, &after));
+  ok(hf_surface_get_statistics(plain, &before));
+  ok(hf_surface_get_statistics(linked, &after));
   std::vector<hf_link> list(found.link_count);
   uint32_t count = 0;
   ok(hf_surface_get_links(linked, found.link_count, list.data(), &count));
@@ -462,7 +480,8 @@ void report(const std::string& file, const std::string& pictures, Extent extent)
   std::fflush(stdout);
   if (!pictures.empty())
     write_png(pictures + "/" + name + ".png", contact_sheet(tiles, 3, {}, name + ": rest, without links, with links"));
-  hf_surface_destroy(plain), hf_surface_destroy(linked);
+  hf_surface_destroy(plain);
+  hf_surface_destroy(linked);
 }
 
 }  // namespace

@@ -57,7 +57,8 @@ std::vector<Limb> limbs_of(const LinkScene& scene, const ModelLinks& links, cons
   for (const Skin& skin : scene.model.skins) {
     for (const int joint : skin.joints) {
       Limb limb;
-      limb.joint = joint, limb.weight.assign(areas.size(), 0);
+      limb.joint = joint;
+      limb.weight.assign(areas.size(), 0);
       for (size_t i = 0; i < links.joints.size(); ++i) {
         const float w = links.weights[i];
         if (w > 0 && below(scene.model, links.joints[i], joint)) limb.weight[i / 8] += static_cast<double>(w);
@@ -131,7 +132,9 @@ std::vector<double> pose_with(hf_surface surface, const LinkScene& scene, const 
   ok(hf_pose_create(surface, nullptr, &pose));
   const uint32_t count = uint32_t(region.size());
   hf_handles_desc desc = HF_INIT(hf_handles_desc);
-  desc.handle_count = 1, desc.region_counts = &count, desc.region_vertices = region.data();
+  desc.handle_count = 1;
+  desc.region_counts = &count;
+  desc.region_vertices = region.data();
   uint32_t handle = 0;
   ok(hf_pose_add_handles(pose, &desc, &handle));
   for (const uint32_t pin : pins) {
@@ -154,7 +157,11 @@ Picture tile(const LinkScene& scene, const std::vector<double>& xyz, const Box& 
              const Point& direction = {0.45, 0.2, 1.0}) {
   Surface surface = make_surface(xyz, scene.flat.triangles);
   View view;
-  view.width = 460, view.height = 460, view.direction = direction, view.fixed_box = true, view.box = box;
+  view.width = 460;
+  view.height = 460;
+  view.direction = direction;
+  view.fixed_box = true;
+  view.box = box;
   SurfaceLook look;
   look.fill = Fill::colors;
   surface.colors.reserve(xyz.size());
@@ -177,7 +184,8 @@ std::string distance_text(const LinkScene& scene, const std::vector<double>& a, 
   double sum = 0, worst = 0;
   for (size_t v = 0; v < scene.piece.size(); ++v) {
     const double d = glm::length(point(a, v) - point(b, v)) / scene.diagonal;
-    sum += d * d / double(scene.piece.size()), worst = std::max(worst, d);
+    sum += d * d / double(scene.piece.size());
+    worst = std::max(worst, d);
   }
   char text[64];
   std::snprintf(text, sizeof text, "%.2f / %.1f %%", 100 * std::sqrt(sum), 100 * worst);
@@ -209,18 +217,24 @@ void draw(const std::string& file, const std::string& folder) {
                               with = pose_with(linked, scene, region, pins, turn);
     Box box;
     bool empty = true;
-    extend(box, empty, scene.xyz), extend(box, empty, skin), extend(box, empty, with);
+    extend(box, empty, scene.xyz);
+    extend(box, empty, skin);
+    extend(box, empty, with);
     const std::string apart[2] = {distance_text(scene, without, skin), distance_text(scene, with, skin)};
-    tiles.push_back(tile(scene, scene.xyz, box, region, pins)),
-        labels.push_back(scene.model.nodes[size_t(limb.joint)].name);
-    tiles.push_back(tile(scene, without, box, {}, {})), labels.push_back("without links: " + apart[0]);
-    tiles.push_back(tile(scene, with, box, {}, {})), labels.push_back("with links: " + apart[1]);
-    tiles.push_back(tile(scene, skin, box, {}, {})), labels.push_back("the artist's skin");
+    tiles.push_back(tile(scene, scene.xyz, box, region, pins));
+    labels.push_back(scene.model.nodes[size_t(limb.joint)].name);
+    tiles.push_back(tile(scene, without, box, {}, {}));
+    labels.push_back("without links: " + apart[0]);
+    tiles.push_back(tile(scene, with, box, {}, {}));
+    labels.push_back("with links: " + apart[1]);
+    tiles.push_back(tile(scene, skin, box, {}, {}));
+    labels.push_back("the artist's skin");
     std::printf("| %s | %s | %s | %s |\n", name.c_str(), scene.model.nodes[size_t(limb.joint)].name.c_str(),
                 apart[0].c_str(), apart[1].c_str());
     std::fflush(stdout);
   }
-  hf_surface_destroy(plain), hf_surface_destroy(linked);
+  hf_surface_destroy(plain);
+  hf_surface_destroy(linked);
   if (!tiles.empty()) write_png(folder + "/" + name + ".png", contact_sheet(tiles, 4, labels, name));
 }
 
@@ -229,7 +243,8 @@ void draw(const std::string& file, const std::string& folder) {
 void add_parts(const hf_test::PartScene& parts, const Point& view, std::vector<Picture>& tiles,
                std::vector<std::string>& labels) {
   LinkScene scene;
-  scene.xyz = parts.mesh.positions, scene.flat.triangles = parts.mesh.triangles;
+  scene.xyz = parts.mesh.positions;
+  scene.flat.triangles = parts.mesh.triangles;
   for (size_t v = 0; v < parts.mesh.vertex_count(); ++v) scene.flat.positions.push_back(point(scene.xyz, v));
   scene.piece.resize(parts.mesh.vertex_count());
   const auto pose = [&](const hf_links_desc* links) {
@@ -247,7 +262,8 @@ void add_parts(const hf_test::PartScene& parts, const Point& view, std::vector<P
     hf_deform_desc frame = HF_INIT(hf_deform_desc);
     frame.positions_f64 = out.data();
     for (int i = 0; i < 20; ++i) ok(hf_pose_deform(pose, &frame, nullptr));
-    hf_pose_destroy(pose), hf_surface_destroy(surface);
+    hf_pose_destroy(pose);
+    hf_surface_destroy(surface);
     return out;
   };
   hf_links_desc links = HF_INIT(hf_links_desc);
@@ -265,11 +281,17 @@ void add_parts(const hf_test::PartScene& parts, const Point& view, std::vector<P
   }
   Box box;
   bool empty = true;
-  extend(box, empty, scene.xyz), extend(box, empty, without), extend(box, empty, with), extend(box, empty, last);
+  extend(box, empty, scene.xyz);
+  extend(box, empty, without);
+  extend(box, empty, with);
+  extend(box, empty, last);
   const Point other{-view[0], view[1], -view[2]};
-  tiles.push_back(tile(scene, scene.xyz, box, turned, held, view)), labels.push_back("rest");
-  tiles.push_back(tile(scene, without, box, {}, {}, view)), labels.push_back("without links");
-  tiles.push_back(tile(scene, with, box, {}, {}, view)), labels.push_back("with links");
+  tiles.push_back(tile(scene, scene.xyz, box, turned, held, view));
+  labels.push_back("rest");
+  tiles.push_back(tile(scene, without, box, {}, {}, view));
+  labels.push_back("without links");
+  tiles.push_back(tile(scene, with, box, {}, {}, view));
+  labels.push_back("with links");
   tiles.push_back(tile(scene, last, box, {}, {}, links.tags ? view : other));
   labels.push_back(links.tags ? "with links and tags" : "with links, from the other side");
 }
@@ -278,8 +300,10 @@ void draw_parts(const std::string& folder) {
   std::vector<Picture> tiles;
   std::vector<std::string> labels;
   const Point side{0.4, -0.8, 0.5}, face{0.5, -0.4, 0.8}, back{0.6, 0.5, -0.7};
-  add_parts(hf_test::cloth(), side, tiles, labels), add_parts(hf_test::eyes_and_teeth(), face, tiles, labels);
-  add_parts(hf_test::hair_cards(), back, tiles, labels), add_parts(hf_test::armour_and_sword(), side, tiles, labels);
+  add_parts(hf_test::cloth(), side, tiles, labels);
+  add_parts(hf_test::eyes_and_teeth(), face, tiles, labels);
+  add_parts(hf_test::hair_cards(), back, tiles, labels);
+  add_parts(hf_test::armour_and_sword(), side, tiles, labels);
   add_parts(hf_test::rider(), side, tiles, labels);
   write_png(folder + "/parts.png", contact_sheet(tiles, 4, labels, "characters of parts"));
 }

@@ -33,12 +33,17 @@ struct LinkScene {
 inline LinkScene read_scene(const std::string& file) {
   LinkScene out;
   if (file.size() > 4 && file.substr(file.size() - 4) == ".glb") {
-    out.model = read_gltf(file), out.flat = flatten(out.model), out.has_model = true;
+    out.model = read_gltf(file);
+    out.flat = flatten(out.model);
+    out.has_model = true;
   } else {
     out.flat = to_flat_mesh(read_mesh_file(file));
   }
   glm::dvec3 low(1e300), high(-1e300);
-  for (const glm::dvec3& p : out.flat.positions) low = glm::min(low, p), high = glm::max(high, p);
+  for (const glm::dvec3& p : out.flat.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
   out.diagonal = glm::length(high - low);
   out.xyz = double_positions(out.flat.positions);
   return out;
@@ -47,9 +52,12 @@ inline LinkScene read_scene(const std::string& file) {
 // links: NULL for none. Copies within 1e-5 of the box are one vertex.
 inline hf_surface make_linked(const LinkScene& scene, const hf_links_desc* links) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = scene.flat.vertex_count(), desc.triangle_count = scene.flat.triangle_count();
-  desc.positions_f64 = scene.xyz.data(), desc.triangles = scene.flat.triangles.data();
-  desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = static_cast<float>(1e-5 * scene.diagonal);
+  desc.vertex_count = scene.flat.vertex_count();
+  desc.triangle_count = scene.flat.triangle_count();
+  desc.positions_f64 = scene.xyz.data();
+  desc.triangles = scene.flat.triangles.data();
+  desc.weld = HF_WELD_TOLERANCE;
+  desc.weld_tolerance = static_cast<float>(1e-5 * scene.diagonal);
   desc.links = links;
   hf_surface surface = nullptr;
   ok(hf_surface_create(&desc, &surface));
@@ -62,7 +70,8 @@ inline glm::dmat4 turn_about(const glm::dvec3& p, const glm::dvec3& axis, double
   const glm::dmat4 rotation = glm::mat4_cast(
       glm::dquat(std::cos(half), std::sin(half) * axis.x, std::sin(half) * axis.y, std::sin(half) * axis.z));
   glm::dmat4 to(1), from(1);
-  to[3] = glm::dvec4(p, 1), from[3] = glm::dvec4(-p, 1);
+  to[3] = glm::dvec4(p, 1);
+  from[3] = glm::dvec4(-p, 1);
   return to * rotation * from;
 }
 

@@ -62,7 +62,8 @@ std::string scaling_rows(const json& run) {
                "+1/-1 edit, ms", "ns / n", "factor, MB", "bytes / n log n", "peak, MB", "bytes / n log n"});
   for (const json& source : run.at("rows")) {
     json row = source;
-    row["factor_mb"] = 1e-6 * number_of(row, "/factor_bytes"), row["peak_mb"] = 1e-6 * number_of(row, "/peak_bytes");
+    row["factor_mb"] = 1e-6 * number_of(row, "/factor_bytes");
+    row["peak_mb"] = 1e-6 * number_of(row, "/peak_bytes");
     out += line({row.at("name"), print("%.0f", row, "/ordering_ms"), print("%.0f", row, "/constants/ordering_ms"),
                  print("%.1f", row, "/numeric_ms"), print("%.2f", row, "/constants/numeric_ms"),
                  print("%.2f", row, "/field_ms"), print("%.2f", row, "/constants/field_ms"),

@@ -1,6 +1,7 @@
 // Memory of a solver: the peak of hf_create, ten sites and one field over the bytes of the stored factor, 10,000 to a
-// million vertices. The library counts every allocation it makes (hf_surface_statistics); beside it stands what the operating
-// system saw, the largest resident set of the process less what was there before (Linux; includes the C library).
+// million vertices. The library counts every allocation it makes (hf_surface_statistics); beside it stands what the
+// operating system saw, the largest resident set of the process less what was there before (Linux; includes the C
+// library).
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -92,8 +93,10 @@ void plot_memory(const Runs& runs, const std::string& file) {
         resident.points.emplace_back(number_of(row, "/n"), number_of(row, "/resident_bytes") / factor);
       }
       if (peak.points.empty()) continue;
-      resident.dashed = true, peak.colour = resident.colour = static_cast<int>(plot.curves.size() / 2);
-      plot.curves.push_back(peak), plot.curves.push_back(resident);
+      resident.dashed = true;
+      peak.colour = resident.colour = static_cast<int>(plot.curves.size() / 2);
+      plot.curves.push_back(peak);
+      plot.curves.push_back(resident);
     }
   }
   write_svg(file, plot);

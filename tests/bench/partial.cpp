@@ -43,7 +43,8 @@ void plot_partial(const Runs& runs, const std::string& file) {
       at.points.emplace_back(number_of(row, "/n"), number_of(row, "/solve_at_ms"));
       everywhere.points.emplace_back(number_of(row, "/n"), number_of(row, "/solve_ms"));
     }
-    plot.curves.push_back(at), plot.curves.push_back(everywhere);
+    plot.curves.push_back(at);
+    plot.curves.push_back(everywhere);
   }
   write_svg(file, plot);
 }

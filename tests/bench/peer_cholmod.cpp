@@ -17,20 +17,25 @@ PeerMatrix cotangent_matrix(const Mesh& mesh) {
       const uint32_t i = mesh.triangles[t + (k + 1) % 3], j = mesh.triangles[t + (k + 2) % 3],
                      o = mesh.triangles[t + k];
       std::array<double, 3> a{}, b{};
-      for (size_t d = 0; d < 3; ++d)
-        a[d] = mesh.positions[3 * i + d] - mesh.positions[3 * o + d],
+      for (size_t d = 0; d < 3; ++d) {
+        a[d] = mesh.positions[3 * i + d] - mesh.positions[3 * o + d];
         b[d] = mesh.positions[3 * j + d] - mesh.positions[3 * o + d];
+      }
       const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
       const double cx = a[1] * b[2] - a[2] * b[1], cy = a[2] * b[0] - a[0] * b[2], cz = a[0] * b[1] - a[1] * b[0];
       const double w = 0.5 * dot / std::sqrt(cx * cx + cy * cy + cz * cz);
       columns[std::min(i, j)][std::max(i, j)] -= w;
-      columns[i][i] += w, columns[j][j] += w;
+      columns[i][i] += w;
+      columns[j][j] += w;
     }
   }
   PeerMatrix out;
   for (size_t v = 0; v < n; ++v) {
     out.start.push_back(static_cast<int>(out.row.size()));
-    for (const auto& [row, value] : columns[v]) out.row.push_back(static_cast<int>(row)), out.value.push_back(value);
+    for (const auto& [row, value] : columns[v]) {
+      out.row.push_back(static_cast<int>(row));
+      out.value.push_back(value);
+    }
   }
   out.start.push_back(static_cast<int>(out.row.size()));
   return out;
@@ -82,10 +87,18 @@ class Peer final : public CholmodPeer {
  public:
   Peer(PeerMatrix matrix, uint32_t threads) : n_(matrix.size()), threads_(threads), matrix_(std::move(matrix)) {
     cholmod_start(&c_);
-    c_.supernodal = CHOLMOD_SUPERNODAL, c_.nmethods = 1, c_.print = 0;
-    view_.nrow = view_.ncol = n_, view_.nzmax = matrix_.row.size();
-    view_.p = matrix_.start.data(), view_.i = matrix_.row.data(), view_.x = matrix_.value.data();
-    view_.stype = -1, view_.itype = CHOLMOD_INT, view_.xtype = CHOLMOD_REAL, view_.dtype = CHOLMOD_DOUBLE;
+    c_.supernodal = CHOLMOD_SUPERNODAL;
+    c_.nmethods = 1;
+    c_.print = 0;
+    view_.nrow = view_.ncol = n_;
+    view_.nzmax = matrix_.row.size();
+    view_.p = matrix_.start.data();
+    view_.i = matrix_.row.data();
+    view_.x = matrix_.value.data();
+    view_.stype = -1;
+    view_.itype = CHOLMOD_INT;
+    view_.xtype = CHOLMOD_REAL;
+    view_.dtype = CHOLMOD_DOUBLE;
     view_.sorted = view_.packed = 1;
     for (size_t v = 0; v < n_; ++v) {
       plain_.push_back(diagonal(v));
@@ -128,7 +141,10 @@ class Peer final : public CholmodPeer {
   void set_sites(const std::vector<uint32_t>& vertices) override {
     std::fill(right_.begin(), right_.end(), 0.0);
     for (size_t v = 0; v < n_; ++v) diagonal(v) = plain_[v];
-    for (const uint32_t v : vertices) diagonal(v) += alpha(), right_[v] = alpha() * value_of(v);
+    for (const uint32_t v : vertices) {
+      diagonal(v) += alpha();
+      right_[v] = alpha() * value_of(v);
+    }
   }
   double factorise_ms(uint32_t blas_threads) override {
     const BlasThreads scope(blas_threads ? blas_threads : threads_);
@@ -178,8 +194,12 @@ class Peer final : public CholmodPeer {
   }
   cholmod_dense right_hand_side(std::vector<double>& right, uint32_t columns) const {
     cholmod_dense b{};
-    b.nrow = b.d = n_, b.ncol = columns, b.nzmax = n_ * columns, b.x = right.data();
-    b.xtype = CHOLMOD_REAL, b.dtype = CHOLMOD_DOUBLE;
+    b.nrow = b.d = n_;
+    b.ncol = columns;
+    b.nzmax = n_ * columns;
+    b.x = right.data();
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
     return b;
   }
   double solve_kept(cholmod_factor* factor, std::vector<double>& right, uint32_t columns) {
@@ -193,11 +213,21 @@ class Peer final : public CholmodPeer {
     if (sites.empty()) return 0;
     std::vector<int> start, row;
     std::vector<double> value(sites.size(), std::sqrt(alpha()));
-    for (const uint32_t v : sites) start.push_back(static_cast<int>(row.size())), row.push_back(position_[v]);
+    for (const uint32_t v : sites) {
+      start.push_back(static_cast<int>(row.size()));
+      row.push_back(position_[v]);
+    }
     start.push_back(static_cast<int>(row.size()));
     cholmod_sparse r{};
-    r.nrow = n_, r.ncol = sites.size(), r.nzmax = sites.size(), r.p = start.data(), r.i = row.data();
-    r.x = value.data(), r.itype = CHOLMOD_INT, r.xtype = CHOLMOD_REAL, r.sorted = r.packed = 1;
+    r.nrow = n_;
+    r.ncol = sites.size();
+    r.nzmax = sites.size();
+    r.p = start.data();
+    r.i = row.data();
+    r.x = value.data();
+    r.itype = CHOLMOD_INT;
+    r.xtype = CHOLMOD_REAL;
+    r.sorted = r.packed = 1;
     return time_ms([&] { require(cholmod_updown(update ? 1 : 0, &r, updatable_, &c_), "cholmod_updown"); });
   }
 
@@ -206,8 +236,11 @@ class Peer final : public CholmodPeer {
   PeerMatrix matrix_;
   cholmod_common c_;
   cholmod_sparse view_{};
-  cholmod_factor *factor_ = nullptr, *updatable_ = nullptr;
-  cholmod_dense *x_ = nullptr, *y_ = nullptr, *e_ = nullptr;
+  cholmod_factor* factor_ = nullptr;
+  *updatable_ = nullptr;
+  cholmod_dense* x_ = nullptr;
+  *y_ = nullptr;
+  *e_ = nullptr;
   std::vector<double> plain_, right_;
   std::vector<int> position_;
   double mean_ = 0;

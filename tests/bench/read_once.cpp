@@ -23,7 +23,10 @@ double sum_plain(const double* numbers, size_t count, size_t streams) {
   for (size_t i = 0; i < length; i += 4) {
     for (size_t s = 0; s < streams; ++s) {
       const double* p = numbers + s * length + i;
-      a += p[0], b += p[1], c += p[2], d += p[3];
+      a += p[0];
+      b += p[1];
+      c += p[2];
+      d += p[3];
     }
   }
   return a + b + c + d;
@@ -37,8 +40,10 @@ __attribute__((target("avx2"))) double sum_avx2(const double* numbers, size_t co
     for (size_t s = 0; s < streams; ++s) {
       const double* p = numbers + s * length + i;
       for (size_t half = 0; half < block; half += 16) {
-        a = _mm256_add_pd(a, _mm256_loadu_pd(p + half)), b = _mm256_add_pd(b, _mm256_loadu_pd(p + half + 4));
-        c = _mm256_add_pd(c, _mm256_loadu_pd(p + half + 8)), d = _mm256_add_pd(d, _mm256_loadu_pd(p + half + 12));
+        a = _mm256_add_pd(a, _mm256_loadu_pd(p + half));
+        b = _mm256_add_pd(b, _mm256_loadu_pd(p + half + 4));
+        c = _mm256_add_pd(c, _mm256_loadu_pd(p + half + 8));
+        d = _mm256_add_pd(d, _mm256_loadu_pd(p + half + 12));
       }
     }
   }
@@ -53,8 +58,10 @@ __attribute__((target("avx512f"))) double sum_avx512(const double* numbers, size
   for (size_t i = 0; i < length; i += block) {
     for (size_t s = 0; s < streams; ++s) {
       const double* p = numbers + s * length + i;
-      a = _mm512_add_pd(a, _mm512_loadu_pd(p)), b = _mm512_add_pd(b, _mm512_loadu_pd(p + 8));
-      c = _mm512_add_pd(c, _mm512_loadu_pd(p + 16)), d = _mm512_add_pd(d, _mm512_loadu_pd(p + 24));
+      a = _mm512_add_pd(a, _mm512_loadu_pd(p));
+      b = _mm512_add_pd(b, _mm512_loadu_pd(p + 8));
+      c = _mm512_add_pd(c, _mm512_loadu_pd(p + 16));
+      d = _mm512_add_pd(d, _mm512_loadu_pd(p + 24));
     }
   }
   double lanes[8], total = 0;
@@ -82,7 +89,10 @@ Reader::Reader(double bytes, uint32_t threads) : jobs_(threads), sums_(memory_, 
   for (const size_t streams : {1, 2, 4}) {
     std::vector<double> times;
     for (int i = 0; i < 9; ++i) times.push_back(pass(streams));
-    if (best == 0 || median(times) < best) best = median(times), streams_ = streams;
+    if (best == 0 || median(times) < best) {
+      best = median(times);
+      streams_ = streams;
+    }
   }
 }
 

@@ -39,8 +39,10 @@ nlohmann::json run_mesh(const Mesh& mesh, const Run& run) {
     solver.reset();
     solver = std::make_unique<Solver>(mesh, SolverOptions{HF_ENGINE_GREEN, run.threads});
     const hf_surface_statistics s = solver->surface_statistics();
-    create.push_back(solver->create_ms()), ordering.push_back(s.ordering_ms);
-    symbolic.push_back(s.symbolic_ms), numeric.push_back(s.numeric_ms);
+    create.push_back(solver->create_ms());
+    ordering.push_back(s.ordering_ms);
+    symbolic.push_back(s.symbolic_ms);
+    numeric.push_back(s.numeric_ms);
   }
   Sites sites(*solver);
   std::vector<uint32_t> order = scattered_vertices(n, 151, 9);

@@ -59,7 +59,8 @@ class Axis {
     const auto unusable = [&](double v) { return !std::isfinite(v) || (logarithmic && v <= 0); };
     values.erase(std::remove_if(values.begin(), values.end(), unusable), values.end());
     if (values.empty()) throw std::runtime_error("plot: nothing to draw");
-    low_ = *std::min_element(values.begin(), values.end()), high_ = *std::max_element(values.begin(), values.end());
+    low_ = *std::min_element(values.begin(), values.end());
+    high_ = *std::max_element(values.begin(), values.end());
     logarithmic ? decades() : steps();
   }
   double at(double value) const {
@@ -88,7 +89,8 @@ class Axis {
     }
   }
   void steps() {
-    low_ = std::min(low_, 0.0), high_ = high_ > low_ ? high_ * 1.1 : low_ + 1;
+    low_ = std::min(low_, 0.0);
+    high_ = high_ > low_ ? high_ * 1.1 : low_ + 1;
     double step = std::pow(10, std::floor(std::log10((high_ - low_) / 4)));
     for (const double m : {2.0, 2.5, 2.0}) {
       if ((high_ - low_) / step > 7) step *= m;
@@ -173,7 +175,10 @@ void write_svg(const std::string& file, const CurvePlot& plot) {
   const Frame frame = frame_of(720, (plot.curves.size() + 1) / 2);
   std::vector<double> xs, ys;
   for (const Curve& curve : plot.curves) {
-    for (const auto& [x, y] : curve.points) xs.push_back(x), ys.push_back(y);
+    for (const auto& [x, y] : curve.points) {
+      xs.push_back(x);
+      ys.push_back(y);
+    }
   }
   const Axis x(xs, plot.log_x, frame.x0, frame.x1), y(ys, plot.log_y, frame.y0, frame.y1);
   Sheet sheet(frame.width, frame.height);

@@ -62,8 +62,10 @@ class BareSweep {
   // Largest difference of the last two results over the largest value.
   double difference() const {
     double size = 0, error = 0;
-    for (size_t i = 0; i < wide_.size(); ++i)
-      size = std::max(size, std::fabs(wide_[i])), error = std::max(error, std::fabs(wide_[i] - double{narrow_[i]}));
+    for (size_t i = 0; i < wide_.size(); ++i) {
+      size = std::max(size, std::fabs(wide_[i]));
+      error = std::max(error, std::fabs(wide_[i] - double{narrow_[i]}));
+    }
     return error / size;
   }
 
@@ -109,7 +111,9 @@ json run_mesh(const Mesh& mesh, const Run& run, Report* report) {
       {"field_3_ms", [&] { return three.ms(); }},     {"field_8_ms", [&] { return eight.ms(); }},
       {"sweep_ms", [&] { return bare.double_ms(); }}, {"sweep_float32_ms", [&] { return bare.float32_ms(); }}};
   if (peer) {
-    peer->analyse_ms(), peer->set_sites(vertices), peer->factorise_ms();
+    peer->analyse_ms();
+    peer->set_sites(vertices);
+    peer->factorise_ms();
     candidates.insert(candidates.end(), {{"cholmod_solve_ms", [&] { return peer->solve_ms(); }},
                                          {"cholmod_solve_serial_ms", [&] { return peer->solve_ms(1); }},
                                          {"cholmod_solve2_ms", [&] { return peer->solve_kept_ms(1); }},

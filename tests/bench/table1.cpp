@@ -39,7 +39,10 @@ constexpr uint32_t site_pairs = 51, peer_site_pairs = 9;
 
 struct Times {
   std::vector<double> edit, solve;
-  void add(double edit_ms, double solve_ms) { edit.push_back(edit_ms), solve.push_back(solve_ms); }
+  void add(double edit_ms, double solve_ms) {
+    edit.push_back(edit_ms);
+    solve.push_back(solve_ms);
+  }
   double total() const {
     std::vector<double> sums;
     for (size_t i = 0; i < edit.size(); ++i) sums.push_back(edit[i] + solve[i]);
@@ -145,24 +148,28 @@ json run_row(const Row& row, const std::string& name, Bed& bed, const Run& run) 
   std::vector<double> exact, field;
   const Times green = engine.run(bed.green, field), refactor = engine.run(bed.refactor, exact);
   json out = {{"name", name}, {"n", n}, {"base", row.base}, {"insert", row.insert}, {"remove", row.remove}};
-  out["green"] = green.to_json(), out["refactor"] = refactor.to_json();
+  out["green"] = green.to_json();
+  out["refactor"] = refactor.to_json();
   out["ratio_refactor"] = refactor.total() / green.total();
   out["max_error_vs_exact"]["green"] = largest_difference(exact, field);
   std::printf("%-24s green %6.2f + %5.2f", name.c_str(), median(green.edit), median(green.solve));
   print("refactor", refactor, green);
   if (bed.updown) {
     const Times updown = engine.run(*bed.updown, field);
-    out["updown"] = updown.to_json(), out["ratio_updown_engine"] = updown.total() / green.total();
+    out["updown"] = updown.to_json();
+    out["ratio_updown_engine"] = updown.total() / green.total();
     out["max_error_vs_exact"]["updown"] = largest_difference(exact, field);
     print("updown", updown, green);
   }
   if (bed.peer) {
     const Times updown = engine.run_updown(*bed.peer, n, field), recompute = engine.run_refactor(*bed.peer, n);
-    out["cholmod_updown"] = updown.to_json(), out["cholmod_refactor"] = recompute.to_json();
+    out["cholmod_updown"] = updown.to_json();
+    out["cholmod_refactor"] = recompute.to_json();
     out["ratio_updown"] = updown.total() / green.total();
     out["ratio_cholmod_refactor"] = recompute.total() / green.total();
     out["max_error_vs_exact"]["cholmod_updown"] = largest_difference(exact, field);
-    print("cholmod_updown", updown, green), print("CHOLMOD again", recompute, green);
+    print("cholmod_updown", updown, green);
+    print("CHOLMOD again", recompute, green);
   }
   std::printf("\n");
   std::fflush(stdout);
@@ -170,7 +177,8 @@ json run_row(const Row& row, const std::string& name, Bed& bed, const Run& run) 
   // no engine that reads the stored factor once can be farther ahead, were its edits for nothing
   if (out.contains("cholmod_updown"))
     out["ratio_bound"] = out["cholmod_updown"]["total_ms"].get<double>() / bed.read_ms;
-  out["read_once_ms"] = bed.read_ms, out["factor_bytes"] = statistics.factor_bytes;
+  out["read_once_ms"] = bed.read_ms;
+  out["factor_bytes"] = statistics.factor_bytes;
   out["analysis_ms"] = statistics.ordering_ms + statistics.symbolic_ms;
   out["factorisation_ms"] = statistics.numeric_ms;
   return out;
@@ -218,7 +226,8 @@ Rows run_table1(const Run& run, Report& report) {
       const auto wanted = make_mesh(family, row.size, run.small);
       if (wanted != mesh) {
         bed.reset();
-        mesh = wanted, bed = std::make_unique<Bed>(*mesh, run.threads);
+        mesh = wanted;
+        bed = std::make_unique<Bed>(*mesh, run.threads);
         std::printf("-- %s: %u vertices, factor %.1f MB, read once %.2f ms\n", mesh->name.c_str(), mesh->vertex_count(),
                     1e-6 * bed->green.surface_statistics().factor_bytes, bed->read_ms);
       }

@@ -22,8 +22,10 @@ double distance2(const double* a, const double* b) {
 
 double diagonal_of(const Mesh& mesh) {
   double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
-  for (size_t i = 0; i < mesh.positions.size(); ++i)
-    low[i % 3] = std::min(low[i % 3], mesh.positions[i]), high[i % 3] = std::max(high[i % 3], mesh.positions[i]);
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    low[i % 3] = std::min(low[i % 3], mesh.positions[i]);
+    high[i % 3] = std::max(high[i % 3], mesh.positions[i]);
+  }
   return std::sqrt(distance2(low, high));
 }
 
@@ -43,7 +45,8 @@ Places balls(const Mesh& mesh, const std::vector<hf_extremity>& tips) {
         nearest = v;
     for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
       if (v != nearest && distance2(&mesh.positions[3 * size_t{v}], tip.position) > radius * radius) continue;
-      out.vertices.push_back(v), ++count;
+      out.vertices.push_back(v);
+      ++count;
     }
     out.counts.push_back(count);
   }
@@ -76,7 +79,8 @@ struct Actor {
   void play(const std::vector<std::vector<float>>& poses) {
     for (const std::vector<float>& posed : poses) {
       hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-      frame.source_positions = posed.data(), frame.target_positions = positions.data();
+      frame.source_positions = posed.data();
+      frame.target_positions = positions.data();
       check(hf_transfer_apply(transfer, &frame));
     }
   }
@@ -101,9 +105,12 @@ Rows run_transfer(const Run& run, Report&) {
   for (Actor& actor : actors) {
     check(hf_transfer_create(from.surface(), to.surface(), nullptr, &actor.transfer));
     hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-    pairs.pair_count = static_cast<uint32_t>(tips.size()), pairs.flags = flags.data();
-    pairs.source_counts = on_source.counts.data(), pairs.source_vertices = on_source.vertices.data();
-    pairs.target_counts = on_target.counts.data(), pairs.target_vertices = on_target.vertices.data();
+    pairs.pair_count = static_cast<uint32_t>(tips.size());
+    pairs.flags = flags.data();
+    pairs.source_counts = on_source.counts.data();
+    pairs.source_vertices = on_source.vertices.data();
+    pairs.target_counts = on_target.counts.data();
+    pairs.target_vertices = on_target.vertices.data();
     check(hf_transfer_add_pairs(actor.transfer, &pairs, nullptr));
     actor.positions.resize(target->positions.size());
   }

@@ -89,7 +89,10 @@ struct Loaded {
 
 double box_of(const std::vector<glm::dvec3>& points) {
   glm::dvec3 low(1e300), high(-1e300);
-  for (const glm::dvec3& p : points) low = glm::min(low, p), high = glm::max(high, p);
+  for (const glm::dvec3& p : points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
   return glm::length(high - low);
 }
 
@@ -110,9 +113,11 @@ std::vector<double> areas_of(const FlatMesh& flat) {
 
 Loaded load(const std::filesystem::path& folder, const Listed& from) {
   Loaded out;
-  out.name = from.name, out.judging = from.judging;
+  out.name = from.name;
+  out.judging = from.judging;
   out.model = read_gltf(folder / (std::string(from.name) + ".glb"));
-  out.flat = flatten(out.model), out.box = box_of(out.flat.positions);
+  out.flat = flatten(out.model);
+  out.box = box_of(out.flat.positions);
   out.areas = areas_of(out.flat);
   return out;
 }
@@ -120,7 +125,8 @@ Loaded load(const std::filesystem::path& folder, const Listed& from) {
 void sample_clips(Loaded& model) {
   if (!model.times.empty()) return;
   for (const Animation& clip : model.model.animations) {
-    model.times.push_back(frame_times(clip, clip_duration(clip) < 1 ? 60 : 30)), model.frames.emplace_back();
+    model.times.push_back(frame_times(clip, clip_duration(clip) < 1 ? 60 : 30));
+    model.frames.emplace_back();
     for (const double time : model.times.back())
       model.frames.back().push_back(double_positions(posed_positions(model.model, model.flat, clip, time)));
   }
@@ -148,10 +154,13 @@ Motion motion_of(const Frames& frames, double unit, const std::vector<double>& a
         const double e = (frames[f + 1][c] - 2 * frames[f][c] + frames[f - 1][c]) * unit;
         j += e * e;
       }
-      step = std::max(step, s), jerk = std::max(jerk, j), squares += j;
+      step = std::max(step, s);
+      jerk = std::max(jerk, j);
+      squares += j;
       out.area_squares += j * area[i / 3];
     }
-    out.step.push_back(std::sqrt(step)), out.jerk.push_back(std::sqrt(jerk));
+    out.step.push_back(std::sqrt(step));
+    out.jerk.push_back(std::sqrt(jerk));
     out.squares += 3 * squares / static_cast<double>(n);
   }
   return out;
@@ -217,7 +226,8 @@ Frames rigid_frames(const PlayedClip& played, const Loaded& source, const Loaded
 
 Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target, Session& session) {
   Run out;
-  out.name = played.clip.name, out.frames = played.source_frames.size();
+  out.name = played.clip.name;
+  out.frames = played.source_frames.size();
   const double scale = std::max(session.scale(), target.box / source.box);
   const Motion from = motion_of(played.source_frames, scale / target.box, source.areas),
                to = motion_of(played.target_frames, 1 / target.box, target.areas);
@@ -231,12 +241,16 @@ Run measure(const PlayedClip& played, const Loaded& source, const Loaded& target
   if (out.acceleration > calm)
     out.rigid = std::sqrt(
         motion_of(rigid_frames(played, source, target, session), 1 / target.box, target.areas).squares / from.squares);
-  out.slide = played.feet.planted_max, out.low = played.feet.low_max, out.sunk = played.feet.surface_sunk,
+  out.slide = played.feet.planted_max;
+  out.low = played.feet.low_max;
+  out.sunk = played.feet.surface_sunk;
   out.ms = played.frame_ms;
   out.gap = largest_gap(with_links(session.target_surface(), target), played.target_frames) / target.box;
   out.source_gap = largest_gap(with_links(session.source_surface(), source), played.source_frames) / source.box;
   const ClipFaults faults = find_faults(session, played);
-  out.confidence = faults.confidence, out.stretch = faults.stretch, out.lost = faults.lost.size();
+  out.confidence = faults.confidence;
+  out.stretch = faults.stretch;
+  out.lost = faults.lost.size();
   if (&source != &target) return out;
   out.self_mean = out.self_max = 0;
   for (size_t f = 0; f < out.frames; ++f) {
@@ -266,7 +280,10 @@ void say_where(const PlayedClip& played, const Loaded& source, const Loaded& tar
             played.target_frames[f + 1][c] - 2 * played.target_frames[f][c] + played.target_frames[f - 1][c];
         sum += d * d / target.box / target.box;
       }
-      if (std::sqrt(sum) > most) most = std::sqrt(sum), vertex = i / 3;
+      if (std::sqrt(sum) > most) {
+        most = std::sqrt(sum);
+        vertex = i / 3;
+      }
     }
     if (most <= spike_share || most <= spike_ratio * from.jerk[f]) continue;
     const double* p = played.target_frames[f].data() + 3 * vertex;
@@ -297,10 +314,19 @@ void say_fastest(const PlayedClip& played, const Loaded& source, const Loaded& t
         const double e = (frames[f + 1][c] - 2 * frames[f][c] + frames[f - 1][c]) / target.box;
         j += e * e;
       }
-      squares[finder.owner_name(static_cast<uint32_t>(i / 3))] += j, total += j;
+      squares[finder.owner_name(static_cast<uint32_t>(i / 3))] += j;
+      total += j;
       const double ratio = std::sqrt(s) / std::max(from.step[f], least_step);
-      if (from.step[f] > moving_step && ratio > most_step) most_step = ratio, stepper = i / 3, frame = f;
-      if (from.step[f] < still_step && ratio > most_still) most_still = ratio, restless = i / 3, still_frame = f;
+      if (from.step[f] > moving_step && ratio > most_step) {
+        most_step = ratio;
+        stepper = i / 3;
+        frame = f;
+      }
+      if (from.step[f] < still_step && ratio > most_still) {
+        most_still = ratio;
+        restless = i / 3;
+        still_frame = f;
+      }
     }
   }
   std::vector<std::pair<double, std::string>> order;
@@ -318,7 +344,9 @@ void say_fastest(const PlayedClip& played, const Loaded& source, const Loaded& t
 bool in_sample(const std::string& source, const std::string& target, const std::string& clip, uint32_t one_of) {
   uint32_t hash = 2166136261u;
   for (const char c : source + "|" + target + "|" + clip) hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
-  hash ^= hash >> 16, hash *= 0x85ebca6bu, hash ^= hash >> 13;
+  hash ^= hash >> 16;
+  hash *= 0x85ebca6bu;
+  hash ^= hash >> 13;
   return hash % one_of == 0;
 }
 
@@ -333,7 +361,11 @@ void say_deepest(const PlayedClip& played, const Loaded& target, const Session& 
     for (size_t v = 0; v < session.sinking().size(); ++v) {
       const double depth =
           grounds[f] - glm::dot(session.target_axes().up, glm::dvec3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]));
-      if (!session.sinking()[v] && depth > most) most = depth, deepest = v, frame = f;
+      if (!session.sinking()[v] && depth > most) {
+        most = depth;
+        deepest = v;
+        frame = f;
+      }
     }
   }
   std::printf("      %s frame %zu: %.4f of the box under the ground, vertex %zu of %s\n", played.clip.name.c_str(),
@@ -355,7 +387,9 @@ void say_widest(const PlayedClip& played, const Loaded& target, const Session& s
     hf_gaps_info info = HF_INIT(hf_gaps_info);
     if (hf_surface_measure_gaps(session.target_surface(), &posed, 0, nullptr, &info) != HF_OK || info.worst <= most)
       continue;
-    most = info.worst, worst = info.worst_link, frame = f;
+    most = info.worst;
+    worst = info.worst_link;
+    frame = f;
   }
   if (worst == HF_NO_INDEX) return;
   const hf_link& link = links[worst];
@@ -372,7 +406,8 @@ void say_sinking(const Loaded& target, const Session& session) {
   std::map<std::string, std::pair<size_t, size_t>> of_joint;
   for (uint32_t v = 0; v < target.flat.vertex_count(); ++v) {
     std::pair<size_t, size_t>& count = of_joint[finder.owner_name(v)];
-    ++count.second, count.first += session.sinking()[v];
+    ++count.second;
+    count.first += session.sinking()[v];
   }
   for (const auto& [joint, count] : of_joint)
     if (count.first > 0)
@@ -407,8 +442,11 @@ double spearman(const std::vector<double>& a, const std::vector<double>& b) {
   const std::vector<double> x = ranks(a), y = ranks(b);
   const double mean = 0.5 * static_cast<double>(x.size() + 1);
   double xx = 0, yy = 0, xy = 0;
-  for (size_t i = 0; i < x.size(); ++i)
-    xx += (x[i] - mean) * (x[i] - mean), yy += (y[i] - mean) * (y[i] - mean), xy += (x[i] - mean) * (y[i] - mean);
+  for (size_t i = 0; i < x.size(); ++i) {
+    xx += (x[i] - mean) * (x[i] - mean);
+    yy += (y[i] - mean) * (y[i] - mean);
+    xy += (x[i] - mean) * (y[i] - mean);
+  }
   return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
 }
 
@@ -417,9 +455,13 @@ double spearman(const std::vector<double>& a, const std::vector<double>& b) {
 void print_confidence(const std::vector<Run>& runs) {
   std::vector<double> confidence, spikes, acceleration, sunk, gap, stretch, lost;
   for (const Run& run : runs) {
-    confidence.push_back(run.confidence), spikes.push_back(static_cast<double>(run.spikes));
-    acceleration.push_back(std::max(run.acceleration, 1.0)), sunk.push_back(run.sunk), gap.push_back(run.gap);
-    stretch.push_back(run.stretch), lost.push_back(static_cast<double>(run.lost));
+    confidence.push_back(run.confidence);
+    spikes.push_back(static_cast<double>(run.spikes));
+    acceleration.push_back(std::max(run.acceleration, 1.0));
+    sunk.push_back(run.sunk);
+    gap.push_back(run.gap);
+    stretch.push_back(run.stretch);
+    lost.push_back(static_cast<double>(run.lost));
   }
   std::vector<double> worst(runs.size(), 0.0);
   for (const std::vector<double>* fault : {&spikes, &acceleration, &sunk, &gap}) {
@@ -441,22 +483,38 @@ void print_runs(const char* heading, const std::vector<Run>& runs) {
   double worst_still = 0, worst_step = 0, worst_slide = 0, worst_sunk = 0, worst_gap = 0, worst_self = 0, mean_self = 0,
          ms = 0, frames = 0;
   for (const Run& run : runs) {
-    spikes += run.spikes, spiked += run.spikes > 0;
-    if (run.acceleration > 0)
-      ratios.push_back(run.acceleration), calm_runs += run.acceleration <= calm,
-          near += run.acceleration <= nearly_calm;
-    if (run.acceleration > 0) calm_area += run.by_area <= calm, near_area += run.by_area <= nearly_calm;
-    stiff += run.rigid > calm, stiff_near += run.acceleration > nearly_calm && run.rigid > nearly_calm;
-    still += run.still > 2, worst_still = std::max(worst_still, run.still);
-    step += run.step > 1.5, worst_step = std::max(worst_step, run.step);
-    low += run.low > 0.001, slide += run.slide > 0.001, worst_slide = std::max(worst_slide, run.slide);
-    sunk += run.sunk > 0.01, worst_sunk = std::max(worst_sunk, run.sunk);
-    opened += run.gap > std::max(0.005, run.source_gap), gap += run.gap > 0.005,
-        worst_gap = std::max(worst_gap, run.gap);
-    ms += run.ms * static_cast<double>(run.frames), frames += static_cast<double>(run.frames);
+    spikes += run.spikes;
+    spiked += run.spikes > 0;
+    if (run.acceleration > 0) {
+      ratios.push_back(run.acceleration);
+      calm_runs += run.acceleration <= calm;
+      near += run.acceleration <= nearly_calm;
+    }
+    if (run.acceleration > 0) {
+      calm_area += run.by_area <= calm;
+      near_area += run.by_area <= nearly_calm;
+    }
+    stiff += run.rigid > calm;
+    stiff_near += run.acceleration > nearly_calm && run.rigid > nearly_calm;
+    still += run.still > 2;
+    worst_still = std::max(worst_still, run.still);
+    step += run.step > 1.5;
+    worst_step = std::max(worst_step, run.step);
+    low += run.low > 0.001;
+    slide += run.slide > 0.001;
+    worst_slide = std::max(worst_slide, run.slide);
+    sunk += run.sunk > 0.01;
+    worst_sunk = std::max(worst_sunk, run.sunk);
+    opened += run.gap > std::max(0.005, run.source_gap);
+    gap += run.gap > 0.005;
+    worst_gap = std::max(worst_gap, run.gap);
+    ms += run.ms * static_cast<double>(run.frames);
+    frames += static_cast<double>(run.frames);
     if (run.self_mean < 0) continue;
-    ++selves, good += run.self_mean <= 0.010 && run.self_max <= 0.025;
-    mean_self = std::max(mean_self, run.self_mean), worst_self = std::max(worst_self, run.self_max);
+    ++selves;
+    good += run.self_mean <= 0.010 && run.self_max <= 0.025;
+    mean_self = std::max(mean_self, run.self_mean);
+    worst_self = std::max(worst_self, run.self_max);
   }
   std::sort(ratios.begin(), ratios.end());
   const auto part = [&](double share) {
@@ -544,7 +602,10 @@ int table(const Options& options) {
       }
       size_t spikes = 0;
       double acceleration = 0;
-      for (const Run& run : runs) spikes += run.spikes, acceleration = std::max(acceleration, run.acceleration);
+      for (const Run& run : runs) {
+        spikes += run.spikes;
+        acceleration = std::max(acceleration, run.acceleration);
+      }
       std::printf("%-20s on %-22s %zu clips, %zu spikes, acceleration %.2f: %s\n", source.name, target.name,
                   runs.size(), spikes, acceleration, proposed.c_str());
       for (const Run& run : runs) {

@@ -43,8 +43,10 @@ hf::Bones bones_of_creature() {
 
 hf::Surface surface_of(const Mesh& mesh, uint32_t threads) {
   auto desc = hf::make<hf_surface_desc>();
-  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
-  desc.positions_f64 = mesh.positions.data(), desc.triangles = mesh.triangles.data();
+  desc.vertex_count = mesh.vertex_count();
+  desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
+  desc.positions_f64 = mesh.positions.data();
+  desc.triangles = mesh.triangles.data();
   desc.thread_count = threads;
   return hf::Surface(desc);
 }
@@ -53,7 +55,11 @@ void set_pin(hf::Weights& weights, uint32_t vertex, float share) {
   const uint32_t joints[] = {0, 1};
   const float shares[] = {share, 1 - share};
   auto pin = hf::make<hf_pins_desc>();
-  pin.pin_count = 1, pin.vertices = &vertex, pin.joint_count = 2, pin.joints = joints, pin.weights = shares;
+  pin.pin_count = 1;
+  pin.vertices = &vertex;
+  pin.joint_count = 2;
+  pin.joints = joints;
+  pin.weights = shares;
   weights.set_pins(pin);
 }
 
@@ -69,15 +75,28 @@ nlohmann::json measure(const Mesh& mesh, Family family, const Run& run) {
     hf::Bones moved = bones;
     const size_t turned = 3 * (bones.count() / 2);
     for (size_t c = 0; c < 3; ++c) moved.heads[turned + c] *= 1.001;
-    const double bone_ms = time_ms([&] { weights.set_bones(moved), weights.weights(); });
+    const double bone_ms = time_ms([&] {
+      weights.set_bones(moved);
+      weights.weights();
+    });
     const uint32_t vertex = mesh.vertex_count() / 2;
-    const double pin_ms = time_ms([&] { set_pin(weights, vertex, 0.25f), weights.weights(); });
-    const double again_ms = time_ms([&] { set_pin(weights, vertex, 0.75f), weights.weights(); });
+    const double pin_ms = time_ms([&] {
+      set_pin(weights, vertex, 0.25f);
+      weights.weights();
+    });
+    const double again_ms = time_ms([&] {
+      set_pin(weights, vertex, 0.75f);
+      weights.weights();
+    });
     const hf::VertexWeights given = weights.weights();
     const double carry_ms = time_ms([&] { hf::carry_weights(surface, given, level); });
     if (r == 0) continue;  // the first one warms
-    whole.push_back(all), made.push_back(alone), bone.push_back(bone_ms), pin.push_back(pin_ms);
-    rewritten.push_back(again_ms), carried.push_back(carry_ms);
+    whole.push_back(all);
+    made.push_back(alone);
+    bone.push_back(bone_ms);
+    pin.push_back(pin_ms);
+    rewritten.push_back(again_ms);
+    carried.push_back(carry_ms);
   }
   return {{"name", mesh.name},
           {"n", mesh.vertex_count()},

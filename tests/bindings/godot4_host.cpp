@@ -51,7 +51,9 @@ int main(int count, char** arguments) {
 
 #define HF_GODOT4_NAME(result, name, parameters) #name,
   for (const char* name : {HF_GODOT4_FUNCTIONS(HF_GODOT4_NAME)}) {
-    missing = name, said.clear(), ++functions;
+    missing = name;
+    said.clear();
+    ++functions;
     const bool can_say = std::strcmp(name, "print_error_with_message") != 0;
     if (init(find, &token, &initialization) != 0 || (can_say && said.find(name) == std::string::npos))
       failed += std::printf("FAILED without %s: %s\n", name, said.c_str()) > 0;

@@ -24,11 +24,20 @@ void Scene::with_quad_options(const Json& step, const std::function<void(const h
   const auto plane = doubles(step, "symmetry_plane", 4);
   if (edges && edges->size() % 2) fail("crease_edges must hold two vertices each");
   const std::vector<float> weights = given ? std::vector<float>(given->begin(), given->end()) : std::vector<float>();
-  if (edges) desc.crease_count = count(edges) / 2, desc.crease_edges = data(edges);
-  if (guided) desc.guide_count = count(guided), desc.guide_vertices = data(guided);
+  if (edges) {
+    desc.crease_count = count(edges) / 2;
+    desc.crease_edges = data(edges);
+  }
+  if (guided) {
+    desc.guide_count = count(guided);
+    desc.guide_vertices = data(guided);
+  }
   if (vectors) desc.guide_vectors = vectors->data();
   if (given) desc.guide_weights = weights.data();
-  if (poles) desc.pole_count = count(poles), desc.pole_quads = data(poles);
+  if (poles) {
+    desc.pole_count = count(poles);
+    desc.pole_quads = data(poles);
+  }
   if (places) desc.pole_points = places->data();
   if (ways) desc.pole_directions = ways->data();
   if (plane) std::copy(plane->begin(), plane->end(), desc.symmetry_plane);
@@ -45,27 +54,32 @@ void Scene::make_object(const Json& step, const std::string& what) {
     set_options(step, desc, {{"mode", &desc.mode}, {"band_count", &desc.band_count}}, {});
     hf_pose raw = nullptr;
     check(hf_pose_create(surface, &desc, &raw));
-    object.pose = hf::Handle<hf_pose, hf_pose_destroy>(raw);
+    object.pose = hf::Handle < hf_pose;
+    hf_pose_destroy > (raw);
   } else if (what == "geodesics") {
     auto desc = make<hf_geodesics_desc>();
     set_options(step, desc, {{"method", &desc.method}, {"smoothing", &desc.smoothing}}, {{"smoothing", false}});
     hf_geodesics raw = nullptr;
     check(hf_geodesics_create(surface, &desc, &raw));
-    object.geodesics = hf::Handle<hf_geodesics, hf_geodesics_destroy>(raw);
+    object.geodesics = hf::Handle < hf_geodesics;
+    hf_geodesics_destroy > (raw);
   } else if (what == "direction") {
     auto desc = make<hf_direction_desc>();
     set_options(step, desc, {{"degree", &desc.degree}}, {});
     hf_direction raw = nullptr;
     check(hf_direction_create(surface, &desc, &raw));
-    object.direction = hf::Handle<hf_direction, hf_direction_destroy>(raw);
+    object.direction = hf::Handle < hf_direction;
+    hf_direction_destroy > (raw);
   } else if (what == "quads") {
     hf_quads raw = nullptr;
     with_quad_options(step, [&](const hf_quads_desc& desc) { check(hf_quads_create(surface, &desc, &raw)); });
-    object.quads = hf::Handle<hf_quads, hf_quads_destroy>(raw);
+    object.quads = hf::Handle < hf_quads;
+    hf_quads_destroy > (raw);
   } else {
     hf_flow raw = nullptr;
     check(hf_flow_create(surface, &raw));
-    object.flow = hf::Handle<hf_flow, hf_flow_destroy>(raw);
+    object.flow = hf::Handle < hf_flow;
+    hf_flow_destroy > (raw);
   }
   objects_[step["as"]] = std::move(object);
 }
@@ -101,7 +115,9 @@ Result Scene::run_direction(const Json& step, const std::string& what) {
     hf_direction raw = nullptr;
     check(hf_direction_clone(direction, &raw));
     Object& made = objects_[step["as"]];
-    made.direction = hf::Handle<hf_direction, hf_direction_destroy>(raw), made.vertex_count = n;
+    made.direction = hf::Handle < hf_direction;
+    hf_direction_destroy > (raw);
+    made.vertex_count = n;
   } else if (what == "vectors") {
     const uint32_t k = hf_direction_get_site_count(direction);
     result.array.emplace(3 * size_t{k});
@@ -129,7 +145,10 @@ Result Scene::run_quads(const Json& step, const std::string& what) {
     scalars.values_f64 = data(field);
     auto lines = make<hf_flow_lines>();
     lines.wanted_count = step.value("count", 0u);
-    if (seeds) lines.seed_count = count(seeds), lines.seeds = data(seeds);
+    if (seeds) {
+      lines.seed_count = count(seeds);
+      lines.seeds = data(seeds);
+    }
     lines.point_capacity = lines.line_capacity = 100000;
     result.array.emplace(300000);
     lines.positions = result.array->data();
@@ -150,7 +169,8 @@ Result Scene::run_quads(const Json& step, const std::string& what) {
   }
   result.array.emplace(3 * size_t{info.vertex_count});
   auto mesh = make<hf_quads_mesh>();
-  mesh.vertex_capacity = info.vertex_count, mesh.positions = result.array->data();
+  mesh.vertex_capacity = info.vertex_count;
+  mesh.positions = result.array->data();
   check(hf_quads_get_mesh(on.quads.get(), &mesh));
   return result;
 }

@@ -15,11 +15,13 @@ namespace {
 std::atomic<long long> held{0}, blocks{0};  // bytes and blocks that the library has
 
 void* allocate(void*, size_t size, size_t alignment) {
-  held += static_cast<long long>(size), ++blocks;
+  held += static_cast<long long>(size);
+  ++blocks;
   return ::operator new(size, std::align_val_t(alignment), std::nothrow);
 }
 void release(void*, void* block, size_t size, size_t alignment) {
-  held -= static_cast<long long>(size), --blocks;
+  held -= static_cast<long long>(size);
+  --blocks;
   ::operator delete(block, std::align_val_t(alignment));
 }
 
@@ -33,9 +35,12 @@ void check_lifetime(const Json& mesh, int rounds) {
   long long most = 0;
   for (int round = 0; round < rounds; ++round) {
     auto desc = hf::make<hf_surface_desc>();
-    desc.vertex_count = last + 1, desc.positions = positions.data();
-    desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3), desc.triangles = triangles.data();
-    desc.allocator.allocate = allocate, desc.allocator.release = release;
+    desc.vertex_count = last + 1;
+    desc.positions = positions.data();
+    desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
+    desc.triangles = triangles.data();
+    desc.allocator.allocate = allocate;
+    desc.allocator.release = release;
     auto surface = std::make_shared<hf::Surface>(desc);
     auto solver = std::make_shared<hf::Solver>(*surface);
     solver->add_sites({0, last}, {0.0, 1.0});

@@ -16,14 +16,18 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
     const auto lists = regions(step, "regions");
     const auto points = doubles(step, "points");
     const auto radii = points ? doubles(step, "radii", points->size() / 3) : std::nullopt;
-    desc.layer = step.value("layer", 0u), desc.in_place = step.value("in_place", 0);
-    if (points)
-      desc.handle_count = static_cast<uint32_t>(points->size() / 3), desc.points = data(points),
+    desc.layer = step.value("layer", 0u);
+    desc.in_place = step.value("in_place", 0);
+    if (points) {
+      desc.handle_count = static_cast<uint32_t>(points->size() / 3);
+      desc.points = data(points);
       desc.radii = data(radii);
-    else {
+    } else {
       desc.handle_count = lists ? static_cast<uint32_t>(lists->first.size()) : 1u;
-      if (lists && !lists->first.empty())
-        desc.region_counts = lists->first.data(), desc.region_vertices = lists->second.data();
+      if (lists && !lists->first.empty()) {
+        desc.region_counts = lists->first.data();
+        desc.region_vertices = lists->second.data();
+      }
     }
     result.numbers.emplace(desc.handle_count);
     check(hf_pose_add_handles(pose, &desc, result.numbers->data()));
@@ -88,7 +92,8 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
     auto info = make<hf_skin_info>();
     info.weight_count = step["weight_count"];
     std::vector<float> weights(on.vertex_count * info.weight_count);
-    info.vertex_capacity = static_cast<uint32_t>(on.vertex_count), info.vertex_weights = weights.data();
+    info.vertex_capacity = static_cast<uint32_t>(on.vertex_count);
+    info.vertex_weights = weights.data();
     check(hf_pose_get_skin(pose, &info));
     result.array.emplace(weights.begin(), weights.end());
   } else if (what == "add_pairs") {
@@ -98,8 +103,10 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
     auto desc = make<hf_pairs_desc>();
     desc.pair_count = static_cast<uint32_t>(source->first.size());
     if (desc.pair_count) {
-      desc.source_counts = source->first.data(), desc.source_vertices = source->second.data();
-      desc.target_counts = target->first.data(), desc.target_vertices = target->second.data();
+      desc.source_counts = source->first.data();
+      desc.source_vertices = source->second.data();
+      desc.target_counts = target->first.data();
+      desc.target_vertices = target->second.data();
     }
     desc.flags = data(flags);
     result.numbers.emplace(desc.pair_count);
@@ -137,7 +144,8 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
     const auto posed = doubles(step, "positions", 3 * on.source_vertex_count);
     result.array.emplace(3 * on.vertex_count);
     auto frame = make<hf_transfer_frame>();
-    frame.source_positions_f64 = data(posed), frame.target_positions_f64 = result.array->data();
+    frame.source_positions_f64 = data(posed);
+    frame.target_positions_f64 = result.array->data();
     check(hf_transfer_apply(on.transfer.get(), &frame));
   } else {
     throw std::runtime_error("unknown step " + what);

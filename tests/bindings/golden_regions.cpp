@@ -16,7 +16,9 @@ Result Scene::run_region(const Json& step, const std::string& what) {
     check(hf_detail_create(source.region.get(), target.region.get(), &desc, &raw));
     const size_t n = target.vertex_count;
     Object& made = objects_[step["as"]];
-    made.detail = hf::Handle<hf_detail, hf_detail_destroy>(raw), made.vertex_count = n;
+    made.detail = hf::Handle < hf_detail;
+    hf_detail_destroy > (raw);
+    made.vertex_count = n;
     return result;
   }
   Object& on = objects_[step["on"]];
@@ -30,16 +32,28 @@ Result Scene::run_region(const Json& step, const std::string& what) {
     check(hf_region_create(on.surface.get(), &desc, &raw));
     const size_t n = on.vertex_count;
     Object& made = objects_[step["as"]];
-    made.region = hf::Handle<hf_region, hf_region_destroy>(raw), made.vertex_count = n;
+    made.region = hf::Handle < hf_region;
+    hf_region_destroy > (raw);
+    made.vertex_count = n;
   } else if (what == "region_edit") {
     const auto curve = numbers(step, "curve"), add = numbers(step, "add"), removed = numbers(step, "remove");
     auto desc = make<hf_region_edit_desc>();
     auto line = make<hf_curve_desc>();
     desc.ring_count = step.value("rings", 0);
     line.kind = step.value("curve_kind", 0);
-    if (curve) line.point_count = count(curve), line.vertices = data(curve), desc.curve = &line;
-    if (add) desc.add_count = count(add), desc.add_vertices = data(add);
-    if (removed) desc.remove_count = count(removed), desc.remove_vertices = data(removed);
+    if (curve) {
+      line.point_count = count(curve);
+      line.vertices = data(curve);
+      desc.curve = &line;
+    }
+    if (add) {
+      desc.add_count = count(add);
+      desc.add_vertices = data(add);
+    }
+    if (removed) {
+      desc.remove_count = count(removed);
+      desc.remove_vertices = data(removed);
+    }
     check(hf_region_edit(region, &desc));
   } else if (what == "region_info") {
     auto info = make<hf_region_info>();
@@ -70,7 +84,8 @@ Result Scene::run_region(const Json& step, const std::string& what) {
   } else {
     auto desc = make<hf_morph_desc>();
     result.array.emplace(3 * on.vertex_count);
-    desc.weight = number(step["weight"]), desc.positions_f64 = result.array->data();
+    desc.weight = number(step["weight"]);
+    desc.positions_f64 = result.array->data();
     check(on.detail ? hf_detail_morph(on.detail.get(), &desc) : hf_region_morph(region, &desc));
   }
   return result;

@@ -29,7 +29,8 @@ inline void expect(bool condition, const std::string& what) {
 
 [[noreturn]] inline void fail(const std::string& message, hf_result code = HF_ERROR_INVALID_ARGUMENT) {
   hf_error_detail detail{};
-  detail.code = code, detail.index = HF_NO_INDEX;
+  detail.code = code;
+  detail.index = HF_NO_INDEX;
   message.copy(detail.message, sizeof detail.message - 1);
   throw hf::Error(detail);
 }
@@ -127,12 +128,17 @@ class Scene {
     double sum = 0, weighted = 0, least = a.empty() ? 0 : a[0], most = least;
     for (size_t i = 0; i < a.size(); ++i) {
       expect(std::isfinite(a[i]), "not finite");
-      sum += a[i], weighted += a[i] * static_cast<double>(i % 7 + 1);
-      least = std::min(least, a[i]), most = std::max(most, a[i]);
+      sum += a[i];
+      weighted += a[i] * static_cast<double>(i % 7 + 1);
+      least = std::min(least, a[i]);
+      most = std::max(most, a[i]);
     }
     if (fill && wanted.contains("agree")) {
       Json at = Json::array(), values = Json::array();
-      for (size_t i = 0; i < a.size(); i += a.size() / 20 + 1) at.push_back(i), values.push_back(a[i]);
+      for (size_t i = 0; i < a.size(); i += a.size() / 20 + 1) {
+        at.push_back(i);
+        values.push_back(a[i]);
+      }
       const Json tolerance = wanted["tolerance"];
       wanted = {{"count", a.size()}, {"sum", sum}, {"weighted", weighted}, {"min", least},
                 {"max", most},       {"at", at},   {"values", values},     {"tolerance", tolerance}};
@@ -142,8 +148,11 @@ class Scene {
       if (wanted.contains(key))
         expect(std::abs(found - wanted[key].get<double>()) <= room, std::string(key) + " is " + std::to_string(found));
     };
-    near("count", n, 0), near("sum", sum, tolerance * n + 1e-9), near("weighted", weighted, 7 * tolerance * n + 1e-9),
-        near("min", least, tolerance), near("max", most, tolerance);
+    near("count", n, 0);
+    near("sum", sum, tolerance * n + 1e-9);
+    near("weighted", weighted, 7 * tolerance * n + 1e-9);
+    near("min", least, tolerance);
+    near("max", most, tolerance);
     const Json places = wanted.value("at", Json::array());
     for (size_t k = 0; k < places.size(); ++k)
       expect(std::abs(a[places[k].get<size_t>()] - wanted["values"][k].get<double>()) <= tolerance,

@@ -44,7 +44,9 @@ Result Scene::run_solver(const Json& step) {
   check(hf_create(on.surface.get(), &desc, &raw));
   const size_t n = on.vertex_count;
   Object& object = objects_[step["as"]];
-  object.solver = hf::Handle<hf_solver, hf_solver_destroy>(raw), object.vertex_count = n;
+  object.solver = hf::Handle < hf_solver;
+  hf_solver_destroy > (raw);
+  object.vertex_count = n;
   return {};
 }
 
@@ -63,7 +65,9 @@ Result Scene::run(const Json& step) {
     check(hf_transfer_create(source.surface.get(), target.surface.get(), &desc, &raw));
     const size_t sources = source.vertex_count, targets = target.vertex_count;
     Object& made = objects_[step["as"]];
-    made.transfer = hf::Handle<hf_transfer, hf_transfer_destroy>(raw), made.source_vertex_count = sources,
+    made.transfer = hf::Handle < hf_transfer;
+    hf_transfer_destroy > (raw);
+    made.source_vertex_count = sources;
     made.vertex_count = targets;
     return result;
   }
@@ -74,24 +78,40 @@ Result Scene::run(const Json& step) {
              triangles = numbers(step, "triangles");
   const auto places = [&](const std::optional<Numbers>& at) {
     auto desc = make<hf_sites_desc>();
-    desc.site_count = count(at), desc.vertices = data(at);
+    desc.site_count = count(at);
+    desc.vertices = data(at);
     return desc;
   };
   if (what == "dispose") {
-    on.surface = {}, on.solver = {}, on.pose = {}, on.transfer = {}, on.geodesics = {}, on.direction = {};
-    on.quads = {}, on.flow = {}, on.region = {}, on.detail = {}, on.weights = {};
+    on.surface = {};
+    on.solver = {};
+    on.pose = {};
+    on.transfer = {};
+    on.geodesics = {};
+    on.direction = {};
+    on.quads = {};
+    on.flow = {};
+    on.region = {};
+    on.detail = {};
+    on.weights = {};
   } else if (what == "clone") {
     hf_solver raw = nullptr;
     check(hf_solver_clone(solver, &raw));
     Object& made = objects_[step["as"]];
-    made.solver = hf::Handle<hf_solver, hf_solver_destroy>(raw), made.vertex_count = n;
+    made.solver = hf::Handle < hf_solver;
+    hf_solver_destroy > (raw);
+    made.vertex_count = n;
   } else if (what == "add_sites") {
     const size_t k = count(vertices ? vertices : triangles);
     const auto weights = doubles(step, "barycentrics", 3 * k), values = doubles(step, "values", k),
                stiffness = doubles(step, "stiffness", k), radii = doubles(step, "radii", k);
     auto desc = places(vertices ? vertices : triangles);
-    desc.vertices = data(vertices), desc.triangles = data(triangles), desc.barycentrics = data(weights);
-    desc.values = data(values), desc.stiffness = data(stiffness), desc.radii = data(radii);
+    desc.vertices = data(vertices);
+    desc.triangles = data(triangles);
+    desc.barycentrics = data(weights);
+    desc.values = data(values);
+    desc.stiffness = data(stiffness);
+    desc.radii = data(radii);
     result.numbers.emplace(k);
     check(hf_add_sites(solver, &desc, result.numbers->data()));
   } else if (what == "add_site") {
@@ -115,9 +135,20 @@ Result Scene::run(const Json& step) {
     const auto move_to = places(to);
     auto add = places(added);
     add.values = data(more);
-    if (removed) edit.remove_count = count(removed), edit.remove_sites = data(removed);
-    if (moved) edit.move_count = count(moved), edit.move_sites = data(moved), edit.move_to = &move_to;
-    if (changed) edit.set_count = count(changed), edit.set_sites = data(changed), edit.set_values = data(values);
+    if (removed) {
+      edit.remove_count = count(removed);
+      edit.remove_sites = data(removed);
+    }
+    if (moved) {
+      edit.move_count = count(moved);
+      edit.move_sites = data(moved);
+      edit.move_to = &move_to;
+    }
+    if (changed) {
+      edit.set_count = count(changed);
+      edit.set_sites = data(changed);
+      edit.set_values = data(values);
+    }
     if (added) edit.add = &add;
     result.numbers.emplace(count(added));
     check(hf_solver_edit_sites(solver, &edit, result.numbers->data()));
@@ -179,7 +210,8 @@ Result Scene::run(const Json& step) {
       auto path = make<hf_path>();
       check(hf_geodesics_find_path(on.geodesics.get(), &from, &to, &path));
       result.array.emplace(3 * size_t{path.point_count});
-      path.point_capacity = path.point_count, path.positions = result.array->data();
+      path.point_capacity = path.point_count;
+      path.positions = result.array->data();
       check(hf_geodesics_find_path(on.geodesics.get(), &from, &to, &path));
     }
   } else if (what == "pose" || what == "geodesics" || what == "direction" || what == "quads" || what == "flow") {

@@ -46,7 +46,8 @@ Result Scene::run_surface(const Json& step) {
     for (const auto& [key, value] : step["positions"].items()) positions[std::stoul(key)] = number(value);
   if (step.contains("triangles"))
     for (const auto& [key, value] : step["triangles"].items()) triangles[std::stoul(key)] = value.get<uint32_t>();
-  desc.vertex_count = static_cast<uint32_t>(positions.size() / 3), desc.positions_f64 = positions.data();
+  desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
+  desc.positions_f64 = positions.data();
   desc.triangle_count = step.contains("no_triangles") ? 0 : static_cast<uint32_t>(triangles.size() / 3);
   const size_t width = step.value("index_bits", 32u) / 8;
   desc.triangle_stride = step.value("triangle_stride", 0u);
@@ -57,23 +58,34 @@ Result Scene::run_surface(const Json& step) {
     desc.triangles = reinterpret_cast<const uint32_t*>(laid.data());
   Numbers offsets, corners, tags;
   if (step.contains("faces")) {
-    offsets = step["faces"]["offsets"].get<Numbers>(), corners = step["faces"]["corners"].get<Numbers>();
-    desc.triangle_count = 0, desc.triangles = nullptr;
-    desc.face_count = static_cast<uint32_t>(offsets.size() - 1), desc.face_starts = offsets.data();
-    desc.corner_count = static_cast<uint32_t>(corners.size()), desc.corners = corners.data();
+    offsets = step["faces"]["offsets"].get<Numbers>();
+    corners = step["faces"]["corners"].get<Numbers>();
+    desc.triangle_count = 0;
+    desc.triangles = nullptr;
+    desc.face_count = static_cast<uint32_t>(offsets.size() - 1);
+    desc.face_starts = offsets.data();
+    desc.corner_count = static_cast<uint32_t>(corners.size());
+    desc.corners = corners.data();
   }
-  if (step.contains("tags")) tags = step["tags"].get<Numbers>(), links.tags = tags.data();
+  if (step.contains("tags")) {
+    tags = step["tags"].get<Numbers>();
+    links.tags = tags.data();
+  }
   auto factor = make<hf_factor_desc>();
   std::vector<uint8_t> bytes;
   if (step.contains("factor")) {
     bytes = bytes_.at(step["factor"]);
     if (step.contains("damage")) bytes[step["damage"].get<size_t>()] ^= 1;
-    factor.bytes = bytes.data(), factor.byte_count = bytes.size(), desc.saved_factor = &factor;
+    factor.bytes = bytes.data();
+    factor.byte_count = bytes.size();
+    desc.saved_factor = &factor;
   }
   hf_surface raw = nullptr;
   check(hf_surface_create(&desc, &raw));
   Object& object = objects_[step["as"]];
-  object.surface = hf::Handle<hf_surface, hf_surface_destroy>(raw), object.vertex_count = desc.vertex_count;
+  object.surface = hf::Handle < hf_surface;
+  hf_surface_destroy > (raw);
+  object.vertex_count = desc.vertex_count;
   return {};
 }
 
@@ -90,12 +102,17 @@ Result Scene::run_graph(const Json& step) {
   const auto edges = numbers(step, "edges");
   const auto weights = doubles(step, "weights"), masses = doubles(step, "masses", step["vertex_count"].get<size_t>());
   if (edges && weights && edges->size() != 2 * weights->size()) fail("edges must hold two vertices for each weight");
-  desc.vertex_count = step["vertex_count"], desc.edge_count = count(weights);
-  desc.edges = data(edges), desc.weights = data(weights), desc.masses = data(masses);
+  desc.vertex_count = step["vertex_count"];
+  desc.edge_count = count(weights);
+  desc.edges = data(edges);
+  desc.weights = data(weights);
+  desc.masses = data(masses);
   hf_surface raw = nullptr;
   check(hf_surface_create_graph(&desc, &raw));
   Object& object = objects_[step["as"]];
-  object.surface = hf::Handle<hf_surface, hf_surface_destroy>(raw), object.vertex_count = desc.vertex_count;
+  object.surface = hf::Handle < hf_surface;
+  hf_surface_destroy > (raw);
+  object.vertex_count = desc.vertex_count;
   return {};
 }
 
@@ -103,7 +120,8 @@ Result Scene::run_picking(const Json& step, const std::string& what, hf_surface 
   Result result;
   auto desc = make<hf_pick_desc>();
   const auto positions = doubles(step, "positions", 3 * n);
-  desc.positions_f64 = data(positions), desc.front_only = step.value("front_only", 0);
+  desc.positions_f64 = data(positions);
+  desc.front_only = step.value("front_only", 0);
   if (what == "find_vertex") {
     const auto point = doubles(step, "point", 3);
     uint32_t vertex = 0;
@@ -117,7 +135,8 @@ Result Scene::run_picking(const Json& step, const std::string& what, hf_surface 
   check(hf_surface_cast_ray(surface, data(origin), data(direction), &desc, &hit));
   result.array = Doubles{static_cast<double>(hit.found)};
   if (!hit.found) return result;
-  result.array->push_back(hit.triangle), result.array->push_back(hit.vertex);
+  result.array->push_back(hit.triangle);
+  result.array->push_back(hit.vertex);
   result.array->insert(result.array->end(), hit.barycentrics, hit.barycentrics + 3);
   result.array->insert(result.array->end(), hit.position, hit.position + 3);
   result.array->push_back(hit.distance);
@@ -199,8 +218,10 @@ Result Scene::run_looking(const Json& step, const std::string& what, hf_surface 
     check(hf_surface_trace_isolines(surface, &scalars, count(levels), data(levels), &lines));
     result.array.emplace(3 * size_t{lines.point_count});
     std::vector<int32_t> closed(lines.line_count);
-    lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
-    lines.positions = result.array->data(), lines.line_closed = closed.data();
+    lines.point_capacity = lines.point_count;
+    lines.line_capacity = lines.line_count;
+    lines.positions = result.array->data();
+    lines.line_closed = closed.data();
     check(hf_surface_trace_isolines(surface, &scalars, count(levels), data(levels), &lines));
     if (step.contains("lines")) {
       int32_t sum = 0;

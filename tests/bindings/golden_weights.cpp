@@ -12,7 +12,9 @@ namespace {
 struct Column {
   explicit Column(size_t vertices, uint32_t weight_count)
       : joints(vertices * weight_count), shares(joints.size()), out(make<hf_weights_out>()), each(weight_count) {
-    out.vertex_capacity = static_cast<uint32_t>(vertices), out.joints = joints.data(), out.weights = shares.data();
+    out.vertex_capacity = static_cast<uint32_t>(vertices);
+    out.joints = joints.data();
+    out.weights = shares.data();
   }
   Doubles of(uint32_t bone) const {
     Doubles column(joints.size() / each, 0.0);
@@ -55,8 +57,11 @@ Result Scene::run_weights(const Json& step, const std::string& what) {
     std::vector<int32_t> deforms = step.value("deforms", std::vector<int32_t>{});
     auto desc = make<hf_bones_desc>();
     desc.bone_count = heads ? static_cast<uint32_t>(heads->size() / 3) : 1u;
-    desc.heads = data(heads), desc.tails = data(tails), desc.axes = data(axes);
-    desc.parents = data(parents), desc.sources = data(sources),
+    desc.heads = data(heads);
+    desc.tails = data(tails);
+    desc.axes = data(axes);
+    desc.parents = data(parents);
+    desc.sources = data(sources);
     desc.deforms = deforms.empty() ? nullptr : deforms.data();
     if (what == "set_bones") {
       check(hf_weights_set_bones(weights, &desc));
@@ -64,16 +69,20 @@ Result Scene::run_weights(const Json& step, const std::string& what) {
       hf_weights raw = nullptr;
       check(hf_weights_create(on.surface.get(), &desc, step["options"].value("weight_count", 0u), &raw));
       Object& made = objects_[step["as"]];
-      made.weights = hf::Handle<hf_weights, hf_weights_destroy>(raw), made.vertex_count = n;
+      made.weights = hf::Handle < hf_weights;
+      hf_weights_destroy > (raw);
+      made.vertex_count = n;
     }
   } else if (what == "set_pins") {
     const auto vertices = numbers(step, "vertices"), joints = numbers(step, "joints");
     const auto given = doubles(step, "weights");
     const std::vector<float> shares(given->begin(), given->end());
     auto desc = make<hf_pins_desc>();
-    desc.pin_count = count(vertices), desc.vertices = data(vertices);
+    desc.pin_count = count(vertices);
+    desc.vertices = data(vertices);
     desc.joint_count = desc.pin_count ? count(joints) / desc.pin_count : 0;
-    desc.joints = data(joints), desc.weights = shares.data();
+    desc.joints = data(joints);
+    desc.weights = shares.data();
     check(hf_weights_set_pins(weights, &desc));
   } else if (what == "set_locks") {
     const auto bones = numbers(step, "bones");
@@ -88,7 +97,9 @@ Result Scene::run_weights(const Json& step, const std::string& what) {
     hf_weights raw = nullptr;
     check(hf_weights_clone(weights, &raw));
     Object& made = objects_[step["as"]];
-    made.weights = hf::Handle<hf_weights, hf_weights_destroy>(raw), made.vertex_count = n;
+    made.weights = hf::Handle < hf_weights;
+    hf_weights_destroy > (raw);
+    made.vertex_count = n;
   } else if (what == "weights_info") {
     auto info = make<hf_weights_info>();
     check(hf_weights_get_info(weights, &info));
@@ -125,15 +136,22 @@ Result Scene::run_carried(const Json& step, const std::string& what) {
   Column found(on.vertex_count, 4);
   if (what == "carry") {
     auto desc = make<hf_carry_desc>();
-    desc.influence_count = each, desc.joints = data(joints), desc.weights = shares.data();
+    desc.influence_count = each;
+    desc.joints = data(joints);
+    desc.weights = shares.data();
     check(hf_weights_carry(source.surface.get(), on.surface.get(), &desc, &found.out, nullptr));
   } else {
     const auto heads = doubles(step, "heads"), plane = doubles(step, "plane", 6);
     const auto lines = lines_of(step);
     auto desc = make<hf_mirror_desc>();
-    desc.bone_count = static_cast<uint32_t>(heads->size() / 3), desc.heads = data(heads), desc.plane = data(plane);
-    desc.names = lines ? lines->c_str() : nullptr, desc.to = step.value("to", 0);
-    desc.influence_count = each, desc.joints = data(joints), desc.weights = shares.data();
+    desc.bone_count = static_cast<uint32_t>(heads->size() / 3);
+    desc.heads = data(heads);
+    desc.plane = data(plane);
+    desc.names = lines ? lines->c_str() : nullptr;
+    desc.to = step.value("to", 0);
+    desc.influence_count = each;
+    desc.joints = data(joints);
+    desc.weights = shares.data();
     check(hf_weights_mirror(on.surface.get(), &desc, &found.out, nullptr, nullptr, nullptr));
   }
   Result result;

@@ -11,11 +11,15 @@ int main(void) {
   hf_solver solver;
   hf_surface_desc mesh = HF_INIT(hf_surface_desc);
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
-  mesh.vertex_count = 4, mesh.triangle_count = 2, mesh.positions = positions, mesh.triangles = triangles;
-  sites.site_count = 2, sites.vertices = vertices, sites.values = values;
+  mesh.vertex_count = 4;
+  mesh.triangle_count = 2;
+  mesh.positions = positions;
+  mesh.triangles = triangles;
+  sites.site_count = 2;
+  sites.vertices = vertices;
+  sites.values = values;
   if (hf_surface_create(&mesh, &surface) != HF_OK || hf_create(surface, NULL, &solver) != HF_OK ||
-       hf_add_sites(solver, &sites, NULL) != HF_OK ||
-      hf_solve(solver, field, 0, NULL) != HF_OK)
+      hf_add_sites(solver, &sites, NULL) != HF_OK || hf_solve(solver, field, 0, NULL) != HF_OK)
     return 1;
   printf("hf %u: %.3f %.3f %.3f %.3f\n", hf_version_get(), (double)field[0], (double)field[1], (double)field[2],
          (double)field[3]);

@@ -17,13 +17,19 @@ static hf_gltf_model strip(void) {
   static double positions[3 * VERTICES];
   static uint32_t triangles[3 * TRIANGLES];
   for (uint32_t r = 0; r < ROWS; ++r)
-    for (uint32_t s = 0; s < 2; ++s) positions[3 * (2 * r + s)] = s, positions[3 * (2 * r + s) + 1] = r;
+    for (uint32_t s = 0; s < 2; ++s) {
+      positions[3 * (2 * r + s)] = s;
+      positions[3 * (2 * r + s) + 1] = r;
+    }
   for (uint32_t r = 0; r + 1 < ROWS; ++r) {
     const uint32_t a = 2 * r, corners[6] = {a, a + 1, a + 2, a + 2, a + 1, a + 3};
     memcpy(triangles + 6 * r, corners, sizeof corners);
   }
   hf_gltf_mesh_desc desc = HF_INIT(hf_gltf_mesh_desc);
-  desc.vertex_count = VERTICES, desc.triangle_count = TRIANGLES, desc.positions = positions, desc.triangles = triangles,
+  desc.vertex_count = VERTICES;
+  desc.triangle_count = TRIANGLES;
+  desc.positions = positions;
+  desc.triangles = triangles;
   desc.name = "strip";
   hf_gltf_model model;
   assert_int_equal(hf_gltf_model_create(&desc, &model), HF_OK);
@@ -41,8 +47,10 @@ static void a_mesh_far_from_0_keeps_its_digits(void** state) {
   for (uint32_t t = 0; t < VERTICES - 2; ++t)
     for (uint32_t c = 0; c < 3; ++c) triangles[3 * t + c] = t + c;
   hf_gltf_mesh_desc desc = HF_INIT(hf_gltf_mesh_desc);
-  desc.vertex_count = VERTICES, desc.triangle_count = VERTICES - 2;
-  desc.positions = positions, desc.triangles = triangles;
+  desc.vertex_count = VERTICES;
+  desc.triangle_count = VERTICES - 2;
+  desc.positions = positions;
+  desc.triangles = triangles;
   hf_gltf_model model, again;
   assert_int_equal(hf_gltf_model_create(&desc, &model), HF_OK);
   uint64_t count;
@@ -50,14 +58,16 @@ static void a_mesh_far_from_0_keeps_its_digits(void** state) {
   void* bytes = malloc((size_t)count);
   assert_int_equal(hf_gltf_model_write(model, HF_GLTF_GLB, count, bytes, &count), HF_OK);
   hf_gltf_read_desc read = HF_INIT(hf_gltf_read_desc);
-  read.bytes = bytes, read.byte_count = count;
+  read.bytes = bytes;
+  read.byte_count = count;
   assert_int_equal(hf_gltf_model_read(&read, &again), HF_OK);
   hf_gltf_surface surface = HF_INIT(hf_gltf_surface);
   surface.positions = got;
   assert_int_equal(hf_gltf_model_get_surface(again, &surface), HF_OK);
   for (uint32_t i = 0; i < 3 * VERTICES; ++i) assert_true(fabs(got[i] - positions[i]) < 1e-6);
   free(bytes);
-  hf_gltf_model_destroy(again), hf_gltf_model_destroy(model);
+  hf_gltf_model_destroy(again);
+  hf_gltf_model_destroy(model);
   positions[4] = 1e40; /* no file can hold it */
   assert_int_equal(hf_gltf_model_create(&desc, &model), HF_ERROR_NON_FINITE);
   assert_null(model);
@@ -68,17 +78,29 @@ static hf_gltf_model swinging(hf_gltf_model model) {
   static double pivots[6] = {0, 0, 0, 0, 2, 0}, times[FRAMES], rotations[FRAMES * 8], translations[FRAMES * 6];
   static uint32_t joints[VERTICES];
   static float weights[VERTICES];
-  for (uint32_t v = 0; v < VERTICES; ++v) joints[v] = v / 2 > 2, weights[v] = 1;
+  for (uint32_t v = 0; v < VERTICES; ++v) {
+    joints[v] = v / 2 > 2;
+    weights[v] = 1;
+  }
   for (int f = 0; f < FRAMES; ++f) {
     times[f] = 0.25 * f;
     const double half = 0.25 * 3.14159265358979 * times[f];
-    rotations[8 * f + 3] = 1, rotations[8 * f + 6] = sin(half), rotations[8 * f + 7] = cos(half);
+    rotations[8 * f + 3] = 1;
+    rotations[8 * f + 6] = sin(half);
+    rotations[8 * f + 7] = cos(half);
     translations[6 * f + 4] = 2;
   }
   hf_gltf_skin_desc desc = HF_INIT(hf_gltf_skin_desc);
-  desc.joint_count = 2, desc.frame_count = FRAMES, desc.weight_count = 1, desc.name = "swing";
-  desc.pivots = pivots, desc.joints = joints, desc.weights = weights;
-  desc.times = times, desc.rotations = rotations, desc.translations = translations;
+  desc.joint_count = 2;
+  desc.frame_count = FRAMES;
+  desc.weight_count = 1;
+  desc.name = "swing";
+  desc.pivots = pivots;
+  desc.joints = joints;
+  desc.weights = weights;
+  desc.times = times;
+  desc.rotations = rotations;
+  desc.translations = translations;
   hf_gltf_model out;
   assert_int_equal(hf_gltf_model_create_skinned(model, &desc, &out), HF_OK);
   return out;
@@ -93,7 +115,9 @@ static void* written(hf_gltf_model model, int32_t format, uint64_t* count) {
 
 static hf_result reread(const void* bytes, uint64_t count, hf_gltf_model* model) {
   hf_gltf_read_desc desc = HF_INIT(hf_gltf_read_desc);
-  desc.bytes = bytes, desc.byte_count = count, desc.file = "again.glb";
+  desc.bytes = bytes;
+  desc.byte_count = count;
+  desc.file = "again.glb";
   return hf_gltf_model_read(&desc, model);
 }
 
@@ -111,9 +135,12 @@ static void a_mesh_gives_its_surface_back(void** state) {
   uint32_t triangles[3 * TRIANGLES];
   float weights[8 * VERTICES];
   hf_gltf_surface surface = HF_INIT(hf_gltf_surface);
-  surface.positions = positions, surface.triangles = triangles, surface.weights = weights;
+  surface.positions = positions;
+  surface.triangles = triangles;
+  surface.weights = weights;
   assert_int_equal(hf_gltf_model_get_surface(model, &surface), HF_OK);
-  near_to(positions[3 * 9 + 1], 4), near_to(positions[3 * 9], 1);
+  near_to(positions[3 * 9 + 1], 4);
+  near_to(positions[3 * 9], 1);
   assert_int_equal(triangles[3 * TRIANGLES - 1], 9);
   near_to((double)weights[0], 0);
   hf_gltf_model_destroy(model);
@@ -132,11 +159,16 @@ static void a_written_clip_plays_as_it_was_given(void** state) {
     near_to(clip.duration, 1);
     double posed[3 * VERTICES];
     assert_int_equal(hf_gltf_model_pose(again, 0, 1, posed), HF_OK); /* (1, 4) about (0, 2) by a right angle */
-    near_to(posed[3 * 9], -2), near_to(posed[3 * 9 + 1], 3);
-    near_to(posed[0], 0), near_to(posed[3 * 5], 1), near_to(posed[3 * 5 + 1], 2);
-    hf_gltf_model_destroy(again), free(bytes);
+    near_to(posed[3 * 9], -2);
+    near_to(posed[3 * 9 + 1], 3);
+    near_to(posed[0], 0);
+    near_to(posed[3 * 5], 1);
+    near_to(posed[3 * 5 + 1], 2);
+    hf_gltf_model_destroy(again);
+    free(bytes);
   }
-  hf_gltf_model_destroy(model), hf_gltf_model_destroy(still);
+  hf_gltf_model_destroy(model);
+  hf_gltf_model_destroy(still);
 }
 
 static void keys_between_straight_ones_are_left_out(void** state) {
@@ -148,7 +180,8 @@ static void keys_between_straight_ones_are_left_out(void** state) {
   assert_int_equal(hf_gltf_model_remove_keys(model, 0, 1e-3, &off), HF_OK);
   assert_int_equal(hf_gltf_model_get_clip(model, 0, &after), HF_OK);
   assert_true(off <= 1e-3 && after.key_count < before.key_count);
-  hf_gltf_model_destroy(model), hf_gltf_model_destroy(still);
+  hf_gltf_model_destroy(model);
+  hf_gltf_model_destroy(still);
 }
 
 static void a_skin_follows_frames(void** state) {
@@ -157,7 +190,10 @@ static void a_skin_follows_frames(void** state) {
   double frames[2 * 3 * VERTICES], times[2] = {0, 0.5}, posed[3 * VERTICES];
   for (int f = 0; f < 2; ++f) assert_int_equal(hf_gltf_model_pose(model, 0, f, frames + f * 3 * VERTICES), HF_OK);
   hf_gltf_frames_desc desc = HF_INIT(hf_gltf_frames_desc);
-  desc.frame_count = 2, desc.times = times, desc.positions = frames, desc.name = "swing";
+  desc.frame_count = 2;
+  desc.times = times;
+  desc.positions = frames;
+  desc.name = "swing";
   hf_gltf_fit_info fit = HF_INIT(hf_gltf_fit_info);
   assert_int_equal(hf_gltf_model_add_clip(model, &desc, &fit), HF_OK);
   assert_true(fit.joint_count == 2 && fit.max < 1e-2);
@@ -168,7 +204,8 @@ static void a_skin_follows_frames(void** state) {
   assert_true(fabs(posed[3 * 9] + 2) < 1e-2 && fabs(posed[3 * 9 + 1] - 3) < 1e-2);
   /* without a skin there is no joint to turn */
   assert_int_equal(hf_gltf_model_add_clip(still, &desc, NULL), HF_ERROR_UNSUPPORTED);
-  hf_gltf_model_destroy(model), hf_gltf_model_destroy(still);
+  hf_gltf_model_destroy(model);
+  hf_gltf_model_destroy(still);
 }
 
 /* Frames that are shorter than the bones: half of the rest would stick out at each end. It sticks out above. */
@@ -181,7 +218,9 @@ static void a_fitted_skin_does_not_sink_under_the_frames(void** state) {
     frames[i] = i % 3 == 0 ? vertex % 2 : i % 3 == 1 ? 0.9 * (vertex / 2) : 0;
   }
   hf_gltf_frames_desc desc = HF_INIT(hf_gltf_frames_desc);
-  desc.frame_count = 3, desc.times = times, desc.positions = frames;
+  desc.frame_count = 3;
+  desc.times = times;
+  desc.positions = frames;
   assert_int_equal(hf_gltf_model_add_clip(model, &desc, NULL), HF_OK);
   for (int f = 0; f < 3; ++f) {
     double lowest = 1, highest = 0;
@@ -192,7 +231,8 @@ static void a_fitted_skin_does_not_sink_under_the_frames(void** state) {
     }
     assert_true(lowest > -0.01 && highest > 3.6); /* without a ground -0.2 and 3.8 */
   }
-  hf_gltf_model_destroy(model), hf_gltf_model_destroy(still);
+  hf_gltf_model_destroy(model);
+  hf_gltf_model_destroy(still);
 }
 
 static void clips_go_to_a_skeleton_of_the_same_names(void** state) {
@@ -205,7 +245,9 @@ static void clips_go_to_a_skeleton_of_the_same_names(void** state) {
   assert_int_equal(hf_gltf_model_get_info(model, &info), HF_OK);
   assert_int_equal(info.clip_count, 2);
   assert_int_equal(hf_gltf_model_add_clips_of(still, other, NULL), HF_ERROR_INVALID_ARGUMENT);
-  hf_gltf_model_destroy(model), hf_gltf_model_destroy(other), hf_gltf_model_destroy(still);
+  hf_gltf_model_destroy(model);
+  hf_gltf_model_destroy(other);
+  hf_gltf_model_destroy(still);
 }
 
 static const char pairs_text[] =
@@ -246,7 +288,10 @@ static void pairs_give_regions_and_come_back(void** state) {
   assert_int_equal(hf_gltf_pairs_propose(model, model, NULL, &none), HF_ERROR_EMPTY);
   assert_null(none);
   assert_int_equal(hf_gltf_pairs_read(model, model, "{\"pears\": 1}", 12, &none), HF_ERROR_INVALID_ARGUMENT);
-  free(text), hf_gltf_pairs_destroy(pairs), hf_gltf_pairs_destroy(again), hf_gltf_model_destroy(model);
+  free(text);
+  hf_gltf_pairs_destroy(pairs);
+  hf_gltf_pairs_destroy(again);
+  hf_gltf_model_destroy(model);
 }
 
 /* It lies nearest to the places of both pairs, or so far away that the box would be another. */
@@ -260,15 +305,20 @@ static void a_vertex_without_a_triangle_is_in_no_region(void** state) {
   for (int s = 0; s < 3; ++s) {
     float positions[3 * (VERTICES + 1)] = {0};
     uint32_t triangles[3 * TRIANGLES];
-    for (uint32_t v = 0; v < VERTICES; ++v) positions[3 * v] = (float)(v % 2), positions[3 * v + 1] = (float)(v / 2);
+    for (uint32_t v = 0; v < VERTICES; ++v) {
+      positions[3 * v] = (float)(v % 2);
+      positions[3 * v + 1] = (float)(v / 2);
+    }
     memcpy(positions + 3 * VERTICES, strays[s], sizeof strays[s]);
     for (uint32_t r = 0; r + 1 < ROWS; ++r) {
       const uint32_t a = 2 * r, corners[6] = {a, a + 1, a + 2, a + 2, a + 1, a + 3};
       memcpy(triangles + 6 * r, corners, sizeof corners);
     }
     hf_gltf_mesh_desc desc = HF_INIT(hf_gltf_mesh_desc);
-    desc.vertex_count = VERTICES + 1, desc.triangle_count = TRIANGLES;
-    desc.positions = positions, desc.triangles = triangles;
+    desc.vertex_count = VERTICES + 1;
+    desc.triangle_count = TRIANGLES;
+    desc.positions = positions;
+    desc.triangles = triangles;
     hf_gltf_model model;
     hf_gltf_pairs pairs, expected;
     assert_int_equal(hf_gltf_model_create(&desc, &model), HF_OK);
@@ -285,7 +335,9 @@ static void a_vertex_without_a_triangle_is_in_no_region(void** state) {
       assert_int_equal(hf_gltf_pairs_get_regions(expected, p, VERTICES, others, 0, NULL), HF_OK);
       assert_memory_equal(vertices, others, found.source_count * sizeof *vertices);
     }
-    hf_gltf_pairs_destroy(pairs), hf_gltf_pairs_destroy(expected), hf_gltf_model_destroy(model);
+    hf_gltf_pairs_destroy(pairs);
+    hf_gltf_pairs_destroy(expected);
+    hf_gltf_model_destroy(model);
   }
   hf_gltf_model_destroy(plain);
 }
@@ -307,9 +359,12 @@ static void refused_calls_change_nothing(void** state) {
   assert_int_equal(hf_gltf_model_pose(model, 0, INFINITY, positions), HF_ERROR_NON_FINITE);
   double times[2] = {0.5, 0.5}, frames[6 * VERTICES] = {0};
   hf_gltf_frames_desc desc = HF_INIT(hf_gltf_frames_desc);
-  desc.frame_count = 2, desc.times = times, desc.positions = frames;
+  desc.frame_count = 2;
+  desc.times = times;
+  desc.positions = frames;
   assert_int_equal(hf_gltf_model_add_clip(model, &desc, NULL), HF_ERROR_INVALID_ARGUMENT);
-  times[1] = 1, frames[6 * VERTICES - 1] = NAN;
+  times[1] = 1;
+  frames[6 * VERTICES - 1] = NAN;
   assert_int_equal(hf_gltf_model_add_clip(model, &desc, NULL), HF_ERROR_NON_FINITE);
   frames[6 * VERTICES - 1] = 1e200; /* files hold floats */
   assert_int_equal(hf_gltf_model_add_clip(model, &desc, NULL), HF_ERROR_TOO_LARGE);
@@ -335,9 +390,12 @@ static void refused_calls_change_nothing(void** state) {
   assert_int_equal(hf_gltf_model_get_info(NULL, &info), HF_ERROR_INVALID_HANDLE);
   hf_gltf_pairs_destroy((hf_gltf_pairs)model); /* of another kind: nothing happens */
   assert_int_equal(hf_gltf_model_get_info(model, &info), HF_OK);
-  hf_gltf_model_destroy(model), hf_gltf_model_destroy(model);
+  hf_gltf_model_destroy(model);
+  hf_gltf_model_destroy(model);
   assert_int_equal(hf_gltf_model_get_info(model, &info), HF_ERROR_INVALID_HANDLE);
-  free(bytes), free(after), hf_gltf_model_destroy(still);
+  free(bytes);
+  free(after);
+  hf_gltf_model_destroy(still);
 }
 
 static void moved_vertices_stay_in_the_file(void** state) {
@@ -354,7 +412,9 @@ static void moved_vertices_stay_in_the_file(void** state) {
   assert_int_equal(reread(bytes, count, &again), HF_OK);
   assert_int_equal(hf_gltf_model_get_surface(again, &surface), HF_OK);
   near_to(positions[3 * 9 + 2], 0.5);
-  free(bytes), hf_gltf_model_destroy(again), hf_gltf_model_destroy(model);
+  free(bytes);
+  hf_gltf_model_destroy(again);
+  hf_gltf_model_destroy(model);
 }
 
 int main(void) {

@@ -56,13 +56,15 @@ hf_surface make_surface(const samples::SurfaceMesh& mesh, int field_kind) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
   desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
-  desc.positions_f64 = &mesh.positions[0].x, desc.triangles = mesh.triangles.data();
-  desc.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY, desc.field_kind = field_kind;
+  desc.positions_f64 = &mesh.positions[0].x;
+  desc.triangles = mesh.triangles.data();
+  desc.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY;
+  desc.field_kind = field_kind;
   hf_surface surface = nullptr;
   const hf_result made = hf_surface_create(&desc, &surface);
   // coordinates that are not numbers, or no triangle that is one
-  EXPECT_TRUE(made == HF_OK || made == HF_ERROR_NON_FINITE || made == HF_ERROR_EMPTY ||
-              made == HF_ERROR_OUT_OF_RANGE || made == HF_ERROR_TOO_LARGE)
+  EXPECT_TRUE(made == HF_OK || made == HF_ERROR_NON_FINITE || made == HF_ERROR_EMPTY || made == HF_ERROR_OUT_OF_RANGE ||
+              made == HF_ERROR_TOO_LARGE)
       << hf_result_get_name(made);
   return surface;
 }
@@ -82,8 +84,13 @@ hf_solver make_solver(const samples::SurfaceMesh& mesh, int field_kind, std::vec
     const std::uint32_t v = random() % static_cast<std::uint32_t>(mesh.positions.size());
     const double value = std::uniform_real_distribution<double>(-1, 1)(random);
     hf_sites_desc batch = HF_INIT(hf_sites_desc);
-    batch.site_count = 1, batch.vertices = &v, batch.values = &value;
-    if (hf_add_sites(solver, &batch, nullptr) == HF_OK) vertices.push_back(v), values.push_back(value);
+    batch.site_count = 1;
+    batch.vertices = &v;
+    batch.values = &value;
+    if (hf_add_sites(solver, &batch, nullptr) == HF_OK) {
+      vertices.push_back(v);
+      values.push_back(value);
+    }
   }
   return solver;
 }
@@ -186,7 +193,8 @@ TEST(EveryMesh, direction_fields_are_finite_and_their_singularities_sum_up) {
       }
     }
     hf_direction_destroy(direction);
-    hf_solver_destroy(solver), hf_surface_destroy(surface);
+    hf_solver_destroy(solver);
+    hf_surface_destroy(surface);
   }
   std::printf("%d closed meshes\n", closed);
   EXPECT_GE(closed, 8);

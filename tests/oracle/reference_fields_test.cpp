@@ -36,7 +36,10 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
       field(folder / "reference" / (std::string(GetParam()) + ".field.txt"));
   std::uint32_t v;
   double x;
-  while (sites >> v >> x) vertices.push_back(v), values.push_back(x);
+  while (sites >> v >> x) {
+    vertices.push_back(v);
+    values.push_back(x);
+  }
   while (field >> x) reference.push_back(x);
   ASSERT_EQ(reference.size(), mesh.positions.size());
   const auto [low, high] = std::minmax_element(reference.begin(), reference.end());
@@ -44,10 +47,12 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
   for (const int engine : {HF_ENGINE_GREEN, HF_ENGINE_REFACTOR, HF_ENGINE_UPDOWN}) {
     if (engine == HF_ENGINE_UPDOWN && !has_peers()) continue;
     hf_surface_desc desc = HF_INIT(hf_surface_desc);
-    desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size()),
+    desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
     desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
-    desc.positions_f64 = &mesh.positions[0].x, desc.triangles = mesh.triangles.data();
-    desc.weld = HF_WELD_NONE, desc.operator_kind = HF_OPERATOR_COTANGENT;
+    desc.positions_f64 = &mesh.positions[0].x;
+    desc.triangles = mesh.triangles.data();
+    desc.weld = HF_WELD_NONE;
+    desc.operator_kind = HF_OPERATOR_COTANGENT;
     hf_solver_desc with = HF_INIT(hf_solver_desc);
     with.engine = engine;
     hf_surface surface = nullptr;
@@ -55,7 +60,8 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
     ASSERT_EQ(hf_surface_create(&desc, &surface), HF_OK);
     ASSERT_EQ(hf_create(surface, &with, &solver), HF_OK);
     hf_sites_desc batch = HF_INIT(hf_sites_desc);
-    batch.site_count = static_cast<std::uint32_t>(vertices.size()), batch.vertices = vertices.data(),
+    batch.site_count = static_cast<std::uint32_t>(vertices.size());
+    batch.vertices = vertices.data();
     batch.values = values.data();
     ASSERT_EQ(hf_add_sites(solver, &batch, nullptr), HF_OK);
     std::vector<double> u(reference.size());
@@ -65,7 +71,8 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
     // the paper's engine holds its sites by penalties of 1e8
     EXPECT_LE(worst, (engine == HF_ENGINE_UPDOWN ? 1e-6 : 1e-9) * (*high - *low)) << "engine " << engine;
     std::printf("%s engine %d: %.1e of the range\n", GetParam(), engine, worst / (*high - *low));
-    hf_solver_destroy(solver), hf_surface_destroy(surface);
+    hf_solver_destroy(solver);
+    hf_surface_destroy(surface);
   }
 }
 

@@ -28,8 +28,11 @@ struct Shape {
   }
   hf::Surface surface(int32_t weld = HF_WELD_EXACT) const {
     auto desc = hf::make<hf_surface_desc>();
-    desc.vertex_count = count(), desc.positions_f64 = positions.data(), desc.weld = weld;
-    desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3), desc.triangles = triangles.data();
+    desc.vertex_count = count();
+    desc.positions_f64 = positions.data();
+    desc.weld = weld;
+    desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
+    desc.triangles = triangles.data();
     return hf::Surface(desc);
   }
 };
@@ -60,7 +63,8 @@ inline Shape tube(uint32_t rings, double radius) {
     }
   }
   const uint32_t start = out.count(), end = start + 1;
-  out.add({0, 0, 0}), out.add({0, 2, 0});
+  out.add({0, 0, 0});
+  out.add({0, 2, 0});
   for (uint32_t i = 0; i < around; ++i) {
     const uint32_t next = (i + 1) % around, last = (rings - 1) * around;
     for (uint32_t first = 0; first < last; first += around) {

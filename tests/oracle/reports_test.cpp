@@ -57,7 +57,10 @@ TEST(Reports, AVertexOfAnotherPieceIsNotReached) {
 // potpourri3d 30
 TEST(Reports, DistancesInAPlaneAreStraightOnTheCoarsestMeshes) {
   Shape kite;
-  kite.add({0, 0, 0}), kite.add({1, -3, 0}), kite.add({2, 0, 0}), kite.add({1, 3, 0});
+  kite.add({0, 0, 0});
+  kite.add({1, -3, 0});
+  kite.add({2, 0, 0});
+  kite.add({1, 3, 0});
   kite.triangles = {0, 1, 2, 0, 2, 3};
   for (const Shape& shape : {grid(3, 3), kite}) {
     const hf::Surface surface = shape.surface();
@@ -111,7 +114,10 @@ TEST(Reports, APathLeavesABorderBehindAnInnerCorner) {
   std::vector<uint32_t> kept;
   for (size_t t = 0; t < u.triangles.size(); t += 3) {
     double x = 0, y = 0;
-    for (int k = 0; k < 3; ++k) x += u.at(u.triangles[t + k])[0] / 3, y += u.at(u.triangles[t + k])[1] / 3;
+    for (int k = 0; k < 3; ++k) {
+      x += u.at(u.triangles[t + k])[0] / 3;
+      y += u.at(u.triangles[t + k])[1] / 3;
+    }
     if (x > 3 && x < 5 && y > 2) continue;
     kept.insert(kept.end(), &u.triangles[t], &u.triangles[t] + 3);
   }
@@ -212,14 +218,18 @@ std::vector<double> weights_of(const Shape& shape, uint32_t bone, bool points = 
   const double heads[] = {0, 0.05, 0, 0, 0.7, 0, 0, 1.3, 0}, tails[] = {0, 0.7, 0, 0, 1.3, 0, 0, 1.95, 0};
   const double places[] = {0, 0.3, 0, 0, 1, 0, 0, 1.7, 0};
   auto bones = hf::make<hf_bones_desc>();
-  bones.bone_count = 3, bones.heads = points ? places : heads, bones.tails = points ? places : tails;
+  bones.bone_count = 3;
+  bones.heads = points ? places : heads;
+  bones.tails = points ? places : tails;
   const hf::Surface surface = shape.surface();
   hf_weights weights = nullptr;
   hf::check(hf_weights_create(surface.get(), &bones, 4, &weights));
   std::vector<uint32_t> joints(4 * shape.count());
   std::vector<float> shares(4 * shape.count());
   auto out = hf::make<hf_weights_out>();
-  out.vertex_capacity = shape.count(), out.joints = joints.data(), out.weights = shares.data();
+  out.vertex_capacity = shape.count();
+  out.joints = joints.data();
+  out.weights = shares.data();
   hf::check(hf_weights_get(weights, &out));
   hf_weights_destroy(weights);
   std::vector<double> found(shape.count());
@@ -268,11 +278,15 @@ TEST(Reports, EachSockTakesTheWeightsOfItsLeg) {
   std::fill(joints.begin() + leg, joints.end(), 1u);
   const std::vector<float> weights(legs.count(), 1.0f);
   auto desc = hf::make<hf_carry_desc>();
-  desc.influence_count = 1, desc.joints = joints.data(), desc.weights = weights.data();
+  desc.influence_count = 1;
+  desc.joints = joints.data();
+  desc.weights = weights.data();
   std::vector<uint32_t> out_joints(4 * socks.count());
   std::vector<float> out_weights(4 * socks.count());
   auto out = hf::make<hf_weights_out>();
-  out.vertex_capacity = socks.count(), out.joints = out_joints.data(), out.weights = out_weights.data();
+  out.vertex_capacity = socks.count();
+  out.joints = out_joints.data();
+  out.weights = out_weights.data();
   const hf::Surface from = legs.surface(), to = socks.surface();
   hf::check(hf_weights_carry(from.get(), to.get(), &desc, &out, nullptr));
   for (uint32_t v = 0; v < socks.count(); ++v) {
@@ -298,10 +312,14 @@ std::vector<double> posed(const Shape& shape, const std::vector<uint32_t>& still
 // cannot be factorised)
 TEST(Reports, PosesAreFiniteOnFacesWithoutAreaLoosePiecesAndBoxes) {
   std::vector<uint32_t> first, last;
-  for (uint32_t i = 0; i < around; ++i) first.push_back(i), last.push_back(40 * around + i);
+  for (uint32_t i = 0; i < around; ++i) {
+    first.push_back(i);
+    last.push_back(40 * around + i);
+  }
   Shape body = tube(41, 0.2);
   const uint32_t count = body.count();
-  body.add(body.at(100)), body.add(body.at(100));
+  body.add(body.at(100));
+  body.add(body.at(100));
   for (const uint32_t v : {100u, count, count + 1, 7u, 7u, 8u, 160u, 176u, 192u}) body.triangles.push_back(v);
   body.add(cube(1), {3, 0, 0});
   const std::vector<double> out = posed(body, first, last);

@@ -36,7 +36,10 @@ struct Data {
     for (std::vector<double>* one : {&below, &triangle, &z, &x, &base}) {
       for (std::size_t i = 0; i < one->size(); ++i) (*one)[i] = small_number(i);
     }
-    for (int r = 0; r < rows; ++r) row.push_back(columns + r), target.push_back(std::int64_t{r} * lanes);
+    for (int r = 0; r < rows; ++r) {
+      row.push_back(columns + r);
+      target.push_back(std::int64_t{r} * lanes);
+    }
   }
 };
 
@@ -95,10 +98,12 @@ void blend(const Kernels&, bool neon, Data&) {
     const auto cluster = [](int block, int at) { return static_cast<std::uint16_t>(block % groups * shared + at); };
     for (int v = 0; v < Data::vertices; ++v) {
       for (int at = 0; at < shared; ++at) {
-        weights.cluster.push_back(cluster(v / 8, at)), weights.weight.push_back(0.125f);
-        if (v % 8 == 0)
-          weights.block_cluster.push_back(cluster(v / 8, at)),
-              weights.block_weight.insert(weights.block_weight.end(), 8, 0.125f);
+        weights.cluster.push_back(cluster(v / 8, at));
+        weights.weight.push_back(0.125f);
+        if (v % 8 == 0) {
+          weights.block_cluster.push_back(cluster(v / 8, at));
+          weights.block_weight.insert(weights.block_weight.end(), 8, 0.125f);
+        }
       }
     }
     for (Affine& a : transforms) std::fill(&a.a[0][0], &a.a[0][0] + 12, 0.25);

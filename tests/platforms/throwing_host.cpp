@@ -33,14 +33,19 @@ int main() {
   unsigned refused = 0, wrong = 0;
   for (long at = 0; at < 400; ++at) {
     hf_surface_desc mesh = HF_INIT(hf_surface_desc);
-    mesh.vertex_count = 6, mesh.triangle_count = 4, mesh.positions = positions, mesh.triangles = triangles;
-    mesh.allocator.allocate = allocate, mesh.allocator.release = release;
+    mesh.vertex_count = 6;
+    mesh.triangle_count = 4;
+    mesh.positions = positions;
+    mesh.triangles = triangles;
+    mesh.allocator.allocate = allocate;
+    mesh.allocator.release = release;
     hf_surface surface = nullptr;
     until_throw = at;
     const hf_result result = hf_surface_create(&mesh, &surface);
     until_throw = -1;
     if (result == HF_OK) hf_surface_destroy(surface);
-    refused += result == HF_ERROR_INTERNAL, wrong += result != HF_OK && result != HF_ERROR_INTERNAL;
+    refused += result == HF_ERROR_INTERNAL;
+    wrong += result != HF_OK && result != HF_ERROR_INTERNAL;
   }
   bool caught = false;
   try {

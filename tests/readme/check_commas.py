@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Finds statements joined by commas in C and C++: "a = 1, b = 2;" in place of two statements.
+"""Finds statements joined by commas in C and C++, and in such blocks of pages: "a = 1, b = 2;" in place of two statements.
 
-usage: check_commas.py ROOT [FOLDER...]   prints FILE:LINE of each; exits with 1 if there is one
+usage: check_commas.py ROOT   prints FILE:LINE of each; exits with 1 if there is one
 
 A declaration may list names, and the head of a for may step two variables. Preprocessor lines are left out.
 """
@@ -17,7 +17,7 @@ SIGN = r"->|\+\+|--|<<=|>>=|[-+*/%&|^]=|::|==|!=|<=|>=|&&|\|\||."
 TOKEN = re.compile(f"(?P<space>{SPACE})|(?P<text>{TEXT})|(?P<word>[A-Za-z_]\\w*)|(?P<number>{NUMBER})|(?P<sign>{SIGN})", re.S)
 ASSIGNS = {"=", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "<<=", ">>="}
 NO_ACT = set("const auto static typedef using constexpr extern struct enum class template return throw case default goto friend "
-             "inline unsigned signed int double float char bool long short void operator typename if for while switch".split())
+             "inline unsigned signed int double float char bool long short void operator typename if else for while switch public private protected".split())
 
 
 def tokens_of(text):
@@ -70,7 +70,7 @@ def parts_of(tokens, partner, i):
 
 def is_act(part):
     """An assignment, a call or a step; not a declaration and not a list of values."""
-    if not part or part[0][0] in NO_ACT:
+    if not part or part[0][0] in NO_ACT or part[0][1] == "number":
         return False
     depth, before, acts = 0, None, part[-1][0] == ")"
     for word, kind, _ in part:
@@ -102,16 +102,32 @@ def joined(text):
     return found
 
 
+def code_of(file):
+    """The text of a file; of a page its blocks of C and C++, each line in its place."""
+    text = file.read_text(encoding="utf-8")
+    if file.suffix != ".md":
+        return text
+    kept, language = [], ""
+    for line in text.split("\n"):
+        if line.startswith("```"):
+            language = "" if language else line[3:] or "text"
+            line = ""
+        kept.append(line if language in ("c", "cpp") else "")
+    return "\n".join(kept)
+
+
 def main():
     root, total = Path(sys.argv[1]), 0
-    for folder in sys.argv[2:] or ["src", "include", "samples", "tests", "bindings"]:
-        for file in sorted((root / folder).rglob("*")):
-            if file.suffix not in (".c", ".cpp", ".h", ".hpp", ".inl"):
-                continue
-            text = file.read_text(encoding="utf-8")
-            for position in joined(text):
-                total += 1
-                print(f"{file.relative_to(root)}:{text.count(chr(10), 0, position) + 1}: {text[position:position + 80].splitlines()[0]}")
+    files = [root / "README.md"]
+    for folder in ("src", "include", "samples", "tests", "bindings", "docs"):
+        files += sorted((root / folder).rglob("*"))
+    for file in files:
+        if file.suffix not in (".c", ".cpp", ".h", ".hpp", ".inl", ".md"):
+            continue
+        text = code_of(file)
+        for position in joined(text):
+            total += 1
+            print(f"{file.relative_to(root)}:{text.count(chr(10), 0, position) + 1}: {text[position:position + 80].splitlines()[0]}")
     print(f"{total} statements joined by commas")
     return 1 if total else 0
 

@@ -27,7 +27,7 @@ for file in block*.c; do
   fi
 done
 [ -n "$whole" ] && [ -f inside_block1.c ] || fail "README.md has lost a block of C"
-[ "$(wc -l <block1.c)" -le 16 ] || fail "the first block of README.md has grown beyond 16 lines"
+[ "$(wc -l <block1.c)" -le 18 ] || fail "the first block of README.md has grown beyond 18 lines"
 [ "$(wc -l <"$whole.c")" -le 40 ] || fail "the program in README.md has grown beyond 40 lines"
 
 # the foot stays, the hip arrives: first and last vertex of the leg, (0.35, 0, 0) and around (0, 4, 0)

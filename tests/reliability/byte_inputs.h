@@ -15,7 +15,10 @@ using Input = std::vector<std::uint8_t>;
 inline std::string hex_of(const Input& input) {
   std::string text;
   char digits[3];
-  for (const std::uint8_t b : input) std::snprintf(digits, sizeof digits, "%02x", b), text += digits;
+  for (const std::uint8_t b : input) {
+    std::snprintf(digits, sizeof digits, "%02x", b);
+    text += digits;
+  }
   return text;
 }
 
@@ -44,7 +47,10 @@ struct Arguments {
       const std::string option = argv[i];
       if (option == "--count") count = std::stoull(argv[i + 1]);
       if (option == "--first") first = std::stoull(argv[i + 1]);
-      if (option == "--hex") given.push_back(bytes_of(argv[i + 1])), count = 0;
+      if (option == "--hex") {
+        given.push_back(bytes_of(argv[i + 1]));
+        count = 0;
+      }
     }
     append_kept(kept, given);
   }

@@ -61,9 +61,14 @@ void run(void* user, std::uint32_t count, void (*job)(void*, std::uint32_t), voi
 hf_result add(hf_solver solver, std::uint32_t count, std::uint32_t first) {
   std::vector<std::uint32_t> vertices;
   std::vector<double> values;
-  for (std::uint32_t i = 0; i < count; ++i) vertices.push_back(first + 37 * i), values.push_back(i % 5);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    vertices.push_back(first + 37 * i);
+    values.push_back(i % 5);
+  }
   hf_sites_desc d = desc<hf_sites_desc>();
-  d.site_count = count, d.vertices = vertices.data(), d.values = values.data();
+  d.site_count = count;
+  d.vertices = vertices.data();
+  d.values = values.data();
   return hf_add_sites(solver, &d, nullptr);
 }
 
@@ -126,7 +131,8 @@ int main() {
       std::vector<double> right(mesh.vertex_count()), field(right), before(right);
       must(hf_solver_solve_f64(solver, before.data(), 0, nullptr), "hf_solver_solve_f64");
       hf_solver other = nullptr;
-      must(hf_solver_clone(solver, &other), "hf_solver_clone"), must(add(other, 40, 3), "hf_add_sites");
+      must(hf_solver_clone(solver, &other), "hf_solver_clone");
+      must(add(other, 40, 3), "hf_add_sites");
       must(hf_solver_solve_f64(other, right.data(), 0, nullptr), "hf_solver_solve_f64");
       hf_solver_destroy(other);
       const double bytes = live_bytes(surface);
@@ -143,14 +149,17 @@ int main() {
       }
       must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
       host.wrong += field != right;
-      hf_surface_destroy(surface), hf_solver_destroy(solver);
+      hf_surface_destroy(surface);
+      hf_solver_destroy(solver);
     }
   }
 
   // the runner, on a mesh large enough to use it
   Mesh large;
   add_torus(large, 205, 200);
-  d = surface_desc(large), d.allocator = {allocate, release, &host}, d.thread_count = 2;
+  d = surface_desc(large);
+  d.allocator = {allocate, release, &host};
+  d.thread_count = 2;
   hf_solver plain = make_solver(d);
   must(add(plain, 5, 11), "hf_add_sites");
   std::vector<double> right(large.vertex_count()), field(right);
@@ -161,16 +170,20 @@ int main() {
   for (int runner = 0; runner < 6; ++runner) {
     host.runner = 0;
     hf_solver solver = make_solver(d);
-    host.runner = runner, host.solver = solver;
+    host.runner = runner;
+    host.solver = solver;
     const hf_result added = add(solver, 5, 11);
     host.runner = 0;
     host.wrong += added != HF_OK && added != HF_ERROR_INTERNAL;
     refused += added != HF_OK;
-    if (added != HF_OK)
-      host.wrong += hf_solver_get_site_count(solver) != 0, must(add(solver, 5, 11), "hf_add_sites, again");
+    if (added != HF_OK) {
+      host.wrong += hf_solver_get_site_count(solver) != 0;
+      must(add(solver, 5, 11), "hf_add_sites, again");
+    }
     host.runner = runner;
     const hf_result solved = hf_solver_solve_f64(solver, field.data(), 0, nullptr);
-    host.runner = 0, host.solver = nullptr;
+    host.runner = 0;
+    host.solver = nullptr;
     refused += solved != HF_OK;
     host.wrong += solved != HF_OK && solved != HF_ERROR_INTERNAL;
     must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64, again");

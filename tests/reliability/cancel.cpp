@@ -126,7 +126,8 @@ Waits cancel_at_random(const Case& c, hf_progress progress, double total_ms, int
 // ---- the cases ----
 
 struct World {
-  World(bool full, Mesh given_big, Mesh given_small) : big(std::move(given_big)), small(std::move(given_small)) {
+  World(bool full, Mesh given_big, Mesh given_small) : big(std::move(given_big));
+  small(std::move(given_small)) {
     soup = full ? make_soup(20000, 40000) : make_soup(600, 1200);
     dense = full ? make_soup(1800, 160000) : make_soup(300, 6000);
     hf_surface_desc d = surface_desc(small);
@@ -141,8 +142,10 @@ struct World {
     must(hf_transfer_create(big_surface, big_surface, nullptr, &transfer), "hf_transfer_create");
   }
   ~World() {
-    hf_transfer_destroy(transfer), hf_pose_destroy(pose);
-    hf_surface_destroy(surface), hf_surface_destroy(big_surface);
+    hf_transfer_destroy(transfer);
+    hf_pose_destroy(pose);
+    hf_surface_destroy(surface);
+    hf_surface_destroy(big_surface);
   }
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -169,7 +172,8 @@ void add_surface_cases(World& w, std::vector<Case>& cases) {
   cases.push_back({"create_weld_tolerance",
                    [&](hf_progress p) {
                      hf_surface_desc d = surface_desc(w.big);
-                     d.weld = HF_WELD_TOLERANCE, d.weld_tolerance = 1e-4f;
+                     d.weld = HF_WELD_TOLERANCE;
+                     d.weld_tolerance = 1e-4f;
                      return make_and_destroy(d, p);
                    },
                    {}});
@@ -191,7 +195,8 @@ void add_surface_cases(World& w, std::vector<Case>& cases) {
                    [&](hf_progress p) {
                      hf_surface_desc d = surface_desc(w.big);
                      hf_factor_desc f = desc<hf_factor_desc>();
-                     f.bytes = w.saved.data(), f.byte_count = w.saved.size();
+                     f.bytes = w.saved.data();
+                     f.byte_count = w.saved.size();
                      d.saved_factor = &f;
                      return make_and_destroy(d, p);
                    },
@@ -236,7 +241,8 @@ Case updates(const char* name, hf_surface surface, hf_quads_desc d) {
          [=] { return memory_of(surface); }};
   c.prepare = [=](hf_progress) {
     hf_quads_desc coarse = d;
-    coarse.face_count = 100, coarse.relax_count = HF_NO_INDEX;
+    coarse.face_count = 100;
+    coarse.relax_count = HF_NO_INDEX;
     hf_quads_destroy(made->object);
     must(hf_quads_create(surface, &coarse, &made->object), "hf_quads_create");
   };
@@ -259,7 +265,8 @@ Case distances(const char* name, std::int32_t method, hf_surface surface, std::s
          [=] { return memory_of(surface); }};
   c.prepare = [=](hf_progress p) {
     hf_geodesics_desc d = desc<hf_geodesics_desc>();
-    d.method = method, d.progress = p;
+    d.method = method;
+    d.progress = p;
     hf_geodesics_destroy(made->object);
     must(hf_geodesics_create(surface, &d, &made->object), "hf_geodesics_create");
   };
@@ -281,9 +288,11 @@ Case region_curve(hf_surface surface, std::uint32_t vertices, std::uint32_t arou
             const std::uint32_t along = vertices / around;
             const std::uint32_t points[3] = {0, along / 8 * around, along / 16 * around + around / 4};
             hf_curve_desc curve = desc<hf_curve_desc>();
-            curve.point_count = 3, curve.vertices = points;
+            curve.point_count = 3;
+            curve.vertices = points;
             hf_region_edit_desc edit = desc<hf_region_edit_desc>();
-            edit.curve = &curve, edit.progress = p;
+            edit.curve = &curve;
+            edit.progress = p;
             hf_region copy = nullptr;
             must(hf_region_clone(made->object, &copy), "hf_region_clone");
             const hf_result result = hf_region_edit(copy, &edit);
@@ -326,7 +335,8 @@ void add_field_cases(World& w, std::vector<Case>& cases) {
     cases.push_back({kind == HF_EXTREMITIES_POISSON ? "extremities_poisson" : "extremities_geodesic",
                      [&w, kind](hf_progress p) {
                        hf_extremities_desc d = desc<hf_extremities_desc>();
-                       d.kind = kind, d.progress = p;
+                       d.kind = kind;
+                       d.progress = p;
                        std::uint32_t count = 0;
                        return hf_surface_find_extremities(w.surface, &d, 0, nullptr, &count);
                      },
@@ -353,8 +363,10 @@ hf_result add_pairs(const World& w, hf_progress progress, std::uint32_t* numbers
     for (std::uint32_t i = 0; i < width; ++i) vertices.push_back(k * step + i);
   }
   hf_pairs_desc d = desc<hf_pairs_desc>();
-  d.pair_count = handle_count, d.source_counts = d.target_counts = counts.data();
-  d.source_vertices = d.target_vertices = vertices.data(), d.progress = progress;
+  d.pair_count = handle_count;
+  d.source_counts = d.target_counts = counts.data();
+  d.source_vertices = d.target_vertices = vertices.data();
+  d.progress = progress;
   return hf_transfer_add_pairs(w.transfer, &d, numbers);
 }
 
@@ -368,7 +380,10 @@ void add_pose_cases(World& w, std::vector<Case>& cases) {
                    [&w](hf_progress p) {
                      const std::vector<double> points = places(w.big), radii(handle_count, 0.3);
                      hf_handles_desc d = desc<hf_handles_desc>();
-                     d.handle_count = handle_count, d.points = points.data(), d.radii = radii.data(), d.progress = p;
+                     d.handle_count = handle_count;
+                     d.points = points.data();
+                     d.radii = radii.data();
+                     d.progress = p;
                      std::uint32_t numbers[handle_count];
                      const hf_result result = hf_pose_add_handles(w.pose, &d, numbers);
                      if (result == HF_OK) must(hf_pose_remove_handles(w.pose, handle_count, numbers), "remove handles");
@@ -402,11 +417,14 @@ int main(int argc, char** argv) {
   const std::string only = argc > 1 && argv[argc - 1][0] != '-' ? argv[argc - 1] : "";
   const int moments = full ? 50 : 5;
   Mesh big, small;
-  add_torus(big, full ? 1000 : 80, full ? 500 : 40), add_torus(small, full ? 400 : 60, full ? 200 : 30);
+  add_torus(big, full ? 1000 : 80, full ? 500 : 40);
+  add_torus(small, full ? 400 : 60, full ? 200 : 30);
   World world(full, std::move(big), std::move(small));
   world.small_around = full ? 200 : 30;
   std::vector<Case> cases;
-  add_surface_cases(world, cases), add_field_cases(world, cases), add_pose_cases(world, cases);
+  add_surface_cases(world, cases);
+  add_field_cases(world, cases);
+  add_pose_cases(world, cases);
   add_weights_cases(world.surface, world.small, cases);
   for (const Case& c : cases) {
     if (names) std::printf("%s\n", c.name.c_str());

@@ -9,7 +9,8 @@ namespace {
 
 // Bones across the mesh, and the weights they give. Every call works on one surface.
 struct Rig {
-  Rig(hf_surface given, const Mesh& mesh) : surface(given), vertices(mesh.vertex_count()) {
+  Rig(hf_surface given, const Mesh& mesh) : surface(given);
+  vertices(mesh.vertex_count()) {
     for (std::uint32_t b = 0; b < bone_count; ++b) {
       for (std::size_t k = 0; k < 3; ++k) {
         heads.push_back(static_cast<double>(mesh.positions[3 * (vertices / bone_count * b) + k]));
@@ -19,8 +20,11 @@ struct Rig {
     const hf_bones_desc d = bones(nullptr);
     must(hf_weights_create(surface, &d, 4, &weights), "hf_weights_create");
     hf_weights_out out = desc<hf_weights_out>();
-    joints.resize(4 * std::size_t{vertices}), shares.resize(joints.size());
-    out.vertex_capacity = vertices, out.joints = joints.data(), out.weights = shares.data();
+    joints.resize(4 * std::size_t{vertices});
+    shares.resize(joints.size());
+    out.vertex_capacity = vertices;
+    out.joints = joints.data();
+    out.weights = shares.data();
     must(hf_weights_get(weights, &out), "hf_weights_get");
     // a third of the vertices has none, which a field fills in
     std::fill_n(shares.begin(), shares.size() / 3, 0.0f);
@@ -31,13 +35,19 @@ struct Rig {
 
   hf_bones_desc bones(hf_progress progress) const {
     hf_bones_desc d = desc<hf_bones_desc>();
-    d.bone_count = bone_count, d.heads = heads.data(), d.tails = tails.data(), d.progress = progress;
+    d.bone_count = bone_count;
+    d.heads = heads.data();
+    d.tails = tails.data();
+    d.progress = progress;
     return d;
   }
   template <class Desc>
   Desc given(hf_progress progress) const {
     Desc d = desc<Desc>();
-    d.influence_count = 4, d.joints = joints.data(), d.weights = shares.data(), d.progress = progress;
+    d.influence_count = 4;
+    d.joints = joints.data();
+    d.weights = shares.data();
+    d.progress = progress;
     return d;
   }
 
@@ -70,7 +80,12 @@ hf_result pin(Rig& rig, hf_progress progress) {
   const float shares[2] = {1, 1};
   hf_pins_desc d = desc<hf_pins_desc>();
   must(hf_weights_set_pins(rig.weights, &d), "hf_weights_set_pins");  // the same pins would cost no path
-  d.pin_count = 2, d.joint_count = 1, d.vertices = places, d.radii = radii, d.joints = joints, d.weights = shares;
+  d.pin_count = 2;
+  d.joint_count = 1;
+  d.vertices = places;
+  d.radii = radii;
+  d.joints = joints;
+  d.weights = shares;
   d.progress = progress;
   return hf_weights_set_pins(rig.weights, &d);
 }
@@ -85,7 +100,9 @@ hf_result carry(Rig& rig, hf_progress progress) {
 hf_result mirror(Rig& rig, hf_progress progress) {
   const double plane[6] = {0, 0, 0, 1, 0, 0};
   auto d = rig.given<hf_mirror_desc>(progress);
-  d.bone_count = Rig::bone_count, d.heads = rig.heads.data(), d.plane = plane;
+  d.bone_count = Rig::bone_count;
+  d.heads = rig.heads.data();
+  d.plane = plane;
   hf_weights_out out = desc<hf_weights_out>();
   hf_mirror_info info = desc<hf_mirror_info>();
   return hf_weights_mirror(rig.surface, &d, &out, nullptr, nullptr, &info);

@@ -29,8 +29,10 @@ struct Counts {
 
 hf_surface_desc desc_of(const ExactShape& shape) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = shape.vertex_count(), desc.positions_f64 = shape.positions.data();
-  desc.triangle_count = static_cast<std::uint32_t>(shape.triangles.size() / 3), desc.triangles = shape.triangles.data();
+  desc.vertex_count = shape.vertex_count();
+  desc.positions_f64 = shape.positions.data();
+  desc.triangle_count = static_cast<std::uint32_t>(shape.triangles.size() / 3);
+  desc.triangles = shape.triangles.data();
   desc.field_kind = shape.field_kind;
   return desc;
 }
@@ -68,7 +70,10 @@ void forge(unsigned char* bytes, std::size_t size, ExactShape shape, double wide
 
 double error_of(const ExactShape& shape, const std::vector<double>& field) {
   double low = HUGE_VAL, high = -HUGE_VAL, worst = 0;
-  for (const double value : shape.values) low = std::min(low, value), high = std::max(high, value);
+  for (const double value : shape.values) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
   for (std::size_t v = 0; v < field.size(); ++v) {
     const double error = std::fabs(field[v] - shape.exact[v]);
     worst = std::isfinite(error) ? std::max(worst, error) : HUGE_VAL;
@@ -86,13 +91,16 @@ void judge(const ExactShape& shape, Factor factor, std::int32_t engine, double s
     block.resize(right.size() + HF_FACTOR_ALIGNMENT);
     bytes = block.data() + HF_FACTOR_ALIGNMENT - reinterpret_cast<std::uintptr_t>(block.data()) % HF_FACTOR_ALIGNMENT;
     std::memcpy(bytes, right.data(), right.size());
-    borrowed.borrow = 1, borrowed.bytes = bytes, borrowed.byte_count = right.size();
+    borrowed.borrow = 1;
+    borrowed.bytes = bytes;
+    borrowed.byte_count = right.size();
     desc.saved_factor = &borrowed;
   }
   hf_surface surface = nullptr;
   hf_solver solver = nullptr;
   hf_solver_desc solver_desc = HF_INIT(hf_solver_desc);
-  solver_desc.field_kind = shape.field_kind, solver_desc.engine = engine;
+  solver_desc.field_kind = shape.field_kind;
+  solver_desc.engine = engine;
   ++counts.cases;
   const hf_result created = hf_surface_create(&desc, &surface);
   if (created != HF_OK || hf_create(surface, &solver_desc, &solver) != HF_OK) {
@@ -105,20 +113,26 @@ void judge(const ExactShape& shape, Factor factor, std::int32_t engine, double s
   if (factor == Factor::forged) forge(bytes, borrowed.byte_count, shape, scale);
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
   sites.site_count = static_cast<std::uint32_t>(shape.sites.size());
-  sites.vertices = shape.sites.data(), sites.values = shape.values.data();
+  sites.vertices = shape.sites.data();
+  sites.values = shape.values.data();
   sites.stiffness = shape.stiffness.empty() ? nullptr : shape.stiffness.data();
   hf_result result = hf_add_sites(solver, &sites, nullptr);
   std::vector<double> field(shape.vertex_count());
   hf_certificate found = HF_INIT(hf_certificate);
   double error = HUGE_VAL;
   if (result == HF_OK) result = hf_solver_solve_f64(solver, field.data(), 0, nullptr);
-  if (result == HF_OK) error = error_of(shape, field), result = hf_solver_certify(solver, &found);
-  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  if (result == HF_OK) {
+    error = error_of(shape, field);
+    result = hf_solver_certify(solver, &found);
+  }
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
 
   const double tolerance = 1e-8;
   const bool wrong = result == HF_OK && !(error <= 10 * tolerance);
   const bool refused = factor == Factor::sound && result == HF_ERROR_INACCURATE && error < tolerance / 10;
-  counts.wrong_but_ok += wrong, counts.right_but_refused += refused;
+  counts.wrong_but_ok += wrong;
+  counts.right_but_refused += refused;
   counts.found_out += result == HF_ERROR_INACCURATE;
   // a wrong factor may lose the sites; a sound one answers
   counts.unexpected += factor == Factor::sound && result != HF_OK && result != HF_ERROR_INACCURATE;
@@ -175,7 +189,10 @@ int main(int argc, char** argv) {
   bool list = false;
   for (int i = 1; i < argc; ++i) list = list || std::strcmp(argv[i], "--list") == 0;
   std::vector<std::uint32_t> sizes = {10, 100, 1000, 8000, 50000};
-  if (full) sizes.push_back(300000), sizes.push_back(1000000);
+  if (full) {
+    sizes.push_back(300000);
+    sizes.push_back(1000000);
+  }
   Counts counts;
   for (const std::uint32_t n : sizes) {
     for (const auto& make : shapes_of(n, n)) {

@@ -73,7 +73,10 @@ void play_levels(const Scene& scene, const hf_scalars& field, const std::vector<
       check(std::is_sorted(out, out + count), "levels do not ascend");
       double low = 1e308, high = -1e308;
       for (const double value : values) {
-        if (!std::isnan(value)) low = std::min(low, value), high = std::max(high, value);
+        if (!std::isnan(value)) {
+          low = std::min(low, value);
+          high = std::max(high, value);
+        }
       }
       check(out[0] >= low && out[count - 1] <= high, "levels leave the range of the field");
       levels.insert(levels.end(), out, out + count);
@@ -84,8 +87,11 @@ void play_levels(const Scene& scene, const hf_scalars& field, const std::vector<
     if (!ANSWERED(hf_surface_trace_isolines(scene.surface, &field, count, levels.data(), &lines))) continue;
     std::vector<double> t(lines.point_count + 1), p(3 * (lines.point_count + 1));
     std::vector<std::uint32_t> starts(lines.line_count + 1), edges(2 * (lines.point_count + 1));
-    lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
-    lines.parameters = t.data(), lines.positions = p.data(), lines.line_starts = starts.data();
+    lines.point_capacity = lines.point_count;
+    lines.line_capacity = lines.line_count;
+    lines.parameters = t.data();
+    lines.positions = p.data();
+    lines.line_starts = starts.data();
     lines.point_edges = edges.data();
     check(ANSWERED(hf_surface_trace_isolines(scene.surface, &field, count, levels.data(), &lines)), "iso-lines twice");
     check(all_finite(p.data(), 3 * lines.point_count), "iso-lines are not finite");
@@ -114,12 +120,18 @@ void play_field(const Scene& scene, const DegenerateField& given) {
   for (const bool seeded : {false, true}) {
     hf_flow_lines lines = HF_INIT(hf_flow_lines);
     lines.wanted_count = 20;
-    if (seeded) lines.seed_count = static_cast<std::uint32_t>(seeds.size()), lines.seeds = seeds.data();
+    if (seeded) {
+      lines.seed_count = static_cast<std::uint32_t>(seeds.size());
+      lines.seeds = seeds.data();
+    }
     if (!ANSWERED(hf_flow_trace(flow, &field, &lines))) continue;
     std::vector<double> p(3 * (lines.point_count + 1)), u(lines.point_count + 1);
     std::vector<std::uint32_t> starts(lines.line_count + 1);
-    lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
-    lines.positions = p.data(), lines.values = u.data(), lines.line_starts = starts.data();
+    lines.point_capacity = lines.point_count;
+    lines.line_capacity = lines.line_count;
+    lines.positions = p.data();
+    lines.values = u.data();
+    lines.line_starts = starts.data();
     check(ANSWERED(hf_flow_trace(flow, &field, &lines)), "flow lines twice");
     check(all_finite(p.data(), 3 * lines.point_count), "flow lines are not finite");
     if (seeded) check(lines.line_count == seeds.size(), "a seed has no line");
@@ -140,11 +152,17 @@ std::vector<double> along_edges(const Scene& scene, const std::vector<std::uint3
     shorter = false;
     const auto offer = [&](std::size_t a, std::size_t b) {
       const double to = d[a] + scene.line(a, b);
-      if (to < d[b]) d[b] = to, shorter = true;
+      if (to < d[b]) {
+        d[b] = to;
+        shorter = true;
+      }
     };
     for (std::size_t k = 0; k < corner.size(); ++k) {
       const std::size_t t = k / 3 * 3, a = corner[k], b = corner[t + (k + 1) % 3];
-      if (!scene.collapses(k / 3)) offer(a, b), offer(b, a);
+      if (!scene.collapses(k / 3)) {
+        offer(a, b);
+        offer(b, a);
+      }
     }
   }
   return d;
@@ -194,7 +212,8 @@ void play_paths(const Scene& scene, hf_geodesics geodesics) {
   const auto length = [&](const hf_surface_point& a, const hf_surface_point& b) {
     hf_path path = HF_INIT(hf_path);
     std::vector<double> positions(3 * 1000);
-    path.point_capacity = 1000, path.positions = positions.data();
+    path.point_capacity = 1000;
+    path.positions = positions.data();
     if (!ANSWERED(hf_geodesics_find_path(geodesics, &a, &b, &path))) return -2.0;
     check(all_finite(positions.data(), 3 * path.point_count), "a path is not finite");
     double sum = 0;
@@ -235,7 +254,9 @@ void play_geodesics(const Scene& scene) {
       std::vector<double> field(scene.n);
       std::vector<hf_extremity> found(scene.n);
       std::uint32_t count = 0;
-      tips.kind = kind, tips.out_field = field.data(), tips.source_count = 5;
+      tips.kind = kind;
+      tips.out_field = field.data();
+      tips.source_count = 5;
       tips.geodesics = kind == HF_EXTREMITIES_GEODESIC ? geodesics : nullptr;
       const std::uint32_t room = static_cast<std::uint32_t>(scene.n);
       if (!ANSWERED(hf_surface_find_extremities(scene.surface, &tips, room, found.data(), &count))) continue;
@@ -301,11 +322,14 @@ void play_direction(const Scene& scene, std::uint32_t degree) {
                                           given.data(), &now)),
           "the constraints");
     check(all_finite(given.data(), 3 * now), "a constraint is not finite");
-    ANSWERED(hf_direction_undo(copy)), ANSWERED(hf_direction_redo(copy));
+    ANSWERED(hf_direction_undo(copy));
+    ANSWERED(hf_direction_redo(copy));
     hf_direction_destroy(copy);
   }
   ANSWERED(hf_direction_add_sites(direction, 0, nullptr, nullptr, nullptr));
-  ANSWERED(hf_direction_undo(direction)), play_solve(scene, direction), ANSWERED(hf_direction_redo(direction));
+  ANSWERED(hf_direction_undo(direction));
+  play_solve(scene, direction);
+  ANSWERED(hf_direction_redo(direction));
   hf_direction_statistics statistics = HF_INIT(hf_direction_statistics);
   check(ANSWERED(hf_direction_get_statistics(direction, &statistics)), "the statistics");
   hf_direction_destroy(direction);
@@ -315,12 +339,15 @@ void play(const DegenerateMesh& mesh) {
   where = mesh.name;
   std::vector<float> floats(mesh.positions.begin(), mesh.positions.end());
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
+  desc.vertex_count = mesh.vertex_count();
+  desc.triangle_count = mesh.triangle_count();
   if (mesh.in_float)
     desc.positions = floats.data();
   else
     desc.positions_f64 = mesh.positions.data();
-  desc.triangles = mesh.triangles.data(), desc.weld = mesh.weld, desc.allocator = padded_allocator();
+  desc.triangles = mesh.triangles.data();
+  desc.weld = mesh.weld;
+  desc.allocator = padded_allocator();
   hf_surface surface = nullptr;
   check(ANSWERED(hf_surface_create(&desc, &surface)), "the surface");
   if (!surface) return;
@@ -334,8 +361,12 @@ void play(const DegenerateMesh& mesh) {
     where = mesh.name + ", " + field.name;
     play_field(scene, field);
   }
-  where = mesh.name + ", distances", play_geodesics(scene);
-  for (const std::uint32_t degree : {1u, 2u, 4u}) where = mesh.name + ", directions", play_direction(scene, degree);
+  where = mesh.name + ", distances";
+  play_geodesics(scene);
+  for (const std::uint32_t degree : {1u, 2u, 4u}) {
+    where = mesh.name + ", directions";
+    play_direction(scene, degree);
+  }
   hf_surface_destroy(surface);
 }
 

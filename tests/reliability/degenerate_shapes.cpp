@@ -63,11 +63,14 @@ DegenerateMesh other_diagonals(DegenerateMesh mesh, const char* name) {
 std::vector<DegenerateMesh> degenerate_meshes() {
   std::vector<DegenerateMesh> meshes;
   DegenerateMesh triangle;
-  triangle.name = "one triangle", triangle.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0}, triangle.triangles = {0, 1, 2};
+  triangle.name = "one triangle";
+  triangle.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  triangle.triangles = {0, 1, 2};
   meshes.push_back(triangle);
   meshes.push_back(two_sided(triangle, "a two-sided triangle", false));
   const DegenerateMesh plain = sheet("a bumpy sheet", 7, 0.3), flat = sheet("a flat sheet", 6, 0);
-  meshes.push_back(plain), meshes.push_back(flat);
+  meshes.push_back(plain);
+  meshes.push_back(flat);
   meshes.push_back(two_sided(plain, "a two-sided sheet", false));
   meshes.push_back(two_sided(plain, "a doubled sheet", true));
   meshes.push_back(two_sided(two_sided(flat, "", true), "a sheet of four layers", true));
@@ -95,7 +98,8 @@ std::vector<DegenerateMesh> degenerate_meshes() {
   for (double& x : far_away.positions) x += 1e6;
   meshes.push_back(far_away);
   DegenerateMesh hourglass = triangle;
-  hourglass.name = "two triangles at a vertex", append(hourglass, {-1, 0, 0, 0, -1, 0}, {});
+  hourglass.name = "two triangles at a vertex";
+  append(hourglass, {-1, 0, 0, 0, -1, 0}, {});
   hourglass.triangles.insert(hourglass.triangles.end(), {0, 3, 4});
   meshes.push_back(hourglass);
   return meshes;

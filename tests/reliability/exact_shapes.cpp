@@ -10,7 +10,8 @@ using Real = long double;
 const Real pi = 3.14159265358979323846264338327950288L;
 
 std::uint32_t add_vertex(ExactShape& s, double x, double y, double z, double exact) {
-  s.positions.insert(s.positions.end(), {x, y, z}), s.exact.push_back(exact);
+  s.positions.insert(s.positions.end(), {x, y, z});
+  s.exact.push_back(exact);
   return s.vertex_count() - 1;
 }
 
@@ -19,7 +20,8 @@ void add_triangle(ExactShape& s, std::uint32_t a, std::uint32_t b, std::uint32_t
 }
 
 void add_site(ExactShape& s, std::uint32_t vertex, double value) {
-  s.sites.push_back(vertex), s.values.push_back(value);
+  s.sites.push_back(vertex);
+  s.values.push_back(value);
 }
 
 // Half of the cotangent at corner p of the triangle p q r.
@@ -57,7 +59,8 @@ void add_grid(ExactShape& s, const std::vector<double>& x, const std::vector<dou
   for (std::uint32_t j = 0; j + 1 < y.size(); ++j) {
     for (std::uint32_t i = 0; i + 1 < w; ++i) {
       const std::uint32_t a = base + j * w + i;
-      add_triangle(s, a, a + 1, a + w), add_triangle(s, a + 1, a + w + 1, a + w);
+      add_triangle(s, a, a + 1, a + w);
+      add_triangle(s, a + 1, a + w + 1, a + w);
     }
   }
 }
@@ -94,8 +97,10 @@ ExactShape exact_chain(std::uint32_t triangles, bool random, double stiffness, u
     const std::uint32_t b = add_vertex(s, t + 1.0, 0, 0, 0), c = add_vertex(s, t + x, y, 0, 0);
     add_triangle(s, a, b, c);
     const Real ab = half_cotangent(s, c, a, b), ac = half_cotangent(s, b, c, a), bc = half_cotangent(s, a, b, c);
-    share[t] = bc / (ac + bc), conductance[t] = ab + ac * share[t];
-    resistance += 1 / conductance[t], diagonals += 2 * (ab + ac + bc);
+    share[t] = bc / (ac + bc);
+    conductance[t] = ab + ac * share[t];
+    resistance += 1 / conductance[t];
+    diagonals += 2 * (ab + ac + bc);
     a = b;
   }
   const Real soft = compliance(stiffness, diagonals, s.vertex_count()), flow = 1 / (resistance + 2 * soft);
@@ -103,17 +108,20 @@ ExactShape exact_chain(std::uint32_t triangles, bool random, double stiffness, u
   s.exact[0] = static_cast<double>(u);
   for (std::uint32_t t = 0; t < triangles; ++t) {
     const Real next = u + flow / conductance[t];
-    s.exact[2 * t + 1] = static_cast<double>(next), s.exact[2 * t + 2] = static_cast<double>(u + share[t] * (next - u));
+    s.exact[2 * t + 1] = static_cast<double>(next);
+    s.exact[2 * t + 2] = static_cast<double>(u + share[t] * (next - u));
     u = next;
   }
-  add_site(s, 0, 0), add_site(s, a, 1);
+  add_site(s, 0, 0);
+  add_site(s, a, 1);
   if (stiffness > 0) s.stiffness.assign(2, stiffness);
   return s;
 }
 
 ExactShape exact_tube(std::uint32_t rings, std::uint32_t around, bool random, int field_kind, unsigned seed) {
   ExactShape s;
-  s.name = field_kind ? "bi-harmonic tube " : "tube ", s.field_kind = field_kind;
+  s.name = field_kind ? "bi-harmonic tube " : "tube ";
+  s.field_kind = field_kind;
   std::mt19937 draw(seed);
   std::uniform_real_distribution<double> step(0.3, 0.9);
   std::vector<double> z(rings, 0.0);
@@ -128,7 +136,8 @@ ExactShape exact_tube(std::uint32_t rings, std::uint32_t around, bool random, in
   for (std::uint32_t r = 0; r + 1 < rings; ++r) {
     for (std::uint32_t k = 0; k < around; ++k) {
       const std::uint32_t a = r * around + k, b = r * around + (k + 1) % around;
-      add_triangle(s, a, b, a + around), add_triangle(s, b, b + around, a + around);
+      add_triangle(s, a, b, a + around);
+      add_triangle(s, b, b + around, a + around);
     }
   }
   const std::uint32_t depth = field_kind ? 2 : 1;
@@ -180,20 +189,23 @@ ExactShape exact_revolution(std::uint32_t rings, std::uint32_t around, double le
   const Real soft = compliance(stiffness, diagonals, s.vertex_count());
   Real whole = 2 * soft, u = 0;
   for (const Real r : resistance) whole += r;
-  u = soft / whole, s.exact[south] = static_cast<double>(u);
+  u = soft / whole;
+  s.exact[south] = static_cast<double>(u);
   for (std::uint32_t r = 0; r <= rings; ++r) {
     u += resistance[r] / whole;
     for (std::uint32_t k = 0; r < rings && k < around; ++k) s.exact[at(r, k)] = static_cast<double>(u);
   }
   s.exact[north] = static_cast<double>(u);
-  add_site(s, south, 0), add_site(s, north, 1);
+  add_site(s, south, 0);
+  add_site(s, north, 1);
   if (stiffness > 0) s.stiffness.assign(2, stiffness);
   return s;
 }
 
 ExactShape exact_fan(std::uint32_t triangles, int field_kind) {
   ExactShape s;
-  s.name = field_kind ? "bi-harmonic fan " : "fan ", s.field_kind = field_kind;
+  s.name = field_kind ? "bi-harmonic fan " : "fan ";
+  s.field_kind = field_kind;
   const std::uint32_t n = triangles / 4 * 4;
   add_vertex(s, 0, 0, 0, 0);
   for (std::uint32_t k = 0; k < n; ++k) {
@@ -204,7 +216,8 @@ ExactShape exact_fan(std::uint32_t triangles, int field_kind) {
   // The hub is 0 by symmetry. The rim is a ring of weights b, tied to the hub by a; 1 and -1 across it.
   const Real angle = 2 * pi / n, a = std::tan(angle / 2), b = 1 / (2 * std::tan(angle));
   std::vector<Real> force(n, 0);
-  force[0] = 1, force[n / 2] = -1;
+  force[0] = 1;
+  force[n / 2] = -1;
   // sites with 0 a quarter away change nothing: the field is 0 there by symmetry
   std::vector<Real> u = ring_response(force, a, b);
   if (field_kind) u = ring_response(u, a, b);
@@ -243,7 +256,8 @@ ExactShape exact_islands(std::uint32_t islands, std::uint32_t columns) {
     for (std::uint32_t j = 0; !bare && j < 2; ++j) {
       for (const std::uint32_t i : {0u, columns}) {
         const std::uint32_t v = first + j * (columns + 1) + i;
-        s.exact[v] = i == 0 ? low : high, add_site(s, v, s.exact[v]);
+        s.exact[v] = i == 0 ? low : high;
+        add_site(s, v, s.exact[v]);
       }
     }
   }

@@ -24,7 +24,8 @@ void release(void*, void* block, std::size_t, std::size_t) { free(block); }
 
 hf_surface_desc counted(const Mesh& mesh, int field_kind = HF_FIELD_HARMONIC) {
   hf_surface_desc d = surface_desc(mesh);
-  d.allocator = {allocate, release, nullptr}, d.field_kind = field_kind;
+  d.allocator = {allocate, release, nullptr};
+  d.field_kind = field_kind;
   return d;
 }
 
@@ -67,19 +68,23 @@ Answer read(hf_transfer transfer, unsigned first) {
         for (std::uint32_t p = 0; p < 2; ++p) {
           hf_pair_info pair = desc<hf_pair_info>();
           must(hf_transfer_get_pair(transfer, p, &pair), "hf_transfer_get_pair");
-          answer.numbers[3 * p] = pair.source_leak, answer.numbers[3 * p + 1] = pair.confidence;
+          answer.numbers[3 * p] = pair.source_leak;
+          answer.numbers[3 * p + 1] = pair.confidence;
           answer.numbers[3 * p + 2] = pair.alignment_angle;
         }
         break;
       case 1: {
         hf_transfer_info info = desc<hf_transfer_info>();
         must(hf_transfer_get_info(transfer, &info), "hf_transfer_get_info");
-        answer.numbers[6] = info.cluster_count, answer.numbers[7] = info.scale, answer.numbers[8] = info.aligned_count;
+        answer.numbers[6] = info.cluster_count;
+        answer.numbers[7] = info.scale;
+        answer.numbers[8] = info.aligned_count;
         break;
       }
       default: {
         hf_skin_info skin = desc<hf_skin_info>();
-        skin.joint_capacity = 600, skin.pivots = answer.numbers.data() + 10;
+        skin.joint_capacity = 600;
+        skin.pivots = answer.numbers.data() + 10;
         must(hf_transfer_get_skin(transfer, &skin), "hf_transfer_get_skin");
         answer.numbers[9] = skin.joint_count;
       }
@@ -95,7 +100,8 @@ hf_transfer make_transfer(hf_surface surface) {
   std::vector<std::uint32_t> vertices;
   for (std::uint32_t v = 0; v < 40; ++v) vertices.push_back(v < 20 ? v : 400 + v);
   hf_pairs_desc pairs = desc<hf_pairs_desc>();
-  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts;
+  pairs.pair_count = 2;
+  pairs.source_counts = pairs.target_counts = counts;
   pairs.source_vertices = pairs.target_vertices = vertices.data();
   must(hf_transfer_add_pairs(transfer, &pairs, nullptr), "hf_transfer_add_pairs");
   return transfer;
@@ -104,7 +110,8 @@ hf_transfer make_transfer(hf_surface surface) {
 void transfers(const Mesh& mesh, int rounds, unsigned& different, unsigned& repeated) {
   const hf_surface surface = make_surface(counted(mesh));
   hf_transfer warm = make_transfer(surface);  // workspaces of the surface exist from here on
-  read(warm, 0), hf_transfer_destroy(warm);
+  read(warm, 0);
+  hf_transfer_destroy(warm);
   const hf_transfer alone = make_transfer(surface);
   Answer right;
   const long first = count([&] { right = read(alone, 0); }), later = count([&] { read(alone, 0); });
@@ -118,7 +125,8 @@ void transfers(const Mesh& mesh, int rounds, unsigned& different, unsigned& repe
     hf_transfer_destroy(transfer);
   }
   printf("a transfer read first: %ld allocations, later: %ld\n", first, later);
-  hf_transfer_destroy(alone), hf_surface_destroy(surface);
+  hf_transfer_destroy(alone);
+  hf_surface_destroy(surface);
 }
 
 // ---- a kind of field that the surface lacks ----
@@ -145,12 +153,15 @@ void kinds(const Mesh& mesh, int rounds, unsigned& different, unsigned& repeated
     const int kind = (own + 1) % 3;
     hf_surface surface = make_surface(counted(mesh, own));
     Made warm, right, second;
-    make_and_solve(surface, mesh, own, warm), hf_solver_destroy(warm.solver);
+    make_and_solve(surface, mesh, own, warm);
+    hf_solver_destroy(warm.solver);
     const long first = count([&] { make_and_solve(surface, mesh, kind, right); }),
                later = count([&] { make_and_solve(surface, mesh, kind, second); });
     // a second solver shares the factor of the first
-    different += second.field != right.field, repeated += 4 * later > 3 * first;
-    hf_solver_destroy(right.solver), hf_solver_destroy(second.solver);
+    different += second.field != right.field;
+    repeated += 4 * later > 3 * first;
+    hf_solver_destroy(right.solver);
+    hf_solver_destroy(second.solver);
     for (int round = 0; round < rounds; ++round) {
       std::vector<Made> made(thread_count);
       const long all = count([&] { on_eight([&](unsigned t) { make_and_solve(surface, mesh, kind, made[t]); }); });
@@ -197,7 +208,8 @@ int main(int argc, char** argv) {
   add_torus(mesh, 24, 20);
   unsigned transfers_different = 0, solved_again = 0, kinds_different = 0, made_again = 0;
   transfers(mesh, rounds, transfers_different, solved_again);
-  kinds(mesh, rounds, kinds_different, made_again), come_and_go(mesh, rounds, kinds_different);
+  kinds(mesh, rounds, kinds_different, made_again);
+  come_and_go(mesh, rounds, kinds_different);
   report_at_most("FIRST_CALLS_TRANSFERS_THAT_DIFFER", transfers_different, 0);
   report_at_most("FIRST_CALLS_TRANSFERS_SOLVED_AGAIN", solved_again, 0);
   report_at_most("FIRST_CALLS_KINDS_THAT_DIFFER", kinds_different, 0);

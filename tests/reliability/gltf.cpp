@@ -48,7 +48,8 @@ int main(int argc, char** argv) {
     const hostile::Outcome outcome = hostile::play_gltf(file);
     slowest = std::max(slowest, hostile::processor_seconds() - start);
     ++executions;
-    used += outcome.ending == hostile::Ending::used, solved += outcome.solved;
+    used += outcome.ending == hostile::Ending::used;
+    solved += outcome.solved;
     if (outcome.ending != hostile::Ending::wrong) continue;
     std::fprintf(stderr, "file %" PRIu64 ": %s\n", i, outcome.what.c_str());
     const std::string name = "wrong_" + std::to_string(i) + ".glb";

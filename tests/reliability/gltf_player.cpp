@@ -51,13 +51,19 @@ void pick(hf_surface surface, const FlatMesh& mesh, std::uint32_t vertex, double
 bool solve(const FlatMesh& mesh) {
   const std::vector<double> positions = double_positions(mesh.positions);
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
-  desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
-  desc.vertex_limit = 200000, desc.memory_limit_mb = 256;
+  desc.vertex_count = mesh.vertex_count();
+  desc.triangle_count = mesh.triangle_count();
+  desc.positions_f64 = positions.data();
+  desc.triangles = mesh.triangles.data();
+  desc.vertex_limit = 200000;
+  desc.memory_limit_mb = 256;
   struct Owner {
     hf_surface surface = nullptr;
     hf_solver solver = nullptr;
-    ~Owner() { hf_solver_destroy(solver), hf_surface_destroy(surface); }
+    ~Owner() {
+      hf_solver_destroy(solver);
+      hf_surface_destroy(surface);
+    }
   } owner;
   const hf_result made = hf_surface_create(&desc, &owner.surface);
   const hf_surface surface = owner.surface;
@@ -85,14 +91,17 @@ bool solve(const FlatMesh& mesh) {
   std::vector<double> values(places.size()), field(mesh.vertex_count());
   for (std::size_t i = 0; i < places.size(); ++i) values[i] = static_cast<double>(i % 7);
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
-  sites.site_count = static_cast<std::uint32_t>(places.size()), sites.vertices = places.data(),
+  sites.site_count = static_cast<std::uint32_t>(places.size());
+  sites.vertices = places.data();
   sites.values = values.data();
   hold(hf_add_sites(solver, &sites, nullptr) == HF_OK, "hf_add_sites refused first vertices of components");
   // one more site on the last vertex of the first component makes the field vary
   for (std::uint32_t v = mesh.vertex_count(); v-- > 0;) {
     if (component[v] != component[places[0]] || mesh.positions[v] == mesh.positions[places[0]]) continue;
     const double value = 10;
-    sites.site_count = 1, sites.vertices = &v, sites.values = &value;
+    sites.site_count = 1;
+    sites.vertices = &v;
+    sites.values = &value;
     const hf_result added = hf_add_sites(solver, &sites, nullptr);
     hold(added == HF_OK, hf_result_get_name(added));
     break;
@@ -128,13 +137,15 @@ Outcome outcome_of(const std::function<bool()>& work) {
   try {
     outcome.solved = work();
   } catch (const Wrong& wrong) {
-    outcome.ending = Ending::wrong, outcome.what = wrong.what();
+    outcome.ending = Ending::wrong;
+    outcome.what = wrong.what();
   } catch (const std::runtime_error& error) {
     const std::string sentence = error.what();
     outcome.ending = sentence.size() > 10 && sentence.find('\n') == std::string::npos ? Ending::refused : Ending::wrong;
     outcome.what = sentence;
   } catch (const std::exception& error) {
-    outcome.ending = Ending::wrong, outcome.what = std::string("another exception: ") + error.what();
+    outcome.ending = Ending::wrong;
+    outcome.what = std::string("another exception: ") + error.what();
   }
   return outcome;
 }

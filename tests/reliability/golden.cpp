@@ -24,9 +24,7 @@
 #define HIDDEN __attribute__((visibility("hidden")))
 #endif
 extern "C" {
-extern struct {
-  unsigned int vendor, type, subtype, features[1];
-} __cpu_model HIDDEN;
+extern struct { unsigned int vendor, type, subtype, features[1]; } __cpu_model HIDDEN;
 }
 namespace {
 unsigned processor_features() {
@@ -116,7 +114,8 @@ Mesh make_sheet(std::uint32_t nu, std::uint32_t nv, std::uint32_t bumps = 40) {
 class Stages {
  public:
   Stages(const Mesh& mesh, std::uint32_t threads) : mesh_(mesh), n_(mesh.vertex_count()) {
-    doubles_.resize(2 * std::size_t{n_}), floats_.resize(doubles_.size());
+    doubles_.resize(2 * std::size_t{n_});
+    floats_.resize(doubles_.size());
     base_ = surface_desc(mesh);
     base_.thread_count = threads;
   }
@@ -133,11 +132,13 @@ class Stages {
     hf_sites_desc more = places(3, 1511, 99);
     more.stiffness = stiffness;
     must(hf_add_sites(solver, &more, sites + 12), "hf_add_sites, soft");
-    more = places(2, 4003, 1264), more.radii = radii;
+    more = places(2, 4003, 1264);
+    more.radii = radii;
     must(hf_add_sites(solver, &more, sites + 15), "hf_add_sites, discs");
     take(solver, hash);
     must(hf_remove_sites(solver, 4, sites + 3), "hf_remove_sites");
-    more = places(2, 613, 17), more.values = nullptr;
+    more = places(2, 613, 17);
+    more.values = nullptr;
     must(hf_solver_move_sites(solver, 2, sites, &more), "hf_solver_move_sites");
     take(solver, hash);
     add(solver, 120, 83, 41, nullptr);
@@ -146,7 +147,8 @@ class Stages {
     must(hf_solver_prepare_rebase(solver), "hf_solver_prepare_rebase");
     must(hf_solver_set_values(solver, 1, sites + 8, values_.data() + 7), "hf_solver_set_values");
     take(solver, hash);
-    must(hf_solve(solver, floats_.data(), 0, nullptr), "hf_solve"), hash.take(floats_.data(), floats_.size());
+    must(hf_solve(solver, floats_.data(), 0, nullptr), "hf_solve");
+    hash.take(floats_.data(), floats_.size());
     must(hf_solver_solve_preview(solver, floats_.data(), 0, 0, nullptr), "hf_solver_solve_preview");
     hash.take(floats_.data(), floats_.size());
     hf_solver_destroy(solver);
@@ -159,13 +161,14 @@ class Stages {
            {HF_OPERATOR_INTRINSIC_DELAUNAY, HF_OPERATOR_CLAMPED, HF_OPERATOR_UNIFORM, HF_OPERATOR_COTANGENT}) {
         hf_surface_desc d = base_;
         hf_solver_desc wanted = desc<hf_solver_desc>();
-        d.field_kind = kind, d.operator_kind = op;
+        d.field_kind = kind;
+        d.operator_kind = op;
         wanted.engine = op == HF_OPERATOR_UNIFORM ? HF_ENGINE_REFACTOR : HF_ENGINE_GREEN;
         if (op == HF_OPERATOR_CLAMPED) d.ordering = HF_ORDERING_MINIMUM_DEGREE;
         const hf_solver solver = make_solver(d, wanted);
         add(solver, 9, 701, 3, nullptr);
-        must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64"),
-            hash.take(doubles_.data(), n_);
+        must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64");
+        hash.take(doubles_.data(), n_);
         hf_solver_destroy(solver);
       }
     }
@@ -183,7 +186,10 @@ class Stages {
     hf_critical_info info = desc<hf_critical_info>();
     must(hf_surface_find_critical_points(surface, &scalars, n_, points.data(), &info),
          "hf_surface_find_critical_points");
-    for (std::uint32_t i = 0; i < info.point_count; ++i) hash.take(&points[i].vertex, 1), hash.take(&points[i].kind, 1);
+    for (std::uint32_t i = 0; i < info.point_count; ++i) {
+      hash.take(&points[i].vertex, 1);
+      hash.take(&points[i].kind, 1);
+    }
     for (const std::int32_t method : {HF_GEODESICS_HEAT, HF_GEODESICS_FRONT, HF_GEODESICS_EXACT}) {
       hf_geodesics_desc options = desc<hf_geodesics_desc>();
       options.method = method;
@@ -194,7 +200,8 @@ class Stages {
       hash.take(doubles_.data(), n_);
       hf_geodesics_destroy(geodesics);
     }
-    hf_solver_destroy(solver), hf_surface_destroy(surface);
+    hf_solver_destroy(solver);
+    hf_surface_destroy(surface);
   }
 
   // Poses the tower by its two ends, in both modes. rings: vertices of a column.
@@ -209,19 +216,24 @@ class Stages {
       const auto half = static_cast<std::uint32_t>(ends.size() / 2);
       const std::uint32_t counts[2] = {half, half};
       hf_handles_desc regions = desc<hf_handles_desc>();
-      regions.handle_count = 2, regions.region_counts = counts, regions.region_vertices = ends.data();
+      regions.handle_count = 2;
+      regions.region_counts = counts;
+      regions.region_vertices = ends.data();
       std::uint32_t handles[2];
       must(hf_pose_add_handles(pose, &regions, handles), "hf_pose_add_handles");
       std::vector<float> normals(3 * std::size_t{n_});
       floats_.resize(normals.size());
       hf_deform_desc deform = desc<hf_deform_desc>();
-      deform.positions = floats_.data(), deform.normals = normals.data(), deform.refine = mode == HF_DEFORM_SMOOTH;
+      deform.positions = floats_.data();
+      deform.normals = normals.data();
+      deform.refine = mode == HF_DEFORM_SMOOTH;
       for (int frame = 1; frame <= 6; ++frame) {  // the turns (1 - t^2, 2 t) / (1 + t^2) need no sine
         const double t = 0.125 * frame, unit = 1 + t * t;
         const hf_transform turned = {{0, 2 * t / unit, 0, (1 - t * t) / unit}, {2 * t, 0.5, -t}};
         must(hf_pose_set_transforms(pose, 1, &handles[1], &turned), "hf_pose_set_transforms");
         must(hf_pose_deform(pose, &deform, nullptr), "hf_pose_deform");
-        hash.take(floats_.data(), floats_.size()), hash.take(normals.data(), normals.size());
+        hash.take(floats_.data(), floats_.size());
+        hash.take(normals.data(), normals.size());
       }
       hf_pose_destroy(pose);
     }
@@ -241,18 +253,22 @@ class Stages {
       const auto half = static_cast<std::uint32_t>(ends.size() / 2);
       const std::uint32_t counts[2] = {half, half};
       hf_pairs_desc pairs = desc<hf_pairs_desc>();
-      pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts;
+      pairs.pair_count = 2;
+      pairs.source_counts = pairs.target_counts = counts;
       pairs.source_vertices = pairs.target_vertices = ends.data();
       must(hf_transfer_add_pairs(transfer, &pairs, nullptr), "hf_transfer_add_pairs");
       for (int frame = 1; frame <= 6; ++frame) {
         for (std::size_t v = 0; v < n_; ++v) {
           const float* p = &mesh_.positions[3 * v];
           posed[3 * v] = p[0] + static_cast<float>(frame) * p[2] * p[2] / 1024;
-          posed[3 * v + 1] = p[1] - static_cast<float>(frame) / 8, posed[3 * v + 2] = p[2];
+          posed[3 * v + 1] = p[1] - static_cast<float>(frame) / 8;
+          posed[3 * v + 2] = p[2];
         }
         hf_transfer_frame played = desc<hf_transfer_frame>();
-        played.source_positions = posed.data(), played.target_positions = out.data();
-        must(hf_transfer_apply(transfer, &played), "hf_transfer_apply"), hash.take(out.data(), out.size());
+        played.source_positions = posed.data();
+        played.target_positions = out.data();
+        must(hf_transfer_apply(transfer, &played), "hf_transfer_apply");
+        hash.take(out.data(), out.size());
       }
       hf_transfer_destroy(transfer);
     }
@@ -290,11 +306,15 @@ class Stages {
     std::vector<double> positions(3 * std::size_t{info.vertex_count});
     std::vector<std::uint32_t> corners(4 * std::size_t{info.face_count});
     hf_quads_mesh made = desc<hf_quads_mesh>();
-    made.vertex_capacity = info.vertex_count, made.face_capacity = info.face_count;
-    made.positions = positions.data(), made.faces = corners.data();
+    made.vertex_capacity = info.vertex_count;
+    made.face_capacity = info.face_count;
+    made.positions = positions.data();
+    made.faces = corners.data();
     must(hf_quads_get_mesh(quads, &made), "hf_quads_get_mesh");
-    hash.take(positions.data(), positions.size()), hash.take(corners.data(), corners.size());
-    hf_quads_destroy(quads), hf_surface_destroy(surface);
+    hash.take(positions.data(), positions.size());
+    hash.take(corners.data(), corners.size());
+    hf_quads_destroy(quads);
+    hf_surface_destroy(surface);
   }
 
  private:
@@ -307,13 +327,17 @@ class Stages {
     return ends;
   }
   hf_sites_desc places(std::uint32_t count, std::uint32_t step, std::uint32_t first) {
-    vertices_.clear(), values_.clear();
+    vertices_.clear();
+    values_.clear();
     for (std::uint32_t i = 0; i < count; ++i) {
       vertices_.push_back((first + i * step) % n_);
-      values_.push_back(0.125 * (i * 37 % 101)), values_.push_back(0.25 * (i * 53 % 89));
+      values_.push_back(0.125 * (i * 37 % 101));
+      values_.push_back(0.25 * (i * 53 % 89));
     }
     hf_sites_desc d = desc<hf_sites_desc>();
-    d.site_count = count, d.vertices = vertices_.data(), d.values = values_.data();
+    d.site_count = count;
+    d.vertices = vertices_.data();
+    d.values = values_.data();
     return d;
   }
   void add(hf_solver solver, std::uint32_t count, std::uint32_t step, std::uint32_t first, std::uint32_t* sites) {
@@ -321,8 +345,8 @@ class Stages {
     must(hf_add_sites(solver, &d, sites), "hf_add_sites");
   }
   void take(hf_solver solver, Hash& hash) {
-    must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64"),
-        hash.take(doubles_.data(), doubles_.size());
+    must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64");
+    hash.take(doubles_.data(), doubles_.size());
   }
 
   const Mesh& mesh_;
@@ -350,7 +374,8 @@ struct Hashes {
   unsigned compared = 0, different = 0;
   void compare(const std::string& name, const std::string& run, std::uint64_t hash) {
     const std::uint64_t expected = right.emplace(name, hash).first->second;
-    ++compared, different += hash != expected;
+    ++compared;
+    different += hash != expected;
     if (hash != expected)
       fprintf(stderr, "%s, %s: %016" PRIx64 ", not %016" PRIx64 "\n", name.c_str(), run.c_str(), hash, expected);
   }
@@ -395,16 +420,25 @@ int main(int argc, char** argv) {
                         run = std::string(processor.name) + ", " + std::to_string(threads) + " threads";
       Hash field, operators, analysis, poses, transfers, directions, quads, elementary;
       Stages stages(sheet, threads), small_stages(small, threads), smooth_stages(smooth, threads);
-      stages.field(field), golden.compare("field" + kind, run, field.value);
-      small_stages.operators(operators), golden.compare("operators" + kind, run, operators.value);
-      stages.analysis(analysis), golden.compare("analysis" + kind, run, analysis.value);
-      smooth_stages.poses(poses, small_rings), golden.compare("poses" + kind, run, poses.value);
-      smooth_stages.transfers(transfers, small_rings), golden.compare("transfers" + kind, run, transfers.value);
-      smooth_stages.directions(directions), golden.compare("directions" + kind, run, directions.value);
-      smooth_stages.quads(quads), golden.compare("quads" + kind, run, quads.value);
-      functions(elementary), golden.compare("functions" + kind, run, elementary.value);
+      stages.field(field);
+      golden.compare("field" + kind, run, field.value);
+      small_stages.operators(operators);
+      golden.compare("operators" + kind, run, operators.value);
+      stages.analysis(analysis);
+      golden.compare("analysis" + kind, run, analysis.value);
+      smooth_stages.poses(poses, small_rings);
+      golden.compare("poses" + kind, run, poses.value);
+      smooth_stages.transfers(transfers, small_rings);
+      golden.compare("transfers" + kind, run, transfers.value);
+      smooth_stages.directions(directions);
+      golden.compare("directions" + kind, run, directions.value);
+      smooth_stages.quads(quads);
+      golden.compare("quads" + kind, run, quads.value);
+      functions(elementary);
+      golden.compare("functions" + kind, run, elementary.value);
       Options options;
-      options.threads = threads, options.paper_engine = false;
+      options.threads = threads;
+      options.paper_engine = false;
       const Outcome outcome = run_whole_api(scene, options);
       unexpected += outcome.unexpected;
       library.compare("whole api" + kind, run, outcome.hash);

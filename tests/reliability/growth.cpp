@@ -73,7 +73,10 @@ double slope(const std::vector<std::size_t>& sizes, const std::vector<double>& v
   const auto n = static_cast<double>(sizes.size());
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const double a = std::log(static_cast<double>(sizes[i])), b = std::log(values[i]);
-    x += a, y += b, xx += a * a, xy += a * b;
+    x += a;
+    y += b;
+    xx += a * a;
+    xy += a * b;
   }
   return (n * xy - x * y) / (n * xx - x * x);
 }
@@ -216,7 +219,7 @@ void measure_files(const std::string& programs, const std::string& folder, bool 
       Cost cost = cost_of(command);
       if (cost.seconds > bar) cost.seconds = std::min(cost.seconds, cost_of(command).seconds);
       std::printf("# %-20s %-40s %.2f s %.0f MB\n", kind.c_str(), said.c_str(), cost.seconds, cost.megabytes);
-      worst.seconds = std::max(worst.seconds, cost.seconds),
+      worst.seconds = std::max(worst.seconds, cost.seconds);
       worst.megabytes = std::max(worst.megabytes, cost.megabytes);
       worst.ended = worst.ended && cost.ended;
     }
@@ -247,7 +250,8 @@ void measure_work(bool full) {
 int main(int count, char** arguments) {
   const bool full = report_full(count, arguments) != 0;
   // freed memory stays with the process: the kernel's work for fresh pages is not what is measured
-  mallopt(M_TRIM_THRESHOLD, 1 << 30), mallopt(M_MMAP_THRESHOLD, 1 << 25);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  mallopt(M_MMAP_THRESHOLD, 1 << 25);
   std::string only, programs;
   for (int i = 1; i < count; ++i) {
     const std::string word = arguments[i];

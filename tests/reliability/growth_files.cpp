@@ -197,7 +197,8 @@ std::string polygon(std::size_t corners, int shape) {
       text += std::to_string(std::cos(turn)) + " " + std::to_string(std::sin(turn));
     else
       text += number(k) + " " + number(i < corners / 2 ? 3 * (k % 2) : 9 + k % 2);
-    text += " 0\n", face += " " + number(i);
+    text += " 0\n";
+    face += " " + number(i);
   }
   return text + face + "\n";
 }
@@ -249,9 +250,12 @@ std::string soup_glb(std::size_t triangles, std::size_t vertices) {
       R"(},{"bufferView":3,"componentType":5123,"type":"SCALAR","count":)" + c + "}]}";
   while (json.size() % 4) json += ' ';
   std::string out = "glTF";
-  append(out, 2, 4), append(out, static_cast<std::uint32_t>(28 + json.size() + bytes.size()), 4);
-  append(out, static_cast<std::uint32_t>(json.size()), 4), out += "JSON" + json;
-  append(out, static_cast<std::uint32_t>(bytes.size()), 4), out += std::string("BIN\0", 4) + bytes;
+  append(out, 2, 4);
+  append(out, static_cast<std::uint32_t>(28 + json.size() + bytes.size()), 4);
+  append(out, static_cast<std::uint32_t>(json.size()), 4);
+  out += "JSON" + json;
+  append(out, static_cast<std::uint32_t>(bytes.size()), 4);
+  out += std::string("BIN\0", 4) + bytes;
   return out;
 }
 
@@ -298,7 +302,10 @@ const char* file_ending(const std::string& text) {
 
 std::string file_of_bytes(const std::string& kind, std::size_t bytes) {
   std::size_t low = 2, high = 2;
-  while (file_of(kind, high).size() <= bytes) low = high, high *= 2;
+  while (file_of(kind, high).size() <= bytes) {
+    low = high;
+    high *= 2;
+  }
   // within half a percent
   while (high - low > high / 200 + 1) {
     const std::size_t middle = low + (high - low) / 2;

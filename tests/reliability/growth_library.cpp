@@ -82,8 +82,10 @@ MeshArrays soup(std::size_t triangles) {
 hf_surface surface_of(const MeshArrays& mesh, std::int32_t field_kind = HF_FIELD_HARMONIC) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.field_kind = field_kind;
-  desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size() / 3), desc.positions_f64 = mesh.positions.data();
-  desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3), desc.triangles = mesh.triangles.data();
+  desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size() / 3);
+  desc.positions_f64 = mesh.positions.data();
+  desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
+  desc.triangles = mesh.triangles.data();
   desc.allocator.allocate = [](void*, std::size_t bytes, std::size_t alignment) {
     return ::operator new(bytes, std::align_val_t(alignment), std::nothrow);
   };
@@ -105,7 +107,10 @@ hf_solver solver_of(hf_surface surface, std::int32_t field_kind = HF_FIELD_HARMO
 
 // A run holds it while it is measured.
 struct Scene {
-  ~Scene() { hf_solver_destroy(solver), hf_surface_destroy(surface); }
+  ~Scene() {
+    hf_solver_destroy(solver);
+    hf_surface_destroy(surface);
+  }
   hf_surface surface = nullptr;
   hf_solver solver = nullptr;
   std::vector<std::uint32_t> sites;
@@ -121,7 +126,9 @@ std::shared_ptr<Scene> scene_of(const MeshArrays& mesh) {
 std::uint32_t add_site(hf_solver solver, std::size_t vertex, double value) {
   const auto v = static_cast<std::uint32_t>(vertex);
   hf_sites_desc desc = HF_INIT(hf_sites_desc);
-  desc.site_count = 1, desc.vertices = &v, desc.values = &value;
+  desc.site_count = 1;
+  desc.vertices = &v;
+  desc.values = &value;
   std::uint32_t site = 0;
   check(hf_add_sites(solver, &desc, &site), "hf_add_sites");
   return site;
@@ -142,7 +149,8 @@ std::function<void()> transfer_soup(std::size_t size) {
     check(hf_transfer_create(surface.get(), surface.get(), nullptr, &transfer), "hf_transfer_create");
     const std::uint32_t counts[3] = {1, 1, 1}, vertices[3] = {0, 1, 2};
     hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-    pairs.pair_count = 3, pairs.source_counts = pairs.target_counts = counts;
+    pairs.pair_count = 3;
+    pairs.source_counts = pairs.target_counts = counts;
     pairs.source_vertices = pairs.target_vertices = vertices;
     check(hf_transfer_add_pairs(transfer, &pairs, nullptr), "hf_transfer_add_pairs");
     hf_transfer_info info = HF_INIT(hf_transfer_info);
@@ -175,7 +183,8 @@ std::vector<double> biharmonic_field(const MeshArrays& mesh, const std::vector<s
   scene.solver = solver_of(scene.surface, HF_FIELD_BIHARMONIC);
   hf_sites_desc desc = HF_INIT(hf_sites_desc);
   desc.site_count = static_cast<std::uint32_t>(vertices.size());
-  desc.vertices = vertices.data(), desc.values = values.data();
+  desc.vertices = vertices.data();
+  desc.values = values.data();
   check(hf_add_sites(scene.solver, &desc, nullptr), "hf_add_sites");
   std::vector<double> field(mesh.positions.size() / 3);
   check(hf_solver_solve_f64(scene.solver, field.data(), 0, nullptr), "hf_solver_solve_f64");

@@ -40,9 +40,11 @@ Run weld_of(Weld mode, const Place& place) {
       hf_inner::MeshInput input;
       input.vertex_count = static_cast<std::uint32_t>(points->size());
       input.positions = hf_inner::ConstRows(&points->data()->x, sizeof(Vec3));
-      input.weld = mode, input.weld_tolerance = 1;
+      input.weld = mode;
+      input.weld_tolerance = 1;
       hf_allocator hooks{};
-      hooks.allocate = counting_allocate, hooks.release = counting_release;
+      hooks.allocate = counting_allocate;
+      hooks.release = counting_release;
       hf_inner::Memory memory(hooks);
       hf_inner::weld(input, memory);
     };
@@ -67,12 +69,16 @@ std::vector<Structure> weld_structures(bool full) {
       none,
       named("exact", Weld::exact, scattered),
       named("exact_copies", Weld::exact,
-            [](std::size_t i, std::size_t count) { return Vec3{static_cast<double>(i % (count / 6)), 0, 0}; }),
+            [](std::size_t i, std::size_t count) {
+              return Vec3{static_cast<double>(i % (count / 6)), 0, 0};
+            }),
       named("tolerance", Weld::tolerance, scattered),
       named("tolerance_one_cell", Weld::tolerance, [](std::size_t, std::size_t) { return in_box(0.3); }),
       named("tolerance_few_cells", Weld::tolerance, [](std::size_t, std::size_t) { return in_box(4); }),
       named("tolerance_copies", Weld::tolerance,
-            [](std::size_t i, std::size_t) { return Vec3{static_cast<double>(i % 7), 0, 0}; }),
+            [](std::size_t i, std::size_t) {
+              return Vec3{static_cast<double>(i % 7), 0, 0};
+            }),
       named("tolerance_grid", Weld::tolerance,
             [](std::size_t i, std::size_t count) {
               const auto side = static_cast<std::size_t>(std::cbrt(static_cast<double>(count)));

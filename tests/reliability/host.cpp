@@ -46,7 +46,8 @@ struct Property {
 };
 
 void read_float_control(std::string& out) {
-  put(out, fegetround()), put(out, fegetexcept());
+  put(out, fegetround());
+  put(out, fegetexcept());
 #if defined(__SSE2__)
   put(out, _mm_getcsr());  // masks, rounding, FTZ, DAZ, and the sticky flags
 #endif
@@ -61,21 +62,23 @@ void read_signals(std::string& out) {
     struct sigaction action;
     std::memset(&action, 0, sizeof action);
     if (sigaction(s, nullptr, &action) != 0) continue;
-    put(out, action.sa_handler), put(out, action.sa_flags);
+    put(out, action.sa_handler);
+    put(out, action.sa_flags);
     for (int i = 1; i < 65; ++i) put(out, sigismember(&action.sa_mask, i));
   }
   sigset_t mask;
-  sigemptyset(&mask), pthread_sigmask(SIG_BLOCK, nullptr, &mask);
+  sigemptyset(&mask);
+  pthread_sigmask(SIG_BLOCK, nullptr, &mask);
   for (int i = 1; i < 65; ++i) put(out, sigismember(&mask, i));
   stack_t stack;
-  std::memset(&stack, 0, sizeof stack), sigaltstack(nullptr, &stack);
-  put(out, stack.ss_sp), put(out, stack.ss_size);
+  std::memset(&stack, 0, sizeof stack);
+  sigaltstack(nullptr, &stack);
+  put(out, stack.ss_sp);
+  put(out, stack.ss_size);
   struct itimerval timer;
   for (int which = 0; which < 3; ++which) {
-    std::memset(&timer, 0, sizeof timer), getitimer(which == 0   ? ITIMER_REAL
-                                                    : which == 1 ? ITIMER_VIRTUAL
-                                                                 : ITIMER_PROF,
-                                                    &timer);
+    std::memset(&timer, 0, sizeof timer);
+    getitimer(which == 0 ? ITIMER_REAL : which == 1 ? ITIMER_VIRTUAL : ITIMER_PROF, &timer);
     put(out, timer.it_interval);
   }
 }
@@ -88,7 +91,11 @@ void read_descriptors(std::string& out) {
     struct stat file;
     const int flags = fcntl(d, F_GETFD);
     put(out, flags);
-    if (flags >= 0 && fstat(d, &file) == 0) put(out, file.st_dev), put(out, file.st_ino), put(out, fcntl(d, F_GETFL));
+    if (flags >= 0 && fstat(d, &file) == 0) {
+      put(out, file.st_dev);
+      put(out, file.st_ino);
+      put(out, fcntl(d, F_GETFL));
+    }
   }
 }
 void read_threads(std::string& out) { put(out, entries("/proc/self/task")); }
@@ -96,18 +103,25 @@ void read_process(std::string& out) {
   char folder[4096];
   if (getcwd(folder, sizeof folder)) out += folder;
   const mode_t mask = umask(0);
-  umask(mask), put(out, mask);
+  umask(mask);
+  put(out, mask);
   for (const auto limit : {RLIMIT_STACK, RLIMIT_CORE, RLIMIT_NOFILE, RLIMIT_AS, RLIMIT_DATA}) {
     struct rlimit now;
     getrlimit(limit, &now);
-    put(out, now.rlim_cur), put(out, now.rlim_max);
+    put(out, now.rlim_cur);
+    put(out, now.rlim_max);
   }
   put(out, getpriority(PRIO_PROCESS, 0));
   cpu_set_t cores;
-  std::memset(&cores, 0, sizeof cores), sched_getaffinity(0, sizeof cores, &cores), put(out, cores);
+  std::memset(&cores, 0, sizeof cores);
+  sched_getaffinity(0, sizeof cores, &cores);
+  put(out, cores);
 }
 void read_environment(std::string& out) {
-  for (char** variable = environ; *variable; ++variable) out += *variable, out += '\n';
+  for (char** variable = environ; *variable; ++variable) {
+    out += *variable;
+    out += '\n';
+  }
 }
 
 constexpr Property properties[] = {
@@ -132,9 +146,11 @@ unsigned changed_properties(const Scene& scene, bool paper_engine) {
   for (std::size_t i = 0; i < sizeof properties / sizeof *properties; ++i) properties[i].read(before[i]);
   run(scene, paper_engine);
   for (std::size_t i = 0; i < sizeof properties / sizeof *properties; ++i) {
-    after.clear(), properties[i].read(after);
+    after.clear();
+    properties[i].read(after);
     if (after == before[i] || (paper_engine && properties[i].read == read_threads)) continue;
-    ++changed, fprintf(stderr, "changed: %s\n", properties[i].name);
+    ++changed;
+    fprintf(stderr, "changed: %s\n", properties[i].name);
   }
   return changed;
 }
@@ -144,19 +160,31 @@ unsigned changed_draws(const Scene& scene) {
   int plain[6];
   long wide[6], own[6];
   unsigned changed = 0;
-  srand(7), srand48(7), srandom(9);
-  for (int i = 0; i < 6; ++i) own[i] = random(), wide[i] = lrand48();
-  srand(7), srand48(7);
-  for (int i = 0; i < 6; ++i) plain[i] = rand(), wide[i] = lrand48();
-  srand(7), srand48(7);
+  srand(7);
+  srand48(7);
+  srandom(9);
+  for (int i = 0; i < 6; ++i) {
+    own[i] = random();
+    wide[i] = lrand48();
+  }
+  srand(7);
+  srand48(7);
+  for (int i = 0; i < 6; ++i) {
+    plain[i] = rand();
+    wide[i] = lrand48();
+  }
+  srand(7);
+  srand48(7);
   for (int i = 0; i < 6; ++i) {
     if (i == 3) run(scene, true);
-    changed += rand() != plain[i], changed += lrand48() != wide[i];
+    changed += rand() != plain[i];
+    changed += lrand48() != wide[i];
   }
   srandom(9);
   for (int i = 0; i < 6; ++i) {
     if (i == 3) run(scene, true);
-    changed += random() != own[i], lrand48();
+    changed += random() != own[i];
+    lrand48();
   }
   return changed;
 }
@@ -165,13 +193,18 @@ unsigned changed_draws(const Scene& scene) {
 double printed_bytes(const Scene& scene) {
   FILE* file = tmpfile();
   if (!file) return -1;
-  fflush(stdout), fflush(stderr);
+  fflush(stdout);
+  fflush(stderr);
   const int out = dup(1), err = dup(2);
-  dup2(fileno(file), 1), dup2(fileno(file), 2);
+  dup2(fileno(file), 1);
+  dup2(fileno(file), 2);
   run(scene, true);
-  fflush(stdout), fflush(stderr);
-  dup2(out, 1), dup2(err, 2);
-  close(out), close(err);
+  fflush(stdout);
+  fflush(stderr);
+  dup2(out, 1);
+  dup2(err, 2);
+  close(out);
+  close(err);
   const double bytes = static_cast<double>(lseek(fileno(file), 0, SEEK_END));
   fclose(file);
   return bytes;
@@ -187,7 +220,8 @@ unsigned different_runs(const Scene& scene, std::uint64_t expected) {
 #if defined(__SSE2__)
     const unsigned control = _mm_getcsr();
 #endif
-    set(), read_float_control(before);
+    set();
+    read_float_control(before);
     const Outcome outcome = run_whole_api(scene);
     read_float_control(after);
     fesetenv(&host);
@@ -205,12 +239,15 @@ unsigned different_runs(const Scene& scene, std::uint64_t expected) {
   check("towards zero", [] { fesetround(FE_TOWARDZERO); });
   check("flags raised", [] { feraiseexcept(FE_INVALID | FE_OVERFLOW); });
   check("traps", [] {
-    feclearexcept(FE_ALL_EXCEPT), feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW | FE_UNDERFLOW | FE_INEXACT);
+    feclearexcept(FE_ALL_EXCEPT);
+    feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW | FE_UNDERFLOW | FE_INEXACT);
   });
 #if defined(__SSE2__)
   check("flush to zero", [] { _mm_setcsr(_mm_getcsr() | 0x8040u); });
   check("flush to zero, upward, traps", [] {
-    feclearexcept(FE_ALL_EXCEPT), feenableexcept(FE_INVALID | FE_DIVBYZERO), fesetround(FE_UPWARD);
+    feclearexcept(FE_ALL_EXCEPT);
+    feenableexcept(FE_INVALID | FE_DIVBYZERO);
+    fesetround(FE_UPWARD);
     _mm_setcsr(_mm_getcsr() | 0x8040u);
   });
 #endif
@@ -241,8 +278,11 @@ void run_under_other_settings(void* user, std::uint32_t count, void (*job)(void*
     feenableexcept(FE_INVALID | FE_DIVBYZERO);
     for (std::uint32_t i = 0; i < count; ++i) {
       std::string before, after;
-      read_float_control(before), job(data, i), read_float_control(after);
-      ++seen.jobs, seen.changed += before != after;
+      read_float_control(before);
+      job(data, i);
+      read_float_control(after);
+      ++seen.jobs;
+      seen.changed += before != after;
     }
     fedisableexcept(FE_ALL_EXCEPT);
   }).join();
@@ -251,7 +291,8 @@ unsigned different_jobs(const Scene& scene, std::uint64_t expected, unsigned& jo
   HostJobs seen;
   const hf_job_runner runner = {run_under_other_settings, &seen};
   Options options;
-  options.threads = 4, options.runner = &runner;
+  options.threads = 4;
+  options.runner = &runner;
   const Outcome outcome = run_whole_api(scene, options);
   if (outcome.unexpected > 0) fprintf(stderr, "%s answered %s\n", outcome.first, hf_result_get_name(outcome.got));
   jobs = seen.jobs;
@@ -269,7 +310,8 @@ int main() {
   // a locale with a decimal comma, where there is one
   for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"}) {
     if (!std::setlocale(LC_ALL, name)) continue;
-    changed += changed_properties(scene, true), changed += run(scene, true).hash != plain.hash;
+    changed += changed_properties(scene, true);
+    changed += run(scene, true).hash != plain.hash;
     break;
   }
   std::setlocale(LC_ALL, "C");

@@ -31,7 +31,8 @@ struct Tally {
     const hostile::Outcome outcome = hostile::play_file(file);
     slowest = std::max(slowest, hostile::processor_seconds() - start);
     ++files;
-    used += outcome.ending == hostile::Ending::used, refused += outcome.ending == hostile::Ending::refused;
+    used += outcome.ending == hostile::Ending::used;
+    refused += outcome.ending == hostile::Ending::refused;
     if (outcome.ending == hostile::Ending::wrong) {
       ++wrong;
       std::fprintf(stderr, "%s: %s\n", file.c_str(), outcome.what.c_str());

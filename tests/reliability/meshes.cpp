@@ -62,12 +62,17 @@ Mesh strip(double width) {  // two triangles
 }
 Mesh needle(double width) {
   Mesh m = strip(width);
-  m.positions.resize(9), m.triangles.resize(3);
+  m.positions.resize(9);
+  m.triangles.resize(3);
   return m;
 }
 
 void scale(Mesh& m, double x, double y, double z) {
-  for (std::size_t v = 0; v < m.count(); ++v) m.at(v)[0] *= x, m.at(v)[1] *= y, m.at(v)[2] *= z;
+  for (std::size_t v = 0; v < m.count(); ++v) {
+    m.at(v)[0] *= x;
+    m.at(v)[1] *= y;
+    m.at(v)[2] *= z;
+  }
 }
 void shift(Mesh& m, double by) {
   for (double& x : m.positions) x += by;
@@ -81,7 +86,8 @@ void append(Mesh& m, Mesh other, double dx) {
 std::vector<Mesh> meshes() {
   std::vector<Mesh> all;
   const auto put = [&](const std::string& name, Mesh m, hf_result expected = HF_OK) {
-    m.name = name, m.expected = expected;
+    m.name = name;
+    m.expected = expected;
     all.push_back(std::move(m));
   };
   // damaged glTF found these: the default operator did not factor
@@ -240,7 +246,8 @@ std::vector<Mesh> meshes() {
       "wider than a double",
       [] {
         Mesh m = sheet(2);
-        m.positions[0] = -1.7e308, m.positions[3] = 1.7e308;
+        m.positions[0] = -1.7e308;
+        m.positions[3] = 1.7e308;
         return m;
       }(),
       HF_ERROR_TOO_LARGE);
@@ -280,7 +287,9 @@ std::string check_field(hf_surface surface, hf_solver solver, const Mesh& m, dou
   const std::uint32_t places[2] = {first, last};
   const double values[2] = {near_value, far_value};
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
-  sites.site_count = last == HF_NO_INDEX ? 1 : 2, sites.vertices = places, sites.values = values;
+  sites.site_count = last == HF_NO_INDEX ? 1 : 2;
+  sites.vertices = places;
+  sites.values = values;
   std::uint32_t numbers[2];
   hf_result got = hf_add_sites(solver, &sites, numbers);
   if (got != HF_OK) return std::string("hf_add_sites: ") + hf_result_get_name(got);
@@ -300,11 +309,14 @@ std::string check_field(hf_surface surface, hf_solver solver, const Mesh& m, dou
 
 hf_surface_desc surface_desc(const Mesh& m, int operator_kind, int field_kind) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = m.count(), desc.triangle_count = static_cast<std::uint32_t>(m.triangles.size() / 3);
-  desc.positions_f64 = m.positions.data(), desc.triangles = m.triangles.data();
+  desc.vertex_count = m.count();
+  desc.triangle_count = static_cast<std::uint32_t>(m.triangles.size() / 3);
+  desc.positions_f64 = m.positions.data();
+  desc.triangles = m.triangles.data();
   static const std::uint32_t no_triangle[3] = {0, 0, 0};
   if (m.triangles.empty()) desc.triangles = no_triangle;
-  desc.operator_kind = operator_kind, desc.field_kind = field_kind;
+  desc.operator_kind = operator_kind;
+  desc.field_kind = field_kind;
   return desc;
 }
 
@@ -330,7 +342,8 @@ std::string check(const Mesh& m, int operator_kind, int field_kind, bool any_mag
   std::string wrong =
       check_field(surface, solver, m, harmonic && operator_kind != HF_OPERATOR_COTANGENT ? rounding : 1e300, 1, 0);
   if (wrong.empty()) wrong = check_field(surface, solver, m, harmonic ? rounding : 1e300, 3, 3);
-  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   return wrong;
 }
 
@@ -346,12 +359,16 @@ std::vector<double> loaded_field(const Mesh& m, std::uint32_t count, int operato
       hf_surface_save(made, field_kind, nullptr, 0, nullptr, &size) == HF_OK) {
     std::vector<unsigned char> bytes(size);
     hf_factor_desc saved = HF_INIT(hf_factor_desc);
-    saved.bytes = bytes.data(), saved.byte_count = size;
-    desc.saved_factor = &saved, desc.field_kind = field_kind;
+    saved.bytes = bytes.data();
+    saved.byte_count = size;
+    desc.saved_factor = &saved;
+    desc.field_kind = field_kind;
     const std::uint32_t places[] = {0, count / 2, count - 1};
     const double values[] = {0, 1, -1};
     hf_sites_desc sites = HF_INIT(hf_sites_desc);
-    sites.site_count = 3, sites.vertices = places, sites.values = values;
+    sites.site_count = 3;
+    sites.vertices = places;
+    sites.values = values;
     hf_solver_desc wanted = HF_INIT(hf_solver_desc);
     wanted.field_kind = field_kind;
     if (hf_surface_save(made, field_kind, nullptr, size, bytes.data(), nullptr) != HF_OK ||
@@ -360,7 +377,9 @@ std::vector<double> loaded_field(const Mesh& m, std::uint32_t count, int operato
         hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK)
       field.assign(m.count(), NAN);
   }
-  hf_solver_destroy(solver), hf_surface_destroy(made), hf_surface_destroy(loaded);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(made);
+  hf_surface_destroy(loaded);
   field.resize(count);
   return field;
 }

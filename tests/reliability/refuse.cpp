@@ -27,7 +27,8 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0, scale = 1e-300;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (!(std::fabs(a[i] - b[i]) <= 1e300)) return HUGE_VAL;
-    most = std::fmax(most, std::fabs(a[i] - b[i])), scale = std::fmax(scale, std::fabs(a[i]));
+    most = std::fmax(most, std::fabs(a[i] - b[i]));
+    scale = std::fmax(scale, std::fabs(a[i]));
   }
   return most / scale;
 }
@@ -42,7 +43,8 @@ void tell(const Chapter& chapter, const Tube& tube, Tally& tally) {
   for (const bool on : {false, true}) {
     for (std::size_t n = 1;; ++n) {
       Allocator memory;
-      memory.refuse_at = n, memory.refuse_on = on;
+      memory.refuse_at = n;
+      memory.refuse_on = on;
       Story story(memory);
       chapter.tell(story, tube, memory);
       if (memory.refused == 0) break;  // the story makes fewer allocations

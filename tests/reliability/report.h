@@ -12,14 +12,20 @@ static int report_missed_;
 /* A figure that must be `target` or more. NaN misses. */
 static inline void report_at_least(const char* name, double value, double target) {
   printf("%s %.10g >=%.10g\n", name, value, target);
-  if (!(value >= target)) report_missed_ = 1, fprintf(stderr, "%s: missed\n", name);
+  if (!(value >= target)) {
+    report_missed_ = 1;
+    fprintf(stderr, "%s: missed\n", name);
+  }
   fflush(stdout);
 }
 
 /* A figure that must be `target` or less. NaN misses. */
 static inline void report_at_most(const char* name, double value, double target) {
   printf("%s %.10g <=%.10g\n", name, value, target);
-  if (!(value <= target)) report_missed_ = 1, fprintf(stderr, "%s: missed\n", name);
+  if (!(value <= target)) {
+    report_missed_ = 1;
+    fprintf(stderr, "%s: missed\n", name);
+  }
   fflush(stdout);
 }
 

@@ -29,14 +29,18 @@ void provoke(hf_result got, const char* how) {
 
 hf_surface_desc scene_desc(const Scene& s) {
   hf_surface_desc d = desc<hf_surface_desc>();
-  d.vertex_count = s.vertex_count, d.triangle_count = s.triangle_count;
-  d.positions = s.positions.data(), d.triangles = s.triangles.data();
+  d.vertex_count = s.vertex_count;
+  d.triangle_count = s.triangle_count;
+  d.positions = s.positions.data();
+  d.triangles = s.triangles.data();
   return d;
 }
 
 hf_result add_one(hf_solver solver, std::uint32_t vertex, double value) {
   hf_sites_desc d = desc<hf_sites_desc>();
-  d.site_count = 1, d.vertices = &vertex, d.values = &value;
+  d.site_count = 1;
+  d.vertices = &vertex;
+  d.values = &value;
   return hf_add_sites(solver, &d, nullptr);
 }
 
@@ -45,18 +49,32 @@ void arguments(const Scene& s) {
   hf_surface_desc d = scene_desc(s);
   provoke(hf_surface_create(nullptr, &surface), "no desc");
   provoke(hf_surface_get_report(nullptr, nullptr), "no surface");
-  d.weld = 9, provoke(hf_surface_create(&d, &surface), "weld 9");
-  d = scene_desc(s), d.struct_size = 1, provoke(hf_surface_create(&d, &surface), "struct_size 1");
-  d = scene_desc(s), d.vertex_count = 0, provoke(hf_surface_create(&d, &surface), "no vertices");
-  d = scene_desc(s), d.vertex_limit = 1, provoke(hf_surface_create(&d, &surface), "vertex_limit 1");
-  d = scene_desc(s), d.vertex_count = 7, provoke(hf_surface_create(&d, &surface), "triangles beyond the vertices");
-  d = scene_desc(s), d.position_stride = 1, provoke(hf_surface_create(&d, &surface), "stride 1");
+  d.weld = 9;
+  provoke(hf_surface_create(&d, &surface), "weld 9");
+  d = scene_desc(s);
+  d.struct_size = 1;
+  provoke(hf_surface_create(&d, &surface), "struct_size 1");
+  d = scene_desc(s);
+  d.vertex_count = 0;
+  provoke(hf_surface_create(&d, &surface), "no vertices");
+  d = scene_desc(s);
+  d.vertex_limit = 1;
+  provoke(hf_surface_create(&d, &surface), "vertex_limit 1");
+  d = scene_desc(s);
+  d.vertex_count = 7;
+  provoke(hf_surface_create(&d, &surface), "triangles beyond the vertices");
+  d = scene_desc(s);
+  d.position_stride = 1;
+  provoke(hf_surface_create(&d, &surface), "stride 1");
   std::vector<float> infinite = s.positions;
   infinite[5] = HUGE_VALF;
-  d = scene_desc(s), d.positions = infinite.data(), provoke(hf_surface_create(&d, &surface), "an infinite position");
+  d = scene_desc(s);
+  d.positions = infinite.data();
+  provoke(hf_surface_create(&d, &surface), "an infinite position");
   Mesh large;
   add_torus(large, 100, 80);
-  d = surface_desc(large), d.memory_limit_mb = 1;
+  d = surface_desc(large);
+  d.memory_limit_mb = 1;
   provoke(hf_surface_create(&d, &surface), "a limit of one MiB");
 }
 
@@ -68,11 +86,14 @@ void states(const Scene& s) {
   double value = 0;
   const std::uint32_t vertex = 3, none = 77;
   provoke(hf_solver_solve_at(solver, 1, &vertex, &value), "a field without sites");
-  provoke(add_one(solver, 3, 1), "a site"), provoke(add_one(solver, 3, 1), "the same again");
+  provoke(add_one(solver, 3, 1), "a site");
+  provoke(add_one(solver, 3, 1), "the same again");
   provoke(add_one(solver, 3, 2), "another value there");
-  provoke(hf_remove_sites(solver, 1, &none), "an absent site"), provoke(hf_solver_undo(solver), "nothing to undo");
+  provoke(hf_remove_sites(solver, 1, &none), "an absent site");
+  provoke(hf_solver_undo(solver), "nothing to undo");
   hf_certificate certificate = desc<hf_certificate>();
-  add_one(solver, 200, 2), certificate.tolerance = 1e-300;
+  add_one(solver, 200, 2);
+  certificate.tolerance = 1e-300;
   provoke(hf_solver_certify(solver, &certificate), "a tolerance no field can meet");
 
   hf_pose pose = nullptr;
@@ -80,21 +101,28 @@ void states(const Scene& s) {
   must(hf_pose_create(surface, nullptr, &pose), "hf_pose_create");
   const std::uint32_t counts[2] = {1, 1}, same[2] = {9, 9};
   hf_handles_desc handles = desc<hf_handles_desc>();
-  handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = same;
+  handles.handle_count = 2;
+  handles.region_counts = counts;
+  handles.region_vertices = same;
   provoke(hf_pose_add_handles(pose, &handles, nullptr), "two handles on one vertex");
   provoke(hf_pose_remove_handles(pose, 1, &none), "an absent handle");
   must(hf_transfer_create(surface, surface, nullptr, &transfer), "hf_transfer_create");
   provoke(hf_transfer_remove_pairs(transfer, 1, &none), "an absent pair");
-  hf_pose_destroy(pose), hf_transfer_destroy(transfer), hf_solver_destroy(solver);
+  hf_pose_destroy(pose);
+  hf_transfer_destroy(transfer);
+  hf_solver_destroy(solver);
 
   hf_solver_desc refactor = desc<hf_solver_desc>();
   refactor.engine = HF_ENGINE_REFACTOR;
-  solver = make_solver(surface, refactor), add_one(solver, 3, 1);
+  solver = make_solver(surface, refactor);
+  add_one(solver, 3, 1);
   provoke(hf_solver_prepare_rebase(solver), "a rebase of an engine that has none");
-  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
 
   hf_progress progress = nullptr;
-  must(hf_progress_create(&progress), "hf_progress_create"), must(hf_progress_cancel(progress), "hf_progress_cancel");
+  must(hf_progress_create(&progress), "hf_progress_create");
+  must(hf_progress_cancel(progress), "hf_progress_cancel");
   hf_surface_desc cancelled = scene_desc(s);
   cancelled.progress = progress;
   hf_surface none_made = nullptr;
@@ -139,8 +167,10 @@ void indefinite() {
   const double positions[] = {0, 0, 0, -1.0384593717069655e34, 0, 0, 0, 1, 0, -1.038467170729213e34, 0, 0, 0, 0, 1};
   const std::uint32_t triangles[] = {0, 1, 3, 1, 2, 4};
   hf_surface_desc d = desc<hf_surface_desc>();
-  d.vertex_count = 5, d.triangle_count = 2;
-  d.positions_f64 = positions, d.triangles = triangles;
+  d.vertex_count = 5;
+  d.triangle_count = 2;
+  d.positions_f64 = positions;
+  d.triangles = triangles;
   d.operator_kind = HF_OPERATOR_COTANGENT;
   hf_surface surface = nullptr;
   provoke(hf_surface_create(&d, &surface), "two needles");
@@ -148,20 +178,25 @@ void indefinite() {
   hf_geodesics_desc heat = HF_INIT(hf_geodesics_desc);
   heat.method = HF_GEODESICS_HEAT;
   provoke(hf_geodesics_create(surface, &heat, &geodesics), "the heat on two needles");
-  hf_geodesics_destroy(geodesics), hf_surface_destroy(surface);
+  hf_geodesics_destroy(geodesics);
+  hf_surface_destroy(surface);
 }
 
 }  // namespace
 
 int main() {
   const Scene scene = make_scene();
-  arguments(scene), states(scene), callbacks(scene), indefinite();
+  arguments(scene);
+  states(scene);
+  callbacks(scene);
+  indefinite();
   unsigned named = 0, missing = 0;
   for (hf_result code = -400; code <= 0; ++code) {
     if (std::strcmp(hf_result_get_name(code), "unknown") == 0) continue;
     ++named;
     if (seen.count(code)) continue;
-    ++missing, fprintf(stderr, "never returned: %s\n", hf_result_get_name(code));
+    ++missing;
+    fprintf(stderr, "never returned: %s\n", hf_result_get_name(code));
   }
   report_at_least("RESULT_CODES", named, 25);
   report_at_most("RESULT_CODES_NEVER_RETURNED", missing, 0);

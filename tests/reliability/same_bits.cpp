@@ -29,7 +29,8 @@ std::uint64_t hash_of(const Scene& scene, const Options& options) {
 
 Options with_threads(std::uint32_t threads) {
   Options options;
-  options.threads = threads, options.paper_engine = false;
+  options.threads = threads;
+  options.paper_engine = false;
   return options;
 }
 
@@ -50,9 +51,14 @@ std::uint64_t large_hash(const Mesh& mesh, std::uint32_t threads, const hf_job_r
   const hf_solver solver = make_solver(d);
   std::vector<std::uint32_t> vertices;
   std::vector<double> values, field(mesh.vertex_count());
-  for (std::uint32_t i = 0; i < 60; ++i) vertices.push_back(i * 331), values.push_back(i % 7);
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    vertices.push_back(i * 331);
+    values.push_back(i % 7);
+  }
   hf_sites_desc sites = desc<hf_sites_desc>();
-  sites.site_count = 60, sites.vertices = vertices.data(), sites.values = values.data();
+  sites.site_count = 60;
+  sites.vertices = vertices.data();
+  sites.values = values.data();
   must(hf_add_sites(solver, &sites, nullptr), "hf_add_sites");
   must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
   hf_solver_destroy(solver);
@@ -72,7 +78,8 @@ struct Small {
   Small small{&scene, 0};
   pthread_attr_t attributes;
   pthread_t thread;
-  pthread_attr_init(&attributes), pthread_attr_setstacksize(&attributes, bytes);
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, bytes);
   const auto body = [](void* user) -> void* {
     Small* s = static_cast<Small*>(user);
     Options options;  // with the paper's engine
@@ -108,7 +115,9 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
   const std::uint32_t vertices[3] = {5, 500, 1100};
   const double values[3] = {0, 1, 5};
   hf_sites_desc sites = desc<hf_sites_desc>();
-  sites.site_count = 3, sites.vertices = vertices, sites.values = values;
+  sites.site_count = 3;
+  sites.vertices = vertices;
+  sites.values = values;
   must(hf_add_sites(shared, &sites, nullptr), "hf_add_sites");
   std::vector<double> right(mesh.vertex_count());
   must(hf_solver_solve_f64(shared, right.data(), 0, nullptr), "hf_solver_solve_f64");
@@ -134,7 +143,10 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
       const double value = 3;
       std::uint32_t site = 0;
       hf_sites_desc more = desc<hf_sites_desc>(), to = desc<hf_sites_desc>();
-      more.site_count = to.site_count = 1, more.vertices = &vertex, more.values = &value, to.vertices = &moved;
+      more.site_count = to.site_count = 1;
+      more.vertices = &vertex;
+      more.values = &value;
+      to.vertices = &moved;
       different += hf_add_sites(copy, &more, &site) != HF_OK || hf_solver_move_sites(copy, 1, &site, &to) != HF_OK;
       std::vector<double> field(mesh.vertex_count());
       different += hf_solver_solve_f64(copy, field.data(), 0, nullptr) != HF_OK;
@@ -161,12 +173,15 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
     const std::uint32_t vertices[2] = {1, 5000};
     const double values[2] = {0, 1};
     hf_sites_desc sites = desc<hf_sites_desc>();
-    sites.site_count = 2, sites.vertices = vertices, sites.values = values;
+    sites.site_count = 2;
+    sites.vertices = vertices;
+    sites.values = values;
     must(hf_add_sites(inherited[i], &sites, nullptr), "hf_add_sites");
     must(hf_solver_solve_f64(inherited[i], field.data(), 0, nullptr), "hf_solver_solve_f64");
     right = field;
   }
-  fflush(stdout), fflush(stderr);
+  fflush(stdout);
+  fflush(stderr);
   unsigned wrong = 0;
   for (int round = 0; round < 3; ++round) {
     const pid_t child = fork();
@@ -203,11 +218,14 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
   const std::uint32_t vertices[2] = {1, 500};
   const double values[2] = {0, 1};
   hf_sites_desc sites = desc<hf_sites_desc>();
-  sites.site_count = 2, sites.vertices = vertices, sites.values = values;
+  sites.site_count = 2;
+  sites.vertices = vertices;
+  sites.values = values;
   must(hf_add_sites(solver, &sites, nullptr), "hf_add_sites");
   std::vector<double> field(mesh.vertex_count()), right = field;
   must(hf_solver_solve_f64(solver, right.data(), 0, nullptr), "hf_solver_solve_f64");
-  fflush(stdout), fflush(stderr);
+  fflush(stdout);
+  fflush(stderr);
   unsigned wrong = 0;
   for (int i = 0; i < count && wrong < 3; ++i) {  // a child that hangs takes 20 s
     must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
@@ -244,7 +262,8 @@ int main(int argc, char** argv) {
   for (const std::uint32_t threads : {2u, 3u, 8u}) different += large_hash(large, threads, nullptr) != expected_large;
   Options hosted = with_threads(2);
   hosted.runner = &runner;
-  different += hash_of(scene, hosted) != expected, different += large_hash(large, 2, &runner) != expected_large;
+  different += hash_of(scene, hosted) != expected;
+  different += large_hash(large, 2, &runner) != expected_large;
   report_at_most("SAME_BITS_THREADS_THAT_DIFFER", different, 0);
   report_at_most("SAME_BITS_EIGHT_THREADS_AT_ONCE", different_on_eight_threads(scene, expected, full ? 10 : 1), 0);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // their stack frames are several times as large

@@ -18,13 +18,16 @@ struct PlaceLists {
     desc = HF_INIT(hf_sites_desc);
     desc.site_count = static_cast<std::uint32_t>(places.size());
     for (const Place& p : places) {
-      vertices.push_back(p.vertex), triangles.push_back(p.triangle);
+      vertices.push_back(p.vertex);
+      triangles.push_back(p.triangle);
       weights.insert(weights.end(), p.weight, p.weight + 3);
     }
     if (places.empty() || places[0].triangle == HF_NO_INDEX)
       desc.vertices = vertices.data();
-    else
-      desc.triangles = triangles.data(), desc.barycentrics = weights.data();
+    else {
+      desc.triangles = triangles.data();
+      desc.barycentrics = weights.data();
+    }
     if (values && !values->empty()) desc.values = values->data();
     if (stiffness && !stiffness->empty()) desc.stiffness = stiffness->data();
   }
@@ -42,9 +45,14 @@ void Player::edit_sites(const Edit& edit, unsigned how) {
   hf_result got;
   if (how == 0) {
     hf_edit_desc d = HF_INIT(hf_edit_desc);
-    d.remove_count = size(edit.remove), d.remove_sites = edit.remove.data();
-    d.move_count = size(edit.move), d.move_sites = edit.move.data(), d.move_to = edit.move.empty() ? nullptr : &to.desc;
-    d.set_count = size(edit.set), d.set_sites = edit.set.data(), d.set_values = edit.set_values.data();
+    d.remove_count = size(edit.remove);
+    d.remove_sites = edit.remove.data();
+    d.move_count = size(edit.move);
+    d.move_sites = edit.move.data();
+    d.move_to = edit.move.empty() ? nullptr : &to.desc;
+    d.set_count = size(edit.set);
+    d.set_sites = edit.set.data();
+    d.set_values = edit.set_values.data();
     d.add = edit.add.empty() ? nullptr : &add.desc;
     got = hf_solver_edit_sites(here().solver, &d, numbers.data());
   } else if (!edit.remove.empty()) {
@@ -89,7 +97,8 @@ void Player::branch_off() {
   const unsigned b = bytes_.take();
   if (branches_.size() < 3 && b % 2 == 0) {
     auto made = std::make_unique<Branch>(setting_);
-    made->model = here().model, made->surface = here().surface;
+    made->model = here().model;
+    made->surface = here().surface;
     made->model.forget_records();
     expect(HF_OK, hf_solver_clone(here().solver, &made->solver), "hf_solver_clone");
     branches_.push_back(std::move(made));
@@ -115,7 +124,8 @@ void Player::reload() {
   expect(HF_OK, hf_surface_save(surface, field_kind_, nullptr, size, bytes.data(), nullptr), "hf_surface_save");
   hold(bytes[size] == 0x5A, "hf_surface_save wrote beyond its size");
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
-  factor.bytes = bytes.data(), factor.byte_count = size;
+  factor.bytes = bytes.data();
+  factor.byte_count = size;
   const unsigned b = bytes_.take();
   if (b % 4 == 3) {  // damaged bytes are refused
     bytes[bytes_.take() * 257u % size] ^= static_cast<std::uint8_t>(1u << (b / 4 % 8));
@@ -138,7 +148,8 @@ void Player::reload() {
     edit.add.resize(1);
     edit.add[0].vertex = static_cast<std::uint32_t>(
         std::find(surface_->inner.begin(), surface_->inner.end(), entry.second.at_vertex) - surface_->inner.begin());
-    edit.add_values = entry.second.values, edit.add_stiffness = {entry.second.stiffness};
+    edit.add_values = entry.second.values;
+    edit.add_stiffness = {entry.second.stiffness};
     edit_sites(edit, 1);
   }
 }

@@ -21,7 +21,10 @@ std::vector<double> Player::field_of(Branch& branch) {
   const Model::Answer& answer = branch.model.answer();
   std::uint32_t unreached = 0, first = HF_NO_INDEX, vertices = 0;
   for (int c = surface_->component_count - 1; c >= 0; --c) {
-    if (answer.sites_of_component[static_cast<std::size_t>(c)] == 0) ++unreached, first = static_cast<std::uint32_t>(c);
+    if (answer.sites_of_component[static_cast<std::size_t>(c)] == 0) {
+      ++unreached;
+      first = static_cast<std::uint32_t>(c);
+    }
   }
   for (std::uint32_t v = 0; v < surface_->vertex_count(); ++v) {
     const int inner = surface_->inner[v];
@@ -65,8 +68,12 @@ void Player::compare_sites(Branch& branch) {
   std::vector<double> values(count * m), stiffness(count), flux(count * m);
   hf_sites_info info = HF_INIT(hf_sites_info);
   info.capacity = static_cast<std::uint32_t>(count);
-  info.sites = numbers.data(), info.vertices = vertices.data(), info.components = components.data();
-  info.values = values.data(), info.stiffness = stiffness.data(), info.flux = flux.data();
+  info.sites = numbers.data();
+  info.vertices = vertices.data();
+  info.components = components.data();
+  info.values = values.data();
+  info.stiffness = stiffness.data();
+  info.flux = flux.data();
   expect(HF_OK, hf_solver_get_sites(branch.solver, &info), "hf_solver_get_sites");
   const Model::Answer& answer = branch.model.answer();
   std::size_t i = 0;

@@ -133,7 +133,10 @@ void weld(Surface& s) {
       if (!s.usable(t)) continue;
       const std::uint32_t* v = s.triangles.data() + std::size_t{3} * t;
       int least = label[at(welded[v[0]])];
-      for (int k = 0; k < 3; ++k) used[at(welded[v[k]])] = true, least = std::min(least, label[at(welded[v[k]])]);
+      for (int k = 0; k < 3; ++k) {
+        used[at(welded[v[k]])] = true;
+        least = std::min(least, label[at(welded[v[k]])]);
+      }
       for (int k = 0; k < 3; ++k) changed |= std::exchange(label[at(welded[v[k]])], least) != least;
     }
   }
@@ -205,11 +208,16 @@ Operator make_operator(const Surface& s, int operator_kind, int field_kind) {
   Operator made;
   made.matrix = Eigen::MatrixXd::Zero(n, n);
   for (const auto& [edge, w] : weights) {
-    made.matrix(edge.first, edge.second) -= w, made.matrix(edge.second, edge.first) -= w;
-    made.matrix(edge.first, edge.first) += w, made.matrix(edge.second, edge.second) += w;
+    made.matrix(edge.first, edge.second) -= w;
+    made.matrix(edge.second, edge.first) -= w;
+    made.matrix(edge.first, edge.first) += w;
+    made.matrix(edge.second, edge.second) += w;
   }
   std::vector<double> count(at(s.component_count), 0), mean(at(s.component_count), 0);
-  for (int v = 0; v < n; ++v) count[at(s.component[at(v)])] += 1, mean[at(s.component[at(v)])] += area[v];
+  for (int v = 0; v < n; ++v) {
+    count[at(s.component[at(v)])] += 1;
+    mean[at(s.component[at(v)])] += area[v];
+  }
   if (field_kind == HF_FIELD_BIHARMONIC) {
     Eigen::VectorXd inverse(n);
     for (int v = 0; v < n; ++v) inverse[v] = mean[at(s.component[at(v)])] / count[at(s.component[at(v)])] / area[v];

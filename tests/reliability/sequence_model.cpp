@@ -21,7 +21,8 @@ hf_result Model::locate(const Place& place, Site& site) const {
   if (place.triangle == HF_NO_INDEX) {
     if (place.vertex >= s.vertex_count()) return HF_ERROR_OUT_OF_RANGE;
     if (s.inner[place.vertex] < 0) return HF_ERROR_INVALID_ARGUMENT;
-    site.given_vertex = place.vertex, site.at_vertex = s.inner[place.vertex];
+    site.given_vertex = place.vertex;
+    site.at_vertex = s.inner[place.vertex];
     site.row = {{site.at_vertex, 1.0}};
   } else {
     if (place.triangle >= s.triangle_count()) return HF_ERROR_OUT_OF_RANGE;
@@ -34,7 +35,8 @@ hf_result Model::locate(const Place& place, Site& site) const {
       sum += w;
     }
     if (!(std::fabs(sum - 1) <= 1e-6)) return HF_ERROR_INVALID_ARGUMENT;
-    site.given_vertex = HF_NO_INDEX, site.at_vertex = -1;
+    site.given_vertex = HF_NO_INDEX;
+    site.at_vertex = -1;
     site.row.clear();
     for (int k = 0; k < 3; ++k) {
       if (place.weight[k] > 0) site.row.emplace_back(s.inner[v[k]], place.weight[k]);
@@ -66,7 +68,10 @@ bool Model::dependent(const Sites& sites, const std::vector<Site>& more) const {
   std::vector<const Site*> hard;
   bool points = false;
   const auto take = [&](const Site& site) {
-    if (site.stiffness == 0) hard.push_back(&site), points = points || site.at_vertex < 0;
+    if (site.stiffness == 0) {
+      hard.push_back(&site);
+      points = points || site.at_vertex < 0;
+    }
   };
   for (const auto& site : sites) take(site.second);
   for (const Site& site : more) take(site);
@@ -147,7 +152,8 @@ void Model::record() {
 bool Model::step(std::vector<State>& from, std::vector<State>& to) {
   if (from.empty()) return false;
   to.push_back({sites_, {}});
-  sites_ = std::move(from.back().sites), recorded_field = std::move(from.back().field);
+  sites_ = std::move(from.back().sites);
+  recorded_field = std::move(from.back().field);
   from.pop_back();
   known_ = false;
   return true;
@@ -157,13 +163,19 @@ void Model::solve_component(int component) {
   const Surface& s = *setting_.surface;
   std::vector<int> vertices, local(at(s.inner_count), -1);
   for (int v = 0; v < s.inner_count; ++v) {
-    if (s.component[at(v)] == component) local[at(v)] = static_cast<int>(vertices.size()), vertices.push_back(v);
+    if (s.component[at(v)] == component) {
+      local[at(v)] = static_cast<int>(vertices.size());
+      vertices.push_back(v);
+    }
   }
   std::vector<const Site*> sites;
   std::vector<int> places;  // in the order of all sites
   int place = 0;
   for (const auto& site : sites_) {
-    if (site.second.component == component) sites.push_back(&site.second), places.push_back(place);
+    if (site.second.component == component) {
+      sites.push_back(&site.second);
+      places.push_back(place);
+    }
     ++place;
   }
   answer_.sites_of_component[at(component)] = static_cast<int>(sites.size());
@@ -180,8 +192,10 @@ void Model::solve_component(int component) {
   }
   for (Eigen::Index i = 0; i < k; ++i) {
     const Site& site = *sites[static_cast<std::size_t>(i)];
-    for (const auto& [vertex, weight] : site.row)
-      a(local[at(vertex)], n + i) -= weight, a(n + i, local[at(vertex)]) += weight;
+    for (const auto& [vertex, weight] : site.row) {
+      a(local[at(vertex)], n + i) -= weight;
+      a(n + i, local[at(vertex)]) += weight;
+    }
     double stiffness = site.stiffness;
     if (setting_.engine == HF_ENGINE_UPDOWN)
       stiffness = stiffness > 0 ? std::min(stiffness, updown_penalty) : updown_penalty;

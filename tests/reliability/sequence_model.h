@@ -57,7 +57,10 @@ class Model {
   void record();
   bool undo() { return step(undo_, redo_); }
   bool redo() { return step(redo_, undo_); }
-  void forget_records() { undo_.clear(), redo_.clear(); }
+  void forget_records() {
+    undo_.clear();
+    redo_.clear();
+  }
 
   // u has a row per inner vertex, scale one per component, lambda one per site by ascending number; columns are
   // channels. The scale is the range of the values, or of a field that overshoots it. For equal values it is 1e-5 of

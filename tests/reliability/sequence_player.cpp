@@ -26,16 +26,21 @@ unsigned kind_of(unsigned byte) {
 
 hf_surface_desc Player::surface_desc(int field_kind) const {
   hf_surface_desc d = HF_INIT(hf_surface_desc);
-  d.vertex_count = surface_->vertex_count(), d.triangle_count = surface_->triangle_count();
-  d.positions = surface_->positions.data(), d.triangles = surface_->triangles.data();
-  d.operator_kind = operator_kind_, d.field_kind = field_kind, d.ordering = ordering_;
+  d.vertex_count = surface_->vertex_count();
+  d.triangle_count = surface_->triangle_count();
+  d.positions = surface_->positions.data();
+  d.triangles = surface_->triangles.data();
+  d.operator_kind = operator_kind_;
+  d.field_kind = field_kind;
+  d.ordering = ordering_;
   return d;
 }
 
 hf_solver_desc Player::solver_desc() const {
   hf_solver_desc d = HF_INIT(hf_solver_desc);
-  d.field_kind = field_kind_, d.engine = setting_.engine;
-  d.channel_count = static_cast<std::uint32_t>(setting_.channels),
+  d.field_kind = field_kind_;
+  d.engine = setting_.engine;
+  d.channel_count = static_cast<std::uint32_t>(setting_.channels);
   d.site_limit = static_cast<std::uint32_t>(setting_.site_limit);
   return d;
 }
@@ -87,10 +92,16 @@ Place Player::take_place(bool points) {
   }
   place.triangle = b == 255 ? surface_->triangle_count() : b % surface_->triangle_count();
   const unsigned w = bytes_.take(), i = w % 9, j = (w / 9) % (9 - i);
-  place.weight[0] = i / 8.0, place.weight[1] = j / 8.0, place.weight[2] = (8 - i - j) / 8.0;
+  place.weight[0] = i / 8.0;
+  place.weight[1] = j / 8.0;
+  place.weight[2] = (8 - i - j) / 8.0;
   if (w == 255) place.weight[0] = std::numeric_limits<double>::quiet_NaN();
   if (w == 254) place.weight[1] += 0.5;
-  if (w == 253) place.weight[0] = -1, place.weight[1] = 1, place.weight[2] = 1;
+  if (w == 253) {
+    place.weight[0] = -1;
+    place.weight[1] = 1;
+    place.weight[2] = 1;
+  }
   return place;
 }
 
@@ -131,8 +142,10 @@ void Player::call(unsigned kind) {
   Edit edit;
   const unsigned m = static_cast<unsigned>(setting_.channels);
   const auto take_moves = [&](bool points) {
-    for (unsigned i = 0, count = 1 + bytes_.take() % 3; i < count; ++i)
-      edit.move.push_back(take_site()), edit.move_to.push_back(take_place(points));
+    for (unsigned i = 0, count = 1 + bytes_.take() % 3; i < count; ++i) {
+      edit.move.push_back(take_site());
+      edit.move_to.push_back(take_place(points));
+    }
   };
   const auto take_sets = [&] {
     for (unsigned i = 0, count = 1 + bytes_.take() % 3; i < count; ++i) {
@@ -217,7 +230,8 @@ Outcome play(const std::uint8_t* bytes, std::size_t size) {
   try {
     Player(Bytes(bytes, size), outcome).run();
   } catch (const Failure& failure) {
-    outcome.passed = false, outcome.failure = failure.what();
+    outcome.passed = false;
+    outcome.failure = failure.what();
   }
   return outcome;
 }

@@ -8,7 +8,8 @@ namespace sequences {
 // Makes another solver on the surface of this branch. It has no sites, whatever the first holds.
 void Player::share() {
   auto made = std::make_unique<Branch>(setting_);
-  surface_of(here()), made->surface = here().surface;
+  surface_of(here());
+  made->surface = here().surface;
   const hf_solver_desc d = solver_desc();
   expect(HF_OK, hf_create(made->surface->handle, &d, &made->solver), "hf_create on a shared surface");
   compare(*made);
@@ -54,7 +55,8 @@ void Player::pick() {
   double origin[3], along[3];
   for (std::size_t k = 0; k < 3; ++k) {
     const double target = 0.5 * corner(corners[0], k) + 0.25 * corner(corners[1], k) + 0.25 * corner(corners[2], k);
-    along[k] = 0.3 + 0.5 * static_cast<double>((t + k) % 3), origin[k] = target - 8 * along[k];
+    along[k] = 0.3 + 0.5 * static_cast<double>((t + k) % 3);
+    origin[k] = target - 8 * along[k];
   }
   hf_hit hit = HF_INIT(hf_hit);
   expect(HF_OK, hf_surface_cast_ray(surface, origin, along, nullptr, &hit), "hf_surface_cast_ray");
@@ -87,7 +89,9 @@ void Player::pose() {
   const std::uint32_t one = 1;
   std::uint32_t handle = 0;
   hf_handles_desc region = HF_INIT(hf_handles_desc);
-  region.handle_count = 1, region.region_counts = &one, region.region_vertices = &v;
+  region.handle_count = 1;
+  region.region_counts = &one;
+  region.region_vertices = &v;
   expect(HF_OK, hf_pose_add_handles(owner.pose, &region, &handle), "hf_pose_add_handles");
   std::vector<float> posed(s.positions.size());
   for (const float by : {0.0f, 0.5f}) {

@@ -25,7 +25,8 @@ int main(int argc, char** argv) {
     for (std::size_t e = 0; e < 3; ++e) worst[e] = std::max(worst[e], outcome.worst[e]);
     for (const unsigned n : outcome.calls) calls += n;
     for (std::size_t k = sequences::first_surface_call; k < outcome.calls.size(); ++k) on_surfaces += outcome.calls[k];
-    refused += outcome.edits[0], edits += outcome.edits[1];
+    refused += outcome.edits[0];
+    edits += outcome.edits[1];
     if (outcome.passed) continue;
     if (i < given.size())
       std::fprintf(stderr, "kept input %" PRIu64 ": %s\n", i, outcome.failure.c_str());

@@ -50,7 +50,8 @@ Stretch edit_on(EditedSolver& solver, int count) {
   }
   hf_surface_statistics statistics = desc<hf_surface_statistics>();
   must(hf_surface_get_statistics(solver.surface(), &statistics), "hf_surface_get_statistics");
-  stretch.library_bytes = statistics.memory_bytes, stretch.with_gaps_bytes = resident_bytes();
+  stretch.library_bytes = statistics.memory_bytes;
+  stretch.with_gaps_bytes = resident_bytes();
   malloc_trim(0);
   stretch.process_bytes = resident_bytes();
   return stretch;

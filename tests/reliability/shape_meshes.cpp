@@ -49,7 +49,8 @@ void add_box(Mesh& mesh, std::uint32_t n, double dx) {
       Point p;
       const std::size_t k = static_cast<std::size_t>(side / 2), front = static_cast<std::size_t>(side % 2);
       p[k] = front ? 1 : -1;
-      p[(k + 1 + (1 - front)) % 3] = 2.0 * i / n - 1, p[(k + 2 - (1 - front)) % 3] = 2.0 * j / n - 1;
+      p[(k + 1 + (1 - front)) % 3] = 2.0 * i / n - 1;
+      p[(k + 2 - (1 - front)) % 3] = 2.0 * j / n - 1;
       p[0] += dx;
       return p;
     });
@@ -83,12 +84,15 @@ Mesh body(unsigned which) {
       });
       break;
     case 5:  // pieces that touch, and a small one inside
-      add_ball(mesh, 0, 1, 1, 1), add_ball(mesh, 1.95, 1, 0.6, 0.4), add_ball(mesh, -0.5, 0.2, 0.2, 0.2);
+      add_ball(mesh, 0, 1, 1, 1);
+      add_ball(mesh, 1.95, 1, 0.6, 0.4);
+      add_ball(mesh, -0.5, 0.2, 0.2, 0.2);
       break;
     case 6:  // a body with a thin plate on it
       add_box(mesh, 2, 0);
-      add_grid(mesh, 5, 5, false, false,
-               [](std::uint32_t i, std::uint32_t j) { return Point{1.0 + 0.5 * i, 0.4 * j - 0.8, 0.02 * (j % 2)}; });
+      add_grid(mesh, 5, 5, false, false, [](std::uint32_t i, std::uint32_t j) {
+        return Point{1.0 + 0.5 * i, 0.4 * j - 0.8, 0.02 * (j % 2)};
+      });
       break;
     case 7:  // a Moebius band
       add_grid(mesh, 14, 3, false, false, [](std::uint32_t i, std::uint32_t j) {

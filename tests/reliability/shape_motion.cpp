@@ -19,7 +19,8 @@ bool Player::transfer() {
   }
   const Mesh& target = itself ? mesh_ : other;
   hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
-  desc.mode = static_cast<int>(how / 2 % 4), desc.ground = how & 8 ? HF_GROUND_OFF : HF_GROUND_KEEP;
+  desc.mode = static_cast<int>(how / 2 % 4);
+  desc.ground = how & 8 ? HF_GROUND_OFF : HF_GROUND_KEEP;
   if (desc.mode == 3) desc.mode = HF_TRANSFER_FIELDS;
   desc.cluster_count = how & 16 ? 6 : 0;
   Owned<hf_transfer, hf_transfer_destroy> transfer;
@@ -44,9 +45,12 @@ bool Player::transfer() {
     }
   }
   hf_pairs_desc added = HF_INIT(hf_pairs_desc);
-  added.pair_count = pairs, added.flags = of.data();
-  added.source_counts = counts[0].data(), added.source_vertices = vertices[0].data();
-  added.target_counts = counts[1].data(), added.target_vertices = vertices[1].data();
+  added.pair_count = pairs;
+  added.flags = of.data();
+  added.source_counts = counts[0].data();
+  added.source_vertices = vertices[0].data();
+  added.target_counts = counts[1].data();
+  added.target_vertices = vertices[1].data();
   if (!done("hf_transfer_add_pairs", hf_transfer_add_pairs(transfer.handle, &added, nullptr), HF_ERROR_OVERLAP,
             HF_ERROR_INVALID_ARGUMENT))
     return false;
@@ -55,7 +59,8 @@ bool Player::transfer() {
   const auto frame = [&](const std::vector<double>& source) {
     std::vector<double> out(target.positions.size());
     hf_transfer_frame f = HF_INIT(hf_transfer_frame);
-    f.source_positions_f64 = source.data(), f.target_positions_f64 = out.data();
+    f.source_positions_f64 = source.data();
+    f.target_positions_f64 = out.data();
     expect(HF_OK, hf_transfer_apply(transfer.handle, &f), "hf_transfer_apply");
     hold(finite(out), "hf_transfer_apply: not finite");
     return out;
@@ -70,7 +75,8 @@ bool Player::transfer() {
   double size = 0, off = 0;
   for (std::size_t i = 0; i < still.size(); ++i) {
     const double at = static_cast<double>(target.positions[i]);
-    size = std::max(size, std::fabs(at)), off = std::max(off, std::fabs(still[i] - at));
+    size = std::max(size, std::fabs(at));
+    off = std::max(off, std::fabs(still[i] - at));
   }
   hf_transfer_info info = HF_INIT(hf_transfer_info);
   expect(HF_OK, hf_transfer_get_info(transfer.handle, &info), "hf_transfer_get_info");
@@ -79,7 +85,10 @@ bool Player::transfer() {
        "a source at rest gives a target that is off by " + std::to_string(off / size));
   hold(frame(posed()) == moved, "hf_transfer_apply: other bits of the same frame");
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
-  dials.stride = 0.5f, dials.hip_height = how & 64 ? 0.2f : -0.2f, dials.tail_follow = 1, dials.arm_space = 0.5f,
+  dials.stride = 0.5f;
+  dials.hip_height = how & 64 ? 0.2f : -0.2f;
+  dials.tail_follow = 1;
+  dials.arm_space = 0.5f;
   dials.long_follow = 0.5f;
   expect(HF_OK, hf_transfer_set_dials(transfer.handle, &dials), "hf_transfer_set_dials");
   frame(posed());
@@ -115,7 +124,9 @@ bool Player::weights() {
     parents.push_back(i == 0 ? HF_NO_INDEX : bytes_.take() % i);
   }
   hf_bones_desc bones = HF_INIT(hf_bones_desc);
-  bones.bone_count = count, bones.heads = heads.data(), bones.tails = how & 1 ? nullptr : tails.data();
+  bones.bone_count = count;
+  bones.heads = heads.data();
+  bones.tails = how & 1 ? nullptr : tails.data();
   bones.parents = parents.data();
   Owned<hf_weights, hf_weights_destroy> made;
   const std::uint32_t each = how & 2 ? 8 : 4;
@@ -124,7 +135,9 @@ bool Player::weights() {
   std::vector<float> weights(joints.size());
   const auto fresh_out = [&] {
     hf_weights_out out = HF_INIT(hf_weights_out);
-    out.vertex_capacity = mesh_.vertex_count(), out.joints = joints.data(), out.weights = weights.data();
+    out.vertex_capacity = mesh_.vertex_count();
+    out.joints = joints.data();
+    out.weights = weights.data();
     return out;
   };
   hf_weights_out out = fresh_out();
@@ -135,8 +148,11 @@ bool Player::weights() {
     const std::vector<std::uint32_t> to(pinned.size(), count - 1);
     const std::vector<float> whole(pinned.size(), 1.0f);
     hf_pins_desc pins = HF_INIT(hf_pins_desc);
-    pins.pin_count = static_cast<std::uint32_t>(pinned.size()), pins.vertices = pinned.data();
-    pins.joint_count = 1, pins.joints = to.data(), pins.weights = whole.data();
+    pins.pin_count = static_cast<std::uint32_t>(pinned.size());
+    pins.vertices = pinned.data();
+    pins.joint_count = 1;
+    pins.joints = to.data();
+    pins.weights = whole.data();
     std::vector<float> before(weights);
     const bool held = done("hf_weights_set_pins", hf_weights_set_pins(made.handle, &pins), HF_ERROR_DUPLICATE_SITE,
                            HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE);
@@ -150,7 +166,9 @@ bool Player::weights() {
   const std::vector<float> from_weights(weights.begin(), weights.begin() + each * mesh_.vertex_count());
   if (how & 8) {
     hf_carry_desc carry = HF_INIT(hf_carry_desc);
-    carry.influence_count = each, carry.joints = from_joints.data(), carry.weights = from_weights.data();
+    carry.influence_count = each;
+    carry.joints = from_joints.data();
+    carry.weights = from_weights.data();
     hf_weights_out to = fresh_out();
     expect(HF_OK, hf_weights_carry(surface_, surface_, &carry, &to, nullptr), "hf_weights_carry");
     check_weights("hf_weights_carry", to);
@@ -158,8 +176,12 @@ bool Player::weights() {
   if (how & 16) {
     hf_mirror_desc mirror = HF_INIT(hf_mirror_desc);
     const double plane[6] = {0, 0, 0, how & 32 ? 1.0 : 0.0, how & 32 ? 0.0 : 1.0, 0.5};
-    mirror.bone_count = count, mirror.heads = heads.data(), mirror.plane = how & 64 ? plane : nullptr;
-    mirror.influence_count = each, mirror.joints = from_joints.data(), mirror.weights = from_weights.data();
+    mirror.bone_count = count;
+    mirror.heads = heads.data();
+    mirror.plane = how & 64 ? plane : nullptr;
+    mirror.influence_count = each;
+    mirror.joints = from_joints.data();
+    mirror.weights = from_weights.data();
     mirror.to = static_cast<int>(bytes_.take() % 3);
     hf_weights_out to = fresh_out();
     if (done("hf_weights_mirror", hf_weights_mirror(surface_, &mirror, &to, nullptr, nullptr, nullptr), HF_ERROR_EMPTY))
@@ -177,13 +199,19 @@ bool Player::links() {
   std::vector<std::uint16_t> joints(n);
   std::vector<float> weights(n, 1.0f);
   std::vector<std::uint32_t> tags(n), light;
-  for (std::uint32_t v = 0; v < n; ++v)
-    joints[v] = static_cast<std::uint16_t>(v / 40 % 3), tags[v] = v / (how & 16 ? 55 : 200);
-  if (how & 1) desc.influence_count = 1, desc.joints = joints.data(), desc.weights = weights.data();
+  for (std::uint32_t v = 0; v < n; ++v) {
+    joints[v] = static_cast<std::uint16_t>(v / 40 % 3);
+    tags[v] = v / (how & 16 ? 55 : 200);
+  }
+  if (how & 1) {
+    desc.influence_count = 1;
+    desc.joints = joints.data();
+    desc.weights = weights.data();
+  }
   if (how & 2) desc.tags = tags.data();
   if (how & 4) desc.distance = static_cast<float>(diagonal_) * (how & 8 ? 0.5f : 0.001f);
   if (how & 32) light = take_vertices(2);
-  desc.light_count = static_cast<std::uint32_t>(light.size()),
+  desc.light_count = static_cast<std::uint32_t>(light.size());
   desc.light_vertices = light.empty() ? nullptr : light.data();
   Surface linked, again;
   if (!done("hf_surface_relink", hf_surface_relink(surface_, &desc, nullptr, &linked.handle),
@@ -219,7 +247,9 @@ bool Player::links() {
   hold(finite(gaps), "a gap is not finite");
   if (found.empty()) return true;
   hf_links_desc list = HF_INIT(hf_links_desc);
-  list.mode = HF_LINK_LIST, list.links = found.data(), list.link_count = static_cast<std::uint32_t>(found.size());
+  list.mode = HF_LINK_LIST;
+  list.links = found.data();
+  list.link_count = static_cast<std::uint32_t>(found.size());
   expect(HF_OK, hf_surface_relink(surface_, &list, nullptr, &again.handle), "hf_surface_relink with its own links");
   const std::vector<hf_link> same = links_of(again.handle);
   hold(same.size() == found.size(), "links given back are others");

@@ -20,7 +20,8 @@ std::vector<double> Player::posed() const {
   for (std::size_t v = 0; v < out.size(); v += 3) {
     const double x = static_cast<double>(mesh_.positions[v]), y = static_cast<double>(mesh_.positions[v + 1]),
                  a = 0.4 * x / diagonal_;
-    out[v] = x, out[v + 1] = y * std::cos(a) - 0.3 * x;
+    out[v] = x;
+    out[v + 1] = y * std::cos(a) - 0.3 * x;
     out[v + 2] = static_cast<double>(mesh_.positions[v + 2]) + y * std::sin(a);
   }
   return out;
@@ -34,9 +35,13 @@ void Player::check_quads(hf_quads quads) const {
   std::vector<std::uint32_t> faces(4 * std::size_t{info.face_count}), corners(positions.size()),
       triangles(info.vertex_count);
   hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
-  mesh.vertex_capacity = info.vertex_count, mesh.face_capacity = info.face_count;
-  mesh.positions = positions.data(), mesh.faces = faces.data(), mesh.triangles = triangles.data();
-  mesh.barycentrics = weights.data(), mesh.corners = corners.data();
+  mesh.vertex_capacity = info.vertex_count;
+  mesh.face_capacity = info.face_count;
+  mesh.positions = positions.data();
+  mesh.faces = faces.data();
+  mesh.triangles = triangles.data();
+  mesh.barycentrics = weights.data();
+  mesh.corners = corners.data();
   expect(HF_OK, hf_quads_get_mesh(quads, &mesh), "hf_quads_get_mesh");
   hold(mesh.vertex_count == info.vertex_count && mesh.face_count == info.face_count, "quads: counts differ");
   hold(finite(positions) && finite(weights), "quads: not finite");
@@ -69,7 +74,8 @@ std::vector<double> positions_of(hf_quads quads) {
   expect(HF_OK, hf_quads_get_info(quads, &info), "hf_quads_get_info");
   std::vector<double> out(3 * std::size_t{info.vertex_count});
   hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
-  mesh.vertex_capacity = info.vertex_count, mesh.positions = out.data();
+  mesh.vertex_capacity = info.vertex_count;
+  mesh.positions = out.data();
   expect(HF_OK, hf_quads_get_mesh(quads, &mesh), "hf_quads_get_mesh");
   return out;
 }
@@ -89,7 +95,11 @@ bool Player::quads() {
   std::vector<std::uint32_t> guided, meeting, creases;
   std::vector<double> vectors, places;
   const auto take_options = [&] {
-    guided.clear(), creases.clear(), meeting.clear(), vectors.clear(), places.clear();
+    guided.clear();
+    creases.clear();
+    meeting.clear();
+    vectors.clear();
+    places.clear();
     desc.crease_angle = parts & 4 ? 30.0f : 0.0f;
     if (parts & 8) guided = take_vertices(4);
     if (parts & 16) {
@@ -106,13 +116,22 @@ bool Player::quads() {
       }
     }
     desc.guide_count = static_cast<std::uint32_t>(guided.size());
-    desc.guide_vertices = guided.data(), desc.guide_vectors = vectors.data();
-    desc.crease_count = static_cast<std::uint32_t>(creases.size() / 2), desc.crease_edges = creases.data();
+    desc.guide_vertices = guided.data();
+    desc.guide_vectors = vectors.data();
+    desc.crease_count = static_cast<std::uint32_t>(creases.size() / 2);
+    desc.crease_edges = creases.data();
     desc.pole_count = static_cast<std::uint32_t>(meeting.size());
-    desc.pole_quads = meeting.data(), desc.pole_points = places.data();
-    if (guided.empty()) desc.guide_vertices = nullptr, desc.guide_vectors = nullptr;
+    desc.pole_quads = meeting.data();
+    desc.pole_points = places.data();
+    if (guided.empty()) {
+      desc.guide_vertices = nullptr;
+      desc.guide_vectors = nullptr;
+    }
     if (creases.empty()) desc.crease_edges = nullptr;
-    if (meeting.empty()) desc.pole_quads = nullptr, desc.pole_points = nullptr;
+    if (meeting.empty()) {
+      desc.pole_quads = nullptr;
+      desc.pole_points = nullptr;
+    }
   };
   using Quads = Owned<hf_quads, hf_quads_destroy>;
   take_options();
@@ -146,7 +165,8 @@ bool Player::region() {
   std::vector<double> weights;
   curve.point_count = static_cast<std::uint32_t>(places.size());
   curve.kind = how & 4 ? HF_CURVE_EDGES : HF_CURVE_STRAIGHT;
-  curve.side = static_cast<int>(how / 8 % 3), curve.seed_vertex = take_vertex();
+  curve.side = static_cast<int>(how / 8 % 3);
+  curve.seed_vertex = take_vertex();
   if (how & 128) {
     for (std::uint32_t& v : places) v = take_vertex();
     curve.vertices = places.data();
@@ -156,7 +176,8 @@ bool Player::region() {
       const unsigned w = bytes_.take(), i = w % 9, j = w / 9 % (9 - i);
       weights.insert(weights.end(), {i / 8.0, j / 8.0, (8 - i - j) / 8.0});
     }
-    curve.triangles = places.data(), curve.barycentrics = weights.data();
+    curve.triangles = places.data();
+    curve.barycentrics = weights.data();
   }
   edit.curve = &curve;
   const auto inside = [&](int list) {
@@ -171,7 +192,8 @@ bool Player::region() {
   const auto morphed = [&](double weight) {
     std::vector<double> out(mesh_.positions.size());
     hf_morph_desc morph = HF_INIT(hf_morph_desc);
-    morph.weight = weight, morph.positions_f64 = out.data();
+    morph.weight = weight;
+    morph.positions_f64 = out.data();
     expect(HF_OK, hf_region_morph(region.handle, &morph), "hf_region_morph");
     hold(finite(out), "hf_region_morph: not finite");
     return out;
@@ -218,7 +240,8 @@ bool Player::region() {
       return true;
     std::vector<double> carried(rest.size());
     hf_morph_desc morph = HF_INIT(hf_morph_desc);
-    morph.weight = 1, morph.positions_f64 = carried.data();
+    morph.weight = 1;
+    morph.positions_f64 = carried.data();
     expect(HF_OK, hf_detail_morph(detail.handle, &morph), "hf_detail_morph");
     for (std::size_t i = 0; i < rest.size(); ++i)
       hold(std::fabs(carried[i] - rest[i]) <= 1e-6 * diagonal_, "detail carried to its own region is another");
@@ -261,7 +284,8 @@ Outcome play(const std::uint8_t* bytes, std::size_t size) {
   try {
     Player(Bytes(bytes, size), outcome).run();
   } catch (const play::Failure& failure) {
-    outcome.passed = false, outcome.failure = failure.what();
+    outcome.passed = false;
+    outcome.failure = failure.what();
   }
   return outcome;
 }

@@ -21,9 +21,14 @@ int main(int argc, char** argv) {
     const auto start = std::chrono::steady_clock::now();
     const shapes::Outcome outcome = shapes::play(input.data(), input.size());
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (seconds > slowest)
-      slowest = seconds, std::printf("slowest so far: %s, %.2f s\n", play::hex_of(input).c_str(), seconds);
-    for (std::size_t k = 0; k < shapes::kind_count; ++k) calls[k] += outcome.calls[k], results[k] += outcome.results[k];
+    if (seconds > slowest) {
+      slowest = seconds;
+      std::printf("slowest so far: %s, %.2f s\n", play::hex_of(input).c_str(), seconds);
+    }
+    for (std::size_t k = 0; k < shapes::kind_count; ++k) {
+      calls[k] += outcome.calls[k];
+      results[k] += outcome.results[k];
+    }
     if (outcome.passed) continue;
     std::fprintf(stderr, "%s %" PRIu64 ": %s\n", i < given.size() ? "kept input" : "input",
                  i < given.size() ? i : first + i - given.size(), outcome.failure.c_str());

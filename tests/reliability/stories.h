@@ -32,7 +32,8 @@ class Story {
       ++reported;
       check_detail(function);
       if (!holds()) wrong(std::string(function) + ": the refused call wrote an output or changed something");
-      memory_.refuse_at = 0, memory_.refuse_on = false;
+      memory_.refuse_at = 0;
+      memory_.refuse_on = false;
       result = make();
     }
     if (result != HF_OK) wrong(std::string(function) + ": " + hf_result_get_name(result));

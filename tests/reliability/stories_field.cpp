@@ -15,7 +15,8 @@ void* allocate(void* user, std::size_t size, std::size_t alignment) {
   Allocator& a = *static_cast<Allocator*>(user);
   ++a.calls;
   if (a.refuse_at && (a.calls == a.refuse_at || (a.refuse_on && a.calls > a.refuse_at))) return ++a.refused, nullptr;
-  ++a.live_blocks, a.live_bytes += size;
+  ++a.live_blocks;
+  a.live_bytes += size;
   return reliability::take_block(size, alignment);
 }
 
@@ -23,12 +24,15 @@ void release(void* user, void* block, std::size_t size, std::size_t alignment) {
   Allocator& a = *static_cast<Allocator*>(user);
   const reliability::BlockHead head = reliability::give_block(block);
   a.mismatches += head.size != size || head.alignment != alignment;
-  --a.live_blocks, a.live_bytes -= head.size;
+  --a.live_blocks;
+  a.live_bytes -= head.size;
 }
 
 hf_sites_desc sites_at(std::uint32_t count, const std::uint32_t* vertices, const double* values) {
   hf_sites_desc desc = HF_INIT(hf_sites_desc);
-  desc.site_count = count, desc.vertices = vertices, desc.values = values;
+  desc.site_count = count;
+  desc.vertices = vertices;
+  desc.values = values;
   return desc;
 }
 
@@ -66,7 +70,9 @@ void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
   s.call("hf_solver_set_values", [&] { return hf_solver_set_values(solver, 2, &numbers[2], values + 7); });
   take_field(s, solver);
   hf_edit_desc edit = HF_INIT(hf_edit_desc);
-  edit.remove_count = 1, edit.remove_sites = &numbers[0], edit.add = &second;
+  edit.remove_count = 1;
+  edit.remove_sites = &numbers[0];
+  edit.add = &second;
   s.call("hf_solver_edit_sites", [&] { return hf_solver_edit_sites(solver, &edit, nullptr); });
   s.make("hf_solver_clone", copy, [&] { return hf_solver_clone(solver, &copy); });
   take_field(s, solver);
@@ -90,14 +96,16 @@ void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
   s.call("hf_solver_solve_at", [&] { return hf_solver_solve_at(solver, 2, asked, some); });
   s.take(some, 2);
   hf_sites_info info = HF_INIT(hf_sites_info);
-  info.capacity = 16, info.flux = flux;
+  info.capacity = 16;
+  info.flux = flux;
   s.call("hf_solver_get_sites", [&] { return hf_solver_get_sites(solver, &info); });
   s.take(flux, hf_solver_get_site_count(solver));
   hf_certificate certificate = HF_INIT(hf_certificate);
   s.call("hf_solver_certify", [&] { return hf_solver_certify(solver, &certificate); });
   s.call("hf_solver_undo", [&] { return hf_solver_undo(solver); });
   s.refused("hf_solver_undo", HF_ERROR_NO_RECORD, [&] { return hf_solver_undo(solver); });
-  hf_solver_destroy(solver), hf_solver_destroy(copy);
+  hf_solver_destroy(solver);
+  hf_solver_destroy(copy);
 }
 
 void green(Story& s, const Tube& tube, Allocator& memory) { edits(s, tube.desc(memory), HF_INIT(hf_solver_desc)); }
@@ -114,7 +122,8 @@ void updown(Story& s, const Tube& tube, Allocator& memory) {
 void biharmonic(Story& s, const Tube& tube, Allocator& memory) {
   hf_surface_desc on = tube.desc(memory);
   hf_solver_desc desc = HF_INIT(hf_solver_desc);
-  on.field_kind = desc.field_kind = HF_FIELD_BIHARMONIC, on.ordering = HF_ORDERING_MINIMUM_DEGREE;
+  on.field_kind = desc.field_kind = HF_FIELD_BIHARMONIC;
+  on.ordering = HF_ORDERING_MINIMUM_DEGREE;
   edits(s, on, desc);
 }
 
@@ -122,13 +131,16 @@ void biharmonic(Story& s, const Tube& tube, Allocator& memory) {
 void points_and_discs(Story& s, const Tube& tube, Allocator& memory) {
   hf_surface_desc on = tube.desc(memory);
   hf_solver_desc desc = HF_INIT(hf_solver_desc);
-  desc.channel_count = 2, on.operator_kind = HF_OPERATOR_CLAMPED;
+  desc.channel_count = 2;
+  on.operator_kind = HF_OPERATOR_CLAMPED;
   const hf_solver solver = made(s, on, desc);
   if (!solver) return;
   const std::uint32_t triangles[2] = {10, 90}, places[2] = {36, 3};
   const double weights[6] = {0.25, 0.25, 0.5, 0.5, 0.25, 0.25}, stiffness[2] = {0, 40}, radii[2] = {1.2, 0};
   hf_sites_desc points = sites_at(2, nullptr, values), discs = sites_at(2, places, values + 4);
-  points.triangles = triangles, points.barycentrics = weights, points.stiffness = stiffness;
+  points.triangles = triangles;
+  points.barycentrics = weights;
+  points.stiffness = stiffness;
   discs.radii = radii;
   std::uint32_t numbers[2];
   s.call("hf_add_sites", [&] { return hf_add_sites(solver, &points, nullptr); });
@@ -178,7 +190,8 @@ void bytes(Story& s, const Tube& tube, Allocator& memory) {
     s.take(static_cast<double>(size));
   }
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
-  factor.bytes = saved.data(), factor.byte_count = saved.size();
+  factor.bytes = saved.data();
+  factor.byte_count = saved.size();
   desc.saved_factor = &factor;
   s.make_factor("hf_surface_create", again, [&] { return hf_surface_create(&desc, &again); });
   hf_surface_destroy(surface);
@@ -210,7 +223,9 @@ void shared(Story& s, const Tube& tube, Allocator& memory) {
   const double origin[3] = {5, 2.1, 0.1}, along[3] = {-1, 0, 0};
   hf_hit hit = HF_INIT(hf_hit);
   s.call("hf_surface_cast_ray", [&] { return hf_surface_cast_ray(surface, origin, along, nullptr, &hit); });
-  s.take(hit.triangle), s.take(hit.barycentrics, 3), s.take(hit.distance);
+  s.take(hit.triangle);
+  s.take(hit.barycentrics, 3);
+  s.take(hit.distance);
   std::uint32_t vertex = HF_NO_INDEX;
   s.call("hf_surface_find_vertex", [&] { return hf_surface_find_vertex(surface, origin, nullptr, &vertex, nullptr); });
   s.make_factor("hf_create", first, [&] { return hf_create(surface, nullptr, &first); });
@@ -232,7 +247,9 @@ void shared(Story& s, const Tube& tube, Allocator& memory) {
   std::vector<float> posed(3 * Tube::vertices);
   s.call("hf_deform", [&] { return hf_deform(pose, posed.data(), nullptr); });
   s.take(posed.data(), posed.size());
-  hf_solver_destroy(first), hf_solver_destroy(second), hf_pose_destroy(pose);
+  hf_solver_destroy(first);
+  hf_solver_destroy(second);
+  hf_pose_destroy(pose);
 }
 
 // Factors that the surface lacks, made by a solver, a region and a pose. A refused making must leave the surface and
@@ -288,7 +305,8 @@ void vectors(Story& s, const Tube& tube, Allocator& memory) {
   std::vector<double> field(3 * Tube::vertices), normals(3 * Tube::vertices);
   s.call("hf_solver_solve_vectors_f64",
          [&] { return hf_solver_solve_vectors_f64(solver, field.data(), 0, normals.data(), nullptr); });
-  s.take(field.data(), field.size()), s.take(normals.data(), normals.size());
+  s.take(field.data(), field.size());
+  s.take(normals.data(), normals.size());
   hf_solver_destroy(solver);
 }
 
@@ -320,8 +338,11 @@ Tube::Tube() {
 
 hf_surface_desc Tube::desc(Allocator& memory) const {
   hf_surface_desc d = HF_INIT(hf_surface_desc);
-  d.vertex_count = vertices, d.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
-  d.positions_f64 = positions.data(), d.triangles = triangles.data(), d.allocator = memory.hooks();
+  d.vertex_count = vertices;
+  d.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
+  d.positions_f64 = positions.data();
+  d.triangles = triangles.data();
+  d.allocator = memory.hooks();
   return d;
 }
 

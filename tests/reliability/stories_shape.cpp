@@ -21,7 +21,9 @@ void lines(Story& s, const Tube& tube, Allocator& memory) {
   s.take(levels, 4);
   std::vector<double> positions(3 * 400);
   hf_isolines out = HF_INIT(hf_isolines);
-  out.point_capacity = 400, out.line_capacity = 40, out.positions = positions.data();
+  out.point_capacity = 400;
+  out.line_capacity = 40;
+  out.positions = positions.data();
   s.call("hf_surface_trace_isolines", [&] { return hf_surface_trace_isolines(surface, &field, 4, levels, &out); });
   s.take(positions.data(), positions.size());
   std::vector<hf_critical_point> points(Tube::vertices);
@@ -42,7 +44,8 @@ void distances(Story& s, const Tube& tube, Allocator& memory) {
   s.take(distance.data(), distance.size());
   for (const int kind : {HF_EXTREMITIES_POISSON, HF_EXTREMITIES_GEODESIC}) {
     hf_extremities_desc wanted = HF_INIT(hf_extremities_desc);
-    wanted.kind = kind, wanted.source_count = 8;
+    wanted.kind = kind;
+    wanted.source_count = 8;
     hf_extremity found[16];
     std::uint32_t count = 0;
     s.call("hf_surface_find_extremities",
@@ -50,7 +53,8 @@ void distances(Story& s, const Tube& tube, Allocator& memory) {
     s.take(count);
     if (count > 0) s.take(found[0].length);
   }
-  hf_geodesics_destroy(geodesics), hf_surface_destroy(surface);
+  hf_geodesics_destroy(geodesics);
+  hf_surface_destroy(surface);
 }
 
 void directions(Story& s, const Tube& tube, Allocator& memory) {
@@ -82,7 +86,8 @@ void directions(Story& s, const Tube& tube, Allocator& memory) {
   s.call("hf_direction_get_singularities",
          [&] { return hf_direction_get_singularities(direction, 0, nullptr, &count); });
   s.take(count);
-  hf_direction_destroy(direction), hf_direction_destroy(copy);
+  hf_direction_destroy(direction);
+  hf_direction_destroy(copy);
 }
 
 void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
@@ -94,7 +99,9 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   hf_surface_destroy(surface);
   const std::uint32_t counts[2] = {2 * Tube::around, 2 * Tube::around};
   hf_handles_desc handles = HF_INIT(hf_handles_desc), layer = HF_INIT(hf_handles_desc);
-  handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = tube.ends.data();
+  handles.handle_count = 2;
+  handles.region_counts = counts;
+  handles.region_vertices = tube.ends.data();
   std::uint32_t numbers[2] = {0, 0}, above = 0;
   s.call("hf_pose_add_handles", [&] { return hf_pose_add_handles(pose, &handles, numbers); });
   const hf_transform turned = {{0, 0.5, 0, 0.8660254037844386}, {1, 2, 0.5}};
@@ -102,13 +109,17 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   std::vector<double> posed(3 * Tube::vertices);
   std::vector<float> normals(3 * Tube::vertices);
   hf_deform_desc deform = HF_INIT(hf_deform_desc);
-  deform.positions_f64 = posed.data(), deform.normals = normals.data(), deform.restart = 1;
+  deform.positions_f64 = posed.data();
+  deform.normals = normals.data();
+  deform.restart = 1;
   deform.refine = mode == HF_DEFORM_SMOOTH;
   s.call("hf_pose_deform", [&] { return hf_pose_deform(pose, &deform, nullptr); });
   s.take(posed.data(), posed.size());
   s.make("hf_pose_clone", copy, [&] { return hf_pose_clone(pose, &copy); });
   const double radius = 0.2;  // one vertex
-  layer.handle_count = 1, layer.points = tube.positions.data() + 3 * 4 * Tube::around, layer.radii = &radius,
+  layer.handle_count = 1;
+  layer.points = tube.positions.data() + 3 * 4 * Tube::around;
+  layer.radii = &radius;
   layer.layer = 1;
   s.call("hf_pose_add_handles", [&] { return hf_pose_add_handles(copy, &layer, &above); });
   s.call("hf_pose_deform", [&] { return hf_pose_deform(copy, &deform, nullptr); });
@@ -117,7 +128,8 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   hf_skin_info skin = HF_INIT(hf_skin_info);
   s.call("hf_pose_get_skin", [&] { return hf_pose_get_skin(pose, &skin); });
   s.take(skin.joint_count);
-  hf_pose_destroy(pose), hf_pose_destroy(copy);
+  hf_pose_destroy(pose);
+  hf_pose_destroy(copy);
 }
 void smooth_pose(Story& s, const Tube& tube, Allocator& memory) { poses(s, tube, memory, HF_DEFORM_SMOOTH); }
 void paper_pose(Story& s, const Tube& tube, Allocator& memory) { poses(s, tube, memory, HF_DEFORM_PAPER); }
@@ -131,10 +143,12 @@ void transfer(Story& s, const Tube& tube, Allocator& memory) {
   s.make_factor("hf_surface_create", target, [&] { return hf_surface_create(&bent, &target); });
   hf_transfer motion = nullptr;
   s.make_factor("hf_transfer_create", motion, [&] { return hf_transfer_create(source, target, nullptr, &motion); });
-  hf_surface_destroy(source), hf_surface_destroy(target);
+  hf_surface_destroy(source);
+  hf_surface_destroy(target);
   const std::uint32_t counts[2] = {2 * Tube::around, 2 * Tube::around};
   hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts;
+  pairs.pair_count = 2;
+  pairs.source_counts = pairs.target_counts = counts;
   pairs.source_vertices = pairs.target_vertices = tube.ends.data();
   std::uint32_t numbers[2] = {0, 0};
   s.call("hf_transfer_add_pairs", [&] { return hf_transfer_add_pairs(motion, &pairs, numbers); });
@@ -144,11 +158,13 @@ void transfer(Story& s, const Tube& tube, Allocator& memory) {
   std::vector<double> posed(tube.positions), out(3 * Tube::vertices);
   for (std::size_t v = 0; v < Tube::vertices; ++v) posed[3 * v] += 0.03 * posed[3 * v + 1] * posed[3 * v + 1];
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed.data(), frame.target_positions_f64 = out.data();
+  frame.source_positions_f64 = posed.data();
+  frame.target_positions_f64 = out.data();
   s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
   s.take(out.data(), out.size());
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
-  dials.stride = 1.2f, dials.hip_height = 0.1f;
+  dials.stride = 1.2f;
+  dials.hip_height = 0.1f;
   s.call("hf_transfer_set_dials", [&] { return hf_transfer_set_dials(motion, &dials); });
   s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
   s.take(out.data(), out.size());
@@ -158,7 +174,8 @@ void transfer(Story& s, const Tube& tube, Allocator& memory) {
   s.call("hf_transfer_get_skin", [&] { return hf_transfer_get_skin(motion, &skin); });
   s.take(skin.joint_count);
   std::vector<double> pivots(3 * std::size_t{skin.joint_count});
-  skin.joint_capacity = skin.joint_count, skin.pivots = pivots.data();
+  skin.joint_capacity = skin.joint_count;
+  skin.pivots = pivots.data();
   s.call("hf_transfer_get_skin", [&] { return hf_transfer_get_skin(motion, &skin); });
   s.take(pivots.data(), pivots.size());
   s.call("hf_transfer_remove_pairs", [&] { return hf_transfer_remove_pairs(motion, 1, numbers); });
@@ -170,25 +187,30 @@ void transfer(Story& s, const Tube& tube, Allocator& memory) {
 void quads(Story& s, const Tube& tube, Allocator& memory) {
   const hf_surface surface = made(s, tube, memory);
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
-  desc.edge_length = 2, desc.relax_count = 3;
+  desc.edge_length = 2;
+  desc.relax_count = 3;
   hf_quads mesh = nullptr;
   s.make("hf_quads_create", mesh, [&] { return hf_quads_create(surface, &desc, &mesh); });
   hf_quads_info info = HF_INIT(hf_quads_info);
   s.call("hf_quads_get_info", [&] { return hf_quads_get_info(mesh, &info); });
-  s.take(info.vertex_count), s.take(info.face_count);
+  s.take(info.vertex_count);
+  s.take(info.face_count);
   std::vector<double> positions(3 * std::size_t{info.vertex_count});
   hf_quads_mesh out = HF_INIT(hf_quads_mesh);
-  out.vertex_capacity = info.vertex_count, out.positions = positions.data();
+  out.vertex_capacity = info.vertex_count;
+  out.positions = positions.data();
   s.call("hf_quads_get_mesh", [&] { return hf_quads_get_mesh(mesh, &out); });
   s.take(positions.data(), positions.size());
-  hf_quads_destroy(mesh), hf_surface_destroy(surface);
+  hf_quads_destroy(mesh);
+  hf_surface_destroy(surface);
 }
 
 // The first update makes what later ones keep.
 void updates(Story& s, const Tube& tube, Allocator& memory) {
   const hf_surface surface = made(s, tube, memory);
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
-  desc.face_count = 40, desc.relax_count = HF_NO_INDEX;
+  desc.face_count = 40;
+  desc.relax_count = HF_NO_INDEX;
   hf_quads mesh = nullptr;
   hf_quads_info info = HF_INIT(hf_quads_info);
   s.make("hf_quads_create", mesh, [&] { return hf_quads_create(surface, &desc, &mesh); });
@@ -196,9 +218,11 @@ void updates(Story& s, const Tube& tube, Allocator& memory) {
     desc.symmetry_plane[2] = z;
     s.call("hf_quads_update", [&] { return hf_quads_update(mesh, &desc); });
     s.call("hf_quads_get_info", [&] { return hf_quads_get_info(mesh, &info); });
-    s.take(info.vertex_count), s.take(info.face_count);
+    s.take(info.vertex_count);
+    s.take(info.face_count);
   }
-  hf_quads_destroy(mesh), hf_surface_destroy(surface);
+  hf_quads_destroy(mesh);
+  hf_surface_destroy(surface);
 }
 
 void flow(Story& s, const Tube& tube, Allocator& memory) {
@@ -210,9 +234,13 @@ void flow(Story& s, const Tube& tube, Allocator& memory) {
   field.values_f64 = tube.height.data();
   std::vector<double> positions(3 * 2000);
   hf_flow_lines lines = HF_INIT(hf_flow_lines);
-  lines.wanted_count = 6, lines.point_capacity = 2000, lines.line_capacity = 100, lines.positions = positions.data();
+  lines.wanted_count = 6;
+  lines.point_capacity = 2000;
+  lines.line_capacity = 100;
+  lines.positions = positions.data();
   s.call("hf_flow_trace", [&] { return hf_flow_trace(flow, &field, &lines); });
-  s.take(lines.point_count), s.take(positions.data(), positions.size());
+  s.take(lines.point_count);
+  s.take(positions.data(), positions.size());
   hf_flow_destroy(flow);
 }
 
@@ -223,14 +251,17 @@ void regions(Story& s, const Tube& tube, Allocator& memory) {
   hf_surface_destroy(surface);
   const std::uint32_t a = 4 * Tube::around, inside[6] = {a, a + 1, a + 2, a + 8, a + 9, a + 10};
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc), grow = HF_INIT(hf_region_edit_desc);
-  edit.add_count = 6, edit.add_vertices = inside, grow.ring_count = 1;
+  edit.add_count = 6;
+  edit.add_vertices = inside;
+  grow.ring_count = 1;
   s.call("hf_region_edit", [&] { return hf_region_edit(region, &edit); });
   s.call("hf_region_record", [&] { return hf_region_record(region); });
   s.make("hf_region_clone", copy, [&] { return hf_region_clone(region, &copy); });
   s.call("hf_region_edit", [&] { return hf_region_edit(region, &grow); });
   std::vector<double> out(3 * Tube::vertices);
   hf_morph_desc morph = HF_INIT(hf_morph_desc);
-  morph.weight = 0.5, morph.positions_f64 = out.data();
+  morph.weight = 0.5;
+  morph.positions_f64 = out.data();
   s.call("hf_region_morph", [&] { return hf_region_morph(region, &morph); });
   s.take(out.data(), out.size());
   s.call(
@@ -243,13 +274,16 @@ void regions(Story& s, const Tube& tube, Allocator& memory) {
   // a curve round the tube that cuts through triangles
   const std::uint32_t round[4] = {a, a + Tube::around + 2, a + 4, a + Tube::around + 6};
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
-  curve.point_count = 4, curve.vertices = round;
+  curve.point_count = 4;
+  curve.vertices = round;
   hf_region_edit_desc enclose = HF_INIT(hf_region_edit_desc);
   enclose.curve = &curve;
   s.call("hf_region_edit", [&] { return hf_region_edit(copy, &enclose); });
   s.call("hf_region_morph", [&] { return hf_region_morph(copy, &morph); });
   s.take(out.data(), out.size());
-  hf_region_destroy(region), hf_region_destroy(copy), hf_detail_destroy(detail);
+  hf_region_destroy(region);
+  hf_region_destroy(copy);
+  hf_detail_destroy(detail);
 }
 
 // Reads weights whole. A refused call wrote nothing.
@@ -258,7 +292,9 @@ struct WeightsRead {
   std::vector<float> weights = std::vector<float>(4 * Tube::vertices, 77.0f);
   hf_weights_out desc() {
     hf_weights_out out = HF_INIT(hf_weights_out);
-    out.vertex_capacity = Tube::vertices, out.joints = joints.data(), out.weights = weights.data();
+    out.vertex_capacity = Tube::vertices;
+    out.joints = joints.data();
+    out.weights = weights.data();
     return out;
   }
   bool untouched() const { return joints == WeightsRead().joints && weights == WeightsRead().weights; }
@@ -276,7 +312,10 @@ void skin_weights(Story& s, const Tube& tube, Allocator& memory) {
   double heads[9] = {0, 0.5, 0, 0, 3, 0, 0, 6, 0}, tails[9] = {0, 3, 0, 0, 6, 0, 0, 8, 0};
   const std::uint32_t parents[3] = {HF_NO_INDEX, 0, 1}, sources[3] = {1, 0, 2};
   hf_bones_desc bones = HF_INIT(hf_bones_desc);
-  bones.bone_count = 3, bones.heads = heads, bones.tails = tails, bones.parents = parents;
+  bones.bone_count = 3;
+  bones.heads = heads;
+  bones.tails = tails;
+  bones.parents = parents;
   hf_weights weights = nullptr, copy = nullptr;
   s.make("hf_weights_create", weights, [&] { return hf_weights_create(surface, &bones, 4, &weights); });
   s.call("hf_weights_record", [&] { return hf_weights_record(weights); });
@@ -284,19 +323,25 @@ void skin_weights(Story& s, const Tube& tube, Allocator& memory) {
   const float shares[6] = {0.25f, 0.75f, 1, 0, 0.5f, 0.5f};
   const double radii[3] = {0, 0.9, 0};
   hf_pins_desc pins = HF_INIT(hf_pins_desc);
-  pins.pin_count = 3, pins.vertices = places, pins.radii = radii;
-  pins.joint_count = 2, pins.joints = joints, pins.weights = shares;
+  pins.pin_count = 3;
+  pins.vertices = places;
+  pins.radii = radii;
+  pins.joint_count = 2;
+  pins.joints = joints;
+  pins.weights = shares;
   const auto read = [&](hf_weights handle) {
     WeightsRead seen;
     hf_weights_out out = seen.desc();
-    s.call("hf_weights_get", [&] { return hf_weights_get(handle, &out); }), seen.take(s);
+    s.call("hf_weights_get", [&] { return hf_weights_get(handle, &out); });
+    seen.take(s);
     return seen;
   };
   s.call("hf_weights_set_pins", [&] { return hf_weights_set_pins(weights, &pins); });
   read(weights);
   s.make("hf_weights_clone", copy, [&] { return hf_weights_clone(weights, &copy); });
   s.call("hf_weights_set_locks", [&] { return hf_weights_set_locks(copy, 2, locks, nullptr); });
-  heads[7] = 5, bones.sources = sources;
+  heads[7] = 5;
+  bones.sources = sources;
   s.call("hf_weights_set_bones", [&] { return hf_weights_set_bones(copy, &bones); });
   const WeightsRead given = read(copy);
   s.call(
@@ -310,20 +355,28 @@ void skin_weights(Story& s, const Tube& tube, Allocator& memory) {
       [&] { return hf_weights_get_helpers(weights, "root\narm.L\narm.R\n", 3, flags, nullptr); },
       [&] { return flags[0] == 77; });
   s.call("hf_weights_get_bones", [&] { return hf_weights_get_bones(weights, 3, flags, nullptr, nullptr); });
-  hf_weights_destroy(weights), hf_weights_destroy(copy);
+  hf_weights_destroy(weights);
+  hf_weights_destroy(copy);
 
   WeightsRead carried, mirrored;
   hf_weights_out out = carried.desc(), turned = mirrored.desc();
   hf_carry_desc carry = HF_INIT(hf_carry_desc);
-  carry.influence_count = 4, carry.joints = given.joints.data(), carry.weights = given.weights.data();
+  carry.influence_count = 4;
+  carry.joints = given.joints.data();
+  carry.weights = given.weights.data();
   s.call(
       "hf_weights_carry", [&] { return hf_weights_carry(surface, surface, &carry, &out, nullptr); },
       [&] { return carried.untouched(); });
   carried.take(s);
   hf_mirror_desc mirror = HF_INIT(hf_mirror_desc);
-  mirror.bone_count = 3, mirror.heads = heads, mirror.names = "spine\narm.L\narm.R\n";
-  mirror.influence_count = 4, mirror.joints = given.joints.data(), mirror.weights = given.weights.data();
-  mirror.distance = 0.05, mirror.angle = 0.2;  // few vertices match, so that a field fills in the others
+  mirror.bone_count = 3;
+  mirror.heads = heads;
+  mirror.names = "spine\narm.L\narm.R\n";
+  mirror.influence_count = 4;
+  mirror.joints = given.joints.data();
+  mirror.weights = given.weights.data();
+  mirror.distance = 0.05;
+  mirror.angle = 0.2;  // few vertices match, so that a field fills in the others
   s.call(
       "hf_weights_mirror", [&] { return hf_weights_mirror(surface, &mirror, &turned, flags, nullptr, nullptr); },
       [&] { return mirrored.untouched(); });

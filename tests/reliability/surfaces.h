@@ -57,8 +57,10 @@ inline void must(hf_result result, const char* what) {
 
 inline hf_surface_desc surface_desc(const Mesh& mesh) {
   hf_surface_desc d = desc<hf_surface_desc>();
-  d.vertex_count = mesh.vertex_count(), d.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
-  d.positions = mesh.positions.data(), d.triangles = mesh.triangles.data();
+  d.vertex_count = mesh.vertex_count();
+  d.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
+  d.positions = mesh.positions.data();
+  d.triangles = mesh.triangles.data();
   return d;
 }
 
@@ -89,9 +91,13 @@ class EditedSolver {
   EditedSolver(const Mesh& mesh, std::uint32_t channels, unsigned seed) : mesh_(mesh), m_(channels), random_(seed) {
     hf_solver_desc d = desc<hf_solver_desc>();
     d.channel_count = channels;
-    surface_ = make_surface(surface_desc(mesh)), solver_ = make_solver(surface_, d);
+    surface_ = make_surface(surface_desc(mesh));
+    solver_ = make_solver(surface_, d);
   }
-  ~EditedSolver() { hf_surface_destroy(surface_), hf_solver_destroy(solver_); }
+  ~EditedSolver() {
+    hf_surface_destroy(surface_);
+    hf_solver_destroy(solver_);
+  }
   EditedSolver(const EditedSolver&) = delete;
   EditedSolver& operator=(const EditedSolver&) = delete;
 
@@ -105,15 +111,21 @@ class EditedSolver {
     for (std::size_t i = 0; i < count; ++i) {
       Held h{0, free_vertex(), fresh_values(offsets), random_() % 10 == 0 ? 100.0 : 0.0};
       hf_sites_desc d = desc<hf_sites_desc>();
-      d.site_count = 1, d.vertices = &h.vertex, d.values = h.values.data(), d.stiffness = &h.stiffness;
+      d.site_count = 1;
+      d.vertices = &h.vertex;
+      d.values = h.values.data();
+      d.stiffness = &h.stiffness;
       must(hf_add_sites(solver_, &d, &h.site), "hf_add_sites");
-      taken_[h.vertex] = 1, held.push_back(h);
+      taken_[h.vertex] = 1;
+      held.push_back(h);
     }
   }
   void remove_one() {
     const std::size_t at = random_() % held.size();
     must(hf_remove_sites(solver_, 1, &held[at].site), "hf_remove_sites");
-    taken_[held[at].vertex] = 0, held[at] = held.back(), held.pop_back();
+    taken_[held[at].vertex] = 0;
+    held[at] = held.back();
+    held.pop_back();
   }
   // Makes one random edit. Most move or set a site, some add or remove one. The count stays near `wanted`.
   void edit(std::size_t wanted, const std::vector<double>& offsets) {
@@ -122,9 +134,12 @@ class EditedSolver {
     if (kind < 4) {  // move
       const std::uint32_t to = free_vertex();
       hf_sites_desc d = desc<hf_sites_desc>();
-      d.site_count = 1, d.vertices = &to;
+      d.site_count = 1;
+      d.vertices = &to;
       must(hf_solver_move_sites(solver_, 1, &h.site, &d), "hf_solver_move_sites");
-      taken_[h.vertex] = 0, taken_[to] = 1, h.vertex = to;
+      taken_[h.vertex] = 0;
+      taken_[to] = 1;
+      h.vertex = to;
     } else if (kind < 7) {
       h.values = fresh_values(offsets);
       must(hf_solver_set_values(solver_, 1, &h.site, h.values.data()), "hf_solver_set_values");
@@ -145,17 +160,21 @@ class EditedSolver {
   // The field of a new solver with the same sites, on the same surface.
   std::vector<double> fresh_field(std::int32_t engine) const {
     hf_solver_desc d = desc<hf_solver_desc>();
-    d.channel_count = m_, d.engine = engine;
+    d.channel_count = m_;
+    d.engine = engine;
     const hf_solver solver = make_solver(surface_, d);
     std::vector<std::uint32_t> vertices;
     std::vector<double> values, stiffness, out(std::size_t{mesh_.vertex_count()} * m_);
     for (const Held& h : held) {
-      vertices.push_back(h.vertex), stiffness.push_back(h.stiffness);
+      vertices.push_back(h.vertex);
+      stiffness.push_back(h.stiffness);
       values.insert(values.end(), h.values.begin(), h.values.end());
     }
     hf_sites_desc sites = desc<hf_sites_desc>();
     sites.site_count = static_cast<std::uint32_t>(held.size());
-    sites.vertices = vertices.data(), sites.values = values.data(), sites.stiffness = stiffness.data();
+    sites.vertices = vertices.data();
+    sites.values = values.data();
+    sites.stiffness = stiffness.data();
     must(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, fresh");
     must(hf_solver_solve_f64(solver, out.data(), 0, nullptr), "hf_solver_solve_f64, fresh");
     hf_solver_destroy(solver);

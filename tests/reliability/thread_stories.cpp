@@ -5,7 +5,9 @@ namespace {
 
 hf_sites_desc sites_desc(const std::vector<std::uint32_t>& vertices, const double* values) {
   hf_sites_desc d = desc<hf_sites_desc>();
-  d.site_count = static_cast<std::uint32_t>(vertices.size()), d.vertices = vertices.data(), d.values = values;
+  d.site_count = static_cast<std::uint32_t>(vertices.size());
+  d.vertices = vertices.data();
+  d.values = values;
   return d;
 }
 
@@ -19,21 +21,25 @@ std::vector<std::uint32_t> patch_at(const Scene& s, std::uint32_t ring, std::uin
 
 hf_result edit_to(hf_region region, const std::vector<std::uint32_t>& patch) {
   hf_region_edit_desc edit = desc<hf_region_edit_desc>();
-  edit.add_count = static_cast<std::uint32_t>(patch.size()), edit.add_vertices = patch.data();
+  edit.add_count = static_cast<std::uint32_t>(patch.size());
+  edit.add_vertices = patch.data();
   return hf_region_edit(region, &edit);
 }
 
 hf_result add_ends(const Scene& s, hf_pose pose, std::uint32_t* handles) {
   const std::uint32_t counts[2] = {2 * s.around, 2 * s.around};
   hf_handles_desc regions = desc<hf_handles_desc>();
-  regions.handle_count = 2, regions.region_counts = counts, regions.region_vertices = s.ends.data();
+  regions.handle_count = 2;
+  regions.region_counts = counts;
+  regions.region_vertices = s.ends.data();
   return hf_pose_add_handles(pose, &regions, handles);
 }
 
 hf_result add_pairs(const Scene& s, hf_transfer transfer) {
   const std::uint32_t counts[2] = {2 * s.around, 2 * s.around};
   hf_pairs_desc pairs = desc<hf_pairs_desc>();
-  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts;
+  pairs.pair_count = 2;
+  pairs.source_counts = pairs.target_counts = counts;
   pairs.source_vertices = pairs.target_vertices = s.ends.data();
   return hf_transfer_add_pairs(transfer, &pairs, nullptr);
 }
@@ -46,29 +52,37 @@ hf_result turn(hf_pose pose, std::uint32_t handle, double angle) {
 void take_pose(const Scene& s, hf_pose pose, Seen& seen) {
   std::vector<double> positions(3 * std::size_t{s.vertex_count});
   hf_deform_desc d = desc<hf_deform_desc>();
-  d.positions_f64 = positions.data(), d.refine = 1;
-  seen.call(hf_pose_deform(pose, &d, nullptr)), seen.take(positions);
+  d.positions_f64 = positions.data();
+  d.refine = 1;
+  seen.call(hf_pose_deform(pose, &d, nullptr));
+  seen.take(positions);
 }
 
 void take_field(const Scene& s, hf_solver solver, Seen& seen) {
   std::vector<double> field(s.vertex_count);
-  seen.call(hf_solver_solve_f64(solver, field.data(), 0, nullptr)), seen.take(field);
+  seen.call(hf_solver_solve_f64(solver, field.data(), 0, nullptr));
+  seen.take(field);
 }
 
 void take_region(const Scene& s, hf_region region, Seen& seen) {
   hf_region_info info = desc<hf_region_info>();
-  seen.call(hf_region_get_info(region, &info)), seen.take(&info, 1);
+  seen.call(hf_region_get_info(region, &info));
+  seen.take(&info, 1);
   std::vector<std::uint32_t> rim(info.rim_count);
-  seen.call(hf_region_get_vertices(region, HF_REGION_RIM, info.rim_count, rim.data(), nullptr)), seen.take(rim);
+  seen.call(hf_region_get_vertices(region, HF_REGION_RIM, info.rim_count, rim.data(), nullptr));
+  seen.take(rim);
   std::vector<double> positions(3 * std::size_t{s.vertex_count});
   hf_morph_desc morph = desc<hf_morph_desc>();
-  morph.weight = 0.5, morph.positions_f64 = positions.data();
-  seen.call(hf_region_morph(region, &morph)), seen.take(positions);
+  morph.weight = 0.5;
+  morph.positions_f64 = positions.data();
+  seen.call(hf_region_morph(region, &morph));
+  seen.take(positions);
 }
 
 void take_direction(const Scene& s, hf_direction direction, Seen& seen) {
   std::vector<double> vectors(3 * std::size_t{s.vertex_count});
-  seen.call(hf_direction_solve_f64(direction, vectors.data(), 0, nullptr)), seen.take(vectors);
+  seen.call(hf_direction_solve_f64(direction, vectors.data(), 0, nullptr));
+  seen.take(vectors);
 }
 
 }  // namespace
@@ -76,11 +90,15 @@ void take_direction(const Scene& s, hf_direction direction, Seen& seen) {
 Objects make_objects(const Scene& s) {
   Objects o;
   hf_surface_desc d = desc<hf_surface_desc>();
-  d.vertex_count = s.vertex_count, d.triangle_count = s.triangle_count;
-  d.positions = s.positions.data(), d.triangles = s.triangles.data();
+  d.vertex_count = s.vertex_count;
+  d.triangle_count = s.triangle_count;
+  d.positions = s.positions.data();
+  d.triangles = s.triangles.data();
   d.thread_count = 3;  // the threads of the surface; eight callers ask for them at once
-  o.surface = make_surface(d), o.solver = make_solver(o.surface);
-  d.field_kind = HF_FIELD_BIHARMONIC, o.bent = make_surface(d);
+  o.surface = make_surface(d);
+  o.solver = make_solver(o.surface);
+  d.field_kind = HF_FIELD_BIHARMONIC;
+  o.bent = make_surface(d);
   const std::vector<std::uint32_t> vertices = {3, 100, 400, 801, 1200};
   const hf_sites_desc sites = sites_desc(vertices, s.values.data());
   must(hf_add_sites(o.solver, &sites, nullptr), "hf_add_sites");
@@ -97,7 +115,8 @@ Objects make_objects(const Scene& s) {
   must(hf_direction_add_sites(o.direction, 4, vertices.data(), s.vectors.data(), nullptr), "hf_direction_add_sites");
   must(hf_pose_create(o.surface, nullptr, &o.pose), "hf_pose_create");
   std::uint32_t handles[2];
-  must(add_ends(s, o.pose, handles), "hf_pose_add_handles"), must(turn(o.pose, handles[1], 0.7), "transforms");
+  must(add_ends(s, o.pose, handles), "hf_pose_add_handles");
+  must(turn(o.pose, handles[1], 0.7), "transforms");
   must(hf_region_create(o.surface, nullptr, &o.region), "hf_region_create");
   must(hf_region_clone(o.region, &o.target), "hf_region_clone");
   must(edit_to(o.region, patch_at(s, 5, 3)), "hf_region_edit");
@@ -112,8 +131,8 @@ Objects make_objects(const Scene& s) {
 
 Objects clones_of(const Objects& o) {
   Objects made;
-  must(hf_solver_clone(o.solver, &made.solver), "hf_solver_clone"),
-      must(hf_solver_clone(o.refactor, &made.refactor), "hf_solver_clone");
+  must(hf_solver_clone(o.solver, &made.solver), "hf_solver_clone");
+  must(hf_solver_clone(o.refactor, &made.refactor), "hf_solver_clone");
   must(hf_pose_clone(o.pose, &made.pose), "hf_pose_clone");
   must(hf_direction_clone(o.direction, &made.direction), "hf_direction_clone");
   must(hf_region_clone(o.region, &made.region), "hf_region_clone");
@@ -121,11 +140,19 @@ Objects clones_of(const Objects& o) {
 }
 
 void destroy(const Objects& o) {
-  hf_surface_destroy(o.surface), hf_surface_destroy(o.bent);
-  hf_solver_destroy(o.solver), hf_solver_destroy(o.refactor), hf_region_destroy(o.region), hf_region_destroy(o.target),
-      hf_pose_destroy(o.pose);
-  hf_direction_destroy(o.direction), hf_detail_destroy(o.detail), hf_quads_destroy(o.quads), hf_flow_destroy(o.flow);
-  hf_geodesics_destroy(o.geodesics), hf_transfer_destroy(o.transfer);
+  hf_surface_destroy(o.surface);
+  hf_surface_destroy(o.bent);
+  hf_solver_destroy(o.solver);
+  hf_solver_destroy(o.refactor);
+  hf_region_destroy(o.region);
+  hf_region_destroy(o.target);
+  hf_pose_destroy(o.pose);
+  hf_direction_destroy(o.direction);
+  hf_detail_destroy(o.detail);
+  hf_quads_destroy(o.quads);
+  hf_flow_destroy(o.flow);
+  hf_geodesics_destroy(o.geodesics);
+  hf_transfer_destroy(o.transfer);
 }
 
 namespace {
@@ -133,48 +160,61 @@ namespace {
 // ---- readers: every thread gets the same answer ----
 
 void read_solver(const Scene& s, const Objects& o, unsigned, Seen& seen) {
-  take_field(s, o.solver, seen), take_field(s, o.refactor, seen);
+  take_field(s, o.solver, seen);
+  take_field(s, o.refactor, seen);
   std::vector<double> preview(s.vertex_count);
   hf_preview_info reached = desc<hf_preview_info>();
-  seen.call(hf_solver_solve_preview_f64(o.solver, preview.data(), 0, 1, &reached)), seen.take(preview);
+  seen.call(hf_solver_solve_preview_f64(o.solver, preview.data(), 0, 1, &reached));
+  seen.take(preview);
   const std::uint32_t asked[2] = {5, 700};
   double at[2];
-  seen.call(hf_solver_solve_at(o.solver, 2, asked, at)), seen.take(at, 2);
+  seen.call(hf_solver_solve_at(o.solver, 2, asked, at));
+  seen.take(at, 2);
   hf_certificate certificate = desc<hf_certificate>();
   seen.call(hf_solver_certify(o.solver, &certificate));
   double values[5];
   hf_sites_info sites = desc<hf_sites_info>();
-  sites.capacity = 5, sites.values = values;
-  seen.call(hf_solver_get_sites(o.solver, &sites)), seen.take(values, 5);
+  sites.capacity = 5;
+  sites.values = values;
+  seen.call(hf_solver_get_sites(o.solver, &sites));
+  seen.take(values, 5);
   hf_solver_statistics statistics = desc<hf_solver_statistics>();
-  seen.call(hf_solver_get_statistics(o.solver, &statistics)), seen.take(&statistics.site_count, 1);
+  seen.call(hf_solver_get_statistics(o.solver, &statistics));
+  seen.take(&statistics.site_count, 1);
 }
 
 // Reads the surfaces, saves each kind of factor, and makes the kinds that they lack.
 void read_surfaces(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   std::vector<std::uint32_t> components(s.vertex_count);
-  seen.call(hf_surface_get_components(o.surface, s.vertex_count, components.data(), nullptr)), seen.take(components);
+  seen.call(hf_surface_get_components(o.surface, s.vertex_count, components.data(), nullptr));
+  seen.take(components);
   hf_hit hit = desc<hf_hit>();
-  seen.call(hf_surface_cast_ray(o.surface, s.ray.data(), s.ray.data() + 3, nullptr, &hit)), seen.take(&hit, 1);
+  seen.call(hf_surface_cast_ray(o.surface, s.ray.data(), s.ray.data() + 3, nullptr, &hit));
+  seen.take(&hit, 1);
   hf_pick_desc posed = desc<hf_pick_desc>();
   posed.positions = s.posed.data();
   std::uint32_t nearest = 0;
-  seen.call(hf_surface_find_vertex(o.surface, s.points.data(), &posed, &nearest, nullptr)), seen.take(&nearest, 1);
+  seen.call(hf_surface_find_vertex(o.surface, s.points.data(), &posed, &nearest, nullptr));
+  seen.take(&nearest, 1);
   for (const hf_surface surface : {o.surface, o.bent}) {
     hf_surface_info info = desc<hf_surface_info>();
-    seen.call(hf_surface_get_info(surface, &info)), seen.take(&info, 1);
+    seen.call(hf_surface_get_info(surface, &info));
+    seen.take(&info, 1);
     for (int kind = 0; kind < 3; ++kind) {
       std::size_t size = 0;
       seen.call(hf_surface_save(surface, kind, nullptr, 0, nullptr, &size));
       std::vector<unsigned char> bytes(size);
-      seen.call(hf_surface_save(surface, kind, nullptr, size, bytes.data(), nullptr)), seen.take(bytes);
+      seen.call(hf_surface_save(surface, kind, nullptr, size, bytes.data(), nullptr));
+      seen.take(bytes);
       hf_solver_desc wanted = desc<hf_solver_desc>();
       wanted.field_kind = kind;
       hf_solver solver = nullptr;
       seen.call(hf_create(surface, &wanted, &solver));
       const std::vector<std::uint32_t> vertices = {3, 400, 1200};
       const hf_sites_desc sites = sites_desc(vertices, s.values.data());
-      seen.call(hf_add_sites(solver, &sites, nullptr)), take_field(s, solver, seen), hf_solver_destroy(solver);
+      seen.call(hf_add_sites(solver, &sites, nullptr));
+      take_field(s, solver, seen);
+      hf_solver_destroy(solver);
     }
   }
 }
@@ -183,67 +223,91 @@ void read_surfaces(const Scene& s, const Objects& o, unsigned, Seen& seen) {
 void read_transfer(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   for (std::uint32_t p = 0; p < 2; ++p) {
     hf_pair_info pair = desc<hf_pair_info>();
-    seen.call(hf_transfer_get_pair(o.transfer, p, &pair)), seen.take(&pair, 1);
+    seen.call(hf_transfer_get_pair(o.transfer, p, &pair));
+    seen.take(&pair, 1);
   }
   hf_transfer_info info = desc<hf_transfer_info>();
-  seen.call(hf_transfer_get_info(o.transfer, &info)), seen.take(&info, 1);
+  seen.call(hf_transfer_get_info(o.transfer, &info));
+  seen.take(&info, 1);
   hf_skin_info skin = desc<hf_skin_info>();
   seen.call(hf_transfer_get_skin(o.transfer, &skin));
   std::vector<float> weights(4 * std::size_t{s.vertex_count});
   std::vector<double> pivots(3 * std::size_t{skin.joint_count});
-  skin.joint_capacity = skin.joint_count, skin.vertex_capacity = skin.vertex_count;
-  skin.vertex_weights = weights.data(), skin.pivots = pivots.data();
-  seen.call(hf_transfer_get_skin(o.transfer, &skin)), seen.take(weights), seen.take(pivots);
+  skin.joint_capacity = skin.joint_count;
+  skin.vertex_capacity = skin.vertex_count;
+  skin.vertex_weights = weights.data();
+  skin.pivots = pivots.data();
+  seen.call(hf_transfer_get_skin(o.transfer, &skin));
+  seen.take(weights);
+  seen.take(pivots);
 }
 
 void read_analysis(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   hf_scalars field = desc<hf_scalars>();
   field.values_f64 = s.height.data();
   double levels[6];
-  seen.call(hf_surface_space_levels(o.surface, &field, HF_LEVELS_AREA, 6, levels)), seen.take(levels, 6);
+  seen.call(hf_surface_space_levels(o.surface, &field, HF_LEVELS_AREA, 6, levels));
+  seen.take(levels, 6);
   hf_isolines lines = desc<hf_isolines>();
-  seen.call(hf_surface_trace_isolines(o.surface, &field, 6, levels, &lines)), seen.take(&lines.point_count, 1);
+  seen.call(hf_surface_trace_isolines(o.surface, &field, 6, levels, &lines));
+  seen.take(&lines.point_count, 1);
   std::vector<hf_critical_point> points(s.vertex_count);
   hf_critical_info critical = desc<hf_critical_info>();
   seen.call(hf_surface_find_critical_points(o.surface, &field, s.vertex_count, points.data(), &critical));
   seen.take(points.data(), critical.point_count);
   std::vector<double> distance(s.vertex_count);
   const std::uint32_t sources[2] = {3, 900};
-  seen.call(hf_geodesics_solve_f64(o.geodesics, 2, sources, distance.data(), 0)), seen.take(distance);
+  seen.call(hf_geodesics_solve_f64(o.geodesics, 2, sources, distance.data(), 0));
+  seen.take(distance);
   hf_extremities_desc wanted = desc<hf_extremities_desc>();
-  wanted.kind = HF_EXTREMITIES_GEODESIC, wanted.geodesics = o.geodesics, wanted.source_count = 8;
+  wanted.kind = HF_EXTREMITIES_GEODESIC;
+  wanted.geodesics = o.geodesics;
+  wanted.source_count = 8;
   wanted.out_field = distance.data();
   std::uint32_t count = 0;
-  seen.call(hf_surface_find_extremities(o.surface, &wanted, 0, nullptr, &count)), seen.take(distance),
-      seen.take(&count, 1);
+  seen.call(hf_surface_find_extremities(o.surface, &wanted, 0, nullptr, &count));
+  seen.take(distance);
+  seen.take(&count, 1);
   hf_flow_lines flow = desc<hf_flow_lines>();
   flow.wanted_count = 12;
-  seen.call(hf_flow_trace(o.flow, &field, &flow)), seen.take(&flow.point_count, 1);
+  seen.call(hf_flow_trace(o.flow, &field, &flow));
+  seen.take(&flow.point_count, 1);
 }
 
 void read_shapes(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   std::vector<float> field(s.vertex_count);
-  seen.call(hf_pose_get_field(o.pose, 1, field.data(), 0)), seen.take(field);
+  seen.call(hf_pose_get_field(o.pose, 1, field.data(), 0));
+  seen.take(field);
   hf_handle_info handle = desc<hf_handle_info>();
-  seen.call(hf_pose_get_handle(o.pose, 1, &handle)), seen.take(&handle, 1);
+  seen.call(hf_pose_get_handle(o.pose, 1, &handle));
+  seen.take(&handle, 1);
   hf_skin_info skin = desc<hf_skin_info>();
   seen.call(hf_pose_get_skin(o.pose, &skin));
   std::vector<float> weights(4 * std::size_t{s.vertex_count});
   std::vector<double> rotations(4 * std::size_t{skin.joint_count});
-  skin.joint_capacity = skin.joint_count, skin.vertex_capacity = skin.vertex_count;
-  skin.vertex_weights = weights.data(), skin.rotations = rotations.data();
-  seen.call(hf_pose_get_skin(o.pose, &skin)), seen.take(weights), seen.take(rotations);
+  skin.joint_capacity = skin.joint_count;
+  skin.vertex_capacity = skin.vertex_count;
+  skin.vertex_weights = weights.data();
+  skin.rotations = rotations.data();
+  seen.call(hf_pose_get_skin(o.pose, &skin));
+  seen.take(weights);
+  seen.take(rotations);
   take_region(s, o.region, seen);
   std::vector<double> positions(3 * std::size_t{s.vertex_count});
   hf_morph_desc morph = desc<hf_morph_desc>();
-  morph.weight = 1, morph.positions_f64 = positions.data();
-  seen.call(hf_detail_morph(o.detail, &morph)), seen.take(positions);
+  morph.weight = 1;
+  morph.positions_f64 = positions.data();
+  seen.call(hf_detail_morph(o.detail, &morph));
+  seen.take(positions);
   hf_quads_info info = desc<hf_quads_info>();
-  seen.call(hf_quads_get_info(o.quads, &info)), seen.take(&info.face_count, 1);
+  seen.call(hf_quads_get_info(o.quads, &info));
+  seen.take(&info.face_count, 1);
   std::vector<std::uint32_t> corners(4 * std::size_t{info.face_count});
   hf_quads_mesh mesh = desc<hf_quads_mesh>();
-  mesh.face_capacity = info.face_count, mesh.faces = corners.data();
-  seen.call(hf_quads_get_mesh(o.quads, &mesh)), seen.take(corners);
+  mesh.face_capacity = info.face_count;
+  mesh.faces = corners.data();
+  seen.call(hf_quads_get_mesh(o.quads, &mesh));
+  seen.take(corners);
 }
 
 void read_directions(const Scene& s, const Objects& o, unsigned, Seen& seen) {
@@ -253,21 +317,27 @@ void read_directions(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   seen.call(hf_direction_get_singularities(o.direction, s.triangle_count, found.data(), &count));
   seen.take(found.data(), count);
   std::uint32_t sites[4];
-  seen.call(hf_direction_get_sites(o.direction, 4, sites, nullptr, nullptr, nullptr)), seen.take(sites, 4);
+  seen.call(hf_direction_get_sites(o.direction, 4, sites, nullptr, nullptr, nullptr));
+  seen.take(sites, 4);
   hf_direction_statistics statistics = desc<hf_direction_statistics>();
-  seen.call(hf_direction_get_statistics(o.direction, &statistics)), seen.take(&statistics.unknown_count, 1);
+  seen.call(hf_direction_get_statistics(o.direction, &statistics));
+  seen.take(&statistics.unknown_count, 1);
 }
 
 // Makes new objects of the shared ones.
 void make_more(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
   hf_pose_desc paper = desc<hf_pose_desc>();
-  paper.mode = t % 2 == 0 ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH, paper.iteration_count = 6;
+  paper.mode = t % 2 == 0 ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH;
+  paper.iteration_count = 6;
   hf_pose pose = nullptr;
   std::uint32_t handles[2];
-  seen.call(hf_pose_create(o.surface, &paper, &pose)), seen.call(add_ends(s, pose, handles));
-  seen.call(turn(pose, handles[0], 0.2 + 0.1 * t)), take_pose(s, pose, seen);
+  seen.call(hf_pose_create(o.surface, &paper, &pose));
+  seen.call(add_ends(s, pose, handles));
+  seen.call(turn(pose, handles[0], 0.2 + 0.1 * t));
+  take_pose(s, pose, seen);
   hf_region region = nullptr;
-  seen.call(hf_region_create(o.surface, nullptr, &region)), seen.call(edit_to(region, patch_at(s, 6 + t, 4)));
+  seen.call(hf_region_create(o.surface, nullptr, &region));
+  seen.call(edit_to(region, patch_at(s, 6 + t, 4)));
   take_region(s, region, seen);
   hf_detail detail = nullptr;
   seen.call(hf_detail_create(o.region, region, nullptr, &detail));
@@ -276,14 +346,19 @@ void make_more(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
   seen.call(add_pairs(s, transfer));
   std::vector<double> positions(3 * std::size_t{s.vertex_count});
   hf_transfer_frame frame = desc<hf_transfer_frame>();
-  frame.source_positions = s.posed.data(), frame.target_positions_f64 = positions.data();
-  seen.call(hf_transfer_apply(transfer, &frame)), seen.take(positions);
+  frame.source_positions = s.posed.data();
+  frame.target_positions_f64 = positions.data();
+  seen.call(hf_transfer_apply(transfer, &frame));
+  seen.take(positions);
   hf_direction direction = nullptr;
   seen.call(hf_direction_create(o.surface, nullptr, &direction));
   const std::uint32_t vertex = 50 + t;
   seen.call(hf_direction_add_sites(direction, 1, &vertex, s.vectors.data(), nullptr));
   take_direction(s, direction, seen);
-  hf_pose_destroy(pose), hf_region_destroy(region), hf_detail_destroy(detail), hf_transfer_destroy(transfer);
+  hf_pose_destroy(pose);
+  hf_region_destroy(region);
+  hf_detail_destroy(detail);
+  hf_transfer_destroy(transfer);
   hf_direction_destroy(direction);
 }
 
@@ -293,41 +368,56 @@ void edit_solver(const Scene& s, hf_solver solver, unsigned t, Seen& seen) {
   std::vector<std::uint32_t> vertices = {40 + 17 * t, 300 + t, 640 + 3 * t};
   std::uint32_t sites[3];
   const hf_sites_desc more = sites_desc(vertices, s.values.data() + t);
-  seen.call(hf_add_sites(solver, &more, sites)), take_field(s, solver, seen);
+  seen.call(hf_add_sites(solver, &more, sites));
+  take_field(s, solver, seen);
   seen.call(hf_solver_record(solver));
   const std::vector<std::uint32_t> elsewhere = {1000 + t};
   const hf_sites_desc to = sites_desc(elsewhere, nullptr);
-  seen.call(hf_solver_move_sites(solver, 1, sites, &to)), seen.call(hf_remove_sites(solver, 1, sites + 1));
+  seen.call(hf_solver_move_sites(solver, 1, sites, &to));
+  seen.call(hf_remove_sites(solver, 1, sites + 1));
   take_field(s, solver, seen);
   std::vector<float> preview(s.vertex_count);
-  seen.call(hf_solver_solve_preview(solver, preview.data(), 0, 0, nullptr)), seen.take(preview);
+  seen.call(hf_solver_solve_preview(solver, preview.data(), 0, 0, nullptr));
+  seen.take(preview);
   if (t % 4 == 1) seen.call(hf_solver_release_preview(solver));  // for all solvers that share the factor
   hf_solver_info made = desc<hf_solver_info>();
-  seen.call(hf_solver_get_info(solver, &made)), seen.take(&made, 1);
-  if (t % 4 == 3 && made.engine == HF_ENGINE_GREEN)
-    seen.call(hf_solver_prepare_rebase(solver)), take_field(s, solver, seen);
-  seen.call(hf_solver_undo(solver)), take_field(s, solver, seen);
+  seen.call(hf_solver_get_info(solver, &made));
+  seen.take(&made, 1);
+  if (t % 4 == 3 && made.engine == HF_ENGINE_GREEN) {
+    seen.call(hf_solver_prepare_rebase(solver));
+    take_field(s, solver, seen);
+  }
+  seen.call(hf_solver_undo(solver));
+  take_field(s, solver, seen);
 }
 
 void edit_pose(const Scene& s, hf_pose pose, unsigned t, Seen& seen) {
-  seen.call(turn(pose, 0, -0.1 * t)), take_pose(s, pose, seen);
+  seen.call(turn(pose, 0, -0.1 * t));
+  take_pose(s, pose, seen);
   hf_handles_desc layer = desc<hf_handles_desc>();
   const double radius = 0.5;
-  layer.handle_count = 1, layer.radii = &radius, layer.layer = 1;
+  layer.handle_count = 1;
+  layer.radii = &radius;
+  layer.layer = 1;
   layer.points = s.positions_f64.data() + 3 * (std::size_t{s.vertex_count / 2} + t);
   std::uint32_t handle = 0;
-  seen.call(hf_pose_add_handles(pose, &layer, &handle)), seen.call(turn(pose, handle, 0.3)), take_pose(s, pose, seen);
-  seen.call(hf_pose_remove_handles(pose, 1, &handle)), take_pose(s, pose, seen);
+  seen.call(hf_pose_add_handles(pose, &layer, &handle));
+  seen.call(turn(pose, handle, 0.3));
+  take_pose(s, pose, seen);
+  seen.call(hf_pose_remove_handles(pose, 1, &handle));
+  take_pose(s, pose, seen);
 }
 
 void edit_direction(const Scene& s, hf_direction direction, unsigned t, Seen& seen) {
   const std::uint32_t vertex = 500 + 11 * t, to = 60 + t;
   std::uint32_t site = 0;
   seen.call(hf_direction_add_sites(direction, 1, &vertex, s.vectors.data() + 3 * t, &site));
-  seen.call(hf_direction_record(direction)), seen.call(hf_direction_move_sites(direction, 1, &site, &to));
+  seen.call(hf_direction_record(direction));
+  seen.call(hf_direction_move_sites(direction, 1, &site, &to));
   take_direction(s, direction, seen);
   const double angle = 0.25;
-  seen.call(hf_direction_undo(direction)), seen.call(hf_direction_rotate_sites(direction, 1, &site, &angle));
+  seen.call(hf_direction_undo(direction));
+  seen.call(hf_direction_rotate_sites(direction, 1, &site, &angle));
   take_direction(s, direction, seen);
 }
 
@@ -335,28 +425,38 @@ void edit_region(const Scene& s, hf_region region, unsigned t, Seen& seen) {
   seen.call(hf_region_record(region));
   hf_region_edit_desc grow = desc<hf_region_edit_desc>();
   grow.ring_count = 1 + static_cast<int>(t % 3);
-  seen.call(hf_region_edit(region, &grow)), take_region(s, region, seen);
-  seen.call(hf_region_undo(region)), seen.call(edit_to(region, patch_at(s, 20 + t, 8))), take_region(s, region, seen);
+  seen.call(hf_region_edit(region, &grow));
+  take_region(s, region, seen);
+  seen.call(hf_region_undo(region));
+  seen.call(edit_to(region, patch_at(s, 20 + t, 8)));
+  take_region(s, region, seen);
 }
 
 void clone_and_edit(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
   Objects mine;
-  seen.call(hf_solver_clone(o.solver, &mine.solver)), edit_solver(s, mine.solver, t, seen);
+  seen.call(hf_solver_clone(o.solver, &mine.solver));
+  edit_solver(s, mine.solver, t, seen);
   seen.call(hf_pose_create(o.bent, nullptr, &mine.pose));  // the harmonic factor is shared with other threads
   std::uint32_t handles[2];
-  seen.call(add_ends(s, mine.pose, handles)), seen.call(turn(mine.pose, handles[1], 0.1 * t));
+  seen.call(add_ends(s, mine.pose, handles));
+  seen.call(turn(mine.pose, handles[1], 0.1 * t));
   take_pose(s, mine.pose, seen);
   seen.call(hf_region_create(o.bent, nullptr, &mine.region));
-  seen.call(edit_to(mine.region, patch_at(s, 9, 3 + t))), take_region(s, mine.region, seen);
-  seen.call(hf_solver_clone(o.refactor, &mine.refactor)), edit_solver(s, mine.refactor, t, seen);
+  seen.call(edit_to(mine.region, patch_at(s, 9, 3 + t)));
+  take_region(s, mine.region, seen);
+  seen.call(hf_solver_clone(o.refactor, &mine.refactor));
+  edit_solver(s, mine.refactor, t, seen);
   destroy(mine);
 }
 
 void clone_and_edit_shapes(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
   Objects mine;
-  seen.call(hf_pose_clone(o.pose, &mine.pose)), edit_pose(s, mine.pose, t, seen);
-  seen.call(hf_direction_clone(o.direction, &mine.direction)), edit_direction(s, mine.direction, t, seen);
-  seen.call(hf_region_clone(o.region, &mine.region)), edit_region(s, mine.region, t, seen);
+  seen.call(hf_pose_clone(o.pose, &mine.pose));
+  edit_pose(s, mine.pose, t, seen);
+  seen.call(hf_direction_clone(o.direction, &mine.direction));
+  edit_direction(s, mine.direction, t, seen);
+  seen.call(hf_region_clone(o.region, &mine.region));
+  edit_region(s, mine.region, t, seen);
   destroy(mine);
 }
 
@@ -364,8 +464,10 @@ void clone_and_edit_shapes(const Scene& s, const Objects& o, unsigned t, Seen& s
 
 std::uint64_t edit_all(const Scene& s, const Objects& o, unsigned t) {
   Seen seen;
-  edit_solver(s, o.solver, t, seen), edit_solver(s, o.refactor, t, seen);
-  edit_pose(s, o.pose, t, seen), edit_direction(s, o.direction, t, seen);
+  edit_solver(s, o.solver, t, seen);
+  edit_solver(s, o.refactor, t, seen);
+  edit_pose(s, o.pose, t, seen);
+  edit_direction(s, o.direction, t, seen);
   edit_region(s, o.region, t, seen);
   return seen.hash();
 }

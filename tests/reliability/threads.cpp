@@ -48,12 +48,14 @@ int main(int argc, char** argv) {
     for (unsigned t = 0; t < thread_count; ++t) {
       Seen seen;
       thread_stories[k].tell(scene, own, t, seen);
-      alone[k][t] = seen.hash(), failed += seen.failed();
+      alone[k][t] = seen.hash();
+      failed += seen.failed();
     }
   }
   for (unsigned t = 0; t < thread_count; ++t) {
     const Objects copies = clones_of(own);
-    edited[t] = edit_all(scene, copies, t), destroy(copies);
+    edited[t] = edit_all(scene, copies, t);
+    destroy(copies);
   }
   destroy(own);
   report_at_most("THREADS_CALLS_THAT_FAIL_ALONE", failed, 0);

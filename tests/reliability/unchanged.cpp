@@ -53,7 +53,11 @@ int main(int argc, char** argv) {
     if (option == "--kind") only = argv[i + 1];
     if (option == "--first") first = std::stoull(argv[i + 1]);
     if (option == "--count") count = std::stoull(argv[i + 1]);
-    if (option == "--trace") first = std::stoull(argv[i + 1]), count = 1, trace = true;
+    if (option == "--trace") {
+      first = std::stoull(argv[i + 1]);
+      count = 1;
+      trace = true;
+    }
   }
   const bool few = count != ~std::uint64_t{0};
   Tally all;
@@ -78,8 +82,11 @@ int main(int argc, char** argv) {
                 static_cast<unsigned long long>(tally.cancelled), static_cast<unsigned long long>(tally.fresh),
                 seconds);
     std::fflush(stdout);
-    all.calls += tally.calls, all.failures += tally.failures, all.memory += tally.memory;
-    all.invalid += tally.invalid, all.cancelled += tally.cancelled;
+    all.calls += tally.calls;
+    all.failures += tally.failures;
+    all.memory += tally.memory;
+    all.invalid += tally.invalid;
+    all.cancelled += tally.cancelled;
     all.internal += tally.internal;
   }
   report_at_least("unchanged_calls", static_cast<double>(all.calls), few ? 1 : static_cast<double>(calls));

@@ -53,7 +53,8 @@ class State {
   }
   template <class T>
   void add(const std::vector<T>& list) {
-    add(list.size()), add(list.data(), list.size() * sizeof(T));
+    add(list.size());
+    add(list.data(), list.size() * sizeof(T));
   }
   // The first part that differs, or nothing.
   std::string difference(const State& other) const;
@@ -71,7 +72,10 @@ struct Allocator {
   bool refuse_on = false;
   hf_progress progress = nullptr;
   hf_allocator hooks();
-  void disarm() { refuse_at = cancel_at = 0, refuse_on = false; }
+  void disarm() {
+    refuse_at = cancel_at = 0;
+    refuse_on = false;
+  }
 };
 
 struct Shape {

@@ -12,32 +12,40 @@ class Analysis final : public Subject {
  public:
   Analysis(World& given, Random& random) : Subject(given) {
     hf_geodesics_desc desc = HF_INIT(hf_geodesics_desc);
-    desc.smoothing = random.pick({0.0f, 1.0f, 3.0f}), desc.method = random.pick({0, 1, 2, 3});
-    hf_progress_create(&progress_), desc.progress = progress_;
+    desc.smoothing = random.pick({0.0f, 1.0f, 3.0f});
+    desc.method = random.pick({0, 1, 2, 3});
+    hf_progress_create(&progress_);
+    desc.progress = progress_;
     if (hf_geodesics_create(world.surface, &desc, &geodesics_) != HF_OK) geodesics_ = nullptr;
     for (std::uint32_t v = 0; v < world.shape->vertices(); ++v) field_.push_back(random.real(0, 1) + v);
   }
-  ~Analysis() override { hf_geodesics_destroy(geodesics_), hf_progress_destroy(progress_); }
+  ~Analysis() override {
+    hf_geodesics_destroy(geodesics_);
+    hf_progress_destroy(progress_);
+  }
   bool ready() const { return geodesics_ != nullptr; }
 
   void glance(State& state) override {
     hf_surface_statistics statistics = HF_INIT(hf_surface_statistics);
     state.begin("statistics of a surface");
     state.add(hf_surface_get_statistics(world.surface, &statistics));
-    state.add(statistics.unknown_count), state.add(statistics.factor_entries), state.add(statistics.factor_bytes);
+    state.add(statistics.unknown_count);
+    state.add(statistics.factor_entries);
+    state.add(statistics.factor_bytes);
     state.add(statistics.factor_flops);
   }
   void look(State& state) override {
     std::vector<double> distance(world.shape->vertices());
     const std::uint32_t sources[2] = {1, 20};
     state.begin("distances");
-    state.add(hf_geodesics_solve_f64(geodesics_, 2, sources, distance.data(), 0)), state.add(distance);
+    state.add(hf_geodesics_solve_f64(geodesics_, 2, sources, distance.data(), 0));
+    state.add(distance);
     std::size_t size = 0;
     hf_surface_save(world.surface, world.desc.field_kind, nullptr, 0, nullptr, &size);
     std::vector<unsigned char> bytes(size);
     state.begin("the saved factor");
-    state.add(hf_surface_save(world.surface, world.desc.field_kind, nullptr, size, bytes.data(), &size)),
-        state.add(bytes);
+    state.add(hf_surface_save(world.surface, world.desc.field_kind, nullptr, size, bytes.data(), &size));
+    state.add(bytes);
   }
   const std::vector<Command>& commands() const override;
 
@@ -45,7 +53,8 @@ class Analysis final : public Subject {
   friend struct Calls;
   hf_scalars scalars(Random& random) {
     hf_scalars s = HF_INIT(hf_scalars);
-    s.values_f64 = field_.data(), s.value_stride = random.one_in(20) ? 3 : 0;
+    s.values_f64 = field_.data();
+    s.value_stride = random.one_in(20) ? 3 : 0;
     return s;
   }
   // Geodesics keep the progress object they were made with. The cancel of a call goes to that one.
@@ -56,7 +65,8 @@ class Analysis final : public Subject {
     world.memory.progress = progress_;
     if (world.memory.cancel_at == 0) hf_progress_cancel(progress_);
     const hf_result result = call();
-    world.memory.disarm(), world.memory.progress = armed;
+    world.memory.disarm();
+    world.memory.progress = armed;
     if (result == HF_ERROR_CANCELLED) return result;
     std::vector<double> distance(world.shape->vertices());  // a cancel that came too late stops this call
     const std::uint32_t source = 1;
@@ -68,7 +78,9 @@ class Analysis final : public Subject {
     const std::uint32_t triangle = random.below(world.shape->count()), i = random.below(5), j = random.below(5 - i);
     for (std::size_t k = 0; k < 3; ++k) p.corners[k] = world.shape->triangles[3 * triangle + k];
     if (random.one_in(12)) p.corners[random.below(3)] = random.index(world.shape->vertices());
-    p.barycentrics[0] = i / 4.0, p.barycentrics[1] = j / 4.0, p.barycentrics[2] = (4 - i - j) / 4.0;
+    p.barycentrics[0] = i / 4.0;
+    p.barycentrics[1] = j / 4.0;
+    p.barycentrics[2] = (4 - i - j) / 4.0;
     if (random.one_in(12)) p.barycentrics[random.below(3)] = random.number();
     return p.reserved = random.one_in(40), p;
   }
@@ -83,7 +95,8 @@ struct Calls {
   static hf_result make(Subject& subject, Random& random) {
     Analysis& s = of(subject);
     hf_geodesics_desc desc = HF_INIT(hf_geodesics_desc);
-    desc.smoothing = static_cast<float>(random.number()), desc.method = random.pick({0, 1, 2, 3, 3, 4});
+    desc.smoothing = static_cast<float>(random.number());
+    desc.method = random.pick({0, 1, 2, 3, 3, 4});
     desc.progress = s.world.progress();
     hf_geodesics made = s.geodesics_;
     const hf_result result = hf_geodesics_create(s.world.surface, random.spoiled(desc), &made);
@@ -104,7 +117,8 @@ struct Calls {
     const hf_surface_point from = s.point(random), to = random.one_in(9) ? from : s.point(random);
     std::vector<double> positions(3 * 200);
     hf_path out = HF_INIT(hf_path);
-    out.point_capacity = random.pick({0u, 2u, 200u, 200u}), out.positions = positions.data();
+    out.point_capacity = random.pick({0u, 2u, 200u, 200u});
+    out.positions = positions.data();
     hf_path* given = random.spoiled(out);
     return s.call_geodesics([&] { return hf_geodesics_find_path(s.geodesics_, &from, &to, given); });
   }
@@ -122,8 +136,10 @@ struct Calls {
   static hf_result tips(Subject& subject, Random& random) {
     Analysis& s = of(subject);
     hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
-    desc.kind = random.pick({0, 1, 2}), desc.source_count = random.pick({4u, 9u, 2000u});
-    desc.least_length = random.pick({0.0f, 0.2f, -1.0f}), desc.progress = s.world.progress();
+    desc.kind = random.pick({0, 1, 2});
+    desc.source_count = random.pick({4u, 9u, 2000u});
+    desc.least_length = random.pick({0.0f, 0.2f, -1.0f});
+    desc.progress = s.world.progress();
     if (random.one_in(2)) desc.geodesics = s.geodesics_;
     hf_extremity found[2];
     std::uint32_t count = 0;
@@ -141,7 +157,9 @@ struct Calls {
     std::vector<hf_critical_point> points(20);
     hf_isolines out = HF_INIT(hf_isolines);
     hf_critical_info info = HF_INIT(hf_critical_info);
-    out.point_capacity = random.pick({0u, 1000u}), out.line_capacity = 100, out.positions = positions.data();
+    out.point_capacity = random.pick({0u, 1000u});
+    out.line_capacity = 100;
+    out.positions = positions.data();
     const std::uint32_t dice = random.below(3);
     const hf_result result =
         dice == 0   ? hf_surface_space_levels(s.world.surface, &field, random.below(4) - 0, 1 + random.below(5), levels)
@@ -175,14 +193,17 @@ struct Calls {
     Shape shape = *s.world.shape;
     if (random.one_in(3)) shape.positions[random.below(3 * shape.vertices())] = static_cast<float>(random.number());
     if (random.one_in(3)) shape.triangles[random.below(3 * shape.count())] = random.index(shape.vertices());
-    desc.positions = shape.positions.data(), desc.triangles = shape.triangles.data();
-    desc.progress = s.world.progress(), desc.weld = random.pick({0, 1, 2, 3}),
+    desc.positions = shape.positions.data();
+    desc.triangles = shape.triangles.data();
+    desc.progress = s.world.progress();
+    desc.weld = random.pick({0, 1, 2, 3});
     desc.field_kind = random.pick({0, 1, 2, 3});
     desc.weld_tolerance = static_cast<float>(random.number());
     if (random.one_in(20)) desc.vertex_limit = 5;
     std::vector<unsigned char> bytes(64 + random.below(300), static_cast<unsigned char>(random.below(256)));
     hf_factor_desc saved = HF_INIT(hf_factor_desc);
-    saved.bytes = bytes.data(), saved.byte_count = bytes.size();
+    saved.bytes = bytes.data();
+    saved.byte_count = bytes.size();
     if (random.one_in(6)) desc.saved_factor = &saved;
     hf_surface made = s.world.surface;
     const hf_result result = hf_surface_create(random.spoiled(desc), &made);
@@ -194,7 +215,10 @@ struct Calls {
     Analysis& s = of(subject);
     const std::vector<std::uint32_t>& t = s.world.shape->triangles;
     std::vector<std::uint32_t> edges;
-    for (std::size_t i = 0; i < t.size(); ++i) edges.push_back(t[i]), edges.push_back(t[i % 3 == 2 ? i - 2 : i + 1]);
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      edges.push_back(t[i]);
+      edges.push_back(t[i % 3 == 2 ? i - 2 : i + 1]);
+    }
     std::vector<double> weights(t.size()), masses(s.world.shape->vertices());
     for (double& w : weights) w = random.real(0.1, 2);
     for (double& m : masses) m = random.real(0.5, 2);
@@ -203,11 +227,16 @@ struct Calls {
       edges[random.below(static_cast<std::uint32_t>(edges.size()))] = random.index(s.world.shape->vertices());
     if (random.one_in(3)) weights[random.below(static_cast<std::uint32_t>(weights.size()))] = random.number();
     if (random.one_in(5)) masses[random.below(static_cast<std::uint32_t>(masses.size()))] = random.number();
-    desc.vertex_count = s.world.shape->vertices(), desc.edge_count = static_cast<std::uint32_t>(weights.size());
-    desc.edges = edges.data(), desc.weights = weights.data(), desc.allow_negative = random.pick({0, 0, 1, 2});
+    desc.vertex_count = s.world.shape->vertices();
+    desc.edge_count = static_cast<std::uint32_t>(weights.size());
+    desc.edges = edges.data();
+    desc.weights = weights.data();
+    desc.allow_negative = random.pick({0, 0, 1, 2});
     if (random.one_in(2)) desc.masses = masses.data();
-    desc.field_kind = random.pick({0, 1, 2, 3}), desc.progress = s.world.progress();
-    desc.memory_limit_mb = s.world.desc.memory_limit_mb, desc.allocator = s.world.memory.hooks();
+    desc.field_kind = random.pick({0, 1, 2, 3});
+    desc.progress = s.world.progress();
+    desc.memory_limit_mb = s.world.desc.memory_limit_mb;
+    desc.allocator = s.world.memory.hooks();
     if (random.one_in(20)) desc.edge_limit = 5;
     hf_surface made = s.world.surface;
     const hf_result result = hf_surface_create_graph(random.spoiled(desc), &made);
@@ -220,18 +249,30 @@ struct Calls {
     std::vector<hf_link> list(1 + random.below(3));
     for (hf_link& link : list) {
       const hf_surface_point end = s.point(random);
-      link = {}, link.vertex = vertex(), std::copy_n(end.corners, 3, link.corners);
+      link = {};
+      link.vertex = vertex();
+      std::copy_n(end.corners, 3, link.corners);
       std::copy_n(end.barycentrics, 3, link.barycentrics);
       link.weight = random.one_in(12) ? static_cast<float>(random.number()) : 1.0f;
     }
     const std::uint32_t light = vertex(), heavy = vertex();
     hf_links_desc desc = HF_INIT(hf_links_desc);
-    desc.mode = random.pick({0, 1, 1, 2, 2, 3}), desc.distance = random.pick({0.0f, 20.0f, -1.0f, 0.5f});
+    desc.mode = random.pick({0, 1, 1, 2, 2, 3});
+    desc.distance = random.pick({0.0f, 20.0f, -1.0f, 0.5f});
     if (random.one_in(4)) desc.stiffness = static_cast<float>(random.number());
     desc.overlay_distance = random.pick({0.0f, 5.0f, -1.0f});
-    if (desc.mode == HF_LINK_LIST) desc.link_count = static_cast<std::uint32_t>(list.size()), desc.links = list.data();
-    if (random.one_in(3)) desc.light_count = 1, desc.light_vertices = &light;
-    if (random.one_in(4)) desc.heavy_count = 1, desc.heavy_vertices = &heavy;
+    if (desc.mode == HF_LINK_LIST) {
+      desc.link_count = static_cast<std::uint32_t>(list.size());
+      desc.links = list.data();
+    }
+    if (random.one_in(3)) {
+      desc.light_count = 1;
+      desc.light_vertices = &light;
+    }
+    if (random.one_in(4)) {
+      desc.heavy_count = 1;
+      desc.heavy_vertices = &heavy;
+    }
     hf_surface made = s.world.surface;
     const hf_result result = hf_surface_relink(s.world.surface, random.spoiled(desc), s.world.progress(), &made);
     if (result != HF_OK) s.expect(made == nullptr, "a refused surface is no NULL");

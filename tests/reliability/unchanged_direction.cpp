@@ -14,7 +14,8 @@ struct Branch {
 class Directions final : public Subject {
  public:
   Directions(World& given, Random& random) : Subject(given) {
-    desc_.degree = random.pick({0u, 1u, 2u, 4u}), desc_.site_limit = random.pick({0u, 0u, 9u});
+    desc_.degree = random.pick({0u, 1u, 2u, 4u});
+    desc_.site_limit = random.pick({0u, 0u, 9u});
     branches_.resize(1);
     if (hf_direction_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
   }
@@ -27,7 +28,8 @@ class Directions final : public Subject {
     for (const Branch& b : branches_) {
       hf_direction_statistics statistics = HF_INIT(hf_direction_statistics);
       state.begin("statistics of a direction field");
-      state.add(hf_direction_get_statistics(b.handle, &statistics)), statistics.sweep_count = 0;
+      state.add(hf_direction_get_statistics(b.handle, &statistics));
+      statistics.sweep_count = 0;
       add_struct(state, statistics);
       state.add(hf_direction_get_site_count(b.handle));
     }
@@ -37,11 +39,14 @@ class Directions final : public Subject {
       look_at_field(b, state);
       const Sites sites = sites_of(b);
       state.begin("constraints");
-      state.add(sites.numbers), state.add(sites.vertices), state.add(sites.vectors);
+      state.add(sites.numbers);
+      state.add(sites.vertices);
+      state.add(sites.vectors);
       std::vector<hf_singularity> list(world.shape->count());
       std::uint32_t count = 0;
       state.begin("singularities");
-      state.add(hf_direction_get_singularities(b.handle, world.shape->count(), list.data(), &count)), state.add(count);
+      state.add(hf_direction_get_singularities(b.handle, world.shape->count(), list.data(), &count));
+      state.add(count);
       state.add(list.data(), count * sizeof list[0]);
     }
   }
@@ -83,7 +88,9 @@ class Directions final : public Subject {
     std::vector<double> field(3 * world.shape->vertices());
     hf_solve_info info = HF_INIT(hf_solve_info);
     state.begin("direction field");
-    state.add(hf_direction_solve_f64(b.handle, field.data(), 0, &info)), state.add(field), add_struct(state, info);
+    state.add(hf_direction_solve_f64(b.handle, field.data(), 0, &info));
+    state.add(field);
+    add_struct(state, info);
     return state.last();
   }
   std::uint64_t field_of(const Branch& b) {
@@ -97,10 +104,15 @@ class Directions final : public Subject {
     for (std::size_t v = 0; v < a.size(); v += 3) {
       double minus = 0, plus = 0, across = 0, size = 0, other = 0;
       for (std::size_t k = v; k < v + 3; ++k) {
-        minus += (a[k] - b[k]) * (a[k] - b[k]), plus += (a[k] + b[k]) * (a[k] + b[k]), across += a[k] * b[k];
-        size += a[k] * a[k], other += b[k] * b[k];
+        minus += (a[k] - b[k]) * (a[k] - b[k]);
+        plus += (a[k] + b[k]) * (a[k] + b[k]);
+        across += a[k] * b[k];
+        size += a[k] * a[k];
+        other += b[k] * b[k];
       }
-      size = std::sqrt(size), other = std::sqrt(other), scale = std::fmax(scale, size);
+      size = std::sqrt(size);
+      other = std::sqrt(other);
+      scale = std::fmax(scale, size);
       double off = std::sqrt(minus);
       if (desc_.degree >= 2) off = std::fmin(off, std::sqrt(plus));
       if (desc_.degree == 4 && size > 0)
@@ -171,7 +183,10 @@ struct Calls {
     Directions& s = of(subject);
     Branch& b = s.any(random);
     const hf_result result = hf_direction_record(b.handle);
-    if (result == HF_OK) b.undo.push_back(s.field_of(b)), b.redo.clear();
+    if (result == HF_OK) {
+      b.undo.push_back(s.field_of(b));
+      b.redo.clear();
+    }
     return result;
   }
   static hf_result step(Subject& subject, Random& random) {
@@ -203,7 +218,8 @@ struct Calls {
   static hf_result make(Subject& subject, Random& random) {
     Directions& s = of(subject);
     hf_direction_desc desc = HF_INIT(hf_direction_desc);
-    desc.degree = random.pick({0u, 1u, 3u, 4u}), desc.reserved = random.one_in(20);
+    desc.degree = random.pick({0u, 1u, 3u, 4u});
+    desc.reserved = random.one_in(20);
     desc.progress = s.world.progress();
     hf_direction made = s.branches_[0].handle;
     const hf_result result = hf_direction_create(s.world.surface, random.spoiled(desc), &made);
@@ -213,7 +229,8 @@ struct Calls {
   static hf_result destroy(Subject& subject, Random&) {
     Directions& s = of(subject);
     if (s.branches_.size() < 2) return skipped;
-    hf_direction_destroy(s.branches_.back().handle), s.branches_.pop_back();
+    hf_direction_destroy(s.branches_.back().handle);
+    s.branches_.pop_back();
     return HF_OK;
   }
   static hf_result solve(Subject& subject, Random& random) {

@@ -18,9 +18,12 @@ struct Memory {
 bool make_surface(World& world, Random& random) {
   world.shape = &shapes()[random.below(static_cast<std::uint32_t>(shapes().size()))];
   hf_surface_desc& d = world.desc;
-  d.vertex_count = world.shape->vertices(), d.triangle_count = world.shape->count();
-  d.positions = world.shape->positions.data(), d.triangles = world.shape->triangles.data();
-  d.operator_kind = random.pick({0, 0, 1, 2}), d.field_kind = random.pick({0, 0, 0, 1});
+  d.vertex_count = world.shape->vertices();
+  d.triangle_count = world.shape->count();
+  d.positions = world.shape->positions.data();
+  d.triangles = world.shape->triangles.data();
+  d.operator_kind = random.pick({0, 0, 1, 2});
+  d.field_kind = random.pick({0, 0, 0, 1});
   d.memory_limit_mb = random.one_in(4) ? 1 : 0;
   d.allocator = world.memory.hooks();
   return hf_surface_create(&d, &world.surface) == HF_OK;
@@ -31,8 +34,10 @@ void look_at_surface(World& world, State& state) {
   hf_surface_report report = HF_INIT(hf_surface_report);
   std::vector<std::uint32_t> components(world.shape->vertices());
   state.begin("surface");
-  state.add(hf_surface_get_info(world.surface, &info)), add_struct(state, info);
-  state.add(hf_surface_get_report(world.surface, &report)), add_struct(state, report);
+  state.add(hf_surface_get_info(world.surface, &info));
+  add_struct(state, info);
+  state.add(hf_surface_get_report(world.surface, &report));
+  add_struct(state, report);
   state.add(hf_surface_get_components(world.surface, world.shape->vertices(), components.data(), nullptr));
   state.add(components);
 }
@@ -50,7 +55,10 @@ struct Fault {
     if (cause == cancel && random.one_in(5)) at = 0;  // before the call
   }
   void arm(Allocator& a) const {
-    if (cause == memory) a.refuse_at = a.calls + at, a.refuse_on = on;
+    if (cause == memory) {
+      a.refuse_at = a.calls + at;
+      a.refuse_on = on;
+    }
     if (cause != cancel) return;
     hf_progress_create(&a.progress);
     if (at == 0)
@@ -60,7 +68,8 @@ struct Fault {
   }
   void disarm(Allocator& a) const {
     a.disarm();
-    hf_progress_destroy(a.progress), a.progress = nullptr;
+    hf_progress_destroy(a.progress);
+    a.progress = nullptr;
   }
 };
 
@@ -117,7 +126,8 @@ class Player {
     const hf_result result = command.call(subject_, random);
     fault.disarm(world_.memory);
     if (result == skipped) return {};
-    ++tally_.calls, count(result, tally_);
+    ++tally_.calls;
+    count(result, tally_);
     const bool ran_out = world_.memory.refused > refused;
     if (log)
       *log += std::string("    ") + command.name + " -> " + hf_result_get_name(result) +

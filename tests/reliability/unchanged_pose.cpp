@@ -23,8 +23,10 @@ struct Branch {
 class Poses final : public Subject {
  public:
   Poses(World& given, Random& random) : Subject(given) {
-    desc_.mode = random.pick({0, 0, 1}), desc_.band_count = random.pick({0u, 4u});
-    desc_.iteration_count = random.pick({0u, 3u, 10u}), desc_.samples_per_ring = random.pick({0u, 0u, 3u});
+    desc_.mode = random.pick({0, 0, 1});
+    desc_.band_count = random.pick({0u, 4u});
+    desc_.iteration_count = random.pick({0u, 3u, 10u});
+    desc_.samples_per_ring = random.pick({0u, 0u, 3u});
     desc_.group_count = random.pick({0u, 20u});
     branches_.resize(1);
     if (hf_pose_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
@@ -38,7 +40,8 @@ class Poses final : public Subject {
     for (const Branch& b : branches_) {
       hf_pose_info info = HF_INIT(hf_pose_info);
       state.begin("info of a pose");
-      state.add(hf_pose_get_info(b.handle, &info)), add_struct(state, info);
+      state.add(hf_pose_get_info(b.handle, &info));
+      add_struct(state, info);
       state.add(hf_pose_get_handle_count(b.handle));
     }
   }
@@ -48,9 +51,11 @@ class Poses final : public Subject {
         hf_handle_info info = HF_INIT(hf_handle_info);
         std::vector<float> field(world.shape->vertices());
         state.begin("a handle");
-        state.add(hf_pose_get_handle(b.handle, h.number, &info)), add_struct(state, info);
+        state.add(hf_pose_get_handle(b.handle, h.number, &info));
+        add_struct(state, info);
         state.begin("the field of a handle");
-        state.add(hf_pose_get_field(b.handle, h.number, field.data(), 0)), state.add(field);
+        state.add(hf_pose_get_field(b.handle, h.number, field.data(), 0));
+        state.add(field);
       }
       look_at_skin(b, state);
       look_at_frame(b, state);
@@ -77,12 +82,18 @@ class Poses final : public Subject {
     std::vector<double> numbers(14 * joints);
     std::vector<std::uint32_t> of(4 * vertices);
     std::vector<float> weights(4 * vertices);
-    skin.joint_capacity = skin.joint_count, skin.vertex_capacity = skin.vertex_count;
-    skin.pivots = numbers.data(), skin.rotations = skin.pivots + 3 * joints,
+    skin.joint_capacity = skin.joint_count;
+    skin.vertex_capacity = skin.vertex_count;
+    skin.pivots = numbers.data();
+    skin.rotations = skin.pivots + 3 * joints;
     skin.translations = skin.rotations + 4 * joints;
-    skin.axes = skin.translations + 3 * joints, skin.vertex_joints = of.data(), skin.vertex_weights = weights.data();
+    skin.axes = skin.translations + 3 * joints;
+    skin.vertex_joints = of.data();
+    skin.vertex_weights = weights.data();
     if (joints > 0) state.add(hf_pose_get_skin(b.handle, &skin));
-    state.add(numbers), state.add(of), state.add(weights);
+    state.add(numbers);
+    state.add(of);
+    state.add(weights);
   }
   // The next frame, as a clone makes it: what is kept of the last one shows there.
   void look_at_frame(const Branch& b, State& state) const {
@@ -90,15 +101,21 @@ class Poses final : public Subject {
     std::vector<double> positions(3 * world.shape->vertices());
     std::vector<float> normals(positions.size());
     hf_deform_desc frame = HF_INIT(hf_deform_desc);
-    frame.positions_f64 = positions.data(), frame.normals = normals.data();
+    frame.positions_f64 = positions.data();
+    frame.normals = normals.data();
     state.begin("the next frame of a pose");
     state.add(hf_pose_clone(b.handle, &copy));
-    state.add(hf_pose_deform(copy, &frame, nullptr)), state.add(positions), state.add(normals);
-    hf_pose_destroy(copy), copy = nullptr;
+    state.add(hf_pose_deform(copy, &frame, nullptr));
+    state.add(positions);
+    state.add(normals);
+    hf_pose_destroy(copy);
+    copy = nullptr;
     state.begin("full-mesh steps from the last frame of a pose");
     frame.refine = frame.refine_from_last = 1;
     state.add(hf_pose_clone(b.handle, &copy));
-    state.add(hf_pose_deform(copy, &frame, nullptr)), state.add(positions), state.add(normals);
+    state.add(hf_pose_deform(copy, &frame, nullptr));
+    state.add(positions);
+    state.add(normals);
     hf_pose_destroy(copy);
   }
   std::string compare_fresh(const Branch& b) const;
@@ -106,7 +123,10 @@ class Poses final : public Subject {
   hf_result frame_of(hf_pose pose, std::int32_t refine, std::int32_t from_last, std::vector<double>& out) const {
     out.assign(3 * world.shape->vertices(), 0.0);
     hf_deform_desc frame = HF_INIT(hf_deform_desc);
-    frame.positions_f64 = out.data(), frame.restart = 1, frame.iteration_count = 5, frame.refine = refine;
+    frame.positions_f64 = out.data();
+    frame.restart = 1;
+    frame.iteration_count = 5;
+    frame.refine = refine;
     frame.refine_from_last = from_last;
     return hf_pose_deform(pose, &frame, nullptr);
   }
@@ -136,15 +156,20 @@ hf_result add_to(hf_pose pose, const std::vector<Handle>& handles, std::uint32_t
   std::vector<std::uint32_t> counts, vertices;
   std::vector<double> points, radii;
   for (const Handle& h : handles) {
-    counts.push_back(static_cast<std::uint32_t>(h.region.size())), radii.push_back(h.radius);
+    counts.push_back(static_cast<std::uint32_t>(h.region.size()));
+    radii.push_back(h.radius);
     vertices.insert(vertices.end(), h.region.begin(), h.region.end());
     points.insert(points.end(), h.point, h.point + 3);
   }
-  desc.handle_count = static_cast<std::uint32_t>(handles.size()), desc.layer = handles[0].layer;
-  if (vertices.empty())
-    desc.points = points.data(), desc.radii = radii.data();
-  else
-    desc.region_counts = counts.data(), desc.region_vertices = vertices.data();
+  desc.handle_count = static_cast<std::uint32_t>(handles.size());
+  desc.layer = handles[0].layer;
+  if (vertices.empty()) {
+    desc.points = points.data();
+    desc.radii = radii.data();
+  } else {
+    desc.region_counts = counts.data();
+    desc.region_vertices = vertices.data();
+  }
   return hf_pose_add_handles(pose, &desc, out);
 }
 
@@ -179,7 +204,8 @@ std::string Poses::compare_fresh(const Branch& b) const {
     if (result == HF_OK) result = frame_of(fresh, refine, from_last, there);
     if (result == HF_OK) result = hf_pose_clone(b.handle, &copy);
     if (result == HF_OK) result = frame_of(copy, refine, from_last, here);
-    hf_pose_destroy(fresh), hf_pose_destroy(copy);
+    hf_pose_destroy(fresh);
+    hf_pose_destroy(copy);
     if (result != HF_OK) return std::string("a fresh pose: ") + hf_result_get_name(result);
     if (here != there) return "a fresh pose differs by " + text(difference(here, there));
   }
@@ -206,21 +232,30 @@ struct Calls {
         const std::uint32_t v = random.below(n);
         for (int k = 0; k < 3; ++k) h.point[k] = static_cast<double>(s.world.shape->positions[3 * v + k]);
         h.radius = random.pick({0.0, 0.9, 1.2, -1.0});
-        points.insert(points.end(), h.point, h.point + 3), radii.push_back(h.radius);
+        points.insert(points.end(), h.point, h.point + 3);
+        radii.push_back(h.radius);
       } else {
         const std::uint32_t first = random.below(n), size = 1 + random.below(4);
         for (std::uint32_t k = 0; k < size; ++k) h.region.push_back(random.one_in(40) ? n : (first + k) % n);
-        counts[i] = size, vertices.insert(vertices.end(), h.region.begin(), h.region.end());
+        counts[i] = size;
+        vertices.insert(vertices.end(), h.region.begin(), h.region.end());
       }
     }
-    desc.handle_count = count, desc.progress = s.world.progress();
-    if (near)
-      desc.points = points.data(), desc.radii = radii.data();
-    else
-      desc.region_counts = counts.data(), desc.region_vertices = vertices.data();
+    desc.handle_count = count;
+    desc.progress = s.world.progress();
+    if (near) {
+      desc.points = points.data();
+      desc.radii = radii.data();
+    } else {
+      desc.region_counts = counts.data();
+      desc.region_vertices = vertices.data();
+    }
     const hf_result result = hf_pose_add_handles(b.handle, random.spoiled(desc), out.data());
     if (result != HF_OK) return result;
-    for (std::uint32_t i = 0; i < count; ++i) fresh[i].number = out[i], b.handles.push_back(fresh[i]);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      fresh[i].number = out[i];
+      b.handles.push_back(fresh[i]);
+    }
     return result;
   }
   static hf_result add_at(Subject& subject, Random& random) {
@@ -230,7 +265,8 @@ struct Calls {
     const std::uint32_t v = random.below(s.world.shape->vertices());
     for (std::size_t k = 0; k < 3; ++k) h.point[k] = static_cast<double>(s.world.shape->positions[3 * v + k]);
     if (random.one_in(20)) h.point[random.below(3)] = random.number();
-    h.layer = 0, h.radius = random.pick({0.0, 0.9, 1.2, random.number()});
+    h.layer = 0;
+    h.radius = random.pick({0.0, 0.9, 1.2, random.number()});
     const hf_result result =
         hf_pose_add_handle_at(b.handle, random.one_in(50) ? nullptr : h.point, h.radius, &h.number);
     if (result == HF_OK) b.handles.push_back(h);
@@ -243,11 +279,13 @@ struct Calls {
     for (double& x : joints) x = random.number();
     for (std::uint32_t i = 0; i < parents.size(); ++i) parents[i] = i == 0 ? HF_NO_INDEX : random.index(i);
     hf_propose_desc desc = HF_INIT(hf_propose_desc);
-    desc.joint_count = static_cast<std::uint32_t>(parents.size()), desc.joints = joints.data();
+    desc.joint_count = static_cast<std::uint32_t>(parents.size());
+    desc.joints = joints.data();
     if (!random.one_in(20)) desc.parents = parents.data();
-    desc.up[random.below(3)] = random.number(),
+    desc.up[random.below(3)] = random.number();
     desc.least_length = random.one_in(12) ? -1.0f : random.pick({0.0f, 0.2f});
-    desc.limit = random.one_in(12) ? 70000u : random.pick({0u, 3u}), desc.progress = s.world.progress();
+    desc.limit = random.one_in(12) ? 70000u : random.pick({0u, 3u});
+    desc.progress = s.world.progress();
     std::vector<hf_handle_proposal> found(random.below(40));
     std::uint32_t count = 0;
     return hf_propose_handles(s.world.surface, random.spoiled(desc), static_cast<std::uint32_t>(found.size()),
@@ -269,13 +307,19 @@ struct Calls {
     Branch& b = s.any(random);
     std::vector<std::uint32_t> list(1 + random.below(3));
     std::vector<hf_transform> to(list.size());
-    for (std::size_t i = 0; i < list.size(); ++i) list[i] = s.number(b, random), to[i] = s.transform(random);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      list[i] = s.number(b, random);
+      to[i] = s.transform(random);
+    }
     const hf_result result =
         hf_pose_set_transforms(b.handle, static_cast<std::uint32_t>(list.size()), list.data(), to.data());
     if (result != HF_OK) return result;
     for (std::size_t i = 0; i < list.size(); ++i) {
       for (Handle& h : b.handles)
-        if (h.number == list[i]) h.transform = to[i], h.matrix.clear();
+        if (h.number == list[i]) {
+          h.transform = to[i];
+          h.matrix.clear();
+        }
     }
     return result;
   }
@@ -299,8 +343,10 @@ struct Calls {
     hf_deform_info info = HF_INIT(hf_deform_info);
     desc.positions_f64 = positions.data();
     if (random.one_in(2)) desc.normals = normals.data();
-    desc.iteration_count = random.pick({0u, 0u, 1u, 7u, 2000u}), desc.restart = random.pick({0, 0, 0, 1, 2});
-    desc.refine = random.pick({0, 0, 1, 3}), desc.refine_from_last = random.pick({0, 0, 0, 1, 1, 2});
+    desc.iteration_count = random.pick({0u, 0u, 1u, 7u, 2000u});
+    desc.restart = random.pick({0, 0, 0, 1, 2});
+    desc.refine = random.pick({0, 0, 1, 3});
+    desc.refine_from_last = random.pick({0, 0, 0, 1, 1, 2});
     desc.first_vertex = random.pick({0u, 0u, 0u, 3u, 5000u});
     if (random.one_in(10)) desc.position_stride = 7;
     if (random.one_in(5)) return hf_deform(b.handle, normals.data(), random.spoiled(info));
@@ -318,7 +364,8 @@ struct Calls {
   static hf_result make(Subject& subject, Random& random) {
     Poses& s = of(subject);
     hf_pose_desc desc = HF_INIT(hf_pose_desc);
-    desc.mode = random.pick({0, 1, 2}), desc.band_count = random.pick({0u, 1u, 64u}),
+    desc.mode = random.pick({0, 1, 2});
+    desc.band_count = random.pick({0u, 1u, 64u});
     desc.group_count = random.below(3000);
     hf_pose made = s.branches_[0].handle;
     const hf_result result = hf_pose_create(s.world.surface, random.spoiled(desc), &made);
@@ -328,7 +375,8 @@ struct Calls {
   static hf_result destroy(Subject& subject, Random&) {
     Poses& s = of(subject);
     if (s.branches_.size() < 2) return skipped;
-    hf_pose_destroy(s.branches_.back().handle), s.branches_.pop_back();
+    hf_pose_destroy(s.branches_.back().handle);
+    s.branches_.pop_back();
     return HF_OK;
   }
   static hf_result read(Subject& subject, Random& random) {

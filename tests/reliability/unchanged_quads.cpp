@@ -22,7 +22,8 @@ class Quads final : public Subject {
     for (const hf_quads quads : made_) {
       hf_quads_info info = HF_INIT(hf_quads_info);
       state.begin("info of quads");
-      state.add(hf_quads_get_info(quads, &info)), add_struct(state, info);
+      state.add(hf_quads_get_info(quads, &info));
+      add_struct(state, info);
     }
   }
   void look(State& state) override {
@@ -32,18 +33,26 @@ class Quads final : public Subject {
       std::vector<double> positions(3 * info.vertex_count);
       std::vector<std::uint32_t> faces(4 * std::size_t{info.face_count});
       hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
-      mesh.vertex_capacity = info.vertex_count, mesh.face_capacity = info.face_count;
-      mesh.positions = positions.data(), mesh.faces = faces.data();
+      mesh.vertex_capacity = info.vertex_count;
+      mesh.face_capacity = info.face_count;
+      mesh.positions = positions.data();
+      mesh.faces = faces.data();
       state.begin("a quad mesh");
-      state.add(hf_quads_get_mesh(quads, &mesh)), state.add(positions), state.add(faces);
+      state.add(hf_quads_get_mesh(quads, &mesh));
+      state.add(positions);
+      state.add(faces);
     }
     hf_scalars field = HF_INIT(hf_scalars);
     field.values_f64 = field_.data();
     std::vector<double> positions(3 * 5000);
     hf_flow_lines lines = HF_INIT(hf_flow_lines);
-    lines.wanted_count = 5, lines.point_capacity = 5000, lines.positions = positions.data();
+    lines.wanted_count = 5;
+    lines.point_capacity = 5000;
+    lines.positions = positions.data();
     state.begin("flow lines");
-    state.add(hf_flow_trace(flow_, &field, &lines)), state.add(lines.point_count), state.add(positions);
+    state.add(hf_flow_trace(flow_, &field, &lines));
+    state.add(lines.point_count);
+    state.add(positions);
   }
   const std::vector<Command>& commands() const override;
 
@@ -79,7 +88,8 @@ struct Calls {
     for (float& w : weights) w = random.pick({1.0f, 0.5f, 1.0f, 0.0f, 0.2f});
     if (random.one_in(3)) {
       desc.guide_count = static_cast<std::uint32_t>(guided.size());
-      desc.guide_vertices = guided.data(), desc.guide_vectors = vectors.data();
+      desc.guide_vertices = guided.data();
+      desc.guide_vectors = vectors.data();
       if (random.one_in(2)) desc.guide_weights = weights.data();
     }
     std::vector<double> places(3 * (1 + random.below(3)));
@@ -88,10 +98,14 @@ struct Calls {
     for (std::uint32_t& q : meeting) q = random.pick({3u, 5u, 3u, 5u, 4u});
     if (random.one_in(3)) {
       desc.pole_count = static_cast<std::uint32_t>(meeting.size());
-      desc.pole_points = places.data(), desc.pole_quads = meeting.data();
+      desc.pole_points = places.data();
+      desc.pole_quads = meeting.data();
       if (random.one_in(2)) desc.pole_directions = places.data();
     }
-    if (random.one_in(8)) desc.crease_count = desc.guide_count, desc.crease_edges = edges.data();
+    if (random.one_in(8)) {
+      desc.crease_count = desc.guide_count;
+      desc.crease_edges = edges.data();
+    }
     if (random.one_in(6)) {
       desc.symmetry_plane[random.below(3)] = random.pick({1.0, -2.0});
       desc.symmetry_plane[3] = random.pick({0.0, 0.0, 0.5});
@@ -104,7 +118,10 @@ struct Calls {
       hf_quads made = reinterpret_cast<hf_quads>(s.flow_);
       const hf_result result = hf_quads_create(s.world.surface, desc, &made);
       if (result != HF_OK) return s.expect(made == nullptr, "refused quads are no NULL"), result;
-      if (s.made_.size() > 1) hf_quads_destroy(s.made_.front()), s.made_.erase(s.made_.begin());
+      if (s.made_.size() > 1) {
+        hf_quads_destroy(s.made_.front());
+        s.made_.erase(s.made_.begin());
+      }
       return s.made_.push_back(made), result;
     });
   }
@@ -128,8 +145,11 @@ struct Calls {
     field.values_f64 = values.data();
     const std::uint32_t seeds[2] = {random.index(s.world.shape->vertices()), 3};
     hf_flow_lines lines = HF_INIT(hf_flow_lines);
-    lines.wanted_count = random.pick({0u, 3u, 9u}), lines.seed_count = random.below(3), lines.seeds = seeds;
-    lines.point_capacity = random.pick({10u, 500u}), lines.positions = positions.data();
+    lines.wanted_count = random.pick({0u, 3u, 9u});
+    lines.seed_count = random.below(3);
+    lines.seeds = seeds;
+    lines.point_capacity = random.pick({10u, 500u});
+    lines.positions = positions.data();
     return hf_flow_trace(s.flow_, random.spoiled(field), random.spoiled(lines));
   }
   static hf_result read(Subject& subject, Random& random) {
@@ -137,7 +157,9 @@ struct Calls {
     if (s.made_.empty()) return skipped;
     hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
     std::vector<double> positions(3 * 20);
-    mesh.vertex_capacity = 20, mesh.positions = positions.data(), mesh.reserved = random.one_in(9);
+    mesh.vertex_capacity = 20;
+    mesh.positions = positions.data();
+    mesh.reserved = random.one_in(9);
     return hf_quads_get_mesh(s.made_[0], random.spoiled(mesh));
   }
 };

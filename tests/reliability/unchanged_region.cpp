@@ -28,7 +28,8 @@ class Regions final : public Subject {
     for (const Branch& b : branches_) {
       hf_region_info info = HF_INIT(hf_region_info);
       state.begin("info of a region");
-      state.add(hf_region_get_info(b.handle, &info)), add_struct(state, info);
+      state.add(hf_region_get_info(b.handle, &info));
+      add_struct(state, info);
     }
   }
   void look(State& state) override {
@@ -39,7 +40,8 @@ class Regions final : public Subject {
       }
       std::uint32_t corners = 0;
       state.begin("curve of a region");
-      state.add(hf_region_get_curve(b.handle, 0, nullptr, &corners)), state.add(corners);
+      state.add(hf_region_get_curve(b.handle, 0, nullptr, &corners));
+      state.add(corners);
       std::vector<double> curve(3 * std::size_t{corners});
       if (corners > 0) hf_region_get_curve(b.handle, corners, curve.data(), &corners);
       for (const double x : curve) state.add(x);
@@ -48,9 +50,11 @@ class Regions final : public Subject {
     for (const hf_detail detail : details_) {
       std::vector<double> positions(3 * world.shape->vertices());
       hf_morph_desc morph = HF_INIT(hf_morph_desc);
-      morph.weight = 0.75, morph.positions_f64 = positions.data();
+      morph.weight = 0.75;
+      morph.positions_f64 = positions.data();
       state.begin("detail");
-      state.add(hf_detail_morph(detail, &morph)), state.add(positions);
+      state.add(hf_detail_morph(detail, &morph));
+      state.add(positions);
     }
   }
   std::string compare_fresh() override {
@@ -60,7 +64,8 @@ class Regions final : public Subject {
       Branch fresh;
       hf_result result = hf_region_create(world.surface, &desc_, &fresh.handle);
       hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-      edit.add_count = static_cast<std::uint32_t>(inside.size()), edit.add_vertices = inside.data();
+      edit.add_count = static_cast<std::uint32_t>(inside.size());
+      edit.add_vertices = inside.data();
       if (result == HF_OK) result = hf_region_edit(fresh.handle, &edit);
       const std::vector<double> here = base_of(b), there = base_of(fresh);
       const bool same = vertices_of(fresh, HF_REGION_SITES) == vertices_of(b, HF_REGION_SITES);
@@ -86,16 +91,21 @@ class Regions final : public Subject {
   std::vector<double> base_of(const Branch& b) const {
     std::vector<double> positions(3 * world.shape->vertices());
     hf_morph_desc morph = HF_INIT(hf_morph_desc);
-    morph.weight = 1, morph.positions_f64 = positions.data();
+    morph.weight = 1;
+    morph.positions_f64 = positions.data();
     return hf_region_morph(b.handle, &morph) == HF_OK ? positions : std::vector<double>{NAN};
   }
   std::uint64_t look_at_base(const Branch& b, State& state) const {
     std::vector<double> positions(3 * world.shape->vertices());
     std::vector<float> normals(positions.size());
     hf_morph_desc morph = HF_INIT(hf_morph_desc);
-    morph.weight = 1, morph.positions_f64 = positions.data(), morph.normals = normals.data();
+    morph.weight = 1;
+    morph.positions_f64 = positions.data();
+    morph.normals = normals.data();
     state.begin("base of a region");
-    state.add(hf_region_morph(b.handle, &morph)), state.add(positions), state.add(normals);
+    state.add(hf_region_morph(b.handle, &morph));
+    state.add(positions);
+    state.add(normals);
     return state.last();
   }
   std::uint64_t base_hash(const Branch& b) {
@@ -125,22 +135,29 @@ struct Calls {
                                      points = s.vertices(2 + random.below(5), random);
     std::vector<std::uint32_t> triangles(points.size());
     std::vector<double> weights(3 * points.size(), 0.0);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      triangles[i] = random.index(s.world.shape->count()), weights[3 * i + random.below(3)] = 1;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      triangles[i] = random.index(s.world.shape->count());
+      weights[3 * i + random.below(3)] = 1;
+    }
     hf_curve_desc curve = HF_INIT(hf_curve_desc);
-    curve.point_count = static_cast<std::uint32_t>(points.size()), curve.side = random.pick({0, 0, 1, 2, 3});
-    curve.kind = random.pick({0, 0, 1, 1, 2}), curve.reserved = random.one_in(20);
+    curve.point_count = static_cast<std::uint32_t>(points.size());
+    curve.side = random.pick({0, 0, 1, 2, 3});
+    curve.kind = random.pick({0, 0, 1, 1, 2});
+    curve.reserved = random.one_in(20);
     curve.seed_vertex = random.index(s.world.shape->vertices());
-    if (random.one_in(3))
-      curve.triangles = triangles.data(), curve.barycentrics = weights.data();
-    else
+    if (random.one_in(3)) {
+      curve.triangles = triangles.data();
+      curve.barycentrics = weights.data();
+    } else
       curve.vertices = points.data();
     hf_region_edit_desc desc = HF_INIT(hf_region_edit_desc);
     if (random.one_in(4)) desc.curve = random.spoiled(curve);
     desc.ring_count = random.pick({0, 0, 1, -1, 2, -40});
     if (random.one_in(3)) desc.remove_count = static_cast<std::uint32_t>(gone.size());
     if (random.one_in(2)) desc.add_count = static_cast<std::uint32_t>(come.size());
-    desc.remove_vertices = gone.data(), desc.add_vertices = come.data(), desc.progress = s.world.progress();
+    desc.remove_vertices = gone.data();
+    desc.add_vertices = come.data();
+    desc.progress = s.world.progress();
     const hf_result result = hf_region_edit(b.handle, random.spoiled(desc));
     if (result == HF_OK) b.redo.clear();
     return result;
@@ -149,7 +166,10 @@ struct Calls {
     Regions& s = of(subject);
     Branch& b = s.any(random);
     const hf_result result = hf_region_record(b.handle);
-    if (result == HF_OK) b.undo.push_back(s.base_hash(b)), b.redo.clear();
+    if (result == HF_OK) {
+      b.undo.push_back(s.base_hash(b));
+      b.redo.clear();
+    }
     return result;
   }
   static hf_result step(Subject& subject, Random& random) {
@@ -184,7 +204,9 @@ struct Calls {
     for (double& p : positions) p = random.real(-1, 1);
     if (random.one_in(4)) positions[random.below(static_cast<std::uint32_t>(positions.size()))] = random.number();
     hf_region_desc desc = HF_INIT(hf_region_desc);
-    desc.base = random.pick({0, 1, 2, 3, 4}), desc.progress = s.world.progress(), desc.reserved = random.one_in(20);
+    desc.base = random.pick({0, 1, 2, 3, 4});
+    desc.progress = s.world.progress();
+    desc.reserved = random.one_in(20);
     if (random.one_in(2)) desc.positions_f64 = positions.data();
     hf_region made = s.branches_[0].handle;
     const hf_result result = hf_region_create(s.world.surface, random.spoiled(desc), &made);
@@ -196,7 +218,8 @@ struct Calls {
     if (!s.details_.empty() && random.one_in(2))
       return hf_detail_destroy(s.details_.back()), s.details_.pop_back(), HF_OK;
     if (s.branches_.size() < 2) return skipped;
-    hf_region_destroy(s.branches_.back().handle), s.branches_.pop_back();
+    hf_region_destroy(s.branches_.back().handle);
+    s.branches_.pop_back();
     return HF_OK;
   }
   static hf_result carry(Subject& subject, Random& random) {
@@ -206,7 +229,9 @@ struct Calls {
     const std::vector<std::uint32_t> a = s.vertices(1 + random.below(3), random), b = s.vertices(a.size(), random);
     hf_detail_desc desc = HF_INIT(hf_detail_desc);
     if (random.one_in(4)) desc.pair_count = static_cast<std::uint32_t>(a.size());
-    desc.source_vertices = a.data(), desc.target_vertices = b.data(), desc.progress = s.world.progress();
+    desc.source_vertices = a.data();
+    desc.target_vertices = b.data();
+    desc.progress = s.world.progress();
     desc.scale = random.pick({0.0, 0.0, 1.0, -1.0, random.number()});
     hf_detail made = reinterpret_cast<hf_detail>(s.world.surface);
     const hf_result result = hf_detail_create(from.handle, to.handle, random.spoiled(desc), &made);
@@ -219,7 +244,8 @@ struct Calls {
     std::vector<double> positions(3 * s.world.shape->vertices());
     std::vector<float> single(positions.size());
     hf_morph_desc desc = HF_INIT(hf_morph_desc);
-    desc.weight = random.number(), desc.positions_f64 = positions.data();
+    desc.weight = random.number();
+    desc.positions_f64 = positions.data();
     if (random.one_in(4)) desc.normals = single.data();
     if (random.one_in(9)) desc.positions = single.data();
     if (random.one_in(9)) desc.position_stride = 5;

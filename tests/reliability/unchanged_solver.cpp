@@ -11,7 +11,10 @@ std::string Solvers::compare_fresh(const SolverBranch& b) const {
   std::vector<double> values(count * channels_), stiffness(count), radii(count);
   std::vector<double> field(rows()), other(rows());
   hf_sites_info info = HF_INIT(hf_sites_info);
-  info.capacity = count, info.values = values.data(), info.stiffness = stiffness.data(), info.radii = radii.data();
+  info.capacity = count;
+  info.values = values.data();
+  info.stiffness = stiffness.data();
+  info.radii = radii.data();
   if (count == 0 && b.screening.strength.empty()) return {};
   if (hf_solver_get_sites(b.handle, &info) != HF_OK) return "its sites are not told";
   hf_solver fresh = nullptr;
@@ -23,7 +26,10 @@ std::string Solvers::compare_fresh(const SolverBranch& b) const {
     Lists one;
     one.places = {site.second};
     one.values.assign(&values[i * channels_], &values[i * channels_] + channels_);
-    one.stiffness = {stiffness[i]}, one.radii = {radii[i]}, one.finish(), ++i;
+    one.stiffness = {stiffness[i]};
+    one.radii = {radii[i]};
+    one.finish();
+    ++i;
     if (result == HF_OK) result = hf_add_sites(fresh, &one.desc, nullptr);
   }
   if (result == HF_OK && !b.screening.strength.empty() && !before) result = b.screening.set(fresh);
@@ -51,13 +57,18 @@ void Solvers::make_graph(Random& random) {
   std::vector<std::uint32_t> edges;
   std::vector<double> weights;
   for (std::size_t i = 0; i < t.size(); ++i) {
-    edges.push_back(t[i]), edges.push_back(t[i % 3 == 2 ? i - 2 : i + 1]);
+    edges.push_back(t[i]);
+    edges.push_back(t[i % 3 == 2 ? i - 2 : i + 1]);
     weights.push_back(random.real(0.1, 2));
   }
   hf_graph_desc desc = HF_INIT(hf_graph_desc);
-  desc.vertex_count = world.shape->vertices(), desc.edge_count = static_cast<std::uint32_t>(weights.size());
-  desc.edges = edges.data(), desc.weights = weights.data(), desc.field_kind = world.desc.field_kind;
-  desc.allocator = world.memory.hooks(), desc.memory_limit_mb = world.desc.memory_limit_mb;
+  desc.vertex_count = world.shape->vertices();
+  desc.edge_count = static_cast<std::uint32_t>(weights.size());
+  desc.edges = edges.data();
+  desc.weights = weights.data();
+  desc.field_kind = world.desc.field_kind;
+  desc.allocator = world.memory.hooks();
+  desc.memory_limit_mb = world.desc.memory_limit_mb;
   if (hf_surface_create_graph(&desc, &graph_) != HF_OK) graph_ = nullptr;
 }
 

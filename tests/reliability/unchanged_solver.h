@@ -42,14 +42,17 @@ struct Lists {
   hf_sites_desc desc = HF_INIT(hf_sites_desc);
   void finish() {
     for (const Place& p : places) {
-      vertices.push_back(p.vertex), triangles.push_back(p.triangle);
+      vertices.push_back(p.vertex);
+      triangles.push_back(p.triangle);
       weights.insert(weights.end(), p.weights, p.weights + 3);
     }
     desc.site_count = static_cast<std::uint32_t>(places.size());
     if (places.empty() || places[0].triangle == HF_NO_INDEX)
       desc.vertices = vertices.data();
-    else
-      desc.triangles = triangles.data(), desc.barycentrics = weights.data();
+    else {
+      desc.triangles = triangles.data();
+      desc.barycentrics = weights.data();
+    }
     if (!values.empty()) desc.values = values.data();
     if (!stiffness.empty()) desc.stiffness = stiffness.data();
     if (!radii.empty()) desc.radii = radii.data();
@@ -59,14 +62,19 @@ struct Lists {
 class Solvers final : public Subject {
  public:
   Solvers(World& given, Random& random) : Subject(given) {
-    desc_.field_kind = random.pick({0, 0, 0, 1, 2}), desc_.engine = random.pick({0, 0, 0, 0, 0, 1, 2});
-    desc_.channel_count = random.pick({1u, 1u, 3u, 2u}), desc_.site_limit = random.pick({0u, 0u, 12u});
+    desc_.field_kind = random.pick({0, 0, 0, 1, 2});
+    desc_.engine = random.pick({0, 0, 0, 0, 0, 1, 2});
+    desc_.channel_count = random.pick({1u, 1u, 3u, 2u});
+    desc_.site_limit = random.pick({0u, 0u, 12u});
     branches_.resize(1);
     channels_ = desc_.channel_count;
     if (random.one_in(6)) make_graph(random);
     hf_result result = hf_create(surface(), &desc_, &branches_[0].handle);
     if (result == HF_ERROR_UNSUPPORTED && desc_.engine == HF_ENGINE_UPDOWN)  // a build without GPL code
-      desc_.engine = HF_ENGINE_GREEN, result = hf_create(surface(), &desc_, &branches_[0].handle);
+    {
+      desc_.engine = HF_ENGINE_GREEN;
+      result = hf_create(surface(), &desc_, &branches_[0].handle);
+    }
     if (result != HF_OK) branches_.clear();
   }
   ~Solvers() override {
@@ -80,10 +88,12 @@ class Solvers final : public Subject {
       hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
       hf_solver_info info = HF_INIT(hf_solver_info);
       state.begin("statistics of a solver");
-      state.add(hf_solver_get_statistics(b.handle, &statistics)), statistics.sweep_count = 0;
+      state.add(hf_solver_get_statistics(b.handle, &statistics));
+      statistics.sweep_count = 0;
       add_struct(state, statistics);
       state.begin("info of a solver");
-      state.add(hf_solver_get_info(b.handle, &info)), add_struct(state, info);
+      state.add(hf_solver_get_info(b.handle, &info));
+      add_struct(state, info);
       state.add(hf_solver_get_site_count(b.handle));
     }
   }
@@ -94,12 +104,22 @@ class Solvers final : public Subject {
       std::vector<std::uint32_t> numbers(count), vertices(count), components(count);
       std::vector<double> values(count * channels_), stiffness(count), flux(count * channels_), radii(count);
       hf_sites_info sites = HF_INIT(hf_sites_info);
-      sites.capacity = count, sites.sites = numbers.data(), sites.vertices = vertices.data();
-      sites.components = components.data(), sites.values = values.data(), sites.stiffness = stiffness.data();
-      sites.flux = flux.data(), sites.radii = radii.data();
+      sites.capacity = count;
+      sites.sites = numbers.data();
+      sites.vertices = vertices.data();
+      sites.components = components.data();
+      sites.values = values.data();
+      sites.stiffness = stiffness.data();
+      sites.flux = flux.data();
+      sites.radii = radii.data();
       state.begin("sites of a solver");
-      state.add(hf_solver_get_sites(b.handle, &sites)), state.add(numbers), state.add(vertices), state.add(components);
-      state.add(values), state.add(stiffness), state.add(radii);
+      state.add(hf_solver_get_sites(b.handle, &sites));
+      state.add(numbers);
+      state.add(vertices);
+      state.add(components);
+      state.add(values);
+      state.add(stiffness);
+      state.add(radii);
       state.begin("flux of a solver");
       state.add(flux);
       expect(count == b.places.size(), "the number of sites is not that of the model");
@@ -107,7 +127,8 @@ class Solvers final : public Subject {
         expect(b.places.count(numbers[i]) && b.places.at(numbers[i]).vertex == vertices[i], "a site is elsewhere");
       hf_certificate certificate = HF_INIT(hf_certificate);
       state.begin("certificate");
-      state.add(hf_solver_certify(b.handle, &certificate)), add_struct(state, certificate);
+      state.add(hf_solver_certify(b.handle, &certificate));
+      add_struct(state, certificate);
     }
   }
 
@@ -132,7 +153,9 @@ class Solvers final : public Subject {
     std::vector<double> field(rows());
     hf_solve_info info = HF_INIT(hf_solve_info);
     state.begin("field of a solver");
-    state.add(hf_solver_solve_f64(b.handle, field.data(), 0, &info)), state.add(field), add_struct(state, info);
+    state.add(hf_solver_solve_f64(b.handle, field.data(), 0, &info));
+    state.add(field);
+    add_struct(state, info);
     return state.last();
   }
   std::uint64_t field_of(const SolverBranch& b) {
@@ -146,7 +169,9 @@ class Solvers final : public Subject {
     if (!inside) return p.vertex = random.index(world.shape->vertices()), p;
     p.triangle = random.index(world.shape->count());
     const std::uint32_t i = random.below(5), j = random.below(5 - i);
-    p.weights[0] = i / 4.0, p.weights[1] = j / 4.0, p.weights[2] = (4 - i - j) / 4.0;
+    p.weights[0] = i / 4.0;
+    p.weights[1] = j / 4.0;
+    p.weights[2] = (4 - i - j) / 4.0;
     if (random.one_in(30)) p.weights[random.below(3)] += random.pick({0.5, -1.0, 1e-3});
     return p;
   }

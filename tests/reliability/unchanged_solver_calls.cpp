@@ -30,7 +30,10 @@ struct SolverCalls {
     const std::uint32_t rebases = s.rebases(b);
     const std::size_t refused = s.world.memory.refused;
     const hf_result result = hf_solver_add_site(b.handle, place.vertex, values.data(), &out);
-    if (result == HF_OK) b.places[out] = place, s.edited(b, rebases, s.world.memory.refused > refused);
+    if (result == HF_OK) {
+      b.places[out] = place;
+      s.edited(b, rebases, s.world.memory.refused > refused);
+    }
     return result;
   }
   static hf_result remove(Subject& subject, Random& random) {
@@ -77,14 +80,24 @@ struct SolverCalls {
                                      set = s.numbers(b, random);
     const std::vector<double> values = s.values(set.size() * s.channels_, random);
     Lists to, added;
-    s.take_places(to, moved.size(), random, false), s.take_places(added, 1 + random.below(3), random, true);
+    s.take_places(to, moved.size(), random, false);
+    s.take_places(added, 1 + random.below(3), random, true);
     std::vector<std::uint32_t> out(added.places.size());
     hf_edit_desc edit = HF_INIT(hf_edit_desc);
     const bool removes = random.one_in(2), moves = random.one_in(2), sets = random.one_in(3), adds = random.one_in(2);
-    if (removes) edit.remove_count = static_cast<std::uint32_t>(gone.size()), edit.remove_sites = gone.data();
-    if (moves) edit.move_count = static_cast<std::uint32_t>(moved.size()), edit.move_sites = moved.data();
+    if (removes) {
+      edit.remove_count = static_cast<std::uint32_t>(gone.size());
+      edit.remove_sites = gone.data();
+    }
+    if (moves) {
+      edit.move_count = static_cast<std::uint32_t>(moved.size());
+      edit.move_sites = moved.data();
+    }
     if (moves) edit.move_to = random.spoiled(to.desc);
-    if (sets) edit.set_count = static_cast<std::uint32_t>(set.size()), edit.set_sites = set.data();
+    if (sets) {
+      edit.set_count = static_cast<std::uint32_t>(set.size());
+      edit.set_sites = set.data();
+    }
     edit.set_values = values.data();
     if (adds) edit.add = &added.desc;
     const std::uint32_t rebases = s.rebases(b);
@@ -112,7 +125,8 @@ struct SolverCalls {
     if (result != HF_OK) return result;
     for (std::size_t i = 0; !turns && i < count; ++i) {
       Place place;
-      place.vertex = to[i], b.places[list[i]] = place;
+      place.vertex = to[i];
+      b.places[list[i]] = place;
     }
     return s.edited(b, rebases, s.world.memory.refused > refused), result;
   }
@@ -135,7 +149,11 @@ struct SolverCalls {
     }
     if (random.one_in(12)) std::fill(given.strength.begin(), given.strength.end(), 0.0);
     const hf_result result = given.set(b.handle);
-    if (result == HF_OK) b.screening = given, b.redo.clear(), b.prepared = false;
+    if (result == HF_OK) {
+      b.screening = given;
+      b.redo.clear();
+      b.prepared = false;
+    }
     return result;
   }
   static hf_result prepare(Subject& subject, Random& random) {
@@ -148,7 +166,10 @@ struct SolverCalls {
     Solvers& s = of(subject);
     SolverBranch& b = s.any(random);
     const hf_result result = hf_solver_record(b.handle);
-    if (result == HF_OK) b.undo.push_back({b.places, b.screening, s.field_of(b)}), b.redo.clear();
+    if (result == HF_OK) {
+      b.undo.push_back({b.places, b.screening, s.field_of(b)});
+      b.redo.clear();
+    }
     return result;
   }
   static hf_result step(Subject& subject, Random& random) {
@@ -164,7 +185,8 @@ struct SolverCalls {
     to.push_back({b.places, b.screening, 0});
     // a rebase that waits holds for the screening it was prepared with
     if (!b.screening.strength.empty() || !from.back().screening.strength.empty()) b.prepared = false;
-    b.places = from.back().places, b.screening = from.back().screening;
+    b.places = from.back().places;
+    b.screening = from.back().screening;
     const std::uint64_t field = s.field_of(b);
     if (from.back().field && s.desc_.engine == HF_ENGINE_GREEN)
       s.expect(field == from.back().field, "undo or redo gives other bits than at the record");
@@ -179,7 +201,9 @@ struct SolverCalls {
     const hf_result result = hf_solver_clone(b.handle, &made);
     if (result != HF_OK) return s.expect(made == nullptr, "a refused clone is no NULL"), result;
     SolverBranch fresh;
-    fresh.handle = made, fresh.places = b.places, fresh.screening = b.screening;
+    fresh.handle = made;
+    fresh.places = b.places;
+    fresh.screening = b.screening;
     s.expect(s.field_of(fresh) == s.field_of(b), "a clone has other bits");
     s.branches_.push_back(fresh);
     return result;
@@ -187,10 +211,12 @@ struct SolverCalls {
   static hf_result make(Subject& subject, Random& random) {
     Solvers& s = of(subject);
     hf_solver_desc desc = s.desc_;
-    desc.field_kind = random.pick({0, 1, 2, 3, -1}), desc.engine = random.pick({0, 0, 1, 2, 3});
-    desc.channel_count = random.pick({1u, 0u, 65u}),
+    desc.field_kind = random.pick({0, 1, 2, 3, -1});
+    desc.engine = random.pick({0, 0, 1, 2, 3});
+    desc.channel_count = random.pick({1u, 0u, 65u});
     desc.penalty = random.pick({0.0, 1e8, -1.0, 2e10, random.number()});
-    desc.reserved = random.one_in(20), desc.progress = s.world.progress();
+    desc.reserved = random.one_in(20);
+    desc.progress = s.world.progress();
     hf_solver made = s.branches_[0].handle;
     const hf_result result = hf_create(s.surface(), random.spoiled(desc), &made);
     if (result != HF_OK) s.expect(made == nullptr, "a refused solver is no NULL");
@@ -201,7 +227,8 @@ struct SolverCalls {
     if (s.branches_.size() < 2) return skipped;
     const std::size_t i = random.below(static_cast<std::uint32_t>(s.branches_.size()));
     const hf_solver gone = s.branches_[i].handle;
-    hf_solver_destroy(gone), s.branches_.erase(s.branches_.begin() + static_cast<std::ptrdiff_t>(i));
+    hf_solver_destroy(gone);
+    s.branches_.erase(s.branches_.begin() + static_cast<std::ptrdiff_t>(i));
     return hf_solver_record(gone) == HF_ERROR_INVALID_HANDLE ? HF_OK : HF_ERROR_INTERNAL;
   }
   static hf_result solve(Subject& subject, Random& random) {

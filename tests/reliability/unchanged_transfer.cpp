@@ -21,7 +21,7 @@ struct Frame {
 class Transfers final : public Subject {
  public:
   Transfers(World& given, Random& random) : Subject(given) {
-    desc_.mode = random.pick({0, 0, 1, 2}),
+    desc_.mode = random.pick({0, 0, 1, 2});
     desc_.cluster_count = random.pick({5u, 10u});  // 80 on 80 vertices would rest on one vertex each
     if (hf_transfer_create(world.surface, world.surface, &desc_, &handle_) != HF_OK) handle_ = nullptr;
   }
@@ -32,16 +32,19 @@ class Transfers final : public Subject {
   void look(State& state) override {
     hf_transfer_info info = HF_INIT(hf_transfer_info);
     state.begin("info of a transfer");
-    state.add(hf_transfer_get_info(handle_, &info)), add_struct(state, info);
+    state.add(hf_transfer_get_info(handle_, &info));
+    add_struct(state, info);
     hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
     state.begin("dials");
-    state.add(hf_transfer_get_dials(handle_, &dials)), add_struct(state, dials);
+    state.add(hf_transfer_get_dials(handle_, &dials));
+    add_struct(state, dials);
     expect(info.pair_count == pairs_.size() || pairs_.empty() || world.desc.memory_limit_mb,
            "the number of pairs is not that of the model");
     for (const Pair& p : pairs_) {
       hf_pair_info pair = HF_INIT(hf_pair_info);
       state.begin("a pair");
-      state.add(hf_transfer_get_pair(handle_, p.number, &pair)), add_struct(state, pair);
+      state.add(hf_transfer_get_pair(handle_, p.number, &pair));
+      add_struct(state, pair);
     }
     look_at_skin(state);
   }
@@ -71,12 +74,17 @@ class Transfers final : public Subject {
     std::vector<double> numbers(10 * joints);
     std::vector<std::uint32_t> of(4 * vertices);
     std::vector<float> weights(4 * vertices);
-    skin.joint_capacity = skin.joint_count, skin.vertex_capacity = skin.vertex_count;
-    skin.pivots = numbers.data(), skin.rotations = skin.pivots + 3 * joints,
+    skin.joint_capacity = skin.joint_count;
+    skin.vertex_capacity = skin.vertex_count;
+    skin.pivots = numbers.data();
+    skin.rotations = skin.pivots + 3 * joints;
     skin.translations = skin.rotations + 4 * joints;
-    skin.vertex_joints = of.data(), skin.vertex_weights = weights.data();
+    skin.vertex_joints = of.data();
+    skin.vertex_weights = weights.data();
     if (joints > 0) state.add(hf_transfer_get_skin(handle_, &skin));
-    state.add(numbers), state.add(of), state.add(weights);
+    state.add(numbers);
+    state.add(of);
+    state.add(weights);
   }
   // The frame of a fresh transfer that gets the pairs there are, one by one or in one batch.
   hf_result frame_of_fresh(bool batch, std::vector<double>& out) const {
@@ -103,9 +111,13 @@ class Transfers final : public Subject {
       flags.push_back(p.flags);
     }
     hf_pairs_desc desc = HF_INIT(hf_pairs_desc);
-    desc.pair_count = static_cast<std::uint32_t>(pairs.size()), desc.flags = flags.data();
-    desc.source_counts = counts[0].data(), desc.source_vertices = vertices[0].data();
-    desc.target_counts = counts[1].data(), desc.target_vertices = vertices[1].data(), desc.progress = progress;
+    desc.pair_count = static_cast<std::uint32_t>(pairs.size());
+    desc.flags = flags.data();
+    desc.source_counts = counts[0].data();
+    desc.source_vertices = vertices[0].data();
+    desc.target_counts = counts[1].data();
+    desc.target_vertices = vertices[1].data();
+    desc.progress = progress;
     return hf_transfer_add_pairs(transfer, &desc, out);
   }
   // The surface at rest, bent about its y axis.
@@ -114,7 +126,8 @@ class Transfers final : public Subject {
     const std::vector<float>& p = world.shape->positions;
     for (std::size_t v = 0; v + 2 < p.size(); v += 3) {
       const double x = static_cast<double>(p[v]), z = static_cast<double>(p[v + 2]), a = angle * (1 + 0.2 * x);
-      frame.posed.push_back(x * std::cos(a) - z * std::sin(a)), frame.posed.push_back(static_cast<double>(p[v + 1]));
+      frame.posed.push_back(x * std::cos(a) - z * std::sin(a));
+      frame.posed.push_back(static_cast<double>(p[v + 1]));
       frame.posed.push_back(x * std::sin(a) + z * std::cos(a));
     }
     return frame;
@@ -122,9 +135,11 @@ class Transfers final : public Subject {
   hf_result apply(hf_transfer transfer, const Frame& given, std::vector<double>& out) const {
     out.assign(given.posed.size(), 0.0);
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions_f64 = given.posed.data(), frame.target_positions_f64 = out.data();
+    frame.source_positions_f64 = given.posed.data();
+    frame.target_positions_f64 = out.data();
     frame.hold_count = static_cast<std::uint32_t>(given.holds.size());
-    frame.hold_pairs = given.holds.data(), frame.hold_positions = given.places.data();
+    frame.hold_pairs = given.holds.data();
+    frame.hold_positions = given.places.data();
     return hf_transfer_apply(transfer, &frame);
   }
   std::uint32_t number(Random& random) const {
@@ -155,7 +170,10 @@ struct Calls {
     }
     const hf_result result = Transfers::add_to(s.handle_, fresh, out.data(), s.world.progress());
     if (result != HF_OK) return result;
-    for (std::size_t i = 0; i < out.size(); ++i) fresh[i].number = out[i], s.pairs_.push_back(fresh[i]);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      fresh[i].number = out[i];
+      s.pairs_.push_back(fresh[i]);
+    }
     return result;
   }
   static hf_result remove(Subject& subject, Random& random) {
@@ -179,9 +197,11 @@ struct Calls {
     std::vector<float> normals(frame.posed.size());
     std::vector<double> out(frame.posed.size());
     hf_transfer_frame desc = HF_INIT(hf_transfer_frame);
-    desc.source_positions_f64 = frame.posed.data(), desc.target_positions_f64 = out.data();
+    desc.source_positions_f64 = frame.posed.data();
+    desc.target_positions_f64 = out.data();
     desc.hold_count = static_cast<std::uint32_t>(frame.holds.size());
-    desc.hold_pairs = frame.holds.data(), desc.hold_positions = frame.places.data();
+    desc.hold_pairs = frame.holds.data();
+    desc.hold_positions = frame.places.data();
     if (random.one_in(3)) desc.target_normals = normals.data();
     if (random.one_in(20)) desc.source_stride = 5;
     return hf_transfer_apply(s.handle_, random.spoiled(desc));
@@ -194,7 +214,10 @@ struct Calls {
     };
     if (random.one_in(2)) dials.stride = value(0.1, 4);
     if (random.one_in(2)) dials.hip_height = value(-0.5, 0.5);
-    if (random.one_in(2)) dials.neck_follow = value(-1, 1), dials.tail_follow = value(-1, 1);
+    if (random.one_in(2)) {
+      dials.neck_follow = value(-1, 1);
+      dials.tail_follow = value(-1, 1);
+    }
     if (random.one_in(2)) dials.arm_space = value(-1.5, 1.5);
     if (random.one_in(2)) dials.long_follow = value(0, 1);
     const hf_transfer_dials* given = random.spoiled(dials);
@@ -205,8 +228,10 @@ struct Calls {
   static hf_result make(Subject& subject, Random& random) {
     Transfers& s = of(subject);
     hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
-    desc.mode = random.pick({0, 1, 2, 3}), desc.cluster_count = random.pick({0u, 512u, 513u});
-    desc.kernel_width = static_cast<float>(random.number()), desc.scale = static_cast<float>(random.number());
+    desc.mode = random.pick({0, 1, 2, 3});
+    desc.cluster_count = random.pick({0u, 512u, 513u});
+    desc.kernel_width = static_cast<float>(random.number());
+    desc.scale = static_cast<float>(random.number());
     hf_transfer made = s.handle_;
     const hf_result result = hf_transfer_create(s.world.surface, s.world.surface, random.spoiled(desc), &made);
     if (result != HF_OK) s.expect(made == nullptr, "a refused transfer is no NULL");

@@ -7,7 +7,10 @@ namespace unchanged {
 
 hf_bones_desc BoneList::desc() const {
   hf_bones_desc out = HF_INIT(hf_bones_desc);
-  out.bone_count = count(), out.heads = heads.data(), out.parents = parents.data(), out.deforms = deforms.data();
+  out.bone_count = count();
+  out.heads = heads.data();
+  out.parents = parents.data();
+  out.deforms = deforms.data();
   if (!tails.empty()) out.tails = tails.data();
   if (!axes.empty()) out.axes = axes.data();
   return out;
@@ -15,10 +18,16 @@ hf_bones_desc BoneList::desc() const {
 
 hf_pins_desc PinList::desc() const {
   hf_pins_desc out = HF_INIT(hf_pins_desc);
-  out.pin_count = count(), out.joint_count = joint_count, out.radii = radii.data();
+  out.pin_count = count();
+  out.joint_count = joint_count;
+  out.radii = radii.data();
   if (!vertices.empty()) out.vertices = vertices.data();
-  if (!triangles.empty()) out.triangles = triangles.data(), out.barycentrics = barycentrics.data();
-  out.joints = joints.data(), out.weights = weights.data();
+  if (!triangles.empty()) {
+    out.triangles = triangles.data();
+    out.barycentrics = barycentrics.data();
+  }
+  out.joints = joints.data();
+  out.weights = weights.data();
   return out;
 }
 
@@ -43,7 +52,9 @@ void WeightsModel::take_bones(const BoneList& list, const std::vector<std::uint3
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (now[locks[i % locks.size()]] != HF_NO_INDEX) values.push_back(kept[i]);
   }
-  bones = list, locks = left, kept = values;
+  bones = list;
+  locks = left;
+  kept = values;
 }
 
 SkinWeights::SkinWeights(World& given, Random& random) : Subject(given) {
@@ -68,7 +79,8 @@ void SkinWeights::glance(State& state) {
   for (const WeightsBranch& b : branches_) {
     hf_weights_info info = HF_INIT(hf_weights_info);
     state.begin("info of weights");
-    state.add(hf_weights_get_info(b.handle, &info)), add_struct(state, info);
+    state.add(hf_weights_get_info(b.handle, &info));
+    add_struct(state, info);
     expect(info.bone_count == b.model.bones.count() && info.pin_count == b.model.pins.count() &&
                info.lock_count == b.model.locks.size(),
            "the counts of bones, pins or locks are not those of the model");
@@ -79,14 +91,18 @@ void SkinWeights::look(State& state) {
   for (const WeightsBranch& b : branches_) {
     const WeightsSeen seen = seen_of(b.handle);
     state.begin("weights");
-    state.add(seen.joints), state.add(seen.weights), state.add(seen.origins);
+    state.add(seen.joints);
+    state.add(seen.weights);
+    state.add(seen.origins);
     const std::uint32_t count = b.model.bones.count();
     std::vector<std::uint32_t> flags(count), informed(count), reasons(count);
     state.begin("bones of weights");
     state.add(hf_weights_get_bones(b.handle, count, flags.data(), informed.data(), nullptr));
-    state.add(flags), state.add(informed);
+    state.add(flags);
+    state.add(informed);
     state.begin("helper bones");
-    state.add(hf_weights_get_helpers(b.handle, nullptr, count, reasons.data(), nullptr)), state.add(reasons);
+    state.add(hf_weights_get_helpers(b.handle, nullptr, count, reasons.data(), nullptr));
+    state.add(reasons);
   }
 }
 
@@ -126,7 +142,9 @@ WeightsSeen SkinWeights::seen_of(hf_weights handle) const {
   const std::size_t vertices = world.shape->vertices(), count = vertices * influences();
   WeightsSeen seen{std::vector<std::uint32_t>(count), std::vector<float>(count), std::vector<std::uint8_t>(vertices)};
   hf_weights_out out = HF_INIT(hf_weights_out);
-  out.vertex_capacity = world.shape->vertices(), out.joints = seen.joints.data(), out.weights = seen.weights.data();
+  out.vertex_capacity = world.shape->vertices();
+  out.joints = seen.joints.data();
+  out.weights = seen.weights.data();
   out.origins = seen.origins.data();
   return hf_weights_get(handle, &out) == HF_OK ? seen : WeightsSeen{};
 }

@@ -71,7 +71,8 @@ class SkinWeights final : public Subject {
   // A change was done.
   void changed(WeightsBranch& b) {
     world.memory.disarm();
-    b.seen = seen_of(b.handle), b.redo.clear();
+    b.seen = seen_of(b.handle);
+    b.redo.clear();
   }
   BoneList bones(std::uint32_t count, Random& random) const;
   PinList pins(std::uint32_t count, std::uint32_t bones, Random& random) const;

@@ -27,7 +27,10 @@ struct WeightsCalls {
     if (!sources.empty()) desc.sources = sources.data();
     desc.progress = s.world.progress();
     const hf_result result = hf_weights_set_bones(b.handle, random.spoiled(desc));
-    if (result == HF_OK) b.model.take_bones(list, sources), s.changed(b);
+    if (result == HF_OK) {
+      b.model.take_bones(list, sources);
+      s.changed(b);
+    }
     return result;
   }
   static hf_result pins(Subject& subject, Random& random) {
@@ -36,15 +39,19 @@ struct WeightsCalls {
     PinList list = s.pins(random.below(5), b.model.bones.count(), random);
     if (random.one_in(4)) {  // the same places with other weights
       PinList old = b.model.pins;
-      for (std::size_t i = 0; i < old.weights.size() && i < list.weights.size(); ++i)
-        old.joints[i] = list.joints[i], old.weights[i] = list.weights[i];
+      for (std::size_t i = 0; i < old.weights.size() && i < list.weights.size(); ++i) {
+        old.joints[i] = list.joints[i];
+        old.weights[i] = list.weights[i];
+      }
       list = old;
     }
     hf_pins_desc desc = list.desc();
-    desc.progress = s.world.progress(), desc.reserved = random.one_in(40);
+    desc.progress = s.world.progress();
+    desc.reserved = random.one_in(40);
     const hf_result result = hf_weights_set_pins(b.handle, random.spoiled(desc));
     if (result != HF_OK) return result;
-    b.model.pins = list, b.model.rounded = false;
+    b.model.pins = list;
+    b.model.rounded = false;
     const auto eighth = [](float w) { return w * 8 == static_cast<float>(static_cast<int>(w * 8)); };
     b.model.quotients = !std::all_of(list.weights.begin(), list.weights.end(), eighth);
     for (std::size_t i = 0; i < list.weights.size(); i += list.joint_count) {
@@ -74,14 +81,21 @@ struct WeightsCalls {
     if (given && m > 0 && random.one_in(6)) values[random.below(static_cast<std::uint32_t>(values.size()))] = 1.5f;
     const std::uint32_t count = random.one_in(40) ? 40 : static_cast<std::uint32_t>(m);
     const hf_result result = hf_weights_set_locks(b.handle, count, list.data(), given ? values.data() : nullptr);
-    if (result == HF_OK) b.model.locks = list, b.model.kept = values, s.changed(b);
+    if (result == HF_OK) {
+      b.model.locks = list;
+      b.model.kept = values;
+      s.changed(b);
+    }
     return result;
   }
   static hf_result record(Subject& subject, Random& random) {
     SkinWeights& s = of(subject);
     WeightsBranch& b = s.any(random);
     const hf_result result = hf_weights_record(b.handle);
-    if (result == HF_OK) b.undo.push_back({b.model, b.seen}), b.redo.clear();
+    if (result == HF_OK) {
+      b.undo.push_back({b.model, b.seen});
+      b.redo.clear();
+    }
     return result;
   }
   static hf_result step(Subject& subject, Random& random) {
@@ -95,7 +109,8 @@ struct WeightsCalls {
     if (result != HF_OK || from.empty()) return result;
     s.world.memory.disarm();
     to.push_back({b.model, b.seen});
-    b.model = from.back().model, b.seen = s.seen_of(b.handle);
+    b.model = from.back().model;
+    b.seen = s.seen_of(b.handle);
     s.expect(b.seen == from.back().seen, "undo or redo gives other bits than at the record");
     from.pop_back();
     return result;
@@ -105,7 +120,9 @@ struct WeightsCalls {
     const WeightsBranch& b = s.any(random);
     if (s.branches_.size() > 2) return skipped;
     WeightsBranch fresh;
-    fresh.handle = b.handle, fresh.model = b.model, fresh.seen = b.seen;
+    fresh.handle = b.handle;
+    fresh.model = b.model;
+    fresh.seen = b.seen;
     const hf_result result = hf_weights_clone(b.handle, &fresh.handle);
     if (result != HF_OK) return s.expect(fresh.handle == nullptr, "a refused clone is no NULL"), result;
     s.world.memory.disarm();
@@ -127,7 +144,8 @@ struct WeightsCalls {
     SkinWeights& s = of(subject);
     if (s.branches_.size() < 2) return skipped;
     const std::size_t i = random.below(static_cast<std::uint32_t>(s.branches_.size()));
-    hf_weights_destroy(s.branches_[i].handle), s.branches_.erase(s.branches_.begin() + static_cast<std::ptrdiff_t>(i));
+    hf_weights_destroy(s.branches_[i].handle);
+    s.branches_.erase(s.branches_.begin() + static_cast<std::ptrdiff_t>(i));
     return HF_OK;
   }
   static hf_result read(Subject& subject, Random& random) {
@@ -146,7 +164,8 @@ struct WeightsCalls {
       default: {
         hf_weights_out out = HF_INIT(hf_weights_out);
         std::vector<std::uint16_t> joints(s.influences() * std::size_t{s.world.shape->vertices()});
-        out.vertex_capacity = s.world.shape->vertices() - random.one_in(5), out.joints_u16 = joints.data();
+        out.vertex_capacity = s.world.shape->vertices() - random.one_in(5);
+        out.joints_u16 = joints.data();
         return hf_weights_get(b.handle, random.spoiled(out));
       }
     }
@@ -160,7 +179,8 @@ struct WeightsCalls {
     Out(const SkinWeights& s, Random& random)
         : joints(8 * std::size_t{s.world.shape->vertices()}, 77), weights(joints.size(), 77.0f) {
       desc.vertex_capacity = s.world.shape->vertices() - random.one_in(20);
-      desc.joints = joints.data(), desc.weights = weights.data();
+      desc.joints = joints.data();
+      desc.weights = weights.data();
     }
     bool untouched() const {
       return std::all_of(joints.begin(), joints.end(), [](std::uint32_t j) { return j == 77; }) &&
@@ -181,10 +201,13 @@ struct WeightsCalls {
   }
   template <class Desc>
   static void fill(SkinWeights& s, Desc& desc, const WeightsSeen& given, Random& random) {
-    desc.influence_count = s.influences(), desc.joints = given.joints.data(), desc.weights = given.weights.data();
+    desc.influence_count = s.influences();
+    desc.joints = given.joints.data();
+    desc.weights = given.weights.data();
     desc.distance = random.pick({0.0, 0.0, 0.5, 2.0, random.number()});
     desc.angle = random.pick({0.0, 0.0, 1.0, 3.15, random.number()});
-    desc.weight_count = random.one_in(20) ? 5 : random.pick({0u, 4u, 8u}), desc.progress = s.world.progress();
+    desc.weight_count = random.one_in(20) ? 5 : random.pick({0u, 4u, 8u});
+    desc.progress = s.world.progress();
   }
   static hf_result carry(Subject& subject, Random& random) {
     SkinWeights& s = of(subject);
@@ -210,7 +233,9 @@ struct WeightsCalls {
     std::string names;
     for (std::uint32_t i = random.one_in(20); i < count; ++i) names += i % 2 ? "arm.L\n" : "arm.R\n";
     const double plane[6] = {random.number(), 0, 0, random.number(), random.pick({0.0, 0.3}), 0};
-    desc.bone_count = count, desc.heads = b.model.bones.heads.data(), desc.to = random.pick({0, 1, 2, 2, 3});
+    desc.bone_count = count;
+    desc.heads = b.model.bones.heads.data();
+    desc.to = random.pick({0, 1, 2, 2, 3});
     if (random.one_in(3)) desc.partners = partners.data();
     if (random.one_in(2)) desc.names = names.c_str();
     if (!random.one_in(3)) desc.plane = plane;

@@ -15,7 +15,9 @@ void* allocate(void* user, std::size_t size, std::size_t alignment) {
   ++a.calls;
   if (a.cancel_at && a.calls == a.cancel_at) hf_progress_cancel(a.progress);
   if (a.refuse_at && (a.calls == a.refuse_at || (a.refuse_on && a.calls > a.refuse_at))) return ++a.refused, nullptr;
-  ++a.live_blocks, a.live_bytes += size, a.numeric_bytes += alignment == 64 ? size : 0;
+  ++a.live_blocks;
+  a.live_bytes += size;
+  a.numeric_bytes += alignment == 64 ? size : 0;
   return reliability::take_block(size, alignment);
 }
 
@@ -23,7 +25,9 @@ void release(void* user, void* block, std::size_t size, std::size_t alignment) {
   Allocator& a = *static_cast<Allocator*>(user);
   const reliability::BlockHead head = reliability::give_block(block);
   a.mismatches += head.size != size || head.alignment != alignment;
-  --a.live_blocks, a.live_bytes -= head.size, a.numeric_bytes -= head.alignment == 64 ? head.size : 0;
+  --a.live_blocks;
+  a.live_bytes -= head.size;
+  a.numeric_bytes -= head.alignment == 64 ? head.size : 0;
 }
 
 void add_sheet(Shape& shape, std::uint32_t columns, std::uint32_t rows, float x0) {
@@ -87,7 +91,9 @@ std::string State::difference(const State& other) const {
 
 hf_allocator Allocator::hooks() {
   hf_allocator given;
-  given.allocate = allocate, given.release = release, given.user = this;
+  given.allocate = allocate;
+  given.release = release;
+  given.user = this;
   return given;
 }
 
@@ -95,7 +101,9 @@ const std::vector<Shape>& shapes() {
   static const std::vector<Shape> made = [] {
     std::vector<Shape> list(2);
     add_sheet(list[0], 7, 6, 0);
-    add_sheet(list[1], 4, 4, 0), add_sheet(list[1], 4, 4, 4), add_sheet(list[1], 2, 2, 20);
+    add_sheet(list[1], 4, 4, 0);
+    add_sheet(list[1], 4, 4, 4);
+    add_sheet(list[1], 2, 2, 20);
     list[1].positions.insert(list[1].positions.end(), {30, 1, 2});  // isolated
     list.push_back(round_shape(7, 11, 3));
     list.push_back(round_shape(8, 9, 0));
@@ -121,7 +129,8 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0, scale = 1e-300;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (!std::isfinite(a[i]) || !std::isfinite(b[i])) return HUGE_VAL;
-    most = std::fmax(most, std::fabs(a[i] - b[i])), scale = std::fmax(scale, std::fabs(a[i]));
+    most = std::fmax(most, std::fabs(a[i] - b[i]));
+    scale = std::fmax(scale, std::fabs(a[i]));
   }
   return most / scale;
 }

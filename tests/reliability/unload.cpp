@@ -16,7 +16,10 @@ using reliability::entries;
 // Threads of the process. The kernel may list joined threads for a moment.
 unsigned settled_threads(unsigned expected) {
   unsigned count = entries("/proc/self/task");
-  for (int wait = 0; wait < 200 && count != expected; ++wait) usleep(5000), count = entries("/proc/self/task");
+  for (int wait = 0; wait < 200 && count != expected; ++wait) {
+    usleep(5000);
+    count = entries("/proc/self/task");
+  }
   return count;
 }
 
@@ -42,9 +45,15 @@ int main(int argc, char** argv) {
     if (round == 0) first = hash;
     wrong += hash != first;
     dlclose(plugin);
-    if (void* left = dlopen(argv[2], RTLD_NOW | RTLD_NOLOAD)) ++still_there, dlclose(left);
+    if (void* left = dlopen(argv[2], RTLD_NOW | RTLD_NOLOAD)) {
+      ++still_there;
+      dlclose(left);
+    }
     // after ten rounds the loader and the heap hold what they keep
-    if (round == 9) heap = static_cast<double>(mallinfo2().uordblks), descriptors = entries("/proc/self/fd");
+    if (round == 9) {
+      heap = static_cast<double>(mallinfo2().uordblks);
+      descriptors = entries("/proc/self/fd");
+    }
   }
   report_at_least("UNLOAD_ROUNDS", rounds, 100);
   report_at_most("UNLOAD_LIBRARY_STILL_THERE", still_there, 0);

@@ -21,20 +21,24 @@ struct Walk {
   unsigned wrong = 0;
 
   void choose() {
-    vertices.clear(), values.clear();
+    vertices.clear();
+    values.clear();
     for (std::uint32_t c = 0; c < components; ++c) {
       const unsigned count = c == 0 ? 1 + random() % 4 : random() % 4;
       for (unsigned i = 0; i < count; ++i) {
         const std::uint32_t v = c * size + static_cast<std::uint32_t>(random() % size);
         if (std::find(vertices.begin(), vertices.end(), v) != vertices.end()) continue;
-        vertices.push_back(v), values.push_back(1e3 * c + std::uniform_real_distribution<double>(-1, 1)(random));
+        vertices.push_back(v);
+        values.push_back(1e3 * c + std::uniform_real_distribution<double>(-1, 1)(random));
       }
     }
   }
   void add_all() {
     hf_sites_desc d = desc<hf_sites_desc>();
     sites.resize(vertices.size());
-    d.site_count = static_cast<std::uint32_t>(vertices.size()), d.vertices = vertices.data(), d.values = values.data();
+    d.site_count = static_cast<std::uint32_t>(vertices.size());
+    d.vertices = vertices.data();
+    d.values = values.data();
     must(hf_add_sites(solver, &d, sites.data()), "hf_add_sites");
   }
   std::vector<double> field() {
@@ -51,7 +55,8 @@ struct Walk {
       const bool reached =
           std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return v / size == c; });
       if (reached) continue;
-      ++unreached, first = c;
+      ++unreached;
+      first = c;
       for (std::uint32_t v = c * size; v < (c + 1) * size; ++v) wrong += u[v] != 0;
     }
     wrong += info.unreached_component_count != unreached || info.first_unreached_component != first;
@@ -94,7 +99,10 @@ int main(int argc, char** argv) {
       const int count = engine == HF_ENGINE_GREEN ? (full ? 1000 : 200) : 20;
       Walk walk{solver, mesh, components, 140, random, {}, {}, {}};
       for (int i = 0; i < count; ++i, ++walks) {
-        walk.choose(), walk.add_all(), walk.empty(), walk.add_all();
+        walk.choose();
+        walk.add_all();
+        walk.empty();
+        walk.add_all();
         const std::vector<double> back = walk.field();
         const hf_solver fresh = make_solver(surface);
         Walk straight{fresh, mesh, components, 140, random, walk.vertices, {}, walk.values};

@@ -9,23 +9,28 @@ void Run::surface_and_picking() {
   d.progress = progress;
   const hf_surface surface = make(d);
   float fraction = 0;
-  call(hf_progress_get_fraction(progress, &fraction), "hf_progress_get_fraction"), take(&fraction, 1);
+  call(hf_progress_get_fraction(progress, &fraction), "hf_progress_get_fraction");
+  take(&fraction, 1);
   hf_surface none = nullptr;
   call(hf_progress_cancel(progress), "hf_progress_cancel");
   call(hf_surface_create(&d, &none), "hf_surface_create, cancelled", HF_ERROR_CANCELLED);
   hf_progress_destroy(progress);
 
   hf_surface_info info = desc<hf_surface_info>();
-  call(hf_surface_get_info(surface, &info), "hf_surface_get_info"), info.thread_count = 0, take(&info, 1);
+  call(hf_surface_get_info(surface, &info), "hf_surface_get_info");
+  info.thread_count = 0;
+  take(&info, 1);
   hf_surface_report report = desc<hf_surface_report>();
-  call(hf_surface_get_report(surface, &report), "hf_surface_get_report"), take(&report, 1);
+  call(hf_surface_get_report(surface, &report), "hf_surface_get_report");
+  take(&report, 1);
   std::vector<std::uint32_t> components(n);
   std::uint32_t count = 0;
   call(hf_surface_get_components(surface, n, components.data(), &count), "hf_surface_get_components");
   take(components.data(), count);
   hf_surface_statistics statistics = desc<hf_surface_statistics>();
   call(hf_surface_get_statistics(surface, &statistics), "hf_surface_get_statistics");
-  take(&statistics.unknown_count, 1), take(&statistics.factor_entries, 1);
+  take(&statistics.unknown_count, 1);
+  take(&statistics.factor_entries, 1);
 
   const double* const origin = s.points.data();
   hf_hit hit = desc<hf_hit>();
@@ -36,7 +41,8 @@ void Run::surface_and_picking() {
   std::uint32_t vertex = 0;
   double distance = 0;
   call(hf_surface_find_vertex(surface, origin, &posed, &vertex, &distance), "hf_surface_find_vertex");
-  take(&vertex, 1), take(&distance, 1);
+  take(&vertex, 1);
+  take(&distance, 1);
   uint32_t link_count = 0, pieces_count = 0;
   std::vector<std::uint32_t> pieces(n);
   std::vector<std::int32_t> light(n);
@@ -44,13 +50,16 @@ void Run::surface_and_picking() {
   links.mode = HF_LINK_PIECES;
   hf_surface linked = nullptr;
   call(hf_surface_relink(surface, &links, nullptr, &linked), "hf_surface_relink");
-  call(hf_surface_get_links(linked, 0, nullptr, &link_count), "hf_surface_get_links"), take(&link_count, 1);
+  call(hf_surface_get_links(linked, 0, nullptr, &link_count), "hf_surface_get_links");
+  take(&link_count, 1);
   call(hf_surface_get_pieces(linked, n, pieces.data(), light.data(), &pieces_count), "hf_surface_get_pieces");
-  take(pieces.data(), pieces_count), take(light.data(), pieces_count);
+  take(pieces.data(), pieces_count);
+  take(light.data(), pieces_count);
   hf_gaps_desc gaps = desc<hf_gaps_desc>();
   gaps.positions = s.posed.data();
   hf_gaps_info opened = desc<hf_gaps_info>();
-  call(hf_surface_measure_gaps(linked, &gaps, 0, nullptr, &opened), "hf_surface_measure_gaps"), take(&opened, 1);
+  call(hf_surface_measure_gaps(linked, &gaps, 0, nullptr, &opened), "hf_surface_measure_gaps");
+  take(&opened, 1);
   hf_surface_destroy(linked);
   hf_surface_destroy(surface);
 }
@@ -62,32 +71,43 @@ void Run::solver_and_sites() {
   std::vector<std::uint32_t> numbers(8);
   hf_sites_desc sites = sites_at(6, 50);
   sites.stiffness = s.stiffness.data();
-  call(hf_add_sites(solver, &sites, numbers.data()), "hf_add_sites"), take(numbers.data(), 6);
-  sites = sites_at(2, 30, 10, 7), sites.radii = s.radii.data();
+  call(hf_add_sites(solver, &sites, numbers.data()), "hf_add_sites");
+  take(numbers.data(), 6);
+  sites = sites_at(2, 30, 10, 7);
+  sites.radii = s.radii.data();
   call(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, discs");
   const std::uint32_t triangles[2] = {33, 400};
-  sites = sites_at(2, 1, 20), sites.vertices = nullptr;
-  sites.triangles = triangles, sites.barycentrics = s.barycentrics.data();
+  sites = sites_at(2, 1, 20);
+  sites.vertices = nullptr;
+  sites.triangles = triangles;
+  sites.barycentrics = s.barycentrics.data();
   call(hf_add_sites(solver, &sites, numbers.data() + 6), "hf_add_sites, points");
   take_field(solver);
-  call(hf_solve(solver, floats.data(), 12, nullptr), "hf_solve"), take_floats();
+  call(hf_solve(solver, floats.data(), 12, nullptr), "hf_solve");
+  take_floats();
 
   call(hf_solver_add_site(solver, 311, s.values.data() + 17, nullptr), "hf_solver_add_site");
   call(hf_solver_record(solver), "hf_solver_record");
-  sites = sites_at(1, 1, 0, 111), sites.values = nullptr;
+  sites = sites_at(1, 1, 0, 111);
+  sites.values = nullptr;
   call(hf_solver_move_sites(solver, 1, &numbers[1], &sites), "hf_solver_move_sites");
   call(hf_solver_set_values(solver, 2, &numbers[2], s.values.data() + 40), "hf_solver_set_values");
   call(hf_remove_sites(solver, 1, &numbers[6]), "hf_remove_sites");
   hf_sites_desc add = sites_at(2, 9, 60, 222);
   hf_edit_desc edit = desc<hf_edit_desc>();
-  edit.remove_count = 1, edit.remove_sites = &numbers[4], edit.add = &add;
+  edit.remove_count = 1;
+  edit.remove_sites = &numbers[4];
+  edit.add = &add;
   call(hf_solver_edit_sites(solver, &edit, nullptr), "hf_solver_edit_sites");
   take_field(solver);
   const std::uint32_t asked[3] = {5, 100, 222};
   double at[3];
-  call(hf_solver_solve_at(solver, 3, asked, at), "hf_solver_solve_at"), take(at, 3);
-  call(hf_solver_undo(solver), "hf_solver_undo"), take_field(solver);
-  call(hf_solver_redo(solver), "hf_solver_redo"), take_field(solver);
+  call(hf_solver_solve_at(solver, 3, asked, at), "hf_solver_solve_at");
+  take(at, 3);
+  call(hf_solver_undo(solver), "hf_solver_undo");
+  take_field(solver);
+  call(hf_solver_redo(solver), "hf_solver_redo");
+  take_field(solver);
   const Numbers screening(std::size_t{n}, 0.5), targets(8 * std::size_t{n}, 2.0);
   call(hf_solver_set_screening(solver, screening.data(), targets.data()), "hf_solver_set_screening");
   take_field(solver);
@@ -106,15 +126,26 @@ void Run::solver_and_sites() {
   std::vector<std::uint32_t> site(count), vertex(count), component(count);
   Numbers value(count), stiffness(count), flux(count), radius(count);
   hf_sites_info info = desc<hf_sites_info>();
-  info.capacity = count, info.sites = site.data(), info.vertices = vertex.data(), info.components = component.data();
-  info.values = value.data(), info.stiffness = stiffness.data(), info.flux = flux.data(), info.radii = radius.data();
+  info.capacity = count;
+  info.sites = site.data();
+  info.vertices = vertex.data();
+  info.components = component.data();
+  info.values = value.data();
+  info.stiffness = stiffness.data();
+  info.flux = flux.data();
+  info.radii = radius.data();
   call(hf_solver_get_sites(solver, &info), "hf_solver_get_sites");
-  take(site.data(), count), take(vertex.data(), count), take(value.data(), count), take(flux.data(), count);
+  take(site.data(), count);
+  take(vertex.data(), count);
+  take(value.data(), count);
+  take(flux.data(), count);
   hf_solver_statistics statistics = desc<hf_solver_statistics>();
   call(hf_solver_get_statistics(solver, &statistics), "hf_solver_get_statistics");
-  take(&statistics.site_count, 1), take(&statistics.eliminated_count, 1);
+  take(&statistics.site_count, 1);
+  take(&statistics.eliminated_count, 1);
   hf_solver_info made = desc<hf_solver_info>();
-  call(hf_solver_get_info(solver, &made), "hf_solver_get_info"), take(&made, 1);
+  call(hf_solver_get_info(solver, &made), "hf_solver_get_info");
+  take(&made, 1);
   hf_solver_destroy(solver);
 }
 
@@ -134,15 +165,19 @@ void Run::other_kinds() {
   hf_surface_destroy(surface);
   for (const hf_solver solver : solvers) {
     const hf_sites_desc sites = sites_at(5, 60);
-    call(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, kinds"), take_field(solver), hf_solver_destroy(solver);
+    call(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, kinds");
+    take_field(solver);
+    hf_solver_destroy(solver);
   }
   std::uint32_t handle = 0;
   call(hf_pose_add_handle_at(pose, s.points.data(), 0.5, &handle), "hf_pose_add_handle_at");
   const hf_transform turned = {{0, 0.5, 0, 0.8660254037844386}, {1, 2, 0.5}};
   call(hf_pose_set_transform(pose, handle, &turned), "hf_pose_set_transform");
-  call(hf_deform(pose, floats.data(), nullptr), "hf_deform"), take_floats();
+  call(hf_deform(pose, floats.data(), nullptr), "hf_deform");
+  take_floats();
   hf_pose_info info = desc<hf_pose_info>();
-  call(hf_pose_get_info(pose, &info), "hf_pose_get_info"), take(&info, 1);
+  call(hf_pose_get_info(pose, &info), "hf_pose_get_info");
+  take(&info, 1);
   hf_pose_destroy(pose);
 }
 
@@ -151,8 +186,10 @@ void Run::other_engines() {
     for (int field = 0; field < 3; ++field) {
       hf_surface_desc d = surface_desc();
       hf_solver_desc wanted = desc<hf_solver_desc>();
-      wanted.channel_count = 2, wanted.engine = engine;
-      d.field_kind = wanted.field_kind = field, d.operator_kind = (engine + field) % 4;
+      wanted.channel_count = 2;
+      wanted.engine = engine;
+      d.field_kind = wanted.field_kind = field;
+      d.operator_kind = (engine + field) % 4;
       d.ordering = engine == HF_ENGINE_REFACTOR ? HF_ORDERING_MINIMUM_DEGREE : HF_ORDERING_NESTED_DISSECTION;
       if (engine == HF_ENGINE_UPDOWN) {
         if (!options_.paper_engine) continue;
@@ -170,8 +207,10 @@ void Run::other_engines() {
       call(hf_add_sites(solver, &sites, numbers), "hf_add_sites, engines");
       call(hf_solver_clone(solver, &copy), "hf_solver_clone");
       call(hf_remove_sites(copy, 2, numbers), "hf_remove_sites, engines");
-      take_field(solver), take_field(copy);
-      hf_solver_destroy(solver), hf_solver_destroy(copy);
+      take_field(solver);
+      take_field(copy);
+      hf_solver_destroy(solver);
+      hf_solver_destroy(copy);
     }
   }
 }
@@ -188,8 +227,10 @@ void Run::vectors() {
   call(hf_solver_rotate_vectors(solver, 2, numbers, s.angles.data()), "hf_solver_rotate_vectors");
   Numbers normals(3 * std::size_t{n});
   call(hf_solver_solve_vectors_f64(solver, doubles.data(), 0, normals.data(), nullptr), "hf_solver_solve_vectors_f64");
-  take_doubles(), take(normals.data(), normals.size());
-  call(hf_solver_solve_vectors(solver, floats.data(), 0, nullptr, nullptr), "hf_solver_solve_vectors"), take_floats();
+  take_doubles();
+  take(normals.data(), normals.size());
+  call(hf_solver_solve_vectors(solver, floats.data(), 0, nullptr, nullptr), "hf_solver_solve_vectors");
+  take_floats();
   hf_solver_destroy(solver);
 }
 
@@ -201,82 +242,103 @@ void Run::factor_and_preview() {
     std::size_t size = 0;
     call(hf_surface_save(surface, kind, nullptr, 0, nullptr, &size), "hf_surface_save, size");
     bytes.resize(size);
-    call(hf_surface_save(surface, kind, nullptr, size, bytes.data(), nullptr), "hf_surface_save"),
-        take(bytes.data(), size);
+    call(hf_surface_save(surface, kind, nullptr, size, bytes.data(), nullptr), "hf_surface_save");
+    take(bytes.data(), size);
   }
   hf_surface_destroy(surface);
   hf_factor_desc saved = desc<hf_factor_desc>();
-  saved.bytes = bytes.data(), saved.byte_count = bytes.size();
+  saved.bytes = bytes.data();
+  saved.byte_count = bytes.size();
   d.saved_factor = &saved;
   const hf_surface again = make(d);
   const hf_solver loaded = make_solver(again);
   hf_surface_destroy(again);
   const hf_sites_desc sites = sites_at(5, 55);
-  call(hf_add_sites(loaded, &sites, nullptr), "hf_add_sites, loaded"), take_field(loaded);
+  call(hf_add_sites(loaded, &sites, nullptr), "hf_add_sites, loaded");
+  take_field(loaded);
   hf_preview_info info = desc<hf_preview_info>();
-  call(hf_solver_solve_preview(loaded, floats.data(), 0, 0, &info), "hf_solver_solve_preview"), take_floats();
-  call(hf_solver_solve_preview_f64(loaded, doubles.data(), 0, 2, &info), "hf_solver_solve_preview_f64"), take_doubles();
+  call(hf_solver_solve_preview(loaded, floats.data(), 0, 0, &info), "hf_solver_solve_preview");
+  take_floats();
+  call(hf_solver_solve_preview_f64(loaded, doubles.data(), 0, 2, &info), "hf_solver_solve_preview_f64");
+  take_doubles();
   call(hf_solver_release_preview(loaded), "hf_solver_release_preview");
   hf_solver_destroy(loaded);
 }
 
 void Run::analysis() {
   hf_surface_desc d = surface_desc();
-  d.positions = nullptr, d.positions_f64 = s.positions_f64.data();
+  d.positions = nullptr;
+  d.positions_f64 = s.positions_f64.data();
   const hf_surface surface = make(d);
   hf_scalars field = desc<hf_scalars>();
   field.values_f64 = s.height.data();
   Numbers levels(6);
-  for (int spacing = 0; spacing < 3; ++spacing)
-    call(hf_surface_space_levels(surface, &field, spacing, 6, levels.data()), "hf_surface_space_levels"),
-        take(levels.data(), 6);
+  for (int spacing = 0; spacing < 3; ++spacing) {
+    call(hf_surface_space_levels(surface, &field, spacing, 6, levels.data()), "hf_surface_space_levels");
+    take(levels.data(), 6);
+  }
   hf_isolines lines = desc<hf_isolines>();
   call(hf_surface_trace_isolines(surface, &field, 7, s.levels.data(), &lines), "hf_surface_trace_isolines");
   std::vector<std::uint32_t> edges(2 * std::size_t{lines.point_count}), starts(lines.line_count + 1u);
   Numbers parameters(lines.point_count), positions(3 * std::size_t{lines.point_count});
-  lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
-  lines.point_edges = edges.data(), lines.parameters = parameters.data(), lines.positions = positions.data();
+  lines.point_capacity = lines.point_count;
+  lines.line_capacity = lines.line_count;
+  lines.point_edges = edges.data();
+  lines.parameters = parameters.data();
+  lines.positions = positions.data();
   lines.line_starts = starts.data();
   call(hf_surface_trace_isolines(surface, &field, 7, s.levels.data(), &lines), "hf_surface_trace_isolines, written");
-  take(edges.data(), edges.size()), take(positions.data(), positions.size()), take(starts.data(), starts.size());
+  take(edges.data(), edges.size());
+  take(positions.data(), positions.size());
+  take(starts.data(), starts.size());
   std::vector<hf_critical_point> points(n);
   hf_critical_info info = desc<hf_critical_info>();
   call(hf_surface_find_critical_points(surface, &field, n, points.data(), &info), "hf_surface_find_critical_points");
-  take(points.data(), info.point_count), take(&info, 1);
+  take(points.data(), info.point_count);
+  take(&info, 1);
   hf_geodesics geodesics = nullptr;
   call(hf_geodesics_create(surface, nullptr, &geodesics), "hf_geodesics_create");
   const std::uint32_t sources[2] = {3, 200};
   Numbers distance(n);
   call(hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0), "hf_geodesics_solve_f64");
   call(hf_geodesics_solve(geodesics, 1, sources, floats.data(), 12), "hf_geodesics_solve");
-  take(distance.data(), n), take_floats();
+  take(distance.data(), n);
+  take_floats();
   const hf_surface_point from = {{3, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}},
                          to = {{HF_NO_INDEX, 200, HF_NO_INDEX}, 0, {0, 1, 0}};
   hf_path path = desc<hf_path>();
   call(hf_geodesics_find_path(geodesics, &from, &to, &path), "hf_geodesics_find_path");
   Numbers map(2 * n), corners(3 * path.point_count);
-  path.point_capacity = path.point_count, path.positions = corners.data();
+  path.point_capacity = path.point_count;
+  path.positions = corners.data();
   call(hf_geodesics_find_path(geodesics, &from, &to, &path), "hf_geodesics_find_path");
   call(hf_geodesics_get_map(geodesics, &to, 0, map.data(), nullptr), "hf_geodesics_get_map");
-  take(&path.length, 1), take(corners.data(), corners.size()), take(map.data(), map.size());
+  take(&path.length, 1);
+  take(corners.data(), corners.size());
+  take(map.data(), map.size());
   for (int kind = 0; kind < 2; ++kind) {
     hf_extremities_desc wanted = desc<hf_extremities_desc>();
-    wanted.kind = kind, wanted.geodesics = kind == HF_EXTREMITIES_GEODESIC ? geodesics : nullptr;
+    wanted.kind = kind;
+    wanted.geodesics = kind == HF_EXTREMITIES_GEODESIC ? geodesics : nullptr;
     wanted.out_field = distance.data();
     std::vector<hf_extremity> found(n);
     std::uint32_t count = 0;
     call(hf_surface_find_extremities(surface, &wanted, n, found.data(), &count), "hf_surface_find_extremities");
-    take(distance.data(), n), take(found.data(), count);
+    take(distance.data(), n);
+    take(found.data(), count);
   }
   hf_propose_desc places = desc<hf_propose_desc>();
   const double joints[6] = {0, 0, 0, 0, 1, 0};
   const std::uint32_t parents[2] = {HF_NO_INDEX, 0};
-  places.joint_count = 2, places.joints = joints, places.parents = parents;
+  places.joint_count = 2;
+  places.joints = joints;
+  places.parents = parents;
   std::vector<hf_handle_proposal> proposed(HF_HANDLE_LIMIT);
   std::uint32_t proposed_count = 0;
   call(hf_propose_handles(surface, &places, HF_HANDLE_LIMIT, proposed.data(), &proposed_count), "hf_propose_handles");
   take(proposed.data(), proposed_count);
-  hf_geodesics_destroy(geodesics), hf_surface_destroy(surface);
+  hf_geodesics_destroy(geodesics);
+  hf_surface_destroy(surface);
 }
 
 void Run::directions() {
@@ -295,9 +357,12 @@ void Run::directions() {
   call(hf_direction_rotate_sites(direction, 2, sites, s.angles.data()), "hf_direction_rotate_sites");
   call(hf_direction_remove_sites(direction, 1, sites + 3), "hf_direction_remove_sites");
   call(hf_direction_clone(direction, &copy), "hf_direction_clone");
-  call(hf_direction_undo(direction), "hf_direction_undo"), call(hf_direction_redo(direction), "hf_direction_redo");
-  call(hf_direction_solve(copy, floats.data(), 0, nullptr), "hf_direction_solve"), take_floats();
-  call(hf_direction_solve_f64(direction, doubles.data(), 0, nullptr), "hf_direction_solve_f64"), take_doubles();
+  call(hf_direction_undo(direction), "hf_direction_undo");
+  call(hf_direction_redo(direction), "hf_direction_redo");
+  call(hf_direction_solve(copy, floats.data(), 0, nullptr), "hf_direction_solve");
+  take_floats();
+  call(hf_direction_solve_f64(direction, doubles.data(), 0, nullptr), "hf_direction_solve_f64");
+  take_doubles();
   std::vector<hf_singularity> found(s.triangle_count);
   call(hf_direction_get_singularities(direction, s.triangle_count, found.data(), &count),
        "hf_direction_get_singularities");
@@ -309,14 +374,19 @@ void Run::directions() {
   hf_direction_statistics statistics = desc<hf_direction_statistics>();
   call(hf_direction_get_statistics(direction, &statistics), "hf_direction_get_statistics");
   take(&statistics.unknown_count, 1);
-  hf_direction_destroy(direction), hf_direction_destroy(copy);
+  hf_direction_destroy(direction);
+  hf_direction_destroy(copy);
 }
 
 void Run::graph() {
   hf_graph_desc d = desc<hf_graph_desc>();
   const double weights[4] = {1, 0.5, 2, 3};
   const std::uint32_t edges[8] = {0, 1, 1, 2, 2, 3, 0, 3};
-  d.vertex_count = n, d.edge_count = 4, d.edges = edges, d.weights = weights, d.thread_count = options_.threads;
+  d.vertex_count = n;
+  d.edge_count = 4;
+  d.edges = edges;
+  d.weights = weights;
+  d.thread_count = options_.threads;
   if (options_.runner) d.job_runner = *options_.runner;
   if (options_.allocator) d.allocator = *options_.allocator;
   hf_surface surface = nullptr;
@@ -327,7 +397,8 @@ void Run::graph() {
   take_field(solver);
   hf_pose pose = nullptr;
   call(hf_pose_create(surface, nullptr, &pose), "hf_pose_create on a graph", HF_ERROR_UNSUPPORTED);
-  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
 }
 
 void Run::errors() {
@@ -341,16 +412,28 @@ void Run::errors() {
   call(hf_create(nullptr, nullptr, nullptr), "hf_create, nothing", HF_ERROR_NULL_POINTER);
   call(hf_solve(nullptr, nullptr, 0, nullptr), "hf_solve, nothing", HF_ERROR_INVALID_HANDLE);
   hf_error_detail detail;
-  call(hf_error_get_detail(&detail), "hf_error_get_detail"), take(&detail.code, 1), take(&detail.index, 1);
+  call(hf_error_get_detail(&detail), "hf_error_get_detail");
+  take(&detail.code, 1);
+  take(&detail.index, 1);
 }
 
 Outcome run_whole_api(const Scene& scene, const Options& options) {
   Run run(scene, options);
   run.outcome.hash = 14695981039346656037u;
-  run.surface_and_picking(), run.solver_and_sites(), run.other_kinds(), run.other_engines(), run.vectors(),
-      run.factor_and_preview(), run.analysis();
-  run.directions(), run.pose_and_transfer(), run.quads_and_flow(), run.regions(), run.skin_weights(), run.graph(),
-      run.errors();
+  run.surface_and_picking();
+  run.solver_and_sites();
+  run.other_kinds();
+  run.other_engines();
+  run.vectors();
+  run.factor_and_preview();
+  run.analysis();
+  run.directions();
+  run.pose_and_transfer();
+  run.quads_and_flow();
+  run.regions();
+  run.skin_weights();
+  run.graph();
+  run.errors();
   return run.outcome;
 }
 

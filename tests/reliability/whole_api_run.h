@@ -11,7 +11,8 @@ using Numbers = std::vector<double>;
 class Run {
  public:
   Run(const Scene& scene, const Options& options) : s(scene), options_(options), n(scene.vertex_count) {
-    floats.resize(3 * std::size_t{n}), doubles.resize(3 * std::size_t{n});
+    floats.resize(3 * std::size_t{n});
+    doubles.resize(3 * std::size_t{n});
   }
   Outcome outcome;
 
@@ -36,7 +37,8 @@ class Run {
   void call(hf_result got, const char* what, hf_result expected = HF_OK) {
     ++outcome.calls;
     if (got == expected || outcome.unexpected++ > 0) return;
-    outcome.first = what, outcome.got = got;
+    outcome.first = what;
+    outcome.got = got;
   }
   template <class T>
   void take(const T* values, std::size_t count) {  // FNV-1a
@@ -51,8 +53,10 @@ class Run {
   }
   hf_surface_desc surface_desc() const {
     hf_surface_desc d = desc<hf_surface_desc>();
-    d.vertex_count = n, d.triangle_count = s.triangle_count;
-    d.positions = s.positions.data(), d.triangles = s.triangles.data();
+    d.vertex_count = n;
+    d.triangle_count = s.triangle_count;
+    d.positions = s.positions.data();
+    d.triangles = s.triangles.data();
     d.thread_count = options_.threads;
     if (options_.runner) d.job_runner = *options_.runner;
     if (options_.allocator) d.allocator = *options_.allocator;
@@ -75,12 +79,16 @@ class Run {
     places.clear();
     for (std::uint32_t i = 0; i < count; ++i) places.push_back(start + i * step);
     hf_sites_desc d = desc<hf_sites_desc>();
-    d.site_count = count, d.vertices = places.data(), d.values = s.values.data() + first;
+    d.site_count = count;
+    d.vertices = places.data();
+    d.values = s.values.data() + first;
     return d;
   }
   void take_field(hf_solver solver) {
     hf_solve_info info = desc<hf_solve_info>();
-    call(hf_solver_solve_f64(solver, doubles.data(), 0, &info), "hf_solver_solve_f64"), take_doubles(), take(&info, 1);
+    call(hf_solver_solve_f64(solver, doubles.data(), 0, &info), "hf_solver_solve_f64");
+    take_doubles();
+    take(&info, 1);
   }
 
   const Scene& s;

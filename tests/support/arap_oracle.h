@@ -58,7 +58,9 @@ class ArapOracle {
           }
         }
         double* row = z_.data() + 3 * static_cast<std::size_t>(position[v]);
-        row[0] = sum.x, row[1] = sum.y, row[2] = sum.z;
+        row[0] = sum.x;
+        row[1] = sum.y;
+        row[2] = sum.z;
       }
     });
     factor_->forward(z_.data(), 3, *core_.jobs);

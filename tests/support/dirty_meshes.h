@@ -94,7 +94,9 @@ inline PlainMesh book(int count, std::uint32_t nx, std::uint32_t ny, double shea
     }
     for (std::uint32_t j = 0; j <= ny; ++j) {  // the spine, equal to the bit so that it welds
       double* p = mesh.positions.data() + 3 * (base + j * (nx + 1));
-      p[0] = 0, p[1] = j, p[2] = 0;
+      p[0] = 0;
+      p[1] = j;
+      p[2] = 0;
     }
   }
   return mesh;
@@ -177,7 +179,9 @@ inline PlainMesh shuffled_and_rotated(const PlainMesh& mesh, std::uint32_t seed,
     const double* p = mesh.positions.data() + 3 * std::size_t{v};
     const double x = std::cos(a) * p[0] - std::sin(a) * p[1], y = std::sin(a) * p[0] + std::cos(a) * p[1];
     double* q = out.positions.data() + 3 * std::size_t{place[v]};
-    q[0] = x, q[1] = std::cos(b) * y - std::sin(b) * p[2], q[2] = std::sin(b) * y + std::cos(b) * p[2];
+    q[0] = x;
+    q[1] = std::cos(b) * y - std::sin(b) * p[2];
+    q[2] = std::sin(b) * y + std::cos(b) * p[2];
   }
   std::vector<std::size_t> order(mesh.triangles.size() / 3);
   for (std::size_t t = 0; t < order.size(); ++t) order[t] = t;

@@ -74,7 +74,8 @@ class MixedReference {
       for (int i = l_.column_start[at(v)]; i < l_.column_start[at(v) + 1]; ++i)
         if (site_of_[at(l_.row[at(i)])] < 0) rest[at(v)][l_.row[at(i)]] = l_.value[at(i)];
     }
-    column_.resize(at(n)), pivot_.resize(at(n));
+    column_.resize(at(n));
+    pivot_.resize(at(n));
     for (const int v : order_) {
       pivot_[at(v)] = rest[at(v)][v];
       for (const auto& [w, value] : rest[at(v)])

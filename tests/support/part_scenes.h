@@ -20,9 +20,13 @@ struct PartScene {
 // A limb along x that bends at its middle.
 inline PartScene limb() {
   PartScene scene;
-  scene.mesh = tube(60, 20, 0, 2, 0, 0, [](double s) { return 0.12 - 0.04 * s; }, true);
+  scene.mesh = tube(
+      60, 20, 0, 2, 0, 0, [](double s) { return 0.12 - 0.04 * s; }, true);
   scene.body = scene.mesh.vertex_count();
-  scene.turned = {2, 0, 0}, scene.held = {0, 0, 0}, scene.pivot = {1, 0, 0}, scene.radius = 0.25;
+  scene.turned = {2, 0, 0};
+  scene.held = {0, 0, 0};
+  scene.pivot = {1, 0, 0};
+  scene.radius = 0.25;
   return scene;
 }
 
@@ -44,7 +48,10 @@ inline PartScene bust() {
   };
   scene.mesh = tube(80, 32, 0, 2, 0, 0, radius, true);
   scene.body = scene.mesh.vertex_count();
-  scene.turned = {2, 0, 0}, scene.held = {0, 0, 0}, scene.pivot = {1.2, 0, 0}, scene.radius = 0.3;
+  scene.turned = {2, 0, 0};
+  scene.held = {0, 0, 0};
+  scene.pivot = {1.2, 0, 0};
+  scene.radius = 0.3;
   return scene;
 }
 
@@ -68,7 +75,9 @@ inline PartScene hair_cards() {
       const double along = p[0], across = p[1] - 0.05, x = 1.78 - along;
       const double skin = 0.3 * std::sqrt(std::max(0.0, 1 - std::pow((x - 1.6) / 0.4, 2)));
       const double r = skin + 0.01 + 0.05 * along, a = angle + across / 0.3;
-      p[0] = x, p[1] = r * std::sin(a), p[2] = -r * std::cos(a);
+      p[0] = x;
+      p[1] = r * std::sin(a);
+      p[2] = -r * std::cos(a);
     }
     append(scene.mesh, card, 0);
   }
@@ -84,7 +93,9 @@ inline PartScene armour_and_sword() {
   for (std::size_t v = 0; v < plate.vertex_count(); ++v) {
     double* p = &plate.positions[3 * v];
     const double x = 1.2 + p[0], r = 0.12 - 0.02 * x + 0.012, a = (p[1] - 0.12) / 0.12;
-    p[0] = x, p[1] = r * std::sin(a), p[2] = r * std::cos(a);
+    p[0] = x;
+    p[1] = r * std::sin(a);
+    p[2] = r * std::cos(a);
   }
   append(scene.mesh, plate, 0);
   append(scene.mesh, box(6, {0.04, 1.2, 0.04}, {1.85, -0.3, 0.06}), 0);
@@ -94,11 +105,15 @@ inline PartScene armour_and_sword() {
 // The horse is the body. The rider has another tag, with what the rider holds.
 inline PartScene rider() {
   PartScene scene;
-  scene.mesh = tube(40, 24, 0, 2, 0, 0, [](double) { return 0.3; }, true);
+  scene.mesh = tube(
+      40, 24, 0, 2, 0, 0, [](double) { return 0.3; }, true);
   scene.body = scene.mesh.vertex_count();
   append(scene.mesh, box(6, {0.3, 0.3, 1}, {0.85, -0.15, 0.295}), 0);
   append(scene.mesh, box(3, {0.1, 0.1, 0.1}, {1.15, -0.05, 1}), 0);
-  scene.turned = {1, 0, 0.295}, scene.held = {1, 0, 1.295}, scene.pivot = {1, 0, 0.8}, scene.radius = 0.2;
+  scene.turned = {1, 0, 0.295};
+  scene.held = {1, 0, 1.295};
+  scene.pivot = {1, 0, 0.8};
+  scene.radius = 0.2;
   scene.tags.assign(scene.mesh.vertex_count(), 2);
   std::fill(scene.tags.begin(), scene.tags.begin() + scene.body, 1u);
   return scene;

@@ -18,7 +18,9 @@ inline PlainMesh box(std::uint32_t n, std::array<double, 3> size, std::array<dou
       const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
       for (std::uint32_t i = 0; i < face.vertex_count(); ++i) {
         double p[3];
-        p[axis] = side, p[u] = face.positions[3 * std::size_t{i}], p[v] = face.positions[3 * std::size_t{i} + 1];
+        p[axis] = side;
+        p[u] = face.positions[3 * std::size_t{i}];
+        p[v] = face.positions[3 * std::size_t{i} + 1];
         // Rounded to a coarse lattice, so that copies on edges weld.
         for (std::size_t k = 0; k < 3; ++k) mesh.positions.push_back(low[k] + size[k] * std::round(p[k] * 1024) / 1024);
       }

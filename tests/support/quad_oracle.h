@@ -29,7 +29,8 @@ inline void expect_manifold(const hf_inner::Core& core, const hf_inner::QuadMesh
   std::int64_t edges = 0, borders = 0;
   for (const auto& [a, b] : directed) {
     const bool inner = directed.count({b, a}) > 0;
-    edges += inner ? 1 : 2, borders += inner ? 0 : 1;
+    edges += inner ? 1 : 2;
+    borders += inner ? 0 : 1;
   }
   ASSERT_EQ(static_cast<std::int32_t>(used.size()), mesh.position.size()) << what;
   const std::int64_t surface =

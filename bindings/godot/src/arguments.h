@@ -81,23 +81,27 @@ struct Regions {
 
 inline Value numbers(Numbers list) {
   Value value;
-  value.kind = Value::integers, value.whole = std::move(list);
+  value.kind = Value::integers;
+  value.whole = std::move(list);
   return value;
 }
 inline Value number(double real) {
   Value value;
-  value.kind = Value::number, value.real = real;
+  value.kind = Value::number;
+  value.real = real;
   return value;
 }
 inline Value done() {
   Value value;
-  value.kind = Value::truth, value.real = 1;
+  value.kind = Value::truth;
+  value.real = 1;
   return value;
 }
 
 inline Value named(std::map<std::string, double> fields) {
   Value value;
-  value.kind = Value::named, value.fields = std::move(fields);
+  value.kind = Value::named;
+  value.fields = std::move(fields);
   return value;
 }
 
@@ -107,7 +111,8 @@ Raw make_once(hf::Handle<Raw, destroy>& slot, Create&& create) {
   if (!slot) {
     Raw raw = nullptr;
     check(create(&raw));
-    slot = hf::Handle<Raw, destroy>(raw);
+    slot = hf::Handle < Raw;
+    destroy > (raw);
   }
   return slot.get();
 }
@@ -117,13 +122,15 @@ template <class Raw, void (*destroy)(Raw), class Create>
 void make_again(hf::Handle<Raw, destroy>& slot, Create&& create) {
   Raw raw = nullptr;
   check(create(&raw));
-  slot = hf::Handle<Raw, destroy>(raw);
+  slot = hf::Handle < Raw;
+  destroy > (raw);
 }
 
 // xyz in double precision as Godot's vectors.
 inline Value vectors(const Doubles& numbers) {
   Value value;
-  value.kind = Value::vectors, value.floats.assign(numbers.begin(), numbers.end());
+  value.kind = Value::vectors;
+  value.floats.assign(numbers.begin(), numbers.end());
   return value;
 }
 

@@ -363,11 +363,17 @@ void register_method(const char* name, godot4::Call function, const Entry* entry
   godot4::Opaque hint;
   api.string_new_with_utf8_chars(&hint, "");
   godot4::PropertyInfo any{};
-  any.name = nothing.get(), any.class_name = nothing.get(), any.hint_string = &hint;
+  any.name = nothing.get();
+  any.class_name = nothing.get();
+  any.hint_string = &hint;
   any.usage = godot4::usage_default | godot4::usage_any_variant;
   godot4::MethodInfo info{};
-  info.name = method_name.get(), info.method = const_cast<Entry*>(entry), info.call = function;
-  info.flags = godot4::flag_normal | godot4::flag_any_arguments, info.has_result = 1, info.result = &any;
+  info.name = method_name.get();
+  info.method = const_cast<Entry*>(entry);
+  info.call = function;
+  info.flags = godot4::flag_normal | godot4::flag_any_arguments;
+  info.has_result = 1;
+  info.result = &any;
   api.classdb_register_extension_class_method(library, class_name.get(), &info);
   api.variant_get_ptr_destructor(godot4::string_type)(&hint);
 }
@@ -392,7 +398,9 @@ void initialize(void*, godot4::Level level) {
     return say("This Godot was built for double precision. HfSurface needs one with single precision.");
   Name name("HfSurface"), parent("RefCounted");
   godot4::ClassInfo info{};
-  info.is_exposed = 1, info.create = make_instance, info.free = free_instance;
+  info.is_exposed = 1;
+  info.create = make_instance;
+  info.free = free_instance;
   api.classdb_register_extension_class3(library, name.get(), parent.get(), &info);
   for (const Entry& entry : methods()) register_method(entry.name, call_method, &entry);
   register_method("get_error", get_error, nullptr);

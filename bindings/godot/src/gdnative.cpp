@@ -277,7 +277,10 @@ void GDN_EXPORT godot_gdnative_init(godot_gdnative_init_options* options) {
   }
 }
 
-void GDN_EXPORT godot_gdnative_terminate(godot_gdnative_terminate_options*) { api = nullptr, script = nullptr; }
+void GDN_EXPORT godot_gdnative_terminate(godot_gdnative_terminate_options*) {
+  api = nullptr;
+  script = nullptr;
+}
 
 void GDN_EXPORT godot_nativescript_init(void* handle) {
   script->godot_nativescript_register_class(handle, "HfSurface", "Reference", {make_instance, nullptr, nullptr},

@@ -25,16 +25,20 @@ Value create_of(Surface& s, hf_surface_desc& desc, const Argument& positions_giv
   if (positions_given.null) fail("positions are null", HF_ERROR_NULL_POINTER);
   const Doubles& positions = positions_given.list;
   if (positions.size() % 3) fail("positions hold three numbers each");
-  desc.vertex_count = static_cast<uint32_t>(positions.size() / 3), desc.positions_f64 = positions.data();
+  desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
+  desc.positions_f64 = positions.data();
   auto factor = make<hf_factor_desc>();
   if (!saved.bytes.empty()) {
-    factor.bytes = saved.bytes.data(), factor.byte_count = saved.bytes.size();
+    factor.bytes = saved.bytes.data();
+    factor.byte_count = saved.bytes.size();
     desc.saved_factor = &factor;
   }
   hf_surface raw = nullptr;
   check(hf_surface_create(&desc, &raw));
   s.forget();
-  s.mesh = std::make_shared<hf::Handle<hf_surface, hf_surface_destroy>>(raw), s.vertex_count = desc.vertex_count;
+  s.mesh = std::make_shared < hf::Handle < hf_surface;
+  hf_surface_destroy >> (raw);
+  s.vertex_count = desc.vertex_count;
   return done();
 }
 
@@ -43,7 +47,8 @@ Value create(Surface& s, const Arguments& a) {
   auto desc = make<hf_surface_desc>();
   const List triangles = integers(at(a, 1), "triangles");
   if (triangles.values.size() % 3) fail("triangles hold three numbers each");
-  desc.triangle_count = static_cast<uint32_t>(triangles.values.size() / 3), desc.triangles = triangles.data();
+  desc.triangle_count = static_cast<uint32_t>(triangles.values.size() / 3);
+  desc.triangles = triangles.data();
   return create_of(s, desc, at(a, 0), at(a, 2), at(a, 3));
 }
 
@@ -54,7 +59,8 @@ Value create_faces(Surface& s, const Arguments& a) {
   const List offsets = integers(at(a, 1), "offsets"), corners = integers(at(a, 2), "corners");
   desc.face_count = offsets.values.empty() ? 0 : static_cast<uint32_t>(offsets.values.size() - 1);
   desc.corner_count = static_cast<uint32_t>(corners.values.size());
-  desc.face_starts = offsets.data(), desc.corners = corners.data();
+  desc.face_starts = offsets.data();
+  desc.corners = corners.data();
   return create_of(s, desc, at(a, 0), at(a, 3), at(a, 4));
 }
 
@@ -66,7 +72,8 @@ Value share_from(Surface& s, const Arguments& a) {
   const auto mesh = other.mesh;
   const size_t vertex_count = other.vertex_count;
   s.forget();
-  s.mesh = mesh, s.vertex_count = vertex_count;
+  s.mesh = mesh;
+  s.vertex_count = vertex_count;
   return done();
 }
 
@@ -140,7 +147,8 @@ Value save(Surface& s, const Arguments& a) {
   size_t size = 0;
   check(hf_surface_save(s.get(), kind, nullptr, 0, nullptr, &size));
   Value value;
-  value.kind = Value::bytes, value.octets.resize(size);
+  value.kind = Value::bytes;
+  value.octets.resize(size);
   check(hf_surface_save(s.get(), kind, nullptr, size, value.octets.data(), nullptr));
   return value;
 }
@@ -205,7 +213,9 @@ const std::vector<Entry>& methods() {
 }
 
 Value call(Surface& surface, const Entry& entry, const Arguments& arguments) noexcept {
-  surface.error_name.clear(), surface.error_message.clear(), surface.error_index = -1;
+  surface.error_name.clear();
+  surface.error_message.clear();
+  surface.error_index = -1;
   try {
     const int count = static_cast<int>(arguments.size());
     if (count < entry.least || count > entry.most)
@@ -213,10 +223,12 @@ Value call(Surface& surface, const Entry& entry, const Arguments& arguments) noe
            " arguments");
     return entry.method(surface, arguments);
   } catch (const hf::Error& error) {
-    surface.error_name = hf_result_get_name(error.code()), surface.error_message = error.what();
+    surface.error_name = hf_result_get_name(error.code());
+    surface.error_message = error.what();
     surface.error_index = error.index() == HF_NO_INDEX ? -1.0 : error.index();
   } catch (const std::exception& error) {
-    surface.error_name = "HF_ERROR_INTERNAL", surface.error_message = error.what();
+    surface.error_name = "HF_ERROR_INTERNAL";
+    surface.error_message = error.what();
   }
   return {};
 }

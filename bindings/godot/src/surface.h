@@ -40,7 +40,8 @@ struct Value {
 
 [[noreturn]] inline void fail(const std::string& message, hf_result code = HF_ERROR_INVALID_ARGUMENT) {
   hf_error_detail detail{};
-  detail.code = code, detail.index = HF_NO_INDEX;
+  detail.code = code;
+  detail.index = HF_NO_INDEX;
   message.copy(detail.message, sizeof detail.message - 1);
   throw hf::Error(detail);
 }
@@ -60,7 +61,14 @@ struct Surface {
   hf_surface get() const { return mesh ? mesh->get() : nullptr; }
   // Forgets everything made on the mesh.
   void forget() {
-    solver = {}, pose = {}, transfer = {}, geodesics = {}, direction = {}, quads = {}, flow = {}, region = {},
+    solver = {};
+    pose = {};
+    transfer = {};
+    geodesics = {};
+    direction = {};
+    quads = {};
+    flow = {};
+    region = {};
     detail = {};
   }
   size_t vertex_count = 0;

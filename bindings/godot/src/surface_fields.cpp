@@ -39,7 +39,8 @@ Value distance(Surface& s, const Arguments& a) {
   const List sources = integers(at(a, 0), "sources");
   hf_geodesics geodesics = geodesics_of(s, at(a, 1));
   Value value;
-  value.kind = Value::reals, value.floats.resize(s.vertex_count + 1);
+  value.kind = Value::reals;
+  value.floats.resize(s.vertex_count + 1);
   check(hf_geodesics_solve(geodesics, sources.count(), sources.data(), value.floats.data(), 0));
   value.floats.resize(s.vertex_count);
   return value;
@@ -65,7 +66,8 @@ Value find_path(Surface& s, const Arguments& a) {
   auto path = make<hf_path>();
   check(hf_geodesics_find_path(geodesics, &from, &to, &path));
   Doubles positions(3 * size_t{path.point_count} + 1);
-  path.point_capacity = path.point_count, path.positions = positions.data();
+  path.point_capacity = path.point_count;
+  path.positions = positions.data();
   check(hf_geodesics_find_path(geodesics, &from, &to, &path));
   return lines_of(positions, {0, path.point_count});
 }
@@ -77,7 +79,8 @@ Value map_around(Surface& s, const Arguments& a) {
   Doubles map(2 * size_t{s.vertex_count} + 1);
   check(hf_geodesics_get_map(geodesics, &centre, at(a, 1).number, map.data(), nullptr));
   Value value;
-  value.kind = Value::reals, value.floats.assign(map.begin(), map.end() - 1);
+  value.kind = Value::reals;
+  value.floats.assign(map.begin(), map.end() - 1);
   return value;
 }
 
@@ -88,7 +91,8 @@ Value space_levels(Surface& s, const Arguments& a) {
   Doubles levels(std::min(count, 1000000u) + 1);
   check(hf_surface_space_levels(s.get(), &field, signed_whole(at(a, 2).number, "spacing"), count, levels.data()));
   Value value;
-  value.kind = Value::reals, value.floats.assign(levels.begin(), levels.end() - 1);
+  value.kind = Value::reals;
+  value.floats.assign(levels.begin(), levels.end() - 1);
   return value;
 }
 
@@ -102,8 +106,10 @@ Value trace_isolines(Surface& s, const Arguments& a) {
   check(hf_surface_trace_isolines(s.get(), &field, count, given, &lines));
   Doubles positions(3 * size_t{lines.point_count});
   Numbers starts(size_t{lines.line_count} + 1);
-  lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
-  lines.positions = positions.data(), lines.line_starts = starts.data();
+  lines.point_capacity = lines.point_count;
+  lines.line_capacity = lines.line_count;
+  lines.positions = positions.data();
+  lines.line_starts = starts.data();
   if (lines.line_count) check(hf_surface_trace_isolines(s.get(), &field, count, given, &lines));
   return lines_of(positions, starts);
 }
@@ -143,7 +149,9 @@ Value find_extremities(Surface& s, const Arguments&) {
       [&](uint32_t capacity, hf_extremity* out, uint32_t* count) {
         return hf_surface_find_extremities(s.get(), nullptr, capacity, out, count);
       },
-      [](const hf_extremity& tip) { return TableRow{{"vertex", tip.vertex}, {"length", tip.length}}; });
+      [](const hf_extremity& tip) {
+        return TableRow{{"vertex", tip.vertex}, {"length", tip.length}};
+      });
 }
 
 // propose_handles(): { vertex, reason, pinned, radius } each, pinned ones first
@@ -220,7 +228,8 @@ Value direction_vectors(Surface& s, const Arguments&) {
 
 Value direction_solve(Surface& s, const Arguments&) {
   Value value;
-  value.kind = Value::vectors, value.floats.resize(3 * s.vertex_count + 1);
+  value.kind = Value::vectors;
+  value.floats.resize(3 * s.vertex_count + 1);
   check(hf_direction_solve(s.direction.get(), value.floats.data(), 0, nullptr));
   value.floats.resize(3 * s.vertex_count);
   return value;
@@ -252,16 +261,19 @@ Value with_quads_desc(const Arguments& a, Make&& make_quads) {
                           {"relax_count", &desc.relax_count}});
   const List edges = integers(at(a, 1), "crease edges"), guided = integers(at(a, 2), "guide vertices");
   if (edges.values.size() % 2) fail("crease edges must hold two vertices each");
-  desc.crease_count = static_cast<uint32_t>(edges.values.size() / 2), desc.crease_edges = edges.data();
+  desc.crease_count = static_cast<uint32_t>(edges.values.size() / 2);
+  desc.crease_edges = edges.data();
   const size_t guides = guided.values.size();
-  desc.guide_count = static_cast<uint32_t>(guides), desc.guide_vertices = guided.data();
+  desc.guide_count = static_cast<uint32_t>(guides);
+  desc.guide_vertices = guided.data();
   desc.guide_vectors = doubles(at(a, 3), 3 * guides, "guide vectors");
   const double* given = doubles(at(a, 4), guides, "guide weights");
   const std::vector<float> weights(given, given + (given ? guides : 0));
   if (given) desc.guide_weights = weights.data();
   const List counts = integers(at(a, 7), "pole quads");
   const size_t poles = counts.values.size();
-  desc.pole_count = static_cast<uint32_t>(poles), desc.pole_quads = counts.data();
+  desc.pole_count = static_cast<uint32_t>(poles);
+  desc.pole_quads = counts.data();
   desc.pole_points = doubles(at(a, 6), 3 * poles, "pole points");
   desc.pole_directions = doubles(at(a, 8), 3 * poles, "pole directions");
   const double* plane = doubles(at(a, 5), 4, "symmetry plane");
@@ -308,7 +320,8 @@ Value quads_faces(Surface& s, const Arguments&) {
   const hf_quads_info info = info_of(s);
   auto mesh = make<hf_quads_mesh>();
   Numbers corners(4 * size_t{info.face_count});
-  mesh.face_capacity = info.face_count, mesh.faces = corners.data();
+  mesh.face_capacity = info.face_count;
+  mesh.faces = corners.data();
   check(hf_quads_get_mesh(s.quads.get(), &mesh));
   Value value;
   value.kind = Value::lists;
@@ -323,12 +336,15 @@ Value flow_lines(Surface& s, const Arguments& a) {
   hf_flow flow = make_once(s.flow, [&](hf_flow* out) { return hf_flow_create(s.get(), out); });
   auto lines = make<hf_flow_lines>();
   lines.wanted_count = at(a, 1).null ? 0u : whole(at(a, 1).number, "count");
-  lines.seed_count = seeds.null ? 0u : seeds.count(), lines.seeds = seeds.data();
+  lines.seed_count = seeds.null ? 0u : seeds.count();
+  lines.seeds = seeds.data();
   check(hf_flow_trace(flow, &field, &lines));
   Doubles positions(3 * size_t{lines.point_count});
   Numbers starts(size_t{lines.line_count} + 1);
-  lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
-  lines.positions = positions.data(), lines.line_starts = starts.data();
+  lines.point_capacity = lines.point_count;
+  lines.line_capacity = lines.line_count;
+  lines.positions = positions.data();
+  lines.line_starts = starts.data();
   check(hf_flow_trace(flow, &field, &lines));
   return lines_of(positions, starts);
 }

@@ -37,10 +37,13 @@ Value pose_info(Surface& s, const Arguments&) {
 Value add_handles(Surface& s, const Arguments& a) {
   const Regions regions(at(a, 0), "regions");
   auto desc = make<hf_handles_desc>();
-  desc.handle_count = regions.count(), desc.layer = whole(at(a, 1).number, "layer");
+  desc.handle_count = regions.count();
+  desc.layer = whole(at(a, 1).number, "layer");
   desc.in_place = signed_whole(at(a, 2).number, "in_place");
-  if (!regions.counts.empty())
-    desc.region_counts = regions.counts.data(), desc.region_vertices = regions.vertices.data();
+  if (!regions.counts.empty()) {
+    desc.region_counts = regions.counts.data();
+    desc.region_vertices = regions.vertices.data();
+  }
   Numbers made(desc.handle_count + 1);
   check(hf_pose_add_handles(pose_of(s), &desc, made.data()));
   made.resize(desc.handle_count);
@@ -50,9 +53,11 @@ Value add_handles(Surface& s, const Arguments& a) {
 Value add_handles_at(Surface& s, const Arguments& a) {
   const size_t count = at(a, 0).list.size() / 3;
   auto desc = make<hf_handles_desc>();
-  desc.handle_count = static_cast<uint32_t>(count), desc.points = doubles(at(a, 0), 3 * count, "points"),
+  desc.handle_count = static_cast<uint32_t>(count);
+  desc.points = doubles(at(a, 0), 3 * count, "points");
   desc.radii = doubles(at(a, 1), count, "radii");
-  desc.layer = whole(at(a, 2).number, "layer"), desc.in_place = signed_whole(at(a, 3).number, "in_place");
+  desc.layer = whole(at(a, 2).number, "layer");
+  desc.in_place = signed_whole(at(a, 3).number, "in_place");
   Numbers made(count + 1);
   check(hf_pose_add_handles(pose_of(s), &desc, made.data()));
   made.resize(count);
@@ -116,7 +121,8 @@ Value handle_info(Surface& s, const Arguments& a) {
 
 Value handle_field(Surface& s, const Arguments& a) {
   Value value;
-  value.kind = Value::reals, value.floats.resize(s.vertex_count + 1);
+  value.kind = Value::reals;
+  value.floats.resize(s.vertex_count + 1);
   check(hf_pose_get_field(pose_of(s), whole(at(a, 0).number, "handle"), value.floats.data(), 0));
   value.floats.resize(s.vertex_count);
   return value;
@@ -129,11 +135,14 @@ Value deform(Surface& s, const Arguments& a) {
                           {"refine", &desc.refine},
                           {"refine_from_last", &desc.refine_from_last}});
   Value value;
-  value.kind = Value::vectors, value.floats.resize(3 * s.vertex_count + 1);
+  value.kind = Value::vectors;
+  value.floats.resize(3 * s.vertex_count + 1);
   std::vector<float> normals(3 * s.vertex_count + 1);
-  desc.positions = value.floats.data(), desc.normals = normals.data();
+  desc.positions = value.floats.data();
+  desc.normals = normals.data();
   check(hf_pose_deform(pose_of(s), &desc, nullptr));
-  value.floats.resize(3 * s.vertex_count), normals.resize(3 * s.vertex_count);
+  value.floats.resize(3 * s.vertex_count);
+  normals.resize(3 * s.vertex_count);
   s.normals = std::move(normals);
   return value;
 }
@@ -141,7 +150,8 @@ Value deform(Surface& s, const Arguments& a) {
 Value normals_of(Surface& s, const Arguments&) {
   if (s.normals.empty()) fail("deform first", HF_ERROR_EMPTY);
   Value value;
-  value.kind = Value::vectors, value.floats = s.normals;
+  value.kind = Value::vectors;
+  value.floats = s.normals;
   return value;
 }
 
@@ -151,7 +161,9 @@ Value skin_joints(Surface& s, const Arguments&) {
   check(hf_pose_get_skin(pose_of(s), &info));
   info.joint_capacity = info.joint_count;
   Doubles pivots(3 * size_t{info.joint_count}), rotations(4 * size_t{info.joint_count}), places(pivots.size());
-  info.pivots = pivots.data(), info.rotations = rotations.data(), info.translations = places.data();
+  info.pivots = pivots.data();
+  info.rotations = rotations.data();
+  info.translations = places.data();
   check(hf_pose_get_skin(pose_of(s), &info));
   Value value;
   value.kind = Value::rows;
@@ -178,8 +190,14 @@ void skin_of(Surface& s, const Arguments& a, Numbers* joints, std::vector<float>
   info.weight_count = whole(at(a, 0).number, "weight_count");
   info.vertex_capacity = static_cast<uint32_t>(s.vertex_count);
   const size_t count = s.vertex_count * (info.weight_count == 8 ? 8 : 4);
-  if (joints) joints->resize(count), info.vertex_joints = joints->data();
-  if (weights) weights->resize(count), info.vertex_weights = weights->data();
+  if (joints) {
+    joints->resize(count);
+    info.vertex_joints = joints->data();
+  }
+  if (weights) {
+    weights->resize(count);
+    info.vertex_weights = weights->data();
+  }
   check(hf_pose_get_skin(pose_of(s), &info));
 }
 Value skin_bones(Surface& s, const Arguments& a) {
@@ -208,11 +226,15 @@ Value transfer_to(Surface& s, const Arguments& a) {
   const List flags = integers(at(a, 3), "flags");
   if (!flags.null && flags.values.size() != source.counts.size()) fail("flags must be as many as regions");
   auto pairs = make<hf_pairs_desc>();
-  pairs.pair_count = static_cast<uint32_t>(source.counts.size()), pairs.flags = flags.data();
-  pairs.source_counts = source.counts.data(), pairs.source_vertices = source.vertices.data();
-  pairs.target_counts = target.counts.data(), pairs.target_vertices = target.vertices.data();
+  pairs.pair_count = static_cast<uint32_t>(source.counts.size());
+  pairs.flags = flags.data();
+  pairs.source_counts = source.counts.data();
+  pairs.source_vertices = source.vertices.data();
+  pairs.target_counts = target.counts.data();
+  pairs.target_vertices = target.vertices.data();
   check(hf_transfer_add_pairs(raw, &pairs, nullptr));
-  s.transfer = std::move(made), s.target_count = a[0].surface->vertex_count;
+  s.transfer = std::move(made);
+  s.target_count = a[0].surface->vertex_count;
   return done();
 }
 
@@ -248,7 +270,8 @@ Value transfer_apply(Surface& s, const Arguments& a) {
   auto frame = make<hf_transfer_frame>();
   frame.source_positions_f64 = doubles(at(a, 0), 3 * s.vertex_count, "positions");
   Value value;
-  value.kind = Value::vectors, value.floats.resize(3 * s.target_count + 1);
+  value.kind = Value::vectors;
+  value.floats.resize(3 * s.target_count + 1);
   frame.target_positions = value.floats.data();
   check(hf_transfer_apply(s.transfer.get(), &frame));
   value.floats.resize(3 * s.target_count);

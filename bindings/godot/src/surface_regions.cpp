@@ -25,10 +25,13 @@ Value region_edit(Surface& s, const Arguments& a) {
   auto edit = make<hf_region_edit_desc>();
   auto curve = make<hf_curve_desc>();
   edit.ring_count = signed_whole(at(a, 2).number, "rings");
-  edit.add_count = static_cast<uint32_t>(add.values.size()), edit.add_vertices = add.data();
-  edit.remove_count = static_cast<uint32_t>(remove.values.size()), edit.remove_vertices = remove.data();
+  edit.add_count = static_cast<uint32_t>(add.values.size());
+  edit.add_vertices = add.data();
+  edit.remove_count = static_cast<uint32_t>(remove.values.size());
+  edit.remove_vertices = remove.data();
   if (!along.null) {
-    curve.point_count = along.count(), curve.vertices = along.data();
+    curve.point_count = along.count();
+    curve.vertices = along.data();
     curve.side = signed_whole(at(a, 4).number, "side");
     curve.seed_vertex = whole(at(a, 5).number, "seed vertex");
     curve.kind = signed_whole(at(a, 6).number, "curve kind");
@@ -83,9 +86,11 @@ Value region_curve(Surface& s, const Arguments&) {
 template <class Raw>
 Value morph(Surface& s, const Arguments& a, Raw from, hf_result (*write)(Raw, const hf_morph_desc*)) {
   Value value;
-  value.kind = Value::vectors, value.floats.resize(3 * s.vertex_count + 1);
+  value.kind = Value::vectors;
+  value.floats.resize(3 * s.vertex_count + 1);
   auto desc = make<hf_morph_desc>();
-  desc.weight = at(a, 0).number, desc.positions = value.floats.data();
+  desc.weight = at(a, 0).number;
+  desc.positions = value.floats.data();
   check(write(from, &desc));
   value.floats.pop_back();
   return value;
@@ -100,8 +105,10 @@ Value detail_from(Surface& s, const Arguments& a) {
   const List source = integers(at(a, 1), "source vertices"), target = integers(at(a, 2), "target vertices");
   if (source.values.size() != target.values.size()) fail("source and target vertices must be of one length");
   auto desc = make<hf_detail_desc>();
-  desc.pair_count = static_cast<uint32_t>(source.values.size()), desc.scale = at(a, 3).number;
-  desc.source_vertices = source.data(), desc.target_vertices = target.data();
+  desc.pair_count = static_cast<uint32_t>(source.values.size());
+  desc.scale = at(a, 3).number;
+  desc.source_vertices = source.data();
+  desc.target_vertices = target.data();
   const hf_region from = a[0].surface->region.get();
   make_again(s.detail, [&](hf_detail* out) { return hf_detail_create(from, s.region.get(), &desc, out); });
   return done();

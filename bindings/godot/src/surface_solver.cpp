@@ -24,8 +24,11 @@ Value add_sites(Surface& s, const Arguments& a) {
   const List vertices = integers(at(a, 0), "vertices"), triangles = integers(at(a, 4), "triangles");
   const size_t count = (vertices.null ? triangles : vertices).count();
   auto desc = make<hf_sites_desc>();
-  desc.site_count = static_cast<uint32_t>(count), desc.vertices = vertices.data(), desc.triangles = triangles.data();
-  desc.values = doubles(at(a, 1), count, "values"), desc.stiffness = doubles(at(a, 2), count, "stiffness"),
+  desc.site_count = static_cast<uint32_t>(count);
+  desc.vertices = vertices.data();
+  desc.triangles = triangles.data();
+  desc.values = doubles(at(a, 1), count, "values");
+  desc.stiffness = doubles(at(a, 2), count, "stiffness");
   desc.radii = doubles(at(a, 3), count, "radii");
   desc.barycentrics = doubles(at(a, 5), 3 * count, "barycentrics");
   Numbers made(count + 1);
@@ -51,7 +54,8 @@ Value remove_sites(Surface& s, const Arguments& a) {
 Value move_sites(Surface& s, const Arguments& a) {
   const List sites = integers(at(a, 0), "sites"), vertices = integers(at(a, 1), "vertices");
   auto to = make<hf_sites_desc>();
-  to.site_count = vertices.count(), to.vertices = vertices.data();
+  to.site_count = vertices.count();
+  to.vertices = vertices.data();
   check(hf_solver_move_sites(solver_of(s), sites.count(), sites.data(), &to));
   return done();
 }
@@ -68,7 +72,8 @@ Value redo(Surface& s, const Arguments&) { return check(hf_solver_redo(solver_of
 
 Value solve(Surface& s, const Arguments&) {
   Value value;
-  value.kind = Value::reals, value.floats.resize(s.vertex_count + 1);
+  value.kind = Value::reals;
+  value.floats.resize(s.vertex_count + 1);
   check(hf_solve(solver_of(s), value.floats.data(), 0, nullptr));
   value.floats.resize(s.vertex_count);
   return value;
@@ -79,7 +84,8 @@ Value solve_at(Surface& s, const Arguments& a) {
   Doubles found(vertices.count() + 1);
   check(hf_solver_solve_at(solver_of(s), vertices.count(), vertices.data(), found.data()));
   Value value;
-  value.kind = Value::reals, value.floats.assign(found.begin(), found.end() - 1);
+  value.kind = Value::reals;
+  value.floats.assign(found.begin(), found.end() - 1);
   return value;
 }
 
@@ -91,12 +97,18 @@ Value edit_sites(Surface& s, const Arguments& a) {
   if (move.values.size() != move_to.values.size()) fail("move and move_to must be of one length");
   auto edit = make<hf_edit_desc>();
   auto places = make<hf_sites_desc>(), added = make<hf_sites_desc>();
-  edit.remove_count = static_cast<uint32_t>(remove.values.size()), edit.remove_sites = remove.data();
-  edit.move_count = static_cast<uint32_t>(move.values.size()), edit.move_sites = move.data(), edit.move_to = &places;
-  places.site_count = edit.move_count, places.vertices = move_to.data();
-  edit.set_count = static_cast<uint32_t>(set.values.size()), edit.set_sites = set.data();
+  edit.remove_count = static_cast<uint32_t>(remove.values.size());
+  edit.remove_sites = remove.data();
+  edit.move_count = static_cast<uint32_t>(move.values.size());
+  edit.move_sites = move.data();
+  edit.move_to = &places;
+  places.site_count = edit.move_count;
+  places.vertices = move_to.data();
+  edit.set_count = static_cast<uint32_t>(set.values.size());
+  edit.set_sites = set.data();
   edit.set_values = doubles(at(a, 4), set.values.size(), "set_values");
-  added.site_count = static_cast<uint32_t>(add.values.size()), added.vertices = add.data();
+  added.site_count = static_cast<uint32_t>(add.values.size());
+  added.vertices = add.data();
   added.values = doubles(at(a, 6), add.values.size(), "add_values");
   if (!add.values.empty()) edit.add = &added;
   Numbers made(add.values.size() + 1);

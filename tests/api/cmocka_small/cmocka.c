@@ -8,7 +8,9 @@ enum { PASSED, FAILED, SKIPPED };
 void small_fail(const char* file, int line, const char* format, ...) {
   va_list rest;
   va_start(rest, format);
-  printf("%s:%d: error: ", file, line), vprintf(format, rest), printf("\n");
+  printf("%s:%d: error: ", file, line);
+  vprintf(format, rest);
+  printf("\n");
   va_end(rest);
   fflush(stdout);
   longjmp(leave, FAILED);

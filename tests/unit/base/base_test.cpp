@@ -132,7 +132,8 @@ TEST(JobRunner, does_batches_of_a_job_alone_when_the_host_takes_one_at_a_time) {
   host.user = &taken;
   host.run = [](void* user, std::uint32_t count, void (*job)(void*, std::uint32_t), void* data) {
     Taken& own = *static_cast<Taken*>(user);
-    own.twice = own.twice || own.now, own.now = true;
+    own.twice = own.twice || own.now;
+    own.now = true;
     for (std::uint32_t i = 0; i < count; ++i) job(data, i);
     own.now = false;
   };

@@ -47,18 +47,24 @@ TEST(History, goes_back_and_forth_between_recorded_states) {
   Counter c(memory);
   EXPECT_EQ(message_of([&] { c.undo(); }), "no record");
   EXPECT_EQ(message_of([&] { c.redo(); }), "nothing undone");
-  c.now = 1, c.record(), c.now = 2, c.record(), c.now = 3;
+  c.now = 1;
+  c.record();
+  c.now = 2;
+  c.record();
+  c.now = 3;
   c.undo();
   EXPECT_EQ(c.now, 2);
   c.undo();
   EXPECT_EQ(c.now, 1);
   EXPECT_EQ(message_of([&] { c.undo(); }), "no record");
-  c.redo(), c.redo();
+  c.redo();
+  c.redo();
   EXPECT_EQ(c.now, 3);
   c.undo();
   c.history.clear_redo();  // as an edit does
   EXPECT_EQ(message_of([&] { c.redo(); }), "nothing undone");
-  c.undo(), c.record();  // a record is the end of what was undone too
+  c.undo();
+  c.record();  // a record is the end of what was undone too
   EXPECT_EQ(message_of([&] { c.redo(); }), "nothing undone");
 }
 
@@ -75,7 +81,9 @@ TEST(History, drops_the_oldest_state_beyond_its_limit) {
 TEST(History, stays_as_it_was_when_a_state_cannot_be_restored) {
   hf_inner::Memory memory;
   Counter c(memory);
-  c.now = 1, c.record(), c.now = 2;
+  c.now = 1;
+  c.record();
+  c.now = 2;
   c.refuse = true;
   EXPECT_THROW(c.undo(), std::bad_alloc);
   c.refuse = false;
@@ -95,8 +103,10 @@ TEST(NumberPool, gives_the_smallest_numbers_that_are_free) {
   EXPECT_EQ(take(), 2u);
   EXPECT_EQ(take(), 4u);
   EXPECT_EQ(take(), 5u);
-  used.erase(4), pool.give_back(4);
-  used.erase(1), pool.give_back(1);
+  used.erase(4);
+  pool.give_back(4);
+  used.erase(1);
+  pool.give_back(1);
   EXPECT_EQ(take(), 1u);
   EXPECT_EQ(take(), 4u);
   EXPECT_EQ(take(), 6u);

@@ -17,10 +17,15 @@ Sites sites_of(hf_solver solver, std::vector<std::uint32_t>* numbers = nullptr) 
   hf_sites_info info = HF_INIT(hf_sites_info);
   EXPECT_EQ(hf_solver_get_sites(solver, &info), HF_OK);
   Sites sites;
-  sites.vertices.resize(info.count), sites.values.resize(info.count), sites.stiffness.resize(info.count);
+  sites.vertices.resize(info.count);
+  sites.values.resize(info.count);
+  sites.stiffness.resize(info.count);
   std::vector<std::uint32_t> all(info.count);
-  info.capacity = info.count, info.vertices = sites.vertices.data(), info.values = sites.values.data();
-  info.stiffness = sites.stiffness.data(), info.sites = all.data();
+  info.capacity = info.count;
+  info.vertices = sites.vertices.data();
+  info.values = sites.values.data();
+  info.stiffness = sites.stiffness.data();
+  info.sites = all.data();
   EXPECT_EQ(hf_solver_get_sites(solver, &info), HF_OK);
   if (numbers) *numbers = all;
   return sites;
@@ -50,14 +55,16 @@ TEST(GraphEdits, random_edits_undo_and_redo_follow_the_dense_system) {
       const std::uint32_t one = numbers.empty() ? 0 : numbers[random() % numbers.size()];
       const Sites fresh = random_sites(random(), graph, 1 + random() % 3);
       hf_sites_desc to = HF_INIT(hf_sites_desc);
-      to.site_count = 1, to.vertices = fresh.vertices.data();
+      to.site_count = 1;
+      to.vertices = fresh.vertices.data();
       const double value = static_cast<double>(random() % 100) / 50 - 1;
       switch (random() % 8) {
         case 0:
         case 1:
         case 2:
           to.site_count = static_cast<std::uint32_t>(fresh.vertices.size());
-          to.values = fresh.values.data(), to.stiffness = fresh.stiffness.data();
+          to.values = fresh.values.data();
+          to.stiffness = fresh.stiffness.data();
           hf_add_sites(solver.handle, &to, nullptr);  // refused where a site is there
           break;
         case 3:
@@ -134,21 +141,25 @@ TEST(GraphEdits, a_saved_factor_gives_the_same_bits_and_knows_its_graph) {
     std::vector<unsigned char> bytes(size);
     ASSERT_EQ(hf_surface_save(made.handle, kind, nullptr, size, bytes.data(), &size), HF_OK);
     hf_factor_desc saved = HF_INIT(hf_factor_desc);
-    saved.bytes = bytes.data(), saved.byte_count = size;
+    saved.bytes = bytes.data();
+    saved.byte_count = size;
     hf_graph_desc desc = graph.desc();
-    desc.field_kind = kind, desc.saved_factor = &saved;
+    desc.field_kind = kind;
+    desc.saved_factor = &saved;
     const Surface loaded(desc);
     hf_surface_statistics statistics = HF_INIT(hf_surface_statistics);
     ASSERT_EQ(hf_surface_get_statistics(loaded.handle, &statistics), HF_OK);
     EXPECT_EQ(statistics.factor_loaded, 1);
     const Solver a(made.handle, kind), b(loaded.handle, kind);
-    add(a.handle, sites), add(b.handle, sites);
+    add(a.handle, sites);
+    add(b.handle, sites);
     EXPECT_TRUE(same_bits(field(a.handle, graph.vertex_count), field(b.handle, graph.vertex_count)));
 
     Graph other = graph;
     other.weights[0] = other.weights[0] * 1.5 + 1;
     hf_graph_desc wrong = other.desc();
-    wrong.field_kind = kind, wrong.saved_factor = &saved;
+    wrong.field_kind = kind;
+    wrong.saved_factor = &saved;
     hf_surface none = nullptr;
     EXPECT_EQ(hf_surface_create_graph(&wrong, &none), HF_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(none, nullptr);

@@ -19,12 +19,16 @@ struct Graph {
   std::int32_t allow_negative = 0;
 
   void add(std::uint32_t a, std::uint32_t b, double weight) {
-    edges.insert(edges.end(), {a, b}), weights.push_back(weight);
+    edges.insert(edges.end(), {a, b});
+    weights.push_back(weight);
   }
   hf_graph_desc desc() const {
     hf_graph_desc d = HF_INIT(hf_graph_desc);
-    d.vertex_count = vertex_count, d.edge_count = static_cast<std::uint32_t>(weights.size());
-    d.edges = edges.data(), d.weights = weights.data(), d.allow_negative = allow_negative;
+    d.vertex_count = vertex_count;
+    d.edge_count = static_cast<std::uint32_t>(weights.size());
+    d.edges = edges.data();
+    d.weights = weights.data();
+    d.allow_negative = allow_negative;
     if (!masses.empty()) d.masses = masses.data();
     return d;
   }
@@ -50,7 +54,8 @@ struct Surface {
 struct Solver {
   Solver(hf_surface surface, std::int32_t field_kind, std::int32_t engine = HF_ENGINE_GREEN) {
     hf_solver_desc desc = HF_INIT(hf_solver_desc);
-    desc.field_kind = field_kind, desc.engine = engine;
+    desc.field_kind = field_kind;
+    desc.engine = engine;
     EXPECT_EQ(hf_create(surface, &desc, &handle), HF_OK) << last_message();
   }
   Solver(const Solver&) = delete;
@@ -66,7 +71,8 @@ struct Sites {
 inline void add(hf_solver solver, const Sites& sites) {
   hf_sites_desc desc = HF_INIT(hf_sites_desc);
   desc.site_count = static_cast<std::uint32_t>(sites.vertices.size());
-  desc.vertices = sites.vertices.data(), desc.values = sites.values.data();
+  desc.vertices = sites.vertices.data();
+  desc.values = sites.values.data();
   if (!sites.stiffness.empty()) desc.stiffness = sites.stiffness.data();
   ASSERT_EQ(hf_add_sites(solver, &desc, nullptr), HF_OK) << last_message();
 }
@@ -79,7 +85,8 @@ inline std::vector<double> fluxes(hf_solver solver) {
   hf_sites_info info = HF_INIT(hf_sites_info);
   EXPECT_EQ(hf_solver_get_sites(solver, &info), HF_OK);
   std::vector<double> flux(info.count);
-  info.capacity = info.count, info.flux = flux.data();
+  info.capacity = info.count;
+  info.flux = flux.data();
   EXPECT_EQ(hf_solver_get_sites(solver, &info), HF_OK);
   return flux;
 }
@@ -122,14 +129,20 @@ inline Eigen::MatrixXd operator_of(const Graph& graph, const std::vector<int>& c
     const int a = static_cast<int>(graph.edges[2 * e]), b = static_cast<int>(graph.edges[2 * e + 1]);
     if (a == b) continue;
     const double w = graph.weights[e];
-    l(a, b) -= w, l(b, a) -= w, l(a, a) += w, l(b, b) += w;
+    l(a, b) -= w;
+    l(b, a) -= w;
+    l(a, a) += w;
+    l(b, b) += w;
   }
   if (field_kind == HF_FIELD_HARMONIC) return l;
   Eigen::VectorXd mass = Eigen::VectorXd::Ones(n);
   for (int c = 0; field_kind == HF_FIELD_BIHARMONIC && !graph.masses.empty() && c < n; ++c) {
     double sum = 0, count = 0;
     for (int v = 0; v < n; ++v) {
-      if (component[static_cast<std::size_t>(v)] == c) sum += graph.masses[static_cast<std::size_t>(v)], count += 1;
+      if (component[static_cast<std::size_t>(v)] == c) {
+        sum += graph.masses[static_cast<std::size_t>(v)];
+        count += 1;
+      }
     }
     for (int v = 0; v < n; ++v) {
       if (component[static_cast<std::size_t>(v)] == c)
@@ -147,7 +160,10 @@ inline Dense dense_field(const Graph& graph, std::int32_t field_kind, const Site
   std::vector<double> mean(graph.vertex_count, 0), count(graph.vertex_count, 0);
   for (int v = 0; v < n; ++v) {
     const int c = component[static_cast<std::size_t>(v)];
-    if (c >= 0) mean[static_cast<std::size_t>(c)] += std::fabs(k(v, v)), count[static_cast<std::size_t>(c)] += 1;
+    if (c >= 0) {
+      mean[static_cast<std::size_t>(c)] += std::fabs(k(v, v));
+      count[static_cast<std::size_t>(c)] += 1;
+    }
   }
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + m, n + m);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(n + m);
@@ -162,13 +178,18 @@ inline Dense dense_field(const Graph& graph, std::int32_t field_kind, const Site
     const std::size_t s = static_cast<std::size_t>(i);
     const int v = static_cast<int>(sites.vertices[s]);
     const std::size_t c = static_cast<std::size_t>(component[sites.vertices[s]]);
-    a(v, n + i) -= 1, a(n + i, v) += 1, b[n + i] = sites.values[s];
+    a(v, n + i) -= 1;
+    a(n + i, v) += 1;
+    b[n + i] = sites.values[s];
     if (!sites.stiffness.empty() && sites.stiffness[s] > 0) a(n + i, n + i) = count[c] / (sites.stiffness[s] * mean[c]);
   }
   // Rows are scaled, since weights may have any unit.
   for (int r = 0; r < n + m; ++r) {
     const double size = a.row(r).cwiseAbs().maxCoeff();
-    if (r < n && size > 0) a.row(r) /= size, b[r] /= size;
+    if (r < n && size > 0) {
+      a.row(r) /= size;
+      b[r] /= size;
+    }
   }
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(a);
   Eigen::VectorXd x = lu.solve(b);
@@ -205,7 +226,8 @@ inline Sites random_sites(std::uint32_t seed, const Graph& graph, std::size_t co
   Sites sites;
   for (std::size_t i = 0; i < count && !usable.empty(); ++i) {
     const std::size_t at = random() % usable.size();
-    sites.vertices.push_back(usable[at]), usable.erase(usable.begin() + static_cast<std::ptrdiff_t>(at));
+    sites.vertices.push_back(usable[at]);
+    usable.erase(usable.begin() + static_cast<std::ptrdiff_t>(at));
     sites.values.push_back(static_cast<double>(random() % 2001) / 1000 - 1);
     sites.stiffness.push_back(random() % 3 == 0 ? 0.01 * static_cast<double>(1 + random() % 500) : 0.0);
   }

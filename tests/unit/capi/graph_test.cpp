@@ -91,7 +91,8 @@ TEST(Graph, the_order_of_the_list_and_of_its_ends_changes_no_bit) {
   std::mt19937 random(9);
   std::shuffle(order.begin(), order.end(), random);
   Graph shuffled;
-  shuffled.vertex_count = graph.vertex_count, shuffled.masses = graph.masses;
+  shuffled.vertex_count = graph.vertex_count;
+  shuffled.masses = graph.masses;
   for (const std::size_t e : order) {
     const bool turned = random() % 2;
     shuffled.add(graph.edges[2 * e + turned], graph.edges[2 * e + !turned], graph.weights[e]);
@@ -103,9 +104,15 @@ TEST(Graph, the_order_of_the_list_and_of_its_ends_changes_no_bit) {
 TEST(Graph, parallel_edges_add_up_and_loops_and_zeros_are_left_out) {
   Graph plain, given;
   plain.vertex_count = given.vertex_count = 6;
-  plain.add(0, 1, 3), plain.add(1, 2, 1), plain.add(2, 3, 2);
-  given.add(1, 0, 1), given.add(2, 2, 7), given.add(1, 2, 1), given.add(3, 2, 2), given.add(0, 1, 2),
-      given.add(3, 4, 0);
+  plain.add(0, 1, 3);
+  plain.add(1, 2, 1);
+  plain.add(2, 3, 2);
+  given.add(1, 0, 1);
+  given.add(2, 2, 7);
+  given.add(1, 2, 1);
+  given.add(3, 2, 2);
+  given.add(0, 1, 2);
+  given.add(3, 4, 0);
   const Sites sites{{0, 3}, {0, 1}, {}};
   EXPECT_TRUE(same_bits(field_of(plain, sites), field_of(given, sites)));
   const Surface surface(given);
@@ -124,7 +131,8 @@ TEST(Graph, a_unit_that_is_a_power_of_two_changes_no_bit_of_a_field) {
     const Surface a(graph), b(scaled);
     for (const std::int32_t kind : {HF_FIELD_HARMONIC, HF_FIELD_BIHARMONIC}) {
       const Solver one(a.handle, kind), other(b.handle, kind);
-      add(one.handle, sites), add(other.handle, sites);
+      add(one.handle, sites);
+      add(other.handle, sites);
       std::vector<double> flux = fluxes(one.handle);
       for (double& f : flux) f = std::ldexp(f, kind == HF_FIELD_HARMONIC ? power : 2 * power);
       EXPECT_TRUE(same_bits(flux, fluxes(other.handle))) << power << ", " << kind;
@@ -143,7 +151,8 @@ TEST(Graph, components_may_have_units_of_their_own) {
   const Sites sites = random_sites(7, one, 5);
   Sites twice = sites;
   for (std::size_t i = 0; i < sites.vertices.size(); ++i) {
-    twice.vertices.push_back(30 + sites.vertices[i]), twice.values.push_back(sites.values[i]);
+    twice.vertices.push_back(30 + sites.vertices[i]);
+    twice.values.push_back(sites.values[i]);
     twice.stiffness.push_back(sites.stiffness[i]);
   }
   for (const std::int32_t kind : kinds) {
@@ -160,7 +169,8 @@ TEST(Graph, masses_have_no_unit_and_none_are_ones) {
   const std::vector<double> found = field_of(graph, sites, HF_FIELD_BIHARMONIC);
   Graph scaled = graph, ones = graph, none = graph;
   for (double& m : scaled.masses) m *= 1024;
-  ones.masses.assign(graph.vertex_count, 3.0), none.masses.clear();
+  ones.masses.assign(graph.vertex_count, 3.0);
+  none.masses.clear();
   EXPECT_TRUE(same_bits(found, field_of(scaled, sites, HF_FIELD_BIHARMONIC)));
   EXPECT_FALSE(same_bits(found, field_of(none, sites, HF_FIELD_BIHARMONIC)));
   EXPECT_TRUE(same_bits(field_of(none, sites, HF_FIELD_BIHARMONIC), field_of(ones, sites, HF_FIELD_BIHARMONIC)));
@@ -169,12 +179,14 @@ TEST(Graph, masses_have_no_unit_and_none_are_ones) {
 TEST(Graph, paths_stars_and_cliques_have_their_closed_forms) {
   const std::uint32_t n = 5000;
   Graph path, star, clique;
-  path.vertex_count = star.vertex_count = n, clique.vertex_count = 150;
+  path.vertex_count = star.vertex_count = n;
+  clique.vertex_count = 150;
   double length = 0;
   std::vector<double> right(n, 0);
   for (std::uint32_t v = 0; v + 1 < n; ++v) {
     const double weight = 0.5 + (v * 7919 % 100) / 50.0;
-    path.add(v, v + 1, weight), star.add(n - 1, v, weight);
+    path.add(v, v + 1, weight);
+    star.add(n - 1, v, weight);
     right[v + 1] = length += 1 / weight;
   }
   for (std::uint32_t a = 0; a < 150; ++a) {
@@ -208,8 +220,10 @@ TEST(Graph, is_the_uniform_operator_of_a_mesh_with_its_edges) {
     triangles.insert(triangles.end(), {v, v + 1, v + side + 1, v, v + side + 1, v + side});
   }
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = side * side, desc.positions = positions.data();
-  desc.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3), desc.triangles = triangles.data();
+  desc.vertex_count = side * side;
+  desc.positions = positions.data();
+  desc.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
+  desc.triangles = triangles.data();
   desc.operator_kind = HF_OPERATOR_UNIFORM;
   hf_surface mesh = nullptr;
   ASSERT_EQ(hf_surface_create(&desc, &mesh), HF_OK);
@@ -230,7 +244,8 @@ TEST(Graph, threads_and_orderings_agree) {
     std::vector<double> first;
     for (const std::uint32_t threads : {1u, 2u, 5u}) {
       hf_graph_desc desc = graph.desc();
-      desc.thread_count = threads, desc.field_kind = kind;
+      desc.thread_count = threads;
+      desc.field_kind = kind;
       const Surface surface(desc);
       const Solver solver(surface.handle, kind);
       add(solver.handle, sites);
@@ -330,9 +345,11 @@ TEST(Graph, weights_of_rounding_size_leave_bi_harmonic_fields_alone) {
 
 TEST(Graph, negative_weights_are_taken_while_the_matrix_is_semi_definite) {
   Graph graph;  // a square with diagonals: the form is sum w d^2, definite for diagonals above -1
-  graph.vertex_count = 4, graph.allow_negative = 1;
+  graph.vertex_count = 4;
+  graph.allow_negative = 1;
   for (std::uint32_t v = 0; v < 4; ++v) graph.add(v, (v + 1) % 4, 1);
-  graph.add(0, 2, -0.45), graph.add(1, 3, -0.3);
+  graph.add(0, 2, -0.45);
+  graph.add(1, 3, -0.3);
   const Sites sites{{0, 1}, {0, 1}, {}};
   for (const std::int32_t kind : kinds) {
     const Dense right = dense_field(graph, kind, sites);

@@ -46,7 +46,10 @@ TEST(HandleSlots, finds_every_live_object_and_no_other_through_many_rounds_of_nu
       ASSERT_EQ(found ? *found : nullptr, known == live.end() ? nullptr : known->second) << number;
     }
   }
-  while (!live.empty()) slots.remove(live.begin()->first), live.erase(live.begin());
+  while (!live.empty()) {
+    slots.remove(live.begin()->first);
+    live.erase(live.begin());
+  }
 }
 
 // However many objects stay, and whichever they are.

@@ -23,8 +23,10 @@ double diagonal(const PlainMesh& mesh) {
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     double low = 1e300, high = -1e300;
-    for (std::size_t i = k; i < mesh.positions.size(); i += 3)
-      low = std::min(low, mesh.positions[i]), high = std::max(high, mesh.positions[i]);
+    for (std::size_t i = k; i < mesh.positions.size(); i += 3) {
+      low = std::min(low, mesh.positions[i]);
+      high = std::max(high, mesh.positions[i]);
+    }
     sum += (high - low) * (high - low);
   }
   return std::sqrt(sum);
@@ -42,11 +44,15 @@ struct Posed {
 // Turns about the y axis through the pivot. tags: by vertex, or empty.
 Posed pose_of(const Scene& scene, bool with, const std::vector<std::uint32_t>& tags = {}) {
   hf_links_desc links = HF_INIT(hf_links_desc);
-  links.mode = HF_LINK_PIECES, links.tags = tags.empty() ? nullptr : tags.data();
+  links.mode = HF_LINK_PIECES;
+  links.tags = tags.empty() ? nullptr : tags.data();
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = scene.mesh.vertex_count(), desc.triangle_count = scene.mesh.triangle_count();
-  desc.positions_f64 = scene.mesh.positions.data(), desc.triangles = scene.mesh.triangles.data();
-  desc.weld = HF_WELD_EXACT, desc.links = with ? &links : nullptr;
+  desc.vertex_count = scene.mesh.vertex_count();
+  desc.triangle_count = scene.mesh.triangle_count();
+  desc.positions_f64 = scene.mesh.positions.data();
+  desc.triangles = scene.mesh.triangles.data();
+  desc.weld = HF_WELD_EXACT;
+  desc.links = with ? &links : nullptr;
   hf_surface surface = nullptr;
   EXPECT_EQ(hf_surface_create(&desc, &surface), HF_OK);
   hf_pose pose = nullptr;
@@ -67,9 +73,12 @@ Posed pose_of(const Scene& scene, bool with, const std::vector<std::uint32_t>& t
   for (int i = 0; i < 20; ++i) EXPECT_EQ(hf_pose_deform(pose, &frame, &info), HF_OK);
   hf_surface_report report = HF_INIT(hf_surface_report);
   EXPECT_EQ(hf_surface_get_report(surface, &report), HF_OK);
-  out.unreached = info.unreached_vertex_count, out.pieces = report.piece_count;
-  out.light = report.light_piece_count, out.groups = report.component_count;
-  hf_pose_destroy(pose), hf_surface_destroy(surface);
+  out.unreached = info.unreached_vertex_count;
+  out.pieces = report.piece_count;
+  out.light = report.light_piece_count;
+  out.groups = report.component_count;
+  hf_pose_destroy(pose);
+  hf_surface_destroy(surface);
   return out;
 }
 
@@ -93,7 +102,11 @@ Gaps gaps_of(const Scene& scene, const std::vector<double>& posed, double range)
       double w[3];
       const double d =
           hf_inner::squared_to_triangle(point(rest, v), point(rest, c[0]), point(rest, c[1]), point(rest, c[2]), w);
-      if (d < least) least = d, nearest = c, std::copy(w, w + 3, share);
+      if (d < least) {
+        least = d;
+        nearest = c;
+        std::copy(w, w + 3, share);
+      }
     }
     if (std::sqrt(least) > range * size) continue;
     const auto apart = [&](const std::vector<double>& xyz) {
@@ -110,7 +123,8 @@ Gaps gaps_of(const Scene& scene, const std::vector<double>& posed, double range)
   }
   std::sort(gaps.begin(), gaps.end());
   if (gaps.empty()) return out;
-  out.share_95 = gaps[(95 * gaps.size() + 99) / 100 - 1], out.worst = gaps.back();
+  out.share_95 = gaps[(95 * gaps.size() + 99) / 100 - 1];
+  out.worst = gaps.back();
   return out;
 }
 
@@ -181,9 +195,12 @@ std::vector<hf_handle_proposal> tips_of(const PlainMesh& mesh) {
   hf_links_desc links = HF_INIT(hf_links_desc);
   links.mode = HF_LINK_PIECES;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
-  desc.positions_f64 = mesh.positions.data(), desc.triangles = mesh.triangles.data();
-  desc.weld = HF_WELD_EXACT, desc.links = &links;
+  desc.vertex_count = mesh.vertex_count();
+  desc.triangle_count = mesh.triangle_count();
+  desc.positions_f64 = mesh.positions.data();
+  desc.triangles = mesh.triangles.data();
+  desc.weld = HF_WELD_EXACT;
+  desc.links = &links;
   hf_surface surface = nullptr;
   EXPECT_EQ(hf_surface_create(&desc, &surface), HF_OK);
   std::uint32_t count = 0;

@@ -79,7 +79,8 @@ TEST(Anderson, LeapsAreShortened) {
   Memory memory;
   Anderson free(memory), held(memory);
   std::vector<double> z(4, 0.0), far = z;
-  free.fit(4), held.fit(4);
+  free.fit(4);
+  held.fit(4);
   for (int i = 0; i < 2; ++i) {
     const std::vector<double> f = map.residual(z);
     free.step(z, f, 2, 1e9);

@@ -90,7 +90,8 @@ TEST(Handles, FieldsEqualADirectSolve) {
   Eigen::VectorXd b = Eigen::VectorXd::Zero(core.size());
   for (int v = 0; v < core.size(); ++v) {
     if (owner[v] >= 0) {
-      triplets.emplace_back(v, v, 1.0), b(v) = owner[v] == 1;
+      triplets.emplace_back(v, v, 1.0);
+      b(v) = owner[v] == 1;
       continue;
     }
     for (int k = core.laplacian.column_start[v]; k < core.laplacian.column_start[v + 1]; ++k) {
@@ -163,7 +164,8 @@ TEST(Bands, EqualLengthLevelsFollowTheLengthOfATubeOfChangingWidth) {
   hf_test::PlainMesh mesh = tube(48, 120, 4);
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     const double y = mesh.positions[3 * v + 1], width = 0.1 + 0.9 * y / 4;
-    mesh.positions[3 * v] *= width, mesh.positions[3 * v + 2] *= width;
+    mesh.positions[3 * v] *= width;
+    mesh.positions[3 * v + 2] *= width;
   }
   const auto core = hf_test::make_core(mesh);
   const auto pose = Pose::make(core, {});
@@ -274,7 +276,11 @@ TEST(Bands, AreSplitByConnectedComponent) {
     std::int32_t first = -1, count = 0;
     for (std::int32_t v = 0; v < core->size(); ++v) {
       for (std::int32_t k = w.start[v]; k < w.start[v + 1]; ++k) {
-        if (w.cluster[k] == c) member[v] = 1, first = v, ++count;
+        if (w.cluster[k] == c) {
+          member[v] = 1;
+          first = v;
+          ++count;
+        }
       }
     }
     if (first < 0) continue;
@@ -283,10 +289,14 @@ TEST(Bands, AreSplitByConnectedComponent) {
     std::int32_t reached = 0;
     while (!stack.empty()) {
       const std::int32_t v = stack.back();
-      stack.pop_back(), ++reached;
+      stack.pop_back();
+      ++reached;
       for (std::int32_t k = core->topology.neighbour_start[v]; k < core->topology.neighbour_start[v + 1]; ++k) {
         const std::int32_t u = core->topology.neighbour[k];
-        if (member[u]) member[u] = 0, stack.push_back(u);
+        if (member[u]) {
+          member[u] = 0;
+          stack.push_back(u);
+        }
       }
     }
     // small weights are pruned, which may cut off a few vertices at the rim

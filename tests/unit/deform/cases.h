@@ -141,7 +141,7 @@ inline Case scan_reach(const hf_test::PlainMesh& mesh) {
   Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300}, hand{1e300, 0, 0};
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3 p{mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)},
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     if (p.x < hand.x) hand = p;
   }
@@ -167,7 +167,8 @@ inline Case scan_hands(const hf_test::PlainMesh& mesh) {
   Vec3 raised{1e300, 0, 0}, lowered{-1e300, 0, 0};
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3 p{mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
-    low = std::min(low, p.y), high = std::max(high, p.y);
+    low = std::min(low, p.y);
+    high = std::max(high, p.y);
     if (p.x < raised.x) raised = p;
     if (p.x > lowered.x) lowered = p;
   }
@@ -268,8 +269,10 @@ inline std::vector<double> mean_curvature(const hf_inner::Mesh& mesh, const std:
     for (int c = 0; c < 3; ++c) {
       const std::int32_t o = k[c], i = k[(c + 1) % 3], j = k[(c + 2) % 3];
       const double w = 0.5 * hf_inner::dot(x[i] - x[o], x[j] - x[o]) / twice;
-      sum[i] = sum[i] + w * (x[i] - x[j]), sum[j] = sum[j] + w * (x[j] - x[i]);
-      normal[o] = normal[o] + n, area[o] += twice / 6;
+      sum[i] = sum[i] + w * (x[i] - x[j]);
+      sum[j] = sum[j] + w * (x[j] - x[i]);
+      normal[o] = normal[o] + n;
+      area[o] += twice / 6;
     }
   }
   for (std::size_t v = 0; v < x.size(); ++v) {
@@ -317,7 +320,9 @@ inline Quality measure(const hf_inner::Core& core, const std::vector<Vec3>& x) {
   std::sort(ratios.begin(), ratios.end());
   q.edge_share = 100.0 * inside / static_cast<double>(ratios.size());
   q.near_share = 100.0 * near / static_cast<double>(ratios.size());
-  q.edge_min = ratios.front(), q.edge_max = ratios.back(), q.p01 = ratios[ratios.size() / 100],
+  q.edge_min = ratios.front();
+  q.edge_max = ratios.back();
+  q.p01 = ratios[ratios.size() / 100];
   q.p99 = ratios[ratios.size() * 99 / 100];
   q.volume = 100 * (signed_volume(mesh, x) / signed_volume(mesh, p) - 1);
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -351,7 +356,10 @@ inline Quality measure(const hf_inner::Core& core, const std::vector<Vec3>& x) {
     changes.push_back(std::min(change, 360 - change));
   }
   std::sort(changes.begin(), changes.end());
-  if (!changes.empty()) q.dihedral_max = changes.back(), q.dihedral_p99 = changes[changes.size() * 99 / 100];
+  if (!changes.empty()) {
+    q.dihedral_max = changes.back();
+    q.dihedral_p99 = changes[changes.size() * 99 / 100];
+  }
   std::vector<double> change = mean_curvature(mesh, x);
   const std::vector<double> before = mean_curvature(mesh, p);
   for (std::size_t v = 0; v < change.size(); ++v) change[v] -= before[v];
@@ -363,7 +371,8 @@ inline Quality measure(const hf_inner::Core& core, const std::vector<Vec3>& x) {
   double sum = 0, weight = 0;
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     const std::int32_t i = topology.first(e), j = topology.second(e);
-    sum += (area[i] + area[j]) * std::fabs(change[i] - change[j]), weight += area[i] + area[j];
+    sum += (area[i] + area[j]) * std::fabs(change[i] - change[j]);
+    weight += area[i] + area[j];
   }
   q.roughness = sum / weight * mesh.scale;
   return q;

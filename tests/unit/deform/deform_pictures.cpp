@@ -20,7 +20,8 @@ samples::Picture draw(const Dragged& d, const std::vector<Vec3>& posed, const Ca
   for (const std::int32_t v : mesh.corners) surface.triangles.push_back(static_cast<std::uint32_t>(v));
   samples::SurfaceLook look;
   if (stripes) {
-    look.fill = samples::Fill::stripes, look.stripe_count = 8;
+    look.fill = samples::Fill::stripes;
+    look.stripe_count = 8;
   } else {
     look.fill = samples::Fill::colors;
     surface.colors.assign(3 * static_cast<std::size_t>(mesh.vertex_count()), 0.62f);
@@ -83,8 +84,10 @@ int time_all() {
       for (int frame = 0; frame < 20; ++frame) {
         place(*pose, numbers[0], {about({1, 0, 0}, 0.02 * frame), {0, 0, 0.01 * frame}});
         const hf_inner::DeformReport r = pose->deform({true, 5, false});
-        solve = std::min(solve, r.solve_ms), blend = std::min(blend, r.blend_ms),
-        normal = std::min(normal, r.normal_ms), clusters = r.cluster_count;
+        solve = std::min(solve, r.solve_ms);
+        blend = std::min(blend, r.blend_ms);
+        normal = std::min(normal, r.normal_ms);
+        clusters = r.cluster_count;
       }
       std::size_t sites = 0;
       for (const std::uint32_t n : numbers) sites += pose->handle(n).site_count;
@@ -119,13 +122,15 @@ int main(int argc, char** argv) {
       for (int i = 0; i < settle; ++i) d.report = d.pose->deform({false, 1000, false});
       const auto show = [&](const char* name, const std::vector<Vec3>& posed) {
         row(name, c, d, posed, ms);
-        tiles.push_back(draw(d, posed, c, false)), lower.push_back(draw(d, posed, c, true));
+        tiles.push_back(draw(d, posed, c, false));
+        lower.push_back(draw(d, posed, c, true));
       };
       const std::vector<Vec3> posed = positions(d.report);
       show(mode, posed);
       if (options.mode == hf_inner::DeformMode::paper) return;
       hf_inner::DeformRequest request;
-      request.iteration_count = 1, request.refine = true;
+      request.iteration_count = 1;
+      request.refine = true;
       show("smooth, refined", positions(d.pose->deform(request)));
       // converged as-rigid-as-possible iterations from here
       std::vector<std::uint8_t> fixed(posed.size(), 0);

@@ -20,16 +20,20 @@ double total_twist(const Core& core, Span<const Vec3> x) {
   for (const auto& section : sections) {
     double sine = 0, cosine = 0;
     Vec3 centre, posed_centre;
-    for (const std::int32_t v : section.second)
-      centre = centre + core.mesh.to_given(core.mesh.positions[v]), posed_centre = posed_centre + x[v];
+    for (const std::int32_t v : section.second) {
+      centre = centre + core.mesh.to_given(core.mesh.positions[v]);
+      posed_centre = posed_centre + x[v];
+    }
     const double scale = 1.0 / static_cast<double>(section.second.size());
     for (const std::int32_t v : section.second) {
       const Vec3 a = core.mesh.to_given(core.mesh.positions[v]) - scale * centre, b = x[v] - scale * posed_centre;
-      sine += a.z * b.x - a.x * b.z, cosine += a.x * b.x + a.z * b.z;
+      sine += a.z * b.x - a.x * b.z;
+      cosine += a.x * b.x + a.z * b.z;
     }
     const double angle = std::atan2(sine, cosine);
     if (!first) total += std::remainder(angle - last, 2 * pi);
-    last = angle, first = false;
+    last = angle;
+    first = false;
   }
   return total * 180 / pi;
 }
@@ -121,7 +125,8 @@ TEST(Drag, BitsDoNotDependOnTheNumberOfThreads) {
       const std::vector<Vec3> x = positions(d.report);
       const std::vector<Normal> n(d.report.normals.begin(), d.report.normals.end());
       if (threads == 1) {
-        first = x, first_normals = n;
+        first = x;
+        first_normals = n;
       } else {
         EXPECT_EQ(std::memcmp(x.data(), first.data(), x.size() * sizeof(Vec3)), 0);
         EXPECT_EQ(std::memcmp(n.data(), first_normals.data(), n.size() * sizeof(Normal)), 0);

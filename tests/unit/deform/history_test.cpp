@@ -119,7 +119,8 @@ void add_to(PoseStack& pose, Placed& handle) {
 
 std::vector<double> restarted(PoseStack& pose, bool refine) {
   hf_inner::DeformRequest request;
-  request.restart = true, request.refine = refine ? 3 : 0;
+  request.restart = true;
+  request.refine = refine ? 3 : 0;
   std::vector<double> out;
   for (const Vec3& p : pose.deform(request).positions) out.insert(out.end(), {p.x, p.y, p.z});
   return out;
@@ -146,7 +147,10 @@ TEST_P(Histories, ARestartedFrameHasTheBitsOfAFreshPose) {
     fresh.transform = {hf_inner::exponential({number(), number(), number()}), {number(), number(), number()}};
     bool there = false;
     for (const Placed& other : present) there = there || other.region == fresh.region;
-    if (!there) add_to(*pose, fresh), present.push_back(fresh);
+    if (!there) {
+      add_to(*pose, fresh);
+      present.push_back(fresh);
+    }
     pose->deform({});
     if (step % 3) continue;
     const bool refine = step % 2 == 0;

@@ -60,7 +60,8 @@ struct Plant {
   void bend(double t) { put(numbers[1], scene.motion(1, t, pose->handle(numbers[1]).centroid)); }
   Surface frame(bool refine = false, bool restart = false) {
     DeformRequest request;
-    request.refine = refine, request.restart = restart;
+    request.refine = refine;
+    request.restart = restart;
     const DeformReport report = pose->deform(request);
     return {report.positions.begin(), report.positions.end()};
   }
@@ -136,7 +137,10 @@ TEST(InPlace, TheShareFallsSmoothlyWithTheWayAndTowardsRest) {
 
 TEST(InPlace, RestartAndRemovalGiveTheBitsOfAPoseThatNeverHadIt) {
   Plant plant, other;
-  for (int f = 0; f < 5; ++f) plant.frame(), other.frame();
+  for (int f = 0; f < 5; ++f) {
+    plant.frame();
+    other.frame();
+  }
   const std::uint32_t arm = plant.add_arm();
   const HandleTransform stands = plant.pose->placed(arm);
   const Surface held = plant.frame();
@@ -170,12 +174,15 @@ TEST(InPlace, AtRestAndBeforeTheFirstFrameItIsAnOrdinaryHandle) {
 
 TEST(InPlace, ThreadsDoNotChangeTheBitsAndThePapersModePlacesTheHandleOnly) {
   Plant one, three(DeformMode::smooth, 3), paper(DeformMode::paper);
-  one.frame(), three.frame(), paper.frame();
+  one.frame();
+  three.frame();
+  paper.frame();
   const std::uint32_t arm = one.add_arm(), other = three.add_arm(), third = paper.add_arm();
   EXPECT_TRUE(same_bits(one.frame(), three.frame()));
   HandleTransform to = one.pose->placed(arm);
   to.translation.x += 0.01;
-  one.put(arm, to), three.put(other, to);
+  one.put(arm, to);
+  three.put(other, to);
   EXPECT_TRUE(same_bits(one.frame(), three.frame()));
   EXPECT_GT(norm(paper.pose->placed(third).translation), 0.1 * paper.box);
 }

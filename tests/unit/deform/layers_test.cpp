@@ -135,11 +135,17 @@ TEST(Layers, AnEditFollowsTheCoarseMotionAndTheWayDoesNotMatter) {
   const HandleTransform edit{about({0, 0, 1}, 0.5), {0, 0.05, 0}};
   put(*plant.pose, fine[0], edit);
   const std::vector<Vec3> direct = positions(plant.pose->deform({}));
-  for (int frame = 1; frame <= 10; ++frame) plant.bend_to(0.1 * frame), plant.pose->deform({});
+  for (int frame = 1; frame <= 10; ++frame) {
+    plant.bend_to(0.1 * frame);
+    plant.pose->deform({});
+  }
   // seen from the arm's frame the edit is the same
   const HandleTransform placed = plant.pose->placed(fine[0]);
   EXPECT_GT(placed.rotation.angularDistance(edit.rotation), 0.3);
-  for (int frame = 9; frame >= 0; --frame) plant.bend_to(0.1 * frame), plant.pose->deform({});
+  for (int frame = 9; frame >= 0; --frame) {
+    plant.bend_to(0.1 * frame);
+    plant.pose->deform({});
+  }
   const double off = largest_distance(plant.settle(), direct) / plant.core->mesh.scale;
   std::printf("out and back under an edit: %.1e of the box\n", off);
   EXPECT_LT(off, 1e-4);
@@ -184,7 +190,10 @@ TEST(Layers, ClonesOfOneRigGoTheirOwnWaysOnTheirOwnThreads) {
     return last;
   };
   std::vector<std::shared_ptr<PoseStack>> alone, together;
-  for (int way = 0; way < 3; ++way) alone.push_back(plant.pose->clone()), together.push_back(plant.pose->clone());
+  for (int way = 0; way < 3; ++way) {
+    alone.push_back(plant.pose->clone());
+    together.push_back(plant.pose->clone());
+  }
   std::vector<std::vector<Vec3>> expected(3), found(3);
   for (int way = 0; way < 3; ++way) expected[way] = play(*alone[way], way);
   std::vector<std::thread> threads;
@@ -247,7 +256,8 @@ TEST(Refine, StepsLowerTheEnergyAndKeepTheHandlesInPlace) {
     double before = arap_energy(*d.core, p, plain_pose);
     for (const std::uint32_t steps : {1u, 3u, 8u}) {
       DeformRequest request;
-      request.iteration_count = 5, request.refine = steps;
+      request.iteration_count = 5;
+      request.refine = steps;
       const std::vector<Vec3> refined = positions(d.pose->deform(request));
       const double after = arap_energy(*d.core, p, refined);
       std::printf("%s: energy %.5f, after %u steps %.5f\n", c.name.c_str(), before, steps, after);
@@ -321,7 +331,8 @@ TEST(Surface, APartOfTheSurfaceHasTheBitsOfTheWhole) {
   }
   // handles that come go on from the pose, not from the last surface that was written
   const auto arm = select(*part.core, [](Vec3 p) { return p.x > 0.45 && p.y > 1.1; });
-  add(*whole.pose, {arm}), add(*part.pose, {arm});
+  add(*whole.pose, {arm});
+  add(*part.pose, {arm});
   EXPECT_TRUE(same_bits(positions(whole.pose->deform({})), positions(part.pose->deform({}))));
 }
 
@@ -354,7 +365,8 @@ TEST(SkinExport, WeightsSumToOneExactlyAndTheReplayStaysWithinOnePerCent) {
           float sum = 0, backwards = 0;
           Vec3 replayed;
           for (std::uint32_t i = 0; i < count; ++i) {
-            sum += weight[i], backwards += weight[count - 1 - i];
+            sum += weight[i];
+            backwards += weight[count - 1 - i];
             EXPECT_GE(weight[i], 0.0f);
             EXPECT_TRUE(i == 0 || weight[i] <= weight[i - 1]);
             ASSERT_LT(joint[i], skin.pivot.size());
@@ -475,7 +487,8 @@ TEST(RegionsNear, ListsARegionForEachPoint) {
 TEST(PoseStack, ChecksIterationsBeforeAnythingChanges) {
   Plant plant;
   DeformRequest request;
-  request.iteration_count = most_iterations + 1, request.restart = true;
+  request.iteration_count = most_iterations + 1;
+  request.restart = true;
   try {
     plant.pose->deform(request);
     ADD_FAILURE();

@@ -70,8 +70,10 @@ TEST_P(Modes, HandlesLandExactlyOnTheirTargets) {
   RandomMotion random(5);
   for (int round = 0; round < 20; ++round) {
     std::vector<HandleTransform> transforms;
-    for (const std::uint32_t n : numbers)
-      transforms.push_back(random.transform(1.5, 0.5)), place(*pose, n, transforms.back());
+    for (const std::uint32_t n : numbers) {
+      transforms.push_back(random.transform(1.5, 0.5));
+      place(*pose, n, transforms.back());
+    }
     const DeformReport report = pose->deform({});
     EXPECT_TRUE(all_finite(report));
     EXPECT_GE(report.iteration_count, 1u);
@@ -153,8 +155,10 @@ TEST_P(Modes, AddingAndRemovingHandlesRestoresThePoseBitForBit) {
   const Case c = cactus_bend(70, 2000);
   Dragged a = set_up(c, options()), b = set_up(c, options());
   for (int frame = 1; frame <= 5; ++frame) {
-    move_to(c, a, 0.2 * frame), move_to(c, b, 0.2 * frame);
-    a.pose->deform({}), b.pose->deform({});
+    move_to(c, a, 0.2 * frame);
+    move_to(c, b, 0.2 * frame);
+    a.pose->deform({});
+    b.pose->deform({});
   }
   const auto arm = select(*b.core, [](Vec3 p) { return p.x > 0.45 && p.y > 1.1; });
   const auto added = add(*b.pose, {arm, {b.core->size() / 3}});
@@ -165,7 +169,8 @@ TEST_P(Modes, AddingAndRemovingHandlesRestoresThePoseBitForBit) {
   EXPECT_TRUE(same_bits(positions(a.pose->deform({})), positions(b.pose->deform({}))));
   // and with a handle moved while the others were there
   const auto again = add(*b.pose, {arm});
-  move_to(c, a, 0.8), move_to(c, b, 0.8);
+  move_to(c, a, 0.8);
+  move_to(c, b, 0.8);
   b.pose->deform({});
   b.pose->remove_handles(again);
   EXPECT_TRUE(same_bits(positions(a.pose->deform({})), positions(b.pose->deform({}))));
@@ -184,7 +189,8 @@ TEST(Pose, RemovingOlderHandlesLeavesAPoseLikeAFreshOne) {
   const auto numbers = add(*fresh, {select(*d.core, c.regions[0]), arm});
   for (std::int32_t v = 0; v < d.core->size(); ++v) EXPECT_EQ(d.pose->field(added[0])[v], fresh->field(numbers[1])[v]);
   const HandleTransform turn{about({0, 0, 1}, 0.5), {0.1, 0.2, 0}};
-  place(*d.pose, added[0], turn), place(*fresh, numbers[1], turn);
+  place(*d.pose, added[0], turn);
+  place(*fresh, numbers[1], turn);
   EXPECT_TRUE(same_bits(positions(d.pose->deform({false, 100, true})), positions(fresh->deform({false, 100, true}))));
   d.pose->remove_handles(std::vector<std::uint32_t>{d.handles[0], added[0]});
   EXPECT_EQ(d.pose->handle_count(), 0u);
@@ -262,7 +268,8 @@ TEST_P(Modes, RegionsThatFillAComponentHaveNoSitesAndStillMove) {
   const auto halves = add(*pose, {select(*core, [](Vec3 p) { return p.x > 1.5 && p.y > 0; }),
                                   select(*core, [](Vec3 p) { return p.x > 1.5 && p.y <= 0; })});
   EXPECT_GT(pose->handle(halves[0]).site_count, 0u);
-  place(*pose, left, {{}, {-1, 0, 0}}), place(*pose, halves[0], {{}, {0, 1, 0}});
+  place(*pose, left, {{}, {-1, 0, 0}});
+  place(*pose, halves[0], {{}, {0, 1, 0}});
   const DeformReport report = pose->deform({true, 0, false});
   EXPECT_TRUE(all_finite(report));
   for (std::int32_t v = 0; v < core->size(); ++v) {
@@ -333,7 +340,8 @@ TEST(Pose, UnitAndPlaceOfTheMeshDoNotMatter) {
   const auto pose = Pose::make(core, {});
   const auto numbers = add(*pose, {select(*d.core, c.regions[0]), select(*d.core, c.regions[1])});
   const HandleTransform t = c.motion(1, 1, d.pose->handle(d.handles[1]).centroid);
-  place(*d.pose, d.handles[1], t), place(*pose, numbers[1], {t.rotation, 1000.0 * t.translation});
+  place(*d.pose, d.handles[1], t);
+  place(*pose, numbers[1], {t.rotation, 1000.0 * t.translation});
   const DeformReport a = d.pose->deform({false, 100, false}), b = pose->deform({false, 100, false});
   for (std::int32_t v = 0; v < core->size(); ++v)
     EXPECT_LT(norm(0.001 * (b.positions[v] - Vec3{0, 65536, 0}) - a.positions[v]), 1e-6);

@@ -51,7 +51,8 @@ std::vector<HandleProposal> propose(const hf_inner::Core& core, const hf_inner::
 
 hf_inner::ProposalOptions plain() {
   hf_inner::ProposalOptions options;
-  options.least_length = 0.05, options.limit = hf_inner::handle_limit;
+  options.least_length = 0.05;
+  options.limit = hf_inner::handle_limit;
   return options;
 }
 
@@ -95,7 +96,8 @@ TEST(HandleProposals, of_a_lying_tube_are_a_foot_its_ends_and_joints_by_the_skel
   // A root where two limbs begin, joints in both tips, one away from the surface, and a chain to a joint in the side.
   const std::vector<double> joints = {5, 0, 0, 0.2, 0, 0, 20, 0, 0, 5, 9, 0, 14, 0.5, 0, 9, 0, 0};
   const std::vector<std::uint32_t> parents = {none, 0, 0, 0, 5, 0};
-  options.joints = joints, options.parents = parents;
+  options.joints = joints;
+  options.parents = parents;
   const std::vector<HandleProposal> list = propose(*core, options);
   expect_list(*core, list);
   std::vector<std::uint32_t> named;

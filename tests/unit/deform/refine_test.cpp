@@ -53,7 +53,8 @@ TEST(Refine, OneStepLeadsToTheMinimumForItsRotationsOnObtuseTrianglesToo) {
   while (d.pose->deform({false, 100, false}).iteration_count > 0) continue;  // later frames start from the same pose
   const std::vector<Vec3> before = positions(d.pose->deform({}));
   DeformRequest request;
-  request.iteration_count = 1, request.refine = true;
+  request.iteration_count = 1;
+  request.refine = true;
   const std::vector<Vec3> after = positions(d.pose->deform(request));
   std::vector<std::int32_t> owner(static_cast<std::size_t>(d.core->size()), -1);
   std::vector<Quaternion> turn;
@@ -85,7 +86,8 @@ TEST(Refine, OneStepLeadsToTheMinimumForItsRotationsOnObtuseTrianglesToo) {
 
 DeformRequest steps(std::uint32_t count, bool from_last) {
   DeformRequest request;
-  request.refine = count, request.refine_from_last = from_last;
+  request.refine = count;
+  request.refine_from_last = from_last;
   return request;
 }
 
@@ -134,7 +136,10 @@ TEST(RefineFromLast, StandsStillAtTheMinimum) {
   const Case c = bent_tube();
   Dragged d = drag_with(c, steps(1, true), 10);
   std::vector<Vec3> last, now;
-  for (int frame = 0; frame < 300; ++frame) last.swap(now), now = positions(d.pose->deform(steps(1, true)));
+  for (int frame = 0; frame < 300; ++frame) {
+    last.swap(now);
+    now = positions(d.pose->deform(steps(1, true)));
+  }
   EXPECT_LT(largest_distance(last, now), 1e-4 * d.core->mesh.scale);
   Dragged other = drag_with(c, steps(1, false), 10);
   EXPECT_LT(energy_of(d, now), 1.001 * least_energy(other));

@@ -1,6 +1,4 @@
 // Rotations are proper, best, and exact on every degenerate input.
-#include "support/eigen.h"
-
 #include "deform/rotation.h"
 
 #include <gtest/gtest.h>
@@ -13,6 +11,7 @@
 #include "cases.h"
 #include "deform/rotation_batch.h"
 #include "deform/rotation_step.h"
+#include "support/eigen.h"
 
 namespace {
 
@@ -105,7 +104,8 @@ TEST(Rotation, BeatsEveryRotationOfAFineSearch) {
     const Mat3 s = random.any(k);
     const double value = best_rotation(s, {}).toRotationMatrix().cwiseProduct(s).sum();
     double searched = -std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 20000; ++i) searched = std::max(searched, random.rotation().toRotationMatrix().cwiseProduct(s).sum());
+    for (int i = 0; i < 20000; ++i)
+      searched = std::max(searched, random.rotation().toRotationMatrix().cwiseProduct(s).sum());
     EXPECT_GE(value, searched - 1e-12 * std::fabs(searched));
   }
 }
@@ -127,7 +127,8 @@ void set(RotationBatch& batch, int lane, const Mat3& s, const Quaternion& near) 
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i) columns[j][i] = s(i, j);
   }
-  batch.set_columns(lane, columns), batch.set_rotation(lane, near);
+  batch.set_columns(lane, columns);
+  batch.set_rotation(lane, near);
 }
 
 TEST(Rotation, EightAtATimeAreTheBestOnesAndDoNotSeeEachOther) {
@@ -141,7 +142,8 @@ TEST(Rotation, EightAtATimeAreTheBestOnesAndDoNotSeeEachOther) {
     for (int l = 0; l < count; ++l) {
       // a warm start, a cold one, and whatever is degenerate side by side
       near[l] = random.rotation();
-      s[l] = (round + l) % 3 ? (exponential(0.05 * random.vector()) * near[l]).toRotationMatrix() : random.any(round + l);
+      s[l] =
+          (round + l) % 3 ? (exponential(0.05 * random.vector()) * near[l]).toRotationMatrix() : random.any(round + l);
       set(batch, l, s[l], near[l]);
     }
     best_rotations_from(batch, count);
@@ -149,7 +151,8 @@ TEST(Rotation, EightAtATimeAreTheBestOnesAndDoNotSeeEachOther) {
       const Quaternion q = batch.rotation(l), cold = best_rotation(s[l], near[l]);
       ASSERT_NEAR(q.squaredNorm(), 1, 1e-12);
       const double size = s[l].norm();
-      ASSERT_NEAR(q.toRotationMatrix().cwiseProduct(s[l]).sum(), cold.toRotationMatrix().cwiseProduct(s[l]).sum(), 1e-11 * size);
+      ASSERT_NEAR(q.toRotationMatrix().cwiseProduct(s[l]).sum(), cold.toRotationMatrix().cwiseProduct(s[l]).sum(),
+                  1e-11 * size);
       // alone in another lane the bits are the same
       RotationBatch alone;
       set(alone, 0, s[l], near[l]);
@@ -175,8 +178,10 @@ TEST(Rotation, EightAtATimeArriveWithinRoundingInFourSteps) {
     RotationBatch stepped = batch;
     best_rotations_from(batch, lanes);
     RotationStep step;
-    for (int iteration = 0; iteration < 5; ++iteration)
-      step_rotations(stepped.s[0], stepped.q[0], step, false), step_rotations(stepped.s[0], stepped.q[0], step, true);
+    for (int iteration = 0; iteration < 5; ++iteration) {
+      step_rotations(stepped.s[0], stepped.q[0], step, false);
+      step_rotations(stepped.s[0], stepped.q[0], step, true);
+    }
     for (int l = 0; l < lanes; ++l) {
       EXPECT_LT(batch.rotation(l).angularDistance(truth[l]), 1e-12);
       EXPECT_LT(step.square[l], 1e-20);  // the fifth step has nothing left to do: each squares the error
@@ -200,10 +205,13 @@ TEST(Rotation, StepsHaveTheSameBitsOnAllLanes) {
     }
     const auto run = [&](StepLoop loop, int which) {
       RotationStep step;
-      for (int iteration = 0; iteration < 3; ++iteration)
-        loop(s[0], q[which][0], step, false), loop(s[0], q[which][0], step, true);
+      for (int iteration = 0; iteration < 3; ++iteration) {
+        loop(s[0], q[which][0], step, false);
+        loop(s[0], q[which][0], step, true);
+      }
     };
-    run(&step_rotations, 0), run(&step_rotations_avx2, 1);
+    run(&step_rotations, 0);
+    run(&step_rotations_avx2, 1);
     EXPECT_EQ(std::memcmp(q[0], q[1], sizeof q[0]), 0) << round;
     if (!__builtin_cpu_supports("avx512f")) continue;
     run(rotation_loop(), 2);
@@ -291,7 +299,10 @@ TEST(Rotation, RigidFitFindsTheMotionBackFromAnyNumberOfPoints) {
   for (int count = 1; count < 12; ++count) {
     std::vector<Vec3> rest, posed;
     const RigidMotion motion{random.rotation(), random.vector()};
-    for (int i = 0; i < count; ++i) rest.push_back(random.vector()), posed.push_back(apply(motion, rest.back()));
+    for (int i = 0; i < count; ++i) {
+      rest.push_back(random.vector());
+      posed.push_back(apply(motion, rest.back()));
+    }
     const RigidMotion fit = fit_rigid(rest, posed, {}, {});
     for (int i = 0; i < count; ++i) EXPECT_LT(norm(apply(fit, rest[i]) - posed[i]), 1e-13 * 10);
   }

@@ -1,6 +1,4 @@
 // Strain limits of rotation groups: what a sheet says, and the equations of a settled pose on the whole mesh.
-#include "support/eigen.h"
-
 #include "deform/strain.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +7,7 @@
 
 #include "cases.h"
 #include "deform/groups.h"
+#include "support/eigen.h"
 
 namespace {
 
@@ -21,7 +20,8 @@ using Eigen::Vector3d;
 Matrix3d target_of(const Matrix3d& moments, const Matrix3d& s, const Matrix3d& r, const StrainLimits& limits) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> rest(moments);
   Eigen::Matrix<double, 3, 2> e;
-  e << rest.eigenvectors().col(2), rest.eigenvectors().col(1);
+  e << rest.eigenvectors().col(2);
+  rest.eigenvectors().col(1);
   const Eigen::Vector2d m(rest.eigenvalues()[2], rest.eigenvalues()[1]);
   if (m[1] <= 0.01 * m[0]) return r;
   Eigen::Matrix2d u = e.transpose() * r.transpose() * s * e * m.cwiseInverse().asDiagonal();
@@ -44,8 +44,11 @@ TEST(Strain, AxesOfASymmetricMatrixAreItsEigenvectors) {
   for (int i = 0; i < 20000; ++i) {
     Mat3 a;
     for (int k = 0; k < 9; ++k) a(k / 3, k % 3) = normal(random);
-    if (i % 4 == 1) a(2, 0) = a(2, 1) = a(2, 2) = 0;               // flat
-    if (i % 4 == 2) a(1, 0) = a(0, 0), a(1, 1) = a(0, 1) = 0.3;  // nearly equal directions
+    if (i % 4 == 1) a(2, 0) = a(2, 1) = a(2, 2) = 0;  // flat
+    if (i % 4 == 2) {
+      a(1, 0) = a(0, 0);
+      a(1, 1) = a(0, 1) = 0.3;
+    }  // nearly equal directions
     const Mat3 square = a * a.transpose();
     const PrincipalAxes axes = principal_axes(square);
     const Mat3 v = axes.axes, d = v.transpose() * square * v;
@@ -63,8 +66,7 @@ TEST(Strain, TheStressOfASheetIsTheOneOfItsDefinitionAndTurnsWithIt) {
   for (int i = 0; i < 4000; ++i) {
     const std::int32_t kind = i % 2;
     // rest edges in a slanted sheet, stretched, sheared and turned
-    Matrix3d frame =
-        normalised({{normal(random), normal(random), normal(random)}, normal(random)}).toRotationMatrix();
+    Matrix3d frame = normalised({{normal(random), normal(random), normal(random)}, normal(random)}).toRotationMatrix();
     Matrix3d stretch = Matrix3d::Identity();
     for (int a = 0; a < 2; ++a) {
       for (int b = 0; b < 2; ++b) stretch(a, b) += 0.25 * normal(random);
@@ -88,8 +90,7 @@ TEST(Strain, TheStressOfASheetIsTheOneOfItsDefinitionAndTurnsWithIt) {
     const Matrix3d target = strained(sheet, x, r);
     EXPECT_LT((target - target_of(moments, s, r, strain_limits[kind])).norm(), 1e-9) << i;
     // a common rotation of the surface and the group: the same stress
-    const Mat3 turn =
-        normalised({{normal(random), normal(random), normal(random)}, normal(random)}).toRotationMatrix();
+    const Mat3 turn = normalised({{normal(random), normal(random), normal(random)}, normal(random)}).toRotationMatrix();
     const Stress y = stress(turn * s, turn * r);
     EXPECT_LT(std::fabs(x.along - y.along) + std::fabs(x.across - y.across) + std::fabs(x.beside - y.beside), 1e-11);
     // at rest: none
@@ -101,7 +102,8 @@ TEST(Strain, TheStressOfASheetIsTheOneOfItsDefinitionAndTurnsWithIt) {
 TEST(Strain, LinesPointsAndBadNumbersAreUnderNoStress) {
   double columns[3][4] = {{5, 1, 0, 0}, {0, 7, 0, 0}, {0, 0, 3, 0}};
   Mat3 line;
-  line(1, 1) = 2, line(0, 0) = 1e-3;
+  line(1, 1) = 2;
+  line(0, 0) = 1e-3;
   for (const Mat3& moments : {line, Mat3(Mat3::Zero())}) {
     const Stress x = stress_of(make_sheet(moments, 1), columns, Mat3::Identity());
     EXPECT_EQ(std::fabs(x.along) + std::fabs(x.across) + std::fabs(x.beside), 0);

@@ -45,7 +45,10 @@ std::int32_t rim_towards(const Region& region, double angle) {
     const Vec3 p = region.surface()->position(v);
     const double along =
         (std::cos(angle) * (p.x - 0.5) + std::sin(angle) * (p.y - 0.5)) / std::hypot(p.x - 0.5, p.y - 0.5);
-    if (along > most) most = along, best = v;
+    if (along > most) {
+      most = along;
+      best = v;
+    }
   }
   return best;
 }
@@ -74,7 +77,9 @@ TEST(CarriedDetail, FollowsRotationTranslationAndScale) {
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     double* p = &moved.positions[3 * v];
     const Vec3 q = map(p[0], p[1], p[2]);
-    p[0] = q.x, p[1] = q.y, p[2] = q.z;
+    p[0] = q.x;
+    p[1] = q.y;
+    p[2] = q.z;
   }
   const Region source = region_where(surface_of(make_core(mesh)), in_disc);
   Region target(surface_of(make_core(moved)));
@@ -96,9 +101,13 @@ TEST(CarriedDetail, OntoAnotherMeshComesNearerWithFinerMeshes) {
     const Region target = region_where(surface_of(make_core(bumps(n + 7, 0, 9))), in_disc);
     CarryOptions options;
     Numbers from, to;
-    for (int k = 0; k < 4; ++k)
-      from.push_back(rim_towards(source, 1.5708 * k)), to.push_back(rim_towards(target, 1.5708 * k));
-    options.source_pins = {from.data(), from.size()}, options.target_pins = {to.data(), to.size()}, options.scale = 1;
+    for (int k = 0; k < 4; ++k) {
+      from.push_back(rim_towards(source, 1.5708 * k));
+      to.push_back(rim_towards(target, 1.5708 * k));
+    }
+    options.source_pins = {from.data(), from.size()};
+    options.target_pins = {to.data(), to.size()};
+    options.scale = 1;
     const CarriedDetail carried = carry(source, target, options);
     double sum = 0;
     for (std::size_t i = 0; i < carried.offset.size(); ++i) {
@@ -128,7 +137,8 @@ TEST(CarriedDetail, StandsUprightOnACurvedBase) {
     if (length < 0.2 * highest) continue;
     // the thin plate of a cap is nearly the cap: its normals are the places on the sphere
     const Vec3 normal = (1 / norm(carried.state->base[i])) * carried.state->base[i];
-    most = std::max(most, 1 - dot(carried.offset[i], normal) / length), ++count;
+    most = std::max(most, 1 - dot(carried.offset[i], normal) / length);
+    ++count;
   }
   EXPECT_GT(count, 100);
   EXPECT_LT(most, 0.02);  // 11 degrees; the direction of the whole cap is up to 30 off
@@ -139,13 +149,16 @@ TEST(CarriedDetail, PairsTurnItOnTheRim) {
   const Region target = region_where(surface_of(make_core(bumps(40, 0))), in_disc);
   const Numbers from{rim_towards(source, 0)}, to{rim_towards(target, 1.5707963)};
   CarryOptions options;
-  options.source_pins = {from.data(), 1}, options.target_pins = {to.data(), 1}, options.scale = 1;
+  options.source_pins = {from.data(), 1};
+  options.target_pins = {to.data(), 1};
+  options.scale = 1;
   const CarriedDetail carried = carry(source, target, options);
   double turned = 0, straight = 0;
   for (std::size_t i = 0; i < carried.offset.size(); ++i) {
     const Vec3 x = carried.state->base[i] + carried.offset[i];
     // a quarter turn takes (a, b) to (-b, a): the height here was at (y, 1 - x)
-    turned += std::pow(x.z - height(x.y, 1 - x.x, low), 2), straight += std::pow(x.z - height(x.x, x.y, low), 2);
+    turned += std::pow(x.z - height(x.y, 1 - x.x, low), 2);
+    straight += std::pow(x.z - height(x.x, x.y, low), 2);
   }
   EXPECT_LT(turned, 0.05 * straight);
 }
@@ -156,10 +169,12 @@ TEST(CarriedDetail, PairsThatAreNotInOrderAreNamed) {
   for (const double a : {0.0, 1.5, 3.0, 4.5}) there.push_back(rim_towards(region, a));
   back = {there[0], there[2], there[1], there[3]};
   CarryOptions options;
-  options.source_pins = {there.data(), 4}, options.target_pins = {back.data(), 4};
+  options.source_pins = {there.data(), 4};
+  options.target_pins = {back.data(), 4};
   EXPECT_EQ(index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { carry(region, region, options); }), 2u);
   back = {there[0], region.state()->shape->inside[0]};
-  options.source_pins = {there.data(), 2}, options.target_pins = {back.data(), 2};
+  options.source_pins = {there.data(), 2};
+  options.target_pins = {back.data(), 2};
   EXPECT_EQ(index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { carry(region, region, options); }), 1u);
 }
 
@@ -186,7 +201,8 @@ TEST(DiscMap, IsAnEmbeddingAndItsSearchFindsEveryTriangle) {
   const RegionState& state = *region.state();
   const DiscBoundary boundary(*region.surface(), state, memory);
   DiscPins pins(memory);
-  pins.place.push_back(3), pins.turn.push_back(0);
+  pins.place.push_back(3);
+  pins.turn.push_back(0);
   const Vector<DiscPoint> disc = map_to_disc(*region.surface(), state, boundary, pins, memory);
   const auto area = [&](DiscPoint a, DiscPoint b, DiscPoint c) {
     return (b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v);
@@ -209,7 +225,10 @@ TEST(DiscMap, IsAnEmbeddingAndItsSearchFindsEveryTriangle) {
   for (std::size_t i = 0; i < corners.size(); i += 3) {
     const double mix[3] = {0.2, 0.5, 0.3};
     DiscPoint p;
-    for (std::size_t k = 0; k < 3; ++k) p.u += mix[k] * point(i + k).u, p.v += mix[k] * point(i + k).v;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p.u += mix[k] * point(i + k).u;
+      p.v += mix[k] * point(i + k).v;
+    }
     double w[3];
     const std::int32_t found = search.find(p, w);
     EXPECT_EQ(found, static_cast<std::int32_t>(i / 3));
@@ -223,7 +242,8 @@ TEST(DiscMap, IsAnEmbeddingAndItsSearchFindsEveryTriangle) {
   DiscPoint nearest;
   for (std::size_t k = 0; k < 3; ++k) {
     const DiscPoint p = point(3 * static_cast<std::size_t>(found) + k);
-    nearest.u += w[k] * p.u, nearest.v += w[k] * p.v;
+    nearest.u += w[k] * p.u;
+    nearest.v += w[k] * p.v;
     EXPECT_GE(w[k], 0);
   }
   for (std::size_t i = 0; i < boundary.loop.size(); ++i) {

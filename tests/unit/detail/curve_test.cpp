@@ -105,7 +105,8 @@ TEST(Curve, ThatDoesNotSeparateIsRefused) {
   for (const std::int32_t v : meridian) points.push_back(at_vertex(v));
   for (const CurveKind kind : {CurveKind::straight, CurveKind::edges}) {
     RegionEdit edit;
-    edit.curve = points, edit.kind = kind;
+    edit.curve = points;
+    edit.kind = kind;
     index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { region.edit(edit); });
   }
   EXPECT_TRUE(region.state()->shape->inside.empty());
@@ -135,8 +136,10 @@ std::pair<int, int> windings(const PlainMesh& plane, const Numbers& curve) {
   std::pair<int, int> range{0, 0};
   for (std::size_t t = 0; t < plane.triangles.size() / 3; ++t) {
     double x = 0, y = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      x += plane.triangles[3 * t + k] % 21 / 3.0, y += plane.triangles[3 * t + k] / 21 / 3.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x += plane.triangles[3 * t + k] % 21 / 3.0;
+      y += plane.triangles[3 * t + k] / 21 / 3.0;
+    }
     int turns = 0;
     for (std::size_t i = 0; i < curve.size(); ++i) {
       const double ax = curve[i] % 21, ay = curve[i] / 21;
@@ -144,7 +147,8 @@ std::pair<int, int> windings(const PlainMesh& plane, const Numbers& curve) {
       if ((ay > y) == (by > y)) continue;
       if (ax + (y - ay) / (by - ay) * (bx - ax) > x) turns += by > ay ? 1 : -1;
     }
-    range.first = std::min(range.first, turns), range.second = std::max(range.second, turns);
+    range.first = std::min(range.first, turns);
+    range.second = std::max(range.second, turns);
   }
   return range;
 }

@@ -90,7 +90,10 @@ TEST(Region, RingsAreDistancesInEdges) {
       const std::int32_t* v = surface->core->mesh.triangle(t);
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l)
-          if (steps[v[k]] == s - 1 && steps[v[l]] < 0) steps[v[l]] = s, expected.push_back(v[l]);
+          if (steps[v[k]] == s - 1 && steps[v[l]] < 0) {
+            steps[v[l]] = s;
+            expected.push_back(v[l]);
+          }
     }
   }
   std::sort(expected.begin(), expected.end());
@@ -108,11 +111,14 @@ TEST(Region, AnyEditsLeadToWhatAFreshRegionGives) {
   std::mt19937 random(11);
   for (int i = 0; i < 25; ++i) {
     Numbers come, go;
-    for (int k = 0; k < 12; ++k)
-      come.push_back(static_cast<std::int32_t>(random() % 504)),
-          go.push_back(static_cast<std::int32_t>(random() % 504));
+    for (int k = 0; k < 12; ++k) {
+      come.push_back(static_cast<std::int32_t>(random() % 504));
+      go.push_back(static_cast<std::int32_t>(random() % 504));
+    }
     RegionEdit edit;
-    edit.add = {come.data(), come.size()}, edit.remove = {go.data(), go.size()}, edit.rings = i % 7 == 3 ? -1 : 0;
+    edit.add = {come.data(), come.size()};
+    edit.remove = {go.data(), go.size()};
+    edit.rings = i % 7 == 3 ? -1 : 0;
     region.edit(edit);
     Region fresh(surface);
     add(fresh, numbers(region.state()->shape->inside));
@@ -154,7 +160,9 @@ TEST(Region, SmallRegionsGetTheBitsOfAWholeSweep) {
   for (std::size_t i = 0; i < state.slot.size(); ++i) {
     const Vec3 p = surface->core->mesh.to_inner(surface->position(state.shape->sites[i]));
     double* value = &values[static_cast<std::size_t>(state.slot[i]) * 3];
-    value[0] = p.x, value[1] = p.y, value[2] = p.z;
+    value[0] = p.x;
+    value[1] = p.y;
+    value[2] = p.z;
   }
   state.engine->solve(values.data(), 3, field.data(), nullptr);
   for (std::size_t i = 0; i < state.base.size(); ++i) {

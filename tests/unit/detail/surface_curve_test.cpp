@@ -46,7 +46,10 @@ CurvePoint draw(const Core& core, std::mt19937& random) {
   if (kind > 0) {
     double sum = 0;
     for (double& w : point.weight) sum += w = 1 + below(8);
-    if (kind == 1) sum -= point.weight[2], point.weight[2] = 0;
+    if (kind == 1) {
+      sum -= point.weight[2];
+      point.weight[2] = 0;
+    }
     for (double& w : point.weight) w /= sum;
   }
   return point;
@@ -118,7 +121,10 @@ TEST(SurfaceCurve, SidesAreThoseOfWindingNumbersInThePlane) {
           on[v] = on[v] || (std::fabs(left) <= 1e-9 * norm(d) && dot(a, b) <= 1e-18) || norm(a) < 1e-9;
           if ((a.y > 0) != (b.y > 0) && (left > 0) == (b.y > a.y)) winding[v] += b.y > a.y ? 1 : -1;
         }
-        if (!on[v]) low = std::min(low, winding[v]), high = std::max(high, winding[v]);
+        if (!on[v]) {
+          low = std::min(low, winding[v]);
+          high = std::max(high, winding[v]);
+        }
       }
       try {
         const Numbers inside = side_of(*core, points);
@@ -142,7 +148,8 @@ TEST(SurfaceCurve, SidesAreThoseOfWindingNumbersInThePlane) {
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), HF_ERROR_INVALID_ARGUMENT);
         const bool none = high == low;
-        empty += none, refused += !none;
+        empty += none;
+        refused += !none;
         EXPECT_TRUE(none || (!turned && high - low > 1)) << round << ": " << error.what();
         EXPECT_TRUE(none || error.index() < points.size()) << error.what();
       }
@@ -209,7 +216,10 @@ TEST(SurfaceCurve, EnclosesTheSideThatIsAskedFor) {
         c = c + (1.0 / 3) * core->mesh.positions[static_cast<std::size_t>(core->mesh.triangle(t)[k])];
       const Vec3 d = c - centre;
       const double off = std::fabs(d.y - r * std::cos(angle)) + std::fabs(d.z - r * std::sin(angle)) + std::fabs(d.x);
-      if (off < least) least = off, best = t;
+      if (off < least) {
+        least = off;
+        best = t;
+      }
     }
     const std::int32_t* v = core->mesh.triangle(best);
     points.push_back({{v[0], v[1], v[2]}, {1.0 / 3, 1.0 / 3, 1.0 / 3}});

@@ -17,7 +17,8 @@ TEST(ThinPlate, IsTheClampedProblemOfItsSurroundings) {
                            {OperatorKind::intrinsic_delaunay, 3},
                            {OperatorKind::cotangent, 3}}) {
     CoreOptions options = thin_plate();
-    options.operator_kind = given.kind, options.formed_valence = given.formed_valence;
+    options.operator_kind = given.kind;
+    options.formed_valence = given.formed_valence;
     const auto surface = surface_of(make_core(torus(28, 18), 1, options));
     EXPECT_EQ(surface->core->root != nullptr, given.formed_valence == 3);
     const Eigen::MatrixXd k = dense_operator(*surface->core);
@@ -80,7 +81,8 @@ double crease(const RegionSurface& surface, const RegionState& state) {
     if (topology.edge_triangle_start[e + 1] - topology.edge_triangle_start[e] != 2) continue;
     const std::int32_t a = topology.triangle(first), b = topology.triangle(first + 1);
     if (moves(a) == moves(b)) continue;
-    sum += std::acos(std::min(1.0, std::max(-1.0, dot(normal(a), normal(b))))) * 180 / 3.14159265358979, count += 1;
+    sum += std::acos(std::min(1.0, std::max(-1.0, dot(normal(a), normal(b))))) * 180 / 3.14159265358979;
+    count += 1;
   }
   EXPECT_GT(count, 20);
   return sum / count;

@@ -1,5 +1,4 @@
 // Bi-harmonic operators: their identities, their fields against closed forms, and all engines against the dense oracle.
-#include "base/index.h"
 #include "mesh/biharmonic.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "support/dirty_meshes.h"
 #include "support/meshes.h"
 #include "support/oracle.h"
@@ -17,12 +17,15 @@ using hf_inner::at;
 using hf_test::PlainMesh;
 
 constexpr hf_inner::FieldKind both[] = {hf_inner::FieldKind::biharmonic, hf_inner::FieldKind::biharmonic_graph};
-constexpr hf_inner::OperatorKind laplacians[] = {hf_inner::OperatorKind::cotangent, hf_inner::OperatorKind::intrinsic_delaunay};
+constexpr hf_inner::OperatorKind laplacians[] = {hf_inner::OperatorKind::cotangent,
+                                                 hf_inner::OperatorKind::intrinsic_delaunay};
 
 std::shared_ptr<const hf_inner::Core> make(const PlainMesh& mesh, hf_inner::FieldKind field,
-                                     hf_inner::OperatorKind kind = hf_inner::OperatorKind::cotangent, std::uint32_t threads = 1) {
+                                           hf_inner::OperatorKind kind = hf_inner::OperatorKind::cotangent,
+                                           std::uint32_t threads = 1) {
   hf_inner::CoreOptions options;
-  options.field_kind = field, options.operator_kind = kind;
+  options.field_kind = field;
+  options.operator_kind = kind;
   return hf_test::make_core(mesh, threads, options);
 }
 
@@ -35,15 +38,19 @@ Eigen::MatrixXd dense(const hf_inner::SymmetricMatrix& k) {
   return a;
 }
 
-std::vector<double> field_of(const std::shared_ptr<const hf_inner::Core>& core, const std::vector<std::int32_t>& vertices,
-                             const std::vector<double>& values, hf_inner::EngineKind kind = hf_inner::EngineKind::green) {
+std::vector<double> field_of(const std::shared_ptr<const hf_inner::Core>& core,
+                             const std::vector<std::int32_t>& vertices, const std::vector<double>& values,
+                             hf_inner::EngineKind kind = hf_inner::EngineKind::green) {
   const auto solver = hf_inner::SiteSolver::make(kind, core, 1e8);
   std::vector<std::int32_t> slots;
   std::vector<hf_inner::Site> sites;
-  for (const std::int32_t v : vertices)
-    slots.push_back(static_cast<std::int32_t>(slots.size())), sites.push_back(hf_inner::Site::at_vertex(core->mesh, v));
+  for (const std::int32_t v : vertices) {
+    slots.push_back(static_cast<std::int32_t>(slots.size()));
+    sites.push_back(hf_inner::Site::at_vertex(core->mesh, v));
+  }
   hf_inner::SiteEdit edit;
-  edit.add = slots, edit.sites = sites;
+  edit.add = slots;
+  edit.sites = sites;
   solver->edit(edit);
   std::vector<double> field(at(core->size()));
   solver->solve(values.data(), 1, field.data(), nullptr);
@@ -78,8 +85,10 @@ TEST(Biharmonic, annihilates_constants_to_rounding) {
       const hf_inner::SymmetricMatrix k = make(mesh, field, hf_inner::OperatorKind::intrinsic_delaunay)->laplacian;
       for (std::int32_t v = 0; v < k.size(); ++v) {
         double sum = 0, size = 0;
-        for (std::int32_t i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i)
-          sum += k.value[at(i)], size += std::fabs(k.value[at(i)]);
+        for (std::int32_t i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i) {
+          sum += k.value[at(i)];
+          size += std::fabs(k.value[at(i)]);
+        }
         EXPECT_LE(std::fabs(sum), 1e-14 * size);
       }
     }
@@ -120,7 +129,10 @@ TEST(Biharmonic, field_converges_quadratically_to_known_solutions_on_a_disk) {
       for (std::int32_t v = 0; v < core->size(); ++v) {
         const hf_inner::Vec3 p = core->mesh.to_given(core->mesh.positions[at(v)]);
         const double r = std::hypot(p.x, p.y);
-        if (r > 0.699 || (solution == 1 && r < 0.201)) vertices.push_back(v), values.push_back(exact(v));
+        if (r > 0.699 || (solution == 1 && r < 0.201)) {
+          vertices.push_back(v);
+          values.push_back(exact(v));
+        }
       }
       const std::vector<double> u = field_of(core, vertices, values);
       double worst = 0;
@@ -190,21 +202,34 @@ TEST(Biharmonic, every_engine_gives_the_dense_oracles_field_under_edits) {
             if (taken) continue;
             hf_inner::Site site = hf_inner::Site::at_vertex(core->mesh, v[0], i == 1 ? 1e-3 : 0.0);
             if (i == 2) {
-              for (int q = 0; q < 3; ++q) site.vertex[q] = v[q], site.weight[q] = q == 0 ? 0.5 : 0.25;
+              for (int q = 0; q < 3; ++q) {
+                site.vertex[q] = v[q];
+                site.weight[q] = q == 0 ? 0.5 : 0.25;
+              }
             }
             std::size_t slot = 0;  // a slot just left may be taken again: a move
             while (slot < sites.size() && sites[slot].component >= 0) ++slot;
-            if (slot == sites.size()) sites.emplace_back(), values.push_back(0);
-            sites[slot] = site, values[slot] = std::uniform_real_distribution<double>(-1, 1)(random);
-            add.push_back(static_cast<std::int32_t>(slot)), fresh.push_back(site);
+            if (slot == sites.size()) {
+              sites.emplace_back();
+              values.push_back(0);
+            }
+            sites[slot] = site;
+            values[slot] = std::uniform_real_distribution<double>(-1, 1)(random);
+            add.push_back(static_cast<std::int32_t>(slot));
+            fresh.push_back(site);
           }
           hf_inner::SiteEdit edit;
-          edit.remove = remove, edit.add = add, edit.sites = fresh;
+          edit.remove = remove;
+          edit.add = add;
+          edit.sites = fresh;
           solver->edit(edit);
           std::vector<hf_inner::Site> used;
           std::vector<double> s;
           for (std::size_t i = 0; i < sites.size(); ++i) {
-            if (sites[i].component >= 0) used.push_back(sites[i]), s.push_back(values[i]);
+            if (sites[i].component >= 0) {
+              used.push_back(sites[i]);
+              s.push_back(values[i]);
+            }
           }
           const Eigen::MatrixXd exact =
               hf_test::dense_field(*core, used, Eigen::Map<Eigen::VectorXd>(s.data(), static_cast<int>(s.size())));
@@ -226,7 +251,10 @@ TEST(Biharmonic, many_sites_at_once_give_the_same_field_as_a_fresh_elimination) 
   const auto core = make(hf_test::torus(60, 40, 0.2), hf_inner::FieldKind::biharmonic);
   std::vector<std::int32_t> vertices;
   std::vector<double> values;
-  for (std::int32_t v = 0; v < core->size(); v += 3) vertices.push_back(v), values.push_back(std::sin(0.1 * v));
+  for (std::int32_t v = 0; v < core->size(); v += 3) {
+    vertices.push_back(v);
+    values.push_back(std::sin(0.1 * v));
+  }
   const std::vector<double> green = field_of(core, vertices, values),
                             fresh = field_of(core, vertices, values, hf_inner::EngineKind::refactor);
   for (std::size_t v = 0; v < green.size(); ++v) EXPECT_NEAR(green[v], fresh[v], 1e-10);

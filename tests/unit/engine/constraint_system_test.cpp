@@ -55,7 +55,10 @@ TEST(ConstraintSystem, names_a_point_that_depends_on_the_vertices_eliminated_wit
     const Index* v = core->mesh.triangle(t);
     for (int k = 0; k < 3; ++k) {
       if (v[k] % 2 || v[(k + 1) % 3] % 2) continue;
-      point.vertex[0] = v[k], point.vertex[1] = v[(k + 1) % 3], point.weight[0] = 0.25, point.weight[1] = 0.75;
+      point.vertex[0] = v[k];
+      point.vertex[1] = v[(k + 1) % 3];
+      point.weight[0] = 0.25;
+      point.weight[1] = 0.75;
       point.component = 0;
     }
   }
@@ -75,7 +78,8 @@ TEST(ConstraintSystem, names_a_point_that_depends_on_the_vertices_eliminated_wit
 
   // all in one batch: the route of the batch is the rebase
   hf_inner::GreenSolver fresh(core);
-  slots.push_back(static_cast<Index>(slots.size())), sites.push_back(point);
+  slots.push_back(static_cast<Index>(slots.size()));
+  sites.push_back(point);
   EXPECT_EQ(conflict_at(fresh, slots, sites), static_cast<std::uint32_t>(slots.size()) - 1);
   EXPECT_EQ(fresh.slot_count(), 0);
 }

@@ -73,7 +73,9 @@ TEST(DenseBlock, names_the_row_that_depends_on_those_before_it) {
   hf_inner::JobRunner jobs(2);
   hf_inner::DenseBlock block(memory);
   const double first[] = {2}, second[] = {1, 3}, copy_of_first[] = {2, 1, 2};
-  block.append(7, first), block.append(8, second), block.append(9, copy_of_first);
+  block.append(7, first);
+  block.append(8, second);
+  block.append(9, copy_of_first);
   EXPECT_EQ(block.factorise(jobs), 2);
 }
 

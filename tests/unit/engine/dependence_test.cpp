@@ -18,7 +18,9 @@ using hf_inner::Site;
 
 Site corner(std::int32_t vertex) {
   Site site;
-  site.vertex[0] = vertex, site.weight[0] = 1, site.component = 0;
+  site.vertex[0] = vertex;
+  site.weight[0] = 1;
+  site.component = 0;
   return site;
 }
 
@@ -26,7 +28,10 @@ Site corner(std::int32_t vertex) {
 Site point(std::int32_t a, double u, double v) {
   Site site;
   for (int k = 0; k < 3; ++k) site.vertex[k] = a + k;
-  site.weight[0] = u, site.weight[1] = v, site.weight[2] = 1 - u - v, site.component = 0;
+  site.weight[0] = u;
+  site.weight[1] = v;
+  site.weight[2] = 1 - u - v;
+  site.component = 0;
   return site;
 }
 

@@ -36,7 +36,8 @@ class Recorder {
     const hf_inner::Factor& factor = *core_->factor;
     add("ordering", factor.order().data(), factor.order().size());
     std::vector<std::uint8_t> bytes(hf_inner::saved_factor_size(factor));
-    hf_inner::save_factor(factor, hf_inner::grounded_hash(*core_), {bytes.data(), bytes.size()}, *core_->memory, *core_->jobs);
+    hf_inner::save_factor(factor, hf_inner::grounded_hash(*core_), {bytes.data(), bytes.size()}, *core_->memory,
+                          *core_->jobs);
     add("saved factor", bytes.data(), bytes.size());
     const std::size_t n = static_cast<std::size_t>(core_->size());
     const auto preview = core_->preview.get(factor, *core_->memory, *core_->jobs);
@@ -64,7 +65,8 @@ class Recorder {
     std::vector<std::int32_t> start = {0}, row, group(count), column(count);
     std::vector<double> value;
     for (std::int32_t i = 0; i < count; ++i) {
-      row.push_back(static_cast<std::int32_t>((std::int64_t{i} * 7919 + 13) % n)), value.push_back(1.0 + 0.01 * i);
+      row.push_back(static_cast<std::int32_t>((std::int64_t{i} * 7919 + 13) % n));
+      value.push_back(1.0 + 0.01 * i);
       start.push_back(static_cast<std::int32_t>(row.size()));
     }
     hf_inner::Vector<std::shared_ptr<const hf_inner::PathGroup>> groups(core_->memory.get());
@@ -99,15 +101,19 @@ class Recorder {
         add(std::string(name) + ", preview", u.data(), u.size());
       }
     };
-    script.apply(0, 0, 0, 300), solve("after 300 sites");
-    script.apply(40, 20, 30, 25), solve("after edits");
+    script.apply(0, 0, 0, 300);
+    solve("after 300 sites");
+    script.apply(40, 20, 30, 25);
+    solve("after edits");
     for (int i = 0; i < 10; ++i) script.step(200, 10);
     solve("after more edits");
     script.apply(0, 0, 0, 200, true);
     field.prepare_rebase();
-    script.apply(0, 0, 0, 1), solve("after a rebase");
+    script.apply(0, 0, 0, 1);
+    solve("after a rebase");
     EXPECT_GT(field.engine().counters().eliminated, 100u);
-    script.apply(30, 10, 10, 20), solve("after edits on a rebase");
+    script.apply(30, 10, 10, 20);
+    solve("after edits on a rebase");
     const std::vector<std::int32_t> probes = {0, 5, core_->size() / 2, core_->size() - 1};
     std::vector<double> at(probes.size() * static_cast<std::size_t>(channels));
     field.solve_at(probes, at.data());
@@ -155,10 +161,12 @@ TEST(Determinism, a_factor_from_bytes_gives_the_same_bits_at_every_stage) {
   const auto made = hf_test::make_core(mesh, 1);
   const Stages expected = stages_of(made);
   hf_inner::Buffer<std::uint8_t> bytes(*made->memory, hf_inner::saved_factor_size(*made->factor));
-  hf_inner::save_factor(*made->factor, hf_inner::grounded_hash(*made), {bytes.data(), bytes.size()}, *made->memory, *made->jobs);
+  hf_inner::save_factor(*made->factor, hf_inner::grounded_hash(*made), {bytes.data(), bytes.size()}, *made->memory,
+                        *made->jobs);
   for (const bool borrow : {false, true}) {
     hf_inner::CoreOptions options;
-    options.saved_factor = {bytes.data(), bytes.size()}, options.borrow_factor = borrow;
+    options.saved_factor = {bytes.data(), bytes.size()};
+    options.borrow_factor = borrow;
     const Stages got = stages_of(hf_test::make_core(mesh, 2, options));
     ASSERT_EQ(got.size(), expected.size());
     for (std::size_t i = 0; i < got.size(); ++i)

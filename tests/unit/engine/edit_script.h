@@ -23,8 +23,8 @@ struct ModelSite {
 
 class EditScript {
  public:
-  EditScript(std::shared_ptr<const hf_inner::Core> c, std::vector<hf_inner::EngineKind> kinds, int channels, std::uint32_t seed,
-             double offset)
+  EditScript(std::shared_ptr<const hf_inner::Core> c, std::vector<hf_inner::EngineKind> kinds, int channels,
+             std::uint32_t seed, double offset)
       : core(std::move(c)), m(static_cast<std::size_t>(channels)), shift(offset), random_(seed) {
     for (const hf_inner::EngineKind kind : kinds)
       fields.emplace_back(std::make_unique<hf_inner::ScalarField>(core, kind, 1e8, channels, 100000));
@@ -71,9 +71,13 @@ class EditScript {
     std::shuffle(used.begin(), used.end(), random_);
     Batch batch;
     const auto take = [&](int wanted, std::vector<std::uint32_t>& list) {
-      for (; wanted > 0 && !used.empty(); --wanted) list.push_back(used.back()), used.pop_back();
+      for (; wanted > 0 && !used.empty(); --wanted) {
+        list.push_back(used.back());
+        used.pop_back();
+      }
     };
-    take(removes, batch.remove), take(moves, batch.move);
+    take(removes, batch.remove);
+    take(moves, batch.move);
     for (const std::uint32_t s : batch.remove) next[s] = ModelSite{};
     std::vector<ModelSite> fresh;
     std::vector<std::uint32_t> kept;
@@ -88,7 +92,8 @@ class EditScript {
         batch.move.clear();
         break;
       }
-      site.used = true, next[s] = site;
+      site.used = true;
+      next[s] = site;
     }
     for (const std::uint32_t s : batch.move) batch.places_of(next[s], batch.move_place, batch.move_weight);
     batch.moves_to_vertices = to_vertices;
@@ -99,15 +104,16 @@ class EditScript {
     for (int i = 0; i < sets && i < static_cast<int>(kept.size()); ++i) {
       const std::uint32_t s = kept[static_cast<std::size_t>(i)];
       next[s].values = random_values();
-      batch.set.push_back(s),
-          batch.set_values.insert(batch.set_values.end(), next[s].values.begin(), next[s].values.end());
+      batch.set.push_back(s);
+      batch.set_values.insert(batch.set_values.end(), next[s].values.begin(), next[s].values.end());
     }
     const bool add_at_vertices = hard_vertices || below(3) != 0;
     for (int i = 0; i < adds; ++i) {
       ModelSite site;
       site.stiffness = hard_vertices || below(3) ? 0.0 : std::pow(10.0, -2.0 + below(5));
       if (!find_place(next, fresh, add_at_vertices, site)) break;
-      site.used = true, site.values = random_values();
+      site.used = true;
+      site.values = random_values();
       fresh.push_back(site);
       batch.places_of(site, batch.add_place, batch.add_weight);
       batch.add_stiffness.push_back(site.stiffness);
@@ -140,20 +146,27 @@ class EditScript {
     const std::uint32_t one = used[static_cast<std::size_t>(below(static_cast<int>(used.size())))];
     Batch batch;
     std::vector<hf_result> allowed;
-    batch.set.push_back(one), batch.set_values = random_values();
+    batch.set.push_back(one);
+    batch.set_values = random_values();
     switch (below(4)) {
       case 0:
         batch.remove = {one, one};
         allowed = {HF_ERROR_NO_SUCH_SITE};
         break;
       case 1:
-        batch.set.clear(), batch.set_values.clear();
-        batch.remove = {one}, batch.move = {one}, batch.move_place = {vertices_[0]}, batch.moves_to_vertices = true;
+        batch.set.clear();
+        batch.set_values.clear();
+        batch.remove = {one};
+        batch.move = {one};
+        batch.move_place = {vertices_[0]};
+        batch.moves_to_vertices = true;
         allowed = {HF_ERROR_NO_SUCH_SITE};
         break;
       case 2:
-        batch.add_place = {core->mesh.report.vertex_count}, batch.adds_at_vertices = true;
-        batch.add_stiffness = {0.0}, batch.add_values = random_values();
+        batch.add_place = {core->mesh.report.vertex_count};
+        batch.adds_at_vertices = true;
+        batch.add_stiffness = {0.0};
+        batch.add_values = random_values();
         allowed = {HF_ERROR_OUT_OF_RANGE};
         break;
       default: {
@@ -161,8 +174,10 @@ class EditScript {
         const auto taken =
             std::find_if(sites.begin(), sites.end(), [](const ModelSite& s) { return s.used && s.at_vertex; });
         if (taken == sites.end()) return;
-        batch.add_place = {taken->given}, batch.adds_at_vertices = true;
-        batch.add_stiffness = {0.0}, batch.add_values = random_values();
+        batch.add_place = {taken->given};
+        batch.adds_at_vertices = true;
+        batch.add_stiffness = {0.0};
+        batch.add_values = random_values();
         allowed = {HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE_SITE};
         break;
       }
@@ -188,7 +203,10 @@ class EditScript {
         site = hf_inner::Site::at_vertex(core->mesh, core->mesh.inner_of_given[s.given]);
       } else {
         const std::int32_t t = core->mesh.triangle_of_given[s.given];
-        for (int k = 0; k < 3; ++k) site.vertex[k] = core->mesh.triangle(t)[k], site.weight[k] = s.weight[k];
+        for (int k = 0; k < 3; ++k) {
+          site.vertex[k] = core->mesh.triangle(t)[k];
+          site.weight[k] = s.weight[k];
+        }
         site.component = core->mesh.component[static_cast<std::size_t>(site.vertex[0])];
       }
       site.compliance = s.stiffness > 0 ? 1 / s.stiffness : 0;
@@ -250,7 +268,8 @@ class EditScript {
       place.push_back(site.given);
       weight.insert(weight.end(), site.weight, site.weight + 3);
     }
-    static hf_inner::Places places(const std::vector<std::uint32_t>& place, const std::vector<double>& weight, bool vertex) {
+    static hf_inner::Places places(const std::vector<std::uint32_t>& place, const std::vector<double>& weight,
+                                   bool vertex) {
       hf_inner::Places p;
       p.count = static_cast<std::uint32_t>(place.size());
       (vertex ? p.vertices : p.triangles) = place.data();
@@ -259,12 +278,17 @@ class EditScript {
     }
     hf_inner::FieldEdit edit() const {
       hf_inner::FieldEdit e;
-      e.remove_count = static_cast<std::uint32_t>(remove.size()), e.remove_sites = remove.data();
-      e.move_count = static_cast<std::uint32_t>(move.size()), e.move_sites = move.data();
+      e.remove_count = static_cast<std::uint32_t>(remove.size());
+      e.remove_sites = remove.data();
+      e.move_count = static_cast<std::uint32_t>(move.size());
+      e.move_sites = move.data();
       e.move_to = places(move_place, move_weight, moves_to_vertices);
-      e.set_count = static_cast<std::uint32_t>(set.size()), e.set_sites = set.data(), e.set_values = set_values.data();
+      e.set_count = static_cast<std::uint32_t>(set.size());
+      e.set_sites = set.data();
+      e.set_values = set_values.data();
       e.add = places(add_place, add_weight, adds_at_vertices);
-      e.add_values = add_values.data(), e.add_stiffness = add_stiffness.data();
+      e.add_values = add_values.data();
+      e.add_stiffness = add_stiffness.data();
       return e;
     }
   };
@@ -306,10 +330,12 @@ class EditScript {
       site.at_vertex = vertex;
       if (vertex) {
         site.given = vertices_[static_cast<std::size_t>(below(static_cast<int>(vertices_.size())))];
-        site.weight[0] = 1, site.weight[1] = site.weight[2] = 0;
+        site.weight[0] = 1;
+        site.weight[1] = site.weight[2] = 0;
       } else {
         site.given = triangles_[static_cast<std::size_t>(below(static_cast<int>(triangles_.size())))];
-        site.weight[0] = 0.2 + 0.05 * below(5), site.weight[1] = 0.2 + 0.05 * below(5);
+        site.weight[0] = 0.2 + 0.05 * below(5);
+        site.weight[1] = 0.2 + 0.05 * below(5);
         site.weight[2] = 1 - site.weight[0] - site.weight[1];
       }
       if (free(present, fresh, site)) return true;

@@ -54,7 +54,8 @@ void expect_fresh_elimination(const EditScript& script, double tolerance) {
     for (Eigen::Index c = 0; c < values.cols(); ++c) s.push_back(values(static_cast<Eigen::Index>(i), c));
   }
   hf_inner::SiteEdit edit;
-  edit.add = slots, edit.sites = used;
+  edit.add = slots;
+  edit.sites = used;
   solver->edit(edit);
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> u(script.core->size(), values.cols());
   solver->solve(s.data(), static_cast<std::int32_t>(values.cols()), u.data(), nullptr);
@@ -110,7 +111,8 @@ TEST_P(EditScripts, stay_exact_when_sites_were_moved_into_the_factor) {
         if (done < next) continue;
         next += 25;
         const hf_inner::EngineCounters counters = script.fields[0]->engine().counters();
-        checked_inside += counters.eliminated > 5, checked_freed += counters.eliminated > 5 && counters.dense_rows > 5;
+        checked_inside += counters.eliminated > 5;
+        checked_freed += counters.eliminated > 5 && counters.dense_rows > 5;
         expect_dense_oracle(script, 1e-10, 0);
         if (HasFailure()) return;
       }

@@ -39,12 +39,14 @@ struct Script {
       double w[3] = {0.2 + 0.1 * pick(5), 0.3, 0};
       w[2] = 1 - w[0] - w[1];
       for (int k = 0; k < 3; ++k) {
-        site.vertex[k] = core->mesh.triangle(t)[k], site.weight[k] = w[k];
+        site.vertex[k] = core->mesh.triangle(t)[k];
+        site.weight[k] = w[k];
         for (const hf_inner::Site& s : sites) {
           for (const int x : s.vertex) free = free && x != site.vertex[k];
         }
       }
-      site.component = core->mesh.component[static_cast<std::size_t>(site.vertex[0])], site.compliance = compliance;
+      site.component = core->mesh.component[static_cast<std::size_t>(site.vertex[0])];
+      site.compliance = compliance;
       if (free) return site;
     }
   }
@@ -55,15 +57,20 @@ struct Script {
       hf_inner::Site site = random_site();
       std::size_t slot = 0;
       while (slot < sites.size() && sites[slot].component >= 0) ++slot;
-      if (slot == sites.size()) sites.emplace_back(), values.resize(sites.size() * static_cast<std::size_t>(m));
+      if (slot == sites.size()) {
+        sites.emplace_back();
+        values.resize(sites.size() * static_cast<std::size_t>(m));
+      }
       sites[slot] = site;
       for (int c = 0; c < m; ++c)
         values[slot * static_cast<std::size_t>(m) + static_cast<std::size_t>(c)] =
             shift + std::uniform_real_distribution<double>(-1, 1)(random);
-      slots.push_back(static_cast<std::int32_t>(slot)), fresh.push_back(site);
+      slots.push_back(static_cast<std::int32_t>(slot));
+      fresh.push_back(site);
     }
     hf_inner::SiteEdit edit;
-    edit.add = slots, edit.sites = fresh;
+    edit.add = slots;
+    edit.sites = fresh;
     solver.edit(edit);
   }
   void remove(int count, hf_inner::SiteSolver& solver) {
@@ -72,9 +79,10 @@ struct Script {
       if (sites[s].component >= 0) used.push_back(static_cast<std::int32_t>(s));
     }
     std::shuffle(used.begin(), used.end(), random);
-    for (int i = 0; i < count && i < static_cast<int>(used.size()); ++i)
-      slots.push_back(used[static_cast<std::size_t>(i)]),
-          sites[static_cast<std::size_t>(used[static_cast<std::size_t>(i)])] = hf_inner::Site{};
+    for (int i = 0; i < count && i < static_cast<int>(used.size()); ++i) {
+      slots.push_back(used[static_cast<std::size_t>(i)]);
+      sites[static_cast<std::size_t>(used[static_cast<std::size_t>(i)])] = hf_inner::Site{};
+    }
     hf_inner::SiteEdit edit;
     edit.remove = slots;
     solver.edit(edit);
@@ -85,7 +93,8 @@ struct Script {
     std::vector<std::size_t> slot;
     for (std::size_t i = 0; i < sites.size(); ++i) {
       if (sites[i].component < 0) continue;
-      used.push_back(sites[i]), slot.push_back(i);
+      used.push_back(sites[i]);
+      slot.push_back(i);
       s.conservativeResize(s.rows() + 1, m);
       for (int c = 0; c < m; ++c)
         s(s.rows() - 1, c) = values[i * static_cast<std::size_t>(m) + static_cast<std::size_t>(c)];
@@ -187,16 +196,23 @@ TEST(Green, refuses_a_dependent_site_and_stays_as_it_was) {
   const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
   std::vector<std::int32_t> slots;
   std::vector<hf_inner::Site> sites;
-  for (int k = 0; k < 3; ++k)
-    sites.push_back(hf_inner::Site::at_vertex(core->mesh, core->mesh.triangle(5)[k])), slots.push_back(k);
+  for (int k = 0; k < 3; ++k) {
+    sites.push_back(hf_inner::Site::at_vertex(core->mesh, core->mesh.triangle(5)[k]));
+    slots.push_back(k);
+  }
   hf_inner::SiteEdit edit;
-  edit.add = slots, edit.sites = sites;
+  edit.add = slots;
+  edit.sites = sites;
   solver->edit(edit);
   hf_inner::Site point;
-  for (int k = 0; k < 3; ++k) point.vertex[k] = core->mesh.triangle(5)[k], point.weight[k] = 1.0 / 3;
+  for (int k = 0; k < 3; ++k) {
+    point.vertex[k] = core->mesh.triangle(5)[k];
+    point.weight[k] = 1.0 / 3;
+  }
   point.component = 0;
   const std::int32_t slot[] = {3};
-  edit.add = hf_inner::Span<const std::int32_t>(slot, 1), edit.sites = hf_inner::Span<const hf_inner::Site>(&point, 1);
+  edit.add = hf_inner::Span<const std::int32_t>(slot, 1);
+  edit.sites = hf_inner::Span<const hf_inner::Site>(&point, 1);
   try {
     solver->edit(edit);
     FAIL() << "a point in a triangle of three hard corners was accepted";
@@ -238,13 +254,15 @@ TEST(Green, moves_many_sites_into_the_factor_and_stays_exact_under_edits) {
     // hard vertex sites only at first, all at once
     std::vector<std::int32_t> slots;
     std::vector<hf_inner::Site> sites;
-    for (int v = 0; v < core->size(); v += 3)
-      sites.push_back(hf_inner::Site::at_vertex(core->mesh, v)),
-          slots.push_back(static_cast<std::int32_t>(slots.size()));
+    for (int v = 0; v < core->size(); v += 3) {
+      sites.push_back(hf_inner::Site::at_vertex(core->mesh, v));
+      slots.push_back(static_cast<std::int32_t>(slots.size()));
+    }
     script.sites = sites;
     for (std::size_t i = 0; i < 2 * sites.size(); ++i) script.values.push_back(std::sin(static_cast<double>(i)));
     hf_inner::SiteEdit edit;
-    edit.add = slots, edit.sites = sites;
+    edit.add = slots;
+    edit.sites = sites;
     solver->edit(edit);
     script.expect_oracle(*solver, 1e-11);
     for (int round = 0; round < 12; ++round) {

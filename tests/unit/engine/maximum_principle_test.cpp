@@ -26,12 +26,14 @@ double worst_overshoot(const hf_test::PlainMesh& mesh, hf_inner::OperatorKind ki
     while (sites.size() < count) {
       const auto v = static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(core->size()));
       if (std::find(taken.begin(), taken.end(), v) != taken.end()) continue;
-      taken.push_back(v), slots.push_back(static_cast<std::int32_t>(sites.size()));
+      taken.push_back(v);
+      slots.push_back(static_cast<std::int32_t>(sites.size()));
       sites.push_back(hf_inner::Site::at_vertex(core->mesh, v));
       values.push_back(std::uniform_real_distribution<double>(-1, 1)(random));
     }
     hf_inner::SiteEdit edit;
-    edit.add = slots, edit.sites = sites;
+    edit.add = slots;
+    edit.sites = sites;
     solver->edit(edit);
     std::vector<double> u(static_cast<std::size_t>(core->size()));
     solver->solve(values.data(), 1, u.data(), nullptr);
@@ -39,7 +41,8 @@ double worst_overshoot(const hf_test::PlainMesh& mesh, hf_inner::OperatorKind ki
       double low = 1e300, high = -1e300;
       for (std::size_t s = 0; s < sites.size(); ++s) {
         if (sites[s].component != core->mesh.component[static_cast<std::size_t>(v)]) continue;
-        low = std::min(low, values[s]), high = std::max(high, values[s]);
+        low = std::min(low, values[s]);
+        high = std::max(high, values[s]);
       }
       const double x = u[static_cast<std::size_t>(v)];
       EXPECT_TRUE(std::isfinite(x));

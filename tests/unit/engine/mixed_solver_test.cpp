@@ -19,7 +19,8 @@ using hf_test::PlainMesh;
 
 hf_inner::CoreOptions unformed(FieldKind kind) {
   hf_inner::CoreOptions options;
-  options.field_kind = kind, options.formed_valence = 3;
+  options.field_kind = kind;
+  options.formed_valence = 3;
   return options;
 }
 
@@ -47,21 +48,25 @@ void add_cone(PlainMesh& mesh, std::uint32_t hub, std::uint32_t rim, std::uint32
 PlainMesh closed_fan(std::uint32_t n) {
   PlainMesh mesh;
   mesh.positions = {0, 0, 0};
-  add_rim(mesh, n, 1, 0), add_cone(mesh, 0, 1, n, true);
+  add_rim(mesh, n, 1, 0);
+  add_cone(mesh, 0, 1, n, true);
   return mesh;
 }
 
 PlainMesh open_fan(std::uint32_t n) {
   PlainMesh mesh;
   mesh.positions = {0, 0, 0};
-  add_rim(mesh, n + 1, 0.4, 0), add_cone(mesh, 0, 1, n + 1, false);
+  add_rim(mesh, n + 1, 0.4, 0);
+  add_cone(mesh, 0, 1, n + 1, false);
   return mesh;
 }
 
 PlainMesh double_cone(std::uint32_t n) {
   PlainMesh mesh;
   mesh.positions = {0, 0, 0.7, 0, 0, -0.4};
-  add_rim(mesh, n, 1, 0), add_cone(mesh, 0, 2, n, true), add_cone(mesh, 1, 2, n, true);
+  add_rim(mesh, n, 1, 0);
+  add_cone(mesh, 0, 2, n, true);
+  add_cone(mesh, 1, 2, n, true);
   return mesh;
 }
 
@@ -161,15 +166,20 @@ TEST_P(MixedSolver, has_soft_sites_of_any_stiffness_and_points_that_depend) {
   for (int i = 0; i < 25; ++i) {
     hf_inner::Site site = hf_inner::Site::at_vertex(core->mesh, 5 * i, std::pow(10.0, i - 12));
     if (i % 5 == 0) {  // five soft points in one triangle
-      for (int k = 0; k < 3; ++k) site.vertex[k] = core->mesh.triangle(7)[k], site.weight[k] = k == i % 3 ? 0.2 : 0.4;
+      for (int k = 0; k < 3; ++k) {
+        site.vertex[k] = core->mesh.triangle(7)[k];
+        site.weight[k] = k == i % 3 ? 0.2 : 0.4;
+      }
     }
-    slots.push_back(i), sites.push_back(site);
+    slots.push_back(i);
+    sites.push_back(site);
   }
   Eigen::MatrixXd values(25, 1);
   for (int i = 0; i < 25; ++i) values(i) = std::sin(1.0 + i);
   hf_inner::MixedSolver solver(core);
   hf_inner::SiteEdit edit;
-  edit.add = slots, edit.sites = sites;
+  edit.add = slots;
+  edit.sites = sites;
   solver.edit(edit);
   std::vector<double> field(at(core->size()));
   solver.solve(values.data(), 1, field.data(), nullptr);
@@ -180,13 +190,14 @@ TEST_P(MixedSolver, has_soft_sites_of_any_stiffness_and_points_that_depend) {
   const std::int32_t there[] = {25, 26, 27, 28};
   std::vector<hf_inner::Site> points(4);
   for (int i = 0; i < 4; ++i) {
-    for (int k = 0; k < 3; ++k)
-      points[at(i)].vertex[k] = core->mesh.triangle(90)[k], points[at(i)].weight[k] = i == k   ? 0.5
-                                                                                      : i == 3 ? 1.0 / 3
-                                                                                               : 0.25;
+    for (int k = 0; k < 3; ++k) {
+      points[at(i)].vertex[k] = core->mesh.triangle(90)[k];
+      points[at(i)].weight[k] = i == k ? 0.5 : i == 3 ? 1.0 / 3 : 0.25;
+    }
     points[at(i)].component = 0;
   }
-  edit.add = {there, 4}, edit.sites = points;
+  edit.add = {there, 4};
+  edit.sites = points;
   try {
     solver.edit(edit);
     ADD_FAILURE() << "a dependent point was taken";
@@ -221,15 +232,20 @@ TEST_P(MixedSolver, holds_crowded_points) {
     hf_inner::Site site = hf_inner::Site::at_vertex(core->mesh, 10 * i);
     if (i < 3) {
       const double weight[3] = {0.3 + 1e-3 * i, 0.4 - 5e-4 * i * i, 0.3 - 1e-3 * i + 5e-4 * i * i};
-      for (int k = 0; k < 3; ++k) site.vertex[k] = core->mesh.triangle(120)[k], site.weight[k] = weight[k];
+      for (int k = 0; k < 3; ++k) {
+        site.vertex[k] = core->mesh.triangle(120)[k];
+        site.weight[k] = weight[k];
+      }
     }
-    slots.push_back(i), sites.push_back(site);
+    slots.push_back(i);
+    sites.push_back(site);
   }
   Eigen::MatrixXd values(6, 1);
   values << 0, 1e-3, 3e-3, 1, -1, 0.5;
   hf_inner::MixedSolver solver(core);
   hf_inner::SiteEdit edit;
-  edit.add = slots, edit.sites = sites;
+  edit.add = slots;
+  edit.sites = sites;
   solver.edit(edit);
   std::vector<double> field(at(core->size()));
   solver.solve(values.data(), 1, field.data(), nullptr);
@@ -302,7 +318,8 @@ TEST_P(HighValence, fields_are_those_of_long_double_and_certified) {
       }
       hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100);
       hf_inner::FieldEdit edit;
-      edit.add.count = static_cast<std::uint32_t>(sites.size()), edit.add.vertices = sites.data();
+      edit.add.count = static_cast<std::uint32_t>(sites.size());
+      edit.add.vertices = sites.data();
       edit.add_values = values.data();
       std::vector<std::uint32_t> numbers(sites.size());
       field.edit(edit, numbers.data());
@@ -338,7 +355,10 @@ TEST(HighValenceDisc, holds_its_value) {
   const std::uint32_t vertices[] = {1, 1 + n / 2, 1 + n / 3};
   const double values[] = {1, -1, 0}, radii[] = {0.1, 0, 0};
   hf_inner::FieldEdit edit;
-  edit.add.count = 3, edit.add.vertices = vertices, edit.add.radii = radii, edit.add_values = values;
+  edit.add.count = 3;
+  edit.add.vertices = vertices;
+  edit.add.radii = radii;
+  edit.add_values = values;
   std::uint32_t numbers[3];
   field.edit(edit, numbers);
   std::vector<double> u(at(core->size())), held;
@@ -346,7 +366,10 @@ TEST(HighValenceDisc, holds_its_value) {
   std::vector<int> places;
   for (std::size_t slot = 0; slot < field.sites().slots().size(); ++slot) {
     const hf_inner::SiteSet::Slot& site = field.sites().slots()[slot];
-    if (site.used()) places.push_back(site.site.vertex[0]), held.push_back(field.sites().values()[slot]);
+    if (site.used()) {
+      places.push_back(site.site.vertex[0]);
+      held.push_back(field.sites().values()[slot]);
+    }
   }
   EXPECT_GT(places.size(), 80u);
   const auto exact = hf_test::MixedReference(core->root->laplacian, core->inverse_mass, places).field(held);

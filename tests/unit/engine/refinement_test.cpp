@@ -1,5 +1,5 @@
-// Iterative refinement of bi-harmonic fields: the correction reaches the dense oracle, a second one changes nothing, and
-// it holds with soft sites, points in triangles, several components, eliminated and freed sites.
+// Iterative refinement of bi-harmonic fields: the correction reaches the dense oracle, a second one changes nothing,
+// and it holds with soft sites, points in triangles, several components, eliminated and freed sites.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,9 @@ struct Sites {
   std::vector<double> values;  // two channels
   void add(const hf_inner::Site& site, double a, double b) {
     slots.push_back(static_cast<std::int32_t>(slots.size()));
-    sites.push_back(site), values.push_back(a), values.push_back(b);
+    sites.push_back(site);
+    values.push_back(a);
+    values.push_back(b);
   }
 };
 
@@ -40,8 +42,12 @@ Sites scattered(const hf_inner::Core& core, std::uint32_t seed, int step) {
     if (v % 3) continue;
     hf_inner::Site point;  // a point in a triangle away from other sites
     const std::int32_t t = static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(core.mesh.triangle_count()));
-    for (int k = 0; k < 3; ++k) point.vertex[k] = core.mesh.triangle(t)[k], point.weight[k] = k ? 0.25 : 0.5;
-    point.component = core.mesh.component[at(point.vertex[0])], point.compliance = 0.01;
+    for (int k = 0; k < 3; ++k) {
+      point.vertex[k] = core.mesh.triangle(t)[k];
+      point.weight[k] = k ? 0.25 : 0.5;
+    }
+    point.component = core.mesh.component[at(point.vertex[0])];
+    point.compliance = 0.01;
     out.add(point, 0.3, -0.2);
   }
   return out;
@@ -58,7 +64,8 @@ std::vector<double> field_of(const std::shared_ptr<const hf_inner::Core>& core, 
                              std::vector<double>& flux, std::uint32_t* factorisations = nullptr) {
   hf_inner::GreenSolver solver(core);
   hf_inner::SiteEdit edit;
-  edit.add = sites.slots, edit.sites = sites.sites;
+  edit.add = sites.slots;
+  edit.sites = sites.sites;
   solver.edit(edit);
   if (removed > 0) {
     const std::vector<std::int32_t> leaving(sites.slots.begin() + 5, sites.slots.begin() + 5 + removed);

@@ -16,7 +16,8 @@ std::vector<double> field_of(const hf_inner::ScalarField& field) {
 
 hf_inner::FieldEdit adding(const std::vector<std::uint32_t>& vertices, const std::vector<double>& values) {
   hf_inner::FieldEdit edit;
-  edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data(),
+  edit.add.count = static_cast<std::uint32_t>(vertices.size());
+  edit.add.vertices = vertices.data();
   edit.add_values = values.data();
   return edit;
 }
@@ -45,7 +46,8 @@ TEST_P(ScalarFieldTest, undo_and_redo_come_back_to_the_same_field) {
   const std::vector<std::uint32_t> vertices = {77, 120};
   const std::vector<double> values = {5, -1};
   hf_inner::FieldEdit edit = adding(vertices, values);
-  edit.remove_count = 1, edit.remove_sites = gone;
+  edit.remove_count = 1;
+  edit.remove_sites = gone;
   field.edit(edit, nullptr);
   const auto second = field_of(field);
   field.undo();
@@ -76,7 +78,8 @@ TEST_P(ScalarFieldTest, a_failing_batch_changes_nothing) {
   EXPECT_EQ(code_of(field, adding({3}, {std::nan("")})), HF_ERROR_NON_FINITE);
   const std::uint32_t absent[] = {0, 9};
   hf_inner::FieldEdit edit;
-  edit.remove_count = 2, edit.remove_sites = absent;
+  edit.remove_count = 2;
+  edit.remove_sites = absent;
   EXPECT_EQ(code_of(field, edit, &index), HF_ERROR_NO_SUCH_SITE);
   EXPECT_EQ(index, 1u);
   EXPECT_EQ(field.sites().count(), 3u);
@@ -88,7 +91,10 @@ TEST_P(ScalarFieldTest, sites_may_swap_places) {
   const auto before = field_of(field);
   const std::uint32_t both[] = {0, 1}, to[] = {50, 1};
   hf_inner::FieldEdit edit;
-  edit.move_count = 2, edit.move_sites = both, edit.move_to.count = 2, edit.move_to.vertices = to;
+  edit.move_count = 2;
+  edit.move_sites = both;
+  edit.move_to.count = 2;
+  edit.move_to.vertices = to;
   field.edit(edit, nullptr);
   const auto after = field_of(field);
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(before[i], 1 - after[i], 1e-6);
@@ -100,7 +106,9 @@ TEST_P(ScalarFieldTest, new_values_factorise_nothing_and_solve_no_path) {
   const std::uint32_t site[] = {1};
   const double value[] = {4};
   hf_inner::FieldEdit edit;
-  edit.set_count = 1, edit.set_sites = site, edit.set_values = value;
+  edit.set_count = 1;
+  edit.set_sites = site;
+  edit.set_values = value;
   field.edit(edit, nullptr);
   EXPECT_NEAR(field_of(field)[50], 4, 1e-6);
   EXPECT_EQ(field.engine().counters().factorisations, before.factorisations);

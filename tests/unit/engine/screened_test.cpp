@@ -35,7 +35,8 @@ struct Scene {
     for (Index v = 0; v < core->size(); ++v) {
       const bool here = both || core->mesh.component[at(v)] == 0;
       screening.push_back(here && random() % 3 == 0 ? 200 * one(random) : 0.0);
-      wish.push_back(one(random)), wish.push_back(one(random));
+      wish.push_back(one(random));
+      wish.push_back(one(random));
     }
   }
   std::vector<double> solve(const ScreenedOperator& a) const {
@@ -118,15 +119,20 @@ TEST(Screened, SitesHoldOnTop) {
       sites.push_back(Site::at_vertex(scene.core->mesh, v, random() % 3 == 0 ? 0.4 : 0.0));
     for (const Index t : {5, 150}) {
       Site point;
-      for (int k = 0; k < 3; ++k) point.vertex[k] = scene.core->mesh.triangle(t)[k], point.weight[k] = k ? 0.25 : 0.5;
+      for (int k = 0; k < 3; ++k) {
+        point.vertex[k] = scene.core->mesh.triangle(t)[k];
+        point.weight[k] = k ? 0.25 : 0.5;
+      }
       point.component = scene.core->mesh.component[at(point.vertex[0])];
       sites.push_back(point);
     }
     Eigen::MatrixXd values(static_cast<int>(sites.size()), 2);
     std::vector<double> rows;
     for (int i = 0; i < values.rows(); ++i) {
-      values(i, 0) = std::sin(i) + 3, values(i, 1) = std::cos(i);
-      rows.push_back(values(i, 0)), rows.push_back(values(i, 1));
+      values(i, 0) = std::sin(i) + 3;
+      values(i, 1) = std::cos(i);
+      rows.push_back(values(i, 0));
+      rows.push_back(values(i, 1));
     }
     hf_inner::ConstraintSystem system(a->view());
     std::vector<Index> slots(sites.size());

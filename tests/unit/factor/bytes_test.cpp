@@ -26,9 +26,12 @@ class FactorBytes : public testing::Test {
     hf_inner::save_factor(factor, matrix_hash, {bytes.data(), bytes.size()}, memory, two);
     return bytes;
   }
-  std::shared_ptr<const hf_inner::Factor> load(hf_inner::Span<const std::uint8_t> bytes, std::int32_t n, bool borrow = false) {
+  std::shared_ptr<const hf_inner::Factor> load(hf_inner::Span<const std::uint8_t> bytes, std::int32_t n,
+                                               bool borrow = false) {
     hf_inner::LoadOptions options;
-    options.unknowns = n, options.matrix_hash = matrix_hash, options.borrow = borrow;
+    options.unknowns = n;
+    options.matrix_hash = matrix_hash;
+    options.borrow = borrow;
     return hf_inner::load_factor(bytes, options, memory, two);
   }
   hf_result code_of(const std::vector<std::uint8_t>& bytes, std::int32_t n) {
@@ -41,8 +44,8 @@ class FactorBytes : public testing::Test {
   }
   // Both checksums of changed bytes are set right, so that the other checks have to hold alone.
   void repair(std::vector<std::uint8_t>& bytes) {
-    const std::uint64_t body =
-        hf_inner::hash_bytes(bytes.data() + header, bytes.size() - header, memory, one, [](std::uint64_t, std::uint64_t) {});
+    const std::uint64_t body = hf_inner::hash_bytes(bytes.data() + header, bytes.size() - header, memory, one,
+                                                    [](std::uint64_t, std::uint64_t) {});
     std::memcpy(bytes.data() + 88, &body, 8);
     const std::uint64_t head = hf_inner::hash_piece(bytes.data(), header - 8);
     std::memcpy(bytes.data() + header - 8, &head, 8);
@@ -74,8 +77,10 @@ TEST_F(FactorBytes, a_loaded_factor_sweeps_to_the_same_bits_and_refactors) {
       std::vector<double> x(static_cast<std::size_t>(a.size())), y;
       for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::sin(static_cast<double>(i));
       y = x;
-      factor->forward(x.data(), 1, one), factor->backward(x.data(), 1, one);
-      loaded->forward(y.data(), 1, two), loaded->backward(y.data(), 1, two);
+      factor->forward(x.data(), 1, one);
+      factor->backward(x.data(), 1, one);
+      loaded->forward(y.data(), 1, two);
+      loaded->backward(y.data(), 1, two);
       EXPECT_EQ(x, y);
       EXPECT_EQ(save(*loaded), bytes);
       EXPECT_EQ(save(*loaded->refactor(a, {}, memory, two)), bytes);
@@ -127,7 +132,8 @@ TEST_F(FactorBytes, foreign_matrices_sizes_versions_byte_orders_and_every_trunca
   EXPECT_EQ(code_of(bytes, 36), HF_OK);
   EXPECT_EQ(code_of(bytes, 37), HF_ERROR_INVALID_ARGUMENT);
   hf_inner::LoadOptions other;
-  other.unknowns = 36, other.matrix_hash = matrix_hash + 1;
+  other.unknowns = 36;
+  other.matrix_hash = matrix_hash + 1;
   EXPECT_THROW(hf_inner::load_factor(bytes, other, memory, one), hf_inner::Error);
   for (std::size_t length = 0; length < bytes.size(); ++length) {
     EXPECT_EQ(code_of({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)}, 36),
@@ -142,7 +148,8 @@ TEST_F(FactorBytes, foreign_matrices_sizes_versions_byte_orders_and_every_trunca
     EXPECT_EQ(code_of(future, 36), HF_ERROR_UNSUPPORTED);
   }
   std::vector<std::uint8_t> small(bytes.size() - 1);
-  EXPECT_THROW(hf_inner::save_factor(*make(a), matrix_hash, {small.data(), small.size()}, memory, one), hf_inner::Error);
+  EXPECT_THROW(hf_inner::save_factor(*make(a), matrix_hash, {small.data(), small.size()}, memory, one),
+               hf_inner::Error);
 }
 
 TEST_F(FactorBytes, borrowed_bytes_that_are_not_aligned_are_refused) {
@@ -262,7 +269,8 @@ TEST_F(FactorBytes, forged_bytes_with_right_checksums_never_crash) {
       const auto factor = load({in_place.data(), in_place.size()}, 72, round % 2);
       ++accepted;
       std::vector<double> z(72 * 3, 1.0);
-      factor->forward(z.data(), 3, two), factor->backward(z.data(), 3, two);
+      factor->forward(z.data(), 3, two);
+      factor->backward(z.data(), 3, two);
       try {
         factor->refactor(a, {}, memory, one);
       } catch (const hf_inner::Error&) {
@@ -290,11 +298,14 @@ TEST_F(FactorBytes, the_single_precision_copy_sweeps_to_single_precision_and_the
     for (std::size_t i = 0; i < z.size(); ++i) z[i] = std::sin(0.3 * static_cast<double>(i));
     std::vector<float> x(z.begin(), z.end()), y = x;
     factor->backward(z.data(), channels, one);
-    preview->backward(x.data(), channels, one), preview->backward(y.data(), channels, two);
+    preview->backward(x.data(), channels, one);
+    preview->backward(y.data(), channels, two);
     EXPECT_EQ(x, y);
     double worst = 0, size = 0;
-    for (std::size_t i = 0; i < z.size(); ++i)
-      worst = std::max(worst, std::abs(z[i] - static_cast<double>(x[i]))), size = std::max(size, std::abs(z[i]));
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      worst = std::max(worst, std::abs(z[i] - static_cast<double>(x[i])));
+      size = std::max(size, std::abs(z[i]));
+    }
     EXPECT_LT(worst, 1e-5 * size);
     EXPECT_GT(worst, 0);
   }

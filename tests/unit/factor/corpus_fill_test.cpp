@@ -81,9 +81,11 @@ TEST(CorpusFill, is_bounded_by_minimum_degree_on_hard_surfaces) {
   PlainMesh point = hf_test::torus(70, 60);
   std::fill(point.positions.begin(), point.positions.end(), 2.5);
   hf_inner::MeshInput input;
-  input.vertex_count = point.vertex_count(), input.triangle_count = point.triangle_count();
+  input.vertex_count = point.vertex_count();
+  input.triangle_count = point.triangle_count();
   input.positions = hf_inner::ConstRows(point.positions.data(), 3 * sizeof(double));
-  input.triangles = point.triangles.data(), input.weld = hf_inner::Weld::none;
+  input.triangles = point.triangles.data();
+  input.weld = hf_inner::Weld::none;
   const auto memory = std::make_shared<hf_inner::Memory>();
   hf_inner::CoreOptions options;
   options.operator_kind = hf_inner::OperatorKind::uniform;

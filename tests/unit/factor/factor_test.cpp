@@ -98,8 +98,10 @@ class Fixture : public testing::Test {
     const std::vector<double> x = solve(factor, b);
     const std::vector<double> ax = hf_test::multiply(a, x);
     double worst = 0, size = 0, diagonal = 0;
-    for (std::size_t i = 0; i < b.size(); ++i)
-      worst = std::max(worst, std::abs(ax[i] - b[i])), size = std::max(size, std::abs(x[i]));
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      worst = std::max(worst, std::abs(ax[i] - b[i]));
+      size = std::max(size, std::abs(x[i]));
+    }
     for (std::int32_t j = 0; j < a.size(); ++j) {
       for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e)
         diagonal = std::max(diagonal, std::abs(a.value[e]));
@@ -261,8 +263,11 @@ TEST_F(FactorTest, avx2_and_avx512_give_the_same_bits) {
     const auto made = make(a);
     const auto analysis = static_cast<const hf_inner::SupernodalFactor&>(*made).analysis();
     hf_inner::SupernodalFactor f(analysis, memory), g(analysis, memory), h(analysis, memory);
-    f.use_kernels(*narrow), g.use_kernels(*wide), h.use_kernels(*hf_inner::plain_kernels());
-    f.compute(a, {}, hf_inner::default_lost_share, one), g.compute(a, {}, hf_inner::default_lost_share, one);
+    f.use_kernels(*narrow);
+    g.use_kernels(*wide);
+    h.use_kernels(*hf_inner::plain_kernels());
+    f.compute(a, {}, hf_inner::default_lost_share, one);
+    g.compute(a, {}, hf_inner::default_lost_share, one);
     h.compute(a, {}, hf_inner::default_lost_share, one);
     ASSERT_EQ(std::memcmp(f.values().data(), g.values().data(), f.values().size() * sizeof(double)), 0);
     for (const std::int32_t channels : {1, 2, 3, 4, 8, 9}) {
@@ -270,8 +275,10 @@ TEST_F(FactorTest, avx2_and_avx512_give_the_same_bits) {
       const std::vector<double> x = solve(f, b, channels), y = solve(g, b, channels), p = solve(h, b, channels);
       EXPECT_EQ(x, y) << channels;
       double worst = 0, size = 0;
-      for (std::size_t i = 0; i < x.size(); ++i)
-        worst = std::max(worst, std::abs(x[i] - p[i])), size = std::max(size, std::abs(x[i]));
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        worst = std::max(worst, std::abs(x[i] - p[i]));
+        size = std::max(size, std::abs(x[i]));
+      }
       EXPECT_LT(worst, (bend ? 1e-7 : 1e-10) * size) << "plain kernels";
     }
   }
@@ -361,7 +368,10 @@ struct Batch {
   std::vector<std::int32_t> start{0}, row;
   std::vector<double> value;
   void add(std::initializer_list<std::pair<std::int32_t, double>> entries) {
-    for (const auto& [r, v] : entries) row.push_back(r), value.push_back(v);
+    for (const auto& [r, v] : entries) {
+      row.push_back(r);
+      value.push_back(v);
+    }
     start.push_back(static_cast<std::int32_t>(row.size()));
   }
   hf_inner::SparseColumns view() const {

@@ -25,7 +25,9 @@ class Assembly {
   }
   // weight w between i and j: +w on both diagonals, -w off them
   void add_edge(std::int32_t i, std::int32_t j, double weight) {
-    add(i, j, -weight), add(i, i, weight), add(j, j, weight);
+    add(i, j, -weight);
+    add(i, i, weight);
+    add(j, j, weight);
   }
   hf_inner::SymmetricMatrix build(hf_inner::Memory& memory) {
     hf_inner::SymmetricMatrix matrix(memory);
@@ -36,7 +38,8 @@ class Assembly {
         if (k > 0 && column[k].first == column[k - 1].first) {
           matrix.value.back() += column[k].second;
         } else {
-          matrix.row.push_back(column[k].first), matrix.value.push_back(column[k].second);
+          matrix.row.push_back(column[k].first);
+          matrix.value.push_back(column[k].second);
         }
       }
       matrix.column_start.push_back(static_cast<std::int32_t>(matrix.row.size()));
@@ -48,8 +51,8 @@ class Assembly {
   std::vector<std::vector<std::pair<std::int32_t, double>>> columns_;
 };
 
-inline hf_inner::SymmetricMatrix grid_laplacian(hf_inner::Memory& memory, std::int32_t nx, std::int32_t ny, double ground = 1.0,
-                                          bool diagonals = true) {
+inline hf_inner::SymmetricMatrix grid_laplacian(hf_inner::Memory& memory, std::int32_t nx, std::int32_t ny,
+                                                double ground = 1.0, bool diagonals = true) {
   Assembly a(nx * ny);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> weight(0.5, 1.5);
@@ -68,14 +71,18 @@ inline hf_inner::SymmetricMatrix grid_laplacian(hf_inner::Memory& memory, std::i
 inline std::vector<float> grid_points(std::int32_t nx, std::int32_t ny) {
   std::vector<float> points;
   for (std::int32_t y = 0; y < ny; ++y) {
-    for (std::int32_t x = 0; x < nx; ++x)
-      points.push_back(static_cast<float>(x)), points.push_back(static_cast<float>(y)), points.push_back(0.0f);
+    for (std::int32_t x = 0; x < nx; ++x) {
+      points.push_back(static_cast<float>(x));
+      points.push_back(static_cast<float>(y));
+      points.push_back(0.0f);
+    }
   }
   return points;
 }
 
 // Random sparse symmetric pattern, diagonally dominant.
-inline hf_inner::SymmetricMatrix random_matrix(hf_inner::Memory& memory, std::int32_t size, double density, std::uint32_t seed) {
+inline hf_inner::SymmetricMatrix random_matrix(hf_inner::Memory& memory, std::int32_t size, double density,
+                                               std::uint32_t seed) {
   Assembly a(size);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0), weight(-1.0, 1.0);
@@ -85,7 +92,8 @@ inline hf_inner::SymmetricMatrix random_matrix(hf_inner::Memory& memory, std::in
       if (unit(random) >= density) continue;
       const double w = weight(random);
       a.add(i, j, w);
-      sum[static_cast<std::size_t>(i)] += std::abs(w), sum[static_cast<std::size_t>(j)] += std::abs(w);
+      sum[static_cast<std::size_t>(i)] += std::abs(w);
+      sum[static_cast<std::size_t>(j)] += std::abs(w);
     }
   }
   for (std::int32_t i = 0; i < size; ++i) a.add(i, i, sum[static_cast<std::size_t>(i)] + 0.01 + unit(random));
@@ -94,7 +102,10 @@ inline hf_inner::SymmetricMatrix random_matrix(hf_inner::Memory& memory, std::in
 
 inline hf_inner::SymmetricMatrix arrow_matrix(hf_inner::Memory& memory, std::int32_t size) {
   Assembly a(size);
-  for (std::int32_t i = 1; i < size; ++i) a.add(0, i, 0.5), a.add(i, i, 2.0);
+  for (std::int32_t i = 1; i < size; ++i) {
+    a.add(0, i, 0.5);
+    a.add(i, i, 2.0);
+  }
   a.add(0, 0, static_cast<double>(size));
   return a.build(memory);
 }
@@ -137,7 +148,8 @@ inline TriangleMesh torus(std::int32_t nu, std::int32_t nv, double jitter) {
 }
 
 // Cotangent Laplacian, cotangents clamped from below so that the matrix is an M-matrix, and a ground at vertex 0.
-inline hf_inner::SymmetricMatrix cotangent_matrix(hf_inner::Memory& memory, const TriangleMesh& mesh, bool ground = true) {
+inline hf_inner::SymmetricMatrix cotangent_matrix(hf_inner::Memory& memory, const TriangleMesh& mesh,
+                                                  bool ground = true) {
   const std::int32_t n = static_cast<std::int32_t>(mesh.points.size() / 3);
   Assembly a(n);
   double trace = 0;
@@ -146,8 +158,10 @@ inline hf_inner::SymmetricMatrix cotangent_matrix(hf_inner::Memory& memory, cons
       const std::int32_t o = mesh.triangles[t + k], i = mesh.triangles[t + (k + 1) % 3],
                          j = mesh.triangles[t + (k + 2) % 3];
       double dot = 0, e[3], f[3];
-      for (int c = 0; c < 3; ++c)
-        e[c] = mesh.points[3 * i + c] - mesh.points[3 * o + c], f[c] = mesh.points[3 * j + c] - mesh.points[3 * o + c];
+      for (int c = 0; c < 3; ++c) {
+        e[c] = mesh.points[3 * i + c] - mesh.points[3 * o + c];
+        f[c] = mesh.points[3 * j + c] - mesh.points[3 * o + c];
+      }
       for (int c = 0; c < 3; ++c) dot += e[c] * f[c];
       const double x = e[1] * f[2] - e[2] * f[1], y = e[2] * f[0] - e[0] * f[2], z = e[0] * f[1] - e[1] * f[0];
       const double weight = std::max(1e-3, 0.5 * dot / std::max(1e-30, std::sqrt(x * x + y * y + z * z)));
@@ -169,8 +183,10 @@ inline hf_inner::SymmetricMatrix squared(hf_inner::Memory& memory, const hf_inne
     touched.clear();
     for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e) {
       for (std::int32_t f = a.column_start[a.row[e]]; f < a.column_start[a.row[e] + 1]; ++f) {
-        if (std::find(touched.begin(), touched.end(), a.row[f]) == touched.end())
-          touched.push_back(a.row[f]), sum[static_cast<std::size_t>(a.row[f])] = 0;
+        if (std::find(touched.begin(), touched.end(), a.row[f]) == touched.end()) {
+          touched.push_back(a.row[f]);
+          sum[static_cast<std::size_t>(a.row[f])] = 0;
+        }
         sum[static_cast<std::size_t>(a.row[f])] += a.value[f] * a.value[e];
       }
     }

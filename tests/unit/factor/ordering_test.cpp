@@ -74,7 +74,8 @@ TEST_F(OrderingTest, fill_estimate_counts_the_entries_of_dense_elimination) {
     for (const std::int32_t v : p) {
       const std::set<std::int32_t> ring = graph[static_cast<std::size_t>(v)];
       const double count = static_cast<double>(ring.size()) + 1;
-      entries += count, flops += count * count;
+      entries += count;
+      flops += count * count;
       for (const std::int32_t u : ring) {
         for (const std::int32_t w : ring) {
           if (u != w) graph[static_cast<std::size_t>(u)].insert(w);
@@ -108,7 +109,8 @@ double exact_minimum_degree_entries(const hf_inner::SymmetricMatrix& a) {
     for (const std::int32_t u : graph[least]) {
       std::set<std::int32_t>& ring = graph[static_cast<std::size_t>(u)];
       ring.insert(graph[least].begin(), graph[least].end());
-      ring.erase(u), ring.erase(static_cast<std::int32_t>(least));
+      ring.erase(u);
+      ring.erase(static_cast<std::int32_t>(least));
     }
     left.erase(least);
   }
@@ -120,7 +122,8 @@ TEST_F(OrderingTest, minimum_degree_fills_about_as_much_as_with_exact_degrees) {
   for (std::uint32_t seed = 0; seed < 40; ++seed) {
     const std::int32_t size = 20 + static_cast<std::int32_t>(seed) * 4;
     const hf_inner::SymmetricMatrix a = hf_test::random_matrix(memory, size, 4.0 / size, seed);
-    own += fill(a, hf_inner::Ordering::minimum_degree).entries, exact += exact_minimum_degree_entries(a);
+    own += fill(a, hf_inner::Ordering::minimum_degree).entries;
+    exact += exact_minimum_degree_entries(a);
   }
   EXPECT_LE(own, 1.03 * exact);
   const hf_inner::SymmetricMatrix grid = hf_test::grid_laplacian(memory, 24, 22);
@@ -213,7 +216,8 @@ TEST_F(OrderingTest, islands_strips_stars_and_cliques_are_ordered) {
     if (k + 100 < 10000) mixed.add_edge(k, k + 100, 1.0);
   }
   for (std::int32_t k = 10000; k + 1 < 10100; ++k) mixed.add_edge(k, k + 1, 1.0);
-  mixed.add(0, 0, 1.0), mixed.add(10000, 10000, 1.0);
+  mixed.add(0, 0, 1.0);
+  mixed.add(10000, 10000, 1.0);
   std::vector<float> place = hf_test::grid_points(100, 100);
   for (std::int32_t k = 0; k < 100; ++k)
     place.insert(place.end(), {static_cast<float>(k), static_cast<float>(k), 0.0f});
@@ -255,16 +259,20 @@ TEST_F(OrderingTest, the_minimum_separator_is_minimum) {
     for (std::int32_t i = 0; i < n; ++i) {
       for (std::int32_t j = 0; j < i; ++j) {
         const bool ends = (i == n - 1 && j == 0);
-        if (!ends && random() % 100 < 35)
-          ring[static_cast<std::size_t>(i)].push_back(j), ring[static_cast<std::size_t>(j)].push_back(i);
+        if (!ends && random() % 100 < 35) {
+          ring[static_cast<std::size_t>(i)].push_back(j);
+          ring[static_cast<std::size_t>(j)].push_back(i);
+        }
       }
     }
     std::vector<std::int32_t> start{0}, neighbour;
-    for (auto& r : ring)
-      neighbour.insert(neighbour.end(), r.begin(), r.end()),
-          start.push_back(static_cast<std::int32_t>(neighbour.size()));
+    for (auto& r : ring) {
+      neighbour.insert(neighbour.end(), r.begin(), r.end());
+      start.push_back(static_cast<std::int32_t>(neighbour.size()));
+    }
     std::vector<std::uint8_t> side(static_cast<std::size_t>(n), hf_inner::side_between);
-    side.front() = hf_inner::side_left, side.back() = hf_inner::side_right;
+    side.front() = hf_inner::side_left;
+    side.back() = hf_inner::side_right;
     const hf_inner::Cut cut = search.refine({n, start.data(), neighbour.data(), nullptr, nullptr}, side.data());
     std::int32_t best = n;
     for (std::uint32_t set = 0; set < 1u << (n - 2); ++set) {
@@ -277,7 +285,8 @@ TEST_F(OrderingTest, the_minimum_separator_is_minimum) {
         stack.pop_back();
         for (const std::int32_t u : ring[static_cast<std::size_t>(v)]) {
           if (seen[static_cast<std::size_t>(u)] || (u > 0 && u < n - 1 && (set >> (u - 1) & 1))) continue;
-          seen[static_cast<std::size_t>(u)] = 1, stack.push_back(u);
+          seen[static_cast<std::size_t>(u)] = 1;
+          stack.push_back(u);
         }
       }
       if (!seen[static_cast<std::size_t>(n - 1)]) best = __builtin_popcount(set);

@@ -38,7 +38,10 @@ inline PlainMesh ladder(int genus, double spacing) {
   const auto bar = [&](double x0, double y0, double x1, double y1) {
     body.blobs.push_back(samples::capsule({x0, y0, 0}, {x1, y1, 0}, 0.3, 0.3, 0.1));
   };
-  if (genus > 0) bar(0, 0, genus, 0), bar(0, 1.5, genus, 1.5);
+  if (genus > 0) {
+    bar(0, 0, genus, 0);
+    bar(0, 1.5, genus, 1.5);
+  }
   for (int rung = 0; rung <= genus; ++rung) bar(rung, 0, rung, 1.5);
   body.finish();
   const samples::TriangleMesh made = samples::polygonise(body, spacing);

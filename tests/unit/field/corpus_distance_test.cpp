@@ -32,7 +32,9 @@ Errors errors_of(const std::vector<double>& found, const std::vector<double>& ex
     EXPECT_EQ(found[v] < 0, exact[v] < 0);
     if (!(exact[v] > 0)) continue;
     const double error = std::fabs(found[v] - exact[v]) / diameter;
-    errors.mean += error, errors.worst = std::max(errors.worst, error), ++count;
+    errors.mean += error;
+    errors.worst = std::max(errors.worst, error);
+    ++count;
   }
   errors.mean /= std::max(1.0, count);
   return errors;
@@ -54,7 +56,8 @@ TEST(CorpusDistance, is_off_by_one_per_cent_at_most_and_by_three_at_worst_on_rea
     for (const auto& p : read.positions) plain.positions.insert(plain.positions.end(), {p.x, p.y, p.z});
     plain.triangles = read.triangles;
     hf_inner::MeshInput input;
-    input.vertex_count = plain.vertex_count(), input.triangle_count = plain.triangle_count();
+    input.vertex_count = plain.vertex_count();
+    input.triangle_count = plain.triangle_count();
     input.positions = hf_inner::ConstRows(plain.positions.data(), 3 * sizeof(double));
     input.triangles = plain.triangles.data();
     const hf_inner::Surface surface(
@@ -72,11 +75,13 @@ TEST(CorpusDistance, is_off_by_one_per_cent_at_most_and_by_three_at_worst_on_rea
         return d;
       };
       const auto take = [](Errors& most, const Errors& e) {
-        most.mean = std::max(most.mean, e.mean), most.worst = std::max(most.worst, e.worst);
+        most.mean = std::max(most.mean, e.mean);
+        most.worst = std::max(most.worst, e.worst);
       };
       const std::vector<double> truth = solve(exact);
       take(worst, errors_of(solve(standard), truth));
-      take(worst_heat, errors_of(solve(heat), truth)), take(worst_front, errors_of(solve(front), truth));
+      take(worst_heat, errors_of(solve(heat), truth));
+      take(worst_front, errors_of(solve(front), truth));
     }
     EXPECT_LE(worst.mean, 0.01) << file;
     EXPECT_LE(worst.worst, 0.03) << file;

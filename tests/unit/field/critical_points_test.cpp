@@ -74,7 +74,10 @@ TEST(CriticalPoints, have_the_index_that_walking_around_the_vertex_counts) {
     }
     const CriticalPoints found = find(*core, u);
     std::map<int, int> index;
-    for (const auto& point : found.points) index[point.vertex] = point.index, ++seen[point.index];
+    for (const auto& point : found.points) {
+      index[point.vertex] = point.index;
+      ++seen[point.index];
+    }
     for (int v = 0; v < core->size(); ++v) EXPECT_EQ(index.count(v) ? index[v] : 0, index_by_walking(*core, u, v));
   }
   EXPECT_GT(seen[1], 0);
@@ -140,7 +143,8 @@ TEST(CriticalPoints, sum_up_on_every_component_with_borders_ties_missing_values_
 
 void add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertices, const std::vector<double>& values) {
   hf_inner::FieldEdit edit;
-  edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data();
+  edit.add.count = static_cast<std::uint32_t>(vertices.size());
+  edit.add.vertices = vertices.data();
   edit.add_values = values.data();
   field.edit(edit, nullptr);
 }
@@ -166,7 +170,8 @@ TEST(MaximumPrinciple, holds_for_1000_random_site_sets_with_weights_above_zero) 
     const auto vertices = different_vertices(mesh.vertex_count(), 2 + random() % 9, random);
     std::vector<double> values;
     for (std::size_t i = 0; i < vertices.size(); ++i) values.push_back(static_cast<double>(random() % 1000) / 1000);
-    values[0] = -1, values[1] = 2;
+    values[0] = -1;
+    values[1] = 2;
     add(field, vertices, values);
     field.solve(u.data());
     for (const auto& point : find(*core, u).points) {
@@ -218,12 +223,14 @@ TEST(MaximumPrinciple, holds_along_the_edges_of_the_intrinsic_operator) {
 
 // ---- the paper's open question (docs/studies/critical_points.md)
 
-std::vector<double> solve(const std::shared_ptr<const hf_inner::Core>& core, hf_inner::EngineKind engine, double stiffness,
-                          const std::vector<std::uint32_t>& vertices, const std::vector<double>& values) {
+std::vector<double> solve(const std::shared_ptr<const hf_inner::Core>& core, hf_inner::EngineKind engine,
+                          double stiffness, const std::vector<std::uint32_t>& vertices,
+                          const std::vector<double>& values) {
   hf_inner::ScalarField field(core, engine, 1e8, 1, 100000);
   hf_inner::FieldEdit edit;
   const std::vector<double> soft(vertices.size(), stiffness);
-  edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data();
+  edit.add.count = static_cast<std::uint32_t>(vertices.size());
+  edit.add.vertices = vertices.data();
   edit.add_values = values.data();
   if (stiffness > 0) edit.add_stiffness = soft.data();
   field.edit(edit, nullptr);
@@ -281,7 +288,8 @@ TEST(CriticalPointsUnderPenalty, are_the_very_vertices_of_the_exact_field) {
           const CriticalPoints soft = find(*core, solve(core, hf_inner::EngineKind::green, alpha, vertices, values));
           EXPECT_TRUE(same_points(exact, soft)) << "alpha " << alpha << ", " << count << " sites, kind " << kind;
         }
-        changed_at_100 += !same_points(exact, find(*core, solve(core, hf_inner::EngineKind::green, 100, vertices, values)));
+        changed_at_100 +=
+            !same_points(exact, find(*core, solve(core, hf_inner::EngineKind::green, 100, vertices, values)));
         changed_at_1 += !same_points(exact, find(*core, solve(core, hf_inner::EngineKind::green, 1, vertices, values)));
 #ifdef HF_WITH_GPL
         EXPECT_TRUE(same_points(exact, find(*core, solve(core, hf_inner::EngineKind::updown, 0, vertices, values))));
@@ -290,7 +298,8 @@ TEST(CriticalPointsUnderPenalty, are_the_very_vertices_of_the_exact_field) {
     }
   }
   EXPECT_EQ(sets, 60);
-  RecordProperty("changed_at_100", changed_at_100), RecordProperty("changed_at_1", changed_at_1);
+  RecordProperty("changed_at_100", changed_at_100);
+  RecordProperty("changed_at_1", changed_at_1);
   EXPECT_LT(changed_at_100, changed_at_1);
   EXPECT_GT(changed_at_1, 5);  // a weak penalty moves the values of the sites past one another
 }
@@ -308,12 +317,17 @@ TEST(CriticalPointsUnderPenalty, differ_where_the_exact_field_is_flat) {
     if (i > 8 && i < 16) vertices.insert(vertices.end(), {at(8, i), at(16, i)});
   }
   values.assign(vertices.size(), 1.0);
-  vertices.push_back(at(32, 30)), values.push_back(0.0);
-  vertices.push_back(at(35, 5)), values.push_back(0.3);
+  vertices.push_back(at(32, 30));
+  values.push_back(0.0);
+  vertices.push_back(at(35, 5));
+  values.push_back(0.3);
   const auto inside_range = [&](const std::vector<double>& u) {
     double low = 1e300, high = -1e300;
     for (std::uint32_t j = 8; j <= 16; ++j) {
-      for (std::uint32_t i = 8; i <= 16; ++i) low = std::min(low, u[at(i, j)]), high = std::max(high, u[at(i, j)]);
+      for (std::uint32_t i = 8; i <= 16; ++i) {
+        low = std::min(low, u[at(i, j)]);
+        high = std::max(high, u[at(i, j)]);
+      }
     }
     return high - low;
   };

@@ -46,11 +46,15 @@ struct Trial {
     const double a = 0.02 + 0.94 * one(random), b = 0.02 + (0.96 - a) * one(random), point[3] = {a, b, 1 - a - b};
     const double value = 2 * one(random) - 1, stiffness = one(random) < 0.5 ? 0 : std::pow(10, 16 * one(random) - 8);
     hf_inner::FieldEdit edit;
-    edit.add.count = 1, edit.add_values = &value, edit.add_stiffness = &stiffness;
+    edit.add.count = 1;
+    edit.add_values = &value;
+    edit.add_stiffness = &stiffness;
     if (random() % 2)
       edit.add.vertices = &vertex;
-    else
-      edit.add.triangles = &triangle, edit.add.barycentrics = point;
+    else {
+      edit.add.triangles = &triangle;
+      edit.add.barycentrics = point;
+    }
     std::uint32_t number = 0;
     try {
       field.edit(edit, &number);
@@ -70,7 +74,8 @@ struct Trial {
     }
     for (int v = 0; v < n && !strength.empty(); ++v) {
       const long double mass = static_cast<long double>(core.areas[at(v)]) * strength[at(v)];
-      a(v, v) += mass, b(v) = mass * target[at(v)];
+      a(v, v) += mass;
+      b(v) = mass * target[at(v)];
     }
     int i = n;
     for (std::size_t s = 0; s < field.sites().slots().size(); ++s) {
@@ -78,7 +83,8 @@ struct Trial {
       if (!slot.used()) continue;
       for (int q = 0; q < 3; ++q) {
         if (slot.site.vertex[q] < 0) continue;
-        a(slot.site.vertex[q], i) -= slot.site.weight[q], a(i, slot.site.vertex[q]) += slot.site.weight[q];
+        a(slot.site.vertex[q], i) -= slot.site.weight[q];
+        a(i, slot.site.vertex[q]) += slot.site.weight[q];
       }
       a(i, i) = static_cast<long double>(slot.site.compliance) / core.mean_diagonal[0];
       b(i++) = field.sites().values()[s];
@@ -132,7 +138,10 @@ TEST(CrowdedField, weak_screening_loses_no_digits) {
   const auto core = hf_test::make_core(mesh);
   for (const double h : {1.0, 1e-4, 1e-7}) {
     Trial made(core, EngineKind::green);
-    for (Index v = 0; v < core->size(); ++v) made.strength.push_back(h * (1 + v % 3)), made.target.push_back(v % 7);
+    for (Index v = 0; v < core->size(); ++v) {
+      made.strength.push_back(h * (1 + v % 3));
+      made.target.push_back(v % 7);
+    }
     made.field.set_screening({made.strength.data(), made.strength.size()}, made.target.data());
     double size = 0;
     EXPECT_LE(made.error(size), 1e-9) << h;
@@ -156,7 +165,10 @@ TEST(CrowdedField, three_points_fix_their_triangle_under_any_screening) {
     // the values are the weights of the first corner
     const double spread[9] = {0.2, 0.7, 0.1, 0.5, 0.3, 0.2, 0.8, 0.1, 0.1}, values[3] = {0.2, 0.5, 0.8};
     hf_inner::FieldEdit edit;
-    edit.add.count = 3, edit.add.triangles = triangles, edit.add.barycentrics = spread, edit.add_values = values;
+    edit.add.count = 3;
+    edit.add.triangles = triangles;
+    edit.add.barycentrics = spread;
+    edit.add_values = values;
     std::uint32_t numbers[3];
     try {
       field.edit(edit, numbers);
@@ -184,7 +196,9 @@ TEST(CrowdedField, previews_say_their_error) {
       const std::uint32_t n = mesh.vertex_count(), vertices[4] = {0, n / 3, n / 2, n - 1};
       const double values[4] = {0, 100, -300, 50};
       hf_inner::FieldEdit edit;
-      edit.add.count = 4, edit.add.vertices = vertices, edit.add_values = values;
+      edit.add.count = 4;
+      edit.add.vertices = vertices;
+      edit.add_values = values;
       std::uint32_t numbers[4];
       field.edit(edit, numbers);
       std::vector<double> exact(n), preview(n);

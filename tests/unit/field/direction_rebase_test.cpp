@@ -38,7 +38,10 @@ struct Constraints {
     std::vector<Index> vertices;
     std::vector<Complex> values;
     for (const Index v : vertex) {
-      if (v >= 0) vertices.push_back(v), values.push_back(value_of(v));
+      if (v >= 0) {
+        vertices.push_back(v);
+        values.push_back(value_of(v));
+      }
     }
     const std::vector<Complex> exact = hf_test::dense_field(solver, vertices, values), got = field();
     double worst = 0;
@@ -141,7 +144,8 @@ struct Thousand {
     std::vector<double> vectors;
     std::normal_distribution<double> normal;
     for (std::uint32_t i = 0; i < n; ++i) {
-      vertices.push_back(free_vertex()), taken[vertices.back()] = true;
+      vertices.push_back(free_vertex());
+      taken[vertices.back()] = true;
       for (int k = 0; k < 3; ++k) vectors.push_back(normal(random));
     }
     field.add(n, vertices.data(), vectors.data(), sites.data());
@@ -153,7 +157,8 @@ struct Thousand {
   }
   void move(std::uint32_t site) {
     const std::uint32_t to = free_vertex();
-    taken[field.constraints()[site].given_vertex] = false, taken[to] = true;
+    taken[field.constraints()[site].given_vertex] = false;
+    taken[to] = true;
     field.move(1, &site, &to);
   }
   hf_inner::DirectionField field;
@@ -181,7 +186,8 @@ TEST(DirectionRebase, edits_among_a_thousand_constraints_do_not_factorise) {
   for (const auto& c : t.field.constraints()) {
     if (c.vertex < 0) continue;
     const hf_inner::Vec3 v = fresh.solver().connection().to_space(c.vertex, c.vector);
-    vertices.push_back(c.given_vertex), vectors.insert(vectors.end(), {v.x, v.y, v.z});
+    vertices.push_back(c.given_vertex);
+    vectors.insert(vectors.end(), {v.x, v.y, v.z});
   }
   fresh.add(static_cast<std::uint32_t>(vertices.size()), vertices.data(), vectors.data(), nullptr);
   std::vector<hf_inner::Vec3> expected(at(core->size()));
@@ -200,8 +206,10 @@ TEST(DirectionRebase, long_sessions_rebase_now_and_then_and_undo_restores_the_bi
   t.field.record();
   const std::vector<hf_inner::Vec3> before = t.solved();
   std::uint32_t edits = 0;
-  while (t.field.solver().counters().factorisations == factorisations && edits < 3000)
-    t.move(t.random() % Thousand::count), ++edits;
+  while (t.field.solver().counters().factorisations == factorisations && edits < 3000) {
+    t.move(t.random() % Thousand::count);
+    ++edits;
+  }
   EXPECT_GE(edits, 50u);
   EXPECT_LT(edits, 3000u);
   t.field.undo();

@@ -35,7 +35,9 @@ inline std::vector<Complex> dense_field(const hf_inner::DirectionSolver& solver,
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     for (int part = 0; part < 2; ++part) {
       const int row = n + 2 * static_cast<int>(i) + part, u = unknown(vertices[i], part);
-      a(row, u) = 1, a(u, row) = -1, b(row) = part ? values[i].imag() : values[i].real();
+      a(row, u) = 1;
+      a(u, row) = -1;
+      b(row) = part ? values[i].imag() : values[i].real();
     }
   }
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu(a);

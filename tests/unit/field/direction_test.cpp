@@ -230,7 +230,10 @@ TEST(Direction, edits_give_the_dense_oracles_field) {
     std::vector<std::int32_t> vertices;
     std::vector<Complex> values;
     for (const auto& c : script.field.constraints()) {
-      if (c.vertex >= 0) vertices.push_back(c.vertex), values.push_back(c.vector);
+      if (c.vertex >= 0) {
+        vertices.push_back(c.vertex);
+        values.push_back(c.vector);
+      }
     }
     const std::vector<Complex> exact = dense_field(script.field.solver(), vertices, values);
     const std::vector<hf_inner::Vec3> u = solved(script.field);
@@ -273,7 +276,10 @@ TEST(Direction, thousands_of_constraints_go_into_the_factor_and_come_back) {
     std::vector<std::int32_t> inner;
     std::vector<Complex> values;
     for (const auto& c : field.constraints()) {
-      if (c.vertex >= 0) inner.push_back(c.vertex), values.push_back(c.vector);
+      if (c.vertex >= 0) {
+        inner.push_back(c.vertex);
+        values.push_back(c.vector);
+      }
     }
     // residual of the free vertices: K z = 0 there
     const std::vector<hf_inner::Vec3> u = solved(field);
@@ -283,7 +289,8 @@ TEST(Direction, thousands_of_constraints_go_into_the_factor_and_come_back) {
     for (std::int32_t v = 0; v < core->size(); ++v) {
       const Complex c = field.solver().connection().to_frame(v, u[at(v)]);
       const std::int32_t row = field.solver().system().unknown(v, 0);
-      z[at(row)] = c.real(), z[at(row) + 1] = c.imag();
+      z[at(row)] = c.real();
+      z[at(row) + 1] = c.imag();
     }
     for (const std::int32_t v : inner)
       fixed[at(field.solver().system().unknown(v, 0))] = fixed[at(field.solver().system().unknown(v, 0)) + 1] = 1;

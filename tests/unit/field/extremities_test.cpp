@@ -127,7 +127,9 @@ TEST_P(CreatureTips, stay_in_place_when_the_mesh_is_turned_scaled_and_renumbered
     for (std::uint32_t v = 0; v < n; ++v) {
       const Vec3 p = turn({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
       const std::size_t to = 3 * std::size_t(n - 1 - v);
-      turned.positions[to] = p.x, turned.positions[to + 1] = p.y, turned.positions[to + 2] = p.z;
+      turned.positions[to] = p.x;
+      turned.positions[to + 1] = p.y;
+      turned.positions[to + 2] = p.z;
     }
     for (const std::uint32_t v : mesh.triangles) turned.triangles.push_back(n - 1 - v);
     const auto before = search(mesh, GetParam(), 0.03), after = search(turned, GetParam(), 0.03);

@@ -15,14 +15,16 @@ using hf_test::PlainMesh;
 
 PlainMesh from_shape(samples::ShapeMesh shape) { return {std::move(shape.positions), std::move(shape.triangles)}; }
 
-hf_inner::ScalarField make_field(const PlainMesh& mesh, hf_inner::EngineKind engine = hf_inner::EngineKind::green, int channels = 1) {
+hf_inner::ScalarField make_field(const PlainMesh& mesh, hf_inner::EngineKind engine = hf_inner::EngineKind::green,
+                                 int channels = 1) {
   return hf_inner::ScalarField(hf_test::make_core(mesh), engine, 1e8, channels, 100000);
 }
 
 void add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertices, const std::vector<double>& values,
          const std::vector<double>& stiffness = {}) {
   hf_inner::FieldEdit edit;
-  edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data(),
+  edit.add.count = static_cast<std::uint32_t>(vertices.size());
+  edit.add.vertices = vertices.data();
   edit.add_values = values.data();
   if (!stiffness.empty()) edit.add_stiffness = stiffness.data();
   field.edit(edit, nullptr);
@@ -45,7 +47,10 @@ TEST(HarmonicField, is_linear_on_a_flat_patch_with_linear_borders) {
   };
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     const std::uint32_t i = v % (nx + 1), j = v / (nx + 1);
-    if (i == 0 || j == 0 || i == nx || j == ny) border.push_back(v), values.push_back(linear(v));
+    if (i == 0 || j == 0 || i == nx || j == ny) {
+      border.push_back(v);
+      values.push_back(linear(v));
+    }
   }
   add(field, border, values);
   const auto u = solve(field);
@@ -59,8 +64,10 @@ TEST(HarmonicField, has_natural_borders) {
   hf_inner::ScalarField field = make_field(mesh);
   std::vector<std::uint32_t> ends;
   std::vector<double> values;
-  for (std::uint32_t j = 0; j <= ny; ++j)
-    ends.insert(ends.end(), {j * (nx + 1), j * (nx + 1) + nx}), values.insert(values.end(), {0.0, 1.0});
+  for (std::uint32_t j = 0; j <= ny; ++j) {
+    ends.insert(ends.end(), {j * (nx + 1), j * (nx + 1) + nx});
+    values.insert(values.end(), {0.0, 1.0});
+  }
   add(field, ends, values);
   const auto u = solve(field);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) EXPECT_NEAR(u[v], mesh.positions[3 * v] / nx, 1e-12);
@@ -90,8 +97,10 @@ double annulus_error(std::uint32_t rings) {
   hf_inner::ScalarField field = make_field(mesh);
   std::vector<std::uint32_t> rim;
   std::vector<double> values;
-  for (std::uint32_t j = 0; j < around; ++j)
-    rim.insert(rim.end(), {j, rings * around + j}), values.insert(values.end(), {0.0, 1.0});
+  for (std::uint32_t j = 0; j < around; ++j) {
+    rim.insert(rim.end(), {j, rings * around + j});
+    values.insert(values.end(), {0.0, 1.0});
+  }
   add(field, rim, values);
   const auto u = solve(field);
   double worst = 0;
@@ -127,7 +136,10 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
     std::vector<double> values;
     for (std::uint32_t i = 0; vertices.size() < 60; ++i) {
       const std::uint32_t v = static_cast<std::uint32_t>(samples::hash_to_unit(4, i) * entry.mesh.vertex_count());
-      if (seen.insert(v).second) vertices.push_back(v), values.push_back(samples::hash_to_unit(9, i));
+      if (seen.insert(v).second) {
+        vertices.push_back(v);
+        values.push_back(samples::hash_to_unit(9, i));
+      }
     }
     add(exact, vertices, values);
     add(soft, vertices, values, std::vector<double>(60, 1e8));
@@ -149,9 +161,10 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
     add(updown, vertices, values);
     const auto paper = solve(updown);
     double paper_error = 0, same = 0;
-    for (std::size_t v = 0; v < u.size(); ++v)
-      paper_error = std::max(paper_error, std::fabs(u[v] - paper[v])),
+    for (std::size_t v = 0; v < u.size(); ++v) {
+      paper_error = std::max(paper_error, std::fabs(u[v] - paper[v]));
       same = std::max(same, std::fabs(penalty[v] - paper[v]));
+    }
     std::printf("%-12s the paper's engine %.2e; soft sites of green differ from it by %.2e\n", entry.name, paper_error,
                 same);
     EXPECT_LE(paper_error, 1e-6) << entry.name;
@@ -181,7 +194,9 @@ TEST(VectorField, is_tangent_and_its_constraints_turn_without_touching_the_facto
     const double a = 0.1 * step, turned[] = {std::cos(a), std::sin(a), 0};
     const std::uint32_t site[] = {0};
     hf_inner::FieldEdit edit;
-    edit.set_count = 1, edit.set_sites = site, edit.set_values = turned;
+    edit.set_count = 1;
+    edit.set_sites = site;
+    edit.set_values = turned;
     field.edit(edit, nullptr);
     EXPECT_NE(tangent(), before);
   }
@@ -191,16 +206,22 @@ TEST(VectorField, is_tangent_and_its_constraints_turn_without_touching_the_facto
   const std::uint32_t first[] = {0};
   const double x[] = {1, 0, 0};
   hf_inner::FieldEdit back;
-  back.set_count = 1, back.set_sites = first, back.set_values = x;
+  back.set_count = 1;
+  back.set_sites = first;
+  back.set_values = x;
   field.edit(back, nullptr);
   add(field, {99}, {0.5, 0.5, 0});
   const std::uint32_t there[] = {101}, fourth[] = {3};
   hf_inner::FieldEdit move;
-  move.move_count = 1, move.move_sites = fourth, move.move_to.count = 1, move.move_to.vertices = there;
+  move.move_count = 1;
+  move.move_sites = fourth;
+  move.move_to.count = 1;
+  move.move_to.vertices = there;
   field.edit(move, nullptr);
   EXPECT_EQ(solve(field)[3 * 101], 0.5);
   hf_inner::FieldEdit remove;
-  remove.remove_count = 1, remove.remove_sites = fourth;
+  remove.remove_count = 1;
+  remove.remove_sites = fourth;
   field.edit(remove, nullptr);
   const auto after = tangent();
   for (std::size_t i = 0; i < after.size(); ++i) EXPECT_NEAR(after[i], before[i], 1e-12);

@@ -19,13 +19,16 @@ using hf_test::PlainMesh;
 PlainMesh from_shape(samples::ShapeMesh shape) { return {std::move(shape.positions), std::move(shape.triangles)}; }
 
 struct Field {
-  explicit Field(const PlainMesh& mesh, hf_inner::EngineKind engine = hf_inner::EngineKind::green, hf_inner::CoreOptions options = {})
+  explicit Field(const PlainMesh& mesh, hf_inner::EngineKind engine = hf_inner::EngineKind::green,
+                 hf_inner::CoreOptions options = {})
       : field(hf_test::make_core(mesh, 1, options), engine, 1e8, 1, 5000) {}
   std::vector<std::uint32_t> add(const std::vector<std::uint32_t>& vertices, const std::vector<double>& values,
                                  const std::vector<double>& radii, const std::vector<double>& stiffness = {}) {
     hf_inner::FieldEdit edit;
-    edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data();
-    edit.add.radii = radii.data(), edit.add_values = values.data();
+    edit.add.count = static_cast<std::uint32_t>(vertices.size());
+    edit.add.vertices = vertices.data();
+    edit.add.radii = radii.data();
+    edit.add_values = values.data();
     if (!stiffness.empty()) edit.add_stiffness = stiffness.data();
     std::vector<std::uint32_t> numbers(vertices.size());
     field.edit(edit, numbers.data());
@@ -45,7 +48,8 @@ TEST(GeodesicDisc, is_exact_on_a_plane) {
   const std::int32_t middle = 30 * 61 + 30;
   const std::int32_t point[3] = {middle, -1, -1};
   const double weight[3] = {1, 0, 0};
-  const auto disc = hf_inner::geodesic_disc(core->mesh, core->topology, point, weight, 2.0 / core->mesh.scale, *core->memory);
+  const auto disc =
+      hf_inner::geodesic_disc(core->mesh, core->topology, point, weight, 2.0 / core->mesh.scale, *core->memory);
   ASSERT_GT(disc.size(), 1000u);
   double last = 0;
   for (const hf_inner::DiscVertex& v : disc) {
@@ -70,8 +74,8 @@ TEST(GeodesicDisc, follows_great_circles_from_a_point_in_a_face) {
   source = (radius / norm(source)) * source;
   const auto disc = hf_inner::geodesic_disc(core->mesh, core->topology, point, weight, radius, *core->memory);
   for (const hf_inner::DiscVertex& v : disc) {
-    const double arc =
-        radius * std::atan2(norm(cross(source, core->mesh.positions[at(v.vertex)])), dot(source, core->mesh.positions[at(v.vertex)]));
+    const double arc = radius * std::atan2(norm(cross(source, core->mesh.positions[at(v.vertex)])),
+                                           dot(source, core->mesh.positions[at(v.vertex)]));
     EXPECT_NEAR(v.distance, arc, 0.01 * radius);
   }
 }
@@ -89,7 +93,8 @@ double middle_share(std::uint32_t side, double radius) {
     const double area = norm(cross(mesh.positions[at(v[1])] - mesh.positions[at(v[0])],
                                    mesh.positions[at(v[2])] - mesh.positions[at(v[0])]));
     const double mean = (u[at(v[0])] + u[at(v[1])] + u[at(v[2])]) / 3;
-    all += area, inside += mean > 0.4 && mean < 0.6 ? area : 0;
+    all += area;
+    inside += mean > 0.4 && mean < 0.6 ? area : 0;
   }
   return inside / all;
 }
@@ -143,18 +148,25 @@ TEST(FiniteRadius, moves_and_changes_value_as_one_site_and_leaves_nothing_behind
   const std::uint32_t away = 700, back = 1220;
   const double two = 2, one = 1;
   hf_inner::FieldEdit edit;
-  edit.move_count = 1, edit.move_sites = &numbers[1], edit.move_to.count = 1, edit.move_to.vertices = &away;
-  edit.set_count = 1, edit.set_sites = &numbers[1], edit.set_values = &two;
+  edit.move_count = 1;
+  edit.move_sites = &numbers[1];
+  edit.move_to.count = 1;
+  edit.move_to.vertices = &away;
+  edit.set_count = 1;
+  edit.set_sites = &numbers[1];
+  edit.set_values = &two;
   field.field.edit(edit, nullptr);
   const std::vector<double> moved = field.solve();
   EXPECT_NEAR(moved[700], 2.0, 1e-12);
   EXPECT_GT(std::fabs(moved[1220] - 2), 1e-3);
-  edit.move_to.vertices = &back, edit.set_values = &one;
+  edit.move_to.vertices = &back;
+  edit.set_values = &one;
   field.field.edit(edit, nullptr);
   const std::vector<double> after = field.solve();
   for (std::size_t v = 0; v < before.size(); ++v) EXPECT_NEAR(after[v], before[v], 1e-12);
   hf_inner::FieldEdit out;
-  out.remove_count = 2, out.remove_sites = numbers.data();
+  out.remove_count = 2;
+  out.remove_sites = numbers.data();
   field.field.edit(out, nullptr);
   EXPECT_EQ(field.field.sites().count(), 0u);
   for (const auto& slot : field.field.sites().slots()) EXPECT_FALSE(slot.used());
@@ -189,7 +201,8 @@ TEST(FiniteRadius, refuses_overlaps_hidden_numbers_and_too_many_vertices) {
   ASSERT_NE(hidden, numbers[0]);
   EXPECT_EQ(code_of([&] {
               hf_inner::FieldEdit edit;
-              edit.remove_count = 1, edit.remove_sites = &hidden;
+              edit.remove_count = 1;
+              edit.remove_sites = &hidden;
               field.field.edit(edit, nullptr);
             }),
             HF_ERROR_NO_SUCH_SITE);
@@ -198,13 +211,16 @@ TEST(FiniteRadius, refuses_overlaps_hidden_numbers_and_too_many_vertices) {
   const std::uint32_t v = 0;
   const double radius = 0.5;
   hf_inner::FieldEdit edit;
-  edit.add.count = 1, edit.add.vertices = &v, edit.add.radii = &radius;
+  edit.add.count = 1;
+  edit.add.vertices = &v;
+  edit.add.radii = &radius;
   EXPECT_EQ(code_of([&] { small.edit(edit, nullptr); }), HF_ERROR_TOO_LARGE);
 }
 
 TEST(FiniteRadius, below_the_spacing_is_a_point_and_above_the_surface_is_a_constant) {
   Field tiny(hf_test::torus(60, 40)), point(hf_test::torus(60, 40)), huge(hf_test::torus(60, 40));
-  tiny.add({0, 1220}, {0, 1}, {1e-9, 1e-9}), point.add({0, 1220}, {0, 1}, {0, 0});
+  tiny.add({0, 1220}, {0, 1}, {1e-9, 1e-9});
+  point.add({0, 1220}, {0, 1}, {0, 0});
   EXPECT_EQ(tiny.solve(), point.solve());
   huge.add({5}, {4}, {1e6});
   for (const double x : huge.solve()) EXPECT_NEAR(x, 4, 1e-12);

@@ -34,7 +34,8 @@ TEST(GeodesicDistance, on_a_sphere_is_the_angle_and_the_error_falls_with_the_edg
       double cosine = 0;
       for (std::size_t k = 0; k < 3; ++k) cosine += mesh.positions[3 * v + k] * mesh.positions[21 + k];
       const double error = std::fabs(d[v] - std::acos(std::min(1.0, std::max(-1.0, cosine))));
-      worst = std::max(worst, error), mean += error / static_cast<double>(d.size());
+      worst = std::max(worst, error);
+      mean += error / static_cast<double>(d.size());
     }
     EXPECT_LT(worst, 0.8 * last) << "frequency " << frequency;
     EXPECT_LT(mean, 0.02);
@@ -55,7 +56,7 @@ TEST(GeodesicDistance, on_a_flat_patch_is_the_distance_to_the_nearest_source) {
       nearest = std::min(nearest, std::hypot(mesh.positions[3 * v] - mesh.positions[i],
                                              mesh.positions[3 * v + 1] - mesh.positions[i + 1]));
     }
-    worst = std::max(worst, std::fabs(d[v] - nearest)),
+    worst = std::max(worst, std::fabs(d[v] - nearest));
     mean += std::fabs(d[v] - nearest) / static_cast<double>(d.size());
   }
   EXPECT_LT(worst, 0.05);
@@ -149,7 +150,8 @@ TEST(Directions, are_unit_vectors_to_1e_9_however_faint_the_heat_and_many_the_ch
           const double gx = (u(1) - u(0)) / f.along, gy = (u(2) - u(0) - gx * f.px) / f.py, length = std::hypot(gx, gy);
           if (!(length > 0)) continue;
           const double w = weight[static_cast<std::size_t>(f.component) * k + c];
-          x -= w * gx / length, y -= w * gy / length;
+          x -= w * gx / length;
+          y -= w * gy / length;
         }
         EXPECT_NEAR(sums[2 * t], x, 1e-9) << faint << ", " << channels << " channels";
         EXPECT_NEAR(sums[2 * t + 1], y, 1e-9) << faint << ", " << channels << " channels";
@@ -192,8 +194,14 @@ std::vector<double> edge_distance(const hf_inner::Core& core, const std::vector<
       const std::size_t a = static_cast<std::size_t>(core.topology.first(e));
       const std::size_t b = static_cast<std::size_t>(core.topology.second(e));
       const double length = norm(core.mesh.positions[a] - core.mesh.positions[b]);
-      if (d[a] + length < d[b]) d[b] = d[a] + length, again = true;
-      if (d[b] + length < d[a]) d[a] = d[b] + length, again = true;
+      if (d[a] + length < d[b]) {
+        d[b] = d[a] + length;
+        again = true;
+      }
+      if (d[b] + length < d[a]) {
+        d[a] = d[b] + length;
+        again = true;
+      }
     }
   }
   return d;
@@ -231,7 +239,8 @@ TEST(SpreadSamples, share_out_the_area_of_every_vertex_of_a_patch) {
   hf_inner::Vector<double> areas(core->areas.size(), 0.0, core->memory.get());
   areas[1] = 2;  // beside the middle of the first patch
   double sum = 0;
-  for (const double share : hf_inner::spread_samples(core->mesh, core->topology, areas, 6, *core->memory).share) sum += share;
+  for (const double share : hf_inner::spread_samples(core->mesh, core->topology, areas, 6, *core->memory).share)
+    sum += share;
   EXPECT_EQ(sum, 1);
 }
 

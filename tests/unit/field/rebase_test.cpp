@@ -17,7 +17,8 @@ std::vector<std::uint32_t> add(hf_inner::ScalarField& field, const std::vector<s
   std::vector<double> values;
   for (const std::uint32_t v : vertices) values.push_back(std::sin(0.7 * v));
   hf_inner::FieldEdit edit;
-  edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data();
+  edit.add.count = static_cast<std::uint32_t>(vertices.size());
+  edit.add.vertices = vertices.data();
   edit.add_values = values.data();
   std::vector<std::uint32_t> numbers(vertices.size());
   field.edit(edit, numbers.data());
@@ -25,7 +26,8 @@ std::vector<std::uint32_t> add(hf_inner::ScalarField& field, const std::vector<s
 }
 void remove(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& numbers) {
   hf_inner::FieldEdit edit;
-  edit.remove_count = static_cast<std::uint32_t>(numbers.size()), edit.remove_sites = numbers.data();
+  edit.remove_count = static_cast<std::uint32_t>(numbers.size());
+  edit.remove_sites = numbers.data();
   field.edit(edit, nullptr);
 }
 std::vector<double> solve(const hf_inner::ScalarField& field) {
@@ -123,7 +125,8 @@ TEST(Rebase, says_what_it_cannot_do) {
     }
     return static_cast<hf_result>(HF_OK);
   };
-  hf_inner::ScalarField green(core, hf_inner::EngineKind::green, 1e8, 1, 100), refactor(core, hf_inner::EngineKind::refactor, 1e8, 1, 100);
+  hf_inner::ScalarField green(core, hf_inner::EngineKind::green, 1e8, 1, 100),
+      refactor(core, hf_inner::EngineKind::refactor, 1e8, 1, 100);
   EXPECT_EQ(code_of(green), HF_ERROR_NO_SITES);
   EXPECT_EQ(code_of(refactor), HF_ERROR_UNSUPPORTED);
 }

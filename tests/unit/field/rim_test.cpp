@@ -19,7 +19,8 @@ std::shared_ptr<const hf_inner::Core> core_of(const hf_test::PlainMesh& mesh, hf
   return hf_test::make_core(mesh, 1, options);
 }
 
-constexpr hf_inner::OperatorKind kinds[] = {hf_inner::OperatorKind::cotangent, hf_inner::OperatorKind::intrinsic_delaunay};
+constexpr hf_inner::OperatorKind kinds[] = {hf_inner::OperatorKind::cotangent,
+                                            hf_inner::OperatorKind::intrinsic_delaunay};
 
 TEST(Rim, of_a_disc_keeps_its_inside_at_the_value_of_the_site) {
   for (const hf_inner::OperatorKind kind : kinds) {
@@ -28,7 +29,10 @@ TEST(Rim, of_a_disc_keeps_its_inside_at_the_value_of_the_site) {
     const std::uint32_t vertices[] = {100, 1000};
     const double values[] = {2, -1}, radii[] = {0.8, 0.7};
     hf_inner::FieldEdit edit;
-    edit.add.count = 2, edit.add.vertices = vertices, edit.add.radii = radii, edit.add_values = values;
+    edit.add.count = 2;
+    edit.add.vertices = vertices;
+    edit.add.radii = radii;
+    edit.add_values = values;
     field.edit(edit, nullptr);
     std::vector<double> u(static_cast<std::size_t>(core->size()));
     field.solve(u.data());
@@ -61,12 +65,14 @@ TEST(Rim, of_a_region_lets_nothing_of_the_field_through) {
       const auto made = hf_inner::make_region(*core, *region, 0, memory);
       EXPECT_LT(made->sites.size(), region->size());
       for (const std::int32_t v : made->sites) {
-        slots.push_back(static_cast<std::int32_t>(slots.size())), sites.push_back(hf_inner::Site::at_vertex(core->mesh, v));
+        slots.push_back(static_cast<std::int32_t>(slots.size()));
+        sites.push_back(hf_inner::Site::at_vertex(core->mesh, v));
         values.push_back(region == &left ? 0.0 : 1.0);
       }
     }
     hf_inner::SiteEdit edit;
-    edit.add = slots, edit.sites = sites;
+    edit.add = slots;
+    edit.sites = sites;
     solver->edit(edit);
     std::vector<double> u(static_cast<std::size_t>(core->size()));
     solver->solve(values.data(), 1, u.data(), nullptr);

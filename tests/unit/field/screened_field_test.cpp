@@ -29,7 +29,8 @@ struct Scene {
     std::uniform_real_distribution<double> one(0, 1);
     for (Index v = 0; v < core->size(); ++v) {
       strength.push_back(core->mesh.component[at(v)] == 0 && random() % 2 ? 300 * one(random) : 0.0);
-      target.push_back(one(random)), target.push_back(-one(random));
+      target.push_back(one(random));
+      target.push_back(-one(random));
     }
   }
   static hf_test::PlainMesh mesh() {
@@ -40,11 +41,16 @@ struct Scene {
   void screen() { field.set_screening({strength.data(), strength.size()}, target.data()); }
   void add(const std::vector<std::uint32_t>& vertices, const std::vector<double>& stiffness) {
     std::vector<double> values;
-    for (const std::uint32_t v : vertices) values.push_back(std::sin(v)), values.push_back(std::cos(v));
+    for (const std::uint32_t v : vertices) {
+      values.push_back(std::sin(v));
+      values.push_back(std::cos(v));
+    }
     hf_inner::FieldEdit edit;
     std::vector<std::uint32_t> numbers(vertices.size());
-    edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data();
-    edit.add_values = values.data(), edit.add_stiffness = stiffness.data();
+    edit.add.count = static_cast<std::uint32_t>(vertices.size());
+    edit.add.vertices = vertices.data();
+    edit.add_values = values.data();
+    edit.add_stiffness = stiffness.data();
     field.edit(edit, numbers.data());
   }
   std::vector<double> solve() const {
@@ -61,7 +67,8 @@ struct Scene {
     const bool screened = field.is_screened();
     for (int v = 0; v < n && screened; ++v) {
       const double mass = core->areas[at(v)] * strength[at(v)];
-      a(v, v) += mass, reached[at(core->mesh.component[at(v)])] |= mass > 0;
+      a(v, v) += mass;
+      reached[at(core->mesh.component[at(v)])] |= mass > 0;
       for (int c = 0; c < channels; ++c) b(v, c) = mass * target[at(v) * channels + at(c)];
     }
     int i = 0;
@@ -69,17 +76,22 @@ struct Scene {
     for (std::size_t s = 0; s < field.sites().slots().size(); ++s) {
       const auto& slot = field.sites().slots()[s];
       if (!slot.used()) continue;
-      reached[at(slot.site.component)] = 1, slot_of.push_back(s);
+      reached[at(slot.site.component)] = 1;
+      slot_of.push_back(s);
       for (int q = 0; q < 3; ++q) {
         if (slot.site.vertex[q] < 0) continue;
-        a(slot.site.vertex[q], n + i) -= slot.site.weight[q], a(n + i, slot.site.vertex[q]) += slot.site.weight[q];
+        a(slot.site.vertex[q], n + i) -= slot.site.weight[q];
+        a(n + i, slot.site.vertex[q]) += slot.site.weight[q];
       }
       a(n + i, n + i) = slot.site.compliance / core->mean_diagonal[at(slot.site.component)];
       for (int c = 0; c < channels; ++c) b(n + i, c) = field.sites().values()[s * channels + at(c)];
       ++i;
     }
     for (int v = 0; v < n; ++v) {
-      if (!reached[at(core->mesh.component[at(v)])]) a.row(v).setZero(), a(v, v) = 1;
+      if (!reached[at(core->mesh.component[at(v)])]) {
+        a.row(v).setZero();
+        a(v, v) = 1;
+      }
     }
     const Eigen::MatrixXd exact = a.fullPivLu().solve(b);
     const std::vector<double> u = solve();

@@ -48,15 +48,18 @@ TEST(BoxTree, KeepsGroupsApart) {
     group.push_back(i % 3 == 2 ? 3 : i % 3);
   }
   const BoxTree tree(items, group, groups, memory);
-  tree.near(2, {0, 0, 0}, [] { return 10.0; }, [](Index) { ADD_FAILURE(); });
+  tree.near(
+      2, {0, 0, 0}, [] { return 10.0; }, [](Index) { ADD_FAILURE(); });
   for (const Index g : {0, 1, 3}) {
     std::vector<int> seen(items.size(), 0);
-    tree.near(g, {0, 0, 0}, [] { return 100.0; }, [&](Index i) { ++seen[at(i)]; });
+    tree.near(
+        g, {0, 0, 0}, [] { return 100.0; }, [&](Index i) { ++seen[at(i)]; });
     for (std::size_t i = 0; i < items.size(); ++i) EXPECT_EQ(seen[i], group[i] == g ? 1 : 0);
     for (int k = 0; k < 50; ++k) {
       const Vec3 p{any(random), any(random), any(random)};
       double best = HUGE_VAL, all = HUGE_VAL;
-      tree.near(g, p, [&] { return best; }, [&](Index i) { best = std::min(best, squared_distance(p, items[at(i)])); });
+      tree.near(
+          g, p, [&] { return best; }, [&](Index i) { best = std::min(best, squared_distance(p, items[at(i)])); });
       for (std::size_t i = 0; i < items.size(); ++i) {
         if (group[i] == g) all = std::min(all, squared_distance(p, items[i]));
       }
@@ -76,8 +79,10 @@ TEST(BoxTree, VisitsEveryTriangleThatASegmentCrosses) {
     std::array<Vec3, 3> t;
     for (Vec3& corner : t) corner = p + 0.3 * Vec3{any(random), any(random), any(random)};
     ItemBox box = ItemBox::of(t[0]);
-    box.take(t[1]), box.take(t[2]);
-    triangles.push_back(t), items.push_back(box);
+    box.take(t[1]);
+    box.take(t[2]);
+    triangles.push_back(t);
+    items.push_back(box);
   }
   const BoxTree tree(items, memory);
   int hits = 0;

@@ -26,9 +26,11 @@ struct Shape {
       : mesh(make(plain, memory)), topology(hf_inner::Topology::make(mesh, memory)), sides(mesh, topology, memory) {}
   static hf_inner::Mesh make(const PlainMesh& plain, hf_inner::Memory& memory) {
     hf_inner::MeshInput input;
-    input.vertex_count = plain.vertex_count(), input.triangle_count = plain.triangle_count();
+    input.vertex_count = plain.vertex_count();
+    input.triangle_count = plain.triangle_count();
     input.positions = hf_inner::ConstRows(plain.positions.data(), 3 * sizeof(double));
-    input.triangles = plain.triangles.data(), input.weld = hf_inner::Weld::none;
+    input.triangles = plain.triangles.data();
+    input.weld = hf_inner::Weld::none;
     return hf_inner::Mesh::make(input, memory);
   }
   // By vertex as given, in the unit of the mesh; infinite for isolated vertices.
@@ -75,7 +77,8 @@ class AllSequences {
           if (corner(t, k) != source_) continue;
           const std::uint32_t a = corner(t, k + 1), b = corner(t, k + 2);
           const double sa = length(source_, a), sb = length(source_, b), ab = length(a, b);
-          offer(a, sa), offer(b, sb);
+          offer(a, sa);
+          offer(b, sb);
           const double x = (sa * sa + sb * sb - ab * ab) / (2 * sa);
           const Point2 pa{sa, 0}, pb{x, std::sqrt(std::max(0.0, sb * sb - x * x))};
           used_[t] = true;
@@ -284,8 +287,10 @@ TEST(ExactDistance, bends_around_a_hole_and_ends_at_pieces) {
   std::vector<std::uint32_t> kept;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
     double x = 0, y = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      x += mesh.positions[3 * mesh.triangles[t + k]] / 3, y += mesh.positions[3 * mesh.triangles[t + k] + 1] / 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x += mesh.positions[3 * mesh.triangles[t + k]] / 3;
+      y += mesh.positions[3 * mesh.triangles[t + k] + 1] / 3;
+    }
     if (!(x > 8 && x < 12 && y < 15)) kept.insert(kept.end(), &mesh.triangles[t], &mesh.triangles[t] + 3);
   }
   mesh.triangles = kept;
@@ -307,7 +312,8 @@ TEST(ExactDistance, is_symmetric_and_below_every_detour) {
     for (Index s = 0; s < static_cast<Index>(dirty.vertex_count());
          s += std::max(1, static_cast<Index>(dirty.vertex_count()) / 6)) {
       if (shape.mesh.inner_of_given[at(s)] < 0) continue;
-      sources.push_back(s), d.push_back(shape.distance({s}));
+      sources.push_back(s);
+      d.push_back(shape.distance({s}));
     }
     for (std::size_t i = 0; i < sources.size(); ++i) {
       for (std::size_t j = 0; j < sources.size(); ++j) {
@@ -424,7 +430,8 @@ TEST(LogMap, of_a_convex_plane_is_the_plane_itself) {
     const RandomPoint p = random_point(shape.mesh, random, round % 3);
     const hf_inner::GeodesicPoint from(shape.sides, p.corners, p.weights, shape.memory);
     hf_inner::ExactTask task;
-    task.from = &from, task.directions = true;
+    task.from = &from;
+    task.directions = true;
     const auto found = hf_inner::exact_distance(shape.sides, task, shape.memory);
     EXPECT_LE(found.fan_angle, 6.28318530717959);
     std::vector<Point2> map;
@@ -449,7 +456,8 @@ TEST(LogMap, has_the_directions_of_the_shortest_paths) {
     const RandomPoint p = random_point(shape.mesh, random, 2);
     const hf_inner::GeodesicPoint from(shape.sides, p.corners, p.weights, shape.memory);
     hf_inner::ExactTask task;
-    task.from = &from, task.directions = true;
+    task.from = &from;
+    task.directions = true;
     const auto found = hf_inner::exact_distance(shape.sides, task, shape.memory);
     const Index* corner = shape.mesh.triangle(found.first_triangle);
     const hf_inner::Vec3 o = shape.mesh.positions[at(corner[0])];
@@ -477,7 +485,8 @@ TEST(FrontDistance, is_off_by_at_most_one_per_cent_and_three_at_worst) {
     double sum = 0, worst = 0, diameter = 0;
     for (std::size_t v = 0; v < d.size(); ++v) {
       diameter = std::max(diameter, exact[v]);
-      sum += std::fabs(d[v] - exact[v]), worst = std::max(worst, std::fabs(d[v] - exact[v]));
+      sum += std::fabs(d[v] - exact[v]);
+      worst = std::max(worst, std::fabs(d[v] - exact[v]));
     }
     EXPECT_LT(sum / static_cast<double>(d.size()), 0.01 * diameter) << name;
     EXPECT_LT(worst, 0.03 * diameter) << name;

@@ -74,7 +74,10 @@ Triangles plain_cut_of(const std::vector<Vec3>& points) {
       }
       const Vec3 x = place(b) - place(a), y = place(c) - place(b), z = place(a) - place(c);
       const double cost = (dot(x, x) + dot(y, y) + dot(z, z)) / norm(cross(x, y));
-      if (free && cost < (1 - 1e-9) * least) best = i, least = cost;
+      if (free && cost < (1 - 1e-9) * least) {
+        best = i;
+        least = cost;
+      }
     }
     out.push_back({left[(best + n - 1) % n], left[best], left[(best + 1) % n]});
     std::sort(out.back().begin(), out.back().end());
@@ -168,8 +171,12 @@ TEST(FaceCut, a_dart_has_one_cut_and_a_bent_square_two) {
 TEST(FaceCut, cuts_combs_of_thousands_of_corners) {
   std::vector<Vec3> points;
   const int teeth = 1000;
-  for (int i = 0; i < teeth; ++i) points.push_back({2.0 * i, 0, 0}), points.push_back({2.0 * i + 1, 10, 0});
-  points.push_back({2.0 * teeth, -1, 0}), points.push_back({0, -1, 0});
+  for (int i = 0; i < teeth; ++i) {
+    points.push_back({2.0 * i, 0, 0});
+    points.push_back({2.0 * i + 1, 10, 0});
+  }
+  points.push_back({2.0 * teeth, -1, 0});
+  points.push_back({0, -1, 0});
   std::reverse(points.begin(), points.end());
   std::vector<std::int32_t> around(points.size());
   for (std::size_t i = 0; i < around.size(); ++i) around[i] = static_cast<std::int32_t>(i);
@@ -207,7 +214,10 @@ TEST(FacePoint, is_the_middle_of_a_rectangle_and_its_weights_give_it) {
       }
       return total;
     };
-    for (std::size_t i = 0; i < points.size(); ++i) sum += weights[i], mean = mean + weights[i] * points[i];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      sum += weights[i];
+      mean = mean + weights[i] * points[i];
+    }
     EXPECT_NEAR(sum, 1, 1e-12);
     EXPECT_LT(norm(mean - p), 1e-12);
     best = squares(p);
@@ -230,7 +240,8 @@ struct Sheet {
     for (int j = 0; j < rows; ++j) {
       for (int i = 0; i < columns; ++i) {
         const unsigned a = static_cast<unsigned>(j * (columns + 1) + i), up = static_cast<unsigned>(columns) + 1;
-        corners.insert(corners.end(), {a, a + 1, a + up + 1, a + up}), sizes.push_back(4);
+        corners.insert(corners.end(), {a, a + 1, a + up + 1, a + up});
+        sizes.push_back(4);
       }
     }
   }
@@ -240,7 +251,8 @@ struct Sheet {
     input.positions = hf_inner::ConstRows(positions.data(), 3 * sizeof(double));
     input.faces.face_count = static_cast<std::uint32_t>(sizes.size());
     input.faces.corner_count = static_cast<std::uint32_t>(corners.size());
-    input.faces.sizes = sizes.data(), input.faces.corners = corners.data();
+    input.faces.sizes = sizes.data();
+    input.faces.corners = corners.data();
     return hf_inner::Mesh::make(input, memory);
   }
   std::vector<double> positions;
@@ -364,7 +376,9 @@ TEST(FaceCorrection, of_a_flat_mesh_keeps_linear_functions_and_lowers_weights_wh
       double x = 0, y = 0;
       for (std::size_t w = 0; w < 49; ++w) {
         const double change = k[v][w] - d[v][w];
-        x += change * sheet.positions[3 * w], y += change * sheet.positions[3 * w + 1], most = std::max(most, change);
+        x += change * sheet.positions[3 * w];
+        y += change * sheet.positions[3 * w + 1];
+        most = std::max(most, change);
       }
       EXPECT_NEAR(x, 0, 1e-11 * k[v][v]);
       EXPECT_NEAR(y, 0, 1e-11 * k[v][v]);
@@ -410,7 +424,8 @@ double corrected(const Sheet& sheet, Dense& before, Dense& after, hf_inner::Memo
   const auto cut = hf_inner::delaunay_operator(mesh, topology, weights, false, memory).laplacian;
   const auto more = hf_inner::corrected_by_polygons(mesh, cut, memory, nullptr);
   expect_laplacian(more, true);
-  before = dense(cut), after = dense(more);
+  before = dense(cut);
+  after = dense(more);
   double most = 0;
   for (std::size_t v = 0; v < after.size(); ++v) {
     for (std::size_t w = 0; w < after.size(); ++w) most = std::max(most, std::fabs(after[v][w] - before[v][w]));
@@ -431,7 +446,8 @@ TEST(FaceCorrection, of_hexagons_keeps_linear_functions) {
   for (std::size_t v = 0; v < k.size(); ++v) {
     double x = 0, y = 0;
     for (std::size_t w = 0; w < k.size(); ++w) {
-      x += (k[v][w] - d[v][w]) * sheet.positions[3 * w], y += (k[v][w] - d[v][w]) * sheet.positions[3 * w + 1];
+      x += (k[v][w] - d[v][w]) * sheet.positions[3 * w];
+      y += (k[v][w] - d[v][w]) * sheet.positions[3 * w + 1];
     }
     EXPECT_NEAR(x, 0, 1e-11);
     EXPECT_NEAR(y, 0, 1e-11);
@@ -489,7 +505,8 @@ TEST(FaceCorrection, of_long_rectangles_takes_what_the_weights_allow) {
     double across = 0, along = 0;
     for (std::size_t v = 0; v < 49; ++v) {
       const double x = sheet.positions[3 * v] - 3 * ratio, y = sheet.positions[3 * v + 1] - 3;
-      along -= k[24][v] * x * x, across -= k[24][v] * y * y;
+      along -= k[24][v] * x * x;
+      across -= k[24][v] * y * y;
     }
     EXPECT_NEAR(along, 2 * ratio, 1e-10 * ratio) << ratio;
     EXPECT_NEAR(across, 2 * ratio, 1e-10 * ratio) << ratio;
@@ -504,10 +521,14 @@ TEST(FaceCorrection, a_flat_quad_has_the_weights_of_its_delaunay_cut) {
     std::mt19937 engine(seed);
     std::uniform_real_distribution<double> number(-0.3, 0.3);
     Vec3 p[4] = {{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}};
-    for (Vec3& q : p) q.x += number(engine), q.y += number(engine);
+    for (Vec3& q : p) {
+      q.x += number(engine);
+      q.y += number(engine);
+    }
     const Vec3 turned[4] = {p[1], p[2], p[3], p[0]};
     double a[6], b[6];
-    hf_inner::quad_weights(p, a), hf_inner::quad_weights(turned, b);
+    hf_inner::quad_weights(p, a);
+    hf_inner::quad_weights(turned, b);
     const std::size_t next[6] = {3, 4, 0, 5, 1, 2};
     for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(a[next[k]], b[k], 1e-12);
     EXPECT_GE(a[1], 0);

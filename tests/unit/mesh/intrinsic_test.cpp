@@ -26,7 +26,8 @@ struct Surface {
   }
   static std::shared_ptr<const hf_inner::Core> core_of(const PlainMesh& mesh, std::uint32_t threads) {
     hf_inner::CoreOptions options;
-    options.operator_kind = hf_inner::OperatorKind::cotangent, options.need_factor = false;
+    options.operator_kind = hf_inner::OperatorKind::cotangent;
+    options.need_factor = false;
     return hf_test::make_core(mesh, threads, options);
   }
   hf_inner::SymmetricMatrix laplacian() const {
@@ -267,7 +268,8 @@ TEST(Intrinsic, laplacian_is_the_sum_over_its_edges_in_short_and_long_rows) {
     for (std::int32_t h = 0; h < 3 * t.face_count(); ++h) {
       const double w = t.share(h / 3) * std::max(0.0, t.edge_weight(h));
       if (t.tail(h) == t.head(h)) continue;
-      wanted[{t.tail(h), t.head(h)}] -= w, wanted[{t.tail(h), t.tail(h)}] += w;
+      wanted[{t.tail(h), t.head(h)}] -= w;
+      wanted[{t.tail(h), t.tail(h)}] += w;
     }
     const hf_inner::SymmetricMatrix k = surface.laplacian();
     const Entries found = entries_of(k);
@@ -382,9 +384,12 @@ PlainMesh halved_arc(std::uint32_t halvings) {
   PlainMesh mesh;
   mesh.positions.assign(3 * (std::size_t{last} + 2), 0.0);
   const auto put = [&](std::uint32_t i, double x, double y) {
-    mesh.positions[3 * std::size_t{i}] = x, mesh.positions[3 * std::size_t{i} + 1] = y;
+    mesh.positions[3 * std::size_t{i}] = x;
+    mesh.positions[3 * std::size_t{i} + 1] = y;
   };
-  put(0, std::cos(0.5), std::sin(0.5)), put(last, std::cos(2.5), std::sin(2.5)), put(last + 1, 0.05, 0.2);
+  put(0, std::cos(0.5), std::sin(0.5));
+  put(last, std::cos(2.5), std::sin(2.5));
+  put(last + 1, 0.05, 0.2);
   mesh.triangles = {0, last, last + 1};
   for (std::uint32_t step = last; step > 1; step /= 2) {
     for (std::uint32_t i = 0; i < last; i += step) {

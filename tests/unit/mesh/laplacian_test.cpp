@@ -16,7 +16,8 @@ double largest_row_sum(const hf_inner::SymmetricMatrix& k) {
     double sum = 0, size = 0;
     for (std::int32_t i = k.column_start[static_cast<std::size_t>(v)];
          i < k.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
-      sum += k.value[static_cast<std::size_t>(i)], size += std::fabs(k.value[static_cast<std::size_t>(i)]);
+      sum += k.value[static_cast<std::size_t>(i)];
+      size += std::fabs(k.value[static_cast<std::size_t>(i)]);
     }
     worst = std::max(worst, std::fabs(sum) / size);
   }

@@ -33,7 +33,8 @@ PlainMesh two_cubes(double gap = 0.01, std::uint32_t n = 6) {
 
 std::shared_ptr<const hf_inner::Geometry> plain_geometry(const PlainMesh& mesh, hf_inner::OperatorKind kind = {}) {
   hf_inner::MeshInput input;
-  input.vertex_count = mesh.vertex_count(), input.triangle_count = mesh.triangle_count();
+  input.vertex_count = mesh.vertex_count();
+  input.triangle_count = mesh.triangle_count();
   input.positions = hf_inner::ConstRows(mesh.positions.data(), 3 * sizeof(double));
   input.triangles = mesh.triangles.data();
   return hf_inner::Geometry::make(input, kind, std::make_shared<hf_inner::Memory>(),
@@ -43,7 +44,8 @@ std::shared_ptr<const hf_inner::Geometry> plain_geometry(const PlainMesh& mesh, 
 hf_inner::LinkOptions automatic() {
   hf_inner::LinkOptions options;
   options.mode = hf_inner::LinkMode::pieces;
-  options.distance = hf_inner::default_link_distance, options.overlay = hf_inner::default_overlay;
+  options.distance = hf_inner::default_link_distance;
+  options.overlay = hf_inner::default_overlay;
   return options;
 }
 
@@ -71,7 +73,8 @@ std::vector<double> field_through(const std::shared_ptr<const hf_inner::Core>& c
     sites.push_back(hf_inner::Site::at_vertex(core->mesh, v));
   }
   hf_inner::SiteEdit edit;
-  edit.add = slots, edit.sites = sites;
+  edit.add = slots;
+  edit.sites = sites;
   engine->edit(edit);
   std::vector<double> out(at(core->size()));
   engine->solve(values.data(), 1, out.data(), nullptr);
@@ -135,8 +138,10 @@ TEST(Links, make_the_operator_of_springs_from_points_to_triangles) {
     for (std::size_t c = 0; c < 3; ++c) {
       if (link.corner[c] < 0) continue;
       const double w = unit * link.weight * link.share[c];
-      k(link.vertex, link.vertex) += w, k(link.corner[c], link.corner[c]) += w;
-      k(link.vertex, link.corner[c]) -= w, k(link.corner[c], link.vertex) -= w;
+      k(link.vertex, link.vertex) += w;
+      k(link.corner[c], link.corner[c]) += w;
+      k(link.vertex, link.corner[c]) -= w;
+      k(link.corner[c], link.vertex) -= w;
       sum += link.share[c];
     }
     EXPECT_NEAR(sum, 1, 1e-15);
@@ -168,8 +173,11 @@ TEST(Links, of_a_surface_of_one_piece_are_none) {
 PlainMesh body_with_sheet() {
   PlainMesh mesh = box(12, {3, 3, 1}, {0, 0, 0});
   PlainMesh sheet = hf_test::grid(9, 9, 0.15);
-  for (std::size_t i = 0; i < sheet.positions.size(); i += 3)
-    sheet.positions[i] += 0.7, sheet.positions[i + 1] += 0.9, sheet.positions[i + 2] = 1.02;
+  for (std::size_t i = 0; i < sheet.positions.size(); i += 3) {
+    sheet.positions[i] += 0.7;
+    sheet.positions[i + 1] += 0.9;
+    sheet.positions[i + 2] = 1.02;
+  }
   hf_test::append(mesh, sheet, 0);
   return mesh;
 }
@@ -188,7 +196,8 @@ TEST(Links, a_sheet_is_light_and_hardly_changes_the_field_of_the_body) {
     if (plain->mesh.component[at(v)] == 0) {
       change = std::max(change, std::fabs(with[at(v)] - without[at(v)]));
     } else {
-      low = std::min(low, with[at(v)]), high = std::max(high, with[at(v)]);
+      low = std::min(low, with[at(v)]);
+      high = std::max(high, with[at(v)]);
     }
   }
   EXPECT_LE(change, 1e-4);
@@ -244,7 +253,9 @@ TEST(Links, the_difference_of_skin_weights_counts_a_joint_once) {
   const std::uint16_t joints[] = {1, 1, 1, 2, 2, 2, 3, 1};
   const float weights[] = {0.5f, 0.5f, 1, 0, 0.5f, 0.5f, 0.25f, 0.75f};
   hf_inner::SkinHint skin;
-  skin.influence_count = 2, skin.joints = joints, skin.weights = weights;
+  skin.influence_count = 2;
+  skin.joints = joints;
+  skin.weights = weights;
   const Index first[] = {1, 1, 1}, second[] = {2, 2, 2}, third[] = {3, 3, 3};
   const double share[] = {0.5, 0.25, 0.25};
   const auto inner = [&](const Index* given) {
@@ -290,7 +301,8 @@ TEST(Links, skin_weights_choose_between_neighbours) {
   const std::vector<float> weights(mesh.vertex_count(), 1);
   const auto linked_to = [&](const hf_inner::SkinHint& skin) {
     auto options = automatic();
-    options.skin = skin, options.overlay = 0;
+    options.skin = skin;
+    options.overlay = 0;
     const auto shape = hf_inner::Geometry::linked(plain_geometry(mesh), options);
     std::vector<int> count(3, 0);
     for (const hf_inner::Link& link : shape->links->links) {
@@ -316,14 +328,18 @@ TEST(Links, what_moves_with_the_same_joints_is_held_together_firmly) {
     std::vector<float> weights;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
       const float own = mesh.positions[3 * v] > 1.001 ? share : 0;
-      joints.insert(joints.end(), {1, 2}), weights.insert(weights.end(), {1 - own, own});
+      joints.insert(joints.end(), {1, 2});
+      weights.insert(weights.end(), {1 - own, own});
     }
     auto options = automatic();
-    options.overlay = 0, options.skin = {2, joints.data(), weights.data()};
+    options.overlay = 0;
+    options.skin = {2, joints.data(), weights.data()};
     const auto linked = hf_inner::Geometry::linked(plain_geometry(mesh), options);
     double least = 1e300, most = 0;
-    for (const hf_inner::Link& link : linked->links->links)
-      least = std::min(least, link.weight), most = std::max(most, link.weight);
+    for (const hf_inner::Link& link : linked->links->links) {
+      least = std::min(least, link.weight);
+      most = std::max(most, link.weight);
+    }
     EXPECT_EQ(std::round(16 * least), 16 * least);
     return std::make_pair(least, most);
   };
@@ -488,7 +504,10 @@ TEST(Links, the_least_skin_cost_is_below_that_of_every_contact) {
                                                     mesh.positions[at(c[1])], mesh.positions[at(c[2])], share));
         const double added = hf_inner::skin_distance * difference(skin, mesh, v, c, share);
         lowest = std::min(lowest, added);
-        if (d < nearest) nearest = d, cost = d + added;
+        if (d < nearest) {
+          nearest = d;
+          cost = d + added;
+        }
       }
       cheapest[at(from)] = std::min(cheapest[at(from)], cost);
     }

@@ -23,15 +23,18 @@ struct Shape {
       : mesh(make(plain, memory)), topology(hf_inner::Topology::make(mesh, memory)), sides(mesh, topology, memory) {}
   static hf_inner::Mesh make(const PlainMesh& plain, hf_inner::Memory& memory) {
     hf_inner::MeshInput input;
-    input.vertex_count = plain.vertex_count(), input.triangle_count = plain.triangle_count();
+    input.vertex_count = plain.vertex_count();
+    input.triangle_count = plain.triangle_count();
     input.positions = hf_inner::ConstRows(plain.positions.data(), 3 * sizeof(double));
-    input.triangles = plain.triangles.data(), input.weld = hf_inner::Weld::none;
+    input.triangles = plain.triangles.data();
+    input.weld = hf_inner::Weld::none;
     return hf_inner::Mesh::make(input, memory);
   }
   hf_inner::ExactDistance exact(const std::vector<Index>& given, std::uint64_t most_windows = 0) {
     const std::vector<Index> sources = inner(given);
     hf_inner::ExactTask task;
-    task.sources = sources, task.most_windows = most_windows;
+    task.sources = sources;
+    task.most_windows = most_windows;
     return hf_inner::exact_distance(sides, task, memory);
   }
   std::vector<double> front(const std::vector<Index>& given) {
@@ -111,7 +114,8 @@ TEST(ShortestPath, and_maps_of_a_two_sided_sheet_are_those_of_the_single_one) {
     const auto map = [&](Shape& shape) {
       const auto from = shape.point(shape.mesh.triangle(t), weights);
       hf_inner::ExactTask task;
-      task.from = &from, task.directions = true;
+      task.from = &from;
+      task.directions = true;
       return hf_inner::exact_distance(shape.sides, task, shape.memory);
     };
     const auto expected = map(one), found = map(two);
@@ -264,7 +268,8 @@ TEST(FrontDistance, from_a_whole_border_is_never_below_the_straight_line_and_nea
         if (height == 0 && jitter == 0) {
           ASSERT_NEAR(d[at(v)], exact[at(v)], 1e-13) << v;
         }
-        sum += std::fabs(d[at(v)] - exact[at(v)]), largest = std::max(largest, exact[at(v)]);
+        sum += std::fabs(d[at(v)] - exact[at(v)]);
+        largest = std::max(largest, exact[at(v)]);
       }
       EXPECT_LT(sum / shape.mesh.vertex_count(), 0.01 * largest);
     }
@@ -282,7 +287,8 @@ TEST(FrontDistance, from_scattered_sources_is_never_below_the_straight_line_and_
     double sum = 0, largest = 0;
     for (Index v = 0; v < shape.mesh.vertex_count(); ++v) {
       ASSERT_GE(d[at(v)], shape.line(v, sources)) << v;
-      sum += std::fabs(d[at(v)] - exact[at(v)]), largest = std::max(largest, exact[at(v)]);
+      sum += std::fabs(d[at(v)] - exact[at(v)]);
+      largest = std::max(largest, exact[at(v)]);
     }
     EXPECT_LT(sum / shape.mesh.vertex_count(), 0.01 * largest) << count;
   }

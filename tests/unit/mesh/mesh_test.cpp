@@ -23,10 +23,12 @@ struct Given {
 
   hf_inner::Mesh make(hf_inner::Memory& memory) const {
     hf_inner::MeshInput input;
-    input.vertex_count = static_cast<std::uint32_t>(positions.size() / 3),
+    input.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
     input.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
     input.positions = hf_inner::ConstRows(positions.data(), 3 * sizeof(double));
-    input.triangles = triangles.data(), input.weld = weld, input.weld_tolerance = tolerance;
+    input.triangles = triangles.data();
+    input.weld = weld;
+    input.weld_tolerance = tolerance;
     hf_inner::Mesh mesh = hf_inner::Mesh::make(input, memory);
     hf_inner::count_edges(hf_inner::Topology::make(mesh, memory), mesh.report);
     return mesh;
@@ -101,9 +103,11 @@ TEST(Mesh, welds_places_that_were_made_to_collide) {
 TEST(Mesh, welds_within_a_tolerance_across_cell_borders) {
   hf_inner::Memory memory;
   Given given = cut_square();
-  given.positions[9] = -0.0007, given.positions[15] = 1.0006;
+  given.positions[9] = -0.0007;
+  given.positions[15] = 1.0006;
   EXPECT_EQ(given.make(memory).report.component_count, 2u);
-  given.weld = hf_inner::Weld::tolerance, given.tolerance = 0.001;
+  given.weld = hf_inner::Weld::tolerance;
+  given.tolerance = 0.001;
   EXPECT_EQ(given.make(memory).report.component_count, 1u);
   given.tolerance = 0.0005;
   EXPECT_EQ(given.make(memory).report.component_count, 2u);
@@ -194,7 +198,10 @@ TEST(Mesh, faces_are_cut_alike_in_any_unit_and_beside_a_vertex_that_no_face_has)
   for (std::uint32_t i = 0; i < columns; ++i) {
     positions.insert(positions.end(), {1.0 * i, 0.1 * i * i, 0.3 * (i % 2)});
     positions.insert(positions.end(), {1.1 * i, 1.0 + 0.2 * i, 0});
-    if (i > 0) corners.insert(corners.end(), {2 * i - 2, 2 * i, 2 * i + 1, 2 * i - 1}), sizes.push_back(4);
+    if (i > 0) {
+      corners.insert(corners.end(), {2 * i - 2, 2 * i, 2 * i + 1, 2 * i - 1});
+      sizes.push_back(4);
+    }
   }
   std::vector<std::int32_t> expected;
   std::uint32_t bent = 0;
@@ -208,12 +215,15 @@ TEST(Mesh, faces_are_cut_alike_in_any_unit_and_beside_a_vertex_that_no_face_has)
       input.positions = hf_inner::ConstRows(moved.data(), 3 * sizeof(double));
       input.faces.face_count = static_cast<std::uint32_t>(sizes.size());
       input.faces.corner_count = static_cast<std::uint32_t>(corners.size());
-      input.faces.sizes = sizes.data(), input.faces.corners = corners.data();
+      input.faces.sizes = sizes.data();
+      input.faces.corners = corners.data();
       input.faces.face_stride = input.faces.corner_stride = sizeof(std::uint32_t);
       hf_inner::Memory memory;
       const hf_inner::Mesh mesh = hf_inner::Mesh::make(input, memory);
-      if (expected.empty())
-        expected.assign(mesh.corners.begin(), mesh.corners.end()), bent = mesh.faces.non_planar_count;
+      if (expected.empty()) {
+        expected.assign(mesh.corners.begin(), mesh.corners.end());
+        bent = mesh.faces.non_planar_count;
+      }
       EXPECT_EQ(std::vector<std::int32_t>(mesh.corners.begin(), mesh.corners.end()), expected) << unit << " " << stray;
       EXPECT_EQ(mesh.faces.non_planar_count, bent);
       EXPECT_EQ(mesh.report.isolated_vertex_count, 1u);

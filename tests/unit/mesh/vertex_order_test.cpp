@@ -85,7 +85,8 @@ TEST(VertexOrder, AFieldDoesNotDependOnTheOrder) {
     std::vector<std::int32_t> slots(list.size());
     std::iota(slots.begin(), slots.end(), 0);
     SiteEdit edit;
-    edit.add = slots, edit.sites = list;
+    edit.add = slots;
+    edit.sites = list;
     solver->edit(edit);
     std::vector<double> inner(static_cast<std::size_t>(core->size())), out(given.positions.size() / 3);
     solver->solve(values.data(), 1, inner.data(), nullptr);

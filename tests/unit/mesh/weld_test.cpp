@@ -26,7 +26,8 @@ Representatives welded(const Points& points, double tolerance) {
   hf_inner::MeshInput input;
   input.vertex_count = static_cast<std::uint32_t>(points.size());
   input.positions = hf_inner::ConstRows(&points.data()->x, sizeof(Vec3));
-  input.weld = hf_inner::Weld::tolerance, input.weld_tolerance = tolerance;
+  input.weld = hf_inner::Weld::tolerance;
+  input.weld_tolerance = tolerance;
   hf_inner::Memory memory;
   const auto found = hf_inner::weld(input, memory);
   return {found.begin(), found.end()};
@@ -119,7 +120,8 @@ TEST(WeldTolerance, decides_lone_pairs_in_every_direction) {
       const Vec3 direction =
           i % 4 ? random.on_sphere() : Vec3{std::sqrt(1.0 / 3), std::sqrt(1.0 / 3), std::sqrt(1.0 / 3)};
       const Vec3 start{10.0 * i, 10.0 * (i % 7), 10.0 * (i % 11)};
-      points.push_back(start), points.push_back(start + distance * direction);
+      points.push_back(start);
+      points.push_back(start + distance * direction);
     }
     expect_the_definition(points, 1, "lone pairs");
   }
@@ -134,7 +136,8 @@ TEST(WeldTolerance, joins_clusters_and_copies_as_all_pairs_would) {
       for (int i = 0; i < 60; ++i) points.push_back(centre + random.in_box(0.01));
       for (int i = 0; i < 8; ++i) points.push_back(points[points.size() - 20]);
     }
-    points.push_back({-0.0, 0.0, -0.0}), points.push_back({0.0, -0.0, 0.0});
+    points.push_back({-0.0, 0.0, -0.0});
+    points.push_back({0.0, -0.0, 0.0});
     expect_the_definition(points, 1, "clusters");
   }
 }
@@ -152,7 +155,8 @@ TEST(WeldTolerance, decides_sets_that_almost_touch) {
       ball.push_back(centre + radius * random.on_sphere());
       ball.push_back(centre + 1e-9 * random.on_sphere());
       const double s = random(0, 0.5), t = random(0, 0.5);
-      sheets.push_back(s * u + t * w), sheets.push_back(s * u + t * w + radius * axis);
+      sheets.push_back(s * u + t * w);
+      sheets.push_back(s * u + t * w + radius * axis);
       const double angle = random(0, 6.28);
       wheel.push_back(centre + radius * std::cos(angle) * u + radius * std::sin(angle) * w);
       wheel.push_back(centre + random(-1e-8, 1e-8) * axis);
@@ -227,7 +231,8 @@ TEST(WeldTolerance, heeds_a_cancel_in_every_part_of_its_work) {
     hf_inner::MeshInput input;
     input.vertex_count = static_cast<std::uint32_t>(points->size());
     input.positions = hf_inner::ConstRows(&points->data()->x, sizeof(Vec3));
-    input.weld = hf_inner::Weld::tolerance, input.weld_tolerance = 1;
+    input.weld = hf_inner::Weld::tolerance;
+    input.weld_tolerance = 1;
     for (int allocation = 0;; ++allocation) {
       Stopper stopper;
       stopper.left = allocation;

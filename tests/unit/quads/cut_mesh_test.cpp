@@ -79,7 +79,8 @@ TEST(CutMesh, is_the_same_surface_with_short_edges) {
       double length = 0;
       cut.for_pieces(first, last, [&](Index a, Index b) {
         EXPECT_EQ(a, here);
-        here = b, length += norm(position[at(b)] - position[at(a)]);
+        here = b;
+        length += norm(position[at(b)] - position[at(a)]);
       });
       EXPECT_EQ(here, last);
       EXPECT_NEAR(length, norm(position[at(last)] - position[at(first)]), 1e-14);
@@ -103,7 +104,9 @@ TEST(CutQuads, lie_on_the_triangles_they_name) {
   for (const bool symmetric : {false, true}) {
     const auto core = hf_test::make_core(box(1, 1.5, 0.7));
     FieldQuadOptions options;
-    options.core = core, options.faces = 600, options.crease = 40;
+    options.core = core;
+    options.faces = 600;
+    options.crease = 40;
     if (symmetric) options.plane = MirrorPlane{{1, 0, 0}, 0};
     ASSERT_TRUE(is_coarse(coarse_part(*core, 0.05)));
     const QuadResult result = make_field_quads(options);
@@ -140,7 +143,8 @@ TEST(CutQuads, lie_on_the_triangles_they_name) {
 TEST(CutQuads, of_long_triangles_are_square) {
   const auto core = hf_test::make_core(hf_test::torus(14, 6, 0));
   FieldQuadOptions options;
-  options.core = core, options.faces = 3000;
+  options.core = core;
+  options.faces = 3000;
   const QuadResult result = make_field_quads(options);
   hf_test::expect_manifold(*core, result.mesh, "torus");
   std::vector<double> sines;
@@ -162,9 +166,12 @@ TEST(CutQuads, of_an_update_are_those_of_a_new_mesh) {
   std::vector<QuadGuide> guides;
   std::vector<Index> creases;
   FieldQuadOptions options;
-  options.core = core, options.faces = 700, options.relax = 5;
+  options.core = core;
+  options.faces = 700;
+  options.relax = 5;
   const auto same = [&](const char* what) {
-    options.guides = {guides.data(), guides.size()}, options.crease_edges = {creases.data(), creases.size()};
+    options.guides = {guides.data(), guides.size()};
+    options.crease_edges = {creases.data(), creases.size()};
     const QuadResult a = make_field_quads(options, nullptr, &kept), b = make_field_quads(options);
     ASSERT_EQ(a.mesh.face_count(), b.mesh.face_count()) << what;
     for (Index v = 0; v < a.mesh.position.size(); ++v)
@@ -199,7 +206,9 @@ TEST(CutQuads, of_a_component_that_needs_shorter_edges_come_from_the_surface_as_
   }
   const auto core = hf_test::make_core(mesh);
   FieldQuadOptions options;
-  options.core = core, options.faces = 300, options.relax = 5;
+  options.core = core;
+  options.faces = 300;
+  options.relax = 5;
   const double length = 0.14 / core->mesh.scale;
   ASSERT_TRUE(is_coarse(coarse_part(*core, length)));
   FieldQuadReport report;
@@ -222,7 +231,9 @@ TEST(CutQuads, hold_poles_on_long_triangles) {
     const Vec3 place = core->mesh.to_inner({0.3 + 0.1 * i, 0.4 + 0.2 * i, 0});
     std::vector<QuadPole> poles{{place, 3, {1, 0, 0}}};
     FieldQuadOptions options;
-    options.core = core, options.edge_length = edge, options.relax = 0;
+    options.core = core;
+    options.edge_length = edge;
+    options.relax = 0;
     options.poles = {poles.data(), poles.size()};
     const QuadResult result = make_field_quads(options);
     std::vector<std::int32_t> valence(at(result.mesh.position.size()), 0);

@@ -122,13 +122,16 @@ TEST(FieldQuads, crosses_of_a_torus_are_its_principal_directions) {
   double worst = 0;
   for (std::int32_t t = 0; t < stages.surface.real_triangles; ++t) {
     Vec3 p[3], centre;
-    for (int k = 0; k < 3; ++k)
-      p[k] = stages.surface.position[stages.surface.tail[3 * t + k]], centre = centre + 1 / 3.0 * p[k];
+    for (int k = 0; k < 3; ++k) {
+      p[k] = stages.surface.position[stages.surface.tail[3 * t + k]];
+      centre = centre + 1 / 3.0 * p[k];
+    }
     const Vec3 x = unit_vector(p[1] - p[0]), y = cross(unit_vector(cross(p[1] - p[0], p[2] - p[0])), x);
     const Vec3 parallel = cross(axis, centre - middle);
     const Complex along(dot(parallel, x), dot(parallel, y));
     Complex off = stages.faces.direction[t] * std::conj(along) / std::abs(along);
-    off *= off, off *= off;
+    off *= off;
+    off *= off;
     worst = std::max(worst, std::fabs(std::arg(off)) / 4);
   }
   EXPECT_LT(worst * 180 / std::acos(-1.0), 3);  // 22.5 is random
@@ -270,7 +273,10 @@ TEST(FieldQuads, rounding_one_after_the_other_solves_the_dense_system) {
       b(c) = mapper.right()[at(c)] / edge_length;
     }
     ASSERT_LT((a - a.transpose()).cwiseAbs().maxCoeff(), 1e-12);
-    for (Index s = 0; s < m; ++s) a(n + s, fixed[at(s)]) = a(fixed[at(s)], n + s) = 1, b(n + s) = values[at(s)];
+    for (Index s = 0; s < m; ++s) {
+      a(n + s, fixed[at(s)]) = a(fixed[at(s)], n + s) = 1;
+      b(n + s) = values[at(s)];
+    }
     const Eigen::VectorXd exact = a.fullPivLu().solve(b);
     double worst = 0;
     for (Index i = 0; i < n; ++i) worst = std::max(worst, std::fabs(x[at(i)] - exact(i)));
@@ -320,7 +326,8 @@ TEST(FieldQuads, rounding_takes_the_unknown_nearest_to_a_whole_number_at_every_s
 TEST(FieldQuads, closed_shapes_of_any_genus_become_valid_meshes) {
   for (const auto& [name, core] : shapes()) {
     FieldQuadOptions options;
-    options.core = core, options.faces = 1500;
+    options.core = core;
+    options.faces = 1500;
     FieldQuadReport report;
     const QuadResult result = make_field_quads(options, &report);
     expect_valid(*core, result.mesh, name);
@@ -338,7 +345,8 @@ TEST(FieldQuads, closed_shapes_of_any_genus_become_valid_meshes) {
 TEST(FieldQuads, a_rectangle_becomes_a_grid) {
   const auto core = hf_test::make_core(hf_test::grid(20, 14, 1, 0.2));
   FieldQuadOptions options;
-  options.core = core, options.edge_length = 2 / core->mesh.scale;
+  options.core = core;
+  options.edge_length = 2 / core->mesh.scale;
   const QuadResult result = make_field_quads(options);
   expect_valid(*core, result.mesh, "rectangle");
   EXPECT_EQ(result.mesh.face_count(), 10 * 7);
@@ -349,7 +357,9 @@ TEST(FieldQuads, a_rectangle_becomes_a_grid) {
 TEST(FieldQuads, creases_of_a_box_are_kept) {
   const auto core = core_of(samples::box(3, 2, 1, 12, 9, 6));
   FieldQuadOptions options;
-  options.core = core, options.faces = 300, options.crease = 40;
+  options.core = core;
+  options.faces = 300;
+  options.crease = 40;
   FieldQuadReport report;
   const QuadResult result = make_field_quads(options, &report);
   expect_valid(*core, result.mesh, "box");
@@ -385,7 +395,8 @@ TEST(FieldQuads, a_map_that_is_turned_over_has_crossings_that_cancel) {
     ++moved;
     const std::int64_t by = (std::int64_t{2} << map.bits) * 2 / 5;
     for (std::int32_t h = begin;;) {
-      map.u[h] += by / 2 * 2, map.v[h] -= by / 3 * 2 / 2 * 2;
+      map.u[h] += by / 2 * 2;
+      map.v[h] -= by / 3 * 2 / 2 * 2;
       h = stages.surface.turn_left(h);
       if (h == begin) break;
     }
@@ -404,15 +415,19 @@ TEST(FieldQuads, a_map_that_is_turned_over_has_crossings_that_cancel) {
 QuadComplex torus_of(const FluxSurface& surface, std::int32_t rows, std::int32_t columns, Memory& memory) {
   QuadComplex out(memory);
   const std::int32_t count = rows * columns;
-  out.twin.assign(4 * count, -1), out.tail.assign(4 * count, 0), out.feature.assign(4 * count, 0);
+  out.twin.assign(4 * count, -1);
+  out.tail.assign(4 * count, 0);
+  out.feature.assign(4 * count, 0);
   SurfacePoint point;
-  point.triangle = 0, point.weight[0] = 1;
+  point.triangle = 0;
+  point.weight[0] = 1;
   out.vertices.add_vertex(point, position_of(surface, point), QuadMesh::free, false, 1);
   for (std::int32_t i = 0; i < rows; ++i) {
     for (std::int32_t j = 0; j < columns; ++j) {
       const std::int32_t q = i * columns + j, right = i * columns + (j + 1) % columns,
                          above = (i + 1) % rows * columns + j;
-      out.join(4 * q + 1, 4 * right + 3), out.join(4 * q + 2, 4 * above);
+      out.join(4 * q + 1, 4 * right + 3);
+      out.join(4 * q + 2, 4 * above);
     }
   }
   out.split_fans(memory);
@@ -464,7 +479,8 @@ TEST(FieldQuads, the_check_refuses_each_fault) {
   for (int v = 0; v < 3; ++v) twice.add_vertex({}, {1.0 * v, 0, 0}, 0, false, 1);
   for (const int v : {0, 1, 0, 2}) twice.corner.push_back(v);
   EXPECT_TRUE(is_refused(twice, 2)) << "a corner twice";
-  mesh = cube(), mesh.corner.resize(20, 0);
+  mesh = cube();
+  mesh.corner.resize(20, 0);
   EXPECT_FALSE(is_refused(mesh, 1)) << "a border";
 }
 
@@ -599,7 +615,8 @@ TEST(FieldQuads, thin_parts_keep_their_handles_at_any_number_of_faces) {
   for (const auto& [name, core] : shapes()) {
     for (const std::int32_t wanted : {150, 400, 4000}) {
       FieldQuadOptions options;
-      options.core = core, options.faces = wanted;
+      options.core = core;
+      options.faces = wanted;
       FieldQuadReport report;
       const QuadResult result = make_field_quads(options, &report);
       expect_valid(*core, result.mesh, name);
@@ -615,7 +632,8 @@ TEST(FieldQuads, handles_thinner_than_an_edge_become_valid_meshes) {
   std::int32_t repaired = 0;
   for (const std::int32_t wanted : {20, 60, 120}) {
     FieldQuadOptions options;
-    options.core = core, options.faces = wanted;
+    options.core = core;
+    options.faces = wanted;
     FieldQuadReport report;
     const QuadResult result = make_field_quads(options, &report);
     expect_valid(*core, result.mesh, "ladder");
@@ -636,7 +654,8 @@ TEST(FieldQuads, small_components_with_borders_become_valid_meshes) {
   hf_test::append(mesh, ring, 6);
   const auto core = hf_test::make_core(mesh);
   FieldQuadOptions options;
-  options.core = core, options.faces = 400;
+  options.core = core;
+  options.faces = 400;
   FieldQuadReport report;
   const QuadResult result = make_field_quads(options, &report);
   expect_valid(*core, result.mesh, "components");

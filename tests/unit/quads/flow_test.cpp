@@ -33,7 +33,9 @@ struct Flow {
     Eigen::SparseMatrix<double> k(n, n);
     k.setFromTriplets(entries.begin(), entries.end());
     Eigen::VectorXd lines = Eigen::VectorXd::Zero(n);
-    lines(sites[0]) = -12, lines(sites[1]) = 4, lines(sites[2]) = 8;
+    lines(sites[0]) = -12;
+    lines(sites[1]) = 4;
+    lines(sites[2]) = 8;
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(k);
     Eigen::VectorXd u = factor.solve(lines);
     for (int round = 0; round < 3; ++round) u += factor.solve(lines - k * u);

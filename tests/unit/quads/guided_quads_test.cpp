@@ -31,7 +31,8 @@ double angle_off(const QuadMesh& mesh, Vec3 direction, Near near) {
       if (!near(0.5 * (a + b))) continue;
       const double along = std::min(1.0, std::fabs(dot(unit_vector(b - a), unit_vector(direction))));
       const double angle = std::acos(along) * 180 / std::acos(-1.0);
-      sum += std::min(angle, 90 - angle), count += 1;
+      sum += std::min(angle, 90 - angle);
+      count += 1;
     }
   }
   return sum / count;
@@ -59,7 +60,8 @@ TEST(GuidedQuads, edges_follow_guides_as_their_weight_says) {
   }
   const Vec3 slanting = unit_vector(x) + std::tan(0.5) * unit_vector(y);
   FieldQuadOptions options;
-  options.core = core, options.faces = 1600;
+  options.core = core;
+  options.faces = 1600;
   const auto near = [](Vec3 p) { return norm(p) < 0.1; };
   const double free = angle_off(make_field_quads(options).mesh, slanting, near);
   double off[2];
@@ -85,7 +87,8 @@ TEST(GuidedQuads, guides_of_one_vertex_are_averaged_and_opposite_ones_cancel) {
     if (std::fabs(dot(p - core->mesh.positions[0], x)) < 1e-12) y = p - core->mesh.positions[0];
   }
   FieldQuadOptions options;
-  options.core = core, options.faces = 400;
+  options.core = core;
+  options.faces = 400;
   const QuadMesh plain = make_field_quads(options).mesh;
   const auto with = [&](std::initializer_list<Vec3> directions) {
     std::vector<QuadGuide> guides;
@@ -112,7 +115,9 @@ TEST(GuidedQuads, a_guide_that_stands_on_the_surface_is_refused) {
   Vec3 up = cross(x, core->mesh.positions[20] - core->mesh.positions[0]);
   const std::vector<QuadGuide> guides{{3, x, 1, 0}, {4, up, 1, 1}};
   FieldQuadOptions options;
-  options.core = core, options.faces = 30, options.guides = {guides.data(), guides.size()};
+  options.core = core;
+  options.faces = 30;
+  options.guides = {guides.data(), guides.size()};
   try {
     make_field_quads(options);
     FAIL();
@@ -134,7 +139,8 @@ TEST(GuidedQuads, crease_edges_of_any_angle_become_edges_of_quads) {
   }
   ASSERT_EQ(creases.size(), 24u);
   FieldQuadOptions options;
-  options.core = core, options.faces = 169;  // an odd number of columns, so that no line lies there by itself
+  options.core = core;
+  options.faces = 169;  // an odd number of columns, so that no line lies there by itself
   const auto covered = [&](const QuadMesh& quads) {
     double length = 0;
     for (std::int32_t i = 0; i < quads.corner.size(); ++i) {
@@ -229,7 +235,9 @@ TEST(SymmetricQuads, quads_of_symmetric_surfaces_are_their_own_image) {
   for (const Case& c : cases) {
     for (const std::int32_t wanted : {200, 1500}) {
       FieldQuadOptions options;
-      options.core = c.core, options.faces = wanted, options.plane = plane_of(*c.core, c.normal, c.offset);
+      options.core = c.core;
+      options.faces = wanted;
+      options.plane = plane_of(*c.core, c.normal, c.offset);
       const std::string what = c.name + " " + std::to_string(wanted);
       const QuadResult result = make_field_quads(options);
       hf_test::expect_manifold(*c.core, result.mesh, what);
@@ -258,7 +266,9 @@ TEST(SymmetricQuads, guides_and_creases_of_the_kept_side_count) {
   FieldQuadOptions options;
   MirrorPlane plane;
   plane.normal = x;
-  options.core = core, options.faces = 900, options.plane = plane;
+  options.core = core;
+  options.faces = 900;
+  options.plane = plane;
   options.guides = {guides.data(), guides.size()};
   const QuadMesh mesh = make_field_quads(options).mesh;
   expect_symmetric(mesh, plane, "guided");
@@ -280,7 +290,8 @@ TEST(SymmetricQuads, the_two_sides_of_a_plane_make_the_surface) {
       }
       sum += 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]));
     }
-    plane.normal = -1 * plane.normal, plane.offset = -plane.offset;
+    plane.normal = -1 * plane.normal;
+    plane.offset = -plane.offset;
   }
   for (const double a : core->areas) whole += a;
   EXPECT_NEAR(area[0] + area[1], whole, 0.002 * whole);    // vertices near the plane are moved onto it
@@ -290,7 +301,9 @@ TEST(SymmetricQuads, the_two_sides_of_a_plane_make_the_surface) {
 TEST(SymmetricQuads, surfaces_without_that_symmetry_are_refused) {
   const auto refusal = [](const std::shared_ptr<const Core>& core, Vec3 normal, double offset) {
     FieldQuadOptions options;
-    options.core = core, options.faces = 200, options.plane = plane_of(*core, normal, offset);
+    options.core = core;
+    options.faces = 200;
+    options.plane = plane_of(*core, normal, offset);
     try {
       make_field_quads(options);
     } catch (const Error& error) {
@@ -318,7 +331,9 @@ TEST(SymmetricQuads, thin_parts_on_the_plane_keep_their_shape) {
     for (const std::int32_t wanted : {20, 60, 200, 1000}) {
       const std::string what = std::to_string(thick) + " thick, " + std::to_string(wanted) + " quads";
       FieldQuadOptions options;
-      options.core = core, options.faces = wanted, options.plane = plane_of(*core, {1, 0, 0}, 0);
+      options.core = core;
+      options.faces = wanted;
+      options.plane = plane_of(*core, {1, 0, 0}, 0);
       const QuadMesh quads = make_field_quads(options).mesh;
       hf_test::expect_manifold(*core, quads, what);
       expect_symmetric(quads, *options.plane, what);
@@ -326,7 +341,9 @@ TEST(SymmetricQuads, thin_parts_on_the_plane_keep_their_shape) {
       for (std::int32_t v = 0; v < quads.position.size(); ++v) {
         const Vec3 p = core->mesh.to_given(quads.position[v]);
         if (p.y > 0.9) continue;  // the ball
-        low = std::min(low, p.z), high = std::max(high, p.z), width = std::max(width, p.x);
+        low = std::min(low, p.z);
+        high = std::max(high, p.z);
+        width = std::max(width, p.x);
       }
       EXPECT_GT(high - low, 2.5) << what;
       EXPECT_GT(width, 0.3 * thick) << what;

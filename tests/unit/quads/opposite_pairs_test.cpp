@@ -61,7 +61,10 @@ TEST(OppositePairs, CancelWhereTheCrossesCanDoWithoutThem) {
   BumpedRing ring(0.4);
   const auto count = [](const std::vector<std::int32_t>& index) {
     std::int32_t out = 0, sum = 0;
-    for (const std::int32_t i : index) out += i != 0, sum += i;
+    for (const std::int32_t i : index) {
+      out += i != 0;
+      sum += i;
+    }
     EXPECT_EQ(sum, 0);
     return out;
   };

@@ -38,8 +38,10 @@ QuadMesh quads_with(const Core& core, std::shared_ptr<const Core> owner, const s
   add_pole_guides(core, {poles.data(), poles.size()}, edge, guides);
   FieldQuadOptions options;
   options.core = std::move(owner);
-  options.edge_length = edge, options.relax = relax;
-  options.guides = {guides.data(), guides.size()}, options.poles = {poles.data(), poles.size()};
+  options.edge_length = edge;
+  options.relax = relax;
+  options.guides = {guides.data(), guides.size()};
+  options.poles = {poles.data(), poles.size()};
   return std::move(make_field_quads(options).mesh);
 }
 
@@ -99,7 +101,8 @@ TEST(Poles, APlaceBesideTheSurfaceIsTakenOntoIt) {
   const Vec3 place = core->mesh.positions[900], up = vertex_normal(core->mesh, core->topology, 900);
   Vector<QuadGuide> on(core->memory.get()), beside(core->memory.get());
   const QuadPole first{place, 3, {1, 0, 0}}, second{place + 0.01 * up, 3, {1, 0, 0}};
-  add_pole_guides(*core, {&first, 1}, 0.04, on), add_pole_guides(*core, {&second, 1}, 0.04, beside);
+  add_pole_guides(*core, {&first, 1}, 0.04, on);
+  add_pole_guides(*core, {&second, 1}, 0.04, beside);
   ASSERT_EQ(on.size(), beside.size());
   for (std::size_t i = 0; i < on.size(); ++i) {
     EXPECT_EQ(on[i].vertex, beside[i].vertex);

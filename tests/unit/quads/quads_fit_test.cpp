@@ -29,7 +29,9 @@ struct Made {
         surface(FluxSurface::make(core->mesh, core->topology, *core->memory)),
         result([&] {
           FieldQuadOptions options;
-          options.core = core, options.edge_length = edge_length, options.relax = relax;
+          options.core = core;
+          options.edge_length = edge_length;
+          options.relax = relax;
           return make_field_quads(options);
         }()) {}
   std::shared_ptr<const Core> core;
@@ -73,7 +75,9 @@ TEST(RefineQuads, WhateverIsMarkedTheMeshStaysClosedAndOfQuads) {
     std::int32_t faces = mesh.face_count(), count = 0;
     for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
       if (blocked[v] || samples::hash_to_unit(round, static_cast<std::uint64_t>(v)) < 0.7) continue;
-      marked[v] = 1, faces += 2 * fans.valence(v), ++count;
+      marked[v] = 1;
+      faces += 2 * fans.valence(v);
+      ++count;
       for (std::int32_t i = fans.start[v]; i < fans.start[v + 1]; ++i)
         for (std::int32_t k = 0; k < 4; ++k) blocked[mesh.quad(fans.face[i])[k]] = 1;
     }
@@ -139,12 +143,14 @@ TEST(FitQuads, BringsTheMeshNearAndItStaysClosedAndOfQuads) {
   Memory& memory = *made.core->memory;
   QuadMesh mesh = made.result.mesh;
   RelaxOptions relax;
-  relax.edge_length = edge_length, relax.rounds = 20;
+  relax.edge_length = edge_length;
+  relax.rounds = 20;
   relax_quads(made.surface, mesh, relax, memory);
   const QuadDistance distance(made.surface, 0.33 * edge_length, memory);
   const double before = distance.measure(mesh, 0, nullptr);
   FitOptions options;
-  options.edge_length = edge_length, options.tolerance = 0.4 * edge_length;
+  options.edge_length = edge_length;
+  options.tolerance = 0.4 * edge_length;
   ASSERT_GT(before, 3 * options.tolerance);
   const std::int32_t faces = mesh.face_count();
   const double after = fit_quads(made.surface, distance, mesh, options, memory);
@@ -263,7 +269,8 @@ TEST(QuadDistance, OfAPeakIsItsHeightAndIsFoundAtTheQuadBelow) {
   const auto flat = hf_test::make_core(sheet);
   double lowest[3], highest[3];
   for (int k = 0; k < 3; ++k) {
-    lowest[k] = 1e300, highest[k] = -1e300;
+    lowest[k] = 1e300;
+    highest[k] = -1e300;
     for (std::uint32_t v = 0; v < sheet.vertex_count(); ++v) {
       lowest[k] = std::min(lowest[k], sheet.positions[3 * v + static_cast<std::uint32_t>(k)]);
       highest[k] = std::max(highest[k], sheet.positions[3 * v + static_cast<std::uint32_t>(k)]);

@@ -26,7 +26,8 @@ hf_test::PlainMesh plain(const samples::ShapeMesh& shape) { return {shape.positi
 
 QuadResult make(const std::shared_ptr<const Core>& core, double edge_length = 0.022) {
   FieldQuadOptions options;
-  options.core = core, options.edge_length = edge_length;
+  options.core = core;
+  options.edge_length = edge_length;
   return make_field_quads(options);
 }
 
@@ -114,9 +115,12 @@ TEST(Quads, OfASheetWithManyHolesHaveAllOfThem) {
   const double cell = 8;  // a hole of 4 x 4 in every 8 x 8
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
     double x = 0, y = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      x += mesh.positions[3 * mesh.triangles[t + k]] / 3, y += mesh.positions[3 * mesh.triangles[t + k] + 1] / 3;
-    x -= cell * std::floor(x / cell), y -= cell * std::floor(y / cell);
+    for (std::size_t k = 0; k < 3; ++k) {
+      x += mesh.positions[3 * mesh.triangles[t + k]] / 3;
+      y += mesh.positions[3 * mesh.triangles[t + k] + 1] / 3;
+    }
+    x -= cell * std::floor(x / cell);
+    y -= cell * std::floor(y / cell);
     const bool hole = std::fabs(x - cell / 2) < cell / 4 && std::fabs(y - cell / 2) < cell / 4;
     holes += hole;
     if (!hole) kept.insert(kept.end(), &mesh.triangles[t], &mesh.triangles[t] + 3);
@@ -197,7 +201,10 @@ TEST(Relax, WalksStraightOverEdgesAndStopsAtABorder) {
   const auto core = hf_test::make_core(hf_test::grid(10, 10, 1, 0.3));
   const FluxSurface s = FluxSurface::make(core->mesh, core->topology, *core->memory);
   SurfacePoint start;
-  start.triangle = 101, start.weight[0] = 0.5, start.weight[1] = 0.3, start.weight[2] = 0.2;
+  start.triangle = 101;
+  start.weight[0] = 0.5;
+  start.weight[1] = 0.3;
+  start.weight[2] = 0.2;
   const Vec3 p = position_of(s, start), way{0.21, -0.13, 0.7};  // what points out of the plane is left out
   const Vec3 q = position_of(s, walk_surface(s, start, way));
   EXPECT_NEAR(q.x - p.x, 0.21, 1e-12);

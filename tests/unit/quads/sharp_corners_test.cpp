@@ -59,7 +59,8 @@ Figures figures_of(const QuadMesh& mesh) {
     for (int k = 0; k < 4; ++k) {
       out.most_valence = std::max(out.most_valence, ++valence[static_cast<std::size_t>(c[k])]);
       const Vec3 p = mesh.position[c[k]], a = mesh.position[c[(k + 1) % 4]] - p, b = mesh.position[c[(k + 3) % 4]] - p;
-      low = std::min(low, norm(a)), high = std::max(high, norm(a));
+      low = std::min(low, norm(a));
+      high = std::max(high, norm(a));
       // A corner of 180 degrees, on a straight crease, is not turned over.
       out.turned_over += dot(cross(a, b), normal) < -1e-2 * norm(a) * norm(b) * norm(normal);
     }
@@ -72,7 +73,9 @@ Figures figures_of(const QuadMesh& mesh) {
 
 QuadMesh quads_of(const std::shared_ptr<const Core>& core, std::int32_t faces, FieldQuadReport& report) {
   FieldQuadOptions options;
-  options.core = core, options.faces = faces, options.crease = 30;
+  options.core = core;
+  options.faces = faces;
+  options.crease = 30;
   QuadResult result = make_field_quads(options, &report);
   hf_test::expect_manifold(*core, result.mesh, std::to_string(faces));
   EXPECT_NEAR(result.mesh.face_count(), faces, 0.1 * faces);

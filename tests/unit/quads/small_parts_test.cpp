@@ -34,7 +34,8 @@ std::shared_ptr<const Core> sheet(std::uint32_t n, Gone gone) {
 // Quads without a substitute: no component got quads of shorter edges, or of its triangles.
 QuadMesh quads_of(const std::shared_ptr<const Core>& core, std::int32_t faces, const std::string& what) {
   FieldQuadOptions options;
-  options.core = core, options.faces = faces;
+  options.core = core;
+  options.faces = faces;
   FieldQuadReport report;
   QuadResult result = make_field_quads(options, &report);
   hf_test::expect_manifold(*core, result.mesh, what);
@@ -59,7 +60,8 @@ std::vector<double> border_loops(const QuadMesh& mesh, double scale) {
     for (auto at = next.begin(); at != next.end(); ++count) {
       const std::int32_t to = at->second;
       length += scale * norm(mesh.position[to] - mesh.position[at->first]);
-      next.erase(at), at = next.find(to);
+      next.erase(at);
+      at = next.find(to);
     }
     EXPECT_GE(count, 3) << "edges of a border";
     loops.push_back(length);
@@ -131,7 +133,9 @@ TEST(SmallParts, limbs_that_few_lines_run_round_are_kept) {
   const QuadDistance distance(surface, 0.01, *core->memory);
   for (const auto& [length, rounds] : {std::pair(0.026, 20), {0.03, 20}, {0.03, 60}}) {
     FieldQuadOptions options;
-    options.core = core, options.edge_length = length, options.relax = rounds;
+    options.core = core;
+    options.edge_length = length;
+    options.relax = rounds;
     FieldQuadReport report;
     const QuadMesh mesh = make_field_quads(options, &report).mesh;
     hf_test::expect_manifold(*core, mesh, "horse");
@@ -157,7 +161,8 @@ TEST(SmallParts, lone_triangles_become_three_quads) {
     }
     const auto core = hf_test::make_core(mesh);
     FieldQuadOptions options;
-    options.core = core, options.faces = 150;
+    options.core = core;
+    options.faces = 150;
     const QuadResult result = make_field_quads(options);
     hf_test::expect_manifold(*core, result.mesh, "triangles");
     std::int32_t count = 0;
@@ -216,7 +221,8 @@ TEST(SmallParts, rods_and_specks_keep_their_extent) {
   const auto core = hf_test::make_core({mesh.positions, mesh.triangles});
   for (const std::int32_t faces : {60, 200, 800}) {
     FieldQuadOptions options;
-    options.core = core, options.faces = faces;
+    options.core = core;
+    options.faces = faces;
     const QuadMesh quads = make_field_quads(options).mesh;
     const std::string what = std::to_string(faces) + " faces";
     hf_test::expect_manifold(*core, quads, what);
@@ -264,7 +270,8 @@ TEST(SmallParts, rods_in_sleeves_keep_their_length) {
     const auto core = hf_test::make_core({mesh.positions, mesh.triangles});
     for (const std::int32_t faces : {100, 200, 400}) {
       FieldQuadOptions options;
-      options.core = core, options.faces = faces;
+      options.core = core;
+      options.faces = faces;
       const QuadMesh quads = make_field_quads(options).mesh;
       Extent rod;
       for (std::int32_t v = 0; v < quads.position.size(); ++v) {

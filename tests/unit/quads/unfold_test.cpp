@@ -24,7 +24,9 @@ struct Thrown {
         distance(surface, 0.25 * edge_length, *core->memory),
         mesh([&] {
           FieldQuadOptions options;
-          options.core = core, options.edge_length = edge_length, options.relax = 20;
+          options.core = core;
+          options.edge_length = edge_length;
+          options.relax = 20;
           return make_field_quads(options).mesh;
         }()) {}
   // Moves every tenth vertex by up to an edge, so that quads turn over.
@@ -35,7 +37,8 @@ struct Thrown {
       };
       mesh.location[v] =
           walk_surface(surface, mesh.location[v], 2 * edge_length * Vec3{unit_of(1), unit_of(2), unit_of(3)});
-      mesh.position[v] = position_of(surface, mesh.location[v]), mesh.pinned[v] = pin;
+      mesh.position[v] = position_of(surface, mesh.location[v]);
+      mesh.pinned[v] = pin;
     }
     distance.turn_quads(mesh);
   }
@@ -93,7 +96,8 @@ TEST(UnfoldQuads, VerticesOfABorderSlideAlongIt) {
   const auto core = hf_test::make_core(hf_test::grid(20, 20));
   const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, *core->memory);
   FieldQuadOptions options;
-  options.core = core, options.edge_length = edge_length;
+  options.core = core;
+  options.edge_length = edge_length;
   QuadMesh mesh = make_field_quads(options).mesh;
   const QuadDistance distance(surface, 0.25 * edge_length, *core->memory);
   const auto turned = [&] {

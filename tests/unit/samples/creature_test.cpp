@@ -170,7 +170,8 @@ TEST_P(CreatureSize, TheSkinnedRestPoseIsTheRestPose) {
 TEST_P(CreatureSize, ItStandsOnTheGroundAndLooksAlongZ) {
   float lowest = 1e9f, highest = -1e9f;
   for (size_t i = 1; i < it().positions.size(); i += 3) {
-    lowest = std::min(lowest, it().positions[i]), highest = std::max(highest, it().positions[i]);
+    lowest = std::min(lowest, it().positions[i]);
+    highest = std::max(highest, it().positions[i]);
   }
   EXPECT_NEAR(lowest, 0, 2e-3);
   EXPECT_GT(highest, 1.2f);

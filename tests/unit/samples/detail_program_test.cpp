@@ -43,7 +43,8 @@ TEST(DetailProgram, MorphsAndCarriesDetail) {
   const TemporaryFolder folder;
   const auto path = [&](const char* name) { return (folder.path / name).string(); };
   const SurfaceMesh bumpy = mesh_of(bumpy_plane(61, 61)), flat = mesh_of(plane(53, 53));
-  write_mesh_file(bumpy, path("bumpy.ply")), write_mesh_file(flat, path("flat.obj"));
+  write_mesh_file(bumpy, path("bumpy.ply"));
+  write_mesh_file(flat, path("flat.obj"));
   std::ofstream(path("square.json")) << R"({"points": [{"near": [-0.5, 0, -0.5]}, {"near": [0.5, 0, -0.5]},
     {"near": [0.5, 0, 0.5]}, {"near": [-0.5, 0, 0.5]}]})";
   const std::string curve = " --curve \"" + path("square.json") + "\"";

@@ -195,7 +195,8 @@ TEST(Assets, GivenModelsMoveTheSameOrAreRefusedInASentence) {
     try {
       moves_the_same(read_gltf(file));
     } catch (const std::runtime_error& error) {
-      std::printf("refused: %s\n", error.what()), ++refused;
+      std::printf("refused: %s\n", error.what());
+      ++refused;
     }
   }
   std::printf("%zu models, %zu of them refused\n", given_models().size(), refused);

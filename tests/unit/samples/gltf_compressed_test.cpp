@@ -101,8 +101,10 @@ TEST(Draco, TheUncompressedFormBesideItCounts) {
   const auto put = [&](size_t accessor, int view) { b.document["accessors"][accessor]["bufferView"] = view; };
   std::vector<float> lifted = sheet.positions, weights(4 * sheet.vertex_count(), 0.25f);
   for (size_t i = 2; i < lifted.size(); i += 3) lifted[i] += 100;
-  put(0, b.view(lifted)), put(1, b.view(std::vector<uint8_t>(4 * sheet.vertex_count(), 0)));
-  put(2, b.view(weights)), put(3, b.view(sheet.indices));
+  put(0, b.view(lifted));
+  put(1, b.view(std::vector<uint8_t>(4 * sheet.vertex_count(), 0)));
+  put(2, b.view(weights));
+  put(3, b.view(sheet.indices));
   EXPECT_GT(first_primitive(b.read()).positions[0].z, 99.0f);
 }
 

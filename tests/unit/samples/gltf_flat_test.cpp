@@ -329,18 +329,21 @@ TEST(SkinModel, NeighboursOfOneLookBecomeOnePrimitive) {
   source.materials.resize(2);
   source.meshes.push_back(source.meshes[0]);
   source.meshes[1].primitives[0].material = 1;
-  source.nodes.clear(), source.scene_roots.clear();
+  source.nodes.clear();
+  source.scene_roots.clear();
   for (int i = 0; i < 20; ++i) {
     Node node;
     node.mesh = i < 15 ? 0 : 1;
     node.translation.x = 3 * static_cast<float>(i);
-    source.nodes.push_back(node), source.scene_roots.push_back(i);
+    source.nodes.push_back(node);
+    source.scene_roots.push_back(i);
   }
   const FlatMesh mesh = flatten(source);
   SkinDescription skin;
   skin.influences_per_vertex = 1;
   skin.joints.push_back({"all", {0, 0, 0}});
-  skin.vertex_joints.assign(mesh.positions.size(), 0), skin.vertex_weights.assign(mesh.positions.size(), 1);
+  skin.vertex_joints.assign(mesh.positions.size(), 0);
+  skin.vertex_weights.assign(mesh.positions.size(), 1);
   const Model model = skin_model(source, mesh, skin);
   EXPECT_NO_THROW(check_model(model));
   ASSERT_EQ(model.meshes.size(), 1u);
@@ -363,24 +366,32 @@ TEST(SkinModel, NeighboursWithTangentsJoinAndThoseThatCarryMoreStay) {
     own.tangents.emplace_back(
         glm::normalize(glm::cross(n, std::abs(n.x) < 0.6f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0))), 1);
   if (own.normals.empty()) {
-    own.normals.assign(count, {0, 0, 1}), own.tangents.assign(count, {1, 0, 0, 1});
+    own.normals.assign(count, {0, 0, 1});
+    own.tangents.assign(count, {1, 0, 0, 1});
   }
   source.meshes.resize(3, source.meshes[0]);
   CarriedNumbers ids;
-  ids.component = 5121, ids.type = 1, ids.count = count, ids.bytes.assign(count, 7);
+  ids.component = 5121;
+  ids.type = 1;
+  ids.count = count;
+  ids.bytes.assign(count, 7);
   source.meshes[1].primitives[0].carried_attributes.emplace_back("_ID", ids);
   source.meshes[2].primitives[0].carried.extras = "3";
-  source.nodes.clear(), source.scene_roots.clear();
+  source.nodes.clear();
+  source.scene_roots.clear();
   for (const int mesh : {0, 0, 1, 1, 2, 2}) {
     Node node;
-    node.mesh = mesh, node.translation.x = 3 * static_cast<float>(source.nodes.size());
-    source.scene_roots.push_back(static_cast<int>(source.nodes.size())), source.nodes.push_back(node);
+    node.mesh = mesh;
+    node.translation.x = 3 * static_cast<float>(source.nodes.size());
+    source.scene_roots.push_back(static_cast<int>(source.nodes.size()));
+    source.nodes.push_back(node);
   }
   const FlatMesh mesh = flatten(source);
   SkinDescription skin;
   skin.influences_per_vertex = 1;
   skin.joints.push_back({"all", {0, 0, 0}});
-  skin.vertex_joints.assign(mesh.positions.size(), 0), skin.vertex_weights.assign(mesh.positions.size(), 1);
+  skin.vertex_joints.assign(mesh.positions.size(), 0);
+  skin.vertex_weights.assign(mesh.positions.size(), 1);
   const Model model = skin_model(source, mesh, skin);
   EXPECT_NO_THROW(check_model(model));
   EXPECT_EQ(model.asset, source.asset);

@@ -40,7 +40,8 @@ void expect_refused(const std::string& message, const std::string& count, const 
 
 TEST(GltfLimits, ListsOfNodesAndLooks) {
   ReadLimits limits;
-  limits.max_nodes = 3, limits.max_looks = 4;
+  limits.max_nodes = 3;
+  limits.max_looks = 4;
   EXPECT_NO_THROW(read(zeros(3, times(3, "{}"), R"(,"materials":[{},{},{},{}])"), limits));
   expect_refused(message_of([&] { read(zeros(3, times(7, "{}")), limits); }), "nodes has 7", "limit of 3");
   for (const char* list : {"materials", "textures", "images", "samplers", "scenes"}) {
@@ -65,7 +66,8 @@ TEST(GltfLimits, ImagesOnTheSameBytes) {
                            times(5, R"({"bufferView":0,"mimeType":"image/png"})") + "]}";
   EXPECT_NO_THROW(read(text));
   ReadLimits limits;
-  limits.free_decoded_bytes = 14, limits.decoded_per_byte = 0;
+  limits.free_decoded_bytes = 14;
+  limits.decoded_per_byte = 0;
   expect_refused(message_of([&] { read(text, limits); }), "images[4] takes what images copy from views to 15",
                  "limit of 14");
 }
@@ -89,7 +91,8 @@ TEST(GltfLimits, NodesThatShareAMesh) {
   FlattenOptions options;
   options.free_vertices = 400;
   expect_refused(message_of([&] { flatten(model, options); }), "node 17 takes", "above the limit of 520 for 30 stored");
-  options.max_copies = 20, options.free_vertices = 0;
+  options.max_copies = 20;
+  options.free_vertices = 0;
   EXPECT_EQ(flatten(model, options).vertex_count(), 600u);
 }
 
@@ -265,18 +268,23 @@ TEST(GltfLimits, AFewVerticesOfALargeSkin) {
   Skin large, small;
   for (int j = 0; j < 100; ++j) large.joints.push_back(j);
   large.inverse_bind.assign(100, glm::mat4(2));
-  small.joints = {7, 93}, small.inverse_bind.assign(2, glm::mat4(2));
+  small.joints = {7, 93};
+  small.inverse_bind.assign(2, glm::mat4(2));
   model.skins = {large, small};
   Primitive primitive;
   primitive.positions = {{1, 2, 3}};
   Influences influences;
-  influences.joints[0] = 7, influences.joints[1] = 93, influences.weights[0] = 0.25f, influences.weights[1] = 0.75f;
+  influences.joints[0] = 7;
+  influences.joints[1] = 93;
+  influences.weights[0] = 0.25f;
+  influences.weights[1] = 0.75f;
   primitive.influences = {influences};
   const auto globals = global_matrices(model, rest_pose(model));
   model.nodes[100].skin = 0;
   const glm::dmat4 few = vertex_matrices(model, globals, 100, primitive)[0];
   model.nodes[100].skin = 1;
-  primitive.influences[0].joints[0] = 0, primitive.influences[0].joints[1] = 1;
+  primitive.influences[0].joints[0] = 0;
+  primitive.influences[0].joints[1] = 1;
   EXPECT_EQ(few, vertex_matrices(model, globals, 100, primitive)[0]);
   primitive.influences[0].joints[0] = 100;
   model.nodes[100].skin = 0;

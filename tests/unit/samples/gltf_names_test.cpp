@@ -32,7 +32,8 @@ constexpr size_t joint_count = sizeof plan / sizeof plan[0];
 
 Model skeleton(const std::vector<int>& order, bool own_names, float scale) {
   Model model;
-  model.name = "body", model.nodes.resize(joint_count);
+  model.name = "body";
+  model.nodes.resize(joint_count);
   for (size_t j = 0; j < joint_count; ++j) {
     Node& node = model.nodes[static_cast<size_t>(order[j])];
     node.name = own_names ? plan[j].own_name : plan[j].name;
@@ -47,8 +48,11 @@ Model skeleton(const std::vector<int>& order, bool own_names, float scale) {
 
 Channel turn_of(int node, std::vector<float> times, std::vector<float> values) {
   Channel out;
-  out.node = node, out.path = Path::rotation, out.width = 4;
-  out.times = std::move(times), out.values = std::move(values);
+  out.node = node;
+  out.path = Path::rotation;
+  out.width = 4;
+  out.times = std::move(times);
+  out.values = std::move(values);
   return out;
 }
 
@@ -98,9 +102,11 @@ TEST(Names, TenThousandJointsOfOneNameAreFoundInOrder) {
     std::vector<int> all;
     for (int n = 0; n < 10000; ++n) {
       Node node;
-      node.name = "x", node.parent = n == 0 ? -1 : kind == 0 ? n - 1 : kind == 1 ? 0 : n / 2;
+      node.name = "x";
+      node.parent = n == 0 ? -1 : kind == 0 ? n - 1 : kind == 1 ? 0 : n / 2;
       if (node.parent >= 0) model.nodes[static_cast<size_t>(node.parent)].children.push_back(n);
-      model.nodes.push_back(node), all.push_back(n);
+      model.nodes.push_back(node);
+      all.push_back(n);
     }
     EXPECT_EQ(match_nodes(model, all, model).there, all) << kind;
   }
@@ -111,19 +117,24 @@ Model with_triangles(Model model) {
   Primitive primitive;
   Skin skin;
   for (size_t n = 0; n < model.nodes.size(); ++n) {
-    skin.joints.push_back(static_cast<int>(n)), skin.inverse_bind.emplace_back(1);
+    skin.joints.push_back(static_cast<int>(n));
+    skin.inverse_bind.emplace_back(1);
     for (uint32_t k = 0; k < 3; ++k) {
       primitive.indices.push_back(static_cast<uint32_t>(primitive.positions.size()));
       primitive.positions.emplace_back(n, k == 1, k == 2);
       Influences influences;
-      influences.joints[0] = static_cast<uint16_t>(n), influences.weights[0] = 1;
+      influences.joints[0] = static_cast<uint16_t>(n);
+      influences.weights[0] = 1;
       primitive.influences.push_back(influences);
     }
   }
   Node body;
-  body.mesh = 0, body.skin = 0;
+  body.mesh = 0;
+  body.skin = 0;
   model.nodes.push_back(body);
-  model.skins = {skin}, model.meshes.emplace_back(), model.meshes[0].primitives = {primitive};
+  model.skins = {skin};
+  model.meshes.emplace_back();
+  model.meshes[0].primitives = {primitive};
   return model;
 }
 
@@ -132,7 +143,8 @@ TEST(Names, ARegionOfASharedNameIsRefusedAndANumberIsTaken) {
   const FlatMesh mesh = flatten(model);
   const RegionFinder finder(model, mesh, Axes());
   Selector selector;
-  selector.where = "pairs[0].source", selector.joints = {"hand"};
+  selector.where = "pairs[0].source";
+  selector.joints = {"hand"};
   std::vector<int> hands = nodes_named(model, "hand");
   ASSERT_EQ(hands.size(), 2u);
   try {
@@ -157,8 +169,11 @@ TEST(Names, ARegionOfASharedNameIsRefusedAndANumberIsTaken) {
 
 TEST(Names, AClipOfASharedNameIsRefusedAndItsIndexIsTaken) {
   Model model;
-  model.name = "body", model.animations.resize(3);
-  model.animations[0].name = "A|walk", model.animations[1].name = "B|walk", model.animations[2].name = "A|walk";
+  model.name = "body";
+  model.animations.resize(3);
+  model.animations[0].name = "A|walk";
+  model.animations[1].name = "B|walk";
+  model.animations[2].name = "A|walk";
   for (const char* name : {"walk", "A|walk"}) EXPECT_THROW(choose_clips(model, name), std::runtime_error) << name;
   EXPECT_EQ(choose_clips(model, "B|walk"), std::vector<const Animation*>{&model.animations[1]});
   EXPECT_EQ(choose_clips(model, "2"), std::vector<const Animation*>{&model.animations[2]});
@@ -180,11 +195,16 @@ TEST(Names, NodesAndShapesThatShareANameKeepWhatIsTheirs) {
     primitive.targets.resize(2);
     for (int t = 0; t < 2; ++t) primitive.targets[static_cast<size_t>(t)].positions.assign(3, glm::vec3(0, 0, t + 1));
     MeshData mesh;
-    mesh.primitives = {primitive}, mesh.target_names = {"smile", "smile"}, mesh.weights = {0, 0};
+    mesh.primitives = {primitive};
+    mesh.target_names = {"smile", "smile"};
+    mesh.weights = {0, 0};
     Node node;
-    node.name = "eye", node.mesh = n;
+    node.name = "eye";
+    node.mesh = n;
     node.carried.extras = n == 0 ? "{\"side\":\"left\"}" : "{\"side\":\"right\"}";
-    model.scene_roots.push_back(n), model.nodes.push_back(node), model.meshes.push_back(mesh);
+    model.scene_roots.push_back(n);
+    model.nodes.push_back(node);
+    model.meshes.push_back(mesh);
   }
   const FlatMesh mesh = flatten(model);
   Model still = bake(model, mesh, mesh.positions);

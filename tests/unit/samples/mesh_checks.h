@@ -50,8 +50,11 @@ inline Report examine(const std::vector<double>& positions, const std::vector<ui
     for (size_t k = 0; k < 3; ++k) {
       double u[3], v[3], uv = 0, uu = 0, vv = 0;
       for (size_t i = 0; i < 3; ++i) {
-        u[i] = p[(k + 1) % 3][i] - p[k][i], v[i] = p[(k + 2) % 3][i] - p[k][i];
-        uv += u[i] * v[i], uu += u[i] * u[i], vv += v[i] * v[i];
+        u[i] = p[(k + 1) % 3][i] - p[k][i];
+        v[i] = p[(k + 2) % 3][i] - p[k][i];
+        uv += u[i] * v[i];
+        uu += u[i] * u[i];
+        vv += v[i] * v[i];
       }
       smallest = std::min(smallest, std::acos(std::clamp(uv / std::sqrt(uu * vv), -1.0, 1.0)) * 57.29577951308232);
     }
@@ -92,7 +95,8 @@ inline Report examine(const std::vector<double>& positions, const std::vector<ui
     size_t steps = 0;
     uint32_t at = start;
     while (steps < link[v].size() && next.count(at)) {
-      at = next[at], ++steps;
+      at = next[at];
+      ++steps;
       if (at == start) break;
     }
     if (steps != link[v].size()) report.manifold = false;

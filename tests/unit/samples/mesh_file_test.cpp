@@ -266,7 +266,10 @@ TEST(MeshText, AByteOrderMarkIsPassedOverAndUtf16IsSaid) {
   for (const NamedText& form : text_forms()) {
     expect_two_triangles(read_text("\xef\xbb\xbf" + form.text, form.extension), form.extension);
     std::string little, big;
-    for (const char c : form.text) little += {c, '\0'}, big += {'\0', c};
+    for (const char c : form.text) {
+      little += {c, '\0'};
+      big += {'\0', c};
+    }
     for (const std::string& text : {"\xff\xfe" + little, "\xfe\xff" + big, little, big})
       EXPECT_EQ(fault(text, form.extension),
                 std::string("test") + form.extension + ": the text is UTF-16; save it as UTF-8.");

@@ -97,7 +97,8 @@ TEST(Picture, AVertexInNoTriangleDoesNotMoveTheCamera) {
   EXPECT_EQ(render(stray, front()).rgb, render(square(0), front()).rgb);
   Box box, plain;
   bool empty = true, nothing = true;
-  extend(box, empty, stray.positions, stray.triangles), extend(plain, nothing, square(0).positions);
+  extend(box, empty, stray.positions, stray.triangles);
+  extend(plain, nothing, square(0).positions);
   EXPECT_EQ(box.upper, plain.upper);
 }
 
@@ -243,7 +244,10 @@ TEST(Picture, TextHasTheWidthItSays) {
   int right = 0, dark = 0;
   for (int y = 0; y < 20; ++y) {
     for (int x = 0; x < 200; ++x) {
-      if (picture.rgb[3 * (size_t(y) * 200 + size_t(x))] == 0) right = std::max(right, x), ++dark;
+      if (picture.rgb[3 * (size_t(y) * 200 + size_t(x))] == 0) {
+        right = std::max(right, x);
+        ++dark;
+      }
     }
   }
   EXPECT_GT(dark, 100);

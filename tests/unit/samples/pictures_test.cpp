@@ -71,7 +71,8 @@ Decoded decode(const Bytes& file) {
   };
   for (const Chunk& chunk : chunks_of(file)) {
     if (chunk.type == "IHDR") {
-      out.width = part[0] = read32(chunk.data, 0), out.height = part[1] = read32(chunk.data, 4);
+      out.width = part[0] = read32(chunk.data, 0);
+      out.height = part[1] = read32(chunk.data, 4);
       canvas.resize(3 * size_t{out.width} * out.height);
     } else if (chunk.type == "acTL") {
       out.announced = read32(chunk.data, 0);

@@ -30,15 +30,20 @@ Body body_of(const FlatMesh& mesh) {
   out.positions = double_positions(mesh.positions);
   out.triangles = mesh.triangles;
   glm::dvec3 low(1e300), high(-1e300);
-  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  for (const glm::dvec3& p : mesh.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
   out.diagonal = glm::distance(low, high);
   return out;
 }
 
 hf::Surface surface_of(const Body& body, uint32_t threads = 1) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = static_cast<uint32_t>(body.positions.size() / 3), desc.positions_f64 = body.positions.data();
-  desc.triangle_count = static_cast<uint32_t>(body.triangles.size() / 3), desc.triangles = body.triangles.data();
+  desc.vertex_count = static_cast<uint32_t>(body.positions.size() / 3);
+  desc.positions_f64 = body.positions.data();
+  desc.triangle_count = static_cast<uint32_t>(body.triangles.size() / 3);
+  desc.triangles = body.triangles.data();
   desc.thread_count = threads;
   return hf::Surface(desc);
 }
@@ -126,7 +131,8 @@ TEST(Proposals, AllCanBeAddedAsHandlesAndTheFeetStayWhenATipIsDragged) {
         EXPECT_NEAR(posed[3 * vertex + c], body.positions[3 * vertex + c], 1e-5 * body.diagonal);
       }
     }
-    hf_pose_destroy(all), hf_pose_destroy(some);
+    hf_pose_destroy(all);
+    hf_pose_destroy(some);
   }
 }
 
@@ -180,7 +186,8 @@ TEST(Proposals, WithoutAGroundTheMiddleHoldsAndPiecesWithoutTipsGetTheirEnds) {
   }
   Body body = body_of([&] {
     FlatMesh mesh;
-    mesh.positions = points, mesh.triangles = triangles;
+    mesh.positions = points;
+    mesh.triangles = triangles;
     return mesh;
   }());
   Proposals list = propose(body);
@@ -211,7 +218,10 @@ std::vector<std::pair<std::string, glm::dvec3>> joint_ends(const Model& model, c
     const Node& node = model.nodes[static_cast<size_t>(joints[joint])];
     const glm::dvec3 above(globals[static_cast<size_t>(node.parent < 0 ? joints[joint] : node.parent)][3]);
     const double d = glm::distance(mesh.positions[v], above);
-    if (d > farthest[joint]) farthest[joint] = d, ends[joint] = mesh.positions[v];
+    if (d > farthest[joint]) {
+      farthest[joint] = d;
+      ends[joint] = mesh.positions[v];
+    }
   }
   for (size_t j = 0; j < joints.size(); ++j) {
     const Node& node = model.nodes[static_cast<size_t>(joints[j])];
@@ -245,7 +255,8 @@ TEST(Proposals, FeetHeadAndTailOfTheSharedAnimalsAreFound) {
     for (const auto& [joint, place] : joints) {
       double least = 1e300;
       for (const hf_handle_proposal& o : list) least = std::min(least, glm::distance(place_of(o), place));
-      near += least <= 0.03 * body.diagonal, beside += least <= 0.06 * body.diagonal;
+      near += least <= 0.03 * body.diagonal;
+      beside += least <= 0.06 * body.diagonal;
       if (least > 0.06 * body.diagonal) missed += " " + joint;
     }
     std::printf("%-20s %4zu %4zu %4zu %4zu  %zu, %zu of %zu; not%s\n", name, count_of(list, HF_HANDLE_REASON_FOOT),

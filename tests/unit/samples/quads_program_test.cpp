@@ -130,7 +130,10 @@ TEST(QuadsProgram, FollowsStrokesAndMirrors) {
                     strokes = (folder.path / "strokes.json").string();
   write_mesh_file(mesh, in);
   double top = 0, ring = 0;
-  for (const glm::dvec3& p : mesh.positions) top = std::max(top, p.y), ring = std::max(ring, std::hypot(p.x, p.z));
+  for (const glm::dvec3& p : mesh.positions) {
+    top = std::max(top, p.y);
+    ring = std::max(ring, std::hypot(p.x, p.z));
+  }
   ring -= top;
   std::ofstream(strokes) << "{\"strokes\": [{\"points\": [[" << 0.75 * ring << ", " << top << ", " << -0.45 * ring
                          << "], [" << 1.0 * ring << ", " << top << ", " << 0.0 << "], [" << 0.95 * ring << ", " << top
@@ -258,12 +261,15 @@ struct Remade {
         run("\"" + in.string() + "\" --faces " + std::to_string(faces) + " -o \"" + out.string() + "\"", text);
     EXPECT_EQ(code, 0) << text;
     if (code != 0) return;
-    before = read_gltf(in), after = read_gltf(out);
-    old_flat = flatten(before), flat = flatten(after);
+    before = read_gltf(in);
+    after = read_gltf(out);
+    old_flat = flatten(before);
+    flat = flatten(after);
     // Each vertex of the quads lies on a triangle of the model.
     const SharedSoup soup{&old_flat.positions, old_flat.triangles};
     const NearestPoint nearest(soup);
-    triangle.resize(flat.vertex_count()), weights.resize(flat.vertex_count());
+    triangle.resize(flat.vertex_count());
+    weights.resize(flat.vertex_count());
     glm::dvec3 low(INFINITY), high(-INFINITY);
     for (uint32_t v = 0; v < flat.vertex_count(); ++v) {
       nearest.distance(flat.positions[v], &triangle[v]);
@@ -273,7 +279,8 @@ struct Remade {
       const double xx = dot(x, x), xy = dot(x, y), yy = dot(y, y), area = xx * yy - xy * xy;
       const double s = (yy * dot(d, x) - xy * dot(d, y)) / area, t = (xx * dot(d, y) - xy * dot(d, x)) / area;
       weights[v] = {1 - s - t, s, t};
-      low = glm::min(low, flat.positions[v]), high = glm::max(high, flat.positions[v]);
+      low = glm::min(low, flat.positions[v]);
+      high = glm::max(high, flat.positions[v]);
     }
     size = glm::distance(low, high);
   }
@@ -288,7 +295,8 @@ struct Remade {
     for (uint32_t v = 0; v < flat.vertex_count(); ++v) {
       const uint32_t* c = &old_flat.triangles[3 * size_t{triangle[v]}];
       const glm::dvec3 at = weights[v].x * was[c[0]] + weights[v].y * was[c[1]] + weights[v].z * was[c[2]];
-      out.most = std::max(out.most, glm::distance(at, is[v]) / size), out.mean += glm::distance(at, is[v]) / size;
+      out.most = std::max(out.most, glm::distance(at, is[v]) / size);
+      out.mean += glm::distance(at, is[v]) / size;
       glm::dvec3& first = of_weld[flat.welded[v]];
       if (std::isnan(first.x)) first = is[v];
       out.opened = std::max(out.opened, glm::distance(first, is[v]) / size);
@@ -352,7 +360,9 @@ TEST(QuadsProgram, TangentsAndNumbersOfTheHostStay) {
   Model model = make_model("sheet", positions, triangles);
   Primitive& p = model.meshes[0].primitives[0];
   CarriedNumbers ids;
-  ids.component = 5121, ids.type = 1, ids.count = positions.size();
+  ids.component = 5121;
+  ids.type = 1;
+  ids.count = positions.size();
   for (const glm::dvec3& at : positions) {
     p.tangents.emplace_back(1, 0, 0, -1);
     ids.bytes.push_back(std::lround(side * at.x) % 2 == 0 ? 10 : 200);

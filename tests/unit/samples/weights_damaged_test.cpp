@@ -30,7 +30,8 @@ class Damage {
  public:
   Damage(const Rig& rig, uint32_t seed) : random_(seed), size_(rig.diagonal) {
     for (const glm::dvec3& p : rig.positions) made_.positions.insert(made_.positions.end(), {p.x, p.y, p.z});
-    made_.triangles = rig.triangles, made_.bones = rig.bones;
+    made_.triangles = rig.triangles;
+    made_.bones = rig.bones;
     if (chance(3)) specks();
     if (chance(3)) doubled();
     if (chance(3)) shell();
@@ -164,7 +165,10 @@ TEST(DamagedModels, NoVariantFailsAndNoVertexIsBare) {
     if (file.extension() != ".glb") continue;
     try {
       const Model model = read_gltf(file);
-      if (!model.skins.empty()) rigs.push_back(read_rig(model)), names.push_back(file.stem().string());
+      if (!model.skins.empty()) {
+        rigs.push_back(read_rig(model));
+        names.push_back(file.stem().string());
+      }
     } catch (const std::runtime_error&) {  // compressed files, and a skeleton without a mesh
     }
   }
@@ -181,13 +185,15 @@ TEST(DamagedModels, NoVariantFailsAndNoVertexIsBare) {
       auto desc = hf::make<hf_surface_desc>();
       desc.vertex_count = static_cast<uint32_t>(variant.positions.size() / 3);
       desc.triangle_count = static_cast<uint32_t>(variant.triangles.size() / 3);
-      desc.positions_f64 = variant.positions.data(), desc.triangles = variant.triangles.data();
+      desc.positions_f64 = variant.positions.data();
+      desc.triangles = variant.triangles.data();
       const hf::Surface surface(desc);
       const hf::Weights weights(surface, variant.bones, i % 2 ? 4 : 8);
       const hf::VertexWeights found = weights.weights();
       const size_t faults = faults_of(found, variant.bones);
       EXPECT_EQ(faults, 0u) << where;
-      failed += faults > 0, vertices += found.origins.size();
+      failed += faults > 0;
+      vertices += found.origins.size();
     } catch (const hf::Error& error) {
       ADD_FAILURE() << where << ": " << error.what();
       ++failed;

@@ -49,7 +49,8 @@ Model bent() {
     skin.vertex_weights.push_back(1);
   }
   SkinClip clip;
-  clip.name = "turn", clip.times = {0, 1};
+  clip.name = "turn";
+  clip.times = {0, 1};
   const glm::dquat still(1, 0, 0, 0), turned = glm::angleAxis(0.5, glm::dvec3(1, 0, 0));
   clip.rotations = {still, still, still, turned};
   clip.translations.assign(4, glm::dvec3(0));
@@ -97,7 +98,9 @@ Model two_skins(bool reversed) {
   Skin second = model.skins[0];
   for (size_t j = 0; j < joints.size(); ++j) {
     Node node = model.nodes[static_cast<size_t>(joints[j])];
-    node.name += " 2", node.parent = -1, node.children.clear();
+    node.name += " 2";
+    node.parent = -1;
+    node.children.clear();
     second.joints[j] = static_cast<int>(model.nodes.size());
     model.scene_roots.push_back(second.joints[j]);
     model.nodes.push_back(node);
@@ -109,9 +112,13 @@ Model two_skins(bool reversed) {
   const auto first =
       std::find_if(model.nodes.begin(), model.nodes.end(), [](const Node& node) { return node.mesh >= 0; });
   Node other = *first;
-  other.name = "other", other.skin = 1, other.parent = -1, other.children.clear();
+  other.name = "other";
+  other.skin = 1;
+  other.parent = -1;
+  other.children.clear();
   model.scene_roots.push_back(static_cast<int>(model.nodes.size()));
-  model.nodes.push_back(other), model.skins.push_back(second);
+  model.nodes.push_back(other);
+  model.skins.push_back(second);
   return model;
 }
 
@@ -199,7 +206,9 @@ TEST(WeightsProgram, ReadsWhereJointsEnd) {
   for (const char* name : {"right_end", "other_end.001", "RightTip", "hook"}) {
     Model ends = model;
     Node end;
-    end.name = name, end.parent = static_cast<int>(right), end.translation = {0, 3, 0};
+    end.name = name;
+    end.parent = static_cast<int>(right);
+    end.translation = {0, 3, 0};
     ends.nodes[right].children.push_back(static_cast<int>(ends.nodes.size()));
     ends.nodes.push_back(end);
     write_gltf(ends, folder.path / "ends.glb");

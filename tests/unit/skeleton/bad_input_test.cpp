@@ -30,12 +30,18 @@ struct Arrays {
   CharacterInput input() const {
     CharacterInput in;
     in.joint_count = static_cast<std::uint32_t>(parents.size());
-    in.parents = parents.data(), in.trs = trs.data();
-    in.vertex_count = static_cast<std::uint32_t>(positions.size() / 3), in.positions = positions.data();
-    in.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3), in.triangles = triangles.data();
+    in.parents = parents.data();
+    in.trs = trs.data();
+    in.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
+    in.positions = positions.data();
+    in.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
+    in.triangles = triangles.data();
     if (!vertex_joints.empty()) in.vertex_joints = vertex_joints.data();
-    if (!starts.empty())
-      in.influence_starts = starts.data(), in.influence_joints = joints.data(), in.influence_weights = weights.data();
+    if (!starts.empty()) {
+      in.influence_starts = starts.data();
+      in.influence_joints = joints.data();
+      in.influence_weights = weights.data();
+    }
     if (!bound.empty()) in.bound = bound.data();
     return in;
   }
@@ -44,7 +50,9 @@ struct Arrays {
 // Three joints and a triangle.
 Arrays small() {
   Arrays a;
-  a.add(-1, {0, 1, 0}), a.add(0, {0, 1, 0}), a.add(1, {0, 1, 0});
+  a.add(-1, {0, 1, 0});
+  a.add(0, {0, 1, 0});
+  a.add(1, {0, 1, 0});
   a.positions = {0, 0, 0, 1, 0, 0, 0, 3, 0};
   a.triangles = {0, 1, 2};
   a.vertex_joints = {0, 1, 2};
@@ -69,25 +77,40 @@ TEST(BadCharacter, IsRefusedWithTheIndex) {
   Arrays a = small();
   a.parents[0] = 2;
   expect_refused(a.input(), HF_ERROR_INVALID_ARGUMENT, 0, "its own ancestor");
-  a = small(), a.parents[1] = 3;
+  a = small();
+  a.parents[1] = 3;
   expect_refused(a.input(), HF_ERROR_OUT_OF_RANGE, 1, "parents[1] is 3");
-  a = small(), a.trs[12] = nan;
+  a = small();
+  a.trs[12] = nan;
   expect_refused(a.input(), HF_ERROR_NON_FINITE, 1, "rest transform of joint 1");
-  a = small(), a.trs[26] = 0;
+  a = small();
+  a.trs[26] = 0;
   expect_refused(a.input(), HF_ERROR_INVALID_ARGUMENT, 2, "rotation of joint 2");
-  a = small(), a.trs[0] = 1e308, a.trs[10] = 1e308;
+  a = small();
+  a.trs[0] = 1e308;
+  a.trs[10] = 1e308;
   expect_refused(a.input(), HF_ERROR_NON_FINITE, 1, "leave the range");
-  a = small(), a.positions[4] = nan;
+  a = small();
+  a.positions[4] = nan;
   expect_refused(a.input(), HF_ERROR_NON_FINITE, 1, "position 1");
-  a = small(), a.triangles[2] = 3;
+  a = small();
+  a.triangles[2] = 3;
   expect_refused(a.input(), HF_ERROR_OUT_OF_RANGE, 0, "names vertex 3");
-  a = small(), a.vertex_joints[2] = 3;
+  a = small();
+  a.vertex_joints[2] = 3;
   expect_refused(a.input(), HF_ERROR_OUT_OF_RANGE, 2, "vertex_joints[2] is 3");
-  a = small(), a.bound = {0, 0, 0};
+  a = small();
+  a.bound = {0, 0, 0};
   expect_refused(a.input(), HF_ERROR_EMPTY, HF_NO_INDEX, "bound is 0");
-  a = small(), a.starts = {0, 1, 2, 3}, a.joints = {0, 1, 7}, a.weights = {1, 1, 1};
+  a = small();
+  a.starts = {0, 1, 2, 3};
+  a.joints = {0, 1, 7};
+  a.weights = {1, 1, 1};
   expect_refused(a.input(), HF_ERROR_OUT_OF_RANGE, 2, "influence_joints[2] is 7");
-  a = small(), a.starts = {0, 2, 1, 3}, a.joints = {0, 1, 2}, a.weights = {1, 1, 1};
+  a = small();
+  a.starts = {0, 2, 1, 3};
+  a.joints = {0, 1, 2};
+  a.weights = {1, 1, 1};
   expect_refused(a.input(), HF_ERROR_INVALID_ARGUMENT, 1, "influence_starts[1]");
 }
 
@@ -101,7 +124,8 @@ TEST(BadCharacter, DeclarationsAreChecked) {
   const std::int32_t roles[] = {-1, 99, -1}, sides[] = {0, 0, 5}, good[] = {-1, -1, 3};
   in.roles = roles;
   expect_refused(in, HF_ERROR_INVALID_ARGUMENT, 1, "roles[1] is 99");
-  in.roles = good, in.sides = sides;
+  in.roles = good;
+  in.sides = sides;
   expect_refused(in, HF_ERROR_INVALID_ARGUMENT, 2, "sides[2] is 5");
 }
 
@@ -110,13 +134,18 @@ TEST(OddCharacter, IsKnownWithALowConfidence) {
   Arrays a = small();
   EXPECT_LE(know_character(a.input(), memory).role_confidence, 0.4);
   // Weights that are no numbers count as 0.
-  a.starts = {0, 1, 2, 3}, a.joints = {0, 1, 2}, a.weights = {nan, 1, -1}, a.vertex_joints.clear();
+  a.starts = {0, 1, 2, 3};
+  a.joints = {0, 1, 2};
+  a.weights = {nan, 1, -1};
+  a.vertex_joints.clear();
   EXPECT_LE(know_character(a.input(), memory).role_confidence, 0.4);
   // No vertices, one joint, all in one place.
   Arrays one;
   one.add(-1, {0, 0, 0});
   EXPECT_LE(know_character(one.input(), memory).role_confidence, 0.1);
-  one.add(0, {0, 0, 0}), one.add(1, {0, 0, 0}), one.add(1, {0, 0, 0});
+  one.add(0, {0, 0, 0});
+  one.add(1, {0, 0, 0});
+  one.add(1, {0, 0, 0});
   const Character found = know_character(one.input(), memory);
   EXPECT_LE(found.role_confidence, 0.4);
   EXPECT_NE(std::string(found.why.begin(), found.why.end()).find("one place"), std::string::npos);

@@ -57,9 +57,10 @@ void GltfCharacter::add_surface(const hf_gltf::Model& model) {
         const auto& skin = model.skins[static_cast<std::size_t>(node.skin)];
         for (std::size_t k = 0; k < 8; ++k) {
           const float w = primitive.influences[v].weights[k];
-          if (w > 0)
-            joints.push_back(static_cast<std::uint32_t>(skin.joints[primitive.influences[v].joints[k]])),
-                weights.push_back(w);
+          if (w > 0) {
+            joints.push_back(static_cast<std::uint32_t>(skin.joints[primitive.influences[v].joints[k]]));
+            weights.push_back(w);
+          }
         }
       }
       starts.push_back(static_cast<std::uint32_t>(joints.size()));
@@ -86,7 +87,8 @@ void GltfCharacter::declare(const std::string& bone, int node) {
 }
 
 void GltfCharacter::add_declared(const hf_gltf::Model& model) {
-  roles.assign(names.size(), -1), sides.assign(names.size(), 0);
+  roles.assign(names.size(), -1);
+  sides.assign(names.size(), 0);
   if (model.carried.extensions.empty()) return;
   const auto all = nlohmann::json::parse(model.carried.extensions, nullptr, false);
   if (all.contains("VRM") && all["VRM"].contains("humanoid")) {
@@ -103,14 +105,23 @@ hf_inner::CharacterInput GltfCharacter::input(bool with_names, bool with_up, boo
   hf_inner::CharacterInput in;
   in.joint_count = static_cast<std::uint32_t>(parents.size());
   in.names = with_names ? names.data() : nullptr;
-  in.parents = parents.data(), in.matrices = matrices.data(), in.inverse_binds = inverse_binds.data(),
+  in.parents = parents.data();
+  in.matrices = matrices.data();
+  in.inverse_binds = inverse_binds.data();
   in.bound = bound.data();
-  in.vertex_count = static_cast<std::uint32_t>(positions.size() / 3), in.positions = positions.data();
-  in.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3), in.triangles = triangles.data();
-  in.influence_starts = starts.data(), in.influence_joints = joints.data(), in.influence_weights = weights.data();
+  in.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
+  in.positions = positions.data();
+  in.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
+  in.triangles = triangles.data();
+  in.influence_starts = starts.data();
+  in.influence_joints = joints.data();
+  in.influence_weights = weights.data();
   in.vertex_joints = vertex_joints.data();
   if (with_up) in.up = up;
-  if (with_declared && declared) in.roles = roles.data(), in.sides = sides.data();
+  if (with_declared && declared) {
+    in.roles = roles.data();
+    in.sides = sides.data();
+  }
   return in;
 }
 

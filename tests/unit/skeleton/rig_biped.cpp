@@ -152,7 +152,8 @@ struct Builder {
     for (std::size_t j = 0; j < count; ++j) {
       if (rig.joints[j].name.rfind("ORG-", 0) != 0) continue;
       RigJoint copy = rig.joints[j];
-      copy.name.replace(0, 3, "DEF"), copy.parent = static_cast<int>(j);
+      copy.name.replace(0, 3, "DEF");
+      copy.parent = static_cast<int>(j);
       child[j] = static_cast<int>(rig.joints.size());
       rig.joints.push_back(copy);
     }
@@ -174,7 +175,10 @@ struct Builder {
 Rig make_biped(const std::string& convention, const BodyShape& shape) {
   Builder builder{shape, words_of(convention), convention, {}};
   builder.trunk();
-  for (const Side side : {Side::left, Side::right}) builder.arm(side), builder.leg(side);
+  for (const Side side : {Side::left, Side::right}) {
+    builder.arm(side);
+    builder.leg(side);
+  }
   builder.controls();
   if (convention == "rigify org") builder.move_skin_to_children();
   builder.rename();

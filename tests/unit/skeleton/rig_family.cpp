@@ -44,7 +44,8 @@ void Rig::add_box(int owner, Vec3 a, Vec3 b, double wide) {
     for (std::uint32_t k = 0; k < 4; ++k)
       quad(4 * ring + k, 4 * ring + (k + 1) % 4, 4 * ring + 4 + (k + 1) % 4, 4 * ring + 4 + k);
   }
-  quad(0, 1, 2, 3), quad(11, 10, 9, 8);
+  quad(0, 1, 2, 3);
+  quad(11, 10, 9, 8);
 }
 
 void Rig::add_block(int owner, Vec3 low, Vec3 high) {
@@ -128,11 +129,18 @@ PlacedRig::PlacedRig(const Rig& given, const Placing& place) : rig(given), placi
 hf_inner::CharacterInput PlacedRig::input() const {
   hf_inner::CharacterInput in;
   in.joint_count = static_cast<std::uint32_t>(parents.size());
-  in.names = names.data(), in.parents = parents.data(), in.matrices = matrices.data();
-  in.vertex_count = static_cast<std::uint32_t>(vertex_joints.size()), in.positions = positions.data();
-  in.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3), in.triangles = triangles.data();
+  in.names = names.data();
+  in.parents = parents.data();
+  in.matrices = matrices.data();
+  in.vertex_count = static_cast<std::uint32_t>(vertex_joints.size());
+  in.positions = positions.data();
+  in.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
+  in.triangles = triangles.data();
   in.vertex_joints = vertex_joints.data();
-  if (any_declared) in.roles = roles.data(), in.sides = sides.data();
+  if (any_declared) {
+    in.roles = roles.data();
+    in.sides = sides.data();
+  }
   return in;
 }
 
@@ -144,8 +152,9 @@ std::string PlacedRig::faults(const hf_inner::Character& found, bool judge_roles
              std::to_string(is.z) + "; ";
   };
   const Vec3 up = placing.along({0, 1, 0}), forward = placing.along({0, 0, 1});
-  axis("up", found.up, up), axis("forward", found.forward, forward),
-      axis("left", found.left, hf_inner::cross(up, forward));
+  axis("up", found.up, up);
+  axis("forward", found.forward, forward);
+  axis("left", found.left, hf_inner::cross(up, forward));
   for (std::size_t j = 0; j < rig.joints.size() && judge_roles; ++j) {
     const RigJoint& joint = rig.joints[j];
     if (joint.helper && found.kinds[j] == hf_inner::JointKind::body) out += joint.name + " is of the body; ";

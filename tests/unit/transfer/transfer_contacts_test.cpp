@@ -118,7 +118,8 @@ TEST(TransferContacts, PairsThatChangeSidesAreSaidToBeCrossed) {
   std::swap(pairs.target[left], pairs.target[right]);
   hf_inner::Transfer good(a.horse.core, a.bull.core, {}), bad(a.horse.core, a.bull.core, {});
   std::vector<uint32_t> numbers(pairs.names.size());
-  add(good, a.pairs.inputs(), numbers.data()), add(bad, pairs.inputs());
+  add(good, a.pairs.inputs(), numbers.data());
+  add(bad, pairs.inputs());
   for (size_t p = 0; p < numbers.size(); ++p) {
     EXPECT_FALSE(good.pair_info(numbers[p]).crossed) << pairs.names[p];
     EXPECT_EQ(bad.pair_info(numbers[p]).crossed, p == left || p == right) << pairs.names[p];
@@ -152,7 +153,8 @@ void check_against_names(const std::string& target_name, const std::string& list
   hf_inner::TransferOptions paper_options;
   paper_options.mode = HF_TRANSFER_PAPER;
   hf_inner::Transfer transfer(horse.core, other.core, {}), paper(horse.core, other.core, paper_options);
-  add(transfer, pairs.inputs()), add(paper, pairs.inputs());
+  add(transfer, pairs.inputs());
+  add(paper, pairs.inputs());
   for (const char* name : {"AnimalArmature|Gallop", "AnimalArmature|Walk"}) {
     const hf_gltf::Animation& clip =
         horse.model.animations[static_cast<size_t>(hf_gltf::find_animation(horse.model, name))];

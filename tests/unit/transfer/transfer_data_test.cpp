@@ -25,7 +25,8 @@ Figures self_transfer(int32_t mode, bool anchored) {
   for (uint32_t& flags : pairs.flags)
     flags = anchored ? flags | HF_PAIR_ANCHOR : flags & ~uint32_t{HF_PAIR_ANCHOR | HF_PAIR_FOOT};
   hf_inner::TransferOptions options;
-  options.mode = mode, options.scale = 1;
+  options.mode = mode;
+  options.scale = 1;
   hf_inner::Transfer transfer(horse.core, horse.core, options);
   add(transfer, pairs.inputs());
   Figures out;
@@ -34,7 +35,8 @@ Figures self_transfer(int32_t mode, bool anchored) {
     for (int k = 0; k < 6; ++k, ++frames) {
       const std::vector<Vec3> posed = horse.posed(clip, hf_gltf::clip_duration(clip) * k / 5);
       const double error = rms(*horse.core, frame_of(transfer, posed), posed, !anchored);
-      out.mean += error, out.worst = std::max(out.worst, error);
+      out.mean += error;
+      out.worst = std::max(out.worst, error);
       if (clip.name == "AnimalArmature|Idle") out.idle = std::max(out.idle, error);
     }
   }
@@ -51,8 +53,10 @@ TEST(TransferData, TheHorseOnItselfStaysWithinTheBars) {
   const auto line = [](const char* name, const Figures& f) {
     std::printf("  %-34s %.4f  %.4f  %.4f\n", name, f.mean, f.worst, f.idle);
   };
-  line("fields, anchored (bar .004 .012 .001)", anchored), line("fields, free (bar .004)", free_standing);
-  line("paper, anchored", paper), line("paper, free", paper_free);
+  line("fields, anchored (bar .004 .012 .001)", anchored);
+  line("fields, free (bar .004)", free_standing);
+  line("paper, anchored", paper);
+  line("paper, free", paper_free);
   EXPECT_LT(anchored.mean, 0.004);
   EXPECT_LT(anchored.worst, 0.012);
   EXPECT_LT(anchored.idle, 0.001);
@@ -86,7 +90,9 @@ CrossFigures cross(const Body& horse, const Body& other, const Pairs& pairs, int
         const double miss =
             hf_inner::norm(centre_of(pairs.target[p], frame) - centre_of(pairs.target[p], rest) - path) /
             other.core->mesh.scale;
-        out.mean += miss, out.largest = std::max(out.largest, miss), ++count;
+        out.mean += miss;
+        out.largest = std::max(out.largest, miss);
+        ++count;
       }
       std::vector<double> stretch;
       for (int32_t e = 0; e < other.core->topology.edge_count(); ++e) {

@@ -18,7 +18,8 @@ using Frames = std::vector<std::vector<Vec3>>;
 // arm where a test asks for one.
 struct Dialled {
   explicit Dialled(uint32_t arm = 0) : pairs(animals().pairs), transfer(a.horse.core, a.bull.core, {}) {
-    pairs.flags[a.pair("nose")] |= HF_PAIR_NECK, pairs.flags[a.pair("tail")] |= HF_PAIR_TAIL;
+    pairs.flags[a.pair("nose")] |= HF_PAIR_NECK;
+    pairs.flags[a.pair("tail")] |= HF_PAIR_TAIL;
     for (const char* name : {"front foot left", "front foot right"})
       if (arm) pairs.flags[a.pair(name)] = arm;
     add(transfer, pairs.inputs());
@@ -76,7 +77,8 @@ TEST(TransferDials, DialsSetBeforeThePairsAreThoseSetAfterThem) {
   Dialled d;
   const Dials turned{1.2, -0.1, 0.7, -0.4, 0.2, 0.6};
   hf_inner::Transfer before(d.a.horse.core, d.a.bull.core, {});
-  before.set_dials(turned), add(before, d.pairs.inputs());
+  before.set_dials(turned);
+  add(before, d.pairs.inputs());
   d.transfer.set_dials(turned);
   const std::vector<Vec3> posed = d.a.horse.posed(d.a.walk, 0.4);
   EXPECT_EQ(largest_distance(frame_of(before, posed), frame_of(d.transfer, posed)), 0);
@@ -88,8 +90,10 @@ TEST(TransferDials, AStrideScalesThePathOfEveryFootAlongTheGround) {
   Dialled d;
   const auto excursion = [&](const Frames& frames, const char* foot) {
     double low = 1e300, high = -1e300;
-    for (const auto& frame : frames)
-      low = std::min(low, d.place(foot, frame).z), high = std::max(high, d.place(foot, frame).z);
+    for (const auto& frame : frames) {
+      low = std::min(low, d.place(foot, frame).z);
+      high = std::max(high, d.place(foot, frame).z);
+    }
     return high - low;
   };
   const Frames neutral = d.walk(Dials());
@@ -130,7 +134,7 @@ TEST(TransferDials, AStrideLetsNoPlantedFootSlide) {
     for (const auto& frame : posed) {
       const std::vector<Vec3> out = frame_of(d.transfer, frame);
       const Vec3 at = d.place("hind foot left", out);
-      low = {std::min(low.x, at.x), 0, std::min(low.z, at.z)},
+      low = {std::min(low.x, at.x), 0, std::min(low.z, at.z)};
       high = {std::max(high.x, at.x), 0, std::max(high.z, at.z)};
       (&frame == posed.data() ? first : last) = d.place("rump", out).z;
     }
@@ -172,8 +176,10 @@ std::vector<int32_t> neck_root(const Dialled& d, const Body& body, const std::ve
   hf_inner::PairFields fields(body.core);
   std::vector<uint32_t> numbers;
   std::vector<hf_inner::Span<const int32_t>> lists;
-  for (const std::vector<int32_t>& region : regions)
-    numbers.push_back(static_cast<uint32_t>(numbers.size())), lists.push_back({region.data(), region.size()});
+  for (const std::vector<int32_t>& region : regions) {
+    numbers.push_back(static_cast<uint32_t>(numbers.size()));
+    lists.push_back({region.data(), region.size()});
+  }
   fields.add({numbers.data(), numbers.size()}, {lists.data(), lists.size()}, "body");
   std::vector<double> field(regions.size() * static_cast<size_t>(body.core->size())), leaks(regions.size());
   fields.solve({numbers.data(), numbers.size()}, field.data(), leaks.data());
@@ -265,7 +271,8 @@ TEST(TransferDials, LongPartsMakeTheWholeTurnAndNothingElseChanges) {
   const std::vector<Vec3> rest = d.a.horse.rest();
   Dials dials;
   const std::vector<Vec3> still = (d.transfer.set_dials(dials), frame_of(d.transfer, rest));
-  dials.long_follow = 1, d.transfer.set_dials(dials);
+  dials.long_follow = 1;
+  d.transfer.set_dials(dials);
   EXPECT_LT(largest_distance(frame_of(d.transfer, rest), still) / d.a.box, 1e-6) << "at rest";
 }
 
@@ -330,7 +337,8 @@ TEST(TransferFeet, StandUnderABodyThatLeans) {
     for (Vec3& p : posed) {
       const double share = std::min(1.0, std::max(0.0, (p.y - ground) / size - 0.06) / 0.2), angle = lean * share;
       const double y = p.y - ground, x = p.x;
-      p.x = x * std::cos(angle) - y * std::sin(angle), p.y = ground + x * std::sin(angle) + y * std::cos(angle);
+      p.x = x * std::cos(angle) - y * std::sin(angle);
+      p.y = ground + x * std::sin(angle) + y * std::cos(angle);
     }
     const std::vector<Vec3> out = frame_of(d.transfer, posed);
     for (const char* foot : feet) {

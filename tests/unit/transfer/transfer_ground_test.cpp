@@ -158,7 +158,8 @@ TEST(TransferGround, LimbsThatAreAlignedAtRestDoNotSinkAtRest) {
   off.keep_ground = false;
   hf_inner::Transfer transfer(a.horse.core, bull.core, options), bare(a.horse.core, bull.core, off);
   const Pairs pairs = find_pairs("horse_to_bull.json", a.horse, bull);
-  add(transfer, pairs.inputs()), add(bare, pairs.inputs());
+  add(transfer, pairs.inputs());
+  add(bare, pairs.inputs());
   const std::vector<Vec3> rest = a.horse.rest();
   EXPECT_GT(depth(frame_of(bare, rest)), 0.005) << "nothing sinks: no test";
   const std::vector<Vec3> still = frame_of(transfer, rest);
@@ -224,11 +225,15 @@ TEST(TransferGround, ThinPartsThatNoPairMovesAndTailsMaySink) {
     }
     const bool is_tail = p.z < -1.0 && p.y < 0.9;
     const bool is_horn = std::abs(p.x) > 0.2 && p.y > 1.38 && p.z > 0.97, is_tuft = is_tail && p.y < 0.5;
-    horns += is_horn, tuft += is_tuft;
+    horns += is_horn;
+    tuft += is_tuft;
     if (is_horn || is_tuft) {
       EXPECT_EQ(sinking[v], 1) << p.x << " " << p.y << " " << p.z;
     }
-    if (p.y < 0.5 && !is_tail) low_legs += 1, legs += sinking[v];
+    if (p.y < 0.5 && !is_tail) {
+      low_legs += 1;
+      legs += sinking[v];
+    }
     if (p.y > 0.8 && p.z < 0.5 && p.z > -0.8) trunk += sinking[v];
   }
   std::printf("%zu vertices of horns, %zu of the tail's tuft, %zu of lower legs\n", horns, tuft, low_legs);
@@ -272,7 +277,10 @@ TEST(TransferGround, ABodyThatLiesRestsOnItsTrunkNotOnWhateverReachesLowest) {
   const auto trunk_height = [](const Body& body, const std::vector<Vec3>& still, const std::vector<Vec3>& points) {
     // the barrel: the middle of the body's length, off the ground at rest
     double front = -1e300, back = 1e300, low = 1e300;
-    for (const Vec3& p : still) front = std::max(front, p.z), back = std::min(back, p.z);
+    for (const Vec3& p : still) {
+      front = std::max(front, p.z);
+      back = std::min(back, p.z);
+    }
     for (size_t v = 0; v < points.size(); ++v) {
       const double along = (still[v].z - back) / (front - back);
       if (along > 0.4 && along < 0.6 && still[v].y - lowest_of(still) > 0.25 * body.core->mesh.scale)
@@ -301,7 +309,8 @@ TEST(TransferGround, FallingIsAsSmoothAsItsSource) {
     if (k > 0)
       worst =
           std::max(worst, largest_distance(out, before) / (transfer.scale() * largest_distance(posed, source_before)));
-    before = out, source_before = posed;
+    before = out;
+    source_before = posed;
   }
   std::printf("falling: largest step of a vertex %.2f times the source's\n", worst);
   EXPECT_LT(worst, 3.0);

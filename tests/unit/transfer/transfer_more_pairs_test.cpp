@@ -57,7 +57,10 @@ struct Twins {
       const double d = hf_inner::norm(points[v] - place);
       if (taken[v]) continue;
       if (d < radius) out.push_back(static_cast<int32_t>(v));
-      if (d < least) least = d, nearest = static_cast<int32_t>(v);
+      if (d < least) {
+        least = d;
+        nearest = static_cast<int32_t>(v);
+      }
     }
     if (out.empty()) out.push_back(nearest);
     return out;
@@ -76,10 +79,14 @@ struct Twins {
       for (size_t v = 0; v < from.size(); ++v) {
         double least = 1e300;
         for (const Vec3& place : places) least = std::min(least, hf_inner::norm(from[v] - place));
-        if (least > most) most = least, next = v;
+        if (least > most) {
+          most = least;
+          next = v;
+        }
       }
       places.push_back(from[next]);
-      out.names.push_back("place " + std::to_string(out.names.size())), out.flags.push_back(0);
+      out.names.push_back("place " + std::to_string(out.names.size()));
+      out.flags.push_back(0);
       out.source.push_back(ball(from, out.source, from[next], radius));
       out.target.push_back(ball(to, out.target, from[next], radius));
     }

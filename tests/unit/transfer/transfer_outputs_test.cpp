@@ -71,7 +71,10 @@ TEST(TransferOutputs, ExchangedSidesAreSaid) {
   json list = read_json(horse_to_bull());
   json* sides[2] = {nullptr, nullptr};
   for (json& pair : list["pairs"]) {
-    if (pair.contains("both")) pair["source"] = pair["target"] = pair["both"], pair.erase("both");
+    if (pair.contains("both")) {
+      pair["source"] = pair["target"] = pair["both"];
+      pair.erase("both");
+    }
     if (pair["name"] == "front foot left") sides[0] = &pair["target"];
     if (pair["name"] == "front foot right") sides[1] = &pair["target"];
   }
@@ -162,7 +165,8 @@ TEST(TransferOutputs, MeshSequencesGiveWhatTheClipGives) {
   fs::create_directories(place);
   const auto mesh = [](const hf_gltf::FlatMesh& flat, const std::vector<glm::dvec3>& positions) {
     samples::SurfaceMesh out;
-    out.positions = positions, out.triangles = flat.triangles;
+    out.positions = positions;
+    out.triangles = flat.triangles;
     return out;
   };
   samples::write_mesh_file(mesh(from, from.positions), place / "horse.obj");
@@ -223,7 +227,10 @@ TEST(TransferOutputs, HalfWayBetweenKeysTheFileIsNearTheSolver) {
   const hf_gltf::Model made = hf_gltf::read_gltf(file);
   const hf_gltf::FlatMesh mesh = hf_gltf::flatten(made);
   glm::dvec3 low(1e300), high(-1e300);
-  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  for (const glm::dvec3& p : mesh.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(frames)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
@@ -237,7 +244,8 @@ TEST(TransferOutputs, HalfWayBetweenKeysTheFileIsNearTheSolver) {
     double sum = 0, largest = 0;
     for (size_t v = 0; v < got.size(); ++v) {
       const double d = glm::distance(got[v], expected.positions[v]) / glm::length(high - low);
-      sum += d * d / static_cast<double>(got.size()), largest = std::max(largest, d);
+      sum += d * d / static_cast<double>(got.size());
+      largest = std::max(largest, d);
     }
     if (f % 2 == 0) at_keys = std::max(at_keys, largest);
     if (f % 2 == 1) between = std::max(between, std::sqrt(sum));
@@ -260,7 +268,10 @@ TEST(TransferOutputs, KeysThatFollowFromOthersAreLeftOutWithinTheBound) {
   const hf_gltf::Model a = hf_gltf::read_gltf(whole), b = hf_gltf::read_gltf(few);
   const hf_gltf::FlatMesh mesh = hf_gltf::flatten(a);
   glm::dvec3 low(1e300), high(-1e300);
-  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  for (const glm::dvec3& p : mesh.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
   for (const double time : hf_gltf::key_times(a.animations[0])) {
     const std::vector<glm::dvec3> wanted = hf_gltf::posed_positions(a, mesh, a.animations[0], time),
                                   got = hf_gltf::posed_positions(b, mesh, b.animations[0], time);
@@ -456,10 +467,13 @@ TEST(TransferOutputs, AModelThatLiesOrWhoseZIsUpIsFoundByItsLegs) {
   for (const Turn& turn : {Turn{{1, 0, 0}, half, "+z"}, Turn{{0, 0, 1}, half, "-x"}, Turn{{0, 0, 1}, 2 * half, "-y"}}) {
     hf_gltf::Model turned = horse;
     hf_gltf::Node top;
-    top.name = "top", top.rotation = glm::angleAxis(turn.angle, turn.axis), top.children = turned.scene_roots;
+    top.name = "top";
+    top.rotation = glm::angleAxis(turn.angle, turn.axis);
+    top.children = turned.scene_roots;
     const int number = static_cast<int>(turned.nodes.size());
     for (const int root : turned.scene_roots) turned.nodes[static_cast<size_t>(root)].parent = number;
-    turned.nodes.push_back(top), turned.scene_roots = {number};
+    turned.nodes.push_back(top);
+    turned.scene_roots = {number};
     if (!turned.scenes.empty()) turned.scenes[turned.shown_scene].roots = {number};
     const fs::path file = folder() / "turned_horse.glb";
     hf_gltf::write_gltf(turned, file);
@@ -482,17 +496,22 @@ hf_gltf::Model rich_bull() {
     blink.positions[7] = glm::vec3(0.1f, 0, 0);
     primitive.targets.push_back(blink);
   }
-  mesh.target_names = {"blink"}, mesh.weights = {0.5f};
+  mesh.target_names = {"blink"};
+  mesh.weights = {0.5f};
   bull.asset = R"({"copyright":"somebody","extras":{"seen":true}})";
   bull.cameras = {R"({"type":"perspective","perspective":{"yfov":0.7,"znear":0.1}})"};
   bull.carried.extensions = R"({"KHR_lights_punctual":{"lights":[{"type":"point","name":"lamp"}]}})";
   hf_gltf::Node camera, lamp;
-  camera.name = "eye", camera.camera = 0, camera.translation = {0, 0.5f, 0}, camera.carried.extras = R"({"lens":35})";
+  camera.name = "eye";
+  camera.camera = 0;
+  camera.translation = {0, 0.5f, 0};
+  camera.carried.extras = R"({"lens":35})";
   const int head = hf_gltf::find_node(bull, "head");
   camera.parent = head;
   bull.nodes[static_cast<size_t>(head)].children.push_back(static_cast<int>(bull.nodes.size()));
   bull.nodes.push_back(camera);
-  lamp.name = "lamp", lamp.translation = {0, 9, 0};
+  lamp.name = "lamp";
+  lamp.translation = {0, 9, 0};
   lamp.carried.extensions = R"({"KHR_lights_punctual":{"light":0}})";
   const int number = static_cast<int>(bull.nodes.size());
   bull.scene_roots.push_back(number);

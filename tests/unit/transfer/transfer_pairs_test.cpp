@@ -97,7 +97,8 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   bad.target = inputs[2].target;
   EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }, &index), HF_ERROR_OVERLAP);
   EXPECT_EQ(index, 0u);
-  bad.target = {&free_vertex, 1}, bad.flags = 1u << 20;
+  bad.target = {&free_vertex, 1};
+  bad.flags = 1u << 20;
   EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }), HF_ERROR_INVALID_ARGUMENT);
   const std::vector<hf_inner::PairInput> many(300, inputs[0]);
   EXPECT_EQ(code_of([&] { transfer.add_pairs({many.data(), many.size()}, nullptr); }), HF_ERROR_TOO_LARGE);
@@ -159,7 +160,8 @@ TEST(TransferPairs, WhenMemoryRunsOutAtAnyAllocationTheTransferStaysAsItWas) {
   Faults faults;
   const World world(1, {Faults::allocate, Faults::release, &faults});
   Body horse = a.horse, bull = a.bull;
-  horse.build(world), bull.build(world);
+  horse.build(world);
+  bull.build(world);
   const std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
   const std::vector<hf_inner::PairInput> first(inputs.begin(), inputs.begin() + 6),
       rest(inputs.begin() + 6, inputs.end());
@@ -176,7 +178,8 @@ TEST(TransferPairs, WhenMemoryRunsOutAtAnyAllocationTheTransferStaysAsItWas) {
   for (int64_t n = 0;; n += 1 + n / 40) {  // every one at first, then samples
     std::vector<Vec3> out(with_all.size());
     uint32_t stage = 0;
-    faults.count = 0, faults.fail_at = n;
+    faults.count = 0;
+    faults.fail_at = n;
     bool failed = false;
     try {
       add(transfer, rest, numbers.data());
@@ -220,8 +223,10 @@ TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
   for (int32_t v = 0; v < a.bull.core->size() / 2; ++v) half.push_back(v);
   const int32_t single = 3, doubled[] = {9, 9, 9};
   hf_inner::PairInput all_on_source, single_vertices;
-  all_on_source.source = {everything.data(), everything.size()}, all_on_source.target = {half.data(), half.size()};
-  single_vertices.source = {&single, 1}, single_vertices.target = {doubled, 3};
+  all_on_source.source = {everything.data(), everything.size()};
+  all_on_source.target = {half.data(), half.size()};
+  single_vertices.source = {&single, 1};
+  single_vertices.target = {doubled, 3};
   for (const hf_inner::PairInput& input : {all_on_source, single_vertices}) {
     for (const int32_t mode : {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER}) {
       hf_inner::TransferOptions options;
@@ -238,8 +243,10 @@ TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
   for (int32_t v = 0; v < a.horse.core->size(); ++v)
     (a.horse.core->mesh.positions[static_cast<size_t>(v)].z > 0 ? front : back).push_back(v);
   for (int32_t v = a.bull.core->size() / 2; v < a.bull.core->size(); ++v) other_half.push_back(v);
-  two[0].source = {front.data(), front.size()}, two[0].target = {half.data(), half.size()};
-  two[1].source = {back.data(), back.size()}, two[1].target = {other_half.data(), other_half.size()};
+  two[0].source = {front.data(), front.size()};
+  two[0].target = {half.data(), half.size()};
+  two[1].source = {back.data(), back.size()};
+  two[1].target = {other_half.data(), other_half.size()};
   hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   transfer.add_pairs({two, 2}, nullptr);
   EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), a.bull.rest()), 1e-6);
@@ -320,7 +327,8 @@ TEST(TransferPairs, KernelsOfTheSourceAreNormalisedAndLocal) {
           return a.horse.core->mesh.positions[static_cast<size_t>(kernels->vertex[i])];
         };
         for (size_t i = first; i < last; ++i) {
-          sum = sum + kernels->slope[i], trace += hf_inner::dot(point(i), kernels->slope[i]);
+          sum = sum + kernels->slope[i];
+          trace += hf_inner::dot(point(i), kernels->slope[i]);
           largest = std::max(largest, hf_inner::norm(kernels->slope[i]));
           centre = centre + (1.0 / static_cast<double>(last - first)) * point(i);
         }

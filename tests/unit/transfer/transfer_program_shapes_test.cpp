@@ -16,7 +16,8 @@ struct Heads {
     hf_gltf::write_gltf(samples::to_model(face, "face", true), source);
     hf_gltf::Model model = samples::to_model(other, "face_other", false);
     // a target with a node that turns and scales, and a morph target and a clip of its own
-    model.nodes[0].rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0)), model.nodes[0].scale = glm::vec3(1, 2, 1);
+    model.nodes[0].rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0));
+    model.nodes[0].scale = glm::vec3(1, 2, 1);
     hf_gltf::Primitive& primitive = model.meshes[0].primitives[0];
     for (glm::vec3& p : primitive.positions) {
       p = glm::conjugate(model.nodes[0].rotation) * p;
@@ -25,13 +26,18 @@ struct Heads {
     hf_gltf::MorphTarget own;
     own.positions.assign(primitive.positions.size(), glm::vec3(0, 0.25f, 0));
     primitive.targets.push_back(own);
-    model.meshes[0].target_names = {"blink_left"}, model.meshes[0].weights = {0};
+    model.meshes[0].target_names = {"blink_left"};
+    model.meshes[0].weights = {0};
     hf_gltf::Animation clip;
     clip.name = "blink";
     hf_gltf::Channel channel;
-    channel.node = 0, channel.path = hf_gltf::Path::weights, channel.width = 1;
-    channel.times = {0, 1}, channel.values = {0, 1};
-    clip.channels.push_back(channel), model.animations.push_back(clip);
+    channel.node = 0;
+    channel.path = hf_gltf::Path::weights;
+    channel.width = 1;
+    channel.times = {0, 1};
+    channel.values = {0, 1};
+    clip.channels.push_back(channel);
+    model.animations.push_back(clip);
     hf_gltf::write_gltf(model, target);
   }
 };

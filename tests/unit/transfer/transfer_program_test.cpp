@@ -67,7 +67,8 @@ TEST(TransferProgram, TheHorsesWalkGoesToTheBullAndPairsAreEditedInTheSameSessio
   check_output(out, bull, 2);
   check_output(folder() / "horse_on_bull_edited.glb", bull, 2);
   const json figures = read_json(report);
-  check_figures(figures), check_figures(figures["edited"]);
+  check_figures(figures);
+  check_figures(figures["edited"]);
   EXPECT_EQ(figures["edited"]["source_factorisations"], figures["source_factorisations"]);
   EXPECT_EQ(figures["edited"]["target_factorisations"], figures["target_factorisations"]);
   EXPECT_EQ(figures["edited"]["pairs"].size(), figures["pairs"].size());
@@ -84,9 +85,16 @@ fs::path rewritten(const std::string& name, const glm::dvec3* stray, const std::
   const auto again = [&](auto& list) {
     if (stray && !list.empty()) list.push_back(list.back());
   };
-  again(to.positions), again(to.normals), again(to.tangents), again(to.colors), again(to.influences);
+  again(to.positions);
+  again(to.normals);
+  again(to.tangents);
+  again(to.colors);
+  again(to.influences);
   for (auto& set : to.texcoords) again(set);
-  for (auto& target : to.targets) again(target.positions), again(target.normals);
+  for (auto& target : to.targets) {
+    again(target.positions);
+    again(target.normals);
+  }
   if (stray) to.positions.back() = glm::vec3(*stray);
   const fs::path file = folder() / (name + suffix + ".glb");
   hf_gltf::write_gltf(model, file);
@@ -104,7 +112,10 @@ TEST(TransferProgram, AVertexInNoTriangleChangesNothing) {
               0)
         << name << ": " << said;
     json out = read_json(report);
-    for (json& clip : out["clips"]) clip.erase("frame_ms"), clip.erase("ms_per_frame");
+    for (json& clip : out["clips"]) {
+      clip.erase("frame_ms");
+      clip.erase("ms_per_frame");
+    }
     return out;
   };
   const hf_gltf::Model horse = hf_gltf::read_gltf(creature("horse"));

@@ -38,7 +38,10 @@ void compare(const fs::path& file, const fs::path& answer, const std::string& wh
   const nlohmann::json frames = nlohmann::json::parse(std::ifstream(answer))["frames"];
   ASSERT_EQ(frames.size(), times.size());
   glm::dvec3 low(1e300), high(-1e300);
-  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  for (const glm::dvec3& p : mesh.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
   double worst = 0;
   for (size_t f = 0; f < times.size(); ++f) {
     const std::vector<glm::dvec3> expected = hf_gltf::posed_positions(model, mesh, model.animations[0], times[f]);
@@ -135,7 +138,10 @@ void check_godot(const std::string& kind) {
   const nlohmann::json frames = nlohmann::json::parse(std::ifstream(project / "posed.json"))["frames"];
   double worst = 0;
   glm::dvec3 low(1e300), high(-1e300);
-  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  for (const glm::dvec3& p : mesh.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
   const double at[] = {0, 8.0 / 30, 16.0 / 30};
   ASSERT_EQ(frames.size(), 3u);
   for (size_t f = 0; f < 3; ++f) {

@@ -10,7 +10,8 @@ using hf_inner::Vec3;
 
 hf_inner::TransferOptions options(int32_t mode, double alignment = -1) {
   hf_inner::TransferOptions out;
-  out.mode = mode, out.alignment_angle = alignment;
+  out.mode = mode;
+  out.alignment_angle = alignment;
   return out;
 }
 
@@ -66,7 +67,8 @@ TEST(TransferRules, TurningTheSourceAboutTheVerticalWithItsAxesGivesTheSameClip)
   const double axes[9] = {right.x, right.y, right.z, 0, 1, 0, forward.x, forward.y, forward.z};
   std::copy_n(axes, 9, rotated.source_axes);
   hf_inner::Transfer first(a.horse.core, a.bull.core, straight), second(other.core, a.bull.core, rotated);
-  add(first, a.pairs.inputs()), add(second, a.pairs.inputs());
+  add(first, a.pairs.inputs());
+  add(second, a.pairs.inputs());
   for (const double time : {0.0, 0.2, 0.55, 0.9}) {
     std::vector<glm::dvec3> posed = hf_gltf::posed_positions(a.horse.model, a.horse.mesh, a.walk, time), moved;
     for (const glm::dvec3& p : posed) moved.push_back(turned(p));
@@ -123,7 +125,8 @@ TEST(TransferRules, ResultsAreTheSameBitsForAnyNumberOfThreads) {
   for (const uint32_t threads : {1u, 2u, 5u}) {
     const World world(threads);
     Body horse = a.horse, bull = a.bull;
-    horse.build(world), bull.build(world);
+    horse.build(world);
+    bull.build(world);
     hf_inner::Transfer transfer(horse.core, bull.core, options(HF_TRANSFER_FIELDS, 0));
     add(transfer, a.pairs.inputs());
     const std::vector<Vec3> out = frame_of(transfer, horse.posed(a.walk, 0.37));
@@ -183,9 +186,10 @@ TEST(TransferRules, WeightsOfAVertexAreRoundedToAnExactSum) {
   for (int trial = 0; trial < 1000; ++trial) {
     hf_inner::Candidate candidates[6];
     const int count = 1 + trial % 6;
-    for (int i = 0; i < count; ++i)
-      candidates[i].cluster = i,
+    for (int i = 0; i < count; ++i) {
+      candidates[i].cluster = i;
       candidates[i].weight = trial % 7 == 0 ? 0.0 : std::fmod(0.137 * (trial + 1) * (i + 1), 1.0);
+    }
     int32_t joint[4];
     float weight[4];
     hf_inner::write_weights(candidates, count, joint, weight);
@@ -205,13 +209,17 @@ TEST(TransferRules, AClusterThatOverlapsNoOtherKeepsTheRotationOfItsSource) {
     hf_inner::Mesh mesh(memory);
     hf_inner::Clusters clusters(memory);
     std::vector<double> area;
-    clusters.count = 1, clusters.field_count = 1;
+    clusters.count = 1;
+    clusters.field_count = 1;
     clusters.centre.assign(1, 0.5);
     for (int v = 0; v < 3; ++v) {
       const double x = std::fmod(0.137 * trial * (v + 1), 1.0);
-      mesh.positions.push_back({x, x * x - 0.3, std::sin(7 * x)}), area.push_back(0.1 + 0.2 * x);
-      for (int k = 0; k < hf_inner::blend_count; ++k)
-        clusters.joint.push_back(0), clusters.weight.push_back(k == 0 ? 1.0f : 0.0f);
+      mesh.positions.push_back({x, x * x - 0.3, std::sin(7 * x)});
+      area.push_back(0.1 + 0.2 * x);
+      for (int k = 0; k < hf_inner::blend_count; ++k) {
+        clusters.joint.push_back(0);
+        clusters.weight.push_back(k == 0 ? 1.0f : 0.0f);
+      }
     }
     hf_inner::Refit refit(memory);
     refit.prepare(mesh, {area.data(), area.size()}, clusters, memory);

@@ -31,7 +31,8 @@ TEST(TransferShapes, TheSameSurfaceRemeshedAndScaledFollowsWithinTwoPercentOfThe
       for (glm::dvec3& p : truth) p *= scale;
       const std::vector<Vec3> expected = other.inner(truth), out = frame_of(transfer, a.horse.posed(clip, time));
       const double error = rms(*other.core, out, expected);
-      sum += error, worst = std::max(worst, error);
+      sum += error;
+      worst = std::max(worst, error);
       largest = std::max(largest, largest_distance(out, expected) / other.core->mesh.scale);
     }
   }
@@ -61,7 +62,8 @@ TEST(TransferShapes, ACopyWithAnotherRestPoseOfTheTailMovesLikeTheSource) {
   Pairs pairs = find_pairs("horse_to_bull.json", a.horse, a.horse);
   const auto error = [&](double alignment) {
     hf_inner::TransferOptions options;
-    options.alignment_angle = alignment, options.scale = 1;
+    options.alignment_angle = alignment;
+    options.scale = 1;
     hf_inner::Transfer transfer(a.horse.core, lifted.core, options);
     std::vector<uint32_t> numbers(pairs.names.size());
     add(transfer, pairs.inputs(), numbers.data());
@@ -107,8 +109,8 @@ void add_loose_parts(Body& body, const glm::dvec3& eye, const glm::dvec3& strap,
     mesh.triangles.push_back(base + t);
   const uint32_t start = base + 6;
   for (uint32_t i = 0; i <= 12; ++i) {
-    mesh.positions.push_back(strap + glm::dvec3(-0.03, 0, 0.1 * i)),
-        mesh.positions.push_back(strap + glm::dvec3(0.03, 0, 0.1 * i));
+    mesh.positions.push_back(strap + glm::dvec3(-0.03, 0, 0.1 * i));
+    mesh.positions.push_back(strap + glm::dvec3(0.03, 0, 0.1 * i));
   }
   for (uint32_t i = 0; i < 12; ++i) {
     for (const uint32_t t : {0u, 2u, 1u, 1u, 2u, 3u}) mesh.triangles.push_back(start + 2 * i + t);
@@ -137,7 +139,10 @@ TEST(TransferShapes, LoosePartsFollowWhatTheyLieNextTo) {
       double best = 1e300;
       for (size_t w = 0; w < first; ++w) {
         const double distance = hf_inner::norm(rest[inner(w)] - rest[inner(v)]);
-        if (distance < best) best = distance, host = w;
+        if (distance < best) {
+          best = distance;
+          host = w;
+        }
       }
       EXPECT_NEAR(hf_inner::norm(out[inner(v)] - out[inner(host)]), best, 0.02 * bull.core->mesh.scale) << v;
     }
@@ -170,8 +175,9 @@ TEST(TransferShapes, AnIslandTakesTheRowsOfTheNearestVerticesAndIsRelaxedBetween
   for (int32_t v = 0; v < core.size(); ++v) {
     if (core.mesh.component[static_cast<size_t>(v)] != body) continue;
     const Vec3 p = place(v);
-    field[3 * static_cast<size_t>(v)] = p.x, field[3 * static_cast<size_t>(v) + 1] = p.y,
-              field[3 * static_cast<size_t>(v) + 2] = p.z;
+    field[3 * static_cast<size_t>(v)] = p.x;
+    field[3 * static_cast<size_t>(v) + 1] = p.y;
+    field[3 * static_cast<size_t>(v) + 2] = p.z;
   }
   hf_inner::attach_islands(core, {reached.data(), reached.size()}, 3, field.data());
   const auto nearest = [&](int32_t island_vertex) {
@@ -179,7 +185,10 @@ TEST(TransferShapes, AnIslandTakesTheRowsOfTheNearestVerticesAndIsRelaxedBetween
     int32_t host = -1;
     for (int32_t v = 0; v < core.size(); ++v) {
       const double d = hf_inner::norm(place(v) - place(island_vertex));
-      if (core.mesh.component[static_cast<size_t>(v)] == body && d < best) best = d, host = v;
+      if (core.mesh.component[static_cast<size_t>(v)] == body && d < best) {
+        best = d;
+        host = v;
+      }
     }
     return host;
   };
@@ -196,7 +205,8 @@ TEST(TransferShapes, AnIslandTakesTheRowsOfTheNearestVerticesAndIsRelaxedBetween
     for (int32_t e = core.topology.neighbour_start[static_cast<size_t>(v)];
          e < core.topology.neighbour_start[static_cast<size_t>(v) + 1]; ++e) {
       const double w = core.weights[static_cast<size_t>(core.topology.neighbour_edge[static_cast<size_t>(e)])];
-      mean = mean + w * row(core.topology.neighbour[static_cast<size_t>(e)]), sum += w;
+      mean = mean + w * row(core.topology.neighbour[static_cast<size_t>(e)]);
+      sum += w;
     }
     EXPECT_LT(hf_inner::norm(row(v) - (1 / sum) * mean), 1e-3 * core.mesh.scale) << given;
     ++relaxed;
@@ -241,9 +251,12 @@ TEST(TransferShapes, FeetFollowTheScaledPathsOfTheSourcesFeetWithoutSinkingOrJit
                  to_rest = foot_of(a.pairs.target[foot], target_rest);
       const Vec3 goal = to_rest.centre + scale * (from.centre - from_rest.centre);
       const double miss = hf_inner::norm(to.centre - goal) / box;
-      sum += miss, largest = std::max(largest, miss), ++count;
+      sum += miss;
+      largest = std::max(largest, miss);
+      ++count;
       sunk = std::max(sunk, (scale * std::min(0.0, from.low - from_rest.low) - (to.low - to_rest.low)) / box);
-      paths[foot - 2].push_back(scale * from.centre), paths[foot + 2].push_back(to.centre);
+      paths[foot - 2].push_back(scale * from.centre);
+      paths[foot + 2].push_back(to.centre);
     }
   }
   for (size_t foot = 0; foot < 4; ++foot) {
@@ -251,7 +264,8 @@ TEST(TransferShapes, FeetFollowTheScaledPathsOfTheSourcesFeetWithoutSinkingOrJit
       const auto jerk = [&](const std::vector<Vec3>& p) {
         return hf_inner::norm(p[f + 3] - 3.0 * p[f + 2] + 3.0 * p[f + 1] - p[f]);
       };
-      source_jerk += jerk(paths[foot]), target_jerk += jerk(paths[foot + 4]);
+      source_jerk += jerk(paths[foot]);
+      target_jerk += jerk(paths[foot + 4]);
     }
   }
   std::printf("feet: path deviation mean %.4f max %.4f, sunk %.4f of the box, jerk %.3f of the source's\n", sum / count,

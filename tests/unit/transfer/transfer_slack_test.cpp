@@ -37,7 +37,8 @@ struct Bar {
     core = make_core(positions, triangles, world);
     const auto n = static_cast<size_t>(core->size());
     area.assign(n, 1.0 / static_cast<double>(n));
-    clusters.count = 2, clusters.field_count = 1;
+    clusters.count = 2;
+    clusters.field_count = 1;
     for (size_t v = 0; v < n; ++v) {
       const double share = std::clamp((given(core->mesh.positions[v]).x + 0.2) / 0.6, 0.0, 1.0);
       const auto far = static_cast<float>(coarse ? std::round(share) : std::floor(share * 1024) / 1024);
@@ -46,7 +47,9 @@ struct Bar {
         clusters.weight.push_back(k == 0 ? 1 - far : k == 1 ? far : 0.0f);
       }
     }
-    clusters.pivot.assign(2, Vec3()), clusters.centre.assign(2, 0.5), clusters.mass.assign(2, 0.5);
+    clusters.pivot.assign(2, Vec3());
+    clusters.centre.assign(2, 0.5);
+    clusters.mass.assign(2, 0.5);
     translations.prepare(*core, {area.data(), area.size()}, clusters, {}, {}, {});
   }
   Vec3 given(Vec3 inner) const { return core->mesh.to_given(inner); }

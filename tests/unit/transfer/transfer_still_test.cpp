@@ -17,7 +17,9 @@ TEST(TransferStill, NoiseOnACollinearMomentTurnsNothing) {
   // all moments along x, and noise across: the best rotation turns half round with its sign
   const auto moment = [](double noise) {
     Mat3 s;
-    s(0, 0) = 1, s(1, 1) = noise, s(2, 2) = noise;
+    s(0, 0) = 1;
+    s(1, 1) = noise;
+    s(2, 2) = noise;
     return s;
   };
   const Quaternion guide = hf_inner::exponential({0.3, 0, 0});
@@ -32,7 +34,10 @@ TEST(TransferStill, NoiseOnACollinearMomentTurnsNothing) {
 TEST(TransferStill, ARigidMomentGivesItsRotation) {
   const Quaternion turn = hf_inner::exponential({0.7, -1.1, 0.4});
   Mat3 shape;
-  shape(0, 0) = 0.7, shape(1, 1) = 0.25, shape(2, 2) = 0.05, shape(0, 1) = shape(1, 0) = 0.1;
+  shape(0, 0) = 0.7;
+  shape(1, 1) = 0.25;
+  shape(2, 2) = 0.05;
+  shape(0, 1) = shape(1, 0) = 0.1;
   const Mat3 s = turn.toRotationMatrix() * shape;
   EXPECT_LT(hf_inner::soft_rotation(s, turn, sharpness).angularDistance(turn), 1e-12);
   // from a guide nearby it comes nearer, and a moment that is not finite leaves the guide
@@ -65,7 +70,8 @@ TEST(TransferStill, ASourceThatStandsStillGivesATargetThatStandsStill) {
         for (size_t v = 0; v < out.size(); ++v) moved = std::max(moved, hf_inner::norm(out[v] - before_out[v]));
         EXPECT_LT(moved, 2 * unit * step) << "at " << time << " s, frame " << frame;
       }
-      before = posed, before_out = out;
+      before = posed;
+      before_out = out;
     }
   }
 }

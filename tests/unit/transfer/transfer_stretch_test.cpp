@@ -38,15 +38,18 @@ struct HeadPairs {
   std::vector<std::vector<int32_t>> source, target;
   HeadPairs(const Head& a, const Head& b) {
     for (size_t i = 0; i < a.face.marks.size(); ++i) {
-      source.emplace_back(), target.emplace_back();
+      source.emplace_back();
+      target.emplace_back();
       for (const uint32_t v : a.face.marks[i].vertices) source.back().push_back(a.core->mesh.inner_of_given[v]);
       for (const uint32_t v : b.face.marks[i].vertices) target.back().push_back(b.core->mesh.inner_of_given[v]);
     }
   }
   std::vector<hf_inner::PairInput> inputs() const {
     std::vector<hf_inner::PairInput> out(source.size());
-    for (size_t i = 0; i < out.size(); ++i)
-      out[i].source = {source[i].data(), source[i].size()}, out[i].target = {target[i].data(), target[i].size()};
+    for (size_t i = 0; i < out.size(); ++i) {
+      out[i].source = {source[i].data(), source[i].size()};
+      out[i].target = {target[i].data(), target[i].size()};
+    }
     return out;
   }
 };
@@ -153,7 +156,8 @@ LidFigures play(const Head& head, const Head& other) {
     const std::vector<Vec3>& got = made[static_cast<size_t>(shape)];
     for (size_t v = 0; v < got.size(); ++v) {
       const Vec3 e = got[v] - expected[v], d = expected[v] - rest[v];
-      error += hf_inner::dot(e, e), moved += hf_inner::dot(d, d);
+      error += hf_inner::dot(e, e);
+      moved += hf_inner::dot(d, d);
     }
     for (size_t i = 0; i < other.face.lids.size() && shape < 2; ++i) {
       if ((other.face.lid_azimuth[i] > 0) != (shape == 0)) continue;

@@ -38,9 +38,10 @@ struct World {
 inline std::shared_ptr<const hf_inner::Core> make_core(const std::vector<glm::dvec3>& positions,
                                                        const std::vector<uint32_t>& triangles, const World& world) {
   hf_inner::MeshInput input;
-  input.vertex_count = static_cast<uint32_t>(positions.size()),
+  input.vertex_count = static_cast<uint32_t>(positions.size());
   input.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
-  input.positions = hf_inner::ConstRows(&positions[0].x, sizeof(glm::dvec3)), input.triangles = triangles.data();
+  input.positions = hf_inner::ConstRows(&positions[0].x, sizeof(glm::dvec3));
+  input.triangles = triangles.data();
   return hf_inner::Core::make(input, {}, world.memory, world.jobs);
 }
 
@@ -93,9 +94,11 @@ struct Pairs {
   std::vector<uint32_t> flags;
   std::vector<hf_inner::PairInput> inputs() const {
     std::vector<hf_inner::PairInput> out(names.size());
-    for (size_t i = 0; i < out.size(); ++i)
-      out[i].source = {source[i].data(), source[i].size()}, out[i].target = {target[i].data(), target[i].size()},
+    for (size_t i = 0; i < out.size(); ++i) {
+      out[i].source = {source[i].data(), source[i].size()};
+      out[i].target = {target[i].data(), target[i].size()};
       out[i].flags = flags[i];
+    }
     return out;
   }
 };
@@ -106,14 +109,18 @@ inline Pairs find_pairs(const std::string& file, const Body& source, const Body&
   const hf_gltf::RegionFinder on_source(source.model, source.mesh, pairs.source_axes),
       on_target(target.model, target.mesh, pairs.target_axes);
   std::vector<hf_gltf::Region> a, b;
-  for (const hf_gltf::PairEntry& entry : pairs.pairs)
-    a.push_back(on_source.find(entry.source)), b.push_back(on_target.find(as_source ? entry.source : entry.target));
+  for (const hf_gltf::PairEntry& entry : pairs.pairs) {
+    a.push_back(on_source.find(entry.source));
+    b.push_back(on_target.find(as_source ? entry.source : entry.target));
+  }
   if (on_source.separate(a) >= 0 || on_target.separate(b) >= 0)
     throw std::runtime_error("a region is covered by others");
   Pairs out;
   for (size_t i = 0; i < a.size(); ++i) {
-    out.names.push_back(pairs.pairs[i].name), out.flags.push_back(pairs.pairs[i].flags());
-    out.source.push_back(source.inner_of(a[i].vertices)), out.target.push_back(target.inner_of(b[i].vertices));
+    out.names.push_back(pairs.pairs[i].name);
+    out.flags.push_back(pairs.pairs[i].flags());
+    out.source.push_back(source.inner_of(a[i].vertices));
+    out.target.push_back(target.inner_of(b[i].vertices));
   }
   return out;
 }

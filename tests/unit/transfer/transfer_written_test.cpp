@@ -46,17 +46,22 @@ TEST(TransferWritten, AModelOfTooManyJointsIsRefused) {
     node.parent = j == 0 ? -1 : j - 1;
     if (j + 1 < joints) node.children = {j + 1};
     model.nodes.push_back(node);
-    skin.joints.push_back(j), skin.inverse_bind.emplace_back(1);
+    skin.joints.push_back(j);
+    skin.inverse_bind.emplace_back(1);
     primitive.positions.emplace_back(j, j % 2, 0);
     Influences influences;
-    influences.joints[0] = j, influences.weights[0] = 1;
+    influences.joints[0] = j;
+    influences.weights[0] = 1;
     primitive.influences.push_back(influences);
     if (j >= 2) primitive.indices.insert(primitive.indices.end(), {uint32_t(j - 2), uint32_t(j - 1), uint32_t(j)});
   }
   Node body;
-  body.mesh = 0, body.skin = 0;
+  body.mesh = 0;
+  body.skin = 0;
   model.nodes.push_back(body);
-  model.skins = {skin}, model.meshes.emplace_back(), model.meshes[0].primitives = {primitive};
+  model.skins = {skin};
+  model.meshes.emplace_back();
+  model.meshes[0].primitives = {primitive};
   try {
     const RigFit rig(model, flatten(model));
     FAIL() << "1,001 joints were taken";
@@ -74,7 +79,8 @@ TEST(TransferWritten, ASomersaultIsMet) {
   std::vector<double> times;
   for (int f = 0; f <= 24; ++f) {
     const double angle = f * 3.14159265358979 / 12;
-    times.push_back(f / 30.0), frames.emplace_back();
+    times.push_back(f / 30.0);
+    frames.emplace_back();
     for (const glm::dvec3& p : posed_positions(horse, mesh, horse.animations[0], 0.2)) {
       const glm::dvec3 q = glm::angleAxis(angle, glm::dvec3(1, 0, 0)) * p;
       for (int c = 0; c < 3; ++c) frames.back().push_back(q[c]);
@@ -98,7 +104,10 @@ TEST(TransferWritten, BonesThatAreTooLongStayAboveTheGround) {
   const FlatMesh mesh = flatten(horse);
   const RigFit rig(horse, mesh);
   double ground = 1e300, top = -1e300;
-  for (const glm::dvec3& p : mesh.positions) ground = std::min(ground, p.y), top = std::max(top, p.y);
+  for (const glm::dvec3& p : mesh.positions) {
+    ground = std::min(ground, p.y);
+    top = std::max(top, p.y);
+  }
   const double hip = 0.5 * (ground + top);
   std::vector<double> frame;
   for (const glm::dvec3& p : posed_positions(horse, mesh, horse.animations[0], 0.3))
@@ -128,9 +137,11 @@ Model one_leg() {
   const double heights[3] = {3, 2, 1};
   for (int j = 0; j < 3; ++j) {
     Node node;
-    node.parent = j - 1, node.translation = {0, j == 0 ? heights[0] : -1, 0};
+    node.parent = j - 1;
+    node.translation = {0, j == 0 ? heights[0] : -1, 0};
     if (j < 2) node.children = {j + 1};
-    model.nodes.push_back(node), skin.joints.push_back(j);
+    model.nodes.push_back(node);
+    skin.joints.push_back(j);
     glm::dmat4 bind(1);
     bind[3][1] = -heights[j];
     skin.inverse_bind.emplace_back(bind);
@@ -140,16 +151,20 @@ Model one_leg() {
     for (const double x : {-0.1, 0.1}) {
       primitive.positions.emplace_back(x, 0.25 * row, 0);
       Influences influences;
-      influences.joints[0] = row >= 8 ? 0 : row >= 4 ? 1 : 2, influences.weights[0] = 1;
+      influences.joints[0] = row >= 8 ? 0 : row >= 4 ? 1 : 2;
+      influences.weights[0] = 1;
       primitive.influences.push_back(influences);
     }
     const uint32_t a = 2 * row;
     if (row < 20) primitive.indices.insert(primitive.indices.end(), {a, a + 1, a + 2, a + 2, a + 1, a + 3});
   }
   Node body;
-  body.mesh = 0, body.skin = 0;
+  body.mesh = 0;
+  body.skin = 0;
   model.nodes.push_back(body);
-  model.skins = {skin}, model.meshes.emplace_back(), model.meshes[0].primitives = {primitive};
+  model.skins = {skin};
+  model.meshes.emplace_back();
+  model.meshes[0].primitives = {primitive};
   return model;
 }
 
@@ -174,7 +189,8 @@ TEST(TransferWritten, AKneeDoesNotSnapWhereTheLegIsStraight) {
   std::vector<std::vector<double>> frames;
   std::vector<RigPose> alone;
   for (int f = 0; f < 30; ++f) {
-    times.push_back(f / 30.0), frames.push_back(frame_of_leg(mesh, 0.88, 0.5 - f / 29.0));
+    times.push_back(f / 30.0);
+    frames.push_back(frame_of_leg(mesh, 0.88, 0.5 - f / 29.0));
     alone.push_back(rig.fit(frames.back(), f == 0 ? rig.rest() : alone.back(), foot, {}));
   }
   const auto jerk = [&](const std::vector<RigPose>& poses) {
@@ -206,8 +222,8 @@ TEST(TransferWritten, HeldFramesAndTheEndsOfALoopHaveOnePose) {
   std::vector<std::vector<double>> frames;
   for (int f = 0; f <= 40; ++f) {
     const double angle = 2 * 3.14159265358979 * (f <= 10 ? f : f <= 20 ? 10 : f - 10) / 30;
-    times.push_back(f / 30.0),
-        frames.push_back(frame_of_leg(mesh, 0.9 + 0.08 * std::cos(angle), 0.2 * std::sin(angle)));
+    times.push_back(f / 30.0);
+    frames.push_back(frame_of_leg(mesh, 0.9 + 0.08 * std::cos(angle), 0.2 * std::sin(angle)));
   }
   const std::vector<RigPose> poses = rig.fit_all(times, frames, [](size_t) { return std::vector<double>(); });
   ASSERT_EQ(poses.size(), frames.size());
@@ -228,13 +244,18 @@ TEST(TransferWritten, LeftOutKeysDoNotMakeACalmMotionJerk) {
   const Model horse = read_gltf(creature("horse"));
   const FlatMesh mesh = flatten(horse);
   glm::dvec3 low(1e300), high(-1e300);
-  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  for (const glm::dvec3& p : mesh.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
   const double tolerance = 0.0005 * glm::length(high - low);
   for (const size_t joints : {size_t{1}, horse.skins[0].joints.size()}) {
     Animation sway;
     for (size_t j = 0; j < joints; ++j) {
       Channel turn;
-      turn.node = horse.skins[0].joints[j], turn.path = Path::rotation, turn.width = 4;
+      turn.node = horse.skins[0].joints[j];
+      turn.path = Path::rotation;
+      turn.width = 4;
       for (int f = 0; f < 120; ++f) {
         const double angle =
             0.1 / std::sqrt(static_cast<double>(joints)) * std::sin(f * 0.05 + 0.7 * static_cast<double>(j));
@@ -273,7 +294,9 @@ TEST(TransferWritten, LeftOutKeysDoNotMoveWhatStandsStill) {
   const FlatMesh mesh = flatten(horse);
   Animation clip;
   Channel turn;
-  turn.node = horse.skins[0].joints[3], turn.path = Path::rotation, turn.width = 4;
+  turn.node = horse.skins[0].joints[3];
+  turn.path = Path::rotation;
+  turn.width = 4;
   for (int f = 0; f < 30; ++f) {
     const double angle = 0.0004 * (f < 12 ? f : f < 20 ? 12 : 32 - f);
     turn.times.push_back(static_cast<float>(f / 30.0));

@@ -24,8 +24,10 @@ std::vector<std::vector<Matrix>> motions(const Body& body, int frames) {
         const double* m = world.data() + 16 * j;
         for (std::size_t r = 0; r < 3; ++r) {
           double moved = m[12 + r];
-          for (std::size_t c = 0; c < 3; ++c)
-            joints[j][4 * r + c] = m[4 * c + r], moved -= m[4 * c + r] * body.heads[j][c];
+          for (std::size_t c = 0; c < 3; ++c) {
+            joints[j][4 * r + c] = m[4 * c + r];
+            moved -= m[4 * c + r] * body.heads[j][c];
+          }
           joints[j][4 * r + 3] = moved;  // rest rotations are none
         }
       }
@@ -45,7 +47,8 @@ class Fit {
  public:
   Fit(const Body& body, const PlainMesh& coarse, const hf_inner::Core& core) : joints_(body.heads.size()) {
     const auto frames = motions(body, 6);
-    frames_ = frames.size(), coarse_ = coarse.vertex_count();
+    frames_ = frames.size();
+    coarse_ = coarse.vertex_count();
     const hf_inner::NearestTriangle tree(core.mesh.positions, core.mesh.corners, *core.memory);
     for (std::size_t v = 0; v < body.mesh.vertex_count(); ++v) {
       const double* p = body.mesh.positions.data() + 3 * v;
@@ -119,7 +122,10 @@ class Fit {
       for (std::size_t i = 0; i < ahead.size(); ++i)
         ahead[i] = down ? next[i] + (momentum - 1) / faster * (next[i] - weights[i]) : weights[i];
       momentum = down ? faster : 1;
-      if (down) weights = next, now = reached;
+      if (down) {
+        weights = next;
+        now = reached;
+      }
     }
     return weights;
   }

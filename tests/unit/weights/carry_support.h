@@ -31,12 +31,15 @@ inline Body make_body(const std::string& name, std::uint32_t vertices) {
   out.creature = samples::make_creature(name, vertices);
   const samples::Creature& c = out.creature;
   out.mesh.positions.resize(3 * std::size_t{c.surface_vertex_count});
-  out.joints.resize(4 * std::size_t{c.surface_vertex_count}), out.weights.resize(out.joints.size());
+  out.joints.resize(4 * std::size_t{c.surface_vertex_count});
+  out.weights.resize(out.joints.size());
   for (std::size_t v = 0; v < c.vertex_count(); ++v) {
     const std::size_t to = c.surface_vertex[v];
     for (std::size_t k = 0; k < 3; ++k) out.mesh.positions[3 * to + k] = static_cast<double>(c.positions[3 * v + k]);
-    for (std::size_t k = 0; k < 4; ++k)
-      out.joints[4 * to + k] = c.joints[v][k], out.weights[4 * to + k] = c.weights[v][k];
+    for (std::size_t k = 0; k < 4; ++k) {
+      out.joints[4 * to + k] = c.joints[v][k];
+      out.weights[4 * to + k] = c.weights[v][k];
+    }
   }
   for (const std::uint32_t v : c.triangles) out.mesh.triangles.push_back(c.surface_vertex[v]);
   for (const samples::Joint& joint : c.skeleton) {
@@ -44,14 +47,17 @@ inline Body make_body(const std::string& name, std::uint32_t vertices) {
     if (joint.parent >= 0) {
       for (std::size_t k = 0; k < 3; ++k) p[k] += out.heads[static_cast<std::size_t>(joint.parent)][k];
     }
-    out.heads.push_back(p), out.parents.push_back(joint.parent);
+    out.heads.push_back(p);
+    out.parents.push_back(joint.parent);
   }
   return out;
 }
 
 inline hf_inner::MatchOptions carry_options(std::int32_t influences = 4) {
   hf_inner::MatchOptions options;
-  options.distance = 0.05, options.cosine = std::cos(0.5235987755982988) - 1e-12, options.influences = influences;
+  options.distance = 0.05;
+  options.cosine = std::cos(0.5235987755982988) - 1e-12;
+  options.influences = influences;
   return options;
 }
 
@@ -166,7 +172,9 @@ inline PlainMesh plate(const Body& body, std::size_t middle, double radius, doub
     const std::uint32_t a = 2 * number[from.triangles[t]], b = 2 * number[from.triangles[t + 1]],
                         c = 2 * number[from.triangles[t + 2]];
     mesh.triangles.insert(mesh.triangles.end(), {a + 1, b + 1, c + 1, a, c, b});
-    ++edges[{a, b}], ++edges[{b, c}], ++edges[{c, a}];
+    ++edges[{a, b}];
+    ++edges[{b, c}];
+    ++edges[{c, a}];
   }
   for (const auto& [edge, count] : edges) {
     const auto [a, b] = edge;
@@ -198,7 +206,9 @@ inline PlainMesh garment(const Body& body, std::uint32_t seed) {
       Point from, to;
       double length = 0;
       for (std::size_t k = 0; k < 3; ++k) {
-        from[k] = a[k] - 0.1 * (b[k] - a[k]), to[k] = b[k] + 0.1 * (b[k] - a[k]), length += std::pow(b[k] - a[k], 2);
+        from[k] = a[k] - 0.1 * (b[k] - a[k]);
+        to[k] = b[k] + 0.1 * (b[k] - a[k]);
+        length += std::pow(b[k] - a[k], 2);
       }
       if (!(length > 0)) to[1] += 0.1 * size;
       const double radius = std::max(0.3 * girth(body, static_cast<std::uint32_t>(body.parents[j])), 0.02 * size);
@@ -218,7 +228,8 @@ inline PlainMesh garment(const Body& body, std::uint32_t seed) {
       for (std::size_t p = 0; p < mesh.positions.size(); p += 3) {
         const double t = 0.05 + 0.9 * mesh.positions[p], y = mesh.positions[p + 1], z = mesh.positions[p + 2];
         const double angle = 1.7 * (1 - t), ring = radius * std::sin(angle);
-        mesh.positions[p] = centre[0] + ring * z, mesh.positions[p + 1] = centre[1] + radius * std::cos(angle);
+        mesh.positions[p] = centre[0] + ring * z;
+        mesh.positions[p + 1] = centre[1] + radius * std::cos(angle);
         mesh.positions[p + 2] = centre[2] + ring * y;
       }
       break;

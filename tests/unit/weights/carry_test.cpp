@@ -40,7 +40,8 @@ TEST(CarriedWeights, VerticesWithoutAMatchAreFilledIn) {
   std::vector<float> weights;
   for (std::uint32_t v = 0; v < source.vertex_count(); ++v) {
     const float along = static_cast<float>(source.positions[3 * v] / 2);
-    joints.insert(joints.end(), {7, 3}), weights.insert(weights.end(), {1 - along, along});
+    joints.insert(joints.end(), {7, 3});
+    weights.insert(weights.end(), {1 - along, along});
   }
   const auto to = make_core(target);
   const FilledWeights found = carry(make_core(source), {2, joints.data(), weights.data()}, to);
@@ -147,7 +148,8 @@ double fill_error(std::size_t kind, hf_inner::FieldKind field) {
         const double w = static_cast<double>(body.weights[4 * given + k]);
         if (w > 0) same += std::min(w, share_of(found, at(v), body.joints[4 * given + k]));
       }
-      error += 1 - same, ++count;
+      error += 1 - same;
+      ++count;
     }
   }
   return error / static_cast<double>(count);
@@ -159,7 +161,8 @@ TEST(CarriedWeights, BiharmonicFillsComeNearerToTheTruthThanHarmonicOnes) {
     const double one = fill_error(kind, hf_inner::FieldKind::harmonic),
                  two = fill_error(kind, hf_inner::FieldKind::biharmonic);
     std::printf("%zu: share that other joints move: harmonic %.4f, bi-harmonic %.4f\n", kind, one, two);
-    harmonic += one, biharmonic += two;
+    harmonic += one;
+    biharmonic += two;
   }
   EXPECT_LT(biharmonic, 0.75 * harmonic);
   EXPECT_LT(biharmonic, 3 * 0.2);

@@ -70,7 +70,10 @@ hf_inner::Bones skeleton(hf_inner::Memory& memory, const PlainMesh& mesh, std::u
         bones.head[b].y += 3 * size * any(random);  // outside
         break;
       case 2:
-        if (b > 0) bones.head[b] = bones.head[b - 1], bones.tail[b] = bones.tail[b - 1];  // coincident
+        if (b > 0) {
+          bones.head[b] = bones.head[b - 1];
+          bones.tail[b] = bones.tail[b - 1];
+        }  // coincident
         break;
       case 3:
         if (random() % 8 == 0) bones.head[b].x = 1e300 * any(random);

@@ -16,11 +16,14 @@ TEST(HelperBones, ReasonsAddUp) {
   const std::string names = "root\nspine\nPoleTarget.L\nIKHandle\nuprooted\nhand_end\narm\nroot2\n";
   const int parents[] = {-1, 0, 0, 0, 1, 4, 4, 1};
   for (const int parent : parents) {
-    bones.head.push_back({}), bones.parent.push_back(parent), bones.deforms.push_back(1);
+    bones.head.push_back({});
+    bones.parent.push_back(parent);
+    bones.deforms.push_back(1);
   }
   bones.deforms[7] = 0;
   Vector<std::uint32_t> faults(8, 0u, &memory);
-  faults[0] = faults[2] = bone_outside | bone_informs_none, faults[5] = bone_informs_none | bone_no_length;
+  faults[0] = faults[2] = bone_outside | bone_informs_none;
+  faults[5] = bone_informs_none | bone_no_length;
   faults[6] = bone_coincident;
   const auto found = helper_reasons(bones, faults, {names.data(), names.size()}, memory);
   EXPECT_EQ(found[0], helper_proposed | helper_name_root | helper_root | helper_outside | helper_informs_none);

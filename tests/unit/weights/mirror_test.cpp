@@ -48,7 +48,7 @@ struct Scene {
   Scene(const std::string& name, double turn = 0, const Point& shift = {0, 0, 0}) : body(make_body(name, 1200)) {
     const auto place = [&](double* p) {
       const double x = p[0], z = p[2];
-      p[0] = std::cos(turn) * x + std::sin(turn) * z + shift[0],
+      p[0] = std::cos(turn) * x + std::sin(turn) * z + shift[0];
       p[2] = std::cos(turn) * z - std::sin(turn) * x + shift[2];
       p[1] += shift[1];
     };
@@ -66,7 +66,8 @@ struct Scene {
         pair_names(by_names ? Span<const char>{names.data(), names.size()} : Span<const char>{}, count, *core->memory);
     bones.given.assign(count, 0);
     MirrorOptions options;
-    options.to = to, options.carry = carry_options();
+    options.to = to;
+    options.carry = carry_options();
     return mirror_weights(*skin, given, bones, options);
   }
   // The mean share of vertices that other joints move than in the generator's weights.
@@ -141,7 +142,8 @@ TEST(MirroredWeights, WhatHasNoCounterpartGetsWeights) {
   append(mesh, around_line({0.6, 2.5, 0.4}, {0.9, 2.5, 0.4}, 0.1, 0.1, 9, 6), 0);
   std::vector<std::uint32_t> joints = scene.body.joints;
   std::vector<float> weights = scene.body.weights;
-  joints.resize(4 * mesh.vertex_count(), 0), weights.resize(4 * mesh.vertex_count(), 0.0f);
+  joints.resize(4 * mesh.vertex_count(), 0);
+  weights.resize(4 * mesh.vertex_count(), 0.0f);
   scene.body.mesh = mesh;
   scene.core = make_core(mesh);
   scene.skin = make_owner_in<SkinSurface>(scene.core->memory, scene.core);
@@ -162,13 +164,18 @@ TEST(MirroredWeights, BothSidesTakeTheMean) {
   std::vector<float> weights;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     const float x = static_cast<float>(mesh.positions[3 * v] / 4 + 0.5);
-    joints.insert(joints.end(), {0, 1}), weights.insert(weights.end(), {1 - x * x, x * x});
+    joints.insert(joints.end(), {0, 1});
+    weights.insert(weights.end(), {1 - x * x, x * x});
   }
   MirrorBones bones(*core->memory);
-  bones.heads.push_back(core->mesh.to_inner({-1, 0, 0})), bones.heads.push_back(core->mesh.to_inner({1, 0, 0}));
-  bones.partner.assign(2, -1), bones.given.assign(2, 0);
+  bones.heads.push_back(core->mesh.to_inner({-1, 0, 0}));
+  bones.heads.push_back(core->mesh.to_inner({1, 0, 0}));
+  bones.partner.assign(2, -1);
+  bones.given.assign(2, 0);
   MirrorOptions options;
-  options.to = MirrorTo::both, options.carry = carry_options(), options.has_plane = true;
+  options.to = MirrorTo::both;
+  options.carry = carry_options();
+  options.has_plane = true;
   const MirroredWeights found = mirror_weights(*skin, {2, joints.data(), weights.data()}, bones, options);
   EXPECT_EQ(found.pairs.by[0], PairedBy::place);
   for (Index v = 0; v < core->size(); ++v) {

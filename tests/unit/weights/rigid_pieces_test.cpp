@@ -16,15 +16,18 @@ PlainMesh part(double low, double high, double radius, double y = 0, std::uint32
   PlainMesh out = tube(10, rings, 1);
   for (std::size_t i = 0; i < out.positions.size(); i += 3) {
     out.positions[i] = low + (high - low) * out.positions[i];
-    out.positions[i + 1] = y + radius * out.positions[i + 1], out.positions[i + 2] *= radius;
+    out.positions[i + 1] = y + radius * out.positions[i + 1];
+    out.positions[i + 2] *= radius;
   }
   return out;
 }
 
 void add_bone(Bones& bones, const Vec3& head, const Vec3& tail) {
   bones.has_tails = true;
-  bones.head.push_back(head), bones.tail.push_back(tail);
-  bones.parent.push_back(bones.head.size() < 2 ? -1 : 0), bones.deforms.push_back(1);
+  bones.head.push_back(head);
+  bones.tail.push_back(tail);
+  bones.parent.push_back(bones.head.size() < 2 ? -1 : 0);
+  bones.deforms.push_back(1);
 }
 
 // Two limbs whose bones meet at 5, and what lies between or beside them.
@@ -37,7 +40,8 @@ struct Robot {
     first.push_back(static_cast<Index>(mesh.vertex_count()));
     skin = skin_of(mesh, threads);
     bones = std::make_unique<Bones>(*skin->core->memory);
-    add_bone(*bones, {0, 0, 0}, {5, 0, 0}), add_bone(*bones, {5, 0, 0}, {9, 0, 0});
+    add_bone(*bones, {0, 0, 0}, {5, 0, 0});
+    add_bone(*bones, {5, 0, 0}, {9, 0, 0});
   }
   Weights make() const { return Weights(skin, 4, *bones); }
   // The least and the largest weight of a bone in a part.
@@ -88,8 +92,11 @@ TEST(RigidPieces, APinInAPartIsExactAndFades) {
   Weights weights = robot.make();
   hf_inner::Pins pins(*robot.skin->core->memory);
   const Index pinned = robot.first[1];
-  pins.places.push_back(hf_inner::Site::at_vertex(robot.skin->core->mesh, pinned)), pins.radius.push_back(0);
-  pins.bone.push_back(0), pins.share.push_back(1), pins.start.push_back(1);
+  pins.places.push_back(hf_inner::Site::at_vertex(robot.skin->core->mesh, pinned));
+  pins.radius.push_back(0);
+  pins.bone.push_back(0);
+  pins.share.push_back(1);
+  pins.start.push_back(1);
   weights.set_pins(pins);
   expect_valid(weights);
   EXPECT_EQ(weight_of(weights, pinned, 0), 1);
@@ -110,7 +117,8 @@ TEST(RigidPieces, AButtonOnACreatureTakesOneBoneWhereThatIsClear) {
   const PlainMesh body = tube(12, 49, 12);
   const PlainMesh button = part(4.8, 5.2, 0.2, 1.25), over = part(7.7, 8.3, 0.2, 1.25);
   PlainMesh mesh = body;
-  append(mesh, button, 0), append(mesh, over, 0);
+  append(mesh, button, 0);
+  append(mesh, over, 0);
   const auto skin = skin_of(mesh);
   const Weights weights(skin, 4, chain(*skin->core->memory, 6, 12));
   expect_valid(weights);
@@ -135,13 +143,16 @@ TEST(RigidPieces, AButtonACuffAndASleeveChangeNothingOfAnArmOfTwoBones) {
     Bones bones(*skin->core->memory);
     bones.has_tails = true;
     const auto add = [&](Vec3 head, Vec3 tail, Index parent) {
-      bones.head.push_back(head), bones.tail.push_back(tail);
-      bones.parent.push_back(parents ? parent : -1), bones.deforms.push_back(1);
+      bones.head.push_back(head);
+      bones.tail.push_back(tail);
+      bones.parent.push_back(parents ? parent : -1);
+      bones.deforms.push_back(1);
     };
     add({-4, 4, 0}, {-3, 4, 0}, -1);
     for (int a = 0; a < arms; ++a) {
       const double y = 8.0 * a;
-      add({0, y, 0}, {5, y, 0}, 0), add({5, y, 0}, {10, y, 0}, 2 * a + 1);
+      add({0, y, 0}, {5, y, 0}, 0);
+      add({5, y, 0}, {10, y, 0}, 2 * a + 1);
     }
     return Weights(skin, 4, bones);
   };

@@ -20,8 +20,10 @@ TEST(Skeleton, JointsEndAtTheirChildrenAlongTheirAxisOrInTheSkin) {
   hf_inner::Memory& memory = *skin->core->memory;
   Bones bones(memory);
   const auto add = [&](Vec3 head, Index parent, Vec3 axis = {}, bool deforms = true) {
-    bones.head.push_back(head), bones.parent.push_back(parent);
-    bones.axis.push_back(axis), bones.deforms.push_back(deforms);
+    bones.head.push_back(head);
+    bones.parent.push_back(parent);
+    bones.axis.push_back(axis);
+    bones.deforms.push_back(deforms);
   };
   const double turn = std::atan(1.0) / 3;  // to the middle of a side of the tube
   const Vec3 side = {0, std::cos(turn), std::sin(turn)};
@@ -65,8 +67,10 @@ TEST(Skeleton, ALeafDoesNotLieOnTheBoneAboveIt) {
   for (const double slant : {0.0, 0.05}) {
     Bones bones(memory);
     for (const double x : {0.0, 4.5}) {
-      bones.head.push_back({x, 0, 0}), bones.parent.push_back(x > 0 ? 0 : -1);
-      bones.axis.push_back(x > 0 ? hf_inner::unit_vector({-1, slant, 0}) : Vec3{1, 0, 0}), bones.deforms.push_back(1);
+      bones.head.push_back({x, 0, 0});
+      bones.parent.push_back(x > 0 ? 0 : -1);
+      bones.axis.push_back(x > 0 ? hf_inner::unit_vector({-1, slant, 0}) : Vec3{1, 0, 0});
+      bones.deforms.push_back(1);
     }
     const auto segments = hf_inner::bone_segments(bones, skin->core->mesh, skin->skin, memory);
     ASSERT_EQ(segments.size(), 2u);
@@ -99,8 +103,10 @@ TEST(Skeleton, LocksOfRemovedBonesGo) {
   const Bones all = chain(memory, 3, length);
   fewer.has_tails = true;
   for (const int b : {1, 2}) {
-    fewer.head.push_back(all.head[at(b)]), fewer.tail.push_back(all.tail[at(b)] + Vec3{0, 0.2 * (b - 1), 0});
-    fewer.parent.push_back(-1), fewer.deforms.push_back(1);
+    fewer.head.push_back(all.head[at(b)]);
+    fewer.tail.push_back(all.tail[at(b)] + Vec3{0, 0.2 * (b - 1), 0});
+    fewer.parent.push_back(-1);
+    fewer.deforms.push_back(1);
   }
   const Index sources[] = {1, 2};
   weights.set_bones(fewer, {sources, 2});
@@ -110,8 +116,10 @@ TEST(Skeleton, LocksOfRemovedBonesGo) {
   for (Index v = 0; v < skin->core->size(); ++v) EXPECT_EQ(weight_of(weights, v, 1), weight_of(before, v, 2));
   Bones last(memory);
   last.has_tails = true;
-  last.head.push_back(all.head[1]), last.tail.push_back(all.tail[1]), last.parent.push_back(-1),
-      last.deforms.push_back(1);
+  last.head.push_back(all.head[1]);
+  last.tail.push_back(all.tail[1]);
+  last.parent.push_back(-1);
+  last.deforms.push_back(1);
   const Index first[] = {0};
   weights.set_bones(last, {first, 1});
   EXPECT_FALSE(weights.state().inputs->locks);  // no lock is left

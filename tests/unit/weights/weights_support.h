@@ -49,8 +49,10 @@ inline hf_inner::Bones chain(hf_inner::Memory& memory, int count, double length)
   hf_inner::Bones bones(memory);
   bones.has_tails = true;
   for (int b = 0; b < count; ++b) {
-    bones.head.push_back({length * b / count, 0, 0}), bones.tail.push_back({length * (b + 1) / count, 0, 0});
-    bones.parent.push_back(b - 1), bones.deforms.push_back(1);
+    bones.head.push_back({length * b / count, 0, 0});
+    bones.tail.push_back({length * (b + 1) / count, 0, 0});
+    bones.parent.push_back(b - 1);
+    bones.deforms.push_back(1);
   }
   return bones;
 }

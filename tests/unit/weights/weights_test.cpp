@@ -31,8 +31,12 @@ struct Scene {
 };
 
 void add_pin(Pins& pins, const Site& place, const std::vector<std::pair<Index, double>>& shares, double radius = 0) {
-  pins.places.push_back(place), pins.radius.push_back(radius);
-  for (const auto& [bone, share] : shares) pins.bone.push_back(bone), pins.share.push_back(share);
+  pins.places.push_back(place);
+  pins.radius.push_back(radius);
+  for (const auto& [bone, share] : shares) {
+    pins.bone.push_back(bone);
+    pins.share.push_back(share);
+  }
   pins.start.push_back(static_cast<Index>(pins.bone.size()));
 }
 
@@ -86,7 +90,8 @@ TEST(Weights, AMovedBoneGivesAFreshObject) {
   Scene scene(4);
   Weights weights = scene.make();
   const Weights before = scene.make();
-  scene.bones.head[2].y = 0.4, scene.bones.tail[1].y = 0.4;
+  scene.bones.head[2].y = 0.4;
+  scene.bones.tail[1].y = 0.4;
   weights.set_bones(scene.bones, {});
   const Weights fresh = scene.make();
   EXPECT_FALSE(same_weights(weights, before));
@@ -103,8 +108,10 @@ TEST(Weights, RemovedAndAddedBonesKeepPinsAndLocks) {
   Bones fewer(scene.memory);  // the last bone alone, and a new one before it
   fewer.has_tails = true;
   for (const int b : {0, 2}) {
-    fewer.head.push_back(scene.bones.head[at(b)]), fewer.tail.push_back(scene.bones.tail[at(b)]);
-    fewer.parent.push_back(-1), fewer.deforms.push_back(1);
+    fewer.head.push_back(scene.bones.head[at(b)]);
+    fewer.tail.push_back(scene.bones.tail[at(b)]);
+    fewer.parent.push_back(-1);
+    fewer.deforms.push_back(1);
   }
   const Index sources[] = {-1, 2};
   weights.set_bones(fewer, {sources, 2});
@@ -150,7 +157,10 @@ TEST(Weights, APinnedFieldIsTheDenseSolution) {
   Weights weights = scene.make();
   const auto& core = *scene.skin->core;
   Site point;
-  for (int k = 0; k < 3; ++k) point.vertex[k] = core.mesh.triangle(40)[k], point.weight[k] = k ? 0.25 : 0.5;
+  for (int k = 0; k < 3; ++k) {
+    point.vertex[k] = core.mesh.triangle(40)[k];
+    point.weight[k] = k ? 0.25 : 0.5;
+  }
   point.component = 0;
   Pins pins(scene.memory);
   add_pin(pins, Site::at_vertex(core.mesh, 20), {{1, 0.5}, {2, 0.5}});
@@ -170,9 +180,13 @@ TEST(Weights, APinnedFieldIsTheDenseSolution) {
           b(v) = solution.screened->mass[at(v)] / static_cast<double>(solution.informants.of(v).size());
       }
     }
-    a(20, n) = -1, a(n, 20) = 1, b(n) = bone == 0 ? 0 : 0.5;
-    for (int q = 0; q < 3; ++q)
-      a(point.vertex[q], n + 1) = -point.weight[q], a(n + 1, point.vertex[q]) = point.weight[q];
+    a(20, n) = -1;
+    a(n, 20) = 1;
+    b(n) = bone == 0 ? 0 : 0.5;
+    for (int q = 0; q < 3; ++q) {
+      a(point.vertex[q], n + 1) = -point.weight[q];
+      a(n + 1, point.vertex[q]) = point.weight[q];
+    }
     b(n + 1) = bone == 0;
     const Eigen::VectorXd exact = a.fullPivLu().solve(b);
     ASSERT_GE(pinned.column_of[bone], 0);
@@ -208,7 +222,8 @@ TEST(Weights, LockedBonesKeepTheirWeights) {
   const Weights plain = scene.make();
   const Index locked[] = {1};
   weights.set_locks({locked, 1}, nullptr);
-  scene.bones.tail[0].y = 0.8, scene.bones.head[1].y = 0.8;
+  scene.bones.tail[0].y = 0.8;
+  scene.bones.head[1].y = 0.8;
   weights.set_bones(scene.bones, {});
   expect_valid(weights);
   double moved = 0;
@@ -238,7 +253,8 @@ TEST(Weights, UndoAndRedoGiveTheSameBits) {
   weights.undo();
   EXPECT_TRUE(same_weights(weights, first));
   EXPECT_THROW(weights.undo(), hf_inner::Error);
-  weights.redo(), weights.redo();
+  weights.redo();
+  weights.redo();
   EXPECT_TRUE(same_weights(weights, third));
   EXPECT_THROW(weights.redo(), hf_inner::Error);
 }
@@ -267,10 +283,14 @@ TEST(Weights, EightWeightsAndBonesThatDoNotDeform) {
 TEST(Weights, FaultsOfBonesAreNamed) {
   Scene scene(3);
   const auto add = [&](hf_inner::Vec3 head, hf_inner::Vec3 tail) {
-    scene.bones.head.push_back(head), scene.bones.tail.push_back(tail);
-    scene.bones.parent.push_back(-1), scene.bones.deforms.push_back(1);
+    scene.bones.head.push_back(head);
+    scene.bones.tail.push_back(tail);
+    scene.bones.parent.push_back(-1);
+    scene.bones.deforms.push_back(1);
   };
-  add({4, 0, 0}, {4, 0, 0}), add(scene.bones.head[1], scene.bones.tail[1]), add({4, 30, 0}, {5, 30, 0});
+  add({4, 0, 0}, {4, 0, 0});
+  add(scene.bones.head[1], scene.bones.tail[1]);
+  add({4, 30, 0}, {5, 30, 0});
   const Weights weights = scene.make();
   expect_valid(weights);
   const auto& faults = weights.state().solution->faults;
@@ -290,12 +310,14 @@ std::vector<hf_inner::BoneSegment> segments_of(const std::vector<double>& x, con
     bones.head.push_back({x[j], 0, 0});
     const double across = std::sqrt(1 - axis_x[j] * axis_x[j]);
     bones.axis.push_back({axis_x[j], across, 0});
-    bones.parent.push_back(parents[j]), bones.deforms.push_back(static_cast<std::uint8_t>(deforms[j]));
+    bones.parent.push_back(parents[j]);
+    bones.deforms.push_back(static_cast<std::uint8_t>(deforms[j]));
   }
   const auto found = bone_segments(bones, scene.skin->core->mesh, scene.skin->skin, scene.memory);
   std::vector<hf_inner::BoneSegment> out;
   for (hf_inner::BoneSegment s : found) {
-    s.head = scene.skin->core->mesh.to_given(s.head), s.tail = scene.skin->core->mesh.to_given(s.tail);
+    s.head = scene.skin->core->mesh.to_given(s.head);
+    s.tail = scene.skin->core->mesh.to_given(s.tail);
     out.push_back(s);
   }
   return out;
@@ -344,7 +366,10 @@ TEST(Weights, ARigWhoseAxesDoNotHoldTakesAllChildren) {
   // The only child of joint 2 lies off its axis, so joint 1 reaches to both of its children.
   const auto found = segments_of({4, 5, 6, 7, 3}, {1, 0, 0, 1, 1}, {-1, 0, 1, 2, 1}, {1, 1, 1, 1, 1});
   int of_one = 0, of_two = 0;
-  for (const auto& s : found) of_one += s.bone == 1, of_two += s.bone == 2;
+  for (const auto& s : found) {
+    of_one += s.bone == 1;
+    of_two += s.bone == 2;
+  }
   EXPECT_EQ(of_one, 2);
   EXPECT_EQ(of_two, 1);
   // Where every only child lies on its axis, the joint ends on its own.
