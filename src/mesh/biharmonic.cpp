@@ -50,7 +50,7 @@ class ColumnMaker {
     const double* value = l_.value.data();
     double* sum = sum_.data();
     Index* stamp = stamp_.data();
-    *found = found_.data();
+    Index* found = found_.data();
     std::size_t count = 0;
     for (Index i = start[v]; i < start[v + 1]; ++i) {
       const Index k = row[i];

@@ -340,8 +340,8 @@ class UpdownSolver final : public SiteSolver {
   cholmod_factor* factor_ = nullptr;
   struct Work {  // scratch of cholmod_solve2, kept from solve to solve
     cholmod_dense* x = nullptr;
-    *y = nullptr;
-    *e = nullptr;
+    cholmod_dense* y = nullptr;
+    cholmod_dense* e = nullptr;
   };
   mutable Work work_;
   std::uint32_t edits_ = 0, factorisations_ = 0;

@@ -72,6 +72,8 @@ def is_act(part):
     """An assignment, a call or a step; not a declaration and not a list of values."""
     if not part or part[0][0] in NO_ACT or part[0][1] == "number":
         return False
+    if re.match(r"(const )?\w+( :: \w+)*( <.*>)? [*&]+ \w+ (=|\[|$)", " ".join(word for word, _, _ in part)):
+        return False  # a type, a star and a name
     depth, before, acts = 0, None, part[-1][0] == ")"
     for word, kind, _ in part:
         if depth == 0:
