@@ -118,8 +118,7 @@ static hf_transfer transfer_of(const Body* source, const Body* target) {
   for (uint32_t p = 0; p < info.pair_count; ++p) {
     hf_gltf_pair pair = HF_INIT(hf_gltf_pair);
     good(hf_gltf_pairs_get_pair(pairs, p, &pair));
-    uint32_t* from = space(sizeof(uint32_t) * pair.source_count);
-    uint32_t* to = space(sizeof(uint32_t) * pair.target_count);
+    uint32_t *from = space(sizeof(uint32_t) * pair.source_count), *to = space(sizeof(uint32_t) * pair.target_count);
     good(hf_gltf_pairs_get_regions(pairs, p, pair.source_count, from, pair.target_count, to));
     hf_pairs_desc add = HF_INIT(hf_pairs_desc);
     add.pair_count = 1;

@@ -49,19 +49,21 @@ struct ConstraintState {
     Index end = index_end;  // a rebase takes hard vertex sites of slots below it out of the matrix
   };
 
-  ConstraintState(std::size_t components, Memory& memory) : entries(&memory);
-  freed(&memory);
-  groups(&memory);
-  blocks(components, &memory);
-  sites_of(components, 0, &memory) {}
-  ConstraintState(const ConstraintState& other, Memory& memory) : entries(other.entries, &memory);
-  base(other.base);
-  freed(other.freed, &memory);
-  groups(other.groups, &memory);
-  blocks(other.blocks, &memory);
-  sites_of(other.sites_of, &memory);
-  rows(other.rows);
-  decision(other.decision) {}
+  ConstraintState(std::size_t components, Memory& memory)
+      : entries(&memory),
+        freed(&memory),
+        groups(&memory),
+        blocks(components, &memory),
+        sites_of(components, 0, &memory) {}
+  ConstraintState(const ConstraintState& other, Memory& memory)
+      : entries(other.entries, &memory),
+        base(other.base),
+        freed(other.freed, &memory),
+        groups(other.groups, &memory),
+        blocks(other.blocks, &memory),
+        sites_of(other.sites_of, &memory),
+        rows(other.rows),
+        decision(other.decision) {}
   ConstraintState(ConstraintState&&) = default;
   void swap(ConstraintState& other) noexcept;
 

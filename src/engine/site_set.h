@@ -37,12 +37,13 @@ class SiteSet {
  public:
   SiteSet(Memory& memory, std::int32_t channels)
       : slots_(&memory), values_(&memory), by_vertex_(&memory), channels_(channels) {}
-  SiteSet(const SiteSet& other, Memory& memory) : slots_(other.slots_, &memory);
-  values_(other.values_, &memory);
-  by_vertex_(other.by_vertex_, &memory);
-  channels_(other.channels_);
-  count_(other.count_);
-  hidden_(other.hidden_) {}
+  SiteSet(const SiteSet& other, Memory& memory)
+      : slots_(other.slots_, &memory),
+        values_(other.values_, &memory),
+        by_vertex_(other.by_vertex_, &memory),
+        channels_(other.channels_),
+        count_(other.count_),
+        hidden_(other.hidden_) {}
   SiteSet(const SiteSet&) = delete;  // a copy must name its memory
   SiteSet(SiteSet&&) = default;
   SiteSet& operator=(SiteSet&&) = default;

@@ -198,9 +198,7 @@ class Dissection {
     const std::uint8_t* side_of = workspace.side.data();
     const std::int32_t* number = workspace.number.data();
     const std::int32_t *start = part.start(), *neighbour = part.neighbour(), *id = part.id();
-    std::int32_t* out_start = out.start();
-    std::int32_t* out_neighbour = out.neighbour();
-    std::int32_t* out_id = out.id();
+    std::int32_t *out_start = out.start(), *out_neighbour = out.neighbour(), *out_id = out.id();
     const float* point = part.point.data();
     float* out_point = out.point.data();
     std::int32_t k = 0, v = 0;

@@ -128,8 +128,7 @@ void plane_of(Vec3 n, Vec3& x, Vec3& y) noexcept {
 
 // Turns the vertex's frame in its tangent plane, so that the angles of the edges fit the projected edges best.
 void fit_frame(const Mesh& mesh, const Topology& topology, Index v, const double* angles, Connection& out) {
-  Vec3& x = out.x[at(v)];
-  Vec3& y = out.y[at(v)];
+  Vec3 &x = out.x[at(v)], &y = out.y[at(v)];
   std::complex<double> sum = 0;
   for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
     const Vec3 edge = mesh.positions[at(topology.neighbour[at(i)])] - mesh.positions[at(v)];

@@ -49,8 +49,7 @@ class ColumnMaker {
     const Index *row = l_.row.data(), *start = l_.column_start.data();
     const double* value = l_.value.data();
     double* sum = sum_.data();
-    Index* stamp = stamp_.data();
-    Index* found = found_.data();
+    Index *stamp = stamp_.data(), *found = found_.data();
     std::size_t count = 0;
     for (Index i = start[v]; i < start[v + 1]; ++i) {
       const Index k = row[i];

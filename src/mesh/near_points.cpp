@@ -160,8 +160,7 @@ bool PointTree::half_near(Node& split, Node& whole) {
     }
     return false;
   }
-  Node& first = nodes_[at(split.child)];
-  Node& second = nodes_[at(split.child + 1)];
+  Node &first = nodes_[at(split.child)], &second = nodes_[at(split.child + 1)];
   const Vec3 first_gap = gap(first, whole), second_gap = gap(second, whole);
   if (dot(second_gap, second_gap) < dot(first_gap, first_gap)) return near(second, whole) || near(first, whole);
   return near(first, whole) || near(second, whole);

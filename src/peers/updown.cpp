@@ -51,13 +51,14 @@ class UpdownSolver final : public SiteSolver {
       throw;
     }
   }
-  UpdownSolver(const UpdownSolver& other) : core_(other.core_);
-  penalty_(other.penalty_);
-  sites_(other.sites_, core_->memory.get());
-  count_(other.count_, core_->memory.get());
-  edits_(other.edits_);
-  factorisations_(other.factorisations_);
-  sweeps_(other.sweeps_.load()) {
+  UpdownSolver(const UpdownSolver& other)
+      : core_(other.core_),
+        penalty_(other.penalty_),
+        sites_(other.sites_, core_->memory.get()),
+        count_(other.count_, core_->memory.get()),
+        edits_(other.edits_),
+        factorisations_(other.factorisations_),
+        sweeps_(other.sweeps_.load()) {
     const std::lock_guard<std::mutex> lock(other.mutex_);
     position_.assign(other.position_.begin(), other.position_.end());
     factor_ = other.factor_ ? cholmod_copy_factor(other.factor_, &other.common_.c) : nullptr;
@@ -339,9 +340,7 @@ class UpdownSolver final : public SiteSolver {
   mutable Common common_;
   cholmod_factor* factor_ = nullptr;
   struct Work {  // scratch of cholmod_solve2, kept from solve to solve
-    cholmod_dense* x = nullptr;
-    cholmod_dense* y = nullptr;
-    cholmod_dense* e = nullptr;
+    cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;
   };
   mutable Work work_;
   std::uint32_t edits_ = 0, factorisations_ = 0;

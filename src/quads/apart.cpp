@@ -13,8 +13,7 @@ Apart::Apart(FluxSurface& surface, Memory& memory) : offset_(surface.component_c
       high(surface.component_count, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, memory);
   for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
     const Vec3 p = surface.position[v];
-    Vec3& l = low[surface.component[v]];
-    Vec3& h = high[surface.component[v]];
+    Vec3 &l = low[surface.component[v]], &h = high[surface.component[v]];
     l = {std::min(l.x, p.x), std::min(l.y, p.y), std::min(l.z, p.z)};
     h = {std::max(h.x, p.x), std::max(h.y, p.y), std::max(h.z, p.z)};
   }

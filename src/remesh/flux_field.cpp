@@ -92,8 +92,7 @@ void FluxField::match(std::int32_t v) {
     }
     if (step < 0) break;  // only incoming or only outgoing segments are left, with rounding errors
     for (std::size_t i = 0; i < size && step > 0; ++i) {
-      Segment& a = ring[i];
-      Segment& b = ring[(i + 1) % size];
+      Segment &a = ring[i], &b = ring[(i + 1) % size];
       if (a.in == b.in) continue;
       if (a.in) {  // right end of the inflow beside the right end of the outflow
         matches_.push_back({v, a.half, b.half, a.high - step, b.high - step, step});

@@ -75,20 +75,20 @@ std::shared_ptr<const Core> with_rest(const std::shared_ptr<const Core>& core, S
 
 Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target,
                    const TransferOptions& options)
-    : source_core_(with_rest(source, options.source_rest, "source"));
-target_core_(with_rest(target, options.target_rest, "target"));
-target_factor_(target);
-options_(options);
-source_axes_(checked_axes(options.source_axes, "source"));
-target_axes_(checked_axes(options.target_axes, "target"));
-axes_(Mat3(target_axes_.transpose() * source_axes_));
-source_(std::move(source));
-target_(std::move(target));
-numbers_(target_core_->memory.get());
-flags_(target_core_->memory.get());
-source_area_(area_shares(source_core_->mesh, *target_core_->memory));
-target_area_(area_shares(target_core_->mesh, *target_core_->memory));
-thin_(target_core_->memory.get()) {
+    : source_core_(with_rest(source, options.source_rest, "source")),
+      target_core_(with_rest(target, options.target_rest, "target")),
+      target_factor_(target),
+      options_(options),
+      source_axes_(checked_axes(options.source_axes, "source")),
+      target_axes_(checked_axes(options.target_axes, "target")),
+      axes_(Mat3(target_axes_.transpose() * source_axes_)),
+      source_(std::move(source)),
+      target_(std::move(target)),
+      numbers_(target_core_->memory.get()),
+      flags_(target_core_->memory.get()),
+      source_area_(area_shares(source_core_->mesh, *target_core_->memory)),
+      target_area_(area_shares(target_core_->mesh, *target_core_->memory)),
+      thin_(target_core_->memory.get()) {
   check_options(options);
   options_.source_rest = options_.target_rest = {};
   if (options_.alignment_angle == 0) options_.alignment_angle = default_alignment_angle;

@@ -346,8 +346,7 @@ static hf_transfer transfer_of(int32_t mode, hf_surface source, hf_surface targe
   desc.mode = mode;
   hf_transfer transfer = NULL;
   assert_ok(hf_transfer_create(source, target, &desc, &transfer));
-  uint32_t* from = tube_ends(source_around, source_rings);
-  uint32_t* to = tube_ends(target_around, target_rings);
+  uint32_t *from = tube_ends(source_around, source_rings), *to = tube_ends(target_around, target_rings);
   const uint32_t from_counts[2] = {2 * source_around, 2 * source_around},
                  to_counts[2] = {2 * target_around, 2 * target_around};
   hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);

@@ -236,11 +236,8 @@ class Peer final : public CholmodPeer {
   PeerMatrix matrix_;
   cholmod_common c_;
   cholmod_sparse view_{};
-  cholmod_factor* factor_ = nullptr;
-  cholmod_factor* updatable_ = nullptr;
-  cholmod_dense* x_ = nullptr;
-  cholmod_dense* y_ = nullptr;
-  cholmod_dense* e_ = nullptr;
+  cholmod_factor *factor_ = nullptr, *updatable_ = nullptr;
+  cholmod_dense *x_ = nullptr, *y_ = nullptr, *e_ = nullptr;
   std::vector<double> plain_, right_;
   std::vector<int> position_;
   double mean_ = 0;

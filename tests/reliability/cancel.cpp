@@ -126,8 +126,7 @@ Waits cancel_at_random(const Case& c, hf_progress progress, double total_ms, int
 // ---- the cases ----
 
 struct World {
-  World(bool full, Mesh given_big, Mesh given_small) : big(std::move(given_big));
-  small(std::move(given_small)) {
+  World(bool full, Mesh given_big, Mesh given_small) : big(std::move(given_big)), small(std::move(given_small)) {
     soup = full ? make_soup(20000, 40000) : make_soup(600, 1200);
     dense = full ? make_soup(1800, 160000) : make_soup(300, 6000);
     hf_surface_desc d = surface_desc(small);

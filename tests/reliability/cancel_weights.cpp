@@ -9,8 +9,7 @@ namespace {
 
 // Bones across the mesh, and the weights they give. Every call works on one surface.
 struct Rig {
-  Rig(hf_surface given, const Mesh& mesh) : surface(given);
-  vertices(mesh.vertex_count()) {
+  Rig(hf_surface given, const Mesh& mesh) : surface(given), vertices(mesh.vertex_count()) {
     for (std::uint32_t b = 0; b < bone_count; ++b) {
       for (std::size_t k = 0; k < 3; ++k) {
         heads.push_back(static_cast<double>(mesh.positions[3 * (vertices / bone_count * b) + k]));
