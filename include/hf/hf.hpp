@@ -79,8 +79,7 @@ class Progress {
   Progress() {
     hf_progress raw = nullptr;
     check(hf_progress_create(&raw));
-    handle_ = Handle < hf_progress;
-    hf_progress_destroy > (raw);
+    handle_ = Handle<hf_progress, hf_progress_destroy>(raw);
   }
   float fraction() const {
     float value = 0;
@@ -101,16 +100,14 @@ class Surface {
   explicit Surface(const hf_surface_desc& desc) : vertices_(desc.vertex_count) {
     hf_surface raw = nullptr;
     check(hf_surface_create(&desc, &raw));
-    handle_ = Handle < hf_surface;
-    hf_surface_destroy > (raw);
+    handle_ = Handle<hf_surface, hf_surface_destroy>(raw);
   }
   // Makes a surface of a graph: two vertices for each edge, and its weight. Fields work on it; what needs triangles
   // does not (hf_surface_create_graph).
   explicit Surface(const hf_graph_desc& desc) : vertices_(desc.vertex_count) {
     hf_surface raw = nullptr;
     check(hf_surface_create_graph(&desc, &raw));
-    handle_ = Handle < hf_surface;
-    hf_surface_destroy > (raw);
+    handle_ = Handle<hf_surface, hf_surface_destroy>(raw);
   }
   static Surface from_graph(uint32_t vertex_count, const std::vector<uint32_t>& edges,
                             const std::vector<double>& weights) {
@@ -239,8 +236,7 @@ class Solver {
       : channels_(desc.channel_count ? desc.channel_count : 1), vertices_(surface.vertex_count()) {
     hf_solver raw = nullptr;
     check(hf_create(surface.get(), &desc, &raw));
-    handle_ = Handle < hf_solver;
-    hf_solver_destroy > (raw);
+    handle_ = Handle<hf_solver, hf_solver_destroy>(raw);
   }
 
   hf_solver get() const noexcept { return handle_.get(); }
@@ -363,16 +359,14 @@ class Direction {
     desc.degree = degree;
     hf_direction raw = nullptr;
     check(hf_direction_create(surface.get(), &desc, &raw));
-    handle_ = Handle < hf_direction;
-    hf_direction_destroy > (raw);
+    handle_ = Handle<hf_direction, hf_direction_destroy>(raw);
   }
   // Makes a copy with the same constraints. The copy shares the factor.
   Direction clone() const {
     hf_direction raw = nullptr;
     check(hf_direction_clone(get(), &raw));
     Direction made;
-    made.handle_ = Handle < hf_direction;
-    hf_direction_destroy > (raw);
+    made.handle_ = Handle<hf_direction, hf_direction_destroy>(raw);
     made.vertices_ = vertices_;
     return made;
   }
@@ -509,8 +503,7 @@ class Geodesics {
       : vertices_(surface.vertex_count()) {
     hf_geodesics raw = nullptr;
     check(hf_geodesics_create(surface.get(), desc, &raw));
-    handle_ = Handle < hf_geodesics;
-    hf_geodesics_destroy > (raw);
+    handle_ = Handle<hf_geodesics, hf_geodesics_destroy>(raw);
   }
   hf_geodesics get() const noexcept { return handle_.get(); }
   std::vector<double> distance(const std::vector<uint32_t>& sources) const {
@@ -554,8 +547,7 @@ class Quads {
   explicit Quads(const Surface& surface, const hf_quads_desc* desc = nullptr) {
     hf_quads raw = nullptr;
     check(hf_quads_create(surface.get(), desc, &raw));
-    handle_ = Handle < hf_quads;
-    hf_quads_destroy > (raw);
+    handle_ = Handle<hf_quads, hf_quads_destroy>(raw);
   }
   hf_quads get() const noexcept { return handle_.get(); }
   // When it throws, the mesh is what it was.
@@ -602,8 +594,7 @@ class Flow {
   explicit Flow(const Surface& surface) {
     hf_flow raw = nullptr;
     check(hf_flow_create(surface.get(), &raw));
-    handle_ = Handle < hf_flow;
-    hf_flow_destroy > (raw);
+    handle_ = Handle<hf_flow, hf_flow_destroy>(raw);
   }
   hf_flow get() const noexcept { return handle_.get(); }
   // Traces `wanted` lines, or one line through every seed. It traces a second time only when the lines need more room
@@ -661,8 +652,7 @@ class Region {
     if (!positions.empty()) desc.positions = positions.data();
     hf_region raw = nullptr;
     check(hf_region_create(surface.get(), &desc, &raw));
-    handle_ = Handle < hf_region;
-    hf_region_destroy > (raw);
+    handle_ = Handle<hf_region, hf_region_destroy>(raw);
   }
   hf_region get() const noexcept { return handle_.get(); }
   Region clone() const {
@@ -759,8 +749,7 @@ class Detail {
       : vertices_(target.vertices_) {
     hf_detail raw = nullptr;
     check(hf_detail_create(source.get(), target.get(), desc, &raw));
-    handle_ = Handle < hf_detail;
-    hf_detail_destroy > (raw);
+    handle_ = Handle<hf_detail, hf_detail_destroy>(raw);
   }
   hf_detail get() const noexcept { return handle_.get(); }
   std::vector<float> morph(double weight, std::vector<float>* out_normals = nullptr) const {
@@ -778,8 +767,7 @@ class Pose {
   explicit Pose(const Surface& surface, const hf_pose_desc* desc = nullptr) : vertices_(surface.vertex_count()) {
     hf_pose raw = nullptr;
     check(hf_pose_create(surface.get(), desc, &raw));
-    handle_ = Handle < hf_pose;
-    hf_pose_destroy > (raw);
+    handle_ = Handle<hf_pose, hf_pose_destroy>(raw);
   }
   hf_pose get() const noexcept { return handle_.get(); }
   Pose clone() const {
@@ -856,8 +844,7 @@ class Transfer {
       : source_vertices_(source.vertex_count()), target_vertices_(target.vertex_count()) {
     hf_transfer raw = nullptr;
     check(hf_transfer_create(source.get(), target.get(), desc, &raw));
-    handle_ = Handle < hf_transfer;
-    hf_transfer_destroy > (raw);
+    handle_ = Handle<hf_transfer, hf_transfer_destroy>(raw);
   }
   hf_transfer get() const noexcept { return handle_.get(); }
   uint32_t add_pair(const std::vector<uint32_t>& source, const std::vector<uint32_t>& target, uint32_t flags = 0) {
@@ -944,8 +931,7 @@ class Weights {
     const hf_bones_desc desc = describe(bones);
     hf_weights raw = nullptr;
     check(hf_weights_create(surface.get(), &desc, weight_count, &raw));
-    handle_ = Handle < hf_weights;
-    hf_weights_destroy > (raw);
+    handle_ = Handle<hf_weights, hf_weights_destroy>(raw);
   }
   hf_weights get() const noexcept { return handle_.get(); }
   Weights clone() const {

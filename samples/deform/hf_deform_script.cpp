@@ -157,8 +157,7 @@ std::vector<Key> play(const ScriptFile& script, const Command& command, Posable&
     posable.play(step, step.drag.empty() ? 0 : script.frame_rate, [&](int f, int count) {
       const auto start = std::chrono::steady_clock::now();
       posable.deform(refine, positions, normals);
-      frame_ms += std::chrono::duration < double;
-      std::milli > (std::chrono::steady_clock::now() - start).count();
+      frame_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
       ++frames;
       if (!step.drag.empty()) time += step.seconds / count;
       if (f == count || time >= next_key) {

@@ -43,11 +43,14 @@ inline void lane_rows_block(const double* const* a, std::int64_t a_step, const d
     const std::int32_t vectors = (used - lane) / D::width;
     shifted(part);
     if (lane_vectors == 3 && (vectors == 3 || vectors > 4)) {
-      lane_block<R, lane_vectors, Add>(a, a_step, x + lane, lanes, k_count, part), lane += 3 * D::width;
+      lane_block<R, lane_vectors, Add>(a, a_step, x + lane, lanes, k_count, part);
+      lane += 3 * D::width;
     } else if (vectors >= 2) {
-      lane_block<R, 2, Add>(a, a_step, x + lane, lanes, k_count, part), lane += 2 * D::width;
+      lane_block<R, 2, Add>(a, a_step, x + lane, lanes, k_count, part);
+      lane += 2 * D::width;
     } else {
-      lane_block<R, 1, Add>(a, a_step, x + lane, lanes, k_count, part), lane += D::width;
+      lane_block<R, 1, Add>(a, a_step, x + lane, lanes, k_count, part);
+      lane += D::width;
     }
   }
 }

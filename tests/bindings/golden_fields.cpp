@@ -54,32 +54,27 @@ void Scene::make_object(const Json& step, const std::string& what) {
     set_options(step, desc, {{"mode", &desc.mode}, {"band_count", &desc.band_count}}, {});
     hf_pose raw = nullptr;
     check(hf_pose_create(surface, &desc, &raw));
-    object.pose = hf::Handle < hf_pose;
-    hf_pose_destroy > (raw);
+    object.pose = hf::Handle<hf_pose, hf_pose_destroy>(raw);
   } else if (what == "geodesics") {
     auto desc = make<hf_geodesics_desc>();
     set_options(step, desc, {{"method", &desc.method}, {"smoothing", &desc.smoothing}}, {{"smoothing", false}});
     hf_geodesics raw = nullptr;
     check(hf_geodesics_create(surface, &desc, &raw));
-    object.geodesics = hf::Handle < hf_geodesics;
-    hf_geodesics_destroy > (raw);
+    object.geodesics = hf::Handle<hf_geodesics, hf_geodesics_destroy>(raw);
   } else if (what == "direction") {
     auto desc = make<hf_direction_desc>();
     set_options(step, desc, {{"degree", &desc.degree}}, {});
     hf_direction raw = nullptr;
     check(hf_direction_create(surface, &desc, &raw));
-    object.direction = hf::Handle < hf_direction;
-    hf_direction_destroy > (raw);
+    object.direction = hf::Handle<hf_direction, hf_direction_destroy>(raw);
   } else if (what == "quads") {
     hf_quads raw = nullptr;
     with_quad_options(step, [&](const hf_quads_desc& desc) { check(hf_quads_create(surface, &desc, &raw)); });
-    object.quads = hf::Handle < hf_quads;
-    hf_quads_destroy > (raw);
+    object.quads = hf::Handle<hf_quads, hf_quads_destroy>(raw);
   } else {
     hf_flow raw = nullptr;
     check(hf_flow_create(surface, &raw));
-    object.flow = hf::Handle < hf_flow;
-    hf_flow_destroy > (raw);
+    object.flow = hf::Handle<hf_flow, hf_flow_destroy>(raw);
   }
   objects_[step["as"]] = std::move(object);
 }
@@ -115,8 +110,7 @@ Result Scene::run_direction(const Json& step, const std::string& what) {
     hf_direction raw = nullptr;
     check(hf_direction_clone(direction, &raw));
     Object& made = objects_[step["as"]];
-    made.direction = hf::Handle < hf_direction;
-    hf_direction_destroy > (raw);
+    made.direction = hf::Handle<hf_direction, hf_direction_destroy>(raw);
     made.vertex_count = n;
   } else if (what == "vectors") {
     const uint32_t k = hf_direction_get_site_count(direction);

@@ -16,8 +16,7 @@ Result Scene::run_region(const Json& step, const std::string& what) {
     check(hf_detail_create(source.region.get(), target.region.get(), &desc, &raw));
     const size_t n = target.vertex_count;
     Object& made = objects_[step["as"]];
-    made.detail = hf::Handle < hf_detail;
-    hf_detail_destroy > (raw);
+    made.detail = hf::Handle<hf_detail, hf_detail_destroy>(raw);
     made.vertex_count = n;
     return result;
   }
@@ -32,8 +31,7 @@ Result Scene::run_region(const Json& step, const std::string& what) {
     check(hf_region_create(on.surface.get(), &desc, &raw));
     const size_t n = on.vertex_count;
     Object& made = objects_[step["as"]];
-    made.region = hf::Handle < hf_region;
-    hf_region_destroy > (raw);
+    made.region = hf::Handle<hf_region, hf_region_destroy>(raw);
     made.vertex_count = n;
   } else if (what == "region_edit") {
     const auto curve = numbers(step, "curve"), add = numbers(step, "add"), removed = numbers(step, "remove");

@@ -44,8 +44,7 @@ Result Scene::run_solver(const Json& step) {
   check(hf_create(on.surface.get(), &desc, &raw));
   const size_t n = on.vertex_count;
   Object& object = objects_[step["as"]];
-  object.solver = hf::Handle < hf_solver;
-  hf_solver_destroy > (raw);
+  object.solver = hf::Handle<hf_solver, hf_solver_destroy>(raw);
   object.vertex_count = n;
   return {};
 }
@@ -65,8 +64,7 @@ Result Scene::run(const Json& step) {
     check(hf_transfer_create(source.surface.get(), target.surface.get(), &desc, &raw));
     const size_t sources = source.vertex_count, targets = target.vertex_count;
     Object& made = objects_[step["as"]];
-    made.transfer = hf::Handle < hf_transfer;
-    hf_transfer_destroy > (raw);
+    made.transfer = hf::Handle<hf_transfer, hf_transfer_destroy>(raw);
     made.source_vertex_count = sources;
     made.vertex_count = targets;
     return result;
@@ -98,8 +96,7 @@ Result Scene::run(const Json& step) {
     hf_solver raw = nullptr;
     check(hf_solver_clone(solver, &raw));
     Object& made = objects_[step["as"]];
-    made.solver = hf::Handle < hf_solver;
-    hf_solver_destroy > (raw);
+    made.solver = hf::Handle<hf_solver, hf_solver_destroy>(raw);
     made.vertex_count = n;
   } else if (what == "add_sites") {
     const size_t k = count(vertices ? vertices : triangles);

@@ -83,8 +83,7 @@ Result Scene::run_surface(const Json& step) {
   hf_surface raw = nullptr;
   check(hf_surface_create(&desc, &raw));
   Object& object = objects_[step["as"]];
-  object.surface = hf::Handle < hf_surface;
-  hf_surface_destroy > (raw);
+  object.surface = hf::Handle<hf_surface, hf_surface_destroy>(raw);
   object.vertex_count = desc.vertex_count;
   return {};
 }
@@ -110,8 +109,7 @@ Result Scene::run_graph(const Json& step) {
   hf_surface raw = nullptr;
   check(hf_surface_create_graph(&desc, &raw));
   Object& object = objects_[step["as"]];
-  object.surface = hf::Handle < hf_surface;
-  hf_surface_destroy > (raw);
+  object.surface = hf::Handle<hf_surface, hf_surface_destroy>(raw);
   object.vertex_count = desc.vertex_count;
   return {};
 }

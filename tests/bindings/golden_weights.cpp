@@ -69,8 +69,7 @@ Result Scene::run_weights(const Json& step, const std::string& what) {
       hf_weights raw = nullptr;
       check(hf_weights_create(on.surface.get(), &desc, step["options"].value("weight_count", 0u), &raw));
       Object& made = objects_[step["as"]];
-      made.weights = hf::Handle < hf_weights;
-      hf_weights_destroy > (raw);
+      made.weights = hf::Handle<hf_weights, hf_weights_destroy>(raw);
       made.vertex_count = n;
     }
   } else if (what == "set_pins") {
@@ -97,8 +96,7 @@ Result Scene::run_weights(const Json& step, const std::string& what) {
     hf_weights raw = nullptr;
     check(hf_weights_clone(weights, &raw));
     Object& made = objects_[step["as"]];
-    made.weights = hf::Handle < hf_weights;
-    hf_weights_destroy > (raw);
+    made.weights = hf::Handle<hf_weights, hf_weights_destroy>(raw);
     made.vertex_count = n;
   } else if (what == "weights_info") {
     auto info = make<hf_weights_info>();

@@ -50,6 +50,19 @@ def begins_statement(tokens, partner, i):
     return before in (";", "{", "}", "else", "do")
 
 
+def end_of_template(tokens, i):
+    """The last token of a list of template arguments that begins at token i; i where there is none."""
+    depth = 0
+    for j in range(i, len(tokens)):
+        word, kind, _ = tokens[j]
+        if kind == "sign" and word not in ("<", ">", ",", "::", "*", "&"):
+            return i
+        depth += (word == "<") - (word == ">")
+        if depth == 0:
+            return j if j + 1 < len(tokens) and tokens[j + 1][0] in ("(", "{", "::") else i
+    return i
+
+
 def parts_of(tokens, partner, i):
     """The parts between the outer commas of a statement at token i; none where it is not closed by a semicolon."""
     parts, j = [[]], i
@@ -59,7 +72,7 @@ def parts_of(tokens, partner, i):
             return parts
         if word in (")", "]", "}"):
             return []
-        end = partner.get(j, j)
+        end = partner.get(j, end_of_template(tokens, j) if word == "<" else j)
         if word == ",":
             parts.append([])
         else:

@@ -111,8 +111,7 @@ Raw make_once(hf::Handle<Raw, destroy>& slot, Create&& create) {
   if (!slot) {
     Raw raw = nullptr;
     check(create(&raw));
-    slot = hf::Handle < Raw;
-    destroy > (raw);
+    slot = hf::Handle<Raw, destroy>(raw);
   }
   return slot.get();
 }
@@ -122,8 +121,7 @@ template <class Raw, void (*destroy)(Raw), class Create>
 void make_again(hf::Handle<Raw, destroy>& slot, Create&& create) {
   Raw raw = nullptr;
   check(create(&raw));
-  slot = hf::Handle < Raw;
-  destroy > (raw);
+  slot = hf::Handle<Raw, destroy>(raw);
 }
 
 // xyz in double precision as Godot's vectors.

@@ -36,8 +36,7 @@ Value create_of(Surface& s, hf_surface_desc& desc, const Argument& positions_giv
   hf_surface raw = nullptr;
   check(hf_surface_create(&desc, &raw));
   s.forget();
-  s.mesh = std::make_shared < hf::Handle < hf_surface;
-  hf_surface_destroy >> (raw);
+  s.mesh = std::make_shared<hf::Handle<hf_surface, hf_surface_destroy>>(raw);
   s.vertex_count = desc.vertex_count;
   return done();
 }
