@@ -29,12 +29,6 @@ CurvePoint snapped(CurvePoint point) noexcept {
   return point;
 }
 
-PathPoint snapped(PathPoint place) noexcept {
-  if (place.t <= place_tolerance) return {place.a, place.a, 0};
-  if (place.t >= 1 - place_tolerance) return {place.b, place.b, 0};
-  return place;
-}
-
 // The place of a point: a vertex, a place on an edge, or inside its triangle.
 PathPoint place_of(const CurvePoint& point) noexcept {
   Index support[3], count = 0;
@@ -184,9 +178,9 @@ class CurveTracer {
     const SurfacePath path = shortest_path(sides, begin, end, memory_, length);
     for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
       const PathPoint& point = path.points[i];
-      put(snapped(PathPoint{vertices_[at(point.a)], vertices_[at(point.b)], point.t}));
+      put({vertices_[at(point.a)], vertices_[at(point.b)], point.t});
     }
-    return path.points.size() > 2;
+    return !path.points.empty();
   }
 
   // Tells whether each two places in a row, from number `first` on, and the point after them share a triangle.

@@ -25,12 +25,8 @@ struct SurfaceCurve {
   Vector<std::int32_t> triangle;  // of the line from place[i] to the next one
 };
 
-// Weights of corners below this count as 0, and places of edges nearer to an end as that vertex. Straight lines that
-// pass a vertex then pass it always, whichever way they run. It is far above the rounding of a path (1e-13), and no eye
-// sees it. With 1e-10, half, double and 1e-7, surface_curve_test passes.
-constexpr double place_tolerance = 1e-9;
-
-// points: of one component, each in a triangle of the mesh (CurvePoint).
+// points: of one component, each in a triangle of the mesh (CurvePoint). Weights up to place_tolerance count as 0, as
+// for crossings of edges.
 SurfaceCurve surface_curve(const Core& core, Span<const CurvePoint> points, Memory& memory);
 
 // The triangle that has these three corners; Mesh::none if none has.

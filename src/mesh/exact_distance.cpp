@@ -684,11 +684,12 @@ class Propagation {
 
 GeodesicPoint::GeodesicPoint(const TriangleSides& sides, const Index* corners, const double* weights, Memory& memory)
     : places(&memory) {
-  // Distinct corners of weight above 0. Two corners of a collapsed triangle can be one vertex; their weights add up.
+  // Distinct corners whose weight counts. Two corners of a collapsed triangle can be one vertex; their weights add up.
   Index support[3], count = 0;
+  const double least = least_weight * (weights[0] + weights[1] + weights[2]);
   double weight[3], sum = 0;
   for (Index k = 0; k < 3; ++k) {
-    if (!(weights[k] > 0)) continue;
+    if (!(weights[k] > least)) continue;
     const Index same = static_cast<Index>(std::find(support, support + count, corners[k]) - support);
     if (same == count) {
       support[count] = corners[k];

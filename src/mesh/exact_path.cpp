@@ -175,6 +175,34 @@ PathPoint end_point(const GeodesicPoint& point, const TriangleSides& sides) {
   return {Mesh::none, Mesh::none, 0};
 }
 
+PathPoint at_near_vertex(const PathPoint& point) noexcept {
+  if (point.t <= place_tolerance) return {point.a, point.a, 0};
+  if (point.t >= 1 - place_tolerance) return {point.b, point.b, 0};
+  return point;
+}
+
+// Tells whether a point lies on the edge or at the vertex of another one.
+bool lies_on(const PathPoint& point, const PathPoint& other) noexcept {
+  const auto has = [&](Index v) { return v != Mesh::none && (v == other.a || v == other.b); };
+  return has(point.a) && has(point.b);
+}
+
+// Moves crossings within rounding of a vertex to it. Takes out crossings of an edge that the point before or after lies
+// on: a straight line meets an edge once, and crosses it again by rounding only. The neighbours of such a crossing
+// share a triangle, so the path stays on the surface and gets no longer.
+void take_out_rounding(SurfacePath& path) {
+  const std::size_t last = path.points.size() - 1;
+  std::size_t count = 1;
+  for (std::size_t i = 1; i <= last; ++i) {
+    const PathPoint point = i < last ? at_near_vertex(path.points[i]) : path.points[i];
+    while (count > 1 && lies_on(point, path.points[count - 1])) --count;
+    if (i == last || !lies_on(path.points[count - 1], point)) path.points[count++] = point;
+  }
+  const PathPoint &begin = path.points[0], &end = path.points[count - 1];
+  const bool nowhere = count == 2 && path.length == 0 && begin.a == end.a && begin.b == end.b;
+  path.points.resize(nowhere ? 1 : count);
+}
+
 // Returns the length of a path by edges from near one point to near another.
 double length_by_edges(const TriangleSides& sides, const GeodesicPoint& from, const GeodesicPoint& to, Memory& memory) {
   Vector<Index> way(&memory);
@@ -226,6 +254,7 @@ SurfacePath shortest_path(const TriangleSides& sides, const GeodesicPoint& from,
   }
   if (from.vertex < 0) path.points.push_back(end_point(from, sides));
   std::reverse(path.points.begin(), path.points.end());
+  take_out_rounding(path);
   return path;
 }
 
