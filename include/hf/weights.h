@@ -93,7 +93,7 @@ enum {
   HF_WEIGHTS_INFORMED = 0, /* it sees its nearest bone */
   HF_WEIGHTS_SOLVED = 1,   /* from the vertices around it */
   HF_WEIGHTS_PINNED = 2,   /* given by a pin */
-  HF_WEIGHTS_CARRIED = 3,  /* guessed: no vertex of its island sees its bone; from the nearest vertices of others */
+  HF_WEIGHTS_CARRIED = 3,  /* guessed: its island has no information; from the nearest vertices of others */
   HF_WEIGHTS_RIGID = 4,    /* guessed, as carried: one mean for all vertices of a small island */
   HF_WEIGHTS_ISOLATED = 5, /* guessed: it belongs to no triangle; from the nearest vertex */
   HF_WEIGHTS_MATCHED = 6,  /* carried or mirrored: from a near point whose normal agrees */
@@ -147,7 +147,7 @@ typedef struct hf_weights_info {
   uint32_t isolated_count;
   uint32_t carried_island_count; /* islands without information */
   uint32_t rigid_island_count;   /* small ones of them */
-  int32_t blind;                 /* 1: no vertex sees its nearest bone, so all ask for it unseen */
+  int32_t blind;                 /* 1: an island sees none of its nearest bones and asks for them unseen */
   uint32_t no_length_count;      /* bones by HF_BONE_* */
   uint32_t coincident_count;
   uint32_t informs_none_count;

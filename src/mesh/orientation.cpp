@@ -37,4 +37,20 @@ Vector<std::int8_t> component_sides(const Mesh& mesh, Memory& memory) {
   return side;
 }
 
+Vector<double> component_openness(const Mesh& mesh, Memory& memory) {
+  const std::size_t count = at(mesh.component_count());
+  Vector<double> area(count, 0.0, &memory);
+  Vector<Vec3> open(count, Vec3{}, &memory);
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const Index* v = mesh.triangle(t);
+    const std::size_t c = at(mesh.component[at(v[0])]);
+    const Vec3 a = mesh.positions[at(v[0])];
+    const Vec3 vector = cross(mesh.positions[at(v[1])] - a, mesh.positions[at(v[2])] - a);
+    area[c] += norm(vector);
+    open[c] = open[c] + vector;
+  }
+  for (std::size_t c = 0; c < count; ++c) area[c] = area[c] > 0 ? norm(open[c]) / area[c] : 0;
+  return area;
+}
+
 }  // namespace hf_inner

@@ -51,6 +51,10 @@ constexpr double screening_strength = 4;
 // A distance is divided by half the cosine to the normal plus this. The excess over 1 bounds the division: a bone
 // behind the skin counts 2,000 times as far. 1.1 changes the mean distance by 0.5 %, 1.5 poses the rigs 6 % worse.
 constexpr double facing_excess = 1.001;
+// An open island faces its bones if this share of its vertices faces the nearest one. All of a sheet before its bones
+// does, at most half of an open part of the shared bodies. 0.5 takes armour on a knight for such a sheet and poses 95 %
+// of its vertices 1.5 % farther from the artist's pose.
+constexpr double front_share = 0.75;
 // Bones this much farther than the nearest one inform a vertex as well. Two bones share the vertices around their
 // joint, where their distances differ by rounding. Without, the rigs are posed 0.5 % worse; 1.01 is 1 % worse.
 constexpr double equal_distance = 1 + 1e-4;

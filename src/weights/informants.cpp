@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "base/progress.h"
+#include "mesh/orientation.h"
 #include "weights/constants.h"
+#include "weights/piece_bones.h"
 
 namespace hf_inner {
 namespace {
@@ -38,8 +40,25 @@ class Search {
          Memory& memory)
       : mesh_(mesh), skin_(skin), segments_(segments), tree_(tree), candidates_(&memory) {}
 
-  // The nearest bones of a vertex; none if it does not see them.
-  Found find(Index v, bool see_through) {
+  // Whether a vertex faces the bone that is nearest to it.
+  bool faces_nearest(Index v) const {
+    const Vec3 p = mesh_.positions[at(v)];
+    double best = HUGE_VAL;
+    Vec3 nearest;
+    tree_.near(
+        p, [&] { return best; },
+        [&](Index i) {
+          const Vec3 away = p - nearest_on_segment(p, segments_[at(i)].head, segments_[at(i)].tail);
+          if (!(dot(away, away) < best)) return;
+          best = dot(away, away);
+          nearest = away;
+        });
+    return dot(nearest, skin_.normals()[at(v)]) < 0;
+  }
+
+  // The nearest bones of a vertex; none if it does not see them. has_front: a bone in front of the vertex counts as
+  // farther than one behind it.
+  Found find(Index v, bool has_front, bool see_through) {
     const Vec3 p = mesh_.positions[at(v)], normal = skin_.normals()[at(v)];
     candidates_.clear();
     double best = HUGE_VAL;
@@ -53,7 +72,8 @@ class Search {
       const Vec3 place = nearest_on_segment(p, segments_[at(i)].head, segments_[at(i)].tail);
       const Vec3 away = p - place;
       const double length = norm(away);
-      const double cosine = length > 0 ? dot(away, normal) / length : 1.0;
+      const double turned = length > 0 ? dot(away, normal) / length : 1.0;
+      const double cosine = has_front ? turned : std::fabs(turned);
       const double distance = length / (0.5 * (cosine + facing_excess));
       if (distance > best * equal_distance) return;
       best = std::min(best, distance);
@@ -85,21 +105,65 @@ class Search {
   Vector<Candidate> candidates_;
 };
 
+// By island: 0 where an open surface faces its bones. It has no inside, so its front says nothing.
+template <class MakeSearch>
+Vector<std::uint8_t> find_fronts(const Mesh& mesh, const MakeSearch& make_search, Memory& memory, JobRunner& jobs) {
+  const std::size_t n = at(mesh.vertex_count());
+  const Vector<double> openness = component_openness(mesh, memory);
+  Vector<std::uint8_t> faces(n, 0, &memory), out(openness.size(), 1, &memory);
+  for_ranges(jobs, n, vertex_piece, [&](std::size_t begin, std::size_t end) {
+    const Search search = make_search();
+    for (std::size_t v = begin; v < end; ++v) {
+      if (openness[at(mesh.component[v])] > solid_openness) faces[v] = search.faces_nearest(static_cast<Index>(v));
+    }
+  });
+  Vector<double> all(out.size(), 0, &memory), facing(out.size(), 0, &memory);
+  for (std::size_t v = 0; v < n; ++v) {
+    all[at(mesh.component[v])] += 1;
+    facing[at(mesh.component[v])] += faces[v];
+  }
+  for (std::size_t c = 0; c < out.size(); ++c) out[c] = facing[c] < front_share * all[c];
+  return out;
+}
+
+// Of islands that see none of their bones, keeps those that ask for them unseen. Small ones do not: they take the
+// weights of others, if any others have some.
+void keep_askers(const Mesh& mesh, bool others_see, Vector<std::uint8_t>& blind, Memory& memory) {
+  const Vector<ItemBox> boxes = island_boxes(mesh, memory);
+  Vector<std::uint8_t> large(blind.size(), 0, &memory);
+  for (std::size_t c = 0; c < blind.size(); ++c)
+    large[c] = blind[c] && norm(boxes[c].high - boxes[c].low) >= rigid_size;
+  if (others_see || std::find(large.begin(), large.end(), 1) != large.end()) blind = std::move(large);
+}
+
 }  // namespace
 
 Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments, Memory& memory,
                            JobRunner& jobs) {
   const std::size_t n = at(mesh.vertex_count());
   const BoxTree tree(segment_boxes(segments, memory), memory);
+  const auto make_search = [&] { return Search(mesh, skin, segments, tree, memory); };
+  const Vector<std::uint8_t> has_front = find_fronts(mesh, make_search, memory, jobs);
   Vector<Found> found(n, &memory);
-  Informants out(memory);
-  for (const bool see_through : {false, true}) {
-    out.blind = see_through;
+  Vector<std::uint8_t> asks(has_front.size(), 1, &memory);  // by island
+  const auto ask = [&](bool see_through) {
     for_ranges(jobs, n, vertex_piece, [&](std::size_t begin, std::size_t end) {
-      Search search(mesh, skin, segments, tree, memory);
-      for (std::size_t v = begin; v < end; ++v) found[v] = search.find(static_cast<Index>(v), see_through);
+      Search search = make_search();
+      for (std::size_t v = begin; v < end; ++v) {
+        const std::size_t c = at(mesh.component[v]);
+        if (asks[c]) found[v] = search.find(static_cast<Index>(v), has_front[c], see_through);
+      }
     });
-    if (std::any_of(found.begin(), found.end(), [](const Found& f) { return f.count > 0; })) break;
+  };
+  ask(false);
+  for (std::size_t v = 0; v < n; ++v) {
+    if (found[v].count > 0) asks[at(mesh.component[v])] = 0;
+  }
+  Informants out(memory);
+  if (std::find(asks.begin(), asks.end(), 1) != asks.end()) {
+    keep_askers(mesh, std::find(asks.begin(), asks.end(), 0) != asks.end(), asks, memory);
+    out.blind = std::find(asks.begin(), asks.end(), 1) != asks.end();
+    ask(true);
   }
   out.screening.assign(n, 0.0);
   out.by_island.assign(at(mesh.component_count()), 0);

@@ -15,11 +15,12 @@ struct Informants {
   Vector<double> screening;         // H by vertex, 0 without a bone
   Vector<std::uint32_t> by_island;  // vertices with information
   std::uint32_t informed = 0;       // of all
-  bool blind = false;               // no vertex sees its bone, so that visibility does not count
+  bool blind = false;               // some island sees none of its bones and asks for them unseen
 };
 
-// The nearest bone of all informs a vertex, and only if the vertex sees it. If no vertex of the surface sees its bone,
-// all nearest bones inform.
+// The nearest bone of all informs a vertex, and only if the vertex sees it. On an island where no vertex sees its bone,
+// all nearest bones inform, unless the island is small and takes the weights of others. A bone in front of a vertex
+// counts as far away, but for open islands that face their bones.
 Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments, Memory& memory,
                            JobRunner& jobs);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/orientation.h"
 #include "mesh/union_find.h"
 #include "weights/constants.h"
 #include "weights/piece_bones.h"
@@ -13,9 +14,8 @@ namespace {
 // What is known of an island before a bone is chosen.
 struct Shape {
   double area = 0;
-  Vec3 open;  // the sum of the area vectors: 0 for a closed surface
   ItemBox box;
-  bool seen = false;
+  bool solid = false;
 };
 
 // The largest smooth weights of an island, as the mean over its area.
@@ -108,22 +108,28 @@ class RigidPieces {
   }
 
   void measure() {
+    const Vector<double> openness = component_openness(mesh_, memory_);
+    const Vector<ItemBox> boxes = island_boxes(mesh_, memory_);
+    for (std::size_t c = 0; c < shapes_.size(); ++c) {
+      shapes_[c].box = boxes[c];
+      shapes_[c].solid = openness[c] <= solid_openness;
+    }
     for (Index t = 0; t < mesh_.triangle_count(); ++t) {
       const Index* v = mesh_.triangle(t);
-      Shape& shape = shapes_[at(mesh_.component[at(v[0])])];
       const Vec3 a = mesh_.positions[at(v[0])];
-      const Vec3 area = cross(mesh_.positions[at(v[1])] - a, mesh_.positions[at(v[2])] - a);
-      shape.open = shape.open + area;
-      shape.area += norm(area);
-      for (int k = 0; k < 3; ++k) {
-        const Vec3& p = mesh_.positions[at(v[k])];
-        if (!shape.seen) {
-          shape.box = ItemBox::of(p);
-          shape.seen = true;
-        }
-        shape.box.take(p);
-      }
+      shapes_[at(mesh_.component[at(v[0])])].area +=
+          norm(cross(mesh_.positions[at(v[1])] - a, mesh_.positions[at(v[2])] - a));
     }
+  }
+
+  double size(std::size_t island) const noexcept { return norm(shapes_[island].box.high - shapes_[island].box.low); }
+  bool may_be_worn(std::size_t island) const noexcept { return holds(island) == 0 && size(island) < small_piece; }
+
+  // Whether all islands but one are small and hold no bone. That one then stays what it is alone: it bends.
+  bool has_one_body() const noexcept {
+    std::size_t bodies = 0;
+    for (std::size_t c = 0; c < shapes_.size(); ++c) bodies += !may_be_worn(c);
+    return bodies == 1;
   }
 
   // What the surface is made of: solid parts of which hardly any bends, or a body that bends and what it wears.
@@ -133,10 +139,11 @@ class RigidPieces {
       const Shape& shape = shapes_[c];
       all += shape.area;
       if (bends_[c]) bends += shape.area;
-      if (norm(shape.open) <= solid_openness * shape.area) solid += shape.area;
+      if (shape.solid) solid += shape.area;
     }
     if (bends >= robot_bends * all) return Kind::creature;
-    return solid >= robot_solid * all ? Kind::robot : Kind::other;
+    if (solid < robot_solid * all) return Kind::other;
+    return has_one_body() ? Kind::creature : Kind::robot;
   }
 
   // The column of the bone that an island of a robot holds, or -1. mean: its smooth weights by column.
@@ -168,9 +175,7 @@ class RigidPieces {
     for (Index v = 0; v < core_.size(); ++v) order[at(next[at(mesh_.component[at(v)])]++)] = v;
     Vector<double> mean(width(), &memory_);
     for (std::size_t c = 0; c < islands; ++c) {
-      const ItemBox& box = shapes_[c].box;
-      const std::ptrdiff_t held = holds(c);
-      const bool candidate = robot() ? !bends_[c] : held == 0 && norm(box.high - box.low) < small_piece;
+      const bool candidate = robot() ? !bends_[c] : may_be_worn(c);
       if (!candidate || solution_.informants.by_island[c] == 0) continue;
       std::fill(mean.begin(), mean.end(), 0.0);
       double area = 0;

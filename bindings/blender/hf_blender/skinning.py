@@ -132,7 +132,7 @@ def describe(info, helpers):
     if guessed:
         note.append(f"guessed: {guessed} vertices of {info.carried_island_count} loose parts")
     if info.blind:
-        note.append("guessed: no vertex sees a bone")
+        note.append("guessed: a part of the mesh sees no bone")
     if info.outside_count:
         note.append(f"{info.outside_count} bones outside the mesh")
     if helpers:

@@ -179,6 +179,49 @@ TEST(RigidPieces, AButtonACuffAndASleeveChangeNothingOfAnArmOfTwoBones) {
   expect_same(weights_of(with({button, other}), 2, true), "two arms and a button");
 }
 
+// Around x, with a tube of this radius.
+PlainMesh ring_around_bones(double radius) {
+  PlainMesh ring;
+  constexpr std::uint32_t along = 16, across = 10;
+  for (std::uint32_t i = 0; i < along; ++i) {
+    for (std::uint32_t k = 0; k < across; ++k) {
+      const double u = 8 * std::atan(1.0) * i / along, v = 8 * std::atan(1.0) * k / across;
+      const double r = 1 + radius * std::cos(v);
+      ring.positions.insert(ring.positions.end(), {radius * std::sin(v), r * std::cos(u), r * std::sin(u)});
+      const std::uint32_t next = (i + 1) % along * across, own = i * across, beside = (k + 1) % across;
+      ring.triangles.insert(ring.triangles.end(),
+                            {own + k, own + beside, next + beside, own + k, next + beside, next + k});
+    }
+  }
+  return ring;
+}
+
+// Five bones lie in the hole of a ring. A thick ring holds one of them, a thin one none. A button beside it makes no
+// robot of it. Eight weights, so that none of five is dropped.
+TEST(RigidPieces, AButtonChangesNothingOfARingAroundItsBones) {
+  for (const double radius : {0.4, 0.2}) {
+    const PlainMesh ring = ring_around_bones(radius);
+    PlainMesh dressed = ring;
+    append(dressed, part(-0.02, 0.02, 0.02, 1.6), 0);
+    const auto weights_of = [](const PlainMesh& mesh) {
+      const auto skin = skin_of(mesh);
+      Bones bones = chain(*skin->core->memory, 5, 0.8);
+      for (Vec3& head : bones.head) head.x -= 0.4;
+      for (Vec3& tail : bones.tail) tail.x -= 0.4;
+      return Weights(skin, 8, bones);
+    };
+    const Weights alone = weights_of(ring), both = weights_of(dressed);
+    double most = 0, bent = 1;
+    for (Index v = 0; at(v) < ring.vertex_count(); ++v) {
+      bent = std::min(bent, static_cast<double>(alone.state().weights[8 * at(v)]));
+      for (std::uint32_t b = 0; b < 5; ++b)
+        most = std::max(most, std::fabs(weight_of(alone, v, b) - weight_of(both, v, b)));
+    }
+    EXPECT_LT(most, 1e-5) << radius;
+    EXPECT_LT(bent, 0.8) << "it bends";
+  }
+}
+
 // Neither half of the tube is solid, and none holds a bone.
 TEST(RigidPieces, HalfShellsStaySmooth) {
   PlainMesh mesh;
