@@ -20,7 +20,10 @@ TEST(Informants, ABodyThatSeesNoBoneAsksUnseenWhateverAButtonSees) {
   const auto weights_of = [](const PlainMesh& mesh) {
     const auto skin = skin_of(mesh);
     Bones bones = chain(*skin->core->memory, 2, 0.2);
-    for (int b = 0; b < 2; ++b) bones.head[at(b)].x -= 0.1, bones.tail[at(b)].x -= 0.1;
+    for (int b = 0; b < 2; ++b) {
+      bones.head[at(b)].x -= 0.1;
+      bones.tail[at(b)].x -= 0.1;
+    }
     return Weights(skin, 4, bones);
   };
   const Weights alone = weights_of(star), both = weights_of(dressed);
