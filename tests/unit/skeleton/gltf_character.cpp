@@ -21,7 +21,7 @@ void GltfCharacter::add_nodes(const hf_gltf::Model& model) {
     texts.push_back(node.name);
     parents.push_back(node.parent);
     const glm::dmat4 local = node.matrix ? glm::dmat4(*node.matrix)
-                                         : glm::dmat4(glm::translate(glm::mat4(1.0f), node.translation)) *
+                                         : glm::translate(glm::dmat4(1.0), glm::dvec3(node.translation)) *
                                                glm::dmat4(glm::mat4_cast(node.rotation)) *
                                                glm::dmat4(glm::scale(glm::mat4(1.0f), node.scale));
     for (int c = 0; c < 4; ++c) {
