@@ -301,13 +301,13 @@ static void a_vertex_without_a_triangle_is_in_no_region(void** state) {
       "{\"pairs\": [{\"name\": \"low\", \"both\": {\"position\": [0.5, -0.4, 0], \"radius\": 0.2}},"
       " {\"name\": \"high\", \"both\": {\"position\": [0.5, 9, 0], \"radius\": 0.1}}]}";
   hf_gltf_model plain = strip();
-  const float strays[3][3] = {{0.5f, -0.4f, 0}, {0.5f, 9, 0}, {1e5f, 0, 0}};
+  const double strays[3][3] = {{0.5, -0.4, 0}, {0.5, 9, 0}, {1e5, 0, 0}};
   for (int s = 0; s < 3; ++s) {
-    float positions[3 * (VERTICES + 1)] = {0};
+    double positions[3 * (VERTICES + 1)] = {0};
     uint32_t triangles[3 * TRIANGLES];
     for (uint32_t v = 0; v < VERTICES; ++v) {
-      positions[3 * v] = (float)(v % 2);
-      positions[3 * v + 1] = (float)(v / 2);
+      positions[3 * v] = (double)(v % 2);
+      positions[3 * v + 1] = (double)(v / 2);
     }
     memcpy(positions + 3 * VERTICES, strays[s], sizeof strays[s]);
     for (uint32_t r = 0; r + 1 < ROWS; ++r) {
