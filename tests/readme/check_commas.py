@@ -89,6 +89,8 @@ def is_act(part):
         return False  # a type, a star and a name
     if any(word == ":" for word, _, _ in part) and not any(word == "?" for word, _, _ in part):
         return False  # a constructor and what it initialises
+    if re.match(r"[\w.> -]+ < < ", " ".join(word for word, _, _ in part)):
+        return False  # numbers that go into a matrix of Eigen
     depth, before, acts = 0, None, part[-1][0] == ")"
     for word, kind, _ in part:
         if depth == 0:

@@ -20,8 +20,7 @@ using Eigen::Vector3d;
 Matrix3d target_of(const Matrix3d& moments, const Matrix3d& s, const Matrix3d& r, const StrainLimits& limits) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> rest(moments);
   Eigen::Matrix<double, 3, 2> e;
-  e << rest.eigenvectors().col(2);
-  rest.eigenvectors().col(1);
+  e << rest.eigenvectors().col(2), rest.eigenvectors().col(1);
   const Eigen::Vector2d m(rest.eigenvalues()[2], rest.eigenvalues()[1]);
   if (m[1] <= 0.01 * m[0]) return r;
   Eigen::Matrix2d u = e.transpose() * r.transpose() * s * e * m.cwiseInverse().asDiagonal();

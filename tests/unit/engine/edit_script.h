@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "field/scalar_field.h"
+#include "mesh/places.h"
 #include "support/oracle.h"
 
 namespace hf_test {
@@ -202,9 +203,10 @@ class EditScript {
       if (s.at_vertex) {
         site = hf_inner::Site::at_vertex(core->mesh, core->mesh.inner_of_given[s.given]);
       } else {
-        const std::int32_t t = core->mesh.triangle_of_given[s.given];
+        // a doubled triangle has its own order of corners
+        const hf_inner::SurfacePlace place = hf_inner::place_in_triangle(core->mesh, s.given, s.weight, 0);
         for (int k = 0; k < 3; ++k) {
-          site.vertex[k] = core->mesh.triangle(t)[k];
+          site.vertex[k] = place.vertex[k];
           site.weight[k] = s.weight[k];
         }
         site.component = core->mesh.component[static_cast<std::size_t>(site.vertex[0])];
@@ -307,7 +309,8 @@ class EditScript {
         out[0] = core->mesh.inner_of_given[s.given];
         return 1;
       }
-      for (int k = 0; k < 3; ++k) out[k] = core->mesh.triangle(core->mesh.triangle_of_given[s.given])[k];
+      const hf_inner::SurfacePlace place = hf_inner::place_in_triangle(core->mesh, s.given, s.weight, 0);
+      for (int k = 0; k < 3; ++k) out[k] = place.vertex[k];
       return 3;
     };
     std::int32_t own[3], other[3];

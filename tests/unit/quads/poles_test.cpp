@@ -110,9 +110,9 @@ TEST(Poles, APlaceBesideTheSurfaceIsTakenOntoIt) {
   }
 }
 
-// Two copies of one triangle, back to back.
+// Two triangles of one area, folded onto each other.
 TEST(Poles, ASurfaceWithoutANormalIsRefusedByThePole) {
-  const auto core = hf_test::make_core({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2, 0, 2, 1}});
+  const auto core = hf_test::make_core({{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0.5, 0}, {0, 1, 2, 0, 2, 3}});
   Vector<QuadGuide> guides(core->memory.get());
   const QuadPole poles[1] = {{{}, 3, {}}};
   try {
