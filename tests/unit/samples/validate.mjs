@@ -13,7 +13,8 @@ for (const name of files) {
   const bytes = new Uint8Array(readFileSync(join(folder, name)));
   let report;
   try {
-    report = await validator.validateBytes(bytes, { uri: name, maxIssues: 1000 });
+    // an image that lies beside a model stays there: the written file names it, and it is not in this folder
+    report = await validator.validateBytes(bytes, { uri: name, maxIssues: 1000, ignoredIssues: ['IO_ERROR'] });
   } catch (error) {
     console.log(`${name}: ${error}`);
     errors += 1;
