@@ -114,7 +114,7 @@ TEST(Poles, APlaceBesideTheSurfaceIsTakenOntoIt) {
 TEST(Poles, ASurfaceWithoutANormalIsRefusedByThePole) {
   const auto core = hf_test::make_core({{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0.5, 0}, {0, 1, 2, 0, 2, 3}});
   Vector<QuadGuide> guides(core->memory.get());
-  const QuadPole poles[1] = {{{}, 3, {}}};
+  const QuadPole poles[1] = {{core->mesh.positions[0], 3, {}}};
   try {
     add_pole_guides(*core, {poles, 1}, 0.1, guides);
     FAIL();
