@@ -2,9 +2,11 @@
 #include "common/limits.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
+#include <vector>
 
 namespace samples {
 namespace {
@@ -37,9 +39,22 @@ double size_of(const hf_surface_desc& desc) {
   return std::min(vertices, std::max(triangles, corners - 2.0 * desc.face_count));
 }
 
+// Triangles with the same corners count once.
+double distinct_triangles(const hf_surface_desc& desc) {
+  if (!desc.triangles) return desc.triangle_count;
+  std::vector<std::array<uint32_t, 3>> sorted(desc.triangle_count);
+  for (size_t t = 0; t < sorted.size(); ++t) {
+    std::copy_n(desc.triangles + 3 * t, 3, sorted[t].begin());
+    std::sort(sorted[t].begin(), sorted[t].end());
+  }
+  std::sort(sorted.begin(), sorted.end());
+  return static_cast<double>(std::unique(sorted.begin(), sorted.end()) - sorted.begin());
+}
+
 // Of a closed surface with these counts. Borders, pieces and copies of vertices make it less.
 double genus_of(const hf_surface_desc& desc) {
-  return std::max(0.0, 0.5 * (0.5 * desc.triangle_count - desc.vertex_count) + 1);
+  const auto genus = [&](double triangles) { return std::max(0.0, 0.5 * (0.5 * triangles - desc.vertex_count) + 1); };
+  return genus(desc.triangle_count) > 0 ? genus(distinct_triangles(desc)) : 0;
 }
 
 }  // namespace
