@@ -74,6 +74,7 @@ const policy = [
   `script-src 'self' 'wasm-unsafe-eval' 'sha256-${createHash('sha256').update(inline).digest('base64')}'`,
   "style-src 'unsafe-inline'",
   "img-src 'self' data: blob:",
+  "media-src data: blob:",
   "connect-src 'self' data: blob:",
   "worker-src 'self'",
   "base-uri 'none'",
