@@ -260,7 +260,7 @@ typedef struct hf_surface_report {
                                          linked pieces are one component */
   uint32_t isolated_vertex_count;     /* given vertices in no usable triangle (or edge); fields are 0 there */
   uint32_t degenerate_triangle_count; /* zero area to working precision */
-  uint32_t collapsed_triangle_count;  /* two or three equal corners after welding; left out */
+  uint32_t collapsed_triangle_count;  /* equal corners after welding, or on a line and joining nothing; left out */
   uint32_t duplicate_triangle_count;  /* the same corners again after welding, in either direction; they do not count
                                          in the edges below */
   uint32_t non_manifold_edge_count;   /* edges of three or more triangles */

@@ -21,6 +21,7 @@ struct Candidate {
   Index vertex = 0;
   HandleReason reason = HandleReason::tip;
   bool pinned = false;
+  bool second = false;  // the end of a component that is nearer to its middle; both ends have one length
   std::uint32_t joint = no_joint;
   Vec3 position;
   double radius = 0, length = 0;
@@ -177,6 +178,7 @@ class Proposer {
         out.vertex = v;
         out.position = mesh_.positions[at(v)];
         out.reason = HandleReason::end;
+        out.second = v != first[c];
         out.length = size / 2;
         out.radius = std::min(std::max(tip_share * out.length, least_radius), most_tip_radius);
         found_.push_back(out);
@@ -306,6 +308,7 @@ class Proposer {
     std::sort(found_.begin(), found_.end(), [](const Candidate& a, const Candidate& b) {
       if (a.pinned != b.pinned) return a.pinned;
       if (a.length != b.length) return a.length > b.length;
+      if (a.second != b.second) return b.second;
       if (a.vertex != b.vertex) return a.vertex < b.vertex;
       return a.reason != b.reason ? a.reason < b.reason : a.joint < b.joint;
     });

@@ -4,6 +4,7 @@
 
 #include "base/index.h"
 #include "base/progress.h"
+#include "mesh/kept_faces.h"
 #include "mesh/topology.h"
 
 namespace hf_inner {
@@ -148,54 +149,11 @@ Vector<First> first_faces(const Faces& faces, Memory& memory) {
   return first;
 }
 
-// The triangles of a face of the mesh: of its cut, or itself.
-Index triangles_begin(const Mesh& mesh, Index face) noexcept {
-  return mesh.faces.empty() ? face : mesh.faces.triangle_start[at(face)];
-}
-
 void append_doubled(const Mesh& mesh, Index face, Index given, bool mirrored, Vector<Mesh::Doubled>& out) {
   for (Index t = triangles_begin(mesh, face); t < triangles_begin(mesh, face + 1); ++t) {
     const Index* v = mesh.triangle(t);
     out.push_back({given, {v[0], v[1], v[2]}, mirrored});
   }
-}
-
-// Removes the corners of faces that are set aside, and their entries in the arrays of faces. Face f had `size`
-// triangles from the old start on; number[f] is its new first triangle.
-void remove_faces(const Vector<First>& first, Mesh& mesh) {
-  Faces& faces = mesh.faces;
-  std::size_t kept = 0, corner = 0, triangle = 0;
-  const std::size_t count = first.size();
-  for (std::size_t f = 0; f < count; ++f) {
-    if (first[f].face != static_cast<Index>(f)) continue;
-    const std::size_t begin = at(triangles_begin(mesh, static_cast<Index>(f)));
-    const std::size_t end = at(triangles_begin(mesh, static_cast<Index>(f) + 1));
-    std::copy(mesh.corners.begin() + static_cast<std::ptrdiff_t>(3 * begin),
-              mesh.corners.begin() + static_cast<std::ptrdiff_t>(3 * end),
-              mesh.corners.begin() + static_cast<std::ptrdiff_t>(3 * triangle));
-    triangle += end - begin;
-    if (!faces.empty()) {
-      const FaceCorners own = faces.corners_of(static_cast<Index>(f));
-      const std::size_t size = own.size();
-      std::copy(own.begin(), own.end(), faces.corner.begin() + static_cast<std::ptrdiff_t>(corner));
-      corner += size;
-      faces.given[kept] = faces.given[f];
-      faces.second_cut[kept] = faces.second_cut[f];
-      // The old starts of the faces to come are still needed; kept + 1 <= f + 1 never reaches beyond this face.
-      faces.triangle_start[kept] = static_cast<Index>(triangle - (end - begin));
-      faces.corner_start[kept] = static_cast<Index>(corner - size);
-    }
-    ++kept;
-  }
-  mesh.corners.resize(3 * triangle);
-  if (faces.empty()) return;
-  faces.corner.resize(corner);
-  faces.given.resize(kept);
-  faces.second_cut.resize(kept);
-  faces.triangle_start.resize(kept + 1);
-  faces.corner_start.resize(kept + 1);
-  faces.triangle_start[kept] = static_cast<Index>(triangle);
-  faces.corner_start[kept] = static_cast<Index>(corner);
 }
 
 }  // namespace
@@ -205,16 +163,9 @@ void set_doubled_aside(Mesh& mesh, std::size_t vertex_count, Memory& memory) {
   const Vector<First> first = of_faces ? first_faces(mesh.faces, memory) : first_triangles(mesh, vertex_count, memory);
   if (first.empty()) return;
   poll();
-  // By face: its new first triangle.
-  Vector<Index> number(first.size(), Mesh::none, &memory);
-  Index next = 0;
-  for (std::size_t f = 0; f < first.size(); ++f) {
-    const Index face = static_cast<Index>(f), size = triangles_begin(mesh, face + 1) - triangles_begin(mesh, face);
-    if (first[f].face == face) {
-      number[f] = next;
-      next += size;
-    }
-  }
+  Vector<std::uint8_t> kept(first.size(), 0, &memory);
+  for (std::size_t f = 0; f < first.size(); ++f) kept[f] = first[f].face == static_cast<Index>(f);
+  const Vector<Index> number = kept_numbers(kept, mesh, memory);
   Index face = 0;
   for (std::size_t given = 0; given < mesh.triangle_of_given.size(); ++given) {
     if (mesh.triangle_of_given[given] == Mesh::none) continue;
@@ -226,7 +177,7 @@ void set_doubled_aside(Mesh& mesh, std::size_t vertex_count, Memory& memory) {
     mesh.triangle_of_given[given] = number[at(own.face)];
     ++face;
   }
-  remove_faces(first, mesh);
+  keep_faces(kept, mesh);
 }
 
 namespace {
@@ -337,7 +288,7 @@ void find_turned(const MeshInput& input, Mesh& mesh, Memory& memory) {
 void turn_two_sided(const MeshInput& input, Mesh& mesh, Memory& memory, JobRunner* jobs) {
   const auto is_mirrored = [](const Mesh::Doubled& entry) { return entry.mirrored; };
   if (std::none_of(mesh.doubled.begin(), mesh.doubled.end(), is_mirrored)) return;
-  const std::size_t count = mesh.faces.empty() ? at(mesh.triangle_count()) : at(mesh.faces.count());
+  const std::size_t count = at(face_count(mesh));
   const Topology topology = Topology::make(mesh, memory, jobs);
   // By first triangle of a face: whether a mirrored face lies on it.
   Vector<std::uint8_t> covered(at(mesh.triangle_count()), 0, &memory), two_sided(count, 0, &memory);

@@ -12,6 +12,7 @@
 #include "base/progress.h"
 #include "mesh/doubled_faces.h"
 #include "mesh/face_intake.h"
+#include "mesh/line_faces.h"
 #include "mesh/union_find.h"
 #include "mesh/vertex_order.h"
 #include "mesh/weld.h"
@@ -220,6 +221,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
 
   poll();
   set_doubled_aside(mesh, input.vertex_count, memory);
+  leave_line_faces_out(input, mesh, memory, jobs);
 
   poll();
   // The inner vertices are the welded vertices of usable triangles. They are numbered in the caller's order at first.

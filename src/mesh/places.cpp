@@ -55,8 +55,8 @@ SurfacePlace place_in_triangle(const Mesh& mesh, std::uint32_t triangle, const d
          mesh.faces.given_size[triangle]);
   const std::int32_t inner = mesh.triangle_of_given[triangle];
   if (inner == Mesh::none)
-    fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of the list: %s %u has equal corners; choose another", position,
-         noun, triangle);
+    fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of the list: %s %u has equal corners or no area; choose another",
+         position, noun, triangle);
   check_weights(weights, position);
   // The weights belong to the corners in the caller's order.
   const auto entry = std::lower_bound(mesh.doubled.begin(), mesh.doubled.end(), static_cast<std::int32_t>(triangle),

@@ -11,6 +11,10 @@ struct Match {
   double squared = 0;  // of the distance, in the inner unit of the surface
 };
 
+// A point with less than this share at corners with weights has none of its own. It is above the rounding of shares,
+// 1e-16 but for needles. More takes small shares for none.
+constexpr double least_known = 1e-9;
+
 class WeightedShape {
  public:
   // Takes triangles with a corner that has weights. All arguments must outlive this object.
@@ -23,22 +27,28 @@ class WeightedShape {
   template <class Take>
   void add(const Match& match, Take&& take) const {
     const Index* v = mesh_.triangle(match.triangle);
-    double sum = 0, corners = 0;
-    for (int k = 0; k < 3; ++k) {
-      if (rows_.has(v[k])) {
-        sum += match.weight[k];
-        corners += 1;
-      }
-    }
+    double corners = 0;
+    for (int k = 0; k < 3; ++k) corners += rows_.has(v[k]);
+    const double sum = known_share(match);
     // A point at a corner without weights takes those of the other corners.
     for (int k = 0; k < 3; ++k) {
-      const double part = sum > 0 ? match.weight[k] / sum : 1 / corners;
+      const double part = sum > least_known ? match.weight[k] / sum : 1 / corners;
       for (const Share& share : rows_.of(v[k])) take(share.bone, part * share.weight);
     }
   }
 
  private:
   Vector<ItemBox> collect(Memory& memory);
+  // How much of a point belongs to corners with weights, 0 to 1.
+  double known_share(const Match& match) const noexcept {
+    const Index* v = mesh_.triangle(match.triangle);
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) sum += rows_.has(v[k]) ? match.weight[k] : 0;
+    return sum;
+  }
+  // The point of triangle t nearest to p.
+  Match nearest(Index t, const Vec3& p) const noexcept;
+  bool agrees(const Match& match, const Vec3& normal, double cosine) const noexcept;
   const Mesh& mesh_;
   const SkinShape& skin_;
   const WeightRows& rows_;

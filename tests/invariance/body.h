@@ -72,6 +72,8 @@ void index_copy(const Body& body, Copy& copy);
 
 // full: all 40 bodies; else a few small ones. Bodies of ../shared that are not there are left out, with a message.
 std::vector<Body> corpus(bool full);
+// A body of any mesh file, made uneven as those of the corpus.
+Body body_of_file(const std::string& file);
 
 // ---- the changes ----
 

@@ -108,7 +108,16 @@ const char* const shared_models[] = {"gltf/khr_Fox.glb",
                                      "meshes/bunny_6k_adaptive.off"};
 constexpr std::size_t quick_models = 2;
 
+Body read_body(const std::filesystem::path& file) {
+  const samples::SurfaceMesh mesh = samples::read_mesh_file(file);
+  std::vector<double> xyz;
+  for (const auto& p : mesh.positions) xyz.insert(xyz.end(), {p.x, p.y, p.z});
+  return uneven_body(make_body(file.stem().string(), xyz, mesh.triangles));
+}
+
 }  // namespace
+
+Body body_of_file(const std::string& file) { return read_body(file); }
 
 std::vector<Body> corpus(bool full) {
   std::vector<Body> out;
@@ -124,10 +133,7 @@ std::vector<Body> corpus(bool full) {
       ++missing;
       continue;
     }
-    const samples::SurfaceMesh mesh = samples::read_mesh_file(file);
-    std::vector<double> xyz;
-    for (const auto& p : mesh.positions) xyz.insert(xyz.end(), {p.x, p.y, p.z});
-    out.push_back(uneven_body(make_body(file.stem().string(), xyz, mesh.triangles)));
+    out.push_back(read_body(file));
   }
   if (missing > 0) std::printf("skipped: %zu models of %s that are not here\n", missing, folder.string().c_str());
   return out;
