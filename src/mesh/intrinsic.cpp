@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/elementary.h"
 #include "base/hypotenuse.h"
 #include "base/index.h"
 #include "base/progress.h"
+#include "mesh/around_edge.h"
 #include "mesh/laplacian.h"
 #include "mesh/mollify.h"
 
@@ -25,33 +25,6 @@ constexpr double least_sum = 1e-300;
 // result depends on it. Less copies the rest more often, more keeps memory. Half and double change no bit on eight
 // shapes with needles, loose pieces and a long ribbon.
 constexpr std::size_t least_trim = 65536;
-
-// A side of an edge of three triangles and more.
-struct Side {
-  Index side;  // its number in the topology
-  double angle;
-};
-
-// Sorts the sides by their angle about the edge, counter-clockwise for a viewer at whom the edge points.
-void sort_by_angle(const Mesh& mesh, const Topology& topology, Index edge, Vector<Side>& sides) {
-  const Vec3 origin = mesh.positions[at(topology.first(edge))];
-  Vec3 axis = mesh.positions[at(topology.second(edge))] - origin;
-  const double length = norm(axis);
-  if (length > 0) axis = (1 / length) * axis;
-  Vec3 x, y;
-  for (Side& side : sides) {
-    const Index k = topology.corner(side.side) % 3;
-    const Vec3 p = mesh.positions[at(mesh.triangle(topology.triangle(side.side))[(k + 2) % 3])] - origin;
-    const Vec3 radius = p - dot(p, axis) * axis;
-    if (!(norm(x) > 0)) {
-      x = radius;
-      y = cross(axis, radius);
-    }
-    side.angle = arc_tangent(dot(y, radius), dot(x, radius));
-  }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& a, const Side& b) { return a.angle != b.angle ? a.angle < b.angle : a.side < b.side; });
-}
 
 // Marks the components where every edge joins two triangles that run through it in opposite directions.
 Vector<std::uint8_t> plain_components(const Mesh& mesh, const Topology& topology, const Vector<std::uint8_t>* held,
@@ -124,7 +97,7 @@ void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, co
   };
   const auto covered = [&](Index side) { return back[at(topology.triangle(side))] != topology.triangle(side); };
   for_each(jobs, pieces(edges), [&](std::uint32_t p) {
-    Vector<Side> sides(memory_);
+    Vector<EdgeSide> sides(memory_);
     for (std::size_t e = p * cover_piece; e < std::min(edges, (p + std::size_t{1}) * cover_piece); ++e) {
       const Index begin = topology.edge_triangle_start[e], end = topology.edge_triangle_start[e + 1];
       if (held && (*held)[e]) {
@@ -140,8 +113,8 @@ void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, co
         continue;
       }
       sides.clear();
-      for (Index i = begin; i < end; ++i) sides.push_back({i, 0});
-      if (sides.size() > 2) sort_by_angle(mesh, topology, static_cast<Index>(e), sides);
+      for (Index i = begin; i < end; ++i) sides.push_back({i, Mesh::none, 0, 0, 0});
+      if (sides.size() > 2) sort_around_edge(mesh, topology, static_cast<Index>(e), sides);
       for (std::size_t s = 0; s < sides.size(); ++s) {
         // Triangles at an edge are sorted around it. If a triangle's side runs along the edge's direction, its normal
         // points towards the next triangle.

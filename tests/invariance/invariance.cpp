@@ -1,14 +1,18 @@
-// invariance [--full] [--body NAME] [--file MODEL] [--change NAME] [--noun NAME] [--page FILE] [--all] [--unskip]
+// invariance [--full] [--body NAME] [--file MODEL] [--change NAME] [--noun NAME] [--page FILE] [--threads N] [--all]
+//            [--unskip]
 //
 // Gives every noun of the library each body of the corpus and its changed copies, and compares what comes out.
 // Prints the worst difference of every change and noun. --file takes one model in place of the corpus. --page writes
-// docs/invariance.md. --all prints every cell, --unskip measures cells that are left out while a fault is mended.
-// The exit code is 1 if a cell misses its tolerance.
+// docs/invariance.md. --threads works on N bodies at a time. --all prints every cell, --unskip measures cells that are
+// left out while a fault is mended. The exit code is 1 if a cell misses its tolerance.
+#include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "reliability/report.h"
 #include "table.h"
@@ -18,6 +22,7 @@ namespace {
 
 struct Options {
   bool full = false, all = false, unskip = false;
+  int threads = 1;
   std::string body, file, change, noun, page;
 };
 
@@ -97,19 +102,52 @@ void compare(const Body& body, const Options& options, Table& table) {
   }
 }
 
+void merge(const Table& part, Table& table) {
+  for (std::size_t n = 0; n < table.size(); ++n) {
+    for (std::size_t c = 0; c < table[n].size(); ++c) {
+      const Cell& from = part[n][c];
+      Cell& to = table[n][c];
+      to.bodies += from.bodies;
+      if (!from.refused.empty()) to.refused = from.refused;
+      if (from.worst <= to.worst) continue;
+      to.worst = from.worst;
+      to.where = from.where;
+    }
+  }
+}
+
+Table empty_table() { return Table(nouns().size(), std::vector<Cell>(changes().size())); }
+
+// Every body has a table of its own; they are merged in the order of the bodies.
+Table compare_all(const std::vector<Body>& bodies, const Options& options) {
+  std::vector<Table> parts(bodies.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t b = next++; b < bodies.size(); b = next++) {
+      const Body& body = bodies[b];
+      parts[b] = empty_table();
+      if (!wanted(options.body, body.name)) continue;
+      const auto start = std::chrono::steady_clock::now();
+      compare(body, options, parts[b]);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      std::printf("%s: %u vertices, %u pieces, %.1f s\n", body.name.c_str(), body.vertex_count(), body.piece_count,
+                  seconds);
+      std::fflush(stdout);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 1; i < options.threads; ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  Table table = empty_table();
+  for (const Table& part : parts) merge(part, table);
+  return table;
+}
+
 int run(const Options& options) {
   const std::vector<Body> bodies =
       options.file.empty() ? corpus(options.full) : std::vector<Body>{body_of_file(options.file)};
-  Table table(nouns().size(), std::vector<Cell>(changes().size()));
-  for (const Body& body : bodies) {
-    if (!wanted(options.body, body.name)) continue;
-    const auto start = std::chrono::steady_clock::now();
-    compare(body, options, table);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    std::printf("%s: %u vertices, %u pieces, %.1f s\n", body.name.c_str(), body.vertex_count(), body.piece_count,
-                seconds);
-    std::fflush(stdout);
-  }
+  const Table table = compare_all(bodies, options);
   if (!options.page.empty()) write_page(table, bodies, options.page);
   const int misses = judge(table);
   report_at_least("invariance_bodies", static_cast<double>(bodies.size()), options.file.empty() ? 4 : 1);
@@ -134,6 +172,9 @@ int main(int argc, char** argv) {
     if (i < argc) value("--change", options.change);
     if (i < argc) value("--noun", options.noun);
     if (i < argc) value("--page", options.page);
+    std::string threads;
+    if (i < argc) value("--threads", threads);
+    if (!threads.empty()) options.threads = std::atoi(threads.c_str());
   }
   return invariance::run(options);
 }
