@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "mesh/around_edge.h"
 
 namespace hf_inner {
 namespace {
@@ -20,7 +21,8 @@ class Tracer {
         triangle_edge_(mesh.corners.size(), Mesh::none, &memory),
         usable_(at(mesh.triangle_count()), 1, &memory),
         visited_(at(mesh.triangle_count()), 0, &memory),
-        line_(&memory) {
+        line_(&memory),
+        around_(&memory) {
     for (Index e = 0; e < topology.edge_count(); ++e) {
       for (Index i = begin(e); i < end(e); ++i) {
         const Index t = topology.triangle(i);
@@ -60,10 +62,17 @@ class Tracer {
   bool crossed(Index e) const noexcept { return above(topology_.first(e)) != above(topology_.second(e)); }
 
   // Returns the triangle in which a line continues behind edge e, coming from triangle entry i of that edge. The usable
-  // triangles of an edge are taken in pairs.
-  Index partner(Index e, Index i) const noexcept {
+  // triangles of an edge are taken in pairs, of three and more in their order around the edge.
+  Index partner(Index e, Index i) {
+    around_.clear();
+    if (end(e) - begin(e) > 2) {
+      sort_around_edge(mesh_, topology_, e, around_);
+    } else {
+      for (Index j = begin(e); j < end(e); ++j) around_.push_back({j, Mesh::none, 0, 0, 0});
+    }
     Index before = Mesh::none;
-    for (Index j = begin(e); j < end(e); ++j) {
+    for (const EdgeSide& around : around_) {
+      const Index j = around.side;
       if (!usable_[at(topology_.triangle(j))]) continue;
       if (before == Mesh::none) {
         before = j;
@@ -151,6 +160,7 @@ class Tracer {
   Vector<std::uint8_t> usable_;  // every corner has a value
   Vector<std::uint32_t> visited_;
   Vector<Isolines::Point> line_;
+  Vector<EdgeSide> around_;
   double level_ = 0;
   std::uint32_t number_ = 0, stamp_ = 0;
 };

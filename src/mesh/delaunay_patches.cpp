@@ -155,6 +155,7 @@ class Patches {
   Index local(Index vertex) const noexcept { return local_[at(vertex)]; }
   const Vector<Index>& vertices() const noexcept { return vertices_; }
   const IntrinsicTriangulation& surface() const noexcept { return surface_; }
+  Vector<double> areas() const { return surface_.vertex_areas(sub_, edges_, memory_); }
 
   // Returns half the sum of the cotangents in the edge's triangles outside the patches (groups of retriangulated
   // triangles). Sets `count` to the number of these triangles.
@@ -341,7 +342,7 @@ SymmetricMatrix assemble(const Patches& patches, const PatchRows& rows, const To
   return matrix;
 }
 
-void add_areas(const Mesh& mesh, const Patches& patches, Memory& memory, Vector<double>& areas) {
+void add_areas(const Mesh& mesh, const Patches& patches, Vector<double>& areas) {
   areas.assign(mesh.positions.size(), 0.0);
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     if (patches.holds(t)) continue;
@@ -350,9 +351,8 @@ void add_areas(const Mesh& mesh, const Patches& patches, Memory& memory, Vector<
     const double third = norm(cross(mesh.positions[at(v[1])] - a, mesh.positions[at(v[2])] - a)) / 6.0;
     for (int k = 0; k < 3; ++k) areas[at(v[k])] += third;
   }
-  const Index count = static_cast<Index>(patches.vertices().size());
-  const Vector<double> inside = patches.surface().vertex_areas(count, memory);
-  for (Index i = 0; i < count; ++i) areas[at(patches.vertices()[at(i)])] += inside[at(i)];
+  const Vector<double> inside = patches.areas();
+  for (Index i = 0; i < static_cast<Index>(inside.size()); ++i) areas[at(patches.vertices()[at(i)])] += inside[at(i)];
 }
 
 }  // namespace
@@ -377,7 +377,7 @@ DelaunayOperator delaunay_operator(const Mesh& mesh, const Topology& topology, c
     if (!whole) {
       const PatchRows rows(patches, topology, weights, memory);
       out.laplacian = assemble(patches, rows, topology, weights, mesh.positions.size(), memory, jobs);
-      if (with_areas) add_areas(mesh, patches, memory, out.areas);
+      if (with_areas) add_areas(mesh, patches, out.areas);
       out.patch_triangles = static_cast<Index>(patches.triangle_count());
       return out;
     }
@@ -385,7 +385,7 @@ DelaunayOperator delaunay_operator(const Mesh& mesh, const Topology& topology, c
   IntrinsicTriangulation surface = IntrinsicTriangulation::make(mesh, topology, memory, jobs);
   surface.flip_to_delaunay(0, jobs);
   out.laplacian = surface.laplacian(mesh.vertex_count(), memory, jobs);
-  if (with_areas) out.areas = surface.vertex_areas(mesh.vertex_count(), memory);
+  if (with_areas) out.areas = surface.vertex_areas(mesh, topology, memory);
   out.changed.assign(surface.changed().begin(), surface.changed().end());
   out.patch_triangles = mesh.triangle_count();
   return out;

@@ -19,8 +19,6 @@ constexpr std::size_t cover_piece = 16384;
 // flip_to_delaunay stops after this many edge flips per half-edge. So the loop ends even if rounding lets edges flip to
 // and fro. It is a bound. Half and double change no bit on eight shapes with needles, loose pieces and a long ribbon.
 constexpr std::uint64_t flips_per_half = 32;
-// A sum of cotangents that divides counts as at least this, so that a flat face does not divide by zero.
-constexpr double least_sum = 1e-300;
 // The queue of edges to flip is trimmed when it starts with more finished entries than this. It bounds memory; no
 // result depends on it. Less copies the rest more often, more keeps memory. Half and double change no bit on eight
 // shapes with needles, loose pieces and a long ribbon.
@@ -219,9 +217,11 @@ void IntrinsicTriangulation::flip(Index half) noexcept {
   const Index from[4] = {h1, h2, g1, g2}, to[4] = {g2, h1, h2, g1};
   Index tails[4], twins[4];
   double lengths[4];
+  std::uint8_t moved[4];
   for (int q = 0; q < 4; ++q) {
     tails[q] = tail_[at(from[q])];
     lengths[q] = length_[at(from[q])];
+    moved[q] = flipped_[at(from[q])];
     twins[q] = twin_[at(from[q])];
   }
   const Index k = tails[1], m = tails[3];
@@ -231,12 +231,14 @@ void IntrinsicTriangulation::flip(Index half) noexcept {
     const Index twin = inside != from + 4 ? to[inside - from] : twins[q];
     tail_[at(to[q])] = tails[q];
     length_[at(to[q])] = lengths[q];
+    flipped_[at(to[q])] = moved[q];
     twin_[at(to[q])] = twin;
     twin_[at(twin)] = to[q];
   }
   tail_[at(h0)] = m;
   tail_[at(g0)] = k;
   length_[at(h0)] = length_[at(g0)] = diagonal;
+  flipped_[at(h0)] = flipped_[at(g0)] = 1;
   measure_face(h0 / 3);
   measure_face(g0 / 3);
 }
@@ -253,6 +255,7 @@ std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit,
   });
   Vector<Index> queue(memory_);
   for (const auto& list : found) queue.insert(queue.end(), list.begin(), list.end());
+  if (!queue.empty()) flipped_.assign(halves, 0);
   Poller poller;
   std::uint64_t flips = 0;
   for (std::size_t head = 0; head < queue.size() && flips < flip_limit; ++head) {
@@ -270,20 +273,6 @@ std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit,
     }
   }
   return flips;
-}
-
-Vector<double> IntrinsicTriangulation::vertex_areas(Index vertex_count, Memory& memory) const {
-  Vector<double> areas(at(vertex_count), 0.0, &memory);
-  for (Index f = 0; f < face_count(); ++f) {
-    // The area of the face follows from |ij|^2 = 2 area (cot at i + cot at j).
-    const std::size_t h = 3 * at(f);
-    std::size_t k = 0;  // the longest side, whose quotient has the smallest rounding error
-    for (std::size_t q = 1; q < 3; ++q) k = length_[h + q] > length_[h + k] ? q : k;
-    const double base = length_[h + k], sum = cotangent_[h + (k + 1) % 3] + cotangent_[h + (k + 2) % 3];
-    const double third = share(f) * base * base / (6 * std::max(sum, least_sum));
-    for (std::size_t q = 0; q < 3; ++q) areas[at(tail_[h + q])] += third;
-  }
-  return areas;
 }
 
 namespace {

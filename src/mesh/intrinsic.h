@@ -33,7 +33,8 @@ constexpr double delaunay_rounding = 1e-10;
 class IntrinsicTriangulation {
  public:
   // Makes an empty triangulation.
-  explicit IntrinsicTriangulation(Memory& memory) : memory_(&memory), doubled_(&memory), changed_(&memory) {}
+  explicit IntrinsicTriangulation(Memory& memory)
+      : memory_(&memory), flipped_(&memory), doubled_(&memory), changed_(&memory) {}
   // Makes the tufted cover (see above) of a mesh, with the mesh's own edges. held: null, or for each edge whether more
   // of the surface lies beyond it. A held edge is no border and is never flipped; each of its half-edges is its own
   // twin. Throws std::bad_alloc.
@@ -68,8 +69,8 @@ class IntrinsicTriangulation {
   // Returns the Laplacian K. K_ij is minus the sum of the weights of the edges between i and j, with sums below zero
   // set to zero. Each diagonal entry is minus the sum of the rest of its row.
   SymmetricMatrix laplacian(std::int32_t vertex_count, Memory& memory, JobRunner* jobs = nullptr) const;
-  // Returns for every vertex one third of the area of the intrinsic triangles around it.
-  Vector<double> vertex_areas(std::int32_t vertex_count, Memory& memory) const;
+  // Returns for every vertex one third of the area of the intrinsic triangles around it. mesh, topology: as in make.
+  Vector<double> vertex_areas(const Mesh& mesh, const Topology& topology, Memory& memory) const;
 
  private:
   static std::int32_t next(std::int32_t half) noexcept { return half % 3 == 2 ? half - 2 : half + 1; }
@@ -86,10 +87,12 @@ class IntrinsicTriangulation {
   bool is_delaunay(std::int32_t half) const noexcept;
   void flip(std::int32_t half) noexcept;
   void measure_face(std::int32_t face) noexcept;
+  void even_out(const Mesh& mesh, const Topology& topology, std::int32_t half, Vector<double>& areas) const;
 
   Memory* memory_;
   Buffer<std::int32_t> tail_, twin_;
   Buffer<double> length_, cotangent_;
+  Vector<std::uint8_t> flipped_;  // by half-edge: 1 if a flip made it; empty: none was made
   Vector<std::uint8_t> doubled_;  // by face: 1 if its component has front and back faces; empty: none has
   Vector<std::uint8_t> changed_;
   std::uint32_t mollified_ = 0;
