@@ -143,6 +143,9 @@ constexpr double small_piece = 0.3;
 // eyes and buttons smooth. From 0.249: 0.3 gives 0.253, and 0.571 in place of 0.502 on the second table; 0.7 gives
 // 0.271; never gives 0.284.
 constexpr double clear_share = 0.6;
+// Sums of weights that differ by less than this are equal; the bone with the larger own weight is taken. It is above
+// the rounding of sums. More lets own weights decide against clear contacts.
+constexpr double equal_sums = 1e-9;
 // Largest own weights that an island remembers: more cost memory. Half and double change nothing.
 constexpr std::size_t kept_shares = 4;
 

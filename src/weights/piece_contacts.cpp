@@ -67,16 +67,40 @@ class Finder {
   BoxTree triangles_, islands_;
 };
 
-// Every vertex of the marked islands, or every second, third, ... of large ones.
+// Every vertex of the marked islands, or every second, third, ... of large ones by their distance from the middle: that
+// depends neither on the order of the vertices nor on the axes.
 Vector<Index> sample(const Mesh& mesh, const Vector<std::uint8_t>& marked, Memory& memory) {
+  struct Member {
+    Index island, vertex;
+    double squared;
+    bool operator<(const Member& b) const noexcept {
+      if (island != b.island) return island < b.island;
+      return squared != b.squared ? squared < b.squared : vertex < b.vertex;
+    }
+  };
   Vector<std::size_t> size(marked.size(), 0, &memory), passed(marked.size(), 0, &memory);
-  for (const Index c : mesh.component) ++size[at(c)];
+  Vector<Vec3> sum(marked.size(), &memory);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const std::size_t c = at(mesh.component[at(v)]);
+    ++size[c];
+    sum[c] = sum[c] + mesh.positions[at(v)];
+  }
+  Vector<Member> members(&memory);
   Vector<Index> out(&memory);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const std::size_t c = at(mesh.component[at(v)]);
     if (!marked[c]) continue;
-    const std::size_t stride = (size[c] + piece_samples - 1) / piece_samples;
-    if (passed[c]++ % stride == 0) out.push_back(v);
+    if (size[c] <= piece_samples) {
+      out.push_back(v);
+      continue;
+    }
+    const Vec3 away = mesh.positions[at(v)] - (1 / static_cast<double>(size[c])) * sum[c];
+    members.push_back({static_cast<Index>(c), v, dot(away, away)});
+  }
+  std::sort(members.begin(), members.end());
+  for (const Member& member : members) {
+    const std::size_t c = at(member.island), stride = (size[c] + piece_samples - 1) / piece_samples;
+    if (passed[c]++ % stride == 0) out.push_back(member.vertex);
   }
   return out;
 }

@@ -209,17 +209,19 @@ class RigidPieces {
     }
   }
 
-  // Islands that wait take a bone one after the other, first the one that most touches others which do not wait.
+  // Islands that wait take a bone one after the other, first the one that most touches others which do not wait. Where
+  // none touches any, the largest is first.
   void take_from_others() {
     if (std::find(waits_.begin(), waits_.end(), 1) == waits_.end()) return;
     const PieceContacts contacts(core_, waits_, memory_);
     const std::size_t islands = column.size();
     Vector<double> strength(islands, 0.0, &memory_), sum(width(), &memory_);
     struct Open {
-      double strength;
+      double strength, area;
       Index island;
       bool operator<(const Open& b) const noexcept {
-        return strength != b.strength ? strength < b.strength : island > b.island;
+        if (strength != b.strength) return strength < b.strength;
+        return area != b.area ? area < b.area : island > b.island;
       }
     };
     Vector<Open> open(&memory_);
@@ -228,13 +230,13 @@ class RigidPieces {
         const PieceContact& contact = contacts.all[at(i)];
         if (!waits_[at(contact.island)]) continue;
         strength[at(contact.island)] += contact.strength;
-        open.push_back({strength[at(contact.island)], contact.island});
+        open.push_back({strength[at(contact.island)], shapes_[at(contact.island)].area, contact.island});
         std::push_heap(open.begin(), open.end());
       }
     };
     for (std::size_t c = 0; c < islands; ++c) {
       if (waits_[c]) {
-        open.push_back({0, static_cast<Index>(c)});
+        open.push_back({0, shapes_[c].area, static_cast<Index>(c)});
         std::push_heap(open.begin(), open.end());
       }
     }
@@ -271,8 +273,21 @@ class RigidPieces {
         for (std::size_t k = 0; k < width(); ++k) sum[k] += share * solution_.field[at(contact.vertex) * width() + k];
       }
     }
-    const auto best = std::max_element(sum.begin(), sum.end());
-    return robot() || *best >= clear_share ? static_cast<Index>(best - sum.begin()) : -1;
+    const double most = *std::max_element(sum.begin(), sum.end());
+    // A piece that holds one bone and touches another alone has equal sums: rounding must not decide.
+    const auto own_share = [&](std::size_t k) {
+      const Mean& mean = mean_[island];
+      const Index* const found = std::find(mean.column, mean.column + kept_shares, static_cast<Index>(k));
+      return found == mean.column + kept_shares ? 0.0 : mean.share[found - mean.column];
+    };
+    std::size_t best = 0;
+    double own_best = -1;
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      if (sum[k] < most - equal_sums || !(own_share(k) > own_best + equal_sums)) continue;
+      best = k;
+      own_best = own_share(k);
+    }
+    return robot() || most >= clear_share ? static_cast<Index>(best) : -1;
   }
 
   PieceBones held_;

@@ -1,5 +1,6 @@
 /* Doubled faces count once: the same three welded corners again, in the same direction or mirrored. A mesh with them is
- * the mesh without them in fields, poses and quads, and a two-sided sheet is one sheet with a border. */
+ * the mesh without them in fields, poses and quads, and a two-sided sheet is one sheet with a border. The same holds
+ * for triangles over three vertices of a line that join nothing. */
 #include "api_support.h"
 
 /* A soup: every triangle has three vertices of its own, which the surface welds. */
@@ -92,19 +93,25 @@ typedef struct Results {
   uint32_t quad_vertices, quad_faces;
 } Results;
 
-static Results results_of(hf_surface surface, uint32_t vertices) {
+/* Vertices of three sites, and places and radius of two handles. */
+typedef struct Places {
+  uint32_t sites[3];
+  double handles[2][3], radius;
+} Places;
+static const Places on_ball = {{0, 1234, 3001}, {{-2, 0, 0}, {2, 0, 0}}, 0.6};
+
+static Results results_of(hf_surface surface, uint32_t vertices, const Places* places) {
   Results out = {0};
   hf_solver solver = solver_on(surface);
-  add_site(solver, 0, 0);
-  add_site(solver, 1234, 1);
-  add_site(solver, 3001, 3);
+  add_site(solver, places->sites[0], 0);
+  add_site(solver, places->sites[1], 1);
+  add_site(solver, places->sites[2], 3);
   out.field = field_of(solver, vertices);
   hf_solver_destroy(solver);
   hf_pose pose = NULL;
   uint32_t handles[2];
   assert_ok(hf_pose_create(surface, NULL, &pose));
-  assert_ok(hf_pose_add_handle_at(pose, (const double[]){-2, 0, 0}, 0.6, &handles[0]));
-  assert_ok(hf_pose_add_handle_at(pose, (const double[]){2, 0, 0}, 0.6, &handles[1]));
+  for (int i = 0; i < 2; ++i) assert_ok(hf_pose_add_handle_at(pose, places->handles[i], places->radius, &handles[i]));
   const hf_transform turned = {{0, 0, 0.38268343, 0.92387953}, {0.2, 0.7, 0}};
   assert_ok(hf_pose_set_transform(pose, handles[1], &turned));
   hf_deform_desc deform = HF_INIT(hf_deform_desc);
@@ -143,6 +150,15 @@ static void free_results(Results* results) {
   free(results->faces);
 }
 
+static void assert_same_results(const Results* got, const Results* expected, uint32_t vertices) {
+  assert_true(same_bits(got->field, expected->field, vertices * sizeof(double)));
+  assert_true(same_bits(got->posed, expected->posed, 3 * vertices * sizeof(double)));
+  assert_int_equal(got->quad_faces, expected->quad_faces);
+  assert_int_equal(got->quad_vertices, expected->quad_vertices);
+  assert_true(same_bits(got->quads, expected->quads, 3 * got->quad_vertices * sizeof(double)));
+  assert_true(same_bits(got->faces, expected->faces, 4 * got->quad_faces * sizeof(uint32_t)));
+}
+
 static Soup plain, doubled;
 static uint32_t corners[2][3 * 4000];
 
@@ -151,7 +167,7 @@ static void fields_poses_and_quads_are_those_of_the_mesh_without_doubles(void** 
   make_ball(&plain);
   const uint32_t vertices = 3 * plain.triangle_count;
   const hf_surface before = surface_of(&plain, corners[0], HF_OPERATOR_INTRINSIC_DELAUNAY);
-  Results expected = results_of(before, vertices);
+  Results expected = results_of(before, vertices, &on_ball);
   const uint32_t counts[] = {1, 20, 100, 1280};
   for (size_t i = 0; i < COUNT_OF(counts); ++i) {
     for (int mirrored = 0; mirrored < 3; ++mirrored) {
@@ -162,13 +178,8 @@ static void fields_poses_and_quads_are_those_of_the_mesh_without_doubles(void** 
       assert_int_equal(report.duplicate_triangle_count, counts[i]);
       assert_int_equal(report.non_manifold_edge_count + report.boundary_edge_count + report.flipped_edge_count, 0);
       assert_int_equal(report.welded_vertex_count, 642);
-      Results got = results_of(surface, 3 * doubled.triangle_count);
-      assert_true(same_bits(got.field, expected.field, vertices * sizeof(double)));
-      assert_true(same_bits(got.posed, expected.posed, 3 * vertices * sizeof(double)));
-      assert_int_equal(got.quad_faces, expected.quad_faces);
-      assert_int_equal(got.quad_vertices, expected.quad_vertices);
-      assert_true(same_bits(got.quads, expected.quads, 3 * got.quad_vertices * sizeof(double)));
-      assert_true(same_bits(got.faces, expected.faces, 4 * got.quad_faces * sizeof(uint32_t)));
+      Results got = results_of(surface, 3 * doubled.triangle_count, &on_ball);
+      assert_same_results(&got, &expected, vertices);
       free_results(&got);
       hf_surface_destroy(surface);
     }
@@ -317,12 +328,47 @@ static void a_site_in_a_doubled_triangle_lies_where_its_own_corners_say(void** s
   hf_surface_destroy(surface);
 }
 
+/* A tube with a triangle more over three vertices of a line: neighbours, or from end to end. */
+static void a_triangle_over_a_line_that_joins_nothing_changes_nothing(void** state) {
+  (void)state;
+  enum { AROUND = 24, RINGS = 41, VERTICES = AROUND * RINGS };
+  const Places places = {{0, 500, 900}, {{0, 2, 0}, {0, 38, 0}}, 3};
+  const uint32_t flaps[][3] = {{0, AROUND, 2 * AROUND}, {5, 5 + 40 * AROUND, 5 + 20 * AROUND}};
+  Surface tube = surface_tube(AROUND, RINGS);
+  const hf_surface before = surface_on(&tube);
+  Results expected = results_of(before, VERTICES, &places);
+  uint32_t* triangles = malloc((tube.triangle_count + 1) * 3 * sizeof *triangles);
+  for (size_t i = 0; i < COUNT_OF(flaps); ++i) {
+    memcpy(triangles, flaps[i], sizeof flaps[i]);
+    memcpy(triangles + 3, tube.triangles, 3 * tube.triangle_count * sizeof *triangles);
+    hf_surface_desc desc = HF_INIT(hf_surface_desc);
+    desc.vertex_count = VERTICES;
+    desc.positions = tube.positions;
+    desc.triangle_count = tube.triangle_count + 1;
+    desc.triangles = triangles;
+    hf_surface surface = NULL;
+    assert_ok(hf_surface_create(&desc, &surface));
+    const hf_surface_report report = report_of(surface);
+    assert_int_equal(report.collapsed_triangle_count, 1);
+    assert_int_equal(report.degenerate_triangle_count + report.non_manifold_edge_count, 0);
+    Results got = results_of(surface, VERTICES, &places);
+    assert_same_results(&got, &expected, VERTICES);
+    free_results(&got);
+    hf_surface_destroy(surface);
+  }
+  free(triangles);
+  free_results(&expected);
+  hf_surface_destroy(before);
+  surface_free(&tube);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(fields_poses_and_quads_are_those_of_the_mesh_without_doubles),
       cmocka_unit_test(every_operator_weighs_doubled_faces_once),
       cmocka_unit_test(a_two_sided_sheet_is_one_sheet_with_opposite_normals_behind),
       cmocka_unit_test(a_site_in_a_doubled_triangle_lies_where_its_own_corners_say),
+      cmocka_unit_test(a_triangle_over_a_line_that_joins_nothing_changes_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -82,6 +82,10 @@ std::vector<DegenerateMesh> degenerate_meshes() {
   append(collapsed, {0, 0, 0, 30, 0, 0, 31, 0, 0, 33, 0, 0}, {1, 2, 3, 0, 0, 1});
   collapsed.triangles.insert(collapsed.triangles.end(), {0, collapsed.vertex_count() - 4, 1, 3, 3, 5, 0, 9, 18});
   meshes.push_back(collapsed);
+  DegenerateMesh lines = renamed(flat, "triangles on lines");  // two flaps, and one with a vertex of its own
+  append(lines, {0.5, 0, 0}, {});
+  lines.triangles.insert(lines.triangles.end(), {0, 7, 14, 7, 14, 28, 0, 1, lines.vertex_count() - 1});
+  meshes.push_back(lines);
   DegenerateMesh pages = renamed(plain, "four pages on a spine");
   append(pages, {3, 3, 4, 4, 3, 4, 3, 5, 5, 4, 5, 5}, {0, 1, 2, 1, 3, 2});
   const std::uint32_t top = pages.vertex_count() - 4;

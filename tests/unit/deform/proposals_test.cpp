@@ -122,4 +122,27 @@ TEST(HandleProposals, of_a_lying_tube_are_a_foot_its_ends_and_joints_by_the_skel
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(two[i].vertex, list[i].vertex);
 }
 
+TEST(HandleProposals, the_end_farther_from_the_middle_comes_first_in_any_numbering) {
+  PlainMesh mesh = tube(16, 41, 30);  // lies below; the other tube has no foot, and no tip is long enough
+  append(mesh, tube(8, 11, 6), 12);
+  for (std::uint32_t v = 16 * 41 + 2; v < mesh.vertex_count(); ++v) {
+    double* const p = &mesh.positions[3 * v];
+    p[1] = 20 + 0.3 * p[1];
+    p[0] += 0.05 * (p[0] - 15) * (p[0] - 15);  // vertices are denser at one end, so the middle is nearer to it
+  }
+  PlainMesh turned = mesh;
+  const std::uint32_t last = mesh.vertex_count() - 1;
+  for (std::uint32_t v = 0; v <= last; ++v) {
+    for (std::uint32_t k = 0; k < 3; ++k) turned.positions[3 * v + k] = mesh.positions[3 * (last - v) + k];
+  }
+  for (std::uint32_t& v : turned.triangles) v = last - v;
+  auto options = plain();
+  options.least_length = 0.9;
+  const auto ends = of(propose(*hf_test::make_core(mesh), options), HandleReason::end);
+  const auto other = of(propose(*hf_test::make_core(turned), options), HandleReason::end);
+  ASSERT_EQ(ends.size(), 2u);
+  ASSERT_EQ(other.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(norm(ends[i].position - other[i].position), 0, 1e-9);
+}
+
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -204,6 +205,30 @@ TEST(Isolines, end_where_the_field_has_no_value_and_at_odd_non_manifold_triangle
   const Isolines cut = trace(flat, u, {2.5});
   ASSERT_EQ(cut.line_count(), 2u);
   for (const auto& p : cut.points) EXPECT_TRUE(p.a != 24 && p.b != 24);
+}
+
+TEST(Isolines, join_the_same_pages_of_an_edge_in_every_order_of_the_faces) {
+  PlainMesh pages;  // four pages on one edge, at uneven angles; the field rises across each
+  pages.positions = {0, 0, 0, 0, 0, 1, 1, 0.1, 0, 0.2, 1, 0, -1, 0.3, 0, -0.3, -1, 0};
+  const std::vector<std::array<std::uint32_t, 3>> page = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 0, 5}};
+  const std::vector<double> field = {0, 1, 0.2, 0.1, 0.3, 0.25};
+  std::set<std::set<std::set<std::int32_t>>> joined;  // by order: the vertices at each of the two lines
+  std::vector<std::size_t> order = {0, 1, 2, 3};
+  do {
+    pages.triangles.clear();
+    for (const std::size_t i : order) pages.triangles.insert(pages.triangles.end(), page[i].begin(), page[i].end());
+    const Isolines lines = trace(Surface(pages), field, {0.5});
+    ASSERT_EQ(lines.line_count(), 2u);
+    std::set<std::set<std::int32_t>> pairs;
+    for (std::uint32_t l = 0; l < 2; ++l) {
+      std::set<std::int32_t> ends;
+      for (std::uint32_t i = lines.start[l]; i < lines.start[l + 1]; ++i)
+        ends.insert({lines.points[i].a, lines.points[i].b});
+      pairs.insert(ends);
+    }
+    joined.insert(pairs);
+  } while (std::next_permutation(order.begin(), order.end()));
+  EXPECT_EQ(joined.size(), 1u);
 }
 
 TEST(Isolines, come_in_the_order_of_the_list_and_repeats_give_repeats) {

@@ -86,6 +86,30 @@ TEST(CarriedWeights, SourceVerticesWithoutWeightsGiveNone) {
   for (Index v = 0; v < to->size(); ++v) EXPECT_EQ(share_of(found, at(v), 5), 1.0);
 }
 
+TEST(CarriedWeights, APointWithoutWeightsTakesTheSameInEveryOrderOfTheFaces) {
+  const PlainMesh mesh = grid(8, 8, 1, 0.3);
+  const std::uint32_t bare = 40;  // every vertex has a joint of its own but this one
+  std::vector<std::uint32_t> joints(mesh.vertex_count());
+  std::vector<float> weights(mesh.vertex_count(), 1.0f);
+  for (std::uint32_t v = 0; v < joints.size(); ++v) joints[v] = v;
+  weights[bare] = 0;
+  const hf_inner::GivenWeights given{1, joints.data(), weights.data()};
+  const auto to = make_core(mesh);
+  const FilledWeights expected = carry(make_core(mesh), given, to);
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    std::mt19937 random(seed);
+    PlainMesh turned = mesh;
+    for (std::uint32_t t = turned.triangle_count(); t-- > 0;) {
+      const std::uint32_t other = random() % (t + 1), turn = random() % 3;
+      std::swap_ranges(&turned.triangles[3 * t], &turned.triangles[3 * t] + 3, &turned.triangles[3 * other]);
+      std::rotate(&turned.triangles[3 * t], &turned.triangles[3 * t] + turn, &turned.triangles[3 * t] + 3);
+    }
+    const FilledWeights found = carry(make_core(turned), given, to);
+    for (const std::uint32_t joint : joints)
+      EXPECT_NEAR(share_of(found, bare, joint), share_of(expected, bare, joint), 1e-6) << joint;
+  }
+}
+
 TEST(CarriedWeights, TwoHundredGarmentsHaveNoBareVertex) {
   std::shared_ptr<const hf_inner::Core> cores[3];
   for (std::size_t k = 0; k < 3; ++k) cores[k] = make_core(body_of(k).mesh);
