@@ -274,18 +274,16 @@ class RigidPieces {
       }
     }
     const double most = *std::max_element(sum.begin(), sum.end());
-    // A piece that holds one bone and touches another alone has equal sums: rounding must not decide.
+    // A piece that asks for one bone and touches another alone has equal sums. Contacts decide then, not rounding.
     const auto own_share = [&](std::size_t k) {
       const Mean& mean = mean_[island];
       const Index* const found = std::find(mean.column, mean.column + kept_shares, static_cast<Index>(k));
       return found == mean.column + kept_shares ? 0.0 : mean.share[found - mean.column];
     };
-    std::size_t best = 0;
-    double own_best = -1;
+    std::size_t best = sum.size();
     for (std::size_t k = 0; k < sum.size(); ++k) {
-      if (sum[k] < most - equal_sums || !(own_share(k) > own_best + equal_sums)) continue;
-      best = k;
-      own_best = own_share(k);
+      if (sum[k] < most - equal_sums) continue;
+      if (best == sum.size() || own_share(k) < own_share(best) - equal_sums) best = k;
     }
     return robot() || most >= clear_share ? static_cast<Index>(best) : -1;
   }

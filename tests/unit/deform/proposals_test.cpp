@@ -128,6 +128,7 @@ TEST(HandleProposals, the_end_farther_from_the_middle_comes_first_in_any_numberi
   for (std::uint32_t v = 16 * 41 + 2; v < mesh.vertex_count(); ++v) {
     double* const p = &mesh.positions[3 * v];
     p[1] = 20 + 0.3 * p[1];
+    p[0] += 0.01 * p[2] + 0.03 * p[1];         // no two vertices are equally far
     p[0] += 0.05 * (p[0] - 15) * (p[0] - 15);  // vertices are denser at one end, so the middle is nearer to it
   }
   PlainMesh turned = mesh;

@@ -87,6 +87,42 @@ TEST(RigidPieces, APartWithoutABoneTakesThatOfThePartThatItTouches) {
   EXPECT_EQ(alone.range(alone.make(), 2, 2), whole) << "it touches nothing";
 }
 
+// The plate asks the bone above alone and touches the limb alone: the sums are equal in exact numbers.
+TEST(RigidPieces, EqualSumsAreDecidedByContactsInEveryUnit) {
+  for (const double unit : {1.0, 3.7, 0.01, 100.0, 1 / 3.0}) {
+    std::vector<PlainMesh> parts = {part(0, 4.4, 1), part(5.6, 9, 1), part(1.5, 2.5, 0.3, 1.33)};
+    for (PlainMesh& one : parts) {
+      for (double& x : one.positions) x *= unit;
+    }
+    Robot robot(parts);
+    robot.bones = std::make_unique<Bones>(*robot.skin->core->memory);
+    add_bone(*robot.bones, {0, 0, 0}, {5 * unit, 0, 0});
+    add_bone(*robot.bones, {5 * unit, 0, 0}, {9 * unit, 0, 0});
+    add_bone(*robot.bones, {2 * unit, 2.2 * unit, 0}, {2 * unit, 3.2 * unit, 0});
+    EXPECT_EQ(robot.range(robot.make(), 2, 0), whole) << unit;
+  }
+}
+
+// No part holds a bone of this skeleton, so all take bones from one another.
+TEST(RigidPieces, TheOrderOfThePartsDoesNotDecideWhichBoneTheyTake) {
+  const std::vector<PlainMesh> parts = {part(0, 2, 1), part(2.1, 5, 1.2), part(5.1, 6.5, 0.9), part(6.6, 9, 0.8)};
+  std::vector<std::vector<std::uint32_t>> taken;
+  std::vector<std::size_t> order = {0, 1, 2, 3};
+  do {
+    std::vector<PlainMesh> list;
+    for (const std::size_t i : order) list.push_back(parts[i]);
+    Robot robot(list);
+    robot.bones = std::make_unique<Bones>(*robot.skin->core->memory);
+    add_bone(*robot.bones, {-0.5, 2, 0}, {4.6, 2, 0});
+    add_bone(*robot.bones, {4.6, 2, 0}, {9.5, 2, 0});
+    const Weights weights = robot.make();
+    std::vector<std::uint32_t> bones(4);
+    for (std::size_t i = 0; i < 4; ++i) bones[order[i]] = weight_of(weights, robot.first[i], 1) > 0.5;
+    taken.push_back(bones);
+  } while (std::next_permutation(order.begin(), order.end()));
+  for (const auto& bones : taken) EXPECT_EQ(bones, taken.front());
+}
+
 TEST(RigidPieces, APinInAPartIsExactAndFades) {
   const Robot robot({part(0, 4, 1), part(4.2, 9, 1)});
   Weights weights = robot.make();
