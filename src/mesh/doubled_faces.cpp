@@ -182,8 +182,9 @@ void set_doubled_aside(Mesh& mesh, std::size_t vertex_count, Memory& memory) {
 
 namespace {
 
-// By face: whether it is to be turned round. Faces of one side keep their direction, those of two sides follow a
-// neighbour. An edge of more than two faces passes nothing on.
+// By face: whether it is to be turned round. Faces of one side keep their direction. Those of two sides follow most of
+// their neighbours of one side, and without such neighbours one that is decided. An edge of more than two faces passes
+// nothing on.
 class Turning {
  public:
   Turning(const Mesh& mesh, const Topology& topology, Vector<std::uint8_t> two_sided, Memory& memory)
@@ -209,6 +210,12 @@ class Turning {
     for (std::size_t f = 0; f < seen_.size(); ++f) {
       if (!two_sided_[f]) take(static_cast<Index>(f));
     }
+    for (std::size_t f = 0; f < seen_.size(); ++f) {
+      const int votes = two_sided_[f] ? votes_of(static_cast<Index>(f)) : 0;
+      if (votes == 0) continue;
+      turned[f] = votes > 0;
+      take(static_cast<Index>(f));
+    }
     spread();
     for (std::size_t f = 0; f < seen_.size(); ++f) {
       if (seen_[f]) continue;
@@ -232,12 +239,28 @@ class Turning {
         pass_on(face, edge_of_[at(c)]);
     }
   }
-  void pass_on(Index face, Index edge) {
+  // The face beyond an edge, or none. same: both run through the edge in one direction.
+  Index beyond(Index face, Index edge, bool& same) const noexcept {
     const Index begin = topology_.edge_triangle_start[at(edge)];
-    if (topology_.edge_triangle_start[at(edge) + 1] - begin != 2) return;
-    const Index a = face_of(topology_.triangle(begin)), other = a == face ? face_of(topology_.triangle(begin + 1)) : a;
-    if (seen_[at(other)]) return;
-    const bool same = topology_.forward(begin) == topology_.forward(begin + 1);
+    if (topology_.edge_triangle_start[at(edge) + 1] - begin != 2) return Mesh::none;
+    same = topology_.forward(begin) == topology_.forward(begin + 1);
+    const Index a = face_of(topology_.triangle(begin));
+    return a == face ? face_of(topology_.triangle(begin + 1)) : a;
+  }
+  // How many more neighbours of one side want a face turned round than do not.
+  int votes_of(Index face) const noexcept {
+    int votes = 0;
+    for (Index c = 3 * triangles_begin(mesh_, face); c < 3 * triangles_begin(mesh_, face + 1); ++c) {
+      bool same = false;
+      const Index other = beyond(face, edge_of_[at(c)], same);
+      if (other != Mesh::none && other != face && !two_sided_[at(other)]) votes += same ? 1 : -1;
+    }
+    return votes;
+  }
+  void pass_on(Index face, Index edge) {
+    bool same = false;
+    const Index other = beyond(face, edge, same);
+    if (other == Mesh::none || seen_[at(other)]) return;
     turned[at(other)] = same != (turned[at(face)] != 0);
     take(other);
   }

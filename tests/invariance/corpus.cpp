@@ -105,7 +105,8 @@ const char* const shared_models[] = {"gltf/khr_Fox.glb",
                                      "meshes/goathead.obj",
                                      "meshes/koala_low_resolution.obj",
                                      "meshes/wingnut.obj",
-                                     "meshes/bunny_6k_adaptive.off"};
+                                     "meshes/bunny_6k_adaptive.off",
+                                     "gltf/alien.glb"};  // of cubes: an edge of four triangles
 constexpr std::size_t quick_models = 2;
 
 Body read_body(const std::filesystem::path& file) {

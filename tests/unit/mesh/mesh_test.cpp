@@ -130,6 +130,25 @@ TEST(Mesh, counts_what_is_dirty) {
   EXPECT_GE(mesh.report.flipped_edge_count, 1u);
 }
 
+// One of the three neighbours of the middle triangle runs against the other two.
+TEST(Mesh, a_two_sided_face_follows_most_of_its_neighbours) {
+  const std::vector<double> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, -1, 1, 0, 1, -1, 0};
+  const std::vector<std::uint32_t> neighbour[] = {{2, 1, 3}, {0, 2, 4}, {1, 0, 5}};
+  for (int against = 0; against < 3; ++against) {
+    for (const bool back_first : {false, true}) {
+      Given given{positions, back_first ? std::vector<std::uint32_t>{1, 0, 2, 0, 1, 2}
+                                        : std::vector<std::uint32_t>{0, 1, 2, 1, 0, 2}};
+      for (int i = 0; i < 3; ++i) {
+        std::vector<std::uint32_t> own = neighbour[i];
+        if (i == against) std::swap(own[0], own[1]);
+        given.triangles.insert(given.triangles.end(), own.begin(), own.end());
+      }
+      hf_inner::Memory memory;
+      EXPECT_EQ(given.make(memory).report.flipped_edge_count, 1u) << against << back_first;
+    }
+  }
+}
+
 TEST(Mesh, numbers_components_by_their_first_vertex) {
   hf_inner::Memory memory;
   hf_test::PlainMesh plain = hf_test::grid(2, 2);
