@@ -26,7 +26,7 @@ struct Line {
 class LineFaces {
  public:
   LineFaces(const MeshInput& input, const Mesh& mesh, Memory& memory)
-      : input_(input), mesh_(mesh), memory_(memory), sides_(&memory), faces_(&memory) {}
+      : input_(input), mesh_(mesh), memory_(memory), edges_(&memory), sides_(&memory), faces_(&memory) {}
 
   // Lists the faces on a line whose corners all have a face with area. Returns whether there are any.
   bool find(JobRunner* jobs) {
@@ -57,7 +57,7 @@ class LineFaces {
 
   // By face of the mesh: 0 for those that are left out. One that goes can free an edge of another.
   Vector<std::uint8_t> kept() {
-    list_sides();
+    list_edges();
     Vector<std::uint8_t> kept(at(face_count(mesh_)), 1, &memory_);
     Vector<Index> queue(faces_.begin(), faces_.end(), &memory_);
     Poller poller;
@@ -67,10 +67,11 @@ class LineFaces {
       if (!kept[at(face)] || joins(face)) continue;
       kept[at(face)] = 0;
       each_side(face, [&](Index a, Index b) {
-        Side* const begin = first_side(a, b);
-        for (Side* side = begin; side != sides_.data() + sides_.size() && side->is(a, b); ++side) {
-          --side->uses;
-          if (kept[at(side->face)]) queue.push_back(side->face);
+        // the last face on an edge may join nothing now
+        Edge* const edge = edge_between(a, b);
+        if (--edge->uses != 1) return;
+        for (std::size_t i = edge->first; i < edge[1].first; ++i) {
+          if (kept[at(sides_[i].face)]) queue.push_back(sides_[i].face);
         }
       });
     }
@@ -78,14 +79,18 @@ class LineFaces {
   }
 
  private:
-  // A side of a face on a line, and how many sides of kept faces lie on the same edge.
+  // A side of a face on a line.
   struct Side {
-    Index a, b, face, uses;
-    bool is(Index x, Index y) const noexcept { return a == x && b == y; }
+    Index a, b, face;
     bool operator<(const Side& o) const noexcept {
       if (a != o.a) return a < o.a;
       return b != o.b ? b < o.b : face < o.face;
     }
+  };
+  // An edge of faces on a line: its sides begin with number `first`. uses: sides of all kept faces.
+  struct Edge {
+    Index a, b;
+    std::size_t first, uses;
   };
 
   Vec3 position(Index v) const noexcept {
@@ -130,25 +135,33 @@ class LineFaces {
       visit(std::min(a, b), std::max(a, b));
     }
   }
-  Side* first_side(Index a, Index b) noexcept {
-    return std::lower_bound(sides_.data(), sides_.data() + sides_.size(), Side{a, b, Mesh::none, 0});
+  // The edge of faces on a line between two vertices, a < b, or null.
+  Edge* edge_between(Index a, Index b) noexcept {
+    const auto found =
+        std::lower_bound(edges_.begin(), edges_.end(), Edge{a, b, 0, 0},
+                         [](const Edge& x, const Edge& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+    return found != edges_.end() && found->a == a && found->b == b ? &*found : nullptr;
   }
-  void list_sides() {
+  void list_edges() {
     Vector<std::uint8_t> touched(input_.vertex_count, 0, &memory_);
     for (const Index face : faces_) {
       each_side(face, [&](Index a, Index b) {
-        sides_.push_back({a, b, face, 0});
+        sides_.push_back({a, b, face});
         touched[at(a)] = touched[at(b)] = 1;
       });
     }
     std::sort(sides_.begin(), sides_.end());
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      if (i == 0 || sides_[i].a != sides_[i - 1].a || sides_[i].b != sides_[i - 1].b)
+        edges_.push_back({sides_[i].a, sides_[i].b, i, 0});
+    }
+    edges_.push_back({std::numeric_limits<Index>::max(), 0, sides_.size(), 0});  // ends the last one
     Poller poller;
     for (Index f = 0; f < face_count(mesh_); ++f) {
       poller.due();
       each_side(f, [&](Index a, Index b) {
-        if (!touched[at(a)] || !touched[at(b)]) return;
-        Side* const end = sides_.data() + sides_.size();
-        for (Side* side = first_side(a, b); side != end && side->is(a, b); ++side) ++side->uses;
+        Edge* const edge = touched[at(a)] && touched[at(b)] ? edge_between(a, b) : nullptr;
+        if (edge) ++edge->uses;
       });
     }
   }
@@ -162,7 +175,7 @@ class LineFaces {
     const Line line = longest_line(corners_of(mesh_, face));
     Vector<Part> shared(&memory_);
     each_side(face, [&](Index a, Index b) {
-      if (first_side(a, b)->uses < 2) return;
+      if (edge_between(a, b)->uses < 2) return;
       const double s = dot(position(a), line.along), t = dot(position(b), line.along);
       if (s != t) shared.push_back({std::min(s, t), std::max(s, t)});
     });
@@ -178,6 +191,7 @@ class LineFaces {
   const MeshInput& input_;
   const Mesh& mesh_;
   Memory& memory_;
+  Vector<Edge> edges_;  // sorted, one more
   Vector<Side> sides_;  // sorted
   Vector<Index> faces_;
 };
