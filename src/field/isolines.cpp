@@ -67,6 +67,9 @@ class Tracer {
     around_.clear();
     if (end(e) - begin(e) > 2) {
       sort_around_edge(mesh_, topology_, e, around_);
+      // Pairs begin at the end with the wider gap, so they do not depend on the direction of the edge.
+      const auto gap = [&](std::size_t i) { return std::fabs(around_[i + 1].angle - around_[i].angle); };
+      if (gap(around_.size() - 2) > gap(0)) std::reverse(around_.begin(), around_.end());
     } else {
       for (Index j = begin(e); j < end(e); ++j) around_.push_back({j, Mesh::none, 0, 0, 0});
     }

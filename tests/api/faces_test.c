@@ -256,9 +256,9 @@ static void concave_faces_holes_and_dirt(void** state) {
                                 {1.5f, 2, 0}, {1.5f, 1, 0}, {9, 9, 9}, {4, 0, 0}};
   const uint32_t c[] = {0, 1,  2, 3,  4, 5, 6, 7, 0, 8, 9, 10, 11, 8, /* the C; 0 - 8 is a bridge to the hole */
                         0, 2,  1, 13,                                 /* a triangle twice: 1 and 13 are one place */
-                        2, 5,  6, 6,                                  /* a repeated corner: a triangle */
+                        3, 5,  6, 6,                                  /* a repeated corner: a triangle */
                         1, 13, 1,                                     /* nothing left */
-                        6, 5,  2};                                    /* the third again, turned round */
+                        6, 5,  3};                                    /* the third again, turned round */
   const uint32_t sizes[] = {14, 4, 4, 3, 3};
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = 14;
@@ -281,8 +281,8 @@ static void concave_faces_holes_and_dirt(void** state) {
   const struct {
     double x, y;
     int found;
-  } rays[] = {{3, 0.5, 1},    {3, 3.5, 1}, {0.2, 3.8, 1}, {1, 0.5, 1},
-              {1.75, 1.5, 1}, {3, 2, 0},   {1, 1.5, 0},   {0.25, 1.5, 1}};
+  } rays[] = {{3, 0.5, 1},    {3, 3.5, 1},   {0.2, 3.8, 1}, {1, 0.5, 1},
+              {1.75, 1.5, 1}, {2.5, 2.5, 0}, {1, 1.5, 0},   {0.25, 1.5, 1}};
   for (size_t i = 0; i < COUNT_OF(rays); ++i) {
     const double from[3] = {rays[i].x, rays[i].y, 5}, down[3] = {0, 0, -1};
     hf_pick_desc front = HF_INIT(hf_pick_desc);
