@@ -1,0 +1,43 @@
+// All chosen numbers of this folder. Lengths are shares of the leg, from hip to sole, if nothing else is said.
+#pragma once
+#include <cstddef>
+
+namespace hf_inner {
+
+// A joint of a limb that bends by more than this cosine's angle at rest (20 degrees) ends a segment. Straighter ones
+// halve a bone, as twist joints in the chain do. Elbows of people at rest bend less: then the middle joint counts.
+constexpr double segment_bend = 0.94;
+// The plane in which a limb bends at rest counts in full above this share of its length, and not at all below the other.
+constexpr double bend_seen = 0.1, bend_unseen = 0.04;
+// A foot whose lowest point is below the first stands; above the second it is free. Toes of a swinging foot pass the
+// ground at about the second.
+constexpr double standing_height = 0.03, free_height = 0.09;
+// The height of a sole is that of the source below the first, and follows the turned leg above the second.
+constexpr double near_height = 0.05, far_height = 0.3;
+// Points of a sole share the weight of the body over this height above the lowest.
+constexpr double sole_softness = 0.006;
+// The offset of a foot fades in this time when the foot is free, in seconds: a third of a short swing.
+constexpr double fade_time = 0.1;
+// The offset of a standing foot stays below this.
+constexpr double most_offset = 0.15;
+// A leg that was not stretched further by its turns is stretched up to the first share of its length, and softly up to
+// the second.
+constexpr double soft_reach = 0.985, full_reach = 0.999;
+// The hips sink at most by this, so that feet reach the ground.
+constexpr double most_drop = 0.25;
+// A knee keeps bending to the side of its rest by this share of the thigh.
+constexpr double knee_side = 0.1;
+// Steps of a leg of three segments, and their damping as a share of its squared length. Eight steps meet a goal that is
+// a tenth of the leg away to a thousandth.
+constexpr int leg_steps = 8;
+constexpr double leg_damping = 1e-4;
+// Rounds of soles and legs: skin at the ankle moves with the shin, so that the lowest point is found again.
+constexpr int foot_rounds = 2;
+// Points that stand for a sole and for a part of the body. More change depths below a thousandth of the height.
+constexpr std::size_t sole_directions = 32, part_directions = 26;
+// Numbers of two rests are equal within this, as a share of the largest.
+constexpr double same_rest = 1e-5;
+// Poses taken for equal skeletons hold rotations that differ by no more than this in a quaternion.
+constexpr double same_turn = 1e-5;
+
+}  // namespace hf_inner
