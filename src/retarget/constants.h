@@ -9,10 +9,19 @@ namespace hf_inner {
 constexpr double segment_bend = 0.94;
 // The plane in which a limb bends at rest counts in full above this share of its length, and not at all below the other.
 constexpr double bend_seen = 0.1, bend_unseen = 0.04;
-// A foot whose lowest point is below the first stands; above the second it is free. Toes of a swinging foot pass the
+// A foot stands if its lowest point is below the first, and is free above the second. Toes of a swinging foot pass the
 // ground at about the second.
-constexpr double standing_height = 0.03, free_height = 0.09;
-// The height of a sole is that of the source below the first, and follows the turned leg above the second.
+constexpr double standing_height = 0.03, free_height = 0.06;
+// It stands if it is slower than the first against the ground, and is free above the second: legs a second. On ground
+// that moves, shares of its speed count where they are more.
+constexpr double standing_speed = 0.7, free_speed = 1.4, standing_share = 0.4, free_share = 0.6;
+// It begins and ends to stand in this time, in seconds: two frames.
+constexpr double standing_time = 0.03;
+// A ground slower than this rests, in legs a second.
+constexpr double least_ground_speed = 0.2;
+// Velocities of soles belong together within the first, in legs a second, or this share of their own.
+constexpr double velocity_radius = 0.3, velocity_share = 0.25;
+// A sole in the air is no lower than that of the source below the first; above the second it follows the turned leg.
 constexpr double near_height = 0.05, far_height = 0.3;
 // Points of a sole share the weight of the body over this height above the lowest.
 constexpr double sole_softness = 0.006;
@@ -35,6 +44,10 @@ constexpr double leg_damping = 1e-4;
 constexpr int foot_rounds = 2;
 // Points that stand for a sole and for a part of the body. More change depths below a thousandth of the height.
 constexpr std::size_t sole_directions = 32, part_directions = 26;
+// A neck or tail turns up by no more than this, in radians; more turns a neck upside down.
+constexpr double most_pitch = 1.0;
+// Rounds of turning up: another point may be the lowest then.
+constexpr int pitch_rounds = 3;
 // Numbers of two rests are equal within this, as a share of the largest.
 constexpr double same_rest = 1e-5;
 // Poses taken for equal skeletons hold rotations that differ by no more than this in a quaternion.

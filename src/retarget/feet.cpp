@@ -4,6 +4,7 @@
 
 #include "retarget/legs_bend.h"
 #include "retarget/retargeter.h"
+#include "retarget/sole.h"
 
 namespace hf_inner {
 namespace {
@@ -13,55 +14,33 @@ double smooth_step(double low, double high, double x) noexcept {
   return t * t * (3 - 2 * t);
 }
 
-double lowest(const Rig& rig, const Vector<Vec3>& points) noexcept {
-  double low = 1e300;
-  for (const Vec3& p : points) low = std::min(low, dot(p, rig.up));
-  return low;
+// How much a sole stands: it is low, and it is slow against the ground.
+double stands(const Retargeter& r, const FootPair& foot, double seconds) noexcept {
+  const double low = 1 - smooth_step(standing_height, free_height, foot.height);
+  if (!foot.known || !(seconds > 0) || !r.options.lock_feet) return low;
+  const double* g = r.options.ground_velocity;
+  const Vec3 ground = r.source.level({g[0], g[1], g[2]});
+  const double speed = norm((1 / seconds) * foot.step - ground) / r.source.leg_length;
+  const double of_ground = norm(ground) / r.source.leg_length;
+  return low * (1 - smooth_step(std::max(standing_speed, standing_share * of_ground),
+                                std::max(free_speed, free_share * of_ground), speed));
 }
 
-// How far a sole moved over the ground: its lowest points carry the weight, before and after alike.
-Vec3 sole_step(const Rig& rig, const Vector<Vec3>& was, const Vector<Vec3>& now, double softness) noexcept {
-  const double low_was = lowest(rig, was), low_now = lowest(rig, now);
-  const auto weight = [&](double above) {
-    const double w = 1 / (1 + (above / softness) * (above / softness));
-    return w * w;
-  };
-  Vec3 step_was, step_now;
-  double sum_was = 0, sum_now = 0;
-  for (std::size_t k = 0; k < now.size(); ++k) {
-    const double a = weight(dot(was[k], rig.up) - low_was), b = weight(dot(now[k], rig.up) - low_now);
-    step_was = step_was + a * (now[k] - was[k]);
-    step_now = step_now + b * (now[k] - was[k]);
-    sum_was += a;
-    sum_now += b;
-  }
-  return rig.level((0.5 / sum_was) * step_was + (0.5 / sum_now) * step_now);
-}
-
-void read_sole(const RigLeg& leg, const Stance& stance, Vector<Vec3>& points) noexcept {
-  for (std::size_t k = 0; k < points.size(); ++k) points[k] = leg.sole[k].at(stance);
-}
-
-// Where the leg stands before it is bent, and how high the sole of the source is.
-void read_foot(const Retargeter& r, FootPair& foot) {
+// Where the leg stands before it is bent, and what the sole of the source does.
+void read_foot(const Retargeter& r, FootPair& foot, double seconds) {
   const RigLeg &by = r.source.legs[at(foot.source)], &leg = r.target.legs[at(foot.target)];
   read_sole(by, r.from, foot.source_now);
   foot.height = (lowest(r.source, foot.source_now) - r.source.ground) / r.source.leg_length;
-  foot.standing = 1 - smooth_step(standing_height, free_height, foot.height);
+  if (foot.known)
+    foot.step = sole_step(r.source, foot.source_was, foot.source_now, sole_softness * r.source.leg_length);
+  const double stand = stands(r, foot, seconds);
+  const bool at_once = !foot.known || !r.options.lock_feet;
+  foot.standing += (stand - foot.standing) * (at_once ? 1 : 1 - exponential(-seconds / standing_time));
   const std::size_t n = leg.segments.count();
   for (std::size_t k = 0; k < n; ++k) foot.places[k] = r.to.place[at(leg.segments.first(k))];
   foot.places[n] = r.to.place[at(leg.foot)];
   const std::size_t thigh = at(leg.segments.joints[0]);
   foot.knee_now = r.to.turn[thigh] * (inverse(r.target.rest.turn[thigh]) * foot.knee);
-}
-
-// Turns the joints of each segment, or takes its turn back.
-void turn_leg(const Segments& leg, const Vector<Turn>& bends, bool back, Stance& stance) noexcept {
-  for (std::size_t j = 0, k = 0; j < leg.joints.size(); ++j) {
-    while (k + 1 < leg.count() && j >= at(leg.starts[k + 1])) ++k;
-    Turn& turn = stance.turn[at(leg.joints[j])];
-    turn = unit_turn((back ? inverse(bends[k]) : bends[k]) * turn);
-  }
 }
 
 // The ankle over the ground, before heights: where its turns put it, or for legs that are not aligned where the foot
@@ -74,7 +53,7 @@ Vec3 turned_ankle(const Retargeter& r, const FootPair& foot) {
   return foot.places[0] + r.height_scale * (r.across * v) + r.target.level(body * foot.stance);
 }
 
-// Sets the goal of the ankle. The sole is as high as that of the source where it is near the ground.
+// Sets the goal of the ankle. A standing sole is as high as that of the source; one in the air is not lower.
 void aim_foot(const Retargeter& r, FootPair& foot, bool first, double seconds) {
   const Rig& rig = r.target;
   const RigLeg& leg = rig.legs[at(foot.target)];
@@ -82,16 +61,17 @@ void aim_foot(const Retargeter& r, FootPair& foot, bool first, double seconds) {
   read_sole(leg, r.to, foot.target_now);
   const double below = lowest(rig, foot.target_now) - dot(now, rig.up);  // of the sole from the ankle
   Vec3 goal = turned_ankle(r, foot);
-  const double share = smooth_step(near_height, far_height, foot.height);
-  const double sole = rig.ground + r.height_scale * r.source.leg_length * std::max(0.0, foot.height);
-  const double height = share * dot(goal, rig.up) + (1 - share) * (sole - below);
+  const double own = dot(goal, rig.up);
+  const double near = 1 - smooth_step(near_height, far_height, foot.height);
+  const double sole = rig.ground + r.height_scale * r.source.leg_length * std::max(0.0, foot.height) - below;
+  const double free = own + near * std::max(0.0, sole - own);
+  const double height = foot.standing * sole + (1 - foot.standing) * free;
   goal = rig.level(goal) + std::max(height, rig.ground - below) * rig.up;
-  if (r.options.lock_feet && first && seconds >= 0) {
+  if (r.options.lock_feet && first) {
     for (Vec3& p : foot.target_now) p = p - now + goal;
     if (foot.known && seconds > 0) {
       const Vec3 slip = sole_step(rig, foot.target_was, foot.target_now, sole_softness * leg.length) -
-                        r.scale * (r.across * sole_step(r.source, foot.source_was, foot.source_now,
-                                                        sole_softness * r.source.leg_length));
+                        r.scale * (r.across * foot.step);
       foot.offset = foot.offset - foot.standing * slip;
       foot.offset = exponential(-(1 - foot.standing) * seconds / fade_time) * foot.offset;
       const double far = norm(foot.offset) / (most_offset * leg.length);
@@ -119,7 +99,7 @@ double missing_height(const Retargeter& r, const FootPair& foot) {
 
 void Retargeter::meet_goals(double seconds) {
   if (feet.empty()) return;
-  for (FootPair& foot : feet) read_foot(*this, foot);
+  for (FootPair& foot : feet) read_foot(*this, foot, seconds);
   const Vec3 turned_mover = mover_place;
   for (int round = 0; round < foot_rounds; ++round) {
     double drop = 0, length = 0;
@@ -133,9 +113,9 @@ void Retargeter::meet_goals(double seconds) {
     mover_place = turned_mover - drop * target.up;
     for (FootPair& foot : feet) {
       const Segments& segments = target.legs[at(foot.target)].segments;
-      if (round > 0) turn_leg(segments, foot.bends, true, to);
+      if (round > 0) turn_segments(segments, foot.bends, true, to);
       bend_leg(foot.places, -drop * target.up, foot.goal, foot.knee_now, foot.bends);
-      turn_leg(segments, foot.bends, false, to);
+      turn_segments(segments, foot.bends, false, to);
     }
     target.place(wanted, mover_place, to);
   }

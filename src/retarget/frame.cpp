@@ -24,10 +24,12 @@ Retargeter::Retargeter(const RetargetSide& s, const RetargetSide& t, const Retar
       follows(&m),
       pairs(&m),
       feet(&m),
+      parts(&m),
       same(m),
       report_(m) {
   check_choice(static_cast<std::int32_t>(chosen.root_motion), 3, "root_motion");
   check_finite(chosen.scale, "scale");
+  for (const double v : chosen.ground_velocity) check_finite(v, "ground_velocity");
   if (chosen.scale < 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is below 0; give a ratio, or 0 to find it");
   across = unit_turn(target.axes * inverse(source.axes));
   people = source.upright && target.upright;
@@ -37,7 +39,8 @@ Retargeter::Retargeter(const RetargetSide& s, const RetargetSide& t, const Retar
   match_chains(s, t);
   find_root();
   find_feet();
-  if (chosen.copy_same) find_same(s, t);
+  find_parts(s, t);
+  if (chosen.copy_same && chosen.root_motion == RootMotion::keep && !(chosen.scale > 0)) find_same(s, t);
   for (const ChainPair& pair : pairs)
     report_.chains.push_back({pair.role, pair.side, static_cast<std::uint32_t>(pair.source.joints.size()),
                               static_cast<std::uint32_t>(pair.target.joints.size()), 0, 0});
@@ -153,6 +156,7 @@ void Retargeter::frame(const double* poses, double seconds, double* out) {
   turn_joints();
   move_root();
   if (options.goals) {
+    lift_trunk();
     meet_goals(seconds);
     clear_ground();
   }

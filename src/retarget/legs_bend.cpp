@@ -90,4 +90,12 @@ void bend_leg(const Vector<Vec3>& places, Vec3 shift, Vec3 goal, Vec3 knee, Vect
     bend_more(places.data(), n, end, length, bends);
 }
 
+void turn_segments(const Segments& leg, const Vector<Turn>& bends, bool back, Stance& stance) noexcept {
+  for (std::size_t j = 0, k = 0; j < leg.joints.size(); ++j) {
+    while (k + 1 < leg.count() && j >= at(leg.starts[k + 1])) ++k;
+    Turn& turn = stance.turn[at(leg.joints[j])];
+    turn = unit_turn((back ? inverse(bends[k]) : bends[k]) * turn);
+  }
+}
+
 }  // namespace hf_inner

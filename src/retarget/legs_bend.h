@@ -1,7 +1,6 @@
 // Bends a leg until its foot is where it shall be.
 #pragma once
-#include "base/memory.h"
-#include "retarget/turns.h"
+#include "retarget/rig.h"
 
 namespace hf_inner {
 
@@ -9,5 +8,8 @@ namespace hf_inner {
 // segments bends. bends: the turn of each segment in the world. A goal out of reach is met as far as the leg reaches;
 // a leg that was straight may stay so.
 void bend_leg(const Vector<Vec3>& places, Vec3 shift, Vec3 goal, Vec3 knee, Vector<Turn>& bends);
+
+// Turns the joints of each segment, or takes its turn back.
+void turn_segments(const Segments& limb, const Vector<Turn>& bends, bool back, Stance& stance) noexcept;
 
 }  // namespace hf_inner

@@ -10,9 +10,9 @@
 // over the ground; soles, tails, necks and the trunk stay above it. Lengths of bones never change. A joint without a
 // partner keeps its rest under its parent. Two equal skeletons are noticed: their keys are copied.
 //
-// What a frame depends on: its source pose, and one horizontal offset for each foot. The offset holds a standing foot
-// where it stands; it comes from all frames since the last reset, and fades while the foot is in the air. With
-// lock_feet off a frame depends on its source pose alone, so that a scrubbed timeline gives the bits of a played one.
+// What a frame depends on: its source pose, and for each foot whether it stands and an offset that holds it where it
+// stands. Both come from the frames since the last reset, and fade within a step. With lock_feet off a frame depends on
+// its source pose alone: a foot stands where it is low. Then a scrubbed timeline gives the bits of a played one.
 //
 // The object keeps no pointer of the caller. A frame allocates nothing. One object serves one thread at a time.
 #pragma once
@@ -34,7 +34,10 @@ struct RetargetOptions {
   bool goals = true;      // of feet and ground
   bool lock_feet = true;  // standing feet slide no more than those of the source
   bool copy_same = true;  // equal skeletons
-  double scale = 0;       // of travel and height; 0: found from the legs
+  double scale = 0;       // of travel; 0: found from the legs
+  // How the ground moves below a clip that runs on the spot, in the space of the source, units a second; 0: it rests.
+  // find_ground_velocity finds it.
+  double ground_velocity[3] = {0, 0, 0};
 };
 
 // What know_character was given and what it found. rest: 10 numbers a joint (translation, rotation x y z w, scale,
@@ -69,6 +72,11 @@ struct RetargetReport {
   double limb_degrees = 0;                                  // mean over arms and legs and frames
   double deepest_drop = 0;                                  // of the hips, so that feet reach; in units of the target
 };
+
+// The velocity that the soles of a clip have where they stand: 0 if the clip travels. poses: count frames of 10 numbers
+// for each joint, `seconds` apart.
+void find_ground_velocity(const RetargetSide& source, const double* poses, std::uint32_t count, double seconds,
+                          double velocity[3], Memory& memory);
 
 class Retargeter;
 

@@ -37,8 +37,9 @@ struct FootPair {
   Vec3 knee;       // where the knee points at rest
   double tilt = 1;  // the share of the foot's tilt that is kept
 
-  // State: the offset, and the soles of the last frame. The target's are without the offset.
+  // State: the offset, how much the foot stands, and the soles of the last frame. The target's are without the offset.
   Vec3 offset;
+  double standing = 0;  // 0 to 1
   bool known = false;
   Vector<Vec3> source_was, target_was;
 
@@ -47,9 +48,22 @@ struct FootPair {
   Vector<Vec3> places;  // where its segments begin and end, before the leg is bent
   Vector<Turn> bends;   // what is added to the turns of its segments
   double height = 0;    // of the source's sole, in its legs
-  double standing = 0;  // 0 to 1
+  Vec3 step;            // of the source's sole since the last frame
   Vec3 knee_now;
   Vec3 goal;            // of the ankle
+};
+
+// A part of the body that stays over the ground, as far as that of the source does.
+struct GroundPart {
+  explicit GroundPart(Memory& memory)
+      : arm(memory), source(&memory), target(&memory), below(&memory), places(&memory), bends(&memory) {}
+  enum class Way { lift, pitch, bend } way = Way::lift;  // the body rises, the part turns up, the arm bends
+  Index root = -1;                                       // where it turns
+  Segments arm;
+  Vector<SkinPoint> source, target;
+  Vector<Index> below;  // joints that follow and hang on the root
+  Vector<Vec3> places;
+  Vector<Turn> bends;
 };
 
 // How joints of an equal skeleton are copied.
@@ -60,6 +74,7 @@ struct SameSkeleton {
   double bones = 1;        // lengths of bones over those of the source
   Turn turn;               // of the target's world against the source's
   double scale = 1;        // of places in the world
+  Index root = -1;         // of the target, above the hips
 };
 
 class Retargeter {
@@ -80,6 +95,8 @@ class Retargeter {
   void move_travel();                                                              // frame.cpp
   void find_feet();                                                                // feet_find.cpp
   void meet_goals(double seconds);                                                 // feet.cpp
+  void find_parts(const RetargetSide& source, const RetargetSide& target);            // ground.cpp
+  void lift_trunk();                                                               // ground.cpp
   void clear_ground();                                                             // ground.cpp
   void write_joints(double* target) const;                                         // frame.cpp
   void measure();                                                                  // report.cpp
@@ -93,6 +110,7 @@ class Retargeter {
   Vector<Follow> follows;
   Vector<ChainPair> pairs;
   Vector<FootPair> feet;
+  Vector<GroundPart> parts;
   SameSkeleton same;
   double scale = 1;         // of travel
   double height_scale = 1;  // of heights

@@ -63,12 +63,12 @@ void set_axes(Rig& rig, const Character& character) {
 }
 
 // A pose that is named as rest may face elsewhere: the axes turn about up as the line between the thighs did.
-void face_rest(Rig& rig, const Stance& file_rest) {
+void face_rest(Rig& rig) {
   for (std::size_t k = 0; k + 1 < rig.legs.size(); ++k) {
     const RigLeg &a = rig.legs[k], &b = rig.legs[k + 1];
     if (a.side != Side::left || b.side != Side::right) continue;
     const std::size_t l = at(a.segments.joints[0]), r = at(b.segments.joints[0]);
-    const Vec3 was = rig.level(file_rest.place[l] - file_rest.place[r]);
+    const Vec3 was = rig.level(rig.file_rest.place[l] - rig.file_rest.place[r]);
     const Vec3 is = rig.level(rig.rest.place[l] - rig.rest.place[r]);
     const Turn turn = turn_about(rig.up, arc_tangent(dot(rig.up, cross(was, is)), dot(was, is)));
     rig.forward = turn * rig.forward;
@@ -147,6 +147,7 @@ Rig::Rig(const RetargetSide& side, const char* side_name, Memory& m)
       rotations(&m),
       flipped(&m),
       posts(&m),
+      file_rest(m),
       rest(m),
       trunk(&m),
       neck(&m),
@@ -162,7 +163,7 @@ Rig::Rig(const RetargetSide& side, const char* side_name, Memory& m)
   find_order(*this, m);
   rest.resize(n);
   stand(*this, rest);
-  Stance file_rest = rest;
+  file_rest = rest;
   flipped.assign(n, 0);
   posts.resize(n);
   if (side.rest) {
@@ -172,8 +173,8 @@ Rig::Rig(const RetargetSide& side, const char* side_name, Memory& m)
   find_flips(*this, rest);
   find_legs(*this, side.character, m);
   find_trunk(*this, side.character, m);
-  find_soles(*this, side, file_rest, m);
-  if (side.rest) face_rest(*this, file_rest);
+  find_soles(*this, side, m);
+  if (side.rest) face_rest(*this);
 }
 
 bool Rig::is_below(Index joint, Index ancestor) const noexcept {

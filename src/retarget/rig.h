@@ -65,6 +65,7 @@ struct Rig {
   Vector<Turn> rotations;
   Vector<std::uint8_t> flipped;  // its rest transform mirrors
   Vector<Turn> posts;            // see local_turn
+  Stance file_rest;  // in which the vertices are given
   Stance rest;
 
   Turn axes;  // takes x to left, y to up, z to forward
@@ -99,10 +100,9 @@ void find_order(Rig& rig, Memory& memory);
 void find_trunk(Rig& rig, const Character& character, Memory& memory);
 Segments cut_chain(const Rig& rig, const Character& character, const Chain& chain, Memory& memory);
 void find_legs(Rig& rig, const Character& character, Memory& memory);
-void find_soles(Rig& rig, const RetargetSide& side, const Stance& file_rest, Memory& memory);
+void find_soles(Rig& rig, const RetargetSide& side, Memory& memory);
 // The outermost points that the joints marked in `part` own.
-Vector<SkinPoint> outer_points(const RetargetSide& side, const Stance& file_rest, const Vector<std::uint8_t>& part,
-                               Memory& memory);
+Vector<SkinPoint> outer_points(const Rig& rig, const RetargetSide& side, const Vector<std::uint8_t>& part, Memory& memory);
 const Chain* find_chain(const Character& character, Role role, Side side, std::uint32_t number);
 
 }  // namespace hf_inner

@@ -101,7 +101,8 @@ void add_bare_sole(const Rig& rig, const Stance& rest, RigLeg& leg) {
 }  // namespace
 
 // The lowest points of what the foot owns, and of what the shin owns below the ankle.
-void find_soles(Rig& rig, const RetargetSide& side, const Stance& file_rest, Memory& memory) {
+void find_soles(Rig& rig, const RetargetSide& side, Memory& memory) {
+  const Stance& file_rest = rig.file_rest;
   for (RigLeg& leg : rig.legs) {
     if (leg.foot < 0) continue;
     const Vec3 ankle = file_rest.place[at(leg.foot)];
@@ -116,10 +117,10 @@ void find_soles(Rig& rig, const RetargetSide& side, const Stance& file_rest, Mem
   }
 }
 
-Vector<SkinPoint> outer_points(const RetargetSide& side, const Stance& file_rest, const Vector<std::uint8_t>& part,
+Vector<SkinPoint> outer_points(const Rig& rig, const RetargetSide& side, const Vector<std::uint8_t>& part,
                                Memory& memory) {
   return outermost(
-      side.input, file_rest, part_directions, {}, false, [&](Index j, Vec3) { return part[at(j)] != 0; }, memory);
+      side.input, rig.file_rest, part_directions, {}, false, [&](Index j, Vec3) { return part[at(j)] != 0; }, memory);
 }
 
 }  // namespace hf_inner

@@ -76,21 +76,29 @@ int run(int argc, char** argv) {
   const hf_gltf::Animation& clip = source.animations[find_clip(source, files[1])];
   const std::vector<double> times = hf_gltf::frame_times(clip, rate);
   std::vector<std::vector<double>> frames;
+  std::vector<double> poses;
+  for (const double time : times) {
+    const std::vector<double> pose = hf_test::trs_of(hf_gltf::sample(source, clip, time));
+    poses.insert(poses.end(), pose.begin(), pose.end());
+  }
   const CharacterInput ia = a.input(), ib = b.input();
+  find_ground_velocity({ia, ca, nullptr}, poses.data(), static_cast<std::uint32_t>(times.size()), 1 / rate,
+                       options.ground_velocity, memory);
   Retarget retarget({ia, ca, nullptr}, {ib, cb, nullptr}, options, memory);
   const hf_test::PlainRetarget peer(ia, ca, ib, cb);
   double us = 0;
   for (std::size_t f = 0; f < times.size(); ++f) {
-    const std::vector<double> pose = hf_test::trs_of(hf_gltf::sample(source, clip, times[f]));
+    const double* pose = &poses[10 * source.nodes.size() * f];
     frames.emplace_back(10 * target.nodes.size());
     const auto start = std::chrono::steady_clock::now();
     if (plain)
-      peer.frame(pose.data(), frames.back().data());
+      peer.frame(pose, frames.back().data());
     else
-      retarget.frame(pose.data(), f == 0 ? 0 : times[f] - times[f - 1], frames.back().data());
+      retarget.frame(pose, f == 0 ? 0 : times[f] - times[f - 1], frames.back().data());
     us += std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
   }
-  std::printf("%s %s on %s, %zu frames\n", files[0].c_str(), clip.name.c_str(), files[2].c_str(), times.size());
+  std::printf("%s %s on %s, %zu frames, ground %.3g %.3g %.3g\n", files[0].c_str(), clip.name.c_str(), files[2].c_str(),
+              times.size(), options.ground_velocity[0], options.ground_velocity[1], options.ground_velocity[2]);
   if (!plain) print_report(retarget.report(), a, b, us / static_cast<double>(times.size()));
   hf_test::set_clip(target, clip.name, times, frames);
   hf_gltf::write_gltf(target, files[3]);

@@ -1,0 +1,13 @@
+// Soles of feet as a few points of the skin.
+#pragma once
+#include "retarget/rig.h"
+
+namespace hf_inner {
+
+void read_sole(const RigLeg& leg, const Stance& stance, Vector<Vec3>& points) noexcept;
+// The lowest coordinate along up.
+double lowest(const Rig& rig, const Vector<Vec3>& points) noexcept;
+// How far a sole moved over the ground: its lowest points carry the weight, before and after alike.
+Vec3 sole_step(const Rig& rig, const Vector<Vec3>& was, const Vector<Vec3>& now, double softness) noexcept;
+
+}  // namespace hf_inner
