@@ -15,6 +15,8 @@ constexpr double standing_height = 0.03, free_height = 0.06;
 // It stands if it is slower than the first against the ground, and is free above the second: legs a second. On ground
 // that moves, shares of its speed count where they are more.
 constexpr double standing_speed = 0.7, free_speed = 1.4, standing_share = 0.4, free_share = 0.6;
+// Points of a sole count as low up to this above the lowest: the thickness of a shoe's edge.
+constexpr double low_share = 0.01;
 // It begins and ends to stand in this time, in seconds: two frames.
 constexpr double standing_time = 0.03;
 // A ground slower than this rests, in legs a second.

@@ -20,7 +20,9 @@ double stands(const Retargeter& r, const FootPair& foot, double seconds) noexcep
   if (!foot.known || !(seconds > 0) || !r.options.lock_feet) return low;
   const double* g = r.options.ground_velocity;
   const Vec3 ground = r.source.level({g[0], g[1], g[2]});
-  const double speed = norm((1 / seconds) * foot.step - ground) / r.source.leg_length;
+  const double speed =
+      slowest_step(r.source, foot.source_was, foot.source_now, seconds * ground, low_share * r.source.leg_length) /
+      (seconds * r.source.leg_length);
   const double of_ground = norm(ground) / r.source.leg_length;
   return low * (1 - smooth_step(std::max(standing_speed, standing_share * of_ground),
                                 std::max(free_speed, free_share * of_ground), speed));
@@ -70,8 +72,10 @@ void aim_foot(const Retargeter& r, FootPair& foot, bool first, double seconds) {
   if (r.options.lock_feet && first) {
     for (Vec3& p : foot.target_now) p = p - now + goal;
     if (foot.known && seconds > 0) {
-      const Vec3 slip = sole_step(rig, foot.target_was, foot.target_now, sole_softness * leg.length) -
-                        r.scale * (r.across * foot.step);
+      const Vec3 own_step = sole_step(rig, foot.target_was, foot.target_now, sole_softness * leg.length);
+      const Vec3 by_step = r.scale * (r.across * foot.step), slip = own_step - by_step;
+      foot.walked += foot.standing * dot(own_step, by_step);
+      foot.walked_by += foot.standing * dot(by_step, by_step);
       foot.offset = foot.offset - foot.standing * slip;
       foot.offset = exponential(-(1 - foot.standing) * seconds / fade_time) * foot.offset;
       const double far = norm(foot.offset) / (most_offset * leg.length);
@@ -83,22 +87,39 @@ void aim_foot(const Retargeter& r, FootPair& foot, bool first, double seconds) {
       foot.known = true;
     }
   }
-  foot.goal = goal + foot.offset;
+  foot.goal = goal;
 }
 
-// How far the hips sink so that a standing foot reaches its goal.
-double missing_height(const Retargeter& r, const FootPair& foot) {
-  const RigLeg& leg = r.target.legs[at(foot.target)];
-  const double reach = std::max(soft_reach * leg.length, norm(foot.places.back() - foot.places[0]));
+// A leg that its turns stretch further may stay so.
+double reach_of(const Retargeter& r, const FootPair& foot) noexcept {
+  return std::max(soft_reach * r.target.legs[at(foot.target)].length, norm(foot.places.back() - foot.places[0]));
+}
+
+// How far the hips sink so that a standing foot reaches its goal. The offset is left out: it bends the path of the
+// foot, not the body.
+double missing_height(const Retargeter& r, const FootPair& foot) noexcept {
+  const double reach = reach_of(r, foot);
   const Vec3 d = foot.places[0] - foot.goal;
   const double aside = std::min(norm(r.target.level(d)), 0.9 * reach);
   return foot.standing * std::max(0.0, dot(d, r.target.up) - std::sqrt(reach * reach - aside * aside));
+}
+
+// Adds the offset to the goal, as far as the leg reaches.
+void add_offset(const Retargeter& r, FootPair& foot, double drop) noexcept {
+  const Vec3 a = foot.goal - foot.places[0] + drop * r.target.up, b = foot.offset;
+  const double reach = reach_of(r, foot), left = reach * reach - dot(a, a), bb = dot(b, b), ab = dot(a, b);
+  if (bb > 0 && bb + 2 * ab > left) {
+    const double share = left > 0 ? (std::sqrt(ab * ab + bb * left) - ab) / bb : 0;
+    foot.offset = std::min(1.0, share) * b;
+  }
+  foot.goal = foot.goal + foot.offset;
 }
 
 }  // namespace
 
 void Retargeter::meet_goals(double seconds) {
   if (feet.empty()) return;
+  double walked = 0, walked_by = 0;
   for (FootPair& foot : feet) read_foot(*this, foot, seconds);
   const Vec3 turned_mover = mover_place;
   for (int round = 0; round < foot_rounds; ++round) {
@@ -106,6 +127,8 @@ void Retargeter::meet_goals(double seconds) {
     for (FootPair& foot : feet) {
       aim_foot(*this, foot, round == 0, seconds);
       drop = std::max(drop, missing_height(*this, foot));
+      if (round == 0) walked += foot.walked;
+      if (round == 0) walked_by += foot.walked_by;
       length = std::max(length, target.legs[at(foot.target)].length);
     }
     drop = std::min(drop, most_drop * length);
@@ -113,12 +136,14 @@ void Retargeter::meet_goals(double seconds) {
     mover_place = turned_mover - drop * target.up;
     for (FootPair& foot : feet) {
       const Segments& segments = target.legs[at(foot.target)].segments;
+      add_offset(*this, foot, drop);
       if (round > 0) turn_segments(segments, foot.bends, true, to);
       bend_leg(foot.places, -drop * target.up, foot.goal, foot.knee_now, foot.bends);
       turn_segments(segments, foot.bends, false, to);
     }
     target.place(wanted, mover_place, to);
   }
+  if (walked_by > 0) report_.stride = walked / walked_by;
 }
 
 }  // namespace hf_inner

@@ -65,6 +65,9 @@ void Retargeter::find_feet() {
       const double rho = (leg.sole_length / target.leg_length) / (by.sole_length / source.leg_length);
       // A longer foot that tilts alike lifts its heel or digs in its toes by so much more.
       if (std::isfinite(rho) && rho > 1) foot.tilt = 1 / rho;
+      for (Index j = 0; j < target.count; ++j) {
+        if (wanted[at(j)] && target.is_below(j, leg.foot)) foot.below.push_back(j);
+      }
       foot.source_now.resize(by.sole.size());
       foot.source_was.resize(by.sole.size());
       foot.target_now.resize(leg.sole.size());

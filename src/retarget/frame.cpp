@@ -91,11 +91,12 @@ void Retargeter::turn_joints() {
         f.a == f.b ? unit_turn(a) : unit_turn(between(a, across * (from.turn[at(f.b)] * f.post_b), f.share));
   }
   for (const FootPair& foot : feet) {
-    if (!(foot.tilt < 1)) continue;
-    const std::size_t j = at(target.legs[at(foot.target)].foot);
-    const Turn since_rest = to.turn[j] * inverse(target.rest.turn[j]);
-    const Turn tilt = shortest_turn(target.up, since_rest * target.up);
-    to.turn[j] = unit_turn(between({}, tilt, foot.tilt) * (inverse(tilt) * to.turn[j]));
+    for (const Index joint : foot.below) {
+      if (!(foot.tilt < 1)) break;
+      Turn& turn = to.turn[at(joint)];
+      const Turn tilt = shortest_turn(target.up, turn * (inverse(target.rest.turn[at(joint)]) * target.up));
+      turn = unit_turn(between({}, tilt, foot.tilt) * (inverse(tilt) * turn));
+    }
   }
 }
 
@@ -169,7 +170,9 @@ void Retargeter::reset() noexcept {
   for (FootPair& foot : feet) {
     foot.known = false;
     foot.offset = {};
+    foot.walked = foot.walked_by = 0;
   }
+  report_.stride = 1;
   for (ChainPair& pair : pairs) pair.sum = pair.worst = 0;
   for (ChainReport& chain : report_.chains) chain.mean_degrees = chain.worst_degrees = 0;
   report_.frames = 0;

@@ -70,6 +70,9 @@ struct RetargetReport {
   Vector<std::uint32_t> unmatched_source, unmatched_target;  // joints of the body without a partner
   std::uint64_t frames = 0;                                 // since the last reset
   double limb_degrees = 0;                                  // mean over arms and legs and frames
+  // How far standing feet go by the turns of their legs alone, over `scale` times that of the source. A clip on the spot
+  // that is moved at scale x stride times its speed needs the least holding of feet.
+  double stride = 1;
   double deepest_drop = 0;                                  // of the hips, so that feet reach; in units of the target
 };
 

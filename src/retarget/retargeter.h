@@ -25,7 +25,8 @@ struct ChainPair {
 // A foot of the target and that of the source which it follows.
 struct FootPair {
   explicit FootPair(Memory& memory)
-      : source_was(&memory),
+      : below(&memory),
+        source_was(&memory),
         target_was(&memory),
         source_now(&memory),
         target_now(&memory),
@@ -35,12 +36,14 @@ struct FootPair {
   bool aligned = false;
   Vec3 stance;     // of the target less that of the source, from hip to foot, in the axes of the target; not aligned
   Vec3 knee;       // where the knee points at rest
-  double tilt = 1;  // the share of the foot's tilt that is kept
+  double tilt = 1;      // the share of the foot's tilt that is kept
+  Vector<Index> below;  // the foot and what follows below it
 
   // State: the offset, how much the foot stands, and the soles of the last frame. The target's are without the offset.
   Vec3 offset;
   double standing = 0;  // 0 to 1
   bool known = false;
+  double walked = 0, walked_by = 0;  // what standing soles would go without the offset, along and against the scale
   Vector<Vec3> source_was, target_was;
 
   // Of the frame.

@@ -32,4 +32,14 @@ void read_sole(const RigLeg& leg, const Stance& stance, Vector<Vec3>& points) no
   for (std::size_t k = 0; k < points.size(); ++k) points[k] = leg.sole[k].at(stance);
 }
 
+double slowest_step(const Rig& rig, const Vector<Vec3>& was, const Vector<Vec3>& now, Vec3 ground,
+                    double low) noexcept {
+  const double height = lowest(rig, now) + low;
+  double least = 1e300;
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    if (dot(now[k], rig.up) <= height) least = std::min(least, norm(rig.level(now[k] - was[k]) - ground));
+  }
+  return least;
+}
+
 }  // namespace hf_inner

@@ -1,5 +1,6 @@
 #include "plain_retarget.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/algebra.h"
@@ -52,6 +53,17 @@ int joint_of(const Character& c, Role role, Side side, std::uint32_t place_in_ch
   return -1;
 }
 
+// What carries both legs; without legs the first joint of the trunk.
+int hips_of(const Character& c) {
+  const int left = joint_of(c, Role::leg, Side::left, 0), right = joint_of(c, Role::leg, Side::right, 0);
+  for (int a = left; a >= 0; a = c.carriers[static_cast<std::size_t>(a)]) {
+    for (int b = right; b >= 0; b = c.carriers[static_cast<std::size_t>(b)]) {
+      if (a == b) return a;
+    }
+  }
+  return joint_of(c, Role::spine, Side::middle, 0);
+}
+
 Mat3 axes(const Character& c) {
   Mat3 m;
   m << c.left.x, c.up.x, c.forward.x, c.left.y, c.up.y, c.forward.y, c.left.z, c.up.z, c.forward.z;
@@ -94,7 +106,7 @@ PlainRetarget::PlainRetarget(const CharacterInput& source, const Character& a, c
   if (a.leg_length > 0 && b.leg_length > 0) scale_ = b.leg_length / a.leg_length;
   for (int role = 0; role < hf_inner::role_count; ++role) {
     for (const Side side : {Side::middle, Side::left, Side::right}) {
-      if (static_cast<Role>(role) == Role::other || static_cast<Role>(role) == Role::finger) continue;
+      if (const Role r = static_cast<Role>(role); r == Role::other || r == Role::finger || r == Role::spine) continue;
       for (std::uint32_t k = 0;; ++k) {
         const int s = joint_of(a, static_cast<Role>(role), side, k), t = joint_of(b, static_cast<Role>(role), side, k);
         if (s < 0 || t < 0) break;
@@ -102,8 +114,20 @@ PlainRetarget::PlainRetarget(const CharacterInput& source, const Character& a, c
       }
     }
   }
-  source_hips_ = joint_of(a, Role::spine, Side::middle, 0);
-  target_hips_ = joint_of(b, Role::spine, Side::middle, 0);
+  source_hips_ = hips_of(a);
+  target_hips_ = hips_of(b);
+  // The trunk is counted from the hips on.
+  const auto trunk = [](const Character& c, int hips) {
+    std::vector<int> out;
+    for (int j = joint_of(c, Role::head, Side::middle, 0); j >= 0 && j != hips; j = c.carriers[static_cast<std::size_t>(j)]) {
+      if (c.roles[static_cast<std::size_t>(j)] == Role::spine) out.insert(out.begin(), j);
+    }
+    return out;
+  };
+  const std::vector<int> from_trunk = trunk(a, source_hips_), to_trunk = trunk(b, target_hips_);
+  for (std::size_t k = 0; k < std::min(from_trunk.size(), to_trunk.size()); ++k)
+    partners_[static_cast<std::size_t>(to_trunk[k])] = from_trunk[k];
+  if (source_hips_ >= 0 && target_hips_ >= 0) partners_[static_cast<std::size_t>(target_hips_)] = source_hips_;
   const auto from = world_of(source_parents_, source_rest_.data()), to = world_of(target_parents_, target_rest_.data());
   for (std::size_t j = 0; j < target.joint_count; ++j) {
     const auto next = [&](const Character& c, int joint) {
