@@ -2,7 +2,7 @@
 //   base <- {mesh, factor} <- engine <- field <- {deform, detail} <- transfer <- capi
 //                             engine <- remesh, {remesh, field} <- quads <- capi
 //                             engine <- weights <- capi, engine <- peers
-//           mesh <- skeleton <- capi
+//           mesh <- skeleton <- {retarget, capi}, retarget <- capi
 // A room may include itself, the public headers, and the rooms to its left. mesh and factor do not see each other, nor
 // do deform, detail and quads, nor weights and the rooms above the engine. gltf is a library beside the core: it sees
 // only itself and the public headers, and no room sees it. Bindings see only public headers, samples see gltf besides;
@@ -92,9 +92,11 @@ const std::map<std::string, Names>& arrows() {
     a["weights"].insert("weights");
     a["skeleton"] = a["mesh"];
     a["skeleton"].insert("skeleton");
+    a["retarget"] = a["skeleton"];
+    a["retarget"].insert("retarget");
     a["gltf"] = {"gltf"};
     a["capi"] = a["transfer"];
-    a["capi"].insert({"capi", "remesh", "quads", "weights", "skeleton"});
+    a["capi"].insert({"capi", "remesh", "quads", "weights", "skeleton", "retarget"});
     return a;
   }();
   return allowed;

@@ -1,0 +1,149 @@
+// Goals of the feet: where soles go over the ground, how far the hips sink so that feet reach, and how legs bend.
+#include <algorithm>
+#include <cmath>
+
+#include "retarget/legs_bend.h"
+#include "retarget/retargeter.h"
+#include "retarget/sole.h"
+
+namespace hf_inner {
+namespace {
+
+double smooth_step(double low, double high, double x) noexcept {
+  const double t = std::min(1.0, std::max(0.0, (x - low) / (high - low)));
+  return t * t * (3 - 2 * t);
+}
+
+// How much a sole stands: it is low, and it is slow against the ground.
+double stands(const Retargeter& r, const FootPair& foot, double seconds) noexcept {
+  const double low = 1 - smooth_step(standing_height, free_height, foot.height);
+  if (!foot.known || !(seconds > 0) || !r.options.lock_feet) return low;
+  const double* g = r.options.ground_velocity;
+  const Vec3 ground = r.source.level({g[0], g[1], g[2]});
+  const double speed =
+      slowest_step(r.source, foot.source_was, foot.source_now, seconds * ground, low_share * r.source.leg_length) /
+      (seconds * r.source.leg_length);
+  const double of_ground = norm(ground) / r.source.leg_length;
+  return low * (1 - smooth_step(std::max(standing_speed, standing_share * of_ground),
+                                std::max(free_speed, free_share * of_ground), speed));
+}
+
+// Where the leg stands before it is bent, and what the sole of the source does.
+void read_foot(const Retargeter& r, FootPair& foot, double seconds) {
+  const RigLeg &by = r.source.legs[at(foot.source)], &leg = r.target.legs[at(foot.target)];
+  read_sole(by, r.from, foot.source_now);
+  foot.height = (lowest(r.source, foot.source_now) - r.source.ground) / r.source.leg_length;
+  if (foot.known)
+    foot.step = sole_step(r.source, foot.source_was, foot.source_now, sole_softness * r.source.leg_length);
+  const double stand = stands(r, foot, seconds);
+  const bool at_once = !foot.known || !r.options.lock_feet;
+  foot.standing += (stand - foot.standing) * (at_once ? 1 : 1 - exponential(-seconds / standing_time));
+  const std::size_t n = leg.segments.count();
+  for (std::size_t k = 0; k < n; ++k) foot.places[k] = r.to.place[at(leg.segments.first(k))];
+  foot.places[n] = r.to.place[at(leg.foot)];
+  const std::size_t thigh = at(leg.segments.joints[0]);
+  foot.knee_now = r.to.turn[thigh] * (inverse(r.target.rest.turn[thigh]) * foot.knee);
+}
+
+// The ankle over the ground, before heights: where its turns put it, or for legs that are not aligned where the foot
+// of the source is from its hip.
+Vec3 turned_ankle(const Retargeter& r, const FootPair& foot) {
+  if (foot.aligned) return foot.places.back();
+  const RigLeg& by = r.source.legs[at(foot.source)];
+  const Vec3 v = r.from.place[at(by.segments.tip.joint)] - r.from.place[at(by.segments.joints[0])];
+  const Turn body = r.to.turn[at(r.target.mover)] * inverse(r.target.rest.turn[at(r.target.mover)]);
+  return foot.places[0] + r.height_scale * (r.across * v) + r.target.level(body * foot.stance);
+}
+
+// Sets the goal of the ankle. A standing sole is as high as that of the source; one in the air is not lower.
+void aim_foot(const Retargeter& r, FootPair& foot, bool first, double seconds) {
+  const Rig& rig = r.target;
+  const RigLeg& leg = rig.legs[at(foot.target)];
+  const Vec3 now = r.to.place[at(leg.foot)];
+  read_sole(leg, r.to, foot.target_now);
+  const double below = lowest(rig, foot.target_now) - dot(now, rig.up);  // of the sole from the ankle
+  Vec3 goal = turned_ankle(r, foot);
+  const double own = dot(goal, rig.up);
+  const double near = 1 - smooth_step(near_height, far_height, foot.height);
+  const double sole = rig.ground + r.height_scale * r.source.leg_length * std::max(0.0, foot.height) - below;
+  const double free = own + near * std::max(0.0, sole - own);
+  const double height = foot.standing * sole + (1 - foot.standing) * free;
+  goal = rig.level(goal) + std::max(height, rig.ground - below) * rig.up;
+  if (r.options.lock_feet && first) {
+    for (Vec3& p : foot.target_now) p = p - now + goal;
+    if (foot.known && seconds > 0) {
+      const Vec3 own_step = sole_step(rig, foot.target_was, foot.target_now, sole_softness * leg.length);
+      const Vec3 by_step = r.scale * (r.across * foot.step), slip = own_step - by_step;
+      foot.walked += foot.standing * dot(own_step, by_step);
+      foot.walked_by += foot.standing * dot(by_step, by_step);
+      foot.offset = foot.offset - foot.standing * slip;
+      foot.offset = exponential(-(1 - foot.standing) * seconds / fade_time) * foot.offset;
+      const double far = norm(foot.offset) / (most_offset * leg.length);
+      if (far > 1) foot.offset = (1 / far) * foot.offset;
+    }
+    if (!foot.known || seconds > 0) {
+      foot.source_was.swap(foot.source_now);
+      foot.target_was.swap(foot.target_now);
+      foot.known = true;
+    }
+  }
+  foot.goal = goal;
+}
+
+// A leg that its turns stretch further may stay so.
+double reach_of(const Retargeter& r, const FootPair& foot) noexcept {
+  return std::max(soft_reach * r.target.legs[at(foot.target)].length, norm(foot.places.back() - foot.places[0]));
+}
+
+// How far the hips sink so that a standing foot reaches its goal. The offset is left out: it bends the path of the
+// foot, not the body.
+double missing_height(const Retargeter& r, const FootPair& foot) noexcept {
+  const double reach = reach_of(r, foot);
+  const Vec3 d = foot.places[0] - foot.goal;
+  const double aside = std::min(norm(r.target.level(d)), 0.9 * reach);
+  return foot.standing * std::max(0.0, dot(d, r.target.up) - std::sqrt(reach * reach - aside * aside));
+}
+
+// Adds the offset to the goal, as far as the leg reaches.
+void add_offset(const Retargeter& r, FootPair& foot, double drop) noexcept {
+  const Vec3 a = foot.goal - foot.places[0] + drop * r.target.up, b = foot.offset;
+  const double reach = reach_of(r, foot), left = reach * reach - dot(a, a), bb = dot(b, b), ab = dot(a, b);
+  if (bb > 0 && bb + 2 * ab > left) {
+    const double share = left > 0 ? (std::sqrt(ab * ab + bb * left) - ab) / bb : 0;
+    foot.offset = std::min(1.0, share) * b;
+  }
+  foot.goal = foot.goal + foot.offset;
+}
+
+}  // namespace
+
+void Retargeter::meet_goals(double seconds) {
+  if (feet.empty()) return;
+  double walked = 0, walked_by = 0;
+  for (FootPair& foot : feet) read_foot(*this, foot, seconds);
+  const Vec3 turned_mover = mover_place;
+  for (int round = 0; round < foot_rounds; ++round) {
+    double drop = 0, length = 0;
+    for (FootPair& foot : feet) {
+      aim_foot(*this, foot, round == 0, seconds);
+      drop = std::max(drop, missing_height(*this, foot));
+      if (round == 0) walked += foot.walked;
+      if (round == 0) walked_by += foot.walked_by;
+      length = std::max(length, target.legs[at(foot.target)].length);
+    }
+    drop = std::min(drop, most_drop * length);
+    report_.deepest_drop = std::max(report_.deepest_drop, drop);
+    mover_place = turned_mover - drop * target.up;
+    for (FootPair& foot : feet) {
+      const Segments& segments = target.legs[at(foot.target)].segments;
+      add_offset(*this, foot, drop);
+      if (round > 0) turn_segments(segments, foot.bends, true, to);
+      bend_leg(foot.places, -drop * target.up, foot.goal, foot.knee_now, foot.bends);
+      turn_segments(segments, foot.bends, false, to);
+    }
+    target.place(wanted, mover_place, to);
+  }
+  if (walked_by > 0) report_.stride = walked / walked_by;
+}
+
+}  // namespace hf_inner

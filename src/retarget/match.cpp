@@ -1,0 +1,234 @@
+#include "retarget/match.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace hf_inner {
+
+void Matcher::follow(Index target, Index a, Index b, double share, Turn align) {
+  if (r.wanted[at(target)]) return;
+  r.wanted[at(target)] = 1;
+  used[at(a)] = used[at(b)] = 1;
+  const auto post = [&](Index j) {
+    return unit_turn(inverse(r.source.rest.turn[at(j)]) * (inverse(r.across) * (align * r.target.rest.turn[at(target)])));
+  };
+  r.follows.push_back({target, a, b, share, post(a), post(b)});
+}
+
+void Matcher::one_to_one(Index source, Index target) {
+  if (source >= 0 && target >= 0) follow(target, source, source, 0, {});
+}
+
+namespace {
+
+// The arc length from the first place to the end of each segment, as a share of all. A last segment without a tip
+// counts as long as the one before.
+void arc_shares(const Rig& rig, const Segments& chain, Vector<double>& shares) {
+  const std::size_t bones = bone_count(chain);
+  double sum = 0, last = 1;
+  for (std::size_t k = 0; k < chain.count(); ++k) {
+    if (k < bones) last = norm(segment_place(rig, chain, k + 1) - segment_place(rig, chain, k));
+    sum += last;
+    shares.push_back(sum);
+  }
+  for (double& share : shares) share = sum > 0 ? share / sum : 1;
+}
+
+// The joints of a segment: positions in Segments::joints.
+std::size_t segment_end(const Segments& chain, std::size_t k) {
+  return k + 1 < chain.count() ? at(chain.starts[k + 1]) : chain.joints.size();
+}
+
+// Pieces of one bone: each follows the piece of the source in which its middle lies.
+void follow_pieces(Matcher& m, const ChainPair& pair, std::size_t k) {
+  const std::size_t sa = at(pair.source.starts[k]), se = segment_end(pair.source, k);
+  const std::size_t ta = at(pair.target.starts[k]), te = segment_end(pair.target, k);
+  for (std::size_t i = ta; i < te; ++i) {
+    const double middle = (static_cast<double>(i - ta) + 0.5) / static_cast<double>(te - ta);
+    const std::size_t piece = sa + static_cast<std::size_t>(middle * static_cast<double>(se - sa));
+    const Index by = pair.source.joints[std::min(piece, se - 1)];
+    m.follow(pair.target.joints[i], by, by, 0, pair.align[k]);
+  }
+}
+
+// Chains of unequal length: the turn of a segment of the target is that of the source at the same share of arc length,
+// between the turns at the ends of its segments. What carries the chain turns at share 0.
+void follow_arcs(Matcher& m, const ChainPair& pair) {
+  Vector<double> u(&m.memory), v(&m.memory);
+  arc_shares(m.r.source, pair.source, u);
+  arc_shares(m.r.target, pair.target, v);
+  const auto joint = [&](std::size_t k) { return pair.source.joints[segment_end(pair.source, k) - 1]; };
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    std::size_t i = 0;
+    while (i + 1 < u.size() && u[i] < v[k] - 1e-9) ++i;
+    const double low = i > 0 ? u[i - 1] : 0;
+    const Index a = i > 0 ? joint(i - 1) : pair.source.before >= 0 ? pair.source.before : joint(0);
+    const double share = u[i] > low ? std::min(1.0, std::max(0.0, (v[k] - low) / (u[i] - low))) : 1;
+    for (std::size_t q = at(pair.target.starts[k]); q < segment_end(pair.target, k); ++q)
+      m.follow(pair.target.joints[q], share > 1 - 1e-9 ? joint(i) : a, joint(i), share, pair.align[k]);
+  }
+}
+
+}  // namespace
+
+void Matcher::add_pair(ChainPair pair, Aligning how, Turn before) {
+  align_chain(r, pair, how, before);
+  if (pair.source.count() == pair.target.count()) {
+    for (std::size_t k = 0; k < pair.target.count(); ++k) follow_pieces(*this, pair, k);
+  } else {
+    follow_arcs(*this, pair);
+  }
+  pair.compared = how == Aligning::segments && pair.source.count() == pair.target.count() &&
+                  std::min(bone_count(pair.source), bone_count(pair.target)) > 0;
+  r.pairs.push_back(std::move(pair));
+}
+
+void Matcher::add_path(const Vector<Index>& a, const Vector<Index>& b, Index a_before, Index b_before, Index a_end,
+                       Index b_end, Role role) {
+  if (a.empty() || b.empty()) return;
+  ChainPair pair(memory);
+  pair.role = role;
+  const auto fill = [](Segments& out, const Vector<Index>& joints, Index before, Index end) {
+    out.joints = joints;
+    out.before = before;
+    if (end >= 0) out.tip = {end, {}};
+    for (std::size_t k = 0; k < joints.size(); ++k) out.starts.push_back(static_cast<Index>(k));
+  };
+  fill(pair.source, a, a_before, a_end);
+  fill(pair.target, b, b_before, b_end);
+  add_pair(std::move(pair), Aligning::none, {});
+}
+
+// The joints between the trunk and a limb.
+void Matcher::add_collars(const Segments& a, const Segments& b) {
+  const auto path = [&](const Rig& rig, const Character& c, Index j) {
+    Vector<Index> out(&memory);
+    for (; j >= 0 && c.roles[at(j)] == Role::shoulder; j = rig.carriers[at(j)]) out.push_back(j);
+    std::reverse(out.begin(), out.end());
+    return std::pair(std::move(out), j);
+  };
+  const auto [from, from_before] = path(r.source, s.character, a.before);
+  const auto [to, to_before] = path(r.target, t.character, b.before);
+  add_path(from, to, from_before, to_before, a.joints[0], b.joints[0], Role::shoulder);
+}
+
+namespace {
+
+const Chain* next_of(const Character& c, const Chain& chain, Role role) {
+  const Index index = static_cast<Index>(&chain - c.chains.data());
+  for (const Chain& next : c.chains) {
+    if (next.parent == index && next.role == role && next.side == chain.side) return &next;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+// Hands, feet and toes: what goes on from a limb.
+void Matcher::add_next(const Chain& a, const Chain& b, Role role, Turn align) {
+  ChainPair pair(memory);
+  pair.role = role;
+  pair.side = b.side;
+  pair.source = cut_chain(r.source, s.character, a, memory);
+  pair.target = cut_chain(r.target, t.character, b, memory);
+  add_pair(std::move(pair), Aligning::none, align);
+}
+
+void Matcher::add_limb(const Chain& a, const Chain& b, Aligning how, bool standing) {
+  ChainPair pair(memory);
+  pair.role = b.role;
+  pair.side = b.side;
+  pair.source = cut_chain(r.source, s.character, a, memory);
+  pair.target = cut_chain(r.target, t.character, b, memory);
+  add_collars(pair.source, pair.target);
+  add_pair(std::move(pair), r.options.align_rests ? how : Aligning::none, {});
+  const Turn last = r.pairs.back().align.back();
+  const auto end_of = [](const Character& c, const Chain& limb) {
+    return next_of(c, limb, limb.role == Role::arm ? Role::hand : Role::foot);
+  };
+  const Chain *end_a = end_of(s.character, a), *end_b = end_of(t.character, b);
+  if (!end_a || !end_b) {
+    if (b.role == Role::arm) add_fingers(end_a ? *end_a : a, end_b ? *end_b : b, last);
+    return;
+  }
+  add_next(*end_a, *end_b, end_b->role, b.role == Role::arm ? last : Turn{});
+  if (b.role == Role::arm) add_fingers(*end_a, *end_b, last);
+  if (!standing) return;
+  const Chain *toe_a = next_of(s.character, *end_a, Role::toe), *toe_b = next_of(t.character, *end_b, Role::toe);
+  if (toe_a && toe_b) add_next(*toe_a, *toe_b, Role::toe, {});
+}
+
+// Arms by number. Legs from behind; the front legs of an animal follow arms where there are no more legs.
+void Matcher::add_limbs() {
+  const auto count = [](const Character& c, Role role, Side side) {
+    std::uint32_t found = 0;
+    for (const Chain& chain : c.chains) found += chain.role == role && chain.side == side;
+    return found;
+  };
+  for (const Side side : {Side::left, Side::right, Side::middle}) {
+    const std::uint32_t sa = count(s.character, Role::arm, side), ta = count(t.character, Role::arm, side);
+    const std::uint32_t sl = count(s.character, Role::leg, side), tl = count(t.character, Role::leg, side);
+    const auto add = [&](Role a, std::uint32_t i, Role b, std::uint32_t k, Aligning how) {
+      const Chain *from = find_chain(s.character, a, side, i), *to = find_chain(t.character, b, side, k);
+      if (from && to) add_limb(*from, *to, how, a == Role::leg && b == Role::leg);
+    };
+    for (std::uint32_t k = 0; k < std::min(sl, tl); ++k)
+      add(Role::leg, sl - 1 - k, Role::leg, tl - 1 - k, r.people ? Aligning::segments : Aligning::none);
+    for (std::uint32_t k = 0; k < std::min(sa, ta); ++k)
+      add(Role::arm, k, Role::arm, k, r.source.upright == r.target.upright ? Aligning::segments : Aligning::whole);
+    if (ta == 0 && sa > 0 && tl > sl) add(Role::arm, 0, Role::leg, 0, Aligning::none);
+    if (sa == 0 && ta > 0 && sl > tl) add(Role::leg, 0, Role::arm, 0, Aligning::none);
+  }
+}
+
+// Tails, wings, ears, and the parts of the trunk that lead to legs alone.
+void Matcher::add_others() {
+  for (const Chain& b : t.character.chains) {
+    const bool aligned = b.role == Role::wing;
+    const bool taken = b.role == Role::tail || b.role == Role::wing || b.role == Role::ear || b.role == Role::jaw ||
+                       b.role == Role::eye || b.role == Role::antenna || b.role == Role::fin || b.role == Role::spine;
+    const Chain* a = taken ? find_chain(s.character, b.role, b.side, b.number) : nullptr;
+    if (!a) continue;
+    ChainPair pair(memory);
+    pair.role = b.role;
+    pair.side = b.side;
+    pair.source = cut_chain(r.source, s.character, *a, memory);
+    pair.target = cut_chain(r.target, t.character, b, memory);
+    if (b.role == Role::spine) {  // the trunk has partners already
+      const auto open = [](const Vector<Index>& joints, const Vector<std::uint8_t>& done) {
+        return std::none_of(joints.begin(), joints.end(), [&](Index j) { return done[at(j)] != 0; });
+      };
+      if (!open(pair.target.joints, r.wanted) || !open(pair.source.joints, used)) continue;
+    }
+    add_pair(std::move(pair), aligned && r.options.align_rests ? Aligning::segments : Aligning::none, {});
+  }
+}
+
+void Retargeter::match_chains(const RetargetSide& s, const RetargetSide& t) {
+  wanted.assign(at(target.count), 0);
+  Matcher matcher(*this, s, t, memory);
+  matcher.one_to_one(source.mover, target.mover);
+  const auto last = [](const Rig& rig) { return rig.trunk.empty() ? rig.mover : rig.trunk.back(); };
+  const auto next = [](const Rig& rig) { return rig.neck.empty() ? rig.head : rig.neck[0]; };
+  matcher.add_path(source.trunk, target.trunk, source.mover, target.mover, next(source), next(target), Role::spine);
+  matcher.add_path(source.neck, target.neck, last(source), last(target), source.head, target.head, Role::neck);
+  if (source.head >= 0 && target.head >= 0 && source.head != source.mover && target.head != target.mover)
+    matcher.one_to_one(source.head, target.head);
+  matcher.add_limbs();
+  matcher.add_others();
+  report_.matched_joints = static_cast<std::uint32_t>(follows.size());
+  if (pairs.empty())
+    fail(HF_ERROR_EMPTY, HF_NO_INDEX,
+         "source and target have no chain of joints in common; declare roles in their characters");
+  const auto list = [&](const Character& c, const Vector<std::uint8_t>& done, Vector<std::uint32_t>& out) {
+    for (std::uint32_t j = 0; j < c.kinds.size(); ++j) {
+      if (c.kinds[j] == JointKind::body && !done[j]) out.push_back(j);
+    }
+  };
+  list(s.character, matcher.used, report_.unmatched_source);
+  list(t.character, wanted, report_.unmatched_target);
+}
+
+}  // namespace hf_inner

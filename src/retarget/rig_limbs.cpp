@@ -1,0 +1,162 @@
+// Limbs, trunk and what carries all of them.
+#include <algorithm>
+#include <cmath>
+
+#include "retarget/rig.h"
+
+namespace hf_inner {
+
+const Chain* find_chain(const Character& character, Role role, Side side, std::uint32_t number) {
+  for (const Chain& chain : character.chains) {
+    if (chain.role == role && chain.side == side && chain.number == number) return &chain;
+  }
+  return nullptr;
+}
+
+namespace {
+
+// The chain that goes on from the tip of another, or null.
+const Chain* next_chain(const Character& character, const Chain& chain, Role role) {
+  const Index index = static_cast<Index>(&chain - character.chains.data());
+  for (const Chain& next : character.chains) {
+    if (next.parent == index && next.role == role && next.side == chain.side) return &next;
+  }
+  return nullptr;
+}
+
+Index first_joint(const Character& character, const Chain& chain) {
+  return static_cast<Index>(character.chain_joints[chain.first]);
+}
+
+// A limb ends at the hand or foot. Other chains end in the middle of what hangs on their last joint.
+Tip find_tip(const Rig& rig, const Character& character, const Chain& chain, Index last) {
+  const Role next = chain.role == Role::arm ? Role::hand : chain.role == Role::leg ? Role::foot : Role::other;
+  if (next != Role::other) {
+    if (const Chain* end = next_chain(character, chain, next)) return {first_joint(character, *end), {}};
+  }
+  Vec3 sum;
+  double found = 0;
+  for (std::size_t j = 0; j < at(rig.count); ++j) {
+    if (rig.parents[j] != last || character.kinds[j] == JointKind::twist) continue;
+    sum = sum + rig.rest.place[j];
+    found += 1;
+  }
+  const Vec3 offset = (1 / std::max(found, 1.0)) * sum - rig.rest.place[at(last)];
+  const bool far = found > 0 && norm(offset) > same_rest * rig.height;
+  return far ? Tip{last, offset} : Tip{};
+}
+
+// Where a limb bends: at each joint with a clear bend; without one at the joint nearest to the middle.
+void cut_limb(const Rig& rig, Segments& limb) {
+  const std::size_t n = limb.joints.size();
+  const Vec3 end = limb.tip.joint >= 0 ? rig.tip_place(limb.tip, rig.rest) : rig.rest.place[at(limb.joints[n - 1])];
+  const auto place = [&](std::size_t k) { return k < n ? rig.rest.place[at(limb.joints[k])] : end; };
+  const std::size_t last = limb.tip.joint >= 0 ? n : n - 1;  // the place where the last segment ends
+  double length = 0;
+  for (std::size_t k = 0; k < last; ++k) length += norm(place(k + 1) - place(k));
+  std::size_t middle = 0;
+  double nearest = 1e300, along = 0;
+  for (std::size_t k = 1; k < last; ++k) {
+    along += norm(place(k) - place(k - 1));
+    const Vec3 a = unit_vector(place(k) - place(k - 1)), b = unit_vector(place(k + 1) - place(k));
+    if (norm(a) > 0 && norm(b) > 0 && dot(a, b) < segment_bend) limb.starts.push_back(static_cast<Index>(k));
+    if (std::fabs(along - 0.5 * length) < nearest) {
+      nearest = std::fabs(along - 0.5 * length);
+      middle = k;
+    }
+  }
+  if (limb.starts.size() == 1 && middle > 0) limb.starts.push_back(static_cast<Index>(middle));
+}
+
+// The lowest joint that carries both.
+Index common_carrier(const Rig& rig, Index a, Index b) {
+  for (Index steps = 0; a >= 0 && steps <= rig.count; ++steps) {
+    if (rig.is_below(b, a)) return a;
+    a = rig.carriers[at(a)] >= 0 ? rig.carriers[at(a)] : rig.parents[at(a)];
+  }
+  return -1;
+}
+
+}  // namespace
+
+Segments cut_chain(const Rig& rig, const Character& character, const Chain& chain, Memory& memory) {
+  Segments out(memory);
+  for (std::uint32_t k = 0; k < chain.count; ++k)
+    out.joints.push_back(static_cast<Index>(character.chain_joints[chain.first + k]));
+  out.before = rig.carriers[at(out.joints[0])];
+  out.tip = find_tip(rig, character, chain, out.joints.back());
+  if (chain.role == Role::leg && out.tip.joint < 0 && out.joints.size() > 2) {  // the last joint is the ankle
+    out.tip = {out.joints.back(), {}};
+    out.joints.pop_back();
+  }
+  out.starts.push_back(0);
+  if (chain.role == Role::arm || chain.role == Role::leg) {
+    cut_limb(rig, out);
+  } else {
+    for (std::size_t k = 1; k < out.joints.size(); ++k) out.starts.push_back(static_cast<Index>(k));
+  }
+  return out;
+}
+
+void find_legs(Rig& rig, const Character& character, Memory& memory) {
+  std::uint32_t most = 0;
+  for (const Chain& chain : character.chains) {
+    if (chain.role == Role::leg) most = std::max(most, chain.number + 1);
+  }
+  for (std::uint32_t number = most; number-- > 0;) {
+    for (const Side side : {Side::left, Side::right, Side::middle}) {
+      const Chain* chain = find_chain(character, Role::leg, side, number);
+      if (!chain) continue;
+      RigLeg leg(memory);
+      leg.segments = cut_chain(rig, character, *chain, memory);
+      if (leg.segments.tip.joint < 0) continue;
+      leg.side = side;
+      leg.foot = leg.segments.tip.offset.x == 0 && leg.segments.tip.offset.y == 0 && leg.segments.tip.offset.z == 0
+                     ? leg.segments.tip.joint
+                     : -1;
+      const Chain* foot = next_chain(character, *chain, Role::foot);
+      const Chain* toe = foot ? next_chain(character, *foot, Role::toe) : nullptr;
+      if (toe) leg.toe = first_joint(character, *toe);
+      for (std::size_t s = 0; s < leg.segments.count(); ++s) {
+        const Vec3 a = rig.rest.place[at(leg.segments.first(s))];
+        leg.length += norm((s + 1 < leg.segments.count() ? rig.rest.place[at(leg.segments.first(s + 1))]
+                                                         : rig.tip_place(leg.segments.tip, rig.rest)) -
+                           a);
+      }
+      rig.legs.push_back(std::move(leg));
+    }
+  }
+}
+
+void find_trunk(Rig& rig, const Character& character, Memory& memory) {
+  const auto visit = [&](Role role, auto&& call) {
+    for (const Chain& chain : character.chains) {
+      if (chain.role == role) call(first_joint(character, chain));
+    }
+  };
+  if (const Chain* head = find_chain(character, Role::head, Side::middle, 0)) rig.head = first_joint(character, *head);
+  Index arms = -1;
+  for (const Role role : {Role::arm, Role::wing})
+    visit(role, [&](Index j) { arms = arms < 0 ? j : common_carrier(rig, arms, j); });
+  rig.mover = rig.head >= 0 ? rig.head : arms;
+  if (arms >= 0 && rig.mover >= 0) rig.mover = common_carrier(rig, rig.mover, arms);
+  visit(Role::leg, [&](Index j) { rig.mover = rig.mover < 0 ? j : common_carrier(rig, rig.mover, j); });
+  if ((rig.legs.empty() || rig.mover < 0) && !character.chains.empty()) rig.mover = first_joint(character, character.chains[0]);
+  if (rig.mover < 0) rig.mover = rig.order[0];
+  for (Index j = rig.head >= 0 ? rig.carriers[at(rig.head)] : arms, steps = 0;
+       j >= 0 && j != rig.mover && steps <= rig.count; j = rig.carriers[at(j)], ++steps)
+    (character.roles[at(j)] == Role::neck ? rig.neck : rig.trunk).push_back(j);
+  std::reverse(rig.trunk.begin(), rig.trunk.end());
+  std::reverse(rig.neck.begin(), rig.neck.end());
+  rig.moves.assign(at(rig.count), 0);
+  for (const Index j : rig.order) {
+    const Index by = rig.linked[at(j)] ? rig.carriers[at(j)] : rig.parents[at(j)];
+    rig.moves[at(j)] = j == rig.mover || (by >= 0 && rig.moves[at(by)]);
+  }
+  Vec3 trunk;
+  if (rig.head >= 0) trunk = rig.rest.place[at(rig.head)] - rig.hip_place(rig.rest);
+  rig.upright = rig.legs.size() == 2 && dot(unit_vector(trunk), rig.up) > 0.6;
+  (void)memory;
+}
+
+}  // namespace hf_inner
