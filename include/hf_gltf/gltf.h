@@ -200,16 +200,17 @@ HF_GLTF_API hf_result hf_gltf_model_remove_keys(hf_gltf_model model, uint32_t cl
 typedef struct hf_gltf_propose_desc {
   uint32_t struct_size;
   /* Extremities of the surfaces, largest first, as hf_surface_find_extremities (HF_EXTREMITIES_GEODESIC) finds them.
-   * They help where names do not. */
+   * They help where skeletons do not. */
   uint32_t source_tip_count, target_tip_count;
   uint32_t reserved;           /* 0 */
   const uint32_t* source_tips; /* vertices, or NULL */
   const uint32_t* target_tips;
 } hf_gltf_propose_desc;
 
-/* Finds feet, head, tail, hands and the trunk of both models by joint names and by shape, and pairs them. Sets
- * *out_pairs to NULL first. desc: NULL for none. Errors: HF_ERROR_EMPTY (a model without triangles, or too little in
- * common; the detail says what each has), HF_ERROR_OUT_OF_RANGE (a tip). Thread safety: reads the models. Since 0.1. */
+/* Finds axes, feet, head, tail, hands and the trunk of both models by their skeletons, then by shape, and pairs them.
+ * Sets *out_pairs to NULL first. desc: NULL for none. Errors: HF_ERROR_EMPTY (a model without triangles, or too little
+ * in common; the detail says what each has), HF_ERROR_OUT_OF_RANGE (a tip). Thread safety: reads the models. Since 0.1.
+ */
 HF_GLTF_API hf_result hf_gltf_pairs_propose(hf_gltf_model source, hf_gltf_model target,
                                             const hf_gltf_propose_desc* desc, hf_gltf_pairs* out_pairs);
 
@@ -225,9 +226,11 @@ typedef struct hf_gltf_pairs_info {
   uint32_t struct_size;
   uint32_t pair_count;
   float source_axes[9], target_axes[9]; /* for hf_transfer_desc */
+  float scale; /* for hf_transfer_desc: lengths of the target over those of the source by the legs of both skeletons, or
+                * as the pairs say; 0: a skeleton has no legs that are known, or neither body is upright */
 } hf_gltf_pairs_info;
 
-/* Writes the number of pairs and the axes of both models. Since 0.1. */
+/* Writes the number of pairs, the axes of both models and the scale between them. Since 0.1. */
 HF_GLTF_API hf_result hf_gltf_pairs_get_info(hf_gltf_pairs pairs, hf_gltf_pairs_info* out_info);
 
 typedef struct hf_gltf_pair {

@@ -345,7 +345,13 @@ int transfer(TransferCommand command, nlohmann::json& json) {
   if (pairs.settings.stretch && (command.kind == "skin" || (command.kind.empty() && !has_skin(target))))
     throw std::runtime_error("mode \"stretch\" gives no skin: take --as own-skin, --as morph or --out-poses");
   const Motion motion = read_motion(source, command);  // a model without a clip is refused before surfaces are made
-  if (command.pairs.empty()) pairs = parse_pairs(propose(source, target, command).file, "the proposed pairs");
+  std::string source_axes, target_axes;                // how they were found
+  if (command.pairs.empty()) {
+    const Suggestion suggestion = propose(source, target, command);
+    pairs = parse_pairs(suggestion.file, "the proposed pairs");
+    source_axes = axes_sentence(suggestion.source);
+    target_axes = axes_sentence(suggestion.target);
+  }
 
   for (const auto& [key, value] : command.dials) set_dial(pairs.dials, key, value);
   for (PairEntry& pair : pairs.pairs)
@@ -357,7 +363,12 @@ int transfer(TransferCommand command, nlohmann::json& json) {
     if (const std::string sentence = links_sentence(surface); !sentence.empty())
       std::printf("%s: %s\n", model->name.c_str(), sentence.c_str());
   }
-  const RunReport first = run(session, source, target, motion, command, false, bar);
+  const auto with_axes = [&](RunReport report) {
+    if (!source_axes.empty()) report.source.said = source_axes;
+    if (!target_axes.empty()) report.target.said = target_axes;
+    return report;
+  };
+  const RunReport first = with_axes(run(session, source, target, motion, command, false, bar));
   std::string text = to_text(first, source.name + " on " + target.name);
   json = to_json(first);
   bool factorised_again = false;
@@ -367,7 +378,7 @@ int transfer(TransferCommand command, nlohmann::json& json) {
     bar.begin("editing pairs");
     session.edit(edits);
     bar.end(std::to_string(edits.remove.size()) + " out, " + std::to_string(edits.add.size()) + " in");
-    const RunReport second = run(session, source, target, motion, command, true, bar);
+    const RunReport second = with_axes(run(session, source, target, motion, command, true, bar));
     char heading[256];
     std::snprintf(heading, sizeof heading,
                   "edited in the session: %zu pairs out, %zu in, %.2f ms and %.2f ms for fields and clusters; "

@@ -10,6 +10,7 @@
 
 #include "common/links.h"
 #include "gltf/animate.h"
+#include "gltf/landmarks.h"
 #include "transfer/posed_region.h"
 
 namespace samples {
@@ -54,6 +55,8 @@ Session::Session(const Model& source, const Model& target, const PairsFile& pair
       target_flat_(flatten(target)),
       source_finder_(source, source_flat_, pairs.source_axes),
       target_finder_(target, target_flat_, pairs.target_axes),
+      source_known_(know_body(source, source_flat_)),
+      target_known_(know_body(target, target_flat_)),
       ground_(ground) {
   try {
     create(threads, links, bar);
@@ -83,7 +86,10 @@ void Session::create(uint32_t threads, bool links, ProgressBar& bar) {
   desc.mode = settings.paper ? HF_TRANSFER_PAPER : settings.stretch ? HF_TRANSFER_STRETCH : HF_TRANSFER_FIELDS;
   desc.cluster_count = settings.clusters;
   desc.kernel_width = static_cast<float>(settings.width);
-  desc.scale = static_cast<float>(settings.scale);
+  // the paper measures the legs by its fields
+  const double legs = settings.paper ? 0.0 : leg_scale(source_known_, target_known_);
+  desc.scale = static_cast<float>(settings.scale > 0 ? settings.scale : legs);
+  if (settings.scale > 0 || legs > 0) scale_from_ = settings.scale > 0 ? "the pairs file" : "the legs of the skeletons";
   desc.alignment_angle = static_cast<float>(settings.alignment_degrees * degree);
   desc.ground = ground_ ? HF_GROUND_KEEP : HF_GROUND_OFF;
   copy_axes(file_.source_axes, desc.source_axes);
@@ -428,8 +434,23 @@ std::vector<PairReport> Session::pairs() {
   return out;
 }
 
-std::vector<std::string> Session::warnings() {
+// The axes of the file hold, whatever the skeletons say.
+std::vector<std::string> Session::other_axes() const {
   std::vector<std::string> out;
+  const auto look = [&](const Model& model, const Axes& axes, const KnownBody& known) {
+    const bool other = glm::dot(axes.up, known.axes.up) < 0.5 || glm::dot(axes.forward, known.axes.forward) < 0.5;
+    if (known.knows_axes() && other)
+      out.push_back(model.name + ": up " + axis_name(axes.up) + ", forward " + axis_name(axes.forward) +
+                    " are taken as given; its skeleton says up " + axis_name(known.axes.up) + " (" + known.up_why +
+                    "), forward " + axis_name(known.axes.forward) + " (" + known.forward_why + ")");
+  };
+  look(source_, file_.source_axes, source_known_);
+  look(target_, file_.target_axes, target_known_);
+  return out;
+}
+
+std::vector<std::string> Session::warnings() {
+  std::vector<std::string> out = other_axes();
   for (const Model* model : {&source_, &target_}) {
     for (const std::string& warning : model->warnings) out.push_back(model->name + ": " + warning);
   }

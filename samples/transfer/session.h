@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/progress_bar.h"
+#include "gltf/known_body.h"
 #include "gltf/pairs_file.h"
 #include "gltf/skin_write.h"
 #include "hf/hf.h"
@@ -109,6 +110,10 @@ class Session {
   std::vector<PairReport> pairs();
   std::vector<std::string> warnings();
   double scale() const { return scale_; }
+  // How the scale was found, for people.
+  const std::string& scale_from() const { return scale_from_; }
+  const KnownBody& source_known() const { return source_known_; }
+  const KnownBody& target_known() const { return target_known_; }
   // By flat vertex of the target: 1 if it may sink into the ground, as loose ones may.
   const std::vector<uint8_t>& sinking() const { return sinking_; }
   uint32_t cluster_count() const { return info().cluster_count; }
@@ -139,6 +144,7 @@ class Session {
   void add(const std::vector<PairEntry>& entries);
   void prepare();
   void change_flags(const std::vector<PairEntry>& entries);
+  std::vector<std::string> other_axes() const;
   std::vector<PairEntry> found_contacts(const std::vector<std::vector<double>>& poses) const;
   std::vector<PairEntry> named_contacts(const std::vector<std::string>& names) const;
   void apply(const std::vector<double>& posed, std::vector<double>& out);
@@ -149,6 +155,8 @@ class Session {
   PairsFile file_;
   FlatMesh source_flat_, target_flat_;
   RegionFinder source_finder_, target_finder_;
+  KnownBody source_known_, target_known_;  // what the skeletons say by themselves
+  std::string scale_from_ = "the surfaces";
   std::unique_ptr<FlatSurface> source_surface_, target_surface_;
   hf_transfer transfer_ = nullptr;
   std::vector<Live> live_;

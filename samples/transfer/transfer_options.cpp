@@ -107,7 +107,7 @@ const char* usage() {
          "  --no-ground     no feet stand and nothing is kept above the ground\n"
          "  --source-rest CLIP@TIME, --target-rest CLIP@TIME  a pose of a clip, in seconds, is the rest pose\n"
          "  --up AXIS, --forward AXIS  for proposals: +y, -z, ...; --source-up, --target-up, --source-forward and\n"
-         "                  --target-forward say it for one model (else found by the bones of the legs, and said)\n"
+         "                  --target-forward say it for one model (else the skeleton says it, and the report why)\n"
          "  --sheet FILE    a picture: source above, target below, over the clip\n"
          "  --report FILE   what was done and how well, as text\n"
          "  --json FILE     the same as JSON\n"

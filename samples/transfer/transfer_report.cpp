@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "gltf/animate.h"
+#include "gltf/landmarks.h"
 
 namespace samples {
 
@@ -25,6 +26,29 @@ void print(std::string& out, const char* format, ...) {
   std::vsnprintf(line, sizeof line, format, arguments);
   va_end(arguments);
   out += line;
+}
+
+BodyReport body_report(const Axes& axes, const KnownBody& known) {
+  BodyReport out;
+  out.up = axis_name(axes.up);
+  out.forward = axis_name(axes.forward);
+  out.said = "up " + out.up + ", faces " + out.forward + ", as the pairs file says";
+  out.up_confidence = known.up_confidence;
+  out.forward_confidence = known.forward_confidence;
+  out.part_confidence = known.part_confidence;
+  out.why = known.why;
+  return out;
+}
+
+nlohmann::json body_json(const BodyReport& body) {
+  return {{"up", body.up},
+          {"forward", body.forward},
+          {"said", body.said},
+          {"skeleton",
+           {{"up_confidence", body.up_confidence},
+            {"forward_confidence", body.forward_confidence},
+            {"part_confidence", body.part_confidence},
+            {"why", body.why}}}};
 }
 
 }  // namespace
@@ -77,6 +101,9 @@ RunReport make_report(Session& session, const std::vector<PlayedClip>& clips, co
   }
   out.clusters = session.cluster_count();
   out.scale = session.scale();
+  out.scale_from = session.scale_from();
+  out.source = body_report(session.source_axes(), session.source_known());
+  out.target = body_report(session.target_axes(), session.target_known());
   out.setup_ms = session.setup_ms();
   out.prepare_ms = session.prepare_ms();
   out.edit_ms = session.edit_ms();
@@ -88,7 +115,9 @@ RunReport make_report(Session& session, const std::vector<PlayedClip>& clips, co
 std::string to_text(const RunReport& report, const std::string& heading) {
   std::string out = heading + "\n";
   print(out, "  output        %s\n", report.output.c_str());
-  print(out, "  clusters      %u, scale %.4f\n", report.clusters, report.scale);
+  out += "  source        " + report.source.said + "\n";
+  out += "  target        " + report.target.said + "\n";
+  print(out, "  clusters      %u, scale %.4f from %s\n", report.clusters, report.scale, report.scale_from.c_str());
   print(out, "  factorisation %.1f ms both surfaces; numeric factorisations so far: source %u, target %u\n",
         report.setup_ms, report.source_factorisations, report.target_factorisations);
   print(out, "  pairs         %.1f ms fields, clusters and translations\n", report.prepare_ms);
@@ -195,6 +224,9 @@ nlohmann::json to_json(const RunReport& report) {
   return {{"output", report.output},
           {"clusters", report.clusters},
           {"scale", report.scale},
+          {"scale_from", report.scale_from},
+          {"source", body_json(report.source)},
+          {"target", body_json(report.target)},
           {"factorise_ms", report.setup_ms},
           {"prepare_ms", report.prepare_ms},
           {"edit_ms", report.edit_ms},

@@ -19,6 +19,14 @@ struct ReplayReport {
 };
 ReplayReport measure_replay(const Model& written, const std::vector<PlayedClip>& clips, double box);
 
+// Where a body's axes come from.
+struct BodyReport {
+  std::string up, forward;                                                // as taken
+  std::string said;                                                       // how they were found, a sentence
+  double up_confidence = 0, forward_confidence = 0, part_confidence = 0;  // of its skeleton; 0: it has none
+  std::vector<std::string> why;                                           // what its skeleton says, sentences
+};
+
 struct RunReport {
   std::string output;
   std::vector<PairReport> pairs;
@@ -36,6 +44,8 @@ struct RunReport {
   std::vector<double> gaps;              // largest between linked pieces in the written file, in box diagonals
   std::vector<std::string> contacts;
   uint32_t clusters = 0;
+  BodyReport source, target;
+  std::string scale_from;
   double scale = 1, setup_ms = 0, prepare_ms = 0, edit_ms = 0;
   uint32_t source_factorisations = 0, target_factorisations = 0;
 };

@@ -113,6 +113,7 @@ static hf_transfer transfer_of(const Body* source, const Body* target) {
     desc.source_axes[i] = info.source_axes[i];
     desc.target_axes[i] = info.target_axes[i];
   }
+  desc.scale = info.scale;
   hf_transfer transfer;
   ok(hf_transfer_create(source->surface, target->surface, &desc, &transfer));
   for (uint32_t p = 0; p < info.pair_count; ++p) {

@@ -42,7 +42,7 @@ struct PairsObject : Object {
   PairsFile pairs;
   std::vector<Region> source, target;
   std::vector<double> confidence;
-  double source_diagonal = 0, target_diagonal = 0;
+  double source_diagonal = 0, target_diagonal = 0, scale = 0;
   std::string text;
 };
 

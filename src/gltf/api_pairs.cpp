@@ -21,6 +21,9 @@ std::shared_ptr<PairsObject> pairs_of(const ModelObject& source, const ModelObje
   add_regions(out->pairs.pairs, source_finder, target_finder, out->source, out->target);
   out->source_diagonal = source_finder.diagonal();
   out->target_diagonal = target_finder.diagonal();
+  const double given = out->pairs.settings.scale;
+  out->scale =
+      given > 0 ? given : leg_scale(know_body(source.model, source.mesh), know_body(target.model, target.mesh));
   out->confidence.assign(out->pairs.pairs.size(), 1.0);
   out->text = json.dump(2);
   return out;
@@ -104,6 +107,7 @@ hf_result hf_gltf_pairs_get_info(hf_gltf_pairs pairs, hf_gltf_pairs_info* out_in
     info.pair_count = static_cast<uint32_t>(object->pairs.pairs.size());
     write_axes(object->pairs.source_axes, info.source_axes);
     write_axes(object->pairs.target_axes, info.target_axes);
+    info.scale = static_cast<float>(object->scale);
   });
 }
 

@@ -11,10 +11,6 @@
 
 namespace hf_gltf {
 
-// Words of a joint's name: "b_LeftHand_011" -> b left hand.
-std::vector<std::string> words_of(const std::string& name);
-bool has_word(const std::string& name, const std::vector<std::string>& wanted);
-
 constexpr double same_foot = 0.05;  // of the diagonal
 constexpr double ball = 0.03, trunk_ball = 0.04;
 
@@ -23,6 +19,7 @@ struct Foot {
   glm::dvec3 place{0, 0, 0};  // lowest vertex nearest to the middle
   uint32_t vertex = 0;
   double forward = 0, side = 0;
+  int known_side = 0;  // that of its leg's joints: 1 left, -1 right, 0 unknown
 };
 
 class Finder {
@@ -48,16 +45,17 @@ class Finder {
   double side(uint32_t v) const { return glm::dot(mesh_.positions[v], axes_.right) - middle_; }
   void measure();
   double asymmetry(int axis) const;
-  void find_up();
+  // The part of the body that a vertex belongs to, as far as the skeleton says.
+  KnownNode known(uint32_t v) const;
+  std::vector<uint32_t> of_part(BodyPart part) const;
+  void choose_axes();
   void find_axes();
   double toes() const;
-  void find_named_feet();
-  void merge_feet();
+  void find_known_feet();
   void find_feet(double reach, double slack);
-  // The feet on either side of the middle, by names first, then by shape. Returns the number of pairs.
+  // The feet on either side of the middle, by the skeleton first, then by shape. Returns the number of pairs.
   size_t search_feet(std::vector<Foot>& left, std::vector<Foot>& right);
   size_t split_feet(std::vector<Foot>& left, std::vector<Foot>& right) const;
-  std::vector<uint32_t> named(const std::vector<std::string>& words) const;
   template <class Value>
   uint32_t best_of(const std::vector<uint32_t>& among, Value value) const;
   Selector express(uint32_t vertex, double radius, const std::vector<std::string>& directions) const;
@@ -77,8 +75,8 @@ class Finder {
   std::vector<uint32_t> first_;  // one vertex per welded one of the surface
   SurfaceBox box_;
   double diagonal_, ground_ = 0, height_ = 0, middle_ = 0, front_ = 0, back_ = 0;
-  std::vector<Foot> feet_, raised_;  // raised_: ends of named limbs that do not reach the ground
-  bool named_feet_ = false, first_try_ = true;
+  std::vector<Foot> feet_, raised_;  // raised_: ends of arms
+  bool known_feet_ = false, first_try_ = true;
   std::vector<uint32_t> tips_;  // extremities
   Landmarks out_;
 };

@@ -2,6 +2,7 @@
 #include "gltf/landmarks.h"
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
@@ -28,11 +29,15 @@ void Finder::measure() {
   middle_ = 0.5 * (left + right);
 }
 
-std::vector<uint32_t> Finder::named(const std::vector<std::string>& words) const {
+KnownNode Finder::known(uint32_t v) const {
+  const int owner = regions_ && out_.known.knows_parts() ? regions_->owner(v) : -1;
+  return owner < 0 ? KnownNode() : out_.known.nodes[static_cast<size_t>(owner)];
+}
+
+std::vector<uint32_t> Finder::of_part(BodyPart part) const {
   std::vector<uint32_t> out;
-  for (const uint32_t v : first_) {
-    if (regions_ && has_word(regions_->owner_name(v), words)) out.push_back(v);
-  }
+  for (const uint32_t v : first_)
+    if (known(v).part == part) out.push_back(v);
   return out;
 }
 
@@ -81,8 +86,8 @@ void Finder::add_place(const std::string& name, const glm::dvec3& place, double 
 }
 
 void Finder::add_head() {
-  std::vector<uint32_t> head = named({"head", "jaw", "nose", "snout", "muzzle", "beak"});
-  const bool by_name = !head.empty();
+  std::vector<uint32_t> head = of_part(BodyPart::head);
+  const bool by_joint = !head.empty();
   if (out_.upright) {
     if (head.empty()) {
       for (const uint32_t v : first_)
@@ -92,8 +97,8 @@ void Finder::add_head() {
     double mean = 0;
     for (const uint32_t v : head) mean += forward(v) / static_cast<double>(head.size());
     const auto value = [&](uint32_t v) { return up(v) - 0.3 * std::hypot(side(v), forward(v) - mean); };
-    add("head", best_of(head, value), {"up"}, by_name ? 0.9 : 0.7, by_name ? "top of the head joint" : "highest place",
-        0.05);
+    add("head", best_of(head, value), {"up"}, by_joint ? 0.9 : 0.7,
+        by_joint ? "top of the head joint" : "highest place", 0.05);
     return;
   }
   if (head.empty()) {
@@ -102,12 +107,12 @@ void Finder::add_head() {
   }
   if (head.empty()) head = first_;
   add("nose", best_of(head, [&](uint32_t v) { return forward(v) - 0.3 * std::abs(side(v)); }), {"forward"},
-      by_name ? 0.9 : 0.5, by_name ? "front of the head joint" : "foremost place");
+      by_joint ? 0.9 : 0.5, by_joint ? "front of the head joint" : "foremost place");
 }
 
 // Ears by their joints only: their shapes say nothing that horns do not.
 void Finder::add_ears() {
-  const std::vector<uint32_t> ears = named({"ear"});
+  const std::vector<uint32_t> ears = of_part(BodyPart::ear);
   for (const double sign : {1.0, -1.0}) {
     std::vector<uint32_t> own;
     glm::dvec3 base(0);
@@ -123,7 +128,7 @@ void Finder::add_ears() {
 }
 
 void Finder::add_tail() {
-  const std::vector<uint32_t> tail = named({"tail"});
+  const std::vector<uint32_t> tail = of_part(BodyPart::tail);
   if (!tail.empty()) {
     // the end that is furthest from where the tail meets the body
     const uint32_t base = best_of(tail, [&](uint32_t v) { return forward(v); });
@@ -153,14 +158,15 @@ void Finder::add_tail() {
 }
 
 void Finder::add_hands() {
-  const std::vector<uint32_t> hands = named({"hand", "palm", "wrist", "finger", "fist"});
+  std::vector<uint32_t> hands = of_part(BodyPart::hand);
+  if (hands.empty()) hands = of_part(BodyPart::finger);
   const glm::dvec3 chest =
       middle_ * axes_.right + 0.5 * (front_ + back_) * axes_.forward + (ground_ + 0.8 * height_) * axes_.up;
   for (const double sign : {1.0, -1.0}) {
     const std::string name = sign > 0 ? "hand left" : "hand right";
     std::vector<uint32_t> own, tips, wide;
     for (const uint32_t v : hands)
-      if (sign * side(v) > 0) own.push_back(v);
+      if (sign * known(v).side > 0) own.push_back(v);
     const auto is_hand = [&](uint32_t v) {
       return sign * side(v) > 0.1 * height_ && up(v) > 0.05 * height_ && up(v) < 0.85 * height_;
     };
@@ -172,7 +178,7 @@ void Finder::add_hands() {
     const auto width = [&](uint32_t v) { return sign * side(v); };
     const std::vector<std::string> directions = {"down", "away", sign > 0 ? "right" : "left", "forward"};
     const auto raised =
-        std::find_if(raised_.begin(), raised_.end(), [&](const Foot& foot) { return sign * foot.side > 0; });
+        std::find_if(raised_.begin(), raised_.end(), [&](const Foot& foot) { return sign * foot.known_side > 0; });
     if (!own.empty()) {
       add(name, best_of(own, reach), directions, 0.9, "end of the hand joints");
     } else if (raised != raised_.end()) {
@@ -197,12 +203,17 @@ void Finder::add_fins() {
 Landmarks Finder::find(const Axes* axes) {
   const RegionFinder first(model_, mesh_, Axes());
   regions_ = &first;
+  out_.known = know_body(model_, mesh_, axes);
   if (axes) {
     axes_ = *axes;
+    out_.axes_from = AxesFrom::caller;
     measure();
   } else {
-    find_axes();
+    choose_axes();
   }
+  // sides are those of the axes, also where the caller's are others than the skeleton's
+  if (glm::dot(out_.known.axes.right, axes_.right) < 0)
+    for (KnownNode& node : out_.known.nodes) node.side = -node.side;
   const RegionFinder finder(model_, mesh_, axes_);
   regions_ = &finder;
   std::vector<Foot> left, right;
@@ -214,7 +225,8 @@ Landmarks Finder::find(const Axes* axes) {
   if (pairs > 0 && left.size() == right.size() && std::abs(shift) < 0.05 * diagonal_) middle_ += shift;
   out_.axes = axes_;
   out_.leg_pairs = pairs;
-  out_.upright = pairs == 1 && height_ > 1.1 * (front_ - back_);
+  // a cape or a weapon makes a body as long as it is high; the skeleton does not count them
+  out_.upright = pairs == 1 && (out_.known.knows_parts() ? out_.known.upright : height_ > 1.1 * (front_ - back_));
   add_head();
   add_ears();
   add_tail();
@@ -232,10 +244,10 @@ Landmarks Finder::find(const Axes* axes) {
       const bool even = left.size() == right.size();
       add(name + word, foot.vertex, {"down"},
           !even                       ? 0.5
-          : named_feet_ || first_try_ ? 0.9
+          : known_feet_ || first_try_ ? 0.9
                                       : 0.7,
           !even         ? "one of an odd number on the ground"
-          : named_feet_ ? "end of the leg joints"
+          : known_feet_ ? "end of the leg's joints"
           : first_try_  ? "stands on the ground"
                         : "reaches lowest on its side");
       feet_.push_back(foot);
@@ -251,6 +263,35 @@ const Landmark* Landmarks::get(const std::string& name) const {
   for (const Landmark& landmark : list)
     if (landmark.name == name) return &landmark;
   return nullptr;
+}
+
+std::string axis_name(const glm::dvec3& direction) {
+  char text[64];
+  for (int c = 0; c < 3; ++c) {
+    if (std::abs(direction[c]) == 1) return std::string(direction[c] > 0 ? "+" : "-") + "xyz"[c];
+  }
+  std::snprintf(text, sizeof text, "%.2f %.2f %.2f", direction.x, direction.y, direction.z);
+  return text;
+}
+
+std::string axes_sentence(const Landmarks& landmarks) {
+  const auto sure = [](double confidence) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%.2f", confidence);
+    return std::string(text);
+  };
+  const KnownBody& known = landmarks.known;
+  const std::string up = axis_name(landmarks.axes.up), forward = axis_name(landmarks.axes.forward);
+  if (landmarks.axes_from == AxesFrom::caller) return "up " + up + ", faces " + forward + ", as given";
+  if (landmarks.axes_from == AxesFrom::skeleton)
+    return "up " + up + " from the skeleton, " + sure(known.up_confidence) + ": " + known.up_why + "; faces " +
+           forward + ", " + sure(known.forward_confidence) + ": " + known.forward_why;
+  std::string out = "up " + up + ", faces " + forward + ", from the surface";
+  if (!known.nodes.empty() && known.part_confidence > 0)
+    out += "; its joints say up " + axis_name(known.axes.up) + ", forward " + axis_name(known.axes.forward) +
+           " and are not sure, " +
+           sure(std::min({known.up_confidence, known.forward_confidence, known.part_confidence}));
+  return out;
 }
 
 Landmarks find_landmarks(const Body& body) { return Finder(body).find(body.axes); }

@@ -1,13 +1,13 @@
 // Finds the places of a creature that a transfer needs: feet, head or nose, tail, hands, and two places on the trunk.
-// It uses the shape, and joint names where they help.
+// It uses the skeleton where that was understood (known_body.h), and the shape.
 //
-// Feet are the ends of limbs by their joints' names, if names give as many on the left as on the right. Else they are
-// the pieces of the surface below 12 % of the height that stand on the ground. The limit is lower for shorter legs, and
-// a piece may be farther off the ground if the model rests in mid-stride. A body without feet (a fish, a snake) has its
-// ends and fins. Up is +y, unless the bones of the legs point down another axis. The side axis is the one with the best
-// symmetry. Forward is where toes, head and eyes point (+z when in doubt, as in glTF). Head, tail and hands come from
-// joint names first, else from the extremities of the surface that the caller gives (hf_surface_find_extremities). Ears
-// come from joint names only. The trunk places lie where a line through the belly, or through the back of an upright
+// Feet are the ends of legs of the skeleton, if it has as many on the left as on the right. Else they are the pieces of
+// the surface below 12 % of the height that stand on the ground. The limit is lower for shorter legs, and a piece may
+// be farther off the ground if the model rests in mid-stride. A body without feet (a fish, a snake) has its ends and
+// fins. The skeleton says where up and forward are. Without one up is +y, the side axis is the one with the best
+// symmetry, and forward is where toes and head point (+z when in doubt, as in glTF). Head, tail and hands come from the
+// skeleton first, else from the extremities of the surface that the caller gives (hf_surface_find_extremities). Ears
+// come from the skeleton only. The trunk places lie where a line through the belly, or through the back of an upright
 // body, leaves the body. Every landmark says how it was found and how reliable it is.
 #ifndef HF_GLTF_LANDMARKS_H
 #define HF_GLTF_LANDMARKS_H
@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "gltf/known_body.h"
 #include "gltf/regions.h"
 
 namespace hf_gltf {
@@ -28,8 +29,13 @@ struct Landmark {
   std::string found;      // how, for people
 };
 
+// Who said where up and forward are.
+enum class AxesFrom { caller, skeleton, surface };
+
 struct Landmarks {
   Axes axes;
+  AxesFrom axes_from = AxesFrom::surface;
+  KnownBody known;
   bool upright = false;  // a body that stands on two legs and is higher than long
   size_t leg_pairs = 0;
   std::vector<Landmark> list;
@@ -44,6 +50,11 @@ struct Body {
 };
 
 Landmarks find_landmarks(const Body& body);
+
+// "+y", or three numbers.
+std::string axis_name(const glm::dvec3& direction);
+// How the axes were found, for people: "up +y from the skeleton, 0.98: legs down, head up; faces +z, ...".
+std::string axes_sentence(const Landmarks& landmarks);
 
 }  // namespace hf_gltf
 

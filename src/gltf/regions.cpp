@@ -13,7 +13,15 @@
 namespace hf_gltf {
 namespace {
 
+// A name, or three numbers where a body faces none of the coordinate axes.
 glm::dvec3 read_direction(const JsonReader& json) {
+  if (json.value().is_array()) {
+    const std::vector<double> xyz = json.numbers(3);
+    const glm::dvec3 out(xyz[0], xyz[1], xyz[2]);
+    const double length = glm::length(out);
+    if (!(length > 0) || !std::isfinite(length)) json.fail("three zeros are no direction");
+    return out / length;
+  }
   const std::string text = json.string();
   const std::string names = "xyz";
   const size_t axis = text.size() == 2 ? names.find(text[1]) : std::string::npos;
@@ -37,7 +45,11 @@ Axes read_axes(const JsonReader& json) {
   Axes axes;
   if (json.has("up")) axes.up = read_direction(json.at("up"));
   if (json.has("forward")) axes.forward = read_direction(json.at("forward"));
-  if (glm::dot(axes.up, axes.forward) != 0) json.fail("up and forward must be two different axes");
+  // rounded numbers are a little off the right angle
+  constexpr double square = 1e-3;
+  const double cosine = glm::dot(axes.up, axes.forward);
+  if (std::abs(cosine) > square) json.fail("up and forward must be two axes at a right angle");
+  if (cosine != 0) axes.forward = glm::normalize(axes.forward - cosine * axes.up);
   axes.right = glm::cross(axes.up, axes.forward);
   return axes;
 }

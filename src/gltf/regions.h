@@ -60,6 +60,8 @@ class RegionFinder {
   double diagonal() const { return diagonal_; }
   // Returns the joint (or mesh node) to which a vertex belongs; empty without a name.
   const std::string& owner_name(uint32_t vertex) const;
+  // The same as a node of the model, -1: none.
+  int owner(uint32_t vertex) const { return owner_[vertex]; }
   // Tells whether exactly one node has that name and is a joint of a skin.
   bool is_joint(const std::string& name) const;
 

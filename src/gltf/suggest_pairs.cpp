@@ -15,14 +15,14 @@ namespace {
 
 using nlohmann::json;
 
-std::string axis_name(const glm::dvec3& direction) {
-  for (int c = 0; c < 3; ++c) {
-    if (std::abs(direction[c]) > 0.5) return std::string(direction[c] > 0 ? "+" : "-") + "xyz"[c];
-  }
-  return "+y";
+json direction_json(const glm::dvec3& direction) {
+  if (glm::distance(direction, glm::round(direction)) == 0) return axis_name(direction);
+  return {direction.x, direction.y, direction.z};
 }
 
-json axes_json(const Axes& axes) { return {{"up", axis_name(axes.up)}, {"forward", axis_name(axes.forward)}}; }
+json axes_json(const Axes& axes) {
+  return {{"up", direction_json(axes.up)}, {"forward", direction_json(axes.forward)}};
+}
 
 // Five digits are enough for a place a ball is put round.
 double rounded(double value) {
@@ -186,11 +186,11 @@ Suggestion suggest_pairs(const Body& source_body, const Body& target_body) {
     out.notes.push_back("no place on the trunk was found on both: add withers and rump, else the trunk floats");
   for (const auto& [model, side] : {std::pair<const Model*, const Landmarks*>(&source, &from), {&target, &to}}) {
     out.notes.push_back(
-        short_name(*model) + " seems to face " + axis_name(side->axes.forward) +
-        (side->axes.up.y > 0 ? "" : ", with " + axis_name(side->axes.up) + " up") +
-        (side->upright ? " and stands upright" : "") +
+        short_name(*model) + ": " + axes_sentence(*side) + (side->upright ? "; stands upright" : "; stands") +
         (side->leg_pairs > 0 ? " on " + std::to_string(2 * side->leg_pairs) + " legs" : " without feet"));
   }
+  out.source = from;
+  out.target = to;
   out.file = {
       {"about", "Proposed for " + short_name(source) + " and " + short_name(target) + ": look at it before use."},
       {"source_axes", axes_json(from.axes)},

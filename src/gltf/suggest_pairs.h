@@ -20,6 +20,7 @@ struct Suggestion {
   nlohmann::json file;  // what read_pairs reads
   std::vector<SuggestedPair> pairs;
   std::vector<std::string> notes;  // places only one of them has, axes, what to check
+  Landmarks source, target;        // what was found on each
 };
 
 // Proposes only pairs that a session accepts. Throws std::runtime_error when the two models have too little in common;

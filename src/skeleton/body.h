@@ -1,5 +1,6 @@
 // What the steps of know_character share: the joints and vertices of one character, and what was found so far.
 #pragma once
+#include <algorithm>
 #include <limits>
 
 #include "base/algebra.h"
@@ -19,6 +20,11 @@ struct Box {
   void add(Vec3 p) noexcept;
   void add(const Box& other) noexcept;
   Vec3 middle() const noexcept { return 0.5 * (low + high); }
+  double square_distance(Vec3 p) const noexcept {
+    const auto gap = [](double below, double above) { return std::max(std::max(below, above), 0.0); };
+    const Vec3 d{gap(low.x - p.x, p.x - high.x), gap(low.y - p.y, p.y - high.y), gap(low.z - p.z, p.z - high.z)};
+    return dot(d, d);
+  }
   double distance(Vec3 p) const noexcept { return distance(Box{p, p}); }
   double distance(const Box& other) const noexcept {
     const auto gap = [](double a_low, double a_high, double b_low, double b_high) {
@@ -96,7 +102,7 @@ struct Body {
   Vector<Role> roles;
   Vector<Side> sides;
   Vector<std::uint32_t> numbers;
-  Vector<char> why;
+  Vector<char> why, up_why, forward_why;
 
   bool is_ancestor(Index a, Index b) const noexcept {
     return enter[at(a)] <= enter[at(b)] && leave[at(b)] <= leave[at(a)];
@@ -127,9 +133,14 @@ struct Body {
   // The lowest coordinate along an axis of what a subtree owns; of its pivots where it owns nothing.
   double lowest_below(Index joint, Vec3 axis) const noexcept;
   Vec3 mean_below(Index joint) const noexcept;
+  // Where clips lead, along the ground as far as up is known: each of length 1, or 0 if it leads nowhere.
+  Vec3 travel(std::uint32_t clip) const noexcept;
   // Adds a sentence.
   void say(const char* format, ...) HF_LIKE_PRINTF(2, 3);
 };
+
+// Adds words behind a comma.
+void add_reason(Vector<char>& reasons, const char* words);
 
 // The steps, in their order.
 void read_joints(Body& body);                            // intake.cpp

@@ -168,7 +168,10 @@ void write_character(Body& body, Character& out) {
   out.ground = dot(body.centre, body.up) + body.scale * body.ground;
   out.middle = body.centre + body.scale * (body.offset * body.left + body.ground * body.up);
   out.role_confidence = role_confidence(body, out);
+  out.trunk = body.trunk;
   out.why = body.why;
+  out.up_why = body.up_why;
+  out.forward_why = body.forward_why;
 }
 
 Character know_character(const CharacterInput& input, Memory& memory) {

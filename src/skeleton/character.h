@@ -10,8 +10,9 @@
 // (roles.cpp, parts.cpp), chains and lengths (chains.cpp). Inside, positions are shares of the diagonal of the bounding
 // box, so that no unit matters.
 //
-// Cost: linear in vertices and triangles; joints are searched in windows, 5,000 take some 50 ms. Bad input throws Error
-// with the index and leaves nothing behind. A body that is not understood gets a low confidence, no error.
+// Cost: linear in vertices and triangles; mates are searched in a tree of joints. Loose islands cost their square. Bad
+// input throws Error with the index and leaves nothing behind. A body that is not understood gets a low confidence, no
+// error.
 #pragma once
 #include <cstdint>
 
@@ -76,6 +77,11 @@ struct CharacterInput {
   const double* forward = nullptr;      // 3 numbers
   const std::int32_t* roles = nullptr;  // of each joint, as Role; -1: nothing declared
   const std::int32_t* sides = nullptr;  // of each joint with a declared role, as Side
+
+  // Where clips of the character lead: from its place at the start to that at the end, x y z each, in the space of the
+  // model. One that leads nowhere says nothing.
+  std::uint32_t travel_count = 0;
+  const double* travels = nullptr;
 };
 
 struct Chain {
@@ -103,7 +109,9 @@ struct Character {
         carriers(&memory),
         mates(&memory),
         frames(&memory),
-        why(&memory) {}
+        why(&memory),
+        up_why(&memory),
+        forward_why(&memory) {}
 
   Vec3 up, forward, left;  // left = up x forward
   Vec3 middle;             // a point of the plane of symmetry, on the ground
@@ -127,7 +135,12 @@ struct Character {
   double hip_height = 0;          // of the thigh's joint over the ground
   double arm_length = 0;          // upper arm to hand
 
+  // Cosine of the way from the hips to the head against up: 1 stands upright, 0 is level. 1 where one is not known.
+  double trunk = 1;
+
   Vector<char> why;  // sentences, one a line
+  // What speaks for the axes, in a few words: "legs down, head up".
+  Vector<char> up_why, forward_why;
 };
 
 Character know_character(const CharacterInput& input, Memory& memory);

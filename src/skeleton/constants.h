@@ -25,6 +25,8 @@ constexpr double branching = 0.5;
 constexpr double ankle_height = 0.5;
 // The trunk is upright above this cosine of hips to head against up.
 constexpr double upright_trunk = 0.6;
+// A clip that leads less far leads nowhere.
+constexpr double travelled = 0.2;
 // What +y and +z are ahead of other axes as up, where nothing is declared: half of what legs that are known say.
 constexpr double customary_up = 0.5;
 

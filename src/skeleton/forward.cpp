@@ -24,10 +24,10 @@ struct Fact {
 struct Facts {
   Fact head{"head before hips"}, named{"front before back"}, toes{"toes before heels"},
       toe_joints{"toe joints before ankles"}, knees{"knees bend forward"}, eyes{"eyes before the head"},
-      ends{"head before the middle"}, face{"face before the joint of the head"};
+      ends{"head before the middle"}, face{"face before the joint of the head"}, travel{"clips lead forward"};
   template <class Visit>
   void each(Visit visit) const {
-    for (const Fact* f : {&head, &named, &toes, &toe_joints, &knees, &eyes, &ends, &face}) {
+    for (const Fact* f : {&travel, &head, &named, &toes, &toe_joints, &knees, &eyes, &ends, &face}) {
       if (f->count > 0) visit(*f);
     }
   }
@@ -128,8 +128,17 @@ void look_at_face(const Body& body, Facts& facts) {
   if (*high > *low) facts.face.add(2 * (*middle - dot(body.pivots[at(body.head)], body.forward)) / (*high - *low));
 }
 
+// Clips that lead to a side say nothing.
+void look_at_travels(const Body& body, Facts& facts) {
+  for (std::uint32_t k = 0; k < body.input.travel_count; ++k) {
+    const double along = dot(body.travel(k), body.forward);
+    if (std::fabs(along) > 0.5) facts.travel.add(along > 0 ? 1 : -1);
+  }
+}
+
 Facts collect(Body& body) {
   Facts facts;
+  look_at_travels(body, facts);
   const Vector<const Limb*> legs = standing_limbs(body);
   if (body.head >= 0 && !legs.empty()) look_at_trunk(body, legs, facts, body.trunk);
   for (const Limb* leg : legs) look_at_feet(body, *leg, facts);
@@ -200,6 +209,17 @@ void take_declared_forward(Body& body) {
   }
 }
 
+// What speaks for forward as it was taken.
+void give_reasons(Body& body, const Facts& facts, Vec3 looked_at) {
+  const double sign = dot(body.forward, looked_at) > 0 ? 1 : -1;
+  if (body.input.forward && body.forward_confidence > 0.5) add_reason(body.forward_why, "as declared");
+  if (body.sides_named && !body.sides_doubtful && sign > 0) add_reason(body.forward_why, "left and right of the names");
+  facts.each([&](const Fact& f) {
+    if (sign * f.vote() > 0.2) add_reason(body.forward_why, f.name);
+  });
+  if (body.forward_why.empty()) add_reason(body.forward_why, "a guess");
+}
+
 }  // namespace
 
 Vector<const Limb*> standing_limbs(const Body& body) {
@@ -229,7 +249,7 @@ std::size_t ankle_of(const Body& body, const Vector<Index>& path) {
 }
 
 void find_forward(Body& body) {
-  body.forward = cross(body.left, body.up);
+  const Vec3 looked_at = body.forward = cross(body.left, body.up);
   const Facts facts = collect(body);
   facts.each([&](const Fact& f) { body.say("Forward: %s, %+.2f.", f.name, f.vote()); });
   if (body.sides_named && !body.sides_doubtful)
@@ -237,6 +257,7 @@ void find_forward(Body& body) {
   else
     judge_shape(body, facts);
   if (body.input.forward) take_declared_forward(body);
+  give_reasons(body, facts, looked_at);
   for (Limb& limb : body.limbs)
     limb.place = 0.5 * dot(body.pivots[at(limb.roots[0])] + body.pivots[at(limb.roots[1])], body.forward);
 }

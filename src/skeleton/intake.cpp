@@ -52,7 +52,9 @@ Body::Body(const CharacterInput& given, Memory& m)
       roles(&m),
       sides(&m),
       numbers(&m),
-      why(&m) {}
+      why(&m),
+      up_why(&m),
+      forward_why(&m) {}
 
 void Body::say(const char* format, ...) {
   char text[400];
@@ -63,6 +65,17 @@ void Body::say(const char* format, ...) {
   if (length <= 0) return;
   why.insert(why.end(), text, text + std::min<std::size_t>(static_cast<std::size_t>(length), sizeof text - 1));
   why.push_back('\n');
+}
+
+void add_reason(Vector<char>& reasons, const char* words) {
+  for (const char* c = reasons.empty() ? "" : ", "; *c; ++c) reasons.push_back(*c);
+  for (; *words; ++words) reasons.push_back(*words);
+}
+
+Vec3 Body::travel(std::uint32_t clip) const noexcept {
+  const double* t = input.travels + 3 * std::size_t{clip};
+  const Vec3 way = (1 / scale) * Vec3{t[0], t[1], t[2]}, level = input.up ? way - dot(way, up) * up : way;
+  return norm(level) < travelled ? Vec3{} : unit_vector(level);
 }
 
 double Body::lowest_below(Index joint, Vec3 axis) const noexcept {
@@ -174,6 +187,14 @@ void check_declared(const CharacterInput& in) {
   }
 }
 
+void check_travels(const CharacterInput& in) {
+  require_list(in.travel_count, in.travels, "travel_count", "travels");
+  for (std::uint32_t k = 0; k < in.travel_count; ++k) {
+    if (!is_finite_point(in.travels + 3 * std::size_t{k}))
+      fail(HF_ERROR_NON_FINITE, k, "travel %u has a number that is not finite", k);
+  }
+}
+
 // The heaviest joint of a vertex. Weights that are no numbers count as 0.
 Index owner_of(const CharacterInput& in, std::size_t v, Vector<double>& weights) {
   Index best = -1;
@@ -247,6 +268,7 @@ void read_joints(Body& body) {
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "joint_count is %u; at most %u are taken", in.joint_count, most_joints);
   require_either(in.matrices, in.trs, "matrices and trs");
   check_declared(in);
+  if (in.travel_count > 0) check_travels(in);
   const std::size_t n = in.joint_count;
   if (in.bound && std::find(in.bound, in.bound + n, 1) == in.bound + n)
     fail(HF_ERROR_EMPTY, HF_NO_INDEX, "bound is 0 for every joint; set it to 1 for those of the skin, or give NULL");

@@ -76,6 +76,7 @@ class Adoption {
         next_(at(body.count), -1, &body.memory),
         last_(at(body.count), -1, &body.memory),
         offers_(at(body.count), Offer{}, &body.memory),
+        bounds_(at(body.count), 1e300, &body.memory),
         done_(at(body.count), 0, &body.memory),
         touching_(at(body.count), -1, &body.memory) {
     for (const Index j : body.order) {
@@ -132,8 +133,15 @@ class Adoption {
     for (Index j = island; j >= 0; j = next_[at(j)]) done_[at(j)] = 1;
     for (Index j = island; j >= 0; j = next_[at(j)]) {
       mark_touching(j);
+      // copies, so that the loop over all that is left loads nothing twice
+      const Box box = body_.boxes[at(j)];
+      const Vec3* const pivots = body_.pivots.data();
+      const double* const bounds = bounds_.data();
+      const Index *const touching = touching_.data(), *const next = next_.data();
       for (const Index root : todo_) {
-        for (Index i = root; i >= 0; i = next_[at(i)]) offer(root, i, j);
+        for (Index i = root; i >= 0; i = next[at(i)]) {
+          if (touching[at(i)] == j || box.square_distance(pivots[at(i)]) <= bounds[at(root)]) offer(root, i, j);
+        }
       }
     }
   }
@@ -154,7 +162,10 @@ class Adoption {
     if (!made.touches) made.distance += body_.boxes[at(i)].distance(body_.boxes[at(j)]);
     made.joint = i;
     made.carrier = j;
-    if (best < made) best = made;
+    if (!(best < made)) return;
+    best = made;
+    // a little more than the square, so that rounding drops nothing that counts
+    bounds_[at(root)] = best.touches > 0 ? -1 : (1 + 1e-9) * best.distance * best.distance;
   }
 
   // What hangs on one unowned joint, all of it on one side, goes together.
@@ -182,6 +193,7 @@ class Adoption {
   const Vector<Touch> touches_;
   Vector<Index> roots_, todo_, next_, last_;  // islands as lists of joints
   Vector<Offer> offers_;                      // the best for each island that is left
+  Vector<double> bounds_;                     // of each island: squares of distances above it make no better offer
   Vector<std::uint8_t> done_;
   Vector<Index> touching_;  // the joint that was last found to touch one
 };

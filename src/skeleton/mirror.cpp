@@ -8,26 +8,42 @@ namespace {
 
 double coordinate(Vec3 p, int axis) noexcept { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-void split(Vec3* first, Vec3* last, int axis) {
+Vec3 place_of(Vec3 p) noexcept { return p; }
+template <class Place>
+Vec3 place_of(const Place& p) noexcept {
+  return p.mean;
+}
+
+template <class T>
+void split(T* first, T* last, int axis) {
   if (last - first < 2) return;
-  Vec3* const middle = first + (last - first) / 2;
-  std::nth_element(first, middle, last, [&](Vec3 a, Vec3 b) { return coordinate(a, axis) < coordinate(b, axis); });
+  T* const middle = first + (last - first) / 2;
+  std::nth_element(first, middle, last, [&](const T& a, const T& b) {
+    return coordinate(place_of(a), axis) < coordinate(place_of(b), axis);
+  });
   split(first, middle, (axis + 1) % 3);
   split(middle + 1, last, (axis + 1) % 3);
 }
 
-void nearest_square(const Vec3* first, const Vec3* last, int axis, Vec3 p, double& best) {
+// Visits what may lie within a reach of a place, nearer halves first. The reach may shrink on the way.
+template <class T, class Visit>
+void visit_near(const T* first, const T* last, int axis, Vec3 p, const double& reach, const Visit& visit) {
   if (first == last) return;
-  const Vec3* const middle = first + (last - first) / 2;
-  best = std::min(best, dot(p - *middle, p - *middle));
-  const double side = coordinate(p, axis) - coordinate(*middle, axis);
+  const T* const middle = first + (last - first) / 2;
+  visit(*middle);
+  const double side = coordinate(p, axis) - coordinate(place_of(*middle), axis);
   const int next = (axis + 1) % 3;
-  if (side < 0) {
-    nearest_square(first, middle, next, p, best);
-    if (side * side < best) nearest_square(middle + 1, last, next, p, best);
+  const bool low_first = side < 0;
+  if (low_first) {
+    visit_near(first, middle, next, p, reach, visit);
   } else {
-    nearest_square(middle + 1, last, next, p, best);
-    if (side * side < best) nearest_square(first, middle, next, p, best);
+    visit_near(middle + 1, last, next, p, reach, visit);
+  }
+  if (std::fabs(side) > reach) return;
+  if (low_first) {
+    visit_near(middle + 1, last, next, p, reach, visit);
+  } else {
+    visit_near(first, middle, next, p, reach, visit);
   }
 }
 
@@ -43,53 +59,40 @@ MirrorSearch::MirrorSearch(const Body& body, Index main, const Vector<Vec3>& piv
       pivots_(pivots),
       means_(means),
       joints_(&body.memory),
-      sorted_(&body.memory),
+      places_(&body.memory),
       cloud_(&body.memory) {
   for (const Index j : body.order) {
     if (body.kept[at(j)]) joints_.push_back(j);
   }
+  for (const Index j : joints_) places_.push_back({means[at(j)], j});
+  split(places_.data(), places_.data() + places_.size(), 0);
   const std::size_t step = body.points.size() / skin_targets + 1;
   for (std::size_t v = 0; v < body.points.size(); v += step) cloud_.push_back(body.points[v]);
   split(cloud_.data(), cloud_.data() + cloud_.size(), 0);
 }
 
-void MirrorSearch::sort_along(Vec3 left) {
-  Box box;
-  for (const Index j : joints_) box.add(means_[at(j)]);
-  double longest = -1;
-  for (const Vec3 axis : {Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{1, 0, 0}}) {
-    const Vec3 along = unit_vector(axis - dot(axis, left) * left);
-    const double extent = dot(box.high - box.low, {std::fabs(axis.x), std::fabs(axis.y), std::fabs(axis.z)}) *
-                          std::fabs(dot(along, axis));
-    if (norm(along) > 0 && extent > longest) {
-      longest = extent;
-      across_ = along;
-    }
-  }
-  sorted_.clear();
-  for (const Index j : joints_) sorted_.push_back({dot(means_[at(j)], across_), j, means_[at(j)]});
-  std::sort(sorted_.begin(), sorted_.end(),
-            [](const Place& a, const Place& b) { return a.along != b.along ? a.along < b.along : a.joint < b.joint; });
-}
-
 // The joint whose pivot and mean are nearest to the given ones, if it is near enough. No joint mirrors its own
-// ancestor: a fish is not symmetric from head to tail.
-Index MirrorSearch::nearest(Vec3 pivot, Vec3 mean, Index self) const {
-  const double s = dot(mean, across_);
+// ancestor: a fish is not symmetric from head to tail. guess: a joint that is near, or -1.
+Index MirrorSearch::nearest(Vec3 pivot, Vec3 mean, Index self, Index guess) const {
   double least = 2 * mirrored;
   Index best = -1;
-  const auto first = std::lower_bound(sorted_.begin(), sorted_.end(), s - least,
-                                      [](const Place& p, double along) { return p.along < along; });
-  for (auto k = first; k != sorted_.end() && k->along <= s + least; ++k) {
-    const Vec3 apart = k->mean - mean;
-    if (dot(apart, apart) > least * least) continue;
-    const Index j = k->joint;
+  if (guess >= 0) {
+    const double d = norm(means_[at(guess)] - mean) + norm(pivots_[at(guess)] - pivot);
+    if (d <= least) {
+      least = d;
+      best = guess;
+    }
+  }
+  visit_near(places_.data(), places_.data() + places_.size(), 0, mean, least, [&](const Place& place) {
+    const Vec3 apart = place.mean - mean;
+    if (dot(apart, apart) > least * least) return;
+    const Index j = place.joint;
     const double d = norm(apart) + norm(pivots_[at(j)] - pivot);
-    if (d > least || (d == least && best >= 0 && best < j)) continue;
-    if (j != self && (body_.is_ancestor(j, self) || body_.is_ancestor(self, j))) continue;
+    if (d > least || (d == least && best >= 0 && best < j)) return;
+    if (j != self && (body_.is_ancestor(j, self) || body_.is_ancestor(self, j))) return;
     least = d;
     best = j;
-  }
+  });
   return best;
 }
 
@@ -102,9 +105,9 @@ double MirrorSearch::count_pairs(Plane& plane, bool all) {
     const Index j = joints_[k];
     if (std::fabs(dot(means_[at(j)], plane.left) - plane.offset) <= central) continue;
     ++off;
-    const Index mate = nearest(reflected(pivots_[at(j)], plane), reflected(means_[at(j)], plane), j);
+    const Index mate = nearest(reflected(pivots_[at(j)], plane), reflected(means_[at(j)], plane), j, -1);
     if (mate < 0 || mate == j) continue;
-    if (nearest(reflected(pivots_[at(mate)], plane), reflected(means_[at(mate)], plane), mate) != j) continue;
+    if (nearest(reflected(pivots_[at(mate)], plane), reflected(means_[at(mate)], plane), mate, j) != j) continue;
     plane.mates[at(j)] = mate;
     ++paired;
   }
@@ -117,15 +120,19 @@ double MirrorSearch::skin_distance(const Plane& plane) {
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t v = 0; v < body_.points.size(); v += step, ++count) {
-    double best = 1e300;
-    nearest_square(cloud_.data(), cloud_.data() + cloud_.size(), 0, reflected(body_.points[v], plane), best);
-    sum += std::sqrt(best);
+    const Vec3 p = reflected(body_.points[v], plane);
+    double square = 1e300, reach = 1e150;
+    visit_near(cloud_.data(), cloud_.data() + cloud_.size(), 0, p, reach, [&](Vec3 q) {
+      if (dot(p - q, p - q) >= square) return;
+      square = dot(p - q, p - q);
+      reach = std::sqrt(square);
+    });
+    sum += reach;
   }
   return sum / static_cast<double>(count);
 }
 
 Plane MirrorSearch::look(Vec3 left, bool with_skin, bool all) {
-  sort_along(left);
   Vector<double> along(&body_.memory);
   for (const Index j : joints_) along.push_back(dot(pivots_[at(j)], left));
   const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
@@ -138,9 +145,11 @@ Plane MirrorSearch::look(Vec3 left, bool with_skin, bool all) {
     Plane plane(body_.memory);
     plane.left = left;
     plane.offset = offset;
-    plane.score = count_pairs(plane, all);
+    plane.score = count_pairs(plane, false);
     if (best.mates.empty() || plane.score > best.score) best = std::move(plane);
   }
+  // joints that stand for all have chosen the offset
+  if (all) best.score = count_pairs(best, true);
   // Skin that does not lie on itself counts four times its mean distance, a share of the diagonal.
   if (with_skin) best.score -= 4 * skin_distance(best);
   return best;

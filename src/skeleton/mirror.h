@@ -19,8 +19,7 @@ class MirrorSearch {
   Plane look(Vec3 left, bool with_skin, bool all = false);
 
  private:
-  Index nearest(Vec3 pivot, Vec3 mean, Index self) const;
-  void sort_along(Vec3 left);
+  Index nearest(Vec3 pivot, Vec3 mean, Index self, Index guess) const;
   double count_pairs(Plane& plane, bool all);
   double skin_distance(const Plane& plane);
 
@@ -29,14 +28,13 @@ class MirrorSearch {
   const Vector<Vec3>& pivots_;
   const Vector<Vec3>& means_;
   Vector<Index> joints_;
+  // Both are trees: the middle of each range splits it along one axis in turn.
   struct Place {
-    double along;
-    Index joint;
     Vec3 mean;
+    Index joint;
   };
-  Vector<Place> sorted_;  // along a direction in the plane, which a reflection does not change
-  Vec3 across_;
-  Vector<Vec3> cloud_;  // a tree: the middle of each range splits it along one axis in turn
+  Vector<Place> places_;
+  Vector<Vec3> cloud_;
 };
 
 }  // namespace hf_inner

@@ -34,6 +34,11 @@ bool is_below(const Body& body, Index joint, Index above) {
   return p >= a && p < body.ends[at(a)];
 }
 
+// The head of a spider carries legs. Hair that reaches the ground is no leg: what has it stands upright.
+bool is_leg_on_head(const Body& body, const Limb& limb) {
+  return limb.named == NameClass::leg || (limb.named == NameClass::none && limb.stands && body.trunk < upright_trunk);
+}
+
 Role role_on_head(const Limb& limb) {
   switch (limb.named) {
     case NameClass::eye:
@@ -50,7 +55,8 @@ Role role_on_head(const Limb& limb) {
 }
 
 Role role_of_limb(const Body& body, const Limb& limb, std::size_t standing_count) {
-  if (body.head >= 0 && body.head != body.root && is_below(body, limb.carrier, body.head)) return role_on_head(limb);
+  if (body.head >= 0 && body.head != body.root && is_below(body, limb.carrier, body.head))
+    return is_leg_on_head(body, limb) ? Role::leg : role_on_head(limb);
   const bool large = limb.length > 0.1 * body.height, upright = body.trunk > upright_trunk;
   switch (limb.named) {
     case NameClass::wing:

@@ -217,18 +217,42 @@ Vec3 narrowest(const Body& body, const Vector<Vec3>& candidates, bool level) {
   return best;
 }
 
+// A clip leads along the plane of symmetry: what it adds to the score of a plane, as much as two planes that are not
+// sure are apart.
+double travel_bonus(const Body& body, Vec3 left) {
+  double across = 0, count = 0;
+  for (std::uint32_t k = 0; k < body.input.travel_count; ++k) {
+    const Vec3 way = body.travel(k);
+    if (!(norm(way) > 0)) continue;
+    across += std::fabs(dot(way, left));
+    count += 1;
+  }
+  return count > 0 ? 2 * unsure * (1 - across / count) : 0;
+}
+
+// Across the way that clips lead, forward or backward; of length 0 where none leads anywhere.
+Vec3 across_travels(const Body& body) {
+  Vec3 sum;
+  for (std::uint32_t k = 0; k < body.input.travel_count; ++k) {
+    const Vec3 way = body.travel(k);
+    sum = dot(sum, way) < 0 ? sum - way : sum + way;
+  }
+  const Vec3 left = cross(body.up, sum);
+  return norm(left) > 0 ? unit_vector(left) : Vec3{};
+}
+
 struct Choice {
   Vec3 left;
   double score = -1e300, margin = 0;
   std::ptrdiff_t pairs = 0;
 };
 
-Choice best_of(const Vector<Vec3>& candidates, MirrorSearch& search, bool with_skin) {
+Choice best_of(const Body& body, const Vector<Vec3>& candidates, MirrorSearch& search, bool with_skin) {
   Choice best;
   Vector<double> scores(candidates.size(), 0.0, candidates.get_allocator());
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const Plane plane = search.look(candidates[k], with_skin);
-    scores[k] = plane.score + (is_straight(candidates[k]) ? central : 0);
+    scores[k] = plane.score + (is_straight(candidates[k]) ? central : 0) + travel_bonus(body, candidates[k]);
     best.pairs = std::max(best.pairs, count_mates(plane.mates));
     if (scores[k] > best.score) {
       best.score = scores[k];
@@ -256,10 +280,13 @@ void find_plane(Body& body, MirrorSearch& search) {
     for (int k = 0; k < 3; ++k)
       add_round(coordinate_axes[k], coordinate_axes[(k + 1) % 3], search, body, body.pivots, false, candidates);
   }
-  Choice choice = best_of(candidates, search, true);
+  Choice choice = best_of(body, candidates, search, true);
   if (choice.pairs < 4) {
-    choice.left = narrowest(body, candidates, level);
-    body.say("No joints mirror each other: the side is where the joints spread least.");
+    const Vec3 across = level ? across_travels(body) : Vec3{};
+    const bool led = norm(across) > 0;
+    choice.left = led ? snap(across) : narrowest(body, candidates, level);
+    body.say(led ? "No joints mirror each other: the side is across the way that clips lead."
+                 : "No joints mirror each other: the side is where the joints spread least.");
   }
   body.left = choice.left;
   body.mirror_score = choice.score;
@@ -302,7 +329,7 @@ void look_at_bind_pose(Body& body, Index main) {
   if (pivots.empty()) return;
   MirrorSearch search(body, main, pivots, pivots);
   Vector<Vec3> candidates(std::begin(coordinate_axes), std::end(coordinate_axes), &body.memory);
-  const Choice choice = best_of(candidates, search, false);
+  const Choice choice = best_of(body, candidates, search, false);
   if (choice.score <= body.mirror_score + 2 * unsure) return;
   const Plane plane = search.look(choice.left, false, true);
   if (count_mates(plane.mates) < 4) return;

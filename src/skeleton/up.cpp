@@ -124,10 +124,13 @@ Vec3 best_axis(const Body& body, const Evidence& evidence, double& margin) {
   return up;
 }
 
-// A declared up holds unless named legs and a named head both point along another axis: a body that rests lying.
+// A declared up holds unless named legs and a named head both point along another axis: a body that rests lying. Four
+// legs that point along one axis say it alone, since their body carries its head in front.
 void take_declared_up(Body& body, const Evidence& evidence, Vec3 found) {
-  const bool lies = -dot(evidence.legs, found) > 1 - 2 * unsure && dot(evidence.head, found) > 1 - 2 * unsure &&
-                    evidence.of(body.up) < 3 * unsure;
+  const auto is_leg = [](const Limb& limb) { return limb.named == NameClass::leg; };
+  const bool four = std::count_if(body.limbs.begin(), body.limbs.end(), is_leg) > 1;
+  const bool lies = -dot(evidence.legs, found) > 1 - 2 * unsure &&
+                    dot(evidence.head, found) > (four ? 0 : 1 - 2 * unsure) && evidence.of(body.up) < 3 * unsure;
   if (lies || std::fabs(dot(body.up, body.left)) > 0.5) {
     body.up = found;
     body.up_confidence = 0.6;
@@ -155,6 +158,9 @@ void find_up(Body& body) {
     body.say("Up is found by how the body stands%s: ahead of the next axis by %.2f.",
              norm(evidence.legs) > 0 ? " and by its legs" : "", margin);
   }
+  if (-dot(evidence.legs, body.up) > 0.5) add_reason(body.up_why, "legs down");
+  if (dot(evidence.head, body.up) > 0.5) add_reason(body.up_why, "head up");
+  if (body.up_why.empty()) add_reason(body.up_why, body.input.up ? "as declared" : "as it stands");
   body.left = unit_vector(body.left - dot(body.left, body.up) * body.up);
   const Extent height = extent(body, body.up);
   body.ground = height.low;

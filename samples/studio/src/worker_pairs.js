@@ -47,7 +47,7 @@ export async function proposedPairs({ constants }, source, target) {
       ok('pairs_propose', from, to, struct(24, a.length, b.length, 0, space(a), space(b)), out);
       const pairs = word(out);
       handles.push(['pairs_destroy', pairs]);
-      const info = struct(80);
+      const info = struct(84);
       ok('pairs_get_info', pairs, info);
       const axes = (at) => Array.from(module.HEAPF32.subarray(at >> 2, (at >> 2) + 9));
       const found = Array.from({ length: word(info + 4) }, (_, i) => {
@@ -61,7 +61,8 @@ export async function proposedPairs({ constants }, source, target) {
           target: { position: doubles(pair + 40, 3), radius: targetRadius },
         };
       });
-      return { pairs: found, axes: { sourceAxes: axes(info + 8), targetAxes: axes(info + 44) } };
+      const scale = module.HEAPF32[(info + 80) >> 2];
+      return { pairs: found, axes: { sourceAxes: axes(info + 8), targetAxes: axes(info + 44), scale } };
     } catch (error) {
       if (error.code === NOTHING) return { pairs: [], axes: {} };
       throw error;

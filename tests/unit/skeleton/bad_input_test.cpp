@@ -121,6 +121,13 @@ TEST(BadCharacter, DeclarationsAreChecked) {
   in.up = none;
   expect_refused(in, HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "up is no direction");
   in = a.input();
+  const double travels[] = {0, 0, 1, 0, nan, 0};
+  in.travel_count = 2;
+  in.travels = travels;
+  expect_refused(in, HF_ERROR_NON_FINITE, 1, "travel 1");
+  in.travels = nullptr;
+  expect_refused(in, HF_ERROR_NULL_POINTER, HF_NO_INDEX, "travels");
+  in = a.input();
   const std::int32_t roles[] = {-1, 99, -1}, sides[] = {0, 0, 5}, good[] = {-1, -1, 3};
   in.roles = roles;
   expect_refused(in, HF_ERROR_INVALID_ARGUMENT, 1, "roles[1] is 99");

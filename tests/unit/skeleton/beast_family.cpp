@@ -94,12 +94,13 @@ struct Beast {
            {0.2, 0.75, 0.55}, 0.03);
   }
 
+  // The head carries the front legs, as that of a spider does.
   void spider() {
     const int body = central("Body", -1, {0, 0.5, 0}, {0, 0.5, 0.25}, Role::spine, 0.2);
-    central("Head", body, {0, 0.5, 0.3}, {0, 0.5, 0.6}, Role::head, 0.13);
+    const int head = central("Head", body, {0, 0.5, 0.3}, {0, 0.5, 0.6}, Role::head, 0.13);
     for (int k = 0; k < 4; ++k) {
       const double z = 0.3 - 0.2 * k, out = 0.9 * std::sin(0.5 + 0.7 * k), along = 0.8 * std::cos(0.5 + 0.7 * k);
-      limb(body,
+      limb(k < 2 ? head : body,
            {{"Leg" + std::to_string(k + 1), Role::leg, {0.2, 0.5, z}},
             {"LegLower" + std::to_string(k + 1), Role::leg, {0.2 + 0.5 * out, 0.85, z + 0.5 * along}}},
            {0.2 + out, 0.0, z + along}, 0.03);

@@ -54,6 +54,46 @@ INSTANTIATE_TEST_SUITE_P(Plans, Beasts, testing::ValuesIn(beasts), [](const auto
   return name;
 });
 
+// Its file says that y is up, but a node has put the body on its side, on its back, or its z up.
+TEST(Quadruped, ThatLiesHasTheUpOfItsLegs) {
+  const Rig rig = make_beast("horse", true);
+  const PlacedRig placed(rig, {});
+  for (const auto& [up, matrix] : {std::pair<Vec3, std::array<double, 9>>{{0, 0, 1}, {1, 0, 0, 0, 0, 1, 0, -1, 0}},
+                                   {{-1, 0, 0}, {0, 1, 0, -1, 0, 0, 0, 0, 1}},
+                                   {{0, -1, 0}, {-1, 0, 0, 0, -1, 0, 0, 0, 1}}}) {
+    const auto turned = [&, m = matrix](Vec3 v) {  // columns first
+      return Vec3{m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z,
+                  m[2] * v.x + m[5] * v.y + m[8] * v.z};
+    };
+    std::vector<double> matrices = placed.matrices, positions = placed.positions;
+    for (std::size_t j = 0; j < placed.parents.size(); ++j) {
+      for (std::size_t c = 0; c < 4 && placed.parents[j] < 0; ++c) {
+        double* m = matrices.data() + 16 * j + 4 * c;
+        const Vec3 v = turned({m[0], m[1], m[2]});
+        m[0] = v.x;
+        m[1] = v.y;
+        m[2] = v.z;
+      }
+    }
+    for (std::size_t k = 0; k < positions.size(); k += 3) {
+      const Vec3 p = turned({positions[k], positions[k + 1], positions[k + 2]});
+      positions[k] = p.x;
+      positions[k + 1] = p.y;
+      positions[k + 2] = p.z;
+    }
+    hf_inner::CharacterInput in = placed.input();
+    const double declared[] = {0, 1, 0};
+    in.matrices = matrices.data();
+    in.positions = positions.data();
+    in.up = declared;
+    Memory memory;
+    const Character found = know_character(in, memory);
+    EXPECT_GT(hf_inner::dot(found.up, up), 0.99) << why(found);
+    EXPECT_GT(hf_inner::dot(found.forward, turned({0, 0, 1})), 0.99) << why(found);
+    EXPECT_LE(found.up_confidence, 0.6);
+  }
+}
+
 TEST(Quadruped, LegsAreNumberedFromTheFrontAndMeasuredBehind) {
   const Rig rig = make_beast("horse", true);
   Memory memory;

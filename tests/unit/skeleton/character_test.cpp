@@ -107,6 +107,57 @@ TEST(Doubt, ADeclaredForwardIsTakenAndADisagreementSaid) {
   EXPECT_LE(kept.forward_confidence, 0.5);
 }
 
+// A body that rests in mid-stride, without names, whose feet and face say nothing.
+Rig make_strider() {
+  Rig rig;
+  const int hips = rig.add("", -1, {0, 1, 0}, Role::spine);
+  rig.add_block(hips, {-0.2, 0.9, -0.1}, {0.2, 1.5, 0.1});
+  const int head = rig.add("", hips, {0, 1.55, 0}, Role::head);
+  rig.add_block(head, {-0.1, 1.55, -0.1}, {0.1, 1.8, 0.1});
+  for (const double s : {1.0, -1.0}) {
+    const Side side = s > 0 ? Side::left : Side::right;
+    const int thigh = rig.add("", hips, {s * 0.12, 0.9, 0}, Role::leg, side);
+    rig.add_box(thigh, {s * 0.12, 0.9, 0}, {s * 0.12, 0.5, 0}, 0.06);
+    const int shin = rig.add("", thigh, {s * 0.12, 0.5, 0}, Role::leg, side);
+    rig.add_box(shin, {s * 0.12, 0.5, 0}, {s * 0.12, 0, 0}, 0.05);
+    rig.turn(thigh, {1, 0, 0}, s * 20);
+  }
+  return rig;
+}
+
+TEST(Travel, OfAClipSaysWhereABodyLooksThatSaysNothingItself) {
+  const Rig rig = make_strider();
+  for (const Placing& placing : {Placing{}, Placing{0.01, 180, false, false, {}}, Placing{100, 90, false, false, {}}}) {
+    for (const double way : {1.0, -1.0}) {
+      Memory memory;
+      const PlacedRig placed(rig, placing);
+      hf_inner::CharacterInput in = placed.input();
+      const Vec3 walk = placing.scale * placing.along({0.1, 0, 3 * way}), still = 0.01 * walk;
+      const double travels[] = {walk.x, walk.y, walk.z, still.x, still.y, still.z}, up[] = {0, 1, 0};
+      in.up = up;
+      EXPECT_LT(know_character(in, memory).forward_confidence, 0.6);
+      in.travels = travels;
+      in.travel_count = 2;
+      const Character found = know_character(in, memory);
+      EXPECT_GT(hf_inner::dot(found.forward, placing.along({0, 0, way})), 0.9) << why(found);
+      EXPECT_GE(found.forward_confidence, 0.7) << why(found);
+    }
+  }
+}
+
+// Names of sides stand against one clip that walks backward.
+TEST(Travel, OfOneClipDoesNotTurnABodyRoundWhoseSidesAreNamed) {
+  const Rig rig = make_biped("mixamo", {});
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  hf_inner::CharacterInput in = placed.input();
+  const double back[] = {0, 0, -3};
+  in.travels = back;
+  in.travel_count = 1;
+  const Character found = know_character(in, memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+}
+
 // A word in every name says nothing, even if it is a word of the table.
 TEST(Names, APrefixOfAllNamesIsDropped) {
   Rig rig = make_biped("unity", {});

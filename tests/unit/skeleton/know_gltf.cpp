@@ -4,11 +4,9 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <stdexcept>
 
 #include "base/error.h"
 #include "gltf/gltf_read.h"
-#include "gltf/landmarks.h"
 #include "gltf_character.h"
 
 namespace {
@@ -48,23 +46,14 @@ void print_file(const char* file, bool names, bool up, bool declared, bool why) 
   const auto start = std::chrono::steady_clock::now();
   const Character c = know_character(g.input(names, up, declared), memory);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  char a[32], b[32], d[32], e[32];
-  hf_gltf::Axes axes;
-  std::string failed;
-  try {
-    const hf_gltf::FlatMesh mesh = hf_gltf::flatten(model);
-    if (mesh.positions.empty()) throw std::runtime_error("no surface");
-    axes = hf_gltf::find_landmarks({model, mesh, {}, nullptr}).axes;
-  } catch (const std::exception& error) {
-    failed = error.what();
-  }
+  char a[32], b[32];
   std::printf(
-      "%s joints %zu up %s %.2f forward %s %.2f roles %.2f | leg %.3g hip %.3g arm %.3g height %.3g | hf up %s forward "
-      "%s | %.1f ms\n",
+      "%s joints %zu up %s %.2f forward %s %.2f roles %.2f | leg %.3g hip %.3g arm %.3g height %.3g trunk %.2f | %.1f "
+      "ms | up: %.*s | forward: %.*s\n",
       std::strrchr(file, '/') ? std::strrchr(file, '/') + 1 : file, g.names.size(), axis_name(c.up, a), c.up_confidence,
       axis_name(c.forward, b), c.forward_confidence, c.role_confidence, c.leg_length, c.hip_height, c.arm_length,
-      c.height, failed.empty() ? axis_name({axes.up.x, axes.up.y, axes.up.z}, d) : "failed",
-      failed.empty() ? axis_name({axes.forward.x, axes.forward.y, axes.forward.z}, e) : "failed", ms);
+      c.height, c.trunk, ms, static_cast<int>(c.up_why.size()), c.up_why.data(), static_cast<int>(c.forward_why.size()),
+      c.forward_why.data());
   if (!why) return;
   std::printf("%.*s", static_cast<int>(c.why.size()), c.why.data());
   print_chains(c, g);
