@@ -376,18 +376,12 @@ static int same_picture(const Picture* a, const Picture* b) {
          same_bits(a->morphed, b->morphed, sizeof a->morphed);
 }
 
-/* Under an emulator (HF_EMULATED) the refused allocations lie ever further apart: every one is refused where the
- * processor is real, and this one asks whether the library gives back and reports as it does there. */
-static size_t next_refused(size_t n) {
-#ifdef HF_EMULATED
-  return n + 1 + n / 2;
-#else
-  return n + 1;
-#endif
-}
+/* The refused allocations lie ever further apart: this program runs under emulators too. reliability_refuse refuses
+ * every one. */
+static size_t next_refused(size_t n) { return n + 1 + n / 2; }
 
-/* Runs one scenario with allocation n = 1, 2, ... refused until the call succeeds. on: all later ones are refused too.
- */
+/* Runs one scenario with allocation n = 1, 2, 4, ... refused until the call succeeds. on: all later ones are refused
+ * too. */
 static unsigned refuse_each(size_t s, int32_t engine, int on) {
   unsigned refused = 0;
   for (size_t n = 1;; n = next_refused(n)) {
