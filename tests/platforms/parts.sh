@@ -42,12 +42,12 @@ hf_count() {
 # Windows: the DLL by MinGW, the tests of the public ABI, the golden hashes and the sample programs under Wine.
 test_windows() {
   hf_configure windows -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/windows.cmake" -DHF_BUILD_SAMPLES=ON &&
-    hf_make windows hf hf_api_tests reliability_golden platform_throwing_host hf_field hf_transfer hf_make_assets || return 1
+    hf_make windows hf hf_api_tests reliability_golden reliability_refuse platform_throwing_host hf_field hf_transfer hf_make_assets || return 1
   # Wine has its settings in the build folder, no window, and ends with the tests
   export WINEPREFIX="$hf_root/build/windows/wine" WINEDEBUG=-all WINEDLLOVERRIDES='mscoree,mshtml=' LC_ALL=C.UTF-8
   wine wineboot -i >/dev/null 2>&1
   local code=0
-  hf_count windows '^(api_|platform_|reliability_golden$)' || code=1
+  hf_count windows '^(api_|platform_|reliability_(golden|refuse)$)' || code=1
   "$(command -v wineserver || echo /usr/lib/wine/wineserver)" -k >/dev/null 2>&1
   return "$code"
 }
@@ -55,8 +55,8 @@ test_windows() {
 # 64-bit ARM under qemu: the tests of the public ABI, the golden hashes, and the instructions of the kernels for NEON.
 test_arm64() {
   hf_configure arm64 -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/arm64.cmake" &&
-    hf_make arm64 hf hf_api_tests reliability_golden platform_throwing_host kernel_work &&
-    hf_count arm64 '^(api_|platform_|reliability_golden$)'
+    hf_make arm64 hf hf_api_tests reliability_golden reliability_refuse platform_throwing_host kernel_work &&
+    hf_count arm64 '^(api_|platform_|reliability_(golden|refuse)$)'
 }
 
 # Processors without kernels of their own, 32 bits and big-endian, under qemu: quick forms.
@@ -64,8 +64,8 @@ test_small() {
   local system code=0
   for system in i686 armhf riscv64 s390x; do
     { hf_configure "$system" -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/$system.cmake" &&
-      hf_make "$system" hf hf_api_tests reliability_golden &&
-      hf_count "$system" '^(api_|reliability_golden$)'; } || code=1
+      hf_make "$system" hf hf_api_tests reliability_golden reliability_refuse &&
+      hf_count "$system" '^(api_|reliability_(golden|refuse)$)'; } || code=1
   done
   return "$code"
 }
@@ -77,11 +77,11 @@ test_clang() {
   command -v "clang++-$version" >/dev/null || { hf_say "no clang from 16 on here"; return 77; }
   local compilers=(-DCMAKE_C_COMPILER="clang-$version" -DCMAKE_CXX_COMPILER="clang++-$version" -DHF_BUILD_UNIT_TESTS=OFF)
   { hf_configure clang "${compilers[@]}" &&
-    hf_make clang hf hf_api_tests reliability_golden &&
-    hf_count clang '^(api_|reliability_golden$)'; } || code=1
+    hf_make clang hf hf_api_tests reliability_golden reliability_refuse &&
+    hf_count clang '^(api_|reliability_(golden|refuse)$)'; } || code=1
   { hf_configure clang-libc++ "${compilers[@]}" -DCMAKE_CXX_FLAGS=-stdlib=libc++ &&
-    hf_make clang-libc++ hf hf_api_tests reliability_golden &&
-    hf_count clang-libc++ '^(api_test|api_.*_test|reliability_golden$)'; } || code=1
+    hf_make clang-libc++ hf hf_api_tests reliability_golden reliability_refuse &&
+    hf_count clang-libc++ '^(api_test|api_.*_test|reliability_(golden|refuse)$)'; } || code=1
   "$hf_root/tests/platforms/languages.sh" "$hf_root" "clang-$version" "clang++-$version" || code=1
   return "$code"
 }
