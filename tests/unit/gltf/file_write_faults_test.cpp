@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <thread>
 
-#include "unit/samples/file_write_support.h"
+#include "unit/gltf/file_write_support.h"
 
 namespace {
 

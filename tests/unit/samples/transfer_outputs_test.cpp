@@ -5,7 +5,7 @@
 #include "common/mesh_file.h"
 #include "gltf/animate.h"
 #include "transfer/session.h"
-#include "unit/transfer/transfer_program_support.h"
+#include "unit/samples/transfer_program_support.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gltf/flat_mesh.h"
-#include "unit/transfer/transfer_program_support.h"
+#include "unit/samples/transfer_program_support.h"
 
 namespace {
 
@@ -316,7 +316,7 @@ TEST(TransferProgramValidation, TheFilesHaveNoErrorsUnderTheKhronosValidator) {
           << said;
     }
   }
-  EXPECT_EQ(run("node " + quoted(fs::path(HF_SOURCE_DIR) / "tests/unit/samples/validate.mjs") + " " + quoted(modules) +
+  EXPECT_EQ(run("node " + quoted(fs::path(HF_SOURCE_DIR) / "tests/unit/gltf/validate.mjs") + " " + quoted(modules) +
                     " " + quoted(out),
                 said),
             0)
