@@ -251,14 +251,15 @@ hf_godot4_case() {
 test_alone() {
   local root="$hf_root/build/alone/root" log="$hf_root/build/alone.log" packages build passed=0 failed=0
   command -v mmdebstrap >/dev/null || { hf_say "skipped: no mmdebstrap here"; return 77; }
+  [ "$(id -u)" -eq 0 ] || { hf_say "skipped: chroot needs root"; return 77; }
   packages=$(sed -n 's/.*(Debian: `\([^`]*\)`).*/\1/p' "$hf_root/README.md" | head -1)
   build=$(sed -n '/^## In a program/,/^    cmake/s/^    //p' "$hf_root/README.md" | head -1)
-  [ -n "$packages" ] && [ -n "$build" ] || hf_fail "README.md has lost its first build"
+  [ -n "$packages" ] && [ -n "$build" ] || { hf_say "README.md has lost its first build"; return 1; }
   rm -rf "$hf_root/build/alone"
   mkdir -p "$hf_root/build/alone"
   hf_say "an empty root with $packages"
   mmdebstrap --variant=apt --include="${packages// /,}" "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$root" >"$log" 2>&1 ||
-    { tail -20 "$log" >&2; hf_fail "the root was not made; the log is build/alone.log"; }
+    { tail -20 "$log" >&2; hf_say "the root was not made; the log is build/alone.log"; return 1; }
   mkdir "$root/hf" "$root/app"
   (cd "$hf_root" && git ls-files -z | xargs -0 cp --parents -t "$root/hf") || return 1
   cp "$hf_root/samples/minimal/minimal.c" "$root/app/"
@@ -268,5 +269,6 @@ test_alone() {
     if chroot "$root" /bin/bash -ec "$step" >>"$log" 2>&1; then passed=$((passed + 1)); else failed=$((failed + 1)); tail -20 "$log" >&2; fi
   done
   printf 'alone: %s passed, %s failed\n' "$passed" "$failed"
-  [ "$failed" -eq 0 ]
+  [ "$failed" -eq 0 ] || return 1
+  rm -rf "$hf_root/build/alone"
 }
