@@ -260,7 +260,7 @@ constexpr std::int32_t samples_per_cluster = 40;
 
 // ---- proposals.cpp: shares of the box diagonal, where nothing else is said ----
 //
-// Halved and doubled one by one on 18 shared creatures (samples_proposals_test): 142 proposals, 68 of them feet, all
+// Halved and doubled one by one on 18 shared creatures (deform_proposed_test): 142 proposals, 68 of them feet, all
 // right. Where a line names no figure, the list stays the same at half and at double.
 
 // A flatter surface has no feet.

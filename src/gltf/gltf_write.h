@@ -4,7 +4,7 @@
 // morph targets, animations, and the looks carried through (image bytes are embedded; an image whose bytes were not
 // read keeps its URI). Cameras, instances, attributes, channels, extras and extensions that were carried past the
 // reader come back. Floats are written as floats, joints as bytes or shorts, indices as shorts or ints. The output has
-// no errors under the Khronos validator; tests/unit/samples checks that.
+// no errors under the Khronos validator; tests/unit/gltf checks that.
 //
 // The model is checked first (index ranges, array lengths, finite numbers, increasing key times): a fault is a
 // std::runtime_error naming the element and the file is not touched. The file appears under its name only when

@@ -158,7 +158,7 @@ constexpr double least_area_share = 1e-6;
 // --- gradients.cpp, matches.cpp, nearest_rows.cpp, warp.cpp ---
 
 // The numbers of this group and the next hold for HF_TRANSFER_STRETCH alone. They were chosen on one pair of generated
-// heads (tests/unit/transfer/transfer_stretch_test.cpp, 9,900 and 11,918 vertices). Other values were measured on five
+// heads (tests/unit/transfer/stretch_test.cpp, 9,900 and 11,918 vertices). Other values were measured on five
 // pairs of such heads, 52 shapes each, and on a horse's walk on a bull. The error is that of all shapes, as a share of
 // their motion: 0.18 to 0.22 now. Closed lids are 0.5 to 15 % of their opening apart.
 

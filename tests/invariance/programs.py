@@ -176,7 +176,7 @@ def transfer_to(r):
     return [p for frame in transfer(r.other, r.file, r.path("to"), r) for p in in_body(r.copy, frame)]
 
 
-# name, function, tolerance in boxes (or shares of a weight), where: "horse" has the script's places, "full" is slow
+# name, function, tolerance in boxes (or shares of a weight), where: "horse" has the script's places, "full" is the long form's
 PROGRAMS = [
     ("hf_field", field, 1e-9, ""),
     ("hf_deform_script", script, 1e-6, "horse"),
@@ -186,7 +186,7 @@ PROGRAMS = [
     ("hf_detail", detail, 1e-6, "horse"),
     ("hf_quads", quads, 0.5, "full"),
     ("hf_transfer from", transfer_from, 1e-6, ""),
-    ("hf_transfer to", transfer_to, 1e-6, ""),
+    ("hf_transfer to", transfer_to, 1e-6, "full"),  # invariance_nouns has it
 ]
 
 # (change, program, tolerance, reason); None: all. The first that fits a cell counts. "until ROW: ..." is a fault that is

@@ -9,7 +9,7 @@
 #include "gltf/animate.h"
 #include "hf/hf.hpp"
 #include "reports_shapes.h"
-#include "unit/samples/gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 
 namespace {
 

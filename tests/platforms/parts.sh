@@ -42,12 +42,12 @@ hf_count() {
 # Windows: the DLL by MinGW, the tests of the public ABI, the golden hashes and the sample programs under Wine.
 test_windows() {
   hf_configure windows -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/windows.cmake" -DHF_BUILD_SAMPLES=ON &&
-    hf_make windows hf hf_api_tests reliability_golden platform_throwing_host hf_field hf_transfer hf_make_assets || return 1
+    hf_make windows hf hf_api_tests reliability_golden reliability_refuse platform_throwing_host hf_field hf_transfer hf_make_assets || return 1
   # Wine has its settings in the build folder, no window, and ends with the tests
   export WINEPREFIX="$hf_root/build/windows/wine" WINEDEBUG=-all WINEDLLOVERRIDES='mscoree,mshtml=' LC_ALL=C.UTF-8
   wine wineboot -i >/dev/null 2>&1
   local code=0
-  hf_count windows '^(api_|platform_|reliability_golden$)' || code=1
+  hf_count windows '^(api_|platform_|reliability_(golden|refuse)$)' || code=1
   "$(command -v wineserver || echo /usr/lib/wine/wineserver)" -k >/dev/null 2>&1
   return "$code"
 }
@@ -55,8 +55,8 @@ test_windows() {
 # 64-bit ARM under qemu: the tests of the public ABI, the golden hashes, and the instructions of the kernels for NEON.
 test_arm64() {
   hf_configure arm64 -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/arm64.cmake" &&
-    hf_make arm64 hf hf_api_tests reliability_golden platform_throwing_host kernel_work &&
-    hf_count arm64 '^(api_|platform_|reliability_golden$)'
+    hf_make arm64 hf hf_api_tests reliability_golden reliability_refuse platform_throwing_host kernel_work &&
+    hf_count arm64 '^(api_|platform_|reliability_(golden|refuse)$)'
 }
 
 # Processors without kernels of their own, 32 bits and big-endian, under qemu: quick forms.
@@ -64,8 +64,8 @@ test_small() {
   local system code=0
   for system in i686 armhf riscv64 s390x; do
     { hf_configure "$system" -DCMAKE_TOOLCHAIN_FILE="$hf_root/cmake/cross/$system.cmake" &&
-      hf_make "$system" hf hf_api_tests reliability_golden &&
-      hf_count "$system" '^(api_|reliability_golden$)'; } || code=1
+      hf_make "$system" hf hf_api_tests reliability_golden reliability_refuse &&
+      hf_count "$system" '^(api_|reliability_(golden|refuse)$)'; } || code=1
   done
   return "$code"
 }
@@ -77,11 +77,11 @@ test_clang() {
   command -v "clang++-$version" >/dev/null || { hf_say "no clang from 16 on here"; return 77; }
   local compilers=(-DCMAKE_C_COMPILER="clang-$version" -DCMAKE_CXX_COMPILER="clang++-$version" -DHF_BUILD_UNIT_TESTS=OFF)
   { hf_configure clang "${compilers[@]}" &&
-    hf_make clang hf hf_api_tests reliability_golden &&
-    hf_count clang '^(api_|reliability_golden$)'; } || code=1
+    hf_make clang hf hf_api_tests reliability_golden reliability_refuse &&
+    hf_count clang '^(api_|reliability_(golden|refuse)$)'; } || code=1
   { hf_configure clang-libc++ "${compilers[@]}" -DCMAKE_CXX_FLAGS=-stdlib=libc++ &&
-    hf_make clang-libc++ hf hf_api_tests reliability_golden &&
-    hf_count clang-libc++ '^(api_test|api_.*_test|reliability_golden$)'; } || code=1
+    hf_make clang-libc++ hf hf_api_tests reliability_golden reliability_refuse &&
+    hf_count clang-libc++ '^(api_test|api_.*_test|reliability_(golden|refuse)$)'; } || code=1
   "$hf_root/tests/platforms/languages.sh" "$hf_root" "clang-$version" "clang++-$version" || code=1
   return "$code"
 }
@@ -251,14 +251,15 @@ hf_godot4_case() {
 test_alone() {
   local root="$hf_root/build/alone/root" log="$hf_root/build/alone.log" packages build passed=0 failed=0
   command -v mmdebstrap >/dev/null || { hf_say "skipped: no mmdebstrap here"; return 77; }
+  [ "$(id -u)" -eq 0 ] || { hf_say "skipped: chroot needs root"; return 77; }
   packages=$(sed -n 's/.*(Debian: `\([^`]*\)`).*/\1/p' "$hf_root/README.md" | head -1)
   build=$(sed -n '/^## In a program/,/^    cmake/s/^    //p' "$hf_root/README.md" | head -1)
-  [ -n "$packages" ] && [ -n "$build" ] || hf_fail "README.md has lost its first build"
+  [ -n "$packages" ] && [ -n "$build" ] || { hf_say "README.md has lost its first build"; return 1; }
   rm -rf "$hf_root/build/alone"
   mkdir -p "$hf_root/build/alone"
   hf_say "an empty root with $packages"
   mmdebstrap --variant=apt --include="${packages// /,}" "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$root" >"$log" 2>&1 ||
-    { tail -20 "$log" >&2; hf_fail "the root was not made; the log is build/alone.log"; }
+    { tail -20 "$log" >&2; hf_say "the root was not made; the log is build/alone.log"; return 1; }
   mkdir "$root/hf" "$root/app"
   (cd "$hf_root" && git ls-files -z | xargs -0 cp --parents -t "$root/hf") || return 1
   cp "$hf_root/samples/minimal/minimal.c" "$root/app/"
@@ -268,5 +269,6 @@ test_alone() {
     if chroot "$root" /bin/bash -ec "$step" >>"$log" 2>&1; then passed=$((passed + 1)); else failed=$((failed + 1)); tail -20 "$log" >&2; fi
   done
   printf 'alone: %s passed, %s failed\n' "$passed" "$failed"
-  [ "$failed" -eq 0 ]
+  [ "$failed" -eq 0 ] || return 1
+  rm -rf "$hf_root/build/alone"
 }

@@ -18,7 +18,7 @@ constexpr bool sanitized = false;
 #endif
 
 int main(int argc, char** argv) {
-  std::uint64_t count = 100000, first = 0;
+  std::uint64_t count = 40000, first = 0;
   if (report_full(argc, argv)) count = 300000;
   std::vector<hostile::File> seeds = hostile::made_seeds();
   std::uint64_t used = 0, solved = 0, wrong = 0, executions = 0, sound = 0;

@@ -7,8 +7,8 @@
 #include <limits>
 #include <string>
 
-#include "unit/samples/compressed_files.h"
-#include "unit/samples/sound_file.h"
+#include "unit/gltf/compressed_files.h"
+#include "unit/gltf/sound_file.h"
 
 namespace hostile {
 namespace {

@@ -204,7 +204,7 @@ std::string polygon(std::size_t corners, int shape) {
 }
 
 // Triangles between any vertices, half as many of these.
-std::string soup(std::size_t triangles) {
+std::string soup_text(std::size_t triangles) {
   std::mt19937 random(1);
   const std::size_t vertices = triangles / 2 + 3;
   std::string text = "OFF\n" + number(vertices) + " " + number(triangles) + " 0\n";
@@ -266,7 +266,7 @@ const std::vector<std::pair<const char*, std::function<std::string(std::size_t)>
       {"polygon_random", [](std::size_t n) { return polygon(n, 0); }},
       {"polygon_round", [](std::size_t n) { return polygon(n, 1); }},
       {"polygon_comb", [](std::size_t n) { return polygon(n, 2); }},
-      {"soup", soup},
+      {"soup", soup_text},
       {"soup_dense", [](std::size_t n) { return soup_glb(n, n / 16 + 3); }},
       {"soup_glb", [](std::size_t n) { return soup_glb(n, n / 5 + 3); }},
       {"soup_within", [](std::size_t n) { return soup_glb(n, n / 90 + 3); }},  // the limits let it through

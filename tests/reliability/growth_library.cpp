@@ -291,9 +291,9 @@ std::vector<Structure> library_structures(bool full) {
       {"biharmonic_degree", doubled(full ? 12500 : 2500), 1.25, biharmonic_degree},
       {"edit_components", doubled(8000 * large), 1.25, edits(lone_triangles)},
       // every edit adds a row to the dense block of k sites, k^2 numbers; one edit alone never pays for a rebase
-      {"sites", doubled(full ? 250 : 125), 3, sites},
+      {"sites", doubled(full ? 250 : 75), 3, sites},
       // every edit works on a copy of the lists of sites, so that a refused one changes nothing: 60 ns for each site
-      {"component_sites", doubled(1000), 2, component_sites},
+      {"component_sites", doubled(full ? 1000 : 500), 2, component_sites},
       {"transfer_soup", doubled(40000), 1.25, transfer_soup},
       {"undo_records", doubled(5000 * large), 1.25, records},
       {"handle_create", many, 1.25, create_handles, most_microseconds},

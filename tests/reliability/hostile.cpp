@@ -13,7 +13,7 @@
 #include "gltf_player.h"
 #include "open_watch.h"
 #include "report.h"
-#include "unit/samples/gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 
 namespace {
 

@@ -13,8 +13,6 @@ namespace {
 
 using Point = Eigen::Vector3d;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 Point position(const Surface& s, std::uint32_t v) {
   const float* p = s.positions.data() + std::size_t{3} * v;
   return {double(p[0]), double(p[1]), double(p[2])};

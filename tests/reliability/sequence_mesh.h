@@ -1,12 +1,15 @@
 // The small meshes of the sequence fuzzer and their operators, made from the definitions without the library. Welding
 // is by position, weights are cotangents of corner angles, and K is L, L M^-1 L or L^2.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <Eigen/Dense>
 #include <string>
 #include <vector>
 
 namespace sequences {
+
+inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct Surface {
   std::string name;

@@ -7,7 +7,6 @@
 namespace sequences {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double updown_penalty = 1e8;  // the default of hf_solver_desc.penalty
 
 bool all_finite(const double* values, std::size_t count) {

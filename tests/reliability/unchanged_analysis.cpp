@@ -50,7 +50,7 @@ class Analysis final : public Subject {
   const std::vector<Command>& commands() const override;
 
  private:
-  friend struct Calls;
+  friend struct AnalysisCalls;
   hf_scalars scalars(Random& random) {
     hf_scalars s = HF_INIT(hf_scalars);
     s.values_f64 = field_.data();
@@ -89,7 +89,7 @@ class Analysis final : public Subject {
   std::vector<double> field_;
 };
 
-struct Calls {
+struct AnalysisCalls {
   static Analysis& of(Subject& s) { return static_cast<Analysis&>(s); }
 
   static hf_result make(Subject& subject, Random& random) {
@@ -282,17 +282,17 @@ struct Calls {
 
 const std::vector<Command>& Analysis::commands() const {
   static const std::vector<Command> table = {
-      {"hf_geodesics_create", 4, Calls::make},
-      {"hf_geodesics_solve", 4, Calls::solve},
-      {"hf_surface_find_extremities", 5, Calls::tips},
-      {"levels, lines and critical points", 7, Calls::lines},
-      {"picking", 2, Calls::pick},
-      {"hf_surface_save", 3, Calls::save},
-      {"hf_surface_create", 5, Calls::surface},
-      {"hf_surface_create_graph", 4, Calls::graph},
-      {"hf_surface_relink", 5, Calls::relink},
-      {"hf_geodesics_find_path", 4, Calls::path},
-      {"hf_geodesics_get_map", 3, Calls::map},
+      {"hf_geodesics_create", 4, AnalysisCalls::make},
+      {"hf_geodesics_solve", 4, AnalysisCalls::solve},
+      {"hf_surface_find_extremities", 5, AnalysisCalls::tips},
+      {"levels, lines and critical points", 7, AnalysisCalls::lines},
+      {"picking", 2, AnalysisCalls::pick},
+      {"hf_surface_save", 3, AnalysisCalls::save},
+      {"hf_surface_create", 5, AnalysisCalls::surface},
+      {"hf_surface_create_graph", 4, AnalysisCalls::graph},
+      {"hf_surface_relink", 5, AnalysisCalls::relink},
+      {"hf_geodesics_find_path", 4, AnalysisCalls::path},
+      {"hf_geodesics_get_map", 3, AnalysisCalls::map},
   };
   return table;
 }

@@ -6,7 +6,7 @@
 namespace unchanged {
 namespace {
 
-struct Branch {
+struct DirectionBranch {
   hf_direction handle = nullptr;
   std::vector<std::uint64_t> undo, redo;  // fields; 0: not known
 };
@@ -20,12 +20,12 @@ class Directions final : public Subject {
     if (hf_direction_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
   }
   ~Directions() override {
-    for (Branch& b : branches_) hf_direction_destroy(b.handle);
+    for (DirectionBranch& b : branches_) hf_direction_destroy(b.handle);
   }
   bool ready() const { return !branches_.empty(); }
 
   void glance(State& state) override {
-    for (const Branch& b : branches_) {
+    for (const DirectionBranch& b : branches_) {
       hf_direction_statistics statistics = HF_INIT(hf_direction_statistics);
       state.begin("statistics of a direction field");
       state.add(hf_direction_get_statistics(b.handle, &statistics));
@@ -35,7 +35,7 @@ class Directions final : public Subject {
     }
   }
   void look(State& state) override {
-    for (const Branch& b : branches_) {
+    for (const DirectionBranch& b : branches_) {
       look_at_field(b, state);
       const Sites sites = sites_of(b);
       state.begin("constraints");
@@ -51,7 +51,7 @@ class Directions final : public Subject {
     }
   }
   std::string compare_fresh() override {
-    for (const Branch& b : branches_) {
+    for (const DirectionBranch& b : branches_) {
       const Sites sites = sites_of(b);
       if (sites.numbers.empty()) continue;
       hf_direction fresh = nullptr;
@@ -72,19 +72,19 @@ class Directions final : public Subject {
   const std::vector<Command>& commands() const override;
 
  private:
-  friend struct Calls;
+  friend struct DirectionCalls;
   struct Sites {
     std::vector<std::uint32_t> numbers, vertices;
     std::vector<double> vectors;
   };
-  Branch& any(Random& random) { return branches_[random.below(static_cast<std::uint32_t>(branches_.size()))]; }
-  Sites sites_of(const Branch& b) const {
+  DirectionBranch& any(Random& random) { return branches_[random.below(static_cast<std::uint32_t>(branches_.size()))]; }
+  Sites sites_of(const DirectionBranch& b) const {
     std::uint32_t count = hf_direction_get_site_count(b.handle);
     Sites sites{std::vector<std::uint32_t>(count), std::vector<std::uint32_t>(count), std::vector<double>(3 * count)};
     hf_direction_get_sites(b.handle, count, sites.numbers.data(), sites.vertices.data(), sites.vectors.data(), &count);
     return sites;
   }
-  std::uint64_t look_at_field(const Branch& b, State& state) const {
+  std::uint64_t look_at_field(const DirectionBranch& b, State& state) const {
     std::vector<double> field(3 * world.shape->vertices());
     hf_solve_info info = HF_INIT(hf_solve_info);
     state.begin("direction field");
@@ -93,7 +93,7 @@ class Directions final : public Subject {
     add_struct(state, info);
     return state.last();
   }
-  std::uint64_t field_of(const Branch& b) {
+  std::uint64_t field_of(const DirectionBranch& b) {
     world.memory.disarm();
     State state;
     return look_at_field(b, state);
@@ -121,7 +121,7 @@ class Directions final : public Subject {
     }
     return most / scale;
   }
-  std::vector<std::uint32_t> numbers(const Branch& b, Random& random) const {
+  std::vector<std::uint32_t> numbers(const DirectionBranch& b, Random& random) const {
     const Sites there = sites_of(b);
     std::vector<std::uint32_t> list(1 + random.below(3));
     for (std::uint32_t& n : list)
@@ -142,19 +142,19 @@ class Directions final : public Subject {
   }
 
   hf_direction_desc desc_ = HF_INIT(hf_direction_desc);
-  std::vector<Branch> branches_;
+  std::vector<DirectionBranch> branches_;
 };
 
-struct Calls {
+struct DirectionCalls {
   static Directions& of(Subject& s) { return static_cast<Directions&>(s); }
 
-  static hf_result edited(Branch& b, hf_result result) {
+  static hf_result edited(DirectionBranch& b, hf_result result) {
     if (result == HF_OK) b.redo.clear();
     return result;
   }
   static hf_result add(Subject& subject, Random& random) {
     Directions& s = of(subject);
-    Branch& b = s.any(random);
+    DirectionBranch& b = s.any(random);
     const std::size_t count = random.one_in(10) ? 10 + random.below(30) : 1 + random.below(4);
     const std::vector<std::uint32_t> at = s.vertices(count, random);
     const std::vector<double> vectors = s.values(3 * count, random);
@@ -164,7 +164,7 @@ struct Calls {
   }
   static hf_result change(Subject& subject, Random& random) {
     Directions& s = of(subject);
-    Branch& b = s.any(random);
+    DirectionBranch& b = s.any(random);
     const std::vector<std::uint32_t> list = s.numbers(b, random), to = s.vertices(list.size(), random);
     const std::vector<double> values = s.values(3 * list.size(), random);
     const std::uint32_t count = static_cast<std::uint32_t>(list.size());
@@ -181,7 +181,7 @@ struct Calls {
   }
   static hf_result record(Subject& subject, Random& random) {
     Directions& s = of(subject);
-    Branch& b = s.any(random);
+    DirectionBranch& b = s.any(random);
     const hf_result result = hf_direction_record(b.handle);
     if (result == HF_OK) {
       b.undo.push_back(s.field_of(b));
@@ -191,7 +191,7 @@ struct Calls {
   }
   static hf_result step(Subject& subject, Random& random) {
     Directions& s = of(subject);
-    Branch& b = s.any(random);
+    DirectionBranch& b = s.any(random);
     const bool back = random.one_in(2);
     auto &from = back ? b.undo : b.redo, &to = back ? b.redo : b.undo;
     const hf_result result = back ? hf_direction_undo(b.handle) : hf_direction_redo(b.handle);
@@ -206,9 +206,9 @@ struct Calls {
   }
   static hf_result clone(Subject& subject, Random& random) {
     Directions& s = of(subject);
-    Branch& b = s.any(random);
+    DirectionBranch& b = s.any(random);
     if (s.branches_.size() > 2) return skipped;
-    Branch fresh;
+    DirectionBranch fresh;
     fresh.handle = b.handle;
     const hf_result result = hf_direction_clone(b.handle, &fresh.handle);
     if (result != HF_OK) return s.expect(fresh.handle == nullptr, "a refused clone is no NULL"), result;
@@ -235,7 +235,7 @@ struct Calls {
   }
   static hf_result solve(Subject& subject, Random& random) {
     Directions& s = of(subject);
-    const Branch& b = s.any(random);
+    const DirectionBranch& b = s.any(random);
     std::vector<float> field(3 * s.world.shape->vertices());
     hf_solve_info info = HF_INIT(hf_solve_info);
     std::uint32_t count = 0;
@@ -248,10 +248,10 @@ struct Calls {
 
 const std::vector<Command>& Directions::commands() const {
   static const std::vector<Command> table = {
-      {"hf_direction_add_sites", 8, Calls::add},   {"an edit of directions", 10, Calls::change},
-      {"hf_direction_record", 3, Calls::record},   {"hf_direction_undo or redo", 4, Calls::step},
-      {"hf_direction_clone", 2, Calls::clone},     {"hf_direction_create", 1, Calls::make},
-      {"hf_direction_destroy", 1, Calls::destroy}, {"a direction field", 4, Calls::solve},
+      {"hf_direction_add_sites", 8, DirectionCalls::add},   {"an edit of directions", 10, DirectionCalls::change},
+      {"hf_direction_record", 3, DirectionCalls::record},   {"hf_direction_undo or redo", 4, DirectionCalls::step},
+      {"hf_direction_clone", 2, DirectionCalls::clone},     {"hf_direction_create", 1, DirectionCalls::make},
+      {"hf_direction_destroy", 1, DirectionCalls::destroy}, {"a direction field", 4, DirectionCalls::solve},
   };
   return table;
 }

@@ -15,7 +15,7 @@ struct Handle {
   std::vector<double> matrix;  // 16 numbers instead of the transform, or none
 };
 
-struct Branch {
+struct PoseBranch {
   hf_pose handle = nullptr;
   std::vector<Handle> handles;  // in the order they were added
 };
@@ -32,12 +32,12 @@ class Poses final : public Subject {
     if (hf_pose_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
   }
   ~Poses() override {
-    for (Branch& b : branches_) hf_pose_destroy(b.handle);
+    for (PoseBranch& b : branches_) hf_pose_destroy(b.handle);
   }
   bool ready() const { return !branches_.empty(); }
 
   void glance(State& state) override {
-    for (const Branch& b : branches_) {
+    for (const PoseBranch& b : branches_) {
       hf_pose_info info = HF_INIT(hf_pose_info);
       state.begin("info of a pose");
       state.add(hf_pose_get_info(b.handle, &info));
@@ -46,7 +46,7 @@ class Poses final : public Subject {
     }
   }
   void look(State& state) override {
-    for (const Branch& b : branches_) {
+    for (const PoseBranch& b : branches_) {
       for (const Handle& h : b.handles) {
         hf_handle_info info = HF_INIT(hf_handle_info);
         std::vector<float> field(world.shape->vertices());
@@ -62,7 +62,7 @@ class Poses final : public Subject {
     }
   }
   std::string compare_fresh() override {
-    for (const Branch& b : branches_) {
+    for (const PoseBranch& b : branches_) {
       const std::string fault = compare_fresh(b);
       if (!fault.empty()) return fault;
     }
@@ -71,10 +71,10 @@ class Poses final : public Subject {
   const std::vector<Command>& commands() const override;
 
  private:
-  friend struct Calls;
-  Branch& any(Random& random) { return branches_[random.below(static_cast<std::uint32_t>(branches_.size()))]; }
+  friend struct PoseCalls;
+  PoseBranch& any(Random& random) { return branches_[random.below(static_cast<std::uint32_t>(branches_.size()))]; }
 
-  void look_at_skin(const Branch& b, State& state) const {
+  void look_at_skin(const PoseBranch& b, State& state) const {
     hf_skin_info skin = HF_INIT(hf_skin_info);
     state.begin("skin of a pose");
     state.add(hf_pose_get_skin(b.handle, &skin));
@@ -96,7 +96,7 @@ class Poses final : public Subject {
     state.add(weights);
   }
   // The next frame, as a clone makes it: what is kept of the last one shows there.
-  void look_at_frame(const Branch& b, State& state) const {
+  void look_at_frame(const PoseBranch& b, State& state) const {
     hf_pose copy = nullptr;
     std::vector<double> positions(3 * world.shape->vertices());
     std::vector<float> normals(positions.size());
@@ -118,7 +118,7 @@ class Poses final : public Subject {
     state.add(normals);
     hf_pose_destroy(copy);
   }
-  std::string compare_fresh(const Branch& b) const;
+  std::string compare_fresh(const PoseBranch& b) const;
   // The frame of a pose that starts from its fields.
   hf_result frame_of(hf_pose pose, std::int32_t refine, std::int32_t from_last, std::vector<double>& out) const {
     out.assign(3 * world.shape->vertices(), 0.0);
@@ -131,7 +131,7 @@ class Poses final : public Subject {
     return hf_pose_deform(pose, &frame, nullptr);
   }
 
-  std::uint32_t number(const Branch& b, Random& random) const {
+  std::uint32_t number(const PoseBranch& b, Random& random) const {
     if (b.handles.empty() || random.one_in(15)) return random.below(20);
     return b.handles[random.below(static_cast<std::uint32_t>(b.handles.size()))].number;
   }
@@ -147,7 +147,7 @@ class Poses final : public Subject {
   }
 
   hf_pose_desc desc_ = HF_INIT(hf_pose_desc);
-  std::vector<Branch> branches_;
+  std::vector<PoseBranch> branches_;
 };
 
 // Adds handles of one layer, all by regions or all by points.
@@ -174,7 +174,7 @@ hf_result add_to(hf_pose pose, const std::vector<Handle>& handles, std::uint32_t
 }
 
 // Gives a fresh pose the handles of a branch, one by one or in batches, and their transforms.
-hf_result fill(hf_pose fresh, const Branch& b, bool batches) {
+hf_result fill(hf_pose fresh, const PoseBranch& b, bool batches) {
   hf_result result = HF_OK;
   std::vector<std::uint32_t> numbers(b.handles.size());
   for (std::size_t first = 0, last = 0; first < b.handles.size() && result == HF_OK; first = last) {
@@ -194,7 +194,7 @@ hf_result fill(hf_pose fresh, const Branch& b, bool batches) {
 }
 
 // A frame with restart has the bits of a fresh pose with the same handles and transforms (hf/pose.h).
-std::string Poses::compare_fresh(const Branch& b) const {
+std::string Poses::compare_fresh(const PoseBranch& b) const {
   if (b.handles.empty()) return {};
   for (const auto& [refine, from_last] : {std::pair{0, 0}, std::pair{3, 0}, std::pair{2, 1}}) {
     hf_pose fresh = nullptr, copy = nullptr;
@@ -212,12 +212,12 @@ std::string Poses::compare_fresh(const Branch& b) const {
   return {};
 }
 
-struct Calls {
+struct PoseCalls {
   static Poses& of(Subject& s) { return static_cast<Poses&>(s); }
 
   static hf_result add(Subject& subject, Random& random) {
     Poses& s = of(subject);
-    Branch& b = s.any(random);
+    PoseBranch& b = s.any(random);
     const bool near = random.one_in(3);
     const std::uint32_t count = 1 + random.below(2), n = s.world.shape->vertices();
     std::vector<Handle> fresh(count);
@@ -260,7 +260,7 @@ struct Calls {
   }
   static hf_result add_at(Subject& subject, Random& random) {
     Poses& s = of(subject);
-    Branch& b = s.any(random);
+    PoseBranch& b = s.any(random);
     Handle h;
     const std::uint32_t v = random.below(s.world.shape->vertices());
     for (std::size_t k = 0; k < 3; ++k) h.point[k] = static_cast<double>(s.world.shape->positions[3 * v + k]);
@@ -293,7 +293,7 @@ struct Calls {
   }
   static hf_result remove(Subject& subject, Random& random) {
     Poses& s = of(subject);
-    Branch& b = s.any(random);
+    PoseBranch& b = s.any(random);
     std::vector<std::uint32_t> list(1 + random.below(2));
     for (std::uint32_t& n : list) n = s.number(b, random);
     const hf_result result = hf_pose_remove_handles(b.handle, static_cast<std::uint32_t>(list.size()), list.data());
@@ -304,7 +304,7 @@ struct Calls {
   }
   static hf_result place(Subject& subject, Random& random) {
     Poses& s = of(subject);
-    Branch& b = s.any(random);
+    PoseBranch& b = s.any(random);
     std::vector<std::uint32_t> list(1 + random.below(3));
     std::vector<hf_transform> to(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -325,7 +325,7 @@ struct Calls {
   }
   static hf_result matrices(Subject& subject, Random& random) {
     Poses& s = of(subject);
-    Branch& b = s.any(random);
+    PoseBranch& b = s.any(random);
     const std::uint32_t number = s.number(b, random);
     double m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     m[random.below(16)] = random.pick({0.5, 2.0, random.number()});  // hardly ever a rigid motion
@@ -336,7 +336,7 @@ struct Calls {
   }
   static hf_result deform(Subject& subject, Random& random) {
     Poses& s = of(subject);
-    Branch& b = s.any(random);
+    PoseBranch& b = s.any(random);
     std::vector<double> positions(3 * s.world.shape->vertices());
     std::vector<float> normals(positions.size());
     hf_deform_desc desc = HF_INIT(hf_deform_desc);
@@ -354,9 +354,9 @@ struct Calls {
   }
   static hf_result clone(Subject& subject, Random& random) {
     Poses& s = of(subject);
-    Branch& b = s.any(random);
+    PoseBranch& b = s.any(random);
     if (s.branches_.size() > 1) return skipped;
-    Branch fresh = b;
+    PoseBranch fresh = b;
     const hf_result result = hf_pose_clone(b.handle, &fresh.handle);
     if (result != HF_OK) return s.expect(fresh.handle == nullptr, "a refused clone is no NULL"), result;
     return s.branches_.push_back(fresh), result;
@@ -381,7 +381,7 @@ struct Calls {
   }
   static hf_result read(Subject& subject, Random& random) {
     Poses& s = of(subject);
-    const Branch& b = s.any(random);
+    const PoseBranch& b = s.any(random);
     hf_handle_info info = HF_INIT(hf_handle_info);
     hf_skin_info skin = HF_INIT(hf_skin_info);
     std::vector<float> field(s.world.shape->vertices());
@@ -394,12 +394,12 @@ struct Calls {
 
 const std::vector<Command>& Poses::commands() const {
   static const std::vector<Command> table = {
-      {"hf_pose_add_handles", 8, Calls::add},      {"hf_pose_remove_handles", 3, Calls::remove},
-      {"hf_pose_set_transforms", 5, Calls::place}, {"hf_pose_set_matrices", 1, Calls::matrices},
-      {"hf_pose_deform", 8, Calls::deform},        {"hf_pose_clone", 2, Calls::clone},
-      {"hf_pose_create", 1, Calls::make},          {"hf_pose_destroy", 1, Calls::destroy},
-      {"reading a pose", 2, Calls::read},          {"hf_pose_add_handle_at", 3, Calls::add_at},
-      {"hf_propose_handles", 2, Calls::propose},
+      {"hf_pose_add_handles", 8, PoseCalls::add},      {"hf_pose_remove_handles", 3, PoseCalls::remove},
+      {"hf_pose_set_transforms", 5, PoseCalls::place}, {"hf_pose_set_matrices", 1, PoseCalls::matrices},
+      {"hf_pose_deform", 8, PoseCalls::deform},        {"hf_pose_clone", 2, PoseCalls::clone},
+      {"hf_pose_create", 1, PoseCalls::make},          {"hf_pose_destroy", 1, PoseCalls::destroy},
+      {"reading a pose", 2, PoseCalls::read},          {"hf_pose_add_handle_at", 3, PoseCalls::add_at},
+      {"hf_propose_handles", 2, PoseCalls::propose},
   };
   return table;
 }

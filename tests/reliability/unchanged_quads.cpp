@@ -57,16 +57,16 @@ class Quads final : public Subject {
   const std::vector<Command>& commands() const override;
 
  private:
-  friend struct Calls;
+  friend struct QuadsCalls;
   hf_flow flow_ = nullptr;
   std::vector<hf_quads> made_;
   std::vector<double> field_;
 };
 
-struct Calls {
+struct QuadsCalls {
   static Quads& of(Subject& s) { return static_cast<Quads&>(s); }
 
-  // Calls work(desc) with a description that is good or not.
+  // QuadsCalls work(desc) with a description that is good or not.
   template <class Work>
   static hf_result with_desc(Quads& s, Random& random, Work&& work) {
     hf_quads_desc desc = HF_INIT(hf_quads_desc);
@@ -166,9 +166,9 @@ struct Calls {
 
 const std::vector<Command>& Quads::commands() const {
   static const std::vector<Command> table = {
-      {"hf_quads_create", 6, Calls::make},   {"hf_quads_update", 6, Calls::update, true},
-      {"hf_flow_create", 3, Calls::flow},    {"hf_flow_trace", 8, Calls::trace},
-      {"hf_quads_get_mesh", 2, Calls::read},
+      {"hf_quads_create", 6, QuadsCalls::make},   {"hf_quads_update", 6, QuadsCalls::update, true},
+      {"hf_flow_create", 3, QuadsCalls::flow},    {"hf_flow_trace", 8, QuadsCalls::trace},
+      {"hf_quads_get_mesh", 2, QuadsCalls::read},
   };
   return table;
 }

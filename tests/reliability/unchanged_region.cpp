@@ -6,7 +6,7 @@
 namespace unchanged {
 namespace {
 
-struct Branch {
+struct RegionBranch {
   hf_region handle = nullptr;
   std::vector<std::uint64_t> undo, redo;  // surfaces of weight 1; 0: not known
 };
@@ -19,13 +19,13 @@ class Regions final : public Subject {
     if (hf_region_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
   }
   ~Regions() override {
-    for (Branch& b : branches_) hf_region_destroy(b.handle);
+    for (RegionBranch& b : branches_) hf_region_destroy(b.handle);
     for (const hf_detail detail : details_) hf_detail_destroy(detail);
   }
   bool ready() const { return !branches_.empty(); }
 
   void glance(State& state) override {
-    for (const Branch& b : branches_) {
+    for (const RegionBranch& b : branches_) {
       hf_region_info info = HF_INIT(hf_region_info);
       state.begin("info of a region");
       state.add(hf_region_get_info(b.handle, &info));
@@ -33,7 +33,7 @@ class Regions final : public Subject {
     }
   }
   void look(State& state) override {
-    for (const Branch& b : branches_) {
+    for (const RegionBranch& b : branches_) {
       for (std::int32_t list = 0; list < 3; ++list) {
         state.begin("vertices of a region");
         state.add(vertices_of(b, list));
@@ -58,10 +58,10 @@ class Regions final : public Subject {
     }
   }
   std::string compare_fresh() override {
-    for (const Branch& b : branches_) {
+    for (const RegionBranch& b : branches_) {
       const std::vector<std::uint32_t> inside = vertices_of(b, HF_REGION_INSIDE);
       if (inside.empty()) continue;
-      Branch fresh;
+      RegionBranch fresh;
       hf_result result = hf_region_create(world.surface, &desc_, &fresh.handle);
       hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
       edit.add_count = static_cast<std::uint32_t>(inside.size());
@@ -79,23 +79,23 @@ class Regions final : public Subject {
   const std::vector<Command>& commands() const override;
 
  private:
-  friend struct Calls;
-  Branch& any(Random& random) { return branches_[random.below(static_cast<std::uint32_t>(branches_.size()))]; }
-  std::vector<std::uint32_t> vertices_of(const Branch& b, std::int32_t list) const {
+  friend struct RegionCalls;
+  RegionBranch& any(Random& random) { return branches_[random.below(static_cast<std::uint32_t>(branches_.size()))]; }
+  std::vector<std::uint32_t> vertices_of(const RegionBranch& b, std::int32_t list) const {
     std::uint32_t count = 0;
     hf_region_get_vertices(b.handle, list, 0, nullptr, &count);
     std::vector<std::uint32_t> vertices(count);
     hf_region_get_vertices(b.handle, list, count, vertices.data(), &count);
     return vertices;
   }
-  std::vector<double> base_of(const Branch& b) const {
+  std::vector<double> base_of(const RegionBranch& b) const {
     std::vector<double> positions(3 * world.shape->vertices());
     hf_morph_desc morph = HF_INIT(hf_morph_desc);
     morph.weight = 1;
     morph.positions_f64 = positions.data();
     return hf_region_morph(b.handle, &morph) == HF_OK ? positions : std::vector<double>{NAN};
   }
-  std::uint64_t look_at_base(const Branch& b, State& state) const {
+  std::uint64_t look_at_base(const RegionBranch& b, State& state) const {
     std::vector<double> positions(3 * world.shape->vertices());
     std::vector<float> normals(positions.size());
     hf_morph_desc morph = HF_INIT(hf_morph_desc);
@@ -108,7 +108,7 @@ class Regions final : public Subject {
     state.add(normals);
     return state.last();
   }
-  std::uint64_t base_hash(const Branch& b) {
+  std::uint64_t base_hash(const RegionBranch& b) {
     world.memory.disarm();
     State state;
     return look_at_base(b, state);
@@ -120,16 +120,16 @@ class Regions final : public Subject {
   }
 
   hf_region_desc desc_ = HF_INIT(hf_region_desc);
-  std::vector<Branch> branches_;
+  std::vector<RegionBranch> branches_;
   std::vector<hf_detail> details_;
 };
 
-struct Calls {
+struct RegionCalls {
   static Regions& of(Subject& s) { return static_cast<Regions&>(s); }
 
   static hf_result edit(Subject& subject, Random& random) {
     Regions& s = of(subject);
-    Branch& b = s.any(random);
+    RegionBranch& b = s.any(random);
     const std::vector<std::uint32_t> gone = s.vertices(1 + random.below(4), random),
                                      come = s.vertices(1 + random.below(6), random),
                                      points = s.vertices(2 + random.below(5), random);
@@ -164,7 +164,7 @@ struct Calls {
   }
   static hf_result record(Subject& subject, Random& random) {
     Regions& s = of(subject);
-    Branch& b = s.any(random);
+    RegionBranch& b = s.any(random);
     const hf_result result = hf_region_record(b.handle);
     if (result == HF_OK) {
       b.undo.push_back(s.base_hash(b));
@@ -174,7 +174,7 @@ struct Calls {
   }
   static hf_result step(Subject& subject, Random& random) {
     Regions& s = of(subject);
-    Branch& b = s.any(random);
+    RegionBranch& b = s.any(random);
     const bool back = random.one_in(2);
     auto &from = back ? b.undo : b.redo, &to = back ? b.redo : b.undo;
     const hf_result result = back ? hf_region_undo(b.handle) : hf_region_redo(b.handle);
@@ -189,9 +189,9 @@ struct Calls {
   }
   static hf_result clone(Subject& subject, Random& random) {
     Regions& s = of(subject);
-    Branch& b = s.any(random);
+    RegionBranch& b = s.any(random);
     if (s.branches_.size() > 2) return skipped;
-    Branch fresh;
+    RegionBranch fresh;
     fresh.handle = b.handle;
     const hf_result result = hf_region_clone(b.handle, &fresh.handle);
     if (result != HF_OK) return s.expect(fresh.handle == nullptr, "a refused clone is no NULL"), result;
@@ -224,7 +224,7 @@ struct Calls {
   }
   static hf_result carry(Subject& subject, Random& random) {
     Regions& s = of(subject);
-    const Branch &from = s.any(random), &to = s.any(random);
+    const RegionBranch &from = s.any(random), &to = s.any(random);
     if (s.details_.size() > 1) return skipped;
     const std::vector<std::uint32_t> a = s.vertices(1 + random.below(3), random), b = s.vertices(a.size(), random);
     hf_detail_desc desc = HF_INIT(hf_detail_desc);
@@ -240,7 +240,7 @@ struct Calls {
   }
   static hf_result morph(Subject& subject, Random& random) {
     Regions& s = of(subject);
-    const Branch& b = s.any(random);
+    const RegionBranch& b = s.any(random);
     std::vector<double> positions(3 * s.world.shape->vertices());
     std::vector<float> single(positions.size());
     hf_morph_desc desc = HF_INIT(hf_morph_desc);
@@ -256,10 +256,10 @@ struct Calls {
 
 const std::vector<Command>& Regions::commands() const {
   static const std::vector<Command> table = {
-      {"hf_region_edit", 16, Calls::edit},        {"hf_region_record", 3, Calls::record},
-      {"hf_region_undo or redo", 4, Calls::step}, {"hf_region_clone", 2, Calls::clone},
-      {"hf_region_create", 2, Calls::make},       {"destroying regions and detail", 1, Calls::destroy},
-      {"hf_detail_create", 4, Calls::carry},      {"a morph", 4, Calls::morph},
+      {"hf_region_edit", 16, RegionCalls::edit},        {"hf_region_record", 3, RegionCalls::record},
+      {"hf_region_undo or redo", 4, RegionCalls::step}, {"hf_region_clone", 2, RegionCalls::clone},
+      {"hf_region_create", 2, RegionCalls::make},       {"destroying regions and detail", 1, RegionCalls::destroy},
+      {"hf_detail_create", 4, RegionCalls::carry},      {"a morph", 4, RegionCalls::morph},
   };
   return table;
 }

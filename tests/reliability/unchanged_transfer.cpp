@@ -64,7 +64,7 @@ class Transfers final : public Subject {
   const std::vector<Command>& commands() const override;
 
  private:
-  friend struct Calls;
+  friend struct TransferCalls;
 
   void look_at_skin(State& state) const {
     hf_skin_info skin = HF_INIT(hf_skin_info);
@@ -153,7 +153,7 @@ class Transfers final : public Subject {
   std::vector<Pair> pairs_;
 };
 
-struct Calls {
+struct TransferCalls {
   static Transfers& of(Subject& s) { return static_cast<Transfers&>(s); }
 
   static hf_result add(Subject& subject, Random& random) {
@@ -251,9 +251,9 @@ struct Calls {
 
 const std::vector<Command>& Transfers::commands() const {
   static const std::vector<Command> table = {
-      {"hf_transfer_add_pairs", 8, Calls::add},   {"hf_transfer_remove_pairs", 3, Calls::remove},
-      {"hf_transfer_set_dials", 3, Calls::dials}, {"hf_transfer_apply", 10, Calls::frame},
-      {"hf_transfer_create", 2, Calls::make},     {"reading a transfer", 4, Calls::read},
+      {"hf_transfer_add_pairs", 8, TransferCalls::add},   {"hf_transfer_remove_pairs", 3, TransferCalls::remove},
+      {"hf_transfer_set_dials", 3, TransferCalls::dials}, {"hf_transfer_apply", 10, TransferCalls::frame},
+      {"hf_transfer_create", 2, TransferCalls::make},     {"reading a transfer", 4, TransferCalls::read},
   };
   return table;
 }

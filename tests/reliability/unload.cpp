@@ -27,7 +27,7 @@ unsigned settled_threads(unsigned expected) {
 
 int main(int argc, char** argv) {
   if (argc < 3) return fprintf(stderr, "usage: unload PLUGIN LIBRARY [--full]\n"), 2;
-  const int rounds = report_full(argc, argv) ? 200 : 100;
+  const int rounds = report_full(argc, argv) ? 200 : 30;
   const reliability::Scene scene = reliability::make_scene();
   std::uint64_t first = 0;
   unsigned wrong = 0, still_there = 0;
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
       descriptors = entries("/proc/self/fd");
     }
   }
-  report_at_least("UNLOAD_ROUNDS", rounds, 100);
+  report_at_least("UNLOAD_ROUNDS", rounds, 30);
   report_at_most("UNLOAD_LIBRARY_STILL_THERE", still_there, 0);
   report_at_most("UNLOAD_WRONG_ANSWERS", wrong, 0);
   report_at_most("UNLOAD_THREADS_LEFT", settled_threads(threads) - static_cast<double>(threads), 0);

@@ -2,15 +2,18 @@
 // from before and after that work together.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 #include <type_traits>
+#include <typeinfo>
 #include <vector>
 
 #include "base/error.h"
@@ -30,7 +33,10 @@ inline constexpr std::size_t released_size<Grown<T>> = sizeof(T);
 
 namespace {
 
-using Structs = ::testing::Types<
+template <class... T>
+struct List {};
+
+using Structs = List<
     hf_factor_desc, hf_surface_desc, hf_surface_info, hf_surface_report, hf_surface_statistics, hf_pick_desc, hf_hit,
     hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info,
     hf_certificate, hf_solver_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_handle_info, hf_deform_info,
@@ -44,130 +50,171 @@ using Structs = ::testing::Types<
 // All bytes a caller owns: the struct in front, its own memory behind.
 constexpr std::size_t room = 1024;
 using Memory = std::array<unsigned char, room>;
+using Bytes = std::vector<unsigned char>;
 constexpr unsigned char content = 0x11, foreign = 0xAB, written = 0xCD;
 
+// A struct as one release of the library has it. Bytes stand for its values, so that one test serves all structs.
+struct Release {
+  std::size_t size;
+  Bytes (*read)(const Memory& given);
+  Bytes (*read_optional)(const Memory& given);
+  void (*write)(Memory& out, unsigned char byte);  // a value of such bytes
+};
+
+template <class S>
+Bytes bytes_of(const S& value) {
+  const unsigned char* first = reinterpret_cast<const unsigned char*>(&value);
+  return {first, first + sizeof value};
+}
+
+template <class S>
+constexpr Release release = {
+    sizeof(S), [](const Memory& given) { return bytes_of(read_struct(reinterpret_cast<const S*>(given.data()), "desc")); },
+    [](const Memory& given) { return bytes_of(read_optional(reinterpret_cast<const S*>(given.data()), "desc")); },
+    [](Memory& out, unsigned char byte) {
+      S value;
+      std::memset(static_cast<void*>(&value), byte, sizeof value);
+      write_struct(reinterpret_cast<S*>(out.data()), value);
+    }};
+
+struct Kind {
+  const char* name;
+  Release now, later;
+  std::size_t added;  // the size of the new field
+};
+
 template <class T>
+Kind kind_of() {
+  static_assert(sizeof(Grown<T>) + 64 <= room);
+  static_assert(std::is_same_v<decltype(T::struct_size), std::uint32_t>);
+  return {typeid(T).name(), release<T>, release<Grown<T>>, sizeof(Grown<T>::added)};
+}
+template <class... T>
+std::vector<Kind> kinds_of(List<T...>) {
+  return {kind_of<T>()...};
+}
+
 class StructContract : public ::testing::Test {
  protected:
-  static constexpr std::size_t size = sizeof(T), grown = sizeof(Grown<T>);
-  static_assert(grown + 64 <= room);
-  static_assert(std::is_same_v<decltype(T::struct_size), std::uint32_t>);
-
+  void each(const std::function<void(const Kind& kind)>& check) {
+    for (const Kind& kind : kinds_of(Structs{})) {
+      SCOPED_TRACE(kind.name);
+      check(kind);
+    }
+  }
   // A struct of `length` bytes of content, foreign bytes behind.
-  void fill(std::size_t length, std::uint32_t struct_size) {
+  void fill(std::size_t length, std::size_t struct_size) {
     memory_.fill(foreign);
     std::memset(memory_.data(), content, length);
+    put_size(struct_size);
+  }
+  void put_size(std::size_t size) {
+    const auto struct_size = static_cast<std::uint32_t>(size);
     std::memcpy(memory_.data(), &struct_size, sizeof struct_size);
-  }
-  template <class S>
-  S* given() {
-    return reinterpret_cast<S*>(memory_.data());
-  }
-  bool bytes_are(std::size_t first, std::size_t last, unsigned char value) const {
-    for (std::size_t i = first; i < last; ++i) {
-      if (memory_[i] != value) return false;
-    }
-    return true;
-  }
-  template <class S>
-  static bool holds(const S& value, std::size_t first, std::size_t last, unsigned char byte) {
-    const unsigned char* bytes = reinterpret_cast<const unsigned char*>(&value);
-    for (std::size_t i = first; i < last; ++i) {
-      if (bytes[i] != byte) return false;
-    }
-    return true;
   }
   // Writes a value of known bytes and expects that only the caller's size is written.
-  template <class S>
-  void expect_written_up_to(std::uint32_t struct_size) {
+  void expect_written_up_to(const Release& by, std::size_t struct_size) {
     memory_.fill(foreign);
-    std::memcpy(memory_.data(), &struct_size, sizeof struct_size);
-    S value;
-    std::memset(static_cast<void*>(&value), written, sizeof value);
-    write_struct(given<S>(), value);
-    const std::size_t end = std::min<std::size_t>(struct_size, sizeof(S));
-    EXPECT_EQ(given<S>()->struct_size, struct_size);
-    EXPECT_TRUE(bytes_are(sizeof struct_size, end, written)) << "struct_size " << struct_size;
-    EXPECT_TRUE(bytes_are(end, room, foreign)) << "struct_size " << struct_size;
+    put_size(struct_size);
+    Memory expected = memory_;
+    by.write(memory_, written);
+    const std::size_t end = std::min(struct_size, by.size);
+    std::memset(expected.data() + sizeof(std::uint32_t), written, end - sizeof(std::uint32_t));
+    EXPECT_TRUE(memory_ == expected) << "struct_size " << struct_size;
   }
 
   alignas(16) Memory memory_{};
 };
 
-TYPED_TEST_SUITE(StructContract, Structs);
-
-TYPED_TEST(StructContract, GrowsWithoutPadding) {
-  using Later = Grown<TypeParam>;
-  EXPECT_EQ(sizeof(Later), sizeof(TypeParam) + sizeof(Later::added));
+// Whether bytes from the field behind struct_size on are those.
+bool holds(const Bytes& value, std::size_t last, unsigned char byte) {
+  return std::all_of(value.begin() + sizeof(std::uint32_t), value.begin() + static_cast<std::ptrdiff_t>(last),
+                     [=](unsigned char b) { return b == byte; });
 }
 
-TYPED_TEST(StructContract, AnOldCallerWorksWithALaterLibrary) {
-  using Later = Grown<TypeParam>;
-  this->fill(this->size, static_cast<std::uint32_t>(this->size));
-  const Later copy = read_struct(this->template given<Later>(), "desc");
-  EXPECT_EQ(copy.struct_size, this->size);
-  EXPECT_TRUE(this->holds(copy, sizeof(std::uint32_t), this->size, content));
-  EXPECT_EQ(copy.added, 0u);  // and not the foreign bytes behind the old struct
-  EXPECT_EQ(read_optional(this->template given<Later>(), "desc").added, 0u);
-  this->template expect_written_up_to<Later>(static_cast<std::uint32_t>(this->size));
+// Whether the new field of a later release is zero.
+bool added_is_zero(const Kind& kind, const Bytes& value) {
+  return std::all_of(value.begin() + static_cast<std::ptrdiff_t>(kind.now.size), value.end(),
+                     [](unsigned char b) { return b == 0; });
 }
 
-TYPED_TEST(StructContract, ALaterCallerWorksWithALaterLibrary) {
-  using Later = Grown<TypeParam>;
-  this->fill(this->grown, static_cast<std::uint32_t>(this->grown));
-  const Later copy = read_struct(this->template given<Later>(), "desc");
-  EXPECT_TRUE(this->holds(copy, sizeof(std::uint32_t), this->grown, content));
-  EXPECT_NE(copy.added, 0u);
-  this->template expect_written_up_to<Later>(static_cast<std::uint32_t>(this->grown));
+TEST_F(StructContract, GrowsWithoutPadding) {
+  each([](const Kind& kind) { EXPECT_EQ(kind.later.size, kind.now.size + kind.added); });
 }
 
-TYPED_TEST(StructContract, ALaterCallerWorksWithAnOldLibraryWhileTheNewFieldIsZero) {
-  this->fill(this->size, static_cast<std::uint32_t>(this->grown));
-  std::memset(this->memory_.data() + this->size, 0, this->grown - this->size);
-  const TypeParam copy = read_struct(this->template given<TypeParam>(), "desc");
-  EXPECT_TRUE(this->holds(copy, sizeof(std::uint32_t), this->size, content));
-  this->template expect_written_up_to<TypeParam>(static_cast<std::uint32_t>(this->grown));
+TEST_F(StructContract, AnOldCallerWorksWithALaterLibrary) {
+  each([&](const Kind& kind) {
+    fill(kind.now.size, kind.now.size);
+    const Bytes copy = kind.later.read(memory_);
+    std::uint32_t struct_size = 0;
+    std::memcpy(&struct_size, copy.data(), sizeof struct_size);
+    EXPECT_EQ(struct_size, kind.now.size);
+    EXPECT_TRUE(holds(copy, kind.now.size, content));
+    EXPECT_TRUE(added_is_zero(kind, copy));  // and not the foreign bytes behind the old struct
+    EXPECT_TRUE(added_is_zero(kind, kind.later.read_optional(memory_)));
+    expect_written_up_to(kind.later, kind.now.size);
+  });
 }
 
-TYPED_TEST(StructContract, AnOldLibraryNamesTheByteOfANewFieldThatIsSet) {
-  for (std::size_t set = this->size; set < this->grown; ++set) {
-    this->fill(this->size, static_cast<std::uint32_t>(this->grown));
-    std::memset(this->memory_.data() + this->size, 0, this->grown - this->size);
-    this->memory_[set] = 1;
-    const Memory before = this->memory_;
-    try {
-      read_struct(this->template given<TypeParam>(), "desc");
-      ADD_FAILURE() << "byte " << set << " was passed over";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), HF_ERROR_INVALID_DESC);
-      EXPECT_NE(std::string(error.what()).find("desc: byte " + std::to_string(set) + " "), std::string::npos)
-          << error.what();
+TEST_F(StructContract, ALaterCallerWorksWithALaterLibrary) {
+  each([&](const Kind& kind) {
+    fill(kind.later.size, kind.later.size);
+    const Bytes copy = kind.later.read(memory_);
+    EXPECT_TRUE(holds(copy, kind.later.size, content));
+    EXPECT_FALSE(added_is_zero(kind, copy));
+    expect_written_up_to(kind.later, kind.later.size);
+  });
+}
+
+TEST_F(StructContract, ALaterCallerWorksWithAnOldLibraryWhileTheNewFieldIsZero) {
+  each([&](const Kind& kind) {
+    fill(kind.now.size, kind.later.size);
+    std::memset(memory_.data() + kind.now.size, 0, kind.added);
+    EXPECT_TRUE(holds(kind.now.read(memory_), kind.now.size, content));
+    expect_written_up_to(kind.now, kind.later.size);
+  });
+}
+
+TEST_F(StructContract, AnOldLibraryNamesTheByteOfANewFieldThatIsSet) {
+  each([&](const Kind& kind) {
+    for (std::size_t set = kind.now.size; set < kind.later.size; ++set) {
+      fill(kind.now.size, kind.later.size);
+      std::memset(memory_.data() + kind.now.size, 0, kind.added);
+      memory_[set] = 1;
+      const Memory before = memory_;
+      try {
+        kind.now.read(memory_);
+        ADD_FAILURE() << "byte " << set << " was passed over";
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), HF_ERROR_INVALID_DESC);
+        EXPECT_NE(std::string(error.what()).find("desc: byte " + std::to_string(set) + " "), std::string::npos)
+            << error.what();
+      }
+      EXPECT_EQ(before, memory_);
     }
-    EXPECT_EQ(before, this->memory_);
-  }
+  });
 }
 
-TYPED_TEST(StructContract, SizesBelowTheReleasedOneAreRefusedByBothLibraries) {
-  for (const std::size_t below : {std::size_t{0}, std::size_t{4}, this->size / 2, this->size - 1}) {
-    this->fill(this->size, static_cast<std::uint32_t>(below));
-    EXPECT_THROW(read_struct(this->template given<TypeParam>(), "desc"), Error) << below;
-    EXPECT_THROW(read_struct(this->template given<Grown<TypeParam>>(), "desc"), Error) << below;
-  }
+TEST_F(StructContract, SizesBelowTheReleasedOneAreRefusedByBothLibraries) {
+  each([&](const Kind& kind) {
+    for (const std::size_t below : {std::size_t{0}, std::size_t{4}, kind.now.size / 2, kind.now.size - 1}) {
+      fill(kind.now.size, below);
+      EXPECT_THROW(kind.now.read(memory_), Error) << below;
+      EXPECT_THROW(kind.later.read(memory_), Error) << below;
+    }
+  });
 }
 
-TYPED_TEST(StructContract, NothingIsWrittenBeyondTheCallersSize) {
-  for (std::uint32_t struct_size = this->size; struct_size <= this->grown + 16; ++struct_size) {
-    this->template expect_written_up_to<TypeParam>(struct_size);
-    this->template expect_written_up_to<Grown<TypeParam>>(struct_size);
-  }
+TEST_F(StructContract, NothingIsWrittenBeyondTheCallersSize) {
+  each([&](const Kind& kind) {
+    for (std::size_t struct_size = kind.now.size; struct_size <= kind.later.size + 16; ++struct_size) {
+      expect_written_up_to(kind.now, struct_size);
+      expect_written_up_to(kind.later, struct_size);
+    }
+  });
 }
 
 // The list above against the headers: no struct with a struct_size is missing.
-template <class... T>
-std::size_t count_of_types(::testing::Types<T...>) {
-  return sizeof...(T);
-}
-
 TEST(StructList, NamesEveryStructOfTheHeaders) {
   std::set<std::string> declared;
   const std::regex declaration(R"(typedef struct (hf_\w+) \{\s*uint32_t struct_size;)");
@@ -188,7 +235,7 @@ TEST(StructList, NamesEveryStructOfTheHeaders) {
   for (std::sregex_iterator it(list.begin(), list.end(), name), end; it != end; ++it) tested.insert((*it)[0]);
   EXPECT_GT(declared.size(), 40u);
   EXPECT_EQ(declared, tested);
-  EXPECT_EQ(count_of_types(Structs{}), tested.size());
+  EXPECT_EQ(kinds_of(Structs{}).size(), tested.size());
 }
 
 }  // namespace

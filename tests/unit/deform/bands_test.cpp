@@ -114,7 +114,7 @@ TEST(Handles, FieldsEqualADirectSolve) {
 }
 
 TEST(Handles, FieldsAreExactOnTheRegionsAndSumToOne) {
-  const auto core = hf_test::make_core(plain(samples::cactus(2000)));
+  const auto core = hf_test::make_core(cactus(2000));
   const auto pose = Pose::make(core, {});
   std::vector<std::vector<std::int32_t>> regions;
   for (int k = 0; k < 5; ++k)
@@ -197,7 +197,7 @@ TEST(Bands, EqualLengthLevelsFollowTheLengthOfATubeOfChangingWidth) {
 class Weights : public ::testing::TestWithParam<int> {};
 
 TEST_P(Weights, CoverEveryVertexOfReachedComponentsAndSumToOne) {
-  hf_test::PlainMesh mesh = plain(samples::cactus(3000));
+  hf_test::PlainMesh mesh = cactus(3000);
   hf_test::append(mesh, plain(samples::sphere(6)), 5);   // one handle: rigid
   hf_test::append(mesh, plain(samples::sphere(5)), 10);  // none: at rest
   const auto core = hf_test::make_core(mesh);

@@ -20,6 +20,14 @@ constexpr double pi = 3.14159265358979323846;
 
 inline hf_test::PlainMesh plain(const samples::ShapeMesh& shape) { return {shape.positions, shape.triangles}; }
 
+// A cactus takes longer to make than most cases take to run: each size is made once.
+inline const hf_test::PlainMesh& cactus(std::uint32_t vertices) {
+  static std::map<std::uint32_t, hf_test::PlainMesh> made;
+  const auto [at, fresh] = made.try_emplace(vertices);
+  if (fresh) at->second = plain(samples::cactus(vertices));
+  return at->second;
+}
+
 // Inner vertices of those as given; the shapes have no welded or isolated vertices, but the map is asked all the same.
 inline std::vector<std::int32_t> inner(const hf_inner::Core& core, const std::vector<std::uint32_t>& given) {
   std::vector<std::int32_t> out;
@@ -100,7 +108,7 @@ inline Case bar_twist(double degrees, std::uint32_t n = 16) {
 inline Case cactus_bend(double degrees = 70, std::uint32_t vertices = 7400, double height = 1) {
   Case c;
   c.name = (height > 1 ? "slender cactus " : "cactus ") + std::to_string(static_cast<int>(degrees));
-  c.mesh = plain(samples::cactus(vertices));
+  c.mesh = cactus(vertices);
   for (std::size_t k = 1; k < c.mesh.positions.size(); k += 3) c.mesh.positions[k] *= height;
   const double low = 0.15 * height, high = 1.6 * height;
   c.regions = {[=](Vec3 p) { return p.y < low; }, [=](Vec3 p) { return p.y > high && std::fabs(p.x) < 0.35; }};

@@ -155,7 +155,7 @@ TEST(Layers, AnEditFollowsTheCoarseMotionAndTheWayDoesNotMatter) {
 // from the start it stretches the neck.
 TEST(Layers, CoarseHandlesMoveMoreOfTheSurfaceThanAllOfThemTogether) {
   const auto mean_shift = [](bool all) {
-    const auto core = hf_test::make_core(plain(samples::cactus(3000)));
+    const auto core = hf_test::make_core(cactus(3000));
     const auto pose = PoseStack::make(core, {});
     Regions regions{select(*core, [](Vec3 p) { return p.y < 0.15; }),
                     select(*core, [](Vec3 p) { return p.y > 1.7 && std::fabs(p.x) < 0.3; })};

@@ -60,7 +60,7 @@ class Modes : public ::testing::TestWithParam<int> {
 INSTANTIATE_TEST_SUITE_P(SmoothAndPaper, Modes, ::testing::Values(0, 1));
 
 TEST_P(Modes, HandlesLandExactlyOnTheirTargets) {
-  const auto core = hf_test::make_core(plain(samples::cactus(2000)));
+  const auto core = hf_test::make_core(cactus(2000));
   const auto pose = Pose::make(core, options());
   const std::vector<std::vector<std::int32_t>> regions{select(*core, [](Vec3 p) { return p.y < 0.1; }),
                                                        select(*core, [](Vec3 p) { return p.x > 0.45 && p.y > 1.1; }),
@@ -97,7 +97,7 @@ TEST_P(Modes, IdentityTransformsGiveTheRestPositionsBack) {
 
 TEST(Pose, TheSameRigidMotionOnAllHandlesMovesTheWholeSurface) {
   for (const int handle_count : {2, 3, 5}) {
-    const auto core = hf_test::make_core(plain(samples::cactus(3000)));
+    const auto core = hf_test::make_core(cactus(3000));
     const auto pose = Pose::make(core, {});
     std::vector<std::vector<std::int32_t>> regions;
     for (int k = 0; k < handle_count; ++k)

@@ -8,7 +8,7 @@
 
 #include "assets/shapes.h"
 #include "common/mesh_file.h"
-#include "gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 #include "support/program_support.h"
 
 namespace {

@@ -14,7 +14,7 @@
 #include "common/limits.h"
 #include "common/mesh_file.h"
 #include "gltf/gltf_read.h"
-#include "gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 #include "support/program_support.h"
 
 namespace {
@@ -140,7 +140,7 @@ TEST(FieldProgram, writes_every_kind_of_field_as_text_glb_and_picture) {
     std::printf("npm's gltf-validator is not there (HF_NODE_MODULES): the glb files are not validated\n");
     return;
   }
-  const std::string command = "node \"" HF_SOURCE_DIR "/tests/unit/samples/validate.mjs\" \"" + validator + "\" " +
+  const std::string command = "node \"" HF_SOURCE_DIR "/tests/unit/gltf/validate.mjs\" \"" + validator + "\" " +
                               hf_test::quoted(glbs) + " > " + hf_test::quoted(folder.path / "report.txt") + " 2>&1";
   std::ifstream report(folder.path / "report.txt");
   EXPECT_EQ(std::system(command.c_str()), 0) << std::string(std::istreambuf_iterator<char>(report), {});

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "common/face_triangles.h"
-#include "gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "common/picture_text.h"
 #include "gltf/file_bytes.h"
-#include "gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 #include "pictures/animation_file.h"
 #include "pictures/palette.h"
 #include "support/program_support.h"

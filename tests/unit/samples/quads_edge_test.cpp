@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 #include "support/program_support.h"
 
 namespace {

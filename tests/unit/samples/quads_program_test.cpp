@@ -14,7 +14,7 @@
 #include "gltf/flat_mesh.h"
 #include "gltf/gltf_read.h"
 #include "gltf/gltf_write.h"
-#include "gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 #include "quads/surface_distance.h"
 #include "support/program_support.h"
 

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "gltf/gltf_read.h"
-#include "gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 #include "weights/rig.h"
 
 namespace {

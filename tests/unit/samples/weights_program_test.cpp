@@ -11,7 +11,7 @@
 #include "gltf/gltf_write.h"
 #include "gltf/json_file.h"
 #include "gltf/skin_write.h"
-#include "gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 #include "support/program_support.h"
 
 namespace {

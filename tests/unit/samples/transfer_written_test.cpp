@@ -6,7 +6,7 @@
 #include "gltf/animate.h"
 #include "gltf/key_reduce.h"
 #include "gltf/rig_fit.h"
-#include "unit/transfer/transfer_program_support.h"
+#include "unit/samples/transfer_program_support.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "common/mesh_file.h"
-#include "unit/samples/file_write_support.h"
+#include "unit/gltf/file_write_support.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "common/mesh_file.h"
 #include "gltf/animate.h"
 #include "transfer/session.h"
-#include "unit/transfer/transfer_program_support.h"
+#include "unit/samples/transfer_program_support.h"
 
 namespace {
 
@@ -295,9 +295,12 @@ TEST(TransferOutputs, ClipsOfARealAnimalTakeFewBytes) {
         << said;
     return static_cast<size_t>(fs::file_size(out)) - alone;
   };
-  const size_t walk = bytes("Walk"), all = bytes("all");
-  std::printf("a walk takes %zu bytes, thirteen clips %zu\n", walk, all);
+  const size_t walk = bytes("Walk");
+  std::printf("a walk takes %zu bytes\n", walk);
   EXPECT_LT(walk, 120000u);
+  if (!std::getenv("HF_FULL_TESTS")) return;
+  const size_t all = bytes("all");
+  std::printf("thirteen clips take %zu bytes\n", all);
   EXPECT_LT(all, 600000u);
 }
 

@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <thread>
 
-#include "unit/samples/file_write_support.h"
+#include "unit/gltf/file_write_support.h"
 
 namespace {
 
@@ -120,14 +120,22 @@ TEST(FileWriteFaults, AHostThatDidNotAskKeepsItsHandlersDuringAWrite) {
   EXPECT_EQ(fs::file_size(folder.path / "file"), long_text().size());
 }
 
+// Compared with before, since a program in the background of a shell is started with interrupts ignored.
 TEST(FileWriteFaults, SignalsAreAsBeforeAfterEveryWrite) {
+  const int signals[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXFSZ};
+  std::vector<void (*)(int)> before;
+  for (const int signal : signals) {
+    struct sigaction now {};
+    ASSERT_EQ(::sigaction(signal, nullptr, &now), 0);
+    before.push_back(now.sa_handler);
+  }
   TemporaryFolder folder;
   write_bytes(folder.path / "file", "new");
   EXPECT_FALSE(refusal(folder.path / "missing" / "file").empty());
-  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXFSZ}) {
+  for (std::size_t i = 0; i < std::size(signals); ++i) {
     struct sigaction now {};
-    ASSERT_EQ(::sigaction(signal, nullptr, &now), 0);
-    EXPECT_EQ(now.sa_handler, SIG_DFL) << signal;
+    ASSERT_EQ(::sigaction(signals[i], nullptr, &now), 0);
+    EXPECT_EQ(now.sa_handler, before[i]) << signals[i];
   }
   sigset_t held;
   ASSERT_EQ(::pthread_sigmask(SIG_SETMASK, nullptr, &held), 0);

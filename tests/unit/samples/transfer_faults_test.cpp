@@ -3,7 +3,7 @@
 
 #include "gltf/animate.h"
 #include "transfer/faults.h"
-#include "unit/transfer/transfer_program_support.h"
+#include "unit/samples/transfer_program_support.h"
 
 namespace {
 

@@ -6,13 +6,13 @@
 #include <algorithm>
 
 #include "gltf/animate.h"
-#include "unit/transfer/transfer_program_support.h"
+#include "unit/samples/transfer_program_support.h"
 
 namespace {
 
 using namespace transfer_program;
 
-fs::path script(const std::string& name) { return fs::path(HF_SOURCE_DIR) / "tests/unit/transfer" / name; }
+fs::path script(const std::string& name) { return fs::path(HF_SOURCE_DIR) / "tests/unit/samples" / name; }
 
 // The files: a new skin, the target's own, morph targets. Made once.
 fs::path written(const std::string& kind) {

@@ -3,7 +3,7 @@
 #define HF_TESTS_SAMPLES_COMPRESSED_FILES_H
 
 #include "support/draco_encode.h"
-#include "unit/samples/gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 #ifdef HF_GLTF_MESHOPT
 #include <meshoptimizer.h>
 #endif

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "gltf/file_write.h"
-#include "unit/samples/gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 
 namespace file_write_test {
 

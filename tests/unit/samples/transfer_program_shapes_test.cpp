@@ -3,7 +3,7 @@
 
 #include "assets/face_gltf.h"
 #include "gltf/animate.h"
-#include "unit/transfer/transfer_program_support.h"
+#include "unit/samples/transfer_program_support.h"
 
 namespace {
 

@@ -31,7 +31,7 @@ std::filesystem::path validator_modules() {
 
 // Runs the script over a folder; its output, and whether it found no error.
 bool validate(const std::filesystem::path& modules, const std::filesystem::path& folder, std::string& output) {
-  const std::string command = "node \"" HF_SOURCE_DIR "/tests/unit/samples/validate.mjs\" \"" + modules.string() +
+  const std::string command = "node \"" HF_SOURCE_DIR "/tests/unit/gltf/validate.mjs\" \"" + modules.string() +
                               "\" \"" + folder.string() + "\" 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) return false;

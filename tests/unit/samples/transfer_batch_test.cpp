@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "gltf/animate.h"
-#include "unit/transfer/transfer_program_support.h"
+#include "unit/samples/transfer_program_support.h"
 
 namespace {
 

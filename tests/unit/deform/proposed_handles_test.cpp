@@ -10,7 +10,7 @@
 #include "assets/creature.h"
 #include "gltf/animate.h"
 #include "gltf/flat_mesh.h"
-#include "gltf_support.h"
+#include "unit/gltf/gltf_support.h"
 #include "hf/hf.hpp"
 
 namespace {

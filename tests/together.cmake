@@ -1,0 +1,38 @@
+# cmake -DOUT=FILE -DFILES=A.cpp,B.cpp -P together.cmake: one source that holds several files of tests.
+#
+# GoogleTest's macros and the headers are most of what the compiler does for a file of tests: six files together take a
+# third of the time. Files of tests repeat one another's names, so each stands in a namespace of its own. Its headers come
+# first, outside of all: the guards of the headers then skip them inside. A namespace that a file opens is another one
+# there, which looks into the one of that name outside.
+string(REPLACE "," ";" FILES "${FILES}")
+set(headers "")
+set(bodies "")
+foreach(file IN LISTS FILES)
+  get_filename_component(folder "${file}" DIRECTORY)
+  get_filename_component(name "${file}" NAME_WE)
+  file(STRINGS "${file}" lines REGEX "^#(include|if|else|elif|endif)")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^#include \"([^\"]+)\"")
+      set(header "${folder}/${CMAKE_MATCH_1}")
+      if(EXISTS "${header}")
+        set(line "#include \"${header}\"")
+      endif()
+    endif()
+    string(APPEND headers "${line}\n")
+  endforeach()
+  string(MAKE_C_IDENTIFIER "${name}" name)
+  string(APPEND bodies "namespace file_${name} {\n")
+  file(STRINGS "${file}" opened REGEX "^namespace [a-z][a-z0-9_:]* {")
+  list(REMOVE_DUPLICATES opened)
+  foreach(line IN LISTS opened)
+    string(REGEX REPLACE "^namespace (.*) {.*$" "\\1" path "${line}")
+    string(APPEND bodies "namespace ${path} {\nusing namespace ::${path};\n")
+    while(path MATCHES "^(.*)::")
+      set(path ${CMAKE_MATCH_1})
+      string(APPEND bodies "using namespace ::${path};\n")
+    endwhile()
+    string(APPEND bodies "}\n")
+  endforeach()
+  string(APPEND bodies "#include \"${file}\"\n}  // namespace file_${name}\n")
+endforeach()
+file(WRITE "${OUT}" "${headers}${bodies}")
