@@ -13,7 +13,6 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 import layer_csharp
 import layer_js
-import layer_lua
 import layer_python
 import layer_rust
 import parse_headers
@@ -32,7 +31,7 @@ def files():
     result = {"api.json": parse_headers.to_text(api)}
     # the functions by name, one a line: packages and tests read it
     result["functions.txt"] = "".join(f["name"] + "\n" for f in api["functions"])
-    for layer in (layer_python, layer_js, layer_csharp, layer_lua, layer_rust):
+    for layer in (layer_python, layer_js, layer_csharp, layer_rust):
         result.update(layer.write(api))
     return result
 
