@@ -39,8 +39,8 @@ void align_chain(const Retargeter& r, ChainPair& pair, Aligning how, Turn before
   Turn turn = shortest_turn(before * (own(equal ? bones : nt) - own(0)), whole) * before;
   if (equal && bones > 1 && norm(whole) > 0) {
     const Vec3 line = unit_vector(whole);
-    turn = bend_turn(line, turn * (own(1) - own(0)), (norm(own(bones) - own(0)) / norm(whole)) * (wanted(1) - wanted(0)),
-                     norm(own(bones) - own(0))) *
+    turn = bend_turn(line, turn * (own(1) - own(0)),
+                     (norm(own(bones) - own(0)) / norm(whole)) * (wanted(1) - wanted(0)), norm(own(bones) - own(0))) *
            turn;
   }
   for (std::size_t k = 0; k < pair.target.count(); ++k) {

@@ -7,23 +7,25 @@ namespace hf_inner {
 // A joint of a limb that bends by more than this cosine's angle at rest (20 degrees) ends a segment. Straighter ones
 // halve a bone, as twist joints in the chain do. Elbows of people at rest bend less: then the middle joint counts.
 constexpr double segment_bend = 0.94;
-// The plane in which a limb bends at rest counts in full above this share of its length, and not at all below the other.
+// The plane in which a limb bends at rest counts in full above this share of its length, and not at all below the
+// other.
 constexpr double bend_seen = 0.1, bend_unseen = 0.04;
-// A foot stands if its lowest point is below the first, and is free above the second. Toes of a swinging foot pass the
-// ground at about the second.
+// A foot is planted if its lowest point is below the first, and is free above the second. Toes of a swinging foot pass
+// the ground at about the second.
 constexpr double standing_height = 0.03, free_height = 0.06;
-// It stands if it is slower than the first against the ground, and is free above the second: legs a second. On ground
-// that moves, shares of its speed count where they are more.
+// It is planted if it is slower than the first against the ground, and is free above the second: legs a second. On
+// ground that moves, shares of its speed count where they are more.
 constexpr double standing_speed = 0.7, free_speed = 1.4, standing_share = 0.4, free_share = 0.6;
 // Points of a sole count as low up to this above the lowest: the thickness of a shoe's edge.
 constexpr double low_share = 0.01;
-// It begins and ends to stand in this time, in seconds: two frames.
+// A foot becomes planted, or free, within this time in seconds: two frames.
 constexpr double standing_time = 0.03;
 // A ground slower than this rests, in legs a second.
 constexpr double least_ground_speed = 0.2;
 // Velocities of soles belong together within the first, in legs a second, or this share of their own.
 constexpr double velocity_radius = 0.3, velocity_share = 0.25;
-// A sole in the air is no lower than that of the source below the first; above the second it follows the turned leg.
+// A sole in the air is no lower than the sole of the source below the first; above the second it follows the turned
+// leg.
 constexpr double near_height = 0.05, far_height = 0.3;
 // Points of a sole share the weight of the body over this height above the lowest.
 constexpr double sole_softness = 0.006;

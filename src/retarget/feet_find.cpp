@@ -49,8 +49,8 @@ void Retargeter::find_feet() {
     for (std::size_t s = 0; s < source.legs.size(); ++s) {
       const RigLeg& by = source.legs[s];
       if (by.side != leg.side || place-- > 0) continue;
-      if (leg.foot < 0 || leg.sole.empty() || by.sole.empty() || !wanted[at(leg.foot)] ||
-          leg.segments.count() < 2 || !(leg.length > 0) || !(by.length > 0))
+      if (leg.foot < 0 || leg.sole.empty() || by.sole.empty() || !wanted[at(leg.foot)] || leg.segments.count() < 2 ||
+          !(leg.length > 0) || !(by.length > 0))
         break;
       FootPair foot(memory);
       foot.source = static_cast<Index>(s);

@@ -25,9 +25,11 @@ bool has_word(const char* text, const char* word) {
 }
 
 int finger_named(const CharacterInput& in, Index joint) {
-  static constexpr const char* words[][3] = {
-      {"thumb", "polegar", nullptr}, {"index", nullptr, nullptr}, {"mid", nullptr, nullptr}, {"ring", nullptr, nullptr},
-      {"pink", "little", nullptr}};
+  static constexpr const char* words[][3] = {{"thumb", "polegar", nullptr},
+                                             {"index", nullptr, nullptr},
+                                             {"mid", nullptr, nullptr},
+                                             {"ring", nullptr, nullptr},
+                                             {"pink", "little", nullptr}};
   const char* name = in.names && in.names[joint] ? in.names[joint] : "";
   for (int f = 0; f < 5; ++f) {
     for (const char* const* word = words[f]; *word; ++word) {
@@ -71,7 +73,8 @@ void Matcher::add_fingers(const Chain& a, const Chain& b, Turn align) {
       if (by_name && f.named == to[k].named) partner = f.chain;
     }
     if (!by_name)
-      partner = from[to.size() < 2 ? from.size() / 2 : (k * (from.size() - 1) + (to.size() - 1) / 2) / (to.size() - 1)].chain;
+      partner =
+          from[to.size() < 2 ? from.size() / 2 : (k * (from.size() - 1) + (to.size() - 1) / 2) / (to.size() - 1)].chain;
     if (!partner) continue;
     ChainPair pair(memory);
     pair.role = Role::finger;

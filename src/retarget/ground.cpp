@@ -56,8 +56,9 @@ void pitch_up(Retargeter& r, const GroundPart& part) {
     const double length = norm(arm);
     if (!(depth > 0) || !(norm(flat) > 0)) return;
     const double rise = dot(arm, r.target.up), wanted = std::min(rise + depth, length);
-    const double angle = std::min(left, arc_tangent(wanted, std::sqrt(std::max(0.0, length * length - wanted * wanted))) -
-                                            arc_tangent(rise, norm(flat)));
+    const double angle =
+        std::min(left, arc_tangent(wanted, std::sqrt(std::max(0.0, length * length - wanted * wanted))) -
+                           arc_tangent(rise, norm(flat)));
     if (!(angle > 0)) return;
     left -= angle;
     const Turn turn = turn_about(unit_vector(cross(flat, r.target.up)), angle);

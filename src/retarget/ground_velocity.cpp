@@ -13,7 +13,8 @@ void find_ground_velocity(const RetargetSide& side, const double* poses, std::ui
   require(poses, "poses");
   require(velocity, "velocity");
   check_finite(seconds, "seconds");
-  if (!(seconds > 0)) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "seconds is not above 0; give the time between frames");
+  if (!(seconds > 0))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "seconds is not above 0; give the time between frames");
   const Rig rig(side, "source", memory);
   Stance stance(memory);
   stance.resize(at(rig.count));

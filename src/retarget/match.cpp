@@ -12,7 +12,8 @@ void Matcher::follow(Index target, Index a, Index b, double share, Turn align) {
   r.wanted[at(target)] = 1;
   used[at(a)] = used[at(b)] = 1;
   const auto post = [&](Index j) {
-    return unit_turn(inverse(r.source.rest.turn[at(j)]) * (inverse(r.across) * (align * r.target.rest.turn[at(target)])));
+    return unit_turn(inverse(r.source.rest.turn[at(j)]) *
+                     (inverse(r.across) * (align * r.target.rest.turn[at(target)])));
   };
   r.follows.push_back({target, a, b, share, post(a), post(b)});
 }

@@ -8,8 +8,7 @@ namespace {
 
 Vec3 bone(const Rig& rig, const Stance& stance, const Segments& chain, std::size_t k) noexcept {
   const Vec3 a = stance.place[at(chain.first(k))];
-  const Vec3 b =
-      k + 1 < chain.count() ? stance.place[at(chain.first(k + 1))] : rig.tip_place(chain.tip, stance);
+  const Vec3 b = k + 1 < chain.count() ? stance.place[at(chain.first(k + 1))] : rig.tip_place(chain.tip, stance);
   return b - a;
 }
 

@@ -10,9 +10,9 @@
 // over the ground; soles, tails, necks and the trunk stay above it. Lengths of bones never change. A joint without a
 // partner keeps its rest under its parent. Two equal skeletons are noticed: their keys are copied.
 //
-// What a frame depends on: its source pose, and for each foot whether it stands and an offset that holds it where it
-// stands. Both come from the frames since the last reset, and fade within a step. With lock_feet off a frame depends on
-// its source pose alone: a foot stands where it is low. Then a scrubbed timeline gives the bits of a played one.
+// A frame depends on its source pose and on the state of the feet. The state says whether a foot is planted, and how
+// far the foot is moved to keep its place. It comes from the frames since the last reset and fades within a step. With
+// lock_feet off there is no state: a low foot is planted. Then a scrubbed timeline gives the bits of a played one.
 //
 // The object keeps no pointer of the caller. A frame allocates nothing. One object serves one thread at a time.
 #pragma once
@@ -24,24 +24,25 @@
 
 namespace hf_inner {
 
-// keep: the hips carry the travel. to_root: the topmost joint above the hips carries it over the ground, and the hips
-// the rest. in_place: the travel over the ground is left out.
+// Which joint gets the travel over the ground. keep: the hips. to_root: the topmost joint above the hips. in_place: no
+// joint, the body stays in its place.
 enum class RootMotion : std::int32_t { keep, to_root, in_place };
 
 struct RetargetOptions {
   RootMotion root_motion = RootMotion::keep;
   bool align_rests = true;
-  bool goals = true;      // of feet and ground
-  bool lock_feet = true;  // standing feet slide no more than those of the source
-  bool copy_same = true;  // equal skeletons
-  double scale = 0;       // of travel; 0: found from the legs
-  // How the ground moves below a clip that runs on the spot, in the space of the source, units a second; 0: it rests.
-  // find_ground_velocity finds it.
+  bool goals = true;      // feet reach their places, nothing sinks into the ground
+  bool lock_feet = true;  // planted feet slide no more than the feet of the source
+  bool copy_same = true;  // keys are copied between equal skeletons
+  double scale = 0;       // times the travel of the source; 0: the ratio of leg lengths
+  // The velocity of the ground under a clip on the spot, in the space of the source, in units per second. 0: the ground
+  // rests. find_ground_velocity finds it.
   double ground_velocity[3] = {0, 0, 0};
 };
 
-// What know_character was given and what it found. rest: 10 numbers a joint (translation, rotation x y z w, scale,
-// relative to the parent), a pose in which both characters stand alike; null: the rest of the input.
+// One of the two characters: the input of know_character and its result. rest: a pose in which both characters stand
+// alike, 10 numbers per joint: translation, rotation x y z w and scale, relative to the parent. Null: the rest pose of
+// the input.
 struct RetargetSide {
   const CharacterInput& input;
   const Character& character;
@@ -51,8 +52,9 @@ struct RetargetSide {
 enum class ScaleSource : std::int32_t { given, legs, hips, height };
 const char* scale_source_name(ScaleSource source) noexcept;
 
-// How one chain of the target follows. The angles are between the directions of its bones and those of the source, in
-// degrees, over the frames since the last reset; they are 0 for chains of one joint and for those that are not aligned.
+// How one chain of the target follows its partner. Each angle lies between a bone of the target and the same bone of
+// the source, in degrees. The figures count all frames since the last reset. They are 0 for a chain of one joint, and
+// for a chain whose rest is not aligned.
 struct ChainReport {
   Role role = Role::other;
   Side side = Side::middle;
@@ -63,21 +65,22 @@ struct ChainReport {
 struct RetargetReport {
   explicit RetargetReport(Memory& memory) : chains(&memory), unmatched_source(&memory), unmatched_target(&memory) {}
   bool same_skeleton = false;
-  double scale = 1;
+  double scale = 1;  // of travel
   ScaleSource scale_source = ScaleSource::legs;
-  std::uint32_t matched_joints = 0;                         // of the target
-  Vector<ChainReport> chains;                               // pairs, in the order of the target's chains
-  Vector<std::uint32_t> unmatched_source, unmatched_target;  // joints of the body without a partner
-  std::uint64_t frames = 0;                                 // since the last reset
-  double limb_degrees = 0;                                  // mean over arms and legs and frames
-  // How far standing feet go by the turns of their legs alone, over `scale` times that of the source. A clip on the spot
-  // that is moved at scale x stride times its speed needs the least holding of feet.
+  std::uint32_t matched_joints = 0;  // joints of the target that follow
+  Vector<ChainReport> chains;        // in the order of the chains of the target
+  // Joints of each body that have no partner.
+  Vector<std::uint32_t> unmatched_source, unmatched_target;
+  std::uint64_t frames = 0;  // since the last reset
+  double limb_degrees = 0;   // mean angle of arms and legs over the frames
+  // How far planted feet would travel without the goals, over `scale` times the travel of the source. A clip on the
+  // spot needs the least correction of the feet if the body moves at scale x stride times the speed of the clip.
   double stride = 1;
-  double deepest_drop = 0;                                  // of the hips, so that feet reach; in units of the target
+  double deepest_drop = 0;  // how far the hips sank so that feet reach, in units of the target
 };
 
-// The velocity that the soles of a clip have where they stand: 0 if the clip travels. poses: count frames of 10 numbers
-// for each joint, `seconds` apart.
+// Finds the velocity of the soles where they touch the ground. It is 0 if the clip travels. poses: `count` frames of 10
+// numbers per joint, `seconds` apart.
 void find_ground_velocity(const RetargetSide& source, const double* poses, std::uint32_t count, double seconds,
                           double velocity[3], Memory& memory);
 
@@ -85,16 +88,16 @@ class Retargeter;
 
 class Retarget {
  public:
-  // Throws Error, with the joint as index, if a side is not what its character was made of, if no joint of the two has
-  // a partner, or if an option is out of range.
+  // Throws Error: a character does not belong to its input (index = joint), no joint has a partner, an option is out of
+  // range.
   Retarget(const RetargetSide& source, const RetargetSide& target, const RetargetOptions& options, Memory& memory);
   ~Retarget();
   Retarget(Retarget&&) noexcept;
   Retarget& operator=(Retarget&&) noexcept;
 
-  // source: 10 numbers for each joint of the source. target: as many for each joint of the target; all are written.
-  // seconds: since the last frame; 0 for the first and for a frame that is shown again. A number that is not finite
-  // or a rotation of 0 throws Error with the joint, and nothing has changed.
+  // source: the pose to follow, 10 numbers per joint of the source. target: receives 10 numbers per joint of the
+  // target. seconds: the time since the last frame; 0 for the first frame and for a frame that is shown again. Throws
+  // Error for a number that is not finite and for a rotation of length 0 (index = joint). The object is then as before.
   void frame(const double* source, double seconds, double* target);
   // Forgets the offsets of the feet and the figures of the report. Call it where the clip jumps.
   void reset() noexcept;

@@ -129,7 +129,10 @@ void find_flips(Rig& rig, const Stance& stance) {
     const bool turned = rig.flipped[j] != (p >= 0 && rig.flipped[at(p)] != 0);
     const Vec3 s = rig.scales[j];
     const double x = s.x < 0 ? -1 : 1, y = s.y < 0 ? -1 : 1, z = (s.z < 0 ? -1 : 1) * (turned ? -1 : 1);
-    rig.posts[j] = x > 0 && y > 0 && z > 0 ? Turn{} : x > 0 ? Turn{1, 0, 0, 0} : y > 0 ? Turn{0, 1, 0, 0} : Turn{0, 0, 1, 0};
+    rig.posts[j] = x > 0 && y > 0 && z > 0 ? Turn{}
+                   : x > 0                 ? Turn{1, 0, 0, 0}
+                   : y > 0                 ? Turn{0, 1, 0, 0}
+                                           : Turn{0, 0, 1, 0};
   }
 }
 
@@ -167,7 +170,8 @@ Rig::Rig(const RetargetSide& side, const char* side_name, Memory& m)
   flipped.assign(n, 0);
   posts.resize(n);
   if (side.rest) {
-    for (std::size_t j = 0; j < n; ++j) read_joint(side.rest + 10 * j, j, name, translations[j], rotations[j], scales[j]);
+    for (std::size_t j = 0; j < n; ++j)
+      read_joint(side.rest + 10 * j, j, name, translations[j], rotations[j], scales[j]);
     stand(*this, rest);
   }
   find_flips(*this, rest);
@@ -259,15 +263,15 @@ void Rig::place(const Vector<std::uint8_t>& wanted, Vec3 mover_place, Stance& st
     const std::size_t i = at(j);
     const Index p = parents[i];
     if (!wanted[i])
-      stance.turn[i] = p < 0 ? rest.turn[i] : unit_turn(stance.turn[at(p)] * (inverse(rest.turn[at(p)]) * rest.turn[i]));
+      stance.turn[i] =
+          p < 0 ? rest.turn[i] : unit_turn(stance.turn[at(p)] * (inverse(rest.turn[at(p)]) * rest.turn[i]));
     const Linear own = linear_of(wanted[i] ? local_turn(j, stance) : rotations[i], scales[i]);
     stance.linear[i] = p < 0 ? own : stance.linear[at(p)] * own;
     if (j == mover) {
       stance.place[i] = mover_place;
     } else if (linked[i]) {
       const std::size_t c = at(carriers[i]);
-      stance.place[i] =
-          stance.place[c] + stance.turn[c] * (inverse(rest.turn[c]) * (rest.place[i] - rest.place[c]));
+      stance.place[i] = stance.place[c] + stance.turn[c] * (inverse(rest.turn[c]) * (rest.place[i] - rest.place[c]));
     } else {
       stance.place[i] = p < 0 ? translations[i] : stance.place[at(p)] + stance.linear[at(p)] * translations[i];
     }

@@ -47,7 +47,7 @@ struct RigLeg {
   Segments segments;
   Side side = Side::middle;
   Index foot = -1, toe = -1;
-  double length = 0;  // of the segments
+  double length = 0;       // of the segments
   double sole_length = 0;  // the furthest point of the sole from the ankle, over the ground
   Vector<SkinPoint> sole;
 };
@@ -65,17 +65,17 @@ struct Rig {
   Vector<Turn> rotations;
   Vector<std::uint8_t> flipped;  // its rest transform mirrors
   Vector<Turn> posts;            // see local_turn
-  Stance file_rest;  // in which the vertices are given
+  Stance file_rest;              // in which the vertices are given
   Stance rest;
 
   Turn axes;  // takes x to left, y to up, z to forward
   Vec3 up, forward, left;
   double ground = 0, height = 0;
   double leg_length = 0, hip_height = 0;
-  Index mover = -1;          // carries trunk and legs
+  Index mover = -1;           // carries trunk and legs
   Vector<Index> trunk, neck;  // from the mover, without it, to the head
   Index head = -1;
-  Vector<RigLeg> legs;  // hindmost first, left before right
+  Vector<RigLeg> legs;   // hindmost first, left before right
   bool upright = false;  // on two legs
 
   // Reads a pose. Throws Error with the joint.
@@ -102,7 +102,8 @@ Segments cut_chain(const Rig& rig, const Character& character, const Chain& chai
 void find_legs(Rig& rig, const Character& character, Memory& memory);
 void find_soles(Rig& rig, const RetargetSide& side, Memory& memory);
 // The outermost points that the joints marked in `part` own.
-Vector<SkinPoint> outer_points(const Rig& rig, const RetargetSide& side, const Vector<std::uint8_t>& part, Memory& memory);
+Vector<SkinPoint> outer_points(const Rig& rig, const RetargetSide& side, const Vector<std::uint8_t>& part,
+                               Memory& memory);
 const Chain* find_chain(const Character& character, Role role, Side side, std::uint32_t number);
 
 }  // namespace hf_inner

@@ -141,7 +141,8 @@ void find_trunk(Rig& rig, const Character& character, Memory& memory) {
   rig.mover = rig.head >= 0 ? rig.head : arms;
   if (arms >= 0 && rig.mover >= 0) rig.mover = common_carrier(rig, rig.mover, arms);
   visit(Role::leg, [&](Index j) { rig.mover = rig.mover < 0 ? j : common_carrier(rig, rig.mover, j); });
-  if ((rig.legs.empty() || rig.mover < 0) && !character.chains.empty()) rig.mover = first_joint(character, character.chains[0]);
+  if ((rig.legs.empty() || rig.mover < 0) && !character.chains.empty())
+    rig.mover = first_joint(character, character.chains[0]);
   if (rig.mover < 0) rig.mover = rig.order[0];
   for (Index j = rig.head >= 0 ? rig.carriers[at(rig.head)] : arms, steps = 0;
        j >= 0 && j != rig.mover && steps <= rig.count; j = rig.carriers[at(j)], ++steps)

@@ -48,8 +48,8 @@ void compare(const RigActor& source, const RigActor& target, const std::vector<d
     if (norm(should) < 1e-3 * target.height()) continue;
     const double angle = std::atan2(norm(cross(is, should)), dot(is, should)) / degree;
     double& worst = by == Role::arm || by == Role::hand || by == Role::finger ? out.arm
-                    : by == Role::leg || by == Role::foot                       ? out.leg
-                                                                                : out.trunk;
+                    : by == Role::leg || by == Role::foot                     ? out.leg
+                                                                              : out.trunk;
     worst = std::max(worst, angle);
   }
   out.sole = std::min(out.sole, target.sole_height(world) / target.height());
@@ -120,7 +120,8 @@ TEST_P(Family, RestsMeetAboutShoulderAndHip) {
 }
 
 TEST_P(Family, UnitsAxesAndMirrorsDoNotMatter) {
-  const Placing placings[] = {{}, {0.01, 90, true, false, {}}, {100, 217, false, false, {5, -3, 8}}, {1, 180, false, true, {}}};
+  const Placing placings[] = {
+      {}, {0.01, 90, true, false, {}}, {100, 217, false, false, {5, -3, 8}}, {1, 180, false, true, {}}};
   for (const Placing& from : placings) {
     const RigActor source(GetParam(), {}, from);
     for (const Placing& to : placings)

@@ -62,7 +62,8 @@ TEST(Identity, RestInIsAlignedRestOut) {
   const RigActor source("mixamo", {}), target("unreal", {1, 1, 1, 3, Rest::a}), as_t("unreal", {});
   Memory memory;
   Retarget retarget(source.side(), target.side(), {}, memory);
-  const auto out = world_of(target.parents(), run(retarget, rest_trs(source.side().input), target.parents().size()).data());
+  const auto out =
+      world_of(target.parents(), run(retarget, rest_trs(source.side().input), target.parents().size()).data());
   const auto truth = world_of(target.parents(), rest_trs(as_t.side().input).data());
   EXPECT_LT(worst_place(out, truth), 1e-6 * target.height());
 }
@@ -139,7 +140,8 @@ TEST(Same, OneTransformBetweenTheRestsIsKept) {
 }
 
 TEST(Same, AnotherRestIsNotCopied) {
-  const RigActor source("mixamo", {}), target("mixamo", {1, 1, 1, 3, Rest::a}), longer("mixamo", {1, 1.2, 1, 3, Rest::t});
+  const RigActor source("mixamo", {}), target("mixamo", {1, 1, 1, 3, Rest::a}),
+      longer("mixamo", {1, 1.2, 1, 3, Rest::t});
   Memory memory;
   EXPECT_FALSE(Retarget(source.side(), target.side(), {}, memory).report().same_skeleton);
   EXPECT_FALSE(Retarget(source.side(), longer.side(), {}, memory).report().same_skeleton);
@@ -203,7 +205,8 @@ TEST(Feet, AFootThatStandsStaysWhereItStands) {
     const Vec3 ankle = place_of(world, static_cast<std::size_t>(source.rig().find("mixamorig:LeftFoot")));
     const hf_inner::Turn lean = hf_inner::turn_about({1, 0, 0}, angle);
     const Vec3 place = ankle + lean * (place_of(world, hips) - ankle);
-    const hf_inner::Turn own = lean * hf_inner::Turn{rest[10 * hips + 3], rest[10 * hips + 4], rest[10 * hips + 5], rest[10 * hips + 6]};
+    const hf_inner::Turn own =
+        lean * hf_inner::Turn{rest[10 * hips + 3], rest[10 * hips + 4], rest[10 * hips + 5], rest[10 * hips + 6]};
     const double numbers[] = {place.x, place.y, place.z, own.x, own.y, own.z, own.w};
     std::copy(numbers, numbers + 7, &pose[10 * hips]);
     // The feet stay flat.
@@ -261,7 +264,8 @@ TEST(Frame, ResetForgetsTheFramesBefore) {
   a.reset();
   EXPECT_EQ(a.report().frames, 0u);
   for (int f = 0; f < 5; ++f)
-    EXPECT_EQ(largest_difference(run(a, source.act(0.05 * f).trs, n, 0.05), run(b, source.act(0.05 * f).trs, n, 0.05)), 0);
+    EXPECT_EQ(largest_difference(run(a, source.act(0.05 * f).trs, n, 0.05), run(b, source.act(0.05 * f).trs, n, 0.05)),
+              0);
 }
 
 TEST(Bad, AFrameThatIsRefusedChangesNothing) {
@@ -290,7 +294,8 @@ TEST(Bad, AFrameThatIsRefusedChangesNothing) {
   EXPECT_THROW(a.frame(source.act(0.2).trs.data(), -1, out.data()), Error);
   EXPECT_THROW(a.frame(source.act(0.2).trs.data(), std::nan(""), out.data()), Error);
   for (int f = 0; f < 5; ++f)
-    EXPECT_EQ(largest_difference(run(a, source.act(0.05 * f).trs, n, 0.05), run(b, source.act(0.05 * f).trs, n, 0.05)), 0);
+    EXPECT_EQ(largest_difference(run(a, source.act(0.05 * f).trs, n, 0.05), run(b, source.act(0.05 * f).trs, n, 0.05)),
+              0);
 }
 
 hf_result code_of(const RigActor& source, const hf_inner::CharacterInput& input, const RetargetOptions& options = {},

@@ -119,7 +119,8 @@ PlainRetarget::PlainRetarget(const CharacterInput& source, const Character& a, c
   // The trunk is counted from the hips on.
   const auto trunk = [](const Character& c, int hips) {
     std::vector<int> out;
-    for (int j = joint_of(c, Role::head, Side::middle, 0); j >= 0 && j != hips; j = c.carriers[static_cast<std::size_t>(j)]) {
+    for (int j = joint_of(c, Role::head, Side::middle, 0); j >= 0 && j != hips;
+         j = c.carriers[static_cast<std::size_t>(j)]) {
       if (c.roles[static_cast<std::size_t>(j)] == Role::spine) out.insert(out.begin(), j);
     }
     return out;
@@ -134,8 +135,8 @@ PlainRetarget::PlainRetarget(const CharacterInput& source, const Character& a, c
       const Role role = c.roles[static_cast<std::size_t>(joint)];
       for (std::size_t k = 0; k < c.carriers.size(); ++k) {
         const Role at = c.roles[k];
-        if (c.carriers[k] == joint && (at == role || (role == Role::arm && at == Role::hand) ||
-                                       (role == Role::leg && at == Role::foot)))
+        if (c.carriers[k] == joint &&
+            (at == role || (role == Role::arm && at == Role::hand) || (role == Role::leg && at == Role::foot)))
           return static_cast<int>(k);
       }
       return -1;
@@ -145,9 +146,9 @@ PlainRetarget::PlainRetarget(const CharacterInput& source, const Character& a, c
     if (s >= 0 && (b.roles[j] == Role::arm || b.roles[j] == Role::leg)) {
       const int m = next(a, s), n = next(b, static_cast<int>(j));
       if (m >= 0 && n >= 0)
-        align = Quat::FromTwoVectors(place(to, static_cast<std::size_t>(n)) - place(to, j),
-                                     across * (place(from, static_cast<std::size_t>(m)) -
-                                               place(from, static_cast<std::size_t>(s))))
+        align = Quat::FromTwoVectors(
+                    place(to, static_cast<std::size_t>(n)) - place(to, j),
+                    across * (place(from, static_cast<std::size_t>(m)) - place(from, static_cast<std::size_t>(s))))
                     .toRotationMatrix();
     }
     align_.insert(align_.end(), align.data(), align.data() + 9);

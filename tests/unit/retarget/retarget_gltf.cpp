@@ -19,9 +19,10 @@ using namespace hf_inner;
 
 void print_report(const RetargetReport& report, const hf_test::GltfCharacter& a, const hf_test::GltfCharacter& b,
                   double frame_us) {
-  std::printf("  scale %.4g by %s%s, %u joints follow, limbs off %.2f degrees, hips sank %.3g, stride %.3f, %.1f us a frame\n",
-              report.scale, scale_source_name(report.scale_source), report.same_skeleton ? ", same skeleton" : "",
-              report.matched_joints, report.limb_degrees, report.deepest_drop, report.stride, frame_us);
+  std::printf(
+      "  scale %.4g by %s%s, %u joints follow, limbs off %.2f degrees, hips sank %.3g, stride %.3f, %.1f us a frame\n",
+      report.scale, scale_source_name(report.scale_source), report.same_skeleton ? ", same skeleton" : "",
+      report.matched_joints, report.limb_degrees, report.deepest_drop, report.stride, frame_us);
   for (const ChainReport& chain : report.chains)
     std::printf("    %-8s %-2s %2u on %2u: %.2f, at most %.2f\n", role_name(chain.role),
                 chain.side == Side::left    ? ".l"

@@ -74,7 +74,8 @@ RigActor::RigActor(const std::string& convention, const BodyShape& shape, const 
     carriers_.push_back(carrier);
     // Spine joints turn by their share of the way from the first to the chest.
     const double hip = 0.95 * shape.leg;
-    const double share = joints[j].role == Role::spine ? (joints[j].pivot.y - hip - 0.12) / 0.36 + 1.0 / shape.spine : 0;
+    const double share =
+        joints[j].role == Role::spine ? (joints[j].pivot.y - hip - 0.12) / 0.36 + 1.0 / shape.spine : 0;
     spine_shares_.push_back(joints[j].pivot.y < hip + 0.11 ? -1 : share);
   }
   rest_ground_ = 1e300;
@@ -98,18 +99,25 @@ RigActor::Frame RigActor::frame_of(std::size_t joint, double time, bool mirrored
   const bool crouched = shape_.rest == Rest::crouched && convention_ != "quaternius";
   int piece = 0;
   switch (j->role) {
-    case Role::spine: out.since_t = spine_shares_[at] < 0 ? m.hips() : m.spine(spine_shares_[at]); break;
-    case Role::neck: out.since_t = m.neck(); break;
-    case Role::shoulder: out.since_t = m.collar(s); break;
+    case Role::spine:
+      out.since_t = spine_shares_[at] < 0 ? m.hips() : m.spine(spine_shares_[at]);
+      break;
+    case Role::neck:
+      out.since_t = m.neck();
+      break;
+    case Role::shoulder:
+      out.since_t = m.collar(s);
+      break;
     case Role::arm:
     case Role::hand:
     case Role::finger: {
       const double elbow = 0.19 + 0.27 * shape_.arm;
-      for (int p = j->parent; j->role == Role::finger && t_rig_->joints[static_cast<std::size_t>(p)].role == Role::finger;
+      for (int p = j->parent;
+           j->role == Role::finger && t_rig_->joints[static_cast<std::size_t>(p)].role == Role::finger;
            p = t_rig_->joints[static_cast<std::size_t>(p)].parent)
         ++piece;
-      out.since_t = j->role == Role::finger                        ? m.finger(s, piece)
-                    : j->role == Role::hand                        ? m.hand(s)
+      out.since_t = j->role == Role::finger                ? m.finger(s, piece)
+                    : j->role == Role::hand                ? m.hand(s)
                     : std::fabs(j->pivot.x) > elbow - 1e-6 ? m.forearm(s)
                                                            : m.arm(s);
       out.rest = about(z_axis, side * rest_angle);
@@ -122,9 +130,13 @@ RigActor::Frame RigActor::frame_of(std::size_t joint, double time, bool mirrored
       break;
     }
     case Role::foot:
-    case Role::toe: out.since_t = m.foot(s); break;
-    case Role::other: break;
-    default: out.since_t = m.head();
+    case Role::toe:
+      out.since_t = m.foot(s);
+      break;
+    case Role::other:
+      break;
+    default:
+      out.since_t = m.head();
   }
   if (mirrored) out.since_t = mirror(out.since_t);
   return out;
@@ -153,8 +165,9 @@ Acted RigActor::act(double time, bool mirrored) const {
       if (done[j] || (!free && !done[static_cast<std::size_t>(c)])) continue;
       places[j] = joints[j].pivot;
       if (!free)
-        places[j] = places[static_cast<std::size_t>(c)] +
-                    frames[static_cast<std::size_t>(c)].since_t * (joints[j].pivot - joints[static_cast<std::size_t>(c)].pivot);
+        places[j] =
+            places[static_cast<std::size_t>(c)] +
+            frames[static_cast<std::size_t>(c)].since_t * (joints[j].pivot - joints[static_cast<std::size_t>(c)].pivot);
       done[j] = 1;
       --left;
     }
@@ -172,7 +185,8 @@ Acted RigActor::act(double time, bool mirrored) const {
   std::vector<double> matrices;
   std::vector<std::array<Vec3, 4>> world;
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    const Vec3 axis = hf_inner::unit_vector({std::sin(1.0 + static_cast<double>(j)), std::cos(2.0 * static_cast<double>(j)), 0.3});
+    const Vec3 axis =
+        hf_inner::unit_vector({std::sin(1.0 + static_cast<double>(j)), std::cos(2.0 * static_cast<double>(j)), 0.3});
     const Turn own = hf_inner::turn_about(axis, 0.7 * static_cast<double>(j));  // as PlacedRig has it
     const Turn turn = frames[j].since_t * (hf_inner::inverse(frames[j].rest) * own);
     const Vec3 place = is_static(j) ? rig_->joints[j].pivot : places[j] + travel;
@@ -211,7 +225,9 @@ double RigActor::sole_height(const std::vector<double>& world) const {
       const double* p = &w[12 * j];
       return hf_inner::Linear{{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}};
     };
-    const auto origin = [&](const std::vector<double>& w) { return Vec3{w[12 * j + 9], w[12 * j + 10], w[12 * j + 11]}; };
+    const auto origin = [&](const std::vector<double>& w) {
+      return Vec3{w[12 * j + 9], w[12 * j + 10], w[12 * j + 11]};
+    };
     const Vec3 p{placed_->positions[3 * v], placed_->positions[3 * v + 1], placed_->positions[3 * v + 2]};
     const Vec3 now = linear(world) * hf_inner::solve(linear(rest), p - origin(rest)) + origin(world);
     low = std::min(low, hf_inner::dot(now, character_->up) - character_->ground);

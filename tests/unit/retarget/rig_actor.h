@@ -11,8 +11,8 @@
 namespace hf_test {
 
 struct Acted {
-  std::vector<double> trs;    // 10 numbers a joint
-  std::vector<Vec3> places;   // in the space of the model
+  std::vector<double> trs;   // 10 numbers a joint
+  std::vector<Vec3> places;  // in the space of the model
 };
 
 // A rig of one convention, at its own rest, that walks and waves.
