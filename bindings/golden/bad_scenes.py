@@ -48,12 +48,12 @@ def bad_scenes():
     made = []
     on = {"on": "s"}
     start = [surface(mesh="lonely"), solver()]
-    bad("NO_SITES", do="solve", **on)
-    bad("NO_SITES", do="solve_f32", **on)
-    bad("NO_SITES", do="solve_at", vertices=[0], **on)
-    bad("NO_SITES", do="preview", **on)
-    bad("NO_RECORD", do="undo", **on)
-    bad("NO_RECORD", do="redo", **on)
+    bad("EMPTY", do="solve", **on)
+    bad("EMPTY", do="solve_f32", **on)
+    bad("EMPTY", do="solve_at", vertices=[0], **on)
+    bad("EMPTY", do="preview", **on)
+    bad("EMPTY", do="undo", **on)
+    bad("EMPTY", do="redo", **on)
     bad("NULL_POINTER", do="add_sites", vertices=None, values=[1.0], **on)
     bad("EMPTY", do="add_sites", vertices=[], values=[], **on)
     for vertex in (7, 100, 4294967295):
@@ -72,21 +72,21 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", do="add_sites", triangles=[0], barycentrics=[0.2, 0.3, 0.9], values=[1.0], **on)
     bad("INVALID_ARGUMENT", do="add_sites", triangles=[0], barycentrics=[0.2, -0.2, 1.0], values=[1.0], **on)
     bad("NON_FINITE", do="add_sites", triangles=[0], barycentrics=["nan", 0.5, 0.5], values=[1.0], **on)
-    bad("DUPLICATE_SITE", do="add_sites", vertices=[1, 1], values=[1.0, 1.0], **on)
+    bad("DUPLICATE", do="add_sites", vertices=[1, 1], values=[1.0, 1.0], **on)
     bad("CONFLICT", do="add_sites", vertices=[1, 1], values=[1.0, 2.0], **on)
     bad("OUT_OF_RANGE", do="add_site", vertex=7, value=1.0, **on)
     bad("NON_FINITE", do="add_site", vertex=0, value="nan", **on)
     bad("INVALID_ARGUMENT", do="add_site", vertex=6, value=1.0, **on)  # isolated
     made.append({"do": "add_sites", "vertices": [0, 1], "values": [0.0, 1.0], "numbers": [0, 1], **on})
-    bad("DUPLICATE_SITE", do="add_site", vertex=1, value=1.0, **on)
+    bad("DUPLICATE", do="add_site", vertex=1, value=1.0, **on)
     bad("CONFLICT", do="add_site", vertex=1, value=3.0, **on)
-    bad("DUPLICATE_SITE", do="add_sites", vertices=[1], values=[1.0], **on)
+    bad("DUPLICATE", do="add_sites", vertices=[1], values=[1.0], **on)
     bad("CONFLICT", do="add_sites", vertices=[1], values=[2.0], **on)
     for site in (2, 9, 4294967295):
-        bad("NO_SUCH_SITE", do="remove_sites", sites=[0, site], index=1, **on)
-        bad("NO_SUCH_SITE", do="move_sites", sites=[site], vertices=[3], **on)
-        bad("NO_SUCH_SITE", do="set_values", sites=[site], values=[1.0], **on)
-    bad("NO_SUCH_SITE", do="remove_sites", sites=[0, 0], **on)
+        bad("NOT_FOUND", do="remove_sites", sites=[0, site], index=1, **on)
+        bad("NOT_FOUND", do="move_sites", sites=[site], vertices=[3], **on)
+        bad("NOT_FOUND", do="set_values", sites=[site], values=[1.0], **on)
+    bad("NOT_FOUND", do="remove_sites", sites=[0, 0], **on)
     bad("EMPTY", do="remove_sites", sites=[], **on)
     bad("NULL_POINTER", do="remove_sites", sites=None, **on)
     bad("OUT_OF_RANGE", do="move_sites", sites=[0], vertices=[7], **on)
@@ -121,7 +121,7 @@ def bad_scenes():
     bad("EMPTY", do="add_handles", regions=[[0], []], **on)
     for vertex in (302, 4294967295):
         bad("OUT_OF_RANGE", do="add_handles", regions=[[0, 1, vertex]], index=2, **on)
-    bad("OVERLAP", do="add_handles", regions=[[0, 1, 2], [2, 3]], **on)
+    bad("CONFLICT", do="add_handles", regions=[[0, 1, 2], [2, 3]], **on)
     bad("INVALID_ARGUMENT", do="add_handles", regions=[[0]], layer=8, **on)
     bad("INVALID_ARGUMENT", do="add_handles", regions=[[0]], in_place=2, **on)
     bad("NON_FINITE", do="add_handles", points=["nan", 0.0, 0.0], radii=[1.0], **on)
@@ -129,16 +129,16 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", do="add_handles", points=[0.0, 0.0, 0.0], radii=[-1.0], **on)
     bad("INVALID_ARGUMENT", do="add_handles", points=[0.0, 0.0, 0.0], radii=[1.0, 1.0], **on)
     made.append({"do": "add_handles", "regions": [list(range(12)), list(range(276, 288))], "numbers": [0, 1], **on})
-    bad("OVERLAP", do="add_handles", regions=[[5]], **on)
-    bad("OVERLAP", do="add_handle_at", point=[0.5, 0.0, 0.0], radius=0.1, **on)
+    bad("CONFLICT", do="add_handles", regions=[[5]], **on)
+    bad("CONFLICT", do="add_handle_at", point=[0.5, 0.0, 0.0], radius=0.1, **on)
     bad("NON_FINITE", do="set_transform", handle=0, translation=[0.0, "nan", 0.0], **on)
-    bad("NO_SUCH_HANDLE", do="set_transform", handle=2, translation=[0.0, 0.0, 0.0], **on)
+    bad("NOT_FOUND", do="set_transform", handle=2, translation=[0.0, 0.0, 0.0], **on)
     bad("INVALID_ARGUMENT", do="set_transform", handle=0, translation=[0.0, 0.0], **on)
     for handle in (2, 4294967295):
-        bad("NO_SUCH_HANDLE", do="remove_handles", handles=[handle], **on)
-        bad("NO_SUCH_HANDLE", do="set_transforms", handles=[handle], translations=[0.0, 0.0, 0.0], **on)
-        bad("NO_SUCH_HANDLE", do="handle_field", handle=handle, **on)
-        bad("NO_SUCH_HANDLE", do="handle_info", handle=handle, **on)
+        bad("NOT_FOUND", do="remove_handles", handles=[handle], **on)
+        bad("NOT_FOUND", do="set_transforms", handles=[handle], translations=[0.0, 0.0, 0.0], **on)
+        bad("NOT_FOUND", do="handle_field", handle=handle, **on)
+        bad("NOT_FOUND", do="handle_info", handle=handle, **on)
     bad("EMPTY", do="remove_handles", handles=[], **on)
     bad("EMPTY", do="set_transforms", handles=[], translations=[], **on)
     for value in ("nan", "inf"):
@@ -146,13 +146,13 @@ def bad_scenes():
         bad("NON_FINITE", do="set_transforms", handles=[0], rotations=[0.0, value, 0.0, 1.0], **on)
     bad("INVALID_ARGUMENT", do="set_transforms", handles=[0], translations=[0.0, 0.0], **on)
     bad("INVALID_ARGUMENT", do="set_transforms", handles=[0], rotations=[0.0, 0.0], **on)
-    bad("INVALID_ARGUMENT", do="skin", weight_count=5, **on)
+    bad("INVALID_ARGUMENT", do="skin", influence_count=5, **on)
     bad("INVALID_ARGUMENT", do="pose", **{"on": "m", "as": "q"}, options={"mode": 9})
     bad("INVALID_ARGUMENT", do="pose", **{"on": "m", "as": "q"}, options={"band_count": 1})
     bad("INVALID_ARGUMENT", do="transfer", **{"as": "x"}, source="m", target="m", options={"mode": 9})
     made.append({"do": "transfer", "as": "x", "source": "m", "target": "m"})
     bad("EMPTY", do="apply", on="x", positions=[0.0] * 906)
-    bad("NO_SUCH_PAIR", do="remove_pairs", on="x", pairs=[0])
+    bad("NOT_FOUND", do="remove_pairs", on="x", pairs=[0])
     bad("EMPTY", do="add_pairs", on="x", source_regions=[], target_regions=[])
     bad("INVALID_ARGUMENT", do="add_pairs", on="x", source_regions=[[0]], target_regions=[[0], [1]])
     bad("OUT_OF_RANGE", do="add_pairs", on="x", source_regions=[[999]], target_regions=[[0]])
@@ -171,7 +171,7 @@ def bad_scenes():
     bad("OUT_OF_RANGE", do="path", on="g", **{"from": [302], "to": [0]})
     bad("INVALID_ARGUMENT", do="path", on="g", **{"from": [0], "to": [0, 1, 2, 0.5, 0.5, 0.5]})
     bad("INVALID_ARGUMENT", do="map", on="g", centre=[0], radius=-1.0)
-    bad("NO_SITES", do="directions", on="d")
+    bad("EMPTY", do="directions", on="d")
     bad("NON_FINITE", do="add_vectors", on="d", vertices=[0], vectors=["nan", 0.0, 0.0])
     bad("OUT_OF_RANGE", do="add_vectors", on="d", vertices=[302], vectors=[1.0, 0.0, 0.0])
     bad("INVALID_ARGUMENT", do="add_vectors", on="d", vertices=[0], vectors=[1.0, 0.0])
@@ -183,16 +183,16 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "options": {"relax_count": 1001}})
     quads = {"do": "quads", "on": "m", "as": "n"}
     guide = {"guide_vertices": [7], "guide_vectors": [1.0, 0.0, 0.0]}
-    pole = {"pole_points": [4.0, 0.0, 0.0], "pole_quads": [5]}
+    pole = {"irregular_points": [4.0, 0.0, 0.0], "irregular_valences": [5]}
     for wrong in ({"crease_edges": [0, 1, 2]}, {"guide_vertices": [7], "guide_vectors": [1.0, 0.0]},
             {"guide_vertices": [7, 8], "guide_vectors": [1.0, 0.0, 0.0]}, {"guide_vectors": [1.0, 0.0, 0.0]},
             {**guide, "guide_weights": [1.0, 1.0]}, {**guide, "guide_weights": []}, {"guide_weights": [1.0]},
-            {"pole_points": [4.0, 0.0, 0.0]}, {"pole_directions": [0.0, 1.0, 0.0]}, {**pole, "pole_points": [4.0, 0.0]},
-            {**pole, "pole_quads": [5, 3]}, {**pole, "pole_directions": [0.0, 1.0]}, {**pole, "pole_directions": []},
+            {"irregular_points": [4.0, 0.0, 0.0]}, {"irregular_directions": [0.0, 1.0, 0.0]}, {**pole, "irregular_points": [4.0, 0.0]},
+            {**pole, "irregular_valences": [5, 3]}, {**pole, "irregular_directions": [0.0, 1.0]}, {**pole, "irregular_directions": []},
             {"symmetry_plane": [1.0, 0.0, 0.0]}, {"symmetry_plane": [1.0, 0.0, 0.0, 0.0, 0.0]},
             {"symmetry_plane": [0.0, 0.0, 0.0, 1.0]}):  # lengths that do not match, and no plane
         bad("INVALID_ARGUMENT", **quads, **wrong)
-    for option in ("crease_count", "guide_count", "pole_count"):
+    for option in ("crease_count", "guide_count", "irregular_count"):
         bad("INVALID_ARGUMENT", **{**quads, "options": {option: 0}})  # lengths of lists are no options
     bad("INVALID_ARGUMENT", index=0, **quads, crease_edges=[0, 301])  # no edge
     bad("OUT_OF_RANGE", index=1, **quads, crease_edges=[0, 1, 0, 302])
@@ -202,10 +202,10 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", index=0, **quads, **{**guide, "guide_vectors": [0.0, 0.0, 0.0]})
     for weight, error in (("nan", "NON_FINITE"), (0.0, "INVALID_ARGUMENT"), (1.5, "INVALID_ARGUMENT")):
         bad(error, index=0, **quads, **guide, guide_weights=[weight])
-    bad("INVALID_ARGUMENT", index=1, **quads, pole_points=[4.0, 0.0, 0.0] * 2, pole_quads=[3, 4])
-    bad("NULL_POINTER", **quads, pole_points=None, pole_quads=[3])
-    bad("NON_FINITE", index=0, **quads, **{**pole, "pole_points": [4.0, "nan", 0.0]})
-    bad("NON_FINITE", index=0, **quads, **pole, pole_directions=["inf", 0.0, 0.0])
+    bad("INVALID_ARGUMENT", index=1, **quads, irregular_points=[4.0, 0.0, 0.0] * 2, irregular_valences=[3, 4])
+    bad("NULL_POINTER", **quads, irregular_points=None, irregular_valences=[3])
+    bad("NON_FINITE", index=0, **quads, **{**pole, "irregular_points": [4.0, "nan", 0.0]})
+    bad("NON_FINITE", index=0, **quads, **pole, irregular_directions=["inf", 0.0, 0.0])
     bad("NON_FINITE", **quads, symmetry_plane=[1.0, 0.0, "inf", 0.0])
     wanted = {"options": {"face_count": 200}}
     made += [{"do": "quads", "on": "m", "as": "u", **wanted}, {"do": "quad_mesh", "on": "u", "keep": "before"},
@@ -214,8 +214,8 @@ def bad_scenes():
     bad("NON_FINITE", index=0, **again, **{**guide, "guide_vectors": [1.0, "nan", 0.0]})
     bad("INVALID_ARGUMENT", index=0, **again, **{**guide, "guide_vectors": [0.0, 0.0, 0.0]})
     bad("OUT_OF_RANGE", index=0, **again, **{**guide, "guide_vertices": [302]})
-    bad("INVALID_ARGUMENT", index=0, **again, **{**pole, "pole_quads": [4]})
-    bad("NON_FINITE", index=0, **again, **{**pole, "pole_points": [4.0, "inf", 0.0]})
+    bad("INVALID_ARGUMENT", index=0, **again, **{**pole, "irregular_valences": [4]})
+    bad("NON_FINITE", index=0, **again, **{**pole, "irregular_points": [4.0, "inf", 0.0]})
     bad("INVALID_ARGUMENT", index=0, **again, crease_edges=[0, 301])  # no edge
     bad("NON_FINITE", **again, symmetry_plane=[1.0, 0.0, "inf", 0.0])
     bad("UNSUPPORTED", **again, symmetry_plane=[1.0, 0.0, 0.0, 100.0])  # nothing on its side
@@ -223,13 +223,13 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", **{**again, "options": {"relax_count": 1001}})
     bad("INVALID_ARGUMENT", **{**again, "options": {"guide_count": 0}})
     for wrong in ({"crease_edges": [0, 1, 2]}, {"guide_vertices": [7, 8], "guide_vectors": [1.0, 0.0, 0.0]},
-            {**guide, "guide_weights": []}, {"pole_points": [4.0, 0.0, 0.0]}, {"symmetry_plane": [1.0, 0.0, 0.0]}):  # lengths that do not match
+            {**guide, "guide_weights": []}, {"irregular_points": [4.0, 0.0, 0.0]}, {"symmetry_plane": [1.0, 0.0, 0.0]}):  # lengths that do not match
         bad("INVALID_ARGUMENT", **again, **wrong)
     made += [{"do": "quad_mesh", "on": "u", "same_as": "before"}, {**again, **guide, "same_as": "guided"}]
-    bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 302, count=0)
-    bad("NON_FINITE", index=301, do="flow_lines", on="w", field=[0.0] * 301 + ["nan"], count=4)
-    bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 9, count=4)
-    bad("OUT_OF_RANGE", index=1, do="flow_lines", on="w", field=[0.0] * 302, seeds=[0, 302])
+    bad("INVALID_ARGUMENT", do="streamlines", on="w", field=[0.0] * 302, count=0)
+    bad("NON_FINITE", index=301, do="streamlines", on="w", field=[0.0] * 301 + ["nan"], count=4)
+    bad("INVALID_ARGUMENT", do="streamlines", on="w", field=[0.0] * 9, count=4)
+    bad("OUT_OF_RANGE", index=1, do="streamlines", on="w", field=[0.0] * 302, seeds=[0, 302])
     made += [{"do": "region", "on": "m", "as": "o"}]
     bad("INVALID_ARGUMENT", do="region", on="m", **{"as": "n"}, positions=[0.0] * 9)
     for base in (-1, 4):
@@ -240,21 +240,20 @@ def bad_scenes():
     bad("EMPTY", index=2, do="region_edit", on="o", curve=[0, 1])
     made += [{"do": call, "on": "o", "expect": {"count": 0}} for call in ("region_curve", "region_vertices")]
     bad("NON_FINITE", do="morph", on="o", weight="nan")
-    bad("NO_RECORD", do="undo_region", on="o")
+    bad("EMPTY", do="undo_region", on="o")
     bad("EMPTY", **{"do": "detail", "as": "n", "source": "o", "target": "o"})
-    bad("NO_RECORD", do="undo_vectors", on="d")
-    bad("NO_RECORD", do="redo_vectors", on="d")
-    bad("NO_SUCH_SITE", do="remove_vectors", on="d", sites=[0])
-    bad("NO_SUCH_SITE", do="move_vectors", on="d", sites=[0], vertices=[1])
+    bad("EMPTY", do="undo_vectors", on="d")
+    bad("EMPTY", do="redo_vectors", on="d")
+    bad("NOT_FOUND", do="remove_vectors", on="d", sites=[0])
+    bad("NOT_FOUND", do="move_vectors", on="d", sites=[0], vertices=[1])
     bad("INVALID_ARGUMENT", do="move_vectors", on="d", sites=[0, 1], vertices=[1])
-    bad("NO_SUCH_SITE", do="set_vectors", on="d", sites=[0], vectors=[1.0, 0.0, 0.0])
+    bad("NOT_FOUND", do="set_vectors", on="d", sites=[0], vectors=[1.0, 0.0, 0.0])
     bad("INVALID_ARGUMENT", do="set_vectors", on="d", sites=[0], vectors=[1.0])
     ramp = [0.0] * 302
     calls = {"s": [{"do": "add_sites", "vertices": [0], "values": [1.0]}, {"do": "add_site", "vertex": 0, "value": 1.0},
                    {"do": "remove_sites", "sites": [0]}, {"do": "move_sites", "sites": [0], "vertices": [1]},
                    {"do": "set_values", "sites": [0], "values": [1.0]}, {"do": "edit", "add": [0],
-                       "add_values": [1.0]}, {"do": "record"}, {"do": "undo"},
-                   {"do": "redo"}, {"do": "solve"}, {"do": "solve_f32"}, {"do": "preview"}, {"do": "solve_at",
+                       "add_values": [1.0]}, {"do": "record"}, {"do": "solve"}, {"do": "solve_f32"}, {"do": "preview"}, {"do": "solve_at",
                        "vertices": [0]}, {"do": "statistics"}, {"do": "solver_info"}, {"do": "clone", "as": "c"}],
              "m": [{"do": "report"}, {"do": "surface_statistics"}, {"do": "surface_info"}, {"do": "components"},
                    {"do": "save", "as": "f"}, {"do": "solver", "as": "t"}, {"do": "pose", "as": "q"},
@@ -270,7 +269,7 @@ def bad_scenes():
                    {"do": "deform"}, {"do": "deform_f32"}, {"do": "pose_info"}, {"do": "add_handle_at", "point": [0.0, 0.0, 3.0],
                        "radius": 0.1}, {"do": "set_transform", "handle": 0, "translation": [0.0, 0.0, 0.0]},
                    {"do": "handle_field", "handle": 0}, {"do": "handle_info",
-                       "handle": 0}, {"do": "skin", "weight_count": 4}],
+                       "handle": 0}, {"do": "skin", "influence_count": 4}],
              "x": [{"do": "add_pairs", "source_regions": [[0]], "target_regions": [[0]]},
                  {"do": "remove_pairs", "pairs": [0]}, {"do": "transfer_info"},
                    {"do": "apply", "positions": [0.0] * 906}],
@@ -280,19 +279,19 @@ def bad_scenes():
                                                              {"do": "directions"}, {"do": "singularities"}, {"do": "remove_vectors", "sites": [0]}, {"do": "move_vectors", "sites": [0], "vertices": [1]},
                    {"do": "set_vectors", "sites": [0],
                        "vectors": [1.0, 0.0,
-                       0.0]}, {"do": "record_vectors"}, {"do": "undo_vectors"}, {"do": "redo_vectors"},
+                       0.0]}, {"do": "record_vectors"},
                    {"do": "clone_vectors", "as": "e"}],
-             "w": [{"do": "flow_lines", "field": [0.0] * 302, "count": 4}], "k": [{"do": "quads_info"},
+             "w": [{"do": "streamlines", "field": [0.0] * 302, "count": 4}], "k": [{"do": "quads_info"},
                  {"do": "quad_mesh"}, {"do": "update_quads"}],
              "o": [{"do": "region_edit", "rings": 1}, {"do": "region_info"}, {"do": "region_vertices"},
                  {"do": "region_curve"}, {"do": "morph", "weight": 1.0},
-                   {"do": "record_region"}, {"do": "undo_region"}, {"do": "redo_region"}]}
+                   {"do": "record_region"}]}
     for name, steps in calls.items():
         made += [{"do": "dispose", "on": name}, {"do": "dispose", "on": name}]
         for step in steps:
-            bad("INVALID_HANDLE", **{**step, "on": name})
-    bad("INVALID_HANDLE", **{"do": "transfer", "as": "y", "source": "m", "target": "r"})
-    bad("INVALID_HANDLE", **{"do": "transfer", "as": "y", "source": "r", "target": "m"})
+            bad("INVALID_OBJECT", **{**step, "on": name})
+    bad("INVALID_OBJECT", **{"do": "transfer", "as": "y", "source": "m", "target": "r"})
+    bad("INVALID_OBJECT", **{"do": "transfer", "as": "y", "source": "r", "target": "m"})
     return [{"name": "bad_meshes", "about": "What hf_surface_create and hf_create must refuse; picking.", "steps": creation},
         {"name": "bad_sites", "about": "Sites and fields.", "steps": sites},
             {"name": "bad_poses", "about": "Handles and pairs.", "steps": poses}, {"name": "stale_objects",

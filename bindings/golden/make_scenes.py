@@ -91,7 +91,7 @@ def scenes(meshes):
           {"do": "solve", "on": "s", "same_as": "before"}, {"do": "redo", "on": "s"}, {"do": "solve", "on": "s",
               "same_as": "after"},
           {"do": "undo", "on": "s"}, {"do": "solve", "on": "s", "same_as": "before"}, {"do": "undo", "on": "s",
-              "error": "HF_ERROR_NO_RECORD"})
+              "error": "HF_ERROR_EMPTY"})
 
     scene("clone", "A clone edits on its own; the original keeps its bits and may go first.", surface("torus"), solver(),
         sites([0, 144], [0.0, 1.0]),
@@ -100,7 +100,7 @@ def scenes(meshes):
               "same_as": "original"},
           {"do": "dispose", "on": "s"}, {"do": "dispose", "on": "s"},
           {"do": "solve", "on": "c", "expect": expect(field(mesh, [0, 144, 30], [0, 1, 4]))}, {"do": "solve",
-              "on": "s", "error": "HF_ERROR_INVALID_HANDLE"})
+              "on": "s", "error": "HF_ERROR_INVALID_OBJECT"})
 
     scene("saved_factor", "A factor saved and loaded gives the same bits; damage and a foreign mesh are refused.",
           surface("torus"), solver(), sites([0, 144], [0.0, 1.0]), {"do": "solve", "on": "s", "keep": "made"},
@@ -149,7 +149,7 @@ def scenes(meshes):
         "Crosses on a torus: constraints are added, moved, turned and removed; the undo stack and a clone give the bits back. Indices sum to "
           "degree times the Euler characteristic, 0 (closed form).", surface("torus"), {"do": "direction", "on": "m",
               "as": "d", "options": {"degree": 4}},
-          {"do": "undo_vectors", "error": "HF_ERROR_NO_RECORD", **on_d},
+          {"do": "undo_vectors", "error": "HF_ERROR_EMPTY", **on_d},
           {"do": "add_vectors", "vertices": [0, 150], "vectors": [0.0, 1.0, 0.0, 0.0, 0.0, 1.0], "numbers": [0, 1],
               **on_d},
           {"do": "directions", "keep": "first", "expect": agree(), **on_d}, {"do": "vectors", "keep": "given",
@@ -168,19 +168,19 @@ def scenes(meshes):
               "same_as": "first", **on_c})
 
     scene("quads_and_flow",
-        "A torus as quads: Euler characteristic 0 and about as many as wanted (closed forms); flow lines of a field between two sites, eight "
+        "A torus as quads: Euler characteristic 0 and about as many as wanted (closed forms); streamlines of a field between two sites, eight "
           "of equal flux and two through given vertices (agreement).", surface("torus"), solver(), sites([0, 150],
               [0.0, 1.0]), {"do": "solve", "on": "s", "keep": "u"},
-          {"do": "flow", "on": "m", "as": "w"}, {"do": "flow_lines", "on": "w", "field": "u", "count": 8, "lines": 8,
+          {"do": "flow", "on": "m", "as": "w"}, {"do": "streamlines", "on": "w", "field": "u", "count": 8, "lines": 8,
               "expect": agree(1e-6)},
-          {"do": "flow_lines", "on": "w", "field": "u", "seeds": [70, 200], "lines": 2, "expect": agree(1e-6)},
+          {"do": "streamlines", "on": "w", "field": "u", "seeds": [70, 200], "lines": 2, "expect": agree(1e-6)},
           {"do": "quads", "on": "m", "as": "q", "edge_length": 0.8}, {"do": "quads_info", "on": "q",
               "expect": {"euler_characteristic": 0}},
           {"do": "quad_mesh", "on": "q", "expect": {"min": -4.0, "max": 4.0, "tolerance": 0.2}},
-          {"do": "quads", "on": "m", "as": "c", "options": {"face_count": 200, "crease_angle": 100.0}},
+          {"do": "quads", "on": "m", "as": "c", "options": {"face_count": 200, "crease_angle": 1.75}},
           {"do": "quads_info", "on": "c", "expect": {"euler_characteristic": 0}},
           {"do": "quads_info", "on": "c", "expect": {"face_count": 200, "tolerance": 10}},
-          {"do": "dispose", "on": "m"}, {"do": "flow_lines", "on": "w", "field": "u", "count": 8, "lines": 8,
+          {"do": "dispose", "on": "m"}, {"do": "streamlines", "on": "w", "field": "u", "count": 8, "lines": 8,
               "expect": {"min": -4.0, "max": 4.0, "tolerance": 4.0}})
 
     wanted = {"do": "quads", "on": "m", "options": {"face_count": 200}}
@@ -219,8 +219,8 @@ def scenes(meshes):
           {**update, "crease_edges": seam, "same_as": "creased"},
           {"do": "dispose", "on": "m"}, {**update, "same_as": "plain"}, mesh_of("u", same_as="plain"), mesh_of("g", same_as="guided"))
 
-    poles = {"pole_points": [-2.2, 2.2, 1.0, 3.2, 2.2, 0.0], "pole_quads": [3, 5]}
-    turned_poles = {**poles, "pole_directions": [0.0, 1.0, 0.0, 1.0, -1.0, 2.0]}
+    poles = {"irregular_points": [-2.2, 2.2, 1.0, 3.2, 2.2, 0.0], "irregular_valences": [3, 5]}
+    turned_poles = {**poles, "irregular_directions": [0.0, 1.0, 0.0, 1.0, -1.0, 2.0]}
     scene("quads_with_poles",
         "Quads of a torus with a pole of 3 and a pole of 5 that the user places, turns and drags: Euler characteristic 0 (closed form); "
           "positions by agreement.", surface("torus"),
@@ -229,7 +229,7 @@ def scenes(meshes):
               {"do": "quad_mesh", "on": name, "expect": agree(1e-3), "keep": name})],
           quads_of(**{"as": "u"}), mesh_of("u", keep="plain"), {**update, **turned_poles, "options": dragged, "expect": agree(1e-3)},
           {**update, **poles, "same_as": "p"}, {**update, **turned_poles, **mirrored, "same_as": "s"},
-          {**update, **poles, "pole_quads": [3, 4], "error": "HF_ERROR_INVALID_ARGUMENT", "index": 1}, mesh_of("u", same_as="s"),
+          {**update, **poles, "irregular_valences": [3, 4], "error": "HF_ERROR_INVALID_ARGUMENT", "index": 1}, mesh_of("u", same_as="s"),
           {**update, **turned_poles, "same_as": "t"}, {**update, "same_as": "plain"})
 
     on_r, patch = {"on": "r"}, [0, 1, 2, 12, 13, 14]
@@ -274,7 +274,7 @@ def scenes(meshes):
               expect={**expect_rows(about(turn, p[high].mean(0), p[high]) + [1, 0, 0], high)}),
           pose(do="deform", options={"restart": 1, "iteration_count": 20}, same_as="bent", expect=agree()),
           pose(do="deform", options={"refine": 2, "refine_from_last": 1}, expect=agree()),
-          pose(do="handle_field", handle=1, expect=agree(2e-6)), pose(do="skin", weight_count=4, expect=agree(2e-6)),
+          pose(do="handle_field", handle=1, expect=agree(2e-6)), pose(do="skin", influence_count=4, expect=agree(2e-6)),
           pose(do="add_handles", regions=[middle], layer=1, numbers=[2]), pose(do="handle_info", handle=2,
               expect={"layer": 1}),
           pose(do="set_transforms", handles=[2], translations=[0.0, 0.7, 0.0]), pose(do="deform", expect=agree()),
@@ -313,11 +313,11 @@ def scenes(meshes):
           {"do": "transfer_info", "on": "x", "expect": {"pair_count": 3, "scale": 1.5, "tolerance": 1e-6}},
           {"do": "apply", "on": "x", "positions": mesh["positions"], "expect": expect(q, 1e-8)},
           {"do": "apply", "on": "x", "positions": "bent", "expect": agree()},
-          {"do": "set_dials", "on": "x", "options": {"stride": 1.5, "hip_height": 0.25, "long_follow": 0.5}},
-          {"do": "dials", "on": "x", "expect": {"stride": 1.5, "hip_height": 0.25, "arm_space": 0,
+          {"do": "set_dials", "on": "x", "options": {"stride": 1.5, "hip_height_share": 0.25, "long_follow": 0.5}},
+          {"do": "dials", "on": "x", "expect": {"stride": 1.5, "hip_height_share": 0.25, "arm_space": 0,
               "long_follow": 0.5}},
           {"do": "apply", "on": "x", "positions": "bent", "expect": agree()},
-          {"do": "set_dials", "on": "x"}, {"do": "dials", "on": "x", "expect": {"stride": 1, "hip_height": 0}},
+          {"do": "set_dials", "on": "x"}, {"do": "dials", "on": "x", "expect": {"stride": 1, "hip_height_share": 0}},
           {"do": "apply", "on": "x", "positions": mesh["positions"], "expect": expect(q, 1e-8)},
           {"do": "remove_pairs", "on": "x", "pairs": [1]}, {"do": "transfer_info", "on": "x",
               "expect": {"pair_count": 2}})
@@ -434,8 +434,8 @@ def links(scene, surface, solver):
 def skin_weights(scene, surface):
     half = lambda *z: [v for height in z for v in (0.0, 0.0, height)]
     chain = {"heads": half(0.0, 2.0, 4.0), "tails": half(2.0, 4.0, 6.0), "parents": [4294967295, 0, 1]}
-    make = lambda name="w", **bones: {"do": "weights", "on": "m", "as": name, **bones, "options": {"weight_count": 4}}
-    column = lambda bone, **more: {"do": "skin_weights", "on": "w", "bone": bone, **more}
+    make = lambda name="w", **joints: {"do": "weights", "on": "m", "as": name, **joints, "options": {"influence_count": 4}}
+    column = lambda joint, **more: {"do": "skin_weights", "on": "w", "joint": joint, **more}
     near = 24 * 12 + 2  # a vertex of the last ring
     pin = {"do": "set_pins", "on": "w", "vertices": [near], "joints": [0, 1], "weights": [0.25, 0.75]}
     pinned = {"count": 302, "at": [near], "tolerance": 0}
@@ -443,23 +443,23 @@ def skin_weights(scene, surface):
         "parents": [4294967295, 0, 1, 2, 0], "deforms": [1, 1, 1, 0, 1]}
     scene("weights", "Skin weights of a bar: pins are exact, undo and locks keep bits, a leaf ends where a child says that does not "
           "deform (the same weights as with tails).", surface("bar"), make(**chain),
-          {"do": "weights_info", "on": "w", "expect": {"vertex_count": 302, "bone_count": 3, "informed_count": 302,
+          {"do": "weights_info", "on": "w", "expect": {"vertex_count": 302, "joint_count": 3, "informed_count": 302,
               "pin_count": 0}},
-          *(column(bone, expect=agree()) for bone in range(3)), {"do": "bone_flags", "on": "w", "expect": agree(0)},
+          *(column(joint, expect=agree()) for joint in range(3)), {"do": "joint_flags", "on": "w", "expect": agree(0)},
           column(2, keep="third"), {"do": "record_weights", "on": "w"}, pin,
           column(0, expect={**pinned, "values": [0.25]}), column(1, expect={**pinned, "values": [0.75]}),
           column(2, expect={**pinned, "values": [0.0]}), {"do": "clone_weights", "on": "w", "as": "c"},
           {"do": "undo_weights", "on": "w"}, column(2, same_as="third"),
-          {"do": "skin_weights", "on": "c", "bone": 0, "expect": {**pinned, "values": [0.25]}},
+          {"do": "skin_weights", "on": "c", "joint": 0, "expect": {**pinned, "values": [0.25]}},
           {"do": "redo_weights", "on": "w"}, column(1, expect={**pinned, "values": [0.75]}),
-          {"do": "undo_weights", "on": "w"}, {"do": "undo_weights", "on": "w", "error": "HF_ERROR_NO_RECORD"},
-          {"do": "set_locks", "on": "w", "bones": [2]},
-          {"do": "set_bones", "on": "w", **chain, "tails": half(2.5, 4.0, 6.0)}, column(2, same_as="third"),
-          {"do": "set_locks", "on": "w", "bones": []},
-          {"do": "set_bones", "on": "w", "heads": half(0.5, 3.0, 5.0, 0.2), "tails": half(3.0, 5.0, 5.5, 0.5),
+          {"do": "undo_weights", "on": "w"}, {"do": "undo_weights", "on": "w", "error": "HF_ERROR_EMPTY"},
+          {"do": "set_locks", "on": "w", "joints": [2]},
+          {"do": "set_joints", "on": "w", **chain, "tails": half(2.5, 4.0, 6.0)}, column(2, same_as="third"),
+          {"do": "set_locks", "on": "w", "joints": []},
+          {"do": "set_joints", "on": "w", "heads": half(0.5, 3.0, 5.0, 0.2), "tails": half(3.0, 5.0, 5.5, 0.5),
               "deforms": [1, 1, 1, 0]}, column(2, keep="tail"),
-          {"do": "set_bones", "on": "w", **joints, "deforms": [1, 1, 1, 0, 0]}, column(2, same_as="tail"),
-          {"do": "set_bones", "on": "w", **joints},
+          {"do": "set_joints", "on": "w", **joints, "deforms": [1, 1, 1, 0, 0]}, column(2, same_as="tail"),
+          {"do": "set_joints", "on": "w", **joints},
           {"do": "helpers", "on": "w", "names": ["root", "spine", "spine2", "spine2_end", "ik_target"], "expect": agree(0)},
           {"do": "helpers", "on": "w", "expect": agree(0)},
           {"do": "helpers", "on": "w", "names": ["root"], "error": "HF_ERROR_INVALID_ARGUMENT"},
@@ -469,10 +469,10 @@ def skin_weights(scene, surface):
           make("u", **{**chain, "deforms": [0, 0, 0]}, error="HF_ERROR_EMPTY"),
           make("u", **{**chain, "heads": [*half(0.0, 2.0), 0.0, 0.0, "nan"]}, error="HF_ERROR_NON_FINITE", index=2),
           {**pin, "vertices": [999], "error": "HF_ERROR_OUT_OF_RANGE", "index": 0},
-          {**pin, "vertices": [5, 5], "joints": [0, 1], "weights": [1.0, 1.0], "error": "HF_ERROR_DUPLICATE_SITE", "index": 1},
+          {**pin, "vertices": [5, 5], "joints": [0, 1], "weights": [1.0, 1.0], "error": "HF_ERROR_DUPLICATE", "index": 1},
           {**pin, "weights": [0.0, 0.0], "error": "HF_ERROR_INVALID_ARGUMENT", "index": 0},
-          {"do": "set_locks", "on": "w", "bones": [9], "error": "HF_ERROR_OUT_OF_RANGE", "index": 0},
-          {"do": "dispose", "on": "w"}, {"do": "weights_info", "on": "w", "error": "HF_ERROR_INVALID_HANDLE"})
+          {"do": "set_locks", "on": "w", "joints": [9], "error": "HF_ERROR_OUT_OF_RANGE", "index": 0},
+          {"do": "dispose", "on": "w"}, {"do": "weights_info", "on": "w", "error": "HF_ERROR_INVALID_OBJECT"})
 
 
 def carried_weights(scene, mesh, surface):
@@ -480,11 +480,11 @@ def carried_weights(scene, mesh, surface):
     count = len(x)
     left = np.where(x < 3, 0.75, 0.25)
     given = {"joints": [0, 1] * count, "weights": np.stack([left, 1 - left], 1).ravel().tolist()}
-    carry = {"do": "carry", "on": "n", "source": "m", **given, "bone": 0}
-    side = np.where(x > 3, 0.0, 0.5)  # bone 1 alone on the right, both on the left
+    carry = {"do": "transfer_weights", "on": "n", "source": "m", **given, "joint": 0}
+    side = np.where(x > 3, 0.0, 0.5)  # joint 1 alone on the right, both on the left
     arms = {"joints": [0, 1] * count, "weights": np.stack([side, 1 - side], 1).ravel().tolist(),
         "heads": [0.0, 1.0, 0.0, 6.0, 1.0, 0.0]}
-    mirror = {"do": "mirror", "on": "m", **arms, "names": ["arm.L", "arm.R"], "bone": 0}
+    mirror = {"do": "mirror", "on": "m", **arms, "names": ["arm.L", "arm.R"], "joint": 0}
     corners = {"count": count, "at": [0, 12, 52, 64], "tolerance": 1e-6}
     scene("carried_weights", "Weights carried to the same strip stay (closed form); mirrored ones are those of the other arm.",
           surface("strip"), surface("strip", "n"), {**carry, "expect": {**expect(left), "tolerance": 1e-6}},

@@ -122,11 +122,10 @@ enum {
 
 typedef struct hf_geodesics_desc {
   uint32_t struct_size;
-  float smoothing;      /* of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to
-                           10,000 */
-  hf_progress progress; /* NULL, or an object to poll and cancel through: creation and every later call report to it */
   int32_t method;       /* HF_GEODESICS_* */
-  uint32_t reserved;    /* 0 */
+  double smoothing;     /* of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to
+                          10,000 */
+  hf_progress progress; /* NULL, or an object to poll and cancel through: creation and every later call report to it */
 } hf_geodesics_desc;
 
 /* Creates the object and the tables of its method. FRONT and EXACT take a pass over the triangles. HEAT takes one
@@ -135,7 +134,7 @@ typedef struct hf_geodesics_desc {
  * (HEAT), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* desc, hf_geodesics* out_geodesics);
 
-/* Destroys the object. Ignores NULL and destroyed handles. Since 0.1. */
+/* Destroys the object. Ignores NULL and destroyed objects. Since 0.1. */
 HF_API void hf_geodesics_destroy(hf_geodesics geodesics);
 
 /* Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
@@ -143,11 +142,11 @@ HF_API void hf_geodesics_destroy(hf_geodesics geodesics);
  * at vertices that no source can reach. sources: uint32_t[source_count] vertices of your mesh; repeats are allowed.
  * Paths follow the triangles and ignore links. Triangles with the same corners count once: a two-sided sheet measures
  * as a single one. No distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up
- * to rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and where two shortest paths meet. Cost: O(n log n) for FRONT, about
- * n^1.5 for EXACT, two solves for HEAT. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (isolated vertex),
- * HF_ERROR_TOO_LARGE (more sources than vertices; EXACT: more windows than 20 t^1.5 + 10^6 for t triangles),
- * HF_ERROR_CANCELLED (nothing is written). Thread safety: reads `geodesics`; calls on several threads share its
- * progress. Since 0.1. */
+ * to rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and where two
+ * shortest paths meet. Cost: O(n log n) for FRONT, about n^1.5 for EXACT, two solves for HEAT. Errors:
+ * HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (isolated vertex), HF_ERROR_TOO_LARGE (more sources than vertices;
+ * EXACT: more windows than 20 t^1.5 + 10^6 for t triangles), HF_ERROR_CANCELLED (nothing is written). Thread safety:
+ * reads `geodesics`; calls on several threads share its progress. Since 0.1. */
 HF_API hf_result hf_geodesics_solve(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources,
                                     float* out_distances, uint32_t value_stride);
 
@@ -208,12 +207,13 @@ enum {
 
 typedef struct hf_extremities_desc {
   uint32_t struct_size;
-  int32_t kind;           /* HF_EXTREMITIES_* */
-  float least_length;     /* tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10 */
-  uint32_t source_count;  /* sources of the mean distance per component, 1 to 1,000; 0 = 40 */
-  hf_geodesics geodesics; /* for HF_EXTREMITIES_GEODESIC: an object of this surface. If its method is
-                             HF_GEODESICS_HEAT its factor serves; else, and for NULL, the call makes a factor */
-  hf_progress progress;   /* NULL, or an object to poll and cancel through */
+  int32_t kind;              /* HF_EXTREMITIES_* */
+  double least_length_share; /* tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10 */
+  uint32_t source_count;     /* sources of the mean distance per component, 1 to 1,000; 0 = 40 */
+  uint32_t reserved;         /* 0 */
+  hf_geodesics geodesics;    /* for HF_EXTREMITIES_GEODESIC: an object of this surface. If its method is
+                                HF_GEODESICS_HEAT its factor serves; else, and for NULL, the call makes a factor */
+  hf_progress progress;      /* NULL, or an object to poll and cancel through */
   double* out_field; /* NULL, or [vertex_count], packed: the field whose peaks are proposed, 0 at isolated vertices.
                         Unit: length^2 (Poisson), length (geodesic), each up to a constant per component */
 } hf_extremities_desc;
@@ -229,10 +229,10 @@ typedef struct hf_extremity {
 /* Proposes the tips of the surface as places for sites and handles, the longest tip first. The list does not depend on
  * the order of the vertices. Pose and meshing change it only within the resolution of the mesh. desc: NULL for
  * defaults. out_extremities: NULL, or room for `capacity`. out_count: NULL, or receives the number of tips. A component
- * that is no larger than least_length has no tips. Cost: HF_EXTREMITIES_POISSON takes one solve and a few passes over
- * the mesh. HF_EXTREMITIES_GEODESIC takes two solves per eight sources, and one numeric factorisation
- * without such a factor. Errors: HF_ERROR_INVALID_ARGUMENT (kind, counts, geodesics of another surface),
- * HF_ERROR_CANCELLED. Thread safety: reads `surface` and desc->geodesics. Since 0.1. */
+ * that is no larger than least_length_share has no tips. Cost: HF_EXTREMITIES_POISSON takes one solve and a few passes
+ * over the mesh. HF_EXTREMITIES_GEODESIC takes two solves per eight sources, and one numeric factorisation without such
+ * a factor. Errors: HF_ERROR_INVALID_ARGUMENT (kind, counts, geodesics of another surface), HF_ERROR_CANCELLED. Thread
+ * safety: reads `surface` and desc->geodesics. Since 0.1. */
 HF_API hf_result hf_surface_find_extremities(hf_surface surface, const hf_extremities_desc* desc, uint32_t capacity,
                                              hf_extremity* out_extremities, uint32_t* out_count);
 

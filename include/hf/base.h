@@ -10,20 +10,20 @@
  *   too. To ask for the count alone, pass NULL arrays; such a call succeeds. Arrays with one row for each vertex of the
  *   mesh, or for each entry of an input list, take no capacity: their comment gives the length.
  * - Flags are int32_t: 0 is no, 1 is yes.
- * - Threads can use different handles at once. Functions that "read" a handle can run on that handle at the same time.
- *   A call on a handle that another thread is just changing returns HF_ERROR_BUSY.
+ * - Threads can use different objects at once. Functions that "read" an object can run on that object at the same time.
+ *   A call on an object that another thread is just changing returns HF_ERROR_BUSY.
  *
  * Some error codes are not repeated at each function. Every function with such an argument can return them:
- * HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_BUSY, HF_ERROR_REENTRANT,
+ * HF_ERROR_INVALID_OBJECT, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_BUSY, HF_ERROR_REENTRANT,
  * HF_ERROR_OUT_OF_MEMORY, HF_ERROR_TOO_SMALL (a stride below the size of a row, a capacity below the count),
  * HF_ERROR_EMPTY (a list of no entries). The `index` of the error detail is the position in the list, unless the
  * function says otherwise.
  *
- * The library prints nothing and keeps no global state but its handle table. It starts no more threads than
+ * The library prints nothing and keeps no global state but its table of objects. It starts no more threads than
  * thread_count allows. It leaves the floating-point environment, locale, signals and rand() of the host as they were.
- * - fork: a child process can use the handles it inherited if no other thread was inside a call. The library's threads
+ * - fork: a child process can use the objects it inherited if no other thread was inside a call. The library's threads
  *   exist in the parent only; calls of the child work without them.
- * - Unloading: you can unload the library when all handles are destroyed. It then holds no memory, thread or callback.
+ * - Unloading: you can unload the library when all objects are destroyed. It then holds no memory, thread or callback.
  */
 #ifndef HF_BASE_H
 #define HF_BASE_H
@@ -62,32 +62,28 @@ enum {
   /* arguments and state */
   HF_ERROR_INVALID_ARGUMENT = -1, /* a value outside what the function documents */
   HF_ERROR_NULL_POINTER = -2,     /* a required pointer is NULL */
-  HF_ERROR_INVALID_HANDLE = -3,   /* a handle is NULL, destroyed or of another kind */
+  HF_ERROR_INVALID_OBJECT = -3,   /* an object is NULL, destroyed or of another kind */
   HF_ERROR_INVALID_DESC = -4,     /* struct_size is too small, or a byte is set that this version does not know */
   HF_ERROR_OUT_OF_RANGE = -5,     /* an index beyond its array; the detail names it */
   HF_ERROR_NON_FINITE = -6,       /* NaN or infinity in an input; the detail names where */
-  HF_ERROR_EMPTY = -7,            /* nothing to work on: no vertices, no triangles, an empty list */
-  HF_ERROR_DUPLICATE_SITE = -8,   /* the vertex carries a site already, or is named twice in one batch */
-  HF_ERROR_NO_SUCH_SITE = -9,     /* no site of that number in the solver */
-  HF_ERROR_CONFLICT = -10, /* contradicting values: on welded copies of a vertex, or linearly dependent hard sites */
-  HF_ERROR_NO_SITES = -11, /* the solver has no site at all; add one before solving */
-  HF_ERROR_NO_SUCH_HANDLE = -12, /* no handle of that number in the pose */
-  HF_ERROR_NO_SUCH_PAIR = -13,   /* no pair of that number in the transfer */
-  HF_ERROR_OVERLAP = -14,        /* two handles claim one vertex */
-  HF_ERROR_UNSUPPORTED = -15,    /* not in this build or not for this object; the detail says what to use */
-  HF_ERROR_BUSY = -16,           /* another thread is changing this handle */
-  HF_ERROR_REENTRANT = -17,      /* called from inside a callback of the same handle */
-  HF_ERROR_TOO_SMALL = -18,      /* a capacity or stride is too small */
-  HF_ERROR_NO_RECORD = -19,      /* nothing to undo or redo */
+  HF_ERROR_EMPTY = -7,            /* nothing to work on: a mesh without triangles, an empty list, no site, no handle */
+  HF_ERROR_NOT_FOUND = -8,        /* no site, handle or pair of that number */
+  HF_ERROR_DUPLICATE = -9,        /* a thing is there already, or is named twice in one batch */
+  HF_ERROR_CONFLICT = -10,        /* contradicting values on welded copies, linearly dependent hard sites, or regions
+                                     that overlap */
+  HF_ERROR_UNSUPPORTED = -11,     /* not in this build or not for this object; the detail says what to use */
+  HF_ERROR_BUSY = -12,            /* another thread is changing this object */
+  HF_ERROR_REENTRANT = -13,       /* called from inside a callback of the same object */
+  HF_ERROR_TOO_SMALL = -14,       /* a capacity or stride is too small */
   /* resources */
-  HF_ERROR_OUT_OF_MEMORY = -100, /* the allocator refused; the handle is as before */
+  HF_ERROR_OUT_OF_MEMORY = -100, /* the allocator refused; the object is as before */
   HF_ERROR_TOO_LARGE = -101,     /* beyond a limit; the detail names the limit */
   HF_ERROR_CANCELLED = -102,     /* cancelled through the progress object */
   /* numerical */
   HF_ERROR_NOT_POSITIVE_DEFINITE = -200, /* the matrix has a pivot that is not positive: report it with the mesh */
   HF_ERROR_INACCURATE = -201,            /* hf_solver_certify: the field fails its equations */
   /* internal */
-  HF_ERROR_INTERNAL = -300 /* a fault of the library; destroy the handle */
+  HF_ERROR_INTERNAL = -300 /* a fault of the library; destroy the object */
 };
 
 #define HF_NO_INDEX 0xFFFFFFFFu
@@ -153,11 +149,11 @@ typedef struct hf_progress_object* hf_progress;
 
 /* Creates a progress object. Sets *out_progress to NULL first. Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_progress_create(hf_progress* out_progress);
-/* Destroys a progress object. Ignores NULL and destroyed handles. The object stays valid for a call that still uses it.
+/* Destroys a progress object. Ignores NULL and destroyed objects. The object stays valid for a call that still uses it.
  * Thread safety: any thread. Since 0.1. */
 HF_API void hf_progress_destroy(hf_progress progress);
 /* Writes how much of the running call is done, 0 to 1. Thread safety: any thread. Since 0.1. */
-HF_API hf_result hf_progress_get_fraction(hf_progress progress, float* out_fraction);
+HF_API hf_result hf_progress_get_fraction(hf_progress progress, double* out_fraction);
 /* Stops the call that uses this object, or the next one that does. That call returns HF_ERROR_CANCELLED. Thread safety:
  * any thread. Since 0.1. */
 HF_API hf_result hf_progress_cancel(hf_progress progress);

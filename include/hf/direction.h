@@ -31,11 +31,12 @@ typedef struct hf_direction_desc {
  * `surface`. Since 0.1. */
 HF_API hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* desc, hf_direction* out_direction);
 
-/* Makes a direction field with the same constraints, without the undo stack. Both share connection and factor, so the
- * copy costs the constraints only. Sets *out_direction to NULL first. Thread safety: reads `direction`. Since 0.1. */
+/* Makes a direction field with the same constraints under the same numbers; it has the same bits. Both share
+ * connection and factor, so the copy costs the constraints only. For undo, keep copies: one before each edit. Sets
+ * *out_direction to NULL first. Thread safety: reads `direction`. Since 0.1. */
 HF_API hf_result hf_direction_clone(hf_direction direction, hf_direction* out_direction);
 
-/* Destroys a direction field. Ignores NULL and destroyed handles. Thread safety: a call under way on another thread
+/* Destroys a direction field. Ignores NULL and destroyed objects. Thread safety: a call under way on another thread
  * ends first; it keeps the object alive. Since 0.1. */
 HF_API void hf_direction_destroy(hf_direction direction);
 
@@ -47,11 +48,11 @@ HF_API void hf_direction_destroy(hf_direction direction);
  * vertices: [site_count] vertices of your mesh. vectors: [site_count][3]; a zero vector makes the field 0 there.
  * out_sites: NULL, or receives [site_count] numbers. A constraint keeps its number until it is removed. Errors:
  * HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (an isolated vertex, a vector normal to the
- * surface), HF_ERROR_DUPLICATE_SITE, HF_ERROR_TOO_LARGE (site_limit). Thread safety: changes `direction`. Since 0.1. */
+ * surface), HF_ERROR_DUPLICATE, HF_ERROR_TOO_LARGE (site_limit). Thread safety: changes `direction`. Since 0.1. */
 HF_API hf_result hf_direction_add_sites(hf_direction direction, uint32_t site_count, const uint32_t* vertices,
                                         const double* vectors, uint32_t* out_sites);
 
-/* Removes constraints by number. Errors: HF_ERROR_NO_SUCH_SITE. Thread safety: changes `direction`. Since 0.1. */
+/* Removes constraints by number. Errors: HF_ERROR_NOT_FOUND. Thread safety: changes `direction`. Since 0.1. */
 HF_API hf_result hf_direction_remove_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites);
 
 /* Moves constraints to other vertices of the same component. The connection carries each vector along the shortest path
@@ -61,26 +62,17 @@ HF_API hf_result hf_direction_move_sites(hf_direction direction, uint32_t site_c
                                          const uint32_t* vertices);
 
 /* Gives constraints new vectors, [site_count][3], and projects them on the tangent planes. Does not factorise. Errors:
- * HF_ERROR_NO_SUCH_SITE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (a vector normal to the surface). Thread
+ * HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (a vector normal to the surface). Thread
  * safety: changes `direction`. Since 0.1. */
 HF_API hf_result hf_direction_set_vectors(hf_direction direction, uint32_t site_count, const uint32_t* sites,
                                           const double* vectors);
 
 /* Turns constraint i by angles[i] radians, counter-clockwise seen from outside. Does not factorise. Errors:
- * HF_ERROR_NO_SUCH_SITE, HF_ERROR_NON_FINITE. Thread safety: changes `direction`. Since 0.1. */
+ * HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE. Thread safety: changes `direction`. Since 0.1. */
 HF_API hf_result hf_direction_rotate_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites,
                                            const double* angles);
 
-/* Records the constraints for undo. The library keeps the last 256 records. Thread safety: changes `direction`. Since
- * 0.1. */
-HF_API hf_result hf_direction_record(hf_direction direction);
-/* Restores the last record, with the numbers of the constraints. The field then has the same bits as at the record.
- * Errors: HF_ERROR_NO_RECORD. Thread safety: changes `direction`. Since 0.1. */
-HF_API hf_result hf_direction_undo(hf_direction direction);
-/* Reverts the last undo. Errors: HF_ERROR_NO_RECORD. Thread safety: changes `direction`. Since 0.1. */
-HF_API hf_result hf_direction_redo(hf_direction direction);
-
-/* Returns the number of constraints, or 0 for an invalid handle. Thread safety: any thread. Since 0.1. */
+/* Returns the number of constraints, or 0 for an invalid object. Thread safety: any thread. Since 0.1. */
 HF_API uint32_t hf_direction_get_site_count(hf_direction direction);
 
 /* Writes the constraints by ascending number. Each array is NULL or has `capacity` entries. out_sites: the numbers.
@@ -93,7 +85,7 @@ HF_API hf_result hf_direction_get_sites(hf_direction direction, uint32_t capacit
  * length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors;
  * vertices that no constraint reaches get 0. vector_stride: bytes between vertices, 0 = packed. out_info: NULL, or
  * receives what the constraints did not reach. Cost: a small dense solve and one backward sweep over the factor.
- * Errors: HF_ERROR_NO_SITES. Thread safety: reads `direction`. Since 0.1. */
+ * Errors: HF_ERROR_EMPTY. Thread safety: reads `direction`. Since 0.1. */
 HF_API hf_result hf_direction_solve(hf_direction direction, float* out_vectors, uint32_t vector_stride,
                                     hf_solve_info* out_info);
 /* Does the same as hf_direction_solve, in double. Thread safety: reads `direction`. Since 0.1. */
@@ -111,7 +103,7 @@ typedef struct hf_singularity {
 /* Lists the singularities of the field, ordered by triangle (Crane, Desbrun and Schroeder 2010, Section 5). On a closed
  * manifold component of one orientation the indices sum to degree times the Euler characteristic. out_singularities:
  * NULL, or room for `capacity`. out_count: NULL, or receives the number of singularities. Cost: a solve and a pass over
- * the triangles. Errors: HF_ERROR_NO_SITES. Thread safety: reads `direction`. Since 0.1. */
+ * the triangles. Errors: HF_ERROR_EMPTY. Thread safety: reads `direction`. Since 0.1. */
 HF_API hf_result hf_direction_get_singularities(hf_direction direction, uint32_t capacity,
                                                 hf_singularity* out_singularities, uint32_t* out_count);
 

@@ -10,6 +10,7 @@
 #define HF_HF_HPP
 
 #include <cstdint>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -74,6 +75,43 @@ class Handle {
   Raw raw_ = nullptr;
 };
 
+// Undo and redo of one object. A state is a clone, so it shares memory with the object: history.record(solver.clone()).
+template <class State>
+class History {
+ public:
+  // Keeps a state. Call it before an edit. It forgets what was undone.
+  void record(State state) {
+    past_.push_back(std::move(state));
+    undone_.clear();
+  }
+  // Exchanges the object with the last record. Throws Error (HF_ERROR_EMPTY) without one.
+  void undo(State& object) { exchange(past_, undone_, object, "nothing is recorded; call record before the edits"); }
+  // Exchanges the object with what the last undo took away.
+  void redo(State& object) { exchange(undone_, past_, object, "nothing was undone since the last record"); }
+
+ private:
+  static void exchange(std::vector<State>& from, std::vector<State>& to, State& object, const char* nothing) {
+    if (from.empty()) {
+      hf_error_detail detail{};
+      detail.code = HF_ERROR_EMPTY;
+      detail.index = HF_NO_INDEX;
+      std::snprintf(detail.message, sizeof detail.message, "%s", nothing);
+      throw Error(detail);
+    }
+    to.push_back(std::exchange(object, std::move(from.back())));
+    from.pop_back();
+  }
+  std::vector<State> past_, undone_;
+};
+
+// A handle of a clone: clone_of(handle, hf_solver_clone).
+template <class Raw, void (*destroy)(Raw)>
+Handle<Raw, destroy> clone_of(const Handle<Raw, destroy>& handle, hf_result (*clone)(Raw, Raw*)) {
+  Raw raw = nullptr;
+  check(clone(handle.get(), &raw));
+  return Handle<Raw, destroy>(raw);
+}
+
 class Progress {
  public:
   Progress() {
@@ -81,8 +119,8 @@ class Progress {
     check(hf_progress_create(&raw));
     handle_ = Handle<hf_progress, hf_progress_destroy>(raw);
   }
-  float fraction() const {
-    float value = 0;
+  double fraction() const {
+    double value = 0;
     check(hf_progress_get_fraction(handle_.get(), &value));
     return value;
   }
@@ -291,9 +329,6 @@ class Solver {
     check(hf_solver_get_info(get(), &info));
     return info;
   }
-  void record() { check(hf_solver_record(get())); }
-  void undo() { check(hf_solver_undo(get())); }
-  void redo() { check(hf_solver_redo(get())); }
 
   std::vector<float> solve(hf_solve_info* info = nullptr) const {
     std::vector<float> field(size_t{vertices_} * channels_);
@@ -386,9 +421,6 @@ class Direction {
     need(vectors.size(), sites.size());
     check(hf_direction_set_vectors(get(), size(sites), sites.data(), vectors.data()));
   }
-  void record() { check(hf_direction_record(get())); }
-  void undo() { check(hf_direction_undo(get())); }
-  void redo() { check(hf_direction_redo(get())); }
   uint32_t site_count() const noexcept { return hf_direction_get_site_count(get()); }
   std::vector<float> solve(hf_solve_info* info = nullptr) const {
     std::vector<float> vectors(size_t{vertices_} * 3);
@@ -489,10 +521,11 @@ inline std::vector<hf_extremity> find_extremities(const Surface& surface, const 
 }
 
 // Proposes handles for the first drag of a mesh; pinned ones come first. desc: null for the defaults.
-inline std::vector<hf_handle_proposal> propose_handles(const Surface& surface, const hf_propose_desc* desc = nullptr) {
+inline std::vector<hf_handle_proposal> propose_handles(const Surface& surface,
+                                                       const hf_handle_proposals_desc* desc = nullptr) {
   std::vector<hf_handle_proposal> found(HF_HANDLE_LIMIT);  // no list is longer
   uint32_t count = 0;
-  check(hf_propose_handles(surface.get(), desc, HF_HANDLE_LIMIT, found.data(), &count));
+  check(hf_surface_propose_handles(surface.get(), desc, HF_HANDLE_LIMIT, found.data(), &count));
   found.resize(count);
   return found;
 }
@@ -541,7 +574,7 @@ struct QuadMesh {
   std::vector<uint32_t> corners;  // three per quad vertex: the vertices of the given mesh that barycentrics belong to
   hf_quads_info info;
 };
-// Keeps a quad mesh, to make it again while the user drags strokes, creases and poles.
+// Keeps a quad mesh, to make it again while the user drags strokes, creases and irregular vertices.
 class Quads {
  public:
   explicit Quads(const Surface& surface, const hf_quads_desc* desc = nullptr) {
@@ -584,8 +617,8 @@ inline QuadMesh make_quads(const Surface& surface, const hf_quads_desc* desc = n
   return Quads(surface, desc).mesh();
 }
 
-// Holds flow lines of a field. One Flow can trace many fields on its surface.
-struct FlowLines {
+// Holds streamlines of a field. One Flow can trace many fields on its surface.
+struct Streamlines {
   std::vector<double> positions, values;  // three numbers and one per point
   std::vector<uint32_t> line_starts, line_ends;
 };
@@ -599,14 +632,14 @@ class Flow {
   hf_flow get() const noexcept { return handle_.get(); }
   // Traces `wanted` lines, or one line through every seed. It traces a second time only when the lines need more room
   // than those of the last call.
-  FlowLines trace(const Surface& surface, const std::vector<double>& field, uint32_t wanted,
-                  const std::vector<uint32_t>& seeds = {}) {
+  Streamlines trace(const Surface& surface, const std::vector<double>& field, uint32_t wanted,
+                    const std::vector<uint32_t>& seeds = {}) {
     const hf_scalars values = scalars(surface, field);
-    auto out = make<hf_flow_lines>();
+    auto out = make<hf_streamlines>();
     out.wanted_count = wanted;
     out.seed_count = static_cast<uint32_t>(seeds.size());
     out.seeds = seeds.data();
-    FlowLines lines;
+    Streamlines lines;
     for (uint32_t points = points_, count = lines_;;) {
       lines.positions.resize(size_t{points} * 3);
       lines.values.resize(points);
@@ -692,9 +725,6 @@ class Region {
     desc.remove_vertices = vertices.data();
     edit(desc);
   }
-  void record() { check(hf_region_record(get())); }
-  void undo() { check(hf_region_undo(get())); }
-  void redo() { check(hf_region_redo(get())); }
   hf_region_info info() const {
     auto info = make<hf_region_info>();
     check(hf_region_get_info(get(), &info));
@@ -897,27 +927,27 @@ class Transfer {
   uint32_t source_vertices_ = 0, target_vertices_ = 0;
 };
 
-// The bones of a skeleton, in the unit and frame of the mesh.
-struct Bones {
-  std::vector<double> heads;      // three numbers per bone
+// The joints of a skeleton, in the unit and frame of the mesh.
+struct Joints {
+  std::vector<double> heads;      // three numbers per joint
   std::vector<double> tails;      // the same, or empty: heads are joints
-  std::vector<double> axes;       // without tails: where each bone points, or empty
+  std::vector<double> axes;       // without tails: where each joint points, or empty
   std::vector<uint32_t> parents;  // HF_NO_INDEX for a root; empty: all are roots
   std::vector<int32_t> deforms;   // empty: all deform
-  std::vector<uint32_t> sources;  // set_bones: the number before, or empty
+  std::vector<uint32_t> sources;  // set_joints: the number before, or empty
   size_t count() const noexcept { return heads.size() / 3; }
 };
 
-// Weights of all vertices: weight_count bones each, descending.
+// Weights of all vertices: influence_count joints each, descending.
 struct VertexWeights {
-  uint32_t weight_count = 0;
+  uint32_t influence_count = 0;
   std::vector<uint32_t> joints;
   std::vector<float> weights;
   std::vector<uint8_t> origins;  // HF_WEIGHTS_* by vertex
 };
 
-// Names of bones as the library takes them: one line for each.
-inline std::string bone_lines(const std::vector<std::string>& names) {
+// Names of joints as the library takes them: one line for each.
+inline std::string joint_lines(const std::vector<std::string>& names) {
   std::string lines;
   for (const std::string& name : names) lines += name + "\n";
   return lines;
@@ -926,11 +956,11 @@ inline std::string bone_lines(const std::vector<std::string>& names) {
 // Skin weights of a surface from a skeleton.
 class Weights {
  public:
-  // weight_count: 4 or 8 bones per vertex.
-  Weights(const Surface& surface, const Bones& bones, uint32_t weight_count = 4) {
-    const hf_bones_desc desc = describe(bones);
+  // influence_count: 4 or 8 joints per vertex.
+  Weights(const Surface& surface, const Joints& joints, uint32_t influence_count = 4) {
+    const hf_joints_desc desc = describe(joints);
     hf_weights raw = nullptr;
-    check(hf_weights_create(surface.get(), &desc, weight_count, &raw));
+    check(hf_weights_create(surface.get(), &desc, influence_count, &raw));
     handle_ = Handle<hf_weights, hf_weights_destroy>(raw);
   }
   hf_weights get() const noexcept { return handle_.get(); }
@@ -939,24 +969,24 @@ class Weights {
     check(hf_weights_clone(get(), &raw));
     return Weights(raw);
   }
-  void set_bones(const Bones& bones) {
-    const hf_bones_desc desc = describe(bones);
-    check(hf_weights_set_bones(get(), &desc));
+  void set_joints(const Joints& joints) {
+    const hf_joints_desc desc = describe(joints);
+    check(hf_weights_set_joints(get(), &desc));
   }
   void set_pins(const hf_pins_desc& pins) { check(hf_weights_set_pins(get(), &pins)); }
-  // values: bones.size() numbers per vertex, or empty for the present weights.
-  void set_locks(const std::vector<uint32_t>& bones, const std::vector<float>& values = {}) {
-    if (!values.empty() && values.size() != size_t{info().vertex_count} * bones.size())
-      throw std::invalid_argument("values: one number per vertex and bone is needed");
-    check(hf_weights_set_locks(get(), static_cast<uint32_t>(bones.size()), bones.data(),
+  // values: joints.size() numbers per vertex, or empty for the present weights.
+  void set_locks(const std::vector<uint32_t>& joints, const std::vector<float>& values = {}) {
+    if (!values.empty() && values.size() != size_t{info().vertex_count} * joints.size())
+      throw std::invalid_argument("values: one number per vertex and joint is needed");
+    check(hf_weights_set_locks(get(), static_cast<uint32_t>(joints.size()), joints.data(),
                                values.empty() ? nullptr : values.data()));
   }
   VertexWeights weights() const {
     auto out = make<hf_weights_out>();
     check(hf_weights_get(get(), &out));
     VertexWeights found;
-    found.weight_count = out.weight_count;
-    const size_t vertices = out.vertex_count, entries = vertices * out.weight_count;
+    found.influence_count = out.influence_count;
+    const size_t vertices = out.vertex_count, entries = vertices * out.influence_count;
     found.joints.resize(entries);
     found.weights.resize(entries);
     found.origins.resize(vertices);
@@ -967,21 +997,21 @@ class Weights {
     check(hf_weights_get(get(), &out));
     return found;
   }
-  // Flags of HF_BONE_* by bone. vertex_counts: null, or receives how many vertices ask for each bone.
-  std::vector<uint32_t> bones(std::vector<uint32_t>* vertex_counts = nullptr) const {
+  // Flags of HF_JOINT_* by joint. vertex_counts: null, or receives how many vertices ask for each joint.
+  std::vector<uint32_t> joints(std::vector<uint32_t>* vertex_counts = nullptr) const {
     uint32_t count = 0;
-    check(hf_weights_get_bones(get(), 0, nullptr, nullptr, &count));
+    check(hf_weights_get_joints(get(), 0, nullptr, nullptr, &count));
     std::vector<uint32_t> flags(count);
     if (vertex_counts) vertex_counts->resize(count);
-    check(hf_weights_get_bones(get(), count, flags.data(), vertex_counts ? vertex_counts->data() : nullptr, &count));
+    check(hf_weights_get_joints(get(), count, flags.data(), vertex_counts ? vertex_counts->data() : nullptr, &count));
     return flags;
   }
-  // Why each bone looks like a helper: bits of HF_HELPER_*. names: one for each bone, or empty.
+  // Why each joint looks like a helper: bits of HF_HELPER_*. names: one for each joint, or empty.
   std::vector<uint32_t> helpers(const std::vector<std::string>& names = {}) const {
     uint32_t count = 0;
     check(hf_weights_get_helpers(get(), nullptr, 0, nullptr, &count));
     std::vector<uint32_t> reasons(count);
-    const std::string lines = bone_lines(names);
+    const std::string lines = joint_lines(names);
     check(hf_weights_get_helpers(get(), names.empty() ? nullptr : lines.c_str(), count, reasons.data(), nullptr));
     return reasons;
   }
@@ -990,26 +1020,23 @@ class Weights {
     check(hf_weights_get_info(get(), &info));
     return info;
   }
-  void record() { check(hf_weights_record(get())); }
-  void undo() { check(hf_weights_undo(get())); }
-  void redo() { check(hf_weights_redo(get())); }
 
  private:
   explicit Weights(hf_weights raw) : handle_(raw) {}
-  static hf_bones_desc describe(const Bones& bones) {
-    const size_t count = bones.count();
+  static hf_joints_desc describe(const Joints& joints) {
+    const size_t count = joints.count();
     const auto fits = [&](size_t size, size_t width) { return size == 0 || size == count * width; };
-    if (bones.heads.size() % 3 != 0 || !fits(bones.tails.size(), 3) || !fits(bones.axes.size(), 3) ||
-        !fits(bones.parents.size(), 1) || !fits(bones.deforms.size(), 1) || !fits(bones.sources.size(), 1))
-      throw std::invalid_argument("bones: all lists need as many bones as heads");
-    auto desc = make<hf_bones_desc>();
-    desc.bone_count = static_cast<uint32_t>(count);
-    desc.heads = bones.heads.data();
-    if (!bones.tails.empty()) desc.tails = bones.tails.data();
-    if (!bones.axes.empty()) desc.axes = bones.axes.data();
-    if (!bones.parents.empty()) desc.parents = bones.parents.data();
-    if (!bones.deforms.empty()) desc.deforms = bones.deforms.data();
-    if (!bones.sources.empty()) desc.sources = bones.sources.data();
+    if (joints.heads.size() % 3 != 0 || !fits(joints.tails.size(), 3) || !fits(joints.axes.size(), 3) ||
+        !fits(joints.parents.size(), 1) || !fits(joints.deforms.size(), 1) || !fits(joints.sources.size(), 1))
+      throw std::invalid_argument("joints: all lists need as many joints as heads");
+    auto desc = make<hf_joints_desc>();
+    desc.joint_count = static_cast<uint32_t>(count);
+    desc.heads = joints.heads.data();
+    if (!joints.tails.empty()) desc.tails = joints.tails.data();
+    if (!joints.axes.empty()) desc.axes = joints.axes.data();
+    if (!joints.parents.empty()) desc.parents = joints.parents.data();
+    if (!joints.deforms.empty()) desc.deforms = joints.deforms.data();
+    if (!joints.sources.empty()) desc.sources = joints.sources.data();
     return desc;
   }
   Handle<hf_weights, hf_weights_destroy> handle_;
@@ -1017,9 +1044,9 @@ class Weights {
 
 namespace detail {
 // Room for the weights of a surface, as an hf_weights_out.
-inline hf_weights_out room_for(VertexWeights& found, uint32_t vertices, uint32_t weight_count) {
-  found.weight_count = weight_count == 0 ? 4 : weight_count;
-  const size_t entries = size_t{vertices} * found.weight_count;
+inline hf_weights_out room_for(VertexWeights& found, uint32_t vertices, uint32_t influence_count) {
+  found.influence_count = influence_count == 0 ? 4 : influence_count;
+  const size_t entries = size_t{vertices} * found.influence_count;
   found.joints.resize(entries);
   found.weights.resize(entries);
   found.origins.resize(vertices);
@@ -1031,43 +1058,45 @@ inline hf_weights_out room_for(VertexWeights& found, uint32_t vertices, uint32_t
   return out;
 }
 inline uint32_t influences_of(const VertexWeights& given, const Surface& surface) {
-  const size_t entries = size_t{surface.vertex_count()} * given.weight_count;
+  const size_t entries = size_t{surface.vertex_count()} * given.influence_count;
   if (given.joints.size() != entries || given.weights.size() != entries)
-    throw std::invalid_argument("joints and weights: weight_count of each vertex of the surface are needed");
-  return given.weight_count;
+    throw std::invalid_argument("joints and weights: influence_count of each vertex of the surface are needed");
+  return given.influence_count;
 }
 }  // namespace detail
 
-// Carries weights to another surface. options: distance, angle and weight_count count. info: null, or receives counts.
-inline VertexWeights carry_weights(const Surface& source, const VertexWeights& given, const Surface& target,
-                                   hf_carry_desc options = make<hf_carry_desc>(), hf_carry_info* info = nullptr) {
-  options.influence_count = detail::influences_of(given, source);
+// Carries weights to another surface. options: distance, angle and influence_count count. info: null, or receives
+// counts.
+inline VertexWeights transfer_weights(const Surface& source, const VertexWeights& given, const Surface& target,
+                                   hf_weights_transfer_desc options = make<hf_weights_transfer_desc>(),
+                                   hf_weights_transfer_info* info = nullptr) {
+  options.source_influence_count = detail::influences_of(given, source);
   options.joints = given.joints.data();
   options.weights = given.weights.data();
   VertexWeights found;
-  hf_weights_out out = detail::room_for(found, target.vertex_count(), options.weight_count);
-  check(hf_weights_carry(source.get(), target.get(), &options, &out, info));
+  hf_weights_out out = detail::room_for(found, target.vertex_count(), options.influence_count);
+  check(hf_weights_transfer(source.get(), target.get(), &options, &out, info));
   return found;
 }
 
-// Mirrors weights. options: plane, partners, to, distance, angle and weight_count count. heads: three numbers for each
-// bone. names: one for each bone, or empty.
+// Mirrors weights. options: plane, partners, to, distance, angle and influence_count count. heads: three numbers for
+// each joint. names: one for each joint, or empty.
 inline VertexWeights mirror_weights(const Surface& surface, const VertexWeights& given,
                                     const std::vector<double>& heads, const std::vector<std::string>& names = {},
-                                    hf_mirror_desc options = make<hf_mirror_desc>(), hf_mirror_info* info = nullptr,
-                                    std::vector<uint32_t>* partners = nullptr,
+                                    hf_weights_mirror_desc options = make<hf_weights_mirror_desc>(),
+                                    hf_weights_mirror_info* info = nullptr, std::vector<uint32_t>* partners = nullptr,
                                     std::vector<uint32_t>* pairings = nullptr) {
-  const std::string lines = bone_lines(names);
-  options.bone_count = static_cast<uint32_t>(heads.size() / 3);
+  const std::string lines = joint_lines(names);
+  options.joint_count = static_cast<uint32_t>(heads.size() / 3);
   options.heads = heads.data();
   options.names = names.empty() ? nullptr : lines.c_str();
-  options.influence_count = detail::influences_of(given, surface);
+  options.source_influence_count = detail::influences_of(given, surface);
   options.joints = given.joints.data();
   options.weights = given.weights.data();
-  if (partners) partners->resize(options.bone_count);
-  if (pairings) pairings->resize(options.bone_count);
+  if (partners) partners->resize(options.joint_count);
+  if (pairings) pairings->resize(options.joint_count);
   VertexWeights found;
-  hf_weights_out out = detail::room_for(found, surface.vertex_count(), options.weight_count);
+  hf_weights_out out = detail::room_for(found, surface.vertex_count(), options.influence_count);
   check(hf_weights_mirror(surface.get(), &options, &out, partners ? partners->data() : nullptr,
                           pairings ? pairings->data() : nullptr, info));
   return found;

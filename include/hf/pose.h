@@ -36,7 +36,7 @@ typedef struct hf_pose_desc {
   int32_t mode;              /* HF_DEFORM_* */
   uint32_t band_count;       /* bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper) */
   uint32_t iteration_count;  /* iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper) */
-  uint32_t samples_per_ring; /* sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens" */
+  uint32_t rim_site_count; /* sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens" */
   uint32_t group_count;      /* rotation groups of the smooth mode, 1 to 2000; 0 = 250 */
 } hf_pose_desc;
 
@@ -49,7 +49,7 @@ HF_API hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* desc, hf
  * Since 0.1. */
 HF_API hf_result hf_pose_clone(hf_pose pose, hf_pose* out_pose);
 
-/* Destroys a pose. Ignores NULL and destroyed handles. Since 0.1. */
+/* Destroys a pose. Ignores NULL and destroyed objects. Since 0.1. */
 HF_API void hf_pose_destroy(hf_pose pose);
 
 /* hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles. */
@@ -58,7 +58,7 @@ typedef struct hf_pose_info {
   int32_t mode;
   uint32_t band_count;
   uint32_t iteration_count;
-  uint32_t samples_per_ring; /* sites per handle on its boundary; 0: all of it */
+  uint32_t rim_site_count; /* sites per handle on its boundary; 0: all of it */
   uint32_t group_count;
   uint32_t handle_count;
   uint32_t vertex_count; /* as given to the surface: rows of hf_deform */
@@ -93,7 +93,7 @@ typedef struct hf_handles_desc {
  * solve for the layer of the handles and for each higher layer. On large meshes a frame may be late. To avoid that, add
  * the handles to a clone in another thread and pose the old one meanwhile. Then set the transforms of the clone. No two
  * regions may overlap, on any layer; welded copies count as one vertex. Errors: HF_ERROR_OUT_OF_RANGE and
- * HF_ERROR_OVERLAP (index = position in region_vertices, or handle when given by points), HF_ERROR_INVALID_ARGUMENT
+ * HF_ERROR_CONFLICT (index = position in region_vertices, or handle when given by points), HF_ERROR_INVALID_ARGUMENT
  * (isolated vertex, layer, in_place, a radius, regions and points at once), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE
  * (HF_HANDLE_LIMIT, a point two boxes or more away). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handles, uint32_t* out_handles);
@@ -105,7 +105,7 @@ HF_API hf_result hf_pose_add_handle_at(hf_pose pose, const double* point, double
 
 /* Removes handles by number: uint32_t[handle_count]. A handle on a higher layer takes its edit with it: the surface is
  * then, bit for bit, as if the handle had never been added. On layer 0 this holds when you remove the handles that were
- * added last, and for frames with `restart`. Errors: HF_ERROR_NO_SUCH_HANDLE. Thread safety: changes `pose`. Since 0.1.
+ * added last, and for frames with `restart`. Errors: HF_ERROR_NOT_FOUND. Thread safety: changes `pose`. Since 0.1.
  */
 HF_API hf_result hf_pose_remove_handles(hf_pose pose, uint32_t handle_count, const uint32_t* handles);
 
@@ -121,7 +121,7 @@ typedef struct hf_transform {
  * from the rest place. On a higher layer it is an edit in the rest frame of the handle. There the region moves by F
  * (edit) F^-1, with F the rigid motion that the lower layers give the handle. Rotations continue from call to call, so
  * a handle that you dragged past 180 degrees stays turned that far. The transforms take effect at the next hf_deform.
- * Errors: HF_ERROR_NO_SUCH_HANDLE, HF_ERROR_NON_FINITE. Thread safety: changes `pose`. Since 0.1. */
+ * Errors: HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_transforms(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
                                         const hf_transform* transforms);
 
@@ -142,22 +142,22 @@ typedef struct hf_handle_info {
   uint32_t site_count;   /* of its boundary */
   uint32_t component;
   double centroid[3];    /* of the rest region, in the unit of the mesh */
-  double leak;           /* with samples_per_ring: how far fields are off on the regions; 0 with full rings */
+  double leak;           /* with rim_site_count: how far fields are off on the regions; 0 with full rings */
   double rotation[4];    /* where the handle stood in the last hf_deform, as in hf_transform; on higher layers with */
   double translation[3]; /* what the layers below did to it */
   uint32_t layer;
   uint32_t reserved;
 } hf_handle_info;
 
-/* Writes the info of a handle. Errors: HF_ERROR_NO_SUCH_HANDLE. Thread safety: reads `pose`. Since 0.1. */
+/* Writes the info of a handle. Errors: HF_ERROR_NOT_FOUND. Thread safety: reads `pose`. Since 0.1. */
 HF_API hf_result hf_pose_get_handle(hf_pose pose, uint32_t handle, hf_handle_info* out_info);
 
-/* Returns the number of handles, or 0 for an invalid handle. Thread safety: any thread. Since 0.1. */
+/* Returns the number of handles, or 0 for an invalid object. Thread safety: any thread. Since 0.1. */
 HF_API uint32_t hf_pose_get_handle_count(hf_pose pose);
 
 /* Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle reaches,
  * the fields of all handles sum to 1. out_values: float[vertex_count], value_stride bytes apart (0 = packed). Errors:
- * HF_ERROR_NO_SUCH_HANDLE. Thread safety: reads `pose`. Since 0.1. */
+ * HF_ERROR_NOT_FOUND. Thread safety: reads `pose`. Since 0.1. */
 HF_API hf_result hf_pose_get_field(hf_pose pose, uint32_t handle, float* out_values, uint32_t value_stride);
 
 /* ---- posing ---- */
@@ -222,7 +222,7 @@ typedef struct hf_skin_info {
   uint32_t struct_size;
   uint32_t joint_capacity;  /* in: joints the arrays can take */
   uint32_t vertex_capacity; /* in: vertices the arrays can take */
-  uint32_t weight_count;    /* in: joints per vertex, 4 or 8; 0 = 4 */
+  uint32_t influence_count;    /* in: joints per vertex, 4 or 8; 0 = 4 */
   uint32_t joint_count;     /* out: joints, one per cluster of vertices */
   uint32_t vertex_count;    /* out */
   double* pivots;           /* [joint_capacity][3] rest centroid of what each joint moves */
@@ -230,8 +230,8 @@ typedef struct hf_skin_info {
   double* translations;     /* [joint_capacity][3] posed place of the pivot */
   double* axes;             /* [joint_capacity][4] quaternion of B, fixed while handles stay */
   double* scales;           /* [joint_capacity][3] along the axes in the last frame; NULL = joints are rigid */
-  uint32_t* vertex_joints;  /* [vertex_capacity][weight_count] */
-  float* vertex_weights;    /* [vertex_capacity][weight_count] of sum 1, descending */
+  uint32_t* vertex_joints;  /* [vertex_capacity][influence_count] */
+  float* vertex_weights;    /* [vertex_capacity][influence_count] of sum 1, descending */
 } hf_skin_info;
 
 /* Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they were added.
@@ -241,7 +241,7 @@ typedef struct hf_skin_info {
  *
  * The joint motions bring the skin as near as possible to the last hf_deform, as it is without refine. With scales,
  * classic bends, twists and lifts replay within 0.5 per cent of the box. Without scales, bends and twists replay within
- * 1 per cent and stretched surfaces within about 2.5 per cent. Errors: HF_ERROR_INVALID_ARGUMENT (weight_count), HF_ERROR_EMPTY (no handle),
+ * 1 per cent and stretched surfaces within about 2.5 per cent. Errors: HF_ERROR_INVALID_ARGUMENT (influence_count), HF_ERROR_EMPTY (no handle),
  * HF_ERROR_UNSUPPORTED (handles on higher layers: their surface is not a blend of clusters). Thread safety: reads
  * `pose`. Since 0.1. */
 HF_API hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* inout_skin);
@@ -257,16 +257,17 @@ enum {
   HF_HANDLE_REASON_MIDDLE = 4 /* the middle of the largest component; pinned if nothing else is */
 };
 
-typedef struct hf_propose_desc {
+typedef struct hf_handle_proposals_desc {
   uint32_t struct_size;
   uint32_t joint_count;    /* joints of a skeleton that the mesh has already, up to 65,536; 0 = none */
   const double* joints;    /* [joint_count][3] their places at rest, in the unit and frame of the mesh */
   const uint32_t* parents; /* [joint_count] position of each joint's parent in the list; HF_NO_INDEX for a root */
   double up[3];            /* direction away from the ground, of any length; 0 0 0 = 0 1 0 */
-  float least_length;      /* as in hf_extremities_desc; 0 = 0.05 */
+  double least_length_share;      /* as in hf_extremities_desc; 0 = 0.05 */
   uint32_t limit;          /* most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32 */
+  uint32_t reserved;       /* 0 */
   hf_progress progress;    /* NULL, or an object to poll and cancel through */
-} hf_propose_desc;
+} hf_handle_proposals_desc;
 
 /* One proposed handle. position and radius are those of hf_handles_desc: the regions of all proposals are disjoint. */
 typedef struct hf_handle_proposal {
@@ -285,9 +286,9 @@ typedef struct hf_handle_proposal {
  * others, each group by length, the longest first. The places do not depend on the order of the vertices. They follow
  * translation and scale. desc: NULL for defaults. out_proposals: NULL, or room for `capacity`. out_count: NULL, or
  * receives the number of proposals. Cost: as hf_surface_find_extremities, and some passes over the mesh. Errors:
- * HF_ERROR_INVALID_ARGUMENT (least_length, limit, joints without parents), HF_ERROR_NON_FINITE (up; index = joint),
+ * HF_ERROR_INVALID_ARGUMENT (least_length_share, limit, joints without parents), HF_ERROR_NON_FINITE (up; index = joint),
  * HF_ERROR_OUT_OF_RANGE (a parent; index = joint), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
-HF_API hf_result hf_propose_handles(hf_surface surface, const hf_propose_desc* desc, uint32_t capacity,
+HF_API hf_result hf_surface_propose_handles(hf_surface surface, const hf_handle_proposals_desc* desc, uint32_t capacity,
                                     hf_handle_proposal* out_proposals, uint32_t* out_count);
 
 #ifdef __cplusplus

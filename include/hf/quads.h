@@ -1,4 +1,4 @@
-/* hf/quads.h - make quad meshes of surfaces, and trace flow lines of fields. */
+/* hf/quads.h - make quad meshes of surfaces, and trace streamlines of fields. */
 #ifndef HF_QUADS_H
 #define HF_QUADS_H
 
@@ -15,29 +15,30 @@ typedef struct hf_quads_object* hf_quads;
 /* Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals. */
 typedef struct hf_quads_desc {
   uint32_t struct_size;
-  uint32_t face_count;   /* wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts */
-  float edge_length;     /* wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it */
-  float crease_angle;    /* edges of the surface that bend by more degrees, up to 180, become edges of quads; 0 = none.
-                            If there are more than 1,024 lines of creases and borders, only the longest are kept.
-                            Creases nearer to each other than an edge may be released */
-  uint32_t relax_count;  /* rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none, and the mesh is
-                            not fitted to the surface either */
-  uint32_t crease_count; /* edges of the surface that become edges of quads whatever their angle */
-  uint32_t guide_count;  /* directions that edges of quads follow, such as strokes of an artist */
-  uint32_t pole_count;   /* irregular vertices that the user places, up to 1,000 */
+  uint32_t face_count;  /* wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts */
+  double edge_length;   /* wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it */
+  double crease_angle;  /* edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0
+                          = none.  If there are more than 1,024 lines of creases and borders, only the longest are kept.
+                          Creases nearer to each other than an edge may be released */
+  uint32_t relax_count; /* rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none, and the mesh is
+                           not fitted to the surface either */
+  uint32_t crease_count;    /* edges of the surface that become edges of quads whatever their angle */
+  uint32_t guide_count;     /* directions that edges of quads follow, such as strokes of an artist */
+  uint32_t irregular_count; /* irregular vertices that the user places, up to 1,000 */
   double symmetry_plane[4]; /* a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none.
                                Quads are made of the side that (a, b, c) points to, and mirrored. Creases, guides and
-                               poles on the other side are not used */
+                               irregular vertices on the other side are not used */
   const uint32_t* crease_edges;   /* [crease_count][2] the two vertices of each edge, as given */
   const uint32_t* guide_vertices; /* [guide_count] as given; guides of one vertex are averaged */
   const double* guide_vectors;    /* [guide_count][3] along the surface, of any length above 0; quads run along the
                                      vector and across it */
   const float* guide_weights;     /* NULL = all 1, or [guide_count], above 0 to 1: 1 holds the direction, less mixes it
                                      with that of the curvature, which has the rest of the weight */
-  const double* pole_points;      /* [pole_count][3] at the surface, in the unit and frame of the mesh */
-  const uint32_t* pole_quads;     /* [pole_count] how many quads meet there: 3 or 5 */
-  const double* pole_directions;  /* NULL = any, or [pole_count][3]: one side of the pole runs along it; 0 0 0 = any */
-  hf_progress progress;           /* NULL, or an object to poll and cancel through */
+  const double* irregular_points; /* [irregular_count][3] at the surface, in the unit and frame of the mesh */
+  const uint32_t* irregular_valences; /* [irregular_count] how many quads meet there: 3 or 5 */
+  const double* irregular_directions; /* NULL = any, or [irregular_count][3]: one side of the irregular vertex runs
+                                         along it; 0 0 0 = any */
+  hf_progress progress;               /* NULL, or an object to poll and cancel through */
 } hf_quads_desc;
 
 /* Counts of a quad mesh. */
@@ -46,7 +47,7 @@ typedef struct hf_quads_info {
   uint32_t vertex_count;
   uint32_t face_count;
   int32_t euler_characteristic; /* vertices - edges + faces, that of the usable surface */
-  float edge_length;            /* wanted length, in the unit of the mesh */
+  double edge_length;           /* wanted length, in the unit of the mesh */
 } hf_quads_info;
 
 /* Makes a quad mesh of a surface. Every face is a quad. Edges follow smooth crosses along the curvature. Creases and
@@ -68,11 +69,11 @@ typedef struct hf_quads_info {
  * the quads lie on each side. Where surface and mirror image differ, by up to 0.05 box diagonals, the side of
  * the normal counts.
  *
- * A pole is an irregular vertex at a place that the user drags. The function makes it by guides on a ring around the
- * place, an edge of the quads away. The crosses on the ring make a quarter turn along it. 96 % of 1,000 poles at random
- * places of 20 meshes come out within an edge of the place; such a vertex then moves to the place and stays there. A
- * pole of 5 quads brings poles of 3 with it, because the indices of the crosses sum to four times the Euler
- * characteristic. On a torus or a knot a single pole of 5 is often lost.
+ * The user can place irregular vertices and drag them. The function makes each by guides on a ring around the place, an
+ * edge of the quads away. The crosses on the ring make a quarter turn along it. 96 % of 1,000 irregular vertices at
+ * random places of 20 meshes come out within an edge of the place; such a vertex then moves to the place and stays
+ * there. A vertex of 5 quads brings others of 3 with it, because the indices of the crosses sum to four times the Euler
+ * characteristic. On a torus or a knot a single one of 5 is often lost.
  *
  * desc: NULL = HF_INIT. Sets *out_quads to NULL first. Cost: two factorisations of the mesh and O(n log n + faces);
  * a thousand singularities take most of a minute. Progress covers factorisations, relaxation and fitting; each can be
@@ -80,13 +81,14 @@ typedef struct hf_quads_info {
  *
  * Errors: HF_ERROR_INVALID_ARGUMENT (face_count, edge_length, crease_angle, relax_count, an array without its count, an
  * isolated vertex, symmetry_plane without a normal; index = crease, that is no edge of the surface; index = guide, that
- * is 0, stands on the surface or has a weight outside 0 to 1; index = pole, of other than 3 or 5 quads, or where the
- * surface has no normal), HF_ERROR_NON_FINITE (edge_length, crease_angle, symmetry_plane, index = guide or pole),
- * HF_ERROR_OUT_OF_RANGE (index = crease or guide), HF_ERROR_UNSUPPORTED (more than 5 % of the edges have three
- * triangles or cannot be oriented, index = a vertex; a surface that symmetry_plane does not mirror, index = the vertex
- * that is off most; no triangle on the side of the normal), HF_ERROR_TOO_LARGE (more than a million quads of the
- * default edge length, more creases than edges, index = pole that is two boxes or more away), HF_ERROR_CANCELLED,
- * HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_INTERNAL when the check fails. Thread safety: reads `surface`. Since 0.1. */
+ * is 0, stands on the surface or has a weight outside 0 to 1; index = irregular vertex, of other than 3 or 5 quads, or
+ * where the surface has no normal), HF_ERROR_NON_FINITE (edge_length, crease_angle, symmetry_plane, index = guide or
+ * irregular vertex), HF_ERROR_OUT_OF_RANGE (index = crease or guide), HF_ERROR_UNSUPPORTED (more than 5 % of the edges
+ * have three triangles or cannot be oriented, index = a vertex; a surface that symmetry_plane does not mirror, index =
+ * the vertex that is off most; no triangle on the side of the normal), HF_ERROR_TOO_LARGE (more than a million quads of
+ * the default edge length, more creases than edges, index = irregular vertex that is two boxes or more away),
+ * HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_INTERNAL when the check fails. Thread safety: reads
+ * `surface`. Since 0.1. */
 HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 
 /* Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The result is that
@@ -98,7 +100,7 @@ HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, 
  * Thread safety: changes `quads`, reads its surface. Since 0.1. */
 HF_API hf_result hf_quads_update(hf_quads quads, const hf_quads_desc* desc);
 
-/* Destroys a quad mesh. Ignores NULL and destroyed handles. Since 0.1. */
+/* Destroys a quad mesh. Ignores NULL and destroyed objects. Since 0.1. */
 HF_API void hf_quads_destroy(hf_quads quads);
 
 /* Writes the counts. Thread safety: reads `quads`. Since 0.1. */
@@ -123,16 +125,16 @@ typedef struct hf_quads_mesh {
  * 0.1. */
 HF_API hf_result hf_quads_get_mesh(hf_quads quads, hf_quads_mesh* inout_mesh);
 
-/* ---- flow lines ----
+/* ---- streamlines ----
  *
- * Flow lines follow the flux f_ij = w_ij (u_j - u_i) of a field u along the mesh edge ij. The weights w are positive:
+ * Streamlines follow the flux f_ij = w_ij (u_j - u_i) of a field u along the mesh edge ij. The weights w are positive:
  * they are those of HF_OPERATOR_CLAMPED, whatever operator the surface has. At a vertex of a harmonic field that is not
  * a site, the flux that comes in equals the flux that goes out. Imagine each edge as a strip as wide as its flux. A
- * flow line runs along such strips and keeps a place across each strip. At every vertex a planar matching connects the
- * incoming strips to the outgoing strips. So flow lines never cross or merge, and their value always rises, on surfaces
- * of any genus. */
+ * streamline runs along such strips and keeps a place across each strip. At every vertex a planar matching connects the
+ * incoming strips to the outgoing strips. So streamlines never cross or merge, and their value always rises, on
+ * surfaces of any genus. */
 
-/* A surface that is prepared for tracing flow lines. */
+/* A surface that is prepared for tracing streamlines. */
 typedef struct hf_flow_object* hf_flow;
 
 /* Prepares a surface for tracing: computes half-edges and weights. Sets *out_flow to NULL first. Cost: O(n log n),
@@ -140,10 +142,10 @@ typedef struct hf_flow_object* hf_flow;
  * quads; index = a vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow);
 
-/* Destroys the object. Ignores NULL and destroyed handles. Since 0.1. */
+/* Destroys the object. Ignores NULL and destroyed objects. Since 0.1. */
 HF_API void hf_flow_destroy(hf_flow flow);
 
-typedef struct hf_flow_lines {
+typedef struct hf_streamlines {
   uint32_t struct_size;
   uint32_t
       wanted_count; /* in: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds */
@@ -156,14 +158,14 @@ typedef struct hf_flow_lines {
   double* values;                         /* [point_capacity] of the field, rising along every line */
   uint32_t* line_starts; /* [line_capacity + 1] line i holds the points line_starts[i] to line_starts[i + 1] - 1 */
   uint32_t* line_ends;   /* [line_capacity][2] vertices where it starts and ends, of welded copies the first */
-} hf_flow_lines;
+} hf_streamlines;
 
-/* Traces flow lines of any field that is finite at every vertex in a triangle. For a harmonic field of
+/* Traces streamlines of any field that is finite at every vertex in a triangle. For a harmonic field of
  * HF_OPERATOR_CLAMPED the lines are denser where the field is steeper. hf_surface_trace_isolines gives the lines that
- * cross the flow lines. Cost: O(n log n), and O(degree) for every edge that a line runs along. This is quick enough to
+ * cross the streamlines. Cost: O(n log n), and O(degree) for every edge that a line runs along. This is quick enough to
  * redraw the lines while the user drags a site. Errors: HF_ERROR_INVALID_ARGUMENT (wanted_count, isolated seed),
  * HF_ERROR_OUT_OF_RANGE (seed), HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `flow`. Since 0.1. */
-HF_API hf_result hf_flow_trace(hf_flow flow, const hf_scalars* field, hf_flow_lines* inout_lines);
+HF_API hf_result hf_flow_trace(hf_flow flow, const hf_scalars* field, hf_streamlines* inout_lines);
 
 #ifdef __cplusplus
 }

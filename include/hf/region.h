@@ -1,4 +1,4 @@
-/* hf/region.h - smooth a region of the surface, morph its detail, carry the detail to another region.
+/* hf/region.h - smooth a region of the surface, morph its detail, transfer the detail to another region.
  *
  * The smooth base of a region is a surface of the same connectivity without the detail (Xu, Zhang, Cohen-Or and Xiong
  * 2009). Each of its three coordinates is a field whose boundary values are the positions around the region. A harmonic
@@ -43,11 +43,11 @@ typedef struct hf_region_desc {
  * base does not factorise), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_region_create(hf_surface surface, const hf_region_desc* desc, hf_region* out_region);
 
-/* Copies a region, without the undo stack. The copy shares the factor. Sets *out_region to NULL first. Thread safety:
- * reads `region`. Since 0.1. */
+/* Copies a region. The copy shares the factor and all memory, until one of the two is edited. For undo, keep copies:
+ * one before each edit. Sets *out_region to NULL first. Thread safety: reads `region`. Since 0.1. */
 HF_API hf_result hf_region_clone(hf_region region, hf_region* out_region);
 
-/* Destroys a region. Ignores NULL and destroyed handles. Since 0.1. */
+/* Destroys a region. Ignores NULL and destroyed objects. Since 0.1. */
 HF_API void hf_region_destroy(hf_region region);
 
 /* A closed curve cuts the surface in two. The side says which part becomes the region. Where a curve along edges
@@ -109,14 +109,6 @@ typedef struct hf_region_edit_desc {
  * Since 0.1. */
 HF_API hf_result hf_region_edit(hf_region region, const hf_region_edit_desc* edit);
 
-/* Records the region for undo. The library keeps the last 256 records; they share memory. Thread safety: changes
- * `region`. Since 0.1. */
-HF_API hf_result hf_region_record(hf_region region);
-/* Restores the last record, bit for bit. Errors: HF_ERROR_NO_RECORD. Thread safety: changes `region`. Since 0.1. */
-HF_API hf_result hf_region_undo(hf_region region);
-/* Reverts the last undo. Errors: HF_ERROR_NO_RECORD. Thread safety: changes `region`. Since 0.1. */
-HF_API hf_result hf_region_redo(hf_region region);
-
 /* Counts and areas of a region and of its last edit. Welded copies count as one vertex. */
 typedef struct hf_region_info {
   uint32_t struct_size;
@@ -176,9 +168,9 @@ typedef struct hf_morph_desc {
  * (index = vertex that does not fit the output). Thread safety: reads `region`. Since 0.1. */
 HF_API hf_result hf_region_morph(hf_region region, const hf_morph_desc* desc);
 
-/* ---- detail carried to another region ---- */
+/* ---- detail transferred to another region ---- */
 
-/* The detail of a source region, carried to a target region. Both may be on one surface or on two. */
+/* The detail of a source region, transferred to a target region. Both may be on one surface or on two. */
 typedef struct hf_detail_object* hf_detail;
 
 typedef struct hf_detail_desc {
@@ -208,10 +200,10 @@ typedef struct hf_detail_desc {
 HF_API hf_result hf_detail_create(hf_region source, hf_region target, const hf_detail_desc* desc,
                                   hf_detail* out_detail);
 
-/* Destroys the object. Ignores NULL and destroyed handles. Since 0.1. */
+/* Destroys the object. Ignores NULL and destroyed objects. Since 0.1. */
 HF_API void hf_detail_destroy(hf_detail detail);
 
-/* Writes the target's surface with its detail replaced. A vertex of the target region gets base + weight (carried
+/* Writes the target's surface with its detail replaced. A vertex of the target region gets base + weight (transferred
  * detail); all others keep their positions. Weight 0 gives the smooth base, and weight 1 the detail as it was on the
  * source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out. Errors: as
  * hf_region_morph. Thread safety: reads `detail`. Since 0.1. */

@@ -46,12 +46,13 @@ typedef struct hf_solver_desc {
  * 0.1. */
 HF_API hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_solver* out_solver);
 
-/* Creates a solver with the same sites, without the undo stack. Both share the factor, so a copy costs its sites only.
- * Use one copy per thread or per set of sites. Sets *out_solver to NULL first. Thread safety: reads `solver`. Since
+/* Creates a solver with the same sites under the same numbers; its fields have the same bits. Both share the factor and
+ * what the sites have cost, so a copy costs its list of sites only. Use one copy per thread or per set of sites. For
+ * undo, keep copies: one before each edit. Sets *out_solver to NULL first. Thread safety: reads `solver`. Since
  * 0.1. */
 HF_API hf_result hf_solver_clone(hf_solver solver, hf_solver* out_solver);
 
-/* Destroys a solver. Ignores NULL and destroyed handles. Thread safety: a call under way on another thread ends first;
+/* Destroys a solver. Ignores NULL and destroyed objects. Thread safety: a call under way on another thread ends first;
  * it keeps the object alive. Since 0.1. */
 HF_API void hf_solver_destroy(hf_solver solver);
 
@@ -95,7 +96,7 @@ typedef struct hf_sites_desc {
 /* Adds sites. out_sites: NULL, or receives their numbers in uint32_t[site_count]. A site keeps its number until it is
  * removed; later sites reuse free numbers. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE,
  * HF_ERROR_INVALID_ARGUMENT (weights, stiffness, isolated vertex), HF_ERROR_UNSUPPORTED (a point in a triangle or a
- * disc on a graph), HF_ERROR_DUPLICATE_SITE (the vertex, or a welded copy, has a site of the same values),
+ * disc on a graph), HF_ERROR_DUPLICATE (the vertex, or a welded copy, has a site of the same values),
  * HF_ERROR_CONFLICT (of other values, or the point depends linearly on hard sites), HF_ERROR_TOO_LARGE (site_limit, a
  * value). Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* out_sites);
@@ -105,7 +106,7 @@ HF_API hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint
 HF_API hf_result hf_solver_add_site(hf_solver solver, uint32_t vertex, const double* values, uint32_t* out_site);
 
 /* Removes sites by number: uint32_t[site_count]. The field is 0 on a component that has no site left. If you add a site
- * there again, the field is exact. Errors: HF_ERROR_NO_SUCH_SITE (also for a number named twice). Thread safety:
+ * there again, the field is exact. Errors: HF_ERROR_NOT_FOUND (also for a number named twice). Thread safety:
  * changes `solver`. Since 0.1. */
 HF_API hf_result hf_remove_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites);
 
@@ -116,7 +117,7 @@ HF_API hf_result hf_solver_move_sites(hf_solver solver, uint32_t site_count, con
                                       const hf_sites_desc* to);
 
 /* Gives sites new values: double[site_count][channel_count]. The call costs nothing until the next solve. Errors:
- * HF_ERROR_NO_SUCH_SITE, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (a value). Thread safety: changes `solver`. Since 0.1.
+ * HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (a value). Thread safety: changes `solver`. Since 0.1.
  */
 HF_API hf_result hf_solver_set_values(hf_solver solver, uint32_t site_count, const uint32_t* sites,
                                       const double* values);
@@ -139,7 +140,7 @@ typedef struct hf_edit_desc {
  * is the position inside the failing part. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_edit_sites(hf_solver solver, const hf_edit_desc* edit, uint32_t* out_sites);
 
-/* Returns the number of sites, or 0 for an invalid handle. Thread safety: any thread. Since 0.1. */
+/* Returns the number of sites, or 0 for an invalid object. Thread safety: any thread. Since 0.1. */
 HF_API uint32_t hf_solver_get_site_count(hf_solver solver);
 
 /* Places, values and fluxes of the sites. The arrays are yours; each is NULL or has `capacity` entries. The entries are
@@ -190,7 +191,7 @@ typedef struct hf_solve_info {
  * value_stride bytes apart (0 = packed). The field is 0 on components without a site; out_info counts them, or is NULL.
  * Hard sites hold their values exactly. Cost: one backward sweep through the factor, or three sweeps for bi-harmonic
  * fields; 30 to 700 sweeps for these, by the number of sites, where a vertex has more than 1,000 neighbours. Errors:
- * HF_ERROR_NO_SITES, HF_ERROR_TOO_LARGE (index = vertex, no float). Thread safety: reads `solver`. Since 0.1. */
+ * HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (index = vertex, no float). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
 /* Does the same as hf_solve, in double. Thread safety: reads `solver`. Since 0.1. */
@@ -202,7 +203,7 @@ HF_API hf_result hf_solver_solve_f64(hf_solver solver, double* out_values, uint3
  * factor on which these vertices depend (elimination paths), on the calling thread. One path is up to a sixth of the
  * factor, but the paths of many vertices share most of their columns. The call costs a whole solve for bi-harmonic
  * fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A vertex of a component without a
- * site gets 0. Errors: HF_ERROR_NO_SITES, HF_ERROR_TOO_LARGE (more vertices than the mesh has), HF_ERROR_OUT_OF_RANGE.
+ * site gets 0. Errors: HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (more vertices than the mesh has), HF_ERROR_OUT_OF_RANGE.
  * Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices,
                                     double* out_values);
@@ -237,10 +238,10 @@ typedef struct hf_preview_info {
 } hf_preview_info;
 
 /* Solves with a single-precision copy of the factor. This reads half the bytes of hf_solve; use it while the user drags
- * a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic fields, long shapes and
- * crowded sites can have an error of any size: ask for corrections there and read error_estimate. Hard sites at vertices
- * are exact. One correction (iterative refinement, Wilkinson 1963) of a harmonic field takes the error below 1e-9, a
- * second one below 1e-12. Each correction costs as much as two to three calls of hf_solve.
+ * a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic fields, long shapes
+ * and crowded sites can have an error of any size: ask for corrections there and read error_estimate. Hard sites at
+ * vertices are exact. One correction (iterative refinement, Wilkinson 1963) of a harmonic field takes the error below
+ * 1e-9, a second one below 1e-12. Each correction costs as much as two to three calls of hf_solve.
  *
  * The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on the
  * surface share the copy. It is freed with the last of these solvers, or by hf_solver_release_preview. Engines other
@@ -248,7 +249,7 @@ typedef struct hf_preview_info {
  * 1.
  *
  * out_values: as hf_solve. correction_count: 0 to 8. out_info: NULL, or a struct. Errors: HF_ERROR_INVALID_ARGUMENT
- * (correction_count), HF_ERROR_NO_SITES. Thread safety: reads `solver`. Since 0.1. */
+ * (correction_count), HF_ERROR_EMPTY. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_preview(hf_solver solver, float* out_values, uint32_t value_stride,
                                          uint32_t correction_count, hf_preview_info* out_info);
 
@@ -265,13 +266,13 @@ HF_API hf_result hf_solver_release_preview(hf_solver solver);
 
 /* Moves vector sites to other vertices of their components. Each vector is carried along the shortest path of edges,
  * from vertex normal to vertex normal (parallel transport; Xu and others 2009, Section 3.3). vertices: [site_count].
- * Errors: HF_ERROR_INVALID_ARGUMENT (not 3 channels, another component, isolated vertex), HF_ERROR_NO_SUCH_SITE,
- * HF_ERROR_OUT_OF_RANGE, HF_ERROR_DUPLICATE_SITE, HF_ERROR_CONFLICT. Thread safety: changes `solver`. Since 0.1. */
+ * Errors: HF_ERROR_INVALID_ARGUMENT (not 3 channels, another component, isolated vertex), HF_ERROR_NOT_FOUND,
+ * HF_ERROR_OUT_OF_RANGE, HF_ERROR_DUPLICATE, HF_ERROR_CONFLICT. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_move_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites,
                                         const uint32_t* vertices);
 
 /* Turns the vector of site i about its vertex normal, counter-clockwise by angles[i] radians. Does not factorise.
- * Errors: HF_ERROR_INVALID_ARGUMENT (not 3 channels), HF_ERROR_NO_SUCH_SITE, HF_ERROR_NON_FINITE. Thread safety:
+ * Errors: HF_ERROR_INVALID_ARGUMENT (not 3 channels), HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE. Thread safety:
  * changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites,
                                           const double* angles);
@@ -279,8 +280,8 @@ HF_API hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count,
 /* ---- how right a field is ---- */
 
 /* The certificate says how accurate a field is. Each error is relative to the range of the site values of its component
- * and channel, and of its targets where it is screened. Where all are equal, it is relative to their size. A value that is not finite counts as
- * infinitely wrong. */
+ * and channel, and of its targets where it is screened. Where all are equal, it is relative to their size. A value that
+ * is not finite counts as infinitely wrong. */
 typedef struct hf_certificate {
   uint32_t struct_size;
   int32_t overshoot_checked; /* out: 1 where a field must keep to the range of its sites: harmonic, intrinsic Delaunay
@@ -290,7 +291,7 @@ typedef struct hf_certificate {
   double residual;   /* out: largest |(K u - W lambda)_v| / K_vv, how far a value is from the mean of its neighbours */
   double site_error; /* out: largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by */
   double overshoot;  /* out: how far the field leaves the range of its sites; 0 when not checked */
-  uint32_t worst_vertex; /* out: as given, where the largest of the three is */
+  uint32_t worst_vertex;         /* out: as given, where the largest of the three is */
   uint32_t changed_vertex_count; /* out: welded vertices with a weight that a rule set (hf_surface_report). On a mesh,
                                     and for bi-harmonic fields, the errors hold for the weights used; on a graph for
                                     your own, within 1e30 of their median */
@@ -302,19 +303,8 @@ typedef struct hf_certificate {
  * finds a damaged factor, borrowed bytes that changed, or a fault of the machine. The call returns HF_ERROR_INACCURATE
  * (index = worst vertex) if the check fails, and writes inout_certificate then too. Do not use fields of that solver;
  * make the surface again. Cost: a solve and a product with K. Errors: HF_ERROR_INACCURATE, HF_ERROR_INVALID_ARGUMENT
- * (tolerance), HF_ERROR_NO_SITES. Thread safety: reads `solver`. Since 0.1. */
+ * (tolerance), HF_ERROR_EMPTY. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_certify(hf_solver solver, hf_certificate* inout_certificate);
-
-/* ---- undo ---- */
-
-/* Records the sites for undo. The library keeps the last 256 records. Each record keeps its own list of sites. Records
- * share all other memory. Thread safety: changes `solver`. Since 0.1. */
-HF_API hf_result hf_solver_record(hf_solver solver);
-/* Restores the last record; the field then has the same bits as at the record. Errors: HF_ERROR_NO_RECORD. Thread
- * safety: changes `solver`. Since 0.1. */
-HF_API hf_result hf_solver_undo(hf_solver solver);
-/* Reverts the last undo. Errors: HF_ERROR_NO_RECORD. Thread safety: changes `solver`. Since 0.1. */
-HF_API hf_result hf_solver_redo(hf_solver solver);
 
 /* ---- very many sites ---- */
 
@@ -322,7 +312,7 @@ HF_API hf_result hf_solver_redo(hf_solver solver);
  * calling thread, while other threads edit and solve with this solver. The next edit switches to the new factor. Fields
  * before and after are the same up to rounding. Call it on a thread of yours when hf_solver_statistics.rebase_advised
  * is 1. An edit of very many sites does this by itself when that is quicker. Memory: one more factor, for as long as it
- * eliminates sites. Errors: HF_ERROR_NO_SITES (no hard site at a vertex), HF_ERROR_UNSUPPORTED (other engines),
+ * eliminates sites. Errors: HF_ERROR_EMPTY (no hard site at a vertex), HF_ERROR_UNSUPPORTED (other engines),
  * HF_ERROR_BUSY (another thread is in this call). Thread safety: can run during any other call on the same solver.
  * Since 0.1. */
 HF_API hf_result hf_solver_prepare_rebase(hf_solver solver);

@@ -2,7 +2,7 @@
  *
  * Make one surface per mesh, or per graph of your own (hf_surface_create_graph). Solvers, poses, direction fields,
  * regions, transfers and quads are made on a surface and share its factor. A surface never changes, so any number of
- * threads may use it. An object made on a surface keeps the data it needs, so you can destroy handles in any order. */
+ * threads may use it. An object made on a surface keeps the data it needs, so you can destroy objects in any order. */
 #ifndef HF_SURFACE_H
 #define HF_SURFACE_H
 
@@ -77,28 +77,28 @@ typedef struct hf_link {
   uint32_t corners[3];    /* the triangle; a corner of barycentric 0 is ignored and can be HF_NO_INDEX */
   double barycentrics[3]; /* >= 0, of sum 1 within 1e-3. 1, 0, 0 links two vertices */
   double length;          /* out: at rest, in the unit of the positions. Ignored when read */
-  float weight;           /* 1: as strong as an edge between two equilateral triangles; > 0 */
+  double weight;          /* 1: as strong as an edge between two equilateral triangles; > 0 */
   int32_t in_tree;        /* out: 1 if the tree over the pieces has it. Ignored when read */
+  uint32_t reserved;      /* 0 */
 } hf_link;
 
 /* Says which pieces to link. Joints and weights or tags help the automatic links; each array may be NULL. A light
  * piece is a sheet over a larger one, such as cloth: it follows the surface below and hardly pulls it. */
 typedef struct hf_links_desc {
   uint32_t struct_size;
-  int32_t mode;    /* HF_LINK_* */
-  float distance;  /* longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal */
-  float stiffness; /* of all links, times each one's weight; 0 = 1 */
-  float overlay_distance;   /* automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 %
-                               of the diagonal, below 0: no piece is light unless light_vertices say so */
+  int32_t mode;     /* HF_LINK_* */
+  double distance;  /* longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal */
+  double stiffness; /* of all links, times each one's weight; 0 = 1 */
+  double overlay_distance;  /* automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 %
+                              of the diagonal, below 0: no piece is light unless light_vertices say so */
   uint32_t influence_count; /* joints per vertex, 0 to 64 */
+  uint32_t link_count;      /* for HF_LINK_LIST */
+  uint32_t light_count;     /* entries of light_vertices */
+  uint32_t heavy_count;     /* entries of heavy_vertices */
   const uint16_t* joints;   /* [vertex_count][influence_count] of a skin: pieces of the same joint link sooner */
   const float* weights;     /* [vertex_count][influence_count] of sum 1; where all are 0, a vertex shares no joint */
   const uint32_t* tags;     /* [vertex_count]: pieces with different tags do not link, as a rider and a horse. The
                                first vertex of a piece counts */
-  uint32_t link_count;      /* for HF_LINK_LIST */
-  uint32_t light_count;     /* entries of light_vertices */
-  uint32_t heavy_count;     /* entries of heavy_vertices */
-  uint32_t reserved;        /* 0 */
   const hf_link* links;     /* [link_count] */
   const uint32_t* light_vertices; /* [light_count]: their pieces are light */
   const uint32_t* heavy_vertices; /* [heavy_count]: their pieces are not, as one that gets a site or handle */
@@ -112,7 +112,7 @@ typedef struct hf_links_desc {
  * how you would cut a face into triangles. HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both cuts of a bent quad,
  * and moves it towards the polygon Laplacian of Bunge and others 2020 until a weight would become negative.
  * docs/studies/polygons.md compares errors. HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED take that polygon Laplacian,
- * HF_OPERATOR_UNIFORM the sides of the faces. Directions, distances, iso-lines, flow lines and quads work on a cut of
+ * HF_OPERATOR_UNIFORM the sides of the faces. Directions, distances, iso-lines, streamlines and quads work on a cut of
  * the library. It does not depend on the order of the corners. Where this interface names a triangle, it names the face
  * then. Normals of poses are sums of the area vectors of faces. */
 typedef struct hf_surface_desc {
@@ -126,7 +126,7 @@ typedef struct hf_surface_desc {
   const uint16_t* triangles_u16; /* [triangle_count][3] */
   uint32_t triangle_stride;      /* bytes between triangles */
   int32_t weld;                  /* HF_WELD_* */
-  float weld_tolerance;          /* for HF_WELD_TOLERANCE, in the unit of the positions, > 0 */
+  double weld_tolerance;         /* for HF_WELD_TOLERANCE, in the unit of the positions, > 0 */
   int32_t operator_kind;         /* HF_OPERATOR_* */
   int32_t field_kind;            /* HF_FIELD_*: the factor made now. Others are made when a solver or region asks */
   int32_t ordering;              /* HF_ORDERING_* */
@@ -138,7 +138,6 @@ typedef struct hf_surface_desc {
   uint32_t memory_limit_mb;      /* refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit */
   uint32_t work_limit_gflop;     /* refuse a factorisation of more than this many 10^9 operations. They are counted
                                     before it begins; 0 = 100,000, about an hour of one core */
-  uint32_t reserved;             /* 0 */
   hf_allocator allocator;        /* zero = malloc */
   hf_job_runner job_runner;      /* zero = threads of the library's own */
   hf_progress progress;          /* NULL, or an object to poll and cancel through */
@@ -164,7 +163,7 @@ typedef struct hf_surface_desc {
  * is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the second
  * side alone get opposite normals from poses, and a ray with front_only hits both sides.
  *
- * out_surface: receives NULL at the start of the call and the new handle on success. Cost: about 2 us a vertex for
+ * out_surface: receives NULL at the start of the call and the new surface on success. Cost: about 2 us a vertex for
  * 300,000 vertices, one thread. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY (no vertex or no triangle),
  * HF_ERROR_OUT_OF_RANGE (index = triangle or face; a face of fewer than three corners is
  * HF_ERROR_INVALID_ARGUMENT, one of too many HF_ERROR_TOO_LARGE), HF_ERROR_NON_FINITE (index = vertex),
@@ -204,14 +203,14 @@ typedef struct hf_graph_desc {
 } hf_graph_desc;
 
 /* Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the graph.
- * Solvers with sites at vertices, fields, previews, certificates, clones, undo, saved factors, components and reports
+ * Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and reports
  * work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions, directions, geodesics,
  * iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening, and sites in
  * triangles or on discs.
  *
  * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
  * median of their component are limited; hf_surface_report counts their vertices as changed. Bi-harmonic fields limit
- * weights to 1e3 times the median. out_surface: receives NULL at the start of the call and the new handle on success.
+ * weights to 1e3 times the median. out_surface: receives NULL at the start of the call and the new surface on success.
  * Cost: that of the factor; a graph of a volume has a larger one than a mesh of as many vertices. Errors:
  * HF_ERROR_INVALID_ARGUMENT (index = edge or vertex: a negative weight, a mass), HF_ERROR_EMPTY (no vertex, no edge, or
  * none left), HF_ERROR_OUT_OF_RANGE (index = edge), HF_ERROR_NON_FINITE (index = edge, or vertex of a mass),
@@ -220,7 +219,7 @@ typedef struct hf_graph_desc {
  * saved_factor also as hf_surface_create. Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_surface_create_graph(const hf_graph_desc* desc, hf_surface* out_surface);
 
-/* Destroys a surface. Ignores NULL and destroyed handles. Objects that were made on the surface stay valid. Thread
+/* Destroys a surface. Ignores NULL and destroyed objects. Objects that were made on the surface stay valid. Thread
  * safety: any thread. Since 0.1. */
 HF_API void hf_surface_destroy(hf_surface surface);
 
@@ -230,7 +229,7 @@ typedef struct hf_surface_info {
   uint32_t vertex_count;   /* as given */
   uint32_t triangle_count; /* as given; of faces, the triangles of their cut */
   int32_t weld;
-  float weld_tolerance;
+  double weld_tolerance;
   int32_t operator_kind;
   int32_t field_kind;
   int32_t ordering;
@@ -267,7 +266,8 @@ typedef struct hf_surface_report {
   uint32_t flipped_edge_count;        /* edges that two triangles run through in the same direction */
   uint32_t boundary_edge_count;
   uint32_t negative_edge_count;  /* edges of negative cotangent weight, before any clamping */
-  float smallest_angle;          /* radians, over the usable triangles */
+  uint32_t reserved;             /* 0 */
+  double smallest_angle;         /* radians, over the usable triangles */
   double bounding_box_diagonal;  /* in the unit of the positions, without isolated vertices */
   uint32_t changed_vertex_count; /* welded vertices with a weight that is not the mesh's, in the operator of field_kind:
                                     of triangles too thin for it, or cut to the digits that there are. A certificate

@@ -54,19 +54,18 @@ typedef struct hf_transfer_desc {
   uint32_t struct_size;
   int32_t mode;           /* HF_TRANSFER_* */
   uint32_t cluster_count; /* 1 to 512; 0 = 80, or 5 for each pair if that is more */
-  float kernel_width;     /* width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that
-                             is more, up to 0.12 */
-  float scale; /* lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when
-                  no pair is a foot */
+  int32_t ground;         /* HF_GROUND_* */
+  double kernel_width;    /* width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that
+                            is more, up to 0.12 */
+  double scale; /* lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes
+                  when no pair is a foot */
   /* A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times the angle it is not
    * aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never. */
-  float alignment_angle;
+  double alignment_angle;
   /* Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y, forward +z). Lengths, and
    * right x up = forward, must hold within 1e-3. The library takes the nearest rotation. */
-  float source_axes[9];
-  float target_axes[9];
-  int32_t ground;    /* HF_GROUND_* */
-  uint32_t reserved; /* 0 */
+  double source_axes[9];
+  double target_axes[9];
   /* Poses in which the two bodies correspond: float[vertex_count][3] in each surface's unit, read by the call, or NULL
    * for the positions of the surface. A character bound in a crouch gets a standing pose here. Motion counts from these
    * poses; the fields stay those of the surfaces. */
@@ -75,11 +74,11 @@ typedef struct hf_transfer_desc {
 } hf_transfer_desc;
 
 /* Creates a transfer between two surfaces; both may be the same. Sets *out_transfer to NULL first. desc: NULL for
- * defaults. Errors: HF_ERROR_INVALID_HANDLE (index 0 source, 1 target), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+ * defaults. Errors: HF_ERROR_INVALID_OBJECT (index 0 source, 1 target), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
  * HF_ERROR_TOO_LARGE (index = vertex of a rest pose). Thread safety: reads the surfaces. Since 0.1. */
 HF_API hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,
                                     hf_transfer* out_transfer);
-/* Destroys a transfer. Ignores NULL and destroyed handles. Since 0.1. */
+/* Destroys a transfer. Ignores NULL and destroyed objects. Since 0.1. */
 HF_API void hf_transfer_destroy(hf_transfer transfer);
 
 /* The pairs to add. The regions of each surface are vertex lists, one after the other. */
@@ -100,7 +99,7 @@ typedef struct hf_pairs_desc {
  * too: give one with the last pairs you add. It changes no result. Errors: as hf_pose_add_handles, HF_ERROR_TOO_LARGE
  * (HF_PAIR_LIMIT), HF_ERROR_CANCELLED. Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_add_pairs(hf_transfer transfer, const hf_pairs_desc* pairs, uint32_t* out_pairs);
-/* Removes pairs by number. Errors: HF_ERROR_NO_SUCH_PAIR. Thread safety: changes `transfer`. Since 0.1. */
+/* Removes pairs by number. Errors: HF_ERROR_NOT_FOUND. Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_remove_pairs(hf_transfer transfer, uint32_t pair_count, const uint32_t* pairs);
 
 typedef struct hf_pair_info {
@@ -117,7 +116,7 @@ typedef struct hf_pair_info {
                              left and right may be exchanged */
 } hf_pair_info;
 /* Writes the info of a pair. The first call after a change of pairs solves the fields of all pairs, unless
- * hf_transfer_apply has done so. This changes no result. Errors: HF_ERROR_NO_SUCH_PAIR. Thread safety: reads
+ * hf_transfer_apply has done so. This changes no result. Errors: HF_ERROR_NOT_FOUND. Thread safety: reads
  * `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_pair(hf_transfer transfer, uint32_t pair, hf_pair_info* out_info);
 
@@ -141,17 +140,19 @@ HF_API hf_result hf_transfer_get_info(hf_transfer transfer, hf_transfer_info* ou
  * result is continuous in each dial. */
 typedef struct hf_transfer_dials {
   uint32_t struct_size;
-  float stride;     /* the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A
+  uint32_t reserved; /* 0 */
+  double stride;     /* the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A
                        planted foot does not slide. The body travels as much farther */
-  float hip_height; /* raises the pairs flagged HF_PAIR_TRUNK and HF_PAIR_ANCHOR by this share of their mean height at
-                       rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised */
+  double
+      hip_height_share; /* raises the pairs flagged HF_PAIR_TRUNK and HF_PAIR_ANCHOR by this share of their mean height
+                    at rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised */
   /* How far a limb follows the source, -1 to 1. 0 = neutral: it plays the source's motion from its own rest direction.
    * 1: it also takes the rest direction of the source's limb. -1: it does not move against its root. */
-  float neck_follow; /* pairs flagged HF_PAIR_NECK, together one limb */
-  float tail_follow; /* pairs flagged HF_PAIR_TAIL, together one limb */
-  float arm_space;   /* turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2
+  double neck_follow; /* pairs flagged HF_PAIR_NECK, together one limb */
+  double tail_follow; /* pairs flagged HF_PAIR_TAIL, together one limb */
+  double arm_space;   /* turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2
                         radians; 0 = neutral */
-  float long_follow; /* how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less,
+  double long_follow; /* how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less,
                         so that they move as far. 1: they make the whole turn. Between, a part may jump that turns by
                         half a turn against the part before it */
 } hf_transfer_dials;
@@ -197,7 +198,7 @@ typedef struct hf_transfer_frame {
  * rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules of the
  * ground come in continuously. HF_GROUND_OFF switches them off. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE
  * or HF_ERROR_TOO_LARGE (index = source vertex, or position in the holds; 1e15 boxes away), HF_ERROR_TOO_LARGE (holds),
- * HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held twice), HF_ERROR_UNSUPPORTED (holds with
+ * HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (a pair held twice), HF_ERROR_UNSUPPORTED (holds with
  * HF_TRANSFER_STRETCH). Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
@@ -208,9 +209,9 @@ HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame
  * a change of pairs solves fields. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_sinking(hf_transfer transfer, uint8_t* out_sinking);
 
-/* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With weight_count 4 the skin replays
+/* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin replays
  * hf_transfer_apply exactly, because that function also uses the four largest weights. Errors:
- * HF_ERROR_INVALID_ARGUMENT (weight_count), HF_ERROR_EMPTY (no pair), HF_ERROR_UNSUPPORTED (HF_TRANSFER_STRETCH).
+ * HF_ERROR_INVALID_ARGUMENT (influence_count), HF_ERROR_EMPTY (no pair), HF_ERROR_UNSUPPORTED (HF_TRANSFER_STRETCH).
  * Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* inout_skin);
 

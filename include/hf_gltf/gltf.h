@@ -3,7 +3,7 @@
  * hf_gltf is a library of its own beside hf. It calls nothing of hf: you pass its arrays to hf, and the results of hf
  * to it. Both have the same rules (hf/base.h): every function returns an hf_result, a failed call changes nothing,
  * structs start with struct_size, output arrays have a capacity and write a count. Every function can return
- * HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_BUSY, HF_ERROR_OUT_OF_MEMORY and
+ * HF_ERROR_INVALID_OBJECT, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_BUSY, HF_ERROR_OUT_OF_MEMORY and
  * HF_ERROR_TOO_SMALL; its comment lists the others. Functions with "get", "pose", "propose" or "write" read a model;
  * several threads can do that at once.
  *
@@ -72,7 +72,7 @@ typedef struct hf_gltf_mesh_desc {
  * 0.1. */
 HF_GLTF_API hf_result hf_gltf_model_create(const hf_gltf_mesh_desc* desc, hf_gltf_model* out_model);
 
-/* Destroys a model. Ignores NULL and destroyed handles. Pairs made of it stay valid. Thread safety: any thread. Since
+/* Destroys a model. Ignores NULL and destroyed objects. Pairs made of it stay valid. Thread safety: any thread. Since
  * 0.1. */
 HF_GLTF_API void hf_gltf_model_destroy(hf_gltf_model model);
 
@@ -168,10 +168,10 @@ HF_GLTF_API hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_
 typedef struct hf_gltf_skin_desc {
   uint32_t struct_size;
   uint32_t joint_count, frame_count;
-  uint32_t weight_count;      /* for each vertex, 1 to 8 */
+  uint32_t influence_count;      /* for each vertex, 1 to 8 */
   const char* name;           /* of the clip; UTF-8, or NULL */
   const double* pivots;       /* [joint_count][3] */
-  const uint32_t* joints;     /* [vertex_count][weight_count] */
+  const uint32_t* joints;     /* [vertex_count][influence_count] */
   const float* weights;       /* the same, not negative */
   const double* times;        /* [frame_count], increasing, from 0 on */
   const double* rotations;    /* [frame_count][joint_count][4]: x y z w */
@@ -219,7 +219,7 @@ HF_GLTF_API hf_result hf_gltf_pairs_propose(hf_gltf_model source, hf_gltf_model 
 HF_GLTF_API hf_result hf_gltf_pairs_read(hf_gltf_model source, hf_gltf_model target, const char* text,
                                          uint64_t byte_count, hf_gltf_pairs* out_pairs);
 
-/* Destroys pairs. Ignores NULL and destroyed handles. Thread safety: any thread. Since 0.1. */
+/* Destroys pairs. Ignores NULL and destroyed objects. Thread safety: any thread. Since 0.1. */
 HF_GLTF_API void hf_gltf_pairs_destroy(hf_gltf_pairs pairs);
 
 typedef struct hf_gltf_pairs_info {

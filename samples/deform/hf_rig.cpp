@@ -76,11 +76,11 @@ Command parse(Words words) {
 }
 
 // The joints' motions of the pose at present, appended to a clip.
-void append_frame(const Posable& posable, uint32_t weight_count, const std::vector<double>& pivots, SkinClip& clip) {
+void append_frame(const Posable& posable, uint32_t influence_count, const std::vector<double>& pivots, SkinClip& clip) {
   const size_t joints = pivots.size() / 3;
   std::vector<double> rotations(4 * joints), places(3 * joints), scales(3 * joints);
   hf_skin_info info = HF_INIT(hf_skin_info);
-  info.weight_count = weight_count;
+  info.influence_count = influence_count;
   info.joint_capacity = static_cast<uint32_t>(joints);
   info.rotations = rotations.data();
   info.translations = places.data();
@@ -97,7 +97,7 @@ void append_frame(const Posable& posable, uint32_t weight_count, const std::vect
   }
 }
 
-nlohmann::json describe(const Posable& posable, const SkinDescription& skin, uint32_t weight_count) {
+nlohmann::json describe(const Posable& posable, const SkinDescription& skin, uint32_t influence_count) {
   nlohmann::json out;
   for (const Posable::Live& live : posable.handles()) {
     hf_handle_info info = HF_INIT(hf_handle_info);
@@ -111,7 +111,7 @@ nlohmann::json describe(const Posable& posable, const SkinDescription& skin, uin
   }
   for (const SkinJoint& joint : skin.joints)
     out["joints"].push_back({{"name", joint.name}, {"pivot", {joint.pivot.x, joint.pivot.y, joint.pivot.z}}});
-  out["weights_per_vertex"] = weight_count;
+  out["weights_per_vertex"] = influence_count;
   out["vertex_joints"] = skin.vertex_joints;
   out["vertex_weights"] = skin.vertex_weights;
   for (const SkinClip& clip : skin.clips)
@@ -148,7 +148,7 @@ void run(const Command& command) {
   std::vector<double> pivots(3 * joints), axes(4 * joints);
   info.joint_capacity = info.joint_count;
   info.vertex_capacity = info.vertex_count;
-  info.weight_count = command.weights;
+  info.influence_count = command.weights;
   info.pivots = pivots.data();
   info.axes = axes.data();
   info.vertex_joints = skin.vertex_joints.data();

@@ -63,14 +63,14 @@ const char* reason_name(int32_t reason) {
 
 std::vector<ProposedHandle> propose(const PosableMesh& mesh, const Posable& posable, const glm::dvec3& up) {
   const Skeleton skeleton = skeleton_of(mesh.model);
-  hf_propose_desc desc = HF_INIT(hf_propose_desc);
+  hf_handle_proposals_desc desc = HF_INIT(hf_handle_proposals_desc);
   desc.joint_count = static_cast<uint32_t>(skeleton.parents.size());
   desc.joints = skeleton.places.data();
   desc.parents = skeleton.parents.data();
   for (int c = 0; c < 3; ++c) desc.up[c] = up[c];
   std::vector<hf_handle_proposal> found(HF_HANDLE_LIMIT);
   uint32_t count = 0;
-  expect_ok(hf_propose_handles(posable.surface(), &desc, HF_HANDLE_LIMIT, found.data(), &count), "the proposals");
+  expect_ok(hf_surface_propose_handles(posable.surface(), &desc, HF_HANDLE_LIMIT, found.data(), &count), "the proposals");
   found.resize(count);
   std::map<int32_t, int> numbers;
   std::vector<ProposedHandle> out;

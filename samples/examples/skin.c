@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   ok(hf_pose_get_skin(pose, &skin)); /* NULL arrays: the counts alone */
   skin.joint_capacity = skin.joint_count;
   skin.vertex_capacity = skin.vertex_count;
-  skin.weight_count = 4;
+  skin.influence_count = 4;
   skin.pivots = malloc(sizeof(double) * 3 * skin.joint_count);
   skin.rotations = malloc(sizeof(double) * 4 * skin.joint_count);
   skin.translations = malloc(sizeof(double) * 3 * skin.joint_count);

@@ -171,30 +171,41 @@ std::vector<hf_singularity> Session::singularities() const {
   return found;
 }
 
+Session::State Session::copy() const {
+  State state{nullptr, nullptr, sites_};
+  check(direction_ ? hf_direction_clone(direction_, &state.direction) : hf_solver_clone(solver_, &state.solver));
+  return state;
+}
+
+void Session::destroy(std::vector<State>& states) {
+  for (const State& state : states) {
+    hf_direction_destroy(state.direction);
+    hf_solver_destroy(state.solver);
+  }
+  states.clear();
+}
+
 void Session::apply(const Edit& edit) {
   if (edit.kind == Edit::Kind::undo || edit.kind == Edit::Kind::redo) {
-    const bool undo = edit.kind == Edit::Kind::undo;
-    if (direction_)
-      check(undo ? hf_direction_undo(direction_) : hf_direction_redo(direction_));
-    else
-      check(undo ? hf_solver_undo(solver_) : hf_solver_redo(solver_));
-    auto &from = undo ? undone_from_ : redone_from_, &to = undo ? redone_from_ : undone_from_;
-    to.push_back(sites_);
-    sites_ = from.back();
+    auto& from = edit.kind == Edit::Kind::undo ? past_ : undone_;
+    if (from.empty())
+      throw std::runtime_error(edit.kind == Edit::Kind::undo ? "there is no edit to undo" : "there is no edit to redo");
+    (edit.kind == Edit::Kind::undo ? undone_ : past_).push_back({solver_, direction_, sites_});
+    solver_ = from.back().solver;
+    direction_ = from.back().direction;
+    sites_ = from.back().sites;
     from.pop_back();
     return;
   }
-  check(direction_ ? hf_direction_record(direction_) : hf_solver_record(solver_));
-  const auto before = sites_;
+  std::vector<State> before{copy()};
   try {
     direction_ ? change_directions(edit) : change(edit);
   } catch (...) {
-    direction_ ? hf_direction_undo(direction_)
-               : hf_solver_undo(solver_);  // forgets the record; the failed edit has changed nothing
+    destroy(before);
     throw;
   }
-  undone_from_.push_back(before);
-  redone_from_.clear();
+  past_.push_back(before[0]);
+  destroy(undone_);
 }
 
 std::vector<double> Session::solve(hf_solve_info& info) const {

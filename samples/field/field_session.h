@@ -26,6 +26,8 @@ class Session {
  public:
   Session(const SurfaceMesh& mesh, const FieldOptions& options);
   ~Session() {
+    destroy(past_);
+    destroy(undone_);
     hf_direction_destroy(direction_);
     hf_solver_destroy(solver_);
     hf_surface_destroy(surface_);
@@ -78,7 +80,14 @@ class Session {
   size_t components_;
   std::vector<uint32_t> triangles_;  // of the file, where the surface has faces; empty otherwise
   Numbers sites_;
-  std::vector<Numbers> undone_from_, redone_from_;
+  struct State {
+    hf_solver solver;
+    hf_direction direction;
+    Numbers sites;
+  };
+  State copy() const;
+  static void destroy(std::vector<State>& states);
+  std::vector<State> past_, undone_;
 };
 
 // Proposes sites for an unknown mesh: its extremities. If a component has fewer than two, the vertex farthest from the

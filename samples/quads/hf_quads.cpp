@@ -31,7 +31,7 @@ namespace {
 
 const char* const usage =
     "usage: hf_quads MESH [--faces N] [--edge LENGTH] [--crease DEG] [--strokes FILE.json]\n"
-    "                [--poles FILE.json] [--symmetry x|y|z] [-o OUT] [--sheet FILE.png]\n"
+    "                [--irregular FILE.json] [--symmetry x|y|z] [-o OUT] [--sheet FILE.png]\n"
     "       hf_quads MESH --measure QUADS [--sheet FILE.png]\n"
     "  Makes a quad mesh of a .obj, .off, .ply, .stl or glTF surface, and prints what it is worth.\n"
     "  Edges follow smooth crosses along the curvature.\n"
@@ -42,10 +42,9 @@ const char* const usage =
     "  --strokes FILE {\"strokes\": [{\"points\": [[0, 1, 0.2], [0.1, 1, 0.3]], \"weight\": 1}]}: edges follow these "
     "lines,\n"
     "                 in the frame of the mesh; below 1 the curvature has a say\n"
-    "  --poles FILE   {\"poles\": [{\"point\": [0, 1, 0.2], \"quads\": 3, \"direction\": [1, 0, 0]}]}: 3 or 5 quads "
-    "meet "
-    "there;\n"
-    "                 one side of the pole runs along the direction, which may be missing\n"
+    "  --irregular FILE\n"
+    "                 {\"irregular\": [{\"point\": [0, 1, 0.2], \"valence\": 3, \"direction\": [1, 0, 0]}]}: 3 or 5 quads\n"
+    "                 meet there; one of its sides runs along the direction, which may be missing\n"
     "  --symmetry x   the side where x (or y, or z) is positive gets quads, the other side is its mirror image; the\n"
     "                 plane goes through 0, and --symmetry x=0.25 moves it\n"
     "  --relax N      rounds of tangential relaxation (60; 0 for none)\n"
@@ -58,7 +57,7 @@ const char* const usage =
     "  --memory-limit N refuse a surface that holds more than N MiB (default: by the size)\n";
 
 struct Command {
-  std::filesystem::path mesh, strokes, poles, measured, out, sheet;
+  std::filesystem::path mesh, strokes, irregular, measured, out, sheet;
   double plane[4] = {0, 0, 0, 0};              // of symmetry; 0: none
   double edge = 0;                             // 0: the default; below 0: a share of the box diagonal
   uint32_t relax = 60, faces = 0, crease = 0;  // crease in degrees
@@ -107,8 +106,8 @@ Command parse(Words words) {
       out.crease = words.whole(1, 180);
     } else if (words.is("--strokes")) {
       out.strokes = words.file();
-    } else if (words.is("--poles")) {
-      out.poles = words.file();
+    } else if (words.is("--irregular")) {
+      out.irregular = words.file();
     } else if (words.is("--symmetry")) {
       read_symmetry(words.value(), out.plane);
     } else if (words.is("--relax")) {
@@ -308,10 +307,9 @@ void run(const Command& options) {
 
   auto desc = hf::make<hf_quads_desc>();
   desc.face_count = options.faces;
-  desc.crease_angle = static_cast<float>(options.crease);
+  desc.crease_angle = glm::radians(static_cast<double>(options.crease));
   desc.relax_count = options.relax ? options.relax : HF_NO_INDEX;
-  desc.edge_length = static_cast<float>(options.edge < 0 ? -options.edge * diagonal : options.edge);
-  if (options.edge != 0 && desc.edge_length == 0) throw std::runtime_error("--edge is too short for any mesh");
+  desc.edge_length = options.edge < 0 ? -options.edge * diagonal : options.edge;
   Guides guides;
   if (!options.strokes.empty()) guides = read_strokes(options.strokes, surface, mean_edge(input));
   desc.guide_count = static_cast<uint32_t>(guides.vertices.size());
@@ -320,13 +318,13 @@ void run(const Command& options) {
     desc.guide_vectors = guides.vectors.data();
     desc.guide_weights = guides.weights.data();
   }
-  Poles poles;
-  if (!options.poles.empty()) poles = read_poles(options.poles);
-  desc.pole_count = static_cast<uint32_t>(poles.quads.size());
-  if (desc.pole_count) {
-    desc.pole_points = poles.points.data();
-    desc.pole_quads = poles.quads.data();
-    desc.pole_directions = poles.directions.data();
+  IrregularVertices irregular;
+  if (!options.irregular.empty()) irregular = read_irregular(options.irregular);
+  desc.irregular_count = static_cast<uint32_t>(irregular.valences.size());
+  if (desc.irregular_count) {
+    desc.irregular_points = irregular.points.data();
+    desc.irregular_valences = irregular.valences.data();
+    desc.irregular_directions = irregular.directions.data();
   }
   std::copy(options.plane, options.plane + 4, desc.symmetry_plane);
 
@@ -342,12 +340,12 @@ void run(const Command& options) {
   mesh.face_sizes.assign(quads.info.face_count, 4);
   mesh.face_vertices = quads.faces;
 
-  const QuadReport report = measure_quads(mesh, static_cast<double>(quads.info.edge_length));
+  const QuadReport report = measure_quads(mesh, quads.info.edge_length);
   const bool valid = report.each_directed_edge_once && report.no_repeated_corner &&
                      report.euler_characteristic == quads.info.euler_characteristic;
   std::printf("quads       %u vertices, %u faces in %.2f s; edge length %.6g (%.2f %% of the box)\n", report.vertices,
-              report.faces, seconds, static_cast<double>(quads.info.edge_length),
-              100 * static_cast<double>(quads.info.edge_length) / diagonal);
+              report.faces, seconds, quads.info.edge_length,
+              100 * quads.info.edge_length / diagonal);
   print_figures(input, diagonal, mesh, report, quads.info.euler_characteristic);
   if (options.edge != 0 && report.faces < too_few * wanted)
     std::printf(
@@ -355,7 +353,7 @@ void run(const Command& options) {
         "too thin\n",
         report.faces, wanted);
   if (options.crease > 0)
-    print_creases(measure_creases(input, options.crease, mesh, static_cast<double>(quads.info.edge_length)));
+    print_creases(measure_creases(input, options.crease, mesh, quads.info.edge_length));
   if (!options.out.empty()) {
     write(options, model, input, mesh, quads);
     std::printf("wrote       %s\n", options.out.c_str());

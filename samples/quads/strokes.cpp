@@ -20,8 +20,8 @@ glm::dvec3 read_point(const JsonReader& json) {
   return {json.at(0).number(), json.at(1).number(), json.at(2).number()};
 }
 
-// The most poles that the library takes.
-constexpr size_t most_poles = 1000;
+// The most irregular vertices that the library takes.
+constexpr size_t most_irregular = 1000;
 
 }  // namespace
 
@@ -57,26 +57,26 @@ Guides read_strokes(const std::filesystem::path& file, const hf::Surface& surfac
   return out;
 }
 
-Poles read_poles(const std::filesystem::path& file) {
-  Poles out;
+IrregularVertices read_irregular(const std::filesystem::path& file) {
+  IrregularVertices out;
   const JsonFile json(file);
-  json.root().expect_only({"poles"});
-  const JsonReader list = json.root().at("poles");
-  if (list.size() == 0) list.fail("no pole is named");
-  if (list.size() > most_poles) list.fail("there are more than 1,000 poles");
+  json.root().expect_only({"irregular"});
+  const JsonReader list = json.root().at("irregular");
+  if (list.size() == 0) list.fail("no irregular vertex is named");
+  if (list.size() > most_irregular) list.fail("there are more than 1,000 irregular vertices");
   for (size_t i = 0; i < list.size(); ++i) {
-    const JsonReader pole = list.at(i);
-    pole.expect_only({"point", "quads", "direction"});
-    const glm::dvec3 point = read_point(pole.at("point"));
-    const double quads = pole.at("quads").number();
-    if (quads != 3 && quads != 5) pole.at("quads").fail("3 or 5 quads meet at a pole");
+    const JsonReader entry = list.at(i);
+    entry.expect_only({"point", "valence", "direction"});
+    const glm::dvec3 point = read_point(entry.at("point"));
+    const double valence = entry.at("valence").number();
+    if (valence != 3 && valence != 5) entry.at("valence").fail("3 or 5 quads meet at an irregular vertex");
     glm::dvec3 way(0);
-    if (pole.has("direction")) {
-      way = read_point(pole.at("direction"));
-      if (!(length(way) > 0)) pole.at("direction").fail("the direction is 0; leave it out for any");
+    if (entry.has("direction")) {
+      way = read_point(entry.at("direction"));
+      if (!(length(way) > 0)) entry.at("direction").fail("the direction is 0; leave it out for any");
     }
     out.points.insert(out.points.end(), {point.x, point.y, point.z});
-    out.quads.push_back(static_cast<uint32_t>(quads));
+    out.valences.push_back(static_cast<uint32_t>(valence));
     out.directions.insert(out.directions.end(), {way.x, way.y, way.z});
   }
   return out;

@@ -1,4 +1,4 @@
-// Strokes and poles of an artist: lines over a surface that quads follow, and irregular vertices at chosen places.
+// Strokes and irregular vertices of an artist: lines over a surface that quads follow, and irregular vertices at chosen places.
 #pragma once
 #include <filesystem>
 
@@ -18,15 +18,15 @@ struct Guides {
 // file and the place in it.
 Guides read_strokes(const std::filesystem::path& file, const hf::Surface& surface, double edge);
 
-// The poles of hf_quads_desc.
-struct Poles {
+// The irregular vertices of hf_quads_desc.
+struct IrregularVertices {
   std::vector<double> points;  // three each
-  std::vector<uint32_t> quads;
+  std::vector<uint32_t> valences;
   std::vector<double> directions;  // three each; 0 0 0: any
 };
 
-// Reads {"poles": [{"point": [x, y, z], "quads": 3, "direction": [x, y, z]}]}: in the frame of the surface; quads is 3
+// Reads {"irregular": [{"point": [x, y, z], "valence": 3, "direction": [x, y, z]}]}: in the frame of the surface; the valence is 3
 // or 5, and the direction may be missing. Throws std::runtime_error with the file and the place in it.
-Poles read_poles(const std::filesystem::path& file);
+IrregularVertices read_irregular(const std::filesystem::path& file);
 
 }  // namespace samples

@@ -40,7 +40,7 @@ FlatSurface::FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t
   desc.positions_f64 = positions.data();
   desc.triangles = mesh.triangles.data();
   desc.weld = HF_WELD_TOLERANCE;
-  desc.weld_tolerance = static_cast<float>(1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20}));
+  desc.weld_tolerance = 1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20});
   desc.thread_count = threads;
   desc.links = links;
   if (paper) desc.operator_kind = HF_OPERATOR_COTANGENT;

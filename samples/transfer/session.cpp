@@ -24,11 +24,11 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-void copy_axes(const Axes& axes, float (&rows)[9]) {
+void copy_axes(const Axes& axes, double (&rows)[9]) {
   for (int c = 0; c < 3; ++c) {
-    rows[c] = static_cast<float>(axes.right[c]);
-    rows[3 + c] = static_cast<float>(axes.up[c]);
-    rows[6 + c] = static_cast<float>(axes.forward[c]);
+    rows[c] = axes.right[c];
+    rows[3 + c] = axes.up[c];
+    rows[6 + c] = axes.forward[c];
   }
 }
 
@@ -85,12 +85,12 @@ void Session::create(uint32_t threads, bool links, ProgressBar& bar) {
   hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
   desc.mode = settings.paper ? HF_TRANSFER_PAPER : settings.stretch ? HF_TRANSFER_STRETCH : HF_TRANSFER_FIELDS;
   desc.cluster_count = settings.clusters;
-  desc.kernel_width = static_cast<float>(settings.width);
+  desc.kernel_width = settings.width;
   // the paper measures the legs by its fields
   const double legs = settings.paper ? 0.0 : leg_scale(source_known_, target_known_);
-  desc.scale = static_cast<float>(settings.scale > 0 ? settings.scale : legs);
+  desc.scale = settings.scale > 0 ? settings.scale : legs;
   if (settings.scale > 0 || legs > 0) scale_from_ = settings.scale > 0 ? "the pairs file" : "the legs of the skeletons";
-  desc.alignment_angle = static_cast<float>(settings.alignment_degrees * degree);
+  desc.alignment_angle = settings.alignment_degrees * degree;
   desc.ground = ground_ ? HF_GROUND_KEEP : HF_GROUND_OFF;
   copy_axes(file_.source_axes, desc.source_axes);
   copy_axes(file_.target_axes, desc.target_axes);
@@ -104,12 +104,12 @@ void Session::create(uint32_t threads, bool links, ProgressBar& bar) {
 
 void Session::set_dials(const TransferDials& dials) {
   hf_transfer_dials set = HF_INIT(hf_transfer_dials);
-  set.stride = static_cast<float>(dials.stride);
-  set.hip_height = static_cast<float>(dials.hip_height);
-  set.neck_follow = static_cast<float>(dials.neck_follow);
-  set.tail_follow = static_cast<float>(dials.tail_follow);
-  set.arm_space = static_cast<float>(dials.arm_space_degrees * degree);
-  set.long_follow = static_cast<float>(dials.long_follow);
+  set.stride = dials.stride;
+  set.hip_height_share = dials.hip_height_share;
+  set.neck_follow = dials.neck_follow;
+  set.tail_follow = dials.tail_follow;
+  set.arm_space = dials.arm_space_degrees * degree;
+  set.long_follow = dials.long_follow;
   check(hf_transfer_set_dials(transfer_, &set), "the dials");
   file_.dials = dials;
 }
@@ -398,7 +398,7 @@ SkinDescription Session::skin() {
   out.vertex_joints.resize(size_t{4} * target_flat_.vertex_count());
   out.vertex_weights.resize(out.vertex_joints.size());
   hf_skin_info info = HF_INIT(hf_skin_info);
-  info.weight_count = 4;
+  info.influence_count = 4;
   info.joint_capacity = joints;
   info.vertex_capacity = target_flat_.vertex_count();
   info.pivots = pivots.data();
@@ -482,7 +482,7 @@ std::vector<std::string> Session::warnings() {
     double value;
     uint32_t flag;
     const char *dial, *kind;
-  } turned[] = {{file_.dials.hip_height, HF_PAIR_TRUNK, "hip_height", "a trunk pair"},
+  } turned[] = {{file_.dials.hip_height_share, HF_PAIR_TRUNK, "hip_height_share", "a trunk pair"},
                 {file_.dials.neck_follow, HF_PAIR_NECK, "neck_follow", "of the limb \"neck\""},
                 {file_.dials.tail_follow, HF_PAIR_TAIL, "tail_follow", "of the limb \"tail\""},
                 {file_.dials.arm_space_degrees, HF_PAIR_ARM, "arm_space_degrees", "of the limb \"arm\""}};

@@ -99,7 +99,7 @@ const char* usage() {
          "  --source FILE --target FILE --poses FILES  meshes: posed copies of the source instead of a clip\n"
          "  --contacts LIST pairs or joints that touch the ground, with commas; none; found when not given\n"
          "  --sinking LIST  pairs whose limb may sink into the ground, with commas\n"
-         "  --dials LIST    stride=1.2,hip_height=-0.1,neck_follow=1,tail_follow=-0.5,arm_space_degrees=10,"
+         "  --dials LIST    stride=1.2,hip_height_share=-0.1,neck_follow=1,tail_follow=-0.5,arm_space_degrees=10,"
          "long_follow=1: see README.md\n"
          "  --in-place      the clip stays where it begins: its straight travel along the ground is taken out\n"
          "  --root-motion   that travel goes to the topmost node over the target's joints, and the body stays in place "

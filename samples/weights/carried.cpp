@@ -15,18 +15,18 @@ namespace {
 
 hf::VertexWeights given_of(const Rig& rig) {
   hf::VertexWeights out;
-  out.weight_count = rig.given.per_vertex;
+  out.influence_count = rig.given.per_vertex;
   out.joints = rig.given.joints;
   out.weights = rig.given.weights;
   return out;
 }
 
 RigWeights taken(hf::VertexWeights found) {
-  return {found.weight_count, std::move(found.joints), std::move(found.weights)};
+  return {found.influence_count, std::move(found.joints), std::move(found.weights)};
 }
 
 const char* const pairing_names[] = {"alone", "named", "placed", "centre", "given"};
-const char* const plane_names[] = {"given", "bones", "surface"};
+const char* const plane_names[] = {"given", "joints", "surface"};
 
 }  // namespace
 
@@ -41,7 +41,7 @@ hf::Surface surface_of(const Rig& rig, const std::vector<glm::dvec3>& points) {
   return hf::Surface(desc);
 }
 
-CarriedWeights carry_from(const Model& from, const Model& model, const Rig& rig, uint32_t weight_count) {
+CarriedWeights carry_from(const Model& from, const Model& model, const Rig& rig, uint32_t influence_count) {
   // World space at rest: the bind spaces of two files can differ.
   const auto at_rest = [](const Model& whose, const Rig& own) {
     return surface_of(own, pose_rig(own, global_matrices(whose, rest_pose(whose)), own.given));
@@ -58,30 +58,30 @@ CarriedWeights carry_from(const Model& from, const Model& model, const Rig& rig,
   }
   hf::VertexWeights given = given_of(source);
   for (size_t i = 0; i < given.joints.size(); ++i) given.joints[i] = given.weights[i] > 0 ? number[given.joints[i]] : 0;
-  auto options = hf::make<hf_carry_desc>();
-  options.weight_count = weight_count;
-  auto info = hf::make<hf_carry_info>();
+  auto options = hf::make<hf_weights_transfer_desc>();
+  options.influence_count = influence_count;
+  auto info = hf::make<hf_weights_transfer_info>();
   CarriedWeights out;
-  out.weights = taken(hf::carry_weights(at_rest(from, source), given, at_rest(model, rig), options, &info));
+  out.weights = taken(hf::transfer_weights(at_rest(from, source), given, at_rest(model, rig), options, &info));
   out.report = {{"from", from.name},
                 {"matched", info.matched_count},
                 {"solved", info.solved_count},
-                {"carried", info.carried_count},
+                {"carried", info.nearest_count},
                 {"rigid", info.rigid_count},
                 {"isolated", info.isolated_count},
-                {"islands", info.guessed_island_count}};
+                {"pieces", info.guessed_piece_count}};
   char line[200];
   std::snprintf(line, sizeof line, "carried      %u matched, %u filled in; guessed: %u carried, %u rigid, %u isolated",
-                info.matched_count, info.solved_count, info.carried_count, info.rigid_count, info.isolated_count);
+                info.matched_count, info.solved_count, info.nearest_count, info.rigid_count, info.isolated_count);
   out.line = line;
   return out;
 }
 
-CarriedWeights mirror_given(const hf::Surface& surface, const Rig& rig, int32_t to, uint32_t weight_count) {
-  auto options = hf::make<hf_mirror_desc>();
-  options.weight_count = weight_count;
+CarriedWeights mirror_given(const hf::Surface& surface, const Rig& rig, int32_t to, uint32_t influence_count) {
+  auto options = hf::make<hf_weights_mirror_desc>();
+  options.influence_count = influence_count;
   options.to = to;
-  auto info = hf::make<hf_mirror_info>();
+  auto info = hf::make<hf_weights_mirror_info>();
   std::vector<uint32_t> partners, pairings;
   CarriedWeights out;
   out.weights = taken(
@@ -90,12 +90,12 @@ CarriedWeights mirror_given(const hf::Surface& surface, const Rig& rig, int32_t 
   out.report = {{"plane", plane_names[info.plane_from]},
                 {"point", {info.point[0], info.point[1], info.point[2]}},
                 {"normal", {info.normal[0], info.normal[1], info.normal[2]}},
-                {"bones_off", {{"mean", unit * info.bone_off}, {"worst", unit * info.worst_bone_off}}},
+                {"joints_off", {{"mean", unit * info.joint_off}, {"worst", unit * info.worst_joint_off}}},
                 {"vertices_off", {{"mean", unit * info.vertex_off}, {"worst", unit * info.worst_vertex_off}}},
                 {"kept", info.kept_count},
                 {"matched", info.matched_count},
                 {"solved", info.solved_count},
-                {"carried", info.carried_count},
+                {"carried", info.nearest_count},
                 {"rigid", info.rigid_count}};
   out.report["pairs"] = nlohmann::json::array();
   for (size_t b = 0; b < partners.size(); ++b)
@@ -108,8 +108,8 @@ CarriedWeights mirror_given(const hf::Surface& surface, const Rig& rig, int32_t 
       "off\nvertices     %u kept, %u matched, %u filled in, %u guessed; off the surface: mean %.3f %%, worst "
       "%.2f %%",
       plane_names[info.plane_from], info.named_count, info.placed_count, info.centre_count, info.alone_count,
-      unit * info.worst_bone_off, info.kept_count, info.matched_count, info.solved_count,
-      info.carried_count + info.rigid_count, unit * info.vertex_off, unit * info.worst_vertex_off);
+      unit * info.worst_joint_off, info.kept_count, info.matched_count, info.solved_count,
+      info.nearest_count + info.rigid_count, unit * info.vertex_off, unit * info.worst_vertex_off);
   out.line = line;
   return out;
 }

@@ -58,7 +58,7 @@ void set_pins(hf::Weights& weights, const PinFile& pins) {
   desc.pin_count = static_cast<uint32_t>(pins.vertices.size());
   desc.vertices = pins.vertices.data();
   desc.radii = pins.radii.data();
-  desc.joint_count = 8;
+  desc.influence_count = 8;
   desc.joints = pins.joints.data();
   desc.weights = pins.weights.data();
   weights.set_pins(desc);
@@ -66,7 +66,7 @@ void set_pins(hf::Weights& weights, const PinFile& pins) {
 
 RigWeights weights_of(const hf::Weights& weights) {
   hf::VertexWeights computed = weights.weights();
-  return {computed.weight_count, std::move(computed.joints), std::move(computed.weights)};
+  return {computed.influence_count, std::move(computed.joints), std::move(computed.weights)};
 }
 
 namespace {
@@ -134,7 +134,7 @@ bool try_pins(hf::Weights& weights, const PinFile& pins) {
   try {
     set_pins(weights, pins);
   } catch (const hf::Error& error) {
-    if (error.code() != HF_ERROR_DUPLICATE_SITE) throw;
+    if (error.code() != HF_ERROR_DUPLICATE) throw;
     return false;
   }
   return true;

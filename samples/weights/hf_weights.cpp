@@ -192,10 +192,10 @@ nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weigh
                          double surface_ms, double weights_ms) {
   // A moved bone and a pin, each with the new weights out.
   hf::Weights edited = weights.clone();
-  hf::Bones moved = rig.bones;
+  hf::Joints moved = rig.bones;
   moved.heads[0] += 0.01 * rig.diagonal;
   const auto begin = std::chrono::steady_clock::now();
-  edited.set_bones(moved);
+  edited.set_joints(moved);
   edited.weights();
   const double bone_ms = milliseconds(begin);
   PinFile pin;
@@ -216,10 +216,10 @@ nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weigh
   out["milliseconds"] = {{"surface", surface_ms}, {"weights", weights_ms}, {"bone", bone_ms}, {"pin", pin_ms}};
   out["found"] = {
       {"informed", info.informed_count},      {"solved", info.solved_count}, {"pinned", info.pinned_count},
-      {"carried", info.carried_count},        {"rigid", info.rigid_count},   {"isolated", info.isolated_count},
-      {"islands", info.carried_island_count}, {"blind", info.blind}};
+      {"carried", info.nearest_count},        {"rigid", info.rigid_count},   {"isolated", info.isolated_count},
+      {"pieces", info.nearest_piece_count}, {"blind", info.blind}};
   std::vector<uint32_t> counts;
-  const std::vector<uint32_t> flags = weights.bones(&counts);
+  const std::vector<uint32_t> flags = weights.joints(&counts);
   const std::vector<uint32_t> reasons = weights.helpers(rig.names);
   out["bones"] = nlohmann::json::array();
   for (size_t j = 0; j < rig.joint_count(); ++j)
@@ -296,7 +296,7 @@ Made make_weights(const Command& options, const Model& model, Rig& rig, bool giv
   if (options.table) {
     std::printf("%-26s %6u %4zu %7.3f %7.3f %6.3f %4u %5u %5u %7.1f %7.1f\n", name.c_str(), info.vertex_count,
                 rig.joint_count(), found.mean, found.high, found.stretch, found.bare,
-                info.carried_count + info.rigid_count, info.isolated_count, surface_ms, weights_ms);
+                info.nearest_count + info.rigid_count, info.isolated_count, surface_ms, weights_ms);
   } else {
     std::printf("%s: %u vertices, %zu joints, %zu poses\n", name.c_str(), info.vertex_count, rig.joint_count(),
                 poses.size());
@@ -310,7 +310,7 @@ Made make_weights(const Command& options, const Model& model, Rig& rig, bool giv
     if (!carried.line.empty()) std::printf("%s\n", carried.line.c_str());
     std::printf(
         "vertices     %u informed, %u solved, %u pinned; guessed: %u carried, %u rigid, %u isolated; bare: %u\n",
-        info.informed_count, info.solved_count, info.pinned_count, info.carried_count, info.rigid_count,
+        info.informed_count, info.solved_count, info.pinned_count, info.nearest_count, info.rigid_count,
         info.isolated_count, found.bare);
     std::printf("bones        %u without length, %u coincident, %u inform none, %u outside, %u look like helpers\n",
                 info.no_length_count, info.coincident_count, info.informs_none_count, info.outside_count,

@@ -37,7 +37,7 @@ struct Rig {
   size_t end_count = 0;        // nodes in no skin that say where their parents end, as exporters write tails
   std::vector<std::string> names;
   std::vector<glm::dmat4> inverse_bind;  // from the bind space of the first skin
-  hf::Bones bones;                       // heads and parents of the joints; a joint deforms if a vertex has it
+  hf::Joints bones;                       // heads and parents of the joints; a joint deforms if a vertex has it
   RigWeights given;                      // the weights of the file
   double diagonal = 0;                   // of the box of positions that are not loose
 };

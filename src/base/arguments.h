@@ -86,7 +86,7 @@ inline Rows rows_of(float* f32, double* f64, std::size_t width, std::uint32_t st
 // Returns the weights of a vertex that a caller asks for: 4 or 8; 0 stands for 4.
 inline std::int32_t weights_per_vertex(std::uint32_t given) {
   if (given != 0 && given != 4 && given != 8)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4", given);
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "influence_count is %u; it must be 4 or 8, or 0 for 4", given);
   return given == 8 ? 8 : 4;
 }
 

@@ -103,7 +103,7 @@ void log_map(const GeodesicsObject& object, const hf_surface_point* centre, doub
 }
 
 Extremities search(const std::shared_ptr<const Core>& core, const hf_extremities_desc& desc) {
-  const double least = static_cast<double>(desc.least_length);
+  const double least = desc.least_length_share;
   if (desc.kind == HF_EXTREMITIES_POISSON) return poisson_extremities(*core, least);
   const std::int32_t sources = static_cast<std::int32_t>(desc.source_count);
   if (!desc.geodesics) return geodesic_extremities(core, default_smoothing, sources, least);

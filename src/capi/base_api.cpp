@@ -55,23 +55,18 @@ const char* hf_result_get_name(hf_result result) {
       {HF_OK, "HF_OK"},
       {HF_ERROR_INVALID_ARGUMENT, "HF_ERROR_INVALID_ARGUMENT"},
       {HF_ERROR_NULL_POINTER, "HF_ERROR_NULL_POINTER"},
-      {HF_ERROR_INVALID_HANDLE, "HF_ERROR_INVALID_HANDLE"},
+      {HF_ERROR_INVALID_OBJECT, "HF_ERROR_INVALID_OBJECT"},
       {HF_ERROR_INVALID_DESC, "HF_ERROR_INVALID_DESC"},
       {HF_ERROR_OUT_OF_RANGE, "HF_ERROR_OUT_OF_RANGE"},
       {HF_ERROR_NON_FINITE, "HF_ERROR_NON_FINITE"},
       {HF_ERROR_EMPTY, "HF_ERROR_EMPTY"},
-      {HF_ERROR_DUPLICATE_SITE, "HF_ERROR_DUPLICATE_SITE"},
-      {HF_ERROR_NO_SUCH_SITE, "HF_ERROR_NO_SUCH_SITE"},
+      {HF_ERROR_DUPLICATE, "HF_ERROR_DUPLICATE"},
+      {HF_ERROR_NOT_FOUND, "HF_ERROR_NOT_FOUND"},
       {HF_ERROR_CONFLICT, "HF_ERROR_CONFLICT"},
-      {HF_ERROR_NO_SITES, "HF_ERROR_NO_SITES"},
-      {HF_ERROR_NO_SUCH_HANDLE, "HF_ERROR_NO_SUCH_HANDLE"},
-      {HF_ERROR_NO_SUCH_PAIR, "HF_ERROR_NO_SUCH_PAIR"},
-      {HF_ERROR_OVERLAP, "HF_ERROR_OVERLAP"},
       {HF_ERROR_UNSUPPORTED, "HF_ERROR_UNSUPPORTED"},
       {HF_ERROR_BUSY, "HF_ERROR_BUSY"},
       {HF_ERROR_REENTRANT, "HF_ERROR_REENTRANT"},
       {HF_ERROR_TOO_SMALL, "HF_ERROR_TOO_SMALL"},
-      {HF_ERROR_NO_RECORD, "HF_ERROR_NO_RECORD"},
       {HF_ERROR_OUT_OF_MEMORY, "HF_ERROR_OUT_OF_MEMORY"},
       {HF_ERROR_TOO_LARGE, "HF_ERROR_TOO_LARGE"},
       {HF_ERROR_CANCELLED, "HF_ERROR_CANCELLED"},
@@ -99,11 +94,11 @@ hf_result hf_progress_create(hf_progress* out_progress) {
 
 void hf_progress_destroy(hf_progress progress) { destroy<ProgressObject>(progress); }
 
-hf_result hf_progress_get_fraction(hf_progress progress, float* out_fraction) {
+hf_result hf_progress_get_fraction(hf_progress progress, double* out_fraction) {
   return guarded("hf_progress_get_fraction", [&] {
     const auto object = get<ProgressObject>(progress, "progress");
     require(out_fraction, "out_fraction");
-    *out_fraction = object->progress.fraction();
+    *out_fraction = static_cast<double>(object->progress.fraction());
   });
 }
 

@@ -86,18 +86,6 @@ hf_result hf_direction_clone(hf_direction handle, hf_direction* out_direction) {
   return clone_object<DirectionObject>("hf_direction_clone", handle, "direction", out_direction, "out_direction");
 }
 
-hf_result hf_direction_record(hf_direction handle) {
-  return guarded("hf_direction_record", [&] { change(handle, [](DirectionField& field) { field.record(); }); });
-}
-
-hf_result hf_direction_undo(hf_direction handle) {
-  return guarded("hf_direction_undo", [&] { change(handle, [](DirectionField& field) { field.undo(); }); });
-}
-
-hf_result hf_direction_redo(hf_direction handle) {
-  return guarded("hf_direction_redo", [&] { change(handle, [](DirectionField& field) { field.redo(); }); });
-}
-
 void hf_direction_destroy(hf_direction direction) { destroy<DirectionObject>(direction); }
 
 hf_result hf_direction_add_sites(hf_direction handle, uint32_t site_count, const uint32_t* vertices,

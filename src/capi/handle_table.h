@@ -1,6 +1,6 @@
 // The table behind all handles. It is the only state that all threads of a process share. A handle is no pointer. It
 // encodes the kind of object, a generation and an index. Functions answer a stale, foreign or destroyed handle with
-// HF_ERROR_INVALID_HANDLE. A generation is used again only after 2^32 objects, or 2^15 on 32-bit hosts. An empty table
+// HF_ERROR_INVALID_OBJECT. A generation is used again only after 2^32 objects, or 2^15 on 32-bit hosts. An empty table
 // holds no memory, so unloading the library leaks nothing.
 #pragma once
 #include <atomic>
@@ -83,12 +83,12 @@ std::shared_ptr<Object> find(std::uintptr_t handle, Kind kind) noexcept;
 // Takes an object out of the table. The last call that uses the object destroys it.
 std::shared_ptr<Object> remove(std::uintptr_t handle, Kind kind) noexcept;
 
-// Returns the object behind a handle of the host, or throws HF_ERROR_INVALID_HANDLE. T::kind_of is the kind of handle.
+// Returns the object behind a handle of the host, or throws HF_ERROR_INVALID_OBJECT. T::kind_of is the kind of handle.
 template <class T, class Handle>
 std::shared_ptr<T> get(Handle handle, const char* name, std::uint32_t index = HF_NO_INDEX) {
   std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(handle), T::kind_of);
   if (!object)
-    fail(HF_ERROR_INVALID_HANDLE, index, "%s is %s; pass a live handle", name,
+    fail(HF_ERROR_INVALID_OBJECT, index, "%s is %s; pass a live handle", name,
          handle ? "stale, destroyed or of another kind" : "NULL");
   return std::static_pointer_cast<T>(std::move(object));
 }

@@ -16,7 +16,7 @@ hf_link written(const Link& link, const Mesh& mesh) noexcept {
     out.barycentrics[k] = link.share[k];
   }
   out.length = mesh.scale * link.length;
-  out.weight = static_cast<float>(link.weight);
+  out.weight = link.weight;
   out.in_tree = link.tree;
   return out;
 }

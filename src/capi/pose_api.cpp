@@ -143,7 +143,7 @@ hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* given, hf_pose*
     options.mode = static_cast<DeformMode>(desc.mode);
     options.band_count = desc.band_count;
     options.iteration_count = desc.iteration_count;
-    options.samples_per_ring = desc.samples_per_ring;
+    options.rim_site_count = desc.rim_site_count;
     options.group_count = desc.group_count;
     return make_object(PoseStack::make(core, options));
   });
@@ -169,7 +169,7 @@ hf_result hf_pose_get_info(hf_pose handle, hf_pose_info* out_info) {
     info.mode = options.mode == DeformMode::paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH;
     info.band_count = options.band_count;
     info.iteration_count = options.iteration_count;
-    info.samples_per_ring = options.samples_per_ring;
+    info.rim_site_count = options.rim_site_count;
     info.group_count = options.group_count;
     info.handle_count = pose->pose->handle_count();
     info.vertex_count = pose->pose->core().mesh.report.vertex_count;
@@ -291,12 +291,12 @@ hf_result hf_pose_get_skin(hf_pose handle, hf_skin_info* inout_skin) {
     const Pose& base = pose->pose->base();
     if (base.handle_count() == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
     const Mesh& mesh = base.core().mesh;
-    const Skin skin = make_skin(base, out.weight_count(), out.wants_scales(), *pose->memory);
+    const Skin skin = make_skin(base, out.influence_count(), out.wants_scales(), *pose->memory);
     out.write_counts(skin.pivot.size(), mesh.report.vertex_count);
     for (std::size_t j = 0; j < skin.pivot.size(); ++j)
       out.write_joint(j, skin.pivot[j], skin.rotation[j], skin.place[j], skin.axes[j], skin.stretch[j]);
     out.write_vertices(mesh, [&](std::int32_t inner, std::uint32_t* joints, float* weights) {
-      skin_weights(base, inner == Mesh::none ? -1 : inner, out.weight_count(), joints, weights);
+      skin_weights(base, inner == Mesh::none ? -1 : inner, out.influence_count(), joints, weights);
     });
   });
 }

@@ -1,4 +1,4 @@
-// Implements hf_propose_handles of hf/pose.h.
+// Implements hf_surface_propose_handles of hf/pose.h.
 #include "capi/objects.h"
 #include "capi/vertex_writer.h"
 #include "deform/intake.h"
@@ -7,11 +7,11 @@
 using namespace hf_inner;
 using namespace hf_inner::capi;
 
-extern "C" hf_result hf_propose_handles(hf_surface handle, const hf_propose_desc* given, uint32_t capacity,
+extern "C" hf_result hf_surface_propose_handles(hf_surface handle, const hf_handle_proposals_desc* given, uint32_t capacity,
                                         hf_handle_proposal* out_proposals, uint32_t* out_count) {
-  return guarded("hf_propose_handles", [&] {
+  return guarded("hf_surface_propose_handles", [&] {
     const std::shared_ptr<const Core> shared = harmonic_core(handle, "proposed handles");
-    const hf_propose_desc desc = read_optional(given, "desc");
+    const hf_handle_proposals_desc desc = read_optional(given, "desc");
     const ProposalOptions options = read_proposal_options(desc);
     require_either(out_proposals, out_count, "out_proposals and out_count");
     const Core& core = *shared;

@@ -1,4 +1,4 @@
-// Implements hf/quads.h: quad meshes and flow lines.
+// Implements hf/quads.h: quad meshes and streamlines.
 #include "capi/objects.h"
 #include "capi/quads_out.h"
 #include "field/scalars.h"
@@ -33,7 +33,7 @@ hf_quads_info info_of(const QuadsObject& object) {
   info.vertex_count = static_cast<std::uint32_t>(result.mesh.position.size());
   info.face_count = static_cast<std::uint32_t>(result.mesh.face_count());
   info.euler_characteristic = result.euler_characteristic;
-  info.edge_length = static_cast<float>(object.edge_length);
+  info.edge_length = object.edge_length;
   return info;
 }
 
@@ -105,24 +105,24 @@ hf_result hf_quads_get_mesh(hf_quads handle, hf_quads_mesh* inout_mesh) {
 
 hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow) {
   return create("hf_flow_create", out_flow, "out_flow", [&] {
-    const std::shared_ptr<const Core> core = unlinked_core(surface, "flow lines");
+    const std::shared_ptr<const Core> core = unlinked_core(surface, "streamlines");
     return make_owner_in<FlowObject>(core->memory, core);
   });
 }
 
 void hf_flow_destroy(hf_flow flow) { destroy<FlowObject>(flow); }
 
-hf_result hf_flow_trace(hf_flow handle, const hf_scalars* given, hf_flow_lines* inout_lines) {
+hf_result hf_flow_trace(hf_flow handle, const hf_scalars* given, hf_streamlines* inout_lines) {
   return guarded("hf_flow_trace", [&] {
     const auto object = get<FlowObject>(handle, "flow");
-    hf_flow_lines out = read_struct(inout_lines, "inout_lines");
+    hf_streamlines out = read_struct(inout_lines, "inout_lines");
     require_zero(out.reserved);
     const Reading reading(*object);
     const Core& core = object->tracer.core();
     const Vector<std::int32_t> seeds = read_seeds(core.mesh, out, *core.memory);
     const Vector<double> field = read_scalars(*core.geometry, read_struct(given, "field"));
     require_values(core.mesh, field);
-    const FlowLineSet lines = object->tracer.trace(field, out.wanted_count, seeds);
+    const StreamlineSet lines = object->tracer.trace(field, out.wanted_count, seeds);
     out.point_count = static_cast<std::uint32_t>(lines.point.size());
     out.line_count = static_cast<std::uint32_t>(lines.from.size());
     write_struct(inout_lines, out);

@@ -1,4 +1,4 @@
-// Quad meshes and flow lines, written as hf_quads_mesh and hf_flow_lines say.
+// Quad meshes and streamlines, written as hf_quads_mesh and hf_streamlines say.
 #pragma once
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 #include "capi/vertex_writer.h"
 #include "hf/quads.h"
 #include "quads/field_quads.h"
-#include "remesh/flow_lines.h"
+#include "remesh/streamlines.h"
 
 namespace hf_inner::capi {
 
@@ -28,7 +28,7 @@ inline void write_mesh(const Core& core, const QuadResult& result, const hf_quad
 }
 
 // Fills the arrays that are given; capacities are checked.
-inline void write_lines(const Mesh& mesh, const FlowLineSet& lines, const hf_flow_lines& out) {
+inline void write_lines(const Mesh& mesh, const StreamlineSet& lines, const hf_streamlines& out) {
   for (std::size_t i = 0; out.positions && i < lines.point.size(); ++i)
     put(mesh.to_given(lines.point[i]), out.positions + 3 * i);
   if (out.values) std::copy(lines.value.begin(), lines.value.end(), out.values);

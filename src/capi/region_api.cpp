@@ -56,18 +56,6 @@ hf_result hf_region_edit(hf_region handle, const hf_region_edit_desc* given) {
   });
 }
 
-hf_result hf_region_record(hf_region region) {
-  return change("hf_region_record", region, [](Region& r) { r.record(); });
-}
-
-hf_result hf_region_undo(hf_region region) {
-  return change("hf_region_undo", region, [](Region& r) { r.undo(); });
-}
-
-hf_result hf_region_redo(hf_region region) {
-  return change("hf_region_redo", region, [](Region& r) { r.redo(); });
-}
-
 hf_result hf_region_get_info(hf_region region, hf_region_info* out_info) {
   return guarded("hf_region_get_info", [&] {
     const auto object = get<RegionObject>(region, "region");

@@ -13,9 +13,9 @@ namespace hf_inner::capi {
 class SkinOut {
  public:
   explicit SkinOut(hf_skin_info* inout) : inout_(inout), out_(read_struct(inout, "inout_skin")) {
-    out_.weight_count = static_cast<std::uint32_t>(weights_per_vertex(out_.weight_count));
+    out_.influence_count = static_cast<std::uint32_t>(weights_per_vertex(out_.influence_count));
   }
-  std::uint32_t weight_count() const noexcept { return out_.weight_count; }
+  std::uint32_t influence_count() const noexcept { return out_.influence_count; }
   bool wants_scales() const noexcept { return out_.scales != nullptr; }
 
   // Call this first. Throws HF_ERROR_TOO_SMALL if the caller's arrays are too small.
@@ -44,8 +44,8 @@ class SkinOut {
       std::uint32_t joints[8] = {0};
       float weights[8] = {0};
       weigh(inner, joints, weights);
-      if (out_.vertex_joints) std::copy_n(joints, weight_count(), out_.vertex_joints + v * weight_count());
-      if (out_.vertex_weights) std::copy_n(weights, weight_count(), out_.vertex_weights + v * weight_count());
+      if (out_.vertex_joints) std::copy_n(joints, influence_count(), out_.vertex_joints + v * influence_count());
+      if (out_.vertex_weights) std::copy_n(weights, influence_count(), out_.vertex_weights + v * influence_count());
     });
   }
 

@@ -200,18 +200,6 @@ hf_result hf_solver_prepare_rebase(hf_solver solver) {
   });
 }
 
-hf_result hf_solver_record(hf_solver solver) {
-  return guarded("hf_solver_record", [&] { change(solver, [](SolverObject& object) { object.field.record(); }); });
-}
-
-hf_result hf_solver_undo(hf_solver solver) {
-  return guarded("hf_solver_undo", [&] { change(solver, [](SolverObject& object) { object.field.undo(); }); });
-}
-
-hf_result hf_solver_redo(hf_solver solver) {
-  return guarded("hf_solver_redo", [&] { change(solver, [](SolverObject& object) { object.field.redo(); }); });
-}
-
 hf_result hf_solver_get_statistics(hf_solver handle, hf_solver_statistics* out_statistics) {
   return guarded("hf_solver_get_statistics", [&] {
     const auto solver = get<SolverObject>(handle, "solver");

@@ -59,7 +59,7 @@ hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_repor
     report.flipped_edge_count = found.flipped_edge_count;
     report.boundary_edge_count = found.boundary_edge_count;
     report.negative_edge_count = found.negative_edge_count;
-    report.smallest_angle = static_cast<float>(found.smallest_angle);
+    report.smallest_angle = found.smallest_angle;
     report.bounding_box_diagonal = found.bounding_box_diagonal;
     const Core& core = object->surface.own();
     report.changed_vertex_count = core.changed_count;

@@ -141,12 +141,12 @@ hf_result hf_transfer_get_dials(hf_transfer handle, hf_transfer_dials* out_dials
     const Reading reading(*object);
     const Dials& set = object->transfer.dials();
     hf_transfer_dials dials{};
-    dials.stride = static_cast<float>(set.stride);
-    dials.hip_height = static_cast<float>(set.hip_height);
-    dials.neck_follow = static_cast<float>(set.neck_follow);
-    dials.tail_follow = static_cast<float>(set.tail_follow);
-    dials.arm_space = static_cast<float>(set.arm_space);
-    dials.long_follow = static_cast<float>(set.long_follow);
+    dials.stride = set.stride;
+    dials.hip_height_share = set.hip_height_share;
+    dials.neck_follow = set.neck_follow;
+    dials.tail_follow = set.tail_follow;
+    dials.arm_space = set.arm_space;
+    dials.long_follow = set.long_follow;
     write_struct(out_dials, dials);
   });
 }
@@ -215,7 +215,7 @@ hf_result hf_transfer_get_skin(hf_transfer handle, hf_skin_info* inout_skin) {
       out.write_joint(j, pivots[j], rotations[j], places[j], Quaternion(), {1, 1, 1});
     out.write_vertices(mesh, [&](std::int32_t inner, std::uint32_t* joint, float* weight) {
       weight[0] = 1;  // isolated vertices follow the first joint
-      if (inner != Mesh::none) object->transfer.skin_weights(inner, out.weight_count(), joint, weight);
+      if (inner != Mesh::none) object->transfer.skin_weights(inner, out.influence_count(), joint, weight);
     });
   });
 }

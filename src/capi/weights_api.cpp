@@ -7,7 +7,7 @@
 namespace hf_inner::capi {
 namespace {
 
-std::uint32_t bone_count(const WeightsObject& object) {
+std::uint32_t joint_count(const WeightsObject& object) {
   return static_cast<std::uint32_t>(object.weights.state().inputs->bones.head.size());
 }
 
@@ -28,12 +28,12 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_weights_create(hf_surface handle, const hf_bones_desc* given, uint32_t weight_count,
+hf_result hf_weights_create(hf_surface handle, const hf_joints_desc* given, uint32_t influence_count,
                             hf_weights* out_weights) {
   return create("hf_weights_create", out_weights, "out_weights", [&] {
     const auto surface = mesh_surface(handle, "skin weights");
-    const hf_bones_desc desc = read_struct(given, "bones");
-    const std::int32_t influences = weights_per_vertex(weight_count);
+    const hf_joints_desc desc = read_struct(given, "joints");
+    const std::int32_t influences = weights_per_vertex(influence_count);
     Bones bones(*surface->memory);
     read_first_bones(desc, bones, *surface->memory);
     return with_progress(desc.progress, [&] {
@@ -51,13 +51,13 @@ hf_result hf_weights_clone(hf_weights handle, hf_weights* out_weights) {
 
 void hf_weights_destroy(hf_weights weights) { destroy<WeightsObject>(weights); }
 
-hf_result hf_weights_set_bones(hf_weights handle, const hf_bones_desc* given) {
-  return change("hf_weights_set_bones", handle, [&](WeightsObject& object) {
-    const hf_bones_desc desc = read_struct(given, "bones");
+hf_result hf_weights_set_joints(hf_weights handle, const hf_joints_desc* given) {
+  return change("hf_weights_set_joints", handle, [&](WeightsObject& object) {
+    const hf_joints_desc desc = read_struct(given, "joints");
     Bones bones(*object.memory);
     read_bones(desc, bones, *object.memory);
-    const Vector<Index> sources = read_sources(desc, bone_count(object), *object.memory);
-    with_progress(desc.progress, [&] { object.weights.set_bones(bones, sources); });
+    const Vector<Index> sources = read_sources(desc, joint_count(object), *object.memory);
+    with_progress(desc.progress, [&] { object.weights.set_joints(bones, sources); });
   });
 }
 
@@ -65,7 +65,7 @@ hf_result hf_weights_set_pins(hf_weights handle, const hf_pins_desc* given) {
   return change("hf_weights_set_pins", handle, [&](WeightsObject& object) {
     const hf_pins_desc desc = read_struct(given, "pins");
     Pins pins(*object.memory);
-    read_pins(desc, object.weights.surface().core->mesh, bone_count(object), pins);
+    read_pins(desc, object.weights.surface().core->mesh, joint_count(object), pins);
     with_progress(desc.progress, [&] { object.weights.set_pins(pins); });
   });
 }
@@ -73,7 +73,7 @@ hf_result hf_weights_set_pins(hf_weights handle, const hf_pins_desc* given) {
 hf_result hf_weights_set_locks(hf_weights handle, uint32_t lock_count, const uint32_t* bones, const float* values) {
   return change("hf_weights_set_locks", handle, [&](WeightsObject& object) {
     const LockInput locks =
-        read_locks(object.weights.surface().core->mesh, bone_count(object), lock_count, bones, values, *object.memory);
+        read_locks(object.weights.surface().core->mesh, joint_count(object), lock_count, bones, values, *object.memory);
     object.weights.set_locks(locks.bones, locks.values.empty() ? nullptr : locks.values.data());
   });
 }
@@ -85,14 +85,14 @@ hf_result hf_weights_get(hf_weights handle, hf_weights_out* inout) {
     const Reading reading(*object);
     const Mesh& mesh = object->weights.surface().core->mesh;
     const hf_weights_out out = read_weights_out(inout, mesh, object->weights.influences());
-    check_joints_fit(out, bone_count(*object) - 1);
+    check_joints_fit(out, joint_count(*object) - 1);
     write_weights(object->weights.state(), mesh, out);
   });
 }
 
-hf_result hf_weights_get_bones(hf_weights handle, uint32_t capacity, uint32_t* out_flags, uint32_t* out_vertex_counts,
+hf_result hf_weights_get_joints(hf_weights handle, uint32_t capacity, uint32_t* out_flags, uint32_t* out_vertex_counts,
                                uint32_t* out_count) {
-  return guarded("hf_weights_get_bones", [&] {
+  return guarded("hf_weights_get_joints", [&] {
     const auto object = get<WeightsObject>(handle, "weights");
     if (!out_flags && !out_vertex_counts) require(out_count, "out_flags, out_vertex_counts and out_count");
     const Reading reading(*object);
@@ -115,17 +115,17 @@ hf_result hf_weights_get_info(hf_weights handle, hf_weights_info* out_info) {
     const WeightCounts& counts = state.counts;
     hf_weights_info info{};
     info.vertex_count = object->weights.surface().core->mesh.report.vertex_count;
-    info.bone_count = bone_count(*object);
+    info.joint_count = joint_count(*object);
     info.pin_count = static_cast<std::uint32_t>(state.inputs->pins.count());
     info.lock_count = state.inputs->locks ? static_cast<std::uint32_t>(state.inputs->locks->bones.size()) : 0;
     info.informed_count = counts.by_origin[HF_WEIGHTS_INFORMED];
     info.solved_count = counts.by_origin[HF_WEIGHTS_SOLVED];
     info.pinned_count = counts.by_origin[HF_WEIGHTS_PINNED];
-    info.carried_count = counts.by_origin[HF_WEIGHTS_CARRIED];
+    info.nearest_count = counts.by_origin[HF_WEIGHTS_NEAREST];
     info.rigid_count = counts.by_origin[HF_WEIGHTS_RIGID];
     info.isolated_count = counts.by_origin[HF_WEIGHTS_ISOLATED];
-    info.carried_island_count = counts.islands_carried + counts.islands_rigid;
-    info.rigid_island_count = counts.islands_rigid;
+    info.nearest_piece_count = counts.pieces_carried + counts.pieces_rigid;
+    info.rigid_piece_count = counts.pieces_rigid;
     info.blind = counts.blind;
     const BoneFlagCounts bones = count_bone_flags(state.solution->faults);
     info.no_length_count = bones.no_length;
@@ -137,18 +137,6 @@ hf_result hf_weights_get_info(hf_weights handle, hf_weights_info* out_info) {
     info.path_solve_count = counts.path_solves;
     write_struct(out_info, info);
   });
-}
-
-hf_result hf_weights_record(hf_weights weights) {
-  return change("hf_weights_record", weights, [](WeightsObject& object) { object.weights.record(); });
-}
-
-hf_result hf_weights_undo(hf_weights weights) {
-  return change("hf_weights_undo", weights, [](WeightsObject& object) { object.weights.undo(); });
-}
-
-hf_result hf_weights_redo(hf_weights weights) {
-  return change("hf_weights_redo", weights, [](WeightsObject& object) { object.weights.redo(); });
 }
 
 }  // extern "C"

@@ -3,7 +3,7 @@
 #include "capi/boundary.h"
 #include "hf/weights.h"
 #include "mesh/places.h"
-#include "weights/islands.h"
+#include "weights/pieces.h"
 
 namespace hf_inner::capi {
 
@@ -15,7 +15,7 @@ inline bool wants_weights(const hf_weights_out& out) noexcept {
 inline hf_weights_out read_weights_out(hf_weights_out* inout, const Mesh& mesh, std::int32_t influences) {
   hf_weights_out out = read_struct(inout, "inout_weights");
   out.vertex_count = mesh.report.vertex_count;
-  out.weight_count = static_cast<std::uint32_t>(influences);
+  out.influence_count = static_cast<std::uint32_t>(influences);
   write_struct(inout, out);
   check_capacity(wants_weights(out), out.vertex_capacity, out.vertex_count, "vertex_capacity");
   return out;
@@ -31,7 +31,7 @@ inline void check_joints_fit(const hf_weights_out& out, std::uint32_t largest) {
 // Made: WeightState or FilledWeights.
 template <class Made>
 void write_weights(const Made& made, const Mesh& mesh, const hf_weights_out& out) {
-  const std::size_t k = out.weight_count;
+  const std::size_t k = out.influence_count;
   std::size_t isolated = 0;
   visit_given(mesh, [&](std::size_t v, std::int32_t welded) {
     const bool loose = welded == Mesh::none;

@@ -78,7 +78,7 @@ void check_region_count(std::size_t there, std::size_t added, const char* noun) 
 }
 
 std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
-                                          std::uint32_t samples_per_ring, Memory& memory) {
+                                          std::uint32_t rim_site_count, Memory& memory) {
   const Mesh& mesh = core.mesh;
   const Topology& topology = core.topology;
   auto region = make_shared_in<HandleRegion>(memory, memory);
@@ -99,8 +99,8 @@ std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int3
   }
   region->centroid = (1.0 / static_cast<double>(region->vertices.size())) * sum;
   region->component = mesh.component[region->vertices.front()];
-  if (samples_per_ring != 0 && samples_per_ring < ring.size()) {
-    region->sites = sample_ring(mesh, ring, samples_per_ring, memory);
+  if (rim_site_count != 0 && rim_site_count < ring.size()) {
+    region->sites = sample_ring(mesh, ring, rim_site_count, memory);
   } else {
     region->sites = std::move(ring);
   }

@@ -38,9 +38,9 @@ struct Handle {
 using Handles = Vector<Handle>;
 
 // Makes the region of a handle. vertices: inner vertices without Mesh::none; repeated ones count once.
-// samples_per_ring: number of boundary ring vertices used as sites, 0 for the whole ring.
+// rim_site_count: number of boundary ring vertices used as sites, 0 for the whole ring.
 std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
-                                          std::uint32_t samples_per_ring, Memory& memory);
+                                          std::uint32_t rim_site_count, Memory& memory);
 
 // Returns the vertices within a radius of a point, in ascending order. Point and radius are in the unit of the scaled
 // mesh. The region starts at the vertex nearest to the point, which always belongs to it. It contains those vertices

@@ -24,7 +24,7 @@ Vec3 read_up(const double* up) {
   return unit.x == 0 && unit.y == 0 && unit.z == 0 ? Vec3{0, 1, 0} : unit;
 }
 
-void check_skeleton(const hf_propose_desc& desc) {
+void check_skeleton(const hf_handle_proposals_desc& desc) {
   if (desc.joint_count == 0) return;
   if (desc.joint_count > most_skeleton_joints)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "joint_count is %u; it must be at most %u", desc.joint_count,
@@ -69,10 +69,10 @@ void add_handles(PoseStack& pose, const HandleInput& input, Span<std::uint32_t> 
   try {
     pose.add_handles(input.start, input.vertices, input.layer, out_numbers, input.in_place);
   } catch (const Error& error) {
-    if (!input.by_points || error.code() != HF_ERROR_OVERLAP) throw;
+    if (!input.by_points || error.code() != HF_ERROR_CONFLICT) throw;
     const auto after = std::upper_bound(input.start.begin(), input.start.end(), error.index());
     const std::uint32_t r = static_cast<std::uint32_t>(after - input.start.begin() - 1);
-    fail(HF_ERROR_OVERLAP, r, "the region of point %u overlaps another handle; make its radius smaller", r);
+    fail(HF_ERROR_CONFLICT, r, "the region of point %u overlaps another handle; make its radius smaller", r);
   }
 }
 
@@ -116,11 +116,12 @@ DeformRequest read_request(const hf_deform_desc& desc) {
   return request;
 }
 
-ProposalOptions read_proposal_options(const hf_propose_desc& desc) {
+ProposalOptions read_proposal_options(const hf_handle_proposals_desc& desc) {
   ProposalOptions options;
   options.up = read_up(desc.up);
-  options.least_length = static_cast<double>(read_least_length(desc.least_length));
+  options.least_length_share = read_least_length(desc.least_length_share);
   options.limit = count_of(desc.limit, default_proposals, 1, HF_HANDLE_LIMIT, "limit");
+  require_zero(desc.reserved);
   check_skeleton(desc);
   if (desc.joint_count == 0) return options;
   options.joints = {desc.joints, 3 * std::size_t{desc.joint_count}};

@@ -18,7 +18,7 @@ struct HandleInput {
 // Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NULL_POINTER,
 // HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE as hf_pose_add_handles says.
 HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& memory);
-// Adds the handles. Throws as PoseStack::add_handles. The index of HF_ERROR_OVERLAP is the region where regions lie
+// Adds the handles. Throws as PoseStack::add_handles. The index of HF_ERROR_CONFLICT is the region where regions lie
 // around points.
 void add_handles(PoseStack& pose, const HandleInput& input, Span<std::uint32_t> out_numbers);
 
@@ -38,7 +38,7 @@ VertexRange read_range(const hf_deform_desc& desc, std::uint32_t vertex_count);
 DeformRequest read_request(const hf_deform_desc& desc);
 
 // Throws HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE, HF_ERROR_NULL_POINTER or
-// HF_ERROR_OUT_OF_RANGE as hf_propose_handles says.
-ProposalOptions read_proposal_options(const hf_propose_desc& desc);
+// HF_ERROR_OUT_OF_RANGE as hf_surface_propose_handles says.
+ProposalOptions read_proposal_options(const hf_handle_proposals_desc& desc);
 
 }  // namespace hf_inner

@@ -91,7 +91,7 @@ std::int32_t Pose::find(std::uint32_t number) const noexcept {
 
 std::int32_t Pose::require(std::uint32_t number, std::uint32_t position) const {
   const std::int32_t i = find(number);
-  if (i < 0) fail(HF_ERROR_NO_SUCH_HANDLE, position, "the pose has no handle %u", number);
+  if (i < 0) fail(HF_ERROR_NOT_FOUND, position, "the pose has no handle %u", number);
   return i;
 }
 
@@ -111,7 +111,7 @@ void Pose::check_regions(Span<const std::uint32_t> start, Span<const std::int32_
       if (v < 0 || v >= core_->size())
         fail(HF_ERROR_OUT_OF_RANGE, k, "entry %u of the regions is no vertex of the mesh", k);
       if (owner[v] != -1 && owner[v] != static_cast<std::int32_t>(r))
-        fail(HF_ERROR_OVERLAP, k, "entry %u: the vertex belongs to %s already; regions must not overlap", k,
+        fail(HF_ERROR_CONFLICT, k, "entry %u: the vertex belongs to %s already; regions must not overlap", k,
              owner[v] == -2 ? "a handle" : "an earlier region");
       owner[v] = static_cast<std::int32_t>(r);
     }
@@ -127,7 +127,7 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
   NumberPool numbers;
   for (std::size_t r = 0; r + 1 < start.size(); ++r) {
     std::shared_ptr<HandleRegion> region =
-        make_region(*core_, vertices.subspan(start[r], start[r + 1] - start[r]), options_.samples_per_ring, memory());
+        make_region(*core_, vertices.subspan(start[r], start[r + 1] - start[r]), options_.rim_site_count, memory());
     const std::uint32_t number = numbers.take([&](std::uint32_t candidate) {
       return std::any_of(handles.begin(), handles.end(), [&](const Handle& h) { return h.number == candidate; });
     });
@@ -146,7 +146,7 @@ void Pose::remove_handles(Span<const std::uint32_t> numbers) {
   Vector<std::uint8_t> leaving(handle_count(), 0, &memory());
   for (std::uint32_t k = 0; k < numbers.size(); ++k) {
     const std::int32_t i = require(numbers[k], k);
-    if (leaving[i]) fail(HF_ERROR_NO_SUCH_HANDLE, k, "handle %u is named twice", numbers[k]);
+    if (leaving[i]) fail(HF_ERROR_NOT_FOUND, k, "handle %u is named twice", numbers[k]);
     leaving[i] = 1;
   }
   Handles remaining(&memory());

@@ -27,7 +27,7 @@ struct PoseOptions {
   DeformMode mode = DeformMode::smooth;
   std::uint32_t band_count = 0;        // 2 to 64; 10 (smooth) or 12 (paper)
   std::uint32_t iteration_count = 0;   // 1 to 1000; 10 or 200
-  std::uint32_t samples_per_ring = 0;  // sites per handle on its boundary ring; 0: all its vertices
+  std::uint32_t rim_site_count = 0;  // sites per handle on its boundary ring; 0: all its vertices
   std::uint32_t group_count = 0;       // 1 to 2000; 250
 };
 
@@ -94,7 +94,7 @@ class Pose {
   DeformReport deform(const DeformRequest& request);
 
   std::uint32_t handle_count() const noexcept;
-  HandleReport handle(std::uint32_t number) const;              // HF_ERROR_NO_SUCH_HANDLE
+  HandleReport handle(std::uint32_t number) const;              // HF_ERROR_NOT_FOUND
   FieldColumn<const double> field(std::uint32_t number) const;  // per inner vertex
   const Core& core() const noexcept { return *core_; }
   const PoseOptions& options() const noexcept { return options_; }

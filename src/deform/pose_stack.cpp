@@ -48,7 +48,7 @@ std::int32_t PoseStack::require(std::uint32_t number, std::uint32_t position) co
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     if (entries_[i].number == number) return static_cast<std::int32_t>(i);
   }
-  fail(HF_ERROR_NO_SUCH_HANDLE, position, "the pose has no handle %u", number);
+  fail(HF_ERROR_NOT_FOUND, position, "the pose has no handle %u", number);
 }
 
 Span<const std::int32_t> PoseStack::region_of(const Entry& entry) const {
@@ -151,7 +151,7 @@ void PoseStack::remove_handles(Span<const std::uint32_t> numbers) {
   std::uint32_t lowest = layer_limit;
   for (std::uint32_t k = 0; k < numbers.size(); ++k) {
     const std::int32_t i = require(numbers[k], k);
-    if (leaving[i]) fail(HF_ERROR_NO_SUCH_HANDLE, k, "handle %u is named twice", numbers[k]);
+    if (leaving[i]) fail(HF_ERROR_NOT_FOUND, k, "handle %u is named twice", numbers[k]);
     leaving[i] = 1;
     lowest = std::min(lowest, entries_[i].layer);
   }

@@ -38,7 +38,7 @@ class Proposer {
     constexpr float tips_found = 0.8f;  // reported progress, by the usual share of time
     Extremities tips = [&] {
       const ProgressRange range(0.0f, tips_found);
-      return poisson_extremities(core_, options_.least_length);
+      return poisson_extremities(core_, options_.least_length_share);
     }();
     find_feet();
     add_tips(tips);

@@ -28,7 +28,7 @@ struct HandleProposal {
 
 struct ProposalOptions {
   Vec3 up{0, 1, 0};                   // of length 1
-  double least_length = 0;            // share of the box diagonal
+  double least_length_share = 0;            // share of the box diagonal
   std::size_t limit = 0;              // most proposals
   Span<const double> joints;          // [n][3], in the unit of the mesh as given
   Span<const std::uint32_t> parents;  // [n]; 0xffffffff for a root

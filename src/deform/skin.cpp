@@ -20,7 +20,7 @@ Mat3 linear_part(const JointMotion& motion, const Mat3& axes) noexcept {
 // Fits the joints of a skin to the posed surface by least squares, in the unit of the scaled mesh.
 class JointFit {
  public:
-  JointFit(const Pose& pose, std::uint32_t weight_count, bool stretching, const Vector<Quaternion>& axes,
+  JointFit(const Pose& pose, std::uint32_t influence_count, bool stretching, const Vector<Quaternion>& axes,
            Memory& memory)
       : pose_(pose),
         stretching_(stretching),
@@ -45,8 +45,8 @@ class JointFit {
     for (const bool count_only : {true, false}) {
       Vector<std::int32_t> next(start_, &memory);
       for (std::size_t i = 0; i < chosen.size(); ++i) {
-        skin_weights(pose, chosen[i], weight_count, joint, weight);
-        for (std::uint32_t k = 0; k < weight_count; ++k) {
+        skin_weights(pose, chosen[i], influence_count, joint, weight);
+        for (std::uint32_t k = 0; k < influence_count; ++k) {
           if (weight[k] <= 0) continue;
           if (count_only) {
             ++start_[joint[k] + 1];
@@ -158,7 +158,7 @@ Vec3 skinned(const Skin& skin, std::size_t j, Vec3 p) noexcept {
   return linear_part(motion, skin.axes[j].toRotationMatrix()) * (p - skin.pivot[j]) + skin.place[j];
 }
 
-Skin make_skin(const Pose& pose, std::uint32_t weight_count, bool stretching, Memory& memory) {
+Skin make_skin(const Pose& pose, std::uint32_t influence_count, bool stretching, Memory& memory) {
   const Core& core = pose.core();
   const Mesh& mesh = core.mesh;
   const ClusterWeights& weights = *pose.weights();
@@ -196,7 +196,7 @@ Skin make_skin(const Pose& pose, std::uint32_t weight_count, bool stretching, Me
     motion[c].rotation = best_rotation(linear, Quaternion());
     motion[c].translation = linear * pivot + Vec3{a[0][3], a[1][3], a[2][3]} - rotate(motion[c].rotation, pivot);
   }
-  if (pose.posed()) JointFit(pose, weight_count, stretching, skin.axes, memory).run(motion.data());
+  if (pose.posed()) JointFit(pose, influence_count, stretching, skin.axes, memory).run(motion.data());
   for (std::size_t c = 0; c < clusters; ++c) {
     const Mat3 linear = linear_part(motion[c], skin.axes[c].toRotationMatrix());
     skin.place.push_back(mesh.to_given(linear * skin.pivot[c] + motion[c].translation));

@@ -36,7 +36,7 @@ Vec3 skinned(const Skin& skin, std::size_t j, Vec3 p) noexcept;
 
 // Makes the joints of a pose that has handles. Before the first deform() they are at rest. stretching: joints may
 // stretch along their axes.
-Skin make_skin(const Pose& pose, std::uint32_t weight_count, bool stretching, Memory& memory);
+Skin make_skin(const Pose& pose, std::uint32_t influence_count, bool stretching, Memory& memory);
 // Writes the joints and weights of an inner vertex, largest first. vertex: -1 stands for a vertex without a triangle.
 // count: 4 or 8.
 void skin_weights(const Pose& pose, std::int32_t vertex, std::uint32_t count, std::uint32_t* joints, float* weights);

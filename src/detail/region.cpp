@@ -185,14 +185,14 @@ RegionState::RegionState(const RegionSurface& surface, std::shared_ptr<const Reg
   }
 }
 
-Region::Region(std::shared_ptr<const RegionSurface> surface) : surface_(std::move(surface)), history_(memory()) {
+Region::Region(std::shared_ptr<const RegionSurface> surface) : surface_(std::move(surface)) {
   const auto shape = make_shared_in<RegionShape>(memory(), core(), Span<const Index>(), memory());
   const auto state = make_shared_in<RegionState>(memory(), *surface_, shape, memory());
   state->engine = SiteSolver::make(EngineKind::green, surface_->core, 0);
   state_ = state;
 }
 
-Region::Region(const Region& other) : surface_(other.surface_), state_(other.state_), history_(memory()) {}
+Region::Region(const Region& other) : surface_(other.surface_), state_(other.state_) {}
 
 void Region::edit(const RegionEdit& edit) {
   // Reported progress, by the usual share of time. A curve comes first, if there is one.
@@ -227,20 +227,7 @@ void Region::edit(const RegionEdit& edit) {
   }
   part.reset();
   report(1.0f);
-  history_.clear_redo();
   state_ = next;
-}
-
-void Region::undo() {
-  history_.undo(
-      "nothing is recorded; call hf_region_record before the edits to be undone", [&] { return state_; },
-      [&](auto& state) { state_ = std::move(state); });
-}
-
-void Region::redo() {
-  history_.redo(
-      "nothing was undone since the last edit", [&] { return state_; },
-      [&](auto& state) { state_ = std::move(state); });
 }
 
 }  // namespace hf_inner

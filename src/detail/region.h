@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <memory>
 
-#include "base/history.h"
 #include "base/progress.h"
 #include "detail/curve.h"
 #include "detail/region_shape.h"
@@ -74,13 +73,10 @@ struct RegionState {
 class Region {
  public:
   explicit Region(std::shared_ptr<const RegionSurface> surface);
-  Region(const Region& other);  // the copy starts with an empty undo stack
+  Region(const Region& other);
 
   // Throws those errors of hf_region_edit that concern the region itself.
   void edit(const RegionEdit& edit);
-  void record() { history_.record(std::shared_ptr<const RegionState>(state_)); }
-  void undo();
-  void redo();
 
   const std::shared_ptr<const RegionSurface>& surface() const noexcept { return surface_; }
   const std::shared_ptr<const RegionState>& state() const noexcept { return state_; }
@@ -91,7 +87,6 @@ class Region {
 
   std::shared_ptr<const RegionSurface> surface_;
   std::shared_ptr<const RegionState> state_;
-  History<std::shared_ptr<const RegionState>> history_;
 };
 
 }  // namespace hf_inner

@@ -232,7 +232,7 @@ void ConstraintSystem::rebase(JobRunner& jobs) {
   const bool hard = std::any_of(state_.entries.begin(), state_.entries.end(), [](const ConstraintState::Entry& entry) {
     return entry.used() && entry.site.is_hard_vertex();
   });
-  if (!hard) fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "no hard site on a vertex: there is nothing to move into the factor");
+  if (!hard) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no hard site on a vertex: there is nothing to move into the factor");
   if (!try_route(EditRoute::rebase, SiteEdit{}, jobs, {}))
     fail(HF_ERROR_CONFLICT, HF_NO_INDEX, "the sites that are no hard vertices depend too closely on those that are");
 }

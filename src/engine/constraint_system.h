@@ -59,7 +59,7 @@ class ConstraintSystem {
   // Throws HF_ERROR_CONFLICT (index = position in edit.add) if a new site depends linearly on the present hard sites.
   void edit(const SiteEdit& edit);
   // Factorises again with the present hard vertex sites eliminated, using the threads of `jobs`. Throws
-  // HF_ERROR_NO_SITES if there are none.
+  // HF_ERROR_EMPTY if there are none.
   void rebase(JobRunner& jobs);
 
   const ConstraintState& state() const noexcept { return state_; }

@@ -27,7 +27,7 @@ bool same_site(const Site& a, const Site& b) noexcept {
 }  // namespace
 
 void check_site_count(std::uint32_t count, std::uint32_t there) {
-  if (count > there) fail(HF_ERROR_NO_SUCH_SITE, there, "%u sites named, but there are %u", count, there);
+  if (count > there) fail(HF_ERROR_NOT_FOUND, there, "%u sites named, but there are %u", count, there);
 }
 
 void SiteSet::swap(SiteSet& other) noexcept {
@@ -42,7 +42,7 @@ void SiteSet::swap(SiteSet& other) noexcept {
 
 void SiteSet::check_site(std::uint32_t position, std::uint32_t site) const {
   if (site >= slots_.size() || !slots_[site].is_site())
-    fail(HF_ERROR_NO_SUCH_SITE, position, "entry %u of the list: there is no site %u (removed already, or never added)",
+    fail(HF_ERROR_NOT_FOUND, position, "entry %u of the list: there is no site %u (removed already, or never added)",
          position, site);
 }
 
@@ -80,7 +80,7 @@ void SiteSet::claim_vertex(const Arrival& arrival, std::int32_t vertex, std::int
   bool same = other.stiffness == arrival.stiffness;
   for (std::int32_t c = 0; c < channels_; ++c)
     same = same && values_[at(it->slot * channels_ + c)] == (arrival.values ? arrival.values[c] : 0.0);
-  const hf_result code = same ? HF_ERROR_DUPLICATE_SITE : HF_ERROR_CONFLICT;
+  const hf_result code = same ? HF_ERROR_DUPLICATE : HF_ERROR_CONFLICT;
   if (arrival.radius > 0 || other.radius > 0)
     fail(code, arrival.position,
          "site %u of the batch: its place overlaps site %d%s; use a smaller radius, or move one of them",
@@ -196,7 +196,7 @@ void SiteSet::move(const Core& core, std::uint32_t count, const std::uint32_t* s
     check_site(i, sites[i]);
     for (std::uint32_t j = 0; j < i && count <= 64; ++j) {
       if (sites[j] == sites[i])
-        fail(HF_ERROR_NO_SUCH_SITE, i, "entry %u of the list: site %u is named twice", i, sites[i]);
+        fail(HF_ERROR_NOT_FOUND, i, "entry %u of the list: site %u is named twice", i, sites[i]);
     }
     release(static_cast<std::int32_t>(sites[i]));
     slots_[sites[i]].given_vertex = HF_NO_INDEX - 1;  // the site has left its place and not arrived
@@ -205,7 +205,7 @@ void SiteSet::move(const Core& core, std::uint32_t count, const std::uint32_t* s
   for (std::uint32_t i = 0; i < count; ++i) {
     const Slot slot = slots_[sites[i]];
     if (slot.given_vertex != HF_NO_INDEX - 1)
-      fail(HF_ERROR_NO_SUCH_SITE, i, "entry %u of the list: site %u is named twice", i, sites[i]);
+      fail(HF_ERROR_NOT_FOUND, i, "entry %u of the list: site %u is named twice", i, sites[i]);
     std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(sites[i]) * channels_, channels_, values.begin());
     place(core,
           {i, to.vertices ? to.vertices[i] : HF_NO_INDEX, locate(core.mesh, to, i), slot.radius, slot.stiffness,

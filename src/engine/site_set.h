@@ -30,7 +30,7 @@ struct Places {
 // that are not finite.
 constexpr double largest_value = 1e200;
 
-// Refuses a list that names more sites than there are, before it is read. Throws HF_ERROR_NO_SUCH_SITE (index = there).
+// Refuses a list that names more sites than there are, before it is read. Throws HF_ERROR_NOT_FOUND (index = there).
 void check_site_count(std::uint32_t count, std::uint32_t there);
 
 class SiteSet {
@@ -64,7 +64,7 @@ class SiteSet {
   const double* values() const noexcept { return values_.data(); }
   std::int32_t channels() const noexcept { return channels_; }
 
-  // Throws HF_ERROR_NO_SUCH_SITE (index = position) for a number without a site.
+  // Throws HF_ERROR_NOT_FOUND (index = position) for a number without a site.
   void check_site(std::uint32_t position, std::uint32_t site) const;
   // Edits of the set. Each throws as the C function of the same name documents; the error index is the position in the
   // batch. After an exception *this may be half edited, so call these functions on a copy.

@@ -100,7 +100,7 @@ class SiteSolver {
   virtual std::shared_ptr<SiteSolver> clone() const = 0;
 
   // Factorises again with the present hard vertex sites eliminated, using the threads of `jobs`. Throws
-  // HF_ERROR_UNSUPPORTED (engines other than green) or HF_ERROR_NO_SITES (no site is hard). If it throws, nothing
+  // HF_ERROR_UNSUPPORTED (engines other than green) or HF_ERROR_EMPTY (no site is hard). If it throws, nothing
   // changes.
   virtual void rebase(JobRunner& jobs);
   // Adds the counts that `predecessor` has made since this engine was cloned from it.

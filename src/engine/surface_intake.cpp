@@ -28,6 +28,7 @@ void check_limit(std::uint32_t count, std::uint32_t limit, const char* noun, con
 }  // namespace
 
 hf_surface_desc options_of(const hf_graph_desc& desc) {
+  require_zero(desc.reserved);
   hf_surface_desc out{};
   out.vertex_count = desc.vertex_count;
   out.weld = HF_WELD_NONE;
@@ -37,7 +38,6 @@ hf_surface_desc options_of(const hf_graph_desc& desc) {
   out.vertex_limit = desc.vertex_limit;
   out.memory_limit_mb = desc.memory_limit_mb;
   out.work_limit_gflop = desc.work_limit_gflop;
-  out.reserved = desc.reserved;
   out.allocator = desc.allocator;
   out.job_runner = desc.job_runner;
   out.progress = desc.progress;
@@ -71,7 +71,6 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
   info.work_limit_gflop = desc.work_limit_gflop ? desc.work_limit_gflop : default_work_limit_gflop;
   info.face_count = desc.face_count;
   info.corner_count = desc.corner_count;
-  require_zero(desc.reserved);
   if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
     fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
   return info;

@@ -22,7 +22,7 @@ struct Certificate {
 // unless the tolerance is above 0 and finite.
 double certificate_tolerance(double asked, EngineKind engine);
 
-// Solves the field and measures its errors. A value that is not finite has an infinite error. Throws HF_ERROR_NO_SITES.
+// Solves the field and measures its errors. A value that is not finite has an infinite error. Throws HF_ERROR_EMPTY.
 Certificate certify(const ScalarField& field);
 
 // Throws HF_ERROR_INACCURATE if an error is above the tolerance. vertex: its vertex as given.

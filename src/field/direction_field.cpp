@@ -44,45 +44,22 @@ double wrapped(double angle) noexcept { return angle - two_pi * std::nearbyint(a
 DirectionField::DirectionField(std::shared_ptr<const Core> core, std::int32_t degree, std::uint32_t site_limit)
     : solver_(std::move(core), degree),
       site_limit_(site_limit),
-      constraints_(solver_.core().memory.get()),
-      history_(memory()) {}
+      constraints_(solver_.core().memory.get()) {}
 
 DirectionField::DirectionField(const DirectionField& other)
     : solver_(other.solver_),
       site_limit_(other.site_limit_),
       constraints_(other.constraints_, &other.memory()),
-      count_(other.count_),
-      history_(other.memory()) {}
-
-void DirectionField::restore(Record& record) {
-  solver_.restore(*record.state);
-  constraints_.swap(record.constraints);
-  count_ = record.count;
-}
-
-void DirectionField::record() { history_.record(Record(*this)); }
-
-void DirectionField::undo() {
-  history_.undo(
-      "nothing is recorded; call hf_direction_record before the edits to be undone", [&] { return Record(*this); },
-      [&](Record& record) { restore(record); });
-}
-
-void DirectionField::redo() {
-  history_.redo(
-      "nothing was undone since the last edit", [&] { return Record(*this); },
-      [&](Record& record) { restore(record); });
-}
+      count_(other.count_) {}
 
 void DirectionField::accept(Vector<DirectionConstraint>& next) noexcept {
   constraints_.swap(next);
-  history_.clear_redo();
 }
 
 void DirectionField::check_site(const Vector<DirectionConstraint>& list, std::uint32_t position,
                                 std::uint32_t site) const {
   if (site >= list.size() || list[site].vertex < 0)
-    fail(HF_ERROR_NO_SUCH_SITE, position,
+    fail(HF_ERROR_NOT_FOUND, position,
          "entry %u of the list: there is no constraint %u (removed already, or never added)", position, site);
 }
 
@@ -109,7 +86,7 @@ void DirectionField::check_free(const Vector<DirectionConstraint>& list, std::ui
                                 std::uint32_t own) const {
   for (std::size_t s = 0; s < list.size(); ++s) {
     if (s == own || list[s].vertex != list[own].vertex) continue;
-    fail(HF_ERROR_DUPLICATE_SITE, position,
+    fail(HF_ERROR_DUPLICATE, position,
          "entry %u of the list: vertex %u carries constraint %zu already; set its vector or move it", position,
          list[own].given_vertex, s);
   }
@@ -171,7 +148,7 @@ void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const
   for (std::uint32_t i = 0; i < count; ++i) {
     check_site(next, i, sites[i]);
     if (named[sites[i]]++)
-      fail(HF_ERROR_NO_SUCH_SITE, i, "entry %u of the list: constraint %u is named twice", i, sites[i]);
+      fail(HF_ERROR_NOT_FOUND, i, "entry %u of the list: constraint %u is named twice", i, sites[i]);
     DirectionConstraint& site = next[sites[i]];
     const Index to = usable_vertex(core.mesh, vertices[i], i);
     if (core.mesh.component[at(to)] != core.mesh.component[at(site.vertex)])
@@ -224,7 +201,7 @@ void DirectionField::rotate(std::uint32_t count, const std::uint32_t* sites, con
 
 Vector<Complex> DirectionField::solved() const {
   if (count_ == 0)
-    fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the field has no constraints; add at least one before solving");
+    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the field has no constraints; add at least one before solving");
   Vector<Complex> values(constraints_.size(), &memory()), field(at(solver_.core().size()), &memory());
   for (std::size_t s = 0; s < values.size(); ++s) values[s] = raised(constraints_[s].vector, solver_.degree());
   solver_.solve(values, field.data());

@@ -15,7 +15,6 @@
 #pragma once
 #include <memory>
 
-#include "base/history.h"
 #include "field/direction_solver.h"
 
 namespace hf_inner {
@@ -43,33 +42,20 @@ class DirectionField {
   void set_vectors(std::uint32_t count, const std::uint32_t* sites, const double* vectors);
   void rotate(std::uint32_t count, const std::uint32_t* sites, const double* angles);
 
-  // Makes a copy with the same constraints, without the undo stack. Both share matrix and factor.
+  // Makes a copy with the same constraints. Both share matrix, factor and the immutable parts of the solver.
   DirectionField(const DirectionField& other);
   DirectionField& operator=(const DirectionField&) = delete;
-  // record stores the constraints, undo restores the last record, and redo reverts the last undo, both bit for bit.
-  // They throw HF_ERROR_NO_RECORD if there is no record.
-  void record();
-  void undo();
-  void redo();
 
   std::uint32_t count() const noexcept { return count_; }
   Span<const DirectionConstraint> constraints() const noexcept { return constraints_; }
   const DirectionSolver& solver() const noexcept { return solver_; }
 
-  // Computes the field of every welded vertex as a vector in space. Throws HF_ERROR_NO_SITES.
+  // Computes the field of every welded vertex as a vector in space. Throws HF_ERROR_EMPTY.
   void solve(Vec3* out) const;
   // Sorted by triangle. The triangles that one face is cut into count as one.
   Vector<Singularity> singularities() const;
 
  private:
-  struct Record {
-    Record(const DirectionField& field)
-        : constraints(field.constraints_, &field.memory()), count(field.count_), state(field.solver_.snapshot()) {}
-    Vector<DirectionConstraint> constraints;
-    std::uint32_t count;
-    std::shared_ptr<const ConstraintState> state;
-  };
-  void restore(Record& record);
   void accept(Vector<DirectionConstraint>& next) noexcept;
   // Changes vectors: work(i, constraint) for every entry of the list. All or nothing.
   template <class Work>
@@ -84,7 +70,6 @@ class DirectionField {
   std::uint32_t site_limit_;
   Vector<DirectionConstraint> constraints_;  // by constraint number
   std::uint32_t count_ = 0;
-  History<Record> history_;
 };
 
 }  // namespace hf_inner

@@ -42,7 +42,7 @@ class DirectionSolver {
   };
   void edit(const Edit& edit);
   // Factorises again with the constrained vertices eliminated, so that each costs no dense solve. Throws
-  // HF_ERROR_NO_SITES if there are none.
+  // HF_ERROR_EMPTY if there are none.
   void rebase() { constraints_.rebase(*core().jobs); }
   // Computes z of every welded vertex, in its frame and raised to the degree. values: by constraint number, in the same
   // form. Vertices of components without a constraint get 0.

@@ -171,7 +171,7 @@ double length_of(double fall, bool poisson) noexcept {
 }
 
 // Adds the maxima (tips) of found.field to the list if their limbs are long enough, with the lengths.
-void propose(const Core& core, const Vector<double>& total, double least_length, bool poisson, Extremities& found) {
+void propose(const Core& core, const Vector<double>& total, double least_length_share, bool poisson, Extremities& found) {
   const Vector<double>& u = found.field;
   const Vector<Peak> peaks = find_peaks(core.topology, u, *core.memory);
   // base[c]: level from which the length of the highest tip of component c is measured.
@@ -184,7 +184,7 @@ void propose(const Core& core, const Vector<double>& total, double least_length,
   for (std::size_t c = 0; c < total.size(); ++c) base[c] = total[c] > 0 ? base[c] / total[c] : 0.0;
   const auto propose_one = [&](const Peak& peak, double level) {
     const double length = length_of(u[at(peak.vertex)] - level, poisson);
-    if (length < least_length) return false;
+    if (length < least_length_share) return false;
     found.points.push_back({peak.vertex, core.mesh.component[at(peak.vertex)], length});
     return true;
   };
@@ -203,7 +203,7 @@ void propose(const Core& core, const Vector<double>& total, double least_length,
 
 }  // namespace
 
-Extremities poisson_extremities(const Core& core, double least_length) {
+Extremities poisson_extremities(const Core& core, double least_length_share) {
   constexpr float summed = 0.1f, solved = 0.8f;  // reported progress, by the usual share of time
   Extremities found(*core.memory);
   found.field.resize(at(core.size()));
@@ -211,12 +211,12 @@ Extremities poisson_extremities(const Core& core, double least_length) {
   report(summed);
   solve_poisson(core, total, found.field);
   report(solved);
-  propose(core, total, least_length, true, found);
+  propose(core, total, least_length_share, true, found);
   report(1.0f);
   return found;
 }
 
-Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length) {
+Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length_share) {
   const Core& core = geodesics.core();
   Extremities found(*core.memory);
   found.field.resize(at(core.size()));
@@ -225,20 +225,20 @@ Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source
     const ProgressRange range(0.0f, averaged);
     geodesics.average(source_count, found.field.data());
   }
-  propose(core, component_areas(core), least_length, false, found);
+  propose(core, component_areas(core), least_length_share, false, found);
   report(1.0f);
   return found;
 }
 
 Extremities geodesic_extremities(std::shared_ptr<const Core> core, double smoothing, std::int32_t source_count,
-                                 double least_length) {
+                                 double least_length_share) {
   constexpr float factored = 0.3f;  // share of progress
   const std::optional<Geodesics> geodesics = [&] {
     const ProgressRange range(0.0f, factored);
     return std::optional<Geodesics>(std::in_place, std::move(core), smoothing);
   }();
   const ProgressRange range(factored, 1.0f);
-  return geodesic_extremities(*geodesics, source_count, least_length);
+  return geodesic_extremities(*geodesics, source_count, least_length_share);
 }
 
 }  // namespace hf_inner

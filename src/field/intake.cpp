@@ -25,7 +25,7 @@ constexpr std::uint32_t most_levels = 1000000;
 constexpr double least_smoothing = 0.1, most_smoothing = 1e4;
 // Least length of extremities, as a share of the box diagonal: trades short limbs for bumps. The bound catches wrong
 // units.
-constexpr float default_least_length = 0.05f, most_least_length = 10;
+constexpr double default_least_length = 0.05, most_least_length = 10;
 // Sources of the mean distance: more find tips more exactly and take longer. With 20 a cow has other tips, with 80 the
 // same.
 constexpr std::uint32_t default_sources = 40, most_sources = 1000;
@@ -129,12 +129,11 @@ LevelSpacing read_spacing(std::int32_t given, std::uint32_t level_count) {
 }
 
 DistanceOptions read_geodesics(const hf_geodesics_desc& desc) {
-  const double smoothing = static_cast<double>(desc.smoothing);
+  const double smoothing = desc.smoothing;
   if (smoothing != 0 && !(smoothing >= least_smoothing && smoothing <= most_smoothing))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "smoothing is %g; it must be %g to %g, or 0 for %g", smoothing,
          least_smoothing, most_smoothing, default_smoothing);
   check_choice(desc.method, 4, "method");
-  require_zero(desc.reserved);
   return {static_cast<DistanceMethod>(desc.method), smoothing > 0 ? smoothing : default_smoothing};
 }
 
@@ -165,18 +164,19 @@ double read_map_radius(const Mesh& mesh, double given) {
   return given / mesh.scale;
 }
 
-float read_least_length(float given) {
+double read_least_length(double given) {
   if (given != 0 && !(given > 0 && given <= most_least_length))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "least_length is %g; it is a share of the box diagonal above 0 and up to %g, or 0 for %g",
-         static_cast<double>(given), static_cast<double>(most_least_length), static_cast<double>(default_least_length));
+         "least_length_share is %g; it is a share of the box diagonal above 0 and up to %g, or 0 for %g",
+         given, most_least_length, default_least_length);
   return given > 0 ? given : default_least_length;
 }
 
 hf_extremities_desc read_extremities(hf_extremities_desc desc) {
   check_choice(desc.kind, 2, "kind");
-  desc.least_length = read_least_length(desc.least_length);
+  desc.least_length_share = read_least_length(desc.least_length_share);
   desc.source_count = count_of(desc.source_count, default_sources, 1, most_sources, "source_count");
+  require_zero(desc.reserved);
   return desc;
 }
 

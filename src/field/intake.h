@@ -71,7 +71,7 @@ double read_map_radius(const Mesh& mesh, double given);
 
 // The least length of extremities and proposed handles, as a share of the box diagonal. Throws
 // HF_ERROR_INVALID_ARGUMENT.
-float read_least_length(float given);
+double read_least_length(double given);
 // Returns the desc with the defaults filled in. Throws HF_ERROR_INVALID_ARGUMENT.
 hf_extremities_desc read_extremities(hf_extremities_desc desc);
 

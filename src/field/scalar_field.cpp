@@ -22,22 +22,20 @@ ScalarField::ScalarField(std::shared_ptr<const Core> core, EngineKind engine, do
     : core_(std::move(core)),
       site_limit_(site_limit),
       sites_(*core_->memory, channels),
-      engine_(SiteSolver::make(engine, core_, penalty)),
-      history_(*core_->memory) {}
+      engine_(SiteSolver::make(engine, core_, penalty)) {}
 
 ScalarField::ScalarField(const ScalarField& other)
     : core_(other.core_),
       site_limit_(other.site_limit_),
       sites_(other.sites_, *core_->memory),
       engine_(other.engine_->clone()),
-      screening_(other.screening_),
-      history_(*core_->memory) {}
+      screening_(other.screening_) {}
 
 void ScalarField::prepare_rebase() {
   if (preparing_.exchange(1))
     fail(HF_ERROR_BUSY, HF_NO_INDEX, "another thread is preparing a rebase of this solver; wait for it");
   try {
-    std::optional<Record> made;
+    std::optional<Prepared> made;
     {
       const std::lock_guard<std::mutex> lock(guard_);
       made.emplace(sites_, engine_->clone(), screening_, memory());
@@ -108,23 +106,7 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
   }
   prepared_.reset();
   sites_.swap(next);
-  history_.clear_redo();
   if (out_sites) std::copy(numbers.begin(), numbers.end(), out_sites);
-}
-
-ScalarField::Record ScalarField::present() const {
-  return Record(sites_, engine_->kind() == EngineKind::green ? engine_->clone() : nullptr, screening_, memory());
-}
-
-void ScalarField::restore(Record& record) {
-  if (record.engine) {
-    engine_ = std::move(record.engine);
-  } else {
-    const SiteDifference difference(sites_, record.sites, memory());
-    if (!difference.empty()) engine_->edit(difference.edit());
-  }
-  screening_ = std::move(record.screening);
-  sites_.swap(record.sites);
 }
 
 void ScalarField::set_screening(Span<const double> strength, const double* target) {
@@ -141,30 +123,11 @@ void ScalarField::set_screening(Span<const double> strength, const double* targe
   prepared_.reset();
   engine_ = std::move(engine);
   screening_ = std::move(screening);
-  history_.clear_redo();
-}
-
-void ScalarField::record() {
-  const std::lock_guard<std::mutex> lock(guard_);
-  history_.record(present());
-}
-
-void ScalarField::undo() {
-  const std::lock_guard<std::mutex> lock(guard_);
-  history_.undo(
-      "nothing is recorded; call hf_solver_record before the edits to be undone", [&] { return present(); },
-      [&](Record& record) { restore(record); });
-}
-
-void ScalarField::redo() {
-  const std::lock_guard<std::mutex> lock(guard_);
-  history_.redo(
-      "nothing was undone since the last edit", [&] { return present(); }, [&](Record& record) { restore(record); });
 }
 
 void ScalarField::require_sites() const {
   if (sites_.count() == 0 && !(screening_ && screening_->reaches_any))
-    fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; add at least one before solving");
+    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the solver has no sites; add at least one before solving");
 }
 
 void ScalarField::solve(double* field) const {

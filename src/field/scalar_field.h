@@ -1,15 +1,13 @@
-// A harmonic field that can be edited: its set of sites, its engine and its undo stack. It is the object behind
-// hf_solver.
+// A harmonic field that can be edited: its set of sites and its engine. It is the object behind hf_solver.
 //
 // Every edit works on a copy of the site set, and replaces the original after the engine has accepted the change. So an
-// exception leaves everything as it was. Records share the immutable parts of the engine (elimination paths, dense
-// blocks), so undo restores the same bits.
+// exception leaves everything as it was. Copies share the immutable parts of the engine (elimination paths, dense
+// blocks), so a copy costs its sites, and a host keeps copies for undo.
 #pragma once
 #include <memory>
 #include <mutex>
 #include <optional>
 
-#include "base/history.h"
 #include "base/jobs.h"
 #include "engine/screened_solver.h"
 #include "engine/site_set.h"
@@ -34,7 +32,7 @@ class ScalarField {
  public:
   ScalarField(std::shared_ptr<const Core> core, EngineKind engine, double penalty, std::int32_t channels,
               std::uint32_t site_limit);
-  ScalarField(const ScalarField& other);  // shares the core; without the undo stack
+  ScalarField(const ScalarField& other);  // shares the core and the immutable parts of the engine
 
   // out_sites: null, or room for add.count numbers. The numbers are written only on success.
   void edit(const FieldEdit& edit, std::uint32_t* out_sites);
@@ -42,9 +40,6 @@ class ScalarField {
   // [vertex][channels]; null: 0. Throws HF_ERROR_UNSUPPORTED (engines other than green, bi-harmonic fields, graphs) and
   // what Screening::make throws.
   void set_screening(Span<const double> strength, const double* target);
-  void record();
-  void undo();
-  void redo();
 
   // Factorises with the present hard sites eliminated, on the calling thread, and keeps the result. The next edit
   // brings the result up to date and replaces the engine with it. This is the only function that may run during any
@@ -59,9 +54,9 @@ class ScalarField {
   bool is_screened() const noexcept { return screening_ != nullptr; }
   const Screening* screening() const noexcept { return screening_.get(); }  // null: none
 
-  // Throws HF_ERROR_NO_SITES if the field has neither a site nor screening.
+  // Throws HF_ERROR_EMPTY if the field has neither a site nor screening.
   void require_sites() const;
-  // Solve functions; they throw HF_ERROR_NO_SITES if the field has neither a site nor screening. field: welded vertex *
+  // Solve functions; they throw HF_ERROR_EMPTY if the field has neither a site nor screening. field: welded vertex *
   // channels + c.
   void solve(double* field) const;
   void solve_into(FieldSink& sink) const;
@@ -74,17 +69,15 @@ class ScalarField {
   void site_flux(Vector<double>& out) const;
 
  private:
-  struct Record {
-    Record(const SiteSet& set, std::shared_ptr<SiteSolver> solver, std::shared_ptr<const Screening> screen,
+  struct Prepared {
+    Prepared(const SiteSet& set, std::shared_ptr<SiteSolver> solver, std::shared_ptr<const Screening> screen,
            Memory& memory)
         : sites(set, memory), engine(std::move(solver)), screening(std::move(screen)) {}
     SiteSet sites;
-    std::shared_ptr<SiteSolver> engine;  // null: the engine has no cheap copy and follows by an edit
+    std::shared_ptr<SiteSolver> engine;
     std::shared_ptr<const Screening> screening;
   };
   bool adopt(const SiteSet& next) noexcept;
-  Record present() const;
-  void restore(Record& record);
   Memory& memory() const noexcept { return *core_->memory; }
 
   std::shared_ptr<const Core> core_;
@@ -92,10 +85,9 @@ class ScalarField {
   SiteSet sites_;
   std::shared_ptr<SiteSolver> engine_;
   std::shared_ptr<const Screening> screening_;  // null: none
-  History<Record> history_;
   std::mutex guard_;  // guards sites_, engine_ and prepared_ while prepare_rebase runs
   AtomicFlag preparing_{0};
-  std::optional<Record> prepared_;  // a rebased engine and the sites it was made for
+  std::optional<Prepared> prepared_;  // a rebased engine and the sites it was made for
 };
 
 }  // namespace hf_inner

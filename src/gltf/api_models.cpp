@@ -337,8 +337,8 @@ hf_result hf_gltf_model_create_skinned(hf_gltf_model model, const hf_gltf_skin_d
         clip.rotations.push_back(rotation);
         clip.translations.push_back(glm::dvec3(t[0], t[1], t[2]) - rotation * skin.joints[i % joints].pivot);
       }
-      skin.influences_per_vertex = given.weight_count;
-      const size_t influences = object->mesh.positions.size() * given.weight_count;
+      skin.influences_per_vertex = given.influence_count;
+      const size_t influences = object->mesh.positions.size() * given.influence_count;
       skin.vertex_joints.assign(given.joints, given.joints + influences);
       skin.vertex_weights.assign(given.weights, given.weights + influences);
       skin.clips.push_back(std::move(clip));

@@ -58,7 +58,7 @@ template <class T, class Handle>
 std::shared_ptr<T> get(Handle handle, const char* name) {
   std::shared_ptr<T> object = std::dynamic_pointer_cast<T>(find(reinterpret_cast<uintptr_t>(handle)));
   if (!object)
-    throw Failure(HF_ERROR_INVALID_HANDLE, std::string(name) + " is " +
+    throw Failure(HF_ERROR_INVALID_OBJECT, std::string(name) + " is " +
                                                (handle ? "stale, destroyed or of another kind" : "NULL") +
                                                "; pass a live handle");
   return object;

@@ -51,14 +51,14 @@ struct DialKey {
   double least, most;
 };
 constexpr DialKey dial_keys[] = {{"stride", &TransferDials::stride, 0.1, 4},
-                                 {"hip_height", &TransferDials::hip_height, -0.5, 0.5},
+                                 {"hip_height_share", &TransferDials::hip_height_share, -0.5, 0.5},
                                  {"neck_follow", &TransferDials::neck_follow, -1, 1},
                                  {"tail_follow", &TransferDials::tail_follow, -1, 1},
                                  {"arm_space_degrees", &TransferDials::arm_space_degrees, -90, 90},
                                  {"long_follow", &TransferDials::long_follow, 0, 1}};
 
 TransferDials read_dials(const JsonReader& json) {
-  json.expect_only({"stride", "hip_height", "neck_follow", "tail_follow", "arm_space_degrees", "long_follow"});
+  json.expect_only({"stride", "hip_height_share", "neck_follow", "tail_follow", "arm_space_degrees", "long_follow"});
   TransferDials out;
   for (const DialKey& key : dial_keys)
     if (json.has(key.name)) out.*key.value = json.at(key.name).number(key.least, key.most);

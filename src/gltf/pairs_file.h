@@ -27,7 +27,7 @@ struct TransferSettings {
 
 // What an animator turns; neutral as made (hf_transfer_dials).
 struct TransferDials {
-  double stride = 1, hip_height = 0, neck_follow = 0, tail_follow = 0, arm_space_degrees = 0, long_follow = 0;
+  double stride = 1, hip_height_share = 0, neck_follow = 0, tail_follow = 0, arm_space_degrees = 0, long_follow = 0;
 };
 
 struct PairsFile {

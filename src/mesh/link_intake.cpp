@@ -16,8 +16,8 @@ constexpr double barycentric_slack = 1e-3;
 // bits. It trades nothing: sums of three shares miss 1 by at most 4e-16.
 constexpr double rounded_sum = 1e-15;
 
-double read_length(float given, double standard, const Mesh& mesh, const char* name) {
-  const double length = static_cast<double>(given);
+double read_length(double given, double standard, const Mesh& mesh, const char* name) {
+  const double length = given;
   check_finite(length, name);
   return length == 0 ? standard : length / mesh.scale;
 }
@@ -25,7 +25,7 @@ double read_length(float given, double standard, const Mesh& mesh, const char* n
 Link read_link(const hf_link& given, const Mesh& mesh, std::uint32_t i) {
   Link link;
   link.vertex = usable_vertex(mesh, given.vertex, i);
-  link.weight = static_cast<double>(given.weight);
+  link.weight = given.weight;
   if (!std::isfinite(link.weight)) fail(HF_ERROR_NON_FINITE, i, "the weight of link %u is not finite", i);
   if (!(link.weight > 0))
     fail(HF_ERROR_INVALID_ARGUMENT, i, "the weight of link %u is %g; it must be above 0", i, link.weight);
@@ -76,12 +76,11 @@ void read_pieces(const Mesh& mesh, std::uint32_t count, const std::uint32_t* ver
 
 void read_links(const hf_links_desc& desc, const Mesh& mesh, LinksIn& out) {
   check_choice(desc.mode, 3, "mode");
-  require_zero(desc.reserved);
   LinkOptions& options = out.options;
   options.mode = static_cast<LinkMode>(desc.mode);
   options.distance = read_length(desc.distance, default_link_distance, mesh, "distance");
   options.overlay = read_length(desc.overlay_distance, default_overlay, mesh, "overlay_distance");
-  options.stiffness = desc.stiffness == 0 ? 1.0 : static_cast<double>(desc.stiffness);
+  options.stiffness = desc.stiffness == 0 ? 1.0 : desc.stiffness;
   if (options.distance < 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "distance is below 0");
   check_finite(options.stiffness, "stiffness");
   if (!(options.stiffness > 0))

@@ -76,7 +76,7 @@ MeshInput read_mesh(const hf_surface_desc& desc, const FaceRows& faces) {
   if (desc.triangles && (stride == 0 || stride == 3 * sizeof(std::uint32_t)))
     check_width(input, 0, "triangles", "64-bit indices are not taken, copy them to 32 bits");
   input.weld = static_cast<Weld>(desc.weld);
-  input.weld_tolerance = static_cast<double>(desc.weld_tolerance);
+  input.weld_tolerance = desc.weld_tolerance;
   return input;
 }
 

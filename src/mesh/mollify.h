@@ -32,7 +32,7 @@ class ThinCheck {
     const double longest = a > b ? (a > c ? a : c) : (b > c ? b : c), gap = a + b + c - 2 * longest;
     sum_ += a + b + c;
     gap_ = gap < gap_ ? gap : gap_;
-    const double share = gap / (longest > least_length ? longest : least_length);
+    const double share = gap / (longest > least_length_share ? longest : least_length_share);
     share_ = share < share_ ? share : share_;
   }
   void add(const ThinCheck& part) noexcept {
@@ -48,7 +48,7 @@ class ThinCheck {
 
  private:
   // A length that divides counts as at least this, so that triangles with three equal positions do not divide by zero.
-  static constexpr double least_length = 1e-300;
+  static constexpr double least_length_share = 1e-300;
   double sum_ = 0, share_ = std::numeric_limits<double>::infinity(), gap_ = std::numeric_limits<double>::infinity();
 };
 

@@ -42,12 +42,12 @@ SkinShape::SkinShape(const Mesh& mesh, Memory& memory)
   }
 }
 
-bool SkinShape::crosses(const Vec3& from, const Vec3& to, Index island, Index own, bool outwards) const noexcept {
+bool SkinShape::crosses(const Vec3& from, const Vec3& to, Index piece, Index own, bool outwards) const noexcept {
   const Vec3 way = to - from;
-  const bool turned = (side_[at(island)] < 0) != outwards;
+  const bool turned = (side_[at(piece)] < 0) != outwards;
   return tree_.along(from, to, [&](Index t) {
     const Index* v = mesh_.triangle(t);
-    if (mesh_.component[at(v[0])] != island || v[0] == own || v[1] == own || v[2] == own) return false;
+    if (mesh_.component[at(v[0])] != piece || v[0] == own || v[1] == own || v[2] == own) return false;
     bool entering = false;
     const double where =
         crossing(from, way, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])], mesh_.positions[at(v[2])], entering);
@@ -69,7 +69,7 @@ double SkinShape::way_out(const Vec3& from, const Vec3& direction, double most) 
   return nearest;
 }
 
-void SkinShape::islands_along(const Vec3& from, const Vec3& to, Vector<Index>& out) const {
+void SkinShape::pieces_along(const Vec3& from, const Vec3& to, Vector<Index>& out) const {
   out.clear();
   const Vec3 way = to - from;
   tree_.along(from, to, [&](Index t) {

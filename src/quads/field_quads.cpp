@@ -33,7 +33,6 @@ constexpr double sample_spacing = 0.33;
 constexpr double fit_tolerance = 0.39;
 // A guide whose part along the surface is shorter than this share of it has no direction; it refuses mistakes.
 constexpr double least_tangent = 1e-9;
-constexpr double degrees = half_turn / 180;
 // How many times more a triangle counts in the map where guides hold it. A disc held at 29 degrees to all around is 14
 // degrees off with 0, 6 with 3, 2.5 with 10 and 1 with 30. One stroke over spot is 6 degrees off with 0, 8 with 10 and
 // 30, 9 with 100, and 34 without guides.
@@ -265,7 +264,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
   for (std::size_t v = 0; v < guided.weight.size(); ++v)
     wish[v] = (1 - guided.weight[v]) * wish[v] + guided.weight[v] * guided.cross[v];
   Table<std::uint8_t> features =
-      find_features(surface, options.crease > 0 ? options.crease * degrees : HUGE_VAL, memory);
+      find_features(surface, options.crease > 0 ? options.crease : HUGE_VAL, memory);
   keep_edges(surface, core.topology, options.crease_edges, features, memory);
   const auto smooth = [&] {
     const ProgressRange range(field_progress.factored, field_progress.smoothed);

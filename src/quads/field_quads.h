@@ -35,7 +35,7 @@ struct QuadGuide {
 struct QuadPole {
   Vec3 place;          // near the surface, inner units
   std::int32_t quads;  // how many meet there: 3 or 5
-  Vec3 direction;      // of one side of the pole; its part along the surface counts; 0: any
+  Vec3 direction;      // of one side of the irregular vertex; its part along the surface counts; 0: any
 };
 
 struct FieldQuadOptions {
@@ -45,7 +45,7 @@ struct FieldQuadOptions {
   std::int32_t relax = default_relax_rounds;
   bool strict = false;  // throws QuadSource::LostComponent where a component needs shorter edges (counted_quads.h)
   double facet = 0;     // inner units: facets of about this size are no shape that crosses follow; 0: triangles
-  double crease = 0;    // degrees: edges that bend more are kept; 0: none
+  double crease = 0;    // radians: edges that bend more are kept; 0: none
   Span<const Index> crease_edges;  // edges that are kept whatever their angle
   Span<const QuadGuide> guides;
   Span<const QuadPole> poles;        // whose guides are among the guides

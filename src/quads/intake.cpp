@@ -16,19 +16,15 @@ constexpr std::uint32_t most_wanted_faces = 10000000;
 constexpr std::uint32_t most_relax_count = 1000;
 // As shares of the box: below, a mesh would have 10^8 faces; above, none.
 constexpr double least_edge_length = 1e-4, most_edge_length = 1.0;
-constexpr double most_crease = 180;  // degrees
-// Each pole is looked for among all vertices: 1,000 take 0.3 s on 300,000. hf/quads.h states it.
+constexpr double most_crease = 3.1416;  // a half turn, with what callers round
+// Each irregular vertex is looked for among all vertices: 1,000 take 0.3 s on 300,000. hf/quads.h states it.
 constexpr std::uint32_t most_poles = 1000;
 // A normal of symmetry_plane is as long as the caller likes, but its square must be a number.
 constexpr double least_normal = 1e-150, most_normal = 1e150;
 
 // Returns the edge length in box diagonals.
-double read_edge_length(const Mesh& mesh, float given) {
-  const double length = static_cast<double>(given);
+double read_edge_length(const Mesh& mesh, double length) {
   check_finite(length, "edge_length");
-  if (mesh.scale > static_cast<double>(std::numeric_limits<float>::max()))
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
-         "the mesh is %g wide; scale it below 3e38, so that floats hold its edge lengths", mesh.scale);
   if (length == 0) return default_edge_length;
   const double share = length / mesh.scale;
   if (share < least_edge_length || share > most_edge_length)
@@ -72,27 +68,27 @@ void read_guides(const Core& core, const hf_quads_desc& desc, Vector<QuadGuide>&
 }
 
 void read_poles(const Core& core, const hf_quads_desc& desc, const FieldQuadOptions& options, QuadLists& lists) {
-  if (desc.pole_count == 0) {
-    if (desc.pole_points || desc.pole_quads || desc.pole_directions)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "pole_count is 0, but arrays of poles are given");
+  if (desc.irregular_count == 0) {
+    if (desc.irregular_points || desc.irregular_valences || desc.irregular_directions)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "irregular_count is 0, but arrays of poles are given");
     return;
   }
-  require(desc.pole_points, "pole_points");
-  require(desc.pole_quads, "pole_quads");
-  if (desc.pole_count > most_poles)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "pole_count is %u; it must be up to %u", desc.pole_count, most_poles);
+  require(desc.irregular_points, "irregular_points");
+  require(desc.irregular_valences, "irregular_valences");
+  if (desc.irregular_count > most_poles)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "irregular_count is %u; it must be up to %u", desc.irregular_count, most_poles);
   Vector<QuadPole>& poles = lists.poles;
-  for (std::uint32_t i = 0; i < desc.pole_count; ++i) {
-    const double* point = desc.pole_points + std::size_t{3} * i;
-    if (!is_finite_point(point)) fail(HF_ERROR_NON_FINITE, i, "pole_points[%u] is not finite", i);
-    if (desc.pole_quads[i] != 3 && desc.pole_quads[i] != 5)
-      fail(HF_ERROR_INVALID_ARGUMENT, i, "pole_quads[%u] is %u; it must be 3 or 5", i, desc.pole_quads[i]);
+  for (std::uint32_t i = 0; i < desc.irregular_count; ++i) {
+    const double* point = desc.irregular_points + std::size_t{3} * i;
+    if (!is_finite_point(point)) fail(HF_ERROR_NON_FINITE, i, "irregular_points[%u] is not finite", i);
+    if (desc.irregular_valences[i] != 3 && desc.irregular_valences[i] != 5)
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "irregular_valences[%u] is %u; it must be 3 or 5", i, desc.irregular_valences[i]);
     QuadPole pole;
     pole.place = read_place(core.mesh, point, "pole", i);
-    pole.quads = static_cast<std::int32_t>(desc.pole_quads[i]);
-    if (desc.pole_directions) {
-      const double* direction = desc.pole_directions + std::size_t{3} * i;
-      if (!is_finite_point(direction)) fail(HF_ERROR_NON_FINITE, i, "pole_directions[%u] is not finite", i);
+    pole.quads = static_cast<std::int32_t>(desc.irregular_valences[i]);
+    if (desc.irregular_directions) {
+      const double* direction = desc.irregular_directions + std::size_t{3} * i;
+      if (!is_finite_point(direction)) fail(HF_ERROR_NON_FINITE, i, "irregular_directions[%u] is not finite", i);
       pole.direction = unit_vector({direction[0], direction[1], direction[2]});
     }
     poles.push_back(pole);
@@ -151,7 +147,7 @@ FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const
   if (desc.face_count > most_wanted_faces)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "face_count is %u; it must be up to %u", desc.face_count,
          most_wanted_faces);
-  const double crease = static_cast<double>(desc.crease_angle);
+  const double crease = desc.crease_angle;
   check_finite(crease, "crease_angle");
   if (crease < 0 || crease > most_crease)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "crease_angle is %g; it must be 0 to %g", crease, most_crease);

@@ -13,20 +13,20 @@ namespace {
 
 // A direction whose part along the surface is a smaller share of it says little: the noise of the normal decides.
 constexpr double least_along = 0.1;
-// Cosine of the largest turn from the normal of the pole to that of a vertex of the ring; a turn by 180 degrees has no
+// Cosine of the largest turn from the normal of the irregular vertex to that of a vertex of the ring; a turn by 180 degrees has no
 // axis.
 constexpr double largest_turn = -0.9;
 
 // The figures are of the 36 poles of poles_test on a torus and a sphere, without relaxation. The aspect is the mean of
 // the quads within four edges.
 
-// A vertex within this many edges of a pole is its own. 96 % of poles have one. With half, the vertices of some poles
+// A vertex within this many edges of an irregular vertex is its own. 96 % of poles have one. With half, the vertices of some poles
 // stay up to 0.67 edges away; double gives the same quads.
 constexpr double pole_reach = 1;
-// Walks to the place of a pole. With one, a vertex ends up to 0.005 edges away; with two, three and six, all are less
+// Walks to the place of an irregular vertex. With one, a vertex ends up to 0.005 edges away; with two, three and six, all are less
 // than 0.00005 away.
 constexpr int pole_walks = 2;
-// Quads around a pole that move along, and in how many rounds. More are slower. The aspect is 1.38; with 2 and 6 rings
+// Quads around an irregular vertex that move along, and in how many rounds. More are slower. The aspect is 1.38; with 2 and 6 rings
 // it is 1.39 and 1.38, with 2 and 10 rounds 1.38 and 1.43.
 constexpr std::int32_t pole_rings = 3, pole_rounds = 5;
 
@@ -129,7 +129,7 @@ void add_pole_guides(const Core& core, Span<const QuadPole> poles, double radius
     for (const Index v : ring.inside) up = up + core.areas[at(v)] * vertex_normal(core.mesh, core.topology, v);
     up = unit_vector(up);
     if (!(norm(up) > 0))
-      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i), "the surface has no normal at pole_points[%zu]",
+      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i), "the surface has no normal at irregular_points[%zu]",
            i);
     const Vec3 x = in_plane(up, pole.direction), y = cross(up, x);
     for (const Index v : ring.around) {

@@ -12,7 +12,7 @@ namespace hf_inner {
 // triangle wide at least. Throws HF_ERROR_INVALID_ARGUMENT (index = pole) where the surface has no normal.
 void add_pole_guides(const Core& core, Span<const QuadPole> poles, double radius, Vector<QuadGuide>& out);
 
-// Moves irregular vertices to their poles: for each pole the nearest free vertex of as many quads, if one is within
+// Moves irregular vertices to their poles: for each irregular vertex the nearest free vertex of as many quads, if one is within
 // pole_reach edges. It stays there when the mesh is evened out. Vertices around it move along. Returns how many moved.
 std::int32_t hold_poles(const FluxSurface& surface, Span<const QuadPole> poles, double edge_length, QuadMesh& mesh,
                         Memory& memory);

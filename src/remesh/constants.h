@@ -17,7 +17,7 @@ namespace hf_inner {
 
 // Lines of a flow, as hf/quads.h states it. It refuses other numbers in the place of counts; api_bad_quads_test tries
 // more. No result depends on it.
-constexpr std::uint32_t most_flow_lines = 1000000;
+constexpr std::uint32_t most_streamlines = 1000000;
 
 // --- flux_field.cpp ---
 

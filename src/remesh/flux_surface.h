@@ -1,4 +1,4 @@
-// The surface of flow lines and quads: an oriented half-edge mesh without borders, with a weight for each edge.
+// The surface of streamlines and quads: an oriented half-edge mesh without borders, with a weight for each edge.
 //
 // Triangles are turned so that neighbours agree. If an edge has three or more triangles, the two flattest are joined,
 // then the next two. A triangle without a partner gets a border. A Moebius band is parted across. A vertex where

@@ -6,13 +6,13 @@
 
 namespace hf_inner {
 
-Vector<std::int32_t> read_seeds(const Mesh& mesh, const hf_flow_lines& lines, Memory& memory) {
-  if (lines.seed_count > most_flow_lines)
+Vector<std::int32_t> read_seeds(const Mesh& mesh, const hf_streamlines& lines, Memory& memory) {
+  if (lines.seed_count > most_streamlines)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "seed_count is %u; it must be up to %u", lines.seed_count,
-         most_flow_lines);
-  if (lines.seed_count == 0 && (lines.wanted_count < 1 || lines.wanted_count > most_flow_lines))
+         most_streamlines);
+  if (lines.seed_count == 0 && (lines.wanted_count < 1 || lines.wanted_count > most_streamlines))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "wanted_count is %u; it must be 1 to %u", lines.wanted_count,
-         most_flow_lines);
+         most_streamlines);
   Vector<std::int32_t> seeds(&memory);
   if (lines.seed_count) {
     require(lines.seeds, "inout_lines->seeds");

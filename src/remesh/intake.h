@@ -1,4 +1,4 @@
-// Reads the counts and seeds of flow lines.
+// Reads the counts and seeds of streamlines.
 #pragma once
 #include "hf/quads.h"
 #include "mesh/mesh.h"
@@ -7,6 +7,6 @@ namespace hf_inner {
 
 // Checks the counts and returns the seeds as inner vertices; empty: lines start at the minima. Throws
 // HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NULL_POINTER, HF_ERROR_OUT_OF_RANGE (index = entry).
-Vector<std::int32_t> read_seeds(const Mesh& mesh, const hf_flow_lines& lines, Memory& memory);
+Vector<std::int32_t> read_seeds(const Mesh& mesh, const hf_streamlines& lines, Memory& memory);
 
 }  // namespace hf_inner

@@ -148,8 +148,8 @@ void read_vertices(Body& body);                          // intake.cpp
 void find_owners(Body& body);                            // owners.cpp
 void read_names(Body& body);                             // names.cpp
 void find_mirror(Body& body);                            // mirror.cpp
-void join_islands(Body& body);                           // islands.cpp
-void build_tree(Body& body);                             // islands.cpp
+void join_pieces(Body& body);                           // pieces.cpp
+void build_tree(Body& body);                             // pieces.cpp
 void find_limbs(Body& body);                             // limbs.cpp
 void find_up(Body& body);                                // up.cpp
 void follow_limbs(Body& body);                           // limbs.cpp

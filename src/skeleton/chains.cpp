@@ -181,7 +181,7 @@ Character know_character(const CharacterInput& input, Memory& memory) {
   find_owners(body);
   read_names(body);
   find_mirror(body);
-  join_islands(body);
+  join_pieces(body);
   build_tree(body);
   find_limbs(body);
   find_up(body);

@@ -6,11 +6,11 @@
 // sentence.
 //
 // Steps: input (intake.cpp), owners and helpers (owners.cpp), names (names.cpp), plane of symmetry and pairs
-// (mirror.cpp), one tree of loose islands (islands.cpp), limbs (limbs.cpp), up (up.cpp), forward (forward.cpp), roles
+// (mirror.cpp), one tree of loose pieces (pieces.cpp), limbs (limbs.cpp), up (up.cpp), forward (forward.cpp), roles
 // (roles.cpp, parts.cpp), chains and lengths (chains.cpp). Inside, positions are shares of the diagonal of the bounding
 // box, so that no unit matters.
 //
-// Cost: linear in vertices and triangles; mates are searched in a tree of joints. Loose islands cost their square. Bad
+// Cost: linear in vertices and triangles; mates are searched in a tree of joints. Loose pieces cost their square. Bad
 // input throws Error with the index and leaves nothing behind. A body that is not understood gets a low confidence, no
 // error.
 #pragma once

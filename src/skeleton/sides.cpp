@@ -342,7 +342,7 @@ void look_at_bind_pose(Body& body, Index main) {
   body.say("The rest pose is not symmetric; the pose of binding has a plane with a score of %.2f.", choice.score);
 }
 
-// The root of the island that owns most vertices.
+// The root of the piece that owns most vertices.
 Index heaviest_root(const Body& body) {
   Vector<Index> roots(at(body.count), -1, &body.memory);
   Vector<std::size_t> weights(at(body.count), 0, &body.memory);

@@ -10,11 +10,10 @@ TransferOptions read_transfer_options(const hf_transfer_desc& desc) {
   TransferOptions options;
   options.mode = desc.mode;
   options.cluster_count = desc.cluster_count;
-  options.kernel_width = static_cast<double>(desc.kernel_width);
-  options.scale = static_cast<double>(desc.scale);
-  options.alignment_angle = static_cast<double>(desc.alignment_angle);
+  options.kernel_width = desc.kernel_width;
+  options.scale = desc.scale;
+  options.alignment_angle = desc.alignment_angle;
   check_choice(desc.ground, 2, "ground");
-  require_zero(desc.reserved);
   options.keep_ground = desc.ground == HF_GROUND_KEEP;
   std::copy_n(desc.source_axes, 9, options.source_axes);
   std::copy_n(desc.target_axes, 9, options.target_axes);
@@ -22,13 +21,14 @@ TransferOptions read_transfer_options(const hf_transfer_desc& desc) {
 }
 
 Dials read_dials(const hf_transfer_dials& desc) {
+  require_zero(desc.reserved);
   Dials out;
-  out.stride = desc.stride == 0 ? 1.0 : static_cast<double>(desc.stride);
-  out.hip_height = static_cast<double>(desc.hip_height);
-  out.neck_follow = static_cast<double>(desc.neck_follow);
-  out.tail_follow = static_cast<double>(desc.tail_follow);
-  out.arm_space = static_cast<double>(desc.arm_space);
-  out.long_follow = static_cast<double>(desc.long_follow);
+  out.stride = desc.stride == 0 ? 1.0 : desc.stride;
+  out.hip_height_share = desc.hip_height_share;
+  out.neck_follow = desc.neck_follow;
+  out.tail_follow = desc.tail_follow;
+  out.arm_space = desc.arm_space;
+  out.long_follow = desc.long_follow;
   return out;
 }
 

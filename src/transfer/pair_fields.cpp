@@ -41,7 +41,7 @@ void PairFields::add(Span<const std::uint32_t> numbers, Span<const Span<const st
       }
       const auto mine = static_cast<std::int32_t>(numbers[i]);
       if (claimed[at(v)] != none && claimed[at(v)] != mine) {
-        fail(HF_ERROR_OVERLAP, position,
+        fail(HF_ERROR_CONFLICT, position,
              "entry %u of the %s regions belongs to another pair already; regions must not overlap", position, side);
       }
       claimed[at(v)] = mine;

@@ -29,7 +29,7 @@ class PairFields {
 
   // regions[i] becomes the region of pair numbers[i], a number not in use. Vertices may repeat inside a region. `side`
   // names the surface in messages. Throws HF_ERROR_EMPTY (index: pair in the batch). Throws HF_ERROR_OUT_OF_RANGE and
-  // HF_ERROR_OVERLAP (index: position in the list of all regions, one after the other).
+  // HF_ERROR_CONFLICT (index: position in the list of all regions, one after the other).
   void add(Span<const std::uint32_t> numbers, Span<const Span<const std::int32_t>> regions, const char* side);
   // Removes the regions of these pairs. Every number must be in use.
   void remove(Span<const std::uint32_t> numbers);

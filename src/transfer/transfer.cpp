@@ -149,7 +149,7 @@ void Transfer::remove_pairs(Span<const std::uint32_t> pairs) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto found = std::lower_bound(numbers.begin(), numbers.end(), pairs[i]);
     if (found == numbers.end() || *found != pairs[i])
-      fail(HF_ERROR_NO_SUCH_PAIR, static_cast<std::uint32_t>(i), "entry %zu: the transfer has no pair %u", i, pairs[i]);
+      fail(HF_ERROR_NOT_FOUND, static_cast<std::uint32_t>(i), "entry %zu: the transfer has no pair %u", i, pairs[i]);
     numbers.erase(found);
   }
   PairFields source(source_), target(target_);
@@ -441,7 +441,7 @@ Transfer::Prepared& Transfer::prepare() {
 
 PairInfo Transfer::pair_info(std::uint32_t pair) {
   const auto found = std::lower_bound(numbers_.begin(), numbers_.end(), pair);
-  if (found == numbers_.end() || *found != pair) fail(HF_ERROR_NO_SUCH_PAIR, pair, "the transfer has no pair %u", pair);
+  if (found == numbers_.end() || *found != pair) fail(HF_ERROR_NOT_FOUND, pair, "the transfer has no pair %u", pair);
   const Prepared& p = prepare();
   const auto h = static_cast<std::size_t>(found - numbers_.begin());
   PairInfo info;
@@ -489,9 +489,9 @@ const std::uint8_t* Transfer::sinking() {
   return p.sinks.empty() ? nullptr : p.sinks.data();
 }
 
-void Transfer::skin_weights(std::int32_t vertex, std::uint32_t weight_count, std::uint32_t* joints, float* weights) {
+void Transfer::skin_weights(std::int32_t vertex, std::uint32_t influence_count, std::uint32_t* joints, float* weights) {
   const Prepared& p = prepare();
-  for (std::uint32_t i = 0; i < weight_count; ++i) {
+  for (std::uint32_t i = 0; i < influence_count; ++i) {
     const bool used = i < blend_count;
     const std::size_t from = at(vertex) * blend_count + i;
     weights[i] = used ? p.clusters.weight[from] : 0.0f;

@@ -48,8 +48,8 @@ struct TransferOptions {
 
 // What an animator turns without a new preparation; these values change nothing (hf_transfer_dials).
 struct Dials {
-  double stride = 1, hip_height = 0, neck_follow = 0, tail_follow = 0, arm_space = 0, long_follow = 0;
-  bool moves_paths() const noexcept { return stride != 1 || hip_height != 0; }
+  double stride = 1, hip_height_share = 0, neck_follow = 0, tail_follow = 0, arm_space = 0, long_follow = 0;
+  bool moves_paths() const noexcept { return stride != 1 || hip_height_share != 0; }
   bool turns_limbs() const noexcept { return neck_follow != 0 || tail_follow != 0 || arm_space != 0; }
 };
 
@@ -85,7 +85,7 @@ class Transfer {
   // throws HF_ERROR_TOO_LARGE above 256 pairs, and HF_ERROR_INVALID_ARGUMENT for unknown flags. prepare_now: also
   // solves the fields and makes the clusters of all pairs, which else the next frame does. This changes no result.
   void add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs, bool prepare_now = false);
-  // Throws HF_ERROR_NO_SUCH_PAIR (index: position in the list), also for a number named twice.
+  // Throws HF_ERROR_NOT_FOUND (index: position in the list), also for a number named twice.
   void remove_pairs(Span<const std::uint32_t> pairs);
   std::uint32_t pair_count() const noexcept { return static_cast<std::uint32_t>(numbers_.size()); }
 
@@ -101,7 +101,7 @@ class Transfer {
   // Poses the target like the posed source. source, out: inner vertices of source and target, in the caller's units.
   // holds: regions of the target whose mean goes to a given place in this frame. Throws HF_ERROR_EMPTY without a pair,
   // and HF_ERROR_NON_FINITE or HF_ERROR_TOO_LARGE (index: given vertex of the source). For bad holds it throws
-  // HF_ERROR_NO_SUCH_PAIR, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE, or HF_ERROR_INVALID_ARGUMENT for a pair named twice
+  // HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE, or HF_ERROR_INVALID_ARGUMENT for a pair named twice
   // (index: position in the list).
   void apply(const Vec3* source, Vec3* out, Span<const PairHold> holds = {});
 
@@ -113,8 +113,8 @@ class Transfer {
   // By inner vertex of the target: 1 if it may sink into the ground. NULL: there is no ground.
   const std::uint8_t* sinking();
   // Writes the joints and weights of an inner vertex of the target, by falling weight, with sum exactly 1.
-  // weight_count: 4 or 8, the length of both arrays.
-  void skin_weights(std::int32_t vertex, std::uint32_t weight_count, std::uint32_t* joints, float* weights);
+  // influence_count: 4 or 8, the length of both arrays.
+  void skin_weights(std::int32_t vertex, std::uint32_t influence_count, std::uint32_t* joints, float* weights);
 
   const Core& source() const noexcept { return *source_core_; }
   const Core& target() const noexcept { return *target_core_; }

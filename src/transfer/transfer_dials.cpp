@@ -43,7 +43,7 @@ void add_columns(const Buffer<double>& field, std::size_t width, const Vector<st
 
 void Transfer::set_dials(const Dials& dials) {
   check_dial(dials.stride, least_stride, most_stride, "stride");
-  check_dial(dials.hip_height, -most_hip_height, most_hip_height, "hip_height");
+  check_dial(dials.hip_height_share, -most_hip_height, most_hip_height, "hip_height_share");
   check_dial(dials.neck_follow, -most_follow, most_follow, "neck_follow");
   check_dial(dials.tail_follow, -most_follow, most_follow, "tail_follow");
   check_dial(dials.arm_space, -most_arm_space, most_arm_space, "arm_space");

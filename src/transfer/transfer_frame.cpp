@@ -87,7 +87,7 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
   const Mat3 carried = power(turn, std::max(fallen, yaw)).toRotationMatrix();
   if (dials_.moves_paths()) {
     const Vec3 travel = p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
-    p.body_rise = (1 - fallen_share(turn, up)) * dials_.hip_height * p.hip_height;
+    p.body_rise = (1 - fallen_share(turn, up)) * dials_.hip_height_share * p.hip_height;
     p.body_excess = (dials_.stride - 1) * (travel - dot(up, travel) * up) + p.body_rise * up;
   }
   for (std::size_t k = 0; k < p.anchors.size(); ++k) {
@@ -142,7 +142,7 @@ void Transfer::read_holds(Prepared& p, Span<const PairHold> holds) const {
     const auto index = static_cast<std::uint32_t>(i);
     const std::uint32_t number = holds[i].pair;
     if (!std::binary_search(numbers_.begin(), numbers_.end(), number))
-      fail(HF_ERROR_NO_SUCH_PAIR, index, "entry %zu of the holds: the transfer has no pair %u", i, number);
+      fail(HF_ERROR_NOT_FOUND, index, "entry %zu of the holds: the transfer has no pair %u", i, number);
     if (!is_finite(holds[i].place))
       fail(HF_ERROR_NON_FINITE, index, "entry %zu of the holds: the place of pair %u is not finite", i, number);
     if (is_too_far(target_core_->mesh.to_inner(holds[i].place)))

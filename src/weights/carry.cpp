@@ -8,7 +8,7 @@
 
 namespace hf_inner {
 
-FilledWeights carry_weights(const Mesh& source, const SkinShape& source_skin, const GivenWeights& given,
+FilledWeights transfer_weights(const Mesh& source, const SkinShape& source_skin, const GivenWeights& given,
                             std::shared_ptr<const Core> target, const MatchOptions& options, const Surface* surface) {
   Memory& memory = *target->memory;
   const Mesh& mesh = target->mesh;
@@ -32,7 +32,7 @@ FilledWeights carry_weights(const Mesh& source, const SkinShape& source_skin, co
     }
   };
   take_rows(find_matches(shape, *fill.core, options, false, probe), fill.known);
-  const Vector<std::uint8_t> known = known_islands(mesh, fill.known, memory);
+  const Vector<std::uint8_t> known = known_pieces(mesh, fill.known, memory);
   const auto probe_rest = [&](Index v, Probe& out) { return !known[at(mesh.component[at(v)])] && probe(v, out); };
   WeightRows guessed(memory);
   take_rows(find_matches(shape, *fill.core, options, true, probe_rest), guessed);

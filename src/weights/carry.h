@@ -1,7 +1,7 @@
 // Carries weights from one surface to another: clothes, hair, levels of detail, new topology.
 //
 // A vertex takes the weights of the nearest point of the source within a distance, among those whose normal agrees. One
-// solve with these vertices as sites fills in the others (Abdrashitov, Raichstat, Monsen, Hill 2023). Islands without
+// solve with these vertices as sites fills in the others (Abdrashitov, Raichstat, Monsen, Hill 2023). Pieces without
 // a match take the weights of the nearest points.
 #pragma once
 #include "weights/carry_fill.h"
@@ -63,7 +63,7 @@ Vector<Match> find_matches(const WeightedShape& source, const Core& target, cons
 
 // source, skin: of the surface with weights. target: a core of the other. surface: as in Fill. Throws HF_ERROR_EMPTY if
 // no vertex of the source has weights.
-FilledWeights carry_weights(const Mesh& source, const SkinShape& skin, const GivenWeights& given,
+FilledWeights transfer_weights(const Mesh& source, const SkinShape& skin, const GivenWeights& given,
                             std::shared_ptr<const Core> target, const MatchOptions& options,
                             const Surface* surface = nullptr);
 

@@ -9,11 +9,11 @@
 #include "engine/constraint_system.h"
 #include "engine/site_solver.h"
 #include "weights/constants.h"
-#include "weights/islands.h"
+#include "weights/pieces.h"
 
 namespace hf_inner {
 
-Vector<std::uint8_t> known_islands(const Mesh& mesh, const WeightRows& known, Memory& memory) {
+Vector<std::uint8_t> known_pieces(const Mesh& mesh, const WeightRows& known, Memory& memory) {
   Vector<std::uint8_t> out(at(mesh.component_count()), 0, &memory);
   for (Index v = 0; v < mesh.vertex_count(); ++v) out[at(mesh.component[at(v)])] |= known.has(v);
   return out;
@@ -34,7 +34,7 @@ struct Solved {
   Buffer<double> field;   // [row][bone]
 };
 
-// Marks the vertices to fill in. The sites are the known vertices of their islands.
+// Marks the vertices to fill in. The sites are the known vertices of their pieces.
 Vector<Site> choose_sites(const Fill& fill, const Vector<std::uint8_t>& known, Solved& out, Memory& memory) {
   const Mesh& mesh = fill.core->mesh;
   Vector<std::uint8_t> open(known.size(), 0, &memory);
@@ -137,11 +137,11 @@ void count_given(const Mesh& mesh, FilledWeights& out) {
   }
 }
 
-// The diagonals of the boxes of islands, by component.
-Vector<double> island_sizes(const Mesh& mesh, Memory& memory) {
-  const std::size_t islands = at(mesh.component_count());
-  Vector<ItemBox> box(islands, &memory);
-  Vector<std::uint8_t> seen(islands, 0, &memory);
+// The diagonals of the boxes of pieces, by component.
+Vector<double> piece_sizes(const Mesh& mesh, Memory& memory) {
+  const std::size_t pieces = at(mesh.component_count());
+  Vector<ItemBox> box(pieces, &memory);
+  Vector<std::uint8_t> seen(pieces, 0, &memory);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const std::size_t c = at(mesh.component[at(v)]);
     if (!seen[c]) {
@@ -155,13 +155,13 @@ Vector<double> island_sizes(const Mesh& mesh, Memory& memory) {
   return out;
 }
 
-// The mean of the rows of every small island without known weights; empty rows for the others.
-WeightRows island_means(const Fill& fill, const WeightRows& guessed, const Vector<std::uint8_t>& known,
+// The mean of the rows of every small piece without known weights; empty rows for the others.
+WeightRows piece_means(const Fill& fill, const WeightRows& guessed, const Vector<std::uint8_t>& known,
                         Memory& memory) {
   const Mesh& mesh = fill.core->mesh;
-  const Vector<double> size = island_sizes(mesh, memory);
+  const Vector<double> size = piece_sizes(mesh, memory);
   struct Entry {
-    Index island;
+    Index piece;
     Share share;
   };
   Vector<Entry> entries(&memory);
@@ -173,13 +173,13 @@ WeightRows island_means(const Fill& fill, const WeightRows& guessed, const Vecto
   stable_sort(
       entries,
       [](const Entry& a, const Entry& b) {
-        return a.island != b.island ? a.island < b.island : a.share.bone < b.share.bone;
+        return a.piece != b.piece ? a.piece < b.piece : a.share.bone < b.share.bone;
       },
       memory);
   WeightRows out(memory);
   std::size_t next = 0;
   for (std::size_t c = 0; c < known.size(); ++c) {
-    for (; next < entries.size() && at(entries[next].island) == c; ++next)
+    for (; next < entries.size() && at(entries[next].piece) == c; ++next)
       out.add(entries[next].share.bone, entries[next].share.weight);
     out.close();
   }
@@ -193,10 +193,10 @@ FilledWeights fill_weights(const Fill& fill, const WeightRows& guessed, std::int
   Memory& memory = *core.memory;
   FilledWeights out(memory);
   out.influences = influences;
-  const Vector<std::uint8_t> known = known_islands(core.mesh, fill.known, memory);
+  const Vector<std::uint8_t> known = known_pieces(core.mesh, fill.known, memory);
   const Solved solved = solve(fill, known, memory);
-  const WeightRows means = island_means(fill, guessed, known, memory);
-  out.islands_guessed = static_cast<std::uint32_t>(std::count(known.begin(), known.end(), 0));
+  const WeightRows means = piece_means(fill, guessed, known, memory);
+  out.pieces_guessed = static_cast<std::uint32_t>(std::count(known.begin(), known.end(), 0));
   const std::size_t k = at(influences), width = solved.bone_of.size();
   out.joints.resize(at(core.size()) * k);
   out.weights.resize(at(core.size()) * k);
@@ -205,15 +205,15 @@ FilledWeights fill_weights(const Fill& fill, const WeightRows& guessed, std::int
   Poller poller(filled_per_poll);
   for (Index v = 0; v < core.size(); ++v) {
     poller.due();
-    const Index island = core.mesh.component[at(v)];
+    const Index piece = core.mesh.component[at(v)];
     shares.clear();
     Origin origin = Origin::solved;
     if (fill.known.has(v)) {
       origin = fill.origin[at(v)];
       shares.assign(fill.known.of(v).begin(), fill.known.of(v).end());
-    } else if (!known[at(island)]) {
-      const bool rigid = means.has(island);
-      const Span<const Share> row = rigid ? means.of(island) : guessed.of(v);
+    } else if (!known[at(piece)]) {
+      const bool rigid = means.has(piece);
+      const Span<const Share> row = rigid ? means.of(piece) : guessed.of(v);
       origin = rigid ? Origin::rigid : Origin::carried;
       shares.assign(row.begin(), row.end());
     } else {

@@ -15,7 +15,7 @@ struct FilledWeights {
   Vector<Origin> origin;              // by inner vertex
   Vector<Index> nearest_of_isolated;  // by Mesh::isolated
   std::uint32_t by_origin[8] = {};    // vertices as given, by Origin
-  std::uint32_t islands_guessed = 0;  // islands without a vertex that has weights
+  std::uint32_t pieces_guessed = 0;  // pieces without a vertex that has weights
 };
 
 // A surface of which some vertices have weights.
@@ -29,9 +29,9 @@ struct Fill {
 };
 
 // By component: whether a vertex of it is known.
-Vector<std::uint8_t> known_islands(const Mesh& mesh, const WeightRows& known, Memory& memory);
+Vector<std::uint8_t> known_pieces(const Mesh& mesh, const WeightRows& known, Memory& memory);
 
-// guessed: rows for every vertex of islands without a known one. influences: 4 or 8.
+// guessed: rows for every vertex of pieces without a known one. influences: 4 or 8.
 FilledWeights fill_weights(const Fill& fill, const WeightRows& guessed, std::int32_t influences);
 
 }  // namespace hf_inner

@@ -17,14 +17,14 @@ namespace {
 // Checks the arrays of a desc: weights of every vertex, joints below most_bones.
 template <class Desc>
 GivenWeights read_given(const Desc& desc, const Mesh& mesh, std::uint32_t limit) {
-  if (desc.influence_count < 1 || desc.influence_count > most_skin_joints)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "influence_count is %u; it must be 1 to %u", desc.influence_count,
+  if (desc.source_influence_count < 1 || desc.source_influence_count > most_skin_joints)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "source_influence_count is %u; it must be 1 to %u", desc.source_influence_count,
          most_skin_joints);
   require(desc.joints, "joints");
   require(desc.weights, "weights");
   for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
-    for (std::uint32_t k = 0; k < desc.influence_count; ++k) {
-      const std::size_t i = std::size_t{v} * desc.influence_count + k;
+    for (std::uint32_t k = 0; k < desc.source_influence_count; ++k) {
+      const std::size_t i = std::size_t{v} * desc.source_influence_count + k;
       const float w = desc.weights[i];
       if (!std::isfinite(w)) fail(HF_ERROR_NON_FINITE, v, "weight %u of vertex %u is not finite", k, v);
       if (w < 0)
@@ -34,7 +34,7 @@ GivenWeights read_given(const Desc& desc, const Mesh& mesh, std::uint32_t limit)
         fail(HF_ERROR_OUT_OF_RANGE, v, "joint %u of vertex %u is %u; it must be below %u", k, v, desc.joints[i], limit);
     }
   }
-  return {desc.influence_count, desc.joints, desc.weights};
+  return {desc.source_influence_count, desc.joints, desc.weights};
 }
 
 // scale: of the mesh with the weights.
@@ -50,20 +50,20 @@ MatchOptions match_options(const Desc& desc, double scale) {
   out.distance = desc.distance == 0 ? carry_distance : desc.distance / scale;
   const double angle = desc.angle == 0 ? carry_angle : desc.angle;
   out.cosine = angle >= any_angle ? -2 : cosine(angle) - equal_cosine;
-  out.influences = weights_per_vertex(desc.weight_count);
+  out.influences = weights_per_vertex(desc.influence_count);
   return out;
 }
 
-void read_partners(const hf_mirror_desc& desc, MirrorBones& bones) {
-  for (std::uint32_t b = 0; desc.partners && b < desc.bone_count; ++b) {
+void read_partners(const hf_weights_mirror_desc& desc, MirrorBones& bones) {
+  for (std::uint32_t b = 0; desc.partners && b < desc.joint_count; ++b) {
     const std::uint32_t partner = desc.partners[b];
     if (partner == HF_NO_INDEX) continue;
-    if (partner >= desc.bone_count)
-      fail(HF_ERROR_OUT_OF_RANGE, b, "the partner of bone %u is %u, but there are %u bones", b, partner,
-           desc.bone_count);
+    if (partner >= desc.joint_count)
+      fail(HF_ERROR_OUT_OF_RANGE, b, "the partner of joint %u is %u, but there are %u joints", b, partner,
+           desc.joint_count);
     const std::uint32_t back = desc.partners[partner];
     if (back != HF_NO_INDEX && back != b)
-      fail(HF_ERROR_INVALID_ARGUMENT, b, "the partner of bone %u is %u, but the partner of %u is %u", b, partner,
+      fail(HF_ERROR_INVALID_ARGUMENT, b, "the partner of joint %u is %u, but the partner of %u is %u", b, partner,
            partner, back);
   }
   // What the caller says comes before names: bones that names pair with others lose those.
@@ -73,7 +73,7 @@ void read_partners(const hf_mirror_desc& desc, MirrorBones& bones) {
     bones.partner[b] = static_cast<Index>(partner);
     bones.given[b] = 1;
   };
-  for (std::uint32_t b = 0; desc.partners && b < desc.bone_count; ++b) {
+  for (std::uint32_t b = 0; desc.partners && b < desc.joint_count; ++b) {
     if (desc.partners[b] != HF_NO_INDEX) {
       set(b, desc.partners[b]);
       set(desc.partners[b], b);
@@ -89,35 +89,35 @@ Span<const char> read_bone_names(const char* names, std::size_t bones, Memory& m
   const std::size_t lines = split_names(text, memory).size();
   if (lines != bones)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "names has %zu lines, but there are %zu bones; end each with a newline", lines, bones);
+         "names has %zu lines, but there are %zu joints; end each with a newline", lines, bones);
   return text;
 }
 
-GivenWeights read_carried(const hf_carry_desc& desc, const Mesh& source) {
+GivenWeights read_carried(const hf_weights_transfer_desc& desc, const Mesh& source) {
   return read_given(desc, source, most_bones);
 }
 
-MatchOptions read_carry(const hf_carry_desc& desc, const Mesh& source) { return match_options(desc, source.scale); }
+MatchOptions read_carry(const hf_weights_transfer_desc& desc, const Mesh& source) { return match_options(desc, source.scale); }
 
-GivenWeights read_mirrored(const hf_mirror_desc& desc, const Mesh& mesh) {
-  return read_given(desc, mesh, desc.bone_count);
+GivenWeights read_mirrored(const hf_weights_mirror_desc& desc, const Mesh& mesh) {
+  return read_given(desc, mesh, desc.joint_count);
 }
 
-MirrorBones read_mirror_bones(const hf_mirror_desc& desc, const Mesh& mesh, Memory& memory) {
+MirrorBones read_mirror_bones(const hf_weights_mirror_desc& desc, const Mesh& mesh, Memory& memory) {
   MirrorBones bones(memory);
-  check_bones(desc.bone_count, desc.heads);
+  check_bones(desc.joint_count, desc.heads);
   const auto clamped = [](double x) { return std::min(std::max(x, -farthest), farthest); };
-  for (std::uint32_t b = 0; b < desc.bone_count; ++b) {
+  for (std::uint32_t b = 0; b < desc.joint_count; ++b) {
     const Vec3 inner = mesh.to_inner(read_bone_point(desc.heads, b, "heads"));
     bones.heads.push_back({clamped(inner.x), clamped(inner.y), clamped(inner.z)});
   }
-  bones.partner = pair_names(read_bone_names(desc.names, desc.bone_count, memory), desc.bone_count, memory);
-  bones.given.assign(desc.bone_count, 0);
+  bones.partner = pair_names(read_bone_names(desc.names, desc.joint_count, memory), desc.joint_count, memory);
+  bones.given.assign(desc.joint_count, 0);
   read_partners(desc, bones);
   return bones;
 }
 
-MirrorOptions read_mirror(const hf_mirror_desc& desc, const Mesh& mesh) {
+MirrorOptions read_mirror(const hf_weights_mirror_desc& desc, const Mesh& mesh) {
   MirrorOptions options;
   options.carry = match_options(desc, mesh.scale);
   check_choice(desc.to, 3, "to");

@@ -3,7 +3,7 @@
 
 #include "base/unit_weights.h"
 #include "weights/constants.h"
-#include "weights/islands.h"
+#include "weights/pieces.h"
 #include "weights/weights.h"
 
 namespace hf_inner {
@@ -73,7 +73,7 @@ class Computation {
 
   void mark() {
     const Solution& solution = *state_.solution;
-    for (std::size_t c = 0; c < solved_.size(); ++c) solved_[c] = solution.informants.by_island[c] > 0;
+    for (std::size_t c = 0; c < solved_.size(); ++c) solved_[c] = solution.informants.by_piece[c] > 0;
     if (state_.pinned) {
       const PinSites& pins = state_.pinned->sites;
       for (std::size_t s = 0; s < pins.sites.size(); ++s) {
@@ -111,15 +111,15 @@ class Computation {
   void write(Index v, Vector<Share>& shares, Vector<Share>& locked) const {
     shares.clear();
     locked.clear();
-    const std::size_t island = at(core_.mesh.component[at(v)]);
-    const Index pin = pin_of_[at(v)], rigid = rigid_of_[island], carrier = carriers_.of[at(v)];
+    const std::size_t piece = at(core_.mesh.component[at(v)]);
+    const Index pin = pin_of_[at(v)], rigid = rigid_of_[piece], carrier = carriers_.of[at(v)];
     Origin origin = state_.solution->informants.screening[at(v)] > 0 ? Origin::informed : Origin::solved;
     if (pin >= 0) {
       origin = Origin::pinned;
       const Pins& pins = state_.inputs->pins;
       for (Index i = pins.start[at(pin)]; i < pins.start[at(pin) + 1]; ++i)
         shares.push_back({pins.bone[at(i)], pins.share[at(i)]});
-    } else if (carrier < 0) {  // no island is solved
+    } else if (carrier < 0) {  // no piece is solved
       origin = Origin::carried;
       const Span<const Index> own = state_.solution->informants.of(v);
       for (const Index b : own) shares.push_back({b, 1.0 / static_cast<double>(own.size())});
@@ -152,8 +152,8 @@ class Computation {
     WeightCounts& counts = state_.counts;
     for (const Index v : core_.mesh.inner_of_given)
       ++counts.by_origin[static_cast<std::size_t>(v < 0 ? Origin::isolated : state_.origin[at(v)])];
-    counts.islands_carried = carriers_.carried_islands;
-    counts.islands_rigid = carriers_.rigid_islands;
+    counts.pieces_carried = carriers_.carried_pieces;
+    counts.pieces_rigid = carriers_.rigid_pieces;
     counts.blind = state_.solution->informants.blind;
   }
 
@@ -164,10 +164,10 @@ class Computation {
   const SmoothRows rows_;
   Vector<Index> pin_of_;         // by vertex, or -1
   Vector<std::uint8_t> locked_;  // by bone
-  Vector<std::uint8_t> solved_;  // by island
+  Vector<std::uint8_t> solved_;  // by piece
   Carriers carriers_;
   Vector<double> rigid_rows_;
-  Vector<Index> rigid_of_;  // by island: its row
+  Vector<Index> rigid_of_;  // by piece: its row
   Index first_bone_ = 0;
 };
 

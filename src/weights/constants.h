@@ -51,7 +51,7 @@ constexpr double screening_strength = 4;
 // A distance is divided by half the cosine to the normal plus this. The excess over 1 bounds the division: a bone
 // behind the skin counts 2,000 times as far. 1.1 changes the mean distance by 0.5 %, 1.5 poses the rigs 6 % worse.
 constexpr double facing_excess = 1.001;
-// An open island faces its bones if this share of its vertices faces the nearest one. All of a sheet before its bones
+// An open piece faces its bones if this share of its vertices faces the nearest one. All of a sheet before its bones
 // does, at most half of an open part of the shared bodies. 0.5 takes armour on a knight for such a sheet and poses 95 %
 // of its vertices 1.5 % farther from the artist's pose.
 constexpr double front_share = 0.75;
@@ -66,8 +66,8 @@ constexpr std::int32_t most_informants = 8;
 // larger one blurs thin parts. Half and double change no figure of the 28 shared rigs; 1e-2 poses seven of them 0.4 %
 // farther from the artist's pose in the mean.
 constexpr double least_distance = 1e-4;
-// The mass A H of an island is at least this share of its mean diagonal; below it, rounding would hide H. The weights
-// of such an island are nearly constant, so the factor does not show in them. Half and double change no figure of the
+// The mass A H of a piece is at least this share of its mean diagonal; below it, rounding would hide H. The weights
+// of such a piece are nearly constant, so the factor does not show in them. Half and double change no figure of the
 // 28 shared rigs; 1 poses seven of them 3.6 % farther from the artist's pose in the mean.
 constexpr double least_mass = 1e-6;
 // Vertices in one thread's job: some 0.2 ms.
@@ -80,9 +80,9 @@ constexpr std::size_t vertex_piece = 256;
 // half and double the first, the 28 shared rigs have the same figures; with 1e-3 first, seven of them are posed 4 %
 // farther from the artist's pose in the mean, with 0.1 first twice as far.
 constexpr double weight_floors[] = {1e-9, 1e-6, 1e-3, 1e3};
-// An island without information that is smaller than this moves rigidly: all its vertices get the same weights. A
+// A piece without information that is smaller than this moves rigidly: all its vertices get the same weights. A
 // larger number keeps larger loose parts from bending. Half and double change no figure of the 28 shared rigs, where
-// every island has information.
+// every piece has information.
 constexpr double rigid_size = 0.15;
 
 // --- piece_bones.cpp, piece_contacts.cpp, rigid_pieces.cpp ---
@@ -91,10 +91,10 @@ constexpr double rigid_size = 0.15;
 // of the box; distances below 0.001 count as 0.001. As chosen: 0.226. Without these rules: 0.814. Rows that say "from
 // 0.249" were measured when two of the constants stood at their doubles.
 
-// Places of a bone, besides its joint, that an island may have around them: more take longer. 5 gives 0.248 from 0.249
+// Places of a bone, besides its joint, that a piece may have around them: more take longer. 5 gives 0.248 from 0.249
 // with 10, 20 gives 0.249.
 constexpr int bone_places = 5;
-// An island is around a place if this many of 26 rays from it meet the island. Fewer let a plate hold the bones beside
+// A piece is around a place if this many of 26 rays from it meet the piece. Fewer let a plate hold the bones beside
 // it, more let an open shell hold none. From 0.249: 9 gives 0.379, 16 gives 0.281, 20 gives 0.252, and on the first
 // table 0.451 in place of 0.395, where a jacket becomes a plate.
 constexpr std::size_t around_rays = 18;
@@ -103,40 +103,40 @@ constexpr std::size_t around_rays = 18;
 constexpr double piece_tilt[3] = {0.013, 0.027, -0.019};
 // Places in one thread's job: some 0.2 ms.
 constexpr std::size_t place_piece = 16;
-// Islands touch up to this distance. Less misses armour that floats, more takes time. From 0.249: half 0.297, double
+// Pieces touch up to this distance. Less misses armour that floats, more takes time. From 0.249: half 0.297, double
 // 0.242.
 constexpr double contact_distance = 0.04;
 // Contacts count by the inverse square of their distance plus this: less lets the nearest decide. From 0.249: half
 // 0.249, double 0.242.
 constexpr double contact_softness = 0.008;
-// Islands that a sample may touch, the nearest ones: fewer hide an island behind another, more take time. From 0.249: 2
+// Pieces that a sample may touch, the nearest ones: fewer hide a piece behind another, more take time. From 0.249: 2
 // gives 0.297, 8 gives 0.249.
 constexpr std::size_t contacts_a_sample = 4;
-// Vertices of an island that look for others: fewer save time. From 0.249: half 0.250, double 0.239.
+// Vertices of a piece that look for others: fewer save time. From 0.249: half 0.250, double 0.239.
 constexpr std::size_t piece_samples = 128;
-// An island holds a bone if this share of it is in the island. Less counts joints that reach into their neighbours,
+// A piece holds a bone if this share of it is in the piece. Less counts joints that reach into their neighbours,
 // more misses bones that stick out. From 0.249: half 0.249, 0.7 gives 0.300, double 0.294.
 constexpr double held_share = 0.5;
-// An island that holds this many bones bends. Fewer let limbs of robots bend, more make animals robots. From 0.249: 2
+// A piece that holds this many bones bends. Fewer let limbs of robots bend, more make animals robots. From 0.249: 2
 // gives 0.340, 4 gives 0.334, 6 gives 0.386.
 constexpr std::ptrdiff_t bending_bones = 3;
 // Of a robot, less than this share of the area bends: at most 0.08 on the robots of the three tables, but for 0.25 with
 // a jacket, and at least 0.55 on the creatures. Half: 0.249 from 0.249, but the robot with the jacket is none. Double:
 // 0.253.
 constexpr double robot_bends = 0.3;
-// An island is solid if its area vectors sum to at most this share of its area: less takes robots with open parts for
+// A piece is solid if its area vectors sum to at most this share of its area: less takes robots with open parts for
 // loose triangles, more takes half shells for solid. From 0.249: half 0.266, double 0.249.
 constexpr double solid_openness = 0.25;
 // Of a robot, at least this share of the area is solid: at least 0.73 on the robots of the three tables. From 0.249:
 // half 0.249, 0.75 gives 0.266.
 constexpr double robot_solid = 0.5;
-// An island of a robot takes a bone of which it has this share. Less takes the parent for the part at a joint, more
+// A piece of a robot takes a bone of which it has this share. Less takes the parent for the part at a joint, more
 // leaves limbs to their neighbours. From 0.249: 0.2 gives 0.450, 0.3 and 0.6 give 0.249.
 constexpr double owned_share = 0.4;
 // Or it takes the bone whose joint is this near to its middle, as a share of its own box: a ball in a joint. 0.15 gives
 // 0.227 from 0.249 with 0.2; 0.1 gives 0.240, 0.4 gives 0.297.
 constexpr double joint_reach = 0.15;
-// On creatures, islands below this share of the box may take one bone: more stiffens loose fins. From 0.249: half
+// On creatures, pieces below this share of the box may take one bone: more stiffens loose fins. From 0.249: half
 // 0.266, double 0.249.
 constexpr double small_piece = 0.3;
 // They do if one bone has this share of what is around and of their own weights. Less stiffens what bends, more leaves
@@ -146,7 +146,7 @@ constexpr double clear_share = 0.6;
 // Sums of weights that differ by less than this are equal; the bone with the larger own weight is taken. It is above
 // the rounding of sums. More lets own weights decide against clear contacts.
 constexpr double equal_sums = 1e-9;
-// Largest own weights that an island remembers: more cost memory. Half and double change nothing.
+// Largest own weights that a piece remembers: more cost memory. Half and double change nothing.
 constexpr std::size_t kept_shares = 4;
 
 // --- pins.cpp ---

@@ -105,7 +105,7 @@ class Search {
   Vector<Candidate> candidates_;
 };
 
-// By island: 0 where an open surface faces its bones. It has no inside, so its front says nothing.
+// By piece: 0 where an open surface faces its bones. It has no inside, so its front says nothing.
 template <class MakeSearch>
 Vector<std::uint8_t> find_fronts(const Mesh& mesh, const MakeSearch& make_search, Memory& memory, JobRunner& jobs) {
   const std::size_t n = at(mesh.vertex_count());
@@ -126,10 +126,10 @@ Vector<std::uint8_t> find_fronts(const Mesh& mesh, const MakeSearch& make_search
   return out;
 }
 
-// Of islands that see none of their bones, keeps those that ask for them unseen. Small ones do not: they take the
+// Of pieces that see none of their bones, keeps those that ask for them unseen. Small ones do not: they take the
 // weights of others, if any others have some.
 void keep_askers(const Mesh& mesh, bool others_see, Vector<std::uint8_t>& blind, Memory& memory) {
-  const Vector<ItemBox> boxes = island_boxes(mesh, memory);
+  const Vector<ItemBox> boxes = piece_boxes(mesh, memory);
   Vector<std::uint8_t> large(blind.size(), 0, &memory);
   for (std::size_t c = 0; c < blind.size(); ++c)
     large[c] = blind[c] && norm(boxes[c].high - boxes[c].low) >= rigid_size;
@@ -145,7 +145,7 @@ Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector
   const auto make_search = [&] { return Search(mesh, skin, segments, tree, memory); };
   const Vector<std::uint8_t> has_front = find_fronts(mesh, make_search, memory, jobs);
   Vector<Found> found(n, &memory);
-  Vector<std::uint8_t> asks(has_front.size(), 1, &memory);  // by island
+  Vector<std::uint8_t> asks(has_front.size(), 1, &memory);  // by piece
   const auto ask = [&](bool see_through) {
     for_ranges(jobs, n, vertex_piece, [&](std::size_t begin, std::size_t end) {
       Search search = make_search();
@@ -166,7 +166,7 @@ Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector
     ask(true);
   }
   out.screening.assign(n, 0.0);
-  out.by_island.assign(at(mesh.component_count()), 0);
+  out.by_piece.assign(at(mesh.component_count()), 0);
   out.start.reserve(n + 1);
   out.start.push_back(0);
   for (std::size_t v = 0; v < n; ++v) {
@@ -175,7 +175,7 @@ Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector
     out.start.push_back(static_cast<Index>(out.bone.size()));
     if (f.count == 0) continue;
     ++out.informed;
-    ++out.by_island[at(mesh.component[v])];
+    ++out.by_piece[at(mesh.component[v])];
     const double d = std::max(f.distance, least_distance);
     out.screening[v] = screening_strength * f.count / (d * d);
   }

@@ -18,7 +18,7 @@ void check_parents(const Bones& bones, Memory& memory) {
       walk[at(up)] = b;
       const Index next = bones.parent[at(up)];
       if (next >= 0 && walk[at(next)] == b)
-        fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(next), "bone %d is an ancestor of itself", next);
+        fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(next), "joint %d is an ancestor of itself", next);
     }
   }
 }
@@ -43,12 +43,12 @@ Site read_place(const Mesh& mesh, const hf_pins_desc& desc, std::uint32_t i) {
 void read_pin_weights(const hf_pins_desc& desc, std::uint32_t i, std::uint32_t bones, Pins& pins) {
   double sum = 0;
   const std::size_t first = pins.share.size();
-  for (std::uint32_t k = 0; k < desc.joint_count; ++k) {
-    const std::size_t entry = std::size_t{i} * desc.joint_count + k;
+  for (std::uint32_t k = 0; k < desc.influence_count; ++k) {
+    const std::size_t entry = std::size_t{i} * desc.influence_count + k;
     const std::uint32_t joint = desc.joints[entry];
     const double weight = static_cast<double>(desc.weights[entry]);
     if (joint >= bones)
-      fail(HF_ERROR_OUT_OF_RANGE, i, "joint %u of pin %u is bone %u, but there are %u bones", k, i, joint, bones);
+      fail(HF_ERROR_OUT_OF_RANGE, i, "influence %u of pin %u is joint %u, but there are %u joints", k, i, joint, bones);
     if (!std::isfinite(weight)) fail(HF_ERROR_NON_FINITE, i, "weight %u of pin %u is not finite", k, i);
     if (weight < 0)
       fail(HF_ERROR_INVALID_ARGUMENT, i, "weight %u of pin %u is %g; it must not be negative", k, i, weight);
@@ -86,56 +86,56 @@ void read_lock_values(const Mesh& mesh, std::uint32_t count, const float* values
 
 }  // namespace
 
-void check_bones(std::uint32_t bone_count, const double* heads) {
-  require_list(bone_count, heads, "bone_count", "heads");
-  if (bone_count > most_bones)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "bone_count is %u; the limit is %u", bone_count, most_bones);
+void check_bones(std::uint32_t joint_count, const double* heads) {
+  require_list(joint_count, heads, "joint_count", "heads");
+  if (joint_count > most_bones)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "joint_count is %u; the limit is %u", joint_count, most_bones);
 }
 
 Vec3 read_bone_point(const double* points, std::uint32_t i, const char* name) {
   const double* p = points + 3 * std::size_t{i};
-  if (!is_finite_point(p)) fail(HF_ERROR_NON_FINITE, i, "%s: the point of bone %u is not finite", name, i);
+  if (!is_finite_point(p)) fail(HF_ERROR_NON_FINITE, i, "%s: the point of joint %u is not finite", name, i);
   return {p[0], p[1], p[2]};
 }
 
-void read_first_bones(const hf_bones_desc& desc, Bones& bones, Memory& memory) {
+void read_first_bones(const hf_joints_desc& desc, Bones& bones, Memory& memory) {
   if (desc.sources)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "sources is set, but there were no bones before; set it to NULL");
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "sources is set, but there were no joints before; set it to NULL");
   read_bones(desc, bones, memory);
 }
 
-void read_bones(const hf_bones_desc& desc, Bones& bones, Memory& memory) {
-  check_bones(desc.bone_count, desc.heads);
+void read_bones(const hf_joints_desc& desc, Bones& bones, Memory& memory) {
+  check_bones(desc.joint_count, desc.heads);
   if (desc.tails && desc.axes) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "tails and axes are both set; set one");
   bones.has_tails = desc.tails != nullptr;
-  for (std::uint32_t b = 0; b < desc.bone_count; ++b) {
+  for (std::uint32_t b = 0; b < desc.joint_count; ++b) {
     bones.head.push_back(read_bone_point(desc.heads, b, "heads"));
     if (desc.tails) bones.tail.push_back(read_bone_point(desc.tails, b, "tails"));
     if (desc.axes) bones.axis.push_back(unit_vector(read_bone_point(desc.axes, b, "axes")));
     const std::uint32_t parent = desc.parents ? desc.parents[b] : HF_NO_INDEX;
-    if (parent != HF_NO_INDEX && parent >= desc.bone_count)
-      fail(HF_ERROR_OUT_OF_RANGE, b, "the parent of bone %u is %u, but there are %u bones", b, parent, desc.bone_count);
+    if (parent != HF_NO_INDEX && parent >= desc.joint_count)
+      fail(HF_ERROR_OUT_OF_RANGE, b, "the parent of joint %u is %u, but there are %u joints", b, parent, desc.joint_count);
     bones.parent.push_back(parent == HF_NO_INDEX ? -1 : static_cast<Index>(parent));
     const std::int32_t deforms = desc.deforms ? desc.deforms[b] : 1;
     if (deforms != 0 && deforms != 1)
-      fail(HF_ERROR_INVALID_ARGUMENT, b, "deforms of bone %u is %d; it must be 0 or 1", b, deforms);
+      fail(HF_ERROR_INVALID_ARGUMENT, b, "deforms of joint %u is %d; it must be 0 or 1", b, deforms);
     bones.deforms.push_back(static_cast<std::uint8_t>(deforms));
   }
   check_parents(bones, memory);
 }
 
-Vector<Index> read_sources(const hf_bones_desc& desc, std::uint32_t before, Memory& memory) {
+Vector<Index> read_sources(const hf_joints_desc& desc, std::uint32_t before, Memory& memory) {
   Vector<Index> sources(&memory);
   Vector<std::uint8_t> named(before, 0, &memory);
-  for (std::uint32_t b = 0; desc.sources && b < desc.bone_count; ++b) {
+  for (std::uint32_t b = 0; desc.sources && b < desc.joint_count; ++b) {
     const std::uint32_t source = desc.sources[b];
     if (source == HF_NO_INDEX) {
       sources.push_back(-1);
       continue;
     }
     if (source >= before)
-      fail(HF_ERROR_OUT_OF_RANGE, b, "the source of bone %u is %u, but there were %u bones", b, source, before);
-    if (named[source]) fail(HF_ERROR_DUPLICATE_SITE, b, "the source %u of bone %u is named twice", source, b);
+      fail(HF_ERROR_OUT_OF_RANGE, b, "the source of joint %u is %u, but there were %u joints", b, source, before);
+    if (named[source]) fail(HF_ERROR_DUPLICATE, b, "the source %u of joint %u is named twice", source, b);
     named[source] = 1;
     sources.push_back(static_cast<Index>(source));
   }
@@ -151,8 +151,8 @@ void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, 
   if (desc.triangles) require(desc.barycentrics, "barycentrics");
   require(desc.joints, "joints");
   require(desc.weights, "weights");
-  if (desc.joint_count < 1 || desc.joint_count > most_influences)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joint_count is %u; it must be 1 to %d", desc.joint_count,
+  if (desc.influence_count < 1 || desc.influence_count > most_influences)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "influence_count is %u; it must be 1 to %d", desc.influence_count,
          most_influences);
   if (desc.pin_count > mesh.report.vertex_count)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "pin_count is %u; the mesh has %u vertices", desc.pin_count,
@@ -168,17 +168,17 @@ void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, 
   }
 }
 
-LockInput read_locks(const Mesh& mesh, std::uint32_t bone_count, std::uint32_t count, const std::uint32_t* bones,
+LockInput read_locks(const Mesh& mesh, std::uint32_t joint_count, std::uint32_t count, const std::uint32_t* bones,
                      const float* values, Memory& memory) {
-  if (count > bone_count)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "lock_count is %u, but there are %u bones", count, bone_count);
-  if (count > 0) require(bones, "bones");
+  if (count > joint_count)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "lock_count is %u, but there are %u joints", count, joint_count);
+  if (count > 0) require(bones, "joints");
   LockInput locks(&memory);
-  Vector<std::uint8_t> named(bone_count, 0, &memory);
+  Vector<std::uint8_t> named(joint_count, 0, &memory);
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (bones[i] >= bone_count)
-      fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of bones is %u, but there are %u bones", i, bones[i], bone_count);
-    if (named[bones[i]]) fail(HF_ERROR_DUPLICATE_SITE, i, "entry %u of bones names bone %u again", i, bones[i]);
+    if (bones[i] >= joint_count)
+      fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of joints is %u, but there are %u joints", i, bones[i], joint_count);
+    if (named[bones[i]]) fail(HF_ERROR_DUPLICATE, i, "entry %u of joints names joint %u again", i, bones[i]);
     named[bones[i]] = 1;
     locks.bones.push_back(static_cast<Index>(bones[i]));
   }
@@ -188,18 +188,18 @@ LockInput read_locks(const Mesh& mesh, std::uint32_t bone_count, std::uint32_t c
 
 std::uint32_t bone_flags(std::uint32_t faults) noexcept {
   const bool odd = (faults & (bone_no_length | bone_coincident | bone_outside)) != 0;
-  return odd && (faults & bone_informs_none) ? faults | HF_BONE_HELPER : faults;
+  return odd && (faults & bone_informs_none) ? faults | HF_JOINT_HELPER : faults;
 }
 
 BoneFlagCounts count_bone_flags(Span<const std::uint32_t> faults) noexcept {
   BoneFlagCounts out;
   for (const std::uint32_t of_bone : faults) {
     const std::uint32_t flags = bone_flags(of_bone);
-    out.no_length += (flags & HF_BONE_NO_LENGTH) != 0;
-    out.coincident += (flags & HF_BONE_COINCIDENT) != 0;
-    out.informs_none += (flags & HF_BONE_INFORMS_NONE) != 0;
-    out.outside += (flags & HF_BONE_OUTSIDE) != 0;
-    out.helper += (flags & HF_BONE_HELPER) != 0;
+    out.no_length += (flags & HF_JOINT_NO_LENGTH) != 0;
+    out.coincident += (flags & HF_JOINT_COINCIDENT) != 0;
+    out.informs_none += (flags & HF_JOINT_INFORMS_NONE) != 0;
+    out.outside += (flags & HF_JOINT_OUTSIDE) != 0;
+    out.helper += (flags & HF_JOINT_HELPER) != 0;
   }
   return out;
 }

@@ -43,8 +43,8 @@ BoneMisses bone_misses(const BonePairs& pairs, double scale) noexcept {
     const double off = scale * pairs.off[b];
     ++paired;
     out.mean += off;
-    if (out.worst_bone == HF_NO_INDEX || off > out.worst) {
-      out.worst_bone = static_cast<std::uint32_t>(b);
+    if (out.worst_joint == HF_NO_INDEX || off > out.worst) {
+      out.worst_joint = static_cast<std::uint32_t>(b);
       out.worst = off;
     }
   }
@@ -112,8 +112,8 @@ MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& g
     }
     fill.known.close();
   }
-  const Vector<std::uint8_t> known = known_islands(mesh, fill.known, memory);
-  // Islands of the side that gives, without any weight, take those of the nearest points of that side.
+  const Vector<std::uint8_t> known = known_pieces(mesh, fill.known, memory);
+  // Pieces of the side that gives, without any weight, take those of the nearest points of that side.
   const Vector<Match> beside = find_matches(shape, *core, options.carry, true, [&](Index v, Probe& to) {
     to.place = mesh.positions[at(v)];
     return role[at(v)] == Role::keeps && !known[at(mesh.component[at(v)])];

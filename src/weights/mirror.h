@@ -39,7 +39,7 @@ struct MirroredWeights {
 // How far the reflections of bones are from their partners, in the unit of the mesh.
 struct BoneMisses {
   double mean = 0, worst = 0;
-  std::uint32_t worst_bone = HF_NO_INDEX;  // HF_NO_INDEX: none has a partner
+  std::uint32_t worst_joint = HF_NO_INDEX;  // HF_NO_INDEX: none has a partner
   std::uint32_t by[5] = {};                // bones, by PairedBy
 };
 BoneMisses bone_misses(const BonePairs& pairs, double scale) noexcept;

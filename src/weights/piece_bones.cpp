@@ -15,10 +15,10 @@ Vec3 place_on(const BoneSegment& s, std::size_t place) noexcept {
   return place == 0 ? s.head : s.head + ((static_cast<double>(place) - 0.5) / bone_places) * (s.tail - s.head);
 }
 
-// The search of one thread for the islands around a point.
+// The search of one thread for the pieces around a point.
 class Around {
  public:
-  // tree: of the boxes of the islands.
+  // tree: of the boxes of the pieces.
   Around(const SkinShape& skin, const Vector<ItemBox>& boxes, const BoxTree& tree, Memory& memory)
       : skin_(skin), boxes_(boxes), tree_(tree), near_(&memory), count_(&memory), hit_(&memory) {
     for (int i = 0; i < 27; ++i) {
@@ -27,16 +27,16 @@ class Around {
       way_[i - (i > 13)] = unit_vector(corner);
     }
   }
-  // Appends the islands that enough of the rays meet, ascending. From outside a box at most 17 rays meet it.
+  // Appends the pieces that enough of the rays meet, ascending. From outside a box at most 17 rays meet it.
   void find(const Vec3& p, Vector<Index>& out) {
-    static_assert(around_rays > 17, "islands whose boxes do not contain the point are not tried");
+    static_assert(around_rays > 17, "pieces whose boxes do not contain the point are not tried");
     near_.clear();
     double length = 0;  // that leaves the boxes
     tree_.near(
         p, [] { return 0.0; },
-        [&](Index island) {
-          const ItemBox& box = boxes_[at(island)];
-          near_.push_back(island);
+        [&](Index piece) {
+          const ItemBox& box = boxes_[at(piece)];
+          near_.push_back(piece);
           length = std::max(length, 1.01 * norm(box.high - box.low));
         });
     std::sort(near_.begin(), near_.end());
@@ -44,10 +44,10 @@ class Around {
     std::size_t most = 0;
     for (std::size_t ray = 0; ray < directions && !near_.empty(); ++ray) {
       if (most + directions - ray < around_rays) return;
-      skin_.islands_along(p, p + length * way_[ray], hit_);
-      for (const Index island : hit_) {
-        const auto place = std::lower_bound(near_.begin(), near_.end(), island);
-        if (place == near_.end() || *place != island) continue;
+      skin_.pieces_along(p, p + length * way_[ray], hit_);
+      for (const Index piece : hit_) {
+        const auto place = std::lower_bound(near_.begin(), near_.end(), piece);
+        if (place == near_.end() || *place != piece) continue;
         most = std::max(most, ++count_[static_cast<std::size_t>(place - near_.begin())]);
       }
     }
@@ -67,12 +67,12 @@ class Around {
 };
 
 struct Entry {
-  Index island, bone, segment, place;
+  Index piece, bone, segment, place;
 };
 
 }  // namespace
 
-Vector<ItemBox> island_boxes(const Mesh& mesh, Memory& memory) {
+Vector<ItemBox> piece_boxes(const Mesh& mesh, Memory& memory) {
   Vector<ItemBox> out(at(mesh.component_count()), &memory);
   Vector<std::uint8_t> seen(out.size(), 0, &memory);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -89,7 +89,7 @@ Vector<ItemBox> island_boxes(const Mesh& mesh, Memory& memory) {
 PieceBones find_piece_bones(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments,
                             Memory& memory, JobRunner& jobs) {
   const std::size_t places = segments.size() * places_a_bone;
-  const Vector<ItemBox> boxes = island_boxes(mesh, memory);
+  const Vector<ItemBox> boxes = piece_boxes(mesh, memory);
   const BoxTree tree(boxes, memory);
   Vector<Vector<Index>> around(places, Vector<Index>(&memory), &memory);
   for_ranges(jobs, places, place_piece, [&](std::size_t begin, std::size_t end) {
@@ -100,28 +100,28 @@ PieceBones find_piece_bones(const Mesh& mesh, const SkinShape& skin, const Vecto
   Vector<Entry> entries(&memory);
   for (std::size_t i = 0; i < places; ++i) {
     const std::size_t s = i / places_a_bone;
-    for (const Index island : around[i])
-      entries.push_back({island, segments[s].bone, static_cast<Index>(s), static_cast<Index>(i % places_a_bone)});
+    for (const Index piece : around[i])
+      entries.push_back({piece, segments[s].bone, static_cast<Index>(s), static_cast<Index>(i % places_a_bone)});
   }
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return std::tie(a.island, a.bone, a.segment, a.place) < std::tie(b.island, b.bone, b.segment, b.place);
+    return std::tie(a.piece, a.bone, a.segment, a.place) < std::tie(b.piece, b.bone, b.segment, b.place);
   });
   PieceBones out(memory);
   out.start.assign(at(mesh.component_count()) + 1, 0);
   for (std::size_t i = 0; i < entries.size();) {
     const Entry& first = entries[i];
     HeldBone held{first.bone, 0, 0, false, segments[at(first.segment)].head};
-    while (i < entries.size() && entries[i].island == first.island && entries[i].bone == first.bone) {
+    while (i < entries.size() && entries[i].piece == first.piece && entries[i].bone == first.bone) {
       const Index segment = entries[i].segment;
       Index inside = 0;
-      for (; i < entries.size() && entries[i].island == first.island && entries[i].segment == segment; ++i)
+      for (; i < entries.size() && entries[i].piece == first.piece && entries[i].segment == segment; ++i)
         entries[i].place == 0 ? held.has_head = true : (++inside, false);
       const BoneSegment& s = segments[at(segment)];
       const double share = static_cast<double>(inside) / bone_places;
       held.share = std::max(held.share, share);
       held.length += share * norm(s.tail - s.head);
     }
-    ++out.start[at(first.island) + 1];
+    ++out.start[at(first.piece) + 1];
     out.bones.push_back(held);
   }
   for (std::size_t c = 1; c < out.start.size(); ++c) out.start[c] += out.start[c - 1];

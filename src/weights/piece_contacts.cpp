@@ -10,37 +10,37 @@
 namespace hf_inner {
 namespace {
 
-// The nearest place of an island.
+// The nearest place of a piece.
 struct Near {
   double squared = HUGE_VAL;
-  Index island = -1, vertex = -1;
+  Index piece = -1, vertex = -1;
   bool operator<(const Near& b) const noexcept {
-    return squared != b.squared ? squared < b.squared : island < b.island;
+    return squared != b.squared ? squared < b.squared : piece < b.piece;
   }
 };
 
-// Triangles by island, and the boxes of the islands.
+// Triangles by piece, and the boxes of the pieces.
 class Finder {
  public:
   Finder(const Mesh& mesh, Memory& memory)
       : mesh_(mesh),
         triangles_(triangle_boxes(mesh.positions, mesh.corners, memory), groups(mesh, memory), mesh.component_count(),
                    memory),
-        islands_(island_boxes(mesh, memory), memory) {}
+        pieces_(piece_boxes(mesh, memory), memory) {}
 
-  // The nearest islands but `own`, ascending; places left over have no island.
+  // The nearest pieces but `own`, ascending; places left over have no piece.
   void find(const Vec3& p, Index own, Near (&out)[contacts_a_sample]) const {
     std::fill_n(out, contacts_a_sample, Near{});
     const auto reach = [&] {
       return std::min(contact_distance * contact_distance, out[contacts_a_sample - 1].squared);
     };
-    islands_.near(p, reach, [&](Index island) {
-      if (island == own) return;
+    pieces_.near(p, reach, [&](Index piece) {
+      if (piece == own) return;
       Near found;
       found.squared = reach();
-      found.island = island;
+      found.piece = piece;
       triangles_.near(
-          island, p, [&] { return found.squared; },
+          piece, p, [&] { return found.squared; },
           [&](Index t) {
             const Index* v = mesh_.triangle(t);
             double weight[3];
@@ -64,17 +64,17 @@ class Finder {
     return out;
   }
   const Mesh& mesh_;
-  BoxTree triangles_, islands_;
+  BoxTree triangles_, pieces_;
 };
 
-// Every vertex of the marked islands, or every second, third, ... of large ones by their distance from the middle: that
+// Every vertex of the marked pieces, or every second, third, ... of large ones by their distance from the middle: that
 // depends neither on the order of the vertices nor on the axes.
 Vector<Index> sample(const Mesh& mesh, const Vector<std::uint8_t>& marked, Memory& memory) {
   struct Member {
-    Index island, vertex;
+    Index piece, vertex;
     double squared;
     bool operator<(const Member& b) const noexcept {
-      if (island != b.island) return island < b.island;
+      if (piece != b.piece) return piece < b.piece;
       return squared != b.squared ? squared < b.squared : vertex < b.vertex;
     }
   };
@@ -99,7 +99,7 @@ Vector<Index> sample(const Mesh& mesh, const Vector<std::uint8_t>& marked, Memor
   }
   std::sort(members.begin(), members.end());
   for (const Member& member : members) {
-    const std::size_t c = at(member.island), stride = (size[c] + piece_samples - 1) / piece_samples;
+    const std::size_t c = at(member.piece), stride = (size[c] + piece_samples - 1) / piece_samples;
     if (passed[c]++ % stride == 0) out.push_back(member.vertex);
   }
   return out;
@@ -128,19 +128,19 @@ PieceContacts::PieceContacts(const Core& core, const Vector<std::uint8_t>& marke
   });
   for (std::size_t i = 0; i < samples.size(); ++i) {
     for (const Near& near : rows[i].near) {
-      if (near.island < 0) continue;
+      if (near.piece < 0) continue;
       const double soft = std::sqrt(near.squared) + contact_softness;
       all.push_back({mesh.component[at(samples[i])], near.vertex, core.areas[at(samples[i])] / (soft * soft)});
     }
   }
-  const auto sort = [&](auto&& island_of, Vector<Index>& start, Vector<Index>& list) {
-    for (const PieceContact& contact : all) ++start[at(island_of(contact)) + 1];
+  const auto sort = [&](auto&& piece_of, Vector<Index>& start, Vector<Index>& list) {
+    for (const PieceContact& contact : all) ++start[at(piece_of(contact)) + 1];
     for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
     Vector<Index> next(start.begin(), start.end() - 1, &memory);
     list.assign(all.size(), 0);
-    for (std::size_t i = 0; i < all.size(); ++i) list[at(next[at(island_of(all[i]))]++)] = static_cast<Index>(i);
+    for (std::size_t i = 0; i < all.size(); ++i) list[at(next[at(piece_of(all[i]))]++)] = static_cast<Index>(i);
   };
-  sort([](const PieceContact& contact) { return contact.island; }, from_start_, from_);
+  sort([](const PieceContact& contact) { return contact.piece; }, from_start_, from_);
   sort([&](const PieceContact& contact) { return mesh.component[at(contact.vertex)]; }, to_start_, to_);
 }
 

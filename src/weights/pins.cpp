@@ -16,7 +16,7 @@ PinSites::PinSites(const Pins& pins, const Core& core, Memory& memory) : sites(&
     if (site.is_vertex()) {
       Index& there = owner[at(site.vertex[0])];
       if (there >= 0)
-        fail(HF_ERROR_DUPLICATE_SITE, static_cast<std::uint32_t>(p),
+        fail(HF_ERROR_DUPLICATE, static_cast<std::uint32_t>(p),
              "pin %d covers a vertex of pin %d; leave one out or make its radius smaller", p, there);
       there = p;
     }

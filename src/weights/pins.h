@@ -24,7 +24,7 @@ struct Pins {
 // The pins as sites of the engine, on one surface. It depends on the places, not on the weights.
 struct PinSites {
   explicit PinSites(Memory& memory) : sites(&memory), pin(&memory) {}
-  // Throws HF_ERROR_DUPLICATE_SITE (index = pin) if two pins share a vertex.
+  // Throws HF_ERROR_DUPLICATE (index = pin) if two pins share a vertex.
   PinSites(const Pins& pins, const Core& core, Memory& memory);
   bool operator==(const PinSites& other) const noexcept;
   Vector<Site> sites;

@@ -11,14 +11,14 @@
 namespace hf_inner {
 namespace {
 
-// What is known of an island before a bone is chosen.
+// What is known of a piece before a bone is chosen.
 struct Shape {
   double area = 0;
   ItemBox box;
   bool solid = false;
 };
 
-// The largest smooth weights of an island, as the mean over its area.
+// The largest smooth weights of a piece, as the mean over its area.
 struct Mean {
   Index column[kept_shares];
   double share[kept_shares];
@@ -26,7 +26,7 @@ struct Mean {
 
 enum class Kind { other, robot, creature };
 
-// The families of the bones that islands hold: each belongs to the next one above that an island holds. Without
+// The families of the bones that pieces hold: each belongs to the next one above that a piece holds. Without
 // parents all are one family.
 UnionFind bone_families(const Bones& bones, const Vector<std::uint8_t>& held, Memory& memory) {
   UnionFind out(held.size(), memory);
@@ -76,18 +76,18 @@ class RigidPieces {
   Memory& memory_;
 
  public:
-  Vector<Index> column;  // by island
+  Vector<Index> column;  // by piece
 
  private:
   bool robot() const noexcept { return kind_ == Kind::robot; }
   std::size_t width() const noexcept { return solution_.width(); }
-  std::ptrdiff_t holds(std::size_t island) const noexcept {
-    const Span<const HeldBone> held = held_.of(static_cast<Index>(island));
+  std::ptrdiff_t holds(std::size_t piece) const noexcept {
+    const Span<const HeldBone> held = held_.of(static_cast<Index>(piece));
     return std::count_if(held.begin(), held.end(), is_held);
   }
   static bool is_held(const HeldBone& h) noexcept { return h.share >= held_share; }
 
-  // Finds the islands that bend: those that hold many bones, and those that hold a whole family of several, as an arm
+  // Finds the pieces that bend: those that hold many bones, and those that hold a whole family of several, as an arm
   // of two bones does.
   Vector<std::uint8_t> find_bending(const Bones& bones) const {
     Vector<std::uint8_t> held(bones.head.size(), 0, &memory_), out(column.size(), 0, &memory_);
@@ -109,7 +109,7 @@ class RigidPieces {
 
   void measure() {
     const Vector<double> openness = component_openness(mesh_, memory_);
-    const Vector<ItemBox> boxes = island_boxes(mesh_, memory_);
+    const Vector<ItemBox> boxes = piece_boxes(mesh_, memory_);
     for (std::size_t c = 0; c < shapes_.size(); ++c) {
       shapes_[c].box = boxes[c];
       shapes_[c].solid = openness[c] <= solid_openness;
@@ -122,10 +122,10 @@ class RigidPieces {
     }
   }
 
-  double size(std::size_t island) const noexcept { return norm(shapes_[island].box.high - shapes_[island].box.low); }
-  bool may_be_worn(std::size_t island) const noexcept { return holds(island) == 0 && size(island) < small_piece; }
+  double size(std::size_t piece) const noexcept { return norm(shapes_[piece].box.high - shapes_[piece].box.low); }
+  bool may_be_worn(std::size_t piece) const noexcept { return holds(piece) == 0 && size(piece) < small_piece; }
 
-  // Whether all islands but one are small and hold no bone. That one then stays what it is alone: it bends.
+  // Whether all pieces but one are small and hold no bone. That one then stays what it is alone: it bends.
   bool has_one_body() const noexcept {
     std::size_t bodies = 0;
     for (std::size_t c = 0; c < shapes_.size(); ++c) bodies += !may_be_worn(c);
@@ -146,14 +146,14 @@ class RigidPieces {
     return has_one_body() ? Kind::creature : Kind::robot;
   }
 
-  // The column of the bone that an island of a robot holds, or -1. mean: its smooth weights by column.
-  Index own_column(std::size_t island, const Vector<double>& mean) const {
-    const ItemBox& box = shapes_[island].box;
+  // The column of the bone that a piece of a robot holds, or -1. mean: its smooth weights by column.
+  Index own_column(std::size_t piece, const Vector<double>& mean) const {
+    const ItemBox& box = shapes_[piece].box;
     const Vec3 middle = 0.5 * (box.low + box.high);
     const double near = joint_reach * norm(box.high - box.low);
     Index longest = -1, joint = -1;
     double length = 0;
-    for (const HeldBone& held : held_.of(static_cast<Index>(island))) {
+    for (const HeldBone& held : held_.of(static_cast<Index>(piece))) {
       const Index c = solution_.column_of[at(held.bone)];
       if (c < 0) continue;
       if (held.share >= owned_share && held.length > length) {
@@ -165,18 +165,18 @@ class RigidPieces {
     return longest >= 0 ? longest : joint;
   }
 
-  // Gives islands of a robot the bones that they hold, and marks the islands that take one from others.
+  // Gives pieces of a robot the bones that they hold, and marks the pieces that take one from others.
   void choose_own() {
-    const std::size_t islands = column.size();
-    Vector<Index> start(islands + 1, 0, &memory_), order(at(core_.size()), &memory_);
+    const std::size_t pieces = column.size();
+    Vector<Index> start(pieces + 1, 0, &memory_), order(at(core_.size()), &memory_);
     for (const Index c : mesh_.component) ++start[at(c) + 1];
-    for (std::size_t c = 0; c < islands; ++c) start[c + 1] += start[c];
+    for (std::size_t c = 0; c < pieces; ++c) start[c + 1] += start[c];
     Vector<Index> next(start.begin(), start.end() - 1, &memory_);
     for (Index v = 0; v < core_.size(); ++v) order[at(next[at(mesh_.component[at(v)])]++)] = v;
     Vector<double> mean(width(), &memory_);
-    for (std::size_t c = 0; c < islands; ++c) {
+    for (std::size_t c = 0; c < pieces; ++c) {
       const bool candidate = robot() ? !bends_[c] : may_be_worn(c);
-      if (!candidate || solution_.informants.by_island[c] == 0) continue;
+      if (!candidate || solution_.informants.by_piece[c] == 0) continue;
       std::fill(mean.begin(), mean.end(), 0.0);
       double area = 0;
       for (Index i = start[c]; i < start[c + 1]; ++i) {
@@ -209,63 +209,63 @@ class RigidPieces {
     }
   }
 
-  // Islands that wait take a bone one after the other, first the one that most touches others which do not wait. Where
+  // Pieces that wait take a bone one after the other, first the one that most touches others which do not wait. Where
   // none touches any, the largest is first.
   void take_from_others() {
     if (std::find(waits_.begin(), waits_.end(), 1) == waits_.end()) return;
     const PieceContacts contacts(core_, waits_, memory_);
-    const std::size_t islands = column.size();
-    Vector<double> strength(islands, 0.0, &memory_), sum(width(), &memory_);
+    const std::size_t pieces = column.size();
+    Vector<double> strength(pieces, 0.0, &memory_), sum(width(), &memory_);
     struct Open {
       double strength, area;
-      Index island;
+      Index piece;
       bool operator<(const Open& b) const noexcept {
         if (strength != b.strength) return strength < b.strength;
-        return area != b.area ? area < b.area : island > b.island;
+        return area != b.area ? area < b.area : piece > b.piece;
       }
     };
     Vector<Open> open(&memory_);
-    const auto settle = [&](Index island) {
-      for (const Index i : contacts.to(island)) {
+    const auto settle = [&](Index piece) {
+      for (const Index i : contacts.to(piece)) {
         const PieceContact& contact = contacts.all[at(i)];
-        if (!waits_[at(contact.island)]) continue;
-        strength[at(contact.island)] += contact.strength;
-        open.push_back({strength[at(contact.island)], shapes_[at(contact.island)].area, contact.island});
+        if (!waits_[at(contact.piece)]) continue;
+        strength[at(contact.piece)] += contact.strength;
+        open.push_back({strength[at(contact.piece)], shapes_[at(contact.piece)].area, contact.piece});
         std::push_heap(open.begin(), open.end());
       }
     };
-    for (std::size_t c = 0; c < islands; ++c) {
+    for (std::size_t c = 0; c < pieces; ++c) {
       if (waits_[c]) {
         open.push_back({0, shapes_[c].area, static_cast<Index>(c)});
         std::push_heap(open.begin(), open.end());
       }
     }
-    for (std::size_t c = 0; c < islands; ++c) {
-      if (!waits_[c] && solution_.informants.by_island[c] > 0) settle(static_cast<Index>(c));
+    for (std::size_t c = 0; c < pieces; ++c) {
+      if (!waits_[c] && solution_.informants.by_piece[c] > 0) settle(static_cast<Index>(c));
     }
     while (!open.empty()) {
       std::pop_heap(open.begin(), open.end());
       const Open next = open.back();
       open.pop_back();
-      const std::size_t c = at(next.island);
+      const std::size_t c = at(next.piece);
       if (!waits_[c] || next.strength != strength[c]) continue;
       column[c] = taken_column(c, contacts, strength[c], sum);
       waits_[c] = 0;
-      settle(next.island);
+      settle(next.piece);
     }
   }
 
-  // The column with the largest mean of the weights at contacts and of the island's own.
-  Index taken_column(std::size_t island, const PieceContacts& contacts, double strength, Vector<double>& sum) const {
+  // The column with the largest mean of the weights at contacts and of the piece's own.
+  Index taken_column(std::size_t piece, const PieceContacts& contacts, double strength, Vector<double>& sum) const {
     std::fill(sum.begin(), sum.end(), 0.0);
     const double own = strength > 0 ? 0.5 : 1.0;
     for (std::size_t i = 0; i < kept_shares; ++i) {
-      if (mean_[island].column[i] >= 0) sum[at(mean_[island].column[i])] += own * mean_[island].share[i];
+      if (mean_[piece].column[i] >= 0) sum[at(mean_[piece].column[i])] += own * mean_[piece].share[i];
     }
-    for (const Index i : contacts.from(static_cast<Index>(island))) {
+    for (const Index i : contacts.from(static_cast<Index>(piece))) {
       const PieceContact& contact = contacts.all[at(i)];
       const std::size_t other = at(mesh_.component[at(contact.vertex)]);
-      if (waits_[other] || solution_.informants.by_island[other] == 0) continue;
+      if (waits_[other] || solution_.informants.by_piece[other] == 0) continue;
       const double share = (1 - own) * contact.strength / strength;
       if (column[other] >= 0) {
         sum[at(column[other])] += share;
@@ -276,7 +276,7 @@ class RigidPieces {
     const double most = *std::max_element(sum.begin(), sum.end());
     // A piece that asks for one bone and touches another alone has equal sums. Contacts decide then, not rounding.
     const auto own_share = [&](std::size_t k) {
-      const Mean& mean = mean_[island];
+      const Mean& mean = mean_[piece];
       const Index* const found = std::find(mean.column, mean.column + kept_shares, static_cast<Index>(k));
       return found == mean.column + kept_shares ? 0.0 : mean.share[found - mean.column];
     };
@@ -289,10 +289,10 @@ class RigidPieces {
   }
 
   PieceBones held_;
-  Vector<std::uint8_t> bends_;  // by island
+  Vector<std::uint8_t> bends_;  // by piece
   Vector<Shape> shapes_;
-  Vector<std::uint8_t> waits_;  // by island: it takes a bone from others
-  Vector<Mean> mean_;           // by island that waits
+  Vector<std::uint8_t> waits_;  // by piece: it takes a bone from others
+  Vector<Mean> mean_;           // by piece that waits
   Kind kind_ = Kind::other;
 };
 

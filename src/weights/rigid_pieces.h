@@ -1,16 +1,16 @@
-// Which islands move with one bone, as the parts of a robot, eyes and buttons do.
+// Which pieces move with one bone, as the parts of a robot, eyes and buttons do.
 //
-// An island that holds three bones bends, and one that holds all bones of a family that any island holds. A robot is
-// made of solid islands of which hardly any bends, and more than one is large or holds a bone. There every island takes
-// one bone: the one that it holds, or the one whose joint is in its middle. On creatures only small islands that hold
-// no bone do. An island without a bone of its own takes one from the islands that it touches and from its own smooth
+// A piece that holds three bones bends, and one that holds all bones of a family that any piece holds. A robot is
+// made of solid pieces of which hardly any bends, and more than one is large or holds a bone. There every piece takes
+// one bone: the one that it holds, or the one whose joint is in its middle. On creatures only small pieces that hold
+// no bone do. A piece without a bone of its own takes one from the pieces that it touches and from its own smooth
 // weights; on creatures only where most of both agrees. Other surfaces, such as loose triangles, stay smooth.
 #pragma once
 #include "weights/solution.h"
 
 namespace hf_inner {
 
-// By island: the column of the solution whose bone it takes, or -1 where the smooth weights stay.
+// By piece: the column of the solution whose bone it takes, or -1 where the smooth weights stay.
 Vector<Index> rigid_columns(const Solution& solution, const Bones& bones, const Vector<BoneSegment>& segments);
 
 }  // namespace hf_inner

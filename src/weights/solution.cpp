@@ -24,11 +24,11 @@ namespace {
 // Shares of progress when the informants are found, and when the operator is factorised.
 constexpr float progress_informed = 0.3f, progress_factorised = 0.5f;
 
-// Returns the screening H by vertex. On islands where A H is so small that rounding would lose it beside K, H is scaled
+// Returns the screening H by vertex. On pieces where A H is so small that rounding would lose it beside K, H is scaled
 // up.
 Vector<double> visible_screening(const Core& core, const Informants& informants) {
-  const std::size_t islands = at(core.mesh.component_count());
-  Vector<double> mass(islands, 0.0, core.memory.get());
+  const std::size_t pieces = at(core.mesh.component_count());
+  Vector<double> mass(pieces, 0.0, core.memory.get());
   Vector<double> out(informants.screening.begin(), informants.screening.end(), core.memory.get());
   for (std::size_t v = 0; v < out.size(); ++v) mass[at(core.mesh.component[v])] += core.areas[v] * out[v];
   for (std::size_t v = 0; v < out.size(); ++v) {
@@ -39,15 +39,15 @@ Vector<double> visible_screening(const Core& core, const Informants& informants)
   return out;
 }
 
-// Areas of needles can be 0, so that an island has information but no mass. Its vertices lose their information.
+// Areas of needles can be 0, so that a piece has information but no mass. Its vertices lose their information.
 void drop_massless(const Core& core, Informants& informants) {
   Vector<double> mass(at(core.mesh.component_count()), 0.0, core.memory.get());
   for (std::size_t v = 0; v < informants.screening.size(); ++v)
     mass[at(core.mesh.component[v])] += core.areas[v] * informants.screening[v];
   for (std::size_t c = 0; c < mass.size(); ++c) {
     if (mass[c] > 0) continue;
-    informants.informed -= informants.by_island[c];
-    informants.by_island[c] = 0;
+    informants.informed -= informants.by_piece[c];
+    informants.by_piece[c] = 0;
   }
   for (std::size_t v = 0; v < informants.screening.size(); ++v) {
     if (!(mass[at(core.mesh.component[v])] > 0)) informants.screening[v] = 0;
@@ -68,7 +68,7 @@ std::shared_ptr<const ScreenedOperator> factorise(const std::shared_ptr<const Co
   }
 }
 
-// Gives islands one bone. column: by island, or -1 where the weights stay.
+// Gives pieces one bone. column: by piece, or -1 where the weights stay.
 void make_rigid(Solution& made, const Vector<Index>& column) {
   const std::size_t width = made.width();
   const Mesh& mesh = made.surface->core->mesh;
@@ -87,7 +87,7 @@ std::shared_ptr<const Solution> Solution::make(std::shared_ptr<const SkinSurface
   const std::shared_ptr<const Core> core = shape->core;
   Memory& memory = *core->memory;
   if (std::find(bones.deforms.begin(), bones.deforms.end(), 1) == bones.deforms.end())
-    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no bone deforms; set deforms of at least one to 1");
+    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no joint deforms; set deforms of at least one to 1");
   const auto made = make_owner_in<Solution>(core->memory, std::move(shape));
   const SkinShape& skin = made->surface->skin;
   const Vector<BoneSegment> segments = bone_segments(bones, core->mesh, skin, memory);

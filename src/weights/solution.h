@@ -17,8 +17,8 @@ enum class Origin : std::uint8_t {
   informed = 0,  // from bones that it sees
   solved = 1,    // from the vertices around it
   pinned = 2,    // given
-  carried = 3,   // from the nearest vertices of other islands
-  rigid = 4,     // as carried, one mean for all of a small island
+  carried = 3,   // from the nearest vertices of other pieces
+  rigid = 4,     // as carried, one mean for all of a small piece
   isolated = 5,  // it has no triangle: from the nearest vertex
   matched = 6,   // carried or mirrored: from a near point whose normal agrees
   kept = 7,      // mirrored: as it was
@@ -37,7 +37,7 @@ struct Solution {
   std::shared_ptr<const ScreenedOperator> screened;
   Vector<Index> bone_of;    // bones with information, ascending
   Vector<Index> column_of;  // by bone: its number in bone_of, or -1
-  Buffer<double> field;     // [vertex][bone_of]; sums to 1 on islands with information
+  Buffer<double> field;     // [vertex][bone_of]; sums to 1 on pieces with information
 };
 
 }  // namespace hf_inner

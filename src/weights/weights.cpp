@@ -9,21 +9,18 @@
 namespace hf_inner {
 
 Weights::Weights(std::shared_ptr<const SkinSurface> surface, std::int32_t influences, const Bones& bones)
-    : surface_(std::move(surface)), influences_(influences), history_(memory()) {
+    : surface_(std::move(surface)), influences_(influences) {
   const auto inputs = make_shared_in<WeightInputs>(memory(), memory());
   inputs->bones = Bones(bones, memory());
   apply(inputs);
 }
 
 Weights::Weights(const Weights& other)
-    : surface_(other.surface_), influences_(other.influences_), state_(other.state_), history_(memory()) {}
+    : surface_(other.surface_), influences_(other.influences_), state_(other.state_) {}
 
-void Weights::apply(const Inputs& inputs) {
-  state_ = compute(inputs);
-  history_.clear_redo();
-}
+void Weights::apply(const Inputs& inputs) { state_ = compute(inputs); }
 
-void Weights::set_bones(const Bones& bones, Span<const Index> sources) {
+void Weights::set_joints(const Bones& bones, Span<const Index> sources) {
   const WeightInputs& present = *state_->inputs;
   const auto next = make_shared_in<WeightInputs>(memory(), memory());
   next->bones = Bones(bones, memory());
@@ -42,7 +39,7 @@ void Weights::set_bones(const Bones& bones, Span<const Index> sources) {
     }
     if (!(sum > 0))
       fail(HF_ERROR_CONFLICT, static_cast<std::uint32_t>(p),
-           "pin %zu has weights on removed bones only; change the pin first", p);
+           "pin %zu has weights on removed joints only; change the pin first", p);
     for (Index i = pins.start[p]; i < pins.start[p + 1]; ++i) {
       const Index bone = now[at(pins.bone[at(i)])];
       if (bone >= 0) {
@@ -99,19 +96,6 @@ void Weights::set_locks(Span<const Index> bones, const float* values) {
     next->locks = locks;
   }
   apply(next);
-}
-
-void Weights::record() { history_.record(Inputs(state_->inputs)); }
-
-void Weights::undo() {
-  history_.undo(
-      "no weights were recorded", [&] { return state_->inputs; },
-      [&](const Inputs& inputs) { state_ = compute(inputs); });
-}
-
-void Weights::redo() {
-  history_.redo(
-      "nothing was undone", [&] { return state_->inputs; }, [&](const Inputs& inputs) { state_ = compute(inputs); });
 }
 
 }  // namespace hf_inner

@@ -1,11 +1,10 @@
 // Skin weights of a surface from a skeleton: a few bones per vertex with weights of sum 1, for every vertex.
 //
 // The smooth weights solve (K + A H) w = A H p: H is large near bones, p says which bone is nearest (Baran and Popovic
-// 2007, with another strength of H). Pins are sites on the same operator. Weights of locked bones stay. Islands without
+// 2007, with another strength of H). Pins are sites on the same operator. Weights of locked bones stay. Pieces without
 // information take the weights of the nearest vertices of others. All results are functions of the inputs alone, so
 // undo gives the same bits.
 #pragma once
-#include "base/history.h"
 #include "weights/pins.h"
 #include "weights/prune.h"
 
@@ -30,7 +29,7 @@ struct WeightInputs {
 
 struct WeightCounts {
   std::uint32_t by_origin[6] = {};  // vertices as given, by Origin
-  std::uint32_t islands_carried = 0, islands_rigid = 0;
+  std::uint32_t pieces_carried = 0, pieces_rigid = 0;
   std::uint32_t factorisations = 0, path_solves = 0;  // since the object was made
   bool blind = false;
 };
@@ -58,14 +57,10 @@ class Weights {
 
   // Replaces all bones. sources: by new bone the number it had before, or -1 for a new one; empty: the same numbers.
   // Pins and locks keep their bones. Throws HF_ERROR_CONFLICT (index = pin) if a pin loses all its bones.
-  void set_bones(const Bones& bones, Span<const Index> sources);
+  void set_joints(const Bones& bones, Span<const Index> sources);
   void set_pins(const Pins& pins);
   // values: the weights to keep, a row of the locked bones for each welded vertex; null: the present weights.
   void set_locks(Span<const Index> bones, const float* values);
-
-  void record();
-  void undo();
-  void redo();
 
   const WeightState& state() const noexcept { return *state_; }
   const SkinSurface& surface() const noexcept { return *surface_; }
@@ -80,7 +75,6 @@ class Weights {
   std::shared_ptr<const SkinSurface> surface_;  // first member
   const std::int32_t influences_;
   std::shared_ptr<const WeightState> state_;
-  History<Inputs> history_;
 };
 
 }  // namespace hf_inner

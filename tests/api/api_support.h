@@ -38,7 +38,7 @@ Surface surface_sheet(uint32_t columns, uint32_t rows);
 Surface surface_tube(uint32_t around, uint32_t rings);
 /* Triangles around vertex 0 in a plane; the others are its rim. */
 Surface surface_fan(uint32_t triangles);
-/* The cut sheet: two sheets of 4 x 4 quads that share a seam of 5 stored copies (component 0), an island of 2 x 2 quads
+/* The cut sheet: two sheets of 4 x 4 quads that share a seam of 5 stored copies (component 0), a piece of 2 x 2 quads
  * (component 1), one vertex in no triangle, and one triangle of equal corners. 60 vertices, 73 triangles. */
 Surface surface_cut(void);
 enum {

@@ -230,10 +230,10 @@ static hf_result geodesics_create(void* d) {
   hf_geodesics_destroy(geodesics);
   return result;
 }
-static void fill_propose(void* d) { *(hf_propose_desc*)d = HF_INIT(hf_propose_desc); }
+static void fill_propose(void* d) { *(hf_handle_proposals_desc*)d = HF_INIT(hf_handle_proposals_desc); }
 static hf_result propose(void* d) {
   uint32_t count;
-  return hf_propose_handles(scene.body, d, 0, NULL, &count);
+  return hf_surface_propose_handles(scene.body, d, 0, NULL, &count);
 }
 static void fill_extremities(void* d) { *(hf_extremities_desc*)d = HF_INIT(hf_extremities_desc); }
 static hf_result find_extremities(void* d) {
@@ -300,7 +300,7 @@ static hf_result detail_create(void* d) {
   return result;
 }
 
-static void fill_bones(void* d) { *(hf_bones_desc*)d = scene_bones(); }
+static void fill_bones(void* d) { *(hf_joints_desc*)d = scene_bones(); }
 static hf_result weights_create(void* d) {
   hf_weights weights = (hf_weights)(void*)&scene;
   const hf_result result = hf_weights_create(scene.body, d, 4, &weights);
@@ -308,7 +308,7 @@ static hf_result weights_create(void* d) {
   hf_weights_destroy(weights);
   return result;
 }
-static hf_result weights_set_bones(void* d) { return hf_weights_set_bones(scene.weights, d); }
+static hf_result weights_set_bones(void* d) { return hf_weights_set_joints(scene.weights, d); }
 static void fill_pins(void* d) { *(hf_pins_desc*)d = HF_INIT(hf_pins_desc); }
 static hf_result weights_set_pins(void* d) { return hf_weights_set_pins(scene.weights, d); }
 static void fill_weights_out(void* d) { *(hf_weights_out*)d = HF_INIT(hf_weights_out); }
@@ -318,36 +318,36 @@ static float one_share[TUBE_VERTICES];
 static const double one_head[3] = {0, 0, 0};
 static void fill_carry(void* d) {
   for (int v = 0; v < TUBE_VERTICES; ++v) one_share[v] = 1;
-  hf_carry_desc* desc = d;
-  *desc = HF_INIT(hf_carry_desc);
-  desc->influence_count = 1;
+  hf_weights_transfer_desc* desc = d;
+  *desc = HF_INIT(hf_weights_transfer_desc);
+  desc->source_influence_count = 1;
   desc->joints = one_joint;
   desc->weights = one_share;
 }
 static hf_result weights_carry(void* d) {
   hf_weights_out out = HF_INIT(hf_weights_out);
-  return hf_weights_carry(scene.body, scene.body, d, &out, NULL);
+  return hf_weights_transfer(scene.body, scene.body, d, &out, NULL);
 }
 static hf_result weights_carry_out(void* d) {
-  hf_carry_desc desc;
+  hf_weights_transfer_desc desc;
   fill_carry(&desc);
-  return hf_weights_carry(scene.body, scene.body, &desc, d, NULL);
+  return hf_weights_transfer(scene.body, scene.body, &desc, d, NULL);
 }
-static void fill_carry_info(void* d) { *(hf_carry_info*)d = HF_INIT(hf_carry_info); }
+static void fill_carry_info(void* d) { *(hf_weights_transfer_info*)d = HF_INIT(hf_weights_transfer_info); }
 static hf_result weights_carry_info(void* d) {
-  hf_carry_desc desc;
+  hf_weights_transfer_desc desc;
   hf_weights_out out = HF_INIT(hf_weights_out);
   fill_carry(&desc);
-  return hf_weights_carry(scene.body, scene.body, &desc, &out, d);
+  return hf_weights_transfer(scene.body, scene.body, &desc, &out, d);
 }
 static void fill_mirror(void* d) {
-  hf_carry_desc given;
+  hf_weights_transfer_desc given;
   fill_carry(&given);
-  hf_mirror_desc* desc = d;
-  *desc = HF_INIT(hf_mirror_desc);
-  desc->bone_count = 1;
+  hf_weights_mirror_desc* desc = d;
+  *desc = HF_INIT(hf_weights_mirror_desc);
+  desc->joint_count = 1;
   desc->heads = one_head;
-  desc->influence_count = 1;
+  desc->source_influence_count = 1;
   desc->joints = one_joint;
   desc->weights = one_share;
 }
@@ -356,13 +356,13 @@ static hf_result weights_mirror(void* d) {
   return hf_weights_mirror(scene.body, d, &out, NULL, NULL, NULL);
 }
 static hf_result weights_mirror_out(void* d) {
-  hf_mirror_desc desc;
+  hf_weights_mirror_desc desc;
   fill_mirror(&desc);
   return hf_weights_mirror(scene.body, &desc, d, NULL, NULL, NULL);
 }
-static void fill_mirror_info(void* d) { *(hf_mirror_info*)d = HF_INIT(hf_mirror_info); }
+static void fill_mirror_info(void* d) { *(hf_weights_mirror_info*)d = HF_INIT(hf_weights_mirror_info); }
 static hf_result weights_mirror_info(void* d) {
-  hf_mirror_desc desc;
+  hf_weights_mirror_desc desc;
   hf_weights_out out = HF_INIT(hf_weights_out);
   fill_mirror(&desc);
   return hf_weights_mirror(scene.body, &desc, &out, NULL, NULL, d);
@@ -424,7 +424,7 @@ static const struct {
     {"hf_surface_find_critical_points: out_info", sizeof(hf_critical_info), fill_critical_info, critical_info, 1},
     {"hf_geodesics_find_path: inout_path", sizeof(hf_path), fill_path, find_path, 0},
     {"hf_geodesics_create: desc", sizeof(hf_geodesics_desc), fill_geodesics, geodesics_create, 1},
-    {"hf_propose_handles: desc", sizeof(hf_propose_desc), fill_propose, propose, 1},
+    {"hf_surface_propose_handles: desc", sizeof(hf_handle_proposals_desc), fill_propose, propose, 1},
     {"hf_surface_find_extremities: desc", sizeof(hf_extremities_desc), fill_extremities, find_extremities, 1},
     {"hf_direction_create: desc", sizeof(hf_direction_desc), fill_direction, direction_create, 1},
     {"hf_direction_solve: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve, 1},
@@ -438,17 +438,17 @@ static const struct {
     {"hf_region_morph: desc", sizeof(hf_morph_desc), fill_morph, region_morph, 0},
     {"hf_detail_create: desc", sizeof(hf_detail_desc), fill_detail, detail_create, 1},
     {"hf_transfer_get_skin: info", sizeof(hf_skin_info), fill_skin, transfer_get_skin, 0},
-    {"hf_weights_create: bones", sizeof(hf_bones_desc), fill_bones, weights_create, 0},
-    {"hf_weights_set_bones: bones", sizeof(hf_bones_desc), fill_bones, weights_set_bones, 0},
+    {"hf_weights_create: bones", sizeof(hf_joints_desc), fill_bones, weights_create, 0},
+    {"hf_weights_set_joints: bones", sizeof(hf_joints_desc), fill_bones, weights_set_bones, 0},
     {"hf_weights_set_pins: pins", sizeof(hf_pins_desc), fill_pins, weights_set_pins, 0},
     {"hf_weights_get: inout_weights", sizeof(hf_weights_out), fill_weights_out, weights_get, 0},
     {"hf_weights_get_info: out_info", sizeof(hf_weights_info), fill_weights_info, weights_info, 0},
-    {"hf_weights_carry: desc", sizeof(hf_carry_desc), fill_carry, weights_carry, 0},
-    {"hf_weights_carry: inout_weights", sizeof(hf_weights_out), fill_weights_out, weights_carry_out, 0},
-    {"hf_weights_carry: out_info", sizeof(hf_carry_info), fill_carry_info, weights_carry_info, 1},
-    {"hf_weights_mirror: desc", sizeof(hf_mirror_desc), fill_mirror, weights_mirror, 0},
+    {"hf_weights_transfer: desc", sizeof(hf_weights_transfer_desc), fill_carry, weights_carry, 0},
+    {"hf_weights_transfer: inout_weights", sizeof(hf_weights_out), fill_weights_out, weights_carry_out, 0},
+    {"hf_weights_transfer: out_info", sizeof(hf_weights_transfer_info), fill_carry_info, weights_carry_info, 1},
+    {"hf_weights_mirror: desc", sizeof(hf_weights_mirror_desc), fill_mirror, weights_mirror, 0},
     {"hf_weights_mirror: inout_weights", sizeof(hf_weights_out), fill_weights_out, weights_mirror_out, 0},
-    {"hf_weights_mirror: out_info", sizeof(hf_mirror_info), fill_mirror_info, weights_mirror_info, 1},
+    {"hf_weights_mirror: out_info", sizeof(hf_weights_mirror_info), fill_mirror_info, weights_mirror_info, 1},
 };
 
 enum { SPACE = 5000 };

@@ -1,5 +1,5 @@
 /* Every function that takes a handle, called with every kind of handle that is not one of its own:
- * HF_ERROR_INVALID_HANDLE, and every live object as before. */
+ * HF_ERROR_INVALID_OBJECT, and every live object as before. */
 #include "bad_scene.h"
 
 static Scene scene;
@@ -112,10 +112,7 @@ static hf_result solve_at(void* h) {
   const uint32_t v = 3;
   return hf_solver_solve_at(h, 1, &v, doubles);
 }
-static hf_result record(void* h) { return hf_solver_record(h); }
 static hf_result prepare_rebase(void* h) { return hf_solver_prepare_rebase(h); }
-static hf_result undo(void* h) { return hf_solver_undo(h); }
-static hf_result redo(void* h) { return hf_solver_redo(h); }
 static hf_result pose_create(void* h) {
   hf_pose out;
   return hf_pose_create(h, NULL, &out);
@@ -156,7 +153,7 @@ static hf_result geodesics_create(void* h) {
 }
 static hf_result propose(void* h) {
   uint32_t count;
-  return hf_propose_handles(h, NULL, 0, NULL, &count);
+  return hf_surface_propose_handles(h, NULL, 0, NULL, &count);
 }
 static hf_result find_extremities(void* h) {
   uint32_t count;
@@ -220,9 +217,6 @@ static hf_result direction_clone(void* h) {
   hf_direction out;
   return hf_direction_clone(h, &out);
 }
-static hf_result direction_record(void* h) { return hf_direction_record(h); }
-static hf_result direction_undo(void* h) { return hf_direction_undo(h); }
-static hf_result direction_redo(void* h) { return hf_direction_redo(h); }
 static hf_result direction_get_sites(void* h) { return hf_direction_get_sites(h, 2, numbers, NULL, NULL, NULL); }
 static hf_result direction_solve(void* h) { return hf_direction_solve(h, floats, 0, NULL); }
 static hf_result direction_solve_f64(void* h) { return hf_direction_solve_f64(h, doubles, 0, NULL); }
@@ -306,7 +300,7 @@ static hf_result transfer_get_skin(void* h) {
 }
 
 static hf_result weights_create(void* h) {
-  const hf_bones_desc bones = scene_bones();
+  const hf_joints_desc bones = scene_bones();
   hf_weights out;
   return hf_weights_create(h, &bones, 0, &out);
 }
@@ -315,8 +309,8 @@ static hf_result weights_clone(void* h) {
   return hf_weights_clone(h, &out);
 }
 static hf_result weights_set_bones(void* h) {
-  const hf_bones_desc bones = scene_bones();
-  return hf_weights_set_bones(h, &bones);
+  const hf_joints_desc bones = scene_bones();
+  return hf_weights_set_joints(h, &bones);
 }
 static hf_result weights_set_pins(void* h) {
   const hf_pins_desc pins = HF_INIT(hf_pins_desc);
@@ -327,35 +321,35 @@ static hf_result weights_get(void* h) {
   hf_weights_out out = HF_INIT(hf_weights_out);
   return hf_weights_get(h, &out);
 }
-static hf_result weights_get_bones(void* h) { return hf_weights_get_bones(h, 0, NULL, NULL, numbers); }
+static hf_result weights_get_bones(void* h) { return hf_weights_get_joints(h, 0, NULL, NULL, numbers); }
 static hf_result weights_get_helpers(void* h) { return hf_weights_get_helpers(h, NULL, 0, NULL, numbers); }
-static hf_carry_desc carried(void) {
+static hf_weights_transfer_desc carried(void) {
   static uint32_t joints[TUBE_VERTICES];
   static float shares[TUBE_VERTICES];
   for (int v = 0; v < TUBE_VERTICES; ++v) shares[v] = 1;
-  hf_carry_desc desc = HF_INIT(hf_carry_desc);
-  desc.influence_count = 1;
+  hf_weights_transfer_desc desc = HF_INIT(hf_weights_transfer_desc);
+  desc.source_influence_count = 1;
   desc.joints = joints;
   desc.weights = shares;
   return desc;
 }
 static hf_result weights_carry_from(void* h) {
-  const hf_carry_desc desc = carried();
+  const hf_weights_transfer_desc desc = carried();
   hf_weights_out out = HF_INIT(hf_weights_out);
-  return hf_weights_carry(h, scene.body, &desc, &out, NULL);
+  return hf_weights_transfer(h, scene.body, &desc, &out, NULL);
 }
 static hf_result weights_carry_to(void* h) {
-  const hf_carry_desc desc = carried();
+  const hf_weights_transfer_desc desc = carried();
   hf_weights_out out = HF_INIT(hf_weights_out);
-  return hf_weights_carry(scene.body, h, &desc, &out, NULL);
+  return hf_weights_transfer(scene.body, h, &desc, &out, NULL);
 }
 static hf_result weights_mirror(void* h) {
   static const double head[3] = {0, 0, 0};
-  const hf_carry_desc given = carried();
-  hf_mirror_desc desc = HF_INIT(hf_mirror_desc);
-  desc.bone_count = 1;
+  const hf_weights_transfer_desc given = carried();
+  hf_weights_mirror_desc desc = HF_INIT(hf_weights_mirror_desc);
+  desc.joint_count = 1;
   desc.heads = head;
-  desc.influence_count = 1;
+  desc.source_influence_count = 1;
   desc.joints = given.joints;
   desc.weights = given.weights;
   hf_weights_out out = HF_INIT(hf_weights_out);
@@ -365,12 +359,9 @@ static hf_result weights_get_info(void* h) {
   hf_weights_info info = HF_INIT(hf_weights_info);
   return hf_weights_get_info(h, &info);
 }
-static hf_result weights_record(void* h) { return hf_weights_record(h); }
-static hf_result weights_undo(void* h) { return hf_weights_undo(h); }
-static hf_result weights_redo(void* h) { return hf_weights_redo(h); }
 
 static hf_result progress_get(void* h) {
-  float f;
+  double f;
   return hf_progress_get_fraction(h, &f);
 }
 static hf_result progress_cancel(void* h) { return hf_progress_cancel(h); }
@@ -416,10 +407,7 @@ static const struct {
     {"hf_solver_solve_vectors", SOLVER, solve_vectors, NO_INDEX},
     {"hf_solver_solve_vectors_f64", SOLVER, solve_vectors_f64, NO_INDEX},
     {"hf_solver_solve_at", SOLVER, solve_at, NO_INDEX},
-    {"hf_solver_record", SOLVER, record, NO_INDEX},
     {"hf_solver_prepare_rebase", SOLVER, prepare_rebase, NO_INDEX},
-    {"hf_solver_undo", SOLVER, undo, NO_INDEX},
-    {"hf_solver_redo", SOLVER, redo, NO_INDEX},
     {"hf_pose_create", SURFACE, pose_create, NO_INDEX},
     {"hf_transfer_create", SURFACE, transfer_from, 0},
     {"hf_transfer_create", SURFACE, transfer_to, 1},
@@ -446,7 +434,7 @@ static const struct {
     {"hf_surface_find_critical_points", SURFACE, find_critical_points, NO_INDEX},
     {"hf_geodesics_create", SURFACE, geodesics_create, NO_INDEX},
     {"hf_surface_find_extremities", SURFACE, find_extremities, NO_INDEX},
-    {"hf_propose_handles", SURFACE, propose, NO_INDEX},
+    {"hf_surface_propose_handles", SURFACE, propose, NO_INDEX},
     {"hf_geodesics_solve", GEODESICS, geodesics_distance, NO_INDEX},
     {"hf_geodesics_solve_f64", GEODESICS, geodesics_distance_f64, NO_INDEX},
     {"hf_geodesics_find_path", GEODESICS, geodesics_path, NO_INDEX},
@@ -461,9 +449,6 @@ static const struct {
     {"hf_direction_set_vectors", DIRECTION, direction_set_vectors, NO_INDEX},
     {"hf_direction_rotate_sites", DIRECTION, direction_rotate_sites, NO_INDEX},
     {"hf_direction_clone", DIRECTION, direction_clone, NO_INDEX},
-    {"hf_direction_record", DIRECTION, direction_record, NO_INDEX},
-    {"hf_direction_undo", DIRECTION, direction_undo, NO_INDEX},
-    {"hf_direction_redo", DIRECTION, direction_redo, NO_INDEX},
     {"hf_direction_get_sites", DIRECTION, direction_get_sites, NO_INDEX},
     {"hf_direction_solve", DIRECTION, direction_solve, NO_INDEX},
     {"hf_direction_solve_f64", DIRECTION, direction_solve_f64, NO_INDEX},
@@ -473,19 +458,16 @@ static const struct {
     {"hf_progress_cancel", PROGRESS, progress_cancel, NO_INDEX},
     {"hf_weights_create", SURFACE, weights_create, NO_INDEX},
     {"hf_weights_clone", WEIGHTS, weights_clone, NO_INDEX},
-    {"hf_weights_set_bones", WEIGHTS, weights_set_bones, NO_INDEX},
+    {"hf_weights_set_joints", WEIGHTS, weights_set_bones, NO_INDEX},
     {"hf_weights_set_pins", WEIGHTS, weights_set_pins, NO_INDEX},
     {"hf_weights_set_locks", WEIGHTS, weights_set_locks, NO_INDEX},
     {"hf_weights_get", WEIGHTS, weights_get, NO_INDEX},
-    {"hf_weights_get_bones", WEIGHTS, weights_get_bones, NO_INDEX},
+    {"hf_weights_get_joints", WEIGHTS, weights_get_bones, NO_INDEX},
     {"hf_weights_get_info", WEIGHTS, weights_get_info, NO_INDEX},
     {"hf_weights_get_helpers", WEIGHTS, weights_get_helpers, NO_INDEX},
-    {"hf_weights_carry", SURFACE, weights_carry_from, NO_INDEX},
-    {"hf_weights_carry", SURFACE, weights_carry_to, NO_INDEX},
+    {"hf_weights_transfer", SURFACE, weights_carry_from, NO_INDEX},
+    {"hf_weights_transfer", SURFACE, weights_carry_to, NO_INDEX},
     {"hf_weights_mirror", SURFACE, weights_mirror, NO_INDEX},
-    {"hf_weights_record", WEIGHTS, weights_record, NO_INDEX},
-    {"hf_weights_undo", WEIGHTS, weights_undo, NO_INDEX},
-    {"hf_weights_redo", WEIGHTS, weights_redo, NO_INDEX},
 };
 
 static int unchanged(enum Kind kind) {
@@ -522,7 +504,7 @@ static void every_function_refuses_every_handle_that_is_not_its_own(void** state
       }
     }
     for (size_t b = 0; b < count; ++b) {
-      check_row(__LINE__, bad[b].what, functions[f].function, functions[f].call(bad[b].handle), HF_ERROR_INVALID_HANDLE,
+      check_row(__LINE__, bad[b].what, functions[f].function, functions[f].call(bad[b].handle), HF_ERROR_INVALID_OBJECT,
                 functions[f].index);
     }
     row_holds(__LINE__, functions[f].function, "the live objects are unchanged", unchanged(kind));
@@ -568,14 +550,14 @@ static void destroying_what_is_no_handle_does_nothing(void** state) {
     if (k != DIRECTION) hf_direction_destroy(live[k]);
     if (k != WEIGHTS) hf_weights_destroy(live[k]);
   }
-  float fraction;
+  double fraction;
   assert_ok(geodesics_distance(scene.geodesics));
   assert_ok(surface_get_info(scene.sheet));
   assert_true(solver_unchanged(&scene) && pose_unchanged(&scene) && transfer_unchanged(&scene));
   assert_true(weights_unchanged(&scene));
   assert_ok(hf_progress_get_fraction(scene.progress, &fraction));
   scene_destroy(&scene);
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_solver_record(scene.solver));
+  assert_code(HF_ERROR_INVALID_OBJECT, hf_solver_release_preview(scene.solver));
 }
 
 static void counts_of_what_is_no_handle_are_zero(void** state) {
@@ -602,7 +584,7 @@ static void a_new_object_never_answers_to_an_old_handle(void** state) {
   for (int i = 0; i < 1000; ++i) {
     hf_solver next = surface_solver(&sheet);
     assert_ptr_not_equal(next, first);
-    assert_code(HF_ERROR_INVALID_HANDLE, hf_solver_record(first));
+    assert_code(HF_ERROR_INVALID_OBJECT, hf_solver_release_preview(first));
     hf_solver_destroy(next);
   }
   surface_free(&sheet);

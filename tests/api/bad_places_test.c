@@ -1,5 +1,5 @@
 /* Places that no call can use, on a surface that has them: a vertex in no triangle, a triangle of equal corners, an
- * island where the other component is meant; and lists that name a site twice, short and long. */
+ * piece where the other component is meant; and lists that name a site twice, short and long. */
 #include "api_support.h"
 
 /* One refused call: the code, the index, the detail. */
@@ -19,7 +19,7 @@ static void regions_name_points_that_are_no_surface(void** state) {
   curve.vertices = points;
   REFUSED("a point in no triangle", HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
   points[2] = CUT_ISLAND;
-  REFUSED("a point on the island", HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
+  REFUSED("a point on the piece", HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
   points[2] = 18;
   curve.side = HF_SIDE_SEED;
   curve.seed_vertex = CUT_ISOLATED;
@@ -92,7 +92,7 @@ static void vectors_stay_on_their_component(void** state) {
   hf_surface surface = NULL;
   hf_solver solver = NULL;
   assert_ok(make(&desc, &surface, &solver));
-  const uint32_t place[1] = {7}, isolated[1] = {CUT_ISOLATED}, island[1] = {CUT_ISLAND};
+  const uint32_t place[1] = {7}, isolated[1] = {CUT_ISOLATED}, piece[1] = {CUT_ISLAND};
   const double vector[3] = {1, 0, 0};
   const hf_sites_desc sites = sites_at(1, place, vector);
   uint32_t site = 0;
@@ -101,7 +101,7 @@ static void vectors_stay_on_their_component(void** state) {
   assert_ok(hf_solver_solve_vectors_f64(solver, before, 0, NULL, NULL));
   REFUSED("to a vertex in no triangle", HF_ERROR_INVALID_ARGUMENT, 0,
           hf_solver_move_vectors(solver, 1, &site, isolated));
-  REFUSED("to another component", HF_ERROR_INVALID_ARGUMENT, 0, hf_solver_move_vectors(solver, 1, &site, island));
+  REFUSED("to another component", HF_ERROR_INVALID_ARGUMENT, 0, hf_solver_move_vectors(solver, 1, &site, piece));
   assert_ok(hf_solver_solve_vectors_f64(solver, after, 0, NULL, NULL));
   assert_true(same_bits(before, after, sizeof before));
 
@@ -138,7 +138,7 @@ static void a_site_is_moved_once_in_a_list_of_any_length(void** state) {
       const uint32_t kept = sites[count - 1];
       sites[count - 1] = sites[first];
       const hf_sites_desc there = sites_at(count, to, NULL);
-      REFUSED("named twice", HF_ERROR_NO_SUCH_SITE, count - 1, hf_solver_move_sites(solver, count, sites, &there));
+      REFUSED("named twice", HF_ERROR_NOT_FOUND, count - 1, hf_solver_move_sites(solver, count, sites, &there));
       sites[count - 1] = kept;
     }
   }

@@ -18,7 +18,7 @@ static float source[3 * TUBE_VERTICES], floats[3 * TUBE_VERTICES], normals[3 * T
 static double doubles[3 * TUBE_VERTICES];
 static hf_pose out_pose;
 static hf_transfer out_transfer;
-static hf_propose_desc propose;
+static hf_handle_proposals_desc propose;
 static double joints[2 * 3];
 static uint32_t parents[2], proposal_count;
 
@@ -59,7 +59,7 @@ static void good_input(void) {
   memcpy(source, scene.posed, sizeof source);
   frame.source_positions = source;
   frame.target_positions = floats;
-  propose = HF_INIT(hf_propose_desc);
+  propose = HF_INIT(hf_handle_proposals_desc);
   memset(joints, 0, sizeof joints);
   parents[0] = NO_INDEX;
   parents[1] = 0;
@@ -100,8 +100,8 @@ static void bad_poses_are_not_made(void** state) {
   CREATE_POSE("2^31 iterations", HF_ERROR_INVALID_ARGUMENT, pose_desc.iteration_count = 0x80000000u);
   CREATE_POSE("2001 groups", HF_ERROR_INVALID_ARGUMENT, pose_desc.group_count = 2001);
   CREATE_POSE("2^32 - 1 groups", HF_ERROR_INVALID_ARGUMENT, pose_desc.group_count = UINT32_MAX);
-  ROW("no surface", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_pose_create(NULL, NULL, &out_pose));
-  ROW("no pose to clone", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_pose_clone(scene.stale_pose, &out_pose));
+  ROW("no surface", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0, hf_pose_create(NULL, NULL, &out_pose));
+  ROW("no pose to clone", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0, hf_pose_clone(scene.stale_pose, &out_pose));
 #undef UNCHANGED
 #define UNCHANGED pose_as_before
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_create(scene.body, NULL, NULL));
@@ -123,8 +123,8 @@ static void bad_handles_are_not_added(void** state) {
   ADD("vertex = vertex_count", HF_ERROR_OUT_OF_RANGE, 3, region[3] = TUBE_VERTICES);
   ADD("vertex UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 0, region[0] = UINT32_MAX);
   ADD("vertex 2^31", HF_ERROR_OUT_OF_RANGE, 5, region[5] = 0x80000000u);
-  ADD("overlaps a handle that is there", HF_ERROR_OVERLAP, 1, region[1] = 0);
-  ADD("overlaps the other region", HF_ERROR_OVERLAP, 4, region[4] = region[0]);
+  ADD("overlaps a handle that is there", HF_ERROR_CONFLICT, 1, region[1] = 0);
+  ADD("overlaps the other region", HF_ERROR_CONFLICT, 4, region[4] = region[0]);
   ADD("257 handles", HF_ERROR_TOO_LARGE, NO_INDEX, handles.handle_count = 257);
   ADD("2^31 handles", HF_ERROR_TOO_LARGE, NO_INDEX, handles.handle_count = 0x80000000u);
   ADD("2^32 - 1 handles", HF_ERROR_TOO_LARGE, NO_INDEX, handles.handle_count = UINT32_MAX);
@@ -132,7 +132,7 @@ static void bad_handles_are_not_added(void** state) {
   ADD("a region of 2^31", HF_ERROR_TOO_LARGE, 0, counts[0] = 0x80000000u);
   ADD("layer 8", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.layer = 8);
   ADD("layer 2^32 - 1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.layer = UINT32_MAX);
-  ADD("overlap on a higher layer", HF_ERROR_OVERLAP, 1, (region[1] = 0, handles.layer = 3));
+  ADD("overlap on a higher layer", HF_ERROR_CONFLICT, 1, (region[1] = 0, handles.layer = 3));
   ADD("in_place 2", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.in_place = 2);
   ADD("in_place -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.in_place = -1);
   ADD("regions and points", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (handles.points = points, handles.radii = radii));
@@ -149,7 +149,7 @@ static void bad_handles_are_not_added(void** state) {
   NEAR("a radius that holds one vertex", HF_ERROR_INVALID_ARGUMENT, 0, radii[0] = 1e-6);
   NEAR("a point 1,000 boxes away", HF_ERROR_TOO_LARGE, 1, points[3] = 14000);
   NEAR("a point 1e300 away", HF_ERROR_TOO_LARGE, 0, points[2] = -1e300);
-  NEAR("a point in a handle that is there", HF_ERROR_OVERLAP, 1,
+  NEAR("a point in a handle that is there", HF_ERROR_CONFLICT, 1,
        memcpy(points + 3,
               (double[3]){(double)scene.tube.positions[0], (double)scene.tube.positions[1],
                           (double)scene.tube.positions[2]},
@@ -160,20 +160,21 @@ static void bad_handles_are_not_added(void** state) {
   NEAR_ONE("radius NaN", HF_ERROR_NON_FINITE, 0, radii[0] = (double)NAN);
   NEAR_ONE("radius negative", HF_ERROR_INVALID_ARGUMENT, 0, radii[0] = -1);
   NEAR_ONE("a point 1,000 boxes away", HF_ERROR_TOO_LARGE, 0, points[0] = 14000);
-  NEAR_ONE("a radius that reaches a handle", HF_ERROR_OVERLAP, 0, radii[0] = 1000);
+  NEAR_ONE("a radius that reaches a handle", HF_ERROR_CONFLICT, 0, radii[0] = 1000);
   ROW("point NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_add_handle_at(scene.pose, NULL, 0, out_numbers));
   scene_destroy(&scene);
   finish_rows("adding handles");
 }
 
 #define PROPOSE(what, expected, index, change) \
-  ROW(what, expected, index, change, hf_propose_handles(scene.body, &propose, 0, NULL, &proposal_count))
+  ROW(what, expected, index, change, hf_surface_propose_handles(scene.body, &propose, 0, NULL, &proposal_count))
 
 static void handles_are_not_proposed_from_bad_input(void** state) {
   (void)state;
   scene_create(&scene);
 #undef UNCHANGED
 #define UNCHANGED proposals_as_before
+  PROPOSE("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, propose.reserved = 1);
   PROPOSE("joints NULL", HF_ERROR_NULL_POINTER, NO_INDEX, propose.joints = NULL);
   PROPOSE("parents NULL", HF_ERROR_NULL_POINTER, NO_INDEX, propose.parents = NULL);
   PROPOSE("65537 joints", HF_ERROR_TOO_LARGE, NO_INDEX, propose.joint_count = 65537);
@@ -182,13 +183,14 @@ static void handles_are_not_proposed_from_bad_input(void** state) {
   PROPOSE("a parent beyond the list", HF_ERROR_OUT_OF_RANGE, 0, parents[0] = 2);
   PROPOSE("up NaN", HF_ERROR_NON_FINITE, NO_INDEX, propose.up[2] = (double)NAN);
   PROPOSE("up infinite", HF_ERROR_NON_FINITE, NO_INDEX, propose.up[0] = HUGE_VAL);
-  PROPOSE("least_length NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.least_length = (float)NAN);
-  PROPOSE("least_length -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.least_length = -1);
-  PROPOSE("least_length 11", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.least_length = 11);
+  PROPOSE("least_length_share NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.least_length_share = NAN);
+  PROPOSE("least_length_share -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.least_length_share = -1);
+  PROPOSE("least_length_share 11", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.least_length_share = 11);
   PROPOSE("257 proposals", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.limit = 257);
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_propose_handles(scene.body, &propose, 0, NULL, NULL));
-  ROW("no surface", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0,
-      hf_propose_handles(NULL, &propose, 0, NULL, &proposal_count));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
+      hf_surface_propose_handles(scene.body, &propose, 0, NULL, NULL));
+  ROW("no surface", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0,
+      hf_surface_propose_handles(NULL, &propose, 0, NULL, &proposal_count));
 #undef UNCHANGED
 #define UNCHANGED pose_as_before
   scene_destroy(&scene);
@@ -214,7 +216,7 @@ static void isolated_vertices_and_welded_copies_in_regions_are_found(void** stat
   vertices[1] = CUT_SEAM_RIGHT;
   vertices[3] = 9;
   check_row(__LINE__, "copies in two regions", "hf_pose_add_handles", hf_pose_add_handles(pose, &d, NULL),
-            HF_ERROR_OVERLAP, 2);
+            HF_ERROR_CONFLICT, 2);
   vertices[1] = 1;
   vertices[3] = CUT_ISOLATED;
   check_row(__LINE__, "an isolated vertex", "hf_pose_add_handles", hf_pose_add_handles(pose, &d, NULL),
@@ -256,11 +258,10 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   hf_handle_info info = HF_INIT(hf_handle_info);
   ROW("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_pose_remove_handles(scene.pose, 0, numbers));
   ROW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_remove_handles(scene.pose, 1, NULL));
-  ROW("no such handle", HF_ERROR_NO_SUCH_HANDLE, 1, numbers[1] = 2, hf_pose_remove_handles(scene.pose, 2, numbers));
-  ROW("UINT32_MAX", HF_ERROR_NO_SUCH_HANDLE, 0, numbers[0] = UINT32_MAX,
-      hf_pose_remove_handles(scene.pose, 2, numbers));
-  ROW("named twice", HF_ERROR_NO_SUCH_HANDLE, 2, (void)0, hf_pose_remove_handles(scene.pose, 3, numbers));
-  ROW("2^31 of them", HF_ERROR_NO_SUCH_HANDLE, 2, (void)0, hf_pose_remove_handles(scene.pose, 0x80000000u, numbers));
+  ROW("no such handle", HF_ERROR_NOT_FOUND, 1, numbers[1] = 2, hf_pose_remove_handles(scene.pose, 2, numbers));
+  ROW("UINT32_MAX", HF_ERROR_NOT_FOUND, 0, numbers[0] = UINT32_MAX, hf_pose_remove_handles(scene.pose, 2, numbers));
+  ROW("named twice", HF_ERROR_NOT_FOUND, 2, (void)0, hf_pose_remove_handles(scene.pose, 3, numbers));
+  ROW("2^31 of them", HF_ERROR_NOT_FOUND, 2, (void)0, hf_pose_remove_handles(scene.pose, 0x80000000u, numbers));
 
 #define PLACE(what, expected, index, change) \
   ROW(what, expected, index, change, hf_pose_set_transforms(scene.pose, 2, numbers, transforms))
@@ -270,12 +271,12 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
       hf_pose_set_transforms(scene.pose, 2, numbers, NULL));
   ROW("2^32 - 1 of them", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0,
       hf_pose_set_transforms(scene.pose, UINT32_MAX, numbers, transforms));
-  PLACE("no such handle", HF_ERROR_NO_SUCH_HANDLE, 1, numbers[1] = 9);
+  PLACE("no such handle", HF_ERROR_NOT_FOUND, 1, numbers[1] = 9);
 #define PLACE_ONE(what, expected, change) \
   ROW(what, expected, 0, change, hf_pose_set_transform(scene.pose, numbers[0], transforms))
   ROW("transform NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_set_transform(scene.pose, 0, NULL));
-  PLACE_ONE("no such handle", HF_ERROR_NO_SUCH_HANDLE, numbers[0] = 9);
-  PLACE_ONE("handle UINT32_MAX", HF_ERROR_NO_SUCH_HANDLE, numbers[0] = UINT32_MAX);
+  PLACE_ONE("no such handle", HF_ERROR_NOT_FOUND, numbers[0] = 9);
+  PLACE_ONE("handle UINT32_MAX", HF_ERROR_NOT_FOUND, numbers[0] = UINT32_MAX);
   PLACE_ONE("rotation NaN", HF_ERROR_NON_FINITE, transforms[0].rotation[1] = (double)NAN);
   PLACE_ONE("translation infinite", HF_ERROR_NON_FINITE, transforms[0].translation[2] = HUGE_VAL);
   ROW("output NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_deform(scene.pose, NULL, NULL));
@@ -285,9 +286,9 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   PLACE("translation infinite", HF_ERROR_NON_FINITE, 0, transforms[0].translation[0] = -HUGE_VAL);
   PLACE("translation absurd", HF_ERROR_NON_FINITE, 1, transforms[1].translation[1] = 1e300);
 
-  ROW("no such handle", HF_ERROR_NO_SUCH_HANDLE, NO_INDEX, (void)0, hf_pose_get_handle(scene.pose, 2, &info));
-  ROW("UINT32_MAX", HF_ERROR_NO_SUCH_HANDLE, NO_INDEX, (void)0, hf_pose_get_handle(scene.pose, UINT32_MAX, &info));
-  ROW("no such handle", HF_ERROR_NO_SUCH_HANDLE, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 2, floats, 0));
+  ROW("no such handle", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_pose_get_handle(scene.pose, 2, &info));
+  ROW("UINT32_MAX", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_pose_get_handle(scene.pose, UINT32_MAX, &info));
+  ROW("no such handle", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 2, floats, 0));
   ROW("output NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, NULL, 0));
   ROW("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, floats, 3));
 
@@ -316,7 +317,7 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   ROW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_set_matrices(scene.pose, 2, NULL, matrices));
   ROW("matrices NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_set_matrices(scene.pose, 2, numbers, NULL));
   ROW("257 of them", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, hf_pose_set_matrices(scene.pose, 257, numbers, matrices));
-  MATRICES("no such handle", HF_ERROR_NO_SUCH_HANDLE, 1, numbers[1] = 9);
+  MATRICES("no such handle", HF_ERROR_NOT_FOUND, 1, numbers[1] = 9);
   MATRICES("NaN", HF_ERROR_NON_FINITE, 1, matrices[16 + 13] = (double)NAN);
   MATRICES("scaled", HF_ERROR_INVALID_ARGUMENT, 0, matrices[5] = 1.01);
   MATRICES("sheared", HF_ERROR_INVALID_ARGUMENT, 1, matrices[16 + 4] = 0.1);
@@ -327,21 +328,21 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   MATRICES("too far", HF_ERROR_NON_FINITE, 0, matrices[12] = 1e300);
 
 #define POSE_SKIN(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_pose_get_skin(scene.pose, &skin))
-  POSE_SKIN("5 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = 5);
+  POSE_SKIN("5 weights", HF_ERROR_INVALID_ARGUMENT, skin.influence_count = 5);
   POSE_SKIN("no room for the joints", HF_ERROR_TOO_SMALL, skin.pivots = doubles);
   POSE_SKIN("no room for the vertices", HF_ERROR_TOO_SMALL, (skin.joint_capacity = 1000, skin.vertex_weights = floats));
-  POSE_SKIN("2^32 - 1 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = UINT32_MAX);
+  POSE_SKIN("2^32 - 1 weights", HF_ERROR_INVALID_ARGUMENT, skin.influence_count = UINT32_MAX);
   GOOD();
   assert_ok(hf_pose_create(scene.body, NULL, &out_pose));
   check_row(__LINE__, "no handle", "hf_pose_deform", hf_pose_deform(out_pose, &deform, NULL), HF_ERROR_EMPTY, NO_INDEX);
   check_row(__LINE__, "no handle", "hf_deform", hf_deform(out_pose, floats, NULL), HF_ERROR_EMPTY, NO_INDEX);
   check_row(__LINE__, "no handle", "hf_pose_get_skin", hf_pose_get_skin(out_pose, &skin), HF_ERROR_EMPTY, NO_INDEX);
-  check_row(__LINE__, "no handle", "hf_pose_get_handle", hf_pose_get_handle(out_pose, 0, &info),
-            HF_ERROR_NO_SUCH_HANDLE, NO_INDEX);
-  check_row(__LINE__, "no handle", "hf_pose_get_field", hf_pose_get_field(out_pose, 0, floats, 0),
-            HF_ERROR_NO_SUCH_HANDLE, NO_INDEX);
+  check_row(__LINE__, "no handle", "hf_pose_get_handle", hf_pose_get_handle(out_pose, 0, &info), HF_ERROR_NOT_FOUND,
+            NO_INDEX);
+  check_row(__LINE__, "no handle", "hf_pose_get_field", hf_pose_get_field(out_pose, 0, floats, 0), HF_ERROR_NOT_FOUND,
+            NO_INDEX);
   check_row(__LINE__, "no handle", "hf_pose_remove_handles", hf_pose_remove_handles(out_pose, 1, numbers),
-            HF_ERROR_NO_SUCH_HANDLE, 0);
+            HF_ERROR_NOT_FOUND, 0);
   hf_pose_destroy(out_pose);
   scene_destroy(&scene);
   finish_rows("poses");
@@ -359,17 +360,16 @@ static void bad_transfers_are_not_made(void** state) {
   CREATE_TRANSFER("mode 3", HF_ERROR_INVALID_ARGUMENT, transfer_desc.mode = 3);
   CREATE_TRANSFER("513 clusters", HF_ERROR_INVALID_ARGUMENT, transfer_desc.cluster_count = 513);
   CREATE_TRANSFER("2^32 - 1 clusters", HF_ERROR_INVALID_ARGUMENT, transfer_desc.cluster_count = UINT32_MAX);
-  CREATE_TRANSFER("kernel 0.001", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = 0.001f);
-  CREATE_TRANSFER("kernel 0.6", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = 0.6f);
-  CREATE_TRANSFER("kernel negative", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = -0.1f);
-  CREATE_TRANSFER("kernel NaN", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = (float)NAN);
-  CREATE_TRANSFER("scale negative", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = -1.0f);
-  CREATE_TRANSFER("scale NaN", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = (float)NAN);
-  CREATE_TRANSFER("scale infinite", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = (float)INFINITY);
-  CREATE_TRANSFER("scale absurd", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = 1e30f);
+  CREATE_TRANSFER("kernel 0.001", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = 0.001);
+  CREATE_TRANSFER("kernel 0.6", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = 0.6);
+  CREATE_TRANSFER("kernel negative", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = -0.1);
+  CREATE_TRANSFER("kernel NaN", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = NAN);
+  CREATE_TRANSFER("scale negative", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = -1.0);
+  CREATE_TRANSFER("scale NaN", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = NAN);
+  CREATE_TRANSFER("scale infinite", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = INFINITY);
+  CREATE_TRANSFER("scale absurd", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = 1e30);
   CREATE_TRANSFER("ground -1", HF_ERROR_INVALID_ARGUMENT, transfer_desc.ground = -1);
   CREATE_TRANSFER("ground 2", HF_ERROR_INVALID_ARGUMENT, transfer_desc.ground = 2);
-  CREATE_TRANSFER("reserved set", HF_ERROR_INVALID_DESC, transfer_desc.reserved = 1);
   static float rest[3 * TUBE_AROUND * (TUBE_RINGS + 2)];
   rest[3 * 5 + 1] = 1e30f;
   ROW("rest of the source 1e29 boxes away", HF_ERROR_TOO_LARGE, 5, transfer_desc.source_rest = rest,
@@ -379,18 +379,18 @@ static void bad_transfers_are_not_made(void** state) {
       hf_transfer_create(scene.body, scene.body, &transfer_desc, &out_transfer));
   ROW("rest of the target NaN", HF_ERROR_NON_FINITE, 5, transfer_desc.target_rest = rest,
       hf_transfer_create(scene.body, scene.body, &transfer_desc, &out_transfer));
-  CREATE_TRANSFER("angle NaN", HF_ERROR_NON_FINITE, transfer_desc.alignment_angle = (float)NAN);
-  CREATE_TRANSFER("angle infinite", HF_ERROR_NON_FINITE, transfer_desc.alignment_angle = (float)INFINITY);
-  CREATE_TRANSFER("source axis NaN", HF_ERROR_NON_FINITE, transfer_desc.source_axes[4] = (float)NAN);
-  CREATE_TRANSFER("target axis infinite", HF_ERROR_NON_FINITE, transfer_desc.target_axes[8] = (float)INFINITY);
-  CREATE_TRANSFER("source axes incomplete", HF_ERROR_INVALID_ARGUMENT, transfer_desc.source_axes[0] = 1.0f);
+  CREATE_TRANSFER("angle NaN", HF_ERROR_NON_FINITE, transfer_desc.alignment_angle = NAN);
+  CREATE_TRANSFER("angle infinite", HF_ERROR_NON_FINITE, transfer_desc.alignment_angle = INFINITY);
+  CREATE_TRANSFER("source axis NaN", HF_ERROR_NON_FINITE, transfer_desc.source_axes[4] = NAN);
+  CREATE_TRANSFER("target axis infinite", HF_ERROR_NON_FINITE, transfer_desc.target_axes[8] = INFINITY);
+  CREATE_TRANSFER("source axes incomplete", HF_ERROR_INVALID_ARGUMENT, transfer_desc.source_axes[0] = 1.0);
   CREATE_TRANSFER("target axes no frame", HF_ERROR_INVALID_ARGUMENT,
-                  (transfer_desc.target_axes[0] = transfer_desc.target_axes[3] = transfer_desc.target_axes[8] = 1.0f));
-  ROW("no source", HF_ERROR_INVALID_HANDLE, 0, (void)0, hf_transfer_create(NULL, scene.body, NULL, &out_transfer));
-  ROW("no target", HF_ERROR_INVALID_HANDLE, 1, (void)0, hf_transfer_create(scene.body, NULL, NULL, &out_transfer));
-  ROW("a solver as source", HF_ERROR_INVALID_HANDLE, 0, (void)0,
+                  (transfer_desc.target_axes[0] = transfer_desc.target_axes[3] = transfer_desc.target_axes[8] = 1.0));
+  ROW("no source", HF_ERROR_INVALID_OBJECT, 0, (void)0, hf_transfer_create(NULL, scene.body, NULL, &out_transfer));
+  ROW("no target", HF_ERROR_INVALID_OBJECT, 1, (void)0, hf_transfer_create(scene.body, NULL, NULL, &out_transfer));
+  ROW("a solver as source", HF_ERROR_INVALID_OBJECT, 0, (void)0,
       hf_transfer_create((hf_surface)(void*)scene.solver, scene.body, NULL, &out_transfer));
-  ROW("a direction field as target", HF_ERROR_INVALID_HANDLE, 1, (void)0,
+  ROW("a direction field as target", HF_ERROR_INVALID_OBJECT, 1, (void)0,
       hf_transfer_create(scene.body, (hf_surface)(void*)scene.direction, NULL, &out_transfer));
 #undef UNCHANGED
 #define UNCHANGED transfer_as_before
@@ -417,10 +417,10 @@ static void bad_pairs_are_not_added(void** state) {
   PAIRS("empty target region", HF_ERROR_EMPTY, 1, target_counts[1] = 0);
   PAIRS("source vertex = vertex_count", HF_ERROR_OUT_OF_RANGE, 2, region[2] = TUBE_VERTICES);
   PAIRS("target vertex UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 5, target_region[5] = UINT32_MAX);
-  PAIRS("source overlaps a pair that is there", HF_ERROR_OVERLAP, 1, region[1] = 3);
-  PAIRS("target overlaps a pair that is there", HF_ERROR_OVERLAP, 0, target_region[0] = 3);
-  PAIRS("source regions overlap", HF_ERROR_OVERLAP, 3, region[3] = region[0]);
-  PAIRS("target regions overlap", HF_ERROR_OVERLAP, 4, target_region[4] = target_region[1]);
+  PAIRS("source overlaps a pair that is there", HF_ERROR_CONFLICT, 1, region[1] = 3);
+  PAIRS("target overlaps a pair that is there", HF_ERROR_CONFLICT, 0, target_region[0] = 3);
+  PAIRS("source regions overlap", HF_ERROR_CONFLICT, 3, region[3] = region[0]);
+  PAIRS("target regions overlap", HF_ERROR_CONFLICT, 4, target_region[4] = target_region[1]);
   PAIRS("unknown flag", HF_ERROR_INVALID_ARGUMENT, 1, flags[1] = 512);
   PAIRS("all flags", HF_ERROR_INVALID_ARGUMENT, 0, flags[0] = UINT32_MAX);
   PAIRS("a source region of 2^31", HF_ERROR_TOO_LARGE, 0, counts[0] = 0x80000000u);
@@ -442,14 +442,13 @@ static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
   hf_pair_info info = HF_INIT(hf_pair_info);
   ROW("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_transfer_remove_pairs(scene.transfer, 0, numbers));
   ROW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_transfer_remove_pairs(scene.transfer, 1, NULL));
-  ROW("no such pair", HF_ERROR_NO_SUCH_PAIR, 1, numbers[1] = 2, hf_transfer_remove_pairs(scene.transfer, 2, numbers));
-  ROW("UINT32_MAX", HF_ERROR_NO_SUCH_PAIR, 0, numbers[0] = UINT32_MAX,
+  ROW("no such pair", HF_ERROR_NOT_FOUND, 1, numbers[1] = 2, hf_transfer_remove_pairs(scene.transfer, 2, numbers));
+  ROW("UINT32_MAX", HF_ERROR_NOT_FOUND, 0, numbers[0] = UINT32_MAX,
       hf_transfer_remove_pairs(scene.transfer, 2, numbers));
-  ROW("named twice", HF_ERROR_NO_SUCH_PAIR, 2, (void)0, hf_transfer_remove_pairs(scene.transfer, 3, numbers));
-  ROW("2^31 of them", HF_ERROR_NO_SUCH_PAIR, 2, (void)0,
-      hf_transfer_remove_pairs(scene.transfer, 0x80000000u, numbers));
-  ROW("no such pair", HF_ERROR_NO_SUCH_PAIR, 2, (void)0, hf_transfer_get_pair(scene.transfer, 2, &info));
-  ROW("UINT32_MAX", HF_ERROR_NO_SUCH_PAIR, NO_INDEX, (void)0, hf_transfer_get_pair(scene.transfer, UINT32_MAX, &info));
+  ROW("named twice", HF_ERROR_NOT_FOUND, 2, (void)0, hf_transfer_remove_pairs(scene.transfer, 3, numbers));
+  ROW("2^31 of them", HF_ERROR_NOT_FOUND, 2, (void)0, hf_transfer_remove_pairs(scene.transfer, 0x80000000u, numbers));
+  ROW("no such pair", HF_ERROR_NOT_FOUND, 2, (void)0, hf_transfer_get_pair(scene.transfer, 2, &info));
+  ROW("UINT32_MAX", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_transfer_get_pair(scene.transfer, UINT32_MAX, &info));
 
   APPLY("no source", HF_ERROR_NULL_POINTER, NO_INDEX, frame.source_positions = NULL);
   APPLY("both sources", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, frame.source_positions_f64 = doubles);
@@ -462,27 +461,28 @@ static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
   APPLY("source infinite", HF_ERROR_NON_FINITE, TUBE_VERTICES - 1, source[3 * TUBE_VERTICES - 1] = (float)INFINITY);
 
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
-  DIALS("stride 0.09", HF_ERROR_INVALID_ARGUMENT, dials.stride = 0.09f);
+  DIALS("reserved set", HF_ERROR_INVALID_DESC, dials.reserved = 1);
+  DIALS("stride 0.09", HF_ERROR_INVALID_ARGUMENT, dials.stride = 0.09);
   DIALS("stride -1", HF_ERROR_INVALID_ARGUMENT, dials.stride = -1);
   DIALS("stride 5", HF_ERROR_INVALID_ARGUMENT, dials.stride = 5);
-  DIALS("stride NaN", HF_ERROR_NON_FINITE, dials.stride = (float)NAN);
-  DIALS("hip height 0.6", HF_ERROR_INVALID_ARGUMENT, dials.hip_height = 0.6f);
-  DIALS("hip height -0.6", HF_ERROR_INVALID_ARGUMENT, dials.hip_height = -0.6f);
-  DIALS("hip height infinite", HF_ERROR_NON_FINITE, dials.hip_height = (float)INFINITY);
+  DIALS("stride NaN", HF_ERROR_NON_FINITE, dials.stride = NAN);
+  DIALS("hip height 0.6", HF_ERROR_INVALID_ARGUMENT, dials.hip_height_share = 0.6);
+  DIALS("hip height -0.6", HF_ERROR_INVALID_ARGUMENT, dials.hip_height_share = -0.6);
+  DIALS("hip height infinite", HF_ERROR_NON_FINITE, dials.hip_height_share = INFINITY);
   DIALS("neck follow 2", HF_ERROR_INVALID_ARGUMENT, dials.neck_follow = 2);
-  DIALS("neck follow NaN", HF_ERROR_NON_FINITE, dials.neck_follow = (float)NAN);
+  DIALS("neck follow NaN", HF_ERROR_NON_FINITE, dials.neck_follow = NAN);
   DIALS("tail follow -2", HF_ERROR_INVALID_ARGUMENT, dials.tail_follow = -2);
-  DIALS("tail follow NaN", HF_ERROR_NON_FINITE, dials.tail_follow = (float)NAN);
+  DIALS("tail follow NaN", HF_ERROR_NON_FINITE, dials.tail_follow = NAN);
   DIALS("arm space in degrees", HF_ERROR_INVALID_ARGUMENT, dials.arm_space = 20);
-  DIALS("arm space NaN", HF_ERROR_NON_FINITE, dials.arm_space = (float)NAN);
-  DIALS("long follow 1.1", HF_ERROR_INVALID_ARGUMENT, dials.long_follow = 1.1f);
-  DIALS("long follow -0.1", HF_ERROR_INVALID_ARGUMENT, dials.long_follow = -0.1f);
-  DIALS("long follow NaN", HF_ERROR_NON_FINITE, dials.long_follow = (float)NAN);
+  DIALS("arm space NaN", HF_ERROR_NON_FINITE, dials.arm_space = NAN);
+  DIALS("long follow 1.1", HF_ERROR_INVALID_ARGUMENT, dials.long_follow = 1.1);
+  DIALS("long follow -0.1", HF_ERROR_INVALID_ARGUMENT, dials.long_follow = -0.1);
+  DIALS("long follow NaN", HF_ERROR_NON_FINITE, dials.long_follow = NAN);
 
-  SKIN("5 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = 5);
+  SKIN("5 weights", HF_ERROR_INVALID_ARGUMENT, skin.influence_count = 5);
   SKIN("no room for the joints", HF_ERROR_TOO_SMALL, skin.pivots = doubles);
   SKIN("no room for the vertices", HF_ERROR_TOO_SMALL, (skin.joint_capacity = 1000, skin.vertex_weights = floats));
-  SKIN("2^32 - 1 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = UINT32_MAX);
+  SKIN("2^32 - 1 weights", HF_ERROR_INVALID_ARGUMENT, skin.influence_count = UINT32_MAX);
 
   GOOD();
   assert_ok(hf_transfer_create(scene.body, scene.body, NULL, &out_transfer));
@@ -491,9 +491,9 @@ static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
   check_row(__LINE__, "no pair", "hf_transfer_get_skin", hf_transfer_get_skin(out_transfer, &skin), HF_ERROR_EMPTY,
             NO_INDEX);
   check_row(__LINE__, "no pair", "hf_transfer_get_pair", hf_transfer_get_pair(out_transfer, 0, &info),
-            HF_ERROR_NO_SUCH_PAIR, 0);
+            HF_ERROR_NOT_FOUND, 0);
   check_row(__LINE__, "no pair", "hf_transfer_remove_pairs", hf_transfer_remove_pairs(out_transfer, 1, numbers),
-            HF_ERROR_NO_SUCH_PAIR, 0);
+            HF_ERROR_NOT_FOUND, 0);
   hf_transfer_destroy(out_transfer);
   scene_destroy(&scene);
   finish_rows("transfers");

@@ -1,5 +1,5 @@
-/* Bad input to quads and flow lines, foreign handles to them and to regions, and what is no handle to every destroy and
- * every count. */
+/* Bad input to quads and streamlines, foreign handles to them and to regions, and what is no handle to every destroy
+ * and every count. */
 #include "bad_scene.h"
 
 static Surface tube;
@@ -56,9 +56,9 @@ static hf_result flow_create(void* h) {
 }
 static hf_result flow_trace(void* h) {
   hf_scalars field;
-  hf_flow_lines lines;
+  hf_streamlines lines;
   field = HF_INIT(hf_scalars);
-  lines = HF_INIT(hf_flow_lines);
+  lines = HF_INIT(hf_streamlines);
   field.values_f64 = height;
   lines.wanted_count = 4;
   return hf_flow_trace(h, &field, &lines);
@@ -74,8 +74,6 @@ static hf_result region_get_curve(void* h) {
   uint32_t count = 0;
   return hf_region_get_curve(h, 0, NULL, &count);
 }
-static hf_result region_undo(void* h) { return hf_region_undo(h); }
-static hf_result region_redo(void* h) { return hf_region_redo(h); }
 static hf_result detail_morph(void* h) {
   hf_morph_desc desc = HF_INIT(hf_morph_desc);
   desc.positions_f64 = positions;
@@ -98,15 +96,14 @@ static void quads_flow_and_regions_refuse_every_handle_that_is_not_their_own(voi
       {"hf_quads_get_info", quads_get_info, quads},      {"hf_quads_get_mesh", quads_get_mesh, quads},
       {"hf_flow_create", flow_create, surface},          {"hf_flow_trace", flow_trace, flow},
       {"hf_region_get_info", region_get_info, region},   {"hf_region_get_vertices", region_get_vertices, region},
-      {"hf_region_get_curve", region_get_curve, region}, {"hf_region_undo", region_undo, region},
-      {"hf_region_redo", region_redo, region},           {"hf_detail_morph", detail_morph, &stale}};
+      {"hf_region_get_curve", region_get_curve, region}, {"hf_detail_morph", detail_morph, &stale}};
   void* const bad[] = {
       NULL, (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, stale, surface, solver, quads, flow, region};
   for (size_t f = 0; f < COUNT_OF(functions); ++f) {
     for (size_t b = 0; b < COUNT_OF(bad); ++b) {
       if (bad[b] == functions[f].own) continue;
       check_row(__LINE__, "a handle of another kind", functions[f].function, functions[f].call(bad[b]),
-                HF_ERROR_INVALID_HANDLE, NO_INDEX);
+                HF_ERROR_INVALID_OBJECT, NO_INDEX);
     }
   }
   finish_rows("handles of quads, flow and regions");
@@ -153,7 +150,7 @@ static void quads_refuse_bad_descs(void** state) {
       hf_quads_create(surface, &good_quads, &made));
   ROW("crease angle NaN", HF_ERROR_NON_FINITE, NO_INDEX, good_quads.crease_angle = NAN,
       hf_quads_create(surface, &good_quads, &made));
-  ROW("crease angle above 180", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.crease_angle = 181,
+  ROW("crease angle above pi", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.crease_angle = 3.15,
       hf_quads_create(surface, &good_quads, &made));
   ROW("crease angle below 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.crease_angle = -1,
       hf_quads_create(surface, &good_quads, &made));
@@ -197,22 +194,23 @@ static void quads_refuse_bad_descs(void** state) {
   const double places[6] = {0, 0, 0, 0.1, 0.1, 0}, nan_place[6] = {0, 0, 0, 0, NAN, 0},
                far_place[6] = {0, 0, 0, 1e155, 0, 0};
   const uint32_t three_five[2] = {3, 5}, three_four[2] = {3, 4};
-#define POLES good_quads.pole_count = 2, good_quads.pole_points = places, good_quads.pole_quads = three_five
-  ROW("poles without a count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.pole_points = places,
+#define POLES \
+  good_quads.irregular_count = 2, good_quads.irregular_points = places, good_quads.irregular_valences = three_five
+  ROW("poles without a count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.irregular_points = places,
       hf_quads_create(surface, &good_quads, &made));
-  ROW("poles without points", HF_ERROR_NULL_POINTER, NO_INDEX, (POLES, good_quads.pole_points = NULL),
+  ROW("poles without points", HF_ERROR_NULL_POINTER, NO_INDEX, (POLES, good_quads.irregular_points = NULL),
       hf_quads_create(surface, &good_quads, &made));
-  ROW("poles without quads", HF_ERROR_NULL_POINTER, NO_INDEX, (POLES, good_quads.pole_quads = NULL),
+  ROW("poles without quads", HF_ERROR_NULL_POINTER, NO_INDEX, (POLES, good_quads.irregular_valences = NULL),
       hf_quads_create(surface, &good_quads, &made));
-  ROW("more than 1,000 poles", HF_ERROR_TOO_LARGE, NO_INDEX, (POLES, good_quads.pole_count = 1001),
+  ROW("more than 1,000 poles", HF_ERROR_TOO_LARGE, NO_INDEX, (POLES, good_quads.irregular_count = 1001),
       hf_quads_create(surface, &good_quads, &made));
-  ROW("a pole of four quads", HF_ERROR_INVALID_ARGUMENT, 1, (POLES, good_quads.pole_quads = three_four),
+  ROW("a pole of four quads", HF_ERROR_INVALID_ARGUMENT, 1, (POLES, good_quads.irregular_valences = three_four),
       hf_quads_create(surface, &good_quads, &made));
-  ROW("a pole that is NaN", HF_ERROR_NON_FINITE, 1, (POLES, good_quads.pole_points = nan_place),
+  ROW("a pole that is NaN", HF_ERROR_NON_FINITE, 1, (POLES, good_quads.irregular_points = nan_place),
       hf_quads_create(surface, &good_quads, &made));
-  ROW("a pole far away", HF_ERROR_TOO_LARGE, 1, (POLES, good_quads.pole_points = far_place),
+  ROW("a pole far away", HF_ERROR_TOO_LARGE, 1, (POLES, good_quads.irregular_points = far_place),
       hf_quads_create(surface, &good_quads, &made));
-  ROW("a direction of a pole that is NaN", HF_ERROR_NON_FINITE, 1, (POLES, good_quads.pole_directions = nan_place),
+  ROW("a direction of a pole that is NaN", HF_ERROR_NON_FINITE, 1, (POLES, good_quads.irregular_directions = nan_place),
       hf_quads_create(surface, &good_quads, &made));
   ROW("a plane that is infinite", HF_ERROR_NON_FINITE, NO_INDEX, good_quads.symmetry_plane[2] = INFINITY,
       hf_quads_create(surface, &good_quads, &made));
@@ -227,7 +225,7 @@ static void quads_refuse_bad_descs(void** state) {
       hf_quads_create(surface, &good_quads, &made));
   ROW("struct_size 3", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.struct_size = 3,
       hf_quads_create(surface, &good_quads, &made));
-  ROW("a progress object that is none", HF_ERROR_INVALID_HANDLE, NO_INDEX,
+  ROW("a progress object that is none", HF_ERROR_INVALID_OBJECT, NO_INDEX,
       good_quads.progress = (hf_progress)(void*)solver, hf_quads_create(surface, &good_quads, &made));
 #undef UNCHANGED
 #define UNCHANGED() 1
@@ -236,7 +234,7 @@ static void quads_refuse_bad_descs(void** state) {
 #undef UNCHANGED
 #define UNCHANGED() (sum_of_quads() == sum_before)
   ROW("no desc", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_update(quads, NULL));
-  ROW("a pole count without poles", HF_ERROR_NULL_POINTER, NO_INDEX, good_quads.pole_count = 1,
+  ROW("a pole count without poles", HF_ERROR_NULL_POINTER, NO_INDEX, good_quads.irregular_count = 1,
       hf_quads_update(quads, &good_quads));
   ROW("struct_size 3", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.struct_size = 3,
       hf_quads_update(quads, &good_quads));
@@ -248,7 +246,7 @@ static void quads_refuse_bad_descs(void** state) {
       hf_quads_update(quads, &good_quads));
   ROW("a plane beside the surface", HF_ERROR_UNSUPPORTED, 5,
       (good_quads.symmetry_plane[0] = 1, good_quads.symmetry_plane[3] = 1e6), hf_quads_update(quads, &good_quads));
-  ROW("a progress object that is none", HF_ERROR_INVALID_HANDLE, NO_INDEX,
+  ROW("a progress object that is none", HF_ERROR_INVALID_OBJECT, NO_INDEX,
       good_quads.progress = (hf_progress)(void*)solver, hf_quads_update(quads, &good_quads));
 #undef GUIDES
 #undef UNCHANGED
@@ -269,10 +267,10 @@ static void quads_refuse_bad_descs(void** state) {
 }
 
 static hf_scalars good_field;
-static hf_flow_lines good_lines;
+static hf_streamlines good_lines;
 static void refresh_flow(void) {
   good_field = HF_INIT(hf_scalars);
-  good_lines = HF_INIT(hf_flow_lines);
+  good_lines = HF_INIT(hf_streamlines);
   good_field.values_f64 = height;
   good_lines.wanted_count = 4;
 }
@@ -312,7 +310,7 @@ static void flow_lines_refuse_bad_input(void** state) {
       hf_flow_trace(flow, &good_field, &good_lines));
   ROW("no room", HF_ERROR_TOO_SMALL, NO_INDEX, (good_lines.positions = positions, good_lines.point_capacity = 1),
       hf_flow_trace(flow, &good_field, &good_lines));
-  finish_rows("flow lines");
+  finish_rows("streamlines");
   teardown_surface();
 }
 
@@ -324,14 +322,14 @@ static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(
   hf_solver gone = surface_solver(&tube);
   hf_solver_destroy(gone);
   void* const bad[] = {NULL, (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, gone};
-#define NOTHING_HAPPENS(function)                                                            \
-  do {                                                                                       \
-    for (size_t b = 0; b < COUNT_OF(bad); ++b) {                                             \
-      function(bad[b]);                                                                      \
-      count_row(#function);                                                                  \
-      row_holds(__LINE__, #function, "the live objects go on",                               \
-                hf_solver_get_site_count(solver) == 0 && hf_solver_record(solver) == HF_OK); \
-    }                                                                                        \
+#define NOTHING_HAPPENS(function)                                                                     \
+  do {                                                                                                \
+    for (size_t b = 0; b < COUNT_OF(bad); ++b) {                                                      \
+      function(bad[b]);                                                                               \
+      count_row(#function);                                                                           \
+      row_holds(__LINE__, #function, "the live objects go on",                                        \
+                hf_solver_get_site_count(solver) == 0 && hf_solver_release_preview(solver) == HF_OK); \
+    }                                                                                                 \
   } while (0)
   NOTHING_HAPPENS(hf_surface_destroy);
   NOTHING_HAPPENS(hf_solver_destroy);

@@ -42,11 +42,11 @@ static void create_transfer(Scene* s) {
   assert_ok(transfer_now(s, s->transferred));
 }
 
-hf_bones_desc scene_bones(void) {
+hf_joints_desc scene_bones(void) {
   static const double heads[9] = {0, 0.5, 0, 0, 5, 0, 0, 9, 0}, tails[9] = {0, 5, 0, 0, 9, 0, 0, 12.5, 0};
   static const uint32_t parents[3] = {HF_NO_INDEX, 0, 1};
-  hf_bones_desc desc = HF_INIT(hf_bones_desc);
-  desc.bone_count = 3;
+  hf_joints_desc desc = HF_INIT(hf_joints_desc);
+  desc.joint_count = 3;
   desc.heads = heads;
   desc.tails = tails;
   desc.parents = parents;
@@ -61,11 +61,10 @@ static hf_result weights_now(const Scene* s, float* weights) {
 }
 
 static void create_weights(Scene* s) {
-  const hf_bones_desc bones = scene_bones();
+  const hf_joints_desc bones = scene_bones();
   assert_ok(hf_weights_create(s->body, &bones, 0, &s->weights));
   assert_ok(hf_weights_clone(s->weights, &s->stale_weights));
   hf_weights_destroy(s->stale_weights);
-  assert_ok(hf_weights_record(s->weights));
   s->skin = copy_of(sizeof(float) * 4 * TUBE_VERTICES);
   assert_ok(weights_now(s, s->skin));
 }
@@ -169,7 +168,7 @@ int transfer_unchanged(const Scene* s) {
 int weights_unchanged(const Scene* s) {
   float weights[4 * TUBE_VERTICES];
   hf_weights_info info = HF_INIT(hf_weights_info);
-  if (hf_weights_get_info(s->weights, &info) != HF_OK || info.bone_count != 3 || info.pin_count + info.lock_count != 0)
+  if (hf_weights_get_info(s->weights, &info) != HF_OK || info.joint_count != 3 || info.pin_count + info.lock_count != 0)
     return 0;
   return weights_now(s, weights) == HF_OK && same_bits(weights, s->skin, sizeof weights);
 }

@@ -9,10 +9,9 @@ enum { TUBE_AROUND = 10, TUBE_RINGS = 14, TUBE_VERTICES = TUBE_AROUND * TUBE_RIN
 
 typedef struct Scene {
   Surface cut, tube;
-  hf_surface sheet; /* the cut sheet */
-  hf_surface body;  /* the tube */
-  hf_solver
-      solver; /* on the cut sheet, one channel, sites at CUT_LEFT = 0, CUT_RIGHT = 1, CUT_SEAM_LEFT = 5; undo record */
+  hf_surface sheet;     /* the cut sheet */
+  hf_surface body;      /* the tube */
+  hf_solver solver;     /* on the cut sheet, one channel, sites at CUT_LEFT = 0, CUT_RIGHT = 1, CUT_SEAM_LEFT = 5 */
   hf_solver three;      /* on the cut sheet, three channels, no site */
   hf_pose pose;         /* on the tube, two handles, one turned */
   hf_transfer transfer; /* tube to tube, two pairs */
@@ -20,7 +19,7 @@ typedef struct Scene {
   hf_geodesics geodesics;   /* of the tube */
   hf_direction direction;   /* on the cut sheet, constraint 0 at CUT_LEFT and 1 at CUT_RIGHT */
   hf_region region;         /* on the tube, two vertices of its middle */
-  hf_weights weights;       /* on the tube, three bones one after the other in it; undo record */
+  hf_weights weights;       /* on the tube, three joints one after the other in it */
   hf_surface stale_surface; /* destroyed */
   hf_solver stale_solver;
   hf_pose stale_pose;
@@ -46,7 +45,7 @@ int pose_unchanged(const Scene* scene);
 int transfer_unchanged(const Scene* scene);
 int weights_unchanged(const Scene* scene);
 /* The bones of scene.weights; the lists are static. */
-hf_bones_desc scene_bones(void);
+hf_joints_desc scene_bones(void);
 
 /* ROW(what is wrong, expected code, expected index, the change to the good input, the call): the variables of the good
  * input are refreshed by the function GOOD() of the including file, and UNCHANGED() is what must hold afterwards. */

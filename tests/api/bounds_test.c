@@ -16,15 +16,15 @@ static void axes_hold_within_1e_3(void** state) {
   for (int side = 0; side < 2; ++side) {
     for (int wrong = 0; wrong < 2; ++wrong) { /* right is longer; forward is not right x up */
       hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
-      float* const axes = side == 0 ? desc.source_axes : desc.target_axes;
+      double* const axes = side == 0 ? desc.source_axes : desc.target_axes;
       axes[0] = axes[4] = axes[8] = 1;
-      float* const entry = wrong == 0 ? &axes[0] : &axes[6];
-      const float exact = *entry;
+      double* const entry = wrong == 0 ? &axes[0] : &axes[6];
+      const double exact = *entry;
       hf_transfer transfer = NULL;
-      *entry = exact + 0.99e-3f;
+      *entry = exact + 0.99e-3;
       assert_ok(hf_transfer_create(surface, surface, &desc, &transfer));
       hf_transfer_destroy(transfer);
-      *entry = exact + 1.01e-3f;
+      *entry = exact + 1.01e-3;
       assert_code(HF_ERROR_INVALID_ARGUMENT, hf_transfer_create(surface, surface, &desc, &transfer));
       assert_null(transfer);
       assert_named("within 0.001");
@@ -35,8 +35,8 @@ static void axes_hold_within_1e_3(void** state) {
   surface_free(&sheet);
 }
 
-/* A list of that many bones is read to its last point, which is wrong. */
-static void a_mirror_takes_1048576_bones(void** state) {
+/* A list of that many joints is read to its last point, which is wrong. */
+static void a_mirror_takes_1048576_joints(void** state) {
   (void)state;
   enum { MOST = 1048576 };
   Surface sheet = surface_sheet(4, 4);
@@ -45,18 +45,18 @@ static void a_mirror_takes_1048576_bones(void** state) {
   uint32_t* joints = calloc(sheet.vertex_count, sizeof *joints);
   float* weights = calloc(sheet.vertex_count, sizeof *weights);
   hf_weights_out out = HF_INIT(hf_weights_out);
-  hf_mirror_desc desc = HF_INIT(hf_mirror_desc);
+  hf_weights_mirror_desc desc = HF_INIT(hf_weights_mirror_desc);
   desc.heads = heads;
   desc.joints = joints;
   desc.weights = weights;
-  desc.influence_count = 1;
-  desc.bone_count = MOST;
+  desc.source_influence_count = 1;
+  desc.joint_count = MOST;
   heads[3 * ((size_t)MOST - 1)] = NAN;
   assert_code(HF_ERROR_NON_FINITE, hf_weights_mirror(surface, &desc, &out, NULL, NULL, NULL));
-  assert_named("bone 1048575");
-  desc.bone_count = MOST + 1;
+  assert_named("joint 1048575");
+  desc.joint_count = MOST + 1;
   assert_code(HF_ERROR_TOO_LARGE, hf_weights_mirror(surface, &desc, &out, NULL, NULL, NULL));
-  assert_named("bone_count is 1048577; the limit is 1048576");
+  assert_named("joint_count is 1048577; the limit is 1048576");
   free(heads);
   free(joints);
   free(weights);
@@ -386,7 +386,7 @@ int main(void) {
       cmocka_unit_test(refused_handles_say_what_to_do),
       cmocka_unit_test(indices_of_another_width_are_refused),
       cmocka_unit_test(axes_hold_within_1e_3),
-      cmocka_unit_test(a_mirror_takes_1048576_bones),
+      cmocka_unit_test(a_mirror_takes_1048576_joints),
       cmocka_unit_test(a_curve_passes_a_vertex_8_times),
       cmocka_unit_test(a_surface_takes_357913941_vertices),
   };

@@ -371,9 +371,9 @@ static void nothing_is_changed(void** state) {
 static void bad_arguments_are_answered(void** state) {
   (void)state;
   hf_solver solver = NULL;
-  CERTIFY("no solver", HF_ERROR_INVALID_HANDLE, (void)0);
+  CERTIFY("no solver", HF_ERROR_INVALID_OBJECT, (void)0);
   solver = surface_solver(&tube);
-  CERTIFY("no sites", HF_ERROR_NO_SITES, (void)0);
+  CERTIFY("no sites", HF_ERROR_EMPTY, (void)0);
   add_sites(solver, 4);
   CERTIFY("tolerance below 0", HF_ERROR_INVALID_ARGUMENT, found.tolerance = -1e-9);
   CERTIFY("tolerance infinite", HF_ERROR_INVALID_ARGUMENT, found.tolerance = HUGE_VAL);
@@ -387,7 +387,7 @@ static void bad_arguments_are_answered(void** state) {
   assert_code(HF_ERROR_INACCURATE, hf_solver_certify(solver, &found));
   assert_true(found.tolerance == 1e-300);
   hf_solver_destroy(solver);
-  CERTIFY("a destroyed solver", HF_ERROR_INVALID_HANDLE, (void)0);
+  CERTIFY("a destroyed solver", HF_ERROR_INVALID_OBJECT, (void)0);
   finish_rows("certificate");
 }
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# The names of the exports: check_names.sh EXPORTS.TXT. Every function but six is hf_NOUN_VERB or hf_NOUN_VERB_WHAT, with a
+# The names of the exports: check_names.sh EXPORTS.TXT. Every function but five is hf_NOUN_VERB or hf_NOUN_VERB_WHAT, with a
 # noun and a verb of the lists below; every noun and every verb is in use.
 set -u
 exports=$1
-plain='hf_create hf_add_sites hf_remove_sites hf_solve hf_deform hf_propose_handles' # the six names without a noun
+plain='hf_create hf_add_sites hf_remove_sites hf_solve hf_deform' # the five names without a noun
 nouns='surface solver pose region detail transfer direction geodesics quads flow weights progress error result version'
-verbs='add apply cancel carry cast certify clone create deform destroy edit find get measure mirror morph move prepare record redo release relink
-  remove rotate save set solve space trace undo update'
+verbs='add apply cancel cast certify clone create deform destroy edit find get measure mirror morph move prepare propose release relink remove
+  rotate save set solve space trace transfer update'
 status=0
 complain() { printf 'error: %s\n' "$1"; status=1; }
 either() { printf '%s' "$*" | tr -s ' \n' '|'; }

@@ -233,7 +233,7 @@ static void bad_arguments_are_answered(void** state) {
   hf_surface surface = surface_on(&saved.tube), out = NULL;
   size_t size = 7;
   assert_code(HF_ERROR_NULL_POINTER, hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, 0, NULL, NULL));
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_surface_save(NULL, HF_FIELD_HARMONIC, NULL, 0, NULL, &size));
+  assert_code(HF_ERROR_INVALID_OBJECT, hf_surface_save(NULL, HF_FIELD_HARMONIC, NULL, 0, NULL, &size));
   assert_int_equal(size, 7);
   unsigned char* small = malloc(saved.size + 16);
   memset(small, 0x5A, saved.size + 16);
@@ -494,7 +494,7 @@ static void previews_report_what_no_site_reaches_and_check_their_arguments(void*
   double doubles[CUT_VERTICES];
   hf_preview_info info = HF_INIT(hf_preview_info);
   memset(values, 0x5A, sizeof values);
-  assert_code(HF_ERROR_NO_SITES, hf_solver_solve_preview(solver, values, 0, 0, &info));
+  assert_code(HF_ERROR_EMPTY, hf_solver_solve_preview(solver, values, 0, 0, &info));
   add_site(solver, CUT_LEFT, 1);
   add_site(solver, CUT_RIGHT, 3);
   assert_code(HF_ERROR_NULL_POINTER, hf_solver_solve_preview(solver, NULL, 0, 0, &info));

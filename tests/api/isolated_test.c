@@ -18,11 +18,11 @@ static Found found_on(const Surface* body, uint32_t vertex_count) {
   assert_ok(hf_surface_get_report(surface, &out.report));
   hf_extremities_desc tips = HF_INIT(hf_extremities_desc);
   assert_ok(hf_surface_find_extremities(surface, &tips, 16, out.tips, &out.tip_count));
-  assert_ok(hf_propose_handles(surface, NULL, 16, out.proposals, &out.proposal_count));
+  assert_ok(hf_surface_propose_handles(surface, NULL, 16, out.proposals, &out.proposal_count));
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
   hf_quads quads;
   hf_quads_info info = HF_INIT(hf_quads_info);
-  desc.edge_length = (float)(0.05 * out.report.bounding_box_diagonal);
+  desc.edge_length = 0.05 * out.report.bounding_box_diagonal;
   assert_ok(hf_quads_create(surface, &desc, &quads));
   assert_ok(hf_quads_get_info(quads, &info));
   out.face_count = info.face_count;

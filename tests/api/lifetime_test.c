@@ -3,10 +3,12 @@
 
 enum { AROUND = 12, RINGS = 16, VERTICES = AROUND * RINGS };
 
-static void clones_are_independent(void** state) {
-  (void)state;
+static void clones_are_independent(int32_t engine) {
   Surface tube = surface_tube(AROUND, RINGS);
-  hf_solver original = surface_solver(&tube), copy = NULL;
+  Options desc = options_of(&tube);
+  desc.solver.engine = engine;
+  hf_solver original = NULL, copy = NULL;
+  assert_ok(make(&desc, NULL, &original));
   const uint32_t first = add_site(original, 0, 0);
   add_site(original, VERTICES - 1, 1);
   assert_ok(hf_solver_clone(original, &copy));
@@ -23,17 +25,27 @@ static void clones_are_independent(void** state) {
   add_site(original, 30, -3);
   double* still = field_of(copy, VERTICES);
   assert_true(same_bits(copied, still, sizeof(double) * VERTICES));
+  hf_solver_destroy(original);
+  free(still);
+  still = field_of(copy, VERTICES);
+  assert_true(same_bits(copied, still, sizeof(double) * VERTICES));
   hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
   assert_ok(hf_solver_get_statistics(copy, &statistics));
-  assert_int_equal(statistics.factorisation_count, 0);
+  if (engine == HF_ENGINE_GREEN) assert_int_equal(statistics.factorisation_count, 0);
   free(before);
   free(same);
   free(after);
   free(copied);
   free(still);
-  hf_solver_destroy(original);
   hf_solver_destroy(copy);
   surface_free(&tube);
+}
+
+static void a_kept_clone_has_the_bits_of_then(void** state) {
+  (void)state;
+  clones_are_independent(HF_ENGINE_GREEN);
+  clones_are_independent(HF_ENGINE_REFACTOR);
+  if (has_peers()) clones_are_independent(HF_ENGINE_UPDOWN);
 }
 
 /* A family: a surface, a solver, two clones, a pose and its clone, a transfer. Each member does its work after any
@@ -150,7 +162,7 @@ typedef struct Canceller {
   hf_allocator inner;
   hf_progress progress;
   size_t at;
-  float seen; /* the fraction at that moment */
+  double seen; /* the fraction at that moment */
 } Canceller;
 
 static void* cancelling_allocate(void* user, size_t size, size_t alignment) {
@@ -186,14 +198,14 @@ static void a_cancel_in_the_middle_leaves_nothing_and_the_object_may_be_used_aga
   Canceller c;
   hf_solver solver = NULL;
   assert_ok(create_cancelled_at(0, &tube, &c, &solver));
-  float fraction = -1;
+  double fraction = -1;
   assert_ok(hf_progress_get_fraction(c.progress, &fraction));
-  assert_true(fraction == 1.0f);
+  assert_true(fraction == 1);
   const size_t calls = c.memory.calls;
   hf_solver_destroy(solver);
   hf_progress_destroy(c.progress);
   assert_int_equal(c.memory.live_blocks, 0);
-  float last = 0;
+  double last = 0;
   for (size_t at = 1; at + 8 < calls; at += 1 + calls / 50) {
     const hf_result result = create_cancelled_at(at, &tube, &c, &solver);
     assert_true(c.seen >= last && c.seen <= 1);
@@ -221,7 +233,7 @@ static void a_cancel_before_the_call_stops_one_call(void** state) {
   (void)state;
   Surface tube = surface_tube(AROUND, RINGS);
   hf_progress progress = NULL;
-  float fraction = -1;
+  double fraction = -1;
   assert_ok(hf_progress_create(&progress));
   assert_ok(hf_progress_get_fraction(progress, &fraction));
   assert_true(fraction == 0);
@@ -242,7 +254,7 @@ static void a_cancel_before_the_call_stops_one_call(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(clones_are_independent),
+      cmocka_unit_test(a_kept_clone_has_the_bits_of_then),
       cmocka_unit_test(a_family_may_be_destroyed_in_any_order),
       cmocka_unit_test(a_cancel_in_the_middle_leaves_nothing_and_the_object_may_be_used_again),
       cmocka_unit_test(a_cancel_before_the_call_stops_one_call),

@@ -73,12 +73,12 @@ static void a_work_limit_is_kept(void** state) {
   assert_true(fabs(needed - flops) <= 0.5);
 #ifndef HF_EMULATED
   /* far below what is needed, the ordering does not begin either */
-  float fraction = 1;
+  double fraction = 1;
   assert_ok(hf_progress_create(&desc.progress));
   desc.work_limit_gflop = 1;
   refused(HF_ERROR_TOO_LARGE, &desc);
   assert_ok(hf_progress_get_fraction(desc.progress, &fraction));
-  assert_true(fraction <= 0.25f); /* the operator stands; after the ordering it is 0.56 */
+  assert_true(fraction <= 0.25); /* the operator stands; after the ordering it is 0.56 */
   hf_progress_destroy(desc.progress);
   desc.progress = NULL;
 #endif

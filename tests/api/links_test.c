@@ -2,11 +2,11 @@
  * change nothing, a saved factor knows its links, other links keep the ordering, gaps are measured. */
 #include "bad_scene.h"
 
-static Surface mesh; /* the cut sheet, its island pulled near */
+static Surface mesh; /* the cut sheet, its piece pulled near */
 static hf_surface linked, plain;
 
-/* The island lies beside the sheet, a tenth of a unit away. */
-static void bring_island_near(Surface* cut) {
+/* The piece lies beside the sheet, a tenth of a unit away. */
+static void bring_piece_near(Surface* cut) {
   float low = INFINITY, right = -INFINITY;
   for (uint32_t v = 0; v < CUT_ISLAND; ++v) right = fmaxf(right, cut->positions[3 * v]);
   for (uint32_t v = CUT_ISLAND; v < CUT_ISOLATED; ++v) low = fminf(low, cut->positions[3 * v]);
@@ -54,7 +54,7 @@ static double* field_on(hf_surface surface) {
 static int set_up(void** state) {
   (void)state;
   mesh = surface_cut();
-  bring_island_near(&mesh);
+  bring_piece_near(&mesh);
   const hf_links_desc links = automatic();
   linked = surface_with(&links);
   plain = surface_with(NULL);
@@ -76,16 +76,16 @@ static void fields_span_linked_pieces(void** state) {
   assert_int_equal(with.lone_piece_count, 0);
   assert_int_equal(with.light_piece_count, 0);
   assert_true(with.link_count > 0);
-  assert_true(with.longest_tree_link >= 0.1f && with.longest_tree_link < 0.3);
+  assert_true(with.longest_tree_link >= 0.1 && with.longest_tree_link < 0.3);
   assert_int_equal(without.piece_count, 2);
   assert_int_equal(without.component_count, 2);
   assert_int_equal(without.lone_piece_count, 2);
   assert_int_equal(without.link_count, 0);
   double *across = field_on(linked), *apart = field_on(plain);
   for (uint32_t v = 0; v < CUT_VERTICES; ++v) {
-    const int island = v >= CUT_ISLAND && v < CUT_ISOLATED;
+    const int piece = v >= CUT_ISLAND && v < CUT_ISOLATED;
     assert_true(v == CUT_ISOLATED ? across[v] == 0 : across[v] >= 1 - 1e-12 && across[v] <= 3 + 1e-12);
-    if (island) assert_true(apart[v] == 0);
+    if (piece) assert_true(apart[v] == 0);
   }
   free(across);
   free(apart);
@@ -391,7 +391,6 @@ static void bad_links_are_refused_by_index_and_change_nothing(void** state) {
   assert_ok(hf_surface_relink(linked, &bad, NULL, &out));
   hf_surface_destroy(out);
   RELINK("a mode that is none", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, bad.mode = 3);
-  RELINK("reserved", HF_ERROR_INVALID_DESC, NO_INDEX, bad.reserved = 1);
   RELINK("no list", HF_ERROR_NULL_POINTER, NO_INDEX, bad.links = NULL);
   RELINK("a list without the mode", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, bad.mode = HF_LINK_PIECES);
   RELINK("vertex out of range", HF_ERROR_OUT_OF_RANGE, 0, one.vertex = CUT_VERTICES);
@@ -433,7 +432,7 @@ static void bad_links_are_refused_by_index_and_change_nothing(void** state) {
       hf_surface_measure_gaps(linked, &gaps_desc, 0, NULL, &gaps_info));
   ROW("position not finite", HF_ERROR_NON_FINITE, linked_vertex, spoil_linked_vertex(),
       hf_surface_measure_gaps(linked, &gaps_desc, 0, NULL, &gaps_info));
-  ROW("destroyed surface", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_surface_relink(NULL, &bad, NULL, &out));
+  ROW("destroyed surface", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0, hf_surface_relink(NULL, &bad, NULL, &out));
   free(expected);
 }
 

@@ -1,4 +1,4 @@
-/* Surfaces as they come: seams, islands, isolated vertices, any unit and offset. */
+/* Surfaces as they come: seams, pieces, isolated vertices, any unit and offset. */
 #include "api_support.h"
 
 static hf_surface_report report_of(hf_surface surface) {
@@ -45,7 +45,7 @@ static void the_report_counts_what_was_found(void** state) {
   assert_int_equal(r.non_manifold_edge_count, 0);
   assert_int_equal(r.flipped_edge_count, 0);
   assert_int_equal(r.boundary_edge_count, 2 * (8 + 4) + 2 * (2 + 2));
-  assert_true(r.smallest_angle > 0.1f && r.smallest_angle < 1.0472f);
+  assert_true(r.smallest_angle > 0.1 && r.smallest_angle < 1.0472);
   assert_true(r.bounding_box_diagonal > 22 && r.bounding_box_diagonal < 23); /* the isolated vertex lies at 30 */
   hf_surface_destroy(surface);
   surface_free(&cut);
@@ -143,7 +143,7 @@ static void what_no_site_reaches_is_zero_and_counted(void** state) {
   assert_int_equal(info.first_unreached_component, 1);
   assert_int_equal(info.unreached_vertex_count, 9 + 1);
   for (uint32_t v = 0; v < CUT_VERTICES; ++v) assert_true(v < CUT_ISLAND ? fabs(field[v] - 3) < 1e-12 : field[v] == 0);
-  /* a site on the island reaches it; the isolated vertex stays */
+  /* a site on the piece reaches it; the isolated vertex stays */
   const uint32_t second = add_site(solver, CUT_ISLAND + 4, -2);
   assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
   assert_int_equal(info.unreached_component_count, 0);
@@ -185,7 +185,7 @@ static void weld_none_keeps_the_cut_and_a_tolerance_closes_a_gap(void** state) {
   assert_int_equal(report_of(surface).component_count, 3);
   hf_surface_destroy(surface);
   desc.weld = HF_WELD_TOLERANCE;
-  desc.weld_tolerance = 0.002f;
+  desc.weld_tolerance = 0.002;
   assert_ok(hf_surface_create(&desc, &surface));
   assert_int_equal(report_of(surface).component_count, 2);
   assert_int_equal(report_of(surface).welded_vertex_count, CUT_VERTICES - 5);

@@ -76,7 +76,7 @@ static hf_result find_extremities(Call* c) {
 }
 static hf_result propose(Call* c) {
   uint32_t count = 777;
-  const hf_result r = hf_propose_handles(scene.body, NULL, (uint32_t)c->capacity[0], c->array[0], &count);
+  const hf_result r = hf_surface_propose_handles(scene.body, NULL, (uint32_t)c->capacity[0], c->array[0], &count);
   c->count[0] = count;
   return r;
 }
@@ -111,7 +111,7 @@ static hf_result find_path(Call* c) {
 }
 static hf_result flow_trace(Call* c) {
   const hf_scalars field = heights();
-  hf_flow_lines lines = HF_INIT(hf_flow_lines);
+  hf_streamlines lines = HF_INIT(hf_streamlines);
   lines.wanted_count = 5;
   lines.point_capacity = (uint32_t)c->capacity[0];
   lines.line_capacity = (uint32_t)c->capacity[1];
@@ -191,7 +191,7 @@ static hf_result weights_get(Call* c) {
 }
 static hf_result weights_get_bones(Call* c) {
   uint32_t count = 777;
-  const hf_result r = hf_weights_get_bones(scene.weights, (uint32_t)c->capacity[0], c->array[0], c->array[1], &count);
+  const hf_result r = hf_weights_get_joints(scene.weights, (uint32_t)c->capacity[0], c->array[0], c->array[1], &count);
   c->count[0] = count;
   return r;
 }
@@ -215,21 +215,21 @@ static hf_weights_out to_weights(const Call* c) {
 }
 static hf_result weights_carry(Call* c) {
   hf_weights_out out = to_weights(c);
-  hf_carry_desc desc = HF_INIT(hf_carry_desc);
-  desc.influence_count = 1;
+  hf_weights_transfer_desc desc = HF_INIT(hf_weights_transfer_desc);
+  desc.source_influence_count = 1;
   desc.joints = one_joint;
   desc.weights = one_share;
-  const hf_result r = hf_weights_carry(scene.body, scene.body, &desc, &out, NULL);
+  const hf_result r = hf_weights_transfer(scene.body, scene.body, &desc, &out, NULL);
   c->count[0] = out.vertex_count;
   return r;
 }
 static hf_result weights_mirror(Call* c) {
   static const double head[3] = {0, 0, 0};
   hf_weights_out out = to_weights(c);
-  hf_mirror_desc desc = HF_INIT(hf_mirror_desc);
-  desc.bone_count = 1;
+  hf_weights_mirror_desc desc = HF_INIT(hf_weights_mirror_desc);
+  desc.joint_count = 1;
   desc.heads = head;
-  desc.influence_count = 1;
+  desc.source_influence_count = 1;
   desc.joints = one_joint;
   desc.weights = one_share;
   const hf_result r = hf_weights_mirror(scene.body, &desc, &out, NULL, NULL, NULL);
@@ -277,7 +277,7 @@ static const struct {
     {"hf_surface_save", save, {{0, 1, 0}}, 0},
     {"hf_surface_find_critical_points", find_critical_points, {{0, sizeof(hf_critical_point), 0}}, 0},
     {"hf_surface_find_extremities", find_extremities, {{0, sizeof(hf_extremity), 0}}, 0},
-    {"hf_propose_handles", propose, {{0, sizeof(hf_handle_proposal), 0}}, 0},
+    {"hf_surface_propose_handles", propose, {{0, sizeof(hf_handle_proposal), 0}}, 0},
     {"hf_surface_trace_isolines",
      trace_isolines,
      {{0, 8, 0}, {0, 8, 0}, {0, 24, 0}, {1, 4, 1}, {1, 4, 0}, {1, 4, 0}},
@@ -294,9 +294,9 @@ static const struct {
     {"hf_region_get_vertices", region_get_vertices, {{0, 4, 0}}, 0},
     {"hf_region_get_curve", region_get_curve, {{0, 24, 0}}, 0},
     {"hf_weights_get", weights_get, {{0, 16, 0}, {0, 8, 0}, {0, 16, 0}, {0, 1, 0}}, 0},
-    {"hf_weights_get_bones", weights_get_bones, {{0, 4, 0}, {0, 4, 0}}, 0},
+    {"hf_weights_get_joints", weights_get_bones, {{0, 4, 0}, {0, 4, 0}}, 0},
     {"hf_weights_get_helpers", weights_get_helpers, {{0, 4, 0}}, 0},
-    {"hf_weights_carry", weights_carry, {{0, 16, 0}, {0, 8, 0}, {0, 16, 0}, {0, 1, 0}}, 0},
+    {"hf_weights_transfer", weights_carry, {{0, 16, 0}, {0, 8, 0}, {0, 16, 0}, {0, 1, 0}}, 0},
     {"hf_weights_mirror", weights_mirror, {{0, 16, 0}, {0, 8, 0}, {0, 16, 0}, {0, 1, 0}}, 0},
     {"hf_pose_get_skin",
      pose_get_skin,

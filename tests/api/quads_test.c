@@ -1,5 +1,5 @@
-/* hf/quads.h from the outside: a quad mesh of a tube in the caller's arrays, flow lines, cancelling, and what bad input
- * is answered. */
+/* hf/quads.h from the outside: a quad mesh of a tube in the caller's arrays, streamlines, cancelling, and what bad
+ * input is answered. */
 #include "api_support.h"
 
 enum { AROUND = 24, RINGS = 21, COUNT = AROUND * RINGS };
@@ -25,7 +25,7 @@ static void a_tube_becomes_a_closed_net_of_quads(void** state) {
   hf_quads_info info = HF_INIT(hf_quads_info);
   assert_ok(hf_quads_get_info(quads, &info));
   assert_int_equal(info.euler_characteristic, 0);
-  assert_true(fabsf(info.edge_length - 1) < 1e-6f);
+  assert_true(fabs(info.edge_length - 1) < 1e-6);
   double* positions = calloc(info.vertex_count, 3 * sizeof *positions);
   double* weights = calloc(info.vertex_count, 3 * sizeof *weights);
   uint32_t* triangles = calloc(info.vertex_count, sizeof *triangles);
@@ -68,7 +68,7 @@ static void a_tube_becomes_a_closed_net_of_quads(void** state) {
   free(corners);
   free(faces);
   hf_quads_destroy(quads);
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_get_info(quads, &info));
+  assert_code(HF_ERROR_INVALID_OBJECT, hf_quads_get_info(quads, &info));
   /* HF_INIT, and no desc at all, give quads of 0.022 box diagonals */
   hf_quads_info plain[2] = {HF_INIT(hf_quads_info), HF_INIT(hf_quads_info)};
   desc = HF_INIT(hf_quads_desc);
@@ -78,7 +78,7 @@ static void a_tube_becomes_a_closed_net_of_quads(void** state) {
     hf_quads_destroy(quads);
   }
   assert_memory_equal(&plain[0], &plain[1], sizeof plain[0]);
-  assert_true(fabsf(plain[0].edge_length / 0.022f - sqrtf(8 + (RINGS - 1) * (RINGS - 1))) < 1e-3f);
+  assert_true(fabs(plain[0].edge_length / 0.022 - sqrt(8 + (RINGS - 1) * (RINGS - 1))) < 1e-3);
   hf_surface_destroy(surface);
   surface_free(&mesh);
 }
@@ -231,10 +231,10 @@ static void a_pole_is_where_it_is_wanted(void** state) {
     desc.face_count = 1200;
     desc.relax_count = HF_NO_INDEX;
     if (with) {
-      desc.pole_count = 1;
-      desc.pole_points = pole;
-      desc.pole_quads = &three;
-      desc.pole_directions = along;
+      desc.irregular_count = 1;
+      desc.irregular_points = pole;
+      desc.irregular_valences = &three;
+      desc.irregular_directions = along;
     }
     hf_quads quads = NULL;
     assert_ok(hf_quads_create(surface, &desc, &quads));
@@ -293,14 +293,14 @@ static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
     }
     if (step == 4) {
       desc.face_count = 0;
-      desc.edge_length = 0.8f;
+      desc.edge_length = 0.8;
     }
     if (step == 5 || step == 6) desc.symmetry_plane[2] = 1;
     if (step == 7) desc.symmetry_plane[0] = 1;
     if (step == 2 || step == 8) {
-      desc.pole_count = 1;
-      desc.pole_points = pole;
-      desc.pole_quads = &three;
+      desc.irregular_count = 1;
+      desc.irregular_points = pole;
+      desc.irregular_valences = &three;
     }
     assert_ok(hf_quads_update(updated, &desc));
     assert_ok(hf_quads_create(surface, &desc, &fresh));
@@ -328,8 +328,8 @@ static void an_update_is_a_new_mesh_of_the_same_options(void** state) {
     assert_true(same_nets(before, net_of(updated)));
   }
   assert_code(HF_ERROR_NULL_POINTER, hf_quads_update(updated, NULL));
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_update(NULL, &desc));
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_update((hf_quads)surface, &desc));
+  assert_code(HF_ERROR_INVALID_OBJECT, hf_quads_update(NULL, &desc));
+  assert_code(HF_ERROR_INVALID_OBJECT, hf_quads_update((hf_quads)surface, &desc));
   /* it outlives the surface */
   hf_surface_destroy(surface);
   desc.symmetry_plane[0] = 0;
@@ -351,7 +351,7 @@ static void flow_lines_rise_and_outlive_the_surface(void** state) {
   field.values_f64 = height;
   const uint32_t seed = 10 * AROUND + 3;
   for (int pass = 0; pass < 2; ++pass) {
-    hf_flow_lines lines = HF_INIT(hf_flow_lines);
+    hf_streamlines lines = HF_INIT(hf_streamlines);
     if (pass == 0) lines.wanted_count = 12;
     if (pass == 1) {
       lines.seed_count = 1;
@@ -381,7 +381,7 @@ static void flow_lines_rise_and_outlive_the_surface(void** state) {
     free(values);
   }
   height[5] = NAN;
-  hf_flow_lines lines = HF_INIT(hf_flow_lines);
+  hf_streamlines lines = HF_INIT(hf_streamlines);
   lines.wanted_count = 3;
   assert_code(HF_ERROR_NON_FINITE, hf_flow_trace(flow, &field, &lines));
   hf_flow_destroy(flow);
@@ -402,9 +402,9 @@ static void cancelling_leaves_nothing_and_stops_one_call(void** state) {
   assert_code(HF_ERROR_CANCELLED, hf_quads_create(surface, &desc, &quads));
   assert_null(quads);
   assert_ok(hf_quads_create(surface, &desc, &quads));
-  float done = 0;
+  double done = 0;
   assert_ok(hf_progress_get_fraction(progress, &done));
-  assert_true(done == 1.0f);
+  assert_true(done == 1);
   hf_quads_destroy(quads);
   hf_progress_destroy(progress);
   hf_surface_destroy(surface);
@@ -414,13 +414,13 @@ static void cancelling_leaves_nothing_and_stops_one_call(void** state) {
 /* A host's allocator that looks at the progress whenever the library asks for memory. */
 typedef struct Watcher {
   hf_progress progress;
-  float last, largest_step, cancel_at;
+  double last, largest_step, cancel_at;
   unsigned values, falls;
 } Watcher;
 
 static void* watch(void* user, size_t size, size_t alignment) {
   Watcher* watcher = user;
-  float now = 0;
+  double now = 0;
   if (watcher->progress && hf_progress_get_fraction(watcher->progress, &now) == HF_OK) {
     if (now < watcher->last) ++watcher->falls;
     if (now > watcher->last) {
@@ -466,10 +466,10 @@ static void progress_rises_in_small_steps_and_stops_where_it_is_cancelled(void**
     assert_ok(hf_quads_create(surface, &desc, &quads));
     assert_int_equal(watcher.falls, 0);
     assert_true(watcher.values >= 10);
-    assert_true(watcher.largest_step <= 0.4f); /* trials that are not needed are passed over */
+    assert_true(watcher.largest_step <= 0.4); /* trials that are not needed are passed over */
     hf_quads_destroy(quads);
     quads = NULL;
-    for (float at = 0.05f; at < 0.5f; at += 0.2f) { /* it passes 0.6 in one step where nothing is left to fit */
+    for (double at = 0.05; at < 0.5; at += 0.2) { /* it passes 0.6 in one step where nothing is left to fit */
       watcher.last = 0;
       watcher.cancel_at = at;
       assert_code(HF_ERROR_CANCELLED, hf_quads_create(surface, &desc, &quads));
@@ -491,11 +491,11 @@ static void bad_input_is_named(void** state) {
   const uint32_t beyond[] = {COUNT}, edge[] = {0, 1, 0, COUNT};
   hf_quads_desc desc = quads_desc();
   assert_code(HF_ERROR_NULL_POINTER, hf_quads_create(surface, &desc, NULL));
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_create(NULL, &desc, &quads));
+  assert_code(HF_ERROR_INVALID_OBJECT, hf_quads_create(NULL, &desc, &quads));
   desc.struct_size = 4;
   assert_code(HF_ERROR_INVALID_DESC, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc();
-  desc.pole_count = 3;
+  desc.irregular_count = 3;
   assert_code(HF_ERROR_NULL_POINTER, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc();
   desc.edge_length = -1;
@@ -504,7 +504,7 @@ static void bad_input_is_named(void** state) {
   desc.edge_length = NAN;
   assert_code(HF_ERROR_NON_FINITE, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc();
-  desc.edge_length = 1e9f;
+  desc.edge_length = 1e9;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc();
   desc.relax_count = 1001;
@@ -519,13 +519,13 @@ static void bad_input_is_named(void** state) {
   assert_null(quads);
   hf_flow flow = NULL;
   assert_code(HF_ERROR_NULL_POINTER, hf_flow_create(surface, NULL));
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_flow_create(NULL, &flow));
+  assert_code(HF_ERROR_INVALID_OBJECT, hf_flow_create(NULL, &flow));
   assert_ok(hf_flow_create(surface, &flow));
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_get_info((hf_quads)flow, NULL));
+  assert_code(HF_ERROR_INVALID_OBJECT, hf_quads_get_info((hf_quads)flow, NULL));
   double values[COUNT] = {0};
   hf_scalars field = HF_INIT(hf_scalars);
   field.values_f64 = values;
-  hf_flow_lines out = HF_INIT(hf_flow_lines);
+  hf_streamlines out = HF_INIT(hf_streamlines);
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_flow_trace(flow, &field, &out)); /* no line is wanted */
   out.wanted_count = 1;
   assert_code(HF_ERROR_NULL_POINTER, hf_flow_trace(flow, &field, NULL));

@@ -53,34 +53,6 @@ static void a_factor_that_is_not_kept_leaves_nothing(void** state) {
   assert_int_equal(memory.live_blocks, 0);
 }
 
-static void a_refused_undo_takes_no_room(void** state) {
-  (void)state;
-  CountingAllocator memory;
-  const hf_surface surface = counted_surface(&memory);
-  hf_direction direction = NULL;
-  assert_ok(hf_direction_create(surface, NULL, &direction));
-  const uint32_t vertex = 3;
-  const double vector[3] = {0, 1, 0};
-  assert_ok(hf_direction_record(direction));
-  assert_ok(hf_direction_add_sites(direction, 1, &vertex, vector, NULL));
-  const size_t before = memory.live_bytes;
-  hf_result result = HF_ERROR_OUT_OF_MEMORY;
-  size_t n = 1;
-  for (; result != HF_OK && n < 1000; ++n) {
-    refuse(&memory, n);
-    result = hf_direction_undo(direction);
-    if (result == HF_OK) break;
-    assert_code(HF_ERROR_OUT_OF_MEMORY, result);
-    assert_int_equal(memory.live_bytes, before);
-    assert_int_equal(hf_direction_get_site_count(direction), 1);
-  }
-  assert_ok(result);
-  assert_true(n > 2);
-  assert_int_equal(hf_direction_get_site_count(direction), 0);
-  hf_direction_destroy(direction);
-  hf_surface_destroy(surface);
-}
-
 static void a_refused_edit_counts_no_factorisation(void** state) {
   (void)state;
   CountingAllocator memory;
@@ -203,7 +175,6 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_frame_without_pairs_keeps_no_normals),
       cmocka_unit_test(a_factor_that_is_not_kept_leaves_nothing),
-      cmocka_unit_test(a_refused_undo_takes_no_room),
       cmocka_unit_test(a_refused_edit_counts_no_factorisation),
       cmocka_unit_test(a_refused_full_mesh_step_leaves_the_pose_where_it_was),
       cmocka_unit_test(a_batch_with_a_disc_keeps_to_the_limit),

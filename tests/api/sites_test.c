@@ -218,7 +218,7 @@ static void all_engines_agree_after_edits(void** state) {
         const double value = (double)(step % 7);
         const hf_sites_desc site = sites_at(1, &vertex, &value);
         const hf_result result = hf_add_sites(solver, &site, &live[count]);
-        assert_true(result == HF_OK || result == HF_ERROR_CONFLICT || result == HF_ERROR_DUPLICATE_SITE);
+        assert_true(result == HF_OK || result == HF_ERROR_CONFLICT || result == HF_ERROR_DUPLICATE);
         count += result == HF_OK;
       }
     }
@@ -327,56 +327,6 @@ static void vectors_are_tangent_and_follow_their_constraints(void** state) {
   hf_solver_destroy(solver);
 }
 
-static void undo_and_redo_bring_back_the_same_bits(void** state) {
-  (void)state;
-  for (size_t e = 0; e < engine_count; ++e) {
-    hf_solver solver = solver_of(engines[e], 1);
-    double* fields[6];
-    for (uint32_t step = 0; step < 6; ++step) {
-      add_site(solver, 17 * step + 5, (double)step);
-      fields[step] = field_of(solver, VERTICES);
-      if (step < 5) assert_ok(hf_solver_record(solver));
-    }
-    const int exact = engines[e] == HF_ENGINE_GREEN;
-    for (int way = 0; way < 2; ++way) {
-      for (int i = 0; i < 5; ++i) {
-        const int now = way == 0 ? 4 - i : i + 1;
-        assert_ok(way == 0 ? hf_solver_undo(solver) : hf_solver_redo(solver));
-        assert_int_equal(hf_solver_get_site_count(solver), now + 1);
-        double* field = field_of(solver, VERTICES);
-        if (exact) assert_true(same_bits(field, fields[now], sizeof(double) * VERTICES));
-        for (int v = 0; v < VERTICES; ++v) assert_true(fabs(field[v] - fields[now][v]) < 5 * tolerance_of(engines[e]));
-        free(field);
-      }
-    }
-    /* an edit forgets what could be redone */
-    assert_ok(hf_solver_undo(solver));
-    add_site(solver, 111, 2);
-    assert_code(HF_ERROR_NO_RECORD, hf_solver_redo(solver));
-    for (int i = 0; i < 6; ++i) free(fields[i]);
-    hf_solver_destroy(solver);
-  }
-}
-
-static void the_oldest_of_257_records_is_dropped(void** state) {
-  (void)state;
-  hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
-  const uint32_t site = add_site(solver, 5, 0);
-  for (int i = 0; i < 257; ++i) {
-    const double value = i;
-    assert_ok(hf_solver_set_values(solver, 1, &site, &value));
-    assert_ok(hf_solver_record(solver));
-  }
-  for (int i = 256; i >= 1; --i) {
-    assert_ok(hf_solver_undo(solver));
-    double* field = field_of(solver, VERTICES);
-    assert_true(field[5] == (double)i);
-    free(field);
-  }
-  assert_code(HF_ERROR_NO_RECORD, hf_solver_undo(solver));
-  hf_solver_destroy(solver);
-}
-
 static void edits_never_factorise_again(void** state) {
   (void)state;
   hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
@@ -453,8 +403,6 @@ int main(void) {
       cmocka_unit_test(the_list_of_solve_at_may_lie_in_its_output),
       cmocka_unit_test(float_and_double_outputs_agree_at_any_stride),
       cmocka_unit_test(vectors_are_tangent_and_follow_their_constraints),
-      cmocka_unit_test(undo_and_redo_bring_back_the_same_bits),
-      cmocka_unit_test(the_oldest_of_257_records_is_dropped),
       cmocka_unit_test(edits_never_factorise_again),
       cmocka_unit_test(values_may_be_set_without_the_factor_being_touched),
       cmocka_unit_test(values_around_a_million_lose_nothing),

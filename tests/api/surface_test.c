@@ -143,7 +143,7 @@ static void use_member(Household* h, int member, const Surface* tube) {
     default: {
       for (uint32_t v = 0; v < COUNT; ++v) values[v] = (double)tube->positions[3 * v + 1] + 1e-3 * (v % AROUND);
       hf_scalars field = HF_INIT(hf_scalars);
-      hf_flow_lines lines = HF_INIT(hf_flow_lines);
+      hf_streamlines lines = HF_INIT(hf_streamlines);
       field.values_f64 = values;
       lines.wanted_count = 4;
       assert_ok(hf_flow_trace(h->flow, &field, &lines));
@@ -357,7 +357,7 @@ static void getters_tell_what_was_asked_for(void** state) {
   assert_true(info.triangle_limit == 0 && info.memory_limit_mb == 0 && info.work_limit_gflop == 100000);
   hf_surface_destroy(surface);
   desc.weld = HF_WELD_TOLERANCE;
-  desc.weld_tolerance = 0.01f;
+  desc.weld_tolerance = 0.01;
   desc.operator_kind = HF_OPERATOR_CLAMPED;
   desc.field_kind = HF_FIELD_BIHARMONIC;
   desc.ordering = HF_ORDERING_MINIMUM_DEGREE;
@@ -410,16 +410,16 @@ static void getters_tell_what_was_asked_for(void** state) {
     assert_ok(hf_pose_get_info(pose, &posed));
     assert_true(posed.mode == mode && posed.band_count == (mode ? 12 : 10) &&
                 posed.iteration_count == (mode ? 200 : 10));
-    assert_true(posed.samples_per_ring == 0 && posed.handle_count == 1 && posed.vertex_count == COUNT);
+    assert_true(posed.rim_site_count == 0 && posed.handle_count == 1 && posed.vertex_count == COUNT);
     if (mode == HF_DEFORM_SMOOTH) assert_int_equal(posed.group_count, 250);
     hf_pose_destroy(pose);
     plain.band_count = 5;
     plain.iteration_count = 6;
-    plain.samples_per_ring = 7;
+    plain.rim_site_count = 7;
     plain.group_count = 8;
     assert_ok(hf_pose_create(surface, &plain, &pose));
     assert_ok(hf_pose_get_info(pose, &posed));
-    assert_true(posed.band_count == 5 && posed.iteration_count == 6 && posed.samples_per_ring == 7);
+    assert_true(posed.band_count == 5 && posed.iteration_count == 6 && posed.rim_site_count == 7);
     assert_true(posed.group_count == 8 && posed.handle_count == 0);
     hf_pose_destroy(pose);
   }

@@ -53,7 +53,7 @@ static void* own_solver(void* user) {
     /* the detail belongs to the thread */
     hf_error_detail detail;
     w->wrong +=
-        hf_pose_get_handle(NULL, w->number, NULL) != HF_ERROR_INVALID_HANDLE || hf_error_get_detail(&detail) != HF_OK;
+        hf_pose_get_handle(NULL, w->number, NULL) != HF_ERROR_INVALID_OBJECT || hf_error_get_detail(&detail) != HF_OK;
     w->wrong += strcmp(detail.function, "hf_pose_get_handle") != 0;
   }
   free(field);
@@ -288,7 +288,7 @@ static void calls_during_a_change_are_busy_and_destroy_waits_for_it(void** state
   assert_code(HF_ERROR_BUSY, hf_solver_set_values(solver, 1, &site, &value));
   assert_code(HF_ERROR_BUSY, hf_solver_clone(solver, &copy));
   assert_null(copy);
-  assert_code(HF_ERROR_BUSY, hf_solver_record(solver));
+  assert_code(HF_ERROR_BUSY, hf_solver_set_screening(solver, NULL, NULL));
   assert_int_equal(hf_solver_get_site_count(solver), 1); /* the count of the last finished change */
   let_it_go(&gate, &w);
   assert_int_equal(hf_solver_get_site_count(solver), 2);
@@ -301,7 +301,7 @@ static void calls_during_a_change_are_busy_and_destroy_waits_for_it(void** state
 
   hold_a_call(&gate, &w, held_solve);
   hf_solver_destroy(solver); /* the call that is under way is finished first */
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_solver_record(solver));
+  assert_code(HF_ERROR_INVALID_OBJECT, hf_solver_release_preview(solver));
   let_it_go(&gate, &w);
   assert_int_equal(gate.memory.live_blocks, 0);
   free(field);
@@ -315,13 +315,13 @@ static void* maker(void* user) {
   for (int round = 0; round < 400; ++round) {
     hf_solver copy = NULL;
     hf_progress progress = NULL;
-    float fraction;
+    double fraction;
     w->wrong += hf_solver_clone(w->solver, &copy) != HF_OK || hf_progress_create(&progress) != HF_OK;
     w->wrong += hf_solver_get_site_count(copy) != 1 || hf_progress_get_fraction(progress, &fraction) != HF_OK;
     hf_solver_destroy(copy);
     hf_progress_destroy(progress);
-    w->wrong +=
-        hf_solver_record(copy) != HF_ERROR_INVALID_HANDLE || hf_progress_cancel(progress) != HF_ERROR_INVALID_HANDLE;
+    w->wrong += hf_solver_release_preview(copy) != HF_ERROR_INVALID_OBJECT ||
+                hf_progress_cancel(progress) != HF_ERROR_INVALID_OBJECT;
   }
   return NULL;
 }

@@ -118,7 +118,7 @@ const std::vector<Figure>& all_figures() {
       {"deform_rigid", "pose: common rigid motion, over the box", false, both(1e-8), both(1e-12), "%.1e"},
       {"extremities_poisson", "extremities of a Poisson field, in fields", false, both(5), both(3), "%.1f"},
       {"extremities_geodesic", "extremities of 40 geodesic distances, in fields", false, both(60), both(30), "%.1f"},
-      {"flow_live", "site moved, flow lines re-traced, times fresh", true, both(3), both(10), "%.1f"},
+      {"flow_live", "site moved, streamlines re-traced, times fresh", true, both(3), both(10), "%.1f"},
       {"region_grown",
        "region grown by 284 sites, with its membrane: CHOLMOD numeric refactorisation + solve over ours", true, both(5),
        both(15), "%.1fx"},

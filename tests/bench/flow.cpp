@@ -1,4 +1,4 @@
-// A site is dragged and 64 flow lines follow: move, field, trace, beside the same with a fresh factorisation of the
+// A site is dragged and 64 streamlines follow: move, field, trace, beside the same with a fresh factorisation of the
 // field (engine refactor: its ordering and analysis are kept) and beside a solver made anew. The trace is the same in
 // all three, on one prepared surface.
 #include <cstdio>
@@ -10,7 +10,7 @@
 namespace bench {
 namespace {
 
-// Flow lines into arrays that are kept.
+// Streamlines into arrays that are kept.
 class Tracer {
  public:
   explicit Tracer(const Solver& solver) { check(hf_flow_create(solver.surface(), &flow_)); }
@@ -20,7 +20,7 @@ class Tracer {
   uint32_t trace(const std::vector<double>& values) {
     hf_scalars field = HF_INIT(hf_scalars);
     field.values_f64 = values.data();
-    hf_flow_lines lines = HF_INIT(hf_flow_lines);
+    hf_streamlines lines = HF_INIT(hf_streamlines);
     lines.wanted_count = 64;
     for (;;) {
       lines.point_capacity = static_cast<uint32_t>(positions_.size() / 3);
@@ -117,7 +117,7 @@ Rows run_flow(const Run& run, Report& report) {
 
 void plot_flow(const Runs& runs, const std::string& file) {
   CurvePlot plot;
-  plot.text = {"A site moved, 64 flow lines re-traced", "tori and creatures, medians", "vertices", "milliseconds"};
+  plot.text = {"A site moved, 64 streamlines re-traced", "tori and creatures, medians", "vertices", "milliseconds"};
   for (const nlohmann::json& run : runs) {
     Curve live{"live, " + threads_text(run.at("threads")), {}}, fresh{"fresh, " + threads_text(run.at("threads")), {}};
     for (const nlohmann::json& row : run.at("rows")) {

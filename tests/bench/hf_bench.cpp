@@ -38,7 +38,7 @@ constexpr Command commands[] = {
      bench::plot_partial},
     {"analysis", "extremities from a Poisson field and from 40 geodesic distances, in sweeps of one field",
      bench::run_analysis, bench::plot_analysis},
-    {"flow", "flow lines that follow a dragged site, against tracing on a fresh factorisation", bench::run_flow,
+    {"flow", "streamlines that follow a dragged site, against tracing on a fresh factorisation", bench::run_flow,
      bench::plot_flow},
     {"directions", "a constraint vector turned or rewritten, and the field, against factorising again, 120K vertices",
      bench::run_directions, bench::plot_directions},

@@ -141,7 +141,7 @@ std::vector<double> pose_with(hf_surface surface, const LinkScene& scene, const 
     const glm::dvec3 p = point(scene.xyz, pin);
     // A pin that would overlap another region is left out.
     const hf_result result = hf_pose_add_handle_at(pose, &p.x, pin_radius * scene.diagonal, nullptr);
-    if (result != HF_ERROR_OVERLAP) ok(result);
+    if (result != HF_ERROR_CONFLICT) ok(result);
   }
   ok(hf_pose_set_matrices(pose, 1, &handle, &turn[0][0]));
   std::vector<double> out(scene.xyz.size());

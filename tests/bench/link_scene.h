@@ -57,7 +57,7 @@ inline hf_surface make_linked(const LinkScene& scene, const hf_links_desc* links
   desc.positions_f64 = scene.xyz.data();
   desc.triangles = scene.flat.triangles.data();
   desc.weld = HF_WELD_TOLERANCE;
-  desc.weld_tolerance = static_cast<float>(1e-5 * scene.diagonal);
+  desc.weld_tolerance = 1e-5 * scene.diagonal;
   desc.links = links;
   hf_surface surface = nullptr;
   ok(hf_surface_create(&desc, &surface));

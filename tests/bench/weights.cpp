@@ -15,9 +15,9 @@ namespace {
 constexpr uint32_t torus_bones = 50;
 
 // The circle in the tube of the generated tori has the radius 1 and lies around the y axis.
-hf::Bones bones_of_torus() {
+hf::Joints bones_of_torus() {
   const double step = 8 * std::atan(1.0) / torus_bones;
-  hf::Bones bones;
+  hf::Joints bones;
   for (uint32_t b = 0; b < torus_bones; ++b) {
     for (const uint32_t end : {b, b + 1}) {
       std::vector<double>& out = end == b ? bones.heads : bones.tails;
@@ -28,8 +28,8 @@ hf::Bones bones_of_torus() {
   return bones;
 }
 
-hf::Bones bones_of_creature() {
-  hf::Bones bones;
+hf::Joints bones_of_creature() {
+  hf::Joints bones;
   const samples::Creature creature = samples::make_creature("horse", 1000);
   for (const samples::Joint& joint : creature.skeleton) {
     for (size_t c = 0; c < 3; ++c) {
@@ -57,14 +57,14 @@ void set_pin(hf::Weights& weights, uint32_t vertex, float share) {
   auto pin = hf::make<hf_pins_desc>();
   pin.pin_count = 1;
   pin.vertices = &vertex;
-  pin.joint_count = 2;
+  pin.influence_count = 2;
   pin.joints = joints;
   pin.weights = shares;
   weights.set_pins(pin);
 }
 
 nlohmann::json measure(const Mesh& mesh, Family family, const Run& run) {
-  const hf::Bones bones = family == Family::torus ? bones_of_torus() : bones_of_creature();
+  const hf::Joints bones = family == Family::torus ? bones_of_torus() : bones_of_creature();
   const auto coarse = make_mesh(family, mesh.vertex_count() / 4);
   const hf::Surface surface = surface_of(mesh, run.threads), level = surface_of(*coarse, run.threads);
   std::vector<double> whole, made, bone, pin, rewritten, carried;
@@ -72,11 +72,11 @@ nlohmann::json measure(const Mesh& mesh, Family family, const Run& run) {
     const double all = time_ms([&] { hf::Weights(surface_of(mesh, run.threads), bones).weights(); });
     const double alone = time_ms([&] { hf::Weights(surface, bones).weights(); });
     hf::Weights weights(surface, bones);
-    hf::Bones moved = bones;
+    hf::Joints moved = bones;
     const size_t turned = 3 * (bones.count() / 2);
     for (size_t c = 0; c < 3; ++c) moved.heads[turned + c] *= 1.001;
     const double bone_ms = time_ms([&] {
-      weights.set_bones(moved);
+      weights.set_joints(moved);
       weights.weights();
     });
     const uint32_t vertex = mesh.vertex_count() / 2;
@@ -89,7 +89,7 @@ nlohmann::json measure(const Mesh& mesh, Family family, const Run& run) {
       weights.weights();
     });
     const hf::VertexWeights given = weights.weights();
-    const double carry_ms = time_ms([&] { hf::carry_weights(surface, given, level); });
+    const double carry_ms = time_ms([&] { hf::transfer_weights(surface, given, level); });
     if (r == 0) continue;  // the first one warms
     whole.push_back(all);
     made.push_back(alone);

@@ -103,20 +103,20 @@ class Scene
         return list == null ? null : ((Items)list).Cast<string>().ToArray();
     }
 
-    Bones BonesOf(Map step)
+    Joints JointsOf(Map step)
     {
         double[] deforms = Doubles(step, "deforms");
-        return new Bones { Heads = Doubles(step, "heads"), Tails = Doubles(step, "tails"), Axes = Doubles(step, "axes"),
+        return new Joints { Heads = Doubles(step, "heads"), Tails = Doubles(step, "tails"), Axes = Doubles(step, "axes"),
             Parents = Numbers(Get(step, "parents")), Sources = Numbers(Get(step, "sources")),
             Deforms = deforms == null ? null : deforms.Select(x => (int)x).ToArray() };
     }
 
-    /// The weight of one bone at every vertex.
-    static double[] Column(VertexWeights found, uint bone)
+    /// The weight of one joint at every vertex.
+    static double[] Column(VertexWeights found, uint joint)
     {
         var column = new double[found.Origins.Length];
         for (int i = 0; i < found.Joints.Length; ++i)
-            if (found.Joints[i] == bone) column[i / found.WeightCount] += found.Weights[i];
+            if (found.Joints[i] == joint) column[i / found.InfluenceCount] += found.Weights[i];
         return column;
     }
 
@@ -182,7 +182,7 @@ class Scene
                         : null;
                     if (step.ContainsKey("damage")) factor[Whole(step, "damage")] ^= 1;
                     var options = new SurfaceOptions { Weld = (int)o["weld"],
-                        WeldTolerance = (float)o["weld_tolerance"], OperatorKind = (int)o["operator_kind"],
+                        WeldTolerance = o["weld_tolerance"], OperatorKind = (int)o["operator_kind"],
                         FieldKind = (int)o["field_kind"], Ordering = (int)o["ordering"],
                         ThreadCount = (uint)o["thread_count"], VertexLimit = (uint)o["vertex_limit"],
                         TriangleLimit = (uint)o["triangle_limit"], MemoryLimitMb = (uint)o["memory_limit_mb"],
@@ -303,13 +303,13 @@ class Scene
                 {
                     var o = Options(step, "relax_count", "face_count", "crease_angle");
                     var given = new QuadOptions { RelaxCount = (uint)o["relax_count"],
-                        FaceCount = (uint)o["face_count"], CreaseAngle = (float)o["crease_angle"],
-                        EdgeLength = step.ContainsKey("edge_length") ? (float)Number(step["edge_length"]) : 0,
+                        FaceCount = (uint)o["face_count"], CreaseAngle = o["crease_angle"],
+                        EdgeLength = step.ContainsKey("edge_length") ? Number(step["edge_length"]) : 0,
                         CreaseEdges = Numbers(Get(step, "crease_edges")),
                         GuideVertices = Numbers(Get(step, "guide_vertices")),
                         GuideVectors = Doubles(step, "guide_vectors"), GuideWeights = Floats(step, "guide_weights"),
-                        PolePoints = Doubles(step, "pole_points"), PoleQuads = Numbers(Get(step, "pole_quads")),
-                        PoleDirections = Doubles(step, "pole_directions"),
+                        IrregularPoints = Doubles(step, "irregular_points"), IrregularValences = Numbers(Get(step, "irregular_valences")),
+                        IrregularDirections = Doubles(step, "irregular_directions"),
                         SymmetryPlane = Doubles(step, "symmetry_plane") };
                     if (what == "update_quads")
                     {
@@ -327,9 +327,9 @@ class Scene
                 }
             case "quad_mesh": return ((Quads)on).Mesh().Positions;
             case "flow": objects[name] = new Flow(surface); return null;
-            case "flow_lines":
+            case "streamlines":
                 {
-                    FlowLines lines = ((Flow)on).Trace(Doubles(step, "field"), Whole(step, "count"),
+                    Streamlines lines = ((Flow)on).Trace(Doubles(step, "field"), Whole(step, "count"),
                         Numbers(Get(step, "seeds")));
                     if (step.ContainsKey("lines")) Expect(lines.LineStarts.Length - 1 == Whole(step, "lines"),
                         (lines.LineStarts.Length - 1) + " lines");
@@ -337,29 +337,29 @@ class Scene
                 }
             case "region": objects[name] = new Region(surface, Doubles(step, "positions"),
                 (int)Options(step, "base")["base"]); return null;
-            case "weights": objects[name] = new Weights(surface, BonesOf(step),
-                (uint)Options(step, "weight_count")["weight_count"]); return null;
-            case "set_bones": ((Weights)on).SetBones(BonesOf(step)); return null;
+            case "weights": objects[name] = new Weights(surface, JointsOf(step),
+                (uint)Options(step, "influence_count")["influence_count"]); return null;
+            case "set_joints": ((Weights)on).SetJoints(JointsOf(step)); return null;
             case "set_pins": ((Weights)on).SetPins(vertices, Numbers(Get(step, "joints")), Floats(step, "weights"));
                 return null;
-            case "set_locks": ((Weights)on).SetLocks(Numbers(Get(step, "bones"))); return null;
+            case "set_locks": ((Weights)on).SetLocks(Numbers(Get(step, "joints"))); return null;
             case "record_weights": ((Weights)on).Record(); return null;
             case "undo_weights": ((Weights)on).Undo(); return null;
             case "redo_weights": ((Weights)on).Redo(); return null;
             case "clone_weights": objects[name] = ((Weights)on).Clone(); return null;
             case "weights_info": return Fields(((Weights)on).Info);
-            case "bone_flags": return ((Weights)on).BoneFlags().Select(x => (double)x).ToArray();
+            case "joint_flags": return ((Weights)on).JointFlags().Select(x => (double)x).ToArray();
             case "helpers": return ((Weights)on).Helpers(Names(step)).Select(x => (double)x).ToArray();
-            case "skin_weights": return Column(((Weights)on).Get(), Whole(step, "bone"));
-            case "carry":
+            case "skin_weights": return Column(((Weights)on).Get(), Whole(step, "joint"));
+            case "transfer_weights":
                 {
-                    hf_carry_info info;
-                    return Column(Weights.Carry((Surface)objects[(string)step["source"]], Numbers(Get(step, "joints")),
-                        Floats(step, "weights"), surface, out info), Whole(step, "bone"));
+                    hf_weights_transfer_info info;
+                    return Column(Weights.Transfer((Surface)objects[(string)step["source"]], Numbers(Get(step, "joints")),
+                        Floats(step, "weights"), surface, out info), Whole(step, "joint"));
                 }
             case "mirror": return Column(Weights.Mirror(surface, Numbers(Get(step, "joints")), Floats(step, "weights"),
                 Doubles(step, "heads"), new MirrorOptions { Names = Names(step), Plane = Doubles(step, "plane"),
-                To = (int)Whole(step, "to") }).Weights, Whole(step, "bone"));
+                To = (int)Whole(step, "to") }).Weights, Whole(step, "joint"));
             case "region_edit":
                 ((Region)on).Edit(new RegionEdit { Curve = Numbers(Get(step, "curve")), Add = Numbers(Get(step, "add")),
                     Remove = Numbers(Get(step, "remove")), Rings = Get(step, "rings") == null ? 0
@@ -408,20 +408,20 @@ class Scene
             case "handle_field": return pose.HandleField(Whole(step, "handle")).Select(x => (double)x).ToArray();
             case "handle_info": return Fields(pose.HandleInfo(Whole(step, "handle")));
             case "handle_place": return Place(pose.HandleInfo(Whole(step, "handle")));
-            case "skin": return pose.Skin(Whole(step, "weight_count")).Weights.Select(x => (double)x).ToArray();
+            case "skin": return pose.Skin(Whole(step, "influence_count")).Weights.Select(x => (double)x).ToArray();
             case "transfer": { var o = Options(step, "mode", "scale");
                 objects[name] = new Transfer((Surface)objects[(string)step["source"]],
-                (Surface)objects[(string)step["target"]], (int)o["mode"], (float)o["scale"]); return null; }
+                (Surface)objects[(string)step["target"]], (int)o["mode"], o["scale"]); return null; }
             case "add_pairs": return transfer.AddPairs(Lists(Get(step, "source_regions")),
                 Lists(Get(step, "target_regions")), Numbers(Get(step, "flags")));
             case "remove_pairs": transfer.RemovePairs(Numbers(Get(step, "pairs"))); return null;
             case "transfer_info": return Fields(transfer.Info);
-            case "set_dials": { var o = Options(step, "stride", "hip_height", "neck_follow", "tail_follow", "arm_space",
+            case "set_dials": { var o = Options(step, "stride", "hip_height_share", "neck_follow", "tail_follow", "arm_space",
                 "long_follow");
-                transfer.Dials = new hf_transfer_dials { stride = (float)o["stride"],
-                    hip_height = (float)o["hip_height"], neck_follow = (float)o["neck_follow"],
-                    tail_follow = (float)o["tail_follow"], arm_space = (float)o["arm_space"],
-                    long_follow = (float)o["long_follow"] }; return null; }
+                transfer.Dials = new hf_transfer_dials { stride = o["stride"],
+                    hip_height_share = o["hip_height_share"], neck_follow = o["neck_follow"],
+                    tail_follow = o["tail_follow"], arm_space = o["arm_space"],
+                    long_follow = o["long_follow"] }; return null; }
             case "dials": return Fields(transfer.Dials);
             case "apply": return transfer.Apply(Doubles(step, "positions"));
             default: throw new InvalidOperationException("unknown step " + what);

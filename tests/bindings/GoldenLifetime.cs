@@ -57,10 +57,10 @@ static class Lifetime
                         else if (thing is Geodesics) ((Geodesics)thing).Distance(new uint[] { 0 });
                         else if (thing is Direction) ((Direction)thing).Record();
                         else if (thing is Flow) ((Flow)thing).Trace(new double[positions.Length / 3], 4);
-                        else { float f = ((Progress)thing).Fraction; }
+                        else { double f = ((Progress)thing).Fraction; }
                         throw new Exception("a call on a disposed " + thing.GetType().Name + " did not fail");
                     }
-                    catch (HfException error) { if (error.Name != "HF_ERROR_INVALID_HANDLE") throw; ++calls; }
+                    catch (HfException error) { if (error.Name != "HF_ERROR_INVALID_OBJECT") throw; ++calls; }
                 }
                 else if (thing is Pose) ((Pose)thing).Deform(new float[positions.Length], new float[positions.Length]);
             }
@@ -110,7 +110,7 @@ static class Lifetime
         solver.AddSites(new uint[] { 0, 1 }, new double[] { 0, 1 });
         foreach (HfObject thing in new HfObject[] { surface, solver, new Pose(surface), new Geodesics(surface),
             new Direction(surface), new Flow(surface), new Region(surface), new Transfer(surface, surface),
-            new Weights(surface, new Bones { Heads = new double[3], Tails = new double[] { 1, 0, 0 } }),
+            new Weights(surface, new Joints { Heads = new double[3], Tails = new double[] { 1, 0, 0 } }),
             new Progress() })
         {
             try
@@ -129,7 +129,7 @@ static class Lifetime
         twin.Dispose();
         solver.Dispose();
         try { solver.Solve(); }
-        catch (HfException error) { if (error.Name == "HF_ERROR_INVALID_HANDLE") return; }
+        catch (HfException error) { if (error.Name == "HF_ERROR_INVALID_OBJECT") return; }
         throw new Exception("a copy and its original do not close together");
     }
 }

@@ -108,6 +108,6 @@ static class Races
         Console.WriteLine(calls + " calls of " + Threads + " threads; refused: "
             + string.Join(", ", refused.OrderBy(pair => pair.Key).Select(pair => pair.Key + " " + pair.Value)));
         foreach (string error in unexpected.Take(5)) Console.WriteLine(error);
-        return unexpected.IsEmpty && refused.ContainsKey("HF_ERROR_INVALID_HANDLE") ? 0 : 1;
+        return unexpected.IsEmpty && refused.ContainsKey("HF_ERROR_INVALID_OBJECT") ? 0 : 1;
     }
 }

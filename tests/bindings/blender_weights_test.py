@@ -109,10 +109,10 @@ assert table(arm_mesh)["limb.L"][pinned] < 0.2
 # carried to a sleeve of other rings; the armature moves it too
 sleeve, sleeve_points = cylinder("sleeve", 3.0, 0.55, 17, 11, (30, 0, 0.3))
 active(sleeve)
-fails("select the mesh with the weights", bpy.ops.hf.carry_weights)
+fails("select the mesh with the weights", bpy.ops.hf.transfer_weights)
 arm_mesh.select_set(True)
 bpy.context.view_layer.update()
-assert bpy.ops.hf.carry_weights() == {"FINISHED"}
+assert bpy.ops.hf.transfer_weights() == {"FINISHED"}
 assert sleeve.modifiers[-1].object == skeleton
 on_sleeve = table(sleeve)
 np.testing.assert_allclose(sum(on_sleeve.values()), 1, atol=1e-5)

@@ -123,14 +123,14 @@ func run(step, objects, kept):
 			return [true, result, target]
 		"skin":
 			if step.has("error"):
-				return [true, on.skin_weights(step.weight_count), on]
+				return [true, on.skin_weights(step.influence_count), on]
 			var joints = on.skin_joints()
-			var bones = on.skin_bones(step.weight_count)
+			var bones = on.skin_bones(step.influence_count)
 			expect(joints.size() >= 2 and joints[0].has("pivot_x"), "joints of a skin")
-			expect(bones.size() == step.weight_count * on.report().vertex_count, "bones of a skin")
+			expect(bones.size() == step.influence_count * on.report().vertex_count, "bones of a skin")
 			for bone in bones:
 				expect(bone < joints.size(), "a bone that is a joint")
-			return [true, on.skin_weights(step.weight_count), on]
+			return [true, on.skin_weights(step.influence_count), on]
 		"record": return [true, on.record(), on]
 		"undo": return [true, on.undo(), on]
 		"redo": return [true, on.redo(), on]
@@ -227,8 +227,8 @@ func run(step, objects, kept):
 			if step.has("edge_length"):
 				options["edge_length"] = number(step.edge_length)
 			var given = [options, step.get("crease_edges"), step.get("guide_vertices"), list(step, "guide_vectors", kept),
-				list(step, "guide_weights", kept), list(step, "symmetry_plane", kept), list(step, "pole_points", kept),
-				step.get("pole_quads"), list(step, "pole_directions", kept)]
+				list(step, "guide_weights", kept), list(step, "symmetry_plane", kept), list(step, "irregular_points", kept),
+				step.get("irregular_valences"), list(step, "irregular_directions", kept)]
 			if step["do"] == "update_quads":
 				var updated = on.callv("quads_update", given)
 				return [true, on.quads_positions() if updated != null else null, on]
@@ -259,8 +259,8 @@ func run(step, objects, kept):
 			if info != null:
 				expect(faces.size() == info.face_count and faces[0].size() == 4, "faces of a quad mesh")
 			return [true, on.quads_positions(), on]
-		"flow_lines":
-			var lines = on.flow_lines(list(step, "field", kept), step.get("count"), list(step, "seeds", kept))
+		"streamlines":
+			var lines = on.streamlines(list(step, "field", kept), step.get("count"), list(step, "seeds", kept))
 			return [true, points_of(step, lines), on]
 	return [false, null, null]
 
@@ -437,21 +437,21 @@ func lifetime():
 		else:
 			b.share_from(a)
 		a.add_handles([[0, 1, 2], [280, 281]])
-		expect(a.transfer_sinking() == null and a.get_error()["name"] == "HF_ERROR_INVALID_HANDLE", "no transfer sinks")
+		expect(a.transfer_sinking() == null and a.get_error()["name"] == "HF_ERROR_INVALID_OBJECT", "no transfer sinks")
 		expect(a.transfer_to(b, [[0, 1], [280]], [[0, 1], [280]], [1 + 32, 1]) == true, "transfer_to: " + str(a.get_error()))
 		var sinking = a.transfer_sinking()
 		expect(sinking.size() * 3 == bar.positions.size() and sinking[0] == 1 and sinking[280] == 0, "the first end may sink")
 		expect(a.transfer_set_dials(1.5, 0.25) == true and a.transfer_dials()["stride"] == 1.5 and a.transfer_dials()["arm_space"] == 0, "transfer_set_dials")
 		expect(a.transfer_set_dials(1, 0, 0, 0, 0, 1) == true and a.transfer_dials()["long_follow"] == 1, "the dial of long parts")
 		expect(a.transfer_set_dials(1.5, 0.25) == true, "dials again")
-		expect(a.transfer_set_dials(9) == null and a.transfer_dials()["hip_height"] == 0.25, "a refused dial")
-		expect(a.transfer_set_dials() == true and a.transfer_dials()["hip_height"] == 0, "neutral dials")
+		expect(a.transfer_set_dials(9) == null and a.transfer_dials()["hip_height_share"] == 0.25, "a refused dial")
+		expect(a.transfer_set_dials() == true and a.transfer_dials()["hip_height_share"] == 0, "neutral dials")
 		var pair = [a, b]
 		if draw.randf() < 0.5:
 			pair.reverse()
 		pair[0].dispose()
 		pair[0].dispose()
-		expect(pair[0].solve() == null and pair[0].get_error()["name"] == "HF_ERROR_INVALID_HANDLE", "stale solve")
+		expect(pair[0].solve() == null and pair[0].get_error()["name"] == "HF_ERROR_INVALID_OBJECT", "stale solve")
 		expect(pair[0].deform() == null and pair[0].get_error()["index"] == -1, "stale deform")
 		calls += 2
 		if pair[0] == b:

@@ -62,14 +62,14 @@ const bonesOf = (get, step) =>
     ['heads', 'tails', 'axes', 'parents', 'deforms', 'sources'].filter((key) => key in step).map((key) => [key, get(key)]),
   );
 
-/** The weight of one bone at every vertex. */
+/** The weight of one joint at every vertex. */
 const placeOf = (list) =>
   list?.length === 6 ? { corners: list.slice(0, 3), barycentrics: list.slice(3) } : list?.[0];
-const columnOf = (found, bone) =>
+const columnOf = (found, joint) =>
   Float64Array.from(found.origins, (_, v) => {
     let sum = 0;
-    for (let k = v * found.weightCount; k < (v + 1) * found.weightCount; ++k)
-      if (found.joints[k] === bone) sum += found.weights[k];
+    for (let k = v * found.influenceCount; k < (v + 1) * found.influenceCount; ++k)
+      if (found.joints[k] === joint) sum += found.weights[k];
     return sum;
   });
 
@@ -256,9 +256,9 @@ function runStep(hf, step, meshes, objects, kept) {
         guideVertices: get('guide_vertices'),
         guideVectors: get('guide_vectors'),
         guideWeights: get('guide_weights'),
-        polePoints: get('pole_points'),
-        poleQuads: get('pole_quads'),
-        poleDirections: get('pole_directions'),
+        irregularPoints: get('irregular_points'),
+        irregularValences: get('irregular_valences'),
+        irregularDirections: get('irregular_directions'),
         symmetryPlane: get('symmetry_plane'),
       };
       if (step.do === 'update_quads') {
@@ -275,7 +275,7 @@ function runStep(hf, step, meshes, objects, kept) {
     case 'flow':
       objects[step.as] = new hf.Flow(on);
       return {};
-    case 'flow_lines': {
+    case 'streamlines': {
       const lines = on.trace(get('field'), { wantedCount: step.count ?? 0, seeds: get('seeds') });
       const count = lines.lineStarts.length - 1;
       assert(count === (step.lines ?? count), `${count} lines`);
@@ -287,14 +287,14 @@ function runStep(hf, step, meshes, objects, kept) {
     case 'weights':
       objects[step.as] = new hf.Weights(on, bonesOf(get, step), options);
       return {};
-    case 'set_bones':
-      on.setBones(bonesOf(get, step));
+    case 'set_joints':
+      on.setJoints(bonesOf(get, step));
       return {};
     case 'set_pins':
       on.setPins(get('vertices'), { joints: get('joints'), weights: get('weights') });
       return {};
     case 'set_locks':
-      on.setLocks(get('bones'));
+      on.setLocks(get('joints'));
       return {};
     case 'record_weights':
     case 'undo_weights':
@@ -304,20 +304,20 @@ function runStep(hf, step, meshes, objects, kept) {
     case 'clone_weights':
       objects[step.as] = on.clone();
       return {};
-    case 'bone_flags':
-      return array(Float64Array.from(on.bones().flags));
+    case 'joint_flags':
+      return array(Float64Array.from(on.joints().flags));
     case 'helpers':
       return array(Float64Array.from(on.helpers(step.names ?? null)));
     case 'skin_weights':
-      return array(columnOf(on.weights(), step.bone));
-    case 'carry': {
+      return array(columnOf(on.weights(), step.joint));
+    case 'transfer_weights': {
       const given = { joints: get('joints'), weights: get('weights') };
-      return array(columnOf(hf.carryWeights(objects[step.source], given, on), step.bone));
+      return array(columnOf(hf.transferWeights(objects[step.source], given, on), step.joint));
     }
     case 'mirror': {
       const given = { joints: get('joints'), weights: get('weights') };
       const more = { names: step.names ?? null, plane: get('plane'), to: step.to ?? 0 };
-      return array(columnOf(hf.mirrorWeights(on, given, get('heads'), more), step.bone));
+      return array(columnOf(hf.mirrorWeights(on, given, get('heads'), more), step.joint));
     }
     case 'region_edit':
       on.edit({
@@ -389,7 +389,7 @@ function runStep(hf, step, meshes, objects, kept) {
       return array(Float64Array.from([...rotation, ...translation]));
     }
     case 'skin': {
-      const skin = on.skin(step.weight_count);
+      const skin = on.skin(step.influence_count);
       assert(skin.jointCount >= 2, `${skin.jointCount} joints`);
       return array(skin.weights);
     }

@@ -197,8 +197,8 @@ class Scene:
         elif do in ("quads", "update_quads"):
             if "edge_length" in step:
                 options["edge_length"] = numbers(step["edge_length"])
-            lists = ("crease_edges", "guide_vertices", "guide_vectors", "guide_weights", "pole_points", "pole_quads",
-                "pole_directions", "symmetry_plane")
+            lists = ("crease_edges", "guide_vertices", "guide_vectors", "guide_weights", "irregular_points", "irregular_valences",
+                "irregular_directions", "symmetry_plane")
             options.update({key: get(key) for key in lists})
             if do == "update_quads":
                 on.update(**options)
@@ -210,34 +210,34 @@ class Scene:
             return "array", on.mesh().positions
         elif do == "flow":
             self.objects[step["as"]] = hf.Flow(on)
-        elif do == "flow_lines":
+        elif do == "streamlines":
             lines = on.trace(get("field"), step.get("count", 0), seeds=get("seeds"))
             assert len(lines.line_ends) == step.get("lines", len(lines.line_ends)), f"{len(lines.line_ends)} lines"
             return "array", lines.positions
         elif do == "region":
             self.objects[step["as"]] = hf.Region(on, get("positions"), **options)
-        elif do in ("weights", "set_bones"):
+        elif do in ("weights", "set_joints"):
             rows = {key: np.array(get(key), np.float64).reshape(-1, 3) for key in ("heads", "tails", "axes") if key in step}
             lists = {key: get(key) for key in ("parents", "deforms", "sources") if key in step}
             if do == "weights":
                 self.objects[step["as"]] = hf.Weights(on, rows.pop("heads"), **rows, **lists, **options)
             else:
-                on.set_bones(rows.pop("heads"), **rows, **lists)
+                on.set_joints(rows.pop("heads"), **rows, **lists)
         elif do == "set_pins":
             on.set_pins(get("vertices"), get("joints"), get("weights"))
         elif do == "set_locks":
-            on.set_locks(get("bones"))
+            on.set_locks(get("joints"))
         elif do in ("record_weights", "undo_weights", "redo_weights"):
             getattr(on, do.split("_")[0])()
         elif do == "clone_weights":
             self.objects[step["as"]] = on.clone()
         elif do == "weights_info":
             return "struct", on.info()
-        elif do == "bone_flags":
-            return "array", on.bones()[0].astype(np.float64)
+        elif do == "joint_flags":
+            return "array", on.joints()[0].astype(np.float64)
         elif do == "helpers":
             return "array", on.helpers(get("names")).astype(np.float64)
-        elif do in ("skin_weights", "carry", "mirror"):
+        elif do in ("skin_weights", "transfer_weights", "mirror"):
             if do == "skin_weights":
                 found = on.weights()
             else:
@@ -247,12 +247,12 @@ class Scene:
                 if joints.size != shares.size or joints.size % surface.vertex_count:
                     raise hf.InvalidArgumentError("joints and weights of one length")
                 given = joints.reshape(surface.vertex_count, -1), shares.reshape(surface.vertex_count, -1)
-                if do == "carry":
-                    found, _info = hf.carry_weights(surface, *given, on)
+                if do == "transfer_weights":
+                    found, _info = hf.transfer_weights(surface, *given, on)
                 else:
                     found = hf.mirror_weights(surface, *given, np.array(get("heads")).reshape(-1, 3), names=get("names"),
                         plane=get("plane"), to=step.get("to", 0)).weights
-            return "array", np.where(found.joints == step["bone"], found.weights, 0).sum(1).astype(np.float64)
+            return "array", np.where(found.joints == step["joint"], found.weights, 0).sum(1).astype(np.float64)
         elif do == "region_edit":
             on.edit(curve=get("curve"), curve_kind=step.get("curve_kind", 0), rings=step.get("rings", 0), add=get("add"),
                 remove=get("remove"))
@@ -293,7 +293,7 @@ class Scene:
             info = on.handle_info(step["handle"])
             return "array", np.array([*info.rotation, *info.translation])
         elif do == "skin":
-            skin = on.skin(step["weight_count"])
+            skin = on.skin(step["influence_count"])
             assert len(skin.pivots) >= 2, f"{len(skin.pivots)} joints"
             return "array", skin.weights
         elif do == "transfer":

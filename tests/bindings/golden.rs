@@ -70,6 +70,10 @@ struct Scene<'a> {
     objects: HashMap<String, Object>,
     kept: HashMap<String, Vec<f64>>,
     saved: HashMap<String, Vec<u8>>,
+    solver_pasts: HashMap<String, History<Solver>>,
+    direction_pasts: HashMap<String, History<Direction>>,
+    region_pasts: HashMap<String, History<Region>>,
+    weights_pasts: HashMap<String, History<Weights>>,
 }
 
 macro_rules! on {
@@ -79,6 +83,11 @@ macro_rules! on {
             Some(_) => panic!("{} is of another kind", $step["on"]),
             None => return Ok(Answer::Impossible),
         }
+    };
+}
+macro_rules! past {
+    ($self:ident, $step:ident, $pasts:ident) => {
+        $self.$pasts.entry($step["on"].as_str().unwrap().into()).or_default()
     };
 }
 macro_rules! named {
@@ -284,9 +293,9 @@ impl Scene<'_> {
             "remove_sites" => solver.remove_sites(&sites)?,
             "move_sites" => solver.move_sites(&sites, &places)?,
             "set_values" => solver.set_values(&sites, places.values.unwrap_or_default())?,
-            "record" => solver.record()?,
-            "undo" => solver.undo()?,
-            "redo" => solver.redo()?,
+            "record" => past!(self, step, solver_pasts).record(solver)?,
+            "undo" => past!(self, step, solver_pasts).undo(solver)?,
+            "redo" => past!(self, step, solver_pasts).redo(solver)?,
             "solve" => return Ok(Answer::Array(solver.solve()?)),
             "solve_f32" => {
                 let mut out = vec![0f32; solver.solve()?.len()];
@@ -336,14 +345,14 @@ impl Scene<'_> {
         let weights: Option<Vec<f32>> = self
             .doubles(step, "guide_weights")
             .map(|list| list.iter().map(|&v| v as f32).collect());
-        let poles = self.integers(step, "pole_quads").unwrap_or_default();
-        let pole_points = self.doubles(step, "pole_points").unwrap_or_default();
-        let pole_directions = self.doubles(step, "pole_directions");
+        let poles = self.integers(step, "irregular_valences").unwrap_or_default();
+        let irregular_points = self.doubles(step, "irregular_points").unwrap_or_default();
+        let irregular_directions = self.doubles(step, "irregular_directions");
         let plane = self
             .doubles(step, "symmetry_plane")
             .map(|list| <[f64; 4]>::try_from(list).ok());
         let null = |key| step.get(key).is_some_and(Value::is_null);
-        if plane == Some(None) || null("guide_vectors") || null("pole_points") {
+        if plane == Some(None) || null("guide_vectors") || null("irregular_points") {
             return Ok(Answer::Impossible); // four numbers are four, and a slice is never null
         }
         let guides = QuadGuides {
@@ -351,14 +360,14 @@ impl Scene<'_> {
             guide_vertices: &guided,
             guide_vectors: &vectors,
             guide_weights: weights.as_deref(),
-            pole_points: &pole_points,
-            pole_quads: &poles,
-            pole_directions: pole_directions.as_deref(),
+            irregular_points: &irregular_points,
+            irregular_valences: &poles,
+            irregular_directions: irregular_directions.as_deref(),
             symmetry_plane: plane.flatten(),
         };
         let quad_options = || -> std::result::Result<QuadsOptions, Error> {
             let mut options = options!(step, QuadsOptions);
-            options.edge_length = step.get("edge_length").map_or(0.0, number) as f32;
+            options.edge_length = step.get("edge_length").map_or(0.0, number);
             Ok(options)
         };
         if what == "update_quads" {
@@ -486,9 +495,9 @@ impl Scene<'_> {
             "move_vectors" => field.move_sites(&sites, &vertices)?,
             "set_vectors" => field.set_vectors(&sites, &vectors)?,
             "rotate" => field.rotate_sites(&sites, &angles)?,
-            "record_vectors" => field.record()?,
-            "undo_vectors" => field.undo()?,
-            "redo_vectors" => field.redo()?,
+            "record_vectors" => past!(self, step, direction_pasts).record(field)?,
+            "undo_vectors" => past!(self, step, direction_pasts).undo(field)?,
+            "redo_vectors" => past!(self, step, direction_pasts).redo(field)?,
             "vectors" => return Ok(Answer::Array(field.sites()?.2)),
             "directions" => return Ok(Answer::Array(field.solve()?)),
             "singularities" => {
@@ -617,7 +626,7 @@ impl Scene<'_> {
             "pose_info" => return figures!(pose.info()),
             "skin" => {
                 return Ok(Answer::Array(
-                    pose.skin(whole(&step["weight_count"]))?
+                    pose.skin(whole(&step["influence_count"]))?
                         .weights
                         .iter()
                         .map(|&v| f64::from(v))
@@ -648,9 +657,9 @@ impl Scene<'_> {
                 remove: remove.as_deref().unwrap_or_default(),
                 ..Default::default()
             })?,
-            "record_region" => region.record()?,
-            "undo_region" => region.undo()?,
-            "redo_region" => region.redo()?,
+            "record_region" => past!(self, step, region_pasts).record(region)?,
+            "undo_region" => past!(self, step, region_pasts).undo(region)?,
+            "redo_region" => past!(self, step, region_pasts).redo(region)?,
             "region_info" => return figures!(region.info()),
             "region_vertices" => {
                 let found = region.vertices(step["list"].as_i64().unwrap_or(0) as i32)?;
@@ -675,7 +684,7 @@ impl Scene<'_> {
         let deforms: Option<Vec<i32>> = self
             .doubles(step, "deforms")
             .map(|list| list.iter().map(|&v| v as i32).collect());
-        let bones = Bones {
+        let skeleton = Joints {
             heads: rows[0].as_deref().unwrap_or_default(),
             tails: rows[1].as_deref(),
             axes: rows[2].as_deref(),
@@ -694,13 +703,13 @@ impl Scene<'_> {
         let list: Option<Vec<&str>> = step["names"]
             .as_array()
             .map(|names| names.iter().map(|name| name.as_str().unwrap()).collect());
-        let bone = step.get("bone").map(whole);
+        let joint = step.get("joint").map(whole);
         let column = |found: &VertexWeights| -> Outcome {
-            let row = |v: usize| v * found.weight_count..(v + 1) * found.weight_count;
-            let of_bone = |&k: &usize| Some(found.joints[k]) == bone;
+            let row = |v: usize| v * found.influence_count..(v + 1) * found.influence_count;
+            let of_joint = |&k: &usize| Some(found.joints[k]) == joint;
             let weight = |v| {
                 row(v)
-                    .filter(of_bone)
+                    .filter(of_joint)
                     .map(|k| f64::from(found.weights[k]))
                     .sum()
             };
@@ -710,17 +719,17 @@ impl Scene<'_> {
         };
         match what {
             "weights" => {
-                let count = step["options"].get("weight_count").map_or(0, whole);
-                let made = Weights::new(on!(self, step, Surface), &bones, count)?;
+                let count = step["options"].get("influence_count").map_or(0, whole);
+                let made = Weights::new(on!(self, step, Surface), &skeleton, count)?;
                 return self.keep(step, Object::Weights(made));
             }
-            "carry" => {
+            "transfer_weights" => {
                 let (source, target) = (
                     named!(self, step, "source", Surface),
                     named!(self, step, "on", Surface),
                 );
                 return column(
-                    &carry_weights(source, &joints, &shares, target, &Default::default())?.0,
+                    &transfer_weights(source, &joints, &shares, target, &Default::default())?.0,
                 );
             }
             "mirror" => {
@@ -728,7 +737,7 @@ impl Scene<'_> {
                     .doubles(step, "plane")
                     .map(|list| <[f64; 6]>::try_from(list).unwrap());
                 let mirror = Mirror {
-                    heads: bones.heads,
+                    heads: skeleton.heads,
                     names: list.as_deref(),
                     plane,
                     to: step.get("to").map_or(0, |to| number(to) as i32),
@@ -739,7 +748,7 @@ impl Scene<'_> {
             }
             _ => {}
         }
-        let locked = self.integers(step, "bones").unwrap_or_default();
+        let locked = self.integers(step, "joints").unwrap_or_default();
         let weights = on!(self, step, Weights);
         let numbers = |found: Vec<u32>| -> Outcome {
             Ok(Answer::Array(
@@ -747,21 +756,21 @@ impl Scene<'_> {
             ))
         };
         match what {
-            "set_bones" => weights.set_bones(&bones)?,
+            "set_joints" => weights.set_joints(&skeleton)?,
             "set_pins" => {
                 let each = joints.len() / vertices.len().max(1);
                 weights.set_pins(&vertices, each as u32, &joints, &shares)?;
             }
             "set_locks" => weights.set_locks(&locked)?,
-            "record_weights" => weights.record()?,
-            "undo_weights" => weights.undo()?,
-            "redo_weights" => weights.redo()?,
+            "record_weights" => past!(self, step, weights_pasts).record(weights)?,
+            "undo_weights" => past!(self, step, weights_pasts).undo(weights)?,
+            "redo_weights" => past!(self, step, weights_pasts).redo(weights)?,
             "clone_weights" => {
                 let copy = weights.try_clone()?;
                 return self.keep(step, Object::Weights(copy));
             }
             "weights_info" => return figures!(weights.info()),
-            "bone_flags" => return numbers(weights.bone_flags()?),
+            "joint_flags" => return numbers(weights.joint_flags()?),
             "helpers" => return numbers(weights.helpers(list.as_deref())?),
             "skin_weights" => return column(&weights.get()?),
             _ => unreachable!(),
@@ -843,7 +852,7 @@ impl Scene<'_> {
                 })))
             }
             "quad_mesh" => Ok(Answer::Array(on!(self, step, Quads).mesh()?.positions)),
-            "flow_lines" => {
+            "streamlines" => {
                 let (field, seeds) = (
                     self.doubles(step, "field").unwrap(),
                     self.integers(step, "seeds"),
@@ -902,9 +911,9 @@ impl Scene<'_> {
             | "handle_place" | "pose_info" | "skin" => self.pose_step(what, step),
             "region_edit" | "record_region" | "undo_region" | "redo_region" | "region_info"
             | "region_vertices" | "region_curve" | "morph" => self.region_step(what, step),
-            "weights" | "set_bones" | "set_pins" | "set_locks" | "record_weights"
-            | "undo_weights" | "redo_weights" | "clone_weights" | "weights_info" | "bone_flags"
-            | "helpers" | "skin_weights" | "carry" | "mirror" => self.weights_step(what, step),
+            "weights" | "set_joints" | "set_pins" | "set_locks" | "record_weights"
+            | "undo_weights" | "redo_weights" | "clone_weights" | "weights_info" | "joint_flags"
+            | "helpers" | "skin_weights" | "transfer_weights" | "mirror" => self.weights_step(what, step),
             _ => self.surface_step(what, step),
         }
     }
@@ -1059,6 +1068,10 @@ fn play(file: &str) {
             objects,
             kept,
             saved,
+            solver_pasts: HashMap::new(),
+            direction_pasts: HashMap::new(),
+            region_pasts: HashMap::new(),
+            weights_pasts: HashMap::new(),
         };
         for (place, step) in scene["steps"].as_array().unwrap().iter().enumerate() {
             steps += 1;
@@ -1091,7 +1104,6 @@ fn options_are_checked() {
     assert!(options.set("weld", 0.5).is_err() && options.set("thread_count", -1.0).is_err());
     assert!(
         options.set("thread_count", f64::NAN).is_err()
-            && options.set("weld_tolerance", 1e300).is_err()
     );
     let unknown = options.set("weeld", 1.0).unwrap_err();
     assert_eq!(
@@ -1228,14 +1240,14 @@ fn weights_of_a_bar() {
     let (low, high) = (end(0), end(1));
     let middle: Vec<f64> = (0..3).map(|k| 0.5 * (low[k] + high[k])).collect();
     let (heads, tails) = ([low, middle.clone()].concat(), [middle, high].concat());
-    let bones = Bones {
+    let skeleton = Joints {
         heads: &heads,
         tails: Some(&tails),
         ..Default::default()
     };
-    let mut weights = Weights::new(&surface, &bones, 4).unwrap();
+    let mut weights = Weights::new(&surface, &skeleton, 4).unwrap();
     let found = weights.get().unwrap();
-    for row in found.weights.chunks(found.weight_count) {
+    for row in found.weights.chunks(found.influence_count) {
         assert_eq!(row.iter().sum::<f32>(), 1.0);
     }
     weights.set_pins(&[0], 1, &[1], &[1.0]).unwrap();

@@ -1,4 +1,4 @@
-// Steps of direction fields, quad meshes and flow lines, and of everything that is made on a surface.
+// Steps of direction fields, quad meshes and streamlines, and of everything that is made on a surface.
 #include "golden_scene.h"
 
 namespace golden {
@@ -10,17 +10,16 @@ using hf::make;
 void Scene::with_quad_options(const Json& step, const std::function<void(const hf_quads_desc&)>& call) {
   auto desc = make<hf_quads_desc>();
   set_options(
-      step, desc,
-      {{"relax_count", &desc.relax_count}, {"face_count", &desc.face_count}, {"crease_angle", &desc.crease_angle}},
-      {{"crease_angle", false}});
-  if (step.contains("edge_length")) desc.edge_length = static_cast<float>(number(step["edge_length"]));
+      step,
+      {{"relax_count", &desc.relax_count}, {"face_count", &desc.face_count}, {"crease_angle", &desc.crease_angle}});
+  if (step.contains("edge_length")) desc.edge_length = number(step["edge_length"]);
   const auto edges = numbers(step, "crease_edges"), guided = numbers(step, "guide_vertices");
   const size_t guides = guided ? guided->size() : 0;
   const auto vectors = doubles(step, "guide_vectors", 3 * guides), given = doubles(step, "guide_weights", guides);
-  const auto poles = numbers(step, "pole_quads");
-  const size_t pole_count = poles ? poles->size() : 0;
-  const auto places = doubles(step, "pole_points", 3 * pole_count),
-             ways = doubles(step, "pole_directions", 3 * pole_count);
+  const auto poles = numbers(step, "irregular_valences");
+  const size_t irregular_count = poles ? poles->size() : 0;
+  const auto places = doubles(step, "irregular_points", 3 * irregular_count),
+             ways = doubles(step, "irregular_directions", 3 * irregular_count);
   const auto plane = doubles(step, "symmetry_plane", 4);
   if (edges && edges->size() % 2) fail("crease_edges must hold two vertices each");
   const std::vector<float> weights = given ? std::vector<float>(given->begin(), given->end()) : std::vector<float>();
@@ -35,11 +34,11 @@ void Scene::with_quad_options(const Json& step, const std::function<void(const h
   if (vectors) desc.guide_vectors = vectors->data();
   if (given) desc.guide_weights = weights.data();
   if (poles) {
-    desc.pole_count = count(poles);
-    desc.pole_quads = data(poles);
+    desc.irregular_count = count(poles);
+    desc.irregular_valences = data(poles);
   }
-  if (places) desc.pole_points = places->data();
-  if (ways) desc.pole_directions = ways->data();
+  if (places) desc.irregular_points = places->data();
+  if (ways) desc.irregular_directions = ways->data();
   if (plane) std::copy(plane->begin(), plane->end(), desc.symmetry_plane);
   call(desc);
 }
@@ -51,19 +50,19 @@ void Scene::make_object(const Json& step, const std::string& what) {
   object.vertex_count = n;
   if (what == "pose") {
     auto desc = make<hf_pose_desc>();
-    set_options(step, desc, {{"mode", &desc.mode}, {"band_count", &desc.band_count}}, {});
+    set_options(step, {{"mode", &desc.mode}, {"band_count", &desc.band_count}});
     hf_pose raw = nullptr;
     check(hf_pose_create(surface, &desc, &raw));
     object.pose = hf::Handle<hf_pose, hf_pose_destroy>(raw);
   } else if (what == "geodesics") {
     auto desc = make<hf_geodesics_desc>();
-    set_options(step, desc, {{"method", &desc.method}, {"smoothing", &desc.smoothing}}, {{"smoothing", false}});
+    set_options(step, {{"method", &desc.method}, {"smoothing", &desc.smoothing}});
     hf_geodesics raw = nullptr;
     check(hf_geodesics_create(surface, &desc, &raw));
     object.geodesics = hf::Handle<hf_geodesics, hf_geodesics_destroy>(raw);
   } else if (what == "direction") {
     auto desc = make<hf_direction_desc>();
-    set_options(step, desc, {{"degree", &desc.degree}}, {});
+    set_options(step, {{"degree", &desc.degree}});
     hf_direction raw = nullptr;
     check(hf_direction_create(surface, &desc, &raw));
     object.direction = hf::Handle<hf_direction, hf_direction_destroy>(raw);
@@ -81,7 +80,7 @@ void Scene::make_object(const Json& step, const std::string& what) {
 
 Result Scene::run_direction(const Json& step, const std::string& what) {
   Result result;
-  const Object& on = objects_[step["on"]];
+  Object& on = objects_[step["on"]];
   hf_direction direction = on.direction.get();
   const auto sites = numbers(step, "sites"), vertices = numbers(step, "vertices");
   if (what == "add_vectors") {
@@ -100,11 +99,11 @@ Result Scene::run_direction(const Json& step, const std::string& what) {
     const auto angles = doubles(step, "angles", count(sites));
     check(hf_direction_rotate_sites(direction, count(sites), data(sites), data(angles)));
   } else if (what == "record_vectors") {
-    check(hf_direction_record(direction));
+    on.direction_history.record(hf::clone_of(on.direction, hf_direction_clone));
   } else if (what == "undo_vectors") {
-    check(hf_direction_undo(direction));
+    on.direction_history.undo(on.direction);
   } else if (what == "redo_vectors") {
-    check(hf_direction_redo(direction));
+    on.direction_history.redo(on.direction);
   } else if (what == "clone_vectors") {
     const size_t n = on.vertex_count;
     hf_direction raw = nullptr;
@@ -131,13 +130,13 @@ Result Scene::run_direction(const Json& step, const std::string& what) {
 
 Result Scene::run_quads(const Json& step, const std::string& what) {
   Result result;
-  const Object& on = objects_[step["on"]];
-  if (what == "flow_lines") {
+  Object& on = objects_[step["on"]];
+  if (what == "streamlines") {
     const auto field = doubles(step, "field", on.vertex_count);
     const auto seeds = numbers(step, "seeds");
     auto scalars = make<hf_scalars>();
     scalars.values_f64 = data(field);
-    auto lines = make<hf_flow_lines>();
+    auto lines = make<hf_streamlines>();
     lines.wanted_count = step.value("count", 0u);
     if (seeds) {
       lines.seed_count = count(seeds);

@@ -66,12 +66,10 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
     result.array.emplace(positions.begin(), positions.end());
   } else if (what == "deform") {
     auto desc = make<hf_deform_desc>();
-    set_options(step, desc,
-                {{"restart", &desc.restart},
-                 {"iteration_count", &desc.iteration_count},
-                 {"refine", &desc.refine},
-                 {"refine_from_last", &desc.refine_from_last}},
-                {});
+    set_options(step, {{"restart", &desc.restart},
+                       {"iteration_count", &desc.iteration_count},
+                       {"refine", &desc.refine},
+                       {"refine_from_last", &desc.refine_from_last}});
     result.array.emplace(3 * on.vertex_count);
     desc.positions_f64 = result.array->data();
     check(hf_pose_deform(pose, &desc, nullptr));
@@ -90,8 +88,8 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
     result.array->insert(result.array->end(), info.translation, info.translation + 3);
   } else if (what == "skin") {
     auto info = make<hf_skin_info>();
-    info.weight_count = step["weight_count"];
-    std::vector<float> weights(on.vertex_count * info.weight_count);
+    info.influence_count = step["influence_count"];
+    std::vector<float> weights(on.vertex_count * info.influence_count);
     info.vertex_capacity = static_cast<uint32_t>(on.vertex_count);
     info.vertex_weights = weights.data();
     check(hf_pose_get_skin(pose, &info));
@@ -116,24 +114,17 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
     check(hf_transfer_remove_pairs(on.transfer.get(), count(pairs), data(pairs)));
   } else if (what == "set_dials") {
     auto dials = make<hf_transfer_dials>();
-    set_options(step, dials,
-                {{"stride", &dials.stride},
-                 {"hip_height", &dials.hip_height},
-                 {"neck_follow", &dials.neck_follow},
-                 {"tail_follow", &dials.tail_follow},
-                 {"arm_space", &dials.arm_space},
-                 {"long_follow", &dials.long_follow}},
-                {{"stride", false},
-                 {"hip_height", false},
-                 {"neck_follow", false},
-                 {"tail_follow", false},
-                 {"arm_space", false},
-                 {"long_follow", false}});
+    set_options(step, {{"stride", &dials.stride},
+                       {"hip_height_share", &dials.hip_height_share},
+                       {"neck_follow", &dials.neck_follow},
+                       {"tail_follow", &dials.tail_follow},
+                       {"arm_space", &dials.arm_space},
+                       {"long_follow", &dials.long_follow}});
     check(hf_transfer_set_dials(on.transfer.get(), &dials));
   } else if (what == "dials") {
     auto dials = make<hf_transfer_dials>();
     check(hf_transfer_get_dials(on.transfer.get(), &dials));
-    result.fields = {{"stride", dials.stride},           {"hip_height", dials.hip_height},
+    result.fields = {{"stride", dials.stride},           {"hip_height_share", dials.hip_height_share},
                      {"neck_follow", dials.neck_follow}, {"tail_follow", dials.tail_follow},
                      {"arm_space", dials.arm_space},     {"long_follow", dials.long_follow}};
   } else if (what == "transfer_info") {

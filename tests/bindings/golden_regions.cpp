@@ -11,7 +11,7 @@ Result Scene::run_region(const Json& step, const std::string& what) {
   if (what == "detail") {
     const Object &source = objects_[step["source"]], &target = objects_[step["target"]];
     auto desc = make<hf_detail_desc>();
-    set_options(step, desc, {{"scale", &desc.scale}}, {{"scale", true}});
+    set_options(step, {{"scale", &desc.scale}});
     hf_detail raw = nullptr;
     check(hf_detail_create(source.region.get(), target.region.get(), &desc, &raw));
     const size_t n = target.vertex_count;
@@ -24,7 +24,7 @@ Result Scene::run_region(const Json& step, const std::string& what) {
   hf_region region = on.region.get();
   if (what == "region") {
     auto desc = make<hf_region_desc>();
-    set_options(step, desc, {{"base", &desc.base}}, {});
+    set_options(step, {{"base", &desc.base}});
     const auto positions = doubles(step, "positions", 3 * on.vertex_count);
     desc.positions_f64 = data(positions);
     hf_region raw = nullptr;
@@ -74,11 +74,11 @@ Result Scene::run_region(const Json& step, const std::string& what) {
     if (size > 0) check(hf_region_get_curve(region, size, found.data(), &size));
     result.array = found;
   } else if (what == "record_region") {
-    check(hf_region_record(region));
+    on.region_history.record(hf::clone_of(on.region, hf_region_clone));
   } else if (what == "undo_region") {
-    check(hf_region_undo(region));
+    on.region_history.undo(on.region);
   } else if (what == "redo_region") {
-    check(hf_region_redo(region));
+    on.region_history.redo(on.region);
   } else {
     auto desc = make<hf_morph_desc>();
     result.array.emplace(3 * on.vertex_count);

@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace golden {
@@ -55,6 +56,10 @@ struct Object {
   hf::Handle<hf_region, hf_region_destroy> region;
   hf::Handle<hf_detail, hf_detail_destroy> detail;
   hf::Handle<hf_weights, hf_weights_destroy> weights;
+  hf::History<decltype(solver)> solver_history;
+  hf::History<decltype(direction)> direction_history;
+  hf::History<decltype(region)> region_history;
+  hf::History<decltype(weights)> weights_history;
   size_t vertex_count = 0, source_vertex_count = 0;
 };
 
@@ -65,26 +70,15 @@ struct Result {
 };
 
 // Option names and the places they stand for.
-template <class Desc>
-void set_options(const Json& step, Desc& desc, const std::map<std::string, void*>& places,
-                 const std::map<std::string, bool>& is_float) {
+using OptionPlace = std::variant<int32_t*, uint32_t*, double*>;
+inline void set_options(const Json& step, const std::map<std::string, OptionPlace>& places) {
   const Json options = step.value("options", Json::object());
   for (const auto& [key, value] : options.items()) {
     const auto found = places.find(key);
     if (found == places.end()) fail("no option " + key);
-    const auto kind = is_float.find(key);
-    if (kind == is_float.end()) {
-      const int32_t whole = value.template get<int32_t>();
-      std::memcpy(found->second, &whole, sizeof whole);
-    } else if (kind->second) {
-      const double real = value.template get<double>();
-      std::memcpy(found->second, &real, sizeof real);
-    } else {
-      const float real = value.template get<float>();
-      std::memcpy(found->second, &real, sizeof real);
-    }
+    std::visit([&value = value](auto* place) { *place = value.template get<std::decay_t<decltype(*place)>>(); },
+               found->second);
   }
-  (void)desc;
 }
 
 class Scene {

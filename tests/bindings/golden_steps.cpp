@@ -15,8 +15,8 @@ const std::set<std::string> region_steps = {"region",          "region_edit",  "
                                             "region_vertices", "region_curve", "record_region",
                                             "undo_region",     "redo_region",  "morph"};
 const std::set<std::string> weight_steps = {
-    "weights",       "set_bones",    "set_pins",   "set_locks", "record_weights", "undo_weights", "redo_weights",
-    "clone_weights", "skin_weights", "bone_flags", "helpers",   "weights_info",   "carry",        "mirror"};
+    "weights",       "set_joints",   "set_pins",    "set_locks", "record_weights", "undo_weights",     "redo_weights",
+    "clone_weights", "skin_weights", "joint_flags", "helpers",   "weights_info",   "transfer_weights", "mirror"};
 
 // [vertex], or three corners and three barycentrics
 hf_surface_point place_of(const Json& step, const char* key) {
@@ -32,14 +32,12 @@ hf_surface_point place_of(const Json& step, const char* key) {
 
 Result Scene::run_solver(const Json& step) {
   auto desc = make<hf_solver_desc>();
-  set_options(step, desc,
-              {{"field_kind", &desc.field_kind},
-               {"engine", &desc.engine},
-               {"channel_count", &desc.channel_count},
-               {"site_limit", &desc.site_limit},
-               {"penalty", &desc.penalty}},
-              {{"penalty", true}});
-  const Object& on = objects_[step["on"]];
+  set_options(step, {{"field_kind", &desc.field_kind},
+                     {"engine", &desc.engine},
+                     {"channel_count", &desc.channel_count},
+                     {"site_limit", &desc.site_limit},
+                     {"penalty", &desc.penalty}});
+  Object& on = objects_[step["on"]];
   hf_solver raw = nullptr;
   check(hf_create(on.surface.get(), &desc, &raw));
   const size_t n = on.vertex_count;
@@ -59,7 +57,7 @@ Result Scene::run(const Json& step) {
   if (what == "transfer") {
     const Object &source = objects_[step["source"]], &target = objects_[step["target"]];
     auto desc = make<hf_transfer_desc>();
-    set_options(step, desc, {{"mode", &desc.mode}, {"scale", &desc.scale}}, {{"scale", false}});
+    set_options(step, {{"mode", &desc.mode}, {"scale", &desc.scale}});
     hf_transfer raw = nullptr;
     check(hf_transfer_create(source.surface.get(), target.surface.get(), &desc, &raw));
     const size_t sources = source.vertex_count, targets = target.vertex_count;
@@ -150,11 +148,11 @@ Result Scene::run(const Json& step) {
     result.numbers.emplace(count(added));
     check(hf_solver_edit_sites(solver, &edit, result.numbers->data()));
   } else if (what == "record") {
-    check(hf_solver_record(solver));
+    on.solver_history.record(hf::clone_of(on.solver, hf_solver_clone));
   } else if (what == "undo") {
-    check(hf_solver_undo(solver));
+    on.solver_history.undo(on.solver);
   } else if (what == "redo") {
-    check(hf_solver_redo(solver));
+    on.solver_history.redo(on.solver);
   } else if (what == "solve") {
     result.array.emplace(n);
     check(hf_solver_solve_f64(solver, result.array->data(), 0, nullptr));
@@ -219,7 +217,7 @@ Result Scene::run(const Json& step) {
     return run_region(step, what);
   } else if (weight_steps.count(what)) {
     return run_weights(step, what);
-  } else if (what == "update_quads" || what == "quads_info" || what == "quad_mesh" || what == "flow_lines") {
+  } else if (what == "update_quads" || what == "quads_info" || what == "quad_mesh" || what == "streamlines") {
     return run_quads(step, what);
   } else {
     return run_posing(step, what);

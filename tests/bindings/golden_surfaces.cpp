@@ -27,16 +27,14 @@ std::vector<uint8_t> lay_out(const Numbers& corners, size_t width, size_t stride
 Result Scene::run_surface(const Json& step) {
   auto desc = make<hf_surface_desc>();
   auto links = make<hf_links_desc>();
-  set_options(step, desc,
-              {{"weld", &desc.weld},
-               {"operator_kind", &desc.operator_kind},
-               {"field_kind", &desc.field_kind},
-               {"ordering", &desc.ordering},
-               {"thread_count", &desc.thread_count},
-               {"vertex_limit", &desc.vertex_limit},
-               {"triangle_limit", &desc.triangle_limit},
-               {"link_pieces", &links.mode}},
-              {});
+  set_options(step, {{"weld", &desc.weld},
+                     {"operator_kind", &desc.operator_kind},
+                     {"field_kind", &desc.field_kind},
+                     {"ordering", &desc.ordering},
+                     {"thread_count", &desc.thread_count},
+                     {"vertex_limit", &desc.vertex_limit},
+                     {"triangle_limit", &desc.triangle_limit},
+                     {"link_pieces", &links.mode}});
   desc.links = &links;
   if (step["mesh"].is_null()) fail("no positions", HF_ERROR_NULL_POINTER);
   const Json& mesh = meshes_.at(step["mesh"]);
@@ -90,14 +88,12 @@ Result Scene::run_surface(const Json& step) {
 
 Result Scene::run_graph(const Json& step) {
   auto desc = make<hf_graph_desc>();
-  set_options(step, desc,
-              {{"allow_negative", &desc.allow_negative},
-               {"field_kind", &desc.field_kind},
-               {"ordering", &desc.ordering},
-               {"thread_count", &desc.thread_count},
-               {"vertex_limit", &desc.vertex_limit},
-               {"edge_limit", &desc.edge_limit}},
-              {});
+  set_options(step, {{"allow_negative", &desc.allow_negative},
+                     {"field_kind", &desc.field_kind},
+                     {"ordering", &desc.ordering},
+                     {"thread_count", &desc.thread_count},
+                     {"vertex_limit", &desc.vertex_limit},
+                     {"edge_limit", &desc.edge_limit}});
   const auto edges = numbers(step, "edges");
   const auto weights = doubles(step, "weights"), masses = doubles(step, "masses", step["vertex_count"].get<size_t>());
   if (edges && weights && edges->size() != 2 * weights->size()) fail("edges must hold two vertices for each weight");
@@ -185,7 +181,7 @@ Result Scene::run_looking(const Json& step, const std::string& what, hf_surface 
   if (what == "propose") {
     std::vector<hf_handle_proposal> found(HF_HANDLE_LIMIT);
     uint32_t size = 0;
-    check(hf_propose_handles(surface, nullptr, HF_HANDLE_LIMIT, found.data(), &size));
+    check(hf_surface_propose_handles(surface, nullptr, HF_HANDLE_LIMIT, found.data(), &size));
     result.array.emplace();
     for (uint32_t i = 0; i < size; ++i) result.array->push_back(found[i].vertex);
     std::sort(result.array->begin(), result.array->end());

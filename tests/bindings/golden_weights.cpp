@@ -8,18 +8,18 @@ using hf::make;
 
 namespace {
 
-// Room for the weights of a surface, and the weight of one bone at every vertex.
+// Room for the weights of a surface, and the weight of one joint at every vertex.
 struct Column {
-  explicit Column(size_t vertices, uint32_t weight_count)
-      : joints(vertices * weight_count), shares(joints.size()), out(make<hf_weights_out>()), each(weight_count) {
+  explicit Column(size_t vertices, uint32_t influence_count)
+      : joints(vertices * influence_count), shares(joints.size()), out(make<hf_weights_out>()), each(influence_count) {
     out.vertex_capacity = static_cast<uint32_t>(vertices);
     out.joints = joints.data();
     out.weights = shares.data();
   }
-  Doubles of(uint32_t bone) const {
+  Doubles of(uint32_t joint) const {
     Doubles column(joints.size() / each, 0.0);
     for (size_t i = 0; i < joints.size(); ++i) {
-      if (joints[i] == bone) column[i / each] += static_cast<double>(shares[i]);
+      if (joints[i] == joint) column[i / each] += static_cast<double>(shares[i]);
     }
     return column;
   }
@@ -39,7 +39,7 @@ std::optional<std::string> lines_of(const Json& step) {
 }  // namespace
 
 Result Scene::run_weights(const Json& step, const std::string& what) {
-  if (what == "carry" || what == "mirror") return run_carried(step, what);
+  if (what == "transfer_weights" || what == "mirror") return run_carried(step, what);
   Result result;
   Object& on = objects_[step["on"]];
   hf_weights weights = on.weights.get();
@@ -51,23 +51,23 @@ Result Scene::run_weights(const Json& step, const std::string& what) {
     check(call(size, found.data(), &size));
     result.array.emplace(found.begin(), found.end());
   };
-  if (what == "weights" || what == "set_bones") {
+  if (what == "weights" || what == "set_joints") {
     const auto heads = doubles(step, "heads"), tails = doubles(step, "tails"), axes = doubles(step, "axes");
     const auto parents = numbers(step, "parents"), sources = numbers(step, "sources");
     std::vector<int32_t> deforms = step.value("deforms", std::vector<int32_t>{});
-    auto desc = make<hf_bones_desc>();
-    desc.bone_count = heads ? static_cast<uint32_t>(heads->size() / 3) : 1u;
+    auto desc = make<hf_joints_desc>();
+    desc.joint_count = heads ? static_cast<uint32_t>(heads->size() / 3) : 1u;
     desc.heads = data(heads);
     desc.tails = data(tails);
     desc.axes = data(axes);
     desc.parents = data(parents);
     desc.sources = data(sources);
     desc.deforms = deforms.empty() ? nullptr : deforms.data();
-    if (what == "set_bones") {
-      check(hf_weights_set_bones(weights, &desc));
+    if (what == "set_joints") {
+      check(hf_weights_set_joints(weights, &desc));
     } else {
       hf_weights raw = nullptr;
-      check(hf_weights_create(on.surface.get(), &desc, step["options"].value("weight_count", 0u), &raw));
+      check(hf_weights_create(on.surface.get(), &desc, step["options"].value("influence_count", 0u), &raw));
       Object& made = objects_[step["as"]];
       made.weights = hf::Handle<hf_weights, hf_weights_destroy>(raw);
       made.vertex_count = n;
@@ -79,19 +79,19 @@ Result Scene::run_weights(const Json& step, const std::string& what) {
     auto desc = make<hf_pins_desc>();
     desc.pin_count = count(vertices);
     desc.vertices = data(vertices);
-    desc.joint_count = desc.pin_count ? count(joints) / desc.pin_count : 0;
+    desc.influence_count = desc.pin_count ? count(joints) / desc.pin_count : 0;
     desc.joints = data(joints);
     desc.weights = shares.data();
     check(hf_weights_set_pins(weights, &desc));
   } else if (what == "set_locks") {
-    const auto bones = numbers(step, "bones");
-    check(hf_weights_set_locks(weights, count(bones), data(bones), nullptr));
+    const auto joints = numbers(step, "joints");
+    check(hf_weights_set_locks(weights, count(joints), data(joints), nullptr));
   } else if (what == "record_weights") {
-    check(hf_weights_record(weights));
+    on.weights_history.record(hf::clone_of(on.weights, hf_weights_clone));
   } else if (what == "undo_weights") {
-    check(hf_weights_undo(weights));
+    on.weights_history.undo(on.weights);
   } else if (what == "redo_weights") {
-    check(hf_weights_redo(weights));
+    on.weights_history.redo(on.weights);
   } else if (what == "clone_weights") {
     hf_weights raw = nullptr;
     check(hf_weights_clone(weights, &raw));
@@ -102,12 +102,12 @@ Result Scene::run_weights(const Json& step, const std::string& what) {
     auto info = make<hf_weights_info>();
     check(hf_weights_get_info(weights, &info));
     result.fields = {{"vertex_count", info.vertex_count},
-                     {"bone_count", info.bone_count},
+                     {"joint_count", info.joint_count},
                      {"informed_count", info.informed_count},
                      {"pin_count", info.pin_count}};
-  } else if (what == "bone_flags") {
+  } else if (what == "joint_flags") {
     numbers_of([&](uint32_t capacity, uint32_t* flags, uint32_t* size) {
-      return hf_weights_get_bones(weights, capacity, flags, nullptr, size);
+      return hf_weights_get_joints(weights, capacity, flags, nullptr, size);
     });
   } else if (what == "helpers") {
     const auto lines = lines_of(step);
@@ -117,43 +117,43 @@ Result Scene::run_weights(const Json& step, const std::string& what) {
   } else {
     auto ask = make<hf_weights_out>();
     check(hf_weights_get(weights, &ask));
-    Column found(n, ask.weight_count);
+    Column found(n, ask.influence_count);
     check(hf_weights_get(weights, &found.out));
-    result.array = found.of(step["bone"]);
+    result.array = found.of(step["joint"]);
   }
   return result;
 }
 
 Result Scene::run_carried(const Json& step, const std::string& what) {
-  const Object& on = objects_[step["on"]];
-  const Object& source = what == "carry" ? objects_[step["source"]] : on;
+  Object& on = objects_[step["on"]];
+  const Object& source = what == "transfer_weights" ? objects_[step["source"]] : on;
   const auto joints = numbers(step, "joints");
   const auto given = doubles(step, "weights", joints->size());
   const std::vector<float> shares(given->begin(), given->end());
   const uint32_t each = count(joints) / static_cast<uint32_t>(source.vertex_count);
   Column found(on.vertex_count, 4);
-  if (what == "carry") {
-    auto desc = make<hf_carry_desc>();
-    desc.influence_count = each;
+  if (what == "transfer_weights") {
+    auto desc = make<hf_weights_transfer_desc>();
+    desc.source_influence_count = each;
     desc.joints = data(joints);
     desc.weights = shares.data();
-    check(hf_weights_carry(source.surface.get(), on.surface.get(), &desc, &found.out, nullptr));
+    check(hf_weights_transfer(source.surface.get(), on.surface.get(), &desc, &found.out, nullptr));
   } else {
     const auto heads = doubles(step, "heads"), plane = doubles(step, "plane", 6);
     const auto lines = lines_of(step);
-    auto desc = make<hf_mirror_desc>();
-    desc.bone_count = static_cast<uint32_t>(heads->size() / 3);
+    auto desc = make<hf_weights_mirror_desc>();
+    desc.joint_count = static_cast<uint32_t>(heads->size() / 3);
     desc.heads = data(heads);
     desc.plane = data(plane);
     desc.names = lines ? lines->c_str() : nullptr;
     desc.to = step.value("to", 0);
-    desc.influence_count = each;
+    desc.source_influence_count = each;
     desc.joints = data(joints);
     desc.weights = shares.data();
     check(hf_weights_mirror(on.surface.get(), &desc, &found.out, nullptr, nullptr, nullptr));
   }
   Result result;
-  result.array = found.of(step["bone"]);
+  result.array = found.of(step["joint"]);
   return result;
 }
 

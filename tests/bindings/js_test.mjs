@@ -96,7 +96,7 @@ for (const option of ['positionStride', 'normalStride', 'firstVertex', 'vertexCo
   assert.throws(() => posed.deform(null, { [option]: 400 }), /no option/, option);
 for (const option of ['positionStride', 'triangleStride', 'vertexCount', 'triangleCount'])
   assert.throws(() => new hf.Surface(positions, triangles, { [option]: 400 }), /no option/, option);
-for (const option of ['guideCount', 'poleCount'])
+for (const option of ['guideCount', 'irregularCount'])
   assert.throws(() => new hf.Quads(surface, { [option]: 2 }), /no option/);
 assert.ok(Math.abs(solver.solve()[5] - 1) < 1e-6);
 
@@ -215,7 +215,7 @@ for (let round = 0; round < 120; ++round) {
                   : thing.apply
                     ? thing.info
                     : thing.fraction,
-        (error) => error.codeName === 'HF_ERROR_INVALID_HANDLE',
+        (error) => error.codeName === 'HF_ERROR_INVALID_OBJECT',
       );
       ++calls;
     } else if (thing.deform) {
@@ -294,12 +294,12 @@ if (global.gc) {
   assert.equal(strangers.report.componentCount, 2);
   assert.throws(() => new hf.Surface(places, triangles, { linkPieces: true, tags: [1] }), /tags must hold one number for each of 16/);
 
-  const bones = { heads: [0.2, 0.5, 0.5, 1.4, 0.5, 0.5], tails: [0.8, 0.5, 0.5, 2, 0.5, 0.5] };
-  const weights = new hf.Weights(apart, bones);
+  const joints = { heads: [0.2, 0.5, 0.5, 1.4, 0.5, 0.5], tails: [0.8, 0.5, 0.5, 2, 0.5, 0.5] };
+  const weights = new hf.Weights(apart, joints);
   const found = weights.weights();
-  assert.deepEqual([found.weightCount, found.joints[0], found.joints[4 * 15]], [4, 0, 1]);
+  assert.deepEqual([found.influenceCount, found.joints[0], found.joints[4 * 15]], [4, 0, 1]);
   for (let v = 0; v < 16; ++v) assert.ok(Math.abs(1 - found.weights.subarray(4 * v, 4 * v + 4).reduce((a, b) => a + b)) < 1e-6);
-  assert.deepEqual([weights.info.boneCount, Array.from(weights.bones().flags)], [2, [0, 0]]);
+  assert.deepEqual([weights.info.jointCount, Array.from(weights.joints().flags)], [2, [0, 0]]);
   weights.record();
   weights.setPins([0], { joints: [1], weights: [1] });
   assert.deepEqual([weights.weights().joints[0], weights.info.pinCount], [1, 1]);
@@ -308,8 +308,8 @@ if (global.gc) {
   weights.setLocks([0]);
   assert.equal(weights.info.lockCount, 1);
   const copy = weights.clone();
-  copy.setBones({ heads: [0, 0, 0], tails: [1, 0, 0], sources: [0] });
-  assert.deepEqual([copy.info.boneCount, weights.info.boneCount], [1, 2]);
+  copy.setJoints({ heads: [0, 0, 0], tails: [1, 0, 0], sources: [0] });
+  assert.deepEqual([copy.info.jointCount, weights.info.jointCount], [1, 2]);
   assert.throws(() => new hf.Weights(apart, { heads: [0, 0] }), /three numbers/);
   assert.throws(() => weights.setPins([0], { joints: [0, 1], weights: [1] }), /one length/);
   console.log(`${hf.backend}: reports of calls, links and weights`);

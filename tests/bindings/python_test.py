@@ -76,7 +76,7 @@ class Poles(unittest.TestCase):
                 place /= np.linalg.norm(place)
                 self.quads.update(**self.options)
                 plain.append(self.off(place, count))
-                self.quads.update(pole_points=[place], pole_quads=[count], pole_directions=[direction], **self.options)
+                self.quads.update(irregular_points=[place], irregular_valences=[count], irregular_directions=[direction], **self.options)
                 held.append(self.off(place, count))
             self.assertLess(max(held), 1, (count, held))
             self.assertGreater(np.median(plain), 2, (count, plain))
@@ -84,13 +84,13 @@ class Poles(unittest.TestCase):
     def test_what_cannot_be_is_refused_by_name(self):
         place = self.points[3]
         for word, error, options in (
-                ("pole_quads[1]", hf.InvalidArgumentError, {"pole_points": [place, place], "pole_quads": [3, 4]}),
-                ("pole_points[0]", hf.NonFiniteError, {"pole_points": [place * np.nan], "pole_quads": [3]}),
-                ("pole_points", hf.InvalidArgumentError, {"pole_points": [place[:2]], "pole_quads": [3]}),
-                ("pole_directions[0]", hf.NonFiniteError,
-                 {"pole_points": [place], "pole_quads": [5], "pole_directions": [[np.inf, 0, 0]]}),
-                ("pole_points", hf.HfError, {"pole_quads": [3]}),
-                ("pole_points", hf.HfError, {"pole_points": [place]})):
+                ("irregular_valences[1]", hf.InvalidArgumentError, {"irregular_points": [place, place], "irregular_valences": [3, 4]}),
+                ("irregular_points[0]", hf.NonFiniteError, {"irregular_points": [place * np.nan], "irregular_valences": [3]}),
+                ("irregular_points", hf.InvalidArgumentError, {"irregular_points": [place[:2]], "irregular_valences": [3]}),
+                ("irregular_directions[0]", hf.NonFiniteError,
+                 {"irregular_points": [place], "irregular_valences": [5], "irregular_directions": [[np.inf, 0, 0]]}),
+                ("irregular_points", hf.HfError, {"irregular_valences": [3]}),
+                ("irregular_points", hf.HfError, {"irregular_points": [place]})):
             with self.subTest(word=word):
                 before = self.quads.mesh().positions
                 with self.assertRaises(error) as caught:
@@ -252,8 +252,8 @@ class Refusals(unittest.TestCase):
         self.assertEqual(weights.helpers(["root", "arm.L", "arm.R"])[0] & hf.HelperReason.NAME_ROOT, 2)
         self.assertEqual(weights.helpers()[0] & hf.HelperReason.NAME_ROOT, 0)
         found = weights.weights()
-        carried, info = hf.carry_weights(surface, found.joints, found.weights, other)
-        plain, _ = hf.carry_weights(surface, found.joints, found.weights, other, weight_count=0)  # 0: 4
+        carried, info = hf.transfer_weights(surface, found.joints, found.weights, other)
+        plain, _ = hf.transfer_weights(surface, found.joints, found.weights, other, influence_count=0)  # 0: 4
         np.testing.assert_array_equal(plain.weights, carried.weights)
         self.assertEqual(info.matched_count, n * n)
         np.testing.assert_allclose(carried.weights.sum(1), 1, atol=0)
@@ -267,13 +267,13 @@ class Refusals(unittest.TestCase):
         left, right = [j * n + 3 for j in range(n)], [j * n + n - 4 for j in range(n)]
         self.assertTrue((mirrored.weights.joints[left, 0] == mirrored.partners[mirrored.weights.joints[right, 0]]).all())
         with self.assertRaises(hf.InvalidArgumentError):
-            hf.carry_weights(surface, found.joints[1:], found.weights[1:], other)
+            hf.transfer_weights(surface, found.joints[1:], found.weights[1:], other)
         with self.assertRaises(hf.InvalidArgumentError):
             weights.helpers(["root"])
 
     def test_objects_refuse_pickling_by_name(self):
         things = self.everything()
-        self.assertEqual({type(thing) for thing in things}, set(hf._library.Object.__subclasses__()))
+        self.assertEqual({type(thing) for thing in things}, set(hf._library.Object.__subclasses__() + hf._library.Recorded.__subclasses__()) - {hf._library.Recorded})
         for thing in things:
             for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
                 with self.assertRaisesRegex(TypeError, f"hf.{type(thing).__name__} cannot be pickled"):
@@ -415,7 +415,7 @@ class Regions(unittest.TestCase):
                           lambda: region.vertices(9), lambda: region.morph(1.0, np.zeros(3, np.float32))):
                 with self.assertRaises(hf.HfError):
                     wrong()
-        with self.assertRaises(hf.InvalidHandleError):
+        with self.assertRaises(hf.InvalidObjectError):
             region.edit(rings=1)
 
 
@@ -483,7 +483,7 @@ class Lifetime(unittest.TestCase):
                 if draw.random() < 0.5:
                     thing.close()
                     thing.close()
-                    with self.assertRaises(hf.InvalidHandleError):
+                    with self.assertRaises(hf.InvalidObjectError):
                         {hf.Surface: lambda: thing.report, hf.Solver: lambda: thing.solve(), hf.Pose: lambda: thing.deform(),
                             hf.Transfer: lambda: thing.info,
                          hf.Geodesics: lambda: thing.distance([0]), hf.Progress: lambda: thing.fraction}[type(thing)]()

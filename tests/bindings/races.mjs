@@ -92,7 +92,7 @@ async function race(kind, calls, seed, shared) {
     }
   }
   console.log(`${kind}: ${calls} calls; refused: ${JSON.stringify(refused)}`);
-  assert.ok(refused.HF_ERROR_INVALID_HANDLE > 0);
+  assert.ok(refused.HF_ERROR_INVALID_OBJECT > 0);
 }
 
 if (!isMainThread) {

@@ -88,7 +88,7 @@ def main():
         thread.join()
     print(f"{calls} calls of {THREADS} threads; refused: {dict(sorted(race.refused.items()))}")
     assert not race.unexpected, race.unexpected[:5]
-    assert race.refused.get("HF_ERROR_INVALID_HANDLE"), "nothing was ever used after it was closed"
+    assert race.refused.get("HF_ERROR_INVALID_OBJECT"), "nothing was ever used after it was closed"
     solver = hf.Solver(hf.Surface(POSITIONS, TRIANGLES))
     solver.add_sites([0, N - 1], [0.0, 1.0])
     assert np.isfinite(solver.solve()).all()

@@ -93,7 +93,7 @@ static hf_gltf_model swinging(hf_gltf_model model) {
   hf_gltf_skin_desc desc = HF_INIT(hf_gltf_skin_desc);
   desc.joint_count = 2;
   desc.frame_count = FRAMES;
-  desc.weight_count = 1;
+  desc.influence_count = 1;
   desc.name = "swing";
   desc.pivots = pivots;
   desc.joints = joints;
@@ -388,12 +388,12 @@ static void refused_calls_change_nothing(void** state) {
   info.struct_size = 4;
   assert_int_equal(hf_gltf_model_get_info(model, &info), HF_ERROR_INVALID_DESC);
   info.struct_size = sizeof info;
-  assert_int_equal(hf_gltf_model_get_info(NULL, &info), HF_ERROR_INVALID_HANDLE);
+  assert_int_equal(hf_gltf_model_get_info(NULL, &info), HF_ERROR_INVALID_OBJECT);
   hf_gltf_pairs_destroy((hf_gltf_pairs)model); /* of another kind: nothing happens */
   assert_int_equal(hf_gltf_model_get_info(model, &info), HF_OK);
   hf_gltf_model_destroy(model);
   hf_gltf_model_destroy(model);
-  assert_int_equal(hf_gltf_model_get_info(model, &info), HF_ERROR_INVALID_HANDLE);
+  assert_int_equal(hf_gltf_model_get_info(model, &info), HF_ERROR_INVALID_OBJECT);
   free(bytes);
   free(after);
   hf_gltf_model_destroy(still);

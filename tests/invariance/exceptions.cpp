@@ -27,7 +27,7 @@ const std::vector<Exception>& exceptions() {
       {"turned askew", "stretch to", 0.1, "sizes of parts are shares of the box, which is another one"},
       {"button", "other operators", 1e-3, "the least weight is a share of the median of the whole mesh"},
       {"button", "direction field", 1e-3, "the least weight is a share of the median of the whole mesh"},
-      {"button", "flow lines", 1e-3, "the least weight is a share of the median of the whole mesh"},
+      {"button", "streamlines", 1e-3, "the least weight is a share of the median of the whole mesh"},
       {"button", "heat distances", 5e-2, "the time step is that of the mean edge of the whole mesh"},
       {"button", "geodesic tips", 0.3, "the time step is that of the mean edge of the whole mesh"},
       {"button", "pose", 1e-2, "pieces share the groups of one rotation by their areas"},

@@ -1,4 +1,4 @@
-// Levels, iso-lines, critical points, distances, paths, maps, tips and flow lines.
+// Levels, iso-lines, critical points, distances, paths, maps, tips and streamlines.
 #include <cmath>
 #include <limits>
 
@@ -186,7 +186,7 @@ Measured measure_flow(const Setting& s) {
   ok(hf_flow_create(s.surface(), flow.out()));
   std::vector<std::uint32_t> seeds;
   for (std::size_t i = 0; i < s.body.picks.size(); ++i) seeds.push_back(s.pick(i));
-  hf_flow_lines lines = HF_INIT(hf_flow_lines);
+  hf_streamlines lines = HF_INIT(hf_streamlines);
   lines.seed_count = static_cast<std::uint32_t>(seeds.size());
   lines.seeds = seeds.data();
   ok(hf_flow_trace(flow, &field.desc, &lines));

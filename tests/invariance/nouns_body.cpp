@@ -106,7 +106,7 @@ constexpr double count_weight = quad_edge / 0.1;  // a tenth of the quads counts
 // Another order of the same numbers can give another mesh: it must be one of the same surface, to an edge.
 Measured measure_quads(const Setting& s) {
   hf_quads_desc d = HF_INIT(hf_quads_desc);
-  d.edge_length = static_cast<float>(s.size(quad_edge * s.body.diagonal));
+  d.edge_length = s.size(quad_edge * s.body.diagonal);
   Owned<hf_quads, hf_quads_destroy> quads;
   ok(hf_quads_create(s.surface(), &d, quads.out()));
   hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);

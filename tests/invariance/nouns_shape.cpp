@@ -101,12 +101,12 @@ Measured measure_layers(const Setting& s) {
 
 Measured measure_proposals(const Setting& s) {
   const Vec up = s.turn({0, 1, 0});
-  hf_propose_desc d = HF_INIT(hf_propose_desc);
+  hf_handle_proposals_desc d = HF_INIT(hf_handle_proposals_desc);
   std::copy(up.begin(), up.end(), d.up);
   std::uint32_t count = 0;
-  ok(hf_propose_handles(s.surface(), &d, 0, nullptr, &count));
+  ok(hf_surface_propose_handles(s.surface(), &d, 0, nullptr, &count));
   std::vector<hf_handle_proposal> found(count);
-  ok(hf_propose_handles(s.surface(), &d, count, found.data(), &count));
+  ok(hf_surface_propose_handles(s.surface(), &d, count, found.data(), &count));
   std::vector<double> members;
   for (const hf_handle_proposal& p : found) {
     const Vec at = (1 / s.body.diagonal) * s.back({p.position[0], p.position[1], p.position[2]});

@@ -38,12 +38,12 @@ std::vector<double> frame_of(const Setting& s) {
 }
 
 // Rows right, up, forward; a mirrored body has its right on the other side.
-void set_axes(const Setting& s, float* out) {
+void set_axes(const Setting& s, double* out) {
   const Vec up = s.turn({0, 1, 0}), forward = s.turn({0, 0, 1}), right = cross(up, forward);
   for (int k = 0; k < 3; ++k) {
-    out[k] = static_cast<float>(right[k]);
-    out[3 + k] = static_cast<float>(up[k]);
-    out[6 + k] = static_cast<float>(forward[k]);
+    out[k] = right[k];
+    out[3 + k] = up[k];
+    out[6 + k] = forward[k];
   }
 }
 

@@ -7,14 +7,14 @@
 namespace invariance {
 namespace {
 
-constexpr std::uint32_t bone_count = 5;
+constexpr std::uint32_t joint_count = 5;
 
 // A chain through the middle of the box along its longest side, and where its bones end.
 struct Chain {
   std::vector<double> heads, tails;
   std::vector<std::uint32_t> parents;
-  hf_bones_desc desc = HF_INIT(hf_bones_desc);
-  explicit Chain(const Setting& s, std::uint32_t count = bone_count) {
+  hf_joints_desc desc = HF_INIT(hf_joints_desc);
+  explicit Chain(const Setting& s, std::uint32_t count = joint_count) {
     const Vec size = s.body.high - s.body.low;
     const auto axis = static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
     const auto at = [&](double share) {
@@ -28,7 +28,7 @@ struct Chain {
       tails.insert(tails.end(), tail.begin(), tail.end());
       parents.push_back(b == 0 ? HF_NO_INDEX : b - 1);
     }
-    desc.bone_count = count;
+    desc.joint_count = count;
     desc.heads = heads.data();
     desc.tails = tails.data();
     desc.parents = parents.data();
@@ -48,10 +48,10 @@ struct Received {
 
 // Weights of every bone at every vertex of the body.
 std::vector<double> table(const Setting& s, const Received& received) {
-  std::vector<double> out(received.joints.size() / 4 * bone_count, 0);
+  std::vector<double> out(received.joints.size() / 4 * joint_count, 0);
   for (std::size_t i = 0; i < received.joints.size(); ++i)
-    out[i / 4 * bone_count + received.joints[i]] += static_cast<double>(received.weights[i]);
-  return s.gather(out, bone_count);
+    out[i / 4 * joint_count + received.joints[i]] += static_cast<double>(received.weights[i]);
+  return s.gather(out, joint_count);
 }
 
 void add_skeleton(Measured& out, const Setting& s, const std::string& name, std::uint32_t bones) {
@@ -70,9 +70,9 @@ struct Painted {
   Painted(const Body& body, const std::vector<std::uint32_t>& origin) {
     for (const std::uint32_t v : origin) {
       const Vec p = v == none ? body.low : body.points[v];
-      const double height = (bone_count - 1.001) * (p[1] - body.low[1]) / std::max(body.high[1] - body.low[1], 1e-9);
+      const double height = (joint_count - 1.001) * (p[1] - body.low[1]) / std::max(body.high[1] - body.low[1], 1e-9);
       const double x = (p[0] - body.low[0]) / body.diagonal;
-      const double place = std::clamp(height + 0.2 * std::sin(6 * x), 0.0, bone_count - 1.001);
+      const double place = std::clamp(height + 0.2 * std::sin(6 * x), 0.0, joint_count - 1.001);
       const auto bone = static_cast<std::uint32_t>(place);
       joints.insert(joints.end(), {bone, bone + 1});
       // a vertex that was added has no weights
@@ -97,13 +97,13 @@ Copy clothes(const Setting& s) {
 }
 
 std::vector<double> carried(const Setting& from, const Setting& to, const Painted& painted) {
-  hf_carry_desc d = HF_INIT(hf_carry_desc);
-  d.influence_count = 2;
+  hf_weights_transfer_desc d = HF_INIT(hf_weights_transfer_desc);
+  d.source_influence_count = 2;
   d.joints = painted.joints.data();
   d.weights = painted.weights.data();
   d.distance = from.size(0.05 * from.body.diagonal);
   Received received(to.copy.points.size());
-  ok(hf_weights_carry(from.surface(), to.surface(), &d, &received.desc, nullptr));
+  ok(hf_weights_transfer(from.surface(), to.surface(), &d, &received.desc, nullptr));
   return table(to, received);
 }
 
@@ -112,7 +112,7 @@ std::vector<double> carried(const Setting& from, const Setting& to, const Painte
 // Many bones and two: how many there are must not decide what a small piece is.
 Measured measure_weights(const Setting& s) {
   Measured out;
-  add_skeleton(out, s, "five bones", bone_count);
+  add_skeleton(out, s, "five bones", joint_count);
   add_skeleton(out, s, "two bones", 2);
   return out;
 }
@@ -138,11 +138,11 @@ Measured measure_mirror(const Setting& s) {
   const Painted painted(s.body, s.copy.origin);
   const Vec centre = s.place(0.5 * (s.body.low + s.body.high)), normal = s.turn({1, 0, 0});
   const double plane[] = {centre[0], centre[1], centre[2], normal[0], normal[1], normal[2]};
-  hf_mirror_desc d = HF_INIT(hf_mirror_desc);
-  d.bone_count = bone_count;
+  hf_weights_mirror_desc d = HF_INIT(hf_weights_mirror_desc);
+  d.joint_count = joint_count;
   d.heads = chain.heads.data();
   d.plane = plane;
-  d.influence_count = 2;
+  d.source_influence_count = 2;
   d.joints = painted.joints.data();
   d.weights = painted.weights.data();
   Received received(s.copy.points.size());

@@ -47,7 +47,7 @@ const std::vector<Noun>& nouns() {
        false},
       {"geodesic tips", "of mean distances", measure_geodesic_tips, 1e-6,
        "does not depend on the order of the vertices", false},
-      {"flow lines", "ends and lengths of lines through vertices", measure_flow, 1e-6, "rounding", false},
+      {"streamlines", "ends and lengths of lines through vertices", measure_flow, 1e-6, "rounding", false},
       {"pose", "three handles, smooth", measure_pose, 1e-6, "of the box", false},
       {"refined pose", "eight steps of lengths", measure_refined_pose, 1e-6, "of the box", false},
       {"paper's pose", "three handles", measure_paper_pose, 1e-6, "of the box", false},

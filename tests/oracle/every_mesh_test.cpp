@@ -166,7 +166,7 @@ TEST(EveryMesh, direction_fields_are_finite_and_their_singularities_sum_up) {
     for (const std::uint32_t v : vertices) {
       const double vector[3] = {1, 0.3, -0.2};
       const hf_result added = hf_direction_add_sites(direction, 1, &v, vector, nullptr);
-      EXPECT_TRUE(added == HF_OK || added == HF_ERROR_INVALID_ARGUMENT || added == HF_ERROR_DUPLICATE_SITE)
+      EXPECT_TRUE(added == HF_OK || added == HF_ERROR_INVALID_ARGUMENT || added == HF_ERROR_DUPLICATE)
           << hf_result_get_name(added);
     }
     std::vector<double> u(3 * g.mesh.positions.size());

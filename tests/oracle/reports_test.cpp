@@ -217,8 +217,8 @@ TEST(Reports, IndicesOfCrossesSumToTheEulerCharacteristic) {
 std::vector<double> weights_of(const Shape& shape, uint32_t bone, bool points = false) {
   const double heads[] = {0, 0.05, 0, 0, 0.7, 0, 0, 1.3, 0}, tails[] = {0, 0.7, 0, 0, 1.3, 0, 0, 1.95, 0};
   const double places[] = {0, 0.3, 0, 0, 1, 0, 0, 1.7, 0};
-  auto bones = hf::make<hf_bones_desc>();
-  bones.bone_count = 3;
+  auto bones = hf::make<hf_joints_desc>();
+  bones.joint_count = 3;
   bones.heads = points ? places : heads;
   bones.tails = points ? places : tails;
   const hf::Surface surface = shape.surface();
@@ -277,8 +277,8 @@ TEST(Reports, EachSockTakesTheWeightsOfItsLeg) {
   std::vector<uint32_t> joints(legs.count());
   std::fill(joints.begin() + leg, joints.end(), 1u);
   const std::vector<float> weights(legs.count(), 1.0f);
-  auto desc = hf::make<hf_carry_desc>();
-  desc.influence_count = 1;
+  auto desc = hf::make<hf_weights_transfer_desc>();
+  desc.source_influence_count = 1;
   desc.joints = joints.data();
   desc.weights = weights.data();
   std::vector<uint32_t> out_joints(4 * socks.count());
@@ -288,7 +288,7 @@ TEST(Reports, EachSockTakesTheWeightsOfItsLeg) {
   out.joints = out_joints.data();
   out.weights = out_weights.data();
   const hf::Surface from = legs.surface(), to = socks.surface();
-  hf::check(hf_weights_carry(from.get(), to.get(), &desc, &out, nullptr));
+  hf::check(hf_weights_transfer(from.get(), to.get(), &desc, &out, nullptr));
   for (uint32_t v = 0; v < socks.count(); ++v) {
     EXPECT_EQ(out_joints[4 * v], v < sock ? 0u : 1u) << v;
     EXPECT_NEAR(static_cast<double>(out_weights[4 * v]), 1, 1e-6) << v;

@@ -53,7 +53,7 @@ void run(void* user, std::uint32_t count, void (*job)(void*, std::uint32_t), voi
   if (host.runner == 4) throw Foreign();
   if (host.runner == 5 && host.solver) {  // a change from inside: refused
     ++host.reentered;
-    const hf_result result = hf_solver_record(host.solver);
+    const hf_result result = hf_solver_set_screening(host.solver, nullptr, nullptr);
     host.wrong += result != HF_ERROR_REENTRANT && result != HF_ERROR_BUSY;
   }
 }

@@ -50,19 +50,19 @@ Run watch(const Case& c, hf_progress progress) {
   Run run;
   std::atomic<bool> over{false};
   const auto read = [&] {
-    float fraction = 0;
+    double fraction = 0;
     must(hf_progress_get_fraction(progress, &fraction), "hf_progress_get_fraction");
     return fraction;
   };
   // An earlier call may have left this progress anywhere. The call itself begins at 0, which is no fall.
-  const float before = read();
-  float last = 0;
+  const double before = read();
+  double last = 0;
   Clock::time_point full;
   const Clock::time_point begin = Clock::now();
   std::thread watcher([&] {
     bool begun = before <= 0;
     while (!over) {
-      const float fraction = read();
+      const double fraction = read();
       begun = begun || fraction != before;
       if (begun) {
         if (fraction < last) run.fell = true;
@@ -172,7 +172,7 @@ void add_surface_cases(World& w, std::vector<Case>& cases) {
                    [&](hf_progress p) {
                      hf_surface_desc d = surface_desc(w.big);
                      d.weld = HF_WELD_TOLERANCE;
-                     d.weld_tolerance = 1e-4f;
+                     d.weld_tolerance = 1e-4;
                      return make_and_destroy(d, p);
                    },
                    {}});
@@ -324,10 +324,10 @@ void add_field_cases(World& w, std::vector<Case>& cases) {
   cases.push_back(making("quads_symmetric", w.surface, quads, hf_quads_create, hf_quads_destroy));
   cases.push_back({"propose_handles",
                    [&w](hf_progress p) {
-                     hf_propose_desc d = desc<hf_propose_desc>();
+                     hf_handle_proposals_desc d = desc<hf_handle_proposals_desc>();
                      d.progress = p;
                      std::uint32_t count = 0;
-                     return hf_propose_handles(w.surface, &d, 0, nullptr, &count);
+                     return hf_surface_propose_handles(w.surface, &d, 0, nullptr, &count);
                    },
                    [&] { return memory_of(w.surface); }});
   for (const std::int32_t kind : {HF_EXTREMITIES_POISSON, HF_EXTREMITIES_GEODESIC}) {

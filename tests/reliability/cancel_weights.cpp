@@ -10,13 +10,13 @@ namespace {
 // Bones across the mesh, and the weights they give. Every call works on one surface.
 struct Rig {
   Rig(hf_surface given, const Mesh& mesh) : surface(given), vertices(mesh.vertex_count()) {
-    for (std::uint32_t b = 0; b < bone_count; ++b) {
+    for (std::uint32_t b = 0; b < joint_count; ++b) {
       for (std::size_t k = 0; k < 3; ++k) {
-        heads.push_back(static_cast<double>(mesh.positions[3 * (vertices / bone_count * b) + k]));
+        heads.push_back(static_cast<double>(mesh.positions[3 * (vertices / joint_count * b) + k]));
         tails.push_back(0.9 * heads.back());
       }
     }
-    const hf_bones_desc d = bones(nullptr);
+    const hf_joints_desc d = bones(nullptr);
     must(hf_weights_create(surface, &d, 4, &weights), "hf_weights_create");
     hf_weights_out out = desc<hf_weights_out>();
     joints.resize(4 * std::size_t{vertices});
@@ -32,9 +32,9 @@ struct Rig {
   Rig(const Rig&) = delete;
   Rig& operator=(const Rig&) = delete;
 
-  hf_bones_desc bones(hf_progress progress) const {
-    hf_bones_desc d = desc<hf_bones_desc>();
-    d.bone_count = bone_count;
+  hf_joints_desc bones(hf_progress progress) const {
+    hf_joints_desc d = desc<hf_joints_desc>();
+    d.joint_count = joint_count;
     d.heads = heads.data();
     d.tails = tails.data();
     d.progress = progress;
@@ -43,14 +43,14 @@ struct Rig {
   template <class Desc>
   Desc given(hf_progress progress) const {
     Desc d = desc<Desc>();
-    d.influence_count = 4;
+    d.source_influence_count = 4;
     d.joints = joints.data();
     d.weights = shares.data();
     d.progress = progress;
     return d;
   }
 
-  static constexpr std::uint32_t bone_count = 40;
+  static constexpr std::uint32_t joint_count = 40;
   hf_surface surface;
   std::uint32_t vertices;
   std::vector<double> heads, tails;
@@ -60,7 +60,7 @@ struct Rig {
 };
 
 hf_result make(Rig& rig, hf_progress progress) {
-  const hf_bones_desc d = rig.bones(progress);
+  const hf_joints_desc d = rig.bones(progress);
   hf_weights made = nullptr;
   const hf_result result = hf_weights_create(rig.surface, &d, 4, &made);
   hf_weights_destroy(made);
@@ -69,8 +69,8 @@ hf_result make(Rig& rig, hf_progress progress) {
 
 hf_result move_bones(Rig& rig, hf_progress progress) {
   for (double& x : rig.tails) x *= 0.999;  // the same bones would cost nothing
-  const hf_bones_desc d = rig.bones(progress);
-  return hf_weights_set_bones(rig.weights, &d);
+  const hf_joints_desc d = rig.bones(progress);
+  return hf_weights_set_joints(rig.weights, &d);
 }
 
 hf_result pin(Rig& rig, hf_progress progress) {
@@ -80,7 +80,7 @@ hf_result pin(Rig& rig, hf_progress progress) {
   hf_pins_desc d = desc<hf_pins_desc>();
   must(hf_weights_set_pins(rig.weights, &d), "hf_weights_set_pins");  // the same pins would cost no path
   d.pin_count = 2;
-  d.joint_count = 1;
+  d.influence_count = 1;
   d.vertices = places;
   d.radii = radii;
   d.joints = joints;
@@ -90,20 +90,20 @@ hf_result pin(Rig& rig, hf_progress progress) {
 }
 
 hf_result carry(Rig& rig, hf_progress progress) {
-  const auto d = rig.given<hf_carry_desc>(progress);
+  const auto d = rig.given<hf_weights_transfer_desc>(progress);
   hf_weights_out out = desc<hf_weights_out>();
-  hf_carry_info info = desc<hf_carry_info>();
-  return hf_weights_carry(rig.surface, rig.surface, &d, &out, &info);
+  hf_weights_transfer_info info = desc<hf_weights_transfer_info>();
+  return hf_weights_transfer(rig.surface, rig.surface, &d, &out, &info);
 }
 
 hf_result mirror(Rig& rig, hf_progress progress) {
   const double plane[6] = {0, 0, 0, 1, 0, 0};
-  auto d = rig.given<hf_mirror_desc>(progress);
-  d.bone_count = Rig::bone_count;
+  auto d = rig.given<hf_weights_mirror_desc>(progress);
+  d.joint_count = Rig::joint_count;
   d.heads = rig.heads.data();
   d.plane = plane;
   hf_weights_out out = desc<hf_weights_out>();
-  hf_mirror_info info = desc<hf_mirror_info>();
+  hf_weights_mirror_info info = desc<hf_weights_mirror_info>();
   return hf_weights_mirror(rig.surface, &d, &out, nullptr, nullptr, &info);
 }
 

@@ -1,4 +1,4 @@
-// Gives degenerate but ordinary input to every function of hf/analysis.h and hf/direction.h, and to flow lines.
+// Gives degenerate but ordinary input to every function of hf/analysis.h and hf/direction.h, and to streamlines.
 //
 // Every call answers HF_OK or refuses with a sentence; no code is HF_ERROR_INTERNAL. What comes out is finite and holds
 // what the headers promise. The test reliability_degenerate_complete fails on a function that is not called here.
@@ -29,9 +29,8 @@ bool answered(hf_result result, const char* call) {
   hf_error_detail detail;
   hf_error_get_detail(&detail);
   const bool ordinary = result == HF_ERROR_INVALID_ARGUMENT || result == HF_ERROR_NON_FINITE ||
-                        result == HF_ERROR_EMPTY || result == HF_ERROR_NO_SITES || result == HF_ERROR_UNSUPPORTED ||
-                        result == HF_ERROR_DUPLICATE_SITE || result == HF_ERROR_NO_RECORD ||
-                        result == HF_ERROR_TOO_LARGE;
+                        result == HF_ERROR_EMPTY || result == HF_ERROR_EMPTY || result == HF_ERROR_UNSUPPORTED ||
+                        result == HF_ERROR_DUPLICATE || result == HF_ERROR_TOO_LARGE;
   if (!ordinary || !detail.message[0])
     check(false, (std::string(call) + ": " + hf_result_get_name(result) + ", " + detail.message).c_str());
   return false;
@@ -118,7 +117,7 @@ void play_field(const Scene& scene, const DegenerateField& given) {
     if (scene.usable[v]) seeds.push_back(v);
   }
   for (const bool seeded : {false, true}) {
-    hf_flow_lines lines = HF_INIT(hf_flow_lines);
+    hf_streamlines lines = HF_INIT(hf_streamlines);
     lines.wanted_count = 20;
     if (seeded) {
       lines.seed_count = static_cast<std::uint32_t>(seeds.size());
@@ -132,8 +131,8 @@ void play_field(const Scene& scene, const DegenerateField& given) {
     lines.positions = p.data();
     lines.values = u.data();
     lines.line_starts = starts.data();
-    check(ANSWERED(hf_flow_trace(flow, &field, &lines)), "flow lines twice");
-    check(all_finite(p.data(), 3 * lines.point_count), "flow lines are not finite");
+    check(ANSWERED(hf_flow_trace(flow, &field, &lines)), "streamlines twice");
+    check(all_finite(p.data(), 3 * lines.point_count), "streamlines are not finite");
     if (seeded) check(lines.line_count == seeds.size(), "a seed has no line");
     for (std::uint32_t l = 0; l < lines.line_count; ++l) {
       check(starts[l + 1] > starts[l], "a line without points");
@@ -297,7 +296,6 @@ void play_direction(const Scene& scene, std::uint32_t degree) {
   const double vectors[][3] = {{1, 0, 0}, {0, 0, 0}, {0, 1e-300, 0}, {1e300, 1e300, 0}, {0, 0, 1}};
   for (const auto& vector : vectors) {
     std::uint32_t number = 0;
-    ANSWERED(hf_direction_record(direction));
     const std::uint32_t v = all[numbers.size() * 5 % all.size()];
     if (!ANSWERED(hf_direction_add_sites(direction, 1, &v, vector, &number))) continue;
     numbers.push_back(number);
@@ -322,14 +320,10 @@ void play_direction(const Scene& scene, std::uint32_t degree) {
                                           given.data(), &now)),
           "the constraints");
     check(all_finite(given.data(), 3 * now), "a constraint is not finite");
-    ANSWERED(hf_direction_undo(copy));
-    ANSWERED(hf_direction_redo(copy));
     hf_direction_destroy(copy);
   }
   ANSWERED(hf_direction_add_sites(direction, 0, nullptr, nullptr, nullptr));
-  ANSWERED(hf_direction_undo(direction));
   play_solve(scene, direction);
-  ANSWERED(hf_direction_redo(direction));
   hf_direction_statistics statistics = HF_INIT(hf_direction_statistics);
   check(ANSWERED(hf_direction_get_statistics(direction, &statistics)), "the statistics");
   hf_direction_destroy(direction);

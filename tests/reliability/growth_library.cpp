@@ -159,17 +159,19 @@ std::function<void()> transfer_soup(std::size_t size) {
   };
 }
 
-// A site, an undo of it, a field: the life of an edit on a surface that is there.
+// A clone, sites that come and go, back to the clone: the life of an edit on a surface that is there.
 Run edits(MeshArrays (*make)(std::size_t)) {
   return [=](std::size_t size) {
     const auto scene = scene_of(make(size));
     return [=] {
       for (int round = 0; round < 4; ++round) {
-        check(hf_solver_record(scene->solver), "hf_solver_record");
+        hf_solver before = nullptr;
+        check(hf_solver_clone(scene->solver, &before), "hf_solver_clone");
         const std::uint32_t first = add_site(scene->solver, 0, 1);
         add_site(scene->solver, size / 2, 0);
         check(hf_remove_sites(scene->solver, 1, &first), "hf_remove_sites");
-        check(hf_solver_undo(scene->solver), "hf_solver_undo");
+        hf_solver_destroy(scene->solver);
+        scene->solver = before;
       }
     };
   };
@@ -217,19 +219,18 @@ std::function<void()> component_sites(std::size_t size) {
   };
 }
 
-// More records than the 256 that are kept.
-std::function<void()> records(std::size_t size) {
-  constexpr std::size_t kept = 256;
+// A clone is kept before every edit.
+std::function<void()> kept_clones(std::size_t size) {
   const auto scene = scene_of(sheet(400));
   scene->sites.push_back(add_site(scene->solver, 3, 0));
   return [=] {
+    std::vector<hf_solver> kept(size);
     for (std::size_t i = 0; i < size; ++i) {
       const double value = static_cast<double>(i);
-      check(hf_solver_record(scene->solver), "hf_solver_record");
+      check(hf_solver_clone(scene->solver, &kept[i]), "hf_solver_clone");
       check(hf_solver_set_values(scene->solver, 1, &scene->sites[0], &value), "hf_solver_set_values");
     }
-    for (std::size_t i = 0; i < kept; ++i) check(hf_solver_undo(scene->solver), "hf_solver_undo");
-    for (std::size_t i = 0; i < kept; ++i) check(hf_solver_redo(scene->solver), "hf_solver_redo");
+    for (const hf_solver clone : kept) hf_solver_destroy(clone);
   };
 }
 
@@ -255,7 +256,7 @@ std::function<void()> find_handles(std::size_t size) {
   const auto handles = std::make_shared<Handles>();
   handles->make(size);
   return [=] {
-    float fraction = 0;
+    double fraction = 0;
     // in the order of multiples of a prime, as a program's calls are not in the order of creation
     for (std::size_t i = 0; i < size; ++i)
       check(hf_progress_get_fraction(handles->live[i * 7919 % size], &fraction), "hf_progress_get_fraction");
@@ -295,7 +296,7 @@ std::vector<Structure> library_structures(bool full) {
       // every edit works on a copy of the lists of sites, so that a refused one changes nothing: 60 ns for each site
       {"component_sites", doubled(full ? 1000 : 500), 2, component_sites},
       {"transfer_soup", doubled(40000), 1.25, transfer_soup},
-      {"undo_records", doubled(5000 * large), 1.25, records},
+      {"kept_clones", doubled(5000 * large), 1.25, kept_clones},
       {"handle_create", many, 1.25, create_handles, most_microseconds},
       {"handle_find", many, 1.25, find_handles, most_microseconds},
       {"handle_replace", many, 1.25, replace_handles},

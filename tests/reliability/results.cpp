@@ -90,7 +90,6 @@ void states(const Scene& s) {
   provoke(add_one(solver, 3, 1), "the same again");
   provoke(add_one(solver, 3, 2), "another value there");
   provoke(hf_remove_sites(solver, 1, &none), "an absent site");
-  provoke(hf_solver_undo(solver), "nothing to undo");
   hf_certificate certificate = desc<hf_certificate>();
   add_one(solver, 200, 2);
   certificate.tolerance = 1e-300;
@@ -140,9 +139,12 @@ void* allocate(void* user, std::size_t size, std::size_t alignment) {
   Hooks& hooks = *static_cast<Hooks*>(user);
   const auto mode = hooks.mode;
   hooks.mode = Hooks::plain;
-  if (mode == Hooks::call_back) provoke(hooks.answer = hf_solver_record(hooks.solver), "a call from a callback");
+  if (mode == Hooks::call_back)
+    provoke(hooks.answer = hf_solver_set_screening(hooks.solver, nullptr, nullptr), "a call from a callback");
   if (mode == Hooks::hold)
-    std::thread([&] { provoke(hooks.answer = hf_solver_record(hooks.solver), "a call beside a change"); }).join();
+    std::thread([&] {
+      provoke(hooks.answer = hf_solver_set_screening(hooks.solver, nullptr, nullptr), "a call beside a change");
+    }).join();
   if (mode == Hooks::wreck) throw std::runtime_error("a fault of the host");
   const std::size_t step = alignment < 16 ? 16 : alignment;
   return aligned_alloc(step, (size + step - 1) / step * step);
@@ -198,7 +200,7 @@ int main() {
     ++missing;
     fprintf(stderr, "never returned: %s\n", hf_result_get_name(code));
   }
-  report_at_least("RESULT_CODES", named, 25);
+  report_at_least("RESULT_CODES", named, 21);
   report_at_most("RESULT_CODES_NEVER_RETURNED", missing, 0);
   report_at_most("RESULT_CODES_WITH_A_WRONG_DETAIL", wrong_details, 0);
   return report_status();

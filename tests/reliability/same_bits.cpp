@@ -191,7 +191,9 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
       unsigned bad = 0;
       for (const hf_solver solver : inherited) {
         bad += hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK || field != right;
-        bad += hf_solver_record(solver) != HF_OK;
+        hf_solver clone = nullptr;
+        bad += hf_solver_clone(solver, &clone) != HF_OK;
+        hf_solver_destroy(clone);
       }
       for (const std::uint32_t threads : {1u, 3u}) bad += run_whole_api(scene, with_threads(threads)).hash != expected;
       for (const hf_solver solver : inherited) hf_solver_destroy(solver);

@@ -74,39 +74,48 @@ void Player::edit_sites(const Edit& edit, unsigned how) {
   }
 }
 
-void Player::record() {
-  here().model.recorded_field = field_of(here());
-  expect(HF_OK, hf_solver_record(here().solver), "hf_solver_record");
-  here().model.record();
+std::unique_ptr<Branch> Player::clone_of(Branch& branch) {
+  auto made = std::make_unique<Branch>(setting_);
+  made->model = branch.model;
+  expect(HF_OK, hf_solver_clone(branch.solver, &made->solver), "hf_solver_clone");
+  return made;
 }
 
-void Player::step(bool back) {
-  Branch& b = here();
-  const bool possible = back ? b.model.undo() : b.model.redo();
-  expect(possible ? HF_OK : HF_ERROR_NO_RECORD, back ? hf_solver_undo(b.solver) : hf_solver_redo(b.solver),
-         back ? "hf_solver_undo" : "hf_solver_redo");
-  if (!possible || b.model.recorded_field.empty() || b.model.sites().empty()) return;
-  if (setting_.engine != HF_ENGINE_GREEN) return;  // other engines step by an edit, equal to rounding: see compare()
-  const std::vector<double> field = field_of(b);
-  hold(std::memcmp(field.data(), b.model.recorded_field.data(), sizeof(double) * field.size()) == 0,
-       "the field after going back has other bits than at the record");
+// Keeps a clone of this branch.
+void Player::keep() {
+  auto made = clone_of(here());
+  made->kept_field = field_of(here());
+  here().kept.push_back(std::move(made));
+}
+
+// The clone that was kept last becomes the solver: undo. The solver is destroyed, or becomes the kept clone: redo.
+void Player::go_back(bool forget) {
+  if (here().kept.empty()) return;
+  auto now = std::move(here().kept.back());
+  here().kept.pop_back();
+  compare_kept(*now);
+  now->surface = here().surface;
+  now->kept = std::move(here().kept);
+  std::swap(branches_[active_], now);
+  if (forget) return;
+  now->kept_field = field_of(*now);
+  now->surface.reset();
+  here().kept.push_back(std::move(now));
 }
 
 // Clones this branch, removes it, or switches to another.
 void Player::branch_off() {
   const unsigned b = bytes_.take();
   if (branches_.size() < 3 && b % 2 == 0) {
-    auto made = std::make_unique<Branch>(setting_);
-    made->model = here().model;
+    auto made = clone_of(here());
     made->surface = here().surface;
-    made->model.forget_records();
-    expect(HF_OK, hf_solver_clone(here().solver, &made->solver), "hf_solver_clone");
     branches_.push_back(std::move(made));
     active_ = branches_.size() - 1;
   } else if (branches_.size() > 1 && b % 8 == 1) {
     const hf_solver gone = here().solver;
     branches_.erase(branches_.begin() + static_cast<std::ptrdiff_t>(active_));
-    expect(HF_ERROR_INVALID_HANDLE, hf_solver_record(gone), "hf_solver_record on a destroyed handle");
+    hf_solver none = nullptr;
+    expect(HF_ERROR_INVALID_OBJECT, hf_solver_clone(gone, &none), "hf_solver_clone of a destroyed solver");
     active_ = 0;
   } else {
     active_ = b / 2 % branches_.size();
@@ -167,7 +176,7 @@ void Player::solve_some() {
   const hf_result got = hf_solver_solve_at(here().solver, count, vertices.data(), values.data());
   if (count > surface_->vertex_count()) return expect(HF_ERROR_TOO_LARGE, got, "hf_solver_solve_at");
   if (outside) return expect(HF_ERROR_OUT_OF_RANGE, got, "hf_solver_solve_at");
-  if (here().model.sites().empty()) return expect(HF_ERROR_NO_SITES, got, "hf_solver_solve_at");
+  if (here().model.sites().empty()) return expect(HF_ERROR_EMPTY, got, "hf_solver_solve_at");
   expect(HF_OK, got, "hf_solver_solve_at");
   const std::vector<double> field = field_of(here());
   for (unsigned i = 0; i < count; ++i) {
@@ -181,7 +190,7 @@ void Player::solve_single() {
   std::vector<float> values(n * width, -9.0f);
   const hf_result got =
       hf_solve(here().solver, values.data(), static_cast<std::uint32_t>(width * sizeof(float)), nullptr);
-  if (here().model.sites().empty()) return expect(HF_ERROR_NO_SITES, got, "hf_solve");
+  if (here().model.sites().empty()) return expect(HF_ERROR_EMPTY, got, "hf_solve");
   expect(HF_OK, got, "hf_solve");
   const std::vector<double> field = field_of(here());
   for (std::size_t v = 0; v < n; ++v) {
@@ -197,7 +206,7 @@ void Player::preview() {
   std::vector<double> field(std::size_t{surface_->vertex_count()} * setting_.channels, -3.0);
   hf_preview_info info = HF_INIT(hf_preview_info);
   const hf_result got = hf_solver_solve_preview_f64(here().solver, field.data(), 0, corrections, &info);
-  if (here().model.sites().empty()) return expect(HF_ERROR_NO_SITES, got, "hf_solver_solve_preview_f64");
+  if (here().model.sites().empty()) return expect(HF_ERROR_EMPTY, got, "hf_solver_solve_preview_f64");
   expect(HF_OK, got, "hf_solver_solve_preview_f64");
   if (info.exact) hold(info.correction_count == 0 && info.error_estimate == 0, "an exact preview says it is not");
   const double error = error_of(here(), field);
@@ -215,7 +224,7 @@ void Player::rebase() {
     hard = hard || (site.second.at_vertex >= 0 && site.second.stiffness == 0);
   const hf_result got = hf_solver_prepare_rebase(here().solver);
   if (setting_.engine != HF_ENGINE_GREEN) return expect(HF_ERROR_UNSUPPORTED, got, "hf_solver_prepare_rebase");
-  expect(hard ? HF_OK : HF_ERROR_NO_SITES, got, "hf_solver_prepare_rebase");
+  expect(hard ? HF_OK : HF_ERROR_EMPTY, got, "hf_solver_prepare_rebase");
 }
 
 }  // namespace sequences

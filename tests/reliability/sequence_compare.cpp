@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 #include "sequence_play.h"
 
@@ -12,7 +13,7 @@ std::vector<double> Player::field_of(Branch& branch) {
   hf_solve_info info = HF_INIT(hf_solve_info);
   const hf_result got = hf_solver_solve_f64(branch.solver, field.data(), 0, &info);
   if (branch.model.sites().empty()) {
-    expect(HF_ERROR_NO_SITES, got, "hf_solver_solve_f64");
+    expect(HF_ERROR_EMPTY, got, "hf_solver_solve_f64");
     hold(std::count(field.begin(), field.end(), -123.0) == static_cast<std::ptrdiff_t>(field.size()),
          "a refused solve wrote");
     return {};
@@ -112,6 +113,16 @@ void Player::compare(Branch& branch) {
   char text[64];
   std::snprintf(text, sizeof text, "the field is off by %.3g of its scale", error);
   hold(error <= most, text);
+}
+
+// A kept clone has the sites and the bits that its solver had when it was made.
+void Player::compare_kept(Branch& clone) {
+  compare_sites(clone);
+  const std::vector<double> field = field_of(clone);
+  const std::size_t bytes = sizeof(double) * field.size();
+  hold(field.size() == clone.kept_field.size() &&
+           (bytes == 0 || std::memcmp(field.data(), clone.kept_field.data(), bytes) == 0),
+       "a kept clone has other bits than its solver had");
 }
 
 }  // namespace sequences

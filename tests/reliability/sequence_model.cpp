@@ -51,7 +51,7 @@ hf_result Model::claim(const Sites& sites, const std::vector<Site>& more, const 
   const auto judge_other = [&](const Site& other) {
     if (other.at_vertex != site.at_vertex) return HF_OK;
     const bool same = other.stiffness == site.stiffness && other.values == site.values;
-    return same ? HF_ERROR_DUPLICATE_SITE : HF_ERROR_CONFLICT;
+    return same ? HF_ERROR_DUPLICATE : HF_ERROR_CONFLICT;
   };
   for (const auto& other : sites) {
     if (const hf_result code = judge_other(other.second)) return code;
@@ -87,17 +87,17 @@ bool Model::dependent(const Sites& sites, const std::vector<Site>& more) const {
 hf_result Model::judge(const Edit& edit) {
   next_ = sites_;
   added_.clear();
-  if (edit.remove.size() > sites_.size()) return HF_ERROR_NO_SUCH_SITE;
+  if (edit.remove.size() > sites_.size()) return HF_ERROR_NOT_FOUND;
   const std::size_t left = sites_.size() - edit.remove.size(), m = setting_.channels;
-  if (edit.move.size() > left || edit.set.size() > left) return HF_ERROR_NO_SUCH_SITE;
+  if (edit.move.size() > left || edit.set.size() > left) return HF_ERROR_NOT_FOUND;
   for (const std::uint32_t number : edit.remove) {
-    if (next_.erase(number) == 0) return HF_ERROR_NO_SUCH_SITE;
+    if (next_.erase(number) == 0) return HF_ERROR_NOT_FOUND;
   }
   std::vector<Site> moving;
   std::vector<std::uint32_t> numbers;
   for (const std::uint32_t number : edit.move) {  // all leave before any arrives
     const auto found = next_.find(number);
-    if (found == next_.end()) return HF_ERROR_NO_SUCH_SITE;
+    if (found == next_.end()) return HF_ERROR_NOT_FOUND;
     moving.push_back(found->second);
     numbers.push_back(number);
     next_.erase(found);
@@ -109,7 +109,7 @@ hf_result Model::judge(const Edit& edit) {
   }
   for (std::size_t i = 0; i < edit.set.size(); ++i) {
     const auto found = next_.find(edit.set[i]);
-    if (found == next_.end()) return HF_ERROR_NO_SUCH_SITE;
+    if (found == next_.end()) return HF_ERROR_NOT_FOUND;
     if (!all_finite(edit.set_values.data() + i * m, m)) return HF_ERROR_NON_FINITE;
     found->second.values.assign(edit.set_values.begin() + static_cast<std::ptrdiff_t>(i * m),
                                 edit.set_values.begin() + static_cast<std::ptrdiff_t>((i + 1) * m));
@@ -138,22 +138,6 @@ bool Model::accept(const std::vector<std::uint32_t>& added) {
     if (!next_.emplace(added[i], added_[i]).second) return false;
   }
   sites_ = std::move(next_);
-  redo_.clear();
-  known_ = false;
-  return true;
-}
-
-void Model::record() {
-  undo_.push_back({sites_, recorded_field});
-  redo_.clear();
-}
-
-bool Model::step(std::vector<State>& from, std::vector<State>& to) {
-  if (from.empty()) return false;
-  to.push_back({sites_, {}});
-  sites_ = std::move(from.back().sites);
-  recorded_field = std::move(from.back().field);
-  from.pop_back();
   known_ = false;
   return true;
 }

@@ -1,5 +1,5 @@
-// The model of a solver, made from the headers alone. It holds the sites and the undo stack, and knows the code of
-// every edit. The field is a dense solve of the saddle-point system
+// The model of a solver, made from the headers alone. It holds the sites, and knows the code of every edit. The field
+// is a dense solve of the saddle-point system
 //     [ K  -W ] [   u    ]   [ 0 ]      W the places of the sites, D = 1 / (stiffness mean diagonal), 0 for hard ones
 //     [ W'  D ] [ lambda ] = [ s ]
 // The solve pivots and takes one step of refinement. Values are centred first, because K maps constants to 0.
@@ -54,14 +54,6 @@ class Model {
   // Takes the judged edit over. False: a number of `added` is in use or comes twice.
   bool accept(const std::vector<std::uint32_t>& added);
 
-  void record();
-  bool undo() { return step(undo_, redo_); }
-  bool redo() { return step(redo_, undo_); }
-  void forget_records() {
-    undo_.clear();
-    redo_.clear();
-  }
-
   // u has a row per inner vertex, scale one per component, lambda one per site by ascending number; columns are
   // channels. The scale is the range of the values, or of a field that overshoots it. For equal values it is 1e-5 of
   // their size.
@@ -70,24 +62,16 @@ class Model {
     std::vector<int> sites_of_component;
   };
   const Answer& answer();
-  // Bits of the field at the record that undo or redo went back to, by vertex as given; empty when unknown.
-  std::vector<double> recorded_field;
 
  private:
-  struct State {
-    Sites sites;
-    std::vector<double> field;
-  };
   hf_result locate(const Place& place, Site& site) const;
   hf_result claim(const Sites& sites, const std::vector<Site>& more, const Site& site) const;
   bool dependent(const Sites& sites, const std::vector<Site>& more) const;
-  bool step(std::vector<State>& from, std::vector<State>& to);
   void solve_component(int component);
 
   Setting setting_;
   Sites sites_, next_;
   std::vector<Site> added_;
-  std::vector<State> undo_, redo_;
   Answer answer_;
   bool known_ = false;
 };

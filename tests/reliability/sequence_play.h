@@ -25,10 +25,13 @@ struct Owned {
 };
 
 // A solver, its surface and the model of both. Branches share surfaces; a surface may be destroyed before its solvers.
+// Clones are kept to go back to: no call edits them, whatever becomes of their solver.
 struct Branch {
   std::shared_ptr<Owned> surface;  // empty: destroyed already
   hf_solver solver = nullptr;
   Model model;
+  std::vector<std::unique_ptr<Branch>> kept;
+  std::vector<double> kept_field;  // of a kept clone: the field of its solver when it was made
   explicit Branch(const Setting& setting) : model(setting) {}
   Branch(const Branch&) = delete;
   Branch& operator=(const Branch&) = delete;
@@ -56,8 +59,9 @@ class Player {
   // calls
   void call(unsigned kind);
   void edit_sites(const Edit& edit, unsigned how);
-  void record();
-  void step(bool back);
+  std::unique_ptr<Branch> clone_of(Branch& branch);
+  void keep();
+  void go_back(bool forget);
   void branch_off();
   void reload();
   void solve_some();
@@ -70,6 +74,7 @@ class Player {
   void pose();
   // comparisons
   void compare(Branch& branch);
+  void compare_kept(Branch& clone);
   void compare_sites(Branch& branch);
   std::vector<double> field_of(Branch& branch);
   double error_of(Branch& branch, const std::vector<double>& field);

@@ -187,11 +187,11 @@ void Player::call(unsigned kind) {
       return edit_sites(edit, 0);
     }
     case 10:
-      return record();
+      return keep();
     case 11:
-      return step(true);
+      return go_back(true);
     case 12:
-      return step(false);
+      return go_back(false);
     case 13:
       return branch_off();
     case 14:
@@ -222,7 +222,10 @@ void Player::run() {
     call(kind_of(bytes_.take()));
     compare(here());
   }
-  for (const auto& branch : branches_) compare(*branch);  // calls on one branch leave the others alone
+  for (const auto& branch : branches_) {  // calls on one branch leave the others and the kept clones alone
+    compare(*branch);
+    for (const auto& clone : branch->kept) compare_kept(*clone);
+  }
 }
 
 Outcome play(const std::uint8_t* bytes, std::size_t size) {

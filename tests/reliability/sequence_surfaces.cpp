@@ -27,7 +27,7 @@ void Player::drop_surface() {
   }
   here().surface.reset();
   hf_solver none = nullptr;
-  expect(HF_ERROR_INVALID_HANDLE, hf_create(gone, nullptr, &none), "hf_create on a destroyed surface");
+  expect(HF_ERROR_INVALID_OBJECT, hf_create(gone, nullptr, &none), "hf_create on a destroyed surface");
   hold(none == nullptr, "a refused hf_create gave a handle");
 }
 

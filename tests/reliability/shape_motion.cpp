@@ -51,7 +51,7 @@ bool Player::transfer() {
   added.source_vertices = vertices[0].data();
   added.target_counts = counts[1].data();
   added.target_vertices = vertices[1].data();
-  if (!done("hf_transfer_add_pairs", hf_transfer_add_pairs(transfer.handle, &added, nullptr), HF_ERROR_OVERLAP,
+  if (!done("hf_transfer_add_pairs", hf_transfer_add_pairs(transfer.handle, &added, nullptr), HF_ERROR_CONFLICT,
             HF_ERROR_INVALID_ARGUMENT))
     return false;
 
@@ -85,11 +85,11 @@ bool Player::transfer() {
        "a source at rest gives a target that is off by " + std::to_string(off / size));
   hold(frame(posed()) == moved, "hf_transfer_apply: other bits of the same frame");
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
-  dials.stride = 0.5f;
-  dials.hip_height = how & 64 ? 0.2f : -0.2f;
+  dials.stride = 0.5;
+  dials.hip_height_share = how & 64 ? 0.2 : -0.2;
   dials.tail_follow = 1;
-  dials.arm_space = 0.5f;
-  dials.long_follow = 0.5f;
+  dials.arm_space = 0.5;
+  dials.long_follow = 0.5;
   expect(HF_OK, hf_transfer_set_dials(transfer.handle, &dials), "hf_transfer_set_dials");
   frame(posed());
   expect(HF_OK, hf_transfer_set_dials(transfer.handle, nullptr), "hf_transfer_set_dials");
@@ -101,8 +101,8 @@ bool Player::transfer() {
 void Player::check_weights(const char* call, const hf_weights_out& out) const {
   for (std::size_t v = 0; v < mesh_.vertex_count(); ++v) {
     float sum = 0;
-    const float* w = out.weights + v * out.weight_count;
-    for (std::size_t k = 0; k < out.weight_count; ++k) {
+    const float* w = out.weights + v * out.influence_count;
+    for (std::size_t k = 0; k < out.influence_count; ++k) {
       hold(w[k] >= 0 && (k == 0 || w[k] <= w[k - 1]), std::string(call) + ": weights are not descending");
       sum += w[k];
     }
@@ -123,8 +123,8 @@ bool Player::weights() {
     }
     parents.push_back(i == 0 ? HF_NO_INDEX : bytes_.take() % i);
   }
-  hf_bones_desc bones = HF_INIT(hf_bones_desc);
-  bones.bone_count = count;
+  hf_joints_desc bones = HF_INIT(hf_joints_desc);
+  bones.joint_count = count;
   bones.heads = heads.data();
   bones.tails = how & 1 ? nullptr : tails.data();
   bones.parents = parents.data();
@@ -150,11 +150,11 @@ bool Player::weights() {
     hf_pins_desc pins = HF_INIT(hf_pins_desc);
     pins.pin_count = static_cast<std::uint32_t>(pinned.size());
     pins.vertices = pinned.data();
-    pins.joint_count = 1;
+    pins.influence_count = 1;
     pins.joints = to.data();
     pins.weights = whole.data();
     std::vector<float> before(weights);
-    const bool held = done("hf_weights_set_pins", hf_weights_set_pins(made.handle, &pins), HF_ERROR_DUPLICATE_SITE,
+    const bool held = done("hf_weights_set_pins", hf_weights_set_pins(made.handle, &pins), HF_ERROR_DUPLICATE,
                            HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE);
     expect(HF_OK, hf_weights_get(made.handle, &out), "hf_weights_get");
     check_weights("hf_weights_set_pins", out);
@@ -165,21 +165,21 @@ bool Player::weights() {
   const std::vector<std::uint32_t> from_joints(joints.begin(), joints.begin() + each * mesh_.vertex_count());
   const std::vector<float> from_weights(weights.begin(), weights.begin() + each * mesh_.vertex_count());
   if (how & 8) {
-    hf_carry_desc carry = HF_INIT(hf_carry_desc);
-    carry.influence_count = each;
+    hf_weights_transfer_desc carry = HF_INIT(hf_weights_transfer_desc);
+    carry.source_influence_count = each;
     carry.joints = from_joints.data();
     carry.weights = from_weights.data();
     hf_weights_out to = fresh_out();
-    expect(HF_OK, hf_weights_carry(surface_, surface_, &carry, &to, nullptr), "hf_weights_carry");
-    check_weights("hf_weights_carry", to);
+    expect(HF_OK, hf_weights_transfer(surface_, surface_, &carry, &to, nullptr), "hf_weights_transfer");
+    check_weights("hf_weights_transfer", to);
   }
   if (how & 16) {
-    hf_mirror_desc mirror = HF_INIT(hf_mirror_desc);
+    hf_weights_mirror_desc mirror = HF_INIT(hf_weights_mirror_desc);
     const double plane[6] = {0, 0, 0, how & 32 ? 1.0 : 0.0, how & 32 ? 0.0 : 1.0, 0.5};
-    mirror.bone_count = count;
+    mirror.joint_count = count;
     mirror.heads = heads.data();
     mirror.plane = how & 64 ? plane : nullptr;
-    mirror.influence_count = each;
+    mirror.source_influence_count = each;
     mirror.joints = from_joints.data();
     mirror.weights = from_weights.data();
     mirror.to = static_cast<int>(bytes_.take() % 3);
@@ -209,7 +209,7 @@ bool Player::links() {
     desc.weights = weights.data();
   }
   if (how & 2) desc.tags = tags.data();
-  if (how & 4) desc.distance = static_cast<float>(diagonal_) * (how & 8 ? 0.5f : 0.001f);
+  if (how & 4) desc.distance = diagonal_ * (how & 8 ? 0.5 : 0.001);
   if (how & 32) light = take_vertices(2);
   desc.light_count = static_cast<std::uint32_t>(light.size());
   desc.light_vertices = light.empty() ? nullptr : light.data();

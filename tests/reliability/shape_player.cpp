@@ -85,11 +85,11 @@ std::vector<double> positions_of(hf_quads quads) {
 // Quads, and quads made again with other guides and creases: those of a first call with the same options, bit for bit.
 bool Player::quads() {
   const std::uint32_t wanted[] = {0, 30, 200, 1000, 1100, 60, 0, 400};
-  const float lengths[] = {0.05f, 0.1f, 0.3f, 0.03f};
+  const double lengths[] = {0.05, 0.1, 0.3, 0.03};
   const unsigned size = bytes_.take(), parts = bytes_.take();
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
   desc.face_count = wanted[size % 8];
-  if (desc.face_count == 0) desc.edge_length = static_cast<float>(diagonal_) * lengths[size / 8 % 4];
+  if (desc.face_count == 0) desc.edge_length = diagonal_ * lengths[size / 8 % 4];
   desc.relax_count = parts & 1 ? 3 : HF_NO_INDEX;
   if (parts & 2) desc.symmetry_plane[size / 32 % 3] = 1;
   std::vector<std::uint32_t> guided, meeting, creases;
@@ -100,7 +100,7 @@ bool Player::quads() {
     meeting.clear();
     vectors.clear();
     places.clear();
-    desc.crease_angle = parts & 4 ? 30.0f : 0.0f;
+    desc.crease_angle = parts & 4 ? 0.5 : 0.0;
     if (parts & 8) guided = take_vertices(4);
     if (parts & 16) {
       const std::size_t i = bytes_.take() % (mesh_.triangles.size() / 3);
@@ -120,17 +120,17 @@ bool Player::quads() {
     desc.guide_vectors = vectors.data();
     desc.crease_count = static_cast<std::uint32_t>(creases.size() / 2);
     desc.crease_edges = creases.data();
-    desc.pole_count = static_cast<std::uint32_t>(meeting.size());
-    desc.pole_quads = meeting.data();
-    desc.pole_points = places.data();
+    desc.irregular_count = static_cast<std::uint32_t>(meeting.size());
+    desc.irregular_valences = meeting.data();
+    desc.irregular_points = places.data();
     if (guided.empty()) {
       desc.guide_vertices = nullptr;
       desc.guide_vectors = nullptr;
     }
     if (creases.empty()) desc.crease_edges = nullptr;
     if (meeting.empty()) {
-      desc.pole_quads = nullptr;
-      desc.pole_points = nullptr;
+      desc.irregular_valences = nullptr;
+      desc.irregular_points = nullptr;
     }
   };
   using Quads = Owned<hf_quads, hf_quads_destroy>;
@@ -151,7 +151,7 @@ bool Player::quads() {
   return true;
 }
 
-// A curve makes the region, rings change it; then its base, its undo, and its detail carried to itself.
+// A curve makes the region, rings change it, a clone goes back; then its base, and its detail carried to itself.
 bool Player::region() {
   const unsigned how = bytes_.take();
   hf_region_desc options = HF_INIT(hf_region_desc);
@@ -224,14 +224,16 @@ bool Player::region() {
     }
   }
   if (how & 32) {
-    expect(HF_OK, hf_region_record(region.handle), "hf_region_record");
+    hf_region before = nullptr;
+    expect(HF_OK, hf_region_clone(region.handle, &before), "hf_region_clone");
     hf_region_edit_desc rings = HF_INIT(hf_region_edit_desc);
     rings.ring_count = static_cast<int>(bytes_.take() % 5) - 2;
     const hf_result got = hf_region_edit(region.handle, &rings);
     if (!done("hf_region_edit", got, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY))
       hold(inside(HF_REGION_INSIDE) == first && morphed(1) == base, "a refused edit changed a region");
-    expect(HF_OK, hf_region_undo(region.handle), "hf_region_undo");
-    hold(inside(HF_REGION_INSIDE) == first && morphed(1) == base, "hf_region_undo: another region");
+    hf_region_destroy(region.handle);
+    region.handle = before;
+    hold(inside(HF_REGION_INSIDE) == first && morphed(1) == base, "hf_region_clone: another region");
   }
   if (how & 64) {
     Owned<hf_detail, hf_detail_destroy> detail;

@@ -54,16 +54,16 @@ hf_solver made(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) 
   return solver;
 }
 
-// Edits of every kind, undo, redo and a clone.
+// Edits of every kind, a clone from before them and one from after.
 void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
   const hf_solver solver = made(s, on, desc);
-  hf_solver copy = nullptr;
+  hf_solver before = nullptr, copy = nullptr;
   if (!solver) return;
   const std::uint32_t places[4] = {0, 30, 51, 79}, others[3] = {5, 44, 62};
   std::uint32_t numbers[4] = {0, 0, 0, 0};
   const hf_sites_desc first = sites_at(4, places, values), second = sites_at(3, others, values + 4);
   s.call("hf_add_sites", [&] { return hf_add_sites(solver, &first, numbers); });
-  s.call("hf_solver_record", [&] { return hf_solver_record(solver); });
+  s.make("hf_solver_clone", before, [&] { return hf_solver_clone(solver, &before); });
   const std::uint32_t to = 20;
   const hf_sites_desc there = sites_at(1, &to, nullptr);
   s.call("hf_solver_move_sites", [&] { return hf_solver_move_sites(solver, 1, &numbers[1], &there); });
@@ -76,12 +76,7 @@ void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
   s.call("hf_solver_edit_sites", [&] { return hf_solver_edit_sites(solver, &edit, nullptr); });
   s.make("hf_solver_clone", copy, [&] { return hf_solver_clone(solver, &copy); });
   take_field(s, solver);
-  // after a refused undo there is nothing to redo
-  s.call(
-      "hf_solver_undo", [&] { return hf_solver_undo(solver); },
-      [&] { return hf_solver_redo(solver) == HF_ERROR_NO_RECORD; });
-  take_field(s, solver);
-  s.call("hf_solver_redo", [&] { return hf_solver_redo(solver); });
+  take_field(s, before);
   if (desc.engine == HF_ENGINE_GREEN && desc.field_kind == HF_FIELD_HARMONIC) {
     const std::vector<double> screening(Tube::vertices, 0.5), targets(Tube::vertices, 2.0);
     s.call("hf_solver_set_screening",
@@ -102,9 +97,9 @@ void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
   s.take(flux, hf_solver_get_site_count(solver));
   hf_certificate certificate = HF_INIT(hf_certificate);
   s.call("hf_solver_certify", [&] { return hf_solver_certify(solver, &certificate); });
-  s.call("hf_solver_undo", [&] { return hf_solver_undo(solver); });
-  s.refused("hf_solver_undo", HF_ERROR_NO_RECORD, [&] { return hf_solver_undo(solver); });
   hf_solver_destroy(solver);
+  take_field(s, before);
+  hf_solver_destroy(before);
   hf_solver_destroy(copy);
 }
 
@@ -232,7 +227,7 @@ void shared(Story& s, const Tube& tube, Allocator& memory) {
   s.make_factor("hf_create", second, [&] { return hf_create(surface, nullptr, &second); });
   s.make_factor("hf_pose_create", pose, [&] { return hf_pose_create(surface, nullptr, &pose); });
   hf_surface_destroy(surface);
-  s.refused("hf_surface_get_components", HF_ERROR_INVALID_HANDLE,
+  s.refused("hf_surface_get_components", HF_ERROR_INVALID_OBJECT,
             [&] { return hf_surface_get_components(surface, 0, nullptr, nullptr); });
   for (const hf_solver solver : {first, second}) {
     const double value = solver == first ? 1 : -1;

@@ -59,7 +59,7 @@ void distances(Story& s, const Tube& tube, Allocator& memory) {
 
 void directions(Story& s, const Tube& tube, Allocator& memory) {
   const hf_surface surface = made(s, tube, memory);
-  hf_direction direction = nullptr, copy = nullptr;
+  hf_direction direction = nullptr, before = nullptr, copy = nullptr;
   hf_direction_desc desc = HF_INIT(hf_direction_desc);
   desc.degree = 2;
   s.make("hf_direction_create", direction, [&] { return hf_direction_create(surface, &desc, &direction); });
@@ -68,17 +68,14 @@ void directions(Story& s, const Tube& tube, Allocator& memory) {
   const double vectors[9] = {0, 1, 0, 0, -1, 0.5, 0.3, 2, 0}, angle = 1;
   std::uint32_t numbers[3] = {0, 0, 0};
   s.call("hf_direction_add_sites", [&] { return hf_direction_add_sites(direction, 3, places, vectors, numbers); });
-  s.call("hf_direction_record", [&] { return hf_direction_record(direction); });
+  s.make("hf_direction_clone", before, [&] { return hf_direction_clone(direction, &before); });
   s.call("hf_direction_move_sites", [&] { return hf_direction_move_sites(direction, 1, numbers, &to); });
   s.call("hf_direction_set_vectors", [&] { return hf_direction_set_vectors(direction, 1, numbers + 1, vectors); });
   s.call("hf_direction_rotate_sites", [&] { return hf_direction_rotate_sites(direction, 1, numbers + 2, &angle); });
   s.make("hf_direction_clone", copy, [&] { return hf_direction_clone(direction, &copy); });
   s.call("hf_direction_remove_sites", [&] { return hf_direction_remove_sites(copy, 1, numbers); });
-  s.call(
-      "hf_direction_undo", [&] { return hf_direction_undo(direction); },
-      [&] { return hf_direction_redo(direction) == HF_ERROR_NO_RECORD; });
   std::vector<double> field(3 * Tube::vertices);
-  for (const hf_direction d : {direction, copy}) {
+  for (const hf_direction d : {direction, before, copy}) {
     s.call("hf_direction_solve_f64", [&] { return hf_direction_solve_f64(d, field.data(), 0, nullptr); });
     s.take(field.data(), field.size());
   }
@@ -87,6 +84,7 @@ void directions(Story& s, const Tube& tube, Allocator& memory) {
          [&] { return hf_direction_get_singularities(direction, 0, nullptr, &count); });
   s.take(count);
   hf_direction_destroy(direction);
+  hf_direction_destroy(before);
   hf_direction_destroy(copy);
 }
 
@@ -163,8 +161,8 @@ void transfer(Story& s, const Tube& tube, Allocator& memory) {
   s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
   s.take(out.data(), out.size());
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
-  dials.stride = 1.2f;
-  dials.hip_height = 0.1f;
+  dials.stride = 1.2;
+  dials.hip_height_share = 0.1;
   s.call("hf_transfer_set_dials", [&] { return hf_transfer_set_dials(motion, &dials); });
   s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
   s.take(out.data(), out.size());
@@ -233,7 +231,7 @@ void flow(Story& s, const Tube& tube, Allocator& memory) {
   hf_scalars field = HF_INIT(hf_scalars);
   field.values_f64 = tube.height.data();
   std::vector<double> positions(3 * 2000);
-  hf_flow_lines lines = HF_INIT(hf_flow_lines);
+  hf_streamlines lines = HF_INIT(hf_streamlines);
   lines.wanted_count = 6;
   lines.point_capacity = 2000;
   lines.line_capacity = 100;
@@ -255,7 +253,6 @@ void regions(Story& s, const Tube& tube, Allocator& memory) {
   edit.add_vertices = inside;
   grow.ring_count = 1;
   s.call("hf_region_edit", [&] { return hf_region_edit(region, &edit); });
-  s.call("hf_region_record", [&] { return hf_region_record(region); });
   s.make("hf_region_clone", copy, [&] { return hf_region_clone(region, &copy); });
   s.call("hf_region_edit", [&] { return hf_region_edit(region, &grow); });
   std::vector<double> out(3 * Tube::vertices);
@@ -264,9 +261,6 @@ void regions(Story& s, const Tube& tube, Allocator& memory) {
   morph.positions_f64 = out.data();
   s.call("hf_region_morph", [&] { return hf_region_morph(region, &morph); });
   s.take(out.data(), out.size());
-  s.call(
-      "hf_region_undo", [&] { return hf_region_undo(region); },
-      [&] { return hf_region_redo(region) == HF_ERROR_NO_RECORD; });
   hf_detail detail = nullptr;
   s.make("hf_detail_create", detail, [&] { return hf_detail_create(region, copy, nullptr, &detail); });
   s.call("hf_detail_morph", [&] { return hf_detail_morph(detail, &morph); });
@@ -311,14 +305,14 @@ void skin_weights(Story& s, const Tube& tube, Allocator& memory) {
   s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&bent, &surface); });
   double heads[9] = {0, 0.5, 0, 0, 3, 0, 0, 6, 0}, tails[9] = {0, 3, 0, 0, 6, 0, 0, 8, 0};
   const std::uint32_t parents[3] = {HF_NO_INDEX, 0, 1}, sources[3] = {1, 0, 2};
-  hf_bones_desc bones = HF_INIT(hf_bones_desc);
-  bones.bone_count = 3;
+  hf_joints_desc bones = HF_INIT(hf_joints_desc);
+  bones.joint_count = 3;
   bones.heads = heads;
   bones.tails = tails;
   bones.parents = parents;
-  hf_weights weights = nullptr, copy = nullptr;
+  hf_weights weights = nullptr, before = nullptr, copy = nullptr;
   s.make("hf_weights_create", weights, [&] { return hf_weights_create(surface, &bones, 4, &weights); });
-  s.call("hf_weights_record", [&] { return hf_weights_record(weights); });
+  s.make("hf_weights_clone", before, [&] { return hf_weights_clone(weights, &before); });
   const std::uint32_t places[3] = {9, 44, 70}, joints[6] = {0, 1, 1, 2, 2, 0}, locks[2] = {1, 2};
   const float shares[6] = {0.25f, 0.75f, 1, 0, 0.5f, 0.5f};
   const double radii[3] = {0, 0.9, 0};
@@ -326,7 +320,7 @@ void skin_weights(Story& s, const Tube& tube, Allocator& memory) {
   pins.pin_count = 3;
   pins.vertices = places;
   pins.radii = radii;
-  pins.joint_count = 2;
+  pins.influence_count = 2;
   pins.joints = joints;
   pins.weights = shares;
   const auto read = [&](hf_weights handle) {
@@ -342,37 +336,34 @@ void skin_weights(Story& s, const Tube& tube, Allocator& memory) {
   s.call("hf_weights_set_locks", [&] { return hf_weights_set_locks(copy, 2, locks, nullptr); });
   heads[7] = 5;
   bones.sources = sources;
-  s.call("hf_weights_set_bones", [&] { return hf_weights_set_bones(copy, &bones); });
+  s.call("hf_weights_set_joints", [&] { return hf_weights_set_joints(copy, &bones); });
   const WeightsRead given = read(copy);
-  s.call(
-      "hf_weights_undo", [&] { return hf_weights_undo(weights); },
-      [&] { return hf_weights_redo(weights) == HF_ERROR_NO_RECORD; });
-  read(weights);
-  s.call("hf_weights_redo", [&] { return hf_weights_redo(weights); });
+  read(before);
   std::uint32_t flags[3] = {77, 77, 77};
   s.call(
       "hf_weights_get_helpers",
       [&] { return hf_weights_get_helpers(weights, "root\narm.L\narm.R\n", 3, flags, nullptr); },
       [&] { return flags[0] == 77; });
-  s.call("hf_weights_get_bones", [&] { return hf_weights_get_bones(weights, 3, flags, nullptr, nullptr); });
+  s.call("hf_weights_get_joints", [&] { return hf_weights_get_joints(weights, 3, flags, nullptr, nullptr); });
   hf_weights_destroy(weights);
+  hf_weights_destroy(before);
   hf_weights_destroy(copy);
 
   WeightsRead carried, mirrored;
   hf_weights_out out = carried.desc(), turned = mirrored.desc();
-  hf_carry_desc carry = HF_INIT(hf_carry_desc);
-  carry.influence_count = 4;
+  hf_weights_transfer_desc carry = HF_INIT(hf_weights_transfer_desc);
+  carry.source_influence_count = 4;
   carry.joints = given.joints.data();
   carry.weights = given.weights.data();
   s.call(
-      "hf_weights_carry", [&] { return hf_weights_carry(surface, surface, &carry, &out, nullptr); },
+      "hf_weights_transfer", [&] { return hf_weights_transfer(surface, surface, &carry, &out, nullptr); },
       [&] { return carried.untouched(); });
   carried.take(s);
-  hf_mirror_desc mirror = HF_INIT(hf_mirror_desc);
-  mirror.bone_count = 3;
+  hf_weights_mirror_desc mirror = HF_INIT(hf_weights_mirror_desc);
+  mirror.joint_count = 3;
   mirror.heads = heads;
   mirror.names = "spine\narm.L\narm.R\n";
-  mirror.influence_count = 4;
+  mirror.source_influence_count = 4;
   mirror.joints = given.joints.data();
   mirror.weights = given.weights.data();
   mirror.distance = 0.05;

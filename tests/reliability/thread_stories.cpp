@@ -109,7 +109,7 @@ Objects make_objects(const Scene& s) {
   must(hf_geodesics_create(o.surface, nullptr, &o.geodesics), "hf_geodesics_create");
   must(hf_flow_create(o.surface, &o.flow), "hf_flow_create");
   hf_quads_desc quads = desc<hf_quads_desc>();
-  quads.edge_length = 0.5f;
+  quads.edge_length = 0.5;
   must(hf_quads_create(o.surface, &quads, &o.quads), "hf_quads_create");
   must(hf_direction_create(o.surface, nullptr, &o.direction), "hf_direction_create");
   must(hf_direction_add_sites(o.direction, 4, vertices.data(), s.vectors.data(), nullptr), "hf_direction_add_sites");
@@ -268,7 +268,7 @@ void read_analysis(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   seen.call(hf_surface_find_extremities(o.surface, &wanted, 0, nullptr, &count));
   seen.take(distance);
   seen.take(&count, 1);
-  hf_flow_lines flow = desc<hf_flow_lines>();
+  hf_streamlines flow = desc<hf_streamlines>();
   flow.wanted_count = 12;
   seen.call(hf_flow_trace(o.flow, &field, &flow));
   seen.take(&flow.point_count, 1);
@@ -370,7 +370,8 @@ void edit_solver(const Scene& s, hf_solver solver, unsigned t, Seen& seen) {
   const hf_sites_desc more = sites_desc(vertices, s.values.data() + t);
   seen.call(hf_add_sites(solver, &more, sites));
   take_field(s, solver, seen);
-  seen.call(hf_solver_record(solver));
+  hf_solver before = nullptr;
+  seen.call(hf_solver_clone(solver, &before));
   const std::vector<std::uint32_t> elsewhere = {1000 + t};
   const hf_sites_desc to = sites_desc(elsewhere, nullptr);
   seen.call(hf_solver_move_sites(solver, 1, sites, &to));
@@ -387,8 +388,8 @@ void edit_solver(const Scene& s, hf_solver solver, unsigned t, Seen& seen) {
     seen.call(hf_solver_prepare_rebase(solver));
     take_field(s, solver, seen);
   }
-  seen.call(hf_solver_undo(solver));
-  take_field(s, solver, seen);
+  take_field(s, before, seen);
+  hf_solver_destroy(before);
 }
 
 void edit_pose(const Scene& s, hf_pose pose, unsigned t, Seen& seen) {
@@ -412,24 +413,26 @@ void edit_direction(const Scene& s, hf_direction direction, unsigned t, Seen& se
   const std::uint32_t vertex = 500 + 11 * t, to = 60 + t;
   std::uint32_t site = 0;
   seen.call(hf_direction_add_sites(direction, 1, &vertex, s.vectors.data() + 3 * t, &site));
-  seen.call(hf_direction_record(direction));
+  hf_direction before = nullptr;
+  seen.call(hf_direction_clone(direction, &before));
   seen.call(hf_direction_move_sites(direction, 1, &site, &to));
   take_direction(s, direction, seen);
   const double angle = 0.25;
-  seen.call(hf_direction_undo(direction));
-  seen.call(hf_direction_rotate_sites(direction, 1, &site, &angle));
-  take_direction(s, direction, seen);
+  seen.call(hf_direction_rotate_sites(before, 1, &site, &angle));
+  take_direction(s, before, seen);
+  hf_direction_destroy(before);
 }
 
 void edit_region(const Scene& s, hf_region region, unsigned t, Seen& seen) {
-  seen.call(hf_region_record(region));
+  hf_region before = nullptr;
+  seen.call(hf_region_clone(region, &before));
   hf_region_edit_desc grow = desc<hf_region_edit_desc>();
   grow.ring_count = 1 + static_cast<int>(t % 3);
   seen.call(hf_region_edit(region, &grow));
   take_region(s, region, seen);
-  seen.call(hf_region_undo(region));
-  seen.call(edit_to(region, patch_at(s, 20 + t, 8)));
-  take_region(s, region, seen);
+  seen.call(edit_to(before, patch_at(s, 20 + t, 8)));
+  take_region(s, before, seen);
+  hf_region_destroy(before);
 }
 
 void clone_and_edit(const Scene& s, const Objects& o, unsigned t, Seen& seen) {

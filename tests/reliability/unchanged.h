@@ -9,6 +9,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -97,6 +98,21 @@ struct World {
   hf_progress progress() const { return memory.progress; }
 };
 
+// An object under test, what its model knows, and clones that are kept to go back to. No call edits a kept clone: it
+// has the bits it was made with, whatever becomes of the object.
+template <class Handle, void (*destroy)(Handle), class Known>
+struct Clonable : Known {
+  struct Destroy {
+    void operator()(Handle gone) const { destroy(gone); }
+  };
+  Handle handle = nullptr;
+  std::unique_ptr<std::remove_pointer_t<Handle>, Destroy> owner;
+  std::uint64_t bits = 0;  // of a clone when it was made
+  std::vector<Clonable> kept;
+  Clonable(Handle made, const Known& known) : Known(known), handle(made), owner(made) {}
+};
+struct Nothing {};  // known of an object
+
 class Subject;
 constexpr hf_result skipped = 1;  // the call makes no sense now
 
@@ -126,6 +142,35 @@ class Subject {
  protected:
   void expect(bool holds, const std::string& what) {
     if (!holds && wrong.empty()) wrong = what;
+  }
+  // Clones one of the branches. The clone is another branch, or is kept. bits: a hash of what can be seen of a branch.
+  template <class Handle, void (*destroy)(Handle), class Known, class Bits>
+  hf_result clone(std::vector<Clonable<Handle, destroy, Known>>& branches, Random& random,
+                  hf_result (*call)(Handle, Handle*), Bits&& bits) {
+    Clonable<Handle, destroy, Known>& b = branches[random.below(static_cast<std::uint32_t>(branches.size()))];
+    Handle made = b.handle;
+    const hf_result result = call(b.handle, &made);
+    if (result != HF_OK) return expect(made == nullptr, "a refused clone is no NULL"), result;
+    Clonable<Handle, destroy, Known> fresh(made, b);
+    world.memory.disarm();
+    fresh.bits = bits(fresh);
+    expect(fresh.bits == bits(b), "a clone has other bits");
+    (branches.size() > 2 || random.one_in(2) ? b.kept : branches).push_back(std::move(fresh));
+    return result;
+  }
+  // The clone that was kept last becomes the object: undo.
+  template <class B, class Bits>
+  hf_result go_back(std::vector<B>& branches, Random& random, Bits&& bits) {
+    B& b = branches[random.below(static_cast<std::uint32_t>(branches.size()))];
+    if (b.kept.empty()) return skipped;
+    world.memory.disarm();
+    for (const B& clone : b.kept) expect(bits(clone) == clone.bits, "a kept clone has other bits than the object had");
+    B last = std::move(b.kept.back());
+    b.kept.pop_back();
+    last.kept = std::move(b.kept);
+    b = std::move(last);
+    expect(bits(b) == b.bits, "a clone has other bits when its object is gone");
+    return HF_OK;
   }
 };
 

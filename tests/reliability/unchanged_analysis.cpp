@@ -12,7 +12,7 @@ class Analysis final : public Subject {
  public:
   Analysis(World& given, Random& random) : Subject(given) {
     hf_geodesics_desc desc = HF_INIT(hf_geodesics_desc);
-    desc.smoothing = random.pick({0.0f, 1.0f, 3.0f});
+    desc.smoothing = random.pick({0.0, 1.0, 3.0});
     desc.method = random.pick({0, 1, 2, 3});
     hf_progress_create(&progress_);
     desc.progress = progress_;
@@ -95,7 +95,7 @@ struct AnalysisCalls {
   static hf_result make(Subject& subject, Random& random) {
     Analysis& s = of(subject);
     hf_geodesics_desc desc = HF_INIT(hf_geodesics_desc);
-    desc.smoothing = static_cast<float>(random.number());
+    desc.smoothing = random.number();
     desc.method = random.pick({0, 1, 2, 3, 3, 4});
     desc.progress = s.world.progress();
     hf_geodesics made = s.geodesics_;
@@ -138,7 +138,7 @@ struct AnalysisCalls {
     hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
     desc.kind = random.pick({0, 1, 2});
     desc.source_count = random.pick({4u, 9u, 2000u});
-    desc.least_length = random.pick({0.0f, 0.2f, -1.0f});
+    desc.least_length_share = random.pick({0.0, 0.2, -1.0});
     desc.progress = s.world.progress();
     if (random.one_in(2)) desc.geodesics = s.geodesics_;
     hf_extremity found[2];
@@ -198,7 +198,7 @@ struct AnalysisCalls {
     desc.progress = s.world.progress();
     desc.weld = random.pick({0, 1, 2, 3});
     desc.field_kind = random.pick({0, 1, 2, 3});
-    desc.weld_tolerance = static_cast<float>(random.number());
+    desc.weld_tolerance = random.number();
     if (random.one_in(20)) desc.vertex_limit = 5;
     std::vector<unsigned char> bytes(64 + random.below(300), static_cast<unsigned char>(random.below(256)));
     hf_factor_desc saved = HF_INIT(hf_factor_desc);
@@ -253,14 +253,14 @@ struct AnalysisCalls {
       link.vertex = vertex();
       std::copy_n(end.corners, 3, link.corners);
       std::copy_n(end.barycentrics, 3, link.barycentrics);
-      link.weight = random.one_in(12) ? static_cast<float>(random.number()) : 1.0f;
+      link.weight = random.one_in(12) ? random.number() : 1.0;
     }
     const std::uint32_t light = vertex(), heavy = vertex();
     hf_links_desc desc = HF_INIT(hf_links_desc);
     desc.mode = random.pick({0, 1, 1, 2, 2, 3});
-    desc.distance = random.pick({0.0f, 20.0f, -1.0f, 0.5f});
-    if (random.one_in(4)) desc.stiffness = static_cast<float>(random.number());
-    desc.overlay_distance = random.pick({0.0f, 5.0f, -1.0f});
+    desc.distance = random.pick({0.0, 20.0, -1.0, 0.5});
+    if (random.one_in(4)) desc.stiffness = random.number();
+    desc.overlay_distance = random.pick({0.0, 5.0, -1.0});
     if (desc.mode == HF_LINK_LIST) {
       desc.link_count = static_cast<std::uint32_t>(list.size());
       desc.links = list.data();

@@ -1,4 +1,4 @@
-// Direction fields: constraints that come, go, move and turn; undo and redo; clones.
+// Direction fields: constraints that come, go, move and turn; clones.
 #include <cmath>
 
 #include "unchanged.h"
@@ -6,21 +6,15 @@
 namespace unchanged {
 namespace {
 
-struct DirectionBranch {
-  hf_direction handle = nullptr;
-  std::vector<std::uint64_t> undo, redo;  // fields; 0: not known
-};
+using DirectionBranch = Clonable<hf_direction, hf_direction_destroy, Nothing>;
 
 class Directions final : public Subject {
  public:
   Directions(World& given, Random& random) : Subject(given) {
     desc_.degree = random.pick({0u, 1u, 2u, 4u});
     desc_.site_limit = random.pick({0u, 0u, 9u});
-    branches_.resize(1);
-    if (hf_direction_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
-  }
-  ~Directions() override {
-    for (DirectionBranch& b : branches_) hf_direction_destroy(b.handle);
+    hf_direction made = nullptr;
+    if (hf_direction_create(world.surface, &desc_, &made) == HF_OK) branches_.emplace_back(made, Nothing());
   }
   bool ready() const { return !branches_.empty(); }
 
@@ -148,10 +142,6 @@ class Directions final : public Subject {
 struct DirectionCalls {
   static Directions& of(Subject& s) { return static_cast<Directions&>(s); }
 
-  static hf_result edited(DirectionBranch& b, hf_result result) {
-    if (result == HF_OK) b.redo.clear();
-    return result;
-  }
   static hf_result add(Subject& subject, Random& random) {
     Directions& s = of(subject);
     DirectionBranch& b = s.any(random);
@@ -159,8 +149,7 @@ struct DirectionCalls {
     const std::vector<std::uint32_t> at = s.vertices(count, random);
     const std::vector<double> vectors = s.values(3 * count, random);
     std::vector<std::uint32_t> out(count);
-    return edited(
-        b, hf_direction_add_sites(b.handle, static_cast<std::uint32_t>(count), at.data(), vectors.data(), out.data()));
+    return hf_direction_add_sites(b.handle, static_cast<std::uint32_t>(count), at.data(), vectors.data(), out.data());
   }
   static hf_result change(Subject& subject, Random& random) {
     Directions& s = of(subject);
@@ -170,50 +159,22 @@ struct DirectionCalls {
     const std::uint32_t count = static_cast<std::uint32_t>(list.size());
     switch (random.below(4)) {
       case 0:
-        return edited(b, hf_direction_remove_sites(b.handle, count, list.data()));
+        return hf_direction_remove_sites(b.handle, count, list.data());
       case 1:
-        return edited(b, hf_direction_move_sites(b.handle, count, list.data(), to.data()));
+        return hf_direction_move_sites(b.handle, count, list.data(), to.data());
       case 2:
-        return edited(b, hf_direction_set_vectors(b.handle, count, list.data(), values.data()));
+        return hf_direction_set_vectors(b.handle, count, list.data(), values.data());
       default:
-        return edited(b, hf_direction_rotate_sites(b.handle, count, list.data(), values.data()));
+        return hf_direction_rotate_sites(b.handle, count, list.data(), values.data());
     }
-  }
-  static hf_result record(Subject& subject, Random& random) {
-    Directions& s = of(subject);
-    DirectionBranch& b = s.any(random);
-    const hf_result result = hf_direction_record(b.handle);
-    if (result == HF_OK) {
-      b.undo.push_back(s.field_of(b));
-      b.redo.clear();
-    }
-    return result;
-  }
-  static hf_result step(Subject& subject, Random& random) {
-    Directions& s = of(subject);
-    DirectionBranch& b = s.any(random);
-    const bool back = random.one_in(2);
-    auto &from = back ? b.undo : b.redo, &to = back ? b.redo : b.undo;
-    const hf_result result = back ? hf_direction_undo(b.handle) : hf_direction_redo(b.handle);
-    s.expect((result == HF_ERROR_NO_RECORD) == from.empty() || result == HF_ERROR_OUT_OF_MEMORY,
-             std::string("a step with ") + std::to_string(from.size()) + " records: " + hf_result_get_name(result));
-    if (result != HF_OK || from.empty()) return result;
-    to.push_back(0);
-    const std::uint64_t field = s.field_of(b);
-    s.expect(from.back() == 0 || field == from.back(), "undo or redo gives other bits than at the record");
-    from.pop_back();
-    return result;
   }
   static hf_result clone(Subject& subject, Random& random) {
     Directions& s = of(subject);
-    DirectionBranch& b = s.any(random);
-    if (s.branches_.size() > 2) return skipped;
-    DirectionBranch fresh;
-    fresh.handle = b.handle;
-    const hf_result result = hf_direction_clone(b.handle, &fresh.handle);
-    if (result != HF_OK) return s.expect(fresh.handle == nullptr, "a refused clone is no NULL"), result;
-    s.expect(s.field_of(fresh) == s.field_of(b), "a clone has other bits");
-    return s.branches_.push_back(fresh), result;
+    return s.Subject::clone(s.branches_, random, hf_direction_clone, [&](const auto& b) { return s.field_of(b); });
+  }
+  static hf_result go_back(Subject& subject, Random& random) {
+    Directions& s = of(subject);
+    return s.Subject::go_back(s.branches_, random, [&](const auto& b) { return s.field_of(b); });
   }
   static hf_result make(Subject& subject, Random& random) {
     Directions& s = of(subject);
@@ -229,7 +190,6 @@ struct DirectionCalls {
   static hf_result destroy(Subject& subject, Random&) {
     Directions& s = of(subject);
     if (s.branches_.size() < 2) return skipped;
-    hf_direction_destroy(s.branches_.back().handle);
     s.branches_.pop_back();
     return HF_OK;
   }
@@ -248,10 +208,10 @@ struct DirectionCalls {
 
 const std::vector<Command>& Directions::commands() const {
   static const std::vector<Command> table = {
-      {"hf_direction_add_sites", 8, DirectionCalls::add},   {"an edit of directions", 10, DirectionCalls::change},
-      {"hf_direction_record", 3, DirectionCalls::record},   {"hf_direction_undo or redo", 4, DirectionCalls::step},
-      {"hf_direction_clone", 2, DirectionCalls::clone},     {"hf_direction_create", 1, DirectionCalls::make},
-      {"hf_direction_destroy", 1, DirectionCalls::destroy}, {"a direction field", 4, DirectionCalls::solve},
+      {"hf_direction_add_sites", 8, DirectionCalls::add}, {"an edit of directions", 10, DirectionCalls::change},
+      {"hf_direction_clone", 5, DirectionCalls::clone},   {"back to a clone", 4, DirectionCalls::go_back},
+      {"hf_direction_create", 1, DirectionCalls::make},   {"hf_direction_destroy", 1, DirectionCalls::destroy},
+      {"a direction field", 4, DirectionCalls::solve},
   };
   return table;
 }

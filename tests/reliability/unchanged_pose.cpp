@@ -26,7 +26,7 @@ class Poses final : public Subject {
     desc_.mode = random.pick({0, 0, 1});
     desc_.band_count = random.pick({0u, 4u});
     desc_.iteration_count = random.pick({0u, 3u, 10u});
-    desc_.samples_per_ring = random.pick({0u, 0u, 3u});
+    desc_.rim_site_count = random.pick({0u, 0u, 3u});
     desc_.group_count = random.pick({0u, 20u});
     branches_.resize(1);
     if (hf_pose_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
@@ -278,18 +278,18 @@ struct PoseCalls {
     std::vector<std::uint32_t> parents(joints.size() / 3);
     for (double& x : joints) x = random.number();
     for (std::uint32_t i = 0; i < parents.size(); ++i) parents[i] = i == 0 ? HF_NO_INDEX : random.index(i);
-    hf_propose_desc desc = HF_INIT(hf_propose_desc);
+    hf_handle_proposals_desc desc = HF_INIT(hf_handle_proposals_desc);
     desc.joint_count = static_cast<std::uint32_t>(parents.size());
     desc.joints = joints.data();
     if (!random.one_in(20)) desc.parents = parents.data();
     desc.up[random.below(3)] = random.number();
-    desc.least_length = random.one_in(12) ? -1.0f : random.pick({0.0f, 0.2f});
+    desc.least_length_share = random.one_in(12) ? -1.0 : random.pick({0.0, 0.2});
     desc.limit = random.one_in(12) ? 70000u : random.pick({0u, 3u});
     desc.progress = s.world.progress();
     std::vector<hf_handle_proposal> found(random.below(40));
     std::uint32_t count = 0;
-    return hf_propose_handles(s.world.surface, random.spoiled(desc), static_cast<std::uint32_t>(found.size()),
-                              found.data(), &count);
+    return hf_surface_propose_handles(s.world.surface, random.spoiled(desc), static_cast<std::uint32_t>(found.size()),
+                                      found.data(), &count);
   }
   static hf_result remove(Subject& subject, Random& random) {
     Poses& s = of(subject);
@@ -387,19 +387,24 @@ struct PoseCalls {
     std::vector<float> field(s.world.shape->vertices());
     if (random.one_in(3)) return hf_pose_get_handle(b.handle, s.number(b, random), random.spoiled(info));
     if (random.one_in(2)) return hf_pose_get_field(b.handle, s.number(b, random), field.data(), random.pick({0u, 2u}));
-    skin.weight_count = random.pick({0u, 4u, 5u, 8u});
+    skin.influence_count = random.pick({0u, 4u, 5u, 8u});
     return hf_pose_get_skin(b.handle, random.spoiled(skin));
   }
 };
 
 const std::vector<Command>& Poses::commands() const {
   static const std::vector<Command> table = {
-      {"hf_pose_add_handles", 8, PoseCalls::add},      {"hf_pose_remove_handles", 3, PoseCalls::remove},
-      {"hf_pose_set_transforms", 5, PoseCalls::place}, {"hf_pose_set_matrices", 1, PoseCalls::matrices},
-      {"hf_pose_deform", 8, PoseCalls::deform},        {"hf_pose_clone", 2, PoseCalls::clone},
-      {"hf_pose_create", 1, PoseCalls::make},          {"hf_pose_destroy", 1, PoseCalls::destroy},
-      {"reading a pose", 2, PoseCalls::read},          {"hf_pose_add_handle_at", 3, PoseCalls::add_at},
-      {"hf_propose_handles", 2, PoseCalls::propose},
+      {"hf_pose_add_handles", 8, PoseCalls::add},
+      {"hf_pose_remove_handles", 3, PoseCalls::remove},
+      {"hf_pose_set_transforms", 5, PoseCalls::place},
+      {"hf_pose_set_matrices", 1, PoseCalls::matrices},
+      {"hf_pose_deform", 8, PoseCalls::deform},
+      {"hf_pose_clone", 2, PoseCalls::clone},
+      {"hf_pose_create", 1, PoseCalls::make},
+      {"hf_pose_destroy", 1, PoseCalls::destroy},
+      {"reading a pose", 2, PoseCalls::read},
+      {"hf_pose_add_handle_at", 3, PoseCalls::add_at},
+      {"hf_surface_propose_handles", 2, PoseCalls::propose},
   };
   return table;
 }

@@ -1,4 +1,4 @@
-// Quad meshes and flow lines.
+// Quad meshes and streamlines.
 #include <cmath>
 
 #include "unchanged.h"
@@ -45,11 +45,11 @@ class Quads final : public Subject {
     hf_scalars field = HF_INIT(hf_scalars);
     field.values_f64 = field_.data();
     std::vector<double> positions(3 * 5000);
-    hf_flow_lines lines = HF_INIT(hf_flow_lines);
+    hf_streamlines lines = HF_INIT(hf_streamlines);
     lines.wanted_count = 5;
     lines.point_capacity = 5000;
     lines.positions = positions.data();
-    state.begin("flow lines");
+    state.begin("streamlines");
     state.add(hf_flow_trace(flow_, &field, &lines));
     state.add(lines.point_count);
     state.add(positions);
@@ -70,15 +70,15 @@ struct QuadsCalls {
   template <class Work>
   static hf_result with_desc(Quads& s, Random& random, Work&& work) {
     hf_quads_desc desc = HF_INIT(hf_quads_desc);
-    desc.edge_length = random.pick({0.9f, 1.3f, 2.0f, -1.0f});
-    if (random.one_in(15)) desc.edge_length = static_cast<float>(random.number());
-    if (desc.edge_length > 0 && desc.edge_length < 0.3f) desc.edge_length = 0.3f;
+    desc.edge_length = random.pick({0.9, 1.3, 2.0, -1.0});
+    if (random.one_in(15)) desc.edge_length = random.number();
+    if (desc.edge_length > 0 && desc.edge_length < 0.3) desc.edge_length = 0.3;
     if (desc.edge_length == 0) desc.edge_length = 1;  // the default is too fine for a test of many calls
     desc.relax_count = random.pick({2u, 5u, HF_NO_INDEX, 2000u});
     desc.progress = s.world.progress();
     desc.face_count = random.pick({0u, 0u, 40u, 200u, 4000000000u});
-    desc.crease_angle = random.pick({0.0f, 20.0f, 60.0f, -1.0f});
-    if (random.one_in(15)) desc.pole_count = 1;
+    desc.crease_angle = random.pick({0.0, 0.35, 1.05, -1.0});
+    if (random.one_in(15)) desc.irregular_count = 1;
     std::vector<std::uint32_t> guided(1 + random.below(6)), edges(2 * guided.size());
     std::vector<double> vectors(3 * guided.size());
     std::vector<float> weights(guided.size());
@@ -97,10 +97,10 @@ struct QuadsCalls {
     for (double& x : places) x = random.one_in(30) ? random.number() : random.pick({0.0, 0.7, -1.0, 2.5});
     for (std::uint32_t& q : meeting) q = random.pick({3u, 5u, 3u, 5u, 4u});
     if (random.one_in(3)) {
-      desc.pole_count = static_cast<std::uint32_t>(meeting.size());
-      desc.pole_points = places.data();
-      desc.pole_quads = meeting.data();
-      if (random.one_in(2)) desc.pole_directions = places.data();
+      desc.irregular_count = static_cast<std::uint32_t>(meeting.size());
+      desc.irregular_points = places.data();
+      desc.irregular_valences = meeting.data();
+      if (random.one_in(2)) desc.irregular_directions = places.data();
     }
     if (random.one_in(8)) {
       desc.crease_count = desc.guide_count;
@@ -144,7 +144,7 @@ struct QuadsCalls {
     hf_scalars field = HF_INIT(hf_scalars);
     field.values_f64 = values.data();
     const std::uint32_t seeds[2] = {random.index(s.world.shape->vertices()), 3};
-    hf_flow_lines lines = HF_INIT(hf_flow_lines);
+    hf_streamlines lines = HF_INIT(hf_streamlines);
     lines.wanted_count = random.pick({0u, 3u, 9u});
     lines.seed_count = random.below(3);
     lines.seeds = seeds;

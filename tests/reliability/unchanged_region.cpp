@@ -1,4 +1,4 @@
-// Regions: curves, rings and lists of vertices, undo and redo, clones, and detail carried from one to another.
+// Regions: curves, rings and lists of vertices, clones, and detail carried from one to another.
 #include <cmath>
 
 #include "unchanged.h"
@@ -6,20 +6,16 @@
 namespace unchanged {
 namespace {
 
-struct RegionBranch {
-  hf_region handle = nullptr;
-  std::vector<std::uint64_t> undo, redo;  // surfaces of weight 1; 0: not known
-};
+using RegionBranch = Clonable<hf_region, hf_region_destroy, Nothing>;
 
 class Regions final : public Subject {
  public:
   Regions(World& given, Random& random) : Subject(given) {
     desc_.base = random.pick({0, 1, 1, 2, 3});
-    branches_.resize(1);
-    if (hf_region_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
+    hf_region made = nullptr;
+    if (hf_region_create(world.surface, &desc_, &made) == HF_OK) branches_.emplace_back(made, Nothing());
   }
   ~Regions() override {
-    for (RegionBranch& b : branches_) hf_region_destroy(b.handle);
     for (const hf_detail detail : details_) hf_detail_destroy(detail);
   }
   bool ready() const { return !branches_.empty(); }
@@ -61,15 +57,15 @@ class Regions final : public Subject {
     for (const RegionBranch& b : branches_) {
       const std::vector<std::uint32_t> inside = vertices_of(b, HF_REGION_INSIDE);
       if (inside.empty()) continue;
-      RegionBranch fresh;
-      hf_result result = hf_region_create(world.surface, &desc_, &fresh.handle);
+      hf_region made = nullptr;
+      hf_result result = hf_region_create(world.surface, &desc_, &made);
+      const RegionBranch fresh(made, Nothing());
       hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
       edit.add_count = static_cast<std::uint32_t>(inside.size());
       edit.add_vertices = inside.data();
       if (result == HF_OK) result = hf_region_edit(fresh.handle, &edit);
       const std::vector<double> here = base_of(b), there = base_of(fresh);
       const bool same = vertices_of(fresh, HF_REGION_SITES) == vertices_of(b, HF_REGION_SITES);
-      hf_region_destroy(fresh.handle);
       if (result != HF_OK) return std::string("a fresh region: ") + hf_result_get_name(result);
       const double off = difference(here, there);
       if (!(off <= 1e-9) || !same) return "a fresh region differs by " + text(off);
@@ -158,45 +154,15 @@ struct RegionCalls {
     desc.remove_vertices = gone.data();
     desc.add_vertices = come.data();
     desc.progress = s.world.progress();
-    const hf_result result = hf_region_edit(b.handle, random.spoiled(desc));
-    if (result == HF_OK) b.redo.clear();
-    return result;
-  }
-  static hf_result record(Subject& subject, Random& random) {
-    Regions& s = of(subject);
-    RegionBranch& b = s.any(random);
-    const hf_result result = hf_region_record(b.handle);
-    if (result == HF_OK) {
-      b.undo.push_back(s.base_hash(b));
-      b.redo.clear();
-    }
-    return result;
-  }
-  static hf_result step(Subject& subject, Random& random) {
-    Regions& s = of(subject);
-    RegionBranch& b = s.any(random);
-    const bool back = random.one_in(2);
-    auto &from = back ? b.undo : b.redo, &to = back ? b.redo : b.undo;
-    const hf_result result = back ? hf_region_undo(b.handle) : hf_region_redo(b.handle);
-    s.expect((result == HF_ERROR_NO_RECORD) == from.empty() || result == HF_ERROR_OUT_OF_MEMORY,
-             std::string("a step with ") + std::to_string(from.size()) + " records: " + hf_result_get_name(result));
-    if (result != HF_OK || from.empty()) return result;
-    to.push_back(0);
-    const std::uint64_t base = s.base_hash(b);
-    s.expect(from.back() == 0 || base == from.back(), "undo or redo gives other bits than at the record");
-    from.pop_back();
-    return result;
+    return hf_region_edit(b.handle, random.spoiled(desc));
   }
   static hf_result clone(Subject& subject, Random& random) {
     Regions& s = of(subject);
-    RegionBranch& b = s.any(random);
-    if (s.branches_.size() > 2) return skipped;
-    RegionBranch fresh;
-    fresh.handle = b.handle;
-    const hf_result result = hf_region_clone(b.handle, &fresh.handle);
-    if (result != HF_OK) return s.expect(fresh.handle == nullptr, "a refused clone is no NULL"), result;
-    s.expect(s.base_hash(fresh) == s.base_hash(b), "a clone has other bits");
-    return s.branches_.push_back(fresh), result;
+    return s.Subject::clone(s.branches_, random, hf_region_clone, [&](const auto& b) { return s.base_hash(b); });
+  }
+  static hf_result go_back(Subject& subject, Random& random) {
+    Regions& s = of(subject);
+    return s.Subject::go_back(s.branches_, random, [&](const auto& b) { return s.base_hash(b); });
   }
   static hf_result make(Subject& subject, Random& random) {
     Regions& s = of(subject);
@@ -218,7 +184,6 @@ struct RegionCalls {
     if (!s.details_.empty() && random.one_in(2))
       return hf_detail_destroy(s.details_.back()), s.details_.pop_back(), HF_OK;
     if (s.branches_.size() < 2) return skipped;
-    hf_region_destroy(s.branches_.back().handle);
     s.branches_.pop_back();
     return HF_OK;
   }
@@ -256,10 +221,10 @@ struct RegionCalls {
 
 const std::vector<Command>& Regions::commands() const {
   static const std::vector<Command> table = {
-      {"hf_region_edit", 16, RegionCalls::edit},        {"hf_region_record", 3, RegionCalls::record},
-      {"hf_region_undo or redo", 4, RegionCalls::step}, {"hf_region_clone", 2, RegionCalls::clone},
-      {"hf_region_create", 2, RegionCalls::make},       {"destroying regions and detail", 1, RegionCalls::destroy},
-      {"hf_detail_create", 4, RegionCalls::carry},      {"a morph", 4, RegionCalls::morph},
+      {"hf_region_edit", 16, RegionCalls::edit},    {"hf_region_clone", 5, RegionCalls::clone},
+      {"back to a clone", 4, RegionCalls::go_back}, {"hf_region_create", 2, RegionCalls::make},
+      {"hf_detail_create", 4, RegionCalls::carry},  {"destroying regions and detail", 1, RegionCalls::destroy},
+      {"a morph", 4, RegionCalls::morph},
   };
   return table;
 }

@@ -1,5 +1,5 @@
-// Solvers on meshes and graphs: sites of every form, batches, undo and redo, clones, screening, a rebase prepared and
-// waiting, previews, certificates.
+// Solvers on meshes and graphs: sites of every form, batches, clones, screening, a rebase prepared and waiting,
+// previews, certificates.
 #include "unchanged_solver.h"
 
 #include <cmath>
@@ -36,7 +36,7 @@ std::string Solvers::compare_fresh(const SolverBranch& b) const {
   if (result == HF_OK) result = hf_solver_solve_f64(fresh, other.data(), 0, nullptr);
   const hf_result own = hf_solver_solve_f64(b.handle, field.data(), 0, nullptr);
   hf_solver_destroy(fresh);
-  if (count == 0 && result == own && own == HF_ERROR_NO_SITES) return {};  // screening of 0 everywhere
+  if (count == 0 && result == own && own == HF_ERROR_EMPTY) return {};  // screening of 0 everywhere
   if (result == HF_OK) result = own;
   // points that are just independent may be refused in another order
   if (result != HF_OK) return result == HF_ERROR_CONFLICT ? "" : hf_result_get_name(result);

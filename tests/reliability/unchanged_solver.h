@@ -1,6 +1,7 @@
 // The subject of unchanged_solver.cpp and its calls (unchanged_solver_calls.cpp).
 #pragma once
 #include <map>
+#include <set>
 
 #include "unchanged.h"
 
@@ -21,18 +22,11 @@ struct Screening {
   }
 };
 
-struct SolverBranch {
-  struct Record {
-    Places places;
-    Screening screening;
-    std::uint64_t field;
-  };
-  hf_solver handle = nullptr;
+struct SolverModel {
   Places places;
   Screening screening;
-  std::vector<Record> undo, redo;
-  bool prepared = false;  // a rebase waits
 };
+using SolverBranch = Clonable<hf_solver, hf_solver_destroy, SolverModel>;
 
 // Places in the form of hf_sites_desc, which borrows from this object.
 struct Lists {
@@ -66,21 +60,18 @@ class Solvers final : public Subject {
     desc_.engine = random.pick({0, 0, 0, 0, 0, 1, 2});
     desc_.channel_count = random.pick({1u, 1u, 3u, 2u});
     desc_.site_limit = random.pick({0u, 0u, 12u});
-    branches_.resize(1);
     channels_ = desc_.channel_count;
     if (random.one_in(6)) make_graph(random);
-    hf_result result = hf_create(surface(), &desc_, &branches_[0].handle);
+    hf_solver made = nullptr;
+    hf_result result = hf_create(surface(), &desc_, &made);
     if (result == HF_ERROR_UNSUPPORTED && desc_.engine == HF_ENGINE_UPDOWN)  // a build without GPL code
     {
       desc_.engine = HF_ENGINE_GREEN;
-      result = hf_create(surface(), &desc_, &branches_[0].handle);
+      result = hf_create(surface(), &desc_, &made);
     }
-    if (result != HF_OK) branches_.clear();
+    if (result == HF_OK) branches_.emplace_back(made, SolverModel());
   }
-  ~Solvers() override {
-    for (SolverBranch& b : branches_) hf_solver_destroy(b.handle);
-    hf_surface_destroy(graph_);
-  }
+  ~Solvers() override { hf_surface_destroy(graph_); }
   bool ready() const { return !branches_.empty(); }
 
   void glance(State& state) override {
@@ -201,13 +192,12 @@ class Solvers final : public Subject {
   }
   // What follows an edit that was done.
   void edited(SolverBranch& b, std::uint32_t rebases, bool refused) {
-    b.redo.clear();
-    if (b.prepared && !refused) {
+    const bool waited = waiting_.erase(b.handle) > 0;
+    if (waited && !refused) {
       hf_solver_statistics now = HF_INIT(hf_solver_statistics);
       expect(hf_solver_get_statistics(b.handle, &now) == HF_OK && now.rebase_count > rebases,
              "the waiting rebase was not taken over by an edit that was done");
     }
-    b.prepared = false;
   }
   std::uint32_t rebases(const SolverBranch& b) const {
     hf_solver_statistics now = HF_INIT(hf_solver_statistics);
@@ -219,6 +209,7 @@ class Solvers final : public Subject {
   hf_solver_desc desc_ = HF_INIT(hf_solver_desc);
   std::size_t channels_ = 1;
   std::vector<SolverBranch> branches_;
+  std::set<hf_solver> waiting_;  // solvers with a rebase that waits
 };
 
 }  // namespace unchanged

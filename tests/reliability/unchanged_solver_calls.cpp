@@ -151,62 +151,24 @@ struct SolverCalls {
     const hf_result result = given.set(b.handle);
     if (result == HF_OK) {
       b.screening = given;
-      b.redo.clear();
-      b.prepared = false;
+      s.waiting_.erase(b.handle);
     }
     return result;
   }
   static hf_result prepare(Subject& subject, Random& random) {
-    SolverBranch& b = of(subject).any(random);
-    const hf_result result = hf_solver_prepare_rebase(b.handle);
-    b.prepared = b.prepared || result == HF_OK;
-    return result;
-  }
-  static hf_result record(Subject& subject, Random& random) {
     Solvers& s = of(subject);
-    SolverBranch& b = s.any(random);
-    const hf_result result = hf_solver_record(b.handle);
-    if (result == HF_OK) {
-      b.undo.push_back({b.places, b.screening, s.field_of(b)});
-      b.redo.clear();
-    }
-    return result;
-  }
-  static hf_result step(Subject& subject, Random& random) {
-    Solvers& s = of(subject);
-    SolverBranch& b = s.any(random);
-    const bool back = random.one_in(2);
-    auto &from = back ? b.undo : b.redo, &to = back ? b.redo : b.undo;
-    const hf_result result = back ? hf_solver_undo(b.handle) : hf_solver_redo(b.handle);
-    s.expect((result == HF_ERROR_NO_RECORD) == from.empty() || result == HF_ERROR_OUT_OF_MEMORY,
-             std::string("a step with ") + std::to_string(from.size()) + " records: " + hf_result_get_name(result));
-    if (result != HF_OK || from.empty()) return result;
-    // the model has no field of the present state: it is that of a record when it comes back
-    to.push_back({b.places, b.screening, 0});
-    // a rebase that waits holds for the screening it was prepared with
-    if (!b.screening.strength.empty() || !from.back().screening.strength.empty()) b.prepared = false;
-    b.places = from.back().places;
-    b.screening = from.back().screening;
-    const std::uint64_t field = s.field_of(b);
-    if (from.back().field && s.desc_.engine == HF_ENGINE_GREEN)
-      s.expect(field == from.back().field, "undo or redo gives other bits than at the record");
-    from.pop_back();
+    const hf_solver solver = s.any(random).handle;
+    const hf_result result = hf_solver_prepare_rebase(solver);
+    if (result == HF_OK) s.waiting_.insert(solver);
     return result;
   }
   static hf_result clone(Subject& subject, Random& random) {
     Solvers& s = of(subject);
-    SolverBranch& b = s.any(random);
-    if (s.branches_.size() > 2) return skipped;
-    hf_solver made = b.handle;
-    const hf_result result = hf_solver_clone(b.handle, &made);
-    if (result != HF_OK) return s.expect(made == nullptr, "a refused clone is no NULL"), result;
-    SolverBranch fresh;
-    fresh.handle = made;
-    fresh.places = b.places;
-    fresh.screening = b.screening;
-    s.expect(s.field_of(fresh) == s.field_of(b), "a clone has other bits");
-    s.branches_.push_back(fresh);
-    return result;
+    return s.Subject::clone(s.branches_, random, hf_solver_clone, [&](const auto& b) { return s.field_of(b); });
+  }
+  static hf_result go_back(Subject& subject, Random& random) {
+    Solvers& s = of(subject);
+    return s.Subject::go_back(s.branches_, random, [&](const auto& b) { return s.field_of(b); });
   }
   static hf_result make(Subject& subject, Random& random) {
     Solvers& s = of(subject);
@@ -227,9 +189,8 @@ struct SolverCalls {
     if (s.branches_.size() < 2) return skipped;
     const std::size_t i = random.below(static_cast<std::uint32_t>(s.branches_.size()));
     const hf_solver gone = s.branches_[i].handle;
-    hf_solver_destroy(gone);
     s.branches_.erase(s.branches_.begin() + static_cast<std::ptrdiff_t>(i));
-    return hf_solver_record(gone) == HF_ERROR_INVALID_HANDLE ? HF_OK : HF_ERROR_INTERNAL;
+    return hf_solver_add_site(gone, 0, nullptr, nullptr) == HF_ERROR_INVALID_OBJECT ? HF_OK : HF_ERROR_INTERNAL;
   }
   static hf_result solve(Subject& subject, Random& random) {
     Solvers& s = of(subject);
@@ -263,20 +224,27 @@ struct SolverCalls {
     const Solvers& s = of(subject);
     const auto other = reinterpret_cast<hf_solver>(s.world.surface);
     hf_solver bad = random.one_in(2) ? nullptr : other;
-    return random.one_in(2) ? hf_solver_undo(bad) : hf_solver_add_site(bad, 0, nullptr, nullptr);
+    return random.one_in(2) ? hf_solver_prepare_rebase(bad) : hf_solver_add_site(bad, 0, nullptr, nullptr);
   }
 };
 
 const std::vector<Command>& Solvers::commands() const {
   static const std::vector<Command> table = {
-      {"hf_add_sites", 10, SolverCalls::add},           {"hf_solver_add_site", 4, SolverCalls::add_one},
-      {"hf_remove_sites", 4, SolverCalls::remove},      {"hf_solver_move_sites", 5, SolverCalls::move},
-      {"hf_solver_set_values", 3, SolverCalls::set},    {"hf_solver_edit_sites", 6, SolverCalls::batch},
-      {"vectors of a solver", 3, SolverCalls::vectors}, {"hf_solver_prepare_rebase", 4, SolverCalls::prepare},
-      {"hf_solver_record", 3, SolverCalls::record},     {"hf_solver_undo or redo", 4, SolverCalls::step},
-      {"hf_solver_clone", 2, SolverCalls::clone},       {"hf_create", 2, SolverCalls::make},
-      {"hf_solver_destroy", 1, SolverCalls::destroy},   {"a field of a solver", 5, SolverCalls::solve},
-      {"a bad handle", 1, SolverCalls::handle},         {"hf_solver_set_screening", 4, SolverCalls::screen},
+      {"hf_add_sites", 10, SolverCalls::add},
+      {"hf_solver_add_site", 4, SolverCalls::add_one},
+      {"hf_remove_sites", 4, SolverCalls::remove},
+      {"hf_solver_move_sites", 5, SolverCalls::move},
+      {"hf_solver_set_values", 3, SolverCalls::set},
+      {"hf_solver_edit_sites", 6, SolverCalls::batch},
+      {"vectors of a solver", 3, SolverCalls::vectors},
+      {"hf_solver_prepare_rebase", 4, SolverCalls::prepare},
+      {"hf_solver_clone", 5, SolverCalls::clone},
+      {"back to a clone", 4, SolverCalls::go_back},
+      {"hf_create", 2, SolverCalls::make},
+      {"hf_solver_destroy", 1, SolverCalls::destroy},
+      {"a field of a solver", 5, SolverCalls::solve},
+      {"a bad handle", 1, SolverCalls::handle},
+      {"hf_solver_set_screening", 4, SolverCalls::screen},
   };
   return table;
 }

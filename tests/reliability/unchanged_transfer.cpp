@@ -213,7 +213,7 @@ struct TransferCalls {
       return static_cast<float>(random.one_in(12) ? random.number() : random.real(low, high));
     };
     if (random.one_in(2)) dials.stride = value(0.1, 4);
-    if (random.one_in(2)) dials.hip_height = value(-0.5, 0.5);
+    if (random.one_in(2)) dials.hip_height_share = value(-0.5, 0.5);
     if (random.one_in(2)) {
       dials.neck_follow = value(-1, 1);
       dials.tail_follow = value(-1, 1);
@@ -230,8 +230,8 @@ struct TransferCalls {
     hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
     desc.mode = random.pick({0, 1, 2, 3});
     desc.cluster_count = random.pick({0u, 512u, 513u});
-    desc.kernel_width = static_cast<float>(random.number());
-    desc.scale = static_cast<float>(random.number());
+    desc.kernel_width = random.number();
+    desc.scale = random.number();
     hf_transfer made = s.handle_;
     const hf_result result = hf_transfer_create(s.world.surface, s.world.surface, random.spoiled(desc), &made);
     if (result != HF_OK) s.expect(made == nullptr, "a refused transfer is no NULL");
@@ -244,7 +244,7 @@ struct TransferCalls {
     hf_skin_info skin = HF_INIT(hf_skin_info);
     if (random.one_in(3)) return hf_transfer_get_info(s.handle_, random.spoiled(info));
     if (random.one_in(2)) return hf_transfer_get_pair(s.handle_, s.number(random), random.spoiled(pair));
-    skin.weight_count = random.pick({0u, 4u, 5u});
+    skin.influence_count = random.pick({0u, 4u, 5u});
     return hf_transfer_get_skin(s.handle_, random.spoiled(skin));
   }
 };

@@ -1,13 +1,13 @@
-// Skin weights: bones that move, come and go, pins, locks, undo and redo, clones, carried and mirrored weights.
+// Skin weights: joints that move, come and go, pins, locks, clones, transferred and mirrored weights.
 #include "unchanged_weights.h"
 
 #include <cmath>
 
 namespace unchanged {
 
-hf_bones_desc BoneList::desc() const {
-  hf_bones_desc out = HF_INIT(hf_bones_desc);
-  out.bone_count = count();
+hf_joints_desc BoneList::desc() const {
+  hf_joints_desc out = HF_INIT(hf_joints_desc);
+  out.joint_count = count();
   out.heads = heads.data();
   out.parents = parents.data();
   out.deforms = deforms.data();
@@ -19,7 +19,7 @@ hf_bones_desc BoneList::desc() const {
 hf_pins_desc PinList::desc() const {
   hf_pins_desc out = HF_INIT(hf_pins_desc);
   out.pin_count = count();
-  out.joint_count = joint_count;
+  out.influence_count = joint_count;
   out.radii = radii.data();
   if (!vertices.empty()) out.vertices = vertices.data();
   if (!triangles.empty()) {
@@ -58,21 +58,18 @@ void WeightsModel::take_bones(const BoneList& list, const std::vector<std::uint3
 }
 
 SkinWeights::SkinWeights(World& given, Random& random) : Subject(given) {
-  weight_count_ = random.pick({0u, 4u, 8u});
+  influence_count_ = random.pick({0u, 4u, 8u});
   hf_result result = HF_ERROR_INTERNAL;
-  WeightsBranch first;
+  WeightsKnown first;
+  hf_weights made = nullptr;
   for (int i = 0; i < 50 && result != HF_OK; ++i) {  // some bones are refused
     first.model.bones = bones(2 + random.below(4), random);
-    const hf_bones_desc desc = first.model.bones.desc();
-    result = hf_weights_create(world.surface, &desc, weight_count_, &first.handle);
+    const hf_joints_desc desc = first.model.bones.desc();
+    result = hf_weights_create(world.surface, &desc, influence_count_, &made);
   }
   if (result != HF_OK) return;
-  first.seen = seen_of(first.handle);
-  branches_.push_back(first);
-}
-
-SkinWeights::~SkinWeights() {
-  for (WeightsBranch& b : branches_) hf_weights_destroy(b.handle);
+  first.seen = seen_of(made);
+  branches_.emplace_back(made, first);
 }
 
 void SkinWeights::glance(State& state) {
@@ -81,7 +78,7 @@ void SkinWeights::glance(State& state) {
     state.begin("info of weights");
     state.add(hf_weights_get_info(b.handle, &info));
     add_struct(state, info);
-    expect(info.bone_count == b.model.bones.count() && info.pin_count == b.model.pins.count() &&
+    expect(info.joint_count == b.model.bones.count() && info.pin_count == b.model.pins.count() &&
                info.lock_count == b.model.locks.size(),
            "the counts of bones, pins or locks are not those of the model");
   }
@@ -89,21 +86,25 @@ void SkinWeights::glance(State& state) {
 
 void SkinWeights::look(State& state) {
   for (const WeightsBranch& b : branches_) {
-    const WeightsSeen seen = seen_of(b.handle);
-    state.begin("weights");
-    state.add(seen.joints);
-    state.add(seen.weights);
-    state.add(seen.origins);
+    look_at_weights(b, state);
     const std::uint32_t count = b.model.bones.count();
     std::vector<std::uint32_t> flags(count), informed(count), reasons(count);
     state.begin("bones of weights");
-    state.add(hf_weights_get_bones(b.handle, count, flags.data(), informed.data(), nullptr));
+    state.add(hf_weights_get_joints(b.handle, count, flags.data(), informed.data(), nullptr));
     state.add(flags);
     state.add(informed);
     state.begin("helper bones");
     state.add(hf_weights_get_helpers(b.handle, nullptr, count, reasons.data(), nullptr));
     state.add(reasons);
   }
+}
+
+void SkinWeights::look_at_weights(const WeightsBranch& b, State& state) const {
+  const WeightsSeen seen = seen_of(b.handle);
+  state.begin("weights");
+  state.add(seen.joints);
+  state.add(seen.weights);
+  state.add(seen.origins);
 }
 
 std::string SkinWeights::compare_fresh() {
@@ -118,9 +119,9 @@ std::string SkinWeights::compare_fresh() {
 std::string SkinWeights::compare_fresh(const WeightsBranch& b) const {
   const WeightsModel& m = b.model;
   hf_weights fresh = nullptr;
-  const hf_bones_desc bones = m.bones.desc();
+  const hf_joints_desc bones = m.bones.desc();
   const hf_pins_desc pins = m.pins.desc();
-  hf_result result = hf_weights_create(world.surface, &bones, weight_count_, &fresh);
+  hf_result result = hf_weights_create(world.surface, &bones, influence_count_, &fresh);
   if (result == HF_OK && m.pins.count() > 0) result = hf_weights_set_pins(fresh, &pins);
   if (result == HF_OK && !m.locks.empty())
     result = hf_weights_set_locks(fresh, static_cast<std::uint32_t>(m.locks.size()), m.locks.data(), m.kept.data());

@@ -9,7 +9,7 @@ struct BoneList {
   std::vector<std::uint32_t> parents;
   std::vector<std::int32_t> deforms;
   std::uint32_t count() const { return static_cast<std::uint32_t>(parents.size()); }
-  hf_bones_desc desc() const;
+  hf_joints_desc desc() const;
 };
 
 struct PinList {
@@ -41,21 +41,15 @@ struct WeightsSeen {
   }
 };
 
-struct WeightsBranch {
-  struct Record {
-    WeightsModel model;
-    WeightsSeen seen;
-  };
-  hf_weights handle = nullptr;
+struct WeightsKnown {
   WeightsModel model;
   WeightsSeen seen;
-  std::vector<Record> undo, redo;
 };
+using WeightsBranch = Clonable<hf_weights, hf_weights_destroy, WeightsKnown>;
 
 class SkinWeights final : public Subject {
  public:
   SkinWeights(World& given, Random& random);
-  ~SkinWeights() override;
   bool ready() const { return !branches_.empty(); }
   void glance(State& state) override;
   void look(State& state) override;
@@ -65,19 +59,24 @@ class SkinWeights final : public Subject {
  private:
   friend struct WeightsCalls;
   WeightsBranch& any(Random& random) { return branches_[random.below(static_cast<std::uint32_t>(branches_.size()))]; }
-  std::uint32_t influences() const { return weight_count_ ? weight_count_ : 4; }
+  std::uint32_t influences() const { return influence_count_ ? influence_count_ : 4; }
   WeightsSeen seen_of(hf_weights handle) const;
+  void look_at_weights(const WeightsBranch& b, State& state) const;
+  std::uint64_t bits_of(const WeightsBranch& b) const {
+    State state;
+    look_at_weights(b, state);
+    return state.last();
+  }
   std::string compare_fresh(const WeightsBranch& b) const;
   // A change was done.
   void changed(WeightsBranch& b) {
     world.memory.disarm();
     b.seen = seen_of(b.handle);
-    b.redo.clear();
   }
   BoneList bones(std::uint32_t count, Random& random) const;
   PinList pins(std::uint32_t count, std::uint32_t bones, Random& random) const;
 
-  std::uint32_t weight_count_ = 0;
+  std::uint32_t influence_count_ = 0;
   std::vector<WeightsBranch> branches_;
 };
 

@@ -23,10 +23,10 @@ struct WeightsCalls {
       if (!fresh) left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
     }
     if (random.one_in(2)) sources.clear();
-    hf_bones_desc desc = list.desc();
+    hf_joints_desc desc = list.desc();
     if (!sources.empty()) desc.sources = sources.data();
     desc.progress = s.world.progress();
-    const hf_result result = hf_weights_set_bones(b.handle, random.spoiled(desc));
+    const hf_result result = hf_weights_set_joints(b.handle, random.spoiled(desc));
     if (result == HF_OK) {
       b.model.take_bones(list, sources);
       s.changed(b);
@@ -88,51 +88,18 @@ struct WeightsCalls {
     }
     return result;
   }
-  static hf_result record(Subject& subject, Random& random) {
-    SkinWeights& s = of(subject);
-    WeightsBranch& b = s.any(random);
-    const hf_result result = hf_weights_record(b.handle);
-    if (result == HF_OK) {
-      b.undo.push_back({b.model, b.seen});
-      b.redo.clear();
-    }
-    return result;
-  }
-  static hf_result step(Subject& subject, Random& random) {
-    SkinWeights& s = of(subject);
-    WeightsBranch& b = s.any(random);
-    const bool back = random.one_in(2);
-    auto &from = back ? b.undo : b.redo, &to = back ? b.redo : b.undo;
-    const hf_result result = back ? hf_weights_undo(b.handle) : hf_weights_redo(b.handle);
-    s.expect((result == HF_ERROR_NO_RECORD) == from.empty() || result == HF_ERROR_OUT_OF_MEMORY,
-             std::string("a step with ") + std::to_string(from.size()) + " records: " + hf_result_get_name(result));
-    if (result != HF_OK || from.empty()) return result;
-    s.world.memory.disarm();
-    to.push_back({b.model, b.seen});
-    b.model = from.back().model;
-    b.seen = s.seen_of(b.handle);
-    s.expect(b.seen == from.back().seen, "undo or redo gives other bits than at the record");
-    from.pop_back();
-    return result;
-  }
   static hf_result clone(Subject& subject, Random& random) {
     SkinWeights& s = of(subject);
-    const WeightsBranch& b = s.any(random);
-    if (s.branches_.size() > 2) return skipped;
-    WeightsBranch fresh;
-    fresh.handle = b.handle;
-    fresh.model = b.model;
-    fresh.seen = b.seen;
-    const hf_result result = hf_weights_clone(b.handle, &fresh.handle);
-    if (result != HF_OK) return s.expect(fresh.handle == nullptr, "a refused clone is no NULL"), result;
-    s.world.memory.disarm();
-    s.expect(s.seen_of(fresh.handle) == b.seen, "a clone has other bits");
-    return s.branches_.push_back(fresh), result;
+    return s.Subject::clone(s.branches_, random, hf_weights_clone, [&](const auto& b) { return s.bits_of(b); });
+  }
+  static hf_result go_back(Subject& subject, Random& random) {
+    SkinWeights& s = of(subject);
+    return s.Subject::go_back(s.branches_, random, [&](const auto& b) { return s.bits_of(b); });
   }
   static hf_result make(Subject& subject, Random& random) {
     SkinWeights& s = of(subject);
     const BoneList list = s.bones(random.below(6), random);
-    hf_bones_desc desc = list.desc();
+    hf_joints_desc desc = list.desc();
     desc.progress = s.world.progress();
     hf_weights made = s.branches_[0].handle;
     const hf_result result =
@@ -144,7 +111,6 @@ struct WeightsCalls {
     SkinWeights& s = of(subject);
     if (s.branches_.size() < 2) return skipped;
     const std::size_t i = random.below(static_cast<std::uint32_t>(s.branches_.size()));
-    hf_weights_destroy(s.branches_[i].handle);
     s.branches_.erase(s.branches_.begin() + static_cast<std::ptrdiff_t>(i));
     return HF_OK;
   }
@@ -158,7 +124,7 @@ struct WeightsCalls {
     const std::uint32_t capacity = random.one_in(5) ? count - 1 : count;
     switch (random.below(3)) {
       case 0:
-        return hf_weights_get_bones(b.handle, capacity, list.data(), nullptr, nullptr);
+        return hf_weights_get_joints(b.handle, capacity, list.data(), nullptr, nullptr);
       case 1:
         return hf_weights_get_helpers(b.handle, names.c_str(), capacity, list.data(), nullptr);
       default: {
@@ -201,23 +167,23 @@ struct WeightsCalls {
   }
   template <class Desc>
   static void fill(SkinWeights& s, Desc& desc, const WeightsSeen& given, Random& random) {
-    desc.influence_count = s.influences();
+    desc.source_influence_count = s.influences();
     desc.joints = given.joints.data();
     desc.weights = given.weights.data();
     desc.distance = random.pick({0.0, 0.0, 0.5, 2.0, random.number()});
     desc.angle = random.pick({0.0, 0.0, 1.0, 3.15, random.number()});
-    desc.weight_count = random.one_in(20) ? 5 : random.pick({0u, 4u, 8u});
+    desc.influence_count = random.one_in(20) ? 5 : random.pick({0u, 4u, 8u});
     desc.progress = s.world.progress();
   }
   static hf_result carry(Subject& subject, Random& random) {
     SkinWeights& s = of(subject);
     const WeightsSeen given = holes(s, s.any(random), random);
-    hf_carry_desc desc = HF_INIT(hf_carry_desc);
+    hf_weights_transfer_desc desc = HF_INIT(hf_weights_transfer_desc);
     fill(s, desc, given, random);
-    hf_carry_info info = HF_INIT(hf_carry_info);
+    hf_weights_transfer_info info = HF_INIT(hf_weights_transfer_info);
     Out out(s, random);
     const hf_result result =
-        hf_weights_carry(s.world.surface, s.world.surface, random.spoiled(desc), random.spoiled(out.desc), &info);
+        hf_weights_transfer(s.world.surface, s.world.surface, random.spoiled(desc), random.spoiled(out.desc), &info);
     s.expect(result == HF_OK || out.untouched(), "refused, but weights were written");
     return result;
   }
@@ -225,7 +191,7 @@ struct WeightsCalls {
     SkinWeights& s = of(subject);
     const WeightsBranch& b = s.any(random);
     const WeightsSeen given = holes(s, b, random);
-    hf_mirror_desc desc = HF_INIT(hf_mirror_desc);
+    hf_weights_mirror_desc desc = HF_INIT(hf_weights_mirror_desc);
     fill(s, desc, given, random);
     const std::uint32_t count = b.model.bones.count();
     std::vector<std::uint32_t> partners(count, HF_NO_INDEX), found(count, 77), pairings(count, 77);
@@ -233,13 +199,13 @@ struct WeightsCalls {
     std::string names;
     for (std::uint32_t i = random.one_in(20); i < count; ++i) names += i % 2 ? "arm.L\n" : "arm.R\n";
     const double plane[6] = {random.number(), 0, 0, random.number(), random.pick({0.0, 0.3}), 0};
-    desc.bone_count = count;
+    desc.joint_count = count;
     desc.heads = b.model.bones.heads.data();
     desc.to = random.pick({0, 1, 2, 2, 3});
     if (random.one_in(3)) desc.partners = partners.data();
     if (random.one_in(2)) desc.names = names.c_str();
     if (!random.one_in(3)) desc.plane = plane;
-    hf_mirror_info info = HF_INIT(hf_mirror_info);
+    hf_weights_mirror_info info = HF_INIT(hf_weights_mirror_info);
     Out out(s, random);
     const hf_result result = hf_weights_mirror(s.world.surface, random.spoiled(desc), random.spoiled(out.desc),
                                                found.data(), pairings.data(), &info);
@@ -251,12 +217,11 @@ struct WeightsCalls {
 
 const std::vector<Command>& SkinWeights::commands() const {
   static const std::vector<Command> table = {
-      {"hf_weights_set_bones", 8, WeightsCalls::bones},   {"hf_weights_set_pins", 10, WeightsCalls::pins},
-      {"hf_weights_set_locks", 6, WeightsCalls::locks},   {"hf_weights_record", 3, WeightsCalls::record},
-      {"hf_weights_undo or redo", 5, WeightsCalls::step}, {"hf_weights_clone", 2, WeightsCalls::clone},
-      {"hf_weights_create", 3, WeightsCalls::make},       {"hf_weights_destroy", 1, WeightsCalls::destroy},
-      {"reading weights", 2, WeightsCalls::read},         {"hf_weights_carry", 4, WeightsCalls::carry},
-      {"hf_weights_mirror", 4, WeightsCalls::mirror},
+      {"hf_weights_set_joints", 8, WeightsCalls::bones}, {"hf_weights_set_pins", 10, WeightsCalls::pins},
+      {"hf_weights_set_locks", 6, WeightsCalls::locks},  {"hf_weights_clone", 5, WeightsCalls::clone},
+      {"back to a clone", 5, WeightsCalls::go_back},     {"hf_weights_create", 3, WeightsCalls::make},
+      {"hf_weights_destroy", 1, WeightsCalls::destroy},  {"reading weights", 2, WeightsCalls::read},
+      {"hf_weights_transfer", 4, WeightsCalls::carry},   {"hf_weights_mirror", 4, WeightsCalls::mirror},
   };
   return table;
 }

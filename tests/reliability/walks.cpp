@@ -1,7 +1,7 @@
 // Walks that remove every site and add them again. A surface has one to five components. Each walk adds sites to some
 // of them and removes them one by one in any order. Then it adds them again: the field must equal that of a new solver.
 // On the way, three things report what no site reaches: the counts of hf_solve_info, values of 0, and
-// HF_ERROR_NO_SITES. The engines share 1,000 walks and the surface.
+// HF_ERROR_EMPTY. The engines share 1,000 walks and the surface.
 #include <algorithm>
 
 #include "report.h"
@@ -46,7 +46,7 @@ struct Walk {
     hf_solve_info info = desc<hf_solve_info>();
     const hf_result result = hf_solver_solve_f64(solver, u.data(), 0, &info);
     if (sites.empty()) {
-      wrong += result != HF_ERROR_NO_SITES || u[0] != 7e77;
+      wrong += result != HF_ERROR_EMPTY || u[0] != 7e77;
       return u;
     }
     must(result, "hf_solver_solve_f64");

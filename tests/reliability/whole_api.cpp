@@ -8,7 +8,7 @@ void Run::surface_and_picking() {
   hf_surface_desc d = surface_desc();
   d.progress = progress;
   const hf_surface surface = make(d);
-  float fraction = 0;
+  double fraction = 0;
   call(hf_progress_get_fraction(progress, &fraction), "hf_progress_get_fraction");
   take(&fraction, 1);
   hf_surface none = nullptr;
@@ -87,7 +87,8 @@ void Run::solver_and_sites() {
   take_floats();
 
   call(hf_solver_add_site(solver, 311, s.values.data() + 17, nullptr), "hf_solver_add_site");
-  call(hf_solver_record(solver), "hf_solver_record");
+  hf_solver before = nullptr;
+  call(hf_solver_clone(solver, &before), "hf_solver_clone");
   sites = sites_at(1, 1, 0, 111);
   sites.values = nullptr;
   call(hf_solver_move_sites(solver, 1, &numbers[1], &sites), "hf_solver_move_sites");
@@ -104,9 +105,8 @@ void Run::solver_and_sites() {
   double at[3];
   call(hf_solver_solve_at(solver, 3, asked, at), "hf_solver_solve_at");
   take(at, 3);
-  call(hf_solver_undo(solver), "hf_solver_undo");
-  take_field(solver);
-  call(hf_solver_redo(solver), "hf_solver_redo");
+  take_field(before);
+  hf_solver_destroy(before);
   take_field(solver);
   const Numbers screening(std::size_t{n}, 0.5), targets(8 * std::size_t{n}, 2.0);
   call(hf_solver_set_screening(solver, screening.data(), targets.data()), "hf_solver_set_screening");
@@ -327,7 +327,7 @@ void Run::analysis() {
     take(distance.data(), n);
     take(found.data(), count);
   }
-  hf_propose_desc places = desc<hf_propose_desc>();
+  hf_handle_proposals_desc places = desc<hf_handle_proposals_desc>();
   const double joints[6] = {0, 0, 0, 0, 1, 0};
   const std::uint32_t parents[2] = {HF_NO_INDEX, 0};
   places.joint_count = 2;
@@ -335,7 +335,8 @@ void Run::analysis() {
   places.parents = parents;
   std::vector<hf_handle_proposal> proposed(HF_HANDLE_LIMIT);
   std::uint32_t proposed_count = 0;
-  call(hf_propose_handles(surface, &places, HF_HANDLE_LIMIT, proposed.data(), &proposed_count), "hf_propose_handles");
+  call(hf_surface_propose_handles(surface, &places, HF_HANDLE_LIMIT, proposed.data(), &proposed_count),
+       "hf_surface_propose_handles");
   take(proposed.data(), proposed_count);
   hf_geodesics_destroy(geodesics);
   hf_surface_destroy(surface);
@@ -351,14 +352,11 @@ void Run::directions() {
   const std::uint32_t vertices[4] = {20, 90, 150, 250}, to[1] = {40};
   std::uint32_t sites[4], count = 0;
   call(hf_direction_add_sites(direction, 4, vertices, s.vectors.data(), sites), "hf_direction_add_sites");
-  call(hf_direction_record(direction), "hf_direction_record");
   call(hf_direction_move_sites(direction, 1, sites, to), "hf_direction_move_sites");
   call(hf_direction_set_vectors(direction, 1, sites + 1, s.vectors.data() + 9), "hf_direction_set_vectors");
   call(hf_direction_rotate_sites(direction, 2, sites, s.angles.data()), "hf_direction_rotate_sites");
   call(hf_direction_remove_sites(direction, 1, sites + 3), "hf_direction_remove_sites");
   call(hf_direction_clone(direction, &copy), "hf_direction_clone");
-  call(hf_direction_undo(direction), "hf_direction_undo");
-  call(hf_direction_redo(direction), "hf_direction_redo");
   call(hf_direction_solve(copy, floats.data(), 0, nullptr), "hf_direction_solve");
   take_floats();
   call(hf_direction_solve_f64(direction, doubles.data(), 0, nullptr), "hf_direction_solve_f64");
@@ -410,7 +408,7 @@ void Run::errors() {
   }
   call(hf_surface_create(nullptr, nullptr), "hf_surface_create, nothing", HF_ERROR_NULL_POINTER);
   call(hf_create(nullptr, nullptr, nullptr), "hf_create, nothing", HF_ERROR_NULL_POINTER);
-  call(hf_solve(nullptr, nullptr, 0, nullptr), "hf_solve, nothing", HF_ERROR_INVALID_HANDLE);
+  call(hf_solve(nullptr, nullptr, 0, nullptr), "hf_solve, nothing", HF_ERROR_INVALID_OBJECT);
   hf_error_detail detail;
   call(hf_error_get_detail(&detail), "hf_error_get_detail");
   take(&detail.code, 1);

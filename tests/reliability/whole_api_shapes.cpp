@@ -1,4 +1,4 @@
-// Poses, transfers, quads, flow lines, regions and their detail, skin weights.
+// Poses, transfers, quads, streamlines, regions and their detail, skin weights.
 #include "whole_api_run.h"
 
 namespace reliability {
@@ -79,9 +79,9 @@ void Run::pose_and_transfer() {
     call(hf_transfer_apply(transfer, &frame), "hf_transfer_apply");
     take_floats();
     hf_transfer_dials dials = desc<hf_transfer_dials>();
-    dials.stride = 1.2f;
-    dials.hip_height = 0.1f;
-    dials.arm_space = 0.2f;
+    dials.stride = 1.2;
+    dials.hip_height_share = 0.1;
+    dials.arm_space = 0.2;
     call(hf_transfer_set_dials(transfer, &dials), "hf_transfer_set_dials");
     call(hf_transfer_apply(transfer, &frame), "hf_transfer_apply, dials");
     take_floats();
@@ -108,7 +108,7 @@ void Run::pose_and_transfer() {
 void Run::quads_and_flow() {
   const hf_surface surface = make(surface_desc());
   hf_quads_desc wanted = desc<hf_quads_desc>();
-  wanted.edge_length = 0.5f;
+  wanted.edge_length = 0.5;
   hf_quads quads = nullptr;
   call(hf_quads_create(surface, &wanted, &quads), "hf_quads_create");
   hf_quads_info info = desc<hf_quads_info>();
@@ -134,7 +134,7 @@ void Run::quads_and_flow() {
   hf_surface_destroy(surface);
   hf_scalars field = desc<hf_scalars>();
   field.values_f64 = s.height.data();
-  hf_flow_lines lines = desc<hf_flow_lines>();
+  hf_streamlines lines = desc<hf_streamlines>();
   lines.wanted_count = 12;
   call(hf_flow_trace(flow, &field, &lines), "hf_flow_trace");
   positions.resize(3 * std::size_t{lines.point_count});
@@ -161,13 +161,10 @@ void Run::regions() {
   edit.add_vertices = patch.data();
   call(hf_region_edit(source, &edit), "hf_region_edit");
   hf_surface_destroy(surface);
-  call(hf_region_record(source), "hf_region_record");
   call(hf_region_clone(source, &target), "hf_region_clone");
   hf_region_edit_desc grow = desc<hf_region_edit_desc>();
   grow.ring_count = 1;
   call(hf_region_edit(source, &grow), "hf_region_edit, grown");
-  call(hf_region_undo(source), "hf_region_undo");
-  call(hf_region_redo(source), "hf_region_redo");
   for (std::uint32_t& v : patch) v += 7 * s.around;
   hf_region_edit_desc there = desc<hf_region_edit_desc>();
   std::vector<std::uint32_t> old;
@@ -207,8 +204,8 @@ void Run::skin_weights() {
     for (std::uint32_t k = 0; k < 3; ++k) heads.push_back(static_cast<double>(s.positions[3 * v + k]));
   }
   const std::uint32_t parents[3] = {HF_NO_INDEX, 0, 1}, lock = 1, pinned = n / 3;
-  hf_bones_desc bones = desc<hf_bones_desc>();
-  bones.bone_count = 3;
+  hf_joints_desc bones = desc<hf_joints_desc>();
+  bones.joint_count = 3;
   bones.heads = heads.data();
   bones.parents = parents;
   hf_weights weights = nullptr, copy = nullptr;
@@ -216,19 +213,16 @@ void Run::skin_weights() {
   hf_surface_destroy(surface);
   call(hf_weights_clone(weights, &copy), "hf_weights_clone");
   hf_weights_destroy(copy);
-  call(hf_weights_record(weights), "hf_weights_record");
   const float share = 1;
   hf_pins_desc pins = desc<hf_pins_desc>();
-  pins.pin_count = pins.joint_count = 1;
+  pins.pin_count = pins.influence_count = 1;
   pins.vertices = &pinned;
   pins.joints = &lock;
   pins.weights = &share;
   call(hf_weights_set_pins(weights, &pins), "hf_weights_set_pins");
   call(hf_weights_set_locks(weights, 1, &lock, nullptr), "hf_weights_set_locks");
   heads[1] += 0.25;
-  call(hf_weights_set_bones(weights, &bones), "hf_weights_set_bones");
-  call(hf_weights_undo(weights), "hf_weights_undo");
-  call(hf_weights_redo(weights), "hf_weights_redo");
+  call(hf_weights_set_joints(weights, &bones), "hf_weights_set_joints");
   std::vector<std::uint32_t> joints(4 * std::size_t{n}), flags(3);
   std::vector<float> shares(joints.size());
   hf_weights_out out = desc<hf_weights_out>();
@@ -238,7 +232,7 @@ void Run::skin_weights() {
   call(hf_weights_get(weights, &out), "hf_weights_get");
   take(joints.data(), joints.size());
   take(shares.data(), shares.size());
-  call(hf_weights_get_bones(weights, 3, flags.data(), nullptr, nullptr), "hf_weights_get_bones");
+  call(hf_weights_get_joints(weights, 3, flags.data(), nullptr, nullptr), "hf_weights_get_joints");
   take(flags.data(), flags.size());
   hf_weights_info info = desc<hf_weights_info>();
   call(hf_weights_get_info(weights, &info), "hf_weights_get_info");
@@ -259,22 +253,22 @@ void Run::carried_weights(hf_surface surface, const Numbers& heads, const std::v
   out.vertex_capacity = n;
   out.joints = bones.data();
   out.weights = weights.data();
-  hf_carry_desc carry = desc<hf_carry_desc>();
-  carry.influence_count = 4;
+  hf_weights_transfer_desc carry = desc<hf_weights_transfer_desc>();
+  carry.source_influence_count = 4;
   carry.joints = joints.data();
   carry.weights = shares.data();
-  hf_carry_info carried = desc<hf_carry_info>();
-  call(hf_weights_carry(surface, surface, &carry, &out, &carried), "hf_weights_carry");
+  hf_weights_transfer_info carried = desc<hf_weights_transfer_info>();
+  call(hf_weights_transfer(surface, surface, &carry, &out, &carried), "hf_weights_transfer");
   take(bones.data(), bones.size());
   take(weights.data(), weights.size());
   take(&carried, 1);
-  hf_mirror_desc mirror = desc<hf_mirror_desc>();
-  mirror.bone_count = 3;
+  hf_weights_mirror_desc mirror = desc<hf_weights_mirror_desc>();
+  mirror.joint_count = 3;
   mirror.heads = heads.data();
-  mirror.influence_count = 4;
+  mirror.source_influence_count = 4;
   mirror.joints = joints.data();
   mirror.weights = shares.data();
-  hf_mirror_info mirrored = desc<hf_mirror_info>();
+  hf_weights_mirror_info mirrored = desc<hf_weights_mirror_info>();
   call(hf_weights_mirror(surface, &mirror, &out, nullptr, nullptr, &mirrored), "hf_weights_mirror");
   take(bones.data(), bones.size());
   take(weights.data(), weights.size());

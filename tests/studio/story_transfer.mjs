@@ -100,7 +100,7 @@ export default async function story(host) {
   await check('dials: a longer stride moves a foot farther, the tail follows, and neutral dials give the same picture', async () => {
     await page.click('#dials summary');
     const names = await page.evaluate(() => [...document.querySelectorAll('#dials input')].map(({ id }) => id).join());
-    assert.match(names, /^dial-stride,dial-hipHeight,dial-neckFollow/);
+    assert.match(names, /^dial-stride,dial-hipHeightShare,dial-neckFollow/);
     const shape = (time) =>
       page.evaluate(async (time) => {
         const { tools, skin } = window.hfStudio;

@@ -30,10 +30,10 @@ export default async function story(host) {
     await studio.settle();
     const [worst, facts] = [
       await page.evaluate(() => {
-        const { weights, weightCount } = window.hfStudio.tools.weights.result;
+        const { weights, influenceCount } = window.hfStudio.tools.weights.result;
         let worst = 0;
-        for (let v = 0; v < weights.length; v += weightCount)
-          worst = Math.max(worst, Math.abs(1 - weights.slice(v, v + weightCount).reduce((a, b) => a + b)));
+        for (let v = 0; v < weights.length; v += influenceCount)
+          worst = Math.max(worst, Math.abs(1 - weights.slice(v, v + influenceCount).reduce((a, b) => a + b)));
         return worst;
       }),
       await studio.facts(),
@@ -54,9 +54,9 @@ export default async function story(host) {
       const shares = (vertex) =>
         page.evaluate((vertex) => {
           const { result, shown } = window.hfStudio.tools.weights;
-          const { weightCount, joints, weights } = result;
+          const { influenceCount, joints, weights } = result;
           let sum = 0;
-          for (let i = weightCount * vertex; i < weightCount * (vertex + 1); ++i)
+          for (let i = influenceCount * vertex; i < influenceCount * (vertex + 1); ++i)
             if (joints[i] === Number(shown)) sum += weights[i];
           return sum;
         }, vertex);
@@ -83,16 +83,16 @@ export default async function story(host) {
   );
   await check('fewer bones: 8 are kept as 4, and the shares that go are told', async () => {
     await page.selectOption('#weight-count', '8');
-    await page.waitForFunction(() => window.hfStudio.tools.weights.result?.weightCount === 8);
+    await page.waitForFunction(() => window.hfStudio.tools.weights.result?.influenceCount === 8);
     const most = await page.evaluate(() => {
-      const { weights, weightCount } = window.hfStudio.tools.weights.result;
+      const { weights, influenceCount } = window.hfStudio.tools.weights.result;
       let most = 0;
-      for (let v = 0; v < weights.length; v += weightCount)
-        most = Math.max(most, weights.slice(v, v + weightCount).filter(Boolean).length);
+      for (let v = 0; v < weights.length; v += influenceCount)
+        most = Math.max(most, weights.slice(v, v + influenceCount).filter(Boolean).length);
       return most;
     });
     await page.selectOption('#weight-count', '4');
-    await page.waitForFunction(() => window.hfStudio.tools.weights.result?.weightCount === 4);
+    await page.waitForFunction(() => window.hfStudio.tools.weights.result?.influenceCount === 4);
     assert.ok(most > 4, `a vertex has at most ${most} bones`);
     return `${most} bones at a vertex, then 4`;
   });
@@ -154,10 +154,10 @@ export default async function story(host) {
     await studio.settle();
     await studio.picture('weights_handles');
     const { worst, used } = await page.evaluate(() => {
-      const { weights, joints, weightCount } = window.hfStudio.tools.weights.result;
+      const { weights, joints, influenceCount } = window.hfStudio.tools.weights.result;
       let worst = 0;
-      for (let v = 0; v < weights.length; v += weightCount)
-        worst = Math.max(worst, Math.abs(1 - weights.slice(v, v + weightCount).reduce((a, b) => a + b)));
+      for (let v = 0; v < weights.length; v += influenceCount)
+        worst = Math.max(worst, Math.abs(1 - weights.slice(v, v + influenceCount).reduce((a, b) => a + b)));
       return { worst, used: new Set(joints.filter((_, i) => weights[i] > 0)).size };
     });
     assert.ok(worst < 1e-6 && used === 4, `sums off by ${worst}, ${used} bones used`);

@@ -182,7 +182,7 @@ class HF_OT_remove_handle(bpy.types.Operator):
         else:
             carrier = active_carrier(context)
         if carrier is None:
-            raise hf.NoSuchHandleError("the active object is no handle")
+            raise hf.NotFoundError("the active object is no handle")
         obj = mesh_with(carrier["hf_key"])
         with quiet():
             carriers.unmark(carrier)
@@ -218,7 +218,7 @@ class HF_OT_field(bpy.types.Operator):
             carrier, found = active_carrier(context), session.session_of(obj)
             found.sync(obj)
             if carrier is None or carrier["hf_id"] not in found.numbers:
-                raise hf.NoSuchHandleError("make a handle the active object, or name two vertex groups")
+                raise hf.NotFoundError("make a handle the active object, or name two vertex groups")
             values = found.pose.handle_field(found.numbers[carrier["hf_id"]])
         (mesh_data.write_group if self.output == "GROUP" else mesh_data.write_colour)(obj, self.name, values)
 
@@ -266,7 +266,7 @@ class HF_OT_transfer(bpy.types.Operator):
 
 DIALS = {  # of hf_transfer_dials: label, neutral value, range, what it does
     "stride": ("Stride", 1.0, 0.1, 4.0, "How many times the paths of feet and trunk along the ground count"),
-    "hip_height": ("Hip height", 0.0, -0.5, 0.5, "Raises the trunk by this share of its height at rest"),
+    "hip_height_share": ("Hip height", 0.0, -0.5, 0.5, "Raises the trunk by this share of its height at rest"),
     "neck_follow": ("Neck follows", 0.0, -1.0, 1.0,
         "1: the neck points where the source's points; -1: it does not move against the trunk"),
     "tail_follow": ("Tail follows", 0.0, -1.0, 1.0,
@@ -320,7 +320,7 @@ class HF_OT_weights_from_bones(bpy.types.Operator):
             obj.update_from_editmode()
         with quiet():
             info, helpers = skinning.weights_from_bones(obj, armature, int(self.count), context.window_manager)
-        guessed = info.carried_count + info.rigid_count + info.isolated_count
+        guessed = info.nearest_count + info.rigid_count + info.isolated_count
         self.report({"INFO"}, f"{info.vertex_count} vertices, {guessed} guessed; {len(helpers)} bones look like helpers")
 
 
@@ -347,7 +347,7 @@ class HF_OT_pin_weights(bpy.types.Operator):
 
 class HF_OT_carry_weights(bpy.types.Operator):
     """The weights of the other selected mesh on the active one: clothes, hair, levels of detail"""
-    bl_idname, bl_label, bl_options = "hf.carry_weights", "Carry weights", {"REGISTER", "UNDO"}
+    bl_idname, bl_label, bl_options = "hf.transfer_weights", "Transfer weights", {"REGISTER", "UNDO"}
     source: bpy.props.StringProperty(name="Source", description="Empty: the other selected mesh")
     distance: bpy.props.FloatProperty(name="Distance", min=0, description="How near the other mesh is; 0: 5 % of its size")
 

@@ -105,7 +105,7 @@ class HF_PT_field(Tool, bpy.types.Panel):
 
 class HF_PT_weights(Tool, bpy.types.Panel):
     bl_label, bl_idname, bl_options = "Weights", "HF_PT_weights", {"DEFAULT_CLOSED"}
-    buttons = (("hf.weights_from_bones", ""), ("hf.pin_weights", ""), ("hf.carry_weights", ""), ("hf.mirror_weights", ""),
+    buttons = (("hf.weights_from_bones", ""), ("hf.pin_weights", ""), ("hf.transfer_weights", ""), ("hf.mirror_weights", ""),
         ("hf.weights", ""))
 
     def draw(self, context):

@@ -132,11 +132,11 @@ def options_of(source, found, strokes, poles, graph, faces, crease, sharp, symme
     vertices, vectors = mesh_data.guides_of(source, strokes, found.surface, math.sqrt(area / min(faces, len(polygons))), graph)
     into = source.matrix_world.inverted_safe()
     places = [into @ pole.matrix_world for pole in poles]
-    return {"face_count": faces, "crease_angle": math.degrees(crease),
+    return {"face_count": faces, "crease_angle": crease,
         "crease_edges": mesh_data.sharp_edges(source.data) if sharp else None, "guide_vertices": vertices,
-        "guide_vectors": vectors, "pole_points": [at.translation[:] for at in places] if poles else None,
-        "pole_quads": [int(pole[POLE]) for pole in poles] if poles else None,
-        "pole_directions": [at.to_3x3().col[0][:] for at in places] if poles else None,
+        "guide_vectors": vectors, "irregular_points": [at.translation[:] for at in places] if poles else None,
+        "irregular_valences": [int(pole[POLE]) for pole in poles] if poles else None,
+        "irregular_directions": [at.to_3x3().col[0][:] for at in places] if poles else None,
         "symmetry_plane": None if symmetry == "NONE" else [float(axis == symmetry) for axis in "XYZ"] + [0.0]}
 
 

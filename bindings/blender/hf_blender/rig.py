@@ -100,7 +100,7 @@ class Motion:
 
 motions = {}  # by the name of the target
 
-DIALLED = {"hip_height": "trunk", "neck_follow": "neck", "tail_follow": "tail", "arm_space": "arm"}  # the kind each turns
+DIALLED = {"hip_height_share": "trunk", "neck_follow": "neck", "tail_follow": "tail", "arm_space": "arm"}  # the kind each turns
 
 
 def idle_dials(target, **dials):

@@ -128,9 +128,9 @@ def note_on(obj, sentences):
 def describe(info, helpers):
     """What was guessed, in sentences."""
     note = [f"{info.informed_count} vertices see their bone, {info.solved_count} are between"]
-    guessed = info.carried_count + info.rigid_count + info.isolated_count
+    guessed = info.nearest_count + info.rigid_count + info.isolated_count
     if guessed:
-        note.append(f"guessed: {guessed} vertices of {info.carried_island_count} loose parts")
+        note.append(f"guessed: {guessed} vertices of {info.nearest_piece_count} loose parts")
     if info.blind:
         note.append("guessed: a part of the mesh sees no bone")
     if info.outside_count:
@@ -179,7 +179,7 @@ def weights_from_bones(obj, armature, count=4, window_manager=None):
     surface = make_surface(positions_of(obj.data), faces_of(obj.data), window_manager)
     try:
         weights = hf.Weights(surface, ends[:, 0], tails=ends[:, 1], parents=[parent_of(b) for b in bones],
-            weight_count=count)
+            influence_count=count)
         skin = kept[obj[KEY]] = Skin(surface, weights, names)
     except hf.HfError:
         surface.close()
@@ -212,14 +212,14 @@ def carry(source, target, count=4, distance=0.0, window_manager=None):
     points = positions_of(source.data).astype(np.float64) @ to_target[:3, :3].T + to_target[:3, 3]
     with make_surface(points.astype(np.float32), faces_of(source.data), window_manager) as first:
         with make_surface(positions_of(target.data), faces_of(target.data), window_manager) as second:
-            found, info = hf.carry_weights(first, joints, weights, second, distance=distance, weight_count=count)
+            found, info = hf.transfer_weights(first, joints, weights, second, distance=distance, influence_count=count)
     write_groups(target, names, found.joints, found.weights)
     if armature is not None and armature_of(target) is None:
         target.modifiers.new(armature.name, "ARMATURE").object = armature
     note = [f"carried from {source.name}: {info.matched_count} vertices matched, {info.solved_count} filled in"]
-    guessed = info.carried_count + info.rigid_count + info.isolated_count
+    guessed = info.nearest_count + info.rigid_count + info.isolated_count
     if guessed:
-        note.append(f"guessed: {guessed} vertices of {info.guessed_island_count} loose parts")
+        note.append(f"guessed: {guessed} vertices of {info.guessed_piece_count} loose parts")
     note_on(target, note)
     return info
 
@@ -236,7 +236,7 @@ def mirror(obj, to, count=4, window_manager=None):
     joints, weights = group_weights(obj, names)
     ends = bone_ends(obj, armature, bones)
     with make_surface(positions_of(obj.data), faces_of(obj.data), window_manager) as surface:
-        found = hf.mirror_weights(surface, joints, weights, ends[:, 0], names=names, to=to, weight_count=count)
+        found = hf.mirror_weights(surface, joints, weights, ends[:, 0], names=names, to=to, influence_count=count)
     write_groups(obj, names, found.weights.joints, found.weights.weights)
     info = found.info
     alone = [n for n, p in zip(names, found.pairings) if p == hf.Pairing.ALONE]

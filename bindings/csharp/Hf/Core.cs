@@ -75,7 +75,7 @@ namespace Hf
 
     /// <summary>Something with a handle. Dispose may be called more than once and in any order; a call on a disposed
     /// object
-    /// throws an HfException of the code HF_ERROR_INVALID_HANDLE. What is not disposed is collected.</summary>
+    /// throws an HfException of the code HF_ERROR_INVALID_OBJECT. What is not disposed is collected.</summary>
     public abstract class HfObject : IDisposable
     {
         NativeHandle owned;
@@ -83,6 +83,15 @@ namespace Hf
         internal void Own(IntPtr raw, Action<IntPtr> destroy)
         {
             owned = new NativeHandle(raw, destroy);
+        }
+
+        internal bool IsDisposed { get { return owned == null || owned.IsClosed; } }
+
+        internal void Exchange(HfObject other)
+        {
+            NativeHandle mine = owned;
+            owned = other.owned;
+            other.owned = mine;
         }
 
         /// <summary>The handle of the C ABI; stale after Dispose, which the library finds out.</summary>
@@ -165,7 +174,7 @@ namespace Hf
 
         internal static IntPtr HandleOf(HfObject thing, string name)
         {
-            if (thing == null) throw new HfException(name + " is null", Constants.HF_ERROR_INVALID_HANDLE);
+            if (thing == null) throw new HfException(name + " is null", Constants.HF_ERROR_INVALID_OBJECT);
             return thing.Handle;
         }
 
@@ -174,6 +183,32 @@ namespace Hf
         {
             GC.KeepAlive(this);
             HfException.Check(result);
+        }
+    }
+
+    /// <summary>Something with undo. A record is a clone, so it shares memory with the object.</summary>
+    public abstract class Recorded : HfObject
+    {
+        Stack<Recorded> past = new Stack<Recorded>(), undone = new Stack<Recorded>();
+
+        internal abstract Recorded State();
+
+        /// <summary>Keeps the present state for Undo.</summary>
+        public void Record() { past.Push(State()); undone.Clear(); }
+
+        /// <summary>Goes back to the last record, bit for bit.</summary>
+        public void Undo() { Exchange(past, undone, "nothing is recorded; call Record before the edits"); }
+
+        /// <summary>Goes to the state before the last Undo.</summary>
+        public void Redo() { Exchange(undone, past, "nothing was undone since the last Record"); }
+
+        void Exchange(Stack<Recorded> from, Stack<Recorded> to, string nothing)
+        {
+            if (IsDisposed) State();  // throws what every call on a disposed object throws
+            if (from.Count == 0) throw new HfException(nothing, Constants.HF_ERROR_EMPTY);
+            Recorded state = from.Pop();
+            Exchange(state);
+            to.Push(state);
         }
     }
 

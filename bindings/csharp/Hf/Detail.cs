@@ -20,7 +20,7 @@ namespace Hf
     }
 
     /// <summary>A region of a surface and its smooth base: a thin plate, or a membrane.</summary>
-    public sealed unsafe class Region : HfObject
+    public sealed unsafe class Region : Recorded
     {
         public int VertexCount { get; private set; }
 
@@ -74,9 +74,7 @@ namespace Hf
             }
         }
 
-        public void Record() { Check(Functions.hf_region_record(Handle)); }
-        public void Undo() { Check(Functions.hf_region_undo(Handle)); }
-        public void Redo() { Check(Functions.hf_region_redo(Handle)); }
+        internal override Recorded State() { return Clone(); }
 
         public hf_region_info Info { get { return Read<hf_region_info>(Functions.hf_region_get_info); } }
 

@@ -10,7 +10,7 @@ namespace Hf
     {
         readonly int vertexCount;
 
-        public Geodesics(Surface surface, float smoothing = 0, int method = 0)
+        public Geodesics(Surface surface, double smoothing = 0, int method = 0)
         {
             var desc = new hf_geodesics_desc { struct_size = (uint)sizeof(hf_geodesics_desc) };
             desc.smoothing = smoothing;
@@ -105,7 +105,7 @@ namespace Hf
     }
 
     /// <summary>A field of vectors, lines or crosses (degree 1, 2, 4) with constraints and singularities.</summary>
-    public sealed unsafe class Direction : HfObject
+    public sealed unsafe class Direction : Recorded
     {
         int vertexCount;
 
@@ -154,9 +154,7 @@ namespace Hf
         public void RotateSites(uint[] sites, double[] angles) { OnList(Functions.hf_direction_rotate_sites, sites,
             angles, 1, "angles"); }
 
-        public void Record() { Check(Functions.hf_direction_record(Handle)); }
-        public void Undo() { Check(Functions.hf_direction_undo(Handle)); }
-        public void Redo() { Check(Functions.hf_direction_redo(Handle)); }
+        internal override Recorded State() { return Clone(); }
 
         public int SiteCount
         {

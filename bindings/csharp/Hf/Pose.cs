@@ -16,15 +16,15 @@ namespace Hf
 
         internal unsafe delegate int Call(IntPtr handle, void* info);
 
-        internal static unsafe Skin Get(HfObject owner, Call call, int vertexCount, uint weightCount)
+        internal static unsafe Skin Get(HfObject owner, Call call, int vertexCount, uint influenceCount)
         {
             var info = new hf_skin_info { struct_size = (uint)sizeof(hf_skin_info) };
-            info.weight_count = weightCount;
+            info.influence_count = influenceCount;
             owner.Check(call(owner.Handle, &info));
             uint n = info.joint_count;
             var skin = new Skin { Pivots = new double[3 * n], Rotations = new double[4 * n],
-                Translations = new double[3 * n], Joints = new uint[vertexCount * weightCount],
-                Weights = new float[vertexCount * weightCount] };
+                Translations = new double[3 * n], Joints = new uint[vertexCount * influenceCount],
+                Weights = new float[vertexCount * influenceCount] };
             using (var pins = new Pins())
             {
                 info.joint_capacity = n;
@@ -48,13 +48,13 @@ namespace Hf
         Pose() { }
 
         public Pose(Surface surface, int mode = Constants.HF_DEFORM_SMOOTH, uint bandCount = 0, uint iterationCount = 0,
-            uint samplesPerRing = 0, uint groupCount = 0)
+            uint rimSiteCount = 0, uint groupCount = 0)
         {
             var desc = new hf_pose_desc { struct_size = (uint)sizeof(hf_pose_desc) };
             desc.mode = mode;
             desc.band_count = bandCount;
             desc.iteration_count = iterationCount;
-            desc.samples_per_ring = samplesPerRing;
+            desc.rim_site_count = rimSiteCount;
             desc.group_count = groupCount;
             Make(Functions.hf_pose_create, surface, "surface", &desc, Functions.hf_pose_destroy);
             VertexCount = surface.VertexCount;
@@ -216,7 +216,7 @@ namespace Hf
             return positions;
         }
 
-        public Skin Skin(uint weightCount = 4) { return Hf.Skin.Get(this, Functions.hf_pose_get_skin, VertexCount,
-            weightCount); }
+        public Skin Skin(uint influenceCount = 4) { return Hf.Skin.Get(this, Functions.hf_pose_get_skin, VertexCount,
+            influenceCount); }
     }
 }

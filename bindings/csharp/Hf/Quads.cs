@@ -8,7 +8,7 @@ namespace Hf
     /// <summary>Fields of hf_quads_desc; 0 and null are the defaults.</summary>
     public sealed class QuadOptions
     {
-        public float EdgeLength, CreaseAngle;
+        public double EdgeLength, CreaseAngle;
         public uint RelaxCount, FaceCount;
         /// <summary>Two vertices each.</summary>
         public uint[] CreaseEdges;
@@ -17,11 +17,11 @@ namespace Hf
         public double[] GuideVectors;
         public float[] GuideWeights;
         /// <summary>Irregular vertices at places that the user drags: three numbers each.</summary>
-        public double[] PolePoints;
-        /// <summary>How many quads meet at each pole: 3 or 5.</summary>
-        public uint[] PoleQuads;
-        /// <summary>Three numbers for each pole: one side of it runs along them. 0, 0, 0 is any direction.</summary>
-        public double[] PoleDirections;
+        public double[] IrregularPoints;
+        /// <summary>How many quads meet at each irregular vertex: 3 or 5.</summary>
+        public uint[] IrregularValences;
+        /// <summary>Three numbers for each irregular vertex: one side of it runs along them. 0, 0, 0 is any direction.</summary>
+        public double[] IrregularDirections;
         /// <summary>a, b, c, d of the plane a x + b y + c z = d.</summary>
         public double[] SymmetryPlane;
         public Progress Progress;
@@ -78,11 +78,11 @@ namespace Hf
             desc.guide_vertices = pins.Add(options.GuideVertices);
             desc.guide_vectors = pins.Add(options.GuideVectors, 3 * guides, "GuideVectors");
             desc.guide_weights = pins.Add(options.GuideWeights, guides, "GuideWeights");
-            int poles = options.PoleQuads == null ? 0 : options.PoleQuads.Length;
-            desc.pole_count = (uint)poles;
-            desc.pole_quads = pins.Add(options.PoleQuads);
-            desc.pole_points = pins.Add(options.PolePoints, 3 * poles, "PolePoints");
-            desc.pole_directions = pins.Add(options.PoleDirections, 3 * poles, "PoleDirections");
+            int poles = options.IrregularValences == null ? 0 : options.IrregularValences.Length;
+            desc.irregular_count = (uint)poles;
+            desc.irregular_valences = pins.Add(options.IrregularValences);
+            desc.irregular_points = pins.Add(options.IrregularPoints, 3 * poles, "IrregularPoints");
+            desc.irregular_directions = pins.Add(options.IrregularDirections, 3 * poles, "IrregularDirections");
             if (options.SymmetryPlane != null)
             {
                 Pins.Need(options.SymmetryPlane.Length, 4, "SymmetryPlane");
@@ -120,13 +120,13 @@ namespace Hf
     }
 
     /// <summary>Line i holds the points LineStarts[i] to LineStarts[i + 1] - 1; Values rise along it.</summary>
-    public sealed class FlowLines
+    public sealed class Streamlines
     {
         public double[] Positions, Values;
         public uint[] LineStarts, LineEnds;
     }
 
-    /// <summary>A surface prepared for tracing flow lines, again and again.</summary>
+    /// <summary>A surface prepared for tracing streamlines, again and again.</summary>
     public sealed unsafe class Flow : HfObject
     {
         readonly int vertexCount;
@@ -141,17 +141,17 @@ namespace Hf
 
         /// <summary>Lines of equal flux from the minima of a field, wantedCount of them, or one through every seed
         /// vertex.</summary>
-        public FlowLines Trace(double[] field, uint wantedCount = 0, uint[] seeds = null)
+        public Streamlines Trace(double[] field, uint wantedCount = 0, uint[] seeds = null)
         {
             for (;;)
             {
-                var found = new FlowLines { Positions = new double[3 * points], Values = new double[points],
+                var found = new Streamlines { Positions = new double[3 * points], Values = new double[points],
                     LineStarts = new uint[lines + 1], LineEnds = new uint[2 * lines] };
                 using (var pins = new Pins())
                 {
                     var scalars = new hf_scalars { struct_size = (uint)sizeof(hf_scalars) };
                     scalars.values_f64 = pins.Add(field, vertexCount, "field");
-                    var place = new hf_flow_lines { struct_size = (uint)sizeof(hf_flow_lines) };
+                    var place = new hf_streamlines { struct_size = (uint)sizeof(hf_streamlines) };
                     place.wanted_count = wantedCount;
                     place.seed_count = seeds == null ? 0 : (uint)seeds.Length;
                     place.seeds = pins.Add(seeds);

@@ -15,23 +15,18 @@ namespace Hf.Native
         public const int HF_OK = 0;
         public const int HF_ERROR_INVALID_ARGUMENT = -1;
         public const int HF_ERROR_NULL_POINTER = -2;
-        public const int HF_ERROR_INVALID_HANDLE = -3;
+        public const int HF_ERROR_INVALID_OBJECT = -3;
         public const int HF_ERROR_INVALID_DESC = -4;
         public const int HF_ERROR_OUT_OF_RANGE = -5;
         public const int HF_ERROR_NON_FINITE = -6;
         public const int HF_ERROR_EMPTY = -7;
-        public const int HF_ERROR_DUPLICATE_SITE = -8;
-        public const int HF_ERROR_NO_SUCH_SITE = -9;
+        public const int HF_ERROR_NOT_FOUND = -8;
+        public const int HF_ERROR_DUPLICATE = -9;
         public const int HF_ERROR_CONFLICT = -10;
-        public const int HF_ERROR_NO_SITES = -11;
-        public const int HF_ERROR_NO_SUCH_HANDLE = -12;
-        public const int HF_ERROR_NO_SUCH_PAIR = -13;
-        public const int HF_ERROR_OVERLAP = -14;
-        public const int HF_ERROR_UNSUPPORTED = -15;
-        public const int HF_ERROR_BUSY = -16;
-        public const int HF_ERROR_REENTRANT = -17;
-        public const int HF_ERROR_TOO_SMALL = -18;
-        public const int HF_ERROR_NO_RECORD = -19;
+        public const int HF_ERROR_UNSUPPORTED = -11;
+        public const int HF_ERROR_BUSY = -12;
+        public const int HF_ERROR_REENTRANT = -13;
+        public const int HF_ERROR_TOO_SMALL = -14;
         public const int HF_ERROR_OUT_OF_MEMORY = -100;
         public const int HF_ERROR_TOO_LARGE = -101;
         public const int HF_ERROR_CANCELLED = -102;
@@ -114,16 +109,16 @@ namespace Hf.Native
         public const int HF_WEIGHTS_INFORMED = 0;
         public const int HF_WEIGHTS_SOLVED = 1;
         public const int HF_WEIGHTS_PINNED = 2;
-        public const int HF_WEIGHTS_CARRIED = 3;
+        public const int HF_WEIGHTS_NEAREST = 3;
         public const int HF_WEIGHTS_RIGID = 4;
         public const int HF_WEIGHTS_ISOLATED = 5;
         public const int HF_WEIGHTS_MATCHED = 6;
         public const int HF_WEIGHTS_KEPT = 7;
-        public const int HF_BONE_NO_LENGTH = 1;
-        public const int HF_BONE_COINCIDENT = 2;
-        public const int HF_BONE_INFORMS_NONE = 4;
-        public const int HF_BONE_OUTSIDE = 8;
-        public const int HF_BONE_HELPER = 16;
+        public const int HF_JOINT_NO_LENGTH = 1;
+        public const int HF_JOINT_COINCIDENT = 2;
+        public const int HF_JOINT_INFORMS_NONE = 4;
+        public const int HF_JOINT_OUTSIDE = 8;
+        public const int HF_JOINT_HELPER = 16;
         public const int HF_HELPER_PROPOSED = 1;
         public const int HF_HELPER_NAME_ROOT = 2;
         public const int HF_HELPER_NAME_CONTROL = 4;
@@ -138,13 +133,13 @@ namespace Hf.Native
         public const int HF_MIRROR_TO_POSITIVE = 1;
         public const int HF_MIRROR_BOTH = 2;
         public const int HF_MIRROR_PLANE_GIVEN = 0;
-        public const int HF_MIRROR_PLANE_BONES = 1;
+        public const int HF_MIRROR_PLANE_JOINTS = 1;
         public const int HF_MIRROR_PLANE_SURFACE = 2;
-        public const int HF_MIRROR_BONE_ALONE = 0;
-        public const int HF_MIRROR_BONE_NAMED = 1;
-        public const int HF_MIRROR_BONE_PLACED = 2;
-        public const int HF_MIRROR_BONE_CENTRE = 3;
-        public const int HF_MIRROR_BONE_GIVEN = 4;
+        public const int HF_MIRROR_JOINT_ALONE = 0;
+        public const int HF_MIRROR_JOINT_NAMED = 1;
+        public const int HF_MIRROR_JOINT_PLACED = 2;
+        public const int HF_MIRROR_JOINT_CENTRE = 3;
+        public const int HF_MIRROR_JOINT_GIVEN = 4;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -187,8 +182,9 @@ namespace Hf.Native
         public fixed uint corners[3];
         public fixed double barycentrics[3];
         public double length;
-        public float weight;
+        public double weight;
         public int in_tree;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -196,17 +192,16 @@ namespace Hf.Native
     {
         public uint struct_size;
         public int mode;
-        public float distance;
-        public float stiffness;
-        public float overlay_distance;
+        public double distance;
+        public double stiffness;
+        public double overlay_distance;
         public uint influence_count;
-        public IntPtr joints;
-        public IntPtr weights;
-        public IntPtr tags;
         public uint link_count;
         public uint light_count;
         public uint heavy_count;
-        public uint reserved;
+        public IntPtr joints;
+        public IntPtr weights;
+        public IntPtr tags;
         public IntPtr links;
         public IntPtr light_vertices;
         public IntPtr heavy_vertices;
@@ -225,7 +220,7 @@ namespace Hf.Native
         public IntPtr triangles_u16;
         public uint triangle_stride;
         public int weld;
-        public float weld_tolerance;
+        public double weld_tolerance;
         public int operator_kind;
         public int field_kind;
         public int ordering;
@@ -234,7 +229,6 @@ namespace Hf.Native
         public uint triangle_limit;
         public uint memory_limit_mb;
         public uint work_limit_gflop;
-        public uint reserved;
         public hf_allocator allocator;
         public hf_job_runner job_runner;
         public IntPtr progress;
@@ -280,7 +274,7 @@ namespace Hf.Native
         public uint vertex_count;
         public uint triangle_count;
         public int weld;
-        public float weld_tolerance;
+        public double weld_tolerance;
         public int operator_kind;
         public int field_kind;
         public int ordering;
@@ -311,7 +305,8 @@ namespace Hf.Native
         public uint flipped_edge_count;
         public uint boundary_edge_count;
         public uint negative_edge_count;
-        public float smallest_angle;
+        public uint reserved;
+        public double smallest_angle;
         public double bounding_box_diagonal;
         public uint changed_vertex_count;
         public uint first_changed_vertex;
@@ -576,10 +571,9 @@ namespace Hf.Native
     public unsafe struct hf_geodesics_desc
     {
         public uint struct_size;
-        public float smoothing;
-        public IntPtr progress;
         public int method;
-        public uint reserved;
+        public double smoothing;
+        public IntPtr progress;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -608,8 +602,9 @@ namespace Hf.Native
     {
         public uint struct_size;
         public int kind;
-        public float least_length;
+        public double least_length_share;
         public uint source_count;
+        public uint reserved;
         public IntPtr geodesics;
         public IntPtr progress;
         public IntPtr out_field;
@@ -669,7 +664,7 @@ namespace Hf.Native
         public int mode;
         public uint band_count;
         public uint iteration_count;
-        public uint samples_per_ring;
+        public uint rim_site_count;
         public uint group_count;
     }
 
@@ -680,7 +675,7 @@ namespace Hf.Native
         public int mode;
         public uint band_count;
         public uint iteration_count;
-        public uint samples_per_ring;
+        public uint rim_site_count;
         public uint group_count;
         public uint handle_count;
         public uint vertex_count;
@@ -760,7 +755,7 @@ namespace Hf.Native
         public uint struct_size;
         public uint joint_capacity;
         public uint vertex_capacity;
-        public uint weight_count;
+        public uint influence_count;
         public uint joint_count;
         public uint vertex_count;
         public IntPtr pivots;
@@ -773,15 +768,16 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_propose_desc
+    public unsafe struct hf_handle_proposals_desc
     {
         public uint struct_size;
         public uint joint_count;
         public IntPtr joints;
         public IntPtr parents;
         public fixed double up[3];
-        public float least_length;
+        public double least_length_share;
         public uint limit;
+        public uint reserved;
         public IntPtr progress;
     }
 
@@ -804,20 +800,20 @@ namespace Hf.Native
     {
         public uint struct_size;
         public uint face_count;
-        public float edge_length;
-        public float crease_angle;
+        public double edge_length;
+        public double crease_angle;
         public uint relax_count;
         public uint crease_count;
         public uint guide_count;
-        public uint pole_count;
+        public uint irregular_count;
         public fixed double symmetry_plane[4];
         public IntPtr crease_edges;
         public IntPtr guide_vertices;
         public IntPtr guide_vectors;
         public IntPtr guide_weights;
-        public IntPtr pole_points;
-        public IntPtr pole_quads;
-        public IntPtr pole_directions;
+        public IntPtr irregular_points;
+        public IntPtr irregular_valences;
+        public IntPtr irregular_directions;
         public IntPtr progress;
     }
 
@@ -828,7 +824,7 @@ namespace Hf.Native
         public uint vertex_count;
         public uint face_count;
         public int euler_characteristic;
-        public float edge_length;
+        public double edge_length;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -848,7 +844,7 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_flow_lines
+    public unsafe struct hf_streamlines
     {
         public uint struct_size;
         public uint wanted_count;
@@ -954,13 +950,12 @@ namespace Hf.Native
         public uint struct_size;
         public int mode;
         public uint cluster_count;
-        public float kernel_width;
-        public float scale;
-        public float alignment_angle;
-        public fixed float source_axes[9];
-        public fixed float target_axes[9];
         public int ground;
-        public uint reserved;
+        public double kernel_width;
+        public double scale;
+        public double alignment_angle;
+        public fixed double source_axes[9];
+        public fixed double target_axes[9];
         public IntPtr source_rest;
         public IntPtr target_rest;
     }
@@ -1010,12 +1005,13 @@ namespace Hf.Native
     public unsafe struct hf_transfer_dials
     {
         public uint struct_size;
-        public float stride;
-        public float hip_height;
-        public float neck_follow;
-        public float tail_follow;
-        public float arm_space;
-        public float long_follow;
+        public uint reserved;
+        public double stride;
+        public double hip_height_share;
+        public double neck_follow;
+        public double tail_follow;
+        public double arm_space;
+        public double long_follow;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1037,10 +1033,10 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_bones_desc
+    public unsafe struct hf_joints_desc
     {
         public uint struct_size;
-        public uint bone_count;
+        public uint joint_count;
         public IntPtr heads;
         public IntPtr tails;
         public IntPtr axes;
@@ -1059,7 +1055,7 @@ namespace Hf.Native
         public IntPtr triangles;
         public IntPtr barycentrics;
         public IntPtr radii;
-        public uint joint_count;
+        public uint influence_count;
         public uint reserved;
         public IntPtr joints;
         public IntPtr weights;
@@ -1072,7 +1068,7 @@ namespace Hf.Native
         public uint struct_size;
         public uint vertex_capacity;
         public uint vertex_count;
-        public uint weight_count;
+        public uint influence_count;
         public IntPtr joints;
         public IntPtr joints_u16;
         public IntPtr weights;
@@ -1084,17 +1080,17 @@ namespace Hf.Native
     {
         public uint struct_size;
         public uint vertex_count;
-        public uint bone_count;
+        public uint joint_count;
         public uint pin_count;
         public uint lock_count;
         public uint informed_count;
         public uint solved_count;
         public uint pinned_count;
-        public uint carried_count;
+        public uint nearest_count;
         public uint rigid_count;
         public uint isolated_count;
-        public uint carried_island_count;
-        public uint rigid_island_count;
+        public uint nearest_piece_count;
+        public uint rigid_piece_count;
         public int blind;
         public uint no_length_count;
         public uint coincident_count;
@@ -1107,54 +1103,54 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_carry_desc
+    public unsafe struct hf_weights_transfer_desc
     {
         public uint struct_size;
-        public uint influence_count;
+        public uint source_influence_count;
         public IntPtr joints;
         public IntPtr weights;
         public double distance;
         public double angle;
-        public uint weight_count;
+        public uint influence_count;
         public uint reserved;
         public IntPtr progress;
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_carry_info
+    public unsafe struct hf_weights_transfer_info
     {
         public uint struct_size;
         public uint vertex_count;
         public uint matched_count;
         public uint solved_count;
-        public uint carried_count;
+        public uint nearest_count;
         public uint rigid_count;
         public uint isolated_count;
-        public uint guessed_island_count;
+        public uint guessed_piece_count;
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_mirror_desc
+    public unsafe struct hf_weights_mirror_desc
     {
         public uint struct_size;
-        public uint bone_count;
+        public uint joint_count;
         public IntPtr heads;
         public IntPtr names;
         public IntPtr partners;
         public IntPtr plane;
-        public uint influence_count;
+        public uint source_influence_count;
         public int to;
         public IntPtr joints;
         public IntPtr weights;
         public double distance;
         public double angle;
-        public uint weight_count;
+        public uint influence_count;
         public uint reserved;
         public IntPtr progress;
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_mirror_info
+    public unsafe struct hf_weights_mirror_info
     {
         public uint struct_size;
         public uint vertex_count;
@@ -1167,15 +1163,15 @@ namespace Hf.Native
         public uint kept_count;
         public uint matched_count;
         public uint solved_count;
-        public uint carried_count;
+        public uint nearest_count;
         public uint rigid_count;
         public uint isolated_count;
-        public uint worst_bone;
+        public uint worst_joint;
         public uint worst_vertex;
         public fixed double point[3];
         public fixed double normal[3];
-        public double bone_off;
-        public double worst_bone_off;
+        public double joint_off;
+        public double worst_joint_off;
         public double vertex_off;
         public double worst_vertex_off;
     }
@@ -1235,9 +1231,6 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_move_vectors(IntPtr solver, uint site_count, void* sites, void* vertices);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_rotate_vectors(IntPtr solver, uint site_count, void* sites, void* angles);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_certify(IntPtr solver, void* inout_certificate);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_record(IntPtr solver);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_undo(IntPtr solver);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_redo(IntPtr solver);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_prepare_rebase(IntPtr solver);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_get_statistics(IntPtr solver, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_space_levels(IntPtr surface, void* field, int spacing, uint level_count, void* out_levels);
@@ -1258,9 +1251,6 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_move_sites(IntPtr direction, uint site_count, void* sites, void* vertices);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_set_vectors(IntPtr direction, uint site_count, void* sites, void* vectors);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_rotate_sites(IntPtr direction, uint site_count, void* sites, void* angles);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_record(IntPtr direction);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_undo(IntPtr direction);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_redo(IntPtr direction);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_direction_get_site_count(IntPtr direction);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_sites(IntPtr direction, uint capacity, void* out_sites, void* out_vertices, void* out_vectors, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_solve(IntPtr direction, void* out_vectors, uint vector_stride, void* out_info);
@@ -1283,7 +1273,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_deform(IntPtr pose, void* out_positions, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_deform(IntPtr pose, void* desc, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_skin(IntPtr pose, void* inout_skin);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_propose_handles(IntPtr surface, void* desc, uint capacity, void* out_proposals, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_propose_handles(IntPtr surface, void* desc, uint capacity, void* out_proposals, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_create(IntPtr surface, void* desc, void* out_quads);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_update(IntPtr quads, void* desc);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_quads_destroy(IntPtr quads);
@@ -1296,9 +1286,6 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_clone(IntPtr region, void* out_region);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_region_destroy(IntPtr region);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_edit(IntPtr region, void* edit);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_record(IntPtr region);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_undo(IntPtr region);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_redo(IntPtr region);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_info(IntPtr region, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_vertices(IntPtr region, int list, uint capacity, void* out_vertices, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_curve(IntPtr region, uint capacity, void* out_points, void* out_count);
@@ -1317,20 +1304,17 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_apply(IntPtr transfer, void* frame);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_sinking(IntPtr transfer, void* out_sinking);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_skin(IntPtr transfer, void* inout_skin);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_create(IntPtr surface, void* bones, uint weight_count, void* out_weights);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_create(IntPtr surface, void* joints, uint influence_count, void* out_weights);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_clone(IntPtr weights, void* out_weights);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_weights_destroy(IntPtr weights);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_set_bones(IntPtr weights, void* bones);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_set_joints(IntPtr weights, void* joints);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_set_pins(IntPtr weights, void* pins);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_set_locks(IntPtr weights, uint lock_count, void* bones, void* values);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_set_locks(IntPtr weights, uint lock_count, void* joints, void* values);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get(IntPtr weights, void* inout_weights);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_bones(IntPtr weights, uint capacity, void* out_flags, void* out_vertex_counts, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_joints(IntPtr weights, uint capacity, void* out_flags, void* out_vertex_counts, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_info(IntPtr weights, void* out_info);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_record(IntPtr weights);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_undo(IntPtr weights);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_redo(IntPtr weights);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_helpers(IntPtr weights, void* names, uint capacity, void* out_reasons, void* out_count);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_carry(IntPtr source, IntPtr target, void* desc, void* inout_weights, void* out_info);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_mirror(IntPtr surface, void* desc, void* inout_weights, void* out_bones, void* out_pairings, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_transfer(IntPtr source, IntPtr target, void* desc, void* inout_weights, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_mirror(IntPtr surface, void* desc, void* inout_weights, void* out_partners, void* out_pairings, void* out_info);
     }
 }

@@ -15,7 +15,7 @@ namespace Hf
     }
 
     /// <summary>Sites on a surface that come and go, and the smooth field through them.</summary>
-    public sealed unsafe class Solver : HfObject
+    public sealed unsafe class Solver : Recorded
     {
         public int VertexCount { get; private set; }
         public int ChannelCount { get; private set; }
@@ -148,9 +148,7 @@ namespace Hf
 
         public int SiteCount { get { int count = (int)Functions.hf_solver_get_site_count(Handle); GC.KeepAlive(this);
             return count; } }
-        public void Record() { Check(Functions.hf_solver_record(Handle)); }
-        public void Undo() { Check(Functions.hf_solver_undo(Handle)); }
-        public void Redo() { Check(Functions.hf_solver_redo(Handle)); }
+        internal override Recorded State() { return Clone(); }
 
         /// <summary>The field at every vertex into the caller's memory: VertexCount times ChannelCount
         /// numbers.</summary>

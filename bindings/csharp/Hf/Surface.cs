@@ -29,7 +29,7 @@ namespace Hf
     public sealed class SurfaceOptions : CommonOptions
     {
         public int Weld, OperatorKind;
-        public float WeldTolerance;
+        public double WeldTolerance;
         public uint TriangleLimit;
         /// <summary>Joins the pieces of a character by links, so that fields and poses span them.</summary>
         public bool LinkPieces;
@@ -54,7 +54,7 @@ namespace Hf
             Own(raw, Functions.hf_progress_destroy);
         }
 
-        public float Fraction { get { float value; Check(Functions.hf_progress_get_fraction(Handle, &value)); return value; } }
+        public double Fraction { get { double value; Check(Functions.hf_progress_get_fraction(Handle, &value)); return value; } }
         public void Cancel() { Check(Functions.hf_progress_cancel(Handle)); }
     }
 
@@ -344,12 +344,12 @@ namespace Hf
         /// <summary>Places for handles, pinned ones first; up points away from the ground.</summary>
         public hf_handle_proposal[] ProposeHandles(double upX = 0, double upY = 1, double upZ = 0)
         {
-            var desc = new hf_propose_desc { struct_size = (uint)sizeof(hf_propose_desc) };
+            var desc = new hf_handle_proposals_desc { struct_size = (uint)sizeof(hf_handle_proposals_desc) };
             desc.up[0] = upX;
             desc.up[1] = upY;
             desc.up[2] = upZ;
-            hf_propose_desc* place = &desc;
-            return Rows<hf_handle_proposal>((handle, capacity, rows, count) => Functions.hf_propose_handles(handle, place,
+            hf_handle_proposals_desc* place = &desc;
+            return Rows<hf_handle_proposal>((handle, capacity, rows, count) => Functions.hf_surface_propose_handles(handle, place,
                 capacity, rows, count));
         }
     }

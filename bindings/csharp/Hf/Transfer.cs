@@ -10,7 +10,7 @@ namespace Hf
     {
         readonly int sourceCount, targetCount;
 
-        public Transfer(Surface source, Surface target, int mode = Constants.HF_TRANSFER_FIELDS, float scale = 0)
+        public Transfer(Surface source, Surface target, int mode = Constants.HF_TRANSFER_FIELDS, double scale = 0)
         {
             var desc = new hf_transfer_desc { struct_size = (uint)sizeof(hf_transfer_desc) };
             desc.mode = mode;
@@ -107,7 +107,7 @@ namespace Hf
             }
         }
 
-        public Skin Skin(uint weightCount = 4) { return Hf.Skin.Get(this, Functions.hf_transfer_get_skin, targetCount,
-            weightCount); }
+        public Skin Skin(uint influenceCount = 4) { return Hf.Skin.Get(this, Functions.hf_transfer_get_skin, targetCount,
+            influenceCount); }
     }
 }

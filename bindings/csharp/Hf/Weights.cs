@@ -1,4 +1,4 @@
-// Weights over the C ABI (include/hf/weights.h): skin weights from bones, carried, mirrored.
+// Weights over the C ABI (include/hf/weights.h): skin weights from joints, carried, mirrored.
 using System;
 using System.Runtime.InteropServices;
 using System.Text;
@@ -6,40 +6,40 @@ using Hf.Native;
 
 namespace Hf
 {
-    /// <summary>The bones of a skeleton, in the unit and frame of the mesh. Heads, Tails, Axes: three numbers for each
-    /// bone; what is null is found or has its default.</summary>
-    public sealed class Bones
+    /// <summary>The joints of a skeleton, in the unit and frame of the mesh. Heads, Tails, Axes: three numbers for each
+    /// joint; what is null is found or has its default.</summary>
+    public sealed class Joints
     {
         public double[] Heads, Tails, Axes;
-        /// <summary>The number of each bone's parent, HF_NO_INDEX for a root.</summary>
+        /// <summary>The number of each joint's parent, HF_NO_INDEX for a root.</summary>
         public uint[] Parents;
-        /// <summary>1: the bone gets weights.</summary>
+        /// <summary>1: the joint gets weights.</summary>
         public int[] Deforms;
-        /// <summary>For SetBones: the number each bone had before, HF_NO_INDEX for a new one.</summary>
+        /// <summary>For SetJoints: the number each joint had before, HF_NO_INDEX for a new one.</summary>
         public uint[] Sources;
         public Progress Progress;
     }
 
-    /// <summary>Joints and weights, WeightCount for each vertex. Origins: HF_WEIGHTS_*.</summary>
+    /// <summary>Joints and weights, InfluenceCount for each vertex. Origins: HF_WEIGHTS_*.</summary>
     public sealed class VertexWeights
     {
-        public int WeightCount;
+        public int InfluenceCount;
         public uint[] Joints;
         public float[] Weights;
         public byte[] Origins;
     }
 
     /// <summary>How weights are carried and mirrored; 0 is the library's own.</summary>
-    public class CarryOptions
+    public class WeightTransferOptions
     {
         public double Distance, Angle;
-        public uint WeightCount = 4;
+        public uint InfluenceCount = 4;
         public Progress Progress;
     }
 
-    /// <summary>Names pair the bones; Partners: HF_NO_INDEX: find it; Plane: a point and a normal, null: find it.
+    /// <summary>Names pair the joints; Partners: HF_NO_INDEX: find it; Plane: a point and a normal, null: find it.
     /// To: HF_MIRROR_*.</summary>
-    public sealed class MirrorOptions : CarryOptions
+    public sealed class MirrorOptions : WeightTransferOptions
     {
         public string[] Names;
         public uint[] Partners;
@@ -47,31 +47,31 @@ namespace Hf
         public int To;
     }
 
-    /// <summary>Mirrored weights, the partner of each bone, and how it was found (HF_MIRROR_BONE_*).</summary>
+    /// <summary>Mirrored weights, the partner of each joint, and how it was found (HF_MIRROR_JOINT_*).</summary>
     public sealed class MirroredWeights
     {
         public VertexWeights Weights;
         public uint[] Partners, Pairings;
-        public hf_mirror_info Info;
+        public hf_weights_mirror_info Info;
     }
 
     /// <summary>Skin weights of a surface for a skeleton.</summary>
-    public sealed unsafe class Weights : HfObject
+    public sealed unsafe class Weights : Recorded
     {
         public int VertexCount { get; private set; }
 
         Weights() { }
 
-        /// <summary>weightCount: bones per vertex, 4 or 8.</summary>
-        public Weights(Surface surface, Bones bones, uint weightCount = 4)
+        /// <summary>influenceCount: joints per vertex, 4 or 8.</summary>
+        public Weights(Surface surface, Joints joints, uint influenceCount = 4)
         {
             HandleOf(surface, "surface");
             using (var pins = new Pins())
             {
-                hf_bones_desc desc = Describe(bones, pins);
-                Make((parent, given, raw) => Functions.hf_weights_create(parent, given, weightCount, raw), surface,
+                hf_joints_desc desc = Describe(joints, pins);
+                Make((parent, given, raw) => Functions.hf_weights_create(parent, given, influenceCount, raw), surface,
                     "surface", &desc, Functions.hf_weights_destroy);
-                GC.KeepAlive(bones);
+                GC.KeepAlive(joints);
             }
             VertexCount = surface.VertexCount;
         }
@@ -83,14 +83,14 @@ namespace Hf
             return copy;
         }
 
-        /// <summary>Moves, adds and removes bones. Pins and locks keep theirs.</summary>
-        public void SetBones(Bones bones)
+        /// <summary>Moves, adds and removes joints. Pins and locks keep theirs.</summary>
+        public void SetJoints(Joints joints)
         {
             using (var pins = new Pins())
             {
-                hf_bones_desc desc = Describe(bones, pins);
-                Check(Functions.hf_weights_set_bones(Handle, &desc));
-                GC.KeepAlive(bones);
+                hf_joints_desc desc = Describe(joints, pins);
+                Check(Functions.hf_weights_set_joints(Handle, &desc));
+                GC.KeepAlive(joints);
             }
         }
 
@@ -104,7 +104,7 @@ namespace Hf
             {
                 var desc = new hf_pins_desc { struct_size = (uint)sizeof(hf_pins_desc) };
                 desc.pin_count = (uint)count;
-                desc.joint_count = (uint)each;
+                desc.influence_count = (uint)each;
                 desc.vertices = pins.Add(vertices);
                 desc.joints = pins.Add(joints);
                 desc.weights = pins.Add(weights, each * count, "weights");
@@ -113,13 +113,13 @@ namespace Hf
             }
         }
 
-        /// <summary>Locks bones: their weights stay. values: a number for each vertex and lock; null: the present ones.
+        /// <summary>Locks joints: their weights stay. values: a number for each vertex and lock; null: the present ones.
         /// Replaces all locks.</summary>
-        public void SetLocks(uint[] bones, float[] values = null)
+        public void SetLocks(uint[] joints, float[] values = null)
         {
-            int count = bones == null ? 0 : bones.Length;
+            int count = joints == null ? 0 : joints.Length;
             using (var pins = new Pins())
-                Check(Functions.hf_weights_set_locks(Handle, (uint)count, (void*)pins.Add(bones),
+                Check(Functions.hf_weights_set_locks(Handle, (uint)count, (void*)pins.Add(joints),
                     (void*)pins.Add(values, count * VertexCount, "values")));
         }
 
@@ -127,17 +127,17 @@ namespace Hf
         {
             var ask = new hf_weights_out { struct_size = (uint)sizeof(hf_weights_out) };
             Check(Functions.hf_weights_get(Handle, &ask));
-            return Filled(VertexCount, ask.weight_count, place => Functions.hf_weights_get(Handle, place));
+            return Filled(VertexCount, ask.influence_count, place => Functions.hf_weights_get(Handle, place));
         }
 
-        /// <summary>Bits HF_BONE_* of each bone.</summary>
-        public uint[] BoneFlags()
+        /// <summary>Bits HF_JOINT_* of each joint.</summary>
+        public uint[] JointFlags()
         {
-            return Rows<uint>((handle, capacity, rows, count) => Functions.hf_weights_get_bones(handle, capacity, rows,
+            return Rows<uint>((handle, capacity, rows, count) => Functions.hf_weights_get_joints(handle, capacity, rows,
                 null, count));
         }
 
-        /// <summary>Bits HF_HELPER_* of each bone: why it looks like a helper. names: of the bones, or null.</summary>
+        /// <summary>Bits HF_HELPER_* of each joint: why it looks like a helper. names: of the joints, or null.</summary>
         public uint[] Helpers(string[] names = null)
         {
             using (var pins = new Pins())
@@ -150,32 +150,30 @@ namespace Hf
 
         public hf_weights_info Info { get { return Read<hf_weights_info>(Functions.hf_weights_get_info); } }
 
-        public void Record() { Check(Functions.hf_weights_record(Handle)); }
-        public void Undo() { Check(Functions.hf_weights_undo(Handle)); }
-        public void Redo() { Check(Functions.hf_weights_redo(Handle)); }
+        internal override Recorded State() { return Clone(); }
 
         /// <summary>Carries weights to another surface: clothes, levels of detail. joints, weights: as many for each
         /// vertex of the source.</summary>
-        public static VertexWeights Carry(Surface source, uint[] joints, float[] weights, Surface target,
-            out hf_carry_info info, CarryOptions options = null)
+        public static VertexWeights Transfer(Surface source, uint[] joints, float[] weights, Surface target,
+            out hf_weights_transfer_info info, WeightTransferOptions options = null)
         {
-            options = options ?? new CarryOptions();
+            options = options ?? new WeightTransferOptions();
             IntPtr from = HandleOf(source, "source"), to = HandleOf(target, "target");
-            var found = new hf_carry_info { struct_size = (uint)sizeof(hf_carry_info) };
-            hf_carry_info* counts = &found;
+            var found = new hf_weights_transfer_info { struct_size = (uint)sizeof(hf_weights_transfer_info) };
+            hf_weights_transfer_info* counts = &found;
             using (var pins = new Pins())
             {
-                var desc = new hf_carry_desc { struct_size = (uint)sizeof(hf_carry_desc) };
-                desc.influence_count = Influences(joints, source.VertexCount);
+                var desc = new hf_weights_transfer_desc { struct_size = (uint)sizeof(hf_weights_transfer_desc) };
+                desc.source_influence_count = Influences(joints, source.VertexCount);
                 desc.joints = pins.Add(joints);
                 desc.weights = pins.Add(weights, joints.Length, "weights");
                 desc.distance = options.Distance;
                 desc.angle = options.Angle;
-                desc.weight_count = options.WeightCount;
+                desc.influence_count = options.InfluenceCount;
                 if (options.Progress != null) desc.progress = options.Progress.Handle;
-                hf_carry_desc* given = &desc;
-                VertexWeights carried = Filled(target.VertexCount, options.WeightCount,
-                    place => Functions.hf_weights_carry(from, to, given, place, counts));
+                hf_weights_transfer_desc* given = &desc;
+                VertexWeights carried = Filled(target.VertexCount, options.InfluenceCount,
+                    place => Functions.hf_weights_transfer(from, to, given, place, counts));
                 GC.KeepAlive(source);
                 GC.KeepAlive(target);
                 GC.KeepAlive(options);
@@ -184,7 +182,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Mirrors the weights of one side to the other. heads: three numbers for each bone.</summary>
+        /// <summary>Mirrors the weights of one side to the other. heads: three numbers for each joint.</summary>
         public static MirroredWeights Mirror(Surface surface, uint[] joints, float[] weights, double[] heads,
             MirrorOptions options = null)
         {
@@ -194,28 +192,28 @@ namespace Hf
             if (heads != null) Hf.Pins.Need(heads.Length, 3 * count, "heads");
             if (options.Names != null) Hf.Pins.Need(options.Names.Length, count, "Names");
             var made = new MirroredWeights { Partners = new uint[count], Pairings = new uint[count] };
-            var info = new hf_mirror_info { struct_size = (uint)sizeof(hf_mirror_info) };
-            hf_mirror_info* figures = &info;
+            var info = new hf_weights_mirror_info { struct_size = (uint)sizeof(hf_weights_mirror_info) };
+            hf_weights_mirror_info* figures = &info;
             using (var pins = new Pins())
             {
-                var desc = new hf_mirror_desc { struct_size = (uint)sizeof(hf_mirror_desc) };
-                desc.bone_count = (uint)count;
+                var desc = new hf_weights_mirror_desc { struct_size = (uint)sizeof(hf_weights_mirror_desc) };
+                desc.joint_count = (uint)count;
                 desc.heads = pins.Add(heads);
                 desc.names = pins.Add(Lines(options.Names));
                 desc.partners = pins.Add(options.Partners, count, "Partners");
                 desc.plane = pins.Add(options.Plane, 6, "Plane");
-                desc.influence_count = Influences(joints, surface.VertexCount);
+                desc.source_influence_count = Influences(joints, surface.VertexCount);
                 desc.to = options.To;
                 desc.joints = pins.Add(joints);
                 desc.weights = pins.Add(weights, joints.Length, "weights");
                 desc.distance = options.Distance;
                 desc.angle = options.Angle;
-                desc.weight_count = options.WeightCount;
+                desc.influence_count = options.InfluenceCount;
                 if (options.Progress != null) desc.progress = options.Progress.Handle;
-                hf_mirror_desc* given = &desc;
+                hf_weights_mirror_desc* given = &desc;
                 void* partners = (void*)pins.Add(made.Partners);
                 void* pairings = (void*)pins.Add(made.Pairings);
-                made.Weights = Filled(surface.VertexCount, options.WeightCount,
+                made.Weights = Filled(surface.VertexCount, options.InfluenceCount,
                     place => Functions.hf_weights_mirror(on, given, place, partners, pairings, figures));
                 GC.KeepAlive(surface);
                 GC.KeepAlive(options);
@@ -227,10 +225,10 @@ namespace Hf
         delegate int Fill(void* place);
 
         /// <summary>Arrays for all vertices, filled by a call.</summary>
-        static VertexWeights Filled(int vertexCount, uint weightCount, Fill call)
+        static VertexWeights Filled(int vertexCount, uint influenceCount, Fill call)
         {
-            int each = weightCount == 0 ? 4 : (int)weightCount;
-            var found = new VertexWeights { WeightCount = each, Joints = new uint[vertexCount * each],
+            int each = influenceCount == 0 ? 4 : (int)influenceCount;
+            var found = new VertexWeights { InfluenceCount = each, Joints = new uint[vertexCount * each],
                 Weights = new float[vertexCount * each], Origins = new byte[vertexCount] };
             using (var pins = new Pins())
             {
@@ -244,20 +242,20 @@ namespace Hf
             return found;
         }
 
-        static hf_bones_desc Describe(Bones bones, Pins pins)
+        static hf_joints_desc Describe(Joints joints, Pins pins)
         {
-            if (bones == null) throw new HfException("bones is null", Constants.HF_ERROR_NULL_POINTER);
-            int count = bones.Heads == null ? 1 : bones.Heads.Length / 3;
-            if (bones.Heads != null) Hf.Pins.Need(bones.Heads.Length, 3 * count, "Heads");
-            var desc = new hf_bones_desc { struct_size = (uint)sizeof(hf_bones_desc) };
-            desc.bone_count = (uint)count;
-            desc.heads = pins.Add(bones.Heads);
-            desc.tails = pins.Add(bones.Tails, 3 * count, "Tails");
-            desc.axes = pins.Add(bones.Axes, 3 * count, "Axes");
-            desc.parents = pins.Add(bones.Parents, count, "Parents");
-            desc.deforms = pins.Add(bones.Deforms, count, "Deforms");
-            desc.sources = pins.Add(bones.Sources, count, "Sources");
-            if (bones.Progress != null) desc.progress = bones.Progress.Handle;
+            if (joints == null) throw new HfException("joints is null", Constants.HF_ERROR_NULL_POINTER);
+            int count = joints.Heads == null ? 1 : joints.Heads.Length / 3;
+            if (joints.Heads != null) Hf.Pins.Need(joints.Heads.Length, 3 * count, "Heads");
+            var desc = new hf_joints_desc { struct_size = (uint)sizeof(hf_joints_desc) };
+            desc.joint_count = (uint)count;
+            desc.heads = pins.Add(joints.Heads);
+            desc.tails = pins.Add(joints.Tails, 3 * count, "Tails");
+            desc.axes = pins.Add(joints.Axes, 3 * count, "Axes");
+            desc.parents = pins.Add(joints.Parents, count, "Parents");
+            desc.deforms = pins.Add(joints.Deforms, count, "Deforms");
+            desc.sources = pins.Add(joints.Sources, count, "Sources");
+            if (joints.Progress != null) desc.progress = joints.Progress.Handle;
             return desc;
         }
 

@@ -67,7 +67,7 @@ Value create_faces(Surface& s, const Arguments& a) {
 Value share_from(Surface& s, const Arguments& a) {
   if (!at(a, 0).surface) fail("share_from needs a surface");
   const Surface& other = *a[0].surface;
-  if (!other.get()) fail("the surface was disposed or not created", HF_ERROR_INVALID_HANDLE);
+  if (!other.get()) fail("the surface was disposed or not created", HF_ERROR_INVALID_OBJECT);
   const auto mesh = other.mesh;
   const size_t vertex_count = other.vertex_count;
   s.forget();

@@ -58,14 +58,19 @@ struct Surface {
   hf::Handle<hf_flow, hf_flow_destroy> flow;
   hf::Handle<hf_region, hf_region_destroy> region;
   hf::Handle<hf_detail, hf_detail_destroy> detail;
+  hf::History<decltype(solver)> solver_history;
+  hf::History<decltype(direction)> direction_history;
+  hf::History<decltype(region)> region_history;
   hf_surface get() const { return mesh ? mesh->get() : nullptr; }
   // Forgets everything made on the mesh.
   void forget() {
     solver = {};
+    solver_history = {};
     pose = {};
     transfer = {};
     geodesics = {};
     direction = {};
+    direction_history = {};
     quads = {};
     flow = {};
     region = {};

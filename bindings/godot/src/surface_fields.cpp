@@ -1,4 +1,4 @@
-// Methods for distances, levels and iso-lines, critical points, tips, direction fields, quad meshes and flow lines.
+// Methods for distances, levels and iso-lines, critical points, tips, direction fields, quad meshes and streamlines.
 #include <algorithm>
 
 #include "arguments.h"
@@ -158,7 +158,7 @@ Value find_extremities(Surface& s, const Arguments&) {
 Value propose_handles(Surface& s, const Arguments&) {
   return table_of<hf_handle_proposal>(
       [&](uint32_t capacity, hf_handle_proposal* out, uint32_t* count) {
-        return hf_propose_handles(s.get(), nullptr, capacity, out, count);
+        return hf_surface_propose_handles(s.get(), nullptr, capacity, out, count);
       },
       [](const hf_handle_proposal& p) {
         return TableRow{{"vertex", p.vertex}, {"reason", p.reason}, {"pinned", p.pinned}, {"radius", p.radius}};
@@ -214,9 +214,11 @@ Value direction_rotate_sites(Surface& s, const Arguments& a) {
   return done();
 }
 
-Value direction_record(Surface& s, const Arguments&) { return check(hf_direction_record(s.direction.get())), done(); }
-Value direction_undo(Surface& s, const Arguments&) { return check(hf_direction_undo(s.direction.get())), done(); }
-Value direction_redo(Surface& s, const Arguments&) { return check(hf_direction_redo(s.direction.get())), done(); }
+Value direction_record(Surface& s, const Arguments&) {
+  return s.direction_history.record(hf::clone_of(s.direction, hf_direction_clone)), done();
+}
+Value direction_undo(Surface& s, const Arguments&) { return s.direction_history.undo(s.direction), done(); }
+Value direction_redo(Surface& s, const Arguments&) { return s.direction_history.redo(s.direction), done(); }
 
 // the vectors of the constraints
 Value direction_vectors(Surface& s, const Arguments&) {
@@ -272,10 +274,10 @@ Value with_quads_desc(const Arguments& a, Make&& make_quads) {
   if (given) desc.guide_weights = weights.data();
   const List counts = integers(at(a, 7), "pole quads");
   const size_t poles = counts.values.size();
-  desc.pole_count = static_cast<uint32_t>(poles);
-  desc.pole_quads = counts.data();
-  desc.pole_points = doubles(at(a, 6), 3 * poles, "pole points");
-  desc.pole_directions = doubles(at(a, 8), 3 * poles, "pole directions");
+  desc.irregular_count = static_cast<uint32_t>(poles);
+  desc.irregular_valences = counts.data();
+  desc.irregular_points = doubles(at(a, 6), 3 * poles, "pole points");
+  desc.irregular_directions = doubles(at(a, 8), 3 * poles, "pole directions");
   const double* plane = doubles(at(a, 5), 4, "symmetry plane");
   if (plane) std::copy(plane, plane + 4, desc.symmetry_plane);
   make_quads(desc);
@@ -329,12 +331,12 @@ Value quads_faces(Surface& s, const Arguments&) {
   return value;
 }
 
-// flow_lines(field, count, seeds = null): lines of equal flux from the minima, or one through every seed
-Value flow_lines(Surface& s, const Arguments& a) {
+// streamlines(field, count, seeds = null): lines of equal flux from the minima, or one through every seed
+Value streamlines(Surface& s, const Arguments& a) {
   const hf_scalars field = scalars_of(s, at(a, 0));
   const List seeds = integers(at(a, 2), "seeds");
   hf_flow flow = make_once(s.flow, [&](hf_flow* out) { return hf_flow_create(s.get(), out); });
-  auto lines = make<hf_flow_lines>();
+  auto lines = make<hf_streamlines>();
   lines.wanted_count = at(a, 1).null ? 0u : whole(at(a, 1).number, "count");
   lines.seed_count = seeds.null ? 0u : seeds.count();
   lines.seeds = seeds.data();
@@ -378,7 +380,7 @@ const std::vector<Entry>& field_methods() {
       {"quads_info", 0, 0, quads_info},
       {"quads_positions", 0, 0, quads_positions},
       {"quads_faces", 0, 0, quads_faces},
-      {"flow_lines", 2, 3, flow_lines},
+      {"streamlines", 2, 3, streamlines},
   };
   return all;
 }

@@ -14,7 +14,7 @@ Value pose_create(Surface& s, const Arguments& a) {
   read_options(at(a, 0), {{"mode", &desc.mode},
                           {"band_count", &desc.band_count},
                           {"iteration_count", &desc.iteration_count},
-                          {"samples_per_ring", &desc.samples_per_ring},
+                          {"rim_site_count", &desc.rim_site_count},
                           {"group_count", &desc.group_count}});
   make_again(s.pose, [&](hf_pose* out) { return hf_pose_create(s.get(), &desc, out); });
   return done();
@@ -26,7 +26,7 @@ Value pose_info(Surface& s, const Arguments&) {
   return named({{"mode", info.mode},
                 {"band_count", info.band_count},
                 {"iteration_count", info.iteration_count},
-                {"samples_per_ring", info.samples_per_ring},
+                {"rim_site_count", info.rim_site_count},
                 {"group_count", info.group_count},
                 {"handle_count", info.handle_count},
                 {"vertex_count", info.vertex_count}});
@@ -183,13 +183,13 @@ Value skin_joints(Surface& s, const Arguments&) {
   return value;
 }
 
-// The joints and weights of the vertices as Mesh.ARRAY_BONES and ARRAY_WEIGHTS want them: weight_count (4 or 8; 0 = 4)
-// a vertex, the heaviest first.
+// The joints and weights of the vertices as Mesh.ARRAY_BONES and ARRAY_WEIGHTS want them: influence_count (4 or 8; 0 =
+// 4) a vertex, the heaviest first.
 void skin_of(Surface& s, const Arguments& a, Numbers* joints, std::vector<float>* weights) {
   auto info = make<hf_skin_info>();
-  info.weight_count = whole(at(a, 0).number, "weight_count");
+  info.influence_count = whole(at(a, 0).number, "influence_count");
   info.vertex_capacity = static_cast<uint32_t>(s.vertex_count);
-  const size_t count = s.vertex_count * (info.weight_count == 8 ? 8 : 4);
+  const size_t count = s.vertex_count * (info.influence_count == 8 ? 8 : 4);
   if (joints) {
     joints->resize(count);
     info.vertex_joints = joints->data();
@@ -241,9 +241,9 @@ Value transfer_to(Surface& s, const Arguments& a) {
 // transfer_set_dials(stride = 1, hip height = 0, neck follow = 0, tail follow = 0, arm space = 0, long follow = 0)
 Value transfer_set_dials(Surface& s, const Arguments& a) {
   auto dials = make<hf_transfer_dials>();
-  float* const fields[] = {&dials.stride,      &dials.hip_height, &dials.neck_follow,
-                           &dials.tail_follow, &dials.arm_space,  &dials.long_follow};
-  for (size_t i = 0; i < a.size(); ++i) *fields[i] = static_cast<float>(a[i].number);
+  double* const fields[] = {&dials.stride,      &dials.hip_height_share, &dials.neck_follow,
+                            &dials.tail_follow, &dials.arm_space,        &dials.long_follow};
+  for (size_t i = 0; i < a.size(); ++i) *fields[i] = a[i].number;
   check(hf_transfer_set_dials(s.transfer.get(), &dials));
   return done();
 }
@@ -252,7 +252,7 @@ Value transfer_dials(Surface& s, const Arguments&) {
   auto dials = make<hf_transfer_dials>();
   check(hf_transfer_get_dials(s.transfer.get(), &dials));
   return named({{"stride", dials.stride},
-                {"hip_height", dials.hip_height},
+                {"hip_height_share", dials.hip_height_share},
                 {"neck_follow", dials.neck_follow},
                 {"tail_follow", dials.tail_follow},
                 {"arm_space", dials.arm_space},

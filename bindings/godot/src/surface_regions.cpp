@@ -41,9 +41,11 @@ Value region_edit(Surface& s, const Arguments& a) {
   return done();
 }
 
-Value region_record(Surface& s, const Arguments&) { return check(hf_region_record(s.region.get())), done(); }
-Value region_undo(Surface& s, const Arguments&) { return check(hf_region_undo(s.region.get())), done(); }
-Value region_redo(Surface& s, const Arguments&) { return check(hf_region_redo(s.region.get())), done(); }
+Value region_record(Surface& s, const Arguments&) {
+  return s.region_history.record(hf::clone_of(s.region, hf_region_clone)), done();
+}
+Value region_undo(Surface& s, const Arguments&) { return s.region_history.undo(s.region), done(); }
+Value region_redo(Surface& s, const Arguments&) { return s.region_history.redo(s.region), done(); }
 
 hf_region_info info_of(const Surface& s) {
   auto info = make<hf_region_info>();

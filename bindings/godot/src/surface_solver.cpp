@@ -66,9 +66,11 @@ Value set_values(Surface& s, const Arguments& a) {
   return done();
 }
 
-Value record(Surface& s, const Arguments&) { return check(hf_solver_record(solver_of(s))), done(); }
-Value undo(Surface& s, const Arguments&) { return check(hf_solver_undo(solver_of(s))), done(); }
-Value redo(Surface& s, const Arguments&) { return check(hf_solver_redo(solver_of(s))), done(); }
+Value record(Surface& s, const Arguments&) {
+  return s.solver_history.record(hf::clone_of(s.solver, hf_solver_clone)), done();
+}
+Value undo(Surface& s, const Arguments&) { return s.solver_history.undo(s.solver), done(); }
+Value redo(Surface& s, const Arguments&) { return s.solver_history.redo(s.solver), done(); }
 
 Value solve(Surface& s, const Arguments&) {
   Value value;

@@ -139,13 +139,13 @@ export interface Surface extends Handle {
   ): { vertex: number; kind: number; index: number; component: number; value: number }[];
   findExtremities(options?: {
     kind?: number;
-    leastLength?: number;
+    leastLengthShare?: number;
     sourceCount?: number;
     geodesics?: Geodesics | null;
     progress?: Progress | null;
   }): { vertex: number; component: number; length: number; position: number[] }[];
   /** Places for handles, pinned ones first; reason is one of HF_HANDLE_REASON_*. */
-  proposeHandles(options?: { leastLength?: number; limit?: number; progress?: Progress | null }): {
+  proposeHandles(options?: { leastLengthShare?: number; limit?: number; progress?: Progress | null }): {
     vertex: number;
     component: number;
     reason: number;
@@ -220,7 +220,7 @@ export interface QuadMesh {
   /** Three vertices for each vertex of the quad mesh: those that barycentrics belong to. */
   corners: Uint32Array;
 }
-export interface FlowLines {
+export interface Streamlines {
   positions: Float64Array;
   values: Float64Array;
   lineStarts: Uint32Array;
@@ -237,11 +237,11 @@ export interface QuadOptions {
   guideVectors?: Numbers | null;
   guideWeights?: Numbers | null;
   /** Irregular vertices at places that the user drags: three numbers each. */
-  polePoints?: Numbers | null;
-  /** How many quads meet at each pole: 3 or 5. */
-  poleQuads?: Numbers | null;
-  /** Three numbers each: one side of the pole runs along them. 0, 0, 0 is any direction. */
-  poleDirections?: Numbers | null;
+  irregularPoints?: Numbers | null;
+  /** How many quads meet at each irregular vertex: 3 or 5. */
+  irregularValences?: Numbers | null;
+  /** Three numbers each: one side of the irregular vertex runs along them. 0, 0, 0 is any direction. */
+  irregularDirections?: Numbers | null;
   symmetryPlane?: Numbers | null;
   progress?: Progress | null;
 }
@@ -301,7 +301,7 @@ export interface Flow extends Handle {
    * wantedCount lines of equal flux from the minima of a field, or one through every seed vertex; values rise along
    * each.
    */
-  trace(field: Numbers, options?: { wantedCount?: number; seeds?: Numbers | null }): FlowLines;
+  trace(field: Numbers, options?: { wantedCount?: number; seeds?: Numbers | null }): Streamlines;
 }
 
 export interface Direction extends Handle {
@@ -357,7 +357,7 @@ export interface Pose extends Handle {
       refineFromLast?: number;
     },
   ): T;
-  skin(weightCount?: number): Skin;
+  skin(influenceCount?: number): Skin;
 }
 
 export interface Transfer extends Handle {
@@ -374,7 +374,7 @@ export interface Transfer extends Handle {
     out?: T | null,
     options?: { normals?: Float32Array | null; Type?: FloatsType; holds?: Numbers | null; holdPositions?: Rows | null },
   ): T;
-  skin(weightCount?: number): Skin;
+  skin(influenceCount?: number): Skin;
 }
 
 /** Skin weights of a surface for a skeleton. */
@@ -384,23 +384,23 @@ export interface Weights extends Handle {
   record(): void;
   undo(): void;
   redo(): void;
-  setBones(bones: Bones): void;
+  setJoints(joints: Joints): void;
   /** Places with given weights: `joints` and `weights` hold as many numbers for each. Replaces all pins. */
   setPins(
     vertices: Numbers | null,
     pins?: { joints?: Numbers; weights?: Numbers; radii?: Numbers | null; progress?: Progress | null },
   ): void;
   /** Replaces all locks; values: a number for each vertex and lock, or null for the present ones. */
-  setLocks(bones: Numbers, values?: Float32Array | null): void;
+  setLocks(joints: Numbers, values?: Float32Array | null): void;
   /** origins: HF_WEIGHTS_* of each vertex. */
   weights(): VertexWeights;
-  /** flags: bits HF_BONE_* of each bone; vertexCounts: vertices that ask for it. */
-  bones(): { flags: Uint32Array; vertexCounts: Uint32Array };
-  /** Bits HF_HELPER_* of each bone: why it looks like a helper. names: of the bones, or null. */
+  /** flags: bits HF_JOINT_* of each joint; vertexCounts: vertices that ask for it. */
+  joints(): { flags: Uint32Array; vertexCounts: Uint32Array };
+  /** Bits HF_HELPER_* of each joint: why it looks like a helper. names: of the joints, or null. */
   helpers(names?: string[] | null): Uint32Array;
 }
 export interface VertexWeights {
-  weightCount: number;
+  influenceCount: number;
   joints: Uint32Array;
   weights: Float32Array;
   origins: Uint8Array;
@@ -411,20 +411,20 @@ export interface GivenWeights {
   weights: Numbers | Float32Array;
 }
 /** distance and angle (radians): how near a point and its normal must be; 0: the library's own. */
-export interface CarryOptions {
+export interface WeightTransferOptions {
   distance?: number;
   angle?: number;
-  weightCount?: number;
+  influenceCount?: number;
   progress?: Progress | null;
 }
 /** partners: HF_NO_INDEX: find it. plane: a point and a normal; null: find it. to: HF_MIRROR_*. */
-export interface MirrorOptions extends CarryOptions {
+export interface MirrorOptions extends WeightTransferOptions {
   names?: string[] | null;
   partners?: Numbers | null;
   plane?: Numbers | null;
   to?: number;
 }
-export interface Bones {
+export interface Joints {
   heads: Rows;
   tails?: Rows | null;
   axes?: Rows | null;
@@ -448,7 +448,7 @@ export interface Hf {
       mode?: number;
       bandCount?: number;
       iterationCount?: number;
-      samplesPerRing?: number;
+      rimSiteCount?: number;
       groupCount?: number;
     },
   ) => Pose;
@@ -488,15 +488,15 @@ export interface Hf {
       progress?: Progress | null;
     },
   ) => Detail;
-  readonly Weights: new (surface: Surface, bones: Bones, options?: { weightCount?: number }) => Weights;
+  readonly Weights: new (surface: Surface, joints: Joints, options?: { influenceCount?: number }) => Weights;
   /** Carries weights to another surface: clothes, levels of detail. */
-  carryWeights(
+  transferWeights(
     source: Surface,
     given: GivenWeights,
     target: Surface,
-    options?: CarryOptions,
+    options?: WeightTransferOptions,
   ): VertexWeights & { info: Record<string, number> };
-  /** Mirrors weights of one side to the other. heads: three numbers for each bone. */
+  /** Mirrors weights of one side to the other. heads: three numbers for each joint. */
   mirrorWeights(
     surface: Surface,
     given: GivenWeights,

@@ -60,6 +60,13 @@ export function makeApi(backend) {
       for (const name of Object.keys(this)) if (!['_owned', '_handle'].includes(name)) copy[name] = this[name];
       return copy;
     }
+    _swap(other) {
+      [this._handle, other._handle] = [other._handle, this._handle];
+      for (const one of [this, other]) {
+        registry.unregister(one);
+        registry.register(one, { destroy: `${one.constructor.prefix}_destroy`, handle: one._handle }, one);
+      }
+    }
     get closed() {
       return !this.#open;
     }
@@ -83,16 +90,26 @@ export function makeApi(backend) {
     }
   }
 
-  /** An object on a surface whose edits are recorded and undone by PREFIX_record, PREFIX_undo and PREFIX_redo. */
+  /** An object on a surface with undo. A record is a clone, so it shares memory with the object. */
   class Recorded extends OnSurface {
+    #past = [];
+    #undone = [];
     record() {
-      call(`${this.constructor.prefix}_record`, this._handle);
+      this.#past.push(this.clone());
+      this.#undone = [];
     }
     undo() {
-      call(`${this.constructor.prefix}_undo`, this._handle);
+      this.#exchange(this.#past, this.#undone, 'nothing is recorded; call record() before the edits');
     }
     redo() {
-      call(`${this.constructor.prefix}_redo`, this._handle);
+      this.#exchange(this.#undone, this.#past, 'nothing was undone since the last record()');
+    }
+    #exchange(from, to, nothing) {
+      if (this.closed) this.clone(); // throws what every call on a closed object throws
+      if (!from.length) fail(nothing, 'HF_ERROR_EMPTY');
+      const state = from.pop();
+      this._swap(state);
+      to.push(state);
     }
   }
 

@@ -20,22 +20,22 @@ export function poseClasses(tools) {
     classes,
   } = tools;
 
-  const skinOf = (name, handle, vertexCount, weightCount) => {
-    const ask = make('hf_skin_info', { weight_count: weightCount });
+  const skinOf = (name, handle, vertexCount, influenceCount) => {
+    const ask = make('hf_skin_info', { influence_count: influenceCount });
     call(name, handle, ask);
     const n = ask.get('joint_count');
     const skin = {
       pivots: new Float64Array(3 * n),
       rotations: new Float64Array(4 * n),
       translations: new Float64Array(3 * n),
-      joints: new Uint32Array(vertexCount * weightCount),
-      weights: new Float32Array(vertexCount * weightCount),
+      joints: new Uint32Array(vertexCount * influenceCount),
+      weights: new Float32Array(vertexCount * influenceCount),
     };
     call(
       name,
       handle,
       make('hf_skin_info', {
-        weight_count: weightCount,
+        influence_count: influenceCount,
         joint_capacity: n,
         vertex_capacity: vertexCount,
         pivots: written(skin.pivots),
@@ -154,8 +154,8 @@ export function poseClasses(tools) {
       call('hf_pose_deform', this._handle, desc, this.#told);
       return out;
     }
-    skin(weightCount = 4) {
-      return skinOf('hf_pose_get_skin', this._handle, this.vertexCount, weightCount);
+    skin(influenceCount = 4) {
+      return skinOf('hf_pose_get_skin', this._handle, this.vertexCount, influenceCount);
     }
   }
 
@@ -239,8 +239,8 @@ export function poseClasses(tools) {
       call('hf_transfer_apply', this._handle, frame);
       return out;
     }
-    skin(weightCount = 4) {
-      return skinOf('hf_transfer_get_skin', this._handle, this.vertexCount, weightCount);
+    skin(influenceCount = 4) {
+      return skinOf('hf_transfer_get_skin', this._handle, this.vertexCount, influenceCount);
     }
   }
 

@@ -1,4 +1,4 @@
-// Quad meshes and flow lines (hf/quads.h).
+// Quad meshes and streamlines (hf/quads.h).
 export function quadClasses(tools) {
   const {
     make,
@@ -23,14 +23,14 @@ export function quadClasses(tools) {
     guideVertices = null,
     guideVectors = null,
     guideWeights = null,
-    polePoints = null,
-    poleQuads = null,
-    poleDirections = null,
+    irregularPoints = null,
+    irregularValences = null,
+    irregularDirections = null,
     symmetryPlane = null,
     progress = null,
     ...options
   } = {}) => {
-    const desc = make('hf_quads_desc').options(options, ['crease_count', 'guide_count', 'pole_count']);
+    const desc = make('hf_quads_desc').options(options, ['crease_count', 'guide_count', 'irregular_count']);
     const edges = integers(creaseEdges, 'creaseEdges');
     if (edges) {
       if (edges.length % 2) fail(`creaseEdges must hold two vertices each, not ${edges.length} numbers`);
@@ -42,11 +42,11 @@ export function quadClasses(tools) {
     desc.set('guide_count', guided.length).set('guide_vertices', read(guided));
     desc.set('guide_vectors', vectors && read(vectors));
     desc.set('guide_weights', weights && read(Float32Array.from(weights)));
-    const counts = integers(poleQuads, 'poleQuads') ?? [];
-    const points = doubles(polePoints, 'polePoints', 3 * counts.length);
-    const directions = doubles(poleDirections, 'poleDirections', 3 * counts.length);
-    desc.set('pole_count', counts.length).set('pole_quads', read(counts));
-    desc.set('pole_points', points && read(points)).set('pole_directions', directions && read(directions));
+    const counts = integers(irregularValences, 'irregularValences') ?? [];
+    const points = doubles(irregularPoints, 'irregularPoints', 3 * counts.length);
+    const directions = doubles(irregularDirections, 'irregularDirections', 3 * counts.length);
+    desc.set('irregular_count', counts.length).set('irregular_valences', read(counts));
+    desc.set('irregular_points', points && read(points)).set('irregular_directions', directions && read(directions));
     desc.set('symmetry_plane', doubles(symmetryPlane, 'symmetryPlane', 4));
     return watched(desc, progress);
   };
@@ -92,7 +92,7 @@ export function quadClasses(tools) {
     }
   }
 
-  /** A surface prepared for tracing flow lines, again and again. */
+  /** A surface prepared for tracing streamlines, again and again. */
   class Flow extends OnSurface {
     static prefix = 'hf_flow';
     #points = 4096;
@@ -111,7 +111,7 @@ export function quadClasses(tools) {
           lineStarts: new Uint32Array(k + 1),
           lineEnds: new Uint32Array(2 * k),
         };
-        const out = make('hf_flow_lines', {
+        const out = make('hf_streamlines', {
           wanted_count: wantedCount,
           seed_count: at ? at.length : 0,
           seeds: at && read(at),

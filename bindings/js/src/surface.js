@@ -31,7 +31,7 @@ export function surfaceClasses(tools) {
       this._make('create');
     }
     get fraction() {
-      const value = new Float32Array(1);
+      const value = new Float64Array(1);
       call('hf_progress_get_fraction', this._handle, written(value));
       return value[0];
     }
@@ -243,13 +243,13 @@ export function surfaceClasses(tools) {
       return table('hf_extremity', bytes, count[0]);
     }
     proposeHandles({ progress = null, ...options } = {}) {
-      const desc = make('hf_propose_desc').options(options);
+      const desc = make('hf_handle_proposals_desc').options(options);
       watched(desc, progress);
       // room for all at once: a call that only counts would search the surface twice
       const room = Math.min(desc.get('limit') || 32, constants.HF_HANDLE_LIMIT);
       const count = new Uint32Array(1);
       const bytes = new Uint8Array(room * rowSize('hf_handle_proposal'));
-      call('hf_propose_handles', this._handle, desc, room, written(bytes), written(count));
+      call('hf_surface_propose_handles', this._handle, desc, room, written(bytes), written(count));
       return table('hf_handle_proposal', bytes, count[0]);
     }
   }

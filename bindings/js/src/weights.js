@@ -3,7 +3,7 @@ export function weightClasses(tools) {
   const { make, call, handleOf, query, watched, Recorded, bare, classes, doubles, fail, integers, read, written } =
     tools;
 
-  /** The bones as hf_bones_desc. */
+  /** The joints as hf_joints_desc. */
   const bonesOf = ({
     heads,
     tails = null,
@@ -14,7 +14,7 @@ export function weightClasses(tools) {
     progress = null,
   }) => {
     const starts = doubles(heads, 'heads');
-    if (!starts || starts.length % 3) fail('heads must hold three numbers for each bone');
+    if (!starts || starts.length % 3) fail('heads must hold three numbers for each joint');
     const count = starts.length / 3;
     const ends = doubles(tails, 'tails', 3 * count);
     const along = doubles(axes, 'axes', 3 * count);
@@ -24,7 +24,7 @@ export function weightClasses(tools) {
       return list;
     };
     const [above, before, moves] = [listOf(parents, 'parents'), listOf(sources, 'sources'), listOf(deforms, 'deforms')];
-    const desc = make('hf_bones_desc', { bone_count: count, heads: read(starts) });
+    const desc = make('hf_joints_desc', { joint_count: count, heads: read(starts) });
     desc
       .set('tails', ends && read(ends))
       .set('axes', along && read(along))
@@ -33,7 +33,7 @@ export function weightClasses(tools) {
     return watched(desc, progress);
   };
 
-  /** Names of bones as the library takes them: one line for each. */
+  /** Names of joints as the library takes them: one line for each. */
   const linesOf = (names, count) => {
     if (names === null || names === undefined) return null;
     if (!Array.isArray(names) || names.length !== count) fail(`names must be a list of ${count} names`);
@@ -41,7 +41,7 @@ export function weightClasses(tools) {
     return new TextEncoder().encode(`${text}\0`);
   };
 
-  /** Bones and shares of every vertex, descending; origins: HF_WEIGHTS_* of each vertex. */
+  /** Joints and shares of every vertex, descending; origins: HF_WEIGHTS_* of each vertex. */
   const room = (count, size) => {
     const found = {
       joints: new Uint32Array(count * size),
@@ -50,107 +50,107 @@ export function weightClasses(tools) {
     };
     const out = make('hf_weights_out', { vertex_capacity: size });
     for (const [name, array] of Object.entries(found)) out.set(name, written(array));
-    return [{ weightCount: count, ...found }, out];
+    return [{ influenceCount: count, ...found }, out];
   };
 
   /** Sets the given weights of a desc, and what the calls that carry and mirror share. */
-  const describe = (type, surface, { joints, weights }, { distance = 0, angle = 0, weightCount = 4, progress = null }) => {
-    const [bones, shares] = [integers(joints, 'joints'), weights && Float32Array.from(weights)];
+  const describe = (type, surface, { joints, weights }, { distance = 0, angle = 0, influenceCount = 4, progress = null }) => {
+    const [numbers, shares] = [integers(joints, 'joints'), weights && Float32Array.from(weights)];
     const size = surface.vertexCount;
-    if (!bones || !shares || bones.length !== shares.length || bones.length % size)
+    if (!numbers || !shares || numbers.length !== shares.length || numbers.length % size)
       fail(`joints and weights must hold as many numbers for each of ${size} vertices`);
-    const desc = make(type, { influence_count: bones.length / size, distance, angle, weight_count: weightCount });
-    desc.set('joints', read(bones)).set('weights', read(shares));
+    const desc = make(type, { source_influence_count: numbers.length / size, distance, angle, influence_count: influenceCount });
+    desc.set('joints', read(numbers)).set('weights', read(shares));
     return watched(desc, progress);
   };
 
   /** Carries weights to another surface: clothes, levels of detail. given: { joints, weights } of the source. */
-  const carryWeights = (source, given, target, options = {}) => {
+  const transferWeights = (source, given, target, options = {}) => {
     const from = handleOf(source, classes.Surface, 'source');
     const to = handleOf(target, classes.Surface, 'target');
-    if (!from || !to) fail('carryWeights needs two surfaces', 'HF_ERROR_NULL_POINTER');
-    const desc = describe('hf_carry_desc', source, given ?? {}, options);
-    const [found, out] = room(desc.get('weight_count') || 4, target.vertexCount);
-    const info = make('hf_carry_info');
-    call('hf_weights_carry', from, to, desc, out, info);
+    if (!from || !to) fail('transferWeights needs two surfaces', 'HF_ERROR_NULL_POINTER');
+    const desc = describe('hf_weights_transfer_desc', source, given ?? {}, options);
+    const [found, out] = room(desc.get('influence_count') || 4, target.vertexCount);
+    const info = make('hf_weights_transfer_info');
+    call('hf_weights_transfer', from, to, desc, out, info);
     return { ...found, info: info.toObject() };
   };
 
-  /** Mirrors weights of one side to the other. heads: three numbers for each bone. partners: HF_NO_INDEX: find it. */
+  /** Mirrors weights of one side to the other. heads: three numbers for each joint. partners: HF_NO_INDEX: find it. */
   const mirrorWeights = (surface, given, heads, options = {}) => {
     const { names = null, partners = null, plane = null, to = 0, ...more } = options;
     const on = handleOf(surface, classes.Surface, 'surface');
     if (!on) fail('mirrorWeights needs a surface', 'HF_ERROR_NULL_POINTER');
     const places = doubles(heads, 'heads');
-    if (!places || places.length % 3) fail('heads must hold three numbers for each bone');
+    if (!places || places.length % 3) fail('heads must hold three numbers for each joint');
     const count = places.length / 3;
     const pairs = integers(partners, 'partners');
     if (pairs && pairs.length !== count) fail(`partners must hold ${count} numbers, not ${pairs.length}`);
-    const desc = describe('hf_mirror_desc', surface, given ?? {}, more);
+    const desc = describe('hf_weights_mirror_desc', surface, given ?? {}, more);
     const [flat, lines] = [doubles(plane, 'plane', 6), linesOf(names, count)];
-    desc.set('bone_count', count).set('to', to).set('heads', read(places)).set('names', lines && read(lines));
+    desc.set('joint_count', count).set('to', to).set('heads', read(places)).set('names', lines && read(lines));
     desc.set('partners', pairs && read(pairs)).set('plane', flat && read(flat));
-    const [found, out] = room(desc.get('weight_count') || 4, surface.vertexCount);
+    const [found, out] = room(desc.get('influence_count') || 4, surface.vertexCount);
     const [others, pairings] = [new Uint32Array(count), new Uint32Array(count)];
-    const info = make('hf_mirror_info');
+    const info = make('hf_weights_mirror_info');
     call('hf_weights_mirror', on, desc, out, written(others), written(pairings), info);
     return { ...found, partners: others, pairings, info: info.toObject() };
   };
 
-  /** Weights of the bones at every vertex. bones: { heads, tails, axes, parents, deforms }. */
+  /** Weights of the joints at every vertex. joints: { heads, tails, axes, parents, deforms }. */
   class Weights extends Recorded {
     static prefix = 'hf_weights';
-    constructor(surface, bones, { weightCount = 0 } = {}) {
+    constructor(surface, joints, { influenceCount = 0 } = {}) {
       super(bare);
       if (surface === bare) return;
-      this._make('create', handleOf(surface, classes.Surface, 'surface'), bonesOf(bones ?? {}), weightCount);
+      this._make('create', handleOf(surface, classes.Surface, 'surface'), bonesOf(joints ?? {}), influenceCount);
       this.vertexCount = surface.vertexCount;
     }
     clone() {
       return this._copy();
     }
-    setBones(bones) {
-      call('hf_weights_set_bones', this._handle, bonesOf(bones));
+    setJoints(joints) {
+      call('hf_weights_set_joints', this._handle, bonesOf(joints));
     }
     /** Places with given weights: `joints` and `weights` hold as many numbers for each. Replaces all pins. */
     setPins(vertices, { joints = [], weights = [], radii = null, progress = null } = {}) {
       const at = integers(vertices ?? [], 'vertices');
-      const [bones, shares] = [integers(joints, 'joints'), Float32Array.from(weights)];
-      if (bones.length !== shares.length) fail('joints and weights must be of one length');
-      if (at.length && bones.length % at.length) fail('joints must hold as many numbers for each pin');
+      const [numbers, shares] = [integers(joints, 'joints'), Float32Array.from(weights)];
+      if (numbers.length !== shares.length) fail('joints and weights must be of one length');
+      if (at.length && numbers.length % at.length) fail('joints must hold as many numbers for each pin');
       const discs = doubles(radii, 'radii', at.length);
       const desc = make('hf_pins_desc', {
         pin_count: at.length,
-        joint_count: at.length ? bones.length / at.length : 0,
+        influence_count: at.length ? numbers.length / at.length : 0,
       });
       desc.set('vertices', read(at)).set('radii', discs && read(discs));
-      desc.set('joints', read(bones)).set('weights', read(shares));
+      desc.set('joints', read(numbers)).set('weights', read(shares));
       call('hf_weights_set_pins', this._handle, watched(desc, progress));
     }
     /** Replaces all locks; values: a number for each vertex and lock, or null for the present ones. */
-    setLocks(bones, values = null) {
-      const numbers = integers(bones, 'bones') ?? new Uint32Array(0);
+    setLocks(joints, values = null) {
+      const numbers = integers(joints, 'joints') ?? new Uint32Array(0);
       if (values && !(values instanceof Float32Array && values.length === numbers.length * this.vertexCount))
         fail(`values must be a Float32Array of ${numbers.length * this.vertexCount} numbers`);
       call('hf_weights_set_locks', this._handle, numbers.length, read(numbers), values && read(values));
     }
-    /** Bones and shares of every vertex, descending; origins: HF_WEIGHTS_* of each vertex. */
+    /** Joints and shares of every vertex, descending; origins: HF_WEIGHTS_* of each vertex. */
     weights() {
       const ask = make('hf_weights_out');
       call('hf_weights_get', this._handle, ask);
-      const [found, out] = room(ask.get('weight_count'), this.vertexCount);
+      const [found, out] = room(ask.get('influence_count'), this.vertexCount);
       call('hf_weights_get', this._handle, out);
       return found;
     }
-    /** flags: bits HF_BONE_* of each bone; vertexCounts: vertices that ask for it. */
-    bones() {
+    /** flags: bits HF_JOINT_* of each joint; vertexCounts: vertices that ask for it. */
+    joints() {
       const count = new Uint32Array(1);
-      call('hf_weights_get_bones', this._handle, 0, null, null, written(count));
+      call('hf_weights_get_joints', this._handle, 0, null, null, written(count));
       const [flags, vertexCounts] = [new Uint32Array(count[0]), new Uint32Array(count[0])];
-      call('hf_weights_get_bones', this._handle, count[0], written(flags), written(vertexCounts), written(count));
+      call('hf_weights_get_joints', this._handle, count[0], written(flags), written(vertexCounts), written(count));
       return { flags, vertexCounts };
     }
-    /** Bits HF_HELPER_* of each bone: why it looks like a helper. names: of the bones, or null. */
+    /** Bits HF_HELPER_* of each joint: why it looks like a helper. names: of the joints, or null. */
     helpers(names = null) {
       const count = new Uint32Array(1);
       call('hf_weights_get_helpers', this._handle, null, 0, null, written(count));
@@ -163,5 +163,5 @@ export function weightClasses(tools) {
     }
   }
 
-  return { Weights, carryWeights, mirrorWeights };
+  return { Weights, transferWeights, mirrorWeights };
 }

@@ -11,10 +11,9 @@ library's own message, HfError and its subclasses.
 """
 
 from . import _raw as constants
-from ._library import (BusyError, CancelledError, ConflictError, DuplicateSiteError, EmptyError, InaccurateError,
-                       InternalError, InvalidArgumentError, InvalidDescError, InvalidHandleError, NoRecordError,
-                       NoSitesError, NoSuchHandleError, NoSuchPairError, NoSuchSiteError, NonFiniteError,
-                       NotPositiveDefiniteError, NullPointerError, OutOfMemoryError, OutOfRangeError, OverlapError,
+from ._library import (BusyError, CancelledError, ConflictError, DuplicateError, EmptyError, InaccurateError,
+                       InternalError, InvalidArgumentError, InvalidDescError, InvalidObjectError, NonFiniteError,
+                       NotFoundError, NotPositiveDefiniteError, NullPointerError, OutOfMemoryError, OutOfRangeError,
                        ReentrantError, TooLargeError, TooSmallError, UnsupportedError)
 from ._library import EXCEPTIONS, NO_INDEX, HfError, library
 from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as DirectionStatistics,
@@ -24,14 +23,14 @@ from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as Dire
                    hf_surface_info as SurfaceInfo, hf_surface_report as SurfaceReport,
                    hf_surface_statistics as SurfaceStatistics, hf_transfer_dials as TransferDials,
                    hf_transfer_info as TransferInfo,
-                   hf_carry_info as CarryInfo, hf_mirror_info as MirrorInfo, hf_weights_info as WeightsInfo)
+                   hf_weights_transfer_info as WeightTransferInfo, hf_weights_mirror_info as MirrorInfo, hf_weights_info as WeightsInfo)
 from .direction import Direction
 from .pose import DeformMode, Pair, Pose, Skin, Transfer, TransferMode
-from .quads import Flow, FlowLines, QuadMesh, Quads
+from .quads import Flow, Streamlines, QuadMesh, Quads
 from .region import Base, CurveKind, Detail, Region, RegionList, Side
 from .solver import Engine, Solver
 from .surface import DistanceMethod, Extremities, FieldKind, Geodesics, Isolines, Levels, Operator, Progress, Surface, Weld
-from .weights import (BoneFlag, HelperReason, Mirrored, MirrorTo, Origin, Pairing, VertexWeights, Weights, carry_weights,
+from .weights import (JointFlag, HelperReason, Mirrored, MirrorTo, Origin, Pairing, VertexWeights, Weights, transfer_weights,
                       mirror_weights)
 
 __version__ = constants.HEADER_VERSION

@@ -32,23 +32,18 @@ class HfError(Exception):
 
 class InvalidArgumentError(HfError, ValueError): code = _raw.HF_ERROR_INVALID_ARGUMENT
 class NullPointerError(HfError, TypeError): code = _raw.HF_ERROR_NULL_POINTER
-class InvalidHandleError(HfError): code = _raw.HF_ERROR_INVALID_HANDLE
+class InvalidObjectError(HfError): code = _raw.HF_ERROR_INVALID_OBJECT
 class InvalidDescError(HfError): code = _raw.HF_ERROR_INVALID_DESC
 class OutOfRangeError(HfError, IndexError): code = _raw.HF_ERROR_OUT_OF_RANGE
 class NonFiniteError(HfError, ValueError): code = _raw.HF_ERROR_NON_FINITE
 class EmptyError(HfError, ValueError): code = _raw.HF_ERROR_EMPTY
-class DuplicateSiteError(HfError, ValueError): code = _raw.HF_ERROR_DUPLICATE_SITE
-class NoSuchSiteError(HfError, KeyError): code = _raw.HF_ERROR_NO_SUCH_SITE
+class DuplicateError(HfError, ValueError): code = _raw.HF_ERROR_DUPLICATE
+class NotFoundError(HfError, KeyError): code = _raw.HF_ERROR_NOT_FOUND
 class ConflictError(HfError, ValueError): code = _raw.HF_ERROR_CONFLICT
-class NoSitesError(HfError): code = _raw.HF_ERROR_NO_SITES
-class NoSuchHandleError(HfError, KeyError): code = _raw.HF_ERROR_NO_SUCH_HANDLE
-class NoSuchPairError(HfError, KeyError): code = _raw.HF_ERROR_NO_SUCH_PAIR
-class OverlapError(HfError, ValueError): code = _raw.HF_ERROR_OVERLAP
 class UnsupportedError(HfError, NotImplementedError): code = _raw.HF_ERROR_UNSUPPORTED
 class BusyError(HfError): code = _raw.HF_ERROR_BUSY
 class ReentrantError(HfError): code = _raw.HF_ERROR_REENTRANT
 class TooSmallError(HfError, ValueError): code = _raw.HF_ERROR_TOO_SMALL
-class NoRecordError(HfError): code = _raw.HF_ERROR_NO_RECORD
 class OutOfMemoryError(HfError, MemoryError): code = _raw.HF_ERROR_OUT_OF_MEMORY
 class TooLargeError(HfError, ValueError): code = _raw.HF_ERROR_TOO_LARGE
 class CancelledError(HfError): code = _raw.HF_ERROR_CANCELLED
@@ -167,7 +162,7 @@ def make(struct: type, **fields: Any) -> Any:
 
 # what the package fills in itself; without corners, face_count is a wish and not the length of an array
 _OWN = ("struct_size", "reserved", "vertex_count", "triangle_count", "face_count", "corner_count", "edge_count",
-        "site_count", "crease_count", "guide_count", "pole_count")
+        "site_count", "crease_count", "guide_count", "irregular_count")
 
 
 def options_into(desc: Any, options: dict) -> None:
@@ -350,7 +345,7 @@ def regions(lists: Optional[Sequence[ArrayLike]], name: str) -> tuple:
 class Object:
     """Owns one handle of the library: close() it, use it in a with statement, or leave it to the garbage collector.
 
-    Objects may be closed in any order and more than once. A call on a closed one raises InvalidHandleError.
+    Objects may be closed in any order and more than once. A call on a closed one raises InvalidObjectError.
     """
 
     _destroy = ""
@@ -407,6 +402,34 @@ class Object:
             self.close()
         except Exception:  # at the end of the interpreter
             pass
+
+
+class Recorded(Object):
+    """An object with undo. A record is a clone, so it shares memory with the object."""
+
+    def record(self) -> None:
+        """Keeps the present state for undo()."""
+        self._past, self._undone = [*getattr(self, "_past", []), self.clone()], []
+
+    def undo(self) -> None:
+        """Goes back to the last record, bit for bit. Without one it raises EmptyError."""
+        self._exchange("_past", "_undone")
+
+    def redo(self) -> None:
+        """Goes to the state before the last undo(). Without one since the last record() it raises EmptyError."""
+        self._exchange("_undone", "_past")
+
+    def _exchange(self, taken: str, kept: str) -> None:
+        if self.closed:
+            self.clone()  # raises what every call on a closed object raises
+        states = getattr(self, taken, [])
+        if not states:
+            raise EmptyError("nothing is recorded; call record() before the edits" if taken == "_past" else
+                             "nothing was undone since the last record()")
+        state = states[-1]
+        setattr(self, kept, [*getattr(self, kept, []), state])
+        self._raw_handle, state._raw_handle = state._raw_handle, self._raw_handle
+        states.pop()
 
 
 def handle_of(thing: Optional[Union[Object, int]], kind: type, name: str) -> Optional[int]:

@@ -12,23 +12,18 @@ HF_MESSAGE_SIZE = 256
 HF_OK = 0
 HF_ERROR_INVALID_ARGUMENT = -1
 HF_ERROR_NULL_POINTER = -2
-HF_ERROR_INVALID_HANDLE = -3
+HF_ERROR_INVALID_OBJECT = -3
 HF_ERROR_INVALID_DESC = -4
 HF_ERROR_OUT_OF_RANGE = -5
 HF_ERROR_NON_FINITE = -6
 HF_ERROR_EMPTY = -7
-HF_ERROR_DUPLICATE_SITE = -8
-HF_ERROR_NO_SUCH_SITE = -9
+HF_ERROR_NOT_FOUND = -8
+HF_ERROR_DUPLICATE = -9
 HF_ERROR_CONFLICT = -10
-HF_ERROR_NO_SITES = -11
-HF_ERROR_NO_SUCH_HANDLE = -12
-HF_ERROR_NO_SUCH_PAIR = -13
-HF_ERROR_OVERLAP = -14
-HF_ERROR_UNSUPPORTED = -15
-HF_ERROR_BUSY = -16
-HF_ERROR_REENTRANT = -17
-HF_ERROR_TOO_SMALL = -18
-HF_ERROR_NO_RECORD = -19
+HF_ERROR_UNSUPPORTED = -11
+HF_ERROR_BUSY = -12
+HF_ERROR_REENTRANT = -13
+HF_ERROR_TOO_SMALL = -14
 HF_ERROR_OUT_OF_MEMORY = -100
 HF_ERROR_TOO_LARGE = -101
 HF_ERROR_CANCELLED = -102
@@ -111,16 +106,16 @@ HF_PAIR_LIMIT = 256
 HF_WEIGHTS_INFORMED = 0
 HF_WEIGHTS_SOLVED = 1
 HF_WEIGHTS_PINNED = 2
-HF_WEIGHTS_CARRIED = 3
+HF_WEIGHTS_NEAREST = 3
 HF_WEIGHTS_RIGID = 4
 HF_WEIGHTS_ISOLATED = 5
 HF_WEIGHTS_MATCHED = 6
 HF_WEIGHTS_KEPT = 7
-HF_BONE_NO_LENGTH = 1
-HF_BONE_COINCIDENT = 2
-HF_BONE_INFORMS_NONE = 4
-HF_BONE_OUTSIDE = 8
-HF_BONE_HELPER = 16
+HF_JOINT_NO_LENGTH = 1
+HF_JOINT_COINCIDENT = 2
+HF_JOINT_INFORMS_NONE = 4
+HF_JOINT_OUTSIDE = 8
+HF_JOINT_HELPER = 16
 HF_HELPER_PROPOSED = 1
 HF_HELPER_NAME_ROOT = 2
 HF_HELPER_NAME_CONTROL = 4
@@ -135,35 +130,30 @@ HF_MIRROR_TO_NEGATIVE = 0
 HF_MIRROR_TO_POSITIVE = 1
 HF_MIRROR_BOTH = 2
 HF_MIRROR_PLANE_GIVEN = 0
-HF_MIRROR_PLANE_BONES = 1
+HF_MIRROR_PLANE_JOINTS = 1
 HF_MIRROR_PLANE_SURFACE = 2
-HF_MIRROR_BONE_ALONE = 0
-HF_MIRROR_BONE_NAMED = 1
-HF_MIRROR_BONE_PLACED = 2
-HF_MIRROR_BONE_CENTRE = 3
-HF_MIRROR_BONE_GIVEN = 4
+HF_MIRROR_JOINT_ALONE = 0
+HF_MIRROR_JOINT_NAMED = 1
+HF_MIRROR_JOINT_PLACED = 2
+HF_MIRROR_JOINT_CENTRE = 3
+HF_MIRROR_JOINT_GIVEN = 4
 
 RESULT_NAMES = {
     0: "HF_OK",
     -1: "HF_ERROR_INVALID_ARGUMENT",
     -2: "HF_ERROR_NULL_POINTER",
-    -3: "HF_ERROR_INVALID_HANDLE",
+    -3: "HF_ERROR_INVALID_OBJECT",
     -4: "HF_ERROR_INVALID_DESC",
     -5: "HF_ERROR_OUT_OF_RANGE",
     -6: "HF_ERROR_NON_FINITE",
     -7: "HF_ERROR_EMPTY",
-    -8: "HF_ERROR_DUPLICATE_SITE",
-    -9: "HF_ERROR_NO_SUCH_SITE",
+    -8: "HF_ERROR_NOT_FOUND",
+    -9: "HF_ERROR_DUPLICATE",
     -10: "HF_ERROR_CONFLICT",
-    -11: "HF_ERROR_NO_SITES",
-    -12: "HF_ERROR_NO_SUCH_HANDLE",
-    -13: "HF_ERROR_NO_SUCH_PAIR",
-    -14: "HF_ERROR_OVERLAP",
-    -15: "HF_ERROR_UNSUPPORTED",
-    -16: "HF_ERROR_BUSY",
-    -17: "HF_ERROR_REENTRANT",
-    -18: "HF_ERROR_TOO_SMALL",
-    -19: "HF_ERROR_NO_RECORD",
+    -11: "HF_ERROR_UNSUPPORTED",
+    -12: "HF_ERROR_BUSY",
+    -13: "HF_ERROR_REENTRANT",
+    -14: "HF_ERROR_TOO_SMALL",
     -100: "HF_ERROR_OUT_OF_MEMORY",
     -101: "HF_ERROR_TOO_LARGE",
     -102: "HF_ERROR_CANCELLED",
@@ -231,13 +221,15 @@ class hf_link(Structure):
     length: float
     weight: float
     in_tree: int
+    reserved: int
     _fields_ = [
         ("vertex", c_uint32),
         ("corners", c_uint32 * 3),
         ("barycentrics", c_double * 3),
         ("length", c_double),
-        ("weight", c_float),
+        ("weight", c_double),
         ("in_tree", c_int32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -249,30 +241,28 @@ class hf_links_desc(Structure):
     stiffness: float
     overlay_distance: float
     influence_count: int
-    joints: int
-    weights: int
-    tags: int
     link_count: int
     light_count: int
     heavy_count: int
-    reserved: int
+    joints: int
+    weights: int
+    tags: int
     links: int
     light_vertices: int
     heavy_vertices: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("mode", c_int32),
-        ("distance", c_float),
-        ("stiffness", c_float),
-        ("overlay_distance", c_float),
+        ("distance", c_double),
+        ("stiffness", c_double),
+        ("overlay_distance", c_double),
         ("influence_count", c_uint32),
-        ("joints", c_void_p),
-        ("weights", c_void_p),
-        ("tags", c_void_p),
         ("link_count", c_uint32),
         ("light_count", c_uint32),
         ("heavy_count", c_uint32),
-        ("reserved", c_uint32),
+        ("joints", c_void_p),
+        ("weights", c_void_p),
+        ("tags", c_void_p),
         ("links", c_void_p),
         ("light_vertices", c_void_p),
         ("heavy_vertices", c_void_p),
@@ -300,7 +290,6 @@ class hf_surface_desc(Structure):
     triangle_limit: int
     memory_limit_mb: int
     work_limit_gflop: int
-    reserved: int
     allocator: object
     job_runner: object
     progress: int
@@ -324,7 +313,7 @@ class hf_surface_desc(Structure):
         ("triangles_u16", c_void_p),
         ("triangle_stride", c_uint32),
         ("weld", c_int32),
-        ("weld_tolerance", c_float),
+        ("weld_tolerance", c_double),
         ("operator_kind", c_int32),
         ("field_kind", c_int32),
         ("ordering", c_int32),
@@ -333,7 +322,6 @@ class hf_surface_desc(Structure):
         ("triangle_limit", c_uint32),
         ("memory_limit_mb", c_uint32),
         ("work_limit_gflop", c_uint32),
-        ("reserved", c_uint32),
         ("allocator", hf_allocator),
         ("job_runner", hf_job_runner),
         ("progress", c_void_p),
@@ -417,7 +405,7 @@ class hf_surface_info(Structure):
         ("vertex_count", c_uint32),
         ("triangle_count", c_uint32),
         ("weld", c_int32),
-        ("weld_tolerance", c_float),
+        ("weld_tolerance", c_double),
         ("operator_kind", c_int32),
         ("field_kind", c_int32),
         ("ordering", c_int32),
@@ -448,6 +436,7 @@ class hf_surface_report(Structure):
     flipped_edge_count: int
     boundary_edge_count: int
     negative_edge_count: int
+    reserved: int
     smallest_angle: float
     bounding_box_diagonal: float
     changed_vertex_count: int
@@ -477,7 +466,8 @@ class hf_surface_report(Structure):
         ("flipped_edge_count", c_uint32),
         ("boundary_edge_count", c_uint32),
         ("negative_edge_count", c_uint32),
-        ("smallest_angle", c_float),
+        ("reserved", c_uint32),
+        ("smallest_angle", c_double),
         ("bounding_box_diagonal", c_double),
         ("changed_vertex_count", c_uint32),
         ("first_changed_vertex", c_uint32),
@@ -913,16 +903,14 @@ class hf_critical_info(Structure):
 class hf_geodesics_desc(Structure):
     """Selects how distances are computed."""
     struct_size: int
+    method: int
     smoothing: float
     progress: int
-    method: int
-    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("smoothing", c_float),
-        ("progress", c_void_p),
         ("method", c_int32),
-        ("reserved", c_uint32),
+        ("smoothing", c_double),
+        ("progress", c_void_p),
     ]
 
 
@@ -964,16 +952,18 @@ class hf_extremities_desc(Structure):
     """Selects how hf_surface_find_extremities finds tips."""
     struct_size: int
     kind: int
-    least_length: float
+    least_length_share: float
     source_count: int
+    reserved: int
     geodesics: int
     progress: int
     out_field: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
-        ("least_length", c_float),
+        ("least_length_share", c_double),
         ("source_count", c_uint32),
+        ("reserved", c_uint32),
         ("geodesics", c_void_p),
         ("progress", c_void_p),
         ("out_field", c_void_p),
@@ -1062,14 +1052,14 @@ class hf_pose_desc(Structure):
     mode: int
     band_count: int
     iteration_count: int
-    samples_per_ring: int
+    rim_site_count: int
     group_count: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("mode", c_int32),
         ("band_count", c_uint32),
         ("iteration_count", c_uint32),
-        ("samples_per_ring", c_uint32),
+        ("rim_site_count", c_uint32),
         ("group_count", c_uint32),
     ]
 
@@ -1080,7 +1070,7 @@ class hf_pose_info(Structure):
     mode: int
     band_count: int
     iteration_count: int
-    samples_per_ring: int
+    rim_site_count: int
     group_count: int
     handle_count: int
     vertex_count: int
@@ -1089,7 +1079,7 @@ class hf_pose_info(Structure):
         ("mode", c_int32),
         ("band_count", c_uint32),
         ("iteration_count", c_uint32),
-        ("samples_per_ring", c_uint32),
+        ("rim_site_count", c_uint32),
         ("group_count", c_uint32),
         ("handle_count", c_uint32),
         ("vertex_count", c_uint32),
@@ -1217,7 +1207,7 @@ class hf_skin_info(Structure):
     struct_size: int
     joint_capacity: int
     vertex_capacity: int
-    weight_count: int
+    influence_count: int
     joint_count: int
     vertex_count: int
     pivots: int
@@ -1231,7 +1221,7 @@ class hf_skin_info(Structure):
         ("struct_size", c_uint32),
         ("joint_capacity", c_uint32),
         ("vertex_capacity", c_uint32),
-        ("weight_count", c_uint32),
+        ("influence_count", c_uint32),
         ("joint_count", c_uint32),
         ("vertex_count", c_uint32),
         ("pivots", c_void_p),
@@ -1244,15 +1234,16 @@ class hf_skin_info(Structure):
     ]
 
 
-class hf_propose_desc(Structure):
+class hf_handle_proposals_desc(Structure):
     """Says why a place is proposed as a handle."""
     struct_size: int
     joint_count: int
     joints: int
     parents: int
     up: object
-    least_length: float
+    least_length_share: float
     limit: int
+    reserved: int
     progress: int
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1260,8 +1251,9 @@ class hf_propose_desc(Structure):
         ("joints", c_void_p),
         ("parents", c_void_p),
         ("up", c_double * 3),
-        ("least_length", c_float),
+        ("least_length_share", c_double),
         ("limit", c_uint32),
+        ("reserved", c_uint32),
         ("progress", c_void_p),
     ]
 
@@ -1299,33 +1291,33 @@ class hf_quads_desc(Structure):
     relax_count: int
     crease_count: int
     guide_count: int
-    pole_count: int
+    irregular_count: int
     symmetry_plane: object
     crease_edges: int
     guide_vertices: int
     guide_vectors: int
     guide_weights: int
-    pole_points: int
-    pole_quads: int
-    pole_directions: int
+    irregular_points: int
+    irregular_valences: int
+    irregular_directions: int
     progress: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("face_count", c_uint32),
-        ("edge_length", c_float),
-        ("crease_angle", c_float),
+        ("edge_length", c_double),
+        ("crease_angle", c_double),
         ("relax_count", c_uint32),
         ("crease_count", c_uint32),
         ("guide_count", c_uint32),
-        ("pole_count", c_uint32),
+        ("irregular_count", c_uint32),
         ("symmetry_plane", c_double * 4),
         ("crease_edges", c_void_p),
         ("guide_vertices", c_void_p),
         ("guide_vectors", c_void_p),
         ("guide_weights", c_void_p),
-        ("pole_points", c_void_p),
-        ("pole_quads", c_void_p),
-        ("pole_directions", c_void_p),
+        ("irregular_points", c_void_p),
+        ("irregular_valences", c_void_p),
+        ("irregular_directions", c_void_p),
         ("progress", c_void_p),
     ]
 
@@ -1342,7 +1334,7 @@ class hf_quads_info(Structure):
         ("vertex_count", c_uint32),
         ("face_count", c_uint32),
         ("euler_characteristic", c_int32),
-        ("edge_length", c_float),
+        ("edge_length", c_double),
     ]
 
 
@@ -1374,7 +1366,7 @@ class hf_quads_mesh(Structure):
     ]
 
 
-class hf_flow_lines(Structure):
+class hf_streamlines(Structure):
     struct_size: int
     wanted_count: int
     seed_count: int
@@ -1551,26 +1543,24 @@ class hf_transfer_desc(Structure):
     struct_size: int
     mode: int
     cluster_count: int
+    ground: int
     kernel_width: float
     scale: float
     alignment_angle: float
     source_axes: object
     target_axes: object
-    ground: int
-    reserved: int
     source_rest: int
     target_rest: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("mode", c_int32),
         ("cluster_count", c_uint32),
-        ("kernel_width", c_float),
-        ("scale", c_float),
-        ("alignment_angle", c_float),
-        ("source_axes", c_float * 9),
-        ("target_axes", c_float * 9),
         ("ground", c_int32),
-        ("reserved", c_uint32),
+        ("kernel_width", c_double),
+        ("scale", c_double),
+        ("alignment_angle", c_double),
+        ("source_axes", c_double * 9),
+        ("target_axes", c_double * 9),
         ("source_rest", c_void_p),
         ("target_rest", c_void_p),
     ]
@@ -1648,20 +1638,22 @@ class hf_transfer_info(Structure):
 class hf_transfer_dials(Structure):
     """What an animator turns while a transfer plays."""
     struct_size: int
+    reserved: int
     stride: float
-    hip_height: float
+    hip_height_share: float
     neck_follow: float
     tail_follow: float
     arm_space: float
     long_follow: float
     _fields_ = [
         ("struct_size", c_uint32),
-        ("stride", c_float),
-        ("hip_height", c_float),
-        ("neck_follow", c_float),
-        ("tail_follow", c_float),
-        ("arm_space", c_float),
-        ("long_follow", c_float),
+        ("reserved", c_uint32),
+        ("stride", c_double),
+        ("hip_height_share", c_double),
+        ("neck_follow", c_double),
+        ("tail_follow", c_double),
+        ("arm_space", c_double),
+        ("long_follow", c_double),
     ]
 
 
@@ -1697,10 +1689,10 @@ class hf_transfer_frame(Structure):
     ]
 
 
-class hf_bones_desc(Structure):
-    """The bones of a skeleton, in the unit and frame of the mesh."""
+class hf_joints_desc(Structure):
+    """The joints of a skeleton, in the unit and frame of the mesh."""
     struct_size: int
-    bone_count: int
+    joint_count: int
     heads: int
     tails: int
     axes: int
@@ -1710,7 +1702,7 @@ class hf_bones_desc(Structure):
     progress: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("bone_count", c_uint32),
+        ("joint_count", c_uint32),
         ("heads", c_void_p),
         ("tails", c_void_p),
         ("axes", c_void_p),
@@ -1729,7 +1721,7 @@ class hf_pins_desc(Structure):
     triangles: int
     barycentrics: int
     radii: int
-    joint_count: int
+    influence_count: int
     reserved: int
     joints: int
     weights: int
@@ -1741,7 +1733,7 @@ class hf_pins_desc(Structure):
         ("triangles", c_void_p),
         ("barycentrics", c_void_p),
         ("radii", c_void_p),
-        ("joint_count", c_uint32),
+        ("influence_count", c_uint32),
         ("reserved", c_uint32),
         ("joints", c_void_p),
         ("weights", c_void_p),
@@ -1754,7 +1746,7 @@ class hf_weights_out(Structure):
     struct_size: int
     vertex_capacity: int
     vertex_count: int
-    weight_count: int
+    influence_count: int
     joints: int
     joints_u16: int
     weights: int
@@ -1763,7 +1755,7 @@ class hf_weights_out(Structure):
         ("struct_size", c_uint32),
         ("vertex_capacity", c_uint32),
         ("vertex_count", c_uint32),
-        ("weight_count", c_uint32),
+        ("influence_count", c_uint32),
         ("joints", c_void_p),
         ("joints_u16", c_void_p),
         ("weights", c_void_p),
@@ -1775,17 +1767,17 @@ class hf_weights_info(Structure):
     """Counts of the weights."""
     struct_size: int
     vertex_count: int
-    bone_count: int
+    joint_count: int
     pin_count: int
     lock_count: int
     informed_count: int
     solved_count: int
     pinned_count: int
-    carried_count: int
+    nearest_count: int
     rigid_count: int
     isolated_count: int
-    carried_island_count: int
-    rigid_island_count: int
+    nearest_piece_count: int
+    rigid_piece_count: int
     blind: int
     no_length_count: int
     coincident_count: int
@@ -1798,17 +1790,17 @@ class hf_weights_info(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
-        ("bone_count", c_uint32),
+        ("joint_count", c_uint32),
         ("pin_count", c_uint32),
         ("lock_count", c_uint32),
         ("informed_count", c_uint32),
         ("solved_count", c_uint32),
         ("pinned_count", c_uint32),
-        ("carried_count", c_uint32),
+        ("nearest_count", c_uint32),
         ("rigid_count", c_uint32),
         ("isolated_count", c_uint32),
-        ("carried_island_count", c_uint32),
-        ("rigid_island_count", c_uint32),
+        ("nearest_piece_count", c_uint32),
+        ("rigid_piece_count", c_uint32),
         ("blind", c_int32),
         ("no_length_count", c_uint32),
         ("coincident_count", c_uint32),
@@ -1821,89 +1813,89 @@ class hf_weights_info(Structure):
     ]
 
 
-class hf_carry_desc(Structure):
-    """Weights to carry from one surface to another."""
+class hf_weights_transfer_desc(Structure):
+    """Weights to transfer from one surface to another."""
     struct_size: int
-    influence_count: int
+    source_influence_count: int
     joints: int
     weights: int
     distance: float
     angle: float
-    weight_count: int
+    influence_count: int
     reserved: int
     progress: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("influence_count", c_uint32),
+        ("source_influence_count", c_uint32),
         ("joints", c_void_p),
         ("weights", c_void_p),
         ("distance", c_double),
         ("angle", c_double),
-        ("weight_count", c_uint32),
+        ("influence_count", c_uint32),
         ("reserved", c_uint32),
         ("progress", c_void_p),
     ]
 
 
-class hf_carry_info(Structure):
-    """Counts of carried weights."""
+class hf_weights_transfer_info(Structure):
+    """Counts of transferred weights."""
     struct_size: int
     vertex_count: int
     matched_count: int
     solved_count: int
-    carried_count: int
+    nearest_count: int
     rigid_count: int
     isolated_count: int
-    guessed_island_count: int
+    guessed_piece_count: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
         ("matched_count", c_uint32),
         ("solved_count", c_uint32),
-        ("carried_count", c_uint32),
+        ("nearest_count", c_uint32),
         ("rigid_count", c_uint32),
         ("isolated_count", c_uint32),
-        ("guessed_island_count", c_uint32),
+        ("guessed_piece_count", c_uint32),
     ]
 
 
-class hf_mirror_desc(Structure):
+class hf_weights_mirror_desc(Structure):
     """Weights to mirror."""
     struct_size: int
-    bone_count: int
+    joint_count: int
     heads: int
     names: int
     partners: int
     plane: int
-    influence_count: int
+    source_influence_count: int
     to: int
     joints: int
     weights: int
     distance: float
     angle: float
-    weight_count: int
+    influence_count: int
     reserved: int
     progress: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("bone_count", c_uint32),
+        ("joint_count", c_uint32),
         ("heads", c_void_p),
         ("names", c_void_p),
         ("partners", c_void_p),
         ("plane", c_void_p),
-        ("influence_count", c_uint32),
+        ("source_influence_count", c_uint32),
         ("to", c_int32),
         ("joints", c_void_p),
         ("weights", c_void_p),
         ("distance", c_double),
         ("angle", c_double),
-        ("weight_count", c_uint32),
+        ("influence_count", c_uint32),
         ("reserved", c_uint32),
         ("progress", c_void_p),
     ]
 
 
-class hf_mirror_info(Structure):
+class hf_weights_mirror_info(Structure):
     """The findings of a mirror."""
     struct_size: int
     vertex_count: int
@@ -1916,15 +1908,15 @@ class hf_mirror_info(Structure):
     kept_count: int
     matched_count: int
     solved_count: int
-    carried_count: int
+    nearest_count: int
     rigid_count: int
     isolated_count: int
-    worst_bone: int
+    worst_joint: int
     worst_vertex: int
     point: object
     normal: object
-    bone_off: float
-    worst_bone_off: float
+    joint_off: float
+    worst_joint_off: float
     vertex_off: float
     worst_vertex_off: float
     _fields_ = [
@@ -1939,21 +1931,21 @@ class hf_mirror_info(Structure):
         ("kept_count", c_uint32),
         ("matched_count", c_uint32),
         ("solved_count", c_uint32),
-        ("carried_count", c_uint32),
+        ("nearest_count", c_uint32),
         ("rigid_count", c_uint32),
         ("isolated_count", c_uint32),
-        ("worst_bone", c_uint32),
+        ("worst_joint", c_uint32),
         ("worst_vertex", c_uint32),
         ("point", c_double * 3),
         ("normal", c_double * 3),
-        ("bone_off", c_double),
-        ("worst_bone_off", c_double),
+        ("joint_off", c_double),
+        ("worst_joint_off", c_double),
         ("vertex_off", c_double),
         ("worst_vertex_off", c_double),
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_surface_point, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_propose_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_bones_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_carry_desc, hf_carry_info, hf_mirror_desc, hf_mirror_info]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_surface_point, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -2002,9 +1994,6 @@ PROTOTYPES = {
     "hf_solver_move_vectors": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_solver_rotate_vectors": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_solver_certify": (c_int32, [c_void_p, c_void_p]),
-    "hf_solver_record": (c_int32, [c_void_p]),
-    "hf_solver_undo": (c_int32, [c_void_p]),
-    "hf_solver_redo": (c_int32, [c_void_p]),
     "hf_solver_prepare_rebase": (c_int32, [c_void_p]),
     "hf_solver_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_space_levels": (c_int32, [c_void_p, c_void_p, c_int32, c_uint32, c_void_p]),
@@ -2025,9 +2014,6 @@ PROTOTYPES = {
     "hf_direction_move_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_direction_set_vectors": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_direction_rotate_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_direction_record": (c_int32, [c_void_p]),
-    "hf_direction_undo": (c_int32, [c_void_p]),
-    "hf_direction_redo": (c_int32, [c_void_p]),
     "hf_direction_get_site_count": (c_uint32, [c_void_p]),
     "hf_direction_get_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_direction_solve": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
@@ -2050,7 +2036,7 @@ PROTOTYPES = {
     "hf_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_pose_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_pose_get_skin": (c_int32, [c_void_p, c_void_p]),
-    "hf_propose_handles": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_surface_propose_handles": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_quads_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_quads_update": (c_int32, [c_void_p, c_void_p]),
     "hf_quads_destroy": (None, [c_void_p]),
@@ -2063,9 +2049,6 @@ PROTOTYPES = {
     "hf_region_clone": (c_int32, [c_void_p, c_void_p]),
     "hf_region_destroy": (None, [c_void_p]),
     "hf_region_edit": (c_int32, [c_void_p, c_void_p]),
-    "hf_region_record": (c_int32, [c_void_p]),
-    "hf_region_undo": (c_int32, [c_void_p]),
-    "hf_region_redo": (c_int32, [c_void_p]),
     "hf_region_get_info": (c_int32, [c_void_p, c_void_p]),
     "hf_region_get_vertices": (c_int32, [c_void_p, c_int32, c_uint32, c_void_p, c_void_p]),
     "hf_region_get_curve": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
@@ -2087,17 +2070,14 @@ PROTOTYPES = {
     "hf_weights_create": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
     "hf_weights_clone": (c_int32, [c_void_p, c_void_p]),
     "hf_weights_destroy": (None, [c_void_p]),
-    "hf_weights_set_bones": (c_int32, [c_void_p, c_void_p]),
+    "hf_weights_set_joints": (c_int32, [c_void_p, c_void_p]),
     "hf_weights_set_pins": (c_int32, [c_void_p, c_void_p]),
     "hf_weights_set_locks": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_weights_get": (c_int32, [c_void_p, c_void_p]),
-    "hf_weights_get_bones": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p]),
+    "hf_weights_get_joints": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p]),
     "hf_weights_get_info": (c_int32, [c_void_p, c_void_p]),
-    "hf_weights_record": (c_int32, [c_void_p]),
-    "hf_weights_undo": (c_int32, [c_void_p]),
-    "hf_weights_redo": (c_int32, [c_void_p]),
     "hf_weights_get_helpers": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_weights_carry": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
+    "hf_weights_transfer": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_weights_mirror": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
 }
 

@@ -8,12 +8,12 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _raw
-from ._library import (ArrayLike, Object, address, call, count_of, doubles, handle_of, integers, library, make, output,
+from ._library import (ArrayLike, Recorded, address, call, count_of, doubles, handle_of, integers, library, make, output,
                        paired)
 from .surface import Progress, Surface
 
 
-class Direction(Object):
+class Direction(Recorded):
     """A field of vectors, lines or crosses (degree 1, 2, 4). Constraints come and go on its own factor."""
 
     _destroy = "hf_direction_destroy"
@@ -61,16 +61,6 @@ class Direction(Object):
         numbers = integers(sites, "sites")
         turns = doubles(angles, "angles", count_of(numbers))
         call("hf_direction_rotate_sites", self._raw_handle, count_of(numbers), address(numbers), address(turns))
-
-    def record(self) -> None:
-        """Keeps the present constraints for undo()."""
-        call("hf_direction_record", self._raw_handle)
-
-    def undo(self) -> None:
-        call("hf_direction_undo", self._raw_handle)
-
-    def redo(self) -> None:
-        call("hf_direction_redo", self._raw_handle)
 
     @property
     def site_count(self) -> int:

@@ -40,13 +40,13 @@ class Skin(NamedTuple):
     weights: np.ndarray  # (n, 4 or 8) float32, sum 1
 
 
-def _skin(function: str, handle: Optional[int], vertex_count: int, weight_count: int) -> Skin:
-    info = make(_raw.hf_skin_info, weight_count=weight_count)
+def _skin(function: str, handle: Optional[int], vertex_count: int, influence_count: int) -> Skin:
+    info = make(_raw.hf_skin_info, influence_count=influence_count)
     call(function, handle, ctypes.byref(info))
     joints = info.joint_count
     skin = Skin(np.empty((joints, 3)), np.empty((joints, 4)), np.empty((joints, 3)),
-        np.empty((vertex_count, weight_count), np.uint32),
-                np.empty((vertex_count, weight_count), np.float32))
+        np.empty((vertex_count, influence_count), np.uint32),
+                np.empty((vertex_count, influence_count), np.float32))
     info.joint_capacity, info.vertex_capacity = joints, vertex_count
     info.pivots, info.rotations = address(skin.pivots), address(skin.rotations)
     info.translations = address(skin.translations)
@@ -58,7 +58,7 @@ def _skin(function: str, handle: Optional[int], vertex_count: int, weight_count:
 class Pose(Object):
     """Handles on a surface; every vertex follows.
 
-    Options: mode, band_count, iteration_count, samples_per_ring, group_count.
+    Options: mode, band_count, iteration_count, rim_site_count, group_count.
     """
 
     _destroy = "hf_pose_destroy"
@@ -178,9 +178,9 @@ class Pose(Object):
         call("hf_pose_deform", self._raw_handle, ctypes.byref(desc), None if info is None else ctypes.byref(info))
         return out
 
-    def skin(self, weight_count: int = 4) -> Skin:
+    def skin(self, influence_count: int = 4) -> Skin:
         """The pose as joints and weights."""
-        return _skin("hf_pose_get_skin", self._raw_handle, self.vertex_count, weight_count)
+        return _skin("hf_pose_get_skin", self._raw_handle, self.vertex_count, influence_count)
 
 
 class Transfer(Object):
@@ -242,7 +242,7 @@ class Transfer(Object):
         return self._read("hf_transfer_get_info", _raw.hf_transfer_info)
 
     def set_dials(self, **dials: float) -> None:
-        """stride, hip_height, neck_follow, tail_follow, arm_space, long_follow of the next frames; the others become neutral."""
+        """stride, hip_height_share, neck_follow, tail_follow, arm_space, long_follow of the next frames; the others become neutral."""
         desc = make(_raw.hf_transfer_dials)
         options_into(desc, dials)
         call("hf_transfer_set_dials", self._raw_handle, ctypes.byref(desc))
@@ -282,5 +282,5 @@ class Transfer(Object):
         call("hf_transfer_apply", self._raw_handle, ctypes.byref(frame))
         return out
 
-    def skin(self, weight_count: int = 4) -> Skin:
-        return _skin("hf_transfer_get_skin", self._raw_handle, self.vertex_count, weight_count)
+    def skin(self, influence_count: int = 4) -> Skin:
+        return _skin("hf_transfer_get_skin", self._raw_handle, self.vertex_count, influence_count)

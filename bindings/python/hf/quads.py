@@ -1,4 +1,4 @@
-"""Quad meshes of surfaces, and flow lines of fields (hf/quads.h)."""
+"""Quad meshes of surfaces, and streamlines of fields (hf/quads.h)."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ class QuadMesh(NamedTuple):
 
 def _desc_of(*, crease_edges: Optional[ArrayLike] = None, guide_vertices: Optional[ArrayLike] = None,
              guide_vectors: Optional[ArrayLike] = None, guide_weights: Optional[ArrayLike] = None,
-             pole_points: Optional[ArrayLike] = None, pole_quads: Optional[ArrayLike] = None,
-             pole_directions: Optional[ArrayLike] = None, symmetry_plane: Optional[ArrayLike] = None, progress: Optional[Progress] = None,
+             irregular_points: Optional[ArrayLike] = None, irregular_valences: Optional[ArrayLike] = None,
+             irregular_directions: Optional[ArrayLike] = None, symmetry_plane: Optional[ArrayLike] = None, progress: Optional[Progress] = None,
              **options: Any) -> Tuple[_raw.hf_quads_desc, tuple]:
     """The desc, and the arrays it points into: hold them until the call is over."""
     desc = make(_raw.hf_quads_desc)
@@ -41,11 +41,11 @@ def _desc_of(*, crease_edges: Optional[ArrayLike] = None, guide_vertices: Option
     weights = doubles(guide_weights, "guide_weights", desc.guide_count)
     weights = None if weights is None else weights.astype(np.float32)
     desc.guide_vectors, desc.guide_weights = address(vectors), address(weights)
-    counts = integers(pole_quads, "pole_quads")
-    desc.pole_count, desc.pole_quads = 0 if counts is None else counts.size, address(counts)
-    places = doubles(pole_points, "pole_points", 3 * desc.pole_count)
-    ways = doubles(pole_directions, "pole_directions", 3 * desc.pole_count)
-    desc.pole_points, desc.pole_directions = address(places), address(ways)
+    counts = integers(irregular_valences, "irregular_valences")
+    desc.irregular_count, desc.irregular_valences = 0 if counts is None else counts.size, address(counts)
+    places = doubles(irregular_points, "irregular_points", 3 * desc.irregular_count)
+    ways = doubles(irregular_directions, "irregular_directions", 3 * desc.irregular_count)
+    desc.irregular_points, desc.irregular_directions = address(places), address(ways)
     if symmetry_plane is not None:
         desc.symmetry_plane[:] = doubles(symmetry_plane, "symmetry_plane", 4).ravel()
     desc.progress = handle_of(progress, Progress, "progress")
@@ -54,8 +54,8 @@ def _desc_of(*, crease_edges: Optional[ArrayLike] = None, guide_vertices: Option
 
 class Quads(Object):
     """A quad mesh of a surface. Options: face_count, edge_length, crease_angle, relax_count; crease_edges (n, 2),
-    guide_vertices (n,), guide_vectors (n, 3), guide_weights (n,), pole_points (n, 3), pole_quads (n,) of 3 or 5,
-    pole_directions (n, 3), progress, and symmetry_plane: a, b, c, d of the plane a x + b y + c z = d."""
+    guide_vertices (n,), guide_vectors (n, 3), guide_weights (n,), irregular_points (n, 3), irregular_valences (n,) of 3 or 5,
+    irregular_directions (n, 3), progress, and symmetry_plane: a, b, c, d of the plane a x + b y + c z = d."""
 
     _destroy = "hf_quads_destroy"
 
@@ -87,7 +87,7 @@ class Quads(Object):
         return mesh
 
 
-class FlowLines(NamedTuple):
+class Streamlines(NamedTuple):
     """Line i holds the points line_starts[i] to line_starts[i + 1] - 1; values rise along it."""
 
     positions: np.ndarray  # (points, 3) float64
@@ -101,7 +101,7 @@ class FlowLines(NamedTuple):
 
 
 class Flow(Object):
-    """A surface prepared for tracing flow lines, again and again."""
+    """A surface prepared for tracing streamlines, again and again."""
 
     _destroy = "hf_flow_destroy"
 
@@ -112,21 +112,21 @@ class Flow(Object):
         self.vertex_count = surface.vertex_count
         self._room = (4096, 64)  # points and lines that the last trace needed
 
-    def trace(self, field: ArrayLike, wanted_count: int = 0, *, seeds: Optional[ArrayLike] = None) -> FlowLines:
+    def trace(self, field: ArrayLike, wanted_count: int = 0, *, seeds: Optional[ArrayLike] = None) -> Streamlines:
         """Lines of equal flux from the minima of a field, wanted_count of them, or one through every seed vertex."""
         desc, _held = scalars(field, self.vertex_count)
         at = integers(seeds, "seeds")
         wanted_count = whole(wanted_count, "wanted_count", 0, 1000000)
         while True:
             p, k = self._room
-            found = FlowLines(np.empty((p, 3)), np.empty(p), np.zeros(k + 1, np.uint32), np.empty((k, 2), np.uint32))
-            out = make(_raw.hf_flow_lines, wanted_count=wanted_count, seed_count=0 if at is None else at.size,
+            found = Streamlines(np.empty((p, 3)), np.empty(p), np.zeros(k + 1, np.uint32), np.empty((k, 2), np.uint32))
+            out = make(_raw.hf_streamlines, wanted_count=wanted_count, seed_count=0 if at is None else at.size,
                        seeds=address(at), point_capacity=p, line_capacity=k,
-                       **{name: address(getattr(found, name)) for name in FlowLines._fields})
+                       **{name: address(getattr(found, name)) for name in Streamlines._fields})
             try:
                 call("hf_flow_trace", self._raw_handle, None if desc is None else ctypes.byref(desc), ctypes.byref(out))
             except TooSmallError:
                 self._room = (out.point_count + out.point_count // 4, out.line_count)
                 continue
             p, k = out.point_count, out.line_count
-            return FlowLines(found.positions[:p], found.values[:p], found.line_starts[:k + 1], found.line_ends[:k])
+            return Streamlines(found.positions[:p], found.values[:p], found.line_starts[:k + 1], found.line_ends[:k])

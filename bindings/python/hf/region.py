@@ -9,7 +9,7 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _raw
-from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, handle_of, integers, make, output,
+from ._library import (ArrayLike, InvalidArgumentError, Object, Recorded, address, call, handle_of, integers, make, output,
                        points, whole)
 from .surface import Progress, Surface
 
@@ -43,7 +43,7 @@ def _morph(function: str, thing: Any, weight: float, out: Optional[np.ndarray], 
     return out
 
 
-class Region(Object):
+class Region(Recorded):
     """A region of a surface that grows, shrinks and is drawn by closed curves.
 
     positions: a pose of the surface to work on; None: at rest. base: a thin plate leaves the surface around it without
@@ -91,16 +91,6 @@ class Region(Object):
         if removed is not None:
             desc.remove_count, desc.remove_vertices = removed.size, address(removed)
         call("hf_region_edit", self._raw_handle, ctypes.byref(desc))
-
-    def record(self) -> None:
-        """Keeps the present region for undo()."""
-        call("hf_region_record", self._raw_handle)
-
-    def undo(self) -> None:
-        call("hf_region_undo", self._raw_handle)
-
-    def redo(self) -> None:
-        call("hf_region_redo", self._raw_handle)
 
     @property
     def info(self) -> _raw.hf_region_info:

@@ -9,7 +9,7 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _raw
-from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, count_of, doubles, handle_of, index,
+from ._library import (ArrayLike, InvalidArgumentError, Recorded, address, call, count_of, doubles, handle_of, index,
                        integers, library, make, options_into, output, paired, whole)
 from .surface import Progress, Surface
 
@@ -18,7 +18,7 @@ class Engine(IntEnum):
     GREEN, UPDOWN, REFACTOR = _raw.HF_ENGINE_GREEN, _raw.HF_ENGINE_UPDOWN, _raw.HF_ENGINE_REFACTOR
 
 
-class Solver(Object):
+class Solver(Recorded):
     """Sites on a surface, and their field.
 
     Options are the fields of hf_solver_desc: field_kind, engine, channel_count, site_limit, penalty. progress: a
@@ -160,16 +160,6 @@ class Solver(Object):
         info = make(_raw.hf_sites_info, capacity=count, **{name: address(array) for name, array in arrays.items()})
         call("hf_solver_get_sites", self._raw_handle, ctypes.byref(info))
         return arrays
-
-    def record(self) -> None:
-        """Keeps the present sites for undo()."""
-        call("hf_solver_record", self._raw_handle)
-
-    def undo(self) -> None:
-        call("hf_solver_undo", self._raw_handle)
-
-    def redo(self) -> None:
-        call("hf_solver_redo", self._raw_handle)
 
     def prepare_rebase(self) -> None:
         call("hf_solver_prepare_rebase", self._raw_handle)

@@ -53,7 +53,7 @@ class Progress(Object):
 
     @property
     def fraction(self) -> float:
-        value = ctypes.c_float()
+        value = ctypes.c_double()
         call("hf_progress_get_fraction", self._raw_handle, ctypes.byref(value))
         return value.value
 
@@ -277,7 +277,7 @@ class Surface(Object):
         **options: Any) -> np.ndarray:
         """Tips of the surface, the longest first: records vertex, component, length, position.
 
-        Options: kind, least_length, source_count.
+        Options: kind, least_length_share, source_count.
         """
         desc = make(_raw.hf_extremities_desc)
         options_into(desc, options)
@@ -297,9 +297,9 @@ class Surface(Object):
         length. Reasons are the constants HF_HANDLE_REASON_*. joints, parents: a skeleton, by position in the list; a
         root has the parent HF_NO_INDEX.
 
-        Options: least_length, limit.
+        Options: least_length_share, limit.
         """
-        desc = make(_raw.hf_propose_desc)
+        desc = make(_raw.hf_handle_proposals_desc)
         options_into(desc, options)
         desc.progress = handle_of(progress, Progress, "progress")
         if joints is not None:
@@ -310,10 +310,10 @@ class Surface(Object):
         if up is not None:
             desc.up[:] = [float(x) for x in np.asarray(up, np.float64).reshape(3)]
         count = ctypes.c_uint32()
-        call("hf_propose_handles", self._raw_handle, ctypes.byref(desc), 0, None, ctypes.byref(count))
+        call("hf_surface_propose_handles", self._raw_handle, ctypes.byref(desc), 0, None, ctypes.byref(count))
         out = np.empty(count.value, np.dtype(_raw.hf_handle_proposal))
         if out.size:
-            call("hf_propose_handles", self._raw_handle, ctypes.byref(desc), out.size, address(out), ctypes.byref(count))
+            call("hf_surface_propose_handles", self._raw_handle, ctypes.byref(desc), out.size, address(out), ctypes.byref(count))
         return out
 
 

@@ -17,7 +17,7 @@ pub struct Error {
 }
 
 impl Error {
-    /// The name of the code, such as `"HF_ERROR_NO_SITES"`.
+    /// The name of the code, such as `"HF_ERROR_EMPTY"`.
     pub fn name(&self) -> &'static str {
         // SAFETY: the library returns a constant string for every number, never null.
         unsafe { CStr::from_ptr(raw::hf_result_get_name(self.code)) }.to_str().unwrap_or("unknown")
@@ -238,6 +238,46 @@ macro_rules! figures {
 }
 pub(crate) use {figures, object, options, plain};
 
+/// What [`History`] keeps: objects whose clones share memory with them.
+pub trait TryClone: Sized {
+    /// A copy in the same state.
+    fn try_clone(&self) -> Result<Self>;
+}
+
+/// Undo and redo of one object. Every record is a clone.
+#[derive(Debug)]
+pub struct History<T> {
+    past: Vec<T>,
+    undone: Vec<T>,
+}
+impl<T> Default for History<T> {
+    fn default() -> Self {
+        History { past: Vec::new(), undone: Vec::new() }
+    }
+}
+impl<T: TryClone> History<T> {
+    /// Keeps the present state for `undo`.
+    pub fn record(&mut self, object: &T) -> Result<()> {
+        self.past.push(object.try_clone()?);
+        self.undone.clear();
+        Ok(())
+    }
+    /// Goes back to the last record, bit for bit.
+    pub fn undo(&mut self, object: &mut T) -> Result<()> {
+        exchange(&mut self.past, &mut self.undone, object, "nothing is recorded; call record before the edits")
+    }
+    /// Goes to the state before the last `undo`.
+    pub fn redo(&mut self, object: &mut T) -> Result<()> {
+        exchange(&mut self.undone, &mut self.past, object, "nothing was undone since the last record")
+    }
+}
+fn exchange<T>(from: &mut Vec<T>, to: &mut Vec<T>, object: &mut T, nothing: &str) -> Result<()> {
+    let mut state = from.pop().ok_or_else(|| Error::new(raw::HF_ERROR_EMPTY, nothing))?;
+    std::mem::swap(object, &mut state);
+    to.push(state);
+    Ok(())
+}
+
 /// A list that is asked for its count first.
 pub(crate) fn list<T: Clone + Default>(mut call: impl FnMut(u32, *mut T, *mut u32) -> i32) -> Result<Vec<T>> {
     let mut count = 0;
@@ -263,7 +303,7 @@ impl Progress {
         Ok(Progress { handle })
     }
     /// How much of the running call is done, 0 to 1.
-    pub fn fraction(&self) -> Result<f32> {
+    pub fn fraction(&self) -> Result<f64> {
         let mut fraction = 0.0;
         // SAFETY: the handle is valid and `fraction` takes the number.
         check(unsafe { raw::hf_progress_get_fraction(self.handle, &mut fraction) })?;

@@ -1,12 +1,12 @@
-//! Made on a surface: geodesic distances, direction fields, quad meshes, flow lines.
-use crate::core::{check, count_of, figures, list, object, of_length, options, plain, rows_of, start, start_of, Real};
+//! Made on a surface: geodesic distances, direction fields, quad meshes, streamlines.
+use crate::core::{check, count_of, figures, list, object, of_length, options, rows_of, start, start_of, Real, TryClone};
 use crate::{raw, Result, Surface};
 
 options!(
     /// How geodesic distances are made.
     GeodesicsOptions: hf_geodesics_desc {
         /// of `HF_GEODESICS_HEAT`: times the squared edge length; 0 = the default
-        smoothing: f32,
+        smoothing: f64,
         /// `HF_GEODESICS_*`
         method: i32,
     }
@@ -26,9 +26,9 @@ options!(
         /// wanted number of quads, instead of `edge_length`; 0 = none
         face_count: u32,
         /// wanted, in the unit of the mesh; 0 = 0.022 box diagonals
-        edge_length: f32,
+        edge_length: f64,
         /// edges that bend by more degrees are kept; 0 = none
-        crease_angle: f32,
+        crease_angle: f64,
         /// rounds of evening out; 0 = 60
         relax_count: u32,
     }
@@ -119,15 +119,6 @@ impl Direction {
         statistics => hf_direction_get_statistics -> hf_direction_statistics;
     }
 
-    plain! {
-        /// Records the constraints for undo.
-        record => hf_direction_record;
-        /// Restores the last record.
-        undo => hf_direction_undo;
-        /// Reverts the last undo.
-        redo => hf_direction_redo;
-    }
-
     /// Adds constraints: a vector (three numbers) at each vertex. Returns their numbers.
     pub fn add_sites(&mut self, vertices: &[u32], vectors: &[f64]) -> Result<Vec<u32>> {
         of_length(vectors, "vectors", 3 * vertices.len())?;
@@ -212,12 +203,12 @@ pub struct QuadGuides<'a> {
     pub guide_vectors: &'a [f64],
     /// above 0 to 1 for each guide; `None`: all 1
     pub guide_weights: Option<&'a [f32]>,
-    /// three numbers a pole: irregular vertices at places that the user drags
-    pub pole_points: &'a [f64],
-    /// how many quads meet at each pole: 3 or 5
-    pub pole_quads: &'a [u32],
-    /// three numbers a pole: one side of it runs along them, 0 0 0: any; `None`: any for all
-    pub pole_directions: Option<&'a [f64]>,
+    /// three numbers an irregular vertex: irregular vertices at places that the user drags
+    pub irregular_points: &'a [f64],
+    /// how many quads meet at each irregular vertex: 3 or 5
+    pub irregular_valences: &'a [u32],
+    /// three numbers an irregular vertex: one side of it runs along them, 0 0 0: any; `None`: any for all
+    pub irregular_directions: Option<&'a [f64]>,
     /// a, b, c, d of the plane a x + b y + c z = d; `None`: no symmetry
     pub symmetry_plane: Option<[f64; 4]>,
 }
@@ -241,11 +232,11 @@ impl Quads {
         guides.guide_weights.map_or(Ok(()), |weights| of_length(weights, "guide_weights", count))?;
         (desc.guide_count, desc.guide_vertices) = (count_of(count, "guide_vertices")?, start(guides.guide_vertices));
         (desc.guide_vectors, desc.guide_weights) = (start(guides.guide_vectors), start_of(guides.guide_weights));
-        let poles = guides.pole_quads.len();
-        of_length(guides.pole_points, "pole_points", 3 * poles)?;
-        guides.pole_directions.map_or(Ok(()), |all| of_length(all, "pole_directions", 3 * poles))?;
-        (desc.pole_count, desc.pole_quads) = (count_of(poles, "pole_quads")?, start(guides.pole_quads));
-        (desc.pole_points, desc.pole_directions) = (start(guides.pole_points), start_of(guides.pole_directions));
+        let poles = guides.irregular_valences.len();
+        of_length(guides.irregular_points, "irregular_points", 3 * poles)?;
+        guides.irregular_directions.map_or(Ok(()), |all| of_length(all, "irregular_directions", 3 * poles))?;
+        (desc.irregular_count, desc.irregular_valences) = (count_of(poles, "irregular_valences")?, start(guides.irregular_valences));
+        (desc.irregular_points, desc.irregular_directions) = (start(guides.irregular_points), start_of(guides.irregular_directions));
         desc.symmetry_plane = guides.symmetry_plane.unwrap_or_default();
         Ok(desc)
     }
@@ -289,12 +280,12 @@ impl Quads {
 }
 
 object!(
-    /// Flow lines of fields on a surface.
+    /// Streamlines of fields on a surface.
     Flow: hf_flow, hf_flow_destroy { vertex_count: usize }
 );
 /// Lines along which a field rises. Line i has the points `starts[i]` to `starts[i + 1] - 1`.
 #[derive(Clone, Debug, Default)]
-pub struct FlowLines {
+pub struct Streamlines {
     /// three numbers a point
     pub positions: Vec<f64>,
     /// the field at each point
@@ -316,19 +307,19 @@ impl Flow {
     }
 
     /// `count` lines of equal flux from the minima, or one through each vertex of `seeds`.
-    pub fn trace<P: Real>(&mut self, field: &[P], count: u32, seeds: Option<&[u32]>) -> Result<FlowLines> {
+    pub fn trace<P: Real>(&mut self, field: &[P], count: u32, seeds: Option<&[u32]>) -> Result<Streamlines> {
         of_length(field, "field", self.vertex_count)?;
         let (values, values_f64) = P::both(start(field));
         let scalars = raw::hf_scalars { values, values_f64, ..Default::default() };
         let (mut points, mut lines) = FIRST_ROOM;
         loop {
-            let mut out = FlowLines {
+            let mut out = Streamlines {
                 positions: vec![0.0; 3 * points as usize],
                 values: vec![0.0; points as usize],
                 starts: vec![0; lines as usize + 1],
             };
             let mut ends = vec![0u32; 2 * lines as usize];
-            let mut found = raw::hf_flow_lines {
+            let mut found = raw::hf_streamlines {
                 wanted_count: count,
                 point_capacity: points,
                 line_capacity: lines,
@@ -353,5 +344,11 @@ impl Flow {
             out.starts.truncate(found.line_count as usize + 1);
             return Ok(out);
         }
+    }
+}
+
+impl TryClone for Direction {
+    fn try_clone(&self) -> Result<Self> {
+        Direction::try_clone(self)
     }
 }

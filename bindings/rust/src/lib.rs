@@ -27,15 +27,15 @@ mod solver;
 mod surface;
 mod weights;
 
-pub use crate::core::{Corner, Error, Progress, Real, Result};
+pub use crate::core::{Corner, Error, History, Progress, Real, Result, TryClone};
 pub use crate::fields::{
-    Direction, DirectionOptions, Flow, FlowLines, Geodesics, GeodesicsOptions, QuadGuides, QuadMesh, Quads, QuadsOptions,
+    Direction, DirectionOptions, Flow, Streamlines, Geodesics, GeodesicsOptions, QuadGuides, QuadMesh, Quads, QuadsOptions,
 };
 pub use crate::pose::{DeformOptions, Pose, PoseOptions, Skin, Transfer, TransferDials, TransferOptions, Transform};
 pub use crate::region::{Detail, Region, RegionEdit, RegionOptions};
 pub use crate::solver::{Edit, Sites, Solver, SolverOptions};
 pub use crate::surface::{Extras, GraphOptions, Isolines, LinkOptions, Surface, SurfaceOptions};
-pub use crate::weights::{carry_weights, mirror_weights, Bones, CarryOptions, Mirror, Mirrored, VertexWeights, Weights};
+pub use crate::weights::{transfer_weights, mirror_weights, Joints, WeightTransferOptions, Mirror, Mirrored, VertexWeights, Weights};
 
 /// The version of the loaded library: major * 1,000,000 + minor * 1,000 + patch.
 pub fn version() -> u32 {

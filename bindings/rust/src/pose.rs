@@ -12,7 +12,7 @@ options!(
         /// iterations of the paper's scheme
         iteration_count: u32,
         /// samples on each ring of a cluster
-        samples_per_ring: u32,
+        rim_site_count: u32,
         /// groups of the smooth mode
         group_count: u32,
     }
@@ -38,28 +38,28 @@ options!(
         /// clusters of the target
         cluster_count: u32,
         /// width of the kernel between fields
-        kernel_width: f32,
+        kernel_width: f64,
         /// size of the target over that of the source; 0: found
-        scale: f32,
+        scale: f64,
         /// degrees from which rest poses are aligned
-        alignment_angle: f32,
+        alignment_angle: f64,
     }
 );
 options!(
     /// What an animator turns while a transfer plays. Zero is neutral for every dial.
     TransferDials: hf_transfer_dials {
         /// how many times the paths of feet and trunk along the ground count; 0 = 1
-        stride: f32,
+        stride: f64,
         /// raises the trunk by this share of its height at rest
-        hip_height: f32,
+        hip_height_share: f64,
         /// how far the neck follows the source, -1 to 1
-        neck_follow: f32,
+        neck_follow: f64,
         /// how far the tail follows the source, -1 to 1
-        tail_follow: f32,
+        tail_follow: f64,
         /// radians by which arms turn away from the body
-        arm_space: f32,
+        arm_space: f64,
         /// how far parts that reach farther than the source's make its whole turn, 0 to 1
-        long_follow: f32,
+        long_follow: f64,
     }
 );
 
@@ -105,10 +105,10 @@ pub struct Skin {
 /// What the C ABI takes for 0 weights a vertex.
 const DEFAULT_WEIGHTS: u32 = 4;
 
-fn skin(vertex_count: usize, weight_count: u32, mut call: impl FnMut(&mut raw::hf_skin_info) -> i32) -> Result<Skin> {
-    let mut info = raw::hf_skin_info { weight_count, ..Default::default() };
+fn skin(vertex_count: usize, influence_count: u32, mut call: impl FnMut(&mut raw::hf_skin_info) -> i32) -> Result<Skin> {
+    let mut info = raw::hf_skin_info { influence_count, ..Default::default() };
     check(call(&mut info))?;
-    let width = if weight_count == 0 { DEFAULT_WEIGHTS } else { weight_count };
+    let width = if influence_count == 0 { DEFAULT_WEIGHTS } else { influence_count };
     let (joints, places) = (info.joint_count as usize, vertex_count * width as usize);
     let mut out = Skin {
         pivots: vec![0.0; 3 * joints],
@@ -280,10 +280,10 @@ impl Pose {
         Ok(info)
     }
 
-    /// The pose as joints and weights, `weight_count` a vertex.
-    pub fn skin(&self, weight_count: u32) -> Result<Skin> {
+    /// The pose as joints and weights, `influence_count` a vertex.
+    pub fn skin(&self, influence_count: u32) -> Result<Skin> {
         // SAFETY: `skin` passes a whole struct with room as it says.
-        skin(self.vertex_count, weight_count, |info| unsafe { raw::hf_pose_get_skin(self.handle, info) })
+        skin(self.vertex_count, influence_count, |info| unsafe { raw::hf_pose_get_skin(self.handle, info) })
     }
 }
 
@@ -376,8 +376,8 @@ impl Transfer {
     }
 
     /// The last frame as joints and weights of the target.
-    pub fn skin(&self, weight_count: u32) -> Result<Skin> {
+    pub fn skin(&self, influence_count: u32) -> Result<Skin> {
         // SAFETY: as in `Pose::skin`.
-        skin(self.vertex_count, weight_count, |info| unsafe { raw::hf_transfer_get_skin(self.handle, info) })
+        skin(self.vertex_count, influence_count, |info| unsafe { raw::hf_transfer_get_skin(self.handle, info) })
     }
 }

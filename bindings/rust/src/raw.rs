@@ -12,23 +12,18 @@ pub const HF_MESSAGE_SIZE: i32 = 256;
 pub const HF_OK: i32 = 0;
 pub const HF_ERROR_INVALID_ARGUMENT: i32 = -1;
 pub const HF_ERROR_NULL_POINTER: i32 = -2;
-pub const HF_ERROR_INVALID_HANDLE: i32 = -3;
+pub const HF_ERROR_INVALID_OBJECT: i32 = -3;
 pub const HF_ERROR_INVALID_DESC: i32 = -4;
 pub const HF_ERROR_OUT_OF_RANGE: i32 = -5;
 pub const HF_ERROR_NON_FINITE: i32 = -6;
 pub const HF_ERROR_EMPTY: i32 = -7;
-pub const HF_ERROR_DUPLICATE_SITE: i32 = -8;
-pub const HF_ERROR_NO_SUCH_SITE: i32 = -9;
+pub const HF_ERROR_NOT_FOUND: i32 = -8;
+pub const HF_ERROR_DUPLICATE: i32 = -9;
 pub const HF_ERROR_CONFLICT: i32 = -10;
-pub const HF_ERROR_NO_SITES: i32 = -11;
-pub const HF_ERROR_NO_SUCH_HANDLE: i32 = -12;
-pub const HF_ERROR_NO_SUCH_PAIR: i32 = -13;
-pub const HF_ERROR_OVERLAP: i32 = -14;
-pub const HF_ERROR_UNSUPPORTED: i32 = -15;
-pub const HF_ERROR_BUSY: i32 = -16;
-pub const HF_ERROR_REENTRANT: i32 = -17;
-pub const HF_ERROR_TOO_SMALL: i32 = -18;
-pub const HF_ERROR_NO_RECORD: i32 = -19;
+pub const HF_ERROR_UNSUPPORTED: i32 = -11;
+pub const HF_ERROR_BUSY: i32 = -12;
+pub const HF_ERROR_REENTRANT: i32 = -13;
+pub const HF_ERROR_TOO_SMALL: i32 = -14;
 pub const HF_ERROR_OUT_OF_MEMORY: i32 = -100;
 pub const HF_ERROR_TOO_LARGE: i32 = -101;
 pub const HF_ERROR_CANCELLED: i32 = -102;
@@ -111,16 +106,16 @@ pub const HF_PAIR_LIMIT: i32 = 256;
 pub const HF_WEIGHTS_INFORMED: i32 = 0;
 pub const HF_WEIGHTS_SOLVED: i32 = 1;
 pub const HF_WEIGHTS_PINNED: i32 = 2;
-pub const HF_WEIGHTS_CARRIED: i32 = 3;
+pub const HF_WEIGHTS_NEAREST: i32 = 3;
 pub const HF_WEIGHTS_RIGID: i32 = 4;
 pub const HF_WEIGHTS_ISOLATED: i32 = 5;
 pub const HF_WEIGHTS_MATCHED: i32 = 6;
 pub const HF_WEIGHTS_KEPT: i32 = 7;
-pub const HF_BONE_NO_LENGTH: i32 = 1;
-pub const HF_BONE_COINCIDENT: i32 = 2;
-pub const HF_BONE_INFORMS_NONE: i32 = 4;
-pub const HF_BONE_OUTSIDE: i32 = 8;
-pub const HF_BONE_HELPER: i32 = 16;
+pub const HF_JOINT_NO_LENGTH: i32 = 1;
+pub const HF_JOINT_COINCIDENT: i32 = 2;
+pub const HF_JOINT_INFORMS_NONE: i32 = 4;
+pub const HF_JOINT_OUTSIDE: i32 = 8;
+pub const HF_JOINT_HELPER: i32 = 16;
 pub const HF_HELPER_PROPOSED: i32 = 1;
 pub const HF_HELPER_NAME_ROOT: i32 = 2;
 pub const HF_HELPER_NAME_CONTROL: i32 = 4;
@@ -135,13 +130,13 @@ pub const HF_MIRROR_TO_NEGATIVE: i32 = 0;
 pub const HF_MIRROR_TO_POSITIVE: i32 = 1;
 pub const HF_MIRROR_BOTH: i32 = 2;
 pub const HF_MIRROR_PLANE_GIVEN: i32 = 0;
-pub const HF_MIRROR_PLANE_BONES: i32 = 1;
+pub const HF_MIRROR_PLANE_JOINTS: i32 = 1;
 pub const HF_MIRROR_PLANE_SURFACE: i32 = 2;
-pub const HF_MIRROR_BONE_ALONE: i32 = 0;
-pub const HF_MIRROR_BONE_NAMED: i32 = 1;
-pub const HF_MIRROR_BONE_PLACED: i32 = 2;
-pub const HF_MIRROR_BONE_CENTRE: i32 = 3;
-pub const HF_MIRROR_BONE_GIVEN: i32 = 4;
+pub const HF_MIRROR_JOINT_ALONE: i32 = 0;
+pub const HF_MIRROR_JOINT_NAMED: i32 = 1;
+pub const HF_MIRROR_JOINT_PLACED: i32 = 2;
+pub const HF_MIRROR_JOINT_CENTRE: i32 = 3;
+pub const HF_MIRROR_JOINT_GIVEN: i32 = 4;
 
 #[repr(C)]
 pub struct hf_progress_object {
@@ -275,8 +270,9 @@ pub struct hf_link {
     pub corners: [u32; 3],
     pub barycentrics: [f64; 3],
     pub length: f64,
-    pub weight: f32,
+    pub weight: f64,
     pub in_tree: i32,
+    pub reserved: u32,
 }
 impl Default for hf_link {
     fn default() -> Self {
@@ -291,17 +287,16 @@ impl Default for hf_link {
 pub struct hf_links_desc {
     pub struct_size: u32,
     pub mode: i32,
-    pub distance: f32,
-    pub stiffness: f32,
-    pub overlay_distance: f32,
+    pub distance: f64,
+    pub stiffness: f64,
+    pub overlay_distance: f64,
     pub influence_count: u32,
-    pub joints: *const u16,
-    pub weights: *const f32,
-    pub tags: *const u32,
     pub link_count: u32,
     pub light_count: u32,
     pub heavy_count: u32,
-    pub reserved: u32,
+    pub joints: *const u16,
+    pub weights: *const f32,
+    pub tags: *const u32,
     pub links: *const hf_link,
     pub light_vertices: *const u32,
     pub heavy_vertices: *const u32,
@@ -329,7 +324,7 @@ pub struct hf_surface_desc {
     pub triangles_u16: *const u16,
     pub triangle_stride: u32,
     pub weld: i32,
-    pub weld_tolerance: f32,
+    pub weld_tolerance: f64,
     pub operator_kind: i32,
     pub field_kind: i32,
     pub ordering: i32,
@@ -338,7 +333,6 @@ pub struct hf_surface_desc {
     pub triangle_limit: u32,
     pub memory_limit_mb: u32,
     pub work_limit_gflop: u32,
-    pub reserved: u32,
     pub allocator: hf_allocator,
     pub job_runner: hf_job_runner,
     pub progress: hf_progress,
@@ -402,7 +396,7 @@ pub struct hf_surface_info {
     pub vertex_count: u32,
     pub triangle_count: u32,
     pub weld: i32,
-    pub weld_tolerance: f32,
+    pub weld_tolerance: f64,
     pub operator_kind: i32,
     pub field_kind: i32,
     pub ordering: i32,
@@ -432,7 +426,7 @@ impl hf_surface_info {
             "vertex_count" => f64::from(self.vertex_count),
             "triangle_count" => f64::from(self.triangle_count),
             "weld" => f64::from(self.weld),
-            "weld_tolerance" => f64::from(self.weld_tolerance),
+            "weld_tolerance" => self.weld_tolerance,
             "operator_kind" => f64::from(self.operator_kind),
             "field_kind" => f64::from(self.field_kind),
             "ordering" => f64::from(self.ordering),
@@ -467,7 +461,8 @@ pub struct hf_surface_report {
     pub flipped_edge_count: u32,
     pub boundary_edge_count: u32,
     pub negative_edge_count: u32,
-    pub smallest_angle: f32,
+    pub reserved: u32,
+    pub smallest_angle: f64,
     pub bounding_box_diagonal: f64,
     pub changed_vertex_count: u32,
     pub first_changed_vertex: u32,
@@ -508,7 +503,8 @@ impl hf_surface_report {
             "flipped_edge_count" => f64::from(self.flipped_edge_count),
             "boundary_edge_count" => f64::from(self.boundary_edge_count),
             "negative_edge_count" => f64::from(self.negative_edge_count),
-            "smallest_angle" => f64::from(self.smallest_angle),
+            "reserved" => f64::from(self.reserved),
+            "smallest_angle" => self.smallest_angle,
             "bounding_box_diagonal" => self.bounding_box_diagonal,
             "changed_vertex_count" => f64::from(self.changed_vertex_count),
             "first_changed_vertex" => f64::from(self.first_changed_vertex),
@@ -1076,10 +1072,9 @@ impl hf_critical_info {
 #[derive(Clone, Copy, Debug)]
 pub struct hf_geodesics_desc {
     pub struct_size: u32,
-    pub smoothing: f32,
-    pub progress: hf_progress,
     pub method: i32,
-    pub reserved: u32,
+    pub smoothing: f64,
+    pub progress: hf_progress,
 }
 impl Default for hf_geodesics_desc {
     fn default() -> Self {
@@ -1133,8 +1128,9 @@ impl Default for hf_path {
 pub struct hf_extremities_desc {
     pub struct_size: u32,
     pub kind: i32,
-    pub least_length: f32,
+    pub least_length_share: f64,
     pub source_count: u32,
+    pub reserved: u32,
     pub geodesics: hf_geodesics,
     pub progress: hf_progress,
     pub out_field: *mut f64,
@@ -1256,7 +1252,7 @@ pub struct hf_pose_desc {
     pub mode: i32,
     pub band_count: u32,
     pub iteration_count: u32,
-    pub samples_per_ring: u32,
+    pub rim_site_count: u32,
     pub group_count: u32,
 }
 impl Default for hf_pose_desc {
@@ -1276,7 +1272,7 @@ pub struct hf_pose_info {
     pub mode: i32,
     pub band_count: u32,
     pub iteration_count: u32,
-    pub samples_per_ring: u32,
+    pub rim_site_count: u32,
     pub group_count: u32,
     pub handle_count: u32,
     pub vertex_count: u32,
@@ -1297,7 +1293,7 @@ impl hf_pose_info {
             "mode" => f64::from(self.mode),
             "band_count" => f64::from(self.band_count),
             "iteration_count" => f64::from(self.iteration_count),
-            "samples_per_ring" => f64::from(self.samples_per_ring),
+            "rim_site_count" => f64::from(self.rim_site_count),
             "group_count" => f64::from(self.group_count),
             "handle_count" => f64::from(self.handle_count),
             "vertex_count" => f64::from(self.vertex_count),
@@ -1456,7 +1452,7 @@ pub struct hf_skin_info {
     pub struct_size: u32,
     pub joint_capacity: u32,
     pub vertex_capacity: u32,
-    pub weight_count: u32,
+    pub influence_count: u32,
     pub joint_count: u32,
     pub vertex_count: u32,
     pub pivots: *mut f64,
@@ -1479,17 +1475,18 @@ impl Default for hf_skin_info {
 /// Says why a place is proposed as a handle.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct hf_propose_desc {
+pub struct hf_handle_proposals_desc {
     pub struct_size: u32,
     pub joint_count: u32,
     pub joints: *const f64,
     pub parents: *const u32,
     pub up: [f64; 3],
-    pub least_length: f32,
+    pub least_length_share: f64,
     pub limit: u32,
+    pub reserved: u32,
     pub progress: hf_progress,
 }
-impl Default for hf_propose_desc {
+impl Default for hf_handle_proposals_desc {
     fn default() -> Self {
         // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
         let mut made: Self = unsafe { std::mem::zeroed() };
@@ -1525,20 +1522,20 @@ impl Default for hf_handle_proposal {
 pub struct hf_quads_desc {
     pub struct_size: u32,
     pub face_count: u32,
-    pub edge_length: f32,
-    pub crease_angle: f32,
+    pub edge_length: f64,
+    pub crease_angle: f64,
     pub relax_count: u32,
     pub crease_count: u32,
     pub guide_count: u32,
-    pub pole_count: u32,
+    pub irregular_count: u32,
     pub symmetry_plane: [f64; 4],
     pub crease_edges: *const u32,
     pub guide_vertices: *const u32,
     pub guide_vectors: *const f64,
     pub guide_weights: *const f32,
-    pub pole_points: *const f64,
-    pub pole_quads: *const u32,
-    pub pole_directions: *const f64,
+    pub irregular_points: *const f64,
+    pub irregular_valences: *const u32,
+    pub irregular_directions: *const f64,
     pub progress: hf_progress,
 }
 impl Default for hf_quads_desc {
@@ -1558,7 +1555,7 @@ pub struct hf_quads_info {
     pub vertex_count: u32,
     pub face_count: u32,
     pub euler_characteristic: i32,
-    pub edge_length: f32,
+    pub edge_length: f64,
 }
 impl Default for hf_quads_info {
     fn default() -> Self {
@@ -1576,7 +1573,7 @@ impl hf_quads_info {
             "vertex_count" => f64::from(self.vertex_count),
             "face_count" => f64::from(self.face_count),
             "euler_characteristic" => f64::from(self.euler_characteristic),
-            "edge_length" => f64::from(self.edge_length),
+            "edge_length" => self.edge_length,
             _ => return None,
         })
     }
@@ -1609,7 +1606,7 @@ impl Default for hf_quads_mesh {
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct hf_flow_lines {
+pub struct hf_streamlines {
     pub struct_size: u32,
     pub wanted_count: u32,
     pub seed_count: u32,
@@ -1624,7 +1621,7 @@ pub struct hf_flow_lines {
     pub line_starts: *mut u32,
     pub line_ends: *mut u32,
 }
-impl Default for hf_flow_lines {
+impl Default for hf_streamlines {
     fn default() -> Self {
         // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
         let mut made: Self = unsafe { std::mem::zeroed() };
@@ -1798,13 +1795,12 @@ pub struct hf_transfer_desc {
     pub struct_size: u32,
     pub mode: i32,
     pub cluster_count: u32,
-    pub kernel_width: f32,
-    pub scale: f32,
-    pub alignment_angle: f32,
-    pub source_axes: [f32; 9],
-    pub target_axes: [f32; 9],
     pub ground: i32,
-    pub reserved: u32,
+    pub kernel_width: f64,
+    pub scale: f64,
+    pub alignment_angle: f64,
+    pub source_axes: [f64; 9],
+    pub target_axes: [f64; 9],
     pub source_rest: *const f32,
     pub target_rest: *const f32,
 }
@@ -1923,12 +1919,13 @@ impl hf_transfer_info {
 #[derive(Clone, Copy, Debug)]
 pub struct hf_transfer_dials {
     pub struct_size: u32,
-    pub stride: f32,
-    pub hip_height: f32,
-    pub neck_follow: f32,
-    pub tail_follow: f32,
-    pub arm_space: f32,
-    pub long_follow: f32,
+    pub reserved: u32,
+    pub stride: f64,
+    pub hip_height_share: f64,
+    pub neck_follow: f64,
+    pub tail_follow: f64,
+    pub arm_space: f64,
+    pub long_follow: f64,
 }
 impl Default for hf_transfer_dials {
     fn default() -> Self {
@@ -1943,12 +1940,13 @@ impl hf_transfer_dials {
     pub fn figure(&self, name: &str) -> Option<f64> {
         Some(match name {
             "struct_size" => f64::from(self.struct_size),
-            "stride" => f64::from(self.stride),
-            "hip_height" => f64::from(self.hip_height),
-            "neck_follow" => f64::from(self.neck_follow),
-            "tail_follow" => f64::from(self.tail_follow),
-            "arm_space" => f64::from(self.arm_space),
-            "long_follow" => f64::from(self.long_follow),
+            "reserved" => f64::from(self.reserved),
+            "stride" => self.stride,
+            "hip_height_share" => self.hip_height_share,
+            "neck_follow" => self.neck_follow,
+            "tail_follow" => self.tail_follow,
+            "arm_space" => self.arm_space,
+            "long_follow" => self.long_follow,
             _ => return None,
         })
     }
@@ -1981,12 +1979,12 @@ impl Default for hf_transfer_frame {
     }
 }
 
-/// The bones of a skeleton, in the unit and frame of the mesh.
+/// The joints of a skeleton, in the unit and frame of the mesh.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct hf_bones_desc {
+pub struct hf_joints_desc {
     pub struct_size: u32,
-    pub bone_count: u32,
+    pub joint_count: u32,
     pub heads: *const f64,
     pub tails: *const f64,
     pub axes: *const f64,
@@ -1995,7 +1993,7 @@ pub struct hf_bones_desc {
     pub sources: *const u32,
     pub progress: hf_progress,
 }
-impl Default for hf_bones_desc {
+impl Default for hf_joints_desc {
     fn default() -> Self {
         // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
         let mut made: Self = unsafe { std::mem::zeroed() };
@@ -2014,7 +2012,7 @@ pub struct hf_pins_desc {
     pub triangles: *const u32,
     pub barycentrics: *const f64,
     pub radii: *const f64,
-    pub joint_count: u32,
+    pub influence_count: u32,
     pub reserved: u32,
     pub joints: *const u32,
     pub weights: *const f32,
@@ -2036,7 +2034,7 @@ pub struct hf_weights_out {
     pub struct_size: u32,
     pub vertex_capacity: u32,
     pub vertex_count: u32,
-    pub weight_count: u32,
+    pub influence_count: u32,
     pub joints: *mut u32,
     pub joints_u16: *mut u16,
     pub weights: *mut f32,
@@ -2057,17 +2055,17 @@ impl Default for hf_weights_out {
 pub struct hf_weights_info {
     pub struct_size: u32,
     pub vertex_count: u32,
-    pub bone_count: u32,
+    pub joint_count: u32,
     pub pin_count: u32,
     pub lock_count: u32,
     pub informed_count: u32,
     pub solved_count: u32,
     pub pinned_count: u32,
-    pub carried_count: u32,
+    pub nearest_count: u32,
     pub rigid_count: u32,
     pub isolated_count: u32,
-    pub carried_island_count: u32,
-    pub rigid_island_count: u32,
+    pub nearest_piece_count: u32,
+    pub rigid_piece_count: u32,
     pub blind: i32,
     pub no_length_count: u32,
     pub coincident_count: u32,
@@ -2092,17 +2090,17 @@ impl hf_weights_info {
         Some(match name {
             "struct_size" => f64::from(self.struct_size),
             "vertex_count" => f64::from(self.vertex_count),
-            "bone_count" => f64::from(self.bone_count),
+            "joint_count" => f64::from(self.joint_count),
             "pin_count" => f64::from(self.pin_count),
             "lock_count" => f64::from(self.lock_count),
             "informed_count" => f64::from(self.informed_count),
             "solved_count" => f64::from(self.solved_count),
             "pinned_count" => f64::from(self.pinned_count),
-            "carried_count" => f64::from(self.carried_count),
+            "nearest_count" => f64::from(self.nearest_count),
             "rigid_count" => f64::from(self.rigid_count),
             "isolated_count" => f64::from(self.isolated_count),
-            "carried_island_count" => f64::from(self.carried_island_count),
-            "rigid_island_count" => f64::from(self.rigid_island_count),
+            "nearest_piece_count" => f64::from(self.nearest_piece_count),
+            "rigid_piece_count" => f64::from(self.rigid_piece_count),
             "blind" => f64::from(self.blind),
             "no_length_count" => f64::from(self.no_length_count),
             "coincident_count" => f64::from(self.coincident_count),
@@ -2117,21 +2115,21 @@ impl hf_weights_info {
     }
 }
 
-/// Weights to carry from one surface to another.
+/// Weights to transfer from one surface to another.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct hf_carry_desc {
+pub struct hf_weights_transfer_desc {
     pub struct_size: u32,
-    pub influence_count: u32,
+    pub source_influence_count: u32,
     pub joints: *const u32,
     pub weights: *const f32,
     pub distance: f64,
     pub angle: f64,
-    pub weight_count: u32,
+    pub influence_count: u32,
     pub reserved: u32,
     pub progress: hf_progress,
 }
-impl Default for hf_carry_desc {
+impl Default for hf_weights_transfer_desc {
     fn default() -> Self {
         // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
         let mut made: Self = unsafe { std::mem::zeroed() };
@@ -2140,20 +2138,20 @@ impl Default for hf_carry_desc {
     }
 }
 
-/// Counts of carried weights.
+/// Counts of transferred weights.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct hf_carry_info {
+pub struct hf_weights_transfer_info {
     pub struct_size: u32,
     pub vertex_count: u32,
     pub matched_count: u32,
     pub solved_count: u32,
-    pub carried_count: u32,
+    pub nearest_count: u32,
     pub rigid_count: u32,
     pub isolated_count: u32,
-    pub guessed_island_count: u32,
+    pub guessed_piece_count: u32,
 }
-impl Default for hf_carry_info {
+impl Default for hf_weights_transfer_info {
     fn default() -> Self {
         // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
         let mut made: Self = unsafe { std::mem::zeroed() };
@@ -2161,7 +2159,7 @@ impl Default for hf_carry_info {
         made
     }
 }
-impl hf_carry_info {
+impl hf_weights_transfer_info {
     /// The figure of this name, for generic tools.
     pub fn figure(&self, name: &str) -> Option<f64> {
         Some(match name {
@@ -2169,10 +2167,10 @@ impl hf_carry_info {
             "vertex_count" => f64::from(self.vertex_count),
             "matched_count" => f64::from(self.matched_count),
             "solved_count" => f64::from(self.solved_count),
-            "carried_count" => f64::from(self.carried_count),
+            "nearest_count" => f64::from(self.nearest_count),
             "rigid_count" => f64::from(self.rigid_count),
             "isolated_count" => f64::from(self.isolated_count),
-            "guessed_island_count" => f64::from(self.guessed_island_count),
+            "guessed_piece_count" => f64::from(self.guessed_piece_count),
             _ => return None,
         })
     }
@@ -2181,24 +2179,24 @@ impl hf_carry_info {
 /// Weights to mirror.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct hf_mirror_desc {
+pub struct hf_weights_mirror_desc {
     pub struct_size: u32,
-    pub bone_count: u32,
+    pub joint_count: u32,
     pub heads: *const f64,
     pub names: *const c_char,
     pub partners: *const u32,
     pub plane: *const f64,
-    pub influence_count: u32,
+    pub source_influence_count: u32,
     pub to: i32,
     pub joints: *const u32,
     pub weights: *const f32,
     pub distance: f64,
     pub angle: f64,
-    pub weight_count: u32,
+    pub influence_count: u32,
     pub reserved: u32,
     pub progress: hf_progress,
 }
-impl Default for hf_mirror_desc {
+impl Default for hf_weights_mirror_desc {
     fn default() -> Self {
         // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
         let mut made: Self = unsafe { std::mem::zeroed() };
@@ -2210,7 +2208,7 @@ impl Default for hf_mirror_desc {
 /// The findings of a mirror.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct hf_mirror_info {
+pub struct hf_weights_mirror_info {
     pub struct_size: u32,
     pub vertex_count: u32,
     pub plane_from: i32,
@@ -2222,19 +2220,19 @@ pub struct hf_mirror_info {
     pub kept_count: u32,
     pub matched_count: u32,
     pub solved_count: u32,
-    pub carried_count: u32,
+    pub nearest_count: u32,
     pub rigid_count: u32,
     pub isolated_count: u32,
-    pub worst_bone: u32,
+    pub worst_joint: u32,
     pub worst_vertex: u32,
     pub point: [f64; 3],
     pub normal: [f64; 3],
-    pub bone_off: f64,
-    pub worst_bone_off: f64,
+    pub joint_off: f64,
+    pub worst_joint_off: f64,
     pub vertex_off: f64,
     pub worst_vertex_off: f64,
 }
-impl Default for hf_mirror_info {
+impl Default for hf_weights_mirror_info {
     fn default() -> Self {
         // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
         let mut made: Self = unsafe { std::mem::zeroed() };
@@ -2242,7 +2240,7 @@ impl Default for hf_mirror_info {
         made
     }
 }
-impl hf_mirror_info {
+impl hf_weights_mirror_info {
     /// The figure of this name, for generic tools.
     pub fn figure(&self, name: &str) -> Option<f64> {
         Some(match name {
@@ -2257,13 +2255,13 @@ impl hf_mirror_info {
             "kept_count" => f64::from(self.kept_count),
             "matched_count" => f64::from(self.matched_count),
             "solved_count" => f64::from(self.solved_count),
-            "carried_count" => f64::from(self.carried_count),
+            "nearest_count" => f64::from(self.nearest_count),
             "rigid_count" => f64::from(self.rigid_count),
             "isolated_count" => f64::from(self.isolated_count),
-            "worst_bone" => f64::from(self.worst_bone),
+            "worst_joint" => f64::from(self.worst_joint),
             "worst_vertex" => f64::from(self.worst_vertex),
-            "bone_off" => self.bone_off,
-            "worst_bone_off" => self.worst_bone_off,
+            "joint_off" => self.joint_off,
+            "worst_joint_off" => self.worst_joint_off,
             "vertex_off" => self.vertex_off,
             "worst_vertex_off" => self.worst_vertex_off,
             _ => return None,
@@ -2277,7 +2275,7 @@ extern "C" {
     pub fn hf_version_get() -> u32;
     pub fn hf_progress_create(out_progress: *mut hf_progress) -> i32;
     pub fn hf_progress_destroy(progress: hf_progress);
-    pub fn hf_progress_get_fraction(progress: hf_progress, out_fraction: *mut f32) -> i32;
+    pub fn hf_progress_get_fraction(progress: hf_progress, out_fraction: *mut f64) -> i32;
     pub fn hf_progress_cancel(progress: hf_progress) -> i32;
     pub fn hf_surface_create(desc: *const hf_surface_desc, out_surface: *mut hf_surface) -> i32;
     pub fn hf_surface_create_graph(desc: *const hf_graph_desc, out_surface: *mut hf_surface) -> i32;
@@ -2317,9 +2315,6 @@ extern "C" {
     pub fn hf_solver_move_vectors(solver: hf_solver, site_count: u32, sites: *const u32, vertices: *const u32) -> i32;
     pub fn hf_solver_rotate_vectors(solver: hf_solver, site_count: u32, sites: *const u32, angles: *const f64) -> i32;
     pub fn hf_solver_certify(solver: hf_solver, inout_certificate: *mut hf_certificate) -> i32;
-    pub fn hf_solver_record(solver: hf_solver) -> i32;
-    pub fn hf_solver_undo(solver: hf_solver) -> i32;
-    pub fn hf_solver_redo(solver: hf_solver) -> i32;
     pub fn hf_solver_prepare_rebase(solver: hf_solver) -> i32;
     pub fn hf_solver_get_statistics(solver: hf_solver, out_statistics: *mut hf_solver_statistics) -> i32;
     pub fn hf_surface_space_levels(surface: hf_surface, field: *const hf_scalars, spacing: i32, level_count: u32, out_levels: *mut f64) -> i32;
@@ -2340,9 +2335,6 @@ extern "C" {
     pub fn hf_direction_move_sites(direction: hf_direction, site_count: u32, sites: *const u32, vertices: *const u32) -> i32;
     pub fn hf_direction_set_vectors(direction: hf_direction, site_count: u32, sites: *const u32, vectors: *const f64) -> i32;
     pub fn hf_direction_rotate_sites(direction: hf_direction, site_count: u32, sites: *const u32, angles: *const f64) -> i32;
-    pub fn hf_direction_record(direction: hf_direction) -> i32;
-    pub fn hf_direction_undo(direction: hf_direction) -> i32;
-    pub fn hf_direction_redo(direction: hf_direction) -> i32;
     pub fn hf_direction_get_site_count(direction: hf_direction) -> u32;
     pub fn hf_direction_get_sites(direction: hf_direction, capacity: u32, out_sites: *mut u32, out_vertices: *mut u32, out_vectors: *mut f64, out_count: *mut u32) -> i32;
     pub fn hf_direction_solve(direction: hf_direction, out_vectors: *mut f32, vector_stride: u32, out_info: *mut hf_solve_info) -> i32;
@@ -2365,7 +2357,7 @@ extern "C" {
     pub fn hf_deform(pose: hf_pose, out_positions: *mut f32, out_info: *mut hf_deform_info) -> i32;
     pub fn hf_pose_deform(pose: hf_pose, desc: *const hf_deform_desc, out_info: *mut hf_deform_info) -> i32;
     pub fn hf_pose_get_skin(pose: hf_pose, inout_skin: *mut hf_skin_info) -> i32;
-    pub fn hf_propose_handles(surface: hf_surface, desc: *const hf_propose_desc, capacity: u32, out_proposals: *mut hf_handle_proposal, out_count: *mut u32) -> i32;
+    pub fn hf_surface_propose_handles(surface: hf_surface, desc: *const hf_handle_proposals_desc, capacity: u32, out_proposals: *mut hf_handle_proposal, out_count: *mut u32) -> i32;
     pub fn hf_quads_create(surface: hf_surface, desc: *const hf_quads_desc, out_quads: *mut hf_quads) -> i32;
     pub fn hf_quads_update(quads: hf_quads, desc: *const hf_quads_desc) -> i32;
     pub fn hf_quads_destroy(quads: hf_quads);
@@ -2373,14 +2365,11 @@ extern "C" {
     pub fn hf_quads_get_mesh(quads: hf_quads, inout_mesh: *mut hf_quads_mesh) -> i32;
     pub fn hf_flow_create(surface: hf_surface, out_flow: *mut hf_flow) -> i32;
     pub fn hf_flow_destroy(flow: hf_flow);
-    pub fn hf_flow_trace(flow: hf_flow, field: *const hf_scalars, inout_lines: *mut hf_flow_lines) -> i32;
+    pub fn hf_flow_trace(flow: hf_flow, field: *const hf_scalars, inout_lines: *mut hf_streamlines) -> i32;
     pub fn hf_region_create(surface: hf_surface, desc: *const hf_region_desc, out_region: *mut hf_region) -> i32;
     pub fn hf_region_clone(region: hf_region, out_region: *mut hf_region) -> i32;
     pub fn hf_region_destroy(region: hf_region);
     pub fn hf_region_edit(region: hf_region, edit: *const hf_region_edit_desc) -> i32;
-    pub fn hf_region_record(region: hf_region) -> i32;
-    pub fn hf_region_undo(region: hf_region) -> i32;
-    pub fn hf_region_redo(region: hf_region) -> i32;
     pub fn hf_region_get_info(region: hf_region, out_info: *mut hf_region_info) -> i32;
     pub fn hf_region_get_vertices(region: hf_region, list: i32, capacity: u32, out_vertices: *mut u32, out_count: *mut u32) -> i32;
     pub fn hf_region_get_curve(region: hf_region, capacity: u32, out_points: *mut f64, out_count: *mut u32) -> i32;
@@ -2399,19 +2388,16 @@ extern "C" {
     pub fn hf_transfer_apply(transfer: hf_transfer, frame: *const hf_transfer_frame) -> i32;
     pub fn hf_transfer_get_sinking(transfer: hf_transfer, out_sinking: *mut u8) -> i32;
     pub fn hf_transfer_get_skin(transfer: hf_transfer, inout_skin: *mut hf_skin_info) -> i32;
-    pub fn hf_weights_create(surface: hf_surface, bones: *const hf_bones_desc, weight_count: u32, out_weights: *mut hf_weights) -> i32;
+    pub fn hf_weights_create(surface: hf_surface, joints: *const hf_joints_desc, influence_count: u32, out_weights: *mut hf_weights) -> i32;
     pub fn hf_weights_clone(weights: hf_weights, out_weights: *mut hf_weights) -> i32;
     pub fn hf_weights_destroy(weights: hf_weights);
-    pub fn hf_weights_set_bones(weights: hf_weights, bones: *const hf_bones_desc) -> i32;
+    pub fn hf_weights_set_joints(weights: hf_weights, joints: *const hf_joints_desc) -> i32;
     pub fn hf_weights_set_pins(weights: hf_weights, pins: *const hf_pins_desc) -> i32;
-    pub fn hf_weights_set_locks(weights: hf_weights, lock_count: u32, bones: *const u32, values: *const f32) -> i32;
+    pub fn hf_weights_set_locks(weights: hf_weights, lock_count: u32, joints: *const u32, values: *const f32) -> i32;
     pub fn hf_weights_get(weights: hf_weights, inout_weights: *mut hf_weights_out) -> i32;
-    pub fn hf_weights_get_bones(weights: hf_weights, capacity: u32, out_flags: *mut u32, out_vertex_counts: *mut u32, out_count: *mut u32) -> i32;
+    pub fn hf_weights_get_joints(weights: hf_weights, capacity: u32, out_flags: *mut u32, out_vertex_counts: *mut u32, out_count: *mut u32) -> i32;
     pub fn hf_weights_get_info(weights: hf_weights, out_info: *mut hf_weights_info) -> i32;
-    pub fn hf_weights_record(weights: hf_weights) -> i32;
-    pub fn hf_weights_undo(weights: hf_weights) -> i32;
-    pub fn hf_weights_redo(weights: hf_weights) -> i32;
     pub fn hf_weights_get_helpers(weights: hf_weights, names: *const c_char, capacity: u32, out_reasons: *mut u32, out_count: *mut u32) -> i32;
-    pub fn hf_weights_carry(source: hf_surface, target: hf_surface, desc: *const hf_carry_desc, inout_weights: *mut hf_weights_out, out_info: *mut hf_carry_info) -> i32;
-    pub fn hf_weights_mirror(surface: hf_surface, desc: *const hf_mirror_desc, inout_weights: *mut hf_weights_out, out_bones: *mut u32, out_pairings: *mut u32, out_info: *mut hf_mirror_info) -> i32;
+    pub fn hf_weights_transfer(source: hf_surface, target: hf_surface, desc: *const hf_weights_transfer_desc, inout_weights: *mut hf_weights_out, out_info: *mut hf_weights_transfer_info) -> i32;
+    pub fn hf_weights_mirror(surface: hf_surface, desc: *const hf_weights_mirror_desc, inout_weights: *mut hf_weights_out, out_partners: *mut u32, out_pairings: *mut u32, out_info: *mut hf_weights_mirror_info) -> i32;
 }

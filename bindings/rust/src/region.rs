@@ -1,5 +1,5 @@
 //! Region and Detail: a part of a surface, its smooth base, and the detail on it.
-use crate::core::{check, count_of, figures, list, object, of_length, options, plain, start, Real};
+use crate::core::{check, count_of, figures, list, object, of_length, options, start, Real, TryClone};
 use crate::{raw, Result, Surface};
 
 options!(
@@ -87,15 +87,6 @@ impl Region {
         info => hf_region_get_info -> hf_region_info;
     }
 
-    plain! {
-        /// Records the region for undo.
-        record => hf_region_record;
-        /// Restores the last record.
-        undo => hf_region_undo;
-        /// Reverts the last undo.
-        redo => hf_region_redo;
-    }
-
     /// Vertices inside (0), on the rim (1), or the sites that hold the base (2).
     pub fn vertices(&self, which: i32) -> Result<Vec<u32>> {
         // SAFETY: `list` passes room for as many entries as it says.
@@ -142,5 +133,11 @@ impl Detail {
     pub fn morph(&mut self, weight: f64) -> Result<Vec<f64>> {
         // SAFETY: as in `Region::morph`.
         morph(self.vertex_count, weight, |desc| unsafe { raw::hf_detail_morph(self.handle, desc) })
+    }
+}
+
+impl TryClone for Region {
+    fn try_clone(&self) -> Result<Self> {
+        Region::try_clone(self)
     }
 }

@@ -1,5 +1,5 @@
 //! Solver: sites that come and go on a surface, and the field through them.
-use crate::core::{check, count_of, figures, handle_of, object, of_length, options, plain, start, start_of, Progress, Real};
+use crate::core::{check, count_of, figures, handle_of, object, of_length, options, plain, start, start_of, Progress, Real, TryClone};
 use crate::{raw, Error, Result, Surface};
 
 options!(
@@ -126,12 +126,6 @@ impl Solver {
     }
 
     plain! {
-        /// Records the sites for undo.
-        record => hf_solver_record;
-        /// Restores the last record.
-        undo => hf_solver_undo;
-        /// Reverts the last undo.
-        redo => hf_solver_redo;
         /// Moves sites into the factor, when many edits are to follow.
         prepare_rebase => hf_solver_prepare_rebase;
         /// Frees the single-precision factor of the previews.
@@ -257,5 +251,11 @@ impl Solver {
         // SAFETY: the struct is whole.
         check(unsafe { raw::hf_solver_certify(self.handle, &mut certificate) })?;
         Ok(certificate)
+    }
+}
+
+impl TryClone for Solver {
+    fn try_clone(&self) -> Result<Self> {
+        Solver::try_clone(self)
     }
 }

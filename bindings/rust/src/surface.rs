@@ -10,7 +10,7 @@ options!(
         /// `HF_WELD_*`
         weld: i32,
         /// for `HF_WELD_TOLERANCE`, in the unit of the positions
-        weld_tolerance: f32,
+        weld_tolerance: f64,
         /// `HF_OPERATOR_*`
         operator_kind: i32,
         /// `HF_FIELD_*`: the factor made now
@@ -62,11 +62,11 @@ options!(
         /// `HF_LINK_*`; the default of a desc is none
         mode: i32,
         /// longest link; 0 = 5 % of the bounding box diagonal
-        distance: f32,
+        distance: f64,
         /// stiffness of the springs; 0 = the default
-        stiffness: f32,
+        stiffness: f64,
         /// pieces nearer than this to another are light; 0 = the default
-        overlay_distance: f32,
+        overlay_distance: f64,
     }
 );
 
@@ -284,7 +284,7 @@ impl Surface {
     /// Places for handles, those to be pinned first.
     pub fn propose_handles(&self) -> Result<Vec<raw::hf_handle_proposal>> {
         // SAFETY: see `find_extremities`.
-        list(|room, out, count| unsafe { raw::hf_propose_handles(self.handle, std::ptr::null(), room, out, count) })
+        list(|room, out, count| unsafe { raw::hf_surface_propose_handles(self.handle, std::ptr::null(), room, out, count) })
     }
 }
 

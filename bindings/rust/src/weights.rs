@@ -1,36 +1,36 @@
 //! Weights: skin weights of a surface from a skeleton.
-use crate::core::{check, count_of, figures, handle_of, list, object, of_length, plain, rows_of, start, start_of};
+use crate::core::{check, count_of, figures, handle_of, list, object, of_length, rows_of, start, start_of, TryClone};
 use crate::{raw, Progress, Result, Surface};
 use std::ffi::CString;
 
-/// The bones of a skeleton, in the unit and frame of the mesh.
+/// The joints of a skeleton, in the unit and frame of the mesh.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Bones<'a> {
-    /// three numbers a bone
+pub struct Joints<'a> {
+    /// three numbers a joint
     pub heads: &'a [f64],
-    /// three numbers a bone; `None`: heads are joints, and the library finds the tails
+    /// three numbers a joint; `None`: heads are joints, and the library finds the tails
     pub tails: Option<&'a [f64]>,
-    /// three numbers a bone, without tails: where each bone points, 0 for unknown
+    /// three numbers a joint, without tails: where each joint points, 0 for unknown
     pub axes: Option<&'a [f64]>,
-    /// the number of each bone's parent, or [`crate::raw::HF_NO_INDEX`]; `None`: all are roots
+    /// the number of each joint's parent, or [`crate::raw::HF_NO_INDEX`]; `None`: all are roots
     pub parents: Option<&'a [u32]>,
-    /// 1: the bone gets weights; `None`: all do
+    /// 1: the joint gets weights; `None`: all do
     pub deforms: Option<&'a [i32]>,
-    /// for [`Weights::set_bones`]: the number that each bone had before; `None`: the same
+    /// for [`Weights::set_joints`]: the number that each joint had before; `None`: the same
     pub sources: Option<&'a [u32]>,
 }
 
-impl Bones<'_> {
-    fn desc(&self) -> Result<raw::hf_bones_desc> {
-        let bone_count = rows_of(self.heads, 3, "heads")?;
-        let count = bone_count as usize;
+impl Joints<'_> {
+    fn desc(&self) -> Result<raw::hf_joints_desc> {
+        let joint_count = rows_of(self.heads, 3, "heads")?;
+        let count = joint_count as usize;
         self.tails.map_or(Ok(()), |tails| of_length(tails, "tails", 3 * count))?;
         self.axes.map_or(Ok(()), |axes| of_length(axes, "axes", 3 * count))?;
         self.parents.map_or(Ok(()), |parents| of_length(parents, "parents", count))?;
         self.deforms.map_or(Ok(()), |deforms| of_length(deforms, "deforms", count))?;
         self.sources.map_or(Ok(()), |sources| of_length(sources, "sources", count))?;
-        Ok(raw::hf_bones_desc {
-            bone_count,
+        Ok(raw::hf_joints_desc {
+            joint_count,
             heads: start(self.heads),
             tails: start_of(self.tails),
             axes: start_of(self.axes),
@@ -47,12 +47,12 @@ object!(
     Weights: hf_weights, hf_weights_destroy { vertex_count: usize }
 );
 
-/// Joints and weights of every vertex, `weight_count` each.
+/// Joints and weights of every vertex, `influence_count` each.
 #[derive(Clone, Debug, Default)]
 pub struct VertexWeights {
-    /// bones of a vertex: 4 or 8
-    pub weight_count: usize,
-    /// numbers of bones
+    /// joints of a vertex: 4 or 8
+    pub influence_count: usize,
+    /// numbers of joints
     pub joints: Vec<u32>,
     /// their weights, descending, of sum 1
     pub weights: Vec<f32>,
@@ -62,13 +62,13 @@ pub struct VertexWeights {
 
 /// How weights are carried and mirrored; 0 is the library's own.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct CarryOptions<'a> {
+pub struct WeightTransferOptions<'a> {
     /// a vertex matches points within it, in the unit of the mesh
     pub distance: f64,
     /// between the normals of vertex and point, in radians
     pub angle: f64,
-    /// bones a vertex of the result: 4 or 8
-    pub weight_count: u32,
+    /// joints a vertex of the result: 4 or 8
+    pub influence_count: u32,
     /// follows the call, and cancels it
     pub progress: Option<&'a Progress>,
 }
@@ -76,18 +76,18 @@ pub struct CarryOptions<'a> {
 /// What [`mirror_weights`] takes beside the weights.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Mirror<'a> {
-    /// the joints at rest, three numbers a bone
+    /// the joints at rest, three numbers a joint
     pub heads: &'a [f64],
-    /// names pair the bones; `None`: their places do
+    /// names pair the joints; `None`: their places do
     pub names: Option<&'a [&'a str]>,
-    /// the bone of the other side, or [`crate::raw::HF_NO_INDEX`]: find it
+    /// the joint of the other side, or [`crate::raw::HF_NO_INDEX`]: find it
     pub partners: Option<&'a [u32]>,
     /// a point and a normal; `None`: find the plane
     pub plane: Option<[f64; 6]>,
     /// `HF_MIRROR_*`: which side takes the weights
     pub to: i32,
     /// how near a point must be
-    pub options: CarryOptions<'a>,
+    pub options: WeightTransferOptions<'a>,
 }
 
 /// Mirrored weights.
@@ -95,12 +95,12 @@ pub struct Mirror<'a> {
 pub struct Mirrored {
     /// of all vertices
     pub weights: VertexWeights,
-    /// the bone of the other side, by bone
+    /// the joint of the other side, by joint
     pub partners: Vec<u32>,
-    /// `HF_MIRROR_BONE_*` by bone
+    /// `HF_MIRROR_JOINT_*` by joint
     pub pairings: Vec<u32>,
     /// what was found
-    pub info: raw::hf_mirror_info,
+    pub info: raw::hf_weights_mirror_info,
 }
 
 /// Names as the library takes them: one line for each.
@@ -112,9 +112,9 @@ fn lines_of(names: Option<&[&str]>, count: usize) -> Result<Option<CString>> {
 }
 
 /// Arrays for all vertices, filled by a call.
-fn filled(n: usize, weight_count: u32, call: impl FnOnce(&mut raw::hf_weights_out) -> i32) -> Result<VertexWeights> {
-    let k = weight_count as usize;
-    let mut out = VertexWeights { weight_count: k, joints: vec![0; n * k], weights: vec![0.0; n * k], origins: vec![0; n] };
+fn filled(n: usize, influence_count: u32, call: impl FnOnce(&mut raw::hf_weights_out) -> i32) -> Result<VertexWeights> {
+    let k = influence_count as usize;
+    let mut out = VertexWeights { influence_count: k, joints: vec![0; n * k], weights: vec![0.0; n * k], origins: vec![0; n] };
     let mut desc = raw::hf_weights_out { vertex_capacity: count_of(n, "vertices")?, ..Default::default() };
     (desc.joints, desc.weights, desc.origins) = (out.joints.as_mut_ptr(), out.weights.as_mut_ptr(), out.origins.as_mut_ptr());
     check(call(&mut desc))?;
@@ -132,70 +132,70 @@ fn influences_of(surface: &Surface, joints: &[u32], weights: &[f32]) -> Result<u
 
 /// Carries weights to another surface: clothes, levels of detail. `joints` and `weights`: as many numbers for each vertex
 /// of the source.
-pub fn carry_weights(
+pub fn transfer_weights(
     source: &Surface,
     joints: &[u32],
     weights: &[f32],
     target: &Surface,
-    options: &CarryOptions,
-) -> Result<(VertexWeights, raw::hf_carry_info)> {
-    let weight_count = if options.weight_count == 0 { 4 } else { options.weight_count };
-    let desc = raw::hf_carry_desc {
-        influence_count: influences_of(source, joints, weights)?,
+    options: &WeightTransferOptions,
+) -> Result<(VertexWeights, raw::hf_weights_transfer_info)> {
+    let influence_count = if options.influence_count == 0 { 4 } else { options.influence_count };
+    let desc = raw::hf_weights_transfer_desc {
+        source_influence_count: influences_of(source, joints, weights)?,
         joints: start(joints),
         weights: start(weights),
         distance: options.distance,
         angle: options.angle,
-        weight_count,
+        influence_count,
         progress: handle_of(options.progress),
         ..Default::default()
     };
-    let mut info = raw::hf_carry_info::default();
-    let found = filled(target.vertex_count, weight_count, |out| {
+    let mut info = raw::hf_weights_transfer_info::default();
+    let found = filled(target.vertex_count, influence_count, |out| {
         // SAFETY: the lengths are checked, and `out` has room for all vertices of the target.
-        unsafe { raw::hf_weights_carry(source.handle, target.handle, &desc, out, &mut info) }
+        unsafe { raw::hf_weights_transfer(source.handle, target.handle, &desc, out, &mut info) }
     })?;
     Ok((found, info))
 }
 
 /// Mirrors weights of one side to the other.
 pub fn mirror_weights(surface: &Surface, joints: &[u32], weights: &[f32], mirror: &Mirror) -> Result<Mirrored> {
-    let bone_count = rows_of(mirror.heads, 3, "heads")?;
-    let count = bone_count as usize;
+    let joint_count = rows_of(mirror.heads, 3, "heads")?;
+    let count = joint_count as usize;
     let lines = lines_of(mirror.names, count)?;
     mirror.partners.map_or(Ok(()), |partners| of_length(partners, "partners", count))?;
-    let weight_count = if mirror.options.weight_count == 0 { 4 } else { mirror.options.weight_count };
-    let desc = raw::hf_mirror_desc {
-        bone_count,
+    let influence_count = if mirror.options.influence_count == 0 { 4 } else { mirror.options.influence_count };
+    let desc = raw::hf_weights_mirror_desc {
+        joint_count,
         heads: start(mirror.heads),
         names: lines.as_ref().map_or(std::ptr::null(), |text| text.as_ptr()),
         partners: start_of(mirror.partners),
         plane: start_of(mirror.plane.as_ref().map(|plane| &plane[..])),
-        influence_count: influences_of(surface, joints, weights)?,
+        source_influence_count: influences_of(surface, joints, weights)?,
         to: mirror.to,
         joints: start(joints),
         weights: start(weights),
         distance: mirror.options.distance,
         angle: mirror.options.angle,
-        weight_count,
+        influence_count,
         progress: handle_of(mirror.options.progress),
         ..Default::default()
     };
     let (mut partners, mut pairings) = (vec![0; count], vec![0; count]);
-    let mut info = raw::hf_mirror_info::default();
-    let found = filled(surface.vertex_count, weight_count, |out| {
-        // SAFETY: the lengths are checked, and the lists have room for all vertices and bones.
+    let mut info = raw::hf_weights_mirror_info::default();
+    let found = filled(surface.vertex_count, influence_count, |out| {
+        // SAFETY: the lengths are checked, and the lists have room for all vertices and joints.
         unsafe { raw::hf_weights_mirror(surface.handle, &desc, out, partners.as_mut_ptr(), pairings.as_mut_ptr(), &mut info) }
     })?;
     Ok(Mirrored { weights: found, partners, pairings, info })
 }
 
 impl Weights {
-    /// Computes weights. `weight_count`: bones a vertex, 4 or 8, or 0 for 4.
-    pub fn new(surface: &Surface, bones: &Bones, weight_count: u32) -> Result<Self> {
-        let (desc, mut handle) = (bones.desc()?, std::ptr::null_mut());
+    /// Computes weights. `influence_count`: joints a vertex, 4 or 8, or 0 for 4.
+    pub fn new(surface: &Surface, joints: &Joints, influence_count: u32) -> Result<Self> {
+        let (desc, mut handle) = (joints.desc()?, std::ptr::null_mut());
         // SAFETY: `desc` checked every length.
-        check(unsafe { raw::hf_weights_create(surface.handle, &desc, weight_count, &mut handle) })?;
+        check(unsafe { raw::hf_weights_create(surface.handle, &desc, influence_count, &mut handle) })?;
         Ok(Weights { handle, vertex_count: surface.vertex_count })
     }
 
@@ -207,20 +207,20 @@ impl Weights {
         Ok(Weights { handle, vertex_count: self.vertex_count })
     }
 
-    /// Replaces all bones.
-    pub fn set_bones(&mut self, bones: &Bones) -> Result<()> {
+    /// Replaces all joints.
+    pub fn set_joints(&mut self, joints: &Joints) -> Result<()> {
         // SAFETY: `desc` checked every length.
-        check(unsafe { raw::hf_weights_set_bones(self.handle, &bones.desc()?) })
+        check(unsafe { raw::hf_weights_set_joints(self.handle, &joints.desc()?) })
     }
 
-    /// Replaces all pins: vertices with given weights, `joint_count` bones each.
-    pub fn set_pins(&mut self, vertices: &[u32], joint_count: u32, joints: &[u32], weights: &[f32]) -> Result<()> {
-        of_length(joints, "joints", vertices.len() * joint_count as usize)?;
+    /// Replaces all pins: vertices with given weights, `influence_count` joints each.
+    pub fn set_pins(&mut self, vertices: &[u32], influence_count: u32, joints: &[u32], weights: &[f32]) -> Result<()> {
+        of_length(joints, "joints", vertices.len() * influence_count as usize)?;
         of_length(weights, "weights", joints.len())?;
         let desc = raw::hf_pins_desc {
             pin_count: count_of(vertices.len(), "vertices")?,
             vertices: start(vertices),
-            joint_count,
+            influence_count,
             joints: start(joints),
             weights: start(weights),
             ..Default::default()
@@ -229,10 +229,10 @@ impl Weights {
         check(unsafe { raw::hf_weights_set_pins(self.handle, &desc) })
     }
 
-    /// Locks bones: their present weights stay. Replaces all locks.
-    pub fn set_locks(&mut self, bones: &[u32]) -> Result<()> {
+    /// Locks joints: their present weights stay. Replaces all locks.
+    pub fn set_locks(&mut self, joints: &[u32]) -> Result<()> {
         // SAFETY: null values keep the present weights.
-        check(unsafe { raw::hf_weights_set_locks(self.handle, count_of(bones.len(), "bones")?, start(bones), std::ptr::null()) })
+        check(unsafe { raw::hf_weights_set_locks(self.handle, count_of(joints.len(), "joints")?, start(joints), std::ptr::null()) })
     }
 
     figures! {
@@ -240,34 +240,31 @@ impl Weights {
         info => hf_weights_get_info -> hf_weights_info;
     }
 
-    plain! {
-        /// Records bones, pins and locks for undo.
-        record => hf_weights_record;
-        /// Restores the last record.
-        undo => hf_weights_undo;
-        /// Reverts the last undo.
-        redo => hf_weights_redo;
-    }
-
     /// The weights of all vertices.
     pub fn get(&self) -> Result<VertexWeights> {
         let mut desc = raw::hf_weights_out::default();
         // SAFETY: null arrays ask for the counts; then the arrays are that large.
         check(unsafe { raw::hf_weights_get(self.handle, &mut desc) })?;
-        filled(self.vertex_count, desc.weight_count, |out| unsafe { raw::hf_weights_get(self.handle, out) })
+        filled(self.vertex_count, desc.influence_count, |out| unsafe { raw::hf_weights_get(self.handle, out) })
     }
 
-    /// `HF_BONE_*` of each bone: why it deserves a look.
-    pub fn bone_flags(&self) -> Result<Vec<u32>> {
-        // SAFETY: `list` gives room for as many bones as it says.
-        list(|capacity, flags, count| unsafe { raw::hf_weights_get_bones(self.handle, capacity, flags, std::ptr::null_mut(), count) })
+    /// `HF_JOINT_*` of each joint: why it deserves a look.
+    pub fn joint_flags(&self) -> Result<Vec<u32>> {
+        // SAFETY: `list` gives room for as many joints as it says.
+        list(|capacity, flags, count| unsafe { raw::hf_weights_get_joints(self.handle, capacity, flags, std::ptr::null_mut(), count) })
     }
 
-    /// `HF_HELPER_*` of each bone: why it looks like a helper. `names`: one for each bone; `None`: by places alone.
+    /// `HF_HELPER_*` of each joint: why it looks like a helper. `names`: one for each joint; `None`: by places alone.
     pub fn helpers(&self, names: Option<&[&str]>) -> Result<Vec<u32>> {
         let lines = names.map_or(Ok(None), |given| lines_of(Some(given), given.len()))?;
         let text = lines.as_ref().map_or(std::ptr::null(), |lines| lines.as_ptr());
-        // SAFETY: `list` gives room for as many bones as it says; the text ends with a zero.
+        // SAFETY: `list` gives room for as many joints as it says; the text ends with a zero.
         list(|capacity, reasons, count| unsafe { raw::hf_weights_get_helpers(self.handle, text, capacity, reasons, count) })
+    }
+}
+
+impl TryClone for Weights {
+    fn try_clone(&self) -> Result<Self> {
+        Weights::try_clone(self)
     }
 }

@@ -23,12 +23,12 @@ function guidesOf({ skin, body: { positions } }, strokes) {
 /** Places of the body at rest. A pole on the side that is mirrored counts as its image. */
 function polesOf({ skin, body: { positions } }, poles, plane) {
   if (!poles.length) return {};
-  const polePoints = poles.flatMap((pole) => {
+  const irregularPoints = poles.flatMap((pole) => {
     const point = Array.from(skin.at(pole, positions));
     const behind = plane ? plane[3] - point.reduce((sum, x, k) => sum + x * plane[k], 0) : 0;
     return behind > 0 ? point.map((x, k) => x + 2 * behind * plane[k]) : point;
   });
-  return { polePoints, poleQuads: poles.map(({ quads }) => quads) };
+  return { irregularPoints, irregularValences: poles.map(({ quads }) => quads) };
 }
 
 /** relaxed: false while a stroke or a pole is drawn or dragged. */
@@ -37,5 +37,5 @@ export function quadOptions({ middleOf }, { app, edge, crease, mirror, strokes, 
   if (mirror !== '')
     options.symmetryPlane = [0, 1, 2].map((k) => Number(k === mirror)).concat(middleOf(app.body, mirror));
   Object.assign(options, guidesOf(app, strokes), polesOf(app, poles, options.symmetryPlane));
-  return { ...options, creaseAngle: crease, relaxCount: relaxed ? 0 : NO_RELAXATION };
+  return { ...options, creaseAngle: (crease * Math.PI) / 180, relaxCount: relaxed ? 0 : NO_RELAXATION };
 }

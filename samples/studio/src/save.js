@@ -73,7 +73,7 @@ export async function shapedGlb(app) {
 
 /** Writes bones and shares of a part, four of each in an attribute. jointOf: the joint of a bone. */
 function setInfluences({ primitive, first, count }, given, accessor, jointOf = (bone) => bone) {
-  const { joints, weights, weightCount: size } = given;
+  const { joints, weights, influenceCount: size } = given;
   for (let set = 0; set < size / 4; ++set) {
     const [numbers, shares] = [new Uint16Array(4 * count), new Float32Array(4 * count)];
     for (let i = 0; i < 4 * count; ++i) {
@@ -88,7 +88,7 @@ function setInfluences({ primitive, first, count }, given, accessor, jointOf = (
 }
 
 /** The rest shape with a skin: `frames` move its joints. names and frames[f][j]: { rotation, translation }. */
-async function skinnedGlb(app, { pivots, joints, weights, jointCount, weightCount = 4 }, frames, seconds, clipName) {
+async function skinnedGlb(app, { pivots, joints, weights, jointCount, influenceCount = 4 }, frames, seconds, clipName) {
   const copy = await copyOf(app.body);
   ownPrimitives(copy);
   const { document } = copy;
@@ -118,7 +118,7 @@ async function skinnedGlb(app, { pivots, joints, weights, jointCount, weightCoun
       primitive.setAttribute('NORMAL', accessor('VEC3', range(app.opened.normals, 3)));
     for (const name of primitive.listSemantics())
       if (/^(JOINTS|WEIGHTS|TANGENT)/.test(name)) primitive.setAttribute(name, null);
-    setInfluences(part, { joints, weights, weightCount }, accessor);
+    setInfluences(part, { joints, weights, influenceCount }, accessor);
     body.addPrimitive(primitive);
     moved.add(part.node);
   }

@@ -1,26 +1,26 @@
 // A body bent by its bones: what a game engine does with skin weights (linear blend skinning).
 
 /** The largest `count` shares of every vertex, of sum 1. lost: the largest share that a vertex loses. */
-export function pruned({ weightCount, joints, weights }, count) {
-  const vertexCount = weights.length / weightCount;
+export function pruned({ influenceCount, joints, weights }, count) {
+  const vertexCount = weights.length / influenceCount;
   const out = {
-    weightCount: count,
+    influenceCount: count,
     joints: new Uint32Array(count * vertexCount),
     weights: new Float32Array(count * vertexCount),
     lost: 0,
   };
-  const order = Array.from({ length: weightCount }, (_, k) => k);
+  const order = Array.from({ length: influenceCount }, (_, k) => k);
   for (let v = 0; v < vertexCount; ++v) {
-    const at = weightCount * v;
+    const at = influenceCount * v;
     order.sort((a, b) => weights[at + b] - weights[at + a] || a - b);
     let [all, kept] = [0, 0];
-    for (let k = 0; k < weightCount; ++k) {
+    for (let k = 0; k < influenceCount; ++k) {
       all += weights[at + k];
       if (k < count) kept += weights[at + order[k]];
     }
     if (!(kept > 0)) continue;
     out.lost = Math.max(out.lost, 1 - kept / all);
-    for (let k = 0; k < Math.min(count, weightCount); ++k) {
+    for (let k = 0; k < Math.min(count, influenceCount); ++k) {
       out.joints[count * v + k] = joints[at + order[k]];
       out.weights[count * v + k] = weights[at + order[k]] / kept;
     }
@@ -45,7 +45,7 @@ export function turnedBones({ Matrix4, Vector3 }, { heads, parents }, turns) {
 }
 
 /** The places of vertices under the matrices of their bones. A vertex without a bone stays. */
-export function skinned(positions, { weightCount, joints, weights }, matrices, out) {
+export function skinned(positions, { influenceCount, joints, weights }, matrices, out) {
   const flat = new Float64Array(12 * matrices.length);
   matrices.forEach(({ elements: e }, j) => {
     for (let k = 0; k < 3; ++k) flat.set([e[k], e[4 + k], e[8 + k], e[12 + k]], 12 * j + 4 * k);
@@ -58,7 +58,7 @@ export function skinned(positions, { weightCount, joints, weights }, matrices, o
     let b = 0;
     let c = 0;
     let sum = 0;
-    for (let i = weightCount * v; i < weightCount * (v + 1); ++i) {
+    for (let i = influenceCount * v; i < influenceCount * (v + 1); ++i) {
       const share = weights[i];
       if (!share) continue;
       const m = 12 * joints[i];

@@ -97,9 +97,9 @@ export function weightsSheet(kit, tool) {
         [4, '4 bones for each vertex'],
         [8, '8 bones for each vertex'],
       ],
-      tool.weightCount,
+      tool.influenceCount,
       (value) => {
-        tool.weightCount = Number(value);
+        tool.influenceCount = Number(value);
         if (result) return tool.compute();
         tool.dress();
         tool.bend.show();

@@ -124,8 +124,8 @@ const tasks = {
   extremities() {
     return [body.surface.findExtremities().map(({ vertex, position }) => ({ vertex, position })), []];
   },
-  weights({ bones, weightCount, pins }) {
-    return [weightsOf(body, bones, weightCount, pins), []];
+  weights({ bones, influenceCount, pins }) {
+    return [weightsOf(body, bones, influenceCount, pins), []];
   },
   skin({ handles }) {
     body.pose.deform(handles, 'exact');

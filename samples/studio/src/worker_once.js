@@ -1,9 +1,9 @@
 // What is made once from a surface: skin weights and quads.
 /** pins: { vertex, bone, radius }: places that belong to one bone alone. */
-export function weightsOf(body, bones, weightCount, pins) {
+export function weightsOf(body, bones, influenceCount, pins) {
   const { hf, surface } = body;
   const begin = performance.now();
-  const weights = new hf.Weights(surface, bones, { weightCount });
+  const weights = new hf.Weights(surface, bones, { influenceCount });
   try {
     if (pins.length)
       weights.setPins(
@@ -12,7 +12,7 @@ export function weightsOf(body, bones, weightCount, pins) {
       );
     return {
       ...weights.weights(),
-      ...weights.bones(),
+      ...weights.joints(),
       info: weights.info,
       milliseconds: performance.now() - begin,
     };

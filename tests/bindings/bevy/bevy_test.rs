@@ -328,7 +328,7 @@ fn a_refused_handle_says_why_and_is_taken_when_there_is_room() {
     let over = handle(&mut app, body, [0.0, 1.9, 0.0]);
     app.update();
     app.update();
-    assert_eq!(error(&app, over), Some("HF_ERROR_OVERLAP"));
+    assert_eq!(error(&app, over), Some("HF_ERROR_CONFLICT"));
     assert_eq!((error(&app, tip), deformed(&app, body).handle_count()), (None, 2));
     app.world_mut().despawn(tip);
     app.update();

@@ -205,7 +205,7 @@ std::vector<hf_handle_proposal> tips_of(const PlainMesh& mesh) {
   EXPECT_EQ(hf_surface_create(&desc, &surface), HF_OK);
   std::uint32_t count = 0;
   std::vector<hf_handle_proposal> out(HF_HANDLE_LIMIT);
-  EXPECT_EQ(hf_propose_handles(surface, nullptr, HF_HANDLE_LIMIT, out.data(), &count), HF_OK);
+  EXPECT_EQ(hf_surface_propose_handles(surface, nullptr, HF_HANDLE_LIMIT, out.data(), &count), HF_OK);
   out.resize(count);
   out.erase(std::remove_if(out.begin(), out.end(),
                            [](const hf_handle_proposal& p) { return p.reason != HF_HANDLE_REASON_TIP; }),

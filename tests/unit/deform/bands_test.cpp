@@ -37,7 +37,7 @@ hf_test::PlainMesh tube(std::uint32_t around, std::uint32_t rows, double length)
 double leak_with(std::uint32_t samples) {
   const auto core = hf_test::make_core(tube(128, 160, 4));
   PoseOptions options;
-  options.samples_per_ring = samples;
+  options.rim_site_count = samples;
   const auto pose = Pose::make(core, options);
   const auto numbers =
       add(*pose, {select(*core, [](Vec3 p) { return p.y < 0.8; }), select(*core, [](Vec3 p) { return p.y > 3.2; })});

@@ -230,9 +230,9 @@ TEST(Layers, AFailedInsertionLeavesEverythingAsItWas) {
     }
     return hf_result{HF_OK};
   };
-  EXPECT_EQ(code_of({{plant.arms[0][0]}}, 0), HF_ERROR_OVERLAP);
-  EXPECT_EQ(code_of({{plant.arms[0][0]}}, 1), HF_ERROR_OVERLAP);
-  EXPECT_EQ(code_of({{plant.arms[0][0]}}, 3), HF_ERROR_OVERLAP);
+  EXPECT_EQ(code_of({{plant.arms[0][0]}}, 0), HF_ERROR_CONFLICT);
+  EXPECT_EQ(code_of({{plant.arms[0][0]}}, 1), HF_ERROR_CONFLICT);
+  EXPECT_EQ(code_of({{plant.arms[0][0]}}, 3), HF_ERROR_CONFLICT);
   EXPECT_EQ(code_of({{plant.core->size()}}, 1), HF_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(code_of({{plant.core->size() / 3}}, 8), HF_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(code_of({}, 1), HF_ERROR_EMPTY);

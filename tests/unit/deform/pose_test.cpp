@@ -359,9 +359,9 @@ TEST(Pose, BadInputIsNamedAndChangesNothing) {
   std::uint32_t index = 0;
   EXPECT_EQ(try_add({}, &index), HF_ERROR_EMPTY);
   EXPECT_EQ(try_add({{7}, {}}, &index), HF_ERROR_EMPTY);
-  EXPECT_EQ(try_add({{7, 8}, {9, 8}}, &index), HF_ERROR_OVERLAP);
+  EXPECT_EQ(try_add({{7, 8}, {9, 8}}, &index), HF_ERROR_CONFLICT);
   EXPECT_EQ(index, 3u);
-  EXPECT_EQ(try_add({{7, 50}}, &index), HF_ERROR_OVERLAP);
+  EXPECT_EQ(try_add({{7, 50}}, &index), HF_ERROR_CONFLICT);
   EXPECT_EQ(index, 1u);
   EXPECT_EQ(try_add({{7, Mesh::none}}, &index), HF_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(try_add({{7, core->size()}}, &index), HF_ERROR_OUT_OF_RANGE);
@@ -370,9 +370,9 @@ TEST(Pose, BadInputIsNamedAndChangesNothing) {
   const auto remove = [&](std::vector<std::uint32_t> list) {
     return code_of([&] { pose->remove_handles(list); }, &index);
   };
-  EXPECT_EQ(remove({0, 5}), HF_ERROR_NO_SUCH_HANDLE);
+  EXPECT_EQ(remove({0, 5}), HF_ERROR_NOT_FOUND);
   EXPECT_EQ(index, 1u);
-  EXPECT_EQ(remove({0, 0}), HF_ERROR_NO_SUCH_HANDLE);
+  EXPECT_EQ(remove({0, 0}), HF_ERROR_NOT_FOUND);
   const auto transform = [&](HandleTransform t) {
     return code_of([&] { pose->set_transforms(numbers, std::vector<HandleTransform>{{}, t}); }, &index);
   };
@@ -381,8 +381,8 @@ TEST(Pose, BadInputIsNamedAndChangesNothing) {
   EXPECT_EQ(transform({{}, {0, std::numeric_limits<double>::infinity(), 0}}), HF_ERROR_NON_FINITE);
   EXPECT_EQ(transform({{}, {1e300, 0, 0}}), HF_ERROR_NON_FINITE);
   EXPECT_EQ(code_of([&] { pose->set_transforms(std::vector<std::uint32_t>{9}, std::vector<HandleTransform>(1)); }),
-            HF_ERROR_NO_SUCH_HANDLE);
-  EXPECT_EQ(code_of([&] { pose->handle(9); }), HF_ERROR_NO_SUCH_HANDLE);
+            HF_ERROR_NOT_FOUND);
+  EXPECT_EQ(code_of([&] { pose->handle(9); }), HF_ERROR_NOT_FOUND);
   EXPECT_EQ(code_of([&] { pose->deform({false, 1001, false}); }), HF_ERROR_INVALID_ARGUMENT);
   for (PoseOptions bad :
        {PoseOptions{DeformMode::smooth, 1, 0, 0, 0}, PoseOptions{DeformMode::smooth, 65, 0, 0, 0},

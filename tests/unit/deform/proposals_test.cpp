@@ -51,7 +51,7 @@ std::vector<HandleProposal> propose(const hf_inner::Core& core, const hf_inner::
 
 hf_inner::ProposalOptions plain() {
   hf_inner::ProposalOptions options;
-  options.least_length = 0.05;
+  options.least_length_share = 0.05;
   options.limit = hf_inner::handle_limit;
   return options;
 }
@@ -138,7 +138,7 @@ TEST(HandleProposals, the_end_farther_from_the_middle_comes_first_in_any_numberi
   }
   for (std::uint32_t& v : turned.triangles) v = last - v;
   auto options = plain();
-  options.least_length = 0.9;
+  options.least_length_share = 0.9;
   const auto ends = of(propose(*hf_test::make_core(mesh), options), HandleReason::end);
   const auto other = of(propose(*hf_test::make_core(turned), options), HandleReason::end);
   ASSERT_EQ(ends.size(), 2u);

@@ -156,13 +156,13 @@ TEST(Proposals, OfAGivenSkeletonDoNotDependOnTheOrderOfItsJoints) {
       const int32_t parent = horse.skeleton[j].parent;
       parents[order[j]] = parent < 0 ? HF_NO_INDEX : order[static_cast<size_t>(parent)];
     }
-    hf_propose_desc desc = HF_INIT(hf_propose_desc);
+    hf_handle_proposals_desc desc = HF_INIT(hf_handle_proposals_desc);
     desc.joint_count = count;
     desc.joints = joints.data();
     desc.parents = parents.data();
     Proposals list(HF_HANDLE_LIMIT);
     uint32_t found = 0;
-    ASSERT_EQ(hf_propose_handles(surface.get(), &desc, HF_HANDLE_LIMIT, list.data(), &found), HF_OK);
+    ASSERT_EQ(hf_surface_propose_handles(surface.get(), &desc, HF_HANDLE_LIMIT, list.data(), &found), HF_OK);
     list.resize(found);
     if (seed == 0) first = list;
     EXPECT_GT(count_of(list, HF_HANDLE_REASON_JOINT), 1u);

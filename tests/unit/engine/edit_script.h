@@ -152,7 +152,7 @@ class EditScript {
     switch (below(4)) {
       case 0:
         batch.remove = {one, one};
-        allowed = {HF_ERROR_NO_SUCH_SITE};
+        allowed = {HF_ERROR_NOT_FOUND};
         break;
       case 1:
         batch.set.clear();
@@ -161,7 +161,7 @@ class EditScript {
         batch.move = {one};
         batch.move_place = {vertices_[0]};
         batch.moves_to_vertices = true;
-        allowed = {HF_ERROR_NO_SUCH_SITE};
+        allowed = {HF_ERROR_NOT_FOUND};
         break;
       case 2:
         batch.add_place = {core->mesh.report.vertex_count};
@@ -179,7 +179,7 @@ class EditScript {
         batch.adds_at_vertices = true;
         batch.add_stiffness = {0.0};
         batch.add_values = random_values();
-        allowed = {HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE_SITE};
+        allowed = {HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE};
         break;
       }
     }

@@ -426,13 +426,13 @@ TEST(Direction, refuses_bad_edits_and_stays_as_it_was) {
   std::uint32_t index = 0;
   const std::uint32_t vertices[] = {7, 5}, wrong[] = {7, 99999}, sites[] = {0, 0}, absent[] = {0, 8};
   const double vectors[] = {1, 2, 3, 4, 5, 6}, bad[] = {1, 2, 3, std::nan(""), 0, 0};
-  EXPECT_EQ(code([&] { field.add(2, vertices, vectors, nullptr); }, &index), HF_ERROR_DUPLICATE_SITE);
+  EXPECT_EQ(code([&] { field.add(2, vertices, vectors, nullptr); }, &index), HF_ERROR_DUPLICATE);
   EXPECT_EQ(index, 1u);
   EXPECT_EQ(code([&] { field.add(2, wrong, vectors, nullptr); }, &index), HF_ERROR_OUT_OF_RANGE);
-  EXPECT_EQ(code([&] { field.set_vectors(2, absent, vectors); }, &index), HF_ERROR_NO_SUCH_SITE);
+  EXPECT_EQ(code([&] { field.set_vectors(2, absent, vectors); }, &index), HF_ERROR_NOT_FOUND);
   EXPECT_EQ(index, 1u);
-  EXPECT_EQ(code([&] { field.remove(2, sites); }, &index), HF_ERROR_NO_SUCH_SITE);
-  EXPECT_EQ(code([&] { field.move(2, sites, vertices); }, &index), HF_ERROR_NO_SUCH_SITE);
+  EXPECT_EQ(code([&] { field.remove(2, sites); }, &index), HF_ERROR_NOT_FOUND);
+  EXPECT_EQ(code([&] { field.move(2, sites, vertices); }, &index), HF_ERROR_NOT_FOUND);
   const std::uint32_t both[] = {0, 1};
   EXPECT_EQ(code([&] { field.set_vectors(2, both, bad); }, &index), HF_ERROR_NON_FINITE);
   EXPECT_EQ(index, 1u);

@@ -190,8 +190,8 @@ TEST(FiniteRadius, refuses_overlaps_hidden_numbers_and_too_many_vertices) {
   std::uint32_t index = 99;
   EXPECT_EQ(code_of([&] { field.add({1200, 1}, {2, 5}, {0, 0}); }, &index), HF_ERROR_CONFLICT);  // inside the disc
   EXPECT_EQ(index, 1u);
-  EXPECT_EQ(code_of([&] { field.add({1}, {1}, {0}); }), HF_ERROR_DUPLICATE_SITE);
-  EXPECT_EQ(code_of([&] { field.add({1200}, {1}, {20.0}); }), HF_ERROR_DUPLICATE_SITE);  // reaches the other disc
+  EXPECT_EQ(code_of([&] { field.add({1}, {1}, {0}); }), HF_ERROR_DUPLICATE);
+  EXPECT_EQ(code_of([&] { field.add({1200}, {1}, {20.0}); }), HF_ERROR_DUPLICATE);  // reaches the other disc
   EXPECT_EQ(code_of([&] { field.add({1200}, {1}, {-1.0}); }), HF_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(code_of([&] { field.add({1200}, {1}, {std::nan("")}); }), HF_ERROR_NON_FINITE);
   std::uint32_t hidden = 0;
@@ -205,7 +205,7 @@ TEST(FiniteRadius, refuses_overlaps_hidden_numbers_and_too_many_vertices) {
               edit.remove_sites = &hidden;
               field.field.edit(edit, nullptr);
             }),
-            HF_ERROR_NO_SUCH_SITE);
+            HF_ERROR_NOT_FOUND);
   EXPECT_EQ(field.solve(), before);
   hf_inner::ScalarField small(field.field.shared_core(), hf_inner::EngineKind::green, 1e8, 1, 10);
   const std::uint32_t v = 0;

@@ -100,21 +100,6 @@ TEST(Rebase, takes_in_what_changed_between) {
   EXPECT_LE(worst(solve(field), oracle(field)), 1e-10);
 }
 
-TEST(Rebase, survives_undo_between_its_making_and_its_use) {
-  const auto core = hf_test::make_core(hf_test::torus(60, 40));
-  hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100000);
-  add(field, every(0, 2400, 60));
-  field.record();
-  const std::vector<double> recorded = solve(field);
-  add(field, every(7, 2400, 90));
-  field.prepare_rebase();
-  field.undo();
-  EXPECT_EQ(solve(field), recorded);
-  add(field, {13});
-  EXPECT_EQ(field.engine().counters().rebases, 1u);
-  EXPECT_LE(worst(solve(field), oracle(field)), 1e-11);
-}
-
 TEST(Rebase, says_what_it_cannot_do) {
   const auto core = hf_test::make_core(hf_test::torus(20, 14));
   const auto code_of = [](hf_inner::ScalarField& field) {
@@ -127,7 +112,7 @@ TEST(Rebase, says_what_it_cannot_do) {
   };
   hf_inner::ScalarField green(core, hf_inner::EngineKind::green, 1e8, 1, 100),
       refactor(core, hf_inner::EngineKind::refactor, 1e8, 1, 100);
-  EXPECT_EQ(code_of(green), HF_ERROR_NO_SITES);
+  EXPECT_EQ(code_of(green), HF_ERROR_EMPTY);
   EXPECT_EQ(code_of(refactor), HF_ERROR_UNSUPPORTED);
 }
 

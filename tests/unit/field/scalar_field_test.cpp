@@ -1,4 +1,4 @@
-// The site set above the engines: numbers, duplicates, batches that are all or nothing, undo.
+// The site set above the engines: numbers, duplicates, batches that are all or nothing.
 #include "field/scalar_field.h"
 
 #include <gtest/gtest.h>
@@ -38,41 +38,14 @@ class ScalarFieldTest : public testing::TestWithParam<int> {
   hf_inner::ScalarField field{core, static_cast<hf_inner::EngineKind>(GetParam()), 1e8, 1, 1000};
 };
 
-TEST_P(ScalarFieldTest, undo_and_redo_come_back_to_the_same_field) {
-  field.edit(adding({1, 50, 200}, {0, 1, 2}), nullptr);
-  const auto first = field_of(field);
-  field.record();
-  const std::uint32_t gone[] = {1};
-  const std::vector<std::uint32_t> vertices = {77, 120};
-  const std::vector<double> values = {5, -1};
-  hf_inner::FieldEdit edit = adding(vertices, values);
-  edit.remove_count = 1;
-  edit.remove_sites = gone;
-  field.edit(edit, nullptr);
-  const auto second = field_of(field);
-  field.undo();
-  const auto undone = field_of(field);
-  field.redo();
-  const auto redone = field_of(field);
-  if (GetParam() == 0) {
-    EXPECT_EQ(first, undone);
-    EXPECT_EQ(second, redone);
-  }
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    EXPECT_NEAR(first[i], undone[i], 1e-6);
-    EXPECT_NEAR(second[i], redone[i], 1e-6);
-  }
-  EXPECT_THROW(field.redo(), hf_inner::Error);
-}
-
 TEST_P(ScalarFieldTest, a_failing_batch_changes_nothing) {
   field.edit(adding({1, 50, 200}, {0, 1, 2}), nullptr);
   const auto before = field_of(field);
   std::uint32_t index = 0;
-  EXPECT_EQ(code_of(field, adding({3, 4, 50}, {1, 1, 1}), &index), HF_ERROR_DUPLICATE_SITE);
+  EXPECT_EQ(code_of(field, adding({3, 4, 50}, {1, 1, 1}), &index), HF_ERROR_DUPLICATE);
   EXPECT_EQ(index, 2u);
   EXPECT_EQ(code_of(field, adding({3, 50}, {1, 9}), &index), HF_ERROR_CONFLICT);
-  EXPECT_EQ(code_of(field, adding({3, 3}, {1, 1})), HF_ERROR_DUPLICATE_SITE);
+  EXPECT_EQ(code_of(field, adding({3, 3}, {1, 1})), HF_ERROR_DUPLICATE);
   EXPECT_EQ(code_of(field, adding({3, 99999}, {1, 1}), &index), HF_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(index, 1u);
   EXPECT_EQ(code_of(field, adding({3}, {std::nan("")})), HF_ERROR_NON_FINITE);
@@ -80,7 +53,7 @@ TEST_P(ScalarFieldTest, a_failing_batch_changes_nothing) {
   hf_inner::FieldEdit edit;
   edit.remove_count = 2;
   edit.remove_sites = absent;
-  EXPECT_EQ(code_of(field, edit, &index), HF_ERROR_NO_SUCH_SITE);
+  EXPECT_EQ(code_of(field, edit, &index), HF_ERROR_NOT_FOUND);
   EXPECT_EQ(index, 1u);
   EXPECT_EQ(field.sites().count(), 3u);
   EXPECT_EQ(before, field_of(field));

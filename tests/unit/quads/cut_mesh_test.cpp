@@ -106,7 +106,7 @@ TEST(CutQuads, lie_on_the_triangles_they_name) {
     FieldQuadOptions options;
     options.core = core;
     options.faces = 600;
-    options.crease = 40;
+    options.crease = 0.7;
     if (symmetric) options.plane = MirrorPlane{{1, 0, 0}, 0};
     ASSERT_TRUE(is_coarse(coarse_part(*core, 0.05)));
     const QuadResult result = make_field_quads(options);

@@ -359,7 +359,7 @@ TEST(FieldQuads, creases_of_a_box_are_kept) {
   FieldQuadOptions options;
   options.core = core;
   options.faces = 300;
-  options.crease = 40;
+  options.crease = 0.7;
   FieldQuadReport report;
   const QuadResult result = make_field_quads(options, &report);
   expect_valid(*core, result.mesh, "box");

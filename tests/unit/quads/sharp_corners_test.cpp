@@ -75,7 +75,7 @@ QuadMesh quads_of(const std::shared_ptr<const Core>& core, std::int32_t faces, F
   FieldQuadOptions options;
   options.core = core;
   options.faces = faces;
-  options.crease = 30;
+  options.crease = 0.5236;
   QuadResult result = make_field_quads(options, &report);
   hf_test::expect_manifold(*core, result.mesh, std::to_string(faces));
   EXPECT_NEAR(result.mesh.face_count(), faces, 0.1 * faces);

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "assets/shapes.h"
-#include "remesh/flow_lines.h"
+#include "remesh/streamlines.h"
 #include "support/eigen.h"
 #include "support/meshes.h"
 
@@ -178,7 +178,7 @@ TEST(FluxSurface, ASurfaceThatIsMostlyMoebiusBandsIsRefused) {
   }
 }
 
-TEST(FlowLines, OfAHeightAreStraightUpAndEvenInFlux) {
+TEST(Streamlines, OfAHeightAreStraightUpAndEvenInFlux) {
   // an open tube: u = height is harmonic there, so lines run up the sides
   hf_test::PlainMesh mesh;
   const std::uint32_t around = 24, rings = 21;
@@ -197,7 +197,7 @@ TEST(FlowLines, OfAHeightAreStraightUpAndEvenInFlux) {
   std::vector<double> u;
   for (const Vec3& p : core->mesh.positions) u.push_back(p.y);
   const std::vector<std::int32_t> seeds = {10 * 24 + 5};
-  const FlowLineSet lines = tracer.trace(u, 0, seeds);
+  const StreamlineSet lines = tracer.trace(u, 0, seeds);
   ASSERT_EQ(lines.from.size(), 1u);
   const Vec3 at = core->mesh.positions[10 * 24 + 5];
   for (std::size_t k = 0; k < lines.point.size(); ++k) {
@@ -208,13 +208,13 @@ TEST(FlowLines, OfAHeightAreStraightUpAndEvenInFlux) {
   EXPECT_GE(lines.point.size(), 20u);
 }
 
-TEST(FlowLines, WhereTheFieldIsFlatAreTheSeedAlone) {
+TEST(Streamlines, WhereTheFieldIsFlatAreTheSeedAlone) {
   const auto core = hf_test::make_core(hf_test::grid(8, 8));
   const FlowTracer tracer(core);
   std::vector<double> flat(81, 2.5), plateau;
   for (const Vec3& p : core->mesh.positions) plateau.push_back(std::max(0.0, p.x - core->mesh.positions[0].x - 0.4));
   const std::vector<std::int32_t> seeds = {0, 40, 80};
-  const FlowLineSet alone = tracer.trace(flat, 0, seeds);
+  const StreamlineSet alone = tracer.trace(flat, 0, seeds);
   ASSERT_EQ(alone.point.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(alone.from[k], seeds[k]);
@@ -223,7 +223,7 @@ TEST(FlowLines, WhereTheFieldIsFlatAreTheSeedAlone) {
     EXPECT_EQ(norm(alone.point[k] - core->mesh.positions[static_cast<std::size_t>(seeds[k])]), 0);
   }
   EXPECT_EQ(tracer.trace(flat, 10, {}).from.size(), 0u);
-  const FlowLineSet lines = tracer.trace(plateau, 0, seeds);
+  const StreamlineSet lines = tracer.trace(plateau, 0, seeds);
   ASSERT_EQ(lines.from.size(), 3u);
   EXPECT_EQ(lines.start[1], 1u);                       // the seed on the plateau
   EXPECT_GT(lines.point.size() - lines.start[2], 1u);  // the seed at the top

@@ -192,15 +192,15 @@ TEST(QuadsProgram, PutsPolesWhereAFileSays) {
     mesh.positions.push_back({shape.positions[i], shape.positions[i + 1], shape.positions[i + 2]});
   mesh.triangles = shape.triangles;
   const std::string in = (folder.path / "shape.ply").string(), out = (folder.path / "quads.obj").string(),
-                    poles = (folder.path / "poles.json").string();
+                    poles = (folder.path / "irregular.json").string();
   write_mesh_file(mesh, in);
   const glm::dvec3 three = mesh.positions[1200], five = mesh.positions[2700];
   const auto text_of = [](const glm::dvec3& p) {
     return "[" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + "]";
   };
-  std::ofstream(poles) << "{\"poles\": [{\"point\": " << text_of(three)
-                       << ", \"quads\": 3, \"direction\": [0.2, 1, 0.1]}, {\"point\": " << text_of(five)
-                       << ", \"quads\": 5}]}";
+  std::ofstream(poles) << "{\"irregular\": [{\"point\": " << text_of(three)
+                       << ", \"valence\": 3, \"direction\": [0.2, 1, 0.1]}, {\"point\": " << text_of(five)
+                       << ", \"valence\": 5}]}";
   const std::string call = "\"" + in + "\" --faces 1500 -o \"" + out + "\"";
   std::string text;
   ASSERT_EQ(run(call, text), 0) << text;
@@ -212,27 +212,27 @@ TEST(QuadsProgram, PutsPolesWhereAFileSays) {
   edge /= static_cast<double>(plain.face_vertices.size());
   EXPECT_GT(nearest_pole(plain, three, 3), 2 * edge);
   EXPECT_GT(nearest_pole(plain, five, 5), 2 * edge);
-  ASSERT_EQ(run(call + " --poles \"" + poles + "\"", text), 0) << text;
+  ASSERT_EQ(run(call + " --irregular \"" + poles + "\"", text), 0) << text;
   EXPECT_NE(text.find("Euler characteristic 2 (surface 2)"), std::string::npos) << text;
   const SurfaceMesh placed = read_mesh_file(out);
   EXPECT_LT(nearest_pole(placed, three, 3), edge);
   EXPECT_LT(nearest_pole(placed, five, 5), edge);
   // the file and the entry are named
   const std::pair<const char*, const char*> wrongs[] = {
-      {"{\"poles\": []}", "no pole"},
+      {"{\"irregular\": []}", "no irregular vertex"},
       {"{\"pole\": []}", "pole"},
-      {"{\"poles\": [{\"point\": [0, 0, 0]}]}", "poles[0]: the key \"quads\""},
-      {"{\"poles\": [{\"quads\": 3}]}", "poles[0]: the key \"point\""},
-      {"{\"poles\": [{\"point\": [0, 0], \"quads\": 3}]}", "poles[0].point"},
-      {"{\"poles\": [{\"point\": [0, 0, 0], \"quads\": 3}, {\"point\": [0, 0, 0], \"quads\": 4}]}", "poles[1].quads"},
-      {"{\"poles\": [{\"point\": [0, 0, 0], \"quads\": 3.5}]}", "poles[0].quads"},
-      {"{\"poles\": [{\"point\": [0, 0, 0], \"quads\": 3, \"direction\": [0, 0, 0]}]}", "poles[0].direction"},
-      {"{\"poles\": [{\"point\": [0, 0, 0], \"quads\": 3, \"weight\": 1}]}", "poles[0]: the key \"weight\""}};
+      {"{\"irregular\": [{\"point\": [0, 0, 0]}]}", "irregular[0]: the key \"valence\""},
+      {"{\"irregular\": [{\"valence\": 3}]}", "irregular[0]: the key \"point\""},
+      {"{\"irregular\": [{\"point\": [0, 0], \"valence\": 3}]}", "irregular[0].point"},
+      {"{\"irregular\": [{\"point\": [0, 0, 0], \"valence\": 3}, {\"point\": [0, 0, 0], \"valence\": 4}]}", "irregular[1].valence"},
+      {"{\"irregular\": [{\"point\": [0, 0, 0], \"valence\": 3.5}]}", "irregular[0].valence"},
+      {"{\"irregular\": [{\"point\": [0, 0, 0], \"valence\": 3, \"direction\": [0, 0, 0]}]}", "irregular[0].direction"},
+      {"{\"irregular\": [{\"point\": [0, 0, 0], \"valence\": 3, \"weight\": 1}]}", "irregular[0]: the key \"weight\""}};
   for (const auto& [wrong, entry] : wrongs) {
     std::ofstream(poles) << wrong;
-    EXPECT_EQ(run("\"" + in + "\" --poles \"" + poles + "\"", text), 1) << wrong;
-    EXPECT_NE(text.find("poles.json"), std::string::npos) << text;
-    EXPECT_NE(text.find(entry, text.find("poles.json") + 10), std::string::npos) << text;
+    EXPECT_EQ(run("\"" + in + "\" --irregular \"" + poles + "\"", text), 1) << wrong;
+    EXPECT_NE(text.find("irregular.json"), std::string::npos) << text;
+    EXPECT_NE(text.find(entry, text.find("irregular.json") + 10), std::string::npos) << text;
   }
 }
 

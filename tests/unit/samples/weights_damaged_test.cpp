@@ -22,7 +22,7 @@ using samples_test::shared_data;
 struct Variant {
   std::vector<double> positions;
   std::vector<uint32_t> triangles;
-  hf::Bones bones;
+  hf::Joints bones;
   std::string damage;  // what was done
 };
 
@@ -139,12 +139,12 @@ class Damage {
   Variant made_;
 };
 
-size_t faults_of(const hf::VertexWeights& found, const hf::Bones& bones) {
+size_t faults_of(const hf::VertexWeights& found, const hf::Joints& bones) {
   size_t faults = 0;
   for (size_t v = 0; v < found.origins.size(); ++v) {
     float sum = 0;
     bool good = true;
-    for (size_t i = v * found.weight_count; i < (v + 1) * found.weight_count; ++i) {
+    for (size_t i = v * found.influence_count; i < (v + 1) * found.influence_count; ++i) {
       good &= found.joints[i] < bones.count() && found.weights[i] >= 0;
       good &= !(found.weights[i] > 0) || bones.deforms[found.joints[i]] == 1;
       sum += found.weights[i];

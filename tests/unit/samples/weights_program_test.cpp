@@ -181,7 +181,7 @@ TEST(WeightsProgram, CarriesMirrorsAndTakesSkeletons) {
   EXPECT_EQ(report.root().at("bones").at(0).at("helper").boolean(), false);
 
   ASSERT_EQ(run(path("in.glb") + " --mirror negative", text), 0) << text;
-  EXPECT_NE(text.find("plane of the bones; joints: 2 by name"), std::string::npos) << text;
+  EXPECT_NE(text.find("plane of the joints; joints: 2 by name"), std::string::npos) << text;
   ASSERT_EQ(run(path("sleeve.glb") + " --skeleton " + path("in.glb") + " -o " + path("own.glb"), text), 0) << text;
   const Model own = read_gltf(folder.path / "own.glb");
   EXPECT_NEAR(own.nodes[static_cast<size_t>(own.skins[0].joints[1])].translation.x, 15, 1e-4);
@@ -233,7 +233,7 @@ TEST(WeightsProgram, NamesWhatIsWrong) {
   EXPECT_EQ(run(path("in.glb") + " --keep nose", text), 1);
   EXPECT_NE(text.find("nose"), std::string::npos) << text;
   EXPECT_EQ(run(path("in.glb") + " --weights 5", text), 1);
-  EXPECT_NE(text.find("weight_count is 5"), std::string::npos) << text;
+  EXPECT_NE(text.find("influence_count is 5"), std::string::npos) << text;
   std::ofstream(folder.path / "pins.json") << R"({"pins": [{"vertex": 9999}]})";
   EXPECT_EQ(run(path("in.glb") + " --pins " + path("pins.json"), text), 1);
   EXPECT_NE(text.find("pins[0].vertex"), std::string::npos) << text;

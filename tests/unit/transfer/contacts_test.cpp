@@ -51,7 +51,7 @@ TEST(TransferContacts, BadHoldsAreNamedAndChangeNothing) {
     }
     EXPECT_EQ(largest_distance(out, before), 0.0);
   };
-  refused({{numbers[0], {0, 0, 0}}, {77, {0, 0, 0}}}, HF_ERROR_NO_SUCH_PAIR, 1);
+  refused({{numbers[0], {0, 0, 0}}, {77, {0, 0, 0}}}, HF_ERROR_NOT_FOUND, 1);
   refused({{numbers[0], {0, NAN, 0}}}, HF_ERROR_NON_FINITE, 0);
   refused({{numbers[0], {0, 0, 0}}, {numbers[0], {1, 0, 0}}}, HF_ERROR_INVALID_ARGUMENT, 1);
   EXPECT_EQ(largest_distance(frame_of(transfer, posed), before), 0.0);

@@ -47,7 +47,7 @@ Dials with_stride(double value) {
 }
 Dials with_hips(double value) {
   Dials out;
-  out.hip_height = value;
+  out.hip_height_share = value;
   return out;
 }
 Dials with_neck(double value) {
@@ -284,7 +284,7 @@ TEST(TransferDials, ResultsAreContinuousInEveryDial) {
     Dialled& body = which == 4 ? arms : d;
     const auto frame = [&](double x) {
       Dials dials;
-      double* const values[] = {&dials.stride,      &dials.hip_height, &dials.neck_follow,
+      double* const values[] = {&dials.stride,      &dials.hip_height_share, &dials.neck_follow,
                                 &dials.tail_follow, &dials.arm_space,  &dials.long_follow};
       *values[which] += which == 5 ? 0.5 + x : x;
       body.transfer.set_dials(dials);

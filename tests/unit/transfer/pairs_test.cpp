@@ -95,7 +95,7 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }, &index), HF_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(index, 2u);
   bad.target = inputs[2].target;
-  EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }, &index), HF_ERROR_OVERLAP);
+  EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }, &index), HF_ERROR_CONFLICT);
   EXPECT_EQ(index, 0u);
   bad.target = {&free_vertex, 1};
   bad.flags = 1u << 20;
@@ -103,11 +103,11 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   const std::vector<hf_inner::PairInput> many(300, inputs[0]);
   EXPECT_EQ(code_of([&] { transfer.add_pairs({many.data(), many.size()}, nullptr); }), HF_ERROR_TOO_LARGE);
   const uint32_t twice[] = {1, 1}, absent[] = {0, 99};
-  EXPECT_EQ(code_of([&] { transfer.remove_pairs({twice, 2}); }, &index), HF_ERROR_NO_SUCH_PAIR);
+  EXPECT_EQ(code_of([&] { transfer.remove_pairs({twice, 2}); }, &index), HF_ERROR_NOT_FOUND);
   EXPECT_EQ(index, 1u);
-  EXPECT_EQ(code_of([&] { transfer.remove_pairs({absent, 2}); }, &index), HF_ERROR_NO_SUCH_PAIR);
+  EXPECT_EQ(code_of([&] { transfer.remove_pairs({absent, 2}); }, &index), HF_ERROR_NOT_FOUND);
   EXPECT_EQ(index, 1u);
-  EXPECT_EQ(code_of([&] { transfer.pair_info(99); }), HF_ERROR_NO_SUCH_PAIR);
+  EXPECT_EQ(code_of([&] { transfer.pair_info(99); }), HF_ERROR_NOT_FOUND);
   std::vector<Vec3> broken = posed;
   broken[5].y = std::nan("");
   EXPECT_EQ(code_of([&] { transfer.apply(broken.data(), out.data()); }, &index), HF_ERROR_NON_FINITE);

@@ -67,7 +67,7 @@ inline hf_inner::FilledWeights carry(const std::shared_ptr<const hf_inner::Core>
                                      const hf_inner::MatchOptions& options = carry_options()) {
   const hf_inner::SkinShape skin(source->mesh, *source->memory);
   const hf_inner::Surface surface(target->geometry, {});
-  return hf_inner::carry_weights(source->mesh, skin, given, target, options, &surface);
+  return hf_inner::transfer_weights(source->mesh, skin, given, target, options, &surface);
 }
 
 inline double share_of(const hf_inner::FilledWeights& filled, std::size_t v, std::uint32_t joint) {

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "support/dirty_meshes.h"
-#include "weights/islands.h"
+#include "weights/pieces.h"
 #include "weights_support.h"
 
 namespace {
@@ -98,8 +98,8 @@ TEST(DamagedWeights, NoVariantFailsAndNoVertexIsBare) {
   }
 }
 
-// Three islands, of which the first is solved: the small one is rigid, the large one follows the nearest vertices.
-TEST(DamagedWeights, IslandsWithoutInformationFindTheirCarriers) {
+// Three pieces, of which the first is solved: the small one is rigid, the large one follows the nearest vertices.
+TEST(DamagedWeights, PiecesWithoutInformationFindTheirCarriers) {
   PlainMesh mesh = tube(8, 9, 6);
   append(mesh, tube(8, 9, 6), 2);  // crosses the first
   PlainMesh speck = tube(3, 2, 0.1);
@@ -112,8 +112,8 @@ TEST(DamagedWeights, IslandsWithoutInformationFindTheirCarriers) {
   EXPECT_EQ(none.of[0], -1);
   solved[0] = 1;
   const auto found = find_carriers(core->mesh, solved, memory, *core->jobs);
-  EXPECT_EQ(found.carried_islands, 1u);
-  EXPECT_EQ(found.rigid_islands, 1u);
+  EXPECT_EQ(found.carried_pieces, 1u);
+  EXPECT_EQ(found.rigid_pieces, 1u);
   EXPECT_EQ(found.rigid[2], 1);
   for (Index v = 0; v < core->size(); ++v) {
     double best = HUGE_VAL;

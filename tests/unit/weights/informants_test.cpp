@@ -8,7 +8,7 @@ using hf_inner::Bones;
 using hf_inner::Weights;
 
 // Two tetrahedra through one another: the corners of each are behind a face of the other, so none sees the bones in the
-// middle. A triangle from corner to corner makes one island of them.
+// middle. A triangle from corner to corner makes one piece of them.
 TEST(Informants, ABodyThatSeesNoBoneAsksUnseenWhateverAButtonSees) {
   PlainMesh star;
   star.positions = {1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1, -1, -1, -1, -1, 1, 1, 1, -1, 1, 1, 1, -1, 3, 3, 3};

@@ -149,7 +149,7 @@ TEST(MirroredWeights, WhatHasNoCounterpartGetsWeights) {
   scene.skin = make_owner_in<SkinSurface>(scene.core->memory, scene.core);
   const MirroredWeights found = scene.mirror(MirrorTo::negative, true, {4, joints.data(), weights.data()});
   EXPECT_EQ(faults_of(found.filled, at(scene.core->size()), scene.body.heads.size()), 0u);
-  EXPECT_EQ(found.filled.islands_guessed, 2u);
+  EXPECT_EQ(found.filled.pieces_guessed, 2u);
   EXPECT_GT(found.worst_off, 0.05);
   std::fill(weights.begin(), weights.end(), 0.0f);
   EXPECT_THROW(scene.mirror(MirrorTo::negative, true, {4, joints.data(), weights.data()}), Error);

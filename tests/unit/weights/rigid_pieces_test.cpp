@@ -1,4 +1,4 @@
-// Islands that move with one bone: parts of robots, buttons on creatures; what stays smooth.
+// Pieces that move with one bone: parts of robots, buttons on creatures; what stays smooth.
 #include <algorithm>
 
 #include "weights/piece_contacts.h"

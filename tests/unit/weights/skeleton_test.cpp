@@ -109,7 +109,7 @@ TEST(Skeleton, LocksOfRemovedBonesGo) {
     fewer.deforms.push_back(1);
   }
   const Index sources[] = {1, 2};
-  weights.set_bones(fewer, {sources, 2});
+  weights.set_joints(fewer, {sources, 2});
   expect_valid(weights);
   ASSERT_TRUE(weights.state().inputs->locks);
   ASSERT_EQ(weights.state().inputs->locks->bones.size(), 1u);
@@ -121,7 +121,7 @@ TEST(Skeleton, LocksOfRemovedBonesGo) {
   last.parent.push_back(-1);
   last.deforms.push_back(1);
   const Index first[] = {0};
-  weights.set_bones(last, {first, 1});
+  weights.set_joints(last, {first, 1});
   EXPECT_FALSE(weights.state().inputs->locks);  // no lock is left
 }
 

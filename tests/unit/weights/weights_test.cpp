@@ -1,4 +1,4 @@
-// Skin weights on tubes: smooth, of sum 1, the nearest bone leads; pins, locks, moved bones, undo, islands, welded
+// Skin weights on tubes: smooth, of sum 1, the nearest bone leads; pins, locks, moved bones, pieces, welded
 // copies, threads.
 #include "weights/weights.h"
 
@@ -92,7 +92,7 @@ TEST(Weights, AMovedBoneGivesAFreshObject) {
   const Weights before = scene.make();
   scene.bones.head[2].y = 0.4;
   scene.bones.tail[1].y = 0.4;
-  weights.set_bones(scene.bones, {});
+  weights.set_joints(scene.bones, {});
   const Weights fresh = scene.make();
   EXPECT_FALSE(same_weights(weights, before));
   EXPECT_LT(worst_difference(weights, fresh), 1e-12);
@@ -114,12 +114,12 @@ TEST(Weights, RemovedAndAddedBonesKeepPinsAndLocks) {
     fewer.deforms.push_back(1);
   }
   const Index sources[] = {-1, 2};
-  weights.set_bones(fewer, {sources, 2});
+  weights.set_joints(fewer, {sources, 2});
   expect_valid(weights);
   EXPECT_EQ(weight_of(weights, ring_vertex(3), 1), 1.0);  // the share of the removed bone goes to the other
   const Index none[] = {-1, -1};
   const auto joints = weights.state().joints;
-  EXPECT_THROW(weights.set_bones(fewer, {none, 2}), hf_inner::Error);
+  EXPECT_THROW(weights.set_joints(fewer, {none, 2}), hf_inner::Error);
   EXPECT_EQ(weights.state().joints, joints);
 }
 
@@ -210,7 +210,7 @@ TEST(Weights, ADiscIsPinnedWholeAndOverlapsAreNamed) {
     weights.set_pins(pins);
     ADD_FAILURE() << "two pins on one vertex pass";
   } catch (const hf_inner::Error& error) {
-    EXPECT_EQ(error.code(), HF_ERROR_DUPLICATE_SITE);
+    EXPECT_EQ(error.code(), HF_ERROR_DUPLICATE);
     EXPECT_EQ(error.index(), 1u);
   }
   EXPECT_EQ(weights.state().joints, joints);
@@ -224,7 +224,7 @@ TEST(Weights, LockedBonesKeepTheirWeights) {
   weights.set_locks({locked, 1}, nullptr);
   scene.bones.tail[0].y = 0.8;
   scene.bones.head[1].y = 0.8;
-  weights.set_bones(scene.bones, {});
+  weights.set_joints(scene.bones, {});
   expect_valid(weights);
   double moved = 0;
   for (Index v = 0; v < scene.skin->core->size(); ++v) {
@@ -235,31 +235,7 @@ TEST(Weights, LockedBonesKeepTheirWeights) {
   EXPECT_TRUE(same_weights(weights, scene.make()));
 }
 
-TEST(Weights, UndoAndRedoGiveTheSameBits) {
-  Scene scene;
-  Weights weights = scene.make();
-  const Weights first = weights;
-  weights.record();
-  Pins pins(scene.memory);
-  add_pin(pins, Site::at_vertex(scene.skin->core->mesh, ring_vertex(8)), {{2, 1.0}});
-  weights.set_pins(pins);
-  const Weights second = weights;
-  weights.record();
-  scene.bones.head[0].z = 0.2;
-  weights.set_bones(scene.bones, {});
-  const Weights third = weights;
-  weights.undo();
-  EXPECT_TRUE(same_weights(weights, second));
-  weights.undo();
-  EXPECT_TRUE(same_weights(weights, first));
-  EXPECT_THROW(weights.undo(), hf_inner::Error);
-  weights.redo();
-  weights.redo();
-  EXPECT_TRUE(same_weights(weights, third));
-  EXPECT_THROW(weights.redo(), hf_inner::Error);
-}
-
-TEST(Weights, IslandsWithoutInformationTakeTheWeightsOfTheirNeighbours) {
+TEST(Weights, PiecesWithoutInformationTakeTheWeightsOfTheirNeighbours) {
   PlainMesh mesh = tube(around, rings, length);
   const PlainMesh cube = tube(4, 2, 0.1);
   append(mesh, cube, length + 3);  // a speck behind the end

@@ -10,7 +10,7 @@ const HUE_STEP = 0.61803398875;
 /** What is turned without a new preparation: name, neutral, least and most value, and the part of the body that it needs. */
 const DIALS = [
   ['stride', 'Stride', 1, 0.5, 2, null],
-  ['hipHeight', 'Hip height', 0, -0.3, 0.3, null],
+  ['hipHeightShare', 'Hip height', 0, -0.3, 0.3, null],
   ['neckFollow', 'Neck follows', 0, -1, 1, 'neck'],
   ['tailFollow', 'Tail follows', 0, -1, 1, 'tail'],
   ['armSpace', 'Room at the arms', 0, -0.8, 0.8, 'arm'],

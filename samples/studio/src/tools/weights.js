@@ -20,7 +20,7 @@ export const tool = (kit) => {
     static title = 'Weights';
     constructor(app) {
       this.app = app;
-      this.weightCount = 4;
+      this.influenceCount = 4;
       this.bend = new Bend(kit, this);
     }
     opened() {
@@ -55,7 +55,7 @@ export const tool = (kit) => {
     present() {
       if (this.result) return this.result;
       if (this.of === 'handles') return null;
-      if (this.kept?.weightCount !== this.weightCount) this.kept = pruned(this.ofFile(), this.weightCount);
+      if (this.kept?.influenceCount !== this.influenceCount) this.kept = pruned(this.ofFile(), this.influenceCount);
       return this.kept;
     }
     /** Weights that the file does not have, or null. */
@@ -67,11 +67,11 @@ export const tool = (kit) => {
     }
     /** What a link keeps beside the pins. */
     settings() {
-      const { of, weightCount, shown, result } = this;
-      return { of, weightCount, shown, computed: Boolean(result) };
+      const { of, influenceCount, shown, result } = this;
+      return { of, influenceCount, shown, computed: Boolean(result) };
     }
-    async adopt({ of, weightCount, shown, computed }) {
-      Object.assign(this, { of, weightCount });
+    async adopt({ of, influenceCount, shown, computed }) {
+      Object.assign(this, { of, influenceCount });
       this.clear();
       if (computed) await this.compute();
       if (this.app.tool === this) this.look(shown);
@@ -181,7 +181,7 @@ export const tool = (kit) => {
       const { body } = this.app;
       const size = Math.max(4, ...body.parts.map((part) => (part.skin ? influencesOf(part).size : 0)));
       const found = {
-        weightCount: size,
+        influenceCount: size,
         joints: new Uint32Array(size * body.vertexCount),
         weights: new Float32Array(size * body.vertexCount),
       };
@@ -205,14 +205,14 @@ export const tool = (kit) => {
         this.restoreField();
         return skin.wear('own');
       }
-      const { weightCount, joints, weights } = present;
+      const { influenceCount, joints, weights } = present;
       if (this.shown === 'all') {
         const tint = new Float32Array(3 * body.vertexCount);
         for (let v = 0; v < body.vertexCount; ++v)
-          for (let k = 0; k < weightCount; ++k) {
-            const weight = weights[weightCount * v + k];
+          for (let k = 0; k < influenceCount; ++k) {
+            const weight = weights[influenceCount * v + k];
             if (!weight) continue;
-            const { r, g, b } = this.colours[joints[weightCount * v + k]];
+            const { r, g, b } = this.colours[joints[influenceCount * v + k]];
             tint[3 * v] += weight * r;
             tint[3 * v + 1] += weight * g;
             tint[3 * v + 2] += weight * b;
@@ -224,7 +224,7 @@ export const tool = (kit) => {
       }
       const bone = Number(this.shown);
       const field = new Float32Array(body.vertexCount);
-      for (let i = 0; i < joints.length; ++i) if (joints[i] === bone) field[Math.floor(i / weightCount)] += weights[i];
+      for (let i = 0; i < joints.length; ++i) if (joints[i] === bone) field[Math.floor(i / influenceCount)] += weights[i];
       skin.lend(field);
       skin.wear('field');
       this.app.legend({ low: 0, high: 1 });
@@ -237,17 +237,17 @@ export const tool = (kit) => {
       const hit = this.app.skin.pick(this.app.view.ray(...at));
       const present = hit && this.bones.names.length ? this.present() : null;
       if (!present) return null;
-      const { weightCount, joints, weights } = present;
+      const { influenceCount, joints, weights } = present;
       const rows = [];
-      for (let k = 0; k < weightCount; ++k) {
-        const weight = weights[weightCount * hit.vertex + k];
-        if (weight >= 0.01) rows.push(`${this.bones.names[joints[weightCount * hit.vertex + k]]} ${weight.toFixed(2)}`);
+      for (let k = 0; k < influenceCount; ++k) {
+        const weight = weights[influenceCount * hit.vertex + k];
+        if (weight >= 0.01) rows.push(`${this.bones.names[joints[influenceCount * hit.vertex + k]]} ${weight.toFixed(2)}`);
       }
       return rows.join(', ') || 'no bone';
     }
     async compute(pins = this.app.state.pins) {
       const { heads, parents } = this.bones;
-      const { app, weightCount } = this;
+      const { app, influenceCount } = this;
       const mine = app.body;
       this.busy = true;
       app.refresh();
@@ -255,7 +255,7 @@ export const tool = (kit) => {
       try {
         const result = await app.client.ask('weights', {
           bones: { heads, parents },
-          weightCount,
+          influenceCount,
           pins: this.mine(pins),
         });
         if (mine === app.body) [this.result, this.pinned] = [result, pins];

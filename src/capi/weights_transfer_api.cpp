@@ -18,25 +18,25 @@ template <class Info>
 void count_vertices(const FilledWeights& filled, Info& info) {
   info.matched_count = filled.by_origin[HF_WEIGHTS_MATCHED];
   info.solved_count = filled.by_origin[HF_WEIGHTS_SOLVED];
-  info.carried_count = filled.by_origin[HF_WEIGHTS_CARRIED];
+  info.nearest_count = filled.by_origin[HF_WEIGHTS_NEAREST];
   info.rigid_count = filled.by_origin[HF_WEIGHTS_RIGID];
   info.isolated_count = filled.by_origin[HF_WEIGHTS_ISOLATED];
 }
 
-void write_mirror_info(const MirroredWeights& made, const Mesh& mesh, hf_mirror_info* out_info) {
-  hf_mirror_info info{};
+void write_mirror_info(const MirroredWeights& made, const Mesh& mesh, hf_weights_mirror_info* out_info) {
+  hf_weights_mirror_info info{};
   info.vertex_count = mesh.report.vertex_count;
   info.plane_from = static_cast<std::int32_t>(made.plane.from);
   info.worst_vertex = given_vertex(mesh, made.worst);
   const BoneMisses bones = bone_misses(made.pairs, mesh.scale);
-  info.bone_off = bones.mean;
-  info.worst_bone_off = bones.worst;
-  info.worst_bone = bones.worst_bone;
-  info.alone_count = bones.by[HF_MIRROR_BONE_ALONE];
-  info.named_count = bones.by[HF_MIRROR_BONE_NAMED];
-  info.placed_count = bones.by[HF_MIRROR_BONE_PLACED];
-  info.centre_count = bones.by[HF_MIRROR_BONE_CENTRE];
-  info.given_count = bones.by[HF_MIRROR_BONE_GIVEN];
+  info.joint_off = bones.mean;
+  info.worst_joint_off = bones.worst;
+  info.worst_joint = bones.worst_joint;
+  info.alone_count = bones.by[HF_MIRROR_JOINT_ALONE];
+  info.named_count = bones.by[HF_MIRROR_JOINT_NAMED];
+  info.placed_count = bones.by[HF_MIRROR_JOINT_PLACED];
+  info.centre_count = bones.by[HF_MIRROR_JOINT_CENTRE];
+  info.given_count = bones.by[HF_MIRROR_JOINT_GIVEN];
   count_vertices(made.filled, info);
   info.kept_count = made.filled.by_origin[HF_WEIGHTS_KEPT];
   const Vec3 point = mesh.to_given(made.plane.offset * made.plane.normal), normal = made.plane.normal;
@@ -76,12 +76,12 @@ hf_result hf_weights_get_helpers(hf_weights handle, const char* names, uint32_t 
   });
 }
 
-hf_result hf_weights_carry(hf_surface source, hf_surface target, const hf_carry_desc* given,
-                           hf_weights_out* inout_weights, hf_carry_info* out_info) {
-  return guarded("hf_weights_carry", [&] {
+hf_result hf_weights_transfer(hf_surface source, hf_surface target, const hf_weights_transfer_desc* given,
+                           hf_weights_out* inout_weights, hf_weights_transfer_info* out_info) {
+  return guarded("hf_weights_transfer", [&] {
     const auto from = mesh_surface(source, "carried weights", "source");
     const auto to = mesh_surface(target, "carried weights", "target");
-    const hf_carry_desc desc = read_struct(given, "desc");
+    const hf_weights_transfer_desc desc = read_struct(given, "desc");
     if (out_info) check_struct(out_info, "out_info");
     const Mesh& shape = from->surface.geometry().unlinked().mesh;
     const MatchOptions options = read_carry(desc, shape);
@@ -92,30 +92,30 @@ hf_result hf_weights_carry(hf_surface source, hf_surface target, const hf_carry_
       const auto core = skin_core(*to);
       const ProgressRange range(progress_core, 1.0f);
       const SkinShape skin(shape, *to->memory);
-      return carry_weights(shape, skin, weights, core, options, &to->surface);
+      return transfer_weights(shape, skin, weights, core, options, &to->surface);
     });
     write_filled(filled, to->surface.geometry().mesh, out);
     if (!out_info) return;
-    hf_carry_info info{};
+    hf_weights_transfer_info info{};
     info.vertex_count = out.vertex_count;
-    info.guessed_island_count = filled.islands_guessed;
+    info.guessed_piece_count = filled.pieces_guessed;
     count_vertices(filled, info);
     write_struct(out_info, info);
   });
 }
 
-hf_result hf_weights_mirror(hf_surface handle, const hf_mirror_desc* given, hf_weights_out* inout_weights,
-                            uint32_t* out_bones, uint32_t* out_pairings, hf_mirror_info* out_info) {
+hf_result hf_weights_mirror(hf_surface handle, const hf_weights_mirror_desc* given, hf_weights_out* inout_weights,
+                            uint32_t* out_partners, uint32_t* out_pairings, hf_weights_mirror_info* out_info) {
   return guarded("hf_weights_mirror", [&] {
     const auto surface = mesh_surface(handle, "mirrored weights");
-    const hf_mirror_desc desc = read_struct(given, "desc");
+    const hf_weights_mirror_desc desc = read_struct(given, "desc");
     if (out_info) check_struct(out_info, "out_info");
     const Mesh& mesh = surface->surface.geometry().mesh;
     const MirrorOptions options = read_mirror(desc, mesh);
     const MirrorBones bones = read_mirror_bones(desc, mesh, *surface->memory);
     const GivenWeights weights = read_mirrored(desc, mesh);
     const hf_weights_out out = read_weights_out(inout_weights, mesh, options.carry.influences);
-    if (!wants_weights(out) && !out_bones && !out_pairings && !out_info) return;
+    if (!wants_weights(out) && !out_partners && !out_pairings && !out_info) return;
     const MirroredWeights made = with_progress(desc.progress, [&] {
       const auto core = skin_core(*surface);
       const ProgressRange range(progress_core, 1.0f);
@@ -124,7 +124,7 @@ hf_result hf_weights_mirror(hf_surface handle, const hf_mirror_desc* given, hf_w
     });
     write_filled(made.filled, mesh, out);
     for (std::size_t b = 0; b < made.pairs.partner.size(); ++b) {
-      if (out_bones) out_bones[b] = static_cast<std::uint32_t>(made.pairs.partner[b]);
+      if (out_partners) out_partners[b] = static_cast<std::uint32_t>(made.pairs.partner[b]);
       if (out_pairings) out_pairings[b] = static_cast<std::uint32_t>(made.pairs.by[b]);
     }
     if (out_info) write_mirror_info(made, mesh, out_info);

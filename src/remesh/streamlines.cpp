@@ -1,4 +1,4 @@
-#include "remesh/flow_lines.h"
+#include "remesh/streamlines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,8 +53,8 @@ Vec3 FlowTracer::place(const FluxField& field, FluxPoint p) const noexcept {
   return middle + std::fabs(share - 0.5) * (beside - middle);
 }
 
-// Follows a flow line from the point p on an edge to the line's end, and appends its points to `out`.
-void FlowTracer::follow(const FluxField& field, FluxPoint p, bool upward, FlowLineSet& out, std::int32_t& end) const {
+// Follows a streamline from the point p on an edge to the line's end, and appends its points to `out`.
+void FlowTracer::follow(const FluxField& field, FluxPoint p, bool upward, StreamlineSet& out, std::int32_t& end) const {
   for (std::int32_t steps = 0; p.half >= 0 && steps < surface_.half_count(); ++steps) {
     const std::int32_t a = surface_.tail[p.half], b = surface_.head(p.half);
     if (!carries(field, p.half)) return;
@@ -65,7 +65,7 @@ void FlowTracer::follow(const FluxField& field, FluxPoint p, bool upward, FlowLi
   }
 }
 
-FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Span<const std::int32_t> seeds) const {
+StreamlineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Span<const std::int32_t> seeds) const {
   const FluxSurface& s = surface_;
   Memory& memory = *core_->memory;
   // An apex (a vertex that closes a border) gets the value of a vertex on its border. Its edges have no weight here, so
@@ -79,8 +79,8 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
   const int exponent = spare_exponent(values);
   for (double& value : values) value = std::ldexp(value, -exponent);
   const FluxField field(s, values, memory);
-  FlowLineSet out(memory);
-  const auto finished = [&]() -> FlowLineSet&& {
+  StreamlineSet out(memory);
+  const auto finished = [&]() -> StreamlineSet&& {
     for (double& value : out.value) value = std::ldexp(value, exponent);
     return std::move(out);
   };
@@ -107,7 +107,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
       g = s.turn_left(g);
       if (g == begin) break;
     }
-    // The flow line is traced down from the seed and reversed; then it is traced up from the seed. Where the field is
+    // The streamline is traced down from the seed and reversed; then it is traced up from the seed. Where the field is
     // flat around the seed, no edge carries flux: the line is the seed alone.
     std::int32_t low = v, high = v;
     const std::size_t first = out.point.size();

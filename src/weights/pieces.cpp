@@ -1,4 +1,4 @@
-#include "weights/islands.h"
+#include "weights/pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,22 +57,22 @@ Vec3 clamped(const Vec3& p) noexcept {
 }  // namespace
 
 Carriers find_carriers(const Mesh& mesh, const Vector<std::uint8_t>& solved, Memory& memory, JobRunner& jobs) {
-  const std::size_t n = at(mesh.vertex_count()), islands = solved.size();
+  const std::size_t n = at(mesh.vertex_count()), pieces = solved.size();
   Carriers out(memory);
   out.of.assign(n, -1);
-  out.rigid.assign(islands, 0);
+  out.rigid.assign(pieces, 0);
   const auto is_solved = [&](Index v) { return solved[at(mesh.component[at(v)])] != 0; };
   for (Index v = 0; at(v) < n; ++v) out.of[at(v)] = is_solved(v) ? v : -1;
   const auto left = static_cast<std::size_t>(std::count(solved.begin(), solved.end(), 0));
-  if (left == 0 || left == islands) return out;
+  if (left == 0 || left == pieces) return out;
   const Cloud cloud(mesh, memory, is_solved);
   for_ranges(jobs, n, vertex_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       if (out.of[v] < 0) out.of[v] = cloud.nearest(mesh.positions[v]);
     }
   });
-  Vector<ItemBox> box(islands, &memory);
-  Vector<std::uint8_t> seen(islands, 0, &memory);
+  Vector<ItemBox> box(pieces, &memory);
+  Vector<std::uint8_t> seen(pieces, 0, &memory);
   for (std::size_t v = 0; v < n; ++v) {
     const std::size_t c = at(mesh.component[v]);
     if (!seen[c]) {
@@ -81,11 +81,11 @@ Carriers find_carriers(const Mesh& mesh, const Vector<std::uint8_t>& solved, Mem
     }
     box[c].take(mesh.positions[v]);
   }
-  for (std::size_t c = 0; c < islands; ++c) {
+  for (std::size_t c = 0; c < pieces; ++c) {
     if (solved[c]) continue;
     out.rigid[c] = norm(box[c].high - box[c].low) < rigid_size;
-    out.rigid_islands += out.rigid[c];
-    out.carried_islands += !out.rigid[c];
+    out.rigid_pieces += out.rigid[c];
+    out.carried_pieces += !out.rigid[c];
   }
   return out;
 }

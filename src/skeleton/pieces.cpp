@@ -1,4 +1,4 @@
-// Makes one tree of the joints of the body. A loose island (a foot below an IK control, a piece of a robot) is hung on
+// Makes one tree of the joints of the body. A loose piece (a foot below an IK control, a piece of a robot) is hung on
 // the joint that its skin touches, or that is nearest.
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ Vector<Touch> find_touches(const Body& body) {
   return touches;
 }
 
-// A way to hang an island: better ones touch, hang on the middle, are near.
+// A way to hang a piece: better ones touch, hang on the middle, are near.
 struct Offer {
   int touches = -1, on_middle = 0;
   double distance = 1e300;
@@ -93,7 +93,7 @@ class Adoption {
   }
 
   std::size_t run() {
-    const std::size_t islands = todo_.size();
+    const std::size_t pieces = todo_.size();
     join(body_.root);
     while (!todo_.empty()) {
       Index best = todo_[0];
@@ -105,7 +105,7 @@ class Adoption {
       hang_brothers(best, offer.carrier);
       hang_mate(best, offer.carrier);
     }
-    return islands;
+    return pieces;
   }
 
  private:
@@ -129,9 +129,9 @@ class Adoption {
              !body_.is_central(other_root));
   }
 
-  void join(Index island) {
-    for (Index j = island; j >= 0; j = next_[at(j)]) done_[at(j)] = 1;
-    for (Index j = island; j >= 0; j = next_[at(j)]) {
+  void join(Index piece) {
+    for (Index j = piece; j >= 0; j = next_[at(j)]) done_[at(j)] = 1;
+    for (Index j = piece; j >= 0; j = next_[at(j)]) {
       mark_touching(j);
       // copies, so that the loop over all that is left loads nothing twice
       const Box box = body_.boxes[at(j)];
@@ -191,9 +191,9 @@ class Adoption {
 
   Body& body_;
   const Vector<Touch> touches_;
-  Vector<Index> roots_, todo_, next_, last_;  // islands as lists of joints
-  Vector<Offer> offers_;                      // the best for each island that is left
-  Vector<double> bounds_;                     // of each island: squares of distances above it make no better offer
+  Vector<Index> roots_, todo_, next_, last_;  // pieces as lists of joints
+  Vector<Offer> offers_;                      // the best for each piece that is left
+  Vector<double> bounds_;                     // of each piece: squares of distances above it make no better offer
   Vector<std::uint8_t> done_;
   Vector<Index> touching_;  // the joint that was last found to touch one
 };
@@ -254,7 +254,7 @@ void take_out_twists(Body& body) {
 
 }  // namespace
 
-void join_islands(Body& body) {
+void join_pieces(Body& body) {
   bool more = false;
   for (Index j = 0; j < body.count; ++j) more |= body.kept[at(j)] && body.carriers[at(j)] < 0 && j != body.root;
   if (!more) return;

@@ -1,4 +1,4 @@
-// Where the weights of vertices come from that no equation reaches: islands without information, loose vertices.
+// Where the weights of vertices come from that no equation reaches: pieces without information, loose vertices.
 #pragma once
 #include "weights/weights.h"
 
@@ -7,11 +7,11 @@ namespace hf_inner {
 struct Carriers {
   explicit Carriers(Memory& memory) : of(&memory), rigid(&memory) {}
   Vector<Index> of;            // by inner vertex: the solved vertex whose weights it takes, itself where solved
-  Vector<std::uint8_t> rigid;  // by island: 1 if all its vertices share one mean
-  std::uint32_t carried_islands = 0, rigid_islands = 0;
+  Vector<std::uint8_t> rigid;  // by piece: 1 if all its vertices share one mean
+  std::uint32_t carried_pieces = 0, rigid_pieces = 0;
 };
 
-// solved: by island, whether its weights were solved. Without any solved island no carrier is set (-1).
+// solved: by piece, whether its weights were solved. Without any solved piece no carrier is set (-1).
 Carriers find_carriers(const Mesh& mesh, const Vector<std::uint8_t>& solved, Memory& memory, JobRunner& jobs);
 // The inner vertex nearest to each isolated vertex.
 Vector<Index> nearest_of_isolated(const Mesh& mesh, Memory& memory);

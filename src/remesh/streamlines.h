@@ -1,4 +1,4 @@
-// Traces the flow lines of a field as curves for display and guidance. The folder field/ has iso-lines.
+// Traces the streamlines of a field as curves for display and guidance. The folder field/ has iso-lines.
 //
 // Lines follow the flux of clamped cotangent weights (flux_field.h): they never cross, always rise, and end at extrema.
 // In a harmonic field of the clamped operator the flux is balanced, and lines are dense where the field is steep. In
@@ -15,8 +15,8 @@
 
 namespace hf_inner {
 
-struct FlowLineSet {
-  explicit FlowLineSet(Memory& memory) : point(&memory), value(&memory), start(&memory), from(&memory), to(&memory) {}
+struct StreamlineSet {
+  explicit StreamlineSet(Memory& memory) : point(&memory), value(&memory), start(&memory), from(&memory), to(&memory) {}
   Vector<Vec3> point;  // inner units
   Vector<double> value;
   Vector<std::uint32_t> start;    // by line, and the end of the last line
@@ -32,10 +32,10 @@ class FlowTracer {
   // Traces line_count lines from the minima, each for the same flux. With seeds it traces one line through every seed
   // vertex instead, along the edge with the largest flux there. u: by inner vertex, finite wherever a line can run.
   // Throws HF_ERROR_TOO_LARGE for 2^32 points or more.
-  FlowLineSet trace(Span<const double> u, std::uint32_t line_count, Span<const std::int32_t> seeds) const;
+  StreamlineSet trace(Span<const double> u, std::uint32_t line_count, Span<const std::int32_t> seeds) const;
 
  private:
-  void follow(const FluxField& field, FluxPoint p, bool upward, FlowLineSet& out, std::int32_t& end) const;
+  void follow(const FluxField& field, FluxPoint p, bool upward, StreamlineSet& out, std::int32_t& end) const;
   Vec3 place(const FluxField& field, FluxPoint p) const noexcept;
 
   std::shared_ptr<const Core> core_;
