@@ -16,6 +16,9 @@ constexpr double standing_height = 0.03, free_height = 0.06;
 // It is planted if it is slower than the first against the ground, and is free above the second: legs a second. On
 // ground that moves, shares of its speed count where they are more.
 constexpr double standing_speed = 0.7, free_speed = 1.4, standing_share = 0.4, free_share = 0.6;
+// A foot comes down to the sole of the source the less its turns lift it, and not at all above this. Twice as much lets
+// toes that drag on the source stretch the leg of a body with shorter feet.
+constexpr double free_lift = 0.15;
 // Points of a sole count as low up to this above the lowest: the thickness of a shoe's edge.
 constexpr double low_share = 0.01;
 // A foot becomes planted, or free, within this time in seconds: two frames.

@@ -28,23 +28,6 @@ double stands(const Retargeter& r, const FootPair& foot, double seconds) noexcep
                                 std::max(free_speed, free_share * of_ground), speed));
 }
 
-// Where the leg stands before it is bent, and what the sole of the source does.
-void read_foot(const Retargeter& r, FootPair& foot, double seconds) {
-  const RigLeg &by = r.source.legs[at(foot.source)], &leg = r.target.legs[at(foot.target)];
-  read_sole(by, r.from, foot.source_now);
-  foot.height = (lowest(r.source, foot.source_now) - r.source.ground) / r.source.leg_length;
-  if (foot.known)
-    foot.step = sole_step(r.source, foot.source_was, foot.source_now, sole_softness * r.source.leg_length);
-  const double stand = stands(r, foot, seconds);
-  const bool at_once = !foot.known || !r.options.lock_feet;
-  foot.standing += (stand - foot.standing) * (at_once ? 1 : 1 - exponential(-seconds / standing_time));
-  const std::size_t n = leg.segments.count();
-  for (std::size_t k = 0; k < n; ++k) foot.places[k] = r.to.place[at(leg.segments.first(k))];
-  foot.places[n] = r.to.place[at(leg.foot)];
-  const std::size_t thigh = at(leg.segments.joints[0]);
-  foot.knee_now = r.to.turn[thigh] * (inverse(r.target.rest.turn[thigh]) * foot.knee);
-}
-
 // The ankle over the ground, before heights: where its turns put it, or for legs that are not aligned where the foot
 // of the source is from its hip.
 Vec3 turned_ankle(const Retargeter& r, const FootPair& foot) {
@@ -53,6 +36,34 @@ Vec3 turned_ankle(const Retargeter& r, const FootPair& foot) {
   const Vec3 v = r.from.place[at(by.segments.tip.joint)] - r.from.place[at(by.segments.joints[0])];
   const Turn body = r.to.turn[at(r.target.mover)] * inverse(r.target.rest.turn[at(r.target.mover)]);
   return foot.places[0] + r.height_scale * (r.across * v) + r.target.level(body * foot.stance);
+}
+
+// A foot that its leg lifts far above the sole of the source has left the ground, even while the source drags its toes.
+// Stretching the leg down to the ground would undo the step.
+double follows_down(const Retargeter& r, FootPair& foot) {
+  const RigLeg& leg = r.target.legs[at(foot.target)];
+  read_sole(leg, r.to, foot.target_now);
+  const double ankle = dot(turned_ankle(r, foot) - r.to.place[at(leg.foot)], r.target.up);
+  const double own = ankle + lowest(r.target, foot.target_now) - r.target.ground;
+  const double lift = own - r.height_scale * r.source.leg_length * std::max(0.0, foot.height);
+  return 1 - smooth_step(0, free_lift, lift / leg.length);
+}
+
+// Where the leg stands before it is bent, and what the sole of the source does.
+void read_foot(const Retargeter& r, FootPair& foot, double seconds) {
+  const RigLeg &by = r.source.legs[at(foot.source)], &leg = r.target.legs[at(foot.target)];
+  read_sole(by, r.from, foot.source_now);
+  foot.height = (lowest(r.source, foot.source_now) - r.source.ground) / r.source.leg_length;
+  if (foot.known)
+    foot.step = sole_step(r.source, foot.source_was, foot.source_now, sole_softness * r.source.leg_length);
+  const std::size_t n = leg.segments.count();
+  for (std::size_t k = 0; k < n; ++k) foot.places[k] = r.to.place[at(leg.segments.first(k))];
+  foot.places[n] = r.to.place[at(leg.foot)];
+  const double stand = stands(r, foot, seconds) * follows_down(r, foot);
+  const bool at_once = !foot.known || !r.options.lock_feet;
+  foot.standing += (stand - foot.standing) * (at_once ? 1 : 1 - exponential(-seconds / standing_time));
+  const std::size_t thigh = at(leg.segments.joints[0]);
+  foot.knee_now = r.to.turn[thigh] * (inverse(r.target.rest.turn[thigh]) * foot.knee);
 }
 
 // Sets the goal of the ankle. A standing sole is as high as that of the source; one in the air is not lower.

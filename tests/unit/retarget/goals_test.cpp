@@ -1,0 +1,205 @@
+// Parts of the goals whose truth is known: the velocity of the ground, dragged toes, hands and trunks over the ground.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "plain_retarget.h"
+#include "retarget/turns.h"
+#include "rig_actor.h"
+
+namespace hf_test {
+namespace {
+
+using hf_inner::Memory;
+using hf_inner::Retarget;
+using hf_inner::RetargetOptions;
+using hf_inner::Turn;
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+hf_inner::Linear linear_at(const std::vector<double>& world, std::size_t j) {
+  const double* p = &world[12 * j];
+  return {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}};
+}
+
+Vec3 place_at(const std::vector<double>& world, std::size_t j) {
+  return {world[12 * j + 9], world[12 * j + 10], world[12 * j + 11]};
+}
+
+// Turns a joint in the world; what hangs on it follows.
+void turn_joint(const RigActor& actor, std::vector<double>& pose, const std::string& name, Turn turn) {
+  const std::size_t j = static_cast<std::size_t>(actor.rig().find(name));
+  const auto world = world_of(actor.parents(), pose.data());
+  const int p = actor.parents()[j];
+  const Turn own = turn * hf_inner::turn_of(linear_at(world, j));
+  const Turn q = p < 0 ? own : inverse(hf_inner::turn_of(linear_at(world, static_cast<std::size_t>(p)))) * own;
+  const double numbers[] = {q.x, q.y, q.z, q.w};
+  std::copy(numbers, numbers + 4, &pose[10 * j + 3]);
+}
+
+// The lowest vertex of the joints of some roles over the ground, in heights.
+double lowest_of(const RigActor& actor, const std::vector<double>& pose, std::initializer_list<Role> roles) {
+  const auto& input = actor.side().input;
+  const auto rest = world_of(actor.parents(), rest_trs(input).data());
+  const auto world = world_of(actor.parents(), pose.data());
+  double low = 1e300;
+  for (std::size_t v = 0; v < actor.rig().points.size(); ++v) {
+    const std::size_t j = static_cast<std::size_t>(actor.rig().owners[v]);
+    if (std::find(roles.begin(), roles.end(), actor.rig().joints[j].role) == roles.end()) continue;
+    const Vec3 p = actor.rig().points[v];  // the rig stands as it was made
+    const Vec3 now =
+        linear_at(world, j) * hf_inner::solve(linear_at(rest, j), p - place_at(rest, j)) + place_at(world, j);
+    low = std::min(low, now.y - actor.side().character.ground);
+  }
+  return low / actor.height();
+}
+
+std::vector<double> played(const RigActor& source, const RigActor& target, const std::vector<double>& pose,
+                           bool goals) {
+  Memory memory;
+  RetargetOptions options;
+  options.goals = goals;
+  Retarget retarget(source.side(), target.side(), options, memory);
+  std::vector<double> out(10 * target.parents().size());
+  retarget.frame(pose.data(), 0, out.data());
+  return out;
+}
+
+// The whole body slides: 20 steps with the ground, 8 steps otherwise. The most common velocity wins.
+TEST(GroundVelocity, IsTheMostCommonVelocityOfTheSoles) {
+  const RigActor actor("mixamo", {});
+  const Vec3 often{0.3, 0, -1.4}, seldom{0, 0, 2.5};
+  for (const double times : {0.0, 1.0}) {
+    std::vector<double> poses;
+    Vec3 place;
+    for (int f = 0; f < 29; ++f) {
+      std::vector<double> pose = rest_trs(actor.side().input);
+      for (std::size_t j = 0; j < actor.parents().size(); ++j) {
+        if (actor.parents()[j] >= 0) continue;
+        pose[10 * j] += place.x;
+        pose[10 * j + 2] += place.z;
+      }
+      poses.insert(poses.end(), pose.begin(), pose.end());
+      place = place + (times / 30) * (f % 7 < 2 ? seldom : often);
+    }
+    double found[3] = {9, 9, 9};
+    Memory memory;
+    hf_inner::find_ground_velocity(actor.side(), poses.data(), 29, 1.0 / 30, found, memory);
+    EXPECT_NEAR(found[0], times * often.x, 1e-9);
+    EXPECT_NEAR(found[1], 0, 1e-9);
+    EXPECT_NEAR(found[2], times * often.z, 1e-9);
+  }
+}
+
+// A knee is bent as far as the toe, which points down, touches the ground. The toe of long legs would not touch.
+TEST(Feet, ToesThatDragDoNotStretchALegThatLiftsThem) {
+  const RigActor source("mixamo", {0.45, 1, 1, 3, Rest::t}), target("unreal", {1.5, 1, 1, 3, Rest::t});
+  std::vector<double> pose;
+  double bent = 95, low = 1;
+  while (low > 0.001 && bent > 0) {
+    bent -= 1;
+    pose = rest_trs(source.side().input);
+    turn_joint(source, pose, "mixamorig:RightUpLeg", hf_inner::turn_about({1, 0, 0}, -90 * degree));
+    turn_joint(source, pose, "mixamorig:LeftLeg", hf_inner::turn_about({1, 0, 0}, bent * degree));
+    low = lowest_of(source, pose, {Role::foot, Role::toe});
+  }
+  ASSERT_GT(bent, 40);
+  Memory memory;
+  Retarget retarget(source.side(), target.side(), {}, memory);
+  std::vector<double> out(10 * target.parents().size());
+  retarget.frame(pose.data(), 0, out.data());
+  for (const auto& chain : retarget.report().chains) {
+    if (chain.role == Role::leg) {
+      EXPECT_LT(chain.worst_degrees, 1);
+    }
+  }
+}
+
+std::size_t joint_of(const RigActor& actor, Role role, bool last = false) {
+  std::size_t found = 0;
+  for (std::size_t j = 0; j < actor.parents().size(); ++j) {
+    const RigJoint& joint = actor.rig().joints[j];
+    if (joint.role != role || joint.side != Side::left || joint.helper || !joint.judged) continue;
+    found = j;
+    if (!last) break;
+  }
+  return found;
+}
+
+// The hips sink with knees that bend backward, so that feet would be in the ground: the knees go forward.
+TEST(Feet, AKneeThatBendsBackwardComesForward) {
+  const RigActor source("mixamo", {}), target("mixamo", {0.7, 1, 1, 3, Rest::t});
+  std::vector<double> pose = rest_trs(source.side().input);
+  pose[10 * static_cast<std::size_t>(source.rig().find("mixamorig:Hips")) + 1] -= 0.15;
+  for (const char* side : {"Left", "Right"}) {
+    turn_joint(source, pose, std::string("mixamorig:") + side + "UpLeg", hf_inner::turn_about({1, 0, 0}, 10 * degree));
+    turn_joint(source, pose, std::string("mixamorig:") + side + "Leg", hf_inner::turn_about({1, 0, 0}, -20 * degree));
+  }
+  const auto world = world_of(target.parents(), played(source, target, pose, true).data());
+  const Vec3 hip = place_at(world, joint_of(target, Role::leg)),
+             knee = place_at(world, joint_of(target, Role::leg, true)),
+             ankle = place_at(world, joint_of(target, Role::foot));
+  EXPECT_GT(knee.z - 0.5 * (hip.z + ankle.z), 0);
+}
+
+TEST(Feet, ToesTurnAsThoseOfTheSource) {
+  const RigActor source("mixamo", {}), target("unreal", {1.2, 1, 1, 3, Rest::t});
+  const std::size_t from = joint_of(source, Role::toe), to = joint_of(target, Role::toe);
+  const Turn bent = hf_inner::turn_about({1, 0, 0}, -30 * degree);
+  std::vector<double> pose = rest_trs(source.side().input);
+  turn_joint(source, pose, source.rig().joints[from].name, bent);
+  const auto turn = [&](const std::vector<double>& trs) {
+    return hf_inner::turn_of(linear_at(world_of(target.parents(), trs.data()), to));
+  };
+  const Turn since = turn(played(source, target, pose, false)) * inverse(turn(rest_trs(target.side().input)));
+  EXPECT_GT(std::fabs(dot(since, bent)), 1 - 1e-9);
+}
+
+// A body lies on its belly. The other body has shorter legs, so that its hips would sink.
+TEST(Ground, ATrunkThatLiesStaysOverTheGround) {
+  const RigActor source("mixamo", {}), target("unreal", {0.45, 1, 1, 3, Rest::t});
+  std::vector<double> pose = rest_trs(source.side().input);
+  turn_joint(source, pose, "mixamorig:Hips", hf_inner::turn_about({1, 0, 0}, 90 * degree));
+  const double height = lowest_of(source, pose, {Role::spine}) * source.height();
+  pose[10 * static_cast<std::size_t>(source.rig().find("mixamorig:Hips")) + 1] -= height;
+  ASSERT_NEAR(lowest_of(source, pose, {Role::spine}), 0, 1e-6);
+  EXPECT_LT(lowest_of(target, played(source, target, pose, false), {Role::spine}), -0.02);
+  EXPECT_GT(lowest_of(target, played(source, target, pose, true), {Role::spine}), -1e-6);
+}
+
+// The body bows until its hands nearly reach the ground. Longer arms would sink.
+TEST(Ground, HandsOfLongerArmsStayOverTheGround) {
+  const RigActor source("mixamo", {}), target("unreal", {1, 1.8, 1, 3, Rest::t});
+  std::vector<double> pose = rest_trs(source.side().input);
+  turn_joint(source, pose, "mixamorig:Hips", hf_inner::turn_about({1, 0, 0}, 90 * degree));
+  turn_joint(source, pose, "mixamorig:LeftArm", hf_inner::turn_about({0, 0, 1}, -85 * degree));
+  turn_joint(source, pose, "mixamorig:RightArm", hf_inner::turn_about({0, 0, 1}, 85 * degree));
+  const double height = lowest_of(source, pose, {Role::hand, Role::finger}) * source.height();
+  pose[10 * static_cast<std::size_t>(source.rig().find("mixamorig:Hips")) + 1] -= height;
+  EXPECT_LT(lowest_of(target, played(source, target, pose, false), {Role::hand, Role::finger}), -0.05);
+  EXPECT_GT(lowest_of(target, played(source, target, pose, true), {Role::hand, Role::finger}), -2e-3);
+}
+
+// Beasts of each kind, on themselves in another unit and facing.
+TEST(Beasts, RestInIsRestOut) {
+  for (const std::string& kind : beasts) {
+    const Rig named = make_beast(kind, true);
+    const PlacedRig small(named, {}), large(named, {100, 217, true, false, {5, -3, 8}});
+    const hf_inner::CharacterInput a = small.input(), b = large.input();
+    Memory memory;
+    const hf_inner::Character ca = know_character(a, memory), cb = know_character(b, memory);
+    RetargetOptions options;
+    options.copy_same = false;
+    Retarget retarget({a, ca, nullptr}, {b, cb, nullptr}, options, memory);
+    const auto from = rest_trs(a), to = rest_trs(b);
+    std::vector<double> out(to.size());
+    retarget.frame(from.data(), 0, out.data());
+    const auto is = world_of(large.parents, out.data()), should = world_of(large.parents, to.data());
+    for (std::size_t j = 0; j < large.parents.size(); ++j)
+      EXPECT_LT(norm(place_at(is, j) - place_at(should, j)), 1e-6 * cb.height) << kind << " " << named.joints[j].name;
+  }
+}
+
+}  // namespace
+}  // namespace hf_test
