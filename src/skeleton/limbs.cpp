@@ -121,6 +121,22 @@ NameClass class_of_paths(const Body& body, const Limb& limb) {
   return found == NameClass::none ? limb.named : found;
 }
 
+// Whether the limb at j lies to the left of the limb at its mate. Hips of some rigs stand at one place: then all joints
+// of the two limbs decide.
+bool lies_left(const Body& body, Index j, Index mate) {
+  const double apart = body.lateral(j) - body.lateral(mate);
+  if (std::fabs(apart) > central) return apart > 0;
+  const auto mean = [&](Index root) {
+    double sum = 0, count = 0;
+    for (const Index k : body.subtree(root)) {
+      sum += body.lateral(k);
+      count += 1;
+    }
+    return sum / count;
+  };
+  return mean(j) >= mean(mate);
+}
+
 }  // namespace
 
 void find_limbs(Body& body) {
@@ -131,7 +147,7 @@ void find_limbs(Body& body) {
     if (j == body.root || !body.is_central(carrier)) continue;
     seen[at(j)] = seen[at(mate)] = 1;
     Limb limb(body.memory);
-    const bool j_is_left = body.lateral(j) >= body.lateral(mate);
+    const bool j_is_left = lies_left(body, j, mate);
     limb.roots[0] = j_is_left ? j : mate;
     limb.roots[1] = j_is_left ? mate : j;
     limb.carrier = carrier;

@@ -186,6 +186,21 @@ TEST(Limbs, ALegFollowsTheGroundPastWhatHangsOnIt) {
 }
 
 // Head and tail of a worm mirror each other; they are no pair, since one carries the other.
+// Rigify puts both joints of the pelvis at one place.
+TEST(Limbs, HipsAtOnePlaceDoNotSwapTheSides) {
+  Rig rig = make_biped("rigify", {});
+  for (const auto& [pelvis, thigh] : {std::pair{"DEF-pelvis.R", "DEF-thigh.R"}, std::pair{"DEF-pelvis.L", "DEF-thigh.L"}}) {
+    const int leg = rig.find(thigh), hips = rig.joints[static_cast<size_t>(leg)].parent;
+    const int between = rig.add(pelvis, hips, rig.joints[static_cast<size_t>(hips)].pivot, Role::other);
+    rig.joints.back().judged = false;
+    rig.joints[static_cast<size_t>(leg)].parent = between;
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+}
+
 TEST(Mirror, NoJointMirrorsItsAncestor) {
   Rig rig;
   for (int k = 0; k < 8; ++k) {

@@ -101,6 +101,10 @@ PlacedRig::PlacedRig(const Rig& given, const Placing& place) : rig(given), placi
       frame[c] = placing.scale * placing.along(turned(axes[c], axis, 0.7 * static_cast<double>(j)));
     frame[3] = placing(joint.pivot);
     world.push_back(frame);
+  }
+  for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+    const RigJoint& joint = rig.joints[j];
+    const std::array<Vec3, 4>& frame = world[j];
     std::array<Vec3, 4> local = frame;
     if (joint.parent >= 0) {
       const auto& p = world[static_cast<std::size_t>(joint.parent)];
