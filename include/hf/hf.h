@@ -8,6 +8,8 @@
 #include "hf/pose.h"
 #include "hf/quads.h"
 #include "hf/region.h"
+#include "hf/retarget.h"
+#include "hf/skeleton.h"
 #include "hf/solver.h"
 #include "hf/surface.h"
 #include "hf/transfer.h"

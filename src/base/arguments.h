@@ -14,6 +14,11 @@ inline void require(const void* pointer, const char* name) {
   if (!pointer) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s is NULL", name);
 }
 
+inline void check_allocator(const hf_allocator& allocator) {
+  if ((allocator.allocate == nullptr) != (allocator.release == nullptr))
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
+}
+
 // Two ways to give one thing; at least one is set.
 inline void require_either(const void* a, const void* b, const char* names) {
   if (!a && !b) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s are both NULL", names);

@@ -9,7 +9,7 @@ namespace {
 
 // A handle is the kind above the number. On 32-bit hosts 28 bits are left for the number.
 constexpr unsigned number_bits = sizeof(std::uintptr_t) >= 8 ? 56 : 28;
-static_assert(static_cast<unsigned>(Kind::weights) >> (32 - 28) == 0, "the last kind does not fit a 32-bit handle");
+static_assert(static_cast<unsigned>(Kind::retarget) >> (32 - 28) == 0, "the last kind does not fit a 32-bit handle");
 
 struct Table {
   std::mutex mutex;

@@ -25,7 +25,9 @@ enum class Kind : std::uint32_t {
   region = 9,
   detail = 10,
   surface = 11,
-  weights = 12
+  weights = 12,
+  skeleton = 13,
+  retarget = 14
 };
 
 // The object that a handle stands for. Several calls may read it at once; a call that changes it must be alone. No call

@@ -71,8 +71,7 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
   info.work_limit_gflop = desc.work_limit_gflop ? desc.work_limit_gflop : default_work_limit_gflop;
   info.face_count = desc.face_count;
   info.corner_count = desc.corner_count;
-  if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
+  check_allocator(desc.allocator);
   return info;
 }
 

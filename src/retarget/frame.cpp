@@ -4,6 +4,7 @@
 
 #include "base/arguments.h"
 #include "base/error.h"
+#include "base/progress.h"
 #include "retarget/retargeter.h"
 
 namespace hf_inner {
@@ -36,7 +37,9 @@ Retargeter::Retargeter(const RetargetSide& s, const RetargetSide& t, const Retar
   from.resize(at(source.count));
   to.resize(at(target.count));
   find_scale();
+  poll();
   match_chains(s, t);
+  poll();
   find_root();
   find_feet();
   find_parts(s, t);
@@ -179,6 +182,35 @@ void Retargeter::reset() noexcept {
   report_.limb_degrees = report_.deepest_drop = 0;
 }
 
+void Retargeter::partners(std::uint32_t* out) const noexcept {
+  for (const Follow& f : follows) out[at(f.target)] = static_cast<std::uint32_t>(f.share < 0.5 ? f.a : f.b);
+  for (std::size_t j = 0; same.found && j < at(target.count); ++j) {
+    if (same.partners[j] >= 0) out[j] = static_cast<std::uint32_t>(same.partners[j]);
+  }
+}
+
+void Retargeter::copy_state(const Retargeter& other) {
+  for (std::size_t k = 0; k < feet.size(); ++k) {
+    const FootPair& by = other.feet[k];
+    feet[k].offset = by.offset;
+    feet[k].standing = by.standing;
+    feet[k].known = by.known;
+    feet[k].walked = by.walked;
+    feet[k].walked_by = by.walked_by;
+    feet[k].source_was = by.source_was;
+    feet[k].target_was = by.target_was;
+  }
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    pairs[k].sum = other.pairs[k].sum;
+    pairs[k].worst = other.pairs[k].worst;
+  }
+  report_.chains = other.report_.chains;
+  report_.frames = other.report_.frames;
+  report_.limb_degrees = other.report_.limb_degrees;
+  report_.stride = other.report_.stride;
+  report_.deepest_drop = other.report_.deepest_drop;
+}
+
 Retarget::Retarget(const RetargetSide& source, const RetargetSide& target, const RetargetOptions& options,
                    Memory& memory)
     : self_(make_shared_in<Retargeter>(memory, source, target, options, memory)) {}
@@ -188,5 +220,7 @@ Retarget& Retarget::operator=(Retarget&&) noexcept = default;
 void Retarget::frame(const double* source, double seconds, double* target) { self_->frame(source, seconds, target); }
 void Retarget::reset() noexcept { self_->reset(); }
 const RetargetReport& Retarget::report() const noexcept { return self_->report(); }
+void Retarget::partners(std::uint32_t* out) const noexcept { self_->partners(out); }
+void Retarget::copy_state(const Retarget& other) { self_->copy_state(*other.self_); }
 
 }  // namespace hf_inner

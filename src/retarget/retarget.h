@@ -102,6 +102,11 @@ class Retarget {
   // Forgets the offsets of the feet and the figures of the report. Call it where the clip jumps.
   void reset() noexcept;
   const RetargetReport& report() const noexcept;
+  // Writes the joint of the source that each joint of the target follows, the nearer of two. Entries of joints without
+  // a partner stay.
+  void partners(std::uint32_t* out) const noexcept;
+  // Takes the state of the feet and the figures of a retarget that was made of the same sides and options.
+  void copy_state(const Retarget& other);
 
  private:
   std::shared_ptr<Retargeter> self_;

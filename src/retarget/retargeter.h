@@ -88,6 +88,8 @@ class Retargeter {
   void frame(const double* source, double seconds, double* target);
   void reset() noexcept;
   const RetargetReport& report() const noexcept { return report_; }
+  void partners(std::uint32_t* out) const noexcept;
+  void copy_state(const Retargeter& other);
 
   // The steps of creation and of a frame, in their files.
   void match_chains(const RetargetSide& source, const RetargetSide& target);  // match.cpp

@@ -2,48 +2,46 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "retarget/retargeter.h"
 
 namespace hf_inner {
 namespace {
 
-bool same_name(const CharacterInput& a, std::size_t i, const CharacterInput& b, std::size_t k) {
-  const char* x = a.names && a.names[i] ? a.names[i] : "";
-  const char* y = b.names && b.names[k] ? b.names[k] : "";
-  return std::strcmp(x, y) == 0;
+const char* name_of(const CharacterInput& input, Index joint) {
+  const char* const name = input.names ? input.names[joint] : nullptr;
+  return name ? name : "";
 }
 
-// Joints of one name below one parent pair in their order; a joint that only one side has stays without.
-void pair_children(const RetargetSide& s, const RetargetSide& t, Vector<Index>& partners, Memory& memory) {
-  const std::size_t ns = s.input.joint_count, nt = t.input.joint_count;
-  Vector<std::uint8_t> used(ns, 0, &memory);
-  // Children of each joint of the source, as lists.
-  Vector<Index> first(ns + 1, -1, &memory), next(ns, -1, &memory);
-  for (std::size_t i = ns; i-- > 0;) {
-    const std::size_t p = s.input.parents[i] < 0 ? ns : static_cast<std::size_t>(s.input.parents[i]);
-    next[i] = first[p];
-    first[p] = static_cast<Index>(i);
-  }
-  Vector<Index> order(&memory);
-  Vector<std::uint8_t> done(nt, 0, &memory);
-  for (std::size_t j = 0; j < nt; ++j) {  // parents first
-    const std::size_t begin = order.size();
-    for (Index k = static_cast<Index>(j); k >= 0 && !done[at(k)]; k = t.input.parents[at(k)]) {
-      done[at(k)] = 1;
-      order.push_back(k);
-    }
-    std::reverse(order.begin() + static_cast<std::ptrdiff_t>(begin), order.end());
-  }
+// Joints of one name below one parent pair in their order; a joint that only one side has stays without. Children of
+// the source are sorted by parent and name, and each group of equals remembers how many are taken.
+void pair_children(const RetargetSide& s, const RetargetSide& t, const Vector<Index>& order, Vector<Index>& partners,
+                   Memory& memory) {
+  const std::size_t ns = s.input.joint_count;
+  Vector<Index> sorted(ns, 0, &memory);
+  std::iota(sorted.begin(), sorted.end(), 0);
+  const auto compare = [&](Index i, Index parent, const char* name) {
+    const Index p = s.input.parents[i];
+    return p != parent ? (p < parent ? -1 : 1) : std::strcmp(name_of(s.input, i), name);
+  };
+  std::sort(sorted.begin(), sorted.end(), [&](Index i, Index k) {
+    const int c = compare(i, s.input.parents[k], name_of(s.input, k));
+    return c != 0 ? c < 0 : i < k;
+  });
+  Vector<std::size_t> taken(ns, 0, &memory);  // by the first of a group
   for (const Index j : order) {
-    const Index p = t.input.parents[at(j)];
-    if (p >= 0 && partners[at(p)] < 0) continue;
-    for (Index i = first[p < 0 ? ns : at(partners[at(p)])]; i >= 0; i = next[at(i)]) {
-      if (used[at(i)] || !same_name(s.input, at(i), t.input, at(j))) continue;
-      used[at(i)] = 1;
-      partners[at(j)] = i;
-      break;
-    }
+    const Index p = t.input.parents[j], parent = p < 0 ? -1 : partners[at(p)];
+    if (p >= 0 && parent < 0) continue;
+    const char* const name = name_of(t.input, j);
+    const auto first = std::lower_bound(sorted.begin(), sorted.end(), 0,
+                                        [&](Index i, int) { return compare(i, parent, name) < 0; });
+    const std::size_t begin = static_cast<std::size_t>(first - sorted.begin());
+    if (begin == ns) continue;
+    const std::size_t next = begin + taken[begin];
+    if (next == ns || compare(sorted[next], parent, name) != 0) continue;
+    ++taken[begin];
+    partners[at(j)] = sorted[next];
   }
 }
 
@@ -55,7 +53,7 @@ bool same_vectors(Vec3 a, Vec3 b, double size) noexcept { return norm(a - b) <= 
 // Below the roots the local rests are equal, with one ratio of translations. The roots give the one transform.
 void Retargeter::find_same(const RetargetSide& s, const RetargetSide& t) {
   same.partners.assign(at(target.count), -1);
-  pair_children(s, t, same.partners, memory);
+  pair_children(s, t, target.order, same.partners, memory);
   double sum_source = 0, sum_target = 0, far = 0;
   Index root_joint = -1;
   for (std::size_t j = 0; j < at(target.count); ++j) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/progress.h"
 #include "skeleton/body.h"
 
 namespace hf_inner {
@@ -177,9 +178,11 @@ void write_character(Body& body, Character& out) {
 Character know_character(const CharacterInput& input, Memory& memory) {
   Body body(input, memory);
   read_joints(body);
+  poll();
   read_vertices(body);
   find_owners(body);
   read_names(body);
+  poll();
   find_mirror(body);
   join_pieces(body);
   build_tree(body);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/progress.h"
 #include "skeleton/body.h"
 
 namespace hf_inner {
@@ -96,6 +97,7 @@ class Adoption {
     const std::size_t pieces = todo_.size();
     join(body_.root);
     while (!todo_.empty()) {
+      poll();
       Index best = todo_[0];
       for (const Index root : todo_) {
         if (offers_[at(best)] < offers_[at(root)]) best = root;
