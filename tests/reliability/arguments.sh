@@ -9,7 +9,7 @@ trap 'rm -f "$rows" "$rows.out"' EXIT
 failed=0
 for name in handles descs mesh places sites pose quads graph; do set -- "$@" "bad_${name}_test"; done
 shift 2
-for name in "$@" analysis_test certificate_test detail_test direction_test picking_test protocol_test weights_test weights_carry_test links_test; do
+for name in "$@" analysis_test certificate_test detail_test direction_test picking_test protocol_test retarget_test weights_test weights_carry_test links_test; do
   if ! HF_ROWS_LOG=$rows "$programs/api_$name" >"$rows.out" 2>&1; then
     failed=$((failed + 1))
     cat "$rows.out" >&2

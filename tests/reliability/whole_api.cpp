@@ -1,3 +1,4 @@
+#include "../support/stick_man.h"
 #include "whole_api_run.h"
 
 namespace reliability {
@@ -399,6 +400,54 @@ void Run::graph() {
   hf_surface_destroy(surface);
 }
 
+void Run::skeletons() {
+  const StickMan man = stick_man(1, 0), other = stick_man(1.3f, 35);
+  const auto make_man = [&](const StickMan& of) {
+    hf_skeleton_desc d = man_desc(&of);
+    const hf_skin_desc skin = man_skin(&of);
+    if (options_.allocator) d.allocator = *options_.allocator;
+    hf_skeleton skeleton = nullptr;
+    call(hf_skeleton_create(&d, &skin, &skeleton), "hf_skeleton_create");
+    return skeleton;
+  };
+  const hf_skeleton source = make_man(man), target = make_man(other);
+  hf_skeleton_info known = desc<hf_skeleton_info>();
+  call(hf_skeleton_get_info(target, &known), "hf_skeleton_get_info");
+  take(&known, 1);
+  hf_joint_info joints[MAN_JOINTS];
+  call(hf_skeleton_get_joints(target, MAN_JOINTS, joints, nullptr), "hf_skeleton_get_joints");
+  take(joints, MAN_JOINTS);
+  std::uint32_t chain_count = 0, count = 0;
+  call(hf_skeleton_get_chains(target, 0, nullptr, 0, nullptr, &chain_count, &count), "hf_skeleton_get_chains");
+  take(&chain_count, 1);
+  call(hf_skeleton_get_reasons(target, 0, nullptr, &count), "hf_skeleton_get_reasons");
+  take(&count, 1);
+  float poses[4][MAN_JOINTS][10], posed[MAN_JOINTS][10];
+  for (int f = 0; f < 4; ++f) man_walk(&man, 0.2f * static_cast<float>(f), poses[f]);
+  double velocity[3];
+  call(hf_skeleton_get_ground_velocity(source, 4, poses[0][0], 0.1, velocity), "hf_skeleton_get_ground_velocity");
+  take(velocity, 3);
+  hf_retarget retarget = nullptr, clone = nullptr;
+  call(hf_retarget_create(source, target, nullptr, &retarget), "hf_retarget_create");
+  hf_skeleton_destroy(source);
+  hf_skeleton_destroy(target);
+  for (int f = 0; f < 3; ++f) call(hf_retarget_solve(retarget, poses[f][0], 0.1, posed[0]), "hf_retarget_solve");
+  call(hf_retarget_clone(retarget, &clone), "hf_retarget_clone");
+  call(hf_retarget_reset(retarget), "hf_retarget_reset");
+  call(hf_retarget_solve(clone, poses[3][0], 0.1, posed[0]), "hf_retarget_solve");
+  take(posed[0], 10 * MAN_JOINTS);
+  hf_retarget_info info = desc<hf_retarget_info>();
+  call(hf_retarget_get_info(clone, &info), "hf_retarget_get_info");
+  take(&info, 1);
+  call(hf_retarget_get_chains(clone, 0, nullptr, &count), "hf_retarget_get_chains");
+  take(&count, 1);
+  std::uint32_t partners[MAN_JOINTS];
+  call(hf_retarget_get_partners(clone, MAN_JOINTS, partners, nullptr), "hf_retarget_get_partners");
+  take(partners, MAN_JOINTS);
+  hf_retarget_destroy(clone);
+  hf_retarget_destroy(retarget);
+}
+
 void Run::errors() {
   const std::uint32_t version = hf_version_get();
   take(&version, 1);
@@ -431,6 +480,7 @@ Outcome run_whole_api(const Scene& scene, const Options& options) {
   run.regions();
   run.skin_weights();
   run.graph();
+  run.skeletons();
   run.errors();
   return run.outcome;
 }

@@ -31,6 +31,7 @@ class Run {
   void skin_weights();
   void carried_weights(hf_surface surface, const Numbers& heads, const std::vector<std::uint32_t>& joints,
                        const std::vector<float>& shares);
+  void skeletons();
   void errors();
 
  private:

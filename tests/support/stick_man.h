@@ -44,7 +44,7 @@ typedef struct StickMan {
 } StickMan;
 
 /* size: over that of a man of 1.9 units. arms_down: the angle of the arms under the horizontal at rest, in degrees. */
-static StickMan stick_man(float size, float arms_down) {
+static inline StickMan stick_man(float size, float arms_down) {
   static const char* const names =
       "hips\nspine\nchest\nneck\nhead\n"
       "left_upper_arm\nleft_lower_arm\nleft_hand\nright_upper_arm\nright_lower_arm\nright_hand\n"
@@ -92,7 +92,7 @@ static StickMan stick_man(float size, float arms_down) {
   return man;
 }
 
-static hf_skeleton_desc man_desc(const StickMan* man) {
+static inline hf_skeleton_desc man_desc(const StickMan* man) {
   hf_skeleton_desc desc = HF_INIT(hf_skeleton_desc);
   desc.joint_count = MAN_JOINTS;
   desc.names = man->names;
@@ -101,7 +101,7 @@ static hf_skeleton_desc man_desc(const StickMan* man) {
   return desc;
 }
 
-static hf_skin_desc man_skin(const StickMan* man) {
+static inline hf_skin_desc man_skin(const StickMan* man) {
   hf_skin_desc skin = HF_INIT(hf_skin_desc);
   skin.vertex_count = MAN_VERTICES;
   skin.triangle_count = MAN_JOINTS;
@@ -114,7 +114,7 @@ static hf_skin_desc man_skin(const StickMan* man) {
 }
 
 /* Turns a joint of a pose further about an axis of its own frame (0, 1, 2), in degrees. */
-static void man_turn(float (*pose)[10], int joint, int axis, float degrees) {
+static inline void man_turn(float (*pose)[10], int joint, int axis, float degrees) {
   float* const q = pose[joint] + 3;
   const float half = 0.5f * degrees * 3.14159265f / 180, s = sinf(half), c = cosf(half);
   const int a = axis, b = (axis + 1) % 3, d = (axis + 2) % 3;
@@ -126,7 +126,7 @@ static void man_turn(float (*pose)[10], int joint, int axis, float degrees) {
 }
 
 /* A frame of a walk on the spot: time in steps. */
-static void man_walk(const StickMan* man, float time, float (*pose)[10]) {
+static inline void man_walk(const StickMan* man, float time, float (*pose)[10]) {
   memcpy(pose, man->rest, sizeof man->rest);
   const float swing = 25 * sinf(3.14159265f * time);
   man_turn(pose, MAN_LEFT_LEG, 0, -swing);
