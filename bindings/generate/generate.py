@@ -16,6 +16,7 @@ import layer_js
 import layer_lua
 import layer_python
 import layer_rust
+import model
 import parse_headers
 
 BINDINGS = pathlib.Path(__file__).resolve().parent.parent
@@ -60,5 +61,5 @@ def main():
 if __name__ == "__main__":
     try:
         main()
-    except parse_headers.HeaderError as error:
+    except (parse_headers.HeaderError, model.Problems) as error:
         sys.exit(f"error: {error}")

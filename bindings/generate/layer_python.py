@@ -1,5 +1,6 @@
 """bindings/python/hf/_raw.py: ctypes structures, prototypes and constants."""
 
+from comments import first_sentence
 from layout import is_pointer
 
 TYPES = {"int32_t": "c_int32", "uint32_t": "c_uint32", "hf_result": "c_int32", "float": "c_float", "double": "c_double",
@@ -35,7 +36,7 @@ def write(api):
     for struct in api["structs"]:
         out += ["", f"class {struct['name']}(Structure):"]
         if struct["doc"]:
-            out.append(f'    """{struct["doc"]}"""')
+            out.append(f'    """{first_sentence(struct["doc"])}"""')
         out += [f"    {f['name']}: {hint(api, f)}" for f in struct["fields"]]
         out += ["    _fields_ = [", *[f"        (\"{f['name']}\", {ctype(api, f)})," for f in struct["fields"]],
             "    ]", ""]

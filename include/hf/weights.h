@@ -28,8 +28,8 @@ typedef struct hf_bones_desc {
                           not deform says where a last bone ends */
   const uint32_t* parents; /* [bone_count] number of the parent, HF_NO_INDEX for a root; NULL: all are roots */
   const int32_t* deforms;  /* [bone_count] 1: the bone gets weights; NULL: all do */
-  const uint32_t* sources; /* hf_weights_set_bones: [bone_count] the number that the bone had before, HF_NO_INDEX for a
-                              new one; NULL: the same number. hf_weights_create: NULL */
+  const uint32_t* sources; /* [bone_count] for hf_weights_set_bones: the number that the bone had before, HF_NO_INDEX
+                              for a new one; NULL: the same number. hf_weights_create: NULL */
   hf_progress progress;    /* NULL, or an object to poll and cancel through */
 } hf_bones_desc;
 
@@ -81,6 +81,7 @@ typedef struct hf_pins_desc {
 HF_API hf_result hf_weights_set_pins(hf_weights weights, const hf_pins_desc* pins);
 
 /* Locks bones: their weights stay, and the other bones share the rest. Replaces all locks; lock_count 0 unlocks.
+ * bones: uint32_t[lock_count].
  * values: float[vertex_count][lock_count] weights to keep, 0 to 1, or NULL for the present ones. Welded copies take the
  * values of the first. Pinned vertices keep the weights of their pins. Errors: HF_ERROR_OUT_OF_RANGE (index = entry),
  * HF_ERROR_DUPLICATE_SITE (a bone named twice; index = entry), HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (a
@@ -89,7 +90,7 @@ HF_API hf_result hf_weights_set_locks(hf_weights weights, uint32_t lock_count, c
                                       const float* values);
 
 /* How the weights of a vertex were found. */
-enum {
+enum hf_weights_origin {
   HF_WEIGHTS_INFORMED = 0, /* it sees its nearest bone */
   HF_WEIGHTS_SOLVED = 1,   /* from the vertices around it */
   HF_WEIGHTS_PINNED = 2,   /* given by a pin */
@@ -107,7 +108,7 @@ typedef struct hf_weights_out {
   uint32_t vertex_count;    /* out */
   uint32_t weight_count;    /* out: bones per vertex, 4 or 8 */
   uint32_t* joints;         /* [vertex_capacity][weight_count] */
-  uint16_t* joints_u16;     /* the same in 16 bits */
+  uint16_t* joints_u16;     /* [vertex_capacity][weight_count] the same in 16 bits */
   float* weights;           /* [vertex_capacity][weight_count] descending, of sum exactly 1 */
   uint8_t* origins;         /* [vertex_capacity] HF_WEIGHTS_* */
 } hf_weights_out;
@@ -118,7 +119,7 @@ typedef struct hf_weights_out {
 HF_API hf_result hf_weights_get(hf_weights weights, hf_weights_out* inout_weights);
 
 /* Bits that say why a bone deserves a look. */
-enum {
+enum hf_bone_flag {
   HF_BONE_NO_LENGTH = 1,    /* it is a point */
   HF_BONE_COINCIDENT = 2,   /* it lies exactly on a bone of a lower number */
   HF_BONE_INFORMS_NONE = 4, /* no vertex has it as its nearest bone in sight */
@@ -126,9 +127,9 @@ enum {
   HF_BONE_HELPER = 16 /* a proposal that follows from the other flags: it looks like a helper that should not deform */
 };
 
-/* Writes what was found about each bone: flags of HF_BONE_* and the vertices that ask for it, in uint32_t[capacity].
- * Bones that do not deform have no flags. Each array may be NULL. out_count: NULL, or receives the count of bones.
- * Thread safety: reads `weights`. Since 0.1. */
+/* Writes what was found about each bone: flags, and the vertices that ask for it. Bones that do not deform have no
+ * flags. out_flags: NULL, or uint32_t[capacity] of HF_BONE_*. out_vertex_counts: NULL, or uint32_t[capacity].
+ * out_count: NULL, or receives the count of bones. Thread safety: reads `weights`. Since 0.1. */
 HF_API hf_result hf_weights_get_bones(hf_weights weights, uint32_t capacity, uint32_t* out_flags,
                                       uint32_t* out_vertex_counts, uint32_t* out_count);
 
@@ -170,8 +171,8 @@ HF_API hf_result hf_weights_undo(hf_weights weights);
 /* Reverts the last undo. Errors: HF_ERROR_NO_RECORD. Thread safety: changes `weights`. Since 0.1. */
 HF_API hf_result hf_weights_redo(hf_weights weights);
 
-/* Reasons why a bone looks like a helper: a root, a target or a control that carries no skin. Bits. */
-enum {
+/* Bits that say why a bone looks like a helper: a root, a target or a control that carries no skin. */
+enum hf_helper_reason {
   HF_HELPER_PROPOSED = 1,     /* the reasons together are enough to propose it */
   HF_HELPER_NAME_ROOT = 2,    /* its name says root, armature, master, ... */
   HF_HELPER_NAME_CONTROL = 4, /* its name says pole, target, IK, control, ... */
@@ -195,13 +196,13 @@ HF_API hf_result hf_weights_get_helpers(hf_weights weights, const char* names, u
 typedef struct hf_carry_desc {
   uint32_t struct_size;
   uint32_t influence_count; /* bones of each vertex in the arrays, 1 to 64 */
-  const uint32_t* joints;   /* [vertices of the source][influence_count] */
-  const float* weights;     /* the same, >= 0; a vertex whose weights are all 0 gives none */
-  double distance;          /* a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal */
-  double angle;             /* between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees) */
-  uint32_t weight_count;    /* bones of each vertex in the result: 4 or 8; 0: 4 */
-  uint32_t reserved;        /* 0 */
-  hf_progress progress;     /* NULL, or an object to poll and cancel through */
+  const uint32_t* joints;   /* [source.vertex_count][influence_count] */
+  const float* weights;  /* [source.vertex_count][influence_count] >= 0; a vertex whose weights are all 0 gives none */
+  double distance;       /* a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal */
+  double angle;          /* between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees) */
+  uint32_t weight_count; /* bones of each vertex in the result: 4 or 8; 0: 4 */
+  uint32_t reserved;     /* 0 */
+  hf_progress progress;  /* NULL, or an object to poll and cancel through */
 } hf_carry_desc;
 
 /* Counts of carried weights. Vertices of the target are counted as given. */
@@ -229,21 +230,21 @@ HF_API hf_result hf_weights_carry(hf_surface source, hf_surface target, const hf
                                   hf_weights_out* inout_weights, hf_carry_info* out_info);
 
 /* Which side of the plane gives its weights. */
-enum {
+enum hf_mirror_to {
   HF_MIRROR_TO_NEGATIVE = 0, /* the side that the normal points to */
   HF_MIRROR_TO_POSITIVE = 1, /* the other side */
   HF_MIRROR_BOTH = 2         /* each side takes the mean of both */
 };
 
 /* Where a plane of symmetry comes from. */
-enum {
+enum hf_mirror_plane {
   HF_MIRROR_PLANE_GIVEN = 0,
   HF_MIRROR_PLANE_BONES = 1,  /* from bones with partners */
   HF_MIRROR_PLANE_SURFACE = 2 /* from the surface */
 };
 
 /* How a bone found its partner. */
-enum {
+enum hf_mirror_pairing {
   HF_MIRROR_BONE_ALONE = 0,  /* it has none, and moves the other side too */
   HF_MIRROR_BONE_NAMED = 1,  /* the names differ in the side: arm.L and arm.R, LeftArm and RightArm */
   HF_MIRROR_BONE_PLACED = 2, /* it lies where the partner's reflection lies */
@@ -261,8 +262,8 @@ typedef struct hf_mirror_desc {
   const double* plane;      /* [6] a point and a normal, or NULL: find the plane */
   uint32_t influence_count; /* bones of each vertex in the arrays, 1 to 64 */
   int32_t to;               /* HF_MIRROR_* */
-  const uint32_t* joints;   /* [vertices][influence_count] */
-  const float* weights;     /* the same, >= 0; a vertex whose weights are all 0 gives none */
+  const uint32_t* joints;   /* [vertex_count][influence_count] */
+  const float* weights;     /* [vertex_count][influence_count] >= 0; a vertex whose weights are all 0 gives none */
   double distance;          /* as in hf_carry_desc */
   double angle;             /* as in hf_carry_desc */
   uint32_t weight_count;    /* bones of each vertex in the result: 4 or 8; 0: 4 */
@@ -300,7 +301,7 @@ typedef struct hf_mirror_info {
  * point to its reflection whose normal agrees, with the bones of the other side. One bi-harmonic field fills in the
  * rest. The plane comes from bones with partners, else from the surface. A found normal has a positive largest
  * component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x. inout_weights: as in hf_weights_get. out_bones:
- * uint32_t [bone_count] partners, or NULL. out_pairings: uint32_t[bone_count] HF_MIRROR_BONE_*, or NULL. out_info:
+ * uint32_t[bone_count] partners, or NULL. out_pairings: uint32_t[bone_count] HF_MIRROR_BONE_*, or NULL. out_info:
  * NULL, or receives what was found. Errors: as hf_weights_carry, HF_ERROR_EMPTY (no bone; no weight on the side that
  * gives), HF_ERROR_OUT_OF_RANGE (a partner, index = bone; a joint, index = vertex), HF_ERROR_INVALID_ARGUMENT (names
  * with another count of lines; a partner that has another partner, index = bone; a normal of length 0). Thread safety:

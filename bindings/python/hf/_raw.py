@@ -608,7 +608,6 @@ class hf_hit(Structure):
 
 
 class hf_solver_desc(Structure):
-    """Selects the engine"""
     struct_size: int
     field_kind: int
     engine: int
@@ -874,7 +873,6 @@ class hf_isolines(Structure):
 
 
 class hf_critical_point(Structure):
-    """---- critical points ----"""
     vertex: int
     kind: int
     index: int
@@ -911,7 +909,6 @@ class hf_critical_info(Structure):
 
 
 class hf_geodesics_desc(Structure):
-    """Selects how distances are computed."""
     struct_size: int
     smoothing: float
     progress: int
@@ -961,7 +958,6 @@ class hf_path(Structure):
 
 
 class hf_extremities_desc(Structure):
-    """Selects how hf_surface_find_extremities finds tips."""
     struct_size: int
     kind: int
     least_length: float
@@ -1057,7 +1053,6 @@ class hf_direction_statistics(Structure):
 
 
 class hf_pose_desc(Structure):
-    """Selects how vertices follow the handles."""
     struct_size: int
     mode: int
     band_count: int
@@ -1245,7 +1240,6 @@ class hf_skin_info(Structure):
 
 
 class hf_propose_desc(Structure):
-    """Says why a place is proposed as a handle."""
     struct_size: int
     joint_count: int
     joints: int
@@ -1406,7 +1400,6 @@ class hf_flow_lines(Structure):
 
 
 class hf_region_desc(Structure):
-    """The smooth base of a region."""
     struct_size: int
     base: int
     positions: int

@@ -677,7 +677,6 @@ impl Default for hf_hit {
     }
 }
 
-/// Selects the engine
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_solver_desc {
@@ -1017,7 +1016,6 @@ impl Default for hf_isolines {
     }
 }
 
-/// ---- critical points ----
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_critical_point {
@@ -1071,7 +1069,6 @@ impl hf_critical_info {
     }
 }
 
-/// Selects how distances are computed.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_geodesics_desc {
@@ -1127,7 +1124,6 @@ impl Default for hf_path {
     }
 }
 
-/// Selects how hf_surface_find_extremities finds tips.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_extremities_desc {
@@ -1248,7 +1244,6 @@ impl hf_direction_statistics {
     }
 }
 
-/// Selects how vertices follow the handles.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_pose_desc {
@@ -1476,7 +1471,6 @@ impl Default for hf_skin_info {
     }
 }
 
-/// Says why a place is proposed as a handle.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_propose_desc {
@@ -1633,7 +1627,6 @@ impl Default for hf_flow_lines {
     }
 }
 
-/// The smooth base of a region.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_region_desc {
