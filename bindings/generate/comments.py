@@ -55,7 +55,7 @@ def say_field(field, text, struct_text):
     field["optional"] = bool(re.search(r"\bNULL\b", text) or (field["pointer"] and re.search(
         r"[Ee]ach (?:array )?(?:may be|is) NULL", struct_text)))
     field["enum"] = said_enum(text)
-    field["flag"] = field["type"] == "int32_t" and not field["pointer"] and not field["count"] and bool(
+    field["flag"] = field["type"] in ("int32_t", "uint8_t") and not field["count"] and bool(
         re.search(r"(?:^|\s)1: ", rest)) and not field["enum"]
     field["sentinel"] = "HF_NO_INDEX" in text
     field["unit"], field["doc"] = unit_of(field["name"], text), text
@@ -85,6 +85,8 @@ def segments(prose, names):
     found = {}
     for mark, following in zip(marks, [*marks[1:], None]):
         piece = prose[mark.end():following.start() if following else len(prose)].strip()
+        alone = re.match(rf"(?:NULL, or )?(?:\w+ ?)?{DIMS}\.(?=\s|$)", piece)  # what follows is about the call
+        piece = alone.group(0) if alone else piece
         for name in re.findall(r"\w+", mark.group(1).replace(" and ", " ")):
             found[name] = piece.split("\n\n")[0].strip()
     return found
@@ -99,9 +101,16 @@ def say_parameter(parameter, text):
     parameter["receives"] = "receives" in text
     parameter["enum"] = said_enum(text)
     parameter["sentinel"] = "HF_NO_INDEX" in text
+    parameter["flag"] = parameter["type"] in ("int32_t", "uint8_t") and bool(re.search(r"(?:^|\s)1: ", text))
     parameter["zero"] = bool(re.search(r"\b0( to |\s*=|:| for )", text))
     parameter["unit"], parameter["doc"] = unit_of(parameter["name"], text), text
     return parameter
+
+
+def default_of(text):
+    """What 0 stands for, where the comment says it as a number: '0 = 4', '0: 4', '0 for 4'."""
+    match = re.search(r"\b0(?: =|:| for) ([\d,.]+?)(?=[;.,)]?(?:\s|$))", text)
+    return match.group(1).replace(",", "") if match else ""
 
 
 def errors_of(text, also=()):

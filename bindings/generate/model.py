@@ -83,7 +83,8 @@ def look_at_struct(api, struct, enums, problems):
             field["enum"] = ""
         if field["enum"]:
             field["enum"] = enums.get(field["enum"]) or problems.append(f"{where}.{field['name']}: no enum has the values {field['enum']}*")
-        if field["role"] == "scalar" and field["name"] in counted and not field["direction"] and struct["used"] == "in":
+        if field["role"] == "scalar" and field["name"] in counted and not field["direction"] and struct["used"] == "in" and (
+                "also without" not in field["doc"]):
             field["role"] = "count"
         if struct["used"] == "inout" and field["direction"] == "in" and field["name"] in counted and field["role"] == "scalar" and any(
                 f["const"] and field["name"] in symbols(f["dims"]) for f in fields):
@@ -205,6 +206,8 @@ def derive(api):
                 if name not in known and name.split(".")[0] not in known and not name.endswith(".vertex_count"):
                     problems.append(f"{function['name']}, {p['name']}: what is {name}?")
     for function in api["functions"]:
+        also = [named(api["functions"], name) for pair in function.pop("errors_as") for name in pair if name]
+        function["errors"] = sorted(set(function["errors"]).union(*(f["errors"] for f in also if f)))
         long = named(api["functions"], f"{function['noun']}_{function['verb']}")
         function["short_of"] = long["name"] if long and long is not function else ""
     if problems:

@@ -137,6 +137,7 @@ def parse_header(path, api, constants):
         spoken = comments.segments(prose, [p["name"] for p in parameters])
         parameters = [comments.say_parameter(p, spoken.get(p["name"], "")) for p in parameters]
         api["functions"].append({"name": name, "header": path.name, "doc": doc, "errors": comments.errors_of(ends.get("Errors", "")),
+                                 "errors_as": re.findall(r"\b[Aa]s (?:for |the )?(hf_\w+)|and (hf_\w+)", ends.get("Errors", "")),
                                  "returns": parse_type(returns, where), "parameters": parameters})
         return ""
 

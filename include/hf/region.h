@@ -74,7 +74,7 @@ typedef struct hf_curve_desc {
   uint32_t point_count;       /* 3 to the number of vertices of the mesh */
   const uint32_t* vertices;   /* [point_count] vertices as given, or NULL */
   const uint32_t* triangles;  /* [point_count] triangles (or faces of three corners) as given, or NULL */
-  const double* barycentrics; /* [point_count][3] with triangles or corners: weights of the corners, >= 0, of sum 1
+  const double* barycentrics; /* [point_count][3] with triangles or corners, else NULL: weights of the corners, >= 0, of sum 1
                                  within 1e-6 */
   int32_t side;               /* HF_SIDE_* */
   uint32_t seed_vertex;       /* with HF_SIDE_SEED */

@@ -82,7 +82,7 @@ typedef struct hf_sites_desc {
   uint32_t site_count;        /* >= 1 */
   const uint32_t* vertices;   /* [site_count] vertices as given, or NULL */
   const uint32_t* triangles;  /* [site_count] triangles (or faces of three corners) as given, or NULL */
-  const double* barycentrics; /* [site_count][3] with triangles or corners: weights of the corners, >= 0, of sum 1
+  const double* barycentrics; /* [site_count][3] with triangles or corners, else NULL: weights of the corners, >= 0, of sum 1
                                  within 1e-6 */
   const double* values;       /* [site_count][channel_count], up to 1e200 in size; NULL = 0 */
   const double* stiffness;    /* [site_count] >= 0, relative to the mean diagonal of K; 0 = hard (exact); NULL = all

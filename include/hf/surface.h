@@ -180,7 +180,7 @@ HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_
  * the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of hf_surface_desc. */
 typedef struct hf_graph_desc {
   uint32_t struct_size;
-  uint32_t vertex_count;  /* >= 1 */
+  uint32_t vertex_count;  /* >= 1, also without masses */
   uint32_t edge_count;    /* >= 1 */
   int32_t allow_negative; /* 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
                              tetrahedra do. A field can then leave the range of its sites. 0: they are refused */
@@ -305,9 +305,9 @@ HF_API hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity
 HF_API hf_result hf_surface_get_links(hf_surface surface, uint32_t capacity, hf_link* out_links, uint32_t* out_count);
 
 /* Writes the piece of every vertex of your mesh, and HF_NO_INDEX for isolated vertices. Pieces are numbered in the
- * order of their lowest vertices. out_pieces: NULL, or uint32_t[capacity]. out_light: NULL, or int32_t[capacity], 1 on
- * light pieces: a site or handle there hardly moves the rest. out_count: NULL, or receives vertex_count. Thread safety:
- * reads `surface`. Since 0.1. */
+ * order of their lowest vertices. out_pieces: NULL, or uint32_t[capacity]. out_light: NULL, or int32_t[capacity], 1: of
+ * a light piece: a site or handle there hardly moves the rest. out_count: NULL, or receives vertex_count. Thread
+ * safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_pieces(hf_surface surface, uint32_t capacity, uint32_t* out_pieces, int32_t* out_light,
                                        uint32_t* out_count);
 

@@ -203,7 +203,7 @@ typedef struct hf_transfer_frame {
  * HF_TRANSFER_STRETCH). Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
-/* Writes 1 for every target vertex that may sink into the ground, else 0. out_sinking: uint8_t[target.vertex_count].
+/* Writes which target vertices may sink into the ground. out_sinking: uint8_t[target.vertex_count], 1: it may sink.
  * These are limbs flagged HF_PAIR_SINKS, tails (HF_PAIR_TAIL) where they are thin, and thin parts that no pair moves:
  * antlers, ears, a held weapon. Thin is less than 4 % of the bounding box through. Legs (HF_PAIR_FOOT) never sink by
  * themselves, nor does what is thin around an anchor, a contact or the trunk, but for loose pieces without a pair. The

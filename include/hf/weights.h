@@ -61,7 +61,7 @@ typedef struct hf_pins_desc {
   uint32_t pin_count;         /* 0 removes all pins */
   const uint32_t* vertices;   /* [pin_count] vertices as given, or NULL */
   const uint32_t* triangles;  /* [pin_count] triangles as given, or NULL */
-  const double* barycentrics; /* [pin_count][3] with triangles: weights of the corners, >= 0, of sum 1 within 1e-6 */
+  const double* barycentrics; /* [pin_count][3] with triangles, else NULL: weights of the corners, >= 0, of sum 1 within 1e-6 */
   const double* radii;        /* [pin_count] of the geodesic disc around the place, in the unit of the mesh; NULL or 0:
                                  the place alone */
   uint32_t joint_count;       /* bones of each pin, 1 to 8 */

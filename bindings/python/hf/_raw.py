@@ -1,9 +1,24 @@
 """Generated from include/hf/*.h by bindings/generate; do not edit. The C ABI as ctypes sees it."""
 # fmt: off
-from ctypes import (CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p)
+from ctypes import (CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p, sizeof)
 
 HEADER_VERSION = "0.1.0"
 
+class Struct(Structure):
+    """A struct of zeros with its size set, shown with its fields."""
+
+    def __init__(self, *values, **fields) -> None:
+        super().__init__(*values, **fields)
+        if self._fields_[0][0] == "struct_size":
+            self.struct_size = sizeof(self)
+
+    def __repr__(self) -> str:
+        shown = []
+        for name, *_ in self._fields_:
+            value = getattr(self, name)
+            if name not in ("struct_size", "reserved"):
+                shown.append(f"{name}={list(value) if hasattr(value, '_length_') else value!r}")
+        return f"{type(self).__name__}({', '.join(shown)})"
 HF_VERSION_MAJOR = 0
 HF_VERSION_MINOR = 1
 HF_VERSION_PATCH = 0
@@ -173,7 +188,7 @@ RESULT_NAMES = {
 }
 
 
-class hf_error_detail(Structure):
+class hf_error_detail(Struct):
     """Details of the last failed call on this thread."""
     code: int
     index: int
@@ -187,7 +202,7 @@ class hf_error_detail(Structure):
     ]
 
 
-class hf_allocator(Structure):
+class hf_allocator(Struct):
     """Your allocator, which serves a surface and everything made from it."""
     allocate: int
     release: int
@@ -199,7 +214,7 @@ class hf_allocator(Structure):
     ]
 
 
-class hf_job_runner(Structure):
+class hf_job_runner(Struct):
     """Your job system."""
     run: int
     user: int
@@ -209,7 +224,7 @@ class hf_job_runner(Structure):
     ]
 
 
-class hf_factor_desc(Structure):
+class hf_factor_desc(Struct):
     """A factor that hf_surface_save wrote."""
     struct_size: int
     borrow: int
@@ -223,7 +238,7 @@ class hf_factor_desc(Structure):
     ]
 
 
-class hf_link(Structure):
+class hf_link(Struct):
     """A spring from a vertex to a point of a triangle."""
     vertex: int
     corners: object
@@ -241,7 +256,7 @@ class hf_link(Structure):
     ]
 
 
-class hf_links_desc(Structure):
+class hf_links_desc(Struct):
     """Says which pieces to link."""
     struct_size: int
     mode: int
@@ -279,7 +294,7 @@ class hf_links_desc(Structure):
     ]
 
 
-class hf_surface_desc(Structure):
+class hf_surface_desc(Struct):
     """The mesh and the options of a surface."""
     struct_size: int
     vertex_count: int
@@ -349,7 +364,7 @@ class hf_surface_desc(Structure):
     ]
 
 
-class hf_graph_desc(Structure):
+class hf_graph_desc(Struct):
     """A graph of your own and the options of its surface"""
     struct_size: int
     vertex_count: int
@@ -393,7 +408,7 @@ class hf_graph_desc(Structure):
     ]
 
 
-class hf_surface_info(Structure):
+class hf_surface_info(Struct):
     """The options a surface was made with, defaults filled in."""
     struct_size: int
     vertex_count: int
@@ -433,7 +448,7 @@ class hf_surface_info(Structure):
     ]
 
 
-class hf_surface_report(Structure):
+class hf_surface_report(Struct):
     """Counts of what the surface found in the mesh."""
     struct_size: int
     vertex_count: int
@@ -495,7 +510,7 @@ class hf_surface_report(Structure):
     ]
 
 
-class hf_gaps_desc(Structure):
+class hf_gaps_desc(Struct):
     """Posed positions of the mesh, of which gaps are measured."""
     struct_size: int
     position_stride: int
@@ -509,7 +524,7 @@ class hf_gaps_desc(Structure):
     ]
 
 
-class hf_gaps_info(Structure):
+class hf_gaps_info(Struct):
     """How far linked pieces have opened, in the unit of the positions."""
     struct_size: int
     link_count: int
@@ -527,7 +542,7 @@ class hf_gaps_info(Structure):
     ]
 
 
-class hf_surface_statistics(Structure):
+class hf_surface_statistics(Struct):
     """hf_surface_get_statistics writes sizes and times of a surface here."""
     struct_size: int
     unknown_count: int
@@ -565,7 +580,7 @@ class hf_surface_statistics(Structure):
     ]
 
 
-class hf_pick_desc(Structure):
+class hf_pick_desc(Struct):
     """Options of picking"""
     struct_size: int
     position_stride: int
@@ -583,7 +598,7 @@ class hf_pick_desc(Structure):
     ]
 
 
-class hf_hit(Structure):
+class hf_hit(Struct):
     """hf_surface_cast_ray writes the first triangle that a ray hits here."""
     struct_size: int
     found: int
@@ -607,7 +622,7 @@ class hf_hit(Structure):
     ]
 
 
-class hf_solver_desc(Structure):
+class hf_solver_desc(Struct):
     struct_size: int
     field_kind: int
     engine: int
@@ -628,7 +643,7 @@ class hf_solver_desc(Structure):
     ]
 
 
-class hf_solver_info(Structure):
+class hf_solver_info(Struct):
     """hf_solver_get_info writes the options of a solver here, with defaults filled in, and the number of its sites."""
     struct_size: int
     field_kind: int
@@ -652,7 +667,7 @@ class hf_solver_info(Structure):
     ]
 
 
-class hf_sites_desc(Structure):
+class hf_sites_desc(Struct):
     """Places and values of sites."""
     struct_size: int
     site_count: int
@@ -676,7 +691,7 @@ class hf_sites_desc(Structure):
     ]
 
 
-class hf_edit_desc(Structure):
+class hf_edit_desc(Struct):
     """One batch of edits, applied in the order remove, move, set, add."""
     struct_size: int
     remove_count: int
@@ -702,7 +717,7 @@ class hf_edit_desc(Structure):
     ]
 
 
-class hf_sites_info(Structure):
+class hf_sites_info(Struct):
     """Places, values and fluxes of the sites."""
     struct_size: int
     capacity: int
@@ -730,7 +745,7 @@ class hf_sites_info(Structure):
     ]
 
 
-class hf_solve_info(Structure):
+class hf_solve_info(Struct):
     """The components that the sites of a solve did not reach."""
     struct_size: int
     unreached_component_count: int
@@ -744,7 +759,7 @@ class hf_solve_info(Structure):
     ]
 
 
-class hf_preview_info(Structure):
+class hf_preview_info(Struct):
     """Counts and errors of a preview."""
     struct_size: int
     exact: int
@@ -766,7 +781,7 @@ class hf_preview_info(Structure):
     ]
 
 
-class hf_certificate(Structure):
+class hf_certificate(Struct):
     """The certificate says how accurate a field is."""
     struct_size: int
     overshoot_checked: int
@@ -792,7 +807,7 @@ class hf_certificate(Structure):
     ]
 
 
-class hf_solver_statistics(Structure):
+class hf_solver_statistics(Struct):
     """Counts, memory and cost estimates of a solver."""
     struct_size: int
     site_count: int
@@ -828,7 +843,7 @@ class hf_solver_statistics(Structure):
     ]
 
 
-class hf_scalars(Structure):
+class hf_scalars(Struct):
     """This struct passes a field with one value per vertex of your mesh."""
     struct_size: int
     value_stride: int
@@ -842,7 +857,7 @@ class hf_scalars(Structure):
     ]
 
 
-class hf_isolines(Structure):
+class hf_isolines(Struct):
     """Iso-lines as polylines."""
     struct_size: int
     point_capacity: int
@@ -872,7 +887,7 @@ class hf_isolines(Structure):
     ]
 
 
-class hf_critical_point(Structure):
+class hf_critical_point(Struct):
     vertex: int
     kind: int
     index: int
@@ -887,7 +902,7 @@ class hf_critical_point(Structure):
     ]
 
 
-class hf_critical_info(Structure):
+class hf_critical_info(Struct):
     struct_size: int
     point_count: int
     minimum_count: int
@@ -908,7 +923,7 @@ class hf_critical_info(Structure):
     ]
 
 
-class hf_geodesics_desc(Structure):
+class hf_geodesics_desc(Struct):
     struct_size: int
     smoothing: float
     progress: int
@@ -923,7 +938,7 @@ class hf_geodesics_desc(Structure):
     ]
 
 
-class hf_surface_point(Structure):
+class hf_surface_point(Struct):
     """A point of the surface in the form of hf_hit"""
     corners: object
     reserved: int
@@ -935,7 +950,7 @@ class hf_surface_point(Structure):
     ]
 
 
-class hf_path(Structure):
+class hf_path(Struct):
     """A path along the surface, from its first point to its last."""
     struct_size: int
     point_capacity: int
@@ -957,7 +972,7 @@ class hf_path(Structure):
     ]
 
 
-class hf_extremities_desc(Structure):
+class hf_extremities_desc(Struct):
     struct_size: int
     kind: int
     least_length: float
@@ -976,7 +991,7 @@ class hf_extremities_desc(Structure):
     ]
 
 
-class hf_extremity(Structure):
+class hf_extremity(Struct):
     vertex: int
     component: int
     length: float
@@ -989,7 +1004,7 @@ class hf_extremity(Structure):
     ]
 
 
-class hf_direction_desc(Structure):
+class hf_direction_desc(Struct):
     struct_size: int
     degree: int
     site_limit: int
@@ -1004,7 +1019,7 @@ class hf_direction_desc(Structure):
     ]
 
 
-class hf_singularity(Structure):
+class hf_singularity(Struct):
     """A singularity is a triangle, or a face, around which the field makes extra turns."""
     triangle: int
     vertex: int
@@ -1016,7 +1031,7 @@ class hf_singularity(Structure):
     ]
 
 
-class hf_direction_statistics(Structure):
+class hf_direction_statistics(Struct):
     """The options a direction field was made with, and counts of its constraints and of the work done so far."""
     struct_size: int
     degree: int
@@ -1052,7 +1067,7 @@ class hf_direction_statistics(Structure):
     ]
 
 
-class hf_pose_desc(Structure):
+class hf_pose_desc(Struct):
     struct_size: int
     mode: int
     band_count: int
@@ -1069,7 +1084,7 @@ class hf_pose_desc(Structure):
     ]
 
 
-class hf_pose_info(Structure):
+class hf_pose_info(Struct):
     """hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles."""
     struct_size: int
     mode: int
@@ -1091,7 +1106,7 @@ class hf_pose_info(Structure):
     ]
 
 
-class hf_handles_desc(Structure):
+class hf_handles_desc(Struct):
     """The handles to add."""
     struct_size: int
     handle_count: int
@@ -1115,7 +1130,7 @@ class hf_handles_desc(Structure):
     ]
 
 
-class hf_transform(Structure):
+class hf_transform(Struct):
     """A rigid motion of a handle from its rest place."""
     rotation: object
     translation: object
@@ -1125,7 +1140,7 @@ class hf_transform(Structure):
     ]
 
 
-class hf_handle_info(Structure):
+class hf_handle_info(Struct):
     """hf_pose_get_handle writes the region of a handle here, its layer, and its motion in the last hf_deform."""
     struct_size: int
     vertex_count: int
@@ -1151,7 +1166,7 @@ class hf_handle_info(Structure):
     ]
 
 
-class hf_deform_info(Structure):
+class hf_deform_info(Struct):
     """Counts and times of a deform."""
     struct_size: int
     iteration_count: int
@@ -1175,7 +1190,7 @@ class hf_deform_info(Structure):
     ]
 
 
-class hf_deform_desc(Structure):
+class hf_deform_desc(Struct):
     """The options of hf_pose_deform are outputs, strides and a range of vertices."""
     struct_size: int
     position_stride: int
@@ -1207,7 +1222,7 @@ class hf_deform_desc(Structure):
     ]
 
 
-class hf_skin_info(Structure):
+class hf_skin_info(Struct):
     """This struct receives a pose or a transfer as a skin for linear blend skinning."""
     struct_size: int
     joint_capacity: int
@@ -1239,7 +1254,7 @@ class hf_skin_info(Structure):
     ]
 
 
-class hf_propose_desc(Structure):
+class hf_propose_desc(Struct):
     struct_size: int
     joint_count: int
     joints: int
@@ -1260,7 +1275,7 @@ class hf_propose_desc(Structure):
     ]
 
 
-class hf_handle_proposal(Structure):
+class hf_handle_proposal(Struct):
     """One proposed handle."""
     vertex: int
     component: int
@@ -1284,7 +1299,7 @@ class hf_handle_proposal(Structure):
     ]
 
 
-class hf_quads_desc(Structure):
+class hf_quads_desc(Struct):
     """Options of a quad mesh."""
     struct_size: int
     face_count: int
@@ -1324,7 +1339,7 @@ class hf_quads_desc(Structure):
     ]
 
 
-class hf_quads_info(Structure):
+class hf_quads_info(Struct):
     """Counts of a quad mesh."""
     struct_size: int
     vertex_count: int
@@ -1340,7 +1355,7 @@ class hf_quads_info(Structure):
     ]
 
 
-class hf_quads_mesh(Structure):
+class hf_quads_mesh(Struct):
     """hf_quads_get_mesh writes the quad mesh to these arrays."""
     struct_size: int
     vertex_capacity: int
@@ -1368,7 +1383,7 @@ class hf_quads_mesh(Structure):
     ]
 
 
-class hf_flow_lines(Structure):
+class hf_flow_lines(Struct):
     struct_size: int
     wanted_count: int
     seed_count: int
@@ -1399,7 +1414,7 @@ class hf_flow_lines(Structure):
     ]
 
 
-class hf_region_desc(Structure):
+class hf_region_desc(Struct):
     struct_size: int
     base: int
     positions: int
@@ -1418,7 +1433,7 @@ class hf_region_desc(Structure):
     ]
 
 
-class hf_curve_desc(Structure):
+class hf_curve_desc(Struct):
     """Describes a closed curve through at least 3 points, on the mesh at rest."""
     struct_size: int
     point_count: int
@@ -1444,7 +1459,7 @@ class hf_curve_desc(Structure):
     ]
 
 
-class hf_region_edit_desc(Structure):
+class hf_region_edit_desc(Struct):
     """A change of a region."""
     struct_size: int
     ring_count: int
@@ -1466,7 +1481,7 @@ class hf_region_edit_desc(Structure):
     ]
 
 
-class hf_region_info(Structure):
+class hf_region_info(Struct):
     """Counts and areas of a region and of its last edit."""
     struct_size: int
     field_kind: int
@@ -1500,7 +1515,7 @@ class hf_region_info(Structure):
     ]
 
 
-class hf_morph_desc(Structure):
+class hf_morph_desc(Struct):
     """Gives hf_region_morph and hf_detail_morph their weight and outputs."""
     struct_size: int
     position_stride: int
@@ -1522,7 +1537,7 @@ class hf_morph_desc(Structure):
     ]
 
 
-class hf_detail_desc(Structure):
+class hf_detail_desc(Struct):
     struct_size: int
     pair_count: int
     source_vertices: int
@@ -1539,7 +1554,7 @@ class hf_detail_desc(Structure):
     ]
 
 
-class hf_transfer_desc(Structure):
+class hf_transfer_desc(Struct):
     """most pairs of a transfer"""
     struct_size: int
     mode: int
@@ -1569,7 +1584,7 @@ class hf_transfer_desc(Structure):
     ]
 
 
-class hf_pairs_desc(Structure):
+class hf_pairs_desc(Struct):
     """The pairs to add."""
     struct_size: int
     pair_count: int
@@ -1591,7 +1606,7 @@ class hf_pairs_desc(Structure):
     ]
 
 
-class hf_pair_info(Structure):
+class hf_pair_info(Struct):
     struct_size: int
     flags: int
     source_leak: float
@@ -1614,7 +1629,7 @@ class hf_pair_info(Structure):
     ]
 
 
-class hf_transfer_info(Structure):
+class hf_transfer_info(Struct):
     """hf_transfer_get_info writes counts and the scale of a transfer here."""
     struct_size: int
     pair_count: int
@@ -1638,7 +1653,7 @@ class hf_transfer_info(Structure):
     ]
 
 
-class hf_transfer_dials(Structure):
+class hf_transfer_dials(Struct):
     """What an animator turns while a transfer plays."""
     struct_size: int
     stride: float
@@ -1658,7 +1673,7 @@ class hf_transfer_dials(Structure):
     ]
 
 
-class hf_transfer_frame(Structure):
+class hf_transfer_frame(Struct):
     """Describes one frame"""
     struct_size: int
     source_stride: int
@@ -1690,7 +1705,7 @@ class hf_transfer_frame(Structure):
     ]
 
 
-class hf_bones_desc(Structure):
+class hf_bones_desc(Struct):
     """The bones of a skeleton, in the unit and frame of the mesh."""
     struct_size: int
     bone_count: int
@@ -1714,7 +1729,7 @@ class hf_bones_desc(Structure):
     ]
 
 
-class hf_pins_desc(Structure):
+class hf_pins_desc(Struct):
     """Places with given weights."""
     struct_size: int
     pin_count: int
@@ -1742,7 +1757,7 @@ class hf_pins_desc(Structure):
     ]
 
 
-class hf_weights_out(Structure):
+class hf_weights_out(Struct):
     """Receives the weights."""
     struct_size: int
     vertex_capacity: int
@@ -1764,7 +1779,7 @@ class hf_weights_out(Structure):
     ]
 
 
-class hf_weights_info(Structure):
+class hf_weights_info(Struct):
     """Counts of the weights."""
     struct_size: int
     vertex_count: int
@@ -1814,7 +1829,7 @@ class hf_weights_info(Structure):
     ]
 
 
-class hf_carry_desc(Structure):
+class hf_carry_desc(Struct):
     """Weights to carry from one surface to another."""
     struct_size: int
     influence_count: int
@@ -1838,7 +1853,7 @@ class hf_carry_desc(Structure):
     ]
 
 
-class hf_carry_info(Structure):
+class hf_carry_info(Struct):
     """Counts of carried weights."""
     struct_size: int
     vertex_count: int
@@ -1860,7 +1875,7 @@ class hf_carry_info(Structure):
     ]
 
 
-class hf_mirror_desc(Structure):
+class hf_mirror_desc(Struct):
     """Weights to mirror."""
     struct_size: int
     bone_count: int
@@ -1896,7 +1911,7 @@ class hf_mirror_desc(Structure):
     ]
 
 
-class hf_mirror_info(Structure):
+class hf_mirror_info(Struct):
     """The findings of a mirror."""
     struct_size: int
     vertex_count: int
